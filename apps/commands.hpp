@@ -1,0 +1,77 @@
+#pragma once
+// The commands of `drumlin`: what the command line fills in and the function that does it. Each throws the errors of
+// coupling/exchange/errors.hpp; drumlin.cpp turns them into exit codes.
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace drumlin::apps {
+
+/// What to do with an output folder that exists already.
+enum class ExistingOutput { refuse, resume, overwrite };
+
+struct RunOptions {
+  std::filesystem::path scene;
+  std::filesystem::path output;
+  std::vector<std::string> overrides;  ///< "key=value"
+  int threads = 1;
+  ExistingOutput existing = ExistingOutput::refuse;
+};
+int run(const RunOptions&);
+
+struct MeasureOptions {
+  std::filesystem::path run;
+  double slice_width = 20;      ///< d
+  double layer_thickness = 1;   ///< d
+  double position = 0;          ///< x of the slice, d
+  ExistingOutput existing = ExistingOutput::refuse;
+};
+int measure(const MeasureOptions&);
+
+struct CalibrateOptions {
+  std::vector<std::filesystem::path> runs;
+  std::filesystem::path output;
+  double I_min = 1e-4;
+  double I_max = 1e-1;
+  ExistingOutput existing = ExistingOutput::refuse;
+};
+int calibrate(const CalibrateOptions&);
+
+struct FlowOptions {
+  std::filesystem::path scene;
+  std::filesystem::path rheology;
+  std::filesystem::path output;
+  std::vector<std::string> overrides;
+  ExistingOutput existing = ExistingOutput::refuse;
+};
+/// Starts `drumlin-flow`, which stands beside the running executable, with the same words; returns its exit code.
+int flow(const FlowOptions&);
+
+struct CompareOptions {
+  std::filesystem::path run;
+  std::filesystem::path flow_run;
+  std::filesystem::path output;
+  ExistingOutput existing = ExistingOutput::refuse;
+};
+int compare(const CompareOptions&);
+
+enum class SceneAction { check, show, keys };
+struct SceneOptions {
+  SceneAction action = SceneAction::check;
+  std::filesystem::path scene;  ///< unused for keys
+  std::vector<std::string> overrides;
+};
+int scene(const SceneOptions&);
+
+struct SolveContactsOptions {
+  std::filesystem::path problem;
+  std::string solver = "nncg";
+  double tolerance = 1e-4;
+  double max_seconds = 60;
+  std::optional<std::filesystem::path> output;
+  bool json = false;
+};
+int solve_contacts(const SolveContactsOptions&);
+
+}  // namespace drumlin::apps

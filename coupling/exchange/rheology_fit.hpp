@@ -1,0 +1,41 @@
+#pragma once
+// The law that crosses from the particles to the continuum (rheology.toml).
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace drumlin {
+
+/// mu(I) = a + b ln I (natural logarithm), with the covariance of (a, b) and the range of I that it was fitted on.
+struct LogFriction {
+  double a = 0;
+  double b = 0;
+  std::array<double, 3> covariance{0, 0, 0};  ///< var(a), cov(a, b), var(b)
+  double I_min = 0;
+  double I_max = 0;
+};
+
+/// k(I) = sigma_xx/sigma_zz as a table, linear in ln I between its points and constant outside; absent: no k in the law.
+struct NormalStressRatio {
+  std::vector<double> I;  ///< ascending
+  std::vector<double> k;
+};
+
+/// A law and the state it was measured in.
+struct RheologyFit {
+  LogFriction mu;
+  std::optional<NormalStressRatio> k;
+  double nu = 0;                        ///< volume fraction of the bulk
+  std::optional<double> nu_ci99;
+  std::optional<double> rms_misfit;     ///< of mu about the fit
+  std::vector<std::string> fitted_on;   ///< runs
+  bool reduced = false;                 ///< fitted on a reduced (smoke) run
+};
+
+/// rheology.toml, version 1 (docs/formats/rheology.md). Throws InputError with line, key, allowed range.
+RheologyFit read_rheology(const std::filesystem::path& file);
+void write_rheology(const std::filesystem::path& file, const RheologyFit& fit);
+
+}  // namespace drumlin

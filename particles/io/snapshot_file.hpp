@@ -1,0 +1,17 @@
+#pragma once
+// snapshots/NNNNNN.h5: an HDF5 image with a CRC32 trailer, written aside and renamed (docs/formats/snapshot.md).
+#include <filesystem>
+#include <vector>
+
+#include "particles/measurement/snapshot.hpp"
+
+namespace drumlin {
+
+/// Throws IoError when the file cannot be written; an older file of that name is then untouched.
+void write_snapshot(const std::filesystem::path& file, const Snapshot& snapshot);
+/// Throws InputError when the file is missing, damaged (CRC), of another version, or inconsistent.
+Snapshot read_snapshot(const std::filesystem::path& file);
+/// The snapshot files of a run folder, in order of their numbers.
+std::vector<std::filesystem::path> snapshot_files(const std::filesystem::path& run);
+
+}  // namespace drumlin

@@ -1,0 +1,41 @@
+#pragma once
+// The state of all grains at one instant, frozen: what a run leaves and what measurement reads.
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "coupling/exchange/scales.hpp"
+
+namespace drumlin {
+
+/// A loaded contact. The normal points from body j to body i; the impulse acts on i (and its opposite on j).
+/// tangent = normal turned clockwise by 90 degrees: (n_z, -n_x).
+struct SnapshotContact {
+  std::int32_t i = 0;  ///< grain
+  std::int32_t j = 0;  ///< grain, or -1 - w for wall shape w
+  float normal_x = 0;
+  float normal_z = 0;
+  double impulse_n = 0;  ///< over the last step; divide by `time_step` for a force
+  double impulse_t = 0;
+};
+
+/// Dimensionless (d, sqrt(d/g), rho0 d^2 per unit depth for masses), laboratory frame, x to the right, z up.
+/// Arrays have one entry per grain. Spins are positive in the sense of dv_x/dz (clockwise as drawn).
+struct Snapshot {
+  std::int64_t step = 0;
+  double time = 0;
+  double time_step = 0;
+  double wall_angle = 0;            ///< rad turned so far by the first rotating wall, positive clockwise; 0 if none
+  double wall_spin = 0;             ///< its angular velocity
+  double container_x = 0, container_z = 0, container_radius = 0;  ///< first circular container; radius 0 if none
+  double gravity_x = 0, gravity_z = -1;  ///< body acceleration
+  double velocity_window = 0;       ///< 0: no displacements stored
+  double period_x = 0;              ///< length of the periodic domain; 0: open
+  Scales scales;
+  std::vector<double> x, z, v_x, v_z, radius;
+  std::vector<double> spin;                            ///< empty when the scene has no spin
+  std::vector<double> displacement_x, displacement_z;  ///< over the velocity window (laboratory frame); empty when not stored
+  std::vector<SnapshotContact> contacts;               ///< contacts that carry an impulse
+};
+
+}  // namespace drumlin

@@ -1,0 +1,154 @@
+#pragma once
+// What a user asks for, in SI as the keys say. Nothing here knows how it is solved.
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "coupling/exchange/scales.hpp"
+
+namespace drumlin {
+
+using Point_mm = std::array<double, 2>;  ///< x to the right, z upwards, laboratory frame
+
+/// Periodic in x between two abscissae; a scene without it is open.
+struct PeriodicX {
+  double x_min_mm = 0;
+  double x_max_mm = 0;
+};
+
+/// Region in which generated grains are placed.
+struct CircleRegion {
+  Point_mm center_mm{0, 0};
+  double radius_mm = 0;
+};
+struct RectangleRegion {
+  Point_mm min_mm{0, 0};
+  Point_mm max_mm{0, 0};
+};
+
+/// Grains made from a distribution, placed without overlap on a jittered lattice in the region, from below.
+struct GeneratedGrains {
+  int count = 0;
+  double diameter_min_mm = 0;  ///< diameters uniform between the two
+  double diameter_max_mm = 0;
+  std::variant<CircleRegion, RectangleRegion> region;
+};
+
+/// Grains listed in a CSV file: x_mm, z_mm, diameter_mm and optionally v_x_mm_s, v_z_mm_s, spin_rad_s.
+struct ListedGrains {
+  std::filesystem::path file;
+};
+
+struct Grains {
+  double density_kg_m3 = 0;
+  std::variant<GeneratedGrains, ListedGrains> source;
+};
+
+/// Circular container, the grains inside it.
+struct ContainerShape {
+  Point_mm center_mm{0, 0};
+  double radius_mm = 0;
+};
+/// Straight wall between two points, solid on both sides.
+struct SegmentShape {
+  Point_mm from_mm{0, 0};
+  Point_mm to_mm{0, 0};
+};
+/// Disc that is part of a wall.
+struct DiscShape {
+  Point_mm center_mm{0, 0};
+  double diameter_mm = 0;
+};
+
+/// A wall; several shapes of one name move together.
+struct Wall {
+  std::string name;
+  std::variant<ContainerShape, SegmentShape, DiscShape> shape;
+};
+
+/// Effects: absent means that nothing of it is stored or computed.
+struct Gravity {
+  double acceleration_m_s2 = 9.81;
+  double direction_deg = -90;  ///< angle from +x, anticlockwise as drawn; -90 points down
+};
+/// Coulomb friction; one unknown more per contact.
+struct Friction {
+  double grain_grain = 0;
+  double grain_wall = 0;
+};
+/// Newton restitution of the normal velocity.
+struct Restitution {
+  double grain_grain = 0;
+  double grain_wall = 0;
+};
+/// Angular velocity of the grains; needs friction, which alone can turn a disc.
+struct Spin {};
+
+struct Effects {
+  std::optional<Gravity> gravity;
+  std::optional<Friction> friction;
+  std::optional<Restitution> restitution;
+  std::optional<Spin> spin;
+};
+
+/// Turns a wall about a point; positive in the sense of the vorticity dv_x/dz (clockwise as drawn, z up).
+struct Rotation {
+  double speed_rpm = 0;
+  Point_mm center_mm{0, 0};
+};
+struct Translation {
+  std::array<double, 2> velocity_mm_s{0, 0};
+};
+struct WallMotion {
+  std::string wall;
+  std::variant<Rotation, Translation> motion;
+};
+
+/// A stretch of time with its own step, wall motions and number of snapshots (evenly spread, the last at its end).
+struct Stage {
+  std::string name;
+  std::optional<double> duration_s;
+  std::optional<double> turns;  ///< of the first rotation among its motions; exactly one of the two is given
+  double time_step_s = 0;
+  std::vector<WallMotion> motions;
+  int snapshots = 0;
+};
+
+/// Contact solver and when it may stop. Tolerances in the project's one definition (docs/conventions.md).
+struct SolverSettings {
+  std::string name = "nncg";
+  double tolerance = 1e-2;              ///< of `residual`
+  double penetration_tolerance = 1e-3;  ///< of `penetration`, in d
+  int max_sweeps = 100;
+  int check_every = 10;                 ///< sweeps between two looks at the judge
+  int projection_sweeps = 5;            ///< 0: no position projection
+  bool stop_when_unconverged = false;   ///< end with exit code 3 at the first step that misses the tolerance
+};
+
+struct Output {
+  double velocity_window_s = 6e-3;   ///< displacement over this window is stored with each snapshot; 0: none
+  int log_every_steps = 10;
+  double checkpoint_every_s = 1.0;   ///< simulated time
+};
+
+struct Scene {
+  std::string title;
+  bool reduced = false;  ///< says "reduced" on every output
+  std::uint64_t seed = 1;
+  std::optional<PeriodicX> periodic_x;
+  Grains grains;
+  std::vector<Wall> walls;
+  Effects effects;
+  std::vector<Stage> stages;
+  SolverSettings solver;
+  Output output;
+};
+
+/// Seconds of a stage, from duration_s or from its turns.
+double duration_s(const Stage& stage);
+
+}  // namespace drumlin
