@@ -1,0 +1,120 @@
+#include "coupling/exchange/profile_scalars.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+namespace drumlin {
+namespace {
+
+constexpr double none = ProfileScalars::none;
+
+struct Line {
+  double slope = 0;
+  double intercept = 0;
+};
+
+/// Least-squares line; nullopt with fewer than three points, through which every line would pass well enough.
+std::optional<Line> fitted_line(const std::vector<double>& x, const std::vector<double>& y) {
+  if (x.size() < 3) return std::nullopt;
+  double mean_x = 0, mean_y = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    mean_x += x[i] / static_cast<double>(x.size());
+    mean_y += y[i] / static_cast<double>(x.size());
+  }
+  double sxx = 0, sxy = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    sxx += (x[i] - mean_x) * (x[i] - mean_x);
+    sxy += (x[i] - mean_x) * (y[i] - mean_y);
+  }
+  if (!(sxx > 0)) return std::nullopt;
+  const double slope = sxy / sxx;
+  return Line{slope, mean_y - slope * mean_x};
+}
+
+/// Value at z between two layers; NaN outside the profile.
+double interpolated(const std::vector<double>& z, const std::vector<double>& value, double at) {
+  for (std::size_t i = 0; i + 1 < z.size(); ++i) {
+    if (z[i] <= at && at <= z[i + 1]) {
+      const double share = (at - z[i]) / (z[i + 1] - z[i]);
+      return (1 - share) * value[i] + share * value[i + 1];
+    }
+  }
+  return none;
+}
+
+/// Trapezoids over nu v_x. Layers without a grain carry nothing at the wall and above the surface; a gap inside the
+/// packing would be a hole in the data and makes Q NaN.
+double flow_rate(const std::vector<double>& z, const std::vector<double>& v_x, const std::vector<double>& nu) {
+  double sum = 0;
+  std::optional<double> z_before;
+  double flux_before = 0;
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    const double flux = nu[i] * v_x[i];
+    if (!std::isfinite(flux)) {
+      if (z_before && z[i] < 0) return none;
+      continue;
+    }
+    if (z_before) sum += 0.5 * (flux + flux_before) * (z[i] - *z_before);
+    z_before = z[i];
+    flux_before = flux;
+  }
+  return z_before ? sum : none;
+}
+
+/// The straight part of v_x(z), from the surface downwards to where the speed falls below its share.
+void fit_flowing_layer(const std::vector<double>& z, const std::vector<double>& v_x, double least_speed,
+                       ProfileScalars& scalars) {
+  std::vector<double> depth, speed;
+  for (std::size_t i = z.size(); i-- > 0;) {
+    if (z[i] > 0) continue;
+    if (!(v_x[i] > least_speed)) break;
+    depth.push_back(z[i]);
+    speed.push_back(v_x[i]);
+  }
+  const auto line = fitted_line(depth, speed);
+  if (!line || !(line->slope > 0)) return;
+  scalars.shear_rate = line->slope;
+  scalars.H = line->intercept / line->slope;
+  scalars.fit_bottom = depth.back();
+  scalars.fit_top = depth.front();
+}
+
+/// The exponential tail of the shear rate below the flowing layer.
+void fit_decay(const std::vector<double>& z, const std::vector<double>& rate, const ProfileScalarOptions& options,
+               ProfileScalars& scalars) {
+  const double from = -scalars.H - options.decay_from;
+  const double to = -scalars.H - options.decay_to;
+  std::size_t lowest = 0;
+  while (lowest < z.size() && !std::isfinite(rate[lowest])) ++lowest;
+  if (lowest == z.size() || z[lowest] > from) return;
+  std::vector<double> depth, log_rate;
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    if (z[i] < from || z[i] > to) continue;
+    if (!(rate[i] > 0)) return;
+    depth.push_back(z[i]);
+    log_rate.push_back(std::log(rate[i]));
+  }
+  const auto line = fitted_line(depth, log_rate);
+  if (!line || !(line->slope > 0)) return;
+  scalars.lambda = 1 / line->slope;
+  scalars.decay_log_rate = line->intercept;
+}
+
+}  // namespace
+
+ProfileScalars profile_scalars(const ProfileSet& profiles, const ProfileScalarOptions& options) {
+  ProfileScalars scalars;
+  const std::vector<double>& z = profiles.z;
+  const std::vector<double>& v_x = profiles.column("v_x").value;
+  scalars.surface_speed = interpolated(z, v_x, -options.surface_speed_depth);
+  if (const auto* nu = profiles.find("nu")) scalars.Q = flow_rate(z, v_x, nu->value);
+  if (!(scalars.surface_speed > 0)) return scalars;
+  fit_flowing_layer(z, v_x, options.linear_share * scalars.surface_speed, scalars);
+  if (!std::isfinite(scalars.H)) return scalars;
+  if (const auto* rate = profiles.find("shear_rate")) fit_decay(z, rate->value, options, scalars);
+  if (const auto* inertial = profiles.find("I")) scalars.I_th = interpolated(z, inertial->value, -scalars.H);
+  return scalars;
+}
+
+}  // namespace drumlin
