@@ -1,0 +1,66 @@
+#include "coupling/exchange/scalar_set.hpp"
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "coupling/exchange/errors.hpp"
+#include "coupling/exchange/text_file.hpp"
+
+namespace drumlin {
+
+const Scalar* ScalarSet::find(const std::string& name) const {
+  for (const auto& scalar : scalars)
+    if (scalar.name == name) return &scalar;
+  return nullptr;
+}
+
+double ScalarSet::value(const std::string& name) const {
+  if (const auto* found = find(name)) return found->value;
+  throw InputError("the results have no scalar " + name);
+}
+
+namespace {
+
+/// null stands for what was not computed.
+std::optional<double> number_of(const nlohmann::ordered_json& value) {
+  if (value.is_null()) return std::numeric_limits<double>::quiet_NaN();
+  if (value.is_number()) return value.get<double>();
+  return std::nullopt;
+}
+
+}  // namespace
+
+ScalarSet read_scalars(const std::filesystem::path& json_file, const std::string& format) {
+  const std::string text = file_text(json_file);
+  nlohmann::ordered_json json;
+  try {
+    json = nlohmann::ordered_json::parse(text);
+  } catch (const nlohmann::ordered_json::parse_error& error) {
+    throw InputError(json_file.string() + ": is no JSON: " + error.what());
+  }
+  const auto refuse = [&](const std::string& key, const std::string& what, const std::string& allowed) {
+    throw InputError({InputProblem{json_file.string(), 0, 0, key, what, allowed}});
+  };
+  if (!json.is_object()) refuse("", "is no JSON object", "an object");
+  if (!json.contains("format") || json["format"] != format)
+    refuse("format", json.contains("format") ? json["format"].dump() + " is not known here" : "is missing",
+           "\"" + format + "\"");
+  ScalarSet set;
+  for (const auto& [name, value] : json.items()) {
+    if (const auto number = number_of(value)) {
+      set.scalars.push_back({name, *number, std::nullopt});
+    } else if (value.is_object() && value.contains("value")) {
+      const auto number_inside = number_of(value["value"]);
+      if (!number_inside) refuse(name + ".value", value["value"].dump(), "a number or null");
+      Scalar scalar{name, *number_inside, std::nullopt};
+      if (value.contains("ci99")) {
+        scalar.ci99 = number_of(value["ci99"]);
+        if (!scalar.ci99) refuse(name + ".ci99", value["ci99"].dump(), "a number or null");
+      }
+      set.scalars.push_back(scalar);
+    }
+  }
+  return set;
+}
+
+}  // namespace drumlin

@@ -1,0 +1,49 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "coupling/exchange/errors.hpp"
+#include "coupling/exchange/scalar_set.hpp"
+#include "tests/exchange_files/folder.hpp"
+
+namespace drumlin {
+namespace {
+
+using testing::message_of;
+using testing::TemporaryFolder;
+
+TEST(ScalarFile, ReadsNumbersWithAndWithoutIntervalAndSkipsTheRest) {
+  const TemporaryFolder folder;
+  const auto set = read_scalars(folder.with("m.json", R"({"format": "drumlin-measured-1", "reduced": true,
+    "theta_deg": {"value": 19.7, "ci99": 0.2}, "H": {"value": null, "ci99": null}, "unknowns": 9500,
+    "settings": {"slice_width": 20}, "title": "drum"})"),
+                                "drumlin-measured-1");
+  ASSERT_EQ(set.scalars.size(), 3u);
+  EXPECT_EQ(set.value("theta_deg"), 19.7);
+  EXPECT_EQ(set.find("theta_deg")->ci99, 0.2);
+  EXPECT_TRUE(std::isnan(set.value("H")));
+  EXPECT_EQ(set.value("unknowns"), 9500);
+  EXPECT_FALSE(set.find("unknowns")->ci99.has_value());
+  EXPECT_NE(message_of<InputError>([&] { (void)set.value("Q"); }).find("Q"), std::string::npos);
+}
+
+TEST(ScalarFile, RefusesAnotherFormatAndWhatIsNoJson) {
+  const TemporaryFolder folder;
+  const auto refused = [&](const std::string& text) {
+    const auto file = folder.with("m.json", text);
+    return message_of<InputError>([&] { read_scalars(file, "drumlin-measured-1"); });
+  };
+  EXPECT_NE(refused(R"({"format": "drumlin-measured-2"})").find("drumlin-measured-1"), std::string::npos);
+  EXPECT_NE(refused(R"({"Q": 21.8})").find("format"), std::string::npos);
+  EXPECT_NE(refused("[1, 2]").find("object"), std::string::npos);
+  EXPECT_NE(refused("{").find("m.json"), std::string::npos);
+  EXPECT_NE(refused("").find("m.json"), std::string::npos);
+  EXPECT_NE(refused(R"({"format": "drumlin-measured-1", "Q": {"value": "21.8"}})").find("Q.value"), std::string::npos);
+  EXPECT_NE(refused(R"({"format": "drumlin-measured-1", "Q": {"value": 1, "ci99": "x"}})").find("Q.ci99"),
+            std::string::npos);
+  EXPECT_THROW(read_scalars(folder / "none.json", "drumlin-measured-1"), InputError);
+  EXPECT_THROW(read_scalars(folder.path(), "drumlin-measured-1"), InputError);
+}
+
+}  // namespace
+}  // namespace drumlin
