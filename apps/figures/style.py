@@ -1,0 +1,99 @@
+"""What the figures of all commands share: sizes, colours, the word "reduced", bands, profile files."""
+
+import csv
+import math
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402  (the backend must be chosen first)
+
+# Okabe and Ito's colours: told apart with any kind of colour vision, and in grey.
+PARTICLES = "#0072B2"
+CONTINUUM = "#D55E00"
+PAPER = "#000000"
+OTHERS = ["#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#F0E442"]
+
+LABELS = {
+    "v_x": r"$v_x$  [$\sqrt{gd}$]",
+    "v_z": r"$v_z$  [$\sqrt{gd}$]",
+    "shear_rate": r"$\dot\gamma = dv_x/dz$  [$\sqrt{g/d}$]",
+    "omega": r"$\omega$  [$\sqrt{g/d}$]",
+    "nu": r"$\nu$",
+    "sigma_xx": r"$\sigma_{xx}$  [$\rho_0 g d$]",
+    "sigma_zz": r"$\sigma_{zz}$  [$\rho_0 g d$]",
+    "sigma_xz": r"$\sigma_{xz}$  [$\rho_0 g d$]",
+    "I": r"$I = \dot\gamma/\sqrt{\sigma_{zz}}$",
+    "mu": r"$\mu = \sigma_{xz}/\sigma_{zz}$",
+    "k": r"$k = \sigma_{xx}/\sigma_{zz}$",
+    "dv": r"$\delta v$  [$\sqrt{gd}$]",
+    "domega": r"$\delta\omega$  [$\sqrt{g/d}$]",
+    "z": r"$z$  [$d$]",
+}
+
+
+def use_style():
+    """Call once at the start of a script."""
+    plt.rcParams.update({
+        "figure.figsize": (6.4, 4.6),
+        "figure.dpi": 110,
+        "savefig.dpi": 110,
+        "figure.constrained_layout.use": True,
+        "font.size": 12,
+        "axes.titlesize": 13,
+        "axes.labelsize": 13,
+        "legend.fontsize": 11,
+        "legend.frameon": False,
+        "lines.linewidth": 1.8,
+        "lines.markersize": 4,
+        "axes.grid": True,
+        "grid.alpha": 0.3,
+        "axes.spines.top": False,
+        "axes.spines.right": False,
+        "axes.prop_cycle": plt.cycler(color=[PARTICLES, CONTINUUM] + OTHERS),
+        # The same data give the same bytes on every machine.
+        "svg.hashsalt": "drumlin",
+    })
+
+
+def title_of(text, reduced):
+    """Title of a figure; a reduced run says so wherever it is shown."""
+    return f"{text} - reduced" if reduced else text
+
+
+def stamp(figure, reduced):
+    """Writes "reduced" across the corner of a figure that stands for a reduced run."""
+    if reduced:
+        figure.text(0.995, 0.995, "reduced", ha="right", va="top", fontsize=13, color="#B00000", weight="bold")
+
+
+def save(figure, path, reduced):
+    stamp(figure, reduced)
+    figure.savefig(path, metadata={"Software": None})
+    plt.close(figure)
+
+
+def band(axes, x, y, half_width, color, label=None, marker="o"):
+    """A curve with its 99 % interval as a band around it. x horizontal, y vertical."""
+    axes.plot(x, y, marker=marker, color=color, label=label)
+    if half_width is not None:
+        axes.fill_between(x, [a - b for a, b in zip(y, half_width)], [a + b for a, b in zip(y, half_width)],
+                          color=color, alpha=0.25, linewidth=0)
+
+
+def read_profiles(path):
+    """(header, columns) of a profiles.csv of version 1; columns as lists of floats, NaN where the field is empty."""
+    with open(path, newline="", encoding="utf-8") as stream:
+        if stream.readline().strip() != "# drumlin-profiles-1":
+            sys.exit(f"{path}: is not a profile file of this version")
+        header = {}
+        for line in stream:
+            if not line.startswith("#"):
+                break
+            key, _, value = line[1:].partition("=")
+            header[key.strip()] = value.strip()
+        names = [name.strip() for name in line.split(",")]
+        rows = [row for row in csv.reader(stream) if row]
+    columns = {name: [float(row[i]) if row[i].strip() else math.nan for row in rows] for i, name in enumerate(names)}
+    return header, columns
