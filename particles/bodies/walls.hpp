@@ -1,0 +1,71 @@
+#pragma once
+// Walls: rigid shapes that move as told. Their poses are functions of time, never integrated, so that a drum turned a
+// thousand times is still where its angle says.
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "particles/scene/scene.hpp"
+
+namespace drumlin {
+
+/// Rigid displacement p -> R(angle) p + offset; angle positive clockwise as drawn (the sense of spin).
+struct Pose {
+  double angle = 0;
+  double x = 0, z = 0;
+};
+struct Point {
+  double x = 0, z = 0;
+};
+Point moved(const Pose&, Point);
+/// The displacement that does `first`, then `second`.
+Pose after(const Pose& second, const Pose& first);
+Pose inverse(const Pose&);
+
+/// Shapes in the pose of the moment.
+struct Container {
+  Point center;
+  double radius = 0;
+};
+struct Segment {
+  Point from, to;
+};
+struct FixedDisc {
+  Point center;
+  double radius = 0;
+};
+using Shape = std::variant<Container, Segment, FixedDisc>;
+
+/// Motion of one wall within a stage.
+struct Turning {
+  double spin = 0;  ///< positive clockwise
+  Point center;
+};
+struct Gliding {
+  double v_x = 0, v_z = 0;
+};
+using Motion = std::variant<std::monostate, Turning, Gliding>;
+/// Displacement after `time` of a motion.
+Pose displacement(const Motion&, double time);
+
+/// All walls of a scene. A shape's index is its place in `shapes`; shapes of one name belong to one wall.
+struct Walls {
+  std::vector<std::string> names;      ///< one per wall
+  std::vector<Shape> reference;        ///< as in the scene
+  std::vector<int> wall_of_shape;
+  std::vector<Motion> motion;          ///< one per wall, of the current stage
+  std::vector<Pose> pose_at_start;     ///< one per wall, when the current stage began
+
+  Pose pose(int wall, double time_in_stage) const;
+  /// Shapes at a time of the current stage.
+  std::vector<Shape> shapes_at(double time_in_stage) const;
+};
+
+Shape moved(const Pose&, const Shape&);
+
+/// Dimensionless walls of a scene, at rest.
+Walls walls_of(const Scene&, const Scales&);
+/// Begins a stage: poses are carried over from `time_in_old_stage`, motions are replaced by those of `stage`.
+void begin_stage(Walls&, const Stage& stage, const Scales&, double time_in_old_stage);
+
+}  // namespace drumlin

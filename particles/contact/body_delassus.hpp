@@ -1,0 +1,147 @@
+#pragma once
+// W = H M^-1 H^T of discs, never assembled: a contact reads and writes the velocities of its two bodies.
+// For discs W_nt = 0 and W_tt = 3 W_nn with spin (J = m r^2 / 2), W_tt = W_nn without, so a contact is solved exactly
+// by one max and one clamp.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "particles/contact/cone.hpp"
+
+namespace drumlin {
+
+/// Velocity change of a body and what turns an impulse into it. With spin, `s` is r omega: the tangential velocity of the
+/// rim, which the contacts need, in place of omega. Velocities stand first, so that a vector of these is also a plain
+/// array of doubles on which linear combinations act (`inverse_mass` of a combination is then zero or unused).
+template <bool with_spin>
+struct BodyVelocity;
+template <>
+struct BodyVelocity<true> {
+  double x = 0, z = 0, s = 0, inverse_mass = 0;
+};
+template <>
+struct BodyVelocity<false> {
+  double x = 0, z = 0, inverse_mass = 0;
+};
+
+/// Contacts of discs in solve order. Body `bodies` is the fixed one that all walls share (inverse mass zero).
+template <class Cone, bool with_spin>
+class BodyDelassus {
+ public:
+  static constexpr int dim = Cone::dim;
+  using Velocity = BodyVelocity<with_spin>;
+
+  /// Impulses seen through the bodies: velocity changes M^-1 H^T r.
+  using State = std::vector<Velocity>;
+
+  std::vector<std::int32_t> i, j;      ///< bodies; the normal points from j to i
+  std::vector<double> n_x, n_z;        ///< unit normal; the tangent is (n_z, -n_x)
+  std::vector<double> inverse_W_nn;    ///< 1 / (1/m_i + 1/m_j)
+  std::vector<double> inverse_mass;    ///< of each body, the fixed one last
+
+  int contacts() const { return static_cast<int>(i.size()); }
+
+  void clear() {
+    i.clear(), j.clear(), n_x.clear(), n_z.clear(), inverse_W_nn.clear();
+  }
+  void add(std::int32_t body_i, std::int32_t body_j, double normal_x, double normal_z) {
+    i.push_back(body_i), j.push_back(body_j), n_x.push_back(normal_x), n_z.push_back(normal_z);
+    inverse_W_nn.push_back(1 / (inverse_mass[body_i] + inverse_mass[body_j]));
+  }
+
+  /// State at r = 0.
+  void rest(State& state) const {
+    state.assign(inverse_mass.size(), Velocity{});
+    for (std::size_t b = 0; b < state.size(); ++b) state[b].inverse_mass = inverse_mass[b];
+  }
+
+  /// Adds the impulse dr of contact a to the state.
+  void push(State& state, int a, double dr_n, double dr_t) const {
+    Velocity& I = state[i[a]];
+    Velocity& J = state[j[a]];
+    double p_x = n_x[a] * dr_n, p_z = n_z[a] * dr_n;
+    if constexpr (dim == 2) {
+      p_x += n_z[a] * dr_t;
+      p_z -= n_x[a] * dr_t;
+    }
+    I.x += I.inverse_mass * p_x;
+    I.z += I.inverse_mass * p_z;
+    J.x -= J.inverse_mass * p_x;
+    J.z -= J.inverse_mass * p_z;
+    if constexpr (with_spin) {  // r J^-1 (-r r_t) = -2 r_t / m, for both bodies
+      I.s -= 2 * I.inverse_mass * dr_t;
+      J.s -= 2 * J.inverse_mass * dr_t;
+    }
+  }
+
+  double normal_velocity(const State& state, int a) const {
+    const Velocity &I = state[i[a]], &J = state[j[a]];
+    return n_x[a] * (I.x - J.x) + n_z[a] * (I.z - J.z);
+  }
+  double tangential_velocity(const State& state, int a) const {
+    const Velocity &I = state[i[a]], &J = state[j[a]];
+    double u = n_z[a] * (I.x - J.x) - n_x[a] * (I.z - J.z);
+    if constexpr (with_spin) u -= I.s + J.s;
+    return u;
+  }
+
+  /// lambda_max(W_aa), the scale of the judge.
+  double largest_eigenvalue(int a) const { return (dim == 2 && with_spin ? 3 : 1) / inverse_W_nn[a]; }
+
+  /// State of given impulses, from scratch.
+  void load(State& state, std::span<const double> r) const {
+    rest(state);
+    for (int a = 0; a < contacts(); ++a) push(state, a, r[dim * a], dim == 2 ? r[dim * a + 1] : 0);
+  }
+
+  /// u = W r + q. `scratch` is overwritten.
+  void velocities(std::span<const double> r, std::span<const double> q, State& scratch, std::vector<double>& u) const {
+    load(scratch, r);
+    u.resize(q.size());
+    for (int a = 0; a < contacts(); ++a) {
+      u[dim * a] = q[dim * a] + normal_velocity(scratch, a);
+      if constexpr (dim == 2) u[dim * a + 1] = q[dim * a + 1] + tangential_velocity(scratch, a);
+    }
+  }
+
+  /// One Gauss-Seidel sweep in the order of the contacts: each is solved exactly with the others as they stand.
+  /// r and state are updated, `step` receives r_new - r_old; returns the sum of squares of `step`.
+  double sweep(std::span<const double> q, std::span<const double> mu, std::span<double> r, State& state,
+               std::span<double> step) const {
+    double sum = 0;
+    const int count = contacts();
+    for (int a = 0; a < count; ++a) {
+      if constexpr (dim == 1) {
+        const double u_n = q[a] + normal_velocity(state, a);
+        const double r_n = std::max(0.0, r[a] - u_n * inverse_W_nn[a]);
+        const double dr_n = r_n - r[a];
+        push(state, a, dr_n, 0);
+        r[a] = r_n;
+        step[a] = dr_n;
+        sum += dr_n * dr_n;
+      } else {
+        constexpr double ratio = with_spin ? 1.0 / 3 : 1.0;  // W_nn / W_tt
+        const double u_n = q[2 * a] + normal_velocity(state, a);
+        const double u_t = q[2 * a + 1] + tangential_velocity(state, a);
+        const double r_n = std::max(0.0, r[2 * a] - u_n * inverse_W_nn[a]);
+        const double bound = mu[a] * r_n;
+        const double r_t = std::clamp(r[2 * a + 1] - u_t * (inverse_W_nn[a] * ratio), -bound, bound);
+        const double dr_n = r_n - r[2 * a], dr_t = r_t - r[2 * a + 1];
+        push(state, a, dr_n, dr_t);
+        r[2 * a] = r_n, r[2 * a + 1] = r_t;
+        step[2 * a] = dr_n, step[2 * a + 1] = dr_t;
+        sum += dr_n * dr_n + dr_t * dr_t;
+      }
+    }
+    return sum;
+  }
+
+  /// The velocities of a state as one array of doubles; the inverse masses in it must not be changed.
+  static std::span<double> numbers(State& state) {
+    return {reinterpret_cast<double*>(state.data()), state.size() * (sizeof(Velocity) / sizeof(double))};
+  }
+};
+
+}  // namespace drumlin

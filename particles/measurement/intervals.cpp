@@ -1,0 +1,70 @@
+#include "particles/measurement/intervals.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+namespace drumlin {
+namespace {
+
+/// P(|t| <= value) for integer degrees of freedom: the finite series of Abramowitz & Stegun 26.7.3 and 26.7.4.
+double student_probability(double value, int degrees_of_freedom) {
+  const double angle = std::atan(value / std::sqrt(static_cast<double>(degrees_of_freedom)));
+  const double cosine = std::cos(angle), sine = std::sin(angle);
+  const bool odd = degrees_of_freedom % 2 == 1;
+  double term = odd ? cosine : 1.0;
+  double series = 0;
+  for (int power = odd ? 1 : 0; power <= degrees_of_freedom - 2; power += 2) {
+    series += term;
+    term *= cosine * cosine * (power + 1) / (power + 2);
+  }
+  return odd ? 2 / std::numbers::pi * (angle + sine * series) : sine * series;
+}
+
+}  // namespace
+
+double student_quantile_99(int degrees_of_freedom) {
+  assert(degrees_of_freedom >= 1);
+  double low = 2, high = 100;  // one degree of freedom needs 63.66, infinitely many 2.576
+  while (high - low > 1e-10) {
+    const double middle = (low + high) / 2;
+    (student_probability(middle, degrees_of_freedom) < 0.99 ? low : high) = middle;
+  }
+  return low;
+}
+
+std::size_t batch_of(std::size_t index, std::size_t count, std::size_t batches) { return index * batches / count; }
+
+double jackknife_ci99(std::span<const double> leave_one_out) {
+  const std::size_t count = leave_one_out.size();
+  if (count < 2) return std::numeric_limits<double>::quiet_NaN();
+  double mean = 0;
+  for (double value : leave_one_out) mean += value / static_cast<double>(count);
+  double squares = 0;
+  for (double value : leave_one_out) squares += (value - mean) * (value - mean);
+  if (!std::isfinite(squares)) return std::numeric_limits<double>::quiet_NaN();
+  const double share = static_cast<double>(count - 1) / static_cast<double>(count);
+  return student_quantile_99(static_cast<int>(count) - 1) * std::sqrt(share * squares);
+}
+
+double mean_ci99(std::span<const double> series, std::size_t batches) {
+  batches = std::min(batches, series.size());
+  if (batches < 2) return std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> sum(batches, 0.0), count(batches, 0.0);
+  double total = 0;
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    const std::size_t b = batch_of(i, series.size(), batches);
+    sum[b] += series[i];
+    count[b] += 1;
+    total += series[i];
+  }
+  std::vector<double> leave_one_out(batches);
+  for (std::size_t b = 0; b < batches; ++b)
+    leave_one_out[b] = (total - sum[b]) / (static_cast<double>(series.size()) - count[b]);
+  return jackknife_ci99(leave_one_out);
+}
+
+}  // namespace drumlin

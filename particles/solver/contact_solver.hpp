@@ -1,0 +1,62 @@
+#pragma once
+// What every contact solver takes and returns. The one place that knows their names is contact_solver() below.
+#include <chrono>
+#include <functional>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "particles/contact/residual.hpp"
+
+namespace drumlin {
+
+enum class Status { converged, out_of_sweeps, out_of_time, not_finite };
+std::string to_string(Status);
+
+/// When a solver may stop. It stops when both tolerances hold, as the judge sees them.
+struct StoppingRule {
+  double tolerance = 1e-2;  ///< of Judgement::residual
+  double penetration = std::numeric_limits<double>::infinity();  ///< of Judgement::penetration
+  int max_sweeps = 1000;
+  int check_every = 10;     ///< sweeps between two judgements; a judgement costs about one sweep
+  double max_seconds = std::numeric_limits<double>::infinity();  ///< wall time; finite limits make a run irreproducible
+};
+
+struct [[nodiscard]] SolveReport {
+  Status status = Status::out_of_sweeps;
+  int sweeps = 0;
+  Judgement judgement;  ///< of the impulses returned
+  double seconds = 0;
+};
+
+/// Work space of a solver, kept between calls so that a step does not allocate. It carries no information from one call
+/// to the next.
+template <class Problem>
+struct SolverScratch {
+  typename Problem::Delassus::State state, state_before, direction_state;
+  std::vector<double> step, direction;
+  JudgeScratch<typename Problem::Delassus> judge;
+};
+
+/// r: warm start in, solution out (dim * contacts entries).
+template <class Problem>
+using ContactSolver = SolveReport (*)(const Problem&, const StoppingRule&, SolverScratch<Problem>&, std::vector<double>& r);
+
+/// Nonlinear Gauss-Seidel (Jean 1999; the paper, Sec. II): each contact exactly in turn.
+template <class Problem>
+SolveReport solve_nlgs(const Problem&, const StoppingRule&, SolverScratch<Problem>&, std::vector<double>& r);
+
+/// Nonlinear nonsmooth conjugate gradients (Silcowitz, Niebe, Erleben 2010): Fletcher-Reeves over the steps of
+/// Gauss-Seidel sweeps, restarted when they grow. Ends on a plain sweep, so that r lies in the cone.
+template <class Problem>
+SolveReport solve_nncg(const Problem&, const StoppingRule&, SolverScratch<Problem>&, std::vector<double>& r);
+
+/// Names of all solvers, for scenes and command lines.
+std::vector<std::string> contact_solver_names();
+
+/// Throws InputError for an unknown name.
+template <class Problem>
+ContactSolver<Problem> contact_solver(const std::string& name);
+
+}  // namespace drumlin
