@@ -1,0 +1,241 @@
+#include "particles/io/h5_image.hpp"
+
+#include <fcntl.h>
+#include <hdf5.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <string_view>
+
+#include "coupling/exchange/errors.hpp"
+
+namespace drumlin {
+namespace {
+
+constexpr std::string_view trailer_magic = "DRUMLCRC";
+constexpr std::size_t trailer_size = 8 + 4;
+
+std::uint32_t checksum(std::span<const unsigned char> bytes) {
+  return static_cast<std::uint32_t>(crc32_z(crc32_z(0, nullptr, 0), bytes.data(), bytes.size()));
+}
+
+/// An HDF5 identifier that closes itself.
+class Id {
+ public:
+  Id(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+  ~Id() {
+    if (id_ >= 0) close_(id_);
+  }
+  Id(const Id&) = delete;
+  Id& operator=(const Id&) = delete;
+  hid_t get() const { return id_; }
+  bool valid() const { return id_ >= 0; }
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+/// Keeps HDF5 from printing: we report its failures ourselves.
+void silence() {
+  static const bool once = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr) >= 0;
+  (void)once;
+}
+
+void check(bool good, const char* what) {
+  if (!good) throw IoError(std::string("HDF5 could not ") + what);
+}
+
+void put(hid_t file, const std::string& name, hid_t memory_type, hid_t file_type, const void* data, hsize_t count) {
+  const Id links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+  H5Pset_create_intermediate_group(links.get(), 1);
+  const Id space(H5Screate_simple(1, &count, nullptr), H5Sclose);
+  // No object times: the same state gives the same bytes.
+  const Id creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_obj_track_times(creation.get(), false);
+  const Id set(H5Dcreate2(file, name.c_str(), file_type, space.get(), links.get(), creation.get(), H5P_DEFAULT), H5Dclose);
+  check(set.valid(), "create a dataset");
+  if (count > 0) check(H5Dwrite(set.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0, "write a dataset");
+}
+
+void write_all(int descriptor, std::span<const unsigned char> bytes, const std::filesystem::path& file) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) throw IoError(file.string() + ": cannot write: " + std::strerror(errno));
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
+  }
+}
+
+void save_bytes(const std::filesystem::path& file, std::span<const unsigned char> bytes) {
+  const std::filesystem::path aside = file.string() + ".part";
+  const int descriptor = ::open(aside.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  if (descriptor < 0) throw IoError(aside.string() + ": cannot open: " + std::strerror(errno));
+  try {
+    write_all(descriptor, bytes, aside);
+    if (::fsync(descriptor) != 0) throw IoError(aside.string() + ": cannot sync: " + std::strerror(errno));
+  } catch (...) {
+    ::close(descriptor);
+    ::unlink(aside.c_str());
+    throw;
+  }
+  ::close(descriptor);
+  if (::rename(aside.c_str(), file.c_str()) != 0) {
+    const std::string reason = std::strerror(errno);
+    ::unlink(aside.c_str());
+    throw IoError(file.string() + ": cannot rename: " + reason);
+  }
+}
+
+std::vector<unsigned char> bytes_of(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) throw InputError(file.string() + ": no such file");
+  std::ifstream stream(file, std::ios::binary);
+  std::vector<unsigned char> bytes(std::filesystem::file_size(file));
+  stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  if (!stream) throw IoError(file.string() + ": cannot read");
+  return bytes;
+}
+
+}  // namespace
+
+struct H5Writer::Handles {
+  Id access{H5Pcreate(H5P_FILE_ACCESS), H5Pclose};
+  std::unique_ptr<Id> file;
+};
+
+H5Writer::H5Writer() : handles_(std::make_unique<Handles>()) {
+  silence();
+  H5Pset_fapl_core(handles_->access.get(), 1 << 20, false);
+  handles_->file = std::make_unique<Id>(H5Fcreate("image", H5F_ACC_TRUNC, H5P_DEFAULT, handles_->access.get()), H5Fclose);
+  check(handles_->file->valid(), "create a file image");
+}
+H5Writer::~H5Writer() = default;
+
+void H5Writer::add(const std::string& name, std::span<const double> values) {
+  put(handles_->file->get(), name, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, values.data(), values.size());
+}
+void H5Writer::add(const std::string& name, std::span<const float> values) {
+  put(handles_->file->get(), name, H5T_NATIVE_FLOAT, H5T_IEEE_F32LE, values.data(), values.size());
+}
+void H5Writer::add(const std::string& name, std::span<const std::int32_t> values) {
+  put(handles_->file->get(), name, H5T_NATIVE_INT32, H5T_STD_I32LE, values.data(), values.size());
+}
+void H5Writer::add(const std::string& name, std::span<const std::int64_t> values) {
+  put(handles_->file->get(), name, H5T_NATIVE_INT64, H5T_STD_I64LE, values.data(), values.size());
+}
+void H5Writer::add_number(const std::string& name, double value) { add(name, std::span<const double>(&value, 1)); }
+void H5Writer::add_number(const std::string& name, std::int64_t value) {
+  add(name, std::span<const std::int64_t>(&value, 1));
+}
+void H5Writer::add_text(const std::string& name, const std::string& text) {
+  put(handles_->file->get(), name, H5T_NATIVE_UINT8, H5T_STD_U8LE, text.data(), text.size());
+}
+
+void H5Writer::save(const std::filesystem::path& file) const {
+  check(H5Fflush(handles_->file->get(), H5F_SCOPE_GLOBAL) >= 0, "flush a file image");
+  const ssize_t size = H5Fget_file_image(handles_->file->get(), nullptr, 0);
+  check(size > 0, "size a file image");
+  std::vector<unsigned char> bytes(static_cast<std::size_t>(size) + trailer_size);
+  check(H5Fget_file_image(handles_->file->get(), bytes.data(), static_cast<std::size_t>(size)) == size,
+        "copy a file image");
+  const std::uint32_t sum = checksum({bytes.data(), static_cast<std::size_t>(size)});
+  unsigned char* trailer = bytes.data() + size;
+  std::memcpy(trailer, trailer_magic.data(), trailer_magic.size());
+  for (int byte = 0; byte < 4; ++byte) trailer[8 + byte] = static_cast<unsigned char>(sum >> (8 * byte));
+  save_bytes(file, bytes);
+}
+
+struct H5Reader::Handles {
+  std::vector<unsigned char> bytes;
+  Id access{H5Pcreate(H5P_FILE_ACCESS), H5Pclose};
+  std::unique_ptr<Id> file;
+};
+
+H5Reader::H5Reader(const std::filesystem::path& file, bool checked)
+    : handles_(std::make_unique<Handles>()), file_(file) {
+  silence();
+  auto& bytes = handles_->bytes;
+  bytes = bytes_of(file);
+  const bool has_trailer =
+      bytes.size() > trailer_size &&
+      std::memcmp(bytes.data() + bytes.size() - trailer_size, trailer_magic.data(), trailer_magic.size()) == 0;
+  if (checked && !has_trailer) throw InputError(file.string() + ": not a Drumlin file, or cut short (no checksum at its end)");
+  if (has_trailer) {
+    const std::size_t size = bytes.size() - trailer_size;
+    std::uint32_t stored = 0;
+    for (int byte = 0; byte < 4; ++byte) stored |= static_cast<std::uint32_t>(bytes[size + 8 + byte]) << (8 * byte);
+    if (stored != checksum({bytes.data(), size})) throw InputError(file.string() + ": damaged (checksum does not match)");
+    bytes.resize(size);
+  }
+  H5Pset_fapl_core(handles_->access.get(), 1 << 20, false);
+  H5Pset_file_image(handles_->access.get(), bytes.data(), bytes.size());
+  handles_->file = std::make_unique<Id>(H5Fopen("image", H5F_ACC_RDONLY, handles_->access.get()), H5Fclose);
+  if (!handles_->file->valid()) throw InputError(file.string() + ": not an HDF5 file");
+}
+H5Reader::~H5Reader() = default;
+
+void H5Reader::refuse(const std::string& name, const std::string& what) const {
+  throw InputError({InputProblem{file_.string(), 0, 0, name, what, ""}});
+}
+
+bool H5Reader::has(const std::string& name) const {
+  // H5Lexists wants every group on the way to exist.
+  for (std::size_t end = name.find('/', 1); ; end = name.find('/', end + 1)) {
+    if (H5Lexists(handles_->file->get(), name.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
+    if (end == std::string::npos) return true;
+  }
+}
+
+namespace {
+
+template <class T>
+std::vector<T> read_set(const H5Reader& reader, hid_t file, const std::string& name, hid_t type, H5T_class_t wanted) {
+  if (!reader.has(name)) reader.refuse(name, "missing dataset");
+  const Id set(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
+  if (!set.valid()) reader.refuse(name, "not a dataset");
+  const Id stored(H5Dget_type(set.get()), H5Tclose);
+  const H5T_class_t found = H5Tget_class(stored.get());
+  if (found != wanted && !(wanted == H5T_FLOAT && found == H5T_INTEGER)) reader.refuse(name, "of an unexpected type");
+  const Id space(H5Dget_space(set.get()), H5Sclose);
+  const hssize_t count = H5Sget_simple_extent_npoints(space.get());
+  if (count < 0 || count > (hssize_t{1} << 31)) reader.refuse(name, "of an impossible size");
+  std::vector<T> values(static_cast<std::size_t>(count));
+  if (count > 0 && H5Dread(set.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+    reader.refuse(name, "unreadable");
+  return values;
+}
+
+}  // namespace
+
+std::vector<double> H5Reader::doubles(const std::string& name) const {
+  return read_set<double>(*this, handles_->file->get(), name, H5T_NATIVE_DOUBLE, H5T_FLOAT);
+}
+std::vector<float> H5Reader::floats(const std::string& name) const {
+  return read_set<float>(*this, handles_->file->get(), name, H5T_NATIVE_FLOAT, H5T_FLOAT);
+}
+std::vector<std::int32_t> H5Reader::ints(const std::string& name) const {
+  return read_set<std::int32_t>(*this, handles_->file->get(), name, H5T_NATIVE_INT32, H5T_INTEGER);
+}
+std::vector<std::int64_t> H5Reader::longs(const std::string& name) const {
+  return read_set<std::int64_t>(*this, handles_->file->get(), name, H5T_NATIVE_INT64, H5T_INTEGER);
+}
+double H5Reader::number(const std::string& name) const {
+  const auto values = doubles(name);
+  if (values.size() != 1) refuse(name, "not a single number");
+  return values[0];
+}
+std::int64_t H5Reader::integer(const std::string& name) const {
+  const auto values = longs(name);
+  if (values.size() != 1) refuse(name, "not a single number");
+  return values[0];
+}
+std::string H5Reader::text(const std::string& name) const {
+  const auto bytes = read_set<unsigned char>(*this, handles_->file->get(), name, H5T_NATIVE_UINT8, H5T_INTEGER);
+  return {bytes.begin(), bytes.end()};
+}
+
+}  // namespace drumlin

@@ -1,0 +1,63 @@
+#pragma once
+// Small HDF5 files that survive: built in memory, closed by a checksum, written aside, synced and renamed. A reader
+// checks the checksum before HDF5 sees a byte (random bit flips otherwise crash or hang it, or pass unnoticed).
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace drumlin {
+
+/// An HDF5 file in the making. Names are paths like "contacts/normal"; groups are made as needed.
+class H5Writer {
+ public:
+  H5Writer();
+  ~H5Writer();
+  H5Writer(const H5Writer&) = delete;
+  H5Writer& operator=(const H5Writer&) = delete;
+
+  void add(const std::string& name, std::span<const double> values);
+  void add(const std::string& name, std::span<const float> values);
+  void add(const std::string& name, std::span<const std::int32_t> values);
+  void add(const std::string& name, std::span<const std::int64_t> values);
+  void add_number(const std::string& name, double value);
+  void add_number(const std::string& name, std::int64_t value);
+  void add_text(const std::string& name, const std::string& text);
+
+  /// Whole file with its checksum. Throws IoError; an older file of that name is then untouched.
+  void save(const std::filesystem::path& file) const;
+
+ private:
+  struct Handles;
+  std::unique_ptr<Handles> handles_;
+};
+
+/// An HDF5 file opened for reading. Every member throws InputError naming the file when something is missing or has
+/// another type or size.
+class H5Reader {
+ public:
+  /// `checked`: the file must end in the checksum that H5Writer leaves; otherwise any HDF5 file is taken.
+  explicit H5Reader(const std::filesystem::path& file, bool checked = true);
+  ~H5Reader();
+  H5Reader(const H5Reader&) = delete;
+  H5Reader& operator=(const H5Reader&) = delete;
+
+  bool has(const std::string& name) const;
+  std::vector<double> doubles(const std::string& name) const;
+  std::vector<float> floats(const std::string& name) const;
+  std::vector<std::int32_t> ints(const std::string& name) const;
+  std::vector<std::int64_t> longs(const std::string& name) const;
+  double number(const std::string& name) const;
+  std::int64_t integer(const std::string& name) const;
+  std::string text(const std::string& name) const;
+  [[noreturn]] void refuse(const std::string& name, const std::string& what) const;
+
+ private:
+  struct Handles;
+  std::unique_ptr<Handles> handles_;
+  std::filesystem::path file_;
+};
+
+}  // namespace drumlin
