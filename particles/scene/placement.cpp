@@ -1,0 +1,157 @@
+#include "particles/scene/placement.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <numbers>
+
+#include "coupling/exchange/errors.hpp"
+#include "particles/scene/random.hpp"
+
+namespace drumlin {
+namespace {
+
+constexpr double spacing_over_largest = 1.03;
+
+struct Site {
+  double x = 0, z = 0;
+};
+
+/// Lattice sites, in mm, whose discs of the largest diameter lie inside the region; from below, left to right.
+std::vector<Site> lattice_sites(const GeneratedGrains& grains) {
+  const double spacing = spacing_over_largest * grains.diameter_max_mm, row_height = spacing * std::sqrt(3.0) / 2;
+  // Room for a disc of the largest diameter and its shaking: half a lattice spacing.
+  const double room = spacing / 2;
+  double x_low, x_high, z_low, z_high;
+  const auto* circle = std::get_if<CircleRegion>(&grains.region);
+  if (circle) {
+    x_low = circle->center_mm[0] - circle->radius_mm, x_high = circle->center_mm[0] + circle->radius_mm;
+    z_low = circle->center_mm[1] - circle->radius_mm, z_high = circle->center_mm[1] + circle->radius_mm;
+  } else {
+    const auto& box = std::get<RectangleRegion>(grains.region);
+    x_low = box.min_mm[0], x_high = box.max_mm[0], z_low = box.min_mm[1], z_high = box.max_mm[1];
+  }
+  std::vector<Site> sites;
+  for (int row = 0;; ++row) {
+    const double z = z_low + room + row * row_height;
+    if (z + room > z_high + 1e-12) break;
+    for (double x = x_low + room + (row % 2 ? spacing / 2 : 0); x + room <= x_high + 1e-12; x += spacing)
+      if (!circle || std::hypot(x - circle->center_mm[0], z - circle->center_mm[1]) + room <= circle->radius_mm)
+        sites.push_back({x, z});
+  }
+  return sites;
+}
+
+Bodies generated(const GeneratedGrains& grains, std::uint64_t seed, double unit) {
+  const auto sites = lattice_sites(grains);
+  if (static_cast<int>(sites.size()) < grains.count)
+    throw InputError({InputProblem{"", 0, 0, "grains.count", std::to_string(grains.count) + " grains do not fit into the region",
+                                   "at most " + std::to_string(sites.size())}});
+  RandomStream sizes(seed, "grains/diameter"), shaking(seed, "grains/position");
+  const double room = (spacing_over_largest - 1) * grains.diameter_max_mm / 2;
+  Bodies bodies;
+  for (int g = 0; g < grains.count; ++g) {
+    const double diameter = sizes.uniform(grains.diameter_min_mm, grains.diameter_max_mm);
+    const double angle = shaking.uniform(0, 2 * std::numbers::pi), distance = shaking.uniform(0, room);
+    add_body(bodies, (sites[g].x + distance * std::cos(angle)) * unit, (sites[g].z + distance * std::sin(angle)) * unit,
+             diameter / 2 * unit);
+  }
+  return bodies;
+}
+
+struct ListedGrain {
+  std::map<std::string, double> value;
+};
+
+std::vector<std::string> fields_of(const std::string& line) {
+  std::vector<std::string> fields(1);
+  for (const char c : line) {
+    if (c == ',') fields.emplace_back();
+    else if (c != ' ' && c != '\t' && c != '\r') fields.back() += c;
+  }
+  return fields;
+}
+
+/// Reads the CSV list; every fault of the file is reported at once.
+std::vector<ListedGrain> listed(const std::filesystem::path& file) {
+  const std::string name = file.string();
+  std::ifstream in(file);
+  if (!in || std::filesystem::is_directory(file)) throw InputError({InputProblem{name, 0, 0, "grains.file", "cannot be read", ""}});
+  const std::vector<std::string> known = {"x_mm", "z_mm", "diameter_mm", "v_x_mm_s", "v_z_mm_s", "spin_rad_s"};
+  std::vector<InputProblem> problems;
+  std::vector<std::string> names;
+  std::vector<ListedGrain> grains;
+  std::string line;
+  for (int number = 1; std::getline(in, line); ++number) {
+    if (line.empty() || line[0] == '#') continue;
+    const auto fields = fields_of(line);
+    if (names.empty()) {
+      names = fields;
+      for (const auto& column : names)
+        if (std::find(known.begin(), known.end(), column) == known.end())
+          problems.push_back({name, number, 0, column, "unknown column", "x_mm, z_mm, diameter_mm, v_x_mm_s, v_z_mm_s, spin_rad_s"});
+      for (int needed = 0; needed < 3; ++needed)
+        if (std::find(names.begin(), names.end(), known[needed]) == names.end())
+          problems.push_back({name, number, 0, known[needed], "missing column", ""});
+      continue;
+    }
+    if (fields.size() != names.size()) {
+      problems.push_back({name, number, 0, "", std::to_string(fields.size()) + " fields", std::to_string(names.size())});
+      continue;
+    }
+    ListedGrain grain;
+    for (std::size_t f = 0; f < fields.size(); ++f) {
+      double value = 0;
+      const auto [end, error] = std::from_chars(fields[f].data(), fields[f].data() + fields[f].size(), value);
+      if (error != std::errc{} || end != fields[f].data() + fields[f].size() || !std::isfinite(value))
+        problems.push_back({name, number, 0, names[f], "'" + fields[f] + "'", "a finite number"});
+      else if (names[f] == "diameter_mm" && value <= 0)
+        problems.push_back({name, number, 0, names[f], fields[f], "> 0"});
+      grain.value[names[f]] = value;
+    }
+    grains.push_back(grain);
+  }
+  if (grains.empty() && problems.empty()) problems.push_back({name, 0, 0, "grains.file", "lists no grains", ""});
+  if (!problems.empty()) throw InputError(problems);
+  return grains;
+}
+
+}  // namespace
+
+double mean_diameter_m(const Grains& grains) {
+  if (const auto* made = std::get_if<GeneratedGrains>(&grains.source))
+    return (made->diameter_min_mm + made->diameter_max_mm) / 2 * 1e-3;
+  const auto list = listed(std::get<ListedGrains>(grains.source).file);
+  double sum = 0;
+  for (const auto& grain : list) sum += grain.value.at("diameter_mm");
+  return sum / static_cast<double>(list.size()) * 1e-3;
+}
+
+Bodies place_grains(const Scene& scene, const Scales& scales) {
+  const double unit = 1e-3 / scales.length_m, speed = 1e-3 / scales.velocity_m_s();
+  Bodies bodies;
+  std::vector<double> spins;
+  if (const auto* made = std::get_if<GeneratedGrains>(&scene.grains.source)) {
+    bodies = generated(*made, scene.seed, unit);
+    spins.assign(bodies.count(), 0.0);
+  } else {
+    for (const auto& grain : listed(std::get<ListedGrains>(scene.grains.source).file)) {
+      const auto value = [&grain](const char* name) {
+        const auto found = grain.value.find(name);
+        return found == grain.value.end() ? 0.0 : found->second;
+      };
+      add_body(bodies, value("x_mm") * unit, value("z_mm") * unit, value("diameter_mm") / 2 * unit);
+      bodies.v_x.back() = value("v_x_mm_s") * speed;
+      bodies.v_z.back() = value("v_z_mm_s") * speed;
+      spins.push_back(value("spin_rad_s") * scales.time_s);
+    }
+  }
+  if (scene.effects.spin) bodies.spin = spins;
+  return bodies;
+}
+
+int capacity(const GeneratedGrains& grains) { return static_cast<int>(lattice_sites(grains).size()); }
+
+}  // namespace drumlin

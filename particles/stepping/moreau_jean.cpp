@@ -1,0 +1,233 @@
+#include "particles/stepping/moreau_jean.hpp"
+
+#include <chrono>
+#include <cmath>
+
+#include "particles/contact/problems.hpp"
+#include "particles/detection/contact_order.hpp"
+#include "particles/stepping/position_projection.hpp"
+
+namespace drumlin {
+namespace {
+
+/// A remembered approach means an impact whatever the sign of the tiny gap that the solver's error left.
+struct Impact {
+  double shift = 0;     ///< of u_n
+  bool bounces = false;
+};
+
+Impact impact_of(double gap, double u_before, double remembered, double e, double slowest, double time_step) {
+  double approach = remembered;
+  if (gap <= 0) approach = std::min(approach, u_before);
+  if (approach < -slowest) return {e * approach, true};
+  return {gap > 0 ? gap / time_step : 0, false};
+}
+
+/// Speed at which a pair with a gap arrives, from the speeds at the beginning and (without contact) the end of the step.
+double arrival_speed(double gap, double u_before, double u_free, double time_step) {
+  if (u_free >= 0) return u_before;
+  const double fraction = std::min(1.0, gap / (-u_free * time_step));
+  return u_before + fraction * (u_free - u_before);
+}
+
+template <class Problem, bool with_spin>
+class MoreauJean final : public Stepper {
+  static constexpr int dim = Problem::dim;
+
+ public:
+  MoreauJean(const StepLaws& laws, const StepSolver& solver)
+      : laws_(laws), solver_(solver), solve_(contact_solver<Problem>(solver.name)) {}
+
+  StepReport advance(Bodies& bodies, ContactMemory& memory, const WallStep& walls, double time_step) override {
+    StepReport report;
+    const auto start = std::chrono::steady_clock::now();
+    free_velocities(bodies, time_step);
+    const DetectionInput input{walls.before, walls.displacement, time_step, laws_.detection_margin, laws_.period};
+    pairs_ = detection_.find(bodies, free_x_, free_z_, input);
+    order_.sort(pairs_, bodies.count());
+    recall(memory, time_step);
+    pose(bodies, time_step);
+    report.detection_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    report.contacts = problem_.contacts();
+    report.solve = solve_(problem_, solver_.rule, scratch_, impulses_);
+    remember(memory, time_step);
+    move(bodies, time_step);
+    report.overlap = overlap_and_projection(bodies, walls.after);
+    return report;
+  }
+
+  std::vector<SnapshotContact> loaded_contacts() const override {
+    std::vector<SnapshotContact> loaded;
+    std::vector<std::int32_t> slot(pairs_.size());
+    for (std::size_t a = 0; a < order_.place.size(); ++a) slot[order_.place[a]] = static_cast<std::int32_t>(a);
+    for (std::size_t p = 0; p < pairs_.size(); ++p) {
+      const auto a = static_cast<std::size_t>(slot[p]);
+      const double r_n = impulses_[dim * a], r_t = dim == 2 ? impulses_[dim * a + dim - 1] : 0;
+      if (r_n > 0)
+        loaded.push_back({pairs_[p].i, pairs_[p].j, static_cast<float>(pairs_[p].n_x), static_cast<float>(pairs_[p].n_z),
+                          r_n, r_t});
+    }
+    return loaded;
+  }
+
+  int unknowns_per_contact() const override { return dim; }
+  int velocities_per_body() const override { return with_spin ? 3 : 2; }
+
+ private:
+  void free_velocities(const Bodies& bodies, double h) {
+    free_x_ = bodies.v_x;
+    free_z_ = bodies.v_z;
+    if (!laws_.gravity) return;
+    for (std::size_t b = 0; b < bodies.count(); ++b) free_x_[b] += h * laws_.gravity->x, free_z_[b] += h * laws_.gravity->z;
+  }
+
+  /// Warm start and remembered approach speeds, by identity (i, j): both lists are sorted.
+  void recall(const ContactMemory& memory, double h) {
+    impulses_.resize(dim * pairs_.size());
+    if (laws_.restitution) approach_.assign(pairs_.size(), 0.0);
+    warm_.assign(dim * pairs_.size(), 0.0);
+    const double scale = memory.time_step > 0 ? h / memory.time_step : 1;
+    std::size_t m = 0;
+    for (std::size_t p = 0; p < pairs_.size(); ++p) {
+      const auto& pair = pairs_[p];
+      while (m < memory.i.size() && (memory.i[m] < pair.i || (memory.i[m] == pair.i && memory.j[m] < pair.j))) ++m;
+      if (m == memory.i.size() || memory.i[m] != pair.i || memory.j[m] != pair.j) continue;
+      for (int c = 0; c < dim; ++c) warm_[dim * p + c] = scale * memory.impulse[dim * m + c];
+      if (laws_.restitution) approach_[p] = memory.approach[m];
+    }
+  }
+
+  /// Writes the contact problem in solve order: W through normals and masses, q from the free velocities.
+  void pose(const Bodies& bodies, double h) {
+    const auto fixed = static_cast<std::int32_t>(bodies.count());
+    auto& W = problem_.W;
+    W.clear();
+    W.inverse_mass.assign(bodies.inverse_mass.begin(), bodies.inverse_mass.end());
+    W.inverse_mass.push_back(0);
+    problem_.q.resize(dim * pairs_.size());
+    if constexpr (dim == 2) problem_.mu.resize(pairs_.size());
+    problem_.time_step = h;
+    for (std::size_t a = 0; a < pairs_.size(); ++a) {
+      const auto p = static_cast<std::size_t>(order_.place[a]);
+      const Candidate& pair = pairs_[p];
+      const bool wall = pair.j < 0;
+      W.add(pair.i, wall ? fixed : pair.j, pair.n_x, pair.n_z);
+      const double u_x = free_x_[pair.i] - (wall ? pair.wall_v_x : free_x_[pair.j]);
+      const double u_z = free_z_[pair.i] - (wall ? pair.wall_v_z : free_z_[pair.j]);
+      const double u_n = pair.n_x * u_x + pair.n_z * u_z;
+      problem_.q[dim * a] = u_n + normal_shift(p, pair, bodies, u_n, h);
+      if constexpr (dim == 2) {
+        double u_t = pair.n_z * u_x - pair.n_x * u_z;
+        if constexpr (with_spin) {
+          u_t -= bodies.radius[pair.i] * bodies.spin[pair.i];
+          if (!wall) u_t -= bodies.radius[pair.j] * bodies.spin[pair.j];
+        }
+        problem_.q[2 * a + 1] = u_t;
+        problem_.mu[a] = wall ? laws_.friction->grain_wall : laws_.friction->grain_grain;
+      }
+      for (int c = 0; c < dim; ++c) impulses_[dim * a + c] = warm_[dim * p + c];
+    }
+  }
+
+  /// What Signorini's law acts on beside u_n: predicted gap or restitution. Also turns approach_ into what the next step
+  /// must know if this contact acts.
+  double normal_shift(std::size_t p, const Candidate& pair, const Bodies& bodies, double u_free, double h) {
+    if (!laws_.restitution) return pair.gap > 0 ? pair.gap / h : 0;
+    const bool wall = pair.j < 0;
+    const double u_before = pair.n_x * (bodies.v_x[pair.i] - (wall ? pair.wall_v_x : bodies.v_x[pair.j])) +
+                            pair.n_z * (bodies.v_z[pair.i] - (wall ? pair.wall_v_z : bodies.v_z[pair.j]));
+    const auto& law = *laws_.restitution;
+    const double e = wall ? law.e.grain_wall : law.e.grain_grain;
+    const double slowest = 2 * law.gravity * h;
+    const Impact impact = impact_of(pair.gap, u_before, approach_[p], e, slowest, h);
+    const double arrives = pair.gap > 0 && !impact.bounces ? arrival_speed(pair.gap, u_before, u_free, h) : 0;
+    approach_[p] = arrives < -slowest ? arrives : 0;
+    return impact.shift;
+  }
+
+  void remember(ContactMemory& memory, double h) {
+    memory.time_step = h;
+    memory.i.resize(pairs_.size());
+    memory.j.resize(pairs_.size());
+    memory.impulse.resize(dim * pairs_.size());
+    for (std::size_t p = 0; p < pairs_.size(); ++p) memory.i[p] = pairs_[p].i, memory.j[p] = pairs_[p].j;
+    for (std::size_t a = 0; a < pairs_.size(); ++a)
+      for (int c = 0; c < dim; ++c)
+        memory.impulse[dim * static_cast<std::size_t>(order_.place[a]) + c] = impulses_[dim * a + c];
+    if (!laws_.restitution) return;
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+      if (memory.impulse[dim * p] == 0) approach_[p] = 0;  // it did not act: nothing was slowed
+    memory.approach = approach_;
+  }
+
+  /// New velocities from the impulses, then new positions. The judge's state is M^-1 H^T r of the impulses returned.
+  void move(Bodies& bodies, double h) {
+    const bool loaded = problem_.contacts() > 0;
+    for (std::size_t b = 0; b < bodies.count(); ++b) {
+      bodies.v_x[b] = free_x_[b];
+      bodies.v_z[b] = free_z_[b];
+      if (loaded) {
+        const auto& change = scratch_.judge.state[b];
+        bodies.v_x[b] += change.x;
+        bodies.v_z[b] += change.z;
+        if constexpr (with_spin) bodies.spin[b] += change.s / bodies.radius[b];
+      }
+      bodies.x[b] += h * bodies.v_x[b];
+      bodies.z[b] += h * bodies.v_z[b];
+    }
+  }
+
+  Overlap overlap_and_projection(Bodies& bodies, std::span<const Shape> shapes) {
+    Overlap overlap;
+    close_.clear();
+    double sum = 0;
+    for (std::size_t a = 0; a < order_.place.size(); ++a) {
+      const Candidate& pair = pairs_[order_.place[a]];
+      ClosePair now{pair.i, pair.j, 0, 0, 0};
+      now.gap = gap_now(pair, bodies, shapes, laws_.period, now.n_x, now.n_z);
+      if (impulses_[dim * a] > 0) {
+        const double depth = std::max(0.0, -now.gap);
+        sum += depth;
+        overlap.max = std::max(overlap.max, depth);
+        ++overlap.loaded;
+      }
+      if (now.gap < laws_.detection_margin) close_.push_back(now);
+    }
+    if (overlap.loaded > 0) overlap.mean = sum / overlap.loaded;
+    if (solver_.projection_sweeps > 0) project_positions(bodies, close_, solver_.projection_sweeps, projection_scratch_);
+    return overlap;
+  }
+
+  StepLaws laws_;
+  StepSolver solver_;
+  ContactSolver<Problem> solve_;
+  ContactDetection detection_;
+  ContactOrder order_;
+  Problem problem_;
+  SolverScratch<Problem> scratch_;
+  std::vector<Candidate> pairs_;
+  std::vector<double> free_x_, free_z_;
+  std::vector<double> impulses_;  // in solve order
+  std::vector<double> warm_, approach_;  // in the order of pairs_
+  std::vector<ClosePair> close_;
+  std::vector<double> projection_scratch_;
+};
+
+}  // namespace
+
+WallStep wall_step(const Walls& walls, double time_in_stage, double time_step) {
+  WallStep step;
+  step.before = walls.shapes_at(time_in_stage);
+  step.after = walls.shapes_at(time_in_stage + time_step);
+  for (const int wall : walls.wall_of_shape)
+    step.displacement.push_back(after(walls.pose(wall, time_in_stage + time_step), inverse(walls.pose(wall, time_in_stage))));
+  return step;
+}
+
+std::unique_ptr<Stepper> make_stepper(const StepLaws& laws, const StepSolver& solver) {
+  if (!laws.friction) return std::make_unique<MoreauJean<FrictionlessProblem, false>>(laws, solver);
+  if (!laws.spin) return std::make_unique<MoreauJean<CoulombProblem, false>>(laws, solver);
+  return std::make_unique<MoreauJean<CoulombSpinProblem, true>>(laws, solver);
+}
+
+}  // namespace drumlin

@@ -1,0 +1,83 @@
+#pragma once
+// One implicit time step of rigid discs: Moreau-Jean (the paper, Sec. II, refs. Jean 1999, Moreau 1999) with theta = 1,
+// predicted gaps, Newton restitution and a position projection that gives no kinetic energy.
+//
+// Departures from the paper: contacts may act before they touch, u_n >= -g/h for a gap g > 0 (contacts that act only
+// when touching crush the packing at h = 6e-3 s); the approach speed of a pair that is so slowed to just touching is
+// remembered and restored, times e, in the next step; what overlap remains is projected away on positions alone.
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "particles/bodies/bodies.hpp"
+#include "particles/bodies/walls.hpp"
+#include "particles/detection/contact_list.hpp"
+#include "particles/measurement/snapshot.hpp"
+#include "particles/solver/contact_solver.hpp"
+#include "particles/stepping/contact_memory.hpp"
+
+namespace drumlin {
+
+/// Dimensionless laws of a scene. An effect that the scene does not name is an empty optional.
+struct StepLaws {
+  struct PerPair {
+    double grain_grain = 0, grain_wall = 0;
+  };
+  struct RestitutionLaw {
+    PerPair e;
+    double gravity = 0;  ///< impacts slower than 2 gravity h are at rest: a grain that lies arrives at gravity h every step
+  };
+  struct Acceleration {
+    double x = 0, z = 0;
+  };
+  std::optional<Acceleration> gravity;
+  std::optional<PerPair> friction;
+  std::optional<RestitutionLaw> restitution;
+  bool spin = false;
+  Period period;
+  double detection_margin = 0.02;  ///< d; pairs closer than this are always candidates
+};
+
+struct StepSolver {
+  std::string name;
+  StoppingRule rule;
+  int projection_sweeps = 0;
+};
+
+/// Overlap of loaded contacts before the position projection, in d.
+struct Overlap {
+  double mean = 0, max = 0;
+  int loaded = 0;
+};
+
+struct StepReport {
+  SolveReport solve;
+  Overlap overlap;
+  int contacts = 0;
+  double detection_seconds = 0;
+};
+
+/// Walls over one step: shapes at its beginning and end, and the displacement of each in between.
+struct WallStep {
+  std::vector<Shape> before, after;
+  std::vector<Pose> displacement;
+};
+WallStep wall_step(const Walls& walls, double time_in_stage, double time_step);
+
+/// Does steps for one combination of effects; holds work space only, no state.
+class Stepper {
+ public:
+  virtual ~Stepper() = default;
+  virtual StepReport advance(Bodies& bodies, ContactMemory& memory, const WallStep& walls, double time_step) = 0;
+  /// Loaded contacts of the last step, with the normals that it used.
+  virtual std::vector<SnapshotContact> loaded_contacts() const = 0;
+  /// Unknowns per contact and numbers of velocity per body: what the effects of the scene cost.
+  virtual int unknowns_per_contact() const = 0;
+  virtual int velocities_per_body() const = 0;
+};
+
+/// The stepper for the effects that are named in `laws`: the one place where they become types.
+std::unique_ptr<Stepper> make_stepper(const StepLaws& laws, const StepSolver& solver);
+
+}  // namespace drumlin

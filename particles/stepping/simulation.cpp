@@ -1,0 +1,159 @@
+#include "particles/stepping/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "particles/scene/placement.hpp"
+
+namespace drumlin {
+namespace {
+
+StepLaws laws_of(const Scene& scene, const Scales& scales) {
+  StepLaws laws;
+  const Effects& effects = scene.effects;
+  if (effects.gravity) {
+    const double unit = scales.length_m / (scales.time_s * scales.time_s);
+    const double g = effects.gravity->acceleration_m_s2 / unit;
+    // Straight down in a plain scene: exactly (0, -g), no rounding of cos(-90 deg).
+    const double direction = effects.gravity->direction_deg * std::numbers::pi / 180;
+    laws.gravity = effects.gravity->direction_deg == -90 ? StepLaws::Acceleration{0, -g}
+                                                         : StepLaws::Acceleration{g * std::cos(direction), g * std::sin(direction)};
+  }
+  if (effects.friction) laws.friction = {effects.friction->grain_grain, effects.friction->grain_wall};
+  if (effects.restitution)
+    laws.restitution = {{effects.restitution->grain_grain, effects.restitution->grain_wall},
+                        laws.gravity ? std::hypot(laws.gravity->x, laws.gravity->z) : 0};
+  laws.spin = effects.spin.has_value();
+  if (scene.periodic_x) {
+    const double unit = 1e-3 / scales.length_m;
+    laws.period = {scene.periodic_x->x_min_mm * unit, (scene.periodic_x->x_max_mm - scene.periodic_x->x_min_mm) * unit};
+  }
+  return laws;
+}
+
+StepSolver solver_of(const Scene& scene) {
+  const SolverSettings& asked = scene.solver;
+  StepSolver solver;
+  solver.name = asked.name;
+  solver.rule.tolerance = asked.tolerance;
+  solver.rule.penetration = asked.penetration_tolerance;
+  solver.rule.max_sweeps = asked.max_sweeps;
+  solver.rule.check_every = asked.check_every;
+  solver.projection_sweeps = asked.projection_sweeps;
+  return solver;
+}
+
+}  // namespace
+
+Scales scales_of(const Scene& scene) {
+  const double g = scene.effects.gravity ? scene.effects.gravity->acceleration_m_s2 : 9.81;
+  return scales_of(mean_diameter_m(scene.grains), g > 0 ? g : 9.81, scene.grains.density_kg_m3);
+}
+
+TimePlan time_plan(const Scene& scene, const Scales& scales) {
+  TimePlan plan;
+  for (const Stage& stage : scene.stages) {
+    const double duration = duration_s(stage);
+    const auto steps = std::max<std::int64_t>(1, std::llround(duration / stage.time_step_s));
+    for (std::int64_t s = 1; s <= stage.snapshots; ++s) {
+      const auto at = plan.steps + (s * steps + stage.snapshots / 2) / stage.snapshots;
+      if (plan.snapshot_steps.empty() || at > plan.snapshot_steps.back()) plan.snapshot_steps.push_back(at);
+    }
+    plan.stages.push_back({steps, duration / static_cast<double>(steps) / scales.time_s});
+    plan.steps += steps;
+  }
+  return plan;
+}
+
+Simulation::Simulation(const Scene& scene)
+    : scene_(scene), scales_(scales_of(scene)), plan_(time_plan(scene, scales_)), walls_(walls_of(scene, scales_)),
+      stepper_(make_stepper(laws_of(scene, scales_), solver_of(scene))) {
+  state_.bodies = place_grains(scene, scales_);
+  enter_stage(0);
+}
+
+Simulation::Simulation(const Scene& scene, SimulationState state)
+    : scene_(scene), scales_(scales_of(scene)), plan_(time_plan(scene, scales_)), walls_(walls_of(scene, scales_)),
+      state_(std::move(state)), stepper_(make_stepper(laws_of(scene, scales_), solver_of(scene))) {
+  begin_stage(walls_, scene_.stages[state_.stage], scales_, 0);
+  walls_.pose_at_start = state_.pose_at_start;
+}
+
+Simulation::~Simulation() = default;
+
+void Simulation::enter_stage(int stage) {
+  begin_stage(walls_, scene_.stages[stage], scales_, state_.time_in_stage);
+  state_.stage = stage;
+  state_.step_in_stage = 0;
+  state_.time_at_stage_start += state_.time_in_stage;
+  state_.time_in_stage = 0;
+  state_.pose_at_start = walls_.pose_at_start;
+}
+
+void Simulation::mark_positions() {
+  if (scene_.output.velocity_window_s <= 0) return;
+  const double window = scene_.output.velocity_window_s / scales_.time_s;
+  // Steps of the current stage stand for the window, also where it reaches into the next one.
+  const auto steps = std::max<std::int64_t>(1, std::llround(window / plan_.stages[state_.stage].time_step));
+  if (std::binary_search(plan_.snapshot_steps.begin(), plan_.snapshot_steps.end(), state_.step + steps))
+    state_.marks.push_back({state_.step + steps, state_.time(), state_.bodies.x, state_.bodies.z});
+}
+
+StepReport Simulation::step() {
+  if (state_.step_in_stage == plan_.stages[state_.stage].steps) enter_stage(state_.stage + 1);
+  mark_positions();
+  const double h = plan_.stages[state_.stage].time_step;
+  const StepReport report =
+      stepper_->advance(state_.bodies, state_.memory, wall_step(walls_, state_.time_in_stage, h), h);
+  ++state_.step;
+  ++state_.step_in_stage;
+  state_.time_in_stage = static_cast<double>(state_.step_in_stage) * h;
+  return report;
+}
+
+bool Simulation::snapshot_due() const {
+  return std::binary_search(plan_.snapshot_steps.begin(), plan_.snapshot_steps.end(), state_.step);
+}
+
+Snapshot Simulation::take_snapshot() {
+  ++state_.snapshots;
+  Snapshot s;
+  const Bodies& bodies = state_.bodies;
+  s.step = state_.step;
+  s.time = state_.time();
+  s.time_step = plan_.stages[state_.stage].time_step;
+  s.scales = scales_;
+  for (std::size_t w = 0; w < walls_.names.size(); ++w)
+    if (const auto* turning = std::get_if<Turning>(&walls_.motion[w])) {
+      s.wall_angle = walls_.pose(static_cast<int>(w), state_.time_in_stage).angle;
+      s.wall_spin = turning->spin;
+      break;
+    }
+  for (const Shape& shape : walls_.shapes_at(state_.time_in_stage))
+    if (const auto* container = std::get_if<Container>(&shape)) {
+      s.container_x = container->center.x, s.container_z = container->center.z, s.container_radius = container->radius;
+      break;
+    }
+  const StepLaws laws = laws_of(scene_, scales_);
+  s.gravity_x = laws.gravity ? laws.gravity->x : 0;
+  s.gravity_z = laws.gravity ? laws.gravity->z : 0;
+  s.period_x = laws.period.length;
+  s.x = bodies.x, s.z = bodies.z, s.v_x = bodies.v_x, s.v_z = bodies.v_z, s.radius = bodies.radius, s.spin = bodies.spin;
+  s.contacts = stepper_->loaded_contacts();
+  while (!state_.marks.empty() && state_.marks.front().snapshot_step < state_.step) state_.marks.pop_front();
+  if (!state_.marks.empty() && state_.marks.front().snapshot_step == state_.step) {
+    const auto& mark = state_.marks.front();
+    s.velocity_window = state_.time() - mark.time;
+    s.displacement_x.resize(bodies.count());
+    s.displacement_z.resize(bodies.count());
+    for (std::size_t b = 0; b < bodies.count(); ++b) {
+      s.displacement_x[b] = bodies.x[b] - mark.x[b];
+      s.displacement_z[b] = bodies.z[b] - mark.z[b];
+    }
+    state_.marks.pop_front();
+  }
+  return s;
+}
+
+}  // namespace drumlin

@@ -1,0 +1,88 @@
+#pragma once
+// A scene in time: stages, wall motions, steps, snapshots. Knows no files.
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "particles/bodies/bodies.hpp"
+#include "particles/bodies/walls.hpp"
+#include "particles/measurement/snapshot.hpp"
+#include "particles/scene/scene.hpp"
+#include "particles/stepping/contact_memory.hpp"
+#include "particles/stepping/moreau_jean.hpp"
+
+namespace drumlin {
+
+/// Everything that the next step depends on: a run continued from it gives the same bytes.
+struct SimulationState {
+  std::int64_t step = 0;           ///< steps done
+  int stage = 0;                   ///< of the next step
+  std::int64_t step_in_stage = 0;  ///< steps done in it
+  double time_at_stage_start = 0;
+  double time_in_stage = 0;
+  Bodies bodies;
+  ContactMemory memory;
+  std::vector<Pose> pose_at_start;  ///< of each wall, when the current stage began
+  std::int64_t snapshots = 0;       ///< taken so far
+
+  /// Positions kept for the displacement over the velocity window of a snapshot to come.
+  struct Mark {
+    std::int64_t snapshot_step = 0;
+    double time = 0;
+    std::vector<double> x, z;
+  };
+  std::deque<Mark> marks;
+
+  double time() const { return time_at_stage_start + time_in_stage; }
+};
+
+/// Steps of the whole scene and at which of them snapshots are due.
+struct TimePlan {
+  struct Part {
+    std::int64_t steps = 0;
+    double time_step = 0;  ///< dimensionless; the stage's step, so adjusted that whole steps fill the stage
+  };
+  std::vector<Part> stages;
+  std::vector<std::int64_t> snapshot_steps;  ///< ascending, counted over the whole run
+  std::int64_t steps = 0;
+};
+TimePlan time_plan(const Scene& scene, const Scales& scales);
+
+Scales scales_of(const Scene& scene);
+
+class Simulation {
+ public:
+  /// Validates nothing but what only shows when grains are placed (InputError).
+  explicit Simulation(const Scene& scene);
+  Simulation(const Scene& scene, SimulationState state);
+  ~Simulation();
+
+  bool finished() const { return state_.step >= plan_.steps; }
+  /// One step; must not be finished.
+  StepReport step();
+  /// Whether a snapshot belongs to the state after the last step.
+  bool snapshot_due() const;
+  /// The state after the last step. Counts as the next snapshot of the run.
+  Snapshot take_snapshot();
+
+  const SimulationState& state() const { return state_; }
+  const TimePlan& plan() const { return plan_; }
+  const Scales& scales() const { return scales_; }
+  const Stepper& stepper() const { return *stepper_; }
+
+ private:
+  void enter_stage(int stage);
+  void mark_positions();
+
+  Scene scene_;
+  Scales scales_;
+  TimePlan plan_;
+  Walls walls_;
+  SimulationState state_;
+  std::unique_ptr<Stepper> stepper_;
+};
+
+}  // namespace drumlin
