@@ -1,0 +1,135 @@
+#include "coupling/comparison/paper_table.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "coupling/exchange/document.hpp"
+#include "coupling/exchange/errors.hpp"
+
+namespace drumlin {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+double number_of(const Node* node) {
+  if (node == nullptr) return nan;
+  if (const auto* real = std::get_if<double>(&node->value)) return *real;
+  if (const auto* integer = std::get_if<std::int64_t>(&node->value)) return static_cast<double>(*integer);
+  return nan;
+}
+
+std::string text_of(const Node* node) {
+  const auto* text = node == nullptr ? nullptr : std::get_if<std::string>(&node->value);
+  return text == nullptr ? std::string() : *text;
+}
+
+Document paper_file(const std::filesystem::path& file) {
+  Document document = read_toml(file);
+  if (text_of(document.root.find("format")) != "drumlin-paper-1")
+    throw InputError({InputProblem{file.string(), 1, 0, "format", "is missing or not known here", "\"drumlin-paper-1\""}});
+  return document;
+}
+
+Node::Array entries_of(const Document& document, const std::string& key) {
+  const Node* node = document.root.find(key);
+  const auto* array = node == nullptr ? nullptr : std::get_if<Node::Array>(&node->value);
+  if (array == nullptr) throw InputError({InputProblem{document.file, 1, 0, key, "is missing", "an array of tables"}});
+  return *array;
+}
+
+double header_number(const ProfileSet& profiles, const std::string& key) {
+  const auto found = profiles.header.find(key);
+  if (found == profiles.header.end()) return nan;
+  double value = nan;
+  std::from_chars(found->second.data(), found->second.data() + found->second.size(), value);
+  return value;
+}
+
+bool close(double a, double b) { return std::abs(a - b) <= 0.01 * std::abs(b); }
+
+/// Agreement asked for in each quantity; of relative ones the share of the paper's value.
+struct Accepted {
+  const char* name;
+  bool relative;
+  double difference;
+};
+constexpr Accepted accepted_differences[] = {
+    {"theta_deg", false, 1.0},      {"Q", true, 0.05},           {"H", true, 0.10},
+    {"lambda", true, 0.15},         {"shear_rate", true, 0.15},  {"I_th", true, 0.20},
+    {"nu_bulk", false, 0.02},       {"mu_a", true, 0.05},        {"mu_b", true, 0.20},
+    {"k_flowing", false, 0.1},      {"spin_over_half_vorticity", false, 0.05},
+    {"dv_over_shear", true, 0.10},  {"domega_over_shear", true, 0.10},
+};
+
+double accepted_difference(const PaperNumber& number) {
+  if (number.half_width) return *number.half_width;
+  for (const auto& accepted : accepted_differences)
+    if (number.name == accepted.name)
+      return accepted.relative ? accepted.difference * std::abs(number.value) : accepted.difference;
+  return nan;
+}
+
+Target::Outcome outcome_of(double value, const PaperRow& row) {
+  if (std::isnan(value) || std::isnan(row.accepted)) return Target::Outcome::not_measured;
+  return std::abs(value - row.paper.value) <= row.accepted ? Target::Outcome::met : Target::Outcome::missed;
+}
+
+}  // namespace
+
+std::optional<double> paper_speed_rpm(const ProfileSet& profiles, const std::filesystem::path& folder) {
+  const auto reduced = profiles.header.find("reduced");
+  if (reduced == profiles.header.end() || reduced->second != "false") return std::nullopt;
+  const Document experiment = paper_file(folder / "experiment.toml");
+  const Node* drum = experiment.root.find("drum");
+  const double paper_diameter_mm = number_of(drum == nullptr ? nullptr : drum->find("diameter_mm"));
+  const double d = header_number(profiles, "diameter_m");
+  if (!close(2e3 * header_number(profiles, "drum_radius") * d, paper_diameter_mm)) return std::nullopt;
+  constexpr double gravity_m_s2 = 9.81;
+  const double rpm = header_number(profiles, "rotation") / std::sqrt(d / gravity_m_s2) * 30 / std::numbers::pi;
+  for (const auto& entry : entries_of(paper_file(folder / "rotations.toml"), "rotation")) {
+    const double speed = number_of(entry.find("rotation_rpm"));
+    if (close(rpm, speed)) return speed;
+  }
+  return std::nullopt;
+}
+
+std::vector<PaperNumber> paper_numbers(const std::filesystem::path& folder, double rotation_rpm) {
+  std::vector<PaperNumber> numbers;
+  const Document table = paper_file(folder / "rotations.toml");
+  for (const auto& entry : entries_of(table, "rotation")) {
+    if (number_of(entry.find("rotation_rpm")) != rotation_rpm) continue;
+    for (const auto* name : {"theta_deg", "Q", "H"})
+      numbers.push_back({name, number_of(entry.find(name)), std::nullopt, text_of(table.root.find("source")), ""});
+  }
+  std::vector<PaperNumber> general;
+  for (const auto& entry : entries_of(paper_file(folder / "observables.toml"), "observable")) {
+    const double speed = number_of(entry.find("rotation_rpm"));
+    if (!std::isnan(speed) && speed != rotation_rpm) continue;
+    PaperNumber number{text_of(entry.find("name")), number_of(entry.find("value")), std::nullopt,
+                       text_of(entry.find("source")), text_of(entry.find("remark"))};
+    if (entry.find("half_width") != nullptr) number.half_width = number_of(entry.find("half_width"));
+    (std::isnan(speed) ? general : numbers).push_back(number);
+  }
+  numbers.insert(numbers.end(), general.begin(), general.end());
+  return numbers;
+}
+
+std::vector<PaperRow> paper_table(const std::vector<PaperNumber>& numbers, const std::vector<ScalarPair>& scalars) {
+  std::vector<PaperRow> rows;
+  for (const auto& number : numbers) {
+    const auto ours = std::find_if(scalars.begin(), scalars.end(),
+                                   [&](const ScalarPair& candidate) { return candidate.name == number.name; });
+    if (ours == scalars.end() || (std::isnan(ours->particles) && std::isnan(ours->continuum))) continue;
+    PaperRow row{number, *ours, accepted_difference(number)};
+    row.particles = outcome_of(ours->particles, row);
+    row.continuum = outcome_of(ours->continuum, row);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+}  // namespace drumlin

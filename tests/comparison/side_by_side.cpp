@@ -1,0 +1,134 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "coupling/comparison/comparison.hpp"
+#include "coupling/exchange/errors.hpp"
+#include "tests/comparison/example.hpp"
+
+namespace drumlin {
+namespace {
+
+using testing::column_of;
+using testing::example_side;
+using Outcome = Target::Outcome;
+
+const Target& target(const Comparison& comparison, const std::string& quantity, const std::string& zone) {
+  for (const auto& candidate : comparison.targets)
+    if (candidate.quantity == quantity && candidate.zone == zone) return candidate;
+  throw std::runtime_error(quantity);
+}
+
+double scalar(const Comparison& comparison, const std::string& name, double ScalarPair::*side) {
+  for (const auto& pair : comparison.scalars)
+    if (pair.name == name) return pair.*side;
+  throw std::runtime_error(name);
+}
+
+TEST(Comparison, OfARunWithItselfMeetsEveryTargetThatIsMeasured) {
+  const auto comparison = compare(example_side(), example_side());
+  ASSERT_EQ(comparison.targets.size(), 11u);
+  for (const auto& asked : comparison.targets) {
+    if (asked.quantity == "stress_strain_axis_angle") {
+      EXPECT_EQ(asked.outcome, Outcome::not_measured);
+      EXPECT_FALSE(asked.remark.empty());
+    } else {
+      EXPECT_EQ(asked.outcome, Outcome::met) << asked.quantity << " " << asked.zone;
+      EXPECT_EQ(asked.value, 0) << asked.quantity;
+    }
+  }
+}
+
+TEST(Comparison, ScalarTargetsTurnAtTheirLimits) {
+  const auto outcome = [](const std::string& name, double by) {
+    auto continuum = example_side();
+    for (auto& entry : continuum.scalars.scalars)
+      if (entry.name == name) entry.value += by;
+    return target(compare(example_side(), continuum), name, "").outcome;
+  };
+  EXPECT_EQ(outcome("theta_deg", -0.99), Outcome::met);
+  EXPECT_EQ(outcome("theta_deg", -1.01), Outcome::missed);
+  EXPECT_EQ(outcome("Q", 0.0099 * 21.8), Outcome::met);
+  EXPECT_EQ(outcome("Q", 0.0101 * 21.8), Outcome::missed);
+  EXPECT_EQ(outcome("H", 1.99), Outcome::met);
+  EXPECT_EQ(outcome("H", 2.01), Outcome::missed);
+  EXPECT_EQ(outcome("lambda", 0.149 * 3.5), Outcome::met);
+  EXPECT_EQ(outcome("lambda", 0.151 * 3.5), Outcome::missed);
+}
+
+TEST(Comparison, FieldTargetsTurnAtTheirLimits) {
+  const auto outcome = [](const std::string& quantity, const std::string& zone, const std::string& column, double factor) {
+    auto continuum = example_side();
+    for (auto& value : column_of(continuum.profiles, column).value) value *= factor;
+    return target(compare(example_side(), continuum), quantity, zone).outcome;
+  };
+  const auto turns_at = [&](const std::string& quantity, const std::string& zone, double limit) {
+    EXPECT_EQ(outcome(quantity, zone, quantity, 1 + 0.99 * limit), Outcome::met) << quantity;
+    EXPECT_EQ(outcome(quantity, zone, quantity, 1 - 1.01 * limit), Outcome::missed) << quantity;
+  };
+  turns_at("sigma_zz", "all", 0.05);
+  turns_at("sigma_xz", "flowing", 0.05);
+  turns_at("sigma_xz", "static", 0.15);
+  turns_at("sigma_xx", "all", 0.15);
+  turns_at("v_x", "flowing", 0.20);
+  EXPECT_EQ(outcome("log10_shear_rate", "static", "shear_rate", std::pow(10, 0.29)), Outcome::met);
+  EXPECT_EQ(outcome("log10_shear_rate", "static", "shear_rate", std::pow(10, -0.31)), Outcome::missed);
+}
+
+TEST(Comparison, LayersThatTheContinuumLeavesUndefinedMissTheTarget) {
+  auto continuum = example_side();
+  column_of(continuum.profiles, "shear_rate").value[30] = -1e-3;
+  const auto comparison = compare(example_side(), continuum);
+  EXPECT_EQ(target(comparison, "log10_shear_rate", "static").outcome, Outcome::missed);
+  EXPECT_NE(target(comparison, "log10_shear_rate", "static").remark.find("1 of 42"), std::string::npos);
+}
+
+TEST(Comparison, WhatWasNotComputedIsNeitherMetNorMissed) {
+  auto continuum = example_side();
+  continuum.scalars.scalars[0].value = std::numeric_limits<double>::quiet_NaN();
+  const auto comparison = compare(example_side(), continuum);
+  EXPECT_EQ(target(comparison, "theta_deg", "").outcome, Outcome::not_measured);
+  EXPECT_FALSE(target(comparison, "theta_deg", "").remark.empty());
+}
+
+TEST(Comparison, ShearRateAndInterfaceAreReadOffTheProfileWhenNotReported) {
+  const auto comparison = compare(example_side(), example_side());
+  EXPECT_NEAR(scalar(comparison, "shear_rate", &ScalarPair::continuum), testing::example_rate, 1e-9);
+  EXPECT_GT(scalar(comparison, "I_th", &ScalarPair::continuum), 0);
+  EXPECT_TRUE(std::isnan(scalar(comparison, "dv_over_shear", &ScalarPair::continuum)));
+}
+
+TEST(Comparison, PaperNumbersDoNotFitOneLinearLayer) {
+  EXPECT_NEAR(linear_layer_share(0.15, 14.6, 21.8), 0.59, 0.005);  // the paper's own at 6 rpm
+  EXPECT_DOUBLE_EQ(linear_layer_share(0.2, 10, 8), 1);             // nu gammadot H^2/2 at nu = 0.8
+}
+
+TEST(SameDrum, MixedDrumsSpeedsUnitsAndSizesAreAllNamedAtOnce) {
+  auto other = example_side();
+  other.profiles.header = {{"rotation", "0.0192"}, {"drum_radius", "30"}, {"diameter_m", "0.001"}, {"reduced", "true"}};
+  try {
+    compare(example_side(), other);
+    FAIL() << "mixed drums were compared";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.problems().size(), 4u);
+    for (const auto* key : {"rotation", "drum_radius", "diameter_m", "reduced"})
+      EXPECT_NE(std::string(error.what()).find(key), std::string::npos) << key;
+  }
+}
+
+TEST(SameDrum, EachDifferenceAloneIsRefusedAndSoIsSilence) {
+  for (const auto& [key, value] : std::map<std::string, std::string>{
+           {"rotation", "0.0117"}, {"drum_radius", "68.5"}, {"diameter_m", "0.00331"}, {"reduced", "true"}}) {
+    auto other = example_side();
+    other.profiles.header[key] = value;
+    EXPECT_THROW(compare(example_side(), other), InputError) << key;
+    other.profiles.header.erase(key);
+    EXPECT_THROW(compare(example_side(), other), InputError) << key;
+    auto silent = example_side();
+    silent.profiles.header.erase(key);
+    EXPECT_THROW(compare(silent, other), InputError) << key << ": neither side says it";
+  }
+}
+
+}  // namespace
+}  // namespace drumlin
