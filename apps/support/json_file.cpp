@@ -27,13 +27,16 @@ void write_json(const std::filesystem::path& file, const Json& content) {
   replace_file(file, content.dump(2) + "\n");
 }
 
+namespace {
+
+/// In memory, too, what was not computed is null: a reader of the object need not know about NaN.
+Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+}  // namespace
+
 Json to_json(const Scalar& scalar) {
-  Json json{{"value", scalar.value}};
-  if (scalar.ci99) json["ci99"] = *scalar.ci99;
-  // In memory, too, what was not computed is null: a reader of the object need not know about NaN.
-  for (auto& entry : json)
-    if (!std::isfinite(entry.get<double>())) entry = nullptr;
-  return json;
+  if (!scalar.ci99) return number_or_null(scalar.value);
+  return {{"value", number_or_null(scalar.value)}, {"ci99", number_or_null(*scalar.ci99)}};
 }
 
 Json to_json(const Provenance& provenance) {
