@@ -23,7 +23,8 @@ double disc_area_in_quadrant(double radius, double a, double b) {
     if (b < 0) return below;
     return left + below - disc;
   }
-  // Inside: d(area)/da = b + sqrt(r^2 - a^2), the same with a and b exchanged, and a quarter disc at a = b = 0.
+  // Inside: d(area)/da = b + sqrt(r^2 - a^2), the same with a and b exchanged, and a quarter disc at a = b =
+  // 0.
   return (left + below) / 2 + a * b - disc / 4;
 }
 

@@ -10,7 +10,8 @@
 namespace drumlin {
 namespace {
 
-/// P(|t| <= value) for integer degrees of freedom: the finite series of Abramowitz & Stegun 26.7.3 and 26.7.4.
+/// P(|t| <= value) for integer degrees of freedom: the finite series of Abramowitz & Stegun 26.7.3
+/// and 26.7.4.
 double student_probability(double value, int degrees_of_freedom) {
   const double angle = std::atan(value / std::sqrt(static_cast<double>(degrees_of_freedom)));
   const double cosine = std::cos(angle), sine = std::sin(angle);
@@ -36,7 +37,9 @@ double student_quantile_99(int degrees_of_freedom) {
   return low;
 }
 
-std::size_t batch_of(std::size_t index, std::size_t count, std::size_t batches) { return index * batches / count; }
+std::size_t batch_of(std::size_t index, std::size_t count, std::size_t batches) {
+  return index * batches / count;
+}
 
 double jackknife_ci99(std::span<const double> leave_one_out) {
   const std::size_t count = leave_one_out.size();

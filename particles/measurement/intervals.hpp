@@ -1,5 +1,6 @@
 #pragma once
-// 99 % intervals of averages over time-correlated samples: contiguous batches, delete-one jackknife over them.
+// 99 % intervals of averages over time-correlated samples: contiguous batches, delete-one jackknife over
+// them.
 #include <cstddef>
 #include <span>
 
@@ -12,9 +13,9 @@ double student_quantile_99(int degrees_of_freedom);
 std::size_t batch_of(std::size_t index, std::size_t count, std::size_t batches);
 
 /// Half width of the 99 % interval from the values of an estimate with one batch left out each:
-/// t_99(B - 1) sqrt((B - 1)/B sum (e_b - mean)^2). For a plain mean over equal batches this is the method of batch means;
-/// unlike it, it stays right for ratios and fits. The batches must be longer than the correlation time.
-/// NaN with fewer than two values or when one of them is not finite.
+/// t_99(B - 1) sqrt((B - 1)/B sum (e_b - mean)^2). For a plain mean over equal batches this is the method of
+/// batch means; unlike it, it stays right for ratios and fits. The batches must be longer than the
+/// correlation time. NaN with fewer than two values or when one of them is not finite.
 double jackknife_ci99(std::span<const double> leave_one_out);
 
 /// Half width for the mean of a series in order of time, over `batches` batches of it.

@@ -1,0 +1,76 @@
+#pragma once
+// The frame in which everything is measured: x downslope along the surface, z its outward normal, and how its
+// slope is found (docs/theory/measurement.md).
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "particles/measurement/snapshot.hpp"
+
+namespace drumlin {
+
+/// Orthonormal axes in the laboratory; x turned clockwise into z by -90 degrees, as in the laboratory.
+struct FlowFrame {
+  double origin_x = 0, origin_z = 0;  ///< the drum's axis; without a container the grains' mean x and z = 0
+  double x_axis_x = 1, x_axis_z = 0;  ///< unit vector along the surface
+  double x_of(double x, double z) const { return (x - origin_x) * x_axis_x + (z - origin_z) * x_axis_z; }
+  double z_of(double x, double z) const { return (z - origin_z) * x_axis_x - (x - origin_x) * x_axis_z; }
+  /// Components of a vector.
+  double along(double v_x, double v_z) const { return v_x * x_axis_x + v_z * x_axis_z; }
+  double normal(double v_x, double v_z) const { return v_z * x_axis_x - v_x * x_axis_z; }
+};
+
+/// Frame with z against gravity (theta = 0), turned clockwise by theta. Gravity of zero counts as pointing to
+/// -z.
+FlowFrame frame_at_slope(double origin_x, double origin_z, double gravity_x, double gravity_z, double theta);
+
+/// The same state seen in a vertical mirror. A drum that turns anticlockwise is measured so: the flow then
+/// goes to +x.
+Snapshot mirrored(Snapshot snapshot);
+
+/// Angle of the centre of mass about the frame's origin from the direction of gravity (= -z of `upright`),
+/// positive when the grains are carried up on the side that the surface descends from (-x).
+double centre_of_mass_angle(const Snapshot& snapshot, const FlowFrame& upright);
+
+/// Area covered by grains in square cells of side 1 d, summed over snapshots.
+class CoverageMap {
+ public:
+  /// Cells over [x_min, x_max] x [z_min, z_max] of the frame.
+  CoverageMap(double x_min, double x_max, double z_min, double z_max);
+  void add(const Snapshot& snapshot, const FlowFrame& frame);
+  /// Batches put together, or one taken out again; all cover the same cells.
+  CoverageMap& operator+=(const CoverageMap& other);
+  CoverageMap& operator-=(const CoverageMap& other);
+  std::size_t snapshots() const { return snapshots_; }
+  double z_min() const { return z_min_; }
+  double z_max() const { return z_min_ + static_cast<double>(rows_); }
+  /// Mean volume fraction at a point, bilinear between cell centres; 0 outside.
+  double volume_fraction(double x, double z) const;
+
+ private:
+  double cell(std::ptrdiff_t column, std::ptrdiff_t row) const;
+  void add_disc(double x, double z, double radius);
+
+  double x_min_, z_min_;
+  std::size_t columns_, rows_, snapshots_ = 0;
+  std::vector<double> area_;
+};
+
+struct SlopeOptions {
+  double isoline = 0.4;         ///< volume fraction of the line that stands for the surface
+  double half_width = 20;       ///< d; cut to a quarter of the surface's chord in a small drum
+  double container_radius = 0;  ///< 0: no container, no cut
+};
+
+/// Slope of the isoline of a map in the upright frame.
+struct Slope {
+  double theta = std::numeric_limits<double>::quiet_NaN();  ///< rad; NaN when no line is found
+  double half_width = 0;                                    ///< of the range used, d
+  double surface_z = 0;  ///< of the line at x = 0 in the frame at slope theta
+};
+
+/// Straight line through the isoline over |x| < half_width, both in the frame that has its slope: found by
+/// iteration from `first_guess` (rad).
+Slope isoline_slope(const CoverageMap& upright_map, double first_guess, const SlopeOptions& options);
+
+}  // namespace drumlin

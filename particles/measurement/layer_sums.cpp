@@ -1,0 +1,202 @@
+#include "particles/measurement/layer_sums.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace drumlin {
+namespace {
+
+/// Every sum in turn, so that none is forgotten when batches are added or taken apart.
+template <class Action>
+void for_each_sum(LayerSum& a, const LayerSum& b, Action action) {
+  for (auto member : {&LayerSum::covered, &LayerSum::grains, &LayerSum::x, &LayerSum::zeta, &LayerSum::v_x,
+                      &LayerSum::v_z, &LayerSum::spin, &LayerSum::x_x, &LayerSum::zeta_zeta,
+                      &LayerSum::zeta_v_x, &LayerSum::x_v_z, &LayerSum::v_x_v_x, &LayerSum::v_z_v_z,
+                      &LayerSum::v_x_v_z, &LayerSum::spin_spin, &LayerSum::force_x_branch_x,
+                      &LayerSum::force_x_branch_z, &LayerSum::force_z_branch_x, &LayerSum::force_z_branch_z})
+    action(a.*member, b.*member);
+}
+
+/// Adds the area of a disc to the layers that it reaches.
+void add_covered_area(const LayerGrid& grid, double x, double z, double radius,
+                      std::vector<LayerSum>& layers) {
+  if (x + radius <= grid.x_min || x - radius >= grid.x_max) return;
+  const auto layer_count = static_cast<double>(layers.size());
+  const double first = std::max(0.0, std::floor((z - radius - grid.z_min) / grid.thickness));
+  const double end = std::min(layer_count, std::ceil((z + radius - grid.z_min) / grid.thickness));
+  for (double layer = first; layer < end; ++layer) {
+    const auto index = static_cast<std::size_t>(layer);
+    layers[index].covered += disc_area_in(x, z, radius, grid.rectangle(index));
+  }
+}
+
+void add_grain(const LayerGrid& grid, const Snapshot& snapshot, std::size_t i,
+               std::vector<LayerSum>& layers) {
+  const double x = grid.frame.x_of(snapshot.x[i], snapshot.z[i]);
+  const double z = grid.frame.z_of(snapshot.x[i], snapshot.z[i]);
+  add_covered_area(grid, x, z, snapshot.radius[i], layers);
+  const double place = std::floor((z - grid.z_min) / grid.thickness);
+  if (x < grid.x_min || x > grid.x_max || place < 0 || place >= static_cast<double>(layers.size())) return;
+
+  const auto index = static_cast<std::size_t>(place);
+  LayerSum& sum = layers[index];
+  const auto velocity = relative_velocity(snapshot, i);
+  const double v_x = grid.frame.along(velocity[0], velocity[1]);
+  const double v_z = grid.frame.normal(velocity[0], velocity[1]);
+  const double zeta = z - grid.z_of(index);
+  sum.grains += 1;
+  sum.x += x;
+  sum.zeta += zeta;
+  sum.v_x += v_x;
+  sum.v_z += v_z;
+  sum.x_x += x * x;
+  sum.zeta_zeta += zeta * zeta;
+  sum.zeta_v_x += zeta * v_x;
+  sum.x_v_z += x * v_z;
+  sum.v_x_v_x += v_x * v_x;
+  sum.v_z_v_z += v_z * v_z;
+  sum.v_x_v_z += v_x * v_z;
+  if (snapshot.spin.empty()) return;
+  const double spin = snapshot.spin[i] - (snapshot.container_radius > 0 ? snapshot.wall_spin : 0.0);
+  sum.spin += spin;
+  sum.spin_spin += spin * spin;
+}
+
+struct HalfBranch {
+  double x, z;                ///< centre of the grain, flow frame
+  double toward_x, toward_z;  ///< from the centre to the contact
+  double force_x, force_z;    ///< on the grain
+};
+
+/// Shares a half branch out among the layers in proportion to its length in each, cut at the sides of the
+/// slice.
+void add_half_branch(const LayerGrid& grid, const HalfBranch& branch, std::vector<LayerSum>& layers) {
+  double begin = 0, end = 1;  // parameter along the branch
+  if (branch.toward_x != 0) {
+    const double west = (grid.x_min - branch.x) / branch.toward_x,
+                 east = (grid.x_max - branch.x) / branch.toward_x;
+    begin = std::max(begin, std::min(west, east));
+    end = std::min(end, std::max(west, east));
+  } else if (branch.x < grid.x_min || branch.x > grid.x_max) {
+    return;
+  }
+  if (!(begin < end)) return;
+
+  const double low = branch.z + (branch.toward_z > 0 ? begin : end) * branch.toward_z;
+  const double high = branch.z + (branch.toward_z > 0 ? end : begin) * branch.toward_z;
+  const double first = std::max(0.0, std::floor((low - grid.z_min) / grid.thickness));
+  const double last =
+      std::min(static_cast<double>(layers.size()) - 1, std::floor((high - grid.z_min) / grid.thickness));
+  for (double layer = first; layer <= last; ++layer) {
+    double share = end - begin;
+    if (first < last || low < grid.z_min + first * grid.thickness ||
+        high > grid.z_min + (last + 1) * grid.thickness) {
+      const double bottom = grid.z_min + layer * grid.thickness;
+      const double inside = std::min(high, bottom + grid.thickness) - std::max(low, bottom);
+      share = std::max(0.0, inside) / std::abs(branch.toward_z);
+    }
+    LayerSum& sum = layers[static_cast<std::size_t>(layer)];
+    // b points from the contact to the centre: against `toward`.
+    sum.force_x_branch_x -= branch.force_x * branch.toward_x * share;
+    sum.force_x_branch_z -= branch.force_x * branch.toward_z * share;
+    sum.force_z_branch_x -= branch.force_z * branch.toward_x * share;
+    sum.force_z_branch_z -= branch.force_z * branch.toward_z * share;
+  }
+}
+
+void add_contact(const LayerGrid& grid, const Snapshot& snapshot, const SnapshotContact& contact,
+                 std::vector<LayerSum>& layers) {
+  const double n_x = contact.normal_x, n_z = contact.normal_z;
+  const double impulse_x = contact.impulse_n * n_x + contact.impulse_t * n_z;
+  const double impulse_z = contact.impulse_n * n_z - contact.impulse_t * n_x;
+  const double force_x = grid.frame.along(impulse_x, impulse_z) / snapshot.time_step;
+  const double force_z = grid.frame.normal(impulse_x, impulse_z) / snapshot.time_step;
+  const double along = grid.frame.along(n_x, n_z), normal = grid.frame.normal(n_x, n_z);
+  // One half for each grain: across a periodic boundary each stays with its grain, and a wall has none.
+  const auto add_half = [&](std::int32_t grain, double sign) {
+    const auto g = static_cast<std::size_t>(grain);
+    const double reach = -sign * snapshot.radius[g];
+    add_half_branch(
+        grid,
+        {grid.frame.x_of(snapshot.x[g], snapshot.z[g]), grid.frame.z_of(snapshot.x[g], snapshot.z[g]),
+         reach * along, reach * normal, sign * force_x, sign * force_z},
+        layers);
+  };
+  if (contact.i >= 0) add_half(contact.i, 1);
+  if (contact.j >= 0) add_half(contact.j, -1);
+}
+
+}  // namespace
+
+LayerSum& LayerSum::operator+=(const LayerSum& other) {
+  for_each_sum(*this, other, [](double& a, double b) { a += b; });
+  return *this;
+}
+
+LayerSum& LayerSum::operator-=(const LayerSum& other) {
+  for_each_sum(*this, other, [](double& a, double b) { a -= b; });
+  return *this;
+}
+
+LayerSums& LayerSums::operator+=(const LayerSums& other) {
+  for (std::size_t l = 0; l < layers.size(); ++l) layers[l] += other.layers[l];
+  snapshots += other.snapshots;
+  return *this;
+}
+
+LayerSums& LayerSums::operator-=(const LayerSums& other) {
+  for (std::size_t l = 0; l < layers.size(); ++l) layers[l] -= other.layers[l];
+  snapshots -= other.snapshots;
+  return *this;
+}
+
+Rectangle LayerGrid::rectangle(std::size_t layer) const {
+  const double bottom = z_min + static_cast<double>(layer) * thickness;
+  return Rectangle{x_min, x_max, bottom, bottom + thickness};
+}
+
+LayerGrid layer_grid(const FlowFrame& frame, double position, double slice_width, double thickness,
+                     double z_from, double z_to, double container_radius, double period) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  LayerGrid grid{frame, position - slice_width / 2, position + slice_width / 2, 0, thickness, {}};
+  if (period > 0) {
+    grid.x_min = -infinity;
+    grid.x_max = infinity;
+  }
+  const double first = std::floor(z_from / thickness), end = std::ceil(z_to / thickness);
+  grid.z_min = first * thickness;
+  grid.area.assign(static_cast<std::size_t>(std::max(0.0, end - first)),
+                   (period > 0 ? period : slice_width) * thickness);
+  if (container_radius > 0)
+    for (std::size_t l = 0; l < grid.layers(); ++l)
+      grid.area[l] = disc_area_in(0, 0, container_radius, grid.rectangle(l));
+  return grid;
+}
+
+std::array<double, 2> relative_velocity(const Snapshot& snapshot, std::size_t grain) {
+  const bool windowed = snapshot.velocity_window > 0 && !snapshot.displacement_x.empty();
+  const bool turning = snapshot.container_radius > 0 && snapshot.wall_spin != 0;
+  const double x = snapshot.x[grain] - snapshot.container_x, z = snapshot.z[grain] - snapshot.container_z;
+  if (!windowed) {
+    const double spin = turning ? snapshot.wall_spin : 0;
+    return {snapshot.v_x[grain] - spin * z, snapshot.v_z[grain] + spin * x};
+  }
+  const double d_x = snapshot.displacement_x[grain], d_z = snapshot.displacement_z[grain];
+  if (!turning) return {d_x / snapshot.velocity_window, d_z / snapshot.velocity_window};
+  // Where the grain was, carried along with the drum: the difference to where it is now is its own motion.
+  const double angle = snapshot.wall_spin * snapshot.velocity_window;
+  const double cosine = std::cos(angle), sine = std::sin(angle);
+  const double carried_x = (x - d_x) * cosine + (z - d_z) * sine;
+  const double carried_z = (z - d_z) * cosine - (x - d_x) * sine;
+  return {(x - carried_x) / snapshot.velocity_window, (z - carried_z) / snapshot.velocity_window};
+}
+
+void add_snapshot(const LayerGrid& grid, const Snapshot& snapshot, LayerSums& sums) {
+  for (std::size_t i = 0; i < snapshot.x.size(); ++i) add_grain(grid, snapshot, i, sums.layers);
+  for (const SnapshotContact& contact : snapshot.contacts) add_contact(grid, snapshot, contact, sums.layers);
+  sums.with_spin = sums.with_spin && !snapshot.spin.empty();
+  ++sums.snapshots;
+}
+
+}  // namespace drumlin

@@ -1,0 +1,89 @@
+#include "particles/measurement/intervals.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace drumlin {
+namespace {
+
+TEST(Intervals, StudentQuantilesOfTheTables) {
+  EXPECT_NEAR(student_quantile_99(1), 63.6567, 1e-4);
+  EXPECT_NEAR(student_quantile_99(2), 9.9248, 1e-4);
+  EXPECT_NEAR(student_quantile_99(10), 3.1693, 1e-4);
+  EXPECT_NEAR(student_quantile_99(19), 2.8609, 1e-4);
+  EXPECT_NEAR(student_quantile_99(100000), 2.5759, 1e-4);
+}
+
+TEST(Intervals, BatchesAreContiguousAndAlmostEqual) {
+  std::vector<int> size(20, 0);
+  std::size_t before = 0;
+  for (std::size_t i = 0; i < 407; ++i) {
+    const std::size_t batch = batch_of(i, 407, 20);
+    EXPECT_GE(batch, before);
+    before = batch;
+    ++size.at(batch);
+  }
+  for (int n : size) EXPECT_TRUE(n == 20 || n == 21);
+}
+
+TEST(Intervals, JackknifeOfAMeanIsTheMethodOfBatchMeans) {
+  const std::vector<double> series{1, 5, 2,
+                                   8, 4, 4};  // three batches with means 3, 5, 4: standard error 1/sqrt(3)
+  EXPECT_NEAR(mean_ci99(series, 3), student_quantile_99(2) / std::sqrt(3.0), 1e-12);
+}
+
+TEST(Intervals, TooLittleGivesNoInterval) {
+  EXPECT_TRUE(std::isnan(mean_ci99(std::vector<double>{1.0})));
+  EXPECT_TRUE(
+      std::isnan(jackknife_ci99(std::vector<double>{1.0, std::numeric_limits<double>::quiet_NaN(), 2.0})));
+}
+
+/// Shares of 99 % intervals of the mean that hold the true mean 0, over many AR(1) series of 400 values.
+struct Coverage {
+  double batches, independent;
+};
+
+Coverage coverage_of_autoregression(double memory) {
+  constexpr int trials = 4000, length = 400;
+  std::mt19937_64 engine(7);
+  std::normal_distribution<double> noise;
+  int batch_hits = 0, independent_hits = 0;
+  for (int trial = 0; trial < trials; ++trial) {
+    std::vector<double> series(length);
+    double value = noise(engine) / std::sqrt(1 - memory * memory);
+    double sum = 0, squares = 0;
+    for (double& entry : series) {
+      entry = value;
+      sum += value;
+      squares += value * value;
+      value = memory * value + noise(engine);
+    }
+    const double mean = sum / length;
+    if (std::abs(mean) <= mean_ci99(series)) ++batch_hits;
+    if (std::abs(mean) <= 2.588 * std::sqrt((squares / length - mean * mean) / (length - 1)))
+      ++independent_hits;
+  }
+  return {batch_hits / static_cast<double>(trials), independent_hits / static_cast<double>(trials)};
+}
+
+TEST(Intervals, HoldTheMeanOfACorrelatedSeries) {
+  // Four thousand trials know a share of 0.99 to +-0.005 (three standard errors).
+  EXPECT_NEAR(coverage_of_autoregression(0.0).batches, 0.99, 0.005);
+  // Correlation over 2 values, batches of 20.
+  const Coverage correlated = coverage_of_autoregression(0.5);
+  EXPECT_GT(correlated.batches, 0.98);
+  EXPECT_LT(correlated.independent, 0.90);  // what counting every value as independent would give
+}
+
+TEST(Intervals, StayUsableWhenTheCorrelationReachesHalfABatch) {
+  const Coverage correlated = coverage_of_autoregression(0.9);  // 10 of 20 values
+  EXPECT_GT(correlated.batches, 0.94);
+  EXPECT_LT(correlated.independent, 0.6);
+}
+
+}  // namespace
+}  // namespace drumlin

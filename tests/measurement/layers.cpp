@@ -1,0 +1,157 @@
+// Profiles of layers without a container: volume fraction, stresses, velocities.
+#include <gtest/gtest.h>
+
+#include "tests/measurement/packings.hpp"
+
+namespace drumlin {
+namespace {
+
+using testing::hexagonal_layer;
+using testing::measurement_of;
+using testing::stacked_columns;
+
+TEST(Layers, HexagonalLatticeHasItsVolumeFraction) {
+  MeasurementOptions options;
+  options.layer_thickness = std::sqrt(3.0) / 2;  // one row of the lattice: every layer holds the same
+  const Measurement result = measurement_of(hexagonal_layer(8, 12), options);
+  const auto& nu = result.profiles.column("nu").value;
+  ASSERT_EQ(nu.size(), 14u);  // twelve rows, and the slivers of the outer ones that stand out of their cells
+  for (std::size_t l = 2; l < 12; ++l) EXPECT_NEAR(nu[l], std::numbers::pi / (2 * std::sqrt(3.0)), 1e-12);
+}
+
+TEST(Layers, EachLayerOfAColumnCarriesTheWeightAbove) {
+  const Measurement result = measurement_of(stacked_columns(6, 20, 0));
+  const double nu = std::numbers::pi / 4;
+  const auto& sigma_zz = result.profiles.column("sigma_zz").value;
+  ASSERT_EQ(sigma_zz.size(), 20u);
+  for (std::size_t l = 0; l < 20; ++l) {
+    EXPECT_NEAR(sigma_zz[l], nu * (20 - 0.5 - static_cast<double>(l)), 1e-12);
+    EXPECT_NEAR(result.profiles.column("sigma_xx").value[l], 0, 1e-12);
+    EXPECT_NEAR(result.profiles.column("sigma_xz").value[l], 0, 1e-12);
+  }
+  EXPECT_EQ(result.frame_source, FrameSource::domain);
+}
+
+TEST(Layers, ThinLayersKeepTheMeanStress) {
+  MeasurementOptions options;
+  options.layer_thickness = 0.25;
+  const Measurement result = measurement_of(stacked_columns(6, 8, 0), options);
+  const auto& sigma_zz = result.profiles.column("sigma_zz").value;
+  ASSERT_EQ(sigma_zz.size(), 32u);
+  // Lower half of a disc: the force below it; upper half: the force above it.
+  for (std::size_t l = 0; l < 32; ++l) {
+    const double carried = 8 - std::floor((static_cast<double>(l) + 2) / 4);
+    EXPECT_NEAR(sigma_zz[l], carried * std::numbers::pi / 4, 1e-12) << l;
+  }
+}
+
+TEST(Layers, UpperLayerPullsTheLowerOneDownTheSlope) {
+  const double slope = 0.3;
+  const Measurement result = measurement_of(stacked_columns(6, 20, slope));
+  EXPECT_NEAR(result.frame_angle_deg, slope * 180 / std::numbers::pi, 1e-10);
+  for (std::size_t l = 0; l < 20; ++l) {
+    const double depth = 20 - 0.5 - static_cast<double>(l);
+    EXPECT_NEAR(result.profiles.column("sigma_xz").value[l], std::numbers::pi / 4 * depth * std::sin(slope),
+                1e-12);
+    EXPECT_NEAR(result.profiles.column("mu").value[l], std::tan(slope), 1e-12);
+  }
+}
+
+TEST(Layers, SliceCutsGrainsAndBranchesAtItsSides) {
+  Snapshot open = stacked_columns(6, 20, 0);
+  open.period_x = 0;
+  MeasurementOptions options;
+  options.slice_width = 2.5;  // through discs of the second and fifth column off their centres
+  const Measurement result = measurement_of(open, options);
+  EXPECT_EQ(result.frame_source, FrameSource::gravity);
+  EXPECT_EQ(result.slice_width, 2.5);
+  // x = 1.75 .. 4.25: two discs whole and a quarter diameter of two more; the branches of the columns at 2.5
+  // and 3.5 only.
+  const double cap = std::acos(0.5) / 4 - std::sqrt(3.0) / 16;
+  const double two_branches = 2 * std::numbers::pi / 4 / 2.5;
+  for (std::size_t l = 0; l < 20; ++l) {
+    EXPECT_NEAR(result.profiles.column("nu").value[l], (std::numbers::pi / 2 + 2 * cap) / 2.5, 1e-12);
+    EXPECT_NEAR(result.profiles.column("sigma_zz").value[l], two_branches * (19.5 - static_cast<double>(l)),
+                1e-12);
+  }
+}
+
+TEST(Layers, BranchAcrossTheSideOfTheSliceCountsWithItsShareInside) {
+  // Two discs side by side pressed together with force 3 along x; the slice holds 0.75 of the branch of
+  // length 1.
+  Snapshot pair;
+  pair.time_step = 0.5;
+  for (double x : {-0.5, 0.5}) testing::add_grain(pair, x, 0.5, 0.5);
+  pair.contacts.push_back({1, 0, 1, 0, 1.5, 0});
+  MeasurementOptions options;
+  options.slice_width = 1;
+  options.position = 0.25;
+  const Measurement result = measurement_of(pair, options);
+  EXPECT_NEAR(result.profiles.column("sigma_xx").value.at(0), 3 * 0.75, 1e-12);
+}
+
+TEST(Layers, LinearVelocityGivesItsShearRateAndNoFluctuation) {
+  Snapshot layer = hexagonal_layer(8, 24);
+  for (std::size_t i = 0; i < layer.x.size(); ++i) {
+    layer.v_x[i] = 0.2 * layer.z[i];
+    layer.spin[i] = 0.1;
+  }
+  const Measurement result = measurement_of(layer);
+  const auto& z = result.profiles.z;
+  // Rows stand 0.866 apart and layers are 1 thick: a layer's mean centre is off its middle by up to 0.43.
+  // The lowest layer holds no centre, so the one above it has no difference.
+  for (std::size_t l = 2; l + 1 < z.size(); ++l)
+    EXPECT_NEAR(result.profiles.column("shear_rate").value[l], 0.2, 0.2 * 0.434);
+  EXPECT_NEAR(result.scalars.value("shear_rate"), 0.2, 0.2 * 0.03);  // the straight line averages that out
+  for (std::size_t l = 1; l + 1 < z.size(); ++l) {
+    EXPECT_NEAR(result.profiles.column("omega").value[l], 0.1, 1e-12);
+    EXPECT_NEAR(result.profiles.column("domega").value[l], 0, 1e-7);  // root of a difference of equal squares
+  }
+}
+
+TEST(Layers, ShearWithinALayerIsNoFluctuation) {
+  // Grains spread evenly over the height: layer means stand in the middles.
+  Snapshot cloud;
+  cloud.period_x = 10;
+  cloud.time_step = 1;
+  for (int i = 0; i < 4000; ++i) {
+    const double z = (i + 0.5) / 400;
+    testing::add_grain(cloud, i % 10, z, 0.05);
+    cloud.v_x.back() = 0.5 * z + (i % 2 == 0 ? 0.03 : -0.03);
+    cloud.v_z.back() = i % 4 < 2 ? 0.04 : -0.04;
+  }
+  const Measurement result = measurement_of(cloud);
+  for (std::size_t l = 2; l + 2 < result.profiles.z.size(); ++l)
+    EXPECT_NEAR(result.profiles.column("dv").value[l], 0.05, 1e-5);
+}
+
+TEST(Layers, KineticPartCountsLikeAnIdealGas) {
+  Snapshot cloud;
+  cloud.period_x = 10;
+  cloud.time_step = 1;
+  for (int i = 0; i < 400; ++i) {
+    testing::add_grain(cloud, i % 10, (i + 0.5) / 40, 0.1);
+    // Grains that go up bring less v_x than the mean: the upper layer drags the lower one forwards.
+    cloud.v_x.back() = i % 2 == 0 ? -0.3 : 0.3;
+    cloud.v_z.back() = i % 2 == 0 ? 0.2 : -0.2;
+  }
+  const Measurement result = measurement_of(cloud);
+  const std::size_t middle = 5;
+  const double nu = result.profiles.column("nu").value[middle];
+  EXPECT_NEAR(nu, 40 * std::numbers::pi * 0.01 / 10, 1e-3);
+  EXPECT_NEAR(result.profiles.column("sigma_xx_kinetic").value[middle], nu * 0.09, 1e-4);
+  EXPECT_NEAR(result.profiles.column("sigma_zz").value[middle], nu * 0.04, 1e-4);
+  EXPECT_NEAR(result.profiles.column("sigma_xz").value[middle], nu * 0.06, 1e-4);
+}
+
+TEST(Layers, SceneWithoutSpinHasNoColumnOfIt) {
+  Snapshot layer = hexagonal_layer(8, 12);
+  layer.spin.clear();
+  const Measurement result = measurement_of(layer);
+  EXPECT_EQ(result.profiles.find("omega"), nullptr);
+  EXPECT_EQ(result.profiles.find("domega"), nullptr);
+  EXPECT_TRUE(std::isnan(result.scalars.value("spin_over_half_vorticity")));
+}
+
+}  // namespace
+}  // namespace drumlin
