@@ -1,0 +1,96 @@
+"""Figures of `drumlin compare`: both profiles over depth, each at its own layers, the particles' 99 % interval as a band."""
+
+import argparse
+import math
+
+import matplotlib.pyplot as plt
+
+import style
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--particles", required=True, help="profiles.csv of the particles")
+    parser.add_argument("--continuum", required=True, help="profiles.csv of the continuum")
+    parser.add_argument("--output", required=True, help="folder for the figures")
+    parser.add_argument("--depth", type=float, default=math.nan, help="H of the particles, d")
+    return parser.parse_args()
+
+
+def mark_depths(axes, depth):
+    """Dotted line at the interface, dashed line at the free surface, as in the paper's figures."""
+    axes.axvline(0, color="0.4", linestyle="--", linewidth=1)
+    if not math.isnan(depth):
+        axes.axvline(-depth, color="0.4", linestyle=":", linewidth=1)
+    axes.set_xlabel(style.LABELS["z"])
+
+
+def positive(values):
+    """What a logarithmic axis can show."""
+    return [value if value > 0 else math.nan for value in values]
+
+
+def draw(axes, name, particles, continuum, logarithmic=False):
+    """One quantity over depth, both sides."""
+    keep = positive if logarithmic else list
+    if name in particles:
+        ours, half_width = keep(particles[name]), particles.get(name + "_ci99")
+        if half_width is not None and logarithmic:
+            # A band that reaches zero ends at the foot of the axis instead of taking the axis with it.
+            low = [max(value - width, 1e-2 * value) for value, width in zip(ours, half_width)]
+            high = [value + width for value, width in zip(ours, half_width)]
+            axes.fill_between(particles["z"], low, high, color=style.PARTICLES, alpha=0.25, linewidth=0)
+            half_width = None
+        style.band(axes, particles["z"], ours, half_width, style.PARTICLES, "particles, 99 %")
+    if name in continuum:
+        axes.plot(continuum["z"], keep(continuum[name]), color=style.CONTINUUM, label="continuum")
+    axes.set_ylabel(style.LABELS[name])
+    if logarithmic:
+        axes.set_yscale("log")
+
+
+def over_depth(names, particles, continuum, depth, size):
+    """Panels side by side; `names` as (column, logarithmic)."""
+    figure, panels = plt.subplots(1, len(names), figsize=size, squeeze=False)
+    for axes, (name, logarithmic) in zip(panels[0], names):
+        draw(axes, name, particles, continuum, logarithmic)
+        mark_depths(axes, depth)
+    panels[0][0].legend()
+    return figure
+
+
+def friction(particles, continuum):
+    """mu over I, the layers of both sides; the flow pays for every percent of it."""
+    figure, axes = plt.subplots()
+    for columns, color, marker, label in ((particles, style.PARTICLES, "o", "particles"),
+                                          (continuum, style.CONTINUUM, "x", "continuum")):
+        if "I" in columns and "mu" in columns:
+            axes.plot(positive(columns["I"]), columns["mu"], marker, color=color, label=label)
+    axes.set_xscale("log")
+    axes.set_xlabel(style.LABELS["I"])
+    axes.set_ylabel(style.LABELS["mu"])
+    axes.legend()
+    return figure
+
+
+def main():
+    options = arguments()
+    style.use_style()
+    header, particles = style.read_profiles(options.particles)
+    _, continuum = style.read_profiles(options.continuum)
+    reduced = header.get("reduced") == "true"
+    sheets = {
+        "velocity": ([("v_x", False), ("v_x", True)], (11, 4.4)),
+        "shear_rate": ([("shear_rate", False), ("shear_rate", True)], (11, 4.4)),
+        "stresses": ([("sigma_zz", False), ("sigma_xz", False), ("sigma_xx", False)], (13, 4.2)),
+        "ratios": ([("I", True), ("mu", False), ("k", False)], (13, 4.2)),
+    }
+    figures = {name: over_depth(names, particles, continuum, options.depth, size)
+               for name, (names, size) in sheets.items()}
+    figures["friction"] = friction(particles, continuum)
+    for name, figure in figures.items():
+        style.save(figure, f"{options.output}/{name}.png", reduced)
+
+
+if __name__ == "__main__":
+    main()

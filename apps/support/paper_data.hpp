@@ -1,0 +1,9 @@
+#pragma once
+#include <filesystem>
+
+namespace drumlin::apps {
+
+/// The folder data/paper of the sources that this program was built from.
+std::filesystem::path paper_data_folder();
+
+}  // namespace drumlin::apps
