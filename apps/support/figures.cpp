@@ -29,7 +29,8 @@ std::vector<std::string> figure_environment() {
   for (char** entry = environ; *entry != nullptr; ++entry) {
     const std::string_view text(*entry);
     bool replaced = false;
-    for (const auto& setting : settings) replaced |= text.starts_with(setting.substr(0, setting.find('=') + 1));
+    for (const auto& setting : settings)
+      replaced |= text.starts_with(setting.substr(0, setting.find('=') + 1));
     if (!replaced) result.emplace_back(text);
   }
   return result;
@@ -69,8 +70,8 @@ void draw_figures(const std::string& script, const std::vector<std::string>& arg
   posix_spawn_file_actions_adddup2(&actions, messages[1], STDERR_FILENO);
   posix_spawn_file_actions_adddup2(&actions, messages[1], STDOUT_FILENO);
   pid_t child = 0;
-  const int failure =
-      posix_spawn(&child, DRUMLIN_PYTHON, &actions, nullptr, pointers(words).data(), pointers(variables).data());
+  const int failure = posix_spawn(&child, DRUMLIN_PYTHON, &actions, nullptr, pointers(words).data(),
+                                  pointers(variables).data());
   posix_spawn_file_actions_destroy(&actions);
   ::close(messages[1]);
   if (failure != 0) {

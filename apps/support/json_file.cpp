@@ -18,7 +18,8 @@ Json read_json(const std::filesystem::path& file, const std::string& format) {
     throw InputError(file.string() + ": is no JSON: " + error.what());
   }
   const bool known = content.is_object() && content.contains("format") && content["format"] == format;
-  if (!known) throw InputError(file.string() + ": format: is missing or not known here (allowed: \"" + format + "\")");
+  if (!known)
+    throw InputError(file.string() + ": format: is missing or not known here (allowed: \"" + format + "\")");
   return content;
 }
 

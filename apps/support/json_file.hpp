@@ -16,7 +16,8 @@ nlohmann::ordered_json read_json(const std::filesystem::path& file, const std::s
 /// Indented, in the order of the keys, NaN as null; written aside and renamed. Throws IoError.
 void write_json(const std::filesystem::path& file, const nlohmann::ordered_json& content);
 
-/// {"value": , "ci99": } for a measurement, the plain number where there is no interval; null for what was not computed.
+/// {"value": , "ci99": } for a measurement, the plain number where there is no interval; null for what was
+/// not computed.
 nlohmann::ordered_json to_json(const Scalar& scalar);
 nlohmann::ordered_json to_json(const Provenance& provenance);
 nlohmann::ordered_json to_json(const Scales& scales);

@@ -16,8 +16,9 @@ void remove_content(const fs::path& folder, const std::vector<std::string>& mark
   if (!ours) {
     std::string expected;
     for (const auto& marker : markers) expected += (expected.empty() ? "" : " or ") + marker;
-    throw InputError(folder.string() + ": is not overwritten, for this program did not make it (it holds no " +
-                     expected + "); remove it yourself or name another folder");
+    throw InputError(folder.string() +
+                     ": is not overwritten, for this program did not make it (it holds no " + expected +
+                     "); remove it yourself or name another folder");
   }
   std::vector<fs::path> entries;
   for (const auto& entry : fs::directory_iterator(folder)) entries.push_back(entry.path());
@@ -26,13 +27,15 @@ void remove_content(const fs::path& folder, const std::vector<std::string>& mark
 
 }  // namespace
 
-void prepare_output(const fs::path& folder, ExistingOutput existing, const std::vector<std::string>& markers) {
+void prepare_output(const fs::path& folder, ExistingOutput existing,
+                    const std::vector<std::string>& markers) {
   try {
     if (fs::exists(folder) && !fs::is_directory(folder))
       throw InputError(folder.string() + ": is a file, a folder is needed for the results");
     if (fs::exists(folder) && !fs::is_empty(folder)) {
       if (existing == ExistingOutput::refuse)
-        throw InputError(folder.string() + ": exists already; give --resume or --overwrite, or name another folder");
+        throw InputError(folder.string() +
+                         ": exists already; give --resume or --overwrite, or name another folder");
       if (existing == ExistingOutput::overwrite) remove_content(folder, markers);
     }
     fs::create_directories(folder);

@@ -40,8 +40,19 @@ Scalar scalar_of(const ComparedSide& side, const ProfileScalars& read_off, const
   return result;
 }
 
-constexpr std::array scalar_names{"theta_deg", "Q", "H", "lambda", "shear_rate", "I_th", "nu_bulk", "mu_a", "mu_b",
-                                  "k_flowing", "spin_over_half_vorticity", "dv_over_shear", "domega_over_shear"};
+constexpr std::array scalar_names{"theta_deg",
+                                  "Q",
+                                  "H",
+                                  "lambda",
+                                  "shear_rate",
+                                  "I_th",
+                                  "nu_bulk",
+                                  "mu_a",
+                                  "mu_b",
+                                  "k_flowing",
+                                  "spin_over_half_vorticity",
+                                  "dv_over_shear",
+                                  "domega_over_shear"};
 
 std::vector<ScalarPair> scalar_pairs(const ComparedSide& particles, const ComparedSide& continuum) {
   const ProfileScalars particle_reading = profile_scalars(particles.profiles);
@@ -59,7 +70,8 @@ std::vector<ScalarPair> scalar_pairs(const ComparedSide& particles, const Compar
   const auto share = [&](double ScalarPair::*side) {
     return linear_layer_share(value("shear_rate", side), value("H", side), value("Q", side));
   };
-  pairs.push_back({"linear_layer_share", share(&ScalarPair::particles), std::nullopt, share(&ScalarPair::continuum)});
+  pairs.push_back(
+      {"linear_layer_share", share(&ScalarPair::particles), std::nullopt, share(&ScalarPair::continuum)});
   return pairs;
 }
 
@@ -72,17 +84,21 @@ void require_same_drum(const ProfileSet& particles, const ProfileSet& continuum)
       const std::string text = header_text(side, key);
       return text.empty() ? std::string("nothing") : text;
     };
-    problems.push_back({"", 0, 0, key, shown(particles) + " in the particles, " + shown(continuum) + " in the continuum",
+    problems.push_back({"", 0, 0, key,
+                        shown(particles) + " in the particles, " + shown(continuum) + " in the continuum",
                         allowed});
   };
-  // Written by two programs from one scene: equal up to rounding, and up to the discs drawn against their mean.
+  // Written by two programs from one scene: equal up to rounding, and up to the discs drawn against their
+  // mean.
   constexpr double tolerance = 1e-3;
   for (const auto* key : {"rotation", "drum_radius", "diameter_m"}) {
     const double ours = header_number(particles, key);
     const double theirs = header_number(continuum, key);
-    if (!(std::abs(ours - theirs) <= tolerance * std::abs(ours))) differ(key, "the same drum, speed and units on both sides");
+    if (!(std::abs(ours - theirs) <= tolerance * std::abs(ours)))
+      differ(key, "the same drum, speed and units on both sides");
   }
-  if (header_text(particles, "reduced") != header_text(continuum, "reduced") || header_text(particles, "reduced").empty())
+  if (header_text(particles, "reduced") != header_text(continuum, "reduced") ||
+      header_text(particles, "reduced").empty())
     differ("reduced", "both reduced or both full");
   if (!problems.empty()) throw InputError(problems);
 }

@@ -30,14 +30,16 @@ std::string text_of(const Node* node) {
 Document paper_file(const std::filesystem::path& file) {
   Document document = read_toml(file);
   if (text_of(document.root.find("format")) != "drumlin-paper-1")
-    throw InputError({InputProblem{file.string(), 1, 0, "format", "is missing or not known here", "\"drumlin-paper-1\""}});
+    throw InputError(
+        {InputProblem{file.string(), 1, 0, "format", "is missing or not known here", "\"drumlin-paper-1\""}});
   return document;
 }
 
 Node::Array entries_of(const Document& document, const std::string& key) {
   const Node* node = document.root.find(key);
   const auto* array = node == nullptr ? nullptr : std::get_if<Node::Array>(&node->value);
-  if (array == nullptr) throw InputError({InputProblem{document.file, 1, 0, key, "is missing", "an array of tables"}});
+  if (array == nullptr)
+    throw InputError({InputProblem{document.file, 1, 0, key, "is missing", "an array of tables"}});
   return *array;
 }
 
@@ -58,11 +60,19 @@ struct Accepted {
   double difference;
 };
 constexpr Accepted accepted_differences[] = {
-    {"theta_deg", false, 1.0},      {"Q", true, 0.05},           {"H", true, 0.10},
-    {"lambda", true, 0.15},         {"shear_rate", true, 0.15},  {"I_th", true, 0.20},
-    {"nu_bulk", false, 0.02},       {"mu_a", true, 0.05},        {"mu_b", true, 0.20},
-    {"k_flowing", false, 0.1},      {"spin_over_half_vorticity", false, 0.05},
-    {"dv_over_shear", true, 0.10},  {"domega_over_shear", true, 0.10},
+    {"theta_deg", false, 1.0},
+    {"Q", true, 0.05},
+    {"H", true, 0.10},
+    {"lambda", true, 0.15},
+    {"shear_rate", true, 0.15},
+    {"I_th", true, 0.20},
+    {"nu_bulk", false, 0.02},
+    {"mu_a", true, 0.05},
+    {"mu_b", true, 0.20},
+    {"k_flowing", false, 0.1},
+    {"spin_over_half_vorticity", false, 0.05},
+    {"dv_over_shear", true, 0.10},
+    {"domega_over_shear", true, 0.10},
 };
 
 double accepted_difference(const PaperNumber& number) {
@@ -89,7 +99,8 @@ std::optional<double> paper_speed_rpm(const ProfileSet& profiles, const std::fil
   const double d = header_number(profiles, "diameter_m");
   if (!close(2e3 * header_number(profiles, "drum_radius") * d, paper_diameter_mm)) return std::nullopt;
   constexpr double gravity_m_s2 = 9.81;
-  const double rpm = header_number(profiles, "rotation") / std::sqrt(d / gravity_m_s2) * 30 / std::numbers::pi;
+  const double rpm =
+      header_number(profiles, "rotation") / std::sqrt(d / gravity_m_s2) * 30 / std::numbers::pi;
   for (const auto& entry : entries_of(paper_file(folder / "rotations.toml"), "rotation")) {
     const double speed = number_of(entry.find("rotation_rpm"));
     if (close(rpm, speed)) return speed;
@@ -103,7 +114,8 @@ std::vector<PaperNumber> paper_numbers(const std::filesystem::path& folder, doub
   for (const auto& entry : entries_of(table, "rotation")) {
     if (number_of(entry.find("rotation_rpm")) != rotation_rpm) continue;
     for (const auto* name : {"theta_deg", "Q", "H"})
-      numbers.push_back({name, number_of(entry.find(name)), std::nullopt, text_of(table.root.find("source")), ""});
+      numbers.push_back(
+          {name, number_of(entry.find(name)), std::nullopt, text_of(table.root.find("source")), ""});
   }
   std::vector<PaperNumber> general;
   for (const auto& entry : entries_of(paper_file(folder / "observables.toml"), "observable")) {
@@ -118,11 +130,13 @@ std::vector<PaperNumber> paper_numbers(const std::filesystem::path& folder, doub
   return numbers;
 }
 
-std::vector<PaperRow> paper_table(const std::vector<PaperNumber>& numbers, const std::vector<ScalarPair>& scalars) {
+std::vector<PaperRow> paper_table(const std::vector<PaperNumber>& numbers,
+                                  const std::vector<ScalarPair>& scalars) {
   std::vector<PaperRow> rows;
   for (const auto& number : numbers) {
-    const auto ours = std::find_if(scalars.begin(), scalars.end(),
-                                   [&](const ScalarPair& candidate) { return candidate.name == number.name; });
+    const auto ours = std::find_if(scalars.begin(), scalars.end(), [&](const ScalarPair& candidate) {
+      return candidate.name == number.name;
+    });
     if (ours == scalars.end() || (std::isnan(ours->particles) && std::isnan(ours->continuum))) continue;
     PaperRow row{number, *ours, accepted_difference(number)};
     row.particles = outcome_of(ours->particles, row);

@@ -18,11 +18,13 @@ struct PaperNumber {
   std::string remark;
 };
 
-/// The paper's speed (rpm) whose drum a profile's header describes: drum of 450 mm, full size, one of six speeds, each
-/// to 1 %; in gravity of 9.81 m/s2. Nothing for another drum. `folder` is data/paper; throws InputError on its files.
+/// The paper's speed (rpm) whose drum a profile's header describes: drum of 450 mm, full size, one of six
+/// speeds, each to 1 %; in gravity of 9.81 m/s2. Nothing for another drum. `folder` is data/paper; throws
+/// InputError on its files.
 std::optional<double> paper_speed_rpm(const ProfileSet& profiles, const std::filesystem::path& folder);
 
-/// Table I at this speed, then the observables; one that is stated for this very speed stands before one for all.
+/// Table I at this speed, then the observables; one that is stated for this very speed stands before one for
+/// all.
 std::vector<PaperNumber> paper_numbers(const std::filesystem::path& folder, double rotation_rpm);
 
 struct PaperRow {
@@ -33,8 +35,10 @@ struct PaperRow {
   Target::Outcome continuum = Target::Outcome::not_measured;
 };
 
-/// One row per number of the paper that one of the sides has. The accepted difference is the project's own choice, written
-/// down in docs/formats/comparison.md before the first run; the paper states none but for lambda.
-std::vector<PaperRow> paper_table(const std::vector<PaperNumber>& numbers, const std::vector<ScalarPair>& scalars);
+/// One row per number of the paper that one of the sides has. The accepted difference is the project's own
+/// choice, written down in docs/formats/comparison.md before the first run; the paper states none but for
+/// lambda.
+std::vector<PaperRow> paper_table(const std::vector<PaperNumber>& numbers,
+                                  const std::vector<ScalarPair>& scalars);
 
 }  // namespace drumlin

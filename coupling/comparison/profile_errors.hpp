@@ -14,9 +14,9 @@ struct Zone {
   double to = 0;
 };
 
-/// flowing: -H .. -surface_margin; static: wall + wall_margin .. -H; all: both. H, the surface and the wall are the
-/// particles': both sides are judged at the same places. The margins leave out the layers in which the packing
-/// ends, where no continuum with one volume fraction can follow it.
+/// flowing: -H .. -surface_margin; static: wall + wall_margin .. -H; all: both. H, the surface and the wall
+/// are the particles': both sides are judged at the same places. The margins leave out the layers in which
+/// the packing ends, where no continuum with one volume fraction can follow it.
 struct ZoneOptions {
   double surface_margin = 3;  ///< d
   double wall_margin = 3;     ///< d above the lowest layer of the particles
@@ -36,15 +36,17 @@ struct FieldOverlay {
 /// The fields that are compared: v_x, sigma_zz, sigma_xz, sigma_xx, log10_shear_rate.
 const std::vector<std::string>& compared_fields();
 
-/// The continuum is interpolated linearly to the particles' layers and never extrapolated. Of log10_shear_rate the
-/// particles have a value where their shear rate exceeds its own 99 % interval: deeper down its sign is not known. Its
-/// ci99 is that of the shear rate divided by the shear rate and ln 10. Throws InputError if a side lacks the column.
+/// The continuum is interpolated linearly to the particles' layers and never extrapolated. Of
+/// log10_shear_rate the particles have a value where their shear rate exceeds its own 99 % interval: deeper
+/// down its sign is not known. Its ci99 is that of the shear rate divided by the shear rate and ln 10. Throws
+/// InputError if a side lacks the column.
 FieldOverlay overlay(const std::string& field, const ProfileSet& particles, const ProfileSet& continuum);
 
 /// Errors of a field over a zone; NaN where no layer of the zone has values on both sides.
 /// With p, c the values of the particles and of the continuum in the layers of the zone:
 struct FieldErrors {
-  double rel_l2 = 0;       ///< sqrt(sum (c - p)^2 / sum p^2): relative to the zone's own norm, never to the global maximum
+  double rel_l2 =
+      0;  ///< sqrt(sum (c - p)^2 / sum p^2): relative to the zone's own norm, never to the global maximum
   double rms = 0;          ///< sqrt(mean (c - p)^2), in the unit of the field (decades for log10_shear_rate)
   double max = 0;          ///< max |c - p|, in the unit of the field
   double inside_band = 0;  ///< share of the layers with |c - p| <= ci99; NaN when no layer has an interval

@@ -48,8 +48,9 @@ Outcome outcome_of(double value, double limit) {
 
 Target judged(const FieldTarget& asked, const std::vector<FieldComparison>& fields) {
   Target target{asked.field, asked.zone, asked.words, asked.limit, nan, Outcome::not_measured, ""};
-  const auto field = std::find_if(fields.begin(), fields.end(),
-                                  [&](const FieldComparison& candidate) { return candidate.overlay.field == asked.field; });
+  const auto field = std::find_if(fields.begin(), fields.end(), [&](const FieldComparison& candidate) {
+    return candidate.overlay.field == asked.field;
+  });
   if (field == fields.end()) return target;
   for (const auto& [zone, errors] : field->zones) {
     if (zone.name != asked.zone) continue;
@@ -57,8 +58,8 @@ Target judged(const FieldTarget& asked, const std::vector<FieldComparison>& fiel
     target.outcome = outcome_of(target.value, target.limit);
     if (errors.undefined > 0) {
       target.outcome = Outcome::missed;
-      target.remark = std::to_string(errors.undefined) + " of " + std::to_string(errors.undefined + errors.layers) +
-                      " layers undefined in the continuum";
+      target.remark = std::to_string(errors.undefined) + " of " +
+                      std::to_string(errors.undefined + errors.layers) + " layers undefined in the continuum";
     } else if (errors.layers == 0) {
       target.remark = "no layer in this zone";
     }
@@ -81,7 +82,8 @@ Target judged(const ScalarTarget& asked, const std::vector<ScalarPair>& scalars)
 
 }  // namespace
 
-std::vector<Target> judged_targets(const std::vector<FieldComparison>& fields, const std::vector<ScalarPair>& scalars) {
+std::vector<Target> judged_targets(const std::vector<FieldComparison>& fields,
+                                   const std::vector<ScalarPair>& scalars) {
   std::vector<Target> targets;
   for (const auto& asked : field_targets) targets.push_back(judged(asked, fields));
   for (const auto& asked : scalar_targets) targets.push_back(judged(asked, scalars));

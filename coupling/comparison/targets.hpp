@@ -6,8 +6,9 @@
 
 namespace drumlin {
 
-/// Judges each target; one whose numbers are missing on a side, or whose zone holds layers that the continuum leaves
-/// undefined, is never met.
-std::vector<Target> judged_targets(const std::vector<FieldComparison>& fields, const std::vector<ScalarPair>& scalars);
+/// Judges each target; one whose numbers are missing on a side, or whose zone holds layers that the continuum
+/// leaves undefined, is never met.
+std::vector<Target> judged_targets(const std::vector<FieldComparison>& fields,
+                                   const std::vector<ScalarPair>& scalars);
 
 }  // namespace drumlin

@@ -52,10 +52,12 @@ void check_writable(const std::filesystem::path& file, const ProfileSet& profile
       refuse("z", fmt::format("entry {} is {}", i, profiles.z[i]), "finite and ascending");
   std::set<std::string> names{"z"};
   for (const auto& column : profiles.columns) {
-    if (column.name.empty() || names_interval(column.name) || column.name.find_first_of(", \t\n#") != std::string::npos)
+    if (column.name.empty() || names_interval(column.name) ||
+        column.name.find_first_of(", \t\n#") != std::string::npos)
       refuse(column.name, "cannot name a column", "a word that does not end in _ci99");
     if (!names.insert(column.name).second) refuse(column.name, "stands twice", "once");
-    if (column.value.size() != profiles.z.size() || (!column.ci99.empty() && column.ci99.size() != profiles.z.size()))
+    if (column.value.size() != profiles.z.size() ||
+        (!column.ci99.empty() && column.ci99.size() != profiles.z.size()))
       refuse(column.name, "has another length than z", fmt::format("{} entries", profiles.z.size()));
   }
   for (const auto& [key, value] : profiles.header)
@@ -102,7 +104,8 @@ class ProfileReader {
     const auto body = trimmed(trimmed(line_).substr(1));
     const auto equals = body.find('=');
     if (equals == std::string_view::npos) refuse(body, "is no header line", "# key = value");
-    profiles_.header[std::string(trimmed(body.substr(0, equals)))] = std::string(trimmed(body.substr(equals + 1)));
+    profiles_.header[std::string(trimmed(body.substr(0, equals)))] =
+        std::string(trimmed(body.substr(equals + 1)));
   }
 
   void read_names() {
@@ -116,7 +119,8 @@ class ProfileReader {
         is_interval_.push_back(false);
       } else {
         const auto owner = names[i].substr(0, names[i].size() - interval_suffix.size());
-        if (i == 1 || owner != names[i - 1]) refuse(names[i], "does not follow its column", std::string(owner));
+        if (i == 1 || owner != names[i - 1])
+          refuse(names[i], "does not follow its column", std::string(owner));
         is_interval_.push_back(true);
       }
     }
@@ -127,7 +131,8 @@ class ProfileReader {
     double value = 0;
     const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
     if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(value))
-      refuse(key, fmt::format("\"{}\" is no number", field), "a finite number, or nothing where it was not computed");
+      refuse(key, fmt::format("\"{}\" is no number", field),
+             "a finite number, or nothing where it was not computed");
     return value;
   }
 

@@ -27,7 +27,8 @@ std::string file_text(const std::filesystem::path& file) {
 
 namespace {
 
-[[noreturn]] void give_up(const std::filesystem::path& aside, const std::filesystem::path& file, int descriptor) {
+[[noreturn]] void give_up(const std::filesystem::path& aside, const std::filesystem::path& file,
+                          int descriptor) {
   const std::string reason = std::strerror(errno);
   if (descriptor >= 0) ::close(descriptor);
   ::unlink(aside.c_str());

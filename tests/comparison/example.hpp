@@ -15,13 +15,15 @@ inline double example_shear_rate(double z) {
 /// Layers of 1 d from z = -60 to the surface, each column with an interval of 1 % of its value.
 inline ProfileSet example_profiles() {
   ProfileSet set;
-  set.header = {{"rotation", "0.0115"}, {"drum_radius", "68.18"}, {"diameter_m", "0.0033"}, {"reduced", "false"}};
-  set.columns = {{"v_x", {}, {}},      {"shear_rate", {}, {}}, {"nu", {}, {}},      {"sigma_xx", {}, {}},
+  set.header = {
+      {"rotation", "0.0115"}, {"drum_radius", "68.18"}, {"diameter_m", "0.0033"}, {"reduced", "false"}};
+  set.columns = {{"v_x", {}, {}},      {"shear_rate", {}, {}}, {"nu", {}, {}}, {"sigma_xx", {}, {}},
                  {"sigma_zz", {}, {}}, {"sigma_xz", {}, {}},   {"I", {}, {}}};
   for (double z = -59.5; z < 0; z += 1) {
     const double rate = example_shear_rate(z);
     const double v = z > -example_H ? example_rate * (z + example_H + example_lambda) : rate * example_lambda;
-    const double values[] = {v, rate, example_nu, -0.78 * z, -0.75 * z, -0.27 * z, rate / std::sqrt(-0.75 * z)};
+    const double values[] = {
+        v, rate, example_nu, -0.78 * z, -0.75 * z, -0.27 * z, rate / std::sqrt(-0.75 * z)};
     set.z.push_back(z);
     for (std::size_t i = 0; i < set.columns.size(); ++i) {
       set.columns[i].value.push_back(values[i]);
@@ -32,7 +34,8 @@ inline ProfileSet example_profiles() {
 }
 
 inline ComparedSide example_side() {
-  return {example_profiles(), {{{"theta_deg", 19.7, 0.3}, {"Q", 21.8, 0.2}, {"H", example_H, 0.4}, {"lambda", 3.5, 0.3}}}};
+  return {example_profiles(),
+          {{{"theta_deg", 19.7, 0.3}, {"Q", 21.8, 0.2}, {"H", example_H, 0.4}, {"lambda", 3.5, 0.3}}}};
 }
 
 inline ProfileColumn& column_of(ProfileSet& set, const std::string& name) {

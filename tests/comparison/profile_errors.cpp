@@ -97,7 +97,8 @@ TEST(ProfileErrors, BandCountsTheLayersInsideTheInterval) {
   auto continuum = example_profiles();
   auto& v = column_of(continuum, "v_x").value;
   for (std::size_t i = 0; i < v.size(); ++i) v[i] *= i % 2 == 0 ? 1.009 : 1.011;  // the interval is 1 %
-  EXPECT_DOUBLE_EQ(errors_in(overlay("v_x", example_profiles(), continuum), zone("flowing")).inside_band, 0.5);
+  EXPECT_DOUBLE_EQ(errors_in(overlay("v_x", example_profiles(), continuum), zone("flowing")).inside_band,
+                   0.5);
   auto without = example_profiles();
   column_of(without, "v_x").ci99.clear();
   EXPECT_TRUE(std::isnan(errors_in(overlay("v_x", without, continuum), zone("flowing")).inside_band));
@@ -139,7 +140,8 @@ TEST(ProfileErrors, ShearRateBelowItsOwnIntervalIsNoShearRate) {
 TEST(ProfileErrors, ContinuumThatShearsBackwardsIsUndefinedNotSkipped) {
   auto continuum = example_profiles();
   column_of(continuum, "shear_rate").value[30] *= -1;
-  EXPECT_EQ(errors_in(overlay("log10_shear_rate", example_profiles(), continuum), zone("static")).undefined, 1);
+  EXPECT_EQ(errors_in(overlay("log10_shear_rate", example_profiles(), continuum), zone("static")).undefined,
+            1);
 }
 
 TEST(ProfileErrors, MissingColumnIsRefused) {

@@ -57,7 +57,8 @@ TEST(Comparison, ScalarTargetsTurnAtTheirLimits) {
 }
 
 TEST(Comparison, FieldTargetsTurnAtTheirLimits) {
-  const auto outcome = [](const std::string& quantity, const std::string& zone, const std::string& column, double factor) {
+  const auto outcome = [](const std::string& quantity, const std::string& zone, const std::string& column,
+                          double factor) {
     auto continuum = example_side();
     for (auto& value : column_of(continuum.profiles, column).value) value *= factor;
     return target(compare(example_side(), continuum), quantity, zone).outcome;
@@ -105,7 +106,8 @@ TEST(Comparison, PaperNumbersDoNotFitOneLinearLayer) {
 
 TEST(SameDrum, MixedDrumsSpeedsUnitsAndSizesAreAllNamedAtOnce) {
   auto other = example_side();
-  other.profiles.header = {{"rotation", "0.0192"}, {"drum_radius", "30"}, {"diameter_m", "0.001"}, {"reduced", "true"}};
+  other.profiles.header = {
+      {"rotation", "0.0192"}, {"drum_radius", "30"}, {"diameter_m", "0.001"}, {"reduced", "true"}};
   try {
     compare(example_side(), other);
     FAIL() << "mixed drums were compared";

@@ -1,7 +1,6 @@
-#include "apps/support/figures.hpp"
-
 #include <gtest/gtest.h>
 
+#include "apps/support/figures.hpp"
 #include "coupling/exchange/errors.hpp"
 #include "tests/exchange_files/folder.hpp"
 

@@ -1,10 +1,9 @@
-#include "apps/support/json_file.hpp"
-
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "apps/support/json_file.hpp"
 #include "coupling/exchange/errors.hpp"
 #include "tests/exchange_files/folder.hpp"
 
@@ -37,9 +36,12 @@ TEST(JsonFile, WhatWasNotComputedIsNull) {
 
 TEST(JsonFile, AnotherFormatIsRefused) {
   const TemporaryFolder folder;
-  EXPECT_THROW(read_json(folder.with("a.json", R"({"format": "drumlin-run-2"})"), "drumlin-run-1"), InputError);
+  EXPECT_THROW(read_json(folder.with("a.json", R"({"format": "drumlin-run-2"})"), "drumlin-run-1"),
+               InputError);
   EXPECT_THROW(read_json(folder.with("b.json", "{"), "drumlin-run-1"), InputError);
-  EXPECT_EQ(read_json(folder.with("c.json", R"({"format": "drumlin-run-1", "steps": 3})"), "drumlin-run-1")["steps"], 3);
+  EXPECT_EQ(read_json(folder.with("c.json", R"({"format": "drumlin-run-1", "steps": 3})"),
+                      "drumlin-run-1")["steps"],
+            3);
 }
 
 }  // namespace

@@ -38,7 +38,8 @@ TEST(OutputFolder, ResumeKeepsEverything) {
 TEST(OutputFolder, OverwriteEmptiesOnlyAFolderOfOurs) {
   const TemporaryFolder folder;
   folder.with("thesis.tex", "years of work");
-  EXPECT_THROW(prepare_output(folder.path(), ExistingOutput::overwrite, {"run.json", "scene.toml"}), InputError);
+  EXPECT_THROW(prepare_output(folder.path(), ExistingOutput::overwrite, {"run.json", "scene.toml"}),
+               InputError);
   EXPECT_TRUE(std::filesystem::exists(folder / "thesis.tex"));
   folder.with("scene.toml", "");
   prepare_output(folder.path(), ExistingOutput::overwrite, {"run.json", "scene.toml"});

@@ -38,7 +38,8 @@ TEST(ScalarFile, RefusesAnotherFormatAndWhatIsNoJson) {
   EXPECT_NE(refused("[1, 2]").find("object"), std::string::npos);
   EXPECT_NE(refused("{").find("m.json"), std::string::npos);
   EXPECT_NE(refused("").find("m.json"), std::string::npos);
-  EXPECT_NE(refused(R"({"format": "drumlin-measured-1", "Q": {"value": "21.8"}})").find("Q.value"), std::string::npos);
+  EXPECT_NE(refused(R"({"format": "drumlin-measured-1", "Q": {"value": "21.8"}})").find("Q.value"),
+            std::string::npos);
   EXPECT_NE(refused(R"({"format": "drumlin-measured-1", "Q": {"value": 1, "ci99": "x"}})").find("Q.ci99"),
             std::string::npos);
   EXPECT_THROW(read_scalars(folder / "none.json", "drumlin-measured-1"), InputError);
