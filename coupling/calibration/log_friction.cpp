@@ -1,0 +1,167 @@
+#include "coupling/calibration/log_friction.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "coupling/exchange/errors.hpp"
+
+namespace drumlin {
+namespace {
+
+constexpr double quantile_99 =
+    2.576;  // of the normal distribution: half width of a 99 % interval per standard error
+
+constexpr double least_variance = 1e-100;  // of points exactly on a line: their weights must stay finite
+
+double known(double error) { return std::isfinite(error) ? error : 0; }
+
+struct Line {
+  double a = 0, b = 0;
+  double var_a = 0, cov_ab = 0, var_b = 0;
+};
+
+/// Weighted straight line through (ln I, mu); `variance` of each point's mu.
+Line weighted_line(const std::vector<FrictionPoint>& points, const std::vector<double>& variance) {
+  double w_sum = 0, x_mean = 0, y_mean = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double w = 1 / variance[i];
+    w_sum += w;
+    x_mean += w * std::log(points[i].I);
+    y_mean += w * points[i].mu;
+  }
+  x_mean /= w_sum;
+  y_mean /= w_sum;
+  double sxx = 0, sxy = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double x = std::log(points[i].I) - x_mean;
+    sxx += x * x / variance[i];
+    sxy += x * (points[i].mu - y_mean) / variance[i];
+  }
+  Line line;
+  line.b = sxy / sxx;
+  line.a = y_mean - line.b * x_mean;
+  line.var_b = 1 / sxx;
+  line.var_a = 1 / w_sum + x_mean * x_mean / sxx;
+  line.cov_ab = -x_mean / sxx;
+  return line;
+}
+
+double residual(const FrictionPoint& point, const Line& line) {
+  return point.mu - line.a - line.b * std::log(point.I);
+}
+
+double sum_of_squares(const std::vector<FrictionPoint>& points, const Line& line) {
+  double sum = 0;
+  for (const FrictionPoint& point : points) sum += std::pow(residual(point, line), 2);
+  return sum;
+}
+
+/// Variance of each point's mu about a line of slope b.
+std::vector<double> variances(const std::vector<FrictionPoint>& points, double b, double scatter_squared) {
+  std::vector<double> result;
+  for (const FrictionPoint& point : points)
+    result.push_back(std::pow(known(point.mu_error), 2) + std::pow(b * known(point.I_error) / point.I, 2) +
+                     scatter_squared);
+  return result;
+}
+
+/// Line for a given intrinsic scatter. The weights depend on the slope: a few rounds settle them, for errors
+/// of I count little where mu grows slowly.
+Line line_with_scatter(const std::vector<FrictionPoint>& points, double first_b, double scatter_squared) {
+  Line line;
+  line.b = first_b;
+  for (int round = 0; round < 20; ++round)
+    line = weighted_line(points, variances(points, line.b, scatter_squared));
+  return line;
+}
+
+double reduced_chi_squared(const std::vector<FrictionPoint>& points, const Line& line,
+                           double scatter_squared) {
+  const auto variance = variances(points, line.b, scatter_squared);
+  double sum = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) sum += std::pow(residual(points[i], line), 2) / variance[i];
+  return sum / static_cast<double>(points.size() - 2);
+}
+
+/// The s^2 at which the reduced chi^2 is one, by halving: it falls as s^2 grows.
+double scatter_squared(const std::vector<FrictionPoint>& points, double first_b, double upper_bound) {
+  double low = 0, high = upper_bound;
+  for (int halving = 0; halving < 60; ++halving) {
+    const double middle = (low + high) / 2;
+    const Line line = line_with_scatter(points, first_b, middle);
+    (reduced_chi_squared(points, line, middle) > 1 ? low : high) = middle;
+  }
+  return high;
+}
+
+void check(const std::vector<FrictionPoint>& points) {
+  if (points.size() < 3)
+    throw InputError("mu(I) needs at least 3 layers within the range of I, there are " +
+                     std::to_string(points.size()));
+  const auto [low, high] = std::minmax_element(points.begin(), points.end(),
+                                               [](const auto& p, const auto& q) { return p.I < q.I; });
+  if (!(low->I > 0) || !(low->I < high->I)) throw InputError("mu(I) needs layers of different positive I");
+}
+
+}  // namespace
+
+std::vector<FrictionPoint> friction_points(const ProfileSet& profiles, const LayerSelection& selection) {
+  const ProfileColumn& inertial = profiles.column("I");
+  const ProfileColumn& friction = profiles.column("mu");
+  const auto wall = profiles.header.find("wall_z");
+  const double wall_z = wall != profiles.header.end() ? std::stod(wall->second)
+                        : profiles.z.empty()          ? 0
+                                                      : profiles.z.front();
+  const auto error = [](const ProfileColumn& column, std::size_t l) {
+    return column.ci99.empty() ? std::numeric_limits<double>::quiet_NaN() : column.ci99[l] / quantile_99;
+  };
+  std::vector<FrictionPoint> points;
+  for (std::size_t l = 0; l < profiles.z.size(); ++l) {
+    const double I = inertial.value[l];
+    const bool deep_enough = profiles.z[l] <= -selection.surface_margin;
+    const bool off_the_wall = profiles.z[l] >= wall_z + selection.wall_margin;
+    if (!deep_enough || !off_the_wall || !(I >= selection.I_min && I <= selection.I_max)) continue;
+    if (!std::isfinite(friction.value[l])) continue;
+    points.push_back({I, friction.value[l], error(inertial, l), error(friction, l)});
+  }
+  return points;
+}
+
+FrictionFit fit_log_friction(const std::vector<FrictionPoint>& points) {
+  check(points);
+  const auto freedom = static_cast<double>(points.size() - 2);
+  const Line plain = weighted_line(points, std::vector<double>(points.size(), 1.0));
+  const double squares = sum_of_squares(points, plain);
+  const auto errors = variances(points, plain.b, 0);
+  const bool all_known = *std::min_element(errors.begin(), errors.end()) > 0;
+
+  FrictionFit fit;
+  fit.points = points.size();
+  fit.birge_ratio = std::numeric_limits<double>::quiet_NaN();
+  Line line;
+  if (all_known) {
+    line = line_with_scatter(points, plain.b, 0);
+    fit.birge_ratio = std::sqrt(reduced_chi_squared(points, line, 0));
+  }
+  if (!(fit.birge_ratio <= 1)) {
+    // squares/freedom is the scatter of points without errors; with any errors s is below, 4 covers the
+    // weights.
+    const double s2 = std::max(scatter_squared(points, plain.b, 4 * squares / freedom), least_variance);
+    fit.intrinsic_scatter = std::sqrt(s2);
+    line = line_with_scatter(points, plain.b, s2);
+  }
+  fit.law.a = line.a;
+  fit.law.b = line.b;
+  fit.law.covariance = {line.var_a, line.cov_ab, line.var_b};
+  fit.rms_misfit = std::sqrt(sum_of_squares(points, line) / static_cast<double>(points.size()));
+  fit.law.I_min = fit.law.I_max = points.front().I;
+  for (const FrictionPoint& point : points) {
+    fit.law.I_min = std::min(fit.law.I_min, point.I);
+    fit.law.I_max = std::max(fit.law.I_max, point.I);
+  }
+  return fit;
+}
+
+}  // namespace drumlin
