@@ -8,8 +8,8 @@ namespace drumlin {
 /// Content of a file. Throws InputError if it is missing or a folder, IoError if it cannot be read.
 std::string file_text(const std::filesystem::path& file);
 
-/// Writes `text` aside, forces it to the disk and renames it to `file`: a kill leaves the old file or the new one.
-/// Throws IoError, the old file then being intact.
+/// Writes `text` aside, forces it to the disk and renames it to `file`: a kill leaves the old file or the new
+/// one. Throws IoError, the old file then being intact.
 void replace_file(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace drumlin
