@@ -1,6 +1,6 @@
 #pragma once
 // W as sparse rows of small blocks: the form in which contact problems travel in files.
-#include <Eigen/Core>
+#include <Eigen/Dense>
 #include <cmath>
 #include <span>
 #include <vector>

@@ -91,12 +91,31 @@ void ContactDetection::keep_if_near(std::int32_t i, std::int32_t j, const Bodies
   const double dx = input.period.nearest(bodies.x[i] - bodies.x[j]), dz = bodies.z[i] - bodies.z[j];
   const double touching = bodies.radius[i] + bodies.radius[j];
   const double dv_x = v.x[i] - v.x[j], dv_z = v.z[i] - v.z[j];
-  const double reach = touching + input.margin + 2 * input.time_step * length(dv_x, dv_z);
+  const double reach = touching + range_;
   if (dx * dx + dz * dz > reach * reach) return;
   Candidate pair{i, j, 0, 0, 0, 0, 0};
   pair.gap = normal_of(dx, dz, pair.n_x, pair.n_z) - touching;
-  const double approach = -(pair.n_x * dv_x + pair.n_z * dv_z);
-  if (pair.gap < input.margin + 2 * input.time_step * std::max(0.0, approach)) candidates_.push_back(pair);
+  note(pair, -(pair.n_x * dv_x + pair.n_z * dv_z), input);
+}
+
+void ContactDetection::note(const Candidate& pair, double approach, const DetectionInput& input) {
+  const double reach = 2 * input.time_step * std::max(0.0, approach);
+  if (pair.gap < input.margin + reach) {
+    jolt_[pair.i] = std::max(jolt_[pair.i], reach);
+    if (pair.j >= 0) jolt_[pair.j] = std::max(jolt_[pair.j], reach);
+  }
+  candidates_.push_back(pair);
+  reach_.push_back(reach);
+}
+
+void ContactDetection::drop_far_pairs(const DetectionInput& input) {
+  std::size_t kept = 0;
+  for (std::size_t p = 0; p < candidates_.size(); ++p) {
+    const Candidate& pair = candidates_[p];
+    const double jolt = jolt_[pair.i] + (pair.j >= 0 ? jolt_[pair.j] : 0);
+    if (pair.gap < input.margin + reach_[p] + jolt / 2) candidates_[kept++] = pair;
+  }
+  candidates_.resize(kept);
 }
 
 void ContactDetection::keep_if_near_wall(std::int32_t b, std::int32_t shape, double farthest, const Bodies& bodies,
@@ -109,13 +128,14 @@ void ContactDetection::keep_if_near_wall(std::int32_t b, std::int32_t shape, dou
   const Point then = moved(input.shape_steps[shape], point);
   pair.wall_v_x = (then.x - point.x) / input.time_step;
   pair.wall_v_z = (then.z - point.z) / input.time_step;
-  const double approach = -(pair.n_x * (v.x[b] - pair.wall_v_x) + pair.n_z * (v.z[b] - pair.wall_v_z));
-  if (pair.gap < input.margin + 2 * input.time_step * std::max(0.0, approach)) candidates_.push_back(pair);
+  note(pair, -(pair.n_x * (v.x[b] - pair.wall_v_x) + pair.n_z * (v.z[b] - pair.wall_v_z)), input);
 }
 
 const std::vector<Candidate>& ContactDetection::find(const Bodies& bodies, std::span<const double> v_x,
                                                      std::span<const double> v_z, const DetectionInput& input) {
   candidates_.clear();
+  reach_.clear();
+  jolt_.assign(bodies.count(), 0.0);
   const auto count = static_cast<std::int32_t>(bodies.count());
   if (count == 0) return candidates_;
   const Velocities v{v_x, v_z};
@@ -129,18 +149,19 @@ const std::vector<Candidate>& ContactDetection::find(const Bodies& bodies, std::
   }
   // Two discs that move m each close at most 2 m within the step; the rule above keeps twice that.
   const double largest = 2 * *std::max_element(bodies.radius.begin(), bodies.radius.end());
-  const double range = largest + input.margin + 4 * slow;
-  grid_.sort(bodies, range, input.period);
+  range_ = input.margin + 4 * slow;
+  grid_.sort(bodies, largest + range_, input.period);
   const auto visit_neighbours = [&](std::int32_t i, double reach, auto visit) {
     const double x = input.period.first(bodies.x[i]), z = bodies.z[i];
     grid_.near(x - reach, x + reach, z - reach, z + reach, visit);
   };
   for (std::int32_t i = 0; i < count; ++i)
-    visit_neighbours(i, range, [&](std::int32_t j) {
+    visit_neighbours(i, largest + range_, [&](std::int32_t j) {
       if (j > i) keep_if_near(i, j, bodies, v, input);
     });
+  range_ = input.margin + 4 * fastest;
   for (const std::int32_t f : fast_)
-    visit_neighbours(f, largest + input.margin + 4 * fastest, [&](std::int32_t b) {
+    visit_neighbours(f, largest + range_, [&](std::int32_t b) {
       if (b != f) keep_if_near(std::min(b, f), std::max(b, f), bodies, v, input);
     });
   for (std::size_t s = 0; s < input.shapes.size(); ++s) {
@@ -153,6 +174,7 @@ const std::vector<Candidate>& ContactDetection::find(const Bodies& bodies, std::
     else
       for (std::int32_t b = 0; b < count; ++b) near_shape(b);
   }
+  drop_far_pairs(input);
   std::sort(candidates_.begin(), candidates_.end(),
             [](const Candidate& a, const Candidate& b) { return a.i != b.i ? a.i < b.i : a.j < b.j; });
   if (!fast_.empty())

@@ -27,8 +27,10 @@ struct DetectionInput {
   Period period;
 };
 
-/// All pairs with gap < margin + 2 h max(0, approach speed), v_x and v_z being the velocities that the bodies would have
-/// without contacts. Sorted by (i, j): the order depends on nothing but the state.
+/// All pairs with gap < margin + 2 h a + h (a_i + a_j), where a is the approach speed of the pair (0 if it parts) and a_i
+/// the largest approach speed of any pair of body i: an impact on i pushes it on to neighbours that it did not approach.
+/// v_x and v_z are the velocities that the bodies would have without contacts. Sorted by (i, j): the order depends on
+/// nothing but the state.
 class ContactDetection {
  public:
   const std::vector<Candidate>& find(const Bodies& bodies, std::span<const double> v_x, std::span<const double> v_z,
@@ -42,8 +44,15 @@ class ContactDetection {
   void keep_if_near_wall(std::int32_t b, std::int32_t shape, double farthest, const Bodies&, const Velocities&,
                          const DetectionInput&);
 
+  /// Keeps a pair for the moment, and what its approach does to its bodies.
+  void note(const Candidate& pair, double approach, const DetectionInput& input);
+  void drop_far_pairs(const DetectionInput& input);
+
   CellGrid grid_;
+  double range_ = 0;  // pairs with a larger gap are not looked at
   std::vector<Candidate> candidates_;
+  std::vector<double> reach_;  // 2 h a of each candidate
+  std::vector<double> jolt_;   // 2 h a_i of each body
   std::vector<std::int32_t> fast_;  // grains that move far within one step
 };
 

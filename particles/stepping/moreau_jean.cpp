@@ -194,7 +194,7 @@ class MoreauJean final : public Stepper {
       if (now.gap < laws_.detection_margin) close_.push_back(now);
     }
     if (overlap.loaded > 0) overlap.mean = sum / overlap.loaded;
-    if (solver_.projection_sweeps > 0) project_positions(bodies, close_, solver_.projection_sweeps, projection_scratch_);
+    if (solver_.projection_sweeps > 0) projection_.apply(bodies, close_, solver_.projection_sweeps);
     return overlap;
   }
 
@@ -210,7 +210,7 @@ class MoreauJean final : public Stepper {
   std::vector<double> impulses_;  // in solve order
   std::vector<double> warm_, approach_;  // in the order of pairs_
   std::vector<ClosePair> close_;
-  std::vector<double> projection_scratch_;
+  PositionProjection projection_;
 };
 
 }  // namespace

@@ -3,27 +3,41 @@
 #include <algorithm>
 
 namespace drumlin {
+namespace {
 
-void project_positions(Bodies& bodies, std::span<const ClosePair> pairs, int sweeps, std::vector<double>& scratch) {
-  const std::size_t count = bodies.count();
-  scratch.assign(2 * count + pairs.size(), 0.0);
-  double* d_x = scratch.data();
-  double* d_z = d_x + count;
-  double* lambda = d_z + count;
-  for (int sweep = 0; sweep < sweeps; ++sweep)
-    for (std::size_t a = 0; a < pairs.size(); ++a) {
-      const ClosePair& p = pairs[a];
-      const double m_i = bodies.inverse_mass[p.i], m_j = p.j >= 0 ? bodies.inverse_mass[p.j] : 0;
-      double gap = p.gap + p.n_x * d_x[p.i] + p.n_z * d_z[p.i];
-      if (p.j >= 0) gap -= p.n_x * d_x[p.j] + p.n_z * d_z[p.j];
-      const double fresh = std::max(0.0, lambda[a] - gap / (m_i + m_j));
-      const double change = fresh - lambda[a];
-      if (change == 0) continue;
-      lambda[a] = fresh;
-      d_x[p.i] += m_i * change * p.n_x, d_z[p.i] += m_i * change * p.n_z;
-      if (p.j >= 0) d_x[p.j] -= m_j * change * p.n_x, d_z[p.j] -= m_j * change * p.n_z;
-    }
-  for (std::size_t b = 0; b < count; ++b) bodies.x[b] += d_x[b], bodies.z[b] += d_z[b];
+// A projection that takes away the whole overlap at once opens neighbouring contacts; the load closes them at gap/h in
+// the next step, the packing heats, solves get worse and overlap grows: a settling drum of 7183 discs blew up so.
+constexpr double correction_share = 0.2;
+constexpr double largest_correction = 2e-3;  // d per step
+// Of the judge, relative to the corrections asked for. A few plain Gauss-Seidel sweeps leave the contacts that are solved
+// early overlapped, the same ones in every step: their overlap grew to 0.1 d within a second.
+constexpr double tolerance = 0.05;
+
+}  // namespace
+
+void PositionProjection::apply(Bodies& bodies, std::span<const ClosePair> pairs, int sweeps) {
+  auto& W = problem_.W;
+  W.clear();
+  W.inverse_mass.assign(bodies.inverse_mass.begin(), bodies.inverse_mass.end());
+  W.inverse_mass.push_back(0);
+  problem_.q.clear();
+  bool overlapped = false;
+  for (const ClosePair& pair : pairs) {
+    W.add(pair.i, pair.j < 0 ? static_cast<std::int32_t>(bodies.count()) : pair.j, pair.n_x, pair.n_z);
+    problem_.q.push_back(pair.gap >= 0 ? pair.gap : std::max(correction_share * pair.gap, -largest_correction));
+    overlapped = overlapped || pair.gap < 0;
+  }
+  if (!overlapped) return;
+  lambda_.assign(pairs.size(), 0.0);
+  StoppingRule rule;
+  rule.tolerance = tolerance;
+  rule.max_sweeps = sweeps;
+  // What is left is seen, and reported, as the overlap of the next step.
+  (void)solve_nncg(problem_, rule, scratch_, lambda_);
+  for (std::size_t b = 0; b < bodies.count(); ++b) {
+    bodies.x[b] += scratch_.judge.state[b].x;
+    bodies.z[b] += scratch_.judge.state[b].z;
+  }
 }
 
 }  // namespace drumlin

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "particles/bodies/bodies.hpp"
+#include "particles/contact/problems.hpp"
+#include "particles/solver/contact_solver.hpp"
 
 namespace drumlin {
 
@@ -14,8 +16,17 @@ struct ClosePair {
   double gap = 0, n_x = 0, n_z = 0;
 };
 
-/// Gauss-Seidel sweeps on 0 <= gap + n.(d_i - d_j), lambda >= 0 in the metric of the masses (the least displacement), in
-/// the order of `pairs`. `scratch` is overwritten.
-void project_positions(Bodies& bodies, std::span<const ClosePair> pairs, int sweeps, std::vector<double>& scratch);
+/// Solves 0 <= gap + n.(d_i - d_j), lambda >= 0 in the metric of the masses (the least displacement): a contact problem
+/// without friction, on positions. Overlaps ask for a share of themselves only.
+class PositionProjection {
+ public:
+  /// Moves `bodies` by at most `sweeps` sweeps; `pairs` in solve order.
+  void apply(Bodies& bodies, std::span<const ClosePair> pairs, int sweeps);
+
+ private:
+  FrictionlessProblem problem_;
+  SolverScratch<FrictionlessProblem> scratch_;
+  std::vector<double> lambda_;
+};
 
 }  // namespace drumlin
