@@ -212,6 +212,7 @@ Measurement measurement(const SnapshotSource& source, const MeasurementOptions& 
   Scalar theta{"theta_deg", ProfileScalars::none, ProfileScalars::none};
   Scalar theta_com{"theta_com_deg", ProfileScalars::none, ProfileScalars::none};
   const double radius = last.container_radius;
+  result.container_radius = radius;
   if (radius > 0) {
     const double mass_angle = mean_of(found.mass_angle);
     theta_com.value = mass_angle * degrees;

@@ -55,7 +55,8 @@ struct Measurement {
                                                              ///< without a drum), from the surface
   double slope_half_width = 0;                               ///< used, d
   double slice_width = 0;                                    ///< used, d
-  double rotation = 0;
+  double rotation = 0;          ///< of the drum, clockwise
+  double container_radius = 0;  ///< 0 without a drum
   bool in_mirror = false;
   Scales scales;
   std::size_t first_snapshot = 0;  ///< snapshots before it belong to another motion of the wall

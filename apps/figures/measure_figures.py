@@ -1,0 +1,235 @@
+"""Figures of `drumlin measure`: the profiles at the centre with 99 % bands, and what was fitted to them."""
+
+import argparse
+import json
+import math
+import pathlib
+
+import matplotlib.pyplot as plt
+
+import style
+
+FIT = style.CONTINUUM  # the colour of lines that are fitted or expected, not measured
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("folder", help="RUN/measured: holds profiles.csv and takes the figures")
+    parser.add_argument("--measured", help="the scalars; standard: measured.json in the folder")
+    return parser.parse_args()
+
+
+class Measured:
+    """Scalars and profiles of one run; what was not measured is NaN."""
+
+    def __init__(self, folder, scalars):
+        self.header, self.columns = style.read_profiles(folder / "profiles.csv")
+        with open(scalars, encoding="utf-8") as stream:
+            self.content = json.load(stream)
+        self.reduced = self.content["reduced"]
+        self.z = self.columns["z"]
+
+    def scalar(self, name):
+        entry = self.content.get(name)
+        value = entry.get("value") if isinstance(entry, dict) else entry
+        return math.nan if value is None else value
+
+    def fit(self, name):
+        value = self.content["fits"][name]
+        return math.nan if value is None else value
+
+    def half_width(self, name):
+        return self.columns.get(name + "_ci99")
+
+    def surface_layers(self):
+        """Range of z worth showing: from the wall to where grains are rare."""
+        dense = [z for z, nu in zip(self.z, self.columns["nu"]) if nu > 0.01]
+        return (min(dense) - 1, max(dense) + 1) if dense else (min(self.z, default=-1), max(self.z, default=1))
+
+
+def depth_panel(axes, run, name):
+    """Axes over depth with the marks of the paper: dashed at the surface, dotted at the interface."""
+    axes.axvline(0, color="0.4", linestyle="--", linewidth=1)
+    if math.isfinite(run.scalar("H")):
+        axes.axvline(-run.scalar("H"), color="0.4", linestyle=":", linewidth=1)
+    axes.set_xlabel(style.LABELS["z"])
+    axes.set_ylabel(style.LABELS.get(name, name))
+    axes.set_xlim(*run.surface_layers())
+
+
+def draw(axes, run, name, color=style.PARTICLES, label=None):
+    if name in run.columns:
+        style.band(axes, run.z, run.columns[name], run.half_width(name), color, label)
+
+
+def positive(values):
+    return [value if value > 0 else math.nan for value in values]
+
+
+def draw_logarithmic(axes, run, name, color=style.PARTICLES, label=None, marker="o"):
+    """Positive values only; a band that reaches zero ends at the foot of the axis."""
+    if name not in run.columns:
+        return
+    values, half = positive(run.columns[name]), run.half_width(name)
+    axes.plot(run.z, values, marker, linestyle="-", color=color, label=label)
+    if half is not None:
+        axes.fill_between(run.z, [max(v - h, 1e-2 * v) for v, h in zip(values, half)],
+                          [v + h for v, h in zip(values, half)], color=color, alpha=0.25, linewidth=0)
+    axes.set_yscale("log")
+
+
+def line_of(run, value):
+    """Points of a straight line value(z) from the interface to the surface."""
+    z = [-run.scalar("H"), 0]
+    return z, [value(at) for at in z]
+
+
+def velocity(run):
+    figure, (left, right) = plt.subplots(1, 2, figsize=(12, 4.6))
+    depth_panel(left, run, "v_x")
+    draw(left, run, "v_x", label="measured, 99 %")
+    H, rate, decay = run.scalar("H"), run.scalar("shear_rate"), run.scalar("lambda")
+    if math.isfinite(H):
+        left.plot(*line_of(run, lambda z: rate * (z + H)), color=FIT, zorder=5,
+                  label=rf"$\dot\gamma$ = {rate:.3f},  $H$ = {H:.1f} $d$")
+    left.set_title("Velocity along the surface, frame of the drum")
+    left.legend(loc="upper left")
+
+    depth_panel(right, run, "shear_rate")
+    draw_logarithmic(right, run, "shear_rate")
+    if math.isfinite(decay):
+        window = run.content["settings"]["decay_window_below_H"]
+        z = [-H - window[1], -H - window[0]]
+        right.plot(z, [math.exp(run.fit("decay_log_rate") + at / decay) for at in z], color=FIT, linewidth=3, zorder=5,
+                   label=rf"$\lambda$ = {decay:.2f} $d$")
+        right.legend(loc="upper left")
+    right.set_title("Shear rate")
+    return figure
+
+
+def packing(run):
+    figure, axes = plt.subplots()
+    depth_panel(axes, run, "nu")
+    draw(axes, run, "nu", label="measured, 99 %")
+    bulk, margin = run.scalar("nu_bulk"), run.content["settings"]["bulk_margin"]
+    if math.isfinite(bulk):
+        axes.plot([float(run.header["wall_z"]) + margin, -margin], [bulk, bulk], color=FIT, zorder=5,
+                  label=rf"bulk: {bulk:.3f}")
+    axes.axhline(run.content["settings"]["surface_nu"], color="0.4", linestyle="--", linewidth=1)
+    axes.set_ylim(0, 1)
+    axes.set_title(style.title_of("Volume fraction", run.reduced))
+    axes.legend(loc="lower left")
+    return figure
+
+
+def rotation(run):
+    figure, axes = plt.subplots()
+    depth_panel(axes, run, "omega")
+    draw(axes, run, "omega", label=r"mean spin $\omega$, 99 %")
+    half_rate = [rate / 2 for rate in run.columns["shear_rate"]]
+    axes.plot(run.z, half_rate, color=FIT, label=r"$\frac{1}{2}\,dv_x/dz$")
+    axes.plot(run.z, run.columns["half_vorticity"], color=style.OTHERS[0], linestyle="--", label="half the vorticity")
+    axes.set_title(style.title_of("Spin and vorticity, frame of the drum", run.reduced))
+    axes.legend(loc="upper left")
+    return figure
+
+
+def stresses(run):
+    figure, axes = plt.subplots(figsize=(7.5, 5))
+    depth_panel(axes, run, "sigma_zz")
+    names = {"sigma_zz": style.PARTICLES, "sigma_xx": style.OTHERS[0], "sigma_xz": style.OTHERS[1]}
+    for name, color in names.items():
+        draw(axes, run, name, color, style.LABELS[name].split("  ")[0])
+    theta, nu = math.radians(float(run.header["theta_deg"])), run.scalar("nu_bulk")
+    if math.isfinite(nu):
+        z = [min(run.z), 0]
+        axes.plot(z, [-at * nu * math.cos(theta) for at in z], color="k", linestyle="--", linewidth=1,
+                  label=r"$-z\,\nu\,\cos\theta$")
+        axes.plot(z, [-at * nu * math.sin(theta) for at in z], color="k", linestyle=":", linewidth=1.4,
+                  label=r"$-z\,\nu\,\sin\theta$")
+    axes.set_ylabel(r"stress  [$\rho_0 g d$]")
+    axes.set_title(style.title_of("Stresses (compression positive), contacts and fluctuations", run.reduced))
+    axes.legend(loc="upper right")
+    return figure
+
+
+def over_inertia(axes, run, name):
+    """One ratio over I: below the surface, those near the wall open."""
+    settings = run.content["settings"]
+    wall = float(run.header["wall_z"]) + settings["mu_fit_wall_margin"]
+    groups = {True: ([], [], []), False: ([], [], [])}
+    half = run.half_width(name)
+    for i, z in enumerate(run.z):
+        inertial, value = run.columns["I"][i], run.columns[name][i]
+        if z > 0 or not (inertial > 0 and math.isfinite(value)):
+            continue
+        x, y, error = groups[wall <= z <= -settings["mu_fit_surface_margin"]]
+        x.append(inertial)
+        y.append(value)
+        error.append(0 if half is None or math.isnan(half[i]) else half[i])
+    x, y, error = groups[True]
+    axes.errorbar(x, y, error, fmt="o", color=style.PARTICLES, elinewidth=1, label="measured, 99 %")
+    x, y, _ = groups[False]
+    axes.plot(x, y, "o", color=style.PARTICLES, fillstyle="none", label="at the surface or the wall")
+    axes.set_xscale("log")
+    axes.set_xlabel(style.LABELS["I"])
+    axes.set_ylabel(style.LABELS[name])
+
+
+def rheology(run):
+    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(15, 4.6))
+    depth_panel(left, run, "I")
+    draw_logarithmic(left, run, "I")
+    left.set_title("Inertial number")
+    over_inertia(middle, run, "mu")
+    a, b = run.scalar("mu_a"), run.scalar("mu_b")
+    if math.isfinite(a):
+        inertial = run.content["settings"]["mu_fit_I"]
+        middle.plot(inertial, [a + b * math.log(x) for x in inertial], color=FIT, zorder=5,
+                    label=rf"{a:.3f} {b:+.4f} ln $I$")
+    middle.set_title("Effective friction")
+    middle.legend(loc="upper left")
+    over_inertia(right, run, "k")
+    right.set_title("Ratio of the normal stresses")
+    return figure
+
+
+def fluctuations(run):
+    figure, panels = plt.subplots(1, 2, figsize=(12, 4.6))
+    settings = run.content["settings"]
+    for axes, name, plateau, label in ((panels[0], "dv", "dv_over_shear", r"$\delta v / \dot\gamma$  [$d$]"),
+                                       (panels[1], "domega", "domega_over_shear", r"$\delta\omega / \dot\gamma$")):
+        depth_panel(axes, run, label)
+        if name not in run.columns:
+            axes.set_title("no spin in this scene")
+            continue
+        ratios = [value / rate if rate > 0 else math.nan
+                  for value, rate in zip(run.columns[name], run.columns["shear_rate"])]
+        axes.plot(run.z, ratios, "o-", color=style.PARTICLES)
+        axes.set_yscale("log")
+        value = run.scalar(plateau)
+        if math.isfinite(value):
+            axes.plot([run.fit("fit_bottom"), -settings["surface_speed_depth"]], [value, value], color=FIT, zorder=5,
+                      linewidth=3, label=f"flowing layer: {value:.2f}")
+            axes.legend(loc="upper right")
+    panels[0].set_title("Fluctuation of the velocity")
+    panels[1].set_title("Fluctuation of the spin")
+    return figure
+
+
+def main():
+    options = arguments()
+    folder = pathlib.Path(options.folder)
+    run = Measured(folder, options.measured or folder / "measured.json")
+    style.use_style()
+    for draw_figure in (velocity, packing, rotation, stresses, rheology, fluctuations):
+        if draw_figure is rotation and "omega" not in run.columns:
+            continue
+        figure = draw_figure(run)
+        if run.reduced and len(figure.axes) > 1:
+            figure.suptitle("reduced run", fontsize=13)
+        style.save(figure, folder / f"{draw_figure.__name__}.png", run.reduced)
+
+
+if __name__ == "__main__":
+    main()

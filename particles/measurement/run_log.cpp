@@ -1,0 +1,105 @@
+#include "particles/measurement/run_log.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "coupling/exchange/errors.hpp"
+#include "coupling/exchange/text_file.hpp"
+#include "particles/measurement/intervals.hpp"
+
+namespace drumlin {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+struct LogRow {
+  double time_s = none;
+  std::string stage;
+  double overlap_mean = none, overlap_max = none, residual = none;
+};
+
+std::vector<std::string> fields_of(const std::string& line) {
+  std::vector<std::string> fields;
+  std::istringstream stream(line);
+  for (std::string field; std::getline(stream, field, ',');) fields.push_back(field);
+  return fields;
+}
+
+double number_of(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  return end == text.c_str() ? none : value;
+}
+
+std::vector<LogRow> read_log(const std::filesystem::path& file) {
+  std::istringstream stream(file_text(file));
+  std::string line;
+  std::getline(stream, line);
+  const auto names = fields_of(line);
+  std::map<std::string, std::size_t> place;
+  for (std::size_t i = 0; i < names.size(); ++i) place[names[i]] = i;
+  for (const char* name : {"time_s", "stage", "overlap_mean", "overlap_max", "residual"})
+    if (!place.contains(name))
+      throw InputError({{file.string(), 1, 0, name, "no such column in the log", ""}});
+
+  std::vector<LogRow> rows;
+  for (int number = 2; std::getline(stream, line); ++number) {
+    auto fields = fields_of(line);
+    fields.resize(std::max(fields.size(), names.size()));
+    LogRow row{number_of(fields[place["time_s"]]), fields[place["stage"]],
+               number_of(fields[place["overlap_mean"]]), number_of(fields[place["overlap_max"]]),
+               number_of(fields[place["residual"]])};
+    if (!std::isfinite(row.time_s))
+      throw InputError({{file.string(), number, 0, "time_s", "is no number", ""}});
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+/// Stage that runs at a time: that of the first row not before it.
+std::string stage_at(const std::vector<LogRow>& rows, double time_s) {
+  const double rounding = 1e-9 * std::abs(time_s);
+  const auto row =
+      std::find_if(rows.begin(), rows.end(), [&](const LogRow& r) { return r.time_s >= time_s - rounding; });
+  return row == rows.end() ? rows.back().stage : row->stage;
+}
+
+std::vector<double> finite_values(const std::vector<LogRow>& rows, double LogRow::*column) {
+  std::vector<double> values;
+  for (const LogRow& row : rows)
+    if (std::isfinite(row.*column)) values.push_back(row.*column);
+  return values;
+}
+
+Scalar averaged(const std::string& name, const std::vector<double>& values) {
+  double sum = 0;
+  for (double value : values) sum += value;
+  return {name, values.empty() ? none : sum / static_cast<double>(values.size()), mean_ci99(values)};
+}
+
+}  // namespace
+
+ScalarSet accuracy_scalars(const std::filesystem::path& log_csv, double first_time_s, double last_time_s) {
+  std::vector<LogRow> rows = read_log(log_csv);
+  if (!rows.empty()) {
+    const std::string from = stage_at(rows, first_time_s), to = stage_at(rows, last_time_s);
+    const auto begin =
+        std::find_if(rows.begin(), rows.end(), [&](const LogRow& r) { return r.stage == from; });
+    const auto end =
+        std::find_if(rows.rbegin(), rows.rend(), [&](const LogRow& r) { return r.stage == to; }).base();
+    rows = std::vector<LogRow>(begin, end);
+  }
+  const auto largest = finite_values(rows, &LogRow::overlap_max);
+  return ScalarSet{
+      {averaged("overlap_mean", finite_values(rows, &LogRow::overlap_mean)),
+       {"overlap_max", largest.empty() ? none : *std::max_element(largest.begin(), largest.end()), {}},
+       averaged("residual_mean", finite_values(rows, &LogRow::residual))}};
+}
+
+}  // namespace drumlin

@@ -1,0 +1,16 @@
+#pragma once
+// The run's own account of its accuracy (log.csv), averaged over the stages that were measured.
+#include <filesystem>
+
+#include "coupling/exchange/scalar_set.hpp"
+
+namespace drumlin {
+
+/// overlap_mean (d, over loaded contacts, before the position projection) and residual_mean, both averaged
+/// over the logged steps, with the intervals of batch means; overlap_max without one. The steps are those of
+/// the stages that reach from first_time_s to last_time_s. Needs the columns time_s, stage, overlap_mean,
+/// overlap_max, residual; an empty field is left out of the averages. Throws InputError (file, line) on a
+/// file that is not of this kind.
+ScalarSet accuracy_scalars(const std::filesystem::path& log_csv, double first_time_s, double last_time_s);
+
+}  // namespace drumlin
