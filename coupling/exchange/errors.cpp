@@ -10,7 +10,10 @@ namespace {
 
 std::string joined(const std::vector<InputProblem>& problems) {
   std::string lines;
-  for (const auto& problem : problems) lines += (lines.empty() ? "" : "\n") + problem.text();
+  for (const auto& problem : problems) {
+    if (!lines.empty()) lines += '\n';
+    lines += problem.text();
+  }
   return lines;
 }
 
