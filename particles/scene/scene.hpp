@@ -38,7 +38,8 @@ struct GeneratedGrains {
   std::variant<CircleRegion, RectangleRegion> region;
 };
 
-/// Grains listed in a CSV file: x_mm, z_mm, diameter_mm and optionally v_x_mm_s, v_z_mm_s, spin_rad_s.
+/// Grains listed in a CSV file: x_mm, z_mm, diameter_mm and optionally v_x_mm_s, v_z_mm_s, spin_rad_s. read_scene makes
+/// the path absolute: in the file it counts from the folder of the scene.
 struct ListedGrains {
   std::filesystem::path file;
 };
@@ -148,7 +149,7 @@ struct Scene {
   Output output;
 };
 
-/// Seconds of a stage, from duration_s or from its turns.
+/// Seconds of a stage, from duration_s or from its turns; NaN for a stage that validate() refuses.
 double duration_s(const Stage& stage);
 
 }  // namespace drumlin

@@ -1,0 +1,16 @@
+#include "particles/scene/scene.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace drumlin {
+
+double duration_s(const Stage& stage) {
+  if (stage.duration_s) return *stage.duration_s;
+  for (const auto& motion : stage.motions)
+    if (const auto* rotation = std::get_if<Rotation>(&motion.motion); rotation && stage.turns)
+      return *stage.turns * 60 / std::abs(rotation->speed_rpm);
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace drumlin

@@ -1,0 +1,222 @@
+#pragma once
+// The keys of a scene file, each described once: docs/formats/scene.md, reading, writing and `drumlin scene
+// keys` follow from this (coupling/exchange/key_table.hpp).
+#include "coupling/exchange/key_table.hpp"
+#include "particles/scene/scene.hpp"
+#include "particles/solver/contact_solver.hpp"
+
+namespace drumlin {
+
+inline constexpr const char* scene_format = "drumlin-scene-1";
+
+/// A kilometre either way: what lies beyond is a slip of the pen and would cost memory.
+inline Allowed coordinate_mm() { return at_least(-1e6, 1e6); }
+inline Allowed length_mm() { return above(0, 1e6); }
+
+template <class Visitor>
+void describe(Visitor& v, PeriodicX& p) {
+  v.value("x_min_mm", p.x_min_mm, required("mm", coordinate_mm(), "Left end of the domain."));
+  v.value("x_max_mm", p.x_max_mm,
+          required("mm", coordinate_mm(), "Right end, where the left end follows again."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, CircleRegion& r) {
+  v.value("center_mm", r.center_mm, defaulted("mm", coordinate_mm(), "Centre [x, z] of the region."));
+  v.value("radius_mm", r.radius_mm, required("mm", length_mm(), "Radius of the region."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, RectangleRegion& r) {
+  v.value("min_mm", r.min_mm, required("mm", coordinate_mm(), "Lower left corner [x, z] of the region."));
+  v.value("max_mm", r.max_mm, required("mm", coordinate_mm(), "Upper right corner [x, z] of the region."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, std::variant<CircleRegion, RectangleRegion>& region) {
+  v.variant("shape", region, "Shape of the region.", alternative<CircleRegion>("circle", "a disc."),
+            alternative<RectangleRegion>("rectangle", "its sides along x and z."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, GeneratedGrains& g) {
+  v.value("count", g.count, required("", at_least(1, 1e6), "Number of grains."));
+  v.value("diameter_min_mm", g.diameter_min_mm, required("mm", length_mm(), "Smallest diameter."));
+  v.value("diameter_max_mm", g.diameter_max_mm,
+          required("mm", length_mm(), "Largest diameter; diameters are uniform between the two."));
+  v.table("region", g.region, Need::required, "Where the grains are placed, from below.");
+}
+
+template <class Visitor>
+void describe(Visitor& v, ListedGrains& g) {
+  v.value(
+      "file", g.file,
+      required(
+          "", not_empty(),
+          "CSV file with the columns x_mm, z_mm, diameter_mm and, if wanted, v_x_mm_s, v_z_mm_s, spin_rad_s; "
+          "its path counts from the folder of the scene."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, Grains& g) {
+  v.value("density_kg_m3", g.density_kg_m3,
+          required("kg/m3", above(0, 1e6),
+                   "Density of a disc: with the mean diameter and gravity, the units of the results."));
+  v.one_table_of(
+      g.source, "Where the grains come from.",
+      alternative<GeneratedGrains>("generated", "Made from a distribution, on a shaken lattice in a region."),
+      alternative<ListedGrains>("listed", "Listed one by one."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, ContainerShape& c) {
+  v.value("center_mm", c.center_mm, defaulted("mm", coordinate_mm(), "Centre [x, z] of the container."));
+  v.value("radius_mm", c.radius_mm, required("mm", length_mm(), "Inner radius of the container."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, SegmentShape& s) {
+  v.value("from_mm", s.from_mm, required("mm", coordinate_mm(), "One end [x, z] of the segment."));
+  v.value("to_mm", s.to_mm, required("mm", coordinate_mm(), "Its other end [x, z]."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, DiscShape& d) {
+  v.value("center_mm", d.center_mm, required("mm", coordinate_mm(), "Centre [x, z] of the disc."));
+  v.value("diameter_mm", d.diameter_mm, required("mm", length_mm(), "Diameter of the disc."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, Wall& w) {
+  v.value("name", w.name, required("", not_empty(), "Name of the wall; shapes of one name move together."));
+  v.variant("shape", w.shape, "Shape of the wall.",
+            alternative<ContainerShape>("container", "a circle with the grains inside it."),
+            alternative<SegmentShape>("segment", "a straight line, solid on both sides."),
+            alternative<DiscShape>("disc", "a disc that is part of the wall."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, Gravity& g) {
+  v.value("acceleration_m_s2", g.acceleration_m_s2,
+          defaulted("m/s2", above(0, 1e6), "Strength of gravity; sets the unit of time, sqrt(d/g)."));
+  v.value(
+      "direction_deg", g.direction_deg,
+      defaulted("deg", at_least(-360, 360), "Direction, from +x anticlockwise as drawn; -90 points down."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, Friction& f) {
+  v.value("grain_grain", f.grain_grain, required("", at_least(0, 100), "Coefficient between two grains."));
+  v.value("grain_wall", f.grain_wall,
+          required("", at_least(0, 100), "Coefficient between a grain and a wall."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, Restitution& r) {
+  v.value("grain_grain", r.grain_grain,
+          required("", at_least(0, 1), "Share of the normal approach speed that two grains part with."));
+  v.value("grain_wall", r.grain_wall, required("", at_least(0, 1), "The same between a grain and a wall."));
+}
+
+template <class Visitor>
+void describe(Visitor&, Spin&) {}
+
+template <class Visitor>
+void describe(Visitor& v, Effects& e) {
+  v.optional_table("gravity", e.gravity, "Uniform gravity.");
+  v.optional_table("friction", e.friction, "Coulomb friction; costs one unknown more per contact.");
+  v.optional_table("restitution", e.restitution, "Newton restitution of the normal velocity.");
+  v.optional_table("spin", e.spin,
+                   "Angular velocity of the grains; needs friction, which alone can turn a disc.");
+}
+
+template <class Visitor>
+void describe(Visitor& v, Rotation& r) {
+  v.value(
+      "speed_rpm", r.speed_rpm,
+      required("turns/min", at_least(-1e6, 1e6), "Angular velocity, positive clockwise as drawn (z up)."));
+  v.value("center_mm", r.center_mm,
+          defaulted("mm", coordinate_mm(), "Point [x, z] about which the wall turns."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, Translation& t) {
+  v.value("velocity_mm_s", t.velocity_mm_s,
+          required("mm/s", at_least(-1e9, 1e9), "Velocity [v_x, v_z] of the wall."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, WallMotion& m) {
+  v.value("wall", m.wall,
+          required("", not_empty(), "Name of the wall that moves; walls without a motion stand still."));
+  v.variant("kind", m.motion, "Kind of motion.", alternative<Rotation>("rotation", "turns about a point."),
+            alternative<Translation>("translation", "glides along a straight line."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, Stage& s) {
+  v.value("name", s.name, required("", not_empty(), "Name of the stage, for the log."));
+  v.value("duration_s", s.duration_s,
+          when_given("s", above(0), "Length of the stage; either this or turns."));
+  v.value("turns", s.turns,
+          when_given("turns", above(0),
+                     "Length in turns of the first rotation among its motions; either this or duration_s."));
+  v.value("time_step_s", s.time_step_s,
+          required("s", above(0),
+                   "Time step; shortened or stretched a little where whole steps would not fill the stage."));
+  v.value("snapshots", s.snapshots,
+          defaulted("", at_least(0, 1e6),
+                    "Number of snapshots, evenly spread, the last at the end of the stage."));
+  v.tables("motions", s.motions, 0, "What moves during the stage, at most one motion per wall.");
+}
+
+template <class Visitor>
+void describe(Visitor& v, SolverSettings& s) {
+  v.value("name", s.name, defaulted("", one_of(contact_solver_names()), "Contact solver."));
+  v.value("tolerance", s.tolerance,
+          defaulted("", above(0, 10), "The solver may stop below this residual (docs/conventions.md)."));
+  v.value(
+      "penetration_tolerance", s.penetration_tolerance,
+      defaulted("d", above(0, 1e3), "... and below this predicted penetration per step, in mean diameters."));
+  v.value("max_sweeps", s.max_sweeps,
+          defaulted("", at_least(1, 1e7), "It stops after this many sweeps in any case."));
+  v.value("check_every", s.check_every,
+          defaulted("", at_least(1, 1e7), "Sweeps between two looks at the residual."));
+  v.value(
+      "projection_sweeps", s.projection_sweeps,
+      defaulted("", at_least(0, 1e6), "Sweeps of the position projection that removes overlaps; 0: none."));
+  v.value("stop_when_unconverged", s.stop_when_unconverged,
+          defaulted("", anything(), "End with exit code 3 at the first step that misses the tolerances."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, Output& o) {
+  v.value(
+      "velocity_window_s", o.velocity_window_s,
+      defaulted("s", at_least(0), "Displacements over this window are stored with each snapshot; 0: none."));
+  v.value("log_every_steps", o.log_every_steps,
+          defaulted("", at_least(1, 1e9), "Steps between two lines of the log."));
+  v.value(
+      "checkpoint_every_s", o.checkpoint_every_s,
+      defaulted("s", above(0), "Simulated time between two checkpoints, from which a run can be resumed."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, Scene& s) {
+  v.format(scene_format);
+  v.value("title", s.title, defaulted("", anything(), "Title, for reports."));
+  v.value("reduced", s.reduced,
+          defaulted("", anything(), "Says \"reduced\" on every output: a trial, no result."));
+  v.value("seed", s.seed,
+          defaulted("", at_least(0), "Of all random numbers: diameters and places of generated grains."));
+  v.optional_table("periodic_x", s.periodic_x, "Periodic domain in x; a scene without it is open.");
+  v.table("grains", s.grains, Need::required, "The grains.");
+  v.tables("walls", s.walls, 0, "The walls, one table per shape.");
+  v.table("effects", s.effects, Need::defaulted,
+          "An effect acts if its table is present; what is not named is neither stored nor computed.");
+  v.tables("stages", s.stages, 1, "The stages of the run, one after the other.");
+  v.table("solver", s.solver, Need::defaulted, "Contact solver and when it may stop.");
+  v.table("output", s.output, Need::defaulted, "What is written, and how often.");
+}
+
+}  // namespace drumlin

@@ -1,0 +1,256 @@
+#include "particles/scene/validate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "particles/scene/placement.hpp"
+#include "particles/scene/region.hpp"
+
+namespace drumlin {
+
+namespace {
+
+using Faults = std::vector<SceneFault>;
+
+constexpr double rounding = 1e-9;    // relative; for comparisons of numbers that a user wrote to agree
+constexpr double most_steps = 1e12;  // some 10,000 years of computing
+constexpr double most_sites = 1e7;   // of the lattice on which grains are placed: 160 MB
+
+std::string wall_key(std::size_t w) { return fmt::format("walls.{}", w); }
+std::string stage_key(std::size_t s) { return fmt::format("stages.{}", s); }
+
+double largest_diameter_mm(const Grains& grains) {
+  const auto* generated = std::get_if<GeneratedGrains>(&grains.source);
+  return generated ? generated->diameter_max_mm : 0;
+}
+
+/// Whether the region has room for the grains, and is not so large that its lattice would not fit into
+/// memory.
+void check_room(const GeneratedGrains& grains, Faults& faults) {
+  const std::string key = "grains.generated.";
+  if (grains.diameter_min_mm > grains.diameter_max_mm) {
+    faults.push_back({key + "diameter_max_mm",
+                      fmt::format("is {}", grains.diameter_max_mm),
+                      fmt::format("number in mm, >= diameter_min_mm = {}", grains.diameter_min_mm),
+                      {key + "diameter_min_mm", key + "diameter_max_mm"}});
+    return;
+  }
+  if (const auto* box = std::get_if<RectangleRegion>(&grains.region))
+    for (int axis : {0, 1})
+      if (box->min_mm[axis] >= box->max_mm[axis]) {
+        faults.push_back({key + "region.max_mm",
+                          fmt::format("is {} along {}", box->max_mm[axis], axis ? "z" : "x"),
+                          fmt::format("> min_mm = {}", box->min_mm[axis]),
+                          {key + "region"}});
+        return;
+      }
+  const std::vector<std::string> about = {key + "count", key + "diameter_max_mm", key + "region"};
+  const auto [left, right] = extent_mm(grains.region, 0);
+  const auto [bottom, top] = extent_mm(grains.region, 1);
+  const double sites =
+      ((right - left) / grains.diameter_max_mm + 1) * ((top - bottom) / grains.diameter_max_mm + 1);
+  if (!(sites <= most_sites)) {
+    faults.push_back({key + "region", fmt::format("has room for {:.0f} grains", sites),
+                      fmt::format("at most {:.0f}", most_sites), about});
+    return;
+  }
+  if (const int most = capacity(grains); grains.count > most)
+    faults.push_back({key + "count", fmt::format("is {}", grains.count),
+                      fmt::format("at most {} fit into the region", most), about});
+}
+
+/// Grains are placed anywhere in the region: it must lie inside the containers and clear of all other walls.
+void check_region_clear(const Scene& scene, const GeneratedGrains& grains, Faults& faults) {
+  const std::string key = "grains.generated.region";
+  for (std::size_t w = 0; w < scene.walls.size(); ++w) {
+    const auto& wall = scene.walls[w];
+    const std::vector<std::string> about = {key, wall_key(w)};
+    if (const auto* container = std::get_if<ContainerShape>(&wall.shape)) {
+      const double reach = farthest_mm(grains.region, container->center_mm);
+      if (reach > container->radius_mm * (1 + rounding))
+        faults.push_back({key,
+                          fmt::format("reaches {} mm from the centre of container \"{}\"", reach, wall.name),
+                          fmt::format("inside its radius of {} mm", container->radius_mm), about});
+    } else if (crosses(grains.region, wall.shape, rounding)) {
+      faults.push_back({key, fmt::format("is crossed by wall \"{}\" ({})", wall.name, wall_key(w)),
+                        "clear of segments and discs", about});
+    }
+  }
+}
+
+void check_grains(const Scene& scene, Faults& faults) {
+  if (const auto* generated = std::get_if<GeneratedGrains>(&scene.grains.source)) {
+    check_room(*generated, faults);
+    check_region_clear(scene, *generated, faults);
+    return;
+  }
+  const auto& file = std::get<ListedGrains>(scene.grains.source).file;
+  if (!std::filesystem::is_regular_file(file))
+    faults.push_back(
+        {"grains.listed.file",
+         file.string() + (std::filesystem::is_directory(file) ? " is a folder" : " does not exist"),
+         "a CSV file",
+         {"grains.listed.file"}});
+}
+
+void check_period(const Scene& scene, Faults& faults) {
+  if (!scene.periodic_x) return;
+  const auto [low, high] = *scene.periodic_x;
+  const double length = high - low;
+  // With fewer, a grain would meet the same neighbour on both sides.
+  const double least = 3 * largest_diameter_mm(scene.grains);
+  if (!(length > least))
+    faults.push_back(
+        {"periodic_x.x_max_mm",
+         fmt::format("is {}", high),
+         least > 0 ? fmt::format("beyond x_min_mm by more than 3 of the largest grains, > {}", low + least)
+                   : fmt::format("> x_min_mm = {}", low),
+         {"periodic_x", "grains.generated.diameter_max_mm"}});
+  for (std::size_t w = 0; w < scene.walls.size(); ++w)
+    if (std::holds_alternative<ContainerShape>(scene.walls[w].shape))
+      faults.push_back({wall_key(w) + ".shape",
+                        "is a container in a periodic domain",
+                        "segments and discs, or a scene without periodic_x",
+                        {"periodic_x", wall_key(w) + ".shape"}});
+  if (const auto* grains = std::get_if<GeneratedGrains>(&scene.grains.source)) {
+    const auto [left, right] = extent_mm(grains->region, 0);
+    if (left < low || right > high)
+      faults.push_back({"grains.generated.region",
+                        fmt::format("reaches from x = {} to {} mm", left, right),
+                        fmt::format("inside the domain, {} to {} mm", low, high),
+                        {"periodic_x", "grains.generated.region"}});
+  }
+}
+
+void check_walls(const Scene& scene, Faults& faults) {
+  for (std::size_t w = 0; w < scene.walls.size(); ++w)
+    if (const auto* s = std::get_if<SegmentShape>(&scene.walls[w].shape); s && s->from_mm == s->to_mm)
+      faults.push_back({wall_key(w) + ".to_mm",
+                        "is where the segment begins",
+                        "another point than from_mm",
+                        {wall_key(w) + ".from_mm", wall_key(w) + ".to_mm"}});
+}
+
+void check_effects(const Effects& effects, Faults& faults) {
+  if (effects.spin && !effects.friction)
+    faults.push_back({"effects.spin",
+                      "acts without friction",
+                      "together with effects.friction, or not at all",
+                      {"effects.spin", "effects.friction"}});
+}
+
+void check_motions(const Scene& scene, std::size_t s, Faults& faults) {
+  std::set<std::string> walls, moving;
+  std::string known;
+  for (const auto& wall : scene.walls)
+    if (walls.insert(wall.name).second) known += (known.empty() ? "" : ", ") + wall.name;
+  for (std::size_t m = 0; m < scene.stages[s].motions.size(); ++m) {
+    const auto& name = scene.stages[s].motions[m].wall;
+    const std::string key = fmt::format("{}.motions.{}.wall", stage_key(s), m);
+    if (!walls.contains(name))
+      faults.push_back({key,
+                        fmt::format("names no wall: \"{}\"", name),
+                        known.empty() ? "none, the scene has no walls" : known,
+                        {key, "walls"}});
+    if (!moving.insert(name).second)
+      faults.push_back({key, fmt::format("moves \"{}\" a second time", name), "one motion per wall", {key}});
+  }
+}
+
+/// Exactly one length; turns only where something turns.
+void check_length(const Stage& stage, const std::string& key, Faults& faults) {
+  const std::vector<std::string> about = {key + ".duration_s", key + ".turns"};
+  if (stage.duration_s && stage.turns)
+    faults.push_back({key + ".turns", "excludes duration_s", "one of the two", about});
+  if (!stage.duration_s && !stage.turns)
+    faults.push_back({key + ".duration_s", "is missing", "either duration_s or turns", about});
+  if (!stage.turns || stage.duration_s) return;
+  for (const auto& motion : stage.motions)
+    if (const auto* rotation = std::get_if<Rotation>(&motion.motion)) {
+      if (rotation->speed_rpm == 0)
+        faults.push_back({key + ".turns",
+                          "counts the turns of a rotation of 0 rpm",
+                          "duration_s instead",
+                          {key + ".turns", key + ".motions"}});
+      return;
+    }
+  faults.push_back({key + ".turns",
+                    "has no rotation whose turns it counts",
+                    "a motion of kind \"rotation\", or duration_s instead",
+                    {key + ".turns", key + ".motions"}});
+}
+
+/// Steps, snapshots and the velocity window must fit into each other.
+void check_steps(const Scene& scene, std::size_t s, Faults& faults) {
+  const Stage& stage = scene.stages[s];
+  const std::string key = stage_key(s);
+  const double length = duration_s(stage), steps = std::round(length / stage.time_step_s);
+  const std::vector<std::string> about = {key + ".duration_s", key + ".turns", key + ".motions",
+                                          key + ".time_step_s"};
+  if (!(steps >= 1 && steps <= most_steps)) {
+    if (std::isfinite(length))
+      faults.push_back({key + ".time_step_s",
+                        fmt::format("makes {:.6g} steps of the stage's {:.6g} s", steps, length),
+                        fmt::format("1 to {:g} steps", most_steps), about});
+    return;
+  }
+  if (stage.snapshots == 0) return;
+  auto with = [&about](std::initializer_list<std::string> more) {
+    std::vector<std::string> all = about;
+    all.insert(all.end(), more);
+    return all;
+  };
+  if (stage.snapshots > steps) {
+    faults.push_back({key + ".snapshots", fmt::format("is {}", stage.snapshots),
+                      fmt::format("at most one per step, <= {:.0f}", steps), with({key + ".snapshots"})});
+    return;
+  }
+  const double window = scene.output.velocity_window_s / stage.time_step_s;
+  if (std::abs(window - std::round(window)) > 1e-6)
+    faults.push_back({"output.velocity_window_s",
+                      fmt::format("is {:.6g} steps of stage \"{}\"", window, stage.name),
+                      fmt::format("a whole number of its steps of {} s", stage.time_step_s),
+                      with({"output.velocity_window_s"})});
+  else if (window > steps / stage.snapshots)
+    faults.push_back({"output.velocity_window_s",
+                      fmt::format("is longer than the {:.6g} s between two snapshots of stage \"{}\"",
+                                  length / stage.snapshots, stage.name),
+                      "at most that", with({"output.velocity_window_s", key + ".snapshots"})});
+}
+
+void check_stages(const Scene& scene, Faults& faults) {
+  std::set<std::string> names;
+  for (std::size_t s = 0; s < scene.stages.size(); ++s) {
+    const auto& stage = scene.stages[s];
+    if (!names.insert(stage.name).second)
+      faults.push_back({stage_key(s) + ".name",
+                        fmt::format("\"{}\" stands twice", stage.name),
+                        "a name of its own",
+                        {stage_key(s) + ".name"}});
+    check_motions(scene, s, faults);
+    check_length(stage, stage_key(s), faults);
+    check_steps(scene, s, faults);
+  }
+}
+
+}  // namespace
+
+std::vector<SceneFault> validate(const Scene& scene) {
+  Faults faults;
+  check_grains(scene, faults);
+  check_period(scene, faults);
+  check_walls(scene, faults);
+  check_effects(scene.effects, faults);
+  check_stages(scene, faults);
+  if (scene.solver.check_every > scene.solver.max_sweeps)
+    faults.push_back({"solver.check_every",
+                      fmt::format("is {}", scene.solver.check_every),
+                      fmt::format("<= max_sweeps = {}", scene.solver.max_sweeps),
+                      {"solver.check_every", "solver.max_sweeps"}});
+  return faults;
+}
+
+}  // namespace drumlin
