@@ -60,6 +60,7 @@ enum class SceneAction { check, show, keys };
 struct SceneOptions {
   SceneAction action = SceneAction::check;
   std::filesystem::path scene;  ///< unused for keys
+  bool markdown = false;        ///< keys as a Markdown table
   std::vector<std::string> overrides;
 };
 int scene(const SceneOptions&);

@@ -1,0 +1,68 @@
+// drumlin scene check | show | keys
+#include <fmt/format.h>
+
+#include "apps/commands.hpp"
+#include "particles/scene/placement.hpp"
+#include "particles/scene/scene_file.hpp"
+#include "particles/stepping/simulation.hpp"
+
+namespace drumlin::apps {
+
+namespace {
+
+std::string effects_text(const Effects& effects) {
+  std::string text;
+  const auto add = [&text](bool acts, const char* name) {
+    if (acts) text += (text.empty() ? "" : ", ") + std::string(name);
+  };
+  add(effects.gravity.has_value(), "gravity");
+  add(effects.friction.has_value(), "friction");
+  add(effects.restitution.has_value(), "restitution");
+  add(effects.spin.has_value(), "spin");
+  return text.empty() ? "none" : text;
+}
+
+/// Places the grains too: what only shows there is a fault of the scene.
+void check(const SceneOptions& options) {
+  const Scene scene = read_scene(options.scene, options.overrides);
+  const Scales scales = scales_of(scene);
+  const TimePlan plan = time_plan(scene, scales);
+  const auto grains = place_grains(scene, scales).count();
+  fmt::print("{}: ok{}\n", options.scene.string(), scene.reduced ? " (reduced)" : "");
+  if (!scene.title.empty()) fmt::print("title      {}\n", scene.title);
+  fmt::print("grains     {}, mean diameter {:.4g} mm, sqrt(d/g) {:.4g} s\n", grains, scales.length_m * 1e3,
+             scales.time_s);
+  fmt::print("walls      {} shapes{}\n", scene.walls.size(), scene.periodic_x ? ", periodic in x" : "");
+  fmt::print("effects    {}; {} unknown{} per contact\n", effects_text(scene.effects),
+             scene.effects.friction ? 2 : 1, scene.effects.friction ? "s" : "");
+  fmt::print("solver     {}, tolerance {}, at most {} sweeps\n", scene.solver.name, scene.solver.tolerance,
+             scene.solver.max_sweeps);
+  double seconds = 0;
+  for (std::size_t s = 0; s < scene.stages.size(); ++s) {
+    seconds += duration_s(scene.stages[s]);
+    fmt::print("stage      {}: {:.6g} s in {} steps of {:.6g} s, {} snapshots\n", scene.stages[s].name,
+               duration_s(scene.stages[s]), plan.stages[s].steps, plan.stages[s].time_step * scales.time_s,
+               scene.stages[s].snapshots);
+  }
+  fmt::print("in all     {:.6g} s, {} steps, {} snapshots\n", seconds, plan.steps,
+             plan.snapshot_steps.size());
+}
+
+}  // namespace
+
+int scene(const SceneOptions& options) {
+  switch (options.action) {
+    case SceneAction::check:
+      check(options);
+      break;
+    case SceneAction::show:
+      fmt::print("{}", scene_text(read_scene(options.scene, options.overrides)));
+      break;
+    case SceneAction::keys:
+      fmt::print("{}", options.markdown ? keys_as_markdown(scene_keys()) : keys_as_text(scene_keys()));
+      break;
+  }
+  return 0;
+}
+
+}  // namespace drumlin::apps

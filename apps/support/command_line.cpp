@@ -1,0 +1,224 @@
+#include "apps/support/command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <sstream>
+
+#include "coupling/exchange/errors.hpp"
+#include "coupling/exchange/key_spec.hpp"
+#include "coupling/exchange/provenance.hpp"
+
+namespace drumlin::apps {
+
+namespace {
+
+constexpr double whole_table = 1e9;  // "as many as you like" where a number must be finite
+
+/// A number with its unit and range in the help, and held to that range.
+template <class T>
+void add_number(CLI::App& command, const std::string& name, T& target, const std::string& unit,
+                const Allowed& allowed, const std::string& sentence) {
+  const std::string range = allowed_text("number", allowed);
+  command
+      .add_option(name, target, fmt::format("{} [{}{}]", sentence, unit.empty() ? "" : unit + ", ", range))
+      ->capture_default_str()
+      ->check(CLI::Validator(
+          [allowed, range](std::string& text) {
+            T number{};
+            const bool read = CLI::detail::lexical_cast(text, number);
+            return read && allowed.holds(static_cast<double>(number)) ? std::string()
+                                                                      : text + " is not " + range;
+          },
+          ""));
+}
+
+void add_folder_or_file(CLI::App& command, const std::string& name, std::filesystem::path& target,
+                        const std::string& kind, const std::string& sentence) {
+  command.add_option(name, target, sentence)->required()->type_name(kind);
+}
+
+void add_overrides(CLI::App& command, std::vector<std::string>& overrides) {
+  command
+      .add_option("--set", overrides,
+                  "Changes one key of the file, e.g. --set solver.max_sweeps=50 or --set stages.1.turns=2; "
+                  "repeatable")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
+/// --resume and --overwrite; without either an existing output is refused.
+void add_existing(CLI::App& command, ExistingOutput& existing, const std::string& resume_sentence) {
+  auto* resume = command.add_flag_callback(
+      "--resume", [&existing] { existing = ExistingOutput::resume; }, resume_sentence);
+  auto* overwrite = command.add_flag_callback(
+      "--overwrite", [&existing] { existing = ExistingOutput::overwrite; },
+      "Replaces what an earlier call left");
+  resume->excludes(overwrite);
+  overwrite->excludes(resume);
+}
+
+const char* const keep_what_is_done = "Keeps what an earlier call has finished";
+
+/// All commands with the options that they fill in; `request` receives those of the chosen one.
+class CommandLine {
+ public:
+  explicit CommandLine(const std::vector<std::string>& solvers)
+      : app_("Drumlin: dense granular flow, grains and continuum") {
+    app_.name("drumlin");
+    app_.set_version_flag("--version", version());
+    app_.require_subcommand(1);
+    app_.footer(
+        "Exit codes: 0 done, 2 wrong usage or input, 3 not converged, 74 input/output, 130 interrupted, 143 "
+        "terminated.\n"
+        "Each command has its own --help.");
+    add_run();
+    add_measure();
+    add_calibrate();
+    add_flow();
+    add_compare();
+    add_scene();
+    add_solve_contacts(solvers);
+  }
+
+  Request parse(int argc, const char* const* argv) {
+    try {
+      app_.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+      std::ostringstream shown, fault;
+      if (app_.exit(error, shown, fault) == 0) return TextToShow{shown.str()};
+      std::string text = fault.str();
+      while (!text.empty() && text.back() == '\n') text.pop_back();
+      throw InputError(text);
+    }
+    return request_();
+  }
+
+ private:
+  static std::string version() {
+    const Provenance p = provenance();
+    return fmt::format("drumlin {} ({}, {})", p.revision, p.compiler, p.build_type);
+  }
+
+  template <class Options>
+  CLI::App& add_command(const std::string& name, const std::string& sentence, const Options& options) {
+    CLI::App* command = app_.add_subcommand(name, sentence);
+    command->callback([this, &options] { request_ = [&options]() -> Request { return options; }; });
+    return *command;
+  }
+
+  void add_run() {
+    CLI::App& command = add_command("run", "Runs a particle scene", run_);
+    add_folder_or_file(command, "scene", run_.scene, "SCENE.toml", "Scene file (docs/formats/scene.md)");
+    add_folder_or_file(command, "-o,--output", run_.output, "RUN", "Folder for the results");
+    add_overrides(command, run_.overrides);
+    add_number(command, "--threads", run_.threads, "", at_least(1, 1024),
+               "Threads; the results do not depend on it");
+    add_existing(command, run_.existing, "Continues from the last checkpoint; starts over if there is none");
+  }
+
+  void add_measure() {
+    CLI::App& command = add_command("measure", "Profiles and scalars of a run, into RUN/measured", measure_);
+    add_folder_or_file(command, "run", measure_.run, "RUN", "Folder of a finished run");
+    add_number(command, "--slice-width", measure_.slice_width, "d", above(0, whole_table),
+               "Width of the slice, across its middle");
+    add_number(command, "--layer-thickness", measure_.layer_thickness, "d", above(0, whole_table),
+               "Thickness of the layers");
+    add_number(command, "--position", measure_.position, "d", at_least(-whole_table, whole_table),
+               "Place of the slice along the surface, from the middle of the drum, positive downslope");
+    add_existing(command, measure_.existing, keep_what_is_done);
+  }
+
+  void add_calibrate() {
+    CLI::App& command = add_command("calibrate", "Fits mu(I) = a + b ln I to measured profiles", calibrate_);
+    command.add_option("runs", calibrate_.runs, "Folders of measured runs")->required()->type_name("RUN");
+    add_folder_or_file(command, "-o,--output", calibrate_.output, "RHEOLOGY.toml", "File for the law");
+    add_number(command, "--I-min", calibrate_.I_min, "", above(0, whole_table),
+               "Least inertial number that is fitted");
+    add_number(command, "--I-max", calibrate_.I_max, "", above(0, whole_table), "Greatest one");
+    add_existing(command, calibrate_.existing, keep_what_is_done);
+  }
+
+  void add_flow() {
+    CLI::App& command =
+        add_command("flow", "Solves the continuum flow with a law (starts drumlin-flow)", flow_);
+    add_folder_or_file(command, "scene", flow_.scene, "FLOW.toml", "Flow scene (docs/formats)");
+    add_folder_or_file(command, "--rheology", flow_.rheology, "RHEOLOGY.toml",
+                       "Law, from calibrate or data/rheology");
+    add_folder_or_file(command, "-o,--output", flow_.output, "FLOWRUN", "Folder for the results");
+    add_overrides(command, flow_.overrides);
+    add_existing(command, flow_.existing, keep_what_is_done);
+  }
+
+  void add_compare() {
+    CLI::App& command = add_command("compare", "Sets a run and a continuum flow side by side", compare_);
+    add_folder_or_file(command, "run", compare_.run, "RUN", "Folder of a measured run");
+    add_folder_or_file(command, "flow_run", compare_.flow_run, "FLOWRUN", "Folder of a continuum flow");
+    add_folder_or_file(command, "-o,--output", compare_.output, "REPORT",
+                       "Folder for the report; open its index.html");
+    add_existing(command, compare_.existing, keep_what_is_done);
+  }
+
+  void add_scene() {
+    CLI::App* scene = app_.add_subcommand("scene", "Checks, shows and explains scene files");
+    scene->require_subcommand(1);
+    const auto add_action = [&](const std::string& name, SceneAction action, const std::string& sentence) {
+      CLI::App* command = scene->add_subcommand(name, sentence);
+      command->callback([this, action] {
+        scene_.action = action;
+        request_ = [this]() -> Request { return scene_; };
+      });
+      return command;
+    };
+    for (auto [name, action, sentence] :
+         {std::tuple("check", SceneAction::check, "Validates a scene and says what it amounts to"),
+          std::tuple("show", SceneAction::show, "Prints a scene with all its defaults")}) {
+      CLI::App* command = add_action(name, action, sentence);
+      add_folder_or_file(*command, "scene", scene_.scene, "SCENE.toml", "Scene file");
+      add_overrides(*command, scene_.overrides);
+    }
+    CLI::App* keys =
+        add_action("keys", SceneAction::keys, "Lists every key with unit, range, default and meaning");
+    keys->add_flag("--markdown", scene_.markdown, "As the table of docs/formats/scene.md");
+  }
+
+  void add_solve_contacts(const std::vector<std::string>& solvers) {
+    CLI::App& command =
+        add_command("solve-contacts", "Solves one contact problem from a file", solve_contacts_);
+    add_folder_or_file(command, "problem", solve_contacts_.problem, "PROBLEM.h5",
+                       "Problem in FCLIB's fclib_local layout, spacedim 2");
+    command.add_option("--solver", solve_contacts_.solver, "Contact solver")
+        ->capture_default_str()
+        ->check(CLI::IsMember(solvers));
+    add_number(command, "--tolerance", solve_contacts_.tolerance, "", above(0, 10),
+               "It may stop below this residual (docs/conventions.md)");
+    add_number(command, "--max-seconds", solve_contacts_.max_seconds, "s", above(0, whole_table),
+               "It stops after this wall time in any case");
+    command
+        .add_option_function<std::string>(
+            "--output", [this](const std::string& file) { solve_contacts_.output = file; },
+            "File for the solution, r and u under /solution; none is written without")
+        ->type_name("SOL.h5");
+    command.add_flag("--json", solve_contacts_.json,
+                     "Prints status, residual, residual_max, sweeps, seconds as JSON");
+  }
+
+  CLI::App app_;
+  RunOptions run_;
+  MeasureOptions measure_;
+  CalibrateOptions calibrate_;
+  FlowOptions flow_;
+  CompareOptions compare_;
+  SceneOptions scene_;
+  SolveContactsOptions solve_contacts_;
+  std::function<Request()> request_;
+};
+
+}  // namespace
+
+Request parse_command_line(int argc, const char* const* argv, const std::vector<std::string>& solvers) {
+  return CommandLine(solvers).parse(argc, argv);
+}
+
+}  // namespace drumlin::apps
