@@ -183,15 +183,15 @@ void write_profiles(const std::filesystem::path& file, const ProfileSet& profile
   for (const auto& [key, value] : profiles.header) text += fmt::format("# {} = {}\n", key, value);
   text += "z";
   for (const auto& column : profiles.columns) {
-    text += "," + column.name;
+    text += fmt::format(",{}", column.name);
     if (!column.ci99.empty()) text += fmt::format(",{}{}", column.name, interval_suffix);
   }
   text += "\n";
   for (std::size_t i = 0; i < profiles.z.size(); ++i) {
     text += number_text(profiles.z[i]);
     for (const auto& column : profiles.columns) {
-      text += "," + number_text(column.value[i]);
-      if (!column.ci99.empty()) text += "," + number_text(column.ci99[i]);
+      text += fmt::format(",{}", number_text(column.value[i]));
+      if (!column.ci99.empty()) text += fmt::format(",{}", number_text(column.ci99[i]));
     }
     text += "\n";
   }
