@@ -1,0 +1,81 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/support/comparison_json.hpp"
+#include "apps/support/report_page.hpp"
+#include "coupling/exchange/errors.hpp"
+#include "tests/exchange_files/folder.hpp"
+
+namespace drumlin::apps {
+namespace {
+
+using drumlin::testing::TemporaryFolder;
+using Outcome = Target::Outcome;
+
+Comparison small_comparison() {
+  Comparison comparison;
+  comparison.fields.push_back(
+      {{"v_x", {}, {}, {}, {}}, {{{"flowing", -15, -3}, {0.1, 0.02, 0.03, 0.5, 12, 0}}}});
+  comparison.scalars.push_back({"theta_deg", 19.5, 0.3, 18.0});
+  comparison.targets.push_back({"theta_deg", "", "deg", 1, 1.5, Outcome::missed, ""});
+  comparison.targets.push_back({"v_x", "flowing", "relative", 0.2, 0.1, Outcome::met, ""});
+  return comparison;
+}
+
+nlohmann::ordered_json content(bool reduced) {
+  nlohmann::ordered_json json{{"title", "a <drum> & its flow"}, {"reduced", reduced}};
+  add_comparison(json, small_comparison());
+  add_paper(json, std::nullopt, {});
+  for (const auto* key : {"costs", "settings", "particles", "continuum", "provenance"})
+    json[key] = nlohmann::ordered_json::object();
+  return json;
+}
+
+TEST(Base64, MeetsTheVectorsOfRfc4648) {
+  EXPECT_EQ(base64(""), "");
+  EXPECT_EQ(base64("f"), "Zg==");
+  EXPECT_EQ(base64("fo"), "Zm8=");
+  EXPECT_EQ(base64("foo"), "Zm9v");
+  EXPECT_EQ(base64("foob"), "Zm9vYg==");
+  EXPECT_EQ(base64("fooba"), "Zm9vYmE=");
+  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(base64("\xff\xfe"), "//4=");
+}
+
+TEST(ReportPage, SaysTheSizeOfAMissAndHidesNoText) {
+  const auto page = report_page(content(false), {});
+  EXPECT_NE(page.find("meets 1 of 2 targets"), std::string::npos);
+  EXPECT_NE(page.find("1.5 where 1 deg is asked"), std::string::npos);
+  EXPECT_NE(page.find("a &lt;drum&gt; &amp; its flow"), std::string::npos);
+  EXPECT_EQ(page.find("<drum>"), std::string::npos);
+  EXPECT_EQ(page.find("reduced:"), std::string::npos);
+}
+
+TEST(ReportPage, OfAReducedRunSaysSo) {
+  EXPECT_NE(report_page(content(true), {}).find("reduced:"), std::string::npos);
+}
+
+TEST(ReportPage, HoldsItsFiguresAndLoadsNothing) {
+  const TemporaryFolder folder;
+  const auto page = report_page(content(false), {{folder.with("a.png", "foobar"), "A figure"}});
+  EXPECT_NE(page.find("data:image/png;base64,Zm9vYmFy"), std::string::npos);
+  for (const auto* loaded : {"<script", "http://", "https://", "<link", "url("})
+    EXPECT_EQ(page.find(loaded), std::string::npos) << loaded;
+  EXPECT_THROW(report_page(content(false), {{folder / "none.png", "missing"}}), InputError);
+}
+
+TEST(ComparisonJson, HasTheKeysThatTheFormatPromises) {
+  const auto json = content(false);
+  EXPECT_EQ(json["errors"]["v_x"]["flowing"]["rel_l2"], 0.1);
+  EXPECT_EQ(json["errors"]["v_x"]["flowing"]["max"], 0.03);
+  EXPECT_EQ(json["errors"]["v_x"]["flowing"]["inside_band"], 0.5);
+  EXPECT_EQ(json["scalars"]["theta_deg"]["particles"]["value"], 19.5);
+  EXPECT_EQ(json["scalars"]["theta_deg"]["particles"]["ci99"], 0.3);
+  EXPECT_EQ(json["scalars"]["theta_deg"]["continuum"], 18.0);
+  EXPECT_EQ(json["verdict"]["missed"], 1);
+  EXPECT_TRUE(json["paper"].is_null());
+}
+
+}  // namespace
+}  // namespace drumlin::apps
