@@ -129,7 +129,7 @@ def rotation(run):
     half_rate = [rate / 2 for rate in run.columns["shear_rate"]]
     axes.plot(run.z, half_rate, color=FIT, label=r"$\frac{1}{2}\,dv_x/dz$")
     axes.plot(run.z, run.columns["half_vorticity"], color=style.OTHERS[0], linestyle="--", label="half the vorticity")
-    axes.set_title(style.title_of("Spin and vorticity, frame of the drum", run.reduced))
+    axes.set_title(style.title_of("Spin and vorticity", run.reduced))
     axes.legend(loc="upper left")
     return figure
 
@@ -148,7 +148,7 @@ def stresses(run):
         axes.plot(z, [-at * nu * math.sin(theta) for at in z], color="k", linestyle=":", linewidth=1.4,
                   label=r"$-z\,\nu\,\sin\theta$")
     axes.set_ylabel(r"stress  [$\rho_0 g d$]")
-    axes.set_title(style.title_of("Stresses (compression positive), contacts and fluctuations", run.reduced))
+    axes.set_title(style.title_of("Stresses, compression positive", run.reduced))
     axes.legend(loc="upper right")
     return figure
 
