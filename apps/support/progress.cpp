@@ -1,0 +1,39 @@
+#include "apps/support/progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace drumlin::apps {
+namespace {
+bool on_terminal() { return ::isatty(STDERR_FILENO) != 0; }
+}  // namespace
+
+bool Progress::due() const {
+  return std::chrono::steady_clock::now() - last_ >=
+         (on_terminal() ? std::chrono::milliseconds(500) : std::chrono::milliseconds(15000));
+}
+
+void Progress::show(const std::string& line) {
+  last_ = std::chrono::steady_clock::now();
+  open_ = on_terminal();
+  if (open_) fmt::print(stderr, "\r{:<{}}", line, width_);
+  else fmt::print(stderr, "{}\n", line);
+  width_ = line.size();
+  std::fflush(stderr);
+}
+
+void Progress::finish() {
+  if (open_) fmt::print(stderr, "\n");
+  open_ = false;
+}
+
+std::string duration_text(double seconds) {
+  const auto whole = static_cast<long>(seconds + 0.5);
+  if (whole >= 3600) return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
+  if (whole >= 60) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+  return fmt::format("{} s", whole);
+}
+
+}  // namespace drumlin::apps

@@ -1,0 +1,104 @@
+#include "particles/io/checkpoint_file.hpp"
+
+#include "particles/io/h5_image.hpp"
+
+namespace drumlin {
+namespace {
+
+const std::string format = "drumlin-checkpoint-1";
+
+/// Calls visit(name, field) for every single number: one list for writing and reading.
+template <class C, class Visit>
+void each_number(C& c, Visit visit) {
+  visit("log_bytes", c.log_bytes);
+  auto& t = c.totals;
+  visit("totals/unconverged_steps", t.unconverged_steps);
+  visit("totals/sweeps", t.sweeps);
+  visit("totals/contacts", t.contacts);
+  visit("totals/contact_sweeps", t.contact_sweeps);
+  visit("totals/residual_sum", t.residual_sum);
+  visit("totals/residual_max", t.residual_max);
+  visit("totals/overlap_sum", t.overlap_sum);
+  visit("totals/overlap_max", t.overlap_max);
+  visit("totals/wall_seconds", t.wall_seconds);
+  visit("totals/cpu_seconds", t.cpu_seconds);
+  visit("totals/detection_seconds", t.detection_seconds);
+  visit("totals/solver_seconds", t.solver_seconds);
+  visit("totals/output_seconds", t.output_seconds);
+  auto& s = c.state;
+  visit("state/step", s.step);
+  visit("state/step_in_stage", s.step_in_stage);
+  visit("state/time_at_stage_start", s.time_at_stage_start);
+  visit("state/time_in_stage", s.time_in_stage);
+  visit("state/snapshots", s.snapshots);
+  visit("memory/time_step", s.memory.time_step);
+}
+
+template <class C, class Visit>
+void each_array(C& c, Visit visit) {
+  auto& b = c.state.bodies;
+  visit("bodies/x", b.x);
+  visit("bodies/z", b.z);
+  visit("bodies/v_x", b.v_x);
+  visit("bodies/v_z", b.v_z);
+  visit("bodies/spin", b.spin);
+  visit("bodies/radius", b.radius);
+  visit("bodies/inverse_mass", b.inverse_mass);
+  visit("memory/impulse", c.state.memory.impulse);
+  visit("memory/approach", c.state.memory.approach);
+}
+
+}  // namespace
+
+void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint) {
+  H5Writer out;
+  out.add_text("format", format);
+  out.add_text("scene", checkpoint.scene);
+  each_number(checkpoint, [&out](const char* name, auto value) { out.add_number(name, value); });
+  each_array(checkpoint, [&out](const char* name, const std::vector<double>& values) {
+    out.add(name, std::span<const double>(values));
+  });
+  const SimulationState& state = checkpoint.state;
+  out.add_number("state/stage", static_cast<std::int64_t>(state.stage));
+  out.add("memory/i", std::span<const std::int32_t>(state.memory.i));
+  out.add("memory/j", std::span<const std::int32_t>(state.memory.j));
+  std::vector<double> poses;
+  for (const Pose& pose : state.pose_at_start) poses.insert(poses.end(), {pose.angle, pose.x, pose.z});
+  out.add("walls/pose_at_start", std::span<const double>(poses));
+  out.add_number("marks/count", static_cast<std::int64_t>(state.marks.size()));
+  for (std::size_t m = 0; m < state.marks.size(); ++m) {
+    const std::string name = "marks/" + std::to_string(m) + "/";
+    out.add_number(name + "snapshot_step", state.marks[m].snapshot_step);
+    out.add_number(name + "time", state.marks[m].time);
+    out.add(name + "x", std::span<const double>(state.marks[m].x));
+    out.add(name + "z", std::span<const double>(state.marks[m].z));
+  }
+  out.save(file);
+}
+
+Checkpoint read_checkpoint(const std::filesystem::path& file) {
+  const H5Reader in(file);
+  if (!in.has("format") || in.text("format") != format) in.refuse("format", "not " + format);
+  Checkpoint checkpoint;
+  checkpoint.scene = in.text("scene");
+  each_number(checkpoint, [&in](const char* name, auto& value) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>) value = in.number(name);
+    else value = in.integer(name);
+  });
+  each_array(checkpoint, [&in](const char* name, std::vector<double>& values) { values = in.doubles(name); });
+  SimulationState& state = checkpoint.state;
+  state.stage = static_cast<int>(in.integer("state/stage"));
+  state.memory.i = in.ints("memory/i");
+  state.memory.j = in.ints("memory/j");
+  const auto poses = in.doubles("walls/pose_at_start");
+  for (std::size_t p = 0; p + 2 < poses.size(); p += 3) state.pose_at_start.push_back({poses[p], poses[p + 1], poses[p + 2]});
+  const auto marks = in.integer("marks/count");
+  for (std::int64_t m = 0; m < marks; ++m) {
+    const std::string name = "marks/" + std::to_string(m) + "/";
+    state.marks.push_back({in.integer(name + "snapshot_step"), in.number(name + "time"), in.doubles(name + "x"),
+                           in.doubles(name + "z")});
+  }
+  return checkpoint;
+}
+
+}  // namespace drumlin

@@ -1,0 +1,34 @@
+#pragma once
+// checkpoint.h5: everything that a run needs to go on as if it had never stopped (docs/formats/snapshot.md).
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "particles/stepping/simulation.hpp"
+
+namespace drumlin {
+
+/// What a run has added up so far.
+struct RunTotals {
+  std::int64_t unconverged_steps = 0;
+  std::int64_t sweeps = 0;
+  std::int64_t contacts = 0;         ///< summed over the steps
+  double contact_sweeps = 0;         ///< contacts times sweeps, summed
+  double residual_sum = 0, residual_max = 0;
+  double overlap_sum = 0, overlap_max = 0;
+  double wall_seconds = 0, cpu_seconds = 0, detection_seconds = 0, solver_seconds = 0, output_seconds = 0;
+};
+
+struct Checkpoint {
+  std::string scene;             ///< resolved; a checkpoint belongs to one scene
+  std::int64_t log_bytes = 0;    ///< of log.csv at this step: what stands behind is cut off on resuming
+  RunTotals totals;
+  SimulationState state;
+};
+
+/// Throws IoError; an older checkpoint is then untouched.
+void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint);
+/// Throws InputError when the file is missing, damaged or of another version.
+Checkpoint read_checkpoint(const std::filesystem::path& file);
+
+}  // namespace drumlin

@@ -1,0 +1,139 @@
+#include "particles/io/contact_problem_file.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <map>
+
+#include "particles/io/h5_image.hpp"
+
+namespace drumlin {
+namespace {
+
+struct Entry {
+  std::int32_t row = 0, column = 0;
+  double value = 0;
+};
+
+const std::string root = "fclib_local/";
+
+void check_entry(const H5Reader& in, const Entry& entry, std::int64_t size) {
+  if (entry.row < 0 || entry.row >= size || entry.column < 0 || entry.column >= size)
+    in.refuse(root + "W", "an index lies outside the matrix");
+  if (!std::isfinite(entry.value)) in.refuse(root + "W/x", "a number is not finite");
+}
+
+/// Entries of a compressed matrix: pointers p over the major index, minor indices i.
+std::vector<Entry> compressed(const H5Reader& in, bool rows_are_major, std::int64_t size) {
+  const auto p = in.ints(root + "W/p"), i = in.ints(root + "W/i");
+  const auto x = in.doubles(root + "W/x");
+  if (static_cast<std::int64_t>(p.size()) < size + 1) in.refuse(root + "W/p", "fewer entries than rows + 1");
+  std::vector<Entry> entries;
+  for (std::int64_t major = 0; major < size; ++major) {
+    if (p[major] < 0 || p[major + 1] < p[major] || static_cast<std::size_t>(p[major + 1]) > std::min(i.size(), x.size()))
+      in.refuse(root + "W/p", "pointers outside the entries");
+    for (std::int32_t k = p[major]; k < p[major + 1]; ++k) {
+      const auto m = static_cast<std::int32_t>(major);
+      entries.push_back(rows_are_major ? Entry{m, i[k], x[k]} : Entry{i[k], m, x[k]});
+    }
+  }
+  return entries;
+}
+
+std::vector<Entry> triplets(const H5Reader& in, std::int64_t count) {
+  const auto columns = in.ints(root + "W/p"), rows = in.ints(root + "W/i");
+  const auto x = in.doubles(root + "W/x");
+  if (count > static_cast<std::int64_t>(std::min({columns.size(), rows.size(), x.size()})))
+    in.refuse(root + "W/nz", "more triplets than stored");
+  std::vector<Entry> entries;
+  for (std::int64_t k = 0; k < count; ++k) entries.push_back({rows[k], columns[k], x[k]});
+  return entries;
+}
+
+std::vector<Entry> entries_of_W(const H5Reader& in, std::int64_t size) {
+  const std::int64_t nz = in.integer(root + "W/nz");
+  std::vector<Entry> entries;
+  if (nz == -2) entries = compressed(in, true, size);
+  else if (nz == -1) entries = compressed(in, false, size);
+  else if (nz >= 0) entries = triplets(in, nz);
+  else in.refuse(root + "W/nz", std::to_string(nz) + " (allowed: -2 rows, -1 columns, >= 0 triplets)");
+  for (const Entry& entry : entries) check_entry(in, entry, size);
+  return entries;
+}
+
+std::vector<double> vector_of(const H5Reader& in, const std::string& name, std::int64_t size) {
+  auto values = in.doubles(root + "vectors/" + name);
+  if (static_cast<std::int64_t>(values.size()) != size) in.refuse(root + "vectors/" + name, "not of length " + std::to_string(size));
+  for (const double value : values)
+    if (!std::isfinite(value)) in.refuse(root + "vectors/" + name, "a number is not finite");
+  return values;
+}
+
+}  // namespace
+
+BlockProblem read_contact_problem(const std::filesystem::path& file) {
+  const H5Reader in(file, false);
+  if (in.integer(root + "spacedim") != 2) in.refuse(root + "spacedim", "only 2 is solved here");
+  const std::int64_t size = in.integer(root + "W/m");
+  if (size != in.integer(root + "W/n") || size % 2 != 0 || size <= 0 || size > (std::int64_t{1} << 28))
+    in.refuse(root + "W/m", "not a square matrix of 2 rows per contact");
+  BlockProblem problem;
+  problem.q = vector_of(in, "q", size);
+  problem.mu = vector_of(in, "mu", size / 2);
+  for (const double mu : problem.mu)
+    if (mu < 0) in.refuse(root + "vectors/mu", "negative friction");
+  const auto contacts = static_cast<int>(size / 2);
+  std::vector<std::map<int, Eigen::Matrix2d>> rows(contacts);
+  for (const Entry& entry : entries_of_W(in, size)) {
+    auto [place, fresh] = rows[entry.row / 2].try_emplace(entry.column / 2, Eigen::Matrix2d::Zero());
+    place->second(entry.row % 2, entry.column % 2) += entry.value;  // triplets may repeat
+  }
+  auto& W = problem.W;
+  W.row_start.push_back(0);
+  for (int a = 0; a < contacts; ++a) {
+    const auto diagonal = rows[a].find(a);
+    if (diagonal == rows[a].end() || diagonal->second(0, 0) <= 0 || diagonal->second(1, 1) <= 0)
+      in.refuse(root + "W", "contact " + std::to_string(a) + " has no positive diagonal");
+    W.diagonal.push_back(diagonal->second);
+    for (const auto& [column, block] : rows[a]) W.column.push_back(column), W.block.push_back(block);
+    W.row_start.push_back(static_cast<int>(W.column.size()));
+  }
+  return problem;
+}
+
+void write_contact_solution(const std::filesystem::path& file, std::span<const double> r, std::span<const double> u) {
+  H5Writer out;
+  out.add("solution/r", r);
+  out.add("solution/u", u);
+  out.save(file);
+}
+
+void write_contact_problem(const std::filesystem::path& file, const BlockProblem& problem, const std::string& description) {
+  const auto size = static_cast<std::int32_t>(problem.q.size());
+  std::vector<std::int32_t> p{0}, i;
+  std::vector<double> x;
+  for (int row = 0; row < size; ++row) {
+    for (int k = problem.W.row_start[row / 2]; k < problem.W.row_start[row / 2 + 1]; ++k)
+      for (int c = 0; c < 2; ++c) {
+        i.push_back(2 * problem.W.column[k] + c);
+        x.push_back(problem.W.block[k](row % 2, c));
+      }
+    p.push_back(static_cast<std::int32_t>(i.size()));
+  }
+  H5Writer out;
+  const auto add_int = [&out](const std::string& name, std::int32_t value) {
+    out.add(root + name, std::span<const std::int32_t>(&value, 1));
+  };
+  add_int("spacedim", 2);
+  add_int("W/nzmax", static_cast<std::int32_t>(x.size()));
+  add_int("W/m", size), add_int("W/n", size), add_int("W/nz", -2);
+  out.add(root + "W/p", std::span<const std::int32_t>(p));
+  out.add(root + "W/i", std::span<const std::int32_t>(i));
+  out.add(root + "W/x", std::span<const double>(x));
+  out.add(root + "vectors/q", std::span<const double>(problem.q));
+  out.add(root + "vectors/mu", std::span<const double>(problem.mu));
+  out.add(root + "vectors/s", std::span<const double>());
+  out.add_text(root + "info/description", description);
+  out.save(file);
+}
+
+}  // namespace drumlin
