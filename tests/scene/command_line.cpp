@@ -1,0 +1,112 @@
+#include "apps/support/command_line.hpp"
+
+#include <gtest/gtest.h>
+
+#include "coupling/exchange/errors.hpp"
+
+namespace drumlin::apps {
+namespace {
+
+Request parsed(std::vector<const char*> words) {
+  words.insert(words.begin(), "drumlin");
+  return parse_command_line(static_cast<int>(words.size()), words.data(), {"nlgs", "nncg"});
+}
+
+TEST(CommandLine, FillsTheOptionsOfRun) {
+  const auto run = std::get<RunOptions>(
+      parsed({"run", "a.toml", "-o", "out", "--set", "x=1", "--set", "y=[1, 2]", "--resume"}));
+  EXPECT_EQ(run.scene, "a.toml");
+  EXPECT_EQ(run.output, "out");
+  EXPECT_EQ(run.overrides, (std::vector<std::string>{"x=1", "y=[1, 2]"}));
+  EXPECT_EQ(run.threads, 1);
+  EXPECT_EQ(run.existing, ExistingOutput::resume);
+}
+
+TEST(CommandLine, TakesOneValuePerSet) {
+  const auto run =
+      std::get<RunOptions>(parsed({"run", "-o", "out", "--set", "x=1", "a.toml", "--threads", "4"}));
+  EXPECT_EQ(run.scene, "a.toml");
+  EXPECT_EQ(run.overrides.size(), 1u);
+  EXPECT_EQ(run.threads, 4);
+}
+
+TEST(CommandLine, RefusesExistingOutputUnlessTold) {
+  EXPECT_EQ(std::get<RunOptions>(parsed({"run", "a", "-o", "o"})).existing, ExistingOutput::refuse);
+  EXPECT_EQ(std::get<CompareOptions>(parsed({"compare", "a", "b", "-o", "o", "--overwrite"})).existing,
+            ExistingOutput::overwrite);
+}
+
+TEST(CommandLine, FillsTheOptionsOfEveryOtherCommand) {
+  const auto measure =
+      std::get<MeasureOptions>(parsed({"measure", "r", "--slice-width", "10", "--position", "-5"}));
+  EXPECT_EQ(measure.run, "r");
+  EXPECT_EQ(measure.slice_width, 10);
+  EXPECT_EQ(measure.position, -5);
+  EXPECT_EQ(measure.layer_thickness, 1);
+  const auto calibrate =
+      std::get<CalibrateOptions>(parsed({"calibrate", "r1", "r2", "-o", "law.toml", "--I-min", "1e-3"}));
+  EXPECT_EQ(calibrate.runs.size(), 2u);
+  EXPECT_EQ(calibrate.I_min, 1e-3);
+  const auto flow = std::get<FlowOptions>(parsed({"flow", "f.toml", "--rheology", "law.toml", "-o", "f"}));
+  EXPECT_EQ(flow.rheology, "law.toml");
+  EXPECT_EQ(std::get<CompareOptions>(parsed({"compare", "r", "f", "-o", "c"})).flow_run, "f");
+  const auto show = std::get<SceneOptions>(parsed({"scene", "show", "s.toml", "--set", "a=1"}));
+  EXPECT_EQ(show.action, SceneAction::show);
+  EXPECT_EQ(show.overrides.size(), 1u);
+  EXPECT_EQ(std::get<SceneOptions>(parsed({"scene", "check", "s.toml"})).scene, "s.toml");
+  EXPECT_TRUE(std::get<SceneOptions>(parsed({"scene", "keys", "--markdown"})).markdown);
+  const auto solve =
+      std::get<SolveContactsOptions>(parsed({"solve-contacts", "p.h5", "--solver", "nlgs", "--tolerance",
+                                             "1e-6", "--max-seconds", "5", "--output", "s.h5", "--json"}));
+  EXPECT_EQ(solve.solver, "nlgs");
+  EXPECT_EQ(solve.tolerance, 1e-6);
+  EXPECT_EQ(solve.output, "s.h5");
+  EXPECT_TRUE(solve.json);
+  EXPECT_FALSE(std::get<SolveContactsOptions>(parsed({"solve-contacts", "p.h5"})).output);
+}
+
+TEST(CommandLine, RefusesWrongUsage) {
+  const std::vector<std::vector<const char*>> wrong = {
+      {},                 // no command
+      {"walk"},           // none of ours
+      {"run"},            // no scene
+      {"run", "a.toml"},  // no output
+      {"run", "a.toml", "-o", "o", "--resume", "--overwrite"},
+      {"run", "a.toml", "-o", "o", "--threads", "0"},
+      {"run", "a.toml", "-o", "o", "--threads", "two"},
+      {"run", "a.toml", "-o", "o", "--unknown"},
+      {"run", "a.toml", "b.toml", "-o", "o"},
+      {"measure", "r", "--slice-width", "0"},
+      {"measure", "r", "--slice-width", "inf"},
+      {"measure", "r", "--slice-width", "nan"},
+      {"calibrate", "-o", "law.toml"},
+      {"flow", "f.toml", "-o", "o"},
+      {"scene"},
+      {"scene", "check"},
+      {"solve-contacts", "p.h5", "--solver", "none"},
+      {"solve-contacts", "p.h5", "--tolerance", "-1"},
+  };
+  for (const auto& words : wrong) {
+    std::string line;
+    for (const char* word : words) line += std::string(" ") + word;
+    EXPECT_THROW(parsed(words), InputError) << "drumlin" << line;
+  }
+}
+
+TEST(CommandLine, ShowsHelpWithDefaultUnitAndRange) {
+  const auto help = std::get<TextToShow>(parsed({"measure", "--help"})).text;
+  EXPECT_NE(help.find("--slice-width"), std::string::npos);
+  EXPECT_NE(help.find("=20"), std::string::npos) << help;
+  EXPECT_NE(help.find("[d, "), std::string::npos) << help;
+  for (const char* command : {"run", "calibrate", "flow", "compare", "solve-contacts", "scene"})
+    EXPECT_NE(std::get<TextToShow>(parsed({command, "--help"})).text.find("Usage"), std::string::npos)
+        << command;
+  EXPECT_NE(std::get<TextToShow>(parsed({"--help"})).text.find("solve-contacts"), std::string::npos);
+}
+
+TEST(CommandLine, ShowsItsVersion) {
+  EXPECT_EQ(std::get<TextToShow>(parsed({"--version"})).text.rfind("drumlin ", 0), 0u);
+}
+
+}  // namespace
+}  // namespace drumlin::apps

@@ -1,0 +1,150 @@
+// What validate() finds: parts of a scene that do not fit together, each with the key and the place to
+// change.
+#include <gtest/gtest.h>
+
+#include "tests/scene/example.hpp"
+
+namespace drumlin {
+namespace {
+
+using testing::example_scene;
+using testing::only_scene_problem;
+using testing::replaced;
+
+/// The only problem names this key and says this.
+void expect_problem(const std::string& text, const std::vector<std::string>& overrides,
+                    const std::string& key, const std::string& what) {
+  const std::string problem = only_scene_problem(text, overrides);
+  EXPECT_NE(problem.find(key + ": "), std::string::npos) << problem;
+  EXPECT_NE(problem.find(what), std::string::npos) << problem;
+}
+
+TEST(Contradiction, NoneInTheExample) { EXPECT_TRUE(testing::scene_problems(example_scene).empty()); }
+
+TEST(Contradiction, SpinWithoutFriction) {
+  const auto text = replaced(example_scene, "[effects.friction]\ngrain_grain = 0.4\ngrain_wall = 0.9\n", "");
+  expect_problem(text, {}, "s.toml:15:1: effects.spin", "without friction");
+}
+
+TEST(Contradiction, FrictionWithoutSpinIsNone) {
+  EXPECT_TRUE(testing::scene_problems(replaced(example_scene, "[effects.spin]\n", "")).empty());
+}
+
+TEST(Contradiction, StageWithBothLengthsOrNone) {
+  expect_problem(example_scene, {"stages.1.duration_s=1"}, "stages.1.turns", "excludes duration_s");
+  expect_problem(replaced(example_scene, "duration_s = 0.1\n", ""), {}, "s.toml:19:1: stages.0.duration_s",
+                 "is missing");
+}
+
+TEST(Contradiction, TurnsOfNothing) {
+  expect_problem(replaced(example_scene, "duration_s = 0.1\n", "turns = 1\n"), {},
+                 "s.toml:21:9: stages.0.turns", "no rotation");
+  expect_problem(example_scene, {"stages.1.motions.0.speed_rpm=0"}, "stages.1.turns", "0 rpm");
+  expect_problem(example_scene,
+                 {"stages.1.motions=[{wall=\"drum\", kind=\"translation\", velocity_mm_s=[1, 0]}]"},
+                 "stages.1.turns", "no rotation");
+}
+
+TEST(Contradiction, MotionOfNoWallOrOfOneTwice) {
+  expect_problem(example_scene, {"stages.1.motions.0.wall=x"}, "stages.1.motions.0.wall", "(allowed: drum)");
+  const std::string rotation = "{wall=\"drum\", kind=\"rotation\", speed_rpm=60}";
+  expect_problem(example_scene, {"stages.1.motions=[" + rotation + "," + rotation + "]"},
+                 "stages.1.motions.1.wall", "a second time");
+}
+
+TEST(Contradiction, StagesOfOneName) {
+  expect_problem(example_scene, {"stages.1.name=settle"}, "stages.1.name", "twice");
+}
+
+TEST(Contradiction, RegionTooSmallForTheGrains) {
+  expect_problem(example_scene, {"grains.generated.count=100"}, "grains.generated.count",
+                 "fit into the region");
+}
+
+TEST(Contradiction, RegionTooLargeForTheMemory) {
+  expect_problem(example_scene,
+                 {"walls.0.radius_mm=1e6", "grains.generated.region.radius_mm=1e6",
+                  "grains.generated.diameter_min_mm=0.1"},
+                 "grains.generated.region", "has room for");
+}
+
+TEST(Contradiction, RegionThatIsNone) {
+  expect_problem(example_scene,
+                 {"grains.generated.region={shape=\"rectangle\", min_mm=[-5, 5], max_mm=[5, 5]}"},
+                 "grains.generated.region.max_mm", "along z");
+}
+
+TEST(Contradiction, RegionOutsideTheContainer) {
+  expect_problem(example_scene, {"grains.generated.region.radius_mm=16"}, "grains.generated.region",
+                 "reaches 16 mm");
+  expect_problem(example_scene, {"grains.generated.region.center_mm=[1, 0]"}, "grains.generated.region",
+                 "reaches 16 mm");
+}
+
+TEST(Contradiction, RegionCrossedByAWall) {
+  const std::string bar =
+      "[[walls]]\nname = \"bar\"\nshape = \"segment\"\nfrom_mm = [-5, 0]\nto_mm = [5, 0]\n";
+  expect_problem(example_scene + bar, {}, "grains.generated.region", "walls.1");
+}
+
+TEST(Contradiction, DiametersTheWrongWayRound) {
+  expect_problem(example_scene, {"grains.generated.diameter_min_mm=4"}, "grains.generated.diameter_max_mm",
+                 ">= ");
+}
+
+TEST(Contradiction, SegmentWithoutLength) {
+  const std::string bar =
+      "[[walls]]\nname = \"bar\"\nshape = \"segment\"\nfrom_mm = [50, 0]\nto_mm = [50, 0]\n";
+  expect_problem(example_scene + bar, {}, "s.toml:33:9: walls.1.to_mm", "where the segment begins");
+}
+
+TEST(Contradiction, PeriodicDomainWithAContainer) {
+  expect_problem(example_scene, {"periodic_x={x_min_mm=-20, x_max_mm=20}"}, "walls.0.shape",
+                 "container in a periodic domain");
+}
+
+TEST(Contradiction, PeriodicDomainTooShortOrBesideTheRegion) {
+  auto text = replaced(example_scene, "shape = \"container\"\nradius_mm = 15",
+                       "shape = \"disc\"\ncenter_mm = [0, -30]\ndiameter_mm = 1");
+  EXPECT_TRUE(testing::scene_problems(text, {"periodic_x={x_min_mm=-15, x_max_mm=15}"}).empty());
+  expect_problem(text, {"periodic_x={x_min_mm=-10, x_max_mm=20}"}, "grains.generated.region",
+                 "inside the domain");
+  text = replaced(text, "region = { shape = \"circle\", radius_mm = 15 }",
+                  "region = { shape = \"rectangle\", min_mm = [0, 0], max_mm = [10, 100] }");
+  expect_problem(text, {"periodic_x={x_min_mm=0, x_max_mm=10}"}, "periodic_x.x_max_mm",
+                 "3 of the largest grains");
+}
+
+TEST(Contradiction, StepsThatDoNotFitTheStage) {
+  expect_problem(example_scene, {"stages.0.time_step_s=1"}, "stages.0.time_step_s", "makes 0 steps");
+  expect_problem(example_scene, {"stages.0.time_step_s=1e-15"}, "stages.0.time_step_s", "steps");
+  expect_problem(example_scene, {"stages.1.snapshots=101", "output.velocity_window_s=0"},
+                 "stages.1.snapshots", "<= 100");
+}
+
+TEST(Contradiction, VelocityWindowThatDoesNotFitTheStepsOrSnapshots) {
+  expect_problem(example_scene, {"output.velocity_window_s=6.5e-3"}, "output.velocity_window_s",
+                 "is 6.5 steps of stage \"turn\"");
+  expect_problem(example_scene, {"stages.1.snapshots=50"}, "output.velocity_window_s",
+                 "longer than the 0.002 s");
+  EXPECT_TRUE(testing::scene_problems(example_scene, {"output.velocity_window_s=0"}).empty());
+}
+
+TEST(Contradiction, JudgingLessOftenThanSweepingAtAll) {
+  expect_problem(example_scene, {"solver.check_every=200"}, "solver.check_every", "max_sweeps = 100");
+}
+
+TEST(Contradiction, NoStageAtAll) { expect_problem(example_scene, {"stages=[]"}, "stages", "has 0 entries"); }
+
+TEST(Contradiction, AbsurdNumbersEndInAMessage) {
+  // None of these may hang, overflow or allocate without end.
+  for (const char* wild :
+       {"grains.generated.diameter_max_mm=1e-300", "grains.generated.region.radius_mm=1e300",
+        "stages.0.duration_s=1e300", "stages.0.time_step_s=5e-324", "stages.1.motions.0.speed_rpm=1e-300",
+        "grains.generated.region={shape=\"rectangle\", min_mm=[0,-1e6], max_mm=[1e-9,1e6]}",
+        "grains.generated.count=1000000"})
+    EXPECT_FALSE(testing::scene_problems(example_scene, {wild}).empty()) << wild;
+}
+
+}  // namespace
+}  // namespace drumlin

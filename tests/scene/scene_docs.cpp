@@ -1,0 +1,35 @@
+// docs/formats/scene.md lists the keys as the program knows them.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "particles/scene/scene_file.hpp"
+
+namespace drumlin {
+namespace {
+
+TEST(SceneDocs, HoldTheTableThatTheProgramPrints) {
+  std::ifstream page(std::string(DRUMLIN_DATA) + "/../docs/formats/scene.md");
+  std::ostringstream text;
+  text << page.rdbuf();
+  EXPECT_NE(text.str().find(keys_as_markdown(scene_keys())), std::string::npos)
+      << "replace the table of docs/formats/scene.md by the output of `drumlin scene keys --markdown`";
+}
+
+TEST(SceneDocs, SayAnUnitInEveryKeyThatHasOne) {
+  for (const auto& row : scene_keys()) {
+    EXPECT_FALSE(row.sentence.empty()) << row.path;
+    // Dimensionless counts (turns, mean diameters) need none.
+    if (row.unit.empty() || row.unit == "turns" || row.unit == "d") continue;
+    const std::string suffix = row.unit == "turns/min" ? "rpm"
+                               : row.unit == "kg/m3"   ? "kg_m3"
+                               : row.unit == "m/s2"    ? "m_s2"
+                               : row.unit == "mm/s"    ? "mm_s"
+                                                       : row.unit;
+    EXPECT_TRUE(row.path.ends_with("_" + suffix)) << row.path;
+  }
+}
+
+}  // namespace
+}  // namespace drumlin

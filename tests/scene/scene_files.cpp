@@ -1,0 +1,172 @@
+// Reading and writing of scene files; what single keys may hold is the key table's own test.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "particles/scene/scene_file.hpp"
+#include "tests/exchange_files/folder.hpp"
+#include "tests/scene/example.hpp"
+
+namespace drumlin {
+namespace {
+
+using testing::example_scene;
+using testing::replaced;
+using testing::scene_problems;
+
+TEST(SceneFile, FillsTheSceneWithDefaults) {
+  const Scene scene = parse_scene(example_scene, "s.toml");
+  EXPECT_EQ(scene.title, "example");
+  EXPECT_FALSE(scene.reduced);
+  const auto& grains = std::get<GeneratedGrains>(scene.grains.source);
+  EXPECT_EQ(grains.count, 12);
+  EXPECT_EQ(std::get<CircleRegion>(grains.region).radius_mm, 15);
+  EXPECT_EQ(std::get<CircleRegion>(grains.region).center_mm, (Point_mm{0, 0}));
+  ASSERT_TRUE(scene.effects.gravity);
+  EXPECT_EQ(scene.effects.gravity->acceleration_m_s2, 9.81);
+  EXPECT_TRUE(scene.effects.spin);
+  EXPECT_FALSE(scene.effects.restitution) << "an effect that is not named is absent";
+  EXPECT_EQ(scene.solver.name, SolverSettings{}.name);
+  ASSERT_EQ(scene.stages.size(), 2u);
+  EXPECT_EQ(duration_s(scene.stages[0]), 0.1);
+  EXPECT_DOUBLE_EQ(duration_s(scene.stages[1]), 0.1);  // a tenth of a turn at one turn per second
+  EXPECT_EQ(std::get<Rotation>(scene.stages[1].motions[0].motion).speed_rpm, 60);
+}
+
+TEST(SceneFile, TurnsBackwardsLastAsLongAsForwards) {
+  EXPECT_DOUBLE_EQ(
+      duration_s(parse_scene(example_scene, "s.toml", {"stages.1.motions.0.speed_rpm=-60"}).stages[1]), 0.1);
+}
+
+TEST(SceneFile, ReadsBackWhatItWritesToTheLastBit) {
+  const std::string everything = R"(format = "drumlin-scene-1"
+title = "quotes \" and é"
+reduced = true
+seed = 9223372036854775807
+[periodic_x]
+x_min_mm = -30.1
+x_max_mm = 30.3
+[grains]
+density_kg_m3 = 0.1
+[grains.generated]
+count = 3
+diameter_min_mm = 0.3333333333333333
+diameter_max_mm = 1.1
+region = { shape = "rectangle", min_mm = [-3, 0.1], max_mm = [4, 7.7] }
+[[walls]]
+name = "floor"
+shape = "segment"
+from_mm = [-30, 0]
+to_mm = [30, 0.1]
+[[walls]]
+name = "knob"
+shape = "disc"
+center_mm = [10.5, -1]
+diameter_mm = 1e-3
+[effects.gravity]
+direction_deg = -77.7
+[effects.restitution]
+grain_grain = 0.1
+grain_wall = 1
+[[stages]]
+name = "one"
+duration_s = 0.7
+time_step_s = 0.0007
+snapshots = 3
+motions = [{ wall = "floor", kind = "translation", velocity_mm_s = [0.1, -2e-7] }, { wall = "knob", kind = "rotation", speed_rpm = 0.3 }]
+[solver]
+name = "nlgs"
+tolerance = 3e-7
+[output]
+velocity_window_s = 0.0014
+)";
+  for (const auto& text : {everything, example_scene}) {
+    const std::string resolved = scene_text(parse_scene(text, "s.toml"));
+    EXPECT_EQ(scene_text(parse_scene(resolved, "resolved.toml")), resolved);
+  }
+  const Scene scene = parse_scene(scene_text(parse_scene(everything, "s.toml")), "resolved.toml");
+  EXPECT_EQ(scene.seed, 9223372036854775807u);
+  EXPECT_EQ(std::get<GeneratedGrains>(scene.grains.source).diameter_min_mm, 0.3333333333333333);
+  EXPECT_EQ(std::get<Translation>(scene.stages[0].motions[0].motion).velocity_mm_s[1], -2e-7);
+  EXPECT_FALSE(scene.effects.spin);
+}
+
+TEST(SceneFile, ReportsEveryProblemAtOnceWithItsPlace) {
+  std::string text = replaced(example_scene, "density_kg_m3 = 2700", "density_kg_m3 = -1");
+  text = replaced(text, "[effects.gravity]", "[effects.gravty]");
+  text = replaced(text, "time_step_s = 1e-3", "time_step_s = \"short\"");
+  text = replaced(text, "turns = 0.1", "turns = 0.1\nduration_s = 1");
+  text = replaced(text, "wall = \"drum\"", "wall = \"drumm\"");
+  std::vector<std::string> found;
+  for (const auto& problem : scene_problems(text)) found.push_back(problem.text());
+  EXPECT_EQ(
+      found,
+      (std::vector<std::string>{
+          "s.toml:4:17: grains.density_kg_m3: is -1 (allowed: number in kg/m3, above 0 to 1000000)",
+          "s.toml:14:1: effects.gravty: is unknown; did you mean \"gravity\"? (allowed: friction, gravity, "
+          "restitution, spin)",
+          "s.toml:22:15: stages.0.time_step_s: is a text (allowed: number in s, > 0)",
+          "s.toml:25:9: stages.1.turns: excludes duration_s (allowed: one of the two)",
+          "s.toml:29:21: stages.1.motions.0.wall: names no wall: \"drumm\" (allowed: drum)"}));
+}
+
+TEST(SceneFile, DoesNotRepeatAProblemAsAContradiction) {
+  // The wall has no name, so that the motion cannot find it: one problem, not two.
+  const auto text = replaced(example_scene, "name = \"drum\"\n", "");
+  EXPECT_NE(testing::only_scene_problem(text).find("walls.0.name: is missing"), std::string::npos);
+}
+
+TEST(SceneFile, RefusesAnotherVersion) {
+  const auto text = replaced(example_scene, "drumlin-scene-1", "drumlin-scene-2");
+  EXPECT_EQ(testing::only_scene_problem(text + "new = 1\n"),
+            "s.toml:1:10: format: is \"drumlin-scene-2\" (allowed: \"drumlin-scene-1\")");
+}
+
+TEST(SceneFile, OverridesCountAsTheFile) {
+  EXPECT_EQ(parse_scene(example_scene, "s.toml", {"solver.max_sweeps=50"}).solver.max_sweeps, 50);
+  EXPECT_EQ(testing::only_scene_problem(example_scene, {"solver.max_sweep=50"}),
+            "override: solver.max_sweep: is unknown; did you mean \"max_sweeps\"? (allowed: check_every, "
+            "max_sweeps, name, "
+            "penetration_tolerance, projection_sweeps, stop_when_unconverged, tolerance)");
+}
+
+class ListedGrainsFile : public ::testing::Test {
+ protected:
+  testing::TemporaryFolder folder;
+  std::string scene = replaced(example_scene, R"([grains.generated]
+count = 12
+diameter_min_mm = 3.0
+diameter_max_mm = 3.6
+region = { shape = "circle", radius_mm = 15 }
+)",
+                               "[grains.listed]\nfile = \"list.csv\"\n");
+};
+
+TEST_F(ListedGrainsFile, CountsFromTheFolderOfTheScene) {
+  folder.with("list.csv", "x_mm,z_mm,diameter_mm\n0,0,3\n");
+  const Scene read = read_scene(folder.with("s.toml", scene));
+  const auto& file = std::get<ListedGrains>(read.grains.source).file;
+  EXPECT_TRUE(file.is_absolute());
+  EXPECT_EQ(file, folder / "list.csv");
+  // So that the resolved scene means the same wherever it stands.
+  EXPECT_EQ(std::get<ListedGrains>(parse_scene(scene_text(read), "/elsewhere/s.toml").grains.source).file,
+            file);
+}
+
+TEST_F(ListedGrainsFile, IsMissedWithTheKeyThatNamesIt) {
+  const auto file = folder.with("s.toml", scene);
+  const auto text = testing::message_of<InputError>([&] { read_scene(file); });
+  EXPECT_NE(text.find(":6:8: grains.listed.file"), std::string::npos) << text;
+  EXPECT_NE(text.find("does not exist"), std::string::npos) << text;
+}
+
+TEST_F(ListedGrainsFile, ReportsItsProblemsBesideThoseOfTheScene) {
+  folder.with("list.csv", "x_mm,z_mm,diameter_mm\n0,0,-3\n");
+  const auto file = folder.with("s.toml", replaced(scene, "turns = 0.1", "turns = -1"));
+  const auto text = testing::message_of<InputError>([&] { read_scene(file); });
+  EXPECT_NE(text.find("list.csv:2"), std::string::npos) << text;
+  EXPECT_NE(text.find("stages.1.turns"), std::string::npos) << text;
+}
+
+}  // namespace
+}  // namespace drumlin
