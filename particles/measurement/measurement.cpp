@@ -229,6 +229,9 @@ Measurement measurement(const SnapshotSource& source, const MeasurementOptions& 
     const double half_chord =
         std::sqrt(std::max(0.0, radius * radius - std::pow(estimate.slope.surface_z, 2)));
     result.slice_width = std::min(options.slice_width, half_chord / 2);
+    if (std::abs(options.position) + result.slice_width / 2 >= radius)
+      throw InputError("the slice at " + std::to_string(options.position) + " d leaves the drum of radius " +
+                       std::to_string(radius) + " d");
   } else {
     result.frame_source = last.period_x > 0 ? FrameSource::domain : FrameSource::gravity;
     result.slice_width =

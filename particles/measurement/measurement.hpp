@@ -55,8 +55,8 @@ struct Measurement {
                                                              ///< without a drum), from the surface
   double slope_half_width = 0;                               ///< used, d
   double slice_width = 0;                                    ///< used, d
-  double rotation = 0;          ///< of the drum, clockwise
-  double container_radius = 0;  ///< 0 without a drum
+  double rotation = 0;                                       ///< of the drum, clockwise
+  double container_radius = 0;                               ///< 0 without a drum
   bool in_mirror = false;
   Scales scales;
   std::size_t first_snapshot = 0;  ///< snapshots before it belong to another motion of the wall
@@ -67,7 +67,8 @@ struct Measurement {
 };
 
 /// Reads every snapshot twice: for the frame, then for the layers. `progress` (may be empty) is told the
-/// snapshots read so far and in all. Throws InputError when there is no snapshot or one without grains.
+/// snapshots read so far and in all. Throws InputError when there is no snapshot or one
+/// without grains, or when the slice leaves the drum.
 Measurement measurement(const SnapshotSource& source, const MeasurementOptions& options,
                         const std::function<void(std::size_t done, std::size_t total)>& progress = {});
 

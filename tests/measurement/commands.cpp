@@ -1,0 +1,163 @@
+// drumlin measure and drumlin calibrate on run folders made here.
+#include "apps/commands.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "coupling/exchange/errors.hpp"
+#include "coupling/exchange/rheology_fit.hpp"
+#include "coupling/exchange/scalar_set.hpp"
+#include "coupling/exchange/text_file.hpp"
+#include "particles/io/snapshot_file.hpp"
+#include "tests/exchange_files/folder.hpp"
+#include "tests/measurement/packings.hpp"
+
+namespace drumlin::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using drumlin::testing::message_of;
+using drumlin::testing::TemporaryFolder;
+
+constexpr const char* log_text =
+    "step,time_s,stage,residual,overlap_mean,overlap_max\n1,0.5,turn,0.01,1e-4,1e-3\n2,1,turn,0.02,2e-4,2e-"
+    "3\n";
+
+fs::path run_folder(const TemporaryFolder& folder, const std::string& status,
+                    const std::vector<Snapshot>& snapshots) {
+  const fs::path run = folder / "run";
+  fs::create_directories(run / "snapshots");
+  replace_file(run / "run.json",
+               R"({"format": "drumlin-run-1", "reduced": true, "seed": 3, "status": ")" + status + "\"}");
+  replace_file(run / "log.csv", log_text);
+  for (std::size_t s = 0; s < snapshots.size(); ++s)
+    write_snapshot(run / "snapshots" / ("00000" + std::to_string(s) + ".h5"), snapshots[s]);
+  return run;
+}
+
+Snapshot with_scales(Snapshot snapshot) {
+  snapshot.scales = {3.3e-3, 0.018, 2700};
+  return snapshot;
+}
+
+MeasureOptions options_for(const fs::path& run, ExistingOutput existing = ExistingOutput::refuse) {
+  MeasureOptions options;
+  options.run = run;
+  options.existing = existing;
+  return options;
+}
+
+TEST(MeasureCommand, LeavesProfilesScalarsAndFigures) {
+  const TemporaryFolder folder;
+  const Snapshot drum = with_scales(drumlin::testing::filled_drum(30, 2, 0.35, 0.02));
+  const fs::path run = run_folder(folder, "finished", {drum, drum, drum});
+  EXPECT_EQ(measure(options_for(run)), 0);
+  const ScalarSet scalars = read_scalars(run / "measured" / "measured.json", "drumlin-measured-1");
+  for (const char* name : {"theta_deg", "theta_com_deg", "Q", "H", "lambda", "shear_rate", "I_th", "nu_bulk",
+                           "spin_over_half_vorticity", "dv_over_shear", "domega_over_shear", "mu_a", "mu_b",
+                           "k_flowing", "overlap_mean", "overlap_max", "residual_mean", "Q_expected"})
+    EXPECT_NE(scalars.find(name), nullptr) << name;
+  EXPECT_NEAR(scalars.value("residual_mean"), 0.015, 1e-12);
+  EXPECT_NEAR(scalars.value("Q"), 0, 1e-9);
+  EXPECT_TRUE(std::isnan(scalars.value("H")));  // nothing flows: not measured, and not 0
+  const auto json = nlohmann::json::parse(file_text(run / "measured" / "measured.json"));
+  EXPECT_TRUE(json["H"]["value"].is_null());
+  EXPECT_EQ(json["reduced"], true);
+  const ProfileSet profiles = read_profiles(run / "measured" / "profiles.csv");
+  EXPECT_EQ(profiles.header.at("reduced"), "true");
+  EXPECT_EQ(profiles.header.at("drum_radius"), "30");
+  for (const char* figure : {"velocity", "packing", "rotation", "stresses", "rheology", "fluctuations"})
+    EXPECT_TRUE(fs::exists(run / "measured" / (figure + std::string(".png")))) << figure;
+}
+
+TEST(MeasureCommand, KeepsWhatIsThereUnlessToldOtherwise) {
+  const TemporaryFolder folder;
+  const fs::path run =
+      run_folder(folder, "finished", {with_scales(drumlin::testing::stacked_columns(6, 12, 0.2))});
+  EXPECT_EQ(measure(options_for(run)), 0);
+  const fs::path result = run / "measured" / "measured.json";
+  const std::string before = file_text(result);
+  EXPECT_THROW(measure(options_for(run)), InputError);
+  EXPECT_EQ(measure(options_for(run, ExistingOutput::resume)), 0);
+  EXPECT_EQ(file_text(result), before);
+  fs::remove(result);  // as if it had been killed before the end
+  EXPECT_EQ(measure(options_for(run, ExistingOutput::resume)), 0);
+  EXPECT_TRUE(fs::exists(result));
+  EXPECT_EQ(measure(options_for(run, ExistingOutput::overwrite)), 0);
+}
+
+TEST(MeasureCommand, RefusesWhatIsNoFinishedRun) {
+  const TemporaryFolder folder;
+  const fs::path run =
+      run_folder(folder, "running", {with_scales(drumlin::testing::stacked_columns(6, 12, 0.2))});
+  EXPECT_NE(message_of<InputError>([&] { measure(options_for(run)); }).find("unfinished"), std::string::npos);
+  EXPECT_FALSE(fs::exists(run / "measured"));
+  EXPECT_THROW(measure(options_for(folder / "nowhere")), InputError);
+  EXPECT_THROW(measure(options_for(folder.path())), InputError);
+  const fs::path empty = run_folder(folder, "finished", {});
+  fs::remove_all(empty / "snapshots");
+  EXPECT_NE(message_of<InputError>([&] { measure(options_for(empty)); }).find("no snapshots"),
+            std::string::npos);
+}
+
+/// A measured run whose layers lie on mu = 0.36 + b ln I.
+fs::path measured_run(const TemporaryFolder& folder, const std::string& name, double b) {
+  const fs::path measured = folder / name / "measured";
+  fs::create_directories(measured);
+  ProfileSet profiles;
+  profiles.header = {{"reduced", "false"}, {"theta_deg", "19.4"}, {"wall_z", "-60"}};
+  profiles.columns = {{"I", {}, {}}, {"mu", {}, {}}};
+  for (int l = -58; l <= 0; ++l) {
+    const double inertial = 0.12 * std::exp(l / 5.0);
+    profiles.z.push_back(l);
+    profiles.columns[0].value.push_back(inertial);
+    profiles.columns[0].ci99.push_back(0.1 * inertial);
+    profiles.columns[1].value.push_back(0.36 + b * std::log(inertial) + (l % 2 == 0 ? 0.01 : -0.01));
+    profiles.columns[1].ci99.push_back(0.005);
+  }
+  write_profiles(measured / "profiles.csv", profiles);
+  replace_file(measured / "measured.json",
+               R"({"format": "drumlin-measured-1", "nu_bulk": {"value": 0.82, "ci99": 0.002}})");
+  return folder / name;
+}
+
+TEST(CalibrateCommand, LeavesTheLawOfItsRuns) {
+  const TemporaryFolder folder;
+  CalibrateOptions options;
+  options.runs = {measured_run(folder, "six", 0.0144), measured_run(folder, "ten", 0.0144)};
+  options.output = folder / "rheology.toml";
+  EXPECT_EQ(calibrate(options), 0);
+  const RheologyFit fit = read_rheology(options.output);
+  EXPECT_NEAR(fit.mu.a, 0.36, 0.003);  // 35 layers off the law by 0.01 to either side in turn
+  EXPECT_NEAR(fit.mu.b, 0.0144, 0.0005);
+  EXPECT_NEAR(*fit.rms_misfit, 0.01, 0.0005);
+  EXPECT_GT(fit.mu.I_min, 1e-4);
+  EXPECT_LT(fit.mu.I_max, 0.1);
+  EXPECT_NEAR(fit.nu, 0.82, 1e-12);
+  EXPECT_NEAR(*fit.nu_ci99, 0.002 / std::sqrt(2.0), 1e-12);
+  EXPECT_EQ(fit.fitted_on, (std::vector<std::string>{"six", "ten"}));
+  EXPECT_TRUE(fs::exists(folder / "rheology.png"));
+  EXPECT_THROW(calibrate(options), InputError);  // the law exists
+}
+
+TEST(CalibrateCommand, RefusesALawThatFallsWithI) {
+  const TemporaryFolder folder;
+  CalibrateOptions options;
+  options.runs = {measured_run(folder, "six", -0.01)};
+  options.output = folder / "rheology.toml";
+  EXPECT_NE(message_of<InputError>([&] { calibrate(options); }).find("does not grow"), std::string::npos);
+  EXPECT_FALSE(fs::exists(options.output));
+}
+
+TEST(CalibrateCommand, AsksForMeasuredRuns) {
+  const TemporaryFolder folder;
+  CalibrateOptions options;
+  options.output = folder / "rheology.toml";
+  EXPECT_THROW(calibrate(options), InputError);
+  options.runs = {folder.path()};
+  EXPECT_NE(message_of<InputError>([&] { calibrate(options); }).find("drumlin measure"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace drumlin::apps
