@@ -1,16 +1,15 @@
 // drumlin measure: profiles and scalars of a finished particle run.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "apps/commands.hpp"
 #include "apps/support/figures.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/output_folder.hpp"
+#include "apps/support/progress.hpp"
 #include "coupling/calibration/log_friction.hpp"
 #include "coupling/exchange/errors.hpp"
 #include "particles/io/snapshot_file.hpp"
@@ -38,26 +37,6 @@ Json finished_run(const fs::path& run) {
                     run.string(), status.dump()));
   return json;
 }
-
-/// Says on standard error how far the reading is, in place when somebody watches a terminal.
-class ReadingProgress {
- public:
-  void operator()(std::size_t done, std::size_t total) {
-    const auto now = std::chrono::steady_clock::now();
-    const bool terminal = ::isatty(STDERR_FILENO) != 0;
-    if (done < total && now - last_ < std::chrono::milliseconds(terminal ? 200 : 5000)) return;
-    last_ = now;
-    if (terminal || done < total) {
-      fmt::print(stderr, "{}measure: {:3.0f} %{}", terminal ? "\r" : "",
-                 100.0 * static_cast<double>(done) / static_cast<double>(total),
-                 terminal && done < total ? "" : "\n");
-      std::fflush(stderr);
-    }
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 /// mu_a and mu_b at the centre: the fit of `drumlin calibrate` on this run alone.
 ScalarSet friction_scalars(const ProfileSet& profiles, const LayerSelection& selection) {
@@ -162,7 +141,13 @@ int measure(const MeasureOptions& options) {
   settings.layer_thickness = options.layer_thickness;
   const LayerSelection selection;
   const SnapshotSource source{files.size(), [&](std::size_t i) { return read_snapshot(files[i]); }};
-  Measurement measured = measurement(source, settings, ReadingProgress());
+  Progress progress;
+  Measurement measured = measurement(source, settings, [&](std::size_t done, std::size_t total) {
+    if (progress.due())
+      progress.show(
+          fmt::format("measure  {:.0f} %", 100.0 * static_cast<double>(done) / static_cast<double>(total)));
+  });
+  progress.finish();
   measured.profiles.header = header_of(measured, settings, reduced);
   ScalarSet scalars = measured.scalars;
   const double second = measured.scales.time_s;
