@@ -1,0 +1,42 @@
+"""Runs `drumlin` for the tests of the chain."""
+
+import json
+import pathlib
+import subprocess
+import sys
+
+
+class Drumlin:
+    def __init__(self, executable):
+        self.executable = executable
+
+    def __call__(self, *words, code=0):
+        """Runs the command and checks its exit code; returns what it wrote to (standard output, standard error)."""
+        command = [self.executable, *map(str, words)]
+        result = subprocess.run(command, capture_output=True, text=True, timeout=300, check=False)
+        require(result.returncode == code,
+                f"{' '.join(command)}\nexit code {result.returncode} instead of {code}\n{result.stdout}{result.stderr}")
+        return result.stdout, result.stderr
+
+
+def require(condition, message):
+    if not condition:
+        sys.exit(message)
+
+
+def read_json(file):
+    # A NaN in a JSON file is none: other readers refuse it.
+    def refuse(constant):
+        sys.exit(f"{file}: {constant} is no JSON")
+    return json.loads(pathlib.Path(file).read_text(encoding="utf-8"), parse_constant=refuse)
+
+
+def require_keys(content, keys, where):
+    missing = [key for key in keys if key not in content]
+    require(not missing, f"{where}: missing {', '.join(missing)}")
+
+
+def bytes_below(folder):
+    """Every file below a folder with its content."""
+    return {str(path.relative_to(folder)): path.read_bytes() for path in sorted(pathlib.Path(folder).rglob("*"))
+            if path.is_file()}

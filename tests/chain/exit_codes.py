@@ -1,0 +1,68 @@
+"""What cannot be done says so: exit code 2, a message on standard error, nothing written, nothing lost.
+
+usage: exit_codes.py DRUMLIN FOLDER_OF_THIS_TEST DATA
+"""
+
+import pathlib
+import sys
+import tempfile
+
+from command import Drumlin, bytes_below, require
+
+
+def main():
+    drumlin, here, data = Drumlin(sys.argv[1]), pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
+    scene, flow_scene = here / "tiny-drum.toml", here / "tiny-drum-flow.toml"
+    law = data / "rheology" / "paper.toml"
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        missing, full = folder / "missing", folder / "full"
+        full.mkdir()
+        (full / "keep.txt").write_text("years of work", encoding="utf-8")
+        (folder / "empty.toml").write_text("", encoding="utf-8")
+        before = bytes_below(folder)
+        output = folder / "output"
+        refused = {
+            "a missing file": [
+                ["run", missing, "-o", output], ["measure", missing], ["calibrate", missing, "-o", output],
+                ["flow", missing, "--rheology", law, "-o", output], ["flow", flow_scene, "--rheology", missing, "-o", output],
+                ["compare", missing, missing, "-o", output], ["scene", "check", missing], ["solve-contacts", missing]],
+            "a folder in place of a file": [
+                ["run", full, "-o", output], ["calibrate", full, "-o", output], ["measure", full],
+                ["flow", full, "--rheology", law, "-o", output], ["flow", flow_scene, "--rheology", full, "-o", output],
+                ["compare", full, full, "-o", output], ["scene", "check", full], ["solve-contacts", full]],
+            "a file in place of a folder": [
+                ["run", scene, "-o", full / "keep.txt"], ["measure", scene], ["compare", scene, scene, "-o", output],
+                ["flow", flow_scene, "--rheology", law, "-o", full / "keep.txt"]],
+            "an empty file": [
+                ["run", folder / "empty.toml", "-o", output], ["scene", "check", folder / "empty.toml"],
+                ["flow", folder / "empty.toml", "--rheology", law, "-o", output],
+                ["flow", flow_scene, "--rheology", folder / "empty.toml", "-o", output],
+                ["solve-contacts", folder / "empty.toml"]],
+            "an existing output": [
+                ["run", scene, "-o", full], ["flow", flow_scene, "--rheology", law, "-o", full]],
+            "a folder that is not ours, to be overwritten": [
+                ["run", scene, "-o", full, "--overwrite"],
+                ["flow", flow_scene, "--rheology", law, "-o", full, "--overwrite"]],
+            "an unknown option, command or key": [
+                ["run", scene, "-o", output, "--fast"], ["jump"], [], ["scene", "check"],
+                ["run", scene, "-o", output, "--threads", "0"], ["run", scene, "-o", output, "--set", "no_such_key=1"],
+                ["run", scene, "-o", output, "--resume", "--overwrite"]],
+        }
+        for reason, commands in refused.items():
+            for words in commands:
+                _, said = drumlin(*words, code=2)
+                require(said.strip(), f"{reason}: {words} was refused without a word")
+                require(not output.exists(), f"{reason}: {words} left an output")
+                require(bytes_below(folder) == before, f"{reason}: {words} touched files")
+        print(f"{sum(map(len, refused.values()))} commands refused with exit code 2")
+        shown = 0
+        for words in ([], ["run"], ["measure"], ["calibrate"], ["flow"], ["compare"], ["scene"], ["solve-contacts"]):
+            text, _ = drumlin(*words, "--help")
+            require(len(text) > 100, f"{words} --help says too little")
+            shown += 1
+        print(f"{shown} helps shown")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,102 @@
+"""run -> measure -> calibrate -> flow -> compare on a tiny drum: exit codes, files, keys, and that repeating is free.
+
+usage: whole_chain.py DRUMLIN FOLDER_OF_THIS_TEST
+"""
+
+import math
+import pathlib
+import sys
+import tempfile
+
+from command import Drumlin, bytes_below, read_json, require, require_keys
+
+MEASURED = ["theta_deg", "theta_com_deg", "Q", "H", "lambda", "shear_rate", "I_th", "nu_bulk", "spin_over_half_vorticity",
+            "dv_over_shear", "domega_over_shear", "mu_a", "mu_b", "k_flowing", "overlap_mean", "overlap_max",
+            "residual_mean"]
+RUN = ["wall_seconds", "cpu_seconds", "peak_memory_mb", "steps", "unconverged_steps", "revision", "seed"]
+FLOW = ["theta_deg", "Q", "H", "lambda", "unknowns", "iterations", "residual", "seconds", "ill_posed_share"]
+FIELDS = ["v_x", "sigma_zz", "sigma_xz", "sigma_xx", "log10_shear_rate"]
+
+
+def require_reduced(file, content):
+    require(content["reduced"] is True, f"{file} does not say that it is reduced")
+
+
+def check_run(run):
+    require_keys(read_json(run / "run.json"), RUN, "run.json")
+    for name in ("scene.toml", "log.csv", "snapshots"):
+        require((run / name).exists(), f"the run left no {name}")
+    require(len(list((run / "snapshots").glob("*.h5"))) == 40, "40 snapshots were asked for")
+
+
+def check_measured(folder):
+    measured = read_json(folder / "measured.json")
+    require_keys(measured, MEASURED, "measured.json")
+    require_reduced("measured.json", measured)
+    for name in MEASURED:
+        if name == "overlap_max":  # one number of the whole run, without an interval
+            continue
+        require(set(measured[name]) == {"value", "ci99"}, f"measured.json: {name} is no measurement")
+    require(len(list(folder.glob("*.png"))) > 0, "no figure was drawn")
+    # Rigid discs at rest under gravity in two dimensions: what a packing of them must show, however short the run.
+    require(0.7 < measured["nu_bulk"]["value"] < 0.9, f"volume fraction {measured['nu_bulk']}")
+    require(5 < measured["theta_deg"]["value"] < 40, f"slope {measured['theta_deg']}")
+
+
+def check_flow(folder):
+    flow = read_json(folder / "flow.json")
+    require_keys(flow, FLOW, "flow.json")
+    require_reduced("flow.json", flow)
+    require((folder / "profiles.csv").exists(), "no profiles of the continuum")
+    require(list(folder.glob("*.vtu")) and list(folder.glob("*.png")), "no VTU or no figure of the continuum")
+
+
+def check_report(folder):
+    comparison = read_json(folder / "comparison.json")
+    require_reduced("comparison.json", comparison)
+    for field in FIELDS:
+        for zone in ("flowing", "static", "all"):
+            require_keys(comparison["errors"][field][zone], ["rel_l2", "max", "inside_band"], f"errors.{field}.{zone}")
+    for name in ("theta_deg", "Q", "H", "lambda"):
+        require_keys(comparison["scalars"][name], ["particles", "continuum"], f"scalars.{name}")
+    require(comparison["paper"] is None, "a tiny drum is none of the paper's")
+    error = comparison["errors"]["sigma_zz"]["all"]["rel_l2"]
+    require(error is not None and math.isfinite(error), "sigma_zz was not compared")
+    page = (folder / "index.html").read_text(encoding="utf-8")
+    require("reduced" in page and "data:image/png;base64," in page, "the page lacks its figures or the word reduced")
+    require("<script" not in page and "src=\"http" not in page, "the page loads something")
+    require((folder / "overlay.csv").exists() and len(list(folder.glob("*.png"))) == 5, "CSV or figures are missing")
+
+
+def main():
+    drumlin, here = Drumlin(sys.argv[1]), pathlib.Path(sys.argv[2])
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        run, flow, report, law = folder / "run", folder / "flow", folder / "report", folder / "rheology.toml"
+        steps = [
+            (["run", here / "tiny-drum.toml", "-o", run], run, lambda: check_run(run)),
+            (["measure", run], run / "measured", lambda: check_measured(run / "measured")),
+            (["calibrate", run, "-o", law], law, lambda: require(law.exists(), "no law")),
+            (["flow", here / "tiny-drum-flow.toml", "--rheology", law, "-o", flow], flow, lambda: check_flow(flow)),
+            (["compare", run, flow, "-o", report], report, lambda: check_report(report)),
+        ]
+        for words, result, check in steps:
+            drumlin(*words)
+            check()
+            before = bytes_below(folder)
+            # Done is done: refused, unchanged with --resume.
+            drumlin(*words, code=2)
+            if words[0] != "calibrate":
+                drumlin(*words, "--resume")
+            require(bytes_below(folder) == before, f"repeating {words[0]} changed files")
+            print(f"{words[0]}: done, checked, repeated")
+        # The scene that a run leaves makes the same run again; so does another number of threads.
+        again = folder / "again"
+        drumlin("run", run / "scene.toml", "-o", again, "--threads", "2")
+        same = bytes_below(run / "snapshots") == bytes_below(again / "snapshots")
+        require(same, "the resolved scene does not give the same snapshots again")
+        print("run: repeated from its own scene.toml with two threads, byte for byte")
+
+
+if __name__ == "__main__":
+    main()
