@@ -2,7 +2,6 @@
 // From the snapshots of a run to its profiles and scalars.
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -37,38 +36,40 @@ struct MeasurementOptions {
 enum class FrameSource { isoline, centre_of_mass, gravity, domain };
 std::string name_of(FrameSource source);
 
-/// What came of it, dimensionless. The drum turns clockwise here: one that turns the other way is seen in a
-/// mirror.
+/// What came of it, dimensionless; NaN where it was not measured. The drum turns clockwise here: one that
+/// turns the other way is seen in a mirror.
 struct Measurement {
+  static constexpr double none = ProfileScalars::none;
+
   ProfileSet profiles;  ///< with intervals
-  std::vector<ProfileSet>
-      leave_one_out;  ///< the profiles without one batch each, for intervals of what is derived from them
-  ScalarSet scalars;  ///< theta_deg, theta_com_deg, Q, H, lambda, shear_rate, I_th, nu_bulk,
-                      ///< spin_over_half_vorticity, dv_over_shear, domega_over_shear, k_flowing, Q_expected,
-                      ///< spin_over_half_shear_rate
+  /// The profiles without one batch each, for the intervals of what is derived from them.
+  std::vector<ProfileSet> leave_one_out;
+  /// theta_deg, theta_com_deg, Q, H, lambda, shear_rate, I_th, nu_bulk, spin_over_half_vorticity,
+  /// spin_over_half_shear_rate, dv_over_shear, domega_over_shear, k_flowing, Q_expected.
+  ScalarSet scalars;
   ProfileScalars fits;  ///< of the whole run
+
   FrameSource frame_source = FrameSource::gravity;
-  double frame_angle_deg = 0;  ///< of x below the horizontal
-  double axis_depth =
-      std::numeric_limits<double>::quiet_NaN();  ///< of the surface below the drum's axis; NaN without a drum
-  double wall_z = std::numeric_limits<double>::quiet_NaN();  ///< of the wall (the lowest layer's bottom
-                                                             ///< without a drum), from the surface
-  double slope_half_width = 0;                               ///< used, d
-  double slice_width = 0;                                    ///< used, d
-  double rotation = 0;                                       ///< of the drum, clockwise
-  double container_radius = 0;                               ///< 0 without a drum
+  double frame_angle_deg = none;   ///< of x below the horizontal
+  double axis_depth = none;        ///< height of the drum's axis above the surface
+  double wall_z = none;            ///< of the wall below the slice, of the lowest layer without a drum
+  double slope_half_width = none;  ///< used
+  double slice_width = none;       ///< used
+  double rotation = 0;             ///< of the drum, clockwise
+  double container_radius = 0;     ///< 0 without a drum
   bool in_mirror = false;
   Scales scales;
+
   std::size_t first_snapshot = 0;  ///< snapshots before it belong to another motion of the wall
   std::size_t snapshots = 0;       ///< used
+  std::size_t batches = 0;
   double first_time = 0, last_time = 0;
   double velocity_window = 0;
-  std::size_t batches = 0;
 };
 
 /// Reads every snapshot twice: for the frame, then for the layers. `progress` (may be empty) is told the
-/// snapshots read so far and in all. Throws InputError when there is no snapshot or one
-/// without grains, or when the slice leaves the drum.
+/// snapshots read so far and in all. Throws InputError when there is no snapshot or one without grains, or
+/// when the slice leaves the drum.
 Measurement measurement(const SnapshotSource& source, const MeasurementOptions& options,
                         const std::function<void(std::size_t done, std::size_t total)>& progress = {});
 
