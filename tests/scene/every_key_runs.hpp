@@ -1,0 +1,43 @@
+#pragma once
+// Tiny runs through the run command itself, and what is looked at in the folder that they leave.
+#include <string>
+#include <vector>
+
+#include "particles/measurement/snapshot.hpp"
+
+namespace drumlin::testing {
+
+/// What a run leaves, as far as the same scene leaves the same again: no timings.
+struct RunSummary {
+  int exit_code = 0;
+  std::vector<Snapshot> snapshots;
+  std::vector<std::vector<std::string>> log;  ///< fields of each line, names first
+  std::string title;
+  bool reduced = false;
+  long long seed = 0, steps = 0;
+  bool has_checkpoint = false;
+};
+
+/// Runs a scene in a folder of its own, beside the lists of grains two.csv and three.csv.
+RunSummary summary_of_run(const std::string& scene, const std::vector<std::string>& overrides);
+
+/// Looks at one thing; equal texts mean that nothing is to be seen (nine digits).
+using Observable = std::string (*)(const RunSummary&);
+
+std::string exit_code(const RunSummary&);
+std::string title(const RunSummary&);
+std::string reduced(const RunSummary&);
+std::string steps(const RunSummary&);
+std::string checkpoint(const RunSummary&);
+std::string positions_mm(const RunSummary&);  ///< of the last snapshot
+std::string spins_rad_s(const RunSummary&);
+std::string kinetic_energy(const RunSummary&);
+std::string density(const RunSummary&);
+std::string snapshot_times_s(const RunSummary&);
+std::string windows_s(const RunSummary&);  ///< of the displacements stored
+std::string logged_sweeps(const RunSummary&);
+std::string logged_steps(const RunSummary&);
+std::string logged_stages(const RunSummary&);
+std::string logged_overlaps(const RunSummary&);
+
+}  // namespace drumlin::testing
