@@ -14,8 +14,6 @@ namespace drumlin::apps {
 
 namespace {
 
-constexpr double whole_table = 1e9;  // "as many as you like" where a number must be finite
-
 /// A number with its unit and range in the help, and held to that range.
 template <class T>
 void add_number(CLI::App& command, const std::string& name, T& target, const std::string& unit,
@@ -121,11 +119,11 @@ class CommandLine {
   void add_measure() {
     CLI::App& command = add_command("measure", "Profiles and scalars of a run, into RUN/measured", measure_);
     add_folder_or_file(command, "run", measure_.run, "RUN", "Folder of a finished run");
-    add_number(command, "--slice-width", measure_.slice_width, "d", above(0, whole_table),
+    add_number(command, "--slice-width", measure_.slice_width, "d", above(0),
                "Width of the slice, across its middle");
-    add_number(command, "--layer-thickness", measure_.layer_thickness, "d", above(0, whole_table),
+    add_number(command, "--layer-thickness", measure_.layer_thickness, "d", above(0),
                "Thickness of the layers");
-    add_number(command, "--position", measure_.position, "d", at_least(-whole_table, whole_table),
+    add_number(command, "--position", measure_.position, "d", anything(),
                "Place of the slice along the surface, from the middle of the drum, positive downslope");
     add_existing(command, measure_.existing, keep_what_is_done);
   }
@@ -134,9 +132,8 @@ class CommandLine {
     CLI::App& command = add_command("calibrate", "Fits mu(I) = a + b ln I to measured profiles", calibrate_);
     command.add_option("runs", calibrate_.runs, "Folders of measured runs")->required()->type_name("RUN");
     add_folder_or_file(command, "-o,--output", calibrate_.output, "RHEOLOGY.toml", "File for the law");
-    add_number(command, "--I-min", calibrate_.I_min, "", above(0, whole_table),
-               "Least inertial number that is fitted");
-    add_number(command, "--I-max", calibrate_.I_max, "", above(0, whole_table), "Greatest one");
+    add_number(command, "--I-min", calibrate_.I_min, "", above(0), "Least inertial number that is fitted");
+    add_number(command, "--I-max", calibrate_.I_max, "", above(0), "Greatest one");
     add_existing(command, calibrate_.existing, keep_what_is_done);
   }
 
@@ -193,7 +190,7 @@ class CommandLine {
         ->check(CLI::IsMember(solvers));
     add_number(command, "--tolerance", solve_contacts_.tolerance, "", above(0, 10),
                "It may stop below this residual (docs/conventions.md)");
-    add_number(command, "--max-seconds", solve_contacts_.max_seconds, "s", above(0, whole_table),
+    add_number(command, "--max-seconds", solve_contacts_.max_seconds, "s", above(0),
                "It stops after this wall time in any case");
     command
         .add_option_function<std::string>(
