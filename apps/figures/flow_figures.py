@@ -1,0 +1,134 @@
+"""Figures of a continuum flow: maps.png (speed, I, pressure, mu over the drum) and profiles.png (at the centre).
+
+usage: flow_figures.py FLOWRUN [--flow FLOW_JSON]
+"""
+
+import argparse
+import csv
+import json
+import math
+import pathlib
+
+import matplotlib.colors
+import matplotlib.pyplot as plt
+import numpy as np
+import style
+
+
+def read_maps(path):
+    """(header, grids): each column of maps.csv as a masked array over (z, x), with x and z beside them."""
+    header = {}
+    with open(path, newline="", encoding="utf-8") as stream:
+        for line in stream:
+            if not line.startswith("#"):
+                break
+            key, _, value = line[1:].partition("=")
+            header[key.strip()] = value.strip()
+        names = line.strip().split(",")
+        rows = np.array([[float(entry) for entry in row] for row in csv.reader(stream)])
+    spacing = float(header["spacing"])
+    column = np.rint(rows[:, 0] / spacing).astype(int)
+    row = np.rint(rows[:, 1] / spacing).astype(int)
+    column_0, row_0 = column.min(), row.min()
+    shape = (row.max() - row_0 + 1, column.max() - column_0 + 1)
+    grids = {}
+    for i, name in enumerate(names):
+        grid = np.full(shape, np.nan)
+        grid[row - row_0, column - column_0] = rows[:, i]
+        grids[name] = np.ma.masked_invalid(grid)
+    grids["x"] = spacing * (column_0 + np.arange(shape[1]))
+    grids["z"] = spacing * (row_0 + np.arange(shape[0]))
+    return header, grids
+
+
+def draw_map(axes, grids, values, label, norm, cmap, radius, axis_depth):
+    image = axes.pcolormesh(grids["x"], grids["z"], values, norm=norm, cmap=cmap, shading="nearest", rasterized=True)
+    half = math.acos(axis_depth / radius)
+    angle = np.linspace(-half, half, 200)
+    axes.plot(radius * np.sin(angle), axis_depth - radius * np.cos(angle), color="black", linewidth=1)
+    axes.plot([-radius * math.sin(half), radius * math.sin(half)], [0, 0], color="black", linewidth=1)
+    axes.set_aspect("equal")
+    axes.set_title(label)
+    axes.grid(False)
+    axes.set_xlabel(r"$x$  [$d$], downslope")
+    axes.set_ylabel(style.LABELS["z"])
+    axes.figure.colorbar(image, ax=axes, shrink=0.8, extend="both")
+
+
+def draw_maps(folder, flow):
+    header, grids = read_maps(folder / "maps.csv")
+    radius, axis_depth = float(header["drum_radius"]), float(header["axis_depth"])
+    speed = np.ma.hypot(grids["v_x"], grids["v_z"])
+    figure, axes = plt.subplots(2, 2, figsize=(13, 8.4))
+    log = matplotlib.colors.LogNorm
+    top = float(speed.max())
+    maps = [(speed, r"speed in the frame of the drum  [$\sqrt{gd}$]", log(top * 1e-4, top), "viridis"),
+            (grids["I"], r"inertial number $I$", log(1e-5, 1), "viridis"),
+            (grids["pressure"], r"pressure $p$  [$\rho_0 g d$]",
+             matplotlib.colors.Normalize(0, float(grids["pressure"].max())), "viridis"),
+            (grids["mu"], r"friction $|\tau|/p$", matplotlib.colors.Normalize(0, 0.4), "viridis")]
+    for place, (values, label, norm, cmap) in zip(axes.flat, maps):
+        draw_map(place, grids, values, label, norm, cmap, radius, axis_depth)
+    # A few arrows on the map of the speed; the directions alone, for the speeds span decades.
+    step = max(1, int(radius / 12 / float(header["spacing"])))
+    cut = (slice(None, None, step), slice(None, None, step))
+    x, z = np.meshgrid(grids["x"], grids["z"])
+    axes[0, 0].quiver(x[cut], z[cut], (grids["v_x"] / speed)[cut], (grids["v_z"] / speed)[cut], color="white", alpha=0.7,
+                      scale=32, width=0.0025)
+    ill_posed = grids["well_posedness_margin"] < 0
+    if ill_posed.any():
+        axes[0, 1].contourf(grids["x"], grids["z"], ill_posed.astype(float), levels=[0.5, 1.5], colors="none",
+                            hatches=["////"])
+        axes[0, 1].set_title(r"inertial number $I$ (hatched: ill-posed)")
+    figure.suptitle(style.title_of(f"Continuum flow, slope {flow['theta_deg']:.2f} deg", flow["reduced"]))
+    style.save(figure, folder / "maps.png", flow["reduced"])
+
+
+def draw_profiles(folder, flow):
+    _, columns = style.read_profiles(folder / "profiles.csv")
+    z, H = columns["z"], flow.get("H")
+    figure, axes = plt.subplots(1, 4, figsize=(14, 5.2), sharey=True)
+
+    axes[0].plot(columns["v_x"], z, color=style.CONTINUUM)
+    if H is not None and flow.get("shear_rate") is not None:
+        axes[0].plot([0, flow["shear_rate"] * H], [-H, 0], color=style.PAPER, linewidth=1, linestyle="--",
+                     label=rf"line to $H$ = {H:.1f}")
+        axes[0].legend(loc="lower right")
+    axes[0].set_xlabel(style.LABELS["v_x"])
+    axes[0].set_ylabel(style.LABELS["z"])
+
+    rate = [value if value > 0 else math.nan for value in columns["shear_rate"]]
+    axes[1].semilogx(rate, z, color=style.CONTINUUM)
+    axes[1].set_xlabel(style.LABELS["shear_rate"])
+
+    for name, color in zip(("sigma_xx", "sigma_zz", "sigma_xz"), style.OTHERS):
+        axes[2].plot(columns[name], z, color=color, label=style.LABELS[name].split("  ")[0])
+    axes[2].legend()
+    axes[2].set_xlabel(r"stress  [$\rho_0 g d$]")
+
+    for name, color in zip(("mu", "k"), style.OTHERS):
+        axes[3].plot(columns[name], z, color=color, label=style.LABELS[name])
+    axes[3].set_xlim(0, 1.5)
+    axes[3].legend()
+    axes[3].set_xlabel("ratio of stresses")
+
+    if H is not None:
+        for place in axes:
+            place.axhline(-H, color="grey", linewidth=0.8, linestyle=":")
+    figure.suptitle(style.title_of("Continuum flow at the centre of the drum, in its frame", flow["reduced"]))
+    style.save(figure, folder / "profiles.png", flow["reduced"])
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("--flow", type=pathlib.Path, help="flow.json, if it stands elsewhere than in the folder")
+    arguments = parser.parse_args()
+    flow = json.loads((arguments.flow or arguments.folder / "flow.json").read_text(encoding="utf-8"))
+    style.use_style()
+    draw_maps(arguments.folder, flow)
+    draw_profiles(arguments.folder, flow)
+
+
+if __name__ == "__main__":
+    main()

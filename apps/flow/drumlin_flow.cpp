@@ -1,0 +1,56 @@
+// drumlin-flow: the continuum solve as a program of its own, so that `drumlin` starts without loading deal.II. It takes the
+// words of `drumlin flow`, whose command line it shares.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <vector>
+
+#include "apps/flow/flow_run.hpp"
+#include "apps/support/command_line.hpp"
+#include "continuum/fem/runtime.hpp"
+#include "continuum/model/flow_scene.hpp"
+#include "coupling/exchange/errors.hpp"
+
+namespace {
+
+using namespace drumlin;
+
+int failed(ExitCode code, const std::string& message) {
+  std::fflush(stdout);
+  fmt::print(stderr, "{}\n", message);
+  return static_cast<int>(code);
+}
+
+int solve(int argc, char** argv) {
+  if (argc == 2 && std::strcmp(argv[1], "--keys") == 0) {
+    fmt::print("{}", keys_as_text(flow_scene_keys()));
+    return static_cast<int>(ExitCode::done);
+  }
+  std::vector<const char*> words = {"drumlin", "flow"};
+  words.insert(words.end(), argv + 1, argv + argc);
+  const auto request = apps::parse_command_line(static_cast<int>(words.size()), words.data(), {});
+  if (const auto* shown = std::get_if<apps::TextToShow>(&request)) {
+    fmt::print("{}", shown->text);
+    return static_cast<int>(ExitCode::done);
+  }
+  const FemRuntime runtime(argc, argv);
+  return apps::solve_flow_scene(std::get<apps::FlowOptions>(request));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return solve(argc, argv);
+  } catch (const InputError& error) {
+    return failed(ExitCode::wrong_input, error.what());
+  } catch (const NotConvergedError& error) {
+    return failed(ExitCode::not_converged, error.what());
+  } catch (const IoError& error) {
+    return failed(ExitCode::input_output, error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    return failed(ExitCode::input_output, error.what());
+  }
+}

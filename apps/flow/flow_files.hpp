@@ -1,0 +1,37 @@
+#pragma once
+// What a flow leaves in FLOWRUN (docs/formats/flow.md).
+#include <filesystem>
+#include <vector>
+
+#include "continuum/fem/flow_solver.hpp"
+#include "continuum/model/drum.hpp"
+#include "coupling/exchange/profile_set.hpp"
+#include "coupling/exchange/rheology_fit.hpp"
+#include "coupling/exchange/scalar_set.hpp"
+
+namespace drumlin::apps {
+
+/// Size and scalars of the flow on one mesh.
+struct MeshResult {
+  int cells = 0;
+  int unknowns = 0;
+  ScalarSet scalars;
+};
+
+/// Everything that describes one finished flow.
+struct FinishedFlow {
+  const FlowScene& scene;
+  const RheologyFit& law;
+  const DrumGeometry& drum;
+  const FlowSolution& solution;
+  const std::vector<MeshResult>& meshes;  ///< the last one carries the result
+  bool reduced = false;
+};
+
+/// iterations.csv: one line per nonlinear iteration; also for a flow that did not converge.
+void write_iterations(const std::filesystem::path& file, const FlowReport& report);
+
+/// profiles.csv, maps.csv, flow.vtu, the figures, and last of all flow.json: where that stands, all is there.
+void write_flow(const std::filesystem::path& folder, const FinishedFlow& flow);
+
+}  // namespace drumlin::apps

@@ -1,0 +1,97 @@
+#include "apps/flow/flow_run.hpp"
+
+#include <fmt/format.h>
+
+#include <csignal>
+#include <cstdio>
+#include <numbers>
+
+#include "apps/flow/flow_files.hpp"
+#include "apps/support/interruption.hpp"
+#include "apps/support/output_folder.hpp"
+#include "continuum/sampling/drum_profiles.hpp"
+#include "coupling/exchange/errors.hpp"
+#include "coupling/exchange/text_file.hpp"
+
+namespace drumlin::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double degrees = 180 / std::numbers::pi;
+
+void print_iteration(const IterationReport& line) {
+  fmt::print("mesh {} {:<11} eps {:8.2e}  true p {:4.2f}  it {:2}  residual {:8.2e}  step {:8.2e} x {:4.2f}  theta {:7.3f} deg {:7.1f} s\n",
+             line.level, line.phase, line.shear_rate, line.pressure_share, line.iteration, line.residual, line.step_size,
+             line.step_length, line.theta * degrees, line.seconds);
+  std::fflush(stdout);
+}
+
+void print_mesh(int level, const MeshResult& mesh) {
+  fmt::print("mesh {} done: {} unknowns", level, mesh.unknowns);
+  for (const Scalar& scalar : mesh.scalars.scalars) fmt::print(", {} {:.4g}", scalar.name, scalar.value);
+  fmt::print("\n");
+  std::fflush(stdout);
+}
+
+void print_summary(const fs::path& folder, const FinishedFlow& flow) {
+  const FlowIntegrals sums = flow.solution.field.integrals();
+  const double share = sums.ill_posed_area / sums.area;
+  fmt::print("{}{}: {} iterations, {:.1f} s, residual {:.1e}, ill-posed in {:.2f} % of the area{}\n", folder.string(),
+             flow.reduced ? " (reduced)" : "", flow.solution.report.iterations, flow.solution.report.seconds,
+             flow.solution.report.residual, 100 * share,
+             share > 0 ? ": the flow there depends on the mesh (docs/formats/flow.md)" : "");
+}
+
+FlowSolverOptions solver_options(const FlowScene& scene) {
+  FlowSolverOptions options;
+  options.levels = scene.mesh.levels;
+  options.tolerance = scene.solver.tolerance;
+  options.linear_tolerance = scene.solver.linear_tolerance;
+  options.max_iterations = scene.solver.max_iterations;
+  return options;
+}
+
+}  // namespace
+
+int solve_flow_scene(const FlowOptions& options) {
+  const fs::path finished = options.output / "flow.json";
+  if (options.existing == ExistingOutput::resume && fs::exists(finished)) {
+    fmt::print("{}: done already\n", options.output.string());
+    return static_cast<int>(ExitCode::done);
+  }
+  const FlowScene scene = read_flow_scene(options.scene, options.overrides);
+  const RheologyFit fit = read_rheology(options.rheology);
+  const StressLaw law = stress_law(fit);
+  const DrumGeometry drum = drum_geometry(scene, fit.nu);
+  const FlowProblem problem = drum_problem(scene, drum, law);
+  prepare_output(options.output, options.existing, {"flow_scene.toml", "flow.json"});
+  replace_file(options.output / "flow_scene.toml", flow_scene_text(scene));
+  replace_file(options.output / "rheology.toml", file_text(options.rheology));
+
+  const bool reduced = scene.reduced || fit.reduced;
+  fmt::print("{}{}: R = {:.2f} d, axis {:.2f} d above the surface, Omega = {:.5f}, nu = {:.3f}, mu = {} + {} ln I\n",
+             scene.title, reduced ? " (reduced)" : "", drum.radius, drum.axis_offset, drum.rotation, drum.nu, fit.mu.a,
+             fit.mu.b);
+  catch_interruptions();
+  std::vector<MeshResult> meshes;
+  const SliceOptions slice{scene.output.slice_width, scene.output.layer_thickness};
+  FlowObserver observer;
+  observer.iteration = print_iteration;
+  observer.interrupted = [] { return interruption() != 0; };
+  observer.level_finished = [&](int level, const FlowField& field) {
+    meshes.push_back({field.cells(), field.unknowns(), drum_scalars(field, drum, drum_profiles(field, drum, slice))});
+    print_mesh(level, meshes.back());
+  };
+  const FlowSolution solution = solve_flow(problem, solver_options(scene), observer);
+  write_iterations(options.output / "iterations.csv", solution.report);
+  if (const int signal = interruption(); signal != 0)
+    return static_cast<int>(signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted);
+  if (!solution.report.converged) throw NotConvergedError("the flow did not converge: " + solution.report.failure);
+  const FinishedFlow flow{scene, fit, drum, solution, meshes, reduced};
+  write_flow(options.output, flow);
+  print_summary(options.output, flow);
+  return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace drumlin::apps

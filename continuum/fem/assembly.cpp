@@ -1,0 +1,277 @@
+#include "continuum/fem/detail/assembly.hpp"
+
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/lac/full_matrix.h>
+
+#include <cmath>
+
+namespace drumlin::fem {
+namespace {
+
+using dealii::FEValues;
+using dealii::Vector;
+using Indices = std::vector<dealii::types::global_dof_index>;
+
+// Shape functions of one cell in the form that the integrals use. Q2-Q1 is primitive: each shape function has one component.
+struct CellShapes {
+  unsigned int n = 0;
+  std::vector<unsigned int> component;
+  std::vector<PlaneTensor> rate;     // symmetric gradient, n per point
+  std::vector<double> divergence;    // n per point
+  std::vector<double> value;         // n per point
+
+  explicit CellShapes(const Discretisation& d) : n(d.elements.n_dofs_per_cell()), component(n) {
+    for (unsigned int i = 0; i < n; ++i) component[i] = d.elements.system_to_component_index(i).first;
+    rate.resize(n * d.quadrature.size());
+    divergence.resize(rate.size());
+    value.resize(rate.size());
+  }
+  void reinit(const FEValues<2>& fe) {
+    for (const unsigned int q : fe.quadrature_point_indices())
+      for (unsigned int i = 0; i < n; ++i) {
+        const auto k = q * n + i;
+        value[k] = fe.shape_value(i, q);
+        if (component[i] == 2) continue;
+        const auto g = fe.shape_grad(i, q);
+        rate[k] = component[i] == 0 ? PlaneTensor{g[0], 0, 0.5 * g[1]} : PlaneTensor{0, g[1], 0.5 * g[0]};
+        divergence[k] = g[component[i]];
+      }
+  }
+};
+
+struct PointValues {
+  PlaneTensor D;
+  double divergence = 0;
+  double p = 0;
+};
+
+PointValues point_values(const CellShapes& s, unsigned int q, const Vector<double>& local) {
+  PointValues at;
+  for (unsigned int i = 0; i < s.n; ++i) {
+    const auto k = q * s.n + i;
+    if (s.component[i] == 2) {
+      at.p += local[i] * s.value[k];
+    } else {
+      at.D = at.D + local[i] * s.rate[k];
+      at.divergence += local[i] * s.divergence[k];
+    }
+  }
+  return at;
+}
+
+double law_pressure(const LawPressure& setting, double p, double z) {
+  return setting.share * p + (1 - setting.share) * (setting.surface - setting.gradient * z);
+}
+
+Vec2 body_force(const FlowProblem& problem, double theta, const dealii::Point<2>& x) {
+  Vec2 f{problem.density * std::sin(theta), -problem.density * std::cos(theta)};
+  if (problem.extra_force) {
+    const Vec2 extra = problem.extra_force({x[0], x[1]});
+    f.x += extra.x;
+    f.z += extra.z;
+  }
+  return f;
+}
+
+void add_point_residual(const CellShapes& s, unsigned int q, const PointValues& at, const PlaneTensor& stress, Vec2 force,
+                        double JxW, Vector<double>& residual) {
+  for (unsigned int i = 0; i < s.n; ++i) {
+    const auto k = q * s.n + i;
+    if (s.component[i] == 2)
+      residual[i] -= s.value[k] * at.divergence * JxW;
+    else
+      residual[i] += (contraction(stress, s.rate[k]) - at.p * s.divergence[k] -
+                      (s.component[i] == 0 ? force.x : force.z) * s.value[k]) * JxW;
+  }
+}
+
+void add_point_tangent(const CellShapes& s, unsigned int q, const StressResponse& response, double share, double JxW,
+                       dealii::FullMatrix<double>& matrix) {
+  for (unsigned int j = 0; j < s.n; ++j) {
+    const auto kj = q * s.n + j;
+    if (s.component[j] == 2) {
+      const PlaneTensor by_p = share * response.by_pressure;
+      for (unsigned int i = 0; i < s.n; ++i)
+        if (s.component[i] != 2) {
+          const auto ki = q * s.n + i;
+          matrix(i, j) += s.value[kj] * (contraction(by_p, s.rate[ki]) - s.divergence[ki]) * JxW;
+          matrix(j, i) -= s.value[kj] * s.divergence[ki] * JxW;
+        }
+    } else {
+      const PlaneTensor d_stress = JxW * tangent(response, s.rate[kj]);
+      for (unsigned int i = 0; i < s.n; ++i)
+        if (s.component[i] != 2) matrix(i, j) += contraction(d_stress, s.rate[q * s.n + i]);
+    }
+  }
+}
+
+// The spring and the tractions on one side of a cell.
+void add_side(const BoundaryCondition& condition, const dealii::FEFaceValues<2>& face, const CellShapes& s,
+              const Vector<double>& local, Vector<double>& residual, dealii::FullMatrix<double>* matrix) {
+  for (const unsigned int q : face.quadrature_point_indices()) {
+    const auto normal = face.normal_vector(q);
+    const double JxW = face.JxW(q);
+    const auto along_normal = [&](unsigned int i) { return face.shape_value(i, q) * normal[s.component[i]]; };
+    if (const auto* spring = std::get_if<NormalSpring>(&condition)) {
+      double u_n = 0;
+      for (unsigned int i = 0; i < s.n; ++i)
+        if (s.component[i] != 2) u_n += local[i] * along_normal(i);
+      for (unsigned int i = 0; i < s.n; ++i) {
+        if (s.component[i] == 2) continue;
+        residual[i] += spring->stiffness * u_n * along_normal(i) * JxW;
+        if (matrix)
+          for (unsigned int j = 0; j < s.n; ++j)
+            if (s.component[j] != 2) (*matrix)(i, j) += spring->stiffness * along_normal(i) * along_normal(j) * JxW;
+      }
+    } else if (const auto* given = std::get_if<Traction>(&condition)) {
+      const auto x = face.quadrature_point(q);
+      const Vec2 t = given->traction({x[0], x[1]});
+      for (unsigned int i = 0; i < s.n; ++i)
+        if (s.component[i] != 2) residual[i] -= (s.component[i] == 0 ? t.x : t.z) * face.shape_value(i, q) * JxW;
+    }
+  }
+}
+
+template <class Law>
+void assemble(const FlowProblem& problem, const Discretisation& d, const Law& law, const Setting& setting, const State& state,
+              const dealii::AffineConstraints<double>& constraints, Vector<double>& residual,
+              dealii::SparseMatrix<double>* matrix) {
+  FEValues<2> fe(d.mapping, d.elements, d.quadrature,
+                 dealii::update_values | dealii::update_gradients | dealii::update_JxW_values | dealii::update_quadrature_points);
+  dealii::FEFaceValues<2> face(d.mapping, d.elements, d.side_quadrature,
+                               dealii::update_values | dealii::update_JxW_values | dealii::update_normal_vectors |
+                                   dealii::update_quadrature_points);
+  CellShapes shapes(d);
+  Indices indices(shapes.n);
+  Vector<double> local(shapes.n), local_residual(shapes.n);
+  dealii::FullMatrix<double> local_matrix(shapes.n, shapes.n);
+  residual = 0;
+  if (matrix) *matrix = 0;
+  std::size_t point = 0;
+  for (const auto& cell : d.unknowns.active_cell_iterators()) {
+    fe.reinit(cell);
+    shapes.reinit(fe);
+    cell->get_dof_indices(indices);
+    cell->get_dof_values(state.solution, local);
+    local_residual = 0;
+    local_matrix = 0;
+    for (const unsigned int q : fe.quadrature_point_indices()) {
+      const PointValues at = point_values(shapes, q, local);
+      const double p = law_pressure(setting.pressure, at.p, fe.quadrature_point(q)[1]);
+      const auto response = stress_response(law, setting.regularisation, at.D, p, state.dual[point++]);
+      add_point_residual(shapes, q, at, response.stress, body_force(problem, state.theta, fe.quadrature_point(q)), fe.JxW(q),
+                         local_residual);
+      if (matrix) add_point_tangent(shapes, q, response, setting.pressure.share, fe.JxW(q), local_matrix);
+    }
+    for (const unsigned int f : cell->face_indices())
+      if (cell->face(f)->at_boundary())
+        if (const auto* condition = condition_on(problem, cell->face(f)->boundary_id())) {
+          face.reinit(cell, f);
+          add_side(*condition, face, shapes, local, local_residual, matrix ? &local_matrix : nullptr);
+        }
+    constraints.distribute_local_to_global(local_residual, indices, residual);
+    if (matrix) constraints.distribute_local_to_global(local_matrix, indices, *matrix);
+  }
+}
+
+template <class Visit>
+void for_each_point(const Discretisation& d, const Vector<double>& solution, Visit visit) {
+  FEValues<2> fe(d.mapping, d.elements, d.quadrature, dealii::update_values | dealii::update_gradients);
+  CellShapes shapes(d);
+  Vector<double> local(shapes.n);
+  for (const auto& cell : d.unknowns.active_cell_iterators()) {
+    fe.reinit(cell);
+    shapes.reinit(fe);
+    cell->get_dof_values(solution, local);
+    for (const unsigned int q : fe.quadrature_point_indices()) visit(point_values(shapes, q, local));
+  }
+}
+
+}  // namespace
+
+void assemble_residual(const FlowProblem& problem, const Discretisation& d, const Setting& setting, const State& state,
+                       System& system) {
+  system.residual.reinit(d.unknowns.n_dofs());
+  std::visit([&](const auto& law) { assemble(problem, d, law, setting, state, d.homogeneous, system.residual, nullptr); },
+             setting.law);
+}
+
+void assemble_tangent(const FlowProblem& problem, const Discretisation& d, const Setting& setting, const State& state,
+                      System& system) {
+  system.residual.reinit(d.unknowns.n_dofs());
+  std::visit([&](const auto& law) { assemble(problem, d, law, setting, state, d.homogeneous, system.residual, &system.matrix); },
+             setting.law);
+}
+
+Vector<double> nodal_forces(const FlowProblem& problem, const Discretisation& d, const Setting& setting, const State& state) {
+  Vector<double> forces(d.unknowns.n_dofs());
+  std::visit([&](const auto& law) { assemble(problem, d, law, setting, state, d.conforming, forces, nullptr); }, setting.law);
+  return forces;
+}
+
+Vector<double> load(const Discretisation& d, Vec2 force_density) {
+  Vector<double> result(d.unknowns.n_dofs());
+  FEValues<2> fe(d.mapping, d.elements, d.quadrature, dealii::update_values | dealii::update_JxW_values);
+  Indices indices(d.elements.n_dofs_per_cell());
+  Vector<double> local(indices.size());
+  for (const auto& cell : d.unknowns.active_cell_iterators()) {
+    fe.reinit(cell);
+    cell->get_dof_indices(indices);
+    local = 0;
+    for (unsigned int i = 0; i < indices.size(); ++i) {
+      const unsigned int component = d.elements.system_to_component_index(i).first;
+      if (component == 2) continue;
+      for (const unsigned int q : fe.quadrature_point_indices())
+        local[i] += (component == 0 ? force_density.x : force_density.z) * fe.shape_value(i, q) * fe.JxW(q);
+    }
+    d.homogeneous.distribute_local_to_global(local, indices, result);
+  }
+  return result;
+}
+
+Vector<double> surface_moment(const FlowProblem& problem, const Discretisation& d) {
+  Vector<double> result(d.unknowns.n_dofs());
+  dealii::FEFaceValues<2> face(d.mapping, d.elements, d.side_quadrature,
+                               dealii::update_values | dealii::update_JxW_values | dealii::update_normal_vectors |
+                                   dealii::update_quadrature_points);
+  Indices indices(d.elements.n_dofs_per_cell());
+  for (const auto& cell : d.unknowns.active_cell_iterators())
+    for (const unsigned int f : cell->face_indices()) {
+      if (!cell->face(f)->at_boundary()) continue;
+      const auto* condition = condition_on(problem, cell->face(f)->boundary_id());
+      const auto* spring = condition ? std::get_if<NormalSpring>(condition) : nullptr;
+      if (!spring) continue;
+      face.reinit(cell, f);
+      cell->get_dof_indices(indices);
+      for (unsigned int i = 0; i < indices.size(); ++i) {
+        const unsigned int component = d.elements.system_to_component_index(i).first;
+        if (component == 2) continue;
+        for (const unsigned int q : face.quadrature_point_indices())
+          result[indices[i]] += face.quadrature_point(q)[0] * spring->stiffness * face.shape_value(i, q) *
+                                face.normal_vector(q)[component] * face.JxW(q);
+      }
+    }
+  return result;
+}
+
+std::vector<PlaneTensor> dual_of(const Discretisation& d, const Regularisation& r, const Vector<double>& solution) {
+  std::vector<PlaneTensor> dual;
+  dual.reserve(d.mesh.n_active_cells() * d.quadrature.size());
+  for_each_point(d, solution, [&](const PointValues& at) { dual.push_back((1 / regularised_rate(at.D, r)) * at.D); });
+  return dual;
+}
+
+std::vector<PlaneTensor> advanced_dual(const Discretisation& d, const Regularisation& r, const State& state,
+                                       const Vector<double>& step) {
+  std::vector<PlaneTensor> D, next;
+  D.reserve(state.dual.size());
+  next.reserve(state.dual.size());
+  for_each_point(d, state.solution, [&](const PointValues& at) { D.push_back(at.D); });
+  for_each_point(d, step, [&](const PointValues& change) {
+    const auto k = next.size();
+    next.push_back(drumlin::advanced_dual(D[k], change.D, state.dual[k], regularised_rate(D[k], r)));
+  });
+  return next;
+}
+
+}  // namespace drumlin::fem

@@ -1,0 +1,53 @@
+#pragma once
+// Residual and tangent of the discrete problem. Private to fem/.
+#include <deal.II/lac/sparse_matrix.h>
+
+#include "continuum/fem/detail/discretisation.hpp"
+
+namespace drumlin::fem {
+
+/// What Newton's method iterates on.
+struct State {
+  dealii::Vector<double> solution;  ///< velocity and pressure
+  double theta = 0;                 ///< rad
+  std::vector<PlaneTensor> dual;    ///< D/|D| per cell and quadrature point
+};
+
+/// The pressure that the law sees: share * p + (1 - share) * hydrostatic.
+struct LawPressure {
+  double share = 1;
+  double surface = 0;   ///< of the hydrostatic part
+  double gradient = 0;  ///< of the hydrostatic part, per unit depth
+};
+
+/// How one system is to be formed.
+struct Setting {
+  StressLaw law;
+  Regularisation regularisation;
+  LawPressure pressure;
+};
+
+struct System {
+  dealii::Vector<double> residual;      ///< zero in constrained rows
+  dealii::SparseMatrix<double> matrix;  ///< filled by assemble_tangent alone
+};
+
+void assemble_residual(const FlowProblem&, const Discretisation&, const Setting&, const State&, System&);
+void assemble_tangent(const FlowProblem&, const Discretisation&, const Setting&, const State&, System&);
+
+/// The residual without the given velocities: its entries on a side with given velocity are the forces of that side on
+/// the material.
+dealii::Vector<double> nodal_forces(const FlowProblem&, const Discretisation&, const Setting&, const State&);
+
+/// Load of the force density (x, z), constrained rows zero.
+dealii::Vector<double> load(const Discretisation&, Vec2 force_density);
+/// Linear functional whose product with the solution is the moment of sigma_nn = stiffness u_n, integral x sigma_nn dx.
+dealii::Vector<double> surface_moment(const FlowProblem&, const Discretisation&);
+
+/// D/|D| of the solution at every quadrature point.
+std::vector<PlaneTensor> dual_of(const Discretisation&, const Regularisation&, const dealii::Vector<double>& solution);
+/// The dual after the step `step` from `state`.
+std::vector<PlaneTensor> advanced_dual(const Discretisation&, const Regularisation&, const State& state,
+                                       const dealii::Vector<double>& step);
+
+}  // namespace drumlin::fem

@@ -1,0 +1,143 @@
+#include "continuum/fem/detail/discretisation.hpp"
+
+#include <deal.II/base/function.h>
+#include <deal.II/dofs/dof_renumbering.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/numerics/solution_transfer.h>
+#include <deal.II/numerics/vector_tools_boundary.h>
+
+#include <map>
+
+namespace drumlin::fem {
+namespace {
+
+using BoundaryValues = std::map<dealii::types::global_dof_index, double>;
+
+class VelocityFunction : public dealii::Function<2> {
+ public:
+  explicit VelocityFunction(const std::function<Vec2(Vec2)>& velocity) : Function(3), velocity_(velocity) {}
+  void vector_value(const dealii::Point<2>& p, dealii::Vector<double>& value) const override {
+    const Vec2 v = velocity_({p[0], p[1]});
+    value[0] = v.x;
+    value[1] = v.z;
+    value[2] = 0;
+  }
+
+ private:
+  const std::function<Vec2(Vec2)>& velocity_;
+};
+
+BoundaryValues prescribed_velocities(const FlowProblem& problem, const Discretisation& d) {
+  BoundaryValues all;
+  for (const auto& [side, condition] : problem.boundary)
+    if (const auto* given = std::get_if<PrescribedVelocity>(&condition)) {
+      BoundaryValues here;
+      dealii::VectorTools::interpolate_boundary_values(d.mapping, d.unknowns, static_cast<int>(side),
+                                                       VelocityFunction(given->velocity), here,
+                                                       dealii::ComponentMask({true, true, false}));
+      all.insert(here.begin(), here.end());
+    }
+  return all;
+}
+
+// The quadratic image of an arc lets a tangential velocity leak a little. Against the stiff surface that leak would
+// stand as a mean pressure of stiffness times leak: take it out by the smallest change of the given velocities.
+void remove_net_flux(const FlowProblem& problem, const Discretisation& d, BoundaryValues& values) {
+  bool has_spring = false;
+  for (const auto& [side, condition] : problem.boundary) has_spring |= std::holds_alternative<NormalSpring>(condition);
+  if (!has_spring) return;
+
+  dealii::Vector<double> flux_of(d.unknowns.n_dofs());
+  dealii::FEFaceValues<2> face(d.mapping, d.elements, d.side_quadrature,
+                               dealii::update_values | dealii::update_normal_vectors | dealii::update_JxW_values);
+  std::vector<dealii::types::global_dof_index> indices(d.elements.n_dofs_per_cell());
+  for (const auto& cell : d.unknowns.active_cell_iterators())
+    for (const unsigned int f : cell->face_indices()) {
+      if (!cell->face(f)->at_boundary()) continue;
+      const auto* condition = condition_on(problem, cell->face(f)->boundary_id());
+      if (!condition || !std::holds_alternative<PrescribedVelocity>(*condition)) continue;
+      face.reinit(cell, f);
+      cell->get_dof_indices(indices);
+      for (unsigned int i = 0; i < indices.size(); ++i) {
+        const unsigned int component = d.elements.system_to_component_index(i).first;
+        if (component == 2) continue;
+        for (const unsigned int q : face.quadrature_point_indices())
+          flux_of[indices[i]] += face.shape_value(i, q) * face.normal_vector(q)[component] * face.JxW(q);
+      }
+    }
+  double flux = 0, weight = 0;
+  for (const auto& [index, value] : values)
+    if (value != 0) {  // a velocity that is nought by choice, at the corners, stays nought
+      flux += flux_of[index] * value;
+      weight += flux_of[index] * flux_of[index];
+    }
+  if (weight == 0) return;
+  for (auto& [index, value] : values)
+    if (value != 0) value -= flux / weight * flux_of[index];
+}
+
+}  // namespace
+
+Discretisation::Discretisation(const FlowProblem& problem)
+    : mesh(dealii::Triangulation<2>::limit_level_difference_at_vertices),
+      elements(dealii::FE_Q<2>(2), 2, dealii::FE_Q<2>(1), 1),
+      unknowns(mesh) {
+  make_mesh(problem.domain, mesh);
+  distribute_unknowns(problem);
+}
+
+void Discretisation::refine(const FlowProblem& problem, dealii::Vector<double>& solution) {
+  dealii::SolutionTransfer<2, dealii::Vector<double>> transfer(unknowns);
+  mesh.set_all_refine_flags();
+  mesh.prepare_coarsening_and_refinement();
+  transfer.prepare_for_coarsening_and_refinement(solution);
+  mesh.execute_coarsening_and_refinement();
+  const dealii::Vector<double> coarse = solution;
+  distribute_unknowns(problem);
+  solution.reinit(unknowns.n_dofs());
+  transfer.interpolate(coarse, solution);
+  constraints.distribute(solution);
+}
+
+void Discretisation::distribute_unknowns(const FlowProblem& problem) {
+  unknowns.distribute_dofs(elements);
+  const auto velocity = dealii::DoFTools::extract_dofs(unknowns, dealii::ComponentMask({true, true, false}));
+  is_velocity.assign(unknowns.n_dofs(), false);
+  for (const auto index : velocity) is_velocity[index] = true;
+
+  constraints.clear();
+  dealii::DoFTools::make_hanging_node_constraints(unknowns, constraints);
+  if (const auto* box = std::get_if<BoxDomain>(&problem.domain); box && box->periodic_x)
+    dealii::DoFTools::make_periodicity_constraints(unknowns, static_cast<int>(Side::left), static_cast<int>(Side::right), 0,
+                                                   constraints);
+  BoundaryValues values = prescribed_velocities(problem, *this);
+  remove_net_flux(problem, *this, values);
+  if (problem.pressure_needs_a_mean)
+    for (dealii::types::global_dof_index i = 0; i < unknowns.n_dofs(); ++i)
+      if (!is_velocity[i] && !constraints.is_constrained(i)) {
+        values[i] = 0;
+        break;
+      }
+  homogeneous.clear();
+  homogeneous.merge(constraints);
+  conforming.clear();
+  conforming.merge(constraints);
+  conforming.close();
+  for (const auto& [index, value] : values)
+    if (!constraints.is_constrained(index)) {
+      constraints.add_line(index);
+      constraints.set_inhomogeneity(index, value);
+      homogeneous.add_line(index);
+    }
+  constraints.close();
+  homogeneous.close();
+
+  dealii::DynamicSparsityPattern entries(unknowns.n_dofs());
+  dealii::DoFTools::make_sparsity_pattern(unknowns, entries, homogeneous, /*keep_constrained_dofs=*/false);
+  pattern.copy_from(entries);
+}
+
+}  // namespace drumlin::fem

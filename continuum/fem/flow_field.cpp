@@ -1,0 +1,144 @@
+#include "continuum/fem/flow_field.hpp"
+
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/grid/grid_tools.h>
+#include <deal.II/grid/grid_tools_cache.h>
+
+#include <cmath>
+#include <limits>
+
+#include "continuum/fem/detail/solved_level.hpp"
+#include "continuum/rheology/well_posedness.hpp"
+
+namespace drumlin {
+namespace {
+
+using dealii::FEValuesExtractors::Scalar;
+using dealii::FEValuesExtractors::Vector;
+
+// Values at the points of one FEValues, in the order of its points.
+struct Values {
+  std::vector<dealii::Tensor<1, 2>> velocity;
+  std::vector<dealii::Tensor<2, 2>> gradient;
+  std::vector<double> pressure;
+
+  Values(const dealii::FEValues<2>& fe, const dealii::Vector<double>& solution)
+      : velocity(fe.n_quadrature_points), gradient(fe.n_quadrature_points), pressure(fe.n_quadrature_points) {
+    fe[Vector(0)].get_function_values(solution, velocity);
+    fe[Vector(0)].get_function_gradients(solution, gradient);
+    fe[Scalar(2)].get_function_values(solution, pressure);
+  }
+};
+
+StressResponse response(const fem::Setting& setting, const PlaneTensor& D, double p) {
+  return std::visit([&](const auto& law) { return stress_response(law, setting.regularisation, D, p, D); }, setting.law);
+}
+
+PlaneTensor strain_rate(const dealii::Tensor<2, 2>& g) { return {g[0][0], g[1][1], 0.5 * (g[0][1] + g[1][0])}; }
+
+PointState point_state(const fem::Setting& setting, const dealii::Tensor<1, 2>& u, const dealii::Tensor<2, 2>& g, double p) {
+  const StressResponse s = response(setting, strain_rate(g), p);
+  return {.velocity = {u[0], u[1]}, .dvx_dx = g[0][0], .dvx_dz = g[0][1], .dvz_dx = g[1][0], .dvz_dz = g[1][1], .pressure = p,
+          .sigma_xx = p - s.stress.xx, .sigma_zz = p - s.stress.zz, .sigma_xz = s.stress.xz,
+          .shear_stress = magnitude(s.stress), .rate = magnitude(strain_rate(g)), .law_pressure = s.law_pressure,
+          .viscosity = 0.5 * s.modulus,
+          .well_posedness = well_posedness_margin(s.strength, s.rate, magnitude(s.right))};
+}
+
+PointState outside() {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  return {{nan, nan}, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan};
+}
+
+// Force, power and torque of the sides with a given velocity, from the residual in their unknowns.
+void add_given_sides(const fem::SolvedLevel& level, Vec2 centre, FlowIntegrals& sums) {
+  const auto& d = *level.discretisation;
+  const auto forces = fem::nodal_forces(level.problem, d, level.setting, level.state);
+  std::vector<dealii::Point<2>> place(d.unknowns.n_dofs());
+  dealii::DoFTools::map_dofs_to_support_points(d.mapping, d.unknowns, place);
+  const auto along_x = dealii::DoFTools::extract_dofs(d.unknowns, dealii::ComponentMask({true, false, false}));
+  for (dealii::types::global_dof_index i = 0; i < d.unknowns.n_dofs(); ++i) {
+    if (!d.is_velocity[i] || !d.homogeneous.is_constrained(i) || d.conforming.is_constrained(i)) continue;
+    sums.given_side_power += forces[i] * level.state.solution[i];
+    sums.given_side_torque += forces[i] * (along_x.is_element(i) ? place[i][1] - centre.z : -(place[i][0] - centre.x));
+  }
+}
+
+void add_surface(const fem::SolvedLevel& level, FlowIntegrals& sums) {
+  const auto& d = *level.discretisation;
+  dealii::FEFaceValues<2> face(d.mapping, d.elements, d.side_quadrature,
+                               dealii::update_values | dealii::update_JxW_values | dealii::update_normal_vectors |
+                                   dealii::update_quadrature_points);
+  std::vector<dealii::Tensor<1, 2>> u(d.side_quadrature.size());
+  for (const auto& cell : d.unknowns.active_cell_iterators())
+    for (const unsigned int f : cell->face_indices()) {
+      if (!cell->face(f)->at_boundary()) continue;
+      const auto* condition = fem::condition_on(level.problem, cell->face(f)->boundary_id());
+      const auto* spring = condition ? std::get_if<NormalSpring>(condition) : nullptr;
+      if (!spring) continue;
+      face.reinit(cell, f);
+      face[Vector(0)].get_function_values(level.state.solution, u);
+      for (const unsigned int q : face.quadrature_point_indices()) {
+        const double u_n = u[q] * face.normal_vector(q);
+        sums.surface_force += spring->stiffness * u_n * face.JxW(q);
+        sums.surface_moment += face.quadrature_point(q)[0] * spring->stiffness * u_n * face.JxW(q);
+        sums.surface_leak += 0.5 * std::abs(u_n) * face.JxW(q);
+      }
+    }
+}
+
+}  // namespace
+
+FlowField::FlowField(std::shared_ptr<const fem::SolvedLevel> level) : level_(std::move(level)) {}
+double FlowField::theta() const { return level_->state.theta; }
+int FlowField::unknowns() const { return static_cast<int>(level_->discretisation->unknowns.n_dofs()); }
+int FlowField::cells() const { return static_cast<int>(level_->discretisation->mesh.n_active_cells()); }
+
+std::vector<PointState> FlowField::at(std::span<const Vec2> points) const {
+  const auto& d = *level_->discretisation;
+  std::vector<PointState> states(points.size(), outside());
+  std::vector<dealii::Point<2>> places;
+  places.reserve(points.size());
+  for (const Vec2& p : points) places.emplace_back(p.x, p.z);
+  const dealii::GridTools::Cache<2> cache(d.mesh, d.mapping);
+  const auto [cells, unit_points, indices, missing] = dealii::GridTools::compute_point_locations_try_all(cache, places);
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    dealii::FEValues<2> fe(d.mapping, d.elements, dealii::Quadrature<2>(unit_points[c]),
+                           dealii::update_values | dealii::update_gradients);
+    fe.reinit(typename dealii::DoFHandler<2>::active_cell_iterator(&d.mesh, cells[c]->level(), cells[c]->index(), &d.unknowns));
+    const Values values(fe, level_->state.solution);
+    for (std::size_t q = 0; q < indices[c].size(); ++q)
+      states[indices[c][q]] = point_state(level_->setting, values.velocity[q], values.gradient[q], values.pressure[q]);
+  }
+  return states;
+}
+
+FlowIntegrals FlowField::integrals(Vec2 centre) const {
+  const auto& d = *level_->discretisation;
+  const auto& problem = level_->problem;
+  FlowIntegrals sums;
+  dealii::FEValues<2> fe(d.mapping, d.elements, d.quadrature,
+                         dealii::update_values | dealii::update_gradients | dealii::update_JxW_values |
+                             dealii::update_quadrature_points);
+  const Vec2 weight{problem.density * std::sin(theta()), -problem.density * std::cos(theta())};
+  for (const auto& cell : d.unknowns.active_cell_iterators()) {
+    fe.reinit(cell);
+    const Values values(fe, level_->state.solution);
+    for (const unsigned int q : fe.quadrature_point_indices()) {
+      const PlaneTensor D = strain_rate(values.gradient[q]);
+      const auto s = response(level_->setting, D, values.pressure[q]);
+      const auto x = fe.quadrature_point(q);
+      sums.area += fe.JxW(q);
+      if (well_posedness_margin(s.strength, s.rate, magnitude(s.right)) < 0) sums.ill_posed_area += fe.JxW(q);
+      sums.dissipation += contraction(s.stress, D) * fe.JxW(q);
+      sums.weight_power += (weight.x * values.velocity[q][0] + weight.z * values.velocity[q][1]) * fe.JxW(q);
+      sums.weight_torque += (weight.x * (x[1] - centre.z) - weight.z * (x[0] - centre.x)) * fe.JxW(q);
+    }
+  }
+  add_given_sides(*level_, centre, sums);
+  add_surface(*level_, sums);
+  return sums;
+}
+
+}  // namespace drumlin

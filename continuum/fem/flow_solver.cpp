@@ -1,0 +1,257 @@
+#include "continuum/fem/flow_solver.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "continuum/fem/detail/direct_solver.hpp"
+#include "continuum/fem/detail/solved_level.hpp"
+#include "coupling/exchange/errors.hpp"
+
+namespace drumlin {
+namespace {
+
+using dealii::Vector;
+using fem::Setting;
+using fem::State;
+
+struct Phase {
+  std::string name;
+  Setting setting;
+  double tolerance = 0;
+};
+
+// Newton's method on one mesh.
+class Newton {
+ public:
+  Newton(const FlowProblem& problem, const FlowSolverOptions& options, const fem::Discretisation& discretisation, int level,
+         double start_seconds, FlowReport& report, const FlowObserver& observer)
+      : problem_(problem), options_(options), d_(discretisation), factors_(d_.pattern), level_(level), start_(start_seconds),
+        report_(report), observer_(observer), moment_(fem::surface_moment(problem, d_)) {
+    system_.matrix.reinit(d_.pattern);
+    weight_norm_ = problem.density > 0 ? fem::load(d_, {0, problem.density}).l2_norm() : 0;
+  }
+
+  bool solve(const Phase& phase, State& state);
+  bool was_interrupted() const { return observer_.interrupted && observer_.interrupted(); }
+
+ private:
+  struct Step {
+    Vector<double> solution;
+    double theta = 0;
+    double linear_residual = 0;
+  };
+  Step newton_step(const State& state);
+  double slope(const Phase& phase, const State& state, const Step& step, double alpha);
+  double step_length(const Phase& phase, const State& state, const Step& step);
+  double relative_residual() const { return system_.residual.l2_norm() / reference_; }
+
+  const FlowProblem& problem_;
+  const FlowSolverOptions& options_;
+  const fem::Discretisation& d_;
+  fem::DirectSolver factors_;
+  int level_;
+  double start_;
+  FlowReport& report_;
+  const FlowObserver& observer_;
+  Vector<double> moment_;
+  fem::System system_;
+  double weight_norm_ = 0;
+  double reference_ = 1;
+};
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+State moved(const State& state, const Vector<double>& step, double theta_step, double alpha) {
+  State next = state;
+  next.solution.add(alpha, step);
+  next.theta += alpha * theta_step;
+  return next;
+}
+
+// The slope is one more unknown, its equation (the moment) linear in the solution: two solves with the same factors.
+Newton::Step Newton::newton_step(const State& state) {
+  factors_.factorise(system_.matrix);
+  Step step;
+  Vector<double> rhs = system_.residual;
+  rhs *= -1;
+  step.linear_residual = factors_.solve(rhs, step.solution);
+  d_.homogeneous.distribute(step.solution);
+  if (std::holds_alternative<SlopeFromMoment>(problem_.slope)) {
+    const Vector<double> by_theta =
+        fem::load(d_, {problem_.density * std::cos(state.theta), problem_.density * std::sin(state.theta)});
+    Vector<double> response;
+    step.linear_residual = std::max(step.linear_residual, factors_.solve(by_theta, response));
+    d_.homogeneous.distribute(response);
+    step.theta = -(moment_ * state.solution + moment_ * step.solution) / (moment_ * response);
+    step.solution.add(step.theta, response);
+  }
+  return step;
+}
+
+double Newton::slope(const Phase& phase, const State& state, const Step& step, double alpha) {
+  fem::assemble_residual(problem_, d_, phase.setting, moved(state, step.solution, step.theta, alpha), system_);
+  double sum = 0;
+  for (dealii::types::global_dof_index i = 0; i < step.solution.size(); ++i)
+    if (d_.is_velocity[i]) sum += system_.residual[i] * step.solution[i];
+  return sum;
+}
+
+// Where the slope R(u + alpha du).du has fallen well below its start: the residual norm would ask for needlessly short
+// steps, since stiff, nearly rigid parts dominate it.
+double Newton::step_length(const Phase& phase, const State& state, const Step& step) {
+  const double start = slope(phase, state, step, 0);
+  double low = 0, at_low = start, alpha = 1, best = 1, best_slope = INFINITY;
+  double high = 0, at_high = 0;
+  for (int trial = 0; trial < 8; ++trial) {
+    const double here = slope(phase, state, step, alpha);
+    if (std::isfinite(here) && std::abs(here) < best_slope) best_slope = std::abs(here), best = alpha;
+    if (std::isfinite(here) && std::abs(here) <= 0.5 * std::abs(start)) break;
+    if (!std::isfinite(here) || here * start < 0) high = alpha, at_high = here;
+    else low = alpha, at_low = here;
+    if (high == 0) break;  // the slope has not changed sign by alpha = 1: take the whole step
+    const double secant = std::isfinite(at_high) ? low + (high - low) * at_low / (at_low - at_high) : 0.5 * high;
+    alpha = std::clamp(secant, low + 0.1 * (high - low), low + 0.7 * (high - low));
+  }
+  return best;
+}
+
+bool Newton::solve(const Phase& phase, State& state) {
+  IterationReport line{.level = level_, .phase = phase.name, .shear_rate = phase.setting.regularisation.shear_rate,
+                       .pressure_share = phase.setting.pressure.share};
+  fem::assemble_tangent(problem_, d_, phase.setting, state, system_);
+  if (weight_norm_ > 0) reference_ = weight_norm_;
+  else reference_ = std::max(1e-300, fem::nodal_forces(problem_, d_, phase.setting, state).l2_norm());
+  for (int iteration = 1; iteration <= options_.max_iterations; ++iteration) {
+    if (was_interrupted()) {
+      report_.failure = "interrupted";
+      return false;
+    }
+    const Step step = newton_step(state);
+    if (!(step.linear_residual <= options_.linear_tolerance)) {
+      report_.failure = fmt::format("linear solve: true relative residual {:.2e} after refinement, in phase '{}'",
+                                    step.linear_residual, phase.name);
+      return false;
+    }
+    const double alpha = step_length(phase, state, step);
+    Vector<double> taken = step.solution;
+    taken *= alpha;
+    state.dual = fem::advanced_dual(d_, phase.setting.regularisation, state, taken);
+    state = moved(state, step.solution, step.theta, alpha);
+    fem::assemble_tangent(problem_, d_, phase.setting, state, system_);
+
+    line.iteration = iteration;
+    line.residual = relative_residual();
+    line.step_length = alpha;
+    line.step_size = taken.l2_norm() / state.solution.l2_norm();
+    line.linear_residual = step.linear_residual;
+    line.theta = state.theta;
+    line.seconds = now() - start_;
+    report_.history.push_back(line);
+    report_.residual = line.residual;
+    ++report_.iterations;
+    if (observer_.iteration) observer_.iteration(line);
+    if (!std::isfinite(line.residual)) break;
+    if (line.residual <= phase.tolerance) return true;
+  }
+  report_.failure = fmt::format("mesh {}, phase '{}' (eps = {:.3g}, true pressure {:.2f}): residual {:.3e} after {} iterations, "
+                                "tolerance {:.1e}, last step {:.2e}",
+                                level_, phase.name, line.shear_rate, line.pressure_share, line.residual, line.iteration,
+                                phase.tolerance, line.step_size);
+  return false;
+}
+
+Setting final_setting(const FlowProblem& problem, double theta) {
+  return {problem.law, problem.regularisation, {1, problem.surface_pressure, problem.density * std::cos(theta)}};
+}
+
+// Everything before eps goes down: on the first mesh from a Newtonian fluid to the true pressure, on a finer one nothing
+// but the return to a larger eps, from which the coarser solution is close enough.
+std::vector<Phase> first_phases(const FlowProblem& problem, const FlowSolverOptions& options, bool first_mesh, double theta) {
+  Setting setting = final_setting(problem, theta);
+  if (std::holds_alternative<NewtonianLaw>(problem.law)) return {{"newtonian", setting, options.tolerance}};
+  setting.regularisation.shear_rate =
+      std::max(problem.regularisation.shear_rate, first_mesh ? options.start_shear_rate : options.refined_shear_rate);
+  if (!first_mesh) return {{"refined", setting, options.phase_tolerance}};
+  Setting newtonian = setting;
+  newtonian.law = NewtonianLaw{1};
+  std::vector<Phase> list = {{"newtonian", newtonian, options.phase_tolerance}};
+  for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+    setting.pressure.share = share;
+    list.push_back({share == 0 ? "hydrostatic" : "pressure", setting, options.phase_tolerance});
+  }
+  return list;
+}
+
+bool run(Newton& newton, const Phase& phase, fem::SolvedLevel& level) {
+  level.setting = phase.setting;
+  level.state.dual = fem::dual_of(*level.discretisation, phase.setting.regularisation, level.state.solution);
+  return newton.solve(phase, level.state);
+}
+
+// eps downwards; where a step fails it is halved (in ln eps) from the last solution that converged.
+bool lower_shear_rate(Newton& newton, const FlowSolverOptions& options, fem::SolvedLevel& level) {
+  const double last = level.problem.regularisation.shear_rate;
+  double eps = level.setting.regularisation.shear_rate, factor = options.shear_rate_factor;
+  Phase phase{"shear rate", level.setting, options.phase_tolerance};
+  while (eps > last) {
+    double next = std::max(last, eps * factor);
+    if (next < 1.5 * last) next = last;
+    phase.setting.regularisation.shear_rate = next;
+    phase.tolerance = next == last ? options.tolerance : options.phase_tolerance;
+    const State before = level.state;
+    if (run(newton, phase, level)) {
+      eps = next;
+      continue;
+    }
+    factor = std::sqrt(factor);
+    if (factor > 0.8 || newton.was_interrupted()) return false;
+    level.state = before;
+  }
+  return true;
+}
+
+bool solve_on_mesh(Newton& newton, const FlowSolverOptions& options, bool first_mesh, fem::SolvedLevel& level) {
+  auto list = first_phases(level.problem, options, first_mesh, level.state.theta);
+  if (list.back().setting.regularisation.shear_rate <= level.problem.regularisation.shear_rate)
+    list.back().tolerance = options.tolerance;
+  for (const Phase& phase : list)
+    if (!run(newton, phase, level)) return false;
+  return lower_shear_rate(newton, options, level);
+}
+
+}  // namespace
+
+FlowSolution solve_flow(const FlowProblem& problem, const FlowSolverOptions& options, const FlowObserver& observer) {
+  if (const auto reason = no_steady_state(problem)) throw NotConvergedError(*reason);
+  const double start = now();
+  auto level = std::make_shared<fem::SolvedLevel>();
+  level->problem = problem;
+  level->discretisation = std::make_shared<fem::Discretisation>(problem);
+  auto& d = *level->discretisation;
+  auto& state = level->state;
+  if (const auto* fixed = std::get_if<FixedSlope>(&problem.slope)) state.theta = fixed->theta;
+  else state.theta = std::get<SlopeFromMoment>(problem.slope).first_guess;
+  state.solution.reinit(d.unknowns.n_dofs());
+  d.constraints.distribute(state.solution);
+
+  FlowReport report;
+  for (int mesh = 0; mesh < options.levels; ++mesh) {
+    if (mesh > 0) d.refine(problem, state.solution);
+    Newton newton(problem, options, d, mesh, start, report, observer);
+    if (!solve_on_mesh(newton, options, mesh == 0, *level)) {
+      report.seconds = now() - start;
+      return {report, FlowField(level)};
+    }
+    report.failure.clear();
+    if (observer.level_finished) observer.level_finished(mesh, FlowField(level));
+  }
+  report.converged = true;
+  report.seconds = now() - start;
+  return {report, FlowField(level)};
+}
+
+}  // namespace drumlin

@@ -1,0 +1,77 @@
+// flow.vtu: apart from the rest, since deal.II's output costs a compiler as much time as all of it.
+#include <deal.II/numerics/data_out.h>
+#include <deal.II/numerics/data_postprocessor.h>
+
+#include <array>
+#include <cmath>
+#include <sstream>
+
+#include "continuum/fem/detail/solved_level.hpp"
+#include "continuum/fem/flow_field.hpp"
+#include "continuum/rheology/well_posedness.hpp"
+#include "coupling/exchange/text_file.hpp"
+
+namespace drumlin {
+namespace {
+
+// Stresses and numbers of the law at the vertices of each cell.
+class LawOutput : public dealii::DataPostprocessor<2> {
+ public:
+  explicit LawOutput(const fem::Setting& setting) : setting_(setting) {}
+
+  std::vector<std::string> get_names() const override {
+    return {"pressure", "sigma_xx", "sigma_zz", "sigma_xz", "D_magnitude", "I", "mu", "viscosity", "well_posedness_margin"};
+  }
+  std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation> get_data_component_interpretation()
+      const override {
+    return std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation>(
+        get_names().size(), dealii::DataComponentInterpretation::component_is_scalar);
+  }
+  dealii::UpdateFlags get_needed_update_flags() const override { return dealii::update_values | dealii::update_gradients; }
+
+  void evaluate_vector_field(const dealii::DataPostprocessorInputs::Vector<2>& input,
+                             std::vector<dealii::Vector<double>>& output) const override {
+    for (std::size_t q = 0; q < output.size(); ++q) {
+      const auto& g = input.solution_gradients[q];
+      const PlaneTensor D{g[0][0], g[1][1], 0.5 * (g[0][1] + g[1][0])};
+      const double p = input.solution_values[q][2];
+      const auto s = std::visit(
+          [&](const auto& law) { return stress_response(law, setting_.regularisation, D, p, D); }, setting_.law);
+      const std::array<double, 9> values = {p,
+                                            p - s.stress.xx,
+                                            p - s.stress.zz,
+                                            s.stress.xz,
+                                            magnitude(D),
+                                            2 * magnitude(D) / std::sqrt(s.law_pressure),
+                                            magnitude(s.stress) / s.law_pressure,
+                                            0.5 * s.modulus,
+                                            well_posedness_margin(s.strength, s.rate, magnitude(s.right))};
+      std::copy(values.begin(), values.end(), output[q].begin());
+    }
+  }
+
+ private:
+  const fem::Setting& setting_;
+};
+
+}  // namespace
+
+void FlowField::write_vtu(const std::filesystem::path& file) const {
+  using Interpretation = dealii::DataComponentInterpretation::DataComponentInterpretation;
+  const LawOutput law(level_->setting);
+  dealii::DataOut<2> output;
+  output.attach_dof_handler(level_->discretisation->unknowns);
+  output.add_data_vector(level_->state.solution, std::vector<std::string>{"velocity", "velocity", "p"}, dealii::DataOut<2>::type_dof_data,
+                         {Interpretation::component_is_part_of_vector, Interpretation::component_is_part_of_vector,
+                          Interpretation::component_is_scalar});
+  output.add_data_vector(level_->state.solution, law);
+  output.build_patches(level_->discretisation->mapping, 2);
+  dealii::DataOutBase::VtkFlags flags;
+  flags.print_date_and_time = false;  // the same flow gives the same bytes
+  output.set_flags(flags);
+  std::ostringstream text;
+  output.write_vtu(text);
+  replace_file(file, text.str());
+}
+
+}  // namespace drumlin

@@ -1,0 +1,53 @@
+#include "continuum/model/drum.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace drumlin {
+
+double DrumGeometry::half_chord() const { return std::sqrt(radius * radius - axis_offset * axis_offset); }
+
+double DrumGeometry::expected_Q() const {
+  return 0.5 * nu * rotation * (radius * radius - axis_offset * axis_offset);
+}
+
+DrumGeometry drum_geometry(const FlowScene& scene, double nu) {
+  const Scales scales = scales_of(scene);
+  DrumGeometry drum;
+  drum.radius = 0.5e-3 * scene.drum.diameter_mm / scales.length_m;
+  drum.rotation = scene.drum.rotation_rpm * std::numbers::pi / 30 * scales.time_s;
+  drum.nu = nu;
+  drum.axis_offset = chord_offset(drum.radius, grain_area(scene.grains) / nu);
+  return drum;
+}
+
+FlowProblem drum_problem(const DrumGeometry& drum, const StressLaw& law, const FlowMesh& mesh, const FlowBoundary& boundary,
+                         const FlowRegularisation& regularisation) {
+  FlowProblem problem;
+  const double coarsest = mesh.surface_cell * std::pow(2.0, mesh.levels - 1);
+  problem.domain = ChordDomain{.radius = drum.radius,
+                               .axis_offset = drum.axis_offset,
+                               .surface_cell = coarsest,
+                               .surface_zone = mesh.surface_zone,
+                               .growth = mesh.growth};
+  problem.law = law;
+  problem.regularisation = {regularisation.shear_rate, regularisation.pressure};
+  problem.density = drum.nu;
+  problem.slope = SlopeFromMoment{};
+  problem.boundary[Side::top] = NormalSpring{boundary.surface_stiffness};
+  problem.boundary[Side::bottom] = PrescribedVelocity{[drum, length = boundary.corner_taper](Vec2 point) {
+    const double from_corner = std::hypot(std::abs(point.x) - drum.half_chord(), point.z);
+    const double s = std::min(1.0, from_corner / length);
+    const Vec2 rigid = rigid_rotation(drum.rotation, drum.axis_offset, point);
+    const double share = s * s * (3 - 2 * s);
+    return Vec2{share * rigid.x, share * rigid.z};
+  }};
+  return problem;
+}
+
+FlowProblem drum_problem(const FlowScene& scene, const DrumGeometry& drum, const StressLaw& law) {
+  return drum_problem(drum, law, scene.mesh, scene.boundary, scene.regularisation);
+}
+
+}  // namespace drumlin

@@ -1,0 +1,43 @@
+#include "continuum/model/flow_problem.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "coupling/exchange/errors.hpp"
+
+namespace drumlin {
+
+double segment_area(double radius, double axis_offset) {
+  const double c = axis_offset / radius;
+  return radius * radius * (std::acos(c) - c * std::sqrt(1 - c * c));
+}
+
+double chord_offset(double radius, double area) {
+  const double whole = std::numbers::pi * radius * radius;
+  if (!(area > 0 && area < whole))
+    throw InputError(fmt::format("the grains would cover {:.4g} d^2 at this volume fraction, the drum has {:.4g} d^2", area, whole));
+  double low = -radius, high = radius;  // the area falls with the offset: bisection down to rounding
+  for (int i = 0; i < 200; ++i) {
+    const double middle = 0.5 * (low + high);
+    (segment_area(radius, middle) > area ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+Vec2 rigid_rotation(double rotation, double axis_offset, Vec2 point) {
+  return {rotation * (point.z - axis_offset), -rotation * point.x};
+}
+
+std::optional<std::string> no_steady_state(const FlowProblem& problem, double I_limit) {
+  const auto* fixed = std::get_if<FixedSlope>(&problem.slope);
+  if (!fixed || std::holds_alternative<NewtonianLaw>(problem.law)) return std::nullopt;
+  const double mu_limit = strength(problem.law, 0.5 * I_limit, 1).value;  // at p = 1, I = 2 |D|
+  const double mu_needed = std::tan(fixed->theta);
+  if (mu_needed <= mu_limit) return std::nullopt;
+  return fmt::format("no local steady state: a slope of {:.2f} deg needs mu = {:.4f}, the law gives {:.4f} at I = {:g} and less below",
+                     fixed->theta * 180 / std::numbers::pi, mu_needed, mu_limit, I_limit);
+}
+
+}  // namespace drumlin

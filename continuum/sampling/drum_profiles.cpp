@@ -1,0 +1,144 @@
+#include "continuum/sampling/drum_profiles.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <numbers>
+
+#include "coupling/exchange/profile_scalars.hpp"
+#include "coupling/exchange/text_file.hpp"
+
+namespace drumlin {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+struct GaussPoint {
+  double place;   // in [0, 1]
+  double weight;  // sums to 1
+};
+constexpr std::array<GaussPoint, 4> gauss = {{{0.0694318442029737, 0.1739274225687269},
+                                              {0.3300094782075719, 0.3260725774312731},
+                                              {0.6699905217924281, 0.3260725774312731},
+                                              {0.9305681557970263, 0.1739274225687269}}};
+
+Vec2 in_drum_frame(const DrumGeometry& drum, Vec2 point, Vec2 velocity) {
+  const Vec2 rigid = rigid_rotation(drum.rotation, drum.axis_offset, point);
+  return {velocity.x - rigid.x, velocity.z - rigid.z};
+}
+
+struct LayerMeans {
+  double weight = 0;
+  double v_x = 0, v_z = 0, shear_rate = 0, sigma_xx = 0, sigma_zz = 0, sigma_xz = 0;
+};
+
+void add(LayerMeans& layer, const DrumGeometry& drum, Vec2 point, const PointState& state, double weight) {
+  if (!std::isfinite(state.pressure)) return;  // below the wall
+  const Vec2 v = in_drum_frame(drum, point, state.velocity);
+  layer.weight += weight;
+  layer.v_x += weight * v.x;
+  layer.v_z += weight * v.z;
+  layer.shear_rate += weight * (state.dvx_dz - drum.rotation);
+  layer.sigma_xx += weight * state.sigma_xx;
+  layer.sigma_zz += weight * state.sigma_zz;
+  layer.sigma_xz += weight * state.sigma_xz;
+}
+
+}  // namespace
+
+double slice_width(const SliceOptions& slice, const DrumGeometry& drum) {
+  return std::min(slice.width, 0.5 * drum.half_chord());
+}
+
+ProfileSet drum_profiles(const FlowField& field, const DrumGeometry& drum, const SliceOptions& slice) {
+  const double width = slice_width(slice, drum);
+  const int layers = static_cast<int>(std::ceil((drum.radius - drum.axis_offset) / slice.layer_thickness));
+  const int across = std::max(4, static_cast<int>(std::ceil(width)));
+  std::vector<Vec2> points;
+  for (int layer = layers - 1; layer >= 0; --layer)
+    for (const GaussPoint& g : gauss)
+      for (int i = 0; i < across; ++i)
+        points.push_back({width * ((i + 0.5) / across - 0.5), -(layer + g.place) * slice.layer_thickness});
+  const auto states = field.at(points);
+
+  ProfileSet set;
+  std::vector<LayerMeans> means(layers);
+  std::size_t k = 0;
+  for (int row = 0; row < layers; ++row) {
+    set.z.push_back(-(layers - 1 - row + 0.5) * slice.layer_thickness);
+    for (const GaussPoint& g : gauss)
+      for (int i = 0; i < across; ++i, ++k) add(means[row], drum, points[k], states[k], g.weight / across);
+  }
+  const auto column = [&](const std::string& name, auto&& value) {
+    ProfileColumn result{name, {}, {}};
+    for (const LayerMeans& m : means) result.value.push_back(m.weight > 0 ? value(m) : none);
+    set.columns.push_back(std::move(result));
+  };
+  const auto positive = [](double stress) { return stress > 0 ? stress : none; };
+  column("v_x", [](const LayerMeans& m) { return m.v_x / m.weight; });
+  column("v_z", [](const LayerMeans& m) { return m.v_z / m.weight; });
+  column("shear_rate", [](const LayerMeans& m) { return m.shear_rate / m.weight; });
+  column("nu", [&](const LayerMeans&) { return drum.nu; });
+  column("sigma_xx", [](const LayerMeans& m) { return m.sigma_xx / m.weight; });
+  column("sigma_zz", [](const LayerMeans& m) { return m.sigma_zz / m.weight; });
+  column("sigma_xz", [](const LayerMeans& m) { return m.sigma_xz / m.weight; });
+  column("I", [&](const LayerMeans& m) { return m.shear_rate / m.weight / std::sqrt(positive(m.sigma_zz / m.weight)); });
+  column("mu", [&](const LayerMeans& m) { return m.sigma_xz / positive(m.sigma_zz); });
+  column("k", [&](const LayerMeans& m) { return m.sigma_xx / positive(m.sigma_zz); });
+  return set;
+}
+
+double discharge(const FlowField& field, const DrumGeometry& drum) {
+  const double depth = drum.radius - drum.axis_offset;
+  const int pieces = std::max(64, static_cast<int>(std::ceil(4 * depth)));
+  std::vector<Vec2> points;
+  for (int i = 0; i < pieces; ++i)
+    for (const GaussPoint& g : gauss) points.push_back({0, -depth * (i + g.place) / pieces});
+  const auto states = field.at(points);
+  double sum = 0;
+  for (std::size_t k = 0; k < points.size(); ++k)
+    if (std::isfinite(states[k].pressure))
+      sum += drum.nu * in_drum_frame(drum, points[k], states[k].velocity).x * gauss[k % gauss.size()].weight * depth / pieces;
+  return sum;
+}
+
+ScalarSet drum_scalars(const FlowField& field, const DrumGeometry& drum, const ProfileSet& profiles) {
+  const ProfileScalars read = profile_scalars(profiles);
+  return {{{"theta_deg", field.theta() * 180 / std::numbers::pi, {}},
+           {"Q", discharge(field, drum), {}},
+           {"H", read.H, {}},
+           {"lambda", read.lambda, {}},
+           {"shear_rate", read.shear_rate, {}},
+           {"I_th", read.I_th, {}}}};
+}
+
+void write_maps(const std::filesystem::path& file, const FlowField& field, const DrumGeometry& drum, double spacing,
+                bool reduced) {
+  std::vector<Vec2> points;
+  const int columns = static_cast<int>(drum.radius / spacing);
+  const int rows = static_cast<int>((drum.radius - drum.axis_offset) / spacing);
+  for (int row = 0; row <= rows; ++row)
+    for (int column = -columns; column <= columns; ++column) {
+      const Vec2 p{column * spacing, -row * spacing};
+      if (std::hypot(p.x, p.z - drum.axis_offset) < drum.radius) points.push_back(p);
+    }
+  const auto states = field.at(points);
+  std::string text = fmt::format(
+      "# drumlin-flow-maps-1\n# reduced = {}\n# spacing = {}\n# drum_radius = {}\n# axis_depth = {}\n"
+      "x,z,v_x,v_z,pressure,sigma_xx,sigma_zz,sigma_xz,I,mu,viscosity,well_posedness_margin\n",
+      reduced, spacing, drum.radius, drum.axis_offset);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const PointState& s = states[k];
+    if (!std::isfinite(s.pressure)) continue;
+    const Vec2 v = in_drum_frame(drum, points[k], s.velocity);
+    fmt::format_to(std::back_inserter(text), "{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n",
+                   points[k].x, points[k].z, v.x, v.z, s.pressure, s.sigma_xx, s.sigma_zz, s.sigma_xz,
+                   2 * s.rate / std::sqrt(s.law_pressure), s.shear_stress / s.law_pressure, s.viscosity, s.well_posedness);
+  }
+  replace_file(file, text);
+}
+
+}  // namespace drumlin
