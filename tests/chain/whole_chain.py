@@ -5,6 +5,8 @@ usage: whole_chain.py DRUMLIN FOLDER_OF_THIS_TEST
 
 import math
 import pathlib
+import re
+import shutil
 import sys
 import tempfile
 
@@ -68,6 +70,18 @@ def check_report(folder):
     require((folder / "overlay.csv").exists() and len(list(folder.glob("*.png"))) == 5, "CSV or figures are missing")
 
 
+def check_other_drum_is_refused(drumlin, run, flow, folder):
+    """The same flow under another speed of rotation is another drum."""
+    other = folder / "other"
+    shutil.copytree(flow, other)
+    text = (other / "profiles.csv").read_text(encoding="utf-8")
+    faster = re.sub(r"# rotation = .*", "# rotation = 0.05", text)
+    require(faster != text, "the continuum's profiles do not tell the rotation")
+    (other / "profiles.csv").write_text(faster, encoding="utf-8")
+    _, said = drumlin("compare", run, other, "-o", folder / "mixed", code=2)
+    require("rotation" in said and not (folder / "mixed").exists(), "mixed drums were not refused as they should")
+
+
 def main():
     drumlin, here = Drumlin(sys.argv[1]), pathlib.Path(sys.argv[2])
     with tempfile.TemporaryDirectory() as name:
@@ -90,6 +104,7 @@ def main():
                 drumlin(*words, "--resume")
             require(bytes_below(folder) == before, f"repeating {words[0]} changed files")
             print(f"{words[0]}: done, checked, repeated")
+        check_other_drum_is_refused(drumlin, run, flow, folder)
         # The scene that a run leaves makes the same run again; so does another number of threads.
         again = folder / "again"
         drumlin("run", run / "scene.toml", "-o", again, "--threads", "2")
