@@ -71,6 +71,7 @@ Json content_of(const Inputs& inputs, const Comparison& comparison, const ZoneOp
                   : std::vector<PaperRow>());
   content["costs"] = {{"particle run, wall", entry(inputs.run, "wall_seconds")},
                       {"particle run, processor", entry(inputs.run, "cpu_seconds")},
+                      {"measurement, wall", entry(inputs.measured, "seconds")},
                       {"continuum solve, wall", entry(inputs.flow, "seconds")}};
   content["settings"] = {{"surface_margin", zones.surface_margin}, {"wall_margin", zones.wall_margin}};
   content["particles"] = {{"profiles", header_of(inputs.particles.profiles)},

@@ -49,11 +49,22 @@ def draw(axes, name, particles, continuum, logarithmic=False):
         axes.set_yscale("log")
 
 
+def limit_to_the_bulk(axes, name, sides):
+    """Ratios of vanishing stresses at the surface would set the scale: it is taken from z < -1 instead."""
+    values = [value for side in sides if name in side for z, value in zip(side["z"], side[name])
+              if z < -1 and math.isfinite(value)]
+    if values:
+        margin = 0.15 * (max(values) - min(values)) + 0.02
+        axes.set_ylim(min(values) - margin, max(values) + margin)
+
+
 def over_depth(names, particles, continuum, depth, size):
     """Panels side by side; `names` as (column, logarithmic)."""
     figure, panels = plt.subplots(1, len(names), figsize=size, squeeze=False)
     for axes, (name, logarithmic) in zip(panels[0], names):
         draw(axes, name, particles, continuum, logarithmic)
+        if name in ("mu", "k"):
+            limit_to_the_bulk(axes, name, (particles, continuum))
         mark_depths(axes, depth)
     panels[0][0].legend()
     return figure

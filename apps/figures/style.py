@@ -63,9 +63,9 @@ def title_of(text, reduced):
 
 
 def stamp(figure, reduced):
-    """Writes "reduced" across the corner of a figure that stands for a reduced run."""
-    if reduced:
-        figure.text(0.995, 0.995, "reduced", ha="right", va="top", fontsize=13, color="#B00000", weight="bold")
+    """Writes "reduced" above a figure that stands for a reduced run; a title of its own says it already (title_of)."""
+    if reduced and getattr(figure, "_suptitle", None) is None:
+        figure.suptitle("reduced", x=0.99, ha="right", fontsize=13, color="#B00000", weight="bold")
 
 
 def save(figure, path, reduced):

@@ -149,12 +149,10 @@ std::string scalars_table(const Json& comparison) {
          "<th>continuum &minus; particles</th></tr>\n" +
          rows +
          "</table>\n<p class=\"note\">Units d, &radic;(d/g), &rho;<sub>0</sub>gd; a dash marks what a side "
-         "does not have. "
-         "Only the law, the volume fraction, the fill and the rotation speed crossed from the particles to "
-         "the "
-         "continuum. 0.4 &middot; shear rate &middot; H&sup2; / Q is the share of the flow that a linear "
-         "layer carries: "
-         "numbers for which it is far from 0.85 cannot belong to one profile.</p>\n";
+         "does not have. Only the law, the volume fraction, the fill and the rotation speed crossed from the "
+         "particles to the continuum. 0.4 &middot; shear rate &middot; H&sup2; / Q is the share of the flow "
+         "that "
+         "a linear layer at &nu; = 0.8 carries: a check that the three belong together.</p>\n";
 }
 
 std::string targets_table(const Json& comparison) {

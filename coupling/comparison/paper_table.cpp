@@ -73,7 +73,14 @@ constexpr Accepted accepted_differences[] = {
     {"spin_over_half_vorticity", false, 0.05},
     {"dv_over_shear", true, 0.10},
     {"domega_over_shear", true, 0.10},
+    {"linear_layer_share", true, 0.15},
 };
+
+double value_of(const std::vector<PaperNumber>& numbers, const std::string& name) {
+  for (const auto& number : numbers)
+    if (number.name == name) return number.value;
+  return nan;
+}
 
 double accepted_difference(const PaperNumber& number) {
   if (number.half_width) return *number.half_width;
@@ -127,6 +134,10 @@ std::vector<PaperNumber> paper_numbers(const std::filesystem::path& folder, doub
     (std::isnan(speed) ? general : numbers).push_back(number);
   }
   numbers.insert(numbers.end(), general.begin(), general.end());
+  const double share =
+      linear_layer_share(value_of(numbers, "shear_rate"), value_of(numbers, "H"), value_of(numbers, "Q"));
+  if (!std::isnan(share))
+    numbers.push_back({"linear_layer_share", share, std::nullopt, "from its shear rate, H and Q", ""});
   return numbers;
 }
 

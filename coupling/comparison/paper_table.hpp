@@ -24,7 +24,7 @@ struct PaperNumber {
 std::optional<double> paper_speed_rpm(const ProfileSet& profiles, const std::filesystem::path& folder);
 
 /// Table I at this speed, then the observables; one that is stated for this very speed stands before one for
-/// all.
+/// all; last, where the paper gives a shear rate, the linear_layer_share of its own numbers.
 std::vector<PaperNumber> paper_numbers(const std::filesystem::path& folder, double rotation_rpm);
 
 struct PaperRow {

@@ -54,6 +54,13 @@ TEST(PaperTable, PrefersTheNumberOfThisSpeedAndNamesEverySource) {
   for (const auto& number : paper_numbers(paper, 6)) EXPECT_FALSE(number.source.empty()) << number.name;
 }
 
+TEST(PaperTable, SaysHowFarThePapersOwnNumbersFitALinearLayer) {
+  const auto numbers = paper_numbers(paper, 6);
+  EXPECT_EQ(numbers.back().name, "linear_layer_share");
+  EXPECT_NEAR(numbers.back().value, 0.587, 0.001);
+  EXPECT_NE(paper_numbers(paper, 2).back().name, "linear_layer_share") << "it gives no shear rate there";
+}
+
 TEST(PaperTable, JudgesBothSidesAndTheAcceptedDifferenceIsStated) {
   const std::vector<ScalarPair> scalars{{"theta_deg", 19.4, 0.3, 18.6}, {"H", 19.3, 0.4, 18.5}};
   const auto rows = paper_table(paper_numbers(paper, 6), scalars);
