@@ -13,6 +13,7 @@
 #include "coupling/calibration/log_friction.hpp"
 #include "coupling/exchange/errors.hpp"
 #include "particles/io/snapshot_file.hpp"
+#include "particles/measurement/intervals.hpp"
 #include "particles/measurement/measurement.hpp"
 #include "particles/measurement/run_log.hpp"
 
@@ -38,14 +39,31 @@ Json finished_run(const fs::path& run) {
   return json;
 }
 
-/// mu_a and mu_b at the centre: the fit of `drumlin calibrate` on this run alone.
-ScalarSet friction_scalars(const ProfileSet& profiles, const LayerSelection& selection) {
+/// mu_a and mu_b at the centre: the fit of `drumlin calibrate` on this run alone. Layers of one run move
+/// together (a steeper surface raises mu in all), which the fit cannot know: the spread over time is added to
+/// its own errors.
+ScalarSet friction_scalars(const Measurement& measured, const LayerSelection& selection) {
   const double nan = std::nan("");
-  const auto points = friction_points(profiles, selection);
-  if (points.size() < 3) return {{{"mu_a", nan, nan}, {"mu_b", nan, nan}}};
-  const LogFriction law = fit_log_friction(points).law;
-  return {{{"mu_a", law.a, quantile_99 * std::sqrt(law.covariance[0])},
-           {"mu_b", law.b, quantile_99 * std::sqrt(law.covariance[2])}}};
+  const auto law_of = [&](const ProfileSet& profiles) {
+    const auto points = friction_points(profiles, selection);
+    return points.size() < 3 ? LogFriction{nan, nan, {nan, nan, nan}, nan, nan}
+                             : fit_log_friction(points).law;
+  };
+  const LogFriction law = law_of(measured.profiles);
+  std::vector<double> a, b;
+  for (ProfileSet without : measured.leave_one_out) {
+    // They lack the header and the intervals, so that their layers would be chosen and weighted otherwise.
+    without.header = measured.profiles.header;
+    for (ProfileColumn& column : without.columns) {
+      column.ci99 = measured.profiles.column(column.name).ci99;
+      column.ci99.resize(without.z.size());
+    }
+    const LogFriction one = law_of(without);
+    a.push_back(one.a);
+    b.push_back(one.b);
+  }
+  return {{{"mu_a", law.a, std::hypot(jackknife_ci99(a), quantile_99 * std::sqrt(law.covariance[0]))},
+           {"mu_b", law.b, std::hypot(jackknife_ci99(b), quantile_99 * std::sqrt(law.covariance[2]))}}};
 }
 
 std::map<std::string, std::string> header_of(const Measurement& m, const MeasurementOptions& options,
@@ -64,41 +82,43 @@ std::map<std::string, std::string> header_of(const Measurement& m, const Measure
           {"layer_thickness", text(options.layer_thickness)},
           {"snapshots", std::to_string(m.snapshots)},
           {"batches", std::to_string(m.batches)},
+          {"interval_factor", text(m.batches > 1 ? interval_factor(m.batches) : std::nan(""))},
           {"revision", provenance().revision}};
 }
 
 Json settings_of(const Measurement& m, const MeasurementOptions& options, const LayerSelection& selection) {
-  return {{"frame", "turns with the drum; x downslope, z along the normal of the surface"},
-          {"frame_from", name_of(m.frame_source)},
-          {"frame_angle_deg", m.frame_angle_deg},
-          {"seen_in_a_mirror", m.in_mirror},
-          {"slope_isoline_nu", options.slope_isoline},
-          {"slope_half_width", m.slope_half_width},
-          {"slope_half_width_asked", options.slope_half_width},
-          {"surface_nu", options.surface_nu},
-          {"position", options.position},
-          {"slice_width", m.slice_width},
-          {"slice_width_asked", options.slice_width},
-          {"layer_thickness", options.layer_thickness},
-          {"velocity_window", m.velocity_window},
-          {"surface_speed_depth", options.scalars.surface_speed_depth},
-          {"linear_share", options.scalars.linear_share},
-          {"decay_window_below_H", {options.scalars.decay_to, options.scalars.decay_from}},
-          {"bulk_margin", options.bulk_margin},
-          {"mu_fit_I", {selection.I_min, selection.I_max}},
-          {"mu_fit_surface_margin", selection.surface_margin},
-          {"mu_fit_wall_margin", selection.wall_margin},
-          {"intervals", "99 %, delete-one jackknife over contiguous batches, Student t"},
-          {"batches", m.batches},
-          {"snapshots", m.snapshots},
-          {"first_snapshot", m.first_snapshot},
-          {"first_time", m.first_time},
-          {"last_time", m.last_time},
-          {"rotation", m.rotation},
-          {"axis_depth", m.axis_depth},
-          {"wall_z", m.wall_z},
-          {"drum_radius", m.container_radius},
-          {"scales", to_json(m.scales)}};
+  return {
+      {"frame", "turns with the drum; x downslope, z along the normal of the surface"},
+      {"frame_from", name_of(m.frame_source)},
+      {"frame_angle_deg", m.frame_angle_deg},
+      {"seen_in_a_mirror", m.in_mirror},
+      {"slope_isoline_nu", options.slope_isoline},
+      {"slope_half_width", m.slope_half_width},
+      {"slope_half_width_asked", options.slope_half_width},
+      {"surface_nu", options.surface_nu},
+      {"position", options.position},
+      {"slice_width", m.slice_width},
+      {"slice_width_asked", options.slice_width},
+      {"layer_thickness", options.layer_thickness},
+      {"velocity_window", m.velocity_window},
+      {"surface_speed_depth", options.scalars.surface_speed_depth},
+      {"linear_share", options.scalars.linear_share},
+      {"decay_window_below_H", {options.scalars.decay_to, options.scalars.decay_from}},
+      {"bulk_margin", options.bulk_margin},
+      {"mu_fit_I", {selection.I_min, selection.I_max}},
+      {"mu_fit_surface_margin", selection.surface_margin},
+      {"mu_fit_wall_margin", selection.wall_margin},
+      {"intervals", "99 %, delete-one jackknife over contiguous batches, neighbours' correlation, Student t"},
+      {"batches", m.batches},
+      {"snapshots", m.snapshots},
+      {"first_snapshot", m.first_snapshot},
+      {"first_time", m.first_time},
+      {"last_time", m.last_time},
+      {"rotation", m.rotation},
+      {"axis_depth", m.axis_depth},
+      {"wall_z", m.wall_z},
+      {"drum_radius", m.container_radius},
+      {"scales", to_json(m.scales)}};
 }
 
 /// What the figures draw over the profiles.
@@ -152,7 +172,7 @@ int measure(const MeasureOptions& options) {
   ScalarSet scalars = measured.scalars;
   const double second = measured.scales.time_s;
   for (const ScalarSet& more :
-       {friction_scalars(measured.profiles, selection),
+       {friction_scalars(measured, selection),
         accuracy_scalars(options.run / "log.csv", measured.first_time * second, measured.last_time * second)})
     scalars.scalars.insert(scalars.scalars.end(), more.scalars.begin(), more.scalars.end());
 

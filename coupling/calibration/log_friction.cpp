@@ -10,8 +10,12 @@
 namespace drumlin {
 namespace {
 
-constexpr double quantile_99 =
-    2.576;  // of the normal distribution: half width of a 99 % interval per standard error
+/// Half widths of the profile's 99 % intervals per standard error; that of the normal distribution unless it
+/// says.
+double interval_factor(const ProfileSet& profiles) {
+  const auto found = profiles.header.find("interval_factor");
+  return found == profiles.header.end() ? 2.576 : std::stod(found->second);
+}
 
 constexpr double least_variance = 1e-100;  // of points exactly on a line: their weights must stay finite
 
@@ -114,8 +118,9 @@ std::vector<FrictionPoint> friction_points(const ProfileSet& profiles, const Lay
   const double wall_z = wall != profiles.header.end() ? std::stod(wall->second)
                         : profiles.z.empty()          ? 0
                                                       : profiles.z.front();
-  const auto error = [](const ProfileColumn& column, std::size_t l) {
-    return column.ci99.empty() ? std::numeric_limits<double>::quiet_NaN() : column.ci99[l] / quantile_99;
+  const double factor = interval_factor(profiles);
+  const auto error = [factor](const ProfileColumn& column, std::size_t l) {
+    return column.ci99.empty() ? std::numeric_limits<double>::quiet_NaN() : column.ci99[l] / factor;
   };
   std::vector<FrictionPoint> points;
   for (std::size_t l = 0; l < profiles.z.size(); ++l) {
