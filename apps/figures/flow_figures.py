@@ -109,6 +109,7 @@ def draw_profiles(folder, flow):
     for name, color in zip(("mu", "k"), style.OTHERS):
         axes[3].plot(columns[name], z, color=color, label=style.LABELS[name])
     axes[3].set_xlim(0, 1.5)
+    axes[3].set_xticks([0, 0.5, 1, 1.5])
     axes[3].legend()
     axes[3].set_xlabel("ratio of stresses")
 

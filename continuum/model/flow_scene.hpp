@@ -34,8 +34,8 @@ struct FlowBoundary {
   double surface_stiffness = 1e4;  ///< rho0 g
 };
 struct FlowRegularisation {
-  double shear_rate = 1e-4;  ///< 1/sqrt(d/g)
-  double pressure = 0.25;    ///< rho0 g d
+  double shear_rate = 1e-5;  ///< 1/sqrt(d/g)
+  double pressure = 0.4;     ///< rho0 g d; the uppermost layer of grains carries nu/2 in the mean
 };
 struct FlowSolverKeys {
   double tolerance = 1e-8;

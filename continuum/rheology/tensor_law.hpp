@@ -9,8 +9,8 @@ namespace drumlin {
 
 /// |D| -> sqrt(|D|^2 + shear_rate^2/4), and inside the law p -> (p + sqrt(p^2 + 4 pressure^2))/2.
 struct Regularisation {
-  double shear_rate = 1e-4;  ///< eps, 1/sqrt(d/g)
-  double pressure = 0.1;     ///< p_min, rho0 g d
+  double shear_rate = 1e-5;  ///< eps, 1/sqrt(d/g)
+  double pressure = 0.4;     ///< p_min, rho0 g d
 };
 
 /// Stress at a point and its derivative

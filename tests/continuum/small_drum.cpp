@@ -1,0 +1,79 @@
+// A drum of 30 grains' width: what must hold of every drum.
+#include <filesystem>
+#include <fstream>
+
+#include "boxes.hpp"
+#include "continuum/sampling/drum_profiles.hpp"
+
+namespace drumlin {
+namespace {
+
+using namespace testing_boxes;
+
+constexpr DrumGeometry drum{.radius = 15, .axis_offset = 1, .rotation = 0.03, .nu = 0.82};
+
+FlowProblem problem() {
+  return drum_problem(drum, LogLaw{0.35, 0.013}, {.surface_cell = 2, .surface_zone = 6, .levels = 1}, {.corner_taper = 3},
+                      {.shear_rate = 1e-3});
+}
+
+FlowSolverOptions one_mesh() {
+  FlowSolverOptions options;
+  options.levels = 1;
+  return options;
+}
+
+TEST(SmallDrum, BalancesMassForcesTorqueAndPower) {
+  const FlowField field = converged(problem(), one_mesh());
+  const FlowIntegrals sums = field.integrals({0, drum.axis_offset});
+  EXPECT_NEAR(sums.area, segment_area(drum.radius, drum.axis_offset), 1e-3 * sums.area);  // quadratic arcs
+  // Q from the velocity against mass balance: what the stiff surface lets through.
+  EXPECT_NEAR(discharge(field, drum) / drum.expected_Q(), 1, 1e-3);
+  // The slope is that at which the surface has no moment, so that the wall's torque carries the weight's.
+  EXPECT_NEAR(sums.surface_moment, 0, 1e-8);
+  EXPECT_NEAR(sums.given_side_torque / sums.weight_torque, -1, 1e-4);
+  EXPECT_NEAR(sums.surface_force, 0, 0.02);
+  EXPECT_NEAR(sums.dissipation / (sums.given_side_power + sums.weight_power), 1, 1e-3);
+  EXPECT_GT(field.theta(), 15 * degree);
+  EXPECT_LT(field.theta(), 25 * degree);
+}
+
+TEST(SmallDrum, SlopeDoesNotDependOnItsFirstGuess) {
+  FlowProblem steep = problem();
+  steep.slope = SlopeFromMoment{0.6};
+  EXPECT_NEAR(converged(problem(), one_mesh()).theta(), converged(steep, one_mesh()).theta(), 1e-6);
+}
+
+TEST(SmallDrum, LeavesProfilesMapsAndAVtu) {
+  const FlowField field = converged(problem(), one_mesh());
+  const ProfileSet profiles = drum_profiles(field, drum);
+  ASSERT_EQ(profiles.z.size(), 14u);  // the depth, in layers of 1 d
+  EXPECT_EQ(profiles.z.back(), -0.5);
+  const auto& v_x = profiles.column("v_x").value;
+  EXPECT_GT(v_x.back(), 0);
+  EXPECT_NEAR(v_x.front(), 0, 0.02 * v_x.back());  // at the wall, in the frame of the drum
+  const auto& sigma_zz = profiles.column("sigma_zz").value;
+  EXPECT_NEAR((sigma_zz[4] - sigma_zz[8]) / 4, drum.nu * std::cos(field.theta()), 0.05);  // nearly hydrostatic
+  EXPECT_GT(profiles.column("sigma_xz").value[10], 0);
+
+  const auto folder = std::filesystem::temp_directory_path();
+  const auto maps = folder / "drumlin_small_drum_maps.csv", vtu = folder / "drumlin_small_drum.vtu";
+  write_maps(maps, field, drum, 1, true);
+  field.write_vtu(vtu);
+  std::string first, second;
+  std::ifstream stream(maps);
+  std::getline(stream, first);
+  std::getline(stream, second);
+  EXPECT_EQ(first, "# drumlin-flow-maps-1");
+  EXPECT_EQ(second, "# reduced = true");
+  EXPECT_GT(std::filesystem::file_size(vtu), 1000u);
+  std::filesystem::remove(maps);
+  std::filesystem::remove(vtu);
+}
+
+TEST(SmallDrum, IsFoundAgainToTheLastBit) {
+  EXPECT_EQ(converged(problem(), one_mesh()).theta(), converged(problem(), one_mesh()).theta());
+}
+
+}  // namespace
+}  // namespace drumlin

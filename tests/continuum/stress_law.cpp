@@ -1,0 +1,93 @@
+#include "continuum/rheology/stress_law.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "continuum/rheology/tensor_law.hpp"
+#include "coupling/exchange/errors.hpp"
+
+namespace drumlin {
+namespace {
+
+const LogLaw paper{0.35, 0.013};
+
+TEST(LogLaw, GivesThePapersFriction) {
+  // 0.35 + 0.013 ln 0.01 = 0.29013; the floor that keeps mu positive moves it by 3e-6.
+  EXPECT_NEAR(paper.friction(0.01).mu, 0.2901, 5e-5);
+}
+
+TEST(LogLaw, StaysPositiveHoweverSlowTheShear) {
+  for (double I = 1; I > 1e-60; I *= 0.1) EXPECT_GT(paper.friction(I).mu, 0) << I;
+}
+
+TEST(SaturatingLaw, RunsBetweenItsTwoFrictions) {
+  const SaturatingLaw jop{0.383, 0.643, 0.279};
+  EXPECT_NEAR(jop.friction(1e-9).mu, 0.383, 1e-8);
+  EXPECT_NEAR(jop.friction(0.279).mu, 0.5 * (0.383 + 0.643), 1e-12);
+  EXPECT_NEAR(jop.friction(1e9).mu, 0.643, 1e-8);
+}
+
+TEST(StressLaw, SlopesAreThoseOfItsValues) {
+  for (const StressLaw& law : {StressLaw(paper), StressLaw(SaturatingLaw{0.383, 0.643, 0.279}), StressLaw(NewtonianLaw{2})})
+    for (const double rate : {1e-6, 1e-2, 3.0})
+      for (const double p : {0.1, 7.0}) {
+        const double h = 1e-6;  // relative; central differences err by h^2, rounding by 1e-16/h
+        const Strength F = strength(law, rate, p);
+        const double by_rate = (strength(law, rate * (1 + h), p).value - strength(law, rate * (1 - h), p).value) / (2 * rate * h);
+        const double by_p = (strength(law, rate, p * (1 + h)).value - strength(law, rate, p * (1 - h)).value) / (2 * p * h);
+        EXPECT_NEAR(F.d_rate, by_rate, 1e-7 * F.value / rate);
+        EXPECT_NEAR(F.d_pressure, by_p, 1e-7 * F.value / p);
+      }
+}
+
+TEST(StressLaw, RefusesALawWithK) {
+  RheologyFit fit;
+  fit.mu = {.a = 0.35, .b = 0.013};
+  EXPECT_NO_THROW(stress_law(fit));
+  fit.k = NormalStressRatio{{1e-3}, {1.2}};
+  EXPECT_THROW(stress_law(fit), InputError);
+}
+
+TEST(TensorLaw, SimpleShearCarriesMuTimesThePressure) {
+  const Regularisation none{1e-12, 1e-9};
+  const double shear_rate = 0.02, p = 4;  // I = 0.01
+  const PlaneTensor D{0, 0, shear_rate / 2};
+  const auto s = stress_response(paper, none, D, p, D);
+  EXPECT_NEAR(s.stress.xz, paper.friction(0.01).mu * p, 1e-9);
+  EXPECT_EQ(s.stress.xx, 0);  // sigma_xx = sigma_zz = p: k is absent
+  EXPECT_EQ(s.stress.zz, 0);
+}
+
+TEST(TensorLaw, TangentIsTheDerivativeOfTheStress) {
+  const Regularisation smooth{0.05, 0.3};
+  const PlaneTensor D{0.03, -0.03, 0.11}, dD{0.5, -0.2, 0.7};
+  const double h = 1e-6;
+  for (const double p : {-0.5, 0.2, 5.0}) {
+    const auto dual = (1 / regularised_rate(D, smooth)) * D;
+    const auto at = [&](double s, double t) { return stress_response(paper, smooth, D + s * dD, p + t, dual).stress; };
+    const auto s = stress_response(paper, smooth, D, p, dual);
+    const PlaneTensor by_D = (1 / (2 * h)) * (at(h, 0) - at(-h, 0)), by_p = (1 / (2 * h)) * (at(0, h) - at(0, -h));
+    EXPECT_LT(magnitude(tangent(s, dD) - by_D), 1e-7 * magnitude(by_D)) << p;
+    EXPECT_LT(magnitude(s.by_pressure - by_p), 1e-7 * magnitude(by_p)) << p;
+  }
+}
+
+TEST(TensorLaw, DissipatesHoweverTheMaterialMoves) {
+  const Regularisation r{1e-3, 0.1};
+  for (int i = 0; i < 200; ++i) {
+    const PlaneTensor D{std::sin(1.0 * i), std::cos(2.0 * i), std::sin(3.0 * i + 1)};
+    EXPECT_GT(contraction(stress_response(paper, r, D, i - 20.0, D).stress, D), 0);
+  }
+}
+
+TEST(DualVariable, NeverLeavesTheUnitBall) {
+  const PlaneTensor D{0.01, -0.01, 0.02}, dual{0.3, -0.3, 0.9};
+  for (const double length : {0.1, 1.0, 100.0}) {
+    const PlaneTensor next = advanced_dual(D, {-length, length, 2 * length}, dual, regularised_rate(D, {1e-2, 0.1}));
+    EXPECT_LE(magnitude(next), 1 + 1e-14);
+  }
+}
+
+}  // namespace
+}  // namespace drumlin
