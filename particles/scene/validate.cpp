@@ -27,8 +27,22 @@ double largest_diameter_mm(const Grains& grains) {
   return generated ? generated->diameter_max_mm : 0;
 }
 
-/// Whether the region has room for the grains, and is not so large that its lattice would not fit into
-/// memory.
+/// Whether a rectangle has its corners the right way round; a circle always has.
+bool check_corners(const Region& region, Faults& faults) {
+  const std::string key = "grains.generated.region";
+  const auto* box = std::get_if<RectangleRegion>(&region);
+  for (int axis : {0, 1})
+    if (box && !(box->min_mm[axis] < box->max_mm[axis])) {
+      faults.push_back({key + ".max_mm",
+                        fmt::format("is {} along {}", box->max_mm[axis], axis ? "z" : "x"),
+                        fmt::format("> min_mm = {}", box->min_mm[axis]),
+                        {key}});
+      return false;
+    }
+  return true;
+}
+
+/// Whether the region has room for the grains, and a lattice that fits into memory.
 void check_room(const GeneratedGrains& grains, Faults& faults) {
   const std::string key = "grains.generated.";
   if (grains.diameter_min_mm > grains.diameter_max_mm) {
@@ -38,15 +52,6 @@ void check_room(const GeneratedGrains& grains, Faults& faults) {
                       {key + "diameter_min_mm", key + "diameter_max_mm"}});
     return;
   }
-  if (const auto* box = std::get_if<RectangleRegion>(&grains.region))
-    for (int axis : {0, 1})
-      if (box->min_mm[axis] >= box->max_mm[axis]) {
-        faults.push_back({key + "region.max_mm",
-                          fmt::format("is {} along {}", box->max_mm[axis], axis ? "z" : "x"),
-                          fmt::format("> min_mm = {}", box->min_mm[axis]),
-                          {key + "region"}});
-        return;
-      }
   const std::vector<std::string> about = {key + "count", key + "diameter_max_mm", key + "region"};
   const auto [left, right] = extent_mm(grains.region, 0);
   const auto [bottom, top] = extent_mm(grains.region, 1);
@@ -83,8 +88,10 @@ void check_region_clear(const Scene& scene, const GeneratedGrains& grains, Fault
 
 void check_grains(const Scene& scene, Faults& faults) {
   if (const auto* generated = std::get_if<GeneratedGrains>(&scene.grains.source)) {
-    check_room(*generated, faults);
-    check_region_clear(scene, *generated, faults);
+    if (check_corners(generated->region, faults)) {
+      check_room(*generated, faults);
+      check_region_clear(scene, *generated, faults);
+    }
     return;
   }
   const auto& file = std::get<ListedGrains>(scene.grains.source).file;

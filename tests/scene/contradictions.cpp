@@ -74,6 +74,14 @@ TEST(Contradiction, RegionThatIsNone) {
                  "grains.generated.region.max_mm", "along z");
 }
 
+TEST(Contradiction, RegionTheWrongWayRoundIsNotComparedWithWalls) {
+  const std::string knob =
+      "[[walls]]\nname = \"knob\"\nshape = \"disc\"\ncenter_mm = [0, 0]\ndiameter_mm = 1\n";
+  expect_problem(example_scene + knob,
+                 {"grains.generated.region={shape=\"rectangle\", min_mm=[5, 5], max_mm=[-5, -5]}"},
+                 "grains.generated.region.max_mm", "along x");
+}
+
 TEST(Contradiction, RegionOutsideTheContainer) {
   expect_problem(example_scene, {"grains.generated.region.radius_mm=16"}, "grains.generated.region",
                  "reaches 16 mm");
