@@ -62,7 +62,7 @@ int solve_flow_scene(const FlowOptions& options) {
   }
   const FlowScene scene = read_flow_scene(options.scene, options.overrides);
   const RheologyFit fit = read_rheology(options.rheology);
-  const StressLaw law = stress_law(fit);
+  const StressLaw law = stress_law(fit, options.rheology.string());
   const DrumGeometry drum = drum_geometry(scene, fit.nu);
   const FlowProblem problem = drum_problem(scene, drum, law);
   prepare_output(options.output, options.existing, {"flow_scene.toml", "flow.json"});

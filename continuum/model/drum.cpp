@@ -1,8 +1,12 @@
 #include "continuum/model/drum.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "coupling/exchange/errors.hpp"
 
 namespace drumlin {
 
@@ -18,7 +22,13 @@ DrumGeometry drum_geometry(const FlowScene& scene, double nu) {
   drum.radius = 0.5e-3 * scene.drum.diameter_mm / scales.length_m;
   drum.rotation = scene.drum.rotation_rpm * std::numbers::pi / 30 * scales.time_s;
   drum.nu = nu;
-  drum.axis_offset = chord_offset(drum.radius, grain_area(scene.grains) / nu);
+  const double area = grain_area(scene.grains) / nu, whole = std::numbers::pi * drum.radius * drum.radius;
+  if (area >= whole)
+    throw InputError({InputProblem{.file = "",
+                                   .key = "grains.count",
+                                   .what = fmt::format("the grains would cover {:.4g} d^2 at nu = {:.3g}", area, nu),
+                                   .allowed = fmt::format("less than the drum's {:.4g} d^2", whole)}});
+  drum.axis_offset = chord_offset(drum.radius, area);
   return drum;
 }
 

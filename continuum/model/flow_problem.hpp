@@ -78,7 +78,7 @@ struct FlowProblem {
 
 /// Area of the part of a disc of this radius below a chord that lies `axis_offset` below its centre.
 double segment_area(double radius, double axis_offset);
-/// axis_offset for which segment_area is `area`. Throws InputError unless 0 < area < pi radius^2.
+/// axis_offset for which segment_area is `area`, 0 < area < pi radius^2.
 double chord_offset(double radius, double area);
 
 /// Speed of a rigid rotation about (0, axis_offset), positive in the sense of the vorticity dv_x/dz: (Omega z', -Omega x).

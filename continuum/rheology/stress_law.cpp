@@ -36,10 +36,13 @@ Strength strength(const StressLaw& law, double rate, double pressure) {
   return std::visit([&](const auto& chosen) { return strength(chosen, rate, pressure); }, law);
 }
 
-StressLaw stress_law(const RheologyFit& fit) {
+StressLaw stress_law(const RheologyFit& fit, const std::string& file) {
   if (fit.k)
-    throw InputError("the law has a table k(I), but the continuum solves the law with k absent (sigma_xx = sigma_zz in simple "
-                     "shear): remove its [k] table");
+    throw InputError({InputProblem{.file = file,
+                                   .key = "k",
+                                   .what = "is given, but the continuum solves the law with k absent (sigma_xx = sigma_zz in "
+                                           "simple shear)",
+                                   .allowed = "a file without the table [k]"}});
   return LogLaw{fit.mu.a, fit.mu.b};
 }
 

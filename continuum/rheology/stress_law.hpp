@@ -1,5 +1,6 @@
 #pragma once
 // Scalar laws F(|D|, p) of the deviatoric stress tau = F D/|D|: the short closed list from which a problem picks one.
+#include <string>
 #include <variant>
 
 #include "coupling/exchange/rheology_fit.hpp"
@@ -51,7 +52,8 @@ Strength strength(const StressLaw& law, double rate, double pressure);
 extern template Strength strength(const LogLaw&, double, double);
 extern template Strength strength(const SaturatingLaw&, double, double);
 
-/// The law of a rheology file. Throws InputError if it holds k(I): this solver takes the law with k absent only.
-StressLaw stress_law(const RheologyFit& fit);
+/// The law of a rheology file, named in messages. Throws InputError if it holds k(I): this solver takes the law with k
+/// absent only.
+StressLaw stress_law(const RheologyFit& fit, const std::string& file);
 
 }  // namespace drumlin
