@@ -9,6 +9,7 @@ import matplotlib.pyplot as plt
 
 import style
 
+LEAST_SHOWN_NU = 0.05  # volume fraction of the loosest layer that is drawn
 FIT = style.CONTINUUM  # the colour of lines that are fitted or expected, not measured
 
 
@@ -27,6 +28,9 @@ class Measured:
         with open(scalars, encoding="utf-8") as stream:
             self.content = json.load(stream)
         self.reduced = self.content["reduced"]
+        # A handful of grains in the air would stretch every axis with their error bars.
+        shown = [i for i, nu in enumerate(self.columns["nu"]) if nu > LEAST_SHOWN_NU]
+        self.columns = {name: [values[i] for i in shown] for name, values in self.columns.items()}
         self.z = self.columns["z"]
 
     def scalar(self, name):
@@ -41,10 +45,9 @@ class Measured:
     def half_width(self, name):
         return self.columns.get(name + "_ci99")
 
-    def surface_layers(self):
-        """Range of z worth showing: from the wall to where grains are rare."""
-        dense = [z for z, nu in zip(self.z, self.columns["nu"]) if nu > 0.01]
-        return (min(dense) - 1, max(dense) + 1) if dense else (min(self.z, default=-1), max(self.z, default=1))
+    def range(self):
+        """Range of z that is shown."""
+        return (min(self.z) - 1, max(self.z) + 1) if self.z else (-1, 1)
 
 
 def depth_panel(axes, run, name):
@@ -54,7 +57,7 @@ def depth_panel(axes, run, name):
         axes.axvline(-run.scalar("H"), color="0.4", linestyle=":", linewidth=1)
     axes.set_xlabel(style.LABELS["z"])
     axes.set_ylabel(style.LABELS.get(name, name))
-    axes.set_xlim(*run.surface_layers())
+    axes.set_xlim(*run.range())
 
 
 def draw(axes, run, name, color=style.PARTICLES, label=None):
@@ -128,7 +131,7 @@ def rotation(run):
     draw(axes, run, "omega", label=r"mean spin $\omega$, 99 %")
     half_rate = [rate / 2 for rate in run.columns["shear_rate"]]
     axes.plot(run.z, half_rate, color=FIT, label=r"$\frac{1}{2}\,dv_x/dz$")
-    axes.plot(run.z, run.columns["half_vorticity"], color=style.OTHERS[0], linestyle="--", label="half the vorticity")
+    axes.plot(run.z, run.columns["half_vorticity"], color=style.OTHERS[0], linestyle="--", label=r"$\frac{1}{2}\,(dv_x/dz - dv_z/dx)$")
     axes.set_title(style.title_of("Spin and vorticity", run.reduced))
     axes.legend(loc="upper left")
     return figure
@@ -142,7 +145,7 @@ def stresses(run):
         draw(axes, run, name, color, style.LABELS[name].split("  ")[0])
     theta, nu = math.radians(float(run.header["theta_deg"])), run.scalar("nu_bulk")
     if math.isfinite(nu):
-        z = [min(run.z), 0]
+        z = [min(run.z, default=0), 0]
         axes.plot(z, [-at * nu * math.cos(theta) for at in z], color="k", linestyle="--", linewidth=1,
                   label=r"$-z\,\nu\,\cos\theta$")
         axes.plot(z, [-at * nu * math.sin(theta) for at in z], color="k", linestyle=":", linewidth=1.4,

@@ -45,7 +45,7 @@ struct Measurement {
   /// The profiles without one batch each, for the intervals of what is derived from them.
   std::vector<ProfileSet> leave_one_out;
   /// theta_deg, theta_com_deg, Q, H, lambda, shear_rate, I_th, nu_bulk, spin_over_half_vorticity,
-  /// spin_over_half_shear_rate, dv_over_shear, domega_over_shear, k_flowing, Q_expected.
+  /// spin_over_half_curl, dv_over_shear, domega_over_shear, k_flowing, Q_expected.
   ScalarSet scalars;
   ProfileScalars fits;  ///< of the whole run
 

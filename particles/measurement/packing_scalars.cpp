@@ -50,8 +50,8 @@ ScalarSet packing_scalars(const ProfileSet& profiles, double wall_z, const Measu
                     {"shear_rate", fits.shear_rate, {}},
                     {"I_th", fits.I_th, {}},
                     {"nu_bulk", nu_bulk, {}},
-                    {"spin_over_half_vorticity", spin / flowing_mean("half_vorticity"), {}},
-                    {"spin_over_half_shear_rate", 2 * spin / flowing_mean("shear_rate"), {}},
+                    {"spin_over_half_vorticity", 2 * spin / flowing_mean("shear_rate"), {}},
+                    {"spin_over_half_curl", spin / flowing_mean("half_vorticity"), {}},
                     {"dv_over_shear", flowing_ratio("dv"), {}},
                     {"domega_over_shear", flowing_ratio("domega"), {}},
                     {"k_flowing", flowing_mean("k"), {}}}};

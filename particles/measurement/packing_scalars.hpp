@@ -6,7 +6,7 @@
 namespace drumlin {
 
 /// Q, H, lambda, shear_rate, I_th, nu_bulk, spin_over_half_vorticity, dv_over_shear, domega_over_shear,
-/// k_flowing, spin_over_half_shear_rate, without intervals; NaN where the profile does not hold what one
+/// k_flowing, spin_over_half_curl, without intervals; NaN where the profile does not hold what one
 /// needs. wall_z: z of the wall below the slice, from the surface.
 ScalarSet packing_scalars(const ProfileSet& profiles, double wall_z, const MeasurementOptions& options);
 
