@@ -100,13 +100,13 @@ class ParticleRun {
 
   int execute() {
     start_ = Clock::now();
+    next_checkpoint_s_ = simulated_seconds() + scene_.output.checkpoint_every_s;
     cpu_before_ = cpu_seconds();
     steps_before_ = simulation_.state().step;
-    const auto checkpoint_steps = next_checkpoint_interval();
     write_report("running");
     while (!simulation_.finished()) {
       advance();
-      if (simulation_.state().step % checkpoint_steps == 0) save_checkpoint();
+      if (simulated_seconds() >= next_checkpoint_s_) save_checkpoint();
       if (progress_.due()) progress_.show(progress_line());
       if (const int signal = interruption()) return stop_for(signal);
     }
@@ -120,10 +120,7 @@ class ParticleRun {
   }
 
  private:
-  std::int64_t next_checkpoint_interval() const {
-    const double h = scene_.stages.front().time_step_s;
-    return std::max<std::int64_t>(1, std::llround(scene_.output.checkpoint_every_s / h));
-  }
+  double simulated_seconds() const { return simulation_.state().time() * simulation_.scales().time_s; }
 
   void advance() {
     last_ = simulation_.step();
@@ -148,7 +145,7 @@ class ParticleRun {
     const auto& state = simulation_.state();
     const auto& judged = last_.solve.judgement;
     log_.write(fmt::format("{},{:.9g},{},{},{},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.9g},{}\n", state.step,
-                           state.time() * simulation_.scales().time_s, scene_.stages[state.stage].name, last_.contacts,
+                           simulated_seconds(), scene_.stages[state.stage].name, last_.contacts,
                            last_.solve.sweeps, judged.residual, judged.residual_max, judged.penetration,
                            last_.overlap.mean, last_.overlap.max, kinetic_energy(state.bodies), converged ? 1 : 0));
   }
@@ -170,6 +167,7 @@ class ParticleRun {
     checkpoint.state = simulation_.state();
     const fs::path file = options_.output / "checkpoint.h5";
     writer_.write([file, checkpoint = std::move(checkpoint)] { write_checkpoint(file, checkpoint); });
+    next_checkpoint_s_ = simulated_seconds() + scene_.output.checkpoint_every_s;
     totals_.output_seconds += seconds_between(begin, Clock::now());
   }
 
@@ -199,7 +197,7 @@ class ParticleRun {
     report["seed"] = scene_.seed;
     report["threads"] = options_.threads;
     report["grains"] = state.bodies.count();
-    report["simulated_seconds"] = state.time() * simulation_.scales().time_s;
+    report["simulated_seconds"] = simulated_seconds();
     report["snapshots"] = state.snapshots;
     report["accuracy"] = {{"solver", scene_.solver.name},
                           {"tolerance", scene_.solver.tolerance},
@@ -228,7 +226,7 @@ class ParticleRun {
     const double left = done > 0 ? spent / done * static_cast<double>(total - state.step) : 0;
     return fmt::format("{}run {:5.1f} %  {}  t = {:.2f} s  contacts {}  sweeps {}  residual {:.1e}  overlap {:.1e} d  missed {}  left {}",
                        scene_.reduced ? "reduced " : "", 100.0 * static_cast<double>(state.step) / static_cast<double>(total),
-                       scene_.stages[state.stage].name, state.time() * simulation_.scales().time_s, last_.contacts,
+                       scene_.stages[state.stage].name, simulated_seconds(), last_.contacts,
                        last_.solve.sweeps, last_.solve.judgement.residual, last_.overlap.mean, totals_.unconverged_steps,
                        duration_text(left));
   }
@@ -273,6 +271,7 @@ class ParticleRun {
   StepReport last_;
   Clock::time_point start_;
   double cpu_before_ = 0;
+  double next_checkpoint_s_ = 0;
   std::int64_t steps_before_ = 0;
 };
 

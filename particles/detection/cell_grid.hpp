@@ -16,7 +16,7 @@ struct Period {
   bool open() const { return length <= 0; }
   /// The nearest image of a difference.
   double nearest(double dx) const { return open() ? dx : dx - length * std::round(dx / length); }
-  /// The image in the first period, where the walls stand.
+  /// The image in the first period.
   double first(double x) const { return open() ? x : x - length * std::floor((x - origin) / length); }
 };
 

@@ -42,6 +42,16 @@ std::optional<Box> surroundings(const Shape& shape, double reach) {
   return std::nullopt;
 }
 
+/// The image of x that is nearest to the middle of a shape. A wall as long as the period meets every grain once.
+double image_near(const Shape& shape, double x, const Period& period) {
+  if (period.open()) return x;
+  double middle = 0;
+  if (const auto* s = std::get_if<Segment>(&shape)) middle = (s->from.x + s->to.x) / 2;
+  else if (const auto* d = std::get_if<FixedDisc>(&shape)) middle = d->center.x;
+  else middle = std::get<Container>(shape).center.x;
+  return middle + period.nearest(x - middle);
+}
+
 /// Bound on how far a point of a shape moves within a step.
 double largest_move(const Shape& shape, const Pose& step) {
   const auto move_of = [&step](Point p) {
@@ -79,8 +89,9 @@ double gap_now(const Candidate& pair, const Bodies& bodies, std::span<const Shap
                double& n_x, double& n_z) {
   if (pair.j < 0) {
     Point point;
-    return gap_to_shape(shapes[-1 - pair.j], period.first(bodies.x[pair.i]), bodies.z[pair.i], bodies.radius[pair.i],
-                        n_x, n_z, point);
+    const Shape& shape = shapes[-1 - pair.j];
+    return gap_to_shape(shape, image_near(shape, bodies.x[pair.i], period), bodies.z[pair.i], bodies.radius[pair.i], n_x,
+                        n_z, point);
   }
   return normal_of(period.nearest(bodies.x[pair.i] - bodies.x[pair.j]), bodies.z[pair.i] - bodies.z[pair.j], n_x, n_z) -
          bodies.radius[pair.i] - bodies.radius[pair.j];
@@ -122,8 +133,8 @@ void ContactDetection::keep_if_near_wall(std::int32_t b, std::int32_t shape, dou
                                          const Velocities& v, const DetectionInput& input) {
   Candidate pair{b, -1 - shape, 0, 0, 0, 0, 0};
   Point point;
-  pair.gap = gap_to_shape(input.shapes[shape], input.period.first(bodies.x[b]), bodies.z[b], bodies.radius[b], pair.n_x,
-                          pair.n_z, point);
+  pair.gap = gap_to_shape(input.shapes[shape], image_near(input.shapes[shape], bodies.x[b], input.period), bodies.z[b],
+                          bodies.radius[b], pair.n_x, pair.n_z, point);
   if (pair.gap > farthest) return;
   const Point then = moved(input.shape_steps[shape], point);
   pair.wall_v_x = (then.x - point.x) / input.time_step;

@@ -47,7 +47,7 @@ std::vector<Site> lattice_sites(const GeneratedGrains& grains) {
 Bodies generated(const GeneratedGrains& grains, std::uint64_t seed, double unit) {
   const auto sites = lattice_sites(grains);
   if (static_cast<int>(sites.size()) < grains.count)
-    throw InputError({InputProblem{"", 0, 0, "grains.count", std::to_string(grains.count) + " grains do not fit into the region",
+    throw InputError({InputProblem{"", 0, 0, "grains.generated.count", std::to_string(grains.count) + " grains do not fit into the region",
                                    "at most " + std::to_string(sites.size())}});
   RandomStream sizes(seed, "grains/diameter"), shaking(seed, "grains/position");
   const double room = (spacing_over_largest - 1) * grains.diameter_max_mm / 2;
@@ -78,7 +78,7 @@ std::vector<std::string> fields_of(const std::string& line) {
 std::vector<ListedGrain> listed(const std::filesystem::path& file) {
   const std::string name = file.string();
   std::ifstream in(file);
-  if (!in || std::filesystem::is_directory(file)) throw InputError({InputProblem{name, 0, 0, "grains.file", "cannot be read", ""}});
+  if (!in || std::filesystem::is_directory(file)) throw InputError({InputProblem{name, 0, 0, "grains.listed.file", "cannot be read", ""}});
   const std::vector<std::string> known = {"x_mm", "z_mm", "diameter_mm", "v_x_mm_s", "v_z_mm_s", "spin_rad_s"};
   std::vector<InputProblem> problems;
   std::vector<std::string> names;
@@ -113,7 +113,7 @@ std::vector<ListedGrain> listed(const std::filesystem::path& file) {
     }
     grains.push_back(grain);
   }
-  if (grains.empty() && problems.empty()) problems.push_back({name, 0, 0, "grains.file", "lists no grains", ""});
+  if (grains.empty() && problems.empty()) problems.push_back({name, 0, 0, "grains.listed.file", "lists no grains", ""});
   if (!problems.empty()) throw InputError(problems);
   return grains;
 }

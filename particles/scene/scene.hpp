@@ -126,7 +126,7 @@ struct SolverSettings {
   double penetration_tolerance = 1e-3;  ///< of `penetration`, in d
   int max_sweeps = 100;
   int check_every = 10;                 ///< sweeps between two looks at the judge
-  int projection_sweeps = 5;            ///< 0: no position projection
+  int projection_sweeps = 20;           ///< at most; 0: no position projection
   bool stop_when_unconverged = false;   ///< end with exit code 3 at the first step that misses the tolerance
 };
 

@@ -1,0 +1,172 @@
+// Snapshot, checkpoint and problem files: round trips, and damage that must not pass.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "coupling/exchange/errors.hpp"
+#include "particles/io/contact_problem_file.hpp"
+#include "particles/io/h5_image.hpp"
+#include "particles/io/snapshot_file.hpp"
+#include "particles/scene/random.hpp"
+#include "particles/solver/contact_solver.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace drumlin {
+namespace {
+
+using test::TemporaryFolder;
+
+Snapshot some_snapshot() {
+  Snapshot s;
+  s.step = 42, s.time = 1.5, s.time_step = 0.05, s.wall_angle = 0.3, s.wall_spin = 0.01, s.container_radius = 68;
+  s.velocity_window = 0.3;
+  s.scales = {3.3e-3, 0.018, 2700};
+  for (int k = 0; k < 5; ++k) {
+    s.x.push_back(k), s.z.push_back(-k), s.v_x.push_back(0.1 * k), s.v_z.push_back(0.2), s.radius.push_back(0.5);
+    s.spin.push_back(-0.1 * k), s.displacement_x.push_back(0.03 * k), s.displacement_z.push_back(0.06);
+  }
+  s.contacts = {{0, 1, 0.6f, 0.8f, 1.25, -0.5}, {3, -1, 0, 1, 2, 0}};
+  return s;
+}
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(SnapshotFile, RoundTripKeepsEveryNumber) {
+  const TemporaryFolder folder;
+  const Snapshot s = some_snapshot();
+  write_snapshot(folder.path() / "s.h5", s);
+  const Snapshot t = read_snapshot(folder.path() / "s.h5");
+  EXPECT_EQ(s.step, t.step);
+  EXPECT_EQ(s.x, t.x);
+  EXPECT_EQ(s.spin, t.spin);
+  EXPECT_EQ(s.displacement_z, t.displacement_z);
+  EXPECT_EQ(s.wall_spin, t.wall_spin);
+  EXPECT_EQ(s.scales.time_s, t.scales.time_s);
+  ASSERT_EQ(t.contacts.size(), 2u);
+  EXPECT_EQ(t.contacts[1].j, -1);
+  EXPECT_EQ(t.contacts[0].normal_x, 0.6f);
+  EXPECT_EQ(t.contacts[0].impulse_t, -0.5);
+}
+
+TEST(SnapshotFile, SameStateGivesSameBytes) {
+  const TemporaryFolder folder;
+  write_snapshot(folder.path() / "a.h5", some_snapshot());
+  write_snapshot(folder.path() / "b.h5", some_snapshot());
+  EXPECT_EQ(bytes_of(folder.path() / "a.h5"), bytes_of(folder.path() / "b.h5"));
+}
+
+TEST(SnapshotFile, EveryBitFlipAndEveryCutIsRefused) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "s.h5", damaged = folder.path() / "d.h5";
+  write_snapshot(file, some_snapshot());
+  const std::string good = bytes_of(file);
+  RandomStream random(3, "damage");
+  for (int k = 0; k < 300; ++k) {
+    std::string bad = good;
+    const auto place = random.bits() % bad.size();
+    if (k % 3 == 0) bad.resize(place);
+    else bad[place] = static_cast<char>(bad[place] ^ (1 << (random.bits() % 8)));
+    std::ofstream(damaged, std::ios::binary) << bad;
+    EXPECT_THROW(read_snapshot(damaged), InputError) << place;
+  }
+}
+
+TEST(SnapshotFile, MissingFileAndFolderAreRefused) {
+  const TemporaryFolder folder;
+  EXPECT_THROW(read_snapshot(folder.path() / "none.h5"), InputError);
+  EXPECT_THROW(read_snapshot(folder.path()), InputError);
+}
+
+TEST(SnapshotFile, UnwritablePlaceIsAnIoError) {
+  EXPECT_THROW(write_snapshot("/proc/none/s.h5", some_snapshot()), IoError);
+}
+
+/// Two contacts on one body and a third contact, W symmetric with one off-diagonal block.
+struct SmallProblem {
+  std::vector<double> dense = {2, 0.1, 0.5, 0, 0, 0, 0.1, 3, 0, 0.2, 0, 0, 0.5, 0, 2, 0.3, 0, 0,
+                               0, 0.2, 0.3, 4, 0, 0, 0,   0, 0, 0, 1,   0, 0, 0, 0,   0, 0, 3};
+  std::vector<double> q = {-1, 0.4, -0.5, -2, 0.7, 0.1};
+  std::vector<double> mu = {0.3, 0.2, 0.5};
+};
+
+void write_fclib(const std::filesystem::path& file, const SmallProblem& p, int storage) {
+  std::vector<std::int32_t> first, second;
+  std::vector<double> x;
+  if (storage < 0) first.push_back(0);
+  for (int major = 0; major < 6; ++major) {
+    for (int minor = 0; minor < 6; ++minor) {
+      const double value = storage == -1 ? p.dense[6 * minor + major] : p.dense[6 * major + minor];
+      if (value == 0) continue;
+      if (storage >= 0) first.push_back(minor), second.push_back(major);  // columns, rows
+      else second.push_back(minor);
+      x.push_back(value);
+    }
+    if (storage < 0) first.push_back(static_cast<std::int32_t>(x.size()));
+  }
+  H5Writer out;
+  const auto put = [&out](const std::string& name, std::int32_t value) {
+    out.add("fclib_local/" + name, std::span<const std::int32_t>(&value, 1));
+  };
+  put("spacedim", 2), put("W/nzmax", static_cast<std::int32_t>(x.size())), put("W/m", 6), put("W/n", 6);
+  put("W/nz", storage >= 0 ? static_cast<std::int32_t>(x.size()) : storage);
+  out.add("fclib_local/W/p", std::span<const std::int32_t>(first));
+  out.add("fclib_local/W/i", std::span<const std::int32_t>(second));
+  out.add("fclib_local/W/x", std::span<const double>(x));
+  out.add("fclib_local/vectors/q", std::span<const double>(p.q));
+  out.add("fclib_local/vectors/mu", std::span<const double>(p.mu));
+  out.save(file);
+}
+
+TEST(ContactProblemFile, AllThreeStoragesGiveTheSameProblem) {
+  const TemporaryFolder folder;
+  const SmallProblem p;
+  for (const int storage : {-2, -1, 0}) {
+    write_fclib(folder.path() / "p.h5", p, storage);
+    const BlockProblem read = read_contact_problem(folder.path() / "p.h5");
+    std::vector<double> u, none;
+    const std::vector<double> r = {1, 0.2, 0.5, -0.1, 0.3, 0};
+    read.W.velocities(r, read.q, none, u);
+    for (int row = 0; row < 6; ++row) {
+      double expected = p.q[row];
+      for (int c = 0; c < 6; ++c) expected += p.dense[6 * row + c] * r[c];
+      EXPECT_NEAR(u[row], expected, 1e-15) << storage << ' ' << row;
+    }
+  }
+}
+
+TEST(ContactProblemFile, WrittenProblemReadsBack) {
+  const TemporaryFolder folder;
+  write_fclib(folder.path() / "p.h5", {}, -1);
+  const BlockProblem a = read_contact_problem(folder.path() / "p.h5");
+  write_contact_problem(folder.path() / "q.h5", a, "test");
+  const BlockProblem b = read_contact_problem(folder.path() / "q.h5");
+  EXPECT_EQ(a.W.column, b.W.column);
+  EXPECT_EQ(a.q, b.q);
+  EXPECT_EQ(a.mu, b.mu);
+}
+
+TEST(ContactProblemFile, FaultsAreRefused) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "p.h5";
+  SmallProblem negative;
+  negative.mu[1] = -0.1;
+  write_fclib(file, negative, -2);
+  EXPECT_THROW(read_contact_problem(file), InputError);
+  SmallProblem infinite;
+  infinite.q[0] = std::numeric_limits<double>::infinity();
+  write_fclib(file, infinite, -2);
+  EXPECT_THROW(read_contact_problem(file), InputError);
+  SmallProblem singular;
+  singular.dense[0] = 0;
+  write_fclib(file, singular, 0);
+  EXPECT_THROW(read_contact_problem(file), InputError);
+  std::ofstream(file) << "not HDF5";
+  EXPECT_THROW(read_contact_problem(file), InputError);
+  EXPECT_THROW(read_contact_problem(folder.path()), InputError);
+}
+
+}  // namespace
+}  // namespace drumlin

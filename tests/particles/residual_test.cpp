@@ -1,0 +1,102 @@
+// The judge's own tests: hand-made problems whose residual is known.
+#include "particles/contact/residual.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "particles/contact/problems.hpp"
+
+namespace drumlin {
+namespace {
+
+/// One disc of mass m on a fixed floor, approaching with q.
+CoulombSpinProblem disc_on_floor(double q_n, double q_t, double mu, double mass = 2) {
+  CoulombSpinProblem problem;
+  problem.W.inverse_mass = {1 / mass, 0};
+  problem.W.add(0, 1, 0, 1);
+  problem.q = {q_n, q_t};
+  problem.mu = {mu};
+  problem.time_step = 0.1;
+  return problem;
+}
+
+Judgement verdict(const CoulombSpinProblem& problem, std::vector<double> r) {
+  return judge(problem, std::span<const double>(r));
+}
+
+TEST(Cone, ProjectionOfPointsInsideBesideAndBelow) {
+  double n = 2, t = -0.5;
+  project_on_cone(0.5, n, t);
+  EXPECT_EQ(n, 2);
+  EXPECT_EQ(t, -0.5);
+  n = -1, t = 0.3;  // in the polar cone: mu |t| <= -n
+  project_on_cone(0.5, n, t);
+  EXPECT_EQ(n, 0);
+  EXPECT_EQ(t, 0);
+  n = 0, t = 1;  // nearest point of the ray (1, mu)
+  project_on_cone(0.5, n, t);
+  EXPECT_NEAR(n, 0.4, 1e-15);
+  EXPECT_NEAR(t, 0.2, 1e-15);
+}
+
+TEST(Judge, ExactStickingSolutionHasNoResidual) {
+  // W = (1/m, 3/m) = (0.5, 1.5): r = (2, -0.2) stops q = (-1, 0.3), within mu = 0.5.
+  const auto v = verdict(disc_on_floor(-1, 0.3, 0.5), {2, -0.2});
+  EXPECT_NEAR(v.residual, 0, 1e-15);
+  EXPECT_NEAR(v.penetration, 0, 1e-15);
+}
+
+TEST(Judge, ExactSlidingSolutionHasNoResidual) {
+  // mu = 0.05: r_t = -0.1, u_t = 0.3 - 0.15 = 0.15 > 0 opposes r_t.
+  EXPECT_NEAR(verdict(disc_on_floor(-1, 0.3, 0.05), {2, -0.1}).residual, 0, 1e-15);
+}
+
+TEST(Judge, SeparatingContactNeedsNoImpulse) {
+  EXPECT_EQ(verdict(disc_on_floor(1, 0.3, 0.5), {0, 0}).residual, 0);
+}
+
+TEST(Judge, MissingImpulseCountsItsVelocity) {
+  // r = 0: e = |P_K(-rho (u_n + mu |u_t|), -rho u_t)| / rho with rho = 1/1.5. For u = (-1, 0): the projection is
+  // (rho, 0), so e = 1. rms(q) = 1/sqrt(2).
+  const auto v = verdict(disc_on_floor(-1, 0, 0.5), {0, 0});
+  EXPECT_NEAR(v.residual, std::sqrt(2.0), 1e-14);
+  EXPECT_NEAR(v.residual_max, std::sqrt(2.0), 1e-14);
+  EXPECT_NEAR(v.penetration, 0.1, 1e-15);
+}
+
+TEST(Judge, TakesTheRmsOverContacts) {
+  CoulombSpinProblem problem;
+  problem.W.inverse_mass = {1, 1, 0};
+  problem.W.add(0, 2, 0, 1);
+  problem.W.add(1, 2, 0, 1);
+  problem.q = {-1, 0, -1, 0};
+  problem.mu = {0.5, 0.5};
+  // The first contact is solved, the second is not: e = (0, 1), rms(q) = 1/sqrt(2).
+  const std::vector<double> r{1, 0, 0, 0};
+  const auto v = judge(problem, std::span<const double>(r));
+  EXPECT_NEAR(v.residual, std::sqrt(0.5) * std::sqrt(2.0), 1e-14);
+  EXPECT_NEAR(v.residual_max, std::sqrt(2.0), 1e-14);
+}
+
+TEST(Judge, DoesNotDependOnUnitsOfMassOrVelocity) {
+  const auto plain = verdict(disc_on_floor(-1, 0.3, 0.5), {1.7, -0.3});
+  const auto heavy = verdict(disc_on_floor(-1, 0.3, 0.5, 2000), {1700, -300});
+  auto fast = disc_on_floor(-10, 3, 0.5);
+  EXPECT_NEAR(plain.residual, heavy.residual, 1e-13);
+  EXPECT_NEAR(plain.residual, verdict(fast, {17, -3}).residual, 1e-13);
+}
+
+TEST(Judge, SeesNotANumber) {
+  const auto v = verdict(disc_on_floor(-1, 0, 0.5), {std::numeric_limits<double>::quiet_NaN(), 0});
+  EXPECT_TRUE(std::isnan(v.residual));
+}
+
+TEST(Judge, EmptyProblemIsSolved) {
+  CoulombSpinProblem problem;
+  problem.W.inverse_mass = {1, 0};
+  EXPECT_EQ(judge(problem, std::span<const double>()).residual, 0);
+}
+
+}  // namespace
+}  // namespace drumlin

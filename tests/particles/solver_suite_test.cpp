@@ -1,0 +1,229 @@
+// One suite for every contact solver, judged by the residual that none of them computes.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "coupling/exchange/errors.hpp"
+#include "particles/contact/problems.hpp"
+#include "particles/solver/contact_solver.hpp"
+
+namespace drumlin {
+namespace {
+
+constexpr double g_h = 0.05;  // velocity that gravity gives in a step
+
+class Solver : public testing::TestWithParam<std::string> {
+ protected:
+  template <class Problem>
+  std::vector<double> solved(const Problem& problem, double tolerance = 1e-10) const {
+    StoppingRule rule;
+    rule.tolerance = tolerance;
+    rule.max_sweeps = 200000;
+    SolverScratch<Problem> scratch;
+    std::vector<double> r;
+    const SolveReport report = contact_solver<Problem>(GetParam())(problem, rule, scratch, r);
+    EXPECT_EQ(report.status, Status::converged) << report.judgement.residual << " after " << report.sweeps;
+    EXPECT_LE(judge(problem, std::span<const double>(r)).residual, tolerance);
+    return r;
+  }
+};
+
+/// Equal discs of mass 1 one above the other on a floor; contact k between disc k - 1 and k.
+template <class Problem>
+Problem column(int discs, double mu) {
+  constexpr int dim = Problem::dim;
+  Problem problem;
+  problem.W.inverse_mass.assign(discs, 1.0);
+  problem.W.inverse_mass.push_back(0);
+  for (int k = 0; k < discs; ++k) {
+    problem.W.add(k, k == 0 ? discs : k - 1, 0, 1);
+    problem.q.push_back(k == 0 ? -g_h : 0);
+    if (dim == 2) problem.q.push_back(0), problem.mu.push_back(mu);
+  }
+  return problem;
+}
+
+TEST_P(Solver, StackOfTenCarriesItsOwnWeight) {
+  const auto r = solved(column<CoulombSpinProblem>(10, 0.4));
+  for (int k = 0; k < 10; ++k) {
+    EXPECT_NEAR(r[2 * k], (10 - k) * g_h, 1e-8) << k;
+    EXPECT_NEAR(r[2 * k + 1], 0, 1e-12) << k;
+  }
+}
+
+TEST_P(Solver, FrictionlessStackHasOneUnknownPerContact) {
+  const auto r = solved(column<FrictionlessProblem>(10, 0));
+  ASSERT_EQ(r.size(), 10u);
+  for (int k = 0; k < 10; ++k) EXPECT_NEAR(r[k], (10 - k) * g_h, 1e-8) << k;
+}
+
+TEST_P(Solver, DiscInAWedgeStaysAtRest) {
+  // Walls at 45 degrees, mu = 1.2 >= tan 45: velocity 0 whatever the (not unique) forces.
+  CoulombSpinProblem problem;
+  problem.W.inverse_mass = {1, 0};
+  const double c = std::sqrt(0.5);
+  problem.W.add(0, 1, c, c);
+  problem.W.add(0, 1, -c, c);
+  const double w_x = 0, w_z = -g_h;
+  for (int a = 0; a < 2; ++a) {
+    problem.q.push_back(problem.W.n_x[a] * w_x + problem.W.n_z[a] * w_z);
+    problem.q.push_back(problem.W.n_z[a] * w_x - problem.W.n_x[a] * w_z);
+    problem.mu.push_back(1.2);
+  }
+  const auto r = solved(problem);
+  CoulombSpinProblem::Delassus::State state;
+  problem.W.load(state, r);
+  EXPECT_NEAR(w_x + state[0].x, 0, 1e-9);
+  EXPECT_NEAR(w_z + state[0].z, 0, 1e-9);
+  EXPECT_NEAR(state[0].s, 0, 1e-9);
+  EXPECT_LT(std::abs(r[0]) + std::abs(r[2]), 10 * g_h);
+}
+
+/// Discs in contact at random. q comes from velocities of the bodies: rest is then admissible, a solution exists.
+CoulombSpinProblem random_problem(int bodies, int contacts, double mu, unsigned seed) {
+  std::mt19937 bits(seed);
+  const auto uniform = [&bits] { return static_cast<double>(bits()) / 4294967296.0; };
+  CoulombSpinProblem problem;
+  CoulombSpinProblem::Delassus::State velocity(bodies + 1);
+  for (int b = 0; b < bodies; ++b) {
+    problem.W.inverse_mass.push_back(0.5 + uniform());
+    velocity[b] = {2 * uniform() - 1, 2 * uniform() - 1, 2 * uniform() - 1, 0};
+  }
+  problem.W.inverse_mass.push_back(0);
+  for (int a = 0; a < contacts; ++a) {
+    const int i = static_cast<int>(bits() % bodies);
+    const int j = a % 4 == 0 ? bodies : static_cast<int>((i + 1 + bits() % (bodies - 1)) % bodies);
+    const double angle = 6.283185307179586 * uniform();
+    problem.W.add(i, j, std::cos(angle), std::sin(angle));
+    problem.q.push_back(problem.W.normal_velocity(velocity, a));
+    problem.q.push_back(problem.W.tangential_velocity(velocity, a));
+    problem.mu.push_back(mu);
+  }
+  return problem;
+}
+
+TEST_P(Solver, RandomProblemsReachTheirTolerance) {
+  for (unsigned seed = 1; seed <= 5; ++seed) solved(random_problem(30, 40, 0.3, seed), 1e-8);
+}
+
+/// The same W as blocks, from products with unit impulses.
+BlockProblem as_blocks(const CoulombSpinProblem& problem) {
+  const int n = problem.contacts();
+  BlockProblem blocks;
+  blocks.q = problem.q;
+  blocks.mu = problem.mu;
+  blocks.W.row_start = {0};
+  std::vector<std::vector<double>> columns;
+  const std::vector<double> zero(2 * n, 0.0);
+  for (int c = 0; c < 2 * n; ++c) {
+    std::vector<double> unit(2 * n, 0.0), u;
+    unit[c] = 1;
+    CoulombSpinProblem::Delassus::State scratch;
+    problem.W.velocities(unit, zero, scratch, u);
+    columns.push_back(u);
+  }
+  for (int a = 0; a < n; ++a) {
+    for (int b = 0; b < n; ++b) {
+      Eigen::Matrix2d block;
+      for (int r = 0; r < 2; ++r)
+        for (int c = 0; c < 2; ++c) block(r, c) = columns[2 * b + c][2 * a + r];
+      if (block.cwiseAbs().maxCoeff() == 0) continue;
+      blocks.W.column.push_back(b);
+      blocks.W.block.push_back(block);
+      if (a == b) blocks.W.diagonal.push_back(block);
+    }
+    blocks.W.row_start.push_back(static_cast<int>(blocks.W.column.size()));
+  }
+  return blocks;
+}
+
+TEST_P(Solver, BodiesAndBlocksAreTheSameProblem) {
+  const auto problem = random_problem(20, 25, 0.3, 7);
+  const auto blocks = as_blocks(problem);
+  const auto r = solved(problem);
+  EXPECT_LE(judge(blocks, std::span<const double>(r)).residual, 1e-9);
+  const auto s = solved(blocks);
+  EXPECT_LE(judge(problem, std::span<const double>(s)).residual, 1e-9);
+}
+
+TEST_P(Solver, SweepsRunOutAndSaySo) {
+  const auto problem = random_problem(30, 60, 0.3, 3);
+  StoppingRule rule;
+  rule.tolerance = 1e-14;
+  rule.max_sweeps = 3;
+  SolverScratch<CoulombSpinProblem> scratch;
+  std::vector<double> r;
+  const auto report = contact_solver<CoulombSpinProblem>(GetParam())(problem, rule, scratch, r);
+  EXPECT_EQ(report.status, Status::out_of_sweeps);
+  EXPECT_EQ(report.sweeps, 3);
+  EXPECT_EQ(report.judgement.residual, judge(problem, std::span<const double>(r)).residual);
+}
+
+TEST_P(Solver, ImpulsesLieInTheCone) {
+  const auto problem = random_problem(30, 60, 0.3, 4);
+  StoppingRule rule;
+  rule.max_sweeps = 17;
+  rule.tolerance = 0;
+  SolverScratch<CoulombSpinProblem> scratch;
+  std::vector<double> r;
+  (void)contact_solver<CoulombSpinProblem>(GetParam())(problem, rule, scratch, r);
+  for (int a = 0; a < problem.contacts(); ++a) {
+    EXPECT_GE(r[2 * a], 0);
+    EXPECT_LE(std::abs(r[2 * a + 1]), 0.3 * r[2 * a] * (1 + 1e-15));
+  }
+}
+
+TEST_P(Solver, NotANumberIsReported) {
+  auto problem = random_problem(5, 6, 0.3, 5);
+  problem.q[3] = std::nan("");
+  StoppingRule rule;
+  SolverScratch<CoulombSpinProblem> scratch;
+  std::vector<double> r;
+  EXPECT_EQ(contact_solver<CoulombSpinProblem>(GetParam())(problem, rule, scratch, r).status, Status::not_finite);
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, Solver, testing::ValuesIn(contact_solver_names()),
+                         [](const auto& test) { return test.param; });
+
+TEST(ContactSolver, NncgNeedsFewerSweepsThanNlgsOnATallColumn) {
+  // Information travels one contact per sweep of NLGS: some N^2 sweeps; conjugate gradients need some N.
+  const auto problem = column<CoulombSpinProblem>(100, 0.4);
+  const auto sweeps = [&problem](const std::string& name) {
+    StoppingRule rule;
+    rule.tolerance = 1e-6;
+    rule.max_sweeps = 100000;
+    SolverScratch<CoulombSpinProblem> scratch;
+    std::vector<double> r;
+    const auto report = contact_solver<CoulombSpinProblem>(name)(problem, rule, scratch, r);
+    EXPECT_EQ(report.status, Status::converged);
+    return report.sweeps;
+  };
+  EXPECT_LT(5 * sweeps("nncg"), sweeps("nlgs"));
+}
+
+TEST(ContactSolver, UnknownNameIsRefusedWithTheKnownOnes) {
+  EXPECT_THROW(contact_solver<CoulombSpinProblem>("magic"), InputError);
+}
+
+TEST(PlanarContact, EveryCaseSatisfiesItsLaws) {
+  std::mt19937 bits(11);
+  const auto uniform = [&bits] { return 2 * static_cast<double>(bits()) / 4294967296.0 - 1; };
+  for (int k = 0; k < 2000; ++k) {
+    Eigen::Matrix2d W;
+    W << 1, 0.3 * uniform(), 0, 3;
+    W(1, 0) = W(0, 1);
+    const Eigen::Vector2d q(uniform(), uniform());
+    const double mu = 0.5 * (uniform() + 1);
+    const Eigen::Vector2d r = solve_planar_contact(W, q, mu), u = W * r + q;
+    EXPECT_GE(r[0], 0);
+    EXPECT_LE(std::abs(r[1]), mu * r[0] + 1e-14);
+    EXPECT_GE(u[0], -1e-14);
+    EXPECT_NEAR(u[0] * r[0], 0, 1e-13);
+    if (std::abs(r[1]) < mu * r[0] - 1e-12) EXPECT_NEAR(u[1], 0, 1e-13);
+    else EXPECT_LE(u[1] * r[1], 1e-13);
+  }
+}
+
+}  // namespace
+}  // namespace drumlin
