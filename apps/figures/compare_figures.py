@@ -49,12 +49,12 @@ def draw(axes, name, particles, continuum, logarithmic=False):
         axes.set_yscale("log")
 
 
-def limit_to_the_bulk(axes, name, sides):
-    """Ratios of vanishing stresses at the surface would set the scale: it is taken from z < -1 instead."""
+def limit_to_the_packing(axes, name, sides):
+    """The few grains above the surface, and their wide bands, would set the scale: it is taken from z < 0 instead."""
     values = [value for side in sides if name in side for z, value in zip(side["z"], side[name])
-              if z < -1 and math.isfinite(value)]
+              if z < 0 and math.isfinite(value)]
     if values:
-        margin = 0.15 * (max(values) - min(values)) + 0.02
+        margin = 0.1 * (max(values) - min(values))
         axes.set_ylim(min(values) - margin, max(values) + margin)
 
 
@@ -63,8 +63,8 @@ def over_depth(names, particles, continuum, depth, size):
     figure, panels = plt.subplots(1, len(names), figsize=size, squeeze=False)
     for axes, (name, logarithmic) in zip(panels[0], names):
         draw(axes, name, particles, continuum, logarithmic)
-        if name in ("mu", "k"):
-            limit_to_the_bulk(axes, name, (particles, continuum))
+        if not logarithmic:
+            limit_to_the_packing(axes, name, (particles, continuum))
         mark_depths(axes, depth)
     panels[0][0].legend()
     return figure

@@ -107,12 +107,17 @@ std::string outcome_cell(const std::string& outcome) {
                      outcome == "not_measured" ? "not measured" : outcome);
 }
 
-/// The paper sets no target: its numbers are met or not, ours are not "missed".
-std::string agreement_cell(const std::string& outcome) {
-  return fmt::format("<td class=\"{}\">{}</td>", outcome,
-                     outcome == "met"      ? "agrees"
-                     : outcome == "missed" ? "differs"
-                                           : "&ndash;");
+/// The paper sets no target: its numbers are met or not, ours are not "missed". A difference that our own
+/// interval covers is said to be one.
+std::string agreement_cell(const std::string& outcome, bool inside_interval = false) {
+  std::string words = outcome == "met" ? "agrees" : outcome == "missed" ? "differs" : "&ndash;";
+  if (outcome == "missed" && inside_interval) words += ", within its interval";
+  return fmt::format("<td class=\"{}\">{}</td>", outcome, words);
+}
+
+bool covers(const Json& measurement, double value) {
+  const Json interval = measurement.is_object() ? measurement.value("ci99", Json()) : Json();
+  return is_known(interval) && std::abs(value_of(measurement) - value) <= interval.get<double>();
 }
 
 std::string target_name(const Json& target) {
@@ -209,7 +214,8 @@ std::string paper_section(const Json& comparison) {
         "<tr><td>{}</td><td>{}{}</td><td>{}</td><td>{}</td>{}<td>{}</td>{}<td>{}</td><td class=\"left "
         "note\">{}</td></tr>\n",
         words_for(row["name"]), shown(row["paper"]), half_width, shown_measurement(row["particles"]),
-        difference(published, value_of(row["particles"])), agreement_cell(row["particles_outcome"]),
+        difference(published, value_of(row["particles"])),
+        agreement_cell(row["particles_outcome"], covers(row["particles"], published)),
         shown(row["continuum"]), agreement_cell(row["continuum_outcome"]), shown(row["accepted_difference"]),
         escaped(row["source"].get<std::string>()));
   }
