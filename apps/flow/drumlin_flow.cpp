@@ -1,5 +1,6 @@
-// drumlin-flow: the continuum solve as a program of its own, so that `drumlin` starts without loading deal.II. It takes the
-// words of `drumlin flow`, whose command line it shares; `drumlin-flow --keys [--markdown]` lists the keys of a flow scene.
+// drumlin-flow: the continuum solve as a program of its own, so that `drumlin` starts without loading
+// deal.II. It takes the words of `drumlin flow`, whose command line it shares; `drumlin-flow --keys
+// [--markdown]` lists the keys of a flow scene.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -14,7 +15,8 @@
 #include "coupling/exchange/errors.hpp"
 
 #if defined(__SANITIZE_ADDRESS__)
-// OpenMPI and the libraries behind PETSc keep memory until the process ends; the leak check would count it as ours.
+// OpenMPI and the libraries behind PETSc keep memory until the process ends; the leak check would count it as
+// ours.
 extern "C" const char* __asan_default_options() { return "detect_leaks=0"; }
 #endif
 

@@ -18,7 +18,9 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-SliceOptions slice_of(const FlowScene& scene) { return {scene.output.slice_width, scene.output.layer_thickness}; }
+SliceOptions slice_of(const FlowScene& scene) {
+  return {scene.output.slice_width, scene.output.layer_thickness};
+}
 
 ProfileSet profiles_with_header(const FinishedFlow& flow) {
   ProfileSet profiles = drum_profiles(flow.solution.field, flow.drum, slice_of(flow.scene));
@@ -49,13 +51,15 @@ Json meshes_json(const std::vector<MeshResult>& meshes) {
   return list;
 }
 
-// What the last halving of the cells changed: an upper estimate of what remains, as long as the changes shrink.
+// What the last halving of the cells changed: an upper estimate of what remains, as long as the changes
+// shrink.
 Json mesh_change(const std::vector<MeshResult>& meshes) {
   if (meshes.size() < 2) return nullptr;
   const ScalarSet &fine = meshes.back().scalars, &coarse = meshes[meshes.size() - 2].scalars;
   Json changes;
   for (const Scalar& scalar : fine.scalars)
-    changes[scalar.name] = to_json(Scalar{scalar.name, std::abs(scalar.value - coarse.value(scalar.name)), {}});
+    changes[scalar.name] =
+        to_json(Scalar{scalar.name, std::abs(scalar.value - coarse.value(scalar.name)), {}});
   return changes;
 }
 
@@ -79,8 +83,8 @@ Json checks_json(const FinishedFlow& flow, double Q) {
 
 Json settings_json(const FinishedFlow& flow) {
   const FlowScene& s = flow.scene;
-  Json law{{"a", flow.law.mu.a}, {"b", flow.law.mu.b}, {"I_min", flow.law.mu.I_min}, {"I_max", flow.law.mu.I_max},
-           {"nu", flow.law.nu}, {"fitted_on", flow.law.fitted_on}};
+  Json law{{"a", flow.law.mu.a},         {"b", flow.law.mu.b}, {"I_min", flow.law.mu.I_min},
+           {"I_max", flow.law.mu.I_max}, {"nu", flow.law.nu},  {"fitted_on", flow.law.fitted_on}};
   return {{"title", s.title},
           {"law", law},
           {"drum_radius", flow.drum.radius},
@@ -124,17 +128,22 @@ Json flow_json(const FinishedFlow& flow) {
 void write_iterations(const fs::path& file, const FlowReport& report) {
   std::string text = fmt::format("# drumlin-flow-iterations-1\n# converged = {}\n", report.converged);
   if (!report.failure.empty()) text += fmt::format("# failure = {}\n", report.failure);
-  text += "mesh,phase,shear_rate,pressure_share,iteration,residual,step_length,step_size,linear_residual,theta_deg,seconds\n";
+  text +=
+      "mesh,phase,shear_rate,pressure_share,iteration,residual,step_length,step_size,linear_residual,theta_"
+      "deg,seconds\n";
   for (const IterationReport& line : report.history)
-    fmt::format_to(std::back_inserter(text), "{},{},{:.4g},{:.4g},{},{:.4e},{:.4g},{:.4e},{:.2e},{:.6f},{:.2f}\n", line.level,
-                   line.phase, line.shear_rate, line.pressure_share, line.iteration, line.residual, line.step_length,
-                   line.step_size, line.linear_residual, line.theta * 180 / std::numbers::pi, line.seconds);
+    fmt::format_to(std::back_inserter(text),
+                   "{},{},{:.4g},{:.4g},{},{:.4e},{:.4g},{:.4e},{:.2e},{:.6f},{:.2f}\n", line.level,
+                   line.phase, line.shear_rate, line.pressure_share, line.iteration, line.residual,
+                   line.step_length, line.step_size, line.linear_residual,
+                   line.theta * 180 / std::numbers::pi, line.seconds);
   replace_file(file, text);
 }
 
 void write_flow(const fs::path& folder, const FinishedFlow& flow) {
   write_profiles(folder / "profiles.csv", profiles_with_header(flow));
-  write_maps(folder / "maps.csv", flow.solution.field, flow.drum, flow.scene.output.map_spacing, flow.reduced);
+  write_maps(folder / "maps.csv", flow.solution.field, flow.drum, flow.scene.output.map_spacing,
+             flow.reduced);
   flow.solution.field.write_vtu(folder / "flow.vtu");
   const Json content = flow_json(flow);
   // The figures read it under another name: flow.json itself says that all is there.

@@ -21,9 +21,11 @@ namespace fs = std::filesystem;
 constexpr double degrees = 180 / std::numbers::pi;
 
 void print_iteration(const IterationReport& line) {
-  fmt::print("mesh {} {:<11} eps {:8.2e}  true p {:4.2f}  it {:2}  residual {:8.2e}  step {:8.2e} x {:4.2f}  theta {:7.3f} deg {:7.1f} s\n",
-             line.level, line.phase, line.shear_rate, line.pressure_share, line.iteration, line.residual, line.step_size,
-             line.step_length, line.theta * degrees, line.seconds);
+  fmt::print(
+      "mesh {} {:<11} eps {:8.2e}  true p {:4.2f}  it {:2}  residual {:8.2e}  step {:8.2e} x {:4.2f}  theta "
+      "{:7.3f} deg {:7.1f} s\n",
+      line.level, line.phase, line.shear_rate, line.pressure_share, line.iteration, line.residual,
+      line.step_size, line.step_length, line.theta * degrees, line.seconds);
   std::fflush(stdout);
 }
 
@@ -37,9 +39,9 @@ void print_mesh(int level, const MeshResult& mesh) {
 void print_summary(const fs::path& folder, const FinishedFlow& flow) {
   const FlowIntegrals sums = flow.solution.field.integrals();
   const double share = sums.ill_posed_area / sums.area;
-  fmt::print("{}{}: {} iterations, {:.1f} s, residual {:.1e}, ill-posed in {:.2f} % of the area{}\n", folder.string(),
-             flow.reduced ? " (reduced)" : "", flow.solution.report.iterations, flow.solution.report.seconds,
-             flow.solution.report.residual, 100 * share,
+  fmt::print("{}{}: {} iterations, {:.1f} s, residual {:.1e}, ill-posed in {:.2f} % of the area{}\n",
+             folder.string(), flow.reduced ? " (reduced)" : "", flow.solution.report.iterations,
+             flow.solution.report.seconds, flow.solution.report.residual, 100 * share,
              share > 0 ? ": the flow there depends on the mesh (docs/formats/flow.md)" : "");
 }
 
@@ -70,9 +72,10 @@ int solve_flow_scene(const FlowOptions& options) {
   replace_file(options.output / "rheology.toml", file_text(options.rheology));
 
   const bool reduced = scene.reduced || fit.reduced;
-  fmt::print("{}{}: R = {:.2f} d, axis {:.2f} d above the surface, Omega = {:.5f}, nu = {:.3f}, mu = {} + {} ln I\n",
-             scene.title, reduced ? " (reduced)" : "", drum.radius, drum.axis_offset, drum.rotation, drum.nu, fit.mu.a,
-             fit.mu.b);
+  fmt::print(
+      "{}{}: R = {:.2f} d, axis {:.2f} d above the surface, Omega = {:.5f}, nu = {:.3f}, mu = {} + {} ln I\n",
+      scene.title, reduced ? " (reduced)" : "", drum.radius, drum.axis_offset, drum.rotation, drum.nu,
+      fit.mu.a, fit.mu.b);
   catch_interruptions();
   std::vector<MeshResult> meshes;
   const SliceOptions slice{scene.output.slice_width, scene.output.layer_thickness};
@@ -80,14 +83,16 @@ int solve_flow_scene(const FlowOptions& options) {
   observer.iteration = print_iteration;
   observer.interrupted = [] { return interruption() != 0; };
   observer.level_finished = [&](int level, const FlowField& field) {
-    meshes.push_back({field.cells(), field.unknowns(), drum_scalars(field, drum, drum_profiles(field, drum, slice))});
+    meshes.push_back(
+        {field.cells(), field.unknowns(), drum_scalars(field, drum, drum_profiles(field, drum, slice))});
     print_mesh(level, meshes.back());
   };
   const FlowSolution solution = solve_flow(problem, solver_options(scene), observer);
   write_iterations(options.output / "iterations.csv", solution.report);
   if (const int signal = interruption(); signal != 0)
     return static_cast<int>(signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted);
-  if (!solution.report.converged) throw NotConvergedError("the flow did not converge: " + solution.report.failure);
+  if (!solution.report.converged)
+    throw NotConvergedError("the flow did not converge: " + solution.report.failure);
   const FinishedFlow flow{scene, fit, drum, solution, meshes, reduced};
   write_flow(options.output, flow);
   print_summary(options.output, flow);

@@ -3,8 +3,8 @@
 
 namespace drumlin::apps {
 
-/// Solves the flow of a scene with a law and writes FLOWRUN; needs a FemRuntime. Returns the exit code; throws InputError,
-/// NotConvergedError, IoError.
+/// Solves the flow of a scene with a law and writes FLOWRUN; needs a FemRuntime. Returns the exit code;
+/// throws InputError, NotConvergedError, IoError.
 int solve_flow_scene(const FlowOptions& options);
 
 }  // namespace drumlin::apps

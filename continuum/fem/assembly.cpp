@@ -12,13 +12,14 @@ using dealii::FEValues;
 using dealii::Vector;
 using Indices = std::vector<dealii::types::global_dof_index>;
 
-// Shape functions of one cell in the form that the integrals use. Q2-Q1 is primitive: each shape function has one component.
+// Shape functions of one cell in the form that the integrals use. Q2-Q1 is primitive: each shape function has
+// one component.
 struct CellShapes {
   unsigned int n = 0;
   std::vector<unsigned int> component;
-  std::vector<PlaneTensor> rate;     // symmetric gradient, n per point
-  std::vector<double> divergence;    // n per point
-  std::vector<double> value;         // n per point
+  std::vector<PlaneTensor> rate;   // symmetric gradient, n per point
+  std::vector<double> divergence;  // n per point
+  std::vector<double> value;       // n per point
 
   explicit CellShapes(const Discretisation& d) : n(d.elements.n_dofs_per_cell()), component(n) {
     for (unsigned int i = 0; i < n; ++i) component[i] = d.elements.system_to_component_index(i).first;
@@ -73,20 +74,21 @@ Vec2 body_force(const FlowProblem& problem, double theta, const dealii::Point<2>
   return f;
 }
 
-void add_point_residual(const CellShapes& s, unsigned int q, const PointValues& at, const PlaneTensor& stress, Vec2 force,
-                        double JxW, Vector<double>& residual) {
+void add_point_residual(const CellShapes& s, unsigned int q, const PointValues& at, const PlaneTensor& stress,
+                        Vec2 force, double JxW, Vector<double>& residual) {
   for (unsigned int i = 0; i < s.n; ++i) {
     const auto k = q * s.n + i;
     if (s.component[i] == 2)
       residual[i] -= s.value[k] * at.divergence * JxW;
     else
       residual[i] += (contraction(stress, s.rate[k]) - at.p * s.divergence[k] -
-                      (s.component[i] == 0 ? force.x : force.z) * s.value[k]) * JxW;
+                      (s.component[i] == 0 ? force.x : force.z) * s.value[k]) *
+                     JxW;
   }
 }
 
-void add_point_tangent(const CellShapes& s, unsigned int q, const StressResponse& response, double share, double JxW,
-                       dealii::FullMatrix<double>& matrix) {
+void add_point_tangent(const CellShapes& s, unsigned int q, const StressResponse& response, double share,
+                       double JxW, dealii::FullMatrix<double>& matrix) {
   for (unsigned int j = 0; j < s.n; ++j) {
     const auto kj = q * s.n + j;
     if (s.component[j] == 2) {
@@ -121,26 +123,29 @@ void add_side(const BoundaryCondition& condition, const dealii::FEFaceValues<2>&
         residual[i] += spring->stiffness * u_n * along_normal(i) * JxW;
         if (matrix)
           for (unsigned int j = 0; j < s.n; ++j)
-            if (s.component[j] != 2) (*matrix)(i, j) += spring->stiffness * along_normal(i) * along_normal(j) * JxW;
+            if (s.component[j] != 2)
+              (*matrix)(i, j) += spring->stiffness * along_normal(i) * along_normal(j) * JxW;
       }
     } else if (const auto* given = std::get_if<Traction>(&condition)) {
       const auto x = face.quadrature_point(q);
       const Vec2 t = given->traction({x[0], x[1]});
       for (unsigned int i = 0; i < s.n; ++i)
-        if (s.component[i] != 2) residual[i] -= (s.component[i] == 0 ? t.x : t.z) * face.shape_value(i, q) * JxW;
+        if (s.component[i] != 2)
+          residual[i] -= (s.component[i] == 0 ? t.x : t.z) * face.shape_value(i, q) * JxW;
     }
   }
 }
 
 template <class Law>
-void assemble(const FlowProblem& problem, const Discretisation& d, const Law& law, const Setting& setting, const State& state,
-              const dealii::AffineConstraints<double>& constraints, Vector<double>& residual,
-              dealii::SparseMatrix<double>* matrix) {
+void assemble(const FlowProblem& problem, const Discretisation& d, const Law& law, const Setting& setting,
+              const State& state, const dealii::AffineConstraints<double>& constraints,
+              Vector<double>& residual, dealii::SparseMatrix<double>* matrix) {
   FEValues<2> fe(d.mapping, d.elements, d.quadrature,
-                 dealii::update_values | dealii::update_gradients | dealii::update_JxW_values | dealii::update_quadrature_points);
+                 dealii::update_values | dealii::update_gradients | dealii::update_JxW_values |
+                     dealii::update_quadrature_points);
   dealii::FEFaceValues<2> face(d.mapping, d.elements, d.side_quadrature,
-                               dealii::update_values | dealii::update_JxW_values | dealii::update_normal_vectors |
-                                   dealii::update_quadrature_points);
+                               dealii::update_values | dealii::update_JxW_values |
+                                   dealii::update_normal_vectors | dealii::update_quadrature_points);
   CellShapes shapes(d);
   Indices indices(shapes.n);
   Vector<double> local(shapes.n), local_residual(shapes.n);
@@ -159,8 +164,8 @@ void assemble(const FlowProblem& problem, const Discretisation& d, const Law& la
       const PointValues at = point_values(shapes, q, local);
       const double p = law_pressure(setting.pressure, at.p, fe.quadrature_point(q)[1]);
       const auto response = stress_response(law, setting.regularisation, at.D, p, state.dual[point++]);
-      add_point_residual(shapes, q, at, response.stress, body_force(problem, state.theta, fe.quadrature_point(q)), fe.JxW(q),
-                         local_residual);
+      add_point_residual(shapes, q, at, response.stress,
+                         body_force(problem, state.theta, fe.quadrature_point(q)), fe.JxW(q), local_residual);
       if (matrix) add_point_tangent(shapes, q, response, setting.pressure.share, fe.JxW(q), local_matrix);
     }
     for (const unsigned int f : cell->face_indices())
@@ -189,23 +194,32 @@ void for_each_point(const Discretisation& d, const Vector<double>& solution, Vis
 
 }  // namespace
 
-void assemble_residual(const FlowProblem& problem, const Discretisation& d, const Setting& setting, const State& state,
-                       System& system) {
+void assemble_residual(const FlowProblem& problem, const Discretisation& d, const Setting& setting,
+                       const State& state, System& system) {
   system.residual.reinit(d.unknowns.n_dofs());
-  std::visit([&](const auto& law) { assemble(problem, d, law, setting, state, d.homogeneous, system.residual, nullptr); },
-             setting.law);
+  std::visit(
+      [&](const auto& law) {
+        assemble(problem, d, law, setting, state, d.homogeneous, system.residual, nullptr);
+      },
+      setting.law);
 }
 
-void assemble_tangent(const FlowProblem& problem, const Discretisation& d, const Setting& setting, const State& state,
-                      System& system) {
+void assemble_tangent(const FlowProblem& problem, const Discretisation& d, const Setting& setting,
+                      const State& state, System& system) {
   system.residual.reinit(d.unknowns.n_dofs());
-  std::visit([&](const auto& law) { assemble(problem, d, law, setting, state, d.homogeneous, system.residual, &system.matrix); },
-             setting.law);
+  std::visit(
+      [&](const auto& law) {
+        assemble(problem, d, law, setting, state, d.homogeneous, system.residual, &system.matrix);
+      },
+      setting.law);
 }
 
-Vector<double> nodal_forces(const FlowProblem& problem, const Discretisation& d, const Setting& setting, const State& state) {
+Vector<double> nodal_forces(const FlowProblem& problem, const Discretisation& d, const Setting& setting,
+                            const State& state) {
   Vector<double> forces(d.unknowns.n_dofs());
-  std::visit([&](const auto& law) { assemble(problem, d, law, setting, state, d.conforming, forces, nullptr); }, setting.law);
+  std::visit(
+      [&](const auto& law) { assemble(problem, d, law, setting, state, d.conforming, forces, nullptr); },
+      setting.law);
   return forces;
 }
 
@@ -232,8 +246,8 @@ Vector<double> load(const Discretisation& d, Vec2 force_density) {
 Vector<double> surface_moment(const FlowProblem& problem, const Discretisation& d) {
   Vector<double> result(d.unknowns.n_dofs());
   dealii::FEFaceValues<2> face(d.mapping, d.elements, d.side_quadrature,
-                               dealii::update_values | dealii::update_JxW_values | dealii::update_normal_vectors |
-                                   dealii::update_quadrature_points);
+                               dealii::update_values | dealii::update_JxW_values |
+                                   dealii::update_normal_vectors | dealii::update_quadrature_points);
   Indices indices(d.elements.n_dofs_per_cell());
   for (const auto& cell : d.unknowns.active_cell_iterators())
     for (const unsigned int f : cell->face_indices()) {
@@ -254,10 +268,12 @@ Vector<double> surface_moment(const FlowProblem& problem, const Discretisation& 
   return result;
 }
 
-std::vector<PlaneTensor> dual_of(const Discretisation& d, const Regularisation& r, const Vector<double>& solution) {
+std::vector<PlaneTensor> dual_of(const Discretisation& d, const Regularisation& r,
+                                 const Vector<double>& solution) {
   std::vector<PlaneTensor> dual;
   dual.reserve(d.mesh.n_active_cells() * d.quadrature.size());
-  for_each_point(d, solution, [&](const PointValues& at) { dual.push_back((1 / regularised_rate(at.D, r)) * at.D); });
+  for_each_point(d, solution,
+                 [&](const PointValues& at) { dual.push_back((1 / regularised_rate(at.D, r)) * at.D); });
   return dual;
 }
 

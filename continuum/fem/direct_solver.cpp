@@ -12,13 +12,15 @@ namespace drumlin::fem {
 namespace {
 
 void check(PetscErrorCode code, const char* what) {
-  if (code) throw NotConvergedError(std::string("PETSc failed to ") + what + " (code " + std::to_string(code) + ")");
+  if (code)
+    throw NotConvergedError(std::string("PETSc failed to ") + what + " (code " + std::to_string(code) + ")");
 }
 
 }  // namespace
 
 struct DirectSolver::Petsc {
-  std::vector<PetscInt> row_start, columns, entry_of;  // entry_of: place in (columns, values) of each entry of the pattern
+  std::vector<PetscInt> row_start, columns,
+      entry_of;  // entry_of: place in (columns, values) of each entry of the pattern
   std::vector<PetscScalar> values;
   Mat matrix = nullptr;
   KSP solver = nullptr;
@@ -42,13 +44,16 @@ DirectSolver::DirectSolver(const dealii::SparsityPattern& pattern) : petsc_(std:
     std::sort(sorted.begin(), sorted.end());
     const PetscInt start = p.row_start.back();
     for (const PetscInt column : columns)
-      p.entry_of.push_back(start + static_cast<PetscInt>(std::lower_bound(sorted.begin(), sorted.end(), column) - sorted.begin()));
+      p.entry_of.push_back(
+          start +
+          static_cast<PetscInt>(std::lower_bound(sorted.begin(), sorted.end(), column) - sorted.begin()));
     p.columns.insert(p.columns.end(), sorted.begin(), sorted.end());
     p.row_start.push_back(static_cast<PetscInt>(p.columns.size()));
   }
   p.values.assign(p.columns.size(), 0);
   const auto n = static_cast<PetscInt>(pattern.n_rows());
-  check(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, n, n, p.row_start.data(), p.columns.data(), p.values.data(), &p.matrix),
+  check(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, n, n, p.row_start.data(), p.columns.data(),
+                                  p.values.data(), &p.matrix),
         "take the matrix");
   check(KSPCreate(PETSC_COMM_SELF, &p.solver), "create a solver");
   check(KSPSetType(p.solver, KSPPREONLY), "set up the solver");
@@ -66,7 +71,8 @@ void DirectSolver::factorise(const dealii::SparseMatrix<double>& matrix) {
   PetscScalar* values = nullptr;
   check(MatSeqAIJGetArray(p.matrix, &values), "take the matrix");
   for (dealii::SparseMatrix<double>::size_type row = 0; row < matrix.m(); ++row)
-    for (auto entry = matrix.begin(row); entry != matrix.end(row); ++entry) values[p.entry_of[k++]] = entry->value();
+    for (auto entry = matrix.begin(row); entry != matrix.end(row); ++entry)
+      values[p.entry_of[k++]] = entry->value();
   check(MatSeqAIJRestoreArray(p.matrix, &values), "take the matrix");  // also marks the matrix as changed
   p.original = &matrix;
   check(KSPSetOperators(p.solver, p.matrix, p.matrix), "take the matrix");
@@ -75,10 +81,12 @@ void DirectSolver::factorise(const dealii::SparseMatrix<double>& matrix) {
   check(KSPGetPC(p.solver, &factors), "factorise the matrix");
   PCFailedReason reason = PC_NOERROR;
   check(PCGetFailedReason(factors, &reason), "factorise the matrix");
-  if (reason != PC_NOERROR) throw NotConvergedError("MUMPS could not factorise the tangent matrix (singular, or out of memory)");
+  if (reason != PC_NOERROR)
+    throw NotConvergedError("MUMPS could not factorise the tangent matrix (singular, or out of memory)");
 }
 
-void DirectSolver::Petsc::apply_inverse(const dealii::Vector<double>& rhs, dealii::Vector<double>& solution) const {
+void DirectSolver::Petsc::apply_inverse(const dealii::Vector<double>& rhs,
+                                        dealii::Vector<double>& solution) const {
   Vec b = nullptr, x = nullptr;
   const auto n = static_cast<PetscInt>(rhs.size());
   check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, n, rhs.begin(), &b), "take a vector");

@@ -43,16 +43,19 @@ BoundaryValues prescribed_velocities(const FlowProblem& problem, const Discretis
   return all;
 }
 
-// The quadratic image of an arc lets a tangential velocity leak a little. Against the stiff surface that leak would
-// stand as a mean pressure of stiffness times leak: take it out by the smallest change of the given velocities.
+// The quadratic image of an arc lets a tangential velocity leak a little. Against the stiff surface that leak
+// would stand as a mean pressure of stiffness times leak: take it out by the smallest change of the given
+// velocities.
 void remove_net_flux(const FlowProblem& problem, const Discretisation& d, BoundaryValues& values) {
   bool has_spring = false;
-  for (const auto& [side, condition] : problem.boundary) has_spring |= std::holds_alternative<NormalSpring>(condition);
+  for (const auto& [side, condition] : problem.boundary)
+    has_spring |= std::holds_alternative<NormalSpring>(condition);
   if (!has_spring) return;
 
   dealii::Vector<double> flux_of(d.unknowns.n_dofs());
-  dealii::FEFaceValues<2> face(d.mapping, d.elements, d.side_quadrature,
-                               dealii::update_values | dealii::update_normal_vectors | dealii::update_JxW_values);
+  dealii::FEFaceValues<2> face(
+      d.mapping, d.elements, d.side_quadrature,
+      dealii::update_values | dealii::update_normal_vectors | dealii::update_JxW_values);
   std::vector<dealii::types::global_dof_index> indices(d.elements.n_dofs_per_cell());
   for (const auto& cell : d.unknowns.active_cell_iterators())
     for (const unsigned int f : cell->face_indices()) {
@@ -111,16 +114,10 @@ void Discretisation::distribute_unknowns(const FlowProblem& problem) {
   constraints.clear();
   dealii::DoFTools::make_hanging_node_constraints(unknowns, constraints);
   if (const auto* box = std::get_if<BoxDomain>(&problem.domain); box && box->periodic_x)
-    dealii::DoFTools::make_periodicity_constraints(unknowns, static_cast<int>(Side::left), static_cast<int>(Side::right), 0,
-                                                   constraints);
+    dealii::DoFTools::make_periodicity_constraints(unknowns, static_cast<int>(Side::left),
+                                                   static_cast<int>(Side::right), 0, constraints);
   BoundaryValues values = prescribed_velocities(problem, *this);
   remove_net_flux(problem, *this, values);
-  if (problem.pressure_needs_a_mean)
-    for (dealii::types::global_dof_index i = 0; i < unknowns.n_dofs(); ++i)
-      if (!is_velocity[i] && !constraints.is_constrained(i)) {
-        values[i] = 0;
-        break;
-      }
   homogeneous.clear();
   homogeneous.merge(constraints);
   conforming.clear();

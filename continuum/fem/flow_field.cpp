@@ -32,16 +32,29 @@ struct Values {
 };
 
 StressResponse response(const fem::Setting& setting, const PlaneTensor& D, double p) {
-  return std::visit([&](const auto& law) { return stress_response(law, setting.regularisation, D, p, D); }, setting.law);
+  return std::visit([&](const auto& law) { return stress_response(law, setting.regularisation, D, p, D); },
+                    setting.law);
 }
 
-PlaneTensor strain_rate(const dealii::Tensor<2, 2>& g) { return {g[0][0], g[1][1], 0.5 * (g[0][1] + g[1][0])}; }
+PlaneTensor strain_rate(const dealii::Tensor<2, 2>& g) {
+  return {g[0][0], g[1][1], 0.5 * (g[0][1] + g[1][0])};
+}
 
-PointState point_state(const fem::Setting& setting, const dealii::Tensor<1, 2>& u, const dealii::Tensor<2, 2>& g, double p) {
+PointState point_state(const fem::Setting& setting, const dealii::Tensor<1, 2>& u,
+                       const dealii::Tensor<2, 2>& g, double p) {
   const StressResponse s = response(setting, strain_rate(g), p);
-  return {.velocity = {u[0], u[1]}, .dvx_dx = g[0][0], .dvx_dz = g[0][1], .dvz_dx = g[1][0], .dvz_dz = g[1][1], .pressure = p,
-          .sigma_xx = p - s.stress.xx, .sigma_zz = p - s.stress.zz, .sigma_xz = s.stress.xz,
-          .shear_stress = magnitude(s.stress), .rate = magnitude(strain_rate(g)), .law_pressure = s.law_pressure,
+  return {.velocity = {u[0], u[1]},
+          .dvx_dx = g[0][0],
+          .dvx_dz = g[0][1],
+          .dvz_dx = g[1][0],
+          .dvz_dz = g[1][1],
+          .pressure = p,
+          .sigma_xx = p - s.stress.xx,
+          .sigma_zz = p - s.stress.zz,
+          .sigma_xz = s.stress.xz,
+          .shear_stress = magnitude(s.stress),
+          .rate = magnitude(strain_rate(g)),
+          .law_pressure = s.law_pressure,
           .viscosity = 0.5 * s.modulus,
           .well_posedness = well_posedness_margin(s.strength, s.rate, magnitude(s.right))};
 }
@@ -57,19 +70,21 @@ void add_given_sides(const fem::SolvedLevel& level, Vec2 centre, FlowIntegrals& 
   const auto forces = fem::nodal_forces(level.problem, d, level.setting, level.state);
   std::vector<dealii::Point<2>> place(d.unknowns.n_dofs());
   dealii::DoFTools::map_dofs_to_support_points(d.mapping, d.unknowns, place);
-  const auto along_x = dealii::DoFTools::extract_dofs(d.unknowns, dealii::ComponentMask({true, false, false}));
+  const auto along_x =
+      dealii::DoFTools::extract_dofs(d.unknowns, dealii::ComponentMask({true, false, false}));
   for (dealii::types::global_dof_index i = 0; i < d.unknowns.n_dofs(); ++i) {
     if (!d.is_velocity[i] || !d.homogeneous.is_constrained(i) || d.conforming.is_constrained(i)) continue;
     sums.given_side_power += forces[i] * level.state.solution[i];
-    sums.given_side_torque += forces[i] * (along_x.is_element(i) ? place[i][1] - centre.z : -(place[i][0] - centre.x));
+    sums.given_side_torque +=
+        forces[i] * (along_x.is_element(i) ? place[i][1] - centre.z : -(place[i][0] - centre.x));
   }
 }
 
 void add_surface(const fem::SolvedLevel& level, FlowIntegrals& sums) {
   const auto& d = *level.discretisation;
   dealii::FEFaceValues<2> face(d.mapping, d.elements, d.side_quadrature,
-                               dealii::update_values | dealii::update_JxW_values | dealii::update_normal_vectors |
-                                   dealii::update_quadrature_points);
+                               dealii::update_values | dealii::update_JxW_values |
+                                   dealii::update_normal_vectors | dealii::update_quadrature_points);
   std::vector<dealii::Tensor<1, 2>> u(d.side_quadrature.size());
   for (const auto& cell : d.unknowns.active_cell_iterators())
     for (const unsigned int f : cell->face_indices()) {
@@ -102,14 +117,17 @@ std::vector<PointState> FlowField::at(std::span<const Vec2> points) const {
   places.reserve(points.size());
   for (const Vec2& p : points) places.emplace_back(p.x, p.z);
   const dealii::GridTools::Cache<2> cache(d.mesh, d.mapping);
-  const auto [cells, unit_points, indices, missing] = dealii::GridTools::compute_point_locations_try_all(cache, places);
+  const auto [cells, unit_points, indices, missing] =
+      dealii::GridTools::compute_point_locations_try_all(cache, places);
   for (std::size_t c = 0; c < cells.size(); ++c) {
     dealii::FEValues<2> fe(d.mapping, d.elements, dealii::Quadrature<2>(unit_points[c]),
                            dealii::update_values | dealii::update_gradients);
-    fe.reinit(typename dealii::DoFHandler<2>::active_cell_iterator(&d.mesh, cells[c]->level(), cells[c]->index(), &d.unknowns));
+    fe.reinit(typename dealii::DoFHandler<2>::active_cell_iterator(&d.mesh, cells[c]->level(),
+                                                                   cells[c]->index(), &d.unknowns));
     const Values values(fe, level_->state.solution);
     for (std::size_t q = 0; q < indices[c].size(); ++q)
-      states[indices[c][q]] = point_state(level_->setting, values.velocity[q], values.gradient[q], values.pressure[q]);
+      states[indices[c][q]] =
+          point_state(level_->setting, values.velocity[q], values.gradient[q], values.pressure[q]);
   }
   return states;
 }

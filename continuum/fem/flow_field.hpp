@@ -13,17 +13,17 @@ namespace fem {
 struct SolvedLevel;
 }
 
-/// Velocity, its gradient and the stress at a point; laboratory frame, stresses compression positive. All NaN outside
-/// the domain.
+/// Velocity, its gradient and the stress at a point; laboratory frame, stresses compression positive. All NaN
+/// outside the domain.
 struct PointState {
   Vec2 velocity;
   double dvx_dx = 0, dvx_dz = 0, dvz_dx = 0, dvz_dz = 0;
   double pressure = 0;
   double sigma_xx = 0, sigma_zz = 0;
-  double sigma_xz = 0;        ///< traction of the upper layer on the lower one, > 0 in the flow (docs/conventions.md)
-  double shear_stress = 0;    ///< |tau|
-  double rate = 0;            ///< |D|
-  double law_pressure = 0;    ///< what the law takes for p; I = 2 rate/sqrt(law_pressure), mu = shear_stress/law_pressure
+  double sigma_xz = 0;      ///< traction of the upper layer on the lower one, > 0 in the flow
+  double shear_stress = 0;  ///< |tau|
+  double rate = 0;          ///< |D|
+  double law_pressure = 0;  ///< the law's p: I = 2 rate/sqrt(law_pressure), mu = shear_stress/law_pressure
   double viscosity = 0;
   double well_posedness = 0;  ///< margin (continuum/rheology/well_posedness.hpp), negative: ill-posed
 };
@@ -31,15 +31,15 @@ struct PointState {
 /// Integrals over the domain and its sides, by quadrature of the fields themselves.
 struct FlowIntegrals {
   double area = 0;
-  double ill_posed_area = 0;      ///< where the symbol of the linearised equations is negative
-  double dissipation = 0;         ///< integral of tau:D
-  double weight_power = 0;        ///< integral of f.u
-  double given_side_power = 0;    ///< of the sides with a given velocity, from their nodal forces
-  double weight_torque = 0;       ///< about the origin of the moments, in the sense of dv_x/dz
-  double given_side_torque = 0;   ///< from the nodal forces
-  double surface_moment = 0;      ///< integral x sigma_nn dx over the side with the spring
-  double surface_force = 0;       ///< integral sigma_nn dx over it
-  double surface_leak = 0;        ///< half the integral of |u_n| over it
+  double ill_posed_area = 0;     ///< where the symbol of the linearised equations is negative
+  double dissipation = 0;        ///< integral of tau:D
+  double weight_power = 0;       ///< integral of f.u
+  double given_side_power = 0;   ///< of the sides with a given velocity, from their nodal forces
+  double weight_torque = 0;      ///< about the origin of the moments, in the sense of dv_x/dz
+  double given_side_torque = 0;  ///< from the nodal forces
+  double surface_moment = 0;     ///< integral x sigma_nn dx over the side with the spring
+  double surface_force = 0;      ///< integral sigma_nn dx over it
+  double surface_leak = 0;       ///< half the integral of |u_n| over it
 };
 
 class FlowField {
@@ -52,8 +52,8 @@ class FlowField {
   std::vector<PointState> at(std::span<const Vec2> points) const;
   /// Torques are taken about `centre`.
   FlowIntegrals integrals(Vec2 centre = {}) const;
-  /// Velocity (laboratory frame), pressure, stresses, |D|, I, mu, viscosity, well_posedness_margin, each cell cut in four.
-  /// Throws IoError.
+  /// Velocity (laboratory frame), pressure, stresses, |D|, I, mu, viscosity, well_posedness_margin, each cell
+  /// cut in four. Throws IoError.
   void write_vtu(const std::filesystem::path& file) const;
 
  private:

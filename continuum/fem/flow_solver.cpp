@@ -25,10 +25,18 @@ struct Phase {
 // Newton's method on one mesh.
 class Newton {
  public:
-  Newton(const FlowProblem& problem, const FlowSolverOptions& options, const fem::Discretisation& discretisation, int level,
-         double start_seconds, FlowReport& report, const FlowObserver& observer)
-      : problem_(problem), options_(options), d_(discretisation), factors_(d_.pattern), level_(level), start_(start_seconds),
-        report_(report), observer_(observer), moment_(fem::surface_moment(problem, d_)) {
+  Newton(const FlowProblem& problem, const FlowSolverOptions& options,
+         const fem::Discretisation& discretisation, int level, double start_seconds, FlowReport& report,
+         const FlowObserver& observer)
+      : problem_(problem),
+        options_(options),
+        d_(discretisation),
+        factors_(d_.pattern),
+        level_(level),
+        start_(start_seconds),
+        report_(report),
+        observer_(observer),
+        moment_(fem::surface_moment(problem, d_)) {
     system_.matrix.reinit(d_.pattern);
     weight_norm_ = problem.density > 0 ? fem::load(d_, {0, problem.density}).l2_norm() : 0;
   }
@@ -72,7 +80,8 @@ State moved(const State& state, const Vector<double>& step, double theta_step, d
   return next;
 }
 
-// The slope is one more unknown, its equation (the moment) linear in the solution: two solves with the same factors.
+// The slope is one more unknown, its equation (the moment) linear in the solution: two solves with the same
+// factors.
 Newton::Step Newton::newton_step(const State& state) {
   factors_.factorise(system_.matrix);
   Step step;
@@ -93,15 +102,16 @@ Newton::Step Newton::newton_step(const State& state) {
 }
 
 double Newton::slope(const Phase& phase, const State& state, const Step& step, double alpha) {
-  fem::assemble_residual(problem_, d_, phase.setting, moved(state, step.solution, step.theta, alpha), system_);
+  fem::assemble_residual(problem_, d_, phase.setting, moved(state, step.solution, step.theta, alpha),
+                         system_);
   double sum = 0;
   for (dealii::types::global_dof_index i = 0; i < step.solution.size(); ++i)
     if (d_.is_velocity[i]) sum += system_.residual[i] * step.solution[i];
   return sum;
 }
 
-// Where the slope R(u + alpha du).du has fallen well below its start: the residual norm would ask for needlessly short
-// steps, since stiff, nearly rigid parts dominate it.
+// Where the slope R(u + alpha du).du has fallen well below its start: the residual norm would ask for
+// needlessly short steps, since stiff, nearly rigid parts dominate it.
 double Newton::step_length(const Phase& phase, const State& state, const Step& step) {
   const double start = slope(phase, state, step, 0);
   double low = 0, at_low = start, alpha = 1, best = 1, best_slope = INFINITY;
@@ -110,30 +120,44 @@ double Newton::step_length(const Phase& phase, const State& state, const Step& s
     const double here = slope(phase, state, step, alpha);
     if (std::isfinite(here) && std::abs(here) < best_slope) best_slope = std::abs(here), best = alpha;
     if (std::isfinite(here) && std::abs(here) <= 0.5 * std::abs(start)) break;
-    if (!std::isfinite(here) || here * start < 0) high = alpha, at_high = here;
-    else low = alpha, at_low = here;
+    if (!std::isfinite(here) || here * start < 0)
+      high = alpha, at_high = here;
+    else
+      low = alpha, at_low = here;
     if (high == 0) break;  // the slope has not changed sign by alpha = 1: take the whole step
-    const double secant = std::isfinite(at_high) ? low + (high - low) * at_low / (at_low - at_high) : 0.5 * high;
+    const double secant =
+        std::isfinite(at_high) ? low + (high - low) * at_low / (at_low - at_high) : 0.5 * high;
     alpha = std::clamp(secant, low + 0.1 * (high - low), low + 0.7 * (high - low));
   }
   return best;
 }
 
 bool Newton::solve(const Phase& phase, State& state) {
-  IterationReport line{.level = level_, .phase = phase.name, .shear_rate = phase.setting.regularisation.shear_rate,
+  IterationReport line{.level = level_,
+                       .phase = phase.name,
+                       .shear_rate = phase.setting.regularisation.shear_rate,
                        .pressure_share = phase.setting.pressure.share};
   fem::assemble_tangent(problem_, d_, phase.setting, state, system_);
-  if (weight_norm_ > 0) reference_ = weight_norm_;
-  else reference_ = std::max(1e-300, fem::nodal_forces(problem_, d_, phase.setting, state).l2_norm());
+  if (weight_norm_ > 0)
+    reference_ = weight_norm_;
+  else
+    reference_ = std::max(1e-300, fem::nodal_forces(problem_, d_, phase.setting, state).l2_norm());
   for (int iteration = 1; iteration <= options_.max_iterations; ++iteration) {
     if (was_interrupted()) {
       report_.failure = "interrupted";
       return false;
     }
-    const Step step = newton_step(state);
+    Step step;
+    try {
+      step = newton_step(state);
+    } catch (const NotConvergedError& error) {  // a singular tangent: a smaller step in eps may still do
+      report_.failure = fmt::format("{}, in phase '{}'", error.what(), phase.name);
+      return false;
+    }
     if (!(step.linear_residual <= options_.linear_tolerance)) {
-      report_.failure = fmt::format("linear solve: true relative residual {:.2e} after refinement, in phase '{}'",
-                                    step.linear_residual, phase.name);
+      report_.failure =
+          fmt::format("linear solve: true relative residual {:.2e} after refinement, in phase '{}'",
+                      step.linear_residual, phase.name);
       return false;
     }
     const double alpha = step_length(phase, state, step);
@@ -157,24 +181,27 @@ bool Newton::solve(const Phase& phase, State& state) {
     if (!std::isfinite(line.residual)) break;
     if (line.residual <= phase.tolerance) return true;
   }
-  report_.failure = fmt::format("mesh {}, phase '{}' (eps = {:.3g}, true pressure {:.2f}): residual {:.3e} after {} iterations, "
-                                "tolerance {:.1e}, last step {:.2e}",
-                                level_, phase.name, line.shear_rate, line.pressure_share, line.residual, line.iteration,
-                                phase.tolerance, line.step_size);
+  report_.failure = fmt::format(
+      "mesh {}, phase '{}' (eps = {:.3g}, true pressure {:.2f}): residual {:.3e} after {} iterations, "
+      "tolerance {:.1e}, last step {:.2e}",
+      level_, phase.name, line.shear_rate, line.pressure_share, line.residual, line.iteration,
+      phase.tolerance, line.step_size);
   return false;
 }
 
 Setting final_setting(const FlowProblem& problem, double theta) {
-  return {problem.law, problem.regularisation, {1, problem.surface_pressure, problem.density * std::cos(theta)}};
+  return {
+      problem.law, problem.regularisation, {1, problem.surface_pressure, problem.density * std::cos(theta)}};
 }
 
-// Everything before eps goes down: on the first mesh from a Newtonian fluid to the true pressure, on a finer one nothing
-// but the return to a larger eps, from which the coarser solution is close enough.
-std::vector<Phase> first_phases(const FlowProblem& problem, const FlowSolverOptions& options, bool first_mesh, double theta) {
+// Everything before eps goes down: on the first mesh from a Newtonian fluid to the true pressure, on a finer
+// one nothing but the return to a larger eps, from which the coarser solution is close enough.
+std::vector<Phase> first_phases(const FlowProblem& problem, const FlowSolverOptions& options, bool first_mesh,
+                                double theta) {
   Setting setting = final_setting(problem, theta);
   if (std::holds_alternative<NewtonianLaw>(problem.law)) return {{"newtonian", setting, options.tolerance}};
-  setting.regularisation.shear_rate =
-      std::max(problem.regularisation.shear_rate, first_mesh ? options.start_shear_rate : options.refined_shear_rate);
+  setting.regularisation.shear_rate = std::max(
+      problem.regularisation.shear_rate, first_mesh ? options.start_shear_rate : options.refined_shear_rate);
   if (!first_mesh) return {{"refined", setting, options.phase_tolerance}};
   Setting newtonian = setting;
   newtonian.law = NewtonianLaw{1};
@@ -214,7 +241,8 @@ bool lower_shear_rate(Newton& newton, const FlowSolverOptions& options, fem::Sol
   return true;
 }
 
-bool solve_on_mesh(Newton& newton, const FlowSolverOptions& options, bool first_mesh, fem::SolvedLevel& level) {
+bool solve_on_mesh(Newton& newton, const FlowSolverOptions& options, bool first_mesh,
+                   fem::SolvedLevel& level) {
   auto list = first_phases(level.problem, options, first_mesh, level.state.theta);
   if (list.back().setting.regularisation.shear_rate <= level.problem.regularisation.shear_rate)
     list.back().tolerance = options.tolerance;
@@ -225,7 +253,8 @@ bool solve_on_mesh(Newton& newton, const FlowSolverOptions& options, bool first_
 
 }  // namespace
 
-FlowSolution solve_flow(const FlowProblem& problem, const FlowSolverOptions& options, const FlowObserver& observer) {
+FlowSolution solve_flow(const FlowProblem& problem, const FlowSolverOptions& options,
+                        const FlowObserver& observer) {
   if (const auto reason = no_steady_state(problem)) throw NotConvergedError(*reason);
   const double start = now();
   auto level = std::make_shared<fem::SolvedLevel>();
@@ -233,8 +262,10 @@ FlowSolution solve_flow(const FlowProblem& problem, const FlowSolverOptions& opt
   level->discretisation = std::make_shared<fem::Discretisation>(problem);
   auto& d = *level->discretisation;
   auto& state = level->state;
-  if (const auto* fixed = std::get_if<FixedSlope>(&problem.slope)) state.theta = fixed->theta;
-  else state.theta = std::get<SlopeFromMoment>(problem.slope).first_guess;
+  if (const auto* fixed = std::get_if<FixedSlope>(&problem.slope))
+    state.theta = fixed->theta;
+  else
+    state.theta = std::get<SlopeFromMoment>(problem.slope).first_guess;
   state.solution.reinit(d.unknowns.n_dofs());
   d.constraints.distribute(state.solution);
 

@@ -20,14 +20,18 @@ class LawOutput : public dealii::DataPostprocessor<2> {
   explicit LawOutput(const fem::Setting& setting) : setting_(setting) {}
 
   std::vector<std::string> get_names() const override {
-    return {"pressure", "sigma_xx", "sigma_zz", "sigma_xz", "D_magnitude", "I", "mu", "viscosity", "well_posedness_margin"};
+    return {"pressure", "sigma_xx",    "sigma_zz",
+            "sigma_xz", "D_magnitude", "I",
+            "mu",       "viscosity",   "well_posedness_margin"};
   }
-  std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation> get_data_component_interpretation()
-      const override {
+  std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation>
+  get_data_component_interpretation() const override {
     return std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation>(
         get_names().size(), dealii::DataComponentInterpretation::component_is_scalar);
   }
-  dealii::UpdateFlags get_needed_update_flags() const override { return dealii::update_values | dealii::update_gradients; }
+  dealii::UpdateFlags get_needed_update_flags() const override {
+    return dealii::update_values | dealii::update_gradients;
+  }
 
   void evaluate_vector_field(const dealii::DataPostprocessorInputs::Vector<2>& input,
                              std::vector<dealii::Vector<double>>& output) const override {
@@ -35,8 +39,9 @@ class LawOutput : public dealii::DataPostprocessor<2> {
       const auto& g = input.solution_gradients[q];
       const PlaneTensor D{g[0][0], g[1][1], 0.5 * (g[0][1] + g[1][0])};
       const double p = input.solution_values[q][2];
-      const auto s = std::visit(
-          [&](const auto& law) { return stress_response(law, setting_.regularisation, D, p, D); }, setting_.law);
+      const auto s =
+          std::visit([&](const auto& law) { return stress_response(law, setting_.regularisation, D, p, D); },
+                     setting_.law);
       const std::array<double, 9> values = {p,
                                             p - s.stress.xx,
                                             p - s.stress.zz,
@@ -61,9 +66,10 @@ void FlowField::write_vtu(const std::filesystem::path& file) const {
   const LawOutput law(level_->setting);
   dealii::DataOut<2> output;
   output.attach_dof_handler(level_->discretisation->unknowns);
-  output.add_data_vector(level_->state.solution, std::vector<std::string>{"velocity", "velocity", "p"}, dealii::DataOut<2>::type_dof_data,
-                         {Interpretation::component_is_part_of_vector, Interpretation::component_is_part_of_vector,
-                          Interpretation::component_is_scalar});
+  output.add_data_vector(level_->state.solution, std::vector<std::string>{"velocity", "velocity", "p"},
+                         dealii::DataOut<2>::type_dof_data,
+                         {Interpretation::component_is_part_of_vector,
+                          Interpretation::component_is_part_of_vector, Interpretation::component_is_scalar});
   output.add_data_vector(level_->state.solution, law);
   output.build_patches(level_->discretisation->mapping, 2);
   dealii::DataOutBase::VtkFlags flags;

@@ -15,24 +15,35 @@ using dealii::Point;
 constexpr dealii::types::manifold_id arc_manifold = 0;
 constexpr dealii::types::manifold_id block_manifold = 1;
 
-// Six blocks: two inner ones below the middle of the chord, one at each end of the chord, two along the bottom. Both
-// corners of the domain are corners of one block, so that no cell there is squeezed between chord and arc.
+// Six blocks: two inner ones below the middle of the chord, one at each end of the chord, two along the
+// bottom. Both corners of the domain are corners of one block, so that no cell there is squeezed between
+// chord and arc.
 void make_blocks(const ChordDomain& domain, dealii::Triangulation<2>& mesh) {
   const double R = domain.radius;
   const double half_angle = std::acos(domain.axis_offset / R);  // of the arc, from its lowest point
   const double w = R * std::sin(half_angle);
   const double depth = R - domain.axis_offset;
-  const auto arc = [&](double angle) { return Point<2>(R * std::sin(angle), domain.axis_offset - R * std::cos(angle)); };
+  const auto arc = [&](double angle) {
+    return Point<2>(R * std::sin(angle), domain.axis_offset - R * std::cos(angle));
+  };
   const Point<2> shoulder = arc(0.5 * half_angle);
   const double inner_x = 0.62 * shoulder[0], inner_z = 0.62 * shoulder[1];
-  const std::vector<Point<2>> vertices = {
-      {-w, 0}, {-0.5 * w, 0}, {0, 0}, {0.5 * w, 0}, {w, 0},  // 0-4 along the chord
-      {-inner_x, inner_z}, {0, 0.55 * -depth}, {inner_x, inner_z},
-      arc(-0.5 * half_angle), arc(0), arc(0.5 * half_angle)};
-  const std::vector<std::array<unsigned int, 4>> corners = {{5, 6, 1, 2}, {6, 7, 2, 3}, {8, 5, 0, 1},
+  const std::vector<Point<2>> vertices = {{-w, 0},
+                                          {-0.5 * w, 0},
+                                          {0, 0},
+                                          {0.5 * w, 0},
+                                          {w, 0},  // 0-4 along the chord
+                                          {-inner_x, inner_z},
+                                          {0, 0.55 * -depth},
+                                          {inner_x, inner_z},
+                                          arc(-0.5 * half_angle),
+                                          arc(0),
+                                          arc(0.5 * half_angle)};
+  const std::vector<std::array<unsigned int, 4>> corners = {{5, 6, 1, 2},  {6, 7, 2, 3}, {8, 5, 0, 1},
                                                             {7, 10, 3, 4}, {8, 9, 5, 6}, {9, 10, 6, 7}};
   std::vector<dealii::CellData<2>> cells(corners.size());
-  for (std::size_t i = 0; i < corners.size(); ++i) std::copy(corners[i].begin(), corners[i].end(), cells[i].vertices.begin());
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    std::copy(corners[i].begin(), corners[i].end(), cells[i].vertices.begin());
   dealii::GridTools::consistently_order_cells(cells);
   mesh.create_triangulation(vertices, cells, dealii::SubCellData());
 }
@@ -47,7 +58,8 @@ void make_mesh(const ChordDomain& domain, dealii::Triangulation<2>& mesh) {
   for (const auto& cell : mesh.active_cell_iterators())
     for (const auto& face : cell->face_iterators())
       if (face->at_boundary()) {
-        const bool on_chord = std::abs(face->vertex(0)[1]) + std::abs(face->vertex(1)[1]) < 1e-9 * domain.radius;
+        const bool on_chord =
+            std::abs(face->vertex(0)[1]) + std::abs(face->vertex(1)[1]) < 1e-9 * domain.radius;
         face->set_boundary_id(static_cast<int>(on_chord ? Side::top : Side::bottom));
         face->set_manifold_id(on_chord ? dealii::numbers::flat_manifold_id : arc_manifold);
       }

@@ -24,16 +24,17 @@ DrumGeometry drum_geometry(const FlowScene& scene, double nu) {
   drum.nu = nu;
   const double area = grain_area(scene.grains) / nu, whole = std::numbers::pi * drum.radius * drum.radius;
   if (area >= whole)
-    throw InputError({InputProblem{.file = "",
-                                   .key = "grains.count",
-                                   .what = fmt::format("the grains would cover {:.4g} d^2 at nu = {:.3g}", area, nu),
-                                   .allowed = fmt::format("less than the drum's {:.4g} d^2", whole)}});
+    throw InputError(
+        {InputProblem{.file = "",
+                      .key = "grains.count",
+                      .what = fmt::format("the grains would cover {:.4g} d^2 at nu = {:.3g}", area, nu),
+                      .allowed = fmt::format("less than the drum's {:.4g} d^2", whole)}});
   drum.axis_offset = chord_offset(drum.radius, area);
   return drum;
 }
 
-FlowProblem drum_problem(const DrumGeometry& drum, const StressLaw& law, const FlowMesh& mesh, const FlowBoundary& boundary,
-                         const FlowRegularisation& regularisation) {
+FlowProblem drum_problem(const DrumGeometry& drum, const StressLaw& law, const FlowMesh& mesh,
+                         const FlowBoundary& boundary, const FlowRegularisation& regularisation) {
   FlowProblem problem;
   const double coarsest = mesh.surface_cell * std::pow(2.0, mesh.levels - 1);
   problem.domain = ChordDomain{.radius = drum.radius,

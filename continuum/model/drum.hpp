@@ -13,20 +13,21 @@ struct DrumGeometry {
   double rotation = 0;     ///< positive in the sense of dv_x/dz
   double nu = 0;
   double half_chord() const;
-  /// nu Omega (R^2 - c^2)/2: what mass balance makes of any steady flow that nothing crosses at the surface. The solver
-  /// never uses it; a check.
+  /// nu Omega (R^2 - c^2)/2: what mass balance makes of any steady flow that nothing crosses at the surface.
+  /// The solver never uses it; a check.
   double expected_Q() const;
 };
 
 /// Throws InputError if the grains, at the law's nu, do not fit into the drum.
 DrumGeometry drum_geometry(const FlowScene& scene, double nu);
 
-/// Laboratory frame, fixed chord, slope from the moment of the surface traction; on the wall the drum's velocity, rising
-/// from nought over corner_taper at both ends of the chord: there the wall would drag material through the surface.
+/// Laboratory frame, fixed chord, slope from the moment of the surface traction; on the wall the drum's
+/// velocity, rising from nought over corner_taper at both ends of the chord: there the wall would drag
+/// material through the surface.
 FlowProblem drum_problem(const FlowScene& scene, const DrumGeometry& drum, const StressLaw& law);
 
 /// The same for other geometries than a scene's.
-FlowProblem drum_problem(const DrumGeometry& drum, const StressLaw& law, const FlowMesh& mesh, const FlowBoundary& boundary,
-                         const FlowRegularisation& regularisation);
+FlowProblem drum_problem(const DrumGeometry& drum, const StressLaw& law, const FlowMesh& mesh,
+                         const FlowBoundary& boundary, const FlowRegularisation& regularisation);
 
 }  // namespace drumlin

@@ -34,8 +34,10 @@ std::optional<std::string> no_steady_state(const FlowProblem& problem, double I_
   const double mu_limit = strength(problem.law, 0.5 * I_limit, 1).value;  // at p = 1, I = 2 |D|
   const double mu_needed = std::tan(fixed->theta);
   if (mu_needed <= mu_limit) return std::nullopt;
-  return fmt::format("no local steady state: a slope of {:.2f} deg needs mu = {:.4f}, the law gives {:.4f} at I = {:g} and less below",
-                     fixed->theta * 180 / std::numbers::pi, mu_needed, mu_limit, I_limit);
+  return fmt::format(
+      "no local steady state: a slope of {:.2f} deg needs mu = {:.4f}, the law gives {:.4f} at I = {:g} and "
+      "less below",
+      fixed->theta * 180 / std::numbers::pi, mu_needed, mu_limit, I_limit);
 }
 
 }  // namespace drumlin

@@ -10,16 +10,18 @@
 
 namespace drumlin {
 
-/// Point or vector in the axes of the flow: x along the free surface downslope, z along its outward normal; d, sqrt(g d).
+/// Point or vector in the axes of the flow: x along the free surface downslope, z along its outward normal;
+/// d, sqrt(g d).
 struct Vec2 {
   double x = 0;
   double z = 0;
 };
 
-/// Part of a disc below a chord: |r - axis| < radius, z < 0, axis at (0, axis_offset). Sides: top (chord), bottom (arc).
+/// Part of a disc below a chord: |r - axis| < radius, z < 0, axis at (0, axis_offset). Sides: top (chord),
+/// bottom (arc).
 struct ChordDomain {
   double radius = 0;
-  double axis_offset = 0;   ///< height of the axis above the chord; negative when the drum is more than half full
+  double axis_offset = 0;   ///< height of the axis above the chord; negative: more than half full
   double surface_cell = 1;  ///< cell size on the coarsest mesh within surface_zone of the chord, d
   double surface_zone = 0;  ///< depth of the fine zone, d
   double growth = 0.25;     ///< of the cell size per unit depth below that zone
@@ -38,12 +40,13 @@ using Domain = std::variant<ChordDomain, BoxDomain>;
 
 enum class Side : int { top = 0, bottom = 1, left = 2, right = 3 };
 
-/// Velocity given on a side. Where sides meet, the one listed last in Side wins.
+/// Velocity given on a side. Where two such sides meet, the one listed first in Side wins. At least one
+/// side has to carry something else: nothing would fix the pressure.
 struct PrescribedVelocity {
   std::function<Vec2(Vec2)> velocity;
 };
-/// Free surface kept at its place: T_nn = -stiffness u_n, no tangential traction. T_nn stands for the weight of the
-/// grains that would rise above the chord; a large stiffness makes u_n small.
+/// Free surface kept at its place: T_nn = -stiffness u_n, no tangential traction. T_nn stands for the weight
+/// of the grains that would rise above the chord; a large stiffness makes u_n small.
 struct NormalSpring {
   double stiffness = 1e4;
 };
@@ -53,8 +56,8 @@ struct Traction {
 };
 using BoundaryCondition = std::variant<PrescribedVelocity, NormalSpring, Traction>;
 
-/// Slope of the surface: given, or the unknown that makes the moment of the surface traction vanish (the side with the
-/// NormalSpring: integral of x sigma_nn dx = 0).
+/// Slope of the surface: given, or the unknown that makes the moment of the surface traction vanish (the side
+/// with the NormalSpring: integral of x sigma_nn dx = 0).
 struct FixedSlope {
   double theta = 0;  ///< rad
 };
@@ -68,12 +71,11 @@ struct FlowProblem {
   Domain domain;
   std::map<Side, BoundaryCondition> boundary;
   StressLaw law;
-  Regularisation regularisation;             ///< what the last phase reaches
-  double density = 0;                        ///< nu; the weight is density (sin theta, -cos theta)
+  Regularisation regularisation;  ///< what the last phase reaches
+  double density = 0;             ///< nu; the weight is density (sin theta, -cos theta)
   Slope slope;
-  std::function<Vec2(Vec2)> extra_force;     ///< added to the weight; empty: absent
-  double surface_pressure = 0;               ///< of the hydrostatic start, rho0 g d
-  bool pressure_needs_a_mean = false;        ///< all sides carry a prescribed velocity: fix p at one point
+  std::function<Vec2(Vec2)> extra_force;  ///< added to the weight; empty: absent
+  double surface_pressure = 0;            ///< of the hydrostatic start, rho0 g d
 };
 
 /// Area of the part of a disc of this radius below a chord that lies `axis_offset` below its centre.
@@ -81,11 +83,12 @@ double segment_area(double radius, double axis_offset);
 /// axis_offset for which segment_area is `area`, 0 < area < pi radius^2.
 double chord_offset(double radius, double area);
 
-/// Speed of a rigid rotation about (0, axis_offset), positive in the sense of the vorticity dv_x/dz: (Omega z', -Omega x).
+/// Speed of a rigid rotation about (0, axis_offset), positive in the sense of the vorticity dv_x/dz: (Omega
+/// z', -Omega x).
 Vec2 rigid_rotation(double rotation, double axis_offset, Vec2 point);
 
-/// Why a slope that is given cannot carry a steady flow: mu = tan(theta) would need I above `I_limit`; empty if it can.
-/// The log law has no bound of its own, so a limit on I has to say where the law ceases to be one.
+/// Why a slope that is given cannot carry a steady flow: mu = tan(theta) would need I above `I_limit`; empty
+/// if it can. The log law has no bound of its own, so a limit on I has to say where the law ceases to be one.
 std::optional<std::string> no_steady_state(const FlowProblem& problem, double I_limit = 10);
 
 }  // namespace drumlin

@@ -43,9 +43,9 @@ struct FlowSolverKeys {
   int max_iterations = 40;
 };
 struct FlowOutput {
-  double slice_width = 20;      ///< d
-  double layer_thickness = 1;   ///< d
-  double map_spacing = 0.5;     ///< d
+  double slice_width = 20;     ///< d
+  double layer_thickness = 1;  ///< d
+  double map_spacing = 0.5;    ///< d
 };
 
 struct FlowScene {
@@ -63,7 +63,8 @@ struct FlowScene {
 
 /// Reads and checks. Throws InputError with every problem of the file and of the overrides.
 FlowScene read_flow_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
-FlowScene parse_flow_scene(const std::string& text, const std::string& name, const std::vector<std::string>& overrides = {});
+FlowScene parse_flow_scene(const std::string& text, const std::string& name,
+                           const std::vector<std::string>& overrides = {});
 /// The scene with all its defaults as TOML.
 std::string flow_scene_text(const FlowScene& scene);
 std::vector<KeyRow> flow_scene_keys();

@@ -38,11 +38,12 @@ Strength strength(const StressLaw& law, double rate, double pressure) {
 
 StressLaw stress_law(const RheologyFit& fit, const std::string& file) {
   if (fit.k)
-    throw InputError({InputProblem{.file = file,
-                                   .key = "k",
-                                   .what = "is given, but the continuum solves the law with k absent (sigma_xx = sigma_zz in "
-                                           "simple shear)",
-                                   .allowed = "a file without the table [k]"}});
+    throw InputError({InputProblem{
+        .file = file,
+        .key = "k",
+        .what = "is given, but the continuum solves the law with k absent (sigma_xx = sigma_zz in "
+                "simple shear)",
+        .allowed = "a file without the table [k]"}});
   return LogLaw{fit.mu.a, fit.mu.b};
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// Scalar laws F(|D|, p) of the deviatoric stress tau = F D/|D|: the short closed list from which a problem picks one.
+// Scalar laws F(|D|, p) of the deviatoric stress tau = F D/|D|: the short closed list from which a problem
+// picks one.
 #include <string>
 #include <variant>
 
@@ -20,8 +21,8 @@ struct Friction {
   double slope = 0;
 };
 
-/// mu = a + b ln I, kept positive by mu -> (mu + sqrt(mu^2 + 4 m^2))/2, m = 1e-3: moves mu = 0.2 by 5e-6, and stands in
-/// for the faster decrease that the particles show below I = 1e-4 only in that it never turns dissipation negative.
+/// mu = a + b ln I, kept positive by mu -> (mu + sqrt(mu^2 + 4 m^2))/2 with m = 1e-3, so that the law
+/// dissipates at any I; moves mu = 0.2 by 5e-6.
 struct LogLaw {
   double a = 0;
   double b = 0;
@@ -43,7 +44,8 @@ struct NewtonianLaw {
 
 using StressLaw = std::variant<LogLaw, SaturatingLaw, NewtonianLaw>;
 
-/// F = mu(I) p with I = 2|D|/sqrt(p); p > 0 and |D| > 0 are the caller's regularised values (p = sigma_zz since k = 1).
+/// F = mu(I) p with I = 2|D|/sqrt(p); p > 0 and |D| > 0 are the caller's regularised values (p = sigma_zz
+/// since k = 1).
 template <class FrictionLaw>
 Strength strength(const FrictionLaw& law, double rate, double pressure);
 Strength strength(const NewtonianLaw& law, double rate, double pressure);
@@ -52,8 +54,8 @@ Strength strength(const StressLaw& law, double rate, double pressure);
 extern template Strength strength(const LogLaw&, double, double);
 extern template Strength strength(const SaturatingLaw&, double, double);
 
-/// The law of a rheology file, named in messages. Throws InputError if it holds k(I): this solver takes the law with k
-/// absent only.
+/// The law of a rheology file, named in messages. Throws InputError if it holds k(I): this solver takes the
+/// law with k absent only.
 StressLaw stress_law(const RheologyFit& fit, const std::string& file);
 
 }  // namespace drumlin

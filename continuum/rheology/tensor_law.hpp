@@ -15,11 +15,12 @@ struct Regularisation {
 
 /// Stress at a point and its derivative
 ///   d tau = modulus dD + 1/2 slope (left (right:dD) + right (left:dD))/2 + by_pressure dp.
-/// With left = right = D/|D| this is the exact tangent; the primal-dual tangent has the dual variable for `left`.
+/// With left = right = D/|D| this is the exact tangent; the primal-dual tangent has the dual variable for
+/// `left`.
 struct StressResponse {
   PlaneTensor stress;
-  double modulus = 0;       ///< F/|D|, twice the viscosity
-  double slope = 0;         ///< dF/d|D| - F/|D|
+  double modulus = 0;  ///< F/|D|, twice the viscosity
+  double slope = 0;    ///< dF/d|D| - F/|D|
   PlaneTensor left;
   PlaneTensor right;        ///< D/|D|, |right| <= 1
   PlaneTensor by_pressure;  ///< d tau/dp
@@ -32,9 +33,9 @@ inline double regularised_rate(const PlaneTensor& D, const Regularisation& r) {
   return std::sqrt(0.5 * contraction(D, D) + 0.25 * r.shear_rate * r.shear_rate);
 }
 
-/// Response to D at the pressure `p` of the law. `dual` (|dual| <= 1) stands for D/|D| in the tangent: the primal-dual
-/// linearisation of |D| Lambda = D (Chan, Golub & Mulet, SIAM J. Sci. Comput. 20 (1999), there for total variation),
-/// made symmetric. Pass D/|D| itself for the exact tangent.
+/// Response to D at the pressure `p` of the law. `dual` (|dual| <= 1) stands for D/|D| in the tangent: the
+/// primal-dual linearisation of |D| Lambda = D (Chan, Golub & Mulet, SIAM J. Sci. Comput. 20 (1999), there
+/// for total variation), made symmetric. Pass D/|D| itself for the exact tangent.
 template <class Law>
 StressResponse stress_response(const Law& law, const Regularisation& r, const PlaneTensor& D, double p,
                                const PlaneTensor& dual) {
@@ -60,8 +61,10 @@ inline PlaneTensor tangent(const StressResponse& s, const PlaneTensor& dD) {
          0.25 * s.slope * (contraction(s.right, dD) * s.left + contraction(s.left, dD) * s.right);
 }
 
-/// The dual variable after a Newton step dD from D: (D + dD)/|D| - dual (D:dD)/(2 |D|^2), drawn back into |dual| <= 1.
-inline PlaneTensor advanced_dual(const PlaneTensor& D, const PlaneTensor& dD, const PlaneTensor& dual, double rate) {
+/// The dual variable after a Newton step dD from D: (D + dD)/|D| - dual (D:dD)/(2 |D|^2), drawn back into
+/// |dual| <= 1.
+inline PlaneTensor advanced_dual(const PlaneTensor& D, const PlaneTensor& dD, const PlaneTensor& dual,
+                                 double rate) {
   const PlaneTensor next = (1 / rate) * (D + dD) - (contraction(D, dD) / (2 * rate * rate)) * dual;
   return (1 / std::max(1.0, magnitude(next))) * next;
 }

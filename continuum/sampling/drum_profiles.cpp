@@ -85,7 +85,9 @@ ProfileSet drum_profiles(const FlowField& field, const DrumGeometry& drum, const
   column("sigma_xx", [](const LayerMeans& m) { return m.sigma_xx / m.weight; });
   column("sigma_zz", [](const LayerMeans& m) { return m.sigma_zz / m.weight; });
   column("sigma_xz", [](const LayerMeans& m) { return m.sigma_xz / m.weight; });
-  column("I", [&](const LayerMeans& m) { return m.shear_rate / m.weight / std::sqrt(positive(m.sigma_zz / m.weight)); });
+  column("I", [&](const LayerMeans& m) {
+    return m.shear_rate / m.weight / std::sqrt(positive(m.sigma_zz / m.weight));
+  });
   column("mu", [&](const LayerMeans& m) { return m.sigma_xz / positive(m.sigma_zz); });
   column("k", [&](const LayerMeans& m) { return m.sigma_xx / positive(m.sigma_zz); });
   return set;
@@ -101,7 +103,8 @@ double discharge(const FlowField& field, const DrumGeometry& drum) {
   double sum = 0;
   for (std::size_t k = 0; k < points.size(); ++k)
     if (std::isfinite(states[k].pressure))
-      sum += drum.nu * in_drum_frame(drum, points[k], states[k].velocity).x * gauss[k % gauss.size()].weight * depth / pieces;
+      sum += drum.nu * in_drum_frame(drum, points[k], states[k].velocity).x * gauss[k % gauss.size()].weight *
+             depth / pieces;
   return sum;
 }
 
@@ -115,8 +118,8 @@ ScalarSet drum_scalars(const FlowField& field, const DrumGeometry& drum, const P
            {"I_th", read.I_th, {}}}};
 }
 
-void write_maps(const std::filesystem::path& file, const FlowField& field, const DrumGeometry& drum, double spacing,
-                bool reduced) {
+void write_maps(const std::filesystem::path& file, const FlowField& field, const DrumGeometry& drum,
+                double spacing, bool reduced) {
   std::vector<Vec2> points;
   const int columns = static_cast<int>(drum.radius / spacing);
   const int rows = static_cast<int>((drum.radius - drum.axis_offset) / spacing);
@@ -134,9 +137,11 @@ void write_maps(const std::filesystem::path& file, const FlowField& field, const
     const PointState& s = states[k];
     if (!std::isfinite(s.pressure)) continue;
     const Vec2 v = in_drum_frame(drum, points[k], s.velocity);
-    fmt::format_to(std::back_inserter(text), "{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n",
+    fmt::format_to(std::back_inserter(text),
+                   "{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n",
                    points[k].x, points[k].z, v.x, v.z, s.pressure, s.sigma_xx, s.sigma_zz, s.sigma_xz,
-                   2 * s.rate / std::sqrt(s.law_pressure), s.shear_stress / s.law_pressure, s.viscosity, s.well_posedness);
+                   2 * s.rate / std::sqrt(s.law_pressure), s.shear_stress / s.law_pressure, s.viscosity,
+                   s.well_posedness);
   }
   replace_file(file, text);
 }

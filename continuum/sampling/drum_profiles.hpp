@@ -17,9 +17,9 @@ struct SliceOptions {
 };
 double slice_width(const SliceOptions& slice, const DrumGeometry& drum);
 
-/// Averages over the layers of the slice at x = 0: v_x, v_z, shear_rate (dv_x/dz) in the frame of the drum, nu, sigma_xx,
-/// sigma_zz, sigma_xz; I = shear_rate/sqrt(sigma_zz), mu and k from these averages (NaN where sigma_zz <= 0). Headers are
-/// the caller's.
+/// Averages over the layers of the slice at x = 0: v_x, v_z, shear_rate (dv_x/dz) in the frame of the drum,
+/// nu, sigma_xx, sigma_zz, sigma_xz; I = shear_rate/sqrt(sigma_zz), mu and k from these averages (NaN where
+/// sigma_zz <= 0). Headers are the caller's.
 ProfileSet drum_profiles(const FlowField& field, const DrumGeometry& drum, const SliceOptions& slice = {});
 
 /// Q = integral of nu (v_x - Omega z') over the depth at x = 0, from the velocity alone.
@@ -28,9 +28,9 @@ double discharge(const FlowField& field, const DrumGeometry& drum);
 /// theta_deg, Q, H, lambda, shear_rate, I_th; the definitions of coupling/exchange/profile_scalars.hpp.
 ScalarSet drum_scalars(const FlowField& field, const DrumGeometry& drum, const ProfileSet& profiles);
 
-/// maps.csv: points of a square grid inside the drum with speed and velocity in the frame of the drum, pressure, stresses,
-/// I, mu, well-posedness margin. Throws IoError.
-void write_maps(const std::filesystem::path& file, const FlowField& field, const DrumGeometry& drum, double spacing,
-                bool reduced);
+/// maps.csv: points of a square grid inside the drum with speed and velocity in the frame of the drum,
+/// pressure, stresses, I, mu, well-posedness margin. Throws IoError.
+void write_maps(const std::filesystem::path& file, const FlowField& field, const DrumGeometry& drum,
+                double spacing, bool reduced);
 
 }  // namespace drumlin

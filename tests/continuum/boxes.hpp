@@ -21,7 +21,8 @@ inline Traction constant_traction(double x, double z) {
 /// Periodic strip of height H on a wall at rest, a traction given at its top.
 inline FlowProblem strip(double height, int cells, const StressLaw& law, const Traction& top) {
   FlowProblem problem;
-  problem.domain = BoxDomain{.width = 2 * height / cells, .height = height, .cells_x = 2, .cells_z = cells, .periodic_x = true};
+  problem.domain = BoxDomain{
+      .width = 2 * height / cells, .height = height, .cells_x = 2, .cells_z = cells, .periodic_x = true};
   problem.law = law;
   problem.slope = FixedSlope{0};
   problem.boundary[Side::bottom] = at_rest();
@@ -36,6 +37,8 @@ inline FlowField converged(const FlowProblem& problem, const FlowSolverOptions& 
   return solution.field;
 }
 
-inline PointState state_at(const FlowField& field, Vec2 point) { return field.at(std::span(&point, 1)).front(); }
+inline PointState state_at(const FlowField& field, Vec2 point) {
+  return field.at(std::span(&point, 1)).front();
+}
 
 }  // namespace drumlin::testing_boxes

@@ -27,9 +27,7 @@ TEST(DrumGeometry, AHalfFullDrumHasItsSurfaceAtTheAxis) {
   EXPECT_LT(chord_offset(R, 0.7 * std::numbers::pi * R * R), 0);
 }
 
-TEST(DrumGeometry, RefusesMoreGrainsThanFit) {
-  EXPECT_THROW(drum_geometry(paper_scene(), 0.3), InputError);
-}
+TEST(DrumGeometry, RefusesMoreGrainsThanFit) { EXPECT_THROW(drum_geometry(paper_scene(), 0.3), InputError); }
 
 TEST(DrumProblem, WallTurnsRigidlyAndRestsAtTheEndsOfTheSurface) {
   const DrumGeometry drum = drum_geometry(paper_scene(), 0.82);

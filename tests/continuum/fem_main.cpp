@@ -3,8 +3,8 @@
 
 #include "continuum/fem/runtime.hpp"
 
-// OpenMPI and the libraries behind PETSc keep memory until the process ends; the leak check would count it as ours. All
-// other checks of the sanitizers stay.
+// OpenMPI and the libraries behind PETSc keep memory until the process ends; the leak check would count it as
+// ours. All other checks of the sanitizers stay.
 extern "C" const char* __asan_default_options() { return "detect_leaks=0"; }
 
 int main(int argc, char** argv) {

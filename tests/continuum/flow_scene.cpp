@@ -23,7 +23,8 @@ density_kg_m3 = 2700
 )";
 
 TEST(FlowScene, ReadsBackWhatItWrites) {
-  const FlowScene scene = parse_flow_scene(smallest, "test", {"mesh.levels=3", "regularisation.pressure=0.125"});
+  const FlowScene scene =
+      parse_flow_scene(smallest, "test", {"mesh.levels=3", "regularisation.pressure=0.125"});
   const std::string text = flow_scene_text(scene);
   EXPECT_EQ(flow_scene_text(parse_flow_scene(text, "again")), text);
   EXPECT_EQ(scene.mesh.levels, 3);
@@ -51,7 +52,8 @@ TEST(FlowScene, ListsEveryKeyOnceWithASentence) {
     EXPECT_FALSE(row.sentence.empty()) << row.path;
     EXPECT_TRUE(paths.insert(row.path).second) << row.path;
   }
-  for (const char* path : {"drum.diameter_mm", "grains.count", "mesh.levels", "regularisation.pressure", "output.slice_width"})
+  for (const char* path :
+       {"drum.diameter_mm", "grains.count", "mesh.levels", "regularisation.pressure", "output.slice_width"})
     EXPECT_TRUE(paths.contains(path)) << path;
 }
 

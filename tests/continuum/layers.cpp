@@ -15,7 +15,8 @@ FlowProblem incline(double theta_deg) {
   FlowProblem problem = strip(20, 10, paper, constant_traction(0, 0));
   problem.density = nu;
   problem.slope = FixedSlope{theta_deg * degree};
-  // p_min acts where p is below it, in the uppermost hundredth of a grain; eps far below the slowest shear, 0.1 at the top.
+  // p_min acts where p is below it, in the uppermost hundredth of a grain; eps far below the slowest shear,
+  // 0.1 at the top.
   problem.regularisation = {.shear_rate = 1e-5, .pressure = 1e-2};
   return problem;
 }
@@ -26,7 +27,8 @@ TEST(Incline, CarriesBagnoldsFlow) {
   for (const double theta_deg : {18.0, 18.5, 19.0}) {
     const FlowField field = converged(incline(theta_deg), options);
     const double exact = bagnold_speed(paper, nu, theta_deg * degree, 20, 20);
-    // The singular top of H^1.5 and the log law (1e-3 of mu is 3 % of I) leave a few parts in a thousand on this mesh.
+    // The singular top of H^1.5 and the log law (1e-3 of mu is 3 % of I) leave a few parts in a thousand on
+    // this mesh.
     EXPECT_NEAR(state_at(field, {0, -1e-9}).velocity.x, exact, 5e-3 * exact) << theta_deg;
     const PointState middle = state_at(field, {0, -10});
     EXPECT_NEAR(middle.sigma_xz / middle.sigma_zz, std::tan(theta_deg * degree), 1e-3);
@@ -66,7 +68,8 @@ TEST(PlaneShear, RunsAtTheRateThatBelongsToItsStress) {
   EXPECT_NEAR(rate, 0.02, 1e-4);
   for (const double z : {-9.0, -5.0, -0.5}) {
     const PointState s = state_at(field, {0.1, z});
-    // Uniform shear lies in the discrete space. The floor of mu (3e-6) moves the rate by 3e-6/b = 3e-4 of itself.
+    // Uniform shear lies in the discrete space. The floor of mu (3e-6) moves the rate by 3e-6/b = 3e-4 of
+    // itself.
     EXPECT_NEAR(s.dvx_dz, rate, 5e-4 * rate);
     EXPECT_NEAR(s.velocity.x, rate * (10 + z), 5e-4 * rate * 10);
     EXPECT_NEAR(s.sigma_zz, P, 1e-8);

@@ -14,7 +14,9 @@ struct Manufactured {
   StressLaw law;
   Regularisation regularisation;
 
-  static Vec2 velocity(Vec2 p) { return {std::sin(p.x) * std::cos(p.z + 0.4), -std::cos(p.x) * std::sin(p.z + 0.4)}; }
+  static Vec2 velocity(Vec2 p) {
+    return {std::sin(p.x) * std::cos(p.z + 0.4), -std::cos(p.x) * std::sin(p.z + 0.4)};
+  }
   static double pressure(Vec2 p) { return 3 + 0.5 * std::sin(1.3 * p.x + 0.2) * std::cos(0.9 * p.z) - p.z; }
   /// -p I + tau at a point.
   PlaneTensor stress(Vec2 p) const {
@@ -22,8 +24,11 @@ struct Manufactured {
     const double diagonal = std::cos(x) * std::cos(z);
     const PlaneTensor D{diagonal, -diagonal, 0.5 * (-std::sin(x) * std::sin(z) + std::sin(x) * std::sin(z))};
     const double pressure_here = pressure(p);
-    const PlaneTensor tau =
-        std::visit([&](const auto& chosen) { return stress_response(chosen, regularisation, D, pressure_here, D).stress; }, law);
+    const PlaneTensor tau = std::visit(
+        [&](const auto& chosen) {
+          return stress_response(chosen, regularisation, D, pressure_here, D).stress;
+        },
+        law);
     return {tau.xx - pressure_here, tau.zz - pressure_here, tau.xz};
   }
   /// -div of the stress, by fourth-order differences: their error, 1e-11, is far below that of any mesh here.

@@ -13,8 +13,8 @@ using namespace testing_boxes;
 constexpr DrumGeometry drum{.radius = 15, .axis_offset = 1, .rotation = 0.03, .nu = 0.82};
 
 FlowProblem problem() {
-  return drum_problem(drum, LogLaw{0.35, 0.013}, {.surface_cell = 2, .surface_zone = 6, .levels = 1}, {.corner_taper = 3},
-                      {.shear_rate = 1e-3});
+  return drum_problem(drum, LogLaw{0.35, 0.013}, {.surface_cell = 2, .surface_zone = 6, .levels = 1},
+                      {.corner_taper = 3}, {.shear_rate = 1e-3});
 }
 
 FlowSolverOptions one_mesh() {
@@ -53,7 +53,8 @@ TEST(SmallDrum, LeavesProfilesMapsAndAVtu) {
   EXPECT_GT(v_x.back(), 0);
   EXPECT_NEAR(v_x.front(), 0, 0.02 * v_x.back());  // at the wall, in the frame of the drum
   const auto& sigma_zz = profiles.column("sigma_zz").value;
-  EXPECT_NEAR((sigma_zz[4] - sigma_zz[8]) / 4, drum.nu * std::cos(field.theta()), 0.05);  // nearly hydrostatic
+  EXPECT_NEAR((sigma_zz[4] - sigma_zz[8]) / 4, drum.nu * std::cos(field.theta()),
+              0.05);  // nearly hydrostatic
   EXPECT_GT(profiles.column("sigma_xz").value[10], 0);
 
   const auto folder = std::filesystem::temp_directory_path();

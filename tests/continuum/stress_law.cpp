@@ -29,13 +29,17 @@ TEST(SaturatingLaw, RunsBetweenItsTwoFrictions) {
 }
 
 TEST(StressLaw, SlopesAreThoseOfItsValues) {
-  for (const StressLaw& law : {StressLaw(paper), StressLaw(SaturatingLaw{0.383, 0.643, 0.279}), StressLaw(NewtonianLaw{2})})
+  for (const StressLaw& law :
+       {StressLaw(paper), StressLaw(SaturatingLaw{0.383, 0.643, 0.279}), StressLaw(NewtonianLaw{2})})
     for (const double rate : {1e-6, 1e-2, 3.0})
       for (const double p : {0.1, 7.0}) {
         const double h = 1e-6;  // relative; central differences err by h^2, rounding by 1e-16/h
         const Strength F = strength(law, rate, p);
-        const double by_rate = (strength(law, rate * (1 + h), p).value - strength(law, rate * (1 - h), p).value) / (2 * rate * h);
-        const double by_p = (strength(law, rate, p * (1 + h)).value - strength(law, rate, p * (1 - h)).value) / (2 * p * h);
+        const double by_rate =
+            (strength(law, rate * (1 + h), p).value - strength(law, rate * (1 - h), p).value) /
+            (2 * rate * h);
+        const double by_p =
+            (strength(law, rate, p * (1 + h)).value - strength(law, rate, p * (1 - h)).value) / (2 * p * h);
         EXPECT_NEAR(F.d_rate, by_rate, 1e-7 * F.value / rate);
         EXPECT_NEAR(F.d_pressure, by_p, 1e-7 * F.value / p);
       }
@@ -71,9 +75,12 @@ TEST(TensorLaw, TangentIsTheDerivativeOfTheStress) {
   const double h = 1e-6;
   for (const double p : {-0.5, 0.2, 5.0}) {
     const auto dual = (1 / regularised_rate(D, smooth)) * D;
-    const auto at = [&](double s, double t) { return stress_response(paper, smooth, D + s * dD, p + t, dual).stress; };
+    const auto at = [&](double s, double t) {
+      return stress_response(paper, smooth, D + s * dD, p + t, dual).stress;
+    };
     const auto s = stress_response(paper, smooth, D, p, dual);
-    const PlaneTensor by_D = (1 / (2 * h)) * (at(h, 0) - at(-h, 0)), by_p = (1 / (2 * h)) * (at(0, h) - at(0, -h));
+    const PlaneTensor by_D = (1 / (2 * h)) * (at(h, 0) - at(-h, 0)),
+                      by_p = (1 / (2 * h)) * (at(0, h) - at(0, -h));
     EXPECT_LT(magnitude(tangent(s, dD) - by_D), 1e-7 * magnitude(by_D)) << p;
     EXPECT_LT(magnitude(s.by_pressure - by_p), 1e-7 * magnitude(by_p)) << p;
   }
@@ -90,7 +97,8 @@ TEST(TensorLaw, DissipatesHoweverTheMaterialMoves) {
 TEST(DualVariable, NeverLeavesTheUnitBall) {
   const PlaneTensor D{0.01, -0.01, 0.02}, dual{0.3, -0.3, 0.9};
   for (const double length : {0.1, 1.0, 100.0}) {
-    const PlaneTensor next = advanced_dual(D, {-length, length, 2 * length}, dual, regularised_rate(D, {1e-2, 0.1}));
+    const PlaneTensor next =
+        advanced_dual(D, {-length, length, 2 * length}, dual, regularised_rate(D, {1e-2, 0.1}));
     EXPECT_LE(magnitude(next), 1 + 1e-14);
   }
 }

@@ -9,14 +9,16 @@ using namespace testing_boxes;
 
 TEST(AssembledTangent, IsTheDerivativeOfTheResidual) {
   FlowProblem problem;
-  problem.domain = ChordDomain{.radius = 6, .axis_offset = 0.5, .surface_cell = 3, .surface_zone = 2};  // hanging nodes too
+  problem.domain = ChordDomain{
+      .radius = 6, .axis_offset = 0.5, .surface_cell = 3, .surface_zone = 2};  // hanging nodes too
   problem.law = LogLaw{0.35, 0.013};
   problem.density = 0.8;
   problem.slope = FixedSlope{0.3};
   problem.boundary[Side::top] = NormalSpring{100};
   problem.boundary[Side::bottom] = at_rest();
   const fem::Discretisation d(problem);
-  const fem::Setting setting{problem.law, {.shear_rate = 0.2, .pressure = 0.3}, {.share = 0.6, .surface = 0.5, .gradient = 0.7}};
+  const fem::Setting setting{
+      problem.law, {.shear_rate = 0.2, .pressure = 0.3}, {.share = 0.6, .surface = 0.5, .gradient = 0.7}};
 
   fem::State state;
   state.theta = 0.3;

@@ -8,7 +8,9 @@ namespace drumlin {
 namespace {
 
 // Unit pressure: I = 2 |D|.
-bool well_posed(const StressLaw& law, double I) { return well_posedness_margin(strength(law, 0.5 * I, 1), 0.5 * I) >= 0; }
+bool well_posed(const StressLaw& law, double I) {
+  return well_posedness_margin(strength(law, 0.5 * I, 1), 0.5 * I) >= 0;
+}
 
 // Barker, Schaeffer, Bohorquez & Gray, J. Fluid Mech. 779 (2015), eq. (1.7) for two dimensions.
 template <class Law>

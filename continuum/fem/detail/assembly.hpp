@@ -35,17 +35,19 @@ struct System {
 void assemble_residual(const FlowProblem&, const Discretisation&, const Setting&, const State&, System&);
 void assemble_tangent(const FlowProblem&, const Discretisation&, const Setting&, const State&, System&);
 
-/// The residual without the given velocities: its entries on a side with given velocity are the forces of that side on
-/// the material.
+/// The residual without the given velocities: its entries on a side with given velocity are the forces of
+/// that side on the material.
 dealii::Vector<double> nodal_forces(const FlowProblem&, const Discretisation&, const Setting&, const State&);
 
 /// Load of the force density (x, z), constrained rows zero.
 dealii::Vector<double> load(const Discretisation&, Vec2 force_density);
-/// Linear functional whose product with the solution is the moment of sigma_nn = stiffness u_n, integral x sigma_nn dx.
+/// Linear functional whose product with the solution is the moment of sigma_nn = stiffness u_n, integral x
+/// sigma_nn dx.
 dealii::Vector<double> surface_moment(const FlowProblem&, const Discretisation&);
 
 /// D/|D| of the solution at every quadrature point.
-std::vector<PlaneTensor> dual_of(const Discretisation&, const Regularisation&, const dealii::Vector<double>& solution);
+std::vector<PlaneTensor> dual_of(const Discretisation&, const Regularisation&,
+                                 const dealii::Vector<double>& solution);
 /// The dual after the step `step` from `state`.
 std::vector<PlaneTensor> advanced_dual(const Discretisation&, const Regularisation&, const State& state,
                                        const dealii::Vector<double>& step);

@@ -17,8 +17,8 @@ class DirectSolver {
 
   /// Throws NotConvergedError if the factorisation fails.
   void factorise(const dealii::SparseMatrix<double>& matrix);
-  /// Solves with up to three steps of iterative refinement; returns ||A x - b||/||b||, formed with the matrix itself
-  /// and not with what the factors say of it.
+  /// Solves with up to three steps of iterative refinement; returns ||A x - b||/||b||, formed with the matrix
+  /// itself and not with what the factors say of it.
   double solve(const dealii::Vector<double>& rhs, dealii::Vector<double>& solution) const;
 
  private:

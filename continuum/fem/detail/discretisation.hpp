@@ -31,7 +31,8 @@ struct Discretisation {
   dealii::DoFHandler<2> unknowns;
   dealii::QGauss<2> quadrature{3};
   dealii::QGauss<1> side_quadrature{4};
-  dealii::AffineConstraints<double> constraints;  ///< of the solution: hanging nodes, periodicity, given velocities
+  dealii::AffineConstraints<double>
+      constraints;  ///< of the solution: hanging nodes, periodicity, given velocities
   dealii::AffineConstraints<double> homogeneous;  ///< of a Newton step: the same lines without their values
   dealii::AffineConstraints<double> conforming;   ///< hanging nodes and periodicity alone
   dealii::SparsityPattern pattern;
