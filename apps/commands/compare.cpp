@@ -14,6 +14,7 @@
 #include "coupling/comparison/paper_table.hpp"
 #include "coupling/exchange/errors.hpp"
 #include "coupling/exchange/text_file.hpp"
+#include "particles/io/snapshot_file.hpp"
 
 namespace drumlin::apps {
 
@@ -26,7 +27,7 @@ using Json = nlohmann::ordered_json;
 struct Inputs {
   ComparedSide particles, continuum;
   Json run, measured, flow;
-  fs::path particle_profiles, continuum_profiles;
+  fs::path particle_profiles, continuum_profiles, snapshot, maps;
 };
 
 Inputs read_inputs(const CompareOptions& options) {
@@ -39,6 +40,10 @@ Inputs read_inputs(const CompareOptions& options) {
         fmt::format("{}: has not been measured; run drumlin measure first", options.run.string()));
   inputs.particle_profiles = measured / "profiles.csv";
   inputs.continuum_profiles = options.flow_run / "profiles.csv";
+  inputs.maps = options.flow_run / "maps.csv";
+  const auto snapshots = snapshot_files(options.run);
+  if (snapshots.empty()) throw InputError(options.run.string() + ": holds no snapshots");
+  inputs.snapshot = snapshots.back();
   inputs.particles = {read_profiles(inputs.particle_profiles),
                       read_scalars(measured / "measured.json", "drumlin-measured-1")};
   inputs.continuum = {read_profiles(inputs.continuum_profiles),
@@ -100,9 +105,12 @@ ProfileSet overlaid(const Inputs& inputs) {
 std::vector<ReportFigure> drawn_figures(const Inputs& inputs, const fs::path& output, const Json& content) {
   const Json H = content["scalars"]["H"]["particles"]["value"];
   draw_figures("compare_figures.py", {"--particles", inputs.particle_profiles.string(), "--continuum",
-                                      inputs.continuum_profiles.string(), "--output", output.string(),
-                                      "--depth", H.is_number() ? fmt::format("{}", H.get<double>()) : "nan"});
-  return {{output / "velocity.png",
+                                      inputs.continuum_profiles.string(), "--snapshot", inputs.snapshot.string(),
+                                      "--maps", inputs.maps.string(), "--output", output.string(), "--depth",
+                                      H.is_number() ? fmt::format("{}", H.get<double>()) : "nan"});
+  return {{output / "drums.png",
+           "Speed in the frame of the drum, on one colour scale: grains of the last snapshot, and the continuum."},
+          {output / "velocity.png",
            "Velocity along the surface, linear and logarithmic, with the particles' 99 % band."},
           {output / "shear_rate.png", "Shear rate. Where the band reaches zero its sign is not known."},
           {output / "stresses.png", "Stresses, compression positive."},

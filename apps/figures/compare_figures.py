@@ -3,9 +3,13 @@
 import argparse
 import math
 
+import matplotlib.collections
+import matplotlib.colors
 import matplotlib.pyplot as plt
+import numpy as np
 
 import style
+from drum_maps import read_grains, read_maps
 
 
 def arguments():
@@ -13,6 +17,8 @@ def arguments():
     parser.add_argument("--particles", required=True, help="profiles.csv of the particles")
     parser.add_argument("--continuum", required=True, help="profiles.csv of the continuum")
     parser.add_argument("--output", required=True, help="folder for the figures")
+    parser.add_argument("--snapshot", required=True, help="snapshot of the particle run to draw")
+    parser.add_argument("--maps", required=True, help="maps.csv of the continuum")
     parser.add_argument("--depth", type=float, default=math.nan, help="H of the particles, d")
     return parser.parse_args()
 
@@ -84,6 +90,42 @@ def friction(particles, continuum):
     return figure
 
 
+def outline(axes, radius, axis_depth):
+    """The drum, its axis `axis_depth` above the free surface."""
+    angle = np.linspace(0, 2 * math.pi, 400)
+    axes.plot(radius * np.sin(angle), axis_depth - radius * np.cos(angle), color="black", linewidth=1)
+    axes.set_aspect("equal")
+    axes.set_xlim(-1.02 * radius, 1.02 * radius)
+    axes.set_ylim(axis_depth - 1.02 * radius, 0.3 * radius)
+    axes.grid(False)
+    axes.set_xlabel(r"$x$  [$d$], downslope")
+    axes.set_ylabel(style.LABELS["z"])
+
+
+def drums(particles_header, options):
+    """Grains of one instant beside the continuum's steady flow: speed in the frame of the drum, on one colour scale."""
+    axis_depth, radius = float(particles_header["axis_depth"]), float(particles_header["drum_radius"])
+    grains = read_grains(options.snapshot, float(particles_header["theta_deg"]), axis_depth)
+    maps_header, grids = read_maps(options.maps)
+    speed = np.ma.hypot(grids["v_x"], grids["v_z"])
+    top = max(float(speed.max()), float(np.quantile(grains["speed"], 0.999)))
+    norm = matplotlib.colors.LogNorm(1e-3 * top, top)
+    figure, (left, right) = plt.subplots(1, 2, figsize=(14, 4.9))
+    discs = matplotlib.collections.EllipseCollection(
+        2 * grains["radius"], 2 * grains["radius"], np.zeros_like(grains["radius"]), units="x",
+        offsets=np.column_stack((grains["x"], grains["z"])), transOffset=left.transData, cmap="viridis", norm=norm)
+    discs.set_array(np.maximum(grains["speed"], 1e-3 * top))
+    left.add_collection(discs)
+    outline(left, radius, axis_depth)
+    left.set_title(style.title_of("particles, one instant", particles_header.get("reduced") == "true"))
+    image = right.pcolormesh(grids["x"], grids["z"], speed, norm=norm, cmap="viridis", shading="nearest", rasterized=True)
+    outline(right, float(maps_header["drum_radius"]), float(maps_header["axis_depth"]))
+    right.set_title(style.title_of("continuum, steady flow", particles_header.get("reduced") == "true"))
+    figure.colorbar(image, ax=[left, right], shrink=0.9, extend="min",
+                    label=r"speed in the frame of the drum  [$\sqrt{gd}$]")
+    return figure
+
+
 def main():
     options = arguments()
     style.use_style()
@@ -98,6 +140,7 @@ def main():
     }
     figures = {name: over_depth(names, particles, continuum, options.depth, size)
                for name, (names, size) in sheets.items()}
+    figures["drums"] = drums(header, options)
     figures["friction"] = friction(particles, continuum)
     for name, figure in figures.items():
         style.save(figure, f"{options.output}/{name}.png", reduced)

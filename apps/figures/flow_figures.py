@@ -4,7 +4,6 @@ usage: flow_figures.py FLOWRUN [--flow FLOW_JSON]
 """
 
 import argparse
-import csv
 import json
 import math
 import pathlib
@@ -13,32 +12,7 @@ import matplotlib.colors
 import matplotlib.pyplot as plt
 import numpy as np
 import style
-
-
-def read_maps(path):
-    """(header, grids): each column of maps.csv as a masked array over (z, x), with x and z beside them."""
-    header = {}
-    with open(path, newline="", encoding="utf-8") as stream:
-        for line in stream:
-            if not line.startswith("#"):
-                break
-            key, _, value = line[1:].partition("=")
-            header[key.strip()] = value.strip()
-        names = line.strip().split(",")
-        rows = np.array([[float(entry) for entry in row] for row in csv.reader(stream)])
-    spacing = float(header["spacing"])
-    column = np.rint(rows[:, 0] / spacing).astype(int)
-    row = np.rint(rows[:, 1] / spacing).astype(int)
-    column_0, row_0 = column.min(), row.min()
-    shape = (row.max() - row_0 + 1, column.max() - column_0 + 1)
-    grids = {}
-    for i, name in enumerate(names):
-        grid = np.full(shape, np.nan)
-        grid[row - row_0, column - column_0] = rows[:, i]
-        grids[name] = np.ma.masked_invalid(grid)
-    grids["x"] = spacing * (column_0 + np.arange(shape[1]))
-    grids["z"] = spacing * (row_0 + np.arange(shape[0]))
-    return header, grids
+from drum_maps import read_maps
 
 
 def draw_map(axes, grids, values, label, norm, cmap, radius, axis_depth):

@@ -67,7 +67,7 @@ def check_report(folder):
     page = (folder / "index.html").read_text(encoding="utf-8")
     require("reduced" in page and "data:image/png;base64," in page, "the page lacks its figures or the word reduced")
     require("<script" not in page and "src=\"http" not in page, "the page loads something")
-    require((folder / "overlay.csv").exists() and len(list(folder.glob("*.png"))) == 5, "CSV or figures are missing")
+    require((folder / "overlay.csv").exists() and len(list(folder.glob("*.png"))) == 6, "CSV or figures are missing")
 
 
 def check_other_drum_is_refused(drumlin, run, flow, folder):
