@@ -36,9 +36,13 @@ void print_mesh(int level, const MeshResult& mesh) {
   std::fflush(stdout);
 }
 
+double ill_posed_share(const FlowField& field) {
+  const FlowIntegrals sums = field.integrals();
+  return sums.ill_posed_area / sums.area;
+}
+
 void print_summary(const fs::path& folder, const FinishedFlow& flow) {
-  const FlowIntegrals sums = flow.solution.field.integrals();
-  const double share = sums.ill_posed_area / sums.area;
+  const double share = ill_posed_share(flow.solution.field);
   fmt::print("{}{}: {} iterations, {:.1f} s, residual {:.1e}, ill-posed in {:.2f} % of the area{}\n",
              folder.string(), flow.reduced ? " (reduced)" : "", flow.solution.report.iterations,
              flow.solution.report.seconds, flow.solution.report.residual, 100 * share,
@@ -92,7 +96,9 @@ int solve_flow_scene(const FlowOptions& options) {
   if (const int signal = interruption(); signal != 0)
     return static_cast<int>(signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted);
   if (!solution.report.converged)
-    throw NotConvergedError("the flow did not converge: " + solution.report.failure);
+    throw NotConvergedError(
+        fmt::format("the flow did not converge: {}; the last iterate is ill-posed in {:.1f} % of the area",
+                    solution.report.failure, 100 * ill_posed_share(solution.field)));
   const FinishedFlow flow{scene, fit, drum, solution, meshes, reduced};
   write_flow(options.output, flow);
   print_summary(options.output, flow);
