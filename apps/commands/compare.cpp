@@ -118,6 +118,10 @@ std::vector<ReportFigure> drawn_figures(const Inputs& inputs, const fs::path& ou
           {output / "friction.png", "Stress ratio over inertial number, layer by layer."}};
 }
 
+std::string short_number(const Json& value) {
+  return value.is_number() ? fmt::format("{:.3g}", value.get<double>()) : value.dump();
+}
+
 std::string summary_of(const Json& content) {
   const Json& counts = content["verdict"];
   std::string text =
@@ -126,8 +130,9 @@ std::string summary_of(const Json& content) {
   for (const auto& target : content["targets"])
     if (target["outcome"] == "missed")
       text += fmt::format("  missed: {} {}: {} (limit {} {}) {}\n", target["quantity"].get<std::string>(),
-                          target.value("zone", std::string()), target["value"].dump(), target["limit"].dump(),
-                          target["measure"].get<std::string>(), target.value("remark", std::string()));
+                          target.value("zone", std::string()), short_number(target["value"]),
+                          short_number(target["limit"]), target["measure"].get<std::string>(),
+                          target.value("remark", std::string()));
   return text;
 }
 
