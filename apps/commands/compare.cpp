@@ -149,7 +149,8 @@ int compare(const CompareOptions& options) {
   const Comparison comparison = compare(inputs.particles, inputs.continuum, zones);
   const Json content = content_of(inputs, comparison, zones);
 
-  prepare_output(options.output, options.existing, {"comparison.json", "overlay.csv"});
+  prepare_output(options.output, options.existing, {"comparison.json", "overlay.csv"},
+                 {options.run, options.flow_run});
   write_profiles(options.output / "overlay.csv", overlaid(inputs));
   const auto figures = drawn_figures(inputs, options.output, content);
   replace_file(options.output / "index.html", report_page(content, figures));

@@ -1,6 +1,8 @@
 // drumlin run: a particle run from a scene to snapshots, log and run.json; interruptible, and continued bit for bit.
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <csignal>
@@ -48,7 +50,11 @@ double peak_memory_mb() {
 class RunLog {
  public:
   RunLog(const fs::path& file, std::int64_t keep_bytes) : file_(file) {
-    if (keep_bytes > 0) fs::resize_file(file, static_cast<std::uintmax_t>(keep_bytes));
+    if (keep_bytes > 0) {
+      if (!fs::exists(file) || fs::file_size(file) < static_cast<std::uintmax_t>(keep_bytes))
+        throw InputError(file.string() + ": is missing or shorter than the checkpoint says; start over with --overwrite");
+      fs::resize_file(file, static_cast<std::uintmax_t>(keep_bytes));
+    }
     out_.open(file, keep_bytes > 0 ? std::ios::app : std::ios::trunc);
     if (keep_bytes == 0)
       write("step,time_s,stage,contacts,sweeps,residual,residual_max,penetration,overlap_mean,overlap_max,kinetic_energy,converged\n");
@@ -62,6 +68,11 @@ class RunLog {
   std::int64_t flush() {
     out_.flush();
     if (!out_) throw IoError(file_.string() + ": cannot write");
+    // A checkpoint that outlives a power cut must not speak of lines that did not.
+    const int descriptor = ::open(file_.c_str(), O_WRONLY);
+    const bool synced = descriptor >= 0 && ::fsync(descriptor) == 0;
+    if (descriptor >= 0) ::close(descriptor);
+    if (!synced) throw IoError(file_.string() + ": cannot sync");
     return bytes_;
   }
 
@@ -234,11 +245,11 @@ class ParticleRun {
   void print_summary() const {
     const RunTotals t = totals_now();
     const double steps = static_cast<double>(simulation_.state().step);
-    fmt::print("{}{} steps, {} snapshots in {} ({:.0f} s of processor time); {} steps missed the tolerance {:g}\n"
+    fmt::print("{}{} steps, {} snapshots in {} ({:.0f} s of processor time); {} steps missed a tolerance (residual {:g}, penetration {:g} d)\n"
                "mean residual {:.2g}, mean overlap {:.2g} d, largest {:.2g} d\n",
                scene_.reduced ? "reduced: " : "", simulation_.state().step, simulation_.state().snapshots,
                duration_text(t.wall_seconds), t.cpu_seconds, t.unconverged_steps, scene_.solver.tolerance,
-               t.residual_sum / steps, t.overlap_sum / steps, t.overlap_max);
+               scene_.solver.penetration_tolerance, t.residual_sum / steps, t.overlap_sum / steps, t.overlap_max);
   }
 
   int stop_for(int signal) {
@@ -255,9 +266,11 @@ class ParticleRun {
     log_.flush();
     write_report("not converged");
     progress_.finish();
-    throw NotConvergedError(fmt::format("step {}: contact solver {} ({}) after {} sweeps: residual {:.3g}, tolerance {:g}",
-                                        simulation_.state().step, scene_.solver.name, to_string(last_.solve.status),
-                                        last_.solve.sweeps, last_.solve.judgement.residual, scene_.solver.tolerance));
+    const auto& judged = last_.solve.judgement;
+    throw NotConvergedError(fmt::format(
+        "step {}: contact solver {} ({}) after {} sweeps: residual {:.3g} (tolerance {:g}), penetration {:.3g} d (tolerance {:g})",
+        simulation_.state().step, scene_.solver.name, to_string(last_.solve.status), last_.solve.sweeps, judged.residual,
+        scene_.solver.tolerance, judged.penetration, scene_.solver.penetration_tolerance));
   }
 
   RunOptions options_;
@@ -286,16 +299,31 @@ void same_scene_or_refuse(const fs::path& output, const std::string& theirs, con
                      "use --overwrite to start over");
 }
 
+const char* const grain_list = "grains.csv";
+
+/// The scene as it stands in the run folder, which holds a copy of a grain list of its own.
+Scene recorded(Scene scene) {
+  if (auto* listed = std::get_if<ListedGrains>(&scene.grains.source)) listed->file = grain_list;
+  return scene;
+}
+
 }  // namespace
 
 int run(const RunOptions& options) {
   const Scene scene = read_scene(options.scene, options.overrides);
-  const std::string resolved = scene_text(scene);
-  prepare_output(options.output, options.existing, {"run.json", "scene.toml"});
+  // What only shows when grains are placed must show before anything is written or removed.
+  (void)Simulation(scene);
+  const auto* listed = std::get_if<ListedGrains>(&scene.grains.source);
+  std::vector<fs::path> inputs{options.scene};
+  if (listed != nullptr) inputs.push_back(listed->file);
+  prepare_output(options.output, options.existing, {"run.json"}, inputs);
+  const std::string resolved = scene_text(recorded(scene));
   std::optional<Checkpoint> from;
   if (options.existing == ExistingOutput::resume) {
     if (fs::exists(options.output / "scene.toml"))
       same_scene_or_refuse(options.output, file_text(options.output / "scene.toml"), resolved);
+    if (listed != nullptr && fs::exists(options.output / grain_list))
+      same_scene_or_refuse(options.output, file_text(options.output / grain_list), file_text(listed->file));
     if (is_finished(options.output)) {
       fmt::print("{}: already finished, nothing to do\n", options.output.string());
       return static_cast<int>(ExitCode::done);
@@ -306,6 +334,7 @@ int run(const RunOptions& options) {
     }
   }
   fs::create_directories(options.output / "snapshots");
+  if (listed != nullptr) replace_file(options.output / grain_list, file_text(listed->file));
   replace_file(options.output / "scene.toml", resolved);
   catch_interruptions();
   return ParticleRun(options, scene, resolved, std::move(from)).execute();

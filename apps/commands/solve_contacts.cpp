@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/commands.hpp"
+#include "apps/support/output_folder.hpp"
 #include "coupling/exchange/errors.hpp"
 #include "particles/io/contact_problem_file.hpp"
 #include "particles/solver/contact_solver.hpp"
@@ -13,6 +14,7 @@ namespace drumlin::apps {
 
 int solve_contacts(const SolveContactsOptions& options) {
   const BlockProblem problem = read_contact_problem(options.problem);
+  if (options.output) prepare_output_file(*options.output, ExistingOutput::refuse);
   const auto solve = contact_solver<BlockProblem>(options.solver);
   StoppingRule rule;
   rule.tolerance = options.tolerance;

@@ -71,7 +71,8 @@ int solve_flow_scene(const FlowOptions& options) {
   const StressLaw law = stress_law(fit, options.rheology.string());
   const DrumGeometry drum = drum_geometry(scene, fit.nu);
   const FlowProblem problem = drum_problem(scene, drum, law);
-  prepare_output(options.output, options.existing, {"flow_scene.toml", "flow.json"});
+  prepare_output(options.output, options.existing, {"flow_scene.toml", "flow.json"},
+                 {options.scene, options.rheology});
   replace_file(options.output / "flow_scene.toml", flow_scene_text(scene));
   replace_file(options.output / "rheology.toml", file_text(options.rheology));
 

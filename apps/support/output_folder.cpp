@@ -25,10 +25,21 @@ void remove_content(const fs::path& folder, const std::vector<std::string>& mark
   for (const auto& entry : entries) fs::remove_all(entry);
 }
 
+/// An output folder that holds what the command is about to read must not be emptied.
+void refuse_inside(const fs::path& folder, const std::vector<fs::path>& inputs) {
+  const fs::path ours = fs::weakly_canonical(folder);
+  for (const auto& input : inputs) {
+    const fs::path theirs = fs::weakly_canonical(input);
+    if (std::mismatch(ours.begin(), ours.end(), theirs.begin(), theirs.end()).first == ours.end())
+      throw InputError(folder.string() + ": is not overwritten, for " + input.string() +
+                       " is read and lies in it; name another folder");
+  }
+}
+
 }  // namespace
 
-void prepare_output(const fs::path& folder, ExistingOutput existing,
-                    const std::vector<std::string>& markers) {
+void prepare_output(const fs::path& folder, ExistingOutput existing, const std::vector<std::string>& markers,
+                    const std::vector<fs::path>& inputs) {
   try {
     if (fs::exists(folder) && !fs::is_directory(folder))
       throw InputError(folder.string() + ": is a file, a folder is needed for the results");
@@ -36,7 +47,10 @@ void prepare_output(const fs::path& folder, ExistingOutput existing,
       if (existing == ExistingOutput::refuse)
         throw InputError(folder.string() +
                          ": exists already; give --resume or --overwrite, or name another folder");
-      if (existing == ExistingOutput::overwrite) remove_content(folder, markers);
+      if (existing == ExistingOutput::overwrite) {
+        refuse_inside(folder, inputs);
+        remove_content(folder, markers);
+      }
     }
     fs::create_directories(folder);
   } catch (const fs::filesystem_error& error) {

@@ -142,6 +142,20 @@ void ContactDetection::keep_if_near_wall(std::int32_t b, std::int32_t shape, dou
   note(pair, -(pair.n_x * (v.x[b] - pair.wall_v_x) + pair.n_z * (v.z[b] - pair.wall_v_z)), input);
 }
 
+void ContactDetection::push_on_fast_impacts(const Bodies& bodies, const Velocities& v, const DetectionInput& input,
+                                            double looked_at, double largest) {
+  if (fast_.empty()) return;
+  const auto count = static_cast<std::int32_t>(bodies.count());
+  for (std::int32_t i = 0; i < count; ++i) {
+    if (jolt_[i] <= looked_at) continue;
+    range_ = looked_at + jolt_[i];
+    const double reach = largest + range_, x = input.period.first(bodies.x[i]), z = bodies.z[i];
+    grid_.near(x - reach, x + reach, z - reach, z + reach, [&](std::int32_t b) {
+      if (b != i) keep_if_near(std::min(b, i), std::max(b, i), bodies, v, input);
+    });
+  }
+}
+
 const std::vector<Candidate>& ContactDetection::find(const Bodies& bodies, std::span<const double> v_x,
                                                      std::span<const double> v_z, const DetectionInput& input) {
   candidates_.clear();
@@ -175,6 +189,7 @@ const std::vector<Candidate>& ContactDetection::find(const Bodies& bodies, std::
     visit_neighbours(f, largest + range_, [&](std::int32_t b) {
       if (b != f) keep_if_near(std::min(b, f), std::max(b, f), bodies, v, input);
     });
+  push_on_fast_impacts(bodies, v, input, input.margin + 4 * slow, largest);
   for (std::size_t s = 0; s < input.shapes.size(); ++s) {
     const double farthest = input.margin + 2 * (fastest + largest_move(input.shapes[s], input.shape_steps[s]));
     const auto near_shape = [&](std::int32_t b) {

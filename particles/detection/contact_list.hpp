@@ -29,6 +29,7 @@ struct DetectionInput {
 
 /// All pairs with gap < margin + 2 h a + h (a_i + a_j), where a is the approach speed of the pair (0 if it parts) and a_i
 /// the largest approach speed of any pair of body i: an impact on i pushes it on to neighbours that it did not approach.
+/// Pairs of slow bodies (less than 0.25 d per step) are looked at within margin + 4 of their largest displacement.
 /// v_x and v_z are the velocities that the bodies would have without contacts. Sorted by (i, j): the order depends on
 /// nothing but the state.
 class ContactDetection {
@@ -47,6 +48,9 @@ class ContactDetection {
   /// Keeps a pair for the moment, and what its approach does to its bodies.
   void note(const Candidate& pair, double approach, const DetectionInput& input);
   void drop_far_pairs(const DetectionInput& input);
+  /// Looks further around the bodies that fast ones hit.
+  void push_on_fast_impacts(const Bodies& bodies, const Velocities& v, const DetectionInput& input, double looked_at,
+                            double largest);
 
   CellGrid grid_;
   double range_ = 0;  // pairs with a larger gap are not looked at

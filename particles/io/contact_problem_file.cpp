@@ -60,6 +60,11 @@ std::vector<Entry> entries_of_W(const H5Reader& in, std::int64_t size) {
   return entries;
 }
 
+bool is_positive_definite(const Eigen::Matrix2d& block) {
+  const double rounding = 1e-8 * (std::abs(block(0, 0)) + std::abs(block(1, 1)));
+  return block(0, 0) > 0 && block(1, 1) > 0 && std::abs(block(0, 1) - block(1, 0)) <= rounding && block.determinant() > 0;
+}
+
 std::vector<double> vector_of(const H5Reader& in, const std::string& name, std::int64_t size) {
   auto values = in.doubles(root + "vectors/" + name);
   if (static_cast<std::int64_t>(values.size()) != size) in.refuse(root + "vectors/" + name, "not of length " + std::to_string(size));
@@ -73,6 +78,8 @@ std::vector<double> vector_of(const H5Reader& in, const std::string& name, std::
 BlockProblem read_contact_problem(const std::filesystem::path& file) {
   const H5Reader in(file, false);
   if (in.integer(root + "spacedim") != 2) in.refuse(root + "spacedim", "only 2 is solved here");
+  for (const char* equality : {"V", "R"})
+    if (in.has(root + equality)) in.refuse(root + equality, "equality constraints are not solved here");
   const std::int64_t size = in.integer(root + "W/m");
   if (size != in.integer(root + "W/n") || size % 2 != 0 || size <= 0 || size > (std::int64_t{1} << 28))
     in.refuse(root + "W/m", "not a square matrix of 2 rows per contact");
@@ -91,8 +98,8 @@ BlockProblem read_contact_problem(const std::filesystem::path& file) {
   W.row_start.push_back(0);
   for (int a = 0; a < contacts; ++a) {
     const auto diagonal = rows[a].find(a);
-    if (diagonal == rows[a].end() || diagonal->second(0, 0) <= 0 || diagonal->second(1, 1) <= 0)
-      in.refuse(root + "W", "contact " + std::to_string(a) + " has no positive diagonal");
+    if (diagonal == rows[a].end() || !is_positive_definite(diagonal->second))
+      in.refuse(root + "W", "contact " + std::to_string(a) + " has no symmetric positive definite diagonal block");
     W.diagonal.push_back(diagonal->second);
     for (const auto& [column, block] : rows[a]) W.column.push_back(column), W.block.push_back(block);
     W.row_start.push_back(static_cast<int>(W.column.size()));

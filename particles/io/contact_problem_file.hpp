@@ -13,7 +13,7 @@ namespace drumlin {
 /// dimension, indices outside the matrix, a contact without a positive diagonal, numbers that are not finite.
 BlockProblem read_contact_problem(const std::filesystem::path& file);
 
-/// Writes /solution/{r, u}, each 2 * contacts numbers, and what was solved. Throws IoError.
+/// Writes /solution/{r, u}, each 2 * contacts numbers. Throws IoError.
 void write_contact_solution(const std::filesystem::path& file, std::span<const double> r, std::span<const double> u);
 
 /// Writes a problem in the same layout, W in compressed rows; `description` goes to /fclib_local/info.

@@ -17,6 +17,9 @@ namespace {
 
 constexpr std::string_view trailer_magic = "DRUMLCRC";
 constexpr std::size_t trailer_size = 8 + 4;
+// HDF5 wants a name for an image in memory and looks whether a file of that name exists: this one cannot.
+constexpr const char* image_name = "/dev/null/image";
+constexpr hssize_t largest_set = hssize_t{1} << 28;  // numbers in a dataset; a run of a million grains has far fewer
 
 std::uint32_t checksum(std::span<const unsigned char> bytes) {
   return static_cast<std::uint32_t>(crc32_z(crc32_z(0, nullptr, 0), bytes.data(), bytes.size()));
@@ -110,7 +113,7 @@ struct H5Writer::Handles {
 H5Writer::H5Writer() : handles_(std::make_unique<Handles>()) {
   silence();
   H5Pset_fapl_core(handles_->access.get(), 1 << 20, false);
-  handles_->file = std::make_unique<Id>(H5Fcreate("image", H5F_ACC_TRUNC, H5P_DEFAULT, handles_->access.get()), H5Fclose);
+  handles_->file = std::make_unique<Id>(H5Fcreate(image_name, H5F_ACC_TRUNC, H5P_DEFAULT, handles_->access.get()), H5Fclose);
   check(handles_->file->valid(), "create a file image");
 }
 H5Writer::~H5Writer() = default;
@@ -160,6 +163,7 @@ H5Reader::H5Reader(const std::filesystem::path& file, bool checked)
   silence();
   auto& bytes = handles_->bytes;
   bytes = bytes_of(file);
+  if (bytes.empty()) throw InputError(file.string() + ": is empty");
   const bool has_trailer =
       bytes.size() > trailer_size &&
       std::memcmp(bytes.data() + bytes.size() - trailer_size, trailer_magic.data(), trailer_magic.size()) == 0;
@@ -173,7 +177,7 @@ H5Reader::H5Reader(const std::filesystem::path& file, bool checked)
   }
   H5Pset_fapl_core(handles_->access.get(), 1 << 20, false);
   H5Pset_file_image(handles_->access.get(), bytes.data(), bytes.size());
-  handles_->file = std::make_unique<Id>(H5Fopen("image", H5F_ACC_RDONLY, handles_->access.get()), H5Fclose);
+  handles_->file = std::make_unique<Id>(H5Fopen(image_name, H5F_ACC_RDONLY, handles_->access.get()), H5Fclose);
   if (!handles_->file->valid()) throw InputError(file.string() + ": not an HDF5 file");
 }
 H5Reader::~H5Reader() = default;
@@ -202,7 +206,7 @@ std::vector<T> read_set(const H5Reader& reader, hid_t file, const std::string& n
   if (found != wanted && !(wanted == H5T_FLOAT && found == H5T_INTEGER)) reader.refuse(name, "of an unexpected type");
   const Id space(H5Dget_space(set.get()), H5Sclose);
   const hssize_t count = H5Sget_simple_extent_npoints(space.get());
-  if (count < 0 || count > (hssize_t{1} << 31)) reader.refuse(name, "of an impossible size");
+  if (count < 0 || count > largest_set) reader.refuse(name, "of an impossible size");
   std::vector<T> values(static_cast<std::size_t>(count));
   if (count > 0 && H5Dread(set.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
     reader.refuse(name, "unreadable");

@@ -1,5 +1,7 @@
 #include "particles/measurement/run_log.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -51,7 +53,9 @@ std::vector<LogRow> read_log(const std::filesystem::path& file) {
   std::vector<LogRow> rows;
   for (int number = 2; std::getline(stream, line); ++number) {
     auto fields = fields_of(line);
-    fields.resize(std::max(fields.size(), names.size()));
+    if (fields.size() != names.size())
+      throw InputError({{file.string(), number, 0, "", fmt::format("holds {} fields", fields.size()),
+                         fmt::format("{}, as many as the first line", names.size())}});
     LogRow row{number_of(fields[place["time_s"]]), fields[place["stage"]],
                number_of(fields[place["overlap_mean"]]), number_of(fields[place["overlap_max"]]),
                number_of(fields[place["residual"]])};

@@ -74,6 +74,9 @@ std::vector<std::string> fields_of(const std::string& line) {
   return fields;
 }
 
+/// Largest magnitude of a listed number, in the unit of its column.
+double largest_allowed(const std::string& column) { return column == "diameter_mm" ? 1e5 : 1e7; }
+
 /// Reads the CSV list; every fault of the file is reported at once.
 std::vector<ListedGrain> listed(const std::filesystem::path& file) {
   const std::string name = file.string();
@@ -85,13 +88,16 @@ std::vector<ListedGrain> listed(const std::filesystem::path& file) {
   std::vector<ListedGrain> grains;
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
-    if (line.empty() || line[0] == '#') continue;
+    if (line.empty() || line == "\r" || line[0] == '#') continue;
     const auto fields = fields_of(line);
     if (names.empty()) {
       names = fields;
       for (const auto& column : names)
         if (std::find(known.begin(), known.end(), column) == known.end())
           problems.push_back({name, number, 0, column, "unknown column", "x_mm, z_mm, diameter_mm, v_x_mm_s, v_z_mm_s, spin_rad_s"});
+      for (const auto& column : names)
+        if (std::count(names.begin(), names.end(), column) > 1)
+          problems.push_back({name, number, 0, column, "stands more than once", ""});
       for (int needed = 0; needed < 3; ++needed)
         if (std::find(names.begin(), names.end(), known[needed]) == names.end())
           problems.push_back({name, number, 0, known[needed], "missing column", ""});
@@ -107,6 +113,8 @@ std::vector<ListedGrain> listed(const std::filesystem::path& file) {
       const auto [end, error] = std::from_chars(fields[f].data(), fields[f].data() + fields[f].size(), value);
       if (error != std::errc{} || end != fields[f].data() + fields[f].size() || !std::isfinite(value))
         problems.push_back({name, number, 0, names[f], "'" + fields[f] + "'", "a finite number"});
+      else if (std::abs(value) > largest_allowed(names[f]))
+        problems.push_back({name, number, 0, names[f], fields[f], "up to " + std::to_string(largest_allowed(names[f]))});
       else if (names[f] == "diameter_mm" && value <= 0)
         problems.push_back({name, number, 0, names[f], fields[f], "> 0"});
       grain.value[names[f]] = value;
@@ -116,6 +124,17 @@ std::vector<ListedGrain> listed(const std::filesystem::path& file) {
   if (grains.empty() && problems.empty()) problems.push_back({name, 0, 0, "grains.listed.file", "lists no grains", ""});
   if (!problems.empty()) throw InputError(problems);
   return grains;
+}
+
+/// In a period shorter than three of the largest discs, of grains or walls, a grain would meet a neighbour on both sides.
+void check_period(const Scene& scene, const Bodies& bodies, double unit) {
+  if (!scene.periodic_x) return;
+  double largest = 2 * *std::max_element(bodies.radius.begin(), bodies.radius.end()) / unit;
+  for (const Wall& wall : scene.walls)
+    if (const auto* disc = std::get_if<DiscShape>(&wall.shape)) largest = std::max(largest, disc->diameter_mm);
+  if (scene.periodic_x->x_max_mm - scene.periodic_x->x_min_mm <= 3 * largest)
+    throw InputError({InputProblem{"", 0, 0, "periodic_x.x_max_mm", "the period is too short for discs of " +
+                                   std::to_string(largest) + " mm", "longer than 3 of the largest discs"}});
 }
 
 }  // namespace
@@ -149,6 +168,7 @@ Bodies place_grains(const Scene& scene, const Scales& scales) {
     }
   }
   if (scene.effects.spin) bodies.spin = spins;
+  check_period(scene, bodies, unit);
   return bodies;
 }
 

@@ -237,6 +237,12 @@ void check_stages(const Scene& scene, Faults& faults) {
                         fmt::format("\"{}\" stands twice", stage.name),
                         "a name of its own",
                         {stage_key(s) + ".name"}});
+    // It is a field of log.csv.
+    if (stage.name.find_first_of(",\"\n\r") != std::string::npos)
+      faults.push_back({stage_key(s) + ".name",
+                        "holds a comma, a quote or a line end",
+                        "a name without them",
+                        {stage_key(s) + ".name"}});
     check_motions(scene, s, faults);
     check_length(stage, stage_key(s), faults);
     check_steps(scene, s, faults);

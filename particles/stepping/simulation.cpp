@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "coupling/exchange/errors.hpp"
 #include "particles/scene/placement.hpp"
 
 namespace drumlin {
@@ -46,6 +47,32 @@ StepSolver solver_of(const Scene& scene) {
 
 }  // namespace
 
+namespace {
+
+/// A state from a file must fit its scene before anything indexes it.
+void check_state(const SimulationState& s, const Scene& scene, const TimePlan& plan, const Walls& walls) {
+  const auto require = [](bool good, const char* what) {
+    if (!good) throw InputError(std::string("checkpoint: ") + what + " do not fit the scene");
+  };
+  const std::size_t n = s.bodies.count(), contacts = s.memory.i.size();
+  for (const auto* values : {&s.bodies.z, &s.bodies.v_x, &s.bodies.v_z, &s.bodies.radius, &s.bodies.inverse_mass})
+    require(values->size() == n, "arrays of the grains");
+  require(n > 0 && s.bodies.spin.size() == (scene.effects.spin ? n : 0), "spins of the grains");
+  require(s.stage >= 0 && s.stage < static_cast<int>(plan.stages.size()), "stages");
+  require(s.step >= 0 && s.step <= plan.steps && s.step_in_stage >= 0 && s.step_in_stage <= plan.stages[s.stage].steps,
+          "steps");
+  require(s.pose_at_start.size() == walls.names.size(), "walls");
+  require(s.memory.j.size() == contacts && s.memory.impulse.size() == (scene.effects.friction ? 2 : 1) * contacts &&
+              (!scene.effects.restitution || s.memory.approach.size() == contacts),
+          "contacts");
+  for (std::size_t c = 0; c < contacts; ++c)
+    require(s.memory.i[c] >= 0 && s.memory.i[c] < static_cast<std::int64_t>(n) && s.memory.j[c] < static_cast<std::int64_t>(n),
+            "contacts");
+  for (const auto& mark : s.marks) require(mark.x.size() == n && mark.z.size() == n, "displacement windows");
+}
+
+}  // namespace
+
 Scales scales_of(const Scene& scene) {
   const double g = scene.effects.gravity ? scene.effects.gravity->acceleration_m_s2 : 9.81;
   return scales_of(mean_diameter_m(scene.grains), g > 0 ? g : 9.81, scene.grains.density_kg_m3);
@@ -76,6 +103,7 @@ Simulation::Simulation(const Scene& scene)
 Simulation::Simulation(const Scene& scene, SimulationState state)
     : scene_(scene), scales_(scales_of(scene)), plan_(time_plan(scene, scales_)), walls_(walls_of(scene, scales_)),
       state_(std::move(state)), stepper_(make_stepper(laws_of(scene, scales_), solver_of(scene))) {
+  check_state(state_, scene_, plan_, walls_);
   begin_stage(walls_, scene_.stages[state_.stage], scales_, 0);
   walls_.pose_at_start = state_.pose_at_start;
 }

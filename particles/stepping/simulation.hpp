@@ -57,6 +57,7 @@ class Simulation {
  public:
   /// Validates nothing but what only shows when grains are placed (InputError).
   explicit Simulation(const Scene& scene);
+  /// Continues from a state. Throws InputError when it does not fit the scene.
   Simulation(const Scene& scene, SimulationState state);
   ~Simulation();
 

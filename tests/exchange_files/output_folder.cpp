@@ -46,6 +46,14 @@ TEST(OutputFolder, OverwriteEmptiesOnlyAFolderOfOurs) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
+TEST(OutputFolder, OverwriteSparesAFolderThatHoldsAnInput) {
+  const TemporaryFolder folder;
+  folder.with("run.json", "{}");
+  const auto scene = folder.with("scene.toml", "mine");
+  EXPECT_THROW(prepare_output(folder.path(), ExistingOutput::overwrite, {"run.json"}, {scene}), InputError);
+  EXPECT_TRUE(std::filesystem::exists(scene));
+}
+
 TEST(OutputFolder, FileInItsPlaceIsRefusedAlways) {
   const TemporaryFolder folder;
   const auto file = folder.with("a", "text");

@@ -148,6 +148,12 @@ TEST(ContactProblemFile, WrittenProblemReadsBack) {
   EXPECT_EQ(a.mu, b.mu);
 }
 
+TEST(ContactProblemFile, EmptyFileIsRefusedWhateverLiesBeside) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "empty.h5").close();
+  EXPECT_THROW(read_contact_problem(folder.path() / "empty.h5"), InputError);
+}
+
 TEST(ContactProblemFile, FaultsAreRefused) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "p.h5";

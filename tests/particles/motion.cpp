@@ -109,6 +109,23 @@ TEST(SlideToRoll, EndsAtTwoThirdsOfTheSpeed) {
   EXPECT_NEAR(simulation.state().bodies.v_x[0], 2.0 / 3 * v0, 1e-9);
 }
 
+TEST(SlideWithoutSpin, StopsAfterItsEnergyIsSpent) {
+  // A disc that cannot turn slides like a block: it stops at t = v0 / (mu g).
+  const TemporaryFolder folder;
+  const double mu = 0.25, v0 = 0.5, h = 1e-3;
+  Scene scene = scene_of({{0, 0.5, 1, v0}}, folder);
+  scene.walls = {floor_wall()};
+  scene.effects.gravity = Gravity{};
+  scene.effects.friction = Friction{mu, mu};
+  add_stage(scene, 3, h);
+  Simulation simulation(scene);
+  while (!simulation.finished()) {
+    (void)simulation.step();
+    const double t = simulation.state().time();
+    ASSERT_NEAR(simulation.state().bodies.v_x[0], std::max(0.0, v0 - mu * t), 1e-9) << t;
+  }
+}
+
 /// Acceleration of a disc on a floor in gravity tilted by `slope_deg`.
 double acceleration_on_incline(double slope_deg, double mu) {
   const TemporaryFolder folder;
@@ -224,6 +241,36 @@ TEST(RotatingContainer, GrainOnTheWallTurnsWithItAndDoesNotDrift) {
   EXPECT_LT(farthest, 2e-4);
   EXPECT_NEAR(std::hypot(simulation.state().bodies.v_x[0], simulation.state().bodies.v_z[0]), 9.5 * spin, 0.01);
   EXPECT_NEAR(simulation.state().bodies.spin[0], spin, 0.01);
+}
+
+TEST(ThreeDiscs, OverAllGapsAnImpactGivesNoEnergy) {
+  // Uniform restitution, no friction. Above e = 0.7 the impacts of two contacts of one disc within a step can raise it:
+  // docs/decisions/position-projection.md.
+  for (const double e : {0.0, 0.46, 0.7})
+    for (int k = 0; k <= 40; ++k) {
+      const TemporaryFolder folder;
+      Scene scene = scene_of({{-1.02, 0, 1, 6}, {0, 0}, {1 + 0.02 * k, 0}}, folder);
+      scene.effects.restitution = Restitution{e, e};
+      add_stage(scene, 0.6, 0.0545);
+      Simulation simulation(scene);
+      double energy = kinetic_energy(simulation.state().bodies);
+      const double first = energy;
+      while (!simulation.finished()) (void)simulation.step();
+      ASSERT_LE(kinetic_energy(simulation.state().bodies), first * (1 + 1e-9)) << e << ' ' << k;
+    }
+}
+
+TEST(FastDisc, PushesItsTargetOntoTheNextNotThroughIt) {
+  const TemporaryFolder folder;
+  Scene scene = scene_of({{-1, 0, 1, 200}, {0, 0}, {1.5, 0}}, folder);
+  add_stage(scene, 0.5, 0.05);
+  Simulation simulation(scene);
+  while (!simulation.finished()) {
+    (void)simulation.step();
+    const Bodies& b = simulation.state().bodies;
+    ASSERT_LT(b.x[0] + 1, b.x[1] + 1e-3);
+    ASSERT_LT(b.x[1] + 1, b.x[2] + 1e-3);
+  }
 }
 
 TEST(StepRefinement, ErrorIsOfFirstOrder) {

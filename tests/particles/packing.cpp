@@ -127,6 +127,50 @@ TEST(Frame, GalileanShiftChangesNothing) {
   }
 }
 
+TEST(Frame, RotationTurnsTheResultWithIt) {
+  // The same heap in gravity turned by 30 degrees, positions and velocities turned with it.
+  const double angle = std::numbers::pi / 6, c = std::cos(angle), s = std::sin(angle);
+  const auto turned = [c, s](Grain g) {
+    return Grain{c * g.x - s * g.z, s * g.x + c * g.z, g.diameter, c * g.v_x - s * g.v_z, s * g.v_x + c * g.v_z, g.spin};
+  };
+  std::vector<Grain> grains, other;
+  for (int k = 0; k < 9; ++k) grains.push_back({1.01 * (k % 3) + 0.3 * (k / 3), 0.5 + 1.02 * (k / 3), 1, 0.1 * k, -0.3});
+  for (const Grain& g : grains) other.push_back(turned(g));
+  const auto end = [](const std::vector<Grain>& list, Point_mm from, Point_mm to, double down_deg) {
+    const TemporaryFolder folder;
+    Scene scene = scene_of(list, folder);
+    scene.walls = {{"floor", SegmentShape{from, to}}};
+    scene.effects = {Gravity{9.81, down_deg}, Friction{0.3, 0.3}, std::nullopt, Spin{}};
+    scene.solver.max_sweeps = 20000;
+    add_stage(scene, 0.5, 0.01);
+    Simulation simulation(scene);
+    while (!simulation.finished()) (void)simulation.step();
+    return simulation.state().bodies;
+  };
+  const Bodies a = end(grains, {-20, 0}, {20, 0}, -90), b = end(other, {-20 * c, -20 * s}, {20 * c, 20 * s}, -60);
+  for (std::size_t k = 0; k < a.count(); ++k) {
+    EXPECT_NEAR(b.x[k], c * a.x[k] - s * a.z[k], 1e-5) << k;
+    EXPECT_NEAR(b.z[k], s * a.x[k] + c * a.z[k], 1e-5) << k;
+    EXPECT_NEAR(b.spin[k], a.spin[k], 1e-4) << k;
+  }
+}
+
+TEST(Restart, StateOfAnotherSceneIsRefused) {
+  Simulation first(small_drum());
+  while (first.state().memory.i.empty()) (void)first.step();
+  const auto refused = [&first](auto change) {
+    SimulationState state = first.state();
+    change(state);
+    EXPECT_THROW(Simulation(small_drum(), state), InputError);
+  };
+  refused([](SimulationState& s) { s.stage = 7; });
+  refused([](SimulationState& s) { s.bodies.v_x.pop_back(); });
+  refused([](SimulationState& s) { s.bodies.spin.clear(); });
+  refused([](SimulationState& s) { s.memory.impulse.pop_back(); });
+  refused([](SimulationState& s) { s.memory.j[0] = 1 << 20; });
+  refused([](SimulationState& s) { s.pose_at_start.clear(); });
+}
+
 TEST(Overlap, JammedStartOpensSlowlyAndGivesNoKineticEnergy) {
   // Nine discs squeezed into a box by 5 %: nothing moves but the projection.
   const TemporaryFolder folder;
@@ -240,6 +284,20 @@ TEST(Random, StreamsAreFixedForeverAndApart) {
   double sum = 0;
   for (int k = 0; k < 10000; ++k) sum += a.uniform();
   EXPECT_NEAR(sum / 10000, 0.5, 5 * std::sqrt(1.0 / 12 / 10000));
+}
+
+TEST(Placement, PeriodShorterThanThreeDiscsIsRefused) {
+  const TemporaryFolder folder;
+  Scene scene = scene_of({{0, 2}}, folder);
+  scene.periodic_x = PeriodicX{-0.75, 0.75};
+  EXPECT_THROW(place_grains(scene, scales_of(scene)), InputError);
+}
+
+TEST(Placement, ListedNumbersOutOfBoundsAreRefused) {
+  const TemporaryFolder folder;
+  EXPECT_THROW(scales_of(scene_of({{0, 0, 1e308}}, folder)), InputError);
+  const Scene far = scene_of({{1e308, 0}, {0, 0}}, folder);
+  EXPECT_THROW(scales_of(far), InputError);
 }
 
 TEST(Placement, RegionThatIsTooSmallIsRefused) {

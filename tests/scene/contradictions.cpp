@@ -30,6 +30,10 @@ TEST(Contradiction, FrictionWithoutSpinIsNone) {
   EXPECT_TRUE(testing::scene_problems(replaced(example_scene, "[effects.spin]\n", "")).empty());
 }
 
+TEST(Contradiction, StageNameThatBreaksTheLog) {
+  expect_problem(example_scene, {"stages.1.name=\"b,c\""}, "stages.1.name", "comma");
+}
+
 TEST(Contradiction, StageWithBothLengthsOrNone) {
   expect_problem(example_scene, {"stages.1.duration_s=1"}, "stages.1.turns", "excludes duration_s");
   expect_problem(replaced(example_scene, "duration_s = 0.1\n", ""), {}, "s.toml:19:1: stages.0.duration_s",
