@@ -1,6 +1,6 @@
 #pragma once
-// The commands of `drumlin`: what the command line fills in and the function that does it. Each throws the errors of
-// coupling/exchange/errors.hpp; drumlin.cpp turns them into exit codes.
+// The commands of `drumlin`: what the command line fills in and the function that does it. Each throws the
+// errors of coupling/exchange/errors.hpp; drumlin.cpp turns them into exit codes.
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -22,9 +22,9 @@ int run(const RunOptions&);
 
 struct MeasureOptions {
   std::filesystem::path run;
-  double slice_width = 20;      ///< d
-  double layer_thickness = 1;   ///< d
-  double position = 0;          ///< x of the slice, d
+  double slice_width = 20;     ///< d
+  double layer_thickness = 1;  ///< d
+  double position = 0;         ///< x of the slice, d
   ExistingOutput existing = ExistingOutput::refuse;
 };
 int measure(const MeasureOptions&);
@@ -45,7 +45,8 @@ struct FlowOptions {
   std::vector<std::string> overrides;
   ExistingOutput existing = ExistingOutput::refuse;
 };
-/// Starts `drumlin-flow`, which stands beside the running executable, with the same words; returns its exit code.
+/// Starts `drumlin-flow`, which stands beside the running executable, with the same words; returns its exit
+/// code.
 int flow(const FlowOptions&);
 
 struct CompareOptions {

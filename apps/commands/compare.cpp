@@ -104,12 +104,14 @@ ProfileSet overlaid(const Inputs& inputs) {
 
 std::vector<ReportFigure> drawn_figures(const Inputs& inputs, const fs::path& output, const Json& content) {
   const Json H = content["scalars"]["H"]["particles"]["value"];
-  draw_figures("compare_figures.py", {"--particles", inputs.particle_profiles.string(), "--continuum",
-                                      inputs.continuum_profiles.string(), "--snapshot", inputs.snapshot.string(),
-                                      "--maps", inputs.maps.string(), "--output", output.string(), "--depth",
-                                      H.is_number() ? fmt::format("{}", H.get<double>()) : "nan"});
+  draw_figures(
+      "compare_figures.py",
+      {"--particles", inputs.particle_profiles.string(), "--continuum", inputs.continuum_profiles.string(),
+       "--snapshot", inputs.snapshot.string(), "--maps", inputs.maps.string(), "--output", output.string(),
+       "--depth", H.is_number() ? fmt::format("{}", H.get<double>()) : "nan"});
   return {{output / "drums.png",
-           "Speed in the frame of the drum, on one colour scale: grains of the last snapshot, and the continuum."},
+           "Speed in the frame of the drum, on one colour scale: grains of the last snapshot, and the "
+           "continuum."},
           {output / "velocity.png",
            "Velocity along the surface, linear and logarithmic, with the particles' 99 % band."},
           {output / "shear_rate.png", "Shear rate. Where the band reaches zero its sign is not known."},

@@ -1,4 +1,5 @@
-// drumlin run: a particle run from a scene to snapshots, log and run.json; interruptible, and continued bit for bit.
+// drumlin run: a particle run from a scene to snapshots, log and run.json; interruptible, and continued bit
+// for bit.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -36,7 +37,9 @@ double seconds_between(Clock::time_point from, Clock::time_point to) {
 double cpu_seconds() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
@@ -52,12 +55,15 @@ class RunLog {
   RunLog(const fs::path& file, std::int64_t keep_bytes) : file_(file) {
     if (keep_bytes > 0) {
       if (!fs::exists(file) || fs::file_size(file) < static_cast<std::uintmax_t>(keep_bytes))
-        throw InputError(file.string() + ": is missing or shorter than the checkpoint says; start over with --overwrite");
+        throw InputError(file.string() +
+                         ": is missing or shorter than the checkpoint says; start over with --overwrite");
       fs::resize_file(file, static_cast<std::uintmax_t>(keep_bytes));
     }
     out_.open(file, keep_bytes > 0 ? std::ios::app : std::ios::trunc);
     if (keep_bytes == 0)
-      write("step,time_s,stage,contacts,sweeps,residual,residual_max,penetration,overlap_mean,overlap_max,kinetic_energy,converged\n");
+      write(
+          "step,time_s,stage,contacts,sweeps,residual,residual_max,penetration,overlap_mean,overlap_max,"
+          "kinetic_energy,converged\n");
     bytes_ += keep_bytes;
   }
   void write(const std::string& line) {
@@ -85,7 +91,8 @@ class RunLog {
 /// HDF5 files of a run, one at a time; with more than one thread beside the computation.
 class BackgroundWriter {
  public:
-  explicit BackgroundWriter(bool in_background) : policy_(in_background ? std::launch::async : std::launch::deferred) {}
+  explicit BackgroundWriter(bool in_background)
+      : policy_(in_background ? std::launch::async : std::launch::deferred) {}
   template <class Job>
   void write(Job job) {
     wait();
@@ -104,10 +111,15 @@ class BackgroundWriter {
 
 class ParticleRun {
  public:
-  ParticleRun(const RunOptions& options, const Scene& scene, std::string resolved, std::optional<Checkpoint> from)
-      : options_(options), scene_(scene), resolved_(std::move(resolved)), totals_(from ? from->totals : RunTotals{}),
+  ParticleRun(const RunOptions& options, const Scene& scene, std::string resolved,
+              std::optional<Checkpoint> from)
+      : options_(options),
+        scene_(scene),
+        resolved_(std::move(resolved)),
+        totals_(from ? from->totals : RunTotals{}),
         simulation_(from ? Simulation(scene, std::move(from->state)) : Simulation(scene)),
-        log_(options.output / "log.csv", from ? from->log_bytes : 0), writer_(options.threads > 1) {}
+        log_(options.output / "log.csv", from ? from->log_bytes : 0),
+        writer_(options.threads > 1) {}
 
   int execute() {
     start_ = Clock::now();
@@ -149,7 +161,8 @@ class ParticleRun {
     totals_.solver_seconds += last_.solve.seconds;
     if (state.step % scene_.output.log_every_steps == 0 || simulation_.finished()) log_step(converged);
     if (simulation_.snapshot_due()) save_snapshot();
-    if (!converged && (scene_.solver.stop_when_unconverged || last_.solve.status == Status::not_finite)) fail();
+    if (!converged && (scene_.solver.stop_when_unconverged || last_.solve.status == Status::not_finite))
+      fail();
   }
 
   void log_step(bool converged) {
@@ -158,13 +171,15 @@ class ParticleRun {
     log_.write(fmt::format("{},{:.9g},{},{},{},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.9g},{}\n", state.step,
                            simulated_seconds(), scene_.stages[state.stage].name, last_.contacts,
                            last_.solve.sweeps, judged.residual, judged.residual_max, judged.penetration,
-                           last_.overlap.mean, last_.overlap.max, kinetic_energy(state.bodies), converged ? 1 : 0));
+                           last_.overlap.mean, last_.overlap.max, kinetic_energy(state.bodies),
+                           converged ? 1 : 0));
   }
 
   void save_snapshot() {
     const auto begin = Clock::now();
     Snapshot snapshot = simulation_.take_snapshot();
-    const fs::path file = options_.output / "snapshots" / fmt::format("{:06}.h5", simulation_.state().snapshots);
+    const fs::path file =
+        options_.output / "snapshots" / fmt::format("{:06}.h5", simulation_.state().snapshots);
     writer_.write([file, snapshot = std::move(snapshot)] { write_snapshot(file, snapshot); });
     totals_.output_seconds += seconds_between(begin, Clock::now());
   }
@@ -216,14 +231,15 @@ class ParticleRun {
                           {"residual_max", t.residual_max},
                           {"overlap_mean", t.overlap_sum / steps},
                           {"overlap_max", t.overlap_max}};
-    report["cost"] = {{"contacts_mean", static_cast<double>(t.contacts) / steps},
-                      {"sweeps_mean", static_cast<double>(t.sweeps) / steps},
-                      {"ns_per_contact_and_sweep", t.contact_sweeps > 0 ? 1e9 * t.solver_seconds / t.contact_sweeps : 0},
-                      {"detection_seconds", t.detection_seconds},
-                      {"solver_seconds", t.solver_seconds},
-                      {"output_seconds", t.output_seconds},
-                      {"unknowns_per_contact", simulation_.stepper().unknowns_per_contact()},
-                      {"velocities_per_body", simulation_.stepper().velocities_per_body()}};
+    report["cost"] = {
+        {"contacts_mean", static_cast<double>(t.contacts) / steps},
+        {"sweeps_mean", static_cast<double>(t.sweeps) / steps},
+        {"ns_per_contact_and_sweep", t.contact_sweeps > 0 ? 1e9 * t.solver_seconds / t.contact_sweeps : 0},
+        {"detection_seconds", t.detection_seconds},
+        {"solver_seconds", t.solver_seconds},
+        {"output_seconds", t.output_seconds},
+        {"unknowns_per_contact", simulation_.stepper().unknowns_per_contact()},
+        {"velocities_per_body", simulation_.stepper().velocities_per_body()}};
     report["scales"] = to_json(simulation_.scales());
     report["provenance"] = to_json(provenance());
     write_json(options_.output / "run.json", report);
@@ -235,21 +251,25 @@ class ParticleRun {
     const double spent = seconds_between(start_, Clock::now());
     const double done = static_cast<double>(state.step - steps_before_);
     const double left = done > 0 ? spent / done * static_cast<double>(total - state.step) : 0;
-    return fmt::format("{}run {:5.1f} %  {}  t = {:.2f} s  contacts {}  sweeps {}  residual {:.1e}  overlap {:.1e} d  missed {}  left {}",
-                       scene_.reduced ? "reduced " : "", 100.0 * static_cast<double>(state.step) / static_cast<double>(total),
-                       scene_.stages[state.stage].name, simulated_seconds(), last_.contacts,
-                       last_.solve.sweeps, last_.solve.judgement.residual, last_.overlap.mean, totals_.unconverged_steps,
-                       duration_text(left));
+    return fmt::format(
+        "{}run {:5.1f} %  {}  t = {:.2f} s  contacts {}  sweeps {}  residual {:.1e}  overlap {:.1e} d  "
+        "missed {}  left {}",
+        scene_.reduced ? "reduced " : "",
+        100.0 * static_cast<double>(state.step) / static_cast<double>(total), scene_.stages[state.stage].name,
+        simulated_seconds(), last_.contacts, last_.solve.sweeps, last_.solve.judgement.residual,
+        last_.overlap.mean, totals_.unconverged_steps, duration_text(left));
   }
 
   void print_summary() const {
     const RunTotals t = totals_now();
     const double steps = static_cast<double>(simulation_.state().step);
-    fmt::print("{}{} steps, {} snapshots in {} ({:.0f} s of processor time); {} steps missed a tolerance (residual {:g}, penetration {:g} d)\n"
-               "mean residual {:.2g}, mean overlap {:.2g} d, largest {:.2g} d\n",
-               scene_.reduced ? "reduced: " : "", simulation_.state().step, simulation_.state().snapshots,
-               duration_text(t.wall_seconds), t.cpu_seconds, t.unconverged_steps, scene_.solver.tolerance,
-               scene_.solver.penetration_tolerance, t.residual_sum / steps, t.overlap_sum / steps, t.overlap_max);
+    fmt::print(
+        "{}{} steps, {} snapshots in {} ({:.0f} s of processor time); {} steps missed a tolerance (residual "
+        "{:g}, penetration {:g} d)\n"
+        "mean residual {:.2g}, mean overlap {:.2g} d, largest {:.2g} d\n",
+        scene_.reduced ? "reduced: " : "", simulation_.state().step, simulation_.state().snapshots,
+        duration_text(t.wall_seconds), t.cpu_seconds, t.unconverged_steps, scene_.solver.tolerance,
+        scene_.solver.penetration_tolerance, t.residual_sum / steps, t.overlap_sum / steps, t.overlap_max);
   }
 
   int stop_for(int signal) {
@@ -268,9 +288,10 @@ class ParticleRun {
     progress_.finish();
     const auto& judged = last_.solve.judgement;
     throw NotConvergedError(fmt::format(
-        "step {}: contact solver {} ({}) after {} sweeps: residual {:.3g} (tolerance {:g}), penetration {:.3g} d (tolerance {:g})",
-        simulation_.state().step, scene_.solver.name, to_string(last_.solve.status), last_.solve.sweeps, judged.residual,
-        scene_.solver.tolerance, judged.penetration, scene_.solver.penetration_tolerance));
+        "step {}: contact solver {} ({}) after {} sweeps: residual {:.3g} (tolerance {:g}), penetration "
+        "{:.3g} d (tolerance {:g})",
+        simulation_.state().step, scene_.solver.name, to_string(last_.solve.status), last_.solve.sweeps,
+        judged.residual, scene_.solver.tolerance, judged.penetration, scene_.solver.penetration_tolerance));
   }
 
   RunOptions options_;
@@ -289,13 +310,15 @@ class ParticleRun {
 };
 
 bool is_finished(const fs::path& output) {
-  return fs::exists(output / "run.json") && read_json(output / "run.json", "drumlin-run-1").value("status", "") == "finished";
+  return fs::exists(output / "run.json") &&
+         read_json(output / "run.json", "drumlin-run-1").value("status", "") == "finished";
 }
 
 /// A folder continues only the scene that it was made from.
 void same_scene_or_refuse(const fs::path& output, const std::string& theirs, const std::string& ours) {
   if (theirs != ours)
-    throw InputError(output.string() + ": was made from another scene (compare its scene.toml with `drumlin scene show`); "
+    throw InputError(output.string() +
+                     ": was made from another scene (compare its scene.toml with `drumlin scene show`); "
                      "use --overwrite to start over");
 }
 

@@ -39,9 +39,10 @@ int solve_contacts(const SolveContactsOptions& options) {
                                             {"tolerance", options.tolerance}};
     fmt::print("{}\n", printed.dump(2));
   } else {
-    fmt::print("{} contacts, {}: {} after {} sweeps, {:.3g} s; residual {:.3g} (tolerance {:g}), largest {:.3g}\n",
-               problem.contacts(), options.solver, to_string(report.status), report.sweeps, report.seconds,
-               report.judgement.residual, options.tolerance, report.judgement.residual_max);
+    fmt::print(
+        "{} contacts, {}: {} after {} sweeps, {:.3g} s; residual {:.3g} (tolerance {:g}), largest {:.3g}\n",
+        problem.contacts(), options.solver, to_string(report.status), report.sweeps, report.seconds,
+        report.judgement.residual, options.tolerance, report.judgement.residual_max);
   }
   return static_cast<int>(report.status == Status::converged ? ExitCode::done : ExitCode::not_converged);
 }

@@ -18,8 +18,10 @@ bool Progress::due() const {
 void Progress::show(const std::string& line) {
   last_ = std::chrono::steady_clock::now();
   open_ = on_terminal();
-  if (open_) fmt::print(stderr, "\r{:<{}}", line, width_);
-  else fmt::print(stderr, "{}\n", line);
+  if (open_)
+    fmt::print(stderr, "\r{:<{}}", line, width_);
+  else
+    fmt::print(stderr, "{}\n", line);
   width_ = line.size();
   std::fflush(stderr);
 }

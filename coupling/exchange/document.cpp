@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-// Its tables of letters run into __builtin_unreachable on letters that are merely no part of a bare key (U+01D4, found by
-// fuzzing): there, and only there, the macro answers "no such letter".
+// Its tables of letters run into __builtin_unreachable on letters that are merely no part of a bare key
+// (U+01D4, found by fuzzing): there, and only there, the macro answers "no such letter".
 #include <toml++/impl/preprocessor.h>
 #pragma push_macro("TOML_UNREACHABLE")
 #undef TOML_UNREACHABLE

@@ -1,6 +1,6 @@
 #pragma once
-// A TOML file as a tree that remembers where each value stands, and one description of keys that reads, checks,
-// writes and lists them. toml++ is included by document.cpp alone.
+// A TOML file as a tree that remembers where each value stands, and one description of keys that reads,
+// checks, writes and lists them. toml++ is included by document.cpp alone.
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -30,11 +30,12 @@ struct Document {
   Node root;
 };
 
-/// Reads a TOML file of at most 1 MiB without NUL bytes. `overrides` are texts "path.to.key=value" (array entries by
-/// index: "stages.1.time_step_s=2e-3"), the value in TOML syntax, a bare word counting as text.
+/// Reads a TOML file of at most 1 MiB without NUL bytes. `overrides` are texts "path.to.key=value" (array
+/// entries by index: "stages.1.time_step_s=2e-3"), the value in TOML syntax, a bare word counting as text.
 /// Throws InputError (file, line, column) on wrong syntax, on a missing or empty file, on a folder.
 Document read_toml(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 /// The same from a text; `name` stands for the file in messages.
-Document parse_toml(const std::string& text, const std::string& name, const std::vector<std::string>& overrides = {});
+Document parse_toml(const std::string& text, const std::string& name,
+                    const std::vector<std::string>& overrides = {});
 
 }  // namespace drumlin

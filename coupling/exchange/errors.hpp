@@ -7,7 +7,8 @@
 namespace drumlin {
 
 /// One fault of an input: where it stands, which key, what is wrong and what would be allowed.
-/// line and column count from 1; 0 means that the fault has no place in a file (a command-line override, say).
+/// line and column count from 1; 0 means that the fault has no place in a file (a command-line override,
+/// say).
 struct InputProblem {
   std::string file;
   int line = 0;
@@ -43,6 +44,13 @@ class IoError : public std::runtime_error {
 };
 
 /// Exit codes of every program (docs/conventions.md).
-enum class ExitCode : int { done = 0, wrong_input = 2, not_converged = 3, input_output = 74, interrupted = 130, terminated = 143 };
+enum class ExitCode : int {
+  done = 0,
+  wrong_input = 2,
+  not_converged = 3,
+  input_output = 74,
+  interrupted = 130,
+  terminated = 143
+};
 
 }  // namespace drumlin

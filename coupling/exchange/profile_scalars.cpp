@@ -43,9 +43,10 @@ double interpolated(const std::vector<double>& z, const std::vector<double>& val
   return none;
 }
 
-/// Trapezoids over nu v_x. Layers without a grain carry nothing at the wall and above the surface; a gap inside the
-/// packing would be a hole in the data and makes Q NaN.
-double flow_rate(const std::vector<double>& z, const std::vector<double>& v_x, const std::vector<double>& nu) {
+/// Trapezoids over nu v_x. Layers without a grain carry nothing at the wall and above the surface; a gap
+/// inside the packing would be a hole in the data and makes Q NaN.
+double flow_rate(const std::vector<double>& z, const std::vector<double>& v_x,
+                 const std::vector<double>& nu) {
   double sum = 0;
   std::optional<double> z_before;
   double flux_before = 0;
@@ -81,8 +82,8 @@ void fit_flowing_layer(const std::vector<double>& z, const std::vector<double>& 
 }
 
 /// The exponential tail of the shear rate below the flowing layer.
-void fit_decay(const std::vector<double>& z, const std::vector<double>& rate, const ProfileScalarOptions& options,
-               ProfileScalars& scalars) {
+void fit_decay(const std::vector<double>& z, const std::vector<double>& rate,
+               const ProfileScalarOptions& options, ProfileScalars& scalars) {
   const double from = -scalars.H - options.decay_from;
   const double to = -scalars.H - options.decay_to;
   std::size_t lowest = 0;

@@ -15,10 +15,10 @@ struct ProfileColumn {
   std::vector<double> ci99;  ///< half width of the 99 % interval; empty when the quantity has none
 };
 
-/// Profile at one position x. z counts from the free surface (negative below it), one entry per layer, ascending;
-/// dimensionless (docs/conventions.md), in the frame of the drum.
-/// Names of the columns, the same on both sides: v_x, v_z, shear_rate (dv_x/dz), omega, nu, sigma_xx, sigma_zz,
-/// sigma_xz, I, mu, k, dv, domega, count.
+/// Profile at one position x. z counts from the free surface (negative below it), one entry per layer,
+/// ascending; dimensionless (docs/conventions.md), in the frame of the drum. Names of the columns, the same
+/// on both sides: v_x, v_z, shear_rate (dv_x/dz), omega, nu, sigma_xx, sigma_zz, sigma_xz, I, mu, k, dv,
+/// domega, count.
 struct ProfileSet {
   std::vector<double> z;
   std::vector<ProfileColumn> columns;
@@ -28,10 +28,11 @@ struct ProfileSet {
   const ProfileColumn& column(const std::string& name) const;  ///< throws InputError if it is missing
 };
 
-/// profiles.csv, version 1: "# drumlin-profiles-1", "# key = value" lines, a line of names (z, then each column and, if it
-/// has one, NAME_ci99), then one line per layer. NaN is written as an empty field.
+/// profiles.csv, version 1: "# drumlin-profiles-1", "# key = value" lines, a line of names (z, then each
+/// column and, if it has one, NAME_ci99), then one line per layer. NaN is written as an empty field.
 void write_profiles(const std::filesystem::path& file, const ProfileSet& profiles);
-/// Throws InputError (file, line) on what it does not understand, another version, unequal lengths, unsorted z.
+/// Throws InputError (file, line) on what it does not understand, another version, unequal lengths, unsorted
+/// z.
 ProfileSet read_profiles(const std::filesystem::path& file);
 
 }  // namespace drumlin

@@ -5,7 +5,8 @@
 namespace drumlin {
 
 struct Provenance {
-  std::string revision;  ///< git revision of the sources at configure time, "-dirty" appended if they were changed
+  std::string
+      revision;  ///< git revision of the sources at configure time, "-dirty" appended if they were changed
   std::string compiler;
   std::string build_type;
   std::string machine;  ///< processor model

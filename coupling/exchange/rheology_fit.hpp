@@ -8,7 +8,8 @@
 
 namespace drumlin {
 
-/// mu(I) = a + b ln I (natural logarithm), with the covariance of (a, b) and the range of I that it was fitted on.
+/// mu(I) = a + b ln I (natural logarithm), with the covariance of (a, b) and the range of I that it was
+/// fitted on.
 struct LogFriction {
   double a = 0;
   double b = 0;
@@ -17,7 +18,8 @@ struct LogFriction {
   double I_max = 0;
 };
 
-/// k(I) = sigma_xx/sigma_zz as a table, linear in ln I between its points and constant outside; absent: no k in the law.
+/// k(I) = sigma_xx/sigma_zz as a table, linear in ln I between its points and constant outside; absent: no k
+/// in the law.
 struct NormalStressRatio {
   std::vector<double> I;  ///< ascending
   std::vector<double> k;
@@ -27,11 +29,11 @@ struct NormalStressRatio {
 struct RheologyFit {
   LogFriction mu;
   std::optional<NormalStressRatio> k;
-  double nu = 0;                        ///< volume fraction of the bulk
+  double nu = 0;  ///< volume fraction of the bulk
   std::optional<double> nu_ci99;
-  std::optional<double> rms_misfit;     ///< of mu about the fit
-  std::vector<std::string> fitted_on;   ///< runs
-  bool reduced = false;                 ///< fitted on a reduced (smoke) run
+  std::optional<double> rms_misfit;    ///< of mu about the fit
+  std::vector<std::string> fitted_on;  ///< runs
+  bool reduced = false;                ///< fitted on a reduced (smoke) run
 };
 
 /// rheology.toml, version 1 (docs/formats/rheology.md). Throws InputError with line, key, allowed range.

@@ -7,7 +7,8 @@
 
 namespace drumlin {
 
-/// A measured or computed number; no interval where it is not a measurement, NaN where it was not computed (null in JSON).
+/// A measured or computed number; no interval where it is not a measurement, NaN where it was not computed
+/// (null in JSON).
 struct Scalar {
   std::string name;
   double value = 0;
@@ -21,8 +22,8 @@ struct ScalarSet {
   double value(const std::string& name) const;  ///< throws InputError if it is missing
 };
 
-/// Reads every top-level key of a JSON object whose value is a number or {"value": , "ci99": }; other keys are skipped.
-/// Throws InputError when the file is missing, no JSON, or its "format" is not `format`.
+/// Reads every top-level key of a JSON object whose value is a number or {"value": , "ci99": }; other keys
+/// are skipped. Throws InputError when the file is missing, no JSON, or its "format" is not `format`.
 ScalarSet read_scalars(const std::filesystem::path& json_file, const std::string& format);
 
 }  // namespace drumlin

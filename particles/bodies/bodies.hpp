@@ -5,11 +5,12 @@
 
 namespace drumlin {
 
-/// One entry per grain. Mass and moment of inertia follow from the radius: m = pi r^2, J = m r^2 / 2 (rho0 = 1, per unit depth).
+/// One entry per grain. Mass and moment of inertia follow from the radius: m = pi r^2, J = m r^2 / 2 (rho0 =
+/// 1, per unit depth).
 struct Bodies {
-  std::vector<double> x, z;        ///< in a periodic domain not wrapped back: displacements stay meaningful
+  std::vector<double> x, z;  ///< in a periodic domain not wrapped back: displacements stay meaningful
   std::vector<double> v_x, v_z;
-  std::vector<double> spin;        ///< empty when the scene has no spin; positive clockwise as drawn (z up)
+  std::vector<double> spin;  ///< empty when the scene has no spin; positive clockwise as drawn (z up)
   std::vector<double> radius;
   std::vector<double> inverse_mass;
 

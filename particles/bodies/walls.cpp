@@ -53,7 +53,8 @@ Pose displacement(const Motion& motion, double time) {
     const Point turned = moved({angle, 0, 0}, turning->center);
     return {angle, turning->center.x - turned.x, turning->center.z - turned.z};
   }
-  if (const auto* gliding = std::get_if<Gliding>(&motion)) return {0, gliding->v_x * time, gliding->v_z * time};
+  if (const auto* gliding = std::get_if<Gliding>(&motion))
+    return {0, gliding->v_x * time, gliding->v_z * time};
   return {};
 }
 

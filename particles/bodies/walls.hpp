@@ -1,6 +1,6 @@
 #pragma once
-// Walls: rigid shapes that move as told. Their poses are functions of time, never integrated, so that a drum turned a
-// thousand times is still where its angle says.
+// Walls: rigid shapes that move as told. Their poses are functions of time, never integrated, so that a drum
+// turned a thousand times is still where its angle says.
 #include <string>
 #include <variant>
 #include <vector>
@@ -50,11 +50,11 @@ Pose displacement(const Motion&, double time);
 
 /// All walls of a scene. A shape's index is its place in `shapes`; shapes of one name belong to one wall.
 struct Walls {
-  std::vector<std::string> names;      ///< one per wall
-  std::vector<Shape> reference;        ///< as in the scene
+  std::vector<std::string> names;  ///< one per wall
+  std::vector<Shape> reference;    ///< as in the scene
   std::vector<int> wall_of_shape;
-  std::vector<Motion> motion;          ///< one per wall, of the current stage
-  std::vector<Pose> pose_at_start;     ///< one per wall, when the current stage began
+  std::vector<Motion> motion;       ///< one per wall, of the current stage
+  std::vector<Pose> pose_at_start;  ///< one per wall, when the current stage began
 
   Pose pose(int wall, double time_in_stage) const;
   /// Shapes at a time of the current stage.

@@ -12,8 +12,8 @@ Eigen::Vector2d solve_planar_contact(const Eigen::Matrix2d& W, const Eigen::Vect
                                 -(W(0, 0) * q[1] - W(1, 0) * q[0]) / determinant);
     if (stick[0] >= 0 && std::abs(stick[1]) <= mu * stick[0]) return stick;
   }
-  // Sliding with r_t = s mu r_n needs u_t of the sign -s; where both or neither fit (|W_nt| large), the one whose wrong
-  // sliding velocity is smaller.
+  // Sliding with r_t = s mu r_n needs u_t of the sign -s; where both or neither fit (|W_nt| large), the one
+  // whose wrong sliding velocity is smaller.
   Eigen::Vector2d best = Eigen::Vector2d::Zero();
   double best_fault = std::numeric_limits<double>::infinity();
   for (const double s : {1.0, -1.0}) {
@@ -53,12 +53,13 @@ void BlockDelassus::velocities(std::span<const double> r, std::span<const double
   }
 }
 
-double BlockDelassus::sweep(std::span<const double> q, std::span<const double> mu, std::span<double> r, State& state,
-                            std::span<double> step) const {
+double BlockDelassus::sweep(std::span<const double> q, std::span<const double> mu, std::span<double> r,
+                            State& state, std::span<double> step) const {
   double sum = 0;
   for (int a = 0; a < contacts(); ++a) {
     const Eigen::Vector2d old(state[2 * a], state[2 * a + 1]);
-    const Eigen::Vector2d free = row_times(a, state) - diagonal[a] * old + Eigen::Vector2d(q[2 * a], q[2 * a + 1]);
+    const Eigen::Vector2d free =
+        row_times(a, state) - diagonal[a] * old + Eigen::Vector2d(q[2 * a], q[2 * a + 1]);
     const Eigen::Vector2d fresh = solve_planar_contact(diagonal[a], free, mu[a]);
     for (int c = 0; c < 2; ++c) {
       state[2 * a + c] = r[2 * a + c] = fresh[c];

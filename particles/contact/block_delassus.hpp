@@ -9,8 +9,9 @@
 
 namespace drumlin {
 
-/// Exact solution of one planar frictional contact u = W r + q with a full 2x2 block: no contact, sticking, or sliding
-/// forwards or backwards, whichever satisfies its own inequalities. W must be positive definite on its diagonal.
+/// Exact solution of one planar frictional contact u = W r + q with a full 2x2 block: no contact, sticking,
+/// or sliding forwards or backwards, whichever satisfies its own inequalities. W must be positive definite on
+/// its diagonal.
 Eigen::Vector2d solve_planar_contact(const Eigen::Matrix2d& W, const Eigen::Vector2d& q, double mu);
 
 /// Rows of blocks (compressed); `diagonal[a]` repeats W_aa, which the sweeps need at once.
@@ -27,7 +28,8 @@ class BlockDelassus {
   int contacts() const { return static_cast<int>(diagonal.size()); }
   void load(State& state, std::span<const double> r) const { state.assign(r.begin(), r.end()); }
   double largest_eigenvalue(int a) const;
-  void velocities(std::span<const double> r, std::span<const double> q, State& scratch, std::vector<double>& u) const;
+  void velocities(std::span<const double> r, std::span<const double> q, State& scratch,
+                  std::vector<double>& u) const;
   double sweep(std::span<const double> q, std::span<const double> mu, std::span<double> r, State& state,
                std::span<double> step) const;
   static std::span<double> numbers(State& state) { return state; }

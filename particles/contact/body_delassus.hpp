@@ -1,7 +1,7 @@
 #pragma once
 // W = H M^-1 H^T of discs, never assembled: a contact reads and writes the velocities of its two bodies.
-// For discs W_nt = 0 and W_tt = 3 W_nn with spin (J = m r^2 / 2), W_tt = W_nn without, so a contact is solved exactly
-// by one max and one clamp.
+// For discs W_nt = 0 and W_tt = 3 W_nn with spin (J = m r^2 / 2), W_tt = W_nn without, so a contact is solved
+// exactly by one max and one clamp.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -12,9 +12,10 @@
 
 namespace drumlin {
 
-/// Velocity change of a body and what turns an impulse into it. With spin, `s` is r omega: the tangential velocity of the
-/// rim, which the contacts need, in place of omega. Velocities stand first, so that a vector of these is also a plain
-/// array of doubles on which linear combinations act (`inverse_mass` of a combination is then zero or unused).
+/// Velocity change of a body and what turns an impulse into it. With spin, `s` is r omega: the tangential
+/// velocity of the rim, which the contacts need, in place of omega. Velocities stand first, so that a vector
+/// of these is also a plain array of doubles on which linear combinations act (`inverse_mass` of a
+/// combination is then zero or unused).
 template <bool with_spin>
 struct BodyVelocity;
 template <>
@@ -36,16 +37,14 @@ class BodyDelassus {
   /// Impulses seen through the bodies: velocity changes M^-1 H^T r.
   using State = std::vector<Velocity>;
 
-  std::vector<std::int32_t> i, j;      ///< bodies; the normal points from j to i
-  std::vector<double> n_x, n_z;        ///< unit normal; the tangent is (n_z, -n_x)
-  std::vector<double> inverse_W_nn;    ///< 1 / (1/m_i + 1/m_j)
-  std::vector<double> inverse_mass;    ///< of each body, the fixed one last
+  std::vector<std::int32_t> i, j;    ///< bodies; the normal points from j to i
+  std::vector<double> n_x, n_z;      ///< unit normal; the tangent is (n_z, -n_x)
+  std::vector<double> inverse_W_nn;  ///< 1 / (1/m_i + 1/m_j)
+  std::vector<double> inverse_mass;  ///< of each body, the fixed one last
 
   int contacts() const { return static_cast<int>(i.size()); }
 
-  void clear() {
-    i.clear(), j.clear(), n_x.clear(), n_z.clear(), inverse_W_nn.clear();
-  }
+  void clear() { i.clear(), j.clear(), n_x.clear(), n_z.clear(), inverse_W_nn.clear(); }
   void add(std::int32_t body_i, std::int32_t body_j, double normal_x, double normal_z) {
     i.push_back(body_i), j.push_back(body_j), n_x.push_back(normal_x), n_z.push_back(normal_z);
     inverse_W_nn.push_back(1 / (inverse_mass[body_i] + inverse_mass[body_j]));
@@ -97,7 +96,8 @@ class BodyDelassus {
   }
 
   /// u = W r + q. `scratch` is overwritten.
-  void velocities(std::span<const double> r, std::span<const double> q, State& scratch, std::vector<double>& u) const {
+  void velocities(std::span<const double> r, std::span<const double> q, State& scratch,
+                  std::vector<double>& u) const {
     load(scratch, r);
     u.resize(q.size());
     for (int a = 0; a < contacts(); ++a) {
@@ -106,8 +106,8 @@ class BodyDelassus {
     }
   }
 
-  /// One Gauss-Seidel sweep in the order of the contacts: each is solved exactly with the others as they stand.
-  /// r and state are updated, `step` receives r_new - r_old; returns the sum of squares of `step`.
+  /// One Gauss-Seidel sweep in the order of the contacts: each is solved exactly with the others as they
+  /// stand. r and state are updated, `step` receives r_new - r_old; returns the sum of squares of `step`.
   double sweep(std::span<const double> q, std::span<const double> mu, std::span<double> r, State& state,
                std::span<double> step) const {
     double sum = 0;

@@ -1,6 +1,7 @@
 #pragma once
-// The laws of one contact, as cones. The number of unknowns of a contact is a property of the type, chosen once per
-// solve: a scene without friction has one unknown per contact and never meets a branch about friction.
+// The laws of one contact, as cones. The number of unknowns of a contact is a property of the type, chosen
+// once per solve: a scene without friction has one unknown per contact and never meets a branch about
+// friction.
 #include <algorithm>
 #include <cmath>
 

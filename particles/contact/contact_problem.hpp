@@ -1,12 +1,14 @@
 #pragma once
 // One contact problem: find r with u = W r + q, u_n and r_n complementary, r_t in Coulomb's law.
-// The paper, Eq. (3): W r - u = b with b = -q; q is the free relative velocity with the shifts of the impact law.
+// The paper, Eq. (3): W r - u = b with b = -q; q is the free relative velocity with the shifts of the impact
+// law.
 #include <vector>
 
 namespace drumlin {
 
-/// `Cone` says how many unknowns a contact has, `Delassus` how W is stored: through the bodies (BodyDelassus, in time
-/// stepping) or as sparse blocks (BlockDelassus, from a file). Entries of contact a stand at dim * a, normal first.
+/// `Cone` says how many unknowns a contact has, `Delassus` how W is stored: through the bodies (BodyDelassus,
+/// in time stepping) or as sparse blocks (BlockDelassus, from a file). Entries of contact a stand at dim * a,
+/// normal first.
 template <class Cone_, class Delassus_>
 struct ContactProblem {
   using Cone = Cone_;

@@ -8,8 +8,8 @@
 namespace drumlin {
 
 using FrictionlessProblem = ContactProblem<Frictionless, BodyDelassus<Frictionless, false>>;
-using CoulombProblem = ContactProblem<Coulomb, BodyDelassus<Coulomb, false>>;       ///< bodies that do not turn
+using CoulombProblem = ContactProblem<Coulomb, BodyDelassus<Coulomb, false>>;  ///< bodies that do not turn
 using CoulombSpinProblem = ContactProblem<Coulomb, BodyDelassus<Coulomb, true>>;
-using BlockProblem = ContactProblem<Coulomb, BlockDelassus>;                        ///< from a file
+using BlockProblem = ContactProblem<Coulomb, BlockDelassus>;  ///< from a file
 
 }  // namespace drumlin

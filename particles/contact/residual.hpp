@@ -1,6 +1,6 @@
 #pragma once
-// The one judge of every solver, test and cost plot (docs/conventions.md, "Accuracy of a contact solve"). It computes
-// u = W r + q from r alone and shares nothing with the solvers.
+// The one judge of every solver, test and cost plot (docs/conventions.md, "Accuracy of a contact solve"). It
+// computes u = W r + q from r alone and shares nothing with the solvers.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -27,10 +27,11 @@ struct JudgeScratch {
   std::vector<double> u;
 };
 
-/// Judges r (dim * contacts entries). A problem without contacts, or with r exact, has residual 0; if every entry of q is
-/// zero and r does not solve it, infinity.
+/// Judges r (dim * contacts entries). A problem without contacts, or with r exact, has residual 0; if every
+/// entry of q is zero and r does not solve it, infinity.
 template <class Problem>
-Judgement judge(const Problem& problem, std::span<const double> r, JudgeScratch<typename Problem::Delassus>& scratch) {
+Judgement judge(const Problem& problem, std::span<const double> r,
+                JudgeScratch<typename Problem::Delassus>& scratch) {
   constexpr int dim = Problem::dim;
   const int count = problem.contacts();
   Judgement verdict;
@@ -57,7 +58,9 @@ Judgement judge(const Problem& problem, std::span<const double> r, JudgeScratch<
     lowest_u_n = std::min(lowest_u_n, u[dim * a]);
   }
   const double scale = std::sqrt(q_squares / static_cast<double>(problem.q.size()));
-  const auto relative = [scale](double e) { return e == 0 ? 0 : scale > 0 ? e / scale : std::numeric_limits<double>::infinity(); };
+  const auto relative = [scale](double e) {
+    return e == 0 ? 0 : scale > 0 ? e / scale : std::numeric_limits<double>::infinity();
+  };
   verdict.residual = relative(std::sqrt(sum / count));
   verdict.residual_max = relative(largest);
   verdict.penetration = -lowest_u_n * problem.time_step;

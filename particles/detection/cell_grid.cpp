@@ -13,7 +13,8 @@ void CellGrid::sort(const Bodies& bodies, double cell_size, const Period& period
   // A stray disc far away must not cost memory: never more than about four cells per grain.
   const double most = 4.0 * count + 16;
   while ((width / cell_size + 1) * ((*high - *low) / cell_size + 1) > most) cell_size *= 2;
-  columns_ = period.open() ? static_cast<int>(width / cell_size) + 1 : std::max(1, static_cast<int>(width / cell_size));
+  columns_ = period.open() ? static_cast<int>(width / cell_size) + 1
+                           : std::max(1, static_cast<int>(width / cell_size));
   rows_ = static_cast<int>((*high - *low) / cell_size) + 1;
   cell_x_ = period.open() ? cell_size : period.length / columns_;
   cell_z_ = cell_size;

@@ -7,7 +7,8 @@
 namespace drumlin {
 namespace {
 
-/// A disc that would move further than this (in d) within one step is searched for by hand: it must not widen all cells.
+/// A disc that would move further than this (in d) within one step is searched for by hand: it must not widen
+/// all cells.
 constexpr double fast_displacement = 0.25;
 
 double length(double x, double z) { return std::sqrt(x * x + z * z); }
@@ -22,7 +23,8 @@ double normal_of(double dx, double dz, double& n_x, double& n_z) {
 
 Point nearest_on_segment(const Segment& s, double x, double z) {
   const double ex = s.to.x - s.from.x, ez = s.to.z - s.from.z;
-  const double along = std::clamp(((x - s.from.x) * ex + (z - s.from.z) * ez) / (ex * ex + ez * ez), 0.0, 1.0);
+  const double along =
+      std::clamp(((x - s.from.x) * ex + (z - s.from.z) * ez) / (ex * ex + ez * ez), 0.0, 1.0);
   return {s.from.x + along * ex, s.from.z + along * ez};
 }
 
@@ -30,7 +32,8 @@ struct Box {
   double x_low, x_high, z_low, z_high;
 };
 
-/// Where the centres of discs near a shape can be, `reach` away from its surface; a container has discs everywhere.
+/// Where the centres of discs near a shape can be, `reach` away from its surface; a container has discs
+/// everywhere.
 std::optional<Box> surroundings(const Shape& shape, double reach) {
   if (const auto* s = std::get_if<Segment>(&shape))
     return Box{std::min(s->from.x, s->to.x) - reach, std::max(s->from.x, s->to.x) + reach,
@@ -42,13 +45,17 @@ std::optional<Box> surroundings(const Shape& shape, double reach) {
   return std::nullopt;
 }
 
-/// The image of x that is nearest to the middle of a shape. A wall as long as the period meets every grain once.
+/// The image of x that is nearest to the middle of a shape. A wall as long as the period meets every grain
+/// once.
 double image_near(const Shape& shape, double x, const Period& period) {
   if (period.open()) return x;
   double middle = 0;
-  if (const auto* s = std::get_if<Segment>(&shape)) middle = (s->from.x + s->to.x) / 2;
-  else if (const auto* d = std::get_if<FixedDisc>(&shape)) middle = d->center.x;
-  else middle = std::get<Container>(shape).center.x;
+  if (const auto* s = std::get_if<Segment>(&shape))
+    middle = (s->from.x + s->to.x) / 2;
+  else if (const auto* d = std::get_if<FixedDisc>(&shape))
+    middle = d->center.x;
+  else
+    middle = std::get<Container>(shape).center.x;
   return middle + period.nearest(x - middle);
 }
 
@@ -69,7 +76,8 @@ double largest_move(const Shape& shape, const Pose& step) {
 
 }  // namespace
 
-double gap_to_shape(const Shape& shape, double x, double z, double radius, double& n_x, double& n_z, Point& point) {
+double gap_to_shape(const Shape& shape, double x, double z, double radius, double& n_x, double& n_z,
+                    Point& point) {
   if (const auto* c = std::get_if<Container>(&shape)) {
     const double distance = normal_of(c->center.x - x, c->center.z - z, n_x, n_z);
     point = {c->center.x - c->radius * n_x, c->center.z - c->radius * n_z};
@@ -85,15 +93,16 @@ double gap_to_shape(const Shape& shape, double x, double z, double radius, doubl
   return distance - radius - disc.radius;
 }
 
-double gap_now(const Candidate& pair, const Bodies& bodies, std::span<const Shape> shapes, const Period& period,
-               double& n_x, double& n_z) {
+double gap_now(const Candidate& pair, const Bodies& bodies, std::span<const Shape> shapes,
+               const Period& period, double& n_x, double& n_z) {
   if (pair.j < 0) {
     Point point;
     const Shape& shape = shapes[-1 - pair.j];
-    return gap_to_shape(shape, image_near(shape, bodies.x[pair.i], period), bodies.z[pair.i], bodies.radius[pair.i], n_x,
-                        n_z, point);
+    return gap_to_shape(shape, image_near(shape, bodies.x[pair.i], period), bodies.z[pair.i],
+                        bodies.radius[pair.i], n_x, n_z, point);
   }
-  return normal_of(period.nearest(bodies.x[pair.i] - bodies.x[pair.j]), bodies.z[pair.i] - bodies.z[pair.j], n_x, n_z) -
+  return normal_of(period.nearest(bodies.x[pair.i] - bodies.x[pair.j]), bodies.z[pair.i] - bodies.z[pair.j],
+                   n_x, n_z) -
          bodies.radius[pair.i] - bodies.radius[pair.j];
 }
 
@@ -129,12 +138,13 @@ void ContactDetection::drop_far_pairs(const DetectionInput& input) {
   candidates_.resize(kept);
 }
 
-void ContactDetection::keep_if_near_wall(std::int32_t b, std::int32_t shape, double farthest, const Bodies& bodies,
-                                         const Velocities& v, const DetectionInput& input) {
+void ContactDetection::keep_if_near_wall(std::int32_t b, std::int32_t shape, double farthest,
+                                         const Bodies& bodies, const Velocities& v,
+                                         const DetectionInput& input) {
   Candidate pair{b, -1 - shape, 0, 0, 0, 0, 0};
   Point point;
-  pair.gap = gap_to_shape(input.shapes[shape], image_near(input.shapes[shape], bodies.x[b], input.period), bodies.z[b],
-                          bodies.radius[b], pair.n_x, pair.n_z, point);
+  pair.gap = gap_to_shape(input.shapes[shape], image_near(input.shapes[shape], bodies.x[b], input.period),
+                          bodies.z[b], bodies.radius[b], pair.n_x, pair.n_z, point);
   if (pair.gap > farthest) return;
   const Point then = moved(input.shape_steps[shape], point);
   pair.wall_v_x = (then.x - point.x) / input.time_step;
@@ -142,8 +152,8 @@ void ContactDetection::keep_if_near_wall(std::int32_t b, std::int32_t shape, dou
   note(pair, -(pair.n_x * (v.x[b] - pair.wall_v_x) + pair.n_z * (v.z[b] - pair.wall_v_z)), input);
 }
 
-void ContactDetection::push_on_fast_impacts(const Bodies& bodies, const Velocities& v, const DetectionInput& input,
-                                            double looked_at, double largest) {
+void ContactDetection::push_on_fast_impacts(const Bodies& bodies, const Velocities& v,
+                                            const DetectionInput& input, double looked_at, double largest) {
   if (fast_.empty()) return;
   const auto count = static_cast<std::int32_t>(bodies.count());
   for (std::int32_t i = 0; i < count; ++i) {
@@ -157,7 +167,8 @@ void ContactDetection::push_on_fast_impacts(const Bodies& bodies, const Velociti
 }
 
 const std::vector<Candidate>& ContactDetection::find(const Bodies& bodies, std::span<const double> v_x,
-                                                     std::span<const double> v_z, const DetectionInput& input) {
+                                                     std::span<const double> v_z,
+                                                     const DetectionInput& input) {
   candidates_.clear();
   reach_.clear();
   jolt_.assign(bodies.count(), 0.0);
@@ -169,8 +180,10 @@ const std::vector<Candidate>& ContactDetection::find(const Bodies& bodies, std::
   for (std::int32_t b = 0; b < count; ++b) {
     const double moves = input.time_step * length(v_x[b], v_z[b]);
     fastest = std::max(fastest, moves);
-    if (moves > fast_displacement) fast_.push_back(b);
-    else slow = std::max(slow, moves);
+    if (moves > fast_displacement)
+      fast_.push_back(b);
+    else
+      slow = std::max(slow, moves);
   }
   // Two discs that move m each close at most 2 m within the step; the rule above keeps twice that.
   const double largest = 2 * *std::max_element(bodies.radius.begin(), bodies.radius.end());
@@ -191,7 +204,8 @@ const std::vector<Candidate>& ContactDetection::find(const Bodies& bodies, std::
     });
   push_on_fast_impacts(bodies, v, input, input.margin + 4 * slow, largest);
   for (std::size_t s = 0; s < input.shapes.size(); ++s) {
-    const double farthest = input.margin + 2 * (fastest + largest_move(input.shapes[s], input.shape_steps[s]));
+    const double farthest =
+        input.margin + 2 * (fastest + largest_move(input.shapes[s], input.shape_steps[s]));
     const auto near_shape = [&](std::int32_t b) {
       keep_if_near_wall(b, static_cast<std::int32_t>(s), farthest, bodies, v, input);
     };
@@ -204,9 +218,10 @@ const std::vector<Candidate>& ContactDetection::find(const Bodies& bodies, std::
   std::sort(candidates_.begin(), candidates_.end(),
             [](const Candidate& a, const Candidate& b) { return a.i != b.i ? a.i < b.i : a.j < b.j; });
   if (!fast_.empty())
-    candidates_.erase(std::unique(candidates_.begin(), candidates_.end(),
-                                  [](const Candidate& a, const Candidate& b) { return a.i == b.i && a.j == b.j; }),
-                      candidates_.end());
+    candidates_.erase(
+        std::unique(candidates_.begin(), candidates_.end(),
+                    [](const Candidate& a, const Candidate& b) { return a.i == b.i && a.j == b.j; }),
+        candidates_.end());
   return candidates_;
 }
 

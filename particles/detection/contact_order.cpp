@@ -6,8 +6,8 @@
 namespace drumlin {
 
 void ContactOrder::sort(std::span<const Candidate> pairs, std::size_t bodies) {
-  // One bit per colour and body; a body with more than 63 contacts puts the rest into the last colour, where order
-  // still is fixed but neighbours may share it.
+  // One bit per colour and body; a body with more than 63 contacts puts the rest into the last colour, where
+  // order still is fixed but neighbours may share it.
   constexpr int colours = 64;
   used_.assign(bodies, 0);
   colour_.resize(pairs.size());

@@ -1,6 +1,7 @@
 #pragma once
-// The order in which contacts are solved: by colour, so that neighbours in the order share no body. A sweep in this order
-// does not wait for the result that it has just written, which is most of the time of a sweep in natural order.
+// The order in which contacts are solved: by colour, so that neighbours in the order share no body. A sweep
+// in this order does not wait for the result that it has just written, which is most of the time of a sweep
+// in natural order.
 #include <cstdint>
 #include <span>
 #include <vector>

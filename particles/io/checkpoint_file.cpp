@@ -82,8 +82,10 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
   Checkpoint checkpoint;
   checkpoint.scene = in.text("scene");
   each_number(checkpoint, [&in](const char* name, auto& value) {
-    if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>) value = in.number(name);
-    else value = in.integer(name);
+    if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>)
+      value = in.number(name);
+    else
+      value = in.integer(name);
   });
   each_array(checkpoint, [&in](const char* name, std::vector<double>& values) { values = in.doubles(name); });
   SimulationState& state = checkpoint.state;
@@ -91,12 +93,13 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
   state.memory.i = in.ints("memory/i");
   state.memory.j = in.ints("memory/j");
   const auto poses = in.doubles("walls/pose_at_start");
-  for (std::size_t p = 0; p + 2 < poses.size(); p += 3) state.pose_at_start.push_back({poses[p], poses[p + 1], poses[p + 2]});
+  for (std::size_t p = 0; p + 2 < poses.size(); p += 3)
+    state.pose_at_start.push_back({poses[p], poses[p + 1], poses[p + 2]});
   const auto marks = in.integer("marks/count");
   for (std::int64_t m = 0; m < marks; ++m) {
     const std::string name = "marks/" + std::to_string(m) + "/";
-    state.marks.push_back({in.integer(name + "snapshot_step"), in.number(name + "time"), in.doubles(name + "x"),
-                           in.doubles(name + "z")});
+    state.marks.push_back({in.integer(name + "snapshot_step"), in.number(name + "time"),
+                           in.doubles(name + "x"), in.doubles(name + "z")});
   }
   return checkpoint;
 }

@@ -12,16 +12,16 @@ namespace drumlin {
 struct RunTotals {
   std::int64_t unconverged_steps = 0;
   std::int64_t sweeps = 0;
-  std::int64_t contacts = 0;         ///< summed over the steps
-  double contact_sweeps = 0;         ///< contacts times sweeps, summed
+  std::int64_t contacts = 0;  ///< summed over the steps
+  double contact_sweeps = 0;  ///< contacts times sweeps, summed
   double residual_sum = 0, residual_max = 0;
   double overlap_sum = 0, overlap_max = 0;
   double wall_seconds = 0, cpu_seconds = 0, detection_seconds = 0, solver_seconds = 0, output_seconds = 0;
 };
 
 struct Checkpoint {
-  std::string scene;             ///< resolved; a checkpoint belongs to one scene
-  std::int64_t log_bytes = 0;    ///< of log.csv at this step: what stands behind is cut off on resuming
+  std::string scene;           ///< resolved; a checkpoint belongs to one scene
+  std::int64_t log_bytes = 0;  ///< of log.csv at this step: what stands behind is cut off on resuming
   RunTotals totals;
   SimulationState state;
 };

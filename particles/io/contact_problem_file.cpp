@@ -29,7 +29,8 @@ std::vector<Entry> compressed(const H5Reader& in, bool rows_are_major, std::int6
   if (static_cast<std::int64_t>(p.size()) < size + 1) in.refuse(root + "W/p", "fewer entries than rows + 1");
   std::vector<Entry> entries;
   for (std::int64_t major = 0; major < size; ++major) {
-    if (p[major] < 0 || p[major + 1] < p[major] || static_cast<std::size_t>(p[major + 1]) > std::min(i.size(), x.size()))
+    if (p[major] < 0 || p[major + 1] < p[major] ||
+        static_cast<std::size_t>(p[major + 1]) > std::min(i.size(), x.size()))
       in.refuse(root + "W/p", "pointers outside the entries");
     for (std::int32_t k = p[major]; k < p[major + 1]; ++k) {
       const auto m = static_cast<std::int32_t>(major);
@@ -52,22 +53,28 @@ std::vector<Entry> triplets(const H5Reader& in, std::int64_t count) {
 std::vector<Entry> entries_of_W(const H5Reader& in, std::int64_t size) {
   const std::int64_t nz = in.integer(root + "W/nz");
   std::vector<Entry> entries;
-  if (nz == -2) entries = compressed(in, true, size);
-  else if (nz == -1) entries = compressed(in, false, size);
-  else if (nz >= 0) entries = triplets(in, nz);
-  else in.refuse(root + "W/nz", std::to_string(nz) + " (allowed: -2 rows, -1 columns, >= 0 triplets)");
+  if (nz == -2)
+    entries = compressed(in, true, size);
+  else if (nz == -1)
+    entries = compressed(in, false, size);
+  else if (nz >= 0)
+    entries = triplets(in, nz);
+  else
+    in.refuse(root + "W/nz", std::to_string(nz) + " (allowed: -2 rows, -1 columns, >= 0 triplets)");
   for (const Entry& entry : entries) check_entry(in, entry, size);
   return entries;
 }
 
 bool is_positive_definite(const Eigen::Matrix2d& block) {
   const double rounding = 1e-8 * (std::abs(block(0, 0)) + std::abs(block(1, 1)));
-  return block(0, 0) > 0 && block(1, 1) > 0 && std::abs(block(0, 1) - block(1, 0)) <= rounding && block.determinant() > 0;
+  return block(0, 0) > 0 && block(1, 1) > 0 && std::abs(block(0, 1) - block(1, 0)) <= rounding &&
+         block.determinant() > 0;
 }
 
 std::vector<double> vector_of(const H5Reader& in, const std::string& name, std::int64_t size) {
   auto values = in.doubles(root + "vectors/" + name);
-  if (static_cast<std::int64_t>(values.size()) != size) in.refuse(root + "vectors/" + name, "not of length " + std::to_string(size));
+  if (static_cast<std::int64_t>(values.size()) != size)
+    in.refuse(root + "vectors/" + name, "not of length " + std::to_string(size));
   for (const double value : values)
     if (!std::isfinite(value)) in.refuse(root + "vectors/" + name, "a number is not finite");
   return values;
@@ -99,7 +106,8 @@ BlockProblem read_contact_problem(const std::filesystem::path& file) {
   for (int a = 0; a < contacts; ++a) {
     const auto diagonal = rows[a].find(a);
     if (diagonal == rows[a].end() || !is_positive_definite(diagonal->second))
-      in.refuse(root + "W", "contact " + std::to_string(a) + " has no symmetric positive definite diagonal block");
+      in.refuse(root + "W",
+                "contact " + std::to_string(a) + " has no symmetric positive definite diagonal block");
     W.diagonal.push_back(diagonal->second);
     for (const auto& [column, block] : rows[a]) W.column.push_back(column), W.block.push_back(block);
     W.row_start.push_back(static_cast<int>(W.column.size()));
@@ -107,14 +115,16 @@ BlockProblem read_contact_problem(const std::filesystem::path& file) {
   return problem;
 }
 
-void write_contact_solution(const std::filesystem::path& file, std::span<const double> r, std::span<const double> u) {
+void write_contact_solution(const std::filesystem::path& file, std::span<const double> r,
+                            std::span<const double> u) {
   H5Writer out;
   out.add("solution/r", r);
   out.add("solution/u", u);
   out.save(file);
 }
 
-void write_contact_problem(const std::filesystem::path& file, const BlockProblem& problem, const std::string& description) {
+void write_contact_problem(const std::filesystem::path& file, const BlockProblem& problem,
+                           const std::string& description) {
   const auto size = static_cast<std::int32_t>(problem.q.size());
   std::vector<std::int32_t> p{0}, i;
   std::vector<double> x;

@@ -8,15 +8,18 @@
 
 namespace drumlin {
 
-/// Reads /fclib_local/{spacedim, W/{nzmax,m,n,nz,p,i,x}, vectors/{q,mu}}: nz = -2 compressed rows, -1 compressed columns,
+/// Reads /fclib_local/{spacedim, W/{nzmax,m,n,nz,p,i,x}, vectors/{q,mu}}: nz = -2 compressed rows, -1
+/// compressed columns,
 /// >= 0 triplets; normal component first; u = W r + q. Throws InputError for whatever does not fit: another
 /// dimension, indices outside the matrix, a contact without a positive diagonal, numbers that are not finite.
 BlockProblem read_contact_problem(const std::filesystem::path& file);
 
 /// Writes /solution/{r, u}, each 2 * contacts numbers. Throws IoError.
-void write_contact_solution(const std::filesystem::path& file, std::span<const double> r, std::span<const double> u);
+void write_contact_solution(const std::filesystem::path& file, std::span<const double> r,
+                            std::span<const double> u);
 
 /// Writes a problem in the same layout, W in compressed rows; `description` goes to /fclib_local/info.
-void write_contact_problem(const std::filesystem::path& file, const BlockProblem& problem, const std::string& description);
+void write_contact_problem(const std::filesystem::path& file, const BlockProblem& problem,
+                           const std::string& description);
 
 }  // namespace drumlin

@@ -19,7 +19,8 @@ constexpr std::string_view trailer_magic = "DRUMLCRC";
 constexpr std::size_t trailer_size = 8 + 4;
 // HDF5 wants a name for an image in memory and looks whether a file of that name exists: this one cannot.
 constexpr const char* image_name = "/dev/null/image";
-constexpr hssize_t largest_set = hssize_t{1} << 28;  // numbers in a dataset; a run of a million grains has far fewer
+constexpr hssize_t largest_set = hssize_t{1}
+                                 << 28;  // numbers in a dataset; a run of a million grains has far fewer
 
 std::uint32_t checksum(std::span<const unsigned char> bytes) {
   return static_cast<std::uint32_t>(crc32_z(crc32_z(0, nullptr, 0), bytes.data(), bytes.size()));
@@ -52,16 +53,20 @@ void check(bool good, const char* what) {
   if (!good) throw IoError(std::string("HDF5 could not ") + what);
 }
 
-void put(hid_t file, const std::string& name, hid_t memory_type, hid_t file_type, const void* data, hsize_t count) {
+void put(hid_t file, const std::string& name, hid_t memory_type, hid_t file_type, const void* data,
+         hsize_t count) {
   const Id links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
   H5Pset_create_intermediate_group(links.get(), 1);
   const Id space(H5Screate_simple(1, &count, nullptr), H5Sclose);
   // No object times: the same state gives the same bytes.
   const Id creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_obj_track_times(creation.get(), false);
-  const Id set(H5Dcreate2(file, name.c_str(), file_type, space.get(), links.get(), creation.get(), H5P_DEFAULT), H5Dclose);
+  const Id set(
+      H5Dcreate2(file, name.c_str(), file_type, space.get(), links.get(), creation.get(), H5P_DEFAULT),
+      H5Dclose);
   check(set.valid(), "create a dataset");
-  if (count > 0) check(H5Dwrite(set.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0, "write a dataset");
+  if (count > 0)
+    check(H5Dwrite(set.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0, "write a dataset");
 }
 
 void write_all(int descriptor, std::span<const unsigned char> bytes, const std::filesystem::path& file) {
@@ -113,7 +118,8 @@ struct H5Writer::Handles {
 H5Writer::H5Writer() : handles_(std::make_unique<Handles>()) {
   silence();
   H5Pset_fapl_core(handles_->access.get(), 1 << 20, false);
-  handles_->file = std::make_unique<Id>(H5Fcreate(image_name, H5F_ACC_TRUNC, H5P_DEFAULT, handles_->access.get()), H5Fclose);
+  handles_->file = std::make_unique<Id>(
+      H5Fcreate(image_name, H5F_ACC_TRUNC, H5P_DEFAULT, handles_->access.get()), H5Fclose);
   check(handles_->file->valid(), "create a file image");
 }
 H5Writer::~H5Writer() = default;
@@ -130,7 +136,9 @@ void H5Writer::add(const std::string& name, std::span<const std::int32_t> values
 void H5Writer::add(const std::string& name, std::span<const std::int64_t> values) {
   put(handles_->file->get(), name, H5T_NATIVE_INT64, H5T_STD_I64LE, values.data(), values.size());
 }
-void H5Writer::add_number(const std::string& name, double value) { add(name, std::span<const double>(&value, 1)); }
+void H5Writer::add_number(const std::string& name, double value) {
+  add(name, std::span<const double>(&value, 1));
+}
 void H5Writer::add_number(const std::string& name, std::int64_t value) {
   add(name, std::span<const std::int64_t>(&value, 1));
 }
@@ -165,19 +173,23 @@ H5Reader::H5Reader(const std::filesystem::path& file, bool checked)
   bytes = bytes_of(file);
   if (bytes.empty()) throw InputError(file.string() + ": is empty");
   const bool has_trailer =
-      bytes.size() > trailer_size &&
-      std::memcmp(bytes.data() + bytes.size() - trailer_size, trailer_magic.data(), trailer_magic.size()) == 0;
-  if (checked && !has_trailer) throw InputError(file.string() + ": not a Drumlin file, or cut short (no checksum at its end)");
+      bytes.size() > trailer_size && std::memcmp(bytes.data() + bytes.size() - trailer_size,
+                                                 trailer_magic.data(), trailer_magic.size()) == 0;
+  if (checked && !has_trailer)
+    throw InputError(file.string() + ": not a Drumlin file, or cut short (no checksum at its end)");
   if (has_trailer) {
     const std::size_t size = bytes.size() - trailer_size;
     std::uint32_t stored = 0;
-    for (int byte = 0; byte < 4; ++byte) stored |= static_cast<std::uint32_t>(bytes[size + 8 + byte]) << (8 * byte);
-    if (stored != checksum({bytes.data(), size})) throw InputError(file.string() + ": damaged (checksum does not match)");
+    for (int byte = 0; byte < 4; ++byte)
+      stored |= static_cast<std::uint32_t>(bytes[size + 8 + byte]) << (8 * byte);
+    if (stored != checksum({bytes.data(), size}))
+      throw InputError(file.string() + ": damaged (checksum does not match)");
     bytes.resize(size);
   }
   H5Pset_fapl_core(handles_->access.get(), 1 << 20, false);
   H5Pset_file_image(handles_->access.get(), bytes.data(), bytes.size());
-  handles_->file = std::make_unique<Id>(H5Fopen(image_name, H5F_ACC_RDONLY, handles_->access.get()), H5Fclose);
+  handles_->file =
+      std::make_unique<Id>(H5Fopen(image_name, H5F_ACC_RDONLY, handles_->access.get()), H5Fclose);
   if (!handles_->file->valid()) throw InputError(file.string() + ": not an HDF5 file");
 }
 H5Reader::~H5Reader() = default;
@@ -188,7 +200,7 @@ void H5Reader::refuse(const std::string& name, const std::string& what) const {
 
 bool H5Reader::has(const std::string& name) const {
   // H5Lexists wants every group on the way to exist.
-  for (std::size_t end = name.find('/', 1); ; end = name.find('/', end + 1)) {
+  for (std::size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {
     if (H5Lexists(handles_->file->get(), name.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
     if (end == std::string::npos) return true;
   }
@@ -197,13 +209,15 @@ bool H5Reader::has(const std::string& name) const {
 namespace {
 
 template <class T>
-std::vector<T> read_set(const H5Reader& reader, hid_t file, const std::string& name, hid_t type, H5T_class_t wanted) {
+std::vector<T> read_set(const H5Reader& reader, hid_t file, const std::string& name, hid_t type,
+                        H5T_class_t wanted) {
   if (!reader.has(name)) reader.refuse(name, "missing dataset");
   const Id set(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
   if (!set.valid()) reader.refuse(name, "not a dataset");
   const Id stored(H5Dget_type(set.get()), H5Tclose);
   const H5T_class_t found = H5Tget_class(stored.get());
-  if (found != wanted && !(wanted == H5T_FLOAT && found == H5T_INTEGER)) reader.refuse(name, "of an unexpected type");
+  if (found != wanted && !(wanted == H5T_FLOAT && found == H5T_INTEGER))
+    reader.refuse(name, "of an unexpected type");
   const Id space(H5Dget_space(set.get()), H5Sclose);
   const hssize_t count = H5Sget_simple_extent_npoints(space.get());
   if (count < 0 || count > largest_set) reader.refuse(name, "of an impossible size");
@@ -238,7 +252,8 @@ std::int64_t H5Reader::integer(const std::string& name) const {
   return values[0];
 }
 std::string H5Reader::text(const std::string& name) const {
-  const auto bytes = read_set<unsigned char>(*this, handles_->file->get(), name, H5T_NATIVE_UINT8, H5T_INTEGER);
+  const auto bytes =
+      read_set<unsigned char>(*this, handles_->file->get(), name, H5T_NATIVE_UINT8, H5T_INTEGER);
   return {bytes.begin(), bytes.end()};
 }
 

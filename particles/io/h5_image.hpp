@@ -1,6 +1,7 @@
 #pragma once
-// Small HDF5 files that survive: built in memory, closed by a checksum, written aside, synced and renamed. A reader
-// checks the checksum before HDF5 sees a byte (random bit flips otherwise crash or hang it, or pass unnoticed).
+// Small HDF5 files that survive: built in memory, closed by a checksum, written aside, synced and renamed. A
+// reader checks the checksum before HDF5 sees a byte (random bit flips otherwise crash or hang it, or pass
+// unnoticed).
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -34,8 +35,8 @@ class H5Writer {
   std::unique_ptr<Handles> handles_;
 };
 
-/// An HDF5 file opened for reading. Every member throws InputError naming the file when something is missing or has
-/// another type or size.
+/// An HDF5 file opened for reading. Every member throws InputError naming the file when something is missing
+/// or has another type or size.
 class H5Reader {
  public:
   /// `checked`: the file must end in the checksum that H5Writer leaves; otherwise any HDF5 file is taken.

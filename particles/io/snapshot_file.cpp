@@ -14,15 +14,26 @@ void write_snapshot(const std::filesystem::path& file, const Snapshot& s) {
   H5Writer out;
   out.add_text("format", format);
   out.add_number("step", s.step);
-  const std::pair<const char*, double> numbers[] = {
-      {"time", s.time}, {"time_step", s.time_step}, {"wall/angle", s.wall_angle}, {"wall/spin", s.wall_spin},
-      {"container/x", s.container_x}, {"container/z", s.container_z}, {"container/radius", s.container_radius},
-      {"gravity_x", s.gravity_x}, {"gravity_z", s.gravity_z}, {"velocity_window", s.velocity_window},
-      {"period_x", s.period_x}, {"scales/length_m", s.scales.length_m}, {"scales/time_s", s.scales.time_s},
-      {"scales/density_kg_m3", s.scales.density_kg_m3}};
+  const std::pair<const char*, double> numbers[] = {{"time", s.time},
+                                                    {"time_step", s.time_step},
+                                                    {"wall/angle", s.wall_angle},
+                                                    {"wall/spin", s.wall_spin},
+                                                    {"container/x", s.container_x},
+                                                    {"container/z", s.container_z},
+                                                    {"container/radius", s.container_radius},
+                                                    {"gravity_x", s.gravity_x},
+                                                    {"gravity_z", s.gravity_z},
+                                                    {"velocity_window", s.velocity_window},
+                                                    {"period_x", s.period_x},
+                                                    {"scales/length_m", s.scales.length_m},
+                                                    {"scales/time_s", s.scales.time_s},
+                                                    {"scales/density_kg_m3", s.scales.density_kg_m3}};
   for (const auto& [name, value] : numbers) out.add_number(name, value);
-  const std::pair<const char*, const std::vector<double>*> arrays[] = {
-      {"grains/x", &s.x}, {"grains/z", &s.z}, {"grains/v_x", &s.v_x}, {"grains/v_z", &s.v_z}, {"grains/radius", &s.radius}};
+  const std::pair<const char*, const std::vector<double>*> arrays[] = {{"grains/x", &s.x},
+                                                                       {"grains/z", &s.z},
+                                                                       {"grains/v_x", &s.v_x},
+                                                                       {"grains/v_z", &s.v_z},
+                                                                       {"grains/radius", &s.radius}};
   for (const auto& [name, values] : arrays) out.add(name, std::span<const double>(*values));
   if (!s.spin.empty()) out.add("grains/spin", std::span<const double>(s.spin));
   if (!s.displacement_x.empty()) {
@@ -48,15 +59,24 @@ void write_snapshot(const std::filesystem::path& file, const Snapshot& s) {
 Snapshot read_snapshot(const std::filesystem::path& file) {
   const H5Reader in(file);
   if (!in.has("format") || in.text("format") != format)
-    in.refuse("format", in.has("format") ? "'" + in.text("format") + "', this version reads " + format : "missing");
+    in.refuse("format",
+              in.has("format") ? "'" + in.text("format") + "', this version reads " + format : "missing");
   Snapshot s;
   s.step = in.integer("step");
-  const std::pair<const char*, double*> numbers[] = {
-      {"time", &s.time}, {"time_step", &s.time_step}, {"wall/angle", &s.wall_angle}, {"wall/spin", &s.wall_spin},
-      {"container/x", &s.container_x}, {"container/z", &s.container_z}, {"container/radius", &s.container_radius},
-      {"gravity_x", &s.gravity_x}, {"gravity_z", &s.gravity_z}, {"velocity_window", &s.velocity_window},
-      {"period_x", &s.period_x}, {"scales/length_m", &s.scales.length_m}, {"scales/time_s", &s.scales.time_s},
-      {"scales/density_kg_m3", &s.scales.density_kg_m3}};
+  const std::pair<const char*, double*> numbers[] = {{"time", &s.time},
+                                                     {"time_step", &s.time_step},
+                                                     {"wall/angle", &s.wall_angle},
+                                                     {"wall/spin", &s.wall_spin},
+                                                     {"container/x", &s.container_x},
+                                                     {"container/z", &s.container_z},
+                                                     {"container/radius", &s.container_radius},
+                                                     {"gravity_x", &s.gravity_x},
+                                                     {"gravity_z", &s.gravity_z},
+                                                     {"velocity_window", &s.velocity_window},
+                                                     {"period_x", &s.period_x},
+                                                     {"scales/length_m", &s.scales.length_m},
+                                                     {"scales/time_s", &s.scales.time_s},
+                                                     {"scales/density_kg_m3", &s.scales.density_kg_m3}};
   for (const auto& [name, value] : numbers) *value = in.number(name);
   s.x = in.doubles("grains/x");
   const std::size_t grains = s.x.size();
@@ -65,9 +85,11 @@ Snapshot read_snapshot(const std::filesystem::path& file) {
     values = in.doubles(name);
     if (values.size() != grains) in.refuse(name, "not one entry per grain");
   };
-  per_grain("grains/z", s.z, false), per_grain("grains/v_x", s.v_x, false), per_grain("grains/v_z", s.v_z, false);
+  per_grain("grains/z", s.z, false), per_grain("grains/v_x", s.v_x, false),
+      per_grain("grains/v_z", s.v_z, false);
   per_grain("grains/radius", s.radius, false), per_grain("grains/spin", s.spin, true);
-  per_grain("grains/displacement_x", s.displacement_x, true), per_grain("grains/displacement_z", s.displacement_z, true);
+  per_grain("grains/displacement_x", s.displacement_x, true),
+      per_grain("grains/displacement_z", s.displacement_z, true);
   const auto i = in.ints("contacts/i"), j = in.ints("contacts/j");
   const auto n_x = in.floats("contacts/normal_x"), n_z = in.floats("contacts/normal_z");
   const auto r_n = in.doubles("contacts/impulse_n"), r_t = in.doubles("contacts/impulse_t");
@@ -75,7 +97,8 @@ Snapshot read_snapshot(const std::filesystem::path& file) {
     if (size != i.size()) in.refuse("contacts", "arrays of unequal length");
   const auto bodies = static_cast<std::int32_t>(grains);
   for (std::size_t c = 0; c < i.size(); ++c) {
-    if (i[c] < 0 || i[c] >= bodies || j[c] >= bodies) in.refuse("contacts", "names a grain that does not exist");
+    if (i[c] < 0 || i[c] >= bodies || j[c] >= bodies)
+      in.refuse("contacts", "names a grain that does not exist");
     s.contacts.push_back({i[c], j[c], n_x[c], n_z[c], r_n[c], r_t[c]});
   }
   return s;

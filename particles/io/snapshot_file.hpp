@@ -1,5 +1,6 @@
 #pragma once
-// snapshots/NNNNNN.h5: an HDF5 image with a CRC32 trailer, written aside and renamed (docs/formats/snapshot.md).
+// snapshots/NNNNNN.h5: an HDF5 image with a CRC32 trailer, written aside and renamed
+// (docs/formats/snapshot.md).
 #include <filesystem>
 #include <vector>
 

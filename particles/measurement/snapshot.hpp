@@ -25,17 +25,19 @@ struct Snapshot {
   std::int64_t step = 0;
   double time = 0;
   double time_step = 0;
-  double wall_angle = 0;            ///< rad turned so far by the first rotating wall, positive clockwise; 0 if none
-  double wall_spin = 0;             ///< its angular velocity
-  double container_x = 0, container_z = 0, container_radius = 0;  ///< first circular container; radius 0 if none
+  double wall_angle = 0;  ///< rad turned so far by the first rotating wall, positive clockwise; 0 if none
+  double wall_spin = 0;   ///< its angular velocity
+  double container_x = 0, container_z = 0,
+         container_radius = 0;           ///< first circular container; radius 0 if none
   double gravity_x = 0, gravity_z = -1;  ///< body acceleration
-  double velocity_window = 0;       ///< 0: no displacements stored
-  double period_x = 0;              ///< length of the periodic domain; 0: open
+  double velocity_window = 0;            ///< 0: no displacements stored
+  double period_x = 0;                   ///< length of the periodic domain; 0: open
   Scales scales;
   std::vector<double> x, z, v_x, v_z, radius;
-  std::vector<double> spin;                            ///< empty when the scene has no spin
-  std::vector<double> displacement_x, displacement_z;  ///< over the velocity window (laboratory frame); empty when not stored
-  std::vector<SnapshotContact> contacts;               ///< contacts that carry an impulse
+  std::vector<double> spin;  ///< empty when the scene has no spin
+  std::vector<double> displacement_x,
+      displacement_z;  ///< over the velocity window (laboratory frame); empty when not stored
+  std::vector<SnapshotContact> contacts;  ///< contacts that carry an impulse
 };
 
 }  // namespace drumlin

@@ -19,9 +19,11 @@ struct Site {
   double x = 0, z = 0;
 };
 
-/// Lattice sites, in mm, whose discs of the largest diameter lie inside the region; from below, left to right.
+/// Lattice sites, in mm, whose discs of the largest diameter lie inside the region; from below, left to
+/// right.
 std::vector<Site> lattice_sites(const GeneratedGrains& grains) {
-  const double spacing = spacing_over_largest * grains.diameter_max_mm, row_height = spacing * std::sqrt(3.0) / 2;
+  const double spacing = spacing_over_largest * grains.diameter_max_mm,
+               row_height = spacing * std::sqrt(3.0) / 2;
   // Room for a disc of the largest diameter and its shaking: half a lattice spacing.
   const double room = spacing / 2;
   double x_low, x_high, z_low, z_high;
@@ -38,7 +40,8 @@ std::vector<Site> lattice_sites(const GeneratedGrains& grains) {
     const double z = z_low + room + row * row_height;
     if (z + room > z_high + 1e-12) break;
     for (double x = x_low + room + (row % 2 ? spacing / 2 : 0); x + room <= x_high + 1e-12; x += spacing)
-      if (!circle || std::hypot(x - circle->center_mm[0], z - circle->center_mm[1]) + room <= circle->radius_mm)
+      if (!circle ||
+          std::hypot(x - circle->center_mm[0], z - circle->center_mm[1]) + room <= circle->radius_mm)
         sites.push_back({x, z});
   }
   return sites;
@@ -47,7 +50,8 @@ std::vector<Site> lattice_sites(const GeneratedGrains& grains) {
 Bodies generated(const GeneratedGrains& grains, std::uint64_t seed, double unit) {
   const auto sites = lattice_sites(grains);
   if (static_cast<int>(sites.size()) < grains.count)
-    throw InputError({InputProblem{"", 0, 0, "grains.generated.count", std::to_string(grains.count) + " grains do not fit into the region",
+    throw InputError({InputProblem{"", 0, 0, "grains.generated.count",
+                                   std::to_string(grains.count) + " grains do not fit into the region",
                                    "at most " + std::to_string(sites.size())}});
   RandomStream sizes(seed, "grains/diameter"), shaking(seed, "grains/position");
   const double room = (spacing_over_largest - 1) * grains.diameter_max_mm / 2;
@@ -55,8 +59,8 @@ Bodies generated(const GeneratedGrains& grains, std::uint64_t seed, double unit)
   for (int g = 0; g < grains.count; ++g) {
     const double diameter = sizes.uniform(grains.diameter_min_mm, grains.diameter_max_mm);
     const double angle = shaking.uniform(0, 2 * std::numbers::pi), distance = shaking.uniform(0, room);
-    add_body(bodies, (sites[g].x + distance * std::cos(angle)) * unit, (sites[g].z + distance * std::sin(angle)) * unit,
-             diameter / 2 * unit);
+    add_body(bodies, (sites[g].x + distance * std::cos(angle)) * unit,
+             (sites[g].z + distance * std::sin(angle)) * unit, diameter / 2 * unit);
   }
   return bodies;
 }
@@ -68,8 +72,10 @@ struct ListedGrain {
 std::vector<std::string> fields_of(const std::string& line) {
   std::vector<std::string> fields(1);
   for (const char c : line) {
-    if (c == ',') fields.emplace_back();
-    else if (c != ' ' && c != '\t' && c != '\r') fields.back() += c;
+    if (c == ',')
+      fields.emplace_back();
+    else if (c != ' ' && c != '\t' && c != '\r')
+      fields.back() += c;
   }
   return fields;
 }
@@ -81,8 +87,10 @@ double largest_allowed(const std::string& column) { return column == "diameter_m
 std::vector<ListedGrain> listed(const std::filesystem::path& file) {
   const std::string name = file.string();
   std::ifstream in(file);
-  if (!in || std::filesystem::is_directory(file)) throw InputError({InputProblem{name, 0, 0, "grains.listed.file", "cannot be read", ""}});
-  const std::vector<std::string> known = {"x_mm", "z_mm", "diameter_mm", "v_x_mm_s", "v_z_mm_s", "spin_rad_s"};
+  if (!in || std::filesystem::is_directory(file))
+    throw InputError({InputProblem{name, 0, 0, "grains.listed.file", "cannot be read", ""}});
+  const std::vector<std::string> known = {"x_mm",     "z_mm",     "diameter_mm",
+                                          "v_x_mm_s", "v_z_mm_s", "spin_rad_s"};
   std::vector<InputProblem> problems;
   std::vector<std::string> names;
   std::vector<ListedGrain> grains;
@@ -94,7 +102,8 @@ std::vector<ListedGrain> listed(const std::filesystem::path& file) {
       names = fields;
       for (const auto& column : names)
         if (std::find(known.begin(), known.end(), column) == known.end())
-          problems.push_back({name, number, 0, column, "unknown column", "x_mm, z_mm, diameter_mm, v_x_mm_s, v_z_mm_s, spin_rad_s"});
+          problems.push_back({name, number, 0, column, "unknown column",
+                              "x_mm, z_mm, diameter_mm, v_x_mm_s, v_z_mm_s, spin_rad_s"});
       for (const auto& column : names)
         if (std::count(names.begin(), names.end(), column) > 1)
           problems.push_back({name, number, 0, column, "stands more than once", ""});
@@ -104,7 +113,8 @@ std::vector<ListedGrain> listed(const std::filesystem::path& file) {
       continue;
     }
     if (fields.size() != names.size()) {
-      problems.push_back({name, number, 0, "", std::to_string(fields.size()) + " fields", std::to_string(names.size())});
+      problems.push_back(
+          {name, number, 0, "", std::to_string(fields.size()) + " fields", std::to_string(names.size())});
       continue;
     }
     ListedGrain grain;
@@ -114,27 +124,32 @@ std::vector<ListedGrain> listed(const std::filesystem::path& file) {
       if (error != std::errc{} || end != fields[f].data() + fields[f].size() || !std::isfinite(value))
         problems.push_back({name, number, 0, names[f], "'" + fields[f] + "'", "a finite number"});
       else if (std::abs(value) > largest_allowed(names[f]))
-        problems.push_back({name, number, 0, names[f], fields[f], "up to " + std::to_string(largest_allowed(names[f]))});
+        problems.push_back(
+            {name, number, 0, names[f], fields[f], "up to " + std::to_string(largest_allowed(names[f]))});
       else if (names[f] == "diameter_mm" && value <= 0)
         problems.push_back({name, number, 0, names[f], fields[f], "> 0"});
       grain.value[names[f]] = value;
     }
     grains.push_back(grain);
   }
-  if (grains.empty() && problems.empty()) problems.push_back({name, 0, 0, "grains.listed.file", "lists no grains", ""});
+  if (grains.empty() && problems.empty())
+    problems.push_back({name, 0, 0, "grains.listed.file", "lists no grains", ""});
   if (!problems.empty()) throw InputError(problems);
   return grains;
 }
 
-/// In a period shorter than three of the largest discs, of grains or walls, a grain would meet a neighbour on both sides.
+/// In a period shorter than three of the largest discs, of grains or walls, a grain would meet a neighbour on
+/// both sides.
 void check_period(const Scene& scene, const Bodies& bodies, double unit) {
   if (!scene.periodic_x) return;
   double largest = 2 * *std::max_element(bodies.radius.begin(), bodies.radius.end()) / unit;
   for (const Wall& wall : scene.walls)
-    if (const auto* disc = std::get_if<DiscShape>(&wall.shape)) largest = std::max(largest, disc->diameter_mm);
+    if (const auto* disc = std::get_if<DiscShape>(&wall.shape))
+      largest = std::max(largest, disc->diameter_mm);
   if (scene.periodic_x->x_max_mm - scene.periodic_x->x_min_mm <= 3 * largest)
-    throw InputError({InputProblem{"", 0, 0, "periodic_x.x_max_mm", "the period is too short for discs of " +
-                                   std::to_string(largest) + " mm", "longer than 3 of the largest discs"}});
+    throw InputError({InputProblem{"", 0, 0, "periodic_x.x_max_mm",
+                                   "the period is too short for discs of " + std::to_string(largest) + " mm",
+                                   "longer than 3 of the largest discs"}});
 }
 
 }  // namespace

@@ -8,9 +8,9 @@ namespace drumlin {
 /// Mean diameter in metres: of the distribution, or of the grains listed. It is the unit of length.
 double mean_diameter_m(const Grains& grains);
 
-/// Bodies of a scene, dimensionless, at rest or with the listed velocities. Generated grains stand on a triangular lattice
-/// of spacing 1.03 largest diameters, shaken by what room that leaves, filling the region from below. Throws InputError if
-/// the region is too small for them or the list is faulty (file, line).
+/// Bodies of a scene, dimensionless, at rest or with the listed velocities. Generated grains stand on a
+/// triangular lattice of spacing 1.03 largest diameters, shaken by what room that leaves, filling the region
+/// from below. Throws InputError if the region is too small for them or the list is faulty (file, line).
 Bodies place_grains(const Scene& scene, const Scales& scales);
 
 /// How many grains of the scene's largest diameter fit into the region of generated grains.

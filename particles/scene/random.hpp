@@ -7,7 +7,8 @@
 
 namespace drumlin {
 
-/// xoshiro256++ (Blackman and Vigna 2019), seeded through splitmix64 from the scene's seed and the stream's name.
+/// xoshiro256++ (Blackman and Vigna 2019), seeded through splitmix64 from the scene's seed and the stream's
+/// name.
 class RandomStream {
  public:
   RandomStream(std::uint64_t seed, std::string_view name);

@@ -38,8 +38,8 @@ struct GeneratedGrains {
   std::variant<CircleRegion, RectangleRegion> region;
 };
 
-/// Grains listed in a CSV file: x_mm, z_mm, diameter_mm and optionally v_x_mm_s, v_z_mm_s, spin_rad_s. read_scene makes
-/// the path absolute: in the file it counts from the folder of the scene.
+/// Grains listed in a CSV file: x_mm, z_mm, diameter_mm and optionally v_x_mm_s, v_z_mm_s, spin_rad_s.
+/// read_scene makes the path absolute: in the file it counts from the folder of the scene.
 struct ListedGrains {
   std::filesystem::path file;
 };
@@ -109,7 +109,8 @@ struct WallMotion {
   std::variant<Rotation, Translation> motion;
 };
 
-/// A stretch of time with its own step, wall motions and number of snapshots (evenly spread, the last at its end).
+/// A stretch of time with its own step, wall motions and number of snapshots (evenly spread, the last at its
+/// end).
 struct Stage {
   std::string name;
   std::optional<double> duration_s;
@@ -125,15 +126,15 @@ struct SolverSettings {
   double tolerance = 1e-2;              ///< of `residual`
   double penetration_tolerance = 1e-3;  ///< of `penetration`, in d
   int max_sweeps = 100;
-  int check_every = 10;                 ///< sweeps between two looks at the judge
-  int projection_sweeps = 20;           ///< at most; 0: no position projection
-  bool stop_when_unconverged = false;   ///< end with exit code 3 at the first step that misses the tolerance
+  int check_every = 10;                ///< sweeps between two looks at the judge
+  int projection_sweeps = 20;          ///< at most; 0: no position projection
+  bool stop_when_unconverged = false;  ///< end with exit code 3 at the first step that misses the tolerance
 };
 
 struct Output {
-  double velocity_window_s = 6e-3;   ///< displacement over this window is stored with each snapshot; 0: none
+  double velocity_window_s = 6e-3;  ///< displacement over this window is stored with each snapshot; 0: none
   int log_every_steps = 10;
-  double checkpoint_every_s = 1.0;   ///< simulated time
+  double checkpoint_every_s = 1.0;  ///< simulated time
 };
 
 struct Scene {

@@ -9,12 +9,16 @@ namespace drumlin {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
-/// Drives sweeps until the judge is content. `after_sweep` may move r and the state on, but not after the last sweep.
+/// Drives sweeps until the judge is content. `after_sweep` may move r and the state on, but not after the
+/// last sweep.
 template <class Problem, class AfterSweep>
-SolveReport sweep_until_judged(const Problem& problem, const StoppingRule& rule, SolverScratch<Problem>& scratch,
-                               std::vector<double>& r, AfterSweep after_sweep) {
+SolveReport sweep_until_judged(const Problem& problem, const StoppingRule& rule,
+                               SolverScratch<Problem>& scratch, std::vector<double>& r,
+                               AfterSweep after_sweep) {
   const auto start = Clock::now();
   SolveReport report;
   r.resize(problem.q.size());
@@ -28,11 +32,15 @@ SolveReport sweep_until_judged(const Problem& problem, const StoppingRule& rule,
     if (last || report.sweeps % rule.check_every == 0) {
       report.judgement = judge(problem, std::span<const double>(r), scratch.judge);
       report.seconds = seconds_since(start);
-      if (!std::isfinite(step_squares) || std::isnan(report.judgement.residual)) report.status = Status::not_finite;
-      else if (report.judgement.residual <= rule.tolerance && report.judgement.penetration <= rule.penetration)
+      if (!std::isfinite(step_squares) || std::isnan(report.judgement.residual))
+        report.status = Status::not_finite;
+      else if (report.judgement.residual <= rule.tolerance &&
+               report.judgement.penetration <= rule.penetration)
         report.status = Status::converged;
-      else if (last) report.status = Status::out_of_sweeps;
-      else if (report.seconds > rule.max_seconds) report.status = Status::out_of_time;
+      else if (last)
+        report.status = Status::out_of_sweeps;
+      else if (report.seconds > rule.max_seconds)
+        report.status = Status::out_of_time;
       else {
         after_sweep.after(scratch, r, step_squares);
         continue;
@@ -50,8 +58,8 @@ struct Plain {
   void after(Scratch&, std::vector<double>&, double) {}
 };
 
-/// Fletcher-Reeves: the step of a sweep plays the negative gradient. r and the state are linear in each other, so the
-/// state is carried along instead of being computed from r again.
+/// Fletcher-Reeves: the step of a sweep plays the negative gradient. r and the state are linear in each
+/// other, so the state is carried along instead of being computed from r again.
 template <class Delassus>
 struct FletcherReeves {
   double previous_squares = 0;
@@ -65,7 +73,8 @@ struct FletcherReeves {
     auto now = Delassus::numbers(scratch.state);
     const auto then = Delassus::numbers(scratch.state_before);
     scratch.direction.resize(r.size());
-    if (scratch.direction_state.size() != scratch.state.size()) scratch.direction_state.resize(scratch.state.size());
+    if (scratch.direction_state.size() != scratch.state.size())
+      scratch.direction_state.resize(scratch.state.size());
     auto direction_state = Delassus::numbers(scratch.direction_state);
     const double beta = previous_squares > 0 ? step_squares / previous_squares : 2;
     previous_squares = step_squares;
@@ -80,7 +89,8 @@ struct FletcherReeves {
     }
     for (std::size_t k = 0; k < now.size(); ++k) {
       const double swept = now[k] - then[k];
-      now[k] += beta * direction_state[k];  // inverse masses: their difference, hence their direction, is zero
+      now[k] +=
+          beta * direction_state[k];  // inverse masses: their difference, hence their direction, is zero
       direction_state[k] = beta * direction_state[k] + swept;
     }
   }
@@ -90,10 +100,14 @@ struct FletcherReeves {
 
 std::string to_string(Status status) {
   switch (status) {
-    case Status::converged: return "converged";
-    case Status::out_of_sweeps: return "out of sweeps";
-    case Status::out_of_time: return "out of time";
-    case Status::not_finite: return "not finite";
+    case Status::converged:
+      return "converged";
+    case Status::out_of_sweeps:
+      return "out of sweeps";
+    case Status::out_of_time:
+      return "out of time";
+    case Status::not_finite:
+      return "not finite";
   }
   return "unknown";
 }
@@ -119,9 +133,11 @@ ContactSolver<Problem> contact_solver(const std::string& name) {
   throw InputError({InputProblem{"", 0, 0, "solver", "unknown solver '" + name + "'", "nlgs, nncg"}});
 }
 
-#define DRUMLIN_INSTANTIATE(Problem)                                                                                \
-  template SolveReport solve_nlgs(const Problem&, const StoppingRule&, SolverScratch<Problem>&, std::vector<double>&); \
-  template SolveReport solve_nncg(const Problem&, const StoppingRule&, SolverScratch<Problem>&, std::vector<double>&); \
+#define DRUMLIN_INSTANTIATE(Problem)                                                            \
+  template SolveReport solve_nlgs(const Problem&, const StoppingRule&, SolverScratch<Problem>&, \
+                                  std::vector<double>&);                                        \
+  template SolveReport solve_nncg(const Problem&, const StoppingRule&, SolverScratch<Problem>&, \
+                                  std::vector<double>&);                                        \
   template ContactSolver<Problem> contact_solver<Problem>(const std::string&);
 DRUMLIN_INSTANTIATE(FrictionlessProblem)
 DRUMLIN_INSTANTIATE(CoulombProblem)

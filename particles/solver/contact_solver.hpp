@@ -1,5 +1,6 @@
 #pragma once
-// What every contact solver takes and returns. The one place that knows their names is contact_solver() below.
+// What every contact solver takes and returns. The one place that knows their names is contact_solver()
+// below.
 #include <chrono>
 #include <functional>
 #include <limits>
@@ -16,11 +17,12 @@ std::string to_string(Status);
 
 /// When a solver may stop. It stops when both tolerances hold, as the judge sees them.
 struct StoppingRule {
-  double tolerance = 1e-2;  ///< of Judgement::residual
+  double tolerance = 1e-2;                                       ///< of Judgement::residual
   double penetration = std::numeric_limits<double>::infinity();  ///< of Judgement::penetration
   int max_sweeps = 1000;
-  int check_every = 10;     ///< sweeps between two judgements; a judgement costs about one sweep
-  double max_seconds = std::numeric_limits<double>::infinity();  ///< wall time; finite limits make a run irreproducible
+  int check_every = 10;  ///< sweeps between two judgements; a judgement costs about one sweep
+  double max_seconds =
+      std::numeric_limits<double>::infinity();  ///< wall time; finite limits make a run irreproducible
 };
 
 struct [[nodiscard]] SolveReport {
@@ -30,8 +32,8 @@ struct [[nodiscard]] SolveReport {
   double seconds = 0;
 };
 
-/// Work space of a solver, kept between calls so that a step does not allocate. It carries no information from one call
-/// to the next.
+/// Work space of a solver, kept between calls so that a step does not allocate. It carries no information
+/// from one call to the next.
 template <class Problem>
 struct SolverScratch {
   typename Problem::Delassus::State state, state_before, direction_state;
@@ -41,14 +43,15 @@ struct SolverScratch {
 
 /// r: warm start in, solution out (dim * contacts entries).
 template <class Problem>
-using ContactSolver = SolveReport (*)(const Problem&, const StoppingRule&, SolverScratch<Problem>&, std::vector<double>& r);
+using ContactSolver = SolveReport (*)(const Problem&, const StoppingRule&, SolverScratch<Problem>&,
+                                      std::vector<double>& r);
 
 /// Nonlinear Gauss-Seidel (Jean 1999; the paper, Sec. II): each contact exactly in turn.
 template <class Problem>
 SolveReport solve_nlgs(const Problem&, const StoppingRule&, SolverScratch<Problem>&, std::vector<double>& r);
 
-/// Nonlinear nonsmooth conjugate gradients (Silcowitz, Niebe, Erleben 2010): Fletcher-Reeves over the steps of
-/// Gauss-Seidel sweeps, restarted when they grow. Ends on a plain sweep, so that r lies in the cone.
+/// Nonlinear nonsmooth conjugate gradients (Silcowitz, Niebe, Erleben 2010): Fletcher-Reeves over the steps
+/// of Gauss-Seidel sweeps, restarted when they grow. Ends on a plain sweep, so that r lies in the cone.
 template <class Problem>
 SolveReport solve_nncg(const Problem&, const StoppingRule&, SolverScratch<Problem>&, std::vector<double>& r);
 

@@ -12,7 +12,7 @@ namespace {
 
 /// A remembered approach means an impact whatever the sign of the tiny gap that the solver's error left.
 struct Impact {
-  double shift = 0;     ///< of u_n
+  double shift = 0;  ///< of u_n
   bool bounces = false;
 };
 
@@ -23,7 +23,8 @@ Impact impact_of(double gap, double u_before, double remembered, double e, doubl
   return {gap > 0 ? gap / time_step : 0, false};
 }
 
-/// Speed at which a pair with a gap arrives, from the speeds at the beginning and (without contact) the end of the step.
+/// Speed at which a pair with a gap arrives, from the speeds at the beginning and (without contact) the end
+/// of the step.
 double arrival_speed(double gap, double u_before, double u_free, double time_step) {
   if (u_free >= 0) return u_before;
   const double fraction = std::min(1.0, gap / (-u_free * time_step));
@@ -38,16 +39,19 @@ class MoreauJean final : public Stepper {
   MoreauJean(const StepLaws& laws, const StepSolver& solver)
       : laws_(laws), solver_(solver), solve_(contact_solver<Problem>(solver.name)) {}
 
-  StepReport advance(Bodies& bodies, ContactMemory& memory, const WallStep& walls, double time_step) override {
+  StepReport advance(Bodies& bodies, ContactMemory& memory, const WallStep& walls,
+                     double time_step) override {
     StepReport report;
     const auto start = std::chrono::steady_clock::now();
     free_velocities(bodies, time_step);
-    const DetectionInput input{walls.before, walls.displacement, time_step, laws_.detection_margin, laws_.period};
+    const DetectionInput input{walls.before, walls.displacement, time_step, laws_.detection_margin,
+                               laws_.period};
     pairs_ = detection_.find(bodies, free_x_, free_z_, input);
     order_.sort(pairs_, bodies.count());
     recall(memory, time_step);
     pose(bodies, time_step);
-    report.detection_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    report.detection_seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     report.contacts = problem_.contacts();
     report.solve = solve_(problem_, solver_.rule, scratch_, impulses_);
     remember(memory, time_step);
@@ -59,13 +63,14 @@ class MoreauJean final : public Stepper {
   std::vector<SnapshotContact> loaded_contacts() const override {
     std::vector<SnapshotContact> loaded;
     std::vector<std::int32_t> slot(pairs_.size());
-    for (std::size_t a = 0; a < order_.place.size(); ++a) slot[order_.place[a]] = static_cast<std::int32_t>(a);
+    for (std::size_t a = 0; a < order_.place.size(); ++a)
+      slot[order_.place[a]] = static_cast<std::int32_t>(a);
     for (std::size_t p = 0; p < pairs_.size(); ++p) {
       const auto a = static_cast<std::size_t>(slot[p]);
       const double r_n = impulses_[dim * a], r_t = dim == 2 ? impulses_[dim * a + dim - 1] : 0;
       if (r_n > 0)
-        loaded.push_back({pairs_[p].i, pairs_[p].j, static_cast<float>(pairs_[p].n_x), static_cast<float>(pairs_[p].n_z),
-                          r_n, r_t});
+        loaded.push_back({pairs_[p].i, pairs_[p].j, static_cast<float>(pairs_[p].n_x),
+                          static_cast<float>(pairs_[p].n_z), r_n, r_t});
     }
     return loaded;
   }
@@ -78,7 +83,8 @@ class MoreauJean final : public Stepper {
     free_x_ = bodies.v_x;
     free_z_ = bodies.v_z;
     if (!laws_.gravity) return;
-    for (std::size_t b = 0; b < bodies.count(); ++b) free_x_[b] += h * laws_.gravity->x, free_z_[b] += h * laws_.gravity->z;
+    for (std::size_t b = 0; b < bodies.count(); ++b)
+      free_x_[b] += h * laws_.gravity->x, free_z_[b] += h * laws_.gravity->z;
   }
 
   /// Warm start and remembered approach speeds, by identity (i, j): both lists are sorted.
@@ -90,7 +96,8 @@ class MoreauJean final : public Stepper {
     std::size_t m = 0;
     for (std::size_t p = 0; p < pairs_.size(); ++p) {
       const auto& pair = pairs_[p];
-      while (m < memory.i.size() && (memory.i[m] < pair.i || (memory.i[m] == pair.i && memory.j[m] < pair.j))) ++m;
+      while (m < memory.i.size() && (memory.i[m] < pair.i || (memory.i[m] == pair.i && memory.j[m] < pair.j)))
+        ++m;
       if (m == memory.i.size() || memory.i[m] != pair.i || memory.j[m] != pair.j) continue;
       for (int c = 0; c < dim; ++c) warm_[dim * p + c] = scale * memory.impulse[dim * m + c];
       if (laws_.restitution) approach_[p] = memory.approach[m];
@@ -129,8 +136,8 @@ class MoreauJean final : public Stepper {
     }
   }
 
-  /// What Signorini's law acts on beside u_n: predicted gap or restitution. Also turns approach_ into what the next step
-  /// must know if this contact acts.
+  /// What Signorini's law acts on beside u_n: predicted gap or restitution. Also turns approach_ into what
+  /// the next step must know if this contact acts.
   double normal_shift(std::size_t p, const Candidate& pair, const Bodies& bodies, double u_free, double h) {
     if (!laws_.restitution) return pair.gap > 0 ? pair.gap / h : 0;
     const bool wall = pair.j < 0;
@@ -160,7 +167,8 @@ class MoreauJean final : public Stepper {
     memory.approach = approach_;
   }
 
-  /// New velocities from the impulses, then new positions. The judge's state is M^-1 H^T r of the impulses returned.
+  /// New velocities from the impulses, then new positions. The judge's state is M^-1 H^T r of the impulses
+  /// returned.
   void move(Bodies& bodies, double h) {
     const bool loaded = problem_.contacts() > 0;
     for (std::size_t b = 0; b < bodies.count(); ++b) {
@@ -207,7 +215,7 @@ class MoreauJean final : public Stepper {
   SolverScratch<Problem> scratch_;
   std::vector<Candidate> pairs_;
   std::vector<double> free_x_, free_z_;
-  std::vector<double> impulses_;  // in solve order
+  std::vector<double> impulses_;         // in solve order
   std::vector<double> warm_, approach_;  // in the order of pairs_
   std::vector<ClosePair> close_;
   PositionProjection projection_;
@@ -220,7 +228,8 @@ WallStep wall_step(const Walls& walls, double time_in_stage, double time_step) {
   step.before = walls.shapes_at(time_in_stage);
   step.after = walls.shapes_at(time_in_stage + time_step);
   for (const int wall : walls.wall_of_shape)
-    step.displacement.push_back(after(walls.pose(wall, time_in_stage + time_step), inverse(walls.pose(wall, time_in_stage))));
+    step.displacement.push_back(
+        after(walls.pose(wall, time_in_stage + time_step), inverse(walls.pose(wall, time_in_stage))));
   return step;
 }
 

@@ -1,10 +1,11 @@
 #pragma once
-// One implicit time step of rigid discs: Moreau-Jean (the paper, Sec. II, refs. Jean 1999, Moreau 1999) with theta = 1,
-// predicted gaps, Newton restitution and a position projection that gives no kinetic energy.
+// One implicit time step of rigid discs: Moreau-Jean (the paper, Sec. II, refs. Jean 1999, Moreau 1999) with
+// theta = 1, predicted gaps, Newton restitution and a position projection that gives no kinetic energy.
 //
-// Departures from the paper: contacts may act before they touch, u_n >= -g/h for a gap g > 0 (contacts that act only
-// when touching crush the packing at h = 6e-3 s); the approach speed of a pair that is so slowed to just touching is
-// remembered and restored, times e, in the next step; what overlap remains is projected away on positions alone.
+// Departures from the paper: contacts may act before they touch, u_n >= -g/h for a gap g > 0 (contacts that
+// act only when touching crush the packing at h = 6e-3 s); the approach speed of a pair that is so slowed to
+// just touching is remembered and restored, times e, in the next step; what overlap remains is projected away
+// on positions alone.
 #include <memory>
 #include <optional>
 #include <span>
@@ -26,7 +27,8 @@ struct StepLaws {
   };
   struct RestitutionLaw {
     PerPair e;
-    double gravity = 0;  ///< impacts slower than 2 gravity h are at rest: a grain that lies arrives at gravity h every step
+    double gravity = 0;  ///< impacts slower than 2 gravity h are at rest: a grain that lies arrives at
+                         ///< gravity h every step
   };
   struct Acceleration {
     double x = 0, z = 0;
@@ -69,7 +71,8 @@ WallStep wall_step(const Walls& walls, double time_in_stage, double time_step);
 class Stepper {
  public:
   virtual ~Stepper() = default;
-  virtual StepReport advance(Bodies& bodies, ContactMemory& memory, const WallStep& walls, double time_step) = 0;
+  virtual StepReport advance(Bodies& bodies, ContactMemory& memory, const WallStep& walls,
+                             double time_step) = 0;
   /// Loaded contacts of the last step, with the normals that it used.
   virtual std::vector<SnapshotContact> loaded_contacts() const = 0;
   /// Unknowns per contact and numbers of velocity per body: what the effects of the scene cost.

@@ -5,12 +5,13 @@
 namespace drumlin {
 namespace {
 
-// A projection that takes away the whole overlap at once opens neighbouring contacts; the load closes them at gap/h in
-// the next step, the packing heats, solves get worse and overlap grows: a settling drum of 7183 discs blew up so.
+// A projection that takes away the whole overlap at once opens neighbouring contacts; the load closes them at
+// gap/h in the next step, the packing heats, solves get worse and overlap grows: a settling drum of 7183
+// discs blew up so.
 constexpr double correction_share = 0.2;
 constexpr double largest_correction = 2e-3;  // d per step
-// Of the judge, relative to the corrections asked for. A few plain Gauss-Seidel sweeps leave the contacts that are solved
-// early overlapped, the same ones in every step: their overlap grew to 0.1 d within a second.
+// Of the judge, relative to the corrections asked for. A few plain Gauss-Seidel sweeps leave the contacts
+// that are solved early overlapped, the same ones in every step: their overlap grew to 0.1 d within a second.
 constexpr double tolerance = 0.05;
 
 }  // namespace
@@ -24,7 +25,8 @@ void PositionProjection::apply(Bodies& bodies, std::span<const ClosePair> pairs,
   bool overlapped = false;
   for (const ClosePair& pair : pairs) {
     W.add(pair.i, pair.j < 0 ? static_cast<std::int32_t>(bodies.count()) : pair.j, pair.n_x, pair.n_z);
-    problem_.q.push_back(pair.gap >= 0 ? pair.gap : std::max(correction_share * pair.gap, -largest_correction));
+    problem_.q.push_back(pair.gap >= 0 ? pair.gap
+                                       : std::max(correction_share * pair.gap, -largest_correction));
     overlapped = overlapped || pair.gap < 0;
   }
   if (!overlapped) return;

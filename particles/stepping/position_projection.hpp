@@ -16,8 +16,8 @@ struct ClosePair {
   double gap = 0, n_x = 0, n_z = 0;
 };
 
-/// Solves 0 <= gap + n.(d_i - d_j), lambda >= 0 in the metric of the masses (the least displacement): a contact problem
-/// without friction, on positions. Overlaps ask for a share of themselves only.
+/// Solves 0 <= gap + n.(d_i - d_j), lambda >= 0 in the metric of the masses (the least displacement): a
+/// contact problem without friction, on positions. Overlaps ask for a share of themselves only.
 class PositionProjection {
  public:
   /// Moves `bodies` by at most `sweeps` sweeps; `pairs` in solve order.

@@ -18,8 +18,9 @@ StepLaws laws_of(const Scene& scene, const Scales& scales) {
     const double g = effects.gravity->acceleration_m_s2 / unit;
     // Straight down in a plain scene: exactly (0, -g), no rounding of cos(-90 deg).
     const double direction = effects.gravity->direction_deg * std::numbers::pi / 180;
-    laws.gravity = effects.gravity->direction_deg == -90 ? StepLaws::Acceleration{0, -g}
-                                                         : StepLaws::Acceleration{g * std::cos(direction), g * std::sin(direction)};
+    laws.gravity = effects.gravity->direction_deg == -90
+                       ? StepLaws::Acceleration{0, -g}
+                       : StepLaws::Acceleration{g * std::cos(direction), g * std::sin(direction)};
   }
   if (effects.friction) laws.friction = {effects.friction->grain_grain, effects.friction->grain_wall};
   if (effects.restitution)
@@ -28,7 +29,8 @@ StepLaws laws_of(const Scene& scene, const Scales& scales) {
   laws.spin = effects.spin.has_value();
   if (scene.periodic_x) {
     const double unit = 1e-3 / scales.length_m;
-    laws.period = {scene.periodic_x->x_min_mm * unit, (scene.periodic_x->x_max_mm - scene.periodic_x->x_min_mm) * unit};
+    laws.period = {scene.periodic_x->x_min_mm * unit,
+                   (scene.periodic_x->x_max_mm - scene.periodic_x->x_min_mm) * unit};
   }
   return laws;
 }
@@ -55,18 +57,22 @@ void check_state(const SimulationState& s, const Scene& scene, const TimePlan& p
     if (!good) throw InputError(std::string("checkpoint: ") + what + " do not fit the scene");
   };
   const std::size_t n = s.bodies.count(), contacts = s.memory.i.size();
-  for (const auto* values : {&s.bodies.z, &s.bodies.v_x, &s.bodies.v_z, &s.bodies.radius, &s.bodies.inverse_mass})
+  for (const auto* values :
+       {&s.bodies.z, &s.bodies.v_x, &s.bodies.v_z, &s.bodies.radius, &s.bodies.inverse_mass})
     require(values->size() == n, "arrays of the grains");
   require(n > 0 && s.bodies.spin.size() == (scene.effects.spin ? n : 0), "spins of the grains");
   require(s.stage >= 0 && s.stage < static_cast<int>(plan.stages.size()), "stages");
-  require(s.step >= 0 && s.step <= plan.steps && s.step_in_stage >= 0 && s.step_in_stage <= plan.stages[s.stage].steps,
+  require(s.step >= 0 && s.step <= plan.steps && s.step_in_stage >= 0 &&
+              s.step_in_stage <= plan.stages[s.stage].steps,
           "steps");
   require(s.pose_at_start.size() == walls.names.size(), "walls");
-  require(s.memory.j.size() == contacts && s.memory.impulse.size() == (scene.effects.friction ? 2 : 1) * contacts &&
+  require(s.memory.j.size() == contacts &&
+              s.memory.impulse.size() == (scene.effects.friction ? 2 : 1) * contacts &&
               (!scene.effects.restitution || s.memory.approach.size() == contacts),
           "contacts");
   for (std::size_t c = 0; c < contacts; ++c)
-    require(s.memory.i[c] >= 0 && s.memory.i[c] < static_cast<std::int64_t>(n) && s.memory.j[c] < static_cast<std::int64_t>(n),
+    require(s.memory.i[c] >= 0 && s.memory.i[c] < static_cast<std::int64_t>(n) &&
+                s.memory.j[c] < static_cast<std::int64_t>(n),
             "contacts");
   for (const auto& mark : s.marks) require(mark.x.size() == n && mark.z.size() == n, "displacement windows");
 }
@@ -94,15 +100,22 @@ TimePlan time_plan(const Scene& scene, const Scales& scales) {
 }
 
 Simulation::Simulation(const Scene& scene)
-    : scene_(scene), scales_(scales_of(scene)), plan_(time_plan(scene, scales_)), walls_(walls_of(scene, scales_)),
+    : scene_(scene),
+      scales_(scales_of(scene)),
+      plan_(time_plan(scene, scales_)),
+      walls_(walls_of(scene, scales_)),
       stepper_(make_stepper(laws_of(scene, scales_), solver_of(scene))) {
   state_.bodies = place_grains(scene, scales_);
   enter_stage(0);
 }
 
 Simulation::Simulation(const Scene& scene, SimulationState state)
-    : scene_(scene), scales_(scales_of(scene)), plan_(time_plan(scene, scales_)), walls_(walls_of(scene, scales_)),
-      state_(std::move(state)), stepper_(make_stepper(laws_of(scene, scales_), solver_of(scene))) {
+    : scene_(scene),
+      scales_(scales_of(scene)),
+      plan_(time_plan(scene, scales_)),
+      walls_(walls_of(scene, scales_)),
+      state_(std::move(state)),
+      stepper_(make_stepper(laws_of(scene, scales_), solver_of(scene))) {
   check_state(state_, scene_, plan_, walls_);
   begin_stage(walls_, scene_.stages[state_.stage], scales_, 0);
   walls_.pose_at_start = state_.pose_at_start;
@@ -160,14 +173,16 @@ Snapshot Simulation::take_snapshot() {
     }
   for (const Shape& shape : walls_.shapes_at(state_.time_in_stage))
     if (const auto* container = std::get_if<Container>(&shape)) {
-      s.container_x = container->center.x, s.container_z = container->center.z, s.container_radius = container->radius;
+      s.container_x = container->center.x, s.container_z = container->center.z,
+      s.container_radius = container->radius;
       break;
     }
   const StepLaws laws = laws_of(scene_, scales_);
   s.gravity_x = laws.gravity ? laws.gravity->x : 0;
   s.gravity_z = laws.gravity ? laws.gravity->z : 0;
   s.period_x = laws.period.length;
-  s.x = bodies.x, s.z = bodies.z, s.v_x = bodies.v_x, s.v_z = bodies.v_z, s.radius = bodies.radius, s.spin = bodies.spin;
+  s.x = bodies.x, s.z = bodies.z, s.v_x = bodies.v_x, s.v_z = bodies.v_z, s.radius = bodies.radius,
+  s.spin = bodies.spin;
   s.contacts = stepper_->loaded_contacts();
   while (!state_.marks.empty() && state_.marks.front().snapshot_step < state_.step) state_.marks.pop_front();
   if (!state_.marks.empty() && state_.marks.front().snapshot_step == state_.step) {

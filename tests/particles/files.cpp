@@ -18,11 +18,13 @@ using test::TemporaryFolder;
 
 Snapshot some_snapshot() {
   Snapshot s;
-  s.step = 42, s.time = 1.5, s.time_step = 0.05, s.wall_angle = 0.3, s.wall_spin = 0.01, s.container_radius = 68;
+  s.step = 42, s.time = 1.5, s.time_step = 0.05, s.wall_angle = 0.3, s.wall_spin = 0.01,
+  s.container_radius = 68;
   s.velocity_window = 0.3;
   s.scales = {3.3e-3, 0.018, 2700};
   for (int k = 0; k < 5; ++k) {
-    s.x.push_back(k), s.z.push_back(-k), s.v_x.push_back(0.1 * k), s.v_z.push_back(0.2), s.radius.push_back(0.5);
+    s.x.push_back(k), s.z.push_back(-k), s.v_x.push_back(0.1 * k), s.v_z.push_back(0.2),
+        s.radius.push_back(0.5);
     s.spin.push_back(-0.1 * k), s.displacement_x.push_back(0.03 * k), s.displacement_z.push_back(0.06);
   }
   s.contacts = {{0, 1, 0.6f, 0.8f, 1.25, -0.5}, {3, -1, 0, 1, 2, 0}};
@@ -67,8 +69,10 @@ TEST(SnapshotFile, EveryBitFlipAndEveryCutIsRefused) {
   for (int k = 0; k < 300; ++k) {
     std::string bad = good;
     const auto place = random.bits() % bad.size();
-    if (k % 3 == 0) bad.resize(place);
-    else bad[place] = static_cast<char>(bad[place] ^ (1 << (random.bits() % 8)));
+    if (k % 3 == 0)
+      bad.resize(place);
+    else
+      bad[place] = static_cast<char>(bad[place] ^ (1 << (random.bits() % 8)));
     std::ofstream(damaged, std::ios::binary) << bad;
     EXPECT_THROW(read_snapshot(damaged), InputError) << place;
   }
@@ -87,7 +91,7 @@ TEST(SnapshotFile, UnwritablePlaceIsAnIoError) {
 /// Two contacts on one body and a third contact, W symmetric with one off-diagonal block.
 struct SmallProblem {
   std::vector<double> dense = {2, 0.1, 0.5, 0, 0, 0, 0.1, 3, 0, 0.2, 0, 0, 0.5, 0, 2, 0.3, 0, 0,
-                               0, 0.2, 0.3, 4, 0, 0, 0,   0, 0, 0, 1,   0, 0, 0, 0,   0, 0, 3};
+                               0, 0.2, 0.3, 4, 0, 0, 0,   0, 0, 0,   1, 0, 0,   0, 0, 0,   0, 3};
   std::vector<double> q = {-1, 0.4, -0.5, -2, 0.7, 0.1};
   std::vector<double> mu = {0.3, 0.2, 0.5};
 };
@@ -100,8 +104,10 @@ void write_fclib(const std::filesystem::path& file, const SmallProblem& p, int s
     for (int minor = 0; minor < 6; ++minor) {
       const double value = storage == -1 ? p.dense[6 * minor + major] : p.dense[6 * major + minor];
       if (value == 0) continue;
-      if (storage >= 0) first.push_back(minor), second.push_back(major);  // columns, rows
-      else second.push_back(minor);
+      if (storage >= 0)
+        first.push_back(minor), second.push_back(major);  // columns, rows
+      else
+        second.push_back(minor);
       x.push_back(value);
     }
     if (storage < 0) first.push_back(static_cast<std::int32_t>(x.size()));

@@ -1,4 +1,5 @@
-// Closed forms that a single grain, or a few, must follow (particles.md of the literature: impact, sliding, rolling).
+// Closed forms that a single grain, or a few, must follow (particles.md of the literature: impact, sliding,
+// rolling).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -40,7 +41,8 @@ TEST(Drop, PeaksFallByTheSquareOfRestitution) {
   }
   ASSERT_GE(peaks.size(), 4u);
   // First order in the step: an impact is late by up to h, at a speed of sqrt(2 height) = 2.8.
-  for (int n = 0; n < 4; ++n) EXPECT_NEAR(peaks[n], height * std::pow(e, 2 * (n + 1)), 5 * h * std::sqrt(2 * height)) << n;
+  for (int n = 0; n < 4; ++n)
+    EXPECT_NEAR(peaks[n], height * std::pow(e, 2 * (n + 1)), 5 * h * std::sqrt(2 * height)) << n;
 }
 
 TEST(Drop, ComesToRestWhenItMustAndStaysThere) {
@@ -56,7 +58,8 @@ TEST(Drop, ComesToRestWhenItMustAndStaysThere) {
   double jitter = 0;
   while (!simulation.finished()) {
     (void)simulation.step();
-    if (simulation.state().time() > rest * 1.02) jitter = std::max(jitter, std::abs(simulation.state().bodies.v_z[0]));
+    if (simulation.state().time() > rest * 1.02)
+      jitter = std::max(jitter, std::abs(simulation.state().bodies.v_z[0]));
   }
   EXPECT_LT(jitter, 2 * h);
   EXPECT_NEAR(simulation.state().bodies.z[0], 0.5, 1e-6);
@@ -139,12 +142,14 @@ double acceleration_on_incline(double slope_deg, double mu) {
 }
 
 TEST(Incline, RollsBelowThreeTimesTheFriction) {
-  EXPECT_NEAR(acceleration_on_incline(20, 0.2), 2.0 / 3 * std::sin(std::numbers::pi / 9), 1e-8);  // tan 20 = 0.364 < 0.6
+  EXPECT_NEAR(acceleration_on_incline(20, 0.2), 2.0 / 3 * std::sin(std::numbers::pi / 9),
+              1e-8);  // tan 20 = 0.364 < 0.6
 }
 
 TEST(Incline, SlipsAboveThreeTimesTheFriction) {
   const double slope = std::numbers::pi / 9;
-  EXPECT_NEAR(acceleration_on_incline(20, 0.1), std::sin(slope) - 0.1 * std::cos(slope), 1e-8);  // 0.364 > 0.3
+  EXPECT_NEAR(acceleration_on_incline(20, 0.1), std::sin(slope) - 0.1 * std::cos(slope),
+              1e-8);  // 0.364 > 0.3
 }
 
 TEST(Column, ContactKCarriesTheWeightAbove) {
@@ -172,8 +177,8 @@ TEST(Column, ContactKCarriesTheWeightAbove) {
 }
 
 TEST(TouchingCradle, OneBallOnTwoFollowsNewtonsLaw) {
-  // Simultaneous contacts, Newton's law: striker (1 - 2e)/3, the others (1 + e)/3 of the speed; from the first ball's
-  // contact, which alone has an approach speed.
+  // Simultaneous contacts, Newton's law: striker (1 - 2e)/3, the others (1 + e)/3 of the speed; from the
+  // first ball's contact, which alone has an approach speed.
   const TemporaryFolder folder;
   const double e = 0.4;
   Scene scene = scene_of({{-1.02, 0, 1, 1}, {0, 0}, {1, 0}}, folder);
@@ -239,13 +244,14 @@ TEST(RotatingContainer, GrainOnTheWallTurnsWithItAndDoesNotDrift) {
     farthest = std::max(farthest, std::abs(std::hypot(b.x[0], b.z[0]) - 9.5));
   }
   EXPECT_LT(farthest, 2e-4);
-  EXPECT_NEAR(std::hypot(simulation.state().bodies.v_x[0], simulation.state().bodies.v_z[0]), 9.5 * spin, 0.01);
+  EXPECT_NEAR(std::hypot(simulation.state().bodies.v_x[0], simulation.state().bodies.v_z[0]), 9.5 * spin,
+              0.01);
   EXPECT_NEAR(simulation.state().bodies.spin[0], spin, 0.01);
 }
 
 TEST(ThreeDiscs, OverAllGapsAnImpactGivesNoEnergy) {
-  // Uniform restitution, no friction. Above e = 0.7 the impacts of two contacts of one disc within a step can raise it:
-  // docs/decisions/position-projection.md.
+  // Uniform restitution, no friction. Above e = 0.7 the impacts of two contacts of one disc within a step can
+  // raise it: docs/decisions/position-projection.md.
   for (const double e : {0.0, 0.46, 0.7})
     for (int k = 0; k <= 40; ++k) {
       const TemporaryFolder folder;

@@ -49,7 +49,8 @@ TEST(Drum, NothingLeavesAndOverlapStaysSmall) {
     const StepReport report = simulation.step();
     ASSERT_LT(report.overlap.mean, 1e-3);
     const Bodies& b = simulation.state().bodies;
-    for (std::size_t k = 0; k < b.count(); ++k) ASSERT_LT(std::hypot(b.x[k], b.z[k]) + b.radius[k], radius + 0.02);
+    for (std::size_t k = 0; k < b.count(); ++k)
+      ASSERT_LT(std::hypot(b.x[k], b.z[k]) + b.radius[k], radius + 0.02);
   }
 }
 
@@ -94,7 +95,8 @@ TEST(Restart, ContinuesBitForBitThroughAFile) {
 TEST(Restart, KeepsTheDisplacementWindowThatItFellInto) {
   Scene scene = small_drum();
   Simulation whole(scene), first(scene);
-  for (int k = 0; k < 297; ++k) (void)whole.step(), (void)first.step();  // the snapshot is due at step 300, its window of 6
+  for (int k = 0; k < 297; ++k)
+    (void)whole.step(), (void)first.step();  // the snapshot is due at step 300, its window of 6
   Simulation second(scene, first.state());
   for (int k = 0; k < 3; ++k) (void)whole.step(), (void)second.step();
   ASSERT_TRUE(whole.snapshot_due());
@@ -107,7 +109,8 @@ TEST(Restart, KeepsTheDisplacementWindowThatItFellInto) {
 TEST(Frame, GalileanShiftChangesNothing) {
   const TemporaryFolder folder, other;
   std::vector<Grain> grains;
-  for (int k = 0; k < 12; ++k) grains.push_back({1.01 * (k % 4), 1.02 * (k / 4), 1, 0.3 * (k % 3) - 0.3, -0.2 * (k / 4)});
+  for (int k = 0; k < 12; ++k)
+    grains.push_back({1.01 * (k % 4), 1.02 * (k / 4), 1, 0.3 * (k % 3) - 0.3, -0.2 * (k / 4)});
   auto moving = grains;
   for (auto& g : moving) g.v_x += 5, g.v_z -= 3;
   const auto end = [](const std::vector<Grain>& list, const TemporaryFolder& where) {
@@ -131,10 +134,12 @@ TEST(Frame, RotationTurnsTheResultWithIt) {
   // The same heap in gravity turned by 30 degrees, positions and velocities turned with it.
   const double angle = std::numbers::pi / 6, c = std::cos(angle), s = std::sin(angle);
   const auto turned = [c, s](Grain g) {
-    return Grain{c * g.x - s * g.z, s * g.x + c * g.z, g.diameter, c * g.v_x - s * g.v_z, s * g.v_x + c * g.v_z, g.spin};
+    return Grain{c * g.x - s * g.z,     s * g.x + c * g.z,     g.diameter,
+                 c * g.v_x - s * g.v_z, s * g.v_x + c * g.v_z, g.spin};
   };
   std::vector<Grain> grains, other;
-  for (int k = 0; k < 9; ++k) grains.push_back({1.01 * (k % 3) + 0.3 * (k / 3), 0.5 + 1.02 * (k / 3), 1, 0.1 * k, -0.3});
+  for (int k = 0; k < 9; ++k)
+    grains.push_back({1.01 * (k % 3) + 0.3 * (k / 3), 0.5 + 1.02 * (k / 3), 1, 0.1 * k, -0.3});
   for (const Grain& g : grains) other.push_back(turned(g));
   const auto end = [](const std::vector<Grain>& list, Point_mm from, Point_mm to, double down_deg) {
     const TemporaryFolder folder;
@@ -147,7 +152,8 @@ TEST(Frame, RotationTurnsTheResultWithIt) {
     while (!simulation.finished()) (void)simulation.step();
     return simulation.state().bodies;
   };
-  const Bodies a = end(grains, {-20, 0}, {20, 0}, -90), b = end(other, {-20 * c, -20 * s}, {20 * c, 20 * s}, -60);
+  const Bodies a = end(grains, {-20, 0}, {20, 0}, -90),
+               b = end(other, {-20 * c, -20 * s}, {20 * c, 20 * s}, -60);
   for (std::size_t k = 0; k < a.count(); ++k) {
     EXPECT_NEAR(b.x[k], c * a.x[k] - s * a.z[k], 1e-5) << k;
     EXPECT_NEAR(b.z[k], s * a.x[k] + c * a.z[k], 1e-5) << k;
@@ -189,7 +195,8 @@ TEST(Overlap, JammedStartOpensSlowlyAndGivesNoKineticEnergy) {
     ASSERT_LT(kinetic_energy(b), 1e-20);
     double sum = 0;
     for (std::size_t i = 0; i < 9; ++i)
-      for (std::size_t j = 0; j < i; ++j) sum += std::max(0.0, 1 - std::hypot(b.x[i] - b.x[j], b.z[i] - b.z[j]));
+      for (std::size_t j = 0; j < i; ++j)
+        sum += std::max(0.0, 1 - std::hypot(b.x[i] - b.x[j], b.z[i] - b.z[j]));
     ASSERT_LE(sum, mean + 1e-12);
     mean = sum;
   }
@@ -259,7 +266,8 @@ TEST(Detection, FindsWhatBruteForceFinds) {
       const double u_x = v_x[i] - (j >= 0 ? v_x[j] : 0), u_z = v_z[i] - (j >= 0 ? v_z[j] : 0);
       if (gap >= 0.02 + 2 * 0.05 * std::max(0.0, -(n_x * u_x + n_z * u_z))) return;
       ++needed;
-      EXPECT_TRUE(std::any_of(found.begin(), found.end(), [&](const Candidate& c) { return c.i == i && c.j == j; }))
+      EXPECT_TRUE(
+          std::any_of(found.begin(), found.end(), [&](const Candidate& c) { return c.i == i && c.j == j; }))
           << i << ' ' << j << " gap " << gap;
     };
     for (int i = 0; i < 300; ++i) {
@@ -275,7 +283,8 @@ TEST(Detection, FindsWhatBruteForceFinds) {
 
 TEST(Random, StreamsAreFixedForeverAndApart) {
   // Golden: computed once with this code; a change would change every run of every seed.
-  RandomStream a(1, "grains/diameter"), b(1, "grains/diameter"), c(1, "grains/position"), d(2, "grains/diameter");
+  RandomStream a(1, "grains/diameter"), b(1, "grains/diameter"), c(1, "grains/position"),
+      d(2, "grains/diameter");
   const auto first = a.bits();
   EXPECT_EQ(first, 16353020343593318767u);
   EXPECT_EQ(first, b.bits());

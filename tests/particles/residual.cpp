@@ -57,8 +57,8 @@ TEST(Judge, SeparatingContactNeedsNoImpulse) {
 }
 
 TEST(Judge, MissingImpulseCountsItsVelocity) {
-  // r = 0: e = |P_K(-rho (u_n + mu |u_t|), -rho u_t)| / rho with rho = 1/1.5. For u = (-1, 0): the projection is
-  // (rho, 0), so e = 1. rms(q) = 1/sqrt(2).
+  // r = 0: e = |P_K(-rho (u_n + mu |u_t|), -rho u_t)| / rho with rho = 1/1.5. For u = (-1, 0): the projection
+  // is (rho, 0), so e = 1. rms(q) = 1/sqrt(2).
   const auto v = verdict(disc_on_floor(-1, 0, 0.5), {0, 0});
   EXPECT_NEAR(v.residual, std::sqrt(2.0), 1e-14);
   EXPECT_NEAR(v.residual_max, std::sqrt(2.0), 1e-14);

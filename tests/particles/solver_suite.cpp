@@ -80,7 +80,8 @@ TEST_P(Solver, DiscInAWedgeStaysAtRest) {
   EXPECT_LT(std::abs(r[0]) + std::abs(r[2]), 10 * g_h);
 }
 
-/// Discs in contact at random. q comes from velocities of the bodies: rest is then admissible, a solution exists.
+/// Discs in contact at random. q comes from velocities of the bodies: rest is then admissible, a solution
+/// exists.
 CoulombSpinProblem random_problem(int bodies, int contacts, double mu, unsigned seed) {
   std::mt19937 bits(seed);
   const auto uniform = [&bits] { return static_cast<double>(bits()) / 4294967296.0; };
@@ -180,7 +181,8 @@ TEST_P(Solver, NotANumberIsReported) {
   StoppingRule rule;
   SolverScratch<CoulombSpinProblem> scratch;
   std::vector<double> r;
-  EXPECT_EQ(contact_solver<CoulombSpinProblem>(GetParam())(problem, rule, scratch, r).status, Status::not_finite);
+  EXPECT_EQ(contact_solver<CoulombSpinProblem>(GetParam())(problem, rule, scratch, r).status,
+            Status::not_finite);
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, Solver, testing::ValuesIn(contact_solver_names()),
@@ -220,8 +222,10 @@ TEST(PlanarContact, EveryCaseSatisfiesItsLaws) {
     EXPECT_LE(std::abs(r[1]), mu * r[0] + 1e-14);
     EXPECT_GE(u[0], -1e-14);
     EXPECT_NEAR(u[0] * r[0], 0, 1e-13);
-    if (std::abs(r[1]) < mu * r[0] - 1e-12) EXPECT_NEAR(u[1], 0, 1e-13);
-    else EXPECT_LE(u[1] * r[1], 1e-13);
+    if (std::abs(r[1]) < mu * r[0] - 1e-12)
+      EXPECT_NEAR(u[1], 0, 1e-13);
+    else
+      EXPECT_LE(u[1] * r[1], 1e-13);
   }
 }
 

@@ -1,10 +1,11 @@
 #pragma once
 // Small scenes for tests: grains listed one by one, walls, one stage.
+#include <unistd.h>
+
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <string>
-#include <unistd.h>
 #include <vector>
 
 #include "particles/scene/scene.hpp"
