@@ -40,7 +40,9 @@ Eigen::Vector2d BlockDelassus::row_times(int a, std::span<const double> r) const
 double BlockDelassus::largest_eigenvalue(int a) const {
   const auto& W = diagonal[a];
   const double mean = (W(0, 0) + W(1, 1)) / 2, half = (W(0, 0) - W(1, 1)) / 2;
-  return mean + std::sqrt(half * half + W(0, 1) * W(1, 0));
+  // One square: the product of two entries that differ by rounding can be negative.
+  const double off = (W(0, 1) + W(1, 0)) / 2;
+  return mean + std::sqrt(half * half + off * off);
 }
 
 void BlockDelassus::velocities(std::span<const double> r, std::span<const double> q, State&,

@@ -20,7 +20,7 @@ struct Coulomb {
 /// Euclidean projection of (n, t) on K = {|t| <= mu n}, in place.
 inline void project_on_cone(double mu, double& n, double& t) {
   const double size = std::abs(t);
-  if (size <= mu * n) return;
+  if (n >= 0 && size <= mu * n) return;  // 0 <= 0 * n for any n where mu = 0
   if (mu * size <= -n) {
     n = t = 0;
     return;

@@ -40,6 +40,23 @@ TEST(Cone, ProjectionOfPointsInsideBesideAndBelow) {
   EXPECT_NEAR(t, 0.2, 1e-15);
 }
 
+TEST(Cone, WithoutFrictionIsTheRayOfPressure) {
+  double n = -1, t = 0;  // pulls, exactly along the normal
+  project_on_cone(0, n, t);
+  EXPECT_EQ(n, 0);
+  n = 2, t = 0.5;
+  project_on_cone(0, n, t);
+  EXPECT_EQ(n, 2);
+  EXPECT_EQ(t, 0);
+}
+
+TEST(Judge, BlocksOfEqualEigenvaluesThatRoundingMadeUnsymmetric) {
+  BlockDelassus W;
+  W.diagonal.resize(1);
+  W.diagonal[0] << 2, 1e-17, -1e-16, 2;
+  EXPECT_NEAR(W.largest_eigenvalue(0), 2, 1e-15);
+}
+
 TEST(Judge, ExactStickingSolutionHasNoResidual) {
   // W = (1/m, 3/m) = (0.5, 1.5): r = (2, -0.2) stops q = (-1, 0.3), within mu = 0.5.
   const auto v = verdict(disc_on_floor(-1, 0.3, 0.5), {2, -0.2});

@@ -1,0 +1,32 @@
+#pragma once
+// From problems that see W through their bodies to the blocks in which problems travel in files.
+#include "particles/contact/problems.hpp"
+
+namespace drumlin {
+
+/// The same contacts, q, friction and time step with W assembled; u agrees to rounding and judge() returns
+/// the same.
+BlockProblem block_problem(const CoulombProblem&);
+BlockProblem block_problem(const CoulombSpinProblem&);
+
+/// A frictionless contact gets mu = 0 and a tangential direction in which nothing acts: q_t = 0, W_tt = W_nn
+/// on the diagonal, no coupling. The solutions are the same; rms(q) runs over twice as many entries, so that
+/// judge() returns sqrt(2) times the residual.
+BlockProblem block_problem(const FrictionlessProblem&);
+
+/// Already in that form.
+BlockProblem block_problem(const BlockProblem&);
+
+/// Numbers of a problem (r, q, u) in the layout of its block form: normal, tangential.
+template <class Problem>
+std::vector<double> block_layout(std::span<const double> r) {
+  if constexpr (Problem::dim == 2) {
+    return {r.begin(), r.end()};
+  } else {
+    std::vector<double> wide(2 * r.size(), 0.0);
+    for (std::size_t a = 0; a < r.size(); ++a) wide[2 * a] = r[a];
+    return wide;
+  }
+}
+
+}  // namespace drumlin
