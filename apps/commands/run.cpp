@@ -117,7 +117,8 @@ class ParticleRun {
         scene_(scene),
         resolved_(std::move(resolved)),
         totals_(from ? from->totals : RunTotals{}),
-        simulation_(from ? Simulation(scene, std::move(from->state)) : Simulation(scene)),
+        simulation_(from ? Simulation(scene, std::move(from->state), options.threads)
+                         : Simulation(scene, options.threads)),
         log_(options.output / "log.csv", from ? from->log_bytes : 0),
         writer_(options.threads > 1) {}
 

@@ -1,9 +1,12 @@
 #include "particles/solver/contact_solver.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "coupling/exchange/errors.hpp"
 #include "particles/contact/problems.hpp"
+#include "particles/solver/lane_sweeps.hpp"
 
 namespace drumlin {
 namespace {
@@ -112,25 +115,86 @@ std::string to_string(Status status) {
   return "unknown";
 }
 
+namespace {
+
+/// Whether problems of a kind have a vectorised form.
+template <class Problem>
+constexpr bool has_lanes = requires(SolverScratch<Problem>& s) {
+  s.lanes.in_double;
+};
+
+// Residual down to which sweeps in single precision are worth while.
+constexpr double single_precision_reaches = 1e-4;
+
+}  // namespace
+
+template <class Problem>
+SolveReport solve_nlgs_scalar(const Problem& problem, const StoppingRule& rule,
+                              SolverScratch<Problem>& scratch, std::vector<double>& r) {
+  return sweep_until_judged(problem, rule, scratch, r, Plain{});
+}
+
+template <class Problem>
+SolveReport solve_nncg_scalar(const Problem& problem, const StoppingRule& rule,
+                              SolverScratch<Problem>& scratch, std::vector<double>& r) {
+  return sweep_until_judged(problem, rule, scratch, r, FletcherReeves<typename Problem::Delassus>{});
+}
+
 template <class Problem>
 SolveReport solve_nlgs(const Problem& problem, const StoppingRule& rule, SolverScratch<Problem>& scratch,
                        std::vector<double>& r) {
-  return sweep_until_judged(problem, rule, scratch, r, Plain{});
+  if constexpr (has_lanes<Problem>)
+    return sweep_in_lanes<double>(problem, rule, scratch, scratch.lanes.in_double, r, false);
+  else
+    return solve_nlgs_scalar(problem, rule, scratch, r);
 }
 
 template <class Problem>
 SolveReport solve_nncg(const Problem& problem, const StoppingRule& rule, SolverScratch<Problem>& scratch,
                        std::vector<double>& r) {
-  return sweep_until_judged(problem, rule, scratch, r, FletcherReeves<typename Problem::Delassus>{});
+  if constexpr (has_lanes<Problem>)
+    return sweep_in_lanes<double>(problem, rule, scratch, scratch.lanes.in_double, r, true);
+  else
+    return solve_nncg_scalar(problem, rule, scratch, r);
 }
 
-std::vector<std::string> contact_solver_names() { return {"nlgs", "nncg"}; }
+template <class Problem>
+SolveReport solve_nncg_mixed(const Problem& problem, const StoppingRule& rule,
+                             SolverScratch<Problem>& scratch, std::vector<double>& r) {
+  if constexpr (!has_lanes<Problem>) {
+    return solve_nncg_scalar(problem, rule, scratch, r);
+  } else {
+    StoppingRule coarse = rule;
+    coarse.tolerance = std::max(rule.tolerance, single_precision_reaches);
+    const SolveReport first =
+        sweep_in_lanes<float>(problem, coarse, scratch, scratch.lanes.in_single, r, true);
+    const bool done = first.status == Status::converged && rule.tolerance == coarse.tolerance;
+    if (done || first.status == Status::not_finite || first.status == Status::out_of_time ||
+        first.sweeps >= rule.max_sweeps)
+      return first;
+    StoppingRule fine = rule;
+    fine.max_sweeps -= first.sweeps;
+    fine.max_seconds -= first.seconds;
+    SolveReport report = sweep_in_lanes<double>(problem, fine, scratch, scratch.lanes.in_double, r, true);
+    report.sweeps += first.sweeps;
+    report.seconds += first.seconds;
+    return report;
+  }
+}
+
+std::vector<std::string> contact_solver_names() {
+  return {"nlgs", "nncg", "nncg-mixed", "nlgs-scalar", "nncg-scalar"};
+}
 
 template <class Problem>
 ContactSolver<Problem> contact_solver(const std::string& name) {
   if (name == "nlgs") return &solve_nlgs<Problem>;
   if (name == "nncg") return &solve_nncg<Problem>;
-  throw InputError({InputProblem{"", 0, 0, "solver", "unknown solver '" + name + "'", "nlgs, nncg"}});
+  if (name == "nncg-mixed") return &solve_nncg_mixed<Problem>;
+  if (name == "nlgs-scalar") return &solve_nlgs_scalar<Problem>;
+  if (name == "nncg-scalar") return &solve_nncg_scalar<Problem>;
+  throw InputError({InputProblem{"", 0, 0, "solver", "unknown solver '" + name + "'",
+                                 fmt::format("{}", fmt::join(contact_solver_names(), ", "))}});
 }
 
 #define DRUMLIN_INSTANTIATE(Problem)                                                            \

@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "particles/contact/body_delassus.hpp"
 #include "particles/contact/residual.hpp"
+#include "particles/solver/lane_solver.hpp"
 
 namespace drumlin {
 
@@ -32,6 +34,17 @@ struct [[nodiscard]] SolveReport {
   double seconds = 0;
 };
 
+/// Work space of the vectorised solvers; problems that they do not know have none.
+template <class Delassus>
+struct LaneScratch {};
+template <class Cone, bool with_spin>
+struct LaneScratch<BodyDelassus<Cone, with_spin>> {
+  LaneProblem<double, Cone::dim, with_spin> in_double;
+  LaneProblem<float, Cone::dim, with_spin> in_single;
+  SweepPlan plan;  ///< of a problem that brings none
+  std::vector<std::int32_t> order;
+};
+
 /// Work space of a solver, kept between calls so that a step does not allocate. It carries no information
 /// from one call to the next.
 template <class Problem>
@@ -39,6 +52,8 @@ struct SolverScratch {
   typename Problem::Delassus::State state, state_before, direction_state;
   std::vector<double> step, direction;
   JudgeScratch<typename Problem::Delassus> judge;
+  LaneScratch<typename Problem::Delassus> lanes;
+  ThreadTeam* team = nullptr;  ///< none: the calling thread alone; results do not depend on it
 };
 
 /// r: warm start in, solution out (dim * contacts entries).
@@ -46,7 +61,8 @@ template <class Problem>
 using ContactSolver = SolveReport (*)(const Problem&, const StoppingRule&, SolverScratch<Problem>&,
                                       std::vector<double>& r);
 
-/// Nonlinear Gauss-Seidel (Jean 1999; the paper, Sec. II): each contact exactly in turn.
+/// Nonlinear Gauss-Seidel (Jean 1999; the paper, Sec. II): each contact exactly in turn. Problems in body
+/// form are swept on vectors and threads, in lanes.
 template <class Problem>
 SolveReport solve_nlgs(const Problem&, const StoppingRule&, SolverScratch<Problem>&, std::vector<double>& r);
 
@@ -54,6 +70,21 @@ SolveReport solve_nlgs(const Problem&, const StoppingRule&, SolverScratch<Proble
 /// of Gauss-Seidel sweeps, restarted when they grow. Ends on a plain sweep, so that r lies in the cone.
 template <class Problem>
 SolveReport solve_nncg(const Problem&, const StoppingRule&, SolverScratch<Problem>&, std::vector<double>& r);
+
+/// The same with sweeps in single precision as long as they help, which is down to residuals of some 1e-4,
+/// and in double precision from there. The judge is as strict as ever.
+template <class Problem>
+SolveReport solve_nncg_mixed(const Problem&, const StoppingRule&, SolverScratch<Problem>&,
+                             std::vector<double>& r);
+
+/// The two methods contact after contact, in the order of the problem: what the vectorised forms are checked
+/// and timed against.
+template <class Problem>
+SolveReport solve_nlgs_scalar(const Problem&, const StoppingRule&, SolverScratch<Problem>&,
+                              std::vector<double>& r);
+template <class Problem>
+SolveReport solve_nncg_scalar(const Problem&, const StoppingRule&, SolverScratch<Problem>&,
+                              std::vector<double>& r);
 
 /// Names of all solvers, for scenes and command lines.
 std::vector<std::string> contact_solver_names();

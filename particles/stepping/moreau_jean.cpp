@@ -37,7 +37,10 @@ class MoreauJean final : public Stepper {
 
  public:
   MoreauJean(const StepLaws& laws, const StepSolver& solver)
-      : laws_(laws), solver_(solver), solve_(contact_solver<Problem>(solver.name)) {}
+      : laws_(laws), solver_(solver), solve_(contact_solver<Problem>(solver.name)), team_(solver.threads) {
+    scratch_.team = &team_;
+    projection_.use(&team_);
+  }
 
   StepReport advance(Bodies& bodies, ContactMemory& memory, const WallStep& walls,
                      double time_step) override {
@@ -209,6 +212,7 @@ class MoreauJean final : public Stepper {
   StepLaws laws_;
   StepSolver solver_;
   ContactSolver<Problem> solve_;
+  ThreadTeam team_;
   ContactDetection detection_;
   ContactOrder order_;
   Problem problem_;

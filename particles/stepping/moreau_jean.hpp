@@ -45,6 +45,7 @@ struct StepSolver {
   std::string name;
   StoppingRule rule;
   int projection_sweeps = 0;
+  int threads = 1;
 };
 
 /// Overlap of loaded contacts before the position projection, in d.

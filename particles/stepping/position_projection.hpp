@@ -20,6 +20,7 @@ struct ClosePair {
 /// contact problem without friction, on positions. Overlaps ask for a share of themselves only.
 class PositionProjection {
  public:
+  void use(ThreadTeam* team) { scratch_.team = team; }
   /// Moves `bodies` by at most `sweeps` sweeps; `pairs` in solve order.
   void apply(Bodies& bodies, std::span<const ClosePair> pairs, int sweeps);
 

@@ -35,7 +35,7 @@ StepLaws laws_of(const Scene& scene, const Scales& scales) {
   return laws;
 }
 
-StepSolver solver_of(const Scene& scene) {
+StepSolver solver_of(const Scene& scene, int threads) {
   const SolverSettings& asked = scene.solver;
   StepSolver solver;
   solver.name = asked.name;
@@ -44,6 +44,7 @@ StepSolver solver_of(const Scene& scene) {
   solver.rule.max_sweeps = asked.max_sweeps;
   solver.rule.check_every = asked.check_every;
   solver.projection_sweeps = asked.projection_sweeps;
+  solver.threads = threads;
   return solver;
 }
 
@@ -99,23 +100,23 @@ TimePlan time_plan(const Scene& scene, const Scales& scales) {
   return plan;
 }
 
-Simulation::Simulation(const Scene& scene)
+Simulation::Simulation(const Scene& scene, int threads)
     : scene_(scene),
       scales_(scales_of(scene)),
       plan_(time_plan(scene, scales_)),
       walls_(walls_of(scene, scales_)),
-      stepper_(make_stepper(laws_of(scene, scales_), solver_of(scene))) {
+      stepper_(make_stepper(laws_of(scene, scales_), solver_of(scene, threads))) {
   state_.bodies = place_grains(scene, scales_);
   enter_stage(0);
 }
 
-Simulation::Simulation(const Scene& scene, SimulationState state)
+Simulation::Simulation(const Scene& scene, SimulationState state, int threads)
     : scene_(scene),
       scales_(scales_of(scene)),
       plan_(time_plan(scene, scales_)),
       walls_(walls_of(scene, scales_)),
       state_(std::move(state)),
-      stepper_(make_stepper(laws_of(scene, scales_), solver_of(scene))) {
+      stepper_(make_stepper(laws_of(scene, scales_), solver_of(scene, threads))) {
   check_state(state_, scene_, plan_, walls_);
   begin_stage(walls_, scene_.stages[state_.stage], scales_, 0);
   walls_.pose_at_start = state_.pose_at_start;

@@ -56,9 +56,10 @@ Scales scales_of(const Scene& scene);
 class Simulation {
  public:
   /// Validates nothing but what only shows when grains are placed (InputError).
-  explicit Simulation(const Scene& scene);
+  /// The results do not depend on the number of threads.
+  explicit Simulation(const Scene& scene, int threads = 1);
   /// Continues from a state. Throws InputError when it does not fit the scene.
-  Simulation(const Scene& scene, SimulationState state);
+  Simulation(const Scene& scene, SimulationState state, int threads = 1);
   ~Simulation();
 
   bool finished() const { return state_.step >= plan_.steps; }

@@ -1,6 +1,7 @@
 // One suite for every contact solver, judged by the residual that none of them computes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -186,7 +187,11 @@ TEST_P(Solver, NotANumberIsReported) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, Solver, testing::ValuesIn(contact_solver_names()),
-                         [](const auto& test) { return test.param; });
+                         [](const auto& test) {
+                           std::string name = test.param;  // letters and underscores only
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
 
 TEST(ContactSolver, NncgNeedsFewerSweepsThanNlgsOnATallColumn) {
   // Information travels one contact per sweep of NLGS: some N^2 sweeps; conjugate gradients need some N.

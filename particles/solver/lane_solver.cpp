@@ -1,0 +1,138 @@
+#include "particles/solver/lane_solver.hpp"
+
+#include <algorithm>
+
+#include "particles/contact/problems.hpp"
+
+namespace drumlin {
+
+template <class T, int dim, bool spin>
+template <class Problem>
+void LaneProblem<T, dim, spin>::pack(const Problem& problem, const SweepPlan& plan,
+                                     std::span<const std::int32_t> order, std::span<const double> r) {
+  constexpr int width = ContactBlock<T, dim>::width;
+  const auto& W = problem.W;
+  const int lane_count = plan.lanes();
+  const auto bodies = static_cast<std::int32_t>(plan.body_order.size());
+  lanes_.assign(lane_count, Lane{});
+  for (auto& sums : sums_) sums.assign(2 * static_cast<std::size_t>(lane_count), SweepSums{});
+  place_.resize(bodies);
+  bodies_.clear();
+  for (int k = 0; k < lane_count; ++k) {
+    lanes_[k].bodies = bodies_.size();
+    for (std::int32_t o = plan.lane_bodies[k]; o < plan.lane_bodies[k + 1]; ++o) {
+      const std::int32_t b = plan.body_order[o];
+      place_[b] = static_cast<std::int32_t>(bodies_.size());
+      bodies_.push_back({0, 0, 0, static_cast<T>(W.inverse_mass[b])});
+    }
+    // Records go in pairs (a vector of eight floats).
+    if (bodies_.size() % 2 != 0) bodies_.push_back({});
+    // The fixed body of walls, once for each place of a vector: contacts of a vector share no body.
+    bodies_.insert(bodies_.end(), width, BodyRecord<T>{});
+    lanes_[k].bodies_end = bodies_.size();
+  }
+  before_.resize(bodies_.size());
+  direction_.resize(bodies_.size());
+
+  blocks_.clear();
+  contact_.clear();
+  for (int strip = 0; strip < 2 * lane_count; ++strip) {
+    Lane& lane = lanes_[strip / 2];
+    lane.block[strip % 2] = blocks_.size();
+    const auto fixed = static_cast<std::int32_t>(lane.bodies_end) - width;
+    for (std::int32_t g = plan.strip_start[strip]; g < plan.strip_start[strip + 1]; ++g)
+      for (std::int32_t a = plan.group_start[g]; a < plan.group_start[g + 1]; a += width) {
+        auto& block = blocks_.emplace_back();
+        const std::int32_t end = std::min(a + width, plan.group_start[g + 1]);
+        for (int k = 0; k < width; ++k) {
+          const std::int32_t c = a + k >= end ? -1 : order.empty() ? a + k : order[a + k];
+          contact_.push_back(c);
+          block.i[k] = c >= 0 ? place_[W.i[c]] : fixed + k;
+          block.j[k] = c >= 0 && W.j[c] < bodies ? place_[W.j[c]] : fixed + k;
+          block.n_x[k] = c >= 0 ? static_cast<T>(W.n_x[c]) : T(0);
+          block.n_z[k] = c >= 0 ? static_cast<T>(W.n_z[c]) : T(0);
+          block.inverse_W_nn[k] = c >= 0 ? static_cast<T>(W.inverse_W_nn[c]) : T(1);
+          for (int e = 0; e < dim; ++e) {
+            block.q[e][k] = c >= 0 ? static_cast<T>(problem.q[dim * c + e]) : T(0);
+            block.r[e][k] = c >= 0 ? static_cast<T>(r[dim * c + e]) : T(0);
+            block.step[e][k] = block.direction[e][k] = 0;
+          }
+          if constexpr (dim == 2) block.mu[k] = c >= 0 ? static_cast<T>(problem.mu[c]) : T(0);
+        }
+      }
+    lane.block[strip % 2 + 1] = blocks_.size();
+  }
+}
+
+template <class T, int dim, bool spin>
+template <class Problem>
+void LaneProblem<T, dim, spin>::unpack(const Problem& problem, std::vector<double>& r) const {
+  constexpr int width = ContactBlock<T, dim>::width;
+  for (std::size_t p = 0; p < contact_.size(); ++p) {
+    const std::int32_t c = contact_[p];
+    if (c < 0) continue;
+    const auto& block = blocks_[p / width];
+    r[dim * c] = static_cast<double>(block.r[0][p % width]);
+    if constexpr (dim == 2) {
+      const double bound = problem.mu[c] * r[2 * c];
+      r[2 * c + 1] = std::clamp(static_cast<double>(block.r[1][p % width]), -bound, bound);
+    }
+  }
+}
+
+template <class T, int dim, bool spin>
+int LaneProblem<T, dim, spin>::first_lane(int thread, int threads) const {
+  if (thread == threads) return lanes();
+  const std::size_t wanted = blocks_.size() * thread / threads;
+  int lane = 0;
+  // The lane that holds the wanted block in its first half belongs to the later thread.
+  while (lane < lanes() && (lanes_[lane].block[0] + lanes_[lane].block[2]) / 2 < wanted) ++lane;
+  return lane;
+}
+
+template <class T, int dim, bool spin>
+void LaneProblem<T, dim, spin>::load(int lane, int phase) {
+  const Lane& l = lanes_[lane];
+  Kernels::load(blocks_.data() + l.block[phase], l.block[phase + 1] - l.block[phase], bodies_.data());
+}
+
+template <class T, int dim, bool spin>
+void LaneProblem<T, dim, spin>::start(int lane) {
+  const Lane& l = lanes_[lane];
+  for (std::size_t b = l.bodies; b < l.bodies_end; ++b) before_[b] = bodies_[b], direction_[b] = {};
+}
+
+template <class T, int dim, bool spin>
+void LaneProblem<T, dim, spin>::sweep(int lane, int phase, int parity, T beta, bool accelerated,
+                                      bool with_residual) {
+  const Lane& l = lanes_[lane];
+  if (accelerated && phase == 0)
+    Kernels::go_on(&bodies_[l.bodies], &before_[l.bodies], &direction_[l.bodies], l.bodies_end - l.bodies,
+                   beta);
+  sums_[parity][2 * lane + phase] =
+      Kernels::sweep(blocks_.data() + l.block[phase], l.block[phase + 1] - l.block[phase], bodies_.data(),
+                     beta, accelerated, with_residual);
+}
+
+template <class T, int dim, bool spin>
+SweepSums LaneProblem<T, dim, spin>::sums(int parity) const {
+  SweepSums total;
+  for (const SweepSums& part : sums_[parity])
+    total.squares += part.squares, total.residual_squares += part.residual_squares;
+  return total;
+}
+
+#define DRUMLIN_INSTANTIATE(T, dim, spin, Problem)                                                       \
+  template class LaneProblem<T, dim, spin>;                                                              \
+  template void LaneProblem<T, dim, spin>::pack(const Problem&, const SweepPlan&,                        \
+                                                std::span<const std::int32_t>, std::span<const double>); \
+  template void LaneProblem<T, dim, spin>::unpack(const Problem&, std::vector<double>&) const;
+DRUMLIN_INSTANTIATE(double, 1, false, FrictionlessProblem)
+DRUMLIN_INSTANTIATE(double, 2, false, CoulombProblem)
+DRUMLIN_INSTANTIATE(double, 2, true, CoulombSpinProblem)
+DRUMLIN_INSTANTIATE(float, 1, false, FrictionlessProblem)
+DRUMLIN_INSTANTIATE(float, 2, false, CoulombProblem)
+DRUMLIN_INSTANTIATE(float, 2, true, CoulombSpinProblem)
+#undef DRUMLIN_INSTANTIATE
+
+}  // namespace drumlin

@@ -1,0 +1,59 @@
+#pragma once
+// NLGS and NNCG on the bodies, in lanes (particles/contact/sweep_plan.hpp): vectorised and threaded, with the
+// same result for any number of threads.
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "particles/contact/sweep_plan.hpp"
+#include "particles/solver/sweep_kernels.hpp"
+#include "particles/solver/thread_team.hpp"
+
+namespace drumlin {
+
+/// A contact problem in blocks of eight, ready to be swept, and its state. T is the precision of the sweeps.
+template <class T, int dim, bool spin>
+class LaneProblem {
+ public:
+  using Kernels = SweepKernels<T, dim, spin>;
+
+  /// Copies a problem in body form and the impulses to start from. `order`: contacts of the problem in the
+  /// order of the plan; empty if they stand in it.
+  template <class Problem>
+  void pack(const Problem& problem, const SweepPlan& plan, std::span<const std::int32_t> order,
+            std::span<const double> r);
+  /// Impulses in the order of the problem, held to their cones, which single precision oversteps by a
+  /// rounding.
+  template <class Problem>
+  void unpack(const Problem& problem, std::vector<double>& r) const;
+
+  int lanes() const { return static_cast<int>(lanes_.size()); }
+  /// First lane of a thread's share: lanes are shared by numbers of blocks.
+  int first_lane(int thread, int threads) const;
+
+  // Work on one lane; threads meet between phases.
+  /// Bodies receive the impulses to start from.
+  void load(int lane, int phase);
+  /// Remembers the bodies as the beginning of the first sweep.
+  void start(int lane);
+  /// `beta` of going on (0 at first and at a restart); bodies go on in phase 0, before any contact of theirs.
+  /// Sums of even and odd sweeps stand apart: a thread may begin a sweep while others add up the last one.
+  void sweep(int lane, int phase, int parity, T beta, bool accelerated, bool with_residual);
+
+  /// Sums over all lanes, in the order of the strips; all threads must have met after the sweep.
+  SweepSums sums(int parity) const;
+
+ private:
+  struct Lane {
+    std::size_t bodies = 0, bodies_end = 0;  // those of wall contacts, which do not move, stand last
+    std::size_t block[3] = {0, 0, 0};        // first block of each phase, and the end
+  };
+  std::vector<Lane> lanes_;
+  std::vector<ContactBlock<T, dim>> blocks_;
+  std::vector<std::int32_t> contact_;  // of each place in the blocks; -1: filled up
+  std::vector<BodyRecord<T>> bodies_, before_, direction_;
+  std::vector<std::int32_t> place_;  // of each body in bodies_
+  std::vector<SweepSums> sums_[2];   // of each strip, of even and odd sweeps
+};
+
+}  // namespace drumlin

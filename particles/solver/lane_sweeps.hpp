@@ -1,0 +1,105 @@
+#pragma once
+// Drives the sweeps of a LaneProblem until the judge is content.
+#include <chrono>
+#include <cmath>
+
+#include "particles/solver/contact_solver.hpp"
+
+namespace drumlin {
+
+/// What threads tell one another when one of them has called the judge.
+struct LaneVerdict {
+  SolveReport report;
+  bool stop = false;
+};
+
+/// NLGS, or with `accelerated` NNCG, in precision T. The judge is called when the solver's own estimate of
+/// the residual says that it may be content; how far the estimate was off is remembered for the next call.
+/// In single precision it also ends, out of sweeps before they are, when rounding hides the progress.
+template <class T, class Problem, class Lanes>
+SolveReport sweep_in_lanes(const Problem& problem, const StoppingRule& rule, SolverScratch<Problem>& scratch,
+                           Lanes& lanes, std::vector<double>& r, bool accelerated) {
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  r.resize(problem.q.size());
+  auto& own = scratch.lanes;
+  if (problem.W.plan.empty())
+    own.plan = sweep_plan(static_cast<std::int32_t>(problem.W.inverse_mass.size()) - 1, problem.W.i,
+                          problem.W.j, own.order);
+  else
+    own.order.clear();
+  lanes.pack(problem, problem.W.plan.empty() ? own.plan : problem.W.plan, own.order, r);
+
+  double q_squares = 0;
+  for (const double q : problem.q) q_squares += q * q;
+  // Of the estimate: rms over contacts, relative to the rms of q.
+  const double estimate_scale = q_squares > 0 ? Problem::dim / q_squares : 1;
+
+  LaneVerdict verdict;
+  const auto judge_now = [&](int sweeps, bool last, bool finite) {
+    lanes.unpack(problem, r);
+    auto& report = verdict.report;
+    report.sweeps = sweeps;
+    report.judgement = judge(problem, std::span<const double>(r), scratch.judge);
+    report.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    verdict.stop = true;
+    if (!finite || std::isnan(report.judgement.residual))
+      report.status = Status::not_finite;
+    else if (report.judgement.residual <= rule.tolerance && report.judgement.penetration <= rule.penetration)
+      report.status = Status::converged;
+    else if (last)
+      report.status = Status::out_of_sweeps;
+    else if (report.seconds > rule.max_seconds)
+      report.status = Status::out_of_time;
+    else
+      verdict.stop = false;
+  };
+
+  // Few lanes are not worth waking anybody.
+  ThreadTeam* team = lanes.lanes() >= 4 ? scratch.team : nullptr;
+  const int threads = team ? team->size() : 1;
+  Barrier alone(1);
+  Barrier& barrier = team ? team->barrier() : alone;
+  const auto job = [&](int thread) {
+    const int first = lanes.first_lane(thread, threads), end = lanes.first_lane(thread + 1, threads);
+    for (const int phase : {0, 1}) {
+      for (int lane = first; lane < end; ++lane) lanes.load(lane, phase);
+      barrier.meet();
+    }
+    for (int lane = first; lane < end; ++lane) lanes.start(lane);
+    double beta = 0, previous_squares = 0, trust = 1;
+    for (int sweeps = 1;; ++sweeps) {
+      const bool last = sweeps >= rule.max_sweeps, look = last || sweeps % rule.check_every == 0;
+      for (const int phase : {0, 1}) {
+        if (phase == 0 && sweeps == 1) barrier.meet();  // all bodies are remembered
+        for (int lane = first; lane < end; ++lane)
+          lanes.sweep(lane, phase, sweeps % 2, static_cast<T>(beta), accelerated, look);
+        barrier.meet();
+      }
+      const SweepSums sums = lanes.sums(sweeps % 2);
+      const bool finite = std::isfinite(sums.squares);
+      if (look) {
+        const double estimate = std::sqrt(sums.residual_squares * estimate_scale);
+        if (last || !finite || estimate * trust <= rule.tolerance || std::isfinite(rule.max_seconds)) {
+          if (thread == 0) judge_now(sweeps, last, finite);
+          barrier.meet();
+          if (verdict.stop) return;
+          if (estimate > 0) trust = verdict.report.judgement.residual / estimate;
+          // Sweeps that hardly move any more while the judge sees more: T is too short, more would not help.
+          if (sizeof(T) < sizeof(double) && trust > 10) return;
+        }
+      }
+      // Fletcher-Reeves: the step of a sweep plays the negative gradient; start again when steps grow.
+      beta = previous_squares > 0 ? sums.squares / previous_squares : 2;
+      previous_squares = sums.squares;
+      if (!(beta <= 1)) beta = 0;
+    }
+  };
+  if (team)
+    team->run(job);
+  else
+    job(0);
+  return verdict.report;
+}
+
+}  // namespace drumlin

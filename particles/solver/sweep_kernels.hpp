@@ -1,0 +1,59 @@
+#pragma once
+// The innermost loops of the contact solvers, on vectors: one binary holds them for several instruction sets
+// and picks at run time. All of them do the same operations in the same order, without fused multiply-add, so
+// that results do not depend on the processor.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace drumlin {
+
+template <class T, int dim>
+struct FrictionOfBlock {
+  std::array<T, 8> mu;
+};
+template <class T>
+struct FrictionOfBlock<T, 1> {};
+
+/// Eight contacts that share no body, and what a conjugate gradient keeps of each. `dim` unknowns per
+/// contact.
+template <class T, int dim>
+struct alignas(64) ContactBlock : FrictionOfBlock<T, dim> {
+  static constexpr int width = 8;
+  std::array<std::int32_t, width> i, j;  ///< places of the bodies
+  std::array<T, width> n_x, n_z, inverse_W_nn;
+  std::array<T, width> q[dim], r[dim];
+  std::array<T, width> step[dim], direction[dim];
+};
+
+/// Velocity change of a body: x, z, the tangential velocity of its rim, and the inverse mass that turns
+/// impulses into these. One record is one load.
+template <class T>
+struct alignas(4 * sizeof(T)) BodyRecord {
+  T x = 0, z = 0, s = 0, inverse_mass = 0;
+};
+
+struct SweepSums {
+  double squares = 0;  ///< of the steps of the impulses
+  double residual_squares =
+      0;  ///< of the velocities by which contacts missed their laws when their turn came
+};
+
+/// Kernels of one kind of problem; `spin`: bodies turn.
+template <class T, int dim, bool spin>
+struct SweepKernels {
+  using Block = ContactBlock<T, dim>;
+  /// Adds the impulses of the blocks to the bodies.
+  static void load(const Block* blocks, std::size_t count, BodyRecord<T>* bodies);
+  /// One Gauss-Seidel sweep over the blocks in their order. With `accelerated`, first goes on along the
+  /// direction: r += beta direction, and direction = beta direction + step. With `with_residual` the second
+  /// sum is computed too.
+  static SweepSums sweep(Block* blocks, std::size_t count, BodyRecord<T>* bodies, T beta, bool accelerated,
+                         bool with_residual);
+  /// The same going on for bodies: `before` are those at the beginning of the last sweep, `direction` their
+  /// direction.
+  static void go_on(BodyRecord<T>* bodies, BodyRecord<T>* before, BodyRecord<T>* direction, std::size_t count,
+                    T beta);
+};
+
+}  // namespace drumlin

@@ -1,0 +1,156 @@
+// Sweeps in lanes: the plan keeps its promises, and neither threads nor the processor's vectors change a bit.
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include <cmath>
+#include <random>
+#include <set>
+
+#include "particles/contact/problems.hpp"
+#include "particles/solver/contact_solver.hpp"
+
+namespace drumlin {
+namespace {
+
+/// Discs of a square lattice on a floor, each in contact with its right and upper neighbour, at random
+/// velocities.
+CoulombSpinProblem lattice(int columns, int rows, unsigned seed) {
+  std::mt19937 bits(seed);
+  const auto uniform = [&bits] { return 2 * static_cast<double>(bits()) / 4294967296.0 - 1; };
+  CoulombSpinProblem problem;
+  const int bodies = columns * rows;
+  for (int b = 0; b < bodies; ++b) problem.W.inverse_mass.push_back(1 + 0.3 * uniform());
+  problem.W.inverse_mass.push_back(0);
+  const auto add = [&](int i, int j, double angle) {
+    problem.W.add(i, j, std::cos(angle), std::sin(angle));
+    problem.q.push_back(0.1 * uniform() - 0.05);
+    problem.q.push_back(0.1 * uniform());
+    problem.mu.push_back(0.4);
+  };
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column) {
+      const int b = row * columns + column;
+      if (row == 0) add(b, bodies, 1.5 + 0.1 * uniform());
+      if (column + 1 < columns) add(b, b + 1, 3.1 + 0.1 * uniform());
+      if (row + 1 < rows) add(b, b + columns, -1.5 + 0.1 * uniform());
+    }
+  return problem;
+}
+
+/// Bodies that the contacts of a strip touch, walls aside.
+std::set<int> touched(const CoulombSpinProblem& p, const SweepPlan& plan, std::span<const std::int32_t> order,
+                      int strip) {
+  std::set<int> bodies;
+  const int fixed = static_cast<int>(p.W.inverse_mass.size()) - 1;
+  for (int k = plan.group_start[plan.strip_start[strip]]; k < plan.group_start[plan.strip_start[strip + 1]];
+       ++k) {
+    bodies.insert(p.W.i[order[k]]);
+    if (p.W.j[order[k]] != fixed) bodies.insert(p.W.j[order[k]]);
+  }
+  return bodies;
+}
+
+TEST(SweepPlan, GroupsAndLanesOfAPhaseShareNoBody) {
+  const auto problem = lattice(120, 60, 1);
+  const int bodies = 120 * 60;
+  std::vector<std::int32_t> order;
+  const SweepPlan plan = sweep_plan(bodies, problem.W.i, problem.W.j, order);
+  EXPECT_GE(plan.lanes(), 4);
+  EXPECT_EQ(std::set<int>(order.begin(), order.end()).size(), problem.W.i.size());
+  EXPECT_EQ(std::set<int>(plan.body_order.begin(), plan.body_order.end()).size(),
+            static_cast<std::size_t>(bodies));
+  for (std::size_t g = 0; g + 1 < plan.group_start.size(); ++g) {
+    std::set<int> seen;
+    for (int k = plan.group_start[g]; k < plan.group_start[g + 1]; ++k) {
+      EXPECT_TRUE(seen.insert(problem.W.i[order[k]]).second);
+      if (problem.W.j[order[k]] < bodies) {
+        EXPECT_TRUE(seen.insert(problem.W.j[order[k]]).second);
+      }
+    }
+  }
+  for (const int phase : {0, 1}) {
+    std::set<int> seen;
+    for (int lane = 0; lane < plan.lanes(); ++lane)
+      for (const int b : touched(problem, plan, order, 2 * lane + phase)) EXPECT_TRUE(seen.insert(b).second);
+  }
+  // In the first phase a lane touches no bodies but its own.
+  for (int lane = 0; lane < plan.lanes(); ++lane) {
+    const std::set<int> own(plan.body_order.begin() + plan.lane_bodies[lane],
+                            plan.body_order.begin() + plan.lane_bodies[lane + 1]);
+    for (const int b : touched(problem, plan, order, 2 * lane)) EXPECT_TRUE(own.contains(b));
+  }
+}
+
+TEST(SweepPlan, ABodyWithHundredsOfContactsGetsAsManyGroups) {
+  std::vector<std::int32_t> i, j, order;
+  for (int b = 1; b <= 300; ++b) i.push_back(0), j.push_back(b);
+  const SweepPlan plan = sweep_plan(301, i, j, order);
+  EXPECT_EQ(order.size(), 300u);
+  EXPECT_EQ(plan.group_start.size(), 301u);
+}
+
+std::vector<double> solved(const std::string& solver, ThreadTeam* team, int sweeps) {
+  const auto problem = lattice(150, 100, 2);
+  SolverScratch<CoulombSpinProblem> scratch;
+  scratch.team = team;
+  StoppingRule rule;
+  rule.tolerance = 0;
+  rule.max_sweeps = sweeps;
+  std::vector<double> r;
+  (void)contact_solver<CoulombSpinProblem>(solver)(problem, rule, scratch, r);
+  return r;
+}
+
+TEST(Lanes, AnyNumberOfThreadsGivesTheSameBytes) {
+  for (const char* solver : {"nlgs", "nncg", "nncg-mixed"}) {
+    const auto alone = solved(solver, nullptr, 50);
+    for (const int threads : {2, 3, 4}) {
+      ThreadTeam team(threads);
+      EXPECT_EQ(alone, solved(solver, &team, 50)) << solver << ", " << threads;
+    }
+  }
+}
+
+TEST(Lanes, AnyInstructionSetGivesTheSameBytes) {
+  for (const char* solver : {"nlgs", "nncg", "nncg-mixed"}) {
+    const auto best = solved(solver, nullptr, 30);
+    for (const auto target : hwy::SupportedAndGeneratedTargets()) {
+      hwy::SetSupportedTargetsForTest(target);
+      hwy::GetChosenTarget().DeInit();
+      EXPECT_EQ(best, solved(solver, nullptr, 30)) << solver << " on " << hwy::TargetName(target);
+    }
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().DeInit();
+  }
+}
+
+TEST(Lanes, SweepsAgreeWithThoseOfOneContactAfterTheOther) {
+  // In the order of the plan both do the same sums; the vectorised form adds n.(v_i - v_j) in another order.
+  auto problem = lattice(40, 30, 3);
+  std::vector<std::int32_t> order;
+  const SweepPlan plan = sweep_plan(40 * 30, problem.W.i, problem.W.j, order);
+  CoulombSpinProblem sorted;
+  sorted.W.inverse_mass = problem.W.inverse_mass;
+  for (const auto a : order) {
+    sorted.W.add(problem.W.i[a], problem.W.j[a], problem.W.n_x[a], problem.W.n_z[a]);
+    sorted.q.push_back(problem.q[2 * a]), sorted.q.push_back(problem.q[2 * a + 1]);
+    sorted.mu.push_back(problem.mu[a]);
+  }
+  sorted.W.plan = plan;
+  for (const bool accelerated : {false, true}) {
+    StoppingRule rule;
+    rule.tolerance = 0;
+    rule.max_sweeps = 20;
+    SolverScratch<CoulombSpinProblem> scratch;
+    std::vector<double> lanes, scalar;
+    (void)(accelerated ? solve_nncg(sorted, rule, scratch, lanes) : solve_nlgs(sorted, rule, scratch, lanes));
+    (void)contact_solver<CoulombSpinProblem>(accelerated ? "nncg-scalar" : "nlgs-scalar")(sorted, rule,
+                                                                                          scratch, scalar);
+    double worst = 0;
+    for (std::size_t k = 0; k < lanes.size(); ++k) worst = std::max(worst, std::abs(lanes[k] - scalar[k]));
+    EXPECT_LT(worst, 1e-11) << (accelerated ? "nncg" : "nlgs");  // rounding of 20 sweeps
+  }
+}
+
+}  // namespace
+}  // namespace drumlin
