@@ -1,6 +1,7 @@
 #pragma once
 // The discs as parallel arrays, dimensionless, laboratory frame.
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace drumlin {
@@ -13,6 +14,7 @@ struct Bodies {
   std::vector<double> spin;  ///< empty when the scene has no spin; positive clockwise as drawn (z up)
   std::vector<double> radius;
   std::vector<double> inverse_mass;
+  std::vector<std::uint8_t> material;  ///< empty when no law asks for it
 
   std::size_t count() const { return x.size(); }
 };

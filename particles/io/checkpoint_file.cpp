@@ -62,6 +62,9 @@ void write_checkpoint(const std::filesystem::path& file, const Checkpoint& check
   out.add_number("state/stage", static_cast<std::int64_t>(state.stage));
   out.add("memory/i", std::span<const std::int32_t>(state.memory.i));
   out.add("memory/j", std::span<const std::int32_t>(state.memory.j));
+  if (!state.bodies.material.empty())
+    out.add("bodies/material", std::span<const std::int32_t>(std::vector<std::int32_t>(
+                                   state.bodies.material.begin(), state.bodies.material.end())));
   std::vector<double> poses;
   for (const Pose& pose : state.pose_at_start) poses.insert(poses.end(), {pose.angle, pose.x, pose.z});
   out.add("walls/pose_at_start", std::span<const double>(poses));
@@ -92,6 +95,9 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
   state.stage = static_cast<int>(in.integer("state/stage"));
   state.memory.i = in.ints("memory/i");
   state.memory.j = in.ints("memory/j");
+  if (in.has("bodies/material"))
+    for (const std::int32_t number : in.ints("bodies/material"))
+      state.bodies.material.push_back(static_cast<std::uint8_t>(number));
   const auto poses = in.doubles("walls/pose_at_start");
   for (std::size_t p = 0; p + 2 < poses.size(); p += 3)
     state.pose_at_start.push_back({poses[p], poses[p + 1], poses[p + 2]});

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "coupling/exchange/errors.hpp"
+#include "particles/scene/materials.hpp"
 #include "particles/scene/random.hpp"
 
 namespace drumlin {
@@ -47,6 +48,23 @@ std::vector<Site> lattice_sites(const GeneratedGrains& grains) {
   return sites;
 }
 
+/// A material for each generated grain, by their shares.
+std::vector<std::uint8_t> drawn_materials(const Scene& scene, std::size_t count) {
+  const auto names = material_names(scene);
+  const auto& materials = scene.grains.materials;
+  double sum = 0;
+  for (const auto& material : materials) sum += material.share;
+  RandomStream choice(scene.seed, "grains/material");
+  std::vector<std::uint8_t> drawn(count, static_cast<std::uint8_t>(material_number(names, {})));
+  for (std::size_t g = 0; g < count && !materials.empty(); ++g) {
+    double place = choice.uniform() * sum;
+    std::size_t m = 0;
+    while (m + 1 < materials.size() && place >= materials[m].share) place -= materials[m++].share;
+    drawn[g] = static_cast<std::uint8_t>(m);  // the grains' materials stand first among the names
+  }
+  return drawn;
+}
+
 Bodies generated(const GeneratedGrains& grains, std::uint64_t seed, double unit) {
   const auto sites = lattice_sites(grains);
   if (static_cast<int>(sites.size()) < grains.count)
@@ -67,6 +85,7 @@ Bodies generated(const GeneratedGrains& grains, std::uint64_t seed, double unit)
 
 struct ListedGrain {
   std::map<std::string, double> value;
+  std::string material;
 };
 
 std::vector<std::string> fields_of(const std::string& line) {
@@ -89,8 +108,8 @@ std::vector<ListedGrain> listed(const std::filesystem::path& file) {
   std::ifstream in(file);
   if (!in || std::filesystem::is_directory(file))
     throw InputError({InputProblem{name, 0, 0, "grains.listed.file", "cannot be read", ""}});
-  const std::vector<std::string> known = {"x_mm",     "z_mm",     "diameter_mm",
-                                          "v_x_mm_s", "v_z_mm_s", "spin_rad_s"};
+  const std::vector<std::string> known = {"x_mm",     "z_mm",       "diameter_mm", "v_x_mm_s",
+                                          "v_z_mm_s", "spin_rad_s", "material"};
   std::vector<InputProblem> problems;
   std::vector<std::string> names;
   std::vector<ListedGrain> grains;
@@ -103,7 +122,7 @@ std::vector<ListedGrain> listed(const std::filesystem::path& file) {
       for (const auto& column : names)
         if (std::find(known.begin(), known.end(), column) == known.end())
           problems.push_back({name, number, 0, column, "unknown column",
-                              "x_mm, z_mm, diameter_mm, v_x_mm_s, v_z_mm_s, spin_rad_s"});
+                              "x_mm, z_mm, diameter_mm, v_x_mm_s, v_z_mm_s, spin_rad_s, material"});
       for (const auto& column : names)
         if (std::count(names.begin(), names.end(), column) > 1)
           problems.push_back({name, number, 0, column, "stands more than once", ""});
@@ -119,6 +138,10 @@ std::vector<ListedGrain> listed(const std::filesystem::path& file) {
     }
     ListedGrain grain;
     for (std::size_t f = 0; f < fields.size(); ++f) {
+      if (names[f] == "material") {
+        grain.material = fields[f];
+        continue;
+      }
       double value = 0;
       const auto [end, error] = std::from_chars(fields[f].data(), fields[f].data() + fields[f].size(), value);
       if (error != std::errc{} || end != fields[f].data() + fields[f].size() || !std::isfinite(value))
@@ -138,14 +161,35 @@ std::vector<ListedGrain> listed(const std::filesystem::path& file) {
   return grains;
 }
 
+/// The material of each listed grain; every one must be known.
+std::vector<std::uint8_t> listed_materials(const Scene& scene, const std::vector<ListedGrain>& grains) {
+  const auto names = material_names(scene);
+  const auto& materials = scene.grains.materials;
+  std::vector<std::uint8_t> numbers;
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    const bool known = std::any_of(materials.begin(), materials.end(),
+                                   [&](const GrainMaterial& m) { return m.name == grains[g].material; });
+    if (!known && !materials.empty())
+      throw InputError(
+          {InputProblem{std::get<ListedGrains>(scene.grains.source).file.string(), 0, 0, "material",
+                        "grain " + std::to_string(g + 1) + " is of '" + grains[g].material + "'",
+                        "one of grains.materials"}});
+    numbers.push_back(static_cast<std::uint8_t>(known ? material_number(names, grains[g].material)
+                                                      : material_number(names, {})));
+  }
+  return numbers;
+}
+
 /// In a period shorter than three of the largest discs, of grains or walls, a grain would meet a neighbour on
 /// both sides.
 void check_period(const Scene& scene, const Bodies& bodies, double unit) {
   if (!scene.periodic_x) return;
   double largest = 2 * *std::max_element(bodies.radius.begin(), bodies.radius.end()) / unit;
-  for (const Wall& wall : scene.walls)
+  for (const Wall& wall : scene.walls) {
     if (const auto* disc = std::get_if<DiscShape>(&wall.shape))
       largest = std::max(largest, disc->diameter_mm);
+    if (wall.rough) largest = std::max(largest, wall.rough->diameter_mm);
+  }
   if (scene.periodic_x->x_max_mm - scene.periodic_x->x_min_mm <= 3 * largest)
     throw InputError({InputProblem{"", 0, 0, "periodic_x.x_max_mm",
                                    "the period is too short for discs of " + std::to_string(largest) + " mm",
@@ -170,8 +214,11 @@ Bodies place_grains(const Scene& scene, const Scales& scales) {
   if (const auto* made = std::get_if<GeneratedGrains>(&scene.grains.source)) {
     bodies = generated(*made, scene.seed, unit);
     spins.assign(bodies.count(), 0.0);
+    if (materials_matter(scene)) bodies.material = drawn_materials(scene, bodies.count());
   } else {
-    for (const auto& grain : listed(std::get<ListedGrains>(scene.grains.source).file)) {
+    const auto grains = listed(std::get<ListedGrains>(scene.grains.source).file);
+    if (materials_matter(scene)) bodies.material = listed_materials(scene, grains);
+    for (const auto& grain : grains) {
       const auto value = [&grain](const char* name) {
         const auto found = grain.value.find(name);
         return found == grain.value.end() ? 0.0 : found->second;

@@ -38,14 +38,22 @@ struct GeneratedGrains {
   std::variant<CircleRegion, RectangleRegion> region;
 };
 
-/// Grains listed in a CSV file: x_mm, z_mm, diameter_mm and optionally v_x_mm_s, v_z_mm_s, spin_rad_s.
-/// read_scene makes the path absolute: in the file it counts from the folder of the scene.
+/// Grains listed in a CSV file: x_mm, z_mm, diameter_mm and optionally v_x_mm_s, v_z_mm_s, spin_rad_s; in a
+/// scene with materials also the name of each grain's material. read_scene makes the path absolute: in the
+/// file it counts from the folder of the scene.
 struct ListedGrains {
   std::filesystem::path file;
 };
 
+/// A material of grains, for laws that differ from pair to pair.
+struct GrainMaterial {
+  std::string name;
+  double share = 1;  ///< of the generated grains, by number, relative to the other shares
+};
+
 struct Grains {
   double density_kg_m3 = 0;
+  std::vector<GrainMaterial> materials = {};
   std::variant<GeneratedGrains, ListedGrains> source;
 };
 
@@ -65,10 +73,18 @@ struct DiscShape {
   double diameter_mm = 0;
 };
 
+/// Discs glued along a container or a segment, their centres on it.
+struct Roughness {
+  double diameter_mm = 0;
+  double spacing_mm = 0;  ///< of the centres along the wall; shortened so that a whole number of discs fits
+};
+
 /// A wall; several shapes of one name move together.
 struct Wall {
   std::string name;
   std::variant<ContainerShape, SegmentShape, DiscShape> shape;
+  std::optional<std::string> material = {};  ///< for laws that differ from pair to pair
+  std::optional<Roughness> rough = {};
 };
 
 /// Effects: absent means that nothing of it is stored or computed.
@@ -76,24 +92,49 @@ struct Gravity {
   double acceleration_m_s2 = 9.81;
   double direction_deg = -90;  ///< angle from +x, anticlockwise as drawn; -90 points down
 };
+/// The value of a law between two materials, in place of grain_grain or grain_wall.
+template <class Law>
+struct MaterialPair {
+  std::vector<std::string> between;  ///< two names; the same one twice is a material with itself
+  double value = 0;
+};
 /// Coulomb friction; one unknown more per contact.
 struct Friction {
   double grain_grain = 0;
   double grain_wall = 0;
+  std::vector<MaterialPair<Friction>> pairs = {};
 };
 /// Newton restitution of the normal velocity.
 struct Restitution {
   double grain_grain = 0;
   double grain_wall = 0;
+  std::vector<MaterialPair<Restitution>> pairs = {};
 };
 /// Angular velocity of the grains; needs friction, which alone can turn a disc.
 struct Spin {};
+/// Constant attraction of surfaces that touch (gap below the range): contacts pull up to that force before
+/// they part, and Coulomb's bound counts it as load.
+struct Cohesion {
+  double grain_grain =
+      0;  ///< force, in weights of a disc of the mean diameter (of 9.81 m/s2 without gravity)
+  double grain_wall = 0;
+  double range_d = 1e-3;  ///< in mean diameters
+  std::vector<MaterialPair<Cohesion>> pairs = {};
+};
+/// The scene (walls, motions, positions, velocities) is that of a frame that turns about a point; gravity
+/// keeps its direction in the laboratory, with which the frame coincides at time 0.
+struct RotatingFrame {
+  double speed_rpm = 0;  ///< positive clockwise as drawn
+  Point_mm center_mm{0, 0};
+};
 
 struct Effects {
-  std::optional<Gravity> gravity;
-  std::optional<Friction> friction;
-  std::optional<Restitution> restitution;
-  std::optional<Spin> spin;
+  std::optional<Gravity> gravity = {};
+  std::optional<Friction> friction = {};
+  std::optional<Restitution> restitution = {};
+  std::optional<Spin> spin = {};
+  std::optional<Cohesion> cohesion = {};
+  std::optional<RotatingFrame> rotating_frame = {};
 };
 
 /// Turns a wall about a point; positive in the sense of the vorticity dv_x/dz (clockwise as drawn, z up).
@@ -104,9 +145,23 @@ struct Rotation {
 struct Translation {
   std::array<double, 2> velocity_mm_s{0, 0};
 };
+/// Shakes a wall along a straight line: displacement amplitude (sin(2 pi f t + phase) - sin(phase)), t from
+/// the start of the stage.
+struct Oscillation {
+  std::array<double, 2> amplitude_mm{0, 0};
+  double frequency_hz = 0;
+  double phase_deg = 0;
+};
+/// The same in angle, about a point; positive clockwise as drawn.
+struct Rocking {
+  double amplitude_deg = 0;
+  double frequency_hz = 0;
+  double phase_deg = 0;
+  Point_mm center_mm{0, 0};
+};
 struct WallMotion {
   std::string wall;
-  std::variant<Rotation, Translation> motion;
+  std::variant<Rotation, Translation, Oscillation, Rocking> motion;
 };
 
 /// A stretch of time with its own step, wall motions and number of snapshots (evenly spread, the last at its

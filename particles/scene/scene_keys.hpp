@@ -53,8 +53,19 @@ void describe(Visitor& v, ListedGrains& g) {
       "file", g.file,
       required(
           "", not_empty(),
-          "CSV file with the columns x_mm, z_mm, diameter_mm and, if wanted, v_x_mm_s, v_z_mm_s, spin_rad_s; "
-          "its path counts from the folder of the scene."));
+          "CSV file with the columns x_mm, z_mm, diameter_mm and, if wanted, v_x_mm_s, v_z_mm_s, spin_rad_s, "
+          "material; its path counts from the folder of the scene."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, GrainMaterial& m) {
+  v.value(
+      "name", m.name,
+      required("", not_empty(), "Name of the material; in a list of grains the column material holds it."));
+  v.value(
+      "share", m.share,
+      defaulted("", above(0, 1e6),
+                "Share of the generated grains, by number, relative to the shares of the other materials."));
 }
 
 template <class Visitor>
@@ -62,6 +73,7 @@ void describe(Visitor& v, Grains& g) {
   v.value("density_kg_m3", g.density_kg_m3,
           required("kg/m3", above(0, 1e6),
                    "Density of a disc: with the mean diameter and gravity, the units of the results."));
+  v.tables("materials", g.materials, 0, "Materials of the grains, for laws that differ from pair to pair.");
   v.one_table_of(
       g.source, "Where the grains come from.",
       alternative<GeneratedGrains>("generated", "Made from a distribution, on a shaken lattice in a region."),
@@ -87,12 +99,24 @@ void describe(Visitor& v, DiscShape& d) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, Roughness& r) {
+  v.value("diameter_mm", r.diameter_mm, required("mm", length_mm(), "Diameter of the glued discs."));
+  v.value("spacing_mm", r.spacing_mm,
+          required("mm", length_mm(),
+                   "Distance of their centres along the wall; shortened so that a whole number fits."));
+}
+
+template <class Visitor>
 void describe(Visitor& v, Wall& w) {
   v.value("name", w.name, required("", not_empty(), "Name of the wall; shapes of one name move together."));
   v.variant("shape", w.shape, "Shape of the wall.",
             alternative<ContainerShape>("container", "a circle with the grains inside it."),
             alternative<SegmentShape>("segment", "a straight line, solid on both sides."),
             alternative<DiscShape>("disc", "a disc that is part of the wall."));
+  v.value("material", w.material,
+          when_given("", not_empty(), "Material of the wall, for laws that differ from pair to pair."));
+  v.optional_table("rough", w.rough,
+                   "Discs glued along a container or a segment, their centres on it; they move with it.");
 }
 
 template <class Visitor>
@@ -104,11 +128,26 @@ void describe(Visitor& v, Gravity& g) {
       defaulted("deg", at_least(-360, 360), "Direction, from +x anticlockwise as drawn; -90 points down."));
 }
 
+inline constexpr const char* pairs_sentence = "Values between two materials, in place of the two above.";
+
+/// What the value of a law between two materials may be.
+inline Allowed value_between(const Friction*) { return at_least(0, 100); }
+inline Allowed value_between(const Restitution*) { return at_least(0, 1); }
+inline Allowed value_between(const Cohesion*) { return at_least(0, 1e6); }
+
+template <class Visitor, class Law>
+void describe(Visitor& v, MaterialPair<Law>& p) {
+  v.value("between", p.between, required("", not_empty(), "The names of two materials, or of one twice."));
+  v.value("value", p.value,
+          required("", value_between(static_cast<const Law*>(nullptr)), "The value between them."));
+}
+
 template <class Visitor>
 void describe(Visitor& v, Friction& f) {
   v.value("grain_grain", f.grain_grain, required("", at_least(0, 100), "Coefficient between two grains."));
   v.value("grain_wall", f.grain_wall,
           required("", at_least(0, 100), "Coefficient between a grain and a wall."));
+  v.tables("pairs", f.pairs, 0, pairs_sentence);
 }
 
 template <class Visitor>
@@ -116,10 +155,31 @@ void describe(Visitor& v, Restitution& r) {
   v.value("grain_grain", r.grain_grain,
           required("", at_least(0, 1), "Share of the normal approach speed that two grains part with."));
   v.value("grain_wall", r.grain_wall, required("", at_least(0, 1), "The same between a grain and a wall."));
+  v.tables("pairs", r.pairs, 0, pairs_sentence);
 }
 
 template <class Visitor>
 void describe(Visitor&, Spin&) {}
+
+template <class Visitor>
+void describe(Visitor& v, Cohesion& c) {
+  v.value("grain_grain", c.grain_grain,
+          required("", at_least(0, 1e6),
+                   "Attraction of two grains that touch, in weights of a disc of the mean diameter."));
+  v.value("grain_wall", c.grain_wall, required("", at_least(0, 1e6), "The same between a grain and a wall."));
+  v.value("range_d", c.range_d,
+          defaulted("d", above(0, 1), "Surfaces closer than this touch, in mean diameters."));
+  v.tables("pairs", c.pairs, 0, pairs_sentence);
+}
+
+template <class Visitor>
+void describe(Visitor& v, RotatingFrame& f) {
+  v.value("speed_rpm", f.speed_rpm,
+          required("turns/min", at_least(-1e6, 1e6),
+                   "Angular velocity of the frame, positive clockwise as drawn (z up)."));
+  v.value("center_mm", f.center_mm,
+          defaulted("mm", coordinate_mm(), "Point [x, z] about which the frame turns."));
+}
 
 template <class Visitor>
 void describe(Visitor& v, Effects& e) {
@@ -128,6 +188,10 @@ void describe(Visitor& v, Effects& e) {
   v.optional_table("restitution", e.restitution, "Newton restitution of the normal velocity.");
   v.optional_table("spin", e.spin,
                    "Angular velocity of the grains; needs friction, which alone can turn a disc.");
+  v.optional_table("cohesion", e.cohesion,
+                   "Constant attraction of surfaces that touch; counts as load in Coulomb's law.");
+  v.optional_table("rotating_frame", e.rotating_frame,
+                   "The scene is that of a frame that turns; gravity keeps its direction in the laboratory.");
 }
 
 template <class Visitor>
@@ -146,11 +210,38 @@ void describe(Visitor& v, Translation& t) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, Oscillation& o) {
+  v.value("amplitude_mm", o.amplitude_mm,
+          required("mm", coordinate_mm(), "Amplitude [x, z] of the displacement."));
+  v.value("frequency_hz", o.frequency_hz, required("Hz", above(0, 1e6), "Oscillations per second."));
+  v.value(
+      "phase_deg", o.phase_deg,
+      defaulted(
+          "deg", at_least(-360, 360),
+          "The displacement is amplitude (sin(2 pi f t + phase) - sin(phase)), t from the stage's start."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, Rocking& r) {
+  v.value("amplitude_deg", r.amplitude_deg,
+          required("deg", at_least(-360, 360), "Amplitude of the angle, positive clockwise as drawn."));
+  v.value("frequency_hz", r.frequency_hz, required("Hz", above(0, 1e6), "Oscillations per second."));
+  v.value(
+      "phase_deg", r.phase_deg,
+      defaulted("deg", at_least(-360, 360),
+                "The angle is amplitude (sin(2 pi f t + phase) - sin(phase)), t from the stage's start."));
+  v.value("center_mm", r.center_mm,
+          defaulted("mm", coordinate_mm(), "Point [x, z] about which the wall rocks."));
+}
+
+template <class Visitor>
 void describe(Visitor& v, WallMotion& m) {
   v.value("wall", m.wall,
           required("", not_empty(), "Name of the wall that moves; walls without a motion stand still."));
   v.variant("kind", m.motion, "Kind of motion.", alternative<Rotation>("rotation", "turns about a point."),
-            alternative<Translation>("translation", "glides along a straight line."));
+            alternative<Translation>("translation", "glides along a straight line."),
+            alternative<Oscillation>("oscillation", "shakes along a straight line."),
+            alternative<Rocking>("rocking", "turns to and fro about a point."));
 }
 
 template <class Visitor>

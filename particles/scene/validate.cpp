@@ -6,6 +6,8 @@
 #include <cmath>
 #include <set>
 
+#include "particles/bodies/walls.hpp"
+#include "particles/scene/materials.hpp"
 #include "particles/scene/placement.hpp"
 #include "particles/scene/region.hpp"
 
@@ -17,6 +19,7 @@ using Faults = std::vector<SceneFault>;
 
 constexpr double rounding = 1e-9;    // relative; for comparisons of numbers that a user wrote to agree
 constexpr double most_steps = 1e12;  // some 10,000 years of computing
+constexpr double most_glued = 1e5;   // discs on one rough wall
 constexpr double most_sites = 1e7;   // of the lattice on which grains are placed: 160 MB
 
 std::string wall_key(std::size_t w) { return fmt::format("walls.{}", w); }
@@ -67,6 +70,13 @@ void check_room(const GeneratedGrains& grains, Faults& faults) {
                       fmt::format("at most {} fit into the region", most), about});
 }
 
+bool crossed_by_glued(const Region& region, const Wall& wall) {
+  const auto centers = glued_centers_mm(wall);
+  return std::any_of(centers.begin(), centers.end(), [&](const Point_mm& center) {
+    return crosses(region, DiscShape{center, wall.rough->diameter_mm}, rounding);
+  });
+}
+
 /// Grains are placed anywhere in the region: it must lie inside the containers and clear of all other walls.
 void check_region_clear(const Scene& scene, const GeneratedGrains& grains, Faults& faults) {
   const std::string key = "grains.generated.region";
@@ -75,11 +85,12 @@ void check_region_clear(const Scene& scene, const GeneratedGrains& grains, Fault
     const std::vector<std::string> about = {key, wall_key(w)};
     if (const auto* container = std::get_if<ContainerShape>(&wall.shape)) {
       const double reach = farthest_mm(grains.region, container->center_mm);
-      if (reach > container->radius_mm * (1 + rounding))
+      const double room = container->radius_mm - (wall.rough ? wall.rough->diameter_mm / 2 : 0);
+      if (reach > room * (1 + rounding))
         faults.push_back({key,
                           fmt::format("reaches {} mm from the centre of container \"{}\"", reach, wall.name),
-                          fmt::format("inside its radius of {} mm", container->radius_mm), about});
-    } else if (crosses(grains.region, wall.shape, rounding)) {
+                          fmt::format("inside its radius of {} mm", room), about});
+    } else if (crosses(grains.region, wall.shape, rounding) || crossed_by_glued(grains.region, wall)) {
       faults.push_back({key, fmt::format("is crossed by wall \"{}\" ({})", wall.name, wall_key(w)),
                         "clear of segments and discs", about});
     }
@@ -132,7 +143,23 @@ void check_period(const Scene& scene, Faults& faults) {
   }
 }
 
+void check_roughness(const Wall& wall, const std::string& key, Faults& faults) {
+  if (!wall.rough) return;
+  if (std::holds_alternative<DiscShape>(wall.shape))
+    faults.push_back({key + ".rough",
+                      "is glued to a disc",
+                      "on containers and segments",
+                      {key + ".rough", key + ".shape"}});
+  const double length = wall_length_mm(wall);
+  if (!(length / wall.rough->spacing_mm <= most_glued))
+    faults.push_back({key + ".rough.spacing_mm",
+                      fmt::format("makes {:.0f} discs", length / wall.rough->spacing_mm),
+                      fmt::format("at most {:.0f}", most_glued),
+                      {key}});
+}
+
 void check_walls(const Scene& scene, Faults& faults) {
+  for (std::size_t w = 0; w < scene.walls.size(); ++w) check_roughness(scene.walls[w], wall_key(w), faults);
   for (std::size_t w = 0; w < scene.walls.size(); ++w)
     if (const auto* s = std::get_if<SegmentShape>(&scene.walls[w].shape); s && s->from_mm == s->to_mm)
       faults.push_back({wall_key(w) + ".to_mm",
@@ -141,7 +168,68 @@ void check_walls(const Scene& scene, Faults& faults) {
                         {wall_key(w) + ".from_mm", wall_key(w) + ".to_mm"}});
 }
 
-void check_effects(const Effects& effects, Faults& faults) {
+std::string listed_names(const std::vector<std::string>& names) {
+  std::string text;
+  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+/// Every pair names two materials of the scene, one of them of grains, and no two pairs are the same.
+template <class Law>
+void check_pairs(const Scene& scene, const std::vector<MaterialPair<Law>>& pairs, const std::string& law,
+                 Faults& faults) {
+  const auto names = material_names(scene);
+  const auto of_grains = scene.grains.materials.size();
+  std::set<std::set<std::string>> seen;
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    const std::string key = fmt::format("effects.{}.pairs.{}.between", law, p);
+    const std::vector<std::string> about = {key, "grains.materials", "walls"};
+    const auto& between = pairs[p].between;
+    bool known = between.size() == 2, grain = false;
+    for (const auto& name : between) {
+      const auto number = static_cast<std::size_t>(material_number(names, name));
+      known = known && number < names.size();
+      grain = grain || number < of_grains;
+    }
+    if (!known)
+      faults.push_back({key, "does not name two materials of the scene",
+                        names.empty() ? "names from grains.materials or of walls" : listed_names(names),
+                        about});
+    else if (!grain)
+      faults.push_back(
+          {key, "names two materials of walls, which never meet", "one of grains.materials", about});
+    else if (!seen.insert({between.begin(), between.end()}).second)
+      faults.push_back({key, "names the same two materials as a pair before", "each pair once", about});
+  }
+}
+
+void check_materials(const Scene& scene, Faults& faults) {
+  const std::string key = "grains.materials";
+  std::set<std::string> names;
+  for (std::size_t m = 0; m < scene.grains.materials.size(); ++m)
+    if (const auto& name = scene.grains.materials[m].name; !names.insert(name).second)
+      faults.push_back({fmt::format("{}.{}.name", key, m),
+                        fmt::format("\"{}\" stands twice", name),
+                        "a name of its own",
+                        {key}});
+  if (material_names(scene).size() > most_materials)
+    faults.push_back({key,
+                      "are too many with those of the walls",
+                      fmt::format("at most {}", most_materials),
+                      {key, "walls"}});
+  const Effects& effects = scene.effects;
+  if (effects.friction) check_pairs(scene, effects.friction->pairs, "friction", faults);
+  if (effects.restitution) check_pairs(scene, effects.restitution->pairs, "restitution", faults);
+  if (effects.cohesion) check_pairs(scene, effects.cohesion->pairs, "cohesion", faults);
+}
+
+void check_effects(const Scene& scene, Faults& faults) {
+  const Effects& effects = scene.effects;
+  if (effects.rotating_frame && scene.periodic_x)
+    faults.push_back({"effects.rotating_frame",
+                      "turns a domain that is periodic in x",
+                      "in a scene without periodic_x",
+                      {"effects.rotating_frame", "periodic_x"}});
   if (effects.spin && !effects.friction)
     faults.push_back({"effects.spin",
                       "acts without friction",
@@ -256,7 +344,8 @@ std::vector<SceneFault> validate(const Scene& scene) {
   check_grains(scene, faults);
   check_period(scene, faults);
   check_walls(scene, faults);
-  check_effects(scene.effects, faults);
+  check_materials(scene, faults);
+  check_effects(scene, faults);
   check_stages(scene, faults);
   if (scene.solver.check_every > scene.solver.max_sweeps)
     faults.push_back({"solver.check_every",

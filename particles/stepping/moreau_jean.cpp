@@ -51,6 +51,7 @@ class MoreauJean final : public Stepper {
                                laws_.period};
     pairs_ = detection_.find(bodies, free_x_, free_z_, input);
     order_.sort(pairs_, bodies.count());
+    if (laws_.cohesion) attract(bodies, time_step);
     recall(memory, time_step);
     pose(bodies, time_step);
     report.detection_seconds =
@@ -70,8 +71,9 @@ class MoreauJean final : public Stepper {
       slot[order_.place[a]] = static_cast<std::int32_t>(a);
     for (std::size_t p = 0; p < pairs_.size(); ++p) {
       const auto a = static_cast<std::size_t>(slot[p]);
-      const double r_n = impulses_[dim * a], r_t = dim == 2 ? impulses_[dim * a + dim - 1] : 0;
-      if (r_n > 0)
+      const double pull = laws_.cohesion ? attraction_[p] : 0;
+      const double r_n = impulses_[dim * a] - pull, r_t = dim == 2 ? impulses_[dim * a + dim - 1] : 0;
+      if (r_n != 0)
         loaded.push_back({pairs_[p].i, pairs_[p].j, static_cast<float>(pairs_[p].n_x),
                           static_cast<float>(pairs_[p].n_z), r_n, r_t});
     }
@@ -88,6 +90,25 @@ class MoreauJean final : public Stepper {
     if (!laws_.gravity) return;
     for (std::size_t b = 0; b < bodies.count(); ++b)
       free_x_[b] += h * laws_.gravity->x, free_z_[b] += h * laws_.gravity->z;
+  }
+
+  /// The attraction c acts on the bodies before the solve; the solver's normal unknown is then r_n + c h >=
+  /// 0, which it bounds friction by. q changes by W (-c h) through the free velocities.
+  void attract(const Bodies& bodies, double h) {
+    attraction_.resize(pairs_.size());
+    const MaterialsOf materials{bodies.material, laws_.material_of_shape};
+    for (std::size_t p = 0; p < pairs_.size(); ++p) {
+      const Candidate& pair = pairs_[p];
+      const double pull = pair.gap < laws_.cohesion->range
+                              ? h * value_of(laws_.cohesion->force, pair.i, pair.j, materials)
+                              : 0;
+      attraction_[p] = pull;
+      const double change = pull * bodies.inverse_mass[pair.i];
+      free_x_[pair.i] -= change * pair.n_x, free_z_[pair.i] -= change * pair.n_z;
+      if (pair.j < 0) continue;
+      const double back = pull * bodies.inverse_mass[pair.j];
+      free_x_[pair.j] += back * pair.n_x, free_z_[pair.j] += back * pair.n_z;
+    }
   }
 
   /// Warm start and remembered approach speeds, by identity (i, j): both lists are sorted.
@@ -117,6 +138,7 @@ class MoreauJean final : public Stepper {
     problem_.q.resize(dim * pairs_.size());
     if constexpr (dim == 2) problem_.mu.resize(pairs_.size());
     problem_.time_step = h;
+    const MaterialsOf materials{bodies.material, laws_.material_of_shape};
     for (std::size_t a = 0; a < pairs_.size(); ++a) {
       const auto p = static_cast<std::size_t>(order_.place[a]);
       const Candidate& pair = pairs_[p];
@@ -133,7 +155,7 @@ class MoreauJean final : public Stepper {
           if (!wall) u_t -= bodies.radius[pair.j] * bodies.spin[pair.j];
         }
         problem_.q[2 * a + 1] = u_t;
-        problem_.mu[a] = wall ? laws_.friction->grain_wall : laws_.friction->grain_grain;
+        problem_.mu[a] = value_of(*laws_.friction, pair.i, pair.j, materials);
       }
       for (int c = 0; c < dim; ++c) impulses_[dim * a + c] = warm_[dim * p + c];
     }
@@ -147,7 +169,7 @@ class MoreauJean final : public Stepper {
     const double u_before = pair.n_x * (bodies.v_x[pair.i] - (wall ? pair.wall_v_x : bodies.v_x[pair.j])) +
                             pair.n_z * (bodies.v_z[pair.i] - (wall ? pair.wall_v_z : bodies.v_z[pair.j]));
     const auto& law = *laws_.restitution;
-    const double e = wall ? law.e.grain_wall : law.e.grain_grain;
+    const double e = value_of(law.e, pair.i, pair.j, {bodies.material, laws_.material_of_shape});
     const double slowest = 2 * law.gravity * h;
     const Impact impact = impact_of(pair.gap, u_before, approach_[p], e, slowest, h);
     const double arrives = pair.gap > 0 && !impact.bounces ? arrival_speed(pair.gap, u_before, u_free, h) : 0;
@@ -221,6 +243,7 @@ class MoreauJean final : public Stepper {
   std::vector<double> free_x_, free_z_;
   std::vector<double> impulses_;         // in solve order
   std::vector<double> warm_, approach_;  // in the order of pairs_
+  std::vector<double> attraction_;       // cohesive force times h, in the order of pairs_
   std::vector<ClosePair> close_;
   PositionProjection projection_;
 };
@@ -231,9 +254,11 @@ WallStep wall_step(const Walls& walls, double time_in_stage, double time_step) {
   WallStep step;
   step.before = walls.shapes_at(time_in_stage);
   step.after = walls.shapes_at(time_in_stage + time_step);
-  for (const int wall : walls.wall_of_shape)
-    step.displacement.push_back(
+  std::vector<Pose> moves;
+  for (int wall = 0; wall < static_cast<int>(walls.names.size()); ++wall)
+    moves.push_back(
         after(walls.pose(wall, time_in_stage + time_step), inverse(walls.pose(wall, time_in_stage))));
+  for (const int wall : walls.wall_of_shape) step.displacement.push_back(moves[wall]);
   return step;
 }
 

@@ -14,6 +14,7 @@
 #include "particles/bodies/bodies.hpp"
 #include "particles/bodies/walls.hpp"
 #include "particles/detection/contact_list.hpp"
+#include "particles/effects/pair_law.hpp"
 #include "particles/measurement/snapshot.hpp"
 #include "particles/solver/contact_solver.hpp"
 #include "particles/stepping/contact_memory.hpp"
@@ -22,23 +23,26 @@ namespace drumlin {
 
 /// Dimensionless laws of a scene. An effect that the scene does not name is an empty optional.
 struct StepLaws {
-  struct PerPair {
-    double grain_grain = 0, grain_wall = 0;
-  };
   struct RestitutionLaw {
-    PerPair e;
+    PairLaw e;
     double gravity = 0;  ///< impacts slower than 2 gravity h are at rest: a grain that lies arrives at
                          ///< gravity h every step
+  };
+  struct CohesionLaw {
+    PairLaw force;
+    double range = 0;  ///< pairs with a smaller gap attract each other
   };
   struct Acceleration {
     double x = 0, z = 0;
   };
   std::optional<Acceleration> gravity;
-  std::optional<PerPair> friction;
+  std::optional<PairLaw> friction;
   std::optional<RestitutionLaw> restitution;
+  std::optional<CohesionLaw> cohesion;
   bool spin = false;
   Period period;
-  double detection_margin = 0.02;  ///< d; pairs closer than this are always candidates
+  std::vector<std::uint8_t> material_of_shape;  ///< empty when no law asks for it
+  double detection_margin = 0.02;               ///< d; pairs closer than this are always candidates
 };
 
 struct StepSolver {
@@ -80,6 +84,9 @@ class Stepper {
   virtual int unknowns_per_contact() const = 0;
   virtual int velocities_per_body() const = 0;
 };
+
+/// The laws of a scene, dimensionless.
+StepLaws laws_of(const Scene& scene, const Scales& scales);
 
 /// The stepper for the effects that are named in `laws`: the one place where they become types.
 std::unique_ptr<Stepper> make_stepper(const StepLaws& laws, const StepSolver& solver);

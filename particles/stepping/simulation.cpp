@@ -5,34 +5,19 @@
 #include <numbers>
 
 #include "coupling/exchange/errors.hpp"
+#include "particles/effects/rotating_frame.hpp"
+#include "particles/scene/materials.hpp"
 #include "particles/scene/placement.hpp"
 
 namespace drumlin {
 namespace {
 
-StepLaws laws_of(const Scene& scene, const Scales& scales) {
-  StepLaws laws;
-  const Effects& effects = scene.effects;
-  if (effects.gravity) {
-    const double unit = scales.length_m / (scales.time_s * scales.time_s);
-    const double g = effects.gravity->acceleration_m_s2 / unit;
-    // Straight down in a plain scene: exactly (0, -g), no rounding of cos(-90 deg).
-    const double direction = effects.gravity->direction_deg * std::numbers::pi / 180;
-    laws.gravity = effects.gravity->direction_deg == -90
-                       ? StepLaws::Acceleration{0, -g}
-                       : StepLaws::Acceleration{g * std::cos(direction), g * std::sin(direction)};
-  }
-  if (effects.friction) laws.friction = {effects.friction->grain_grain, effects.friction->grain_wall};
-  if (effects.restitution)
-    laws.restitution = {{effects.restitution->grain_grain, effects.restitution->grain_wall},
-                        laws.gravity ? std::hypot(laws.gravity->x, laws.gravity->z) : 0};
-  laws.spin = effects.spin.has_value();
-  if (scene.periodic_x) {
-    const double unit = 1e-3 / scales.length_m;
-    laws.period = {scene.periodic_x->x_min_mm * unit,
-                   (scene.periodic_x->x_max_mm - scene.periodic_x->x_min_mm) * unit};
-  }
-  return laws;
+std::optional<TurningFrame> frame_of(const Scene& scene, const Scales& scales) {
+  if (!scene.effects.rotating_frame) return std::nullopt;
+  const auto& frame = *scene.effects.rotating_frame;
+  const double unit = 1e-3 / scales.length_m;
+  return TurningFrame{frame.speed_rpm * 2 * std::numbers::pi / 60 * scales.time_s,
+                      {frame.center_mm[0] * unit, frame.center_mm[1] * unit}};
 }
 
 StepSolver solver_of(const Scene& scene, int threads) {
@@ -62,6 +47,11 @@ void check_state(const SimulationState& s, const Scene& scene, const TimePlan& p
        {&s.bodies.z, &s.bodies.v_x, &s.bodies.v_z, &s.bodies.radius, &s.bodies.inverse_mass})
     require(values->size() == n, "arrays of the grains");
   require(n > 0 && s.bodies.spin.size() == (scene.effects.spin ? n : 0), "spins of the grains");
+  const auto numbers = material_names(scene).size() + 1;
+  require(s.bodies.material.size() == (materials_matter(scene) ? n : 0) &&
+              std::all_of(s.bodies.material.begin(), s.bodies.material.end(),
+                          [numbers](std::uint8_t m) { return m < numbers; }),
+          "materials of the grains");
   require(s.stage >= 0 && s.stage < static_cast<int>(plan.stages.size()), "stages");
   require(s.step >= 0 && s.step <= plan.steps && s.step_in_stage >= 0 &&
               s.step_in_stage <= plan.stages[s.stage].steps,
@@ -105,6 +95,7 @@ Simulation::Simulation(const Scene& scene, int threads)
       scales_(scales_of(scene)),
       plan_(time_plan(scene, scales_)),
       walls_(walls_of(scene, scales_)),
+      frame_(frame_of(scene, scales_)),
       stepper_(make_stepper(laws_of(scene, scales_), solver_of(scene, threads))) {
   state_.bodies = place_grains(scene, scales_);
   enter_stage(0);
@@ -115,6 +106,7 @@ Simulation::Simulation(const Scene& scene, SimulationState state, int threads)
       scales_(scales_of(scene)),
       plan_(time_plan(scene, scales_)),
       walls_(walls_of(scene, scales_)),
+      frame_(frame_of(scene, scales_)),
       state_(std::move(state)),
       stepper_(make_stepper(laws_of(scene, scales_), solver_of(scene, threads))) {
   check_state(state_, scene_, plan_, walls_);
@@ -147,10 +139,21 @@ StepReport Simulation::step() {
   mark_positions();
   const double h = plan_.stages[state_.stage].time_step;
   const StepReport report =
-      stepper_->advance(state_.bodies, state_.memory, wall_step(walls_, state_.time_in_stage, h), h);
+      frame_ ? advance_in_laboratory(h)
+             : stepper_->advance(state_.bodies, state_.memory, wall_step(walls_, state_.time_in_stage, h), h);
   ++state_.step;
   ++state_.step_in_stage;
   state_.time_in_stage = static_cast<double>(state_.step_in_stage) * h;
+  return report;
+}
+
+StepReport Simulation::advance_in_laboratory(double h) {
+  const double time = state_.time();
+  to_laboratory(*frame_, time, state_.bodies);
+  const StepReport report =
+      stepper_->advance(state_.bodies, state_.memory,
+                        in_laboratory(*frame_, time, h, wall_step(walls_, state_.time_in_stage, h)), h);
+  from_laboratory(*frame_, time + h, state_.bodies);
   return report;
 }
 
@@ -179,12 +182,19 @@ Snapshot Simulation::take_snapshot() {
       break;
     }
   const StepLaws laws = laws_of(scene_, scales_);
-  s.gravity_x = laws.gravity ? laws.gravity->x : 0;
-  s.gravity_z = laws.gravity ? laws.gravity->z : 0;
+  Point gravity{laws.gravity ? laws.gravity->x : 0, laws.gravity ? laws.gravity->z : 0};
+  if (frame_) gravity = direction_in_frame(*frame_, s.time, gravity);
+  s.gravity_x = gravity.x, s.gravity_z = gravity.z;
   s.period_x = laws.period.length;
   s.x = bodies.x, s.z = bodies.z, s.v_x = bodies.v_x, s.v_z = bodies.v_z, s.radius = bodies.radius,
   s.spin = bodies.spin;
   s.contacts = stepper_->loaded_contacts();
+  if (frame_)  // normals are those of the beginning of the step
+    for (SnapshotContact& contact : s.contacts) {
+      const Point normal =
+          direction_in_frame(*frame_, s.time - s.time_step, {contact.normal_x, contact.normal_z});
+      contact.normal_x = static_cast<float>(normal.x), contact.normal_z = static_cast<float>(normal.z);
+    }
   while (!state_.marks.empty() && state_.marks.front().snapshot_step < state_.step) state_.marks.pop_front();
   if (!state_.marks.empty() && state_.marks.front().snapshot_step == state_.step) {
     const auto& mark = state_.marks.front();

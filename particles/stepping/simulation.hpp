@@ -9,6 +9,7 @@
 
 #include "particles/bodies/bodies.hpp"
 #include "particles/bodies/walls.hpp"
+#include "particles/effects/rotating_frame.hpp"
 #include "particles/measurement/snapshot.hpp"
 #include "particles/scene/scene.hpp"
 #include "particles/stepping/contact_memory.hpp"
@@ -77,12 +78,14 @@ class Simulation {
 
  private:
   void enter_stage(int stage);
+  StepReport advance_in_laboratory(double time_step);
   void mark_positions();
 
   Scene scene_;
   Scales scales_;
   TimePlan plan_;
   Walls walls_;
+  std::optional<TurningFrame> frame_;  ///< empty in a scene told in the laboratory
   SimulationState state_;
   std::unique_ptr<Stepper> stepper_;
 };

@@ -26,6 +26,42 @@ TEST(Contradiction, SpinWithoutFriction) {
   expect_problem(text, {}, "s.toml:15:1: effects.spin", "without friction");
 }
 
+TEST(Contradiction, PairsOfMaterialsThatCannotMeet) {
+  const std::string key = "effects.friction.pairs.0.between";
+  const auto pair = [](const std::string& names) {
+    return "effects.friction.pairs=[{between=[" + names + "], value=0.1}]";
+  };
+  expect_problem(example_scene, {pair("\"glass\", \"wood\"")}, key, "two materials of the scene");
+  const std::string of_glass = "grains.materials=[{name=\"glass\"}]";
+  expect_problem(example_scene, {of_glass, "walls.0.material=wood", pair("\"wood\", \"wood\"")}, key,
+                 "never meet");
+  expect_problem(example_scene, {of_glass, pair("\"glass\"")}, key, "(allowed: glass)");
+  expect_problem(example_scene,
+                 {of_glass,
+                  "effects.friction.pairs=[{between=[\"glass\", \"glass\"], value=0.1}, "
+                  "{between=[\"glass\", \"glass\"], value=0.2}]"},
+                 "effects.friction.pairs.1.between", "a pair before");
+  expect_problem(example_scene, {"grains.materials=[{name=\"glass\"}, {name=\"glass\"}]"},
+                 "grains.materials.1.name", "twice");
+}
+
+TEST(Contradiction, RoughnessThatDoesNotFit) {
+  expect_problem(example_scene, {"walls.0.rough={diameter_mm=2, spacing_mm=3}"}, "grains.generated.region",
+                 "inside its radius of 14 mm");
+  expect_problem(replaced(example_scene, "shape = \"container\"\nradius_mm = 15",
+                          "shape = \"disc\"\ncenter_mm = [40, 0]\ndiameter_mm = 1"),
+                 {"walls.0.rough={diameter_mm=2, spacing_mm=3}"}, "walls.0.rough", "glued to a disc");
+  expect_problem(example_scene, {"walls.0.rough={diameter_mm=2, spacing_mm=1e-6}", "walls.0.radius_mm=16"},
+                 "walls.0.rough.spacing_mm", "discs");
+}
+
+TEST(Contradiction, RotatingFrameOfAPeriodicDomain) {
+  expect_problem(replaced(example_scene, "shape = \"container\"\nradius_mm = 15",
+                          "shape = \"disc\"\ncenter_mm = [40, 0]\ndiameter_mm = 1"),
+                 {"periodic_x={x_min_mm=-50, x_max_mm=50}", "effects.rotating_frame={speed_rpm=1}"},
+                 "effects.rotating_frame", "periodic in x");
+}
+
 TEST(Contradiction, FrictionWithoutSpinIsNone) {
   EXPECT_TRUE(testing::scene_problems(replaced(example_scene, "[effects.spin]\n", "")).empty());
 }

@@ -117,6 +117,21 @@ std::vector<Case> cases() {
                                              "solver.check_every=1"};
   std::vector<std::string> stopping = hopeless;
   stopping.push_back("solver.stop_when_unconverged=true");
+  // Two materials among the grains, the wall of one of them.
+  const std::vector<std::string> materials = {"grains.materials=[{name=\"a\"}, {name=\"b\"}]",
+                                              "walls.0.material=b"};
+  const auto with = [](std::vector<std::string> all, const std::string& one) {
+    all.push_back(one);
+    return all;
+  };
+  const std::string pairs = ".pairs=[{between=[\"a\", \"b\"], value=0.05}]";
+  const std::string sticking = "effects.cohesion={grain_grain=5, grain_wall=5, range_d=0.1}";
+  const std::string shaken =
+      "stages.0.motions=[{wall=\"left\", kind=\"oscillation\", amplitude_mm=[1, 0], frequency_hz=5}]";
+  const std::string rocked =
+      "stages.0.motions=[{wall=\"left\", kind=\"rocking\", amplitude_deg=20, frequency_hz=5}]";
+  const std::string rough = "walls.0.rough={diameter_mm=1, spacing_mm=2}";
+  const std::string oscillation = "kind = \"oscillation\"", rocking = "kind = \"rocking\"";
   const auto *D = &drum, *F = &floor_and_knobs;
   return {
       {"format", "", D, {}, "format=drumlin-scene-2", exit_code},
@@ -130,6 +145,16 @@ std::vector<Case> cases() {
 
       {"grains", "", F, {}, two_listed, positions_mm},
       {"grains.density_kg_m3", "", D, {}, "grains.density_kg_m3=1000", density},
+      {"grains.materials[]",
+       "",
+       D,
+       {"walls.0.material=b", "effects.friction" + pairs, "grains.materials=[{name=\"a\"}]"},
+       "grains.materials=[{name=\"a\"}, {name=\"b\"}]",
+       positions_mm},
+      {"grains.materials[].name", "", D, with(materials, "effects.friction" + pairs),
+       "grains.materials=[{name=\"c\"}, {name=\"b\"}, {name=\"a\"}]", positions_mm},
+      {"grains.materials[].share", "", D, with(materials, "effects.friction" + pairs),
+       "grains.materials.0.share=100", positions_mm},
       {"grains.generated",
        "",
        F,
@@ -196,6 +221,16 @@ std::vector<Case> cases() {
       {"walls[].center_mm", disc, F, {}, "walls.2.center_mm=[4.5, 0]", positions_mm},
       {"walls[].diameter_mm", disc, F, {}, "walls.2.diameter_mm=1.5", positions_mm},
 
+      {"walls[].material",
+       "",
+       D,
+       {"grains.materials=[{name=\"a\"}, {name=\"b\"}]", "effects.friction" + pairs},
+       "walls.0.material=b",
+       positions_mm},
+      {"walls[].rough", "", F, {}, rough, positions_mm},
+      {"walls[].rough.diameter_mm", "", F, {rough}, "walls.0.rough.diameter_mm=1.5", positions_mm},
+      {"walls[].rough.spacing_mm", "", F, {rough}, "walls.0.rough.spacing_mm=1.7", positions_mm},
+
       {"effects", "", F, {}, "effects={}", positions_mm},
       {"effects.gravity", "", F, {"effects={}"}, "effects.gravity={}", positions_mm},
       {"effects.gravity.acceleration_m_s2",
@@ -208,6 +243,11 @@ std::vector<Case> cases() {
       {"effects.friction", "", F, {sliding}, rubbing, positions_mm},
       {"effects.friction.grain_grain", "", D, {}, "effects.friction.grain_grain=0.1", positions_mm},
       {"effects.friction.grain_wall", "", D, {}, "effects.friction.grain_wall=0.1", positions_mm},
+      {"effects.friction.pairs[]", "", D, materials, "effects.friction" + pairs, positions_mm},
+      {"effects.friction.pairs[].between", "", D, with(materials, "effects.friction" + pairs),
+       "effects.friction.pairs.0.between=[\"a\", \"a\"]", positions_mm},
+      {"effects.friction.pairs[].value", "", D, with(materials, "effects.friction" + pairs),
+       "effects.friction.pairs.0.value=0.8", positions_mm},
       {"effects.restitution",
        "",
        F,
@@ -216,6 +256,34 @@ std::vector<Case> cases() {
        kinetic_energy},
       {"effects.restitution.grain_grain", "", D, {}, "effects.restitution.grain_grain=0", kinetic_energy},
       {"effects.restitution.grain_wall", "", D, {}, "effects.restitution.grain_wall=0", kinetic_energy},
+      {"effects.restitution.pairs[]", "", D, materials, "effects.restitution" + pairs, kinetic_energy},
+      {"effects.restitution.pairs[].between", "", D, with(materials, "effects.restitution" + pairs),
+       "effects.restitution.pairs.0.between=[\"a\", \"a\"]", kinetic_energy},
+      {"effects.restitution.pairs[].value", "", D, with(materials, "effects.restitution" + pairs),
+       "effects.restitution.pairs.0.value=0.9", kinetic_energy},
+      {"effects.cohesion", "", D, {}, sticking, positions_mm},
+      {"effects.cohesion.grain_grain", "", D, {sticking}, "effects.cohesion.grain_grain=2", positions_mm},
+      {"effects.cohesion.grain_wall", "", D, {sticking}, "effects.cohesion.grain_wall=2", positions_mm},
+      {"effects.cohesion.range_d", "", D, {sticking}, "effects.cohesion.range_d=0.3", positions_mm},
+      {"effects.cohesion.pairs[]", "", D, with(materials, sticking), "effects.cohesion" + pairs,
+       positions_mm},
+      {"effects.cohesion.pairs[].between", "", D, with(with(materials, sticking), "effects.cohesion" + pairs),
+       "effects.cohesion.pairs.0.between=[\"a\", \"a\"]", positions_mm},
+      {"effects.cohesion.pairs[].value", "", D, with(with(materials, sticking), "effects.cohesion" + pairs),
+       "effects.cohesion.pairs.0.value=9", positions_mm},
+      {"effects.rotating_frame", "", F, {}, "effects.rotating_frame={speed_rpm=10}", positions_mm},
+      {"effects.rotating_frame.speed_rpm",
+       "",
+       F,
+       {"effects.rotating_frame={speed_rpm=10}"},
+       "effects.rotating_frame.speed_rpm=-10",
+       positions_mm},
+      {"effects.rotating_frame.center_mm",
+       "",
+       F,
+       {"effects.rotating_frame={speed_rpm=10}"},
+       "effects.rotating_frame.center_mm=[50, 0]",
+       positions_mm},
       {"effects.spin", "", F, {sliding, rubbing}, "effects.spin={}", spins_rad_s},
 
       {"stages[]",
@@ -244,6 +312,44 @@ std::vector<Case> cases() {
        F,
        {},
        "stages.0.motions.0.velocity_mm_s=[20, 5]",
+       positions_mm},
+
+      {"stages[].motions[].amplitude_mm",
+       oscillation,
+       F,
+       {shaken},
+       "stages.0.motions.0.amplitude_mm=[2, 0]",
+       positions_mm},
+      {"stages[].motions[].frequency_hz",
+       oscillation,
+       F,
+       {shaken},
+       "stages.0.motions.0.frequency_hz=7",
+       positions_mm},
+      {"stages[].motions[].phase_deg",
+       oscillation,
+       F,
+       {shaken},
+       "stages.0.motions.0.phase_deg=90",
+       positions_mm},
+      {"stages[].motions[].amplitude_deg",
+       rocking,
+       F,
+       {rocked},
+       "stages.0.motions.0.amplitude_deg=-20",
+       positions_mm},
+      {"stages[].motions[].frequency_hz",
+       rocking,
+       F,
+       {rocked},
+       "stages.0.motions.0.frequency_hz=7",
+       positions_mm},
+      {"stages[].motions[].phase_deg", rocking, F, {rocked}, "stages.0.motions.0.phase_deg=90", positions_mm},
+      {"stages[].motions[].center_mm",
+       rocking,
+       F,
+       {rocked},
+       "stages.0.motions.0.center_mm=[0, -9]",
        positions_mm},
 
       {"solver", "", D, {}, "solver={}", logged_sweeps},

@@ -26,6 +26,7 @@ TEST(SceneDocs, SayAnUnitInEveryKeyThatHasOne) {
                                : row.unit == "kg/m3"   ? "kg_m3"
                                : row.unit == "m/s2"    ? "m_s2"
                                : row.unit == "mm/s"    ? "mm_s"
+                               : row.unit == "Hz"      ? "hz"
                                                        : row.unit;
     EXPECT_TRUE(row.path.ends_with("_" + suffix)) << row.path;
   }

@@ -1,0 +1,29 @@
+#include "particles/scene/materials.hpp"
+
+#include <algorithm>
+
+namespace drumlin {
+
+std::vector<std::string> material_names(const Scene& scene) {
+  std::vector<std::string> names;
+  const auto add = [&names](const std::string& name) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  };
+  for (const GrainMaterial& material : scene.grains.materials) add(material.name);
+  for (const Wall& wall : scene.walls)
+    if (wall.material) add(*wall.material);
+  return names;
+}
+
+int material_number(const std::vector<std::string>& names, const std::optional<std::string>& name) {
+  if (!name) return static_cast<int>(names.size());
+  return static_cast<int>(std::find(names.begin(), names.end(), *name) - names.begin());
+}
+
+bool materials_matter(const Scene& scene) {
+  const Effects& e = scene.effects;
+  return (e.friction && !e.friction->pairs.empty()) || (e.restitution && !e.restitution->pairs.empty()) ||
+         (e.cohesion && !e.cohesion->pairs.empty());
+}
+
+}  // namespace drumlin

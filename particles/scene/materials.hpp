@@ -1,0 +1,21 @@
+#pragma once
+// Names of materials as numbers.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "particles/scene/scene.hpp"
+
+namespace drumlin {
+
+constexpr int most_materials = 200;
+
+/// Names of all materials of a scene, those of the grains first, each once. A material's number is its place;
+/// grains and walls without a material have the number after the last.
+std::vector<std::string> material_names(const Scene& scene);
+/// The number of a name, or of none.
+int material_number(const std::vector<std::string>& names, const std::optional<std::string>& name);
+/// Whether a law of the scene differs from pair to pair: only then materials are stored.
+bool materials_matter(const Scene& scene);
+
+}  // namespace drumlin

@@ -1,0 +1,97 @@
+// Cohesion: a contact pulls with up to c before it opens, and Coulomb's law counts c as load.
+#include <numbers>
+
+#include "tests/effects/drums.hpp"
+
+namespace drumlin {
+namespace {
+
+using test::add_stage;
+using test::scene_of;
+using test::TemporaryFolder;
+
+const double weight = std::numbers::pi / 4;  // of a disc of diameter 1
+
+/// A disc below a ceiling at z = 0.
+Scene below_a_ceiling(double cohesion, const TemporaryFolder& folder) {
+  Scene scene = scene_of({{0, -0.5}}, folder);
+  scene.walls = {{"ceiling", SegmentShape{{-10, 0}, {10, 0}}}};
+  scene.effects.gravity = Gravity{};
+  scene.effects.cohesion = Cohesion{0, cohesion};
+  add_stage(scene, 2, 1e-2);
+  return scene;
+}
+
+TEST(Cohesion, HoldsADiscBelowACeilingIfItExceedsTheWeight) {
+  const TemporaryFolder folder;
+  Simulation simulation(below_a_ceiling(1.01, folder));
+  while (!simulation.finished()) (void)simulation.step();
+  EXPECT_NEAR(simulation.state().bodies.z[0], -0.5, 1e-9);
+  const Snapshot snapshot = simulation.take_snapshot();
+  ASSERT_EQ(snapshot.contacts.size(), 1u);
+  // The contact pulls with the weight, not with its strength.
+  EXPECT_NEAR(snapshot.contacts[0].impulse_n / snapshot.time_step, -weight, 1e-9);
+}
+
+TEST(Cohesion, LetsADiscFallThatIsHeavier) {
+  const TemporaryFolder folder;
+  // Out of the range of 1e-3 d the fall is free: nearly g t^2 / 2 = 2 after t = 2.
+  const Bodies end = test::bodies_at_end(below_a_ceiling(0.5, folder));
+  EXPECT_LT(end.z[0], -0.5 - 1.8);
+}
+
+/// Speed after a time of 1 of a disc that cannot turn, on a floor in gravity tilted by 30 degrees.
+double speed_on_a_slope(double mu, double cohesion) {
+  const TemporaryFolder folder;
+  Scene scene = scene_of({{0, 0.5}}, folder);
+  scene.walls = {test::floor_wall()};
+  scene.effects.gravity = Gravity{9.81, -60};
+  scene.effects.friction = Friction{mu, mu};
+  scene.effects.cohesion = Cohesion{0, cohesion};
+  add_stage(scene, 1, 1e-2);
+  return test::bodies_at_end(scene).v_x[0];
+}
+
+TEST(Cohesion, AddsToTheLoadInCoulombsLaw) {
+  // At rest iff sin 30 <= mu (cos 30 + c); else it slides with a = sin 30 - mu (cos 30 + c).
+  const double s = 0.5, c = std::sqrt(0.75), mu = 0.3;
+  const double needed = s / mu - c;  // 0.80
+  EXPECT_NEAR(speed_on_a_slope(mu, needed + 0.01), 0, 1e-9);
+  EXPECT_NEAR(speed_on_a_slope(mu, 0.5), s - mu * (c + 0.5), 1e-8);
+}
+
+TEST(Cohesion, PullsTwoDiscsApartOnlyByMoreThanItsForce) {
+  // Two discs hang one below the other from the ceiling: the upper contact carries two weights, the lower
+  // one.
+  const auto lowest = [](double grain_grain, double grain_wall) {
+    const TemporaryFolder folder;
+    Scene scene = scene_of({{0, -0.5}, {0, -1.5}}, folder);
+    scene.walls = {{"ceiling", SegmentShape{{-10, 0}, {10, 0}}}};
+    scene.effects.gravity = Gravity{};
+    scene.effects.cohesion = Cohesion{grain_grain, grain_wall};
+    add_stage(scene, 2, 1e-2);
+    return test::bodies_at_end(scene).z;
+  };
+  EXPECT_NEAR(lowest(1.05, 2.05)[1], -1.5, 1e-6);
+  EXPECT_LT(lowest(0.95, 2.05)[1], -1.5 - 0.1);    // the lower one falls ...
+  EXPECT_NEAR(lowest(0.95, 2.05)[0], -0.5, 1e-6);  // ... alone
+  EXPECT_LT(lowest(1.05, 1.95)[0], -0.5 - 0.01);   // both fall
+}
+
+TEST(Cohesion, OfZeroStrengthChangesNoBit) {
+  const Scene plain = test::turning_drum();
+  Scene weak = plain;
+  weak.effects.cohesion = Cohesion{0, 0};
+  test::expect_same(test::bodies_at_end(plain), test::bodies_at_end(weak));
+}
+
+TEST(Cohesion, CostsNoUnknown) {
+  Scene scene = test::turning_drum();
+  scene.effects.cohesion = Cohesion{1, 1};
+  const Simulation simulation(scene);
+  EXPECT_EQ(simulation.stepper().unknowns_per_contact(), 2);
+  EXPECT_EQ(simulation.stepper().velocities_per_body(), 3);
+}
+
+}  // namespace
+}  // namespace drumlin

@@ -1,0 +1,39 @@
+#pragma once
+// A small drum to which tests add one effect.
+#include <gtest/gtest.h>
+
+#include "particles/stepping/simulation.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace drumlin::test {
+
+/// Grains that fall into a drum of 30 mm that turns, with friction, restitution and spin.
+inline Scene turning_drum(int grains = 60) {
+  Scene scene;
+  scene.grains.density_kg_m3 = 2700;
+  scene.grains.source = GeneratedGrains{grains, 3, 3.6, CircleRegion{{0, -8}, 20}};
+  scene.walls = {{"drum", ContainerShape{{0, 0}, 30}}};
+  scene.effects = {Gravity{}, Friction{0.4, 0.95}, Restitution{0.46, 0.46}, Spin{}};
+  Stage turn;
+  turn.name = "turn", turn.duration_s = 0.2, turn.time_step_s = 1e-3;
+  turn.motions = {{"drum", Rotation{60, {0, 0}}}};
+  scene.stages = {turn};
+  return scene;
+}
+
+inline Bodies bodies_at_end(const Scene& scene) {
+  Simulation simulation(scene);
+  while (!simulation.finished()) (void)simulation.step();
+  return simulation.state().bodies;
+}
+
+/// To the last bit.
+inline void expect_same(const Bodies& a, const Bodies& b) {
+  EXPECT_EQ(a.x, b.x);
+  EXPECT_EQ(a.z, b.z);
+  EXPECT_EQ(a.v_x, b.v_x);
+  EXPECT_EQ(a.v_z, b.v_z);
+  EXPECT_EQ(a.spin, b.spin);
+}
+
+}  // namespace drumlin::test

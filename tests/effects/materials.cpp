@@ -1,0 +1,112 @@
+// Friction and restitution that differ from pair to pair of materials.
+#include <fstream>
+#include <numeric>
+
+#include "coupling/exchange/errors.hpp"
+#include "particles/scene/placement.hpp"
+#include "tests/effects/drums.hpp"
+
+namespace drumlin {
+namespace {
+
+using test::add_stage;
+using test::floor_wall;
+using test::TemporaryFolder;
+
+/// Grains of diameter 1 (d), each with the name of its material.
+struct Made {
+  double x, z, v_x;
+  std::string material;
+};
+Scene scene_of_materials(const std::vector<Made>& grains, const TemporaryFolder& folder) {
+  Scene scene = test::scene_of({}, folder);
+  const double speed = 1 / std::sqrt(1e-3 / 9.81);
+  std::ofstream out(folder.path() / "grains.csv");
+  out.precision(17);
+  out << "x_mm,z_mm,diameter_mm,v_x_mm_s,material\n";
+  for (const Made& g : grains)
+    out << g.x << ',' << g.z << ",1," << g.v_x * speed << ',' << g.material << '\n';
+  scene.grains.materials = {{"glass"}, {"steel"}};
+  return scene;
+}
+
+TEST(MaterialPairs, EachGrainSlidesWithTheFrictionOfItsOwnMaterial) {
+  // Without spin a disc slides like a block: v = v0 - mu g t.
+  const TemporaryFolder folder;
+  Scene scene = scene_of_materials({{0, 0.5, 1, "glass"}, {-10, 0.5, 1, "steel"}}, folder);
+  scene.walls = {floor_wall()};
+  scene.walls[0].material = "wood";
+  scene.effects.gravity = Gravity{};
+  scene.effects.friction = Friction{0.4, 0.5, {{{"glass", "wood"}, 0.1}, {{"wood", "steel"}, 0.3}}};
+  add_stage(scene, 1, 1e-2);
+  const Bodies end = test::bodies_at_end(scene);
+  EXPECT_NEAR(end.v_x[0], 1 - 0.1, 1e-9);
+  EXPECT_NEAR(end.v_x[1], 1 - 0.3, 1e-9);
+}
+
+TEST(MaterialPairs, APairThatIsNotNamedKeepsTheCommonValue) {
+  const TemporaryFolder folder;
+  Scene scene = scene_of_materials({{0, 0.5, 1, "glass"}, {-10, 0.5, 1, "steel"}}, folder);
+  scene.walls = {floor_wall()};  // of no material
+  scene.effects.gravity = Gravity{};
+  scene.effects.friction = Friction{0.4, 0.5, {{{"glass", "steel"}, 0.1}}};
+  add_stage(scene, 1, 1e-2);
+  const Bodies end = test::bodies_at_end(scene);
+  EXPECT_NEAR(end.v_x[0], 1 - 0.5, 1e-9);
+  EXPECT_NEAR(end.v_x[1], 1 - 0.5, 1e-9);
+}
+
+TEST(MaterialPairs, HeadOnImpactsPartWithTheRestitutionOfThePair) {
+  // Equal masses: after the impact the first moves with (1 - e)/2, the second with (1 + e)/2 of the speed.
+  const TemporaryFolder folder;
+  Scene scene = scene_of_materials(
+      {{0, 0, 1, "glass"}, {1.05, 0, 0, "glass"}, {0, 10, 1, "glass"}, {1.05, 10, 0, "steel"}}, folder);
+  scene.effects.restitution = Restitution{0, 0, {{{"glass", "glass"}, 0.8}, {{"steel", "glass"}, 0.3}}};
+  add_stage(scene, 0.2, 1e-2);
+  const Bodies end = test::bodies_at_end(scene);
+  EXPECT_NEAR(end.v_x[0], (1 - 0.8) / 2, 1e-9);
+  EXPECT_NEAR(end.v_x[1], (1 + 0.8) / 2, 1e-9);
+  EXPECT_NEAR(end.v_x[2], (1 - 0.3) / 2, 1e-9);
+  EXPECT_NEAR(end.v_x[3], (1 + 0.3) / 2, 1e-9);
+}
+
+TEST(MaterialPairs, EqualToTheCommonValuesChangeNoBit) {
+  const Scene plain = test::turning_drum();
+  Scene paired = plain;
+  paired.grains.materials = {{"glass", 2}, {"steel", 1}};
+  paired.effects.friction->pairs = {{{"glass", "steel"}, 0.4}, {{"glass", "glass"}, 0.4}};
+  paired.effects.restitution->pairs = {{{"glass", "steel"}, 0.46}};
+  test::expect_same(test::bodies_at_end(plain), test::bodies_at_end(paired));
+}
+
+TEST(MaterialPairs, MaterialsAreStoredOnlyIfALawAsksForThem) {
+  Scene scene = test::turning_drum();
+  scene.grains.materials = {{"glass"}, {"steel"}};
+  scene.walls[0].material = "steel";
+  EXPECT_TRUE(Simulation(scene).state().bodies.material.empty());
+  EXPECT_TRUE(walls_of(scene, scales_of(scene)).material_of_shape.empty());
+  scene.effects.friction->pairs = {{{"glass", "steel"}, 0.1}};
+  EXPECT_EQ(Simulation(scene).state().bodies.material.size(), 60u);  // one byte per grain
+  EXPECT_EQ(sizeof(Bodies{}.material[0]), 1u);
+}
+
+TEST(MaterialPairs, SharesAreDrawnByNumber) {
+  Scene scene = test::turning_drum();
+  scene.grains.source = GeneratedGrains{4000, 3, 3.6, RectangleRegion{{0, 0}, {1000, 1000}}};
+  scene.walls.clear();
+  scene.grains.materials = {{"glass", 3}, {"steel", 1}};
+  scene.effects.friction->pairs = {{{"glass", "steel"}, 0.1}};
+  const auto materials = place_grains(scene, scales_of(scene)).material;
+  const auto steel = std::accumulate(materials.begin(), materials.end(), 0.0);
+  EXPECT_NEAR(steel / 4000, 0.25, 4 * std::sqrt(0.25 * 0.75 / 4000));  // 4 standard deviations
+}
+
+TEST(MaterialPairs, AListThatNamesAnUnknownMaterialIsRefused) {
+  const TemporaryFolder folder;
+  Scene scene = scene_of_materials({{0, 0.5, 1, "cork"}}, folder);
+  scene.effects.friction = Friction{0.4, 0.5, {{{"glass", "steel"}, 0.1}}};
+  EXPECT_THROW(place_grains(scene, scales_of(scene)), InputError);
+}
+
+}  // namespace
+}  // namespace drumlin

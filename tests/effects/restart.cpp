@@ -1,0 +1,68 @@
+// A run that is stopped and read back from its checkpoint goes on as if nothing had been, with every effect.
+#include "particles/io/checkpoint_file.hpp"
+#include "tests/effects/drums.hpp"
+
+namespace drumlin {
+namespace {
+
+struct Case {
+  const char* name;
+  void (*add)(Scene&);
+};
+void PrintTo(const Case& one, std::ostream* out) { *out << one.name; }
+
+const Case cases[] = {
+    {"MaterialPairs",
+     [](Scene& s) {
+       s.grains.materials = {{"glass"}, {"steel"}};
+       s.walls[0].material = "steel";
+       s.effects.friction->pairs = {{{"glass", "steel"}, 0.1}};
+       s.effects.restitution->pairs = {{{"glass", "glass"}, 0.8}};
+     }},
+    {"Cohesion",
+     [](Scene& s) {
+       s.effects.cohesion = Cohesion{3, 1, 0.01};
+     }},
+    {"RotatingFrame",
+     [](Scene& s) {
+       s.effects.rotating_frame = RotatingFrame{30, {3, 4}};
+     }},
+    {"RoughWall",
+     [](Scene& s) {
+       s.walls[0].rough = Roughness{2, 3};
+     }},
+    {"Oscillation",
+     [](Scene& s) {
+       s.stages[0].motions = {{"drum", Oscillation{{2, 3}, 8, 20}}};
+     }},
+    {"Rocking",
+     [](Scene& s) {
+       s.stages[0].motions = {{"drum", Rocking{20, 4, 10, {0, 0}}}};
+     }},
+};
+
+class Restart : public ::testing::TestWithParam<Case> {};
+
+TEST_P(Restart, ContinuesBitForBit) {
+  const test::TemporaryFolder folder;
+  Scene scene = test::turning_drum();
+  GetParam().add(scene);
+  Simulation whole(scene), first(scene);
+  for (int k = 0; k < 117; ++k) (void)first.step();
+  while (!whole.finished()) (void)whole.step();
+  Checkpoint checkpoint;
+  checkpoint.state = first.state();
+  write_checkpoint(folder.path() / "checkpoint.h5", checkpoint);
+  Simulation second(scene, read_checkpoint(folder.path() / "checkpoint.h5").state);
+  while (!second.finished()) (void)second.step();
+  test::expect_same(whole.state().bodies, second.state().bodies);
+  EXPECT_EQ(whole.state().memory.impulse, second.state().memory.impulse);
+  // The effect does something: without it the end is another.
+  EXPECT_NE(whole.state().bodies.x, test::bodies_at_end(test::turning_drum()).x);
+}
+
+INSTANTIATE_TEST_SUITE_P(Effects, Restart, ::testing::ValuesIn(cases),
+                         [](const auto& chosen) { return std::string(chosen.param.name); });
+
+}  // namespace
+}  // namespace drumlin

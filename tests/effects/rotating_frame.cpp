@@ -1,0 +1,112 @@
+// A frame that turns: what happens in it is what happens in the laboratory.
+#include <numbers>
+
+#include "tests/effects/drums.hpp"
+
+namespace drumlin {
+namespace {
+
+using test::add_stage;
+using test::Grain;
+using test::scene_of;
+using test::TemporaryFolder;
+
+const double time_s = std::sqrt(1e-3 / 9.81);  // of scene_of with d = 1 mm
+double rpm_of(double spin) { return spin / time_s * 60 / (2 * std::numbers::pi); }
+
+TEST(RotatingFrame, FreeFlightIsStraightInTheLaboratory) {
+  const TemporaryFolder folder;
+  const double spin = 0.7;
+  const Point c{1, -2};
+  Scene scene = scene_of({{3, 1, 1, 0.4, -0.2, 0.1}}, folder);
+  scene.effects.rotating_frame = RotatingFrame{rpm_of(spin), {c.x, c.z}};
+  scene.effects.friction = Friction{0.1, 0.1};
+  scene.effects.spin = Spin{};
+  add_stage(scene, 5, 0.05);
+  const Bodies end = test::bodies_at_end(scene);
+  // In the laboratory the velocity is that in the frame plus that of the frame there.
+  const double v_x = 0.4 + spin * (1 - c.z), v_z = -0.2 - spin * (3 - c.x);
+  const double X = 3 + 5 * v_x - c.x, Z = 1 + 5 * v_z - c.z, angle = 5 * spin;
+  // Turned back, anticlockwise, by the angle of the frame. Times in s and back: 1e-12 relative.
+  EXPECT_NEAR(end.x[0], c.x + std::cos(angle) * X - std::sin(angle) * Z, 1e-10);
+  EXPECT_NEAR(end.z[0], c.z + std::sin(angle) * X + std::cos(angle) * Z, 1e-10);
+  EXPECT_NEAR(end.spin[0], 0.1, 1e-12);
+}
+
+TEST(RotatingFrame, ADiscAtRestFeelsTheCentrifugalAndAMovingOneTheCoriolisForce) {
+  // After a short time t: displacement t^2/2 (Omega^2 r), and t^2/2 of the Coriolis acceleration, which turns
+  // velocities anticlockwise in a frame that turns clockwise: a = 2 Omega (-v_z, v_x).
+  const double spin = 0.5, t = 1e-3;
+  const auto displacement = [&](double v_x) {
+    const TemporaryFolder folder;
+    Scene scene = scene_of({{4, 0, 1, v_x, 0}}, folder);
+    scene.effects.rotating_frame = RotatingFrame{rpm_of(spin), {0, 0}};
+    add_stage(scene, t, t / 10);
+    const Bodies end = test::bodies_at_end(scene);
+    return Point{(end.x[0] - 4 - v_x * t) / (t * t / 2), end.z[0] / (t * t / 2)};
+  };
+  const Point still = displacement(0), moving = displacement(3);
+  EXPECT_NEAR(still.x, spin * spin * 4, 1e-2);
+  EXPECT_NEAR(still.z, 0, 1e-2);
+  EXPECT_NEAR(moving.x, spin * spin * 4, 1e-2);
+  EXPECT_NEAR(moving.z, 2 * spin * 3, 1e-2);
+}
+
+TEST(RotatingFrame, GravityKeepsItsDirectionInTheLaboratory) {
+  const TemporaryFolder folder;
+  const double spin = std::numbers::pi / 4, h = 1e-3;  // an eighth of a turn in a time of 1
+  Scene scene = scene_of({{0, 0}}, folder);
+  scene.effects.gravity = Gravity{};
+  scene.effects.rotating_frame = RotatingFrame{rpm_of(spin), {0, 0}};
+  add_stage(scene, 1, h);
+  Simulation simulation(scene);
+  while (!simulation.finished()) (void)simulation.step();
+  const double fall = (1 + h) / 2;  // of the step that comes first in velocity, then in position
+  EXPECT_NEAR(simulation.state().bodies.x[0], fall * std::sqrt(0.5), 1e-9);
+  EXPECT_NEAR(simulation.state().bodies.z[0], -fall * std::sqrt(0.5), 1e-9);
+  const Snapshot snapshot = simulation.take_snapshot();
+  EXPECT_NEAR(snapshot.gravity_x, std::sqrt(0.5), 1e-9);
+  EXPECT_NEAR(snapshot.gravity_z, -std::sqrt(0.5), 1e-9);
+}
+
+TEST(RotatingFrame, ADrumSeenFromItselfMovesAsSeenFromOutside) {
+  const double spin = 0.4, duration = 3;
+  std::vector<Grain> seen_outside, seen_inside;
+  for (int k = 0; k < 9; ++k) {
+    Grain g{1.05 * (k % 3) - 1, 1.05 * (k / 3) - 3.5, 1, 0, 0, 0};
+    seen_outside.push_back(g);
+    g.v_x = -spin * g.z, g.v_z = spin * g.x, g.spin = -spin;
+    seen_inside.push_back(g);
+  }
+  const auto end = [&](const std::vector<Grain>& grains, bool inside) {
+    const TemporaryFolder folder;
+    Scene scene = scene_of(grains, folder);
+    scene.walls = {{"drum", ContainerShape{{0, 0}, 5}}, {"drum", SegmentShape{{0, -5}, {0, -4.5}}}};
+    scene.effects = {Gravity{}, Friction{0.4, 0.6}, Restitution{0.3, 0.3}, Spin{}};
+    scene.solver.tolerance = 1e-11;
+    add_stage(scene, duration, 0.01);
+    if (inside)
+      scene.effects.rotating_frame = RotatingFrame{rpm_of(spin), {0, 0}};
+    else
+      scene.stages[0].motions = {{"drum", Rotation{rpm_of(spin), {0, 0}}}};
+    return test::bodies_at_end(scene);
+  };
+  const Bodies outside = end(seen_outside, false), inside = end(seen_inside, true);
+  const double c = std::cos(spin * duration), s = std::sin(spin * duration);
+  // The solver's tolerance, times what 300 steps with impacts make of a small difference.
+  for (int k = 0; k < 9; ++k) {
+    EXPECT_NEAR(c * inside.x[k] + s * inside.z[k], outside.x[k], 1e-6) << k;
+    EXPECT_NEAR(-s * inside.x[k] + c * inside.z[k], outside.z[k], 1e-6) << k;
+    EXPECT_NEAR(inside.spin[k] + spin, outside.spin[k], 1e-5) << k;
+  }
+}
+
+TEST(RotatingFrame, AtRestChangesNoBit) {
+  const Scene plain = test::turning_drum();
+  Scene resting = plain;
+  resting.effects.rotating_frame = RotatingFrame{0, {1, 2}};
+  test::expect_same(test::bodies_at_end(plain), test::bodies_at_end(resting));
+}
+
+}  // namespace
+}  // namespace drumlin
