@@ -59,7 +59,7 @@ Judgement judge(const Problem& problem, std::span<const double> r,
   }
   const double scale = std::sqrt(q_squares / static_cast<double>(problem.q.size()));
   const auto relative = [scale](double e) {
-    return e == 0 ? 0 : scale > 0 ? e / scale : std::numeric_limits<double>::infinity();
+    return e == 0 ? 0 : scale != 0 ? e / scale : std::numeric_limits<double>::infinity();
   };
   verdict.residual = relative(std::sqrt(sum / count));
   verdict.residual_max = relative(largest);

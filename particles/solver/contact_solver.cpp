@@ -115,6 +115,15 @@ std::string to_string(Status status) {
   return "unknown";
 }
 
+std::optional<Status> reason_to_stop(const StoppingRule& rule, const SolveReport& report) {
+  if (std::isnan(report.judgement.residual)) return Status::not_finite;
+  if (report.judgement.residual <= rule.tolerance && report.judgement.penetration <= rule.penetration)
+    return Status::converged;
+  if (report.sweeps >= rule.max_sweeps) return Status::out_of_sweeps;
+  if (report.seconds > rule.max_seconds) return Status::out_of_time;
+  return {};
+}
+
 namespace {
 
 /// Whether problems of a kind have a vectorised form.
@@ -183,7 +192,7 @@ SolveReport solve_nncg_mixed(const Problem& problem, const StoppingRule& rule,
 }
 
 std::vector<std::string> contact_solver_names() {
-  return {"nlgs", "nncg", "nncg-mixed", "nlgs-scalar", "nncg-scalar"};
+  return {"nlgs", "nncg", "nncg-mixed", "cpg", "nlgs-scalar", "nncg-scalar"};
 }
 
 template <class Problem>
@@ -191,6 +200,7 @@ ContactSolver<Problem> contact_solver(const std::string& name) {
   if (name == "nlgs") return &solve_nlgs<Problem>;
   if (name == "nncg") return &solve_nncg<Problem>;
   if (name == "nncg-mixed") return &solve_nncg_mixed<Problem>;
+  if (name == "cpg") return &solve_cpg<Problem>;
   if (name == "nlgs-scalar") return &solve_nlgs_scalar<Problem>;
   if (name == "nncg-scalar") return &solve_nncg_scalar<Problem>;
   throw InputError({InputProblem{"", 0, 0, "solver", "unknown solver '" + name + "'",

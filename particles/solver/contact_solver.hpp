@@ -4,12 +4,14 @@
 #include <chrono>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "particles/contact/body_delassus.hpp"
 #include "particles/contact/residual.hpp"
+#include "particles/solver/conjugate_projected_gradient.hpp"
 #include "particles/solver/lane_solver.hpp"
 
 namespace drumlin {
@@ -34,6 +36,9 @@ struct [[nodiscard]] SolveReport {
   double seconds = 0;
 };
 
+/// Why a solver that was just judged must stop; nothing as long as it may go on.
+std::optional<Status> reason_to_stop(const StoppingRule&, const SolveReport&);
+
 /// Work space of the vectorised solvers; problems that they do not know have none.
 template <class Delassus>
 struct LaneScratch {};
@@ -53,6 +58,7 @@ struct SolverScratch {
   std::vector<double> step, direction;
   JudgeScratch<typename Problem::Delassus> judge;
   LaneScratch<typename Problem::Delassus> lanes;
+  ProjectedGradientScratch projected_gradient;
   ThreadTeam* team = nullptr;  ///< none: the calling thread alone; results do not depend on it
 };
 
@@ -85,6 +91,13 @@ SolveReport solve_nlgs_scalar(const Problem&, const StoppingRule&, SolverScratch
 template <class Problem>
 SolveReport solve_nncg_scalar(const Problem&, const StoppingRule&, SolverScratch<Problem>&,
                               std::vector<double>& r);
+
+/// Conjugate projected gradient (Renouf and Alart 2005; the paper, Sec. II) with a diagonal preconditioner: the
+/// quadratic problem of given friction bounds |r_t| <= b. Theirs moves the bounds b = mu r_n after every step,
+/// which stalls near 1e-2 on drums; here they move when the problem of the old ones is solved as well as its
+/// successor is known. A "sweep" is one product with W.
+template <class Problem>
+SolveReport solve_cpg(const Problem&, const StoppingRule&, SolverScratch<Problem>&, std::vector<double>& r);
 
 /// Names of all solvers, for scenes and command lines.
 std::vector<std::string> contact_solver_names();

@@ -109,6 +109,11 @@ TEST(Judge, SeesNotANumber) {
   EXPECT_TRUE(std::isnan(v.residual));
 }
 
+TEST(Judge, SeesNotANumberInTheProblem) {
+  EXPECT_TRUE(
+      std::isnan(verdict(disc_on_floor(std::numeric_limits<double>::quiet_NaN(), 0, 0.5), {1, 0}).residual));
+}
+
 TEST(Judge, EmptyProblemIsSolved) {
   CoulombSpinProblem problem;
   problem.W.inverse_mass = {1, 0};
