@@ -46,6 +46,7 @@ class BodyDelassus {
 
   int contacts() const { return static_cast<int>(i.size()); }
 
+  /// Forgets the contacts; bodies and plan stay.
   void clear() { i.clear(), j.clear(), n_x.clear(), n_z.clear(), inverse_W_nn.clear(); }
   void add(std::int32_t body_i, std::int32_t body_j, double normal_x, double normal_z) {
     i.push_back(body_i), j.push_back(body_j), n_x.push_back(normal_x), n_z.push_back(normal_z);

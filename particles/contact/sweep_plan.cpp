@@ -1,6 +1,7 @@
 #include "particles/contact/sweep_plan.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 namespace drumlin {
@@ -94,89 +95,117 @@ std::vector<std::int32_t> strips_of_levels(std::span<const std::int32_t> contact
   return strip;
 }
 
-/// Greedy colours of the contacts of one strip. A body with more contacts than a mask has bits is served in
-/// rounds, each with colours of its own.
-class Colours {
- public:
-  explicit Colours(std::int32_t bodies) : used_(bodies, 0), bodies_(bodies) {}
-
-  /// Appends the contacts to `order`, colour by colour, and the beginning of each colour to `group_start`.
-  void append(std::vector<std::int32_t> contacts, std::span<const std::int32_t> i,
-              std::span<const std::int32_t> j, std::vector<std::int32_t>& order,
-              std::vector<std::int32_t>& group_start) {
-    constexpr int most = 64;
-    std::vector<std::vector<std::int32_t>> of_colour;
-    while (!contacts.empty()) {
-      for (const std::int32_t a : contacts) {
-        used_[i[a]] = 0;
-        if (moves(j[a], bodies_)) used_[j[a]] = 0;
-      }
-      std::vector<std::int32_t> left;
-      of_colour.assign(most, {});
-      for (const std::int32_t a : contacts) {
-        const bool pair = moves(j[a], bodies_);
-        const std::uint64_t taken = used_[i[a]] | (pair ? used_[j[a]] : 0);
-        const int colour = std::countr_one(taken);
-        if (colour == most) {
-          left.push_back(a);
-          continue;
-        }
-        used_[i[a]] |= std::uint64_t{1} << colour;
-        if (pair) used_[j[a]] |= std::uint64_t{1} << colour;
-        of_colour[colour].push_back(a);
-      }
-      for (const auto& group : of_colour) {
-        if (group.empty()) break;
-        group_start.push_back(static_cast<std::int32_t>(order.size()));
-        order.insert(order.end(), group.begin(), group.end());
-      }
-      contacts.swap(left);
-    }
-  }
-
- private:
-  std::vector<std::uint64_t> used_;
-  std::int32_t bodies_;
-};
-
 }  // namespace
 
-SweepPlan sweep_plan(std::int32_t bodies, std::span<const std::int32_t> i, std::span<const std::int32_t> j,
-                     std::vector<std::int32_t>& order) {
-  SweepPlan plan;
-  order.clear();
-  if (bodies == 0) return plan;
+std::vector<std::int32_t> body_strips(std::int32_t bodies, std::span<const std::int32_t> i,
+                                      std::span<const std::int32_t> j) {
+  if (bodies == 0) return {};
   const Graph graph = graph_of(bodies, i, j);
   const Levels levels(graph, bodies);
   std::vector<std::int32_t> level;
   // The body that is reached last is at the rim: levels from there are narrow.
   const std::int32_t rim = levels.from(0, level).back();
-  plan.body_order = levels.from(rim, level);
-
-  const std::int32_t count = level[plan.body_order.back()] + 1;
-  const auto level_of = [&](std::size_t a) {
-    return moves(j[a], bodies) ? std::min(level[i[a]], level[j[a]]) : level[i[a]];
-  };
+  const std::int32_t count = level[levels.from(rim, level).back()] + 1;
   std::vector<std::int32_t> contacts_of_level(count, 0);
-  for (std::size_t a = 0; a < i.size(); ++a) ++contacts_of_level[level_of(a)];
-  const auto strip_of_level = strips_of_levels(contacts_of_level);
-  const std::int32_t strips = (strip_of_level.back() / 2 + 1) * 2;
-
-  plan.lane_bodies.assign(strips / 2 + 1, 0);
-  for (std::int32_t b = 0; b < bodies; ++b) ++plan.lane_bodies[strip_of_level[level[b]] / 2 + 1];
-  for (std::int32_t k = 0; k < strips / 2; ++k) plan.lane_bodies[k + 1] += plan.lane_bodies[k];
-
-  std::vector<std::vector<std::int32_t>> of_strip(strips);
   for (std::size_t a = 0; a < i.size(); ++a)
-    of_strip[strip_of_level[level_of(a)]].push_back(static_cast<std::int32_t>(a));
-  order.reserve(i.size());
-  Colours colours(bodies);
-  for (auto& contacts : of_strip) {
+    ++contacts_of_level[moves(j[a], bodies) ? std::min(level[i[a]], level[j[a]]) : level[i[a]]];
+  const auto strip_of_level = strips_of_levels(contacts_of_level);
+  for (std::int32_t& l : level) l = strip_of_level[l];
+  return level;
+}
+
+bool SweepPlanner::plan(std::span<const std::int32_t> strip_of_body, std::span<const std::int32_t> i,
+                        std::span<const std::int32_t> j, SweepPlan& plan, std::vector<std::int32_t>& order) {
+  const auto bodies = static_cast<std::int32_t>(strip_of_body.size());
+  const std::size_t pairs = i.size();
+  strip_of_contact_.resize(pairs);
+  for (std::size_t a = 0; a < pairs; ++a) {
+    std::int32_t strip = strip_of_body[i[a]];
+    if (moves(j[a], bodies)) {
+      const std::int32_t other = strip_of_body[j[a]];
+      if (other > strip + 1 || strip > other + 1) return false;
+      strip = std::min(strip, other);
+    }
+    strip_of_contact_[a] = strip;
+  }
+  const std::int32_t last = bodies > 0 ? *std::max_element(strip_of_body.begin(), strip_of_body.end()) : 0;
+  const std::int32_t lanes = last / 2 + 1;
+
+  plan.lane_bodies.assign(lanes + 1, 0);
+  for (const std::int32_t strip : strip_of_body) ++plan.lane_bodies[strip / 2 + 1];
+  for (std::int32_t k = 0; k < lanes; ++k) plan.lane_bodies[k + 1] += plan.lane_bodies[k];
+  plan.body_order.resize(bodies);
+  start_.assign(plan.lane_bodies.begin(), plan.lane_bodies.end() - 1);
+  for (std::int32_t b = 0; b < bodies; ++b) plan.body_order[start_[strip_of_body[b] / 2]++] = b;
+
+  start_.assign(2 * static_cast<std::size_t>(lanes) + 1, 0);
+  for (const std::int32_t strip : strip_of_contact_) ++start_[strip + 1];
+  for (std::int32_t s = 0; s < 2 * lanes; ++s) start_[s + 1] += start_[s];
+  by_strip_.resize(pairs);
+  for (std::size_t a = 0; a < pairs; ++a)
+    by_strip_[start_[strip_of_contact_[a]]++] = static_cast<std::int32_t>(a);
+
+  plan.group_start.clear();
+  plan.strip_start.clear();
+  order.clear();
+  used_.resize(bodies);
+  std::int32_t begin = 0;
+  for (std::int32_t s = 0; s < 2 * lanes; ++s) {
     plan.strip_start.push_back(static_cast<std::int32_t>(plan.group_start.size()));
-    colours.append(std::move(contacts), i, j, order, plan.group_start);
+    append_colours(std::span(by_strip_).subspan(begin, start_[s] - begin), i, j, plan, order);
+    begin = start_[s];
   }
   plan.strip_start.push_back(static_cast<std::int32_t>(plan.group_start.size()));
   plan.group_start.push_back(static_cast<std::int32_t>(order.size()));
+  return true;
+}
+
+void SweepPlanner::append_colours(std::span<const std::int32_t> contacts, std::span<const std::int32_t> i,
+                                  std::span<const std::int32_t> j, SweepPlan& plan,
+                                  std::vector<std::int32_t>& order) {
+  constexpr int most = 64;
+  const auto bodies = static_cast<std::int32_t>(used_.size());
+  std::vector<std::int32_t> left;  // of bodies with more contacts than a mask has bits: served in rounds
+  for (auto served = contacts; !served.empty();) {
+    for (const std::int32_t a : served) {
+      used_[i[a]] = 0;
+      if (moves(j[a], bodies)) used_[j[a]] = 0;
+    }
+    std::array<std::int32_t, most + 1> start{};
+    colour_.resize(served.size());
+    std::vector<std::int32_t> next_left;
+    for (std::size_t k = 0; k < served.size(); ++k) {
+      const std::int32_t a = served[k];
+      const bool pair = moves(j[a], bodies);
+      const std::uint64_t taken = used_[i[a]] | (pair ? used_[j[a]] : 0);
+      const int colour = std::countr_one(taken);
+      colour_[k] = static_cast<std::int8_t>(colour);
+      if (colour == most) {
+        next_left.push_back(a);
+        continue;
+      }
+      used_[i[a]] |= std::uint64_t{1} << colour;
+      if (pair) used_[j[a]] |= std::uint64_t{1} << colour;
+      ++start[colour + 1];
+    }
+    const auto first = static_cast<std::int32_t>(order.size());
+    for (int c = 0; c < most && start[c + 1] > 0; ++c) {
+      plan.group_start.push_back(first + start[c]);
+      start[c + 1] += start[c];
+    }
+    order.resize(order.size() + served.size() - next_left.size());
+    for (std::size_t k = 0; k < served.size(); ++k)
+      if (colour_[k] < most) order[first + start[colour_[k]]++] = served[k];
+    left = std::move(next_left);
+    served = left;
+  }
+}
+
+SweepPlan sweep_plan(std::int32_t bodies, std::span<const std::int32_t> i, std::span<const std::int32_t> j,
+                     std::vector<std::int32_t>& order) {
+  SweepPlan plan;
+  SweepPlanner planner;
+  if (bodies > 0) planner.plan(body_strips(bodies, i, j), i, j, plan, order);
   return plan;
 }
 

@@ -28,10 +28,30 @@ struct SweepPlan {
   int lanes() const { return empty() ? 0 : static_cast<int>(lane_bodies.size()) - 1; }
 };
 
-/// Finds a plan for the pairs (i, j) among `bodies` bodies; j outside of [0, bodies) is fixed. `order`
-/// receives the pairs in solve order. Strips are levels of a breadth-first search from a body at the rim,
-/// merged to about equal numbers of contacts; colours are greedy, in the order given. Depends on nothing but
-/// its arguments.
+/// Strip of each of `bodies` bodies for the pairs (i, j); j outside of [0, bodies) is fixed. Strips are
+/// levels of a breadth-first search from a body at the rim, merged to about equal numbers of contacts.
+std::vector<std::int32_t> body_strips(std::int32_t bodies, std::span<const std::int32_t> i,
+                                      std::span<const std::int32_t> j);
+
+/// Plans one set of contacts after the other; keeps work space only.
+class SweepPlanner {
+ public:
+  /// Plans the pairs (i, j) in given strips of bodies. `order` receives the pairs in solve order: strip by
+  /// strip and greedy colour by colour, in the order given within a colour. False, and nothing planned, if
+  /// the strips do not suit the pairs.
+  bool plan(std::span<const std::int32_t> strip_of_body, std::span<const std::int32_t> i,
+            std::span<const std::int32_t> j, SweepPlan& plan, std::vector<std::int32_t>& order);
+
+ private:
+  void append_colours(std::span<const std::int32_t> contacts, std::span<const std::int32_t> i,
+                      std::span<const std::int32_t> j, SweepPlan& plan, std::vector<std::int32_t>& order);
+
+  std::vector<std::int32_t> strip_of_contact_, by_strip_, start_;
+  std::vector<std::int8_t> colour_;
+  std::vector<std::uint64_t> used_;  // colours of the contacts of each body, one bit each
+};
+
+/// Both at once, for a single problem.
 SweepPlan sweep_plan(std::int32_t bodies, std::span<const std::int32_t> i, std::span<const std::int32_t> j,
                      std::vector<std::int32_t>& order);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace drumlin {
@@ -106,122 +107,155 @@ double gap_now(const Candidate& pair, const Bodies& bodies, std::span<const Shap
          bodies.radius[pair.i] - bodies.radius[pair.j];
 }
 
-void ContactDetection::keep_if_near(std::int32_t i, std::int32_t j, const Bodies& bodies, const Velocities& v,
-                                    const DetectionInput& input) {
-  const double dx = input.period.nearest(bodies.x[i] - bodies.x[j]), dz = bodies.z[i] - bodies.z[j];
-  const double touching = bodies.radius[i] + bodies.radius[j];
-  const double dv_x = v.x[i] - v.x[j], dv_z = v.z[i] - v.z[j];
-  const double reach = touching + range_;
-  if (dx * dx + dz * dz > reach * reach) return;
-  Candidate pair{i, j, 0, 0, 0, 0, 0};
-  pair.gap = normal_of(dx, dz, pair.n_x, pair.n_z) - touching;
-  note(pair, -(pair.n_x * dv_x + pair.n_z * dv_z), input);
-}
-
-void ContactDetection::note(const Candidate& pair, double approach, const DetectionInput& input) {
-  const double reach = 2 * input.time_step * std::max(0.0, approach);
-  if (pair.gap < input.margin + reach) {
-    jolt_[pair.i] = std::max(jolt_[pair.i], reach);
-    if (pair.j >= 0) jolt_[pair.j] = std::max(jolt_[pair.j], reach);
+/// Appends the pairs within a range to a list; without a branch that a processor could guess wrongly.
+class ContactDetection::Looking {
+ public:
+  Looking(std::vector<Pair>& list, const Period& period, double range)
+      : list_(list), count_(list.size()), period_(period), range_(range) {}
+  ~Looking() { list_.resize(count_); }
+  void operator()(const NearGrain& a, const NearGrain& b) {
+    if (count_ == list_.size()) list_.resize(2 * count_ + 1024);
+    const double dx = period_.nearest(a.x - b.x), dz = a.z - b.z;
+    const double reach = a.radius + b.radius + range_;
+    list_[count_] = {&a, &b};
+    count_ += dx * dx + dz * dz <= reach * reach;
   }
-  candidates_.push_back(pair);
-  reach_.push_back(reach);
+
+ private:
+  std::vector<Pair>& list_;
+  std::size_t count_;
+  Period period_;
+  double range_;
+};
+
+void ContactDetection::weigh(std::size_t from, const DetectionInput& input) {
+  weighed_.resize(looked_at_.size());
+  for (std::size_t p = from; p < looked_at_.size(); ++p) {
+    const bool in_order = looked_at_[p].a->body < looked_at_[p].b->body;
+    const NearGrain& a = in_order ? *looked_at_[p].a : *looked_at_[p].b;
+    const NearGrain& b = in_order ? *looked_at_[p].b : *looked_at_[p].a;
+    Weighed& w = weighed_[p];
+    w.pair = {a.body, b.body, 0, 0, 0, 0, 0};
+    w.pair.gap =
+        normal_of(input.period.nearest(a.x - b.x), a.z - b.z, w.pair.n_x, w.pair.n_z) - a.radius - b.radius;
+    const double approach = -(w.pair.n_x * (a.v_x - b.v_x) + w.pair.n_z * (a.v_z - b.v_z));
+    w.reach = 2 * input.time_step * std::max(0.0, approach);
+    const double jolt = w.pair.gap < input.margin + w.reach ? w.reach : 0;
+    jolt_[a.body] = std::max(jolt_[a.body], jolt);
+    jolt_[b.body] = std::max(jolt_[b.body], jolt);
+  }
 }
 
-void ContactDetection::drop_far_pairs(const DetectionInput& input) {
+void ContactDetection::keep_near_pairs(const DetectionInput& input) {
+  candidates_.resize(weighed_.size());
   std::size_t kept = 0;
-  for (std::size_t p = 0; p < candidates_.size(); ++p) {
-    const Candidate& pair = candidates_[p];
-    const double jolt = jolt_[pair.i] + (pair.j >= 0 ? jolt_[pair.j] : 0);
-    if (pair.gap < input.margin + reach_[p] + jolt / 2) candidates_[kept++] = pair;
+  for (const Weighed& w : weighed_) {
+    const double jolt = jolt_[w.pair.i] + (w.pair.j >= 0 ? jolt_[w.pair.j] : 0);
+    candidates_[kept] = w.pair;
+    kept += w.pair.gap < input.margin + w.reach + jolt / 2;
   }
   candidates_.resize(kept);
 }
 
-void ContactDetection::keep_if_near_wall(std::int32_t b, std::int32_t shape, double farthest,
-                                         const Bodies& bodies, const Velocities& v,
-                                         const DetectionInput& input) {
-  Candidate pair{b, -1 - shape, 0, 0, 0, 0, 0};
+void ContactDetection::look_at_wall(const NearGrain& grain, std::int32_t shape, double farthest,
+                                    const DetectionInput& input) {
+  Candidate pair{grain.body, -1 - shape, 0, 0, 0, 0, 0};
   Point point;
-  pair.gap = gap_to_shape(input.shapes[shape], image_near(input.shapes[shape], bodies.x[b], input.period),
-                          bodies.z[b], bodies.radius[b], pair.n_x, pair.n_z, point);
+  pair.gap = gap_to_shape(input.shapes[shape], image_near(input.shapes[shape], grain.x, input.period),
+                          grain.z, grain.radius, pair.n_x, pair.n_z, point);
   if (pair.gap > farthest) return;
   const Point then = moved(input.shape_steps[shape], point);
   pair.wall_v_x = (then.x - point.x) / input.time_step;
   pair.wall_v_z = (then.z - point.z) / input.time_step;
-  note(pair, -(pair.n_x * (v.x[b] - pair.wall_v_x) + pair.n_z * (v.z[b] - pair.wall_v_z)), input);
+  const double approach = -(pair.n_x * (grain.v_x - pair.wall_v_x) + pair.n_z * (grain.v_z - pair.wall_v_z));
+  const double reach = 2 * input.time_step * std::max(0.0, approach);
+  if (pair.gap < input.margin + reach) jolt_[pair.i] = std::max(jolt_[pair.i], reach);
+  weighed_.push_back({pair, reach});
 }
 
-void ContactDetection::push_on_fast_impacts(const Bodies& bodies, const Velocities& v,
-                                            const DetectionInput& input, double looked_at, double largest) {
-  if (fast_.empty()) return;
-  const auto count = static_cast<std::int32_t>(bodies.count());
-  for (std::int32_t i = 0; i < count; ++i) {
-    if (jolt_[i] <= looked_at) continue;
-    range_ = looked_at + jolt_[i];
-    const double reach = largest + range_, x = input.period.first(bodies.x[i]), z = bodies.z[i];
-    grid_.near(x - reach, x + reach, z - reach, z + reach, [&](std::int32_t b) {
-      if (b != i) keep_if_near(std::min(b, i), std::max(b, i), bodies, v, input);
-    });
+void ContactDetection::find_near_walls(double fastest, double largest, const DetectionInput& input) {
+  for (std::size_t s = 0; s < input.shapes.size(); ++s) {
+    const double farthest =
+        input.margin + 2 * (fastest + largest_move(input.shapes[s], input.shape_steps[s]));
+    const auto near_shape = [&](const NearGrain& grain) {
+      look_at_wall(grain, static_cast<std::int32_t>(s), farthest, input);
+    };
+    if (const auto box = surroundings(input.shapes[s], largest / 2 + farthest)) {
+      grids_.near(box->x_low, box->x_high, box->z_low, box->z_high, near_shape);
+    } else {
+      const double everywhere = std::numeric_limits<double>::infinity();
+      grids_.near(-everywhere, everywhere, -everywhere, everywhere, near_shape);
+    }
   }
 }
 
-const std::vector<Candidate>& ContactDetection::find(const Bodies& bodies, std::span<const double> v_x,
-                                                     std::span<const double> v_z,
-                                                     const DetectionInput& input) {
+void ContactDetection::find_near_fast_grains(const Bodies& bodies, std::span<const double> v_x,
+                                             std::span<const double> v_z, const DetectionInput& input,
+                                             double looked_at, double fastest, double largest) {
+  const auto look_around = [&](const NearGrain& grain, double range) {
+    const double reach = largest + range;
+    Looking look(looked_at_, input.period, range);
+    grids_.near(grain.x - reach, grain.x + reach, grain.z - reach, grain.z + reach,
+                [&](const NearGrain& other) {
+                  if (other.body != grain.body) look(grain, other);
+                });
+  };
+  const std::size_t slow_pairs = looked_at_.size();
+  const double fast_range = input.margin + 4 * fastest;
+  for (const NearGrain& grain : fast_) look_around(grain, fast_range);
+  weigh(slow_pairs, input);
+  // An impact pushes its grains on to others.
+  const std::size_t pairs = looked_at_.size(), fast = fast_.size();
+  for (std::size_t i = 0; i < bodies.count(); ++i)
+    if (jolt_[i] > looked_at)
+      fast_.push_back({input.period.first(bodies.x[i]), bodies.z[i], bodies.radius[i], v_x[i], v_z[i],
+                       static_cast<std::int32_t>(i)});
+  // Pairs refer to the entries of fast_, which may have moved.
+  looked_at_.resize(slow_pairs);
+  for (const NearGrain& grain : std::span(fast_).first(fast)) look_around(grain, fast_range);
+  for (const NearGrain& grain : std::span(fast_).subspan(fast))
+    look_around(grain, looked_at + jolt_[grain.body]);
+  weigh(pairs, input);
+}
+
+std::vector<Candidate>& ContactDetection::find(const Bodies& bodies, std::span<const double> v_x,
+                                               std::span<const double> v_z, const DetectionInput& input) {
   candidates_.clear();
-  reach_.clear();
+  looked_at_.clear();
+  fast_.clear();
   jolt_.assign(bodies.count(), 0.0);
   const auto count = static_cast<std::int32_t>(bodies.count());
   if (count == 0) return candidates_;
-  const Velocities v{v_x, v_z};
   double fastest = 0, slow = 0;
-  fast_.clear();
   for (std::int32_t b = 0; b < count; ++b) {
     const double moves = input.time_step * length(v_x[b], v_z[b]);
     fastest = std::max(fastest, moves);
     if (moves > fast_displacement)
-      fast_.push_back(b);
+      fast_.push_back({input.period.first(bodies.x[b]), bodies.z[b], bodies.radius[b], v_x[b], v_z[b], b});
     else
       slow = std::max(slow, moves);
   }
-  // Two discs that move m each close at most 2 m within the step; the rule above keeps twice that.
+  const bool any_fast = !fast_.empty();
   const double largest = 2 * *std::max_element(bodies.radius.begin(), bodies.radius.end());
-  range_ = input.margin + 4 * slow;
-  grid_.sort(bodies, largest + range_, input.period);
-  const auto visit_neighbours = [&](std::int32_t i, double reach, auto visit) {
-    const double x = input.period.first(bodies.x[i]), z = bodies.z[i];
-    grid_.near(x - reach, x + reach, z - reach, z + reach, visit);
-  };
-  for (std::int32_t i = 0; i < count; ++i)
-    visit_neighbours(i, largest + range_, [&](std::int32_t j) {
-      if (j > i) keep_if_near(i, j, bodies, v, input);
-    });
-  range_ = input.margin + 4 * fastest;
-  for (const std::int32_t f : fast_)
-    visit_neighbours(f, largest + range_, [&](std::int32_t b) {
-      if (b != f) keep_if_near(std::min(b, f), std::max(b, f), bodies, v, input);
-    });
-  push_on_fast_impacts(bodies, v, input, input.margin + 4 * slow, largest);
-  for (std::size_t s = 0; s < input.shapes.size(); ++s) {
-    const double farthest =
-        input.margin + 2 * (fastest + largest_move(input.shapes[s], input.shape_steps[s]));
-    const auto near_shape = [&](std::int32_t b) {
-      keep_if_near_wall(b, static_cast<std::int32_t>(s), farthest, bodies, v, input);
-    };
-    if (const auto box = surroundings(input.shapes[s], largest / 2 + farthest))
-      grid_.near(box->x_low, box->x_high, box->z_low, box->z_high, near_shape);
-    else
-      for (std::int32_t b = 0; b < count; ++b) near_shape(b);
+  // Two discs that move m each close at most 2 m within the step; the rule above keeps twice that.
+  const double range = input.margin + 4 * slow;
+  grids_.sort(bodies, v_x, v_z, range, input.period);
+  {
+    Looking look(looked_at_, input.period, range);
+    grids_.each_pair([&look](const NearGrain& a, const NearGrain& b) { look(a, b); });
   }
-  drop_far_pairs(input);
-  std::sort(candidates_.begin(), candidates_.end(),
-            [](const Candidate& a, const Candidate& b) { return a.i != b.i ? a.i < b.i : a.j < b.j; });
-  if (!fast_.empty())
+  weigh(0, input);
+  if (any_fast) find_near_fast_grains(bodies, v_x, v_z, input, range, fastest, largest);
+  find_near_walls(fastest, largest, input);
+  keep_near_pairs(input);
+  if (any_fast) {  // a pair may have been found from both sides
+    std::sort(candidates_.begin(), candidates_.end(),
+              [](const Candidate& a, const Candidate& b) { return a.i != b.i ? a.i < b.i : a.j < b.j; });
     candidates_.erase(
         std::unique(candidates_.begin(), candidates_.end(),
                     [](const Candidate& a, const Candidate& b) { return a.i == b.i && a.j == b.j; }),
         candidates_.end());
+  }
   return candidates_;
 }
 

@@ -32,33 +32,37 @@ struct DetectionInput {
 /// parts) and a_i the largest approach speed of any pair of body i: an impact on i pushes it on to neighbours
 /// that it did not approach. Pairs of slow bodies (less than 0.25 d per step) are looked at within margin + 4
 /// of their largest displacement. v_x and v_z are the velocities that the bodies would have without contacts.
-/// Sorted by (i, j): the order depends on nothing but the state.
+/// The order depends on nothing but the arguments.
 class ContactDetection {
  public:
-  const std::vector<Candidate>& find(const Bodies& bodies, std::span<const double> v_x,
-                                     std::span<const double> v_z, const DetectionInput& input);
+  /// The result may be reordered by the caller.
+  std::vector<Candidate>& find(const Bodies& bodies, std::span<const double> v_x, std::span<const double> v_z,
+                               const DetectionInput& input);
 
  private:
-  struct Velocities {
-    std::span<const double> x, z;
+  class Looking;
+  /// Gaps, normals and approach of the pairs looked at from `from` on, and what it does to their bodies.
+  void weigh(std::size_t from, const DetectionInput& input);
+  void look_at_wall(const NearGrain& grain, std::int32_t shape, double farthest, const DetectionInput&);
+  void find_near_walls(double fastest, double largest, const DetectionInput& input);
+  /// Looks further around the grains that move far within the step, and around those that they hit.
+  void find_near_fast_grains(const Bodies& bodies, std::span<const double> v_x, std::span<const double> v_z,
+                             const DetectionInput& input, double looked_at, double fastest, double largest);
+  void keep_near_pairs(const DetectionInput& input);
+
+  struct Pair {
+    const NearGrain *a, *b;
   };
-  void keep_if_near(std::int32_t i, std::int32_t j, const Bodies&, const Velocities&, const DetectionInput&);
-  void keep_if_near_wall(std::int32_t b, std::int32_t shape, double farthest, const Bodies&,
-                         const Velocities&, const DetectionInput&);
-
-  /// Keeps a pair for the moment, and what its approach does to its bodies.
-  void note(const Candidate& pair, double approach, const DetectionInput& input);
-  void drop_far_pairs(const DetectionInput& input);
-  /// Looks further around the bodies that fast ones hit.
-  void push_on_fast_impacts(const Bodies& bodies, const Velocities& v, const DetectionInput& input,
-                            double looked_at, double largest);
-
-  CellGrid grid_;
-  double range_ = 0;  // pairs with a larger gap are not looked at
+  struct Weighed {
+    Candidate pair;
+    double reach;  // 2 h a
+  };
+  GrainGrids grids_;
+  std::vector<Pair> looked_at_;
+  std::vector<NearGrain> fast_;  // grains around which is looked further
+  std::vector<Weighed> weighed_;
   std::vector<Candidate> candidates_;
-  std::vector<double> reach_;       // 2 h a of each candidate
-  std::vector<double> jolt_;        // 2 h a_i of each body
-  std::vector<std::int32_t> fast_;  // grains that move far within one step
+  std::vector<double> jolt_;  // 2 h a_i of each body
 };
 
 /// Gap and normal of a disc and a shape; `point` receives the point of the shape that is nearest.

@@ -1,23 +1,25 @@
 #pragma once
-// The order in which contacts are solved: by colour, so that neighbours in the order share no body. A sweep
-// in this order does not wait for the result that it has just written, which is most of the time of a sweep
-// in natural order.
+// The order in which the contacts of a step are solved.
 #include <cstdint>
-#include <span>
 #include <vector>
 
+#include "particles/contact/sweep_plan.hpp"
 #include "particles/detection/contact_list.hpp"
 
 namespace drumlin {
 
-/// Places of `pairs` sorted by greedy colour, in the order of the list within a colour.
-struct ContactOrder {
-  std::vector<std::int32_t> place;
-  void sort(std::span<const Candidate> pairs, std::size_t bodies);
+/// Puts contacts into solve order and keeps the strips of bodies for as many steps as they suit.
+class ContactOrder {
+ public:
+  /// Sorts `pairs` as `plan` says. `strip_of_body` is part of the state of a run: the strips of the last
+  /// step; found anew when they do not suit (or are of another number of bodies).
+  void sort(std::vector<Candidate>& pairs, std::size_t bodies, std::vector<std::int32_t>& strip_of_body,
+            SweepPlan& plan);
 
  private:
-  std::vector<std::uint64_t> used_;
-  std::vector<std::int32_t> colour_;
+  SweepPlanner planner_;
+  std::vector<std::int32_t> i_, j_, order_;
+  std::vector<Candidate> sorted_;
 };
 
 }  // namespace drumlin

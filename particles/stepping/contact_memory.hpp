@@ -5,7 +5,7 @@
 
 namespace drumlin {
 
-/// Contacts of the last step, sorted by (i, j) as detection leaves them.
+/// Contacts of the last step, in the order in which they were solved.
 struct ContactMemory {
   std::vector<std::int32_t> i, j;
   std::vector<double> impulse;  ///< dim per contact, normal first: the warm start
@@ -13,6 +13,7 @@ struct ContactMemory {
   /// step; 0 otherwise. Empty in a scene without restitution.
   std::vector<double> approach;
   double time_step = 0;  ///< the impulses belong to: they scale with it
+  std::vector<std::int32_t> strip;  ///< of each body: decides the order of the contacts (SweepPlan)
 };
 
 }  // namespace drumlin

@@ -1,5 +1,6 @@
 #include "particles/stepping/moreau_jean.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -49,10 +50,11 @@ class MoreauJean final : public Stepper {
     free_velocities(bodies, time_step);
     const DetectionInput input{walls.before, walls.displacement, time_step, laws_.detection_margin,
                                laws_.period};
-    pairs_ = detection_.find(bodies, free_x_, free_z_, input);
-    order_.sort(pairs_, bodies.count());
+    auto& found = detection_.find(bodies, free_x_, free_z_, input);
+    order_.sort(found, bodies.count(), memory.strip, problem_.W.plan);
+    pairs_.swap(found);
     if (laws_.cohesion) attract(bodies, time_step);
-    recall(memory, time_step);
+    recall(memory, bodies.count(), time_step);
     pose(bodies, time_step);
     report.detection_seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -66,17 +68,16 @@ class MoreauJean final : public Stepper {
 
   std::vector<SnapshotContact> loaded_contacts() const override {
     std::vector<SnapshotContact> loaded;
-    std::vector<std::int32_t> slot(pairs_.size());
-    for (std::size_t a = 0; a < order_.place.size(); ++a)
-      slot[order_.place[a]] = static_cast<std::int32_t>(a);
-    for (std::size_t p = 0; p < pairs_.size(); ++p) {
-      const auto a = static_cast<std::size_t>(slot[p]);
-      const double pull = laws_.cohesion ? attraction_[p] : 0;
+    for (std::size_t a = 0; a < pairs_.size(); ++a) {
+      const double pull = laws_.cohesion ? attraction_[a] : 0;
       const double r_n = impulses_[dim * a] - pull, r_t = dim == 2 ? impulses_[dim * a + dim - 1] : 0;
       if (r_n != 0)
-        loaded.push_back({pairs_[p].i, pairs_[p].j, static_cast<float>(pairs_[p].n_x),
-                          static_cast<float>(pairs_[p].n_z), r_n, r_t});
+        loaded.push_back({pairs_[a].i, pairs_[a].j, static_cast<float>(pairs_[a].n_x),
+                          static_cast<float>(pairs_[a].n_z), r_n, r_t});
     }
+    std::sort(loaded.begin(), loaded.end(), [](const SnapshotContact& a, const SnapshotContact& b) {
+      return a.i != b.i ? a.i < b.i : a.j < b.j;
+    });
     return loaded;
   }
 
@@ -111,20 +112,23 @@ class MoreauJean final : public Stepper {
     }
   }
 
-  /// Warm start and remembered approach speeds, by identity (i, j): both lists are sorted.
-  void recall(const ContactMemory& memory, double h) {
-    impulses_.resize(dim * pairs_.size());
+  /// Warm start and remembered approach speeds, by identity (i, j).
+  void recall(const ContactMemory& memory, std::size_t bodies, double h) {
+    impulses_.assign(dim * pairs_.size(), 0.0);
     if (laws_.restitution) approach_.assign(pairs_.size(), 0.0);
-    warm_.assign(dim * pairs_.size(), 0.0);
+    first_of_body_.assign(bodies, -1);
+    next_of_body_.resize(memory.i.size());
+    for (std::size_t m = 0; m < memory.i.size(); ++m) {
+      next_of_body_[m] = first_of_body_[memory.i[m]];
+      first_of_body_[memory.i[m]] = static_cast<std::int32_t>(m);
+    }
     const double scale = memory.time_step > 0 ? h / memory.time_step : 1;
-    std::size_t m = 0;
-    for (std::size_t p = 0; p < pairs_.size(); ++p) {
-      const auto& pair = pairs_[p];
-      while (m < memory.i.size() && (memory.i[m] < pair.i || (memory.i[m] == pair.i && memory.j[m] < pair.j)))
-        ++m;
-      if (m == memory.i.size() || memory.i[m] != pair.i || memory.j[m] != pair.j) continue;
-      for (int c = 0; c < dim; ++c) warm_[dim * p + c] = scale * memory.impulse[dim * m + c];
-      if (laws_.restitution) approach_[p] = memory.approach[m];
+    for (std::size_t a = 0; a < pairs_.size(); ++a) {
+      std::int32_t m = first_of_body_[pairs_[a].i];
+      while (m >= 0 && memory.j[m] != pairs_[a].j) m = next_of_body_[m];
+      if (m < 0) continue;
+      for (int c = 0; c < dim; ++c) impulses_[dim * a + c] = scale * memory.impulse[dim * m + c];
+      if (laws_.restitution) approach_[a] = memory.approach[m];
     }
   }
 
@@ -140,14 +144,13 @@ class MoreauJean final : public Stepper {
     problem_.time_step = h;
     const MaterialsOf materials{bodies.material, laws_.material_of_shape};
     for (std::size_t a = 0; a < pairs_.size(); ++a) {
-      const auto p = static_cast<std::size_t>(order_.place[a]);
-      const Candidate& pair = pairs_[p];
+      const Candidate& pair = pairs_[a];
       const bool wall = pair.j < 0;
       W.add(pair.i, wall ? fixed : pair.j, pair.n_x, pair.n_z);
       const double u_x = free_x_[pair.i] - (wall ? pair.wall_v_x : free_x_[pair.j]);
       const double u_z = free_z_[pair.i] - (wall ? pair.wall_v_z : free_z_[pair.j]);
       const double u_n = pair.n_x * u_x + pair.n_z * u_z;
-      problem_.q[dim * a] = u_n + normal_shift(p, pair, bodies, u_n, h);
+      problem_.q[dim * a] = u_n + normal_shift(a, pair, bodies, u_n, h);
       if constexpr (dim == 2) {
         double u_t = pair.n_z * u_x - pair.n_x * u_z;
         if constexpr (with_spin) {
@@ -157,13 +160,12 @@ class MoreauJean final : public Stepper {
         problem_.q[2 * a + 1] = u_t;
         problem_.mu[a] = value_of(*laws_.friction, pair.i, pair.j, materials);
       }
-      for (int c = 0; c < dim; ++c) impulses_[dim * a + c] = warm_[dim * p + c];
     }
   }
 
   /// What Signorini's law acts on beside u_n: predicted gap or restitution. Also turns approach_ into what
   /// the next step must know if this contact acts.
-  double normal_shift(std::size_t p, const Candidate& pair, const Bodies& bodies, double u_free, double h) {
+  double normal_shift(std::size_t a, const Candidate& pair, const Bodies& bodies, double u_free, double h) {
     if (!laws_.restitution) return pair.gap > 0 ? pair.gap / h : 0;
     const bool wall = pair.j < 0;
     const double u_before = pair.n_x * (bodies.v_x[pair.i] - (wall ? pair.wall_v_x : bodies.v_x[pair.j])) +
@@ -171,9 +173,9 @@ class MoreauJean final : public Stepper {
     const auto& law = *laws_.restitution;
     const double e = value_of(law.e, pair.i, pair.j, {bodies.material, laws_.material_of_shape});
     const double slowest = 2 * law.gravity * h;
-    const Impact impact = impact_of(pair.gap, u_before, approach_[p], e, slowest, h);
+    const Impact impact = impact_of(pair.gap, u_before, approach_[a], e, slowest, h);
     const double arrives = pair.gap > 0 && !impact.bounces ? arrival_speed(pair.gap, u_before, u_free, h) : 0;
-    approach_[p] = arrives < -slowest ? arrives : 0;
+    approach_[a] = arrives < -slowest ? arrives : 0;
     return impact.shift;
   }
 
@@ -181,14 +183,11 @@ class MoreauJean final : public Stepper {
     memory.time_step = h;
     memory.i.resize(pairs_.size());
     memory.j.resize(pairs_.size());
-    memory.impulse.resize(dim * pairs_.size());
-    for (std::size_t p = 0; p < pairs_.size(); ++p) memory.i[p] = pairs_[p].i, memory.j[p] = pairs_[p].j;
-    for (std::size_t a = 0; a < pairs_.size(); ++a)
-      for (int c = 0; c < dim; ++c)
-        memory.impulse[dim * static_cast<std::size_t>(order_.place[a]) + c] = impulses_[dim * a + c];
+    for (std::size_t a = 0; a < pairs_.size(); ++a) memory.i[a] = pairs_[a].i, memory.j[a] = pairs_[a].j;
+    memory.impulse = impulses_;
     if (!laws_.restitution) return;
-    for (std::size_t p = 0; p < pairs_.size(); ++p)
-      if (memory.impulse[dim * p] == 0) approach_[p] = 0;  // it did not act: nothing was slowed
+    for (std::size_t a = 0; a < pairs_.size(); ++a)
+      if (impulses_[dim * a] == 0) approach_[a] = 0;  // it did not act: nothing was slowed
     memory.approach = approach_;
   }
 
@@ -213,9 +212,14 @@ class MoreauJean final : public Stepper {
   Overlap overlap_and_projection(Bodies& bodies, std::span<const Shape> shapes) {
     Overlap overlap;
     close_.clear();
+    const SweepPlan& plan = problem_.W.plan;
+    close_plan_ = plan;  // of those contacts that are still close
+    std::size_t group = 0;
     double sum = 0;
-    for (std::size_t a = 0; a < order_.place.size(); ++a) {
-      const Candidate& pair = pairs_[order_.place[a]];
+    for (std::size_t a = 0; a < pairs_.size(); ++a) {
+      const Candidate& pair = pairs_[a];
+      for (; plan.group_start[group] == static_cast<std::int32_t>(a); ++group)
+        close_plan_.group_start[group] = static_cast<std::int32_t>(close_.size());
       ClosePair now{pair.i, pair.j, 0, 0, 0};
       now.gap = gap_now(pair, bodies, shapes, laws_.period, now.n_x, now.n_z);
       if (impulses_[dim * a] > 0) {
@@ -226,8 +230,10 @@ class MoreauJean final : public Stepper {
       }
       if (now.gap < laws_.detection_margin) close_.push_back(now);
     }
+    if (!pairs_.empty()) close_plan_.group_start.back() = static_cast<std::int32_t>(close_.size());
     if (overlap.loaded > 0) overlap.mean = sum / overlap.loaded;
-    if (solver_.projection_sweeps > 0) projection_.apply(bodies, close_, solver_.projection_sweeps);
+    if (solver_.projection_sweeps > 0)
+      projection_.apply(bodies, close_, close_plan_, solver_.projection_sweeps);
     return overlap;
   }
 
@@ -239,12 +245,13 @@ class MoreauJean final : public Stepper {
   ContactOrder order_;
   Problem problem_;
   SolverScratch<Problem> scratch_;
-  std::vector<Candidate> pairs_;
+  std::vector<Candidate> pairs_;  // in solve order
   std::vector<double> free_x_, free_z_;
-  std::vector<double> impulses_;         // in solve order
-  std::vector<double> warm_, approach_;  // in the order of pairs_
-  std::vector<double> attraction_;       // cohesive force times h, in the order of pairs_
+  std::vector<double> impulses_, approach_;
+  std::vector<double> attraction_;                          // cohesive force times h
+  std::vector<std::int32_t> first_of_body_, next_of_body_;  // places in the memory, linked by their i
   std::vector<ClosePair> close_;
+  SweepPlan close_plan_;
   PositionProjection projection_;
 };
 

@@ -16,7 +16,8 @@ constexpr double tolerance = 0.05;
 
 }  // namespace
 
-void PositionProjection::apply(Bodies& bodies, std::span<const ClosePair> pairs, int sweeps) {
+void PositionProjection::apply(Bodies& bodies, std::span<const ClosePair> pairs, const SweepPlan& plan,
+                               int sweeps) {
   auto& W = problem_.W;
   W.clear();
   W.inverse_mass.assign(bodies.inverse_mass.begin(), bodies.inverse_mass.end());
@@ -30,12 +31,13 @@ void PositionProjection::apply(Bodies& bodies, std::span<const ClosePair> pairs,
     overlapped = overlapped || pair.gap < 0;
   }
   if (!overlapped) return;
+  W.plan = plan;
   lambda_.assign(pairs.size(), 0.0);
   StoppingRule rule;
   rule.tolerance = tolerance;
   rule.max_sweeps = sweeps;
   // What is left is seen, and reported, as the overlap of the next step.
-  (void)solve_nncg(problem_, rule, scratch_, lambda_);
+  (void)solve_nncg_mixed(problem_, rule, scratch_, lambda_);
   for (std::size_t b = 0; b < bodies.count(); ++b) {
     bodies.x[b] += scratch_.judge.state[b].x;
     bodies.z[b] += scratch_.judge.state[b].z;

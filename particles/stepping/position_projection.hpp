@@ -21,8 +21,8 @@ struct ClosePair {
 class PositionProjection {
  public:
   void use(ThreadTeam* team) { scratch_.team = team; }
-  /// Moves `bodies` by at most `sweeps` sweeps; `pairs` in solve order.
-  void apply(Bodies& bodies, std::span<const ClosePair> pairs, int sweeps);
+  /// Moves `bodies` by at most `sweeps` sweeps; `pairs` in the order of `plan`.
+  void apply(Bodies& bodies, std::span<const ClosePair> pairs, const SweepPlan& plan, int sweeps);
 
  private:
   FrictionlessProblem problem_;
