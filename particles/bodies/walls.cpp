@@ -33,8 +33,18 @@ Motion motion_of(const WallMotion& asked, const Scales& scales) {
   if (const auto* r = std::get_if<Rocking>(&asked.motion))
     return Swinging{r->amplitude_deg * radian, 2 * std::numbers::pi * r->frequency_hz * scales.time_s,
                     r->phase_deg * radian, point_of(r->center_mm, scales)};
-  const auto& t = std::get<Translation>(asked.motion);
   const double unit = 1e-3 / scales.velocity_m_s();
+  if (const auto* f = std::get_if<ForceControl>(&asked.motion)) {
+    const double length = std::hypot(f->direction[0], f->direction[1]);
+    const double mass = scales.density_kg_m3 * scales.length_m * scales.length_m;
+    const double force = mass * scales.length_m / (scales.time_s * scales.time_s);
+    return Driven{{f->direction[0] / length, f->direction[1] / length},
+                  f->force_n_m / force,
+                  mass / f->mass_kg_m,
+                  f->velocity_mm_s[0] * unit,
+                  f->velocity_mm_s[1] * unit};
+  }
+  const auto& t = std::get<Translation>(asked.motion);
   return Gliding{t.velocity_mm_s[0] * unit, t.velocity_mm_s[1] * unit};
 }
 
@@ -74,6 +84,9 @@ Pose displacement(const Motion& motion, double time) {
     return {0, shaking->amplitude.x * swing(*shaking), shaking->amplitude.z * swing(*shaking)};
   if (const auto* swinging = std::get_if<Swinging>(&motion))
     return turned_about(swinging->amplitude * swing(*swinging), swinging->center);
+  if (const auto* driven = std::get_if<Driven>(&motion))
+    return {0, driven->position * driven->direction.x + driven->glide_x * time,
+            driven->position * driven->direction.z + driven->glide_z * time};
   return {};
 }
 
@@ -86,6 +99,22 @@ Shape moved(const Rigid& pose, const Shape& shape) {
 
 Pose Walls::pose(int wall, double time_in_stage) const {
   return after(displacement(motion[wall], time_in_stage), pose_at_start[wall]);
+}
+
+std::vector<DrivenState> Walls::driven_states() const {
+  std::vector<DrivenState> states;
+  for (const Motion& m : motion)
+    if (const auto* driven = std::get_if<Driven>(&m)) states.push_back({driven->position, driven->velocity});
+  return states;
+}
+
+void Walls::set_driven_states(const std::vector<DrivenState>& states) {
+  auto next = states.begin();
+  for (Motion& m : motion)
+    if (auto* driven = std::get_if<Driven>(&m)) {
+      driven->position = next->position, driven->velocity = next->velocity;
+      ++next;
+    }
 }
 
 std::vector<Shape> Walls::shapes_at(double time_in_stage) const {
@@ -148,12 +177,27 @@ Walls walls_of(const Scene& scene, const Scales& scales) {
   return walls;
 }
 
+namespace {
+
+Point straight_velocity(const Motion& motion) {
+  if (const auto* gliding = std::get_if<Gliding>(&motion)) return {gliding->v_x, gliding->v_z};
+  if (const auto* driven = std::get_if<Driven>(&motion))
+    return {driven->velocity * driven->direction.x + driven->glide_x,
+            driven->velocity * driven->direction.z + driven->glide_z};
+  return {};
+}
+
+}  // namespace
+
 void begin_stage(Walls& walls, const Stage& stage, const Scales& scales, double time_in_old_stage) {
   for (std::size_t w = 0; w < walls.names.size(); ++w) {
     walls.pose_at_start[w] = walls.pose(static_cast<int>(w), time_in_old_stage);
+    const Point had = straight_velocity(walls.motion[w]);
     walls.motion[w] = std::monostate{};
     for (const WallMotion& asked : stage.motions)
       if (asked.wall == walls.names[w]) walls.motion[w] = motion_of(asked, scales);
+    if (auto* driven = std::get_if<Driven>(&walls.motion[w]))
+      driven->velocity = had.x * driven->direction.x + had.z * driven->direction.z;
   }
 }
 

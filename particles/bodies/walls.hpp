@@ -62,9 +62,21 @@ struct Swinging {
   double amplitude = 0, rate = 0, phase = 0;
   Point center;
 };
-using Motion = std::variant<std::monostate, Turning, Gliding, Shaking, Swinging>;
+/// Moved along `direction` by a force and by contacts; `position` and `velocity` are state.
+struct Driven {
+  Point direction;  ///< unit vector
+  double force = 0, inverse_mass = 0;
+  double glide_x = 0, glide_z = 0;  ///< velocity across
+  double position = 0, velocity = 0;
+};
+using Motion = std::variant<std::monostate, Turning, Gliding, Shaking, Swinging, Driven>;
 /// Displacement after `time` of a motion.
 Pose displacement(const Motion&, double time);
+
+/// What a driven wall has that no function of time tells.
+struct DrivenState {
+  double position = 0, velocity = 0;  ///< along its direction, position since the stage began
+};
 
 /// All walls of a scene. A shape's index is its place in `reference`; shapes of one name belong to one wall.
 struct Walls {
@@ -76,6 +88,9 @@ struct Walls {
   std::vector<Pose> pose_at_start;              ///< one per wall, when the current stage began
 
   Pose pose(int wall, double time_in_stage) const;
+  /// States of the walls that the current stage drives, in the order of the walls.
+  std::vector<DrivenState> driven_states() const;
+  void set_driven_states(const std::vector<DrivenState>& states);  ///< as many as driven_states() gives
   /// Shapes at a time of the current stage.
   std::vector<Shape> shapes_at(double time_in_stage) const;
 };
@@ -91,6 +106,8 @@ std::vector<Point_mm> glued_centers_mm(const Wall& wall);
 /// Dimensionless walls of a scene, at rest.
 Walls walls_of(const Scene&, const Scales&);
 /// Begins a stage: poses are carried over from `time_in_old_stage`, motions are replaced by those of `stage`.
+/// A wall that the new stage drives starts with what velocity it has along the new direction, if it was
+/// driven or glided.
 void begin_stage(Walls&, const Stage& stage, const Scales&, double time_in_old_stage);
 
 }  // namespace drumlin

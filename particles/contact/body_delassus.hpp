@@ -42,7 +42,7 @@ class BodyDelassus {
   std::vector<double> n_x, n_z;      ///< unit normal; the tangent is (n_z, -n_x)
   std::vector<double> inverse_W_nn;  ///< 1 / (1/m_i + 1/m_j)
   std::vector<double> inverse_mass;  ///< of each body, the fixed one last
-  SweepPlan plan;                    ///< of the contacts in their order; empty: a solver that needs one finds it
+  SweepPlan plan;  ///< of the contacts in their order; empty: a solver that needs one finds it
 
   int contacts() const { return static_cast<int>(i.size()); }
 

@@ -17,6 +17,14 @@ struct Coulomb {
   static constexpr int dim = 2;
 };
 
+/// Signorini, Coulomb and rolling resistance: r in K = {|r_t| <= mu r_n, |r_r| <= mu_r r_n}, sliding opposes
+/// r_t, rolling r_r. Components (normal, tangential, rolling); the rolling velocity is R_eff (omega_i -
+/// omega_j) with 1/R_eff = 1/r_i + 1/r_j, a wall counting as flat, so that r_r is an impulse and R_eff r_r
+/// its couple (Estrada, Azema, Radjai, Taboada 2011).
+struct CoulombRolling {
+  static constexpr int dim = 3;
+};
+
 /// Euclidean projection of (n, t) on K = {|t| <= mu n}, in place.
 inline void project_on_cone(double mu, double& n, double& t) {
   const double size = std::abs(t);
@@ -28,6 +36,19 @@ inline void project_on_cone(double mu, double& n, double& t) {
   const double along = (n + mu * size) / (1 + mu * mu);
   t = std::copysign(mu * along, t);
   n = along;
+}
+
+/// Euclidean projection of (n, t, r) on K = {|t| <= mu n, |r| <= mu_r n}, in place. For given n the best t
+/// and r are clamped; the derivative of what is left, n' - n - mu (|t| - mu n')+ - mu_r (|r| - mu_r n')+,
+/// rises and is the least of four lines (each of t and r clamped or not), so that its zero is the largest of
+/// theirs.
+inline void project_on_cone(double mu, double mu_r, double& n, double& t, double& r) {
+  const double with_t = mu * std::abs(t), with_r = mu_r * std::abs(r);
+  const double along = std::max({0.0, n, (n + with_t) / (1 + mu * mu), (n + with_r) / (1 + mu_r * mu_r),
+                                 (n + with_t + with_r) / (1 + mu * mu + mu_r * mu_r)});
+  n = along;
+  t = std::clamp(t, -mu * n, mu * n);
+  r = std::clamp(r, -mu_r * n, mu_r * n);
 }
 
 }  // namespace drumlin

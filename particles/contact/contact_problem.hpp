@@ -17,7 +17,7 @@ struct ContactProblem {
 
   Delassus W;
   std::vector<double> q;
-  std::vector<double> mu;  ///< one per contact; empty for Frictionless
+  std::vector<double> mu;  ///< dim - 1 per contact: friction, rolling; empty for Frictionless
   double time_step = 1;    ///< turns -u_n into a predicted penetration
 
   int contacts() const { return static_cast<int>(q.size()) / dim; }

@@ -13,7 +13,8 @@
 namespace drumlin {
 
 /// How well impulses solve a problem. With e_a = |r_a - P_K(r_a - rho_a (u_a + mu_a |u_t,a| n))| / rho_a and
-/// rho_a = 1 / lambda_max(W_aa), a velocity.
+/// rho_a = 1 / lambda_max(W_aa), a velocity. With rolling resistance the shift of u_n is mu |u_t| + mu_r
+/// |u_r|.
 struct Judgement {
   double residual = 0;      ///< rms of e_a over the contacts / rms of all entries of q
   double residual_max = 0;  ///< largest e_a / rms of all entries of q
@@ -46,6 +47,12 @@ Judgement judge(const Problem& problem, std::span<const double> r,
     double e = 0;
     if constexpr (dim == 1) {
       e = std::abs(r[a] - std::max(0.0, r[a] - rho * u[a])) * lambda;
+    } else if constexpr (dim == 3) {
+      const double mu = problem.mu[2 * a], mu_r = problem.mu[2 * a + 1];
+      double n = r[3 * a] - rho * (u[3 * a] + mu * std::abs(u[3 * a + 1]) + mu_r * std::abs(u[3 * a + 2]));
+      double t = r[3 * a + 1] - rho * u[3 * a + 1], roll = r[3 * a + 2] - rho * u[3 * a + 2];
+      project_on_cone(mu, mu_r, n, t, roll);
+      e = std::hypot(r[3 * a] - n, r[3 * a + 1] - t, r[3 * a + 2] - roll) * lambda;
     } else {
       const double u_n = u[2 * a], u_t = u[2 * a + 1], mu = problem.mu[a];
       double n = r[2 * a] - rho * (u_n + mu * std::abs(u_t)), t = r[2 * a + 1] - rho * u_t;

@@ -47,10 +47,14 @@ StepLaws laws_of(const Scene& scene, const Scales& scales) {
   if (effects.restitution)
     laws.restitution = {pair_law(*effects.restitution, materials),
                         laws.gravity ? std::hypot(laws.gravity->x, laws.gravity->z) : 0};
+  if (effects.rolling_resistance) laws.rolling = pair_law(*effects.rolling_resistance, materials);
   if (effects.cohesion)  // unit: the weight of a disc of diameter 1 and density 1 in gravity 1
     laws.cohesion = {pair_law(*effects.cohesion, materials, std::numbers::pi / 4), effects.cohesion->range_d};
   if (laws.cohesion) laws.detection_margin = std::max(laws.detection_margin, laws.cohesion->range);
   laws.spin = effects.spin.has_value();
+  for (const Stage& stage : scene.stages)
+    for (const WallMotion& motion : stage.motions)
+      laws.driven_walls = laws.driven_walls || std::holds_alternative<ForceControl>(motion.motion);
   laws.material_of_shape = walls_of(scene, scales).material_of_shape;
   if (scene.periodic_x) {
     const double unit = 1e-3 / scales.length_m;

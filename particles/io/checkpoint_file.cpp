@@ -69,6 +69,9 @@ void write_checkpoint(const std::filesystem::path& file, const Checkpoint& check
   std::vector<double> poses;
   for (const Pose& pose : state.pose_at_start) poses.insert(poses.end(), {pose.angle, pose.x, pose.z});
   out.add("walls/pose_at_start", std::span<const double>(poses));
+  std::vector<double> driven;
+  for (const DrivenState& wall : state.driven) driven.insert(driven.end(), {wall.position, wall.velocity});
+  if (!driven.empty()) out.add("walls/driven", std::span<const double>(driven));
   out.add_number("marks/count", static_cast<std::int64_t>(state.marks.size()));
   for (std::size_t m = 0; m < state.marks.size(); ++m) {
     const std::string name = "marks/" + std::to_string(m) + "/";
@@ -103,6 +106,10 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
   const auto poses = in.doubles("walls/pose_at_start");
   for (std::size_t p = 0; p + 2 < poses.size(); p += 3)
     state.pose_at_start.push_back({poses[p], poses[p + 1], poses[p + 2]});
+  if (in.has("walls/driven")) {
+    const auto driven = in.doubles("walls/driven");
+    for (std::size_t d = 0; d + 1 < driven.size(); d += 2) state.driven.push_back({driven[d], driven[d + 1]});
+  }
   const auto marks = in.integer("marks/count");
   for (std::int64_t m = 0; m < marks; ++m) {
     const std::string name = "marks/" + std::to_string(m) + "/";

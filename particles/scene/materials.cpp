@@ -23,6 +23,7 @@ int material_number(const std::vector<std::string>& names, const std::optional<s
 bool materials_matter(const Scene& scene) {
   const Effects& e = scene.effects;
   return (e.friction && !e.friction->pairs.empty()) || (e.restitution && !e.restitution->pairs.empty()) ||
+         (e.rolling_resistance && !e.rolling_resistance->pairs.empty()) ||
          (e.cohesion && !e.cohesion->pairs.empty());
 }
 

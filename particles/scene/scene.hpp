@@ -112,6 +112,13 @@ struct Restitution {
 };
 /// Angular velocity of the grains; needs friction, which alone can turn a disc.
 struct Spin {};
+/// Rolling resistance: a couple of at most mu_r R_eff r_n that opposes rolling; one unknown more per contact,
+/// needs spin.
+struct RollingResistance {
+  double grain_grain = 0;
+  double grain_wall = 0;
+  std::vector<MaterialPair<RollingResistance>> pairs = {};
+};
 /// Constant attraction of surfaces that touch (gap below the range): contacts pull up to that force before
 /// they part, and Coulomb's bound counts it as load.
 struct Cohesion {
@@ -133,6 +140,7 @@ struct Effects {
   std::optional<Friction> friction = {};
   std::optional<Restitution> restitution = {};
   std::optional<Spin> spin = {};
+  std::optional<RollingResistance> rolling_resistance = {};
   std::optional<Cohesion> cohesion = {};
   std::optional<RotatingFrame> rotating_frame = {};
 };
@@ -159,9 +167,16 @@ struct Rocking {
   double phase_deg = 0;
   Point_mm center_mm{0, 0};
 };
+/// A wall that a force moves along one direction, against the grains; across, its velocity is given.
+struct ForceControl {
+  std::array<double, 2> direction{0, 0};  ///< of the force and of the motion; its length does not matter
+  double force_n_m = 0;  ///< per metre of depth: all that acts beside the grains, weight included
+  double mass_kg_m = 0;
+  std::array<double, 2> velocity_mm_s{0, 0};  ///< at right angles to the direction
+};
 struct WallMotion {
   std::string wall;
-  std::variant<Rotation, Translation, Oscillation, Rocking> motion;
+  std::variant<Rotation, Translation, Oscillation, Rocking, ForceControl> motion;
 };
 
 /// A stretch of time with its own step, wall motions and number of snapshots (evenly spread, the last at its

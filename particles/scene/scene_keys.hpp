@@ -133,6 +133,7 @@ inline constexpr const char* pairs_sentence = "Values between two materials, in 
 /// What the value of a law between two materials may be.
 inline Allowed value_between(const Friction*) { return at_least(0, 100); }
 inline Allowed value_between(const Restitution*) { return at_least(0, 1); }
+inline Allowed value_between(const RollingResistance*) { return at_least(0, 100); }
 inline Allowed value_between(const Cohesion*) { return at_least(0, 1e6); }
 
 template <class Visitor, class Law>
@@ -162,6 +163,17 @@ template <class Visitor>
 void describe(Visitor&, Spin&) {}
 
 template <class Visitor>
+void describe(Visitor& v, RollingResistance& r) {
+  v.value(
+      "grain_grain", r.grain_grain,
+      required("", at_least(0, 100),
+               "Coefficient mu_r between two grains: a couple of at most mu_r R r_n, 1/R = 1/r_i + 1/r_j."));
+  v.value("grain_wall", r.grain_wall,
+          required("", at_least(0, 100), "The same between a grain and a wall, R the grain's radius."));
+  v.tables("pairs", r.pairs, 0, pairs_sentence);
+}
+
+template <class Visitor>
 void describe(Visitor& v, Cohesion& c) {
   v.value("grain_grain", c.grain_grain,
           required("", at_least(0, 1e6),
@@ -188,6 +200,8 @@ void describe(Visitor& v, Effects& e) {
   v.optional_table("restitution", e.restitution, "Newton restitution of the normal velocity.");
   v.optional_table("spin", e.spin,
                    "Angular velocity of the grains; needs friction, which alone can turn a disc.");
+  v.optional_table("rolling_resistance", e.rolling_resistance,
+                   "A couple that opposes rolling; costs one unknown more per contact, needs spin.");
   v.optional_table("cohesion", e.cohesion,
                    "Constant attraction of surfaces that touch; counts as load in Coulomb's law.");
   v.optional_table("rotating_frame", e.rotating_frame,
@@ -235,13 +249,30 @@ void describe(Visitor& v, Rocking& r) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, ForceControl& f) {
+  v.value(
+      "direction", f.direction,
+      required("", at_least(-1e6, 1e6), "Direction [x, z] of force and motion; its length does not matter."));
+  v.value(
+      "force_n_m", f.force_n_m,
+      required("N/m", at_least(-1e12, 1e12),
+               "Force along it, per metre of depth: all that acts beside the grains, the weight included."));
+  v.value("mass_kg_m", f.mass_kg_m,
+          required("kg/m", above(0, 1e12), "Mass of the wall, per metre of depth: its inertia."));
+  v.value("velocity_mm_s", f.velocity_mm_s,
+          defaulted("mm/s", at_least(-1e9, 1e9), "Velocity [v_x, v_z] across the direction."));
+}
+
+template <class Visitor>
 void describe(Visitor& v, WallMotion& m) {
   v.value("wall", m.wall,
           required("", not_empty(), "Name of the wall that moves; walls without a motion stand still."));
-  v.variant("kind", m.motion, "Kind of motion.", alternative<Rotation>("rotation", "turns about a point."),
-            alternative<Translation>("translation", "glides along a straight line."),
-            alternative<Oscillation>("oscillation", "shakes along a straight line."),
-            alternative<Rocking>("rocking", "turns to and fro about a point."));
+  v.variant(
+      "kind", m.motion, "Kind of motion.", alternative<Rotation>("rotation", "turns about a point."),
+      alternative<Translation>("translation", "glides along a straight line."),
+      alternative<Oscillation>("oscillation", "shakes along a straight line."),
+      alternative<Rocking>("rocking", "turns to and fro about a point."),
+      alternative<ForceControl>("force", "moves along one direction as a force and the grains push it."));
 }
 
 template <class Visitor>

@@ -220,6 +220,8 @@ void check_materials(const Scene& scene, Faults& faults) {
   const Effects& effects = scene.effects;
   if (effects.friction) check_pairs(scene, effects.friction->pairs, "friction", faults);
   if (effects.restitution) check_pairs(scene, effects.restitution->pairs, "restitution", faults);
+  if (effects.rolling_resistance)
+    check_pairs(scene, effects.rolling_resistance->pairs, "rolling_resistance", faults);
   if (effects.cohesion) check_pairs(scene, effects.cohesion->pairs, "cohesion", faults);
 }
 
@@ -230,11 +232,33 @@ void check_effects(const Scene& scene, Faults& faults) {
                       "turns a domain that is periodic in x",
                       "in a scene without periodic_x",
                       {"effects.rotating_frame", "periodic_x"}});
+  if (effects.rolling_resistance && !effects.spin)
+    faults.push_back({"effects.rolling_resistance",
+                      "acts without spin",
+                      "together with effects.spin, or not at all",
+                      {"effects.rolling_resistance", "effects.spin"}});
   if (effects.spin && !effects.friction)
     faults.push_back({"effects.spin",
                       "acts without friction",
                       "together with effects.friction, or not at all",
                       {"effects.spin", "effects.friction"}});
+}
+
+void check_force(const Scene& scene, const ForceControl& force, const std::string& key, Faults& faults) {
+  const auto& e = force.direction;
+  const auto& v = force.velocity_mm_s;
+  const double length = std::hypot(e[0], e[1]), speed = std::hypot(v[0], v[1]);
+  if (!(length > 0)) faults.push_back({key + ".direction", "has no length", "any other vector", {key}});
+  if (std::abs(e[0] * v[0] + e[1] * v[1]) > rounding * length * speed)
+    faults.push_back({key + ".velocity_mm_s",
+                      "has a part along the direction, which the force decides",
+                      "at right angles to it",
+                      {key}});
+  if (scene.effects.rotating_frame)
+    faults.push_back({key + ".kind",
+                      "is a force in a rotating frame",
+                      "a scene without effects.rotating_frame",
+                      {key, "effects.rotating_frame"}});
 }
 
 void check_motions(const Scene& scene, std::size_t s, Faults& faults) {
@@ -250,6 +274,8 @@ void check_motions(const Scene& scene, std::size_t s, Faults& faults) {
                         fmt::format("names no wall: \"{}\"", name),
                         known.empty() ? "none, the scene has no walls" : known,
                         {key, "walls"}});
+    if (const auto* force = std::get_if<ForceControl>(&scene.stages[s].motions[m].motion))
+      check_force(scene, *force, fmt::format("{}.motions.{}", stage_key(s), m), faults);
     if (!moving.insert(name).second)
       faults.push_back({key, fmt::format("moves \"{}\" a second time", name), "one motion per wall", {key}});
   }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "coupling/exchange/errors.hpp"
@@ -132,6 +133,12 @@ constexpr bool has_lanes = requires(SolverScratch<Problem>& s) {
   s.lanes.in_double;
 };
 
+/// Rolling resistance and driven walls are known to the methods that sweep alone.
+template <class Problem>
+constexpr bool only_swept = false;
+template <class Cone, bool with_spin, bool with_driven>
+constexpr bool only_swept<ContactProblem<Cone, GeneralDelassus<Cone, with_spin, with_driven>>> = true;
+
 // Residual down to which sweeps in single precision are worth while.
 constexpr double single_precision_reaches = 1e-4;
 
@@ -200,9 +207,16 @@ ContactSolver<Problem> contact_solver(const std::string& name) {
   if (name == "nlgs") return &solve_nlgs<Problem>;
   if (name == "nncg") return &solve_nncg<Problem>;
   if (name == "nncg-mixed") return &solve_nncg_mixed<Problem>;
-  if (name == "cpg") return &solve_cpg<Problem>;
+  if constexpr (!only_swept<Problem>) {
+    if (name == "cpg") return &solve_cpg<Problem>;
+  }
   if (name == "nlgs-scalar") return &solve_nlgs_scalar<Problem>;
   if (name == "nncg-scalar") return &solve_nncg_scalar<Problem>;
+  const auto names = contact_solver_names();
+  if (std::find(names.begin(), names.end(), name) != names.end())
+    throw InputError({InputProblem{
+        "", 0, 0, "solver.name", "'" + name + "' knows neither rolling resistance nor walls moved by a force",
+        "nlgs, nncg"}});
   throw InputError({InputProblem{"", 0, 0, "solver", "unknown solver '" + name + "'",
                                  fmt::format("{}", fmt::join(contact_solver_names(), ", "))}});
 }
@@ -217,6 +231,11 @@ DRUMLIN_INSTANTIATE(FrictionlessProblem)
 DRUMLIN_INSTANTIATE(CoulombProblem)
 DRUMLIN_INSTANTIATE(CoulombSpinProblem)
 DRUMLIN_INSTANTIATE(BlockProblem)
+DRUMLIN_INSTANTIATE(CoulombRollingProblem)
+DRUMLIN_INSTANTIATE(DrivenFrictionlessProblem)
+DRUMLIN_INSTANTIATE(DrivenCoulombProblem)
+DRUMLIN_INSTANTIATE(DrivenCoulombSpinProblem)
+DRUMLIN_INSTANTIATE(DrivenRollingProblem)
 #undef DRUMLIN_INSTANTIATE
 
 }  // namespace drumlin

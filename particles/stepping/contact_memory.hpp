@@ -12,7 +12,7 @@ struct ContactMemory {
   /// Approach speed (negative) of contacts that were slowed to just touching, for the restitution of the next
   /// step; 0 otherwise. Empty in a scene without restitution.
   std::vector<double> approach;
-  double time_step = 0;  ///< the impulses belong to: they scale with it
+  double time_step = 0;             ///< the impulses belong to: they scale with it
   std::vector<std::int32_t> strip;  ///< of each body: decides the order of the contacts (SweepPlan)
 };
 

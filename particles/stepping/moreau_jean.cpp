@@ -32,9 +32,15 @@ double arrival_speed(double gap, double u_before, double u_free, double time_ste
   return u_before + fraction * (u_free - u_before);
 }
 
+template <class Problem>
+constexpr bool drives_walls = requires {
+  requires Problem::Delassus::has_driven;
+};
+
 template <class Problem, bool with_spin>
 class MoreauJean final : public Stepper {
   static constexpr int dim = Problem::dim;
+  static constexpr bool drives = drives_walls<Problem>;
 
  public:
   MoreauJean(const StepLaws& laws, const StepSolver& solver)
@@ -43,25 +49,26 @@ class MoreauJean final : public Stepper {
     projection_.use(&team_);
   }
 
-  StepReport advance(Bodies& bodies, ContactMemory& memory, const WallStep& walls,
-                     double time_step) override {
+  StepReport advance(Bodies& bodies, ContactMemory& memory, WallStep& walls, double time_step) override {
     StepReport report;
     const auto start = std::chrono::steady_clock::now();
     free_velocities(bodies, time_step);
     const DetectionInput input{walls.before, walls.displacement, time_step, laws_.detection_margin,
                                laws_.period};
+    if constexpr (drives) detected_ = walls.driven;
     auto& found = detection_.find(bodies, free_x_, free_z_, input);
     order_.sort(found, bodies.count(), memory.strip, problem_.W.plan);
     pairs_.swap(found);
-    if (laws_.cohesion) attract(bodies, time_step);
+    if (laws_.cohesion) attract(bodies, walls, time_step);
     recall(memory, bodies.count(), time_step);
-    pose(bodies, time_step);
+    pose(bodies, walls, time_step);
     report.detection_seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     report.contacts = problem_.contacts();
     report.solve = solve_(problem_, solver_.rule, scratch_, impulses_);
     remember(memory, time_step);
     move(bodies, time_step);
+    if constexpr (drives) move_driven(walls, time_step);
     report.overlap = overlap_and_projection(bodies, walls.after);
     return report;
   }
@@ -70,7 +77,7 @@ class MoreauJean final : public Stepper {
     std::vector<SnapshotContact> loaded;
     for (std::size_t a = 0; a < pairs_.size(); ++a) {
       const double pull = laws_.cohesion ? attraction_[a] : 0;
-      const double r_n = impulses_[dim * a] - pull, r_t = dim == 2 ? impulses_[dim * a + dim - 1] : 0;
+      const double r_n = impulses_[dim * a] - pull, r_t = dim >= 2 ? impulses_[dim * a + 1 % dim] : 0;
       if (r_n != 0)
         loaded.push_back({pairs_[a].i, pairs_[a].j, static_cast<float>(pairs_[a].n_x),
                           static_cast<float>(pairs_[a].n_z), r_n, r_t});
@@ -95,7 +102,7 @@ class MoreauJean final : public Stepper {
 
   /// The attraction c acts on the bodies before the solve; the solver's normal unknown is then r_n + c h >=
   /// 0, which it bounds friction by. q changes by W (-c h) through the free velocities.
-  void attract(const Bodies& bodies, double h) {
+  void attract(const Bodies& bodies, WallStep& walls, double h) {
     attraction_.resize(pairs_.size());
     const MaterialsOf materials{bodies.material, laws_.material_of_shape};
     for (std::size_t p = 0; p < pairs_.size(); ++p) {
@@ -106,6 +113,10 @@ class MoreauJean final : public Stepper {
       attraction_[p] = pull;
       const double change = pull * bodies.inverse_mass[pair.i];
       free_x_[pair.i] -= change * pair.n_x, free_z_[pair.i] -= change * pair.n_z;
+      if constexpr (drives)
+        if (DrivenStep* wall = driven_at(walls, pair))
+          wall->velocity +=
+              pull * wall->inverse_mass * (pair.n_x * wall->direction.x + pair.n_z * wall->direction.z);
       if (pair.j < 0) continue;
       const double back = pull * bodies.inverse_mass[pair.j];
       free_x_[pair.j] += back * pair.n_x, free_z_[pair.j] += back * pair.n_z;
@@ -133,43 +144,103 @@ class MoreauJean final : public Stepper {
   }
 
   /// Writes the contact problem in solve order: W through normals and masses, q from the free velocities.
-  void pose(const Bodies& bodies, double h) {
+  void pose(const Bodies& bodies, const WallStep& walls, double h) {
     const auto fixed = static_cast<std::int32_t>(bodies.count());
     auto& W = problem_.W;
     W.clear();
     W.inverse_mass.assign(bodies.inverse_mass.begin(), bodies.inverse_mass.end());
     W.inverse_mass.push_back(0);
+    if constexpr (drives) {
+      W.driven.clear();
+      for (const DrivenStep& wall : walls.driven)
+        W.driven.push_back({wall.direction.x, wall.direction.z, wall.inverse_mass});
+      W.inverse_mass.resize(W.inverse_mass.size() + walls.driven.size(), 0.0);
+    }
     problem_.q.resize(dim * pairs_.size());
-    if constexpr (dim == 2) problem_.mu.resize(pairs_.size());
+    problem_.mu.resize((dim - 1) * pairs_.size());
     problem_.time_step = h;
     const MaterialsOf materials{bodies.material, laws_.material_of_shape};
     for (std::size_t a = 0; a < pairs_.size(); ++a) {
       const Candidate& pair = pairs_[a];
       const bool wall = pair.j < 0;
-      W.add(pair.i, wall ? fixed : pair.j, pair.n_x, pair.n_z);
-      const double u_x = free_x_[pair.i] - (wall ? pair.wall_v_x : free_x_[pair.j]);
-      const double u_z = free_z_[pair.i] - (wall ? pair.wall_v_z : free_z_[pair.j]);
+      std::int32_t other = wall ? fixed : pair.j;
+      Point wall_v{pair.wall_v_x, pair.wall_v_z}, wall_v_before = wall_v;
+      if constexpr (drives)
+        if (const DrivenStep* pushed = driven_at(walls, pair)) {
+          const auto k = pushed - walls.driven.data();
+          other = fixed + 1 + static_cast<std::int32_t>(k);
+          const double detected = detected_[k].velocity;
+          wall_v = along(wall_v, *pushed, pushed->velocity - detected);
+          wall_v_before = along(wall_v_before, *pushed, pushed->velocity_before - detected);
+        }
+      W.add(pair.i, other, pair.n_x, pair.n_z);
+      const double u_x = free_x_[pair.i] - (wall ? wall_v.x : free_x_[pair.j]);
+      const double u_z = free_z_[pair.i] - (wall ? wall_v.z : free_z_[pair.j]);
       const double u_n = pair.n_x * u_x + pair.n_z * u_z;
-      problem_.q[dim * a] = u_n + normal_shift(a, pair, bodies, u_n, h);
-      if constexpr (dim == 2) {
+      problem_.q[dim * a] = u_n + normal_shift(a, pair, bodies, wall_v_before, u_n, h);
+      if constexpr (dim == 3) pose_rolling(a, pair, bodies, walls, h);
+      if constexpr (dim >= 2) {
         double u_t = pair.n_z * u_x - pair.n_x * u_z;
         if constexpr (with_spin) {
           u_t -= bodies.radius[pair.i] * bodies.spin[pair.i];
           if (!wall) u_t -= bodies.radius[pair.j] * bodies.spin[pair.j];
         }
-        problem_.q[2 * a + 1] = u_t;
-        problem_.mu[a] = value_of(*laws_.friction, pair.i, pair.j, materials);
+        problem_.q[dim * a + 1] = u_t;
+        problem_.mu[(dim - 1) * a] = value_of(*laws_.friction, pair.i, pair.j, materials);
+      }
+    }
+  }
+
+  /// The rolling row of contact a. The turning of a wall is that of its shape over the step.
+  void pose_rolling(std::size_t a, const Candidate& pair, const Bodies& bodies, const WallStep& walls,
+                    double h) {
+    const double r_i = bodies.radius[pair.i], r_j = pair.j < 0 ? 0 : bodies.radius[pair.j];
+    const double lever = pair.j < 0 ? 1 : r_j / (r_i + r_j);
+    const double rim_j = pair.j < 0 ? r_i * walls.displacement[-1 - pair.j].angle / h
+                                    : (1 - lever) * r_j * bodies.spin[pair.j];
+    problem_.W.lever.push_back(lever);
+    problem_.q[dim * a + 2] = lever * r_i * bodies.spin[pair.i] - rim_j;
+    problem_.mu[(dim - 1) * a + 1] =
+        value_of(*laws_.rolling, pair.i, pair.j, {bodies.material, laws_.material_of_shape});
+  }
+
+  /// The driven wall of a pair, if it has one.
+  template <class Step>
+  static auto driven_at(Step& walls, const Candidate& pair) -> decltype(walls.driven.data()) {
+    if (pair.j >= 0 || walls.driven_of_shape.empty() || walls.driven_of_shape[-1 - pair.j] < 0)
+      return nullptr;
+    return &walls.driven[walls.driven_of_shape[-1 - pair.j]];
+  }
+  static Point along(const Point& v, const DrivenStep& wall, double change) {
+    return {v.x + change * wall.direction.x, v.z + change * wall.direction.z};
+  }
+
+  /// Gives driven walls the velocities that contacts left them, and their shapes the places at the end of the
+  /// step.
+  void move_driven(WallStep& walls, double h) {
+    for (std::size_t k = 0; k < walls.driven.size(); ++k) {
+      DrivenStep& wall = walls.driven[k];
+      if (problem_.contacts() > 0) {
+        const auto& change = scratch_.judge.state[problem_.W.fixed() + 1 + k];
+        wall.velocity += change.x * wall.direction.x + change.z * wall.direction.z;
+      }
+      const Point shift = along({}, wall, h * (wall.velocity - detected_[k].velocity));
+      for (std::size_t s = 0; s < walls.after.size(); ++s) {
+        if (walls.driven_of_shape[s] != static_cast<std::int32_t>(k)) continue;
+        walls.after[s] = moved(Rigid({0, shift.x, shift.z}), walls.after[s]);
+        walls.displacement[s].x += shift.x, walls.displacement[s].z += shift.z;
       }
     }
   }
 
   /// What Signorini's law acts on beside u_n: predicted gap or restitution. Also turns approach_ into what
   /// the next step must know if this contact acts.
-  double normal_shift(std::size_t a, const Candidate& pair, const Bodies& bodies, double u_free, double h) {
+  double normal_shift(std::size_t a, const Candidate& pair, const Bodies& bodies, const Point& wall_v,
+                      double u_free, double h) {
     if (!laws_.restitution) return pair.gap > 0 ? pair.gap / h : 0;
     const bool wall = pair.j < 0;
-    const double u_before = pair.n_x * (bodies.v_x[pair.i] - (wall ? pair.wall_v_x : bodies.v_x[pair.j])) +
-                            pair.n_z * (bodies.v_z[pair.i] - (wall ? pair.wall_v_z : bodies.v_z[pair.j]));
+    const double u_before = pair.n_x * (bodies.v_x[pair.i] - (wall ? wall_v.x : bodies.v_x[pair.j])) +
+                            pair.n_z * (bodies.v_z[pair.i] - (wall ? wall_v.z : bodies.v_z[pair.j]));
     const auto& law = *laws_.restitution;
     const double e = value_of(law.e, pair.i, pair.j, {bodies.material, laws_.material_of_shape});
     const double slowest = 2 * law.gravity * h;
@@ -245,7 +316,8 @@ class MoreauJean final : public Stepper {
   ContactOrder order_;
   Problem problem_;
   SolverScratch<Problem> scratch_;
-  std::vector<Candidate> pairs_;  // in solve order
+  std::vector<Candidate> pairs_;      // in solve order
+  std::vector<DrivenStep> detected_;  // driven walls as detection saw them
   std::vector<double> free_x_, free_z_;
   std::vector<double> impulses_, approach_;
   std::vector<double> attraction_;                          // cohesive force times h
@@ -254,6 +326,31 @@ class MoreauJean final : public Stepper {
   SweepPlan close_plan_;
   PositionProjection projection_;
 };
+
+}  // namespace
+
+namespace {
+
+/// Driven walls as they would move without contacts.
+void add_driven(const Walls& walls, double time_step, WallStep& step) {
+  std::vector<std::int32_t> driven_of_wall(walls.names.size(), -1);
+  for (std::size_t w = 0; w < walls.names.size(); ++w)
+    if (const auto* driven = std::get_if<Driven>(&walls.motion[w])) {
+      driven_of_wall[w] = static_cast<std::int32_t>(step.driven.size());
+      step.driven.push_back({driven->direction, driven->inverse_mass, driven->velocity,
+                             driven->velocity + time_step * driven->force * driven->inverse_mass});
+    }
+  if (step.driven.empty()) return;
+  for (std::size_t s = 0; s < walls.wall_of_shape.size(); ++s) {
+    step.driven_of_shape.push_back(driven_of_wall[walls.wall_of_shape[s]]);
+    if (step.driven_of_shape[s] < 0) continue;
+    const DrivenStep& wall = step.driven[step.driven_of_shape[s]];
+    const double way = time_step * wall.velocity;
+    const Pose free{0, way * wall.direction.x, way * wall.direction.z};
+    step.after[s] = moved(Rigid(free), step.after[s]);
+    step.displacement[s] = after(free, step.displacement[s]);
+  }
+}
 
 }  // namespace
 
@@ -266,10 +363,18 @@ WallStep wall_step(const Walls& walls, double time_in_stage, double time_step) {
     moves.push_back(
         after(walls.pose(wall, time_in_stage + time_step), inverse(walls.pose(wall, time_in_stage))));
   for (const int wall : walls.wall_of_shape) step.displacement.push_back(moves[wall]);
+  add_driven(walls, time_step, step);
   return step;
 }
 
 std::unique_ptr<Stepper> make_stepper(const StepLaws& laws, const StepSolver& solver) {
+  if (laws.driven_walls) {
+    if (laws.rolling) return std::make_unique<MoreauJean<DrivenRollingProblem, true>>(laws, solver);
+    if (!laws.friction) return std::make_unique<MoreauJean<DrivenFrictionlessProblem, false>>(laws, solver);
+    if (!laws.spin) return std::make_unique<MoreauJean<DrivenCoulombProblem, false>>(laws, solver);
+    return std::make_unique<MoreauJean<DrivenCoulombSpinProblem, true>>(laws, solver);
+  }
+  if (laws.rolling) return std::make_unique<MoreauJean<CoulombRollingProblem, true>>(laws, solver);
   if (!laws.friction) return std::make_unique<MoreauJean<FrictionlessProblem, false>>(laws, solver);
   if (!laws.spin) return std::make_unique<MoreauJean<CoulombProblem, false>>(laws, solver);
   return std::make_unique<MoreauJean<CoulombSpinProblem, true>>(laws, solver);

@@ -40,6 +40,8 @@ struct StepLaws {
   std::optional<RestitutionLaw> restitution;
   std::optional<CohesionLaw> cohesion;
   bool spin = false;
+  std::optional<PairLaw> rolling;
+  bool driven_walls = false;  ///< whether contacts move a wall in some stage
   Period period;
   std::vector<std::uint8_t> material_of_shape;  ///< empty when no law asks for it
   double detection_margin = 0.02;               ///< d; pairs closer than this are always candidates
@@ -65,10 +67,21 @@ struct StepReport {
   double detection_seconds = 0;
 };
 
-/// Walls over one step: shapes at its beginning and end, and the displacement of each in between.
+/// A wall that contacts push, over one step.
+struct DrivenStep {
+  Point direction;
+  double inverse_mass = 0;
+  double velocity_before = 0;
+  double velocity = 0;  ///< along the direction at the end: without contacts, until the step is done
+};
+
+/// Walls over one step: shapes at its beginning and end, and the displacement of each in between. Where
+/// contacts push walls, `after` is where they would be without, until the step is done.
 struct WallStep {
   std::vector<Shape> before, after;
   std::vector<Pose> displacement;
+  std::vector<DrivenStep> driven = {};             ///< of the current stage, in the order of the walls
+  std::vector<std::int32_t> driven_of_shape = {};  ///< -1: not driven; empty if no shape is
 };
 WallStep wall_step(const Walls& walls, double time_in_stage, double time_step);
 
@@ -76,8 +89,8 @@ WallStep wall_step(const Walls& walls, double time_in_stage, double time_step);
 class Stepper {
  public:
   virtual ~Stepper() = default;
-  virtual StepReport advance(Bodies& bodies, ContactMemory& memory, const WallStep& walls,
-                             double time_step) = 0;
+  /// `walls` is changed only where contacts push a wall.
+  virtual StepReport advance(Bodies& bodies, ContactMemory& memory, WallStep& walls, double time_step) = 0;
   /// Loaded contacts of the last step, with the normals that it used.
   virtual std::vector<SnapshotContact> loaded_contacts() const = 0;
   /// Unknowns per contact and numbers of velocity per body: what the effects of the scene cost.

@@ -42,6 +42,8 @@ void check_state(const SimulationState& s, const Scene& scene, const TimePlan& p
   const auto require = [](bool good, const char* what) {
     if (!good) throw InputError(std::string("checkpoint: ") + what + " do not fit the scene");
   };
+  const Effects& effects = scene.effects;
+  const std::size_t unknowns = effects.rolling_resistance ? 3 : effects.friction ? 2 : 1;
   const std::size_t n = s.bodies.count(), contacts = s.memory.i.size();
   for (const auto* values :
        {&s.bodies.z, &s.bodies.v_x, &s.bodies.v_z, &s.bodies.radius, &s.bodies.inverse_mass})
@@ -57,8 +59,7 @@ void check_state(const SimulationState& s, const Scene& scene, const TimePlan& p
               s.step_in_stage <= plan.stages[s.stage].steps,
           "steps");
   require(s.pose_at_start.size() == walls.names.size(), "walls");
-  require(s.memory.j.size() == contacts &&
-              s.memory.impulse.size() == (scene.effects.friction ? 2 : 1) * contacts &&
+  require(s.memory.j.size() == contacts && s.memory.impulse.size() == unknowns * contacts &&
               (!scene.effects.restitution || s.memory.approach.size() == contacts),
           "contacts");
   for (std::size_t c = 0; c < contacts; ++c)
@@ -115,6 +116,9 @@ Simulation::Simulation(const Scene& scene, SimulationState state, int threads)
   check_state(state_, scene_, plan_, walls_);
   begin_stage(walls_, scene_.stages[state_.stage], scales_, 0);
   walls_.pose_at_start = state_.pose_at_start;
+  if (walls_.driven_states().size() != state_.driven.size())
+    throw InputError("checkpoint: walls moved by a force do not fit the scene");
+  walls_.set_driven_states(state_.driven);
 }
 
 Simulation::~Simulation() = default;
@@ -126,6 +130,7 @@ void Simulation::enter_stage(int stage) {
   state_.time_at_stage_start += state_.time_in_stage;
   state_.time_in_stage = 0;
   state_.pose_at_start = walls_.pose_at_start;
+  state_.driven = walls_.driven_states();
 }
 
 void Simulation::mark_positions() {
@@ -141,21 +146,29 @@ StepReport Simulation::step() {
   if (state_.step_in_stage == plan_.stages[state_.stage].steps) enter_stage(state_.stage + 1);
   mark_positions();
   const double h = plan_.stages[state_.stage].time_step;
-  const StepReport report =
-      frame_ ? advance_in_laboratory(h)
-             : stepper_->advance(state_.bodies, state_.memory, wall_step(walls_, state_.time_in_stage, h), h);
+  const StepReport report = frame_ ? advance_in_laboratory(h) : advance_here(h);
   ++state_.step;
   ++state_.step_in_stage;
   state_.time_in_stage = static_cast<double>(state_.step_in_stage) * h;
   return report;
 }
 
+StepReport Simulation::advance_here(double h) {
+  WallStep walls = wall_step(walls_, state_.time_in_stage, h);
+  const StepReport report = stepper_->advance(state_.bodies, state_.memory, walls, h);
+  for (std::size_t k = 0; k < walls.driven.size(); ++k) {
+    state_.driven[k].velocity = walls.driven[k].velocity;
+    state_.driven[k].position += h * walls.driven[k].velocity;
+  }
+  walls_.set_driven_states(state_.driven);
+  return report;
+}
+
 StepReport Simulation::advance_in_laboratory(double h) {
   const double time = state_.time();
   to_laboratory(*frame_, time, state_.bodies);
-  const StepReport report =
-      stepper_->advance(state_.bodies, state_.memory,
-                        in_laboratory(*frame_, time, h, wall_step(walls_, state_.time_in_stage, h)), h);
+  WallStep walls = in_laboratory(*frame_, time, h, wall_step(walls_, state_.time_in_stage, h));
+  const StepReport report = stepper_->advance(state_.bodies, state_.memory, walls, h);
   from_laboratory(*frame_, time + h, state_.bodies);
   return report;
 }

@@ -27,6 +27,7 @@ struct SimulationState {
   Bodies bodies;
   ContactMemory memory;
   std::vector<Pose> pose_at_start;  ///< of each wall, when the current stage began
+  std::vector<DrivenState> driven;  ///< of each wall that the current stage drives; position since its start
   std::int64_t snapshots = 0;       ///< taken so far
 
   /// Positions kept for the displacement over the velocity window of a snapshot to come.
@@ -78,6 +79,7 @@ class Simulation {
 
  private:
   void enter_stage(int stage);
+  StepReport advance_here(double time_step);
   StepReport advance_in_laboratory(double time_step);
   void mark_positions();
 

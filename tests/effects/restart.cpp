@@ -19,6 +19,15 @@ const Case cases[] = {
        s.effects.friction->pairs = {{{"glass", "steel"}, 0.1}};
        s.effects.restitution->pairs = {{{"glass", "glass"}, 0.8}};
      }},
+    {"RollingResistance",
+     [](Scene& s) {
+       s.effects.rolling_resistance = RollingResistance{0.2, 0.1};
+     }},
+    {"DrivenWall",
+     [](Scene& s) {
+       s.walls.push_back({"lid", SegmentShape{{-15, 15}, {15, 15}}});
+       s.stages[0].motions.push_back({"lid", ForceControl{{0.2, -1}, 20, 0.05, {}}});
+     }},
     {"Cohesion",
      [](Scene& s) {
        s.effects.cohesion = Cohesion{3, 1, 0.01};
@@ -57,6 +66,11 @@ TEST_P(Restart, ContinuesBitForBit) {
   while (!second.finished()) (void)second.step();
   test::expect_same(whole.state().bodies, second.state().bodies);
   EXPECT_EQ(whole.state().memory.impulse, second.state().memory.impulse);
+  ASSERT_EQ(whole.state().driven.size(), second.state().driven.size());
+  for (std::size_t k = 0; k < whole.state().driven.size(); ++k) {
+    EXPECT_EQ(whole.state().driven[k].position, second.state().driven[k].position);
+    EXPECT_EQ(whole.state().driven[k].velocity, second.state().driven[k].velocity);
+  }
   // The effect does something: without it the end is another.
   EXPECT_NE(whole.state().bodies.x, test::bodies_at_end(test::turning_drum()).x);
 }

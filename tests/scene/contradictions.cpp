@@ -62,6 +62,23 @@ TEST(Contradiction, RotatingFrameOfAPeriodicDomain) {
                  "effects.rotating_frame", "periodic in x");
 }
 
+TEST(Contradiction, RollingResistanceWithoutSpin) {
+  expect_problem(replaced(example_scene, "[effects.spin]\n", ""),
+                 {"effects.rolling_resistance={grain_grain=0.1, grain_wall=0.1}"},
+                 "effects.rolling_resistance", "without spin");
+}
+
+TEST(Contradiction, ForceThatHasNoDirectionOrMeetsAGivenVelocity) {
+  const auto motion = [](const std::string& keys) {
+    return "stages.0.motions=[{wall=\"drum\", kind=\"force\", force_n_m=1, mass_kg_m=1, " + keys + "}]";
+  };
+  expect_problem(example_scene, {motion("direction=[0, 0]")}, "stages.0.motions.0.direction", "no length");
+  expect_problem(example_scene, {motion("direction=[0, 1], velocity_mm_s=[1, 1]")},
+                 "stages.0.motions.0.velocity_mm_s", "along the direction");
+  expect_problem(example_scene, {motion("direction=[0, 1]"), "effects.rotating_frame={speed_rpm=1}"},
+                 "stages.0.motions.0.kind", "rotating frame");
+}
+
 TEST(Contradiction, FrictionWithoutSpinIsNone) {
   EXPECT_TRUE(testing::scene_problems(replaced(example_scene, "[effects.spin]\n", "")).empty());
 }

@@ -130,6 +130,10 @@ std::vector<Case> cases() {
       "stages.0.motions=[{wall=\"left\", kind=\"oscillation\", amplitude_mm=[1, 0], frequency_hz=5}]";
   const std::string rocked =
       "stages.0.motions=[{wall=\"left\", kind=\"rocking\", amplitude_deg=20, frequency_hz=5}]";
+  const std::string pushed =
+      "stages.0.motions=[{wall=\"left\", kind=\"force\", direction=[1, 1], force_n_m=1, mass_kg_m=0.1}]";
+  const std::string rolling = "effects.rolling_resistance={grain_grain=0.1, grain_wall=0.2}";
+  const std::string force = "kind = \"force\"";
   const std::string rough = "walls.0.rough={diameter_mm=1, spacing_mm=2}";
   const std::string oscillation = "kind = \"oscillation\"", rocking = "kind = \"rocking\"";
   const auto *D = &drum, *F = &floor_and_knobs;
@@ -261,6 +265,27 @@ std::vector<Case> cases() {
        "effects.restitution.pairs.0.between=[\"a\", \"a\"]", kinetic_energy},
       {"effects.restitution.pairs[].value", "", D, with(materials, "effects.restitution" + pairs),
        "effects.restitution.pairs.0.value=0.9", kinetic_energy},
+      {"effects.rolling_resistance", "", D, {}, rolling, spins_rad_s},
+      {"effects.rolling_resistance.grain_grain",
+       "",
+       D,
+       {rolling},
+       "effects.rolling_resistance.grain_grain=0.5",
+       spins_rad_s},
+      {"effects.rolling_resistance.grain_wall",
+       "",
+       D,
+       {rolling},
+       "effects.rolling_resistance.grain_wall=0.5",
+       spins_rad_s},
+      {"effects.rolling_resistance.pairs[]", "", D, with(materials, rolling),
+       "effects.rolling_resistance" + pairs, spins_rad_s},
+      {"effects.rolling_resistance.pairs[].between", "", D,
+       with(with(materials, rolling), "effects.rolling_resistance" + pairs),
+       "effects.rolling_resistance.pairs.0.between=[\"a\", \"a\"]", spins_rad_s},
+      {"effects.rolling_resistance.pairs[].value", "", D,
+       with(with(materials, rolling), "effects.rolling_resistance" + pairs),
+       "effects.rolling_resistance.pairs.0.value=0.6", spins_rad_s},
       {"effects.cohesion", "", D, {}, sticking, positions_mm},
       {"effects.cohesion.grain_grain", "", D, {sticking}, "effects.cohesion.grain_grain=2", positions_mm},
       {"effects.cohesion.grain_wall", "", D, {sticking}, "effects.cohesion.grain_wall=2", positions_mm},
@@ -350,6 +375,21 @@ std::vector<Case> cases() {
        F,
        {rocked},
        "stages.0.motions.0.center_mm=[0, -9]",
+       positions_mm},
+
+      {"stages[].motions[].direction",
+       force,
+       F,
+       {pushed},
+       "stages.0.motions.0.direction=[1, 0.5]",
+       positions_mm},
+      {"stages[].motions[].force_n_m", force, F, {pushed}, "stages.0.motions.0.force_n_m=2", positions_mm},
+      {"stages[].motions[].mass_kg_m", force, F, {pushed}, "stages.0.motions.0.mass_kg_m=0.2", positions_mm},
+      {"stages[].motions[].velocity_mm_s",
+       force,
+       F,
+       {pushed},
+       "stages.0.motions.0.velocity_mm_s=[20, -20]",
        positions_mm},
 
       {"solver", "", D, {}, "solver={}", logged_sweeps},

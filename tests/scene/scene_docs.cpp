@@ -27,6 +27,8 @@ TEST(SceneDocs, SayAnUnitInEveryKeyThatHasOne) {
                                : row.unit == "m/s2"    ? "m_s2"
                                : row.unit == "mm/s"    ? "mm_s"
                                : row.unit == "Hz"      ? "hz"
+                               : row.unit == "N/m"     ? "n_m"
+                               : row.unit == "kg/m"    ? "kg_m"
                                                        : row.unit;
     EXPECT_TRUE(row.path.ends_with("_" + suffix)) << row.path;
   }

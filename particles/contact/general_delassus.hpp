@@ -1,0 +1,216 @@
+#pragma once
+// W = H M^-1 H^T of discs with rolling resistance, and of walls that contacts push: what BodyDelassus leaves
+// out, and scenes without these effects do not pay. Contact after contact, in the order of the problem.
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "particles/contact/body_delassus.hpp"
+#include "particles/contact/cone.hpp"
+
+namespace drumlin {
+
+/// A wall that moves along one direction, with a mass of its own; its velocity across is prescribed.
+struct DrivenBody {
+  double e_x = 0, e_z = 0;  ///< unit vector
+  double inverse_mass = 0;
+};
+
+/// W_aa, symmetric: W_nr = 0 always, W_nt = 0 but at driven walls that are pushed askew.
+struct LocalBlock {
+  double nn = 0, nt = 0, tt = 0, tr = 0, rr = 0;
+};
+
+/// The (r_t, r_r) within |r_t| <= bound_t, |r_r| <= bound_r that oppose sliding and rolling: the minimum of a
+/// strictly convex quadratic over a box, exactly. In: the impulses and the velocities that belong to them.
+inline void solve_in_box(const LocalBlock& W, double u_t, double u_r, double bound_t, double bound_r,
+                         double& r_t, double& r_r) {
+  const double free_t = u_t - W.tt * r_t - W.tr * r_r, free_r = u_r - W.tr * r_t - W.rr * r_r;
+  const double determinant = W.tt * W.rr - W.tr * W.tr;
+  r_t = (W.tr * free_r - W.rr * free_t) / determinant;
+  r_r = (W.tr * free_t - W.tt * free_r) / determinant;
+  if (std::abs(r_t) <= bound_t && std::abs(r_r) <= bound_r) return;
+  // With one of them at its bound the other follows; the minimum is on the edge whose own velocity points
+  // outwards (or, at a corner, on either of two).
+  for (const double s : {1.0, -1.0}) {
+    const double t = s * bound_t, r = std::clamp(-(free_r + W.tr * t) / W.rr, -bound_r, bound_r);
+    if (s * (free_t + W.tt * t + W.tr * r) <= 0) {
+      r_t = t, r_r = r;
+      return;
+    }
+  }
+  r_r = std::copysign(bound_r, r_r);
+  r_t = std::clamp(-(free_t + W.tr * r_r) / W.tt, -bound_t, bound_t);
+}
+
+/// Contacts in solve order. Bodies: the grains, the fixed one, then the driven walls if `with_driven`.
+template <class Cone, bool with_spin, bool with_driven>
+class GeneralDelassus {
+ public:
+  static constexpr int dim = Cone::dim;
+  static constexpr bool has_driven = with_driven;
+  static_assert(dim < 3 || with_spin, "rolling is a matter of spin");
+  using Velocity = BodyVelocity<with_spin>;
+  using State = std::vector<Velocity>;
+  using Impulse = std::array<double, dim>;
+
+  std::vector<std::int32_t> i, j;  ///< bodies; the normal points from j to i
+  std::vector<double> n_x, n_z;
+  std::vector<double> lever;         ///< R_eff / r_i = r_j / (r_i + r_j), 1 at a wall; empty without rolling
+  std::vector<double> inverse_mass;  ///< of each body; 0 for the fixed one and the driven ones
+  std::vector<DrivenBody> driven;
+  SweepPlan plan;  ///< of the contacts in their order
+
+  int contacts() const { return static_cast<int>(i.size()); }
+  std::int32_t fixed() const { return static_cast<std::int32_t>(inverse_mass.size() - driven.size()) - 1; }
+
+  void clear() { i.clear(), j.clear(), n_x.clear(), n_z.clear(), lever.clear(); }
+  void add(std::int32_t body_i, std::int32_t body_j, double normal_x, double normal_z) {
+    i.push_back(body_i), j.push_back(body_j), n_x.push_back(normal_x), n_z.push_back(normal_z);
+  }
+
+  LocalBlock block(int a) const {
+    const double w_i = inverse_mass[i[a]], w_j = inverse_mass[j[a]], w = w_i + w_j;
+    LocalBlock W{w, 0, with_spin ? 3 * w : w, 0, 0};
+    if constexpr (dim == 3) {
+      const double l_i = lever[a], l_j = 1 - l_i;
+      W.tr = 2 * (l_j * w_j - l_i * w_i);
+      W.rr = 2 * (l_i * l_i * w_i + l_j * l_j * w_j);
+    }
+    if constexpr (with_driven)
+      if (const DrivenBody* wall = driven_wall(a)) {
+        const double n = wall->e_x * n_x[a] + wall->e_z * n_z[a], t = wall->e_x * n_z[a] - wall->e_z * n_x[a];
+        W.nn += n * n * wall->inverse_mass;
+        W.nt += n * t * wall->inverse_mass;
+        W.tt += t * t * wall->inverse_mass;
+      }
+    return W;
+  }
+
+  void rest(State& state) const {
+    state.assign(inverse_mass.size(), Velocity{});
+    for (std::size_t b = 0; b < state.size(); ++b) state[b].inverse_mass = inverse_mass[b];
+  }
+
+  /// Adds the impulse dr of contact a to the state.
+  void push(State& state, int a, const Impulse& dr) const {
+    Velocity& I = state[i[a]];
+    Velocity& J = state[j[a]];
+    double p_x = n_x[a] * dr[0], p_z = n_z[a] * dr[0];
+    if constexpr (dim >= 2) p_x += n_z[a] * dr[1], p_z -= n_x[a] * dr[1];
+    I.x += I.inverse_mass * p_x;
+    I.z += I.inverse_mass * p_z;
+    J.x -= J.inverse_mass * p_x;
+    J.z -= J.inverse_mass * p_z;
+    if constexpr (with_spin && dim >= 2) {
+      I.s -= 2 * I.inverse_mass * dr[1];
+      J.s -= 2 * J.inverse_mass * dr[1];
+    }
+    if constexpr (dim == 3) {  // a torque R_eff r_r on i and its opposite on j: r R_eff / J = 2 lever / m
+      I.s += 2 * I.inverse_mass * lever[a] * dr[2];
+      J.s -= 2 * J.inverse_mass * (1 - lever[a]) * dr[2];
+    }
+    if constexpr (with_driven)
+      if (const DrivenBody* wall = driven_wall(a)) {
+        const double along = (p_x * wall->e_x + p_z * wall->e_z) * wall->inverse_mass;
+        J.x -= along * wall->e_x, J.z -= along * wall->e_z;
+      }
+  }
+
+  /// H v of the state: what contact a's bodies do to each other.
+  Impulse relative_velocity(const State& state, int a) const {
+    const Velocity &I = state[i[a]], &J = state[j[a]];
+    const double d_x = I.x - J.x, d_z = I.z - J.z;
+    Impulse u{};
+    u[0] = n_x[a] * d_x + n_z[a] * d_z;
+    if constexpr (dim >= 2) u[1] = n_z[a] * d_x - n_x[a] * d_z;
+    if constexpr (with_spin && dim >= 2) u[1] -= I.s + J.s;
+    if constexpr (dim == 3) u[2] = lever[a] * I.s - (1 - lever[a]) * J.s;
+    return u;
+  }
+
+  /// lambda_max(W_aa), the scale of the judge.
+  double largest_eigenvalue(int a) const {
+    const LocalBlock W = block(a);
+    if constexpr (dim == 1) {
+      return W.nn;
+    } else {
+      if (W.nt != 0) {
+        Eigen::Matrix<double, dim, dim> whole = Eigen::Matrix<double, dim, dim>::Zero();
+        whole(0, 0) = W.nn, whole(1, 1) = W.tt, whole(0, 1) = whole(1, 0) = W.nt;
+        if constexpr (dim == 3) whole(2, 2) = W.rr, whole(1, 2) = whole(2, 1) = W.tr;
+        return Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, dim, dim>>(whole, Eigen::EigenvaluesOnly)
+            .eigenvalues()[dim - 1];
+      }
+      const double mean = (W.tt + W.rr) / 2, half = (W.tt - W.rr) / 2;
+      return std::max(W.nn, dim == 3 ? mean + std::sqrt(half * half + W.tr * W.tr) : W.tt);
+    }
+  }
+
+  /// State of given impulses, from scratch.
+  void load(State& state, std::span<const double> r) const {
+    rest(state);
+    for (int a = 0; a < contacts(); ++a) push(state, a, impulse(r, a));
+  }
+
+  /// u = W r + q. `scratch` is overwritten.
+  void velocities(std::span<const double> r, std::span<const double> q, State& scratch,
+                  std::vector<double>& u) const {
+    load(scratch, r);
+    u.resize(q.size());
+    for (int a = 0; a < contacts(); ++a) {
+      const Impulse own = relative_velocity(scratch, a);
+      for (int c = 0; c < dim; ++c) u[dim * a + c] = q[dim * a + c] + own[c];
+    }
+  }
+
+  /// One Gauss-Seidel sweep: of each contact first the normal, then friction and rolling together. Exact
+  /// where W_nt = 0. `mu` holds dim - 1 coefficients per contact.
+  double sweep(std::span<const double> q, std::span<const double> mu, std::span<double> r, State& state,
+               std::span<double> step) const {
+    double sum = 0;
+    for (int a = 0; a < contacts(); ++a) {
+      const Impulse old = impulse(r, a);
+      Impulse u = relative_velocity(state, a), fresh = old, change;
+      for (int c = 0; c < dim; ++c) u[c] += q[dim * a + c];
+      const LocalBlock W = block(a);
+      fresh[0] = std::max(0.0, old[0] - u[0] / W.nn);
+      if constexpr (dim >= 2) u[1] += W.nt * (fresh[0] - old[0]);
+      if constexpr (dim == 2) {
+        const double bound = mu[a] * fresh[0];
+        fresh[1] = std::clamp(old[1] - u[1] / W.tt, -bound, bound);
+      }
+      if constexpr (dim == 3)
+        solve_in_box(W, u[1], u[2], mu[2 * a] * fresh[0], mu[2 * a + 1] * fresh[0], fresh[1], fresh[2]);
+      for (int c = 0; c < dim; ++c) {
+        change[c] = fresh[c] - old[c];
+        r[dim * a + c] = fresh[c];
+        step[dim * a + c] = change[c];
+        sum += change[c] * change[c];
+      }
+      push(state, a, change);
+    }
+    return sum;
+  }
+
+  /// The velocities of a state as one array of doubles; the inverse masses in it must not be changed.
+  static std::span<double> numbers(State& state) {
+    return {reinterpret_cast<double*>(state.data()), state.size() * (sizeof(Velocity) / sizeof(double))};
+  }
+
+ private:
+  const DrivenBody* driven_wall(int a) const {
+    const std::int32_t k = j[a] - fixed() - 1;
+    return k < 0 ? nullptr : &driven[k];
+  }
+  static Impulse impulse(std::span<const double> r, int a) {
+    Impulse own;
+    for (int c = 0; c < dim; ++c) own[c] = r[dim * a + c];
+    return own;
+  }
+};
+
+}  // namespace drumlin

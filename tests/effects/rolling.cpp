@@ -1,0 +1,222 @@
+// Rolling resistance: closed forms of one disc, and the local problem against its own conditions.
+#include <numbers>
+
+#include "particles/contact/problems.hpp"
+#include "particles/contact/residual.hpp"
+#include "particles/scene/random.hpp"
+#include "particles/solver/contact_solver.hpp"
+#include "tests/effects/drums.hpp"
+
+namespace drumlin {
+namespace {
+
+using test::add_stage;
+using test::scene_of;
+using test::TemporaryFolder;
+
+Scene on_a_floor(double v, double slope_deg, double mu, double mu_r, const TemporaryFolder& folder) {
+  Scene scene = scene_of({{0, 0.5, 1, v, 0, 2 * v}}, folder);
+  scene.walls = {test::floor_wall()};
+  scene.effects.gravity = Gravity{9.81, -90 + slope_deg};
+  scene.effects.friction = Friction{mu, mu};
+  scene.effects.spin = Spin{};
+  scene.effects.rolling_resistance = RollingResistance{mu_r, mu_r};
+  return scene;
+}
+
+TEST(RollingResistance, SlowsARollingDiscByTwoThirdsOfItsShareOfGravity) {
+  // m a = -F, J alpha = F r - mu_r m g r with J = m r^2 / 2 and a = r alpha: a = -2/3 mu_r g.
+  const TemporaryFolder folder;
+  const double v0 = 1, mu_r = 0.3;
+  Scene scene = on_a_floor(v0, 0, 0.8, mu_r, folder);
+  add_stage(scene, 6, 1e-2);  // it stops at 5
+  Simulation simulation(scene);
+  while (!simulation.finished()) {
+    (void)simulation.step();
+    const double expected = std::max(0.0, v0 - 2.0 / 3 * mu_r * simulation.state().time());
+    ASSERT_NEAR(simulation.state().bodies.v_x[0], expected, 1e-9);
+    ASSERT_NEAR(simulation.state().bodies.spin[0], 2 * expected, 1e-9);
+  }
+}
+
+TEST(RollingResistance, HoldsADiscOnASlopeBelowItsCoefficient) {
+  // About the contact: m g sin r against at most mu_r m g cos r.
+  const TemporaryFolder folder;
+  Scene scene = on_a_floor(0, 20, 1, std::tan(std::numbers::pi / 9) + 1e-3, folder);
+  add_stage(scene, 2, 1e-2);
+  EXPECT_NEAR(test::bodies_at_end(scene).v_x[0], 0, 1e-9);
+}
+
+TEST(RollingResistance, LetsADiscRollOnASteeperSlope) {
+  // a = 2/3 g (sin - mu_r cos); friction (tan - mu_r)/3 + mu_r = 0.19 of the load is there.
+  const TemporaryFolder folder;
+  const double slope = std::numbers::pi / 9, mu_r = 0.1;
+  Scene scene = on_a_floor(0, 20, 0.8, mu_r, folder);
+  add_stage(scene, 2, 1e-2);
+  EXPECT_NEAR(test::bodies_at_end(scene).v_x[0] / 2, 2.0 / 3 * (std::sin(slope) - mu_r * std::cos(slope)),
+              1e-8);
+}
+
+TEST(RollingResistance, HoldsASpinningDiscBetweenTurningWalls) {
+  // Without gravity nothing presses, without load nothing resists: the spin stays.
+  const TemporaryFolder folder;
+  Scene scene = scene_of({{0, 0.5, 1, 0, 0, 3}}, folder);
+  scene.walls = {test::floor_wall()};
+  scene.effects.friction = Friction{0.5, 0.5};
+  scene.effects.spin = Spin{};
+  scene.effects.rolling_resistance = RollingResistance{0.5, 0.5};
+  add_stage(scene, 1, 1e-2);
+  EXPECT_EQ(test::bodies_at_end(scene).spin[0], 3);
+}
+
+TEST(RollingResistance, ReckonsTheTurningOfAWallIn) {
+  // A disc that lies on a turning drum, at the drum's velocity, stays where it is on the wall, neither
+  // sliding nor rolling, until the slope there reaches mu_r.
+  const TemporaryFolder folder;
+  const double spin = 0.05, duration = 5;
+  Scene scene = scene_of({{0, -9.5, 1, -9.5 * spin, 0, spin}}, folder);
+  scene.walls = {{"drum", ContainerShape{{0, 0}, 10}}};
+  scene.effects = {Gravity{}, Friction{2, 2}, std::nullopt, Spin{}, RollingResistance{1, 1}};
+  const double time_s = std::sqrt(1e-3 / 9.81);
+  add_stage(scene, duration, 1e-2);
+  scene.stages[0].motions = {{"drum", Rotation{spin / time_s * 60 / (2 * std::numbers::pi), {0, 0}}}};
+  const Bodies end = test::bodies_at_end(scene);
+  // An angle of 0.25 rad, where tan = 0.255 < 1; first order in the step.
+  EXPECT_NEAR(end.spin[0], spin, 1e-6);
+  EXPECT_NEAR(end.x[0], -9.5 * std::sin(spin * duration), 1e-2);
+}
+
+TEST(RollingResistance, OfZeroStrengthIsNone) {
+  Scene plain = test::turning_drum(30), weak = plain;
+  plain.solver.tolerance = weak.solver.tolerance = 1e-10;
+  plain.solver.max_sweeps = weak.solver.max_sweeps = 5000;
+  plain.stages[0].duration_s = weak.stages[0].duration_s = 0.05;
+  weak.effects.rolling_resistance = RollingResistance{0, 0};
+  const Bodies a = test::bodies_at_end(plain), b = test::bodies_at_end(weak);
+  // Contacts are solved in another order: alike up to the tolerance and what impacts make of it.
+  for (std::size_t k = 0; k < a.count(); ++k) {
+    EXPECT_NEAR(a.x[k], b.x[k], 1e-6);
+    EXPECT_NEAR(a.z[k], b.z[k], 1e-6);
+    EXPECT_NEAR(a.spin[k], b.spin[k], 1e-5);
+  }
+}
+
+TEST(RollingResistance, CostsOneUnknownPerContact) {
+  Scene scene = test::turning_drum();
+  EXPECT_EQ(Simulation(scene).stepper().unknowns_per_contact(), 2);
+  scene.effects.rolling_resistance = RollingResistance{0.1, 0.1};
+  Simulation simulation(scene);
+  EXPECT_EQ(simulation.stepper().unknowns_per_contact(), 3);
+  EXPECT_EQ(simulation.stepper().velocities_per_body(), 3);
+  while (simulation.state().memory.i.empty()) (void)simulation.step();
+  EXPECT_EQ(simulation.state().memory.impulse.size(), 3 * simulation.state().memory.i.size());
+}
+
+TEST(RollingCone, ProjectionIsTheNearestPoint) {
+  RandomStream random(1, "cone");
+  for (int k = 0; k < 2000; ++k) {
+    const double mu = random.uniform(0, 2), mu_r = k % 5 == 0 ? 0 : random.uniform(0, 1);
+    const double n0 = random.uniform(-2, 2), t0 = random.uniform(-2, 2), r0 = random.uniform(-2, 2);
+    double n = n0, t = t0, r = r0;
+    project_on_cone(mu, mu_r, n, t, r);
+    ASSERT_LE(std::abs(t), mu * n + 1e-14);
+    ASSERT_LE(std::abs(r), mu_r * n + 1e-14);
+    // What is cut off is normal to the point and points away from every edge of the cone.
+    const double d_n = n0 - n, d_t = t0 - t, d_r = r0 - r;
+    ASSERT_NEAR(n * d_n + t * d_t + r * d_r, 0, 1e-13);
+    for (const double s : {-1.0, 1.0})
+      for (const double p : {-1.0, 1.0}) ASSERT_LE(d_n + s * mu * d_t + p * mu_r * d_r, 1e-13);
+  }
+}
+
+TEST(RollingContact, BoxSolutionMeetsItsConditions) {
+  RandomStream random(2, "box");
+  for (int k = 0; k < 5000; ++k) {
+    const double w_i = random.uniform(0.1, 10), w_j = k % 3 == 0 ? 0 : random.uniform(0.1, 10);
+    const double l = k % 3 == 0 ? 1 : random.uniform(0.05, 0.95);
+    const LocalBlock W{w_i + w_j, 0, 3 * (w_i + w_j), 2 * ((1 - l) * w_j - l * w_i),
+                       2 * (l * l * w_i + (1 - l) * (1 - l) * w_j)};
+    const double q_t = random.uniform(-1, 1), q_r = random.uniform(-1, 1);
+    const double bound_t = k % 7 == 0 ? 0 : random.uniform(0, 0.3),
+                 bound_r = k % 11 == 0 ? 0 : random.uniform(0, 0.3);
+    double t = random.uniform(-0.3, 0.3), r = random.uniform(-0.3, 0.3);
+    solve_in_box(W, q_t + W.tt * t + W.tr * r, q_r + W.tr * t + W.rr * r, bound_t, bound_r, t, r);
+    const double u_t = q_t + W.tt * t + W.tr * r, u_r = q_r + W.tr * t + W.rr * r;
+    const auto expect_law = [](double u, double x, double bound) {
+      ASSERT_LE(std::abs(x), bound + 1e-14);
+      if (std::abs(x) < bound - 1e-12) {
+        ASSERT_NEAR(u, 0, 1e-10);  // sticks
+      } else {
+        ASSERT_LE(u * x, 1e-10);  // slides against it
+      }
+    };
+    expect_law(u_t, t, bound_t);
+    expect_law(u_r, r, bound_r);
+  }
+}
+
+/// W_aa by unit impulses, against the block that the sweep uses.
+template <class Delassus>
+void expect_block_is_the_response(const Delassus& W) {
+  for (int a = 0; a < W.contacts(); ++a) {
+    const LocalBlock block = W.block(a);
+    const double expected[3][3] = {
+        {block.nn, block.nt, 0}, {block.nt, block.tt, block.tr}, {0, block.tr, block.rr}};
+    for (int c = 0; c < Delassus::dim; ++c) {
+      typename Delassus::State state;
+      W.rest(state);
+      typename Delassus::Impulse unit{};
+      unit[c] = 1;
+      W.push(state, a, unit);
+      const auto u = W.relative_velocity(state, a);
+      for (int row = 0; row < Delassus::dim; ++row) EXPECT_NEAR(u[row], expected[row][c], 1e-12) << row << c;
+    }
+  }
+}
+
+TEST(RollingContact, BlockIsTheResponseToUnitImpulses) {
+  DrivenRollingProblem::Delassus W;
+  W.inverse_mass = {1, 0.3, 7, 0, 0};  // three grains, the fixed body, one driven wall
+  W.driven = {{0.6, 0.8, 2.5}};
+  W.add(0, 1, 0.8, -0.6), W.lever.push_back(0.3);
+  W.add(1, 2, 0, 1), W.lever.push_back(0.8);
+  W.add(2, 3, 1, 0), W.lever.push_back(1);
+  W.add(0, 4, 0, -1), W.lever.push_back(1);
+  expect_block_is_the_response(W);
+  DrivenCoulombSpinProblem::Delassus V;
+  V.inverse_mass = {1, 0, 0};
+  V.driven = {{0.6, 0.8, 2.5}};
+  V.add(0, 2, 0, -1);
+  expect_block_is_the_response(V);
+}
+
+TEST(RollingContact, SolversReachTheJudgeOfTheThreefoldLaw) {
+  // A row of unequal discs pressed onto a floor and onto each other.
+  CoulombRollingProblem problem;
+  RandomStream random(3, "row");
+  auto& W = problem.W;
+  for (int b = 0; b < 8; ++b) W.inverse_mass.push_back(random.uniform(0.2, 5));
+  W.inverse_mass.push_back(0);
+  const auto add = [&](int i, int j, double n_x, double n_z, double lever) {
+    W.add(i, j, n_x, n_z);
+    W.lever.push_back(lever);
+    problem.q.insert(problem.q.end(), {random.uniform(-1, 0), random.uniform(-1, 1), random.uniform(-1, 1)});
+    problem.mu.insert(problem.mu.end(), {0.4, 0.2});
+  };
+  for (int b = 0; b < 8; ++b) add(b, 8, 0, 1, 1);
+  for (int b = 0; b < 7; ++b) add(b + 1, b, 1, 0, random.uniform(0.2, 0.8));
+  for (const char* name : {"nlgs", "nncg"}) {
+    SolverScratch<CoulombRollingProblem> scratch;
+    std::vector<double> r;
+    StoppingRule rule;
+    rule.tolerance = 1e-10, rule.max_sweeps = 5000;
+    const auto report = contact_solver<CoulombRollingProblem>(name)(problem, rule, scratch, r);
+    EXPECT_EQ(report.status, Status::converged) << name;
+    // A wrong impulse is seen: the judge is no rubber stamp.
+    r[2] += 0.1;
+    EXPECT_GT(judge(problem, std::span<const double>(r)).residual, 1e-3);
+  }
+}
+
+}  // namespace
+}  // namespace drumlin
