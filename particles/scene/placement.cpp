@@ -10,6 +10,8 @@
 #include "coupling/exchange/errors.hpp"
 #include "particles/scene/materials.hpp"
 #include "particles/scene/random.hpp"
+#include "particles/scene/sequential_placement.hpp"
+#include "particles/scene/sizes.hpp"
 
 namespace drumlin {
 namespace {
@@ -80,6 +82,18 @@ Bodies generated(const GeneratedGrains& grains, std::uint64_t seed, double unit)
     add_body(bodies, (sites[g].x + distance * std::cos(angle)) * unit,
              (sites[g].z + distance * std::sin(angle)) * unit, diameter / 2 * unit);
   }
+  return bodies;
+}
+
+/// Grains of a distribution of sizes.
+Bodies sequential(const GeneratedGrains& grains, std::uint64_t seed, double unit) {
+  RandomStream sizes(seed, "grains/diameter");
+  std::vector<double> diameters;
+  for (int g = 0; g < grains.count; ++g) diameters.push_back(drawn_diameter_mm(grains, sizes));
+  const auto centers = sequential_centers_mm(diameters, grains.region, seed);
+  Bodies bodies;
+  for (std::size_t g = 0; g < centers.size(); ++g)
+    add_body(bodies, centers[g][0] * unit, centers[g][1] * unit, diameters[g] / 2 * unit);
   return bodies;
 }
 
@@ -200,7 +214,8 @@ void check_period(const Scene& scene, const Bodies& bodies, double unit) {
 
 double mean_diameter_m(const Grains& grains) {
   if (const auto* made = std::get_if<GeneratedGrains>(&grains.source))
-    return (made->diameter_min_mm + made->diameter_max_mm) / 2 * 1e-3;
+    return (made->sizes ? mean_power_mm(*made, 1) : (made->diameter_min_mm + made->diameter_max_mm) / 2) *
+           1e-3;
   const auto list = listed(std::get<ListedGrains>(grains.source).file);
   double sum = 0;
   for (const auto& grain : list) sum += grain.value.at("diameter_mm");
@@ -212,7 +227,7 @@ Bodies place_grains(const Scene& scene, const Scales& scales) {
   Bodies bodies;
   std::vector<double> spins;
   if (const auto* made = std::get_if<GeneratedGrains>(&scene.grains.source)) {
-    bodies = generated(*made, scene.seed, unit);
+    bodies = made->sizes ? sequential(*made, scene.seed, unit) : generated(*made, scene.seed, unit);
     spins.assign(bodies.count(), 0.0);
     if (materials_matter(scene)) bodies.material = drawn_materials(scene, bodies.count());
   } else {

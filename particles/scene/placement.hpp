@@ -10,7 +10,8 @@ double mean_diameter_m(const Grains& grains);
 
 /// Bodies of a scene, dimensionless, at rest or with the listed velocities. Generated grains stand on a
 /// triangular lattice of spacing 1.03 largest diameters, shaken by what room that leaves, filling the region
-/// from below. Throws InputError if the region is too small for them or the list is faulty (file, line).
+/// from below; those of a distribution of sizes at random (sequential_placement.hpp). Throws InputError if
+/// the region is too small for them or the list is faulty (file, line).
 Bodies place_grains(const Scene& scene, const Scales& scales);
 
 /// How many grains of the scene's largest diameter fit into the region of generated grains.

@@ -30,12 +30,29 @@ struct RectangleRegion {
   Point_mm max_mm{0, 0};
 };
 
+/// Diameters that are either the smallest or the largest.
+struct TwoSizes {
+  double small_share = 0;  ///< by number
+};
+/// Numbers per diameter as D^-exponent, from the smallest to the largest.
+struct PowerLawSizes {
+  double exponent = 0;
+};
+/// Normal in ln D, cut at the smallest and the largest.
+struct LognormalSizes {
+  double median_mm = 0;
+  double sigma = 0;  ///< of ln D
+};
+
 /// Grains made from a distribution, placed without overlap on a jittered lattice in the region, from below.
 struct GeneratedGrains {
   int count = 0;
-  double diameter_min_mm = 0;  ///< diameters uniform between the two
+  double diameter_min_mm = 0;
   double diameter_max_mm = 0;
   std::variant<CircleRegion, RectangleRegion> region;
+  /// Without: uniform between the two, on a lattice of the largest. With: placed at random, the largest
+  /// first.
+  std::optional<std::variant<TwoSizes, PowerLawSizes, LognormalSizes>> sizes = {};
 };
 
 /// Grains listed in a CSV file: x_mm, z_mm, diameter_mm and optionally v_x_mm_s, v_z_mm_s, spin_rad_s; in a

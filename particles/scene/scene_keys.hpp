@@ -39,12 +39,38 @@ void describe(Visitor& v, std::variant<CircleRegion, RectangleRegion>& region) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, TwoSizes& s) {
+  v.value("small_share", s.small_share, required("", at_least(0, 1), "Share of the small ones, by number."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, PowerLawSizes& s) {
+  v.value("exponent", s.exponent,
+          required("", at_least(-20, 20), "Exponent a: numbers per diameter fall as D^-a."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, LognormalSizes& s) {
+  v.value("median_mm", s.median_mm, required("mm", length_mm(), "Median, before the cut."));
+  v.value("sigma", s.sigma, required("", above(0, 3), "Standard deviation of ln D, before the cut."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, std::variant<TwoSizes, PowerLawSizes, LognormalSizes>& sizes) {
+  v.variant("kind", sizes, "Distribution between smallest and largest diameter.",
+            alternative<TwoSizes>("two", "either the one or the other."),
+            alternative<PowerLawSizes>("power_law", "numbers fall as a power of the diameter."),
+            alternative<LognormalSizes>("lognormal", "normal in ln D, cut at both."));
+}
+
+template <class Visitor>
 void describe(Visitor& v, GeneratedGrains& g) {
   v.value("count", g.count, required("", at_least(1, 1e6), "Number of grains."));
   v.value("diameter_min_mm", g.diameter_min_mm, required("mm", length_mm(), "Smallest diameter."));
-  v.value("diameter_max_mm", g.diameter_max_mm,
-          required("mm", length_mm(), "Largest diameter; diameters are uniform between the two."));
+  v.value("diameter_max_mm", g.diameter_max_mm, required("mm", length_mm(), "Largest diameter."));
   v.table("region", g.region, Need::required, "Where the grains are placed, from below.");
+  v.optional_table("sizes", g.sizes,
+                   "Distribution of the diameters; without it they are uniform between the two.");
 }
 
 template <class Visitor>

@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "particles/bodies/walls.hpp"
 #include "particles/scene/materials.hpp"
 #include "particles/scene/placement.hpp"
 #include "particles/scene/region.hpp"
+#include "particles/scene/sequential_placement.hpp"
+#include "particles/scene/sizes.hpp"
 
 namespace drumlin {
 
@@ -45,6 +48,26 @@ bool check_corners(const Region& region, Faults& faults) {
   return true;
 }
 
+/// The same for grains that are placed at random.
+void check_sizes(const GeneratedGrains& grains, Faults& faults) {
+  const std::string key = "grains.generated.";
+  if (const auto* cut = std::get_if<LognormalSizes>(&*grains.sizes))
+    if (cut->median_mm < grains.diameter_min_mm || cut->median_mm > grains.diameter_max_mm) {
+      faults.push_back({key + "sizes.median_mm",
+                        fmt::format("is {}", cut->median_mm),
+                        "between diameter_min_mm and diameter_max_mm",
+                        {key}});
+      return;
+    }
+  const double area = std::numbers::pi / 4 * mean_power_mm(grains, 2);
+  const double most = sequential_share * area_mm2(grains.region) / area;
+  if (grains.count > most)
+    faults.push_back({key + "count",
+                      fmt::format("is {}, of {:.4g} mm2 each in the mean", grains.count, area),
+                      fmt::format("at most {:.0f}, half of the region", most),
+                      {key}});
+}
+
 /// Whether the region has room for the grains, and a lattice that fits into memory.
 void check_room(const GeneratedGrains& grains, Faults& faults) {
   const std::string key = "grains.generated.";
@@ -56,6 +79,10 @@ void check_room(const GeneratedGrains& grains, Faults& faults) {
     return;
   }
   const std::vector<std::string> about = {key + "count", key + "diameter_max_mm", key + "region"};
+  if (grains.sizes) {
+    check_sizes(grains, faults);
+    return;
+  }
   const auto [left, right] = extent_mm(grains.region, 0);
   const auto [bottom, top] = extent_mm(grains.region, 1);
   const double sites =

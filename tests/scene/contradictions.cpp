@@ -62,6 +62,15 @@ TEST(Contradiction, RotatingFrameOfAPeriodicDomain) {
                  "effects.rotating_frame", "periodic in x");
 }
 
+TEST(Contradiction, SizesThatDoNotFit) {
+  expect_problem(example_scene, {"grains.generated.sizes={kind=\"lognormal\", median_mm=5, sigma=0.1}"},
+                 "grains.generated.sizes.median_mm", "is 5");
+  // Half of 707 mm2 holds 41 grains of 8.55 mm2.
+  expect_problem(example_scene,
+                 {"grains.generated.count=50", "grains.generated.sizes={kind=\"power_law\", exponent=0}"},
+                 "grains.generated.count", "at most 41");
+}
+
 TEST(Contradiction, RollingResistanceWithoutSpin) {
   expect_problem(replaced(example_scene, "[effects.spin]\n", ""),
                  {"effects.rolling_resistance={grain_grain=0.1, grain_wall=0.1}"},

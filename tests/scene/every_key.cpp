@@ -136,6 +136,8 @@ std::vector<Case> cases() {
   const std::string force = "kind = \"force\"";
   const std::string rough = "walls.0.rough={diameter_mm=1, spacing_mm=2}";
   const std::string oscillation = "kind = \"oscillation\"", rocking = "kind = \"rocking\"";
+  const std::string power_law = "grains.generated.sizes={kind=\"power_law\", exponent=3}";
+  const std::string lognormal = "grains.generated.sizes={kind=\"lognormal\", median_mm=3.3, sigma=0.5}";
   const auto *D = &drum, *F = &floor_and_knobs;
   return {
       {"format", "", D, {}, "format=drumlin-scene-2", exit_code},
@@ -169,6 +171,37 @@ std::vector<Case> cases() {
       {"grains.generated.count", "", D, {}, "grains.generated.count=11", positions_mm},
       {"grains.generated.diameter_min_mm", "", D, {}, "grains.generated.diameter_min_mm=2.9", positions_mm},
       {"grains.generated.diameter_max_mm", "", D, {}, "grains.generated.diameter_max_mm=3.7", positions_mm},
+      {"grains.generated.sizes", "", D, {}, power_law, positions_mm},
+      {"grains.generated.sizes.kind",
+       "",
+       D,
+       {power_law},
+       "grains.generated.sizes={kind=\"two\", small_share=0.5}",
+       positions_mm},
+      {"grains.generated.sizes.small_share",
+       "kind = \"two\"",
+       D,
+       {"grains.generated.sizes={kind=\"two\", small_share=0.5}"},
+       "grains.generated.sizes.small_share=0.9",
+       positions_mm},
+      {"grains.generated.sizes.exponent",
+       "kind = \"power_law\"",
+       D,
+       {power_law},
+       "grains.generated.sizes.exponent=9",
+       positions_mm},
+      {"grains.generated.sizes.median_mm",
+       "kind = \"lognormal\"",
+       D,
+       {lognormal},
+       "grains.generated.sizes.median_mm=3.1",
+       positions_mm},
+      {"grains.generated.sizes.sigma",
+       "kind = \"lognormal\"",
+       D,
+       {lognormal},
+       "grains.generated.sizes.sigma=0.05",
+       positions_mm},
       {"grains.generated.region",
        "",
        D,

@@ -1,0 +1,127 @@
+// Grains of very different sizes: distributions, placement, detection.
+#include "particles/scene/sizes.hpp"
+
+#include <numbers>
+
+#include "coupling/exchange/errors.hpp"
+#include "particles/detection/contact_list.hpp"
+#include "particles/scene/placement.hpp"
+#include "tests/effects/drums.hpp"
+
+namespace drumlin {
+namespace {
+
+using Sizes = std::variant<TwoSizes, PowerLawSizes, LognormalSizes>;
+
+GeneratedGrains one_to_fifty(int count, const Sizes& sizes) {
+  return {count, 1, 50, RectangleRegion{{0, 0}, {400, 2000}}, sizes};
+}
+
+TEST(Sizes, DrawnDiametersHaveTheMeansOfTheirDistribution) {
+  for (const Sizes& sizes : {Sizes{TwoSizes{0.8}}, Sizes{PowerLawSizes{2.5}}, Sizes{PowerLawSizes{1}},
+                             Sizes{PowerLawSizes{0}}, Sizes{LognormalSizes{5, 0.7}}}) {
+    const GeneratedGrains grains = one_to_fifty(1, sizes);
+    RandomStream random(7, "sizes");
+    const int draws = 100000;
+    double sums[5] = {};
+    for (int k = 0; k < draws; ++k) {
+      const double d = drawn_diameter_mm(grains, random);
+      ASSERT_GE(d, 1);
+      ASSERT_LE(d, 50);
+      for (int power = 1; power <= 4; ++power) sums[power] += std::pow(d, power) / draws;
+    }
+    for (const int power : {1, 2}) {
+      const double deviation = std::sqrt((sums[2 * power] - sums[power] * sums[power]) / draws);
+      EXPECT_NEAR(sums[power], mean_power_mm(grains, power), 5 * deviation) << sizes.index() << ' ' << power;
+    }
+  }
+}
+
+TEST(Sizes, AFlatPowerLawIsUniform) {
+  GeneratedGrains flat = one_to_fifty(1, PowerLawSizes{0}), uniform = flat;
+  uniform.sizes.reset();
+  EXPECT_NEAR(mean_power_mm(flat, 1), mean_power_mm(uniform, 1), 1e-12);
+  EXPECT_NEAR(mean_power_mm(flat, 2), mean_power_mm(uniform, 2), 1e-9);
+  RandomStream a(1, "x"), b(1, "x");
+  for (int k = 0; k < 100; ++k) EXPECT_NEAR(drawn_diameter_mm(flat, a), drawn_diameter_mm(uniform, b), 1e-12);
+}
+
+Scene box(const GeneratedGrains& grains) {
+  Scene scene;
+  scene.grains.density_kg_m3 = 2700;
+  scene.grains.source = grains;
+  scene.walls = {{"box", SegmentShape{{0, 0}, {400, 0}}},
+                 {"box", SegmentShape{{0, 0}, {0, 4000}}},
+                 {"box", SegmentShape{{400, 0}, {400, 4000}}}};
+  scene.effects = {Gravity{}, Friction{0.4, 0.4}, std::nullopt, Spin{}};
+  Stage stage;
+  stage.name = "settle", stage.duration_s = 0.1, stage.time_step_s = 1e-3;
+  scene.stages = {stage};
+  return scene;
+}
+
+TEST(Sizes, PlacedGrainsLieInTheRegionAndNotInEachOther) {
+  const Scene scene = box(one_to_fifty(3000, PowerLawSizes{2.5}));
+  const Scales scales = scales_of(scene);
+  const Bodies bodies = place_grains(scene, scales);
+  ASSERT_EQ(bodies.count(), 3000u);
+  const double unit = 1e-3 / scales.length_m;
+  double smallest = 1e9, largest = 0, area = 0, top = 0;
+  for (std::size_t i = 0; i < bodies.count(); ++i) {
+    smallest = std::min(smallest, bodies.radius[i]), largest = std::max(largest, bodies.radius[i]);
+    area += std::numbers::pi * bodies.radius[i] * bodies.radius[i];
+    top = std::max(top, bodies.z[i] + bodies.radius[i]);
+    ASSERT_GE(bodies.x[i] - bodies.radius[i], 0);
+    ASSERT_LE(bodies.x[i] + bodies.radius[i], 400 * unit);
+    ASSERT_GE(bodies.z[i] - bodies.radius[i], 0);
+    for (std::size_t j = 0; j < i; ++j)
+      ASSERT_GE(std::hypot(bodies.x[i] - bodies.x[j], bodies.z[i] - bodies.z[j]),
+                bodies.radius[i] + bodies.radius[j]);
+  }
+  EXPECT_GT(largest / smallest, 30);
+  // From below, and dense: not scattered over the whole region.
+  EXPECT_GT(area / (400 * unit * top), 0.35);
+}
+
+TEST(Sizes, DetectionMissesNoPairOfOneToFifty) {
+  const Scene scene = box(one_to_fifty(600, PowerLawSizes{2}));
+  const Scales scales = scales_of(scene);
+  Simulation simulation(scene);
+  while (!simulation.finished()) (void)simulation.step();
+  const Bodies& bodies = simulation.state().bodies;
+  Walls walls = walls_of(scene, scales);
+  begin_stage(walls, scene.stages[0], scales, 0);
+  const double h = 0.01;
+  const WallStep step = wall_step(walls, 0, h);
+  const DetectionInput input{step.before, step.displacement, h, 0.02, {}};
+  ContactDetection detection;
+  const auto& found = detection.find(bodies, bodies.v_x, bodies.v_z, input);
+  std::size_t needed = 0;
+  for (int i = 0; i < 600; ++i)
+    for (int j = -3; j < i; ++j) {
+      Candidate pair{j < 0 ? i : j, j < 0 ? j : i, 0, 0, 0, 0, 0};
+      double n_x = 0, n_z = 0;
+      if (gap_now(pair, bodies, step.before, {}, n_x, n_z) >= 0.02) continue;
+      ++needed;
+      EXPECT_EQ(std::count_if(found.begin(), found.end(),
+                              [&](const Candidate& c) { return c.i == pair.i && c.j == pair.j; }),
+                1);
+    }
+  EXPECT_GT(needed, 300u);
+}
+
+TEST(Sizes, AreAbsentUnlessNamed) {
+  // The lattice and the streams of uniform diameters are those of before there were distributions.
+  Scene scene = test::turning_drum(3);
+  const Bodies bodies = place_grains(scene, scales_of(scene));
+  RandomStream sizes(scene.seed, "grains/diameter");
+  for (const double radius : bodies.radius) EXPECT_NEAR(2 * radius * 3.3, sizes.uniform(3, 3.6), 1e-12);
+}
+
+TEST(Sizes, MoreThanTheRegionHoldsAreRefused) {
+  const Scene scene = box(one_to_fifty(200000, TwoSizes{0.1}));
+  EXPECT_THROW(place_grains(scene, scales_of(scene)), InputError);
+}
+
+}  // namespace
+}  // namespace drumlin
