@@ -29,6 +29,15 @@ struct MeasureOptions {
 };
 int measure(const MeasureOptions&);
 
+struct PlotOptions {
+  std::filesystem::path run;
+  std::optional<std::filesystem::path> output;  ///< standard: RUN/plots
+  std::string snapshot = "last";                ///< or its number, from 1
+  bool animation = false;
+  ExistingOutput existing = ExistingOutput::refuse;
+};
+int plot(const PlotOptions&);
+
 struct CalibrateOptions {
   std::vector<std::filesystem::path> runs;
   std::filesystem::path output;

@@ -37,6 +37,16 @@ void add_folder_or_file(CLI::App& command, const std::string& name, std::filesys
   command.add_option(name, target, sentence)->required()->type_name(kind);
 }
 
+/// A path that may be left out.
+void add_optional_path(CLI::App& command, const std::string& name,
+                       std::optional<std::filesystem::path>& target, const std::string& kind,
+                       const std::string& sentence) {
+  command
+      .add_option_function<std::string>(
+          name, [&target](const std::string& path) { target = path; }, sentence)
+      ->type_name(kind);
+}
+
 void add_overrides(CLI::App& command, std::vector<std::string>& overrides) {
   command
       .add_option("--set", overrides,
@@ -73,6 +83,7 @@ class CommandLine {
         "Each command has its own --help.");
     add_run();
     add_measure();
+    add_plot();
     add_calibrate();
     add_flow();
     add_compare();
@@ -126,6 +137,18 @@ class CommandLine {
     add_number(command, "--position", measure_.position, "d", anything(),
                "Place of the slice along the surface, from the middle of the drum, positive downslope");
     add_existing(command, measure_.existing, keep_what_is_done);
+  }
+
+  void add_plot() {
+    CLI::App& command = add_command("plot", "Draws a run: grains, force chains, accuracy and cost", plot_);
+    add_folder_or_file(command, "run", plot_.run, "RUN", "Folder of a run, finished or not");
+    command.add_option("--snapshot", plot_.snapshot, "Which snapshot is drawn: its number, or last")
+        ->type_name("N")
+        ->capture_default_str();
+    command.add_flag("--animation", plot_.animation, "Draws the snapshots as an animated GIF as well");
+    add_optional_path(command, "-o,--output", plot_.output, "DIR",
+                      "Folder for the figures; standard: RUN/plots");
+    add_existing(command, plot_.existing, keep_what_is_done);
   }
 
   void add_calibrate() {
@@ -204,6 +227,7 @@ class CommandLine {
   CLI::App app_;
   RunOptions run_;
   MeasureOptions measure_;
+  PlotOptions plot_;
   CalibrateOptions calibrate_;
   FlowOptions flow_;
   CompareOptions compare_;

@@ -57,7 +57,8 @@ def main():
                 require(bytes_below(folder) == before, f"{reason}: {words} touched files")
         print(f"{sum(map(len, refused.values()))} commands refused with exit code 2")
         shown = 0
-        for words in ([], ["run"], ["measure"], ["calibrate"], ["flow"], ["compare"], ["scene"], ["solve-contacts"]):
+        for words in ([], ["run"], ["measure"], ["calibrate"], ["flow"], ["compare"], ["scene"], ["solve-contacts"],
+                      ["plot"]):
             text, _ = drumlin(*words, "--help")
             require(len(text) > 100, f"{words} --help says too little")
             shown += 1

@@ -1,0 +1,127 @@
+// drumlin plot: pictures of a run, finished or not.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/commands.hpp"
+#include "apps/commands/run_folder.hpp"
+#include "apps/support/figures.hpp"
+#include "apps/support/json_file.hpp"
+#include "apps/support/output_folder.hpp"
+#include "coupling/exchange/errors.hpp"
+#include "particles/io/snapshot_file.hpp"
+
+namespace drumlin::apps {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t most_frames = 150;  // of an animation: a picture each, and a file that opens anywhere
+
+struct ShapeJson {
+  Json operator()(const Container& c) const {
+    return {{"shape", "container"}, {"x", c.center.x}, {"z", c.center.z}, {"radius", c.radius}};
+  }
+  Json operator()(const Segment& s) const {
+    return {{"shape", "segment"}, {"x", {s.from.x, s.to.x}}, {"z", {s.from.z, s.to.z}}};
+  }
+  Json operator()(const FixedDisc& d) const {
+    return {{"shape", "disc"}, {"x", d.center.x}, {"z", d.center.z}, {"radius", d.radius}};
+  }
+};
+
+/// What the script needs to draw one snapshot. Reading it here refuses damaged files before anything is
+/// drawn.
+Json frame_of(const RunFolder& run, const fs::path& file) {
+  const Snapshot snapshot = read_snapshot(file);
+  Json shapes = Json::array();
+  for (const PlacedShape& placed : shapes_of(run.scene, run.scales, snapshot.time)) {
+    shapes.push_back(std::visit(ShapeJson{}, placed.shape));
+    shapes.back()["angle"] = placed.angle;
+  }
+  return {{"file", fs::absolute(file).string()},
+          {"number", snapshot_number(file)},
+          {"time_s", snapshot.time * run.scales.time_s},
+          {"walls", shapes}};
+}
+
+/// At most `most_frames` of all snapshots, evenly spread, the last among them.
+Json frames_of(const RunFolder& run) {
+  const std::size_t all = run.snapshots.size();
+  const std::size_t stride = (all + most_frames - 1) / most_frames;
+  Json frames = Json::array();
+  for (std::size_t i = (all - 1) % stride; i < all; i += stride)
+    frames.push_back(frame_of(run, run.snapshots[i]));
+  return frames;
+}
+
+Json stages_of(const Scene& scene) {
+  Json stages = Json::array();
+  double end = 0;
+  for (const Stage& stage : scene.stages)
+    stages.push_back({{"name", stage.name}, {"end_s", end += duration_s(stage)}});
+  return stages;
+}
+
+Json drawing_of(const RunFolder& run, const Json& report, const PlotOptions& options) {
+  Json drawing{{"title", run.scene.title.empty() ? run.folder.filename().string() : run.scene.title},
+               {"reduced", run.scene.reduced},
+               {"status", run.status},
+               {"run", report},
+               {"log", fs::absolute(run.folder / "log.csv").string()},
+               {"energy", nullptr},
+               {"tolerance", run.scene.solver.tolerance},
+               {"penetration_tolerance", run.scene.solver.penetration_tolerance},
+               {"stages", stages_of(run.scene)},
+               {"period", nullptr},
+               {"snapshot", nullptr},
+               {"frames", Json::array()}};
+  if (fs::exists(run.folder / "energy.csv"))
+    drawing["energy"] = fs::absolute(run.folder / "energy.csv").string();
+  if (const auto& period = run.scene.periodic_x)
+    drawing["period"] = {period->x_min_mm * 1e-3 / run.scales.length_m,
+                         period->x_max_mm * 1e-3 / run.scales.length_m};
+  const bool named = options.snapshot != "last";
+  if (named || !run.snapshots.empty())
+    drawing["snapshot"] = frame_of(run, chosen_snapshot(run, options.snapshot));
+  if (options.animation) {
+    if (run.snapshots.size() < 2)
+      throw InputError(fmt::format("{}: an animation needs two snapshots, there are {}", run.folder.string(),
+                                   run.snapshots.size()));
+    drawing["frames"] = frames_of(run);
+  }
+  return drawing;
+}
+
+}  // namespace
+
+int plot(const PlotOptions& options) {
+  Json report;
+  const RunFolder run = read_run_folder(options.run, report);
+  const fs::path folder = options.output.value_or(options.run / "plots"), finished = folder / "plots.json";
+  if (options.existing == ExistingOutput::resume && fs::exists(finished)) {
+    fmt::print("{}: done already\n", folder.string());
+    return static_cast<int>(ExitCode::done);
+  }
+  const Json drawing = drawing_of(run, report, options);
+  prepare_output(folder, options.existing, {"plots.json", "plots.json.part"}, {options.run / "run.json"});
+  // The script reads what to draw and adds what it drew; plots.json itself says that all is there.
+  const fs::path unfinished = folder / "plots.json.part";
+  write_json(unfinished, drawing);
+  draw_figures("plot_figures.py", {unfinished.string()});
+  const Json drawn = read_json(folder / "drawn.json", "drumlin-plots-1");
+  write_json(finished, drawn);
+  fs::remove(folder / "drawn.json");
+  fs::remove(unfinished);
+  fmt::print("{}{}\n", folder.string(), run.scene.reduced ? " (reduced)" : "");
+  if (!run.finished())
+    fmt::print("  the run is unfinished (status {}): drawn as far as it went\n", run.status);
+  if (run.snapshots.empty()) fmt::print("  the run holds no snapshots: no pictures of grains\n");
+  for (const auto& [file, shows] : drawn["figures"].items())
+    fmt::print("  {:16} {}\n", file, shows.get<std::string>());
+  return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace drumlin::apps

@@ -1,0 +1,43 @@
+#pragma once
+// A run folder as the commands that only look at it see it: finished or not, of any scene.
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "coupling/exchange/scales.hpp"
+#include "particles/bodies/walls.hpp"
+#include "particles/scene/scene.hpp"
+
+namespace drumlin::apps {
+
+struct RunFolder {
+  std::filesystem::path folder;
+  Scene scene;  ///< resolved, from scene.toml
+  Scales scales;
+  std::string status;                            ///< of run.json: "finished", "running", ...
+  std::vector<std::filesystem::path> snapshots;  ///< in order of their numbers
+
+  bool finished() const { return status == "finished"; }
+};
+
+/// Throws InputError if the folder is missing, is no run, or holds a scene that this version does not read.
+/// `run` receives the content of run.json.
+RunFolder read_run_folder(const std::filesystem::path& folder, nlohmann::ordered_json& run);
+
+/// The number in a snapshot's name: 12 for snapshots/000012.h5. Throws InputError for another name.
+int snapshot_number(const std::filesystem::path& file);
+
+/// The file of a snapshot by its number or "last". Throws InputError that says which there are.
+std::filesystem::path chosen_snapshot(const RunFolder& run, const std::string& name);
+
+/// A wall shape where it stands at one instant.
+struct PlacedShape {
+  Shape shape;       ///< d
+  double angle = 0;  ///< rad turned since the start, positive clockwise as drawn
+};
+/// All wall shapes of a scene, in the order of the indices in the contacts of a snapshot, at a `time` since
+/// the start of the run (sqrt(d/g)).
+std::vector<PlacedShape> shapes_of(const Scene& scene, const Scales& scales, double time);
+
+}  // namespace drumlin::apps

@@ -1,0 +1,230 @@
+"""Grains of a snapshot as they lie: speed, spin, force chains; and the speed as an animation."""
+
+import math
+
+import h5py
+import matplotlib.collections
+import matplotlib.colors
+import matplotlib.lines
+import matplotlib.patches
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.animation import PillowWriter
+
+import style
+
+LONG_SIDE = 8.0  # inches of the longer side of a map
+SHORT_SIDE = 2.0  # least inches of the shorter one
+DPI = 200
+WALL = "0.15"
+GRAIN_CONTACT = style.PARTICLES
+WALL_CONTACT = style.CONTINUUM
+PULL = style.OTHERS[1]
+MEAN_WIDTH = 0.22  # d: width of a line that carries the mean force...
+MOST_POINTS = 4.0  # ... but no more than this, where a few grains fill the picture
+MOST_MEANS = 4.5  # mean forces: lines do not grow beyond a grain
+STILL = 1e-6  # sqrt(g d), sqrt(g/d): what rests moves by rounding; no colours for that
+
+
+class Grains:
+    """One snapshot. Lengths in d, velocities in sqrt(g d), forces in rho0 g d^2; x and z as the arrays of the file."""
+
+    def __init__(self, frame, period):
+        self.frame = frame
+        with h5py.File(frame["file"]) as snapshot:
+            self.x, self.z, v_x, v_z, self.radius = (snapshot["grains/" + name][:]
+                                                     for name in ("x", "z", "v_x", "v_z", "radius"))
+            self.spin = snapshot["grains/spin"][:] if "grains/spin" in snapshot else None
+            self.drum_spin = snapshot["wall/spin"][0] if snapshot["container/radius"][0] > 0 else 0.0
+            center = snapshot["container/x"][0], snapshot["container/z"][0]
+            self.contacts = {name: snapshot["contacts/" + name][:] for name in ("i", "j", "normal_x", "normal_z")}
+            self.force = snapshot["contacts/impulse_n"][:] / snapshot["time_step"][0]
+        # In a drum that turns all the bulk moves: what flows shows in the frame of the drum.
+        self.speed = np.hypot(v_x - self.drum_spin * (self.z - center[1]), v_z + self.drum_spin * (self.x - center[0]))
+        self.period = period
+        if period is not None:
+            self.x = period[0] + np.mod(self.x - period[0], period[1] - period[0])
+
+    def chains(self):
+        """Lines between the centres of grains in contact (n, 2, 2), their forces, and which of them end at a wall."""
+        i, j = self.contacts["i"], self.contacts["j"]
+        normal = np.column_stack([self.contacts["normal_x"], self.contacts["normal_z"]]).astype(float)
+        wall = j < 0
+        centers = np.column_stack([self.x, self.z])
+        # From i against the normal: right across the seam of a periodic domain, too.
+        reach = self.radius[i] + np.where(wall, 0, self.radius[np.where(wall, 0, j)])
+        lines = np.stack([centers[i], centers[i] - reach[:, None] * normal], axis=1)
+        force = self.force
+        if self.period is not None:  # what crosses the seam is seen at both ends
+            across = ~wall & (np.abs(self.x[i] - self.x[np.where(wall, 0, j)]) > (self.period[1] - self.period[0]) / 2)
+            other = centers[j[across]]
+            lines = np.concatenate([lines, np.stack([other, other + reach[across, None] * normal[across]], axis=1)])
+            force, wall = np.concatenate([force, force[across]]), np.concatenate([wall, wall[across]])
+        return lines, force, wall
+
+
+class View:
+    """The part of the plane that is shown: all grains, whole containers, other walls as far as they are near."""
+
+    def __init__(self, snapshots):
+        low = np.min([[(s.x - s.radius).min(), (s.z - s.radius).min()] for s in snapshots], axis=0)
+        high = np.max([[(s.x + s.radius).max(), (s.z + s.radius).max()] for s in snapshots], axis=0)
+        if snapshots[0].period is not None:
+            low[0], high[0] = snapshots[0].period
+        near = 0.5 * (high - low).max() + 2
+        limits = low - near, high + near
+        for wall in (wall for s in snapshots for wall in s.frame["walls"]):
+            x, z, radius = np.atleast_1d(wall["x"]), np.atleast_1d(wall["z"]), wall.get("radius", 0)
+            box = np.array([x.min() - radius, z.min() - radius]), np.array([x.max() + radius, z.max() + radius])
+            if wall["shape"] != "container":
+                box = np.clip(box[0], *limits), np.clip(box[1], *limits)
+            low, high = np.minimum(low, box[0]), np.maximum(high, box[1])
+        if snapshots[0].period is not None:
+            low[0], high[0] = snapshots[0].period
+        margin = 0.01 * (high - low).max() + 0.2
+        self.low, self.high = low - margin, high + margin
+        size = self.high - self.low
+        self.inches = LONG_SIDE / size.max()  # per d
+        self.figure_size = np.maximum(size * self.inches, SHORT_SIDE)
+
+    def axes(self, drawing, what, frame):
+        figure, axes = plt.subplots(figsize=self.figure_size + [1.9, 1.1])
+        axes.set_aspect("equal")
+        axes.set_xlim(self.low[0], self.high[0])
+        axes.set_ylim(self.low[1], self.high[1])
+        axes.grid(False)
+        axes.set_xlabel(r"$x$  [$d$]")
+        axes.set_ylabel(r"$z$  [$d$]")
+        self.set_title(figure, drawing, what, frame)
+        return figure, axes
+
+    @staticmethod
+    def set_title(figure, drawing, what, frame):
+        state = "" if drawing["status"] == "finished" else f" (run {drawing['status']})"
+        figure.suptitle(style.title_of(f"{drawing['title']}\n{what}, t = {frame['time_s']:.2f} s{state}",
+                                       drawing["reduced"]), fontsize=13)
+
+    def add_walls(self, axes, frame, period):
+        """Returns what was drawn, to be taken away before the next frame."""
+        artists = []
+        for wall in frame["walls"]:
+            if wall["shape"] == "container":
+                artists.append(axes.add_patch(matplotlib.patches.Circle((wall["x"], wall["z"]), wall["radius"],
+                                                                        fill=False, edgecolor=WALL, linewidth=1.6)))
+                # Marks that turn with the wall, clockwise by its angle.
+                angles = -wall["angle"] + np.arange(12) * math.pi / 6
+                ends = np.stack([np.column_stack([wall["x"] + r * np.cos(angles), wall["z"] + r * np.sin(angles)])
+                                 for r in (wall["radius"], 0.97 * wall["radius"])], axis=1)
+                marks = matplotlib.collections.LineCollection(ends, colors=WALL, linewidths=[2.5] + 11 * [1.0])
+                artists.append(axes.add_collection(marks, autolim=False))
+            elif wall["shape"] == "segment":
+                artists += axes.plot(wall["x"], wall["z"], color=WALL, linewidth=1.6, scalex=False, scaley=False)
+            else:
+                artists.append(axes.add_patch(matplotlib.patches.Circle((wall["x"], wall["z"]), wall["radius"],
+                                                                        facecolor="0.6", edgecolor=WALL,
+                                                                        linewidth=0.6)))
+        if period is not None:
+            artists += [axes.axvline(x, color=WALL, linewidth=0.8, linestyle=(0, (6, 6))) for x in period]
+        return artists
+
+    def add_grains(self, axes, grains, **colours):
+        discs = matplotlib.collections.EllipseCollection(
+            2 * grains.radius, 2 * grains.radius, np.zeros(len(grains.x)), units="x",
+            offsets=np.column_stack([grains.x, grains.z]), transOffset=axes.transData,
+            # A rim of a twentieth of a grain parts neighbours of one colour.
+            linewidths=min(0.05 * self.inches * 72, 0.8), **colours)
+        return axes.add_collection(discs, autolim=False)
+
+
+def speed_norm(speeds):
+    """Three decades below nearly the fastest: the slow creep deep in a packing is seen beside the flow."""
+    fast = max(np.quantile(speeds, 0.998), STILL)
+    return matplotlib.colors.LogNorm(1e-3 * fast, fast)
+
+
+def speed_words(grains):
+    return "speed in the frame of the drum" if grains.drum_spin != 0 else "speed"
+
+
+def draw_speed(drawing, view, grains, norm):
+    figure, axes = view.axes(drawing, speed_words(grains), grains.frame)
+    discs = view.add_grains(axes, grains, cmap="viridis", norm=norm, edgecolors="white")
+    discs.set_array(np.maximum(grains.speed, norm.vmin))
+    walls = view.add_walls(axes, grains.frame, grains.period)
+    figure.colorbar(discs, ax=axes, extend="both", shrink=0.85, label=r"speed  [$\sqrt{gd}$]")
+    return figure, axes, discs, walls
+
+
+def draw_spin(drawing, view, grains, path):
+    figure, axes = view.axes(drawing, "spin of the grains, positive clockwise", grains.frame)
+    most = max(np.quantile(np.abs(grains.spin), 0.99), STILL)
+    discs = view.add_grains(axes, grains, cmap="RdBu_r", norm=matplotlib.colors.Normalize(-most, most),
+                            edgecolors="0.75")
+    discs.set_array(grains.spin)
+    view.add_walls(axes, grains.frame, grains.period)
+    figure.colorbar(discs, ax=axes, extend="both", shrink=0.85, label=r"spin  [$\sqrt{g/d}$]")
+    style.save(figure, path, drawing["reduced"])
+
+
+def draw_chains(drawing, view, grains, path):
+    figure, axes = view.axes(drawing, "force chains", grains.frame)
+    view.add_grains(axes, grains, facecolors="0.93", edgecolors="0.8")
+    view.add_walls(axes, grains.frame, grains.period)
+    lines, force, wall = grains.chains()
+    points = min(MEAN_WIDTH * view.inches * 72, MOST_POINTS)
+    mean = np.abs(force).mean() if len(force) else math.nan
+    keys = []
+    for name, chosen, colour in [("between grains", ~wall & (force >= 0), GRAIN_CONTACT),
+                                 ("with walls", wall & (force >= 0), WALL_CONTACT),
+                                 ("pulling (cohesion)", force < 0, PULL)]:
+        if not chosen.any():
+            continue
+        width = points * np.minimum(np.abs(force[chosen]) / mean, MOST_MEANS)
+        axes.add_collection(matplotlib.collections.LineCollection(lines[chosen], linewidths=width, colors=colour,
+                                                                  capstyle="round"), autolim=False)
+        keys.append(matplotlib.lines.Line2D([], [], color=colour, linewidth=points,
+                                            label=f"{name}: {chosen.sum()}"))
+    if keys:
+        figure.legend(handles=keys, loc="upper center", ncol=len(keys), bbox_to_anchor=(0.5, 0.0),
+                      title=rf"contacts; these widths carry the mean normal force, {mean:.3g} $\rho_0 g d^2$")
+    else:
+        axes.text(0.5, 0.02, "no contact carries a load", transform=axes.transAxes, ha="center")
+    style.save(figure, path, drawing["reduced"])
+
+
+def draw_snapshot(drawing, folder):
+    """Returns {file: what it shows}."""
+    grains = Grains(drawing["snapshot"], drawing["period"])
+    view = View([grains])
+    number = f"snapshot {drawing['snapshot']['number']}"
+    plt.rcParams.update({"savefig.dpi": DPI, "savefig.bbox": "tight"})
+    figure, *_ = draw_speed(drawing, view, grains, speed_norm(grains.speed))
+    style.save(figure, folder / "speed.png", drawing["reduced"])
+    figures = {"speed.png": f"{speed_words(grains)}, {number}"}
+    if grains.spin is not None:
+        draw_spin(drawing, view, grains, folder / "spin.png")
+        figures["spin.png"] = f"spin of the grains, {number}"
+    draw_chains(drawing, view, grains, folder / "forces.png")
+    figures["forces.png"] = f"normal forces of the contacts, {number}"
+    return figures
+
+
+def draw_animation(drawing, folder):
+    """Returns {file: what it shows}. The same view and colours in all frames."""
+    snapshots = [Grains(frame, drawing["period"]) for frame in drawing["frames"]]
+    view = View(snapshots)
+    norm = speed_norm(np.concatenate([grains.speed for grains in snapshots]))
+    plt.rcParams.update({"savefig.bbox": None})  # all frames of one size
+    figure, axes, discs, walls = draw_speed(drawing, view, snapshots[0], norm)
+    writer = PillowWriter(fps=12)
+    with writer.saving(figure, folder / "animation.gif", dpi=80):
+        for grains in snapshots:
+            discs.set_offsets(np.column_stack([grains.x, grains.z]))
+            discs.set_array(np.maximum(grains.speed, norm.vmin))
+            for artist in walls:
+                artist.remove()
+            walls = view.add_walls(axes, grains.frame, grains.period)
+            view.set_title(figure, drawing, speed_words(grains), grains.frame)
+            writer.grab_frame()
+    plt.close(figure)
+    return {"animation.gif": f"{speed_words(snapshots[0])}, {len(snapshots)} snapshots"}

@@ -1,0 +1,32 @@
+"""Figures of `drumlin plot`: one snapshot, the log, where the time went, and an animation if it is asked for."""
+
+import json
+import pathlib
+import sys
+
+import grain_maps
+import run_curves
+import style
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit("usage: plot_figures.py DRAWING.json")
+    folder = pathlib.Path(sys.argv[1]).parent
+    with open(sys.argv[1], encoding="utf-8") as stream:
+        drawing = json.load(stream)
+    style.use_style()
+    figures = {}
+    if drawing["snapshot"] is not None:
+        figures.update(grain_maps.draw_snapshot(drawing, folder))
+    figures.update(run_curves.draw(drawing, folder))
+    if drawing["frames"]:
+        figures.update(grain_maps.draw_animation(drawing, folder))
+    with open(folder / "drawn.json", "w", encoding="utf-8") as stream:
+        snapshot = drawing["snapshot"] and drawing["snapshot"]["number"]
+        json.dump({"format": "drumlin-plots-1", "snapshot": snapshot, "reduced": drawing["reduced"],
+                   "status": drawing["status"], "figures": figures}, stream)
+
+
+if __name__ == "__main__":
+    main()
