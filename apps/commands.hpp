@@ -77,7 +77,7 @@ int scene(const SceneOptions&);
 
 struct SolveContactsOptions {
   std::filesystem::path problem;
-  std::string solver = "nncg";
+  std::string solver = "accelerated";
   double tolerance = 1e-4;
   double max_seconds = 60;
   std::optional<std::filesystem::path> output;

@@ -209,7 +209,7 @@ struct Stage {
 
 /// Contact solver and when it may stop. Tolerances in the project's one definition (docs/conventions.md).
 struct SolverSettings {
-  std::string name = "nncg";
+  std::string name = "accelerated";
   double tolerance = 1e-2;              ///< of `residual`
   double penetration_tolerance = 1e-3;  ///< of `penetration`, in d
   int max_sweeps = 100;

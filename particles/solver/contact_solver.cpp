@@ -8,6 +8,7 @@
 #include "coupling/exchange/errors.hpp"
 #include "particles/contact/problems.hpp"
 #include "particles/solver/lane_sweeps.hpp"
+#include "particles/solver/momentum.hpp"
 
 namespace drumlin {
 namespace {
@@ -100,6 +101,33 @@ struct FletcherReeves {
   }
 };
 
+/// Nesterov's extrapolation between sweeps. r and the state are linear in each other: both go on alike.
+template <class Delassus>
+struct Extrapolation {
+  Momentum momentum;
+
+  template <class Scratch>
+  void before(Scratch&) {}
+  template <class Scratch>
+  void after(Scratch& scratch, std::vector<double>& r, double step_squares) {
+    const double beta = momentum.next(step_squares);
+    const auto go_on = [beta](double& now, double& then) {
+      const double x = now;
+      now += beta * (x - then);
+      then = x;
+    };
+    auto& r_before = scratch.direction;
+    if (beta == 0) {
+      r_before = r;
+      scratch.state_before = scratch.state;
+      return;
+    }
+    for (std::size_t k = 0; k < r.size(); ++k) go_on(r[k], r_before[k]);
+    auto now = Delassus::numbers(scratch.state), then = Delassus::numbers(scratch.state_before);
+    for (std::size_t k = 0; k < now.size(); ++k) go_on(now[k], then[k]);
+  }
+};
+
 }  // namespace
 
 std::string to_string(Status status) {
@@ -151,8 +179,8 @@ SolveReport solve_nlgs_scalar(const Problem& problem, const StoppingRule& rule,
 }
 
 template <class Problem>
-SolveReport solve_nncg_scalar(const Problem& problem, const StoppingRule& rule,
-                              SolverScratch<Problem>& scratch, std::vector<double>& r) {
+SolveReport solve_nncg(const Problem& problem, const StoppingRule& rule, SolverScratch<Problem>& scratch,
+                       std::vector<double>& r) {
   return sweep_until_judged(problem, rule, scratch, r, FletcherReeves<typename Problem::Delassus>{});
 }
 
@@ -166,19 +194,19 @@ SolveReport solve_nlgs(const Problem& problem, const StoppingRule& rule, SolverS
 }
 
 template <class Problem>
-SolveReport solve_nncg(const Problem& problem, const StoppingRule& rule, SolverScratch<Problem>& scratch,
-                       std::vector<double>& r) {
+SolveReport solve_accelerated_double(const Problem& problem, const StoppingRule& rule,
+                                     SolverScratch<Problem>& scratch, std::vector<double>& r) {
   if constexpr (has_lanes<Problem>)
     return sweep_in_lanes<double>(problem, rule, scratch, scratch.lanes.in_double, r, true);
   else
-    return solve_nncg_scalar(problem, rule, scratch, r);
+    return sweep_until_judged(problem, rule, scratch, r, Extrapolation<typename Problem::Delassus>{});
 }
 
 template <class Problem>
-SolveReport solve_nncg_mixed(const Problem& problem, const StoppingRule& rule,
-                             SolverScratch<Problem>& scratch, std::vector<double>& r) {
+SolveReport solve_accelerated(const Problem& problem, const StoppingRule& rule,
+                              SolverScratch<Problem>& scratch, std::vector<double>& r) {
   if constexpr (!has_lanes<Problem>) {
-    return solve_nncg_scalar(problem, rule, scratch, r);
+    return solve_accelerated_double(problem, rule, scratch, r);
   } else {
     StoppingRule coarse = rule;
     coarse.tolerance = std::max(rule.tolerance, single_precision_reaches);
@@ -191,7 +219,7 @@ SolveReport solve_nncg_mixed(const Problem& problem, const StoppingRule& rule,
     StoppingRule fine = rule;
     fine.max_sweeps -= first.sweeps;
     fine.max_seconds -= first.seconds;
-    SolveReport report = sweep_in_lanes<double>(problem, fine, scratch, scratch.lanes.in_double, r, true);
+    SolveReport report = solve_accelerated_double(problem, fine, scratch, r);
     report.sweeps += first.sweeps;
     report.seconds += first.seconds;
     return report;
@@ -199,33 +227,35 @@ SolveReport solve_nncg_mixed(const Problem& problem, const StoppingRule& rule,
 }
 
 std::vector<std::string> contact_solver_names() {
-  return {"nlgs", "nncg", "nncg-mixed", "cpg", "nlgs-scalar", "nncg-scalar"};
+  return {"accelerated", "accelerated-double", "nlgs", "nncg", "cpg", "nlgs-scalar"};
 }
 
 template <class Problem>
 ContactSolver<Problem> contact_solver(const std::string& name) {
+  if (name == "accelerated") return &solve_accelerated<Problem>;
+  if (name == "accelerated-double") return &solve_accelerated_double<Problem>;
   if (name == "nlgs") return &solve_nlgs<Problem>;
   if (name == "nncg") return &solve_nncg<Problem>;
-  if (name == "nncg-mixed") return &solve_nncg_mixed<Problem>;
   if constexpr (!only_swept<Problem>) {
     if (name == "cpg") return &solve_cpg<Problem>;
   }
   if (name == "nlgs-scalar") return &solve_nlgs_scalar<Problem>;
-  if (name == "nncg-scalar") return &solve_nncg_scalar<Problem>;
   const auto names = contact_solver_names();
   if (std::find(names.begin(), names.end(), name) != names.end())
     throw InputError({InputProblem{
         "", 0, 0, "solver.name", "'" + name + "' knows neither rolling resistance nor walls moved by a force",
-        "nlgs, nncg"}});
+        "accelerated, nlgs, nncg"}});
   throw InputError({InputProblem{"", 0, 0, "solver", "unknown solver '" + name + "'",
                                  fmt::format("{}", fmt::join(contact_solver_names(), ", "))}});
 }
 
-#define DRUMLIN_INSTANTIATE(Problem)                                                            \
-  template SolveReport solve_nlgs(const Problem&, const StoppingRule&, SolverScratch<Problem>&, \
-                                  std::vector<double>&);                                        \
-  template SolveReport solve_nncg(const Problem&, const StoppingRule&, SolverScratch<Problem>&, \
-                                  std::vector<double>&);                                        \
+#define DRUMLIN_INSTANTIATE(Problem)                                                                   \
+  template SolveReport solve_nlgs(const Problem&, const StoppingRule&, SolverScratch<Problem>&,        \
+                                  std::vector<double>&);                                               \
+  template SolveReport solve_accelerated(const Problem&, const StoppingRule&, SolverScratch<Problem>&, \
+                                         std::vector<double>&);                                        \
+  template SolveReport solve_nncg(const Problem&, const StoppingRule&, SolverScratch<Problem>&,        \
+                                  std::vector<double>&);                                               \
   template ContactSolver<Problem> contact_solver<Problem>(const std::string&);
 DRUMLIN_INSTANTIATE(FrictionlessProblem)
 DRUMLIN_INSTANTIATE(CoulombProblem)

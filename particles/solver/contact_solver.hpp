@@ -67,35 +67,38 @@ template <class Problem>
 using ContactSolver = SolveReport (*)(const Problem&, const StoppingRule&, SolverScratch<Problem>&,
                                       std::vector<double>& r);
 
-/// Nonlinear Gauss-Seidel (Jean 1999; the paper, Sec. II): each contact exactly in turn. Problems in body
-/// form are swept on vectors and threads, in lanes.
+/// The default: nonlinear Gauss-Seidel sweeps with Nesterov's extrapolation between them
+/// (particles/solver/momentum.hpp). Problems of discs are swept in lanes, on vectors and threads: in single
+/// precision as long as that helps, which is down to residuals of some 1e-4, and in double precision from
+/// there. The judge is as strict as ever. Ends on a sweep, so that r lies in the cone.
+template <class Problem>
+SolveReport solve_accelerated(const Problem&, const StoppingRule&, SolverScratch<Problem>&,
+                              std::vector<double>& r);
+/// The same in double precision from the beginning.
+template <class Problem>
+SolveReport solve_accelerated_double(const Problem&, const StoppingRule&, SolverScratch<Problem>&,
+                                     std::vector<double>& r);
+
+/// Nonlinear Gauss-Seidel (Jean 1999; the paper, Sec. II): each contact exactly in turn. Problems of discs in
+/// lanes, in double precision.
 template <class Problem>
 SolveReport solve_nlgs(const Problem&, const StoppingRule&, SolverScratch<Problem>&, std::vector<double>& r);
 
-/// Nonlinear nonsmooth conjugate gradients (Silcowitz, Niebe, Erleben 2010): Fletcher-Reeves over the steps
-/// of Gauss-Seidel sweeps, restarted when they grow. Ends on a plain sweep, so that r lies in the cone.
-template <class Problem>
-SolveReport solve_nncg(const Problem&, const StoppingRule&, SolverScratch<Problem>&, std::vector<double>& r);
-
-/// The same with sweeps in single precision as long as they help, which is down to residuals of some 1e-4,
-/// and in double precision from there. The judge is as strict as ever.
-template <class Problem>
-SolveReport solve_nncg_mixed(const Problem&, const StoppingRule&, SolverScratch<Problem>&,
-                             std::vector<double>& r);
-
-/// The two methods contact after contact, in the order of the problem: what the vectorised forms are checked
-/// and timed against.
+/// The same one contact after the other, in the order of the problem: what the others are checked and timed
+/// against.
 template <class Problem>
 SolveReport solve_nlgs_scalar(const Problem&, const StoppingRule&, SolverScratch<Problem>&,
                               std::vector<double>& r);
-template <class Problem>
-SolveReport solve_nncg_scalar(const Problem&, const StoppingRule&, SolverScratch<Problem>&,
-                              std::vector<double>& r);
 
-/// Conjugate projected gradient (Renouf and Alart 2005; the paper, Sec. II) with a diagonal preconditioner: the
-/// quadratic problem of given friction bounds |r_t| <= b. Theirs moves the bounds b = mu r_n after every step,
-/// which stalls near 1e-2 on drums; here they move when the problem of the old ones is solved as well as its
-/// successor is known. A "sweep" is one product with W.
+/// Nonlinear nonsmooth conjugate gradients (Silcowitz, Niebe, Erleben 2010): Fletcher-Reeves over the steps
+/// of Gauss-Seidel sweeps, restarted when they grow, one contact after the other.
+template <class Problem>
+SolveReport solve_nncg(const Problem&, const StoppingRule&, SolverScratch<Problem>&, std::vector<double>& r);
+
+/// Conjugate projected gradient (Renouf and Alart 2005; the paper, Sec. II) with a diagonal preconditioner:
+/// the quadratic problem of given friction bounds |r_t| <= b. Theirs moves the bounds b = mu r_n after every
+/// step, which stalls near 1e-2 on drums; here they move when the problem of the old ones is solved as well
+/// as its successor is known. A "sweep" is one product with W.
 template <class Problem>
 SolveReport solve_cpg(const Problem&, const StoppingRule&, SolverScratch<Problem>&, std::vector<double>& r);
 

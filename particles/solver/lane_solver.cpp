@@ -32,7 +32,6 @@ void LaneProblem<T, dim, spin>::pack(const Problem& problem, const SweepPlan& pl
     lanes_[k].bodies_end = bodies_.size();
   }
   before_.resize(bodies_.size());
-  direction_.resize(bodies_.size());
 
   blocks_.clear();
   contact_.clear();
@@ -55,7 +54,7 @@ void LaneProblem<T, dim, spin>::pack(const Problem& problem, const SweepPlan& pl
           for (int e = 0; e < dim; ++e) {
             block.q[e][k] = c >= 0 ? static_cast<T>(problem.q[dim * c + e]) : T(0);
             block.r[e][k] = c >= 0 ? static_cast<T>(r[dim * c + e]) : T(0);
-            block.step[e][k] = block.direction[e][k] = 0;
+            block.before[e][k] = block.r[e][k];
           }
           if constexpr (dim == 2) block.mu[k] = c >= 0 ? static_cast<T>(problem.mu[c]) : T(0);
         }
@@ -99,7 +98,7 @@ void LaneProblem<T, dim, spin>::load(int lane, int phase) {
 template <class T, int dim, bool spin>
 void LaneProblem<T, dim, spin>::start(int lane) {
   const Lane& l = lanes_[lane];
-  for (std::size_t b = l.bodies; b < l.bodies_end; ++b) before_[b] = bodies_[b], direction_[b] = {};
+  for (std::size_t b = l.bodies; b < l.bodies_end; ++b) before_[b] = bodies_[b];
 }
 
 template <class T, int dim, bool spin>
@@ -107,8 +106,7 @@ void LaneProblem<T, dim, spin>::sweep(int lane, int phase, int parity, T beta, b
                                       bool with_residual) {
   const Lane& l = lanes_[lane];
   if (accelerated && phase == 0)
-    Kernels::go_on(&bodies_[l.bodies], &before_[l.bodies], &direction_[l.bodies], l.bodies_end - l.bodies,
-                   beta);
+    Kernels::go_on(&bodies_[l.bodies], &before_[l.bodies], l.bodies_end - l.bodies, beta);
   sums_[parity][2 * lane + phase] =
       Kernels::sweep(blocks_.data() + l.block[phase], l.block[phase + 1] - l.block[phase], bodies_.data(),
                      beta, accelerated, with_residual);

@@ -1,6 +1,6 @@
 #pragma once
-// NLGS and NNCG on the bodies, in lanes (particles/contact/sweep_plan.hpp): vectorised and threaded, with the
-// same result for any number of threads.
+// NLGS, plain and accelerated, on the bodies, in lanes (particles/contact/sweep_plan.hpp): vectorised and
+// threaded, with the same result for any number of threads.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -36,7 +36,7 @@ class LaneProblem {
   void load(int lane, int phase);
   /// Remembers the bodies as the beginning of the first sweep.
   void start(int lane);
-  /// `beta` of going on (0 at first and at a restart); bodies go on in phase 0, before any contact of theirs.
+  /// With `accelerated`, by beta further on; bodies go on in phase 0, before any contact of theirs.
   /// Sums of even and odd sweeps stand apart: a thread may begin a sweep while others add up the last one.
   void sweep(int lane, int phase, int parity, T beta, bool accelerated, bool with_residual);
 
@@ -51,7 +51,7 @@ class LaneProblem {
   std::vector<Lane> lanes_;
   std::vector<ContactBlock<T, dim>> blocks_;
   std::vector<std::int32_t> contact_;  // of each place in the blocks; -1: filled up
-  std::vector<BodyRecord<T>> bodies_, before_, direction_;
+  std::vector<BodyRecord<T>> bodies_, before_;
   std::vector<std::int32_t> place_;  // of each body in bodies_
   std::vector<SweepSums> sums_[2];   // of each strip, of even and odd sweeps
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "particles/solver/contact_solver.hpp"
+#include "particles/solver/momentum.hpp"
 
 namespace drumlin {
 
@@ -13,7 +14,7 @@ struct LaneVerdict {
   bool stop = false;
 };
 
-/// NLGS, or with `accelerated` NNCG, in precision T. The judge is called when the solver's own estimate of
+/// NLGS, plain or accelerated, in precision T. The judge is called when the solver's own estimate of
 /// the residual says that it may be content; how far the estimate was off is remembered for the next call.
 /// In single precision it also ends, out of sweeps before they are, when rounding hides the progress.
 template <class T, class Problem, class Lanes>
@@ -60,6 +61,7 @@ SolveReport sweep_in_lanes(const Problem& problem, const StoppingRule& rule, Sol
   const int threads = team ? team->size() : 1;
   Barrier alone(1);
   Barrier& barrier = team ? team->barrier() : alone;
+  constexpr double first_trust = 0.5;  // early estimates are up to twice what the judge finds
   const auto job = [&](int thread) {
     const int first = lanes.first_lane(thread, threads), end = lanes.first_lane(thread + 1, threads);
     for (const int phase : {0, 1}) {
@@ -67,7 +69,8 @@ SolveReport sweep_in_lanes(const Problem& problem, const StoppingRule& rule, Sol
       barrier.meet();
     }
     for (int lane = first; lane < end; ++lane) lanes.start(lane);
-    double beta = 0, previous_squares = 0, trust = 1;
+    Momentum momentum;
+    double beta = 0, trust = first_trust;
     for (int sweeps = 1;; ++sweeps) {
       const bool last = sweeps >= rule.max_sweeps, look = last || sweeps % rule.check_every == 0;
       for (const int phase : {0, 1}) {
@@ -89,10 +92,7 @@ SolveReport sweep_in_lanes(const Problem& problem, const StoppingRule& rule, Sol
           if (sizeof(T) < sizeof(double) && trust > 10) return;
         }
       }
-      // Fletcher-Reeves: the step of a sweep plays the negative gradient; start again when steps grow.
-      beta = previous_squares > 0 ? sums.squares / previous_squares : 2;
-      previous_squares = sums.squares;
-      if (!(beta <= 1)) beta = 0;
+      beta = momentum.next(sums.squares);
     }
   };
   if (team)

@@ -196,24 +196,23 @@ SweepSums sweep(ContactBlock<T, dim>* blocks, std::size_t count, BodyRecord<T>* 
       const V dv_x = hn::Sub(I.x, J.x), dv_z = hn::Sub(I.z, J.z);
       V r_n = hn::Load(d, &block.r[0][k]);
       if constexpr (accelerated) {
-        const V p = hn::Mul(beta, hn::Load(d, &block.direction[0][k]));
-        r_n = hn::Add(r_n, p);
-        hn::Store(hn::Add(p, hn::Load(d, &block.step[0][k])), d, &block.direction[0][k]);
+        const V now = r_n;
+        r_n = hn::Add(now, hn::Mul(beta, hn::Sub(now, hn::Load(d, &block.before[0][k]))));
+        hn::Store(now, d, &block.before[0][k]);
       }
       const V u_n = hn::Add(hn::Load(d, &block.q[0][k]), hn::Add(hn::Mul(n_x, dv_x), hn::Mul(n_z, dv_z)));
       // Max(a, NaN) is NaN, Max(NaN, a) is not.
       const V new_n = hn::Max(zero, hn::Sub(r_n, hn::Mul(u_n, w)));
       const V dr_n = hn::Sub(new_n, r_n);
       hn::Store(new_n, d, &block.r[0][k]);
-      if constexpr (accelerated) hn::Store(dr_n, d, &block.step[0][k]);
       V sum = hn::Mul(dr_n, dr_n);
       V dr_t = zero;
       if constexpr (dim == 2) {
         V r_t = hn::Load(d, &block.r[dim - 1][k]);
         if constexpr (accelerated) {
-          const V p = hn::Mul(beta, hn::Load(d, &block.direction[dim - 1][k]));
-          r_t = hn::Add(r_t, p);
-          hn::Store(hn::Add(p, hn::Load(d, &block.step[dim - 1][k])), d, &block.direction[dim - 1][k]);
+          const V now = r_t;
+          r_t = hn::Add(now, hn::Mul(beta, hn::Sub(now, hn::Load(d, &block.before[dim - 1][k]))));
+          hn::Store(now, d, &block.before[dim - 1][k]);
         }
         V slip = hn::Sub(hn::Mul(n_z, dv_x), hn::Mul(n_x, dv_z));
         if constexpr (spin) slip = hn::Sub(slip, hn::Add(I.s, J.s));
@@ -223,7 +222,6 @@ SweepSums sweep(ContactBlock<T, dim>* blocks, std::size_t count, BodyRecord<T>* 
         const V new_t = hn::Min(bound, hn::Max(hn::Neg(bound), wanted));
         dr_t = hn::Sub(new_t, r_t);
         hn::Store(new_t, d, &block.r[dim - 1][k]);
-        if constexpr (accelerated) hn::Store(dr_t, d, &block.step[dim - 1][k]);
         sum = hn::Add(sum, hn::Mul(dr_t, dr_t));
       }
       hn::Store(hn::Add(hn::Load(d, &squares[k]), sum), d, &squares[k]);
@@ -245,17 +243,15 @@ SweepSums sweep(ContactBlock<T, dim>* blocks, std::size_t count, BodyRecord<T>* 
 }
 
 template <class T>
-void go_on(BodyRecord<T>* bodies, BodyRecord<T>* before, BodyRecord<T>* direction, std::size_t count,
-           T beta_) {
+void go_on(BodyRecord<T>* bodies, BodyRecord<T>* before, std::size_t count, T beta_) {
   const Lanes<T> d;
   const auto beta = hn::Set(d, beta_);
-  T *now = &bodies->x, *then = &before->x, *along = &direction->x;
-  // Inverse masses stand still: their direction is zero.
+  T *now = &bodies->x, *then = &before->x;
+  // Inverse masses stand still: their difference is zero.
   for (std::size_t k = 0; k < 4 * count; k += hn::Lanes(d)) {
-    const auto moved = hn::Add(hn::LoadU(d, now + k), hn::Mul(beta, hn::LoadU(d, along + k)));
-    hn::StoreU(hn::Sub(moved, hn::LoadU(d, then + k)), d, along + k);
-    hn::StoreU(moved, d, then + k);
-    hn::StoreU(moved, d, now + k);
+    const auto x = hn::LoadU(d, now + k);
+    hn::StoreU(hn::Add(x, hn::Mul(beta, hn::Sub(x, hn::LoadU(d, then + k)))), d, now + k);
+    hn::StoreU(x, d, then + k);
   }
 }
 
@@ -279,13 +275,11 @@ DRUMLIN_KERNELS(float, float_friction, 2, false)
 DRUMLIN_KERNELS(float, float_spin, 2, true)
 #undef DRUMLIN_KERNELS
 
-void go_on_double(BodyRecord<double>* a, BodyRecord<double>* b, BodyRecord<double>* c, std::size_t n,
-                  double beta) {
-  go_on<double>(a, b, c, n, beta);
+void go_on_double(BodyRecord<double>* bodies, BodyRecord<double>* before, std::size_t n, double beta) {
+  go_on<double>(bodies, before, n, beta);
 }
-void go_on_float(BodyRecord<float>* a, BodyRecord<float>* b, BodyRecord<float>* c, std::size_t n,
-                 float beta) {
-  go_on<float>(a, b, c, n, beta);
+void go_on_float(BodyRecord<float>* bodies, BodyRecord<float>* before, std::size_t n, float beta) {
+  go_on<float>(bodies, before, n, beta);
 }
 
 }  // namespace drumlin::HWY_NAMESPACE
@@ -297,22 +291,22 @@ namespace drumlin {
 HWY_EXPORT(go_on_double);
 HWY_EXPORT(go_on_float);
 
-#define DRUMLIN_DISPATCH(T, precision, name, dim, spin)                                                  \
-  HWY_EXPORT(load_##name);                                                                               \
-  HWY_EXPORT(sweep_##name);                                                                              \
-  template <>                                                                                            \
-  void SweepKernels<T, dim, spin>::load(const Block* blocks, std::size_t count, BodyRecord<T>* bodies) { \
-    HWY_DYNAMIC_DISPATCH(load_##name)(blocks, count, bodies);                                            \
-  }                                                                                                      \
-  template <>                                                                                            \
-  SweepSums SweepKernels<T, dim, spin>::sweep(Block* blocks, std::size_t count, BodyRecord<T>* bodies,   \
-                                              T beta, bool accelerated, bool with_residual) {            \
-    return HWY_DYNAMIC_DISPATCH(sweep_##name)(blocks, count, bodies, beta, accelerated, with_residual);  \
-  }                                                                                                      \
-  template <>                                                                                            \
-  void SweepKernels<T, dim, spin>::go_on(BodyRecord<T>* bodies, BodyRecord<T>* before,                   \
-                                         BodyRecord<T>* direction, std::size_t count, T beta) {          \
-    HWY_DYNAMIC_DISPATCH(go_on_##precision)(bodies, before, direction, count, beta);                     \
+#define DRUMLIN_DISPATCH(T, precision, name, dim, spin)                                                   \
+  HWY_EXPORT(load_##name);                                                                                \
+  HWY_EXPORT(sweep_##name);                                                                               \
+  template <>                                                                                             \
+  void SweepKernels<T, dim, spin>::load(const Block* blocks, std::size_t count, BodyRecord<T>* bodies) {  \
+    HWY_DYNAMIC_DISPATCH(load_##name)(blocks, count, bodies);                                             \
+  }                                                                                                       \
+  template <>                                                                                             \
+  SweepSums SweepKernels<T, dim, spin>::sweep(Block* blocks, std::size_t count, BodyRecord<T>* bodies,    \
+                                              T beta, bool accelerated, bool with_residual) {             \
+    return HWY_DYNAMIC_DISPATCH(sweep_##name)(blocks, count, bodies, beta, accelerated, with_residual);   \
+  }                                                                                                       \
+  template <>                                                                                             \
+  void SweepKernels<T, dim, spin>::go_on(BodyRecord<T>* bodies, BodyRecord<T>* before, std::size_t count, \
+                                         T beta) {                                                        \
+    HWY_DYNAMIC_DISPATCH(go_on_##precision)(bodies, before, count, beta);                                 \
   }
 DRUMLIN_DISPATCH(double, double, double_smooth, 1, false)
 DRUMLIN_DISPATCH(double, double, double_friction, 2, false)

@@ -15,15 +15,14 @@ struct FrictionOfBlock {
 template <class T>
 struct FrictionOfBlock<T, 1> {};
 
-/// Eight contacts that share no body, and what a conjugate gradient keeps of each. `dim` unknowns per
-/// contact.
+/// Eight contacts that share no body. `dim` unknowns per contact.
 template <class T, int dim>
 struct alignas(64) ContactBlock : FrictionOfBlock<T, dim> {
   static constexpr int width = 8;
   std::array<std::int32_t, width> i, j;  ///< places of the bodies
   std::array<T, width> n_x, n_z, inverse_W_nn;
   std::array<T, width> q[dim], r[dim];
-  std::array<T, width> step[dim], direction[dim];
+  std::array<T, width> before[dim];  ///< r after the sweep before the last, where momentum needs it
 };
 
 /// Velocity change of a body: x, z, the tangential velocity of its rim, and the inverse mass that turns
@@ -45,15 +44,12 @@ struct SweepKernels {
   using Block = ContactBlock<T, dim>;
   /// Adds the impulses of the blocks to the bodies.
   static void load(const Block* blocks, std::size_t count, BodyRecord<T>* bodies);
-  /// One Gauss-Seidel sweep over the blocks in their order. With `accelerated`, first goes on along the
-  /// direction: r += beta direction, and direction = beta direction + step. With `with_residual` the second
-  /// sum is computed too.
+  /// One Gauss-Seidel sweep over the blocks in their order. With `accelerated` it starts further on, from r +
+  /// beta (r - before), and `before` becomes r. With `with_residual` the second sum is computed too.
   static SweepSums sweep(Block* blocks, std::size_t count, BodyRecord<T>* bodies, T beta, bool accelerated,
                          bool with_residual);
-  /// The same going on for bodies: `before` are those at the beginning of the last sweep, `direction` their
-  /// direction.
-  static void go_on(BodyRecord<T>* bodies, BodyRecord<T>* before, BodyRecord<T>* direction, std::size_t count,
-                    T beta);
+  /// The same going on for bodies.
+  static void go_on(BodyRecord<T>* bodies, BodyRecord<T>* before, std::size_t count, T beta);
 };
 
 }  // namespace drumlin

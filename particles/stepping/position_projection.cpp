@@ -37,7 +37,7 @@ void PositionProjection::apply(Bodies& bodies, std::span<const ClosePair> pairs,
   rule.tolerance = tolerance;
   rule.max_sweeps = sweeps;
   // What is left is seen, and reported, as the overlap of the next step.
-  (void)solve_nncg_mixed(problem_, rule, scratch_, lambda_);
+  (void)solve_accelerated(problem_, rule, scratch_, lambda_);
   for (std::size_t b = 0; b < bodies.count(); ++b) {
     bodies.x[b] += scratch_.judge.state[b].x;
     bodies.z[b] += scratch_.judge.state[b].z;
