@@ -85,4 +85,15 @@ struct SolveContactsOptions {
 };
 int solve_contacts(const SolveContactsOptions&);
 
+struct CostOptions {
+  std::filesystem::path scene;
+  bool effects = false;  ///< the price list of the scene's effects
+  std::optional<std::filesystem::path> output;
+  std::vector<std::string> overrides;
+  double seconds = 1;  ///< simulated, from the start of the scene
+  int threads = 1;
+  ExistingOutput existing = ExistingOutput::refuse;
+};
+int cost(const CostOptions&);
+
 }  // namespace drumlin::apps

@@ -89,6 +89,7 @@ class CommandLine {
     add_compare();
     add_scene();
     add_solve_contacts(solvers);
+    add_cost();
   }
 
   Request parse(int argc, const char* const* argv) {
@@ -224,6 +225,28 @@ class CommandLine {
                      "Prints status, residual, residual_max, sweeps, seconds as JSON");
   }
 
+  void add_cost() {
+    CLI::App& command = add_command("cost", "Prices the effects of a scene", cost_);
+    command
+        .add_flag(
+            "--effects", cost_.effects,
+            "Runs the scene with each of its effects removed and each absent one added; prints seconds, "
+            "bytes, unknowns and results of each")
+        ->required();
+    add_folder_or_file(command, "scene", cost_.scene, "SCENE.toml", "Scene file (docs/formats/scene.md)");
+    command
+        .add_option_function<std::string>(
+            "-o,--output", [this](const std::string& folder) { cost_.output = folder; },
+            "Folder for cost.json and prices.png; none is written without")
+        ->type_name("COST");
+    add_overrides(command, cost_.overrides);
+    add_number(command, "--seconds", cost_.seconds, "s", above(0),
+               "Simulated time from the start of the scene");
+    add_number(command, "--threads", cost_.threads, "", at_least(1, 1024),
+               "Threads; the results do not depend on it");
+    add_existing(command, cost_.existing, "Runs anew, over what an earlier call left");
+  }
+
   CLI::App app_;
   RunOptions run_;
   MeasureOptions measure_;
@@ -233,6 +256,7 @@ class CommandLine {
   CompareOptions compare_;
   SceneOptions scene_;
   SolveContactsOptions solve_contacts_;
+  CostOptions cost_;
   std::function<Request()> request_;
 };
 

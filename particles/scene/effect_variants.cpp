@@ -1,0 +1,153 @@
+#include "particles/scene/effect_variants.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "particles/scene/placement.hpp"
+#include "particles/scene/sizes.hpp"
+#include "particles/scene/validate.hpp"
+
+namespace drumlin {
+namespace {
+
+class Variants {
+ public:
+  explicit Variants(const Scene& scene) : scene_(scene) {
+    all_.push_back({"", EffectChange::none, "", scene, ""});
+  }
+
+  /// One more variant: the scene, changed by `change(Scene&)`.
+  template <class Change>
+  void add(const std::string& effect, EffectChange kind, const std::string& with_it, Change change) {
+    EffectVariant variant{effect, kind, with_it, scene_, ""};
+    change(variant.scene);
+    if (const auto faults = validate(variant.scene); !faults.empty())
+      variant.refused = faults.front().key + " " + faults.front().what;
+    all_.push_back(std::move(variant));
+  }
+  /// Removes an optional member of the effects, or adds it with this value.
+  template <class Effect>
+  void toggle(const std::string& effect, std::optional<Effect> Effects::*member, const Effect& strength,
+              const std::string& with_it) {
+    if (scene_.effects.*member)
+      add(effect, EffectChange::removed, "", [&](Scene& s) { (s.effects.*member).reset(); });
+    else
+      add(effect, EffectChange::added, with_it, [&](Scene& s) { s.effects.*member = strength; });
+  }
+
+  std::vector<EffectVariant> take() {
+    std::stable_sort(all_.begin(), all_.end(), [](const EffectVariant& a, const EffectVariant& b) {
+      return static_cast<int>(a.change) < static_cast<int>(b.change);
+    });
+    return std::move(all_);
+  }
+
+ private:
+  Scene scene_;
+  std::vector<EffectVariant> all_;
+};
+
+/// Friction carries spin and rolling resistance, spin carries rolling resistance.
+void toggle_friction_and_spin(const Scene& scene, Variants& variants) {
+  const Effects& has = scene.effects;
+  if (has.friction)
+    variants.add("friction", EffectChange::removed, has.spin ? "and spin, which needs it" : "", [](Scene& s) {
+      s.effects.friction.reset(), s.effects.spin.reset(), s.effects.rolling_resistance.reset();
+    });
+  else
+    variants.add("friction", EffectChange::added, "0.3", [](Scene& s) {
+      s.effects.friction = Friction{0.3, 0.3};
+    });
+  if (has.spin)
+    variants.add("spin", EffectChange::removed,
+                 has.rolling_resistance ? "and rolling resistance, which needs it" : "",
+                 [](Scene& s) { s.effects.spin.reset(), s.effects.rolling_resistance.reset(); });
+  else if (has.friction)
+    variants.add("spin", EffectChange::added, "", [](Scene& s) { s.effects.spin = Spin{}; });
+  if (has.spin) variants.toggle("rolling_resistance", &Effects::rolling_resistance, {0.1, 0.1}, "0.1");
+}
+
+/// Half of the grains of another material, which slides three quarters as well on the first.
+void toggle_pairs(const Scene& scene, Variants& variants) {
+  const Effects& has = scene.effects;
+  const bool named =
+      (has.friction && !has.friction->pairs.empty()) || (has.restitution && !has.restitution->pairs.empty());
+  if (named)
+    variants.add("pairs", EffectChange::removed, "", [](Scene& s) {
+      if (s.effects.friction) s.effects.friction->pairs.clear();
+      if (s.effects.restitution) s.effects.restitution->pairs.clear();
+    });
+  else if (has.friction && std::holds_alternative<GeneratedGrains>(scene.grains.source) &&
+           scene.grains.materials.empty())
+    variants.add("pairs", EffectChange::added, "two materials, 3/4 of the friction between them",
+                 [](Scene& s) {
+                   s.grains.materials = {{"a"}, {"b"}};
+                   s.effects.friction->pairs = {{{"a", "b"}, 0.75 * s.effects.friction->grain_grain}};
+                 });
+}
+
+/// All grains as large as the mean of their areas: as much sand, of one size.
+void toggle_sizes(const Scene& scene, Variants& variants) {
+  const auto* grains = std::get_if<GeneratedGrains>(&scene.grains.source);
+  if (grains && grains->diameter_min_mm < grains->diameter_max_mm)
+    variants.add("sizes", EffectChange::removed, "one size", [](Scene& s) {
+      auto& made = std::get<GeneratedGrains>(s.grains.source);
+      const double diameter = std::sqrt(mean_power_mm(made, 2));
+      made.sizes.reset();
+      made.diameter_min_mm = made.diameter_max_mm = diameter;
+    });
+}
+
+void toggle_walls(const Scene& scene, Variants& variants) {
+  const auto rough = [](const Wall& wall) { return wall.rough.has_value(); };
+  const double grain_mm = mean_diameter_m(scene.grains) * 1e3;
+  if (std::any_of(scene.walls.begin(), scene.walls.end(), rough))
+    variants.add("rough walls", EffectChange::removed, "", [](Scene& s) {
+      for (Wall& wall : s.walls) wall.rough.reset();
+    });
+  else if (std::any_of(scene.walls.begin(), scene.walls.end(),
+                       [](const Wall& wall) { return !std::holds_alternative<DiscShape>(wall.shape); }))
+    variants.add("rough walls", EffectChange::added,
+                 "discs of half the mean diameter, as far apart as a grain", [grain_mm](Scene& s) {
+                   for (Wall& wall : s.walls)
+                     if (!std::holds_alternative<DiscShape>(wall.shape))
+                       wall.rough = Roughness{grain_mm / 2, grain_mm};
+                   // What stands on the wall must not stand in the discs.
+                   if (auto* made = std::get_if<GeneratedGrains>(&s.grains.source))
+                     if (auto* circle = std::get_if<CircleRegion>(&made->region))
+                       circle->radius_mm -= grain_mm / 4;
+                 });
+  const auto without = [&](const std::string& effect, auto is_of_kind) {
+    for (const Stage& stage : scene.stages)
+      for (const WallMotion& motion : stage.motions)
+        if (is_of_kind(motion)) {
+          variants.add(effect, EffectChange::removed, "the walls stand still", [&](Scene& s) {
+            for (Stage& changed : s.stages) std::erase_if(changed.motions, is_of_kind);
+          });
+          return;
+        }
+  };
+  without("oscillating walls", [](const WallMotion& m) {
+    return std::holds_alternative<Oscillation>(m.motion) || std::holds_alternative<Rocking>(m.motion);
+  });
+  without("walls moved by a force",
+          [](const WallMotion& m) { return std::holds_alternative<ForceControl>(m.motion); });
+}
+
+}  // namespace
+
+std::vector<EffectVariant> effect_variants(const Scene& scene) {
+  Variants variants(scene);
+  variants.toggle("gravity", &Effects::gravity, Gravity{}, "9.81 m/s2 down");
+  toggle_friction_and_spin(scene, variants);
+  variants.toggle("restitution", &Effects::restitution, {0.5, 0.5}, "0.5");
+  toggle_pairs(scene, variants);
+  variants.toggle("cohesion", &Effects::cohesion, {1, 1}, "one mean weight");
+  if (scene.effects.rotating_frame || !scene.periodic_x)
+    variants.toggle("rotating_frame", &Effects::rotating_frame, RotatingFrame{1, {0, 0}}, "1 rpm");
+  toggle_sizes(scene, variants);
+  toggle_walls(scene, variants);
+  return variants.take();
+}
+
+}  // namespace drumlin

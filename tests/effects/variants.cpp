@@ -1,0 +1,77 @@
+// The variants of a scene that `drumlin cost --effects` prices.
+#include <algorithm>
+
+#include "particles/scene/effect_variants.hpp"
+#include "tests/effects/drums.hpp"
+
+namespace drumlin {
+namespace {
+
+const EffectVariant* find(const std::vector<EffectVariant>& variants, const std::string& effect,
+                          EffectChange change) {
+  const auto found = std::find_if(variants.begin(), variants.end(), [&](const EffectVariant& v) {
+    return v.effect == effect && v.change == change;
+  });
+  return found == variants.end() ? nullptr : &*found;
+}
+
+int unknowns(const EffectVariant& variant) {
+  return Simulation(variant.scene).stepper().unknowns_per_contact();
+}
+
+TEST(EffectVariants, TakeAwayWhatIsNamedAndAddWhatIsNot) {
+  const auto variants = effect_variants(test::turning_drum(12));
+  ASSERT_EQ(variants.front().change, EffectChange::none);
+  for (const char* effect : {"gravity", "friction", "spin", "restitution", "sizes"}) {
+    EXPECT_NE(find(variants, effect, EffectChange::removed), nullptr) << effect;
+    EXPECT_EQ(find(variants, effect, EffectChange::added), nullptr) << effect;
+  }
+  for (const char* effect : {"rolling_resistance", "pairs", "cohesion", "rotating_frame", "rough walls"}) {
+    EXPECT_EQ(find(variants, effect, EffectChange::removed), nullptr) << effect;
+    EXPECT_NE(find(variants, effect, EffectChange::added), nullptr) << effect;
+  }
+}
+
+TEST(EffectVariants, CostWhatTheirTypesSay) {
+  const auto variants = effect_variants(test::turning_drum(12));
+  EXPECT_EQ(unknowns(variants.front()), 2);
+  EXPECT_EQ(unknowns(*find(variants, "friction", EffectChange::removed)), 1);
+  EXPECT_EQ(unknowns(*find(variants, "spin", EffectChange::removed)), 2);
+  EXPECT_EQ(unknowns(*find(variants, "rolling_resistance", EffectChange::added)), 3);
+  EXPECT_EQ(unknowns(*find(variants, "cohesion", EffectChange::added)), 2);
+  const Simulation no_spin(find(variants, "spin", EffectChange::removed)->scene);
+  EXPECT_TRUE(no_spin.state().bodies.spin.empty());
+}
+
+TEST(EffectVariants, RunOrSayWhyNot) {
+  for (const auto& variant : effect_variants(test::turning_drum(12))) {
+    EXPECT_EQ(variant.refused, "") << variant.effect;
+    Simulation simulation(variant.scene);
+    for (int k = 0; k < 5; ++k) (void)simulation.step();
+  }
+  // Grains that fill a box to its walls leave no room for glued discs.
+  Scene full = test::turning_drum(12);
+  full.grains.source = GeneratedGrains{4, 3, 3.6, RectangleRegion{{-20, -20}, {20, 20}}};
+  full.walls = {{"floor", SegmentShape{{-20, -20}, {20, -20}}}};
+  full.stages[0].motions.clear();
+  const auto variants = effect_variants(full);
+  const auto* rough = find(variants, "rough walls", EffectChange::added);
+  ASSERT_NE(rough, nullptr);
+  EXPECT_NE(rough->refused.find("crossed by wall"), std::string::npos) << rough->refused;
+}
+
+TEST(EffectVariants, StopWallsThatShakeOrArePushed) {
+  Scene scene = test::turning_drum(12);
+  scene.walls.push_back({"lid", SegmentShape{{-15, 15}, {15, 15}}});
+  scene.stages[0].motions = {{"drum", Rocking{20, 4, 10, {0, 0}}},
+                             {"lid", ForceControl{{0, -1}, 20, 0.05, {}}}};
+  const auto variants = effect_variants(scene);
+  EXPECT_EQ(find(variants, "oscillating walls", EffectChange::removed)->scene.stages[0].motions.size(), 1u);
+  EXPECT_EQ(find(variants, "walls moved by a force", EffectChange::removed)->scene.stages[0].motions.size(),
+            1u);
+  // A force knows no rotating frame.
+  EXPECT_NE(find(variants, "rotating_frame", EffectChange::added)->refused, "");
+}
+
+}  // namespace
+}  // namespace drumlin
