@@ -38,6 +38,15 @@ struct PlotOptions {
 };
 int plot(const PlotOptions&);
 
+struct ExportOptions {
+  std::filesystem::path run;
+  std::optional<std::filesystem::path> output;  ///< standard: RUN/vtu
+  bool vtu = false;                             ///< the one format so far
+  std::string snapshots = "all";                ///< "all", "last", or "1,5,10-20"
+  ExistingOutput existing = ExistingOutput::refuse;
+};
+int export_run(const ExportOptions&);
+
 struct CalibrateOptions {
   std::vector<std::filesystem::path> runs;
   std::filesystem::path output;

@@ -37,7 +37,7 @@ struct ShapeJson {
 Json frame_of(const RunFolder& run, const fs::path& file) {
   const Snapshot snapshot = read_snapshot(file);
   Json shapes = Json::array();
-  for (const PlacedShape& placed : shapes_of(run.scene, run.scales, snapshot.time)) {
+  for (const PlacedShape& placed : shapes_at(run, snapshot)) {
     shapes.push_back(std::visit(ShapeJson{}, placed.shape));
     shapes.back()["angle"] = placed.angle;
   }

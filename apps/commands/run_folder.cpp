@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
 
 #include "apps/support/json_file.hpp"
 #include "coupling/exchange/errors.hpp"
@@ -51,21 +54,75 @@ fs::path chosen_snapshot(const RunFolder& run, const std::string& name) {
                                snapshot_number(run.snapshots.back())));
 }
 
-std::vector<PlacedShape> shapes_of(const Scene& scene, const Scales& scales, double time) {
+namespace {
+
+/// "7" or "3-9" as its first and last number.
+std::optional<std::pair<int, int>> range_of(std::string_view text) {
+  int first = 0, last = 0;
+  const char* const end = text.data() + text.size();
+  auto read = std::from_chars(text.data(), end, first);
+  if (read.ec != std::errc()) return std::nullopt;
+  last = first;
+  if (read.ptr != end && *read.ptr == '-') read = std::from_chars(read.ptr + 1, end, last);
+  if (read.ec != std::errc() || read.ptr != end || first > last) return std::nullopt;
+  return std::pair(first, last);
+}
+
+/// Of each wall, by its motions up to `time` since the start of the run.
+std::vector<Pose> poses_by_motion(Walls walls, const Scene& scene, const Scales& scales, double time) {
   const TimePlan plan = time_plan(scene, scales);
-  Walls walls = walls_of(scene, scales);
   double begin = 0, length = 0;
   for (std::size_t s = 0; s < plan.stages.size(); ++s) {
     // At the end of a stage the next one would give the same poses.
     if (s > 0 && time <= begin + length) break;
-    const double before = length;
-    begin += before;
-    begin_stage(walls, scene.stages[s], scales, before);
+    begin_stage(walls, scene.stages[s], scales, length);
+    begin += length;
     length = static_cast<double>(plan.stages[s].steps) * plan.stages[s].time_step;
   }
+  std::vector<Pose> poses;
+  for (std::size_t w = 0; w < walls.names.size(); ++w)
+    poses.push_back(walls.pose(static_cast<int>(w), time - begin));
+  return poses;
+}
+
+}  // namespace
+
+std::vector<fs::path> chosen_snapshots(const RunFolder& run, const std::string& list) {
+  if (run.snapshots.empty()) throw InputError(run.folder.string() + ": holds no snapshots");
+  if (list == "all") return run.snapshots;
+  if (list == "last") return {run.snapshots.back()};
+  std::map<int, fs::path> there, chosen;
+  for (const fs::path& file : run.snapshots) there.emplace(snapshot_number(file), file);
+  const auto refuse = [&](const std::string& item, const std::string& why) -> InputError {
+    return InputError(
+        fmt::format("--snapshots: '{}' {} (allowed: all, last, or numbers and ranges from {} to {})", item,
+                    why, there.begin()->first, there.rbegin()->first));
+  };
+  std::istringstream items(list + ",");
+  for (std::string item; std::getline(items, item, ',');) {
+    const auto range = range_of(item);
+    if (!range) throw refuse(item, "is no number or range");
+    if (!there.contains(range->first) || !there.contains(range->second)) throw refuse(item, "is not there");
+    for (auto at = there.find(range->first); at != there.end() && at->first <= range->second; ++at)
+      chosen.insert(*at);
+  }
+  std::vector<fs::path> files;
+  for (const auto& [number, file] : chosen) files.push_back(file);
+  return files;
+}
+
+std::vector<PlacedShape> shapes_at(const RunFolder& run, const Snapshot& snapshot) {
+  const Walls walls = walls_of(run.scene, run.scales);
+  std::vector<Pose> poses;
+  for (std::size_t w = 0; w < snapshot.wall_pose_angle.size(); ++w)
+    poses.push_back({snapshot.wall_pose_angle[w], snapshot.wall_pose_x[w], snapshot.wall_pose_z[w]});
+  if (!moves_walls_by_force(run.scene)) poses = poses_by_motion(walls, run.scene, run.scales, snapshot.time);
+  if (poses.size() != walls.names.size())
+    throw InputError(fmt::format("{}: a snapshot tells where {} walls are, the scene has {}",
+                                 run.folder.string(), poses.size(), walls.names.size()));
   std::vector<PlacedShape> placed;
   for (std::size_t s = 0; s < walls.reference.size(); ++s) {
-    const Pose pose = walls.pose(walls.wall_of_shape[s], time - begin);
+    const Pose& pose = poses[walls.wall_of_shape[s]];
     placed.push_back({moved(Rigid(pose), walls.reference[s]), pose.angle});
   }
   return placed;

@@ -7,6 +7,7 @@
 
 #include "coupling/exchange/scales.hpp"
 #include "particles/bodies/walls.hpp"
+#include "particles/measurement/snapshot.hpp"
 #include "particles/scene/scene.hpp"
 
 namespace drumlin::apps {
@@ -31,13 +32,17 @@ int snapshot_number(const std::filesystem::path& file);
 /// The file of a snapshot by its number or "last". Throws InputError that says which there are.
 std::filesystem::path chosen_snapshot(const RunFolder& run, const std::string& name);
 
+/// Those of a list: "all", "last", or numbers and ranges as in "1,5,10-20"; each once, in order. Throws
+/// InputError if the list cannot be read, or names one that is not there.
+std::vector<std::filesystem::path> chosen_snapshots(const RunFolder& run, const std::string& list);
+
 /// A wall shape where it stands at one instant.
 struct PlacedShape {
   Shape shape;       ///< d
   double angle = 0;  ///< rad turned since the start, positive clockwise as drawn
 };
-/// All wall shapes of a scene, in the order of the indices in the contacts of a snapshot, at a `time` since
-/// the start of the run (sqrt(d/g)).
-std::vector<PlacedShape> shapes_of(const Scene& scene, const Scales& scales, double time);
+/// All wall shapes at the time of a snapshot, in the order of the indices in its contacts. Throws InputError
+/// when the snapshot is not of this scene.
+std::vector<PlacedShape> shapes_at(const RunFolder& run, const Snapshot& snapshot);
 
 }  // namespace drumlin::apps

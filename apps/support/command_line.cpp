@@ -84,6 +84,7 @@ class CommandLine {
     add_run();
     add_measure();
     add_plot();
+    add_export();
     add_calibrate();
     add_flow();
     add_compare();
@@ -150,6 +151,21 @@ class CommandLine {
     add_optional_path(command, "-o,--output", plot_.output, "DIR",
                       "Folder for the figures; standard: RUN/plots");
     add_existing(command, plot_.existing, keep_what_is_done);
+  }
+
+  void add_export() {
+    CLI::App& command = add_command("export", "Writes a run in a format of other programs", export_);
+    add_folder_or_file(command, "run", export_.run, "RUN", "Folder of a run, finished or not");
+    command.add_flag("--vtu", export_.vtu, "VTK files with grains, contacts and walls, for ParaView")
+        ->required();
+    command
+        .add_option("--snapshots", export_.snapshots,
+                    "Which snapshots: all, last, or numbers and ranges such as 1,5,10-20")
+        ->type_name("LIST")
+        ->capture_default_str();
+    add_optional_path(command, "-o,--output", export_.output, "DIR",
+                      "Folder for the files; standard: RUN/vtu");
+    add_existing(command, export_.existing, keep_what_is_done);
   }
 
   void add_calibrate() {
@@ -251,6 +267,7 @@ class CommandLine {
   RunOptions run_;
   MeasureOptions measure_;
   PlotOptions plot_;
+  ExportOptions export_;
   CalibrateOptions calibrate_;
   FlowOptions flow_;
   CompareOptions compare_;

@@ -14,7 +14,8 @@ struct TextToShow {
 };
 
 using Request = std::variant<TextToShow, RunOptions, MeasureOptions, CalibrateOptions, FlowOptions,
-                             CompareOptions, SceneOptions, SolveContactsOptions, PlotOptions, CostOptions>;
+                             CompareOptions, SceneOptions, SolveContactsOptions, PlotOptions, CostOptions,
+                             ExportOptions>;
 
 /// Throws InputError on wrong usage. `solvers` are the names that --solver takes.
 Request parse_command_line(int argc, const char* const* argv, const std::vector<std::string>& solvers);

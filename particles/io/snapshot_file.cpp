@@ -40,6 +40,11 @@ void write_snapshot(const std::filesystem::path& file, const Snapshot& s) {
     out.add("grains/displacement_x", std::span<const double>(s.displacement_x));
     out.add("grains/displacement_z", std::span<const double>(s.displacement_z));
   }
+  if (!s.wall_pose_angle.empty()) {
+    out.add("walls/angle", std::span<const double>(s.wall_pose_angle));
+    out.add("walls/x", std::span<const double>(s.wall_pose_x));
+    out.add("walls/z", std::span<const double>(s.wall_pose_z));
+  }
   std::vector<std::int32_t> i, j;
   std::vector<float> n_x, n_z;
   std::vector<double> r_n, r_t;
@@ -90,6 +95,12 @@ Snapshot read_snapshot(const std::filesystem::path& file) {
   per_grain("grains/radius", s.radius, false), per_grain("grains/spin", s.spin, true);
   per_grain("grains/displacement_x", s.displacement_x, true),
       per_grain("grains/displacement_z", s.displacement_z, true);
+  if (in.has("walls/angle")) {
+    s.wall_pose_angle = in.doubles("walls/angle");
+    s.wall_pose_x = in.doubles("walls/x"), s.wall_pose_z = in.doubles("walls/z");
+    for (const std::size_t size : {s.wall_pose_x.size(), s.wall_pose_z.size()})
+      if (size != s.wall_pose_angle.size()) in.refuse("walls", "arrays of unequal length");
+  }
   const auto i = in.ints("contacts/i"), j = in.ints("contacts/j");
   const auto n_x = in.floats("contacts/normal_x"), n_z = in.floats("contacts/normal_z");
   const auto r_n = in.doubles("contacts/impulse_n"), r_t = in.doubles("contacts/impulse_t");

@@ -13,4 +13,11 @@ double duration_s(const Stage& stage) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
+bool moves_walls_by_force(const Scene& scene) {
+  for (const Stage& stage : scene.stages)
+    for (const WallMotion& asked : stage.motions)
+      if (std::holds_alternative<ForceControl>(asked.motion)) return true;
+  return false;
+}
+
 }  // namespace drumlin

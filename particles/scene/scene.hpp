@@ -240,4 +240,7 @@ struct Scene {
 /// Seconds of a stage, from duration_s or from its turns; NaN for a stage that validate() refuses.
 double duration_s(const Stage& stage);
 
+/// Whether a force moves a wall in some stage, so that the places of the walls are results.
+bool moves_walls_by_force(const Scene& scene);
+
 }  // namespace drumlin

@@ -197,6 +197,12 @@ Snapshot Simulation::take_snapshot() {
       s.container_radius = container->radius;
       break;
     }
+  if (moves_walls_by_force(scene_))
+    for (std::size_t w = 0; w < walls_.names.size(); ++w) {
+      const Pose pose = walls_.pose(static_cast<int>(w), state_.time_in_stage);
+      s.wall_pose_angle.push_back(pose.angle);
+      s.wall_pose_x.push_back(pose.x), s.wall_pose_z.push_back(pose.z);
+    }
   const StepLaws laws = laws_of(scene_, scales_);
   Point gravity{laws.gravity ? laws.gravity->x : 0, laws.gravity ? laws.gravity->z : 0};
   if (frame_) gravity = direction_in_frame(*frame_, s.time, gravity);

@@ -3,12 +3,19 @@
 usage: looking.py DRUMLIN FOLDER_OF_THIS_TEST
 """
 
+import base64
 import json
+import math
 import pathlib
+import struct
 import sys
 import tempfile
+import xml.etree.ElementTree
+import zlib
 
+import h5py
 import matplotlib.image
+import numpy
 
 from command import Drumlin, read_json, require
 
@@ -124,6 +131,93 @@ def plots(drumlin, one_disc, periodic, none, folder):
     require_plots(none / "plots", ["log.png", "time.png"])
 
 
+def arrays_of(file):
+    """Every array of a .vtu file by its name, decoded as VTK does; sizes as the file itself says."""
+    root = xml.etree.ElementTree.parse(file).getroot()
+    require(root.get("type") == "UnstructuredGrid" and root.get("compressor") == "vtkZLibDataCompressor", f"{file}: {root.attrib}")
+    piece = root.find("UnstructuredGrid/Piece")
+    points, cells = int(piece.get("NumberOfPoints")), int(piece.get("NumberOfCells"))
+    data = root.find("AppendedData").text.strip()
+    require(data[0] == "_", f"{file}: no underscore before the appended data")
+    arrays = {}
+    for parent in piece:
+        for element in parent:
+            at = 1 + int(element.get("offset"))
+            # The header is encoded by itself: 24 bytes in 32 letters, with the size of one block 32 in 44.
+            blocks, size, rest = struct.unpack("<3Q", base64.b64decode(data[at:at + 32]))
+            raw = b""
+            if blocks:
+                *_, packed = struct.unpack("<4Q", base64.b64decode(data[at:at + 44]))
+                letters = (packed + 2) // 3 * 4
+                raw = zlib.decompress(base64.b64decode(data[at + 44:at + 44 + letters], validate=True))
+            require(blocks <= 1 and rest == 0 and len(raw) == size, f"{file}: {element.attrib}: sizes do not agree")
+            type_ = {"Float32": "<f4", "Int32": "<i4", "UInt8": "<u1"}[element.get("type")]
+            width = int(element.get("NumberOfComponents"))
+            values = numpy.frombuffer(raw, type_).reshape(-1, width) if width > 1 else numpy.frombuffer(raw, type_)
+            if element.get("Name") != "connectivity":
+                count = points if parent.tag in ("Points", "PointData") else cells
+                require(len(values) == count, f"{file}: {element.attrib}: {len(values)} entries instead of {count}")
+            arrays[element.get("Name")] = values
+    ends = arrays["offsets"]
+    require(len(arrays["connectivity"]) == (ends[-1] if len(ends) else 0), f"{file}: cells of another size than their points")
+    require(not len(arrays["connectivity"]) or arrays["connectivity"].max() < points, f"{file}: points that do not exist")
+    return arrays
+
+
+def exports(drumlin, one_disc, periodic, folder):
+    drumlin("export", periodic, "--vtu", "--snapshots", "2-3,5,5")
+    output = periodic / "vtu"
+    for kind in ("grains", "contacts", "walls"):
+        sets = xml.etree.ElementTree.parse(output / f"{kind}.pvd").getroot().findall("Collection/DataSet")
+        names = [entry.get("file") for entry in sets]
+        require(names == [f"{kind}/{n:06}.vtu" for n in (2, 3, 5)], f"{kind}.pvd: {names}")
+        times = [float(entry.get("timestep")) for entry in sets]
+        require(all(math.isclose(t, n * 0.04, rel_tol=1e-6) for t, n in zip(times, (2, 3, 5))), f"{kind}.pvd: {times} s")
+        require(len(list((output / kind).iterdir())) == 3, f"{kind}: other files than three")
+
+    with h5py.File(periodic / "snapshots" / "000005.h5") as snapshot:
+        d, second, rho = (snapshot["scales/" + name][0] for name in ("length_m", "time_s", "density_kg_m3"))
+        grains = {name: values[:] for name, values in snapshot["grains"].items()}
+        contacts = {name: values[:] for name, values in snapshot["contacts"].items()}
+        step = snapshot["time_step"][0]
+
+    def near(a, b, scale):  # numbers of single precision
+        return numpy.allclose(a, b, rtol=1e-6, atol=1e-6 * scale)
+
+    shown = arrays_of(output / "grains" / "000005.vtu")
+    x, y = shown["Points"][:, 0], shown["Points"][:, 1]
+    require(near(y, grains["z"] * d, d) and near(shown["radius_m"], grains["radius"] * d, d), "places or radii differ")
+    turns = (grains["x"] * d - x) / 0.03  # the domain is 30 mm long
+    require(numpy.allclose(turns, turns.round(), atol=1e-4) and x.min() > -1e-6 and x.max() < 0.03 + 1e-6, "not within the period")
+    require(near(shown["velocity_m_s"][:, 1], grains["v_z"] * d / second, d / second), "velocities differ")
+    require(near(shown["spin_clockwise_rad_s"], grains["spin"] / second, 1 / second), "spins differ")
+
+    lines = arrays_of(output / "contacts" / "000005.vtu")
+    unit = rho * d**3 / second
+    require(near(lines["normal_impulse_N_s_m"], contacts["impulse_n"] * unit, unit), "impulses differ")
+    require(near(lines["normal_force_N_m"] * step * second, contacts["impulse_n"] * unit, unit), "forces differ")
+    require((lines["grain_or_wall_j"] == contacts["j"]).all(), "partners differ")
+    ends = lines["Points"].reshape(-1, 2, 3)
+    between = contacts["j"] >= 0
+    length = numpy.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    radii = grains["radius"][contacts["i"]] + numpy.where(between, grains["radius"][contacts["j"]], 0)
+    require(between.any() and (~between).any() and near(length, radii * d, d), "lines do not join centres")
+
+    # The floor with its 7 or 8 glued discs at the height of its motion, 2 mm (sin(10 pi t)) at t = 0.2 s: 0.
+    walls = arrays_of(output / "walls" / "000005.vtu")
+    require(list(walls["wall"]) == [-1 - k for k in range(len(walls["wall"]))] and len(walls["wall"]) == 9, f"{walls['wall']}")
+    require(near(walls["Points"][:2, 1], 0, 1e-3), "the floor is elsewhere")
+    quarter = arrays_of(output / "walls" / "000003.vtu")["Points"][0, 1]  # t = 0.12 s
+    require(math.isclose(quarter, 2e-3 * math.sin(10 * math.pi * 0.12), rel_tol=1e-5), f"floor at {quarter} m")
+
+    # No spin, no friction: no array of it; a disc in the air has no contact, and the file says so.
+    drumlin("export", one_disc, "--vtu", "-o", folder / "export", "--snapshots", "1")
+    require("spin_clockwise_rad_s" not in arrays_of(folder / "export" / "grains" / "000001.vtu"), "a spin that is not there")
+    arrays_of(folder / "export" / "contacts" / "000001.vtu")
+    text, _ = drumlin("export", one_disc, "--vtu", "-o", folder / "export", "--resume")
+    require("done already" in text, f"exported again: {text}")
+
+
 def refusals(drumlin, one_disc, none, folder):
     (folder / "no-run").mkdir()
     damaged = folder / "damaged"
@@ -135,10 +229,15 @@ def refusals(drumlin, one_disc, none, folder):
     for words in (["plot", folder / "no-run"], ["plot", folder / "missing"], ["plot", one_disc / "run.json"],
                   ["plot", one_disc, "--snapshot", "3"], ["plot", one_disc, "--snapshot", "first"],
                   ["plot", none, "--snapshot", "1"], ["plot", none, "--animation"], ["plot", damaged],
+                  ["export", folder / "no-run", "--vtu"], ["export", none, "--vtu"], ["export", damaged, "--vtu"],
+                  ["export", one_disc], ["export", one_disc, "--vtu", "--snapshots", "2-3"],
+                  ["export", one_disc, "--vtu", "--snapshots", "2-"], ["export", one_disc, "--vtu", "--snapshots", ""],
+                  ["export", one_disc, "--vtu", "-o", one_disc, "--overwrite"],
                   ["plot", one_disc, "-o", one_disc], ["plot", one_disc, "-o", one_disc, "--overwrite"]):
         _, said = drumlin(*words, code=2)
         require(said.strip(), f"{words} was refused without a word")
-    require(not (one_disc / "plots").exists() and not (damaged / "plots").exists(), "a refusal left an output")
+    left = [path for run in (one_disc, none, damaged) for path in (run / "plots", run / "vtu") if path.exists()]
+    require(not left, f"a refusal left {left}")
 
 
 def main():
@@ -148,8 +247,9 @@ def main():
         one_disc, periodic, none = (made_run(drumlin, folder, *run) for run in
                                     (("one", ONE_DISC), ("periodic", PERIODIC), ("none", NO_SNAPSHOTS)))
         refusals(drumlin, one_disc, none, folder)
+        exports(drumlin, one_disc, periodic, folder)
         plots(drumlin, one_disc, periodic, none, folder)
-    print("figures drawn, not blank; what cannot be drawn refused")
+    print("figures drawn, not blank; exported numbers are those of the snapshots; what cannot be done refused")
 
 
 if __name__ == "__main__":

@@ -21,6 +21,7 @@ Snapshot some_snapshot() {
   s.step = 42, s.time = 1.5, s.time_step = 0.05, s.wall_angle = 0.3, s.wall_spin = 0.01,
   s.container_radius = 68;
   s.velocity_window = 0.3;
+  s.wall_pose_angle = {0.5, 0}, s.wall_pose_x = {1, 2}, s.wall_pose_z = {3, 4};
   s.scales = {3.3e-3, 0.018, 2700};
   for (int k = 0; k < 5; ++k) {
     s.x.push_back(k), s.z.push_back(-k), s.v_x.push_back(0.1 * k), s.v_z.push_back(0.2),
@@ -46,6 +47,9 @@ TEST(SnapshotFile, RoundTripKeepsEveryNumber) {
   EXPECT_EQ(s.spin, t.spin);
   EXPECT_EQ(s.displacement_z, t.displacement_z);
   EXPECT_EQ(s.wall_spin, t.wall_spin);
+  EXPECT_EQ(s.wall_pose_angle, t.wall_pose_angle);
+  EXPECT_EQ(s.wall_pose_x, t.wall_pose_x);
+  EXPECT_EQ(s.wall_pose_z, t.wall_pose_z);
   EXPECT_EQ(s.scales.time_s, t.scales.time_s);
   ASSERT_EQ(t.contacts.size(), 2u);
   EXPECT_EQ(t.contacts[1].j, -1);
