@@ -19,22 +19,28 @@ std::string effects_text(const Effects& effects) {
   add(effects.friction.has_value(), "friction");
   add(effects.restitution.has_value(), "restitution");
   add(effects.spin.has_value(), "spin");
+  add(effects.rolling_resistance.has_value(), "rolling resistance");
+  add(effects.cohesion.has_value(), "cohesion");
+  add(effects.rotating_frame.has_value(), "rotating frame");
   return text.empty() ? "none" : text;
 }
 
-/// Places the grains too: what only shows there is a fault of the scene.
+/// Makes the simulation too: what only shows there is a fault of the scene.
 void check(const SceneOptions& options) {
   const Scene scene = read_scene(options.scene, options.overrides);
   const Scales scales = scales_of(scene);
   const TimePlan plan = time_plan(scene, scales);
-  const auto grains = place_grains(scene, scales).count();
+  const Simulation simulation(scene);
+  const auto grains = simulation.state().bodies.count();
+  const auto shapes = walls_of(scene, scales).reference.size();
+  const int unknowns = simulation.stepper().unknowns_per_contact();
   fmt::print("{}: ok{}\n", options.scene.string(), scene.reduced ? " (reduced)" : "");
   if (!scene.title.empty()) fmt::print("title      {}\n", scene.title);
   fmt::print("grains     {}, mean diameter {:.4g} mm, sqrt(d/g) {:.4g} s\n", grains, scales.length_m * 1e3,
              scales.time_s);
-  fmt::print("walls      {} shapes{}\n", scene.walls.size(), scene.periodic_x ? ", periodic in x" : "");
-  fmt::print("effects    {}; {} unknown{} per contact\n", effects_text(scene.effects),
-             scene.effects.friction ? 2 : 1, scene.effects.friction ? "s" : "");
+  fmt::print("walls      {} shapes{}\n", shapes, scene.periodic_x ? ", periodic in x" : "");
+  fmt::print("effects    {}; {} unknown{} per contact\n", effects_text(scene.effects), unknowns,
+             unknowns > 1 ? "s" : "");
   fmt::print("solver     {}, tolerance {}, at most {} sweeps\n", scene.solver.name, scene.solver.tolerance,
              scene.solver.max_sweeps);
   double seconds = 0;
