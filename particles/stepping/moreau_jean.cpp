@@ -7,6 +7,7 @@
 #include "particles/contact/problems.hpp"
 #include "particles/detection/contact_order.hpp"
 #include "particles/stepping/position_projection.hpp"
+#include "particles/stepping/wall_crossing.hpp"
 
 namespace drumlin {
 namespace {
@@ -69,7 +70,7 @@ class MoreauJean final : public Stepper {
     remember(memory, time_step);
     move(bodies, time_step);
     if constexpr (drives) move_driven(walls, time_step);
-    report.overlap = overlap_and_projection(bodies, walls.after);
+    report.overlap = overlap_and_projection(bodies, walls, time_step);
     return report;
   }
 
@@ -280,7 +281,7 @@ class MoreauJean final : public Stepper {
     }
   }
 
-  Overlap overlap_and_projection(Bodies& bodies, std::span<const Shape> shapes) {
+  Overlap overlap_and_projection(Bodies& bodies, const WallStep& walls, double h) {
     Overlap overlap;
     close_.clear();
     const SweepPlan& plan = problem_.W.plan;
@@ -292,7 +293,12 @@ class MoreauJean final : public Stepper {
       for (; plan.group_start[group] == static_cast<std::int32_t>(a); ++group)
         close_plan_.group_start[group] = static_cast<std::int32_t>(close_.size());
       ClosePair now{pair.i, pair.j, 0, 0, 0};
-      now.gap = gap_now(pair, bodies, shapes, laws_.period, now.n_x, now.n_z);
+      if (pair.j < 0) {
+        const std::size_t s = -1 - pair.j;
+        overlap.max = std::max(
+            overlap.max, undo_crossing(walls.before[s], walls.after[s], laws_.period, h, bodies, pair.i));
+      }
+      now.gap = gap_now(pair, bodies, walls.after, laws_.period, now.n_x, now.n_z);
       if (impulses_[dim * a] > 0) {
         const double depth = std::max(0.0, -now.gap);
         sum += depth;

@@ -6,6 +6,7 @@
 #include "coupling/exchange/errors.hpp"
 #include "particles/detection/contact_list.hpp"
 #include "particles/scene/placement.hpp"
+#include "particles/stepping/wall_crossing.hpp"
 #include "tests/effects/drums.hpp"
 
 namespace drumlin {
@@ -108,6 +109,44 @@ TEST(Sizes, DetectionMissesNoPairOfOneToFifty) {
                 1);
     }
   EXPECT_GT(needed, 300u);
+}
+
+TEST(WallCrossing, IsUndoneOntoTheSideItCameFrom) {
+  const Segment floor{{-2, 0}, {2, 0}}, lifted{{-2, 0.1}, {2, 0.1}};
+  const auto after = [&](double x, double z, double v_x, double v_z, const Segment& to, double& depth) {
+    Bodies bodies;
+    add_body(bodies, x, z, 0.5);
+    bodies.v_x[0] = v_x, bodies.v_z[0] = v_z;
+    depth = undo_crossing(floor, to, {}, 1, bodies, 0);
+    return Point{bodies.x[0], bodies.z[0]};
+  };
+  double depth = 0;
+  EXPECT_NEAR(after(0, -0.2, 0, -1, floor, depth).z, 0.5, 1e-15);  // from 0.8 to -0.2
+  EXPECT_NEAR(depth, 0.7, 1e-15);
+  EXPECT_NEAR(after(0, 0.2, 0, 1, floor, depth).z, -0.5, 1e-15);   // from below
+  EXPECT_NEAR(after(0, 0.05, 0, 0, lifted, depth).z, 0.6, 1e-15);  // the wall passed the disc
+  EXPECT_NEAR(after(0, 0.05, 0, 0, floor, depth).z, 0.05, 0);      // deep, but not through
+  EXPECT_EQ(depth, 0);
+  EXPECT_NEAR(after(3, -0.2, 0, -1, floor, depth).z, -0.2, 0);  // past its end
+}
+
+TEST(Sizes, NoSmallGrainIsPressedThroughAWallByLargeOnes) {
+  // Falls at up to 5 m/s, eight radii of the smallest per step, with a solver that is given five sweeps.
+  Scene scene = box(one_to_fifty(800, PowerLawSizes{2.5}));
+  scene.solver.max_sweeps = 5;
+  scene.solver.check_every = 5;
+  scene.stages[0].duration_s = 0.5;
+  const double unit = 1e-3 / scales_of(scene).length_m;
+  Simulation simulation(scene);
+  while (!simulation.finished()) {
+    (void)simulation.step();
+    const Bodies& b = simulation.state().bodies;
+    for (std::size_t k = 0; k < b.count(); ++k) {
+      ASSERT_GT(b.x[k], 0);
+      ASSERT_LT(b.x[k], 400 * unit);
+      ASSERT_GT(b.z[k], 0);
+    }
+  }
 }
 
 TEST(Sizes, AreAbsentUnlessNamed) {
