@@ -44,24 +44,28 @@ Judgement judge(const Problem& problem, std::span<const double> r,
   for (int a = 0; a < count; ++a) {
     const double lambda = problem.W.largest_eigenvalue(a);
     const double rho = 1 / lambda;
-    double e = 0;
+    double squares = 0;  // of e / lambda
     if constexpr (dim == 1) {
-      e = std::abs(r[a] - std::max(0.0, r[a] - rho * u[a])) * lambda;
+      const double n = r[a] - std::max(0.0, r[a] - rho * u[a]);
+      squares = n * n;
     } else if constexpr (dim == 3) {
       const double mu = problem.mu[2 * a], mu_r = problem.mu[2 * a + 1];
       double n = r[3 * a] - rho * (u[3 * a] + mu * std::abs(u[3 * a + 1]) + mu_r * std::abs(u[3 * a + 2]));
       double t = r[3 * a + 1] - rho * u[3 * a + 1], roll = r[3 * a + 2] - rho * u[3 * a + 2];
       project_on_cone(mu, mu_r, n, t, roll);
-      e = std::hypot(r[3 * a] - n, r[3 * a + 1] - t, r[3 * a + 2] - roll) * lambda;
+      n -= r[3 * a], t -= r[3 * a + 1], roll -= r[3 * a + 2];
+      squares = n * n + t * t + roll * roll;
     } else {
       const double u_n = u[2 * a], u_t = u[2 * a + 1], mu = problem.mu[a];
       double n = r[2 * a] - rho * (u_n + mu * std::abs(u_t)), t = r[2 * a + 1] - rho * u_t;
       project_on_cone(mu, n, t);
-      e = std::hypot(r[2 * a] - n, r[2 * a + 1] - t) * lambda;
+      n -= r[2 * a], t -= r[2 * a + 1];
+      squares = n * n + t * t;
     }
-    sum += e * e;
+    squares *= lambda * lambda;
+    sum += squares;
     // A comparison that a NaN fails would hide it.
-    if (!(e <= largest)) largest = e;
+    if (!(squares <= largest)) largest = squares;
     lowest_u_n = std::min(lowest_u_n, u[dim * a]);
   }
   const double scale = std::sqrt(q_squares / static_cast<double>(problem.q.size()));
@@ -69,7 +73,7 @@ Judgement judge(const Problem& problem, std::span<const double> r,
     return e == 0 ? 0 : scale != 0 ? e / scale : std::numeric_limits<double>::infinity();
   };
   verdict.residual = relative(std::sqrt(sum / count));
-  verdict.residual_max = relative(largest);
+  verdict.residual_max = relative(std::sqrt(largest));
   verdict.penetration = -lowest_u_n * problem.time_step;
   return verdict;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 
 namespace drumlin {
 namespace {
@@ -11,6 +12,7 @@ namespace {
 // and four threads share them evenly.
 constexpr std::int32_t contacts_per_strip = 700;
 constexpr std::int32_t lanes_at_once = 4;
+constexpr double most_slices = 4096;
 
 struct Graph {
   std::vector<std::int32_t> start, neighbour;
@@ -95,6 +97,18 @@ std::vector<std::int32_t> strips_of_levels(std::span<const std::int32_t> contact
   return strip;
 }
 
+/// Strips from levels (or slices) of bodies, of which a pair never skips one.
+std::vector<std::int32_t> merged(std::vector<std::int32_t> level, std::int32_t count,
+                                 std::span<const std::int32_t> i, std::span<const std::int32_t> j) {
+  const auto bodies = static_cast<std::int32_t>(level.size());
+  std::vector<std::int32_t> contacts_of_level(count, 0);
+  for (std::size_t a = 0; a < i.size(); ++a)
+    ++contacts_of_level[moves(j[a], bodies) ? std::min(level[i[a]], level[j[a]]) : level[i[a]]];
+  const auto strip_of_level = strips_of_levels(contacts_of_level);
+  for (std::int32_t& l : level) l = strip_of_level[l];
+  return level;
+}
+
 }  // namespace
 
 std::vector<std::int32_t> body_strips(std::int32_t bodies, std::span<const std::int32_t> i,
@@ -106,12 +120,25 @@ std::vector<std::int32_t> body_strips(std::int32_t bodies, std::span<const std::
   // The body that is reached last is at the rim: levels from there are narrow.
   const std::int32_t rim = levels.from(0, level).back();
   const std::int32_t count = level[levels.from(rim, level).back()] + 1;
-  std::vector<std::int32_t> contacts_of_level(count, 0);
+  return merged(std::move(level), count, i, j);
+}
+
+std::vector<std::int32_t> body_strips_along(std::span<const double> position, std::span<const std::int32_t> i,
+                                            std::span<const std::int32_t> j) {
+  if (position.empty()) return {};
+  const auto bodies = static_cast<std::int32_t>(position.size());
+  const auto [low, high] = std::minmax_element(position.begin(), position.end());
+  double longest = 0;
   for (std::size_t a = 0; a < i.size(); ++a)
-    ++contacts_of_level[moves(j[a], bodies) ? std::min(level[i[a]], level[j[a]]) : level[i[a]]];
-  const auto strip_of_level = strips_of_levels(contacts_of_level);
-  for (std::int32_t& l : level) l = strip_of_level[l];
-  return level;
+    if (moves(j[a], bodies)) longest = std::max(longest, std::abs(position[i[a]] - position[j[a]]));
+  // A stray body far away must not make thousands of empty slices; rounding must not skip one.
+  const double thickness = std::max(1.001 * longest, (*high - *low) / most_slices);
+  std::vector<std::int32_t> slice(position.size(), 0);
+  if (thickness > 0)
+    for (std::size_t b = 0; b < position.size(); ++b)
+      slice[b] = static_cast<std::int32_t>((position[b] - *low) / thickness);
+  const std::int32_t count = *std::max_element(slice.begin(), slice.end()) + 1;
+  return merged(std::move(slice), count, i, j);
 }
 
 bool SweepPlanner::plan(std::span<const std::int32_t> strip_of_body, std::span<const std::int32_t> i,

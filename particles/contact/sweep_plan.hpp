@@ -33,6 +33,11 @@ struct SweepPlan {
 std::vector<std::int32_t> body_strips(std::int32_t bodies, std::span<const std::int32_t> i,
                                       std::span<const std::int32_t> j);
 
+/// The same from where bodies are along an axis: slices as thick as the longest pair, merged likewise. Takes
+/// a tenth of the time of a search.
+std::vector<std::int32_t> body_strips_along(std::span<const double> position, std::span<const std::int32_t> i,
+                                            std::span<const std::int32_t> j);
+
 /// Plans one set of contacts after the other; keeps work space only.
 class SweepPlanner {
  public:
@@ -51,7 +56,7 @@ class SweepPlanner {
   std::vector<std::uint64_t> used_;  // colours of the contacts of each body, one bit each
 };
 
-/// Both at once, for a single problem.
+/// Both at once, for a single problem that comes without places.
 SweepPlan sweep_plan(std::int32_t bodies, std::span<const std::int32_t> i, std::span<const std::int32_t> j,
                      std::vector<std::int32_t>& order);
 

@@ -8,13 +8,12 @@
 
 namespace drumlin {
 
-/// Puts contacts into solve order and keeps the strips of bodies for as many steps as they suit.
+/// Puts contacts into solve order; keeps work space only.
 class ContactOrder {
  public:
-  /// Sorts `pairs` as `plan` says. `strip_of_body` is part of the state of a run: the strips of the last
-  /// step; found anew when they do not suit (or are of another number of bodies).
-  void sort(std::vector<Candidate>& pairs, std::size_t bodies, std::vector<std::int32_t>& strip_of_body,
-            SweepPlan& plan);
+  /// Sorts `pairs` and receives the plan: strips along the longer side of the packing (along z in a periodic
+  /// domain).
+  void sort(std::vector<Candidate>& pairs, const Bodies& bodies, const Period& period, SweepPlan& plan);
 
  private:
   SweepPlanner planner_;

@@ -65,7 +65,6 @@ void write_checkpoint(const std::filesystem::path& file, const Checkpoint& check
   if (!state.bodies.material.empty())
     out.add("bodies/material", std::span<const std::int32_t>(std::vector<std::int32_t>(
                                    state.bodies.material.begin(), state.bodies.material.end())));
-  out.add("memory/strip", std::span<const std::int32_t>(state.memory.strip));
   std::vector<double> poses;
   for (const Pose& pose : state.pose_at_start) poses.insert(poses.end(), {pose.angle, pose.x, pose.z});
   out.add("walls/pose_at_start", std::span<const double>(poses));
@@ -102,7 +101,6 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
   if (in.has("bodies/material"))
     for (const std::int32_t number : in.ints("bodies/material"))
       state.bodies.material.push_back(static_cast<std::uint8_t>(number));
-  if (in.has("memory/strip")) state.memory.strip = in.ints("memory/strip");  // an older file has none
   const auto poses = in.doubles("walls/pose_at_start");
   for (std::size_t p = 0; p + 2 < poses.size(); p += 3)
     state.pose_at_start.push_back({poses[p], poses[p + 1], poses[p + 2]});

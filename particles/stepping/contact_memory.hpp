@@ -13,7 +13,6 @@ struct ContactMemory {
   /// step; 0 otherwise. Empty in a scene without restitution.
   std::vector<double> approach;
   double time_step = 0;             ///< the impulses belong to: they scale with it
-  std::vector<std::int32_t> strip;  ///< of each body: decides the order of the contacts (SweepPlan)
 };
 
 }  // namespace drumlin

@@ -58,7 +58,7 @@ class MoreauJean final : public Stepper {
                                laws_.period};
     if constexpr (drives) detected_ = walls.driven;
     auto& found = detection_.find(bodies, free_x_, free_z_, input);
-    order_.sort(found, bodies.count(), memory.strip, problem_.W.plan);
+    order_.sort(found, bodies, laws_.period, problem_.W.plan);
     pairs_.swap(found);
     if (laws_.cohesion) attract(bodies, walls, time_step);
     recall(memory, bodies.count(), time_step);

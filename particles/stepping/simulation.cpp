@@ -66,9 +66,6 @@ void check_state(const SimulationState& s, const Scene& scene, const TimePlan& p
     require(s.memory.i[c] >= 0 && s.memory.i[c] < static_cast<std::int64_t>(n) &&
                 s.memory.j[c] < static_cast<std::int64_t>(n),
             "contacts");
-  require(s.memory.strip.empty() || s.memory.strip.size() == n, "strips of the grains");
-  for (const std::int32_t strip : s.memory.strip)
-    require(strip >= 0 && strip <= static_cast<std::int64_t>(n), "strips of the grains");
   for (const auto& mark : s.marks) require(mark.x.size() == n && mark.z.size() == n, "displacement windows");
 }
 
