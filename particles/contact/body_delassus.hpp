@@ -59,8 +59,9 @@ class BodyDelassus {
     for (std::size_t b = 0; b < state.size(); ++b) state[b].inverse_mass = inverse_mass[b];
   }
 
-  /// Adds the impulse dr of contact a to the state.
-  void push(State& state, int a, double dr_n, double dr_t) const {
+  /// Adds the impulse dr of contact a to the state. `both`: to both bodies; threads that share the fixed one
+  /// leave it alone.
+  void push(State& state, int a, double dr_n, double dr_t, bool both = true) const {
     Velocity& I = state[i[a]];
     Velocity& J = state[j[a]];
     double p_x = n_x[a] * dr_n, p_z = n_z[a] * dr_n;
@@ -70,12 +71,11 @@ class BodyDelassus {
     }
     I.x += I.inverse_mass * p_x;
     I.z += I.inverse_mass * p_z;
+    if constexpr (with_spin) I.s -= 2 * I.inverse_mass * dr_t;  // r J^-1 (-r r_t) = -2 r_t / m, for both
+    if (!both) return;
     J.x -= J.inverse_mass * p_x;
     J.z -= J.inverse_mass * p_z;
-    if constexpr (with_spin) {  // r J^-1 (-r r_t) = -2 r_t / m, for both bodies
-      I.s -= 2 * I.inverse_mass * dr_t;
-      J.s -= 2 * J.inverse_mass * dr_t;
-    }
+    if constexpr (with_spin) J.s -= 2 * J.inverse_mass * dr_t;
   }
 
   double normal_velocity(const State& state, int a) const {

@@ -130,19 +130,23 @@ class ContactDetection::Looking {
 
 void ContactDetection::weigh(std::size_t from, const DetectionInput& input) {
   weighed_.resize(looked_at_.size());
-  for (std::size_t p = from; p < looked_at_.size(); ++p) {
-    const bool in_order = looked_at_[p].a->body < looked_at_[p].b->body;
-    const NearGrain& a = in_order ? *looked_at_[p].a : *looked_at_[p].b;
-    const NearGrain& b = in_order ? *looked_at_[p].b : *looked_at_[p].a;
-    Weighed& w = weighed_[p];
-    w.pair = {a.body, b.body, 0, 0, 0, 0, 0};
-    w.pair.gap =
-        normal_of(input.period.nearest(a.x - b.x), a.z - b.z, w.pair.n_x, w.pair.n_z) - a.radius - b.radius;
-    const double approach = -(w.pair.n_x * (a.v_x - b.v_x) + w.pair.n_z * (a.v_z - b.v_z));
-    w.reach = 2 * input.time_step * std::max(0.0, approach);
+  crew_.each(looked_at_.size() - from, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = from + begin; p < from + end; ++p) {
+      const bool in_order = looked_at_[p].a->body < looked_at_[p].b->body;
+      const NearGrain& a = in_order ? *looked_at_[p].a : *looked_at_[p].b;
+      const NearGrain& b = in_order ? *looked_at_[p].b : *looked_at_[p].a;
+      Weighed& w = weighed_[p];
+      w.pair = {a.body, b.body, 0, 0, 0, 0, 0};
+      w.pair.gap =
+          normal_of(input.period.nearest(a.x - b.x), a.z - b.z, w.pair.n_x, w.pair.n_z) - a.radius - b.radius;
+      const double approach = -(w.pair.n_x * (a.v_x - b.v_x) + w.pair.n_z * (a.v_z - b.v_z));
+      w.reach = 2 * input.time_step * std::max(0.0, approach);
+    }
+  });
+  for (const Weighed& w : std::span(weighed_).subspan(from)) {
     const double jolt = w.pair.gap < input.margin + w.reach ? w.reach : 0;
-    jolt_[a.body] = std::max(jolt_[a.body], jolt);
-    jolt_[b.body] = std::max(jolt_[b.body], jolt);
+    jolt_[w.pair.i] = std::max(jolt_[w.pair.i], jolt);
+    jolt_[w.pair.j] = std::max(jolt_[w.pair.j], jolt);
   }
 }
 

@@ -7,6 +7,7 @@
 #include "particles/bodies/bodies.hpp"
 #include "particles/bodies/walls.hpp"
 #include "particles/detection/cell_grid.hpp"
+#include "particles/parallel/crew.hpp"
 
 namespace drumlin {
 
@@ -35,6 +36,8 @@ struct DetectionInput {
 /// The order depends on nothing but the arguments.
 class ContactDetection {
  public:
+  /// Lets a team share the work; the result does not depend on it.
+  void use(ThreadTeam* team) { crew_ = Crew(team); }
   /// The result may be reordered by the caller.
   std::vector<Candidate>& find(const Bodies& bodies, std::span<const double> v_x, std::span<const double> v_z,
                                const DetectionInput& input);
@@ -57,6 +60,7 @@ class ContactDetection {
     Candidate pair;
     double reach;  // 2 h a
   };
+  Crew crew_;
   GrainGrids grids_;
   std::vector<Pair> looked_at_;
   std::vector<NearGrain> fast_;  // grains around which is looked further

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "particles/contact/problems.hpp"
+#include "particles/parallel/crew.hpp"
 #include "particles/solver/contact_solver.hpp"
 
 namespace drumlin {
@@ -18,10 +19,43 @@ constexpr double share_left = 0.5;
 // Products after which u is computed anew, against the rounding errors of its updates.
 constexpr int refresh_every = 50;
 
-double dot(std::span<const double> x, std::span<const double> y) {
-  double sum = 0;
-  for (std::size_t k = 0; k < x.size(); ++k) sum += x[k] * y[k];
-  return sum;
+double dot(Crew& crew, std::span<const double> x, std::span<const double> y) {
+  return crew.sum(x.size(), [&](std::size_t begin, std::size_t end) {
+    double sum = 0;
+    for (std::size_t k = begin; k < end; ++k) sum += x[k] * y[k];
+    return sum;
+  });
+}
+
+/// u = W r + q. Problems of discs in the order of a plan: the bodies gather impulses lane by lane, phase by
+/// phase, and contacts read them off, both on all threads.
+template <class Problem>
+void multiply(const Problem& problem, const Crew& crew, std::span<const double> r, std::span<const double> q,
+              typename Problem::Delassus::State& state, std::vector<double>& u) {
+  if constexpr (requires { problem.W.plan; }) {
+    const auto& W = problem.W;
+    if (!W.plan.empty()) {
+      constexpr int dim = Problem::dim;
+      const auto fixed = static_cast<std::int32_t>(W.inverse_mass.size()) - 1;
+      W.rest(state);
+      for (const int phase : {0, 1})
+        crew.each_of(W.plan.lanes(), [&](int lane) {
+          const std::int32_t* strip = &W.plan.strip_start[2 * lane + phase];
+          for (std::int32_t a = W.plan.group_start[strip[0]]; a < W.plan.group_start[strip[1]]; ++a)
+            W.push(state, a, r[dim * a], dim == 2 ? r[dim * a + dim - 1] : 0, W.j[a] != fixed);
+        });
+      u.resize(q.size());
+      crew.each(static_cast<std::size_t>(W.contacts()), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+          const int a = static_cast<int>(k);
+          u[dim * k] = q[dim * k] + W.normal_velocity(state, a);
+          if constexpr (dim == 2) u[dim * k + 1] = q[dim * k + 1] + W.tangential_velocity(state, a);
+        }
+      });
+      return;
+    }
+  }
+  problem.W.velocities(r, q, state, u);
 }
 
 template <class Delassus>
@@ -40,7 +74,11 @@ class ProjectedGradient {
 
  public:
   ProjectedGradient(const Problem& problem, SolverScratch<Problem>& scratch, std::vector<double>& r)
-      : problem_(problem), state_(scratch.state), work_(scratch.projected_gradient), r_(r) {
+      : problem_(problem),
+        state_(scratch.state),
+        work_(scratch.projected_gradient),
+        r_(r),
+        crew_(problem.contacts() > 2000 ? scratch.team : nullptr) {
     const auto size = problem.q.size();
     r_.resize(size);
     work_.zero.assign(size, 0.0);
@@ -73,29 +111,27 @@ class ProjectedGradient {
   }
 
  private:
-  void multiply(const std::vector<double>& x, const std::vector<double>& shift, std::vector<double>& y) {
-    problem_.W.velocities(x, shift, state_, y);
-  }
-
   void move_bounds() {
     if constexpr (dim == 2) {
       work_.bound.resize(problem_.contacts());
       for (int a = 0; a < problem_.contacts(); ++a) work_.bound[a] = problem_.mu[a] * r_[2 * a];
     }
     project(r_);
-    multiply(r_, problem_.q, work_.u);
+    multiply(problem_, crew_, r_, problem_.q, state_, work_.u);
     restart_ = true;
   }
 
   void project(std::vector<double>& x) const {
-    for (int a = 0; a < problem_.contacts(); ++a) {
-      x[dim * a] = std::max(0.0, x[dim * a]);
-      if constexpr (dim == 2) x[2 * a + 1] = std::clamp(x[2 * a + 1], -work_.bound[a], work_.bound[a]);
-    }
+    crew_.each(static_cast<std::size_t>(problem_.contacts()), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t a = begin; a < end; ++a) {
+        x[dim * a] = std::max(0.0, x[dim * a]);
+        if constexpr (dim == 2) x[2 * a + 1] = std::clamp(x[2 * a + 1], -work_.bound[a], work_.bound[a]);
+      }
+    });
   }
 
   /// The part of a change of contact a that does not leave the bounds.
-  double tangent(int a, int c, double change) const {
+  double tangent(std::size_t a, int c, double change) const {
     const double at = r_[dim * a + c];
     const bool stopped = c == 0
                              ? at <= 0 && change < 0
@@ -105,57 +141,63 @@ class ProjectedGradient {
 
   /// Returns the squared norm of the gradient, in the norm of the diagonal of W^-1.
   double project_gradient() {
-    double squares = 0;
-    for (int a = 0; a < problem_.contacts(); ++a)
-      for (int c = 0; c < dim; ++c) {
-        const int k = dim * a + c;
-        work_.gradient[k] = tangent(a, c, -work_.preconditioner[k] * work_.u[k]);
-        squares += work_.gradient[k] * work_.gradient[k] / work_.preconditioner[k];
-      }
-    return squares;
+    return crew_.sum(static_cast<std::size_t>(problem_.contacts()), [&](std::size_t begin, std::size_t end) {
+      double squares = 0;
+      for (std::size_t a = begin; a < end; ++a)
+        for (int c = 0; c < dim; ++c) {
+          const std::size_t k = dim * a + c;
+          work_.gradient[k] = tangent(a, c, -work_.preconditioner[k] * work_.u[k]);
+          squares += work_.gradient[k] * work_.gradient[k] / work_.preconditioner[k];
+        }
+      return squares;
+    });
   }
 
   /// Squared norm, in the same sense, of what the friction would change if the bounds moved and every contact
   /// at its bound went along.
-  double change_of_bounds() const {
-    double squares = 0;
-    for (int a = 0; a < problem_.contacts(); ++a) {
-      const double now = r_[dim * a + 1], fresh = problem_.mu[a] * r_[dim * a];
-      const double moved =
-          std::abs(now) >= work_.bound[a] ? std::copysign(fresh, now) : std::clamp(now, -fresh, fresh);
-      squares += (moved - now) * (moved - now) / work_.preconditioner[dim * a + 1];
-    }
-    return squares;
+  double change_of_bounds() {
+    return crew_.sum(static_cast<std::size_t>(problem_.contacts()), [&](std::size_t begin, std::size_t end) {
+      double squares = 0;
+      for (std::size_t a = begin; a < end; ++a) {
+        const double now = r_[dim * a + 1], fresh = problem_.mu[a] * r_[dim * a];
+        const double moved =
+            std::abs(now) >= work_.bound[a] ? std::copysign(fresh, now) : std::clamp(now, -fresh, fresh);
+        squares += (moved - now) * (moved - now) / work_.preconditioner[dim * a + 1];
+      }
+      return squares;
+    });
   }
 
   /// Along the gradient at first, then conjugate to the last direction, of which only the part within the
   /// tangent cone is kept (Renouf and Alart: the projected direction z).
   void choose_direction() {
     auto& p = work_.direction;
-    const double curvature = restart_ ? 0 : dot(p, work_.image);
+    const double curvature = restart_ ? 0 : dot(crew_, p, work_.image);
     if (curvature > 0) {
-      const double beta = -dot(work_.gradient, work_.image) / curvature;
-      for (int a = 0; a < problem_.contacts(); ++a)
-        for (int c = 0; c < dim; ++c) {
-          const int k = dim * a + c;
-          p[k] = work_.gradient[k] + beta * tangent(a, c, p[k]);
-        }
+      const double beta = -dot(crew_, work_.gradient, work_.image) / curvature;
+      crew_.each(static_cast<std::size_t>(problem_.contacts()), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t a = begin; a < end; ++a)
+          for (int c = 0; c < dim; ++c) {
+            const std::size_t k = dim * a + c;
+            p[k] = work_.gradient[k] + beta * tangent(a, c, p[k]);
+          }
+      });
     }
-    if (curvature <= 0 || dot(work_.u, p) >= 0) p = work_.gradient;
+    if (curvature <= 0 || dot(crew_, work_.u, p) >= 0) p = work_.gradient;
     restart_ = false;
   }
 
-  double energy() const { return (dot(r_, work_.u) + dot(r_, problem_.q)) / 2; }
+  double energy() { return (dot(crew_, r_, work_.u) + dot(crew_, r_, problem_.q)) / 2; }
 
   void step() {
     choose_direction();
-    multiply(work_.direction, work_.zero, work_.image);
-    const double curvature = dot(work_.direction, work_.image);
+    multiply(problem_, crew_, work_.direction, work_.zero, state_, work_.image);
+    const double curvature = dot(crew_, work_.direction, work_.image);
     if (curvature <= 0) {  // at the minimum, the gradient is zero
       restart_ = true;
       return;
     }
-    const double length = -dot(work_.u, work_.direction) / curvature;
+    const double length = -dot(crew_, work_.u, work_.direction) / curvature;
     const double energy_before = energy();
     work_.r_before = r_;
     work_.u_before = work_.u;
@@ -176,14 +218,16 @@ class ProjectedGradient {
   }
 
   void go_along(double length) {
-    for (std::size_t k = 0; k < r_.size(); ++k) {
-      r_[k] += length * work_.direction[k];
-      work_.u[k] += length * work_.image[k];
-    }
+    crew_.each(r_.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        r_[k] += length * work_.direction[k];
+        work_.u[k] += length * work_.image[k];
+      }
+    });
   }
 
   void refresh() {
-    multiply(r_, problem_.q, work_.u);
+    multiply(problem_, crew_, r_, problem_.q, state_, work_.u);
     steps_since_refresh_ = 0;
   }
 
@@ -204,6 +248,7 @@ class ProjectedGradient {
   typename Problem::Delassus::State& state_;
   ProjectedGradientScratch& work_;
   std::vector<double>& r_;
+  Crew crew_;
   bool restart_ = true;
   int steps_since_refresh_ = 0;
 };

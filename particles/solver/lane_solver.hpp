@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "particles/contact/sweep_plan.hpp"
+#include "particles/parallel/thread_team.hpp"
 #include "particles/solver/sweep_kernels.hpp"
-#include "particles/solver/thread_team.hpp"
 
 namespace drumlin {
 

@@ -6,6 +6,7 @@
 
 #include "particles/contact/problems.hpp"
 #include "particles/detection/contact_order.hpp"
+#include "particles/parallel/crew.hpp"
 #include "particles/stepping/position_projection.hpp"
 #include "particles/stepping/wall_crossing.hpp"
 
@@ -45,9 +46,14 @@ class MoreauJean final : public Stepper {
 
  public:
   MoreauJean(const StepLaws& laws, const StepSolver& solver)
-      : laws_(laws), solver_(solver), solve_(contact_solver<Problem>(solver.name)), team_(solver.threads) {
+      : laws_(laws),
+        solver_(solver),
+        solve_(contact_solver<Problem>(solver.name)),
+        team_(solver.threads),
+        crew_(&team_) {
     scratch_.team = &team_;
     projection_.use(&team_);
+    detection_.use(&team_);
   }
 
   StepReport advance(Bodies& bodies, ContactMemory& memory, WallStep& walls, double time_step) override {
@@ -288,17 +294,23 @@ class MoreauJean final : public Stepper {
     close_plan_ = plan;  // of those contacts that are still close
     std::size_t group = 0;
     double sum = 0;
+    for (const Candidate& pair : pairs_) {
+      if (pair.j >= 0) continue;
+      const std::size_t s = -1 - pair.j;
+      overlap.max = std::max(
+          overlap.max, undo_crossing(walls.before[s], walls.after[s], laws_.period, h, bodies, pair.i));
+    }
+    now_.resize(pairs_.size());
+    crew_.each(pairs_.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t a = begin; a < end; ++a) {
+        now_[a] = {pairs_[a].i, pairs_[a].j, 0, 0, 0};
+        now_[a].gap = gap_now(pairs_[a], bodies, walls.after, laws_.period, now_[a].n_x, now_[a].n_z);
+      }
+    });
     for (std::size_t a = 0; a < pairs_.size(); ++a) {
-      const Candidate& pair = pairs_[a];
       for (; plan.group_start[group] == static_cast<std::int32_t>(a); ++group)
         close_plan_.group_start[group] = static_cast<std::int32_t>(close_.size());
-      ClosePair now{pair.i, pair.j, 0, 0, 0};
-      if (pair.j < 0) {
-        const std::size_t s = -1 - pair.j;
-        overlap.max = std::max(
-            overlap.max, undo_crossing(walls.before[s], walls.after[s], laws_.period, h, bodies, pair.i));
-      }
-      now.gap = gap_now(pair, bodies, walls.after, laws_.period, now.n_x, now.n_z);
+      const ClosePair& now = now_[a];
       if (impulses_[dim * a] > 0) {
         const double depth = std::max(0.0, -now.gap);
         sum += depth;
@@ -318,6 +330,7 @@ class MoreauJean final : public Stepper {
   StepSolver solver_;
   ContactSolver<Problem> solve_;
   ThreadTeam team_;
+  Crew crew_;
   ContactDetection detection_;
   ContactOrder order_;
   Problem problem_;
@@ -328,7 +341,7 @@ class MoreauJean final : public Stepper {
   std::vector<double> impulses_, approach_;
   std::vector<double> attraction_;                          // cohesive force times h
   std::vector<std::int32_t> first_of_body_, next_of_body_;  // places in the memory, linked by their i
-  std::vector<ClosePair> close_;
+  std::vector<ClosePair> now_, close_;  // all pairs at the end of the step, and those that are close
   SweepPlan close_plan_;
   PositionProjection projection_;
 };

@@ -89,8 +89,26 @@ TEST(SweepPlan, ABodyWithHundredsOfContactsGetsAsManyGroups) {
   EXPECT_EQ(plan.group_start.size(), 301u);
 }
 
+CoulombSpinProblem in_order_of(const CoulombSpinProblem& problem, const SweepPlan& plan,
+                               std::span<const std::int32_t> order) {
+  CoulombSpinProblem sorted;
+  sorted.W.inverse_mass = problem.W.inverse_mass;
+  for (const auto a : order) {
+    sorted.W.add(problem.W.i[a], problem.W.j[a], problem.W.n_x[a], problem.W.n_z[a]);
+    sorted.q.push_back(problem.q[2 * a]), sorted.q.push_back(problem.q[2 * a + 1]);
+    sorted.mu.push_back(problem.mu[a]);
+  }
+  sorted.W.plan = plan;
+  return sorted;
+}
+
 std::vector<double> solved(const std::string& solver, ThreadTeam* team, int sweeps) {
-  const auto problem = lattice(150, 100, 2);
+  static const auto problem = [] {  // in the order of its plan, as the steps of a run come
+    const auto unsorted = lattice(150, 100, 2);
+    std::vector<std::int32_t> order;
+    const SweepPlan plan = sweep_plan(150 * 100, unsorted.W.i, unsorted.W.j, order);
+    return in_order_of(unsorted, plan, order);
+  }();
   SolverScratch<CoulombSpinProblem> scratch;
   scratch.team = team;
   StoppingRule rule;
@@ -102,7 +120,7 @@ std::vector<double> solved(const std::string& solver, ThreadTeam* team, int swee
 }
 
 TEST(Lanes, AnyNumberOfThreadsGivesTheSameBytes) {
-  for (const char* solver : {"nlgs", "accelerated", "accelerated-double"}) {
+  for (const char* solver : {"nlgs", "accelerated", "accelerated-double", "cpg"}) {
     const auto alone = solved(solver, nullptr, 50);
     for (const int threads : {2, 3, 4}) {
       ThreadTeam team(threads);
@@ -129,14 +147,7 @@ TEST(Lanes, SweepsAgreeWithThoseOfOneContactAfterTheOther) {
   auto problem = lattice(40, 30, 3);
   std::vector<std::int32_t> order;
   const SweepPlan plan = sweep_plan(40 * 30, problem.W.i, problem.W.j, order);
-  CoulombSpinProblem sorted;
-  sorted.W.inverse_mass = problem.W.inverse_mass;
-  for (const auto a : order) {
-    sorted.W.add(problem.W.i[a], problem.W.j[a], problem.W.n_x[a], problem.W.n_z[a]);
-    sorted.q.push_back(problem.q[2 * a]), sorted.q.push_back(problem.q[2 * a + 1]);
-    sorted.mu.push_back(problem.mu[a]);
-  }
-  sorted.W.plan = plan;
+  const CoulombSpinProblem sorted = in_order_of(problem, plan, order);
   StoppingRule rule;
   rule.tolerance = 0;
   rule.max_sweeps = 20;

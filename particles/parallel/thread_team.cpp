@@ -1,4 +1,4 @@
-#include "particles/solver/thread_team.hpp"
+#include "particles/parallel/thread_team.hpp"
 
 #if defined(__x86_64__)
 #include <immintrin.h>
