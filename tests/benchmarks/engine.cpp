@@ -1,0 +1,206 @@
+// What the contact solvers cost, on steps of a flowing drum that every solver is given alike.
+//
+// usage: benchmark_engine SCENE.toml RESULT.json CACHE_FOLDER [--quick]
+//
+// All that is compared is measured in one run, turn by turn, after a warm-up; a step counts with the least
+// time of its repetitions, a solver with the median over the steps. --quick takes few steps and small drums:
+// it shows that all works.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "apps/support/json_file.hpp"
+#include "coupling/exchange/errors.hpp"
+#include "particles/scene/scene_file.hpp"
+#include "tests/benchmarks/flow_steps.hpp"
+
+namespace {
+
+using namespace drumlin;
+using namespace drumlin::benchmark;
+using Json = nlohmann::ordered_json;
+
+constexpr int few_sweeps = 20, many_sweeps = 120;  // the difference is free of what is done once per solve
+constexpr double never = 1e-300;                   // a tolerance that no solver meets
+
+double median(std::vector<double> values) {
+  if (values.empty()) return std::nan("");
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
+}
+
+StoppingRule fixed_sweeps(int sweeps) {
+  StoppingRule rule;
+  rule.tolerance = never;
+  rule.max_sweeps = rule.check_every = sweeps;
+  return rule;
+}
+
+/// One way to solve, with the best time for each step so far.
+struct Contestant {
+  Contestant(const Flow& flow, std::string name, int threads_, const StoppingRule& rule)
+      : solver(std::move(name)),
+        threads(threads_),
+        replay(flow, solver, threads_, rule),
+        best(flow.steps.size()) {}
+  void solve(const Flow& flow, std::size_t step, bool first) {
+    const StepReport report = replay(flow.steps[step]);
+    if (first || report.solve.seconds < best[step].solve.seconds) best[step] = report;
+  }
+  std::string solver;
+  int threads;
+  Replay replay;
+  std::vector<StepReport> best;
+};
+
+/// Each contestant on each step, in turn, `repetitions` times after one that is not counted.
+void race(const Flow& flow, std::vector<Contestant>& contestants, int repetitions) {
+  for (Contestant& contestant : contestants) (void)contestant.replay(flow.steps[0]);
+  for (int repetition = 0; repetition < repetitions; ++repetition)
+    for (std::size_t step = 0; step < flow.steps.size(); ++step)
+      for (Contestant& contestant : contestants) contestant.solve(flow, step, repetition == 0);
+}
+
+double ns_per_contact_and_sweep(const Contestant& few, const Contestant& many) {
+  std::vector<double> values;
+  for (std::size_t step = 0; step < few.best.size(); ++step) {
+    const auto &a = few.best[step], &b = many.best[step];
+    values.push_back(1e9 * (b.solve.seconds - a.solve.seconds) /
+                     (static_cast<double>(b.contacts) * (b.solve.sweeps - a.solve.sweeps)));
+  }
+  return median(values);
+}
+
+double mean_contacts(const Contestant& contestant) {
+  double sum = 0;
+  for (const StepReport& report : contestant.best) sum += report.contacts;
+  return sum / static_cast<double>(contestant.best.size());
+}
+
+/// {solver: ns}, one thread.
+Json sweep_costs(const Flow& flow, const std::vector<std::string>& solvers, int repetitions) {
+  std::vector<Contestant> contestants;
+  contestants.reserve(2 * solvers.size());
+  for (const auto& solver : solvers)
+    for (const int sweeps : {few_sweeps, many_sweeps})
+      contestants.emplace_back(flow, solver, 1, fixed_sweeps(sweeps));
+  race(flow, contestants, repetitions);
+  Json result;
+  for (std::size_t k = 0; k < solvers.size(); ++k)
+    result[solvers[k]] = ns_per_contact_and_sweep(contestants[2 * k], contestants[2 * k + 1]);
+  return result;
+}
+
+Json times_to_residual(const Flow& flow, double tolerance, int repetitions) {
+  StoppingRule rule;
+  rule.tolerance = tolerance;
+  rule.max_sweeps = 20000;
+  rule.max_seconds = 5;
+  std::vector<Contestant> contestants;
+  contestants.reserve(contact_solver_names().size());
+  for (const auto& solver : contact_solver_names()) contestants.emplace_back(flow, solver, 1, rule);
+  race(flow, contestants, repetitions);
+  const auto plain = std::find_if(contestants.begin(), contestants.end(),
+                                  [](const Contestant& c) { return c.solver == "nlgs-scalar"; });
+  Json result;
+  for (const Contestant& contestant : contestants) {
+    std::vector<double> ms, sweeps, ratios;
+    int missed = 0;
+    for (std::size_t step = 0; step < flow.steps.size(); ++step) {
+      const SolveReport& solve = contestant.best[step].solve;
+      missed += solve.status != Status::converged;
+      ms.push_back(1e3 * solve.seconds), sweeps.push_back(solve.sweeps);
+      ratios.push_back(plain->best[step].solve.seconds / solve.seconds);
+    }
+    result[contestant.solver] = {{"ms", median(ms)},
+                                 {"sweeps", median(sweeps)},
+                                 {"missed", missed},
+                                 {"speed_against_nlgs_scalar", median(ratios)}};
+  }
+  return result;
+}
+
+/// Time of `many_sweeps` sweeps with packing and one judgement, on one thread over that on two.
+Json two_threads(const Flow& flow, int repetitions) {
+  std::vector<Contestant> contestants;
+  contestants.reserve(2);
+  for (const int threads : {1, 2})
+    contestants.emplace_back(flow, "accelerated", threads, fixed_sweeps(many_sweeps));
+  race(flow, contestants, repetitions);
+  std::vector<double> ratios, one, two;
+  for (std::size_t step = 0; step < flow.steps.size(); ++step) {
+    one.push_back(1e3 * contestants[0].best[step].solve.seconds);
+    two.push_back(1e3 * contestants[1].best[step].solve.seconds);
+    ratios.push_back(one.back() / two.back());
+  }
+  return {{"discs", flow.discs},           {"contacts", mean_contacts(contestants[0])},
+          {"sweeps", many_sweeps},         {"ms_one_thread", median(one)},
+          {"ms_two_threads", median(two)}, {"speed", median(ratios)}};
+}
+
+Json cost_of_size(const Flow& flow, int repetitions) {
+  std::vector<Contestant> contestants;
+  contestants.reserve(2);
+  for (const int sweeps : {few_sweeps, many_sweeps})
+    contestants.emplace_back(flow, "accelerated", 1, fixed_sweeps(sweeps));
+  race(flow, contestants, repetitions);
+  const double ns = ns_per_contact_and_sweep(contestants[0], contestants[1]),
+               contacts = mean_contacts(contestants[0]);
+  std::vector<double> detection;
+  for (const StepReport& report : contestants[1].best)
+    detection.push_back(1e9 * report.detection_seconds / flow.discs);
+  return {{"discs", flow.discs},
+          {"contacts_per_disc", contacts / flow.discs},
+          {"ns_per_disc_and_sweep", ns * contacts / flow.discs},
+          {"ns_per_contact_and_sweep", ns},
+          {"detection_ns_per_disc_and_step", median(detection)}};
+}
+
+Json measured(const Scene& scene, const std::filesystem::path& cache, bool quick) {
+  const int standard = quick ? 800 : 7183, steps = quick ? 3 : 30, repetitions = quick ? 1 : 2;
+  Json result{{"memory", {{"discs", standard}, {"peak_mb", peak_memory_mb(scene, standard, cache)}}}};
+  Flow flow = flow_of(scene, standard, steps, cache);
+  result["flow"] = {{"discs", standard}, {"steps", flow.steps.size()}, {"repetitions", repetitions}};
+  result["ns_per_contact_and_sweep"] = sweep_costs(flow, contact_solver_names(), repetitions);
+  const double tolerance = 1e-2;
+  result["to_residual"] = {{"residual", tolerance},
+                           {"solvers", times_to_residual(flow, tolerance, repetitions)}};
+  result["threads"] = Json::array({two_threads(flow, repetitions + 1)});
+  if (!quick) result["threads"].push_back(two_threads(flow_of(scene, 30000, 10, cache), repetitions + 1));
+  result["sizes"] = Json::array();
+  for (const int discs : quick ? std::vector<int>{400, 800} : std::vector<int>{2000, 7183, 30000, 100000})
+    result["sizes"].push_back(cost_of_size(flow_of(scene, discs, quick ? 2 : 6, cache), repetitions));
+  return result;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const bool quick = argc == 5 && std::string(argv[4]) == "--quick";
+  if (argc != 4 && !quick) {
+    fmt::print(stderr, "usage: benchmark_engine SCENE.toml RESULT.json CACHE_FOLDER [--quick]\n");
+    return static_cast<int>(ExitCode::wrong_input);
+  }
+  try {
+    Json result{{"format", "drumlin-engine-cost-1"},
+                {"command", fmt::format("benchmark_engine SCENE RESULT CACHE{}", quick ? " --quick" : "")},
+                {"reduced", quick}};
+    const Scene scene = read_scene(argv[1]);
+    result["scene"] = scene.title;
+    std::array<double, 3> load{};
+    if (getloadavg(load.data(), 3) == 3) result["load_before"] = load[0];
+    result.update(measured(scene, argv[3], quick));
+    if (getloadavg(load.data(), 3) == 3) result["load_after"] = load[0];
+    result["provenance"] = apps::to_json(provenance());
+    apps::write_json(argv[2], result);
+    fmt::print("{}\n", result.dump(2));
+    return 0;
+  } catch (const InputError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return static_cast<int>(ExitCode::wrong_input);
+  }
+}

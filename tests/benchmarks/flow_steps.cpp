@@ -1,0 +1,111 @@
+#include "tests/benchmarks/flow_steps.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmath>
+
+#include "coupling/exchange/errors.hpp"
+#include "particles/io/checkpoint_file.hpp"
+#include "particles/scene/scene_file.hpp"
+
+namespace drumlin::benchmark {
+
+namespace {
+
+constexpr double settle_s = 0.6, flow_s = 1.0;
+constexpr double kept_s = 0.2;                     // of the flow, to be replayed
+constexpr int most_grains_that_flow_long = 40000;  // larger drums turn for a third of the time
+
+Scene drum_of(Scene scene, int discs) {
+  auto* generated = std::get_if<GeneratedGrains>(&scene.grains.source);
+  auto* container = scene.walls.size() == 1 ? std::get_if<ContainerShape>(&scene.walls[0].shape) : nullptr;
+  auto* region = generated != nullptr ? std::get_if<CircleRegion>(&generated->region) : nullptr;
+  if (container == nullptr || region == nullptr || scene.stages.back().motions.empty())
+    throw InputError("the scene is no drum of generated grains that turns");
+  const double larger = std::sqrt(static_cast<double>(discs) / generated->count);
+  generated->count = discs;
+  container->radius_mm *= larger, region->radius_mm *= larger;
+  Stage settle = scene.stages.front(), flow = scene.stages.back();
+  auto& rotation = std::get<Rotation>(flow.motions[0].motion);
+  rotation.speed_rpm /= std::sqrt(larger);
+  settle.snapshots = flow.snapshots = 0;
+  settle.turns = flow.turns = std::nullopt;
+  settle.duration_s = settle_s;
+  flow.duration_s = (discs > most_grains_that_flow_long ? flow_s / 3 : flow_s) + kept_s;
+  scene.stages = {settle, flow};
+  scene.solver = SolverSettings{};
+  return scene;
+}
+
+/// The state from which the flow is kept, from the cache or computed for it.
+SimulationState flowing_state(const Scene& scene, const std::filesystem::path& cache) {
+  const int discs = std::get<GeneratedGrains>(scene.grains.source).count;
+  const auto file = cache / fmt::format("flow-{}.h5", discs);
+  const std::string text = scene_text(scene);
+  if (std::filesystem::exists(file)) {
+    Checkpoint known = read_checkpoint(file);
+    if (known.scene == text) return std::move(known.state);
+  }
+  Simulation simulation(scene, 2);
+  const double end =
+      (duration_s(scene.stages[0]) + duration_s(scene.stages[1]) - kept_s) / simulation.scales().time_s;
+  while (simulation.state().time() < end) (void)simulation.step();
+  Checkpoint checkpoint;
+  checkpoint.scene = text;
+  checkpoint.state = simulation.state();
+  std::filesystem::create_directories(cache);
+  write_checkpoint(file, checkpoint);
+  return checkpoint.state;
+}
+
+}  // namespace
+
+Flow flow_of(const Scene& like, int discs, int steps, const std::filesystem::path& cache) {
+  const Scene scene = drum_of(like, discs);
+  Simulation simulation(scene, flowing_state(scene, cache));
+  Flow flow;
+  flow.discs = discs;
+  flow.laws = laws_of(scene, simulation.scales());
+  Walls walls = walls_of(scene, simulation.scales());
+  begin_stage(walls, scene.stages[simulation.state().stage], simulation.scales(), 0);
+  walls.pose_at_start = simulation.state().pose_at_start;
+  flow.time_step = simulation.plan().stages[simulation.state().stage].time_step;
+  for (int k = 0; k < steps && !simulation.finished(); ++k) {
+    const SimulationState& now = simulation.state();
+    flow.steps.push_back({now.bodies, now.memory, wall_step(walls, now.time_in_stage, flow.time_step)});
+    (void)simulation.step();
+  }
+  return flow;
+}
+
+Replay::Replay(const Flow& flow, const std::string& solver, int threads, const StoppingRule& rule)
+    : time_step_(flow.time_step), stepper_(make_stepper(flow.laws, {solver, rule, 0, threads})) {}
+
+StepReport Replay::operator()(const FlowStep& step) {
+  work_ = step;
+  return stepper_->advance(work_.bodies, work_.memory, work_.walls, time_step_);
+}
+
+double peak_memory_mb(const Scene& like, int discs, const std::filesystem::path& cache) {
+  const Scene scene = drum_of(like, discs);
+  (void)flowing_state(scene, cache);  // so that the process only reads it
+  // A program of its own would not inherit what this one has in memory; called first, there is little.
+  const pid_t child = fork();
+  if (child == 0) {
+    Simulation simulation(scene, flowing_state(scene, cache));
+    for (int k = 0; k < 100 && !simulation.finished(); ++k) (void)simulation.step();
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    _exit(0);
+  }
+  int status = 0;
+  rusage usage{};
+  if (child < 0 || wait4(child, &status, 0, &usage) != child || status != 0)
+    throw IoError("the process that shows how much memory a drum takes failed");
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+}  // namespace drumlin::benchmark

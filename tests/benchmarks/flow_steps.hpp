@@ -1,0 +1,45 @@
+#pragma once
+// Steps of a flowing drum, kept so that every solver can be given the very same ones.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "particles/stepping/moreau_jean.hpp"
+#include "particles/stepping/simulation.hpp"
+
+namespace drumlin::benchmark {
+
+/// What Stepper::advance takes, before it is called.
+struct FlowStep {
+  Bodies bodies;
+  ContactMemory memory;
+  WallStep walls;
+};
+
+struct Flow {
+  int discs = 0;
+  StepLaws laws;
+  double time_step = 0;  ///< sqrt(d/g)
+  std::vector<FlowStep> steps;
+};
+
+/// A drum of `discs` grains like that of `scene`: filled as much, turned at the same Froude number, settled
+/// and then turned until it flows; then `steps` steps of it. The flowing state is kept in the folder `cache`.
+Flow flow_of(const Scene& scene, int discs, int steps, const std::filesystem::path& cache);
+
+/// A solver that is given steps again and again: its work space is warm after the first.
+class Replay {
+ public:
+  Replay(const Flow& flow, const std::string& solver, int threads, const StoppingRule& rule);
+  StepReport operator()(const FlowStep& step);
+
+ private:
+  double time_step_;
+  std::unique_ptr<Stepper> stepper_;
+  FlowStep work_;
+};
+
+/// Largest resident memory, in MB, of a process that does nothing but steps of this drum.
+double peak_memory_mb(const Scene& scene, int discs, const std::filesystem::path& cache);
+
+}  // namespace drumlin::benchmark
