@@ -105,9 +105,9 @@ def draw_log(drawing, path):
 
 
 def draw_energy(drawing, path):
-    """Every column of the ledger but those that say when."""
+    """Every column of the ledger but those that say when; what the books do not explain is a number in the title."""
     table = read_table(drawing["energy"])
-    time = table.pop("time_s", None)
+    time, error = table.pop("time_s", None), table.pop("closing_error", None)
     curves = {name: values for name, values in table.items()
               if name not in ("step", "stage") and isinstance(values, np.ndarray)}
     if time is None or not len(time) or not curves:
@@ -121,7 +121,8 @@ def draw_energy(drawing, path):
     axes.set_ylabel(r"energy, work  [$\rho_0 g d^3$]")
     axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
     mark_stages(axes, drawing["stages"], time[-1])
-    figure.suptitle(title(drawing, "energy ledger"))
+    closes = "" if error is None else f"; it closes to {np.nanmax(np.abs(error)):.1g}"
+    figure.suptitle(title(drawing, "energy ledger: changes since the start" + closes))
     style.save(figure, path, drawing["reduced"])
     return True
 
@@ -133,7 +134,9 @@ def draw_time(drawing, path):
     if not parts or not run.get("wall_seconds") or not run.get("steps"):
         return False
     # What is written beside the computation counts in its own thread, so that the sum may exceed the wall time.
-    parts["everything else"] = max(0.0, run["wall_seconds"] - sum(parts.values()))
+    rest = run["wall_seconds"] - sum(parts.values())
+    if rest > 0.001 * run["wall_seconds"]:
+        parts["everything else"] = rest
     parts = dict(sorted(parts.items(), key=lambda part: part[1]))
     figure, axes = plt.subplots(figsize=(9, 1.6 + 0.55 * len(parts)))
     bars = axes.barh(list(parts), list(parts.values()), color=style.PARTICLES, height=0.65)
