@@ -22,16 +22,23 @@ struct DrivenBody {
 /// W_aa, symmetric: W_nr = 0 always, W_nt = 0 but at driven walls that are pushed askew.
 struct LocalBlock {
   double nn = 0, nt = 0, tt = 0, tr = 0, rr = 0;
+  double inverse_nn = 0, inverse_tt = 0;
+  double inverse_determinant = 0;  ///< of the part of friction and rolling; 0 without rolling
 };
+/// The block with its inverses.
+inline LocalBlock with_inverses(LocalBlock W) {
+  W.inverse_nn = 1 / W.nn, W.inverse_tt = 1 / W.tt;
+  if (W.rr > 0) W.inverse_determinant = 1 / (W.tt * W.rr - W.tr * W.tr);
+  return W;
+}
 
 /// The (r_t, r_r) within |r_t| <= bound_t, |r_r| <= bound_r that oppose sliding and rolling: the minimum of a
 /// strictly convex quadratic over a box, exactly. In: the impulses and the velocities that belong to them.
 inline void solve_in_box(const LocalBlock& W, double u_t, double u_r, double bound_t, double bound_r,
                          double& r_t, double& r_r) {
   const double free_t = u_t - W.tt * r_t - W.tr * r_r, free_r = u_r - W.tr * r_t - W.rr * r_r;
-  const double determinant = W.tt * W.rr - W.tr * W.tr;
-  r_t = (W.tr * free_r - W.rr * free_t) / determinant;
-  r_r = (W.tr * free_t - W.tt * free_r) / determinant;
+  r_t = (W.tr * free_r - W.rr * free_t) * W.inverse_determinant;
+  r_r = (W.tr * free_t - W.tt * free_r) * W.inverse_determinant;
   if (std::abs(r_t) <= bound_t && std::abs(r_r) <= bound_r) return;
   // With one of them at its bound the other follows; the minimum is on the edge whose own velocity points
   // outwards (or, at a corner, on either of two).
@@ -67,28 +74,15 @@ class GeneralDelassus {
   int contacts() const { return static_cast<int>(i.size()); }
   std::int32_t fixed() const { return static_cast<std::int32_t>(inverse_mass.size() - driven.size()) - 1; }
 
-  void clear() { i.clear(), j.clear(), n_x.clear(), n_z.clear(), lever.clear(); }
-  void add(std::int32_t body_i, std::int32_t body_j, double normal_x, double normal_z) {
+  void clear() { i.clear(), j.clear(), n_x.clear(), n_z.clear(), lever.clear(), blocks_.clear(); }
+  /// Masses and driven walls must be there. `lever_i` without rolling: of no effect.
+  void add(std::int32_t body_i, std::int32_t body_j, double normal_x, double normal_z, double lever_i = 1) {
     i.push_back(body_i), j.push_back(body_j), n_x.push_back(normal_x), n_z.push_back(normal_z);
+    if constexpr (dim == 3) lever.push_back(lever_i);
+    blocks_.push_back(block_of(contacts() - 1));
   }
 
-  LocalBlock block(int a) const {
-    const double w_i = inverse_mass[i[a]], w_j = inverse_mass[j[a]], w = w_i + w_j;
-    LocalBlock W{w, 0, with_spin ? 3 * w : w, 0, 0};
-    if constexpr (dim == 3) {
-      const double l_i = lever[a], l_j = 1 - l_i;
-      W.tr = 2 * (l_j * w_j - l_i * w_i);
-      W.rr = 2 * (l_i * l_i * w_i + l_j * l_j * w_j);
-    }
-    if constexpr (with_driven)
-      if (const DrivenBody* wall = driven_wall(a)) {
-        const double n = wall->e_x * n_x[a] + wall->e_z * n_z[a], t = wall->e_x * n_z[a] - wall->e_z * n_x[a];
-        W.nn += n * n * wall->inverse_mass;
-        W.nt += n * t * wall->inverse_mass;
-        W.tt += t * t * wall->inverse_mass;
-      }
-    return W;
-  }
+  const LocalBlock& block(int a) const { return blocks_[a]; }
 
   void rest(State& state) const {
     state.assign(inverse_mass.size(), Velocity{});
@@ -134,7 +128,7 @@ class GeneralDelassus {
 
   /// lambda_max(W_aa), the scale of the judge.
   double largest_eigenvalue(int a) const {
-    const LocalBlock W = block(a);
+    const LocalBlock& W = blocks_[a];
     if constexpr (dim == 1) {
       return W.nn;
     } else {
@@ -176,12 +170,12 @@ class GeneralDelassus {
       const Impulse old = impulse(r, a);
       Impulse u = relative_velocity(state, a), fresh = old, change;
       for (int c = 0; c < dim; ++c) u[c] += q[dim * a + c];
-      const LocalBlock W = block(a);
-      fresh[0] = std::max(0.0, old[0] - u[0] / W.nn);
+      const LocalBlock& W = blocks_[a];
+      fresh[0] = std::max(0.0, old[0] - u[0] * W.inverse_nn);
       if constexpr (dim >= 2) u[1] += W.nt * (fresh[0] - old[0]);
       if constexpr (dim == 2) {
         const double bound = mu[a] * fresh[0];
-        fresh[1] = std::clamp(old[1] - u[1] / W.tt, -bound, bound);
+        fresh[1] = std::clamp(old[1] - u[1] * W.inverse_tt, -bound, bound);
       }
       if constexpr (dim == 3)
         solve_in_box(W, u[1], u[2], mu[2 * a] * fresh[0], mu[2 * a + 1] * fresh[0], fresh[1], fresh[2]);
@@ -202,6 +196,24 @@ class GeneralDelassus {
   }
 
  private:
+  LocalBlock block_of(int a) const {
+    const double w_i = inverse_mass[i[a]], w_j = inverse_mass[j[a]], w = w_i + w_j;
+    LocalBlock W;
+    W.nn = w, W.tt = with_spin ? 3 * w : w;
+    if constexpr (dim == 3) {
+      const double l_i = lever[a], l_j = 1 - l_i;
+      W.tr = 2 * (l_j * w_j - l_i * w_i);
+      W.rr = 2 * (l_i * l_i * w_i + l_j * l_j * w_j);
+    }
+    if constexpr (with_driven)
+      if (const DrivenBody* wall = driven_wall(a)) {
+        const double n = wall->e_x * n_x[a] + wall->e_z * n_z[a], t = wall->e_x * n_z[a] - wall->e_z * n_x[a];
+        W.nn += n * n * wall->inverse_mass;
+        W.nt += n * t * wall->inverse_mass;
+        W.tt += t * t * wall->inverse_mass;
+      }
+    return with_inverses(W);
+  }
   const DrivenBody* driven_wall(int a) const {
     const std::int32_t k = j[a] - fixed() - 1;
     return k < 0 ? nullptr : &driven[k];
@@ -211,6 +223,8 @@ class GeneralDelassus {
     for (int c = 0; c < dim; ++c) own[c] = r[dim * a + c];
     return own;
   }
+
+  std::vector<LocalBlock> blocks_;
 };
 
 }  // namespace drumlin

@@ -180,7 +180,10 @@ class MoreauJean final : public Stepper {
           wall_v = along(wall_v, *pushed, pushed->velocity - detected);
           wall_v_before = along(wall_v_before, *pushed, pushed->velocity_before - detected);
         }
-      W.add(pair.i, other, pair.n_x, pair.n_z);
+      if constexpr (dim == 3)
+        W.add(pair.i, other, pair.n_x, pair.n_z, lever_of(pair, bodies));
+      else
+        W.add(pair.i, other, pair.n_x, pair.n_z);
       const double u_x = free_x_[pair.i] - (wall ? wall_v.x : free_x_[pair.j]);
       const double u_z = free_z_[pair.i] - (wall ? wall_v.z : free_z_[pair.j]);
       const double u_n = pair.n_x * u_x + pair.n_z * u_z;
@@ -198,14 +201,18 @@ class MoreauJean final : public Stepper {
     }
   }
 
+  /// R_eff / r_i of a pair; a wall counts as flat.
+  static double lever_of(const Candidate& pair, const Bodies& bodies) {
+    return pair.j < 0 ? 1 : bodies.radius[pair.j] / (bodies.radius[pair.i] + bodies.radius[pair.j]);
+  }
+
   /// The rolling row of contact a. The turning of a wall is that of its shape over the step.
   void pose_rolling(std::size_t a, const Candidate& pair, const Bodies& bodies, const WallStep& walls,
                     double h) {
     const double r_i = bodies.radius[pair.i], r_j = pair.j < 0 ? 0 : bodies.radius[pair.j];
-    const double lever = pair.j < 0 ? 1 : r_j / (r_i + r_j);
+    const double lever = problem_.W.lever[a];
     const double rim_j = pair.j < 0 ? r_i * walls.displacement[-1 - pair.j].angle / h
                                     : (1 - lever) * r_j * bodies.spin[pair.j];
-    problem_.W.lever.push_back(lever);
     problem_.q[dim * a + 2] = lever * r_i * bodies.spin[pair.i] - rim_j;
     problem_.mu[(dim - 1) * a + 1] =
         value_of(*laws_.rolling, pair.i, pair.j, {bodies.material, laws_.material_of_shape});

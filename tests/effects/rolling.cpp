@@ -134,8 +134,8 @@ TEST(RollingContact, BoxSolutionMeetsItsConditions) {
   for (int k = 0; k < 5000; ++k) {
     const double w_i = random.uniform(0.1, 10), w_j = k % 3 == 0 ? 0 : random.uniform(0.1, 10);
     const double l = k % 3 == 0 ? 1 : random.uniform(0.05, 0.95);
-    const LocalBlock W{w_i + w_j, 0, 3 * (w_i + w_j), 2 * ((1 - l) * w_j - l * w_i),
-                       2 * (l * l * w_i + (1 - l) * (1 - l) * w_j)};
+    const LocalBlock W = with_inverses({w_i + w_j, 0, 3 * (w_i + w_j), 2 * ((1 - l) * w_j - l * w_i),
+                                        2 * (l * l * w_i + (1 - l) * (1 - l) * w_j)});
     const double q_t = random.uniform(-1, 1), q_r = random.uniform(-1, 1);
     const double bound_t = k % 7 == 0 ? 0 : random.uniform(0, 0.3),
                  bound_r = k % 11 == 0 ? 0 : random.uniform(0, 0.3);
@@ -178,10 +178,10 @@ TEST(RollingContact, BlockIsTheResponseToUnitImpulses) {
   DrivenRollingProblem::Delassus W;
   W.inverse_mass = {1, 0.3, 7, 0, 0};  // three grains, the fixed body, one driven wall
   W.driven = {{0.6, 0.8, 2.5}};
-  W.add(0, 1, 0.8, -0.6), W.lever.push_back(0.3);
-  W.add(1, 2, 0, 1), W.lever.push_back(0.8);
-  W.add(2, 3, 1, 0), W.lever.push_back(1);
-  W.add(0, 4, 0, -1), W.lever.push_back(1);
+  W.add(0, 1, 0.8, -0.6, 0.3);
+  W.add(1, 2, 0, 1, 0.8);
+  W.add(2, 3, 1, 0, 1);
+  W.add(0, 4, 0, -1, 1);
   expect_block_is_the_response(W);
   DrivenCoulombSpinProblem::Delassus V;
   V.inverse_mass = {1, 0, 0};
@@ -198,8 +198,7 @@ TEST(RollingContact, SolversReachTheJudgeOfTheThreefoldLaw) {
   for (int b = 0; b < 8; ++b) W.inverse_mass.push_back(random.uniform(0.2, 5));
   W.inverse_mass.push_back(0);
   const auto add = [&](int i, int j, double n_x, double n_z, double lever) {
-    W.add(i, j, n_x, n_z);
-    W.lever.push_back(lever);
+    W.add(i, j, n_x, n_z, lever);
     problem.q.insert(problem.q.end(), {random.uniform(-1, 0), random.uniform(-1, 1), random.uniform(-1, 1)});
     problem.mu.insert(problem.mu.end(), {0.4, 0.2});
   };
