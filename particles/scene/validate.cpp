@@ -8,11 +8,11 @@
 #include <set>
 
 #include "particles/bodies/walls.hpp"
-#include "particles/scene/materials.hpp"
 #include "particles/scene/placement.hpp"
 #include "particles/scene/region.hpp"
 #include "particles/scene/sequential_placement.hpp"
 #include "particles/scene/sizes.hpp"
+#include "particles/scene/validate_materials.hpp"
 
 namespace drumlin {
 
@@ -193,63 +193,6 @@ void check_walls(const Scene& scene, Faults& faults) {
                         "is where the segment begins",
                         "another point than from_mm",
                         {wall_key(w) + ".from_mm", wall_key(w) + ".to_mm"}});
-}
-
-std::string listed_names(const std::vector<std::string>& names) {
-  std::string text;
-  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
-/// Every pair names two materials of the scene, one of them of grains, and no two pairs are the same.
-template <class Law>
-void check_pairs(const Scene& scene, const std::vector<MaterialPair<Law>>& pairs, const std::string& law,
-                 Faults& faults) {
-  const auto names = material_names(scene);
-  const auto of_grains = scene.grains.materials.size();
-  std::set<std::set<std::string>> seen;
-  for (std::size_t p = 0; p < pairs.size(); ++p) {
-    const std::string key = fmt::format("effects.{}.pairs.{}.between", law, p);
-    const std::vector<std::string> about = {key, "grains.materials", "walls"};
-    const auto& between = pairs[p].between;
-    bool known = between.size() == 2, grain = false;
-    for (const auto& name : between) {
-      const auto number = static_cast<std::size_t>(material_number(names, name));
-      known = known && number < names.size();
-      grain = grain || number < of_grains;
-    }
-    if (!known)
-      faults.push_back({key, "does not name two materials of the scene",
-                        names.empty() ? "names from grains.materials or of walls" : listed_names(names),
-                        about});
-    else if (!grain)
-      faults.push_back(
-          {key, "names two materials of walls, which never meet", "one of grains.materials", about});
-    else if (!seen.insert({between.begin(), between.end()}).second)
-      faults.push_back({key, "names the same two materials as a pair before", "each pair once", about});
-  }
-}
-
-void check_materials(const Scene& scene, Faults& faults) {
-  const std::string key = "grains.materials";
-  std::set<std::string> names;
-  for (std::size_t m = 0; m < scene.grains.materials.size(); ++m)
-    if (const auto& name = scene.grains.materials[m].name; !names.insert(name).second)
-      faults.push_back({fmt::format("{}.{}.name", key, m),
-                        fmt::format("\"{}\" stands twice", name),
-                        "a name of its own",
-                        {key}});
-  if (material_names(scene).size() > most_materials)
-    faults.push_back({key,
-                      "are too many with those of the walls",
-                      fmt::format("at most {}", most_materials),
-                      {key, "walls"}});
-  const Effects& effects = scene.effects;
-  if (effects.friction) check_pairs(scene, effects.friction->pairs, "friction", faults);
-  if (effects.restitution) check_pairs(scene, effects.restitution->pairs, "restitution", faults);
-  if (effects.rolling_resistance)
-    check_pairs(scene, effects.rolling_resistance->pairs, "rolling_resistance", faults);
-  if (effects.cohesion) check_pairs(scene, effects.cohesion->pairs, "cohesion", faults);
 }
 
 void check_effects(const Scene& scene, Faults& faults) {
