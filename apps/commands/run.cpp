@@ -1,18 +1,16 @@
 // drumlin run: a particle run from a scene to snapshots, log and run.json; interruptible, and continued bit
 // for bit.
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <fstream>
-#include <future>
 #include <nlohmann/json.hpp>
 
 #include "apps/commands.hpp"
+#include "apps/commands/run_files.hpp"
+#include "apps/commands/run_report.hpp"
 #include "apps/support/interruption.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/output_folder.hpp"
@@ -20,6 +18,7 @@
 #include "coupling/exchange/errors.hpp"
 #include "coupling/exchange/text_file.hpp"
 #include "particles/io/checkpoint_file.hpp"
+#include "particles/io/contact_problem_file.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/scene/scene_file.hpp"
 #include "particles/stepping/simulation.hpp"
@@ -43,71 +42,9 @@ double cpu_seconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-double peak_memory_mb() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024;
-}
-
-/// log.csv, one line per logged step; cut back to a checkpoint's length on resuming.
-class RunLog {
- public:
-  RunLog(const fs::path& file, std::int64_t keep_bytes) : file_(file) {
-    if (keep_bytes > 0) {
-      if (!fs::exists(file) || fs::file_size(file) < static_cast<std::uintmax_t>(keep_bytes))
-        throw InputError(file.string() +
-                         ": is missing or shorter than the checkpoint says; start over with --overwrite");
-      fs::resize_file(file, static_cast<std::uintmax_t>(keep_bytes));
-    }
-    out_.open(file, keep_bytes > 0 ? std::ios::app : std::ios::trunc);
-    if (keep_bytes == 0)
-      write(
-          "step,time_s,stage,contacts,sweeps,residual,residual_max,penetration,overlap_mean,overlap_max,"
-          "kinetic_energy,converged\n");
-    bytes_ += keep_bytes;
-  }
-  void write(const std::string& line) {
-    out_ << line;
-    bytes_ += static_cast<std::int64_t>(line.size());
-  }
-  /// Everything so far reaches the file; returns its length.
-  std::int64_t flush() {
-    out_.flush();
-    if (!out_) throw IoError(file_.string() + ": cannot write");
-    // A checkpoint that outlives a power cut must not speak of lines that did not.
-    const int descriptor = ::open(file_.c_str(), O_WRONLY);
-    const bool synced = descriptor >= 0 && ::fsync(descriptor) == 0;
-    if (descriptor >= 0) ::close(descriptor);
-    if (!synced) throw IoError(file_.string() + ": cannot sync");
-    return bytes_;
-  }
-
- private:
-  fs::path file_;
-  std::ofstream out_;
-  std::int64_t bytes_ = 0;
-};
-
-/// HDF5 files of a run, one at a time; with more than one thread beside the computation.
-class BackgroundWriter {
- public:
-  explicit BackgroundWriter(bool in_background)
-      : policy_(in_background ? std::launch::async : std::launch::deferred) {}
-  template <class Job>
-  void write(Job job) {
-    wait();
-    pending_ = std::async(policy_, std::move(job));
-    if (policy_ == std::launch::deferred) wait();
-  }
-  /// Rethrows what the last job threw.
-  void wait() {
-    if (pending_.valid()) pending_.get();
-  }
-
- private:
-  std::launch policy_;
-  std::future<void> pending_;
-};
+const char* const log_header =
+    "step,time_s,stage,contacts,sweeps,residual,residual_max,penetration,overlap_mean,overlap_max,"
+    "kinetic_energy,converged\n";
 
 class ParticleRun {
  public:
@@ -119,7 +56,7 @@ class ParticleRun {
         totals_(from ? from->totals : RunTotals{}),
         simulation_(from ? Simulation(scene, std::move(from->state), options.threads)
                          : Simulation(scene, options.threads)),
-        log_(options.output / "log.csv", from ? from->log_bytes : 0),
+        log_(options.output / "log.csv", log_header, from ? from->log_bytes : 0),
         writer_(options.threads > 1) {}
 
   int execute() {
@@ -139,7 +76,7 @@ class ParticleRun {
     write_report("finished");
     progress_.show(progress_line());
     progress_.finish();
-    print_summary();
+    fmt::print("{}", run_summary(progress_now()));
     return static_cast<int>(ExitCode::done);
   }
 
@@ -150,20 +87,37 @@ class ParticleRun {
     last_ = simulation_.step();
     const auto& state = simulation_.state();
     const bool converged = last_.solve.status == Status::converged || last_.contacts == 0;
+    add_up(converged);
+    if (state.step % scene_.output.log_every_steps == 0 || simulation_.finished() || last_.lost)
+      log_step(converged);
+    const bool fatal =
+        !converged && (scene_.solver.stop_when_unconverged || last_.solve.status == Status::not_finite);
+    if (!converged && (totals_.unconverged_steps <= scene_.solver.capture_unconverged ||
+                       (fatal && scene_.solver.capture_unconverged > 0)))
+      capture_problem();
+    if (last_.lost) fail("grain lost", describe(*last_.lost));
+    if (fatal) fail("not converged", missed_tolerance());
+    if (simulation_.snapshot_due()) save_snapshot();
+  }
+
+  void add_up(bool converged) {
+    const Judgement& judged = last_.solve.judgement;
     totals_.unconverged_steps += !converged;
+    if (!converged && totals_.unconverged_steps == 1)
+      totals_.first_unconverged_step = simulation_.state().step;
     totals_.sweeps += last_.solve.sweeps;
     totals_.contacts += last_.contacts;
     totals_.contact_sweeps += static_cast<double>(last_.contacts) * last_.solve.sweeps;
-    totals_.residual_sum += last_.solve.judgement.residual;
-    totals_.residual_max = std::max(totals_.residual_max, last_.solve.judgement.residual);
+    totals_.residual_sum += judged.residual;
+    totals_.residual_max = std::max(totals_.residual_max, judged.residual);
+    totals_.penetration_sum += judged.penetration;
+    totals_.penetration_max = std::max(totals_.penetration_max, judged.penetration);
     totals_.overlap_sum += last_.overlap.mean;
     totals_.overlap_max = std::max(totals_.overlap_max, last_.overlap.max);
     totals_.detection_seconds += last_.detection_seconds;
+    totals_.setup_seconds += last_.setup_seconds;
     totals_.solver_seconds += last_.solve.seconds;
-    if (state.step % scene_.output.log_every_steps == 0 || simulation_.finished()) log_step(converged);
-    if (simulation_.snapshot_due()) save_snapshot();
-    if (!converged && (scene_.solver.stop_when_unconverged || last_.solve.status == Status::not_finite))
-      fail();
+    totals_.projection_seconds += last_.projection_seconds;
   }
 
   void log_step(bool converged) {
@@ -174,6 +128,19 @@ class ParticleRun {
                            last_.solve.sweeps, judged.residual, judged.residual_max, judged.penetration,
                            last_.overlap.mean, last_.overlap.max, kinetic_energy(state.bodies),
                            converged ? 1 : 0));
+  }
+
+  /// The problem of the last step, for `drumlin solve-contacts`.
+  void capture_problem() {
+    const auto begin = Clock::now();
+    const auto problem = simulation_.stepper().last_problem();
+    const auto step = simulation_.state().step;
+    const fs::path file = options_.output / "problems" / fmt::format("step-{:06}.h5", step);
+    fs::create_directories(file.parent_path());
+    write_contact_problem(file, problem.value(),
+                          fmt::format("{}, step {}, {} to residual {:.3g}", scene_.title, step,
+                                      scene_.solver.name, last_.solve.judgement.residual));
+    totals_.output_seconds += seconds_between(begin, Clock::now());
   }
 
   void save_snapshot() {
@@ -205,45 +172,10 @@ class ParticleRun {
     return totals;
   }
 
+  RunProgress progress_now() const { return {scene_, simulation_, totals_now(), options_.threads}; }
+
   void write_report(const std::string& status) const {
-    const RunTotals t = totals_now();
-    const auto& state = simulation_.state();
-    const double steps = std::max<double>(1, static_cast<double>(state.step));
-    nlohmann::ordered_json report;
-    report["format"] = "drumlin-run-1";
-    report["title"] = scene_.title;
-    report["reduced"] = scene_.reduced;
-    report["status"] = status;
-    report["wall_seconds"] = t.wall_seconds;
-    report["cpu_seconds"] = t.cpu_seconds;
-    report["peak_memory_mb"] = peak_memory_mb();
-    report["steps"] = state.step;
-    report["steps_planned"] = simulation_.plan().steps;
-    report["unconverged_steps"] = t.unconverged_steps;
-    report["revision"] = provenance().revision;
-    report["seed"] = scene_.seed;
-    report["threads"] = options_.threads;
-    report["grains"] = state.bodies.count();
-    report["simulated_seconds"] = simulated_seconds();
-    report["snapshots"] = state.snapshots;
-    report["accuracy"] = {{"solver", scene_.solver.name},
-                          {"tolerance", scene_.solver.tolerance},
-                          {"residual_mean", t.residual_sum / steps},
-                          {"residual_max", t.residual_max},
-                          {"overlap_mean", t.overlap_sum / steps},
-                          {"overlap_max", t.overlap_max}};
-    report["cost"] = {
-        {"contacts_mean", static_cast<double>(t.contacts) / steps},
-        {"sweeps_mean", static_cast<double>(t.sweeps) / steps},
-        {"ns_per_contact_and_sweep", t.contact_sweeps > 0 ? 1e9 * t.solver_seconds / t.contact_sweeps : 0},
-        {"detection_seconds", t.detection_seconds},
-        {"solver_seconds", t.solver_seconds},
-        {"output_seconds", t.output_seconds},
-        {"unknowns_per_contact", simulation_.stepper().unknowns_per_contact()},
-        {"velocities_per_body", simulation_.stepper().velocities_per_body()}};
-    report["scales"] = to_json(simulation_.scales());
-    report["provenance"] = to_json(provenance());
-    write_json(options_.output / "run.json", report);
+    write_json(options_.output / "run.json", run_report(progress_now(), status));
   }
 
   std::string progress_line() const {
@@ -261,18 +193,6 @@ class ParticleRun {
         last_.overlap.mean, totals_.unconverged_steps, duration_text(left));
   }
 
-  void print_summary() const {
-    const RunTotals t = totals_now();
-    const double steps = static_cast<double>(simulation_.state().step);
-    fmt::print(
-        "{}{} steps, {} snapshots in {} ({:.0f} s of processor time); {} steps missed a tolerance (residual "
-        "{:g}, penetration {:g} d)\n"
-        "mean residual {:.2g}, mean overlap {:.2g} d, largest {:.2g} d\n",
-        scene_.reduced ? "reduced: " : "", simulation_.state().step, simulation_.state().snapshots,
-        duration_text(t.wall_seconds), t.cpu_seconds, t.unconverged_steps, scene_.solver.tolerance,
-        scene_.solver.penetration_tolerance, t.residual_sum / steps, t.overlap_sum / steps, t.overlap_max);
-  }
-
   int stop_for(int signal) {
     save_checkpoint();
     writer_.wait();
@@ -282,17 +202,27 @@ class ParticleRun {
     return static_cast<int>(signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted);
   }
 
-  [[noreturn]] void fail() {
+  std::string missed_tolerance() const {
+    const auto& judged = last_.solve.judgement;
+    return fmt::format(
+        "contact solver {} ({}) after {} sweeps: residual {:.3g} (tolerance {:g}), penetration {:.3g} d "
+        "(tolerance {:g})",
+        scene_.solver.name, to_string(last_.solve.status), last_.solve.sweeps, judged.residual,
+        scene_.solver.tolerance, judged.penetration, scene_.solver.penetration_tolerance);
+  }
+
+  std::string describe(const LostGrain& lost) const {
+    return fmt::format("grain {} {}; it is at x = {:.6g} d, z = {:.6g} d", lost.grain, to_string(lost.how),
+                       lost.x, lost.z);
+  }
+
+  /// The last step must not be built upon: no checkpoint of it is written.
+  [[noreturn]] void fail(const std::string& status, const std::string& why) {
     writer_.wait();
     log_.flush();
-    write_report("not converged");
+    write_report(status);
     progress_.finish();
-    const auto& judged = last_.solve.judgement;
-    throw NotConvergedError(fmt::format(
-        "step {}: contact solver {} ({}) after {} sweeps: residual {:.3g} (tolerance {:g}), penetration "
-        "{:.3g} d (tolerance {:g})",
-        simulation_.state().step, scene_.solver.name, to_string(last_.solve.status), last_.solve.sweeps,
-        judged.residual, scene_.solver.tolerance, judged.penetration, scene_.solver.penetration_tolerance));
+    throw NotConvergedError(fmt::format("step {}: {}", simulation_.state().step, why));
   }
 
   RunOptions options_;
@@ -300,7 +230,7 @@ class ParticleRun {
   std::string resolved_;
   RunTotals totals_;
   Simulation simulation_;
-  RunLog log_;
+  RunTable log_;
   BackgroundWriter writer_;
   Progress progress_;
   StepReport last_;

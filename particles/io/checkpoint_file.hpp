@@ -11,12 +11,16 @@ namespace drumlin {
 /// What a run has added up so far.
 struct RunTotals {
   std::int64_t unconverged_steps = 0;
+  std::int64_t first_unconverged_step = 0;  ///< 0: none
   std::int64_t sweeps = 0;
   std::int64_t contacts = 0;  ///< summed over the steps
   double contact_sweeps = 0;  ///< contacts times sweeps, summed
   double residual_sum = 0, residual_max = 0;
+  double penetration_sum = 0, penetration_max = 0;
   double overlap_sum = 0, overlap_max = 0;
-  double wall_seconds = 0, cpu_seconds = 0, detection_seconds = 0, solver_seconds = 0, output_seconds = 0;
+  double wall_seconds = 0, cpu_seconds = 0;
+  double detection_seconds = 0, setup_seconds = 0, solver_seconds = 0, projection_seconds = 0,
+         output_seconds = 0;
 };
 
 struct Checkpoint {

@@ -216,11 +216,12 @@ struct SolverSettings {
   int check_every = 10;                ///< sweeps between two looks at the judge
   int projection_sweeps = 20;          ///< at most; 0: no position projection
   bool stop_when_unconverged = false;  ///< end with exit code 3 at the first step that misses the tolerance
+  int capture_unconverged = 0;         ///< so many steps that miss it leave their contact problem as a file
 };
 
 struct Output {
   double velocity_window_s = 6e-3;  ///< displacement over this window is stored with each snapshot; 0: none
-  int log_every_steps = 10;
+  int log_every_steps = 1;
   double checkpoint_every_s = 1.0;  ///< simulated time
 };
 

@@ -335,6 +335,10 @@ void describe(Visitor& v, SolverSettings& s) {
       defaulted("", at_least(0, 1e6), "Sweeps of the position projection that removes overlaps; 0: none."));
   v.value("stop_when_unconverged", s.stop_when_unconverged,
           defaulted("", anything(), "End with exit code 3 at the first step that misses the tolerances."));
+  v.value("capture_unconverged", s.capture_unconverged,
+          defaulted("", at_least(0, 1e6),
+                    "The contact problems of the first so many steps that miss the tolerances are left in "
+                    "problems/, for drumlin solve-contacts."));
 }
 
 template <class Visitor>

@@ -333,6 +333,25 @@ void check_stages(const Scene& scene, Faults& faults) {
   }
 }
 
+/// Files of contact problems hold two unknowns per contact, and grains and walls that only grains push.
+void check_capture(const Scene& scene, Faults& faults) {
+  const std::string key = "solver.capture_unconverged";
+  if (scene.solver.capture_unconverged == 0) return;
+  if (scene.effects.rolling_resistance)
+    faults.push_back({key,
+                      "asks for contact problems with rolling resistance, which their files cannot hold",
+                      "0, or no effects.rolling_resistance",
+                      {key, "effects.rolling_resistance"}});
+  for (std::size_t s = 0; s < scene.stages.size(); ++s)
+    for (std::size_t m = 0; m < scene.stages[s].motions.size(); ++m)
+      if (std::holds_alternative<ForceControl>(scene.stages[s].motions[m].motion))
+        faults.push_back(
+            {key,
+             "asks for contact problems with walls moved by a force, which their files cannot hold",
+             "0, or no motion of kind force",
+             {key, fmt::format("{}.motions.{}.kind", stage_key(s), m)}});
+}
+
 }  // namespace
 
 std::vector<SceneFault> validate(const Scene& scene) {
@@ -348,6 +367,7 @@ std::vector<SceneFault> validate(const Scene& scene) {
                       fmt::format("is {}", scene.solver.check_every),
                       fmt::format("<= max_sweeps = {}", scene.solver.max_sweeps),
                       {"solver.check_every", "solver.max_sweeps"}});
+  check_capture(scene, faults);
   return faults;
 }
 

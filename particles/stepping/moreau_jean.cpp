@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
+#include "particles/contact/block_problem.hpp"
 #include "particles/contact/problems.hpp"
 #include "particles/detection/contact_order.hpp"
 #include "particles/parallel/crew.hpp"
@@ -34,6 +36,18 @@ double arrival_speed(double gap, double u_before, double u_free, double time_ste
   return u_before + fraction * (u_free - u_before);
 }
 
+class Stopwatch {
+ public:
+  /// Seconds since the last call.
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
 template <class Problem>
 constexpr bool drives_walls = requires {
   requires Problem::Delassus::has_driven;
@@ -58,7 +72,7 @@ class MoreauJean final : public Stepper {
 
   StepReport advance(Bodies& bodies, ContactMemory& memory, WallStep& walls, double time_step) override {
     StepReport report;
-    const auto start = std::chrono::steady_clock::now();
+    Stopwatch watch;
     free_velocities(bodies, time_step);
     const DetectionInput input{walls.before, walls.displacement, time_step, laws_.detection_margin,
                                laws_.period};
@@ -66,17 +80,19 @@ class MoreauJean final : public Stepper {
     auto& found = detection_.find(bodies, free_x_, free_z_, input);
     order_.sort(found, bodies, laws_.period, problem_.W.plan);
     pairs_.swap(found);
+    report.detection_seconds = watch.lap();
     if (laws_.cohesion) attract(bodies, walls, time_step);
     recall(memory, bodies.count(), time_step);
     pose(bodies, walls, time_step);
-    report.detection_seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    report.setup_seconds = watch.lap();
     report.contacts = problem_.contacts();
     report.solve = solve_(problem_, solver_.rule, scratch_, impulses_);
     remember(memory, time_step);
     move(bodies, time_step);
     if constexpr (drives) move_driven(walls, time_step);
-    report.overlap = overlap_and_projection(bodies, walls, time_step);
+    (void)watch.lap();
+    report.overlap = overlap_and_projection(bodies, walls, time_step, report.lost);
+    report.projection_seconds = watch.lap();
     return report;
   }
 
@@ -93,6 +109,13 @@ class MoreauJean final : public Stepper {
       return a.i != b.i ? a.i < b.i : a.j < b.j;
     });
     return loaded;
+  }
+
+  std::optional<BlockProblem> last_problem() const override {
+    if constexpr (requires(const Problem& p) { block_problem(p); })
+      return block_problem(problem_);
+    else
+      return std::nullopt;
   }
 
   int unknowns_per_contact() const override { return dim; }
@@ -294,7 +317,8 @@ class MoreauJean final : public Stepper {
     }
   }
 
-  Overlap overlap_and_projection(Bodies& bodies, const WallStep& walls, double h) {
+  Overlap overlap_and_projection(Bodies& bodies, const WallStep& walls, double h,
+                                 std::optional<LostGrain>& lost) {
     Overlap overlap;
     close_.clear();
     const SweepPlan& plan = problem_.W.plan;
@@ -318,6 +342,8 @@ class MoreauJean final : public Stepper {
       for (; plan.group_start[group] == static_cast<std::int32_t>(a); ++group)
         close_plan_.group_start[group] = static_cast<std::int32_t>(close_.size());
       const ClosePair& now = now_[a];
+      if (now.j < 0 && !lost && has_left(walls.after[-1 - now.j], bodies.radius[now.i], now.gap))
+        lost = LostGrain{now.i, bodies.x[now.i], bodies.z[now.i], LostGrain::How::left_container};
       if (impulses_[dim * a] > 0) {
         const double depth = std::max(0.0, -now.gap);
         sum += depth;

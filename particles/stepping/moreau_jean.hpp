@@ -13,11 +13,13 @@
 
 #include "particles/bodies/bodies.hpp"
 #include "particles/bodies/walls.hpp"
+#include "particles/contact/problems.hpp"
 #include "particles/detection/contact_list.hpp"
 #include "particles/effects/pair_law.hpp"
 #include "particles/measurement/snapshot.hpp"
 #include "particles/solver/contact_solver.hpp"
 #include "particles/stepping/contact_memory.hpp"
+#include "particles/stepping/lost_grain.hpp"
 
 namespace drumlin {
 
@@ -63,8 +65,9 @@ struct Overlap {
 struct StepReport {
   SolveReport solve;
   Overlap overlap;
+  std::optional<LostGrain> lost;  ///< the step went wrong: its state must not be built upon
   int contacts = 0;
-  double detection_seconds = 0;
+  double detection_seconds = 0, setup_seconds = 0, projection_seconds = 0;
 };
 
 /// A wall that contacts push, over one step.
@@ -93,6 +96,9 @@ class Stepper {
   virtual StepReport advance(Bodies& bodies, ContactMemory& memory, WallStep& walls, double time_step) = 0;
   /// Loaded contacts of the last step, with the normals that it used.
   virtual std::vector<SnapshotContact> loaded_contacts() const = 0;
+  /// The contact problem of the last step, as it travels in files; none where a contact has more unknowns or
+  /// couples than a file can hold (rolling resistance, walls moved by a force).
+  virtual std::optional<BlockProblem> last_problem() const = 0;
   /// Unknowns per contact and numbers of velocity per body: what the effects of the scene cost.
   virtual int unknowns_per_contact() const = 0;
   virtual int velocities_per_body() const = 0;

@@ -49,6 +49,7 @@ void check_state(const SimulationState& s, const Scene& scene, const TimePlan& p
        {&s.bodies.z, &s.bodies.v_x, &s.bodies.v_z, &s.bodies.radius, &s.bodies.inverse_mass})
     require(values->size() == n, "arrays of the grains");
   require(n > 0 && s.bodies.spin.size() == (scene.effects.spin ? n : 0), "spins of the grains");
+  require(!grain_that_is_not_finite(s.bodies), "numbers of the grains");
   const auto numbers = material_names(scene).size() + 1;
   require(s.bodies.material.size() == (materials_matter(scene) ? n : 0) &&
               std::all_of(s.bodies.material.begin(), s.bodies.material.end(),
@@ -143,7 +144,8 @@ StepReport Simulation::step() {
   if (state_.step_in_stage == plan_.stages[state_.stage].steps) enter_stage(state_.stage + 1);
   mark_positions();
   const double h = plan_.stages[state_.stage].time_step;
-  const StepReport report = frame_ ? advance_in_laboratory(h) : advance_here(h);
+  StepReport report = frame_ ? advance_in_laboratory(h) : advance_here(h);
+  if (!report.lost) report.lost = grain_that_is_not_finite(state_.bodies);
   ++state_.step;
   ++state_.step_in_stage;
   state_.time_in_stage = static_cast<double>(state_.step_in_stage) * h;

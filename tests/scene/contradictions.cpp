@@ -88,6 +88,17 @@ TEST(Contradiction, ForceThatHasNoDirectionOrMeetsAGivenVelocity) {
                  "stages.0.motions.0.kind", "rotating frame");
 }
 
+TEST(Contradiction, CapturingWhatNoFileHolds) {
+  const std::string key = "solver.capture_unconverged";
+  expect_problem(example_scene, {key + "=1", "effects.rolling_resistance={grain_grain=0.1, grain_wall=0.1}"},
+                 key, "rolling resistance");
+  expect_problem(
+      example_scene,
+      {key + "=1",
+       "stages.0.motions=[{wall=\"drum\", kind=\"force\", force_n_m=1, mass_kg_m=1, direction=[0, 1]}]"},
+      key, "moved by a force");
+}
+
 TEST(Contradiction, FrictionWithoutSpinIsNone) {
   EXPECT_TRUE(testing::scene_problems(replaced(example_scene, "[effects.spin]\n", "")).empty());
 }

@@ -439,6 +439,8 @@ std::vector<Case> cases() {
       {"solver.projection_sweeps", "", D, hopeless, "solver.projection_sweeps=0", logged_overlaps},
       {"solver.stop_when_unconverged", "", D, hopeless, "solver.stop_when_unconverged=true", exit_code},
 
+      {"solver.capture_unconverged", "", D, hopeless, "solver.capture_unconverged=2", captured},
+
       {"output", "", D, {}, "output={}", windows_s},
       {"output.velocity_window_s", "", D, {}, "output.velocity_window_s=3e-3", windows_s},
       {"output.log_every_steps", "", D, {}, "output.log_every_steps=3", logged_steps},

@@ -85,6 +85,9 @@ RunSummary summary_of_run(const std::string& scene, const std::vector<std::strin
   run.seed = report.at("seed");
   run.steps = report.at("steps");
   run.has_checkpoint = std::filesystem::exists(options.output / "checkpoint.h5");
+  if (std::filesystem::exists(options.output / "problems"))
+    for (const auto& file : std::filesystem::directory_iterator(options.output / "problems"))
+      run.captured += file.path().extension() == ".h5";
   return run;
 }
 
@@ -93,6 +96,8 @@ std::string title(const RunSummary& run) { return run.title; }
 std::string reduced(const RunSummary& run) { return run.reduced ? "reduced" : "full"; }
 std::string steps(const RunSummary& run) { return std::to_string(run.steps); }
 std::string checkpoint(const RunSummary& run) { return run.has_checkpoint ? "there" : "none"; }
+
+std::string captured(const RunSummary& run) { return std::to_string(run.captured); }
 
 std::string positions_mm(const RunSummary& run) {
   const double unit = last(run).scales.length_m * 1e3;

@@ -103,6 +103,39 @@ TEST_F(Program, EndsWithThreeWhereTheSolverDoesNotConverge) {
   EXPECT_NE(outcome.err.find("residual"), std::string::npos) << outcome.err;
 }
 
+TEST_F(Program, LeavesTheProblemsThatItCouldNotSolveToSolveContacts) {
+  const std::string hopeless =
+      " --set solver.tolerance=1e-12 --set solver.max_sweeps=1 --set solver.check_every=1"
+      " --set solver.capture_unconverged=2";
+  ASSERT_EQ(drumlin(run_to("r") + hopeless).code, 0);
+  std::vector<std::filesystem::path> problems;
+  for (const auto& file : std::filesystem::directory_iterator(folder.path() / "r" / "problems"))
+    problems.push_back(file.path());
+  ASSERT_EQ(problems.size(), 2u);  // of all the steps that missed it
+  EXPECT_EQ(drumlin("solve-contacts " + problems[0].string() + " --tolerance 1e-6").code, 0);
+
+  // The step that ends a run leaves its problem too, and is named.
+  const Outcome fatal = drumlin(run_to("s") + hopeless + " --set solver.stop_when_unconverged=true");
+  EXPECT_EQ(fatal.code, 3);
+  const auto problem = *std::filesystem::directory_iterator(folder.path() / "s" / "problems");
+  const auto step = std::stoi(problem.path().stem().string().substr(5));
+  EXPECT_NE(fatal.err.find("step " + std::to_string(step) + ":"), std::string::npos) << fatal.err;
+}
+
+TEST_F(Program, EndsWithThreeWhereAGrainLeaves) {
+  // A row of discs shot at the wall, one sweep: the first step puts the foremost disc outside.
+  std::string shot = "x_mm,z_mm,diameter_mm,v_x_mm_s\n";
+  for (int k = 0; k < 5; ++k) shot += std::to_string(8 - 3 * k) + ",0,3,80000\n";
+  std::ofstream(folder.path() / "shot.csv") << shot;
+  const Outcome left = drumlin(run_to("left") +
+                               " --set 'grains={density_kg_m3=2700, listed={file=\"shot.csv\"}}'"
+                               " --set solver.max_sweeps=1 --set solver.check_every=1 --set "
+                               "solver.projection_sweeps=0");
+  EXPECT_EQ(left.code, 3);
+  EXPECT_NE(left.err.find("step 1: grain 0 left its container"), std::string::npos) << left.err;
+  EXPECT_NE(content(folder.path() / "left" / "run.json").find("\"grain lost\""), std::string::npos);
+}
+
 TEST_F(Program, EndsWithSeventyFourWhereItCannotWrite) {
   EXPECT_EQ(drumlin("run " + scene.string() + " -o /dev/null/r").code, 74);
 }

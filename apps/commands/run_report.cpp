@@ -1,0 +1,116 @@
+#include "apps/commands/run_report.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "apps/support/json_file.hpp"
+#include "apps/support/progress.hpp"
+#include "coupling/exchange/provenance.hpp"
+
+namespace drumlin::apps {
+namespace {
+
+double peak_memory_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+struct TimePart {
+  const char* name;
+  double seconds;
+};
+
+/// Where the wall time of a run went; the parts add up to it.
+std::array<TimePart, 6> time_parts(const RunTotals& t) {
+  const double named =
+      t.detection_seconds + t.setup_seconds + t.solver_seconds + t.projection_seconds + t.output_seconds;
+  return {{{"detection", t.detection_seconds},
+           {"setup", t.setup_seconds},
+           {"solver", t.solver_seconds},
+           {"projection", t.projection_seconds},
+           {"output", t.output_seconds},
+           {"rest", std::max(0.0, t.wall_seconds - named)}}};
+}
+
+nlohmann::ordered_json accuracy(const RunProgress& run, double steps) {
+  const RunTotals& t = run.totals;
+  return {{"solver", run.scene.solver.name},
+          {"tolerance", run.scene.solver.tolerance},
+          {"penetration_tolerance", run.scene.solver.penetration_tolerance},
+          {"residual_mean", t.residual_sum / steps},
+          {"residual_max", t.residual_max},
+          {"penetration_mean", t.penetration_sum / steps},
+          {"penetration_max", t.penetration_max},
+          {"overlap_mean", t.overlap_sum / steps},
+          {"overlap_max", t.overlap_max}};
+}
+
+nlohmann::ordered_json cost(const RunProgress& run, double steps) {
+  const RunTotals& t = run.totals;
+  nlohmann::ordered_json content = {
+      {"contacts_mean", static_cast<double>(t.contacts) / steps},
+      {"sweeps_mean", static_cast<double>(t.sweeps) / steps},
+      {"ns_per_contact_and_sweep", t.contact_sweeps > 0 ? 1e9 * t.solver_seconds / t.contact_sweeps : 0}};
+  for (const TimePart& part : time_parts(t)) content[std::string(part.name) + "_seconds"] = part.seconds;
+  content["unknowns_per_contact"] = run.simulation.stepper().unknowns_per_contact();
+  content["velocities_per_body"] = run.simulation.stepper().velocities_per_body();
+  return content;
+}
+
+}  // namespace
+
+nlohmann::ordered_json run_report(const RunProgress& run, const std::string& status) {
+  const auto& state = run.simulation.state();
+  const double steps = std::max<double>(1, static_cast<double>(state.step));
+  nlohmann::ordered_json report;
+  report["format"] = "drumlin-run-1";
+  report["title"] = run.scene.title;
+  report["reduced"] = run.scene.reduced;
+  report["status"] = status;
+  report["wall_seconds"] = run.totals.wall_seconds;
+  report["cpu_seconds"] = run.totals.cpu_seconds;
+  report["peak_memory_mb"] = peak_memory_mb();
+  report["steps"] = state.step;
+  report["steps_planned"] = run.simulation.plan().steps;
+  report["unconverged_steps"] = run.totals.unconverged_steps;
+  if (run.totals.unconverged_steps > 0) report["first_unconverged_step"] = run.totals.first_unconverged_step;
+  report["revision"] = provenance().revision;
+  report["seed"] = run.scene.seed;
+  report["threads"] = run.threads;
+  report["grains"] = state.bodies.count();
+  report["simulated_seconds"] = state.time() * run.simulation.scales().time_s;
+  report["snapshots"] = state.snapshots;
+  report["accuracy"] = accuracy(run, steps);
+  report["cost"] = cost(run, steps);
+  report["scales"] = to_json(run.simulation.scales());
+  report["provenance"] = to_json(provenance());
+  return report;
+}
+
+std::string run_summary(const RunProgress& run) {
+  const RunTotals& t = run.totals;
+  const auto& state = run.simulation.state();
+  const double steps = std::max<double>(1, static_cast<double>(state.step));
+  std::string text = fmt::format(
+      "{}{} steps, {} snapshots in {} ({:.0f} s of processor time); {} steps missed a tolerance (residual "
+      "{:g}, penetration {:g} d)\n"
+      "residual mean {:.2g}, largest {:.2g}; penetration mean {:.2g} d, largest {:.2g} d; overlap mean "
+      "{:.2g} d, largest {:.2g} d\n",
+      run.scene.reduced ? "reduced: " : "", state.step, state.snapshots, duration_text(t.wall_seconds),
+      t.cpu_seconds, t.unconverged_steps, run.scene.solver.tolerance, run.scene.solver.penetration_tolerance,
+      t.residual_sum / steps, t.residual_max, t.penetration_sum / steps, t.penetration_max,
+      t.overlap_sum / steps, t.overlap_max);
+  text += fmt::format("{:<12}{:>12}{:>12}{:>9}\n", "time", "s", "ms/step", "share");
+  for (const TimePart& part : time_parts(t))
+    text +=
+        fmt::format("{:<12}{:>12.2f}{:>12.3f}{:>7.1f} %\n", part.name, part.seconds,
+                    1e3 * part.seconds / steps, t.wall_seconds > 0 ? 100 * part.seconds / t.wall_seconds : 0);
+  return text;
+}
+
+}  // namespace drumlin::apps

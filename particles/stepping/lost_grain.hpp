@@ -1,0 +1,26 @@
+#pragma once
+// Grains that a run must not go on with: outside their container, or no longer numbers.
+#include <optional>
+#include <string>
+
+#include "particles/bodies/bodies.hpp"
+#include "particles/bodies/walls.hpp"
+
+namespace drumlin {
+
+struct LostGrain {
+  enum class How { left_container, not_finite };
+  int grain = 0;
+  double x = 0, z = 0;  ///< of its centre, d; not finite where that is what is wrong
+  How how = How::not_finite;
+};
+std::string to_string(LostGrain::How);
+
+/// Whether the centre of a grain with that gap to a wall stands outside a container. (What carries it through
+/// a segment is undone: wall_crossing.hpp.)
+bool has_left(const Shape& wall, double radius, double gap);
+
+/// The first grain whose place or kinetic energy is not finite.
+std::optional<LostGrain> grain_that_is_not_finite(const Bodies&);
+
+}  // namespace drumlin
