@@ -57,6 +57,7 @@ class ParticleRun {
         simulation_(from ? Simulation(scene, std::move(from->state), options.threads)
                          : Simulation(scene, options.threads)),
         log_(options.output / "log.csv", log_header, from ? from->log_bytes : 0),
+        energy_bytes_(from ? from->energy_bytes : 0),
         writer_(options.threads > 1) {}
 
   int execute() {
@@ -128,6 +129,20 @@ class ParticleRun {
                            last_.solve.sweeps, judged.residual, judged.residual_max, judged.penetration,
                            last_.overlap.mean, last_.overlap.max, kinetic_energy(state.bodies),
                            converged ? 1 : 0));
+    if (state.energy) log_energy(*state.energy);
+  }
+
+  void log_energy(const EnergyLedger& energy) {
+    std::string header = "step,time_s,kinetic,potential", line;
+    line =
+        fmt::format("{},{:.9g},{:.15g},{:.15g}", simulation_.state().step, simulated_seconds(),
+                    energy.kinetic - energy.kinetic_at_start, energy.potential - energy.potential_at_start);
+    for (const auto& [name, work] : exchanges(energy)) {
+      header += "," + name;
+      line += fmt::format(",{:.15g}", work);
+    }
+    if (!energy_) energy_.emplace(options_.output / "energy.csv", header + ",closing_error\n", energy_bytes_);
+    energy_->write(line + fmt::format(",{:.3g}\n", closing_error(energy)));
   }
 
   /// The problem of the last step, for `drumlin solve-contacts`.
@@ -157,6 +172,7 @@ class ParticleRun {
     Checkpoint checkpoint;
     checkpoint.scene = resolved_;
     checkpoint.log_bytes = log_.flush();
+    checkpoint.energy_bytes = energy_ ? energy_->flush() : energy_bytes_;
     checkpoint.totals = totals_now();
     checkpoint.state = simulation_.state();
     const fs::path file = options_.output / "checkpoint.h5";
@@ -220,6 +236,7 @@ class ParticleRun {
   [[noreturn]] void fail(const std::string& status, const std::string& why) {
     writer_.wait();
     log_.flush();
+    if (energy_) energy_->flush();
     write_report(status);
     progress_.finish();
     throw NotConvergedError(fmt::format("step {}: {}", simulation_.state().step, why));
@@ -231,6 +248,8 @@ class ParticleRun {
   RunTotals totals_;
   Simulation simulation_;
   RunTable log_;
+  std::optional<RunTable> energy_;  // opened with the first step: its columns depend on the scene
+  std::int64_t energy_bytes_ = 0;   // of energy.csv at the checkpoint that the run continues
   BackgroundWriter writer_;
   Progress progress_;
   StepReport last_;
@@ -287,10 +306,10 @@ int run(const RunOptions& options) {
       same_scene_or_refuse(options.output, from->scene, resolved);
     }
   }
+  catch_interruptions();
   fs::create_directories(options.output / "snapshots");
   if (listed != nullptr) replace_file(options.output / grain_list, file_text(listed->file));
   replace_file(options.output / "scene.toml", resolved);
-  catch_interruptions();
   return ParticleRun(options, scene, resolved, std::move(from)).execute();
 }
 

@@ -62,6 +62,15 @@ nlohmann::ordered_json cost(const RunProgress& run, double steps) {
   return content;
 }
 
+nlohmann::ordered_json energy(const EnergyLedger& ledger) {
+  nlohmann::ordered_json content = {{"kinetic", ledger.kinetic - ledger.kinetic_at_start},
+                                    {"potential", ledger.potential - ledger.potential_at_start}};
+  for (const auto& [name, work] : exchanges(ledger)) content[name] = work;
+  content["turnover"] = ledger.turnover;
+  content["closing_error"] = closing_error(ledger);
+  return content;
+}
+
 }  // namespace
 
 nlohmann::ordered_json run_report(const RunProgress& run, const std::string& status) {
@@ -87,6 +96,7 @@ nlohmann::ordered_json run_report(const RunProgress& run, const std::string& sta
   report["snapshots"] = state.snapshots;
   report["accuracy"] = accuracy(run, steps);
   report["cost"] = cost(run, steps);
+  if (state.energy) report["energy"] = energy(*state.energy);
   report["scales"] = to_json(run.simulation.scales());
   report["provenance"] = to_json(provenance());
   return report;

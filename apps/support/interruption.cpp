@@ -11,6 +11,7 @@ extern "C" void catch_signal(int signal) { caught = signal; }
 void catch_interruptions() {
   std::signal(SIGINT, catch_signal);
   std::signal(SIGTERM, catch_signal);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of its write, with its name
 }
 
 int interruption() { return caught; }

@@ -52,6 +52,7 @@ StepLaws laws_of(const Scene& scene, const Scales& scales) {
     laws.cohesion = {pair_law(*effects.cohesion, materials, std::numbers::pi / 4), effects.cohesion->range_d};
   if (laws.cohesion) laws.detection_margin = std::max(laws.detection_margin, laws.cohesion->range);
   laws.spin = effects.spin.has_value();
+  laws.energy_ledger = scene.output.energy_ledger;
   for (const Stage& stage : scene.stages)
     for (const WallMotion& motion : stage.motions)
       laws.driven_walls = laws.driven_walls || std::holds_alternative<ForceControl>(motion.motion);

@@ -11,6 +11,7 @@ const std::string format = "drumlin-checkpoint-1";
 template <class C, class Visit>
 void each_number(C& c, Visit visit) {
   visit("log_bytes", c.log_bytes);
+  visit("energy_bytes", c.energy_bytes);
   auto& t = c.totals;
   visit("totals/unconverged_steps", t.unconverged_steps);
   visit("totals/first_unconverged_step", t.first_unconverged_step);
@@ -37,6 +38,21 @@ void each_number(C& c, Visit visit) {
   visit("state/time_in_stage", s.time_in_stage);
   visit("state/snapshots", s.snapshots);
   visit("memory/time_step", s.memory.time_step);
+}
+
+/// The energy ledger; rolling and cohesion only where the scene has them.
+template <class L, class Visit>
+void each_account(L& ledger, Visit visit) {
+  visit("energy/kinetic", ledger.kinetic);
+  visit("energy/potential", ledger.potential);
+  visit("energy/kinetic_at_start", ledger.kinetic_at_start);
+  visit("energy/potential_at_start", ledger.potential_at_start);
+  visit("energy/walls", ledger.walls);
+  visit("energy/friction", ledger.friction);
+  visit("energy/restitution", ledger.restitution);
+  visit("energy/time_integration", ledger.time_integration);
+  visit("energy/projection", ledger.projection);
+  visit("energy/turnover", ledger.turnover);
 }
 
 template <class C, class Visit>
@@ -70,6 +86,11 @@ void write_checkpoint(const std::filesystem::path& file, const Checkpoint& check
   if (!state.bodies.material.empty())
     out.add("bodies/material", std::span<const std::int32_t>(std::vector<std::int32_t>(
                                    state.bodies.material.begin(), state.bodies.material.end())));
+  if (state.energy) {
+    each_account(*state.energy, [&out](const char* name, double value) { out.add_number(name, value); });
+    if (state.energy->rolling) out.add_number("energy/rolling", *state.energy->rolling);
+    if (state.energy->cohesion) out.add_number("energy/cohesion", *state.energy->cohesion);
+  }
   std::vector<double> poses;
   for (const Pose& pose : state.pose_at_start) poses.insert(poses.end(), {pose.angle, pose.x, pose.z});
   out.add("walls/pose_at_start", std::span<const double>(poses));
@@ -106,6 +127,12 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
   if (in.has("bodies/material"))
     for (const std::int32_t number : in.ints("bodies/material"))
       state.bodies.material.push_back(static_cast<std::uint8_t>(number));
+  if (in.has("energy")) {
+    auto& energy = state.energy.emplace();
+    each_account(energy, [&in](const char* name, double& value) { value = in.number(name); });
+    if (in.has("energy/rolling")) energy.rolling = in.number("energy/rolling");
+    if (in.has("energy/cohesion")) energy.cohesion = in.number("energy/cohesion");
+  }
   const auto poses = in.doubles("walls/pose_at_start");
   for (std::size_t p = 0; p + 2 < poses.size(); p += 3)
     state.pose_at_start.push_back({poses[p], poses[p + 1], poses[p + 2]});

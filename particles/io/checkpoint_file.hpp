@@ -24,8 +24,9 @@ struct RunTotals {
 };
 
 struct Checkpoint {
-  std::string scene;           ///< resolved; a checkpoint belongs to one scene
-  std::int64_t log_bytes = 0;  ///< of log.csv at this step: what stands behind is cut off on resuming
+  std::string scene;              ///< resolved; a checkpoint belongs to one scene
+  std::int64_t log_bytes = 0;     ///< of log.csv at this step: what stands behind is cut off on resuming
+  std::int64_t energy_bytes = 0;  ///< of energy.csv, if there is one
   RunTotals totals;
   SimulationState state;
 };

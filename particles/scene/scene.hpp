@@ -223,6 +223,7 @@ struct Output {
   double velocity_window_s = 6e-3;  ///< displacement over this window is stored with each snapshot; 0: none
   int log_every_steps = 1;
   double checkpoint_every_s = 1.0;  ///< simulated time
+  bool energy_ledger = false;       ///< where energy comes from and goes to, in energy.csv
 };
 
 struct Scene {

@@ -351,6 +351,9 @@ void describe(Visitor& v, Output& o) {
   v.value(
       "checkpoint_every_s", o.checkpoint_every_s,
       defaulted("s", above(0), "Simulated time between two checkpoints, from which a run can be resumed."));
+  v.value("energy_ledger", o.energy_ledger,
+          defaulted("", anything(),
+                    "energy.csv: where the energy of the grains comes from and goes to, with the log."));
 }
 
 template <class Visitor>

@@ -68,11 +68,15 @@ class MoreauJean final : public Stepper {
     scratch_.team = &team_;
     projection_.use(&team_);
     detection_.use(&team_);
+    if (laws.energy_ledger)
+      books_.emplace(laws.gravity ? std::optional<Point>({laws.gravity->x, laws.gravity->z}) : std::nullopt);
   }
 
-  StepReport advance(Bodies& bodies, ContactMemory& memory, WallStep& walls, double time_step) override {
+  StepReport advance(Bodies& bodies, ContactMemory& memory, WallStep& walls, double time_step,
+                     std::optional<EnergyLedger>& energy) override {
     StepReport report;
     Stopwatch watch;
+    if (books_) books_->open(bodies, energy);
     free_velocities(bodies, time_step);
     const DetectionInput input{walls.before, walls.displacement, time_step, laws_.detection_margin,
                                laws_.period};
@@ -90,9 +94,11 @@ class MoreauJean final : public Stepper {
     remember(memory, time_step);
     move(bodies, time_step);
     if constexpr (drives) move_driven(walls, time_step);
+    if (books_) book(bodies, walls, time_step, *energy);
     (void)watch.lap();
     report.overlap = overlap_and_projection(bodies, walls, time_step, report.lost);
     report.projection_seconds = watch.lap();
+    if (books_) books_->close(bodies, time_step, *energy);
     return report;
   }
 
@@ -189,6 +195,7 @@ class MoreauJean final : public Stepper {
     problem_.q.resize(dim * pairs_.size());
     problem_.mu.resize((dim - 1) * pairs_.size());
     problem_.time_step = h;
+    if (books_) bounces_.resize(pairs_.size());
     const MaterialsOf materials{bodies.material, laws_.material_of_shape};
     for (std::size_t a = 0; a < pairs_.size(); ++a) {
       const Candidate& pair = pairs_[a];
@@ -210,7 +217,9 @@ class MoreauJean final : public Stepper {
       const double u_x = free_x_[pair.i] - (wall ? wall_v.x : free_x_[pair.j]);
       const double u_z = free_z_[pair.i] - (wall ? wall_v.z : free_z_[pair.j]);
       const double u_n = pair.n_x * u_x + pair.n_z * u_z;
-      problem_.q[dim * a] = u_n + normal_shift(a, pair, bodies, wall_v_before, u_n, h);
+      const double shift = normal_shift(a, pair, bodies, wall_v_before, u_n, h);
+      problem_.q[dim * a] = u_n + shift;
+      if (books_) bounces_[a] = shift < 0;
       if constexpr (dim == 3) pose_rolling(a, pair, bodies, walls, h);
       if constexpr (dim >= 2) {
         double u_t = pair.n_z * u_x - pair.n_x * u_z;
@@ -267,6 +276,36 @@ class MoreauJean final : public Stepper {
         walls.after[s] = moved(Rigid({0, shift.x, shift.z}), walls.after[s]);
         walls.displacement[s].x += shift.x, walls.displacement[s].z += shift.z;
       }
+    }
+  }
+
+  /// The work of the contacts of this step.
+  void book(const Bodies& bodies, const WallStep& walls, double h, EnergyLedger& ledger) {
+    if (dim == 3 && !ledger.rolling) ledger.rolling = 0;
+    if (laws_.cohesion && !ledger.cohesion) ledger.cohesion = 0;
+    for (std::size_t a = 0; a < pairs_.size(); ++a) {
+      const Candidate& pair = pairs_[a];
+      WorkingContact contact;
+      contact.i = pair.i, contact.j = pair.j, contact.n_x = pair.n_x, contact.n_z = pair.n_z;
+      contact.normal = impulses_[dim * a];
+      if constexpr (dim >= 2) contact.tangential = impulses_[dim * a + 1];
+      if constexpr (dim == 3) {
+        contact.rolling = impulses_[dim * a + 2];
+        contact.lever = problem_.W.lever[a];
+        if (pair.j < 0) contact.wall_spin = walls.displacement[-1 - pair.j].angle / h;
+      }
+      if (laws_.cohesion) contact.attraction = attraction_[a];
+      if (pair.j < 0) {
+        contact.wall_velocity = {pair.wall_v_x, pair.wall_v_z};
+        if constexpr (drives)
+          if (const DrivenStep* pushed = driven_at(walls, pair)) {
+            const double mean = (pushed->velocity_before + pushed->velocity) / 2;
+            contact.wall_velocity = along(contact.wall_velocity, *pushed,
+                                          mean - detected_[pushed - walls.driven.data()].velocity);
+          }
+      }
+      contact.impact = bounces_[a] || (laws_.restitution && approach_[a] != 0);
+      books_->add(contact, bodies, h, ledger);
     }
   }
 
@@ -377,6 +416,8 @@ class MoreauJean final : public Stepper {
   std::vector<ClosePair> now_, close_;  // all pairs at the end of the step, and those that are close
   SweepPlan close_plan_;
   PositionProjection projection_;
+  std::optional<EnergyBooks> books_;  // only with an energy ledger
+  std::vector<char> bounces_;         // contacts that give back a speed; for the books
 };
 
 }  // namespace

@@ -19,6 +19,7 @@
 #include "particles/measurement/snapshot.hpp"
 #include "particles/solver/contact_solver.hpp"
 #include "particles/stepping/contact_memory.hpp"
+#include "particles/stepping/energy_ledger.hpp"
 #include "particles/stepping/lost_grain.hpp"
 
 namespace drumlin {
@@ -43,6 +44,7 @@ struct StepLaws {
   std::optional<CohesionLaw> cohesion;
   bool spin = false;
   std::optional<PairLaw> rolling;
+  bool energy_ledger = false;
   bool driven_walls = false;  ///< whether contacts move a wall in some stage
   Period period;
   std::vector<std::uint8_t> material_of_shape;  ///< empty when no law asks for it
@@ -92,8 +94,9 @@ WallStep wall_step(const Walls& walls, double time_in_stage, double time_step);
 class Stepper {
  public:
   virtual ~Stepper() = default;
-  /// `walls` is changed only where contacts push a wall.
-  virtual StepReport advance(Bodies& bodies, ContactMemory& memory, WallStep& walls, double time_step) = 0;
+  /// `walls` is changed only where contacts push a wall, `energy` only if the laws ask for a ledger.
+  virtual StepReport advance(Bodies& bodies, ContactMemory& memory, WallStep& walls, double time_step,
+                             std::optional<EnergyLedger>& energy) = 0;
   /// Loaded contacts of the last step, with the normals that it used.
   virtual std::vector<SnapshotContact> loaded_contacts() const = 0;
   /// The contact problem of the last step, as it travels in files; none where a contact has more unknowns or

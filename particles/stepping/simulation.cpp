@@ -154,7 +154,7 @@ StepReport Simulation::step() {
 
 StepReport Simulation::advance_here(double h) {
   WallStep walls = wall_step(walls_, state_.time_in_stage, h);
-  const StepReport report = stepper_->advance(state_.bodies, state_.memory, walls, h);
+  const StepReport report = stepper_->advance(state_.bodies, state_.memory, walls, h, state_.energy);
   for (std::size_t k = 0; k < walls.driven.size(); ++k) {
     state_.driven[k].velocity = walls.driven[k].velocity;
     state_.driven[k].position += h * walls.driven[k].velocity;
@@ -167,7 +167,7 @@ StepReport Simulation::advance_in_laboratory(double h) {
   const double time = state_.time();
   to_laboratory(*frame_, time, state_.bodies);
   WallStep walls = in_laboratory(*frame_, time, h, wall_step(walls_, state_.time_in_stage, h));
-  const StepReport report = stepper_->advance(state_.bodies, state_.memory, walls, h);
+  const StepReport report = stepper_->advance(state_.bodies, state_.memory, walls, h, state_.energy);
   from_laboratory(*frame_, time + h, state_.bodies);
   return report;
 }

@@ -38,6 +38,8 @@ struct SimulationState {
   };
   std::deque<Mark> marks;
 
+  std::optional<EnergyLedger> energy;  ///< after the first step of a scene that asks for it
+
   double time() const { return time_at_stage_start + time_in_stage; }
 };
 

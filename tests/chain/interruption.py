@@ -4,16 +4,19 @@ usage: interruption.py DRUMLIN FOLDER_OF_THIS_TEST
 """
 
 import pathlib
+import resource
 import shutil
 import signal
 import subprocess
 import sys
 import tempfile
 import time
+from random import Random
 
 from command import Drumlin, bytes_below, read_json, require
 
-OVERRIDES = ["--set", "output.checkpoint_every_s=0.05", "--set", "stages.1.turns=0.2", "--set", "stages.2.turns=0.2"]
+OVERRIDES = ["--set", "output.checkpoint_every_s=0.05", "--set", "stages.1.turns=0.2", "--set", "stages.2.turns=0.2",
+             "--set", "output.energy_ledger=true"]
 
 
 def results(run):
@@ -31,6 +34,67 @@ def stopped(executable, scene, run, stop, code):
         time.sleep(0.001)
     process.send_signal(stop)
     require(process.wait(timeout=60) == code, f"{run.name}: exit code {process.returncode} instead of {code}")
+
+
+def killed_again_and_again(executable, scene, run, expected):
+    """Kills a run and what resumes it at random moments, files half written among them; it ends with the same bytes."""
+    random, kills = Random(7), 0
+    words = []
+    while True:
+        process = subprocess.Popen([executable, "run", scene, "-o", run, *words, *OVERRIDES], stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.DEVNULL)
+        words = ["--resume"]
+        try:
+            # Later and later, so that a slow machine gets there too.
+            code = process.wait(timeout=random.uniform(0.01, 0.05) * 1.15 ** kills)
+            require(code == 0, f"killed {kills} times, then resumed: exit code {code}")
+            break
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+            kills += 1
+    require(results(run) == expected, f"killed {kills} times: the run left other bytes than the whole one")
+    print(f"killed {kills} times, the same bytes")
+
+
+def stopped_within_a_step(executable, scene, run):
+    """A signal that comes while a long step is solved: that step ends, a checkpoint is left, no other step begins."""
+    words = ["--set", "solver.tolerance=1e-15", "--set", "solver.penetration_tolerance=1e-15", "--set", "solver.max_sweeps=20000"]
+    process = subprocess.Popen([executable, "run", scene, "-o", run, *OVERRIDES, *words], stdout=subprocess.DEVNULL,
+                               stderr=subprocess.DEVNULL)
+    deadline = time.monotonic() + 120
+    while not (run / "run.json").exists():
+        require(process.poll() is None and time.monotonic() < deadline, "long steps: no run.json in time")
+        time.sleep(0.001)
+    time.sleep(0.5)
+    process.terminate()
+    require(process.wait(timeout=120) == 143, f"long steps: exit code {process.returncode} instead of 143")
+    report = read_json(run / "run.json")
+    steps = [line.split(",")[0] for line in (run / "log.csv").read_text(encoding="utf-8").splitlines()[1:]]
+    require(report["status"] == "interrupted" and (run / "checkpoint.h5").exists(), "long steps: no checkpoint")
+    require(report["steps"] == len(steps) and steps[-1] == str(len(steps)), "long steps: log and report disagree")
+
+
+def full_disk(executable, drumlin, scene, kept, run, expected):
+    """Files that may not grow beyond a few bytes stand for a full disk: exit code 74, what stood there stays, and the run
+    goes on when there is room again."""
+    for room in (200, 3000, 20000):
+        shutil.rmtree(run, ignore_errors=True)
+        shutil.copytree(kept, run)
+        before = bytes_below(run)
+
+        def limit(size=room):
+            resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+        result = subprocess.run([executable, "run", scene, "-o", run, "--resume", *OVERRIDES], preexec_fn=limit,
+                                capture_output=True, text=True, timeout=120, check=False)
+        require(result.returncode == 74, f"{room} bytes of room: exit code {result.returncode} instead of 74\n{result.stderr}")
+        after = bytes_below(run)
+        require(after["checkpoint.h5"] == before["checkpoint.h5"], f"{room} bytes of room: the checkpoint was touched")
+        for name, content in before.items():
+            if name.startswith("snapshots/"):
+                require(after.get(name) == content, f"{room} bytes of room: {name} was touched")
+        drumlin("run", scene, "-o", run, "--resume", *OVERRIDES)
+        require(results(run) == expected, f"{room} bytes of room: the resumed run left other bytes than the whole one")
 
 
 def main():
@@ -52,6 +116,10 @@ def main():
             drumlin("run", scene, "-o", run, "--resume", "--threads", "2", *OVERRIDES)
             require(results(run) == expected, f"{stop.name}: the resumed run left other bytes than the whole one")
             require(read_json(run / "run.json")["status"] == "finished", f"{stop.name}: not finished")
+
+        killed_again_and_again(executable, scene, work / "often", expected)
+        stopped_within_a_step(executable, scene, work / "long")
+        full_disk(executable, drumlin, scene, work / "SIGKILL-kept", work / "full", expected)
 
         before = bytes_below(whole)
         drumlin("run", scene, "-o", whole, "--resume", *OVERRIDES)

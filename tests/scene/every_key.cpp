@@ -446,6 +446,7 @@ std::vector<Case> cases() {
       {"output.log_every_steps", "", D, {}, "output.log_every_steps=3", logged_steps},
       // A run that fails before its first checkpoint leaves none.
       {"output.checkpoint_every_s", "", D, stopping, "output.checkpoint_every_s=1e-3", checkpoint},
+      {"output.energy_ledger", "", D, {}, "output.energy_ledger=true", energy_columns},
   };
 }
 

@@ -85,6 +85,8 @@ RunSummary summary_of_run(const std::string& scene, const std::vector<std::strin
   run.seed = report.at("seed");
   run.steps = report.at("steps");
   run.has_checkpoint = std::filesystem::exists(options.output / "checkpoint.h5");
+  std::ifstream energy(options.output / "energy.csv");
+  std::getline(energy, run.energy_columns);
   if (std::filesystem::exists(options.output / "problems"))
     for (const auto& file : std::filesystem::directory_iterator(options.output / "problems"))
       run.captured += file.path().extension() == ".h5";
@@ -97,6 +99,7 @@ std::string reduced(const RunSummary& run) { return run.reduced ? "reduced" : "f
 std::string steps(const RunSummary& run) { return std::to_string(run.steps); }
 std::string checkpoint(const RunSummary& run) { return run.has_checkpoint ? "there" : "none"; }
 
+std::string energy_columns(const RunSummary& run) { return run.energy_columns; }
 std::string captured(const RunSummary& run) { return std::to_string(run.captured); }
 
 std::string positions_mm(const RunSummary& run) {

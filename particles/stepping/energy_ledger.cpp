@@ -1,0 +1,97 @@
+#include "particles/stepping/energy_ledger.hpp"
+
+#include <cmath>
+
+namespace drumlin {
+namespace {
+
+void book(double work, double& account, EnergyLedger& ledger) {
+  account += work;
+  ledger.turnover += std::abs(work);
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, double>> exchanges(const EnergyLedger& ledger) {
+  std::vector<std::pair<std::string, double>> all = {
+      {"walls", ledger.walls}, {"friction", ledger.friction}, {"restitution", ledger.restitution}};
+  if (ledger.rolling) all.emplace_back("rolling", *ledger.rolling);
+  if (ledger.cohesion) all.emplace_back("cohesion", *ledger.cohesion);
+  all.emplace_back("time_integration", ledger.time_integration);
+  all.emplace_back("projection", ledger.projection);
+  return all;
+}
+
+double closing_error(const EnergyLedger& ledger) {
+  double sum = 0;
+  for (const auto& [name, work] : exchanges(ledger)) sum += work;
+  return (ledger.kinetic - ledger.kinetic_at_start) + (ledger.potential - ledger.potential_at_start) - sum;
+}
+
+double EnergyBooks::potential(const Bodies& bodies) const {
+  if (!gravity_) return 0;
+  double sum = 0;
+  for (std::size_t b = 0; b < bodies.count(); ++b)
+    sum -= (gravity_->x * bodies.x[b] + gravity_->z * bodies.z[b]) / bodies.inverse_mass[b];
+  return sum;
+}
+
+void EnergyBooks::open(const Bodies& bodies, std::optional<EnergyLedger>& ledger) {
+  x_ = bodies.x, z_ = bodies.z, v_x_ = bodies.v_x, v_z_ = bodies.v_z, spin_ = bodies.spin;
+  if (ledger) return;
+  ledger.emplace();
+  ledger->kinetic = ledger->kinetic_at_start = kinetic_energy(bodies);
+  ledger->potential = ledger->potential_at_start = potential(bodies);
+}
+
+void EnergyBooks::add(const WorkingContact& c, const Bodies& now, double h, EnergyLedger& ledger) const {
+  const auto mean = [](const std::vector<double>& before, const std::vector<double>& after, std::int32_t b) {
+    return (before[b] + after[b]) / 2;
+  };
+  const bool wall = c.j < 0;
+  const double d_x = mean(v_x_, now.v_x, c.i) - (wall ? c.wall_velocity.x : mean(v_x_, now.v_x, c.j));
+  const double d_z = mean(v_z_, now.v_z, c.i) - (wall ? c.wall_velocity.z : mean(v_z_, now.v_z, c.j));
+  const double u_n = c.n_x * d_x + c.n_z * d_z;
+  double u_t = c.n_z * d_x - c.n_x * d_z;
+  if (!spin_.empty()) {
+    const double rim_i = now.radius[c.i] * mean(spin_, now.spin, c.i);
+    const double rim_j = wall ? 0 : now.radius[c.j] * mean(spin_, now.spin, c.j);
+    u_t -= rim_i + rim_j;
+    if (ledger.rolling) {
+      const double of_wall = wall ? now.radius[c.i] * c.wall_spin : 0;
+      const double u_r = c.lever * rim_i - (1 - c.lever) * rim_j - of_wall;
+      book(c.rolling * u_r, *ledger.rolling, ledger);
+      book(c.rolling * of_wall, ledger.walls, ledger);
+    }
+  }
+  const double before_x = v_x_[c.i] - (wall ? c.wall_velocity.x : v_x_[c.j]);
+  const double before_z = v_z_[c.i] - (wall ? c.wall_velocity.z : v_z_[c.j]);
+  const double slowest = gravity_ ? 2 * h * std::hypot(gravity_->x, gravity_->z) : 0;
+  const bool impact = c.impact || c.n_x * before_x + c.n_z * before_z < -slowest;
+  book(c.normal * u_n, impact ? ledger.restitution : ledger.time_integration, ledger);
+  book(c.tangential * u_t, ledger.friction, ledger);
+  if (ledger.cohesion) book(-c.attraction * u_n, *ledger.cohesion, ledger);
+  if (!wall) return;
+  const double p_n = c.normal - c.attraction;
+  const double p_x = c.n_x * p_n + c.n_z * c.tangential, p_z = c.n_z * p_n - c.n_x * c.tangential;
+  book(p_x * c.wall_velocity.x + p_z * c.wall_velocity.z, ledger.walls, ledger);
+}
+
+void EnergyBooks::close(const Bodies& now, double h, EnergyLedger& ledger) const {
+  ledger.kinetic = kinetic_energy(now);
+  if (!gravity_) return;
+  double fall = 0, late = 0, corrected = 0;
+  for (std::size_t b = 0; b < now.count(); ++b) {
+    const double m = 1 / now.inverse_mass[b], w_x = m * gravity_->x, w_z = m * gravity_->z;
+    fall += h * (w_x * now.v_x[b] + w_z * now.v_z[b]);
+    late -= h / 2 * (w_x * (now.v_x[b] - v_x_[b]) + w_z * (now.v_z[b] - v_z_[b]));
+    // The same expression as where the grains were moved: what is left is the projection alone.
+    corrected -= w_x * (now.x[b] - (x_[b] + h * now.v_x[b])) + w_z * (now.z[b] - (z_[b] + h * now.v_z[b]));
+  }
+  ledger.turnover += std::abs(fall);  // between potential and kinetic energy
+  book(late, ledger.time_integration, ledger);
+  book(corrected, ledger.projection, ledger);
+  ledger.potential = potential(now);
+}
+
+}  // namespace drumlin

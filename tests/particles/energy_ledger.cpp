@@ -1,0 +1,189 @@
+// The energy ledger: closed forms of single mechanisms, and books that close whatever acts.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/support/scenes.hpp"
+
+namespace drumlin {
+namespace {
+
+using test::add_stage;
+using test::floor_wall;
+using test::Grain;
+using test::scene_of;
+using test::TemporaryFolder;
+
+/// The ledger at the end of a scene, where it closes to 1e-10 of the turnover; on the way, where hardly
+/// anything may have happened yet, but for the rounding of the energy itself.
+EnergyLedger ledger_of(Scene scene) {
+  scene.output.energy_ledger = true;
+  Simulation simulation(scene);
+  while (!simulation.finished()) {
+    (void)simulation.step();
+    const EnergyLedger& ledger = *simulation.state().energy;
+    const double rounding = 1e-14 * (ledger.kinetic + std::abs(ledger.potential));
+    EXPECT_LE(std::abs(closing_error(ledger)), 1e-10 * ledger.turnover + rounding)
+        << simulation.state().step;
+  }
+  const EnergyLedger& ledger = *simulation.state().energy;
+  EXPECT_LE(std::abs(closing_error(ledger)), 1e-10 * ledger.turnover);
+  return ledger;
+}
+
+const double mass = mass_of_disc(0.5);
+
+TEST(EnergyLedger, FreeFallTradesPotentialForKineticEnergy) {
+  const TemporaryFolder folder;
+  Scene scene = scene_of({{0, 10}}, folder);
+  scene.effects.gravity = Gravity{};
+  const double h = 1e-2, t = 1;
+  add_stage(scene, t, h);
+  const EnergyLedger ledger = ledger_of(scene);
+  EXPECT_NEAR(ledger.kinetic, mass * t * t / 2, 1e-12);
+  // Falls t h/2 further than a real grain: the scheme loses that much.
+  EXPECT_NEAR(ledger.time_integration, -mass * t * h / 2, 1e-12);
+  EXPECT_EQ(ledger.walls, 0);
+  EXPECT_EQ(ledger.friction, 0);
+  EXPECT_EQ(ledger.projection, 0);
+}
+
+TEST(EnergyLedger, ImpactLosesOneLessESquared) {
+  const TemporaryFolder folder;
+  const double e = 0.6, v = 1.5;
+  Scene scene = scene_of({{0, 0.53, 1, 0, -v}}, folder);
+  scene.walls = {floor_wall()};
+  scene.effects.restitution = Restitution{e, e};
+  add_stage(scene, 0.2, 1e-3);
+  const EnergyLedger ledger = ledger_of(scene);
+  EXPECT_NEAR(ledger.restitution, -(1 - e * e) * mass * v * v / 2, 1e-9);
+  EXPECT_NEAR(ledger.time_integration, 0, 1e-12);
+}
+
+TEST(EnergyLedger, ObliqueImpactSplitsIntoNormalAndTangentialLoss) {
+  const TemporaryFolder folder;
+  const double e = 0.5, mu = 0.3, v_n = 1, v_t = 1.5 * 3 * mu * (1 + e) * v_n;
+  Scene scene = scene_of({{0, 0.55, 1, v_t, -v_n}}, folder);
+  scene.walls = {floor_wall()};
+  scene.effects.friction = Friction{mu, mu};
+  scene.effects.restitution = Restitution{e, e};
+  scene.effects.spin = Spin{};
+  add_stage(scene, 0.2, 1e-3);
+  const EnergyLedger ledger = ledger_of(scene);
+  EXPECT_NEAR(ledger.restitution, -(1 - e * e) * mass * v_n * v_n / 2, 1e-9);
+  // Slips all the way: impulse mu (1 + e) m v_n on the mean of the sliding speeds v_t and v_t - 3 impulse/m.
+  const double impulse = mu * (1 + e) * v_n;
+  EXPECT_NEAR(ledger.friction, -mass * impulse * (v_t - 1.5 * impulse), 1e-8);
+}
+
+TEST(EnergyLedger, SlidingBlockTurnsItsEnergyIntoFriction) {
+  const TemporaryFolder folder;
+  const double mu = 0.25, v0 = 0.5;
+  Scene scene = scene_of({{0, 0.5, 1, v0}}, folder);
+  scene.walls = {floor_wall()};
+  scene.effects.gravity = Gravity{};
+  scene.effects.friction = Friction{mu, mu};
+  add_stage(scene, 3, 1e-2);
+  const EnergyLedger ledger = ledger_of(scene);
+  EXPECT_NEAR(ledger.friction, -mass * v0 * v0 / 2, 1e-9);
+  EXPECT_NEAR(ledger.restitution, 0, 1e-9);
+}
+
+TEST(EnergyLedger, MovingFloorWorksOnABlockUntilItFollows) {
+  // The wall works twice what the block keeps; friction takes the other half.
+  const TemporaryFolder folder;
+  const double mu = 0.25, speed = 0.4, time_s = std::sqrt(1e-3 / 9.81);
+  Scene scene = scene_of({{0, 0.5}}, folder);
+  scene.walls = {floor_wall()};
+  scene.effects.gravity = Gravity{};
+  scene.effects.friction = Friction{mu, mu};
+  add_stage(scene, 3, 1e-2);
+  scene.stages[0].motions = {{"floor", Translation{{speed / time_s, 0}}}};
+  const EnergyLedger ledger = ledger_of(scene);
+  EXPECT_NEAR(ledger.walls, mass * speed * speed, 1e-8);
+  EXPECT_NEAR(ledger.friction, -mass * speed * speed / 2, 1e-8);
+}
+
+TEST(EnergyLedger, ProjectionIsBookedAsPotentialEnergy) {
+  const TemporaryFolder folder;
+  Scene scene = scene_of({{0, 0.49}, {0, 1.47}}, folder);
+  scene.walls = {floor_wall()};
+  scene.effects.gravity = Gravity{};
+  add_stage(scene, 2, 0.05);
+  const EnergyLedger ledger = ledger_of(scene);
+  EXPECT_GT(ledger.projection, 0);
+  EXPECT_NEAR(ledger.projection, ledger.potential - ledger.potential_at_start, 1e-6);
+}
+
+/// Grains that fall into a turning drum with everything on.
+Scene busy_drum(const TemporaryFolder& folder) {
+  std::vector<Grain> grains;
+  for (int k = 0; k < 60; ++k)
+    grains.push_back({-3.5 + 1.05 * (k % 8), -2.5 + 1.05 * (k / 8), 0.9 + 0.02 * (k % 5), 0.1 * (k % 3)});
+  Scene scene = scene_of(grains, folder);
+  scene.walls = {{"drum", ContainerShape{{0, 0}, 8}}};
+  scene.effects.gravity = Gravity{};
+  scene.effects.friction = Friction{0.4, 0.9};
+  scene.effects.restitution = Restitution{0.46, 0.46};
+  scene.effects.spin = Spin{};
+  scene.solver.tolerance = 1e-2;
+  scene.solver.max_sweeps = 30;  // unconverged steps close as well
+  add_stage(scene, 30, 0.05);
+  scene.stages[0].motions = {{"drum", Rotation{100, {0, 0}}}};
+  return scene;
+}
+
+TEST(EnergyLedger, ClosesForADrumAndItsTermsHaveTheirSigns) {
+  const TemporaryFolder folder;
+  const EnergyLedger ledger = ledger_of(busy_drum(folder));
+  EXPECT_GT(ledger.walls, 0);
+  EXPECT_LT(ledger.friction, 0);
+  EXPECT_LT(ledger.restitution, 0);
+  EXPECT_GE(ledger.projection, 0);
+  EXPECT_FALSE(ledger.rolling || ledger.cohesion);
+}
+
+TEST(EnergyLedger, ClosesForEveryEffect) {
+  const TemporaryFolder folder;
+  std::vector<Scene> scenes(5, busy_drum(folder));
+  scenes[0].effects = {};
+  scenes[0].effects.gravity = Gravity{};
+  scenes[1].effects.spin.reset();
+  scenes[2].effects.cohesion = Cohesion{2, 2, 0.01};
+  scenes[3].effects.rolling_resistance = RollingResistance{0.1, 0.1};
+  scenes[4].effects.rotating_frame = RotatingFrame{50, {1, 2}};
+  for (const Scene& scene : scenes) {
+    const EnergyLedger ledger = ledger_of(scene);
+    EXPECT_EQ(ledger.cohesion.has_value(), scene.effects.cohesion.has_value());
+    EXPECT_EQ(ledger.rolling.has_value(), scene.effects.rolling_resistance.has_value());
+    EXPECT_GT(ledger.turnover, 1);
+  }
+}
+
+TEST(EnergyLedger, DrivenWallWorksByItsMeanVelocity) {
+  // A piston of weight 5 falls on three grains.
+  const TemporaryFolder folder;
+  Scene scene = scene_of({{-1.2, 0.5}, {0, 0.5}, {1.2, 0.5}, {0.6, 1.5}}, folder);
+  scene.walls = {floor_wall(), {"lid", SegmentShape{{-50, 2.6}, {50, 2.6}}}};
+  scene.effects.gravity = Gravity{};
+  scene.effects.friction = Friction{0.4, 0.4};
+  scene.effects.spin = Spin{};
+  add_stage(scene, 3, 0.02);
+  const double weight = 2700 * 1e-6 * 9.81;  // N per m of depth
+  scene.stages[0].motions = {{"lid", ForceControl{{0, -1}, 5 * weight, 5 * weight / 9.81}}};
+  const EnergyLedger ledger = ledger_of(scene);
+  EXPECT_GT(ledger.turnover, 1);
+}
+
+TEST(EnergyLedger, WhatIsNotAskedForIsNotThere) {
+  const TemporaryFolder folder;
+  Scene scene = scene_of({{0, 10}}, folder);
+  add_stage(scene, 0.1, 0.01);
+  Simulation simulation(scene);
+  (void)simulation.step();
+  EXPECT_FALSE(simulation.state().energy);
+}
+
+}  // namespace
+}  // namespace drumlin
