@@ -15,9 +15,9 @@ namespace drumlin::benchmark {
 
 namespace {
 
-constexpr double settle_s = 0.6, flow_s = 1.0;
-constexpr double kept_s = 0.2;                     // of the flow, to be replayed
-constexpr int most_grains_that_flow_long = 40000;  // larger drums turn for a third of the time
+constexpr int most_that_flow =
+    10000;                      // larger drums are packed and begin to turn: as good for sweeps and threads
+constexpr double kept_s = 0.2;  // of the last stage, to be replayed
 
 Scene drum_of(Scene scene, int discs) {
   auto* generated = std::get_if<GeneratedGrains>(&scene.grains.source);
@@ -33,8 +33,9 @@ Scene drum_of(Scene scene, int discs) {
   rotation.speed_rpm /= std::sqrt(larger);
   settle.snapshots = flow.snapshots = 0;
   settle.turns = flow.turns = std::nullopt;
-  settle.duration_s = settle_s;
-  flow.duration_s = (discs > most_grains_that_flow_long ? flow_s / 3 : flow_s) + kept_s;
+  const bool flows = discs <= most_that_flow;
+  settle.duration_s = flows ? 0.6 : 0.3;
+  flow.duration_s = (flows ? 1.0 : 0.1) + kept_s;
   scene.stages = {settle, flow};
   scene.solver = SolverSettings{};
   return scene;

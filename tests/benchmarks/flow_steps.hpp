@@ -24,7 +24,8 @@ struct Flow {
 };
 
 /// A drum of `discs` grains like that of `scene`: filled as much, turned at the same Froude number, settled
-/// and then turned until it flows; then `steps` steps of it. The flowing state is kept in the folder `cache`.
+/// and then turned until it flows (above 10,000 discs: until it begins to turn); then `steps` steps of it. The
+/// state is kept in the folder `cache`.
 Flow flow_of(const Scene& scene, int discs, int steps, const std::filesystem::path& cache);
 
 /// A solver that is given steps again and again: its work space is warm after the first.
