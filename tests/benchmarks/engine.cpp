@@ -160,27 +160,27 @@ Json cost_of_size(const Flow& flow, int repetitions) {
           {"detection_ns_per_disc_and_step", median(detection)}};
 }
 
-void say(const char* what) { fmt::print(stderr, "{}\n", what); }
-
-Json measured(const Scene& scene, const std::filesystem::path& cache, bool quick) {
+/// Fills `result`; `keep` is called after each part, for the last ones take long.
+template <class Keep>
+void measure(Json& result, const Scene& scene, const std::filesystem::path& cache, bool quick, Keep keep) {
   const int standard = quick ? 800 : 7183, steps = quick ? 3 : 30, repetitions = quick ? 1 : 2;
-  Json result{{"memory", {{"discs", standard}, {"peak_mb", peak_memory_mb(scene, standard, cache)}}}};
-  Flow flow = flow_of(scene, standard, steps, cache);
-  say("flow computed");
+  result["memory"] = {{"discs", standard}, {"peak_mb", peak_memory_mb(scene, standard, cache)}};
+  const Flow flow = flow_of(scene, standard, steps, cache);
   result["flow"] = {{"discs", standard}, {"steps", flow.steps.size()}, {"repetitions", repetitions}};
   result["ns_per_contact_and_sweep"] = sweep_costs(flow, contact_solver_names(), repetitions);
-  say("sweeps timed");
+  keep("sweeps");
   const double tolerance = 1e-2;
   result["to_residual"] = {{"residual", tolerance},
                            {"solvers", times_to_residual(flow, tolerance, repetitions)}};
-  say("solves timed");
+  keep("solves");
   result["threads"] = Json::array({two_threads(flow, repetitions + 1)});
   if (!quick) result["threads"].push_back(two_threads(flow_of(scene, 30000, 10, cache), repetitions + 1));
-  say("threads timed");
+  keep("threads");
   result["sizes"] = Json::array();
-  for (const int discs : quick ? std::vector<int>{400, 800} : std::vector<int>{2000, 7183, 30000, 100000})
+  for (const int discs : quick ? std::vector<int>{400, 800} : std::vector<int>{2000, 7183, 30000, 100000}) {
     result["sizes"].push_back(cost_of_size(flow_of(scene, discs, quick ? 2 : 6, cache), repetitions));
-  return result;
+    keep("a size");
+  }
 }
 
 }  // namespace
@@ -199,10 +199,12 @@ int main(int argc, char** argv) {
     result["scene"] = scene.title;
     std::array<double, 3> load{};
     if (getloadavg(load.data(), 3) == 3) result["load_before"] = load[0];
-    result.update(measured(scene, argv[3], quick));
-    if (getloadavg(load.data(), 3) == 3) result["load_after"] = load[0];
     result["provenance"] = apps::to_json(provenance());
-    apps::write_json(argv[2], result);
+    measure(result, scene, argv[3], quick, [&](const char* what) {
+      if (getloadavg(load.data(), 3) == 3) result["load_after"] = load[0];
+      apps::write_json(argv[2], result);
+      fmt::print(stderr, "{} measured\n", what);
+    });
     fmt::print("{}\n", result.dump(2));
     return 0;
   } catch (const InputError& error) {
