@@ -1,0 +1,243 @@
+// Damaged and hostile files: every reader either reads them or refuses them with InputError. Mutations are
+// drawn from fixed seeds, so that a failure can be repeated (docs/decisions/fuzzing.md).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+
+#include "coupling/exchange/errors.hpp"
+#include "coupling/exchange/text_file.hpp"
+#include "particles/io/checkpoint_file.hpp"
+#include "particles/io/contact_problem_file.hpp"
+#include "particles/io/h5_image.hpp"
+#include "particles/io/snapshot_file.hpp"
+#include "particles/scene/random.hpp"
+#include "particles/scene/scene_file.hpp"
+#include "particles/solver/contact_solver.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace drumlin {
+namespace {
+
+using test::TemporaryFolder;
+
+/// What a reader may do with a file.
+template <class Read>
+bool read_or_refused(Read read) {
+  try {
+    read();
+    return true;
+  } catch (const InputError& refused) {
+    EXPECT_NE(std::string(refused.what()), "");
+    return false;
+  }
+}
+
+std::size_t below(RandomStream& random, std::size_t size) {
+  return random.bits() % std::max<std::size_t>(size, 1);
+}
+
+/// Changes a text as a slip of the pen, a bad merge or malice would.
+std::string mutated(std::string text, RandomStream& random) {
+  static const std::vector<std::string> pieces = {"[",    "]",   "{",        "}",      "=",
+                                                  "\"",   "#",   "\n",       "1e999",  "-1",
+                                                  "nan",  "inf", "0",        "1e-300", "[[",
+                                                  "true", "'''", "\\u0000",  "\xff",   "99999999999999999999",
+                                                  ".",    ",",   "[stages]", "= []",   "kind = \"force\""};
+  for (std::size_t n = 1 + below(random, 4); n > 0; --n) {
+    const std::size_t at = below(random, text.size()), length = below(random, 40);
+    switch (random.bits() % 4) {
+      case 0:
+        text.erase(at, length);
+        break;
+      case 1:
+        text.insert(at, pieces[below(random, pieces.size())]);
+        break;
+      case 2:
+        text.insert(at, text.substr(below(random, text.size()), length));
+        break;
+      default:
+        if (!text.empty()) text[at] = static_cast<char>(random.bits());
+    }
+  }
+  return text;
+}
+
+TEST(HostileFile, NoSceneTextBreaksTheReader) {
+  RandomStream random(11, "scenes");
+  std::vector<std::string> seeds;
+  for (const auto& file : std::filesystem::directory_iterator(DRUMLIN_DATA "/scenes"))
+    seeds.push_back(file_text(file.path()));
+  std::sort(seeds.begin(), seeds.end());
+  int read = 0;
+  constexpr int count = 20000;
+  for (int k = 0; k < count; ++k) {
+    const std::string text = mutated(seeds[below(random, seeds.size())], random);
+    SCOPED_TRACE(text);
+    read += read_or_refused([&] { (void)parse_scene(text, "s.toml", {}); });
+  }
+  EXPECT_GT(read, 0);  // mild mutations pass: the reader is reached beyond its grammar
+  EXPECT_LT(read, count);
+}
+
+/// A drum after some steps, with restitution, spin, ledger and a mark.
+Checkpoint some_checkpoint(Scene& scene, const TemporaryFolder& folder) {
+  scene = test::scene_of({{-1, 0}, {0.02, 0}, {1.03, 0}, {0, 1}}, folder);
+  scene.walls = {{"drum", ContainerShape{{0, 0}, 4}}};
+  scene.effects.gravity = Gravity{};
+  scene.effects.friction = Friction{0.4, 0.4};
+  scene.effects.restitution = Restitution{0.5, 0.5};
+  scene.effects.spin = Spin{};
+  scene.output.energy_ledger = true;
+  test::add_stage(scene, 3, 0.05);
+  Simulation simulation(scene);
+  for (int s = 0; s < 20; ++s) (void)simulation.step();
+  Checkpoint checkpoint;
+  checkpoint.scene = "s";
+  checkpoint.state = simulation.state();
+  return checkpoint;
+}
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(HostileFile, EveryBitFlipOfACheckpointIsRefused) {
+  const TemporaryFolder folder;
+  Scene scene;
+  const auto file = folder.path() / "c.h5", damaged = folder.path() / "d.h5";
+  write_checkpoint(file, some_checkpoint(scene, folder));
+  const std::string good = bytes_of(file);
+  RandomStream random(12, "flips");
+  for (int k = 0; k < 3000; ++k) {
+    std::string bad = good;
+    const std::size_t place = below(random, bad.size());
+    bad[place] = static_cast<char>(bad[place] ^ (1 << (random.bits() % 8)));
+    std::ofstream(damaged, std::ios::binary) << bad;
+    ASSERT_THROW(read_checkpoint(damaged), InputError) << place;
+  }
+}
+
+double wild(RandomStream& random) {
+  const double values[] = {0,
+                           -1,
+                           1,
+                           1e308,
+                           -1e308,
+                           std::numeric_limits<double>::quiet_NaN(),
+                           std::numeric_limits<double>::infinity(),
+                           1e-320};
+  return values[below(random, std::size(values))];
+}
+
+template <class T>
+void spoil(std::vector<T>& values, RandomStream& random) {
+  if (random.bits() % 3 == 0) values.resize(below(random, values.size() + 3));
+  if (values.empty()) return;
+  if constexpr (std::is_floating_point_v<T>)
+    values[below(random, values.size())] = wild(random);
+  else
+    values[below(random, values.size())] =
+        static_cast<T>(random.bits() % 2 ? random.bits() : below(random, 9));
+}
+
+TEST(HostileFile, NoCheckpointOfValidChecksumBreaksTheRun) {
+  const TemporaryFolder folder;
+  Scene scene;
+  const Checkpoint good = some_checkpoint(scene, folder);
+  RandomStream random(13, "checkpoints");
+  for (int k = 0; k < 400; ++k) {
+    Checkpoint bad = good;
+    SimulationState& s = bad.state;
+    std::vector<double>* doubles[] = {&s.bodies.x, &s.bodies.v_x, &s.bodies.spin, &s.memory.approach,
+                                      &s.memory.impulse};
+    switch (random.bits() % 4) {
+      case 0:
+        spoil(*doubles[below(random, std::size(doubles))], random);
+        break;
+      case 1:
+        spoil(random.bits() % 2 ? s.memory.i : s.memory.j, random);
+        break;
+      case 2:
+        s.stage = static_cast<int>(random.bits());
+        break;
+      default:
+        (random.bits() % 2 ? s.step : s.step_in_stage) = static_cast<std::int64_t>(random.bits());
+    }
+    write_checkpoint(folder.path() / "c.h5", bad);
+    SCOPED_TRACE(k);
+    (void)read_or_refused([&] { Simulation(scene, read_checkpoint(folder.path() / "c.h5").state); });
+  }
+}
+
+TEST(HostileFile, NoSnapshotOfValidChecksumBreaksItsReader) {
+  const TemporaryFolder folder;
+  RandomStream random(15, "snapshots");
+  for (int k = 0; k < 300; ++k) {
+    Snapshot s;
+    for (auto* values : {&s.x, &s.z, &s.v_x, &s.v_z, &s.radius, &s.spin}) values->assign(4, 0.5);
+    s.contacts = {{0, 1, 1, 0, 1, 0}, {3, -1, 0, 1, 2, 0}};
+    std::vector<double>* doubles[] = {&s.x, &s.z, &s.v_x, &s.radius, &s.spin, &s.displacement_x};
+    spoil(*doubles[below(random, std::size(doubles))], random);
+    if (random.bits() % 2) s.contacts[below(random, 2)].j = static_cast<std::int32_t>(random.bits());
+    if (random.bits() % 2) s.contacts[below(random, 2)].i = static_cast<std::int32_t>(random.bits());
+    write_snapshot(folder.path() / "s.h5", s);
+    SCOPED_TRACE(k);
+    (void)read_or_refused([&] { (void)read_snapshot(folder.path() / "s.h5"); });
+  }
+}
+
+TEST(HostileFile, NoContactProblemBreaksReaderOrSolver) {
+  const TemporaryFolder folder;
+  RandomStream random(14, "problems");
+  const auto file = folder.path() / "p.h5";
+  int read = 0;
+  for (int k = 0; k < 400; ++k) {
+    std::vector<std::int32_t> p = {0, 2, 4, 6, 8}, i = {0, 2, 1, 3, 0, 2, 1, 3}, head = {2, 4, 4, -2};
+    std::vector<double> x = {2, 0.5, 3, 0.2, 0.5, 2, 0.2, 3}, q = {-1, 0.4, -0.5, 0.3}, mu = {0.3, 0.2};
+    switch (random.bits() % 6) {
+      case 0:
+        spoil(p, random);
+        break;
+      case 1:
+        spoil(i, random);
+        break;
+      case 2:
+        spoil(x, random);
+        break;
+      case 3:
+        spoil(q, random);
+        break;
+      case 4:
+        spoil(mu, random);
+        break;
+      default:
+        head[below(random, 4)] = static_cast<std::int32_t>(random.bits());
+    }
+    H5Writer out;
+    const char* names[] = {"spacedim", "W/m", "W/n", "W/nz"};
+    const std::string root = "fclib_local/";
+    for (int n = 0; n < 4; ++n) out.add(root + names[n], std::span<const std::int32_t>(&head[n], 1));
+    out.add(root + "W/p", std::span<const std::int32_t>(p)),
+        out.add(root + "W/i", std::span<const std::int32_t>(i));
+    out.add(root + "W/x", std::span<const double>(x)),
+        out.add(root + "vectors/q", std::span<const double>(q));
+    out.add(root + "vectors/mu", std::span<const double>(mu));
+    out.save(file);
+    SCOPED_TRACE(k);
+    read += read_or_refused([&] {
+      const BlockProblem problem = read_contact_problem(file);
+      std::vector<double> r(problem.q.size(), 0.0);
+      SolverScratch<BlockProblem> scratch;
+      StoppingRule rule;
+      rule.max_sweeps = 20;
+      (void)solve_nlgs(problem, rule, scratch, r);
+    });
+  }
+  EXPECT_GT(read, 0);
+}
+
+}  // namespace
+}  // namespace drumlin
