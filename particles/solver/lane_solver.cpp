@@ -1,6 +1,7 @@
 #include "particles/solver/lane_solver.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "particles/contact/problems.hpp"
 
@@ -15,7 +16,8 @@ void LaneProblem<T, dim, spin>::pack(const Problem& problem, const SweepPlan& pl
   const int lane_count = plan.lanes();
   const auto bodies = static_cast<std::int32_t>(plan.body_order.size());
   lanes_.assign(lane_count, Lane{});
-  for (auto& sums : sums_) sums.assign(2 * static_cast<std::size_t>(lane_count), SweepSums{});
+  for (auto& squares : step_squares_) squares.assign(2 * static_cast<std::size_t>(lane_count), 0.0);
+  residual_squares_.assign(lane_count, 0.0);
   place_.resize(bodies);
   bodies_.clear();
   for (int k = 0; k < lane_count; ++k) {
@@ -102,22 +104,30 @@ void LaneProblem<T, dim, spin>::start(int lane) {
 }
 
 template <class T, int dim, bool spin>
-void LaneProblem<T, dim, spin>::sweep(int lane, int phase, int parity, T beta, bool accelerated,
-                                      bool with_residual) {
+void LaneProblem<T, dim, spin>::sweep(int lane, int phase, int parity, T beta, bool accelerated) {
   const Lane& l = lanes_[lane];
   if (accelerated && phase == 0)
     Kernels::go_on(&bodies_[l.bodies], &before_[l.bodies], l.bodies_end - l.bodies, beta);
-  sums_[parity][2 * lane + phase] =
+  step_squares_[parity][2 * lane + phase] =
       Kernels::sweep(blocks_.data() + l.block[phase], l.block[phase + 1] - l.block[phase], bodies_.data(),
-                     beta, accelerated, with_residual);
+                     beta, accelerated);
 }
 
 template <class T, int dim, bool spin>
-SweepSums LaneProblem<T, dim, spin>::sums(int parity) const {
-  SweepSums total;
-  for (const SweepSums& part : sums_[parity])
-    total.squares += part.squares, total.residual_squares += part.residual_squares;
-  return total;
+double LaneProblem<T, dim, spin>::step_squares(int parity) const {
+  return std::accumulate(step_squares_[parity].begin(), step_squares_[parity].end(), 0.0);
+}
+
+template <class T, int dim, bool spin>
+void LaneProblem<T, dim, spin>::look_at(int lane) {
+  const Lane& l = lanes_[lane];
+  residual_squares_[lane] =
+      Kernels::residual(blocks_.data() + l.block[0], l.block[2] - l.block[0], bodies_.data());
+}
+
+template <class T, int dim, bool spin>
+double LaneProblem<T, dim, spin>::residual_squares() const {
+  return std::accumulate(residual_squares_.begin(), residual_squares_.end(), 0.0);
 }
 
 #define DRUMLIN_INSTANTIATE(T, dim, spin, Problem)                                                       \

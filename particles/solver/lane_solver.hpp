@@ -36,12 +36,16 @@ class LaneProblem {
   void load(int lane, int phase);
   /// Remembers the bodies as the beginning of the first sweep.
   void start(int lane);
-  /// With `accelerated`, by beta further on; bodies go on in phase 0, before any contact of theirs.
-  /// Sums of even and odd sweeps stand apart: a thread may begin a sweep while others add up the last one.
-  void sweep(int lane, int phase, int parity, T beta, bool accelerated, bool with_residual);
+  /// With `accelerated`, by beta further on; bodies go on in phase 0, before any contact of theirs. Sums of
+  /// even and odd sweeps stand apart: a thread may begin a sweep while others add up the last one.
+  void sweep(int lane, int phase, int parity, T beta, bool accelerated);
+  /// Sum of squares of the steps of a sweep over all lanes, in the order of the strips; all threads must have
+  /// met after it.
+  double step_squares(int parity) const;
 
-  /// Sums over all lanes, in the order of the strips; all threads must have met after the sweep.
-  SweepSums sums(int parity) const;
+  /// Residuals of the contacts of a lane, and their sum of squares over all lanes.
+  void look_at(int lane);
+  double residual_squares() const;
 
  private:
   struct Lane {
@@ -52,8 +56,9 @@ class LaneProblem {
   std::vector<ContactBlock<T, dim>> blocks_;
   std::vector<std::int32_t> contact_;  // of each place in the blocks; -1: filled up
   std::vector<BodyRecord<T>> bodies_, before_;
-  std::vector<std::int32_t> place_;  // of each body in bodies_
-  std::vector<SweepSums> sums_[2];   // of each strip, of even and odd sweeps
+  std::vector<std::int32_t> place_;       // of each body in bodies_
+  std::vector<double> step_squares_[2];   // of each strip, of even and odd sweeps
+  std::vector<double> residual_squares_;  // of each lane
 };
 
 }  // namespace drumlin

@@ -14,9 +14,9 @@ struct LaneVerdict {
   bool stop = false;
 };
 
-/// NLGS, plain or accelerated, in precision T. The judge is called when the solver's own estimate of
-/// the residual says that it may be content; how far the estimate was off is remembered for the next call.
-/// In single precision it also ends, out of sweeps before they are, when rounding hides the progress.
+/// NLGS, plain or accelerated, in precision T. Every few sweeps the solver computes its own residual, on
+/// vectors and threads; when that is small enough the judge decides. In single precision it also ends, out of
+/// sweeps before they are, when the judge sees more than three times what the sweeps see.
 template <class T, class Problem, class Lanes>
 SolveReport sweep_in_lanes(const Problem& problem, const StoppingRule& rule, SolverScratch<Problem>& scratch,
                            Lanes& lanes, std::vector<double>& r, bool accelerated) {
@@ -33,8 +33,8 @@ SolveReport sweep_in_lanes(const Problem& problem, const StoppingRule& rule, Sol
 
   double q_squares = 0;
   for (const double q : problem.q) q_squares += q * q;
-  // Of the estimate: rms over contacts, relative to the rms of q.
-  const double estimate_scale = q_squares > 0 ? Problem::dim / q_squares : 1;
+  // rms over contacts, relative to the rms of q.
+  const double residual_scale = q_squares > 0 ? Problem::dim / q_squares : 1;
 
   LaneVerdict verdict;
   const auto judge_now = [&](int sweeps, bool last, bool finite) {
@@ -61,7 +61,6 @@ SolveReport sweep_in_lanes(const Problem& problem, const StoppingRule& rule, Sol
   const int threads = team ? team->size() : 1;
   Barrier alone(1);
   Barrier& barrier = team ? team->barrier() : alone;
-  constexpr double first_trust = 0.5;  // early estimates are up to twice what the judge finds
   const auto job = [&](int thread) {
     const int first = lanes.first_lane(thread, threads), end = lanes.first_lane(thread + 1, threads);
     for (const int phase : {0, 1}) {
@@ -70,29 +69,28 @@ SolveReport sweep_in_lanes(const Problem& problem, const StoppingRule& rule, Sol
     }
     for (int lane = first; lane < end; ++lane) lanes.start(lane);
     Momentum momentum;
-    double beta = 0, trust = first_trust;
+    double beta = 0;
     for (int sweeps = 1;; ++sweeps) {
-      const bool last = sweeps >= rule.max_sweeps, look = last || sweeps % rule.check_every == 0;
       for (const int phase : {0, 1}) {
         if (phase == 0 && sweeps == 1) barrier.meet();  // all bodies are remembered
         for (int lane = first; lane < end; ++lane)
-          lanes.sweep(lane, phase, sweeps % 2, static_cast<T>(beta), accelerated, look);
+          lanes.sweep(lane, phase, sweeps % 2, static_cast<T>(beta), accelerated);
         barrier.meet();
       }
-      const SweepSums sums = lanes.sums(sweeps % 2);
-      const bool finite = std::isfinite(sums.squares);
-      if (look) {
-        const double estimate = std::sqrt(sums.residual_squares * estimate_scale);
-        if (last || !finite || estimate * trust <= rule.tolerance || std::isfinite(rule.max_seconds)) {
+      const double step_squares = lanes.step_squares(sweeps % 2);
+      const bool finite = std::isfinite(step_squares), last = sweeps >= rule.max_sweeps || !finite;
+      if (last || sweeps % rule.check_every == 0) {
+        for (int lane = first; lane < end; ++lane) lanes.look_at(lane);
+        barrier.meet();
+        const double seen = std::sqrt(lanes.residual_squares() * residual_scale);
+        if (last || seen <= rule.tolerance || std::isfinite(rule.max_seconds)) {
           if (thread == 0) judge_now(sweeps, last, finite);
           barrier.meet();
           if (verdict.stop) return;
-          if (estimate > 0) trust = verdict.report.judgement.residual / estimate;
-          // Sweeps that hardly move any more while the judge sees more: T is too short, more would not help.
-          if (sizeof(T) < sizeof(double) && trust > 10) return;
+          if (sizeof(T) < sizeof(double) && verdict.report.judgement.residual > 3 * seen) return;
         }
       }
-      beta = momentum.next(sums.squares);
+      beta = momentum.next(step_squares);
     }
   };
   if (team)

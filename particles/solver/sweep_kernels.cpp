@@ -178,15 +178,15 @@ HWY_INLINE double total(const std::array<T, 8>& sums) {
   return sum;
 }
 
-template <class T, int dim, bool spin, bool accelerated, bool with_residual>
-SweepSums sweep(ContactBlock<T, dim>* blocks, std::size_t count, BodyRecord<T>* bodies, T beta_) {
+template <class T, int dim, bool spin, bool accelerated>
+double sweep(ContactBlock<T, dim>* blocks, std::size_t count, BodyRecord<T>* bodies, T beta_) {
   const Lanes<T> d;
   using V = hn::Vec<Lanes<T>>;
   constexpr int width = ContactBlock<T, dim>::width;
   const V zero = hn::Zero(d), beta = hn::Set(d, beta_);
   const V ratio = hn::Set(d, spin ? T(1) / T(3) : T(1));  // W_nn / W_tt
   // Eight sums whatever the length of a vector.
-  HWY_ALIGN std::array<T, width> squares{}, residual_squares{};
+  HWY_ALIGN std::array<T, width> squares{};
   for (std::size_t b = 0; b < count; ++b) {
     auto& block = blocks[b];
     for (std::size_t k = 0; k < width; k += hn::Lanes(d)) {
@@ -225,21 +225,55 @@ SweepSums sweep(ContactBlock<T, dim>* blocks, std::size_t count, BodyRecord<T>* 
         sum = hn::Add(sum, hn::Mul(dr_t, dr_t));
       }
       hn::Store(hn::Add(hn::Load(d, &squares[k]), sum), d, &squares[k]);
-      if constexpr (with_residual) {
-        V e = hn::Mul(dr_n, dr_n);
-        if constexpr (dim == 2) {
-          const V e_t = hn::Div(dr_t, ratio);
-          e = hn::Add(e, hn::Mul(e_t, e_t));
-        }
-        e = hn::Div(e, hn::Mul(w, w));
-        hn::Store(hn::Add(hn::Load(d, &residual_squares[k]), e), d, &residual_squares[k]);
-      }
       push<dim, spin, T>(n_x, n_z, dr_n, dr_t, I, J);
       store_bodies(I, bodies, &block.i[k]);
       store_bodies(J, bodies, &block.j[k]);
     }
   }
-  return {total(squares), total(residual_squares)};
+  return total(squares);
+}
+
+template <class T, int dim, bool spin>
+double residual(const ContactBlock<T, dim>* blocks, std::size_t count, const BodyRecord<T>* bodies) {
+  const Lanes<T> d;
+  using V = hn::Vec<Lanes<T>>;
+  constexpr int width = ContactBlock<T, dim>::width;
+  const V zero = hn::Zero(d), one = hn::Set(d, T(1));
+  const V ratio = hn::Set(d, dim == 2 && spin ? T(1) / T(3) : T(1));  // W_nn / lambda_max
+  HWY_ALIGN std::array<T, width> squares{};
+  for (std::size_t b = 0; b < count; ++b) {
+    const auto& block = blocks[b];
+    for (std::size_t k = 0; k < width; k += hn::Lanes(d)) {
+      const auto I = load_bodies(bodies, &block.i[k]), J = load_bodies(bodies, &block.j[k]);
+      const V n_x = hn::Load(d, &block.n_x[k]), n_z = hn::Load(d, &block.n_z[k]);
+      const V rho = hn::Mul(hn::Load(d, &block.inverse_W_nn[k]), ratio);
+      const V dv_x = hn::Sub(I.x, J.x), dv_z = hn::Sub(I.z, J.z);
+      const V r_n = hn::Load(d, &block.r[0][k]);
+      V u_n = hn::Add(hn::Load(d, &block.q[0][k]), hn::Add(hn::Mul(n_x, dv_x), hn::Mul(n_z, dv_z)));
+      V sum;
+      if constexpr (dim == 1) {
+        const V missed = hn::Sub(hn::Max(zero, hn::Sub(r_n, hn::Mul(rho, u_n))), r_n);
+        sum = hn::Mul(missed, missed);
+      } else {
+        V slip = hn::Sub(hn::Mul(n_z, dv_x), hn::Mul(n_x, dv_z));
+        if constexpr (spin) slip = hn::Sub(slip, hn::Add(I.s, J.s));
+        const V u_t = hn::Add(hn::Load(d, &block.q[dim - 1][k]), slip);
+        const V mu = hn::Load(d, &block.mu[k]), r_t = hn::Load(d, &block.r[dim - 1][k]);
+        u_n = hn::Add(u_n, hn::Mul(mu, hn::Abs(u_t)));  // De Saxce
+        const V n = hn::Sub(r_n, hn::Mul(rho, u_n)), t = hn::Sub(r_t, hn::Mul(rho, u_t));
+        // Projection on the cone: itself inside, else on the ray or the tip.
+        const V size = hn::Abs(t);
+        const V ray = hn::Div(hn::Max(zero, hn::Add(n, hn::Mul(mu, size))), hn::Add(one, hn::Mul(mu, mu)));
+        const auto inside = hn::Le(size, hn::Mul(mu, n));
+        const V missed_n = hn::Sub(hn::IfThenElse(inside, n, ray), r_n);
+        const V missed_t = hn::Sub(hn::IfThenElse(inside, t, hn::CopySign(hn::Mul(mu, ray), t)), r_t);
+        sum = hn::Add(hn::Mul(missed_n, missed_n), hn::Mul(missed_t, missed_t));
+      }
+      sum = hn::Div(sum, hn::Mul(rho, rho));
+      hn::Store(hn::Add(hn::Load(d, &squares[k]), sum), d, &squares[k]);
+    }
+  }
+  return total(squares);
 }
 
 template <class T>
@@ -255,17 +289,15 @@ void go_on(BodyRecord<T>* bodies, BodyRecord<T>* before, std::size_t count, T be
   }
 }
 
-#define DRUMLIN_KERNELS(T, name, dim, spin)                                                           \
-  void load_##name(const ContactBlock<T, dim>* b, std::size_t n, BodyRecord<T>* v) {                  \
-    load<T, dim, spin>(b, n, v);                                                                      \
-  }                                                                                                   \
-  SweepSums sweep_##name(ContactBlock<T, dim>* b, std::size_t n, BodyRecord<T>* v, T beta, bool fast, \
-                         bool judged) {                                                               \
-    if (fast)                                                                                         \
-      return judged ? sweep<T, dim, spin, true, true>(b, n, v, beta)                                  \
-                    : sweep<T, dim, spin, true, false>(b, n, v, beta);                                \
-    return judged ? sweep<T, dim, spin, false, true>(b, n, v, beta)                                   \
-                  : sweep<T, dim, spin, false, false>(b, n, v, beta);                                 \
+#define DRUMLIN_KERNELS(T, name, dim, spin)                                                             \
+  void load_##name(const ContactBlock<T, dim>* b, std::size_t n, BodyRecord<T>* v) {                    \
+    load<T, dim, spin>(b, n, v);                                                                        \
+  }                                                                                                     \
+  double sweep_##name(ContactBlock<T, dim>* b, std::size_t n, BodyRecord<T>* v, T beta, bool fast) {    \
+    return fast ? sweep<T, dim, spin, true>(b, n, v, beta) : sweep<T, dim, spin, false>(b, n, v, beta); \
+  }                                                                                                     \
+  double residual_##name(const ContactBlock<T, dim>* b, std::size_t n, const BodyRecord<T>* v) {        \
+    return residual<T, dim, spin>(b, n, v);                                                             \
   }
 DRUMLIN_KERNELS(double, double_smooth, 1, false)
 DRUMLIN_KERNELS(double, double_friction, 2, false)
@@ -291,22 +323,28 @@ namespace drumlin {
 HWY_EXPORT(go_on_double);
 HWY_EXPORT(go_on_float);
 
-#define DRUMLIN_DISPATCH(T, precision, name, dim, spin)                                                   \
-  HWY_EXPORT(load_##name);                                                                                \
-  HWY_EXPORT(sweep_##name);                                                                               \
-  template <>                                                                                             \
-  void SweepKernels<T, dim, spin>::load(const Block* blocks, std::size_t count, BodyRecord<T>* bodies) {  \
-    HWY_DYNAMIC_DISPATCH(load_##name)(blocks, count, bodies);                                             \
-  }                                                                                                       \
-  template <>                                                                                             \
-  SweepSums SweepKernels<T, dim, spin>::sweep(Block* blocks, std::size_t count, BodyRecord<T>* bodies,    \
-                                              T beta, bool accelerated, bool with_residual) {             \
-    return HWY_DYNAMIC_DISPATCH(sweep_##name)(blocks, count, bodies, beta, accelerated, with_residual);   \
-  }                                                                                                       \
-  template <>                                                                                             \
-  void SweepKernels<T, dim, spin>::go_on(BodyRecord<T>* bodies, BodyRecord<T>* before, std::size_t count, \
-                                         T beta) {                                                        \
-    HWY_DYNAMIC_DISPATCH(go_on_##precision)(bodies, before, count, beta);                                 \
+#define DRUMLIN_DISPATCH(T, precision, name, dim, spin)                                                     \
+  HWY_EXPORT(load_##name);                                                                                  \
+  HWY_EXPORT(residual_##name);                                                                              \
+  HWY_EXPORT(sweep_##name);                                                                                 \
+  template <>                                                                                               \
+  void SweepKernels<T, dim, spin>::load(const Block* blocks, std::size_t count, BodyRecord<T>* bodies) {    \
+    HWY_DYNAMIC_DISPATCH(load_##name)(blocks, count, bodies);                                               \
+  }                                                                                                         \
+  template <>                                                                                               \
+  double SweepKernels<T, dim, spin>::sweep(Block* blocks, std::size_t count, BodyRecord<T>* bodies, T beta, \
+                                           bool accelerated) {                                              \
+    return HWY_DYNAMIC_DISPATCH(sweep_##name)(blocks, count, bodies, beta, accelerated);                    \
+  }                                                                                                         \
+  template <>                                                                                               \
+  double SweepKernels<T, dim, spin>::residual(const Block* blocks, std::size_t count,                       \
+                                              const BodyRecord<T>* bodies) {                                \
+    return HWY_DYNAMIC_DISPATCH(residual_##name)(blocks, count, bodies);                                    \
+  }                                                                                                         \
+  template <>                                                                                               \
+  void SweepKernels<T, dim, spin>::go_on(BodyRecord<T>* bodies, BodyRecord<T>* before, std::size_t count,   \
+                                         T beta) {                                                          \
+    HWY_DYNAMIC_DISPATCH(go_on_##precision)(bodies, before, count, beta);                                   \
   }
 DRUMLIN_DISPATCH(double, double, double_smooth, 1, false)
 DRUMLIN_DISPATCH(double, double, double_friction, 2, false)

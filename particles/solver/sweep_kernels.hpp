@@ -32,12 +32,6 @@ struct alignas(4 * sizeof(T)) BodyRecord {
   T x = 0, z = 0, s = 0, inverse_mass = 0;
 };
 
-struct SweepSums {
-  double squares = 0;  ///< of the steps of the impulses
-  double residual_squares =
-      0;  ///< of the velocities by which contacts missed their laws when their turn came
-};
-
 /// Kernels of one kind of problem; `spin`: bodies turn.
 template <class T, int dim, bool spin>
 struct SweepKernels {
@@ -45,9 +39,11 @@ struct SweepKernels {
   /// Adds the impulses of the blocks to the bodies.
   static void load(const Block* blocks, std::size_t count, BodyRecord<T>* bodies);
   /// One Gauss-Seidel sweep over the blocks in their order. With `accelerated` it starts further on, from r +
-  /// beta (r - before), and `before` becomes r. With `with_residual` the second sum is computed too.
-  static SweepSums sweep(Block* blocks, std::size_t count, BodyRecord<T>* bodies, T beta, bool accelerated,
-                         bool with_residual);
+  /// beta (r - before), and `before` becomes r. Returns the sum of
+  /// squares of the steps of the impulses.
+  static double sweep(Block* blocks, std::size_t count, BodyRecord<T>* bodies, T beta, bool accelerated);
+  /// The sum of squares of the residuals e_a (docs/conventions.md) of the blocks as they stand.
+  static double residual(const Block* blocks, std::size_t count, const BodyRecord<T>* bodies);
   /// The same going on for bodies.
   static void go_on(BodyRecord<T>* bodies, BodyRecord<T>* before, std::size_t count, T beta);
 };
