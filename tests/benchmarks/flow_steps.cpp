@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <optional>
 
 #include "coupling/exchange/errors.hpp"
 #include "particles/io/checkpoint_file.hpp"
@@ -87,7 +88,8 @@ Replay::Replay(const Flow& flow, const std::string& solver, int threads, const S
 
 StepReport Replay::operator()(const FlowStep& step) {
   work_ = step;
-  return stepper_->advance(work_.bodies, work_.memory, work_.walls, time_step_);
+  std::optional<EnergyLedger> no_ledger;
+  return stepper_->advance(work_.bodies, work_.memory, work_.walls, time_step_, no_ledger);
 }
 
 double peak_memory_mb(const Scene& like, int discs, const std::filesystem::path& cache) {
