@@ -28,6 +28,7 @@ struct Execute {
   int operator()(const apps::SceneOptions& options) const { return apps::scene(options); }
   int operator()(const apps::CostOptions& options) const { return apps::cost(options); }
   int operator()(const apps::SolveContactsOptions& options) const { return apps::solve_contacts(options); }
+  int operator()(const apps::HardcasesOptions& options) const { return apps::hardcases(options); }
 };
 
 int failed(ExitCode code, const std::string& message) {

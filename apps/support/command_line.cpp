@@ -91,6 +91,7 @@ class CommandLine {
     add_scene();
     add_solve_contacts(solvers);
     add_cost();
+    add_hardcases();
   }
 
   Request parse(int argc, const char* const* argv) {
@@ -263,6 +264,22 @@ class CommandLine {
     add_existing(command, cost_.existing, "Runs anew, over what an earlier call left");
   }
 
+  void add_hardcases() {
+    CLI::App& command = add_command(
+        "hardcases", "Runs cases with known outcomes through the engine (docs/hard-cases.md)", hardcases_);
+    command.add_option("names", hardcases_.names, "Cases; all of them if none is named")->type_name("NAME");
+    command.add_flag("--fast", hardcases_.fast,
+                     "Only those that are part of ./check: quick, and known to hold");
+    command
+        .add_option_function<std::string>(
+            "-o,--output", [this](const std::string& folder) { hardcases_.output = folder; },
+            "Folder for hardcases.json; none is written without")
+        ->type_name("DIR");
+    command.add_flag_callback(
+        "--overwrite", [this] { hardcases_.existing = ExistingOutput::overwrite; },
+        "Replaces what an earlier call left");
+  }
+
   CLI::App app_;
   RunOptions run_;
   MeasureOptions measure_;
@@ -274,6 +291,7 @@ class CommandLine {
   SceneOptions scene_;
   SolveContactsOptions solve_contacts_;
   CostOptions cost_;
+  HardcasesOptions hardcases_;
   std::function<Request()> request_;
 };
 

@@ -62,6 +62,10 @@ TEST(CommandLine, FillsTheOptionsOfEveryOtherCommand) {
   EXPECT_EQ(solve.tolerance, 1e-6);
   EXPECT_EQ(solve.output, "s.h5");
   EXPECT_TRUE(solve.json);
+  const auto hard = std::get<HardcasesOptions>(parsed({"hardcases", "wedge", "shot", "--fast", "-o", "h"}));
+  EXPECT_EQ(hard.names, (std::vector<std::string>{"wedge", "shot"}));
+  EXPECT_TRUE(hard.fast);
+  EXPECT_EQ(hard.output, "h");
   EXPECT_FALSE(std::get<SolveContactsOptions>(parsed({"solve-contacts", "p.h5"})).output);
 }
 
