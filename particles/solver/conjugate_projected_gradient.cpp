@@ -7,6 +7,7 @@
 #include "particles/contact/problems.hpp"
 #include "particles/parallel/crew.hpp"
 #include "particles/solver/contact_solver.hpp"
+#include "particles/solver/diagonal_entry.hpp"
 
 namespace drumlin {
 namespace {
@@ -56,14 +57,6 @@ void multiply(const Problem& problem, const Crew& crew, std::span<const double> 
     }
   }
   problem.W.velocities(r, q, state, u);
-}
-
-template <class Delassus>
-double diagonal_entry(const Delassus& W, int a, int component) {
-  return component == 0 ? 1 / W.inverse_W_nn[a] : W.largest_eigenvalue(a);  // discs: W_tt >= W_nn
-}
-double diagonal_entry(const BlockDelassus& W, int a, int component) {
-  return W.diagonal[a](component, component);
 }
 
 /// min 1/2 r W r + q r over r_n >= 0, |r_t| <= bound, one step at a time; and the bounds, which follow mu

@@ -227,7 +227,7 @@ SolveReport solve_accelerated(const Problem& problem, const StoppingRule& rule,
 }
 
 std::vector<std::string> contact_solver_names() {
-  return {"accelerated", "accelerated-double", "nlgs", "nncg", "cpg", "nlgs-scalar"};
+  return {"accelerated", "accelerated-double", "nlgs", "nncg", "cpg", "reference", "nlgs-scalar"};
 }
 
 template <class Problem>
@@ -238,6 +238,7 @@ ContactSolver<Problem> contact_solver(const std::string& name) {
   if (name == "nncg") return &solve_nncg<Problem>;
   if constexpr (!only_swept<Problem>) {
     if (name == "cpg") return &solve_cpg<Problem>;
+    if (name == "reference") return &solve_reference<Problem>;
   }
   if (name == "nlgs-scalar") return &solve_nlgs_scalar<Problem>;
   const auto names = contact_solver_names();
