@@ -102,9 +102,9 @@ SolveReport solve_nncg(const Problem&, const StoppingRule&, SolverScratch<Proble
 template <class Problem>
 SolveReport solve_cpg(const Problem&, const StoppingRule&, SolverScratch<Problem>&, std::vector<double>& r);
 
-/// As accurate as can be had: NNCG first, then proximal steps by a semismooth Newton method on the bodies (or blocks),
-/// until a tolerance or a limit ends it. A Newton step, one sparse LU, counts as a "sweep". Never returns worse than
-/// its NNCG start.
+/// As accurate as can be had: NNCG first, then proximal steps by a semismooth Newton method on the bodies (or
+/// blocks), until a tolerance or a limit ends it. A Newton step, one sparse LU, counts as a "sweep". Never
+/// returns worse than its NNCG start.
 template <class Problem>
 SolveReport solve_reference(const Problem&, const StoppingRule&, SolverScratch<Problem>&,
                             std::vector<double>& r);
