@@ -141,7 +141,7 @@ std::vector<HardCase> static_cases() {
       {"mass-ratio",
        "columns of heavy and light discs in turn, 1:1e3 and 1:1e6, solver nncg: the weight above", true,
        [] { return mass_ratios("nncg"); }},
-      {"mass-ratio-default", "the same with the default solver", false,
+      {"mass-ratio-default", "the same with the default solver", true,
        [] { return mass_ratios(SolverSettings{}.name); }},
       {"wedge", "a disc in a wedge of half angle alpha, mu >= tan alpha: at rest, forces bounded", true,
        wedge},

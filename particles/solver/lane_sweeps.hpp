@@ -2,6 +2,7 @@
 // Drives the sweeps of a LaneProblem until the judge is content.
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "particles/solver/contact_solver.hpp"
 #include "particles/solver/momentum.hpp"
@@ -16,7 +17,7 @@ struct LaneVerdict {
 
 /// NLGS, plain or accelerated, in precision T. Every few sweeps the solver computes its own residual, on
 /// vectors and threads; when that is small enough the judge decides. In single precision it also ends, out of
-/// sweeps before they are, when the judge sees more than three times what the sweeps see.
+/// sweeps before they are, when the residual stands still or the judge sees more than three times of it.
 template <class T, class Problem, class Lanes>
 SolveReport sweep_in_lanes(const Problem& problem, const StoppingRule& rule, SolverScratch<Problem>& scratch,
                            Lanes& lanes, std::vector<double>& r, bool accelerated) {
@@ -61,6 +62,7 @@ SolveReport sweep_in_lanes(const Problem& problem, const StoppingRule& rule, Sol
   const int threads = team ? team->size() : 1;
   Barrier alone(1);
   Barrier& barrier = team ? team->barrier() : alone;
+  constexpr int patience = 100;  // sweeps without a tenth of progress; a flow takes 10 for that
   const auto job = [&](int thread) {
     const int first = lanes.first_lane(thread, threads), end = lanes.first_lane(thread + 1, threads);
     for (const int phase : {0, 1}) {
@@ -69,7 +71,8 @@ SolveReport sweep_in_lanes(const Problem& problem, const StoppingRule& rule, Sol
     }
     for (int lane = first; lane < end; ++lane) lanes.start(lane);
     Momentum momentum;
-    double beta = 0;
+    double beta = 0, best = std::numeric_limits<double>::infinity();
+    int best_at = 0;
     for (int sweeps = 1;; ++sweeps) {
       for (const int phase : {0, 1}) {
         if (phase == 0 && sweeps == 1) barrier.meet();  // all bodies are remembered
@@ -83,10 +86,13 @@ SolveReport sweep_in_lanes(const Problem& problem, const StoppingRule& rule, Sol
         for (int lane = first; lane < end; ++lane) lanes.look_at(lane);
         barrier.meet();
         const double seen = std::sqrt(lanes.residual_squares() * residual_scale);
-        if (last || seen <= rule.tolerance || std::isfinite(rule.max_seconds)) {
+        if (seen < 0.9 * best) best = seen, best_at = sweeps;
+        // Rounding of single precision hides the progress.
+        const bool stuck = sizeof(T) < sizeof(double) && sweeps - best_at >= patience;
+        if (last || stuck || seen <= rule.tolerance || std::isfinite(rule.max_seconds)) {
           if (thread == 0) judge_now(sweeps, last, finite);
           barrier.meet();
-          if (verdict.stop) return;
+          if (verdict.stop || stuck) return;
           if (sizeof(T) < sizeof(double) && verdict.report.judgement.residual > 3 * seen) return;
         }
       }
