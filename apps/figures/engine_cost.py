@@ -42,6 +42,7 @@ def over_size(axes, sizes):
     axes.set_xlabel("discs")
     axes.set_ylabel("ns per disc")
     axes.set_title("growth with the drum, one thread")
+    axes.set_ylim(0, 1.35 * axes.get_ylim()[1])  # room for the legend
     axes.legend(loc="upper left")
 
 
