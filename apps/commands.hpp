@@ -22,9 +22,12 @@ int run(const RunOptions&);
 
 struct MeasureOptions {
   std::filesystem::path run;
-  double slice_width = 20;     ///< d
-  double layer_thickness = 1;  ///< d
-  double position = 0;         ///< x of the slice, d
+  double slice_width = 20;         ///< d
+  double layer_thickness = 1;      ///< d
+  double position = 0;             ///< x of the slice, d
+  std::vector<std::string> parts;  ///< beside the profiles; empty: all, "none": none (measure/part.hpp)
+  double gradient_step = 5;        ///< d
+  std::vector<double> slices;      ///< positions of the narrow slices, d; empty: spread over the surface
   ExistingOutput existing = ExistingOutput::refuse;
 };
 int measure(const MeasureOptions&);

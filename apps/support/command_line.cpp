@@ -139,6 +139,17 @@ class CommandLine {
                "Thickness of the layers");
     add_number(command, "--position", measure_.position, "d", anything(),
                "Place of the slice along the surface, from the middle of the drum, positive downslope");
+    command
+        .add_option("--parts", measure_.parts,
+                    "What is measured beside the profiles, the rest is neither computed nor stored; none: nothing "
+                    "[all of gradients, slices, sensitivity]")
+        ->delimiter(',')
+        ->type_name("LIST");
+    add_number(command, "--gradient-step", measure_.gradient_step, "d", above(0),
+               "Derivatives along x from slices this far to either side");
+    command.add_option("--slices", measure_.slices, "Places of the narrow slices along the surface, d")
+        ->delimiter(',')
+        ->type_name("X,X,...");
     add_existing(command, measure_.existing, keep_what_is_done);
   }
 

@@ -113,7 +113,7 @@ ProfileScalars profile_scalars(const ProfileSet& profiles, const ProfileScalarOp
   if (!(scalars.surface_speed > 0)) return scalars;
   fit_flowing_layer(z, v_x, options.linear_share * scalars.surface_speed, scalars);
   if (!std::isfinite(scalars.H)) return scalars;
-  if (const auto* rate = profiles.find("shear_rate")) fit_decay(z, rate->value, options, scalars);
+  if (const auto* rate = profiles.find(options.decay_of)) fit_decay(z, rate->value, options, scalars);
   if (const auto* inertial = profiles.find("I")) scalars.I_th = interpolated(z, inertial->value, -scalars.H);
   return scalars;
 }

@@ -14,6 +14,7 @@ struct ProfileScalarOptions {
   double linear_share = 0.3;  ///< the straight line is fitted where v_x exceeds this share of v_x(0)
   double decay_from = 8.0;    ///< lambda is fitted between -H - decay_from ...
   double decay_to = 2.0;      ///< ... and -H - decay_to
+  const char* decay_of = "shear_rate";  ///< column that decays: "shear_rate", or "v_x"
 };
 
 /// Dimensionless (d, sqrt(d/g)); NaN where the profile does not hold what a definition needs.

@@ -83,7 +83,8 @@ void add_kinematics(Columns& columns) {
   });
 }
 
-/// Total stress = contact + kinetic; the rotational part of the paper is left out (it calls it negligible).
+/// Total stress = contact + kinetic. The rotational part stands beside them: momentum is balanced by the
+/// motion of the centres, to which it does not belong.
 void add_stresses(Columns& columns) {
   const auto rate = columns.of("shear_rate");
   const auto nu = columns.of("nu");
@@ -104,6 +105,11 @@ void add_stresses(Columns& columns) {
       return sign * sum.*contact / area + kinetic_part[l];
     });
   };
+  if (columns.sums.with_spin)
+    columns.add("sigma_rotational", [&](std::size_t l, const LayerSum& sum) {
+      return sum.rotation /
+             (columns.grid.area[columns.first + l] * static_cast<double>(columns.sums.snapshots));
+    });
   total("sigma_xx", 1, &LayerSum::force_x_branch_x);
   total("sigma_zz", 1, &LayerSum::force_z_branch_z);
   total("sigma_xz", -1, &LayerSum::force_x_branch_z);
@@ -154,6 +160,8 @@ ProfileSet layer_profiles(const LayerGrid& grid, const LayerSums& sums, double s
   add_stresses(columns);
   add_ratios(columns);
   add_fluctuations(columns);
+  columns.add("coordination",
+              [](std::size_t, const LayerSum& sum) { return mean(sum.contacts, sum.grains); });
   columns.add("count", [](std::size_t, const LayerSum& sum) { return sum.grains; });
   return std::move(columns.profiles);
 }

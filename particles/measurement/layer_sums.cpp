@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace drumlin {
 namespace {
@@ -10,18 +11,33 @@ namespace {
 /// Every sum in turn, so that none is forgotten when batches are added or taken apart.
 template <class Action>
 void for_each_sum(LayerSum& a, const LayerSum& b, Action action) {
-  for (auto member : {&LayerSum::covered, &LayerSum::grains, &LayerSum::x, &LayerSum::zeta, &LayerSum::v_x,
-                      &LayerSum::v_z, &LayerSum::spin, &LayerSum::x_x, &LayerSum::zeta_zeta,
-                      &LayerSum::zeta_v_x, &LayerSum::x_v_z, &LayerSum::v_x_v_x, &LayerSum::v_z_v_z,
-                      &LayerSum::v_x_v_z, &LayerSum::spin_spin, &LayerSum::force_x_branch_x,
-                      &LayerSum::force_x_branch_z, &LayerSum::force_z_branch_x, &LayerSum::force_z_branch_z})
+  for (auto member : {&LayerSum::covered,
+                      &LayerSum::grains,
+                      &LayerSum::x,
+                      &LayerSum::zeta,
+                      &LayerSum::v_x,
+                      &LayerSum::v_z,
+                      &LayerSum::spin,
+                      &LayerSum::x_x,
+                      &LayerSum::zeta_zeta,
+                      &LayerSum::zeta_v_x,
+                      &LayerSum::x_v_z,
+                      &LayerSum::v_x_v_x,
+                      &LayerSum::v_z_v_z,
+                      &LayerSum::v_x_v_z,
+                      &LayerSum::spin_spin,
+                      &LayerSum::force_x_branch_x,
+                      &LayerSum::force_x_branch_z,
+                      &LayerSum::force_z_branch_x,
+                      &LayerSum::force_z_branch_z,
+                      &LayerSum::contacts,
+                      &LayerSum::rotation})
     action(a.*member, b.*member);
 }
 
-/// Adds the area of a disc to the layers that it reaches.
+/// Adds the area of a disc that reaches into the slice to its layers.
 void add_covered_area(const LayerGrid& grid, double x, double z, double radius,
                       std::vector<LayerSum>& layers) {
-  if (x + radius <= grid.x_min || x - radius >= grid.x_max) return;
   const auto layer_count = static_cast<double>(layers.size());
   const double first = std::max(0.0, std::floor((z - radius - grid.z_min) / grid.thickness));
   const double end = std::min(layer_count, std::ceil((z + radius - grid.z_min) / grid.thickness));
@@ -31,19 +47,17 @@ void add_covered_area(const LayerGrid& grid, double x, double z, double radius,
   }
 }
 
-void add_grain(const LayerGrid& grid, const Snapshot& snapshot, std::size_t i,
+void add_grain(const LayerGrid& grid, const FlowSnapshot& snapshot, std::size_t i,
                std::vector<LayerSum>& layers) {
-  const double x = grid.frame.x_of(snapshot.x[i], snapshot.z[i]);
-  const double z = grid.frame.z_of(snapshot.x[i], snapshot.z[i]);
-  add_covered_area(grid, x, z, snapshot.radius[i], layers);
+  const double x = snapshot.x[i], z = snapshot.z[i], radius = snapshot.radius[i];
+  if (x + radius <= grid.x_min || x - radius >= grid.x_max) return;
+  add_covered_area(grid, x, z, radius, layers);
   const double place = std::floor((z - grid.z_min) / grid.thickness);
   if (x < grid.x_min || x > grid.x_max || place < 0 || place >= static_cast<double>(layers.size())) return;
 
   const auto index = static_cast<std::size_t>(place);
   LayerSum& sum = layers[index];
-  const auto velocity = relative_velocity(snapshot, i);
-  const double v_x = grid.frame.along(velocity[0], velocity[1]);
-  const double v_z = grid.frame.normal(velocity[0], velocity[1]);
+  const double v_x = snapshot.v_x[i], v_z = snapshot.v_z[i];
   const double zeta = z - grid.z_of(index);
   sum.grains += 1;
   sum.x += x;
@@ -57,21 +71,20 @@ void add_grain(const LayerGrid& grid, const Snapshot& snapshot, std::size_t i,
   sum.v_x_v_x += v_x * v_x;
   sum.v_z_v_z += v_z * v_z;
   sum.v_x_v_z += v_x * v_z;
+  sum.contacts += snapshot.coordination[i];
   if (snapshot.spin.empty()) return;
-  const double spin = snapshot.spin[i] - (snapshot.container_radius > 0 ? snapshot.wall_spin : 0.0);
+  const double spin = snapshot.spin[i];
   sum.spin += spin;
   sum.spin_spin += spin * spin;
+  sum.rotation += std::numbers::pi / 4 * std::pow(radius, 4) * spin * spin;
 }
-
-struct HalfBranch {
-  double x, z;                ///< centre of the grain, flow frame
-  double toward_x, toward_z;  ///< from the centre to the contact
-  double force_x, force_z;    ///< on the grain
-};
 
 /// Shares a half branch out among the layers in proportion to its length in each, cut at the sides of the
 /// slice.
 void add_half_branch(const LayerGrid& grid, const HalfBranch& branch, std::vector<LayerSum>& layers) {
+  if (std::min(branch.x, branch.x + branch.toward_x) > grid.x_max ||
+      std::max(branch.x, branch.x + branch.toward_x) < grid.x_min)
+    return;
   double begin = 0, end = 1;  // parameter along the branch
   if (branch.toward_x != 0) {
     const double west = (grid.x_min - branch.x) / branch.toward_x,
@@ -103,28 +116,6 @@ void add_half_branch(const LayerGrid& grid, const HalfBranch& branch, std::vecto
     sum.force_z_branch_x -= branch.force_z * branch.toward_x * share;
     sum.force_z_branch_z -= branch.force_z * branch.toward_z * share;
   }
-}
-
-void add_contact(const LayerGrid& grid, const Snapshot& snapshot, const SnapshotContact& contact,
-                 std::vector<LayerSum>& layers) {
-  const double n_x = contact.normal_x, n_z = contact.normal_z;
-  const double impulse_x = contact.impulse_n * n_x + contact.impulse_t * n_z;
-  const double impulse_z = contact.impulse_n * n_z - contact.impulse_t * n_x;
-  const double force_x = grid.frame.along(impulse_x, impulse_z) / snapshot.time_step;
-  const double force_z = grid.frame.normal(impulse_x, impulse_z) / snapshot.time_step;
-  const double along = grid.frame.along(n_x, n_z), normal = grid.frame.normal(n_x, n_z);
-  // One half for each grain: across a periodic boundary each stays with its grain, and a wall has none.
-  const auto add_half = [&](std::int32_t grain, double sign) {
-    const auto g = static_cast<std::size_t>(grain);
-    const double reach = -sign * snapshot.radius[g];
-    add_half_branch(
-        grid,
-        {grid.frame.x_of(snapshot.x[g], snapshot.z[g]), grid.frame.z_of(snapshot.x[g], snapshot.z[g]),
-         reach * along, reach * normal, sign * force_x, sign * force_z},
-        layers);
-  };
-  if (contact.i >= 0) add_half(contact.i, 1);
-  if (contact.j >= 0) add_half(contact.j, -1);
 }
 
 }  // namespace
@@ -174,27 +165,9 @@ LayerGrid layer_grid(const FlowFrame& frame, double position, double slice_width
   return grid;
 }
 
-std::array<double, 2> relative_velocity(const Snapshot& snapshot, std::size_t grain) {
-  const bool windowed = snapshot.velocity_window > 0 && !snapshot.displacement_x.empty();
-  const bool turning = snapshot.container_radius > 0 && snapshot.wall_spin != 0;
-  const double x = snapshot.x[grain] - snapshot.container_x, z = snapshot.z[grain] - snapshot.container_z;
-  if (!windowed) {
-    const double spin = turning ? snapshot.wall_spin : 0;
-    return {snapshot.v_x[grain] - spin * z, snapshot.v_z[grain] + spin * x};
-  }
-  const double d_x = snapshot.displacement_x[grain], d_z = snapshot.displacement_z[grain];
-  if (!turning) return {d_x / snapshot.velocity_window, d_z / snapshot.velocity_window};
-  // Where the grain was, carried along with the drum: the difference to where it is now is its own motion.
-  const double angle = snapshot.wall_spin * snapshot.velocity_window;
-  const double cosine = std::cos(angle), sine = std::sin(angle);
-  const double carried_x = (x - d_x) * cosine + (z - d_z) * sine;
-  const double carried_z = (z - d_z) * cosine - (x - d_x) * sine;
-  return {(x - carried_x) / snapshot.velocity_window, (z - carried_z) / snapshot.velocity_window};
-}
-
-void add_snapshot(const LayerGrid& grid, const Snapshot& snapshot, LayerSums& sums) {
+void add_snapshot(const LayerGrid& grid, const FlowSnapshot& snapshot, LayerSums& sums) {
   for (std::size_t i = 0; i < snapshot.x.size(); ++i) add_grain(grid, snapshot, i, sums.layers);
-  for (const SnapshotContact& contact : snapshot.contacts) add_contact(grid, snapshot, contact, sums.layers);
+  for (const HalfBranch& branch : snapshot.half_branches) add_half_branch(grid, branch, sums.layers);
   sums.with_spin = sums.with_spin && !snapshot.spin.empty();
   ++sums.snapshots;
 }

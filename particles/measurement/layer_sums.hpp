@@ -1,12 +1,10 @@
 #pragma once
 // What the layers of a slice hold, summed over snapshots; sums of batches can be added and taken apart again.
-#include <array>
 #include <cstddef>
 #include <vector>
 
 #include "particles/measurement/disc_area.hpp"
-#include "particles/measurement/flow_frame.hpp"
-#include "particles/measurement/snapshot.hpp"
+#include "particles/measurement/flow_snapshot.hpp"
 
 namespace drumlin {
 
@@ -39,6 +37,8 @@ struct LayerSum {
   /// sum of F_a b_b over the parts of branches inside the layer: F the force on a grain, b from the contact
   /// to its centre, so that repulsion counts positive.
   double force_x_branch_x = 0, force_x_branch_z = 0, force_z_branch_x = 0, force_z_branch_z = 0;
+  double contacts = 0;  ///< loaded contacts of the grains counted
+  double rotation = 0;  ///< sum of J spin^2 / 2 over them, J = pi r^4 / 2 the moment of inertia
 
   LayerSum& operator+=(const LayerSum& other);
   LayerSum& operator-=(const LayerSum& other);
@@ -54,12 +54,7 @@ struct LayerSums {
   LayerSums& operator-=(const LayerSums& other);
 };
 
-/// Adds one snapshot. `sums.layers` must have the grid's length.
-void add_snapshot(const LayerGrid& grid, const Snapshot& snapshot, LayerSums& sums);
-
-/// Velocity of grain i relative to a frame that turns with the container (the laboratory without one),
-/// laboratory components: displacement over the stored window, the drum's own turn taken out exactly; without
-/// a window the instantaneous one.
-std::array<double, 2> relative_velocity(const Snapshot& snapshot, std::size_t grain);
+/// Adds one snapshot, seen in the grid's frame. `sums.layers` must have the grid's length.
+void add_snapshot(const LayerGrid& grid, const FlowSnapshot& snapshot, LayerSums& sums);
 
 }  // namespace drumlin

@@ -1,13 +1,21 @@
 #pragma once
-// Scalars of one particle profile: those shared with the continuum and those that only grains have.
+// The scalars of one profile at the centre (docs/theory/measurement.md defines each).
+#include "coupling/exchange/profile_set.hpp"
 #include "coupling/exchange/scalar_set.hpp"
-#include "particles/measurement/measurement.hpp"
 
 namespace drumlin {
 
-/// Q, H, lambda, shear_rate, I_th, nu_bulk, spin_over_half_vorticity, dv_over_shear, domega_over_shear,
-/// k_flowing, spin_over_half_curl, without intervals; NaN where the profile does not hold what one
-/// needs. wall_z: z of the wall below the slice, from the surface.
-ScalarSet packing_scalars(const ProfileSet& profiles, double wall_z, const MeasurementOptions& options);
+struct MeasurementOptions;
+
+/// What a profile does not know of itself.
+struct ProfilePlace {
+  double wall_z = 0;       ///< z of the wall under the slice
+  double frame_angle = 0;  ///< rad, of x below the horizontal
+};
+
+/// Without intervals; NaN where the profile does not hold what a definition needs. The scalars of derivatives
+/// along x only when the profile has them.
+ScalarSet packing_scalars(const ProfileSet& profiles, const ProfilePlace& place,
+                          const MeasurementOptions& options);
 
 }  // namespace drumlin

@@ -29,7 +29,7 @@ TEST(Layers, EachLayerOfAColumnCarriesTheWeightAbove) {
     EXPECT_NEAR(result.profiles.column("sigma_xx").value[l], 0, 1e-12);
     EXPECT_NEAR(result.profiles.column("sigma_xz").value[l], 0, 1e-12);
   }
-  EXPECT_EQ(result.frame_source, FrameSource::domain);
+  EXPECT_EQ(result.place.source, FrameSource::domain);
 }
 
 TEST(Layers, ThinLayersKeepTheMeanStress) {
@@ -63,8 +63,8 @@ TEST(Layers, SliceCutsGrainsAndBranchesAtItsSides) {
   MeasurementOptions options;
   options.slice_width = 2.5;  // through discs of the second and fifth column off their centres
   const Measurement result = measurement_of(open, options);
-  EXPECT_EQ(result.frame_source, FrameSource::gravity);
-  EXPECT_EQ(result.slice_width, 2.5);
+  EXPECT_EQ(result.place.source, FrameSource::gravity);
+  EXPECT_EQ(result.place.slice_width, 2.5);
   // x = 1.75 .. 4.25: two discs whole and a quarter diameter of two more; the branches of the columns at 2.5
   // and 3.5 only.
   const double cap = std::acos(0.5) / 4 - std::sqrt(3.0) / 16;

@@ -1,0 +1,201 @@
+#include "apps/commands/measure/content.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "apps/support/json_file.hpp"
+#include "particles/measurement/intervals.hpp"
+
+namespace drumlin::apps {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double quantile_99 = 2.576;  // half width of a 99 % interval per standard error
+
+LogFriction friction_law(const ProfileSet& profiles, const LayerSelection& selection) {
+  const double nan = std::nan("");
+  const auto points = friction_points(profiles, selection);
+  return points.size() < 3 ? LogFriction{nan, nan, {nan, nan, nan}, nan, nan} : fit_log_friction(points).law;
+}
+
+/// A profile without header and intervals of its own borrows those of the measured one, layer by layer the
+/// nearest: without them its layers would be chosen and weighted otherwise.
+ProfileSet with_borrowed_intervals(ProfileSet profiles, const ProfileSet& measured) {
+  profiles.header = measured.header;
+  for (ProfileColumn& column : profiles.columns) {
+    if (column.name != "I" && column.name != "mu") continue;
+    const auto& known = measured.column(column.name).ci99;
+    column.ci99.assign(profiles.z.size(), std::nan(""));
+    for (std::size_t l = 0; l < profiles.z.size() && !known.empty(); ++l) {
+      const auto above = std::lower_bound(measured.z.begin(), measured.z.end(), profiles.z[l]);
+      auto nearest = above == measured.z.end() ? above - 1 : above;
+      if (nearest != measured.z.begin() && profiles.z[l] - *(nearest - 1) < *nearest - profiles.z[l])
+        --nearest;
+      column.ci99[l] = known[static_cast<std::size_t>(nearest - measured.z.begin())];
+    }
+  }
+  return profiles;
+}
+
+void add_law(const LogFriction& law, ScalarSet& scalars) {
+  scalars.scalars.push_back({"mu_a", law.a, {}});
+  scalars.scalars.push_back({"mu_b", law.b, {}});
+}
+
+}  // namespace
+
+ScalarSensitivity sensitivity_of(const Scalar& scalar, const std::vector<ScalarVariant>& variants) {
+  ScalarSensitivity found{{}, scalar.value, scalar.value, {}};
+  constexpr double rounding = 1e-9;
+  double largest = 0;
+  for (const ScalarVariant& variant : variants) {
+    const Scalar* other = variant.scalars.find(scalar.name);
+    if (!other || !std::isfinite(scalar.value)) continue;
+    const double moved = std::abs(other->value - scalar.value);
+    if (!(moved > rounding * (1 + std::abs(scalar.value)))) continue;
+    found.changes.push_back({variant.change, other->value});
+    found.lowest = std::min(found.lowest, other->value);
+    found.highest = std::max(found.highest, other->value);
+    if (moved > largest) found.strongest = variant.change;
+    largest = std::max(largest, moved);
+  }
+  return found;
+}
+
+std::map<std::string, std::string> header_of(const Measurement& m, const MeasurementOptions& options,
+                                             bool reduced) {
+  const auto text = [](double value) { return fmt::format("{}", value); };
+  return {{"side", "particles"},
+          {"reduced", reduced ? "true" : "false"},
+          {"theta_deg", text(m.frame_angle_deg)},
+          {"axis_depth", text(m.axis_depth)},
+          {"wall_z", text(m.wall_z)},
+          {"rotation", text(m.place.rotation)},
+          {"drum_radius", text(m.place.container_radius)},
+          {"diameter_m", text(m.scales.length_m)},
+          {"position", text(options.position)},
+          {"slice_width", text(m.place.slice_width)},
+          {"layer_thickness", text(options.layer_thickness)},
+          {"snapshots", std::to_string(m.place.snapshots)},
+          {"batches", std::to_string(m.place.batches)},
+          {"interval_factor", text(m.place.batches > 1 ? interval_factor(m.place.batches) : std::nan(""))},
+          {"revision", provenance().revision}};
+}
+
+Json settings_of(const Measurement& m, const MeasurementOptions& options, const LayerSelection& selection) {
+  Json settings{
+      {"frame", "turns with the drum; x downslope, z along the normal of the surface"},
+      {"frame_from", name_of(m.place.source)},
+      {"frame_angle_deg", m.frame_angle_deg},
+      {"seen_in_a_mirror", m.in_mirror},
+      {"slope_isoline_nu", options.slope_isoline},
+      {"slope_half_width", m.slope_half_width},
+      {"slope_half_width_asked", options.slope_half_width},
+      {"surface_nu", options.surface_nu},
+      {"position", options.position},
+      {"slice_width", m.place.slice_width},
+      {"slice_width_asked", options.slice_width},
+      {"layer_thickness", options.layer_thickness},
+      {"velocity_window", m.velocity_window},
+      {"surface_speed_depth", options.scalars.surface_speed_depth},
+      {"linear_share", options.scalars.linear_share},
+      {"decay_window_below_H", {options.scalars.decay_to, options.scalars.decay_from}},
+      {"bulk_margin", options.bulk_margin},
+      {"wall_margin", options.wall_margin},
+      {"fluctuation_I_min", options.fluctuation_I_min},
+      {"mu_fit_I", {selection.I_min, selection.I_max}},
+      {"mu_fit_surface_margin", selection.surface_margin},
+      {"mu_fit_wall_margin", selection.wall_margin},
+      {"intervals", "99 %, delete-one jackknife over contiguous batches, neighbours' correlation, Student t"},
+      {"batches", m.place.batches},
+      {"snapshots", m.place.snapshots},
+      {"first_snapshot", m.first_snapshot},
+      {"first_time", m.first_time()},
+      {"last_time", m.last_time()},
+      {"rotation", m.place.rotation},
+      {"axis_depth", m.axis_depth},
+      {"wall_z", m.wall_z},
+      {"drum_radius", m.place.container_radius},
+      {"scales", to_json(m.scales)}};
+  if (options.gradient_step) settings["gradient_step"] = *options.gradient_step;
+  return settings;
+}
+
+Json fits_of(const ProfileScalars& fits) {
+  return {{"surface_speed", fits.surface_speed},
+          {"fit_bottom", fits.fit_bottom},
+          {"fit_top", fits.fit_top},
+          {"decay_log_rate", fits.decay_log_rate}};
+}
+
+Json steadiness_of(const Steadiness& s) {
+  const auto drift = [](const Drift& d) { return to_json(Scalar{"", d.value, d.ci99}); };
+  const auto number = [](double value) { return to_json(Scalar{"", value, {}}); };
+  return {{"steady", s.steady},
+          {"reasons", s.reasons},
+          {"turns", number(s.turns)},
+          {"turns_before", number(s.turns_before)},
+          {"energy_change", drift(s.energy)},
+          {"energy_std", number(s.energy_std)},
+          {"slope_change_deg", drift(s.slope_deg)},
+          {"slope_std_deg", number(s.slope_std_deg)}};
+}
+
+Json scalar_with_sensitivity(const Scalar& scalar, const ScalarSensitivity& sensitivity) {
+  Json json = to_json(scalar);
+  if (!json.is_object() || sensitivity.changes.empty()) return json;
+  Json changes;
+  for (const auto& one : sensitivity.changes)
+    changes[one.change] = std::isfinite(one.value) ? Json(one.value) : Json();
+  json["sensitivity"] = {{"lowest", sensitivity.lowest},
+                         {"highest", sensitivity.highest},
+                         {"strongest", sensitivity.strongest},
+                         {"changes", changes}};
+  return json;
+}
+
+ScalarSet friction_scalars(const Measurement& measured, const LayerSelection& selection) {
+  const LogFriction law = friction_law(measured.profiles, selection);
+  std::vector<double> a, b;
+  for (const ProfileSet& without : measured.leave_one_out) {
+    const LogFriction one = friction_law(with_borrowed_intervals(without, measured.profiles), selection);
+    a.push_back(one.a);
+    b.push_back(one.b);
+  }
+  // Layers of one run move together (a steeper surface raises mu in all), which the fit cannot know: the
+  // spread over time is added to its own errors.
+  return {{{"mu_a", law.a, std::hypot(jackknife_ci99(a), quantile_99 * std::sqrt(law.covariance[0]))},
+           {"mu_b", law.b, std::hypot(jackknife_ci99(b), quantile_99 * std::sqrt(law.covariance[2]))}}};
+}
+
+void add_friction_variants(const Measurement& measured, const LayerSelection& selection,
+                           std::vector<ScalarVariant>& variants) {
+  for (ScalarVariant& variant : variants)
+    if (!variant.profiles.z.empty())
+      add_law(friction_law(with_borrowed_intervals(variant.profiles, measured.profiles), selection),
+              variant.scalars);
+  const auto add = [&](const std::string& change, const LayerSelection& changed) {
+    variants.push_back({change, {}, {}});
+    add_law(friction_law(measured.profiles, changed), variants.back().scalars);
+  };
+  LayerSelection changed = selection;
+  for (double factor : {0.1, 10.0}) {
+    changed.I_min = factor * selection.I_min;
+    add(fmt::format("mu(I) from I = {}", changed.I_min), changed);
+  }
+  changed = selection;
+  changed.I_max = 0.3 * selection.I_max;
+  add(fmt::format("mu(I) up to I = {}", changed.I_max), changed);
+  changed = selection;
+  changed.surface_margin = 2 * selection.surface_margin;
+  add(fmt::format("mu(I) from {} d below the surface", changed.surface_margin), changed);
+  changed = selection;
+  changed.wall_margin = 3 * selection.wall_margin;
+  add(fmt::format("mu(I) from {} d above the wall", changed.wall_margin), changed);
+}
+
+}  // namespace drumlin::apps

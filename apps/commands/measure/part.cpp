@@ -1,0 +1,36 @@
+#include "apps/commands/measure/part.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "coupling/exchange/errors.hpp"
+
+namespace drumlin::apps {
+
+const std::vector<std::string>& part_names() {
+  static const std::vector<std::string> names{"gradients", "slices", "sensitivity"};
+  return names;
+}
+
+void check_parts(const std::vector<std::string>& names) {
+  const auto& known = part_names();
+  for (const std::string& name : names)
+    if (name != "none" && std::find(known.begin(), known.end(), name) == known.end())
+      throw InputError(fmt::format("--parts: \"{}\" is no part of a measurement (allowed: {}, none)", name,
+                                   fmt::join(known, ", ")));
+}
+
+bool names_part(const MeasureOptions& options, const std::string& name) {
+  const auto& names = options.parts.empty() ? part_names() : options.parts;
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::vector<Part> reading_parts(const MeasureOptions&) {
+  std::vector<Part> parts;
+  return parts;
+}
+
+}  // namespace drumlin::apps

@@ -1,0 +1,30 @@
+#pragma once
+// The snapshots of a run that are measured: those under its last motion of the wall.
+#include <cstddef>
+#include <functional>
+
+#include "particles/measurement/snapshot.hpp"
+
+namespace drumlin {
+
+/// Snapshots in order of time, fetched one by one: a long run does not fit in memory.
+struct SnapshotSource {
+  std::size_t count = 0;
+  std::function<Snapshot(std::size_t)> read;
+};
+
+/// The part of a source that is measured. A drum that turns anticlockwise is seen in a mirror.
+struct Recording {
+  const SnapshotSource* source = nullptr;  ///< outlives the recording
+  std::size_t first = 0;                   ///< snapshots before it belong to another motion of the wall
+  bool in_mirror = false;
+  std::size_t count() const { return source->count - first; }
+  /// Throws InputError when the snapshot holds no grains.
+  Snapshot read(std::size_t index) const;
+};
+
+/// The last snapshots with one and the same motion of the wall: pictures of the settling are not steady flow.
+/// Throws InputError when there is none.
+Recording steady_recording(const SnapshotSource& source);
+
+}  // namespace drumlin
