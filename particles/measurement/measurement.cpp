@@ -68,6 +68,9 @@ MeasurementFrame found_frame(const Survey& found, const Snapshot& last, const Me
     place.z_min = found.z_min;
     place.z_max = found.z_max;
   }
+  // In a periodic domain nothing varies along x.
+  if (options.gradient_step && !(place.period > 0))
+    place.gradient_step = std::min(*options.gradient_step, place.half_chord / 4);
   result.scalars.scalars = {theta, theta_com};
   return place;
 }
@@ -85,9 +88,9 @@ Slices asked_slices(const MeasurementFrame& place, const MeasurementOptions& opt
     return empty_slice(slice_grid(place, position, width, options.layer_thickness), place.batches);
   };
   Slices slices{at(options.position, place.slice_width), {}, {}, {}, {}};
-  if (options.gradient_step) {
-    slices.west = at(options.position - *options.gradient_step, place.slice_width);
-    slices.east = at(options.position + *options.gradient_step, place.slice_width);
+  if (place.gradient_step > 0) {
+    slices.west = at(options.position - place.gradient_step, place.slice_width);
+    slices.east = at(options.position + place.gradient_step, place.slice_width);
   }
   if (!options.slices || place.period > 0) return slices;
   std::vector<double> positions = options.slices->positions;
@@ -115,7 +118,7 @@ void measure_centre(const Slices& slices, const MeasurementOptions& options, dou
   SliceProfiles centre = slice_profiles(slices.centre, options.surface_nu);
   if (slices.west && slices.east)
     add_gradients(centre, slice_profiles(*slices.west, centre), slice_profiles(*slices.east, centre),
-                  *options.gradient_step);
+                  result.place.gradient_step);
   add_intervals(centre);
   result.axis_depth = -centre.surface_z;
   result.wall_z = wall_height - centre.surface_z;

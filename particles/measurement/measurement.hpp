@@ -43,7 +43,8 @@ struct MeasurementOptions {
   std::size_t batches = 20;         ///< of the intervals
   ProfileScalarOptions scalars;
 
-  std::optional<double> gradient_step;  ///< derivatives from slices at position -+ this
+  std::optional<double>
+      gradient_step;  ///< derivatives from slices at position -+ this; cut to a quarter of half the chord
   std::optional<SlicesRequest> slices;  ///< more profiles; none in a periodic domain
   bool sensitivity = false;             ///< the scalars by other windows as well
 };
@@ -58,6 +59,7 @@ struct MeasurementFrame {
   double x_min = 0, x_max = 0;  ///< what the grains reach along x; -+ the radius in a drum
   double rotation = 0;          ///< of the drum, clockwise
   double slice_width = 0;       ///< of the slice in the middle
+  double gradient_step = 0;     ///< used; 0: no derivatives along x
   double half_chord = 0;        ///< of the surface; infinite without a drum
   std::size_t snapshots = 0, batches = 0;
 };

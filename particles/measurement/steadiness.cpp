@@ -15,6 +15,7 @@ namespace {
 // A drift counts when it is larger than its interval and than what would matter to a reader.
 constexpr double energy_that_matters = 0.1;  // of the mean
 constexpr double slope_that_matters = 0.5;   // deg
+constexpr double energy_too_vague = 0.5;     // an interval wider than this hides any change
 constexpr double least_turns = 0.99;         // snapshots end one interval before the turn does
 constexpr std::size_t least_snapshots = 20;
 
@@ -70,6 +71,9 @@ Steadiness steadiness(const TimeSeries& series, double rotation, std::size_t bat
     result.energy_std = standard_deviation(series.kinetic_energy) / mean;
     if (counts(result.energy, energy_that_matters))
       object(fmt::format("the kinetic energy changes by {:.0f} +- {:.0f} % from the first half to the second",
+                         100 * result.energy.value, 100 * result.energy.ci99));
+    if (result.energy.ci99 > energy_too_vague)
+      object(fmt::format("the kinetic energy fluctuates too much to tell: it changes by {:.0f} +- {:.0f} %",
                          100 * result.energy.value, 100 * result.energy.ci99));
   }
   if (!series.mass_angle.empty()) {

@@ -121,7 +121,10 @@ Json settings_of(const Measurement& m, const MeasurementOptions& options, const 
       {"wall_z", m.wall_z},
       {"drum_radius", m.place.container_radius},
       {"scales", to_json(m.scales)}};
-  if (options.gradient_step) settings["gradient_step"] = *options.gradient_step;
+  if (options.gradient_step) {
+    settings["gradient_step"] = m.place.gradient_step;
+    settings["gradient_step_asked"] = *options.gradient_step;
+  }
   return settings;
 }
 
