@@ -1,6 +1,7 @@
 """Figures of `drumlin measure`: the profiles at the centre with 99 % bands, and what was fitted to them."""
 
 import argparse
+import csv
 import json
 import math
 import pathlib
@@ -24,6 +25,7 @@ class Measured:
     """Scalars and profiles of one run; what was not measured is NaN."""
 
     def __init__(self, folder, scalars):
+        self.folder = folder
         self.header, self.columns = style.read_profiles(folder / "profiles.csv")
         with open(scalars, encoding="utf-8") as stream:
             self.content = json.load(stream)
@@ -220,14 +222,138 @@ def fluctuations(run):
     return figure
 
 
+GRADIENTS = [("d_sigma_zz_dz", r"$\partial\sigma_{zz}/\partial z$"), ("d_sigma_xx_dz", r"$\partial\sigma_{xx}/\partial z$"),
+             ("d_sigma_xz_dz", r"$\partial\sigma_{xz}/\partial z$"), ("d_sigma_zz_dx", r"$\partial\sigma_{zz}/\partial x$"),
+             ("d_sigma_xx_dx", r"$\partial\sigma_{xx}/\partial x$"), ("d_sigma_xz_dx", r"$\partial\sigma_{xz}/\partial x$"),
+             ("d_nu_dx", r"$\partial\nu/\partial x$"), ("d_v_x_dx", r"$\partial v_x/\partial x$"), ("d_k_dx", r"$\partial k/\partial x$")]
+
+
+def expected_gradients(run):
+    """What a flow that does not vary along x would show."""
+    theta, nu = math.radians(float(run.header["theta_deg"])), run.scalar("nu_bulk")
+    return {"d_sigma_zz_dz": -nu * math.cos(theta), "d_sigma_xz_dz": -nu * math.sin(theta), "d_sigma_zz_dx": 0,
+            "d_sigma_xx_dx": 0, "d_sigma_xz_dx": 0, "d_nu_dx": 0, "d_v_x_dx": 0, "d_k_dx": 0}
+
+
+def within_packing(run, name):
+    """The packing itself decides the range of an axis, not the last grains in the air or the layers at the wall."""
+    bottom = float(run.header["wall_z"]) + 3
+    values = [value for z, value in zip(run.z, run.columns[name]) if bottom < z < -1 and math.isfinite(value)]
+    values.append(expected_gradients(run).get(name, values[0] if values else 0))
+    values = [value for value in values if math.isfinite(value)] or [0]
+    margin = 0.6 * (max(values) - min(values)) + 1e-9
+    return min(values) - margin, max(values) + margin
+
+
+def gradients(run):
+    figure, panels = plt.subplots(3, 3, figsize=(14, 10.5))
+    for axes, (name, label) in zip(panels.flat, GRADIENTS):
+        depth_panel(axes, run, name)
+        draw(axes, run, name, label="measured, 99 %")
+        expected = expected_gradients(run).get(name)
+        if expected is not None and math.isfinite(expected):
+            axes.axhline(expected, color=FIT, label="if nothing varied along x")
+        axes.set_ylabel(label + "  per $d$")
+        axes.set_ylim(*within_packing(run, name))
+    panels.flat[0].legend(loc="lower left")
+    return figure
+
+
+def slices(run):
+    """v_x and nu in the narrow slices, from upstream to downstream."""
+    figure, (left, right) = plt.subplots(1, 2, figsize=(12, 4.6))
+    colors = plt.get_cmap("viridis")
+    entries = run.content["slices"]
+    for i, entry in enumerate(entries):
+        columns = style.read_profiles(run.folder / entry["file"])[1]
+        shown = [l for l, nu in enumerate(columns["nu"]) if nu > LEAST_SHOWN_NU]
+        z = [columns["z"][l] for l in shown]
+        color = colors(i / max(1, len(entries) - 1) * 0.9)
+        for axes, name in ((left, "v_x"), (right, "shear_rate")):
+            values = [columns[name][l] for l in shown]
+            half = columns.get(name + "_ci99")
+            if axes is right:
+                axes.plot(z, positive(values), "o-", color=color)
+            else:
+                style.band(axes, z, values, [half[l] for l in shown] if half else None, color,
+                           f"x = {entry['position']:+.0f} d")
+    for axes, name in ((left, "v_x"), (right, "shear_rate")):
+        axes.set_xlabel(style.LABELS["z"] + ", each from its own surface")
+        axes.set_ylabel(style.LABELS[name])
+        axes.axvline(0, color="0.4", linestyle="--", linewidth=1)
+    right.set_yscale("log")
+    left.legend(loc="upper left")
+    left.set_title("Velocity along the surface at five places")
+    right.set_title("Shear rate")
+    return figure
+
+
+def steadiness(run):
+    """Energy and slope over the turns that were measured."""
+    with open(run.folder / "series.csv", encoding="utf-8") as stream:
+        stream.readline()
+        rows = list(csv.DictReader(stream))
+    has_slope = bool(rows) and rows[0]["theta_com_deg"] != ""
+    turns = [float(row["turns"]) for row in rows]
+    rotates = len(set(turns)) > 1
+    at = turns if rotates else [float(row["time"]) for row in rows]
+    figure, panels = plt.subplots(2 if has_slope else 1, 1, figsize=(10, 6 if has_slope else 3.4), sharex=True, squeeze=False)
+    panels = list(panels.flat)
+    panels[0].plot(at, [float(row["kinetic_energy"]) for row in rows], ".-", linewidth=0.8)
+    panels[0].set_ylabel("kinetic energy\nin the drum's frame  [$\\rho_0 g d^3$]")
+    panels[0].set_ylim(bottom=0)
+    if has_slope:
+        panels[1].plot(at, [float(row["theta_com_deg"]) for row in rows], ".-", linewidth=0.8, color=style.OTHERS[0])
+        panels[1].set_ylabel("angle of the\ncentre of mass  [deg]")
+    panels[-1].set_xlabel("turns of the drum" if rotates else r"time  [$\sqrt{d/g}$]")
+    verdict = run.content["steadiness"]
+    title = "steady" if verdict["steady"] else "not steady: " + "; ".join(verdict["reasons"])
+    panels[0].set_title(style.title_of(title, run.reduced), fontsize=11 if len(title) > 60 else 13)
+    return figure
+
+
+def sensitivity(run):
+    """How far each scalar goes under other windows, beside its interval; both relative to its value."""
+    rows = []
+    for name, entry in run.content.items():
+        if isinstance(entry, dict) and "sensitivity" in entry and entry["value"]:
+            windows = entry["sensitivity"]
+            scale = abs(entry["value"])
+            rows.append((name, (windows["lowest"] - entry["value"]) / scale, (windows["highest"] - entry["value"]) / scale,
+                         (entry["ci99"] or 0) / scale))
+    figure, axes = plt.subplots(figsize=(9, 0.32 * len(rows) + 1.6))
+    for row, (name, low, high, half) in enumerate(rows):
+        axes.barh(row, 2 * half, left=-half, height=0.75, color=style.PARTICLES, alpha=0.25, linewidth=0)
+        axes.plot([low, high], [row, row], color=FIT, linewidth=3, solid_capstyle="butt")
+        axes.plot([0], [row], "k|", markersize=9)
+    axes.set_yticks(range(len(rows)), [name for name, *_ in rows], fontsize=10)
+    axes.invert_yaxis()
+    axes.set_xlim(-0.6, 0.6)
+    axes.set_xlabel("relative to the value: band = 99 % over time, line = by other windows")
+    axes.set_title(style.title_of("What each scalar owes to its definition", run.reduced))
+    return figure
+
+
+def figures_of(run):
+    """The figures of what was measured."""
+    chosen = [velocity, packing, stresses, rheology, fluctuations, steadiness]
+    if "omega" in run.columns:
+        chosen.append(rotation)
+    if "d_k_dx" in run.columns:
+        chosen.append(gradients)
+    if run.content.get("slices"):
+        chosen.append(slices)
+    if any(isinstance(entry, dict) and "sensitivity" in entry for entry in run.content.values()):
+        chosen.append(sensitivity)
+    return chosen
+
+
 def main():
     options = arguments()
     folder = pathlib.Path(options.folder)
     run = Measured(folder, options.measured or folder / "measured.json")
     style.use_style()
-    for draw_figure in (velocity, packing, rotation, stresses, rheology, fluctuations):
-        if draw_figure is rotation and "omega" not in run.columns:
-            continue
+    for draw_figure in figures_of(run):
         figure = draw_figure(run)
         if run.reduced and len(figure.axes) > 1:
             figure.suptitle("reduced run", fontsize=13)

@@ -113,7 +113,6 @@ TEST(Sensitivity, EveryVariantChangesOnlyWhatItsWindowReaches) {
   };
   const double H = result.scalars.value("H"), nu = result.scalars.value("nu_bulk");
   EXPECT_GT(value("straight line where v_x > 0.2 v_x(0)", "H"), H);
-  EXPECT_LT(value("straight line where v_x > 0.5 v_x(0)", "H"), H);
   EXPECT_EQ(value("straight line where v_x > 0.2 v_x(0)", "nu_bulk"), nu);
   EXPECT_NE(value("bulk 8 d from surface and wall", "nu_bulk"), nu);
   EXPECT_EQ(value("bulk 8 d from surface and wall", "H"), H);
