@@ -1,6 +1,6 @@
 #include "particles/io/checkpoint_file.hpp"
 
-#include "particles/io/h5_image.hpp"
+#include "coupling/files/h5_image.hpp"
 
 namespace drumlin {
 namespace {

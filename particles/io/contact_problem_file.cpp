@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <map>
 
-#include "particles/io/h5_image.hpp"
+#include "coupling/files/h5_image.hpp"
 
 namespace drumlin {
 namespace {

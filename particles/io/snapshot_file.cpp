@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "coupling/exchange/errors.hpp"
-#include "particles/io/h5_image.hpp"
+#include "coupling/files/h5_image.hpp"
 
 namespace drumlin {
 namespace {

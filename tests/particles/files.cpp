@@ -5,7 +5,7 @@
 
 #include "coupling/exchange/errors.hpp"
 #include "particles/io/contact_problem_file.hpp"
-#include "particles/io/h5_image.hpp"
+#include "coupling/files/h5_image.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/scene/random.hpp"
 #include "particles/solver/contact_solver.hpp"

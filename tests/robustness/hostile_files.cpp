@@ -10,7 +10,7 @@
 #include "coupling/exchange/text_file.hpp"
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/io/contact_problem_file.hpp"
-#include "particles/io/h5_image.hpp"
+#include "coupling/files/h5_image.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/scene/random.hpp"
 #include "particles/scene/scene_file.hpp"

@@ -1,13 +1,16 @@
-#include "particles/io/h5_image.hpp"
+#include "coupling/files/h5_image.hpp"
 
 #include <fcntl.h>
 #include <hdf5.h>
 #include <unistd.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <initializer_list>
+#include <iterator>
 #include <string_view>
 
 #include "coupling/exchange/errors.hpp"
@@ -54,10 +57,10 @@ void check(bool good, const char* what) {
 }
 
 void put(hid_t file, const std::string& name, hid_t memory_type, hid_t file_type, const void* data,
-         hsize_t count) {
+         std::initializer_list<hsize_t> shape) {
   const Id links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
   H5Pset_create_intermediate_group(links.get(), 1);
-  const Id space(H5Screate_simple(1, &count, nullptr), H5Sclose);
+  const Id space(H5Screate_simple(static_cast<int>(shape.size()), std::data(shape), nullptr), H5Sclose);
   // No object times: the same state gives the same bytes.
   const Id creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_obj_track_times(creation.get(), false);
@@ -65,7 +68,7 @@ void put(hid_t file, const std::string& name, hid_t memory_type, hid_t file_type
       H5Dcreate2(file, name.c_str(), file_type, space.get(), links.get(), creation.get(), H5P_DEFAULT),
       H5Dclose);
   check(set.valid(), "create a dataset");
-  if (count > 0)
+  if (std::find(shape.begin(), shape.end(), hsize_t{0}) == shape.end())
     check(H5Dwrite(set.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0, "write a dataset");
 }
 
@@ -125,16 +128,20 @@ H5Writer::H5Writer() : handles_(std::make_unique<Handles>()) {
 H5Writer::~H5Writer() = default;
 
 void H5Writer::add(const std::string& name, std::span<const double> values) {
-  put(handles_->file->get(), name, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, values.data(), values.size());
+  put(handles_->file->get(), name, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, values.data(), {values.size()});
 }
 void H5Writer::add(const std::string& name, std::span<const float> values) {
-  put(handles_->file->get(), name, H5T_NATIVE_FLOAT, H5T_IEEE_F32LE, values.data(), values.size());
+  put(handles_->file->get(), name, H5T_NATIVE_FLOAT, H5T_IEEE_F32LE, values.data(), {values.size()});
 }
 void H5Writer::add(const std::string& name, std::span<const std::int32_t> values) {
-  put(handles_->file->get(), name, H5T_NATIVE_INT32, H5T_STD_I32LE, values.data(), values.size());
+  put(handles_->file->get(), name, H5T_NATIVE_INT32, H5T_STD_I32LE, values.data(), {values.size()});
 }
 void H5Writer::add(const std::string& name, std::span<const std::int64_t> values) {
-  put(handles_->file->get(), name, H5T_NATIVE_INT64, H5T_STD_I64LE, values.data(), values.size());
+  put(handles_->file->get(), name, H5T_NATIVE_INT64, H5T_STD_I64LE, values.data(), {values.size()});
+}
+void H5Writer::add_table(const std::string& name, std::span<const double> values, std::size_t columns) {
+  put(handles_->file->get(), name, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, values.data(),
+      {values.size() / columns, columns});
 }
 void H5Writer::add_number(const std::string& name, double value) {
   add(name, std::span<const double>(&value, 1));
@@ -143,7 +150,7 @@ void H5Writer::add_number(const std::string& name, std::int64_t value) {
   add(name, std::span<const std::int64_t>(&value, 1));
 }
 void H5Writer::add_text(const std::string& name, const std::string& text) {
-  put(handles_->file->get(), name, H5T_NATIVE_UINT8, H5T_STD_U8LE, text.data(), text.size());
+  put(handles_->file->get(), name, H5T_NATIVE_UINT8, H5T_STD_U8LE, text.data(), {text.size()});
 }
 
 void H5Writer::save(const std::filesystem::path& file) const {
@@ -204,6 +211,18 @@ bool H5Reader::has(const std::string& name) const {
     if (H5Lexists(handles_->file->get(), name.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
     if (end == std::string::npos) return true;
   }
+}
+
+std::vector<std::size_t> H5Reader::shape(const std::string& name) const {
+  if (!has(name)) refuse(name, "missing dataset");
+  const Id set(H5Dopen2(handles_->file->get(), name.c_str(), H5P_DEFAULT), H5Dclose);
+  if (!set.valid()) refuse(name, "not a dataset");
+  const Id space(H5Dget_space(set.get()), H5Sclose);
+  const int dimensions = H5Sget_simple_extent_ndims(space.get());
+  if (dimensions < 0) refuse(name, "of an impossible shape");
+  std::vector<hsize_t> lengths(static_cast<std::size_t>(dimensions));
+  H5Sget_simple_extent_dims(space.get(), lengths.data(), nullptr);
+  return {lengths.begin(), lengths.end()};
 }
 
 namespace {

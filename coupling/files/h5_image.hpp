@@ -2,6 +2,7 @@
 // Small HDF5 files that survive: built in memory, closed by a checksum, written aside, synced and renamed. A
 // reader checks the checksum before HDF5 sees a byte (random bit flips otherwise crash or hang it, or pass
 // unnoticed).
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -23,6 +24,8 @@ class H5Writer {
   void add(const std::string& name, std::span<const float> values);
   void add(const std::string& name, std::span<const std::int32_t> values);
   void add(const std::string& name, std::span<const std::int64_t> values);
+  /// Row after row; `values` holds a whole number of rows.
+  void add_table(const std::string& name, std::span<const double> values, std::size_t columns);
   void add_number(const std::string& name, double value);
   void add_number(const std::string& name, std::int64_t value);
   void add_text(const std::string& name, const std::string& text);
@@ -46,6 +49,8 @@ class H5Reader {
   H5Reader& operator=(const H5Reader&) = delete;
 
   bool has(const std::string& name) const;
+  /// Lengths of a dataset, slowest index first.
+  std::vector<std::size_t> shape(const std::string& name) const;
   std::vector<double> doubles(const std::string& name) const;
   std::vector<float> floats(const std::string& name) const;
   std::vector<std::int32_t> ints(const std::string& name) const;

@@ -1,0 +1,102 @@
+#include "coupling/files/field_map_file.hpp"
+
+#include <cmath>
+#include <sstream>
+#include <tuple>
+#include <utility>
+
+#include "coupling/exchange/errors.hpp"
+#include "coupling/files/h5_image.hpp"
+
+namespace drumlin {
+namespace {
+
+const std::string format = "drumlin-maps-1";
+constexpr double even = 1e-9;  // how far nodes may lie off equal spacing, of the spacing: rounding, no more
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+/// First node and spacing of an axis that is stored as all its nodes.
+std::pair<double, double> axis(const H5Reader& in, const char* name, const std::vector<double>& nodes) {
+  if (nodes.empty()) in.refuse(name, "empty");
+  const auto last = static_cast<double>(nodes.size() - 1);
+  // A single node has no neighbour that would give a spacing.
+  const double spacing = nodes.size() > 1 ? (nodes.back() - nodes.front()) / last : 1;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (!(std::abs(nodes[i] - nodes.front() - static_cast<double>(i) * spacing) <= even * spacing))
+      in.refuse(name, "not ascending in equal steps");
+  return {nodes.front(), spacing};
+}
+
+std::map<std::string, std::string> header(const H5Reader& in) {
+  std::map<std::string, std::string> entries;
+  for (const std::string& line : lines_of(in.text("header"))) {
+    const std::size_t equals = line.find(" = ");
+    if (equals == std::string::npos) in.refuse("header", "\"" + line + "\" is no line key = value");
+    entries[line.substr(0, equals)] = line.substr(equals + 3);
+  }
+  return entries;
+}
+
+std::vector<double> over_grid(const H5Reader& in, const std::string& name, const MapGrid& grid) {
+  if (in.shape(name) != std::vector<std::size_t>{grid.rows, grid.columns})
+    in.refuse(name, "not one entry per row and column of the grid");
+  return in.doubles(name);
+}
+
+}  // namespace
+
+void write_field_map(const std::filesystem::path& file, const FieldMap& map) {
+  if (const std::string fault = fault_of(map); !fault.empty()) throw InputError(file.string() + ": " + fault);
+  const MapGrid& grid = map.grid;
+  std::vector<double> x(grid.columns), z(grid.rows);
+  for (std::size_t column = 0; column < x.size(); ++column) x[column] = grid.x_of(column);
+  for (std::size_t row = 0; row < z.size(); ++row) z[row] = grid.z_of(row);
+  std::string head, names;
+  for (const auto& [key, value] : map.header) head.append(key).append(" = ").append(value).append("\n");
+  for (const MapField& field : map.fields) names.append(field.name).append("\n");
+
+  H5Writer out;
+  out.add_text("format", format);
+  out.add_text("header", head);
+  out.add_text("names", names);
+  out.add_number("scales/length_m", map.scales.length_m);
+  out.add_number("scales/time_s", map.scales.time_s);
+  out.add_number("scales/density_kg_m3", map.scales.density_kg_m3);
+  out.add("x", std::span<const double>(x));
+  out.add("z", std::span<const double>(z));
+  for (const MapField& field : map.fields) {
+    out.add_table("fields/" + field.name, field.value, grid.columns);
+    if (!field.ci99.empty()) out.add_table("ci99/" + field.name, field.ci99, grid.columns);
+  }
+  out.save(file);
+}
+
+FieldMap read_field_map(const std::filesystem::path& file) {
+  const H5Reader in(file);
+  if (!in.has("format") || in.text("format") != format)
+    in.refuse("format",
+              in.has("format") ? "'" + in.text("format") + "', this version reads " + format : "missing");
+  FieldMap map;
+  map.header = header(in);
+  map.scales = {in.number("scales/length_m"), in.number("scales/time_s"), in.number("scales/density_kg_m3")};
+  const std::vector<double> x = in.doubles("x"), z = in.doubles("z");
+  std::tie(map.grid.x_first, map.grid.spacing_x) = axis(in, "x", x);
+  std::tie(map.grid.z_first, map.grid.spacing_z) = axis(in, "z", z);
+  map.grid.columns = x.size();
+  map.grid.rows = z.size();
+  for (const std::string& name : lines_of(in.text("names"))) {
+    MapField field{name, over_grid(in, "fields/" + name, map.grid), {}};
+    if (in.has("ci99/" + name)) field.ci99 = over_grid(in, "ci99/" + name, map.grid);
+    map.fields.push_back(std::move(field));
+  }
+  if (const std::string fault = fault_of(map); !fault.empty()) throw InputError(file.string() + ": " + fault);
+  return map;
+}
+
+}  // namespace drumlin
