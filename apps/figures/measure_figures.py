@@ -182,7 +182,8 @@ def over_inertia(axes, run, name):
 
 
 def rheology(run):
-    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(15, 4.6))
+    figure, panels = plt.subplots(2, 2, figsize=(12, 9))
+    left, middle, right, last = panels.flat
     depth_panel(left, run, "I")
     draw_logarithmic(left, run, "I")
     left.set_title("Inertial number")
@@ -196,6 +197,8 @@ def rheology(run):
     middle.legend(loc="upper left")
     over_inertia(right, run, "k")
     right.set_title("Ratio of the normal stresses")
+    over_inertia(last, run, "nu")
+    last.set_title("Volume fraction")
     return figure
 
 
