@@ -142,7 +142,7 @@ class CommandLine {
     command
         .add_option("--parts", measure_.parts,
                     "What is measured beside the profiles, the rest is neither computed nor stored; none: nothing "
-                    "[all of gradients, slices, sensitivity]")
+                    "[all of gradients, slices, sensitivity, forces]")
         ->delimiter(',')
         ->type_name("LIST");
     add_number(command, "--gradient-step", measure_.gradient_step, "d", above(0),

@@ -42,8 +42,9 @@ struct DistributionSums {
   DistributionSums& operator-=(const DistributionSums& other);
 };
 
-/// Window of weak forces, over the mean: above what the residual of a run's contacts leaves undecided.
-constexpr double weakest_force = 0.02, weak_force_limit = 0.5;
+/// Window of weak forces, over the mean. Below it stand grains that carry nothing but their own weight: 0.02
+/// of the mean at 40 d.
+constexpr double weakest_force = 0.1, weak_force_limit = 0.5;
 
 /// Exponent p of a density x^p between `low` and `high` from the mean of ln x: maximum likelihood.
 double power_of(double mean_logarithm, double low, double high);

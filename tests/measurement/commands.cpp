@@ -71,6 +71,31 @@ TEST(MeasureCommand, LeavesProfilesScalarsAndFigures) {
     EXPECT_TRUE(fs::exists(run / "measured" / (figure + std::string(".png")))) << figure;
 }
 
+TEST(MeasureCommand, MeasuresForcesWhereContactsCarryAny) {
+  const TemporaryFolder folder;
+  const Snapshot columns = with_scales(drumlin::testing::stacked_columns(6, 12, 0.2));
+  const fs::path run = run_folder(folder, "finished", std::vector<Snapshot>(5, columns));
+  MeasureOptions options = options_for(run);
+  options.parts = {"forces"};
+  EXPECT_EQ(measure(options), 0);
+  const ProfileSet layers = read_profiles(run / "measured" / "forces.csv");
+  EXPECT_EQ(layers.column("contacts").value.front(), 30);  // six on the lowest row, five snapshots
+  const auto json = nlohmann::json::parse(file_text(run / "measured" / "measured.json"));
+  const auto wall = json.at("forces").at("zones").at("wall");
+  EXPECT_NEAR(wall.at("f_t_over_f_n").at("value").get<double>(), std::tan(0.2), 1e-6);
+  EXPECT_FALSE(wall.contains("sliding_share"));  // without a scene the friction is not known
+  EXPECT_TRUE(fs::exists(run / "measured" / "force_distributions.csv"));
+  EXPECT_TRUE(fs::exists(run / "measured" / "forces.png"));
+
+  fs::remove_all(run / "snapshots");
+  const Snapshot loose = with_scales(drumlin::testing::hexagonal_layer(6, 6));
+  run_folder(folder, "finished", {loose});
+  options.existing = ExistingOutput::overwrite;
+  EXPECT_EQ(measure(options), 0);
+  EXPECT_TRUE(nlohmann::json::parse(file_text(run / "measured" / "measured.json"))["forces"].is_null());
+  EXPECT_FALSE(fs::exists(run / "measured" / "forces.csv"));
+}
+
 TEST(MeasureCommand, KeepsWhatIsThereUnlessToldOtherwise) {
   const TemporaryFolder folder;
   const fs::path run =

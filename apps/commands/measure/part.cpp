@@ -6,12 +6,13 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "apps/commands/measure/forces_part.hpp"
 #include "coupling/exchange/errors.hpp"
 
 namespace drumlin::apps {
 
 const std::vector<std::string>& part_names() {
-  static const std::vector<std::string> names{"gradients", "slices", "sensitivity"};
+  static const std::vector<std::string> names{"gradients", "slices", "sensitivity", "forces"};
   return names;
 }
 
@@ -28,8 +29,9 @@ bool names_part(const MeasureOptions& options, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-std::vector<Part> reading_parts(const MeasureOptions&) {
+std::vector<Part> reading_parts(const MeasureOptions& options) {
   std::vector<Part> parts;
+  if (names_part(options, "forces")) parts.push_back(forces_part(options));
   return parts;
 }
 

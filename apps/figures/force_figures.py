@@ -1,0 +1,180 @@
+"""Figure of the part `forces` of `drumlin measure`: how contact forces are distributed and where they point."""
+
+import argparse
+import csv
+import json
+import math
+import pathlib
+
+import matplotlib.pyplot as plt
+
+import style
+
+ZONES = {"flowing": style.PARTICLES, "static": style.CONTINUUM, "wall": style.OTHERS[0]}
+NAMES = {"flowing": "flowing layer", "static": "static phase", "bulk": "bulk", "wall": "at the drum"}
+LEAST_COUNT = 10  # contacts in a bin that is drawn
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("folder", help="RUN/measured: holds forces.csv, force_distributions.csv, takes forces.png")
+    parser.add_argument("--measured", help="the scalars; standard: measured.json in the folder")
+    return parser.parse_args()
+
+
+class Forces:
+    """Rows of force_distributions.csv by zone and quantity, scalars of "forces" in measured.json."""
+
+    def __init__(self, folder, content):
+        self.header, self.layers = style.read_profiles(folder / "forces.csv")
+        self.zones = content["forces"]["zones"] or {}
+        self.rows = {}
+        with open(folder / "force_distributions.csv", newline="", encoding="utf-8") as stream:
+            stream.readline()
+            for row in csv.DictReader(stream):
+                numbers = {key: float(row[key]) if row[key] else math.nan
+                           for key in ("from", "to", "value", "ci99", "contacts")}
+                self.rows.setdefault((row["zone"], row["quantity"]), []).append(numbers)
+
+    def shown_zones(self):
+        """Flowing and static where the run has them, else the bulk."""
+        shown = [zone for zone in ZONES if zone in self.zones]
+        return shown if any(zone != "wall" for zone in shown) else ["bulk"] * ("bulk" in self.zones) + shown
+
+    def scalar(self, zone, name):
+        value = self.zones[zone].get(name, {}).get("value")
+        return math.nan if value is None else value
+
+    def curve(self, zone, quantity, least=LEAST_COUNT):
+        """Middles of the bins with enough contacts, values, half widths."""
+        rows = [row for row in self.rows.get((zone, quantity), []) if row["contacts"] >= least]
+        return ([(row["from"] + row["to"]) / 2 for row in rows], [row["value"] for row in rows],
+                [row["ci99"] for row in rows])
+
+
+def densities(axes, forces, quantity, xlabel):
+    for zone in forces.shown_zones():
+        x, y, half = forces.curve(zone, quantity)
+        color = ZONES.get(zone, style.PARTICLES)
+        axes.plot(x, y, "o-", markersize=3, color=color, label=NAMES[zone])
+        axes.fill_between(x, [max(a - b, 0.1 * a) for a, b in zip(y, half)], [a + b for a, b in zip(y, half)],
+                          color=color, alpha=0.25, linewidth=0)
+    axes.set_yscale("log")
+    axes.set_xlabel(xlabel)
+    axes.set_ylabel("probability density")
+
+
+def strong_forces(axes, forces):
+    densities(axes, forces, "f_n", r"$f_n/\langle f_n\rangle$")
+    for zone in forces.shown_zones():
+        beta = forces.scalar(zone, "tail_exponent")
+        x, y, _ = forces.curve(zone, "f_n")
+        start = [b for a, b in zip(x, y) if a > 1]
+        if zone != "wall" and math.isfinite(beta) and start:
+            axes.plot([1, 6], [start[0], start[0] * math.exp(-5 * beta)], "--", linewidth=1,
+                      color=ZONES.get(zone, style.PARTICLES), label=rf"$e^{{-{beta:.2f} f}}$")
+    axes.set_xlim(0, 8)
+    axes.set_ylim(bottom=1e-4)
+    axes.set_title("Normal forces over the mean at their depth")
+    axes.legend(loc="upper right")
+
+
+def weak_forces(axes, forces):
+    densities(axes, forces, "f_n", r"$f_n/\langle f_n\rangle$")
+    axes.set_xscale("log")
+    axes.set_ylim(1e-3, 30)
+    axes.set_title("The same, weak forces")
+
+
+def friction(axes, forces):
+    densities(axes, forces, "f_t_over_f_n", r"$|f_t|/f_n$")
+    axes.set_title("Mobilised friction")
+
+
+def polar(axes, forces, quantity, harmonics, title):
+    """Measured by direction, and the second harmonic on it as a line."""
+    line = [math.radians(angle) for angle in range(361)]
+    for zone in forces.shown_zones():
+        phi, value, _ = forces.curve(zone, quantity)
+        if zone == "wall" or not phi:
+            continue
+        color = ZONES.get(zone, style.PARTICLES)
+        closed = [math.radians(angle) for angle in phi + [angle + 180 for angle in phi]]
+        axes.plot(closed + closed[:1], [abs(v) for v in value + value + value[:1]], "o:", markersize=3.5, linewidth=0.8,
+                  color=color)
+        axes.plot(line, [abs(v) for v in harmonics(zone, line)], color=color, linewidth=1.2)
+    axes.set_title(title)
+    axes.set_yticklabels([])
+
+
+def directions(forces, quantity):
+    """The function of direction that a zone's second harmonic stands for."""
+    def contacts(zone, line):
+        a, phi = forces.scalar(zone, "a_c"), math.radians(forces.scalar(zone, "phi_c_deg"))
+        return [(1 + a * math.cos(2 * (angle - phi))) / (2 * math.pi) for angle in line]
+
+    def normal(zone, line):
+        a, phi = forces.scalar(zone, "a_n"), math.radians(forces.scalar(zone, "phi_n_deg"))
+        mean = direction_mean(zone)
+        return [mean * (1 + a * math.cos(2 * (angle - phi))) for angle in line]
+
+    def tangential(zone, line):
+        a, phi = forces.scalar(zone, "a_t"), math.radians(forces.scalar(zone, "phi_t_deg"))
+        mean = direction_mean(zone)
+        return [mean * a * math.sin(2 * (angle - phi)) for angle in line]
+
+    def direction_mean(zone):
+        values = forces.curve(zone, "f_n_of_direction", 0)[1]
+        return sum(values) / len(values)
+
+    return {"contacts": contacts, "normal": normal, "tangential": tangential}[quantity]
+
+
+def over_depth(axes, forces):
+    layers, z = forces.layers, forces.layers["z"]
+    for name, color, label in (("a_c", style.PARTICLES, "$a_c$"), ("a_n", style.CONTINUUM, "$a_n$"),
+                               ("a_t", style.OTHERS[0], "$a_t$"), ("a_c4", style.OTHERS[1], "$a_{c4}$")):
+        style.band(axes, z, layers[name], layers.get(name + "_ci99"), color, label)
+    axes.set_ylim(0, 0.8)
+    axes.set_xlabel(style.LABELS["z"])
+    axes.set_title("Anisotropies by layer")
+    axes.legend(loc="upper left", ncol=2)
+
+
+def stress_ratio(axes, forces):
+    layers, z = forces.layers, forces.layers["z"]
+    style.band(axes, z, layers["stress_ratio"], layers.get("stress_ratio_ci99"), style.PARTICLES, r"$|\tau|/p$")
+    axes.plot(z, layers["stress_ratio_harmonics"], color=style.CONTINUUM, label="carried by the harmonics")
+    axes.plot(z, layers["half_sum"], color="k", linestyle="--", linewidth=1, label=r"$(a_c + a_n + a_t)/2$")
+    axes.set_ylim(0, 0.6)
+    axes.set_xlabel(style.LABELS["z"])
+    axes.set_title("Stress ratio")
+    axes.legend(loc="upper left")
+
+
+def main():
+    options = arguments()
+    folder = pathlib.Path(options.folder)
+    with open(options.measured or folder / "measured.json", encoding="utf-8") as stream:
+        content = json.load(stream)
+    if content.get("forces") is None:
+        return  # no contacts: nothing was measured
+    forces = Forces(folder, content)
+    style.use_style()
+    figure = plt.figure(figsize=(16, 12.5))
+    grid = figure.add_gridspec(3, 6)
+    strong_forces(figure.add_subplot(grid[0, 0:2]), forces)
+    weak_forces(figure.add_subplot(grid[0, 2:4]), forces)
+    friction(figure.add_subplot(grid[0, 4:6]), forces)
+    for column, quantity, name, title in ((0, "contacts", "contacts_of_direction", r"Contacts $E(\varphi)$"),
+                                          (2, "normal", "f_n_of_direction", r"Normal force $\langle f_n\rangle(\varphi)$"),
+                                          (4, "tangential", "f_t_of_direction", r"Tangential force $|\langle f_t\rangle|(\varphi)$")):
+        polar(figure.add_subplot(grid[1, column:column + 2], projection="polar"), forces, name,
+              directions(forces, quantity), title)
+    over_depth(figure.add_subplot(grid[2, 0:3]), forces)
+    stress_ratio(figure.add_subplot(grid[2, 3:6]), forces)
+    style.save(figure, folder / "forces.png", content["reduced"])
+
+
+if __name__ == "__main__":
+    main()
