@@ -7,7 +7,8 @@
 namespace drumlin {
 
 double disc_area_left_of(double radius, double a) {
-  a = std::clamp(a, -radius, radius);
+  if (a <= -radius) return 0;
+  if (a >= radius) return std::numbers::pi * radius * radius;
   const double chord = std::sqrt(std::max(0.0, radius * radius - a * a));
   return radius * radius * (std::numbers::pi / 2 + std::asin(a / radius)) + a * chord;
 }

@@ -63,15 +63,28 @@ void CoverageMap::add(const Snapshot& snapshot, const FlowFrame& frame) {
 }
 
 void CoverageMap::add_disc(double x, double z, double radius) {
-  const auto first = [&](double centre) { return std::max(0.0, std::floor(centre - radius)); };
-  const auto end = [&](double centre, std::size_t cells) {
-    return std::min(static_cast<double>(cells), std::ceil(centre + radius));
+  const auto first = [](double centre, double r) { return std::max(0.0, std::floor(centre - r)); };
+  const auto end = [](double centre, double r, std::size_t cells) {
+    return std::min(static_cast<double>(cells), std::ceil(centre + r));
   };
-  for (double row = first(z); row < end(z, rows_); ++row) {
-    for (double column = first(x); column < end(x, columns_); ++column) {
-      const Rectangle square{column, column + 1, row, row + 1};
-      area_[static_cast<std::size_t>(row) * columns_ + static_cast<std::size_t>(column)] +=
-          disc_area_in(x, z, radius, square);
+  const double west = first(x, radius), east = end(x, radius, columns_);
+  const double south = first(z, radius), north = end(z, radius, rows_);
+  if (!(west < east && south < north)) return;
+  // Area below and to the left of each corner of the cells: one evaluation a corner, where each cell alone
+  // would need all four of its own.
+  std::vector<double>& below = corners_;
+  below.assign(static_cast<std::size_t>(east - west) + 1, 0.0);
+  for (std::size_t c = 0; c < below.size(); ++c)
+    below[c] = disc_area_in_quadrant(radius, west + static_cast<double>(c) - x, south - z);
+  for (double row = south; row < north; ++row) {
+    double* cells = &area_[static_cast<std::size_t>(row) * columns_ + static_cast<std::size_t>(west)];
+    double left = 0;  // of the row, left of the corner before
+    for (std::size_t c = 0; c < below.size(); ++c) {
+      const double corner = disc_area_in_quadrant(radius, west + static_cast<double>(c) - x, row + 1 - z);
+      const double strip = corner - below[c];
+      if (c > 0) cells[c - 1] += strip - left;
+      left = strip;
+      below[c] = corner;
     }
   }
 }

@@ -54,6 +54,7 @@ class CoverageMap {
   double x_min_, z_min_;
   std::size_t columns_, rows_, snapshots_ = 0;
   std::vector<double> area_;
+  std::vector<double> corners_;  ///< workspace of add_disc
 };
 
 struct SlopeOptions {

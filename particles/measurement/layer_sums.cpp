@@ -41,9 +41,19 @@ void add_covered_area(const LayerGrid& grid, double x, double z, double radius,
   const auto layer_count = static_cast<double>(layers.size());
   const double first = std::max(0.0, std::floor((z - radius - grid.z_min) / grid.thickness));
   const double end = std::min(layer_count, std::ceil((z + radius - grid.z_min) / grid.thickness));
+  if (x - radius < grid.x_min || x + radius > grid.x_max) {
+    for (double layer = first; layer < end; ++layer) {
+      const auto index = static_cast<std::size_t>(layer);
+      layers[index].covered += disc_area_in(x, z, radius, grid.rectangle(index));
+    }
+    return;
+  }
+  // Between the sides of the slice layers cut the disc into strips: one evaluation a boundary.
+  double below = disc_area_left_of(radius, grid.z_min + first * grid.thickness - z);
   for (double layer = first; layer < end; ++layer) {
-    const auto index = static_cast<std::size_t>(layer);
-    layers[index].covered += disc_area_in(x, z, radius, grid.rectangle(index));
+    const double up_to = disc_area_left_of(radius, grid.z_min + (layer + 1) * grid.thickness - z);
+    layers[static_cast<std::size_t>(layer)].covered += up_to - below;
+    below = up_to;
   }
 }
 
