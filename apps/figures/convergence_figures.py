@@ -12,13 +12,14 @@ import re
 import sys
 
 import matplotlib.pyplot as plt
+from matplotlib.ticker import LogLocator, NullFormatter, ScalarFormatter
 
 import style
 
 SCALARS = [("theta_com_deg", r"$\theta$ (centre of mass)  [deg]", 2), ("H", r"$H$  [$d$]", 1), ("shear_rate", r"$\dot\gamma$", 4),
            ("lambda", r"$\lambda$  [$d$]", 1), ("I_th", r"$I_{th}$", 4), ("dv_over_shear", r"$\delta v/\dot\gamma$", 2),
            ("domega_over_shear", r"$\delta\omega/\dot\gamma$", 2), ("mu_b", r"$b$ of $\mu = a + b \ln I$", 4),
-           ("k_flowing", r"$k$ in the flow", 3), ("overlap_mean", "mean overlap  [d]", 7)]
+           ("dv_exponent", r"exponent of $\delta v/\dot\gamma \sim I^p$", 3), ("overlap_mean", "mean overlap  [d]", 7)]
 
 
 def runs_of(standard, convergence):
@@ -80,6 +81,9 @@ def figure(groups):
             axes.errorbar([cpu], [mean], [half], fmt="s" if name == "standard" else "o", color=color, capsize=3, markersize=7,
                           label=f"{name} ({len(runs)})")
         axes.set_xscale("log")
+        axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axes.xaxis.set_major_formatter(ScalarFormatter())
+        axes.xaxis.set_minor_formatter(NullFormatter())
         axes.set_title(label, fontsize=12)
         axes.set_xlabel("CPU time of a run  [s]")
     panels.flat[len(SCALARS) - 1].set_yscale("log")
@@ -105,7 +109,7 @@ def main():
         "machine": next(iter(groups.values()))[0][0]["provenance"].get("machine"),
         "revisions": sorted({run["revision"] for runs in groups.values() for run, _ in runs})}
     (output / "convergence.json").write_text(json.dumps(content, indent=2) + "\n", encoding="utf-8")
-    style.save(figure({name: runs for name, runs in groups.items() if not name.startswith("friction")}), output / "convergence.png", False)
+    style.save(figure({name: runs for name, runs in groups.items() if "friction" not in name}), output / "convergence.png", False)
     print(text)
 
 
