@@ -20,7 +20,8 @@ void add_half_branches(const Snapshot& snapshot, const FlowFrame& frame, FlowSna
       const auto g = static_cast<std::size_t>(grain);
       const double reach = -sign * snapshot.radius[g];
       result.half_branches.push_back({static_cast<std::uint32_t>(grain), result.x[g], result.z[g],
-                                      reach * along, reach * normal, sign * force_x, sign * force_z});
+                                      reach * along, reach * normal, sign * force_x, sign * force_z,
+                                      contact.j < 0});
       ++result.coordination[g];
     };
     add(contact.i, 1);

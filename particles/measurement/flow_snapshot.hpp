@@ -17,6 +17,7 @@ struct HalfBranch {
   double x = 0, z = 0;                ///< centre of the grain
   double toward_x = 0, toward_z = 0;  ///< from the centre to the contact
   double force_x = 0, force_z = 0;    ///< on the grain
+  bool at_wall = false;               ///< the other side is a wall
 };
 
 /// Components in the flow frame, one entry per grain. Velocities and spins are relative to the drum.

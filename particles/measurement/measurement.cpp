@@ -120,6 +120,7 @@ void measure_centre(const Slices& slices, const MeasurementOptions& options, dou
     add_gradients(centre, slice_profiles(*slices.west, centre), slice_profiles(*slices.east, centre),
                   result.place.gradient_step);
   add_intervals(centre);
+  result.surface_z = centre.surface_z;
   result.axis_depth = -centre.surface_z;
   result.wall_z = wall_height - centre.surface_z;
   result.fits = profile_scalars(centre.profiles, options.scalars);

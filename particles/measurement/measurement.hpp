@@ -90,6 +90,7 @@ struct Measurement {
   MeasurementFrame place;
   double frame_angle_deg = none;   ///< of x below the horizontal
   double axis_depth = none;        ///< height of the drum's axis above the surface
+  double surface_z = none;         ///< of z = 0, in the frame of `place`
   double wall_z = none;            ///< of the wall below the slice, of the lowest layer without a drum
   double slope_half_width = none;  ///< used
   bool in_mirror = false;

@@ -1,0 +1,65 @@
+#pragma once
+// What the maps of a run say as a whole: whether momentum is balanced, and how well one mu(I) holds
+// everywhere.
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "coupling/exchange/field_map.hpp"
+
+namespace drumlin {
+
+/// Where the packing ends, in the coordinates of the map.
+struct MapBounds {
+  double container_radius = 0;  ///< 0: none
+  double axis_z = 0;            ///< of the container
+  /// Without a container: floor and sides; infinite where there is none.
+  double x_min = -std::numeric_limits<double>::infinity();
+  double x_max = std::numeric_limits<double>::infinity();
+  double z_min = -std::numeric_limits<double>::infinity();
+};
+
+struct MapFindingOptions {
+  double margin = 3;                  ///< d that the bulk keeps from the wall and from the surface above it
+  double surface_nu = 0.7;            ///< of the surface, column by column
+  double flowing_I = 1e-2;            ///< I from which a node counts as flowing
+  double I_min = 1e-4, I_max = 1e-1;  ///< of the fits of mu(I)
+};
+
+/// Nodes of the map in the bulk.
+std::vector<std::size_t> bulk_nodes(const FieldMap& map, const MapBounds& bounds,
+                                    const MapFindingOptions& options);
+
+/// What is missing in the balance of momentum over some nodes, in units of nu g.
+struct BalanceResidual {
+  std::size_t nodes = 0;
+  double rms_x = 0, rms_z = 0;
+  double mean_x = 0, mean_z = 0;
+  double noise_x = 0, noise_z = 0;              ///< rms of the residual's standard error; NaN without batches
+  double rms_x_contact = 0, rms_z_contact = 0;  ///< with the kinetic stress left out
+  double inertia = 0;                           ///< rms of nu v.grad v of the mean velocity, both components
+};
+
+struct MomentumBalance {
+  BalanceResidual bulk, flowing, slow;  ///< slow: the bulk that does not flow
+};
+/// `batches`: behind the map's intervals.
+MomentumBalance momentum_balance(const FieldMap& map, const MapBounds& bounds,
+                                 const MapFindingOptions& options, std::size_t batches);
+
+/// Straight line through y over ln I, every node with the same weight.
+struct LogLine {
+  double a = std::numeric_limits<double>::quiet_NaN(), b = a, rms = a;  ///< y = a + b ln I
+  std::size_t nodes = 0;
+};
+
+/// mu(I) over the bulk: by invariants (mu = |tau|/p over I), and as layers have it (sigma_xz/sigma_zz over
+/// dv_x/dz / sqrt(sigma_zz), where that is positive).
+struct FrictionCollapse {
+  LogLine invariant, ratio;
+  std::size_t bulk = 0;  ///< nodes of the bulk
+};
+FrictionCollapse friction_collapse(const FieldMap& map, const MapBounds& bounds,
+                                   const MapFindingOptions& options);
+
+}  // namespace drumlin

@@ -1,0 +1,244 @@
+// Fields of packings that are known by hand.
+#include "particles/measurement/field_maps.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "particles/measurement/map_findings.hpp"
+#include "tests/measurement/packings.hpp"
+
+namespace drumlin {
+namespace {
+
+/// Maps of one snapshot per batch.
+FieldMap maps_of(const CoarseGraining& graining, const std::vector<Snapshot>& snapshots, double radius = 0) {
+  std::vector<MapSums> batches;
+  FlowSnapshot in_frame;
+  for (const Snapshot& snapshot : snapshots) {
+    to_flow_frame(snapshot, graining.frame, VelocityKind::window, in_frame);
+    batches.push_back(empty_sums(graining));
+    MapDepositor(graining).add(snapshot, in_frame, batches.back());
+  }
+  return field_maps(graining, batches, radius, 0);
+}
+
+/// Discs of diameter 1 on a square lattice over 16 x 16: a kernel of width 1 reproduces straight lines on it.
+Snapshot square_lattice(const std::function<std::array<double, 2>(double, double)>& velocity) {
+  Snapshot snapshot;
+  snapshot.time_step = 0.01;
+  for (int column = 0; column < 16; ++column)
+    for (int row = 0; row < 16; ++row) {
+      const double x = column - 7.5, z = row - 7.5;
+      testing::add_grain(snapshot, x, z, 0.5);
+      const auto v = velocity(x, z);
+      snapshot.v_x.back() = v[0];
+      snapshot.v_z.back() = v[1];
+    }
+  return snapshot;
+}
+
+/// Calls check(x, z, value of a field by name) at the nodes more than 2.5 d inside the square lattice.
+template <class Check>
+void each_inner_node(const FieldMap& map, Check check) {
+  int checked = 0;
+  for (std::size_t node = 0; node < map.grid.nodes(); ++node) {
+    const double x = map.grid.x_of(node % map.grid.columns), z = map.grid.z_of(node / map.grid.columns);
+    if (std::abs(x) > 5.5 || std::abs(z) > 5.5) continue;
+    ++checked;
+    check(x, z, [&](const char* name) { return map.field(name).value[node]; });
+  }
+  EXPECT_GT(checked, 100);
+}
+
+CoarseGraining lattice_graining(double spacing = 1) {
+  return coarse_graining(FlowFrame{}, -8, 8, -8, 8, spacing, 1, 0);
+}
+
+TEST(FieldMaps, SquareLatticeHasItsVolumeFractionEverywhere) {
+  const FieldMap map = maps_of(lattice_graining(0.5), {square_lattice([](double, double) {
+                                 return std::array{0.0, 0.0};
+                               })});
+  each_inner_node(map, [](double, double, auto value) {
+    EXPECT_NEAR(value("nu"), std::numbers::pi / 4, 1e-12);
+    EXPECT_NEAR(value("number_density"), 1, 1e-12);
+  });
+}
+
+TEST(FieldMaps, StraightVelocityFieldsHaveTheirGradient) {
+  const FieldMap map = maps_of(lattice_graining(0.5), {square_lattice([](double x, double z) {
+                                 return std::array{1 + 0.3 * x + 0.7 * z, -0.2 * x - 0.1 * z};
+                               })});
+  each_inner_node(map, [](double x, double z, auto value) {
+    EXPECT_NEAR(value("v_x"), 1 + 0.3 * x + 0.7 * z, 1e-12);
+    EXPECT_NEAR(value("v_z"), -0.2 * x - 0.1 * z, 1e-12);
+    EXPECT_NEAR(value("d_v_x_dx"), 0.3, 1e-12);
+    EXPECT_NEAR(value("d_v_x_dz"), 0.7, 1e-12);
+    EXPECT_NEAR(value("d_v_z_dx"), -0.2, 1e-12);
+    EXPECT_NEAR(value("d_v_z_dz"), -0.1, 1e-12);
+    EXPECT_NEAR(value("half_vorticity"), 0.45, 1e-12);
+    EXPECT_NEAR(value("strain_rate"), 2 * std::sqrt((0.09 + 2 * 0.0625 + 0.01) / 2), 1e-12);
+    // What the kernel sees of the gradient itself: width^2/3 of its squares.
+    EXPECT_NEAR(value("sigma_xx_kinetic"), std::numbers::pi / 4 * (0.09 + 0.49) / 3, 1e-12);
+  });
+}
+
+TEST(FieldMaps, CurvedVelocityFieldsAreSmoothedByTheVarianceOfTheKernel) {
+  const FieldMap map = maps_of(lattice_graining(), {square_lattice([](double, double z) {
+                                 return std::array{z * z * z, z * z};
+                               })});
+  each_inner_node(map, [](double, double z, auto value) {
+    EXPECT_NEAR(value("v_z"), z * z + 1.0 / 3, 1e-11);
+    EXPECT_NEAR(value("d_v_z_dz"), 2 * z, 1e-11);
+    EXPECT_NEAR(value("d_v_x_dz"), 3 * z * z + 1, 1e-10);  // 3 (z^2 + 1/3)
+  });
+}
+
+TEST(FieldMaps, SolidRotationHasNoStrain) {
+  const double spin = 0.3;
+  const FieldMap map = maps_of(lattice_graining(), {square_lattice([&](double x, double z) {
+                                 return std::array{spin * z, -spin * x};
+                               })});
+  each_inner_node(map, [&](double, double, auto value) {
+    EXPECT_NEAR(value("strain_rate"), 0, 1e-12);
+    EXPECT_NEAR(value("half_vorticity"), spin, 1e-12);
+  });
+}
+
+TEST(FieldMaps, PackingAtRestInATurningDrumDoesNotMove) {
+  const double spin = 0.02, radius = 12;
+  const Snapshot snapshot = testing::filled_drum(radius, 2, 0.3, spin);
+  const FlowFrame frame = frame_at_slope(3, -2, 0, -1, 0.3);
+  const FieldMap map =
+      maps_of(coarse_graining(frame, -radius, radius, -radius, radius, 1, 1, 0), {snapshot}, radius);
+  int grains = 0;
+  for (std::size_t node = 0; node < map.grid.nodes(); ++node) {
+    const double x = map.grid.x_of(node % map.grid.columns), z = map.grid.z_of(node / map.grid.columns);
+    const auto value = [&](const char* name) { return map.field(name).value[node]; };
+    if (std::hypot(x, z) > radius) {
+      EXPECT_TRUE(std::isnan(value("nu")));
+    } else if (z > 1.5) {
+      EXPECT_EQ(value("nu"), 0);
+      EXPECT_TRUE(std::isnan(value("v_x")));
+    } else if (z < -4 && std::hypot(x, z) < radius - 3) {
+      ++grains;
+      EXPECT_NEAR(value("v_x"), 0, 1e-14);
+      EXPECT_NEAR(value("omega"), 0, 1e-14);
+      EXPECT_NEAR(value("strain_rate"), 0, 1e-13);
+      EXPECT_NEAR(value("nu"), std::numbers::pi / (2 * std::sqrt(3.0)), 0.02);
+    }
+  }
+  EXPECT_GT(grains, 50);
+}
+
+TEST(FieldMaps, ColumnsUnderTheirWeightAreBalancedToRounding) {
+  const double slope = 0.3;
+  // Across the whole height, floor and surface included: the force of the floor is part of the balance.
+  for (double width : {1.0, 1.7, 3.0}) {
+    const FieldMap map = maps_of(coarse_graining(FlowFrame{}, 0, 6, -4, 24, 0.5, width, 6),
+                                 {testing::stacked_columns(6, 20, slope)});
+    int nodes = 0;
+    for (std::size_t node = 0; node < map.grid.nodes(); ++node) {
+      const double x = map.field("residual_x").value[node], z = map.field("residual_z").value[node];
+      if (std::isnan(x)) continue;
+      ++nodes;
+      EXPECT_NEAR(x, 0, 1e-10);
+      EXPECT_NEAR(z, 0, 1e-10);
+    }
+    EXPECT_GT(nodes, 12 * 38);
+  }
+}
+
+TEST(FieldMaps, EachHeightOfAColumnCarriesTheWeightAbove) {
+  const double slope = 0.3;
+  const FieldMap map =
+      maps_of(coarse_graining(FlowFrame{}, 0, 6, 0, 20, 0.5, 1, 6), {testing::stacked_columns(6, 20, slope)});
+  const double weight = std::numbers::pi / 4;
+  for (std::size_t node = 0; node < map.grid.nodes(); ++node) {
+    const double depth = 20 - map.grid.z_of(node / map.grid.columns);
+    if (depth < 3 || depth > 17) continue;  // the kernel stays among grains with two contacts
+    const auto value = [&](const char* name) { return map.field(name).value[node]; };
+    // 1e-3: the quadrature along branches; the jumps of the force from disc to disc average out exactly.
+    EXPECT_NEAR(value("sigma_zz") / (weight * depth * std::cos(slope)), 1, 2e-3);
+    EXPECT_NEAR(value("sigma_xz") / (weight * depth * std::sin(slope)), 1, 2e-3);
+    EXPECT_NEAR(value("fabric_zz"), 1, 1e-12);
+    EXPECT_NEAR(value("coordination"), 2, 1e-12);
+  }
+}
+
+TEST(FieldMaps, VelocitiesThatChangeFromSnapshotToSnapshotAreKineticStress) {
+  const double u = 0.4;
+  const auto moving = [&](double sign) {
+    return square_lattice([=](double, double) { return std::array{sign * u, -sign * u / 2}; });
+  };
+  const FieldMap map = maps_of(lattice_graining(), {moving(1), moving(-1)});
+  each_inner_node(map, [&](double, double, auto value) {
+    EXPECT_NEAR(value("v_x"), 0, 1e-14);
+    EXPECT_NEAR(value("sigma_xx_kinetic"), std::numbers::pi / 4 * u * u, 1e-12);
+    EXPECT_NEAR(value("sigma_xz_kinetic"), std::numbers::pi / 4 * u * u / 2, 1e-12);
+    EXPECT_NEAR(value("sigma_xx"), value("sigma_xx_kinetic"), 1e-14);
+  });
+}
+
+TEST(FieldMaps, TurningTheLaboratoryChangesNothing) {
+  Snapshot snapshot = testing::filled_drum(10, 1, 0.3, 0.02);
+  for (std::size_t i = 0; i + 1 < snapshot.x.size(); i += 3) {
+    const auto k = static_cast<std::int32_t>(i);
+    snapshot.contacts.push_back({k, k + 1, 0.6f, 0.8f, 0.01 * (1 + static_cast<double>(i)), 0.004});
+    snapshot.v_x[i] += 0.1 * std::sin(static_cast<double>(i));
+  }
+  const auto map_of = [](const Snapshot& s) {
+    const FlowFrame frame = frame_at_slope(s.container_x, s.container_z, s.gravity_x, s.gravity_z, 0.3);
+    return maps_of(coarse_graining(frame, -10, 10, -10, 10, 1, 1.5, 0), {s}, 10);
+  };
+  const FieldMap a = map_of(snapshot), b = map_of(testing::turned(snapshot, 1.1));
+  for (std::size_t f = 0; f < a.fields.size(); ++f)
+    for (std::size_t node = 0; node < a.grid.nodes(); ++node) {
+      const double one = a.fields[f].value[node], other = b.fields[f].value[node];
+      ASSERT_EQ(std::isnan(one), std::isnan(other)) << a.fields[f].name;
+      // The normals of contacts are stored as floats.
+      if (std::isnan(one)) continue;
+      ASSERT_NEAR(one, other, 2e-6 * (1 + std::abs(one))) << a.fields[f].name;
+    }
+}
+
+TEST(FieldMaps, EqualBatchesHaveIntervalsOfZeroAndOneBatchHasNone) {
+  const auto lattice = square_lattice([](double x, double z) { return std::array{x * z, z}; });
+  const FieldMap map = maps_of(lattice_graining(), {lattice, lattice, lattice});
+  for (std::size_t node = 0; node < map.grid.nodes(); ++node) {
+    if (std::isnan(map.field("v_x").value[node])) continue;
+    EXPECT_NEAR(map.field("v_x").ci99[node], 0, 1e-10);
+  }
+  EXPECT_TRUE(maps_of(lattice_graining(), {lattice}).field("v_x").ci99.empty());
+}
+
+TEST(AxisAngle, SimpleShearTurnsTheStressByTheRatioOfNormalStresses) {
+  const PlaneTensor shear{0, 0.2, 0, 0};
+  for (double k : {0.8, 1.0, 1.2})
+    for (double mu : {0.2, 0.4}) {
+      const PlaneTensor pressure{k, -mu, -mu, 1};
+      EXPECT_NEAR(std::tan(2 * axis_angle_deg(pressure, shear) * std::numbers::pi / 180), (k - 1) / (2 * mu),
+                  1e-12);
+    }
+}
+
+PlaneTensor turned(const PlaneTensor& t, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {c * c * t.xx - c * s * (t.xz + t.zx) + s * s * t.zz,
+          c * c * t.xz - s * s * t.zx + c * s * (t.xx - t.zz),
+          c * c * t.zx - s * s * t.xz + c * s * (t.xx - t.zz),
+          s * s * t.xx + c * s * (t.xz + t.zx) + c * c * t.zz};
+}
+
+TEST(AxisAngle, DoesNotDependOnTheAxesOrOnSpinAndPressure) {
+  const PlaneTensor pressure{1.1, -0.3, -0.35, 0.9}, gradient{0.05, 0.2, 0.02, -0.04};
+  const double angle = axis_angle_deg(pressure, gradient);
+  for (double turn = 0; turn < 6.3; turn += 0.3)
+    EXPECT_NEAR(axis_angle_deg(turned(pressure, turn), turned(gradient, turn)), angle, 1e-10);
+  EXPECT_NEAR(axis_angle_deg({3.1, -0.3, -0.35, 2.9}, gradient), angle, 1e-12);
+  EXPECT_NEAR(axis_angle_deg(pressure, {0.05, 0.9, -0.68, -0.04}), angle, 1e-12);
+  EXPECT_NEAR(axis_angle_deg(turned(pressure, 0.2), gradient), angle + 0.2 * 180 / std::numbers::pi, 1e-10);
+}
+
+}  // namespace
+}  // namespace drumlin
