@@ -28,6 +28,8 @@ struct MeasureOptions {
   std::vector<std::string> parts;  ///< beside the profiles; empty: all, "none": none (measure/part.hpp)
   double gradient_step = 5;        ///< d
   std::vector<double> slices;      ///< positions of the narrow slices, d; empty: spread over the surface
+  double map_spacing = 1;          ///< d, of the nodes of the maps
+  double map_width = 1;            ///< d, of their kernel
   ExistingOutput existing = ExistingOutput::refuse;
 };
 int measure(const MeasureOptions&);

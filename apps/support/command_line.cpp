@@ -142,7 +142,7 @@ class CommandLine {
     command
         .add_option("--parts", measure_.parts,
                     "What is measured beside the profiles, the rest is neither computed nor stored; none: nothing "
-                    "[all of gradients, slices, sensitivity, forces]")
+                    "[all of gradients, slices, sensitivity, forces, maps]")
         ->delimiter(',')
         ->type_name("LIST");
     add_number(command, "--gradient-step", measure_.gradient_step, "d", above(0),
@@ -150,6 +150,10 @@ class CommandLine {
     command.add_option("--slices", measure_.slices, "Places of the narrow slices along the surface, d")
         ->delimiter(',')
         ->type_name("X,X,...");
+    add_number(command, "--map-spacing", measure_.map_spacing, "d", above(0),
+               "Distance of the nodes of the maps");
+    add_number(command, "--map-width", measure_.map_width, "d", above(0),
+               "Width of their kernel, 1 to 15 times the distance of the nodes");
     add_existing(command, measure_.existing, keep_what_is_done);
   }
 

@@ -193,6 +193,8 @@ int measure(const MeasureOptions& options) {
   for (const Scalar& scalar : scalars.scalars)
     print_scalar(scalar, sensitivity_of(scalar, measured.variants));
   print_steadiness(measured.steadiness);
+  for (const Part& part : parts)
+    if (part.print) part.print();
   return static_cast<int>(ExitCode::done);
 }
 

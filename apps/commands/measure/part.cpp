@@ -7,12 +7,13 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/commands/measure/forces_part.hpp"
+#include "apps/commands/measure/maps_part.hpp"
 #include "coupling/exchange/errors.hpp"
 
 namespace drumlin::apps {
 
 const std::vector<std::string>& part_names() {
-  static const std::vector<std::string> names{"gradients", "slices", "sensitivity", "forces"};
+  static const std::vector<std::string> names{"gradients", "slices", "sensitivity", "forces", "maps"};
   return names;
 }
 
@@ -32,6 +33,7 @@ bool names_part(const MeasureOptions& options, const std::string& name) {
 std::vector<Part> reading_parts(const MeasureOptions& options) {
   std::vector<Part> parts;
   if (names_part(options, "forces")) parts.push_back(forces_part(options));
+  if (names_part(options, "maps")) parts.push_back(maps_part(options));
   return parts;
 }
 

@@ -26,6 +26,7 @@ struct Part {
   MeasurementPart reading;
   /// Writes its files and its keys of measured.json; draws nothing.
   std::function<void(const Measurement&, const PartOutput&)> write;
+  std::function<void()> print;  ///< what it found, in lines after the scalars; may be empty
   /// Script of apps/figures that draws its figures once all files are there; empty: none. It is called with
   /// the folder and "--measured FILE", as measure_figures.py is.
   std::string figures;
