@@ -27,6 +27,21 @@ ScalarVariant variant_of(const std::string& change, const Slice& slice, double w
           measured.profiles};
 }
 
+/// The derivatives along x by other steps; nothing else changes.
+void add_gradient_variants(const VariantSlices& variants, const Slice& centre, double wall_height,
+                           double frame_angle, const MeasurementOptions& options,
+                           std::vector<ScalarVariant>& result) {
+  const SliceProfiles plain = slice_profiles(Slice{centre.grid, {total_of(centre)}}, options.surface_nu);
+  for (const VariantSlices::Pair& pair : variants.gradients) {
+    SliceProfiles measured = plain;
+    add_gradients(measured, slice_profiles(pair.west, plain), slice_profiles(pair.east, plain), pair.step);
+    ScalarSet scalars =
+        packing_scalars(measured.profiles, {wall_height - measured.surface_z, frame_angle}, options);
+    std::erase_if(scalars.scalars, [](const Scalar& s) { return s.name.find("_dx") == std::string::npos; });
+    result.push_back({fmt::format("derivatives from slices {} d to either side", pair.step), scalars, {}});
+  }
+}
+
 /// Windows that are laid over the layers of the one slice.
 struct WindowChange {
   std::string change;
@@ -108,6 +123,15 @@ VariantSlices variant_slices(const Survey& found, const MeasurementFrame& place,
   const auto standard = [&](const MeasurementFrame& at) {
     return empty_slice(slice_grid(at, options.position, place.slice_width, options.layer_thickness), 1);
   };
+  for (double factor : {0.5, 2.0}) {
+    const double step = factor * place.gradient_step;
+    if (!(step > 0) || step + place.slice_width / 2 >= place.half_chord) continue;
+    const auto beside = [&](double offset) {
+      return empty_slice(
+          slice_grid(place, options.position + offset, place.slice_width, options.layer_thickness), 1);
+    };
+    variants.gradients.push_back({step, beside(-step), beside(step)});
+  }
   variants.instantaneous = VariantSlices::One{"instantaneous velocity", standard(place), frame_angle};
   if (place.source == FrameSource::isoline) {
     const double mass_angle = mean_of(found.series.mass_angle);
@@ -128,6 +152,8 @@ void add_snapshot(VariantSlices& variants, const Snapshot& snapshot, const FlowS
     add_snapshot(one.slice.grid, seen, one.slice.batches.front());
   };
   for (VariantSlices::One& one : variants.in_the_frame) add(one, in_frame);
+  for (VariantSlices::Pair& pair : variants.gradients)
+    for (Slice* slice : {&pair.west, &pair.east}) add_snapshot(slice->grid, in_frame, slice->batches.front());
   const auto add_own = [&](std::optional<VariantSlices::One>& one, VelocityKind kind) {
     if (!one) return;
     to_flow_frame(snapshot, one->slice.grid.frame, kind, variants.workspace);
@@ -150,6 +176,7 @@ std::vector<ScalarVariant> scalar_variants(const VariantSlices& variants, const 
   for (const VariantSlices::One& one : variants.in_the_frame) add(one);
   if (variants.instantaneous) add(*variants.instantaneous);
   if (variants.mass_angle_frame) add(*variants.mass_angle_frame);
+  add_gradient_variants(variants, centre, wall_height, frame_angle, options, result);
   if (place.source == FrameSource::isoline)
     add_slope_variants(found, mean_of(found.series.mass_angle), place.container_radius, options, result);
   return result;

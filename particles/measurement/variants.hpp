@@ -23,6 +23,12 @@ struct VariantSlices {
   std::vector<One> in_the_frame;        ///< by the velocity over the window
   std::optional<One> instantaneous;     ///< by the velocity at the instant of the snapshot
   std::optional<One> mass_angle_frame;  ///< in the frame at the angle of the centre of mass
+  /// Pairs of slices that give the derivatives along x by another step.
+  struct Pair {
+    double step = 0;
+    Slice west, east;
+  };
+  std::vector<Pair> gradients;
   FlowSnapshot workspace;
 };
 VariantSlices variant_slices(const Survey& found, const MeasurementFrame& place, double frame_angle,

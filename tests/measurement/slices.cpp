@@ -57,6 +57,20 @@ TEST(Gradients, LinearFieldsGiveTheirSlopes) {
   expect("d_sigma_xx_dz", 0, 1e-9);
 }
 
+TEST(Gradients, LinearFieldsDoNotMindTheStep) {
+  MeasurementOptions options = with_gradients();
+  options.sensitivity = true;
+  const Measurement result = measurement_of(pressed_block(), options);
+  int found = 0;
+  for (const ScalarVariant& variant : result.variants) {
+    if (variant.change.find("derivatives") == std::string::npos) continue;
+    ++found;
+    EXPECT_EQ(variant.scalars.find("H"), nullptr);
+    EXPECT_NEAR(variant.scalars.value("dv_dx_flowing"), result.scalars.value("dv_dx_flowing"), 1e-9);
+  }
+  EXPECT_EQ(found, 2);
+}
+
 TEST(Gradients, StressOfAColumnFallsByItsWeightPerLayer) {
   const Measurement result = measurement_of(testing::stacked_columns(8, 20, 0), with_gradients());
   EXPECT_EQ(result.profiles.find("d_sigma_zz_dx"), nullptr);  // nothing varies along a period

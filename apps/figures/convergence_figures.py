@@ -1,0 +1,117 @@
+"""What tolerance and time step change in the measured numbers, and what they cost: table and figure.
+
+usage: convergence_figures.py STANDARD CONVERGENCE OUTPUT
+STANDARD and CONVERGENCE are the folders that apps/paper_runs left, without and with --convergence; OUTPUT takes
+convergence.png, convergence.md and convergence.json.
+"""
+
+import json
+import math
+import pathlib
+import re
+import sys
+
+import matplotlib.pyplot as plt
+from matplotlib.ticker import LogLocator, NullFormatter, ScalarFormatter
+
+import style
+
+SCALARS = [("theta_com_deg", r"$\theta$ (centre of mass)  [deg]", 2), ("H", r"$H$  [$d$]", 1), ("shear_rate", r"$\dot\gamma$", 4),
+           ("lambda", r"$\lambda$  [$d$]", 1), ("I_th", r"$I_{th}$", 4), ("dv_over_shear", r"$\delta v/\dot\gamma$", 2),
+           ("domega_over_shear", r"$\delta\omega/\dot\gamma$", 2), ("mu_b", r"$b$ of $\mu = a + b \ln I$", 4),
+           ("dv_exponent", r"exponent of $\delta v/\dot\gamma \sim I^p$", 3), ("overlap_mean", "mean overlap  [d]", 7)]
+
+
+def runs_of(standard, convergence):
+    """{setting: [(run.json, measured.json), ...]}, the standard first."""
+    groups = {}
+    for folder in sorted(standard.glob("6rpm-seed*")):
+        groups.setdefault("standard", []).append(folder)
+    for folder in sorted(convergence.glob("6rpm-*-seed*")):
+        groups.setdefault(re.sub(r"^6rpm-|-seed\d+$", "", folder.name), []).append(folder)
+    read = lambda path: json.loads(path.read_text(encoding="utf-8"))
+    return {name: [(read(folder / "run.json"), read(folder / "measured" / "measured.json")) for folder in folders
+                   if (folder / "measured" / "measured.json").exists()] for name, folders in groups.items()}
+
+
+def pooled(runs, scalar):
+    """Mean over the seeds; half width from the runs' own 99 % intervals, or from their scatter where that is larger."""
+    entries = [measured[scalar] for _, measured in runs if measured[scalar]["value"] is not None]
+    values = [entry["value"] for entry in entries]
+    n = len(values)
+    if n == 0:
+        return math.nan, math.nan
+    mean = sum(values) / n
+    own = math.sqrt(sum(entry["ci99"] ** 2 for entry in entries)) / n
+    if n < 2:
+        return mean, own
+    deviation = math.sqrt(sum((value - mean) ** 2 for value in values) / (n - 1))
+    # Not Student's t for two or three seeds (64, 9.9): each interval holds twenty batches already.
+    return mean, max(own, 2.576 * deviation / math.sqrt(n))
+
+
+def steps(runs):
+    """Mean CPU seconds and sweeps a step."""
+    cpu = sum(run["cpu_seconds"] for run, _ in runs) / len(runs)
+    sweeps = sum(run["cost"]["sweeps_mean"] for run, _ in runs) / len(runs)
+    return cpu, sweeps
+
+
+def table(groups):
+    heads = ["setting", "seeds", "CPU s", "sweeps a step", "missed steps"] + [name for name, *_ in SCALARS]
+    lines = ["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
+    for name, runs in groups.items():
+        cpu, sweeps = steps(runs)
+        missed = sum(run["unconverged_steps"] for run, _ in runs) / len(runs)
+        cells = [name, str(len(runs)), f"{cpu:.0f}", f"{sweeps:.0f}", f"{missed:.0f}"]
+        for scalar, _, digits in SCALARS:
+            mean, half = pooled(runs, scalar)
+            cells.append(f"{mean:.2e}" if scalar == "overlap_mean" else f"{mean:.{digits}f} +- {half:.{digits}f}")
+        lines.append("| " + " | ".join(cells) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def figure(groups):
+    drawn, panels = plt.subplots(3, 4, figsize=(16, 10.5))
+    for axes, (scalar, label, _) in zip(panels.flat, SCALARS):
+        for i, (name, runs) in enumerate(groups.items()):
+            cpu, _ = steps(runs)
+            mean, half = pooled(runs, scalar)
+            color = style.PARTICLES if name == "standard" else (["0.35"] + style.OTHERS + [style.CONTINUUM])[i % 7]
+            axes.errorbar([cpu], [mean], [half], fmt="s" if name == "standard" else "o", color=color, capsize=3, markersize=7,
+                          label=f"{name} ({len(runs)})")
+        axes.set_xscale("log")
+        axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axes.xaxis.set_major_formatter(ScalarFormatter())
+        axes.xaxis.set_minor_formatter(NullFormatter())
+        axes.set_title(label, fontsize=12)
+        axes.set_xlabel("CPU time of a run  [s]")
+    panels.flat[len(SCALARS) - 1].set_yscale("log")
+    for axes in panels.flat[len(SCALARS):]:
+        axes.axis("off")
+    handles, labels = panels.flat[0].get_legend_handles_labels()
+    panels.flat[len(SCALARS)].legend(handles, labels, loc="center left", title="setting (seeds), bars 99 %")
+    return drawn
+
+
+def main():
+    if len(sys.argv) != 4:
+        sys.exit(__doc__)
+    standard, convergence, output = map(pathlib.Path, sys.argv[1:])
+    groups = {name: runs for name, runs in runs_of(standard, convergence).items() if runs}
+    style.use_style()
+    text = table(groups)
+    (output / "convergence.md").write_text(text, encoding="utf-8")
+    content = {"format": "drumlin-convergence-1", "settings": {
+        name: {"seeds": len(runs), "cpu_seconds": steps(runs)[0], "sweeps_mean": steps(runs)[1],
+               **{scalar: dict(zip(("value", "ci99"), pooled(runs, scalar))) for scalar, *_ in SCALARS}}
+        for name, runs in groups.items()},
+        "machine": next(iter(groups.values()))[0][0]["provenance"].get("machine"),
+        "revisions": sorted({run["revision"] for runs in groups.values() for run, _ in runs})}
+    (output / "convergence.json").write_text(json.dumps(content, indent=2) + "\n", encoding="utf-8")
+    style.save(figure({name: runs for name, runs in groups.items() if "friction" not in name}), output / "convergence.png", False)
+    print(text)
+
+
+if __name__ == "__main__":
+    main()
