@@ -6,9 +6,6 @@
 
 namespace drumlin {
 
-/// Two-sided 99 % quantile of Student's t: P(|t| <= value) = 0.99. Needs at least one degree of freedom.
-double student_quantile_99(int degrees_of_freedom);
-
 /// Which of `batches` contiguous batches of almost equal length sample `index` of `count` belongs to.
 std::size_t batch_of(std::size_t index, std::size_t count, std::size_t batches);
 

@@ -7,6 +7,8 @@
 #include <random>
 #include <vector>
 
+#include "coupling/exchange/student.hpp"
+
 namespace drumlin {
 namespace {
 
