@@ -6,42 +6,13 @@
 #include <limits>
 #include <numbers>
 
-#include "coupling/exchange/document.hpp"
-#include "coupling/exchange/errors.hpp"
+#include "coupling/comparison/paper_file.hpp"
 
 namespace drumlin {
 
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-double number_of(const Node* node) {
-  if (node == nullptr) return nan;
-  if (const auto* real = std::get_if<double>(&node->value)) return *real;
-  if (const auto* integer = std::get_if<std::int64_t>(&node->value)) return static_cast<double>(*integer);
-  return nan;
-}
-
-std::string text_of(const Node* node) {
-  const auto* text = node == nullptr ? nullptr : std::get_if<std::string>(&node->value);
-  return text == nullptr ? std::string() : *text;
-}
-
-Document paper_file(const std::filesystem::path& file) {
-  Document document = read_toml(file);
-  if (text_of(document.root.find("format")) != "drumlin-paper-1")
-    throw InputError(
-        {InputProblem{file.string(), 1, 0, "format", "is missing or not known here", "\"drumlin-paper-1\""}});
-  return document;
-}
-
-Node::Array entries_of(const Document& document, const std::string& key) {
-  const Node* node = document.root.find(key);
-  const auto* array = node == nullptr ? nullptr : std::get_if<Node::Array>(&node->value);
-  if (array == nullptr)
-    throw InputError({InputProblem{document.file, 1, 0, key, "is missing", "an array of tables"}});
-  return *array;
-}
 
 double header_number(const ProfileSet& profiles, const std::string& key) {
   const auto found = profiles.header.find(key);
@@ -102,14 +73,14 @@ std::optional<double> paper_speed_rpm(const ProfileSet& profiles, const std::fil
   if (reduced == profiles.header.end() || reduced->second != "false") return std::nullopt;
   const Document experiment = paper_file(folder / "experiment.toml");
   const Node* drum = experiment.root.find("drum");
-  const double paper_diameter_mm = number_of(drum == nullptr ? nullptr : drum->find("diameter_mm"));
+  const double paper_diameter_mm = number_in(drum == nullptr ? nullptr : drum->find("diameter_mm"));
   const double d = header_number(profiles, "diameter_m");
   if (!close(2e3 * header_number(profiles, "drum_radius") * d, paper_diameter_mm)) return std::nullopt;
   constexpr double gravity_m_s2 = 9.81;
   const double rpm =
       header_number(profiles, "rotation") / std::sqrt(d / gravity_m_s2) * 30 / std::numbers::pi;
-  for (const auto& entry : entries_of(paper_file(folder / "rotations.toml"), "rotation")) {
-    const double speed = number_of(entry.find("rotation_rpm"));
+  for (const auto& entry : paper_entries(paper_file(folder / "rotations.toml"), "rotation")) {
+    const double speed = number_in(entry.find("rotation_rpm"));
     if (close(rpm, speed)) return speed;
   }
   return std::nullopt;
@@ -118,19 +89,19 @@ std::optional<double> paper_speed_rpm(const ProfileSet& profiles, const std::fil
 std::vector<PaperNumber> paper_numbers(const std::filesystem::path& folder, double rotation_rpm) {
   std::vector<PaperNumber> numbers;
   const Document table = paper_file(folder / "rotations.toml");
-  for (const auto& entry : entries_of(table, "rotation")) {
-    if (number_of(entry.find("rotation_rpm")) != rotation_rpm) continue;
+  for (const auto& entry : paper_entries(table, "rotation")) {
+    if (number_in(entry.find("rotation_rpm")) != rotation_rpm) continue;
     for (const auto* name : {"theta_deg", "Q", "H"})
       numbers.push_back(
-          {name, number_of(entry.find(name)), std::nullopt, text_of(table.root.find("source")), ""});
+          {name, number_in(entry.find(name)), std::nullopt, text_in(table.root.find("source")), ""});
   }
   std::vector<PaperNumber> general;
-  for (const auto& entry : entries_of(paper_file(folder / "observables.toml"), "observable")) {
-    const double speed = number_of(entry.find("rotation_rpm"));
+  for (const auto& entry : paper_entries(paper_file(folder / "observables.toml"), "observable")) {
+    const double speed = number_in(entry.find("rotation_rpm"));
     if (!std::isnan(speed) && speed != rotation_rpm) continue;
-    PaperNumber number{text_of(entry.find("name")), number_of(entry.find("value")), std::nullopt,
-                       text_of(entry.find("source")), text_of(entry.find("remark"))};
-    if (entry.find("half_width") != nullptr) number.half_width = number_of(entry.find("half_width"));
+    PaperNumber number{text_in(entry.find("name")), number_in(entry.find("value")), std::nullopt,
+                       text_in(entry.find("source")), text_in(entry.find("remark"))};
+    if (entry.find("half_width") != nullptr) number.half_width = number_in(entry.find("half_width"));
     (std::isnan(speed) ? general : numbers).push_back(number);
   }
   numbers.insert(numbers.end(), general.begin(), general.end());
