@@ -34,6 +34,14 @@ struct MeasureOptions {
 };
 int measure(const MeasureOptions&);
 
+struct StudyOptions {
+  std::vector<std::filesystem::path> runs;
+  std::filesystem::path output;
+  ExistingOutput existing = ExistingOutput::refuse;
+};
+/// `drumlin measure --study`: several measured runs together.
+int study(const StudyOptions&);
+
 struct PlotOptions {
   std::filesystem::path run;
   std::optional<std::filesystem::path> output;  ///< standard: RUN/plots

@@ -132,7 +132,8 @@ class CommandLine {
 
   void add_measure() {
     CLI::App& command = add_command("measure", "Profiles and scalars of a run, into RUN/measured", measure_);
-    add_folder_or_file(command, "run", measure_.run, "RUN", "Folder of a finished run");
+    command.add_option("run", measure_.run, "Folder of a finished run")->type_name("RUN");
+    add_study(command);
     add_number(command, "--slice-width", measure_.slice_width, "d", above(0),
                "Width of the slice, across its middle");
     add_number(command, "--layer-thickness", measure_.layer_thickness, "d", above(0),
@@ -155,6 +156,28 @@ class CommandLine {
     add_number(command, "--map-width", measure_.map_width, "d", above(0),
                "Width of their kernel, 1 to 15 times the distance of the nodes");
     add_existing(command, measure_.existing, keep_what_is_done);
+  }
+
+  /// Either one run is measured, or measured ones are studied together.
+  void add_study(CLI::App& command) {
+    command
+        .add_option("--study", study_.runs,
+                    "Measured runs to be studied together instead: laws over the speed of rotation, the paper's "
+                    "table, figures")
+        ->type_name("RUN...");
+    command.add_option("-o,--output", study_.output, "Folder for the study; open its index.html")
+        ->type_name("STUDY");
+    command.callback([this] {
+      if (study_.runs.empty() == measure_.run.empty())
+        throw CLI::RequiredError("one of RUN and --study RUN...");
+      if (study_.runs.empty() != study_.output.empty())
+        throw CLI::RequiredError("--study RUN... together with --output STUDY");
+      study_.existing = measure_.existing;
+      request_ = [this]() -> Request {
+        if (study_.runs.empty()) return measure_;
+        return study_;
+      };
+    });
   }
 
   void add_plot() {
@@ -298,6 +321,7 @@ class CommandLine {
   CLI::App app_;
   RunOptions run_;
   MeasureOptions measure_;
+  StudyOptions study_;
   PlotOptions plot_;
   ExportOptions export_;
   CalibrateOptions calibrate_;

@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "apps/support/html.hpp"
 #include "coupling/exchange/text_file.hpp"
 
 namespace drumlin::apps {
@@ -14,20 +15,6 @@ namespace drumlin::apps {
 using Json = nlohmann::ordered_json;
 
 namespace {
-
-constexpr const char* style = R"(
-body { font: 16px/1.5 system-ui, sans-serif; color: #1b1b1b; max-width: 70rem; margin: 2rem auto; padding: 0 1rem; }
-h1 { font-size: 1.6rem; margin-bottom: .2rem; } h2 { font-size: 1.2rem; margin-top: 2.2rem; border-bottom: 1px solid #ccc; }
-table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; }
-th, td { text-align: right; padding: .28rem .5rem; border-bottom: 1px solid #e4e4e4; white-space: nowrap; }
-th { background: #f4f4f4; font-weight: 600; } th:first-child, td:first-child, .left { text-align: left; white-space: normal; }
-.met { color: #006b3c; font-weight: 600; } .missed { color: #b00000; font-weight: 600; } .not_measured { color: #666; }
-.verdict { background: #f4f4f4; border-left: .4rem solid #555; padding: .7rem 1rem; }
-.verdict.good { border-color: #006b3c; } .verdict.bad { border-color: #b00000; }
-.reduced { background: #fff2cc; border: 1px solid #d6a400; padding: .5rem 1rem; font-weight: 600; }
-figure { margin: 1.2rem 0; } figure img { max-width: 100%; } figcaption, .note { color: #444; font-size: .92rem; }
-pre { background: #f7f7f7; padding: .7rem; overflow-x: auto; font-size: .85rem; }
-)";
 
 /// What the names of the files mean to a reader.
 const std::map<std::string, std::string>& words() {
@@ -53,23 +40,6 @@ const std::map<std::string, std::string>& words() {
       {"log10_shear_rate", "log<sub>10</sub> of the shear rate"},
       {"stress_strain_axis_angle", "angle between the axes of stress and strain rate"}};
   return names;
-}
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else if (c == '"')
-      result += "&quot;";
-    else
-      result += c;
-  }
-  return result;
 }
 
 std::string words_for(const std::string& name) {
@@ -278,7 +248,7 @@ std::string report_page(const Json& comparison, const std::vector<ReportFigure>&
       "<p class=\"note\">Particles (rigid discs, nonsmooth contact dynamics) and continuum (finite elements "
       "with the law "
       "calibrated on particles), side by side.</p>\n",
-      title, style);
+      title, page_style());
   if (comparison["reduced"].get<bool>())
     page +=
         "<p class=\"reduced\">reduced: a small drum and a short run, made to show that the chain works; its "

@@ -88,6 +88,28 @@ def check_other_drum_is_refused(drumlin, run, flow, folder):
     require("rotation" in said and not (folder / "mixed").exists(), "mixed drums were not refused as they should")
 
 
+def check_study(drumlin, runs, folder):
+    """Two runs of one drum, equal to the byte: their laws over speed are those of one speed."""
+    drumlin("measure", "--study", *runs, code=2)  # no place for the results
+    drumlin("measure", runs[0], "--study", *runs, "-o", folder, code=2)  # one run or several
+    drumlin("measure", "--study", *runs, "-o", folder)
+    study = read_json(folder / "study.json")
+    require_reduced("study.json", study)
+    require_keys(study, ["warnings", "runs", "speeds", "laws", "collapse", "consistency", "paper_table"], "study.json")
+    require(len(study["speeds"]) == 1 and study["speeds"][0]["runs"] == [run.name for run in runs], "one speed, two runs")
+    require(study["paper_table"] is None, "a tiny drum is none of the paper's")
+    measured = read_json(runs[0] / "measured" / "measured.json")
+    pooled = study["speeds"][0]["scalars"]["theta_deg"]
+    require(abs(pooled["value"] - measured["theta_deg"]["value"]) < 1e-9, "the mean of equal runs is another")
+    page = (folder / "index.html").read_text(encoding="utf-8")
+    require("reduced" in page and "data:image/png;base64," in page, "the page lacks its figures or the word reduced")
+    before = bytes_below(folder)
+    drumlin("measure", "--study", *runs, "-o", folder, code=2)
+    drumlin("measure", "--study", *runs, "-o", folder, "--resume")
+    require(bytes_below(folder) == before, "repeating the study changed files")
+    print("study: two runs together, repeated")
+
+
 def main():
     drumlin, here = Drumlin(sys.argv[1]), pathlib.Path(sys.argv[2])
     with tempfile.TemporaryDirectory() as name:
@@ -117,6 +139,8 @@ def main():
         same = bytes_below(run / "snapshots") == bytes_below(again / "snapshots")
         require(same, "the resolved scene does not give the same snapshots again")
         print("run: repeated from its own scene.toml with two threads, byte for byte")
+        drumlin("measure", again, "--parts", "none")
+        check_study(drumlin, [run, again], folder / "study")
 
 
 if __name__ == "__main__":

@@ -1,0 +1,65 @@
+"""Figures of `drumlin measure --study`: those of the paper one by one, bands and bars of 99 %, and what each shows.
+
+figures.json lists them with a caption each: what the paper says, and what was found here.
+"""
+
+import argparse
+import json
+import pathlib
+
+import study_flow
+import study_rheology
+import study_stresses
+import style
+from study_runs import Study
+
+# In the order of the paper. Each draws a figure and gives (figure, title, paper says, we find), or None where the runs
+# lack what it shows.
+FIGURES = [
+    ("fig01_snapshot", study_flow.snapshot),
+    ("fig02_volume_fraction", study_flow.volume_fraction),
+    ("fig03_velocity", study_flow.velocity),
+    ("fig04_velocity_along_x", study_flow.velocity_along_x),
+    ("fig05_velocity_over_speed", study_flow.velocity_over_speed),
+    ("fig06_depth_and_friction", study_flow.depth_and_friction),
+    ("fig07_spin", study_flow.spin),
+    ("fig08_stresses", study_stresses.stresses),
+    ("fig09_stress_gradients", study_stresses.stress_gradients),
+    ("fig10_inertial_number", study_rheology.inertial_number),
+    ("fig11_rheology", study_rheology.rheology),
+    ("fig12_k_gradient", study_stresses.k_gradient),
+    ("fig13_fluctuations", study_rheology.fluctuations),
+    ("fig14_fluctuations_over_inertia", study_rheology.fluctuations_over_inertia),
+    ("volume_fraction_over_inertia", study_rheology.volume_fraction_over_inertia),
+]
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--study", required=True, help="study.json")
+    parser.add_argument("--paper", required=True, help="folder of the paper's numbers, data/paper")
+    parser.add_argument("--output", required=True, help="folder for the figures")
+    parser.add_argument("runs", nargs="+", help="the runs in the order of study.json")
+    return parser.parse_args()
+
+
+def main():
+    options = arguments()
+    output = pathlib.Path(options.output)
+    study = Study(options.study, options.runs, pathlib.Path(options.paper))
+    style.use_style()
+    listed = []
+    for name, draw in FIGURES:
+        drawn = draw(study)
+        if drawn is None:
+            continue
+        figure, title, paper, here = drawn
+        style.save(figure, output / f"{name}.png", study.reduced)
+        listed.append({"file": f"{name}.png", "title": title, "paper": paper, "here": here})
+    with open(output / "figures.json", "w", encoding="utf-8") as stream:
+        json.dump({"format": "drumlin-study-figures-1", "figures": listed}, stream, indent=2, ensure_ascii=False)
+        stream.write("\n")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,19 @@
+#pragma once
+// study.json and paper_table.md (docs/formats/study.md) from a study.
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "coupling/study/study.hpp"
+
+namespace drumlin::apps {
+
+std::string name_of(Verdict verdict);  ///< "agrees", "near", "differs", "not measured"
+std::string name_of(Reason reason);    ///< words for a table
+
+/// Everything but format, reduced, title and provenance.
+void add_study(nlohmann::ordered_json& content, const Study& study);
+
+/// The paper's table in Markdown: one line per entry. Says so when the drum is none of the paper's.
+std::string paper_table_markdown(const Study& study);
+
+}  // namespace drumlin::apps

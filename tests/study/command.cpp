@@ -1,0 +1,121 @@
+// drumlin measure --study on measured runs made here.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/commands.hpp"
+#include "coupling/exchange/errors.hpp"
+#include "coupling/exchange/text_file.hpp"
+#include "tests/exchange_files/folder.hpp"
+#include "tests/study/drum_runs.hpp"
+
+namespace drumlin::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using drumlin::testing::message_of;
+using drumlin::testing::TemporaryFolder;
+using Json = nlohmann::ordered_json;
+
+Json measured_json(const StudyRun& run) {
+  Json json{{"format", "drumlin-measured-1"}, {"reduced", run.profiles.header.at("reduced") == "true"}};
+  for (const Scalar& scalar : run.scalars.scalars)
+    json[scalar.name] = {{"value", scalar.value}, {"ci99", *scalar.ci99}};
+  json["fits"] = {{"decay_log_rate", 0.5}};
+  json["settings"] = {{"linear_share", 0.3},
+                      {"decay_window_below_H", {2, 8}},
+                      {"rotation", std::stod(run.profiles.header.at("rotation"))},
+                      {"scales", {{"time_s", 0.01834098}}}};
+  json["steadiness"] = {{"steady", true}, {"reasons", Json::array()}};
+  return json;
+}
+
+/// A run folder as `drumlin run` and `drumlin measure` leave it, without its snapshots.
+fs::path run_folder(const TemporaryFolder& folder, const StudyRun& run, const Json& measured) {
+  const fs::path path = folder / ("rpm-" + std::to_string(std::lround(run.rotation_rpm)));
+  fs::create_directories(path / "measured");
+  replace_file(path / "run.json", R"({"format": "drumlin-run-1", "status": "finished"})");
+  replace_file(path / "measured" / "measured.json", measured.dump());
+  write_profiles(path / "measured" / "profiles.csv", run.profiles);
+  return path;
+}
+
+fs::path run_folder(const TemporaryFolder& folder, double rpm) {
+  const StudyRun run = drumlin::testing::drum_run(rpm);
+  return run_folder(folder, run, measured_json(run));
+}
+
+StudyOptions options_for(const TemporaryFolder& folder, std::vector<fs::path> runs,
+                         ExistingOutput existing = ExistingOutput::refuse) {
+  return {std::move(runs), folder / "study", existing};
+}
+
+TEST(StudyCommand, LeavesStudyTablePageAndFiguresAndNamesAnUnsteadyRun) {
+  const TemporaryFolder folder;
+  const StudyRun unsteady = drumlin::testing::drum_run(2);
+  Json measured = measured_json(unsteady);
+  measured["steadiness"] = {{"steady", false}, {"reasons", {"half a turn only"}}};
+  const std::vector<fs::path> runs{run_folder(folder, 6), run_folder(folder, unsteady, measured),
+                                   run_folder(folder, 15)};
+  EXPECT_EQ(study(options_for(folder, runs)), 0);
+  const Json json = Json::parse(file_text(folder / "study/study.json"));
+  EXPECT_EQ(json["format"], "drumlin-study-1");
+  EXPECT_EQ(json["speeds"].size(), 3u);
+  EXPECT_NEAR(json["laws"]["flowing_layer_depth"]["coefficients"]["c"]["value"].get<double>(), 3, 1e-6);
+  ASSERT_EQ(json["warnings"].size(), 1u);
+  EXPECT_EQ(json["warnings"][0], "rpm-2: half a turn only");
+  EXPECT_NE(file_text(folder / "study/index.html").find("half a turn only"), std::string::npos);
+  EXPECT_NE(file_text(folder / "study/paper_table.md").find("| H | 6 | 14.6 |"), std::string::npos);
+  EXPECT_NE(file_text(folder / "study/index.html").find("data:image/png;base64,"), std::string::npos);
+  for (const char* figure : {"fig03_velocity.png", "fig06_depth_and_friction.png", "fig11_rheology.png"})
+    EXPECT_TRUE(fs::exists(folder / "study" / figure)) << figure;
+  EXPECT_FALSE(fs::exists(folder / "study/study.json.part"));
+  EXPECT_THROW(study(options_for(folder, runs)), InputError) << "nothing is overwritten unasked";
+  EXPECT_EQ(study(options_for(folder, runs, ExistingOutput::resume)), 0);
+}
+
+TEST(StudyCommand, RefusesWhatIsNoMeasuredFinishedRun) {
+  const TemporaryFolder folder;
+  const fs::path good = run_folder(folder, 6), other = run_folder(folder, 2);
+  const auto refusal = [&] {
+    const std::string said = message_of<InputError>([&] { study(options_for(folder, {good, other})); });
+    EXPECT_FALSE(fs::exists(folder / "study")) << "a refusal leaves nothing";
+    return said;
+  };
+  replace_file(other / "run.json", R"({"format": "drumlin-run-1", "status": "running"})");
+  EXPECT_NE(refusal().find("unfinished"), std::string::npos);
+  replace_file(other / "run.json", R"({"format": "drumlin-run-1", "status": "finished"})");
+  const std::string measured = file_text(other / "measured/measured.json");
+  replace_file(other / "measured/measured.json", R"({"format": "drumlin-measured-9"})");
+  EXPECT_NE(refusal().find("drumlin-measured-1"), std::string::npos);
+  fs::remove(other / "measured/measured.json");
+  EXPECT_NE(refusal().find("drumlin measure"), std::string::npos);
+  replace_file(other / "measured/measured.json", measured);
+  fs::remove_all(good);
+  EXPECT_NE(refusal().find("no such folder"), std::string::npos);
+}
+
+TEST(StudyCommand, RefusesMixedSettingsReducedRunsAndOtherScenes) {
+  const TemporaryFolder folder;
+  const StudyRun run = drumlin::testing::drum_run(2);
+  Json measured = measured_json(run);
+  measured["settings"]["linear_share"] = 0.5;
+  const fs::path six = run_folder(folder, 6), other = run_folder(folder, run, measured);
+  const auto refusal = [&] {
+    return message_of<InputError>([&] { study(options_for(folder, {six, other})); });
+  };
+  EXPECT_NE(refusal().find("settings.linear_share"), std::string::npos);
+
+  StudyRun reduced = run;
+  reduced.profiles.header["reduced"] = "true";
+  run_folder(folder, reduced, measured_json(reduced));
+  EXPECT_NE(refusal().find("reduced"), std::string::npos);
+
+  run_folder(folder, run, measured_json(run));
+  replace_file(six / "scene.toml", "[effects.friction]\ngrain_grain = 0.4\n");
+  replace_file(other / "scene.toml", "[effects.friction]\ngrain_grain = 0.2\n");
+  EXPECT_NE(refusal().find("effects"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace drumlin::apps
