@@ -143,7 +143,7 @@ class CommandLine {
     command
         .add_option("--parts", measure_.parts,
                     "What is measured beside the profiles, the rest is neither computed nor stored; none: nothing "
-                    "[all of gradients, slices, sensitivity, forces, maps]")
+                    "[all of gradients, slices, sensitivity, voronoi, forces, maps]")
         ->delimiter(',')
         ->type_name("LIST");
     add_number(command, "--gradient-step", measure_.gradient_step, "d", above(0),

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "coupling/exchange/errors.hpp"
+#include "particles/measurement/cell_profiles.hpp"
 #include "particles/measurement/intervals.hpp"
 #include "particles/measurement/packing_scalars.hpp"
 #include "particles/measurement/slice.hpp"
@@ -80,14 +81,16 @@ struct Slices {
   Slice centre;
   std::optional<Slice> west, east;  ///< for derivatives along x
   std::vector<Slice> others;
-  std::vector<double> positions;  ///< of the others
+  std::vector<double> positions;   ///< of the others
+  std::optional<CellSlice> cells;  ///< of the middle one
 };
 
 Slices asked_slices(const MeasurementFrame& place, const MeasurementOptions& options) {
   const auto at = [&](double position, double width) {
     return empty_slice(slice_grid(place, position, width, options.layer_thickness), place.batches);
   };
-  Slices slices{at(options.position, place.slice_width), {}, {}, {}, {}};
+  Slices slices{at(options.position, place.slice_width), {}, {}, {}, {}, {}};
+  if (options.voronoi) slices.cells = empty_cell_slice(slices.centre);
   if (place.gradient_step > 0) {
     slices.west = at(options.position - place.gradient_step, place.slice_width);
     slices.east = at(options.position + place.gradient_step, place.slice_width);
@@ -119,6 +122,7 @@ void measure_centre(const Slices& slices, const MeasurementOptions& options, dou
   if (slices.west && slices.east)
     add_gradients(centre, slice_profiles(*slices.west, centre), slice_profiles(*slices.east, centre),
                   result.place.gradient_step);
+  if (slices.cells) add_cell_columns(slices.centre, *slices.cells, centre);
   add_intervals(centre);
   result.surface_z = centre.surface_z;
   result.axis_depth = -centre.surface_z;
@@ -190,6 +194,7 @@ Measurement measurement(const SnapshotSource& source, const MeasurementOptions& 
     const std::size_t batch = batch_of(s, recording.count(), place.batches);
     to_flow_frame(snapshot, place.frame, VelocityKind::window, in_frame);
     add_snapshot(slices, in_frame, batch);
+    if (slices.cells) add_snapshot(slices.centre, snapshot, in_frame, batch, *slices.cells);
     if (variants) add_snapshot(*variants, snapshot, in_frame);
     for (const MeasurementPart& part : parts) part.add(snapshot, in_frame, batch);
     tick();

@@ -47,6 +47,7 @@ struct MeasurementOptions {
       gradient_step;  ///< derivatives from slices at position -+ this; cut to a quarter of half the chord
   std::optional<SlicesRequest> slices;  ///< more profiles; none in a periodic domain
   bool sensitivity = false;             ///< the scalars by other windows as well
+  bool voronoi = false;                 ///< columns of the middle slice by Voronoi cells
 };
 
 /// Where and how a run is measured: what a part needs to know before it sees the first snapshot.

@@ -76,7 +76,8 @@ TEST(Drums, RangesAreCutInASmallDrum) {
 TEST(Drums, PackingThatTurnsWithTheDrumIsAtRest) {
   Snapshot drum = filled_drum(30, 2, 0.35, 0.02);
   const auto expect_rest = [](const Measurement& result) {
-    for (const char* name : {"v_x", "v_z", "omega", "dv"})
+    for (const char* name : {"v_x", "v_z", "shear_rate", "half_vorticity", "omega", "dv", "domega",
+                             "sigma_xx_kinetic", "sigma_zz_kinetic", "sigma_xz_kinetic", "sigma_rotational"})
       for (double value : result.profiles.column(name).value)
         if (std::isfinite(value)) {
           EXPECT_NEAR(value, 0, 1e-7) << name;  // root of a difference of equal squares

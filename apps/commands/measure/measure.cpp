@@ -56,6 +56,7 @@ MeasurementOptions settings_for(const MeasureOptions& options) {
   if (names_part(options, "gradients")) settings.gradient_step = options.gradient_step;
   if (names_part(options, "slices")) settings.slices = SlicesRequest{options.slices, narrow_slice_width};
   settings.sensitivity = names_part(options, "sensitivity");
+  settings.voronoi = names_part(options, "voronoi");
   return settings;
 }
 

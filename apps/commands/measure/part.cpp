@@ -13,7 +13,7 @@
 namespace drumlin::apps {
 
 const std::vector<std::string>& part_names() {
-  static const std::vector<std::string> names{"gradients", "slices", "sensitivity", "forces", "maps"};
+  static const std::vector<std::string> names{"gradients", "slices", "sensitivity", "voronoi", "forces", "maps"};
   return names;
 }
 
