@@ -16,6 +16,7 @@ ALLOWED_ROOMS = {
     "coupling/files": ["coupling/exchange", "coupling/files"],
     "coupling/calibration": ["coupling/exchange", "coupling/calibration"],
     "coupling/comparison": ["coupling/exchange", "coupling/comparison"],
+    "coupling/study": ["coupling/exchange", "coupling/calibration", "coupling/comparison", "coupling/study"],
     "particles/io": ["coupling/exchange", "coupling/files", "particles"],
     "particles": ["coupling/exchange", "particles"],
     "continuum": ["coupling/exchange", "continuum"],
