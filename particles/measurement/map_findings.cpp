@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "particles/measurement/intervals.hpp"
 
@@ -45,19 +47,48 @@ double mean(const std::vector<double>& values, const std::vector<std::size_t>& n
   return sum / static_cast<double>(nodes.size());
 }
 
-BalanceResidual residual_over(const FieldMap& map, const std::vector<std::size_t>& nodes, double factor) {
-  const MapField &x = map.field("residual_x"), &z = map.field("residual_z");
-  const auto noise = [&](const MapField& field) {
-    return field.ci99.empty() ? std::numeric_limits<double>::quiet_NaN()
-                              : root_mean_square(field.ci99, nodes) / factor;
+/// Root mean square of a field's standard errors; NaN without intervals.
+double noise_of(const MapField& field, const std::vector<std::size_t>& nodes, std::size_t batches) {
+  return field.ci99.empty() || batches < 2 ? std::numeric_limits<double>::quiet_NaN()
+                                           : root_mean_square(field.ci99, nodes) / interval_factor(batches);
+}
+
+/// Root mean square of the means over squares of side `side`.
+double rms_of_blocks(const FieldMap& map, const std::vector<double>& values,
+                     const std::vector<std::size_t>& nodes, double side) {
+  struct Block {
+    double sum = 0, count = 0;
   };
+  const MapGrid& grid = map.grid;
+  std::map<std::pair<double, double>, Block> blocks;
+  for (std::size_t node : nodes) {
+    Block& block = blocks[{std::floor(grid.x_of(node % grid.columns) / side),
+                           std::floor(grid.z_of(node / grid.columns) / side)}];
+    block.sum += values[node];
+    block.count += 1;
+  }
+  const double whole = side * side / (grid.spacing_x * grid.spacing_z);
+  double squares = 0, count = 0;
+  for (const auto& [place, block] : blocks) {
+    if (block.count < 0.75 * whole) continue;
+    squares += std::pow(block.sum / block.count, 2);
+    count += 1;
+  }
+  return count > 0 ? std::sqrt(squares / count) : std::numeric_limits<double>::quiet_NaN();
+}
+
+BalanceResidual residual_over(const FieldMap& map, const std::vector<std::size_t>& nodes, double block,
+                              std::size_t batches) {
+  const MapField &x = map.field("residual_x"), &z = map.field("residual_z");
   return {nodes.size(),
           root_mean_square(x.value, nodes),
           root_mean_square(z.value, nodes),
           mean(x.value, nodes),
           mean(z.value, nodes),
-          noise(x),
-          noise(z),
+          noise_of(x, nodes, batches),
+          noise_of(z, nodes, batches),
+          rms_of_blocks(map, x.value, nodes, block),
+          rms_of_blocks(map, z.value, nodes, block),
           root_mean_square(map.field("residual_x_without_kinetic").value, nodes),
           root_mean_square(map.field("residual_z_without_kinetic").value, nodes),
           std::hypot(root_mean_square(map.field("inertia_x").value, nodes),
@@ -116,25 +147,31 @@ MomentumBalance momentum_balance(const FieldMap& map, const MapBounds& bounds,
   const auto bulk = bulk_nodes(map, bounds, options);
   std::vector<std::size_t> flowing, slow;
   for (std::size_t node : bulk) (I[node] >= options.flowing_I ? flowing : slow).push_back(node);
-  const double factor = batches > 1 ? interval_factor(batches) : 1;
-  return {residual_over(map, bulk, factor), residual_over(map, flowing, factor),
-          residual_over(map, slow, factor)};
+  const auto over = [&](const std::vector<std::size_t>& nodes) {
+    return residual_over(map, nodes, options.block, batches);
+  };
+  return {over(bulk), over(flowing), over(slow)};
 }
 
 FrictionCollapse friction_collapse(const FieldMap& map, const MapBounds& bounds,
-                                   const MapFindingOptions& options) {
+                                   const MapFindingOptions& options, std::size_t batches) {
   const auto &I = map.field("I").value, &mu = map.field("mu").value;
   const auto &rate = map.field("d_v_x_dz").value, &sigma_xz = map.field("sigma_xz").value,
              &sigma_zz = map.field("sigma_zz").value;
   const auto in_range = [&](double value) { return value >= options.I_min && value <= options.I_max; };
   std::vector<Point> by_invariants, by_ratio;
+  std::vector<std::size_t> fitted;
   const auto bulk = bulk_nodes(map, bounds, options);
   for (std::size_t node : bulk) {
-    if (in_range(I[node])) by_invariants.push_back({std::log(I[node]), mu[node]});
+    if (in_range(I[node])) {
+      fitted.push_back(node);
+      by_invariants.push_back({std::log(I[node]), mu[node]});
+    }
     const double layer_I = rate[node] / std::sqrt(sigma_zz[node]);
     if (in_range(layer_I)) by_ratio.push_back({std::log(layer_I), sigma_xz[node] / sigma_zz[node]});
   }
-  return {line_through(by_invariants), line_through(by_ratio), bulk.size()};
+  return {line_through(by_invariants), line_through(by_ratio), bulk.size(),
+          noise_of(map.field("mu"), fitted, batches)};
 }
 
 }  // namespace drumlin

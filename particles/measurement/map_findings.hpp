@@ -23,6 +23,7 @@ struct MapFindingOptions {
   double margin = 3;                  ///< d that the bulk keeps from the wall and from the surface above it
   double surface_nu = 0.7;            ///< of the surface, column by column
   double flowing_I = 1e-2;            ///< I from which a node counts as flowing
+  double block = 10;                  ///< d, side of the squares over which the residual is averaged
   double I_min = 1e-4, I_max = 1e-1;  ///< of the fits of mu(I)
 };
 
@@ -36,6 +37,7 @@ struct BalanceResidual {
   double rms_x = 0, rms_z = 0;
   double mean_x = 0, mean_z = 0;
   double noise_x = 0, noise_z = 0;              ///< rms of the residual's standard error; NaN without batches
+  double rms_x_blocks = 0, rms_z_blocks = 0;    ///< of the means over squares; NaN when no square is full
   double rms_x_contact = 0, rms_z_contact = 0;  ///< with the kinetic stress left out
   double inertia = 0;                           ///< rms of nu v.grad v of the mean velocity, both components
 };
@@ -43,7 +45,8 @@ struct BalanceResidual {
 struct MomentumBalance {
   BalanceResidual bulk, flowing, slow;  ///< slow: the bulk that does not flow
 };
-/// `batches`: behind the map's intervals.
+/// `batches`: behind the map's intervals. Squares stand side by side from x = z = 0 on and count when three
+/// quarters of their nodes belong to the zone.
 MomentumBalance momentum_balance(const FieldMap& map, const MapBounds& bounds,
                                  const MapFindingOptions& options, std::size_t batches);
 
@@ -58,8 +61,10 @@ struct LogLine {
 struct FrictionCollapse {
   LogLine invariant, ratio;
   std::size_t bulk = 0;  ///< nodes of the bulk
+  double noise =
+      std::numeric_limits<double>::quiet_NaN();  ///< rms standard error of mu over the invariant's nodes
 };
 FrictionCollapse friction_collapse(const FieldMap& map, const MapBounds& bounds,
-                                   const MapFindingOptions& options);
+                                   const MapFindingOptions& options, std::size_t batches);
 
 }  // namespace drumlin

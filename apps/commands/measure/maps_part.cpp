@@ -9,6 +9,7 @@
 #include "apps/support/json_file.hpp"
 #include "coupling/files/field_map_file.hpp"
 #include "particles/measurement/field_maps.hpp"
+#include "particles/measurement/intervals.hpp"
 #include "particles/measurement/map_findings.hpp"
 
 namespace drumlin::apps {
@@ -25,6 +26,7 @@ struct Maps {
   std::vector<MapSums> batches;
   MomentumBalance balance;
   FrictionCollapse collapse;
+  LogLine collapse_ci99;  ///< half widths for the invariants' line
 };
 
 void begin(const MeasurementFrame& place, const MeasureOptions& options, Maps& maps) {
@@ -52,7 +54,7 @@ MapBounds bounds_of(const Measurement& measured) {
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
-Json to_json(const BalanceResidual& r) {
+Json content_of(const BalanceResidual& r) {
   return {{"nodes", r.nodes},
           {"rms_x", number(r.rms_x)},
           {"rms_z", number(r.rms_z)},
@@ -60,13 +62,52 @@ Json to_json(const BalanceResidual& r) {
           {"mean_z", number(r.mean_z)},
           {"noise_x", number(r.noise_x)},
           {"noise_z", number(r.noise_z)},
+          {"rms_x_blocks", number(r.rms_x_blocks)},
+          {"rms_z_blocks", number(r.rms_z_blocks)},
           {"rms_x_without_kinetic", number(r.rms_x_contact)},
           {"rms_z_without_kinetic", number(r.rms_z_contact)},
           {"rms_inertia", number(r.inertia)}};
 }
 
-Json to_json(const LogLine& line) {
+Json content_of(const LogLine& line) {
   return {{"a", number(line.a)}, {"b", number(line.b)}, {"rms", number(line.rms)}, {"nodes", line.nodes}};
+}
+
+/// The fit of mu(I) with one batch left out at a time.
+LogLine collapse_intervals(const Measurement& measured, const Maps& maps, const MapBounds& bounds,
+                           const MapFindingOptions& limits) {
+  LogLine half_widths;
+  if (maps.batches.size() < 2) return half_widths;
+  MapSums total = maps.batches.front();
+  for (std::size_t b = 1; b < maps.batches.size(); ++b) total += maps.batches[b];
+  std::vector<double> a, b, rms;
+  for (const MapSums& batch : maps.batches) {
+    MapSums rest = total;
+    rest -= batch;
+    const FieldMap map =
+        field_maps(maps.graining, {&rest, 1}, measured.place.container_radius, measured.surface_z);
+    const LogLine line = friction_collapse(map, bounds, limits, 0).invariant;
+    a.push_back(line.a);
+    b.push_back(line.b);
+    rms.push_back(line.rms);
+  }
+  half_widths.a = jackknife_ci99(a);
+  half_widths.b = jackknife_ci99(b);
+  half_widths.rms = jackknife_ci99(rms);
+  return half_widths;
+}
+
+/// mu_invariant of measured.json.
+Json collapse_of(const FrictionCollapse& collapse, const LogLine& ci99) {
+  const auto with = [](double value, double half_width) { return to_json(Scalar{"", value, half_width}); };
+  return {
+      {"a", with(collapse.invariant.a, ci99.a)},
+      {"b", with(collapse.invariant.b, ci99.b)},
+      {"rms", with(collapse.invariant.rms, ci99.rms)},
+      {"noise", number(collapse.noise)},
+      {"nodes", collapse.invariant.nodes},
+      {"share", number(static_cast<double>(collapse.invariant.nodes) / static_cast<double>(collapse.bulk))},
+      {"ratio", content_of(collapse.ratio)}};
 }
 
 void write(const Measurement& measured, const PartOutput& output, const MeasureOptions& options, Maps& maps) {
@@ -82,39 +123,43 @@ void write(const Measurement& measured, const PartOutput& output, const MeasureO
   const MapFindingOptions limits;
   const MapBounds bounds = bounds_of(measured);
   maps.balance = momentum_balance(map, bounds, limits, place.batches);
-  maps.collapse = friction_collapse(map, bounds, limits);
-  output.content["momentum_balance"] = {{"bulk", to_json(maps.balance.bulk)},
-                                        {"flowing", to_json(maps.balance.flowing)},
-                                        {"slow", to_json(maps.balance.slow)}};
-  output.content["mu_invariant"] = to_json(maps.collapse.invariant);
-  output.content["mu_invariant"]["share"] =
-      static_cast<double>(maps.collapse.invariant.nodes) / static_cast<double>(maps.collapse.bulk);
-  output.content["mu_invariant"]["ratio"] = to_json(maps.collapse.ratio);
-  output.content["settings"]["maps"] = {
-      {"spacing", options.map_spacing}, {"kernel_width", options.map_width},
-      {"least_nu", least_map_nu},       {"bulk_margin", limits.margin},
-      {"flowing_I", limits.flowing_I},  {"mu_fit_I", {limits.I_min, limits.I_max}}};
+  maps.collapse = friction_collapse(map, bounds, limits, place.batches);
+  maps.collapse_ci99 = collapse_intervals(measured, maps, bounds, limits);
+  output.content["momentum_balance"] = {{"bulk", content_of(maps.balance.bulk)},
+                                        {"flowing", content_of(maps.balance.flowing)},
+                                        {"slow", content_of(maps.balance.slow)}};
+  output.content["mu_invariant"] = collapse_of(maps.collapse, maps.collapse_ci99);
+  output.content["settings"]["maps"] = {{"spacing", options.map_spacing},
+                                        {"kernel_width", options.map_width},
+                                        {"least_nu", least_map_nu},
+                                        {"bulk_margin", limits.margin},
+                                        {"block", limits.block},
+                                        {"flowing_I", limits.flowing_I},
+                                        {"mu_fit_I", {limits.I_min, limits.I_max}}};
   write_field_map(output.folder / "maps.h5", map);
 }
 
 void print(const Maps& maps) {
   const auto line = [](const char* zone, const BalanceResidual& r) {
     if (r.nodes == 0) return;
-    fmt::print("  {:8} {:.2f} % along x, {:.2f} % along z (noise of the mean {:.2f} %, {:.2f} %), {} nodes\n",
-               zone, 100 * r.rms_x, 100 * r.rms_z, 100 * r.noise_x, 100 * r.noise_z, r.nodes);
+    fmt::print(
+        "  {:8} {:.2f}, {:.2f} % along x, z (their noise {:.2f}, {:.2f} %); means over {} d {:.2f}, {:.2f} "
+        "%\n",
+        zone, 100 * r.rms_x, 100 * r.rms_z, 100 * r.noise_x, 100 * r.noise_z, MapFindingOptions{}.block,
+        100 * r.rms_x_blocks, 100 * r.rms_z_blocks);
   };
-  fmt::print("momentum missing in the maps, rms over nu g\n");
+  fmt::print("momentum missing at the nodes of the maps, rms over nu g\n");
   line("bulk", maps.balance.bulk);
   line("flowing", maps.balance.flowing);
   line("slow", maps.balance.slow);
-  const auto law = [](const char* name, const LogLine& fit) {
-    if (std::isfinite(fit.rms))
-      fmt::print("  {:19} {:.4f} + {:.4f} ln I, rms {:.4f}, {} nodes\n", name, fit.a, fit.b, fit.rms,
-                 fit.nodes);
-  };
+  const FrictionCollapse& fits = maps.collapse;
+  if (!std::isfinite(fits.invariant.rms)) return;
   fmt::print("mu(I) over the whole bulk\n");
-  law("|tau|/p", maps.collapse.invariant);
-  law("sigma_xz/sigma_zz", maps.collapse.ratio);
+  fmt::print(
+      "  |tau|/p             {:.4f} + {:.4f} ln I, rms {:.4f} (noise of mu at a node {:.4f}), {} nodes\n",
+      fits.invariant.a, fits.invariant.b, fits.invariant.rms, fits.noise, fits.invariant.nodes);
+  fmt::print("  sigma_xz/sigma_zz   {:.4f} + {:.4f} ln I, rms {:.4f}, {} nodes\n", fits.ratio.a, fits.ratio.b,
+             fits.ratio.rms, fits.ratio.nodes);
 }
 
 }  // namespace
@@ -125,6 +170,7 @@ Part maps_part(const MeasureOptions& options) {
   auto maps = std::make_shared<Maps>();
   Part part;
   part.name = "maps";
+  part.figures = "measure_maps.py";
   part.reading.begin = [maps, options](const MeasurementFrame& place) { begin(place, options, *maps); };
   part.reading.add = [maps](const Snapshot& snapshot, const FlowSnapshot& in_frame, std::size_t batch) {
     maps->depositor->add(snapshot, in_frame, maps->batches[batch]);
