@@ -26,7 +26,7 @@ def runs_of(standard, convergence):
     """{setting: [(run.json, measured.json), ...]}, the standard first."""
     groups = {}
     for folder in sorted(standard.glob("6rpm-seed*")):
-        groups.setdefault("standard", []).append(folder)
+        groups.setdefault("tolerance-3e-3, the standard", []).append(folder)
     for folder in sorted(convergence.glob("6rpm-*-seed*")):
         groups.setdefault(re.sub(r"^6rpm-|-seed\d+$", "", folder.name), []).append(folder)
     read = lambda path: json.loads(path.read_text(encoding="utf-8"))
@@ -77,8 +77,8 @@ def figure(groups):
         for i, (name, runs) in enumerate(groups.items()):
             cpu, _ = steps(runs)
             mean, half = pooled(runs, scalar)
-            color = style.PARTICLES if name == "standard" else (["0.35"] + style.OTHERS + [style.CONTINUUM])[i % 7]
-            axes.errorbar([cpu], [mean], [half], fmt="s" if name == "standard" else "o", color=color, capsize=3, markersize=7,
+            color = style.PARTICLES if name == "tolerance-3e-3, the standard" else (["0.35"] + style.OTHERS + [style.CONTINUUM])[i % 7]
+            axes.errorbar([cpu], [mean], [half], fmt="s" if name == "tolerance-3e-3, the standard" else "o", color=color, capsize=3, markersize=7,
                           label=f"{name} ({len(runs)})")
         axes.set_xscale("log")
         axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
