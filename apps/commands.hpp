@@ -42,6 +42,17 @@ struct StudyOptions {
 /// `drumlin measure --study`: several measured runs together.
 int study(const StudyOptions&);
 
+struct ImportOptions {
+  std::optional<std::filesystem::path> description;
+  std::optional<std::filesystem::path> output;
+  std::vector<std::string> overrides;
+  bool keys = false;      ///< lists the keys of a description; nothing else
+  bool markdown = false;  ///< keys as a Markdown table
+  ExistingOutput existing = ExistingOutput::refuse;
+};
+/// Makes a run folder of the snapshots of another program.
+int import_foreign(const ImportOptions&);
+
 struct PlotOptions {
   std::filesystem::path run;
   std::optional<std::filesystem::path> output;  ///< standard: RUN/plots

@@ -21,6 +21,7 @@ struct Execute {
   int operator()(const apps::RunOptions& options) const { return apps::run(options); }
   int operator()(const apps::MeasureOptions& options) const { return apps::measure(options); }
   int operator()(const apps::StudyOptions& options) const { return apps::study(options); }
+  int operator()(const apps::ImportOptions& options) const { return apps::import_foreign(options); }
   int operator()(const apps::PlotOptions& options) const { return apps::plot(options); }
   int operator()(const apps::ExportOptions& options) const { return apps::export_run(options); }
   int operator()(const apps::CalibrateOptions& options) const { return apps::calibrate(options); }

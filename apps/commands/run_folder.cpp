@@ -23,6 +23,8 @@ RunFolder read_run_folder(const fs::path& folder, nlohmann::ordered_json& run) {
   if (!fs::exists(folder / "run.json"))
     throw InputError(folder.string() + ": holds no run.json, so no particle run");
   run = read_json(folder / "run.json", "drumlin-run-1");
+  if (run.value("imported", false))
+    throw InputError(folder.string() + ": is an imported run, which has no scene; drumlin measure reads it");
   RunFolder result;
   result.folder = folder;
   result.scene = read_scene(folder / "scene.toml");

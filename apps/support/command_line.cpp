@@ -83,6 +83,7 @@ class CommandLine {
         "Each command has its own --help.");
     add_run();
     add_measure();
+    add_import();
     add_plot();
     add_export();
     add_calibrate();
@@ -178,6 +179,19 @@ class CommandLine {
         return study_;
       };
     });
+  }
+
+  void add_import() {
+    CLI::App& command = add_command(
+        "import", "Makes a run folder of another program's snapshots (CSV, LAMMPS dumps)", import_);
+    add_optional_path(command, "description", import_.description, "DESCRIPTION.toml",
+                      "What the files are (docs/formats/import.md)");
+    add_optional_path(command, "-o,--output", import_.output, "RUN", "Folder for the snapshots");
+    add_overrides(command, import_.overrides);
+    command.add_flag("--keys", import_.keys,
+                     "Lists every key of a description with unit, range, default and meaning");
+    command.add_flag("--markdown", import_.markdown, "With --keys: as the table of docs/formats/import.md");
+    add_existing(command, import_.existing, keep_what_is_done);
   }
 
   void add_plot() {
@@ -321,6 +335,7 @@ class CommandLine {
   CLI::App app_;
   RunOptions run_;
   MeasureOptions measure_;
+  ImportOptions import_;
   StudyOptions study_;
   PlotOptions plot_;
   ExportOptions export_;

@@ -13,9 +13,9 @@ struct TextToShow {
   std::string text;
 };
 
-using Request = std::variant<TextToShow, RunOptions, MeasureOptions, CalibrateOptions, FlowOptions,
-                             CompareOptions, SceneOptions, SolveContactsOptions, PlotOptions, CostOptions,
-                             ExportOptions, HardcasesOptions, StudyOptions>;
+using Request = std::variant<TextToShow, RunOptions, MeasureOptions, ImportOptions, CalibrateOptions,
+                             FlowOptions, CompareOptions, SceneOptions, SolveContactsOptions, PlotOptions,
+                             CostOptions, ExportOptions, HardcasesOptions, StudyOptions>;
 
 /// Throws InputError on wrong usage. `solvers` are the names that --solver takes.
 Request parse_command_line(int argc, const char* const* argv, const std::vector<std::string>& solvers);

@@ -8,7 +8,38 @@
 namespace drumlin {
 namespace {
 const std::string format = "drumlin-snapshot-1";
+
+void add_contacts(const Snapshot& s, H5Writer& out) {
+  std::vector<std::int32_t> i, j;
+  std::vector<float> n_x, n_z;
+  std::vector<double> r_n, r_t;
+  for (const SnapshotContact& c : s.contacts) {
+    i.push_back(c.i), j.push_back(c.j), n_x.push_back(c.normal_x), n_z.push_back(c.normal_z);
+    r_n.push_back(c.impulse_n), r_t.push_back(c.impulse_t);
+  }
+  out.add("contacts/i", std::span<const std::int32_t>(i));
+  out.add("contacts/j", std::span<const std::int32_t>(j));
+  out.add("contacts/normal_x", std::span<const float>(n_x));
+  out.add("contacts/normal_z", std::span<const float>(n_z));
+  out.add("contacts/impulse_n", std::span<const double>(r_n));
+  out.add("contacts/impulse_t", std::span<const double>(r_t));
 }
+
+void read_contacts(const H5Reader& in, Snapshot& s) {
+  const auto i = in.ints("contacts/i"), j = in.ints("contacts/j");
+  const auto n_x = in.floats("contacts/normal_x"), n_z = in.floats("contacts/normal_z");
+  const auto r_n = in.doubles("contacts/impulse_n"), r_t = in.doubles("contacts/impulse_t");
+  for (const std::size_t size : {j.size(), n_x.size(), n_z.size(), r_n.size(), r_t.size()})
+    if (size != i.size()) in.refuse("contacts", "arrays of unequal length");
+  const auto bodies = static_cast<std::int32_t>(s.x.size());
+  for (std::size_t c = 0; c < i.size(); ++c) {
+    if (i[c] < 0 || i[c] >= bodies || j[c] >= bodies)
+      in.refuse("contacts", "names a grain that does not exist");
+    s.contacts.push_back({i[c], j[c], n_x[c], n_z[c], r_n[c], r_t[c]});
+  }
+}
+
+}  // namespace
 
 void write_snapshot(const std::filesystem::path& file, const Snapshot& s) {
   H5Writer out;
@@ -45,22 +76,9 @@ void write_snapshot(const std::filesystem::path& file, const Snapshot& s) {
     out.add("walls/x", std::span<const double>(s.wall_pose_x));
     out.add("walls/z", std::span<const double>(s.wall_pose_z));
   }
-  std::vector<std::int32_t> i, j;
-  std::vector<float> n_x, n_z;
-  std::vector<double> r_n, r_t;
-  for (const SnapshotContact& c : s.contacts) {
-    i.push_back(c.i), j.push_back(c.j), n_x.push_back(c.normal_x), n_z.push_back(c.normal_z);
-    r_n.push_back(c.impulse_n), r_t.push_back(c.impulse_t);
-  }
-  out.add("contacts/i", std::span<const std::int32_t>(i));
-  out.add("contacts/j", std::span<const std::int32_t>(j));
-  out.add("contacts/normal_x", std::span<const float>(n_x));
-  out.add("contacts/normal_z", std::span<const float>(n_z));
-  out.add("contacts/impulse_n", std::span<const double>(r_n));
-  out.add("contacts/impulse_t", std::span<const double>(r_t));
+  if (s.contacts_known) add_contacts(s, out);
   out.save(file);
 }
-
 Snapshot read_snapshot(const std::filesystem::path& file) {
   const H5Reader in(file);
   if (!in.has("format") || in.text("format") != format)
@@ -101,17 +119,8 @@ Snapshot read_snapshot(const std::filesystem::path& file) {
     for (const std::size_t size : {s.wall_pose_x.size(), s.wall_pose_z.size()})
       if (size != s.wall_pose_angle.size()) in.refuse("walls", "arrays of unequal length");
   }
-  const auto i = in.ints("contacts/i"), j = in.ints("contacts/j");
-  const auto n_x = in.floats("contacts/normal_x"), n_z = in.floats("contacts/normal_z");
-  const auto r_n = in.doubles("contacts/impulse_n"), r_t = in.doubles("contacts/impulse_t");
-  for (const std::size_t size : {j.size(), n_x.size(), n_z.size(), r_n.size(), r_t.size()})
-    if (size != i.size()) in.refuse("contacts", "arrays of unequal length");
-  const auto bodies = static_cast<std::int32_t>(grains);
-  for (std::size_t c = 0; c < i.size(); ++c) {
-    if (i[c] < 0 || i[c] >= bodies || j[c] >= bodies)
-      in.refuse("contacts", "names a grain that does not exist");
-    s.contacts.push_back({i[c], j[c], n_x[c], n_z[c], r_n[c], r_t[c]});
-  }
+  s.contacts_known = in.has("contacts");
+  if (s.contacts_known) read_contacts(in, s);
   return s;
 }
 

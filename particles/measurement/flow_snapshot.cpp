@@ -82,6 +82,7 @@ void to_flow_frame(const Snapshot& snapshot, const FlowFrame& frame, VelocityKin
   result.spin = snapshot.spin;
   for (double& spin : result.spin) spin -= own_spin;
   add_half_branches(snapshot, frame, result);
+  result.contacts_known = snapshot.contacts_known;
 }
 
 }  // namespace drumlin

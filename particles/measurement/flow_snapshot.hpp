@@ -26,6 +26,7 @@ struct FlowSnapshot {
   std::vector<double> spin;                 ///< empty when the scene has none
   std::vector<std::uint16_t> coordination;  ///< loaded contacts, those with walls included
   std::vector<HalfBranch> half_branches;
+  bool contacts_known = true;  ///< false: half_branches and coordination say nothing
 };
 
 /// Which velocity of a grain is meant.

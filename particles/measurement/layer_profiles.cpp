@@ -102,7 +102,7 @@ void add_stresses(Columns& columns) {
     const auto kinetic_part = columns.of(name + "_kinetic");
     columns.add(name, [&](std::size_t l, const LayerSum& sum) {
       const double area = columns.grid.area[columns.first + l] * static_cast<double>(columns.sums.snapshots);
-      return sign * sum.*contact / area + kinetic_part[l];
+      return columns.sums.with_contacts ? sign * sum.*contact / area + kinetic_part[l] : none;
     });
   };
   if (columns.sums.with_spin)
@@ -160,8 +160,9 @@ ProfileSet layer_profiles(const LayerGrid& grid, const LayerSums& sums, double s
   add_stresses(columns);
   add_ratios(columns);
   add_fluctuations(columns);
-  columns.add("coordination",
-              [](std::size_t, const LayerSum& sum) { return mean(sum.contacts, sum.grains); });
+  columns.add("coordination", [&](std::size_t, const LayerSum& sum) {
+    return columns.sums.with_contacts ? mean(sum.contacts, sum.grains) : none;
+  });
   columns.add("count", [](std::size_t, const LayerSum& sum) { return sum.grains; });
   return std::move(columns.profiles);
 }

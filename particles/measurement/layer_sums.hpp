@@ -48,7 +48,8 @@ struct LayerSum {
 struct LayerSums {
   std::vector<LayerSum> layers;
   std::size_t snapshots = 0;
-  bool with_spin = true;  ///< false: the scene has no spin
+  bool with_spin = true;      ///< false: the scene has no spin
+  bool with_contacts = true;  ///< false: the snapshots do not know them
 
   LayerSums& operator+=(const LayerSums& other);
   LayerSums& operator-=(const LayerSums& other);

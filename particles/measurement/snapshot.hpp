@@ -41,6 +41,7 @@ struct Snapshot {
   std::vector<double> displacement_x,
       displacement_z;  ///< over the velocity window (laboratory frame); empty when not stored
   std::vector<SnapshotContact> contacts;  ///< contacts that carry an impulse
+  bool contacts_known = true;             ///< false: the program that made it did not say where they are
 };
 
 }  // namespace drumlin

@@ -157,9 +157,12 @@ int measure(const MeasureOptions& options) {
   measured.profiles.header = header_of(measured, settings, reduced);
   ScalarSet scalars = measured.scalars;
   const double second = measured.scales.time_s;
-  for (const ScalarSet& more : {friction_scalars(measured, selection),
-                                accuracy_scalars(options.run / "log.csv", measured.first_time() * second,
-                                                 measured.last_time() * second)})
+  // A run of another program tells nothing of its accuracy.
+  const ScalarSet accuracy = run.value("imported", false)
+                                 ? ScalarSet{}
+                                 : accuracy_scalars(options.run / "log.csv", measured.first_time() * second,
+                                                    measured.last_time() * second);
+  for (const ScalarSet& more : {friction_scalars(measured, selection), accuracy})
     scalars.scalars.insert(scalars.scalars.end(), more.scalars.begin(), more.scalars.end());
   if (settings.sensitivity) add_friction_variants(measured, selection, measured.variants);
 

@@ -1,0 +1,90 @@
+// drumlin import: a run folder of the snapshots of another program.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/commands.hpp"
+#include "apps/support/json_file.hpp"
+#include "apps/support/output_folder.hpp"
+#include "apps/support/progress.hpp"
+#include "coupling/exchange/errors.hpp"
+#include "coupling/exchange/text_file.hpp"
+#include "particles/import/import_run.hpp"
+#include "particles/io/snapshot_file.hpp"
+
+namespace drumlin::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+Json report_of(const ImportDescription& description, const fs::path& file, const ImportReport& report) {
+  return {{"format", "drumlin-run-1"},
+          {"title", description.title},
+          {"reduced", description.reduced},
+          {"status", "finished"},
+          {"imported", true},
+          {"imported_from",
+           {{"description", file.filename().string()},
+            {"kind", std::holds_alternative<LammpsSource>(description.source) ? "lammps" : "csv"},
+            {"files", report.files},
+            {"unused_columns", report.unused_columns},
+            {"with_spin", report.with_spin},
+            {"with_contacts", report.with_contacts}}},
+          {"grains", report.grains},
+          {"snapshots", report.snapshots},
+          {"simulated_seconds", report.last_time_s},
+          {"scales", to_json(report.scales)},
+          {"provenance", to_json(provenance())}};
+}
+
+void print_summary(const fs::path& run, const ImportDescription& description, const ImportReport& report) {
+  fmt::print("{}{}: {} snapshots of {} grains, {:.6g} s to {:.6g} s\n", run.string(),
+             description.reduced ? " (reduced)" : "", report.snapshots, report.grains, report.first_time_s,
+             report.last_time_s);
+  fmt::print("  d = {:.6g} mm, sqrt(d/g) = {:.6g} s; velocities are those at the instant of the snapshot\n",
+             report.scales.length_m * 1e3, report.scales.time_s);
+  if (report.with_contacts)
+    fmt::print("  {} contacts that carry a force\n", report.contacts);
+  else
+    fmt::print("  without contacts: no stress will be measured\n");
+  if (!report.with_spin) fmt::print("  without spin\n");
+  if (!report.unused_columns.empty())
+    fmt::print("  columns that were not used: {}\n", fmt::join(report.unused_columns, ", "));
+}
+
+}  // namespace
+
+int import_foreign(const ImportOptions& options) {
+  if (options.keys) {
+    fmt::print("{}", options.markdown ? keys_as_markdown(import_keys()) : keys_as_text(import_keys()));
+    return static_cast<int>(ExitCode::done);
+  }
+  if (!options.description || !options.output)
+    throw InputError("import: needs a description and an output: drumlin import DESCRIPTION.toml -o RUN");
+  const fs::path run = *options.output, finished = run / "run.json";
+  if (options.existing == ExistingOutput::resume && fs::exists(finished)) {
+    fmt::print("{}: done already\n", run.string());
+    return static_cast<int>(ExitCode::done);
+  }
+  const ImportDescription description = read_import_description(*options.description, options.overrides);
+  const fs::path folder = fs::absolute(*options.description).parent_path();
+  prepare_output(run, options.existing, {"run.json", "import.toml"}, {folder});
+  fs::create_directories(run / "snapshots");
+  replace_file(run / "import.toml", import_description_text(description));
+
+  Progress progress;
+  std::size_t done = 0;
+  const ImportReport report = import_run(description, folder, [&](const Snapshot& snapshot) {
+    write_snapshot(run / "snapshots" / fmt::format("{:06}.h5", snapshot.step), snapshot);
+    if (++done; progress.due()) progress.show(fmt::format("import  {} snapshots", done));
+  });
+  progress.finish();
+  // Last: it says that all is there.
+  write_json(finished, report_of(description, *options.description, report));
+  print_summary(run, description, report);
+  return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace drumlin::apps

@@ -1,0 +1,108 @@
+#include "particles/import/description.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+#include "coupling/exchange/errors.hpp"
+#include "particles/import/description_keys.hpp"
+
+namespace drumlin {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What the keys alone cannot know: which of them need each other.
+void check_together(const ImportDescription& description, const Document& document,
+                    std::vector<InputProblem>& problems) {
+  const auto refuse = [&](const std::string& key, const std::string& what, const std::string& allowed) {
+    problems.push_back(problem_at(document, key, what, allowed));
+  };
+  if (description.drum && description.periodic_x)
+    refuse("periodic_x", "stands beside a drum", "one of the two");
+  const auto* lammps = std::get_if<LammpsSource>(&description.source);
+  const auto& grains = lammps ? lammps->grains : std::get<CsvSource>(description.source).grains;
+  if (grains.empty()) refuse(lammps ? "lammps.grains" : "csv.grains", "names no file", "at least one");
+  if (!lammps || lammps->contacts.empty()) return;
+  if (lammps->contact_ids.size() != 2)
+    refuse("lammps.contact_ids", "is needed by the contacts", "two names of columns");
+  if (lammps->contact_forces.size() != 2)
+    refuse("lammps.contact_forces", "is needed by the contacts", "two names of columns");
+  if (!lammps->depth_m)
+    refuse("lammps.depth_m", "is needed by the contacts: forces count per metre of depth", "a number");
+}
+
+/// Whether a text is a pattern's, "*" standing for any text.
+bool matches(std::string_view pattern, std::string_view text) {
+  const auto star = pattern.find('*');
+  if (star == std::string_view::npos) return pattern == text;
+  if (!text.starts_with(pattern.substr(0, star))) return false;
+  const auto rest = pattern.substr(star + 1);
+  for (std::size_t begin = star; begin <= text.size(); ++begin)
+    if (matches(rest, text.substr(begin))) return true;
+  return false;
+}
+
+/// a before b, runs of digits by value: dump.90 before dump.100.
+bool natural_less(const std::string& a, const std::string& b) {
+  std::size_t i = 0, j = 0;
+  const auto digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
+  while (i < a.size() && j < b.size()) {
+    if (!digit(a[i]) || !digit(b[j])) {
+      if (a[i] != b[j]) return a[i] < b[j];
+      ++i, ++j;
+      continue;
+    }
+    const auto number = [&](const std::string& text, std::size_t& at) {
+      while (at < text.size() && text[at] == '0') ++at;
+      const std::size_t begin = at;
+      while (at < text.size() && digit(text[at])) ++at;
+      return text.substr(begin, at - begin);
+    };
+    const std::string first = number(a, i), second = number(b, j);
+    if (first.size() != second.size()) return first.size() < second.size();
+    if (first != second) return first < second;
+  }
+  return a.size() - i < b.size() - j;
+}
+
+}  // namespace
+
+ImportDescription read_import_description(const fs::path& file, const std::vector<std::string>& overrides) {
+  const Document document = read_toml(file, overrides);
+  std::vector<InputProblem> problems;
+  ImportDescription description = read_keys<ImportDescription>(document, problems);
+  if (problems.empty()) check_together(description, document, problems);
+  sort_by_place(problems);
+  if (!problems.empty()) throw InputError(problems);
+  return description;
+}
+
+std::string import_description_text(const ImportDescription& description) {
+  return toml_text(write_keys(description));
+}
+
+std::vector<KeyRow> import_keys() { return list_keys<ImportDescription>(); }
+
+std::vector<fs::path> files_of(const fs::path& folder, const std::vector<std::string>& patterns) {
+  std::vector<fs::path> files;
+  for (const std::string& pattern : patterns) {
+    const fs::path whole = folder / pattern;
+    const std::string name = whole.filename().string();
+    if (name.find('*') == std::string::npos) {
+      if (!fs::exists(whole)) throw InputError(whole.string() + ": no such file");
+      files.push_back(whole);
+      continue;
+    }
+    std::vector<std::string> found;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(whole.parent_path(), error))
+      if (entry.is_regular_file() && matches(name, entry.path().filename().string()))
+        found.push_back(entry.path().filename().string());
+    if (found.empty()) throw InputError(whole.string() + ": no file of such a name");
+    std::sort(found.begin(), found.end(), natural_less);
+    for (const std::string& one : found) files.push_back(whole.parent_path() / one);
+  }
+  return files;
+}
+
+}  // namespace drumlin

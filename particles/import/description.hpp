@@ -1,0 +1,77 @@
+#pragma once
+// What is known about a run of another program beside its files (docs/formats/import.md).
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "coupling/exchange/key_lister.hpp"
+#include "particles/scene/scene.hpp"
+
+namespace drumlin {
+
+/// Comma-separated files with a line of column names. Files count from the folder of the description; "*" in
+/// a name stands for any text.
+struct CsvSource {
+  std::vector<std::string> grains;
+  std::vector<std::string> contacts;
+  std::optional<double> interval_s;
+};
+
+/// Text dumps of LAMMPS and of programs that write its format.
+struct LammpsSource {
+  std::vector<std::string> grains;
+  std::string plane = "xy";
+  double step_s = 0;
+  double length_unit_m = 1, time_unit_s = 1, mass_unit_kg = 1;
+  std::vector<double> wall_types;
+  std::vector<std::string> contacts;
+  std::vector<std::string> contact_ids;
+  std::vector<std::string> contact_forces;
+  std::string force_on = "first";
+  std::optional<double> depth_m;
+};
+
+struct ImportedGrains {
+  double density_kg_m3 = 0;
+  std::optional<double> mean_diameter_m;
+  bool may_change = false;
+};
+
+struct ImportedDrum {
+  std::array<double, 2> center_m{0, 0};
+  double radius_m = 0;
+  double speed_rpm = 0;
+};
+
+struct ImportedPeriod {
+  double length_m = 0;
+};
+
+struct ImportDescription {
+  std::string title;
+  bool reduced = false;
+  std::variant<CsvSource, LammpsSource> source;
+  ImportedGrains grains;
+  Gravity gravity;
+  std::optional<ImportedDrum> drum;
+  std::optional<ImportedPeriod> periodic_x;
+  std::optional<double> time_step_s;
+};
+
+/// Throws InputError with every fault of the file: place, key, what is allowed.
+ImportDescription read_import_description(const std::filesystem::path& file,
+                                          const std::vector<std::string>& overrides = {});
+/// As TOML, with all defaults.
+std::string import_description_text(const ImportDescription& description);
+/// Its keys, as `drumlin import --keys` lists them.
+std::vector<KeyRow> import_keys();
+
+/// The files of a list of names and patterns, in its order; those of one pattern in the order of their names,
+/// numbers in them by value. Throws InputError when a name or pattern finds none.
+std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder,
+                                            const std::vector<std::string>& patterns);
+
+}  // namespace drumlin

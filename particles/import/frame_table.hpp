@@ -1,0 +1,52 @@
+#pragma once
+// The numbers of one instant as another program wrote them, with the place of each row.
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "coupling/exchange/scales.hpp"
+
+namespace drumlin {
+
+/// What a column holds: decides its unit. Forces are per metre of depth.
+enum class Quantity { number, time, length, velocity, rate, force };
+
+/// What one unit of a quantity inside the libraries is in SI.
+double unit_of(Quantity quantity, const Scales& scales);
+
+struct FrameColumn {
+  std::vector<double> values;
+  Quantity quantity = Quantity::number;
+  bool in_si = true;  ///< false: dimensionless already
+};
+
+/// Columns by the names of docs/formats/import.md without their units: id, x, z, v_x, v_z, radius,
+/// spin_clockwise, spin_anticlockwise, type, third of grains; i, j, normal_x, normal_z, f_n, f_t, f_x, f_z of
+/// contacts.
+struct FrameTable {
+  std::string file;
+  std::vector<int> line;  ///< of each row
+  int first_line = 0;     ///< where the instant begins
+  std::optional<double> time;
+  bool time_in_si = true;
+  std::map<std::string, FrameColumn> columns;
+
+  bool has(const std::string& name) const { return columns.contains(name); }
+  std::size_t rows() const { return line.size(); }
+  /// Dimensionless values. Throws InputError (file, line) when the column is missing.
+  std::vector<double> values(const std::string& name, const Scales& scales) const;
+  double time_in(const Scales& scales) const;
+  [[noreturn]] void refuse(std::size_t row, const std::string& key, const std::string& what,
+                           const std::string& allowed = "") const;
+};
+
+/// Frames in order; none after the last.
+using FrameSource = std::function<std::optional<FrameTable>()>;
+
+/// Names of columns that were there and told nothing.
+using UnusedColumns = std::set<std::string>;
+
+}  // namespace drumlin

@@ -1,0 +1,31 @@
+#pragma once
+// From the files of another program to snapshots.
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "particles/import/description.hpp"
+#include "particles/measurement/snapshot.hpp"
+
+namespace drumlin {
+
+struct ImportReport {
+  std::size_t snapshots = 0;
+  std::size_t grains = 0;    ///< of the last snapshot
+  std::size_t contacts = 0;  ///< of all snapshots
+  bool with_spin = false, with_contacts = false;
+  double first_time_s = 0, last_time_s = 0;
+  Scales scales;
+  std::vector<std::string> files;
+  std::vector<std::string> unused_columns;
+};
+
+/// Hands the snapshots to `sink` one by one, numbered from 1 in `step`. Grains are in the order of their ids.
+/// Files count from `folder`. Throws InputError (file, line) at the first fault: numbers that are none, ids
+/// that stand twice, grains that come or go unannounced or lie outside of the drum, radii that are not above
+/// 0, times that do not ascend, contacts of grains that there are not.
+ImportReport import_run(const ImportDescription& description, const std::filesystem::path& folder,
+                        const std::function<void(const Snapshot&)>& sink);
+
+}  // namespace drumlin

@@ -1,0 +1,29 @@
+#pragma once
+// Small files of other programs, imported.
+#include <string>
+#include <vector>
+
+#include "coupling/exchange/errors.hpp"
+#include "particles/import/import_run.hpp"
+#include "tests/exchange_files/folder.hpp"
+
+namespace drumlin::testing {
+
+struct Imported {
+  ImportReport report;
+  std::vector<Snapshot> snapshots;
+};
+
+/// Writes the description into the folder and imports what it names there.
+inline Imported imported(const TemporaryFolder& folder, const std::string& description) {
+  Imported result;
+  const ImportDescription read = read_import_description(folder.with("import.toml", description));
+  result.report = import_run(read, folder.path(), [&](const Snapshot& s) { result.snapshots.push_back(s); });
+  return result;
+}
+
+inline std::string refusal(const TemporaryFolder& folder, const std::string& description) {
+  return message_of<InputError>([&] { imported(folder, description); });
+}
+
+}  // namespace drumlin::testing
