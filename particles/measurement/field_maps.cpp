@@ -188,9 +188,17 @@ void set_balance(const Means& m, Values& f) {
   f.inertia_z = inertia_z / weight;
 }
 
+/// What follows from contacts that nobody knows is not computed.
+void forget_contacts(Means& m) {
+  m.contacts = m.force_x = m.force_z = none;
+  std::fill(std::begin(m.branch), std::end(m.branch), none);
+  std::fill(std::begin(m.contact), std::end(m.contact), none);
+}
+
 Values values_at(const MapNode& node, const MapSums& sums, double inside) {
   Values f;
-  const Means m = means_of(node, sums);
+  Means m = means_of(node, sums);
+  if (!sums.with_contacts) forget_contacts(m);
   f.number_density = m.grains;
   f.nu = m.area / inside;
   if (f.nu < least_map_nu) return f;
@@ -277,6 +285,7 @@ FieldMap field_maps(const CoarseGraining& graining, std::span<const MapSums> bat
       rest.gravity_x = total.gravity_x - batches[b].gravity_x;
       rest.gravity_z = total.gravity_z - batches[b].gravity_z;
       rest.with_spin = total.with_spin;
+      rest.with_contacts = total.with_contacts;
       leave_one_out[b] = values_at(without, rest, inside);
     }
     set_intervals(leave_one_out, whole, node, map.fields);

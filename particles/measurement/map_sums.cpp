@@ -197,6 +197,7 @@ MapSums& MapSums::operator+=(const MapSums& other) {
   gravity_x += other.gravity_x;
   gravity_z += other.gravity_z;
   with_spin = with_spin && other.with_spin;
+  with_contacts = with_contacts && other.with_contacts;
   return *this;
 }
 
@@ -236,6 +237,7 @@ void MapDepositor::add(const Snapshot& snapshot, const FlowSnapshot& in_frame, M
   sums.gravity_x += frame.along(snapshot.gravity_x, snapshot.gravity_z);
   sums.gravity_z += frame.normal(snapshot.gravity_x, snapshot.gravity_z);
   sums.with_spin = sums.with_spin && !in_frame.spin.empty();
+  sums.with_contacts = sums.with_contacts && in_frame.contacts_known;
 }
 
 }  // namespace drumlin

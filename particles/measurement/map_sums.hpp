@@ -56,6 +56,7 @@ struct MapSums {
   std::size_t snapshots = 0;
   double gravity_x = 0, gravity_z = 0;  ///< flow frame, summed over the snapshots
   bool with_spin = true;                ///< false: the scene has no spin
+  bool with_contacts = true;            ///< false: the snapshots do not know them
 
   MapSums& operator+=(const MapSums& other);
   MapSums& operator-=(const MapSums& other);

@@ -11,6 +11,7 @@ import sys
 import tempfile
 
 import h5py
+import numpy
 
 from command import Drumlin, read_json, require
 
@@ -170,11 +171,15 @@ def main():
 
         text, _ = drumlin("import", folder / "lammps" / "import.toml", "-o", folder / "bare", "--set", "lammps.contacts=[]")
         require("no stress will be measured" in text, text)
-        drumlin("measure", folder / "bare", "--parts", "forces")
+        drumlin("measure", folder / "bare", "--parts", "voronoi,forces,maps")
         bare = profiles_of(folder / "bare")
         require_same(own, bare, ["v_x", "nu", "omega"], 1e-6)
-        for column in ("sigma_zz", "sigma_xz", "I", "mu", "k", "coordination"):
+        for column in ("sigma_zz", "sigma_xz", "sigma_zz_grains", "I", "mu", "k", "coordination"):
             require(all(math.isnan(value) for value in bare[column]), f"{column}: {bare[column]}: not known, and not 0")
+        with h5py.File(folder / "bare" / "measured" / "maps.h5") as maps:
+            for field in ("sigma_zz", "p", "mu", "coordination", "fabric_xx", "wall_z", "residual_z"):
+                require(numpy.isnan(maps[f"fields/{field}"][:]).all(), f"a map of {field}, which is not known")
+            require(numpy.nanmax(maps["fields/nu"][:]) > 0.7, "no map of the volume fraction")
         scalars = read_json(folder / "bare" / "measured" / "measured.json")
         require(scalars["k_flowing"]["value"] is None and scalars["forces"] is None, "a number that was not measured")
         require("overlap_mean" not in scalars, "an accuracy that is not known")
