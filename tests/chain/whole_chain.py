@@ -7,6 +7,7 @@ import math
 import pathlib
 import re
 import shutil
+import subprocess
 import sys
 import tempfile
 
@@ -110,6 +111,20 @@ def check_study(drumlin, runs, folder):
     print("study: two runs together, repeated")
 
 
+def check_readers(files, folder):
+    """docs/cookbook/read_results.py reads all that the chain leaves."""
+    script = pathlib.Path(__file__).resolve().parents[2] / "docs" / "cookbook" / "read_results.py"
+    result = subprocess.run([sys.executable, script, *files, "-o", folder / "look.png"], capture_output=True, text=True, check=False)
+    require(result.returncode == 0, result.stdout + result.stderr)
+    for said in ("log.csv: log: ", "run.json: run (reduced): finished, 350 grains", "snapshot: time ", "scene.toml: drumlin-scene-1: ",
+                 "measured (reduced): theta_deg = ", "profiles.csv: drumlin-profiles-1: ", "forces.csv: forces: ",
+                 "force_distributions.csv: drumlin-force-distributions-1: ", "maps.h5: maps: ", "rheology.toml: law: mu = ",
+                 "continuum (reduced): theta = ", "comparison (reduced): ", "contact problem: "):
+        require(said in result.stdout, f"{said!r} is not said:\n{result.stdout}")
+    require((folder / "look.png").stat().st_size > 20000, "an empty picture")
+    print("read_results.py: everything read")
+
+
 def main():
     drumlin, here = Drumlin(sys.argv[1]), pathlib.Path(sys.argv[2])
     with tempfile.TemporaryDirectory() as name:
@@ -132,6 +147,7 @@ def main():
                 drumlin(*words, "--resume")
             require(bytes_below(folder) == before, f"repeating {words[0]} changed files")
             print(f"{words[0]}: done, checked, repeated")
+        check_readers([run, law, flow, report, here.parents[1] / "data" / "problems" / "drum-300-mu-0.4-flow.h5"], folder)
         check_other_drum_is_refused(drumlin, run, flow, folder)
         # The scene that a run leaves makes the same run again; so does another number of threads.
         again = folder / "again"
