@@ -9,6 +9,7 @@
 #include "coupling/exchange/rheology_fit.hpp"
 #include "coupling/exchange/scalar_set.hpp"
 #include "coupling/exchange/text_file.hpp"
+#include "coupling/files/field_map_file.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "tests/exchange_files/folder.hpp"
 #include "tests/measurement/packings.hpp"
@@ -69,6 +70,35 @@ TEST(MeasureCommand, LeavesProfilesScalarsAndFigures) {
   EXPECT_EQ(profiles.header.at("drum_radius"), "30");
   for (const char* figure : {"velocity", "packing", "rotation", "stresses", "rheology", "fluctuations"})
     EXPECT_TRUE(fs::exists(run / "measured" / (figure + std::string(".png")))) << figure;
+}
+
+TEST(MeasureCommand, MapsStandOnTheHeightsOfTheProfiles) {
+  const TemporaryFolder folder;
+  const Snapshot columns = with_scales(drumlin::testing::stacked_columns(8, 14, 0.2));
+  const fs::path run = run_folder(folder, "finished", {columns, columns});
+  MeasureOptions options = options_for(run);
+  options.parts = {"maps"};
+  EXPECT_EQ(measure(options), 0);
+  const FieldMap map = read_field_map(run / "measured" / "maps.h5");
+  const ProfileSet profiles = read_profiles(run / "measured" / "profiles.csv");
+  EXPECT_EQ(map.header.at("side"), "particles");
+  EXPECT_EQ(map.header.at("theta_deg"), profiles.header.at("theta_deg"));
+  EXPECT_EQ(map.header.at("kernel_width"), "1");
+  EXPECT_EQ(map.scales.time_s, 0.018);
+  EXPECT_EQ(map.grid.columns, 8u);
+  const double rows = (profiles.z.front() - map.grid.z_first) / map.grid.spacing_z;
+  EXPECT_NEAR(rows, std::round(rows), 1e-9);
+  // Well inside, layers and kernel see the same weight above.
+  const auto row = static_cast<std::size_t>(std::round(rows)) + 6;
+  EXPECT_NEAR(map.field("sigma_zz").value[row * 8], profiles.column("sigma_zz").value[6], 2e-3);
+  const auto json = nlohmann::json::parse(file_text(run / "measured" / "measured.json"));
+  EXPECT_NEAR(json.at("momentum_balance").at("bulk").at("rms_z").get<double>(), 0, 1e-9);
+  EXPECT_TRUE(json.at("mu_invariant").at("a").at("value").is_null());  // nothing moves: no I to fit over
+  EXPECT_TRUE(fs::exists(run / "measured" / "maps.png"));
+
+  options.existing = ExistingOutput::overwrite;
+  options.map_width = 0.5;
+  EXPECT_NE(message_of<InputError>([&] { measure(options); }).find("width"), std::string::npos);
 }
 
 TEST(MeasureCommand, MeasuresForcesWhereContactsCarryAny) {

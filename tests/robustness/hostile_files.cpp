@@ -8,9 +8,10 @@
 
 #include "coupling/exchange/errors.hpp"
 #include "coupling/exchange/text_file.hpp"
+#include "coupling/files/field_map_file.hpp"
+#include "coupling/files/h5_image.hpp"
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/io/contact_problem_file.hpp"
-#include "coupling/files/h5_image.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/scene/random.hpp"
 #include "particles/scene/scene_file.hpp"
@@ -187,6 +188,32 @@ TEST(HostileFile, NoSnapshotOfValidChecksumBreaksItsReader) {
     SCOPED_TRACE(k);
     (void)read_or_refused([&] { (void)read_snapshot(folder.path() / "s.h5"); });
   }
+}
+
+TEST(HostileFile, NoMapsOfValidChecksumBreakTheirReader) {
+  const TemporaryFolder folder;
+  RandomStream random(16, "maps");
+  int read = 0;
+  for (int k = 0; k < 300; ++k) {
+    std::vector<double> x = {0, 1, 2}, z = {-1, 0}, nu(6, 0.8);
+    std::string names = "nu\n", header = "side = particles\nkernel = spline\n";
+    std::vector<double>* doubles[] = {&x, &z, &nu};
+    std::string* texts[] = {&names, &header};
+    if (random.bits() % 2)
+      spoil(*doubles[below(random, std::size(doubles))], random);
+    else
+      *texts[below(random, 2)] = mutated(*texts[below(random, 2)], random);
+    H5Writer out;
+    out.add_text("format", "drumlin-maps-1"), out.add_text("names", names), out.add_text("header", header);
+    for (const char* scale : {"length_m", "time_s", "density_kg_m3"})
+      out.add_number(std::string("scales/") + scale, 1.0);
+    out.add("x", std::span<const double>(x)), out.add("z", std::span<const double>(z));
+    out.add_table("fields/nu", nu, 1 + below(random, 6));
+    out.save(folder.path() / "m.h5");
+    SCOPED_TRACE(k);
+    read += read_or_refused([&] { (void)read_field_map(folder.path() / "m.h5"); });
+  }
+  EXPECT_GT(read, 0);
 }
 
 TEST(HostileFile, NoContactProblemBreaksReaderOrSolver) {
