@@ -142,11 +142,13 @@ void write(const Measurement& measured, const PartOutput& output, const MeasureO
 void print(const Maps& maps) {
   const auto line = [](const char* zone, const BalanceResidual& r) {
     if (r.nodes == 0) return;
-    fmt::print(
-        "  {:8} {:.2f}, {:.2f} % along x, z (their noise {:.2f}, {:.2f} %); means over {} d {:.2f}, {:.2f} "
-        "%\n",
-        zone, 100 * r.rms_x, 100 * r.rms_z, 100 * r.noise_x, 100 * r.noise_z, MapFindingOptions{}.block,
-        100 * r.rms_x_blocks, 100 * r.rms_z_blocks);
+    fmt::print("  {:8} {:.2f}, {:.2f} % along x, z", zone, 100 * r.rms_x, 100 * r.rms_z);
+    if (std::isfinite(r.noise_x))
+      fmt::print(" (their noise {:.2f}, {:.2f} %)", 100 * r.noise_x, 100 * r.noise_z);
+    if (std::isfinite(r.rms_x_blocks))
+      fmt::print("; means over {} d {:.2f}, {:.2f} %", MapFindingOptions{}.block, 100 * r.rms_x_blocks,
+                 100 * r.rms_z_blocks);
+    fmt::print("\n");
   };
   fmt::print("momentum missing at the nodes of the maps, rms over nu g\n");
   line("bulk", maps.balance.bulk);
