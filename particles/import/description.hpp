@@ -44,6 +44,7 @@ struct ImportedDrum {
   std::array<double, 2> center_m{0, 0};
   double radius_m = 0;
   double speed_rpm = 0;
+  double turns_before = 0;
 };
 
 struct ImportedPeriod {

@@ -74,6 +74,10 @@ void describe(Visitor& v, ImportedDrum& d) {
   v.value("speed_rpm", d.speed_rpm,
           defaulted("turns/min", at_least(-1e6, 1e6),
                     "Speed of rotation, positive clockwise as drawn; 0: at rest."));
+  v.value(
+      "turns_before", d.turns_before,
+      defaulted("turns", at_least(0, 1e9),
+                "Turns before the first snapshot, as far as they are known: a drum needs one to be steady."));
 }
 
 template <class Visitor>

@@ -227,6 +227,10 @@ ImportReport import_run(const ImportDescription& description, const fs::path& fo
   ImportReport report;
   std::vector<std::int64_t> ids;
   double first_time = 0, last_time = 0;
+  const double turned_before =
+      description.drum
+          ? std::copysign(2 * std::numbers::pi * description.drum->turns_before, description.drum->speed_rpm)
+          : 0;
   while (const std::optional<FrameTable> table = sources.grains()) {
     const Rows rows = rows_of(*table, description);
     if (report.snapshots == 0) report.scales = scales_for(description, *table, rows);
@@ -250,7 +254,7 @@ ImportReport import_run(const ImportDescription& description, const fs::path& fo
     Snapshot s = frame_of(description, report.scales);
     s.step = static_cast<std::int64_t>(++report.snapshots);
     s.time = time;
-    s.wall_angle = s.wall_spin * (time - first_time);
+    s.wall_angle = turned_before + s.wall_spin * (time - first_time);
     add_grains(*table, rows, s);
     s.contacts_known = contacts.has_value();
     if (contacts)

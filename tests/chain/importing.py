@@ -25,6 +25,7 @@ mean_diameter_m = {diameter}
 [drum]
 radius_m = 0.05
 speed_rpm = 15
+turns_before = 1
 """
 
 CSV = """

@@ -64,6 +64,8 @@ TEST(CsvImport, DrumTurnsWithTheTime) {
   const auto result = imported(folder, std::string(head) + one_file + drum);
   EXPECT_NEAR(result.snapshots[0].wall_angle, 0, 1e-12);
   EXPECT_NEAR(result.snapshots[1].wall_angle, 0.2 * std::numbers::pi, 1e-12);
+  const auto later = imported(folder, std::string(head) + one_file + drum + "turns_before = 1.5\n");
+  EXPECT_NEAR(later.snapshots[1].wall_angle, 3.2 * std::numbers::pi, 1e-12);
   EXPECT_NEAR(result.snapshots[0].container_radius, 10, 1e-12);
   EXPECT_NEAR(result.snapshots[0].container_x, 1, 1e-12);
   folder.with("grains.csv", std::string(names) + "2,0,0.2,0,0,0,0.005\n");
