@@ -69,9 +69,13 @@ Json json_of(const ConsistencyRow& row) {
   return {{"rotation_rpm", row.rotation_rpm},
           {"Q", to_json(row.Q)},
           {"Q_expected", number(row.Q_expected)},
+          {"H", to_json(row.H)},
+          {"shear_rate", to_json(row.shear_rate)},
+          {"shear_rate_laboratory", to_json(row.shear_rate_laboratory)},
           {"layer_balance", to_json(row.layer_balance)},
           {"H_over_sqrt_Q", to_json(row.H_over_sqrt_Q)},
           {"paper_Q", number(row.paper_Q)},
+          {"paper_H", number(row.paper_H)},
           {"paper_shear_rate", number(row.paper_shear_rate)},
           {"paper_layer_balance", number(row.paper_layer_balance)},
           {"paper_H_over_sqrt_Q", number(row.paper_H_over_sqrt_Q)}};

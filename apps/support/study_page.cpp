@@ -74,21 +74,36 @@ std::string paper_section(const Json& study) {
 }
 
 std::string consistency_section(const Json& study) {
+  constexpr const char* keys[] = {"rotation_rpm",
+                                  "Q",
+                                  "Q_expected",
+                                  "paper_Q",
+                                  "H",
+                                  "paper_H",
+                                  "shear_rate",
+                                  "shear_rate_laboratory",
+                                  "paper_shear_rate",
+                                  "layer_balance",
+                                  "paper_layer_balance",
+                                  "H_over_sqrt_Q",
+                                  "paper_H_over_sqrt_Q"};
   std::string rows;
-  for (const Json& row : study["consistency"])
-    rows += fmt::format(
-        "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-        shown(row["rotation_rpm"]), shown(row["Q"]), shown(row["Q_expected"]), shown(row["paper_Q"]),
-        shown(row["layer_balance"]), shown(row["paper_layer_balance"]), shown(row["H_over_sqrt_Q"]),
-        shown(row["paper_H_over_sqrt_Q"]));
+  for (const Json& row : study["consistency"]) {
+    rows += "<tr>";
+    for (const char* key : keys) rows += "<td>" + shown(row[key]) + "</td>";
+    rows += "</tr>\n";
+  }
   return "<h2>Do the numbers belong together?</h2>\n<table><tr><th>rpm</th><th>Q</th><th>mass "
-         "balance</th><th>Q, paper</th><th>0.4 &middot; shear rate &middot; H&sup2; / Q</th><th>the same, "
-         "paper</th><th>H / &radic;Q</th><th>the same, paper</th></tr>\n" +
+         "balance</th><th>paper</th><th>H</th><th>paper</th><th>shear rate</th><th>+ "
+         "&Omega;</th><th>paper</th>"
+         "<th>share</th><th>paper</th><th>H / &radic;Q</th><th>paper</th></tr>\n" +
          rows +
          "</table>\n<p class=\"note\">A linear layer at &nu; = 0.8 carries the share 0.4 &middot; shear rate "
-         "&middot; H&sup2; / Q of the flow; the creep below it carries the rest. The paper's shear rate is "
-         "the "
-         "stated one at 6 rpm, else that of its own law at its own slope.</p>\n";
+         "&middot; H&sup2; / Q of the flow; the creep below it carries the rest. With &Omega; added the "
+         "shear "
+         "rate is that of the laboratory frame. The paper's shear rate is the stated one at 6 rpm, else that "
+         "of "
+         "its own law at its own slope.</p>\n";
 }
 
 std::string laws_section(const Json& study) {

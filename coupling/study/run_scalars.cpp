@@ -146,6 +146,8 @@ ScalarSet with_derived(const ScalarSet& measured, const ProfileSet& profiles) {
   const double weight = std::cos(known("theta_deg").value * degree);
   const double rotation = header_number(profiles, "rotation");
   const Value speed_at_surface = known("surface_speed");
+  const Value rate = known("shear_rate");
+  add("shear_rate_laboratory", {rate.value + rotation, rate.ci99});
   add("coriolis_share",
       {2 * rotation * speed_at_surface.value / weight, 2 * rotation * speed_at_surface.ci99 / weight});
   add("centrifugal_share", {rotation * rotation * header_number(profiles, "drum_radius") / weight, nan});

@@ -16,6 +16,7 @@ namespace drumlin {
 ///  mu_b_below             slope of mu over ln I where I < 1e-4
 ///  mu_b_excess            mu_b_below - mu_b
 ///  shear_stress_departure sigma_xz_over_weight_static - 1
+///  shear_rate_laboratory  shear_rate + Omega: dv_x/dz with the drum's own turn left in
 ///  coriolis_share, centrifugal_share   2 Omega v_x(0) and Omega^2 (distance of the wall), over gravity
 ///  cos(theta)
 /// A half width of means over layers is the mean of the layers' half widths, as if they moved together; that

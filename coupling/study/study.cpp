@@ -105,26 +105,27 @@ ConsistencyRow consistency_of(const SpeedGroup& group, const std::filesystem::pa
     const Scalar* found = group.scalars.find(name);
     return found == nullptr ? absent(name) : *found;
   };
-  ConsistencyRow row{group.rotation_rpm,
-                     known("Q"),
-                     known("layer_balance"),
-                     known("H_over_sqrt_Q"),
-                     value_at(group, "Q_expected"),
-                     nan,
-                     nan,
-                     nan,
-                     nan};
+  ConsistencyRow row;
+  row.rotation_rpm = group.rotation_rpm;
+  row.Q = known("Q");
+  row.H = known("H");
+  row.shear_rate = known("shear_rate");
+  row.shear_rate_laboratory = known("shear_rate_laboratory");
+  row.layer_balance = known("layer_balance");
+  row.H_over_sqrt_Q = known("H_over_sqrt_Q");
+  row.Q_expected = value_at(group, "Q_expected");
+  row.paper_Q = row.paper_H = row.paper_shear_rate = row.paper_layer_balance = row.paper_H_over_sqrt_Q = nan;
   if (!is_papers) return row;
-  double H = nan, theta = nan;
+  double theta = nan;
   for (const PaperNumber& number : paper_numbers(folder, std::round(group.rotation_rpm))) {
     if (number.name == "Q") row.paper_Q = number.value;
-    if (number.name == "H") H = number.value;
+    if (number.name == "H") row.paper_H = number.value;
     if (number.name == "theta_deg") theta = number.value;
   }
-  if (!std::isfinite(H)) return row;
+  if (!std::isfinite(row.paper_H)) return row;
   row.paper_shear_rate = paper_shear_rate(folder, std::round(group.rotation_rpm), theta);
-  row.paper_layer_balance = linear_layer_share(row.paper_shear_rate, H, row.paper_Q);
-  row.paper_H_over_sqrt_Q = H / std::sqrt(row.paper_Q);
+  row.paper_layer_balance = linear_layer_share(row.paper_shear_rate, row.paper_H, row.paper_Q);
+  row.paper_H_over_sqrt_Q = row.paper_H / std::sqrt(row.paper_Q);
   return row;
 }
 

@@ -15,11 +15,11 @@ namespace drumlin {
 /// Whether the numbers of one speed belong together, ours and the paper's.
 struct ConsistencyRow {
   double rotation_rpm = 0;
-  Scalar Q, layer_balance, H_over_sqrt_Q;
+  Scalar Q, H, shear_rate, shear_rate_laboratory, layer_balance, H_over_sqrt_Q;
   double Q_expected = 0;
   // Of the paper, NaN at other speeds than its six. Its shear rate is the stated one at 6 rpm, else that of
   // its own law at its own slope.
-  double paper_Q = 0, paper_shear_rate = 0, paper_layer_balance = 0, paper_H_over_sqrt_Q = 0;
+  double paper_Q = 0, paper_H = 0, paper_shear_rate = 0, paper_layer_balance = 0, paper_H_over_sqrt_Q = 0;
 };
 
 struct Study {

@@ -103,6 +103,8 @@ TEST(Study, ConsistencySetsThePapersNumbersBesideOurs) {
   ASSERT_EQ(study.consistency.size(), 6u);
   const ConsistencyRow& six = study.consistency[3];
   EXPECT_NEAR(six.H_over_sqrt_Q.value, 3, 1e-9);
+  EXPECT_NEAR(six.shear_rate_laboratory.value, 0.15 + 6 * 0.0019206626, 1e-6);
+  EXPECT_EQ(six.paper_H, 14.6);
   EXPECT_NEAR(six.paper_layer_balance, 0.4 * 0.15 * 14.6 * 14.6 / 21.8, 1e-9);
   EXPECT_NEAR(six.paper_H_over_sqrt_Q, 14.6 / std::sqrt(21.8), 1e-9);
   // At 2 rpm the paper states no shear rate: its law at its slope of 18.1 deg gives 0.083.
