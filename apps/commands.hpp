@@ -30,6 +30,7 @@ struct MeasureOptions {
   std::vector<double> slices;      ///< positions of the narrow slices, d; empty: spread over the surface
   double map_spacing = 1;          ///< d, of the nodes of the maps
   double map_width = 1;            ///< d, of their kernel
+  std::string grains;  ///< snapshots whose grains get their fields written, a list as in export; empty: none
   ExistingOutput existing = ExistingOutput::refuse;
 };
 int measure(const MeasureOptions&);

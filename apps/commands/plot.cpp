@@ -8,6 +8,7 @@
 #include "apps/support/figures.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/output_folder.hpp"
+#include "apps/support/snapshot_list.hpp"
 #include "coupling/exchange/errors.hpp"
 #include "particles/io/snapshot_file.hpp"
 

@@ -2,13 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <optional>
-#include <sstream>
 
 #include "apps/support/json_file.hpp"
+#include "apps/support/snapshot_list.hpp"
 #include "coupling/exchange/errors.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/scene/scene_file.hpp"
@@ -37,15 +34,6 @@ RunFolder read_run_folder(const fs::path& folder, nlohmann::ordered_json& run) {
   return result;
 }
 
-int snapshot_number(const fs::path& file) {
-  const std::string stem = file.stem().string();
-  int number = 0;
-  const auto [end, fault] = std::from_chars(stem.data(), stem.data() + stem.size(), number);
-  if (fault != std::errc() || end != stem.data() + stem.size())
-    throw InputError(file.string() + ": is not named as a snapshot (NNNNNN.h5)");
-  return number;
-}
-
 fs::path chosen_snapshot(const RunFolder& run, const std::string& name) {
   if (run.snapshots.empty()) throw InputError(run.folder.string() + ": holds no snapshots");
   if (name == "last") return run.snapshots.back();
@@ -57,18 +45,6 @@ fs::path chosen_snapshot(const RunFolder& run, const std::string& name) {
 }
 
 namespace {
-
-/// "7" or "3-9" as its first and last number.
-std::optional<std::pair<int, int>> range_of(std::string_view text) {
-  int first = 0, last = 0;
-  const char* const end = text.data() + text.size();
-  auto read = std::from_chars(text.data(), end, first);
-  if (read.ec != std::errc()) return std::nullopt;
-  last = first;
-  if (read.ptr != end && *read.ptr == '-') read = std::from_chars(read.ptr + 1, end, last);
-  if (read.ec != std::errc() || read.ptr != end || first > last) return std::nullopt;
-  return std::pair(first, last);
-}
 
 /// Of each wall, by its motions up to `time` since the start of the run.
 std::vector<Pose> poses_by_motion(Walls walls, const Scene& scene, const Scales& scales, double time) {
@@ -90,27 +66,7 @@ std::vector<Pose> poses_by_motion(Walls walls, const Scene& scene, const Scales&
 }  // namespace
 
 std::vector<fs::path> chosen_snapshots(const RunFolder& run, const std::string& list) {
-  if (run.snapshots.empty()) throw InputError(run.folder.string() + ": holds no snapshots");
-  if (list == "all") return run.snapshots;
-  if (list == "last") return {run.snapshots.back()};
-  std::map<int, fs::path> there, chosen;
-  for (const fs::path& file : run.snapshots) there.emplace(snapshot_number(file), file);
-  const auto refuse = [&](const std::string& item, const std::string& why) -> InputError {
-    return InputError(
-        fmt::format("--snapshots: '{}' {} (allowed: all, last, or numbers and ranges from {} to {})", item,
-                    why, there.begin()->first, there.rbegin()->first));
-  };
-  std::istringstream items(list + ",");
-  for (std::string item; std::getline(items, item, ',');) {
-    const auto range = range_of(item);
-    if (!range) throw refuse(item, "is no number or range");
-    if (!there.contains(range->first) || !there.contains(range->second)) throw refuse(item, "is not there");
-    for (auto at = there.find(range->first); at != there.end() && at->first <= range->second; ++at)
-      chosen.insert(*at);
-  }
-  std::vector<fs::path> files;
-  for (const auto& [number, file] : chosen) files.push_back(file);
-  return files;
+  return listed_snapshots(run.folder, run.snapshots, "--snapshots", list);
 }
 
 std::vector<PlacedShape> shapes_at(const RunFolder& run, const Snapshot& snapshot) {

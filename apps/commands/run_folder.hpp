@@ -26,9 +26,6 @@ struct RunFolder {
 /// `run` receives the content of run.json.
 RunFolder read_run_folder(const std::filesystem::path& folder, nlohmann::ordered_json& run);
 
-/// The number in a snapshot's name: 12 for snapshots/000012.h5. Throws InputError for another name.
-int snapshot_number(const std::filesystem::path& file);
-
 /// The file of a snapshot by its number or "last". Throws InputError that says which there are.
 std::filesystem::path chosen_snapshot(const RunFolder& run, const std::string& name);
 

@@ -156,6 +156,11 @@ class CommandLine {
                "Distance of the nodes of the maps");
     add_number(command, "--map-width", measure_.map_width, "d", above(0),
                "Width of their kernel, 1 to 15 times the distance of the nodes");
+    command
+        .add_option("--grains", measure_.grains,
+                    "Snapshots of which every grain's fields are written: all, last, or numbers and ranges such as "
+                    "1,5,10-20")
+        ->type_name("LIST");
     add_existing(command, measure_.existing, keep_what_is_done);
   }
 

@@ -23,8 +23,9 @@ enum class GrainField {
 class GrainFieldSet {
  public:
   GrainFieldSet(std::initializer_list<GrainField> fields) {
-    for (GrainField field : fields) bits_ |= bit(field);
+    for (GrainField field : fields) add(field);
   }
+  void add(GrainField field) { bits_ |= bit(field); }
   bool has(GrainField field) const { return (bits_ & bit(field)) != 0; }
 
  private:

@@ -10,6 +10,7 @@
 #include "coupling/exchange/scalar_set.hpp"
 #include "coupling/exchange/text_file.hpp"
 #include "coupling/files/field_map_file.hpp"
+#include "coupling/files/h5_image.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "tests/exchange_files/folder.hpp"
 #include "tests/measurement/packings.hpp"
@@ -154,6 +155,36 @@ TEST(MeasureCommand, RefusesWhatIsNoFinishedRun) {
   fs::remove_all(empty / "snapshots");
   EXPECT_NE(message_of<InputError>([&] { measure(options_for(empty)); }).find("no snapshots"),
             std::string::npos);
+}
+
+TEST(MeasureCommand, WritesTheFieldsOfEveryGrainOfTheSnapshotsAskedFor) {
+  const TemporaryFolder folder;
+  std::vector<Snapshot> snapshots(3, with_scales(drumlin::testing::stacked_columns(6, 12, 0.2)));
+  for (std::size_t s = 0; s < 3; ++s) snapshots[s].step = static_cast<std::int64_t>(100 + s);
+  const fs::path run = run_folder(folder, "finished", snapshots);
+  MeasureOptions options = options_for(run);
+  options.parts = {"none"};
+  options.grains = "3";
+  EXPECT_NE(message_of<InputError>([&] { measure(options); }).find("--grains: '3' is not there"),
+            std::string::npos);
+  EXPECT_FALSE(fs::exists(run / "measured" / "measured.json"));
+  options.grains = "0,2";
+  options.existing = ExistingOutput::resume;
+  EXPECT_EQ(measure(options), 0);
+  const fs::path grains = run / "measured" / "grains";
+  EXPECT_FALSE(fs::exists(grains / "000001.h5"));
+  EXPECT_TRUE(fs::exists(grains / "000000.h5"));
+  EXPECT_TRUE(fs::exists(run / "measured" / "grains.png"));
+  const H5Reader file(grains / "000002.h5");
+  EXPECT_EQ(file.text("format"), "drumlin-grains-1");
+  EXPECT_EQ(file.integer("step"), 102);
+  const auto nu = file.floats("grains/nu"), sigma_zz = file.floats("grains/sigma_zz_contact"),
+             z = file.floats("grains/z"), kinetic = file.floats("grains/sigma_xx_kinetic");
+  ASSERT_EQ(nu.size(), 72u);
+  EXPECT_NEAR(nu[5], std::numbers::pi / 4, 1e-6);
+  EXPECT_NEAR(sigma_zz[5], std::numbers::pi / 4 * 6.5 * std::cos(0.2), 1e-5);
+  EXPECT_LT(z[0], -10);      // from the surface
+  EXPECT_EQ(kinetic[5], 0);  // eighteen grains at rest stand behind the mean
 }
 
 /// A measured run whose layers lie on mu = 0.36 + b ln I.

@@ -7,13 +7,15 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/commands/measure/forces_part.hpp"
+#include "apps/commands/measure/grains_part.hpp"
 #include "apps/commands/measure/maps_part.hpp"
 #include "coupling/exchange/errors.hpp"
 
 namespace drumlin::apps {
 
 const std::vector<std::string>& part_names() {
-  static const std::vector<std::string> names{"gradients", "slices", "sensitivity", "voronoi", "forces", "maps"};
+  static const std::vector<std::string> names{"gradients", "slices", "sensitivity",
+                                              "voronoi",   "forces", "maps"};
   return names;
 }
 
@@ -34,6 +36,7 @@ std::vector<Part> reading_parts(const MeasureOptions& options) {
   std::vector<Part> parts;
   if (names_part(options, "forces")) parts.push_back(forces_part(options));
   if (names_part(options, "maps")) parts.push_back(maps_part(options));
+  if (!options.grains.empty()) parts.push_back(grains_part(options));
   return parts;
 }
 

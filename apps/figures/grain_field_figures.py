@@ -1,0 +1,106 @@
+"""Grains coloured by volume fraction and by pressure: grains.png in RUN/measured, of the last snapshot with fields."""
+
+import argparse
+import json
+import math
+import pathlib
+
+import h5py
+import matplotlib.collections
+import matplotlib.colors
+import matplotlib.patches
+import matplotlib.pyplot as plt
+import numpy as np
+
+import style
+
+LONG_SIDE = 8.0  # inches of the longer side of one map
+LEAST_SHARE = 1e-3  # pressures below this share of the largest are drawn as none
+NO_CELL = "#E69F00"  # grains without a cell
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("folder", help="RUN/measured")
+    parser.add_argument("--measured", help="file with the scalars, if not measured.json in the folder")
+    return parser.parse_args()
+
+
+class Fields:
+    """One file of measured/grains."""
+
+    def __init__(self, path):
+        with h5py.File(path) as stored:
+            self.of = {name: values[:] for name, values in stored["grains"].items()}
+            self.radius = stored["container/radius"][0]
+            self.axis_z = stored["container/z"][0]
+            self.period = stored["period_x"][0]
+            self.time_s = stored["time"][0] * stored["scales/time_s"][0]
+        self.x, self.z = self.of["x"], self.of["z"]
+        if self.period > 0:
+            self.x = np.mod(self.x, self.period)
+
+    def limits(self):
+        if self.radius > 0:
+            low = np.array([-self.radius, self.axis_z - self.radius])
+            high = np.array([self.radius, (self.z + self.of["radius"]).max()])
+        else:
+            low = np.array([(self.x - self.of["radius"]).min(), (self.z - self.of["radius"]).min()])
+            high = np.array([(self.x + self.of["radius"]).max(), (self.z + self.of["radius"]).max()])
+        margin = 0.01 * (high - low).max() + 0.2
+        return low - margin, high + margin
+
+
+def add_map(figure, axes, fields, values, inches, label, **colours):
+    discs = matplotlib.collections.EllipseCollection(
+        2 * fields.of["radius"], 2 * fields.of["radius"], np.zeros(len(fields.x)), units="x",
+        offsets=np.column_stack([fields.x, fields.z]), transOffset=axes.transData,
+        linewidths=min(0.05 * inches * 72, 0.8), edgecolors="white", **colours)
+    discs.get_cmap().set_bad(NO_CELL)
+    discs.set_array(np.ma.masked_invalid(values))
+    axes.add_collection(discs, autolim=False)
+    if fields.radius > 0:
+        axes.add_patch(matplotlib.patches.Circle((0, fields.axis_z), fields.radius, fill=False, edgecolor="0.15",
+                                                 linewidth=1.6))
+    axes.axhline(0, color="0.4", linewidth=0.8, linestyle="--")
+    axes.set_ylabel(r"$z$  [$d$]")
+    figure.colorbar(discs, ax=axes, extend="both", shrink=0.9, label=label)
+
+
+def draw(fields, number, reduced):
+    low, high = fields.limits()
+    size = high - low
+    inches = LONG_SIDE / size.max()
+    figure, panels = plt.subplots(2, 1, figsize=(size[0] * inches + 1.9, 2 * size[1] * inches + 1.2), sharex=True)
+    for axes in panels:
+        axes.set_aspect("equal")
+        axes.set_xlim(low[0], high[0])
+        axes.set_ylim(low[1], high[1])
+        axes.grid(False)
+    add_map(figure, panels[0], fields, fields.of["nu"], inches, r"$\nu$ in the grain's cell",
+            cmap=plt.get_cmap("viridis").copy(), norm=matplotlib.colors.Normalize(0.6, 0.9))
+    pressure = (fields.of["sigma_xx_contact"] + fields.of["sigma_zz_contact"]) / 2
+    largest = np.nanquantile(pressure, 0.99) if np.isfinite(pressure).any() else math.nan
+    if not largest > 0:
+        largest = 1.0
+    add_map(figure, panels[1], fields, np.where(np.isnan(pressure), np.nan, np.maximum(pressure, LEAST_SHARE * largest)),
+            inches, r"pressure of the contacts  [$\rho_0 g d$]", cmap=plt.get_cmap("magma").copy(),
+            norm=matplotlib.colors.LogNorm(LEAST_SHARE * largest, largest))
+    panels[1].set_xlabel(r"$x$, downslope  [$d$]")
+    figure.suptitle(style.title_of(f"snapshot {number}, t = {fields.time_s:.2f} s", reduced), fontsize=13)
+    return figure
+
+
+def main():
+    options = arguments()
+    folder = pathlib.Path(options.folder)
+    with open(options.measured or folder / "measured.json", encoding="utf-8") as stream:
+        reduced = json.load(stream)["reduced"]
+    last = max((folder / "grains").glob("*.h5"))
+    style.use_style()
+    plt.rcParams["savefig.dpi"] = 130
+    style.save(draw(Fields(last), int(last.stem), reduced), folder / "grains.png", reduced)
+
+
+if __name__ == "__main__":
+    main()
