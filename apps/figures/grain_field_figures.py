@@ -67,11 +67,25 @@ def add_map(figure, axes, fields, values, inches, label, **colours):
     figure.colorbar(discs, ax=axes, extend="both", shrink=0.9, label=label)
 
 
+def add_pressure(figure, axes, fields, inches):
+    pressure = (fields.of["sigma_xx_contact"] + fields.of["sigma_zz_contact"]) / 2
+    largest = np.nanquantile(pressure, 0.99) if np.isfinite(pressure).any() else math.nan
+    if not largest > 0:
+        largest = 1.0
+    add_map(figure, axes, fields, np.where(np.isnan(pressure), np.nan, np.maximum(pressure, LEAST_SHARE * largest)),
+            inches, r"pressure of the contacts  [$\rho_0 g d$]", cmap=plt.get_cmap("magma").copy(),
+            norm=matplotlib.colors.LogNorm(LEAST_SHARE * largest, largest))
+
+
 def draw(fields, number, reduced):
     low, high = fields.limits()
     size = high - low
     inches = LONG_SIDE / size.max()
-    figure, panels = plt.subplots(2, 1, figsize=(size[0] * inches + 1.9, 2 * size[1] * inches + 1.2), sharex=True)
+    known = "sigma_zz_contact" in fields.of  # not in an imported snapshot that does not know its contacts
+    count = 2 if known else 1
+    figure, panels = plt.subplots(count, 1, figsize=(size[0] * inches + 1.9, count * size[1] * inches + 1.2), sharex=True,
+                                  squeeze=False)
+    panels = panels[:, 0]
     for axes in panels:
         axes.set_aspect("equal")
         axes.set_xlim(low[0], high[0])
@@ -79,14 +93,9 @@ def draw(fields, number, reduced):
         axes.grid(False)
     add_map(figure, panels[0], fields, fields.of["nu"], inches, r"$\nu$ in the grain's cell",
             cmap=plt.get_cmap("viridis").copy(), norm=matplotlib.colors.Normalize(0.6, 0.9))
-    pressure = (fields.of["sigma_xx_contact"] + fields.of["sigma_zz_contact"]) / 2
-    largest = np.nanquantile(pressure, 0.99) if np.isfinite(pressure).any() else math.nan
-    if not largest > 0:
-        largest = 1.0
-    add_map(figure, panels[1], fields, np.where(np.isnan(pressure), np.nan, np.maximum(pressure, LEAST_SHARE * largest)),
-            inches, r"pressure of the contacts  [$\rho_0 g d$]", cmap=plt.get_cmap("magma").copy(),
-            norm=matplotlib.colors.LogNorm(LEAST_SHARE * largest, largest))
-    panels[1].set_xlabel(r"$x$, downslope  [$d$]")
+    if known:
+        add_pressure(figure, panels[1], fields, inches)
+    panels[-1].set_xlabel(r"$x$, downslope  [$d$]")
     figure.suptitle(style.title_of(f"snapshot {number}, t = {fields.time_s:.2f} s", reduced), fontsize=13)
     return figure
 

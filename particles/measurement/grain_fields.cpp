@@ -41,11 +41,12 @@ void add_kinetic_stress(const FlowSnapshot& in_frame, const std::vector<double>&
 GrainFields grain_fields(const Snapshot& snapshot, const FlowSnapshot& in_frame, const GrainFieldSet& wanted,
                          const VelocityMap* mean_velocity, const VoronoiOptions& options) {
   const std::size_t count = in_frame.x.size();
+  // Contacts that nobody knows of give no stress, not a stress of 0.
+  const bool pressed = wanted.has(GrainField::contact_stress) && in_frame.contacts_known;
   const bool rotates = wanted.has(GrainField::rotational_stress) && !in_frame.spin.empty();
   GrainFields fields;
   std::vector<double> area;  // NaN also where there is no room: nothing can be divided by it
-  if (wanted.has(GrainField::cell) || wanted.has(GrainField::contact_stress) ||
-      wanted.has(GrainField::kinetic_stress) || rotates) {
+  if (wanted.has(GrainField::cell) || pressed || wanted.has(GrainField::kinetic_stress) || rotates) {
     const auto cells = voronoi_cells(snapshot, options);
     for (const VoronoiCell& cell : cells) area.push_back(cell.area > 0 ? cell.area : none);
     if (wanted.has(GrainField::cell)) {
@@ -60,7 +61,7 @@ GrainFields grain_fields(const Snapshot& snapshot, const FlowSnapshot& in_frame,
     fields.v_z = in_frame.v_z;
   }
   if (wanted.has(GrainField::spin)) fields.spin = in_frame.spin;
-  if (wanted.has(GrainField::contact_stress)) add_contact_stress(in_frame, area, fields.contact);
+  if (pressed) add_contact_stress(in_frame, area, fields.contact);
   if (wanted.has(GrainField::kinetic_stress)) {
     assert(mean_velocity != nullptr);
     add_kinetic_stress(in_frame, area, *mean_velocity, fields.kinetic);
@@ -68,7 +69,7 @@ GrainFields grain_fields(const Snapshot& snapshot, const FlowSnapshot& in_frame,
   for (std::size_t i = 0; i < count && rotates; ++i)
     fields.rotational.push_back(pi / 4 * std::pow(in_frame.radius[i], 4) * in_frame.spin[i] *
                                 in_frame.spin[i] / area[i]);
-  if (wanted.has(GrainField::coordination))
+  if (wanted.has(GrainField::coordination) && in_frame.contacts_known)
     fields.coordination.assign(in_frame.coordination.begin(), in_frame.coordination.end());
   if (wanted.has(GrainField::cell)) fields.cell_area = std::move(area);
   return fields;

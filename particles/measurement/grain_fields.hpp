@@ -39,7 +39,8 @@ struct GrainStress {
 };
 
 /// One entry per grain in what was asked for, the rest is empty. Dimensionless, flow frame, relative to the
-/// drum. NaN where a grain has no cell.
+/// drum. NaN where a grain has no cell. A snapshot that does not know its
+/// contacts gives neither contact stress nor coordination.
 struct GrainFields {
   std::vector<double> cell_area, nu;
   std::vector<std::int32_t> open_cell;  ///< 1: the cell ends in the free

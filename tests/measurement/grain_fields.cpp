@@ -35,6 +35,17 @@ TEST(GrainFields, OnlyWhatIsAskedForIsThere) {
   EXPECT_EQ(fields.nu.size(), 24u);
 }
 
+TEST(GrainFields, UnknownContactsGiveNoStress) {
+  Snapshot column = testing::stacked_columns(4, 6, 0);
+  column.contacts.clear();
+  column.contacts_known = false;
+  const GrainFields fields = grain_fields(
+      column, seen_in(column), {GrainField::cell, GrainField::contact_stress, GrainField::coordination});
+  EXPECT_EQ(fields.nu.size(), 24u);
+  EXPECT_TRUE(fields.contact.zz.empty());
+  EXPECT_TRUE(fields.coordination.empty());
+}
+
 TEST(GrainFields, ContactWithTheFloorCarriesStressToo) {
   const int height = 6;
   const Snapshot column = testing::stacked_columns(4, height, 0);
