@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
+#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -67,12 +67,28 @@ void add_warnings(StudyRun& run, const Json& measured) {
   if (run.warnings.empty()) run.warnings.push_back("not steady");
 }
 
+/// Profiles whose header holds numbers where the study reads some.
+ProfileSet checked_profiles(const fs::path& file) {
+  ProfileSet profiles = read_profiles(file);
+  for (const char* key :
+       {"wall_z", "rotation", "drum_radius", "diameter_m", "theta_deg", "interval_factor", "position"}) {
+    const auto found = profiles.header.find(key);
+    if (found == profiles.header.end()) continue;
+    double number = 0;
+    const char* end = found->second.data() + found->second.size();
+    const auto read = std::from_chars(found->second.data(), end, number);
+    if (read.ec != std::errc() || read.ptr != end)
+      throw InputError({InputProblem{file.string(), 0, 0, key, found->second + " is no number", "a number"}});
+  }
+  return profiles;
+}
+
 /// Profiles of the narrow slices, where the measurement left them.
 void add_slices(StudyRun& run, const fs::path& folder) {
   if (!fs::is_directory(folder)) return;
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (entry.path().extension() != ".csv") continue;
-    ProfileSet profiles = read_profiles(entry.path());
+    ProfileSet profiles = checked_profiles(entry.path());
     const auto position = profiles.header.find("position");
     if (position == profiles.header.end())
       throw InputError(
@@ -95,7 +111,7 @@ StudyRun read_run(const fs::path& folder) {
   const Json settings = measured.value("settings", Json::object());
   StudyRun run;
   run.name = name_of_run(folder);
-  run.profiles = read_profiles(folder / "measured" / "profiles.csv");
+  run.profiles = checked_profiles(folder / "measured" / "profiles.csv");
   run.scalars = read_scalars(file, "drumlin-measured-1");
   const Json time = settings.value("scales", Json::object()).value("time_s", Json());
   const Json rotation = settings.value("rotation", Json());

@@ -88,6 +88,13 @@ TEST(StudyCommand, RefusesWhatIsNoMeasuredFinishedRun) {
   const std::string measured = file_text(other / "measured/measured.json");
   replace_file(other / "measured/measured.json", R"({"format": "drumlin-measured-9"})");
   EXPECT_NE(refusal().find("drumlin-measured-1"), std::string::npos);
+  replace_file(other / "measured/measured.json", measured);
+  const std::string profiles = file_text(other / "measured/profiles.csv");
+  std::string damaged = profiles;
+  damaged.replace(damaged.find("wall_z = -64"), 12, "wall_z = low");
+  replace_file(other / "measured/profiles.csv", damaged);
+  EXPECT_NE(refusal().find("wall_z"), std::string::npos);
+  replace_file(other / "measured/profiles.csv", profiles);
   fs::remove(other / "measured/measured.json");
   EXPECT_NE(refusal().find("drumlin measure"), std::string::npos);
   replace_file(other / "measured/measured.json", measured);
