@@ -74,7 +74,7 @@ def about_hdf5(path, found):
             found["maps"] = {"x": file["x"][:], "z": file["z"][:], "nu": file["fields/nu"][:]}
             rows, columns = file["fields/nu"].shape
             return f"maps: {len(file['fields'])} fields on {columns} x {rows} nodes, nu up to {np.nanmax(file['fields/nu'][:]):.3f}"
-        return f"{kind}: {len(file)} entries"
+        return f"{kind}: {', '.join(file.get('grains', file))}"
 
 
 def about_json(path, found):
@@ -161,10 +161,10 @@ def main():
     found = {}
     for place in options.places:
         files = sorted(place.rglob("*")) if place.is_dir() else [place]
-        snapshots = [file for file in files if file.parent.name == "snapshots"]
+        series = [[file for file in files if file.parent.name == folder][:-1] for folder in ("snapshots", "grains")]
         for file in files:
             # Private to the program, and of many snapshots the last one.
-            if file.suffix not in READERS or file.name == "checkpoint.h5" or file in snapshots[:-1]:
+            if file.suffix not in READERS or file.name == "checkpoint.h5" or any(file in earlier for earlier in series):
                 continue
             print(f"{file}: {READERS[file.suffix](file, found)}")
     if not found:
