@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "coupling/exchange/scales.hpp"
-#include "particles/measurement/grain_fields.hpp"
+#include "particles/measurement/grains/grain_fields.hpp"
 
 namespace drumlin {
 

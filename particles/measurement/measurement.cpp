@@ -6,11 +6,11 @@
 #include <numbers>
 
 #include "coupling/exchange/errors.hpp"
-#include "particles/measurement/cell_profiles.hpp"
+#include "particles/measurement/grains/cell_profiles.hpp"
 #include "particles/measurement/intervals.hpp"
-#include "particles/measurement/packing_scalars.hpp"
-#include "particles/measurement/slice.hpp"
-#include "particles/measurement/variants.hpp"
+#include "particles/measurement/layers/packing_scalars.hpp"
+#include "particles/measurement/layers/slice.hpp"
+#include "particles/measurement/layers/variants.hpp"
 
 namespace drumlin {
 namespace {

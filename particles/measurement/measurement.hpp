@@ -10,10 +10,10 @@
 #include "coupling/exchange/profile_scalars.hpp"
 #include "coupling/exchange/profile_set.hpp"
 #include "coupling/exchange/scalar_set.hpp"
-#include "particles/measurement/flow_snapshot.hpp"
-#include "particles/measurement/sensitivity.hpp"
+#include "particles/measurement/frame/flow_snapshot.hpp"
+#include "particles/measurement/frame/survey.hpp"
+#include "particles/measurement/layers/sensitivity.hpp"
 #include "particles/measurement/steadiness.hpp"
-#include "particles/measurement/survey.hpp"
 
 namespace drumlin {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "particles/measurement/survey.hpp"
+#include "particles/measurement/frame/survey.hpp"
 
 namespace drumlin {
 

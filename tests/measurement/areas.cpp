@@ -4,7 +4,7 @@
 #include <limits>
 #include <numbers>
 
-#include "particles/measurement/disc_area.hpp"
+#include "particles/measurement/frame/disc_area.hpp"
 
 namespace drumlin {
 namespace {

@@ -1,11 +1,11 @@
 // Fields of packings that are known by hand.
-#include "particles/measurement/field_maps.hpp"
+#include "particles/measurement/maps/field_maps.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "particles/measurement/map_findings.hpp"
+#include "particles/measurement/maps/map_findings.hpp"
 #include "tests/measurement/packings.hpp"
 
 namespace drumlin {

@@ -3,9 +3,9 @@
 
 #include <random>
 
-#include "particles/measurement/force_anisotropy.hpp"
-#include "particles/measurement/force_distribution.hpp"
-#include "particles/measurement/force_statistics.hpp"
+#include "particles/measurement/forces/force_anisotropy.hpp"
+#include "particles/measurement/forces/force_distribution.hpp"
+#include "particles/measurement/forces/force_statistics.hpp"
 #include "particles/measurement/intervals.hpp"
 #include "tests/measurement/packings.hpp"
 

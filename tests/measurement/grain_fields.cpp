@@ -1,5 +1,5 @@
 // Fields per grain, and the profiles that are means over them.
-#include "particles/measurement/grain_fields.hpp"
+#include "particles/measurement/grains/grain_fields.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What is read off maps as a whole, on maps made by hand.
-#include "particles/measurement/map_findings.hpp"
+#include "particles/measurement/maps/map_findings.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Coarse graining: the kernel, totals, line integrals, and the divergence that belongs to them.
-#include "particles/measurement/map_sums.hpp"
+#include "particles/measurement/maps/map_sums.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 
 #include "coupling/exchange/errors.hpp"
-#include "particles/measurement/spline_kernel.hpp"
+#include "particles/measurement/maps/spline_kernel.hpp"
 #include "tests/measurement/packings.hpp"
 
 namespace drumlin {

@@ -5,7 +5,7 @@
 #include <array>
 #include <random>
 
-#include "particles/measurement/grain_fields.hpp"
+#include "particles/measurement/grains/grain_fields.hpp"
 #include "tests/measurement/packings.hpp"
 #include "tests/support/scenes.hpp"
 

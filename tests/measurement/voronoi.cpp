@@ -6,7 +6,7 @@
 #include <numeric>
 #include <random>
 
-#include "particles/measurement/voronoi_cells.hpp"
+#include "particles/measurement/grains/voronoi_cells.hpp"
 #include "tests/measurement/packings.hpp"
 
 namespace drumlin {

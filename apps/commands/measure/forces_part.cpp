@@ -9,9 +9,9 @@
 
 #include "apps/support/json_file.hpp"
 #include "coupling/exchange/text_file.hpp"
-#include "particles/measurement/contact_forces.hpp"
-#include "particles/measurement/force_statistics.hpp"
-#include "particles/measurement/variants.hpp"
+#include "particles/measurement/forces/contact_forces.hpp"
+#include "particles/measurement/forces/force_statistics.hpp"
+#include "particles/measurement/layers/variants.hpp"
 #include "particles/scene/scene_file.hpp"
 
 namespace drumlin::apps {

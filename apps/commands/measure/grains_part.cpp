@@ -10,7 +10,7 @@
 #include "apps/support/snapshot_list.hpp"
 #include "particles/io/grain_file.hpp"
 #include "particles/io/snapshot_file.hpp"
-#include "particles/measurement/grain_fields.hpp"
+#include "particles/measurement/grains/grain_fields.hpp"
 
 namespace drumlin::apps {
 namespace {

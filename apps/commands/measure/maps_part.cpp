@@ -8,9 +8,9 @@
 
 #include "apps/support/json_file.hpp"
 #include "coupling/files/field_map_file.hpp"
-#include "particles/measurement/field_maps.hpp"
 #include "particles/measurement/intervals.hpp"
-#include "particles/measurement/map_findings.hpp"
+#include "particles/measurement/maps/field_maps.hpp"
+#include "particles/measurement/maps/map_findings.hpp"
 
 namespace drumlin::apps {
 namespace {

@@ -1,0 +1,35 @@
+#pragma once
+// The contacts of a slice with their forces, as the distributions and the anisotropy need them.
+#include <cstddef>
+#include <vector>
+
+#include "particles/measurement/layers/layer_sums.hpp"
+#include "particles/measurement/snapshot.hpp"
+
+namespace drumlin {
+
+/// A loaded contact in the flow frame. Single precision: sums over it are double, and a run of 400 snapshots
+/// keeps a million of them.
+struct ContactForce {
+  float z = 0;           ///< of the contact point
+  float normal = 0;      ///< repulsion positive; impulse over the last step / time step
+  float tangential = 0;  ///< on the body that the normal points to, along the normal turned clockwise
+  float direction = 0;   ///< of the normal, rad from x towards z, in [0, pi): a contact has no sense
+  float branch = 0;      ///< distance of the two centres, from the centre to the wall
+};
+
+/// Contacts of some snapshots.
+struct ContactForces {
+  std::vector<ContactForce> between_grains, with_walls;
+  std::size_t snapshots = 0;
+};
+
+/// Adds the contacts whose point lies in the slice of the grid (in none of its layers: left out).
+void add_contact_forces(const LayerGrid& grid, const Snapshot& snapshot, ContactForces& forces);
+
+/// Layer of the grid that holds a height.
+inline std::size_t layer_of(const LayerGrid& grid, double z) {
+  return static_cast<std::size_t>((z - grid.z_min) / grid.thickness);
+}
+
+}  // namespace drumlin

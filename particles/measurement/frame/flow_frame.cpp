@@ -1,0 +1,195 @@
+#include "particles/measurement/frame/flow_frame.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "particles/measurement/frame/disc_area.hpp"
+
+namespace drumlin {
+
+FlowFrame frame_at_slope(double origin_x, double origin_z, double gravity_x, double gravity_z, double theta) {
+  const double gravity = std::hypot(gravity_x, gravity_z);
+  const double up_x = gravity > 0 ? -gravity_x / gravity : 0;
+  const double up_z = gravity > 0 ? -gravity_z / gravity : 1;
+  // Horizontal = (up_z, -up_x); the x axis is that, turned clockwise by theta.
+  const double x_axis_x = std::cos(theta) * up_z - std::sin(theta) * up_x;
+  const double x_axis_z = -std::cos(theta) * up_x - std::sin(theta) * up_z;
+  return FlowFrame{origin_x, origin_z, x_axis_x, x_axis_z};
+}
+
+Snapshot mirrored(Snapshot snapshot) {
+  const auto negate = [](std::vector<double>& values) {
+    for (double& value : values) value = -value;
+  };
+  negate(snapshot.x);
+  negate(snapshot.v_x);
+  negate(snapshot.spin);
+  negate(snapshot.displacement_x);
+  snapshot.wall_angle = -snapshot.wall_angle;
+  snapshot.wall_spin = -snapshot.wall_spin;
+  snapshot.container_x = -snapshot.container_x;
+  snapshot.gravity_x = -snapshot.gravity_x;
+  for (SnapshotContact& contact : snapshot.contacts) {
+    contact.normal_x = -contact.normal_x;
+    contact.impulse_t = -contact.impulse_t;  // the tangent follows its normal clockwise in the mirror too
+  }
+  return snapshot;
+}
+
+double centre_of_mass_angle(const Snapshot& snapshot, const FlowFrame& upright) {
+  double mass = 0, x = 0, z = 0;
+  for (std::size_t i = 0; i < snapshot.x.size(); ++i) {
+    const double weight = snapshot.radius[i] * snapshot.radius[i];
+    mass += weight;
+    x += weight * upright.x_of(snapshot.x[i], snapshot.z[i]);
+    z += weight * upright.z_of(snapshot.x[i], snapshot.z[i]);
+  }
+  return std::atan2(-x / mass, -z / mass);
+}
+
+CoverageMap::CoverageMap(double x_min, double x_max, double z_min, double z_max)
+    : x_min_(x_min),
+      z_min_(z_min),
+      columns_(static_cast<std::size_t>(std::max(1.0, std::ceil(x_max - x_min)))),
+      rows_(static_cast<std::size_t>(std::max(1.0, std::ceil(z_max - z_min)))),
+      area_(columns_ * rows_, 0.0) {}
+
+void CoverageMap::add(const Snapshot& snapshot, const FlowFrame& frame) {
+  for (std::size_t i = 0; i < snapshot.x.size(); ++i)
+    add_disc(frame.x_of(snapshot.x[i], snapshot.z[i]) - x_min_,
+             frame.z_of(snapshot.x[i], snapshot.z[i]) - z_min_, snapshot.radius[i]);
+  ++snapshots_;
+}
+
+void CoverageMap::add_disc(double x, double z, double radius) {
+  const auto first = [](double centre, double r) { return std::max(0.0, std::floor(centre - r)); };
+  const auto end = [](double centre, double r, std::size_t cells) {
+    return std::min(static_cast<double>(cells), std::ceil(centre + r));
+  };
+  const double west = first(x, radius), east = end(x, radius, columns_);
+  const double south = first(z, radius), north = end(z, radius, rows_);
+  if (!(west < east && south < north)) return;
+  // Area below and to the left of each corner of the cells: one evaluation a corner, where each cell alone
+  // would need all four of its own.
+  std::vector<double>& below = corners_;
+  below.assign(static_cast<std::size_t>(east - west) + 1, 0.0);
+  for (std::size_t c = 0; c < below.size(); ++c)
+    below[c] = disc_area_in_quadrant(radius, west + static_cast<double>(c) - x, south - z);
+  for (double row = south; row < north; ++row) {
+    double* cells = &area_[static_cast<std::size_t>(row) * columns_ + static_cast<std::size_t>(west)];
+    double left = 0;  // of the row, left of the corner before
+    for (std::size_t c = 0; c < below.size(); ++c) {
+      const double corner = disc_area_in_quadrant(radius, west + static_cast<double>(c) - x, row + 1 - z);
+      const double strip = corner - below[c];
+      if (c > 0) cells[c - 1] += strip - left;
+      left = strip;
+      below[c] = corner;
+    }
+  }
+}
+
+CoverageMap& CoverageMap::operator+=(const CoverageMap& other) {
+  for (std::size_t i = 0; i < area_.size(); ++i) area_[i] += other.area_[i];
+  snapshots_ += other.snapshots_;
+  return *this;
+}
+
+CoverageMap& CoverageMap::operator-=(const CoverageMap& other) {
+  for (std::size_t i = 0; i < area_.size(); ++i) area_[i] -= other.area_[i];
+  snapshots_ -= other.snapshots_;
+  return *this;
+}
+
+double CoverageMap::cell(std::ptrdiff_t column, std::ptrdiff_t row) const {
+  if (column < 0 || row < 0 || column >= static_cast<std::ptrdiff_t>(columns_) ||
+      row >= static_cast<std::ptrdiff_t>(rows_))
+    return 0;
+  return area_[static_cast<std::size_t>(row) * columns_ + static_cast<std::size_t>(column)];
+}
+
+double CoverageMap::volume_fraction(double x, double z) const {
+  if (snapshots_ == 0) return 0;
+  const double column = x - x_min_ - 0.5, row = z - z_min_ - 0.5;
+  const auto west = static_cast<std::ptrdiff_t>(std::floor(column)),
+             south = static_cast<std::ptrdiff_t>(std::floor(row));
+  const double east_share = column - std::floor(column), north_share = row - std::floor(row);
+  const double lower = (1 - east_share) * cell(west, south) + east_share * cell(west + 1, south);
+  const double upper = (1 - east_share) * cell(west, south + 1) + east_share * cell(west + 1, south + 1);
+  return ((1 - north_share) * lower + north_share * upper) / static_cast<double>(snapshots_);
+}
+
+namespace {
+
+constexpr double ray_step = 0.25;    // d, a quarter of a cell
+constexpr double ray_spacing = 0.5;  // d
+
+/// Highest z in the frame turned by theta at which the volume fraction reaches the isoline, looking down from
+/// above.
+std::optional<double> isoline_height(const CoverageMap& map, double theta, double x, double isoline) {
+  const double cosine = std::cos(theta), sine = std::sin(theta);
+  const auto fraction = [&](double z) {
+    return map.volume_fraction(x * cosine + z * sine, z * cosine - x * sine);
+  };
+  const double reach = std::max(std::abs(map.z_min()), std::abs(map.z_max()));
+  double above = fraction(reach);
+  for (double z = reach - ray_step; z > -reach; z -= ray_step) {
+    const double here = fraction(z);
+    if (here >= isoline && above < isoline) return z + ray_step * (here - isoline) / (here - above);
+    above = here;
+  }
+  return std::nullopt;
+}
+
+double cut_half_width(double surface_z, const SlopeOptions& options) {
+  if (!(options.container_radius > 0)) return options.half_width;
+  const double square = options.container_radius * options.container_radius - surface_z * surface_z;
+  return std::min(options.half_width, std::sqrt(std::max(0.0, square)) / 2);
+}
+
+struct IsolineFit {
+  double rise = 0;    ///< dz/dx of the line in the frame tried
+  double height = 0;  ///< at x = 0
+};
+
+std::optional<IsolineFit> fitted_isoline(const CoverageMap& map, double theta, double half_width,
+                                         double isoline) {
+  double n = 0, sx = 0, sz = 0, sxx = 0, sxz = 0;
+  const double rays = std::floor(half_width / ray_spacing);
+  for (double ray = -rays; ray <= rays; ++ray) {
+    const double x = ray * ray_spacing;
+    const auto z = isoline_height(map, theta, x, isoline);
+    if (!z) continue;
+    n += 1;
+    sx += x;
+    sz += *z;
+    sxx += x * x;
+    sxz += x * *z;
+  }
+  const double spread = sxx - sx * sx / std::max(n, 1.0);
+  if (n < 3 || !(spread > 0)) return std::nullopt;
+  const double rise = (sxz - sx * sz / n) / spread;
+  return IsolineFit{rise, (sz - rise * sx) / n};
+}
+
+}  // namespace
+
+Slope isoline_slope(const CoverageMap& upright_map, double first_guess, const SlopeOptions& options) {
+  constexpr int most_iterations = 50;
+  constexpr double tolerance = 1e-6;  // rad, far below any interval of an angle
+  double theta = first_guess;
+  const auto middle = isoline_height(upright_map, theta, 0, options.isoline);
+  if (!middle) return {};
+  double half_width = cut_half_width(*middle, options);
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    const auto line = fitted_isoline(upright_map, theta, half_width, options.isoline);
+    if (!line) return {};
+    const double correction = std::atan(line->rise);
+    theta -= correction;
+    half_width = cut_half_width(line->height, options);
+    if (std::abs(correction) < tolerance) return Slope{theta, half_width, line->height};
+  }
+  return {};
+}
+
+}  // namespace drumlin

@@ -1,0 +1,88 @@
+#include "particles/measurement/frame/flow_snapshot.hpp"
+
+#include <cmath>
+
+namespace drumlin {
+namespace {
+
+void add_half_branches(const Snapshot& snapshot, const FlowFrame& frame, FlowSnapshot& result) {
+  result.half_branches.clear();
+  result.coordination.assign(snapshot.x.size(), 0);
+  for (const SnapshotContact& contact : snapshot.contacts) {
+    const double n_x = contact.normal_x, n_z = contact.normal_z;
+    const double impulse_x = contact.impulse_n * n_x + contact.impulse_t * n_z;
+    const double impulse_z = contact.impulse_n * n_z - contact.impulse_t * n_x;
+    const double force_x = frame.along(impulse_x, impulse_z) / snapshot.time_step;
+    const double force_z = frame.normal(impulse_x, impulse_z) / snapshot.time_step;
+    const double along = frame.along(n_x, n_z), normal = frame.normal(n_x, n_z);
+    const auto add = [&](std::int32_t grain, double sign) {
+      if (grain < 0) return;
+      const auto g = static_cast<std::size_t>(grain);
+      const double reach = -sign * snapshot.radius[g];
+      result.half_branches.push_back({static_cast<std::uint32_t>(grain), result.x[g], result.z[g],
+                                      reach * along, reach * normal, sign * force_x, sign * force_z,
+                                      contact.j < 0});
+      ++result.coordination[g];
+    };
+    add(contact.i, 1);
+    add(contact.j, -1);
+  }
+}
+
+}  // namespace
+
+void relative_velocities(const Snapshot& snapshot, VelocityKind kind, RelativeVelocities& result) {
+  const std::size_t count = snapshot.x.size();
+  result.x.resize(count);
+  result.z.resize(count);
+  const double window = snapshot.velocity_window;
+  const bool windowed = kind == VelocityKind::window && window > 0 && !snapshot.displacement_x.empty();
+  const bool turning = snapshot.container_radius > 0 && snapshot.wall_spin != 0;
+  const double spin = turning ? snapshot.wall_spin : 0;
+  const double cosine = std::cos(spin * window), sine = std::sin(spin * window);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = snapshot.x[i] - snapshot.container_x, z = snapshot.z[i] - snapshot.container_z;
+    if (!windowed) {
+      result.x[i] = snapshot.v_x[i] - spin * z;
+      result.z[i] = snapshot.v_z[i] + spin * x;
+      continue;
+    }
+    const double d_x = snapshot.displacement_x[i], d_z = snapshot.displacement_z[i];
+    if (!turning) {
+      result.x[i] = d_x / window;
+      result.z[i] = d_z / window;
+      continue;
+    }
+    // Where the grain was, carried along with the drum: the difference to where it is now is its own motion.
+    const double carried_x = (x - d_x) * cosine + (z - d_z) * sine;
+    const double carried_z = (z - d_z) * cosine - (x - d_x) * sine;
+    result.x[i] = (x - carried_x) / window;
+    result.z[i] = (z - carried_z) / window;
+  }
+}
+
+void to_flow_frame(const Snapshot& snapshot, const FlowFrame& frame, VelocityKind kind,
+                   FlowSnapshot& result) {
+  const std::size_t count = snapshot.x.size();
+  RelativeVelocities velocity{std::move(result.v_x), std::move(result.v_z)};
+  relative_velocities(snapshot, kind, velocity);
+  result.x.resize(count);
+  result.z.resize(count);
+  result.radius = snapshot.radius;
+  for (std::size_t i = 0; i < count; ++i) {
+    result.x[i] = frame.x_of(snapshot.x[i], snapshot.z[i]);
+    result.z[i] = frame.z_of(snapshot.x[i], snapshot.z[i]);
+    const double v_x = velocity.x[i], v_z = velocity.z[i];
+    velocity.x[i] = frame.along(v_x, v_z);
+    velocity.z[i] = frame.normal(v_x, v_z);
+  }
+  result.v_x = std::move(velocity.x);
+  result.v_z = std::move(velocity.z);
+  const double own_spin = snapshot.container_radius > 0 ? snapshot.wall_spin : 0.0;
+  result.spin = snapshot.spin;
+  for (double& spin : result.spin) spin -= own_spin;
+  add_half_branches(snapshot, frame, result);
+  result.contacts_known = snapshot.contacts_known;
+}
+
+}  // namespace drumlin

@@ -1,0 +1,66 @@
+#pragma once
+// What each grain of a snapshot is given: the fields from which the paper's profiles are averages (Sec. II).
+#include <cstdint>
+#include <initializer_list>
+#include <vector>
+
+#include "particles/measurement/frame/flow_snapshot.hpp"
+#include "particles/measurement/grains/voronoi_cells.hpp"
+#include "particles/measurement/maps/velocity_map.hpp"
+
+namespace drumlin {
+
+enum class GrainField {
+  cell,  ///< area of the Voronoi cell, volume fraction in it
+  velocity,
+  spin,
+  contact_stress,
+  kinetic_stress,
+  rotational_stress,
+  coordination
+};
+
+class GrainFieldSet {
+ public:
+  GrainFieldSet(std::initializer_list<GrainField> fields) {
+    for (GrainField field : fields) add(field);
+  }
+  void add(GrainField field) { bits_ |= bit(field); }
+  bool has(GrainField field) const { return (bits_ & bit(field)) != 0; }
+
+ private:
+  static unsigned bit(GrainField field) { return 1u << static_cast<unsigned>(field); }
+  unsigned bits_ = 0;
+};
+
+/// Compression positive; xz: the traction of what is above on what is below.
+struct GrainStress {
+  std::vector<double> xx, zz, xz;
+};
+
+/// One entry per grain in what was asked for, the rest is empty. Dimensionless, flow frame, relative to the
+/// drum. NaN where a grain has no cell. A snapshot that does not know its
+/// contacts gives neither contact stress nor coordination.
+struct GrainFields {
+  std::vector<double> cell_area, nu;
+  std::vector<std::int32_t> open_cell;  ///< 1: the cell ends in the free
+  std::vector<double> v_x, v_z;         ///< over the stored window
+  std::vector<double> spin;             ///< empty when the scene has none, as is the rotational stress
+  /// Of the forces F on the grain, b from the contact to its centre: sum of F_a b_b / cell area. The paper's
+  /// sum (Sec. II) names contacts between discs only, and takes half the distance of the centres for b; here
+  /// walls count too, and b is the grain's own radius: so the cell, which ends at the contact, and the half
+  /// branch belong together. The sum over all grains times their cells is the same.
+  GrainStress contact;
+  /// m c_a c_b / cell area, c from the mean velocity at the grain's place. NaN where that mean is not known.
+  GrainStress kinetic;
+  /// Isotropic: J spin^2 / (2 cell area), J = m r^2/2: what the grain's points owe to its spin. The paper
+  /// names a rotational part without defining it.
+  std::vector<double> rotational;
+  std::vector<std::int32_t> coordination;  ///< loaded contacts, those with walls included
+};
+
+/// `mean_velocity` is read for the kinetic stress only and may else be null.
+GrainFields grain_fields(const Snapshot& snapshot, const FlowSnapshot& in_frame, const GrainFieldSet& wanted,
+                         const VelocityMap* mean_velocity = nullptr, const VoronoiOptions& options = {});
+
+}  // namespace drumlin

@@ -1,0 +1,77 @@
+#pragma once
+// Each grain's share of the plane (docs/decisions/voronoi.md): cells of the radical tessellation, closed at
+// the container, across a period and at the free surface.
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "particles/measurement/grains/convex_polygon.hpp"
+#include "particles/measurement/snapshot.hpp"
+
+namespace drumlin {
+
+/// The line that parts two grains.
+enum class Tessellation {
+  radical,  ///< equal tangents to both discs: cuts no disc unless discs overlap
+  ordinary  ///< equal distance from both centres: cuts the larger of two discs of unequal size that touch
+};
+
+struct VoronoiOptions {
+  Tessellation tessellation = Tessellation::radical;
+  /// d. A cell reaches no farther than this from the centre of a grain of diameter 1; from others to where a
+  /// tangent to the grain is as long as there. It closes cells at a free surface and must leave those within
+  /// a packing alone.
+  double reach = 1.5;
+};
+
+struct VoronoiCell {
+  /// d^2. 0 for a grain that others leave no room (its centre deep in a larger disc; the second of two equal
+  /// grains in one place); NaN for a grain that takes no part: its centre lies outside of the container, or
+  /// its place or radius is no number.
+  double area = 0;
+  bool open = false;  ///< ends at the reach somewhere
+};
+
+/// The cells of one snapshot, each computed when it is asked for. Straight walls are not known to a snapshot:
+/// cells reach through them as at a free surface.
+class VoronoiTessellation {
+ public:
+  explicit VoronoiTessellation(const Snapshot& snapshot, const VoronoiOptions& options = {});
+  std::size_t count() const { return grains_.size(); }
+  VoronoiCell cell(std::size_t grain);
+
+ private:
+  struct Site {
+    double x, z, weight;  ///< from the container's axis; in a periodic domain 0 <= x < period
+    std::int32_t grain;
+  };
+  /// Sites of similar size in a grid of cells, by rows: those of cell c are start[c] ... start[c + 1].
+  struct Level {
+    double largest_weight, first_reach;
+    double x_min, z_min, cell_x, cell_z;
+    int columns, rows;
+    std::vector<std::int32_t> start;
+    std::vector<Site> sites;
+  };
+  struct Neighbour {
+    double x, z, distance_squared, offset;  ///< the cell keeps {(x, z) . p <= offset}
+  };
+
+  static Level sorted_level(std::vector<Site> sites, double largest_diameter, double period);
+  void cut_by_level(const Site& site, const Level& level);
+  /// False when a neighbour leaves the site no room at all.
+  bool gather(const Site& site, const Level& level, double reach, double most_squared);
+
+  double period_ = 0, container_radius_ = 0;
+  double tangent_squared_ = 0;  ///< length of the tangents at which cells end, squared
+  std::vector<Site> grains_;    ///< in their own order; grain < 0: takes no part
+  std::vector<Level> levels_;
+  ConvexPolygon polygon_;
+  std::vector<Neighbour> neighbours_;
+};
+
+/// All cells of a snapshot, in the order of its grains.
+std::vector<VoronoiCell> voronoi_cells(const Snapshot& snapshot, const VoronoiOptions& options = {});
+
+}  // namespace drumlin

@@ -1,0 +1,186 @@
+#include "particles/measurement/layers/layer_sums.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace drumlin {
+namespace {
+
+/// Every sum in turn, so that none is forgotten when batches are added or taken apart.
+template <class Action>
+void for_each_sum(LayerSum& a, const LayerSum& b, Action action) {
+  for (auto member : {&LayerSum::covered,
+                      &LayerSum::grains,
+                      &LayerSum::x,
+                      &LayerSum::zeta,
+                      &LayerSum::v_x,
+                      &LayerSum::v_z,
+                      &LayerSum::spin,
+                      &LayerSum::x_x,
+                      &LayerSum::zeta_zeta,
+                      &LayerSum::zeta_v_x,
+                      &LayerSum::x_v_z,
+                      &LayerSum::v_x_v_x,
+                      &LayerSum::v_z_v_z,
+                      &LayerSum::v_x_v_z,
+                      &LayerSum::spin_spin,
+                      &LayerSum::force_x_branch_x,
+                      &LayerSum::force_x_branch_z,
+                      &LayerSum::force_z_branch_x,
+                      &LayerSum::force_z_branch_z,
+                      &LayerSum::contacts,
+                      &LayerSum::rotation})
+    action(a.*member, b.*member);
+}
+
+/// Adds the area of a disc that reaches into the slice to its layers.
+void add_covered_area(const LayerGrid& grid, double x, double z, double radius,
+                      std::vector<LayerSum>& layers) {
+  const auto layer_count = static_cast<double>(layers.size());
+  const double first = std::max(0.0, std::floor((z - radius - grid.z_min) / grid.thickness));
+  const double end = std::min(layer_count, std::ceil((z + radius - grid.z_min) / grid.thickness));
+  if (x - radius < grid.x_min || x + radius > grid.x_max) {
+    for (double layer = first; layer < end; ++layer) {
+      const auto index = static_cast<std::size_t>(layer);
+      layers[index].covered += disc_area_in(x, z, radius, grid.rectangle(index));
+    }
+    return;
+  }
+  // Between the sides of the slice layers cut the disc into strips: one evaluation a boundary.
+  double below = disc_area_left_of(radius, grid.z_min + first * grid.thickness - z);
+  for (double layer = first; layer < end; ++layer) {
+    const double up_to = disc_area_left_of(radius, grid.z_min + (layer + 1) * grid.thickness - z);
+    layers[static_cast<std::size_t>(layer)].covered += up_to - below;
+    below = up_to;
+  }
+}
+
+void add_grain(const LayerGrid& grid, const FlowSnapshot& snapshot, std::size_t i,
+               std::vector<LayerSum>& layers) {
+  const double x = snapshot.x[i], z = snapshot.z[i], radius = snapshot.radius[i];
+  if (x + radius <= grid.x_min || x - radius >= grid.x_max) return;
+  add_covered_area(grid, x, z, radius, layers);
+  const double place = std::floor((z - grid.z_min) / grid.thickness);
+  if (x < grid.x_min || x > grid.x_max || place < 0 || place >= static_cast<double>(layers.size())) return;
+
+  const auto index = static_cast<std::size_t>(place);
+  LayerSum& sum = layers[index];
+  const double v_x = snapshot.v_x[i], v_z = snapshot.v_z[i];
+  const double zeta = z - grid.z_of(index);
+  sum.grains += 1;
+  sum.x += x;
+  sum.zeta += zeta;
+  sum.v_x += v_x;
+  sum.v_z += v_z;
+  sum.x_x += x * x;
+  sum.zeta_zeta += zeta * zeta;
+  sum.zeta_v_x += zeta * v_x;
+  sum.x_v_z += x * v_z;
+  sum.v_x_v_x += v_x * v_x;
+  sum.v_z_v_z += v_z * v_z;
+  sum.v_x_v_z += v_x * v_z;
+  sum.contacts += snapshot.coordination[i];
+  if (snapshot.spin.empty()) return;
+  const double spin = snapshot.spin[i];
+  sum.spin += spin;
+  sum.spin_spin += spin * spin;
+  sum.rotation += std::numbers::pi / 4 * std::pow(radius, 4) * spin * spin;
+}
+
+/// Shares a half branch out among the layers in proportion to its length in each, cut at the sides of the
+/// slice.
+void add_half_branch(const LayerGrid& grid, const HalfBranch& branch, std::vector<LayerSum>& layers) {
+  if (std::min(branch.x, branch.x + branch.toward_x) > grid.x_max ||
+      std::max(branch.x, branch.x + branch.toward_x) < grid.x_min)
+    return;
+  double begin = 0, end = 1;  // parameter along the branch
+  if (branch.toward_x != 0) {
+    const double west = (grid.x_min - branch.x) / branch.toward_x,
+                 east = (grid.x_max - branch.x) / branch.toward_x;
+    begin = std::max(begin, std::min(west, east));
+    end = std::min(end, std::max(west, east));
+  } else if (branch.x < grid.x_min || branch.x > grid.x_max) {
+    return;
+  }
+  if (!(begin < end)) return;
+
+  const double low = branch.z + (branch.toward_z > 0 ? begin : end) * branch.toward_z;
+  const double high = branch.z + (branch.toward_z > 0 ? end : begin) * branch.toward_z;
+  const double first = std::max(0.0, std::floor((low - grid.z_min) / grid.thickness));
+  const double last =
+      std::min(static_cast<double>(layers.size()) - 1, std::floor((high - grid.z_min) / grid.thickness));
+  for (double layer = first; layer <= last; ++layer) {
+    double share = end - begin;
+    if (first < last || low < grid.z_min + first * grid.thickness ||
+        high > grid.z_min + (last + 1) * grid.thickness) {
+      const double bottom = grid.z_min + layer * grid.thickness;
+      const double inside = std::min(high, bottom + grid.thickness) - std::max(low, bottom);
+      share = std::max(0.0, inside) / std::abs(branch.toward_z);
+    }
+    LayerSum& sum = layers[static_cast<std::size_t>(layer)];
+    // b points from the contact to the centre: against `toward`.
+    sum.force_x_branch_x -= branch.force_x * branch.toward_x * share;
+    sum.force_x_branch_z -= branch.force_x * branch.toward_z * share;
+    sum.force_z_branch_x -= branch.force_z * branch.toward_x * share;
+    sum.force_z_branch_z -= branch.force_z * branch.toward_z * share;
+  }
+}
+
+}  // namespace
+
+LayerSum& LayerSum::operator+=(const LayerSum& other) {
+  for_each_sum(*this, other, [](double& a, double b) { a += b; });
+  return *this;
+}
+
+LayerSum& LayerSum::operator-=(const LayerSum& other) {
+  for_each_sum(*this, other, [](double& a, double b) { a -= b; });
+  return *this;
+}
+
+LayerSums& LayerSums::operator+=(const LayerSums& other) {
+  for (std::size_t l = 0; l < layers.size(); ++l) layers[l] += other.layers[l];
+  snapshots += other.snapshots;
+  return *this;
+}
+
+LayerSums& LayerSums::operator-=(const LayerSums& other) {
+  for (std::size_t l = 0; l < layers.size(); ++l) layers[l] -= other.layers[l];
+  snapshots -= other.snapshots;
+  return *this;
+}
+
+Rectangle LayerGrid::rectangle(std::size_t layer) const {
+  const double bottom = z_min + static_cast<double>(layer) * thickness;
+  return Rectangle{x_min, x_max, bottom, bottom + thickness};
+}
+
+LayerGrid layer_grid(const FlowFrame& frame, double position, double slice_width, double thickness,
+                     double z_from, double z_to, double container_radius, double period) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  LayerGrid grid{frame, position - slice_width / 2, position + slice_width / 2, 0, thickness, {}};
+  if (period > 0) {
+    grid.x_min = -infinity;
+    grid.x_max = infinity;
+  }
+  const double first = std::floor(z_from / thickness), end = std::ceil(z_to / thickness);
+  grid.z_min = first * thickness;
+  grid.area.assign(static_cast<std::size_t>(std::max(0.0, end - first)),
+                   (period > 0 ? period : slice_width) * thickness);
+  if (container_radius > 0)
+    for (std::size_t l = 0; l < grid.layers(); ++l)
+      grid.area[l] = disc_area_in(0, 0, container_radius, grid.rectangle(l));
+  return grid;
+}
+
+void add_snapshot(const LayerGrid& grid, const FlowSnapshot& snapshot, LayerSums& sums) {
+  for (std::size_t i = 0; i < snapshot.x.size(); ++i) add_grain(grid, snapshot, i, sums.layers);
+  for (const HalfBranch& branch : snapshot.half_branches) add_half_branch(grid, branch, sums.layers);
+  sums.with_spin = sums.with_spin && !snapshot.spin.empty();
+  sums.with_contacts = sums.with_contacts && snapshot.contacts_known;
+  ++sums.snapshots;
+}
+
+}  // namespace drumlin

@@ -1,0 +1,299 @@
+#include "particles/measurement/maps/field_maps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "particles/measurement/intervals.hpp"
+#include "particles/measurement/maps/spline_kernel.hpp"
+
+namespace drumlin {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+/// All fields at one node.
+struct Values {
+  double nu = none, number_density = none, v_x = none, v_z = none, omega = none;
+  double d_v_x_dx = none, d_v_x_dz = none, d_v_z_dx = none, d_v_z_dz = none;
+  double D_xx = none, D_zz = none, D_xz = none, strain_rate = none, half_vorticity = none;
+  double sigma_xx = none, sigma_zz = none, sigma_xz = none, sigma_zx = none;
+  double sigma_xx_kinetic = none, sigma_zz_kinetic = none, sigma_xz_kinetic = none;
+  double p = none, tau = none, I = none, mu = none, k = none, axis_angle = none;
+  double coordination = none, fabric_xx = none, fabric_zz = none, fabric_xz = none;
+  double wall_x = none, wall_z = none;
+  double residual_x = none, residual_z = none, residual_x_contact = none, residual_z_contact = none;
+  double inertia_x = none, inertia_z = none;
+};
+
+struct NamedField {
+  const char* name;
+  double Values::*value;
+};
+constexpr NamedField named_fields[] = {{"nu", &Values::nu},
+                                       {"v_x", &Values::v_x},
+                                       {"v_z", &Values::v_z},
+                                       {"omega", &Values::omega},
+                                       {"d_v_x_dx", &Values::d_v_x_dx},
+                                       {"d_v_x_dz", &Values::d_v_x_dz},
+                                       {"d_v_z_dx", &Values::d_v_z_dx},
+                                       {"d_v_z_dz", &Values::d_v_z_dz},
+                                       {"D_xx", &Values::D_xx},
+                                       {"D_zz", &Values::D_zz},
+                                       {"D_xz", &Values::D_xz},
+                                       {"strain_rate", &Values::strain_rate},
+                                       {"half_vorticity", &Values::half_vorticity},
+                                       {"sigma_xx", &Values::sigma_xx},
+                                       {"sigma_zz", &Values::sigma_zz},
+                                       {"sigma_xz", &Values::sigma_xz},
+                                       {"sigma_zx", &Values::sigma_zx},
+                                       {"sigma_xx_kinetic", &Values::sigma_xx_kinetic},
+                                       {"sigma_zz_kinetic", &Values::sigma_zz_kinetic},
+                                       {"sigma_xz_kinetic", &Values::sigma_xz_kinetic},
+                                       {"p", &Values::p},
+                                       {"tau", &Values::tau},
+                                       {"I", &Values::I},
+                                       {"mu", &Values::mu},
+                                       {"k", &Values::k},
+                                       {"axis_angle_deg", &Values::axis_angle},
+                                       {"coordination", &Values::coordination},
+                                       {"fabric_xx", &Values::fabric_xx},
+                                       {"fabric_zz", &Values::fabric_zz},
+                                       {"fabric_xz", &Values::fabric_xz},
+                                       {"wall_x", &Values::wall_x},
+                                       {"wall_z", &Values::wall_z},
+                                       {"residual_x", &Values::residual_x},
+                                       {"residual_z", &Values::residual_z},
+                                       {"residual_x_without_kinetic", &Values::residual_x_contact},
+                                       {"residual_z_without_kinetic", &Values::residual_z_contact},
+                                       {"inertia_x", &Values::inertia_x},
+                                       {"inertia_z", &Values::inertia_z},
+                                       {"number_density", &Values::number_density}};
+
+/// Means over the snapshots of what MapNode adds up, by name.
+struct Means {
+  double grains, contacts, spin, area, v_x, v_z, u_x, u_z, u_x_u_x, u_x_u_z, u_z_u_z, force_x, force_z;
+  std::array<double, 5> slope_x, slope_z;  ///< of area, A v_x, A v_z, A u_x, A u_z
+  std::array<double, 2> flux_divergence;
+  std::array<double, 4> branch;
+  std::array<double, 7> contact;
+  double gravity_x, gravity_z;
+};
+
+template <std::size_t n>
+std::array<double, n> scaled(std::array<double, n> values, double factor) {
+  for (double& value : values) value *= factor;
+  return values;
+}
+
+Means means_of(const MapNode& node, const MapSums& sums) {
+  const double share = 1 / static_cast<double>(sums.snapshots);
+  const auto g = scaled(node.grain, share);
+  return {g[0],
+          g[1],
+          g[2],
+          g[3],
+          g[4],
+          g[5],
+          g[6],
+          g[7],
+          g[8],
+          g[9],
+          g[10],
+          g[11],
+          g[12],
+          scaled(node.slope_x, share),
+          scaled(node.slope_z, share),
+          scaled(node.flux_divergence, share),
+          scaled(node.branch, share),
+          scaled(node.contact, share),
+          share * sums.gravity_x,
+          share * sums.gravity_z};
+}
+
+void set_velocity(const Means& m, bool with_spin, Values& f) {
+  f.v_x = m.v_x / m.area;
+  f.v_z = m.v_z / m.area;
+  if (with_spin) f.omega = m.spin / m.grains;
+  // The derivative of the quotient, each part by the kernel's own derivative.
+  f.d_v_x_dx = (m.slope_x[1] - f.v_x * m.slope_x[0]) / m.area;
+  f.d_v_x_dz = (m.slope_z[1] - f.v_x * m.slope_z[0]) / m.area;
+  f.d_v_z_dx = (m.slope_x[2] - f.v_z * m.slope_x[0]) / m.area;
+  f.d_v_z_dz = (m.slope_z[2] - f.v_z * m.slope_z[0]) / m.area;
+  f.D_xx = f.d_v_x_dx;
+  f.D_zz = f.d_v_z_dz;
+  f.D_xz = (f.d_v_x_dz + f.d_v_z_dx) / 2;
+  f.strain_rate = 2 * std::sqrt((f.D_xx * f.D_xx + 2 * f.D_xz * f.D_xz + f.D_zz * f.D_zz) / 2);
+  f.half_vorticity = (f.d_v_x_dz - f.d_v_z_dx) / 2;
+}
+
+/// `inside`: share of the kernel within the container.
+void set_stress(const Means& m, double inside, Values& f) {
+  const double mean_u_x = m.u_x / m.area, mean_u_z = m.u_z / m.area;
+  const PlaneTensor kinetic{
+      m.u_x_u_x - m.area * mean_u_x * mean_u_x, m.u_x_u_z - m.area * mean_u_x * mean_u_z,
+      m.u_x_u_z - m.area * mean_u_x * mean_u_z, m.u_z_u_z - m.area * mean_u_z * mean_u_z};
+  const PlaneTensor pressure{(m.branch[0] + kinetic.xx) / inside, (m.branch[1] + kinetic.xz) / inside,
+                             (m.branch[2] + kinetic.zx) / inside, (m.branch[3] + kinetic.zz) / inside};
+  f.sigma_xx_kinetic = kinetic.xx / inside;
+  f.sigma_zz_kinetic = kinetic.zz / inside;
+  f.sigma_xz_kinetic = -kinetic.xz / inside;
+  // The reported shear stress is the traction of the upper side on the lower one.
+  f.sigma_xx = pressure.xx;
+  f.sigma_zz = pressure.zz;
+  f.sigma_xz = -pressure.xz;
+  f.sigma_zx = -pressure.zx;
+  f.p = (pressure.xx + pressure.zz) / 2;
+  f.tau = std::hypot((pressure.xx - pressure.zz) / 2, (pressure.xz + pressure.zx) / 2);
+  if (!(f.p > 0)) return;
+  f.I = f.strain_rate / std::sqrt(f.p);
+  f.mu = f.tau / f.p;
+  if (f.sigma_zz > 0) f.k = f.sigma_xx / f.sigma_zz;
+  f.axis_angle = axis_angle_deg(pressure, {f.d_v_x_dx, f.d_v_x_dz, f.d_v_z_dx, f.d_v_z_dz});
+}
+
+void set_contacts(const Means& m, double inside, Values& f) {
+  f.coordination = m.contacts / m.grains;
+  const double sides = m.contact[4] + m.contact[6];
+  if (sides > 0) {
+    f.fabric_xx = m.contact[4] / sides;
+    f.fabric_xz = m.contact[5] / sides;
+    f.fabric_zz = m.contact[6] / sides;
+  }
+  f.wall_x = m.contact[2] / inside;
+  f.wall_z = m.contact[3] / inside;
+}
+
+/// Balance of momentum in the laboratory, whose axes at this instant are those of the frame:
+/// div(contact stress) + div(sum A u u phi) = nu g + force of the walls, all without the share inside.
+void set_balance(const Means& m, Values& f) {
+  const double gravity = std::hypot(m.gravity_x, m.gravity_z), weight = m.area * gravity;
+  if (!(weight > 0)) return;
+  const double contact_x = m.contact[0] - m.force_x, contact_z = m.contact[1] - m.force_z;
+  const double u_x = m.u_x / m.area, u_z = m.u_z / m.area;
+  // div(nu U U) of the mean velocity U: what is left of the flux is the kinetic stress.
+  const double divergence = m.slope_x[3] + m.slope_z[4];
+  const auto mean_flux = [&](double u, std::size_t moment) {
+    const double along = u_x * m.slope_x[moment] + u_z * m.slope_z[moment];
+    return u * divergence + along - u * (u_x * m.slope_x[0] + u_z * m.slope_z[0]);
+  };
+  const double inertia_x = mean_flux(u_x, 3), inertia_z = mean_flux(u_z, 4);
+  const double load_x = m.area * m.gravity_x + m.contact[2], load_z = m.area * m.gravity_z + m.contact[3];
+  f.residual_x = (contact_x + m.flux_divergence[0] - load_x) / weight;
+  f.residual_z = (contact_z + m.flux_divergence[1] - load_z) / weight;
+  f.residual_x_contact = (contact_x + inertia_x - load_x) / weight;
+  f.residual_z_contact = (contact_z + inertia_z - load_z) / weight;
+  f.inertia_x = inertia_x / weight;
+  f.inertia_z = inertia_z / weight;
+}
+
+/// What follows from contacts that nobody knows is not computed.
+void forget_contacts(Means& m) {
+  m.contacts = m.force_x = m.force_z = none;
+  std::fill(std::begin(m.branch), std::end(m.branch), none);
+  std::fill(std::begin(m.contact), std::end(m.contact), none);
+}
+
+Values values_at(const MapNode& node, const MapSums& sums, double inside) {
+  Values f;
+  Means m = means_of(node, sums);
+  if (!sums.with_contacts) forget_contacts(m);
+  f.number_density = m.grains;
+  f.nu = m.area / inside;
+  if (f.nu < least_map_nu) return f;
+  set_velocity(m, sums.with_spin, f);
+  set_stress(m, inside, f);
+  set_contacts(m, inside, f);
+  set_balance(m, f);
+  return f;
+}
+
+/// The same angle seen from the nearest side: axes that lie 180 degrees apart are one axis.
+double nearest_turn(double angle, double period) { return angle - period * std::round(angle / period); }
+
+void set_intervals(const std::vector<Values>& leave_one_out, const Values& whole, std::size_t node,
+                   std::vector<MapField>& fields) {
+  std::vector<double> values(leave_one_out.size());
+  for (std::size_t f = 0; f < std::size(named_fields); ++f) {
+    const NamedField& field = named_fields[f];
+    for (std::size_t b = 0; b < values.size(); ++b) {
+      values[b] = leave_one_out[b].*field.value;
+      if (field.value == &Values::axis_angle) values[b] = nearest_turn(values[b] - whole.*field.value, 180);
+    }
+    fields[f].ci99[node] = jackknife_ci99(values);
+  }
+}
+
+/// Drops the rows above the highest one that a grain reaches: half of a drum is air.
+void crop(const std::vector<MapNode>& nodes, FieldMap& map) {
+  MapGrid& grid = map.grid;
+  std::size_t rows = grid.rows;
+  const auto is_empty = [&](std::size_t row) {
+    const auto first = nodes.begin() + static_cast<std::ptrdiff_t>(row * grid.columns);
+    return std::all_of(first, first + static_cast<std::ptrdiff_t>(grid.columns),
+                       [](const MapNode& node) { return node.grain[0] == 0; });
+  };
+  while (rows > 1 && is_empty(rows - 1)) --rows;
+  grid.rows = rows;
+  for (MapField& field : map.fields) {
+    field.value.resize(grid.nodes());
+    if (!field.ci99.empty()) field.ci99.resize(grid.nodes());
+  }
+}
+
+}  // namespace
+
+double axis_angle_deg(const PlaneTensor& pressure, const PlaneTensor& velocity_gradient) {
+  const double of_pressure = std::atan2(pressure.xz + pressure.zx, pressure.xx - pressure.zz) / 2;
+  const double of_shortening = std::atan2(-(velocity_gradient.xz + velocity_gradient.zx),
+                                          velocity_gradient.zz - velocity_gradient.xx) /
+                               2;
+  return nearest_turn((of_pressure - of_shortening) * 180 / std::numbers::pi, 180);
+}
+
+FieldMap field_maps(const CoarseGraining& graining, std::span<const MapSums> batches, double container_radius,
+                    double surface_z) {
+  FieldMap map;
+  map.grid = graining.grid;
+  map.grid.z_first -= surface_z;
+  const std::size_t nodes = map.grid.nodes();
+  const bool with_intervals = batches.size() > 1;
+  for (const NamedField& field : named_fields) {
+    map.fields.push_back({field.name, std::vector<double>(nodes, none), {}});
+    if (with_intervals) map.fields.back().ci99.assign(nodes, none);
+  }
+  MapSums total = batches.front();
+  for (const MapSums& batch : batches.subspan(1)) total += batch;
+
+  std::vector<Values> leave_one_out(with_intervals ? batches.size() : 0);
+  MapSums rest;  // but for its nodes, which are taken one by one
+  for (std::size_t node = 0; node < nodes; ++node) {
+    const double x = graining.grid.x_of(node % graining.grid.columns);
+    const double z = graining.grid.z_of(node / graining.grid.columns);
+    if (container_radius > 0 && std::hypot(x, z) > container_radius) continue;
+    const double inside =
+        container_radius > 0 ? kernel_share_in_circle(x, z, graining.width, container_radius) : 1;
+    const Values whole = values_at(total.nodes[node], total, inside);
+    for (std::size_t f = 0; f < std::size(named_fields); ++f)
+      map.fields[f].value[node] = whole.*named_fields[f].value;
+    if (!with_intervals) continue;
+    for (std::size_t b = 0; b < batches.size(); ++b) {
+      MapNode without = total.nodes[node];
+      without -= batches[b].nodes[node];
+      rest.snapshots = total.snapshots - batches[b].snapshots;
+      rest.gravity_x = total.gravity_x - batches[b].gravity_x;
+      rest.gravity_z = total.gravity_z - batches[b].gravity_z;
+      rest.with_spin = total.with_spin;
+      rest.with_contacts = total.with_contacts;
+      leave_one_out[b] = values_at(without, rest, inside);
+    }
+    set_intervals(leave_one_out, whole, node, map.fields);
+  }
+  crop(total.nodes, map);
+  if (!total.with_spin)
+    std::erase_if(map.fields, [](const MapField& field) { return field.name == "omega"; });
+  return map;
+}
+
+}  // namespace drumlin

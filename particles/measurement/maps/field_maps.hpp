@@ -1,0 +1,28 @@
+#pragma once
+// From sums at the nodes to maps with intervals (docs/theory/coarse-graining.md defines each field).
+#include <span>
+
+#include "particles/measurement/maps/map_sums.hpp"
+
+namespace drumlin {
+
+/// Least volume fraction at which a node has more than its volume fraction: above the surface a few grains in
+/// flight would stand for a field.
+constexpr double least_map_nu = 0.05;
+
+/// The fields of docs/formats/maps.md, NaN outside of a circle of `container_radius` about the frame's origin
+/// (0: none) and, nu and number_density apart, where nu < least_map_nu. z counts from `surface_z` (in the
+/// frame); rows above all grains are left out. Intervals by leaving one batch out each; none with fewer than
+/// two batches. `batches` must not be empty.
+FieldMap field_maps(const CoarseGraining& graining, std::span<const MapSums> batches, double container_radius,
+                    double surface_z);
+
+/// Angle by which the axis of the greatest pressure is turned from the axis of the fastest shortening, in
+/// degrees, anticlockwise with x to the right and z up; in (-90, 90]. `pressure`: compression positive; only
+/// the symmetric parts count. Simple shear has tan(2 angle) = (k - 1)/(2 mu).
+struct PlaneTensor {
+  double xx = 0, xz = 0, zx = 0, zz = 0;
+};
+double axis_angle_deg(const PlaneTensor& pressure, const PlaneTensor& velocity_gradient);
+
+}  // namespace drumlin

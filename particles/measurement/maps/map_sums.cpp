@@ -1,0 +1,243 @@
+#include "particles/measurement/maps/map_sums.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "coupling/exchange/errors.hpp"
+#include "particles/measurement/maps/spline_kernel.hpp"
+
+namespace drumlin {
+namespace {
+
+constexpr std::size_t most_nodes = static_cast<std::size_t>(4 * most_spacings_per_width) + 1;
+
+/// Nodes along one axis that a point reaches, with the kernel there and its slope.
+struct Reach {
+  std::ptrdiff_t first = 0;
+  std::size_t count = 0;
+  std::array<double, most_nodes> weight, slope;
+};
+
+/// `place`: of the point, counted in spacings from the first node.
+template <bool with_slope>
+void find_reach(double place, double spacings_per_width, double width, Reach& reach) {
+  const double radius = 2 * spacings_per_width;
+  const double first = std::ceil(place - radius);
+  reach.first = static_cast<std::ptrdiff_t>(first);
+  reach.count = static_cast<std::size_t>(std::floor(place + radius) - first) + 1;
+  const double scale = 1 / width, step = 1 / spacings_per_width, start = (first - place) * step;
+  for (std::size_t k = 0; k < reach.count; ++k) {
+    const double u = start + static_cast<double>(k) * step;
+    reach.weight[k] = scale * spline(u);
+    if constexpr (with_slope) reach.slope[k] = scale * scale * spline_slope(u);
+  }
+}
+
+/// Puts points onto the nodes of one grid.
+class Canvas {
+ public:
+  Canvas(const CoarseGraining& graining, std::vector<MapNode>& nodes)
+      : graining_(graining), grid_(graining.grid), nodes_(nodes) {}
+
+  /// Calls action(node, phi) for every node that (x, z) reaches.
+  template <class Action>
+  void each_node(double x, double z, Action action) {
+    find<false>(x, z);
+    visit([&](MapNode& node, std::size_t column, std::size_t row) {
+      action(node, x_.weight[column] * z_.weight[row]);
+    });
+  }
+  /// action(node, phi, d phi/dx, d phi/dz), the derivatives with respect to the node.
+  template <class Action>
+  void each_node_with_slope(double x, double z, Action action) {
+    find<true>(x, z);
+    visit([&](MapNode& node, std::size_t column, std::size_t row) {
+      action(node, x_.weight[column] * z_.weight[row], x_.slope[column] * z_.weight[row],
+             x_.weight[column] * z_.slope[row]);
+    });
+  }
+
+ private:
+  template <bool with_slope>
+  void find(double x, double z) {
+    find_reach<with_slope>((x - grid_.x_first) / grid_.spacing_x, graining_.width / grid_.spacing_x,
+                           graining_.width, x_);
+    find_reach<with_slope>((z - grid_.z_first) / grid_.spacing_z, graining_.width / grid_.spacing_z,
+                           graining_.width, z_);
+  }
+  template <class Action>
+  void visit(Action action) {
+    const auto columns = static_cast<std::ptrdiff_t>(grid_.columns),
+               rows = static_cast<std::ptrdiff_t>(grid_.rows);
+    for (std::size_t k = 0; k < z_.count; ++k) {
+      const std::ptrdiff_t row = z_.first + static_cast<std::ptrdiff_t>(k);
+      if (row < 0 || row >= rows) continue;
+      for (std::size_t c = 0; c < x_.count; ++c) {
+        std::ptrdiff_t column = x_.first + static_cast<std::ptrdiff_t>(c);
+        if (graining_.period > 0) {
+          column = (column % columns + columns) % columns;
+        } else if (column < 0 || column >= columns) {
+          continue;
+        }
+        action(nodes_[static_cast<std::size_t>(row * columns + column)], c, k);
+      }
+    }
+  }
+
+  const CoarseGraining& graining_;
+  const MapGrid& grid_;
+  std::vector<MapNode>& nodes_;
+  Reach x_, z_;
+};
+
+template <std::size_t n>
+void add_times(double factor, const std::array<double, n>& values, std::array<double, n>& sums) {
+  for (std::size_t i = 0; i < n; ++i) sums[i] += factor * values[i];
+}
+
+/// The integral of the kernel along a half branch by two Gauss points in each of its pieces. Pieces up to 0.6
+/// widths long keep its error below 1e-3 of the kernel's greatest value (test MapSums).
+constexpr double longest_piece = 0.6;
+constexpr double gauss_offset = 0.28867513459481288;  // sqrt(3)/6 from the middle of a piece of length 1
+
+void add_half_branch(const HalfBranch& branch, double width, Canvas& canvas) {
+  const double length = std::hypot(branch.toward_x, branch.toward_z);
+  const double pieces = std::max(1.0, std::ceil(length / (longest_piece * width)));
+  const double share = -1 / (2 * pieces);  // b points from the contact to the centre
+  const std::array<double, 4> dyad{
+      share * branch.force_x * branch.toward_x, share * branch.force_x * branch.toward_z,
+      share * branch.force_z * branch.toward_x, share * branch.force_z * branch.toward_z};
+  for (double piece = 0; piece < pieces; ++piece)
+    for (double offset : {-gauss_offset, gauss_offset}) {
+      const double t = (piece + 0.5 + offset) / pieces;
+      canvas.each_node(branch.x + t * branch.toward_x, branch.z + t * branch.toward_z,
+                       [&](MapNode& node, double phi) { add_times(phi, dyad, node.branch); });
+    }
+  const double n_x = branch.toward_x / length, n_z = branch.toward_z / length;
+  const double wall = branch.at_wall ? 1 : 0;
+  const std::array<double, 7> end{branch.force_x,        branch.force_z, wall * branch.force_x,
+                                  wall * branch.force_z, n_x * n_x / 2,  n_x * n_z / 2,
+                                  n_z * n_z / 2};
+  canvas.each_node(branch.x + branch.toward_x, branch.z + branch.toward_z,
+                   [&](MapNode& node, double phi) { add_times(phi, end, node.contact); });
+}
+
+struct GrainState {
+  double x, z, area, contacts, spin;
+  double v_x, v_z;  ///< relative to the drum
+  double u_x, u_z;  ///< laboratory, instantaneous
+  double force_x, force_z;
+};
+
+void add_grain(const GrainState& g, Canvas& canvas) {
+  const std::array<double, 5> moments{g.area, g.area * g.v_x, g.area * g.v_z, g.area * g.u_x, g.area * g.u_z};
+  const double flux_xx = moments[3] * g.u_x, flux_xz = moments[3] * g.u_z, flux_zz = moments[4] * g.u_z;
+  const std::array<double, 13> values{1,          g.contacts, g.spin,     moments[0], moments[1],
+                                      moments[2], moments[3], moments[4], flux_xx,    flux_xz,
+                                      flux_zz,    g.force_x,  g.force_z};
+  canvas.each_node_with_slope(g.x, g.z, [&](MapNode& node, double phi, double phi_x, double phi_z) {
+    add_times(phi, values, node.grain);
+    add_times(phi_x, moments, node.slope_x);
+    add_times(phi_z, moments, node.slope_z);
+    node.flux_divergence[0] += phi_x * flux_xx + phi_z * flux_xz;
+    node.flux_divergence[1] += phi_x * flux_xz + phi_z * flux_zz;
+  });
+}
+
+template <class Action>
+void for_each_array(MapNode& a, const MapNode& b, Action action) {
+  action(a.grain, b.grain);
+  action(a.slope_x, b.slope_x);
+  action(a.slope_z, b.slope_z);
+  action(a.flux_divergence, b.flux_divergence);
+  action(a.branch, b.branch);
+  action(a.contact, b.contact);
+}
+
+}  // namespace
+
+CoarseGraining coarse_graining(const FlowFrame& frame, double x_from, double x_to, double z_from, double z_to,
+                               double spacing, double width, double period) {
+  if (!(spacing > 0) || !(width >= spacing) || width > most_spacings_per_width * spacing)
+    throw InputError("a map of spacing " + std::to_string(spacing) + " d with a kernel of width " +
+                     std::to_string(width) + " d: the width must be 1 to " +
+                     std::to_string(static_cast<int>(most_spacings_per_width)) + " spacings");
+  CoarseGraining graining{frame, {}, width, period};
+  MapGrid& grid = graining.grid;
+  grid.spacing_z = grid.spacing_x = spacing;
+  const double first_row = std::floor(z_from / spacing), end_row = std::ceil(z_to / spacing);
+  grid.z_first = (first_row + 0.5) * spacing;
+  grid.rows = static_cast<std::size_t>(std::max(1.0, end_row - first_row));
+  if (period > 0) {
+    grid.columns = static_cast<std::size_t>(std::max(1.0, std::ceil(period / spacing)));
+    grid.spacing_x = period / static_cast<double>(grid.columns);
+    grid.x_first = x_from;
+  } else {
+    const double first = std::floor(x_from / spacing), last = std::ceil(x_to / spacing);
+    grid.x_first = first * spacing;
+    grid.columns = static_cast<std::size_t>(last - first) + 1;
+  }
+  return graining;
+}
+
+MapNode& MapNode::operator+=(const MapNode& other) {
+  for_each_array(*this, other, [](auto& a, const auto& b) { add_times(1, b, a); });
+  return *this;
+}
+
+MapNode& MapNode::operator-=(const MapNode& other) {
+  for_each_array(*this, other, [](auto& a, const auto& b) { add_times(-1, b, a); });
+  return *this;
+}
+
+MapSums& MapSums::operator+=(const MapSums& other) {
+  for (std::size_t n = 0; n < nodes.size(); ++n) nodes[n] += other.nodes[n];
+  snapshots += other.snapshots;
+  gravity_x += other.gravity_x;
+  gravity_z += other.gravity_z;
+  with_spin = with_spin && other.with_spin;
+  with_contacts = with_contacts && other.with_contacts;
+  return *this;
+}
+
+MapSums& MapSums::operator-=(const MapSums& other) {
+  for (std::size_t n = 0; n < nodes.size(); ++n) nodes[n] -= other.nodes[n];
+  snapshots -= other.snapshots;
+  gravity_x -= other.gravity_x;
+  gravity_z -= other.gravity_z;
+  return *this;
+}
+
+MapSums empty_sums(const CoarseGraining& graining) {
+  MapSums sums;
+  sums.nodes.resize(graining.grid.nodes());
+  return sums;
+}
+
+void MapDepositor::add(const Snapshot& snapshot, const FlowSnapshot& in_frame, MapSums& sums) {
+  Canvas canvas(graining_, sums.nodes);
+  const FlowFrame& frame = graining_.frame;
+  force_x_.assign(in_frame.x.size(), 0.0);
+  force_z_.assign(in_frame.x.size(), 0.0);
+  for (const HalfBranch& branch : in_frame.half_branches) {
+    force_x_[branch.grain] += branch.force_x;
+    force_z_[branch.grain] += branch.force_z;
+    add_half_branch(branch, graining_.width, canvas);
+  }
+  for (std::size_t i = 0; i < in_frame.x.size(); ++i) {
+    const double radius = in_frame.radius[i];
+    add_grain({in_frame.x[i], in_frame.z[i], std::numbers::pi * radius * radius,
+               static_cast<double>(in_frame.coordination[i]), in_frame.spin.empty() ? 0 : in_frame.spin[i],
+               in_frame.v_x[i], in_frame.v_z[i], frame.along(snapshot.v_x[i], snapshot.v_z[i]),
+               frame.normal(snapshot.v_x[i], snapshot.v_z[i]), force_x_[i], force_z_[i]},
+              canvas);
+  }
+  ++sums.snapshots;
+  sums.gravity_x += frame.along(snapshot.gravity_x, snapshot.gravity_z);
+  sums.gravity_z += frame.normal(snapshot.gravity_x, snapshot.gravity_z);
+  sums.with_spin = sums.with_spin && !in_frame.spin.empty();
+  sums.with_contacts = sums.with_contacts && in_frame.contacts_known;
+}
+
+}  // namespace drumlin

@@ -1,0 +1,78 @@
+#pragma once
+// What coarse graining adds up at the nodes of a map. All of it is linear in the snapshots: sums of batches
+// can be added and taken apart again, ratios come last (field_maps.hpp).
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "coupling/exchange/field_map.hpp"
+#include "particles/measurement/frame/flow_snapshot.hpp"
+
+namespace drumlin {
+
+/// How grains become fields. Lengths in d.
+struct CoarseGraining {
+  FlowFrame frame;    ///< its origin is that of the grid
+  MapGrid grid;       ///< z counted from the frame's origin
+  double width = 1;   ///< distance of the knots of the kernel: it reaches 2 width to each side
+  double period = 0;  ///< > 0: columns wrap around after this length, which the grid spans once
+};
+
+/// Most spacings that a width may hold: the footprint of a point has a fixed size.
+constexpr double most_spacings_per_width = 15;
+
+/// Nodes over the ranges (frame coordinates): columns at whole multiples of the spacing, rows halfway between
+/// them, at the middles of layers as thick as the spacing. period > 0: the columns share it out evenly, from
+/// x_from on. Throws InputError unless 1 <= width/spacing <= most_spacings_per_width: a wider spacing would
+/// lose grains between nodes.
+CoarseGraining coarse_graining(const FlowFrame& frame, double x_from, double x_to, double z_from, double z_to,
+                               double spacing, double width, double period);
+
+/// Sums at one node; phi is the kernel around it, x_i a grain's centre, c a contact. v: velocity relative to
+/// the drum over the stored window; u: instantaneous, in the laboratory; A: area. Components in the flow
+/// frame.
+struct MapNode {
+  /// sum of phi(x_i) times 1, contacts, spin, A, A v_x, A v_z, A u_x, A u_z, A u_x u_x, A u_x u_z, A u_z u_z,
+  /// and the forces F_x, F_z of all contacts on the grain.
+  std::array<double, 13> grain{};
+  /// d/dx and d/dz of the sums of A, A v_x, A v_z, A u_x, A u_z.
+  std::array<double, 5> slope_x{}, slope_z{};
+  /// d/dx A u_x u_x + d/dz A u_x u_z, and the same for z.
+  std::array<double, 2> flux_divergence{};
+  /// sum over half branches of the integral of phi along it times F_x b_x, F_x b_z, F_z b_x, F_z b_z: F on
+  /// the grain, b from the contact to its centre.
+  std::array<double, 4> branch{};
+  /// sum of phi(c) times F_x, F_z of both sides of each contact; the same of contacts with walls alone; half
+  /// of n_x n_x, n_x n_z, n_z n_z for each side (a wall has none).
+  std::array<double, 7> contact{};
+
+  MapNode& operator+=(const MapNode& other);
+  MapNode& operator-=(const MapNode& other);
+};
+
+/// Sums over some snapshots, row after row.
+struct MapSums {
+  std::vector<MapNode> nodes;
+  std::size_t snapshots = 0;
+  double gravity_x = 0, gravity_z = 0;  ///< flow frame, summed over the snapshots
+  bool with_spin = true;                ///< false: the scene has no spin
+  bool with_contacts = true;            ///< false: the snapshots do not know them
+
+  MapSums& operator+=(const MapSums& other);
+  MapSums& operator-=(const MapSums& other);
+};
+
+MapSums empty_sums(const CoarseGraining& graining);
+
+/// Adds one snapshot: as it is, and in graining.frame. Allocates nothing after the first call.
+class MapDepositor {
+ public:
+  explicit MapDepositor(const CoarseGraining& graining) : graining_(graining) {}
+  void add(const Snapshot& snapshot, const FlowSnapshot& in_frame, MapSums& sums);
+
+ private:
+  CoarseGraining graining_;
+  std::vector<double> force_x_, force_z_;  ///< of all contacts, per grain
+};
+
+}  // namespace drumlin
