@@ -24,9 +24,11 @@ namespace {
 
 using namespace drumlin;
 
+bool speaks = true;  // the first rank, for all
+
 int failed(ExitCode code, const std::string& message) {
   std::fflush(stdout);
-  fmt::print(stderr, "{}\n", message);
+  if (speaks) fmt::print(stderr, "{}\n", message);
   return static_cast<int>(code);
 }
 
@@ -44,7 +46,12 @@ int solve(int argc, char** argv) {
     return static_cast<int>(ExitCode::done);
   }
   const FemRuntime runtime(argc, argv);
-  return apps::solve_flow_scene(std::get<apps::FlowOptions>(request));
+  speaks = runtime.rank() == 0;
+  try {
+    return apps::solve_flow_scene(std::get<apps::FlowOptions>(request), runtime);
+  } catch (const FailedOnFirstRank& failure) {
+    return static_cast<int>(failure.code);
+  }
 }
 
 }  // namespace

@@ -102,6 +102,13 @@ Json settings_json(const FinishedFlow& flow) {
           {"scales", to_json(scales_of(s))}};
 }
 
+Json phases_json(const FlowReport& report) {
+  Json phases;
+  for (const PhaseSeconds& phase : report.phases)
+    phases[phase.name] = {{"seconds", phase.seconds}, {"times", phase.times}};
+  return phases;
+}
+
 Json flow_json(const FinishedFlow& flow) {
   const MeshResult& result = flow.meshes.back();
   const FlowReport& report = flow.solution.report;
@@ -115,6 +122,8 @@ Json flow_json(const FinishedFlow& flow) {
   content["iterations"] = report.iterations;
   content["residual"] = report.residual;
   content["seconds"] = report.seconds;
+  content["ranks"] = flow.ranks;
+  content["phases"] = phases_json(report);
   content["checks"] = checks_json(flow, result.scalars.value("Q"));
   content["meshes"] = meshes_json(flow.meshes);
   content["mesh_change"] = mesh_change(flow.meshes);
@@ -141,11 +150,13 @@ void write_iterations(const fs::path& file, const FlowReport& report) {
 }
 
 void write_flow(const fs::path& folder, const FinishedFlow& flow) {
-  write_profiles(folder / "profiles.csv", profiles_with_header(flow));
+  const ProfileSet profiles = profiles_with_header(flow);
   write_maps(folder / "maps.csv", flow.solution.field, flow.drum, flow.scene.output.map_spacing,
              flow.reduced);
   flow.solution.field.write_vtu(folder / "flow.vtu");
   const Json content = flow_json(flow);
+  if (!flow.solution.field.on_first_rank()) return;
+  write_profiles(folder / "profiles.csv", profiles);
   // The figures read it under another name: flow.json itself says that all is there.
   const fs::path unfinished = folder / "flow.json.part";
   write_json(unfinished, content);

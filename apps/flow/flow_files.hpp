@@ -26,12 +26,14 @@ struct FinishedFlow {
   const FlowSolution& solution;
   const std::vector<MeshResult>& meshes;  ///< the last one carries the result
   bool reduced = false;
+  int ranks = 1;
 };
 
 /// iterations.csv: one line per nonlinear iteration; also for a flow that did not converge.
 void write_iterations(const std::filesystem::path& file, const FlowReport& report);
 
 /// profiles.csv, maps.csv, flow.vtu, the figures, and last of all flow.json: where that stands, all is there.
+/// Collective; the first rank writes.
 void write_flow(const std::filesystem::path& folder, const FinishedFlow& flow);
 
 }  // namespace drumlin::apps

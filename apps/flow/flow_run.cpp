@@ -41,12 +41,18 @@ double ill_posed_share(const FlowField& field) {
   return sums.ill_posed_area / sums.area;
 }
 
-void print_summary(const fs::path& folder, const FinishedFlow& flow) {
+std::string summary_text(const fs::path& folder, const FinishedFlow& flow) {
   const double share = ill_posed_share(flow.solution.field);
-  fmt::print("{}{}: {} iterations, {:.1f} s, residual {:.1e}, ill-posed in {:.2f} % of the area{}\n",
-             folder.string(), flow.reduced ? " (reduced)" : "", flow.solution.report.iterations,
-             flow.solution.report.seconds, flow.solution.report.residual, 100 * share,
-             share > 0 ? ": the flow there depends on the mesh (docs/formats/flow.md)" : "");
+  const FlowReport& report = flow.solution.report;
+  std::string text = "seconds in";
+  for (const PhaseSeconds& phase : report.phases)
+    text += fmt::format("{} {} {:.1f} ({} times)", phase.name == report.phases.front().name ? "" : ",",
+                        phase.name, phase.seconds, phase.times);
+  text += fmt::format(
+      "\n{}{}: {} iterations, {:.1f} s, residual {:.1e}, ill-posed in {:.2f} % of the area{}\n",
+      folder.string(), flow.reduced ? " (reduced)" : "", report.iterations, report.seconds, report.residual,
+      100 * share, share > 0 ? ": the flow there depends on the mesh (docs/formats/flow.md)" : "");
+  return text;
 }
 
 FlowSolverOptions solver_options(const FlowScene& scene) {
@@ -60,10 +66,11 @@ FlowSolverOptions solver_options(const FlowScene& scene) {
 
 }  // namespace
 
-int solve_flow_scene(const FlowOptions& options) {
+int solve_flow_scene(const FlowOptions& options, const FemRuntime& runtime) {
+  const bool speaks = runtime.rank() == 0;
   const fs::path finished = options.output / "flow.json";
   if (options.existing == ExistingOutput::resume && fs::exists(finished)) {
-    fmt::print("{}: done already\n", options.output.string());
+    if (speaks) fmt::print("{}: done already\n", options.output.string());
     return static_cast<int>(ExitCode::done);
   }
   const FlowScene scene = read_flow_scene(options.scene, options.overrides);
@@ -71,38 +78,41 @@ int solve_flow_scene(const FlowOptions& options) {
   const StressLaw law = stress_law(fit, options.rheology.string());
   const DrumGeometry drum = drum_geometry(scene, fit.nu);
   const FlowProblem problem = drum_problem(scene, drum, law);
-  prepare_output(options.output, options.existing, {"flow_scene.toml", "flow.json"},
-                 {options.scene, options.rheology});
-  replace_file(options.output / "flow_scene.toml", flow_scene_text(scene));
-  replace_file(options.output / "rheology.toml", file_text(options.rheology));
-
   const bool reduced = scene.reduced || fit.reduced;
-  fmt::print(
-      "{}{}: R = {:.2f} d, axis {:.2f} d above the surface, Omega = {:.5f}, nu = {:.3f}, mu = {} + {} ln I\n",
-      scene.title, reduced ? " (reduced)" : "", drum.radius, drum.axis_offset, drum.rotation, drum.nu,
-      fit.mu.a, fit.mu.b);
+  runtime.on_first_rank([&] {
+    prepare_output(options.output, options.existing, {"flow_scene.toml", "flow.json"},
+                   {options.scene, options.rheology});
+    replace_file(options.output / "flow_scene.toml", flow_scene_text(scene));
+    replace_file(options.output / "rheology.toml", file_text(options.rheology));
+    fmt::print(
+        "{}{}: R = {:.2f} d, axis {:.2f} d above the surface, Omega = {:.5f}, nu = {:.3f}, mu = {} + {} ln "
+        "I{}\n",
+        scene.title, reduced ? " (reduced)" : "", drum.radius, drum.axis_offset, drum.rotation, drum.nu,
+        fit.mu.a, fit.mu.b, runtime.ranks() > 1 ? fmt::format(", {} ranks", runtime.ranks()) : "");
+  });
   catch_interruptions();
   std::vector<MeshResult> meshes;
   const SliceOptions slice{scene.output.slice_width, scene.output.layer_thickness};
   FlowObserver observer;
-  observer.iteration = print_iteration;
+  if (speaks) observer.iteration = print_iteration;
   observer.interrupted = [] { return interruption() != 0; };
   observer.level_finished = [&](int level, const FlowField& field) {
     meshes.push_back(
         {field.cells(), field.unknowns(), drum_scalars(field, drum, drum_profiles(field, drum, slice))});
-    print_mesh(level, meshes.back());
+    if (speaks) print_mesh(level, meshes.back());
   };
   const FlowSolution solution = solve_flow(problem, solver_options(scene), observer);
-  write_iterations(options.output / "iterations.csv", solution.report);
+  runtime.on_first_rank([&] { write_iterations(options.output / "iterations.csv", solution.report); });
   if (const int signal = interruption(); signal != 0)
     return static_cast<int>(signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted);
   if (!solution.report.converged)
     throw NotConvergedError(
         fmt::format("the flow did not converge: {}; the last iterate is ill-posed in {:.1f} % of the area",
                     solution.report.failure, 100 * ill_posed_share(solution.field)));
-  const FinishedFlow flow{scene, fit, drum, solution, meshes, reduced};
+  const FinishedFlow flow{scene, fit, drum, solution, meshes, reduced, runtime.ranks()};
   write_flow(options.output, flow);
-  print_summary(options.output, flow);
+  const std::string summary = summary_text(options.output, flow);
+  if (speaks) fmt::print("{}", summary);
   return static_cast<int>(ExitCode::done);
 }
 

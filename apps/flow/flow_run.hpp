@@ -1,10 +1,11 @@
 #pragma once
 #include "apps/commands.hpp"
+#include "continuum/fem/runtime.hpp"
 
 namespace drumlin::apps {
 
-/// Solves the flow of a scene with a law and writes FLOWRUN; needs a FemRuntime. Returns the exit code;
+/// Solves the flow of a scene with a law on all ranks and writes FLOWRUN on the first. Returns the exit code;
 /// throws InputError, NotConvergedError, IoError.
-int solve_flow_scene(const FlowOptions& options);
+int solve_flow_scene(const FlowOptions& options, const FemRuntime& runtime);
 
 }  // namespace drumlin::apps

@@ -138,8 +138,8 @@ void add_side(const BoundaryCondition& condition, const dealii::FEFaceValues<2>&
 
 template <class Law>
 void assemble(const FlowProblem& problem, const Discretisation& d, const Law& law, const Setting& setting,
-              const State& state, const dealii::AffineConstraints<double>& constraints,
-              Vector<double>& residual, dealii::SparseMatrix<double>* matrix) {
+              const State& state, const dealii::AffineConstraints<double>& constraints, FieldVector& residual,
+              dealii::PETScWrappers::MPI::SparseMatrix* matrix) {
   FEValues<2> fe(d.mapping, d.elements, d.quadrature,
                  dealii::update_values | dealii::update_gradients | dealii::update_JxW_values |
                      dealii::update_quadrature_points);
@@ -154,6 +154,7 @@ void assemble(const FlowProblem& problem, const Discretisation& d, const Law& la
   if (matrix) *matrix = 0;
   std::size_t point = 0;
   for (const auto& cell : d.unknowns.active_cell_iterators()) {
+    if (!cell->is_locally_owned()) continue;
     fe.reinit(cell);
     shapes.reinit(fe);
     cell->get_dof_indices(indices);
@@ -177,14 +178,17 @@ void assemble(const FlowProblem& problem, const Discretisation& d, const Law& la
     constraints.distribute_local_to_global(local_residual, indices, residual);
     if (matrix) constraints.distribute_local_to_global(local_matrix, indices, *matrix);
   }
+  residual.compress(dealii::VectorOperation::add);
+  if (matrix) matrix->compress(dealii::VectorOperation::add);
 }
 
 template <class Visit>
-void for_each_point(const Discretisation& d, const Vector<double>& solution, Visit visit) {
+void for_each_point(const Discretisation& d, const FieldVector& solution, Visit visit) {
   FEValues<2> fe(d.mapping, d.elements, d.quadrature, dealii::update_values | dealii::update_gradients);
   CellShapes shapes(d);
   Vector<double> local(shapes.n);
   for (const auto& cell : d.unknowns.active_cell_iterators()) {
+    if (!cell->is_locally_owned()) continue;
     fe.reinit(cell);
     shapes.reinit(fe);
     cell->get_dof_values(solution, local);
@@ -196,7 +200,6 @@ void for_each_point(const Discretisation& d, const Vector<double>& solution, Vis
 
 void assemble_residual(const FlowProblem& problem, const Discretisation& d, const Setting& setting,
                        const State& state, System& system) {
-  system.residual.reinit(d.unknowns.n_dofs());
   std::visit(
       [&](const auto& law) {
         assemble(problem, d, law, setting, state, d.homogeneous, system.residual, nullptr);
@@ -206,7 +209,7 @@ void assemble_residual(const FlowProblem& problem, const Discretisation& d, cons
 
 void assemble_tangent(const FlowProblem& problem, const Discretisation& d, const Setting& setting,
                       const State& state, System& system) {
-  system.residual.reinit(d.unknowns.n_dofs());
+  if (system.matrix.m() == 0) system.matrix.reinit(d.owned, d.owned, d.pattern, d.mesh.get_communicator());
   std::visit(
       [&](const auto& law) {
         assemble(problem, d, law, setting, state, d.homogeneous, system.residual, &system.matrix);
@@ -214,21 +217,22 @@ void assemble_tangent(const FlowProblem& problem, const Discretisation& d, const
       setting.law);
 }
 
-Vector<double> nodal_forces(const FlowProblem& problem, const Discretisation& d, const Setting& setting,
-                            const State& state) {
-  Vector<double> forces(d.unknowns.n_dofs());
+FieldVector nodal_forces(const FlowProblem& problem, const Discretisation& d, const Setting& setting,
+                         const State& state) {
+  FieldVector forces = d.field();
   std::visit(
       [&](const auto& law) { assemble(problem, d, law, setting, state, d.conforming, forces, nullptr); },
       setting.law);
   return forces;
 }
 
-Vector<double> load(const Discretisation& d, Vec2 force_density) {
-  Vector<double> result(d.unknowns.n_dofs());
+FieldVector load(const Discretisation& d, Vec2 force_density) {
+  FieldVector result = d.field();
   FEValues<2> fe(d.mapping, d.elements, d.quadrature, dealii::update_values | dealii::update_JxW_values);
   Indices indices(d.elements.n_dofs_per_cell());
   Vector<double> local(indices.size());
   for (const auto& cell : d.unknowns.active_cell_iterators()) {
+    if (!cell->is_locally_owned()) continue;
     fe.reinit(cell);
     cell->get_dof_indices(indices);
     local = 0;
@@ -240,16 +244,18 @@ Vector<double> load(const Discretisation& d, Vec2 force_density) {
     }
     d.homogeneous.distribute_local_to_global(local, indices, result);
   }
+  result.compress(dealii::VectorOperation::add);
   return result;
 }
 
-Vector<double> surface_moment(const FlowProblem& problem, const Discretisation& d) {
-  Vector<double> result(d.unknowns.n_dofs());
+FieldVector surface_moment(const FlowProblem& problem, const Discretisation& d) {
+  FieldVector result = d.field();
   dealii::FEFaceValues<2> face(d.mapping, d.elements, d.side_quadrature,
                                dealii::update_values | dealii::update_JxW_values |
                                    dealii::update_normal_vectors | dealii::update_quadrature_points);
   Indices indices(d.elements.n_dofs_per_cell());
-  for (const auto& cell : d.unknowns.active_cell_iterators())
+  for (const auto& cell : d.unknowns.active_cell_iterators()) {
+    if (!cell->is_locally_owned()) continue;
     for (const unsigned int f : cell->face_indices()) {
       if (!cell->face(f)->at_boundary()) continue;
       const auto* condition = condition_on(problem, cell->face(f)->boundary_id());
@@ -265,20 +271,22 @@ Vector<double> surface_moment(const FlowProblem& problem, const Discretisation& 
                                 face.normal_vector(q)[component] * face.JxW(q);
       }
     }
+  }
+  result.compress(dealii::VectorOperation::add);
   return result;
 }
 
 std::vector<PlaneTensor> dual_of(const Discretisation& d, const Regularisation& r,
-                                 const Vector<double>& solution) {
+                                 const FieldVector& solution) {
   std::vector<PlaneTensor> dual;
-  dual.reserve(d.mesh.n_active_cells() * d.quadrature.size());
+  dual.reserve(d.mesh.n_locally_owned_active_cells() * d.quadrature.size());
   for_each_point(d, solution,
                  [&](const PointValues& at) { dual.push_back((1 / regularised_rate(at.D, r)) * at.D); });
   return dual;
 }
 
 std::vector<PlaneTensor> advanced_dual(const Discretisation& d, const Regularisation& r, const State& state,
-                                       const Vector<double>& step) {
+                                       const FieldVector& step) {
   std::vector<PlaneTensor> D, next;
   D.reserve(state.dual.size());
   next.reserve(state.dual.size());

@@ -2,9 +2,7 @@
 
 #include <petscksp.h>
 
-#include <algorithm>
 #include <string>
-#include <vector>
 
 #include "coupling/exchange/errors.hpp"
 
@@ -16,66 +14,66 @@ void check(PetscErrorCode code, const char* what) {
     throw NotConvergedError(std::string("PETSc failed to ") + what + " (code " + std::to_string(code) + ")");
 }
 
-}  // namespace
-
-struct DirectSolver::Petsc {
-  std::vector<PetscInt> row_start, columns,
-      entry_of;  // entry_of: place in (columns, values) of each entry of the pattern
-  std::vector<PetscScalar> values;
-  Mat matrix = nullptr;
-  KSP solver = nullptr;
-  const dealii::SparseMatrix<double>* original = nullptr;
-
-  ~Petsc() {
-    KSPDestroy(&solver);
-    MatDestroy(&matrix);
+// PETSc's view of the owned part of a field: no copy.
+class FieldView {
+ public:
+  explicit FieldView(const FieldVector& field) {
+    check(VecCreateMPIWithArray(field.get_mpi_communicator(), 1,
+                                static_cast<PetscInt>(field.locally_owned_size()),
+                                static_cast<PetscInt>(field.size()), field.begin(), &vec_),
+          "take a vector");
   }
-  void apply_inverse(const dealii::Vector<double>& rhs, dealii::Vector<double>& solution) const;
+  ~FieldView() { VecDestroy(&vec_); }
+  FieldView(const FieldView&) = delete;
+  FieldView& operator=(const FieldView&) = delete;
+  Vec get() const { return vec_; }
+
+ private:
+  Vec vec_ = nullptr;
 };
 
-DirectSolver::DirectSolver(const dealii::SparsityPattern& pattern) : petsc_(std::make_unique<Petsc>()) {
-  auto& p = *petsc_;
-  p.row_start.push_back(0);
-  for (dealii::SparsityPattern::size_type row = 0; row < pattern.n_rows(); ++row) {
-    std::vector<PetscInt> columns;
-    for (auto entry = pattern.begin(row); entry != pattern.end(row); ++entry)
-      columns.push_back(static_cast<PetscInt>(entry->column()));
-    std::vector<PetscInt> sorted = columns;
-    std::sort(sorted.begin(), sorted.end());
-    const PetscInt start = p.row_start.back();
-    for (const PetscInt column : columns)
-      p.entry_of.push_back(
-          start +
-          static_cast<PetscInt>(std::lower_bound(sorted.begin(), sorted.end(), column) - sorted.begin()));
-    p.columns.insert(p.columns.end(), sorted.begin(), sorted.end());
-    p.row_start.push_back(static_cast<PetscInt>(p.columns.size()));
-  }
-  p.values.assign(p.columns.size(), 0);
-  const auto n = static_cast<PetscInt>(pattern.n_rows());
-  check(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, n, n, p.row_start.data(), p.columns.data(),
-                                  p.values.data(), &p.matrix),
-        "take the matrix");
-  check(KSPCreate(PETSC_COMM_SELF, &p.solver), "create a solver");
-  check(KSPSetType(p.solver, KSPPREONLY), "set up the solver");
+// b - A x; its norm.
+double remainder_of(const SystemMatrix& matrix, const FieldVector& x, const FieldVector& b,
+                    FieldVector& remainder) {
+  multiply(matrix, x, remainder);
+  remainder.sadd(-1, 1, b);
+  return remainder.l2_norm();
+}
+
+}  // namespace
+
+void multiply(const SystemMatrix& matrix, const FieldVector& x, FieldVector& y) {
+  const FieldView from(x), to(y);
+  check(MatMult(const_cast<SystemMatrix&>(matrix).petsc_matrix(), from.get(), to.get()), "multiply");
+}
+
+struct DirectSolver::Petsc {
+  KSP solver = nullptr;
+  const SystemMatrix* matrix = nullptr;
+
+  ~Petsc() { KSPDestroy(&solver); }
+  void create(MPI_Comm ranks);
+  void apply_inverse(const FieldVector& rhs, FieldVector& solution) const;
+};
+
+void DirectSolver::Petsc::create(MPI_Comm ranks) {
+  check(KSPCreate(ranks, &solver), "create a solver");
+  check(KSPSetType(solver, KSPPREONLY), "set up the solver");
   PC factors = nullptr;
-  check(KSPGetPC(p.solver, &factors), "set up the solver");
+  check(KSPGetPC(solver, &factors), "set up the solver");
   check(PCSetType(factors, PCLU), "set up the solver");
   check(PCFactorSetMatSolverType(factors, MATSOLVERMUMPS), "find MUMPS");
 }
 
+DirectSolver::DirectSolver() : petsc_(std::make_unique<Petsc>()) {}
 DirectSolver::~DirectSolver() = default;
 
-void DirectSolver::factorise(const dealii::SparseMatrix<double>& matrix) {
+void DirectSolver::factorise(const SystemMatrix& matrix) {
   auto& p = *petsc_;
-  std::size_t k = 0;
-  PetscScalar* values = nullptr;
-  check(MatSeqAIJGetArray(p.matrix, &values), "take the matrix");
-  for (dealii::SparseMatrix<double>::size_type row = 0; row < matrix.m(); ++row)
-    for (auto entry = matrix.begin(row); entry != matrix.end(row); ++entry)
-      values[p.entry_of[k++]] = entry->value();
-  check(MatSeqAIJRestoreArray(p.matrix, &values), "take the matrix");  // also marks the matrix as changed
-  p.original = &matrix;
-  check(KSPSetOperators(p.solver, p.matrix, p.matrix), "take the matrix");
+  if (!p.solver) p.create(matrix.get_mpi_communicator());
+  p.matrix = &matrix;
+  const Mat petsc = const_cast<SystemMatrix&>(matrix).petsc_matrix();
+  check(KSPSetOperators(p.solver, petsc, petsc), "take the matrix");
   check(KSPSetUp(p.solver), "factorise the matrix");
   PC factors = nullptr;
   check(KSPGetPC(p.solver, &factors), "factorise the matrix");
@@ -85,30 +83,23 @@ void DirectSolver::factorise(const dealii::SparseMatrix<double>& matrix) {
     throw NotConvergedError("MUMPS could not factorise the tangent matrix (singular, or out of memory)");
 }
 
-void DirectSolver::Petsc::apply_inverse(const dealii::Vector<double>& rhs,
-                                        dealii::Vector<double>& solution) const {
-  Vec b = nullptr, x = nullptr;
-  const auto n = static_cast<PetscInt>(rhs.size());
-  check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, n, rhs.begin(), &b), "take a vector");
-  check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, n, solution.begin(), &x), "take a vector");
-  const PetscErrorCode code = KSPSolve(solver, b, x);
-  VecDestroy(&b);
-  VecDestroy(&x);
-  check(code, "solve with the factors");
+void DirectSolver::Petsc::apply_inverse(const FieldVector& rhs, FieldVector& solution) const {
+  const FieldView b(rhs), x(solution);
+  check(KSPSolve(solver, b.get(), x.get()), "solve with the factors");
 }
 
-double DirectSolver::solve(const dealii::Vector<double>& rhs, dealii::Vector<double>& solution) const {
+double DirectSolver::solve(const FieldVector& rhs, FieldVector& solution) const {
   const double size = rhs.l2_norm();
-  solution.reinit(rhs.size());
+  solution = 0;
   if (size == 0) return 0;
   petsc_->apply_inverse(rhs, solution);
-  dealii::Vector<double> remainder(rhs.size()), correction(rhs.size());
-  double residual = petsc_->original->residual(remainder, solution, rhs) / size;
+  FieldVector remainder(rhs), correction(rhs);
+  double residual = remainder_of(*petsc_->matrix, solution, rhs, remainder) / size;
   for (int step = 0; step < 3 && residual > 1e-12; ++step) {
     petsc_->apply_inverse(remainder, correction);
-    dealii::Vector<double> candidate = solution;
+    FieldVector candidate = solution;
     candidate += correction;
-    const double improved = petsc_->original->residual(remainder, candidate, rhs) / size;
+    const double improved = remainder_of(*petsc_->matrix, candidate, rhs, remainder) / size;
     if (!(improved < residual)) break;
     residual = improved;
     solution = candidate;

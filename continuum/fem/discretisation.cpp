@@ -1,12 +1,14 @@
 #include "continuum/fem/detail/discretisation.hpp"
 
 #include <deal.II/base/function.h>
-#include <deal.II/dofs/dof_renumbering.h>
+#include <deal.II/base/mpi.h>
+#include <deal.II/distributed/grid_refinement.h>
+#include <deal.II/distributed/solution_transfer.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
-#include <deal.II/numerics/solution_transfer.h>
+#include <deal.II/fe/mapping_q.h>
+#include <deal.II/lac/sparsity_tools.h>
 #include <deal.II/numerics/vector_tools_boundary.h>
 
 #include <map>
@@ -52,12 +54,13 @@ void remove_net_flux(const FlowProblem& problem, const Discretisation& d, Bounda
     has_spring |= std::holds_alternative<NormalSpring>(condition);
   if (!has_spring) return;
 
-  dealii::Vector<double> flux_of(d.unknowns.n_dofs());
+  FieldVector flux_of = d.field();
   dealii::FEFaceValues<2> face(
       d.mapping, d.elements, d.side_quadrature,
       dealii::update_values | dealii::update_normal_vectors | dealii::update_JxW_values);
   std::vector<dealii::types::global_dof_index> indices(d.elements.n_dofs_per_cell());
-  for (const auto& cell : d.unknowns.active_cell_iterators())
+  for (const auto& cell : d.unknowns.active_cell_iterators()) {
+    if (!cell->is_locally_owned()) continue;
     for (const unsigned int f : cell->face_indices()) {
       if (!cell->face(f)->at_boundary()) continue;
       const auto* condition = condition_on(problem, cell->face(f)->boundary_id());
@@ -71,12 +74,18 @@ void remove_net_flux(const FlowProblem& problem, const Discretisation& d, Bounda
           flux_of[indices[i]] += face.shape_value(i, q) * face.normal_vector(q)[component] * face.JxW(q);
       }
     }
+  }
+  flux_of.compress(dealii::VectorOperation::add);
+  flux_of.update_ghost_values();
   double flux = 0, weight = 0;
   for (const auto& [index, value] : values)
-    if (value != 0) {  // a velocity that is nought by choice, at the corners, stays nought
+    if (value != 0 &&
+        d.owned.is_element(index)) {  // a velocity that is nought by choice, at the corners, stays
       flux += flux_of[index] * value;
       weight += flux_of[index] * flux_of[index];
     }
+  flux = d.sum(flux);
+  weight = d.sum(weight);
   if (weight == 0) return;
   for (auto& [index, value] : values)
     if (value != 0) value -= flux / weight * flux_of[index];
@@ -85,42 +94,60 @@ void remove_net_flux(const FlowProblem& problem, const Discretisation& d, Bounda
 }  // namespace
 
 Discretisation::Discretisation(const FlowProblem& problem)
-    : mesh(dealii::Triangulation<2>::limit_level_difference_at_vertices),
+    : mesh(MPI_COMM_WORLD, dealii::Triangulation<2>::limit_level_difference_at_vertices),
       elements(dealii::FE_Q<2>(2), 2, dealii::FE_Q<2>(1), 1),
       unknowns(mesh) {
   make_mesh(problem.domain, mesh);
   distribute_unknowns(problem);
 }
 
-void Discretisation::refine(const FlowProblem& problem, dealii::Vector<double>& solution) {
-  dealii::SolutionTransfer<2, dealii::Vector<double>> transfer(unknowns);
+double Discretisation::sum(double value) const {
+  return dealii::Utilities::MPI::sum(value, mesh.get_communicator());
+}
+
+void Discretisation::refine(const FlowProblem& problem, FieldVector& solution) {
   mesh.set_all_refine_flags();
+  execute_refinement(problem, solution);
+}
+
+void Discretisation::refine_adaptively(const FlowProblem& problem, FieldVector& solution, double share) {
+  dealii::parallel::distributed::GridRefinement::refine_and_coarsen_fixed_number(
+      mesh, velocity_error_indicator(*this, solution), share, 0);
+  execute_refinement(problem, solution);
+}
+
+void Discretisation::execute_refinement(const FlowProblem& problem, FieldVector& solution) {
+  dealii::parallel::distributed::SolutionTransfer<2, FieldVector> transfer(unknowns);
   mesh.prepare_coarsening_and_refinement();
+  solution.update_ghost_values();
   transfer.prepare_for_coarsening_and_refinement(solution);
   mesh.execute_coarsening_and_refinement();
-  const dealii::Vector<double> coarse = solution;
   distribute_unknowns(problem);
-  solution.reinit(unknowns.n_dofs());
-  transfer.interpolate(coarse, solution);
+  solution = field();
+  transfer.interpolate(solution);
   constraints.distribute(solution);
+  solution.update_ghost_values();
 }
 
 void Discretisation::distribute_unknowns(const FlowProblem& problem) {
+  mapping.initialize(dealii::MappingQ<2>(2), mesh);
   unknowns.distribute_dofs(elements);
+  owned = unknowns.locally_owned_dofs();
+  dealii::DoFTools::extract_locally_relevant_dofs(unknowns, relevant);
   const auto velocity = dealii::DoFTools::extract_dofs(unknowns, dealii::ComponentMask({true, true, false}));
-  is_velocity.assign(unknowns.n_dofs(), false);
-  for (const auto index : velocity) is_velocity[index] = true;
+  is_velocity.assign(owned.n_elements(), false);
+  for (const auto index : velocity) is_velocity[owned.index_within_set(index)] = true;
 
-  constraints.clear();
+  constraints.reinit(relevant);
   dealii::DoFTools::make_hanging_node_constraints(unknowns, constraints);
   if (const auto* box = std::get_if<BoxDomain>(&problem.domain); box && box->periodic_x)
     dealii::DoFTools::make_periodicity_constraints(unknowns, static_cast<int>(Side::left),
                                                    static_cast<int>(Side::right), 0, constraints);
   BoundaryValues values = prescribed_velocities(problem, *this);
   remove_net_flux(problem, *this, values);
-  homogeneous.clear();
+  homogeneous.reinit(relevant);
   homogeneous.merge(constraints);
-  conforming.clear();
+  conforming.reinit(relevant);
   conforming.merge(constraints);
   conforming.close();
   for (const auto& [index, value] : values)
@@ -132,9 +159,9 @@ void Discretisation::distribute_unknowns(const FlowProblem& problem) {
   constraints.close();
   homogeneous.close();
 
-  dealii::DynamicSparsityPattern entries(unknowns.n_dofs());
-  dealii::DoFTools::make_sparsity_pattern(unknowns, entries, homogeneous, /*keep_constrained_dofs=*/false);
-  pattern.copy_from(entries);
+  pattern.reinit(unknowns.n_dofs(), unknowns.n_dofs(), relevant);
+  dealii::DoFTools::make_sparsity_pattern(unknowns, pattern, homogeneous, /*keep_constrained_dofs=*/false);
+  dealii::SparsityTools::distribute_sparsity_pattern(pattern, owned, mesh.get_communicator(), relevant);
 }
 
 }  // namespace drumlin::fem

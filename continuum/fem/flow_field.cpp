@@ -1,12 +1,13 @@
 #include "continuum/fem/flow_field.hpp"
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_values.h>
-#include <deal.II/grid/grid_tools.h>
-#include <deal.II/grid/grid_tools_cache.h>
 
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <map>
 
 #include "continuum/fem/detail/solved_level.hpp"
 #include "continuum/rheology/well_posedness.hpp"
@@ -23,7 +24,7 @@ struct Values {
   std::vector<dealii::Tensor<2, 2>> gradient;
   std::vector<double> pressure;
 
-  Values(const dealii::FEValues<2>& fe, const dealii::Vector<double>& solution)
+  Values(const dealii::FEValues<2>& fe, const fem::FieldVector& solution)
       : velocity(fe.n_quadrature_points), gradient(fe.n_quadrature_points), pressure(fe.n_quadrature_points) {
     fe[Vector(0)].get_function_values(solution, velocity);
     fe[Vector(0)].get_function_gradients(solution, gradient);
@@ -68,15 +69,17 @@ PointState outside() {
 void add_given_sides(const fem::SolvedLevel& level, Vec2 centre, FlowIntegrals& sums) {
   const auto& d = *level.discretisation;
   const auto forces = fem::nodal_forces(level.problem, d, level.setting, level.state);
-  std::vector<dealii::Point<2>> place(d.unknowns.n_dofs());
-  dealii::DoFTools::map_dofs_to_support_points(d.mapping, d.unknowns, place);
+  std::map<dealii::types::global_dof_index, dealii::Point<2>> places;
+  dealii::DoFTools::map_dofs_to_support_points(d.mapping, d.unknowns, places);
   const auto along_x =
       dealii::DoFTools::extract_dofs(d.unknowns, dealii::ComponentMask({true, false, false}));
-  for (dealii::types::global_dof_index i = 0; i < d.unknowns.n_dofs(); ++i) {
-    if (!d.is_velocity[i] || !d.homogeneous.is_constrained(i) || d.conforming.is_constrained(i)) continue;
+  for (std::size_t k = 0; k < d.is_velocity.size(); ++k) {
+    const auto i = d.owned.nth_index_in_set(k);
+    if (!d.is_velocity[k] || !d.homogeneous.is_constrained(i) || d.conforming.is_constrained(i)) continue;
+    const auto& place = places.at(i);
     sums.given_side_power += forces[i] * level.state.solution[i];
     sums.given_side_torque +=
-        forces[i] * (along_x.is_element(i) ? place[i][1] - centre.z : -(place[i][0] - centre.x));
+        forces[i] * (along_x.is_element(i) ? place[1] - centre.z : -(place[0] - centre.x));
   }
 }
 
@@ -86,7 +89,8 @@ void add_surface(const fem::SolvedLevel& level, FlowIntegrals& sums) {
                                dealii::update_values | dealii::update_JxW_values |
                                    dealii::update_normal_vectors | dealii::update_quadrature_points);
   std::vector<dealii::Tensor<1, 2>> u(d.side_quadrature.size());
-  for (const auto& cell : d.unknowns.active_cell_iterators())
+  for (const auto& cell : d.unknowns.active_cell_iterators()) {
+    if (!cell->is_locally_owned()) continue;
     for (const unsigned int f : cell->face_indices()) {
       if (!cell->face(f)->at_boundary()) continue;
       const auto* condition = fem::condition_on(level.problem, cell->face(f)->boundary_id());
@@ -101,6 +105,41 @@ void add_surface(const fem::SolvedLevel& level, FlowIntegrals& sums) {
         sums.surface_leak += 0.5 * std::abs(u_n) * face.JxW(q);
       }
     }
+  }
+}
+
+// Each rank has found the points of its own cells: what the first rank that has one says of it holds for all.
+void share_among_ranks(const fem::Discretisation& d, const std::vector<bool>& found,
+                       std::vector<PointState>& states) {
+  using dealii::Utilities::MPI::min;
+  using dealii::Utilities::MPI::sum;
+  const MPI_Comm ranks = d.mesh.get_communicator();
+  const int count = static_cast<int>(dealii::Utilities::MPI::n_mpi_processes(ranks));
+  if (count == 1) return;
+  const int rank = static_cast<int>(dealii::Utilities::MPI::this_mpi_process(ranks));
+  std::vector<int> owner(states.size(), count);
+  for (std::size_t i = 0; i < states.size(); ++i)
+    if (found[i]) owner[i] = rank;
+  min(owner, ranks, owner);
+  constexpr std::size_t numbers = sizeof(PointState) / sizeof(double);
+  static_assert(numbers * sizeof(double) == sizeof(PointState) && std::is_trivially_copyable_v<PointState>);
+  std::vector<double> values(numbers * states.size(), 0.0);
+  for (std::size_t i = 0; i < states.size(); ++i)
+    if (owner[i] == rank) std::memcpy(&values[numbers * i], &states[i], sizeof(PointState));
+  sum(values, ranks, values);
+  for (std::size_t i = 0; i < states.size(); ++i)
+    if (owner[i] < count)
+      std::memcpy(static_cast<void*>(&states[i]), &values[numbers * i], sizeof(PointState));
+}
+
+void sum_over_ranks(const fem::Discretisation& d, FlowIntegrals& sums) {
+  constexpr std::size_t numbers = sizeof(FlowIntegrals) / sizeof(double);
+  static_assert(numbers * sizeof(double) == sizeof(FlowIntegrals) &&
+                std::is_trivially_copyable_v<FlowIntegrals>);
+  std::vector<double> values(numbers);
+  std::memcpy(values.data(), &sums, sizeof sums);
+  dealii::Utilities::MPI::sum(values, d.mesh.get_communicator(), values);
+  std::memcpy(static_cast<void*>(&sums), values.data(), sizeof sums);
 }
 
 }  // namespace
@@ -108,27 +147,31 @@ void add_surface(const fem::SolvedLevel& level, FlowIntegrals& sums) {
 FlowField::FlowField(std::shared_ptr<const fem::SolvedLevel> level) : level_(std::move(level)) {}
 double FlowField::theta() const { return level_->state.theta; }
 int FlowField::unknowns() const { return static_cast<int>(level_->discretisation->unknowns.n_dofs()); }
-int FlowField::cells() const { return static_cast<int>(level_->discretisation->mesh.n_active_cells()); }
+bool FlowField::on_first_rank() const {
+  return dealii::Utilities::MPI::this_mpi_process(level_->discretisation->mesh.get_communicator()) == 0;
+}
+int FlowField::cells() const {
+  return static_cast<int>(level_->discretisation->mesh.n_global_active_cells());
+}
 
 std::vector<PointState> FlowField::at(std::span<const Vec2> points) const {
   const auto& d = *level_->discretisation;
   std::vector<PointState> states(points.size(), outside());
-  std::vector<dealii::Point<2>> places;
-  places.reserve(points.size());
-  for (const Vec2& p : points) places.emplace_back(p.x, p.z);
-  const dealii::GridTools::Cache<2> cache(d.mesh, d.mapping);
-  const auto [cells, unit_points, indices, missing] =
-      dealii::GridTools::compute_point_locations_try_all(cache, places);
-  for (std::size_t c = 0; c < cells.size(); ++c) {
-    dealii::FEValues<2> fe(d.mapping, d.elements, dealii::Quadrature<2>(unit_points[c]),
+  std::vector<bool> found(points.size(), false);
+  for (const auto& [cell, places] : fem::locate(d, points)) {
+    std::vector<dealii::Point<2>> unit_points;
+    for (const auto& place : places) unit_points.push_back(place.unit);
+    dealii::FEValues<2> fe(d.mapping, d.elements, dealii::Quadrature<2>(unit_points),
                            dealii::update_values | dealii::update_gradients);
-    fe.reinit(typename dealii::DoFHandler<2>::active_cell_iterator(&d.mesh, cells[c]->level(),
-                                                                   cells[c]->index(), &d.unknowns));
+    fe.reinit(cell);
     const Values values(fe, level_->state.solution);
-    for (std::size_t q = 0; q < indices[c].size(); ++q)
-      states[indices[c][q]] =
+    for (std::size_t q = 0; q < places.size(); ++q) {
+      found[places[q].point] = true;
+      states[places[q].point] =
           point_state(level_->setting, values.velocity[q], values.gradient[q], values.pressure[q]);
+    }
   }
+  share_among_ranks(d, found, states);
   return states;
 }
 
@@ -141,6 +184,7 @@ FlowIntegrals FlowField::integrals(Vec2 centre) const {
                              dealii::update_quadrature_points);
   const Vec2 weight{problem.density * std::sin(theta()), -problem.density * std::cos(theta())};
   for (const auto& cell : d.unknowns.active_cell_iterators()) {
+    if (!cell->is_locally_owned()) continue;
     fe.reinit(cell);
     const Values values(fe, level_->state.solution);
     for (const unsigned int q : fe.quadrature_point_indices()) {
@@ -156,6 +200,7 @@ FlowIntegrals FlowField::integrals(Vec2 centre) const {
   }
   add_given_sides(*level_, centre, sums);
   add_surface(*level_, sums);
+  sum_over_ranks(d, sums);
   return sums;
 }
 

@@ -42,6 +42,7 @@ struct FlowIntegrals {
   double surface_leak = 0;       ///< half the integral of |u_n| over it
 };
 
+/// All member functions are collective: every rank calls them and gets the same answer.
 class FlowField {
  public:
   explicit FlowField(std::shared_ptr<const fem::SolvedLevel> level);
@@ -49,11 +50,13 @@ class FlowField {
   double theta() const;  ///< rad
   int unknowns() const;
   int cells() const;
+  bool on_first_rank() const;  ///< the one that writes files and messages
   std::vector<PointState> at(std::span<const Vec2> points) const;
   /// Torques are taken about `centre`.
   FlowIntegrals integrals(Vec2 centre = {}) const;
   /// Velocity (laboratory frame), pressure, stresses, |D|, I, mu, viscosity, well_posedness_margin, each cell
-  /// cut in four. Throws IoError.
+  /// cut in four. On several ranks `file` (.vtu) is replaced by one with the ending .pvtu, which names one
+  /// .vtu per rank. Throws IoError.
   void write_vtu(const std::filesystem::path& file) const;
 
  private:

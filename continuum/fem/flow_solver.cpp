@@ -2,19 +2,22 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cmath>
 
 #include "continuum/fem/detail/direct_solver.hpp"
 #include "continuum/fem/detail/solved_level.hpp"
+#include "continuum/fem/detail/work_clock.hpp"
 #include "coupling/exchange/errors.hpp"
 
 namespace drumlin {
 namespace {
 
-using dealii::Vector;
+using fem::FieldVector;
+using fem::now;
 using fem::Setting;
 using fem::State;
+using fem::Work;
+using fem::WorkClock;
 
 struct Phase {
   std::string name;
@@ -26,27 +29,30 @@ struct Phase {
 class Newton {
  public:
   Newton(const FlowProblem& problem, const FlowSolverOptions& options,
-         const fem::Discretisation& discretisation, int level, double start_seconds, FlowReport& report,
-         const FlowObserver& observer)
+         const fem::Discretisation& discretisation, int level, double start_seconds, WorkClock& clock,
+         FlowReport& report, const FlowObserver& observer)
       : problem_(problem),
         options_(options),
         d_(discretisation),
-        factors_(d_.pattern),
         level_(level),
         start_(start_seconds),
+        clock_(clock),
         report_(report),
         observer_(observer),
-        moment_(fem::surface_moment(problem, d_)) {
-    system_.matrix.reinit(d_.pattern);
+        moment_(fem::surface_moment(problem, d_)),
+        system_(d_) {
     weight_norm_ = problem.density > 0 ? fem::load(d_, {0, problem.density}).l2_norm() : 0;
   }
 
   bool solve(const Phase& phase, State& state);
-  bool was_interrupted() const { return observer_.interrupted && observer_.interrupted(); }
+  /// On any rank.
+  bool was_interrupted() const {
+    return d_.sum(observer_.interrupted && observer_.interrupted() ? 1 : 0) > 0;
+  }
 
  private:
   struct Step {
-    Vector<double> solution;
+    FieldVector solution;
     double theta = 0;
     double linear_residual = 0;
   };
@@ -61,21 +67,19 @@ class Newton {
   fem::DirectSolver factors_;
   int level_;
   double start_;
+  WorkClock& clock_;
   FlowReport& report_;
   const FlowObserver& observer_;
-  Vector<double> moment_;
+  FieldVector moment_;
   fem::System system_;
   double weight_norm_ = 0;
   double reference_ = 1;
 };
 
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-State moved(const State& state, const Vector<double>& step, double theta_step, double alpha) {
+State moved(const State& state, const FieldVector& step, double theta_step, double alpha) {
   State next = state;
   next.solution.add(alpha, step);
+  next.solution.update_ghost_values();
   next.theta += alpha * theta_step;
   return next;
 }
@@ -83,21 +87,24 @@ State moved(const State& state, const Vector<double>& step, double theta_step, d
 // The slope is one more unknown, its equation (the moment) linear in the solution: two solves with the same
 // factors.
 Newton::Step Newton::newton_step(const State& state) {
-  factors_.factorise(system_.matrix);
-  Step step;
-  Vector<double> rhs = system_.residual;
+  clock_(Work::factorisation, [&] { factors_.factorise(system_.matrix); });
+  Step step{.solution = d_.field()};
+  FieldVector rhs = system_.residual;
   rhs *= -1;
-  step.linear_residual = factors_.solve(rhs, step.solution);
+  step.linear_residual = clock_(Work::linear_solves, [&] { return factors_.solve(rhs, step.solution); });
   d_.homogeneous.distribute(step.solution);
   if (std::holds_alternative<SlopeFromMoment>(problem_.slope)) {
-    const Vector<double> by_theta =
+    const FieldVector by_theta =
         fem::load(d_, {problem_.density * std::cos(state.theta), problem_.density * std::sin(state.theta)});
-    Vector<double> response;
-    step.linear_residual = std::max(step.linear_residual, factors_.solve(by_theta, response));
+    FieldVector response = d_.field();
+    step.linear_residual =
+        std::max(step.linear_residual,
+                 clock_(Work::linear_solves, [&] { return factors_.solve(by_theta, response); }));
     d_.homogeneous.distribute(response);
     step.theta = -(moment_ * state.solution + moment_ * step.solution) / (moment_ * response);
     step.solution.add(step.theta, response);
   }
+  step.solution.update_ghost_values();
   return step;
 }
 
@@ -105,9 +112,9 @@ double Newton::slope(const Phase& phase, const State& state, const Step& step, d
   fem::assemble_residual(problem_, d_, phase.setting, moved(state, step.solution, step.theta, alpha),
                          system_);
   double sum = 0;
-  for (dealii::types::global_dof_index i = 0; i < step.solution.size(); ++i)
-    if (d_.is_velocity[i]) sum += system_.residual[i] * step.solution[i];
-  return sum;
+  for (std::size_t i = 0; i < d_.is_velocity.size(); ++i)
+    if (d_.is_velocity[i]) sum += system_.residual.local_element(i) * step.solution.local_element(i);
+  return d_.sum(sum);
 }
 
 // Where the slope R(u + alpha du).du has fallen well below its start: the residual norm would ask for
@@ -137,7 +144,7 @@ bool Newton::solve(const Phase& phase, State& state) {
                        .phase = phase.name,
                        .shear_rate = phase.setting.regularisation.shear_rate,
                        .pressure_share = phase.setting.pressure.share};
-  fem::assemble_tangent(problem_, d_, phase.setting, state, system_);
+  clock_(Work::assembly, [&] { fem::assemble_tangent(problem_, d_, phase.setting, state, system_); });
   if (weight_norm_ > 0)
     reference_ = weight_norm_;
   else
@@ -160,12 +167,13 @@ bool Newton::solve(const Phase& phase, State& state) {
                       step.linear_residual, phase.name);
       return false;
     }
-    const double alpha = step_length(phase, state, step);
-    Vector<double> taken = step.solution;
+    const double alpha = clock_(Work::step_length, [&] { return step_length(phase, state, step); });
+    FieldVector taken = step.solution;
     taken *= alpha;
+    taken.update_ghost_values();
     state.dual = fem::advanced_dual(d_, phase.setting.regularisation, state, taken);
     state = moved(state, step.solution, step.theta, alpha);
-    fem::assemble_tangent(problem_, d_, phase.setting, state, system_);
+    clock_(Work::assembly, [&] { fem::assemble_tangent(problem_, d_, phase.setting, state, system_); });
 
     line.iteration = iteration;
     line.residual = relative_residual();
@@ -266,23 +274,29 @@ FlowSolution solve_flow(const FlowProblem& problem, const FlowSolverOptions& opt
     state.theta = fixed->theta;
   else
     state.theta = std::get<SlopeFromMoment>(problem.slope).first_guess;
-  state.solution.reinit(d.unknowns.n_dofs());
+  state.solution = d.field();
   d.constraints.distribute(state.solution);
+  state.solution.update_ghost_values();
 
   FlowReport report;
+  WorkClock clock;
+  const auto finished = [&](bool converged) {
+    report.converged = converged;
+    report.seconds = now() - start;
+    for (std::size_t i = 0; i < fem::work_names.size(); ++i)
+      report.phases.push_back(
+          {fem::work_names[i], clock.seconds(static_cast<Work>(i)), clock.times(static_cast<Work>(i))});
+    return FlowSolution{report, FlowField(level)};
+  };
   for (int mesh = 0; mesh < options.levels; ++mesh) {
-    if (mesh > 0) d.refine(problem, state.solution);
-    Newton newton(problem, options, d, mesh, start, report, observer);
-    if (!solve_on_mesh(newton, options, mesh == 0, *level)) {
-      report.seconds = now() - start;
-      return {report, FlowField(level)};
-    }
+    if (mesh > 0) clock(Work::refinement, [&] { d.refine(problem, state.solution); });
+    Newton newton(problem, options, d, mesh, start, clock, report, observer);
+    if (!solve_on_mesh(newton, options, mesh == 0, *level)) return finished(false);
     report.failure.clear();
-    if (observer.level_finished) observer.level_finished(mesh, FlowField(level));
+    if (observer.level_finished)
+      clock(Work::evaluation, [&] { observer.level_finished(mesh, FlowField(level)); });
   }
-  report.converged = true;
-  report.seconds = now() - start;
-  return {report, FlowField(level)};
+  return finished(true);
 }
 
 }  // namespace drumlin

@@ -35,12 +35,21 @@ struct IterationReport {
   double seconds = 0;          ///< since the start
 };
 
+/// Wall time of one kind of work, summed over all meshes and phases.
+struct PhaseSeconds {
+  std::string
+      name;  ///< "assembly", "factorisation", "linear solves", "step length", "refinement", "evaluation"
+  double seconds = 0;
+  int times = 0;
+};
+
 struct FlowReport {
   bool converged = false;
   std::string failure;  ///< which phase, residual and last step; empty when converged
   double residual = 0;
   int iterations = 0;  ///< over all phases and meshes
   double seconds = 0;
+  std::vector<PhaseSeconds> phases;
   std::vector<IterationReport> history;
 };
 

@@ -1,10 +1,12 @@
 // flow.vtu: apart from the rest, since deal.II's output costs a compiler as much time as all of it.
+#include <deal.II/base/mpi.h>
 #include <deal.II/numerics/data_out.h>
 #include <deal.II/numerics/data_postprocessor.h>
 
 #include <array>
 #include <cmath>
 #include <sstream>
+#include <string>
 
 #include "continuum/fem/detail/solved_level.hpp"
 #include "continuum/fem/flow_field.hpp"
@@ -77,7 +79,24 @@ void FlowField::write_vtu(const std::filesystem::path& file) const {
   output.set_flags(flags);
   std::ostringstream text;
   output.write_vtu(text);
-  replace_file(file, text.str());
+  const MPI_Comm ranks = level_->discretisation->mesh.get_communicator();
+  const unsigned int count = dealii::Utilities::MPI::n_mpi_processes(ranks);
+  if (count == 1) {
+    replace_file(file, text.str());
+    return;
+  }
+  const auto piece = [&](unsigned int rank) {
+    auto name = file;
+    return name.replace_extension(std::to_string(rank) + ".vtu");
+  };
+  replace_file(piece(dealii::Utilities::MPI::this_mpi_process(ranks)), text.str());
+  if (dealii::Utilities::MPI::this_mpi_process(ranks) != 0) return;
+  std::vector<std::string> names;
+  for (unsigned int rank = 0; rank < count; ++rank) names.push_back(piece(rank).filename().string());
+  std::ostringstream record;
+  output.write_pvtu_record(record, names);
+  auto parallel = file;
+  replace_file(parallel.replace_extension(".pvtu"), record.str());
 }
 
 }  // namespace drumlin

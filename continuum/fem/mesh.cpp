@@ -1,3 +1,4 @@
+#include <deal.II/base/mpi.h>
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/manifold_lib.h>
@@ -52,7 +53,7 @@ double target_size(const ChordDomain& domain, const Point<2>& p) {
   return domain.surface_cell + domain.growth * std::max(0.0, -p[1] - domain.surface_zone);
 }
 
-void make_mesh(const ChordDomain& domain, dealii::Triangulation<2>& mesh) {
+void make_mesh(const ChordDomain& domain, dealii::parallel::distributed::Triangulation<2>& mesh) {
   make_blocks(domain, mesh);
   mesh.set_all_manifold_ids(block_manifold);
   for (const auto& cell : mesh.active_cell_iterators())
@@ -71,16 +72,17 @@ void make_mesh(const ChordDomain& domain, dealii::Triangulation<2>& mesh) {
   for (int pass = 0; pass < 20; ++pass) {
     bool any = false;
     for (const auto& cell : mesh.active_cell_iterators())
-      if (cell->diameter() / std::sqrt(2.0) > 1.2 * target_size(domain, cell->center())) {
+      if (cell->is_locally_owned() &&
+          cell->diameter() / std::sqrt(2.0) > 1.2 * target_size(domain, cell->center())) {
         cell->set_refine_flag();
         any = true;
       }
-    if (!any) break;
+    if (!dealii::Utilities::MPI::logical_or(any, mesh.get_communicator())) break;
     mesh.execute_coarsening_and_refinement();
   }
 }
 
-void make_mesh(const BoxDomain& domain, dealii::Triangulation<2>& mesh) {
+void make_mesh(const BoxDomain& domain, dealii::parallel::distributed::Triangulation<2>& mesh) {
   dealii::GridGenerator::subdivided_hyper_rectangle(
       mesh, {static_cast<unsigned>(domain.cells_x), static_cast<unsigned>(domain.cells_z)},
       Point<2>(-0.5 * domain.width, -domain.height), Point<2>(0.5 * domain.width, 0));
@@ -88,11 +90,16 @@ void make_mesh(const BoxDomain& domain, dealii::Triangulation<2>& mesh) {
   for (const auto& cell : mesh.active_cell_iterators())
     for (const unsigned int f : cell->face_indices())
       if (cell->face(f)->at_boundary()) cell->face(f)->set_boundary_id(static_cast<int>(side_of_face[f]));
+  if (!domain.periodic_x) return;
+  std::vector<dealii::GridTools::PeriodicFacePair<dealii::Triangulation<2>::cell_iterator>> pairs;
+  dealii::GridTools::collect_periodic_faces(mesh, static_cast<int>(Side::left), static_cast<int>(Side::right),
+                                            0, pairs);
+  mesh.add_periodicity(pairs);  // cells across the seam count as neighbours among the ranks
 }
 
 }  // namespace
 
-void make_mesh(const Domain& domain, dealii::Triangulation<2>& mesh) {
+void make_mesh(const Domain& domain, dealii::parallel::distributed::Triangulation<2>& mesh) {
   std::visit([&](const auto& chosen) { make_mesh(chosen, mesh); }, domain);
 }
 

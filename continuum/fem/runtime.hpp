@@ -1,8 +1,16 @@
 #pragma once
 // MPI and PETSc, which want to be started and ended once per program.
+#include <functional>
 #include <memory>
 
+#include "coupling/exchange/errors.hpp"
+
 namespace drumlin {
+
+/// What the other ranks throw where the first one failed: they end with its exit code, and say nothing.
+struct FailedOnFirstRank {
+  ExitCode code = ExitCode::done;
+};
 
 /// Keeps MPI and PETSc alive while it lives: made first thing in main. Libraries run on one thread unless
 /// OMP_NUM_THREADS says otherwise: on meshes of this size threads only cost.
@@ -12,6 +20,12 @@ class FemRuntime {
   ~FemRuntime();
   FemRuntime(const FemRuntime&) = delete;
   FemRuntime& operator=(const FemRuntime&) = delete;
+
+  static int rank();
+  static int ranks();
+  /// What one rank has to do for all: files and messages. All ranks call it and wait for the first. What
+  /// `action` throws there is thrown there, and FailedOnFirstRank on the others.
+  void on_first_rank(const std::function<void()>& action) const;
 
  private:
   struct Libraries;

@@ -129,6 +129,7 @@ void write_maps(const std::filesystem::path& file, const FlowField& field, const
       if (std::hypot(p.x, p.z - drum.axis_offset) < drum.radius) points.push_back(p);
     }
   const auto states = field.at(points);
+  if (!field.on_first_rank()) return;
   std::string text = fmt::format(
       "# drumlin-flow-maps-1\n# reduced = {}\n# spacing = {}\n# drum_radius = {}\n# axis_depth = {}\n"
       "x,z,v_x,v_z,pressure,sigma_xx,sigma_zz,sigma_xz,I,mu,viscosity,well_posedness_margin\n",

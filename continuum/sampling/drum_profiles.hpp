@@ -29,7 +29,7 @@ double discharge(const FlowField& field, const DrumGeometry& drum);
 ScalarSet drum_scalars(const FlowField& field, const DrumGeometry& drum, const ProfileSet& profiles);
 
 /// maps.csv: points of a square grid inside the drum with speed and velocity in the frame of the drum,
-/// pressure, stresses, I, mu, well-posedness margin. Throws IoError.
+/// pressure, stresses, I, mu, well-posedness margin. Written by the first rank. Throws IoError.
 void write_maps(const std::filesystem::path& file, const FlowField& field, const DrumGeometry& drum,
                 double spacing, bool reduced);
 

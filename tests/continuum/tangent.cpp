@@ -1,6 +1,7 @@
 // The assembled tangent against differences of the assembled residual.
 #include "boxes.hpp"
 #include "continuum/fem/detail/assembly.hpp"
+#include "continuum/fem/detail/direct_solver.hpp"
 
 namespace drumlin {
 namespace {
@@ -22,34 +23,37 @@ TEST(AssembledTangent, IsTheDerivativeOfTheResidual) {
 
   fem::State state;
   state.theta = 0.3;
-  state.solution.reinit(d.unknowns.n_dofs());
-  dealii::Vector<double> direction(d.unknowns.n_dofs());
-  for (unsigned int i = 0; i < state.solution.size(); ++i) {
-    state.solution[i] = std::sin(1.7 * i) + (d.is_velocity[i] ? 0 : 1);
-    direction[i] = std::cos(2.3 * i);
+  state.solution = d.field();
+  fem::FieldVector direction = d.field();
+  for (std::size_t k = 0; k < d.is_velocity.size(); ++k) {
+    const auto i = static_cast<double>(d.owned.nth_index_in_set(k));
+    state.solution.local_element(k) = std::sin(1.7 * i) + (d.is_velocity[k] ? 0 : 1);
+    direction.local_element(k) = std::cos(2.3 * i);
   }
   d.homogeneous.distribute(state.solution);
   d.homogeneous.distribute(direction);
+  state.solution.update_ghost_values();
+  direction.update_ghost_values();
   state.dual = fem::dual_of(d, setting.regularisation, state.solution);
 
-  fem::System system;
-  system.matrix.reinit(d.pattern);
+  fem::System system(d);
   fem::assemble_tangent(problem, d, setting, state, system);
-  dealii::Vector<double> by_tangent(direction.size());
-  system.matrix.vmult(by_tangent, direction);
+  fem::FieldVector by_tangent = d.field();
+  fem::multiply(system.matrix, direction, by_tangent);
 
   const double h = 1e-6;
   const auto residual_at = [&](double step) {
     fem::State moved = state;
     moved.solution.add(step, direction);
-    fem::System other;
+    moved.solution.update_ghost_values();
+    fem::System other(d);
     fem::assemble_residual(problem, d, setting, moved, other);
     return other.residual;
   };
-  dealii::Vector<double> by_difference = residual_at(h);
+  fem::FieldVector by_difference = residual_at(h);
   by_difference -= residual_at(-h);
   by_difference *= 1 / (2 * h);
-  for (unsigned int i = 0; i < by_tangent.size(); ++i)
+  for (const auto i : d.owned)
     if (d.homogeneous.is_constrained(i)) by_tangent[i] = 0;  // the matrix holds a diagonal of its own there
   const double size = by_difference.l2_norm();
   by_difference -= by_tangent;

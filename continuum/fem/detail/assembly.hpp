@@ -1,6 +1,6 @@
 #pragma once
 // Residual and tangent of the discrete problem. Private to fem/.
-#include <deal.II/lac/sparse_matrix.h>
+#include <deal.II/lac/petsc_sparse_matrix.h>
 
 #include "continuum/fem/detail/discretisation.hpp"
 
@@ -8,9 +8,9 @@ namespace drumlin::fem {
 
 /// What Newton's method iterates on.
 struct State {
-  dealii::Vector<double> solution;  ///< velocity and pressure
-  double theta = 0;                 ///< rad
-  std::vector<PlaneTensor> dual;    ///< D/|D| per cell and quadrature point
+  FieldVector solution;           ///< velocity and pressure, with the copies around this rank's part
+  double theta = 0;               ///< rad
+  std::vector<PlaneTensor> dual;  ///< D/|D| per quadrature point of this rank's cells
 };
 
 /// The pressure that the law sees: share * p + (1 - share) * hydrostatic.
@@ -27,9 +27,11 @@ struct Setting {
   LawPressure pressure;
 };
 
+/// The matrix is given its pattern by the first assemble_tangent.
 struct System {
-  dealii::Vector<double> residual;      ///< zero in constrained rows
-  dealii::SparseMatrix<double> matrix;  ///< filled by assemble_tangent alone
+  explicit System(const Discretisation& d) : residual(d.field()) {}
+  FieldVector residual;                             ///< zero in constrained rows
+  dealii::PETScWrappers::MPI::SparseMatrix matrix;  ///< filled by assemble_tangent alone
 };
 
 void assemble_residual(const FlowProblem&, const Discretisation&, const Setting&, const State&, System&);
@@ -37,19 +39,18 @@ void assemble_tangent(const FlowProblem&, const Discretisation&, const Setting&,
 
 /// The residual without the given velocities: its entries on a side with given velocity are the forces of
 /// that side on the material.
-dealii::Vector<double> nodal_forces(const FlowProblem&, const Discretisation&, const Setting&, const State&);
+FieldVector nodal_forces(const FlowProblem&, const Discretisation&, const Setting&, const State&);
 
 /// Load of the force density (x, z), constrained rows zero.
-dealii::Vector<double> load(const Discretisation&, Vec2 force_density);
+FieldVector load(const Discretisation&, Vec2 force_density);
 /// Linear functional whose product with the solution is the moment of sigma_nn = stiffness u_n, integral x
 /// sigma_nn dx.
-dealii::Vector<double> surface_moment(const FlowProblem&, const Discretisation&);
+FieldVector surface_moment(const FlowProblem&, const Discretisation&);
 
 /// D/|D| of the solution at every quadrature point.
-std::vector<PlaneTensor> dual_of(const Discretisation&, const Regularisation&,
-                                 const dealii::Vector<double>& solution);
+std::vector<PlaneTensor> dual_of(const Discretisation&, const Regularisation&, const FieldVector& solution);
 /// The dual after the step `step` from `state`.
 std::vector<PlaneTensor> advanced_dual(const Discretisation&, const Regularisation&, const State& state,
-                                       const dealii::Vector<double>& step);
+                                       const FieldVector& step);
 
 }  // namespace drumlin::fem

@@ -1,25 +1,32 @@
 #pragma once
-// MUMPS through PETSc, with the true residual of every solve. Private to fem/.
-#include <deal.II/lac/sparse_matrix.h>
-#include <deal.II/lac/vector.h>
+// MUMPS through PETSc, on any number of ranks, with the true residual of every solve. Private to fem/.
+#include <deal.II/lac/petsc_sparse_matrix.h>
 
 #include <memory>
 
+#include "continuum/fem/detail/discretisation.hpp"
+
 namespace drumlin::fem {
 
-/// LU factors of one matrix at a time; the ordering is kept as long as the pattern stays.
+using SystemMatrix = dealii::PETScWrappers::MPI::SparseMatrix;
+
+/// y = A x, on the unknowns that each rank owns.
+void multiply(const SystemMatrix& matrix, const FieldVector& x, FieldVector& y);
+
+/// LU factors of one matrix at a time; the ordering is kept as long as the pattern stays. All calls are
+/// collective.
 class DirectSolver {
  public:
-  explicit DirectSolver(const dealii::SparsityPattern& pattern);
+  DirectSolver();
   ~DirectSolver();
   DirectSolver(const DirectSolver&) = delete;
   DirectSolver& operator=(const DirectSolver&) = delete;
 
-  /// Throws NotConvergedError if the factorisation fails.
-  void factorise(const dealii::SparseMatrix<double>& matrix);
+  /// Throws NotConvergedError if the factorisation fails. `matrix` has to outlive the solves.
+  void factorise(const SystemMatrix& matrix);
   /// Solves with up to three steps of iterative refinement; returns ||A x - b||/||b||, formed with the matrix
   /// itself and not with what the factors say of it.
-  double solve(const dealii::Vector<double>& rhs, dealii::Vector<double>& solution) const;
+  double solve(const FieldVector& rhs, FieldVector& solution) const;
 
  private:
   struct Petsc;

@@ -1,32 +1,43 @@
 #pragma once
 // Mesh, Q2-Q1 elements, constraints: what assembly, solver and evaluation share. Private to fem/.
 #include <deal.II/base/quadrature_lib.h>
+#include <deal.II/distributed/tria.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_system.h>
-#include <deal.II/fe/mapping_q.h>
-#include <deal.II/grid/tria.h>
+#include <deal.II/fe/mapping_q_cache.h>
 #include <deal.II/lac/affine_constraints.h>
-#include <deal.II/lac/sparsity_pattern.h>
-#include <deal.II/lac/vector.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/la_parallel_vector.h>
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "continuum/model/flow_problem.hpp"
 
 namespace drumlin::fem {
 
-/// One mesh level of a problem. The triangulation is refined in place; everything else is rebuilt with it.
+/// One number per unknown, each on the rank that owns it; copies of those on the cells around that rank's
+/// part follow with update_ghost_values().
+using FieldVector = dealii::LinearAlgebra::distributed::Vector<double>;
+
+/// One mesh level of a problem, cut into parts among the ranks of MPI_COMM_WORLD by p4est. The triangulation
+/// is refined in place; everything else is rebuilt with it. All member functions are collective.
 struct Discretisation {
   explicit Discretisation(const FlowProblem& problem);  ///< the coarsest mesh
   Discretisation(const Discretisation&) = delete;
   Discretisation& operator=(const Discretisation&) = delete;
 
   /// Halves every cell and carries `solution` over by interpolation.
-  void refine(const FlowProblem& problem, dealii::Vector<double>& solution);
+  void refine(const FlowProblem& problem, FieldVector& solution);
+  /// The same for the `share` of the cells with the largest error indicator (Kelly's, of the velocity).
+  void refine_adaptively(const FlowProblem& problem, FieldVector& solution, double share);
+  /// All zero.
+  FieldVector field() const { return {owned, relevant, mesh.get_communicator()}; }
+  double sum(double value) const;  ///< over the ranks
 
-  dealii::Triangulation<2> mesh;
-  dealii::MappingQ<2> mapping{2};
+  dealii::parallel::distributed::Triangulation<2> mesh;
+  dealii::MappingQCache<2> mapping{2};  ///< quadratic cells; their support points are found once per mesh
   dealii::FESystem<2> elements;
   dealii::DoFHandler<2> unknowns;
   dealii::QGauss<2> quadrature{3};
@@ -35,15 +46,33 @@ struct Discretisation {
       constraints;  ///< of the solution: hanging nodes, periodicity, given velocities
   dealii::AffineConstraints<double> homogeneous;  ///< of a Newton step: the same lines without their values
   dealii::AffineConstraints<double> conforming;   ///< hanging nodes and periodicity alone
-  dealii::SparsityPattern pattern;
-  std::vector<bool> is_velocity;  ///< per unknown
+  dealii::DynamicSparsityPattern pattern;         ///< of the rows of this rank
+  dealii::IndexSet owned, relevant;  ///< unknowns of this rank; with those of the cells around its part
+  std::vector<bool> is_velocity;     ///< per unknown of this rank
 
  private:
   void distribute_unknowns(const FlowProblem& problem);
+  void execute_refinement(const FlowProblem& problem, FieldVector& solution);
 };
 
 /// The coarsest mesh of a domain; boundary ids are the numbers of Side.
-void make_mesh(const Domain& domain, dealii::Triangulation<2>& mesh);
+void make_mesh(const Domain& domain, dealii::parallel::distributed::Triangulation<2>& mesh);
+
+/// Where a point lies on this rank's part of the mesh.
+struct PlaceOnMesh {
+  std::size_t point = 0;  ///< index of the point
+  dealii::Point<2> unit;  ///< in the reference cell
+};
+struct CellPlaces {
+  dealii::DoFHandler<2>::active_cell_iterator cell;
+  std::vector<PlaceOnMesh> places;
+};
+/// The points that lie in cells of this rank, cell by cell; each point at most once.
+std::vector<CellPlaces> locate(const Discretisation& d, std::span<const Vec2> points);
+
+/// Kelly's error indicator of the velocity per active cell of this rank (0 on others): jumps of its gradient
+/// across faces.
+dealii::Vector<float> velocity_error_indicator(const Discretisation&, const FieldVector& solution);
 
 inline const BoundaryCondition* condition_on(const FlowProblem& problem, dealii::types::boundary_id side) {
   const auto found = problem.boundary.find(static_cast<Side>(side));
