@@ -81,10 +81,26 @@ Json checks_json(const FinishedFlow& flow, double Q) {
           {"surface_moment", sums.surface_moment}};
 }
 
+// The keys of rheology.toml; those of the logarithm come without their "law", as before there were others.
+Json friction_json(const MeasuredFriction& mu) {
+  struct Keys {
+    Json operator()(const LogFriction& m) const {
+      return {{"a", m.a}, {"b", m.b}, {"I_min", m.I_min}, {"I_max", m.I_max}};
+    }
+    Json operator()(const ConstantFriction& m) const { return {{"law", "constant"}, {"mu", m.mu}}; }
+    Json operator()(const JopFriction& m) const {
+      return {{"law", "jop"}, {"mu_s", m.mu_s}, {"mu_2", m.mu_2}, {"I_0", m.I_0}};
+    }
+    Json operator()(const FrictionTable& m) const { return {{"law", "table"}, {"I", m.I}, {"mu", m.mu}}; }
+  };
+  return std::visit(Keys{}, mu);
+}
+
 Json settings_json(const FinishedFlow& flow) {
   const FlowScene& s = flow.scene;
-  Json law{{"a", flow.law.mu.a},         {"b", flow.law.mu.b}, {"I_min", flow.law.mu.I_min},
-           {"I_max", flow.law.mu.I_max}, {"nu", flow.law.nu},  {"fitted_on", flow.law.fitted_on}};
+  Json law = friction_json(flow.law.mu);
+  law["nu"] = flow.law.nu;
+  law["fitted_on"] = flow.law.fitted_on;
   return {{"title", s.title},
           {"law", law},
           {"drum_radius", flow.drum.radius},

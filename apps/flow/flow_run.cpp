@@ -85,10 +85,9 @@ int solve_flow_scene(const FlowOptions& options, const FemRuntime& runtime) {
     replace_file(options.output / "flow_scene.toml", flow_scene_text(scene));
     replace_file(options.output / "rheology.toml", file_text(options.rheology));
     fmt::print(
-        "{}{}: R = {:.2f} d, axis {:.2f} d above the surface, Omega = {:.5f}, nu = {:.3f}, mu = {} + {} ln "
-        "I{}\n",
+        "{}{}: R = {:.2f} d, axis {:.2f} d above the surface, Omega = {:.5f}, nu = {:.3f}, {}{}\n",
         scene.title, reduced ? " (reduced)" : "", drum.radius, drum.axis_offset, drum.rotation, drum.nu,
-        fit.mu.a, fit.mu.b, runtime.ranks() > 1 ? fmt::format(", {} ranks", runtime.ranks()) : "");
+        described(fit.mu), runtime.ranks() > 1 ? fmt::format(", {} ranks", runtime.ranks()) : "");
   });
   catch_interruptions();
   std::vector<MeshResult> meshes;

@@ -7,18 +7,6 @@
 
 namespace drumlin {
 
-Friction LogLaw::friction(double I) const {
-  constexpr double floor = 1e-3;
-  const double raw = a + b * std::log(I);
-  const double root = std::sqrt(raw * raw + 4 * floor * floor);
-  return {0.5 * (raw + root), 0.5 * b * (1 + raw / root)};
-}
-
-Friction SaturatingLaw::friction(double I) const {
-  const double share = I / (I_0 + I);
-  return {mu_s + (mu_2 - mu_s) * share, (mu_2 - mu_s) * share * I_0 / (I_0 + I)};
-}
-
 template <class FrictionLaw>
 Strength strength(const FrictionLaw& law, double rate, double pressure) {
   assert(rate > 0 && pressure > 0);
@@ -27,6 +15,8 @@ Strength strength(const FrictionLaw& law, double rate, double pressure) {
 }
 template Strength strength(const LogLaw&, double, double);
 template Strength strength(const SaturatingLaw&, double, double);
+template Strength strength(const ConstantLaw&, double, double);
+template Strength strength(const TabulatedLaw&, double, double);
 
 Strength strength(const NewtonianLaw& law, double rate, double /*pressure*/) {
   return {2 * law.viscosity * rate, 2 * law.viscosity, 0};
@@ -36,6 +26,18 @@ Strength strength(const StressLaw& law, double rate, double pressure) {
   return std::visit([&](const auto& chosen) { return strength(chosen, rate, pressure); }, law);
 }
 
+namespace {
+
+// From what a file holds to what computes.
+struct LawOfFile {
+  StressLaw operator()(const LogFriction& mu) const { return LogLaw{mu.a, mu.b}; }
+  StressLaw operator()(const ConstantFriction& mu) const { return ConstantLaw{mu.mu}; }
+  StressLaw operator()(const JopFriction& mu) const { return SaturatingLaw{mu.mu_s, mu.mu_2, mu.I_0}; }
+  StressLaw operator()(const FrictionTable& mu) const { return TabulatedLaw(mu.I, mu.mu); }
+};
+
+}  // namespace
+
 StressLaw stress_law(const RheologyFit& fit, const std::string& file) {
   if (fit.k)
     throw InputError({InputProblem{
@@ -44,7 +46,7 @@ StressLaw stress_law(const RheologyFit& fit, const std::string& file) {
         .what = "is given, but the continuum solves the law with k absent (sigma_xx = sigma_zz in "
                 "simple shear)",
         .allowed = "a file without the table [k]"}});
-  return LogLaw{fit.mu.a, fit.mu.b};
+  return std::visit(LawOfFile{}, fit.mu);
 }
 
 }  // namespace drumlin

@@ -4,6 +4,7 @@
 #include <string>
 #include <variant>
 
+#include "continuum/rheology/friction_law.hpp"
 #include "coupling/exchange/rheology_fit.hpp"
 
 namespace drumlin {
@@ -15,34 +16,12 @@ struct Strength {
   double d_pressure = 0;  ///< dF/dp
 };
 
-/// Friction coefficient at an inertial number I, and I dmu/dI.
-struct Friction {
-  double mu = 0;
-  double slope = 0;
-};
-
-/// mu = a + b ln I, kept positive by mu -> (mu + sqrt(mu^2 + 4 m^2))/2 with m = 1e-3, so that the law
-/// dissipates at any I; moves mu = 0.2 by 5e-6.
-struct LogLaw {
-  double a = 0;
-  double b = 0;
-  Friction friction(double I) const;
-};
-
-/// Jop, Forterre & Pouliquen, Nature 441 (2006): mu = mu_s + (mu_2 - mu_s)/(I_0/I + 1).
-struct SaturatingLaw {
-  double mu_s = 0;
-  double mu_2 = 0;
-  double I_0 = 0;
-  Friction friction(double I) const;
-};
-
 /// Newtonian fluid, tau = 2 viscosity D: for verification, and the first guess of every flow.
 struct NewtonianLaw {
   double viscosity = 0;  ///< rho0 g d sqrt(d/g)
 };
 
-using StressLaw = std::variant<LogLaw, SaturatingLaw, NewtonianLaw>;
+using StressLaw = std::variant<LogLaw, SaturatingLaw, ConstantLaw, TabulatedLaw, NewtonianLaw>;
 
 /// F = mu(I) p with I = 2|D|/sqrt(p); p > 0 and |D| > 0 are the caller's regularised values (p = sigma_zz
 /// since k = 1).
@@ -53,6 +32,8 @@ Strength strength(const StressLaw& law, double rate, double pressure);
 
 extern template Strength strength(const LogLaw&, double, double);
 extern template Strength strength(const SaturatingLaw&, double, double);
+extern template Strength strength(const ConstantLaw&, double, double);
+extern template Strength strength(const TabulatedLaw&, double, double);
 
 /// The law of a rheology file, named in messages. Throws InputError if it holds k(I): this solver takes the
 /// law with k absent only.

@@ -1,18 +1,48 @@
 #include "coupling/exchange/rheology_fit.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "coupling/exchange/errors.hpp"
 #include "coupling/exchange/key_table.hpp"
 #include "coupling/exchange/text_file.hpp"
 
 namespace drumlin {
+
+// Found through their arguments, hence not in the unnamed namespace.
+template <class Visitor>
+void describe(Visitor& v, LogFriction& t) {
+  v.value("a", t.a, required("", anything(), "Friction at I = 1."));
+  v.value("b", t.b, required("", anything(), "Growth of the friction with ln I, not negative."));
+  v.value("covariance", t.covariance, required("", anything(), "var(a), cov(a, b), var(b)."));
+  v.value("I_min", t.I_min, required("", above(0), "Smallest inertial number of the fit."));
+  v.value("I_max", t.I_max, required("", above(0), "Largest inertial number of the fit."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, ConstantFriction& t) {
+  v.value("mu", t.mu, required("", above(0), "Friction at every inertial number."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, JopFriction& t) {
+  v.value("mu_s", t.mu_s, required("", above(0), "Friction for I -> 0."));
+  v.value("mu_2", t.mu_2, required("", above(0), "Friction for I -> infinity, not below mu_s."));
+  v.value("I_0", t.I_0, required("", above(0), "Inertial number half way between the two."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, FrictionTable& t) {
+  v.value("I", t.I, required("", above(0), "Inertial numbers, ascending, two at least."));
+  v.value("mu", t.mu, required("", above(0), "Friction there, growing; smooth in ln I between."));
+}
+
 namespace {
 
 /// The tables of the file; RheologyFit itself stays free of how it is written.
-struct FrictionTable {
-  std::string law = "log";
-  LogFriction friction;
+struct MuTable {
+  MeasuredFriction friction;
   std::optional<double> rms_misfit;
 };
 struct StressRatioTable {
@@ -27,20 +57,19 @@ struct OriginTable {
 };
 struct RheologyFile {
   bool reduced = false;
-  FrictionTable mu;
+  MuTable mu;
   std::optional<StressRatioTable> k;
   PackingTable packing;
   OriginTable fitted_on;
 };
 
 template <class Visitor>
-void describe(Visitor& v, FrictionTable& t) {
-  v.value("law", t.law, required("", one_of({"log"}), "mu = a + b ln I, natural logarithm."));
-  v.value("a", t.friction.a, required("", anything(), "Friction at I = 1."));
-  v.value("b", t.friction.b, required("", at_least(0), "Growth of the friction with ln I."));
-  v.value("covariance", t.friction.covariance, required("", anything(), "var(a), cov(a, b), var(b)."));
-  v.value("I_min", t.friction.I_min, required("", above(0), "Smallest inertial number of the fit."));
-  v.value("I_max", t.friction.I_max, required("", above(0), "Largest inertial number of the fit."));
+void describe(Visitor& v, MuTable& t) {
+  v.variant("law", t.friction, "Form of mu(I).",
+            alternative<LogFriction>("log", "mu = a + b ln I, natural logarithm."),
+            alternative<ConstantFriction>("constant", "The same mu at every I."),
+            alternative<JopFriction>("jop", "mu_s + (mu_2 - mu_s)/(I_0/I + 1)."),
+            alternative<FrictionTable>("table", "Points, smoothly interpolated."));
   v.value("rms_misfit", t.rms_misfit, when_given("", at_least(0), "Root mean square of mu about the fit."));
 }
 
@@ -48,7 +77,7 @@ template <class Visitor>
 void describe(Visitor& v, StressRatioTable& t) {
   v.value("I", t.points.I, required("", above(0), "Inertial numbers, ascending."));
   v.value("k", t.points.k,
-          required("", above(0), "sigma_xx/sigma_zz there; linear in ln I between, constant outside."));
+          required("", above(0), "sigma_xx/sigma_zz there; smooth in ln I between, constant outside."));
 }
 
 template <class Visitor>
@@ -78,24 +107,103 @@ bool ascending(const std::vector<double>& values) {
   return true;
 }
 
-/// What holds between keys.
-void check_together(const Document& document, const RheologyFile& file, std::vector<InputProblem>& problems) {
-  const LogFriction& mu = file.mu.friction;
-  const auto refuse = [&](const std::string& path, const std::string& what, const std::string& allowed) {
-    problems.push_back(problem_at(document, path, what, allowed));
-  };
-  if (!(mu.I_min < mu.I_max)) refuse("mu.I_max", "is not above I_min", "> I_min");
+/// Collects what does not hold between the keys of one file.
+class Faults {
+ public:
+  Faults(const Document& document, std::vector<InputProblem>& problems)
+      : document_(document), problems_(problems) {}
+  void refuse(const std::string& path, const std::string& what, const std::string& allowed) {
+    problems_.push_back(problem_at(document_, path, what, allowed));
+  }
+
+ private:
+  const Document& document_;
+  std::vector<InputProblem>& problems_;
+};
+
+// Why such a law is refused: a layer that shears a little faster would resist less, and faster still.
+constexpr const char* falling =
+    "mu falls with I: faster shear would meet less resistance, so that no flow of this law is stable, and "
+    "its "
+    "equations are ill-posed";
+
+void check_together(const LogFriction& mu, Faults& faults) {
+  if (mu.b < 0) faults.refuse("mu.b", falling, ">= 0");
+  if (!(mu.I_min < mu.I_max)) faults.refuse("mu.I_max", "is not above I_min", "> I_min");
   const auto& [var_a, cov_ab, var_b] = mu.covariance;
   // The tolerance lets a covariance pass whose parts were rounded when it was written by hand.
   if (var_a < 0 || var_b < 0 || cov_ab * cov_ab > var_a * var_b * (1 + 1e-6))
-    refuse("mu.covariance", "is no covariance", "var(a) >= 0, var(b) >= 0, cov^2 <= var(a) var(b)");
-  if (!file.k) return;
-  const NormalStressRatio& points = file.k->points;
-  if (points.I.size() != points.k.size()) refuse("k.k", "has another length than I", "one k for each I");
-  if (!ascending(points.I)) refuse("k.I", "is not sorted", "ascending");
+    faults.refuse("mu.covariance", "is no covariance", "var(a) >= 0, var(b) >= 0, cov^2 <= var(a) var(b)");
+}
+
+void check_together(const ConstantFriction&, Faults&) {}
+
+void check_together(const JopFriction& mu, Faults& faults) {
+  if (mu.mu_2 < mu.mu_s) faults.refuse("mu.mu_2", falling, ">= mu_s");
+}
+
+void check_together(const FrictionTable& mu, Faults& faults) {
+  if (mu.I.size() < 2) faults.refuse("mu.I", "has fewer than two entries", "two at least");
+  if (mu.I.size() != mu.mu.size()) faults.refuse("mu.mu", "has another length than I", "one mu for each I");
+  if (!ascending(mu.I)) faults.refuse("mu.I", "is not sorted", "ascending");
+  for (std::size_t i = 1; i < mu.mu.size(); ++i) {
+    const std::string place = "from entry " + std::to_string(i) + " to " + std::to_string(i + 1) + ", ";
+    if (mu.mu[i] < mu.mu[i - 1]) return faults.refuse("mu.mu", place + falling, "growing");
+    if (mu.mu[i] == mu.mu[i - 1])
+      return faults.refuse("mu.mu", place + "mu stands still: the law would not say how fast its flow is",
+                           "growing");
+  }
+}
+
+void check_together(const NormalStressRatio& points, Faults& faults) {
+  if (points.I.size() != points.k.size())
+    return faults.refuse("k.k", "has another length than I", "one k for each I");
+  if (!ascending(points.I)) return faults.refuse("k.I", "is not sorted", "ascending");
+  // I stands on both sides of I = I_p sqrt((1 + k(I))/2), I_p = 2|D|/sqrt(p). The smooth curve is at most
+  // twice as steep as the chord, so that this bound keeps dk/dln I below 2 (1 + k) and leaves one I for each
+  // I_p.
+  for (std::size_t i = 1; i < points.k.size(); ++i) {
+    const double slope = (points.k[i] - points.k[i - 1]) / std::log(points.I[i] / points.I[i - 1]);
+    const double bound = 1 + std::min(points.k[i], points.k[i - 1]);
+    if (slope >= bound)
+      return faults.refuse("k.k",
+                           "grows so fast from entry " + std::to_string(i) + " to " + std::to_string(i + 1) +
+                               " that one shear rate would have several inertial numbers",
+                           "dk/dln I < 1 + k");
+  }
+}
+
+/// What holds between keys.
+void check_together(const Document& document, const RheologyFile& file, std::vector<InputProblem>& problems) {
+  Faults faults(document, problems);
+  std::visit([&](const auto& mu) { check_together(mu, faults); }, file.mu.friction);
+  if (file.k) check_together(file.k->points, faults);
+}
+
+std::string number(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+std::string in_words(const LogFriction& mu) {
+  return "mu = " + number(mu.a) + " + " + number(mu.b) + " ln I";
+}
+std::string in_words(const ConstantFriction& mu) { return "mu = " + number(mu.mu); }
+std::string in_words(const JopFriction& mu) {
+  return "mu = " + number(mu.mu_s) + " + " + number(mu.mu_2 - mu.mu_s) + "/(" + number(mu.I_0) + "/I + 1)";
+}
+std::string in_words(const FrictionTable& mu) {
+  return "mu from " + number(mu.mu.front()) + " at I = " + number(mu.I.front()) + " to " +
+         number(mu.mu.back()) + " at I = " + number(mu.I.back()) + ", " + std::to_string(mu.I.size()) +
+         " points";
 }
 
 }  // namespace
+
+std::string described(const MeasuredFriction& mu) {
+  return std::visit([](const auto& chosen) { return in_words(chosen); }, mu);
+}
 
 RheologyFit read_rheology(const std::filesystem::path& file) {
   const Document document = read_toml(file);
@@ -117,7 +225,7 @@ RheologyFit read_rheology(const std::filesystem::path& file) {
 void write_rheology(const std::filesystem::path& file, const RheologyFit& fit) {
   RheologyFile content;
   content.reduced = fit.reduced;
-  content.mu = {"log", fit.mu, fit.rms_misfit};
+  content.mu = {fit.mu, fit.rms_misfit};
   if (fit.k) content.k = StressRatioTable{*fit.k};
   content.packing = {fit.nu, fit.nu_ci99};
   content.fitted_on.runs = fit.fitted_on;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace drumlin {
@@ -18,7 +19,27 @@ struct LogFriction {
   double I_max = 0;
 };
 
-/// k(I) = sigma_xx/sigma_zz as a table, linear in ln I between its points and constant outside; absent: no k
+/// The same friction at every I.
+struct ConstantFriction {
+  double mu = 0;
+};
+
+/// Jop, Forterre & Pouliquen, Nature 441 (2006): mu = mu_s + (mu_2 - mu_s)/(I_0/I + 1).
+struct JopFriction {
+  double mu_s = 0;
+  double mu_2 = 0;
+  double I_0 = 0;
+};
+
+/// mu(I) as a table, smooth between its points (continuum/rheology/friction_law.hpp).
+struct FrictionTable {
+  std::vector<double> I;   ///< ascending, two at least
+  std::vector<double> mu;  ///< growing
+};
+
+using MeasuredFriction = std::variant<LogFriction, ConstantFriction, JopFriction, FrictionTable>;
+
+/// k(I) = sigma_xx/sigma_zz as a table, smooth in ln I between its points and constant outside; absent: no k
 /// in the law.
 struct NormalStressRatio {
   std::vector<double> I;  ///< ascending
@@ -27,7 +48,7 @@ struct NormalStressRatio {
 
 /// A law and the state it was measured in.
 struct RheologyFit {
-  LogFriction mu;
+  MeasuredFriction mu;
   std::optional<NormalStressRatio> k;
   double nu = 0;  ///< volume fraction of the bulk
   std::optional<double> nu_ci99;
@@ -35,6 +56,9 @@ struct RheologyFit {
   std::vector<std::string> fitted_on;  ///< runs
   bool reduced = false;                ///< fitted on a reduced (smoke) run
 };
+
+/// The friction in words, for messages: "mu = 0.35 + 0.013 ln I".
+std::string described(const MeasuredFriction& mu);
 
 /// rheology.toml, version 1 (docs/formats/rheology.md). Throws InputError with line, key, allowed range.
 RheologyFit read_rheology(const std::filesystem::path& file);

@@ -33,7 +33,7 @@ std::string with(const std::string& from, const std::string& to) {
 TEST(RheologyFile, WhatWasWrittenIsReadBack) {
   const TemporaryFolder folder;
   RheologyFit fit;
-  fit.mu = {0.3612345678901234, 0.0144, {1.1e-5, 2.3e-6, 6.5e-7}, 1.3e-4, 0.087};
+  fit.mu = LogFriction{0.3612345678901234, 0.0144, {1.1e-5, 2.3e-6, 6.5e-7}, 1.3e-4, 0.087};
   fit.k = NormalStressRatio{{1e-4, 1e-3, 0.1}, {0.8, 1.2, 1}};
   fit.nu = 0.8134;
   fit.nu_ci99 = 0.001;
@@ -42,11 +42,12 @@ TEST(RheologyFile, WhatWasWrittenIsReadBack) {
   fit.reduced = true;
   write_rheology(folder / "rheology.toml", fit);
   const RheologyFit read = read_rheology(folder / "rheology.toml");
-  EXPECT_EQ(read.mu.a, fit.mu.a);
-  EXPECT_EQ(read.mu.b, fit.mu.b);
-  EXPECT_EQ(read.mu.covariance, fit.mu.covariance);
-  EXPECT_EQ(read.mu.I_min, fit.mu.I_min);
-  EXPECT_EQ(read.mu.I_max, fit.mu.I_max);
+  const auto &mu = std::get<LogFriction>(read.mu), &written = std::get<LogFriction>(fit.mu);
+  EXPECT_EQ(mu.a, written.a);
+  EXPECT_EQ(mu.b, written.b);
+  EXPECT_EQ(mu.covariance, written.covariance);
+  EXPECT_EQ(mu.I_min, written.I_min);
+  EXPECT_EQ(mu.I_max, written.I_max);
   ASSERT_TRUE(read.k);
   EXPECT_EQ(read.k->I, fit.k->I);
   EXPECT_EQ(read.k->k, fit.k->k);
@@ -55,6 +56,71 @@ TEST(RheologyFile, WhatWasWrittenIsReadBack) {
   EXPECT_EQ(read.rms_misfit, fit.rms_misfit);
   EXPECT_EQ(read.fitted_on, fit.fitted_on);
   EXPECT_TRUE(read.reduced);
+}
+
+/// The smallest file with another table [mu].
+std::string with_mu(const std::string& keys) {
+  return "format = \"drumlin-rheology-1\"\n[mu]\n" + keys + "[packing]\nnu = 0.82\n[fitted_on]\nruns = []\n";
+}
+
+TEST(RheologyFile, EveryFormOfMuIsWrittenAndReadBack) {
+  const TemporaryFolder folder;
+  const auto again = [&](const MeasuredFriction& mu) {
+    RheologyFit fit;
+    fit.mu = mu;
+    fit.nu = 0.8;
+    write_rheology(folder / "law.toml", fit);
+    return read_rheology(folder / "law.toml").mu;
+  };
+  EXPECT_EQ(std::get<ConstantFriction>(again(ConstantFriction{0.31})).mu, 0.31);
+  const auto jop = std::get<JopFriction>(again(JopFriction{0.383, 0.643, 0.279}));
+  EXPECT_EQ(jop.mu_s, 0.383);
+  EXPECT_EQ(jop.mu_2, 0.643);
+  EXPECT_EQ(jop.I_0, 0.279);
+  const auto table = std::get<FrictionTable>(again(FrictionTable{{1e-4, 1e-2, 0.1}, {0.2, 0.3, 0.33}}));
+  EXPECT_EQ(table.I, (std::vector{1e-4, 1e-2, 0.1}));
+  EXPECT_EQ(table.mu, (std::vector{0.2, 0.3, 0.33}));
+}
+
+TEST(RheologyFile, EveryFormOfMuNamesItsFaults) {
+  const TemporaryFolder folder;
+  const auto message = [&](const std::string& keys) {
+    const auto file = folder.with("law.toml", with_mu(keys));
+    return message_of<InputError>([&] { read_rheology(file); });
+  };
+  const auto expect = [&](const std::string& keys, const std::string& place, const std::string& words) {
+    const std::string text = message(keys);
+    EXPECT_NE(text.find("law.toml:" + place), std::string::npos) << text;
+    EXPECT_NE(text.find(words), std::string::npos) << text;
+  };
+  expect("law = \"constant\"\nmu = 0.0\n", "4:", "mu.mu");
+  expect("law = \"constant\"\n", "2:", "mu.mu");
+  expect("law = \"constant\"\nmu = 0.3\na = 0.3\n", "5:", "mu.a");  // a key of another form
+  expect("law = \"jop\"\nmu_s = 0.3\nmu_2 = 0.5\n", "2:", "mu.I_0");
+  expect("law = \"jop\"\nmu_s = -0.3\nmu_2 = 0.5\nI_0 = 0.3\n", "4:", "mu.mu_s");
+  expect("law = \"jop\"\nmu_s = 0.3\nmu_2 = 0.5\nI_0 = 0\n", "6:", "mu.I_0");
+  expect("law = \"table\"\nI = [1e-3]\nmu = [0.3]\n", "4:", "two at least");
+  expect("law = \"table\"\nI = [1e-3, 1e-2]\nmu = [0.3]\n", "5:", "one mu for each I");
+  expect("law = \"table\"\nI = [1e-2, 1e-3]\nmu = [0.2, 0.3]\n", "4:", "ascending");
+  expect("law = \"table\"\nI = [0.0, 1e-3]\nmu = [0.2, 0.3]\n", "4:", "mu.I");
+  expect("law = \"table\"\nI = [1e-3, 1e-2]\nmu = [-0.2, 0.3]\n", "5:", "mu.mu");
+  // The natural logarithm is the only one: with log10 the same numbers are another law, ill-posed from I =
+  // 1e-5.
+  expect("law = \"log10\"\na = 0.35\nb = 0.013\n", "3:", "\"log10\"");
+}
+
+TEST(RheologyFile, AFrictionThatFallsWithIIsRefusedWithTheReason) {
+  const TemporaryFolder folder;
+  for (const char* keys :
+       {"law = \"log\"\na = 0.35\nb = -0.01\ncovariance = [0, 0, 0]\nI_min = 1e-4\nI_max = 1\n",
+        "law = \"jop\"\nmu_s = 0.5\nmu_2 = 0.4\nI_0 = 0.3\n",
+        "law = \"table\"\nI = [1e-3, 1e-2, 1e-1]\nmu = [0.3, 0.32, 0.31]\n"}) {
+    const auto file = folder.with("law.toml", with_mu(keys));
+    const std::string text = message_of<InputError>([&] { read_rheology(file); });
+    EXPECT_NE(text.find("falls with I: faster shear would meet less resistance"), std::string::npos) << text;
+  }
+  const auto level = folder.with("law.toml", with_mu("law = \"table\"\nI = [1e-3, 1e-2]\nmu = [0.3, 0.3]\n"));
+  EXPECT_NE(message_of<InputError>([&] { read_rheology(level); }).find("stands still"), std::string::npos);
 }
 
 TEST(RheologyFile, WhatIsOptionalMayBeAbsent) {
@@ -83,6 +149,9 @@ TEST(RheologyFile, FaultsAreNamedWithTheirPlace) {
   EXPECT_NE(message(std::string(smallest) + "[k]\nI = [1e-3, 1e-4]\nk = [1, 1]\n").find("k.I"),
             std::string::npos);
   EXPECT_NE(message(std::string(smallest) + "[k]\nI = [1e-4, 1e-3]\nk = [1]\n").find("k.k"),
+            std::string::npos);
+  EXPECT_NE(message(std::string(smallest) + "[k]\nI = []\nk = []\n").find("k.I"), std::string::npos);
+  EXPECT_NE(message(std::string(smallest) + "[k]\nI = [1e-4, 1.1e-4]\nk = [0.8, 1.2]\n").find("several"),
             std::string::npos);
 }
 

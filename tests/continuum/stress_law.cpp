@@ -30,7 +30,8 @@ TEST(SaturatingLaw, RunsBetweenItsTwoFrictions) {
 
 TEST(StressLaw, SlopesAreThoseOfItsValues) {
   for (const StressLaw& law :
-       {StressLaw(paper), StressLaw(SaturatingLaw{0.383, 0.643, 0.279}), StressLaw(NewtonianLaw{2})})
+       {StressLaw(paper), StressLaw(SaturatingLaw{0.383, 0.643, 0.279}), StressLaw(ConstantLaw{0.3}),
+        StressLaw(TabulatedLaw({1e-4, 3e-3, 0.1}, {0.2, 0.29, 0.32})), StressLaw(NewtonianLaw{2})})
     for (const double rate : {1e-6, 1e-2, 3.0})
       for (const double p : {0.1, 7.0}) {
         const double h = 1e-6;  // relative; central differences err by h^2, rounding by 1e-16/h
@@ -47,7 +48,7 @@ TEST(StressLaw, SlopesAreThoseOfItsValues) {
 
 TEST(StressLaw, RefusesALawWithK) {
   RheologyFit fit;
-  fit.mu = {.a = 0.35, .b = 0.013};
+  fit.mu = LogFriction{.a = 0.35, .b = 0.013};
   EXPECT_NO_THROW(stress_law(fit, "law.toml"));
   fit.k = NormalStressRatio{{1e-3}, {1.2}};
   try {

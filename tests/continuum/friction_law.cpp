@@ -1,0 +1,89 @@
+#include "continuum/rheology/friction_law.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "continuum/rheology/stress_law.hpp"
+#include "coupling/exchange/errors.hpp"
+
+namespace drumlin {
+namespace {
+
+const std::vector<double> I_of_table{1e-4, 1e-3, 3e-3, 1e-2, 0.1};
+
+TEST(MonotoneCubic, PassesThroughItsPointsAndAddsNoExtremum) {
+  const std::vector<double> x{0, 1, 1.5, 4, 5, 6}, y{0, 1, 1.1, 1.1, 3, 2.5};
+  for (const auto outside : {MonotoneCubic::Outside::level, MonotoneCubic::Outside::goes_on}) {
+    const MonotoneCubic curve(x, y, outside);
+    for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(curve.at(x[i]).value, y[i], 1e-14);
+    for (std::size_t i = 0; i + 1 < x.size(); ++i)
+      for (double t = 0.01; t < 1; t += 0.01) {
+        const double slope = curve.at(x[i] + t * (x[i + 1] - x[i])).slope;
+        EXPECT_GE(slope * (y[i + 1] - y[i]), -1e-14) << x[i] << " + " << t;
+      }
+  }
+}
+
+TEST(MonotoneCubic, SlopeIsItsDerivativeAndHasNoJumps) {
+  const MonotoneCubic curve({0, 1, 1.5, 4}, {0, 1, 1.2, 0.7}, MonotoneCubic::Outside::level);
+  const double h = 1e-6;
+  for (double x = -0.5; x < 5; x += 0.0371) {
+    EXPECT_NEAR(curve.at(x).slope, (curve.at(x + h).value - curve.at(x - h).value) / (2 * h), 1e-5) << x;
+    EXPECT_NEAR(curve.at(x + h).slope, curve.at(x - h).slope, 1e-4) << x;
+  }
+  for (const double knot : {0.0, 1.0, 1.5, 4.0})
+    EXPECT_NEAR(curve.at(knot + 1e-9).slope, curve.at(knot - 1e-9).slope, 1e-7) << knot;
+}
+
+TEST(MonotoneCubic, OnePointIsAConstant) {
+  const MonotoneCubic curve({2}, {1.1}, MonotoneCubic::Outside::level);
+  for (const double x : {-3.0, 2.0, 9.0}) {
+    EXPECT_EQ(curve.at(x).value, 1.1);
+    EXPECT_EQ(curve.at(x).slope, 0);
+  }
+}
+
+TEST(ConstantLaw, IsTheSameAtEveryRate) {
+  for (const double I : {1e-9, 1e-2, 10.0}) {
+    EXPECT_EQ(ConstantLaw{0.3}.friction(I).mu, 0.3);
+    EXPECT_EQ(ConstantLaw{0.3}.friction(I).slope, 0);
+  }
+}
+
+TEST(TabulatedLaw, OfPointsOnALogarithmIsThatLogarithmInsideAndOutside) {
+  const LogLaw log{0.35, 0.013};
+  std::vector<double> mu;
+  for (const double I : I_of_table) mu.push_back(log.a + log.b * std::log(I));
+  const TabulatedLaw table(I_of_table, mu);
+  for (double I = 1e-14; I < 1e3; I *= 1.7) {
+    EXPECT_NEAR(table.friction(I).mu, log.friction(I).mu, 1e-13) << I;
+    EXPECT_NEAR(table.friction(I).slope, log.friction(I).slope, 1e-13) << I;
+  }
+}
+
+TEST(TabulatedLaw, GrowsEverywhereAndStaysPositive) {
+  const TabulatedLaw table(I_of_table, {0.1, 0.2, 0.21, 0.3, 0.32});
+  double last = 0;
+  for (double I = 1e-20; I < 1e6; I *= 1.1) {
+    const Friction at = table.friction(I);
+    EXPECT_GT(at.mu, last) << I;
+    EXPECT_GT(at.slope, 0) << I;
+    last = at.mu;
+  }
+}
+
+TEST(StressLawOfAFile, HasTheFormThatTheFileNames) {
+  RheologyFit fit;
+  fit.mu = LogFriction{.a = 0.35, .b = 0.013};
+  EXPECT_EQ(std::get<LogLaw>(stress_law(fit, "")).b, 0.013);
+  fit.mu = ConstantFriction{0.3};
+  EXPECT_EQ(std::get<ConstantLaw>(stress_law(fit, "")).mu, 0.3);
+  fit.mu = JopFriction{0.383, 0.643, 0.279};
+  EXPECT_EQ(std::get<SaturatingLaw>(stress_law(fit, "")).I_0, 0.279);
+  fit.mu = FrictionTable{{1e-3, 1e-1}, {0.2, 0.3}};
+  EXPECT_NEAR(std::get<TabulatedLaw>(stress_law(fit, "")).friction(0.01).mu, 0.25, 1e-5);
+}
+
+}  // namespace
+}  // namespace drumlin
