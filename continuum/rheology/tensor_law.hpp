@@ -13,6 +13,17 @@ struct Regularisation {
   double pressure = 0.4;     ///< p_min, rho0 g d
 };
 
+/// The law's p and its derivative by the true one.
+struct RegularisedPressure {
+  double value = 0;
+  double slope = 0;
+};
+inline RegularisedPressure regularised_pressure(double p, const Regularisation& r) {
+  const double root = std::sqrt(p * p + 4 * r.pressure * r.pressure);
+  const double value = p > 0 ? 0.5 * (p + root) : 2 * r.pressure * r.pressure / (root - p);
+  return {value, value / root};
+}
+
 /// Stress at a point and its derivative
 ///   d tau = modulus dD + 1/2 slope (left (right:dD) + right (left:dD))/2 + by_pressure dp.
 /// With left = right = D/|D| this is the exact tangent; the primal-dual tangent has the dual variable for
@@ -40,12 +51,12 @@ template <class Law>
 StressResponse stress_response(const Law& law, const Regularisation& r, const PlaneTensor& D, double p,
                                const PlaneTensor& dual) {
   StressResponse response;
-  const double root = std::sqrt(p * p + 4 * r.pressure * r.pressure);
-  response.law_pressure = p > 0 ? 0.5 * (p + root) : 2 * r.pressure * r.pressure / (root - p);
+  const RegularisedPressure pressure = regularised_pressure(p, r);
+  response.law_pressure = pressure.value;
   response.rate = regularised_rate(D, r);
   Strength& F = response.strength;
   F = strength(law, response.rate, response.law_pressure);
-  F.d_pressure *= response.law_pressure / root;
+  F.d_pressure *= pressure.slope;
   response.modulus = F.value / response.rate;
   response.slope = F.d_rate - response.modulus;
   response.stress = response.modulus * D;

@@ -2,6 +2,7 @@
 // Whether the linearised equations amplify short waves without bound (ill-posed, Hadamard) at a point of the
 // flow.
 #include "continuum/rheology/stress_law.hpp"
+#include "continuum/rheology/turned_law.hpp"
 
 namespace drumlin {
 
@@ -13,5 +14,29 @@ namespace drumlin {
 /// Barker, Schaeffer, Bohorquez & Gray, J. Fluid Mech. 779 (2015): 4 y^2 - 4 y + mu^2 (1 - y/2)^2 <= 0 with y
 /// = I mu'/mu. `saturation` is m.
 double well_posedness_margin(const Strength& F, double rate, double saturation = 1);
+
+/// How the turn follows the spin of the wave itself; nothing: the turn is frozen.
+struct TurnFollowsSpin {
+  double spin_ratio = 1;  ///< Wbar/|D|
+  double slope = 0;       ///< dB/d(Wbar/|D|), rho0 g d
+};
+
+/// The same for the law with k. With the direction of the wave as an angle psi against the axes of D,
+/// (x, y) = (cos psi, sin psi), a = m x, b = B/A, R_A = 1 - |D| A_|D|/A, R_B = (B - |D| B_|D|)/A,
+///   S (1 - m A_p x + m B_p y) = 1 - m (A_p + b B_p) x + m (B_p - b A_p + m^2 (R_B A_p - R_A B_p)) y
+///                               - m^2 R_A y^2 - m^2 R_B x y,
+/// plus m t (m A_p - x)(1 + w m y) where the turn follows the spin, t = slope/A, w = spin_ratio. A quadratic
+/// form on the unit circle: its minimum comes from the dual problem, which has one maximum, so that no
+/// direction is missed.
+double well_posedness_margin(const TurnedStrength& F, double rate, double saturation = 1,
+                             const TurnFollowsSpin& spin = {.slope = 0});
+
+/// Smallest value of constant + linear.v + v.Q v over |v| = 1, Q = ((xx, xy), (xy, yy)).
+struct CircleForm {
+  double constant = 0;
+  double x = 0, y = 0;
+  double xx = 0, xy = 0, yy = 0;
+};
+double minimum_on_circle(const CircleForm& form);
 
 }  // namespace drumlin

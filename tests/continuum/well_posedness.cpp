@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
+#include <random>
 
 namespace drumlin {
 namespace {
@@ -58,6 +60,112 @@ TEST(WellPosedness, RegularisedRigidPartsAreWellPosed) {
   // |D| far below eps: the law is a fluid of constant viscosity there, whatever its friction does.
   const LogLaw decimal{0.35, 0.013 / std::log(10.0)};
   EXPECT_GT(well_posedness_margin(strength(decimal, 0.5e-3, 1), 0.5e-3, 0.01), 0);
+}
+
+TEST(MinimumOnCircle, IsFoundWhateverTheForm) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  for (int trial = 0; trial < 500; ++trial) {
+    CircleForm form{normal(random), normal(random), normal(random),
+                    normal(random), normal(random), normal(random)};
+    if (trial % 4 == 0) form.x = form.y = 0;
+    if (trial % 4 == 1) form.xy = form.x = 0;  // the linear part along an axis of the quadratic one
+    if (trial % 4 == 2) form.xx = form.yy, form.xy = 0;
+    double smallest = 1e300;
+    for (int i = 0; i < 4000; ++i) {
+      const double angle = 2 * std::numbers::pi * i / 4000, x = std::cos(angle), y = std::sin(angle);
+      smallest = std::min(smallest, form.constant + form.x * x + form.y * y + form.xx * x * x +
+                                        2 * form.xy * x * y + form.yy * y * y);
+    }
+    // Between the 4000 directions the form falls by at most its curvature, about 20, times (pi/4000)^2/2.
+    EXPECT_LE(minimum_on_circle(form), smallest + 1e-12);
+    EXPECT_GE(minimum_on_circle(form), smallest - 1e-5);
+  }
+}
+
+double margin(const LogLaw& mu, const StressRatioLaw& k, double I_p, double turn = 1) {
+  return well_posedness_margin(turned_strength(mu, LocalRatio{&k, turn}, 0.5 * I_p, 1), 0.5 * I_p);
+}
+
+/// The pressure p = 1 at which a flow of constant k has this I.
+double rate_number(double I, double k) { return I / std::sqrt(0.5 * (1 + k)); }
+
+TEST(WellPosednessWithK, IsTheConditionWithoutKForKOne) {
+  const StressRatioLaw one({1}, {1});
+  for (const LogLaw& law : {LogLaw{0.35, 0.013}, LogLaw{0.35, 0.0056}, LogLaw{0.4, 0.1}})
+    for (double I = 1e-8; I < 30; I *= 1.2)
+      EXPECT_NEAR(margin(law, one, I), well_posedness_margin(strength(law, 0.5 * I, 1), 0.5 * I), 1e-12) << I;
+}
+
+TEST(WellPosednessWithK, BoundsAConstantKFromBothSides) {
+  const LogLaw paper{0.35, 0.013};
+  const auto good = [&](double I, double k) {
+    return margin(paper, StressRatioLaw({1}, {k}), rate_number(I, k)) >= 0;
+  };
+  // 0.89 to 1.12 and 0.95 to 1.06, to their last digit.
+  EXPECT_TRUE(good(1e-4, 0.895) && good(1e-4, 1.115));
+  EXPECT_FALSE(good(1e-4, 0.885) || good(1e-4, 1.125));
+  EXPECT_TRUE(good(0.1, 0.955) && good(0.1, 1.055));
+  EXPECT_FALSE(good(0.1, 0.945) || good(0.1, 1.065));
+}
+
+TEST(WellPosednessWithK, TheSenseOfTheShearDoesNotMatter) {
+  const StressRatioLaw bump({1e-5, 1e-3, 1e-2}, {0.8, 1.2, 1.0});
+  for (double I = 1e-6; I < 1; I *= 1.3)
+    EXPECT_NEAR(margin({0.35, 0.013}, bump, I, 1), margin({0.35, 0.013}, bump, I, -1), 1e-12);
+}
+
+TEST(WellPosednessWithK, IsLostByThePapersBump) {
+  const StressRatioLaw bump({1e-5, 1e-3, 1e-2}, {0.8, 1.2, 1.0});
+  for (double I = 1e-7; I < 9e-4; I *= 1.1) EXPECT_LT(margin({0.35, 0.013}, bump, I), 0) << I;
+  EXPECT_GT(margin({0.35, 0.013}, bump, 0.02), 0);
+}
+
+// Growth of a plane wave, from the response of the point itself by differences: independent of the algebra.
+double numeric_symbol(const LogLaw& mu, const StressRatioLaw& k, double psi, const Regularisation& r,
+                      double size, double follow) {
+  const double h = 1e-6, p = 1;
+  const double angle =
+      0.5 * (0.5 * std::numbers::pi - psi);  // D's (a, b) stands at 90 degrees in simple shear
+  const double c = std::cos(angle), s = std::sin(angle);
+  const PlaneTensor D{0, 0, size}, wave{-c * s, c * s, 0.5 * (c * c - s * s)};
+  const double rate0 = regularised_rate(D, r);
+  const auto stress = [&](double by_wave, double by_p) {
+    const PlaneTensor now = D + by_wave * wave;
+    // The spin of the wave is -1/2 of its strain, and the turn follows by `follow` per unit of spin over
+    // rate.
+    const double ratio = (size - 0.5 * by_wave) / regularised_rate(now, r) - size / rate0;
+    return turned_response(mu, LocalRatio{&k, 1 + follow * ratio}, r, now, p + by_p, now).stress;
+  };
+  const auto slope = [&](double w, double q) {
+    return (1 / (2 * h)) * (stress(h * w * size, h * q) - stress(-h * w * size, -h * q));
+  };
+  const PlaneTensor by_wave = (1 / size) * slope(1, 0), by_p = slope(0, 1);
+  const auto normal = [&](const PlaneTensor& t) { return c * c * t.xx + 2 * c * s * t.xz + s * s * t.zz; };
+  const auto shear = [&](const PlaneTensor& t) { return c * s * (t.zz - t.xx) + (c * c - s * s) * t.xz; };
+  const double pressure = normal(by_wave) / (1 - normal(by_p));
+  const auto at = turned_response(mu, LocalRatio{&k, 1}, r, D, p, D);
+  return (shear(by_wave) + shear(by_p) * pressure) / (0.5 * at.modulus) * (1 - normal(by_p));
+}
+
+TEST(WellPosednessWithK, IsTheSmallestGrowthOfAllWaves) {
+  const StressRatioLaw bump({1e-5, 1e-3, 1e-2}, {0.8, 1.2, 1.0});
+  const LogLaw paper{0.35, 0.013};
+  for (const double size : {1e-5, 3e-4, 2e-3, 0.03})
+    for (const double eps : {1e-12, 1e-3})
+      for (const double follow : {0.0, 0.3}) {
+        const Regularisation r{eps, 1e-9};
+        double smallest = 1e300;
+        for (int i = 0; i < 2000; ++i)
+          smallest = std::min(smallest,
+                              numeric_symbol(paper, bump, 2 * std::numbers::pi * i / 2000, r, size, follow));
+        const PlaneTensor D{0, 0, size};
+        const auto s = turned_response(paper, LocalRatio{&bump, 1}, r, D, 1, D);
+        const double m = magnitude(s.right), beta = (s.at.k - 1) / (s.at.k + 1);
+        const double got = well_posedness_margin(TurnedStrength{s.strength, s.across, s.at}, s.rate, m,
+                                                 {.spin_ratio = size / s.rate, .slope = beta * follow});
+        EXPECT_NEAR(got, smallest, 2e-5) << size << " " << eps << " " << follow;
+      }
 }
 
 }  // namespace
