@@ -132,6 +132,9 @@ void add_side(const BoundaryCondition& condition, const dealii::FEFaceValues<2>&
       for (unsigned int i = 0; i < s.n; ++i)
         if (s.component[i] != 2)
           residual[i] -= (s.component[i] == 0 ? t.x : t.z) * face.shape_value(i, q) * JxW;
+    } else if (const auto* pressed = std::get_if<PressedWall>(&condition)) {
+      for (unsigned int i = 0; i < s.n; ++i)
+        if (s.component[i] != 2) residual[i] += pressed->pressure * along_normal(i) * JxW;
     }
   }
 }

@@ -11,7 +11,9 @@
 #include <deal.II/lac/sparsity_tools.h>
 #include <deal.II/numerics/vector_tools_boundary.h>
 
+#include <array>
 #include <map>
+#include <set>
 
 namespace drumlin::fem {
 namespace {
@@ -91,6 +93,61 @@ void remove_net_flux(const FlowProblem& problem, const Discretisation& d, Bounda
     if (value != 0) value -= flux / weight * flux_of[index];
 }
 
+// A pressed wall holds its material along itself alone: of the two velocities of each of its nodes, that
+// which lies nearer to the wall follows from the other. Where faces meet, the normal is their mean.
+struct WallNode {
+  std::array<dealii::types::global_dof_index, 2> index;
+  dealii::Point<2> place;
+  dealii::Tensor<1, 2> normal;
+  const PressedWall* wall = nullptr;
+};
+
+std::vector<WallNode> pressed_nodes(const FlowProblem& problem, const Discretisation& d) {
+  std::map<dealii::types::global_dof_index, WallNode> nodes;  // by the first of the two
+  const dealii::Quadrature<1> places(d.elements.get_unit_face_support_points());
+  dealii::FEFaceValues<2> face(d.mapping, d.elements, places,
+                               dealii::update_normal_vectors | dealii::update_quadrature_points);
+  std::vector<dealii::types::global_dof_index> indices(d.elements.n_dofs_per_face());
+  for (const auto& cell : d.unknowns.active_cell_iterators()) {
+    if (cell->is_artificial()) continue;
+    for (const unsigned int f : cell->face_indices()) {
+      if (!cell->face(f)->at_boundary()) continue;
+      const auto* condition = condition_on(problem, cell->face(f)->boundary_id());
+      const auto* wall = condition ? std::get_if<PressedWall>(condition) : nullptr;
+      if (!wall) continue;
+      face.reinit(cell, f);
+      cell->face(f)->get_dof_indices(indices);
+      std::array<std::vector<unsigned int>, 3> of_component;  // in the order of the nodes of the face
+      for (unsigned int i = 0; i < indices.size(); ++i)
+        of_component[d.elements.face_system_to_component_index(i).first].push_back(i);
+      for (std::size_t k = 0; k < of_component[0].size(); ++k) {
+        const unsigned int i = of_component[0][k];
+        WallNode& node = nodes[indices[i]];
+        node.index = {indices[i], indices[of_component[1][k]]};
+        node.place = face.quadrature_point(i);
+        node.normal += face.normal_vector(i);
+        node.wall = wall;
+      }
+    }
+  }
+  std::vector<WallNode> list;
+  for (const auto& entry : nodes) list.push_back(entry.second);
+  return list;
+}
+
+void constrain(const WallNode& node, bool with_velocity, dealii::AffineConstraints<double>& constraints) {
+  const dealii::Tensor<1, 2> along{{-node.normal[1], node.normal[0]}};
+  const int near = std::abs(along[0]) >= std::abs(along[1]) ? 0 : 1;
+  const auto index = node.index[near];
+  if (constraints.is_constrained(index) || !constraints.can_store_line(index)) return;
+  const Vec2 velocity = node.wall->velocity({node.place[0], node.place[1]});
+  constraints.add_line(index);
+  if (along[1 - near] != 0)
+    constraints.add_entry(index, node.index[1 - near], -along[1 - near] / along[near]);
+  if (with_velocity)
+    constraints.set_inhomogeneity(index, (velocity.x * along[0] + velocity.z * along[1]) / along[near]);
+}
+
 }  // namespace
 
 Discretisation::Discretisation(const FlowProblem& problem)
@@ -129,6 +186,18 @@ void Discretisation::execute_refinement(const FlowProblem& problem, FieldVector&
   solution.update_ghost_values();
 }
 
+void Discretisation::mark_given(const FlowProblem& problem) {
+  std::set<dealii::types::boundary_id> sides;
+  for (const auto& [side, condition] : problem.boundary)
+    if (std::holds_alternative<PrescribedVelocity>(condition) ||
+        std::holds_alternative<PressedWall>(condition))
+      sides.insert(static_cast<int>(side));
+  given.clear();
+  if (!sides.empty())
+    given =
+        dealii::DoFTools::extract_boundary_dofs(unknowns, dealii::ComponentMask({true, true, false}), sides);
+}
+
 void Discretisation::distribute_unknowns(const FlowProblem& problem) {
   mapping.initialize(dealii::MappingQ<2>(2), mesh);
   unknowns.distribute_dofs(elements);
@@ -156,6 +225,11 @@ void Discretisation::distribute_unknowns(const FlowProblem& problem) {
       constraints.set_inhomogeneity(index, value);
       homogeneous.add_line(index);
     }
+  for (const WallNode& node : pressed_nodes(problem, *this)) {
+    constrain(node, true, constraints);
+    constrain(node, false, homogeneous);
+  }
+  mark_given(problem);
   constraints.close();
   homogeneous.close();
 

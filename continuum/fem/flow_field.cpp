@@ -75,8 +75,9 @@ void add_given_sides(const fem::SolvedLevel& level, Vec2 centre, FlowIntegrals& 
       dealii::DoFTools::extract_dofs(d.unknowns, dealii::ComponentMask({true, false, false}));
   for (std::size_t k = 0; k < d.is_velocity.size(); ++k) {
     const auto i = d.owned.nth_index_in_set(k);
-    if (!d.is_velocity[k] || !d.homogeneous.is_constrained(i) || d.conforming.is_constrained(i)) continue;
+    if (!d.given.is_element(i) || d.conforming.is_constrained(i)) continue;
     const auto& place = places.at(i);
+    if (along_x.is_element(i)) sums.given_side_force_x += forces[i];
     sums.given_side_power += forces[i] * level.state.solution[i];
     sums.given_side_torque +=
         forces[i] * (along_x.is_element(i) ? place[1] - centre.z : -(place[0] - centre.x));

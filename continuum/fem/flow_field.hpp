@@ -31,15 +31,16 @@ struct PointState {
 /// Integrals over the domain and its sides, by quadrature of the fields themselves.
 struct FlowIntegrals {
   double area = 0;
-  double ill_posed_area = 0;     ///< where the symbol of the linearised equations is negative
-  double dissipation = 0;        ///< integral of tau:D
-  double weight_power = 0;       ///< integral of f.u
-  double given_side_power = 0;   ///< of the sides with a given velocity, from their nodal forces
-  double weight_torque = 0;      ///< about the origin of the moments, in the sense of dv_x/dz
-  double given_side_torque = 0;  ///< from the nodal forces
-  double surface_moment = 0;     ///< integral x sigma_nn dx over the side with the spring
-  double surface_force = 0;      ///< integral sigma_nn dx over it
-  double surface_leak = 0;       ///< half the integral of |u_n| over it
+  double ill_posed_area = 0;      ///< where the symbol of the linearised equations is negative
+  double dissipation = 0;         ///< integral of tau:D
+  double weight_power = 0;        ///< integral of f.u
+  double given_side_power = 0;    ///< of the sides with a given velocity, from their nodal forces
+  double weight_torque = 0;       ///< about the origin of the moments, in the sense of dv_x/dz
+  double given_side_torque = 0;   ///< from the nodal forces
+  double given_side_force_x = 0;  ///< likewise
+  double surface_moment = 0;      ///< integral x sigma_nn dx over the side with the spring
+  double surface_force = 0;       ///< integral sigma_nn dx over it
+  double surface_leak = 0;        ///< half the integral of |u_n| over it
 };
 
 /// All member functions are collective: every rank calls them and gets the same answer.

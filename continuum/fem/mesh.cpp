@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "continuum/fem/detail/discretisation.hpp"
 
@@ -83,8 +84,10 @@ void make_mesh(const ChordDomain& domain, dealii::parallel::distributed::Triangu
 }
 
 void make_mesh(const BoxDomain& domain, dealii::parallel::distributed::Triangulation<2>& mesh) {
+  std::vector<double> rows(domain.layers.rbegin(), domain.layers.rend());
+  if (rows.empty()) rows.assign(domain.cells_z, domain.height / domain.cells_z);
   dealii::GridGenerator::subdivided_hyper_rectangle(
-      mesh, {static_cast<unsigned>(domain.cells_x), static_cast<unsigned>(domain.cells_z)},
+      mesh, {std::vector<double>(domain.cells_x, domain.width / domain.cells_x), rows},
       Point<2>(-0.5 * domain.width, -domain.height), Point<2>(0.5 * domain.width, 0));
   constexpr std::array<Side, 4> side_of_face = {Side::left, Side::right, Side::bottom, Side::top};
   for (const auto& cell : mesh.active_cell_iterators())
@@ -95,6 +98,38 @@ void make_mesh(const BoxDomain& domain, dealii::parallel::distributed::Triangula
   dealii::GridTools::collect_periodic_faces(mesh, static_cast<int>(Side::left), static_cast<int>(Side::right),
                                             0, pairs);
   mesh.add_periodicity(pairs);  // cells across the seam count as neighbours among the ranks
+}
+
+// Rings of cells of any thickness, which no generator of deal.II makes.
+void make_mesh(const AnnulusDomain& domain, dealii::parallel::distributed::Triangulation<2>& mesh) {
+  const auto around = static_cast<unsigned>(domain.cells_around),
+             rings = static_cast<unsigned>(domain.layers.size());
+  std::vector<Point<2>> vertices;
+  double r = domain.inner_radius;
+  for (unsigned ring = 0; ring <= rings; ++ring) {
+    for (unsigned k = 0; k < around; ++k) {
+      const double angle = 2 * std::numbers::pi * k / around;
+      vertices.emplace_back(r * std::cos(angle), r * std::sin(angle));
+    }
+    if (ring < rings) r += domain.layers[ring];
+  }
+  std::vector<dealii::CellData<2>> cells;
+  for (unsigned ring = 0; ring < rings; ++ring)
+    for (unsigned k = 0; k < around; ++k) {
+      const unsigned next = (k + 1) % around;
+      dealii::CellData<2> cell;
+      cell.vertices = {ring * around + k, (ring + 1) * around + k, ring * around + next,
+                       (ring + 1) * around + next};
+      cells.push_back(cell);
+    }
+  mesh.create_triangulation(vertices, cells, dealii::SubCellData());
+  mesh.set_all_manifold_ids(arc_manifold);
+  const double middle = domain.inner_radius + 0.5 * (r - domain.inner_radius);
+  for (const auto& cell : mesh.active_cell_iterators())
+    for (const auto& face : cell->face_iterators())
+      if (face->at_boundary())
+        face->set_boundary_id(static_cast<int>(face->vertex(0).norm() < middle ? Side::top : Side::bottom));
+  mesh.set_manifold(arc_manifold, dealii::SphericalManifold<2>());
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "continuum/rheology/tensor_law.hpp"
 
@@ -34,9 +35,19 @@ struct BoxDomain {
   int cells_x = 1;  ///< on the coarsest mesh
   int cells_z = 1;
   bool periodic_x = false;
+  std::vector<double> layers = {};  ///< heights of the rows of cells from the top down, adding up to
+                                    ///< `height`, in place of cells_z equal ones; empty: those
 };
 
-using Domain = std::variant<ChordDomain, BoxDomain>;
+/// Ring about the origin. Sides: top (inner circle), bottom (outer circle).
+struct AnnulusDomain {
+  double inner_radius = 0;
+  std::vector<double>
+      layers;             ///< thicknesses of the rings of cells on the coarsest mesh, from the inside out
+  int cells_around = 24;  ///< of each ring
+};
+
+using Domain = std::variant<ChordDomain, BoxDomain, AnnulusDomain>;
 
 enum class Side : int { top = 0, bottom = 1, left = 2, right = 3 };
 
@@ -54,7 +65,13 @@ struct NormalSpring {
 struct Traction {
   std::function<Vec2(Vec2)> traction;
 };
-using BoundaryCondition = std::variant<PrescribedVelocity, NormalSpring, Traction>;
+/// Wall that moves along itself with the given velocity (its part along the wall counts) and is pressed on
+/// the material: T_nn = -pressure. Incompressible material keeps it where it is.
+struct PressedWall {
+  std::function<Vec2(Vec2)> velocity;
+  double pressure = 0;
+};
+using BoundaryCondition = std::variant<PrescribedVelocity, NormalSpring, Traction, PressedWall>;
 
 /// Slope of the surface: given, or the unknown that makes the moment of the surface traction vanish (the side
 /// with the NormalSpring: integral of x sigma_nn dx = 0).
@@ -76,6 +93,8 @@ struct FlowProblem {
   Slope slope;
   std::function<Vec2(Vec2)> extra_force;  ///< added to the weight; empty: absent
   double surface_pressure = 0;            ///< of the hydrostatic start, rho0 g d
+  /// mu that statics alone asks for somewhere, where that is not the tan of a given slope.
+  std::optional<double> needed_friction;
 };
 
 /// Area of the part of a disc of this radius below a chord that lies `axis_offset` below its centre.
@@ -87,8 +106,9 @@ double chord_offset(double radius, double area);
 /// z', -Omega x).
 Vec2 rigid_rotation(double rotation, double axis_offset, Vec2 point);
 
-/// Why a slope that is given cannot carry a steady flow: mu = tan(theta) would need I above `I_limit`; empty
-/// if it can. The log law has no bound of its own, so a limit on I has to say where the law ceases to be one.
+/// Why the weight cannot be carried by a steady flow: mu = tan(theta) of a given slope, or needed_friction,
+/// would need I above `I_limit`; empty if it can. The log law has no bound of its own, so a limit on I has to
+/// say where the law ceases to be one.
 std::optional<std::string> no_steady_state(const FlowProblem& problem, double I_limit = 10);
 
 }  // namespace drumlin

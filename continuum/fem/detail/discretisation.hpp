@@ -1,5 +1,6 @@
 #pragma once
 // Mesh, Q2-Q1 elements, constraints: what assembly, solver and evaluation share. Private to fem/.
+#include <deal.II/base/index_set.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/distributed/tria.h>
 #include <deal.II/dofs/dof_handler.h>
@@ -50,9 +51,13 @@ struct Discretisation {
   dealii::IndexSet owned, relevant;  ///< unknowns of this rank; with those of the cells around its part
   std::vector<bool> is_velocity;     ///< per unknown of this rank
 
+  /// Velocities on sides that move as they are told, in both directions or along themselves.
+  dealii::IndexSet given;
+
  private:
   void distribute_unknowns(const FlowProblem& problem);
   void execute_refinement(const FlowProblem& problem, FieldVector& solution);
+  void mark_given(const FlowProblem& problem);
 };
 
 /// The coarsest mesh of a domain; boundary ids are the numbers of Side.
