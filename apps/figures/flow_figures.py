@@ -1,4 +1,5 @@
-"""Figures of a continuum flow: maps.png (speed, I, pressure, mu over the drum) and profiles.png (at the centre).
+"""Figures of a continuum flow: maps.png (speed, I, pressure, mu over drum or annulus) and profiles.png (at the centre of a drum,
+else across the gap, with the closed form).
 
 usage: flow_figures.py FLOWRUN [--flow FLOW_JSON]
 """
@@ -15,34 +16,51 @@ import style
 from drum_maps import read_maps
 
 
-def draw_map(axes, grids, values, label, norm, cmap, radius, axis_depth):
+def outline(header):
+    """Lines around the domain of maps.csv."""
+    if "drum_radius" in header:
+        radius, axis_depth = float(header["drum_radius"]), float(header["axis_depth"])
+        half = math.acos(axis_depth / radius)
+        angle = np.linspace(-half, half, 200)
+        return [(radius * np.sin(angle), axis_depth - radius * np.cos(angle)),
+                ([-radius * math.sin(half), radius * math.sin(half)], [0, 0])]
+    angle = np.linspace(0, 2 * math.pi, 400)
+    return [(float(header[name]) * np.cos(angle), float(header[name]) * np.sin(angle))
+            for name in ("inner_radius", "outer_radius")]
+
+
+def draw_map(axes, grids, values, label, norm, cmap, header):
     image = axes.pcolormesh(grids["x"], grids["z"], values, norm=norm, cmap=cmap, shading="nearest", rasterized=True)
-    half = math.acos(axis_depth / radius)
-    angle = np.linspace(-half, half, 200)
-    axes.plot(radius * np.sin(angle), axis_depth - radius * np.cos(angle), color="black", linewidth=1)
-    axes.plot([-radius * math.sin(half), radius * math.sin(half)], [0, 0], color="black", linewidth=1)
+    for x, z in outline(header):
+        axes.plot(x, z, color="black", linewidth=1)
     axes.set_aspect("equal")
     axes.set_title(label)
     axes.grid(False)
-    axes.set_xlabel(r"$x$  [$d$], downslope")
+    axes.set_xlabel(r"$x$  [$d$]" + (", downslope" if "drum_radius" in header else ""))
     axes.set_ylabel(style.LABELS["z"])
     axes.figure.colorbar(image, ax=axes, shrink=0.8, extend="both")
 
 
+def title(flow):
+    slope = f", slope {flow['theta_deg']:.2f} deg" if flow.get("theta_deg") is not None else ""
+    return f"Continuum flow, {flow['geometry'].replace('_', ' ')}{slope}"
+
+
 def draw_maps(folder, flow):
     header, grids = read_maps(folder / "maps.csv")
-    radius, axis_depth = float(header["drum_radius"]), float(header["axis_depth"])
+    radius = float(header.get("drum_radius", header.get("outer_radius")))
+    frame = "in the frame of the drum" if "drum_radius" in header else "in the laboratory frame"
     speed = np.ma.hypot(grids["v_x"], grids["v_z"])
     figure, axes = plt.subplots(2, 2, figsize=(13, 8.4))
     log = matplotlib.colors.LogNorm
     top = float(speed.max())
-    maps = [(speed, r"speed in the frame of the drum  [$\sqrt{gd}$]", log(top * 1e-4, top), "viridis"),
+    maps = [(speed, rf"speed {frame}  [$\sqrt{{gd}}$]", log(top * 1e-4, top), "viridis"),
             (grids["I"], r"inertial number $I$", log(1e-5, 1), "viridis"),
             (grids["pressure"], r"pressure $p$  [$\rho_0 g d$]",
              matplotlib.colors.Normalize(0, float(grids["pressure"].max())), "viridis"),
             (grids["mu"], r"friction $|\tau|/p$", matplotlib.colors.Normalize(0, 0.4), "viridis")]
     for place, (values, label, norm, cmap) in zip(axes.flat, maps):
-        draw_map(place, grids, values, label, norm, cmap, radius, axis_depth)
+        draw_map(place, grids, values, label, norm, cmap, header)
     # A few arrows on the map of the speed; the directions alone, for the speeds span decades.
     step = max(1, int(radius / 12 / float(header["spacing"])))
     cut = (slice(None, None, step), slice(None, None, step))
@@ -54,7 +72,7 @@ def draw_maps(folder, flow):
         axes[0, 1].contourf(grids["x"], grids["z"], ill_posed.astype(float), levels=[0.5, 1.5], colors="none",
                             hatches=["////"])
         axes[0, 1].set_title(r"inertial number $I$ (hatched: ill-posed)")
-    figure.suptitle(style.title_of(f"Continuum flow, slope {flow['theta_deg']:.2f} deg", flow["reduced"]))
+    figure.suptitle(style.title_of(title(flow), flow["reduced"]))
     style.save(figure, folder / "maps.png", flow["reduced"])
 
 
@@ -63,7 +81,11 @@ def draw_profiles(folder, flow):
     z, H = columns["z"], flow.get("H")
     figure, axes = plt.subplots(1, 4, figsize=(14, 5.2), sharey=True)
 
-    axes[0].plot(columns["v_x"], z, color=style.CONTINUUM)
+    axes[0].plot(columns["v_x"], z, color=style.CONTINUUM, label="layer means" if flow["closed_form"] else None)
+    if flow["closed_form"]:
+        exact = flow["closed_form"]["profile"]
+        axes[0].plot(exact["v_x_closed_form"], exact["z"], color=style.PAPER, linewidth=1, linestyle="--", label="closed form")
+        axes[0].legend(loc="best")
     if H is not None and flow.get("shear_rate") is not None:
         axes[0].plot([0, flow["shear_rate"] * H], [-H, 0], color=style.PAPER, linewidth=1, linestyle="--",
                      label=rf"line to $H$ = {H:.1f}")
@@ -73,6 +95,10 @@ def draw_profiles(folder, flow):
 
     rate = [value if value > 0 else math.nan for value in columns["shear_rate"]]
     axes[1].semilogx(rate, z, color=style.CONTINUUM)
+    known = [value for value in rate if math.isfinite(value)]
+    if known and max(known) < 10 * min(known):  # a uniform shear is no occasion to magnify its rounding
+        middle = math.sqrt(max(known) * min(known))
+        axes[1].set_xlim(middle / 10, middle * 10)
     axes[1].set_xlabel(style.LABELS["shear_rate"])
 
     for name, color in zip(("sigma_xx", "sigma_zz", "sigma_xz"), style.OTHERS):
@@ -90,7 +116,8 @@ def draw_profiles(folder, flow):
     if H is not None:
         for place in axes:
             place.axhline(-H, color="grey", linewidth=0.8, linestyle=":")
-    figure.suptitle(style.title_of("Continuum flow at the centre of the drum, in its frame", flow["reduced"]))
+    where = ": at the centre of the drum, in its frame" if flow["geometry"] == "drum" else ": across the gap"
+    figure.suptitle(style.title_of(title(flow) + where, flow["reduced"]))
     style.save(figure, folder / "profiles.png", flow["reduced"])
 
 
@@ -101,7 +128,8 @@ def main():
     arguments = parser.parse_args()
     flow = json.loads((arguments.flow or arguments.folder / "flow.json").read_text(encoding="utf-8"))
     style.use_style()
-    draw_maps(arguments.folder, flow)
+    if flow["geometry"] in ("drum", "annulus"):  # a strip is the same all along: its profiles say it all
+        draw_maps(arguments.folder, flow)
     draw_profiles(arguments.folder, flow)
 
 

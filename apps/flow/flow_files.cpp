@@ -9,7 +9,6 @@
 
 #include "apps/support/figures.hpp"
 #include "apps/support/json_file.hpp"
-#include "continuum/sampling/drum_profiles.hpp"
 #include "coupling/exchange/text_file.hpp"
 
 namespace drumlin::apps {
@@ -18,26 +17,18 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-SliceOptions slice_of(const FlowScene& scene) {
-  return {scene.output.slice_width, scene.output.layer_thickness};
-}
-
 ProfileSet profiles_with_header(const FinishedFlow& flow) {
-  ProfileSet profiles = drum_profiles(flow.solution.field, flow.drum, slice_of(flow.scene));
-  const auto number = [](double value) { return fmt::format("{}", value); };
+  ProfileSet profiles = flow.flow_case.profiles(flow.solution.field);
   profiles.header = {{"side", "continuum"},
                      {"title", flow.scene.title},
+                     {"geometry", flow.flow_case.geometry},
                      {"reduced", flow.reduced ? "true" : "false"},
-                     {"theta_deg", number(flow.solution.field.theta() * 180 / std::numbers::pi)},
-                     {"axis_depth", number(flow.drum.axis_offset)},
-                     {"drum_radius", number(flow.drum.radius)},
-                     {"wall_z", number(flow.drum.axis_offset - flow.drum.radius)},
-                     {"rotation", number(flow.drum.rotation)},
                      {"position", "0"},
-                     {"slice_width", number(slice_width(slice_of(flow.scene), flow.drum))},
-                     {"layer_thickness", number(flow.scene.output.layer_thickness)},
-                     {"diameter_m", number(scales_of(flow.scene).length_m)},
+                     {"layer_thickness", fmt::format("{}", flow.scene.output.layer_thickness)},
+                     {"diameter_m", fmt::format("{}", scales_of(flow.scene).length_m)},
                      {"revision", provenance().revision}};
+  for (const auto& [key, value] : flow.flow_case.profile_header(flow.solution.field))
+    profiles.header[key] = value;
   return profiles;
 }
 
@@ -63,22 +54,21 @@ Json mesh_change(const std::vector<MeshResult>& meshes) {
   return changes;
 }
 
-// Identities that hold for the exact flow, each side computed by itself.
-Json checks_json(const FinishedFlow& flow, double Q) {
-  const FlowIntegrals sums = flow.solution.field.integrals({0, flow.drum.axis_offset});
-  const double supplied = sums.given_side_power + sums.weight_power;
-  return {{"Q_expected", flow.drum.expected_Q()},
-          {"Q_relative_error", Q / flow.drum.expected_Q() - 1},
-          {"surface_leak", sums.surface_leak},
-          {"dissipation", sums.dissipation},
-          {"wall_power", sums.given_side_power},
-          {"weight_power", sums.weight_power},
-          {"power_relative_error", sums.dissipation / supplied - 1},
-          {"wall_torque", sums.given_side_torque},
-          {"weight_torque", sums.weight_torque},
-          {"torque_relative_error", sums.given_side_torque / -sums.weight_torque - 1},
-          {"surface_force", sums.surface_force},
-          {"surface_moment", sums.surface_moment}};
+Json scalars_json(const ScalarSet& scalars) {
+  Json object = Json::object();
+  add_scalars(object, scalars);
+  return object;
+}
+
+Json closed_form_json(const FinishedFlow& flow) {
+  if (!flow.flow_case.closed_form) return nullptr;
+  const GapComparison c = flow.flow_case.closed_form(flow.solution.field);
+  return {{"mesh_error", c.mesh_error},
+          {"mesh_error_max", c.mesh_error_max},
+          {"closed_form_error", c.closed_form_error},
+          {"closed_form_error_max", c.closed_form_error_max},
+          {"scalars", scalars_json(c.closed_form)},
+          {"profile", {{"z", c.z}, {"v_x", c.v_x}, {"v_x_closed_form", c.v_x_closed_form}}}};
 }
 
 // The keys of rheology.toml; those of the logarithm come without their "law", as before there were others.
@@ -101,21 +91,18 @@ Json settings_json(const FinishedFlow& flow) {
   Json law = friction_json(flow.law.mu);
   law["nu"] = flow.law.nu;
   law["fitted_on"] = flow.law.fitted_on;
-  return {{"title", s.title},
-          {"law", law},
-          {"drum_radius", flow.drum.radius},
-          {"rotation", flow.drum.rotation},
-          {"surface_cell", s.mesh.surface_cell},
-          {"surface_zone", s.mesh.surface_zone},
-          {"levels", s.mesh.levels},
-          {"corner_taper", s.boundary.corner_taper},
-          {"surface_stiffness", s.boundary.surface_stiffness},
-          {"regularisation_shear_rate", s.regularisation.shear_rate},
-          {"regularisation_pressure", s.regularisation.pressure},
-          {"tolerance", s.solver.tolerance},
-          {"slice_width", slice_width(slice_of(s), flow.drum)},
-          {"layer_thickness", s.output.layer_thickness},
-          {"scales", to_json(scales_of(s))}};
+  Json settings{{"title", s.title}, {"law", law}};
+  add_scalars(settings, flow.flow_case.settings);
+  const Json rest{{"surface_cell", s.mesh.surface_cell},
+                  {"surface_zone", s.mesh.surface_zone},
+                  {"levels", s.mesh.levels},
+                  {"regularisation_shear_rate", s.regularisation.shear_rate},
+                  {"regularisation_pressure", s.regularisation.pressure},
+                  {"tolerance", s.solver.tolerance},
+                  {"layer_thickness", s.output.layer_thickness},
+                  {"scales", to_json(scales_of(s))}};
+  settings.update(rest);
+  return settings;
 }
 
 Json phases_json(const FlowReport& report) {
@@ -130,9 +117,9 @@ Json flow_json(const FinishedFlow& flow) {
   const FlowReport& report = flow.solution.report;
   const FlowIntegrals sums = flow.solution.field.integrals();
   Json content{{"format", "drumlin-flow-run-1"}, {"reduced", flow.reduced}};
+  content["geometry"] = flow.flow_case.geometry;
   add_scalars(content, result.scalars);
-  content["nu"] = flow.drum.nu;
-  content["chord_offset"] = flow.drum.axis_offset;
+  add_scalars(content, flow.flow_case.given);
   content["ill_posed_share"] = sums.ill_posed_area / sums.area;
   content["unknowns"] = result.unknowns;
   content["iterations"] = report.iterations;
@@ -140,7 +127,8 @@ Json flow_json(const FinishedFlow& flow) {
   content["seconds"] = report.seconds;
   content["ranks"] = flow.ranks;
   content["phases"] = phases_json(report);
-  content["checks"] = checks_json(flow, result.scalars.value("Q"));
+  content["checks"] = scalars_json(flow.flow_case.checks(flow.solution.field));
+  content["closed_form"] = closed_form_json(flow);
   content["meshes"] = meshes_json(flow.meshes);
   content["mesh_change"] = mesh_change(flow.meshes);
   content["settings"] = settings_json(flow);
@@ -167,7 +155,7 @@ void write_iterations(const fs::path& file, const FlowReport& report) {
 
 void write_flow(const fs::path& folder, const FinishedFlow& flow) {
   const ProfileSet profiles = profiles_with_header(flow);
-  write_maps(folder / "maps.csv", flow.solution.field, flow.drum, flow.scene.output.map_spacing,
+  write_maps(folder / "maps.csv", flow.solution.field, flow.flow_case.map_area, flow.scene.output.map_spacing,
              flow.reduced);
   flow.solution.field.write_vtu(folder / "flow.vtu");
   const Json content = flow_json(flow);

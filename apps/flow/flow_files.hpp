@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "continuum/fem/flow_solver.hpp"
-#include "continuum/model/drum.hpp"
+#include "continuum/sampling/flow_case.hpp"
 #include "coupling/exchange/profile_set.hpp"
 #include "coupling/exchange/rheology_fit.hpp"
 #include "coupling/exchange/scalar_set.hpp"
@@ -22,7 +22,7 @@ struct MeshResult {
 struct FinishedFlow {
   const FlowScene& scene;
   const RheologyFit& law;
-  const DrumGeometry& drum;
+  const FlowCase& flow_case;
   const FlowSolution& solution;
   const std::vector<MeshResult>& meshes;  ///< the last one carries the result
   bool reduced = false;

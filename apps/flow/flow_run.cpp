@@ -9,7 +9,7 @@
 #include "apps/flow/flow_files.hpp"
 #include "apps/support/interruption.hpp"
 #include "apps/support/output_folder.hpp"
-#include "continuum/sampling/drum_profiles.hpp"
+#include "continuum/sampling/flow_case.hpp"
 #include "coupling/exchange/errors.hpp"
 #include "coupling/exchange/text_file.hpp"
 
@@ -39,6 +39,22 @@ void print_mesh(int level, const MeshResult& mesh) {
 double ill_posed_share(const FlowField& field) {
   const FlowIntegrals sums = field.integrals();
   return sums.ill_posed_area / sums.area;
+}
+
+// The identities, and how far the flow is from its closed form.
+std::string checks_text(const FinishedFlow& flow) {
+  std::string text;
+  for (const Scalar& check : flow.flow_case.checks(flow.solution.field).scalars)
+    text += fmt::format("  {:<24} {:>13.6g}\n", check.name, check.value);
+  if (!flow.flow_case.closed_form) return text;
+  const GapComparison c = flow.flow_case.closed_form(flow.solution.field);
+  text +=
+      fmt::format("  error of v_x (L2 over the gap): {:.1e} of the mesh, {:.1e} against the closed form\n",
+                  c.mesh_error, c.closed_form_error);
+  for (const Scalar& scalar : c.closed_form.scalars)
+    text += fmt::format("  {:<24} {:>13.6g}, closed form {:.6g}\n", scalar.name,
+                        flow.meshes.back().scalars.value(scalar.name), scalar.value);
+  return text;
 }
 
 std::string summary_text(const fs::path& folder, const FinishedFlow& flow) {
@@ -76,31 +92,27 @@ int solve_flow_scene(const FlowOptions& options, const FemRuntime& runtime) {
   const FlowScene scene = read_flow_scene(options.scene, options.overrides);
   const RheologyFit fit = read_rheology(options.rheology);
   const StressLaw law = stress_law(fit, options.rheology.string());
-  const DrumGeometry drum = drum_geometry(scene, fit.nu);
-  const FlowProblem problem = drum_problem(scene, drum, law);
+  const FlowCase chosen = flow_case(scene, fit.nu, law);
   const bool reduced = scene.reduced || fit.reduced;
   runtime.on_first_rank([&] {
     prepare_output(options.output, options.existing, {"flow_scene.toml", "flow.json"},
                    {options.scene, options.rheology});
     replace_file(options.output / "flow_scene.toml", flow_scene_text(scene));
     replace_file(options.output / "rheology.toml", file_text(options.rheology));
-    fmt::print(
-        "{}{}: R = {:.2f} d, axis {:.2f} d above the surface, Omega = {:.5f}, nu = {:.3f}, {}{}\n",
-        scene.title, reduced ? " (reduced)" : "", drum.radius, drum.axis_offset, drum.rotation, drum.nu,
-        described(fit.mu), runtime.ranks() > 1 ? fmt::format(", {} ranks", runtime.ranks()) : "");
+    fmt::print("{}{}: {}, nu = {:.3f}, {}{}\n", scene.title, reduced ? " (reduced)" : "", chosen.summary,
+               fit.nu, described(fit.mu),
+               runtime.ranks() > 1 ? fmt::format(", {} ranks", runtime.ranks()) : "");
   });
   catch_interruptions();
   std::vector<MeshResult> meshes;
-  const SliceOptions slice{scene.output.slice_width, scene.output.layer_thickness};
   FlowObserver observer;
   if (speaks) observer.iteration = print_iteration;
   observer.interrupted = [] { return interruption() != 0; };
   observer.level_finished = [&](int level, const FlowField& field) {
-    meshes.push_back(
-        {field.cells(), field.unknowns(), drum_scalars(field, drum, drum_profiles(field, drum, slice))});
+    meshes.push_back({field.cells(), field.unknowns(), chosen.scalars(field)});
     if (speaks) print_mesh(level, meshes.back());
   };
-  const FlowSolution solution = solve_flow(problem, solver_options(scene), observer);
+  const FlowSolution solution = solve_flow(chosen.problem, solver_options(scene), observer);
   runtime.on_first_rank([&] { write_iterations(options.output / "iterations.csv", solution.report); });
   if (const int signal = interruption(); signal != 0)
     return static_cast<int>(signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted);
@@ -108,10 +120,10 @@ int solve_flow_scene(const FlowOptions& options, const FemRuntime& runtime) {
     throw NotConvergedError(
         fmt::format("the flow did not converge: {}; the last iterate is ill-posed in {:.1f} % of the area",
                     solution.report.failure, 100 * ill_posed_share(solution.field)));
-  const FinishedFlow flow{scene, fit, drum, solution, meshes, reduced, runtime.ranks()};
+  const FinishedFlow flow{scene, fit, chosen, solution, meshes, reduced, runtime.ranks()};
   write_flow(options.output, flow);
-  const std::string summary = summary_text(options.output, flow);
-  if (speaks) fmt::print("{}", summary);
+  const std::string said = checks_text(flow) + summary_text(options.output, flow);
+  if (speaks) fmt::print("{}", said);
   return static_cast<int>(ExitCode::done);
 }
 

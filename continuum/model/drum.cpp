@@ -17,12 +17,15 @@ double DrumGeometry::expected_Q() const {
 }
 
 DrumGeometry drum_geometry(const FlowScene& scene, double nu) {
+  const auto& asked = std::get<FlowDrum>(scene.geometry);
   const Scales scales = scales_of(scene);
   DrumGeometry drum;
-  drum.radius = 0.5e-3 * scene.drum.diameter_mm / scales.length_m;
-  drum.rotation = scene.drum.rotation_rpm * std::numbers::pi / 30 * scales.time_s;
+  drum.radius = 0.5e-3 * asked.diameter_mm / scales.length_m;
+  drum.rotation = asked.rotation_rpm * std::numbers::pi / 30 * scales.time_s;
+  if (asked.slope_deg) drum.slope = *asked.slope_deg * std::numbers::pi / 180;
   drum.nu = nu;
-  const double area = grain_area(scene.grains) / nu, whole = std::numbers::pi * drum.radius * drum.radius;
+  const double area = grain_area(scene.grains, scene.grains.count.value()) / nu,
+               whole = std::numbers::pi * drum.radius * drum.radius;
   if (area >= whole)
     throw InputError(
         {InputProblem{.file = "",
@@ -45,7 +48,7 @@ FlowProblem drum_problem(const DrumGeometry& drum, const StressLaw& law, const F
   problem.law = law;
   problem.regularisation = {regularisation.shear_rate, regularisation.pressure};
   problem.density = drum.nu;
-  problem.slope = SlopeFromMoment{};
+  problem.slope = drum.slope ? Slope(FixedSlope{*drum.slope}) : Slope(SlopeFromMoment{});
   problem.boundary[Side::top] = NormalSpring{boundary.surface_stiffness};
   problem.boundary[Side::bottom] = PrescribedVelocity{[drum, length = boundary.corner_taper](Vec2 point) {
     const double from_corner = std::hypot(std::abs(point.x) - drum.half_chord(), point.z);
@@ -58,7 +61,7 @@ FlowProblem drum_problem(const DrumGeometry& drum, const StressLaw& law, const F
 }
 
 FlowProblem drum_problem(const FlowScene& scene, const DrumGeometry& drum, const StressLaw& law) {
-  return drum_problem(drum, law, scene.mesh, scene.boundary, scene.regularisation);
+  return drum_problem(drum, law, scene.mesh, scene.boundary.value(), scene.regularisation);
 }
 
 }  // namespace drumlin

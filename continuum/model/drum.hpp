@@ -12,13 +12,14 @@ struct DrumGeometry {
   double axis_offset = 0;  ///< height of the axis above the surface
   double rotation = 0;     ///< positive in the sense of dv_x/dz
   double nu = 0;
+  std::optional<double> slope = {};  ///< rad, prescribed; absent: the one at which the surface has no moment
   double half_chord() const;
   /// nu Omega (R^2 - c^2)/2: what mass balance makes of any steady flow that nothing crosses at the surface.
   /// The solver never uses it; a check.
   double expected_Q() const;
 };
 
-/// Throws InputError if the grains, at the law's nu, do not fit into the drum.
+/// Of a scene with a drum. Throws InputError if the grains, at the law's nu, do not fit into the drum.
 DrumGeometry drum_geometry(const FlowScene& scene, double nu);
 
 /// Laboratory frame, fixed chord, slope from the moment of the surface traction; on the wall the drum's

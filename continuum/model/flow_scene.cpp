@@ -11,12 +11,45 @@ void describe(Visitor& v, FlowDrum& d) {
   v.value("diameter_mm", d.diameter_mm, required("mm", above(0, 1e6), "Inner diameter of the drum."));
   v.value("rotation_rpm", d.rotation_rpm,
           required("rpm", above(0, 1e4), "Speed of rotation; the flow runs towards +x."));
+  v.value(
+      "slope_deg", d.slope_deg,
+      when_given("deg", above(0, 89),
+                 "Slope of the surface, prescribed; absent: the one at which the surface has no moment."));
+}
+template <class Visitor>
+void describe(Visitor& v, FlowIncline& i) {
+  v.value("height_mm", i.height_mm, required("mm", above(0, 1e6), "Height of the layer."));
+  v.value("slope_deg", i.slope_deg, required("deg", above(0, 89), "Slope of the plane."));
+}
+template <class Visitor>
+void describe(Visitor& v, FlowPlaneShear& p) {
+  v.value("gap_mm", p.gap_mm, required("mm", above(0, 1e6), "Distance of the plates."));
+  v.value("wall_speed_mm_s", p.wall_speed_mm_s,
+          required("mm/s", above(0, 1e6), "Speed of the upper plate; the lower one rests."));
+  v.value("pressure_pa", p.pressure_pa, required("Pa", above(0, 1e9), "Pressure of the upper plate."));
+}
+template <class Visitor>
+void describe(Visitor& v, FlowChute& c) {
+  v.value("half_width_mm", c.half_width_mm,
+          required("mm", above(0, 1e6), "Half of the distance of the walls."));
+  v.value("pressure_pa", c.pressure_pa, required("Pa", above(0, 1e9), "Pressure of the walls."));
+}
+template <class Visitor>
+void describe(Visitor& v, FlowAnnulus& a) {
+  v.value("inner_radius_mm", a.inner_radius_mm,
+          required("mm", above(0, 1e6), "Radius of the inner cylinder."));
+  v.value("outer_radius_mm", a.outer_radius_mm,
+          required("mm", above(0, 1e6), "Radius of the outer cylinder, which rests."));
+  v.value("rotation_rpm", a.rotation_rpm, required("rpm", above(0, 1e4), "Speed of the inner cylinder."));
+  v.value("pressure_pa", a.pressure_pa, required("Pa", above(0, 1e9), "Pressure of the outer cylinder."));
 }
 template <class Visitor>
 void describe(Visitor& v, FlowGrains& g) {
   v.value(
       "count", g.count,
-      required("", at_least(1, 1e9), "Number of discs; with their diameters and the law's nu, the fill."));
+      when_given("", at_least(1, 1e9),
+                 "Number of discs; with their diameters and the law's nu, the fill of a drum, which needs "
+                 "it; elsewhere refused."));
   v.value("diameter_min_mm", g.diameter_min_mm, required("mm", above(0, 1e6), "Smallest diameter."));
   v.value("diameter_max_mm", g.diameter_max_mm,
           required("mm", above(0, 1e6), "Largest diameter; diameters are uniform between."));
@@ -24,16 +57,21 @@ void describe(Visitor& v, FlowGrains& g) {
 }
 template <class Visitor>
 void describe(Visitor& v, FlowGravity& g) {
-  v.value("acceleration_m_s2", g.acceleration_m_s2, defaulted("m/s2", above(0, 1e4), "Strength of gravity."));
+  v.value("acceleration_m_s2", g.acceleration_m_s2,
+          defaulted("m/s2", above(0, 1e4),
+                    "Strength of gravity; a part of the units even where no weight acts."));
 }
 template <class Visitor>
 void describe(Visitor& v, FlowMesh& m) {
   v.value("surface_cell", m.surface_cell,
-          defaulted("d", above(0, 100), "Largest cell near the surface, on the finest mesh."));
+          defaulted(
+              "d", above(0, 100),
+              "Largest cell near the surface, the driven wall, or the wall of a chute, on the finest mesh."));
   v.value("surface_zone", m.surface_zone,
-          defaulted("d", at_least(0, 1e4), "Depth down to which cells keep that size."));
-  v.value("growth", m.growth,
-          defaulted("", at_least(0, 1), "Growth of the cell size per unit of depth below, coarsest mesh."));
+          defaulted("d", at_least(0, 1e4), "Distance from there up to which cells keep that size."));
+  v.value(
+      "growth", m.growth,
+      defaulted("", at_least(0, 1), "Growth of the cell size per unit of distance beyond, coarsest mesh."));
   v.value("levels", m.levels,
           defaulted("", at_least(1, 5),
                     "Meshes, each twice as fine; the errors in flow.json compare the last two."));
@@ -69,9 +107,10 @@ void describe(Visitor& v, FlowSolverKeys& s) {
 }
 template <class Visitor>
 void describe(Visitor& v, FlowOutput& o) {
-  v.value(
-      "slice_width", o.slice_width,
-      defaulted("d", above(0, 1e4), "Width of the slice of the profiles, cut to a quarter of the chord."));
+  v.value("slice_width", o.slice_width,
+          when_given("d", above(0, 1e4),
+                     "Width of the slice of the profiles of a drum, 20 by default, cut to a quarter of the "
+                     "chord; elsewhere refused."));
   v.value("layer_thickness", o.layer_thickness, defaulted("d", above(0, 100), "Thickness of its layers."));
   v.value("map_spacing", o.map_spacing, defaulted("d", above(0, 100), "Spacing of the points of maps.csv."));
 }
@@ -81,17 +120,45 @@ void describe(Visitor& v, FlowScene& s) {
   v.value("title", s.title, defaulted("", anything(), "Title, for reports."));
   v.value("reduced", s.reduced,
           defaulted("", anything(), "Says \"reduced\" on every output: a trial, no result."));
-  v.table("drum", s.drum, Need::required, "The drum.");
-  v.table("grains", s.grains, Need::required, "The grains that fill it.");
+  v.one_table_of(s.geometry, "Geometry:", alternative<FlowDrum>("drum", "a rotating drum."),
+                 alternative<FlowIncline>("incline", "a layer on a rough plane, free at its top."),
+                 alternative<FlowPlaneShear>("plane_shear", "between two rough plates, no weight."),
+                 alternative<FlowChute>("chute", "between two rough upright walls."),
+                 alternative<FlowAnnulus>("annulus", "between two rough cylinders, no weight."));
+  v.table("grains", s.grains, Need::required, "The grains.");
   v.table("gravity", s.gravity, Need::defaulted, "Gravity.");
   v.table("mesh", s.mesh, Need::defaulted, "Finite-element meshes.");
-  v.table("boundary", s.boundary, Need::defaulted, "Drum wall and free surface.");
+  v.optional_table("boundary", s.boundary,
+                   "Wall and free surface of a drum, there its defaults when absent; elsewhere refused.");
   v.table("regularisation", s.regularisation, Need::defaulted, "Where the law is smoothed.");
   v.table("solver", s.solver, Need::defaulted, "When the solver may stop.");
   v.table("output", s.output, Need::defaulted, "Profiles and maps.");
 }
 
 namespace {
+
+// What only one geometry can make sense of is refused in the others: it would be read and mean nothing.
+void check_drum(const Document& document, FlowScene& scene, std::vector<InputProblem>& problems) {
+  const auto& drum = std::get<FlowDrum>(scene.geometry);
+  if (!scene.grains.count)
+    problems.push_back(
+        problem_at(document, "grains.count", "is missing; it gives the fill of the drum", "1 to 1000000000"));
+  if (scene.grains.diameter_max_mm > drum.diameter_mm)
+    problems.push_back(
+        problem_at(document, "grains.diameter_max_mm", "is larger than the drum", "<= drum.diameter_mm"));
+  if (!scene.boundary) scene.boundary.emplace();
+  if (!scene.output.slice_width) scene.output.slice_width = 20;
+}
+
+void refuse_keys_of_the_drum(const Document& document, const FlowScene& scene,
+                             std::vector<InputProblem>& problems) {
+  const auto refuse = [&](const char* path) {
+    problems.push_back(problem_at(document, path, "belongs to a drum", "absent without [drum]"));
+  };
+  if (scene.grains.count) refuse("grains.count");
+  if (scene.boundary) refuse("boundary");
+  if (scene.output.slice_width) refuse("output.slice_width");
+}
 
 FlowScene scene_of(const Document& document) {
   std::vector<InputProblem> problems;
@@ -100,9 +167,15 @@ FlowScene scene_of(const Document& document) {
     if (scene.grains.diameter_max_mm < scene.grains.diameter_min_mm)
       problems.push_back(problem_at(document, "grains.diameter_max_mm", "is smaller than diameter_min_mm",
                                     ">= diameter_min_mm"));
-    if (scene.grains.diameter_max_mm > scene.drum.diameter_mm)
+    if (std::holds_alternative<FlowDrum>(scene.geometry))
+      check_drum(document, scene, problems);
+    else
+      refuse_keys_of_the_drum(document, scene, problems);
+    if (const auto* ring = std::get_if<FlowAnnulus>(&scene.geometry);
+        ring && ring->outer_radius_mm <= ring->inner_radius_mm)
       problems.push_back(
-          problem_at(document, "grains.diameter_max_mm", "is larger than the drum", "<= drum.diameter_mm"));
+          problem_at(document, "annulus.outer_radius_mm", "leaves no gap", "> annulus.inner_radius_mm"));
+    sort_by_place(problems);
   }
   if (!problems.empty()) throw InputError(problems);
   return scene;
@@ -128,10 +201,10 @@ Scales scales_of(const FlowScene& scene) {
                    scene.gravity.acceleration_m_s2, scene.grains.density_kg_m3);
 }
 
-double grain_area(const FlowGrains& grains) {
+double grain_area(const FlowGrains& grains, int count) {
   const double mean = 0.5 * (grains.diameter_min_mm + grains.diameter_max_mm);
   const double spread = (grains.diameter_max_mm - grains.diameter_min_mm) / mean;
-  return grains.count * std::numbers::pi / 4 * (1 + spread * spread / 12);
+  return count * std::numbers::pi / 4 * (1 + spread * spread / 12);
 }
 
 }  // namespace drumlin

@@ -1,7 +1,9 @@
 #pragma once
-// What a user asks of the continuum: a drum, in SI as the keys say (docs/formats/flow.md).
+// What a user asks of the continuum: one geometry, in SI as the keys say (docs/formats/flow.md).
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "coupling/exchange/key_lister.hpp"
@@ -12,10 +14,37 @@ namespace drumlin {
 struct FlowDrum {
   double diameter_mm = 0;
   double rotation_rpm = 0;
+  std::optional<double> slope_deg;  ///< absent: found
 };
-/// The grains that fill the drum: their total area over the law's nu is the area of the flow domain.
+/// A layer on a rough plane, free at the top, endless along the slope.
+struct FlowIncline {
+  double height_mm = 0;
+  double slope_deg = 0;
+};
+/// Between two rough plates without weight: the lower one at rest, the upper one dragged and pressed.
+struct FlowPlaneShear {
+  double gap_mm = 0;
+  double wall_speed_mm_s = 0;
+  double pressure_pa = 0;
+};
+/// Between two rough upright walls, pressed together, the weight along them.
+struct FlowChute {
+  double half_width_mm = 0;
+  double pressure_pa = 0;
+};
+/// Between two rough cylinders without weight: the inner one turns, the outer one is at rest and pressed.
+struct FlowAnnulus {
+  double inner_radius_mm = 0;
+  double outer_radius_mm = 0;
+  double rotation_rpm = 0;
+  double pressure_pa = 0;
+};
+using FlowGeometry = std::variant<FlowDrum, FlowIncline, FlowPlaneShear, FlowChute, FlowAnnulus>;
+
+/// Their sizes and density give the units; in a drum, their total area over the law's nu is the area of the
+/// flow domain.
 struct FlowGrains {
-  int count = 0;
+  std::optional<int> count;    ///< of a drum alone
   double diameter_min_mm = 0;  ///< diameters uniform between the two
   double diameter_max_mm = 0;
   double density_kg_m3 = 0;
@@ -43,19 +72,19 @@ struct FlowSolverKeys {
   int max_iterations = 40;
 };
 struct FlowOutput {
-  double slice_width = 20;     ///< d
-  double layer_thickness = 1;  ///< d
-  double map_spacing = 0.5;    ///< d
+  std::optional<double> slice_width;  ///< d; of a drum alone, and always there
+  double layer_thickness = 1;         ///< d
+  double map_spacing = 0.5;           ///< d
 };
 
 struct FlowScene {
   std::string title;
   bool reduced = false;
-  FlowDrum drum;
+  FlowGeometry geometry;
   FlowGrains grains;
   FlowGravity gravity;
   FlowMesh mesh;
-  FlowBoundary boundary;
+  std::optional<FlowBoundary> boundary;  ///< of a drum alone, and always there
   FlowRegularisation regularisation;
   FlowSolverKeys solver;
   FlowOutput output;
@@ -71,7 +100,7 @@ std::vector<KeyRow> flow_scene_keys();
 
 /// d = mean of the smallest and largest diameter.
 Scales scales_of(const FlowScene& scene);
-/// Expected total area of the discs, d^2.
-double grain_area(const FlowGrains& grains);
+/// Expected total area of `count` discs, d^2.
+double grain_area(const FlowGrains& grains, int count);
 
 }  // namespace drumlin

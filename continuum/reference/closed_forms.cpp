@@ -108,4 +108,12 @@ double drum_centre_slope(const StressLaw& law, double nu, double kappa, double Q
   return slope_of_flux(law, nu, kappa, Q);
 }
 
+double annular_couette_speed(const LogLaw& law, double pressure, double inner_radius, double outer_radius,
+                             double mu_i, double r) {
+  const auto at = [&](double radius) {
+    return std::expint(mu_i * inner_radius * inner_radius / (law.b * radius * radius));
+  };
+  return 0.5 * r * std::sqrt(pressure) * std::exp(-law.a / law.b) * (at(r) - at(outer_radius));
+}
+
 }  // namespace drumlin

@@ -50,4 +50,10 @@ double drum_centre_flux(const LogLaw& law, const DrumCentre& centre);
 double drum_centre_slope(const LogLaw& law, double nu, double kappa, double Q);
 double drum_centre_slope(const StressLaw& law, double nu, double kappa, double Q);
 
+/// Annular Couette flow under the pressure P without weight: speed at the radius r between an inner wall that
+/// carries the friction mu_i and an outer wall at rest,
+/// v/r = sqrt(P)/2 e^(-a/b) (Ei(mu_i r_i^2/(b r^2)) - Ei(mu_i r_i^2/(b r_o^2))), since mu = mu_i r_i^2/r^2.
+double annular_couette_speed(const LogLaw& law, double pressure, double inner_radius, double outer_radius,
+                             double mu_i, double r);
+
 }  // namespace drumlin

@@ -1,15 +1,11 @@
 #include "continuum/sampling/drum_profiles.hpp"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <numbers>
 
 #include "coupling/exchange/profile_scalars.hpp"
-#include "coupling/exchange/text_file.hpp"
 
 namespace drumlin {
 namespace {
@@ -118,33 +114,34 @@ ScalarSet drum_scalars(const FlowField& field, const DrumGeometry& drum, const P
            {"I_th", read.I_th, {}}}};
 }
 
-void write_maps(const std::filesystem::path& file, const FlowField& field, const DrumGeometry& drum,
-                double spacing, bool reduced) {
-  std::vector<Vec2> points;
-  const int columns = static_cast<int>(drum.radius / spacing);
-  const int rows = static_cast<int>((drum.radius - drum.axis_offset) / spacing);
-  for (int row = 0; row <= rows; ++row)
-    for (int column = -columns; column <= columns; ++column) {
-      const Vec2 p{column * spacing, -row * spacing};
-      if (std::hypot(p.x, p.z - drum.axis_offset) < drum.radius) points.push_back(p);
-    }
-  const auto states = field.at(points);
-  if (!field.on_first_rank()) return;
-  std::string text = fmt::format(
-      "# drumlin-flow-maps-1\n# reduced = {}\n# spacing = {}\n# drum_radius = {}\n# axis_depth = {}\n"
-      "x,z,v_x,v_z,pressure,sigma_xx,sigma_zz,sigma_xz,I,mu,viscosity,well_posedness_margin\n",
-      reduced, spacing, drum.radius, drum.axis_offset);
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const PointState& s = states[k];
-    if (!std::isfinite(s.pressure)) continue;
-    const Vec2 v = in_drum_frame(drum, points[k], s.velocity);
-    fmt::format_to(std::back_inserter(text),
-                   "{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n",
-                   points[k].x, points[k].z, v.x, v.z, s.pressure, s.sigma_xx, s.sigma_zz, s.sigma_xz,
-                   2 * s.rate / std::sqrt(s.law_pressure), s.shear_stress / s.law_pressure, s.viscosity,
-                   s.well_posedness);
-  }
-  replace_file(file, text);
+ScalarSet drum_checks(const FlowField& field, const DrumGeometry& drum) {
+  const FlowIntegrals sums = field.integrals({0, drum.axis_offset});
+  const double supplied = sums.given_side_power + sums.weight_power;
+  // About the axis, sigma_nn at x turns as x sigma_nn: the moment of the surface, which a slope that was
+  // given leaves.
+  const double carried = sums.given_side_torque + sums.surface_moment;
+  return {{{"Q_expected", drum.expected_Q(), {}},
+           {"Q_relative_error", discharge(field, drum) / drum.expected_Q() - 1, {}},
+           {"surface_leak", sums.surface_leak, {}},
+           {"dissipation", sums.dissipation, {}},
+           {"wall_power", sums.given_side_power, {}},
+           {"weight_power", sums.weight_power, {}},
+           {"power_relative_error", sums.dissipation / supplied - 1, {}},
+           {"wall_torque", sums.given_side_torque, {}},
+           {"weight_torque", sums.weight_torque, {}},
+           {"torque_relative_error", carried / -sums.weight_torque - 1, {}},
+           {"surface_force", sums.surface_force, {}},
+           {"surface_moment", sums.surface_moment, {}}}};
+}
+
+MapArea drum_map_area(const DrumGeometry& drum) {
+  return {.x_min = -drum.radius,
+          .x_max = drum.radius,
+          .z_min = drum.axis_offset - drum.radius,
+          .z_max = 0,
+          .inside = [drum](Vec2 p) { return std::hypot(p.x, p.z - drum.axis_offset) < drum.radius; },
+          .seen = [drum](Vec2 point, Vec2 velocity) { return in_drum_frame(drum, point, velocity); },
+          .header = {{"drum_radius", drum.radius}, {"axis_depth", drum.axis_offset}}};
 }
 
 }  // namespace drumlin

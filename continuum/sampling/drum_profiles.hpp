@@ -1,11 +1,8 @@
 #pragma once
 // A solved drum as profiles, scalars and maps: what the particle side leaves too, with the same names.
-#include <filesystem>
-#include <string>
-#include <vector>
-
 #include "continuum/fem/flow_field.hpp"
 #include "continuum/model/drum.hpp"
+#include "continuum/sampling/flow_maps.hpp"
 #include "coupling/exchange/profile_set.hpp"
 #include "coupling/exchange/scalar_set.hpp"
 
@@ -28,9 +25,11 @@ double discharge(const FlowField& field, const DrumGeometry& drum);
 /// theta_deg, Q, H, lambda, shear_rate, I_th; the definitions of coupling/exchange/profile_scalars.hpp.
 ScalarSet drum_scalars(const FlowField& field, const DrumGeometry& drum, const ProfileSet& profiles);
 
-/// maps.csv: points of a square grid inside the drum with speed and velocity in the frame of the drum,
-/// pressure, stresses, I, mu, well-posedness margin. Written by the first rank. Throws IoError.
-void write_maps(const std::filesystem::path& file, const FlowField& field, const DrumGeometry& drum,
-                double spacing, bool reduced);
+/// Identities of the exact flow, each side computed by itself: Q against mass balance, dissipation against
+/// power, the torque of wall and surface against that of the weight about the axis.
+ScalarSet drum_checks(const FlowField& field, const DrumGeometry& drum);
+
+/// The part of the drum below the chord, velocities in its frame.
+MapArea drum_map_area(const DrumGeometry& drum);
 
 }  // namespace drumlin

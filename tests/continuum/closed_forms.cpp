@@ -113,5 +113,15 @@ TEST(DrumCentre, WithoutAGradientOfKIsBagnoldsFlow) {
   EXPECT_NEAR(drum_centre_rate(table, {0.82, 0, theta}, y) / bagnold, 1, 1e-7);
 }
 
+TEST(AnnularCouette, ObeysTheLawAtEveryRadius) {
+  const double P = 4, r_i = 20, r_o = 40, mu_i = 0.34, h = 1e-5;
+  EXPECT_NEAR(annular_couette_speed(paper, P, r_i, r_o, mu_i, r_o), 0, 1e-15);
+  for (const double r : {20.2, 21.0, 24.0}) {
+    const auto turning = [&](double at) { return annular_couette_speed(paper, P, r_i, r_o, mu_i, at) / at; };
+    const double rate = -r * (turning(r + h) - turning(r - h)) / (2 * h);
+    EXPECT_NEAR(paper.a + paper.b * std::log(rate / std::sqrt(P)), mu_i * r_i * r_i / (r * r), 1e-6);
+  }
+}
+
 }  // namespace
 }  // namespace drumlin

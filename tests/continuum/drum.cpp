@@ -18,7 +18,8 @@ TEST(DrumGeometry, GrainsCoverTheFlowDomainAtTheLawsVolumeFraction) {
   EXPECT_NEAR(drum.radius, 225 / 3.3, 1e-9);
   EXPECT_NEAR(drum.rotation, 0.0115, 5e-5);
   EXPECT_NEAR(drum.axis_offset, 3, 0.1);  // "at nu = 0.82 the surface lies 3 d below the axis"
-  EXPECT_NEAR(0.82 * segment_area(drum.radius, drum.axis_offset), grain_area(scene.grains), 1e-6);
+  EXPECT_NEAR(0.82 * segment_area(drum.radius, drum.axis_offset),
+              grain_area(scene.grains, *scene.grains.count), 1e-6);
 }
 
 TEST(DrumGeometry, AHalfFullDrumHasItsSurfaceAtTheAxis) {
@@ -38,6 +39,16 @@ TEST(DrumProblem, WallTurnsRigidlyAndRestsAtTheEndsOfTheSurface) {
   EXPECT_NEAR(lowest.z, 0, 1e-12);
   const Vec2 corner = wall.velocity({drum.half_chord(), 0});
   EXPECT_NEAR(std::hypot(corner.x, corner.z), 0, 1e-12);
+}
+
+TEST(DrumProblem, SlopeIsFoundUnlessPrescribed) {
+  FlowScene scene = paper_scene();
+  EXPECT_TRUE(std::holds_alternative<SlopeFromMoment>(
+      drum_problem(scene, drum_geometry(scene, 0.82), LogLaw{0.35, 0.013}).slope));
+  std::get<FlowDrum>(scene.geometry).slope_deg = 23;
+  const FlowProblem steep = drum_problem(scene, drum_geometry(scene, 0.82), LogLaw{0.35, 0.013});
+  EXPECT_NEAR(std::get<FixedSlope>(steep.slope).theta, 23 * std::numbers::pi / 180, 1e-15);
+  EXPECT_TRUE(no_steady_state(steep));
 }
 
 TEST(NoSteadyState, IsSaidOfASlopeThatTheLawCannotCarry) {

@@ -46,6 +46,67 @@ TEST(FlowScene, RefusesDiametersInTheWrongOrder) {
   EXPECT_THROW(parse_flow_scene(smallest, "test", {"drum.diameter_mm=3.2"}), InputError);
 }
 
+const std::string grains = R"([grains]
+diameter_min_mm = 3.0
+diameter_max_mm = 3.6
+density_kg_m3 = 2700
+)";
+
+std::string scene_with(const std::string& table) {
+  return "format = \"drumlin-flow-scene-1\"\n" + table + "\n" + grains;
+}
+
+std::string refusal(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  try {
+    parse_flow_scene(text, "test", overrides);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(FlowScene, TakesOneOfFiveGeometries) {
+  const std::vector<std::string> tables = {
+      "[incline]\nheight_mm = 66\nslope_deg = 18.5",
+      "[plane_shear]\ngap_mm = 66\nwall_speed_mm_s = 72\npressure_pa = 350",
+      "[chute]\nhalf_width_mm = 33\npressure_pa = 2400",
+      "[annulus]\ninner_radius_mm = 66\nouter_radius_mm = 132\nrotation_rpm = 13\npressure_pa = 350"};
+  for (std::size_t k = 0; k < tables.size(); ++k) {
+    const FlowScene scene = parse_flow_scene(scene_with(tables[k]), "test");
+    EXPECT_EQ(scene.geometry.index(), k + 1) << tables[k];  // the drum is the first
+    const std::string text = flow_scene_text(scene);
+    EXPECT_EQ(flow_scene_text(parse_flow_scene(text, "again")), text);
+    EXPECT_EQ(text.find("[boundary]"), std::string::npos) << "a table of the drum: " << text;
+  }
+  EXPECT_NE(refusal(scene_with("")).find("one table of drum, incline, plane_shear, chute, annulus"),
+            std::string::npos);
+  EXPECT_NE(refusal(scene_with(tables[0] + "\n" + tables[2])).find("excludes"), std::string::npos);
+}
+
+TEST(FlowScene, RefusesWhatMeansNothingInItsGeometry) {
+  const std::string chute = scene_with("[chute]\nhalf_width_mm = 33\npressure_pa = 2400");
+  for (const std::string key : {"grains.count=3", "boundary.corner_taper=3", "output.slice_width=3"}) {
+    const std::string said = refusal(chute, {key});
+    EXPECT_NE(said.find(key.substr(0, key.find_first_of(".="))), std::string::npos) << key << ": " << said;
+    EXPECT_NE(said.find("belongs to a drum"), std::string::npos) << key << ": " << said;
+  }
+  EXPECT_NE(refusal(scene_with("[drum]\ndiameter_mm = 150\nrotation_rpm = 15")).find("grains.count"),
+            std::string::npos);
+  EXPECT_NE(
+      refusal(
+          scene_with(
+              "[annulus]\ninner_radius_mm = 66\nouter_radius_mm = 60\nrotation_rpm = 13\npressure_pa = 350"))
+          .find("outer_radius_mm"),
+      std::string::npos);
+}
+
+TEST(FlowScene, FillsInWhatADrumHasByDefault) {
+  const FlowScene scene = parse_flow_scene(smallest, "test");
+  EXPECT_EQ(scene.boundary.value().corner_taper, 4);
+  EXPECT_EQ(scene.output.slice_width.value(), 20);
+  EXPECT_FALSE(std::get<FlowDrum>(scene.geometry).slope_deg);
+}
+
 TEST(FlowScene, ListsEveryKeyOnceWithASentence) {
   std::set<std::string> paths;
   for (const KeyRow& row : flow_scene_keys()) {
@@ -57,13 +118,15 @@ TEST(FlowScene, ListsEveryKeyOnceWithASentence) {
     EXPECT_TRUE(paths.contains(path)) << path;
 }
 
-TEST(FlowScene, ShippedScenesAreThoseOfTheParticles) {
+TEST(FlowScene, ShippedScenesAreRead) {
   const FlowScene full = read_flow_scene(DRUMLIN_DATA "/scenes/drum-6rpm-flow.toml");
   EXPECT_EQ(full.grains.count, 7183);
   EXPECT_FALSE(full.reduced);
   const FlowScene smoke = read_flow_scene(DRUMLIN_DATA "/scenes/drum-smoke-flow.toml");
   EXPECT_EQ(smoke.grains.count, 798);
   EXPECT_TRUE(smoke.reduced);
+  for (const char* name : {"incline", "plane-shear", "chute", "annulus"})
+    EXPECT_NO_THROW(read_flow_scene(DRUMLIN_DATA "/scenes/" + std::string(name) + "-flow.toml")) << name;
 }
 
 TEST(FlowScene, DocumentationHoldsEveryKey) {
