@@ -1,5 +1,6 @@
 #include "continuum/sampling/drum_profiles.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -104,6 +105,42 @@ double discharge(const FlowField& field, const DrumGeometry& drum) {
   return sum;
 }
 
+double flux_imbalance(const FlowField& field, const DrumGeometry& drum, int cuts) {
+  struct Cut {
+    Vec2 along;  // unit vector from the middle of the chord
+    double length = 0;
+  };
+  std::vector<Cut> lines;
+  std::vector<Vec2> points;
+  const int pieces = std::max(64, static_cast<int>(std::ceil(4 * drum.radius)));
+  const double c = drum.axis_offset;
+  for (int i = 0; i < cuts; ++i) {
+    const double angle = std::numbers::pi * ((i + 0.5) / cuts - 0.5);  // from the vertical
+    Cut cut{.along = {std::sin(angle), -std::cos(angle)}};
+    // |s along - (0, c)| = R.
+    cut.length = c * cut.along.z + std::sqrt(drum.radius * drum.radius - c * c * cut.along.x * cut.along.x);
+    for (int k = 0; k < pieces; ++k)
+      for (const GaussPoint& g : gauss) {
+        const double s = cut.length * (k + g.place) / pieces;
+        points.push_back({s * cut.along.x, s * cut.along.z});
+      }
+    lines.push_back(cut);
+  }
+  const auto states = field.at(points);
+  double largest = 0;
+  std::size_t k = 0;
+  for (const Cut& cut : lines) {
+    double net = 0;
+    for (int point = 0; point < pieces * static_cast<int>(gauss.size()); ++point, ++k) {
+      if (!std::isfinite(states[k].pressure)) continue;  // between the wall and its quadratic arc
+      const Vec2 u = states[k].velocity;
+      net += (-u.x * cut.along.z + u.z * cut.along.x) * gauss[k % gauss.size()].weight * cut.length / pieces;
+    }
+    largest = std::max(largest, std::abs(net));
+  }
+  return drum.nu * largest / drum.expected_Q();
+}
+
 ScalarSet drum_scalars(const FlowField& field, const DrumGeometry& drum, const ProfileSet& profiles) {
   const ProfileScalars read = profile_scalars(profiles);
   return {{{"theta_deg", field.theta() * 180 / std::numbers::pi, {}},
@@ -122,6 +159,7 @@ ScalarSet drum_checks(const FlowField& field, const DrumGeometry& drum) {
   const double carried = sums.given_side_torque + sums.surface_moment;
   return {{{"Q_expected", drum.expected_Q(), {}},
            {"Q_relative_error", discharge(field, drum) / drum.expected_Q() - 1, {}},
+           {"flux_imbalance", flux_imbalance(field, drum), {}},
            {"surface_leak", sums.surface_leak, {}},
            {"dissipation", sums.dissipation, {}},
            {"wall_power", sums.given_side_power, {}},

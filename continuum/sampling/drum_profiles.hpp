@@ -22,6 +22,12 @@ ProfileSet drum_profiles(const FlowField& field, const DrumGeometry& drum, const
 /// Q = integral of nu (v_x - Omega z') over the depth at x = 0, from the velocity alone.
 double discharge(const FlowField& field, const DrumGeometry& drum);
 
+/// Through each of `cuts` straight lines from the middle of the chord to the wall as much flows in (in the
+/// laboratory frame, against the sense of the rotation) as out: the largest |in - out| nu/Q of them, Q from
+/// mass balance. The wall turns along itself and nothing crosses the chord, so that 0 is exact at any fill;
+/// what is left is what the spring lets through and what the elements do not conserve.
+double flux_imbalance(const FlowField& field, const DrumGeometry& drum, int cuts = 33);
+
 /// theta_deg, Q, H, lambda, shear_rate, I_th; the definitions of coupling/exchange/profile_scalars.hpp.
 ScalarSet drum_scalars(const FlowField& field, const DrumGeometry& drum, const ProfileSet& profiles);
 
