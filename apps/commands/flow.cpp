@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "apps/commands.hpp"
+#include "apps/support/child_process.hpp"
 #include "coupling/exchange/errors.hpp"
 
 extern char** environ;
@@ -43,8 +44,7 @@ int exit_code_of(pid_t process, const fs::path& program) {
 }  // namespace
 
 int flow(const FlowOptions& options) {
-  const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / "drumlin-flow";
-  if (!fs::exists(program)) throw IoError(program.string() + ": is missing; it is built beside drumlin");
+  const fs::path program = program_beside("drumlin-flow");
   std::vector<std::string> words = words_of(options);
   words.insert(words.begin(), program.string());
   std::vector<char*> arguments;

@@ -2,11 +2,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "apps/commands.hpp"
+#include "apps/support/child_process.hpp"
+#include "apps/support/hard_case_json.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/output_folder.hpp"
 #include "coupling/exchange/errors.hpp"
@@ -18,10 +20,37 @@ namespace {
 
 constexpr const char* file_name = "hardcases.json";
 
+using Json = nlohmann::ordered_json;
+
+/// What the table calls a case. The continuum's run in drumlin-flow, which links deal.II.
+struct Listed {
+  std::string name;
+  bool fast = false;
+  const HardCase* particles = nullptr;  ///< null: one of the continuum
+};
+
+void ask_flow(const std::vector<std::string>& words, const std::function<void(const Json&)>& row) {
+  const auto program = program_beside("drumlin-flow");
+  std::vector<std::string> all = {"--hardcases"};
+  all.insert(all.end(), words.begin(), words.end());
+  const int code = run_for_lines(program, all, [&](const std::string& line) { row(Json::parse(line)); });
+  if (code != 0) throw IoError(fmt::format("{} --hardcases ended with {}", program.string(), code));
+}
+
+/// All cases, in the order of the table.
+std::vector<Listed> listed_cases() {
+  std::vector<Listed> all;
+  for (const HardCase& hard : hard_cases()) all.push_back({hard.name, hard.fast, &hard});
+  ask_flow({"--list"}, [&](const Json& row) {
+    all.push_back({row.at("name").get<std::string>(), row.at("fast").get<bool>(), nullptr});
+  });
+  return all;
+}
+
 /// In the order of the table, whatever the order of the names.
-std::vector<HardCase> chosen(const HardcasesOptions& options) {
-  std::vector<HardCase> cases;
-  for (const HardCase& hard : hard_cases()) {
+std::vector<Listed> chosen(const std::vector<Listed>& all, const HardcasesOptions& options) {
+  std::vector<Listed> cases;
+  for (const Listed& hard : all) {
     const bool named = options.names.empty() || std::find(options.names.begin(), options.names.end(),
                                                           hard.name) != options.names.end();
     if (named && (hard.fast || !options.fast)) cases.push_back(hard);
@@ -29,12 +58,11 @@ std::vector<HardCase> chosen(const HardcasesOptions& options) {
   return cases;
 }
 
-void refuse_unknown(const std::vector<std::string>& names) {
+void refuse_unknown(const std::vector<Listed>& all, const std::vector<std::string>& names) {
   std::string allowed;
-  for (const HardCase& hard : hard_cases()) allowed += (allowed.empty() ? "" : ", ") + hard.name;
+  for (const Listed& hard : all) allowed += (allowed.empty() ? "" : ", ") + hard.name;
   for (const std::string& name : names)
-    if (std::none_of(hard_cases().begin(), hard_cases().end(),
-                     [&name](const HardCase& hard) { return hard.name == name; }))
+    if (std::none_of(all.begin(), all.end(), [&name](const Listed& hard) { return hard.name == name; }))
       throw InputError(fmt::format("hardcases: {}: no case of this name (allowed: {})", name, allowed));
 }
 
@@ -67,43 +95,37 @@ void print_result(const HardCase& hard, const HardResult& result) {
   std::fflush(stdout);
 }
 
-nlohmann::ordered_json to_json(const HardCase& hard, const HardResult& result) {
-  nlohmann::ordered_json checks = nlohmann::ordered_json::array();
-  for (const HardCheck& check : result.checks) {
-    const char* const relation = check.relation == Relation::equals    ? "equals"
-                                 : check.relation == Relation::at_most ? "at_most"
-                                                                       : "at_least";
-    checks.push_back({{"what", check.what},
-                      {"relation", relation},
-                      {"expected", check.expected},
-                      {"got", check.got},
-                      {"tolerance", check.tolerance},
-                      {"reason", check.reason},
-                      {"holds", check.holds()}});
-  }
-  return {{"name", hard.name},         {"outcome", hard.outcome},   {"fast", hard.fast},
-          {"seconds", result.seconds}, {"passed", result.passed()}, {"checks", checks}};
-}
-
 }  // namespace
 
 int hardcases(const HardcasesOptions& options) {
-  refuse_unknown(options.names);
-  const auto cases = chosen(options);
+  const auto all = listed_cases();
+  refuse_unknown(all, options.names);
+  const auto cases = chosen(all, options);
   if (cases.empty()) throw InputError("hardcases: none of the cases named is a fast one");
   if (options.output) prepare_output(*options.output, options.existing, {file_name});
   fmt::print(row, "case", "what (d, sqrt(d/g), rho0 g d)", "expected", "got", "tolerance", "seconds",
              "verdict");
-  nlohmann::ordered_json results = nlohmann::ordered_json::array();
+  Json results = Json::array();
   std::size_t passed = 0;
   double seconds = 0;
-  for (const HardCase& hard : cases) {
-    const HardResult result = run_hard_case(hard);
+  const auto take = [&](const HardCase& hard, const HardResult& result) {
     print_result(hard, result);
     results.push_back(to_json(hard, result));
     passed += result.passed();
     seconds += result.seconds;
+  };
+  std::vector<std::string> of_flow;
+  for (const Listed& hard : cases) {
+    if (hard.particles)
+      take(*hard.particles, run_hard_case(*hard.particles));
+    else
+      of_flow.push_back(hard.name);
   }
+  if (!of_flow.empty())
+    ask_flow(of_flow, [&](const Json& json) {
+      const HardRow row_of_flow = hard_row(json);
+      take(row_of_flow.hard, row_of_flow.result);
+    });
   fmt::print("{} of {} cases passed, {:.1f} s\n", passed, cases.size(), seconds);
   if (options.output)
     write_json(*options.output / file_name, {{"format", "drumlin-hardcases-1"},

@@ -1,6 +1,6 @@
 // drumlin-flow: the continuum solve as a program of its own, so that `drumlin` starts without loading
 // deal.II. It takes the words of `drumlin flow`, whose command line it shares; `drumlin-flow --keys
-// [--markdown]` lists the keys of a flow scene.
+// [--markdown]` lists the keys of a flow scene, `--hardcases` runs cases for `drumlin hardcases`.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "apps/flow/flow_hardcases.hpp"
 #include "apps/flow/flow_run.hpp"
 #include "apps/support/command_line.hpp"
 #include "continuum/fem/runtime.hpp"
@@ -37,6 +38,10 @@ int solve(int argc, char** argv) {
     const bool markdown = argc > 2 && std::strcmp(argv[2], "--markdown") == 0;
     fmt::print("{}", markdown ? keys_as_markdown(flow_scene_keys()) : keys_as_text(flow_scene_keys()));
     return static_cast<int>(ExitCode::done);
+  }
+  if (argc > 1 && std::strcmp(argv[1], "--hardcases") == 0) {
+    const FemRuntime runtime(argc, argv);
+    return apps::flow_hardcases({argv + 2, argv + argc});
   }
   std::vector<const char*> words = {"drumlin", "flow"};
   words.insert(words.end(), argv + 1, argv + argc);
