@@ -3,7 +3,12 @@
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/lac/full_matrix.h>
 
+#include <array>
 #include <cmath>
+
+#include "continuum/fem/detail/cell_shapes.hpp"
+#include "continuum/fem/detail/friction_wall.hpp"
+#include "continuum/fem/detail/inertia_terms.hpp"
 
 namespace drumlin::fem {
 namespace {
@@ -11,54 +16,6 @@ namespace {
 using dealii::FEValues;
 using dealii::Vector;
 using Indices = std::vector<dealii::types::global_dof_index>;
-
-// Shape functions of one cell in the form that the integrals use. Q2-Q1 is primitive: each shape function has
-// one component.
-struct CellShapes {
-  unsigned int n = 0;
-  std::vector<unsigned int> component;
-  std::vector<PlaneTensor> rate;   // symmetric gradient, n per point
-  std::vector<double> divergence;  // n per point
-  std::vector<double> value;       // n per point
-
-  explicit CellShapes(const Discretisation& d) : n(d.elements.n_dofs_per_cell()), component(n) {
-    for (unsigned int i = 0; i < n; ++i) component[i] = d.elements.system_to_component_index(i).first;
-    rate.resize(n * d.quadrature.size());
-    divergence.resize(rate.size());
-    value.resize(rate.size());
-  }
-  void reinit(const FEValues<2>& fe) {
-    for (const unsigned int q : fe.quadrature_point_indices())
-      for (unsigned int i = 0; i < n; ++i) {
-        const auto k = q * n + i;
-        value[k] = fe.shape_value(i, q);
-        if (component[i] == 2) continue;
-        const auto g = fe.shape_grad(i, q);
-        rate[k] = component[i] == 0 ? PlaneTensor{g[0], 0, 0.5 * g[1]} : PlaneTensor{0, g[1], 0.5 * g[0]};
-        divergence[k] = g[component[i]];
-      }
-  }
-};
-
-struct PointValues {
-  PlaneTensor D;
-  double divergence = 0;
-  double p = 0;
-};
-
-PointValues point_values(const CellShapes& s, unsigned int q, const Vector<double>& local) {
-  PointValues at;
-  for (unsigned int i = 0; i < s.n; ++i) {
-    const auto k = q * s.n + i;
-    if (s.component[i] == 2) {
-      at.p += local[i] * s.value[k];
-    } else {
-      at.D = at.D + local[i] * s.rate[k];
-      at.divergence += local[i] * s.divergence[k];
-    }
-  }
-  return at;
-}
 
 double law_pressure(const LawPressure& setting, double p, double z) {
   return setting.share * p + (1 - setting.share) * (setting.surface - setting.gradient * z);
@@ -108,14 +65,48 @@ void add_point_tangent(const CellShapes& s, unsigned int q, const StressResponse
 }
 
 // The spring and the tractions on one side of a cell.
-void add_side(const BoundaryCondition& condition, const dealii::FEFaceValues<2>& face, const CellShapes& s,
+// The frame's own velocity at a point, which the unknown lacks.
+Vec2 frame_velocity_at(const FlowProblem& problem, const dealii::Point<2>& x) {
+  if (!problem.frame) return {};
+  return rigid_rotation(problem.frame->rotation, problem.frame->axis_offset, {x[0], x[1]});
+}
+
+void add_friction_wall(const FrictionWall& wall, const FlowProblem& problem, const Regularisation& r,
+                       const dealii::FEFaceValues<2>& face, unsigned int q, const CellShapes& s,
+                       const Vector<double>& local, Vector<double>& residual,
+                       dealii::FullMatrix<double>* matrix) {
+  const auto x = face.quadrature_point(q);
+  const std::array<double, 2> t = {-face.normal_vector(q)[1], face.normal_vector(q)[0]};
+  const Vec2 frame = frame_velocity_at(problem, x), moving = wall.velocity({x[0], x[1]});
+  double slip = (frame.x - moving.x) * t[0] + (frame.z - moving.z) * t[1], p = 0;
+  for (unsigned int i = 0; i < s.n; ++i)
+    if (const unsigned int c = s.component[i]; c == 2)
+      p += local[i] * face.shape_value(i, q);
+    else
+      slip += local[i] * face.shape_value(i, q) * t[c];
+  const WallFriction T = wall_friction(wall, r, slip, p);
+  for (unsigned int i = 0; i < s.n; ++i) {
+    if (s.component[i] == 2) continue;
+    const double at_i = face.shape_value(i, q) * t[s.component[i]] * face.JxW(q);
+    residual[i] += T.traction * at_i;
+    if (matrix)
+      for (unsigned int j = 0; j < s.n; ++j) {
+        const unsigned int cj = s.component[j];
+        (*matrix)(i, j) += (cj == 2 ? T.by_pressure : T.by_slip * t[cj]) * face.shape_value(j, q) * at_i;
+      }
+  }
+}
+
+void add_side(const BoundaryCondition& condition, const FlowProblem& problem,
+              const Regularisation& regularisation, const dealii::FEFaceValues<2>& face, const CellShapes& s,
               const Vector<double>& local, Vector<double>& residual, dealii::FullMatrix<double>* matrix) {
   for (const unsigned int q : face.quadrature_point_indices()) {
     const auto normal = face.normal_vector(q);
     const double JxW = face.JxW(q);
     const auto along_normal = [&](unsigned int i) { return face.shape_value(i, q) * normal[s.component[i]]; };
     if (const auto* spring = std::get_if<NormalSpring>(&condition)) {
-      double u_n = 0;
+      const Vec2 frame = frame_velocity_at(problem, face.quadrature_point(q));
+      double u_n = frame.x * normal[0] + frame.z * normal[1];
       for (unsigned int i = 0; i < s.n; ++i)
         if (s.component[i] != 2) u_n += local[i] * along_normal(i);
       for (unsigned int i = 0; i < s.n; ++i) {
@@ -135,14 +126,41 @@ void add_side(const BoundaryCondition& condition, const dealii::FEFaceValues<2>&
     } else if (const auto* pressed = std::get_if<PressedWall>(&condition)) {
       for (unsigned int i = 0; i < s.n; ++i)
         if (s.component[i] != 2) residual[i] += pressed->pressure * along_normal(i) * JxW;
+    } else if (const auto* wall = std::get_if<FrictionWall>(&condition)) {
+      add_friction_wall(*wall, problem, regularisation, face, q, s, local, residual, matrix);
     }
   }
+}
+
+// Takes nu times the acceleration of the material off the force; the unknown's frame does not matter.
+void add_inertia(const FlowProblem& problem, const InertiaSetting& inertia, const CellShapes& s,
+                 unsigned int q, const dealii::Point<2>& x, double JxW, const Vector<double>& local,
+                 const Vector<double>& before, Vec2& force, dealii::FullMatrix<double>* matrix) {
+  PointMotion at = point_motion(s, q, local);
+  const double per_time = inertia.time_step > 0 ? problem.density / inertia.time_step : 0;
+  if (per_time > 0) {
+    const PointMotion was = point_motion(s, q, before);
+    force.x -= per_time * (at.u[0] - was.u[0]);
+    force.z -= per_time * (at.u[1] - was.u[1]);
+  }
+  if (problem.frame) {
+    const Vec2 frame = frame_velocity_at(problem, x);
+    at.u[0] += frame.x;
+    at.u[1] += frame.z;
+    at.gradient[0][1] += problem.frame->rotation;
+    at.gradient[1][0] -= problem.frame->rotation;
+  }
+  const Vec2 convective = convective_acceleration(at);
+  const double density = inertia.share * problem.density;
+  force.x -= density * convective.x;
+  force.z -= density * convective.z;
+  if (matrix) add_inertia_tangent(s, q, at, density, per_time, JxW, *matrix);
 }
 
 template <class Law>
 void assemble(const FlowProblem& problem, const Discretisation& d, const Law& law, const Setting& setting,
               const State& state, const dealii::AffineConstraints<double>& constraints, FieldVector& residual,
-              dealii::PETScWrappers::MPI::SparseMatrix* matrix) {
+              dealii::PETScWrappers::MPI::SparseMatrix* matrix, bool forces_of_walls = false) {
   FEValues<2> fe(d.mapping, d.elements, d.quadrature,
                  dealii::update_values | dealii::update_gradients | dealii::update_JxW_values |
                      dealii::update_quadrature_points);
@@ -151,7 +169,8 @@ void assemble(const FlowProblem& problem, const Discretisation& d, const Law& la
                                    dealii::update_normal_vectors | dealii::update_quadrature_points);
   CellShapes shapes(d);
   Indices indices(shapes.n);
-  Vector<double> local(shapes.n), local_residual(shapes.n);
+  Vector<double> local(shapes.n), local_residual(shapes.n), local_before;
+  if (setting.inertia && setting.inertia->before) local_before.reinit(shapes.n);
   dealii::FullMatrix<double> local_matrix(shapes.n, shapes.n);
   residual = 0;
   if (matrix) *matrix = 0;
@@ -162,21 +181,27 @@ void assemble(const FlowProblem& problem, const Discretisation& d, const Law& la
     shapes.reinit(fe);
     cell->get_dof_indices(indices);
     cell->get_dof_values(state.solution, local);
+    if (local_before.size() > 0) cell->get_dof_values(*setting.inertia->before, local_before);
     local_residual = 0;
     local_matrix = 0;
     for (const unsigned int q : fe.quadrature_point_indices()) {
       const PointValues at = point_values(shapes, q, local);
       const double p = law_pressure(setting.pressure, at.p, fe.quadrature_point(q)[1]);
       const auto response = stress_response(law, setting.regularisation, at.D, p, state.dual[point++]);
-      add_point_residual(shapes, q, at, response.stress,
-                         body_force(problem, state.theta, fe.quadrature_point(q)), fe.JxW(q), local_residual);
+      Vec2 force = body_force(problem, state.theta, fe.quadrature_point(q));
+      if (setting.inertia)
+        add_inertia(problem, *setting.inertia, shapes, q, fe.quadrature_point(q), fe.JxW(q), local,
+                    local_before, force, matrix ? &local_matrix : nullptr);
+      add_point_residual(shapes, q, at, response.stress, force, fe.JxW(q), local_residual);
       if (matrix) add_point_tangent(shapes, q, response, setting.pressure.share, fe.JxW(q), local_matrix);
     }
     for (const unsigned int f : cell->face_indices())
       if (cell->face(f)->at_boundary())
-        if (const auto* condition = condition_on(problem, cell->face(f)->boundary_id())) {
+        if (const auto* condition = condition_on(problem, cell->face(f)->boundary_id());
+            condition && !(forces_of_walls && std::holds_alternative<FrictionWall>(*condition))) {
           face.reinit(cell, f);
-          add_side(*condition, face, shapes, local, local_residual, matrix ? &local_matrix : nullptr);
+          add_side(*condition, problem, setting.regularisation, face, shapes, local, local_residual,
+                   matrix ? &local_matrix : nullptr);
         }
     constraints.distribute_local_to_global(local_residual, indices, residual);
     if (matrix) constraints.distribute_local_to_global(local_matrix, indices, *matrix);
@@ -224,7 +249,9 @@ FieldVector nodal_forces(const FlowProblem& problem, const Discretisation& d, co
                          const State& state) {
   FieldVector forces = d.field();
   std::visit(
-      [&](const auto& law) { assemble(problem, d, law, setting, state, d.conforming, forces, nullptr); },
+      [&](const auto& law) {
+        assemble(problem, d, law, setting, state, d.conforming, forces, nullptr, true);
+      },
       setting.law);
   return forces;
 }

@@ -93,16 +93,18 @@ void remove_net_flux(const FlowProblem& problem, const Discretisation& d, Bounda
     if (value != 0) value -= flux / weight * flux_of[index];
 }
 
-// A pressed wall holds its material along itself alone: of the two velocities of each of its nodes, that
-// which lies nearer to the wall follows from the other. Where faces meet, the normal is their mean.
+// Some walls hold the material in one direction alone, a pressed wall along itself and one with friction
+// along its normal: of the two velocities of each of their nodes, the one that lies nearer to that direction
+// follows from the other. Where faces meet, the normal is their mean.
 struct WallNode {
   std::array<dealii::types::global_dof_index, 2> index;
   dealii::Point<2> place;
   dealii::Tensor<1, 2> normal;
-  const PressedWall* wall = nullptr;
+  bool along_wall = false;  // the direction that is held
+  Vec2 velocity;
 };
 
-std::vector<WallNode> pressed_nodes(const FlowProblem& problem, const Discretisation& d) {
+std::vector<WallNode> wall_nodes(const FlowProblem& problem, const Discretisation& d) {
   std::map<dealii::types::global_dof_index, WallNode> nodes;  // by the first of the two
   const dealii::Quadrature<1> places(d.elements.get_unit_face_support_points());
   dealii::FEFaceValues<2> face(d.mapping, d.elements, places,
@@ -113,8 +115,9 @@ std::vector<WallNode> pressed_nodes(const FlowProblem& problem, const Discretisa
     for (const unsigned int f : cell->face_indices()) {
       if (!cell->face(f)->at_boundary()) continue;
       const auto* condition = condition_on(problem, cell->face(f)->boundary_id());
-      const auto* wall = condition ? std::get_if<PressedWall>(condition) : nullptr;
-      if (!wall) continue;
+      const auto* pressed = condition ? std::get_if<PressedWall>(condition) : nullptr;
+      const auto* rough = condition ? std::get_if<FrictionWall>(condition) : nullptr;
+      if (!pressed && !rough) continue;
       face.reinit(cell, f);
       cell->face(f)->get_dof_indices(indices);
       std::array<std::vector<unsigned int>, 3> of_component;  // in the order of the nodes of the face
@@ -126,7 +129,13 @@ std::vector<WallNode> pressed_nodes(const FlowProblem& problem, const Discretisa
         node.index = {indices[i], indices[of_component[1][k]]};
         node.place = face.quadrature_point(i);
         node.normal += face.normal_vector(i);
-        node.wall = wall;
+        node.along_wall = pressed != nullptr;
+        const Vec2 place{node.place[0], node.place[1]};
+        node.velocity = pressed ? pressed->velocity(place) : rough->velocity(place);
+        if (problem.frame) {
+          const Vec2 rigid = rigid_rotation(problem.frame->rotation, problem.frame->axis_offset, place);
+          node.velocity = {node.velocity.x - rigid.x, node.velocity.z - rigid.z};
+        }
       }
     }
   }
@@ -135,20 +144,37 @@ std::vector<WallNode> pressed_nodes(const FlowProblem& problem, const Discretisa
   return list;
 }
 
-void constrain(const WallNode& node, bool with_velocity, dealii::AffineConstraints<double>& constraints) {
-  const dealii::Tensor<1, 2> along{{-node.normal[1], node.normal[0]}};
-  const int near = std::abs(along[0]) >= std::abs(along[1]) ? 0 : 1;
+void hold(const WallNode& node, bool with_velocity, dealii::AffineConstraints<double>& constraints) {
+  const dealii::Tensor<1, 2> held =
+      node.along_wall ? dealii::Tensor<1, 2>{{-node.normal[1], node.normal[0]}} : node.normal;
+  const int near = std::abs(held[0]) >= std::abs(held[1]) ? 0 : 1;
   const auto index = node.index[near];
   if (constraints.is_constrained(index) || !constraints.can_store_line(index)) return;
-  const Vec2 velocity = node.wall->velocity({node.place[0], node.place[1]});
   constraints.add_line(index);
-  if (along[1 - near] != 0)
-    constraints.add_entry(index, node.index[1 - near], -along[1 - near] / along[near]);
+  if (held[1 - near] != 0) constraints.add_entry(index, node.index[1 - near], -held[1 - near] / held[near]);
   if (with_velocity)
-    constraints.set_inhomogeneity(index, (velocity.x * along[0] + velocity.z * along[1]) / along[near]);
+    constraints.set_inhomogeneity(index,
+                                  (node.velocity.x * held[0] + node.velocity.z * held[1]) / held[near]);
 }
 
 }  // namespace
+
+FieldVector frame_velocity(const FlowProblem& problem, const Discretisation& d) {
+  FieldVector result = d.field();
+  const RotatingFrame& frame = problem.frame.value();
+  std::map<dealii::types::global_dof_index, dealii::Point<2>> places;
+  dealii::DoFTools::map_dofs_to_support_points(d.mapping, d.unknowns, places);
+  const auto along_x =
+      dealii::DoFTools::extract_dofs(d.unknowns, dealii::ComponentMask({true, false, false}));
+  for (std::size_t k = 0; k < d.is_velocity.size(); ++k) {
+    if (!d.is_velocity[k]) continue;
+    const auto i = d.owned.nth_index_in_set(k);
+    const Vec2 v = rigid_rotation(frame.rotation, frame.axis_offset, {places.at(i)[0], places.at(i)[1]});
+    result.local_element(k) = along_x.is_element(i) ? v.x : v.z;
+  }
+  result.update_ghost_values();
+  return result;
+}
 
 Discretisation::Discretisation(const FlowProblem& problem)
     : mesh(MPI_COMM_WORLD, dealii::Triangulation<2>::limit_level_difference_at_vertices),
@@ -190,7 +216,7 @@ void Discretisation::mark_given(const FlowProblem& problem) {
   std::set<dealii::types::boundary_id> sides;
   for (const auto& [side, condition] : problem.boundary)
     if (std::holds_alternative<PrescribedVelocity>(condition) ||
-        std::holds_alternative<PressedWall>(condition))
+        std::holds_alternative<PressedWall>(condition) || std::holds_alternative<FrictionWall>(condition))
       sides.insert(static_cast<int>(side));
   given.clear();
   if (!sides.empty())
@@ -206,7 +232,14 @@ void Discretisation::distribute_unknowns(const FlowProblem& problem) {
   const auto velocity = dealii::DoFTools::extract_dofs(unknowns, dealii::ComponentMask({true, true, false}));
   is_velocity.assign(owned.n_elements(), false);
   for (const auto index : velocity) is_velocity[owned.index_within_set(index)] = true;
+  constrain(problem);
 
+  pattern.reinit(unknowns.n_dofs(), unknowns.n_dofs(), relevant);
+  dealii::DoFTools::make_sparsity_pattern(unknowns, pattern, homogeneous, /*keep_constrained_dofs=*/false);
+  dealii::SparsityTools::distribute_sparsity_pattern(pattern, owned, mesh.get_communicator(), relevant);
+}
+
+void Discretisation::constrain(const FlowProblem& problem) {
   constraints.reinit(relevant);
   dealii::DoFTools::make_hanging_node_constraints(unknowns, constraints);
   if (const auto* box = std::get_if<BoxDomain>(&problem.domain); box && box->periodic_x)
@@ -214,6 +247,10 @@ void Discretisation::distribute_unknowns(const FlowProblem& problem) {
                                                    static_cast<int>(Side::right), 0, constraints);
   BoundaryValues values = prescribed_velocities(problem, *this);
   remove_net_flux(problem, *this, values);
+  if (problem.frame) {
+    const FieldVector rigid = frame_velocity(problem, *this);
+    for (auto& [index, value] : values) value -= rigid[index];
+  }
   homogeneous.reinit(relevant);
   homogeneous.merge(constraints);
   conforming.reinit(relevant);
@@ -225,17 +262,13 @@ void Discretisation::distribute_unknowns(const FlowProblem& problem) {
       constraints.set_inhomogeneity(index, value);
       homogeneous.add_line(index);
     }
-  for (const WallNode& node : pressed_nodes(problem, *this)) {
-    constrain(node, true, constraints);
-    constrain(node, false, homogeneous);
+  for (const WallNode& node : wall_nodes(problem, *this)) {
+    hold(node, true, constraints);
+    hold(node, false, homogeneous);
   }
   mark_given(problem);
   constraints.close();
   homogeneous.close();
-
-  pattern.reinit(unknowns.n_dofs(), unknowns.n_dofs(), relevant);
-  dealii::DoFTools::make_sparsity_pattern(unknowns, pattern, homogeneous, /*keep_constrained_dofs=*/false);
-  dealii::SparsityTools::distribute_sparsity_pattern(pattern, owned, mesh.get_communicator(), relevant);
 }
 
 }  // namespace drumlin::fem

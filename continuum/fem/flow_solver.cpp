@@ -41,6 +41,7 @@ class Newton {
         observer_(observer),
         moment_(fem::surface_moment(problem, d_)),
         system_(d_) {
+    if (problem.frame) frame_moment_ = moment_ * fem::frame_velocity(problem, d_);
     weight_norm_ = problem.density > 0 ? fem::load(d_, {0, problem.density}).l2_norm() : 0;
   }
 
@@ -72,6 +73,7 @@ class Newton {
   const FlowObserver& observer_;
   FieldVector moment_;
   fem::System system_;
+  double frame_moment_ = 0;  // of the velocity that the unknown lacks in a rotating frame
   double weight_norm_ = 0;
   double reference_ = 1;
 };
@@ -101,7 +103,7 @@ Newton::Step Newton::newton_step(const State& state) {
         std::max(step.linear_residual,
                  clock_(Work::linear_solves, [&] { return factors_.solve(by_theta, response); }));
     d_.homogeneous.distribute(response);
-    step.theta = -(moment_ * state.solution + moment_ * step.solution) / (moment_ * response);
+    step.theta = -(moment_ * state.solution + moment_ * step.solution + frame_moment_) / (moment_ * response);
     step.solution.add(step.theta, response);
   }
   step.solution.update_ghost_values();
@@ -198,8 +200,10 @@ bool Newton::solve(const Phase& phase, State& state) {
 }
 
 Setting final_setting(const FlowProblem& problem, double theta) {
-  return {
-      problem.law, problem.regularisation, {1, problem.surface_pressure, problem.density * std::cos(theta)}};
+  return {problem.law,
+          problem.regularisation,
+          {1, problem.surface_pressure, problem.density * std::cos(theta)},
+          std::nullopt};
 }
 
 // Everything before eps goes down: on the first mesh from a Newtonian fluid to the true pressure, on a finer
@@ -211,8 +215,7 @@ std::vector<Phase> first_phases(const FlowProblem& problem, const FlowSolverOpti
   setting.regularisation.shear_rate = std::max(
       problem.regularisation.shear_rate, first_mesh ? options.start_shear_rate : options.refined_shear_rate);
   if (!first_mesh) return {{"refined", setting, options.phase_tolerance}};
-  Setting newtonian = setting;
-  newtonian.law = NewtonianLaw{1};
+  const Setting newtonian{NewtonianLaw{1}, setting.regularisation, setting.pressure, std::nullopt};
   std::vector<Phase> list = {{"newtonian", newtonian, options.phase_tolerance}};
   for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
     setting.pressure.share = share;
@@ -228,7 +231,8 @@ bool run(Newton& newton, const Phase& phase, fem::SolvedLevel& level) {
 }
 
 // eps downwards; where a step fails it is halved (in ln eps) from the last solution that converged.
-bool lower_shear_rate(Newton& newton, const FlowSolverOptions& options, fem::SolvedLevel& level) {
+bool lower_shear_rate(Newton& newton, const FlowSolverOptions& options, double tolerance,
+                      fem::SolvedLevel& level) {
   const double last = level.problem.regularisation.shear_rate;
   double eps = level.setting.regularisation.shear_rate, factor = options.shear_rate_factor;
   Phase phase{"shear rate", level.setting, options.phase_tolerance};
@@ -236,7 +240,7 @@ bool lower_shear_rate(Newton& newton, const FlowSolverOptions& options, fem::Sol
     double next = std::max(last, eps * factor);
     if (next < 1.5 * last) next = last;
     phase.setting.regularisation.shear_rate = next;
-    phase.tolerance = next == last ? options.tolerance : options.phase_tolerance;
+    phase.tolerance = next == last ? tolerance : options.phase_tolerance;
     const State before = level.state;
     if (run(newton, phase, level)) {
       eps = next;
@@ -249,14 +253,48 @@ bool lower_shear_rate(Newton& newton, const FlowSolverOptions& options, fem::Sol
   return true;
 }
 
+// From slow flow to full inertia; a step that fails is halved.
+bool raise_inertia(Newton& newton, const FlowSolverOptions& options, fem::SolvedLevel& level) {
+  double share = 0, step = 1;
+  while (share < 1) {
+    const double next = std::min(1.0, share + step);
+    Phase phase{"inertia", level.setting, next < 1 ? options.phase_tolerance : options.tolerance};
+    phase.setting.inertia = fem::InertiaSetting{.share = next};
+    const State before = level.state;
+    if (run(newton, phase, level)) {
+      share = next;
+      continue;
+    }
+    step *= 0.5;
+    if (step < 0.01 || newton.was_interrupted()) return false;
+    level.state = before;
+  }
+  return true;
+}
+
 bool solve_on_mesh(Newton& newton, const FlowSolverOptions& options, bool first_mesh,
                    fem::SolvedLevel& level) {
   auto list = first_phases(level.problem, options, first_mesh, level.state.theta);
+  const bool inertia_follows = level.problem.inertia && first_mesh;
+  const double tolerance = inertia_follows ? options.phase_tolerance : options.tolerance;
   if (list.back().setting.regularisation.shear_rate <= level.problem.regularisation.shear_rate)
-    list.back().tolerance = options.tolerance;
-  for (const Phase& phase : list)
+    list.back().tolerance = tolerance;
+  for (Phase& phase : list) {
+    if (level.problem.inertia && !first_mesh) phase.setting.inertia = fem::InertiaSetting{};
     if (!run(newton, phase, level)) return false;
-  return lower_shear_rate(newton, options, level);
+  }
+  return lower_shear_rate(newton, options, tolerance, level) &&
+         (!inertia_follows || raise_inertia(newton, options, level));
+}
+
+// What others look at is in the frame of the laboratory.
+FlowField field_of(const std::shared_ptr<fem::SolvedLevel>& level) {
+  if (!level->problem.frame) return FlowField(level);
+  auto seen = std::make_shared<fem::SolvedLevel>(*level);
+  seen->state.solution += fem::frame_velocity(level->problem, *level->discretisation);
+  seen->state.solution.update_ghost_values();
+  seen->problem.frame = std::nullopt;
+  return FlowField(seen);
 }
 
 }  // namespace
@@ -286,7 +324,7 @@ FlowSolution solve_flow(const FlowProblem& problem, const FlowSolverOptions& opt
     for (std::size_t i = 0; i < fem::work_names.size(); ++i)
       report.phases.push_back(
           {fem::work_names[i], clock.seconds(static_cast<Work>(i)), clock.times(static_cast<Work>(i))});
-    return FlowSolution{report, FlowField(level)};
+    return FlowSolution{report, field_of(level)};
   };
   for (int mesh = 0; mesh < options.levels; ++mesh) {
     if (mesh > 0) clock(Work::refinement, [&] { d.refine(problem, state.solution); });
@@ -294,7 +332,7 @@ FlowSolution solve_flow(const FlowProblem& problem, const FlowSolverOptions& opt
     if (!solve_on_mesh(newton, options, mesh == 0, *level)) return finished(false);
     report.failure.clear();
     if (observer.level_finished)
-      clock(Work::evaluation, [&] { observer.level_finished(mesh, FlowField(level)); });
+      clock(Work::evaluation, [&] { observer.level_finished(mesh, field_of(level)); });
   }
   return finished(true);
 }

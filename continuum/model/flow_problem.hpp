@@ -71,7 +71,16 @@ struct PressedWall {
   std::function<Vec2(Vec2)> velocity;
   double pressure = 0;
 };
-using BoundaryCondition = std::variant<PrescribedVelocity, NormalSpring, Traction, PressedWall>;
+/// Wall that nothing passes and along which the material slides under Coulomb's law: tangential traction
+/// -friction p s/sqrt(s^2 + slip_speed^2) for the sliding speed s and the law's pressure p, which is the
+/// normal traction wherever the material shears along the wall without stretching. Below friction p it creeps
+/// at a speed of the order of slip_speed.
+struct FrictionWall {
+  std::function<Vec2(Vec2)> velocity;
+  double friction = 0;
+  double slip_speed = 1e-4;  ///< sqrt(g d); larger while eps is larger
+};
+using BoundaryCondition = std::variant<PrescribedVelocity, NormalSpring, Traction, PressedWall, FrictionWall>;
 
 /// Slope of the surface: given, or the unknown that makes the moment of the surface traction vanish (the side
 /// with the NormalSpring: integral of x sigma_nn dx = 0).
@@ -83,7 +92,16 @@ struct SlopeFromMoment {
 };
 using Slope = std::variant<FixedSlope, SlopeFromMoment>;
 
-/// Steady slow flow in the laboratory frame: 0 = -grad p + div tau + f, div u = 0. Inertia is absent.
+/// nu (du/dt + u.grad u) in the balance of momentum; steady flows have the second part alone.
+struct Inertia {};
+
+/// The unknown is u' = u - Omega x r, along the axes of the laboratory: the observer turns, the axes do not.
+/// D is that of u, inertia stays that of u: no answer depends on it.
+struct RotatingFrame {
+  double rotation = 0;     ///< positive in the sense of dv_x/dz
+  double axis_offset = 0;  ///< the observer turns about (0, axis_offset)
+};
+
 struct FlowProblem {
   Domain domain;
   std::map<Side, BoundaryCondition> boundary;
@@ -95,6 +113,8 @@ struct FlowProblem {
   double surface_pressure = 0;            ///< of the hydrostatic start, rho0 g d
   /// mu that statics alone asks for somewhere, where that is not the tan of a given slope.
   std::optional<double> needed_friction;
+  std::optional<Inertia> inertia;      ///< absent: slow flow, 0 = -grad p + div tau + f
+  std::optional<RotatingFrame> frame;  ///< absent: the laboratory's
 };
 
 /// Area of the part of a disc of this radius below a chord that lies `axis_offset` below its centre.

@@ -8,7 +8,9 @@ namespace {
 
 using namespace testing_boxes;
 
-TEST(AssembledTangent, IsTheDerivativeOfTheResidual) {
+void expect_tangent_of_residual(const FlowProblem& problem, bool inertia);
+
+FlowProblem small_segment() {
   FlowProblem problem;
   problem.domain = ChordDomain{
       .radius = 6, .axis_offset = 0.5, .surface_cell = 3, .surface_zone = 2};  // hanging nodes too
@@ -17,9 +19,31 @@ TEST(AssembledTangent, IsTheDerivativeOfTheResidual) {
   problem.slope = FixedSlope{0.3};
   problem.boundary[Side::top] = NormalSpring{100};
   problem.boundary[Side::bottom] = at_rest();
+  return problem;
+}
+
+TEST(AssembledTangent, IsTheDerivativeOfTheResidual) { expect_tangent_of_residual(small_segment(), false); }
+
+TEST(AssembledTangent, KnowsInertiaATurningFrameAndAWallWithFriction) {
+  FlowProblem problem = small_segment();
+  problem.frame = RotatingFrame{0.3, 0.5};
+  problem.boundary[Side::bottom] = FrictionWall{.velocity =
+                                                    [](Vec2 x) {
+                                                      return Vec2{0.2 * x.z, -0.2 * x.x};
+                                                    },
+                                                .friction = 0.5,
+                                                .slip_speed = 0.3};
+  expect_tangent_of_residual(problem, true);
+}
+
+void expect_tangent_of_residual(const FlowProblem& problem, bool inertia) {
   const fem::Discretisation d(problem);
-  const fem::Setting setting{
-      problem.law, {.shear_rate = 0.2, .pressure = 0.3}, {.share = 0.6, .surface = 0.5, .gradient = 0.7}};
+  const fem::FieldVector before = d.field();
+  fem::Setting setting{problem.law,
+                       {.shear_rate = 0.2, .pressure = 0.3},
+                       {.share = 0.6, .surface = 0.5, .gradient = 0.7},
+                       std::nullopt};
+  if (inertia) setting.inertia = fem::InertiaSetting{.share = 0.7, .time_step = 2, .before = &before};
 
   fem::State state;
   state.theta = 0.3;

@@ -20,11 +20,19 @@ struct LawPressure {
   double gradient = 0;  ///< of the hydrostatic part, per unit depth
 };
 
+/// How inertia enters one system.
+struct InertiaSetting {
+  double share = 1;                     ///< of nu u.grad u
+  double time_step = 0;                 ///< 0: steady
+  const FieldVector* before = nullptr;  ///< solution at the start of the time step
+};
+
 /// How one system is to be formed.
 struct Setting {
   StressLaw law;
   Regularisation regularisation;
   LawPressure pressure;
+  std::optional<InertiaSetting> inertia;  ///< absent: no such term
 };
 
 /// The matrix is given its pattern by the first assemble_tangent.
@@ -37,8 +45,8 @@ struct System {
 void assemble_residual(const FlowProblem&, const Discretisation&, const Setting&, const State&, System&);
 void assemble_tangent(const FlowProblem&, const Discretisation&, const Setting&, const State&, System&);
 
-/// The residual without the given velocities: its entries on a side with given velocity are the forces of
-/// that side on the material.
+/// The residual without the given velocities and without the friction of walls: its entries on a side that
+/// moves as it is told are the forces of that side on the material.
 FieldVector nodal_forces(const FlowProblem&, const Discretisation&, const Setting&, const State&);
 
 /// Load of the force density (x, z), constrained rows zero.

@@ -33,6 +33,8 @@ struct Discretisation {
   void refine(const FlowProblem& problem, FieldVector& solution);
   /// The same for the `share` of the cells with the largest error indicator (Kelly's, of the velocity).
   void refine_adaptively(const FlowProblem& problem, FieldVector& solution, double share);
+  /// Takes over other velocities on the same sides.
+  void constrain(const FlowProblem& problem);
   /// All zero.
   FieldVector field() const { return {owned, relevant, mesh.get_communicator()}; }
   double sum(double value) const;  ///< over the ranks
@@ -62,6 +64,9 @@ struct Discretisation {
 
 /// The coarsest mesh of a domain; boundary ids are the numbers of Side.
 void make_mesh(const Domain& domain, dealii::parallel::distributed::Triangulation<2>& mesh);
+
+/// The rigid rotation of the problem's frame, which has to be there, as a field: Q2 holds it exactly.
+FieldVector frame_velocity(const FlowProblem& problem, const Discretisation& d);
 
 /// Where a point lies on this rank's part of the mesh.
 struct PlaceOnMesh {

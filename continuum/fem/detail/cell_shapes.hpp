@@ -1,0 +1,60 @@
+#pragma once
+// Shape functions of a cell in the form that its integrals use. Private to fem/.
+#include <deal.II/fe/fe_values.h>
+
+#include <vector>
+
+#include "continuum/fem/detail/discretisation.hpp"
+#include "continuum/rheology/plane_tensor.hpp"
+
+namespace drumlin::fem {
+
+// Shape functions of one cell in the form that the integrals use. Q2-Q1 is primitive: each shape function has
+// one component.
+struct CellShapes {
+  unsigned int n = 0;
+  std::vector<unsigned int> component;
+  std::vector<PlaneTensor> rate;   // symmetric gradient, n per point
+  std::vector<double> divergence;  // n per point
+  std::vector<double> value;       // n per point
+
+  explicit CellShapes(const Discretisation& d) : n(d.elements.n_dofs_per_cell()), component(n) {
+    for (unsigned int i = 0; i < n; ++i) component[i] = d.elements.system_to_component_index(i).first;
+    rate.resize(n * d.quadrature.size());
+    divergence.resize(rate.size());
+    value.resize(rate.size());
+  }
+  void reinit(const dealii::FEValues<2>& fe) {
+    for (const unsigned int q : fe.quadrature_point_indices())
+      for (unsigned int i = 0; i < n; ++i) {
+        const auto k = q * n + i;
+        value[k] = fe.shape_value(i, q);
+        if (component[i] == 2) continue;
+        const auto g = fe.shape_grad(i, q);
+        rate[k] = component[i] == 0 ? PlaneTensor{g[0], 0, 0.5 * g[1]} : PlaneTensor{0, g[1], 0.5 * g[0]};
+        divergence[k] = g[component[i]];
+      }
+  }
+};
+
+struct PointValues {
+  PlaneTensor D;
+  double divergence = 0;
+  double p = 0;
+};
+
+inline PointValues point_values(const CellShapes& s, unsigned int q, const dealii::Vector<double>& local) {
+  PointValues at;
+  for (unsigned int i = 0; i < s.n; ++i) {
+    const auto k = q * s.n + i;
+    if (s.component[i] == 2) {
+      at.p += local[i] * s.value[k];
+    } else {
+      at.D = at.D + local[i] * s.rate[k];
+      at.divergence += local[i] * s.divergence[k];
+    }
+  }
+  return at;
+}
+
+}  // namespace drumlin::fem

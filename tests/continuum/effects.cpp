@@ -1,0 +1,85 @@
+// Effects of the continuum on a drum of 30 grains' width.
+#include "boxes.hpp"
+#include "continuum/model/drum.hpp"
+
+namespace drumlin {
+namespace {
+
+using namespace testing_boxes;
+
+constexpr DrumGeometry drum{.radius = 15, .axis_offset = 1, .rotation = 0.03, .nu = 0.82};
+
+FlowProblem small_drum(const DrumGeometry& geometry = drum) {
+  return drum_problem(geometry, LogLaw{0.35, 0.013}, {.surface_cell = 2, .surface_zone = 6, .levels = 1},
+                      {.corner_taper = 3}, {.shear_rate = 1e-3});
+}
+
+FlowSolverOptions one_mesh() {
+  FlowSolverOptions options;
+  options.levels = 1;
+  return options;
+}
+
+const std::vector<Vec2> places = {{0, -0.5}, {0, -3}, {5, -2}, {-6, -1}, {2, -9}};
+
+void expect_same_flow(const FlowField& a, const FlowField& b, double tolerance) {
+  EXPECT_NEAR(a.theta(), b.theta(), tolerance);
+  const auto here = a.at(places), there = b.at(places);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    EXPECT_NEAR(here[i].velocity.x, there[i].velocity.x, tolerance);
+    EXPECT_NEAR(here[i].velocity.z, there[i].velocity.z, tolerance);
+    EXPECT_NEAR(here[i].sigma_xz, there[i].sigma_xz, tolerance);
+  }
+}
+
+TEST(RotatingFrame, ChangesNoAnswerWithInertiaOrWithout) {
+  for (const bool inertia : {false, true}) {
+    FlowProblem laboratory = small_drum();
+    if (inertia) laboratory.inertia = Inertia{};
+    FlowProblem turning = laboratory;
+    turning.frame = RotatingFrame{drum.rotation, drum.axis_offset};
+    expect_same_flow(converged(laboratory, one_mesh()), converged(turning, one_mesh()), 1e-5);
+  }
+}
+
+TEST(Inertia, VanishesWithTheSquareOfTheSpeed) {
+  // Slow flow alone cannot tell twice the speed from twice the time; inertia changes the slope the less the
+  // slower.
+  const auto change = [](double rotation) {
+    DrumGeometry geometry = drum;
+    geometry.rotation = rotation;
+    FlowProblem slow = small_drum(geometry), with = slow;
+    with.inertia = Inertia{};
+    return converged(with, one_mesh()).theta() - converged(slow, one_mesh()).theta();
+  };
+  const double fast = change(0.04), half = change(0.02);
+  EXPECT_NEAR(fast / half, 4, 1.5);
+}
+
+FlowProblem drum_with_friction(double friction) {
+  FlowProblem problem = small_drum();
+  // The whole wall moves: where it meets the surface it slides along the material, and needs no taper.
+  const auto velocity = [](Vec2 x) { return rigid_rotation(drum.rotation, drum.axis_offset, x); };
+  problem.boundary[Side::bottom] = FrictionWall{.velocity = velocity, .friction = friction};
+  return problem;
+}
+
+TEST(FrictionWall, CarriesTheDrumLikeARoughWallWhereItIsRougherThanTheFlow) {
+  const double stuck = converged(small_drum(), one_mesh()).theta();
+  // They differ at the corners, where a wall that holds the material has to come to rest: 0.6 deg in so small
+  // a drum.
+  EXPECT_NEAR(converged(drum_with_friction(0.95), one_mesh()).theta(), stuck, 1 * degree);
+  // A rigid half disc that slides in a drum lies at a slope of the order of the wall's friction: less than
+  // the flow's.
+  EXPECT_LT(converged(drum_with_friction(0.05), one_mesh()).theta(), stuck - 8 * degree);
+}
+
+TEST(FrictionWall, DissipatesWhatItAndTheWeightSupply) {
+  const FlowField field = converged(drum_with_friction(0.3), one_mesh());
+  const FlowIntegrals sums = field.integrals({0, drum.axis_offset});
+  EXPECT_NEAR(sums.dissipation / (sums.given_side_power + sums.weight_power), 1, 2e-3);
+  EXPECT_NEAR(sums.given_side_torque / -sums.weight_torque, 1, 1e-3);
+}
+
+}  // namespace
+}  // namespace drumlin
