@@ -85,6 +85,7 @@ struct FlowOptions {
   std::filesystem::path scene;
   std::filesystem::path rheology;
   std::filesystem::path output;
+  std::optional<std::filesystem::path> from;  ///< FLOWRUN to start from; absent: cold
   std::vector<std::string> overrides;
   ExistingOutput existing = ExistingOutput::refuse;
 };

@@ -26,6 +26,7 @@ extern "C" void pass_on(int signal) {
 std::vector<std::string> words_of(const FlowOptions& options) {
   std::vector<std::string> words = {options.scene.string(), "--rheology", options.rheology.string(), "-o",
                                     options.output.string()};
+  if (options.from) words.insert(words.end(), {"--from", options.from->string()});
   for (const std::string& change : options.overrides) words.insert(words.end(), {"--set", change});
   if (options.existing == ExistingOutput::resume) words.push_back("--resume");
   if (options.existing == ExistingOutput::overwrite) words.push_back("--overwrite");

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "apps/flow/flow_state_file.hpp"
 #include "apps/support/figures.hpp"
 #include "apps/support/json_file.hpp"
 #include "coupling/exchange/text_file.hpp"
@@ -123,6 +124,7 @@ Json flow_json(const FinishedFlow& flow) {
   content["ill_posed_share"] = sums.ill_posed_area / sums.area;
   content["unknowns"] = result.unknowns;
   content["iterations"] = report.iterations;
+  content["start"] = report.start;
   content["residual"] = report.residual;
   content["seconds"] = report.seconds;
   content["ranks"] = flow.ranks;
@@ -159,8 +161,10 @@ void write_flow(const fs::path& folder, const FinishedFlow& flow) {
              flow.reduced);
   flow.solution.field.write_vtu(folder / "flow.vtu");
   const Json content = flow_json(flow);
+  const FlowState state = flow.solution.field.state();
   if (!flow.solution.field.on_first_rank()) return;
   write_profiles(folder / "profiles.csv", profiles);
+  write_flow_state(folder / "state.h5", state);
   // The figures read it under another name: flow.json itself says that all is there.
   const fs::path unfinished = folder / "flow.json.part";
   write_json(unfinished, content);

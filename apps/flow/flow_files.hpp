@@ -13,6 +13,7 @@ namespace drumlin::apps {
 
 /// Size and scalars of the flow on one mesh.
 struct MeshResult {
+  int level = 0;  ///< 0: the coarsest mesh of the scene
   int cells = 0;
   int unknowns = 0;
   ScalarSet scalars;
@@ -32,8 +33,8 @@ struct FinishedFlow {
 /// iterations.csv: one line per nonlinear iteration; also for a flow that did not converge.
 void write_iterations(const std::filesystem::path& file, const FlowReport& report);
 
-/// profiles.csv, maps.csv, flow.vtu, the figures, and last of all flow.json: where that stands, all is there.
-/// Collective; the first rank writes.
+/// profiles.csv, maps.csv, flow.vtu, state.h5, the figures, and last of all flow.json: where that stands, all
+/// is there. Collective; the first rank writes.
 void write_flow(const std::filesystem::path& folder, const FinishedFlow& flow);
 
 }  // namespace drumlin::apps

@@ -5,8 +5,10 @@
 #include <csignal>
 #include <cstdio>
 #include <numbers>
+#include <optional>
 
 #include "apps/flow/flow_files.hpp"
+#include "apps/flow/flow_state_file.hpp"
 #include "apps/support/interruption.hpp"
 #include "apps/support/output_folder.hpp"
 #include "continuum/sampling/flow_case.hpp"
@@ -65,9 +67,10 @@ std::string summary_text(const fs::path& folder, const FinishedFlow& flow) {
     text += fmt::format("{} {} {:.1f} ({} times)", phase.name == report.phases.front().name ? "" : ",",
                         phase.name, phase.seconds, phase.times);
   text += fmt::format(
-      "\n{}{}: {} iterations, {:.1f} s, residual {:.1e}, ill-posed in {:.2f} % of the area{}\n",
-      folder.string(), flow.reduced ? " (reduced)" : "", report.iterations, report.seconds, report.residual,
-      100 * share, share > 0 ? ": the flow there depends on the mesh (docs/formats/flow.md)" : "");
+      "\n{}{}: {} iterations ({}), {:.1f} s, residual {:.1e}, ill-posed in {:.2f} % of the area{}\n",
+      folder.string(), flow.reduced ? " (reduced)" : "", report.iterations, report.start, report.seconds,
+      report.residual, 100 * share,
+      share > 0 ? ": the flow there depends on the mesh (docs/formats/flow.md)" : "");
   return text;
 }
 
@@ -94,9 +97,12 @@ int solve_flow_scene(const FlowOptions& options, const FemRuntime& runtime) {
   const StressLaw law = stress_law(fit, options.rheology.string());
   const FlowCase chosen = flow_case(scene, fit.nu, law);
   const bool reduced = scene.reduced || fit.reduced;
+  std::optional<FlowState> neighbour;
+  if (options.from) neighbour = read_flow_state(*options.from);
   runtime.on_first_rank([&] {
-    prepare_output(options.output, options.existing, {"flow_scene.toml", "flow.json"},
-                   {options.scene, options.rheology});
+    std::vector<fs::path> inputs = {options.scene, options.rheology};
+    if (options.from) inputs.push_back(*options.from / "state.h5");
+    prepare_output(options.output, options.existing, {"flow_scene.toml", "flow.json"}, inputs);
     replace_file(options.output / "flow_scene.toml", flow_scene_text(scene));
     replace_file(options.output / "rheology.toml", file_text(options.rheology));
     fmt::print("{}{}: {}, nu = {:.3f}, {}{}\n", scene.title, reduced ? " (reduced)" : "", chosen.summary,
@@ -109,10 +115,14 @@ int solve_flow_scene(const FlowOptions& options, const FemRuntime& runtime) {
   if (speaks) observer.iteration = print_iteration;
   observer.interrupted = [] { return interruption() != 0; };
   observer.level_finished = [&](int level, const FlowField& field) {
-    meshes.push_back({field.cells(), field.unknowns(), chosen.scalars(field)});
+    // A neighbour that did not serve may have finished a mesh before: the cold start does them anew.
+    while (!meshes.empty() && meshes.back().level >= level) meshes.pop_back();
+    meshes.push_back({level, field.cells(), field.unknowns(), chosen.scalars(field)});
     if (speaks) print_mesh(level, meshes.back());
   };
-  const FlowSolution solution = solve_flow(chosen.problem, solver_options(scene), observer);
+  const FlowSolution solution =
+      neighbour ? solve_flow_from(*neighbour, chosen.problem, solver_options(scene), observer)
+                : solve_flow(chosen.problem, solver_options(scene), observer);
   runtime.on_first_rank([&] { write_iterations(options.output / "iterations.csv", solution.report); });
   if (const int signal = interruption(); signal != 0)
     return static_cast<int>(signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted);

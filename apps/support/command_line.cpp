@@ -142,9 +142,10 @@ class CommandLine {
     add_number(command, "--position", measure_.position, "d", anything(),
                "Place of the slice along the surface, from the middle of the drum, positive downslope");
     command
-        .add_option("--parts", measure_.parts,
-                    "What is measured beside the profiles, the rest is neither computed nor stored; none: nothing "
-                    "[all of gradients, slices, sensitivity, voronoi, forces, maps]")
+        .add_option(
+            "--parts", measure_.parts,
+            "What is measured beside the profiles, the rest is neither computed nor stored; none: nothing "
+            "[all of gradients, slices, sensitivity, voronoi, forces, maps]")
         ->delimiter(',')
         ->type_name("LIST");
     add_number(command, "--gradient-step", measure_.gradient_step, "d", above(0),
@@ -157,9 +158,10 @@ class CommandLine {
     add_number(command, "--map-width", measure_.map_width, "d", above(0),
                "Width of their kernel, 1 to 15 times the distance of the nodes");
     command
-        .add_option("--grains", measure_.grains,
-                    "Snapshots of which every grain's fields are written: all, last, or numbers and ranges such as "
-                    "1,5,10-20")
+        .add_option(
+            "--grains", measure_.grains,
+            "Snapshots of which every grain's fields are written: all, last, or numbers and ranges such as "
+            "1,5,10-20")
         ->type_name("LIST");
     add_existing(command, measure_.existing, keep_what_is_done);
   }
@@ -167,9 +169,10 @@ class CommandLine {
   /// Either one run is measured, or measured ones are studied together.
   void add_study(CLI::App& command) {
     command
-        .add_option("--study", study_.runs,
-                    "Measured runs to be studied together instead: laws over the speed of rotation, the paper's "
-                    "table, figures")
+        .add_option(
+            "--study", study_.runs,
+            "Measured runs to be studied together instead: laws over the speed of rotation, the paper's "
+            "table, figures")
         ->type_name("RUN...");
     command.add_option("-o,--output", study_.output, "Folder for the study; open its index.html")
         ->type_name("STUDY");
@@ -242,6 +245,8 @@ class CommandLine {
     add_folder_or_file(command, "--rheology", flow_.rheology, "RHEOLOGY.toml",
                        "Law, from calibrate or data/rheology");
     add_folder_or_file(command, "-o,--output", flow_.output, "FLOWRUN", "Folder for the results");
+    add_optional_path(command, "--from", flow_.from, "FLOWRUN",
+                      "Finished flow to start from: same geometry and mesh, other speed or law");
     add_overrides(command, flow_.overrides);
     add_existing(command, flow_.existing, keep_what_is_done);
   }

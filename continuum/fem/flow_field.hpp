@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "continuum/fem/flow_state.hpp"
 #include "continuum/model/flow_problem.hpp"
 
 namespace drumlin {
@@ -53,6 +54,8 @@ class FlowField {
   int cells() const;
   bool on_first_rank() const;  ///< the one that writes files and messages
   std::vector<PointState> at(std::span<const Vec2> points) const;
+  /// For another solve to start from (solve_flow_from).
+  FlowState state() const;
   /// Torques are taken about `centre`.
   FlowIntegrals integrals(Vec2 centre = {}) const;
   /// Velocity (laboratory frame), pressure, stresses, |D|, I, mu, viscosity, well_posedness_margin, each cell

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "continuum/fem/detail/direct_solver.hpp"
-#include "continuum/fem/detail/solved_level.hpp"
+#include "continuum/fem/detail/kept_state.hpp"
 #include "continuum/fem/detail/work_clock.hpp"
 #include "coupling/exchange/errors.hpp"
 
@@ -206,18 +206,15 @@ Setting final_setting(const FlowProblem& problem, double theta) {
           std::nullopt};
 }
 
-// Everything before eps goes down: on the first mesh from a Newtonian fluid to the true pressure, on a finer
-// one nothing but the return to a larger eps, from which the coarser solution is close enough.
-std::vector<Phase> first_phases(const FlowProblem& problem, const FlowSolverOptions& options, bool first_mesh,
-                                double theta) {
+// Everything before eps goes down on the first mesh: from a Newtonian fluid to the law at a large eps, where
+// it is nearly one.
+std::vector<Phase> cold_phases(const FlowProblem& problem, const FlowSolverOptions& options, double theta) {
   Setting setting = final_setting(problem, theta);
   if (std::holds_alternative<NewtonianLaw>(problem.law)) return {{"newtonian", setting, options.tolerance}};
-  setting.regularisation.shear_rate = std::max(
-      problem.regularisation.shear_rate, first_mesh ? options.start_shear_rate : options.refined_shear_rate);
-  if (!first_mesh) return {{"refined", setting, options.phase_tolerance}};
+  setting.regularisation.shear_rate = std::max(problem.regularisation.shear_rate, options.start_shear_rate);
   const Setting newtonian{NewtonianLaw{1}, setting.regularisation, setting.pressure, std::nullopt};
   std::vector<Phase> list = {{"newtonian", newtonian, options.phase_tolerance}};
-  for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+  for (const double share : options.pressure_shares) {
     setting.pressure.share = share;
     list.push_back({share == 0 ? "hydrostatic" : "pressure", setting, options.phase_tolerance});
   }
@@ -272,19 +269,15 @@ bool raise_inertia(Newton& newton, const FlowSolverOptions& options, fem::Solved
   return true;
 }
 
-bool solve_on_mesh(Newton& newton, const FlowSolverOptions& options, bool first_mesh,
-                   fem::SolvedLevel& level) {
-  auto list = first_phases(level.problem, options, first_mesh, level.state.theta);
-  const bool inertia_follows = level.problem.inertia && first_mesh;
-  const double tolerance = inertia_follows ? options.phase_tolerance : options.tolerance;
+bool solve_cold(Newton& newton, const FlowSolverOptions& options, fem::SolvedLevel& level) {
+  auto list = cold_phases(level.problem, options, level.state.theta);
+  const double tolerance = level.problem.inertia ? options.phase_tolerance : options.tolerance;
   if (list.back().setting.regularisation.shear_rate <= level.problem.regularisation.shear_rate)
     list.back().tolerance = tolerance;
-  for (Phase& phase : list) {
-    if (level.problem.inertia && !first_mesh) phase.setting.inertia = fem::InertiaSetting{};
+  for (const Phase& phase : list)
     if (!run(newton, phase, level)) return false;
-  }
   return lower_shear_rate(newton, options, tolerance, level) &&
-         (!inertia_follows || raise_inertia(newton, options, level));
+         (!level.problem.inertia || raise_inertia(newton, options, level));
 }
 
 // What others look at is in the frame of the laboratory.
@@ -297,10 +290,23 @@ FlowField field_of(const std::shared_ptr<fem::SolvedLevel>& level) {
   return FlowField(seen);
 }
 
-}  // namespace
+// From a solution nearby: that of a coarser mesh ("refined") or of another problem ("neighbour").
+bool solve_from(const std::string& name, Newton& newton, const FlowSolverOptions& options,
+                fem::SolvedLevel& level) {
+  const State before = level.state;
+  Phase phase{name, final_setting(level.problem, before.theta), options.tolerance};
+  if (level.problem.inertia) phase.setting.inertia = fem::InertiaSetting{};
+  if (run(newton, phase, level)) return true;
+  if (newton.was_interrupted() || !(phase.setting.regularisation.shear_rate < options.careful_shear_rate))
+    return false;
+  level.state = before;
+  phase.setting.regularisation.shear_rate = options.careful_shear_rate;
+  phase.tolerance = options.phase_tolerance;
+  return run(newton, phase, level) && lower_shear_rate(newton, options, options.tolerance, level);
+}
 
-FlowSolution solve_flow(const FlowProblem& problem, const FlowSolverOptions& options,
-                        const FlowObserver& observer) {
+FlowSolution solve(const FlowProblem& problem, const FlowSolverOptions& options, const FlowObserver& observer,
+                   const FlowState* neighbour) {
   if (const auto reason = no_steady_state(problem)) throw NotConvergedError(*reason);
   const double start = now();
   auto level = std::make_shared<fem::SolvedLevel>();
@@ -317,6 +323,7 @@ FlowSolution solve_flow(const FlowProblem& problem, const FlowSolverOptions& opt
   state.solution.update_ghost_values();
 
   FlowReport report;
+  report.start = neighbour ? "neighbour" : "cold";
   WorkClock clock;
   const auto finished = [&](bool converged) {
     report.converged = converged;
@@ -326,15 +333,56 @@ FlowSolution solve_flow(const FlowProblem& problem, const FlowSolverOptions& opt
           {fem::work_names[i], clock.seconds(static_cast<Work>(i)), clock.times(static_cast<Work>(i))});
     return FlowSolution{report, field_of(level)};
   };
-  for (int mesh = 0; mesh < options.levels; ++mesh) {
-    if (mesh > 0) clock(Work::refinement, [&] { d.refine(problem, state.solution); });
-    Newton newton(problem, options, d, mesh, start, clock, report, observer);
-    if (!solve_on_mesh(newton, options, mesh == 0, *level)) return finished(false);
+  int first = 0;
+  if (neighbour) {
+    for (; !fem::fits(d, *neighbour); ++first) {
+      if (first + 1 >= options.levels)
+        throw InputError(
+            "the state of the neighbouring flow lies on none of the meshes of this one: geometry, fill and "
+            "mesh have to be the same, speed and law may differ");
+      clock(Work::refinement, [&] { d.refine(problem, state.solution); });
+    }
+    fem::take_over(*neighbour, *level);
+  }
+  for (int mesh = first; mesh < options.levels; ++mesh) {
+    if (mesh > first) clock(Work::refinement, [&] { d.refine(problem, state.solution); });
+    FlowSolverOptions here = options;
+    if (mesh + 1 < options.levels) here.tolerance = std::max(options.tolerance, options.coarse_tolerance);
+    Newton newton(problem, here, d, mesh, start, clock, report, observer);
+    const bool converged = mesh > first ? solve_from("refined", newton, here, *level)
+                           : neighbour  ? solve_from("neighbour", newton, here, *level)
+                                        : solve_cold(newton, here, *level);
+    if (!converged) return finished(false);
     report.failure.clear();
     if (observer.level_finished)
       clock(Work::evaluation, [&] { observer.level_finished(mesh, field_of(level)); });
   }
   return finished(true);
+}
+
+}  // namespace
+
+FlowSolution solve_flow(const FlowProblem& problem, const FlowSolverOptions& options,
+                        const FlowObserver& observer) {
+  return solve(problem, options, observer, nullptr);
+}
+
+FlowSolution solve_flow_from(const FlowState& neighbour, const FlowProblem& problem,
+                             const FlowSolverOptions& options, const FlowObserver& observer) {
+  FlowSolution from = solve(problem, options, observer, &neighbour);
+  if (from.report.converged || from.report.failure == "interrupted") return from;
+
+  FlowSolution cold = solve(problem, options, observer, nullptr);
+  FlowReport& report = cold.report;
+  report.start = "cold, since from the neighbour: " + from.report.failure;
+  report.iterations += from.report.iterations;
+  report.seconds += from.report.seconds;
+  report.history.insert(report.history.begin(), from.report.history.begin(), from.report.history.end());
+  for (std::size_t i = 0; i < report.phases.size(); ++i) {
+    report.phases[i].seconds += from.report.phases[i].seconds;
+    report.phases[i].times += from.report.phases[i].times;
+  }
+  return cold;
 }
 
 }  // namespace drumlin

@@ -10,21 +10,25 @@
 namespace drumlin {
 
 struct FlowSolverOptions {
-  int levels = 2;                  ///< meshes, each with cells half as large; the last one carries the result
-  double start_shear_rate = 0.3;   ///< eps of the first phase, 1/sqrt(d/g)
-  double shear_rate_factor = 0.1;  ///< of eps from phase to phase; its square root where that fails
-  double refined_shear_rate = 1e-3;  ///< eps at which a finer mesh starts from the coarser solution
-  double phase_tolerance = 1e-2;     ///< on the residual, in all phases but the last of a mesh
-  double tolerance = 1e-8;           ///< on the residual in the last phase of each mesh
-  double linear_tolerance = 1e-6;    ///< on the true relative residual of every linear solve
-  int max_iterations = 40;           ///< per phase
+  int levels = 2;                 ///< meshes, each with cells half as large; the last one carries the result
+  double start_shear_rate = 0.3;  ///< eps of the first phase of a cold start, 1/sqrt(d/g)
+  double shear_rate_factor = 0.03;  ///< of eps from phase to phase; its square root where that fails
+  /// A finer mesh starts from the coarser solution, and a flow from its neighbour, at the last eps; where
+  /// that fails, at this one.
+  double careful_shear_rate = 1e-3;
+  std::vector<double> pressure_shares = {1};  ///< of the true pressure in the law, one phase each, up to 1
+  double phase_tolerance = 0.3;               ///< on the residual, in all phases but the last of a mesh
+  double coarse_tolerance = 1e-4;  ///< on the residual in the last phase of all meshes but the last one
+  double tolerance = 1e-8;         ///< on the residual in the last phase of the last mesh
+  double linear_tolerance = 1e-6;  ///< on the true relative residual of every linear solve
+  int max_iterations = 40;         ///< per phase
 };
 
 /// One nonlinear iteration.
 struct IterationReport {
   int level = 0;
-  std::string phase;          ///< "newtonian", "hydrostatic", "pressure", "shear rate", "refined"
-  double shear_rate = 0;      ///< eps of the phase
+  std::string phase;      ///< "newtonian", "hydrostatic", "pressure", "shear rate", "refined", "neighbour"
+  double shear_rate = 0;  ///< eps of the phase
   double pressure_share = 0;  ///< of the true pressure in the law
   int iteration = 0;          ///< within the phase
   double residual = 0;        ///< ||R||/||weight||, after the step
@@ -46,6 +50,7 @@ struct PhaseSeconds {
 struct FlowReport {
   bool converged = false;
   std::string failure;  ///< which phase, residual and last step; empty when converged
+  std::string start;    ///< "cold", "neighbour", or why the neighbour did not serve
   double residual = 0;
   int iterations = 0;  ///< over all phases and meshes
   double seconds = 0;
@@ -64,12 +69,18 @@ struct FlowSolution {
   FlowField field;  ///< the last iterate when not converged
 };
 
-/// Newtonian start, hydrostatic pressure in the law, homotopy to the true pressure, then eps downwards; on a
-/// finer mesh the coarser solution, from eps = refined_shear_rate on. Newton's tangent is primal-dual, its
-/// step length found on the slope R(u + alpha du).du. Throws NotConvergedError for a slope that admits no
-/// steady flow (no_steady_state); a Newton iteration that does not converge, or a linear solve that misses
-/// its tolerance, is in the report.
+/// Newtonian start, the law at a large eps, then eps downwards; on a finer mesh the coarser solution.
+/// Newton's tangent is primal-dual, its step length found on the slope R(u + alpha du).du. Throws
+/// NotConvergedError for a slope that admits no steady flow (no_steady_state); a Newton iteration that does
+/// not converge, or a linear solve that misses its tolerance, is in the report.
 [[nodiscard]] FlowSolution solve_flow(const FlowProblem& problem, const FlowSolverOptions& options = {},
                                       const FlowObserver& observer = {});
+
+/// The same from the state of a flow at another speed or with another law, on that mesh of the problem which
+/// fits the state and those after it; the meshes before are left out. Where that fails it starts over cold,
+/// and the report says so. Throws InputError when no mesh fits.
+[[nodiscard]] FlowSolution solve_flow_from(const FlowState& neighbour, const FlowProblem& problem,
+                                           const FlowSolverOptions& options = {},
+                                           const FlowObserver& observer = {});
 
 }  // namespace drumlin

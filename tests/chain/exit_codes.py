@@ -30,6 +30,7 @@ def main():
             "a folder in place of a file": [
                 ["run", full, "-o", output], ["calibrate", full, "-o", output], ["measure", full],
                 ["flow", full, "--rheology", law, "-o", output], ["flow", flow_scene, "--rheology", full, "-o", output],
+                ["flow", flow_scene, "--rheology", law, "--from", full, "-o", output],
                 ["compare", full, full, "-o", output], ["scene", "check", full], ["solve-contacts", full]],
             "a file in place of a folder": [
                 ["run", scene, "-o", full / "keep.txt"], ["measure", scene], ["compare", scene, scene, "-o", output],

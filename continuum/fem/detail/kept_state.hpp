@@ -1,0 +1,19 @@
+#pragma once
+// FlowState and a state on a mesh. Private to fem/.
+#include "continuum/fem/detail/solved_level.hpp"
+#include "continuum/fem/flow_state.hpp"
+
+namespace drumlin::fem {
+
+/// Collective; complete on every rank.
+FlowState kept_state(const SolvedLevel& level);
+
+/// Whether the mesh has exactly the cells of `kept`, each within a tenth of its size of where it was: then
+/// their values are values on this mesh.
+bool fits(const Discretisation& d, const FlowState& kept);
+
+/// Takes over what fits. Velocities are scaled to the given velocities of this problem (slow flow at another
+/// speed is nearly that), which then hold exactly.
+void take_over(const FlowState& kept, SolvedLevel& level);
+
+}  // namespace drumlin::fem

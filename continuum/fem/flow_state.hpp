@@ -1,0 +1,22 @@
+#pragma once
+// A flow as numbers apart from any mesh object or rank: what a run keeps, and another one starts from.
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace drumlin {
+
+/// Place of a cell in the refinement of the coarse mesh: deal.II's CellId as numbers.
+using CellPlace = std::array<std::uint32_t, 4>;
+
+/// Velocity and pressure on every cell, sorted by cell: the same for any number of ranks. Laboratory frame;
+/// d, sqrt(g d), rho0 g d.
+struct FlowState {
+  static constexpr int values_per_cell = 22;  ///< of Q2-Q1: two velocities at nine points, p at four
+  double theta = 0;                           ///< rad
+  std::vector<CellPlace> cells = {};
+  std::vector<double> centres = {};  ///< x, z per cell
+  std::vector<double> values = {};   ///< values_per_cell per cell, in the order of deal.II's element
+};
+
+}  // namespace drumlin

@@ -1,0 +1,63 @@
+// Starting from the state of another flow.
+#include <algorithm>
+
+#include "boxes.hpp"
+#include "continuum/model/drum.hpp"
+#include "coupling/exchange/errors.hpp"
+
+namespace drumlin {
+namespace {
+
+using namespace testing_boxes;
+
+FlowProblem drum_at(double rotation, double radius = 15) {
+  const DrumGeometry drum{.radius = radius, .axis_offset = 1, .rotation = rotation, .nu = 0.82};
+  return drum_problem(drum, LogLaw{0.35, 0.013}, {.surface_cell = 2, .surface_zone = 6, .levels = 2},
+                      {.corner_taper = 3}, {.shear_rate = 1e-3});
+}
+
+TEST(Neighbour, AnotherSpeedIsFoundInAFewIterations) {
+  const FlowState slow = converged(drum_at(0.025), {}).state();
+  const FlowSolution from = solve_flow_from(slow, drum_at(0.03));
+  ASSERT_TRUE(from.report.converged) << from.report.failure;
+  EXPECT_EQ(from.report.start, "neighbour");
+  EXPECT_LE(from.report.iterations, 6);
+  EXPECT_NEAR(from.field.theta(), converged(drum_at(0.03), {}).theta(), 1e-6);
+}
+
+TEST(Neighbour, AFlowStartedFromItselfStaysThere) {
+  const FlowField field = converged(drum_at(0.03), {});
+  const FlowSolution again = solve_flow_from(field.state(), drum_at(0.03));
+  ASSERT_TRUE(again.report.converged) << again.report.failure;
+  EXPECT_LE(again.report.iterations, 2);
+  EXPECT_NEAR(again.field.theta(), field.theta(), 1e-8);
+  const Vec2 point{1, -2};
+  EXPECT_NEAR(state_at(again.field, point).velocity.x, state_at(field, point).velocity.x, 1e-6);
+}
+
+TEST(Neighbour, IsKeptInTheOrderOfItsCells) {
+  const FlowState state = converged(drum_at(0.03), {}).state();
+  EXPECT_TRUE(std::is_sorted(state.cells.begin(), state.cells.end()));
+  EXPECT_EQ(state.centres.size(), 2 * state.cells.size());
+  EXPECT_EQ(state.values.size(), FlowState::values_per_cell * state.cells.size());
+}
+
+TEST(Neighbour, OfAnotherGeometryIsRefused) {
+  const FlowState other = converged(drum_at(0.03, 22), {}).state();
+  EXPECT_THROW((void)solve_flow_from(other, drum_at(0.03)), InputError);
+}
+
+TEST(Neighbour, ThatDoesNotServeGivesWayToAColdStart) {
+  FlowState broken = converged(drum_at(0.03), {}).state();
+  for (double& value : broken.values) value = 1e6 * std::sin(1e4 * value);
+  FlowSolverOptions options;
+  options.max_iterations = 12;
+  const FlowSolution cold = solve_flow_from(broken, drum_at(0.03), options);
+  ASSERT_TRUE(cold.report.converged) << cold.report.failure;
+  EXPECT_NE(cold.report.start.find("cold, since from the neighbour"), std::string::npos) << cold.report.start;
+  EXPECT_NEAR(cold.field.theta(), converged(drum_at(0.03), {}).theta(), 1e-6);
+  EXPECT_EQ(cold.report.iterations, static_cast<int>(cold.report.history.size()));
+}
+
+}  // namespace
+}  // namespace drumlin
