@@ -1,15 +1,13 @@
 // Finite elements across a gap against the solution by quadrature: order, balances, frames.
 #include "boxes.hpp"
 #include "continuum/sampling/gap_profiles.hpp"
+#include "gap_flows.hpp"
 
 namespace drumlin {
 namespace {
 
 using namespace testing_boxes;
-
-constexpr double nu = 0.82;
-// A steeper law than the paper's: its shear layers are wide enough for small meshes.
-const LogLaw steep{0.35, 0.05};
+using namespace testing_gaps;
 
 struct Solved {
   std::vector<double> mesh_errors;  ///< on each mesh
@@ -17,7 +15,8 @@ struct Solved {
   GapComparison comparison;
 };
 
-Solved solved(const Gap& gap, double cell, const FlowRegularisation& regularisation) {
+Solved solved(const GapFlow& flow) {
+  const auto& [gap, cell, regularisation] = flow;
   const FlowMesh mesh{.surface_cell = cell, .surface_zone = 100, .levels = 3};
   const FlowProblem problem = gap_problem(gap, steep, mesh, regularisation);
   FlowSolverOptions options;
@@ -46,24 +45,16 @@ void expect_balances(const FlowField& field, const Gap& gap, const char* of_wall
 }
 
 TEST(InclineFlow, ConvergesToItsSolutionWithTheOrderOfQ2) {
-  const Gap gap{
-      .depth = 10, .nu = nu, .weight = nu, .slope = 18 * degree, .scalars = {"surface_speed", "mu_wall"}};
-  // p_min takes the root of the shear rate away from the surface, where Q2 would be of order 2.
-  const Solved flow = solved(gap, 0.5, {.shear_rate = 1e-5, .pressure = 1});
+  const Gap gap = incline_flow().gap;
+  const Solved flow = solved(incline_flow());
   expect_order(flow);
   expect_balances(flow.field, gap, "force_relative_error");
   EXPECT_NEAR(gap_scalars(flow.field, gap).value("mu_wall"), std::tan(18 * degree), 1e-6);
 }
 
 TEST(ChuteFlow, ConvergesToItsSolutionWithTheOrderOfQ2) {
-  const Gap gap{.depth = 4,
-                .nu = nu,
-                .weight = nu,
-                .slope = 90 * degree,
-                .pressure = 11,
-                .flows_at_wall = true,
-                .scalars = {"Q", "mu_wall"}};
-  const Solved flow = solved(gap, 0.1, {.shear_rate = 1e-3, .pressure = 1e-3});
+  const Gap gap = chute_flow().gap;
+  const Solved flow = solved(chute_flow());
   expect_order(flow);
   expect_balances(flow.field, gap, "force_relative_error");
   EXPECT_NEAR(gap_scalars(flow.field, gap).value("mu_wall"), nu * 4 / 11, 1e-6);
@@ -88,9 +79,8 @@ TEST(PlaneShearFlow, IsExactUnderAPressedWall) {
 }
 
 TEST(AnnulusFlow, ConvergesToItsSolutionWithTheOrderOfQ2) {
-  const Gap gap{
-      .depth = 4, .inner_radius = 6, .nu = nu, .pressure = 4, .speed = 0.5, .scalars = {"torque", "mu_wall"}};
-  const Solved flow = solved(gap, 0.25, {.shear_rate = 1e-3, .pressure = 1e-3});
+  const Gap gap = annulus_flow().gap;
+  const Solved flow = solved(annulus_flow());
   expect_order(flow);
   expect_balances(flow.field, gap, "torque_relative_error");
   EXPECT_NEAR(gap_checks(flow.field, gap).value("Q_relative_error"), 0, 1e-6);

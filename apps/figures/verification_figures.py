@@ -1,0 +1,120 @@
+"""Figures of docs/verification.md from what benchmark_flow_verification measured.
+
+usage: verification_figures.py RESULT.json OUTPUT_FOLDER
+Writes verification-orders.png, verification-gaps.png and verification-checks.png, and prints the observed orders.
+"""
+
+import json
+import math
+import pathlib
+import sys
+
+import matplotlib.pyplot as plt
+import style
+
+NAMES = {"velocity": (r"velocity, $L_2$", 3), "gradient": (r"velocity gradient, $L_2$", 2),
+         "pressure": (r"pressure, $L_2$", 2)}
+
+
+def order(rows, name):
+    """Of the last halving."""
+    return math.log2(rows[-2][name] / rows[-1][name])
+
+
+def triangle(axes, rows, name, slope):
+    """Slope triangle below the last two points of a curve."""
+    (coarse, top), (fine, low) = [(row["cell"], 0.45 * row[name]) for row in rows[-2:]]
+    top = low * (coarse / fine) ** slope
+    axes.plot([fine, coarse, coarse, fine], [low, low, top, low], color="grey", linewidth=1)
+    axes.annotate(str(slope), (coarse, math.sqrt(low * top)), xytext=(4, 0), textcoords="offset points",
+                  va="center", color="grey")
+
+
+def mesh_axes(axes, title, label):
+    axes.set_title(title)
+    axes.set_xlabel(label)
+    axes.set_xscale("log", base=2)
+    axes.set_yscale("log")
+    axes.legend(loc="upper left")
+
+
+def draw_orders(data, folder):
+    figure, panels = plt.subplots(1, 2, figsize=(11, 4.6), sharey=True)
+    for axes, key, title in zip(panels, ("manufactured_newtonian", "manufactured_friction"),
+                                ("Newtonian fluid", r"$\mu(I)$, pressure-coupled")):
+        rows = data[key]
+        for (name, (label, slope)), color in zip(NAMES.items(), [style.PARTICLES, style.CONTINUUM, style.OTHERS[0]]):
+            axes.plot([row["cell"] for row in rows], [row[name] for row in rows], marker="o", color=color,
+                      label=f"{label}: {order(rows, name):.2f}")
+            if name != "gradient":
+                triangle(axes, rows, name, slope)
+        mesh_axes(axes, f"Manufactured flow: {title}", "cell / side of the box")
+    panels[0].set_ylabel("error")
+    style.save(figure, folder / "verification-orders.png", False)
+
+
+def draw_gaps(data, folder):
+    figure, panels = plt.subplots(1, 3, figsize=(14, 4.6), sharey=True)
+    for axes, key, title in zip(panels, ("incline", "chute", "annulus"),
+                                ("Incline (Bagnold)", "Upright chute", "Annular Couette flow")):
+        rows = data[key]
+        axes.plot([row["cell"] for row in rows], [row["velocity"] for row in rows], marker="o",
+                  label=f"same regularised law: {order(rows, 'velocity'):.2f}")
+        axes.plot([row["cell"] for row in rows], [row["closed_form"] for row in rows], marker="s", linestyle="--",
+                  label="law without regularisation")
+        triangle(axes, rows, "velocity", 3)
+        axes.set_ylim(1e-7, 20)
+        mesh_axes(axes, title, r"cell  [$d$]")
+    panels[0].set_ylabel(r"relative error of $v_x$, $L_2$")
+    style.save(figure, folder / "verification-gaps.png", False)
+
+
+def draw_checks(data, folder):
+    figure, panels = plt.subplots(1, 3, figsize=(14, 4.6))
+    rows = data["tangent"]
+    panels[0].loglog([row["h"] for row in rows], [row["error"] for row in rows], marker="o")
+    panels[0].set_title("Tangent against differences")
+    panels[0].set_xlabel("half width of the difference")
+    panels[0].set_ylabel("relative difference")
+    rows = data["changed_laws"]
+    exact = [row["closed_form"] for row in rows]
+    panels[1].plot([min(exact), max(exact)], [min(exact), max(exact)], color=style.PAPER, linewidth=1)
+    panels[1].plot(exact, [row["surface_speed"] for row in rows], "o", markersize=7, color=style.CONTINUUM)
+    for row in rows:
+        panels[1].annotate(rf"$a={row['a']:g}$, $b={row['b']:g}$", (row["closed_form"], row["surface_speed"]),
+                           xytext=(8, -10), textcoords="offset points", fontsize=10)
+    panels[1].set_xlim(6, 21.5)
+    panels[1].set_title("Other laws: surface of an incline")
+    panels[1].set_xlabel(r"closed form  [$\sqrt{gd}$]")
+    panels[1].set_ylabel(r"finite elements  [$\sqrt{gd}$]")
+    rows = data["drum"]
+    for name, label in (("flux_imbalance", "in - out, worst cut"), ("Q_relative_error", r"$Q$ at $x = 0$"),
+                        ("power_relative_error", "dissipation against power"),
+                        ("torque_relative_error", "torque, wall against weight")):
+        panels[2].plot([row["cell"] for row in rows], [abs(row[name]) for row in rows], marker="o", label=label)
+    mesh_axes(panels[2], "Balances of a small drum", r"cell  [$d$]")
+    panels[2].legend(loc="center left")
+    panels[2].set_ylabel("relative error")
+    style.save(figure, folder / "verification-checks.png", False)
+
+
+def main():
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    source, folder = map(pathlib.Path, sys.argv[1:])
+    data = json.loads(source.read_text(encoding="utf-8"))
+    if data.get("format") != "drumlin-flow-verification-1":
+        sys.exit(f"{source}: is not a verification of this version")
+    folder.mkdir(parents=True, exist_ok=True)
+    style.use_style()
+    draw_orders(data, folder)
+    draw_gaps(data, folder)
+    draw_checks(data, folder)
+    for key in ("manufactured_newtonian", "manufactured_friction"):
+        print(key, *(f"{name} {order(data[key], name):.2f}" for name in NAMES))
+    for key in ("incline", "chute", "annulus"):
+        print(key, f"velocity {order(data[key], 'velocity'):.2f}")
+
+
+if __name__ == "__main__":
+    main()
