@@ -113,6 +113,20 @@ Json phases_json(const FlowReport& report) {
   return phases;
 }
 
+// How large that is which the scene leaves out, where it is left out.
+Json left_out_json(const FinishedFlow& flow) {
+  const LeftOut rest = left_out(flow.solution.field);
+  const FlowEffects& effects = flow.scene.effects;
+  Json content = Json::object();
+  if (!effects.inertia) {
+    content["inertia_rms"] = rest.inertia_rms;
+    content["inertia_largest"] = rest.inertia_largest;
+  }
+  content["surface_height_rms"] = rest.surface_height_rms;
+  if (!effects.wall_slip) content["wall_above_friction_0.95"] = rest.wall_friction;
+  return content;
+}
+
 Json flow_json(const FinishedFlow& flow) {
   const MeshResult& result = flow.meshes.back();
   const FlowReport& report = flow.solution.report;
@@ -130,6 +144,7 @@ Json flow_json(const FinishedFlow& flow) {
   content["ranks"] = flow.ranks;
   content["phases"] = phases_json(report);
   content["checks"] = scalars_json(flow.flow_case.checks(flow.solution.field));
+  if (std::holds_alternative<FlowDrum>(flow.scene.geometry)) content["left_out"] = left_out_json(flow);
   content["closed_form"] = closed_form_json(flow);
   content["meshes"] = meshes_json(flow.meshes);
   content["mesh_change"] = mesh_change(flow.meshes);

@@ -71,6 +71,14 @@ std::string summary_text(const fs::path& folder, const FinishedFlow& flow) {
       folder.string(), flow.reduced ? " (reduced)" : "", report.iterations, report.start, report.seconds,
       report.residual, 100 * share,
       share > 0 ? ": the flow there depends on the mesh (docs/formats/flow.md)" : "");
+  if (!std::holds_alternative<FlowDrum>(flow.scene.geometry)) return text;
+  const LeftOut rest = left_out(flow.solution.field);
+  text += fmt::format(
+      "left out: {}inertia {:.2g} of gravity (rms; at most {:.2g}), a surface that would rise by {:.2g} d "
+      "(rms), {}"
+      "a wall share of {:.2g} that asks for friction above 0.95\n",
+      flow.scene.effects.inertia ? "not " : "", rest.inertia_rms, rest.inertia_largest,
+      rest.surface_height_rms, flow.scene.effects.wall_slip ? "not " : "", rest.wall_friction);
   return text;
 }
 

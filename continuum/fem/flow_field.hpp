@@ -48,6 +48,7 @@ struct FlowIntegrals {
 class FlowField {
  public:
   explicit FlowField(std::shared_ptr<const fem::SolvedLevel> level);
+  const fem::SolvedLevel& level() const { return *level_; }
 
   double theta() const;  ///< rad
   int unknowns() const;
@@ -66,5 +67,17 @@ class FlowField {
  private:
   std::shared_ptr<const fem::SolvedLevel> level_;
 };
+
+/// How large that is which a flow without an effect leaves out, from the flow itself: estimates, no errors of
+/// results.
+struct LeftOut {
+  double inertia_rms = 0;         ///< of |u.grad u| over gravity, over the area
+  double inertia_largest = 0;     ///< at the quadrature points
+  double surface_height_rms = 0;  ///< d: of the height sigma_nn/(nu cos theta) that would take the place of
+                                  ///< the traction which holds the surface to the chord
+  double wall_friction = 0;  ///< share of the wall that asks for a shear stress above 0.95 of the pressure
+};
+/// Collective.
+LeftOut left_out(const FlowField& field);
 
 }  // namespace drumlin

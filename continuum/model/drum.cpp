@@ -61,7 +61,15 @@ FlowProblem drum_problem(const DrumGeometry& drum, const StressLaw& law, const F
 }
 
 FlowProblem drum_problem(const FlowScene& scene, const DrumGeometry& drum, const StressLaw& law) {
-  return drum_problem(drum, law, scene.mesh, scene.boundary.value(), scene.regularisation);
+  FlowProblem problem = drum_problem(drum, law, scene.mesh, scene.boundary.value(), scene.regularisation);
+  if (scene.effects.inertia) problem.inertia = Inertia{};
+  if (scene.effects.rotating_frame) problem.frame = RotatingFrame{drum.rotation, drum.axis_offset};
+  if (const auto& slip = scene.effects.wall_slip)  // no taper: the wall slides along the corners
+    problem.boundary[Side::bottom] = FrictionWall{
+        .velocity = [drum](Vec2 point) { return rigid_rotation(drum.rotation, drum.axis_offset, point); },
+        .friction = slip->friction,
+        .slip_speed = slip->slip_speed};
+  return problem;
 }
 
 }  // namespace drumlin

@@ -106,6 +106,25 @@ void describe(Visitor& v, FlowSolverKeys& s) {
           defaulted("", at_least(1, 10000), "Newton iterations per phase."));
 }
 template <class Visitor>
+void describe(Visitor&, FlowInertia&) {}
+template <class Visitor>
+void describe(Visitor&, FlowRotatingFrame&) {}
+template <class Visitor>
+void describe(Visitor& v, FlowWallSlip& s) {
+  v.value("friction", s.friction,
+          required("", above(0, 2), "Coulomb friction of the wall against the grains."));
+  v.value("slip_speed", s.slip_speed,
+          defaulted("sqrt(g d)", above(0, 1),
+                    "Speed at which friction is nearly full; a wall that holds creeps at a part of it."));
+}
+template <class Visitor>
+void describe(Visitor& v, FlowEffects& e) {
+  v.optional_table("inertia", e.inertia, "nu u.grad u in the balance of momentum.");
+  v.optional_table("rotating_frame", e.rotating_frame,
+                   "The solver's velocity is that seen from the drum; no answer changes.");
+  v.optional_table("wall_slip", e.wall_slip, "The material slides along the wall under Coulomb's law.");
+}
+template <class Visitor>
 void describe(Visitor& v, FlowOutput& o) {
   v.value("slice_width", o.slice_width,
           when_given("d", above(0, 1e4),
@@ -130,6 +149,7 @@ void describe(Visitor& v, FlowScene& s) {
   v.table("mesh", s.mesh, Need::defaulted, "Finite-element meshes.");
   v.optional_table("boundary", s.boundary,
                    "Wall and free surface of a drum, there its defaults when absent; elsewhere refused.");
+  v.table("effects", s.effects, Need::defaulted, "What is simulated beyond slow flow; of a drum alone.");
   v.table("regularisation", s.regularisation, Need::defaulted, "Where the law is smoothed.");
   v.table("solver", s.solver, Need::defaulted, "When the solver may stop.");
   v.table("output", s.output, Need::defaulted, "Profiles and maps.");
@@ -157,6 +177,9 @@ void refuse_keys_of_the_drum(const Document& document, const FlowScene& scene,
   };
   if (scene.grains.count) refuse("grains.count");
   if (scene.boundary) refuse("boundary");
+  if (scene.effects.inertia) refuse("effects.inertia");
+  if (scene.effects.rotating_frame) refuse("effects.rotating_frame");
+  if (scene.effects.wall_slip) refuse("effects.wall_slip");
   if (scene.output.slice_width) refuse("output.slice_width");
 }
 

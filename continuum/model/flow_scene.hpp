@@ -71,6 +71,19 @@ struct FlowSolverKeys {
   double linear_tolerance = 1e-6;
   int max_iterations = 40;
 };
+/// Takes no key: naming it is all.
+struct FlowInertia {};
+struct FlowRotatingFrame {};
+struct FlowWallSlip {
+  double friction = 0;       ///< of the wall against the grains
+  double slip_speed = 1e-4;  ///< sqrt(g d)
+};
+/// Absent unless named.
+struct FlowEffects {
+  std::optional<FlowInertia> inertia;
+  std::optional<FlowRotatingFrame> rotating_frame;
+  std::optional<FlowWallSlip> wall_slip;
+};
 struct FlowOutput {
   std::optional<double> slice_width;  ///< d; of a drum alone, and always there
   double layer_thickness = 1;         ///< d
@@ -85,6 +98,7 @@ struct FlowScene {
   FlowGravity gravity;
   FlowMesh mesh;
   std::optional<FlowBoundary> boundary;  ///< of a drum alone, and always there
+  FlowEffects effects;                   ///< of a drum alone
   FlowRegularisation regularisation;
   FlowSolverKeys solver;
   FlowOutput output;

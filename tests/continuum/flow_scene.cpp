@@ -31,6 +31,17 @@ TEST(FlowScene, ReadsBackWhatItWrites) {
   EXPECT_EQ(scene.regularisation.pressure, 0.125);
 }
 
+TEST(FlowScene, HasTheEffectsThatItNames) {
+  EXPECT_FALSE(parse_flow_scene(smallest, "test").effects.inertia);
+  const FlowScene scene =
+      parse_flow_scene(smallest + "[effects.inertia]\n[effects.wall_slip]\nfriction = 0.95\n", "test");
+  EXPECT_TRUE(scene.effects.inertia);
+  EXPECT_FALSE(scene.effects.rotating_frame);
+  EXPECT_EQ(scene.effects.wall_slip.value().friction, 0.95);
+  EXPECT_THROW(parse_flow_scene(smallest + "[effects.wall_slip]\n", "test"), InputError);
+  EXPECT_THROW(parse_flow_scene(smallest + "[effects.inertia]\nshare = 1\n", "test"), InputError);
+}
+
 TEST(FlowScene, ReportsEveryProblemAtOnce) {
   try {
     parse_flow_scene(smallest + "[mesh]\nlevels = 0\nsurface_cel = 1\n", "test", {"drum.rotation_rpm=-3"});
