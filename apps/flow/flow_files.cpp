@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "apps/flow/flow_sensitivity.hpp"
 #include "apps/flow/flow_state_file.hpp"
 #include "apps/support/figures.hpp"
 #include "apps/support/json_file.hpp"
@@ -127,6 +128,20 @@ Json left_out_json(const FinishedFlow& flow) {
   return content;
 }
 
+Json sensitivity_json(const FinishedFlow& flow) {
+  if (flow.sensitivities.empty()) return nullptr;
+  Json list = Json::array();
+  for (const Sensitivity& s : flow.sensitivities) {
+    Json entry{{"setting", s.setting}, {"found", s.found}, {"iterations", s.iterations}};
+    entry["profile"] = to_json(Scalar{"profile", s.found ? s.profile : std::nan(""), {}});
+    Json changes = Json::object();
+    if (s.found) add_scalars(changes, s.changes);
+    entry["changes"] = changes;
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
 Json flow_json(const FinishedFlow& flow) {
   const MeshResult& result = flow.meshes.back();
   const FlowReport& report = flow.solution.report;
@@ -148,6 +163,7 @@ Json flow_json(const FinishedFlow& flow) {
   content["closed_form"] = closed_form_json(flow);
   content["meshes"] = meshes_json(flow.meshes);
   content["mesh_change"] = mesh_change(flow.meshes);
+  content["sensitivity"] = sensitivity_json(flow);
   content["settings"] = settings_json(flow);
   content["provenance"] = to_json(provenance());
   return content;

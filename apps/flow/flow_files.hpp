@@ -19,6 +19,8 @@ struct MeshResult {
   ScalarSet scalars;
 };
 
+struct Sensitivity;
+
 /// Everything that describes one finished flow.
 struct FinishedFlow {
   const FlowScene& scene;
@@ -28,6 +30,7 @@ struct FinishedFlow {
   const std::vector<MeshResult>& meshes;  ///< the last one carries the result
   bool reduced = false;
   int ranks = 1;
+  const std::vector<Sensitivity>& sensitivities;  ///< empty: not asked for
 };
 
 /// iterations.csv: one line per nonlinear iteration; also for a flow that did not converge.

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "apps/flow/flow_files.hpp"
+#include "apps/flow/flow_sensitivity.hpp"
 #include "apps/flow/flow_state_file.hpp"
 #include "apps/support/interruption.hpp"
 #include "apps/support/output_folder.hpp"
@@ -138,9 +139,12 @@ int solve_flow_scene(const FlowOptions& options, const FemRuntime& runtime) {
     throw NotConvergedError(
         fmt::format("the flow did not converge: {}; the last iterate is ill-posed in {:.1f} % of the area",
                     solution.report.failure, 100 * ill_posed_share(solution.field)));
-  const FinishedFlow flow{scene, fit, chosen, solution, meshes, reduced, runtime.ranks()};
+  std::vector<Sensitivity> sensitivities;
+  if (scene.solver.sensitivity)
+    sensitivities = sensitivities_of(chosen, solution, meshes, solver_options(scene));
+  const FinishedFlow flow{scene, fit, chosen, solution, meshes, reduced, runtime.ranks(), sensitivities};
   write_flow(options.output, flow);
-  const std::string said = checks_text(flow) + summary_text(options.output, flow);
+  const std::string said = checks_text(flow) + sensitivity_text(flow) + summary_text(options.output, flow);
   if (speaks) fmt::print("{}", said);
   return static_cast<int>(ExitCode::done);
 }
