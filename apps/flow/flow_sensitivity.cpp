@@ -32,8 +32,10 @@ Sensitivity to_setting(const std::string& setting, const Regularisation& changed
   FlowProblem problem = flow_case.problem;
   problem.regularisation = changed;
   const FlowSolution moved = solve_flow_from(solution.field.state(), problem, options);
-  Sensitivity result{
-      .setting = setting, .found = moved.report.converged, .iterations = moved.report.iterations};
+  Sensitivity result;
+  result.setting = setting;
+  result.found = moved.report.converged;
+  result.iterations = moved.report.iterations;
   if (!result.found) return result;
   result.changes = difference(flow_case.scalars(moved.field), unchanged);
   result.profile = profile_change(flow_case.profiles(moved.field), flow_case.profiles(solution.field));
@@ -53,8 +55,9 @@ std::vector<Sensitivity> sensitivities_of(const FlowCase& flow_case, const FlowS
   std::vector<Sensitivity> list = {
       to_setting("eps / 4", finer, flow_case, solution, unchanged, options),
       to_setting("p_min - 20 %", weaker, flow_case, solution, unchanged, options)};
-  Sensitivity mesh{.setting = "last halving of the cells",
-                   .profile = std::numeric_limits<double>::quiet_NaN()};
+  Sensitivity mesh;
+  mesh.setting = "last halving of the cells";
+  mesh.profile = std::numeric_limits<double>::quiet_NaN();
   if (meshes.size() > 1) {
     mesh.found = true;
     mesh.changes = difference(unchanged, meshes[meshes.size() - 2].scalars);
@@ -79,6 +82,8 @@ std::string sensitivity_text(const FinishedFlow& flow) {
   for (const Sensitivity& s : flow.sensitivities)
     text += s.found && std::isfinite(s.profile) ? fmt::format(" {:>24.2g} %", 100 * s.profile)
                                                 : fmt::format(" {:>26}", "-");
+  text += fmt::format("\n  {:<12} {:>11}", "iterations", "");
+  for (const Sensitivity& s : flow.sensitivities) text += fmt::format(" {:>26}", s.iterations);
   return text + "\n";
 }
 

@@ -83,4 +83,20 @@ struct FlowSolution {
                                            const FlowSolverOptions& options = {},
                                            const FlowObserver& observer = {});
 
+/// Steps in time by the implicit Euler method.
+struct FlowMarch {
+  double time_step = 0;  ///< sqrt(d/g)
+  int steps = 0;
+  int halvings = 6;                                            ///< of a step whose Newton iteration fails
+  std::function<void(double time, const FlowField&)> stepped = {};  ///< after each step; empty: nobody watches
+};
+
+/// The flow of `problem` from the state `start`, with inertia, in time: nu (du/dt + u.grad u) = -grad p + div
+/// tau + f. The sides' velocities may differ from those of `start`, domain and mesh are its own; `start` must
+/// not be used to solve meanwhile, for it shares the mesh. The slope is at every time that at which the
+/// surface has no moment. First order in the time step, and it damps: a steady flow is kept to the tolerance.
+[[nodiscard]] FlowSolution march_flow(const FlowField& start, const FlowProblem& problem,
+                                      const FlowMarch& march, const FlowSolverOptions& options = {},
+                                      const FlowObserver& observer = {});
+
 }  // namespace drumlin

@@ -1,0 +1,80 @@
+#pragma once
+// Newton's method on one mesh: what the continuation and the steps in time share. Private to fem/.
+#include <string>
+
+#include "continuum/fem/detail/direct_solver.hpp"
+#include "continuum/fem/detail/solved_level.hpp"
+#include "continuum/fem/detail/work_clock.hpp"
+#include "continuum/fem/flow_solver.hpp"
+
+namespace drumlin::fem {
+
+/// One system that is solved to one tolerance.
+struct Phase {
+  std::string name;
+  Setting setting;
+  double tolerance = 0;
+};
+
+/// Primal-dual Newton with a line search on the slope; the slope of the surface is one more unknown.
+class Newton {
+ public:
+  Newton(const FlowProblem& problem, const FlowSolverOptions& options, const Discretisation& discretisation,
+         int level, double start_seconds, WorkClock& clock, FlowReport& report, const FlowObserver& observer)
+      : problem_(problem),
+        options_(options),
+        d_(discretisation),
+        level_(level),
+        start_(start_seconds),
+        clock_(clock),
+        report_(report),
+        observer_(observer),
+        moment_(surface_moment(problem, d_)),
+        system_(d_) {
+    if (problem.frame) frame_moment_ = moment_ * frame_velocity(problem, d_);
+    weight_norm_ = problem.density > 0 ? load(d_, {0, problem.density}).l2_norm() : 0;
+  }
+
+  bool solve(const Phase& phase, State& state);
+  /// On any rank.
+  bool was_interrupted() const {
+    return d_.sum(observer_.interrupted && observer_.interrupted() ? 1 : 0) > 0;
+  }
+
+ private:
+  struct Step {
+    FieldVector solution;
+    double theta = 0;
+    double linear_residual = 0;
+  };
+  Step newton_step(const State& state);
+  double slope(const Phase& phase, const State& state, const Step& step, double alpha);
+  double step_length(const Phase& phase, const State& state, const Step& step);
+  double relative_residual() const { return system_.residual.l2_norm() / reference_; }
+
+  const FlowProblem& problem_;
+  const FlowSolverOptions& options_;
+  const Discretisation& d_;
+  DirectSolver factors_;
+  int level_;
+  double start_;
+  WorkClock& clock_;
+  FlowReport& report_;
+  const FlowObserver& observer_;
+  FieldVector moment_;
+  System system_;
+  double frame_moment_ = 0;  // of the velocity that the unknown lacks in a rotating frame
+  double weight_norm_ = 0;
+  double reference_ = 1;
+};
+
+/// The problem's own regularisation and pressure, steady and slow.
+Setting final_setting(const FlowProblem& problem, double theta);
+
+/// Solves one phase from the level's state.
+bool run(Newton& newton, const Phase& phase, SolvedLevel& level);
+
+/// What others look at: in the frame of the laboratory.
+FlowField field_of(const std::shared_ptr<SolvedLevel>& level);
+
+}  // namespace drumlin::fem

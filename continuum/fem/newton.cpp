@@ -1,0 +1,157 @@
+#include "continuum/fem/detail/newton.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "coupling/exchange/errors.hpp"
+
+namespace drumlin::fem {
+namespace {
+
+State moved(const State& state, const FieldVector& step, double theta_step, double alpha) {
+  State next = state;
+  next.solution.add(alpha, step);
+  next.solution.update_ghost_values();
+  next.theta += alpha * theta_step;
+  return next;
+}
+
+}  // namespace
+
+// The slope is one more unknown, its equation (the moment) linear in the solution: two solves with the same
+// factors.
+Newton::Step Newton::newton_step(const State& state) {
+  clock_(Work::factorisation, [&] { factors_.factorise(system_.matrix); });
+  Step step{.solution = d_.field()};
+  FieldVector rhs = system_.residual;
+  rhs *= -1;
+  step.linear_residual = clock_(Work::linear_solves, [&] { return factors_.solve(rhs, step.solution); });
+  d_.homogeneous.distribute(step.solution);
+  if (std::holds_alternative<SlopeFromMoment>(problem_.slope)) {
+    const FieldVector by_theta =
+        load(d_, {problem_.density * std::cos(state.theta), problem_.density * std::sin(state.theta)});
+    FieldVector response = d_.field();
+    step.linear_residual =
+        std::max(step.linear_residual,
+                 clock_(Work::linear_solves, [&] { return factors_.solve(by_theta, response); }));
+    d_.homogeneous.distribute(response);
+    step.theta = -(moment_ * state.solution + moment_ * step.solution + frame_moment_) / (moment_ * response);
+    step.solution.add(step.theta, response);
+  }
+  step.solution.update_ghost_values();
+  return step;
+}
+
+double Newton::slope(const Phase& phase, const State& state, const Step& step, double alpha) {
+  assemble_residual(problem_, d_, phase.setting, moved(state, step.solution, step.theta, alpha), system_);
+  double sum = 0;
+  for (std::size_t i = 0; i < d_.is_velocity.size(); ++i)
+    if (d_.is_velocity[i]) sum += system_.residual.local_element(i) * step.solution.local_element(i);
+  return d_.sum(sum);
+}
+
+// Where the slope R(u + alpha du).du has fallen well below its start: the residual norm would ask for
+// needlessly short steps, since stiff, nearly rigid parts dominate it.
+double Newton::step_length(const Phase& phase, const State& state, const Step& step) {
+  const double start = slope(phase, state, step, 0);
+  double low = 0, at_low = start, alpha = 1, best = 1, best_slope = INFINITY;
+  double high = 0, at_high = 0;
+  for (int trial = 0; trial < 8; ++trial) {
+    const double here = slope(phase, state, step, alpha);
+    if (std::isfinite(here) && std::abs(here) < best_slope) best_slope = std::abs(here), best = alpha;
+    if (std::isfinite(here) && std::abs(here) <= 0.5 * std::abs(start)) break;
+    if (!std::isfinite(here) || here * start < 0)
+      high = alpha, at_high = here;
+    else
+      low = alpha, at_low = here;
+    if (high == 0) break;  // the slope has not changed sign by alpha = 1: take the whole step
+    const double secant =
+        std::isfinite(at_high) ? low + (high - low) * at_low / (at_low - at_high) : 0.5 * high;
+    alpha = std::clamp(secant, low + 0.1 * (high - low), low + 0.7 * (high - low));
+  }
+  return best;
+}
+
+bool Newton::solve(const Phase& phase, State& state) {
+  IterationReport line{.level = level_,
+                       .phase = phase.name,
+                       .shear_rate = phase.setting.regularisation.shear_rate,
+                       .pressure_share = phase.setting.pressure.share};
+  clock_(Work::assembly, [&] { assemble_tangent(problem_, d_, phase.setting, state, system_); });
+  if (weight_norm_ > 0)
+    reference_ = weight_norm_;
+  else
+    reference_ = std::max(1e-300, nodal_forces(problem_, d_, phase.setting, state).l2_norm());
+  for (int iteration = 1; iteration <= options_.max_iterations; ++iteration) {
+    if (was_interrupted()) {
+      report_.failure = "interrupted";
+      return false;
+    }
+    Step step;
+    try {
+      step = newton_step(state);
+    } catch (const NotConvergedError& error) {  // a singular tangent: a smaller step in eps may still do
+      report_.failure = fmt::format("{}, in phase '{}'", error.what(), phase.name);
+      return false;
+    }
+    if (!(step.linear_residual <= options_.linear_tolerance)) {
+      report_.failure =
+          fmt::format("linear solve: true relative residual {:.2e} after refinement, in phase '{}'",
+                      step.linear_residual, phase.name);
+      return false;
+    }
+    const double alpha = clock_(Work::step_length, [&] { return step_length(phase, state, step); });
+    FieldVector taken = step.solution;
+    taken *= alpha;
+    taken.update_ghost_values();
+    state.dual = advanced_dual(d_, phase.setting.regularisation, state, taken);
+    state = moved(state, step.solution, step.theta, alpha);
+    clock_(Work::assembly, [&] { assemble_tangent(problem_, d_, phase.setting, state, system_); });
+
+    line.iteration = iteration;
+    line.residual = relative_residual();
+    line.step_length = alpha;
+    line.step_size = taken.l2_norm() / state.solution.l2_norm();
+    line.linear_residual = step.linear_residual;
+    line.theta = state.theta;
+    line.seconds = now() - start_;
+    report_.history.push_back(line);
+    report_.residual = line.residual;
+    ++report_.iterations;
+    if (observer_.iteration) observer_.iteration(line);
+    if (!std::isfinite(line.residual)) break;
+    if (line.residual <= phase.tolerance) return true;
+  }
+  report_.failure = fmt::format(
+      "mesh {}, phase '{}' (eps = {:.3g}, true pressure {:.2f}): residual {:.3e} after {} iterations, "
+      "tolerance {:.1e}, last step {:.2e}",
+      level_, phase.name, line.shear_rate, line.pressure_share, line.residual, line.iteration,
+      phase.tolerance, line.step_size);
+  return false;
+}
+
+Setting final_setting(const FlowProblem& problem, double theta) {
+  return {problem.law,
+          problem.regularisation,
+          {1, problem.surface_pressure, problem.density * std::cos(theta)},
+          std::nullopt};
+}
+
+bool run(Newton& newton, const Phase& phase, SolvedLevel& level) {
+  level.setting = phase.setting;
+  level.state.dual = dual_of(*level.discretisation, phase.setting.regularisation, level.state.solution);
+  return newton.solve(phase, level.state);
+}
+
+FlowField field_of(const std::shared_ptr<SolvedLevel>& level) {
+  if (!level->problem.frame) return FlowField(level);
+  auto seen = std::make_shared<SolvedLevel>(*level);
+  seen->state.solution += frame_velocity(level->problem, *level->discretisation);
+  seen->state.solution.update_ghost_values();
+  seen->problem.frame = std::nullopt;
+  return FlowField(seen);
+}
+
+}  // namespace drumlin::fem
