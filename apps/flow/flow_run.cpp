@@ -86,6 +86,7 @@ std::string summary_text(const fs::path& folder, const FinishedFlow& flow) {
 FlowSolverOptions solver_options(const FlowScene& scene) {
   FlowSolverOptions options;
   options.levels = scene.mesh.levels;
+  options.refined_share = scene.mesh.refined_share;
   options.tolerance = scene.solver.tolerance;
   options.linear_tolerance = scene.solver.linear_tolerance;
   options.max_iterations = scene.solver.max_iterations;

@@ -31,7 +31,7 @@ Sensitivity to_setting(const std::string& setting, const Regularisation& changed
                        const FlowSolverOptions& options) {
   FlowProblem problem = flow_case.problem;
   problem.regularisation = changed;
-  const FlowSolution moved = solve_flow_from(solution.field.state(), problem, options);
+  const FlowSolution moved = solve_flow_again(solution.field, problem, options);
   Sensitivity result;
   result.setting = setting;
   result.found = moved.report.converged;

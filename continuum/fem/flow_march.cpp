@@ -33,16 +33,10 @@ bool advance(Newton& newton, const FlowSolverOptions& options, double time_step,
 FlowSolution march_flow(const FlowField& start, const FlowProblem& problem, const FlowMarch& march,
                         const FlowSolverOptions& options, const FlowObserver& observer) {
   const double begun = fem::now();
-  auto level = std::make_shared<fem::SolvedLevel>(start.level());
-  level->problem = problem;
-  level->problem.inertia = Inertia{};
-  level->problem.frame = std::nullopt;  // the start is given in the laboratory's frame
-  // The start keeps its own mesh: the velocities of the sides may change from here on.
-  auto& d = *level->discretisation;
-  d.constrain(level->problem);
-  d.constraints.distribute(level->state.solution);
-  level->state.solution.update_ghost_values();
-
+  FlowProblem unsteady = problem;
+  unsteady.inertia = Inertia{};
+  auto level = fem::level_for(start, unsteady);
+  const auto& d = *level->discretisation;
   FlowReport report;
   report.start = "march";
   fem::WorkClock clock;

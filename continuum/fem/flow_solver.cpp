@@ -143,7 +143,13 @@ FlowSolution solve(const FlowProblem& problem, const FlowSolverOptions& options,
     fem::take_over(*neighbour, *level);
   }
   for (int mesh = first; mesh < options.levels; ++mesh) {
-    if (mesh > first) clock(Work::refinement, [&] { d.refine(problem, state.solution); });
+    if (mesh > first)
+      clock(Work::refinement, [&] {
+        if (options.refined_share < 1)
+          d.refine_adaptively(problem, state.solution, options.refined_share);
+        else
+          d.refine(problem, state.solution);
+      });
     FlowSolverOptions here = options;
     if (mesh + 1 < options.levels) here.tolerance = std::max(options.tolerance, options.coarse_tolerance);
     Newton newton(problem, here, d, mesh, start, clock, report, observer);
@@ -181,6 +187,19 @@ FlowSolution solve_flow_from(const FlowState& neighbour, const FlowProblem& prob
     report.phases[i].times += from.report.phases[i].times;
   }
   return cold;
+}
+
+FlowSolution solve_flow_again(const FlowField& start, const FlowProblem& problem,
+                              const FlowSolverOptions& options, const FlowObserver& observer) {
+  const double begun = now();
+  auto level = fem::level_for(start, problem);
+  FlowReport report;
+  report.start = "again";
+  WorkClock clock;
+  Newton newton(level->problem, options, *level->discretisation, 0, begun, clock, report, observer);
+  report.converged = solve_from("again", newton, options, *level);
+  report.seconds = now() - begun;
+  return {report, field_of(level)};
 }
 
 }  // namespace drumlin

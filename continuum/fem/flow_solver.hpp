@@ -10,8 +10,11 @@
 namespace drumlin {
 
 struct FlowSolverOptions {
-  int levels = 2;                 ///< meshes, each with cells half as large; the last one carries the result
-  double start_shear_rate = 0.3;  ///< eps of the first phase of a cold start, 1/sqrt(d/g)
+  int levels = 2;  ///< meshes, each with cells half as large; the last one carries the result
+  /// Share of the cells that the step to a finer mesh halves, those with the largest jumps of the velocity
+  /// gradient; 1: all.
+  double refined_share = 1;
+  double start_shear_rate = 0.3;    ///< eps of the first phase of a cold start, 1/sqrt(d/g)
   double shear_rate_factor = 0.03;  ///< of eps from phase to phase; its square root where that fails
   /// A finer mesh starts from the coarser solution, and a flow from its neighbour, at the last eps; where
   /// that fails, at this one.
@@ -83,12 +86,20 @@ struct FlowSolution {
                                            const FlowSolverOptions& options = {},
                                            const FlowObserver& observer = {});
 
+/// The flow of `problem` on the mesh of `start` and from it, for settings that differ a little: law,
+/// regularisation, velocities of the sides. `start` must not be used to solve meanwhile, for it shares the
+/// mesh.
+[[nodiscard]] FlowSolution solve_flow_again(const FlowField& start, const FlowProblem& problem,
+                                            const FlowSolverOptions& options = {},
+                                            const FlowObserver& observer = {});
+
 /// Steps in time by the implicit Euler method.
 struct FlowMarch {
   double time_step = 0;  ///< sqrt(d/g)
   int steps = 0;
-  int halvings = 6;                                            ///< of a step whose Newton iteration fails
-  std::function<void(double time, const FlowField&)> stepped = {};  ///< after each step; empty: nobody watches
+  int halvings = 6;  ///< of a step whose Newton iteration fails
+  std::function<void(double time, const FlowField&)> stepped =
+      {};  ///< after each step; empty: nobody watches
 };
 
 /// The flow of `problem` from the state `start`, with inertia, in time: nu (du/dt + u.grad u) = -grad p + div

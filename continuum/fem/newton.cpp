@@ -154,4 +154,15 @@ FlowField field_of(const std::shared_ptr<SolvedLevel>& level) {
   return FlowField(seen);
 }
 
+std::shared_ptr<SolvedLevel> level_for(const FlowField& start, const FlowProblem& problem) {
+  auto level = std::make_shared<SolvedLevel>(start.level());
+  level->problem = problem;
+  level->problem.frame = std::nullopt;
+  auto& d = *level->discretisation;
+  d.constrain(level->problem);
+  d.constraints.distribute(level->state.solution);
+  level->state.solution.update_ghost_values();
+  return level;
+}
+
 }  // namespace drumlin::fem

@@ -108,6 +108,24 @@ std::vector<HardCheck> coarse_mesh() {
                   std::abs(drum_checks(flow.field, drum).value("torque_relative_error")), "moment balance")};
 }
 
+std::vector<HardCheck> ten_turns() {
+  const DrumGeometry drum = small_drum();
+  FlowProblem problem = small_drum_problem(paper);
+  problem.inertia = Inertia{};
+  const FlowSolution steady = solve_flow(problem, one_mesh());
+  const double theta = steady.field.theta(), turn = 2 * std::numbers::pi / drum.rotation;
+  double drift = 0, worst_flux = 0;
+  const FlowSolution flow =
+      march_flow(steady.field, problem,
+                 {.time_step = turn / 20, .steps = 200, .stepped = [&](double, const FlowField& field) {
+                    drift = std::max(drift, std::abs(field.theta() - theta) / degree);
+                    worst_flux = std::max(worst_flux, flux_error(field, drum));
+                  }});
+  return {at_least("200 steps of a twentieth of a turn converged", 1, flow.report.converged, ""),
+          at_most("largest drift of the slope, deg", 1e-4, drift, "a steady flow stays"),
+          at_most("largest |Q/Q_expected - 1|", 1e-3, worst_flux, "mass balance at every time")};
+}
+
 }  // namespace
 
 std::vector<HardCase> drum_flow_cases() {
@@ -116,6 +134,7 @@ std::vector<HardCase> drum_flow_cases() {
           {"flow-fast-drum", "steep and fast drums: a slope is found at any speed, and it grows", true,
            fast_drums},
           {"flow-impossible-slope", "tan(theta) above the law's mu: said at once", true, impossible_slope},
+          {"flow-ten-turns", "ten turns in time with inertia: a steady drum does not drift", true, ten_turns},
           {"flow-coarse-mesh", "6 rpm drum on cells of 4 d: balances hold on any mesh", false, coarse_mesh}};
 }
 

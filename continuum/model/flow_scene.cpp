@@ -75,6 +75,10 @@ void describe(Visitor& v, FlowMesh& m) {
   v.value("levels", m.levels,
           defaulted("", at_least(1, 5),
                     "Meshes, each twice as fine; the errors in flow.json compare the last two."));
+  v.value("refined_share", m.refined_share,
+          defaulted("", above(0, 1),
+                    "Share of the cells that each finer mesh halves, those with the largest jumps of the "
+                    "velocity gradient; 1: all."));
 }
 template <class Visitor>
 void describe(Visitor& v, FlowBoundary& b) {
@@ -104,8 +108,9 @@ void describe(Visitor& v, FlowSolverKeys& s) {
           defaulted("", above(0, 1), "On the true relative residual of each linear solve."));
   v.value("max_iterations", s.max_iterations,
           defaulted("", at_least(1, 10000), "Newton iterations per phase."));
-  v.value("sensitivity", s.sensitivity,
-          defaulted("", anything(), "Solves again with eps / 4 and with p_min - 20 %, and says what they move."));
+  v.value(
+      "sensitivity", s.sensitivity,
+      defaulted("", anything(), "Solves again with eps / 4 and with p_min - 20 %, and says what they move."));
 }
 template <class Visitor>
 void describe(Visitor&, FlowInertia&) {}

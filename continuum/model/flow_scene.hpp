@@ -57,6 +57,7 @@ struct FlowMesh {
   double surface_zone = 16;  ///< d
   double growth = 0.25;      ///< of the cell size per unit depth, on the coarsest mesh
   int levels = 2;
+  double refined_share = 1;
 };
 struct FlowBoundary {
   double corner_taper = 4;         ///< d

@@ -59,7 +59,7 @@ TEST(SmallDrum, AsMuchFlowsInAsOutThroughAnyCut) {
   options.levels = 2;
   (void)converged(problem(), options, observer);
   // The worst cuts end in the corners, where the flow turns within the taper of 3 d: cells of 2 d
-  // leave 2.5e-3 there (2e-5 in the middle), and Q2-Q1 holds div u = 0 in the mean of its pressures alone, to
+  // leave 2.5e-3 there, and Q2-Q1 holds div u = 0 in the mean of its pressures alone, to
   // second order.
   ASSERT_EQ(imbalance.size(), 2u);
   EXPECT_LT(imbalance[1], 1e-3);

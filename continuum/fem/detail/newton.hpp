@@ -74,6 +74,10 @@ Setting final_setting(const FlowProblem& problem, double theta);
 /// Solves one phase from the level's state.
 bool run(Newton& newton, const Phase& phase, SolvedLevel& level);
 
+/// Another problem on the mesh of a flow, in the frame of the laboratory: its state, with the problem's
+/// velocities on the sides.
+std::shared_ptr<SolvedLevel> level_for(const FlowField& start, const FlowProblem& problem);
+
 /// What others look at: in the frame of the laboratory.
 FlowField field_of(const std::shared_ptr<SolvedLevel>& level);
 
