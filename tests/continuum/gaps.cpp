@@ -21,6 +21,7 @@ Solved solved(const GapFlow& flow) {
   const FlowProblem problem = gap_problem(gap, steep, mesh, regularisation);
   FlowSolverOptions options;
   options.levels = mesh.levels;
+  options.coarse_tolerance = options.tolerance;  // the errors of all meshes are compared
   std::vector<double> errors;
   FlowObserver observer;
   observer.level_finished = [&](int, const FlowField& field) {
