@@ -11,6 +11,16 @@ struct State {
   FieldVector solution;           ///< velocity and pressure, with the copies around this rank's part
   double theta = 0;               ///< rad
   std::vector<PlaneTensor> dual;  ///< D/|D| per quadrature point of this rank's cells
+
+  State() = default;
+  // deal.II copies the unknowns that this rank owns, and leaves the rest of the copy at zero.
+  State(const State& other) : solution(other.solution), theta(other.theta), dual(other.dual) {
+    solution.update_ghost_values();
+  }
+  State(State&&) = default;
+  State& operator=(const State&) = default;
+  State& operator=(State&&) = default;
+  ~State() = default;
 };
 
 /// The pressure that the law sees: share * p + (1 - share) * hydrostatic.
