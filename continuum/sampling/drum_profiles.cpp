@@ -6,21 +6,13 @@
 #include <limits>
 #include <numbers>
 
+#include "continuum/sampling/gauss_points.hpp"
 #include "coupling/exchange/profile_scalars.hpp"
 
 namespace drumlin {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
-struct GaussPoint {
-  double place;   // in [0, 1]
-  double weight;  // sums to 1
-};
-constexpr std::array<GaussPoint, 4> gauss = {{{0.0694318442029737, 0.1739274225687269},
-                                              {0.3300094782075719, 0.3260725774312731},
-                                              {0.6699905217924281, 0.3260725774312731},
-                                              {0.9305681557970263, 0.1739274225687269}}};
 
 Vec2 in_drum_frame(const DrumGeometry& drum, Vec2 point, Vec2 velocity) {
   const Vec2 rigid = rigid_rotation(drum.rotation, drum.axis_offset, point);

@@ -7,21 +7,13 @@
 #include <numbers>
 
 #include "continuum/reference/gap_solution.hpp"
+#include "continuum/sampling/gauss_points.hpp"
 
 namespace drumlin {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double degrees = 180 / std::numbers::pi;
-
-struct GaussPoint {
-  double place;   // in [0, 1]
-  double weight;  // sums to 1
-};
-constexpr std::array<GaussPoint, 4> gauss = {{{0.0694318442029737, 0.1739274225687269},
-                                              {0.3300094782075719, 0.3260725774312731},
-                                              {0.6699905217924281, 0.3260725774312731},
-                                              {0.9305681557970263, 0.1739274225687269}}};
 
 // A field in the axes of the flow at its place.
 struct LocalState {

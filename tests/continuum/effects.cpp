@@ -1,17 +1,16 @@
 // Effects of the continuum on a drum of 30 grains' width.
 #include "boxes.hpp"
-#include "continuum/model/drum.hpp"
+#include "continuum/hardcases/small_drum.hpp"
 
 namespace drumlin {
 namespace {
 
 using namespace testing_boxes;
 
-constexpr DrumGeometry drum{.radius = 15, .axis_offset = 1, .rotation = 0.03, .nu = 0.82};
+const DrumGeometry drum = drumlin::small_drum();
 
 FlowProblem small_drum(const DrumGeometry& geometry = drum) {
-  return drum_problem(geometry, LogLaw{0.35, 0.013}, {.surface_cell = 2, .surface_zone = 6, .levels = 1},
-                      {.corner_taper = 3}, {.shear_rate = 1e-3});
+  return small_drum_problem(LogLaw{0.35, 0.013}, 1e-3, geometry);
 }
 
 FlowSolverOptions one_mesh() {
@@ -102,15 +101,15 @@ TEST(AdaptiveMesh, HalvesAShareOfTheCellsAndStaysCloseToTheFineMesh) {
     FlowSolverOptions options;
     options.levels = levels;
     options.refined_share = share;
-    return converged(drum_problem(drum, LogLaw{0.35, 0.013},
-                                  {.surface_cell = 1, .surface_zone = 6, .levels = 3}, {.corner_taper = 3},
-                                  {.shear_rate = 1e-3}),
-                     options);
+    return converged(
+        drum_problem(drum, LogLaw{0.35, 0.013}, {.surface_cell = 1, .surface_zone = 6, .levels = 3},
+                     {.corner_taper = 3}, {.shear_rate = 1e-3}),
+        options);
   };
   const FlowField fine = solved(3, 1), adapted = solved(3, 0.3);
   EXPECT_LT(adapted.unknowns(), 0.5 * fine.unknowns());
-  // No better than halving all cells for as many unknowns: the indicator sees the corners, the slope hangs on the
-  // stresses of the nearly rigid core (docs/decisions/flow-effects.md).
+  // No better than halving all cells for as many unknowns: the indicator sees the corners, the slope hangs on
+  // the stresses of the nearly rigid core (docs/decisions/flow-effects.md).
   EXPECT_NEAR(adapted.theta(), fine.theta(), 1 * degree);
 }
 
