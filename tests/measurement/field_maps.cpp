@@ -212,33 +212,5 @@ TEST(FieldMaps, EqualBatchesHaveIntervalsOfZeroAndOneBatchHasNone) {
   EXPECT_TRUE(maps_of(lattice_graining(), {lattice}).field("v_x").ci99.empty());
 }
 
-TEST(AxisAngle, SimpleShearTurnsTheStressByTheRatioOfNormalStresses) {
-  const PlaneTensor shear{0, 0.2, 0, 0};
-  for (double k : {0.8, 1.0, 1.2})
-    for (double mu : {0.2, 0.4}) {
-      const PlaneTensor pressure{k, -mu, -mu, 1};
-      EXPECT_NEAR(std::tan(2 * axis_angle_deg(pressure, shear) * std::numbers::pi / 180), (k - 1) / (2 * mu),
-                  1e-12);
-    }
-}
-
-PlaneTensor turned(const PlaneTensor& t, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  return {c * c * t.xx - c * s * (t.xz + t.zx) + s * s * t.zz,
-          c * c * t.xz - s * s * t.zx + c * s * (t.xx - t.zz),
-          c * c * t.zx - s * s * t.xz + c * s * (t.xx - t.zz),
-          s * s * t.xx + c * s * (t.xz + t.zx) + c * c * t.zz};
-}
-
-TEST(AxisAngle, DoesNotDependOnTheAxesOrOnSpinAndPressure) {
-  const PlaneTensor pressure{1.1, -0.3, -0.35, 0.9}, gradient{0.05, 0.2, 0.02, -0.04};
-  const double angle = axis_angle_deg(pressure, gradient);
-  for (double turn = 0; turn < 6.3; turn += 0.3)
-    EXPECT_NEAR(axis_angle_deg(turned(pressure, turn), turned(gradient, turn)), angle, 1e-10);
-  EXPECT_NEAR(axis_angle_deg({3.1, -0.3, -0.35, 2.9}, gradient), angle, 1e-12);
-  EXPECT_NEAR(axis_angle_deg(pressure, {0.05, 0.9, -0.68, -0.04}), angle, 1e-12);
-  EXPECT_NEAR(axis_angle_deg(turned(pressure, 0.2), gradient), angle + 0.2 * 180 / std::numbers::pi, 1e-10);
-}
-
 }  // namespace
 }  // namespace drumlin

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "coupling/exchange/plane_invariants.hpp"
 #include "particles/measurement/intervals.hpp"
 #include "particles/measurement/maps/spline_kernel.hpp"
 
@@ -124,17 +124,15 @@ void set_velocity(const Means& m, bool with_spin, Values& f) {
   f.D_xx = f.d_v_x_dx;
   f.D_zz = f.d_v_z_dz;
   f.D_xz = (f.d_v_x_dz + f.d_v_z_dx) / 2;
-  f.strain_rate = 2 * std::sqrt((f.D_xx * f.D_xx + 2 * f.D_xz * f.D_xz + f.D_zz * f.D_zz) / 2);
-  f.half_vorticity = (f.d_v_x_dz - f.d_v_z_dx) / 2;
 }
 
 /// `inside`: share of the kernel within the container.
 void set_stress(const Means& m, double inside, Values& f) {
   const double mean_u_x = m.u_x / m.area, mean_u_z = m.u_z / m.area;
-  const PlaneTensor kinetic{
+  const PlaneMatrix kinetic{
       m.u_x_u_x - m.area * mean_u_x * mean_u_x, m.u_x_u_z - m.area * mean_u_x * mean_u_z,
       m.u_x_u_z - m.area * mean_u_x * mean_u_z, m.u_z_u_z - m.area * mean_u_z * mean_u_z};
-  const PlaneTensor pressure{(m.branch[0] + kinetic.xx) / inside, (m.branch[1] + kinetic.xz) / inside,
+  const PlaneMatrix pressure{(m.branch[0] + kinetic.xx) / inside, (m.branch[1] + kinetic.xz) / inside,
                              (m.branch[2] + kinetic.zx) / inside, (m.branch[3] + kinetic.zz) / inside};
   f.sigma_xx_kinetic = kinetic.xx / inside;
   f.sigma_zz_kinetic = kinetic.zz / inside;
@@ -144,13 +142,15 @@ void set_stress(const Means& m, double inside, Values& f) {
   f.sigma_zz = pressure.zz;
   f.sigma_xz = -pressure.xz;
   f.sigma_zx = -pressure.zx;
-  f.p = (pressure.xx + pressure.zz) / 2;
-  f.tau = std::hypot((pressure.xx - pressure.zz) / 2, (pressure.xz + pressure.zx) / 2);
-  if (!(f.p > 0)) return;
-  f.I = f.strain_rate / std::sqrt(f.p);
-  f.mu = f.tau / f.p;
-  if (f.sigma_zz > 0) f.k = f.sigma_xx / f.sigma_zz;
-  f.axis_angle = axis_angle_deg(pressure, {f.d_v_x_dx, f.d_v_x_dz, f.d_v_z_dx, f.d_v_z_dz});
+  const PlaneInvariants at = plane_invariants(pressure, {f.d_v_x_dx, f.d_v_x_dz, f.d_v_z_dx, f.d_v_z_dz});
+  f.strain_rate = at.strain_rate;
+  f.half_vorticity = at.half_vorticity;
+  f.p = at.p;
+  f.tau = at.tau;
+  f.I = at.I;
+  f.mu = at.mu;
+  f.k = at.k;
+  f.axis_angle = at.axis_angle_deg;
 }
 
 void set_contacts(const Means& m, double inside, Values& f) {
@@ -209,9 +209,6 @@ Values values_at(const MapNode& node, const MapSums& sums, double inside) {
   return f;
 }
 
-/// The same angle seen from the nearest side: axes that lie 180 degrees apart are one axis.
-double nearest_turn(double angle, double period) { return angle - period * std::round(angle / period); }
-
 void set_intervals(const std::vector<Values>& leave_one_out, const Values& whole, std::size_t node,
                    std::vector<MapField>& fields) {
   std::vector<double> values(leave_one_out.size());
@@ -243,14 +240,6 @@ void crop(const std::vector<MapNode>& nodes, FieldMap& map) {
 }
 
 }  // namespace
-
-double axis_angle_deg(const PlaneTensor& pressure, const PlaneTensor& velocity_gradient) {
-  const double of_pressure = std::atan2(pressure.xz + pressure.zx, pressure.xx - pressure.zz) / 2;
-  const double of_shortening = std::atan2(-(velocity_gradient.xz + velocity_gradient.zx),
-                                          velocity_gradient.zz - velocity_gradient.xx) /
-                               2;
-  return nearest_turn((of_pressure - of_shortening) * 180 / std::numbers::pi, 180);
-}
 
 FieldMap field_maps(const CoarseGraining& graining, std::span<const MapSums> batches, double container_radius,
                     double surface_z) {

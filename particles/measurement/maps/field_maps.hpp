@@ -17,12 +17,4 @@ constexpr double least_map_nu = 0.05;
 FieldMap field_maps(const CoarseGraining& graining, std::span<const MapSums> batches, double container_radius,
                     double surface_z);
 
-/// Angle by which the axis of the greatest pressure is turned from the axis of the fastest shortening, in
-/// degrees, anticlockwise with x to the right and z up; in (-90, 90]. `pressure`: compression positive; only
-/// the symmetric parts count. Simple shear has tan(2 angle) = (k - 1)/(2 mu).
-struct PlaneTensor {
-  double xx = 0, xz = 0, zx = 0, zz = 0;
-};
-double axis_angle_deg(const PlaneTensor& pressure, const PlaneTensor& velocity_gradient);
-
 }  // namespace drumlin
