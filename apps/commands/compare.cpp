@@ -40,7 +40,7 @@ Inputs read_inputs(const CompareOptions& options) {
         fmt::format("{}: has not been measured; run drumlin measure first", options.run.string()));
   inputs.particle_profiles = measured / "profiles.csv";
   inputs.continuum_profiles = options.flow_run / "profiles.csv";
-  inputs.maps = options.flow_run / "maps.csv";
+  inputs.maps = options.flow_run / "maps.h5";
   const auto snapshots = snapshot_files(options.run);
   if (snapshots.empty()) throw InputError(options.run.string() + ": holds no snapshots");
   inputs.snapshot = snapshots.back();

@@ -18,7 +18,7 @@ def arguments():
     parser.add_argument("--continuum", required=True, help="profiles.csv of the continuum")
     parser.add_argument("--output", required=True, help="folder for the figures")
     parser.add_argument("--snapshot", required=True, help="snapshot of the particle run to draw")
-    parser.add_argument("--maps", required=True, help="maps.csv of the continuum")
+    parser.add_argument("--maps", required=True, help="maps.h5 of the continuum")
     parser.add_argument("--depth", type=float, default=math.nan, help="H of the particles, d")
     return parser.parse_args()
 

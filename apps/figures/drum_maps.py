@@ -1,35 +1,23 @@
-"""maps.csv of a continuum flow and grains of a snapshot, both in the flow frame: x downslope, z along the outward normal."""
+"""maps.h5 of either side and grains of a snapshot, both in the flow frame: x downslope, z along the outward normal."""
 
-import csv
 import math
 
 import h5py
 import numpy as np
 
 
+def text_of(data):
+    return bytes(data[:]).decode()
+
+
 def read_maps(path):
-    """(header, grids): each column of maps.csv as a masked array over (z, x), with x and z beside them."""
-    header = {}
-    with open(path, newline="", encoding="utf-8") as stream:
-        for line in stream:
-            if not line.startswith("#"):
-                break
-            key, _, value = line[1:].partition("=")
-            header[key.strip()] = value.strip()
-        names = line.strip().split(",")
-        rows = np.array([[float(entry) for entry in row] for row in csv.reader(stream)])
-    spacing = float(header["spacing"])
-    column = np.rint(rows[:, 0] / spacing).astype(int)
-    row = np.rint(rows[:, 1] / spacing).astype(int)
-    column_0, row_0 = column.min(), row.min()
-    shape = (row.max() - row_0 + 1, column.max() - column_0 + 1)
-    grids = {}
-    for i, name in enumerate(names):
-        grid = np.full(shape, np.nan)
-        grid[row - row_0, column - column_0] = rows[:, i]
-        grids[name] = np.ma.masked_invalid(grid)
-    grids["x"] = spacing * (column_0 + np.arange(shape[1]))
-    grids["z"] = spacing * (row_0 + np.arange(shape[0]))
+    """(header, grids): each field as a masked array over (z, x), with the nodes x and z beside them."""
+    with h5py.File(path) as file:
+        if text_of(file["format"]) != "drumlin-maps-1":
+            raise SystemExit(f"{path}: is not a file of maps of this version")
+        header = dict(line.split(" = ", 1) for line in text_of(file["header"]).splitlines())
+        grids = {name: np.ma.masked_invalid(data[:]) for name, data in file["fields"].items()}
+        grids["x"], grids["z"] = file["x"][:], file["z"][:]
     return header, grids
 
 

@@ -1,5 +1,5 @@
-"""Figures of a continuum flow: maps.png (speed, I, pressure, mu over drum or annulus) and profiles.png (at the centre of a drum,
-else across the gap, with the closed form).
+"""Figures of a continuum flow: maps.png (speed, I, pressure, mu over drum or annulus), profiles.png (at the centre of a drum,
+else across the gap, with the closed form), and what speaks for it: well_posedness.png, newton.png, sensitivity.png.
 
 usage: flow_figures.py FLOWRUN [--flow FLOW_JSON]
 """
@@ -14,10 +14,11 @@ import matplotlib.pyplot as plt
 import numpy as np
 import style
 from drum_maps import read_maps
+from flow_trust import draw_newton, draw_sensitivity, draw_well_posedness
 
 
 def outline(header):
-    """Lines around the domain of maps.csv."""
+    """Lines around the domain of maps.h5."""
     if "drum_radius" in header:
         radius, axis_depth = float(header["drum_radius"]), float(header["axis_depth"])
         half = math.acos(axis_depth / radius)
@@ -30,12 +31,12 @@ def outline(header):
 
 
 def draw_map(axes, grids, values, label, norm, cmap, header):
+    axes.grid(False)
     image = axes.pcolormesh(grids["x"], grids["z"], values, norm=norm, cmap=cmap, shading="nearest", rasterized=True)
     for x, z in outline(header):
         axes.plot(x, z, color="black", linewidth=1)
     axes.set_aspect("equal")
     axes.set_title(label)
-    axes.grid(False)
     axes.set_xlabel(r"$x$  [$d$]" + (", downslope" if "drum_radius" in header else ""))
     axes.set_ylabel(style.LABELS["z"])
     axes.figure.colorbar(image, ax=axes, shrink=0.8, extend="both")
@@ -46,23 +47,23 @@ def title(flow):
     return f"Continuum flow, {flow['geometry'].replace('_', ' ')}{slope}"
 
 
-def draw_maps(folder, flow):
-    header, grids = read_maps(folder / "maps.csv")
+def draw_maps(folder, flow, header, grids):
     radius = float(header.get("drum_radius", header.get("outer_radius")))
     frame = "in the frame of the drum" if "drum_radius" in header else "in the laboratory frame"
     speed = np.ma.hypot(grids["v_x"], grids["v_z"])
     figure, axes = plt.subplots(2, 2, figsize=(13, 8.4))
     log = matplotlib.colors.LogNorm
+    under_tension = " (white: $p < 0$)" if (grids["p"] <= 0).any() else ""
     top = float(speed.max())
     maps = [(speed, rf"speed {frame}  [$\sqrt{{gd}}$]", log(top * 1e-4, top), "viridis"),
-            (grids["I"], r"inertial number $I$", log(1e-5, 1), "viridis"),
-            (grids["pressure"], r"pressure $p$  [$\rho_0 g d$]",
-             matplotlib.colors.Normalize(0, float(grids["pressure"].max())), "viridis"),
-            (grids["mu"], r"friction $|\tau|/p$", matplotlib.colors.Normalize(0, 0.4), "viridis")]
+            (grids["I"], r"inertial number $I$" + under_tension, log(1e-5, 1), "viridis"),
+            (grids["p"], r"pressure $p$  [$\rho_0 g d$]",
+             matplotlib.colors.Normalize(0, float(grids["p"].max())), "viridis"),
+            (grids["mu"], r"friction $\mu = |\tau|/p$" + under_tension, matplotlib.colors.Normalize(0, 0.4), "viridis")]
     for place, (values, label, norm, cmap) in zip(axes.flat, maps):
         draw_map(place, grids, values, label, norm, cmap, header)
     # A few arrows on the map of the speed; the directions alone, for the speeds span decades.
-    step = max(1, int(radius / 12 / float(header["spacing"])))
+    step = max(1, int(radius / 12 / (grids["x"][1] - grids["x"][0])))
     cut = (slice(None, None, step), slice(None, None, step))
     x, z = np.meshgrid(grids["x"], grids["z"])
     axes[0, 0].quiver(x[cut], z[cut], (grids["v_x"] / speed)[cut], (grids["v_z"] / speed)[cut], color="white", alpha=0.7,
@@ -71,7 +72,7 @@ def draw_maps(folder, flow):
     if ill_posed.any():
         axes[0, 1].contourf(grids["x"], grids["z"], ill_posed.astype(float), levels=[0.5, 1.5], colors="none",
                             hatches=["////"])
-        axes[0, 1].set_title(r"inertial number $I$ (hatched: ill-posed)")
+        axes[0, 1].set_title(r"inertial number $I$ (hatched: ill-posed)" + under_tension)
     figure.suptitle(style.title_of(title(flow), flow["reduced"]))
     style.save(figure, folder / "maps.png", flow["reduced"])
 
@@ -128,9 +129,13 @@ def main():
     arguments = parser.parse_args()
     flow = json.loads((arguments.flow or arguments.folder / "flow.json").read_text(encoding="utf-8"))
     style.use_style()
+    header, grids = read_maps(arguments.folder / "maps.h5")
     if flow["geometry"] in ("drum", "annulus"):  # a strip is the same all along: its profiles say it all
-        draw_maps(arguments.folder, flow)
+        draw_maps(arguments.folder, flow, header, grids)
     draw_profiles(arguments.folder, flow)
+    draw_well_posedness(arguments.folder, flow, header, grids, draw_map)
+    draw_newton(arguments.folder, flow)
+    draw_sensitivity(arguments.folder, flow)
 
 
 if __name__ == "__main__":

@@ -11,6 +11,7 @@ import numpy as np
 from matplotlib.colors import ListedColormap, LogNorm, Normalize
 
 import style
+from drum_maps import text_of
 
 LEAST_SHOWN_NU = 0.05  # as in the profiles
 UNKNOWN = "0.85"  # where an interval is wider than what is shown
@@ -23,10 +24,6 @@ def arguments():
     parser.add_argument("folder", help="RUN/measured: holds maps.h5 and takes the figure")
     parser.add_argument("--measured", help="the scalars; standard: measured.json in the folder")
     return parser.parse_args()
-
-
-def text_of(data):
-    return bytes(data[:]).decode()
 
 
 class Maps:

@@ -12,6 +12,7 @@
 #include "apps/support/figures.hpp"
 #include "apps/support/json_file.hpp"
 #include "coupling/exchange/text_file.hpp"
+#include "coupling/files/field_map_file.hpp"
 
 namespace drumlin::apps {
 namespace {
@@ -32,6 +33,15 @@ ProfileSet profiles_with_header(const FinishedFlow& flow) {
   for (const auto& [key, value] : flow.flow_case.profile_header(flow.solution.field))
     profiles.header[key] = value;
   return profiles;
+}
+
+FieldMap maps_with_header(const FinishedFlow& flow, const ProfileSet& profiles) {
+  FieldMap maps = flow_map(flow.solution.field, flow.flow_case.map_area, flow.scene.output.map_spacing);
+  maps.scales = scales_of(flow.scene);
+  maps.header.insert(profiles.header.begin(), profiles.header.end());
+  // What belongs to the slice of the profiles alone.
+  for (const char* key : {"position", "slice_width", "layer_thickness", "wall_z"}) maps.header.erase(key);
+  return maps;
 }
 
 Json meshes_json(const std::vector<MeshResult>& meshes) {
@@ -188,13 +198,13 @@ void write_iterations(const fs::path& file, const FlowReport& report) {
 
 void write_flow(const fs::path& folder, const FinishedFlow& flow) {
   const ProfileSet profiles = profiles_with_header(flow);
-  write_maps(folder / "maps.csv", flow.solution.field, flow.flow_case.map_area, flow.scene.output.map_spacing,
-             flow.reduced);
+  const FieldMap maps = maps_with_header(flow, profiles);
   flow.solution.field.write_vtu(folder / "flow.vtu");
   const Json content = flow_json(flow);
   const FlowState state = flow.solution.field.state();
   if (!flow.solution.field.on_first_rank()) return;
   write_profiles(folder / "profiles.csv", profiles);
+  write_field_map(folder / "maps.h5", maps);
   write_flow_state(folder / "state.h5", state);
   // The figures read it under another name: flow.json itself says that all is there.
   const fs::path unfinished = folder / "flow.json.part";

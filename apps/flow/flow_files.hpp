@@ -36,7 +36,7 @@ struct FinishedFlow {
 /// iterations.csv: one line per nonlinear iteration; also for a flow that did not converge.
 void write_iterations(const std::filesystem::path& file, const FlowReport& report);
 
-/// profiles.csv, maps.csv, flow.vtu, state.h5, the figures, and last of all flow.json: where that stands, all
+/// profiles.csv, maps.h5, flow.vtu, state.h5, the figures, and last of all flow.json: where that stands, all
 /// is there. Collective; the first rank writes.
 void write_flow(const std::filesystem::path& folder, const FinishedFlow& flow);
 

@@ -138,7 +138,7 @@ void describe(Visitor& v, FlowOutput& o) {
                      "Width of the slice of the profiles of a drum, 20 by default, cut to a quarter of the "
                      "chord; elsewhere refused."));
   v.value("layer_thickness", o.layer_thickness, defaulted("d", above(0, 100), "Thickness of its layers."));
-  v.value("map_spacing", o.map_spacing, defaulted("d", above(0, 100), "Spacing of the points of maps.csv."));
+  v.value("map_spacing", o.map_spacing, defaulted("d", above(0, 100), "Spacing of the points of maps.h5."));
 }
 template <class Visitor>
 void describe(Visitor& v, FlowScene& s) {

@@ -170,7 +170,8 @@ MapArea drum_map_area(const DrumGeometry& drum) {
           .z_min = drum.axis_offset - drum.radius,
           .z_max = 0,
           .inside = [drum](Vec2 p) { return std::hypot(p.x, p.z - drum.axis_offset) < drum.radius; },
-          .seen = [drum](Vec2 point, Vec2 velocity) { return in_drum_frame(drum, point, velocity); },
+          .nu = drum.nu,
+          .frame = RotatingFrame{drum.rotation, drum.axis_offset},
           .header = {{"drum_radius", drum.radius}, {"axis_depth", drum.axis_offset}}};
 }
 

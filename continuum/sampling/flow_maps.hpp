@@ -1,27 +1,27 @@
 #pragma once
-// A solved flow over a square grid of points: maps.csv.
-#include <filesystem>
+// A solved flow over a square grid of points, under the names of the particles' maps (docs/formats/maps.md).
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "continuum/fem/flow_field.hpp"
+#include "coupling/exchange/field_map.hpp"
 
 namespace drumlin {
 
 /// What a map shows.
 struct MapArea {
   double x_min = 0, x_max = 0, z_min = 0, z_max = 0;
-  std::function<bool(Vec2)> inside;  ///< whether a point of the rectangle belongs to the domain
-  std::function<Vec2(Vec2 point, Vec2 velocity)> seen;  ///< from the laboratory frame; empty: that frame
-  std::vector<std::pair<std::string, double>> header;   ///< lines of the file besides reduced and spacing
+  std::function<bool(Vec2)> inside;    ///< whether a point of the rectangle belongs to the domain
+  double nu = 0;                       ///< volume fraction
+  std::optional<RotatingFrame> frame;  ///< that velocities are seen from; absent: the laboratory
+  std::vector<std::pair<std::string, double>> header;  ///< of the geometry
 };
 
-/// Points of a square grid, multiples of `spacing`, with velocity, pressure, stresses, I, mu, viscosity and
-/// well-posedness margin; in the axes of the domain. Written by the first rank. Throws
-/// IoError.
-void write_maps(const std::filesystem::path& file, const FlowField& field, const MapArea& area,
-                double spacing, bool reduced);
+/// Nodes are multiples of `spacing`, NaN outside of the domain; axes of the domain. Scales and the other
+/// lines of the header are the caller's. Collective, complete on every rank.
+FieldMap flow_map(const FlowField& field, const MapArea& area, double spacing);
 
 }  // namespace drumlin

@@ -295,7 +295,8 @@ MapArea gap_map_area(const Gap& gap, double strip_width) {
                   const double r = std::hypot(p.x, p.z);
                   return inner <= r && r <= outer;
                 },
-            .seen = {},
+            .nu = gap.nu,
+            .frame = {},
             .header = {{"inner_radius", inner}, {"outer_radius", outer}}};
   }
   return {.x_min = -0.5 * strip_width,
@@ -303,7 +304,8 @@ MapArea gap_map_area(const Gap& gap, double strip_width) {
           .z_min = -gap.depth,
           .z_max = 0,
           .inside = [](Vec2) { return true; },
-          .seen = {},
+          .nu = gap.nu,
+          .frame = {},
           .header = {{"gap", gap.depth}}};
 }
 

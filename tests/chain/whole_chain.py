@@ -57,7 +57,9 @@ def check_flow(folder):
     require_keys(flow, FLOW, "flow.json")
     require_reduced("flow.json", flow)
     require((folder / "profiles.csv").exists(), "no profiles of the continuum")
-    require(list(folder.glob("*.vtu")) and list(folder.glob("*.png")), "no VTU or no figure of the continuum")
+    require(list(folder.glob("*.vtu")) and (folder / "maps.h5").exists(), "no VTU or no maps of the continuum")
+    figures = {"maps", "profiles", "well_posedness", "newton", "sensitivity"}
+    require({file.stem for file in folder.glob("*.png")} == figures, "figures of the continuum are missing")
 
 
 def check_report(folder):
