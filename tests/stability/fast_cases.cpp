@@ -1,45 +1,15 @@
 // The fast half of the table that `drumlin hardcases` shows, one test per case, and what judges it.
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <cmath>
-#include <ostream>
-#include <set>
 
 #include "particles/hardcases/hard_case.hpp"
 #include "particles/hardcases/trends.hpp"
+#include "tests/support/hard_case_tests.hpp"
 
-namespace drumlin {
+namespace drumlin::testing_hard_cases {
 
-/// For the names that ctest shows.
-void PrintTo(const HardCase& hard, std::ostream* out) { *out << hard.name; }
+INSTANTIATE_TEST_SUITE_P(Table, FastHardCase, testing::ValuesIn(fast_ones(hard_cases())), test_name);
 
 namespace {
-
-class FastHardCase : public testing::TestWithParam<HardCase> {};
-
-TEST_P(FastHardCase, HasItsKnownOutcome) {
-  const HardResult result = run_hard_case(GetParam());
-  EXPECT_FALSE(result.checks.empty());
-  for (const HardCheck& check : result.checks)
-    EXPECT_TRUE(check.holds()) << check.what << ": expected " << check.expected << ", got " << check.got
-                               << ", tolerance " << check.tolerance << " (" << check.reason << ')';
-}
-
-std::vector<HardCase> fast_cases() {
-  std::vector<HardCase> fast;
-  for (const HardCase& hard : hard_cases())
-    if (hard.fast) fast.push_back(hard);
-  return fast;
-}
-
-std::string test_name(const testing::TestParamInfo<HardCase>& instance) {
-  std::string name = instance.param.name;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-}
-
-INSTANTIATE_TEST_SUITE_P(Table, FastHardCase, testing::ValuesIn(fast_cases()), test_name);
 
 TEST(HardCheck, FailsOnWhatIsNotANumber) {
   const double nan = std::nan("");
@@ -54,10 +24,7 @@ TEST(HardCheck, FailsOnWhatIsNotANumber) {
 
 TEST(HardResult, WithoutChecksHasNotPassed) { EXPECT_FALSE(HardResult{}.passed()); }
 
-TEST(HardCases, HaveNamesOfTheirOwn) {
-  std::set<std::string> names;
-  for (const HardCase& hard : hard_cases()) EXPECT_TRUE(names.insert(hard.name).second) << hard.name;
-}
+TEST(HardCases, HaveNamesOfTheirOwn) { expect_names_of_their_own(hard_cases()); }
 
 TEST(Trend, OfALineIsItsSlope) {
   std::vector<double> line;
@@ -75,4 +42,4 @@ TEST(Trend, OfAnAlternationHasNoneWithinItsError) {
 }
 
 }  // namespace
-}  // namespace drumlin
+}  // namespace drumlin::testing_hard_cases
