@@ -11,6 +11,7 @@ import matplotlib.pyplot as plt
 import style
 
 LEAST_SHOWN_NU = 0.05  # volume fraction of the loosest layer that is drawn
+WIDEST_SHARE = 0.6  # of a value, up to which the figure of the sensitivities reaches
 FIT = style.CONTINUUM  # the colour of lines that are fitted or expected, not measured
 
 
@@ -324,14 +325,18 @@ def sensitivity(run):
             scale = abs(entry["value"])
             rows.append((name, (windows["lowest"] - entry["value"]) / scale, (windows["highest"] - entry["value"]) / scale,
                          (entry["ci99"] or 0) / scale))
-    figure, axes = plt.subplots(figsize=(9, 0.32 * len(rows) + 1.6))
+    figure, axes = plt.subplots(figsize=(10.5, 0.32 * len(rows) + 1.6))
     for row, (name, low, high, half) in enumerate(rows):
         axes.barh(row, 2 * half, left=-half, height=0.75, color=style.PARTICLES, alpha=0.25, linewidth=0)
         axes.plot([low, high], [row, row], color=FIT, linewidth=3, solid_capstyle="butt")
         axes.plot([0], [row], "k|", markersize=9)
+        if half > WIDEST_SHARE or max(abs(low), abs(high)) > WIDEST_SHARE:  # leaves the figure: its numbers stand beside it
+            axes.annotate(f" band +-{half:.2g}, line {low:+.2g} ... {high:+.2g}", (WIDEST_SHARE, row), va="center", fontsize=9,
+                          annotation_clip=False)
+    axes.margins(y=0.01)
     axes.set_yticks(range(len(rows)), [name for name, *_ in rows], fontsize=10)
     axes.invert_yaxis()
-    axes.set_xlim(-0.6, 0.6)
+    axes.set_xlim(-WIDEST_SHARE, WIDEST_SHARE)
     axes.set_xlabel("relative to the value: band = 99 % over time, line = by other windows")
     axes.set_title(style.title_of("What each scalar owes to its definition", run.reduced))
     return figure
