@@ -11,6 +11,7 @@
 #include "apps/flow/flow_state_file.hpp"
 #include "apps/support/figures.hpp"
 #include "apps/support/json_file.hpp"
+#include "continuum/rheology/ill_posed_ranges.hpp"
 #include "coupling/exchange/text_file.hpp"
 #include "coupling/files/field_map_file.hpp"
 
@@ -83,6 +84,28 @@ Json closed_form_json(const FinishedFlow& flow) {
           {"profile", {{"z", c.z}, {"v_x", c.v_x}, {"v_x_closed_form", c.v_x_closed_form}}}};
 }
 
+Json without_k_json(const FinishedFlow& flow) {
+  Json change;
+  for (const Scalar& scalar : flow.without_k->scalars.scalars)
+    change[scalar.name] =
+        to_json(Scalar{scalar.name, scalar.value - flow.meshes.back().scalars.value(scalar.name), {}});
+  return {
+      {"scalars", scalars_json(flow.without_k->scalars)},
+      {"change", change},
+      {"v_x_change", flow.without_k->v_x_change},
+      {"profile", {{"z", flow.without_k->profiles.z}, {"v_x", flow.without_k->profiles.column("v_x").value}}},
+      {"turns", flow.solution.report.turns},
+      {"turn_change", flow.solution.report.turn_change}};
+}
+
+Json ill_posed_json(const FlowProblem& problem) {
+  Json ranges = Json::array();
+  for (const InertialRange& range :
+       ill_posed_ranges(problem.law, problem.turned ? &problem.turned->k : nullptr))
+    ranges.push_back({range.from, range.to});
+  return ranges;
+}
+
 // The keys of rheology.toml; those of the logarithm come without their "law", as before there were others.
 Json friction_json(const MeasuredFriction& mu) {
   struct Keys {
@@ -103,6 +126,7 @@ Json settings_json(const FinishedFlow& flow) {
   Json law = friction_json(flow.law.mu);
   law["nu"] = flow.law.nu;
   law["fitted_on"] = flow.law.fitted_on;
+  if (flow.law.k) law["k"] = {{"I", flow.law.k->I}, {"k", flow.law.k->k}};
   Json settings{{"title", s.title}, {"law", law}};
   add_scalars(settings, flow.flow_case.settings);
   const Json rest{{"surface_cell", s.mesh.surface_cell},
@@ -161,6 +185,8 @@ Json flow_json(const FinishedFlow& flow) {
   add_scalars(content, result.scalars);
   add_scalars(content, flow.flow_case.given);
   content["ill_posed_share"] = sums.ill_posed_area / sums.area;
+  content["ill_posed_I"] = ill_posed_json(flow.flow_case.problem);
+  if (flow.without_k) content["without_k"] = without_k_json(flow);
   content["unknowns"] = result.unknowns;
   content["iterations"] = report.iterations;
   content["start"] = report.start;
@@ -180,6 +206,17 @@ Json flow_json(const FinishedFlow& flow) {
 }
 
 }  // namespace
+
+double v_x_change(const ProfileSet& without, const ProfileSet& with) {
+  const auto &a = without.column("v_x").value, &b = with.column("v_x").value;
+  double change = 0, size = 0;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    if (!std::isfinite(a[i]) || !std::isfinite(b[i])) continue;
+    change += (a[i] - b[i]) * (a[i] - b[i]);
+    size += b[i] * b[i];
+  }
+  return std::sqrt(change / size);
+}
 
 void write_iterations(const fs::path& file, const FlowReport& report) {
   std::string text = fmt::format("# drumlin-flow-iterations-1\n# converged = {}\n", report.converged);

@@ -1,6 +1,7 @@
 #pragma once
 // What a flow leaves in FLOWRUN (docs/formats/flow.md).
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "continuum/fem/flow_solver.hpp"
@@ -20,6 +21,14 @@ struct MeshResult {
 };
 
 struct Sensitivity;
+/// The same flow on the last mesh, before k entered.
+struct FlowWithoutK {
+  ScalarSet scalars;
+  ProfileSet profiles;
+  double v_x_change = 0;  ///< v_x_change() to the flow with k
+};
+/// Root mean square of the difference of v_x over that of the second, over the layers of two profiles.
+double v_x_change(const ProfileSet& without, const ProfileSet& with);
 
 /// Everything that describes one finished flow.
 struct FinishedFlow {
@@ -31,6 +40,7 @@ struct FinishedFlow {
   bool reduced = false;
   int ranks = 1;
   const std::vector<Sensitivity>& sensitivities;  ///< empty: not asked for
+  std::optional<FlowWithoutK> without_k = {};     ///< absent where the law has no k
 };
 
 /// iterations.csv: one line per nonlinear iteration; also for a flow that did not converge.

@@ -12,6 +12,7 @@
 #include "apps/flow/flow_state_file.hpp"
 #include "apps/support/interruption.hpp"
 #include "apps/support/output_folder.hpp"
+#include "continuum/rheology/ill_posed_ranges.hpp"
 #include "continuum/sampling/flow_case.hpp"
 #include "coupling/exchange/errors.hpp"
 #include "coupling/exchange/text_file.hpp"
@@ -93,6 +94,38 @@ FlowSolverOptions solver_options(const FlowScene& scene) {
   return options;
 }
 
+void add_k(const NormalStressRatio& points, FlowCase& chosen) {
+  chosen.problem.turned = TurnedStress{.k = StressRatioLaw(points.I, points.k)};
+  // In a ring k changes the pressure along the radius, and with it what the closed form takes for granted.
+  if (std::holds_alternative<AnnulusDomain>(chosen.problem.domain)) chosen.closed_form = nullptr;
+}
+
+// What is known to go wrong before anything is solved.
+std::string ill_posedness_text(const FlowProblem& problem) {
+  std::string text;
+  for (const InertialRange& range :
+       ill_posed_ranges(problem.law, problem.turned ? &problem.turned->k : nullptr))
+    text += fmt::format("{} {:.2g} to {:.2g}", text.empty() ? "" : ",", range.from, range.to);
+  if (text.empty()) return text;
+  return fmt::format(
+      "the law is ill-posed in simple shear for I from{} (searched from 1e-6 to 1): where the flow has such "
+      "I, "
+      "it depends on the mesh (docs/theory/rheology.md)\n",
+      text);
+}
+
+// What leaving k out would have cost.
+std::string without_k_text(const FinishedFlow& flow) {
+  if (!flow.without_k) return "";
+  std::string text = fmt::format("  settled in {} updates of the turn of the stress; without k:",
+                                 flow.solution.report.turns);
+  for (const Scalar& scalar : flow.without_k->scalars.scalars)
+    text += fmt::format(" {} {:.4g} ({:+.2g})", scalar.name, scalar.value,
+                        scalar.value - flow.meshes.back().scalars.value(scalar.name));
+  return text +
+         fmt::format(", v_x off by {:.1f} % (rms over the profile)\n", 100 * flow.without_k->v_x_change);
+}
+
 }  // namespace
 
 int solve_flow_scene(const FlowOptions& options, const FemRuntime& runtime) {
@@ -104,8 +137,9 @@ int solve_flow_scene(const FlowOptions& options, const FemRuntime& runtime) {
   }
   const FlowScene scene = read_flow_scene(options.scene, options.overrides);
   const RheologyFit fit = read_rheology(options.rheology);
-  const StressLaw law = stress_law(fit, options.rheology.string());
-  const FlowCase chosen = flow_case(scene, fit.nu, law);
+  const StressLaw law = stress_law(fit);
+  FlowCase chosen = flow_case(scene, fit.nu, law);
+  if (fit.k) add_k(*fit.k, chosen);
   const bool reduced = scene.reduced || fit.reduced;
   std::optional<FlowState> neighbour;
   if (options.from) neighbour = read_flow_state(*options.from);
@@ -118,6 +152,7 @@ int solve_flow_scene(const FlowOptions& options, const FemRuntime& runtime) {
     fmt::print("{}{}: {}, nu = {:.3f}, {}{}\n", scene.title, reduced ? " (reduced)" : "", chosen.summary,
                fit.nu, described(fit.mu),
                runtime.ranks() > 1 ? fmt::format(", {} ranks", runtime.ranks()) : "");
+    fmt::print("{}", ill_posedness_text(chosen.problem));
   });
   catch_interruptions();
   std::vector<MeshResult> meshes;
@@ -130,6 +165,10 @@ int solve_flow_scene(const FlowOptions& options, const FemRuntime& runtime) {
     meshes.push_back({level, field.cells(), field.unknowns(), chosen.scalars(field)});
     if (speaks) print_mesh(level, meshes.back());
   };
+  std::optional<FlowWithoutK> without_k;
+  observer.solved_without_k = [&](const FlowField& field) {
+    without_k = FlowWithoutK{chosen.scalars(field), chosen.profiles(field)};
+  };
   const FlowSolution solution =
       neighbour ? solve_flow_from(*neighbour, chosen.problem, solver_options(scene), observer)
                 : solve_flow(chosen.problem, solver_options(scene), observer);
@@ -140,12 +179,15 @@ int solve_flow_scene(const FlowOptions& options, const FemRuntime& runtime) {
     throw NotConvergedError(
         fmt::format("the flow did not converge: {}; the last iterate is ill-posed in {:.1f} % of the area",
                     solution.report.failure, 100 * ill_posed_share(solution.field)));
+  if (without_k) without_k->v_x_change = v_x_change(without_k->profiles, chosen.profiles(solution.field));
   std::vector<Sensitivity> sensitivities;
   if (scene.solver.sensitivity)
     sensitivities = sensitivities_of(chosen, solution, meshes, solver_options(scene));
-  const FinishedFlow flow{scene, fit, chosen, solution, meshes, reduced, runtime.ranks(), sensitivities};
+  const FinishedFlow flow{scene,           fit,           chosen,   solution, meshes, reduced,
+                          runtime.ranks(), sensitivities, without_k};
   write_flow(options.output, flow);
-  const std::string said = checks_text(flow) + sensitivity_text(flow) + summary_text(options.output, flow);
+  const std::string said =
+      checks_text(flow) + without_k_text(flow) + sensitivity_text(flow) + summary_text(options.output, flow);
   if (speaks) fmt::print("{}", said);
   return static_cast<int>(ExitCode::done);
 }

@@ -9,6 +9,7 @@
 #include "continuum/fem/detail/cell_shapes.hpp"
 #include "continuum/fem/detail/friction_wall.hpp"
 #include "continuum/fem/detail/inertia_terms.hpp"
+#include "continuum/fem/detail/point_law.hpp"
 
 namespace drumlin::fem {
 namespace {
@@ -44,7 +45,8 @@ void add_point_residual(const CellShapes& s, unsigned int q, const PointValues& 
   }
 }
 
-void add_point_tangent(const CellShapes& s, unsigned int q, const StressResponse& response, double share,
+template <class Response>
+void add_point_tangent(const CellShapes& s, unsigned int q, const Response& response, double share,
                        double JxW, dealii::FullMatrix<double>& matrix) {
   for (unsigned int j = 0; j < s.n; ++j) {
     const auto kj = q * s.n + j;
@@ -157,9 +159,10 @@ void add_inertia(const FlowProblem& problem, const InertiaSetting& inertia, cons
   if (matrix) add_inertia_tangent(s, q, at, density, per_time, JxW, *matrix);
 }
 
-template <class Law>
-void assemble(const FlowProblem& problem, const Discretisation& d, const Law& law, const Setting& setting,
-              const State& state, const dealii::AffineConstraints<double>& constraints, FieldVector& residual,
+template <class PointLaw>
+void assemble(const FlowProblem& problem, const Discretisation& d, const PointLaw& law,
+              const Setting& setting, const State& state,
+              const dealii::AffineConstraints<double>& constraints, FieldVector& residual,
               dealii::PETScWrappers::MPI::SparseMatrix* matrix, bool forces_of_walls = false) {
   FEValues<2> fe(d.mapping, d.elements, d.quadrature,
                  dealii::update_values | dealii::update_gradients | dealii::update_JxW_values |
@@ -187,7 +190,8 @@ void assemble(const FlowProblem& problem, const Discretisation& d, const Law& la
     for (const unsigned int q : fe.quadrature_point_indices()) {
       const PointValues at = point_values(shapes, q, local);
       const double p = law_pressure(setting.pressure, at.p, fe.quadrature_point(q)[1]);
-      const auto response = stress_response(law, setting.regularisation, at.D, p, state.dual[point++]);
+      const auto response = law(setting.regularisation, at.D, p, state.dual[point], point);
+      ++point;
       Vec2 force = body_force(problem, state.theta, fe.quadrature_point(q));
       if (setting.inertia)
         add_inertia(problem, *setting.inertia, shapes, q, fe.quadrature_point(q), fe.JxW(q), local,
@@ -228,31 +232,25 @@ void for_each_point(const Discretisation& d, const FieldVector& solution, Visit 
 
 void assemble_residual(const FlowProblem& problem, const Discretisation& d, const Setting& setting,
                        const State& state, System& system) {
-  std::visit(
-      [&](const auto& law) {
-        assemble(problem, d, law, setting, state, d.homogeneous, system.residual, nullptr);
-      },
-      setting.law);
+  with_point_law(problem, setting.law, state.turn(), [&](const auto& law) {
+    assemble(problem, d, law, setting, state, d.homogeneous, system.residual, nullptr);
+  });
 }
 
 void assemble_tangent(const FlowProblem& problem, const Discretisation& d, const Setting& setting,
                       const State& state, System& system) {
   if (system.matrix.m() == 0) system.matrix.reinit(d.owned, d.owned, d.pattern, d.mesh.get_communicator());
-  std::visit(
-      [&](const auto& law) {
-        assemble(problem, d, law, setting, state, d.homogeneous, system.residual, &system.matrix);
-      },
-      setting.law);
+  with_point_law(problem, setting.law, state.turn(), [&](const auto& law) {
+    assemble(problem, d, law, setting, state, d.homogeneous, system.residual, &system.matrix);
+  });
 }
 
 FieldVector nodal_forces(const FlowProblem& problem, const Discretisation& d, const Setting& setting,
                          const State& state) {
   FieldVector forces = d.field();
-  std::visit(
-      [&](const auto& law) {
-        assemble(problem, d, law, setting, state, d.conforming, forces, nullptr, true);
-      },
-      setting.law);
+  with_point_law(problem, setting.law, state.turn(), [&](const auto& law) {
+    assemble(problem, d, law, setting, state, d.conforming, forces, nullptr, true);
+  });
   return forces;
 }
 

@@ -9,8 +9,8 @@
 #include <limits>
 #include <map>
 
+#include "continuum/fem/detail/point_law.hpp"
 #include "continuum/fem/detail/solved_level.hpp"
-#include "continuum/rheology/well_posedness.hpp"
 
 namespace drumlin {
 namespace {
@@ -32,18 +32,12 @@ struct Values {
   }
 };
 
-StressResponse response(const fem::Setting& setting, const PlaneTensor& D, double p) {
-  return std::visit([&](const auto& law) { return stress_response(law, setting.regularisation, D, p, D); },
-                    setting.law);
-}
-
 PlaneTensor strain_rate(const dealii::Tensor<2, 2>& g) {
   return {g[0][0], g[1][1], 0.5 * (g[0][1] + g[1][0])};
 }
 
-PointState point_state(const fem::Setting& setting, const dealii::Tensor<1, 2>& u,
+PointState point_state(const fem::PointReport& s, const dealii::Tensor<1, 2>& u,
                        const dealii::Tensor<2, 2>& g, double p) {
-  const StressResponse s = response(setting, strain_rate(g), p);
   return {.velocity = {u[0], u[1]},
           .dvx_dx = g[0][0],
           .dvx_dz = g[0][1],
@@ -53,16 +47,18 @@ PointState point_state(const fem::Setting& setting, const dealii::Tensor<1, 2>& 
           .sigma_xx = p - s.stress.xx,
           .sigma_zz = p - s.stress.zz,
           .sigma_xz = s.stress.xz,
-          .shear_stress = magnitude(s.stress),
+          .shear_stress = s.along,
           .rate = magnitude(strain_rate(g)),
-          .law_pressure = s.law_pressure,
-          .viscosity = 0.5 * s.modulus,
-          .well_posedness = well_posedness_margin(s.strength, s.rate, magnitude(s.right))};
+          .law_pressure = s.normal,
+          .k = s.ratio,
+          .axis_angle = s.angle,
+          .viscosity = s.viscosity,
+          .well_posedness = s.margin};
 }
 
 PointState outside() {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  return {{nan, nan}, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan};
+  return {{nan, nan}, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan};
 }
 
 // Force, power and torque of the sides with a given velocity, from the residual in their unknowns.
@@ -166,10 +162,14 @@ std::vector<PointState> FlowField::at(std::span<const Vec2> points) const {
                            dealii::update_values | dealii::update_gradients);
     fe.reinit(cell);
     const Values values(fe, level_->state.solution);
+    const auto& turning = level_->state.turning;
+    const auto turn = turning ? fem::turn_at(*turning, d, cell, unit_points) : std::vector<double>();
     for (std::size_t q = 0; q < places.size(); ++q) {
       found[places[q].point] = true;
+      const auto report = fem::point_report(level_->problem, level_->setting, strain_rate(values.gradient[q]),
+                                            values.pressure[q], turn, q);
       states[places[q].point] =
-          point_state(level_->setting, values.velocity[q], values.gradient[q], values.pressure[q]);
+          point_state(report, values.velocity[q], values.gradient[q], values.pressure[q]);
     }
   }
   share_among_ranks(d, found, states);
@@ -183,6 +183,8 @@ FlowIntegrals FlowField::integrals(Vec2 centre) const {
   dealii::FEValues<2> fe(d.mapping, d.elements, d.quadrature,
                          dealii::update_values | dealii::update_gradients | dealii::update_JxW_values |
                              dealii::update_quadrature_points);
+  const auto turn = level_->state.turn();
+  std::size_t point = 0;
   const Vec2 weight{problem.density * std::sin(theta()), -problem.density * std::cos(theta())};
   for (const auto& cell : d.unknowns.active_cell_iterators()) {
     if (!cell->is_locally_owned()) continue;
@@ -190,10 +192,10 @@ FlowIntegrals FlowField::integrals(Vec2 centre) const {
     const Values values(fe, level_->state.solution);
     for (const unsigned int q : fe.quadrature_point_indices()) {
       const PlaneTensor D = strain_rate(values.gradient[q]);
-      const auto s = response(level_->setting, D, values.pressure[q]);
+      const auto s = fem::point_report(problem, level_->setting, D, values.pressure[q], turn, point++);
       const auto x = fe.quadrature_point(q);
       sums.area += fe.JxW(q);
-      if (well_posedness_margin(s.strength, s.rate, magnitude(s.right)) < 0) sums.ill_posed_area += fe.JxW(q);
+      if (s.margin < 0) sums.ill_posed_area += fe.JxW(q);
       sums.dissipation += contraction(s.stress, D) * fe.JxW(q);
       sums.weight_power += (weight.x * values.velocity[q][0] + weight.z * values.velocity[q][1]) * fe.JxW(q);
       sums.weight_torque += (weight.x * (x[1] - centre.z) - weight.z * (x[0] - centre.x)) * fe.JxW(q);

@@ -22,9 +22,12 @@ struct PointState {
   double pressure = 0;
   double sigma_xx = 0, sigma_zz = 0;
   double sigma_xz = 0;      ///< traction of the upper layer on the lower one, > 0 in the flow
-  double shear_stress = 0;  ///< |tau|
+  double shear_stress = 0;  ///< along D: |tau| without k
   double rate = 0;          ///< |D|
-  double law_pressure = 0;  ///< the law's p: I = 2 rate/sqrt(law_pressure), mu = shear_stress/law_pressure
+  /// The law's sigma_zz, without k its p: I = 2 rate/sqrt(law_pressure), mu = shear_stress/law_pressure.
+  double law_pressure = 0;
+  double k = 0;           ///< of the law; 1 without
+  double axis_angle = 0;  ///< from the axes of D to those of the stress, rad
   double viscosity = 0;
   double well_posedness = 0;  ///< margin (continuum/rheology/well_posedness.hpp), negative: ill-posed
 };

@@ -4,6 +4,7 @@
 
 #include "continuum/fem/detail/kept_state.hpp"
 #include "continuum/fem/detail/newton.hpp"
+#include "continuum/fem/detail/settle.hpp"
 #include "coupling/exchange/errors.hpp"
 
 namespace drumlin {
@@ -11,11 +12,13 @@ namespace {
 
 using fem::field_of;
 using fem::final_setting;
+using fem::lower_shear_rate;
 using fem::Newton;
 using fem::now;
 using fem::Phase;
 using fem::run;
 using fem::Setting;
+using fem::settle_turn;
 using fem::State;
 using fem::Work;
 using fem::WorkClock;
@@ -33,29 +36,6 @@ std::vector<Phase> cold_phases(const FlowProblem& problem, const FlowSolverOptio
     list.push_back({share == 0 ? "hydrostatic" : "pressure", setting, options.phase_tolerance});
   }
   return list;
-}
-
-// eps downwards; where a step fails it is halved (in ln eps) from the last solution that converged.
-bool lower_shear_rate(Newton& newton, const FlowSolverOptions& options, double tolerance,
-                      fem::SolvedLevel& level) {
-  const double last = level.problem.regularisation.shear_rate;
-  double eps = level.setting.regularisation.shear_rate, factor = options.shear_rate_factor;
-  Phase phase{"shear rate", level.setting, options.phase_tolerance};
-  while (eps > last) {
-    double next = std::max(last, eps * factor);
-    if (next < 1.5 * last) next = last;
-    phase.setting.regularisation.shear_rate = next;
-    phase.tolerance = next == last ? tolerance : options.phase_tolerance;
-    const State before = level.state;
-    if (run(newton, phase, level)) {
-      eps = next;
-      continue;
-    }
-    factor = std::sqrt(factor);
-    if (factor > 0.8 || newton.was_interrupted()) return false;
-    level.state = before;
-  }
-  return true;
 }
 
 // From slow flow to full inertia; a step that fails is halved.
@@ -153,10 +133,16 @@ FlowSolution solve(const FlowProblem& problem, const FlowSolverOptions& options,
     FlowSolverOptions here = options;
     if (mesh + 1 < options.levels) here.tolerance = std::max(options.tolerance, options.coarse_tolerance);
     Newton newton(problem, here, d, mesh, start, clock, report, observer);
+    state.turning = nullptr;
     const bool converged = mesh > first ? solve_from("refined", newton, here, *level)
                            : neighbour  ? solve_from("neighbour", newton, here, *level)
                                         : solve_cold(newton, here, *level);
     if (!converged) return finished(false);
+    if (problem.turned) {
+      if (observer.solved_without_k && mesh + 1 == options.levels)
+        clock(Work::evaluation, [&] { observer.solved_without_k(field_of(level)); });
+      if (!settle_turn(newton, here, *level, report)) return finished(false);
+    }
     report.failure.clear();
     if (observer.level_finished)
       clock(Work::evaluation, [&] { observer.level_finished(mesh, field_of(level)); });
@@ -197,7 +183,8 @@ FlowSolution solve_flow_again(const FlowField& start, const FlowProblem& problem
   report.start = "again";
   WorkClock clock;
   Newton newton(level->problem, options, *level->discretisation, 0, begun, clock, report, observer);
-  report.converged = solve_from("again", newton, options, *level);
+  report.converged = solve_from("again", newton, options, *level) &&
+                     (!problem.turned || settle_turn(newton, options, *level, report));
   report.seconds = now() - begun;
   return {report, field_of(level)};
 }

@@ -5,12 +5,13 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <sstream>
 #include <string>
 
+#include "continuum/fem/detail/point_law.hpp"
 #include "continuum/fem/detail/solved_level.hpp"
 #include "continuum/fem/flow_field.hpp"
-#include "continuum/rheology/well_posedness.hpp"
 #include "coupling/exchange/text_file.hpp"
 
 namespace drumlin {
@@ -19,12 +20,13 @@ namespace {
 // Stresses and numbers of the law at the vertices of each cell.
 class LawOutput : public dealii::DataPostprocessor<2> {
  public:
-  explicit LawOutput(const fem::Setting& setting) : setting_(setting) {}
+  explicit LawOutput(const fem::SolvedLevel& level) : level_(level) {}
 
   std::vector<std::string> get_names() const override {
-    return {"pressure", "sigma_xx",    "sigma_zz",
-            "sigma_xz", "D_magnitude", "I",
-            "mu",       "viscosity",   "well_posedness_margin"};
+    return {"pressure", "sigma_xx",      "sigma_zz",
+            "sigma_xz", "D_magnitude",   "I",
+            "mu",       "viscosity",     "well_posedness_margin",
+            "k",        "axis_angle_deg"};
   }
   std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation>
   get_data_component_interpretation() const override {
@@ -32,40 +34,50 @@ class LawOutput : public dealii::DataPostprocessor<2> {
         get_names().size(), dealii::DataComponentInterpretation::component_is_scalar);
   }
   dealii::UpdateFlags get_needed_update_flags() const override {
-    return dealii::update_values | dealii::update_gradients;
+    return dealii::update_values | dealii::update_gradients | dealii::update_quadrature_points;
   }
 
   void evaluate_vector_field(const dealii::DataPostprocessorInputs::Vector<2>& input,
                              std::vector<dealii::Vector<double>>& output) const override {
+    const std::vector<double> turn = turn_of(input);
     for (std::size_t q = 0; q < output.size(); ++q) {
       const auto& g = input.solution_gradients[q];
       const PlaneTensor D{g[0][0], g[1][1], 0.5 * (g[0][1] + g[1][0])};
-      const double p = input.solution_values[q][2];
-      const auto s =
-          std::visit([&](const auto& law) { return stress_response(law, setting_.regularisation, D, p, D); },
-                     setting_.law);
-      const std::array<double, 9> values = {p,
-                                            p - s.stress.xx,
-                                            p - s.stress.zz,
-                                            s.stress.xz,
-                                            magnitude(D),
-                                            2 * magnitude(D) / std::sqrt(s.law_pressure),
-                                            magnitude(s.stress) / s.law_pressure,
-                                            0.5 * s.modulus,
-                                            well_posedness_margin(s.strength, s.rate, magnitude(s.right))};
+      const double p = input.solution_values[q][2], rate = magnitude(D);
+      const auto s = fem::point_report(level_.problem, level_.setting, D, p, turn, q);
+      const std::array<double, 11> values = {p,
+                                             p - s.stress.xx,
+                                             p - s.stress.zz,
+                                             s.stress.xz,
+                                             rate,
+                                             2 * rate / std::sqrt(s.normal),
+                                             s.along / s.normal,
+                                             s.viscosity,
+                                             s.margin,
+                                             s.ratio,
+                                             s.angle * 180 / std::numbers::pi};
       std::copy(values.begin(), values.end(), output[q].begin());
     }
   }
 
  private:
-  const fem::Setting& setting_;
+  std::vector<double> turn_of(const dealii::DataPostprocessorInputs::Vector<2>& input) const {
+    if (!level_.state.turning) return {};
+    const auto& d = *level_.discretisation;
+    const auto cell = input.get_cell<2>();
+    std::vector<dealii::Point<2>> unit_points;
+    for (const auto& place : input.evaluation_points)
+      unit_points.push_back(d.mapping.transform_real_to_unit_cell(cell, place));
+    return fem::turn_at(*level_.state.turning, d, cell, unit_points);
+  }
+  const fem::SolvedLevel& level_;
 };
 
 }  // namespace
 
 void FlowField::write_vtu(const std::filesystem::path& file) const {
   using Interpretation = dealii::DataComponentInterpretation::DataComponentInterpretation;
-  const LawOutput law(level_->setting);
+  const LawOutput law(*level_);
   dealii::DataOut<2> output;
   output.attach_dof_handler(level_->discretisation->unknowns);
   output.add_data_vector(level_->state.solution, std::vector<std::string>{"velocity", "velocity", "p"},

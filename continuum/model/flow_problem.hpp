@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "continuum/rheology/stress_ratio.hpp"
 #include "continuum/rheology/tensor_law.hpp"
 
 namespace drumlin {
@@ -102,12 +103,21 @@ struct RotatingFrame {
   double axis_offset = 0;  ///< the observer turns about (0, axis_offset)
 };
 
+/// k(I): turns the stress against the strain rate (continuum/rheology/turned_law.hpp).
+struct TurnedStress {
+  StressRatioLaw k;
+  double softness = 0.1;  ///< c of turn_of()
+  /// s sgn(W - Omega_D) at a point; empty: from the flow itself, for verification else.
+  std::function<double(Vec2)> given_turn = {};
+};
+
 struct FlowProblem {
   Domain domain;
   std::map<Side, BoundaryCondition> boundary;
   StressLaw law;
-  Regularisation regularisation;  ///< what the last phase reaches
-  double density = 0;             ///< nu; the weight is density (sin theta, -cos theta)
+  std::optional<TurnedStress> turned;  ///< absent: sigma_xx = sigma_zz in simple shear
+  Regularisation regularisation;       ///< what the last phase reaches
+  double density = 0;                  ///< nu; the weight is density (sin theta, -cos theta)
   Slope slope;
   std::function<Vec2(Vec2)> extra_force;  ///< added to the weight; empty: absent
   double surface_pressure = 0;            ///< of the hydrostatic start, rho0 g d

@@ -3,8 +3,6 @@
 #include <cassert>
 #include <cmath>
 
-#include "coupling/exchange/errors.hpp"
-
 namespace drumlin {
 
 template <class FrictionLaw>
@@ -38,15 +36,6 @@ struct LawOfFile {
 
 }  // namespace
 
-StressLaw stress_law(const RheologyFit& fit, const std::string& file) {
-  if (fit.k)
-    throw InputError({InputProblem{
-        .file = file,
-        .key = "k",
-        .what = "is given, but the continuum solves the law with k absent (sigma_xx = sigma_zz in "
-                "simple shear)",
-        .allowed = "a file without the table [k]"}});
-  return std::visit(LawOfFile{}, fit.mu);
-}
+StressLaw stress_law(const RheologyFit& fit) { return std::visit(LawOfFile{}, fit.mu); }
 
 }  // namespace drumlin

@@ -1,7 +1,6 @@
 #pragma once
 // Scalar laws F(|D|, p) of the deviatoric stress tau = F D/|D|: the short closed list from which a problem
 // picks one.
-#include <string>
 #include <variant>
 
 #include "continuum/rheology/friction_law.hpp"
@@ -35,8 +34,8 @@ extern template Strength strength(const SaturatingLaw&, double, double);
 extern template Strength strength(const ConstantLaw&, double, double);
 extern template Strength strength(const TabulatedLaw&, double, double);
 
-/// The law of a rheology file, named in messages. Throws InputError if it holds k(I): this solver takes the
-/// law with k absent only.
-StressLaw stress_law(const RheologyFit& fit, const std::string& file);
+/// The friction law of a rheology file. What the file says of k is another part of the law
+/// (continuum/rheology/stress_ratio.hpp).
+StressLaw stress_law(const RheologyFit& fit);
 
 }  // namespace drumlin

@@ -14,19 +14,33 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-constexpr std::array names = {"nu",          "v_x",
-                              "v_z",         "d_v_x_dx",
-                              "d_v_x_dz",    "d_v_z_dx",
-                              "d_v_z_dz",    "D_xx",
-                              "D_zz",        "D_xz",
-                              "strain_rate", "half_vorticity",
-                              "sigma_xx",    "sigma_zz",
-                              "sigma_xz",    "sigma_zx",
-                              "p",           "tau",
-                              "I",           "mu",
-                              "k",           "axis_angle_deg",
-                              "I_law",       "mu_law",
-                              "viscosity",   "well_posedness_margin"};
+constexpr std::array names = {"nu",
+                              "v_x",
+                              "v_z",
+                              "d_v_x_dx",
+                              "d_v_x_dz",
+                              "d_v_z_dx",
+                              "d_v_z_dz",
+                              "D_xx",
+                              "D_zz",
+                              "D_xz",
+                              "strain_rate",
+                              "half_vorticity",
+                              "sigma_xx",
+                              "sigma_zz",
+                              "sigma_xz",
+                              "sigma_zx",
+                              "p",
+                              "tau",
+                              "I",
+                              "mu",
+                              "k",
+                              "axis_angle_deg",
+                              "I_law",
+                              "mu_law",
+                              "k_law",
+                              "viscosity",
+                              "well_posedness_margin"};
 using Values = std::array<double, names.size()>;
 
 Values values_at(const PointState& s, Vec2 point, const MapArea& area) {
@@ -63,6 +77,7 @@ Values values_at(const PointState& s, Vec2 point, const MapArea& area) {
           at.axis_angle_deg,
           2 * s.rate / std::sqrt(s.law_pressure),
           s.shear_stress / s.law_pressure,
+          s.k,
           s.viscosity,
           s.well_posedness};
 }

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "continuum/rheology/stress_law.hpp"
-#include "coupling/exchange/errors.hpp"
 
 namespace drumlin {
 namespace {
@@ -76,13 +75,13 @@ TEST(TabulatedLaw, GrowsEverywhereAndStaysPositive) {
 TEST(StressLawOfAFile, HasTheFormThatTheFileNames) {
   RheologyFit fit;
   fit.mu = LogFriction{.a = 0.35, .b = 0.013};
-  EXPECT_EQ(std::get<LogLaw>(stress_law(fit, "")).b, 0.013);
+  EXPECT_EQ(std::get<LogLaw>(stress_law(fit)).b, 0.013);
   fit.mu = ConstantFriction{0.3};
-  EXPECT_EQ(std::get<ConstantLaw>(stress_law(fit, "")).mu, 0.3);
+  EXPECT_EQ(std::get<ConstantLaw>(stress_law(fit)).mu, 0.3);
   fit.mu = JopFriction{0.383, 0.643, 0.279};
-  EXPECT_EQ(std::get<SaturatingLaw>(stress_law(fit, "")).I_0, 0.279);
+  EXPECT_EQ(std::get<SaturatingLaw>(stress_law(fit)).I_0, 0.279);
   fit.mu = FrictionTable{{1e-3, 1e-1}, {0.2, 0.3}};
-  EXPECT_NEAR(std::get<TabulatedLaw>(stress_law(fit, "")).friction(0.01).mu, 0.25, 1e-5);
+  EXPECT_NEAR(std::get<TabulatedLaw>(stress_law(fit)).friction(0.01).mu, 0.25, 1e-5);
 }
 
 }  // namespace

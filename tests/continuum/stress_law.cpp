@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "continuum/rheology/tensor_law.hpp"
-#include "coupling/exchange/errors.hpp"
 
 namespace drumlin {
 namespace {
@@ -44,20 +43,6 @@ TEST(StressLaw, SlopesAreThoseOfItsValues) {
         EXPECT_NEAR(F.d_rate, by_rate, 1e-7 * F.value / rate);
         EXPECT_NEAR(F.d_pressure, by_p, 1e-7 * F.value / p);
       }
-}
-
-TEST(StressLaw, RefusesALawWithK) {
-  RheologyFit fit;
-  fit.mu = LogFriction{.a = 0.35, .b = 0.013};
-  EXPECT_NO_THROW(stress_law(fit, "law.toml"));
-  fit.k = NormalStressRatio{{1e-3}, {1.2}};
-  try {
-    (void)stress_law(fit, "law.toml");
-    FAIL() << "accepted";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("law.toml"), std::string::npos) << error.what();
-    EXPECT_NE(std::string(error.what()).find("k absent"), std::string::npos) << error.what();
-  }
 }
 
 TEST(TensorLaw, SimpleShearCarriesMuTimesThePressure) {

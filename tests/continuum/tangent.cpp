@@ -24,5 +24,11 @@ TEST(AssembledTangent, KnowsInertiaATurningFrameAndAWallWithFriction) {
   EXPECT_LT(tangent_error(problem, true, 1e-6), 1e-7);
 }
 
+TEST(AssembledTangent, IsTheDerivativeOfTheResidualWithK) {
+  FlowProblem problem = small_segment();
+  problem.turned = TurnedStress{.k = StressRatioLaw({0.05, 20}, {0.7, 1.3})};
+  EXPECT_LT(tangent_error(problem, false, 1e-6), 1e-7);
+}
+
 }  // namespace
 }  // namespace drumlin

@@ -4,6 +4,7 @@
 
 #include "continuum/fem/detail/assembly.hpp"
 #include "continuum/fem/detail/direct_solver.hpp"
+#include "continuum/fem/detail/turning.hpp"
 
 namespace drumlin::testing_tangent {
 
@@ -44,6 +45,7 @@ inline double tangent_error(const FlowProblem& problem, bool inertia, double h) 
   state.solution.update_ghost_values();
   direction.update_ghost_values();
   state.dual = fem::dual_of(d, setting.regularisation, state.solution);
+  if (problem.turned) state.turning = fem::turning_of(problem, d, 0.2, state.solution);
 
   fem::System system(d);
   fem::assemble_tangent(problem, d, setting, state, system);

@@ -1,0 +1,83 @@
+#include "continuum/fem/detail/settle.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "continuum/fem/detail/turning.hpp"
+
+namespace drumlin::fem {
+namespace {
+
+// Relative change of the velocity, or of the slope where that is larger.
+double change_between(const Discretisation& d, const State& before, const State& after) {
+  double change = 0, size = 0;
+  for (std::size_t i = 0; i < d.is_velocity.size(); ++i) {
+    if (!d.is_velocity[i]) continue;
+    const double here = after.solution.local_element(i), step = here - before.solution.local_element(i);
+    change += step * step;
+    size += here * here;
+  }
+  const double turned = std::abs(after.theta - before.theta);
+  return std::max(std::sqrt(d.sum(change) / d.sum(size)), turned > 0 ? turned / std::abs(after.theta) : 0);
+}
+
+// The first solve with k starts at a larger eps: the stress jumps by up to (k - 1)/(2 mu) of itself.
+bool enter_k(Newton& newton, const FlowSolverOptions& options, const Setting& last, SolvedLevel& level) {
+  const double eps = level.problem.regularisation.shear_rate;
+  Phase start{"k", last, options.phase_tolerance};
+  start.setting.regularisation.shear_rate = std::max(eps, options.careful_shear_rate);
+  if (start.setting.regularisation.shear_rate <= eps) start.tolerance = options.tolerance;
+  return run(newton, start, level) && lower_shear_rate(newton, options, options.tolerance, level);
+}
+
+}  // namespace
+
+bool lower_shear_rate(Newton& newton, const FlowSolverOptions& options, double tolerance,
+                      SolvedLevel& level) {
+  const double last = level.problem.regularisation.shear_rate;
+  double eps = level.setting.regularisation.shear_rate, factor = options.shear_rate_factor;
+  Phase phase{"shear rate", level.setting, options.phase_tolerance};
+  while (eps > last) {
+    double next = std::max(last, eps * factor);
+    if (next < 1.5 * last) next = last;
+    phase.setting.regularisation.shear_rate = next;
+    phase.tolerance = next == last ? tolerance : options.phase_tolerance;
+    const State before = level.state;
+    if (run(newton, phase, level)) {
+      eps = next;
+      continue;
+    }
+    factor = std::sqrt(factor);
+    if (factor > 0.8 || newton.was_interrupted()) return false;
+    level.state = before;
+  }
+  return true;
+}
+
+bool settle_turn(Newton& newton, const FlowSolverOptions& options, SolvedLevel& level, FlowReport& report) {
+  const double eps = level.problem.regularisation.shear_rate;
+  const Setting last = level.setting;
+  const bool enters = !level.state.turning;
+  double share = 1, last_change = INFINITY;
+  for (report.turns = 1; report.turns <= options.max_turns; ++report.turns) {
+    const bool first = enters && report.turns == 1;
+    const State before = level.state;
+    level.state.turning =
+        turning_of(level.problem, *level.discretisation, eps, before.solution, before.turning.get(), share);
+    if (!(first ? enter_k(newton, options, last, level) : run(newton, {"k", last, options.tolerance}, level)))
+      return false;
+    report.turn_change = change_between(*level.discretisation, before, level.state) / share;
+    if (!first && report.turn_change <= options.turn_tolerance) return true;
+    // Half of each update where whole ones do not come to rest: signs that flip in nearly rigid parts.
+    if (report.turn_change > 0.5 * last_change) share = 0.5;
+    last_change = report.turn_change;
+  }
+  report.failure = fmt::format(
+      "the turn of the stress does not settle: update {} still moves the flow by {:.2e}, tolerance {:.1e}",
+      options.max_turns, report.turn_change, options.turn_tolerance);
+  return false;
+}
+
+}  // namespace drumlin::fem

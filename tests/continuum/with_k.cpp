@@ -1,0 +1,125 @@
+// The law with k in the finite elements: layers that can be written down.
+#include "boxes.hpp"
+#include "continuum/reference/closed_forms.hpp"
+#include "continuum/sampling/drum_profiles.hpp"
+
+namespace drumlin {
+namespace {
+
+using namespace testing_boxes;
+
+const LogLaw paper{0.35, 0.013};
+
+TurnedStress some_k() { return {.k = StressRatioLaw({1e-3, 1e-1}, {0.93, 1.07})}; }
+
+TEST(PlaneShearWithK, CarriesExactlyKAndTheSameRate) {
+  const double P = 4, mu = 0.2901;
+  FlowProblem problem = strip(10, 4, paper, constant_traction(mu * P, -P));
+  problem.turned = some_k();
+  problem.regularisation = {.shear_rate = 1e-7, .pressure = 1e-4};
+  problem.surface_pressure = P;
+  FlowSolverOptions options;
+  options.levels = 1;
+  options.tolerance = 1e-11;
+  const FlowField field = converged(problem, options);
+  const double rate = plane_shear_rate(StressLaw(paper), P, mu * P);
+  for (const double z : {-9.0, -5.0, -0.5}) {
+    const PointState s = state_at(field, {0.1, z});
+    // Uniform, hence exact on any mesh; p_min^2/p^2 = 1e-9 moves mu, that over b = 1e-7 the rate.
+    EXPECT_NEAR(s.dvx_dz / rate, 1, 1e-6);
+    EXPECT_NEAR(s.sigma_zz, P, 1e-8);
+    EXPECT_NEAR(s.sigma_xz, mu * P, 1e-8);
+    const double k = some_k().k.at_ln(std::log(s.dvx_dz / std::sqrt(P))).value;
+    EXPECT_NEAR(s.sigma_xx / s.sigma_zz, k, 1e-7);
+    EXPECT_NEAR(s.k, k, 1e-7);
+    EXPECT_NEAR(std::tan(2 * s.axis_angle), (k - 1) / (2 * mu), 1e-6);
+  }
+}
+
+TEST(InclineWithK, MovesAsWithoutAndIsPressedSideways) {
+  const double theta = 18.5 * degree, nu = 0.82;
+  FlowProblem problem = strip(20, 10, paper, constant_traction(0, 0));
+  problem.density = nu;
+  problem.slope = FixedSlope{theta};
+  problem.regularisation = {.shear_rate = 1e-5, .pressure = 1e-2};
+  // I = 0.07 and with it k = 1.06, everywhere.
+  problem.turned = some_k();
+  FlowSolverOptions options;
+  options.levels = 2;
+  const FlowField field = converged(problem, options);
+  const double exact = bagnold_speed(paper, nu, theta, 20, 20), I = inertial_number(paper, std::tan(theta));
+  EXPECT_NEAR(state_at(field, {0, -1e-9}).velocity.x, exact, 5e-3 * exact);  // as without k
+  const PointState middle = state_at(field, {0, -10});
+  EXPECT_NEAR(middle.sigma_xz / middle.sigma_zz, std::tan(theta), 1e-3);
+  EXPECT_NEAR(middle.sigma_xx / middle.sigma_zz, some_k().k.at_ln(std::log(I)).value, 1e-3);
+  EXPECT_NEAR(middle.sigma_zz, nu * std::cos(theta) * 10, 1e-3 * 10);
+}
+
+TEST(FlowWithK, OfKOneIsTheFlowWithout) {
+  FlowProblem problem = strip(10, 4, paper, constant_traction(0.29 * 4, -4));
+  problem.density = 0.1;
+  problem.slope = FixedSlope{0.1};
+  problem.surface_pressure = 4;
+  problem.regularisation = {.shear_rate = 1e-4, .pressure = 1e-2};
+  FlowSolverOptions options;
+  options.levels = 1;
+  options.tolerance = 1e-10;
+  const FlowField without = converged(problem, options);
+  problem.turned = TurnedStress{.k = StressRatioLaw({1}, {1})};
+  const FlowField with = converged(problem, options);
+  for (const double z : {-9.0, -4.0, -1.0}) {
+    const PointState a = state_at(without, {0, z}), b = state_at(with, {0, z});
+    EXPECT_NEAR(b.velocity.x / a.velocity.x, 1, 1e-7);
+    EXPECT_NEAR(b.sigma_xx, a.sigma_xx, 1e-7);
+  }
+}
+
+constexpr DrumGeometry drum{.radius = 15, .axis_offset = 1, .rotation = 0.03, .nu = 0.82};
+
+FlowProblem small_drum(const StressRatioLaw& k) {
+  FlowProblem problem = drum_problem(drum, paper, {.surface_cell = 2, .surface_zone = 6, .levels = 1},
+                                     {.corner_taper = 3}, {.shear_rate = 1e-3});
+  problem.turned = TurnedStress{.k = k};
+  return problem;
+}
+
+TEST(SmallDrumWithK, BalancesMassTorqueAndPower) {
+  FlowSolverOptions options;
+  options.levels = 1;
+  int seen = 0;
+  double theta_without = 0;
+  FlowObserver observer;
+  observer.solved_without_k = [&](const FlowField& field) {
+    ++seen;
+    theta_without = field.theta();
+  };
+  const FlowSolution solution =
+      solve_flow(small_drum(StressRatioLaw({1e-4, 1e-2, 1e-1}, {0.96, 1.03, 1.0})), options, observer);
+  ASSERT_TRUE(solution.report.converged) << solution.report.failure;
+  EXPECT_EQ(seen, 1);
+  EXPECT_LT(solution.report.turn_change, options.turn_tolerance);
+  EXPECT_GT(solution.report.turns, 1);
+  const FlowIntegrals sums = solution.field.integrals({0, drum.axis_offset});
+  EXPECT_NEAR(discharge(solution.field, drum) / drum.expected_Q(), 1, 1e-3);
+  EXPECT_NEAR(sums.given_side_torque / sums.weight_torque, -1, 1e-4);
+  EXPECT_NEAR(sums.dissipation / (sums.given_side_power + sums.weight_power), 1, 1e-3);
+  EXPECT_EQ(sums.ill_posed_area, 0);
+  // k within 4 % of one turns the stress by up to 3 degrees but hardly moves the slope.
+  EXPECT_NEAR(solution.field.theta(), theta_without, 0.5 * degree);
+}
+
+TEST(SmallDrumWithK, OfAnIllPosedLawEndsWithItsShare) {
+  FlowProblem problem = small_drum(StressRatioLaw({1e-5, 1e-3, 1e-2}, {0.8, 1.2, 1.0}));
+  problem.regularisation.shear_rate = 1e-5;  // a larger eps would hide that the law is ill-posed
+  FlowSolverOptions options;
+  options.levels = 1;
+  options.max_turns = 3;
+  const FlowSolution solution = solve_flow(problem, options);
+  EXPECT_TRUE(solution.report.converged || !solution.report.failure.empty());
+  const FlowIntegrals sums = solution.field.integrals();
+  EXPECT_GT(sums.ill_posed_area, 0);
+  EXPECT_LE(sums.ill_posed_area, sums.area);
+}
+
+}  // namespace
+}  // namespace drumlin
