@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "continuum/fem/detail/newton.hpp"
+#include "continuum/fem/detail/turning.hpp"
 #include "continuum/fem/flow_solver.hpp"
 #include "coupling/exchange/errors.hpp"
 
@@ -17,6 +18,9 @@ using fem::State;
 bool advance(Newton& newton, const FlowSolverOptions& options, double time_step, int depth,
              fem::SolvedLevel& level) {
   const State before = level.state;
+  if (level.problem.turned)  // of the start of the step: an error of first order in it, as the method's own
+    level.state.turning = fem::turning_of(level.problem, *level.discretisation,
+                                          level.problem.regularisation.shear_rate, before.solution);
   Phase phase{"time step", fem::final_setting(level.problem, before.theta), options.tolerance};
   phase.setting.inertia = fem::InertiaSetting{.share = 1, .time_step = time_step, .before = &before.solution};
   const bool done = run(newton, phase, level);
