@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "continuum/fem/detail/kept_state.hpp"
 #include "continuum/fem/detail/newton.hpp"
 #include "continuum/fem/detail/turning.hpp"
 #include "continuum/fem/flow_solver.hpp"
@@ -14,22 +15,60 @@ using fem::Newton;
 using fem::Phase;
 using fem::State;
 
+// Where nothing moves yet, Newton's method knows no direction of D: a fluid first, then the law at smaller
+// and smaller eps.
+bool advance_carefully(Newton& newton, const FlowSolverOptions& options, Phase phase,
+                       fem::SolvedLevel& level) {
+  const double last = phase.setting.regularisation.shear_rate, tolerance = phase.tolerance;
+  const StressLaw law = phase.setting.law;
+  phase.name = "start";
+  phase.tolerance = options.phase_tolerance;
+  phase.setting.law = NewtonianLaw{1};
+  phase.setting.regularisation.shear_rate = std::max(last, options.start_shear_rate);
+  if (!run(newton, phase, level)) return false;
+  phase.setting.law = law;
+  for (double eps = phase.setting.regularisation.shear_rate; run(newton, phase, level);) {
+    if (eps == last) return true;
+    eps *= 0.1;
+    if (eps < 1.5 * last) eps = last;
+    phase.setting.regularisation.shear_rate = eps;
+    if (eps == last) phase.tolerance = tolerance;
+  }
+  return false;
+}
+
 // One step, cut in halves where Newton's method fails.
 bool advance(Newton& newton, const FlowSolverOptions& options, double time_step, int depth,
              fem::SolvedLevel& level) {
   const State before = level.state;
-  if (level.problem.turned)  // of the start of the step: an error of first order in it, as the method's own
-    level.state.turning = fem::turning_of(level.problem, *level.discretisation,
-                                          level.problem.regularisation.shear_rate, before.solution);
+  const auto& d = *level.discretisation;
+  const bool at_rest = before.solution.l2_norm() == 0;
   Phase phase{"time step", fem::final_setting(level.problem, before.theta), options.tolerance};
   phase.setting.inertia = fem::InertiaSetting{.share = 1, .time_step = time_step, .before = &before.solution};
-  const bool done = run(newton, phase, level);
+  d.constraints.distribute(level.state.solution);  // what the sides do now
+  level.state.solution.update_ghost_values();
+  // Of the start of the step: an error of first order in it, as the method's own. At rest there are no axes
+  // to turn against.
+  level.state.turning = nullptr;
+  if (level.problem.turned && !at_rest)
+    level.state.turning =
+        fem::turning_of(level.problem, d, level.problem.regularisation.shear_rate, before.solution);
+  const bool done = at_rest ? advance_carefully(newton, options, phase, level) : run(newton, phase, level);
   level.setting.inertia->before = nullptr;
   if (done) return true;
   if (depth == 0 || newton.was_interrupted()) return false;
   level.state = before;
   return advance(newton, options, 0.5 * time_step, depth - 1, level) &&
          advance(newton, options, 0.5 * time_step, depth - 1, level);
+}
+
+std::shared_ptr<fem::SolvedLevel> coarsest_level(const FlowProblem& problem) {
+  auto level = std::make_shared<fem::SolvedLevel>();
+  level->problem = problem;
+  level->problem.frame = std::nullopt;
+  level->discretisation = std::make_shared<fem::Discretisation>(level->problem);
+  level->state.solution = level->discretisation->field();
+  return level;
 }
 
 }  // namespace
@@ -39,19 +78,58 @@ FlowSolution march_flow(const FlowField& start, const FlowProblem& problem, cons
   const double begun = fem::now();
   FlowProblem unsteady = problem;
   unsteady.inertia = Inertia{};
-  auto level = fem::level_for(start, unsteady);
-  const auto& d = *level->discretisation;
+  auto level = std::make_shared<fem::SolvedLevel>(start.level());
+  level->problem = unsteady;
+  level->problem.frame = std::nullopt;
+  auto& d = *level->discretisation;
+  d.constrain(level->problem);
   FlowReport report;
   report.start = "march";
   fem::WorkClock clock;
   Newton newton(level->problem, options, d, 0, begun, clock, report, observer);
-  for (int step = 1; step <= march.steps; ++step) {
+  for (int step = march.first + 1; step <= march.first + march.steps; ++step) {
+    const double time = step * march.time_step;
+    if (march.boundary) {
+      level->problem.boundary = march.boundary(time);
+      d.constrain(level->problem);
+    }
     if (!advance(newton, options, march.time_step, march.halvings, *level)) break;
-    if (march.stepped) march.stepped(step * march.time_step, fem::field_of(level));
-    report.converged = step == march.steps;
+    report.failure.clear();
+    if (march.stepped) march.stepped(time, fem::field_of(level));
+    report.converged = step == march.first + march.steps;
   }
   report.seconds = fem::now() - begun;
+  for (std::size_t i = 0; i < fem::work_names.size(); ++i)
+    report.phases.push_back({fem::work_names[i], clock.seconds(static_cast<fem::Work>(i)),
+                             clock.times(static_cast<fem::Work>(i))});
   return {report, fem::field_of(level)};
+}
+
+FlowField flow_of_state(const FlowState& kept, const FlowProblem& problem, const FlowSolverOptions& options) {
+  auto level = coarsest_level(problem);
+  auto& d = *level->discretisation;
+  for (int mesh = 0; !fem::fits(d, kept); ++mesh) {
+    if (mesh + 1 >= options.levels) throw InputError(fem::no_mesh_fits);
+    d.refine(level->problem, level->state.solution);
+  }
+  fem::lay_down(kept, *level);
+  level->setting = fem::final_setting(level->problem, kept.theta);
+  return FlowField(level);
+}
+
+FlowField flow_at_rest(const FlowProblem& problem, const FlowSolverOptions& options) {
+  auto level = coarsest_level(problem);
+  auto& d = *level->discretisation;
+  for (int mesh = 0; mesh + 1 < options.levels; ++mesh) d.refine(level->problem, level->state.solution);
+  auto& state = level->state;
+  state.solution = d.field();
+  state.solution.update_ghost_values();
+  if (const auto* fixed = std::get_if<FixedSlope>(&problem.slope))
+    state.theta = fixed->theta;
+  else
+    state.theta = std::get<SlopeFromMoment>(problem.slope).first_guess;
+  level->setting = fem::final_setting(level->problem, state.theta);
+  return FlowField(level);
 }
 
 }  // namespace drumlin

@@ -115,9 +115,7 @@ FlowSolution solve(const FlowProblem& problem, const FlowSolverOptions& options,
   if (neighbour) {
     for (; !fem::fits(d, *neighbour); ++first) {
       if (first + 1 >= options.levels)
-        throw InputError(
-            "the state of the neighbouring flow lies on none of the meshes of this one: geometry, fill and "
-            "mesh have to be the same, speed and law may differ");
+        throw InputError(fem::no_mesh_fits);
       clock(Work::refinement, [&] { d.refine(problem, state.solution); });
     }
     fem::take_over(*neighbour, *level);

@@ -107,7 +107,10 @@ struct FlowSolution {
 struct FlowMarch {
   double time_step = 0;  ///< sqrt(d/g)
   int steps = 0;
+  int first = 0;     ///< steps that were done before: time goes on from there
   int halvings = 6;  ///< of a step whose Newton iteration fails
+  /// What holds on the sides over the step that ends at `time`; empty: that of the problem.
+  std::function<std::map<Side, BoundaryCondition>(double time)> boundary = {};
   std::function<void(double time, const FlowField&)> stepped =
       {};  ///< after each step; empty: nobody watches
 };
@@ -116,8 +119,18 @@ struct FlowMarch {
 /// tau + f. The sides' velocities may differ from those of `start`, domain and mesh are its own; `start` must
 /// not be used to solve meanwhile, for it shares the mesh. The slope is at every time that at which the
 /// surface has no moment. First order in the time step, and it damps: a steady flow is kept to the tolerance.
+/// Nothing but the state goes from one call to the next: a march in two calls, the second from a kept state
+/// (flow_of_state), gives the same bits on one rank as in two calls at a stretch.
 [[nodiscard]] FlowSolution march_flow(const FlowField& start, const FlowProblem& problem,
                                       const FlowMarch& march, const FlowSolverOptions& options = {},
                                       const FlowObserver& observer = {});
+
+/// A kept flow as it is, on that mesh of `problem` which it fits, whatever the sides of the problem do.
+/// Throws InputError when no mesh fits.
+FlowField flow_of_state(const FlowState& kept, const FlowProblem& problem,
+                        const FlowSolverOptions& options = {});
+
+/// Nothing moves and nothing presses: on the last mesh of the problem, to march from.
+FlowField flow_at_rest(const FlowProblem& problem, const FlowSolverOptions& options = {});
 
 }  // namespace drumlin

@@ -93,7 +93,7 @@ bool fits(const Discretisation& d, const FlowState& kept) {
   return d.sum(all ? 0 : 1) == 0;
 }
 
-void take_over(const FlowState& kept, SolvedLevel& level) {
+void lay_down(const FlowState& kept, SolvedLevel& level) {
   auto& d = *level.discretisation;
   auto& solution = level.state.solution;
   solution = d.field();
@@ -106,6 +106,15 @@ void take_over(const FlowState& kept, SolvedLevel& level) {
       if (d.owned.is_element(indices[i]))
         solution[indices[i]] = kept.values[c * FlowState::values_per_cell + i];
   }
+  solution.update_ghost_values();
+  level.state.theta = kept.theta;
+}
+
+void take_over(const FlowState& kept, SolvedLevel& level) {
+  const double theta = level.state.theta;
+  lay_down(kept, level);
+  auto& d = *level.discretisation;
+  auto& solution = level.state.solution;
   if (level.problem.frame) solution -= frame_velocity(level.problem, d);  // kept in the laboratory
   const Projection sums = onto_given(d, solution);
   const double factor = sums.square > 0 && sums.product > 0 ? sums.product / sums.square : 1;
@@ -113,7 +122,7 @@ void take_over(const FlowState& kept, SolvedLevel& level) {
     if (d.is_velocity[k]) solution.local_element(k) *= factor;
   d.constraints.distribute(solution);
   solution.update_ghost_values();
-  if (std::holds_alternative<SlopeFromMoment>(level.problem.slope)) level.state.theta = kept.theta;
+  if (std::holds_alternative<FixedSlope>(level.problem.slope)) level.state.theta = theta;
 }
 
 }  // namespace fem

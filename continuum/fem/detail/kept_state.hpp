@@ -8,9 +8,17 @@ namespace drumlin::fem {
 /// Collective; complete on every rank.
 FlowState kept_state(const SolvedLevel& level);
 
+/// What is said where no mesh of a problem fits a kept state.
+inline constexpr const char* no_mesh_fits =
+    "the state of the neighbouring flow lies on none of the meshes of this one: geometry, fill and mesh have "
+    "to be the same, speed and law may differ";
+
 /// Whether the mesh has exactly the cells of `kept`, each within a tenth of its size of where it was: then
 /// their values are values on this mesh.
 bool fits(const Discretisation& d, const FlowState& kept);
+
+/// The values of what fits as they are, theta too.
+void lay_down(const FlowState& kept, SolvedLevel& level);
 
 /// Takes over what fits. Velocities are scaled to the given velocities of this problem (slow flow at another
 /// speed is nearly that), which then hold exactly.
