@@ -67,6 +67,13 @@ Json mesh_change(const std::vector<MeshResult>& meshes) {
   return changes;
 }
 
+// Why there is no mesh_change: null says that nothing was computed, not that nothing changed.
+Json mesh_change_missing(const FinishedFlow& flow) {
+  if (flow.meshes.size() > 1) return nullptr;
+  if (flow.scene.mesh.levels == 1) return "the scene has one mesh";
+  return "started on the last mesh from another flow: no coarser one was solved";
+}
+
 Json scalars_json(const ScalarSet& scalars) {
   Json object = Json::object();
   add_scalars(object, scalars);
@@ -74,8 +81,8 @@ Json scalars_json(const ScalarSet& scalars) {
 }
 
 Json closed_form_json(const FinishedFlow& flow) {
-  if (!flow.flow_case.closed_form) return nullptr;
-  const GapComparison c = flow.flow_case.closed_form(flow.solution.field);
+  if (!flow.findings.closed_form) return nullptr;
+  const GapComparison& c = *flow.findings.closed_form;
   return {{"mesh_error", c.mesh_error},
           {"mesh_error_max", c.mesh_error_max},
           {"closed_form_error", c.closed_form_error},
@@ -150,7 +157,7 @@ Json phases_json(const FlowReport& report) {
 
 // How large that is which the scene leaves out, where it is left out.
 Json left_out_json(const FinishedFlow& flow) {
-  const LeftOut rest = left_out(flow.solution.field);
+  const LeftOut& rest = *flow.findings.left_out;
   const FlowEffects& effects = flow.scene.effects;
   Json content = Json::object();
   if (!effects.inertia) {
@@ -179,7 +186,7 @@ Json sensitivity_json(const FinishedFlow& flow) {
 Json flow_json(const FinishedFlow& flow) {
   const MeshResult& result = flow.meshes.back();
   const FlowReport& report = flow.solution.report;
-  const FlowIntegrals sums = flow.solution.field.integrals();
+  const FlowIntegrals& sums = flow.findings.sums;
   Json content{{"format", "drumlin-flow-run-1"}, {"reduced", flow.reduced}};
   content["geometry"] = flow.flow_case.geometry;
   add_scalars(content, result.scalars);
@@ -194,11 +201,12 @@ Json flow_json(const FinishedFlow& flow) {
   content["seconds"] = report.seconds;
   content["ranks"] = flow.ranks;
   content["phases"] = phases_json(report);
-  content["checks"] = scalars_json(flow.flow_case.checks(flow.solution.field));
-  if (std::holds_alternative<FlowDrum>(flow.scene.geometry)) content["left_out"] = left_out_json(flow);
+  content["checks"] = scalars_json(flow.findings.checks);
+  if (flow.findings.left_out) content["left_out"] = left_out_json(flow);
   content["closed_form"] = closed_form_json(flow);
   content["meshes"] = meshes_json(flow.meshes);
   content["mesh_change"] = mesh_change(flow.meshes);
+  content["mesh_change_missing"] = mesh_change_missing(flow);
   content["sensitivity"] = sensitivity_json(flow);
   content["settings"] = settings_json(flow);
   content["provenance"] = to_json(provenance());
@@ -216,6 +224,13 @@ double v_x_change(const ProfileSet& without, const ProfileSet& with) {
     size += b[i] * b[i];
   }
   return std::sqrt(change / size);
+}
+
+FlowFindings findings_of(const FlowCase& flow_case, const FlowField& field) {
+  FlowFindings findings{.sums = field.integrals(), .checks = flow_case.checks(field)};
+  if (flow_case.closed_form) findings.closed_form = flow_case.closed_form(field);
+  if (flow_case.geometry == "drum") findings.left_out = left_out(field);
+  return findings;
 }
 
 void write_iterations(const fs::path& file, const FlowReport& report) {

@@ -21,6 +21,16 @@ struct MeshResult {
 };
 
 struct Sensitivity;
+
+/// What is read off the last field, once.
+struct FlowFindings {
+  FlowIntegrals sums;
+  ScalarSet checks;
+  std::optional<GapComparison> closed_form = {};  ///< across a gap
+  std::optional<LeftOut> left_out = {};           ///< of a drum
+};
+/// Collective.
+FlowFindings findings_of(const FlowCase& flow_case, const FlowField& field);
 /// The same flow on the last mesh, before k entered.
 struct FlowWithoutK {
   ScalarSet scalars;
@@ -40,7 +50,8 @@ struct FinishedFlow {
   bool reduced = false;
   int ranks = 1;
   const std::vector<Sensitivity>& sensitivities;  ///< empty: not asked for
-  std::optional<FlowWithoutK> without_k = {};     ///< absent where the law has no k
+  const FlowFindings& findings;
+  std::optional<FlowWithoutK> without_k = {};  ///< absent where the law has no k
 };
 
 /// iterations.csv: one line per nonlinear iteration; also for a flow that did not converge.

@@ -10,6 +10,7 @@
 #include "apps/flow/flow_files.hpp"
 #include "apps/flow/flow_sensitivity.hpp"
 #include "apps/flow/flow_state_file.hpp"
+#include "apps/flow/flow_text.hpp"
 #include "apps/support/interruption.hpp"
 #include "apps/support/output_folder.hpp"
 #include "continuum/rheology/ill_posed_ranges.hpp"
@@ -45,45 +46,6 @@ double ill_posed_share(const FlowField& field) {
   return sums.ill_posed_area / sums.area;
 }
 
-// The identities, and how far the flow is from its closed form.
-std::string checks_text(const FinishedFlow& flow) {
-  std::string text;
-  for (const Scalar& check : flow.flow_case.checks(flow.solution.field).scalars)
-    text += fmt::format("  {:<24} {:>13.6g}\n", check.name, check.value);
-  if (!flow.flow_case.closed_form) return text;
-  const GapComparison c = flow.flow_case.closed_form(flow.solution.field);
-  text +=
-      fmt::format("  error of v_x (L2 over the gap): {:.1e} of the mesh, {:.1e} against the closed form\n",
-                  c.mesh_error, c.closed_form_error);
-  for (const Scalar& scalar : c.closed_form.scalars)
-    text += fmt::format("  {:<24} {:>13.6g}, closed form {:.6g}\n", scalar.name,
-                        flow.meshes.back().scalars.value(scalar.name), scalar.value);
-  return text;
-}
-
-std::string summary_text(const fs::path& folder, const FinishedFlow& flow) {
-  const double share = ill_posed_share(flow.solution.field);
-  const FlowReport& report = flow.solution.report;
-  std::string text = "seconds in";
-  for (const PhaseSeconds& phase : report.phases)
-    text += fmt::format("{} {} {:.1f} ({} times)", phase.name == report.phases.front().name ? "" : ",",
-                        phase.name, phase.seconds, phase.times);
-  text += fmt::format(
-      "\n{}{}: {} iterations ({}), {:.1f} s, residual {:.1e}, ill-posed in {:.2f} % of the area{}\n",
-      folder.string(), flow.reduced ? " (reduced)" : "", report.iterations, report.start, report.seconds,
-      report.residual, 100 * share,
-      share > 0 ? ": the flow there depends on the mesh (docs/formats/flow.md)" : "");
-  if (!std::holds_alternative<FlowDrum>(flow.scene.geometry)) return text;
-  const LeftOut rest = left_out(flow.solution.field);
-  text += fmt::format(
-      "left out: {}inertia {:.2g} of gravity (rms; at most {:.2g}), a surface that would rise by {:.2g} d "
-      "(rms), {}"
-      "a wall share of {:.2g} that asks for friction above 0.95\n",
-      flow.scene.effects.inertia ? "not " : "", rest.inertia_rms, rest.inertia_largest,
-      rest.surface_height_rms, flow.scene.effects.wall_slip ? "not " : "", rest.wall_friction);
-  return text;
-}
-
 FlowSolverOptions solver_options(const FlowScene& scene) {
   FlowSolverOptions options;
   options.levels = scene.mesh.levels;
@@ -114,16 +76,15 @@ std::string ill_posedness_text(const FlowProblem& problem) {
       text);
 }
 
-// What leaving k out would have cost.
-std::string without_k_text(const FinishedFlow& flow) {
-  if (!flow.without_k) return "";
-  std::string text = fmt::format("  settled in {} updates of the turn of the stress; without k:",
-                                 flow.solution.report.turns);
-  for (const Scalar& scalar : flow.without_k->scalars.scalars)
-    text += fmt::format(" {} {:.4g} ({:+.2g})", scalar.name, scalar.value,
-                        scalar.value - flow.meshes.back().scalars.value(scalar.name));
-  return text +
-         fmt::format(", v_x off by {:.1f} % (rms over the profile)\n", 100 * flow.without_k->v_x_change);
+// A neighbour that does not fit is refused before the folder is made.
+FlowState fitting_state(const fs::path& from, const FlowProblem& problem, const FlowSolverOptions& options) {
+  const FlowState state = read_flow_state(from);
+  try {
+    (void)flow_of_state(state, problem, options);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", (from / "state.h5").string(), error.what()));
+  }
+  return state;
 }
 
 }  // namespace
@@ -142,7 +103,7 @@ int solve_flow_scene(const FlowOptions& options, const FemRuntime& runtime) {
   if (fit.k) add_k(*fit.k, chosen);
   const bool reduced = scene.reduced || fit.reduced;
   std::optional<FlowState> neighbour;
-  if (options.from) neighbour = read_flow_state(*options.from);
+  if (options.from) neighbour = fitting_state(*options.from, chosen.problem, solver_options(scene));
   runtime.on_first_rank([&] {
     std::vector<fs::path> inputs = {options.scene, options.rheology};
     if (options.from) inputs.push_back(*options.from / "state.h5");
@@ -183,12 +144,11 @@ int solve_flow_scene(const FlowOptions& options, const FemRuntime& runtime) {
   std::vector<Sensitivity> sensitivities;
   if (scene.solver.sensitivity)
     sensitivities = sensitivities_of(chosen, solution, meshes, solver_options(scene));
+  const FlowFindings findings = findings_of(chosen, solution.field);
   const FinishedFlow flow{scene,           fit,           chosen,   solution, meshes, reduced,
-                          runtime.ranks(), sensitivities, without_k};
+                          runtime.ranks(), sensitivities, findings, without_k};
   write_flow(options.output, flow);
-  const std::string said =
-      checks_text(flow) + without_k_text(flow) + sensitivity_text(flow) + summary_text(options.output, flow);
-  if (speaks) fmt::print("{}", said);
+  if (speaks) fmt::print("{}", finished_text(options.output, flow));
   return static_cast<int>(ExitCode::done);
 }
 

@@ -15,17 +15,6 @@ ScalarSet difference(const ScalarSet& changed, const ScalarSet& unchanged) {
   return result;
 }
 
-double profile_change(const ProfileSet& changed, const ProfileSet& unchanged) {
-  const auto &a = changed.column("v_x").value, &b = unchanged.column("v_x").value;
-  double sum = 0, size = 0;
-  for (std::size_t i = 0; i < b.size(); ++i)
-    if (std::isfinite(a[i]) && std::isfinite(b[i])) {
-      sum += (a[i] - b[i]) * (a[i] - b[i]);
-      size += b[i] * b[i];
-    }
-  return std::sqrt(sum / size);
-}
-
 Sensitivity to_setting(const std::string& setting, const Regularisation& changed, const FlowCase& flow_case,
                        const FlowSolution& solution, const ScalarSet& unchanged,
                        const FlowSolverOptions& options) {
@@ -38,7 +27,7 @@ Sensitivity to_setting(const std::string& setting, const Regularisation& changed
   result.iterations = moved.report.iterations;
   if (!result.found) return result;
   result.changes = difference(flow_case.scalars(moved.field), unchanged);
-  result.profile = profile_change(flow_case.profiles(moved.field), flow_case.profiles(solution.field));
+  result.profile = v_x_change(flow_case.profiles(moved.field), flow_case.profiles(solution.field));
   return result;
 }
 

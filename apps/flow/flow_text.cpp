@@ -1,0 +1,72 @@
+#include "apps/flow/flow_text.hpp"
+
+#include <fmt/format.h>
+
+#include "apps/flow/flow_sensitivity.hpp"
+
+namespace drumlin::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The identities, and how far the flow is from its closed form.
+std::string checks_text(const FinishedFlow& flow) {
+  std::string text;
+  for (const Scalar& check : flow.findings.checks.scalars)
+    text += fmt::format("  {:<24} {:>13.6g}\n", check.name, check.value);
+  if (!flow.findings.closed_form) return text;
+  const GapComparison& c = *flow.findings.closed_form;
+  text +=
+      fmt::format("  error of v_x (L2 over the gap): {:.1e} of the mesh, {:.1e} against the closed form\n",
+                  c.mesh_error, c.closed_form_error);
+  for (const Scalar& scalar : c.closed_form.scalars)
+    text += fmt::format("  {:<24} {:>13.6g}, closed form {:.6g}\n", scalar.name,
+                        flow.meshes.back().scalars.value(scalar.name), scalar.value);
+  return text;
+}
+
+// What leaving k out would have cost.
+std::string without_k_text(const FinishedFlow& flow) {
+  if (!flow.without_k) return "";
+  std::string text = fmt::format("  settled in {} updates of the turn of the stress; without k:",
+                                 flow.solution.report.turns);
+  for (const Scalar& scalar : flow.without_k->scalars.scalars)
+    text += fmt::format(" {} {:.4g} ({:+.2g})", scalar.name, scalar.value,
+                        scalar.value - flow.meshes.back().scalars.value(scalar.name));
+  return text +
+         fmt::format(", v_x off by {:.1f} % (rms over the profile)\n", 100 * flow.without_k->v_x_change);
+}
+
+std::string left_out_text(const FinishedFlow& flow) {
+  if (!flow.findings.left_out) return "";
+  const LeftOut& rest = *flow.findings.left_out;
+  return fmt::format(
+      "left out: {}inertia {:.2g} of gravity (rms; at most {:.2g}), a surface that would rise by {:.2g} d "
+      "(rms), {}"
+      "a wall share of {:.2g} that asks for friction above 0.95\n",
+      flow.scene.effects.inertia ? "not " : "", rest.inertia_rms, rest.inertia_largest,
+      rest.surface_height_rms, flow.scene.effects.wall_slip ? "not " : "", rest.wall_friction);
+}
+
+std::string summary_text(const fs::path& folder, const FinishedFlow& flow) {
+  const double share = flow.findings.sums.ill_posed_area / flow.findings.sums.area;
+  const FlowReport& report = flow.solution.report;
+  std::string text = "seconds in";
+  for (const PhaseSeconds& phase : report.phases)
+    text += fmt::format("{} {} {:.1f} ({} times)", phase.name == report.phases.front().name ? "" : ",",
+                        phase.name, phase.seconds, phase.times);
+  text += fmt::format(
+      "\n{}{}: {} iterations ({}), {:.1f} s, residual {:.1e}, ill-posed in {:.2f} % of the area{}\n",
+      folder.string(), flow.reduced ? " (reduced)" : "", report.iterations, report.start, report.seconds,
+      report.residual, 100 * share,
+      share > 0 ? ": the flow there depends on the mesh (docs/formats/flow.md)" : "");
+  return text + left_out_text(flow);
+}
+
+}  // namespace
+
+std::string finished_text(const fs::path& folder, const FinishedFlow& flow) {
+  return checks_text(flow) + without_k_text(flow) + sensitivity_text(flow) + summary_text(folder, flow);
+}
+
+}  // namespace drumlin::apps
