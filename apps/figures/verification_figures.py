@@ -15,6 +15,10 @@ import style
 NAMES = {"velocity": (r"velocity, $L_2$", 3), "gradient": (r"velocity gradient, $L_2$", 2),
          "pressure": (r"pressure, $L_2$", 2)}
 
+MANUFACTURED = {"manufactured_newtonian": "Newtonian fluid", "manufactured_friction": r"$\mu(I)$, pressure-coupled",
+                "manufactured_given_turn": r"with $k(I)$, turn of the stress given",
+                "manufactured_found_turn": r"with $k(I)$, turn found from the flow"}
+
 
 def order(rows, name):
     """Of the last halving."""
@@ -39,16 +43,15 @@ def mesh_axes(axes, title, label):
 
 
 def draw_orders(data, folder):
-    figure, panels = plt.subplots(1, 2, figsize=(11, 4.6), sharey=True)
-    for axes, key, title in zip(panels, ("manufactured_newtonian", "manufactured_friction"),
-                                ("Newtonian fluid", r"$\mu(I)$, pressure-coupled")):
+    figure, panels = plt.subplots(1, 4, figsize=(18, 4.6), sharey=True)
+    for axes, (key, title) in zip(panels, MANUFACTURED.items()):
         rows = data[key]
         for (name, (label, slope)), color in zip(NAMES.items(), [style.PARTICLES, style.CONTINUUM, style.OTHERS[0]]):
             axes.plot([row["cell"] for row in rows], [row[name] for row in rows], marker="o", color=color,
                       label=f"{label}: {order(rows, name):.2f}")
             if name != "pressure":  # its triangle would lie on the velocity
                 triangle(axes, rows, name, slope)
-        mesh_axes(axes, f"Manufactured flow: {title}", "cell / side of the box")
+        mesh_axes(axes, title, "cell / side of the box")
     panels[0].set_ylabel("error")
     style.save(figure, folder / "verification-orders.png", False)
 
@@ -110,7 +113,7 @@ def main():
     draw_orders(data, folder)
     draw_gaps(data, folder)
     draw_checks(data, folder)
-    for key in ("manufactured_newtonian", "manufactured_friction"):
+    for key in MANUFACTURED:
         print(key, *(f"{name} {order(data[key], name):.2f}" for name in NAMES))
     for key in ("incline", "chute", "annulus"):
         print(key, f"velocity {order(data[key], 'velocity'):.2f}")

@@ -70,8 +70,9 @@ bool settle_turn(Newton& newton, const FlowSolverOptions& options, SolvedLevel& 
       return false;
     report.turn_change = change_between(*level.discretisation, before, level.state) / share;
     if (!first && report.turn_change <= options.turn_tolerance) return true;
-    // Half of each update where whole ones do not come to rest: signs that flip in nearly rigid parts.
-    if (report.turn_change > 0.5 * last_change) share = 0.5;
+    // Smaller updates where whole ones do not come to rest: the turn hangs on derivatives of D, the stress on
+    // the turn, so that an update may overshoot, the more the finer the mesh.
+    if (report.turn_change > 0.8 * last_change) share = std::max(0.5 * share, 1.0 / 16);
     last_change = report.turn_change;
   }
   report.failure = fmt::format(

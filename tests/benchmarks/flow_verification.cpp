@@ -38,12 +38,12 @@ void solve_and_look(const FlowProblem& problem, const FlowSolverOptions& options
   if (!solution.report.converged) throw NotConvergedError(solution.report.failure);
 }
 
-Json manufactured(const StressLaw& law) {
-  const testing_manufactured::Manufactured made{law, testing_manufactured::of_friction_law().regularisation};
+Json manufactured(const testing_manufactured::Manufactured& made, int levels = 4) {
   FlowSolverOptions options;
-  options.levels = 4;
+  options.levels = levels;
   options.tolerance = 1e-11;
   options.coarse_tolerance = options.tolerance;  // the errors of all meshes are compared
+  options.turn_tolerance = 1e-7;                 // below the errors of the finest mesh
   Json meshes = Json::array();
   double cell = 0.25;
   solve_and_look(problem_of(made), options, [&](const FlowField& field) {
@@ -156,8 +156,11 @@ int measure(const std::string& file) {
   Json result{{"format", "drumlin-flow-verification-1"},
               {"command", "benchmark_flow_verification RESULT"},
               {"provenance", apps::to_json(provenance())}};
-  result["manufactured_newtonian"] = manufactured(NewtonianLaw{1});
-  result["manufactured_friction"] = manufactured(testing_manufactured::of_friction_law().law);
+  result["manufactured_newtonian"] =
+      manufactured({NewtonianLaw{1}, testing_manufactured::of_friction_law().regularisation});
+  result["manufactured_friction"] = manufactured(testing_manufactured::of_friction_law());
+  result["manufactured_given_turn"] = manufactured(testing_manufactured::of_given_turn());
+  result["manufactured_found_turn"] = manufactured(testing_manufactured::of_found_turn(), 3);
   result["incline"] = gap_meshes(testing_gaps::incline_flow());
   result["chute"] = gap_meshes(testing_gaps::chute_flow());
   result["annulus"] = gap_meshes(testing_gaps::annulus_flow());

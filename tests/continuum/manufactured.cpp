@@ -42,19 +42,11 @@ TEST(ManufacturedFlow, OfTheFrictionLawConvergesWithTheOrdersOfQ2Q1) {
 }
 
 TEST(ManufacturedFlow, WithKConvergesWithTheOrdersOfQ2Q1) {
-  Manufactured made = of_friction_law();
-  made.turned = some_k();
-  made.turned->given_turn = [](Vec2 p) { return 0.8 * std::cos(0.7 * p.x + 0.3 * p.z); };
-  expect_orders_of_Q2_Q1(errors_on_three_meshes(made));
+  expect_orders_of_Q2_Q1(errors_on_three_meshes(of_given_turn()));
 }
 
 TEST(ManufacturedFlow, FindsTheTurnOfItsStress) {
-  Manufactured made = of_friction_law();
-  made.turned = some_k();
-  made.turned->softness = 1;  // keeps the turn smooth on these meshes
-  made.turned->given_turn = [r = made.regularisation](Vec2 p) { return Manufactured::turn(p, r, 1); };
-  made.turn_from_flow = true;
-  const auto found = errors_on_three_meshes(made);
+  const auto found = errors_on_three_meshes(of_found_turn());
   // The turn is linear between the vertices, where it comes from derivatives of D: an error of second order
   // in the stress, so that the velocity, of third order without it, loses up to one.
   for (int level = 1; level < 3; ++level) {

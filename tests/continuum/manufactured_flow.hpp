@@ -117,4 +117,22 @@ inline TurnedStress some_k() { return {.k = StressRatioLaw({0.05, 20}, {0.9, 1.1
 
 inline Manufactured of_friction_law() { return {LogLaw{0.35, 0.013}, {.shear_rate = 0.3, .pressure = 0.1}}; }
 
+/// With k, and a turn that is told to the solver.
+inline Manufactured of_given_turn() {
+  Manufactured made = of_friction_law();
+  made.turned = some_k();
+  made.turned->given_turn = [](Vec2 p) { return 0.8 * std::cos(0.7 * p.x + 0.3 * p.z); };
+  return made;
+}
+
+/// With k, and the turn that the flow itself has.
+inline Manufactured of_found_turn() {
+  Manufactured made = of_friction_law();
+  made.turned = some_k();
+  made.turned->softness = 1;  // keeps the turn smooth on these meshes
+  made.turned->given_turn = [r = made.regularisation](Vec2 p) { return Manufactured::turn(p, r, 1); };
+  made.turn_from_flow = true;
+  return made;
+}
+
 }  // namespace drumlin::testing_manufactured

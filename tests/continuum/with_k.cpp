@@ -108,6 +108,23 @@ TEST(SmallDrumWithK, BalancesMassTorqueAndPower) {
   EXPECT_NEAR(solution.field.theta(), theta_without, 0.5 * degree);
 }
 
+TEST(SmallDrumWithK, IsTheSameForAnObserverThatTurns) {
+  FlowSolverOptions options;
+  options.levels = 1;
+  options.turn_tolerance = 1e-6;
+  FlowProblem laboratory = small_drum(StressRatioLaw({1e-4, 1e-2, 1e-1}, {0.96, 1.03, 1.0}));
+  FlowProblem turning = laboratory;
+  turning.frame = RotatingFrame{drum.rotation, drum.axis_offset};
+  const FlowField a = converged(laboratory, options), b = converged(turning, options);
+  EXPECT_NEAR(a.theta(), b.theta(), 1e-5);
+  for (const Vec2 place : {Vec2{0, -0.5}, {0, -3}, {5, -2}, {2, -9}}) {
+    const PointState here = state_at(a, place), there = state_at(b, place);
+    EXPECT_NEAR(here.velocity.x, there.velocity.x, 1e-5);
+    EXPECT_NEAR(here.sigma_xx, there.sigma_xx, 1e-4);
+    EXPECT_NEAR(here.axis_angle, there.axis_angle, 1e-4);
+  }
+}
+
 TEST(SmallDrumWithK, OfAnIllPosedLawEndsWithItsShare) {
   FlowProblem problem = small_drum(StressRatioLaw({1e-5, 1e-3, 1e-2}, {0.8, 1.2, 1.0}));
   problem.regularisation.shear_rate = 1e-5;  // a larger eps would hide that the law is ill-posed
