@@ -43,7 +43,7 @@ def mesh_axes(axes, title, label):
 
 
 def draw_orders(data, folder):
-    figure, panels = plt.subplots(1, 4, figsize=(18, 4.6), sharey=True)
+    figure, panels = plt.subplots(1, 4, figsize=(18, 4.6), sharex=True, sharey=True)
     for axes, (key, title) in zip(panels, MANUFACTURED.items()):
         rows = data[key]
         for (name, (label, slope)), color in zip(NAMES.items(), [style.PARTICLES, style.CONTINUUM, style.OTHERS[0]]):
@@ -53,6 +53,7 @@ def draw_orders(data, folder):
                 triangle(axes, rows, name, slope)
         mesh_axes(axes, title, "cell / side of the box")
     panels[0].set_ylabel("error")
+    panels[0].set_ylim(top=0.2)  # leaves room for the legends
     style.save(figure, folder / "verification-orders.png", False)
 
 
