@@ -67,6 +67,18 @@ Json mesh_change(const std::vector<MeshResult>& meshes) {
   return changes;
 }
 
+// null where the order does not allow.
+Json mesh_limit_json(const std::vector<MeshResult>& meshes) {
+  if (meshes.size() < 3) return nullptr;
+  Json content = Json::object();
+  for (const ScalarLimit& s : limits_of(meshes))
+    if (s.limit)
+      content[s.name] = {{"order", s.limit->order}, {"value", s.limit->value}};
+    else
+      content[s.name] = nullptr;
+  return content;
+}
+
 // Why there is no mesh_change: null says that nothing was computed, not that nothing changed.
 Json mesh_change_missing(const FinishedFlow& flow) {
   if (flow.meshes.size() > 1) return nullptr;
@@ -207,6 +219,7 @@ Json flow_json(const FinishedFlow& flow) {
   content["meshes"] = meshes_json(flow.meshes);
   content["mesh_change"] = mesh_change(flow.meshes);
   content["mesh_change_missing"] = mesh_change_missing(flow);
+  content["mesh_limit"] = mesh_limit_json(flow.meshes);
   content["sensitivity"] = sensitivity_json(flow);
   content["settings"] = settings_json(flow);
   content["provenance"] = to_json(provenance());
@@ -214,6 +227,16 @@ Json flow_json(const FinishedFlow& flow) {
 }
 
 }  // namespace
+
+std::vector<ScalarLimit> limits_of(const std::vector<MeshResult>& meshes) {
+  std::vector<ScalarLimit> list;
+  for (const Scalar& scalar : meshes.back().scalars.scalars) {
+    std::vector<double> values;
+    for (const MeshResult& mesh : meshes) values.push_back(mesh.scalars.value(scalar.name));
+    list.push_back({scalar.name, mesh_limit(values)});
+  }
+  return list;
+}
 
 double v_x_change(const ProfileSet& without, const ProfileSet& with) {
   const auto &a = without.column("v_x").value, &b = with.column("v_x").value;

@@ -2,9 +2,11 @@
 // What a flow leaves in FLOWRUN (docs/formats/flow.md).
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "continuum/fem/flow_solver.hpp"
+#include "continuum/model/mesh_limit.hpp"
 #include "continuum/sampling/flow_case.hpp"
 #include "coupling/exchange/profile_set.hpp"
 #include "coupling/exchange/rheology_fit.hpp"
@@ -19,6 +21,13 @@ struct MeshResult {
   int unknowns = 0;
   ScalarSet scalars;
 };
+
+/// What each scalar tends to over the meshes; without a value where mesh_limit() gives none.
+struct ScalarLimit {
+  std::string name;
+  std::optional<MeshLimit> limit;
+};
+std::vector<ScalarLimit> limits_of(const std::vector<MeshResult>& meshes);
 
 struct Sensitivity;
 

@@ -51,6 +51,8 @@ FlowSolverOptions solver_options(const FlowScene& scene) {
   options.levels = scene.mesh.levels;
   options.refined_share = scene.mesh.refined_share;
   options.tolerance = scene.solver.tolerance;
+  // Three meshes show an order: then they differ by their cells alone.
+  if (options.levels > 2) options.coarse_tolerance = options.tolerance;
   options.linear_tolerance = scene.solver.linear_tolerance;
   options.max_iterations = scene.solver.max_iterations;
   return options;

@@ -25,6 +25,15 @@ std::string checks_text(const FinishedFlow& flow) {
   return text;
 }
 
+std::string limits_text(const FinishedFlow& flow) {
+  if (flow.meshes.size() < 3) return "";
+  std::string text = "on cells of no size:";
+  for (const ScalarLimit& s : limits_of(flow.meshes))
+    text += s.limit ? fmt::format(" {} {:.6g} (order {:.1f})", s.name, s.limit->value, s.limit->order)
+                    : fmt::format(" {} - (no order)", s.name);
+  return text + "\n";
+}
+
 // What leaving k out would have cost.
 std::string without_k_text(const FinishedFlow& flow) {
   if (!flow.without_k) return "";
@@ -66,7 +75,8 @@ std::string summary_text(const fs::path& folder, const FinishedFlow& flow) {
 }  // namespace
 
 std::string finished_text(const fs::path& folder, const FinishedFlow& flow) {
-  return checks_text(flow) + without_k_text(flow) + sensitivity_text(flow) + summary_text(folder, flow);
+  return checks_text(flow) + without_k_text(flow) + sensitivity_text(flow) + limits_text(flow) +
+         summary_text(folder, flow);
 }
 
 }  // namespace drumlin::apps
