@@ -5,6 +5,7 @@ usage: flow_figures.py FLOWRUN [--flow FLOW_JSON]
 """
 
 import argparse
+import csv
 import json
 import math
 import pathlib
@@ -126,6 +127,23 @@ def draw_profiles(folder, flow):
     style.save(figure, folder / "profiles.png", flow["reduced"])
 
 
+def draw_series(folder, flow):
+    """What a march in time leaves beside its last state."""
+    with open(folder / "series.csv", newline="", encoding="utf-8") as stream:
+        rows = list(csv.DictReader(line for line in stream if not line.startswith("#")))
+    time = [float(row["time_s"]) for row in rows]
+    shown = [("rotation_rpm", "speed [rpm]"), ("theta_deg", r"slope $\theta$ [deg]"), ("H", "$H$  [$d$]"),
+             ("shear_rate", style.LABELS["shear_rate"])]
+    figure, axes = plt.subplots(len(shown), 1, figsize=(8, 2 + 1.8 * len(shown)), sharex=True)
+    for place, (name, label) in zip(axes, shown):
+        place.plot(time, [float(row[name]) if row[name] else math.nan for row in rows], color=style.CONTINUUM)
+        place.set_ylabel(label)
+    figure.align_ylabels(axes)
+    axes[-1].set_xlabel("time [s]")
+    figure.suptitle(style.title_of(f"March in time, {len(rows)} steps", flow["reduced"]))
+    style.save(figure, folder / "series.png", flow["reduced"])
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", type=pathlib.Path)
@@ -140,6 +158,8 @@ def main():
     draw_well_posedness(arguments.folder, flow, header, grids, draw_map)
     draw_newton(arguments.folder, flow)
     draw_sensitivity(arguments.folder, flow)
+    if "time" in flow:
+        draw_series(arguments.folder, flow)
 
 
 if __name__ == "__main__":

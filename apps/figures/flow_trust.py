@@ -45,11 +45,11 @@ def read_iterations(path):
 
 
 def runs_of(rows):
-    """Stretches of one mesh, phase and eps, as lists of indices."""
+    """Stretches of one mesh, phase and eps without a new start, as lists of indices."""
     stretches = []
     for i, row in enumerate(rows):
         key = (row["mesh"], row["phase"], row["shear_rate"])
-        if not stretches or stretches[-1][0] != key:
+        if not stretches or stretches[-1][0] != key or row["iteration"] == "1":
             stretches.append((key, []))
         stretches[-1][1].append(i)
     return stretches

@@ -82,6 +82,7 @@ Json mesh_limit_json(const std::vector<MeshResult>& meshes) {
 // Why there is no mesh_change: null says that nothing was computed, not that nothing changed.
 Json mesh_change_missing(const FinishedFlow& flow) {
   if (flow.meshes.size() > 1) return nullptr;
+  if (flow.scene.time) return "a march stays on one mesh";
   if (flow.scene.mesh.levels == 1) return "the scene has one mesh";
   return "started on the last mesh from another flow: no coarser one was solved";
 }
@@ -172,7 +173,7 @@ Json left_out_json(const FinishedFlow& flow) {
   const LeftOut& rest = *flow.findings.left_out;
   const FlowEffects& effects = flow.scene.effects;
   Json content = Json::object();
-  if (!effects.inertia) {
+  if (!has_inertia(flow.scene)) {
     content["inertia_rms"] = rest.inertia_rms;
     content["inertia_largest"] = rest.inertia_largest;
   }
@@ -209,6 +210,11 @@ Json flow_json(const FinishedFlow& flow) {
   content["unknowns"] = result.unknowns;
   content["iterations"] = report.iterations;
   content["start"] = report.start;
+  if (flow.scene.time)
+    content["time"] = {{"step_s", flow.scene.time->step_s},
+                       {"steps", flow.scene.time->steps},
+                       {"end_s", flow.scene.time->steps * flow.scene.time->step_s},
+                       {"ramp_s", flow.scene.time->ramp_s}};
   content["residual"] = report.residual;
   content["seconds"] = report.seconds;
   content["ranks"] = flow.ranks;

@@ -63,6 +63,9 @@ struct FinishedFlow {
   std::optional<FlowWithoutK> without_k = {};  ///< absent where the law has no k
 };
 
+/// Named, or brought along by steps in time.
+inline bool has_inertia(const FlowScene& scene) { return scene.effects.inertia || scene.time; }
+
 /// iterations.csv: one line per nonlinear iteration; also for a flow that did not converge.
 void write_iterations(const std::filesystem::path& file, const FlowReport& report);
 

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "apps/flow/flow_files.hpp"
+#include "apps/flow/flow_marching.hpp"
 #include "apps/flow/flow_sensitivity.hpp"
 #include "apps/flow/flow_state_file.hpp"
 #include "apps/flow/flow_text.hpp"
@@ -78,15 +79,32 @@ std::string ill_posedness_text(const FlowProblem& problem) {
       text);
 }
 
-// A neighbour that does not fit is refused before the folder is made.
-FlowState fitting_state(const fs::path& from, const FlowProblem& problem, const FlowSolverOptions& options) {
-  const FlowState state = read_flow_state(from);
+FlowScene at_share_of_speed(FlowScene scene, double share) {
+  if (auto* drum = std::get_if<FlowDrum>(&scene.geometry)) drum->rotation_rpm *= share;
+  return scene;
+}
+
+MarchPlan march_plan(const FlowOptions& options, const FlowScene& scene,
+                     const std::function<FlowCase(double)>& case_at) {
+  MarchPlan plan{.folder = options.output,
+                 .time = *scene.time,
+                 .time_unit_s = scales_of(scene).time_s,
+                 .rotation_rpm = std::get<FlowDrum>(scene.geometry).rotation_rpm,
+                 .start = march_start(options, scene, flow_scene_text(scene), file_text(options.rheology)),
+                 .said = options.from ? options.from->string() : "rest",
+                 .case_at = case_at,
+                 .options = solver_options(scene)};
+  return plan;
+}
+
+// A state that does not fit is refused before the folder is made.
+void require_fit(const FlowState& state, const fs::path& file, const FlowProblem& problem,
+                 const FlowSolverOptions& solver) {
   try {
-    (void)flow_of_state(state, problem, options);
+    (void)flow_of_state(state, problem, solver);
   } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", (from / "state.h5").string(), error.what()));
+    throw InputError(fmt::format("{}: {}", file.string(), error.what()));
   }
-  return state;
 }
 
 }  // namespace
@@ -101,11 +119,23 @@ int solve_flow_scene(const FlowOptions& options, const FemRuntime& runtime) {
   const FlowScene scene = read_flow_scene(options.scene, options.overrides);
   const RheologyFit fit = read_rheology(options.rheology);
   const StressLaw law = stress_law(fit);
-  FlowCase chosen = flow_case(scene, fit.nu, law);
-  if (fit.k) add_k(*fit.k, chosen);
+  const auto case_at = [&](double share) {
+    FlowCase chosen = flow_case(at_share_of_speed(scene, share), fit.nu, law);
+    if (fit.k) add_k(*fit.k, chosen);
+    return chosen;
+  };
+  const FlowCase chosen = case_at(1);
   const bool reduced = scene.reduced || fit.reduced;
   std::optional<FlowState> neighbour;
-  if (options.from) neighbour = fitting_state(*options.from, chosen.problem, solver_options(scene));
+  std::optional<MarchPlan> plan;
+  if (scene.time)
+    plan = march_plan(options, scene, case_at);
+  else if (options.from)
+    neighbour = read_flow_state(*options.from);
+  const bool goes_on = plan && plan->start.steps > 0;  // from a state of this very scene
+  if (options.from && !goes_on)
+    require_fit(plan ? plan->start.state : *neighbour, *options.from / "state.h5", chosen.problem,
+                solver_options(scene));
   runtime.on_first_rank([&] {
     std::vector<fs::path> inputs = {options.scene, options.rheology};
     if (options.from) inputs.push_back(*options.from / "state.h5");
@@ -133,8 +163,9 @@ int solve_flow_scene(const FlowOptions& options, const FemRuntime& runtime) {
     without_k = FlowWithoutK{chosen.scalars(field), chosen.profiles(field)};
   };
   const FlowSolution solution =
-      neighbour ? solve_flow_from(*neighbour, chosen.problem, solver_options(scene), observer)
-                : solve_flow(chosen.problem, solver_options(scene), observer);
+      plan        ? march_scene(*plan, runtime, observer)
+      : neighbour ? solve_flow_from(*neighbour, chosen.problem, solver_options(scene), observer)
+                  : solve_flow(chosen.problem, solver_options(scene), observer);
   runtime.on_first_rank([&] { write_iterations(options.output / "iterations.csv", solution.report); });
   if (const int signal = interruption(); signal != 0)
     return static_cast<int>(signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted);
@@ -142,14 +173,16 @@ int solve_flow_scene(const FlowOptions& options, const FemRuntime& runtime) {
     throw NotConvergedError(
         fmt::format("the flow did not converge: {}; the last iterate is ill-posed in {:.1f} % of the area",
                     solution.report.failure, 100 * ill_posed_share(solution.field)));
+  if (plan) observer.level_finished(scene.mesh.levels - 1, solution.field);
   if (without_k) without_k->v_x_change = v_x_change(without_k->profiles, chosen.profiles(solution.field));
   std::vector<Sensitivity> sensitivities;
-  if (scene.solver.sensitivity)
+  if (scene.solver.sensitivity && !plan)
     sensitivities = sensitivities_of(chosen, solution, meshes, solver_options(scene));
   const FlowFindings findings = findings_of(chosen, solution.field);
   const FinishedFlow flow{scene,           fit,           chosen,   solution, meshes, reduced,
                           runtime.ranks(), sensitivities, findings, without_k};
   write_flow(options.output, flow);
+  if (plan) runtime.on_first_rank([&] { fs::remove(options.output / "checkpoint.h5"); });
   if (speaks) fmt::print("{}", finished_text(options.output, flow));
   return static_cast<int>(ExitCode::done);
 }

@@ -9,34 +9,22 @@
 namespace drumlin::apps {
 namespace {
 
-const std::string format = "drumlin-flow-state-1";
+const std::string state_format = "drumlin-flow-state-1", checkpoint_format = "drumlin-flow-checkpoint-1";
 
 bool all_finite(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
 }
 
-}  // namespace
-
-void write_flow_state(const std::filesystem::path& file, const FlowState& state) {
+void put(const FlowState& state, H5Writer& out) {
   std::vector<std::int64_t> cells;
   for (const CellPlace& place : state.cells) cells.insert(cells.end(), place.begin(), place.end());
-  H5Writer out;
-  out.add_text("format", format);
   out.add_number("theta", state.theta);
   out.add("cells", std::span<const std::int64_t>(cells));
   out.add_table("centres", state.centres, 2);
   out.add_table("values", state.values, FlowState::values_per_cell);
-  out.save(file);
 }
 
-FlowState read_flow_state(const std::filesystem::path& flow_run) {
-  const std::filesystem::path file = flow_run / "state.h5";
-  if (!std::filesystem::exists(file))
-    throw InputError(flow_run.string() + ": holds no state.h5 to start from: no finished flow");
-  const H5Reader in(file);
-  if (!in.has("format") || in.text("format") != format)
-    in.refuse("format",
-              in.has("format") ? "'" + in.text("format") + "', this version reads " + format : "missing");
+FlowState state_in(const H5Reader& in) {
   FlowState state;
   state.theta = in.number("theta");
   const std::vector<std::int64_t> cells = in.longs("cells");
@@ -56,6 +44,53 @@ FlowState read_flow_state(const std::filesystem::path& flow_run) {
   }
   if (!std::is_sorted(state.cells.begin(), state.cells.end())) in.refuse("cells", "not in their order");
   return state;
+}
+
+void require_format(const H5Reader& in, const std::string& format) {
+  if (!in.has("format") || in.text("format") != format)
+    in.refuse("format",
+              in.has("format") ? "'" + in.text("format") + "', this version reads " + format : "missing");
+}
+
+}  // namespace
+
+void write_flow_state(const std::filesystem::path& file, const FlowState& state) {
+  H5Writer out;
+  out.add_text("format", state_format);
+  put(state, out);
+  out.save(file);
+}
+
+FlowState read_flow_state(const std::filesystem::path& flow_run) {
+  const std::filesystem::path file = flow_run / "state.h5";
+  if (!std::filesystem::exists(file))
+    throw InputError(flow_run.string() + ": holds no state.h5 to start from: no finished flow");
+  const H5Reader in(file);
+  require_format(in, state_format);
+  return state_in(in);
+}
+
+void write_flow_checkpoint(const std::filesystem::path& file, const FlowCheckpoint& checkpoint) {
+  H5Writer out;
+  out.add_text("format", checkpoint_format);
+  out.add_number("steps", static_cast<std::int64_t>(checkpoint.steps));
+  out.add_number("start_share", checkpoint.start_share);
+  out.add_text("scene", checkpoint.scene);
+  out.add_text("law", checkpoint.law);
+  put(checkpoint.state, out);
+  out.save(file);
+}
+
+FlowCheckpoint read_flow_checkpoint(const std::filesystem::path& file) {
+  const H5Reader in(file);
+  require_format(in, checkpoint_format);
+  FlowCheckpoint checkpoint{.state = state_in(in),
+                            .steps = static_cast<int>(in.integer("steps")),
+                            .start_share = in.number("start_share"),
+                            .scene = in.text("scene"),
+                            .law = in.text("law")};
+  if (checkpoint.steps < 1 || !(checkpoint.start_share >= 0)) in.refuse("steps", "none were done");
+  return checkpoint;
 }
 
 }  // namespace drumlin::apps

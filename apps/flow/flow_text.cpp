@@ -53,8 +53,8 @@ std::string left_out_text(const FinishedFlow& flow) {
       "left out: {}inertia {:.2g} of gravity (rms; at most {:.2g}), a surface that would rise by {:.2g} d "
       "(rms), {}"
       "a wall share of {:.2g} that asks for friction above 0.95\n",
-      flow.scene.effects.inertia ? "not " : "", rest.inertia_rms, rest.inertia_largest,
-      rest.surface_height_rms, flow.scene.effects.wall_slip ? "not " : "", rest.wall_friction);
+      has_inertia(flow.scene) ? "not " : "", rest.inertia_rms, rest.inertia_largest, rest.surface_height_rms,
+      flow.scene.effects.wall_slip ? "not " : "", rest.wall_friction);
 }
 
 std::string summary_text(const fs::path& folder, const FinishedFlow& flow) {

@@ -43,8 +43,10 @@ bool advance(Newton& newton, const FlowSolverOptions& options, double time_step,
   const State before = level.state;
   const auto& d = *level.discretisation;
   const bool at_rest = before.solution.l2_norm() == 0;
+  const auto kept = std::make_shared<fem::FieldVector>(before.solution);
+  kept->update_ghost_values();
   Phase phase{"time step", fem::final_setting(level.problem, before.theta), options.tolerance};
-  phase.setting.inertia = fem::InertiaSetting{.share = 1, .time_step = time_step, .before = &before.solution};
+  phase.setting.inertia = fem::InertiaSetting{.share = 1, .time_step = time_step, .before = kept};
   d.constraints.distribute(level.state.solution);  // what the sides do now
   level.state.solution.update_ghost_values();
   // Of the start of the step: an error of first order in it, as the method's own. At rest there are no axes
@@ -54,7 +56,6 @@ bool advance(Newton& newton, const FlowSolverOptions& options, double time_step,
     level.state.turning =
         fem::turning_of(level.problem, d, level.problem.regularisation.shear_rate, before.solution);
   const bool done = at_rest ? advance_carefully(newton, options, phase, level) : run(newton, phase, level);
-  level.setting.inertia->before = nullptr;
   if (done) return true;
   if (depth == 0 || newton.was_interrupted()) return false;
   level.state = before;
@@ -114,6 +115,7 @@ FlowField flow_of_state(const FlowState& kept, const FlowProblem& problem, const
   }
   fem::lay_down(kept, *level);
   level->setting = fem::final_setting(level->problem, kept.theta);
+  level->state.dual = fem::dual_of(d, level->setting.regularisation, level->state.solution);
   return FlowField(level);
 }
 
@@ -129,6 +131,7 @@ FlowField flow_at_rest(const FlowProblem& problem, const FlowSolverOptions& opti
   else
     state.theta = std::get<SlopeFromMoment>(problem.slope).first_guess;
   level->setting = fem::final_setting(level->problem, state.theta);
+  state.dual = fem::dual_of(d, level->setting.regularisation, state.solution);
   return FlowField(level);
 }
 

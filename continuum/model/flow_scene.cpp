@@ -132,6 +132,16 @@ void describe(Visitor& v, FlowEffects& e) {
   v.optional_table("wall_slip", e.wall_slip, "The material slides along the wall under Coulomb's law.");
 }
 template <class Visitor>
+void describe(Visitor& v, FlowTime& t) {
+  v.value("step_s", t.step_s, required("s", above(0, 1e6), "Length of a step."));
+  v.value("steps", t.steps, required("", at_least(1, 1e6), "Number of steps."));
+  v.value("ramp_s", t.ramp_s,
+          defaulted(
+              "s", at_least(0, 1e9),
+              "Time over which the drum's speed goes from that of the start, linearly; at most the whole."));
+  v.value("every", t.every, defaulted("", at_least(1, 1e6), "Steps from kept state to kept state."));
+}
+template <class Visitor>
 void describe(Visitor& v, FlowOutput& o) {
   v.value("slice_width", o.slice_width,
           when_given("d", above(0, 1e4),
@@ -157,6 +167,10 @@ void describe(Visitor& v, FlowScene& s) {
   v.optional_table("boundary", s.boundary,
                    "Wall and free surface of a drum, there its defaults when absent; elsewhere refused.");
   v.table("effects", s.effects, Need::defaulted, "What is simulated beyond slow flow; of a drum alone.");
+  v.optional_table(
+      "time", s.time,
+      "Steps in time with inertia, from rest or from the flow of --from; absent: the steady flow. Of "
+      "a drum alone.");
   v.table("regularisation", s.regularisation, Need::defaulted, "Where the law is smoothed.");
   v.table("solver", s.solver, Need::defaulted, "When the solver may stop.");
   v.table("output", s.output, Need::defaulted, "Profiles and maps.");
@@ -173,6 +187,12 @@ void check_drum(const Document& document, FlowScene& scene, std::vector<InputPro
   if (scene.grains.diameter_max_mm > drum.diameter_mm)
     problems.push_back(
         problem_at(document, "grains.diameter_max_mm", "is larger than the drum", "<= drum.diameter_mm"));
+  if (scene.time && scene.time->ramp_s > scene.time->steps * scene.time->step_s * (1 + 1e-12))
+    problems.push_back(
+        problem_at(document, "time.ramp_s", "goes on after the last step", "<= time.steps time.step_s"));
+  if (scene.time && scene.effects.rotating_frame)
+    problems.push_back(
+        problem_at(document, "effects.rotating_frame", "is one of the steady flow", "absent with [time]"));
   if (!scene.boundary) scene.boundary.emplace();
   if (!scene.output.slice_width) scene.output.slice_width = 20;
 }
@@ -187,6 +207,7 @@ void refuse_keys_of_the_drum(const Document& document, const FlowScene& scene,
   if (scene.effects.inertia) refuse("effects.inertia");
   if (scene.effects.rotating_frame) refuse("effects.rotating_frame");
   if (scene.effects.wall_slip) refuse("effects.wall_slip");
+  if (scene.time) refuse("time");
   if (scene.output.slice_width) refuse("output.slice_width");
 }
 

@@ -86,6 +86,13 @@ struct FlowEffects {
   std::optional<FlowRotatingFrame> rotating_frame;
   std::optional<FlowWallSlip> wall_slip;
 };
+/// Steps in time with inertia, by the implicit Euler method.
+struct FlowTime {
+  double step_s = 0;
+  int steps = 0;
+  double ramp_s = 0;  ///< over which the speed of rotation goes linearly from that of the start
+  int every = 10;     ///< steps from kept state to kept state
+};
 struct FlowOutput {
   std::optional<double> slice_width;  ///< d; of a drum alone, and always there
   double layer_thickness = 1;         ///< d
@@ -101,6 +108,7 @@ struct FlowScene {
   FlowMesh mesh;
   std::optional<FlowBoundary> boundary;  ///< of a drum alone, and always there
   FlowEffects effects;                   ///< of a drum alone
+  std::optional<FlowTime> time;          ///< of a drum alone; absent: the steady flow
   FlowRegularisation regularisation;
   FlowSolverKeys solver;
   FlowOutput output;

@@ -57,6 +57,17 @@ TEST(FlowScene, RefusesDiametersInTheWrongOrder) {
   EXPECT_THROW(parse_flow_scene(smallest, "test", {"drum.diameter_mm=3.2"}), InputError);
 }
 
+TEST(FlowScene, MarchesOnlyWhereItSaysHow) {
+  EXPECT_FALSE(parse_flow_scene(smallest, "test").time);
+  const std::string march = smallest + "[time]\nstep_s = 0.1\nsteps = 20\n";
+  const FlowScene scene = parse_flow_scene(march + "ramp_s = 2\n", "test");
+  EXPECT_EQ(scene.time.value().steps, 20);
+  EXPECT_EQ(flow_scene_text(parse_flow_scene(flow_scene_text(scene), "again")), flow_scene_text(scene));
+  EXPECT_THROW(parse_flow_scene(march + "ramp_s = 2.1\n", "test"), InputError);  // longer than the march
+  EXPECT_THROW(parse_flow_scene(march + "[effects.rotating_frame]\n", "test"), InputError);
+  EXPECT_THROW(parse_flow_scene(smallest + "[time]\nsteps = 20\n", "test"), InputError);
+}
+
 const std::string grains = R"([grains]
 diameter_min_mm = 3.0
 diameter_max_mm = 3.6

@@ -9,9 +9,9 @@ namespace drumlin::fem {
 
 /// What Newton's method iterates on.
 struct State {
-  FieldVector solution;           ///< velocity and pressure, with the copies around this rank's part
-  double theta = 0;               ///< rad
-  std::vector<PlaneTensor> dual;  ///< D/|D| per quadrature point of this rank's cells
+  FieldVector solution;                    ///< velocity and pressure, with the copies around this rank's part
+  double theta = 0;                        ///< rad
+  std::vector<PlaneTensor> dual;           ///< D/|D| per quadrature point of this rank's cells
   std::shared_ptr<const Turning> turning;  ///< of the law with k; null: without k
 
   State() = default;
@@ -38,9 +38,9 @@ struct LawPressure {
 
 /// How inertia enters one system.
 struct InertiaSetting {
-  double share = 1;                     ///< of nu u.grad u
-  double time_step = 0;                 ///< 0: steady
-  const FieldVector* before = nullptr;  ///< solution at the start of the time step
+  double share = 1;                                     ///< of nu u.grad u
+  double time_step = 0;                                 ///< 0: steady
+  std::shared_ptr<const FieldVector> before = nullptr;  ///< solution at the start of the time step
 };
 
 /// How one system is to be formed.
