@@ -1,5 +1,6 @@
 // Effects of the continuum on a drum of 30 grains' width.
 #include "boxes.hpp"
+#include "continuum/fem/detail/solved_level.hpp"
 #include "continuum/hardcases/small_drum.hpp"
 
 namespace drumlin {
@@ -78,6 +79,29 @@ TEST(FrictionWall, DissipatesWhatItAndTheWeightSupply) {
   const FlowIntegrals sums = field.integrals({0, drum.axis_offset});
   EXPECT_NEAR(sums.dissipation / (sums.given_side_power + sums.weight_power), 1, 2e-3);
   EXPECT_NEAR(sums.given_side_torque / -sums.weight_torque, 1, 1e-3);
+}
+
+// What Newton's method holds for a problem: unknowns, entries of its matrix.
+std::pair<int, std::size_t> system_of(const FlowField& field) {
+  const fem::SolvedLevel& level = field.level();
+  fem::System system(*level.discretisation);
+  assemble_tangent(level.problem, *level.discretisation, level.setting, level.state, system);
+  return {field.unknowns(), static_cast<std::size_t>(system.matrix.n_nonzero_elements())};
+}
+
+TEST(AbsentEffects, LeaveNoUnknownNoEntryAndNoArray) {
+  const FlowField plain = converged(small_drum(), one_mesh());
+  EXPECT_FALSE(plain.level().setting.inertia);
+  EXPECT_EQ(plain.level().state.turning, nullptr);
+  FlowProblem turned = small_drum(), moving = small_drum(), seen = small_drum();
+  turned.turned = TurnedStress{.k = StressRatioLaw({1e-4, 1e-1}, {1.02, 1.04})};
+  moving.inertia = Inertia{};
+  seen.frame = RotatingFrame{drum.rotation, drum.axis_offset};
+  // Nor do these add any: their terms stand within the same entries, what is held lies beside the matrix.
+  for (const FlowProblem& problem : {turned, moving, seen})
+    EXPECT_EQ(system_of(converged(problem, one_mesh())), system_of(plain));
+  EXPECT_NE(converged(turned, one_mesh()).level().state.turning, nullptr);
+  EXPECT_TRUE(converged(moving, one_mesh()).level().setting.inertia);
 }
 
 TEST(AdaptiveMesh, HalvesAShareOfTheCellsAndStaysCloseToTheFineMesh) {
