@@ -35,7 +35,7 @@ def main():
     meshes, eps = report["accuracy"]["meshes"], report["accuracy"]["eps"]
     figure, axes = plt.subplots(1, 3, figsize=(14.5, 5), sharey=True)
     finest = f"{meshes[-1]['unknowns']:,} unknowns"
-    draw(axes[0], meshes, lambda row: row["seconds"], "seconds, cold, one rank", f"meshes, against {finest}")
+    draw(axes[0], meshes, lambda row: row["cpu_seconds"], "processor seconds, cold, one rank", f"meshes, against {finest}")
     draw(axes[1], meshes, lambda row: row["unknowns"], "unknowns", f"meshes, against {finest}")
     draw(axes[2], eps, lambda row: float(row["setting"]), r"eps  [$\sqrt{g/d}$]", f"eps, against {eps[-1]['setting']}, default mesh")
     axes[0].set_ylabel("error [%]")

@@ -217,6 +217,7 @@ Json flow_json(const FinishedFlow& flow) {
                        {"ramp_s", flow.scene.time->ramp_s}};
   content["residual"] = report.residual;
   content["seconds"] = report.seconds;
+  content["cpu_seconds"] = flow.cpu_seconds;
   content["ranks"] = flow.ranks;
   content["phases"] = phases_json(report);
   content["checks"] = scalars_json(flow.findings.checks);
@@ -263,17 +264,15 @@ FlowFindings findings_of(const FlowCase& flow_case, const FlowField& field) {
 }
 
 void write_iterations(const fs::path& file, const FlowReport& report) {
-  std::string text = fmt::format("# drumlin-flow-iterations-1\n# converged = {}\n", report.converged);
+  std::string text = fmt::format("# drumlin-flow-iterations-2\n# converged = {}\n", report.converged);
   if (!report.failure.empty()) text += fmt::format("# failure = {}\n", report.failure);
   text +=
-      "mesh,phase,shear_rate,pressure_share,iteration,residual,step_length,step_size,linear_residual,theta_"
+      "mesh,phase,shear_rate,iteration,residual,step_length,step_size,linear_residual,theta_"
       "deg,seconds\n";
   for (const IterationReport& line : report.history)
-    fmt::format_to(std::back_inserter(text),
-                   "{},{},{:.4g},{:.4g},{},{:.4e},{:.4g},{:.4e},{:.2e},{:.6f},{:.2f}\n", line.level,
-                   line.phase, line.shear_rate, line.pressure_share, line.iteration, line.residual,
-                   line.step_length, line.step_size, line.linear_residual,
-                   line.theta * 180 / std::numbers::pi, line.seconds);
+    fmt::format_to(std::back_inserter(text), "{},{},{:.4g},{},{:.4e},{:.4g},{:.4e},{:.2e},{:.6f},{:.2f}\n",
+                   line.level, line.phase, line.shear_rate, line.iteration, line.residual, line.step_length,
+                   line.step_size, line.linear_residual, line.theta * 180 / std::numbers::pi, line.seconds);
   replace_file(file, text);
 }
 

@@ -61,6 +61,7 @@ struct FinishedFlow {
   const std::vector<Sensitivity>& sensitivities;  ///< empty: not asked for
   const FlowFindings& findings;
   std::optional<FlowWithoutK> without_k = {};  ///< absent where the law has no k
+  double cpu_seconds = 0;                      ///< of the solve, on this rank
 };
 
 /// Named, or brought along by steps in time.

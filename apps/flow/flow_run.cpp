@@ -4,6 +4,7 @@
 
 #include <csignal>
 #include <cstdio>
+#include <ctime>
 #include <numbers>
 #include <optional>
 
@@ -28,10 +29,10 @@ constexpr double degrees = 180 / std::numbers::pi;
 
 void print_iteration(const IterationReport& line) {
   fmt::print(
-      "mesh {} {:<11} eps {:8.2e}  true p {:4.2f}  it {:2}  residual {:8.2e}  step {:8.2e} x {:4.2f}  theta "
+      "mesh {} {:<11} eps {:8.2e}  it {:2}  residual {:8.2e}  step {:8.2e} x {:4.2f}  theta "
       "{:7.3f} deg {:7.1f} s\n",
-      line.level, line.phase, line.shear_rate, line.pressure_share, line.iteration, line.residual,
-      line.step_size, line.step_length, line.theta * degrees, line.seconds);
+      line.level, line.phase, line.shear_rate, line.iteration, line.residual, line.step_size,
+      line.step_length, line.theta * degrees, line.seconds);
   std::fflush(stdout);
 }
 
@@ -162,10 +163,12 @@ int solve_flow_scene(const FlowOptions& options, const FemRuntime& runtime) {
   observer.solved_without_k = [&](const FlowField& field) {
     without_k = FlowWithoutK{chosen.scalars(field), chosen.profiles(field)};
   };
+  const std::clock_t begun = std::clock();
   const FlowSolution solution =
       plan        ? march_scene(*plan, runtime, observer)
       : neighbour ? solve_flow_from(*neighbour, chosen.problem, solver_options(scene), observer)
                   : solve_flow(chosen.problem, solver_options(scene), observer);
+  const double cpu_seconds = static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;
   runtime.on_first_rank([&] { write_iterations(options.output / "iterations.csv", solution.report); });
   if (const int signal = interruption(); signal != 0)
     return static_cast<int>(signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted);
@@ -179,8 +182,8 @@ int solve_flow_scene(const FlowOptions& options, const FemRuntime& runtime) {
   if (scene.solver.sensitivity && !plan)
     sensitivities = sensitivities_of(chosen, solution, meshes, solver_options(scene));
   const FlowFindings findings = findings_of(chosen, solution.field);
-  const FinishedFlow flow{scene,           fit,           chosen,   solution, meshes, reduced,
-                          runtime.ranks(), sensitivities, findings, without_k};
+  const FinishedFlow flow{scene,           fit,           chosen,   solution,  meshes,     reduced,
+                          runtime.ranks(), sensitivities, findings, without_k, cpu_seconds};
   write_flow(options.output, flow);
   if (plan) runtime.on_first_rank([&] { fs::remove(options.output / "checkpoint.h5"); });
   if (speaks) fmt::print("{}", finished_text(options.output, flow));

@@ -18,10 +18,6 @@ using dealii::FEValues;
 using dealii::Vector;
 using Indices = std::vector<dealii::types::global_dof_index>;
 
-double law_pressure(const LawPressure& setting, double p, double z) {
-  return setting.share * p + (1 - setting.share) * (setting.surface - setting.gradient * z);
-}
-
 Vec2 body_force(const FlowProblem& problem, double theta, const dealii::Point<2>& x) {
   Vec2 f{problem.density * std::sin(theta), -problem.density * std::cos(theta)};
   if (problem.extra_force) {
@@ -46,12 +42,12 @@ void add_point_residual(const CellShapes& s, unsigned int q, const PointValues& 
 }
 
 template <class Response>
-void add_point_tangent(const CellShapes& s, unsigned int q, const Response& response, double share,
-                       double JxW, dealii::FullMatrix<double>& matrix) {
+void add_point_tangent(const CellShapes& s, unsigned int q, const Response& response, double JxW,
+                       dealii::FullMatrix<double>& matrix) {
   for (unsigned int j = 0; j < s.n; ++j) {
     const auto kj = q * s.n + j;
     if (s.component[j] == 2) {
-      const PlaneTensor by_p = share * response.by_pressure;
+      const PlaneTensor by_p = response.by_pressure;
       for (unsigned int i = 0; i < s.n; ++i)
         if (s.component[i] != 2) {
           const auto ki = q * s.n + i;
@@ -189,15 +185,14 @@ void assemble(const FlowProblem& problem, const Discretisation& d, const PointLa
     local_matrix = 0;
     for (const unsigned int q : fe.quadrature_point_indices()) {
       const PointValues at = point_values(shapes, q, local);
-      const double p = law_pressure(setting.pressure, at.p, fe.quadrature_point(q)[1]);
-      const auto response = law(setting.regularisation, at.D, p, state.dual[point], point);
+      const auto response = law(setting.regularisation, at.D, at.p, state.dual[point], point);
       ++point;
       Vec2 force = body_force(problem, state.theta, fe.quadrature_point(q));
       if (setting.inertia)
         add_inertia(problem, *setting.inertia, shapes, q, fe.quadrature_point(q), fe.JxW(q), local,
                     local_before, force, matrix ? &local_matrix : nullptr);
       add_point_residual(shapes, q, at, response.stress, force, fe.JxW(q), local_residual);
-      if (matrix) add_point_tangent(shapes, q, response, setting.pressure.share, fe.JxW(q), local_matrix);
+      if (matrix) add_point_tangent(shapes, q, response, fe.JxW(q), local_matrix);
     }
     for (const unsigned int f : cell->face_indices())
       if (cell->face(f)->at_boundary())

@@ -45,7 +45,7 @@ bool advance(Newton& newton, const FlowSolverOptions& options, double time_step,
   const bool at_rest = before.solution.l2_norm() == 0;
   const auto kept = std::make_shared<fem::FieldVector>(before.solution);
   kept->update_ghost_values();
-  Phase phase{"time step", fem::final_setting(level.problem, before.theta), options.tolerance};
+  Phase phase{"time step", fem::final_setting(level.problem), options.tolerance};
   phase.setting.inertia = fem::InertiaSetting{.share = 1, .time_step = time_step, .before = kept};
   d.constraints.distribute(level.state.solution);  // what the sides do now
   level.state.solution.update_ghost_values();
@@ -114,7 +114,7 @@ FlowField flow_of_state(const FlowState& kept, const FlowProblem& problem, const
     d.refine(level->problem, level->state.solution);
   }
   fem::lay_down(kept, *level);
-  level->setting = fem::final_setting(level->problem, kept.theta);
+  level->setting = fem::final_setting(level->problem);
   level->state.dual = fem::dual_of(d, level->setting.regularisation, level->state.solution);
   return FlowField(level);
 }
@@ -130,7 +130,7 @@ FlowField flow_at_rest(const FlowProblem& problem, const FlowSolverOptions& opti
     state.theta = fixed->theta;
   else
     state.theta = std::get<SlopeFromMoment>(problem.slope).first_guess;
-  level->setting = fem::final_setting(level->problem, state.theta);
+  level->setting = fem::final_setting(level->problem);
   state.dual = fem::dual_of(d, level->setting.regularisation, state.solution);
   return FlowField(level);
 }

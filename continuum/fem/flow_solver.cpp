@@ -25,17 +25,12 @@ using fem::WorkClock;
 
 // Everything before eps goes down on the first mesh: from a Newtonian fluid to the law at a large eps, where
 // it is nearly one.
-std::vector<Phase> cold_phases(const FlowProblem& problem, const FlowSolverOptions& options, double theta) {
-  Setting setting = final_setting(problem, theta);
+std::vector<Phase> cold_phases(const FlowProblem& problem, const FlowSolverOptions& options) {
+  Setting setting = final_setting(problem);
   if (std::holds_alternative<NewtonianLaw>(problem.law)) return {{"newtonian", setting, options.tolerance}};
   setting.regularisation.shear_rate = std::max(problem.regularisation.shear_rate, options.start_shear_rate);
-  const Setting newtonian{NewtonianLaw{1}, setting.regularisation, setting.pressure, std::nullopt};
-  std::vector<Phase> list = {{"newtonian", newtonian, options.phase_tolerance}};
-  for (const double share : options.pressure_shares) {
-    setting.pressure.share = share;
-    list.push_back({share == 0 ? "hydrostatic" : "pressure", setting, options.phase_tolerance});
-  }
-  return list;
+  const Setting newtonian{NewtonianLaw{1}, setting.regularisation, std::nullopt};
+  return {{"newtonian", newtonian, options.phase_tolerance}, {"law", setting, options.phase_tolerance}};
 }
 
 // From slow flow to full inertia; a step that fails is halved.
@@ -58,7 +53,7 @@ bool raise_inertia(Newton& newton, const FlowSolverOptions& options, fem::Solved
 }
 
 bool solve_cold(Newton& newton, const FlowSolverOptions& options, fem::SolvedLevel& level) {
-  auto list = cold_phases(level.problem, options, level.state.theta);
+  auto list = cold_phases(level.problem, options);
   const double tolerance = level.problem.inertia ? options.phase_tolerance : options.tolerance;
   if (list.back().setting.regularisation.shear_rate <= level.problem.regularisation.shear_rate)
     list.back().tolerance = tolerance;
@@ -72,7 +67,7 @@ bool solve_cold(Newton& newton, const FlowSolverOptions& options, fem::SolvedLev
 bool solve_from(const std::string& name, Newton& newton, const FlowSolverOptions& options,
                 fem::SolvedLevel& level) {
   const State before = level.state;
-  Phase phase{name, final_setting(level.problem, before.theta), options.tolerance};
+  Phase phase{name, final_setting(level.problem), options.tolerance};
   if (level.problem.inertia) phase.setting.inertia = fem::InertiaSetting{};
   if (run(newton, phase, level)) return true;
   if (newton.was_interrupted() || !(phase.setting.regularisation.shear_rate < options.careful_shear_rate))
@@ -114,8 +109,7 @@ FlowSolution solve(const FlowProblem& problem, const FlowSolverOptions& options,
   int first = 0;
   if (neighbour) {
     for (; !fem::fits(d, *neighbour); ++first) {
-      if (first + 1 >= options.levels)
-        throw InputError(fem::no_mesh_fits);
+      if (first + 1 >= options.levels) throw InputError(fem::no_mesh_fits);
       clock(Work::refinement, [&] { d.refine(problem, state.solution); });
     }
     fem::take_over(*neighbour, *level);

@@ -19,8 +19,7 @@ struct FlowSolverOptions {
   /// A finer mesh starts from the coarser solution, and a flow from its neighbour, at the last eps; where
   /// that fails, at this one.
   double careful_shear_rate = 1e-3;
-  std::vector<double> pressure_shares = {1};  ///< of the true pressure in the law, one phase each, up to 1
-  double phase_tolerance = 0.3;               ///< on the residual, in all phases but the last of a mesh
+  double phase_tolerance = 0.3;    ///< on the residual, in all phases but the last of a mesh
   double coarse_tolerance = 1e-4;  ///< on the residual in the last phase of all meshes but the last one
   double tolerance = 1e-8;         ///< on the residual in the last phase of the last mesh
   double linear_tolerance = 1e-6;  ///< on the true relative residual of every linear solve
@@ -34,11 +33,10 @@ struct FlowSolverOptions {
 /// One nonlinear iteration.
 struct IterationReport {
   int level = 0;
-  std::string phase;  ///< "newtonian", "hydrostatic", "pressure", "shear rate", "refined", "neighbour", "k"
-  double shear_rate = 0;      ///< eps of the phase
-  double pressure_share = 0;  ///< of the true pressure in the law
-  int iteration = 0;          ///< within the phase
-  double residual = 0;        ///< ||R||/||weight||, after the step
+  std::string phase;      ///< "newtonian", "law", "shear rate", "refined", "neighbour", "k"
+  double shear_rate = 0;  ///< eps of the phase
+  int iteration = 0;      ///< within the phase
+  double residual = 0;    ///< ||R||/||weight||, after the step
   double step_length = 0;
   double step_size = 0;        ///< ||du||/||u||
   double linear_residual = 0;  ///< true relative residual of the linear solves, the larger

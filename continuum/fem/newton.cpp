@@ -75,10 +75,8 @@ double Newton::step_length(const Phase& phase, const State& state, const Step& s
 }
 
 bool Newton::solve(const Phase& phase, State& state) {
-  IterationReport line{.level = level_,
-                       .phase = phase.name,
-                       .shear_rate = phase.setting.regularisation.shear_rate,
-                       .pressure_share = phase.setting.pressure.share};
+  IterationReport line{
+      .level = level_, .phase = phase.name, .shear_rate = phase.setting.regularisation.shear_rate};
   clock_(Work::assembly, [&] { assemble_tangent(problem_, d_, phase.setting, state, system_); });
   if (weight_norm_ > 0)
     reference_ = weight_norm_;
@@ -125,18 +123,14 @@ bool Newton::solve(const Phase& phase, State& state) {
     if (line.residual <= phase.tolerance) return true;
   }
   report_.failure = fmt::format(
-      "mesh {}, phase '{}' (eps = {:.3g}, true pressure {:.2f}): residual {:.3e} after {} iterations, "
+      "mesh {}, phase '{}' (eps = {:.3g}): residual {:.3e} after {} iterations, "
       "tolerance {:.1e}, last step {:.2e}",
-      level_, phase.name, line.shear_rate, line.pressure_share, line.residual, line.iteration,
-      phase.tolerance, line.step_size);
+      level_, phase.name, line.shear_rate, line.residual, line.iteration, phase.tolerance, line.step_size);
   return false;
 }
 
-Setting final_setting(const FlowProblem& problem, double theta) {
-  return {problem.law,
-          problem.regularisation,
-          {1, problem.surface_pressure, problem.density * std::cos(theta)},
-          std::nullopt};
+Setting final_setting(const FlowProblem& problem) {
+  return {problem.law, problem.regularisation, std::nullopt};
 }
 
 bool run(Newton& newton, const Phase& phase, SolvedLevel& level) {

@@ -89,7 +89,7 @@ struct FixedSlope {
   double theta = 0;  ///< rad
 };
 struct SlopeFromMoment {
-  double first_guess = 0.3;  ///< rad; serves the hydrostatic start alone, the solution does not depend on it
+  double first_guess = 0.3;  ///< rad; the solution does not depend on it
 };
 using Slope = std::variant<FixedSlope, SlopeFromMoment>;
 
@@ -120,7 +120,6 @@ struct FlowProblem {
   double density = 0;                  ///< nu; the weight is density (sin theta, -cos theta)
   Slope slope;
   std::function<Vec2(Vec2)> extra_force;  ///< added to the weight; empty: absent
-  double surface_pressure = 0;            ///< of the hydrostatic start, rho0 g d
   /// mu that statics alone asks for somewhere, where that is not the tan of a given slope.
   std::optional<double> needed_friction;
   std::optional<Inertia> inertia;      ///< absent: slow flow, 0 = -grad p + div tau + f

@@ -108,7 +108,6 @@ FlowProblem gap_problem(const Gap& gap, const StressLaw& law, const FlowMesh& me
   problem.regularisation = {regularisation.shear_rate, regularisation.pressure};
   problem.density = gap.weight;
   problem.slope = FixedSlope{gap.slope};
-  problem.surface_pressure = gap.pressure;
   if (gap.inner_radius > 0) {
     problem.domain = AnnulusDomain{.inner_radius = gap.inner_radius, .layers = std::move(layers)};
     add_cylinders(gap, problem);

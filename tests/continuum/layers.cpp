@@ -60,7 +60,6 @@ TEST(PlaneShear, RunsAtTheRateThatBelongsToItsStress) {
   const double P = 4, mu = 0.2901;  // mu(0.01) of the paper's law
   FlowProblem problem = strip(10, 4, paper, constant_traction(mu * P, -P));
   problem.regularisation = {.shear_rate = 1e-7, .pressure = 1e-4};
-  problem.surface_pressure = P;
   FlowSolverOptions options;
   options.levels = 1;
   options.tolerance = 1e-11;
@@ -85,7 +84,6 @@ TEST(VerticalChute, HasThePlugAndTheShearLayerOfItsClosedForm) {
   FlowProblem problem = strip(W, 20, paper, constant_traction(0, -P));
   problem.extra_force = [](Vec2) { return Vec2{nu, 0}; };
   problem.regularisation = {.shear_rate = 1e-5, .pressure = 1e-4};
-  problem.surface_pressure = P;
   FlowSolverOptions options;
   options.levels = 2;
   const FlowField field = converged(problem, options);
@@ -103,7 +101,6 @@ TEST(Box, RigidRotationOnTopOfAFlowChangesNoStress) {
   problem.law = paper;
   problem.slope = FixedSlope{0};
   problem.regularisation = {.shear_rate = 1e-2, .pressure = 0.1};
-  problem.surface_pressure = 3;
   problem.boundary[Side::top] = constant_traction(0.5, -3);
   FlowSolverOptions options;
   options.levels = 1;

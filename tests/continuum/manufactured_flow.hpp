@@ -100,7 +100,6 @@ inline FlowProblem problem_of(const Manufactured& made) {
   if (problem.turned && made.turn_from_flow) problem.turned->given_turn = nullptr;
   problem.regularisation = made.regularisation;
   problem.slope = FixedSlope{0};
-  problem.surface_pressure = 3;
   problem.extra_force = [&made](Vec2 p) { return made.force(p); };
   for (const Side side : {Side::bottom, Side::left, Side::right})
     problem.boundary[side] = PrescribedVelocity{Manufactured::velocity};

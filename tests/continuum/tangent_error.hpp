@@ -25,10 +25,7 @@ inline FlowProblem small_segment() {
 inline double tangent_error(const FlowProblem& problem, bool inertia, double h) {
   const fem::Discretisation d(problem);
   const auto before = std::make_shared<const fem::FieldVector>(d.field());
-  fem::Setting setting{problem.law,
-                       {.shear_rate = 0.2, .pressure = 0.3},
-                       {.share = 0.6, .surface = 0.5, .gradient = 0.7},
-                       std::nullopt};
+  fem::Setting setting{problem.law, {.shear_rate = 0.2, .pressure = 0.3}, std::nullopt};
   if (inertia) setting.inertia = fem::InertiaSetting{.share = 0.7, .time_step = 2, .before = before};
 
   fem::State state;

@@ -17,7 +17,6 @@ TEST(PlaneShearWithK, CarriesExactlyKAndTheSameRate) {
   FlowProblem problem = strip(10, 4, paper, constant_traction(mu * P, -P));
   problem.turned = some_k();
   problem.regularisation = {.shear_rate = 1e-7, .pressure = 1e-4};
-  problem.surface_pressure = P;
   FlowSolverOptions options;
   options.levels = 1;
   options.tolerance = 1e-11;
@@ -59,7 +58,6 @@ TEST(FlowWithK, OfKOneIsTheFlowWithout) {
   FlowProblem problem = strip(10, 4, paper, constant_traction(0.29 * 4, -4));
   problem.density = 0.1;
   problem.slope = FixedSlope{0.1};
-  problem.surface_pressure = 4;
   problem.regularisation = {.shear_rate = 1e-4, .pressure = 1e-2};
   FlowSolverOptions options;
   options.levels = 1;

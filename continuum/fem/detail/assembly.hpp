@@ -29,13 +29,6 @@ struct State {
   }
 };
 
-/// The pressure that the law sees: share * p + (1 - share) * hydrostatic.
-struct LawPressure {
-  double share = 1;
-  double surface = 0;   ///< of the hydrostatic part
-  double gradient = 0;  ///< of the hydrostatic part, per unit depth
-};
-
 /// How inertia enters one system.
 struct InertiaSetting {
   double share = 1;                                     ///< of nu u.grad u
@@ -47,7 +40,6 @@ struct InertiaSetting {
 struct Setting {
   StressLaw law;
   Regularisation regularisation;
-  LawPressure pressure;
   std::optional<InertiaSetting> inertia;  ///< absent: no such term
 };
 

@@ -68,8 +68,8 @@ class Newton {
   double reference_ = 1;
 };
 
-/// The problem's own regularisation and pressure, steady and slow.
-Setting final_setting(const FlowProblem& problem, double theta);
+/// The problem's own law and regularisation, steady and slow.
+Setting final_setting(const FlowProblem& problem);
 
 /// Solves one phase from the level's state.
 bool run(Newton& newton, const Phase& phase, SolvedLevel& level);
