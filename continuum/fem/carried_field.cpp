@@ -1,0 +1,269 @@
+#include "continuum/fem/detail/carried_field.hpp"
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_dgq.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/lac/sparsity_tools.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "continuum/fem/detail/direct_solver.hpp"
+#include "coupling/exchange/errors.hpp"
+
+namespace drumlin::fem {
+namespace {
+
+using dealii::FEValuesExtractors::Vector;
+using Indices = std::vector<dealii::types::global_dof_index>;
+
+// As the laboratory sees it: the field is steady there, and the mesh is at rest.
+std::vector<dealii::Tensor<1, 2>> velocity(const dealii::FEValuesBase<2>& fe, const FieldVector& solution,
+                                           const std::optional<RotatingFrame>& frame) {
+  std::vector<dealii::Tensor<1, 2>> u(fe.n_quadrature_points);
+  fe[Vector(0)].get_function_values(solution, u);
+  if (frame)
+    for (const unsigned int q : fe.quadrature_point_indices()) {
+      const auto x = fe.quadrature_point(q);
+      const Vec2 rigid = rigid_rotation(frame->rotation, frame->axis_offset, {x[0], x[1]});
+      u[q][0] += rigid.x;
+      u[q][1] += rigid.z;
+    }
+  return u;
+}
+
+const dealii::UpdateFlags side_flags =
+    dealii::update_values | dealii::update_JxW_values | dealii::update_normal_vectors;
+const dealii::UpdateFlags u_flags = dealii::update_values | dealii::update_quadrature_points;
+
+// The rows of the cells of this rank; each needs no more than its neighbours' indices.
+class Assembler {
+ public:
+  Assembler(const FlowProblem& problem, const Discretisation& d, const FieldVector& solution,
+            const ScalarField& field)
+      : problem_(problem),
+        d_(d),
+        solution_(solution),
+        field_(field),
+        indices_(field.element->n_dofs_per_cell()),
+        upwind_(indices_.size()),
+        fe_(d.mapping, *field.element, d.quadrature,
+            dealii::update_values | dealii::update_gradients | dealii::update_JxW_values),
+        fe_u_(d.mapping, d.elements, d.quadrature, dealii::update_values | dealii::update_quadrature_points),
+        side_(d.mapping, *field.element, d.side_quadrature, side_flags),
+        side_u_(d.mapping, d.elements, d.side_quadrature, u_flags),
+        other_side_(d.mapping, *field.element, d.side_quadrature, dealii::update_values),
+        part_(d.mapping, *field.element, d.side_quadrature, side_flags),
+        part_u_(d.mapping, d.elements, d.side_quadrature, u_flags),
+        other_part_(d.mapping, *field.element, d.side_quadrature, dealii::update_values) {
+    const dealii::IndexSet owned = field.places.locally_owned_dofs();
+    dealii::IndexSet relevant;
+    dealii::DoFTools::extract_locally_relevant_dofs(field.places, relevant);
+    dealii::DynamicSparsityPattern pattern(owned.size(), owned.size(), relevant);
+    dealii::DoFTools::make_flux_sparsity_pattern(field.places, pattern);
+    dealii::SparsityTools::distribute_sparsity_pattern(pattern, owned, d.mesh.get_communicator(), relevant);
+    matrix.reinit(owned, owned, pattern, d.mesh.get_communicator());
+    rhs = field.values;
+    rhs = 0;
+  }
+
+  void add_cells(const Relaxation& relaxation) {
+    std::size_t first = 0;
+    for (const auto& cell : d_.unknowns.active_cell_iterators()) {
+      if (!cell->is_locally_owned()) continue;
+      const std::size_t points = d_.quadrature.size();
+      const double mean_target =
+          add_inside(cell, relaxation.rate.subspan(first, points), relaxation.target.subspan(first, points));
+      for (const unsigned int f : cell->face_indices()) add_side(cell, f, mean_target);
+      first += points;
+    }
+    matrix.compress(dealii::VectorOperation::add);
+    rhs.compress(dealii::VectorOperation::add);
+  }
+
+  SystemMatrix matrix;
+  FieldVector rhs;
+
+ private:
+  // v.grad b + rate b = rate target; returns the mean target.
+  double add_inside(const MeshCell& cell, std::span<const double> rate, std::span<const double> target) {
+    const auto own = on(field_.places, cell);
+    own->get_dof_indices(indices_);
+    fe_.reinit(own);
+    fe_u_.reinit(cell);
+    const auto u = velocity(fe_u_, solution_, problem_.frame);
+    dealii::FullMatrix<double> local(fe_.dofs_per_cell, fe_.dofs_per_cell);
+    dealii::Vector<double> local_rhs(fe_.dofs_per_cell);
+    double sum = 0, area = 0;
+    for (const unsigned int q : fe_.quadrature_point_indices()) {
+      for (unsigned int i = 0; i < fe_.dofs_per_cell; ++i) {
+        const double at_i = fe_.shape_value(i, q) * fe_.JxW(q);
+        local_rhs[i] += rate[q] * target[q] * at_i;
+        for (unsigned int j = 0; j < fe_.dofs_per_cell; ++j)
+          local(i, j) += (u[q] * fe_.shape_grad(j, q) + rate[q] * fe_.shape_value(j, q)) * at_i;
+      }
+      sum += target[q] * fe_.JxW(q);
+      area += fe_.JxW(q);
+    }
+    matrix.add(indices_, local);
+    rhs.add(indices_, local_rhs);
+    return sum / area;
+  }
+
+  // Of a face between cells of unequal size the parts are those of the smaller ones.
+  void add_side(const MeshCell& cell, unsigned int f, double mean_target) {
+    const auto own = on(field_.places, cell);
+    const bool seam = own->has_periodic_neighbor(f);
+    if (own->at_boundary(f) && !seam) {
+      side_.reinit(own, f);
+      side_u_.reinit(cell, f);
+      add_entry(side_, side_u_, mean_target);
+      return;
+    }
+    if (const auto neighbor = own->neighbor_or_periodic_neighbor(f); neighbor->has_children()) {
+      for (unsigned int part = 0; part < own->face(f)->n_children(); ++part) {
+        const auto child =
+            seam ? own->periodic_neighbor_child_on_subface(f, part) : own->neighbor_child_on_subface(f, part);
+        part_.reinit(own, f, part);
+        part_u_.reinit(cell, f, part);
+        other_side_.reinit(
+            child, seam ? own->periodic_neighbor_of_periodic_neighbor(f) : own->neighbor_of_neighbor(f));
+        add_exchange(part_, part_u_, other_side_, child);
+      }
+    } else {
+      side_.reinit(own, f);
+      side_u_.reinit(cell, f);
+      if (seam ? own->periodic_neighbor_is_coarser(f) : own->neighbor_is_coarser(f)) {
+        const auto [face, part] = seam ? own->periodic_neighbor_of_coarser_periodic_neighbor(f)
+                                       : own->neighbor_of_coarser_neighbor(f);
+        other_part_.reinit(neighbor, face, part);
+        add_exchange(side_, side_u_, other_part_, neighbor);
+      } else {
+        other_side_.reinit(
+            neighbor, seam ? own->periodic_neighbor_of_periodic_neighbor(f) : own->neighbor_of_neighbor(f));
+        add_exchange(side_, side_u_, other_side_, neighbor);
+      }
+    }
+  }
+
+  template <class Visit>
+  void for_inflow(const dealii::FEFaceValuesBase<2>& side, const dealii::FEFaceValuesBase<2>& side_u,
+                  Visit&& visit) {
+    const auto u = velocity(side_u, solution_, problem_.frame);
+    for (const unsigned int q : side.quadrature_point_indices())
+      if (const double inflow = -(u[q] * side.normal_vector(q)); inflow > 0) visit(q, inflow * side.JxW(q));
+  }
+
+  template <class Neighbor>
+  void add_exchange(const dealii::FEFaceValuesBase<2>& side, const dealii::FEFaceValuesBase<2>& side_u,
+                    const dealii::FEFaceValuesBase<2>& other, const Neighbor& neighbor) {
+    const unsigned int n = fe_.dofs_per_cell;
+    dealii::FullMatrix<double> from_own(n, n), from_upwind(n, n);
+    for_inflow(side, side_u, [&](unsigned int q, double flux) {
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j) {
+          from_own(i, j) += flux * side.shape_value(i, q) * side.shape_value(j, q);
+          from_upwind(i, j) -= flux * side.shape_value(i, q) * other.shape_value(j, q);
+        }
+    });
+    neighbor->get_dof_indices(upwind_);
+    matrix.add(indices_, from_own);
+    matrix.add(indices_, upwind_, from_upwind);
+  }
+
+  void add_entry(const dealii::FEFaceValuesBase<2>& side, const dealii::FEFaceValuesBase<2>& side_u,
+                 double entering) {
+    const unsigned int n = fe_.dofs_per_cell;
+    dealii::FullMatrix<double> from_own(n, n);
+    dealii::Vector<double> from_outside(n);
+    for_inflow(side, side_u, [&](unsigned int q, double flux) {
+      for (unsigned int i = 0; i < n; ++i) {
+        from_outside[i] += flux * side.shape_value(i, q) * entering;
+        for (unsigned int j = 0; j < n; ++j)
+          from_own(i, j) += flux * side.shape_value(i, q) * side.shape_value(j, q);
+      }
+    });
+    matrix.add(indices_, from_own);
+    rhs.add(indices_, from_outside);
+  }
+
+  const FlowProblem& problem_;
+  const Discretisation& d_;
+  const FieldVector& solution_;
+  const ScalarField& field_;
+  Indices indices_, upwind_;
+  dealii::FEValues<2> fe_, fe_u_;
+  dealii::FEFaceValues<2> side_, side_u_, other_side_;
+  dealii::FESubfaceValues<2> part_, part_u_, other_part_;
+};
+
+struct Range {
+  double low = 0, high = 0;
+};
+
+Range range_of(const Discretisation& d, std::span<const double> values) {
+  Range range{1e300, -1e300};
+  for (const double value : values) range = {std::min(range.low, value), std::max(range.high, value)};
+  const MPI_Comm ranks = d.mesh.get_communicator();
+  return {dealii::Utilities::MPI::min(range.low, ranks), dealii::Utilities::MPI::max(range.high, ranks)};
+}
+
+// A bilinear function has its extremes at its nodes, the corners. Its mean stays (Zhang & Shu, J. Comput.
+// Phys. 229 (2010)) unless that lies outside itself. Returns the largest distance from the range.
+double bring_into(const Range& range, const Discretisation& d, ScalarField& field) {
+  dealii::FEValues<2> fe(d.mapping, *field.element, d.quadrature,
+                         dealii::update_values | dealii::update_JxW_values);
+  Indices indices(fe.dofs_per_cell);
+  double overshoot = 0;
+  for (const auto& cell : field.places.active_cell_iterators()) {
+    if (!cell->is_locally_owned()) continue;
+    fe.reinit(cell);
+    cell->get_dof_indices(indices);
+    double sum = 0, area = 0;
+    Range here{1e300, -1e300};
+    for (unsigned int i = 0; i < fe.dofs_per_cell; ++i) {
+      const double value = field.values[indices[i]];
+      here = {std::min(here.low, value), std::max(here.high, value)};
+      for (const unsigned int q : fe.quadrature_point_indices())
+        sum += value * fe.shape_value(i, q) * fe.JxW(q);
+    }
+    for (const unsigned int q : fe.quadrature_point_indices()) area += fe.JxW(q);
+    const double outside = std::max({0.0, range.low - here.low, here.high - range.high});
+    if (outside == 0) continue;
+    overshoot = std::max(overshoot, outside);
+    const double mean = std::clamp(sum / area, range.low, range.high);
+    double share = 1;
+    if (here.high > range.high) share = std::min(share, (range.high - mean) / (here.high - mean));
+    if (here.low < range.low) share = std::min(share, (mean - range.low) / (mean - here.low));
+    for (const auto index : indices)
+      field.values[index] = std::clamp(mean + share * (field.values[index] - mean), range.low, range.high);
+  }
+  return dealii::Utilities::MPI::max(overshoot, d.mesh.get_communicator());
+}
+
+}  // namespace
+
+CarriedField carried_by_flow(const FlowProblem& problem, const Discretisation& d, const FieldVector& solution,
+                             const Relaxation& relaxation, double linear_tolerance) {
+  auto field = std::make_shared<ScalarField>(d, dealii::FE_DGQ<2>(1));
+  Assembler system(problem, d, solution, *field);
+  system.add_cells(relaxation);
+  DirectSolver factors;
+  factors.factorise(system.matrix);
+  CarriedField carried;
+  carried.linear_residual = factors.solve(system.rhs, field->values);
+  if (!(carried.linear_residual <= linear_tolerance))
+    throw NotConvergedError(
+        fmt::format("what the material carries: true relative residual {:.2e} of the "
+                    "linear solve, tolerance {:.1e}",
+                    carried.linear_residual, linear_tolerance));
+  const Range range = range_of(d, relaxation.target);
+  const double outside = bring_into(range, d, *field);
+  carried.overshoot = range.high > range.low ? outside / (range.high - range.low) : 0;
+  field->values.update_ghost_values();
+  carried.field = field;
+  return carried;
+}
+
+}  // namespace drumlin::fem

@@ -1,0 +1,49 @@
+#include "continuum/fem/detail/scalar_field.hpp"
+
+#include <deal.II/dofs/dof_tools.h>
+
+namespace drumlin::fem {
+
+ScalarField::ScalarField(const Discretisation& d, const dealii::FiniteElement<2>& kind)
+    : element(kind.clone()), places(d.mesh) {
+  places.distribute_dofs(*element);
+  dealii::IndexSet relevant;
+  dealii::DoFTools::extract_locally_relevant_dofs(places, relevant);
+  values.reinit(places.locally_owned_dofs(), relevant, d.mesh.get_communicator());
+}
+
+dealii::AffineConstraints<double> conforming_lines(const FlowProblem& problem, const ScalarField& field) {
+  dealii::IndexSet relevant;
+  dealii::DoFTools::extract_locally_relevant_dofs(field.places, relevant);
+  dealii::AffineConstraints<double> lines(relevant);
+  dealii::DoFTools::make_hanging_node_constraints(field.places, lines);
+  if (const auto* box = std::get_if<BoxDomain>(&problem.domain); box && box->periodic_x)
+    dealii::DoFTools::make_periodicity_constraints(field.places, static_cast<int>(Side::left),
+                                                   static_cast<int>(Side::right), 0, lines);
+  lines.close();
+  return lines;
+}
+
+std::vector<double> values_at(const ScalarField& field, const MeshCell& cell,
+                              const std::vector<dealii::Point<2>>& unit_points) {
+  std::vector<dealii::types::global_dof_index> indices(field.element->n_dofs_per_cell());
+  on(field.places, cell)->get_dof_indices(indices);
+  std::vector<double> values(unit_points.size());
+  for (std::size_t q = 0; q < values.size(); ++q)
+    for (unsigned int i = 0; i < indices.size(); ++i)
+      values[q] += field.values[indices[i]] * field.element->shape_value(i, unit_points[q]);
+  return values;
+}
+
+std::vector<double> at_quadrature(const ScalarField& field, const Discretisation& d) {
+  std::vector<double> all;
+  all.reserve(d.mesh.n_locally_owned_active_cells() * d.quadrature.size());
+  for (const auto& cell : d.unknowns.active_cell_iterators()) {
+    if (!cell->is_locally_owned()) continue;
+    const auto values = values_at(field, cell, d.quadrature.get_points());
+    all.insert(all.end(), values.begin(), values.end());
+  }
+  return all;
+}
+
+}  // namespace drumlin::fem

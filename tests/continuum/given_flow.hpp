@@ -1,0 +1,75 @@
+#pragma once
+// A velocity that is given, on the mesh of a problem that is not solved.
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_values.h>
+
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "continuum/fem/detail/scalar_field.hpp"
+
+namespace drumlin::testing_given_flow {
+
+inline FlowProblem problem_on(const Domain& domain) {
+  FlowProblem problem;
+  problem.domain = domain;
+  problem.slope = FixedSlope{0};
+  return problem;
+}
+
+/// Uniformly refined.
+struct GivenFlow {
+  FlowProblem problem;
+  fem::Discretisation d;
+  fem::FieldVector solution;
+
+  GivenFlow(const Domain& domain, int refinements, const std::function<Vec2(Vec2)>& velocity)
+      : problem(problem_on(domain)), d(problem), solution(d.field()) {
+    for (int i = 0; i < refinements; ++i) d.refine(problem, solution);
+    fill(velocity);
+  }
+  void fill(const std::function<Vec2(Vec2)>& velocity) {
+    std::map<dealii::types::global_dof_index, dealii::Point<2>> places;
+    dealii::DoFTools::map_dofs_to_support_points(d.mapping, d.unknowns, places);
+    const auto along_x =
+        dealii::DoFTools::extract_dofs(d.unknowns, dealii::ComponentMask({true, false, false}));
+    for (std::size_t k = 0; k < d.is_velocity.size(); ++k) {
+      if (!d.is_velocity[k]) continue;
+      const auto i = d.owned.nth_index_in_set(k);
+      const Vec2 u = velocity({places.at(i)[0], places.at(i)[1]});
+      solution.local_element(k) = along_x.is_element(i) ? u.x : u.z;
+    }
+    solution.update_ghost_values();
+  }
+  /// `visit`(place, weight) at every quadrature point of this rank.
+  void for_points(const std::function<void(Vec2, double)>& visit) const {
+    dealii::FEValues<2> fe(d.mapping, d.elements, d.quadrature,
+                           dealii::update_quadrature_points | dealii::update_JxW_values);
+    for (const auto& cell : d.unknowns.active_cell_iterators()) {
+      if (!cell->is_locally_owned()) continue;
+      fe.reinit(cell);
+      for (const unsigned int q : fe.quadrature_point_indices())
+        visit({fe.quadrature_point(q)[0], fe.quadrature_point(q)[1]}, fe.JxW(q));
+    }
+  }
+  std::vector<double> at_points(const std::function<double(Vec2)>& function) const {
+    std::vector<double> values;
+    for_points([&](Vec2 x, double) { values.push_back(function(x)); });
+    return values;
+  }
+  /// Root mean square of the difference of values per quadrature point from a function, where it is not NaN.
+  double error(const std::vector<double>& values, const std::function<double(Vec2)>& exact) const {
+    double sum = 0, area = 0;
+    std::size_t point = 0;
+    for_points([&](Vec2 x, double weight) {
+      const double off = values[point++] - exact(x);
+      if (std::isnan(off)) return;
+      sum += off * off * weight;
+      area += weight;
+    });
+    return std::sqrt(d.sum(sum) / d.sum(area));
+  }
+};
+
+}  // namespace drumlin::testing_given_flow
