@@ -1,0 +1,109 @@
+#include "continuum/fem/detail/fluidity.hpp"
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/lac/sparsity_tools.h>
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "continuum/fem/detail/direct_solver.hpp"
+#include "coupling/exchange/errors.hpp"
+
+namespace drumlin::fem {
+namespace {
+
+struct HelmholtzSystem {
+  SystemMatrix matrix;
+  FieldVector mass, source;
+};
+
+void assemble(const Discretisation& d, const ScalarField& field,
+              const dealii::AffineConstraints<double>& lines, double length,
+              std::span<const double> local_fluidity, HelmholtzSystem& system) {
+  const dealii::IndexSet owned = field.places.locally_owned_dofs();
+  dealii::IndexSet relevant;
+  dealii::DoFTools::extract_locally_relevant_dofs(field.places, relevant);
+  dealii::DynamicSparsityPattern pattern(owned.size(), owned.size(), relevant);
+  dealii::DoFTools::make_sparsity_pattern(field.places, pattern, lines, /*keep_constrained_dofs=*/false);
+  dealii::SparsityTools::distribute_sparsity_pattern(pattern, owned, d.mesh.get_communicator(), relevant);
+  system.matrix.reinit(owned, owned, pattern, d.mesh.get_communicator());
+  system.mass = field.values;
+  system.mass = 0;
+  system.source = system.mass;
+
+  const dealii::QTrapezoid<2> vertices;
+  dealii::FEValues<2> fe(d.mapping, *field.element, d.quadrature,
+                         dealii::update_values | dealii::update_JxW_values);
+  dealii::FEValues<2> fe_vertices(d.mapping, *field.element, vertices,
+                                  dealii::update_gradients | dealii::update_JxW_values);
+  const unsigned int n = fe.dofs_per_cell;
+  std::vector<dealii::types::global_dof_index> indices(n);
+  dealii::FullMatrix<double> stiffness(n, n);
+  dealii::Vector<double> mass(n), source(n);
+  std::size_t point = 0;
+  for (const auto& cell : field.places.active_cell_iterators()) {
+    if (!cell->is_locally_owned()) continue;
+    fe.reinit(cell);
+    fe_vertices.reinit(cell);
+    cell->get_dof_indices(indices);
+    stiffness = 0, mass = 0, source = 0;
+    for (const unsigned int q : fe.quadrature_point_indices()) {
+      for (unsigned int i = 0; i < n; ++i) {
+        mass[i] += fe.shape_value(i, q) * fe.JxW(q);
+        source[i] += fe.shape_value(i, q) * local_fluidity[point] * fe.JxW(q);
+      }
+      ++point;
+    }
+    for (const unsigned int q : fe_vertices.quadrature_point_indices())
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j)
+          stiffness(i, j) += length * length * (fe_vertices.shape_grad(i, q) * fe_vertices.shape_grad(j, q)) *
+                             fe_vertices.JxW(q);
+    lines.distribute_local_to_global(stiffness, indices, system.matrix);
+    lines.distribute_local_to_global(mass, indices, system.mass);
+    lines.distribute_local_to_global(source, indices, system.source);
+  }
+  system.mass.compress(dealii::VectorOperation::add);
+  system.source.compress(dealii::VectorOperation::add);
+  for (const auto i : owned)
+    if (!lines.is_constrained(i)) system.matrix.add(i, i, system.mass[i]);
+  system.matrix.compress(dealii::VectorOperation::add);
+}
+
+}  // namespace
+
+FluidityFactor fluidity_factor(const FlowProblem& problem, const Discretisation& d, double length,
+                               std::span<const double> local_fluidity, double linear_tolerance) {
+  auto ln_factor = std::make_shared<ScalarField>(d, dealii::FE_Q<2>(1));
+  const auto lines = conforming_lines(problem, *ln_factor);
+  HelmholtzSystem system;
+  assemble(d, *ln_factor, lines, length, local_fluidity, system);
+  DirectSolver factors;
+  factors.factorise(system.matrix);
+  FieldVector g = system.source;
+  FluidityFactor result;
+  result.linear_residual = factors.solve(system.source, g);
+  if (!(result.linear_residual <= linear_tolerance))
+    throw NotConvergedError(
+        fmt::format("nonlocal fluidity: true relative residual {:.2e} of the linear solve, tolerance {:.1e}",
+                    result.linear_residual, linear_tolerance));
+  bool positive = true;
+  for (const auto i : ln_factor->places.locally_owned_dofs()) {
+    if (lines.is_constrained(i)) continue;
+    positive = positive && g[i] > 0;
+    ln_factor->values[i] = std::log(system.source[i] / (system.mass[i] * g[i]));
+  }
+  if (d.sum(positive ? 0 : 1) > 0)
+    throw NotConvergedError(
+        "the nonlocal fluidity is not positive everywhere: its length asks for a finer mesh");
+  ln_factor->values.update_ghost_values();
+  lines.distribute(ln_factor->values);
+  ln_factor->values.update_ghost_values();
+  result.ln_factor = ln_factor;
+  return result;
+}
+
+}  // namespace drumlin::fem

@@ -1,0 +1,92 @@
+// Nonlocal fluidity against its closed forms.
+#include "continuum/fem/detail/fluidity.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "given_flow.hpp"
+
+namespace drumlin {
+namespace {
+
+using testing_given_flow::GivenFlow;
+using Function = std::function<double(Vec2)>;
+
+std::vector<double> factor(const GivenFlow& flow, double length, const Function& local) {
+  const auto g = flow.at_points(local);
+  const fem::FluidityFactor found = fem::fluidity_factor(flow.problem, flow.d, length, g, 1e-10);
+  std::vector<double> values = fem::at_quadrature(*found.ln_factor, flow.d);
+  for (double& value : values) value = std::exp(value);
+  return values;
+}
+
+Vec2 rest(Vec2) { return {}; }
+
+TEST(NonlocalFluidity, OfAWaveIsTheWaveDamped) {
+  // No flux through the sides: half a wave between them, along x and along z.
+  const double length = 0.7, k = std::numbers::pi / 4;
+  const Function wave = [=](Vec2 x) { return std::cos(k * (x.x + 2)) * std::cos(k * x.z); };
+  const Function exact = [=](Vec2 x) {
+    return (1 + 0.8 * wave(x)) / (1 + 0.8 * wave(x) / (1 + 2 * length * length * k * k));
+  };
+  std::vector<double> errors;
+  for (const int refinements : {0, 1, 2}) {
+    const GivenFlow flow(BoxDomain{.width = 4, .height = 4, .cells_x = 8, .cells_z = 8}, refinements, rest);
+    errors.push_back(flow.error(factor(flow, length, [&](Vec2 x) { return 1 + 0.8 * wave(x); }), exact));
+  }
+  EXPECT_GT(std::log2(errors[0] / errors[1]), 1.8);
+  EXPECT_GT(std::log2(errors[1] / errors[2]), 1.8);
+  EXPECT_LT(errors[2], 3e-3);
+}
+
+TEST(NonlocalFluidity, LeaksIntoWhatIsAtRestAsACosh) {
+  // g_loc is one in the upper half of a layer and a thousandth below: g - g_loc = +-cosh(distance from the
+  // nearer side/length).
+  const double H = 8, length = 1, low = 1e-3;
+  const Function local = [=](Vec2 x) { return x.z > -H / 2 ? 1 : low; };
+  const Function g = [=](Vec2 x) {
+    const double jump = (1 - low) / 2 / std::cosh(H / 2 / length);
+    return x.z > -H / 2 ? 1 - jump * std::cosh(x.z / length) : low + jump * std::cosh((x.z + H) / length);
+  };
+  // The quotient where the elements see the jump as a slope is no test.
+  const Function exact = [=](Vec2 x) { return std::abs(x.z + H / 2) < 1 ? NAN : std::log(local(x) / g(x)); };
+  std::vector<double> errors;
+  for (const int refinements : {0, 1, 2}) {
+    const GivenFlow flow(BoxDomain{.width = 2, .height = H, .cells_x = 2, .cells_z = 8, .periodic_x = true},
+                         refinements, rest);
+    auto found = factor(flow, length, local);
+    for (double& value : found) value = std::log(value);
+    errors.push_back(flow.error(found, exact));
+  }
+  EXPECT_GT(std::log2(errors[0] / errors[1]), 1.7);
+  EXPECT_GT(std::log2(errors[1] / errors[2]), 1.8);
+  // The mesh sees a decay of 1 - h^2/24 in place of 1: with h = 1/4 a hundredth over the four lengths to the
+  // bottom.
+  EXPECT_LT(errors[2], 1e-2);
+}
+
+TEST(NonlocalFluidity, IsLocalForALengthOfNought) {
+  const GivenFlow flow(ChordDomain{.radius = 6, .axis_offset = 0.5, .surface_cell = 1, .surface_zone = 2}, 0,
+                       rest);
+  for (const double value : factor(flow, 0, [](Vec2 x) { return std::exp(x.x + 2 * x.z); }))
+    EXPECT_NEAR(value, 1, 1e-12);
+}
+
+TEST(NonlocalFluidity, StaysPositiveAndBoundedOverEightDecades) {
+  // Cells of 1, hanging nodes; a length far below them and one above.
+  const GivenFlow flow(ChordDomain{.radius = 6, .axis_offset = 0.5, .surface_cell = 1, .surface_zone = 2}, 0,
+                       rest);
+  const Function local = [](Vec2 x) { return x.z > -2 ? 1 : 1e-8; };
+  for (const double length : {0.05, 2.0}) {
+    const auto found = factor(flow, length, local);
+    const auto [smallest, largest] = std::minmax_element(found.begin(), found.end());
+    // g lies between the smallest and the largest g_loc.
+    EXPECT_GE(*smallest, 1e-8) << length;
+    EXPECT_LE(*largest, 1e8) << length;
+  }
+}
+
+}  // namespace
+}  // namespace drumlin
