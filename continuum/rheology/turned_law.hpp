@@ -34,6 +34,20 @@ struct LocalRatio {
   }
 };
 
+/// k as the material carries it (its fabric): beta is given and held. With e = beta turn, in simple shear
+/// (turn = 1 or -1) k = (1 + e)/(1 - e) is the ratio of the normal stresses and mu(I) that of the shear
+/// stress to the one across the layers, as with LocalRatio; no equation for I is left.
+struct CarriedRatio {
+  double beta = 0;  ///< -1 to 1
+  double turn = 1;  ///< as in LocalRatio
+
+  ShearState state(double rate, double pressure) const {
+    const double e = beta * turn;
+    return {2 * rate / std::sqrt(pressure * (1 - e)), (1 + e) / (1 - e), 0};
+  }
+  Turning turning(const ShearState&) const { return {beta, 0}; }
+};
+
 /// Strengths along D and across it.
 struct TurnedStrength {
   Strength along;   ///< A and its slopes

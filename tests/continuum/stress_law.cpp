@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "continuum/rheology/nonlocal_law.hpp"
 #include "continuum/rheology/tensor_law.hpp"
 
 namespace drumlin {
@@ -25,6 +26,20 @@ TEST(SaturatingLaw, RunsBetweenItsTwoFrictions) {
   EXPECT_NEAR(jop.friction(1e-9).mu, 0.383, 1e-8);
   EXPECT_NEAR(jop.friction(0.279).mu, 0.5 * (0.383 + 0.643), 1e-12);
   EXPECT_NEAR(jop.friction(1e9).mu, 0.643, 1e-8);
+}
+
+TEST(NonlocalLaw, IsTheLocalLawAtAnotherInertialNumber) {
+  const double rate = 0.02, p = 4, factor = 0.1, h = 1e-6;
+  const NonlocalLaw<LogLaw> law{paper, factor};
+  const auto at = [&](double r, double pressure) { return strength(law, r, pressure); };
+  EXPECT_NEAR(at(rate, p).value, paper.friction(factor * 2 * rate / std::sqrt(p)).mu * p, 1e-14);
+  EXPECT_NEAR(at(rate, p).d_rate,
+              (at(rate * (1 + h), p).value - at(rate * (1 - h), p).value) / (2 * h * rate), 1e-6);
+  EXPECT_NEAR(at(rate, p).d_pressure,
+              (at(rate, p * (1 + h)).value - at(rate, p * (1 - h)).value) / (2 * h * p), 1e-6);
+  EXPECT_TRUE(tells_fluidity(paper));
+  EXPECT_FALSE(tells_fluidity(ConstantLaw{0.3}));
+  EXPECT_FALSE(tells_fluidity(SaturatingLaw{0.383, 0.643, 0.279}));
 }
 
 TEST(StressLaw, SlopesAreThoseOfItsValues) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "continuum/rheology/nonlocal_law.hpp"
 #include "continuum/rheology/spin.hpp"
 
 namespace drumlin {
@@ -69,6 +70,24 @@ TEST(TurnedLaw, SimpleShearCarriesExactlyMuAndK) {
   }
 }
 
+TEST(TurnedLaw, SimpleShearCarriesTheRatioOfItsFabricAndMu) {
+  for (const double turn : {1.0, -1.0})
+    for (const double k : {0.8, 1.0, 1.3}) {
+      const double p = 3, rate = 0.02;
+      const PlaneTensor D{0, 0, turn * rate};
+      const auto s = turned_response(paper, CarriedRatio{turn * (k - 1) / (k + 1), turn}, none, D, p, D);
+      const double sigma_zz = p - s.stress.zz;
+      EXPECT_NEAR((p - s.stress.xx) / sigma_zz, k, 1e-12);
+      const double I = 2 * rate / std::sqrt(sigma_zz);
+      EXPECT_NEAR(turn * s.stress.xz / sigma_zz, paper.friction(I).mu, 1e-12);
+      EXPECT_NEAR(s.at.k, k, 1e-12);
+      // The same stress as the local law with that k everywhere.
+      const StressRatioLaw same({1}, {k});
+      EXPECT_LT(distance(s.stress, turned_response(paper, LocalRatio{&same, turn}, none, D, p, D).stress),
+                1e-12);
+    }
+}
+
 TEST(TurnedLaw, TheOtherSenseOfShearHasTheSameNormalStresses) {
   const StressRatioLaw law = bump();
   const PlaneTensor D{0, 0, 0.01};
@@ -91,26 +110,31 @@ TEST(TurnedLaw, OfKOneIsTheLawWithoutK) {
   EXPECT_LT(distance(tangent(with, dD), tangent(without, dD)), 1e-13);
 }
 
+template <class Law, class Ratio>
+void expect_tangent_of_stress(const Law& mu, const Ratio& ratio, double size, double p) {
+  const Regularisation smooth{0.002, 0.3};
+  const PlaneTensor dD{0.5, -0.2, 0.7}, D = size * PlaneTensor{0.03, -0.04, 0.9};
+  const double h = 1e-7;
+  const PlaneTensor dual = (1 / regularised_rate(D, smooth)) * D;
+  const auto at = [&](double s, double t) {
+    return turned_response(mu, ratio, smooth, D + s * size * dD, p + t, dual).stress;
+  };
+  const auto s = turned_response(mu, ratio, smooth, D, p, dual);
+  const PlaneTensor by_D = (1 / (2 * h * size)) * (at(h, 0) - at(-h, 0)),
+                    by_p = (1 / (2 * h)) * (at(0, h) - at(0, -h));
+  // Central differences: rounding 1e-16/h, curvature of the table h^2 and, at its points, h.
+  EXPECT_LT(distance(tangent(s, dD), by_D), 1e-6 * magnitude(by_D)) << size << " " << p;
+  EXPECT_LT(distance(s.by_pressure, by_p), 1e-6 * magnitude(by_p)) << size << " " << p;
+}
+
 TEST(TurnedLaw, TangentIsTheDerivativeOfTheStress) {
   const StressRatioLaw law = bump();
-  const Regularisation smooth{0.002, 0.3};
-  const PlaneTensor dD{0.5, -0.2, 0.7};
-  const double h = 1e-7;
   for (const double size : {2e-4, 2e-3, 0.05})  // I on the rise, on the fall of k, beyond the table
     for (const double p : {-0.5, 0.2, 5.0})
       for (const double turn : {1.0, -0.6, 0.0}) {
-        const PlaneTensor D = size * PlaneTensor{0.03, -0.04, 0.9};
-        const PlaneTensor dual = (1 / regularised_rate(D, smooth)) * D;
-        const auto at = [&](double s, double t) {
-          return turned_response(paper, LocalRatio{&law, turn}, smooth, D + s * size * dD, p + t, dual)
-              .stress;
-        };
-        const auto s = turned_response(paper, LocalRatio{&law, turn}, smooth, D, p, dual);
-        const PlaneTensor by_D = (1 / (2 * h * size)) * (at(h, 0) - at(-h, 0)),
-                          by_p = (1 / (2 * h)) * (at(0, h) - at(0, -h));
-        // Central differences: rounding 1e-16/h, curvature of the table h^2 and, at its points, h.
-        EXPECT_LT(distance(tangent(s, dD), by_D), 1e-6 * magnitude(by_D)) << size << " " << p;
-        EXPECT_LT(distance(s.by_pressure, by_p), 1e-6 * magnitude(by_p)) << size << " " << p;
+        expect_tangent_of_stress(paper, LocalRatio{&law, turn}, size, p);
+        expect_tangent_of_stress(paper, CarriedRatio{0.1, turn}, size, p);
+        expect_tangent_of_stress(NonlocalLaw<LogLaw>{paper, 0.03}, LocalRatio{&law, turn}, size, p);
       }
 }
 
