@@ -84,10 +84,11 @@ def draw_profiles(folder, flow):
     figure, axes = plt.subplots(1, 4, figsize=(14, 5.2), sharey=True)
 
     axes[0].plot(columns["v_x"], z, color=style.CONTINUUM, label="layer means" if flow["closed_form"] else None)
-    if flow.get("without_k"):
-        left_out = flow["without_k"]["profile"]
-        axes[0].plot(left_out["v_x"], left_out["z"], color=style.PAPER, linewidth=1, linestyle=":", label="without $k$")
-        axes[0].legend(loc="best")
+    for key, label in (("without_k", "without $k$"), ("without_nonlocal", "local")):
+        if flow.get(key):
+            plain = flow[key]["profile"]
+            axes[0].plot(plain["v_x"], plain["z"], color=style.PAPER, linewidth=1, linestyle=":", label=label)
+            axes[0].legend(loc="best")
     if flow["closed_form"]:
         exact = flow["closed_form"]["profile"]
         axes[0].plot(exact["v_x_closed_form"], exact["z"], color=style.PAPER, linewidth=1, linestyle="--", label="closed form")

@@ -104,18 +104,17 @@ Json closed_form_json(const FinishedFlow& flow) {
           {"profile", {{"z", c.z}, {"v_x", c.v_x}, {"v_x_closed_form", c.v_x_closed_form}}}};
 }
 
-Json without_k_json(const FinishedFlow& flow) {
+Json plain_json(const FinishedFlow& flow) {
   Json change;
-  for (const Scalar& scalar : flow.without_k->scalars.scalars)
+  for (const Scalar& scalar : flow.plain->scalars.scalars)
     change[scalar.name] =
         to_json(Scalar{scalar.name, scalar.value - flow.meshes.back().scalars.value(scalar.name), {}});
-  return {
-      {"scalars", scalars_json(flow.without_k->scalars)},
-      {"change", change},
-      {"v_x_change", flow.without_k->v_x_change},
-      {"profile", {{"z", flow.without_k->profiles.z}, {"v_x", flow.without_k->profiles.column("v_x").value}}},
-      {"turns", flow.solution.report.turns},
-      {"turn_change", flow.solution.report.turn_change}};
+  return {{"scalars", scalars_json(flow.plain->scalars)},
+          {"change", change},
+          {"v_x_change", flow.plain->v_x_change},
+          {"profile", {{"z", flow.plain->profiles.z}, {"v_x", flow.plain->profiles.column("v_x").value}}},
+          {"turns", flow.solution.report.turns},
+          {"turn_change", flow.solution.report.turn_change}};
 }
 
 Json ill_posed_json(const FlowProblem& problem) {
@@ -179,6 +178,8 @@ Json left_out_json(const FinishedFlow& flow) {
   }
   content["surface_height_rms"] = rest.surface_height_rms;
   if (!effects.wall_slip) content["wall_above_friction_0.95"] = rest.wall_friction;
+  if (!effects.nonlocal && rest.nonlocal) content["nonlocal_1_d_rms"] = *rest.nonlocal;
+  if (!effects.fabric && rest.fabric) content["fabric_c_1_rms"] = *rest.fabric;
   return content;
 }
 
@@ -206,7 +207,7 @@ Json flow_json(const FinishedFlow& flow) {
   add_scalars(content, flow.flow_case.given);
   content["ill_posed_share"] = sums.ill_posed_area / sums.area;
   content["ill_posed_I"] = ill_posed_json(flow.flow_case.problem);
-  if (flow.without_k) content["without_k"] = without_k_json(flow);
+  if (flow.plain) content[flow.law.k ? "without_k" : "without_nonlocal"] = plain_json(flow);
   content["unknowns"] = result.unknowns;
   content["iterations"] = report.iterations;
   content["start"] = report.start;

@@ -40,11 +40,11 @@ struct FlowFindings {
 };
 /// Collective.
 FlowFindings findings_of(const FlowCase& flow_case, const FlowField& field);
-/// The same flow on the last mesh, before k entered.
-struct FlowWithoutK {
+/// The same flow on the last mesh, before what the law holds of the flow entered: k, nonlocal fluidity.
+struct PlainFlow {
   ScalarSet scalars;
   ProfileSet profiles;
-  double v_x_change = 0;  ///< v_x_change() to the flow with k
+  double v_x_change = 0;  ///< v_x_change() to the flow with them
 };
 /// Root mean square of the difference of v_x over that of the second, over the layers of two profiles.
 double v_x_change(const ProfileSet& without, const ProfileSet& with);
@@ -60,8 +60,8 @@ struct FinishedFlow {
   int ranks = 1;
   const std::vector<Sensitivity>& sensitivities;  ///< empty: not asked for
   const FlowFindings& findings;
-  std::optional<FlowWithoutK> without_k = {};  ///< absent where the law has no k
-  double cpu_seconds = 0;                      ///< of the solve, on this rank
+  std::optional<PlainFlow> plain = {};  ///< absent where the law holds nothing
+  double cpu_seconds = 0;               ///< of the solve, on this rank
 };
 
 /// Named, or brought along by steps in time.

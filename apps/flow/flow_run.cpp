@@ -16,6 +16,7 @@
 #include "apps/support/interruption.hpp"
 #include "apps/support/output_folder.hpp"
 #include "continuum/rheology/ill_posed_ranges.hpp"
+#include "continuum/rheology/nonlocal_law.hpp"
 #include "continuum/sampling/flow_case.hpp"
 #include "coupling/exchange/errors.hpp"
 #include "coupling/exchange/text_file.hpp"
@@ -60,8 +61,31 @@ FlowSolverOptions solver_options(const FlowScene& scene) {
   return options;
 }
 
-void add_k(const NormalStressRatio& points, FlowCase& chosen) {
+// What a scene asks of a law that the file of the law does not give.
+void check_law(const FlowOptions& options, const FlowScene& scene, const RheologyFit& fit,
+               const StressLaw& law) {
+  std::vector<InputProblem> problems;
+  if (scene.effects.fabric && !fit.k)
+    problems.push_back(
+        {.file = options.scene.string(),
+         .key = "effects.fabric",
+         .what = fmt::format("carries k along with the material, and {} has no k", options.rheology.string()),
+         .allowed = "a rheology file with a table [k]"});
+  if (scene.effects.nonlocal && !tells_fluidity(law))
+    problems.push_back(
+        {.file = options.scene.string(),
+         .key = "effects.nonlocal",
+         .what =
+             fmt::format("spreads the fluidity that mu tells, and in {} mu is the same at all rates or has "
+                         "a threshold, below which it tells none",
+                         options.rheology.string()),
+         .allowed = "a rheology file whose mu is a logarithm or a table"});
+  if (!problems.empty()) throw InputError(problems);
+}
+
+void add_k(const NormalStressRatio& points, const FlowEffects& effects, FlowCase& chosen) {
   chosen.problem.turned = TurnedStress{.k = StressRatioLaw(points.I, points.k)};
+  if (effects.fabric) chosen.problem.turned->fabric = CarriedFabric{effects.fabric->relaxation};
   // In a ring k changes the pressure along the radius, and with it what the closed form takes for granted.
   if (std::holds_alternative<AnnulusDomain>(chosen.problem.domain)) chosen.closed_form = nullptr;
 }
@@ -120,9 +144,10 @@ int solve_flow_scene(const FlowOptions& options, const FemRuntime& runtime) {
   const FlowScene scene = read_flow_scene(options.scene, options.overrides);
   const RheologyFit fit = read_rheology(options.rheology);
   const StressLaw law = stress_law(fit);
+  check_law(options, scene, fit, law);
   const auto case_at = [&](double share) {
     FlowCase chosen = flow_case(at_share_of_speed(scene, share), fit.nu, law);
-    if (fit.k) add_k(*fit.k, chosen);
+    if (fit.k) add_k(*fit.k, scene.effects, chosen);
     return chosen;
   };
   const FlowCase chosen = case_at(1);
@@ -159,9 +184,9 @@ int solve_flow_scene(const FlowOptions& options, const FemRuntime& runtime) {
     meshes.push_back({level, field.cells(), field.unknowns(), chosen.scalars(field)});
     if (speaks) print_mesh(level, meshes.back());
   };
-  std::optional<FlowWithoutK> without_k;
-  observer.solved_without_k = [&](const FlowField& field) {
-    without_k = FlowWithoutK{chosen.scalars(field), chosen.profiles(field)};
+  std::optional<PlainFlow> plain;
+  observer.solved_plain = [&](const FlowField& field) {
+    plain = PlainFlow{chosen.scalars(field), chosen.profiles(field)};
   };
   const std::clock_t begun = std::clock();
   const FlowSolution solution =
@@ -177,13 +202,13 @@ int solve_flow_scene(const FlowOptions& options, const FemRuntime& runtime) {
         fmt::format("the flow did not converge: {}; the last iterate is ill-posed in {:.1f} % of the area",
                     solution.report.failure, 100 * ill_posed_share(solution.field)));
   if (plan) observer.level_finished(scene.mesh.levels - 1, solution.field);
-  if (without_k) without_k->v_x_change = v_x_change(without_k->profiles, chosen.profiles(solution.field));
+  if (plain) plain->v_x_change = v_x_change(plain->profiles, chosen.profiles(solution.field));
   std::vector<Sensitivity> sensitivities;
   if (scene.solver.sensitivity && !plan)
     sensitivities = sensitivities_of(chosen, solution, meshes, solver_options(scene));
   const FlowFindings findings = findings_of(chosen, solution.field);
-  const FinishedFlow flow{scene,           fit,           chosen,   solution,  meshes,     reduced,
-                          runtime.ranks(), sensitivities, findings, without_k, cpu_seconds};
+  const FinishedFlow flow{scene,           fit,           chosen,   solution, meshes,     reduced,
+                          runtime.ranks(), sensitivities, findings, plain,    cpu_seconds};
   write_flow(options.output, flow);
   if (plan) runtime.on_first_rank([&] { fs::remove(options.output / "checkpoint.h5"); });
   if (speaks) fmt::print("{}", finished_text(options.output, flow));

@@ -34,27 +34,37 @@ std::string limits_text(const FinishedFlow& flow) {
   return text + "\n";
 }
 
-// What leaving k out would have cost.
-std::string without_k_text(const FinishedFlow& flow) {
-  if (!flow.without_k) return "";
-  std::string text = fmt::format("  settled in {} updates of the turn of the stress; without k:",
-                                 flow.solution.report.turns);
-  for (const Scalar& scalar : flow.without_k->scalars.scalars)
+// What leaving out k and nonlocal fluidity would have cost.
+std::string plain_text(const FinishedFlow& flow) {
+  if (!flow.plain) return "";
+  const bool nonlocal = flow.scene.effects.nonlocal.has_value();
+  std::string text =
+      fmt::format("  settled in {} updates of what the law holds; without {}:", flow.solution.report.turns,
+                  !flow.law.k ? "nonlocal fluidity"
+                  : nonlocal  ? "k and nonlocal fluidity"
+                              : "k");
+  for (const Scalar& scalar : flow.plain->scalars.scalars)
     text += fmt::format(" {} {:.4g} ({:+.2g})", scalar.name, scalar.value,
                         scalar.value - flow.meshes.back().scalars.value(scalar.name));
-  return text +
-         fmt::format(", v_x off by {:.1f} % (rms over the profile)\n", 100 * flow.without_k->v_x_change);
+  return text + fmt::format(", v_x off by {:.1f} % (rms over the profile)\n", 100 * flow.plain->v_x_change);
 }
 
 std::string left_out_text(const FinishedFlow& flow) {
   if (!flow.findings.left_out) return "";
   const LeftOut& rest = *flow.findings.left_out;
-  return fmt::format(
+  const FlowEffects& effects = flow.scene.effects;
+  std::string text = fmt::format(
       "left out: {}inertia {:.2g} of gravity (rms; at most {:.2g}), a surface that would rise by {:.2g} d "
       "(rms), {}"
-      "a wall share of {:.2g} that asks for friction above 0.95\n",
+      "a wall share of {:.2g} that asks for friction above 0.95",
       has_inertia(flow.scene) ? "not " : "", rest.inertia_rms, rest.inertia_largest, rest.surface_height_rms,
-      flow.scene.effects.wall_slip ? "not " : "", rest.wall_friction);
+      effects.wall_slip ? "not " : "", rest.wall_friction);
+  if (!effects.nonlocal && rest.nonlocal)
+    text += fmt::format(", fluidity that spreads over 1 d ({:.2g}, rms of its ln where it flows)",
+                        *rest.nonlocal);
+  if (!effects.fabric && rest.fabric)
+    text += fmt::format(", fabric that is renewed with c = 1 ({:.2g} of beta)", *rest.fabric);
+  return text + "\n";
 }
 
 std::string summary_text(const fs::path& folder, const FinishedFlow& flow) {
@@ -75,7 +85,7 @@ std::string summary_text(const fs::path& folder, const FinishedFlow& flow) {
 }  // namespace
 
 std::string finished_text(const fs::path& folder, const FinishedFlow& flow) {
-  return checks_text(flow) + without_k_text(flow) + sensitivity_text(flow) + limits_text(flow) +
+  return checks_text(flow) + plain_text(flow) + sensitivity_text(flow) + limits_text(flow) +
          summary_text(folder, flow);
 }
 

@@ -227,7 +227,7 @@ void for_each_point(const Discretisation& d, const FieldVector& solution, Visit 
 
 void assemble_residual(const FlowProblem& problem, const Discretisation& d, const Setting& setting,
                        const State& state, System& system) {
-  with_point_law(problem, setting.law, state.turn(), [&](const auto& law) {
+  with_point_law(problem, setting.law, state.held_values(), [&](const auto& law) {
     assemble(problem, d, law, setting, state, d.homogeneous, system.residual, nullptr);
   });
 }
@@ -235,7 +235,7 @@ void assemble_residual(const FlowProblem& problem, const Discretisation& d, cons
 void assemble_tangent(const FlowProblem& problem, const Discretisation& d, const Setting& setting,
                       const State& state, System& system) {
   if (system.matrix.m() == 0) system.matrix.reinit(d.owned, d.owned, d.pattern, d.mesh.get_communicator());
-  with_point_law(problem, setting.law, state.turn(), [&](const auto& law) {
+  with_point_law(problem, setting.law, state.held_values(), [&](const auto& law) {
     assemble(problem, d, law, setting, state, d.homogeneous, system.residual, &system.matrix);
   });
 }
@@ -243,7 +243,7 @@ void assemble_tangent(const FlowProblem& problem, const Discretisation& d, const
 FieldVector nodal_forces(const FlowProblem& problem, const Discretisation& d, const Setting& setting,
                          const State& state) {
   FieldVector forces = d.field();
-  with_point_law(problem, setting.law, state.turn(), [&](const auto& law) {
+  with_point_law(problem, setting.law, state.held_values(), [&](const auto& law) {
     assemble(problem, d, law, setting, state, d.conforming, forces, nullptr, true);
   });
   return forces;

@@ -52,13 +52,14 @@ PointState point_state(const fem::PointReport& s, const dealii::Tensor<1, 2>& u,
           .law_pressure = s.normal,
           .k = s.ratio,
           .axis_angle = s.angle,
+          .fluidity_factor = s.fluidity,
           .viscosity = s.viscosity,
           .well_posedness = s.margin};
 }
 
 PointState outside() {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  return {{nan, nan}, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan};
+  return {{nan, nan}, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan};
 }
 
 // Force, power and torque of the sides with a given velocity, from the residual in their unknowns.
@@ -162,12 +163,12 @@ std::vector<PointState> FlowField::at(std::span<const Vec2> points) const {
                            dealii::update_values | dealii::update_gradients);
     fe.reinit(cell);
     const Values values(fe, level_->state.solution);
-    const auto& turning = level_->state.turning;
-    const auto turn = turning ? fem::turn_at(*turning, d, cell, unit_points) : std::vector<double>();
+    const auto& held = level_->state.held;
+    const auto held_here = held ? fem::held_at(*held, d, cell, unit_points) : fem::HeldValues{};
     for (std::size_t q = 0; q < places.size(); ++q) {
       found[places[q].point] = true;
       const auto report = fem::point_report(level_->problem, level_->setting, strain_rate(values.gradient[q]),
-                                            values.pressure[q], turn, q);
+                                            values.pressure[q], held_here, q);
       states[places[q].point] =
           point_state(report, values.velocity[q], values.gradient[q], values.pressure[q]);
     }
@@ -183,7 +184,7 @@ FlowIntegrals FlowField::integrals(Vec2 centre) const {
   dealii::FEValues<2> fe(d.mapping, d.elements, d.quadrature,
                          dealii::update_values | dealii::update_gradients | dealii::update_JxW_values |
                              dealii::update_quadrature_points);
-  const auto turn = level_->state.turn();
+  const fem::HeldValues& held = level_->state.held_values();
   std::size_t point = 0;
   const Vec2 weight{problem.density * std::sin(theta()), -problem.density * std::cos(theta())};
   for (const auto& cell : d.unknowns.active_cell_iterators()) {
@@ -192,7 +193,7 @@ FlowIntegrals FlowField::integrals(Vec2 centre) const {
     const Values values(fe, level_->state.solution);
     for (const unsigned int q : fe.quadrature_point_indices()) {
       const PlaneTensor D = strain_rate(values.gradient[q]);
-      const auto s = fem::point_report(problem, level_->setting, D, values.pressure[q], turn, point++);
+      const auto s = fem::point_report(problem, level_->setting, D, values.pressure[q], held, point++);
       const auto x = fe.quadrature_point(q);
       sums.area += fe.JxW(q);
       if (s.margin < 0) sums.ill_posed_area += fe.JxW(q);

@@ -2,6 +2,7 @@
 // A solved flow: values at points, integrals, files. Free of deal.II, which stays behind the pointer.
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,8 +27,9 @@ struct PointState {
   double rate = 0;          ///< |D|
   /// The law's sigma_zz, without k its p: I = 2 rate/sqrt(law_pressure), mu = shear_stress/law_pressure.
   double law_pressure = 0;
-  double k = 0;           ///< of the law; 1 without
-  double axis_angle = 0;  ///< from the axes of D to those of the stress, rad
+  double k = 0;                ///< of the law; 1 without
+  double axis_angle = 0;       ///< from the axes of D to those of the stress, rad
+  double fluidity_factor = 1;  ///< g_loc/g with nonlocal fluidity; 1 without
   double viscosity = 0;
   double well_posedness = 0;  ///< margin (continuum/rheology/well_posedness.hpp), negative: ill-posed
 };
@@ -79,6 +81,11 @@ struct LeftOut {
   double surface_height_rms = 0;  ///< d: of the height sigma_nn/(nu cos theta) that would take the place of
                                   ///< the traction which holds the surface to the chord
   double wall_friction = 0;  ///< share of the wall that asks for a shear stress above 0.95 of the pressure
+  /// Over what flows (I > 1e-3): rms of ln(g/g_loc) for a nonlocal length of 1 d. Absent where the law tells
+  /// no fluidity, and without k, respectively.
+  std::optional<double> nonlocal;
+  /// Likewise, rms of what fabric with c = 1 would change in beta, over rms of beta.
+  std::optional<double> fabric;
 };
 /// Collective.
 LeftOut left_out(const FlowField& field);

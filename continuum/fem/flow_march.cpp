@@ -4,7 +4,6 @@
 
 #include "continuum/fem/detail/kept_state.hpp"
 #include "continuum/fem/detail/newton.hpp"
-#include "continuum/fem/detail/turning.hpp"
 #include "continuum/fem/flow_solver.hpp"
 #include "coupling/exchange/errors.hpp"
 
@@ -51,10 +50,10 @@ bool advance(Newton& newton, const FlowSolverOptions& options, double time_step,
   level.state.solution.update_ghost_values();
   // Of the start of the step: an error of first order in it, as the method's own. At rest there are no axes
   // to turn against.
-  level.state.turning = nullptr;
-  if (level.problem.turned && !at_rest)
-    level.state.turning =
-        fem::turning_of(level.problem, d, level.problem.regularisation.shear_rate, before.solution);
+  level.state.held = nullptr;
+  if (fem::holds_fields(level.problem) && !at_rest)
+    level.state.held =
+        fem::held_from(level.problem, d, before, {.linear_tolerance = options.linear_tolerance});
   const bool done = at_rest ? advance_carefully(newton, options, phase, level) : run(newton, phase, level);
   if (done) return true;
   if (depth == 0 || newton.was_interrupted()) return false;
@@ -76,6 +75,10 @@ std::shared_ptr<fem::SolvedLevel> coarsest_level(const FlowProblem& problem) {
 
 FlowSolution march_flow(const FlowField& start, const FlowProblem& problem, const FlowMarch& march,
                         const FlowSolverOptions& options, const FlowObserver& observer) {
+  if (problem.nonlocal || (problem.turned && problem.turned->fabric))
+    throw InputError(
+        "steps in time know neither carried fabric nor nonlocal fluidity: the state that they go on from "
+        "holds velocity and pressure alone");
   const double begun = fem::now();
   FlowProblem unsteady = problem;
   unsteady.inertia = Inertia{};

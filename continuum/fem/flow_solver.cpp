@@ -18,7 +18,7 @@ using fem::now;
 using fem::Phase;
 using fem::run;
 using fem::Setting;
-using fem::settle_turn;
+using fem::settle_held;
 using fem::State;
 using fem::Work;
 using fem::WorkClock;
@@ -125,15 +125,15 @@ FlowSolution solve(const FlowProblem& problem, const FlowSolverOptions& options,
     FlowSolverOptions here = options;
     if (mesh + 1 < options.levels) here.tolerance = std::max(options.tolerance, options.coarse_tolerance);
     Newton newton(problem, here, d, mesh, start, clock, report, observer);
-    state.turning = nullptr;
+    state.held = nullptr;
     const bool converged = mesh > first ? solve_from("refined", newton, here, *level)
                            : neighbour  ? solve_from("neighbour", newton, here, *level)
                                         : solve_cold(newton, here, *level);
     if (!converged) return finished(false);
-    if (problem.turned) {
-      if (observer.solved_without_k && mesh + 1 == options.levels)
-        clock(Work::evaluation, [&] { observer.solved_without_k(field_of(level)); });
-      if (!settle_turn(newton, here, *level, report)) return finished(false);
+    if (fem::holds_fields(problem)) {
+      if (observer.solved_plain && mesh + 1 == options.levels)
+        clock(Work::evaluation, [&] { observer.solved_plain(field_of(level)); });
+      if (!settle_held(newton, here, *level, report)) return finished(false);
     }
     report.failure.clear();
     if (observer.level_finished)
@@ -176,7 +176,7 @@ FlowSolution solve_flow_again(const FlowField& start, const FlowProblem& problem
   WorkClock clock;
   Newton newton(level->problem, options, *level->discretisation, 0, begun, clock, report, observer);
   report.converged = solve_from("again", newton, options, *level) &&
-                     (!problem.turned || settle_turn(newton, options, *level, report));
+                     (!fem::holds_fields(problem) || settle_held(newton, options, *level, report));
   report.seconds = now() - begun;
   return {report, field_of(level)};
 }

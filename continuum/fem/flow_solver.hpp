@@ -24,7 +24,7 @@ struct FlowSolverOptions {
   double tolerance = 1e-8;         ///< on the residual in the last phase of the last mesh
   double linear_tolerance = 1e-6;  ///< on the true relative residual of every linear solve
   int max_iterations = 40;         ///< per phase
-  int max_turns = 40;              ///< updates of what k takes from the flow (fem/detail/turning.hpp)
+  int max_turns = 40;              ///< updates of what the law holds of the flow (fem/detail/held_fields.hpp)
   /// On what a whole such update moves, velocity (mean square) and slope, relative. Where the material hardly
   /// shears the axes of its strain rate are noise: the drum at 6 rpm on cells of 2 d came to rest at 6e-4.
   double turn_tolerance = 1e-3;
@@ -33,7 +33,7 @@ struct FlowSolverOptions {
 /// One nonlinear iteration.
 struct IterationReport {
   int level = 0;
-  std::string phase;      ///< "newtonian", "law", "shear rate", "refined", "neighbour", "k"
+  std::string phase;      ///< "newtonian", "law", "shear rate", "refined", "neighbour", "k", "nonlocal"
   double shear_rate = 0;  ///< eps of the phase
   int iteration = 0;      ///< within the phase
   double residual = 0;    ///< ||R||/||weight||, after the step
@@ -58,7 +58,7 @@ struct FlowReport {
   std::string start;    ///< "cold", "neighbour", or why the neighbour did not serve
   double residual = 0;
   int iterations = 0;      ///< over all phases and meshes
-  int turns = 0;           ///< updates of the turn of the stress on the last mesh; 0 without k
+  int turns = 0;           ///< updates of what the law holds of the flow, on the last mesh; 0: nothing
   double turn_change = 0;  ///< what the last of them moved, relative, as if it had been taken whole
   double seconds = 0;
   std::vector<PhaseSeconds> phases;
@@ -69,8 +69,8 @@ struct FlowObserver {
   std::function<void(const IterationReport&)> iteration;            ///< empty: nobody watches
   std::function<void(int level, const FlowField&)> level_finished;  ///< also for the last level
   std::function<bool()> interrupted;                                ///< asked between iterations
-  /// Where the law has k: the flow on the last mesh before k enters.
-  std::function<void(const FlowField&)> solved_without_k;
+  /// Where the law holds fields of the flow (k, nonlocal fluidity): that on the last mesh before they enter.
+  std::function<void(const FlowField&)> solved_plain;
 };
 
 struct FlowSolution {
@@ -79,11 +79,11 @@ struct FlowSolution {
 };
 
 /// Newtonian start, the law at a large eps, then eps downwards; on a finer mesh the coarser solution. With k
-/// the flow without it comes first on each mesh; then the turn of the stress is taken from the flow and the
-/// flow solved with it in turns until nothing changes.
-/// Newton's tangent is primal-dual, its step length found on the slope R(u + alpha du).du. Throws
-/// NotConvergedError for a slope that admits no steady flow (no_steady_state); a Newton iteration that does
-/// not converge, or a linear solve that misses its tolerance, is in the report.
+/// or nonlocal fluidity the flow without them comes first on each mesh; then what the law holds of the flow
+/// is taken from it and the flow solved with that in turns until nothing changes. Newton's tangent is
+/// primal-dual, its step length found on the slope R(u + alpha du).du. Throws NotConvergedError for a slope
+/// that admits no steady flow (no_steady_state); a Newton iteration that does not converge, or a linear solve
+/// that misses its tolerance, is in the report.
 [[nodiscard]] FlowSolution solve_flow(const FlowProblem& problem, const FlowSolverOptions& options = {},
                                       const FlowObserver& observer = {});
 

@@ -23,10 +23,19 @@ class LawOutput : public dealii::DataPostprocessor<2> {
   explicit LawOutput(const fem::SolvedLevel& level) : level_(level) {}
 
   std::vector<std::string> get_names() const override {
-    return {"pressure", "sigma_xx",      "sigma_zz",
-            "sigma_xz", "D_magnitude",   "I",
-            "mu",       "viscosity",     "well_posedness_margin",
-            "k",        "axis_angle_deg"};
+    return {"pressure",
+            "sigma_xx",
+            "sigma_zz",
+            "sigma_xz",
+            "D_magnitude",
+            "I",
+            "mu",
+            "viscosity",
+            "well_posedness_margin",
+            "k",
+            "axis_angle_deg",
+            "beta",
+            "fluidity_factor"};
   }
   std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation>
   get_data_component_interpretation() const override {
@@ -39,13 +48,13 @@ class LawOutput : public dealii::DataPostprocessor<2> {
 
   void evaluate_vector_field(const dealii::DataPostprocessorInputs::Vector<2>& input,
                              std::vector<dealii::Vector<double>>& output) const override {
-    const std::vector<double> turn = turn_of(input);
+    const fem::HeldValues held = held_at(input);
     for (std::size_t q = 0; q < output.size(); ++q) {
       const auto& g = input.solution_gradients[q];
       const PlaneTensor D{g[0][0], g[1][1], 0.5 * (g[0][1] + g[1][0])};
       const double p = input.solution_values[q][2], rate = magnitude(D);
-      const auto s = fem::point_report(level_.problem, level_.setting, D, p, turn, q);
-      const std::array<double, 11> values = {p,
+      const auto s = fem::point_report(level_.problem, level_.setting, D, p, held, q);
+      const std::array<double, 13> values = {p,
                                              p - s.stress.xx,
                                              p - s.stress.zz,
                                              s.stress.xz,
@@ -55,20 +64,22 @@ class LawOutput : public dealii::DataPostprocessor<2> {
                                              s.viscosity,
                                              s.margin,
                                              s.ratio,
-                                             s.angle * 180 / std::numbers::pi};
+                                             s.angle * 180 / std::numbers::pi,
+                                             s.beta,
+                                             s.fluidity};
       std::copy(values.begin(), values.end(), output[q].begin());
     }
   }
 
  private:
-  std::vector<double> turn_of(const dealii::DataPostprocessorInputs::Vector<2>& input) const {
-    if (!level_.state.turning) return {};
+  fem::HeldValues held_at(const dealii::DataPostprocessorInputs::Vector<2>& input) const {
+    if (!level_.state.held) return {};
     const auto& d = *level_.discretisation;
     const auto cell = input.get_cell<2>();
     std::vector<dealii::Point<2>> unit_points;
     for (const auto& place : input.evaluation_points)
       unit_points.push_back(d.mapping.transform_real_to_unit_cell(cell, place));
-    return fem::turn_at(*level_.state.turning, d, cell, unit_points);
+    return fem::held_at(*level_.state.held, d, cell, unit_points);
   }
   const fem::SolvedLevel& level_;
 };

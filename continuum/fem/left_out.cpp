@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "continuum/fem/detail/carried_field.hpp"
+#include "continuum/fem/detail/fluidity.hpp"
 #include "continuum/fem/detail/solved_level.hpp"
 #include "continuum/fem/flow_field.hpp"
+#include "continuum/rheology/nonlocal_law.hpp"
 
 namespace drumlin {
 namespace {
@@ -61,6 +64,55 @@ void add_side(const fem::SolvedLevel& level, const BoundaryCondition& condition,
   }
 }
 
+// Mean square of a number per quadrature point over what flows.
+double flowing_rms(const fem::SolvedLevel& level, const std::vector<double>& values) {
+  const auto& d = *level.discretisation;
+  dealii::FEValues<2> fe(d.mapping, d.elements, d.quadrature,
+                         dealii::update_values | dealii::update_gradients | dealii::update_JxW_values);
+  std::vector<dealii::Tensor<2, 2>> gradient(fe.n_quadrature_points);
+  std::vector<double> p(fe.n_quadrature_points);
+  double sum = 0, area = 0;
+  std::size_t point = 0;
+  for (const auto& cell : d.unknowns.active_cell_iterators()) {
+    if (!cell->is_locally_owned()) continue;
+    fe.reinit(cell);
+    fe[Vector(0)].get_function_gradients(level.state.solution, gradient);
+    fe[Scalar(2)].get_function_values(level.state.solution, p);
+    for (const unsigned int q : fe.quadrature_point_indices()) {
+      const auto& g = gradient[q];
+      const double rate = magnitude(PlaneTensor{g[0][0], g[1][1], 0.5 * (g[0][1] + g[1][0])});
+      const double value = values[point++];
+      if (2 * rate < 1e-3 * std::sqrt(regularised_pressure(p[q], level.setting.regularisation).value))
+        continue;
+      sum += value * value * fe.JxW(q);
+      area += fe.JxW(q);
+    }
+  }
+  area = d.sum(area);
+  sum = d.sum(sum);
+  return area > 0 ? std::sqrt(sum / area) : 0;
+}
+
+std::optional<double> spread_of_fluidity(const fem::SolvedLevel& level) {
+  const auto& d = *level.discretisation;
+  if (!tells_fluidity(level.problem.law)) return std::nullopt;
+  const auto g = fem::local_fluidity(level.problem, d, level.state);
+  const auto factor = fem::fluidity_factor(level.problem, d, 1, g, 1e-6);
+  return flowing_rms(level, fem::at_quadrature(*factor.ln_factor, d));
+}
+
+std::optional<double> memory_of_fabric(const fem::SolvedLevel& level) {
+  const auto& d = *level.discretisation;
+  if (!level.problem.turned || !level.state.held) return std::nullopt;
+  const auto sources = fem::fabric_sources(level.problem, d, level.state, level.state.held_values().turn, 1);
+  const auto carried =
+      fem::carried_by_flow(level.problem, d, level.state.solution, {sources.rate, sources.target}, 1e-6);
+  std::vector<double> change = fem::at_quadrature(*carried.field, d);
+  for (std::size_t q = 0; q < change.size(); ++q) change[q] -= sources.target[q];
+  const double local = flowing_rms(level, sources.target);
+  return local > 0 ? flowing_rms(level, change) / local : 0;
+}
+
 }  // namespace
 
 LeftOut left_out(const FlowField& field) {
@@ -91,7 +143,9 @@ LeftOut left_out(const FlowField& field) {
   return {.inertia_rms = std::sqrt(share(sums.inertia, sums.area)),
           .inertia_largest = dealii::Utilities::MPI::max(sums.largest, d.mesh.get_communicator()),
           .surface_height_rms = std::sqrt(share(sums.height, sums.surface)),
-          .wall_friction = share(sums.overloaded, sums.wall)};
+          .wall_friction = share(sums.overloaded, sums.wall),
+          .nonlocal = spread_of_fluidity(level),
+          .fabric = memory_of_fabric(level)};
 }
 
 }  // namespace drumlin

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "continuum/fem/detail/turning.hpp"
+#include "coupling/exchange/errors.hpp"
 
 namespace drumlin::fem {
 namespace {
@@ -23,10 +23,12 @@ double change_between(const Discretisation& d, const State& before, const State&
   return std::max(std::sqrt(d.sum(change) / d.sum(size)), turned > 0 ? turned / std::abs(after.theta) : 0);
 }
 
-// The first solve with k starts at a larger eps: the stress jumps by up to (k - 1)/(2 mu) of itself.
-bool enter_k(Newton& newton, const FlowSolverOptions& options, const Setting& last, SolvedLevel& level) {
+std::string phase_name(const FlowProblem& problem) { return problem.turned ? "k" : "nonlocal"; }
+
+// The first solve starts at a larger eps: with k the stress jumps by up to (k - 1)/(2 mu) of itself.
+bool enter(Newton& newton, const FlowSolverOptions& options, const Setting& last, SolvedLevel& level) {
   const double eps = level.problem.regularisation.shear_rate;
-  Phase start{"k", last, options.phase_tolerance};
+  Phase start{phase_name(level.problem), last, options.phase_tolerance};
   start.setting.regularisation.shear_rate = std::max(eps, options.careful_shear_rate);
   if (start.setting.regularisation.shear_rate <= eps) start.tolerance = options.tolerance;
   return run(newton, start, level) && lower_shear_rate(newton, options, options.tolerance, level);
@@ -56,17 +58,22 @@ bool lower_shear_rate(Newton& newton, const FlowSolverOptions& options, double t
   return true;
 }
 
-bool settle_turn(Newton& newton, const FlowSolverOptions& options, SolvedLevel& level, FlowReport& report) {
-  const double eps = level.problem.regularisation.shear_rate;
+bool settle_held(Newton& newton, const FlowSolverOptions& options, SolvedLevel& level, FlowReport& report) {
   const Setting last = level.setting;
-  const bool enters = !level.state.turning;
+  const bool enters = !level.state.held;
   double share = 1, last_change = INFINITY;
   for (report.turns = 1; report.turns <= options.max_turns; ++report.turns) {
     const bool first = enters && report.turns == 1;
     const State before = level.state;
-    level.state.turning =
-        turning_of(level.problem, *level.discretisation, eps, before.solution, before.turning.get(), share);
-    if (!(first ? enter_k(newton, options, last, level) : run(newton, {"k", last, options.tolerance}, level)))
+    try {
+      level.state.held = held_from(level.problem, *level.discretisation, before,
+                                   {.share = share, .linear_tolerance = options.linear_tolerance});
+    } catch (const NotConvergedError& error) {
+      report.failure = error.what();
+      return false;
+    }
+    if (!(first ? enter(newton, options, last, level)
+                : run(newton, {phase_name(level.problem), last, options.tolerance}, level)))
       return false;
     report.turn_change = change_between(*level.discretisation, before, level.state) / share;
     if (!first && report.turn_change <= options.turn_tolerance) return true;
@@ -76,7 +83,8 @@ bool settle_turn(Newton& newton, const FlowSolverOptions& options, SolvedLevel& 
     last_change = report.turn_change;
   }
   report.failure = fmt::format(
-      "the turn of the stress does not settle: update {} still moves the flow by {:.2e}, tolerance {:.1e}",
+      "what the law holds of the flow does not settle: update {} still moves the flow by {:.2e}, tolerance "
+      "{:.1e}",
       options.max_turns, report.turn_change, options.turn_tolerance);
   return false;
 }

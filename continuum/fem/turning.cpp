@@ -17,11 +17,7 @@ namespace {
 
 using dealii::FEValues;
 using dealii::FEValuesExtractors::Vector;
-using Cell = dealii::DoFHandler<2>::active_cell_iterator;
-
-Cell on(const dealii::DoFHandler<2>& handler, const Cell& cell) {
-  return Cell(&handler.get_triangulation(), cell->level(), cell->index(), &handler);
-}
+using Cell = MeshCell;
 
 // As the laboratory sees it: D is written in its axes, so that a turning observer's velocity would not do.
 struct Velocity {

@@ -64,6 +64,7 @@ FlowProblem drum_problem(const FlowScene& scene, const DrumGeometry& drum, const
   FlowProblem problem = drum_problem(drum, law, scene.mesh, scene.boundary.value(), scene.regularisation);
   if (scene.effects.inertia) problem.inertia = Inertia{};
   if (scene.effects.rotating_frame) problem.frame = RotatingFrame{drum.rotation, drum.axis_offset};
+  if (scene.effects.nonlocal) problem.nonlocal = NonlocalFluidity{scene.effects.nonlocal->length};
   if (const auto& slip = scene.effects.wall_slip)  // no taper: the wall slides along the corners
     problem.boundary[Side::bottom] = FrictionWall{
         .velocity = [drum](Vec2 point) { return rigid_rotation(drum.rotation, drum.axis_offset, point); },

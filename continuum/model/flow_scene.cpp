@@ -125,11 +125,25 @@ void describe(Visitor& v, FlowWallSlip& s) {
                     "Speed at which friction is nearly full; a wall that holds creeps at a part of it."));
 }
 template <class Visitor>
+void describe(Visitor& v, FlowFabric& f) {
+  v.value("relaxation", f.relaxation,
+          required("", above(0, 1e6), "Share of its fabric that the material renews per unit of shear."));
+}
+template <class Visitor>
+void describe(Visitor& v, FlowNonlocal& n) {
+  v.value("length", n.length,
+          required("d", above(0, 1000), "Length over which fluidity spreads beyond its place."));
+}
+template <class Visitor>
 void describe(Visitor& v, FlowEffects& e) {
   v.optional_table("inertia", e.inertia, "nu u.grad u in the balance of momentum.");
   v.optional_table("rotating_frame", e.rotating_frame,
                    "The solver's velocity is that seen from the drum; no answer changes.");
   v.optional_table("wall_slip", e.wall_slip, "The material slides along the wall under Coulomb's law.");
+  v.optional_table("fabric", e.fabric,
+                   "The material carries its k along and renews it by shear; the law has to have k.");
+  v.optional_table("nonlocal", e.nonlocal,
+                   "Fluidity spreads: g - length^2 lap g = g_loc; the law has to yield at any stress.");
 }
 template <class Visitor>
 void describe(Visitor& v, FlowTime& t) {
@@ -190,9 +204,13 @@ void check_drum(const Document& document, FlowScene& scene, std::vector<InputPro
   if (scene.time && scene.time->ramp_s > scene.time->steps * scene.time->step_s * (1 + 1e-12))
     problems.push_back(
         problem_at(document, "time.ramp_s", "goes on after the last step", "<= time.steps time.step_s"));
-  if (scene.time && scene.effects.rotating_frame)
-    problems.push_back(
-        problem_at(document, "effects.rotating_frame", "is one of the steady flow", "absent with [time]"));
+  const auto refuse_in_time = [&](bool named, const char* path) {
+    if (scene.time && named)
+      problems.push_back(problem_at(document, path, "is one of the steady flow", "absent with [time]"));
+  };
+  refuse_in_time(scene.effects.rotating_frame.has_value(), "effects.rotating_frame");
+  refuse_in_time(scene.effects.fabric.has_value(), "effects.fabric");
+  refuse_in_time(scene.effects.nonlocal.has_value(), "effects.nonlocal");
   if (!scene.boundary) scene.boundary.emplace();
   if (!scene.output.slice_width) scene.output.slice_width = 20;
 }
@@ -208,6 +226,8 @@ void refuse_keys_of_the_drum(const Document& document, const FlowScene& scene,
   if (scene.effects.rotating_frame) refuse("effects.rotating_frame");
   if (scene.effects.wall_slip) refuse("effects.wall_slip");
   if (scene.time) refuse("time");
+  if (scene.effects.fabric) refuse("effects.fabric");
+  if (scene.effects.nonlocal) refuse("effects.nonlocal");
   if (scene.output.slice_width) refuse("output.slice_width");
 }
 

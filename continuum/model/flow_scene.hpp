@@ -80,11 +80,19 @@ struct FlowWallSlip {
   double friction = 0;       ///< of the wall against the grains
   double slip_speed = 1e-4;  ///< sqrt(g d)
 };
+struct FlowFabric {
+  double relaxation = 0;  ///< c: the share of its fabric that the material renews per unit of shear
+};
+struct FlowNonlocal {
+  double length = 0;  ///< d
+};
 /// Absent unless named.
 struct FlowEffects {
   std::optional<FlowInertia> inertia;
   std::optional<FlowRotatingFrame> rotating_frame;
   std::optional<FlowWallSlip> wall_slip;
+  std::optional<FlowFabric> fabric;
+  std::optional<FlowNonlocal> nonlocal;
 };
 /// Steps in time with inertia, by the implicit Euler method.
 struct FlowTime {

@@ -92,15 +92,26 @@ std::pair<int, std::size_t> system_of(const FlowField& field) {
 TEST(AbsentEffects, LeaveNoUnknownNoEntryAndNoArray) {
   const FlowField plain = converged(small_drum(), one_mesh());
   EXPECT_FALSE(plain.level().setting.inertia);
-  EXPECT_EQ(plain.level().state.turning, nullptr);
-  FlowProblem turned = small_drum(), moving = small_drum(), seen = small_drum();
+  EXPECT_EQ(plain.level().state.held, nullptr);
+  FlowProblem turned = small_drum(), moving = small_drum(), seen = small_drum(), spread = small_drum();
   turned.turned = TurnedStress{.k = StressRatioLaw({1e-4, 1e-1}, {1.02, 1.04})};
+  FlowProblem carried = turned;
+  carried.turned->fabric = CarriedFabric{1};
+  spread.nonlocal = NonlocalFluidity{1};
   moving.inertia = Inertia{};
   seen.frame = RotatingFrame{drum.rotation, drum.axis_offset};
   // Nor do these add any: their terms stand within the same entries, what is held lies beside the matrix.
-  for (const FlowProblem& problem : {turned, moving, seen})
+  for (const FlowProblem& problem : {turned, carried, spread, moving, seen})
     EXPECT_EQ(system_of(converged(problem, one_mesh())), system_of(plain));
-  EXPECT_NE(converged(turned, one_mesh()).level().state.turning, nullptr);
+  const auto held = [](const FlowProblem& problem) {
+    return converged(problem, one_mesh()).level().state.held;
+  };
+  EXPECT_TRUE(held(turned)->turning);
+  EXPECT_FALSE(held(turned)->beta);
+  EXPECT_FALSE(held(turned)->ln_fluidity);
+  EXPECT_TRUE(held(carried)->beta);
+  EXPECT_TRUE(held(spread)->ln_fluidity);
+  EXPECT_FALSE(held(spread)->turning);
   EXPECT_TRUE(converged(moving, one_mesh()).level().setting.inertia);
 }
 

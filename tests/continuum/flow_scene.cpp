@@ -38,7 +38,15 @@ TEST(FlowScene, HasTheEffectsThatItNames) {
   EXPECT_TRUE(scene.effects.inertia);
   EXPECT_FALSE(scene.effects.rotating_frame);
   EXPECT_EQ(scene.effects.wall_slip.value().friction, 0.95);
-  EXPECT_THROW(parse_flow_scene(smallest + "[effects.wall_slip]\n", "test"), InputError);
+  const FlowEffects more =
+      parse_flow_scene(smallest + "[effects.fabric]\nrelaxation = 2\n[effects.nonlocal]\nlength = 1.5\n",
+                       "test")
+          .effects;
+  EXPECT_EQ(more.fabric.value().relaxation, 2);
+  EXPECT_EQ(more.nonlocal.value().length, 1.5);
+  for (const char* without_its_key : {"[effects.wall_slip]\n", "[effects.fabric]\n", "[effects.nonlocal]\n"})
+    EXPECT_THROW(parse_flow_scene(smallest + without_its_key, "test"), InputError) << without_its_key;
+  EXPECT_THROW(parse_flow_scene(smallest + "[effects.nonlocal]\nlength = -1\n", "test"), InputError);
   EXPECT_THROW(parse_flow_scene(smallest + "[effects.inertia]\nshare = 1\n", "test"), InputError);
 }
 
@@ -66,6 +74,8 @@ TEST(FlowScene, MarchesOnlyWhereItSaysHow) {
   EXPECT_THROW(parse_flow_scene(march + "ramp_s = 2.1\n", "test"), InputError);  // longer than the march
   EXPECT_THROW(parse_flow_scene(march + "[effects.rotating_frame]\n", "test"), InputError);
   EXPECT_THROW(parse_flow_scene(smallest + "[time]\nsteps = 20\n", "test"), InputError);
+  EXPECT_THROW(parse_flow_scene(march + "[effects.fabric]\nrelaxation = 2\n", "test"), InputError);
+  EXPECT_THROW(parse_flow_scene(march + "[effects.nonlocal]\nlength = 2\n", "test"), InputError);
 }
 
 const std::string grains = R"([grains]

@@ -30,5 +30,13 @@ TEST(AssembledTangent, IsTheDerivativeOfTheResidualWithK) {
   EXPECT_LT(tangent_error(problem, false, 1e-6), 1e-7);
 }
 
+TEST(AssembledTangent, IsTheDerivativeOfTheResidualWithFabricAndNonlocalFluidity) {
+  FlowProblem problem = small_segment();
+  problem.nonlocal = NonlocalFluidity{.length = 1.5};
+  EXPECT_LT(tangent_error(problem, false, 1e-6), 1e-7);
+  problem.turned = TurnedStress{.k = StressRatioLaw({0.05, 20}, {0.7, 1.3}), .fabric = CarriedFabric{2}};
+  EXPECT_LT(tangent_error(problem, false, 1e-6), 1e-7);
+}
+
 }  // namespace
 }  // namespace drumlin

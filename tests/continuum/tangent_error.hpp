@@ -42,7 +42,7 @@ inline double tangent_error(const FlowProblem& problem, bool inertia, double h) 
   state.solution.update_ghost_values();
   direction.update_ghost_values();
   state.dual = fem::dual_of(d, setting.regularisation, state.solution);
-  if (problem.turned) state.turning = fem::turning_of(problem, d, 0.2, state.solution);
+  if (fem::holds_fields(problem)) state.held = fem::held_from(problem, d, state);
 
   fem::System system(d);
   fem::assemble_tangent(problem, d, setting, state, system);

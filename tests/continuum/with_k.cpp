@@ -87,7 +87,7 @@ TEST(SmallDrumWithK, BalancesMassTorqueAndPower) {
   int seen = 0;
   double theta_without = 0;
   FlowObserver observer;
-  observer.solved_without_k = [&](const FlowField& field) {
+  observer.solved_plain = [&](const FlowField& field) {
     ++seen;
     theta_without = field.theta();
   };

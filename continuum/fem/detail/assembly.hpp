@@ -3,7 +3,7 @@
 #include <deal.II/lac/petsc_sparse_matrix.h>
 
 #include "continuum/fem/detail/discretisation.hpp"
-#include "continuum/fem/detail/turning.hpp"
+#include "continuum/fem/detail/held_fields.hpp"
 
 namespace drumlin::fem {
 
@@ -12,20 +12,21 @@ struct State {
   FieldVector solution;                    ///< velocity and pressure, with the copies around this rank's part
   double theta = 0;                        ///< rad
   std::vector<PlaneTensor> dual;           ///< D/|D| per quadrature point of this rank's cells
-  std::shared_ptr<const Turning> turning;  ///< of the law with k; null: without k
+  std::shared_ptr<const HeldFields> held;  ///< null: the law takes D and p alone
 
   State() = default;
   // deal.II copies the unknowns that this rank owns, and leaves the rest of the copy at zero.
   State(const State& other)
-      : solution(other.solution), theta(other.theta), dual(other.dual), turning(other.turning) {
+      : solution(other.solution), theta(other.theta), dual(other.dual), held(other.held) {
     solution.update_ghost_values();
   }
   State(State&&) = default;
   State& operator=(const State&) = default;
   State& operator=(State&&) = default;
   ~State() = default;
-  std::span<const double> turn() const {
-    return turning ? std::span<const double>(turning->at_quadrature) : std::span<const double>();
+  const HeldValues& held_values() const {
+    static const HeldValues nothing;
+    return held ? held->at_quadrature : nothing;
   }
 };
 

@@ -13,8 +13,8 @@ struct Relaxation {
 };
 
 struct CarriedField {
-  std::shared_ptr<const ScalarField> field;  ///< bilinear on each cell, with jumps between them
-  double linear_residual = 0;                ///< true relative residual of the solve
+  std::shared_ptr<ScalarField> field;  ///< bilinear on each cell, with jumps between them
+  double linear_residual = 0;          ///< true relative residual of the solve
   double overshoot = 0;  ///< by how much the solve left the range of the targets, over that range, before it
                          ///< was brought back
 };

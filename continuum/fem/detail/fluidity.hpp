@@ -7,8 +7,8 @@
 namespace drumlin::fem {
 
 struct FluidityFactor {
-  std::shared_ptr<const ScalarField> ln_factor;  ///< ln(g_loc/g), continuous, linear on each cell edge
-  double linear_residual = 0;                    ///< true relative residual of the solve
+  std::shared_ptr<ScalarField> ln_factor;  ///< ln(g_loc/g), continuous, linear on each cell edge
+  double linear_residual = 0;              ///< true relative residual of the solve
 };
 
 /// From g_loc > 0 per quadrature point of this rank's cells; `length` in d. No flux of g through any side.

@@ -1,10 +1,12 @@
 #pragma once
 // The law at a quadrature point, with or without k: the one place that chooses. Without k nothing of it
-// exists in the code that runs. Private to fem/.
+// exists in the code that runs; the fabric that is carried and the spread of fluidity stand behind one test
+// per point. Private to fem/.
 #include <span>
 #include <type_traits>
 
 #include "continuum/fem/detail/assembly.hpp"
+#include "continuum/rheology/nonlocal_law.hpp"
 #include "continuum/rheology/turned_law.hpp"
 #include "continuum/rheology/well_posedness.hpp"
 
@@ -13,6 +15,18 @@ namespace drumlin::fem {
 template <class Law>
 struct PlainPointLaw {
   const Law& law;
+  const HeldValues& held;
+  StressResponse operator()(const Regularisation& r, const PlaneTensor& D, double p, const PlaneTensor& dual,
+                            std::size_t point) const {
+    if (held.fluidity.empty()) return stress_response(law, r, D, p, dual);
+    return stress_response(NonlocalLaw<Law>{law, held.fluidity[point]}, r, D, p, dual);
+  }
+};
+/// The start of every flow, which knows of no effect.
+template <>
+struct PlainPointLaw<NewtonianLaw> {
+  const NewtonianLaw& law;
+  const HeldValues& held;
   StressResponse operator()(const Regularisation& r, const PlaneTensor& D, double p, const PlaneTensor& dual,
                             std::size_t /*point*/) const {
     return stress_response(law, r, D, p, dual);
@@ -23,23 +37,32 @@ template <class Law>
 struct TurnedPointLaw {
   const Law& law;
   const StressRatioLaw& k;
-  std::span<const double> turn;  ///< per point
+  const HeldValues& held;
   TurnedResponse operator()(const Regularisation& r, const PlaneTensor& D, double p, const PlaneTensor& dual,
                             std::size_t point) const {
-    return turned_response(law, LocalRatio{&k, turn[point]}, r, D, p, dual);
+    if (held.fluidity.empty()) return with_ratio(law, r, D, p, dual, point);
+    return with_ratio(NonlocalLaw<Law>{law, held.fluidity[point]}, r, D, p, dual, point);
+  }
+
+ private:
+  template <class Friction>
+  TurnedResponse with_ratio(const Friction& mu, const Regularisation& r, const PlaneTensor& D, double p,
+                            const PlaneTensor& dual, std::size_t point) const {
+    const double turn = held.turn[point];
+    if (held.beta.empty()) return turned_response(mu, LocalRatio{&k, turn}, r, D, p, dual);
+    return turned_response(mu, CarriedRatio{held.beta[point], turn}, r, D, p, dual);
   }
 };
 
-/// Calls `visit` with the point law of a problem in this setting; `turn` empty: without k.
+/// Calls `visit` with the point law of a problem in this setting; `held` has to live as long.
 template <class Visit>
-void with_point_law(const FlowProblem& problem, const StressLaw& law, std::span<const double> turn,
-                    Visit&& visit) {
+void with_point_law(const FlowProblem& problem, const StressLaw& law, const HeldValues& held, Visit&& visit) {
   std::visit(
       [&](const auto& chosen) {
         using Law = std::decay_t<decltype(chosen)>;
         if constexpr (!std::is_same_v<Law, NewtonianLaw>)
-          if (!turn.empty()) return visit(TurnedPointLaw<Law>{chosen, problem.turned->k, turn});
-        visit(PlainPointLaw<Law>{chosen});
+          if (!held.turn.empty()) return visit(TurnedPointLaw<Law>{chosen, problem.turned->k, held});
+        visit(PlainPointLaw<Law>{chosen, held});
       },
       law);
 }
@@ -52,6 +75,8 @@ inline double margin(const TurnedResponse& s) {
 }
 inline double ratio_of(const StressResponse&) { return 1; }
 inline double ratio_of(const TurnedResponse& s) { return s.at.k; }
+inline double across_of(const StressResponse&) { return 0; }
+inline double across_of(const TurnedResponse& s) { return s.across.value / s.law_pressure; }
 /// From the axes of D to those of the stress, rad.
 inline double axis_angle(const StressResponse&) { return 0; }
 inline double axis_angle(const TurnedResponse& s) {
@@ -66,13 +91,15 @@ struct PointReport {
   double viscosity = 0;
   double margin = 0;
   double ratio = 1;
-  double angle = 0;  ///< rad
+  double angle = 0;     ///< rad
+  double beta = 0;      ///< stress across D over p
+  double fluidity = 1;  ///< g_loc/g
 };
 
 inline PointReport point_report(const FlowProblem& problem, const Setting& setting, const PlaneTensor& D,
-                                double p, std::span<const double> turn, std::size_t point) {
+                                double p, const HeldValues& held, std::size_t point) {
   PointReport report;
-  with_point_law(problem, setting.law, turn, [&](const auto& law) {
+  with_point_law(problem, setting.law, held, [&](const auto& law) {
     const auto s = law(setting.regularisation, D, p, D, point);
     const double ratio = ratio_of(s);
     report = {s.stress,
@@ -81,7 +108,9 @@ inline PointReport point_report(const FlowProblem& problem, const Setting& setti
               0.5 * s.modulus,
               margin(s),
               ratio,
-              axis_angle(s)};
+              axis_angle(s),
+              across_of(s),
+              held.fluidity.empty() ? 1 : held.fluidity[point]};
   });
   return report;
 }

@@ -9,8 +9,9 @@ namespace drumlin::fem {
 /// eps) from the last solution that converged.
 bool lower_shear_rate(Newton& newton, const FlowSolverOptions& options, double tolerance, SolvedLevel& level);
 
-/// The turn of the stress from the flow, the flow with it, and so on until a whole update moves the flow by
-/// less than the tolerance. Starts with the flow without k, or with that of a turn held before.
-bool settle_turn(Newton& newton, const FlowSolverOptions& options, SolvedLevel& level, FlowReport& report);
+/// What the law holds of the flow (held_fields.hpp) from the flow, the flow with it, and so on until a whole
+/// update moves the flow by less than the tolerance. Starts with the local flow without k, or with what was
+/// held before.
+bool settle_held(Newton& newton, const FlowSolverOptions& options, SolvedLevel& level, FlowReport& report);
 
 }  // namespace drumlin::fem

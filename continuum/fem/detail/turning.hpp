@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "continuum/fem/detail/discretisation.hpp"
+#include "continuum/fem/detail/scalar_field.hpp"
 
 namespace drumlin::fem {
 
