@@ -81,7 +81,7 @@ struct LeftOut {
   double surface_height_rms = 0;  ///< d: of the height sigma_nn/(nu cos theta) that would take the place of
                                   ///< the traction which holds the surface to the chord
   double wall_friction = 0;  ///< share of the wall that asks for a shear stress above 0.95 of the pressure
-  /// Over what flows (I > 1e-3): rms of ln(g/g_loc) for a nonlocal length of 1 d. Absent where the law tells
+  /// Over what flows (I > 1e-3, p > 1): rms of ln(g/g_loc) for a nonlocal length of 1 d. Absent where the law tells
   /// no fluidity, and without k, respectively.
   std::optional<double> nonlocal;
   /// Likewise, rms of what fabric with c = 1 would change in beta, over rms of beta.

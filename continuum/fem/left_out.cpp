@@ -64,7 +64,8 @@ void add_side(const fem::SolvedLevel& level, const BoundaryCondition& condition,
   }
 }
 
-// Mean square of a number per quadrature point over what flows.
+// Root mean square of a number per quadrature point over what flows, without the uppermost grain (p < 1): at
+// the surface the shear rate vanishes, and with it g_loc, over less than a cell.
 double flowing_rms(const fem::SolvedLevel& level, const std::vector<double>& values) {
   const auto& d = *level.discretisation;
   dealii::FEValues<2> fe(d.mapping, d.elements, d.quadrature,
@@ -82,7 +83,8 @@ double flowing_rms(const fem::SolvedLevel& level, const std::vector<double>& val
       const auto& g = gradient[q];
       const double rate = magnitude(PlaneTensor{g[0][0], g[1][1], 0.5 * (g[0][1] + g[1][0])});
       const double value = values[point++];
-      if (2 * rate < 1e-3 * std::sqrt(regularised_pressure(p[q], level.setting.regularisation).value))
+      if (p[q] < 1 ||
+          2 * rate < 1e-3 * std::sqrt(regularised_pressure(p[q], level.setting.regularisation).value))
         continue;
       sum += value * value * fe.JxW(q);
       area += fe.JxW(q);
