@@ -33,12 +33,14 @@ std::vector<Phase> cold_phases(const FlowProblem& problem, const FlowSolverOptio
   return {{"newtonian", newtonian, options.phase_tolerance}, {"law", setting, options.phase_tolerance}};
 }
 
-// From slow flow to full inertia; a step that fails is halved.
+// From slow flow to full inertia; a step that fails is halved. All of inertia is a few per cent of the
+// weight: within the tolerance of the other phases nothing would follow it.
 bool raise_inertia(Newton& newton, const FlowSolverOptions& options, fem::SolvedLevel& level) {
   double share = 0, step = 1;
   while (share < 1) {
     const double next = std::min(1.0, share + step);
-    Phase phase{"inertia", level.setting, next < 1 ? options.phase_tolerance : options.tolerance};
+    Phase phase{"inertia", level.setting,
+                next < 1 ? std::max(options.tolerance, options.coarse_tolerance) : options.tolerance};
     phase.setting.inertia = fem::InertiaSetting{.share = next};
     const State before = level.state;
     if (run(newton, phase, level)) {
@@ -54,7 +56,8 @@ bool raise_inertia(Newton& newton, const FlowSolverOptions& options, fem::Solved
 
 bool solve_cold(Newton& newton, const FlowSolverOptions& options, fem::SolvedLevel& level) {
   auto list = cold_phases(level.problem, options);
-  const double tolerance = level.problem.inertia ? options.phase_tolerance : options.tolerance;
+  const double tolerance =
+      level.problem.inertia ? std::max(options.tolerance, options.coarse_tolerance) : options.tolerance;
   if (list.back().setting.regularisation.shear_rate <= level.problem.regularisation.shear_rate)
     list.back().tolerance = tolerance;
   for (const Phase& phase : list)

@@ -10,6 +10,10 @@
 namespace drumlin::fem {
 namespace {
 
+// Over the norm of the weight. Steps that lead to a solution reach a few times the weight; beyond this they
+// only waste the iterations that are left.
+constexpr double hopeless_residual = 1e5;
+
 State moved(const State& state, const FieldVector& step, double theta_step, double alpha) {
   State next = state;
   next.solution.add(alpha, step);
@@ -119,7 +123,7 @@ bool Newton::solve(const Phase& phase, State& state) {
     report_.residual = line.residual;
     ++report_.iterations;
     if (observer_.iteration) observer_.iteration(line);
-    if (!std::isfinite(line.residual)) break;
+    if (!(line.residual < hopeless_residual)) break;
     if (line.residual <= phase.tolerance) return true;
   }
   report_.failure = fmt::format(
