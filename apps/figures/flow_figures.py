@@ -18,10 +18,14 @@ from drum_maps import read_maps
 from flow_trust import draw_newton, draw_sensitivity, draw_well_posedness
 
 
-def outline(header):
-    """Lines around the domain of maps.h5."""
+def outline(header, surface):
+    """Lines around the domain of maps.h5; `surface` is that of flow.json, null where it has not moved."""
     if "drum_radius" in header:
         radius, axis_depth = float(header["drum_radius"]), float(header["axis_depth"])
+        if surface:
+            x, z = np.array(surface["x"]), np.array(surface["z"]) - surface["z_middle"]
+            angle = np.linspace(*(math.atan2(x[i], axis_depth - z[i]) for i in (0, -1)), 200)
+            return [(radius * np.sin(angle), axis_depth - radius * np.cos(angle)), (x, z)]
         half = math.acos(axis_depth / radius)
         angle = np.linspace(-half, half, 200)
         return [(radius * np.sin(angle), axis_depth - radius * np.cos(angle)),
@@ -31,10 +35,10 @@ def outline(header):
             for name in ("inner_radius", "outer_radius")]
 
 
-def draw_map(axes, grids, values, label, norm, cmap, header):
+def draw_map(axes, grids, values, label, norm, cmap, header, surface):
     axes.grid(False)
     image = axes.pcolormesh(grids["x"], grids["z"], values, norm=norm, cmap=cmap, shading="nearest", rasterized=True)
-    for x, z in outline(header):
+    for x, z in outline(header, surface):
         axes.plot(x, z, color="black", linewidth=1)
     axes.set_aspect("equal")
     axes.set_title(label)
@@ -62,7 +66,7 @@ def draw_maps(folder, flow, header, grids):
              matplotlib.colors.Normalize(0, float(grids["p"].max())), "viridis"),
             (grids["mu"], r"friction $\mu = |\tau|/p$" + under_tension, matplotlib.colors.Normalize(0, 0.4), "viridis")]
     for place, (values, label, norm, cmap) in zip(axes.flat, maps):
-        draw_map(place, grids, values, label, norm, cmap, header)
+        draw_map(place, grids, values, label, norm, cmap, header, flow.get("surface"))
     # A few arrows on the map of the speed; the directions alone, for the speeds span decades.
     step = max(1, int(radius / 12 / (grids["x"][1] - grids["x"][0])))
     cut = (slice(None, None, step), slice(None, None, step))

@@ -25,7 +25,7 @@ def draw_well_posedness(folder, flow, header, grids, draw_map):
     norm = matplotlib.colors.SymLogNorm(0.01, vmin=-top, vmax=top)
     if "drum_radius" in header or "outer_radius" in header:
         figure, axes = plt.subplots(figsize=(9, 5.6))
-        draw_map(axes, grids, margin, f"{label}, red: ill-posed; {said}", norm, "RdBu", header)
+        draw_map(axes, grids, margin, f"{label}, red: ill-posed; {said}", norm, "RdBu", header, flow.get("surface"))
         if (margin < 0).any():
             axes.contour(grids["x"], grids["z"], margin.filled(top), levels=[0], colors="black", linewidths=0.8)
     else:  # a strip is the same all along

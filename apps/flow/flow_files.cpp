@@ -37,7 +37,8 @@ ProfileSet profiles_with_header(const FinishedFlow& flow) {
 }
 
 FieldMap maps_with_header(const FinishedFlow& flow, const ProfileSet& profiles) {
-  FieldMap maps = flow_map(flow.solution.field, flow.flow_case.map_area, flow.scene.output.map_spacing);
+  FieldMap maps = flow_map(flow.solution.field, flow.flow_case.map_area(flow.solution.field),
+                           flow.scene.output.map_spacing);
   maps.scales = scales_of(flow.scene);
   maps.header.insert(profiles.header.begin(), profiles.header.end());
   // What belongs to the slice of the profiles alone.
@@ -176,11 +177,38 @@ Json left_out_json(const FinishedFlow& flow) {
     content["inertia_rms"] = rest.inertia_rms;
     content["inertia_largest"] = rest.inertia_largest;
   }
-  content["surface_height_rms"] = rest.surface_height_rms;
+  if (!effects.moving_surface) content["surface_height_rms"] = rest.surface_height_rms;
   if (!effects.wall_slip) content["wall_above_friction_0.95"] = rest.wall_friction;
   if (!effects.nonlocal && rest.nonlocal) content["nonlocal_1_d_rms"] = *rest.nonlocal;
   if (!effects.fabric && rest.fabric) content["fabric_c_1_rms"] = *rest.fabric;
   return content;
+}
+
+// Where the surface has gone, and what still presses on it.
+Json surface_json(const FinishedFlow& flow) {
+  const auto& shape = flow.solution.field.surface();
+  if (!shape) return nullptr;
+  std::vector<double> x, z;
+  constexpr int points = 101;
+  for (int i = 0; i < points; ++i) {
+    const Vec2 p = surface_point(*shape, -1 + 2.0 * i / (points - 1));
+    x.push_back(p.x);
+    z.push_back(p.z);
+  }
+  Json slopes = Json::object();
+  for (const double length : {10.0, 20.0, 30.0})
+    slopes[fmt::format("{:g}", length)] =
+        (flow.solution.field.theta() + mean_slope(*shape, length)) * 180 / std::numbers::pi;
+  Json steps = Json::array();
+  for (const SurfaceStepReport& step : flow.solution.report.surface_steps)
+    steps.push_back({{"mesh", step.level},
+                     {"share", step.share},
+                     {"height", step.height},
+                     {"pressed_rms", step.rms},
+                     {"pressed_resolved", step.resolved},
+                     {"pressed_largest", step.largest},
+                     {"iterations", step.iterations}});
+  return {{"x", x}, {"z", z}, {"z_middle", height(*shape, 0)}, {"slope_deg", slopes}, {"steps", steps}};
 }
 
 Json sensitivity_json(const FinishedFlow& flow) {
@@ -224,6 +252,7 @@ Json flow_json(const FinishedFlow& flow) {
   content["checks"] = scalars_json(flow.findings.checks);
   if (flow.findings.left_out) content["left_out"] = left_out_json(flow);
   content["closed_form"] = closed_form_json(flow);
+  content["surface"] = surface_json(flow);
   content["meshes"] = meshes_json(flow.meshes);
   content["mesh_change"] = mesh_change(flow.meshes);
   content["mesh_change_missing"] = mesh_change_missing(flow);

@@ -78,6 +78,9 @@ FlowCheckpoint march_start(const FlowOptions& options, const FlowScene& scene, c
   start.law = law_text;
   if (!options.from) return start;
   start.state = read_flow_state(*options.from);
+  if (!start.state.surface.empty())
+    throw InputError((*options.from / "state.h5").string() +
+                     ": its surface has moved; steps in time hold it to the chord");
   const auto flow = read_json(*options.from / "flow.json", "drumlin-flow-run-1");
   const auto settings = flow.value("settings", nlohmann::ordered_json::object());
   if (!settings.contains("rotation") || !settings["rotation"].is_number())

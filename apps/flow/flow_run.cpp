@@ -37,6 +37,15 @@ void print_iteration(const IterationReport& line) {
   std::fflush(stdout);
 }
 
+void print_surface_step(const SurfaceStepReport& step) {
+  fmt::print(
+      "mesh {} surface: up to {:.3f} d from the chord, {:.4f} d (rms, {:.4f} resolved, largest {:.2f}) press "
+      "on "
+      "it\n",
+      step.level, step.height, step.rms, step.resolved, step.largest);
+  std::fflush(stdout);
+}
+
 void print_mesh(int level, const MeshResult& mesh) {
   fmt::print("mesh {} done: {} unknowns", level, mesh.unknowns);
   for (const Scalar& scalar : mesh.scalars.scalars) fmt::print(", {} {:.4g}", scalar.name, scalar.value);
@@ -177,6 +186,7 @@ int solve_flow_scene(const FlowOptions& options, const FemRuntime& runtime) {
   std::vector<MeshResult> meshes;
   FlowObserver observer;
   if (speaks) observer.iteration = print_iteration;
+  if (speaks) observer.surface_step = print_surface_step;
   observer.interrupted = [] { return interruption() != 0; };
   observer.level_finished = [&](int level, const FlowField& field) {
     // A neighbour that did not serve may have finished a mesh before: the cold start does them anew.

@@ -20,6 +20,7 @@ void put(const FlowState& state, H5Writer& out) {
   for (const CellPlace& place : state.cells) cells.insert(cells.end(), place.begin(), place.end());
   out.add_number("theta", state.theta);
   out.add("cells", std::span<const std::int64_t>(cells));
+  if (!state.surface.empty()) out.add_table("surface", state.surface, 1);
   out.add_table("centres", state.centres, 2);
   out.add_table("values", state.values, FlowState::values_per_cell);
 }
@@ -28,6 +29,7 @@ FlowState state_in(const H5Reader& in) {
   FlowState state;
   state.theta = in.number("theta");
   const std::vector<std::int64_t> cells = in.longs("cells");
+  if (in.has("surface")) state.surface = in.doubles("surface");
   state.centres = in.doubles("centres");
   state.values = in.doubles("values");
   const std::size_t count = cells.size() / 4;
@@ -35,7 +37,8 @@ FlowState state_in(const H5Reader& in) {
   if (state.centres.size() != 2 * count) in.refuse("centres", "not two numbers per cell");
   if (state.values.size() != FlowState::values_per_cell * count)
     in.refuse("values", "not 22 numbers per cell");
-  if (!std::isfinite(state.theta) || !all_finite(state.centres) || !all_finite(state.values))
+  if (!std::isfinite(state.theta) || !all_finite(state.centres) || !all_finite(state.surface) ||
+      !all_finite(state.values))
     in.refuse("values", "holds numbers that are none");
   for (std::size_t c = 0; c < count; ++c) {
     CellPlace place;

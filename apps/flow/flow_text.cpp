@@ -54,11 +54,12 @@ std::string left_out_text(const FinishedFlow& flow) {
   const LeftOut& rest = *flow.findings.left_out;
   const FlowEffects& effects = flow.scene.effects;
   std::string text = fmt::format(
-      "left out: {}inertia {:.2g} of gravity (rms; at most {:.2g}), a surface that would rise by {:.2g} d "
+      "left out: {}inertia {:.2g} of gravity (rms; at most {:.2g}), {}a surface that would rise by {:.2g} d "
       "(rms), {}"
       "a wall share of {:.2g} that asks for friction above 0.95",
-      has_inertia(flow.scene) ? "not " : "", rest.inertia_rms, rest.inertia_largest, rest.surface_height_rms,
-      effects.wall_slip ? "not " : "", rest.wall_friction);
+      has_inertia(flow.scene) ? "not " : "", rest.inertia_rms, rest.inertia_largest,
+      effects.moving_surface ? "not " : "", rest.surface_height_rms, effects.wall_slip ? "not " : "",
+      rest.wall_friction);
   if (!effects.nonlocal && rest.nonlocal)
     text += fmt::format(", fluidity that spreads over 1 d ({:.2g}, rms of its ln where it flows)",
                         *rest.nonlocal);

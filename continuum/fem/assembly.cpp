@@ -95,11 +95,13 @@ void add_friction_wall(const FrictionWall& wall, const FlowProblem& problem, con
   }
 }
 
-void add_side(const BoundaryCondition& condition, const FlowProblem& problem,
+void add_side(const Discretisation& d, const BoundaryCondition& condition, const FlowProblem& problem,
               const Regularisation& regularisation, const dealii::FEFaceValues<2>& face, const CellShapes& s,
               const Vector<double>& local, Vector<double>& residual, dealii::FullMatrix<double>* matrix) {
   for (const unsigned int q : face.quadrature_point_indices()) {
-    const auto normal = face.normal_vector(q);
+    const auto normal = std::holds_alternative<NormalSpring>(condition)
+                            ? d.surface_normal(face.quadrature_point(q), face.normal_vector(q))
+                            : face.normal_vector(q);
     const double JxW = face.JxW(q);
     const auto along_normal = [&](unsigned int i) { return face.shape_value(i, q) * normal[s.component[i]]; };
     if (const auto* spring = std::get_if<NormalSpring>(&condition)) {
@@ -199,7 +201,7 @@ void assemble(const FlowProblem& problem, const Discretisation& d, const PointLa
         if (const auto* condition = condition_on(problem, cell->face(f)->boundary_id());
             condition && !(forces_of_walls && std::holds_alternative<FrictionWall>(*condition))) {
           face.reinit(cell, f);
-          add_side(*condition, problem, setting.regularisation, face, shapes, local, local_residual,
+          add_side(d, *condition, problem, setting.regularisation, face, shapes, local, local_residual,
                    matrix ? &local_matrix : nullptr);
         }
     constraints.distribute_local_to_global(local_residual, indices, residual);
@@ -273,6 +275,8 @@ FieldVector load(const Discretisation& d, Vec2 force_density) {
 
 FieldVector surface_moment(const FlowProblem& problem, const Discretisation& d) {
   FieldVector result = d.field();
+  const auto* chord = std::get_if<ChordDomain>(&problem.domain);
+  const dealii::Point<2> axis(0, chord ? chord->axis_offset : 0);
   dealii::FEFaceValues<2> face(d.mapping, d.elements, d.side_quadrature,
                                dealii::update_values | dealii::update_JxW_values |
                                    dealii::update_normal_vectors | dealii::update_quadrature_points);
@@ -289,9 +293,11 @@ FieldVector surface_moment(const FlowProblem& problem, const Discretisation& d) 
       for (unsigned int i = 0; i < indices.size(); ++i) {
         const unsigned int component = d.elements.system_to_component_index(i).first;
         if (component == 2) continue;
-        for (const unsigned int q : face.quadrature_point_indices())
-          result[indices[i]] += face.quadrature_point(q)[0] * spring->stiffness * face.shape_value(i, q) *
-                                face.normal_vector(q)[component] * face.JxW(q);
+        for (const unsigned int q : face.quadrature_point_indices()) {
+          const auto normal = d.surface_normal(face.quadrature_point(q), face.normal_vector(q));
+          result[indices[i]] += lever(face.quadrature_point(q), axis, normal) * spring->stiffness *
+                                face.shape_value(i, q) * normal[component] * face.JxW(q);
+        }
       }
     }
   }

@@ -34,13 +34,24 @@ class VelocityFunction : public dealii::Function<2> {
   const std::function<Vec2(Vec2)>& velocity_;
 };
 
+// That of the condition, or where the ends of the surface have moved what the problem says of the bottom
+// then.
+std::function<Vec2(Vec2)> given_velocity(const FlowProblem& problem, const Discretisation& d, Side side,
+                                         const PrescribedVelocity& given) {
+  if (!d.surface || side != Side::bottom || !problem.moving_surface || !problem.moving_surface->wall_velocity)
+    return given.velocity;
+  return [&velocity = problem.moving_surface->wall_velocity, left = surface_point(*d.surface, -1),
+          right = surface_point(*d.surface, 1)](Vec2 point) { return velocity(point, left, right); };
+}
+
 BoundaryValues prescribed_velocities(const FlowProblem& problem, const Discretisation& d) {
   BoundaryValues all;
   for (const auto& [side, condition] : problem.boundary)
     if (const auto* given = std::get_if<PrescribedVelocity>(&condition)) {
       BoundaryValues here;
+      const auto velocity = given_velocity(problem, d, side, *given);
       dealii::VectorTools::interpolate_boundary_values(d.mapping, d.unknowns, static_cast<int>(side),
-                                                       VelocityFunction(given->velocity), here,
+                                                       VelocityFunction(velocity), here,
                                                        dealii::ComponentMask({true, true, false}));
       all.insert(here.begin(), here.end());
     }
@@ -205,6 +216,7 @@ void Discretisation::execute_refinement(const FlowProblem& problem, FieldVector&
   solution.update_ghost_values();
   transfer.prepare_for_coarsening_and_refinement(solution);
   mesh.execute_coarsening_and_refinement();
+  undisturbed_.reset();
   distribute_unknowns(problem);
   solution = field();
   transfer.interpolate(solution);
@@ -224,8 +236,57 @@ void Discretisation::mark_given(const FlowProblem& problem) {
         dealii::DoFTools::extract_boundary_dofs(unknowns, dealii::ComponentMask({true, true, false}), sides);
 }
 
+void Discretisation::place_cells() {
+  const dealii::MappingQ<2> quadratic(2);
+  if (!surface) {
+    mapping.initialize(quadratic, mesh);
+    return;
+  }
+  if (!undisturbed_) {
+    undisturbed_ = std::make_unique<dealii::MappingQCache<2>>(2);
+    undisturbed_->initialize(quadratic, mesh);
+  }
+  const std::vector<dealii::Point<2>> places = dealii::FE_Q<2>(2).get_unit_support_points();
+  mapping.initialize(mesh, [&](const dealii::Triangulation<2>::cell_iterator& cell) {
+    std::vector<dealii::Point<2>> points;
+    for (const auto& unit : places) {
+      const auto x = undisturbed_->transform_unit_to_real_cell(cell, unit);
+      const Vec2 to = displaced(*surface, {x[0], x[1]});
+      points.emplace_back(to.x, to.z);
+    }
+    return points;
+  });
+}
+
+bool Discretisation::cells_are_valid() const {
+  dealii::FEValues<2> fe(mapping, elements, quadrature, dealii::update_jacobians);
+  bool valid = true;
+  for (const auto& cell : unknowns.active_cell_iterators()) {
+    if (!cell->is_locally_owned()) continue;
+    fe.reinit(cell);
+    for (const unsigned int q : fe.quadrature_point_indices())
+      valid = valid && fe.jacobian(q).determinant() > 0;
+  }
+  return sum(valid ? 0 : 1) == 0;
+}
+
+bool Discretisation::move_surface(const FlowProblem& problem, const SurfaceShape& shape) {
+  surface = shape;
+  place_cells();
+  if (!cells_are_valid()) return false;
+  constrain(problem);
+  return true;
+}
+
+dealii::Tensor<1, 2> Discretisation::surface_normal(const dealii::Point<2>& point,
+                                                    const dealii::Tensor<1, 2>& of_mesh) const {
+  if (!surface) return of_mesh;
+  const Vec2 n = drumlin::surface_normal(*surface, across(*surface, {point[0], point[1]}));
+  return dealii::Tensor<1, 2>({n.x, n.z});
+}
+
 void Discretisation::distribute_unknowns(const FlowProblem& problem) {
-  mapping.initialize(dealii::MappingQ<2>(2), mesh);
+  place_cells();
   unknowns.distribute_dofs(elements);
   owned = unknowns.locally_owned_dofs();
   dealii::DoFTools::extract_locally_relevant_dofs(unknowns, relevant);
@@ -233,7 +294,10 @@ void Discretisation::distribute_unknowns(const FlowProblem& problem) {
   is_velocity.assign(owned.n_elements(), false);
   for (const auto index : velocity) is_velocity[owned.index_within_set(index)] = true;
   constrain(problem);
+  rebuild_pattern();
+}
 
+void Discretisation::rebuild_pattern() {
   pattern.reinit(unknowns.n_dofs(), unknowns.n_dofs(), relevant);
   dealii::DoFTools::make_sparsity_pattern(unknowns, pattern, homogeneous, /*keep_constrained_dofs=*/false);
   dealii::SparsityTools::distribute_sparsity_pattern(pattern, owned, mesh.get_communicator(), relevant);

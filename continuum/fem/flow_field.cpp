@@ -81,7 +81,7 @@ void add_given_sides(const fem::SolvedLevel& level, Vec2 centre, FlowIntegrals& 
   }
 }
 
-void add_surface(const fem::SolvedLevel& level, FlowIntegrals& sums) {
+void add_surface(const fem::SolvedLevel& level, Vec2 centre, FlowIntegrals& sums) {
   const auto& d = *level.discretisation;
   dealii::FEFaceValues<2> face(d.mapping, d.elements, d.side_quadrature,
                                dealii::update_values | dealii::update_JxW_values |
@@ -97,9 +97,11 @@ void add_surface(const fem::SolvedLevel& level, FlowIntegrals& sums) {
       face.reinit(cell, f);
       face[Vector(0)].get_function_values(level.state.solution, u);
       for (const unsigned int q : face.quadrature_point_indices()) {
-        const double u_n = u[q] * face.normal_vector(q);
+        const auto normal = d.surface_normal(face.quadrature_point(q), face.normal_vector(q));
+        const double u_n = u[q] * normal;
         sums.surface_force += spring->stiffness * u_n * face.JxW(q);
-        sums.surface_moment += face.quadrature_point(q)[0] * spring->stiffness * u_n * face.JxW(q);
+        sums.surface_moment += fem::lever(face.quadrature_point(q), {centre.x, centre.z}, normal) *
+                               spring->stiffness * u_n * face.JxW(q);
         sums.surface_leak += 0.5 * std::abs(u_n) * face.JxW(q);
       }
     }
@@ -144,6 +146,7 @@ void sum_over_ranks(const fem::Discretisation& d, FlowIntegrals& sums) {
 
 FlowField::FlowField(std::shared_ptr<const fem::SolvedLevel> level) : level_(std::move(level)) {}
 double FlowField::theta() const { return level_->state.theta; }
+const std::optional<SurfaceShape>& FlowField::surface() const { return level_->discretisation->surface; }
 int FlowField::unknowns() const { return static_cast<int>(level_->discretisation->unknowns.n_dofs()); }
 bool FlowField::on_first_rank() const {
   return dealii::Utilities::MPI::this_mpi_process(level_->discretisation->mesh.get_communicator()) == 0;
@@ -203,7 +206,7 @@ FlowIntegrals FlowField::integrals(Vec2 centre) const {
     }
   }
   add_given_sides(*level_, centre, sums);
-  add_surface(*level_, sums);
+  add_surface(*level_, centre, sums);
   sum_over_ranks(d, sums);
   return sums;
 }

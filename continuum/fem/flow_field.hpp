@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "continuum/fem/flow_state.hpp"
-#include "continuum/model/flow_problem.hpp"
+#include "continuum/model/surface_shape.hpp"
 
 namespace drumlin {
 
@@ -44,9 +44,9 @@ struct FlowIntegrals {
   double weight_torque = 0;       ///< about the origin of the moments, in the sense of dv_x/dz
   double given_side_torque = 0;   ///< from the nodal forces
   double given_side_force_x = 0;  ///< likewise
-  double surface_moment = 0;      ///< integral x sigma_nn dx over the side with the spring
-  double surface_force = 0;       ///< integral sigma_nn dx over it
-  double surface_leak = 0;        ///< half the integral of |u_n| over it
+  double surface_moment = 0;  ///< of sigma_nn over the side with the spring: of a chord integral x sigma_nn
+  double surface_force = 0;   ///< integral sigma_nn dx over it
+  double surface_leak = 0;    ///< half the integral of |u_n| over it
 };
 
 /// All member functions are collective: every rank calls them and gets the same answer.
@@ -56,6 +56,8 @@ class FlowField {
   const fem::SolvedLevel& level() const { return *level_; }
 
   double theta() const;  ///< rad
+  /// Where the surface has moved to; absent: nowhere.
+  const std::optional<SurfaceShape>& surface() const;
   int unknowns() const;
   int cells() const;
   bool on_first_rank() const;  ///< the one that writes files and messages
@@ -79,7 +81,7 @@ struct LeftOut {
   double inertia_rms = 0;         ///< of |u.grad u| over gravity, over the area
   double inertia_largest = 0;     ///< at the quadrature points
   double surface_height_rms = 0;  ///< d: of the height sigma_nn/(nu cos theta) that would take the place of
-                                  ///< the traction which holds the surface to the chord
+                                  ///< the traction which holds the surface where it is
   double wall_friction = 0;  ///< share of the wall that asks for a shear stress above 0.95 of the pressure
   /// Over what flows (I > 1e-3, p > 1): rms of ln(g/g_loc) for a nonlocal length of 1 d. Absent where the law tells
   /// no fluidity, and without k, respectively.

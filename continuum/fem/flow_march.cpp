@@ -116,6 +116,8 @@ FlowField flow_of_state(const FlowState& kept, const FlowProblem& problem, const
     if (mesh + 1 >= options.levels) throw InputError(fem::no_mesh_fits);
     d.refine(level->problem, level->state.solution);
   }
+  if (!kept.surface.empty() && !d.move_surface(level->problem, {problem.domain, kept.surface}))
+    throw InputError("the surface of the kept flow does not fit into this mesh");
   fem::lay_down(kept, *level);
   level->setting = fem::final_setting(level->problem);
   level->state.dual = fem::dual_of(d, level->setting.regularisation, level->state.solution);

@@ -5,6 +5,7 @@
 #include "continuum/fem/detail/kept_state.hpp"
 #include "continuum/fem/detail/newton.hpp"
 #include "continuum/fem/detail/settle.hpp"
+#include "continuum/fem/detail/settle_surface.hpp"
 #include "coupling/exchange/errors.hpp"
 
 namespace drumlin {
@@ -81,6 +82,14 @@ bool solve_from(const std::string& name, Newton& newton, const FlowSolverOptions
   return run(newton, phase, level) && lower_shear_rate(newton, options, options.tolerance, level);
 }
 
+// Flat, or that of the neighbour.
+SurfaceShape first_shape(const FlowProblem& problem, const FlowState* neighbour) {
+  SurfaceShape shape{problem.domain, neighbour ? neighbour->surface : std::vector<double>()};
+  shape.coefficient.resize(static_cast<std::size_t>(problem.moving_surface->degree) + 1, 0.0);
+  restrain(shape, fem::slope_half_length(problem));
+  return shape;
+}
+
 FlowSolution solve(const FlowProblem& problem, const FlowSolverOptions& options, const FlowObserver& observer,
                    const FlowState* neighbour) {
   if (const auto reason = no_steady_state(problem)) throw NotConvergedError(*reason);
@@ -94,6 +103,8 @@ FlowSolution solve(const FlowProblem& problem, const FlowSolverOptions& options,
     state.theta = fixed->theta;
   else
     state.theta = std::get<SlopeFromMoment>(problem.slope).first_guess;
+  if (problem.moving_surface && !d.move_surface(problem, first_shape(problem, neighbour)))
+    throw InputError("the surface of the neighbouring flow does not fit into this mesh");
   state.solution = d.field();
   d.constraints.distribute(state.solution);
   state.solution.update_ghost_values();
@@ -109,6 +120,7 @@ FlowSolution solve(const FlowProblem& problem, const FlowSolverOptions& options,
           {fem::work_names[i], clock.seconds(static_cast<Work>(i)), clock.times(static_cast<Work>(i))});
     return FlowSolution{report, field_of(level)};
   };
+  dealii::FullMatrix<double> response;  // of what presses on a moving surface to its shape, mesh after mesh
   int first = 0;
   if (neighbour) {
     for (; !fem::fits(d, *neighbour); ++first) {
@@ -137,6 +149,22 @@ FlowSolution solve(const FlowProblem& problem, const FlowSolverOptions& options,
       if (observer.solved_plain && mesh + 1 == options.levels)
         clock(Work::evaluation, [&] { observer.solved_plain(field_of(level)); });
       if (!settle_held(newton, here, *level, report)) return finished(false);
+    }
+    if (problem.moving_surface) {
+      report.failure.clear();
+      const fem::SurfaceSolver solver{
+          .newton =
+              [&] {
+                return std::make_unique<Newton>(problem, here, d, mesh, start, clock, report, observer);
+              },
+          .solve =
+              [&](Newton& again) {
+                return solve_from("surface", again, here, *level) &&
+                       (!fem::holds_fields(problem) || settle_held(again, here, *level, report));
+              },
+          .stepped = observer.surface_step,
+          .tolerance = mesh + 1 < options.levels ? options.coarse_surface_tolerance : 0};
+      if (!fem::settle_surface(solver, *level, mesh, response, report)) return finished(false);
     }
     report.failure.clear();
     if (observer.level_finished)

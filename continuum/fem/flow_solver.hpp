@@ -21,10 +21,11 @@ struct FlowSolverOptions {
   double careful_shear_rate = 1e-3;
   double phase_tolerance = 0.3;    ///< on the residual, in all phases but the last of a mesh
   double coarse_tolerance = 1e-4;  ///< on the residual in the last phase of all meshes but the last one
-  double tolerance = 1e-8;         ///< on the residual in the last phase of the last mesh
-  double linear_tolerance = 1e-6;  ///< on the true relative residual of every linear solve
-  int max_iterations = 40;         ///< per phase
-  int max_turns = 40;              ///< updates of what the law holds of the flow (fem/detail/held_fields.hpp)
+  double coarse_surface_tolerance = 0.05;  ///< d, of a surface that moves, on all meshes but the last one
+  double tolerance = 1e-8;                 ///< on the residual in the last phase of the last mesh
+  double linear_tolerance = 1e-6;          ///< on the true relative residual of every linear solve
+  int max_iterations = 40;                 ///< per phase
+  int max_turns = 40;  ///< updates of what the law holds of the flow (fem/detail/held_fields.hpp)
   /// On what a whole such update moves, velocity (mean square) and slope, relative. Where the material hardly
   /// shears the axes of its strain rate are noise: the drum at 6 rpm on cells of 2 d came to rest at 6e-4.
   double turn_tolerance = 1e-3;
@@ -42,6 +43,18 @@ struct IterationReport {
   double linear_residual = 0;  ///< true relative residual of the linear solves, the larger
   double theta = 0;            ///< rad
   double seconds = 0;          ///< since the start
+};
+
+/// One step of a surface that moves.
+struct SurfaceStepReport {
+  int level = 0;
+  double share = 0;   ///< of the step that Newton's method on the shape asked for; 0: the start on a mesh
+  double height = 0;  ///< d, the largest of the surface, of either sign
+  double resolved =
+      0;  ///< d, rms of what presses on it as heights, sigma_nn/(nu cos theta): what the shape resolves
+  double rms = 0;      ///< d, of all of it, more than 2 d from the ends
+  double largest = 0;  ///< d, likewise
+  int iterations = 0;  ///< of Newton's method for the flow
 };
 
 /// Wall time of one kind of work, summed over all meshes and phases.
@@ -63,11 +76,13 @@ struct FlowReport {
   double seconds = 0;
   std::vector<PhaseSeconds> phases;
   std::vector<IterationReport> history;
+  std::vector<SurfaceStepReport> surface_steps;  ///< empty where the surface stays
 };
 
 struct FlowObserver {
   std::function<void(const IterationReport&)> iteration;            ///< empty: nobody watches
   std::function<void(int level, const FlowField&)> level_finished;  ///< also for the last level
+  std::function<void(const SurfaceStepReport&)> surface_step;       ///< of a surface that moves
   std::function<bool()> interrupted;                                ///< asked between iterations
   /// Where the law holds fields of the flow (k, nonlocal fluidity): that on the last mesh before they enter.
   std::function<void(const FlowField&)> solved_plain;

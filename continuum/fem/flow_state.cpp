@@ -71,6 +71,7 @@ FlowState kept_state(const SolvedLevel& level) {
   std::sort(order.begin(), order.end(), [&](auto a, auto b) { return all.cells[a] < all.cells[b]; });
   FlowState sorted;
   sorted.theta = level.state.theta;
+  if (level.discretisation->surface) sorted.surface = level.discretisation->surface->coefficient;
   for (const std::size_t c : order) {
     constexpr int n = FlowState::values_per_cell;
     sorted.cells.push_back(all.cells[c]);

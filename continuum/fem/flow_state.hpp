@@ -16,6 +16,7 @@ struct FlowState {
   double theta = 0;                           ///< rad
   std::vector<CellPlace> cells = {};
   std::vector<double> centres = {};  ///< x, z per cell
+  std::vector<double> surface = {};  ///< coefficients of SurfaceShape where the surface has moved; else empty
   std::vector<double> values = {};   ///< values_per_cell per cell, in the order of deal.II's element
 };
 

@@ -46,8 +46,9 @@ void add_side(const fem::SolvedLevel& level, const BoundaryCondition& condition,
   for (const unsigned int q : face.quadrature_point_indices()) {
     const auto n = face.normal_vector(q);
     if (const auto* spring = std::get_if<NormalSpring>(&condition)) {
-      const double height =
-          spring->stiffness * (u[q] * n) / (level.problem.density * std::cos(level.state.theta));
+      const double height = spring->stiffness *
+                            (u[q] * level.discretisation->surface_normal(face.quadrature_point(q), n)) /
+                            (level.problem.density * std::cos(level.state.theta));
       sums.surface += face.JxW(q);
       sums.height += height * height * face.JxW(q);
     } else if (std::holds_alternative<PrescribedVelocity>(condition)) {
@@ -124,7 +125,7 @@ LeftOut left_out(const FlowField& field) {
                          dealii::update_values | dealii::update_gradients | dealii::update_JxW_values);
   dealii::FEFaceValues<2> face(d.mapping, d.elements, d.side_quadrature,
                                dealii::update_values | dealii::update_gradients | dealii::update_JxW_values |
-                                   dealii::update_normal_vectors);
+                                   dealii::update_normal_vectors | dealii::update_quadrature_points);
   Sums sums;
   for (const auto& cell : d.unknowns.active_cell_iterators()) {
     if (!cell->is_locally_owned()) continue;

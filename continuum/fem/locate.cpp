@@ -23,7 +23,7 @@ class CellGrid {
     for (const Cell& cell : d.unknowns.active_cell_iterators())
       if (cell->is_locally_owned()) {
         cells_.push_back(cell);
-        boxes_.push_back(box_of(cell));
+        boxes_.push_back(box_of(d, cell));
         for (int i = 0; i < 2; ++i) {
           low[i] = std::min(low[i], boxes_.back().first[i]);
           high[i] = std::max(high[i], boxes_.back().second[i]);
@@ -58,8 +58,8 @@ class CellGrid {
  private:
   using Box = std::pair<dealii::Point<2>, dealii::Point<2>>;
   // Sides of a quadratic cell bulge beyond its corners.
-  static Box box_of(const Cell& cell) {
-    const auto box = cell->bounding_box().get_boundary_points();
+  static Box box_of(const Discretisation& d, const Cell& cell) {
+    const auto box = d.mapping.get_bounding_box(cell).get_boundary_points();
     const double margin = 0.2 * cell->diameter();
     const dealii::Tensor<1, 2> wider({margin, margin});
     return {box.first - wider, box.second + wider};

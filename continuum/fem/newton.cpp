@@ -26,8 +26,7 @@ State moved(const State& state, const FieldVector& step, double theta_step, doub
 
 // The slope is one more unknown, its equation (the moment) linear in the solution: two solves with the same
 // factors.
-Newton::Step Newton::newton_step(const State& state) {
-  clock_(Work::factorisation, [&] { factors_.factorise(system_.matrix); });
+Newton::Step Newton::step_with_factors(const State& state) {
   Step step{.solution = d_.field()};
   FieldVector rhs = system_.residual;
   rhs *= -1;
@@ -46,6 +45,14 @@ Newton::Step Newton::newton_step(const State& state) {
   }
   step.solution.update_ghost_values();
   return step;
+}
+
+State Newton::corrected(const Setting& setting, const State& state) {
+  moment_ = surface_moment(problem_, d_);
+  if (problem_.frame) frame_moment_ = moment_ * frame_velocity(problem_, d_);
+  clock_(Work::assembly, [&] { assemble_residual(problem_, d_, setting, state, system_); });
+  const Step step = step_with_factors(state);
+  return moved(state, step.solution, step.theta, 1);
 }
 
 double Newton::slope(const Phase& phase, const State& state, const Step& step, double alpha) {
@@ -93,7 +100,8 @@ bool Newton::solve(const Phase& phase, State& state) {
     }
     Step step;
     try {
-      step = newton_step(state);
+      factorise();
+      step = step_with_factors(state);
     } catch (const NotConvergedError& error) {  // a singular tangent: a smaller step in eps may still do
       report_.failure = fmt::format("{}, in phase '{}'", error.what(), phase.name);
       return false;

@@ -12,8 +12,9 @@ namespace drumlin {
 
 double DrumGeometry::half_chord() const { return std::sqrt(radius * radius - axis_offset * axis_offset); }
 
-double DrumGeometry::expected_Q() const {
-  return 0.5 * nu * rotation * (radius * radius - axis_offset * axis_offset);
+double DrumGeometry::expected_Q(double surface_height) const {
+  const double below_axis = axis_offset - surface_height;
+  return 0.5 * nu * rotation * (radius * radius - below_axis * below_axis);
 }
 
 DrumGeometry drum_geometry(const FlowScene& scene, double nu) {
@@ -36,6 +37,24 @@ DrumGeometry drum_geometry(const FlowScene& scene, double nu) {
   return drum;
 }
 
+namespace {
+
+// Chebyshev's points of degree n are (pi/n)^2/2 of the half width apart at its ends.
+int resolved_degree(double half_width, double cell) {
+  return std::clamp(static_cast<int>(std::numbers::pi * std::sqrt(half_width / (1.6 * cell))), 4, 60);
+}
+
+}  // namespace
+
+Vec2 tapered_wall_velocity(const DrumGeometry& drum, double taper, Vec2 point, Vec2 left, Vec2 right) {
+  const double from_corner = std::min(std::hypot(point.x - left.x, point.z - left.z),
+                                      std::hypot(point.x - right.x, point.z - right.z));
+  const double s = std::min(1.0, from_corner / taper);
+  const Vec2 rigid = rigid_rotation(drum.rotation, drum.axis_offset, point);
+  const double share = s * s * (3 - 2 * s);
+  return {share * rigid.x, share * rigid.z};
+}
+
 FlowProblem drum_problem(const DrumGeometry& drum, const StressLaw& law, const FlowMesh& mesh,
                          const FlowBoundary& boundary, const FlowRegularisation& regularisation) {
   FlowProblem problem;
@@ -50,12 +69,8 @@ FlowProblem drum_problem(const DrumGeometry& drum, const StressLaw& law, const F
   problem.density = drum.nu;
   problem.slope = drum.slope ? Slope(FixedSlope{*drum.slope}) : Slope(SlopeFromMoment{});
   problem.boundary[Side::top] = NormalSpring{boundary.surface_stiffness};
-  problem.boundary[Side::bottom] = PrescribedVelocity{[drum, length = boundary.corner_taper](Vec2 point) {
-    const double from_corner = std::hypot(std::abs(point.x) - drum.half_chord(), point.z);
-    const double s = std::min(1.0, from_corner / length);
-    const Vec2 rigid = rigid_rotation(drum.rotation, drum.axis_offset, point);
-    const double share = s * s * (3 - 2 * s);
-    return Vec2{share * rigid.x, share * rigid.z};
+  problem.boundary[Side::bottom] = PrescribedVelocity{[drum, taper = boundary.corner_taper](Vec2 point) {
+    return tapered_wall_velocity(drum, taper, point, {-drum.half_chord(), 0}, {drum.half_chord(), 0});
   }};
   return problem;
 }
@@ -65,6 +80,15 @@ FlowProblem drum_problem(const FlowScene& scene, const DrumGeometry& drum, const
   if (scene.effects.inertia) problem.inertia = Inertia{};
   if (scene.effects.rotating_frame) problem.frame = RotatingFrame{drum.rotation, drum.axis_offset};
   if (scene.effects.nonlocal) problem.nonlocal = NonlocalFluidity{scene.effects.nonlocal->length};
+  if (const auto& moving = scene.effects.moving_surface)
+    problem.moving_surface = MovingSurface{
+        .degree =
+            moving->degree ? *moving->degree : resolved_degree(drum.half_chord(), scene.mesh.surface_cell),
+        .tolerance = moving->tolerance,
+        .slope_half_length = std::min(20.0, 0.5 * drum.half_chord()),
+        .wall_velocity = [drum, taper = scene.boundary->corner_taper](Vec2 point, Vec2 left, Vec2 right) {
+          return tapered_wall_velocity(drum, taper, point, left, right);
+        }};
   if (const auto& slip = scene.effects.wall_slip)  // no taper: the wall slides along the corners
     problem.boundary[Side::bottom] = FrictionWall{
         .velocity = [drum](Vec2 point) { return rigid_rotation(drum.rotation, drum.axis_offset, point); },

@@ -124,6 +124,19 @@ struct NonlocalFluidity {
   double length = 0;  ///< d
 };
 
+/// Effect: the surface (the side with the NormalSpring) goes where nothing presses on it; its shape is
+/// continuum/model/surface_shape.hpp, its area above z = 0 nought. With the slope from the moment, x is along
+/// the middle of the surface: the line fitted to it over |x| < slope_half_length.
+struct MovingSurface {
+  int degree = 20;                ///< of the polynomial that is its height
+  double tolerance = 0.01;        ///< d, rms of sigma_nn/(nu cos theta) that the polynomials resolve
+  int max_steps = 30;             ///< from solution to solution, on each mesh
+  double slope_half_length = 20;  ///< d
+  /// Given velocity of the bottom where the ends of the surface are at `left` and `right`; empty: that of its
+  /// condition, wherever they are.
+  std::function<Vec2(Vec2 point, Vec2 left, Vec2 right)> wall_velocity = {};
+};
+
 struct FlowProblem {
   Domain domain;
   std::map<Side, BoundaryCondition> boundary;
@@ -138,8 +151,9 @@ struct FlowProblem {
   std::function<Vec2(Vec2)> extra_force;  ///< added to the weight; empty: absent
   /// mu that statics alone asks for somewhere, where that is not the tan of a given slope.
   std::optional<double> needed_friction;
-  std::optional<Inertia> inertia;      ///< absent: slow flow, 0 = -grad p + div tau + f
-  std::optional<RotatingFrame> frame;  ///< absent: the laboratory's
+  std::optional<Inertia> inertia;               ///< absent: slow flow, 0 = -grad p + div tau + f
+  std::optional<RotatingFrame> frame;           ///< absent: the laboratory's
+  std::optional<MovingSurface> moving_surface;  ///< absent: the surface stays at z = 0
 };
 
 /// Area of the part of a disc of this radius below a chord that lies `axis_offset` below its centre.

@@ -135,6 +135,18 @@ void describe(Visitor& v, FlowNonlocal& n) {
           required("d", above(0, 1000), "Length over which fluidity spreads beyond its place."));
 }
 template <class Visitor>
+void describe(Visitor& v, FlowMovingSurface& m) {
+  v.value("degree", m.degree,
+          when_given("", at_least(4, 60),
+                     "Of the polynomial that is the surface's height; absent: at the ends of the surface it "
+                     "resolves 0.8 of a cell of the finest mesh."));
+  v.value(
+      "tolerance", m.tolerance,
+      defaulted(
+          "d", above(0, 1),
+          "Rms of what still presses on the surface, as a height, as far as that polynomial resolves it."));
+}
+template <class Visitor>
 void describe(Visitor& v, FlowEffects& e) {
   v.optional_table("inertia", e.inertia, "nu u.grad u in the balance of momentum.");
   v.optional_table("rotating_frame", e.rotating_frame,
@@ -144,6 +156,8 @@ void describe(Visitor& v, FlowEffects& e) {
                    "The material carries its k along and renews it by shear; the law has to have k.");
   v.optional_table("nonlocal", e.nonlocal,
                    "Fluidity spreads: g - length^2 lap g = g_loc; the law has to yield at any stress.");
+  v.optional_table("moving_surface", e.moving_surface,
+                   "The surface goes where nothing presses on it (the S-shape), its ends along the wall.");
 }
 template <class Visitor>
 void describe(Visitor& v, FlowTime& t) {
@@ -211,6 +225,11 @@ void check_drum(const Document& document, FlowScene& scene, std::vector<InputPro
   refuse_in_time(scene.effects.rotating_frame.has_value(), "effects.rotating_frame");
   refuse_in_time(scene.effects.fabric.has_value(), "effects.fabric");
   refuse_in_time(scene.effects.nonlocal.has_value(), "effects.nonlocal");
+  refuse_in_time(scene.effects.moving_surface.has_value(), "effects.moving_surface");
+  if (scene.effects.moving_surface && drum.slope_deg)
+    problems.push_back(problem_at(document, "drum.slope_deg",
+                                  "leaves the axes where a surface that moves turns itself",
+                                  "absent with effects.moving_surface"));
   if (!scene.boundary) scene.boundary.emplace();
   if (!scene.output.slice_width) scene.output.slice_width = 20;
 }
@@ -228,6 +247,7 @@ void refuse_keys_of_the_drum(const Document& document, const FlowScene& scene,
   if (scene.time) refuse("time");
   if (scene.effects.fabric) refuse("effects.fabric");
   if (scene.effects.nonlocal) refuse("effects.nonlocal");
+  if (scene.effects.moving_surface) refuse("effects.moving_surface");
   if (scene.output.slice_width) refuse("output.slice_width");
 }
 

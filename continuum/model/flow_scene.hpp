@@ -86,6 +86,11 @@ struct FlowFabric {
 struct FlowNonlocal {
   double length = 0;  ///< d
 };
+/// See MovingSurface (continuum/model/flow_problem.hpp).
+struct FlowMovingSurface {
+  std::optional<int> degree;  ///< absent: as the finest mesh allows (drum_problem)
+  double tolerance = 0.01;    ///< d
+};
 /// Absent unless named.
 struct FlowEffects {
   std::optional<FlowInertia> inertia;
@@ -93,6 +98,7 @@ struct FlowEffects {
   std::optional<FlowWallSlip> wall_slip;
   std::optional<FlowFabric> fabric;
   std::optional<FlowNonlocal> nonlocal;
+  std::optional<FlowMovingSurface> moving_surface;
 };
 /// Steps in time with inertia, by the implicit Euler method.
 struct FlowTime {

@@ -25,7 +25,7 @@ struct LayerMeans {
 };
 
 void add(LayerMeans& layer, const DrumGeometry& drum, Vec2 point, const PointState& state, double weight) {
-  if (!std::isfinite(state.pressure)) return;  // below the wall
+  if (!std::isfinite(state.pressure)) return;  // below the wall, or above a surface that bends
   const Vec2 v = in_drum_frame(drum, point, state.velocity);
   layer.weight += weight;
   layer.v_x += weight * v.x;
@@ -42,15 +42,20 @@ double slice_width(const SliceOptions& slice, const DrumGeometry& drum) {
   return std::min(slice.width, 0.5 * drum.half_chord());
 }
 
+double middle_height(const FlowField& field) { return field.surface() ? height(*field.surface(), 0) : 0; }
+
 ProfileSet drum_profiles(const FlowField& field, const DrumGeometry& drum, const SliceOptions& slice) {
   const double width = slice_width(slice, drum);
-  const int layers = static_cast<int>(std::ceil((drum.radius - drum.axis_offset) / slice.layer_thickness));
+  const double top = middle_height(field);
+  const int layers =
+      static_cast<int>(std::ceil((drum.radius - drum.axis_offset + top) / slice.layer_thickness));
   const int across = std::max(4, static_cast<int>(std::ceil(width)));
   std::vector<Vec2> points;
   for (int layer = layers - 1; layer >= 0; --layer)
     for (const GaussPoint& g : gauss)
       for (int i = 0; i < across; ++i)
-        points.push_back({width * ((i + 0.5) / across - 0.5), -(layer + g.place) * slice.layer_thickness});
+        points.push_back(
+            {width * ((i + 0.5) / across - 0.5), top - (layer + g.place) * slice.layer_thickness});
   const auto states = field.at(points);
 
   ProfileSet set;
@@ -83,11 +88,11 @@ ProfileSet drum_profiles(const FlowField& field, const DrumGeometry& drum, const
 }
 
 double discharge(const FlowField& field, const DrumGeometry& drum) {
-  const double depth = drum.radius - drum.axis_offset;
+  const double top = middle_height(field), depth = drum.radius - drum.axis_offset + top;
   const int pieces = std::max(64, static_cast<int>(std::ceil(4 * depth)));
   std::vector<Vec2> points;
   for (int i = 0; i < pieces; ++i)
-    for (const GaussPoint& g : gauss) points.push_back({0, -depth * (i + g.place) / pieces});
+    for (const GaussPoint& g : gauss) points.push_back({0, top - depth * (i + g.place) / pieces});
   const auto states = field.at(points);
   double sum = 0;
   for (std::size_t k = 0; k < points.size(); ++k)
@@ -98,39 +103,38 @@ double discharge(const FlowField& field, const DrumGeometry& drum) {
 }
 
 double flux_imbalance(const FlowField& field, const DrumGeometry& drum, int cuts) {
-  struct Cut {
-    Vec2 along;  // unit vector from the middle of the chord
-    double length = 0;
-  };
-  std::vector<Cut> lines;
-  std::vector<Vec2> points;
+  std::vector<Vec2> points, steps;  // along each cut, piece by piece
+  const auto placed = [&](Vec2 p) { return field.surface() ? displaced(*field.surface(), p) : p; };
   const int pieces = std::max(64, static_cast<int>(std::ceil(4 * drum.radius)));
   const double c = drum.axis_offset;
   for (int i = 0; i < cuts; ++i) {
     const double angle = std::numbers::pi * ((i + 0.5) / cuts - 0.5);  // from the vertical
-    Cut cut{.along = {std::sin(angle), -std::cos(angle)}};
+    const Vec2 along{std::sin(angle), -std::cos(angle)};
     // |s along - (0, c)| = R.
-    cut.length = c * cut.along.z + std::sqrt(drum.radius * drum.radius - c * c * cut.along.x * cut.along.x);
-    for (int k = 0; k < pieces; ++k)
+    const double length = c * along.z + std::sqrt(drum.radius * drum.radius - c * c * along.x * along.x);
+    const auto at = [&](double s) { return placed({s * along.x, s * along.z}); };
+    for (int k = 0; k < pieces; ++k) {
+      const double h = length / pieces;
       for (const GaussPoint& g : gauss) {
-        const double s = cut.length * (k + g.place) / pieces;
-        points.push_back({s * cut.along.x, s * cut.along.z});
+        const Vec2 before = at(h * (k + g.place - 1e-4)), after = at(h * (k + g.place + 1e-4));
+        points.push_back(at(h * (k + g.place)));
+        steps.push_back({(after.x - before.x) / 2e-4, (after.z - before.z) / 2e-4});
       }
-    lines.push_back(cut);
+    }
   }
   const auto states = field.at(points);
   double largest = 0;
   std::size_t k = 0;
-  for (const Cut& cut : lines) {
+  for (int cut = 0; cut < cuts; ++cut) {
     double net = 0;
     for (int point = 0; point < pieces * static_cast<int>(gauss.size()); ++point, ++k) {
       if (!std::isfinite(states[k].pressure)) continue;  // between the wall and its quadratic arc
       const Vec2 u = states[k].velocity;
-      net += (-u.x * cut.along.z + u.z * cut.along.x) * gauss[k % gauss.size()].weight * cut.length / pieces;
+      net += (-u.x * steps[k].z + u.z * steps[k].x) * gauss[k % gauss.size()].weight;
     }
     largest = std::max(largest, std::abs(net));
   }
-  return drum.nu * largest / drum.expected_Q();
+  return drum.nu * largest / drum.expected_Q(middle_height(field));
 }
 
 ScalarSet drum_scalars(const FlowField& field, const DrumGeometry& drum, const ProfileSet& profiles) {
@@ -149,8 +153,9 @@ ScalarSet drum_checks(const FlowField& field, const DrumGeometry& drum) {
   // About the axis, sigma_nn at x turns as x sigma_nn: the moment of the surface, which a slope that was
   // given leaves.
   const double carried = sums.given_side_torque + sums.surface_moment;
-  return {{{"Q_expected", drum.expected_Q(), {}},
-           {"Q_relative_error", discharge(field, drum) / drum.expected_Q() - 1, {}},
+  const double expected = drum.expected_Q(middle_height(field));
+  return {{{"Q_expected", expected, {}},
+           {"Q_relative_error", discharge(field, drum) / expected - 1, {}},
            {"flux_imbalance", flux_imbalance(field, drum), {}},
            {"surface_leak", sums.surface_leak, {}},
            {"dissipation", sums.dissipation, {}},
@@ -164,15 +169,17 @@ ScalarSet drum_checks(const FlowField& field, const DrumGeometry& drum) {
            {"surface_moment", sums.surface_moment, {}}}};
 }
 
-MapArea drum_map_area(const DrumGeometry& drum) {
+MapArea drum_map_area(const FlowField& field, const DrumGeometry& drum) {
+  const double middle = middle_height(field), axis = drum.axis_offset - middle;
   return {.x_min = -drum.radius,
           .x_max = drum.radius,
-          .z_min = drum.axis_offset - drum.radius,
-          .z_max = 0,
-          .inside = [drum](Vec2 p) { return std::hypot(p.x, p.z - drum.axis_offset) < drum.radius; },
+          .z_min = axis - drum.radius,
+          .z_max = field.surface() ? highest_point(*field.surface()) - middle : 0,
+          .z_zero = middle,
+          .inside = [drum, axis](Vec2 p) { return std::hypot(p.x, p.z - axis) < drum.radius; },
           .nu = drum.nu,
-          .frame = RotatingFrame{drum.rotation, drum.axis_offset},
-          .header = {{"drum_radius", drum.radius}, {"axis_depth", drum.axis_offset}}};
+          .frame = RotatingFrame{drum.rotation, axis},
+          .header = {{"drum_radius", drum.radius}, {"axis_depth", axis}}};
 }
 
 }  // namespace drumlin

@@ -31,9 +31,9 @@ FlowCase drum_case(const FlowScene& scene, double nu, const StressLaw& law) {
   result.profile_header = [drum, slice](const FlowField& field) {
     return std::vector<std::pair<std::string, std::string>>{
         {"theta_deg", text_of(field.theta() * degrees)},
-        {"axis_depth", text_of(drum.axis_offset)},
+        {"axis_depth", text_of(drum.axis_offset - middle_height(field))},
         {"drum_radius", text_of(drum.radius)},
-        {"wall_z", text_of(drum.axis_offset - drum.radius)},
+        {"wall_z", text_of(drum.axis_offset - middle_height(field) - drum.radius)},
         {"rotation", text_of(drum.rotation)},
         {"slice_width", text_of(slice_width(slice, drum))}};
   };
@@ -42,7 +42,7 @@ FlowCase drum_case(const FlowScene& scene, double nu, const StressLaw& law) {
     return drum_scalars(field, drum, drum_profiles(field, drum, slice));
   };
   result.checks = [drum](const FlowField& field) { return drum_checks(field, drum); };
-  result.map_area = drum_map_area(drum);
+  result.map_area = [drum](const FlowField& field) { return drum_map_area(field, drum); };
   return result;
 }
 
@@ -77,7 +77,9 @@ FlowCase gap_case(const FlowScene& scene, const Gap& gap, const StressLaw& law) 
     return gap_comparison(field, gap, law, regularisation);
   };
   const auto* strip = std::get_if<BoxDomain>(&result.problem.domain);
-  result.map_area = gap_map_area(gap, strip ? strip->width : 0);
+  result.map_area = [gap, width = strip ? strip->width : 0](const FlowField&) {
+    return gap_map_area(gap, width);
+  };
   return result;
 }
 

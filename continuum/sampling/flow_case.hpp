@@ -25,7 +25,7 @@ struct FlowCase {
   std::function<ScalarSet(const FlowField&)> scalars;
   std::function<ScalarSet(const FlowField&)> checks;           ///< identities of the exact flow
   std::function<GapComparison(const FlowField&)> closed_form;  ///< empty: there is none
-  MapArea map_area;
+  std::function<MapArea(const FlowField&)> map_area;
 };
 
 /// Throws InputError if the grains do not fit into a drum.

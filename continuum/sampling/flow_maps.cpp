@@ -107,14 +107,15 @@ FieldMap flow_map(const FlowField& field, const MapArea& area, double spacing) {
   for (const char* name : names)
     map.fields.push_back({name, std::vector<double>(map.grid.nodes(), none), {}});
   std::vector<std::size_t> nodes;
-  std::vector<Vec2> points;
+  std::vector<Vec2> points, places;  // in the map, in the domain
   for (std::size_t node = 0; node < map.grid.nodes(); ++node) {
     const Vec2 point{map.grid.x_of(node % map.grid.columns), map.grid.z_of(node / map.grid.columns)};
     if (!area.inside(point)) continue;
     nodes.push_back(node);
     points.push_back(point);
+    places.push_back({point.x, point.z + area.z_zero});
   }
-  const auto states = field.at(points);
+  const auto states = field.at(places);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!std::isfinite(states[i].pressure)) continue;  // between the domain and its quadratic cells
     const Values values = values_at(states[i], points[i], area);

@@ -14,14 +14,15 @@ namespace drumlin {
 /// What a map shows.
 struct MapArea {
   double x_min = 0, x_max = 0, z_min = 0, z_max = 0;
+  double z_zero = 0;                   ///< height of the map's z = 0 in the axes of the domain
   std::function<bool(Vec2)> inside;    ///< whether a point of the rectangle belongs to the domain
   double nu = 0;                       ///< volume fraction
   std::optional<RotatingFrame> frame;  ///< that velocities are seen from; absent: the laboratory
   std::vector<std::pair<std::string, double>> header;  ///< of the geometry
 };
 
-/// Nodes are multiples of `spacing`, NaN outside of the domain; axes of the domain. Scales and the other
-/// lines of the header are the caller's. Collective, complete on every rank.
+/// Nodes are multiples of `spacing`, NaN outside of the domain; axes of the domain from z_zero on. Scales and
+/// the other lines of the header are the caller's. Collective, complete on every rank.
 FieldMap flow_map(const FlowField& field, const MapArea& area, double spacing);
 
 }  // namespace drumlin

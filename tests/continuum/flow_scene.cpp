@@ -22,6 +22,15 @@ diameter_max_mm = 3.6
 density_kg_m3 = 2700
 )";
 
+std::string refusal(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  try {
+    parse_flow_scene(text, "test", overrides);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
 TEST(FlowScene, ReadsBackWhatItWrites) {
   const FlowScene scene =
       parse_flow_scene(smallest, "test", {"mesh.levels=3", "regularisation.pressure=0.125"});
@@ -47,6 +56,13 @@ TEST(FlowScene, HasTheEffectsThatItNames) {
   for (const char* without_its_key : {"[effects.wall_slip]\n", "[effects.fabric]\n", "[effects.nonlocal]\n"})
     EXPECT_THROW(parse_flow_scene(smallest + without_its_key, "test"), InputError) << without_its_key;
   EXPECT_THROW(parse_flow_scene(smallest + "[effects.nonlocal]\nlength = -1\n", "test"), InputError);
+  EXPECT_FALSE(scene.effects.moving_surface);
+  EXPECT_EQ(parse_flow_scene(smallest + "[effects.moving_surface]\ndegree = 12\n", "test")
+                .effects.moving_surface.value()
+                .degree.value(),
+            12);
+  EXPECT_NE(refusal(smallest + "[effects.moving_surface]\n", {"drum.slope_deg=20"}).find("drum.slope_deg"),
+            std::string::npos);
   EXPECT_THROW(parse_flow_scene(smallest + "[effects.inertia]\nshare = 1\n", "test"), InputError);
 }
 
@@ -86,15 +102,6 @@ density_kg_m3 = 2700
 
 std::string scene_with(const std::string& table) {
   return "format = \"drumlin-flow-scene-1\"\n" + table + "\n" + grains;
-}
-
-std::string refusal(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  try {
-    parse_flow_scene(text, "test", overrides);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
 }
 
 TEST(FlowScene, TakesOneOfFiveGeometries) {

@@ -114,7 +114,7 @@ TEST(SmallDrum, LeavesProfilesAndAVtu) {
 
 TEST(SmallDrum, MapsHoldWhatTheParticlesMapsHoldUnderTheSameNames) {
   const FlowField field = converged(problem(), one_mesh());
-  FieldMap map = flow_map(field, drum_map_area(drum), 1);
+  FieldMap map = flow_map(field, drum_map_area(field, drum), 1);
   map.scales = {0.0033, 0.0183, 2700};
   // 31 columns across, from the lowest point within the wall up to the chord.
   ASSERT_EQ(map.grid.columns, 31u);

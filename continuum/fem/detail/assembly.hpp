@@ -60,8 +60,13 @@ FieldVector nodal_forces(const FlowProblem&, const Discretisation&, const Settin
 
 /// Load of the force density (x, z), constrained rows zero.
 FieldVector load(const Discretisation&, Vec2 force_density);
-/// Linear functional whose product with the solution is the moment of sigma_nn = stiffness u_n, integral x
-/// sigma_nn dx.
+/// Lever of a pressure on a surface with this normal about an axis, in the sense of dv_x/dz: x on a chord.
+inline double lever(const dealii::Point<2>& point, const dealii::Point<2>& axis,
+                    const dealii::Tensor<1, 2>& normal) {
+  return (point[0] - axis[0]) * normal[1] - (point[1] - axis[1]) * normal[0];
+}
+/// Linear functional whose product with the solution is the moment of sigma_nn = stiffness u_n about the
+/// drum's axis: of a chord integral x sigma_nn dx.
 FieldVector surface_moment(const FlowProblem&, const Discretisation&);
 
 /// D/|D| of the solution at every quadrature point.

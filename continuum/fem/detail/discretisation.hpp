@@ -11,10 +11,11 @@
 #include <deal.II/lac/la_parallel_vector.h>
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
-#include "continuum/model/flow_problem.hpp"
+#include "continuum/model/surface_shape.hpp"
 
 namespace drumlin::fem {
 
@@ -35,6 +36,16 @@ struct Discretisation {
   void refine_adaptively(const FlowProblem& problem, FieldVector& solution, double share);
   /// Takes over other velocities on the same sides.
   void constrain(const FlowProblem& problem);
+  /// Moves cells and given velocities to this shape of the surface; unknowns keep their numbers. False, where
+  /// a cell would be turned inside out. For a solve, rebuild_pattern() has to follow: what follows from what
+  /// at a wall with friction depends on where its nodes are.
+  [[nodiscard]] bool move_surface(const FlowProblem& problem, const SurfaceShape& shape);
+  void rebuild_pattern();
+  /// Of the side with the spring, at one of its points: that of the mesh, or of the shape where the surface
+  /// has moved. Quadratic sides meet at small angles, and what moves along both of them stands still: held by
+  /// a stiff spring, each joint would stop the flow.
+  dealii::Tensor<1, 2> surface_normal(const dealii::Point<2>& point,
+                                      const dealii::Tensor<1, 2>& of_mesh) const;
   /// All zero.
   FieldVector field() const { return {owned, relevant, mesh.get_communicator()}; }
   double sum(double value) const;  ///< over the ranks
@@ -56,10 +67,16 @@ struct Discretisation {
   /// Velocities on sides that move as they are told, in both directions or along themselves.
   dealii::IndexSet given;
 
+  std::optional<SurfaceShape> surface;  ///< absent: it has not moved
+
  private:
   void distribute_unknowns(const FlowProblem& problem);
   void execute_refinement(const FlowProblem& problem, FieldVector& solution);
   void mark_given(const FlowProblem& problem);
+  void place_cells();
+  bool cells_are_valid() const;
+
+  std::unique_ptr<dealii::MappingQCache<2>> undisturbed_;  ///< of this mesh, once its surface has moved
 };
 
 /// The coarsest mesh of a domain; boundary ids are the numbers of Side.

@@ -36,6 +36,12 @@ class Newton {
   }
 
   bool solve(const Phase& phase, State& state);
+  /// Factors of the tangent of the last iterate.
+  void factorise() {
+    clock_(Work::factorisation, [&] { factors_.factorise(system_.matrix); });
+  }
+  /// After one more step with these factors; the residual is of the mesh as it stands now.
+  State corrected(const Setting& setting, const State& state);
   /// On any rank.
   bool was_interrupted() const {
     return d_.sum(observer_.interrupted && observer_.interrupted() ? 1 : 0) > 0;
@@ -47,7 +53,7 @@ class Newton {
     double theta = 0;
     double linear_residual = 0;
   };
-  Step newton_step(const State& state);
+  Step step_with_factors(const State& state);
   double slope(const Phase& phase, const State& state, const Step& step, double alpha);
   double step_length(const Phase& phase, const State& state, const Step& step);
   double relative_residual() const { return system_.residual.l2_norm() / reference_; }

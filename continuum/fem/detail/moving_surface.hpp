@@ -1,0 +1,36 @@
+#pragma once
+// What presses on a surface, as heights, and how its shape changes that. Private to fem/.
+#include <deal.II/lac/full_matrix.h>
+
+#include "continuum/fem/detail/newton.hpp"
+
+namespace drumlin::fem {
+
+/// sigma_nn/(nu cos theta) along the surface, d.
+struct SurfaceMisfit {
+  /// The polynomials of SurfaceShape that come closest to it. Near the ends it counts less, with the square
+  /// of the distance from them over 2 d: velocity and stress of the last cell are no field.
+  std::vector<double> coefficient;
+  double resolved = 0;  ///< rms of those polynomials that the shape is free to change
+  double rms = 0;       ///< of all, more than 2 d from the ends
+  double largest = 0;   ///< likewise
+};
+
+/// Of the coefficients of a shape, the first that is a free unknown: those before it follow (restrain).
+std::size_t first_free(const FlowProblem&);
+/// Over which length the slope of the middle is nought; 0: the slope of the axes is given, and no such thing
+/// holds.
+double slope_half_length(const FlowProblem&);
+
+/// Collective.
+SurfaceMisfit surface_misfit(const FlowProblem&, const Discretisation&, const State&);
+
+/// How the free coefficients of the misfit answer to those of the shape, when the flow follows: by
+/// differences, one linear solve for each with the tangent's factors. The level's state has to be solved;
+/// mesh and state are left as they were.
+dealii::FullMatrix<double> surface_response(Newton&, SolvedLevel&);
+
+/// x of A x = b.
+std::vector<double> solution_of(dealii::FullMatrix<double> A, const std::vector<double>& b);
+
+}  // namespace drumlin::fem
