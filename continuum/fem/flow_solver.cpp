@@ -164,7 +164,10 @@ FlowSolution solve(const FlowProblem& problem, const FlowSolverOptions& options,
               },
           .stepped = observer.surface_step,
           .tolerance = mesh + 1 < options.levels ? options.coarse_surface_tolerance : 0};
-      if (!fem::settle_surface(solver, *level, mesh, response, report)) return finished(false);
+      // A coarser mesh that resolves its ends too badly to settle is still a start for the next.
+      if (!fem::settle_surface(solver, *level, mesh, response, report) &&
+          (mesh + 1 == options.levels || report.failure == "interrupted"))
+        return finished(false);
     }
     report.failure.clear();
     if (observer.level_finished)
