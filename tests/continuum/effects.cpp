@@ -107,6 +107,7 @@ TEST(AbsentEffects, LeaveNoUnknownNoEntryAndNoArray) {
   const FlowField plain = converged(small_drum(), one_mesh());
   EXPECT_FALSE(plain.level().setting.inertia);
   EXPECT_EQ(plain.level().state.held, nullptr);
+  EXPECT_FALSE(plain.level().discretisation->surface);
   FlowProblem turned = small_drum(), moving = small_drum(), seen = small_drum(), spread = small_drum();
   turned.turned = TurnedStress{.k = StressRatioLaw({1e-4, 1e-1}, {1.02, 1.04})};
   FlowProblem carried = turned;
