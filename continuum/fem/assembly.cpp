@@ -10,6 +10,7 @@
 #include "continuum/fem/detail/friction_wall.hpp"
 #include "continuum/fem/detail/inertia_terms.hpp"
 #include "continuum/fem/detail/point_law.hpp"
+#include "continuum/fem/detail/spring_faces.hpp"
 
 namespace drumlin::fem {
 namespace {
@@ -211,20 +212,6 @@ void assemble(const FlowProblem& problem, const Discretisation& d, const PointLa
   if (matrix) matrix->compress(dealii::VectorOperation::add);
 }
 
-template <class Visit>
-void for_each_point(const Discretisation& d, const FieldVector& solution, Visit visit) {
-  FEValues<2> fe(d.mapping, d.elements, d.quadrature, dealii::update_values | dealii::update_gradients);
-  CellShapes shapes(d);
-  Vector<double> local(shapes.n);
-  for (const auto& cell : d.unknowns.active_cell_iterators()) {
-    if (!cell->is_locally_owned()) continue;
-    fe.reinit(cell);
-    shapes.reinit(fe);
-    cell->get_dof_values(solution, local);
-    for (const unsigned int q : fe.quadrature_point_indices()) visit(point_values(shapes, q, local));
-  }
-}
-
 }  // namespace
 
 void assemble_residual(const FlowProblem& problem, const Discretisation& d, const Setting& setting,
@@ -277,30 +264,19 @@ FieldVector surface_moment(const FlowProblem& problem, const Discretisation& d) 
   FieldVector result = d.field();
   const auto* chord = std::get_if<ChordDomain>(&problem.domain);
   const dealii::Point<2> axis(0, chord ? chord->axis_offset : 0);
-  dealii::FEFaceValues<2> face(d.mapping, d.elements, d.side_quadrature,
-                               dealii::update_values | dealii::update_JxW_values |
-                                   dealii::update_normal_vectors | dealii::update_quadrature_points);
   Indices indices(d.elements.n_dofs_per_cell());
-  for (const auto& cell : d.unknowns.active_cell_iterators()) {
-    if (!cell->is_locally_owned()) continue;
-    for (const unsigned int f : cell->face_indices()) {
-      if (!cell->face(f)->at_boundary()) continue;
-      const auto* condition = condition_on(problem, cell->face(f)->boundary_id());
-      const auto* spring = condition ? std::get_if<NormalSpring>(condition) : nullptr;
-      if (!spring) continue;
-      face.reinit(cell, f);
-      cell->get_dof_indices(indices);
-      for (unsigned int i = 0; i < indices.size(); ++i) {
-        const unsigned int component = d.elements.system_to_component_index(i).first;
-        if (component == 2) continue;
-        for (const unsigned int q : face.quadrature_point_indices()) {
-          const auto normal = d.surface_normal(face.quadrature_point(q), face.normal_vector(q));
-          result[indices[i]] += lever(face.quadrature_point(q), axis, normal) * spring->stiffness *
-                                face.shape_value(i, q) * normal[component] * face.JxW(q);
-        }
+  for_each_spring_face(problem, d, [&](const auto& cell, const auto& face, const NormalSpring& spring) {
+    cell->get_dof_indices(indices);
+    for (unsigned int i = 0; i < indices.size(); ++i) {
+      const unsigned int component = d.elements.system_to_component_index(i).first;
+      if (component == 2) continue;
+      for (const unsigned int q : face.quadrature_point_indices()) {
+        const auto normal = d.surface_normal(face.quadrature_point(q), face.normal_vector(q));
+        result[indices[i]] += lever(face.quadrature_point(q), axis, normal) * spring.stiffness *
+                              face.shape_value(i, q) * normal[component] * face.JxW(q);
       }
     }
-  }
+  });
   result.compress(dealii::VectorOperation::add);
   return result;
 }
@@ -309,8 +285,9 @@ std::vector<PlaneTensor> dual_of(const Discretisation& d, const Regularisation& 
                                  const FieldVector& solution) {
   std::vector<PlaneTensor> dual;
   dual.reserve(d.mesh.n_locally_owned_active_cells() * d.quadrature.size());
-  for_each_point(d, solution,
-                 [&](const PointValues& at) { dual.push_back((1 / regularised_rate(at.D, r)) * at.D); });
+  for_each_point(d, solution, [&](const PointValues& at, std::size_t) {
+    dual.push_back((1 / regularised_rate(at.D, r)) * at.D);
+  });
   return dual;
 }
 
@@ -319,9 +296,8 @@ std::vector<PlaneTensor> advanced_dual(const Discretisation& d, const Regularisa
   std::vector<PlaneTensor> D, next;
   D.reserve(state.dual.size());
   next.reserve(state.dual.size());
-  for_each_point(d, state.solution, [&](const PointValues& at) { D.push_back(at.D); });
-  for_each_point(d, step, [&](const PointValues& change) {
-    const auto k = next.size();
+  for_each_point(d, state.solution, [&](const PointValues& at, std::size_t) { D.push_back(at.D); });
+  for_each_point(d, step, [&](const PointValues& change, std::size_t k) {
     next.push_back(drumlin::advanced_dual(D[k], change.D, state.dual[k], regularised_rate(D[k], r)));
   });
   return next;

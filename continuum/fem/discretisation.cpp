@@ -171,8 +171,12 @@ void hold(const WallNode& node, bool with_velocity, dealii::AffineConstraints<do
 }  // namespace
 
 FieldVector frame_velocity(const FlowProblem& problem, const Discretisation& d) {
-  FieldVector result = d.field();
   const RotatingFrame& frame = problem.frame.value();
+  return velocity_field(d, [&](Vec2 x) { return rigid_rotation(frame.rotation, frame.axis_offset, x); });
+}
+
+FieldVector velocity_field(const Discretisation& d, const std::function<Vec2(Vec2)>& velocity) {
+  FieldVector result = d.field();
   std::map<dealii::types::global_dof_index, dealii::Point<2>> places;
   dealii::DoFTools::map_dofs_to_support_points(d.mapping, d.unknowns, places);
   const auto along_x =
@@ -180,7 +184,7 @@ FieldVector frame_velocity(const FlowProblem& problem, const Discretisation& d) 
   for (std::size_t k = 0; k < d.is_velocity.size(); ++k) {
     if (!d.is_velocity[k]) continue;
     const auto i = d.owned.nth_index_in_set(k);
-    const Vec2 v = rigid_rotation(frame.rotation, frame.axis_offset, {places.at(i)[0], places.at(i)[1]});
+    const Vec2 v = velocity({places.at(i)[0], places.at(i)[1]});
     result.local_element(k) = along_x.is_element(i) ? v.x : v.z;
   }
   result.update_ghost_values();

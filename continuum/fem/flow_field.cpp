@@ -11,6 +11,7 @@
 
 #include "continuum/fem/detail/point_law.hpp"
 #include "continuum/fem/detail/solved_level.hpp"
+#include "continuum/fem/detail/spring_faces.hpp"
 
 namespace drumlin {
 namespace {
@@ -83,29 +84,18 @@ void add_given_sides(const fem::SolvedLevel& level, Vec2 centre, FlowIntegrals& 
 
 void add_surface(const fem::SolvedLevel& level, Vec2 centre, FlowIntegrals& sums) {
   const auto& d = *level.discretisation;
-  dealii::FEFaceValues<2> face(d.mapping, d.elements, d.side_quadrature,
-                               dealii::update_values | dealii::update_JxW_values |
-                                   dealii::update_normal_vectors | dealii::update_quadrature_points);
   std::vector<dealii::Tensor<1, 2>> u(d.side_quadrature.size());
-  for (const auto& cell : d.unknowns.active_cell_iterators()) {
-    if (!cell->is_locally_owned()) continue;
-    for (const unsigned int f : cell->face_indices()) {
-      if (!cell->face(f)->at_boundary()) continue;
-      const auto* condition = fem::condition_on(level.problem, cell->face(f)->boundary_id());
-      const auto* spring = condition ? std::get_if<NormalSpring>(condition) : nullptr;
-      if (!spring) continue;
-      face.reinit(cell, f);
-      face[Vector(0)].get_function_values(level.state.solution, u);
-      for (const unsigned int q : face.quadrature_point_indices()) {
-        const auto normal = d.surface_normal(face.quadrature_point(q), face.normal_vector(q));
-        const double u_n = u[q] * normal;
-        sums.surface_force += spring->stiffness * u_n * face.JxW(q);
-        sums.surface_moment += fem::lever(face.quadrature_point(q), {centre.x, centre.z}, normal) *
-                               spring->stiffness * u_n * face.JxW(q);
-        sums.surface_leak += 0.5 * std::abs(u_n) * face.JxW(q);
-      }
+  fem::for_each_spring_face(level.problem, d, [&](const auto&, const auto& face, const NormalSpring& spring) {
+    face[Vector(0)].get_function_values(level.state.solution, u);
+    for (const unsigned int q : face.quadrature_point_indices()) {
+      const auto normal = d.surface_normal(face.quadrature_point(q), face.normal_vector(q));
+      const double u_n = u[q] * normal;
+      sums.surface_force += spring.stiffness * u_n * face.JxW(q);
+      sums.surface_moment += fem::lever(face.quadrature_point(q), {centre.x, centre.z}, normal) *
+                             spring.stiffness * u_n * face.JxW(q);
+      sums.surface_leak += 0.5 * std::abs(u_n) * face.JxW(q);
     }
-  }
+  });
 }
 
 // Each rank has found the points of its own cells: what the first rank that has one says of it holds for all.

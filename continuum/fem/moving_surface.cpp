@@ -7,6 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "continuum/fem/detail/spring_faces.hpp"
+
 namespace drumlin::fem {
 namespace {
 
@@ -66,31 +68,19 @@ SurfaceMisfit surface_misfit(const FlowProblem& problem, const Discretisation& d
   const SurfaceShape& shape = d.surface.value();
   const std::size_t n = shape.coefficient.size();
   Sums sums{.gram = dealii::FullMatrix<double>(n, n), .product = std::vector<double>(n)};
-  dealii::FEFaceValues<2> face(d.mapping, d.elements, d.side_quadrature,
-                               dealii::update_values | dealii::update_JxW_values |
-                                   dealii::update_normal_vectors | dealii::update_quadrature_points);
   std::vector<dealii::Tensor<1, 2>> u(d.side_quadrature.size());
-  for (const auto& cell : d.unknowns.active_cell_iterators()) {
-    if (!cell->is_locally_owned()) continue;
-    for (const unsigned int f : cell->face_indices()) {
-      if (!cell->face(f)->at_boundary()) continue;
-      const auto* condition = condition_on(problem, cell->face(f)->boundary_id());
-      const auto* spring = condition ? std::get_if<NormalSpring>(condition) : nullptr;
-      if (!spring) continue;
-      face.reinit(cell, f);
-      face[dealii::FEValuesExtractors::Vector(0)].get_function_values(state.solution, u);
-      for (const unsigned int q : face.quadrature_point_indices()) {
-        const auto x = face.quadrature_point(q);
-        const Vec2 frame =
-            problem.frame ? rigid_rotation(problem.frame->rotation, problem.frame->axis_offset, {x[0], x[1]})
-                          : Vec2{};
-        const dealii::Tensor<1, 2> velocity = u[q] + dealii::Tensor<1, 2>({frame.x, frame.z});
-        const double pressed = spring->stiffness * (velocity * d.surface_normal(x, face.normal_vector(q)));
-        add_point(shape, {x[0], x[1]}, pressed / (problem.density * std::cos(state.theta)), face.JxW(q),
-                  sums);
-      }
+  for_each_spring_face(problem, d, [&](const auto&, const auto& face, const NormalSpring& spring) {
+    face[dealii::FEValuesExtractors::Vector(0)].get_function_values(state.solution, u);
+    for (const unsigned int q : face.quadrature_point_indices()) {
+      const auto x = face.quadrature_point(q);
+      const Vec2 frame =
+          problem.frame ? rigid_rotation(problem.frame->rotation, problem.frame->axis_offset, {x[0], x[1]})
+                        : Vec2{};
+      const dealii::Tensor<1, 2> velocity = u[q] + dealii::Tensor<1, 2>({frame.x, frame.z});
+      const double pressed = spring.stiffness * (velocity * d.surface_normal(x, face.normal_vector(q)));
+      add_point(shape, {x[0], x[1]}, pressed / (problem.density * std::cos(state.theta)), face.JxW(q), sums);
     }
-  }
+  });
   sum_over_ranks(d, sums);
   SurfaceMisfit misfit{.coefficient = solution_of(sums.gram, sums.product),
                        .rms = std::sqrt(sums.square / sums.length),

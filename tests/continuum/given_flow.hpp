@@ -30,16 +30,7 @@ struct GivenFlow {
     fill(velocity);
   }
   void fill(const std::function<Vec2(Vec2)>& velocity) {
-    std::map<dealii::types::global_dof_index, dealii::Point<2>> places;
-    dealii::DoFTools::map_dofs_to_support_points(d.mapping, d.unknowns, places);
-    const auto along_x =
-        dealii::DoFTools::extract_dofs(d.unknowns, dealii::ComponentMask({true, false, false}));
-    for (std::size_t k = 0; k < d.is_velocity.size(); ++k) {
-      if (!d.is_velocity[k]) continue;
-      const auto i = d.owned.nth_index_in_set(k);
-      const Vec2 u = velocity({places.at(i)[0], places.at(i)[1]});
-      solution.local_element(k) = along_x.is_element(i) ? u.x : u.z;
-    }
+    solution = fem::velocity_field(d, velocity);
     solution.update_ghost_values();
   }
   /// `visit`(place, weight) at every quadrature point of this rank.

@@ -57,4 +57,21 @@ inline PointValues point_values(const CellShapes& s, unsigned int q, const deali
   return at;
 }
 
+/// Calls visit(values, point) at every quadrature point of this rank's cells, `point` counting them.
+template <class Visit>
+void for_each_point(const Discretisation& d, const FieldVector& solution, Visit visit) {
+  dealii::FEValues<2> fe(d.mapping, d.elements, d.quadrature,
+                         dealii::update_values | dealii::update_gradients);
+  CellShapes shapes(d);
+  dealii::Vector<double> local(shapes.n);
+  std::size_t point = 0;
+  for (const auto& cell : d.unknowns.active_cell_iterators()) {
+    if (!cell->is_locally_owned()) continue;
+    fe.reinit(cell);
+    shapes.reinit(fe);
+    cell->get_dof_values(solution, local);
+    for (const unsigned int q : fe.quadrature_point_indices()) visit(point_values(shapes, q, local), point++);
+  }
+}
+
 }  // namespace drumlin::fem

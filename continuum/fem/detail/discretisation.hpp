@@ -10,6 +10,7 @@
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/la_parallel_vector.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -84,6 +85,8 @@ void make_mesh(const Domain& domain, dealii::parallel::distributed::Triangulatio
 
 /// The rigid rotation of the problem's frame, which has to be there, as a field: Q2 holds it exactly.
 FieldVector frame_velocity(const FlowProblem& problem, const Discretisation& d);
+/// The field with this velocity at every node, and no pressure.
+FieldVector velocity_field(const Discretisation& d, const std::function<Vec2(Vec2)>& velocity);
 
 /// Where a point lies on this rank's part of the mesh.
 struct PlaceOnMesh {
