@@ -132,6 +132,10 @@ Json friction_json(const MeasuredFriction& mu) {
     Json operator()(const LogFriction& m) const {
       return {{"a", m.a}, {"b", m.b}, {"I_min", m.I_min}, {"I_max", m.I_max}};
     }
+    Json operator()(const LogLinearFriction& m) const {
+      return {{"law", "log-linear"}, {"a", m.a},        {"b", m.b}, {"c", m.c},
+              {"I_min", m.I_min},    {"I_max", m.I_max}};
+    }
     Json operator()(const ConstantFriction& m) const { return {{"law", "constant"}, {"mu", m.mu}}; }
     Json operator()(const JopFriction& m) const {
       return {{"law", "jop"}, {"mu_s", m.mu_s}, {"mu_2", m.mu_2}, {"I_0", m.I_0}};

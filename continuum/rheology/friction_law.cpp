@@ -20,6 +20,10 @@ Friction kept_positive(double mu, double slope) {
 
 Friction LogLaw::friction(double I) const { return kept_positive(a + b * std::log(I), b); }
 
+Friction LogLinearLaw::friction(double I) const {
+  return kept_positive(a + b * std::log(I) + c * I, b + c * I);
+}
+
 Friction SaturatingLaw::friction(double I) const {
   const double share = I / (I_0 + I);
   return {mu_s + (mu_2 - mu_s) * share, (mu_2 - mu_s) * share * I_0 / (I_0 + I)};

@@ -23,6 +23,14 @@ struct LogLaw {
   Friction friction(double I) const;
 };
 
+/// mu = a + b ln I + c I, kept positive.
+struct LogLinearLaw {
+  double a = 0;
+  double b = 0;
+  double c = 0;
+  Friction friction(double I) const;
+};
+
 /// Jop, Forterre & Pouliquen, Nature 441 (2006): mu = mu_s + (mu_2 - mu_s)/(I_0/I + 1).
 struct SaturatingLaw {
   double mu_s = 0;

@@ -12,6 +12,7 @@ Strength strength(const FrictionLaw& law, double rate, double pressure) {
   return {f.mu * pressure, f.slope * pressure / rate, f.mu - 0.5 * f.slope};
 }
 template Strength strength(const LogLaw&, double, double);
+template Strength strength(const LogLinearLaw&, double, double);
 template Strength strength(const SaturatingLaw&, double, double);
 template Strength strength(const ConstantLaw&, double, double);
 template Strength strength(const TabulatedLaw&, double, double);
@@ -29,6 +30,7 @@ namespace {
 // From what a file holds to what computes.
 struct LawOfFile {
   StressLaw operator()(const LogFriction& mu) const { return LogLaw{mu.a, mu.b}; }
+  StressLaw operator()(const LogLinearFriction& mu) const { return LogLinearLaw{mu.a, mu.b, mu.c}; }
   StressLaw operator()(const ConstantFriction& mu) const { return ConstantLaw{mu.mu}; }
   StressLaw operator()(const JopFriction& mu) const { return SaturatingLaw{mu.mu_s, mu.mu_2, mu.I_0}; }
   StressLaw operator()(const FrictionTable& mu) const { return TabulatedLaw(mu.I, mu.mu); }

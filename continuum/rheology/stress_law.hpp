@@ -20,7 +20,7 @@ struct NewtonianLaw {
   double viscosity = 0;  ///< rho0 g d sqrt(d/g)
 };
 
-using StressLaw = std::variant<LogLaw, SaturatingLaw, ConstantLaw, TabulatedLaw, NewtonianLaw>;
+using StressLaw = std::variant<LogLaw, LogLinearLaw, SaturatingLaw, ConstantLaw, TabulatedLaw, NewtonianLaw>;
 
 /// F = mu(I) p with I = 2|D|/sqrt(p); p > 0 and |D| > 0 are the caller's regularised values (p = sigma_zz
 /// since k = 1).
@@ -30,6 +30,7 @@ Strength strength(const NewtonianLaw& law, double rate, double pressure);
 Strength strength(const StressLaw& law, double rate, double pressure);
 
 extern template Strength strength(const LogLaw&, double, double);
+extern template Strength strength(const LogLinearLaw&, double, double);
 extern template Strength strength(const SaturatingLaw&, double, double);
 extern template Strength strength(const ConstantLaw&, double, double);
 extern template Strength strength(const TabulatedLaw&, double, double);

@@ -21,6 +21,15 @@ void describe(Visitor& v, LogFriction& t) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, LogLinearFriction& t) {
+  v.value("a", t.a, required("", anything(), "Friction at I = 1 without the linear term."));
+  v.value("b", t.b, required("", anything(), "Growth of the friction with ln I, not negative."));
+  v.value("c", t.c, required("", anything(), "Growth of the friction with I, not negative."));
+  v.value("I_min", t.I_min, required("", above(0), "Smallest inertial number of the fit."));
+  v.value("I_max", t.I_max, required("", above(0), "Largest inertial number of the fit."));
+}
+
+template <class Visitor>
 void describe(Visitor& v, ConstantFriction& t) {
   v.value("mu", t.mu, required("", above(0), "Friction at every inertial number."));
 }
@@ -67,6 +76,7 @@ template <class Visitor>
 void describe(Visitor& v, MuTable& t) {
   v.variant("law", t.friction, "Form of mu(I).",
             alternative<LogFriction>("log", "mu = a + b ln I, natural logarithm."),
+            alternative<LogLinearFriction>("log-linear", "mu = a + b ln I + c I."),
             alternative<ConstantFriction>("constant", "The same mu at every I."),
             alternative<JopFriction>("jop", "mu_s + (mu_2 - mu_s)/(I_0/I + 1)."),
             alternative<FrictionTable>("table", "Points, smoothly interpolated."));
@@ -136,6 +146,12 @@ void check_together(const LogFriction& mu, Faults& faults) {
     faults.refuse("mu.covariance", "is no covariance", "var(a) >= 0, var(b) >= 0, cov^2 <= var(a) var(b)");
 }
 
+void check_together(const LogLinearFriction& mu, Faults& faults) {
+  if (mu.b < 0) faults.refuse("mu.b", falling, ">= 0");
+  if (mu.c < 0) faults.refuse("mu.c", falling, ">= 0");
+  if (!(mu.I_min < mu.I_max)) faults.refuse("mu.I_max", "is not above I_min", "> I_min");
+}
+
 void check_together(const ConstantFriction&, Faults&) {}
 
 void check_together(const JopFriction& mu, Faults& faults) {
@@ -188,6 +204,9 @@ std::string number(double value) {
 
 std::string in_words(const LogFriction& mu) {
   return "mu = " + number(mu.a) + " + " + number(mu.b) + " ln I";
+}
+std::string in_words(const LogLinearFriction& mu) {
+  return in_words(LogFriction{.a = mu.a, .b = mu.b}) + " + " + number(mu.c) + " I";
 }
 std::string in_words(const ConstantFriction& mu) { return "mu = " + number(mu.mu); }
 std::string in_words(const JopFriction& mu) {

@@ -19,6 +19,15 @@ struct LogFriction {
   double I_max = 0;
 };
 
+/// mu(I) = a + b ln I + c I: the logarithm of slow flow, and what fast flow adds.
+struct LogLinearFriction {
+  double a = 0;
+  double b = 0;
+  double c = 0;
+  double I_min = 0;  ///< range of I that it was fitted on
+  double I_max = 0;
+};
+
 /// The same friction at every I.
 struct ConstantFriction {
   double mu = 0;
@@ -37,7 +46,8 @@ struct FrictionTable {
   std::vector<double> mu;  ///< growing
 };
 
-using MeasuredFriction = std::variant<LogFriction, ConstantFriction, JopFriction, FrictionTable>;
+using MeasuredFriction =
+    std::variant<LogFriction, LogLinearFriction, ConstantFriction, JopFriction, FrictionTable>;
 
 /// k(I) = sigma_xx/sigma_zz as a table, smooth in ln I between its points and constant outside; absent: no k
 /// in the law.
