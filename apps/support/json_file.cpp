@@ -14,7 +14,7 @@ Json read_json(const std::filesystem::path& file, const std::string& format) {
   Json content;
   try {
     content = Json::parse(file_text(file));
-  } catch (const Json::parse_error& error) {
+  } catch (const Json::exception& error) {  // out of range, too: 1e999
     throw InputError(file.string() + ": is no JSON: " + error.what());
   }
   const bool known = content.is_object() && content.contains("format") && content["format"] == format;

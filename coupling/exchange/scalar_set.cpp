@@ -35,7 +35,7 @@ ScalarSet read_scalars(const std::filesystem::path& json_file, const std::string
   nlohmann::ordered_json json;
   try {
     json = nlohmann::ordered_json::parse(text);
-  } catch (const nlohmann::ordered_json::parse_error& error) {
+  } catch (const nlohmann::ordered_json::exception& error) {  // out of range, too: 1e999
     throw InputError(json_file.string() + ": is no JSON: " + error.what());
   }
   const auto refuse = [&](const std::string& key, const std::string& what, const std::string& allowed) {

@@ -15,8 +15,10 @@ inline double example_shear_rate(double z) {
 /// Layers of 1 d from z = -60 to the surface, each column with an interval of 1 % of its value.
 inline ProfileSet example_profiles() {
   ProfileSet set;
-  set.header = {
-      {"rotation", "0.0115"}, {"drum_radius", "68.18"}, {"diameter_m", "0.0033"}, {"reduced", "false"}};
+  set.header = {{"rotation", "0.0115"},   {"drum_radius", "68.18"}, {"diameter_m", "0.0033"},
+                {"reduced", "false"},     {"side", "particles"},    {"theta_deg", "19.7"},
+                {"axis_depth", "4"},      {"wall_z", "-60"},        {"position", "0"},
+                {"layer_thickness", "1"}, {"slice_width", "20"}};
   set.columns = {{"v_x", {}, {}},      {"shear_rate", {}, {}}, {"nu", {}, {}}, {"sigma_xx", {}, {}},
                  {"sigma_zz", {}, {}}, {"sigma_xz", {}, {}},   {"I", {}, {}}};
   for (double z = -59.5; z < 0; z += 1) {
