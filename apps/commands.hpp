@@ -101,6 +101,14 @@ struct CompareOptions {
 };
 int compare(const CompareOptions&);
 
+struct CompareStudyOptions {
+  std::vector<std::filesystem::path> folders;  ///< measured runs and continuum flows, in any order
+  std::filesystem::path output;
+  ExistingOutput existing = ExistingOutput::refuse;
+};
+/// `drumlin compare --study`: both sides over the speed of rotation.
+int compare_study(const CompareStudyOptions&);
+
 enum class SceneAction { check, show, keys };
 struct SceneOptions {
   SceneAction action = SceneAction::check;

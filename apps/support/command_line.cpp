@@ -253,11 +253,34 @@ class CommandLine {
 
   void add_compare() {
     CLI::App& command = add_command("compare", "Sets a run and a continuum flow side by side", compare_);
-    add_folder_or_file(command, "run", compare_.run, "RUN", "Folder of a measured run");
-    add_folder_or_file(command, "flow_run", compare_.flow_run, "FLOWRUN", "Folder of a continuum flow");
+    command.add_option("run", compare_.run, "Folder of a measured run")->type_name("RUN");
+    command.add_option("flow_run", compare_.flow_run, "Folder of a continuum flow")->type_name("FLOWRUN");
     add_folder_or_file(command, "-o,--output", compare_.output, "REPORT",
                        "Folder for the report; open its index.html");
     add_existing(command, compare_.existing, keep_what_is_done);
+    add_compare_study(command);
+  }
+
+  /// Either a pair is compared, or all speeds of both sides are.
+  void add_compare_study(CLI::App& command) {
+    command
+        .add_option("--study", compare_study_.folders,
+                    "Measured runs and flows of several speeds, in any order, to be compared over the speed "
+                    "of rotation instead: slope, depth, decay length, which speed was calibrated and which "
+                    "predicted")
+        ->type_name("DIR...");
+    command.callback([this] {
+      const bool is_study = !compare_study_.folders.empty();
+      const bool is_pair = !compare_.run.empty() && !compare_.flow_run.empty();
+      if (is_study ? !compare_.run.empty() : !is_pair)
+        throw CLI::RequiredError("either RUN and FLOWRUN, or --study DIR...,");
+      compare_study_.output = compare_.output;
+      compare_study_.existing = compare_.existing;
+      request_ = [this]() -> Request {
+        if (compare_study_.folders.empty()) return compare_;
+        return compare_study_;
+      };
+    });
   }
 
   void add_scene() {
@@ -352,6 +375,7 @@ class CommandLine {
   CalibrateOptions calibrate_;
   FlowOptions flow_;
   CompareOptions compare_;
+  CompareStudyOptions compare_study_;
   SceneOptions scene_;
   SolveContactsOptions solve_contacts_;
   CostOptions cost_;

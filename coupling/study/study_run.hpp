@@ -1,6 +1,7 @@
 #pragma once
 // The measured runs that a study reads, and which of them belong together.
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -23,6 +24,7 @@ struct StudyRun {
   /// What may differ between runs, but is worth a word: time steps, tolerance of the solver.
   std::map<std::string, std::string> numerics;
   std::vector<std::string> warnings;  ///< why it counts less than a steady whole turn
+  double cpu_seconds = std::numeric_limits<double>::quiet_NaN();  ///< of the run; NaN where it does not say
 };
 
 /// Throws InputError, every difference at once, unless the runs show the same drum, grains and definitions;

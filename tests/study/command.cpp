@@ -7,7 +7,7 @@
 #include "coupling/exchange/errors.hpp"
 #include "coupling/exchange/text_file.hpp"
 #include "tests/exchange_files/folder.hpp"
-#include "tests/study/drum_runs.hpp"
+#include "tests/study/run_folders.hpp"
 
 namespace drumlin::apps {
 namespace {
@@ -16,34 +16,8 @@ namespace fs = std::filesystem;
 using drumlin::testing::message_of;
 using drumlin::testing::TemporaryFolder;
 using Json = nlohmann::ordered_json;
-
-Json measured_json(const StudyRun& run) {
-  Json json{{"format", "drumlin-measured-1"}, {"reduced", run.profiles.header.at("reduced") == "true"}};
-  for (const Scalar& scalar : run.scalars.scalars)
-    json[scalar.name] = {{"value", scalar.value}, {"ci99", *scalar.ci99}};
-  json["fits"] = {{"decay_log_rate", 0.5}};
-  json["settings"] = {{"linear_share", 0.3},
-                      {"decay_window_below_H", {2, 8}},
-                      {"rotation", std::stod(run.profiles.header.at("rotation"))},
-                      {"scales", {{"time_s", 0.01834098}}}};
-  json["steadiness"] = {{"steady", true}, {"reasons", Json::array()}};
-  return json;
-}
-
-/// A run folder as `drumlin run` and `drumlin measure` leave it, without its snapshots.
-fs::path run_folder(const TemporaryFolder& folder, const StudyRun& run, const Json& measured) {
-  const fs::path path = folder / ("rpm-" + std::to_string(std::lround(run.rotation_rpm)));
-  fs::create_directories(path / "measured");
-  replace_file(path / "run.json", R"({"format": "drumlin-run-1", "status": "finished"})");
-  replace_file(path / "measured" / "measured.json", measured.dump());
-  write_profiles(path / "measured" / "profiles.csv", run.profiles);
-  return path;
-}
-
-fs::path run_folder(const TemporaryFolder& folder, double rpm) {
-  const StudyRun run = drumlin::testing::drum_run(rpm);
-  return run_folder(folder, run, measured_json(run));
-}
+using drumlin::testing::measured_json;
+using drumlin::testing::run_folder;
 
 StudyOptions options_for(const TemporaryFolder& folder, std::vector<fs::path> runs,
                          ExistingOutput existing = ExistingOutput::refuse) {

@@ -44,6 +44,7 @@ inline StudyRun drum_run(double rpm, const DrumLaws& laws = {}, std::mt19937_64*
                          {"drum_radius", "68.1818"},
                          {"diameter_m", "0.0033"},
                          {"wall_z", "-64"},
+                         {"position", "0"},
                          {"side", "particles"}};
   const char* names[] = {"v_x", "v_z", "shear_rate", "nu",       "sigma_zz", "sigma_zz_kinetic",
                          "I",   "mu",  "k",          "sigma_xx", "sigma_xz", "dv"};

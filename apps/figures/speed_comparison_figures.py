@@ -1,0 +1,154 @@
+"""Figures of `drumlin compare --study`: paper, particles and continuum over the speed of rotation; errors over their limits."""
+
+import argparse
+import json
+import math
+import pathlib
+
+import style
+
+plt = style.plt
+
+WORDS = {"theta_deg": r"$\theta$  [deg]", "H": r"$H$  [$d$]", "lambda": r"$\lambda$  [$d$]",
+         "shear_rate": r"$\dot\gamma$ of the flowing layer  [$\sqrt{g/d}$]", "I_th": r"$I$ at the interface"}
+
+
+def number(value):
+    """(value, half width) of a number or a measurement; NaN where there is none."""
+    if isinstance(value, dict):
+        half = value.get("ci99", value.get("half_width"))
+        return number(value.get("value"))[0], math.nan if half is None else half
+    return (math.nan if value is None else float(value)), math.nan
+
+
+class Study:
+    def __init__(self, path):
+        content = json.loads(pathlib.Path(path).read_text(encoding="utf-8"))
+        self.speeds, self.laws, self.reduced = content["speeds"], content["laws"], content["reduced"]
+
+    def points(self, name, side, over):
+        """Per speed (x, y, half width of y, role); x is the speed or a quantity, that of the paper for the paper's points."""
+        for speed in self.speeds:
+            y, half = number(speed["scalars"][name][side])
+            x = speed["rotation_rpm"] if over == "rotation_rpm" else number(speed["scalars"][over][side])[0]
+            if math.isfinite(x) and math.isfinite(y):
+                yield x, y, half, speed["role"]
+
+    def coefficients(self, law, side):
+        return {key: number(value)[0] for key, value in self.laws.get(law, {}).get(side, {}).items()}
+
+
+def draw_sides(axes, study, name, over):
+    paper = list(study.points(name, "paper", over))
+    if paper:
+        axes.errorbar([p[0] for p in paper], [p[1] for p in paper], yerr=[0 if math.isnan(p[2]) else p[2] for p in paper], fmt="x",
+                      color=style.PAPER, markersize=7, label="paper", elinewidth=1)
+    ours = list(study.points(name, "particles", over))
+    if ours:
+        axes.errorbar([p[0] for p in ours], [p[1] for p in ours], yerr=[0 if math.isnan(p[2]) else p[2] for p in ours], fmt="o",
+                      color=style.PARTICLES, markersize=6, capsize=3, elinewidth=1.2, label="particles, 99 %")
+    flows = sorted(study.points(name, "continuum", over))
+    axes.plot([p[0] for p in flows], [p[1] for p in flows], "-", color=style.CONTINUUM, linewidth=1, alpha=0.6)
+    for role, face, label in (("calibrated", style.CONTINUUM, "continuum, calibrated here"), (None, "white", "continuum, predicted")):
+        chosen = [p for p in flows if (p[3] == "calibrated") == (role is not None)]
+        if chosen:
+            axes.plot([p[0] for p in chosen], [p[1] for p in chosen], "s", color=style.CONTINUUM, markersize=8, markerfacecolor=face,
+                      markeredgewidth=1.6, label=label)
+    axes.set_ylabel(WORDS[name])
+    axes.set_xlabel("speed of rotation  [rpm]" if over == "rotation_rpm" else r"flow rate $Q$  [$d\sqrt{gd}$]")
+    highest = [p[1] + (0 if math.isnan(p[2]) else p[2]) for p in ours] + [p[1] for p in flows + paper]
+    if name != "theta_deg" and highest:
+        axes.set_ylim(0, 1.15 * max(highest))
+    axes.set_xlim(left=0)
+
+
+def draw_depth_laws(axes, study):
+    """H = c sqrt(Q) of each side."""
+    end = axes.get_xlim()[1]
+    Q = [end * i / 60 for i in range(61)]
+    for side, color, line in (("paper", style.PAPER, ":"), ("particles", style.PARTICLES, "--"), ("continuum", style.CONTINUUM, "--")):
+        c = study.coefficients("flowing_layer_depth", side).get("c", math.nan)
+        if math.isfinite(c):
+            axes.plot(Q, [c * math.sqrt(q) for q in Q], line, color=color, linewidth=1, zorder=0, label=rf"{side}: ${c:.2f}\sqrt{{Q}}$")
+    handles = [line for line in axes.get_lines() if "sqrt" in str(line.get_label())]
+    axes.legend(handles=handles, loc="lower right", fontsize=10)
+
+
+def draw_slope_laws(axes, study):
+    """tan(theta) = c0 + c1 Q of each side, at the Q that goes with a speed in proportion."""
+    pairs = [(speed["rotation_rpm"], number(speed["scalars"]["Q"]["continuum"])[0]) for speed in study.speeds]
+    pairs = [(rpm, Q) for rpm, Q in pairs if math.isfinite(Q)]
+    if not pairs:
+        return
+    per_rpm = sum(Q for _, Q in pairs) / sum(rpm for rpm, _ in pairs)
+    end = axes.get_xlim()[1]
+    for side, color, line in (("paper", style.PAPER, ":"), ("particles", style.PARTICLES, "--"), ("continuum", style.CONTINUUM, "--")):
+        law = study.coefficients("effective_friction", side)
+        if all(math.isfinite(law.get(key, math.nan)) for key in ("c0", "c1")):
+            rpm = [0, end]
+            axes.plot(rpm, [math.degrees(math.atan(law["c0"] + law["c1"] * per_rpm * r)) for r in rpm], line, color=color, linewidth=1, zorder=0)
+
+
+def speeds(study, path):
+    figure, axes = plt.subplots(1, 3, figsize=(14, 4.9))
+    draw_sides(axes[0], study, "theta_deg", "rotation_rpm")
+    draw_slope_laws(axes[0], study)
+    draw_sides(axes[1], study, "H", "Q")
+    draw_depth_laws(axes[1], study)
+    draw_sides(axes[2], study, "lambda", "Q")
+    axes[0].legend(fontsize=10)
+    style.save(figure, path, study.reduced)
+
+
+def rates(study, path):
+    figure, axes = plt.subplots(1, 2, figsize=(10, 4.9))
+    draw_sides(axes[0], study, "shear_rate", "Q")
+    draw_sides(axes[1], study, "I_th", "Q")
+    axes[0].legend(fontsize=10)
+    style.save(figure, path, study.reduced)
+
+
+def name_of(target):
+    return target["quantity"] + (f", {target['zone']}" if "zone" in target else "")
+
+
+def errors(study, path):
+    """One row per target, one mark per speed, over value/limit."""
+    compared = [speed for speed in study.speeds if any(target["value"] is not None for target in speed["targets"])]
+    names = [name_of(target) for target in compared[0]["targets"] if target["value"] is not None] if compared else []
+    figure, axes = plt.subplots(figsize=(9, 1.6 + 0.42 * len(names)))
+    colors = plt.cm.viridis([0.9 * i / max(1, len(compared) - 1) for i in range(len(compared))])
+    for i, (speed, color) in enumerate(zip(compared, colors)):
+        shift = 0.5 * (i / max(1, len(compared) - 1) - 0.5)
+        calibrated = speed["role"] == "calibrated"
+        x = [target["value"] / target["limit"] for target in speed["targets"] if name_of(target) in names and target["value"] is not None]
+        y = [names.index(name_of(target)) + shift for target in speed["targets"] if name_of(target) in names and target["value"] is not None]
+        axes.plot([max(value, 0.02) for value in x], y, "s", color=color, markerfacecolor=color if calibrated else "white", markeredgewidth=1.6,
+                  markersize=7, label=f"{speed['rotation_rpm']:.3g} rpm" + (", calibrated" if calibrated else ""))
+    axes.axvspan(1, 100, color="#B00000", alpha=0.06, linewidth=0)
+    axes.axvline(1, color="#B00000", linewidth=1)
+    axes.set_xscale("log")
+    largest = max((t["value"] / t["limit"] for speed in compared for t in speed["targets"] if t["value"] is not None), default=1)
+    axes.set_xlim(0.015, max(5, 1.5 * largest))
+    axes.set_yticks(range(len(names)), names)
+    axes.invert_yaxis()
+    axes.set_xlabel("error / limit")
+    axes.set_title("Continuum against particles: met left of the line, missed right of it", fontsize=11)
+    axes.legend(loc="center left", bbox_to_anchor=(1, 0.5))
+    style.save(figure, path, study.reduced)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--study", required=True, help="study.json")
+    parser.add_argument("--output", required=True, type=pathlib.Path, help="folder for the figures")
+    options = parser.parse_args()
+    style.use_style()
+    study = Study(options.study)
+    speeds(study, options.output / "speeds.png")
+    rates(study, options.output / "rates.png")
+    errors(study, options.output / "errors.png")
+
+
+if __name__ == "__main__":
+    main()
