@@ -94,9 +94,12 @@ struct FlowOptions {
 int flow(const FlowOptions&);
 
 struct CompareOptions {
-  std::filesystem::path run;
-  std::filesystem::path flow_run;
+  std::filesystem::path run;       ///< RUN or FLOWRUN
+  std::filesystem::path flow_run;  ///< FLOWRUN or RUN
   std::filesystem::path output;
+  std::optional<std::filesystem::path> floor;  ///< another RUN of the first one's drum: the noise floor
+  std::string registration = "axis";           ///< or "surface"
+  bool accept_unsteady = false;
   ExistingOutput existing = ExistingOutput::refuse;
 };
 int compare(const CompareOptions&);

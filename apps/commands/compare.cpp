@@ -1,20 +1,20 @@
-// drumlin compare: a particle run and a continuum run of one drum, side by side.
+// drumlin compare: two runs of one drum side by side, particles and continuum as a rule.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
 #include "apps/commands.hpp"
+#include "apps/commands/compare_inputs.hpp"
+#include "apps/commands/compare_overlays.hpp"
 #include "apps/support/comparison_json.hpp"
 #include "apps/support/figures.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/output_folder.hpp"
 #include "apps/support/paper_data.hpp"
 #include "apps/support/report_page.hpp"
-#include "coupling/comparison/comparison.hpp"
 #include "coupling/comparison/paper_table.hpp"
 #include "coupling/exchange/errors.hpp"
 #include "coupling/exchange/text_file.hpp"
-#include "particles/io/snapshot_file.hpp"
 
 namespace drumlin::apps {
 
@@ -23,38 +23,26 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// The files of both runs. The particle run's own record is needed for its costs and provenance.
+/// Both sides, and the run that tells the noise floor.
 struct Inputs {
-  ComparedSide particles, continuum;
-  Json run, measured, flow;
-  fs::path particle_profiles, continuum_profiles, snapshot, maps;
+  LoadedSide first, second;
+  std::optional<LoadedSide> floor;
 };
 
 Inputs read_inputs(const CompareOptions& options) {
-  Inputs inputs;
-  const fs::path measured = options.run / "measured";
-  for (const auto& folder : {options.run, options.flow_run})
-    if (!fs::is_directory(folder)) throw InputError(folder.string() + ": no such folder");
-  if (!fs::exists(measured / "measured.json"))
-    throw InputError(
-        fmt::format("{}: has not been measured; run drumlin measure first", options.run.string()));
-  inputs.particle_profiles = measured / "profiles.csv";
-  inputs.continuum_profiles = options.flow_run / "profiles.csv";
-  inputs.maps = options.flow_run / "maps.h5";
-  const auto snapshots = snapshot_files(options.run);
-  if (snapshots.empty()) throw InputError(options.run.string() + ": holds no snapshots");
-  inputs.snapshot = snapshots.back();
-  inputs.particles = {read_profiles(inputs.particle_profiles),
-                      read_scalars(measured / "measured.json", "drumlin-measured-1")};
-  inputs.continuum = {read_profiles(inputs.continuum_profiles),
-                      read_scalars(options.flow_run / "flow.json", "drumlin-flow-run-1")};
-  inputs.run = read_json(options.run / "run.json", "drumlin-run-1");
-  inputs.measured = read_json(measured / "measured.json", "drumlin-measured-1");
-  inputs.flow = read_json(options.flow_run / "flow.json", "drumlin-flow-run-1");
+  const Unsteady unsteady = options.accept_unsteady ? Unsteady::accept : Unsteady::refuse;
+  Inputs inputs{load_side(options.run, unsteady), load_side(options.flow_run, unsteady), std::nullopt};
+  require_same_scales(inputs.first, inputs.second);
+  if (options.floor) {
+    inputs.floor = load_side(*options.floor, unsteady);
+    require_same_scales(inputs.first, *inputs.floor);
+  }
   return inputs;
 }
 
-Json entry(const Json& object, const std::string& key) { return object.value(key, Json()); }
+Json entry(const Json& object, const std::string& key) {
+  return object.is_object() ? object.value(key, Json()) : Json();
+}
 
 Json header_of(const ProfileSet& profiles) {
   Json header;
@@ -62,62 +50,85 @@ Json header_of(const ProfileSet& profiles) {
   return header;
 }
 
-Json content_of(const Inputs& inputs, const Comparison& comparison, const ZoneOptions& zones) {
-  const bool reduced = inputs.particles.profiles.header.at("reduced") == "true";
-  std::string title =
-      entry(inputs.run, "title").is_string() ? inputs.run["title"].get<std::string>() : "Drum";
+/// What a side is and where it comes from.
+Json origin_of(const LoadedSide& side) {
+  Json origin{{"kind", side.kind}, {"name", side.name}, {"profiles", header_of(side.compared.profiles)}};
+  if (!side.unsteady.empty()) origin["unsteady"] = side.unsteady;
+  const Json records = records_of(side);
+  origin["run"] = entry(records, "run");
+  origin["measurement"] = entry(entry(records, "measured"), "settings");
+  origin["flow"] = entry(records, "flow");
+  return origin;
+}
+
+/// Seconds of a side: how long until its results stood there, and on how much of a processor.
+Json seconds_of(const LoadedSide& side) {
+  const Json records = records_of(side);
+  if (side.kind == "continuum")
+    return {{"wall", entry(entry(records, "flow"), "seconds")},
+            {"processor", entry(entry(records, "flow"), "cpu_seconds")},
+            {"measurement", nullptr}};
+  return {{"wall", entry(entry(records, "run"), "wall_seconds")},
+          {"processor", entry(entry(records, "run"), "cpu_seconds")},
+          {"measurement", entry(entry(records, "measured"), "seconds")}};
+}
+
+Json ratio(const Json& above, const Json& below) {
+  if (!above.is_number() || !below.is_number() || !(below.get<double>() > 0)) return nullptr;
+  return above.get<double>() / below.get<double>();
+}
+
+void add_costs(Json& content, const Inputs& inputs) {
+  const Json first = seconds_of(inputs.first), second = seconds_of(inputs.second);
+  content["costs"] = {{inputs.first.kind + " run, wall", first["wall"]},
+                      {inputs.first.kind + " run, processor", first["processor"]},
+                      {"measurement, wall", first["measurement"]},
+                      {inputs.second.kind + " solve, wall", second["wall"]},
+                      {inputs.second.kind + " solve, processor", second["processor"]}};
+  content["cost_ratio"] = {{"wall", ratio(first["wall"], second["wall"])},
+                           {"processor", ratio(first["processor"], second["processor"])}};
+}
+
+std::string title_of(const Inputs& inputs) {
+  Json title = entry(entry(records_of(inputs.first), "run"), "title");
+  if (!title.is_string()) title = inputs.first.name;
+  const bool reduced = inputs.first.compared.profiles.header.at("reduced") == "true";
+  return fmt::format("{}: {} and {}{}", title.get<std::string>(), inputs.first.kind, inputs.second.kind,
+                     reduced ? " (reduced)" : "");
+}
+
+Json content_of(const Inputs& inputs, const Comparison& comparison, const Comparison* floor,
+                const ComparisonOptions& options) {
+  const ProfileSet& profiles = inputs.first.compared.profiles;
   Json content{{"format", "drumlin-comparison-1"},
-               {"title", title + ": particles and continuum" + (reduced ? " (reduced)" : "")},
-               {"reduced", reduced}};
-  add_comparison(content, comparison);
-  const auto speed = paper_speed_rpm(inputs.particles.profiles, paper_data_folder());
+               {"title", title_of(inputs)},
+               {"reduced", profiles.header.at("reduced") == "true"}};
+  add_comparison(content, comparison, floor);
+  const auto speed = paper_speed_rpm(profiles, paper_data_folder());
   add_paper(content, speed,
             speed ? paper_table(paper_numbers(paper_data_folder(), *speed), comparison.scalars)
                   : std::vector<PaperRow>());
-  content["costs"] = {{"particle run, wall", entry(inputs.run, "wall_seconds")},
-                      {"particle run, processor", entry(inputs.run, "cpu_seconds")},
-                      {"measurement, wall", entry(inputs.measured, "seconds")},
-                      {"continuum solve, wall", entry(inputs.flow, "seconds")}};
-  content["settings"] = {{"surface_margin", zones.surface_margin}, {"wall_margin", zones.wall_margin}};
-  content["particles"] = {{"profiles", header_of(inputs.particles.profiles)},
-                          {"measurement", entry(inputs.measured, "settings")},
-                          {"run", inputs.run}};
-  content["continuum"] = {{"profiles", header_of(inputs.continuum.profiles)}, {"flow", inputs.flow}};
+  add_costs(content, inputs);
+  content["settings"] = {{"surface_margin", options.zones.surface_margin},
+                         {"wall_margin", options.zones.wall_margin},
+                         {"register", name_of(options.registration)}};
+  content["particles"] = origin_of(inputs.first);
+  content["continuum"] = origin_of(inputs.second);
+  content["floor"] = inputs.floor ? Json{{"name", inputs.floor->name}, {"kind", inputs.floor->kind}} : Json();
   content["provenance"] = to_json(provenance());
   return content;
 }
 
-/// Every quantity that both sides have, at the particles' layers: NAME_particles (with its interval) and
-/// NAME_continuum.
-ProfileSet overlaid(const Inputs& inputs) {
-  ProfileSet set;
-  set.z = inputs.particles.profiles.z;
-  set.header = {{"reduced", inputs.particles.profiles.header.at("reduced")}};
-  for (const auto& column : inputs.particles.profiles.columns) {
-    if (inputs.continuum.profiles.find(column.name) == nullptr) continue;
-    FieldOverlay field = overlay(column.name, inputs.particles.profiles, inputs.continuum.profiles);
-    set.columns.push_back({column.name + "_particles", std::move(field.particles), column.ci99});
-    set.columns.push_back({column.name + "_continuum", std::move(field.continuum), {}});
+/// The script reads comparison.json and the overlays.
+std::vector<ReportFigure> drawn_figures(const Inputs& inputs, const fs::path& output, const fs::path& json) {
+  std::vector<std::string> words{"--comparison", json.string(), "--output", output.string()};
+  if (!inputs.first.snapshot.empty()) {
+    words.insert(words.end(), {"--snapshot", inputs.first.snapshot.string()});
+    if (!inputs.second.maps_file.empty())
+      words.insert(words.end(), {"--maps", inputs.second.maps_file.string()});
   }
-  return set;
-}
-
-std::vector<ReportFigure> drawn_figures(const Inputs& inputs, const fs::path& output, const Json& content) {
-  const Json H = content["scalars"]["H"]["particles"]["value"];
-  draw_figures(
-      "compare_figures.py",
-      {"--particles", inputs.particle_profiles.string(), "--continuum", inputs.continuum_profiles.string(),
-       "--snapshot", inputs.snapshot.string(), "--maps", inputs.maps.string(), "--output", output.string(),
-       "--depth", H.is_number() ? fmt::format("{}", H.get<double>()) : "nan"});
-  return {{output / "drums.png",
-           "Speed in the frame of the drum, on one colour scale: grains of the last snapshot, and the "
-           "continuum."},
-          {output / "velocity.png",
-           "Velocity along the surface, linear and logarithmic, with the particles' 99 % band."},
-          {output / "shear_rate.png", "Shear rate. Where the band reaches zero its sign is not known."},
-          {output / "stresses.png", "Stresses, compression positive."},
-          {output / "ratios.png", "Inertial number and the two stress ratios over depth."},
-          {output / "friction.png", "Stress ratio over inertial number, layer by layer."}};
+  draw_figures("compare_figures.py", words);
+  return figures_in(output);
 }
 
 std::string short_number(const Json& value) {
@@ -135,6 +146,10 @@ std::string summary_of(const Json& content) {
                           target.value("zone", std::string()), short_number(target["value"]),
                           short_number(target["limit"]), target["measure"].get<std::string>(),
                           target.value("remark", std::string()));
+  for (const char* side : {"particles", "continuum"})
+    for (const Json& reason : content[side].value("unsteady", Json::array()))
+      text += fmt::format("  not steady: {}: {}\n", content[side]["name"].get<std::string>(),
+                          reason.get<std::string>());
   return text;
 }
 
@@ -147,17 +162,24 @@ int compare(const CompareOptions& options) {
     return static_cast<int>(ExitCode::done);
   }
   const Inputs inputs = read_inputs(options);
-  const ZoneOptions zones;
-  const Comparison comparison = compare(inputs.particles, inputs.continuum, zones);
-  const Json content = content_of(inputs, comparison, zones);
+  const ComparisonOptions how{options.registration == "surface" ? Registration::surface : Registration::axis,
+                              {}};
+  const Comparison comparison = compare(inputs.first.compared, inputs.second.compared, how);
+  std::optional<Comparison> floor;
+  if (inputs.floor) floor = compare(inputs.first.compared, inputs.floor->compared, how);
+  const Json content = content_of(inputs, comparison, floor ? &*floor : nullptr, how);
 
-  prepare_output(options.output, options.existing, {"comparison.json", "overlay.csv"},
-                 {options.run, options.flow_run});
-  write_profiles(options.output / "overlay.csv", overlaid(inputs));
-  const auto figures = drawn_figures(inputs, options.output, content);
+  std::vector<fs::path> read{options.run, options.flow_run};
+  if (options.floor) read.push_back(*options.floor);
+  prepare_output(options.output, options.existing, {"comparison.json", "overlay.csv"}, read);
+  write_overlays(options.output, inputs.first.compared, inputs.second.compared, comparison);
+  // The figures read it under another name: comparison.json itself says that the report is whole.
+  const fs::path unfinished = options.output / "comparison.json.part";
+  write_json(unfinished, content);
+  const auto figures = drawn_figures(inputs, options.output, unfinished);
   replace_file(options.output / "index.html", report_page(content, figures));
-  // Last: its presence says that the report is whole.
   write_json(finished, content);
+  fs::remove(unfinished);
   fmt::print("{}report: {}\n", summary_of(content), fs::absolute(options.output / "index.html").string());
   return static_cast<int>(ExitCode::done);
 }

@@ -1,33 +1,48 @@
-"""Figures of `drumlin compare`: both profiles over depth, each at its own layers, the particles' 99 % interval as a band."""
+"""Figures of `drumlin compare`, from the overlays that it wrote: both sides at the same places, with their 99 % bands."""
 
 import argparse
+import json
 import math
+import pathlib
 
-import matplotlib.collections
-import matplotlib.colors
 import matplotlib.pyplot as plt
 import numpy as np
 
+import compare_maps
 import style
-from drum_maps import read_grains, read_maps
+
+LABELS = dict(style.LABELS, **{
+    "log10_shear_rate": r"$\log_{10}\dot\gamma$", "log10_I": r"$\log_{10} I$", "p": r"$p$  [$\rho_0 g d$]",
+    "axis_angle_deg": "axis angle  [deg]"})
 
 
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--particles", required=True, help="profiles.csv of the particles")
-    parser.add_argument("--continuum", required=True, help="profiles.csv of the continuum")
-    parser.add_argument("--output", required=True, help="folder for the figures")
-    parser.add_argument("--snapshot", required=True, help="snapshot of the particle run to draw")
-    parser.add_argument("--maps", required=True, help="maps.h5 of the continuum")
-    parser.add_argument("--depth", type=float, default=math.nan, help="H of the particles, d")
+    parser.add_argument("--comparison", required=True, help="comparison.json, or what will become it")
+    parser.add_argument("--output", required=True, type=pathlib.Path, help="folder of the overlays, and for the figures")
+    parser.add_argument("--snapshot", help="snapshot of the first side to draw")
+    parser.add_argument("--maps", help="maps.h5 of the second side, drawn beside the snapshot")
     return parser.parse_args()
 
 
-def mark_depths(axes, depth):
-    """Dotted line at the interface, dashed line at the free surface, as in the paper's figures."""
+def names_of(comparison):
+    """What the two sides are called in legends."""
+    first, second = comparison["particles"], comparison["continuum"]
+    if first["kind"] != second["kind"]:
+        return first["kind"], second["kind"]
+    return f"{first['kind']}: {first['name']}", f"{second['kind']}: {second['name']}"
+
+
+def mark_depths(axes, depth, zones=None):
+    """Dotted line at the interface, dashed line at the free surface, as in the paper's figures; grey: in no zone."""
     axes.axvline(0, color="0.4", linestyle="--", linewidth=1)
-    if not math.isnan(depth):
+    if depth is not None:
         axes.axvline(-depth, color="0.4", linestyle=":", linewidth=1)
+    if zones and zones["all"]["from"] is not None:
+        left, right = axes.get_xlim()
+        axes.axvspan(left, zones["all"]["from"], color="0.93", zorder=0)
+        axes.axvspan(zones["all"]["to"], right, color="0.93", zorder=0)
+        axes.set_xlim(left, right)
     axes.set_xlabel(style.LABELS["z"])
 
 
@@ -36,53 +51,62 @@ def positive(values):
     return [value if value > 0 else math.nan for value in values]
 
 
-def draw(axes, name, particles, continuum, logarithmic=False):
-    """One quantity over depth, both sides."""
-    keep = positive if logarithmic else list
-    if name in particles:
-        ours, half_width = keep(particles[name]), particles.get(name + "_ci99")
-        if half_width is not None and logarithmic:
-            # A band that reaches zero ends at the foot of the axis instead of taking the axis with it.
-            low = [max(value - width, 1e-2 * value) for value, width in zip(ours, half_width)]
-            high = [value + width for value, width in zip(ours, half_width)]
-            axes.fill_between(particles["z"], low, high, color=style.PARTICLES, alpha=0.25, linewidth=0)
-            half_width = None
-        style.band(axes, particles["z"], ours, half_width, style.PARTICLES, "particles, 99 %")
-    if name in continuum:
-        axes.plot(continuum["z"], keep(continuum[name]), color=style.CONTINUUM, label="continuum")
-    axes.set_ylabel(style.LABELS[name])
-    if logarithmic:
-        axes.set_yscale("log")
+def curve(axes, columns, name, side, color, label, logarithmic):
+    """One side's quantity over depth with its band."""
+    key = f"{name}_{side}"
+    if key not in columns:
+        return
+    z, values = columns["z"], (positive if logarithmic else list)(columns[key])
+    half_width = columns.get(key + "_ci99")
+    marker = "o" if side == "particles" else None
+    if half_width is not None and logarithmic:
+        # A band that reaches zero ends at the foot of the axis instead of taking the axis with it.
+        low = [max(value - width, 1e-2 * value) for value, width in zip(values, half_width)]
+        high = [value + width for value, width in zip(values, half_width)]
+        axes.fill_between(z, low, high, color=color, alpha=0.25, linewidth=0)
+        half_width = None
+    style.band(axes, z, values, half_width, color, label, marker)
 
 
-def limit_to_the_packing(axes, name, sides):
+def limit_to_the_packing(axes, name, columns):
     """The few grains above the surface, and their wide bands, would set the scale: it is taken from z < 0 instead."""
-    values = [value for side in sides if name in side for z, value in zip(side["z"], side[name])
+    values = [value for side in ("particles", "continuum") for z, value in zip(columns["z"], columns.get(f"{name}_{side}", []))
               if z < 0 and math.isfinite(value)]
     if values:
-        margin = 0.1 * (max(values) - min(values))
+        margin = 0.1 * (max(values) - min(values)) or 1
         axes.set_ylim(min(values) - margin, max(values) + margin)
 
 
-def over_depth(names, particles, continuum, depth, size):
-    """Panels side by side; `names` as (column, logarithmic)."""
-    figure, panels = plt.subplots(1, len(names), figsize=size, squeeze=False)
-    for axes, (name, logarithmic) in zip(panels[0], names):
-        draw(axes, name, particles, continuum, logarithmic)
-        if not logarithmic:
-            limit_to_the_packing(axes, name, (particles, continuum))
-        mark_depths(axes, depth)
-    panels[0][0].legend()
+def draw(axes, columns, name, names, logarithmic=False):
+    for side, color, label in zip(("particles", "continuum"), (style.PARTICLES, style.CONTINUUM), names):
+        curve(axes, columns, name, side, color, label, logarithmic)
+    axes.set_ylabel(LABELS[name])
+    if logarithmic:
+        axes.set_yscale("log")
+    else:
+        limit_to_the_packing(axes, name, columns)
+
+
+def over_depth(panels, columns, comparison, size):
+    """Panels side by side; `panels` as (column, logarithmic). None where no side has any of them."""
+    panels = [(name, log) for name, log in panels if name + "_particles" in columns]
+    if not panels:
+        return None
+    figure, row = plt.subplots(1, len(panels), figsize=size, squeeze=False)
+    for axes, (name, logarithmic) in zip(row[0], panels):
+        draw(axes, columns, name, names_of(comparison), logarithmic)
+        mark_depths(axes, comparison["scalars"]["H"]["particles"]["value"], comparison["zones"])
+    row[0][0].legend()
     return figure
 
 
-def friction(particles, continuum):
+def friction(columns, names):
     """mu over I, the layers of both sides; the flow pays for every percent of it."""
+    if "mu_particles" not in columns or "I_particles" not in columns:
+        return None
     figure, axes = plt.subplots()
-    for columns, color, marker, label in ((particles, style.PARTICLES, "o", "particles"),
-                                          (continuum, style.CONTINUUM, "x", "continuum")):
-        if "I" in columns and "mu" in columns:
-            axes.plot(positive(columns["I"]), columns["mu"], marker, color=color, label=label)
+    for side, color, marker, label in zip(("particles", "continuum"), (style.PARTICLES, style.CONTINUUM), "ox", names):
+        axes.plot(positive(columns["I_" + side]), columns["mu_" + side], marker, color=color, label=label)
     axes.set_xscale("log")
     axes.set_xlabel(style.LABELS["I"])
     axes.set_ylabel(style.LABELS["mu"])
@@ -90,60 +114,58 @@ def friction(particles, continuum):
     return figure
 
 
-def outline(axes, radius, axis_depth):
-    """The drum, its axis `axis_depth` above the free surface."""
-    angle = np.linspace(0, 2 * math.pi, 400)
-    axes.plot(radius * np.sin(angle), axis_depth - radius * np.cos(angle), color="black", linewidth=1)
-    axes.set_aspect("equal")
-    axes.set_xlim(-1.02 * radius, 1.02 * radius)
-    axes.set_ylim(axis_depth - 1.02 * radius, 0.3 * radius)
-    axes.grid(False)
-    axes.set_xlabel(r"$x$  [$d$], downslope")
-    axes.set_ylabel(style.LABELS["z"])
-
-
-def drums(particles_header, options):
-    """Grains of one instant beside the continuum's steady flow: speed in the frame of the drum, on one colour scale."""
-    axis_depth, radius = float(particles_header["axis_depth"]), float(particles_header["drum_radius"])
-    grains = read_grains(options.snapshot, float(particles_header["theta_deg"]), axis_depth)
-    maps_header, grids = read_maps(options.maps)
-    speed = np.ma.hypot(grids["v_x"], grids["v_z"])
-    top = max(float(speed.max()), float(np.quantile(grains["speed"], 0.999)))
-    norm = matplotlib.colors.LogNorm(1e-3 * top, top)
-    figure, (left, right) = plt.subplots(1, 2, figsize=(14, 4.9))
-    discs = matplotlib.collections.EllipseCollection(
-        2 * grains["radius"], 2 * grains["radius"], np.zeros_like(grains["radius"]), units="x",
-        offsets=np.column_stack((grains["x"], grains["z"])), transOffset=left.transData, cmap="viridis", norm=norm)
-    discs.set_array(np.maximum(grains["speed"], 1e-3 * top))
-    left.add_collection(discs)
-    outline(left, radius, axis_depth)
-    left.set_title(style.title_of("particles, one instant", particles_header.get("reduced") == "true"))
-    image = right.pcolormesh(grids["x"], grids["z"], speed, norm=norm, cmap="viridis", shading="nearest", rasterized=True)
-    outline(right, float(maps_header["drum_radius"]), float(maps_header["axis_depth"]))
-    right.set_title(style.title_of("continuum, steady flow", particles_header.get("reduced") == "true"))
-    figure.colorbar(image, ax=[left, right], shrink=0.9, extend="min",
-                    label=r"speed in the frame of the drum  [$\sqrt{gd}$]")
+def slices(comparison, folder):
+    """A column of panels per slice, upstream to downstream."""
+    if not comparison["slices"]:
+        return None
+    rows = [("v_x", False), ("log10_shear_rate", False), ("sigma_zz", False), ("sigma_xz", False), ("mu", False)]
+    figure, grid = plt.subplots(len(rows), len(comparison["slices"]), figsize=(3.1 * len(comparison["slices"]), 12.5),
+                                squeeze=False, sharey="row", sharex=True)
+    for column, entry in enumerate(comparison["slices"]):
+        _, columns = style.read_profiles(folder / "overlay_slices" / f"x{entry['position']:+.1f}.csv")
+        for row, (name, logarithmic) in enumerate(rows):
+            axes = grid[row][column]
+            draw(axes, columns, name, names_of(comparison), logarithmic)
+            mark_depths(axes, entry["H"])
+            axes.set_xlim(-60, 2)
+            if column > 0:
+                axes.set_ylabel("")
+            if row + 1 < len(rows):
+                axes.set_xlabel("")
+        grid[0][column].set_title(f"x = {entry['position']:+.1f} d")
+    for row, (name, _) in enumerate(rows):
+        values = [line.get_ydata() for axes in grid[row] for line in axes.get_lines() if len(line.get_ydata()) > 2]
+        values = np.concatenate([np.asarray(v)[:-6] for v in values])
+        values = values[np.isfinite(values)]
+        if values.size:
+            grid[row][0].set_ylim(*(np.quantile(values, (0, 1)) + 0.05 * np.ptp(values) * np.array([-1, 1])))
+    grid[0][0].legend()
     return figure
 
 
 def main():
     options = arguments()
     style.use_style()
-    header, particles = style.read_profiles(options.particles)
-    _, continuum = style.read_profiles(options.continuum)
-    reduced = header.get("reduced") == "true"
+    with open(options.comparison, encoding="utf-8") as stream:
+        comparison = json.load(stream)
+    reduced = comparison["reduced"]
+    _, columns = style.read_profiles(options.output / "overlay.csv")
     sheets = {
-        "velocity": ([("v_x", False), ("v_x", True)], (11, 4.4)),
+        "velocity": ([("v_x", False), ("v_x", True), ("v_z", False)], (13, 4.2)),
         "shear_rate": ([("shear_rate", False), ("shear_rate", True)], (11, 4.4)),
-        "stresses": ([("sigma_zz", False), ("sigma_xz", False), ("sigma_xx", False)], (13, 4.2)),
-        "ratios": ([("I", True), ("mu", False), ("k", False)], (13, 4.2)),
+        "stresses": ([("sigma_zz", False), ("sigma_xz", False), ("sigma_xx", False), ("p", False)], (16, 4.2)),
+        "ratios": ([("I", True), ("mu", False), ("k", False), ("axis_angle_deg", False)], (16, 4.2)),
     }
-    figures = {name: over_depth(names, particles, continuum, options.depth, size)
-               for name, (names, size) in sheets.items()}
-    figures["drums"] = drums(header, options)
-    figures["friction"] = friction(particles, continuum)
+    figures = {name: over_depth(panels, columns, comparison, size) for name, (panels, size) in sheets.items()}
+    figures["friction"] = friction(columns, names_of(comparison))
+    figures["slices"] = slices(comparison, options.output)
+    if comparison["maps"]:
+        figures |= compare_maps.sheets(options.output / "overlay_maps.h5", names_of(comparison), reduced)
+    if options.snapshot and options.maps:
+        figures["drums"] = compare_maps.drums(comparison, options.snapshot, options.maps)
     for name, figure in figures.items():
-        style.save(figure, f"{options.output}/{name}.png", reduced)
+        if figure is not None:
+            style.save(figure, f"{options.output}/{name}.png", reduced)
 
 
 if __name__ == "__main__":

@@ -253,10 +253,28 @@ class CommandLine {
 
   void add_compare() {
     CLI::App& command = add_command("compare", "Sets a run and a continuum flow side by side", compare_);
-    command.add_option("run", compare_.run, "Folder of a measured run")->type_name("RUN");
-    command.add_option("flow_run", compare_.flow_run, "Folder of a continuum flow")->type_name("FLOWRUN");
+    command
+        .add_option("run", compare_.run, "Folder of a measured run (or of a flow): what is compared with")
+        ->type_name("RUN");
+    command
+        .add_option("flow_run", compare_.flow_run,
+                    "Folder of a continuum flow (or of another measured run): what is judged")
+        ->type_name("FLOWRUN");
     add_folder_or_file(command, "-o,--output", compare_.output, "REPORT",
                        "Folder for the report; open its index.html");
+    command
+        .add_option("--floor", compare_.floor,
+                    "Another run of the same drum, from other random numbers: its errors against RUN are the "
+                    "best that any continuum could reach")
+        ->type_name("RUN2");
+    command
+        .add_option("--register", compare_.registration,
+                    "What lies at the same place: at the same height below the drum's axis, or at the same "
+                    "depth below each side's own surface")
+        ->check(CLI::IsMember({"axis", "surface"}))
+        ->capture_default_str();
+    command.add_flag("--accept-unsteady", compare_.accept_unsteady,
+                     "Takes runs that their measurement does not call steady, and says so in the report");
     add_existing(command, compare_.existing, keep_what_is_done);
     add_compare_study(command);
   }

@@ -1,5 +1,6 @@
 #include "apps/support/comparison_json.hpp"
 
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -20,10 +21,90 @@ Json particles_of(const ScalarPair& pair) {
       Scalar{pair.name, pair.particles, pair.ci99.value_or(std::numeric_limits<double>::quiet_NaN())});
 }
 
-Json to_json(const FieldErrors& errors) {
-  return {{"rel_l2", number(errors.rel_l2)}, {"rms", number(errors.rms)},
-          {"max", number(errors.max)},       {"inside_band", number(errors.inside_band)},
-          {"layers", errors.layers},         {"undefined", errors.undefined}};
+Json to_json(const FieldErrors& errors, const FieldErrors* floor) {
+  Json json{{"rel_l2", number(errors.rel_l2)},
+            {"rms", number(errors.rms)},
+            {"max", number(errors.max)},
+            {"max_at", {{"x", number(errors.max_x)}, {"z", number(errors.max_z)}}},
+            {"inside_band", number(errors.inside_band)},
+            {"inside_both_bands", number(errors.inside_both)},
+            {"explained",
+             {{"calibration", number(errors.explained_by_calibration)},
+              {"particles", number(errors.explained_by_particles)},
+              {"both", number(errors.explained_by_both)}}},
+            {"interval_rms", number(errors.interval_rms)},
+            {"particles_rms", number(errors.particles_rms)},
+            {"layers", errors.layers},
+            {"undefined", errors.undefined},
+            {"noise", errors.noise}};
+  if (floor != nullptr) {
+    json["floor_rel_l2"] = number(floor->rel_l2);
+    json["floor_rms"] = number(floor->rms);
+  }
+  return json;
+}
+
+/// Errors by field and zone; a field that a side does not have is null.
+Json errors_of(const std::vector<FieldComparison>& fields, const std::vector<FieldComparison>* floor) {
+  Json errors;
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const std::string& name = fields[i].overlay.field;
+    if (!fields[i].overlay.present) {
+      errors[name] = nullptr;
+      continue;
+    }
+    for (std::size_t k = 0; k < fields[i].zones.size(); ++k) {
+      const auto& [zone, found] = fields[i].zones[k];
+      errors[name][zone.name] = to_json(found, floor == nullptr ? nullptr : &(*floor)[i].zones[k].errors);
+    }
+  }
+  return errors;
+}
+
+Json zones_of(const std::vector<FieldComparison>& fields) {
+  Json zones = Json::object();
+  if (!fields.empty())
+    for (const auto& [zone, found] : fields.front().zones)
+      zones[zone.name] = {{"from", number(zone.from)}, {"to", number(zone.to)}};
+  return zones;
+}
+
+void add_slices(Json& content, const Comparison& comparison, const Comparison* floor) {
+  const auto& slices = comparison.slices;
+  content["slices"] = slices.missing.empty() ? Json::array() : Json();
+  content["slices_missing"] = slices.missing.empty() ? Json() : Json(slices.missing);
+  for (std::size_t i = 0; i < slices.part.size(); ++i) {
+    const SliceComparison& slice = slices.part[i];
+    const bool with_floor = floor != nullptr && floor->slices.part.size() == slices.part.size();
+    content["slices"].push_back(
+        {{"position", slice.position},
+         {"H", number(slice.H)},
+         {"offset", number(slice.offset)},
+         {"zones", zones_of(slice.fields)},
+         {"errors", errors_of(slice.fields, with_floor ? &floor->slices.part[i].fields : nullptr)}});
+  }
+}
+
+void add_maps(Json& content, const Comparison& comparison, const Comparison* floor) {
+  const auto& maps = comparison.maps;
+  content["maps"] = nullptr;
+  content["maps_missing"] = maps.missing.empty() ? Json() : Json(maps.missing);
+  if (!maps.missing.empty()) return;
+  Json zones;
+  for (const MapZone& zone : maps.part.zones) zones[zone.name] = {{"nodes", zone.nodes.size()}};
+  const bool with_floor = floor != nullptr && floor->maps.missing.empty();
+  content["maps"] = {
+      {"offset", number(maps.part.offset)},
+      {"zones", zones},
+      {"errors", errors_of(maps.part.fields, with_floor ? &floor->maps.part.fields : nullptr)}};
+}
+
+Json to_json(const ScalarPair& pair) {
+  Json continuum = pair.continuum_ci99 ? apps::to_json(Scalar{"", pair.continuum, pair.continuum_ci99})
+                                       : number(pair.continuum);
+  Json json{{"particles", particles_of(pair)}, {"continuum", continuum}};
+  if (std::isfinite(pair.continuum_own)) json["continuum_own"] = number(pair.continuum_own);
+  return json;
 }
 
 Json to_json(const Target& target) {
@@ -51,26 +132,27 @@ std::string name_of(Outcome outcome) {
   return {};
 }
 
-void add_comparison(Json& content, const Comparison& comparison) {
+std::string name_of(Registration by) { return by == Registration::axis ? "axis" : "surface"; }
+
+void add_comparison(Json& content, const Comparison& comparison, const Comparison* floor) {
   Json counts{{"met", 0}, {"missed", 0}, {"not_measured", 0}};
   Json targets = Json::array();
-  for (const auto& target : comparison.targets) {
+  for (std::size_t i = 0; i < comparison.targets.size(); ++i) {
+    const Target& target = comparison.targets[i];
     counts[name_of(target.outcome)] = counts[name_of(target.outcome)].get<int>() + 1;
     targets.push_back(to_json(target));
+    if (floor != nullptr) targets.back()["floor"] = number(floor->targets[i].value);
   }
+  Json scalars;
+  for (const auto& pair : comparison.scalars) scalars[pair.name] = to_json(pair);
   content["verdict"] = counts;
-  Json zones, errors, scalars;
-  for (const auto& field : comparison.fields)
-    for (const auto& [zone, found] : field.zones) {
-      zones[zone.name] = {{"from", number(zone.from)}, {"to", number(zone.to)}};
-      errors[field.overlay.field][zone.name] = to_json(found);
-    }
-  for (const auto& pair : comparison.scalars)
-    scalars[pair.name] = {{"particles", particles_of(pair)}, {"continuum", number(pair.continuum)}};
-  content["zones"] = zones;
-  content["errors"] = errors;
+  content["registration"] = {{"by", name_of(comparison.registration)}, {"offset", number(comparison.offset)}};
+  content["zones"] = zones_of(comparison.fields);
+  content["errors"] = errors_of(comparison.fields, floor == nullptr ? nullptr : &floor->fields);
   content["scalars"] = scalars;
   content["targets"] = targets;
+  add_slices(content, comparison, floor);
+  add_maps(content, comparison, floor);
 }
 
 void add_paper(Json& content, std::optional<double> rotation_rpm, const std::vector<PaperRow>& rows) {

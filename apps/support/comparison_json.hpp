@@ -10,9 +10,13 @@
 namespace drumlin::apps {
 
 std::string name_of(Target::Outcome outcome);  ///< "met", "missed", "not_measured"
+std::string name_of(Registration by);          ///< "axis", "surface"
 
-/// Keys verdict, zones, errors, scalars and targets.
-void add_comparison(nlohmann::ordered_json& content, const Comparison& comparison);
+/// Keys verdict, registration, zones, errors, slices, maps, scalars and targets. `floor`: another run of the
+/// first side against it, whose errors stand beside (floor_rel_l2, floor_rms, of a target floor); null:
+/// none.
+void add_comparison(nlohmann::ordered_json& content, const Comparison& comparison,
+                    const Comparison* floor = nullptr);
 
 /// Key paper: the speed and one row per number; null when the drum is none of the paper's.
 void add_paper(nlohmann::ordered_json& content, std::optional<double> rotation_rpm,

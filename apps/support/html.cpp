@@ -5,7 +5,7 @@ namespace drumlin::apps {
 namespace {
 
 constexpr const char* style = R"(
-body { font: 16px/1.5 system-ui, sans-serif; color: #1b1b1b; max-width: 70rem; margin: 2rem auto; padding: 0 1rem; }
+body { font: 16px/1.5 system-ui, sans-serif; color: #1b1b1b; max-width: 78rem; margin: 2rem auto; padding: 0 1rem; }
 h1 { font-size: 1.6rem; margin-bottom: .2rem; } h2 { font-size: 1.2rem; margin-top: 2.2rem; border-bottom: 1px solid #ccc; }
 table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; }
 th, td { text-align: right; padding: .28rem .5rem; border-bottom: 1px solid #e4e4e4; white-space: nowrap; }
@@ -15,6 +15,7 @@ th { background: #f4f4f4; font-weight: 600; } th:first-child, td:first-child, .l
 .verdict.good { border-color: #006b3c; } .verdict.bad { border-color: #b00000; }
 .reduced { background: #fff2cc; border: 1px solid #d6a400; padding: .5rem 1rem; font-weight: 600; }
 figure { margin: 1.2rem 0; } figure img { max-width: 100%; } figcaption, .note { color: #444; font-size: .92rem; }
+details { margin: .6rem 0; overflow-x: auto; } summary { cursor: pointer; color: #333; }
 pre { background: #f7f7f7; padding: .7rem; overflow-x: auto; font-size: .85rem; }
 )";
 

@@ -109,6 +109,18 @@ bool reduced_in(const fs::path& file, const Json& json, const fs::path& profile_
   return said.get<bool>();
 }
 
+/// What the calibration leaves open in the scalars of a flow ("law_band"): their half widths.
+void add_law_band(ScalarSet& scalars, const Json& flow) {
+  const Json band = flow.value("law_band", Json());
+  const Json widths = band.is_object() ? band.value("scalars", Json()) : Json();
+  if (!widths.is_object()) return;
+  for (Scalar& scalar : scalars.scalars) {
+    const Json width = widths.value(scalar.name, Json());
+    const Json number = width.is_object() ? width.value("ci99", Json()) : width;
+    if (number.is_number()) scalar.ci99 = number.get<double>();
+  }
+}
+
 void throw_if_any(Problems problems) {
   if (!problems.empty()) throw InputError(std::move(problems));
 }
@@ -171,6 +183,7 @@ FlowRun read_flow_run(const fs::path& folder) {
   throw_if_any(problems);
   FlowRun run{name_of_folder(folder), folder, read_profiles(profile_file), {}, {}, false};
   run.scalars = read_scalars(file, "drumlin-flow-run-1");
+  add_law_band(run.scalars, flow);
   check_frame(profile_file, run.profiles, "continuum", problems);
   run.scales = scales_in(file, flow.value("settings", Json()), problems);
   run.reduced = reduced_in(file, flow, profile_file, run.profiles, problems);

@@ -1,13 +1,12 @@
 #include "coupling/comparison/comparison.hpp"
 
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
+#include "coupling/comparison/compared_scalars.hpp"
+#include "coupling/comparison/map_sampling.hpp"
 #include "coupling/comparison/targets.hpp"
 #include "coupling/exchange/errors.hpp"
-#include "coupling/exchange/profile_scalars.hpp"
 
 namespace drumlin {
 
@@ -19,60 +18,6 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 std::string header_text(const ProfileSet& profiles, const std::string& key) {
   const auto found = profiles.header.find(key);
   return found == profiles.header.end() ? std::string() : found->second;
-}
-
-double header_number(const ProfileSet& profiles, const std::string& key) {
-  const std::string text = header_text(profiles, key);
-  double value = nan;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size() ? value : nan;
-}
-
-/// What a side says of a scalar; the profile's own reading where it says nothing.
-Scalar scalar_of(const ComparedSide& side, const ProfileScalars& read_off, const std::string& name) {
-  if (const auto* found = side.scalars.find(name)) return *found;
-  Scalar result{name, nan, std::nullopt};
-  if (name == "Q") result.value = read_off.Q;
-  if (name == "H") result.value = read_off.H;
-  if (name == "lambda") result.value = read_off.lambda;
-  if (name == "shear_rate") result.value = read_off.shear_rate;
-  if (name == "I_th") result.value = read_off.I_th;
-  return result;
-}
-
-constexpr std::array scalar_names{"theta_deg",
-                                  "Q",
-                                  "H",
-                                  "lambda",
-                                  "shear_rate",
-                                  "I_th",
-                                  "nu_bulk",
-                                  "mu_a",
-                                  "mu_b",
-                                  "k_flowing",
-                                  "spin_over_half_vorticity",
-                                  "dv_over_shear",
-                                  "domega_over_shear"};
-
-std::vector<ScalarPair> scalar_pairs(const ComparedSide& particles, const ComparedSide& continuum) {
-  const ProfileScalars particle_reading = profile_scalars(particles.profiles);
-  const ProfileScalars continuum_reading = profile_scalars(continuum.profiles);
-  std::vector<ScalarPair> pairs;
-  for (const auto* name : scalar_names) {
-    const Scalar ours = scalar_of(particles, particle_reading, name);
-    pairs.push_back({name, ours.value, ours.ci99, scalar_of(continuum, continuum_reading, name).value});
-  }
-  const auto value = [&](const char* name, double ScalarPair::*side) {
-    for (const auto& pair : pairs)
-      if (pair.name == name) return pair.*side;
-    return nan;
-  };
-  const auto share = [&](double ScalarPair::*side) {
-    return linear_layer_share(value("shear_rate", side), value("H", side), value("Q", side));
-  };
-  pairs.push_back(
-      {"linear_layer_share", share(&ScalarPair::particles), std::nullopt, share(&ScalarPair::continuum)});
-  return pairs;
 }
 
 }  // namespace
@@ -91,12 +36,13 @@ void require_same_drum(const ProfileSet& particles, const ProfileSet& continuum)
   // Written by two programs from one scene: equal up to rounding, and up to the discs drawn against their
   // mean.
   constexpr double tolerance = 1e-3;
-  for (const auto* key : {"rotation", "drum_radius", "diameter_m"}) {
-    const double ours = header_number(particles, key);
-    const double theirs = header_number(continuum, key);
+  for (const auto* key : {"rotation", "drum_radius", "diameter_m", "position"}) {
+    const double ours = header_number(particles.header, key);
+    const double theirs = header_number(continuum.header, key);
     if (!(std::abs(ours - theirs) <= tolerance * std::abs(ours)))
-      differ(key, "the same drum, speed and units on both sides");
+      differ(key, "the same drum, speed, units and place on both sides");
   }
+  if (header_number(particles.header, "drum_radius") <= 0) differ("drum_radius", "a drum");
   if (header_text(particles, "reduced") != header_text(continuum, "reduced") ||
       header_text(particles, "reduced").empty())
     differ("reduced", "both reduced or both full");
@@ -105,19 +51,44 @@ void require_same_drum(const ProfileSet& particles, const ProfileSet& continuum)
 
 double linear_layer_share(double shear_rate, double H, double Q) { return 0.4 * shear_rate * H * H / Q; }
 
-Comparison compare(const ComparedSide& particles, const ComparedSide& continuum, const ZoneOptions& options) {
+ProfileSet registered_centre(const ComparedSide& first, const ComparedSide& second, Registration by) {
+  ProfileSet profiles = second.profiles;
+  if (second.fields.maps && profiles.find("half_vorticity") == nullptr) {
+    const double width = header_number(profiles.header, "slice_width");
+    const double thickness = header_number(profiles.header, "layer_thickness");
+    const ProfileSet through = profile_through(
+        *second.fields.maps, header_number(profiles.header, "position"), std::isfinite(width) ? width : 20,
+        profiles.z, std::isfinite(thickness) ? thickness : 1);
+    for (const char* name : {"half_vorticity", "d_v_x_dx", "d_v_z_dz"})
+      if (const ProfileColumn* column = through.find(name)) profiles.columns.push_back(*column);
+  }
+  return moved(std::move(profiles), registration_offset(first.profiles.header, second.profiles.header, by));
+}
+
+Comparison compare(const ComparedSide& particles, const ComparedSide& continuum,
+                   const ComparisonOptions& options) {
   require_same_drum(particles.profiles, continuum.profiles);
   Comparison result;
-  result.scalars = scalar_pairs(particles, continuum);
+  result.registration = options.registration;
+  result.offset =
+      registration_offset(particles.profiles.header, continuum.profiles.header, options.registration);
+  if (!std::isfinite(result.offset))
+    throw InputError("axis_depth: is missing in a header, and the sides are registered by the axis");
+  const ProfileSet registered = registered_centre(particles, continuum, options.registration);
+  result.scalars = scalar_pairs(particles, continuum, registered, result.offset);
   double H = nan;
   for (const auto& pair : result.scalars)
     if (pair.name == "H") H = pair.particles;
+  // A first side without gradients of its own (a continuum) gets them from its maps as well.
+  const ProfileSet ours = registered_centre(particles, particles, Registration::surface);
   for (const auto& field : compared_fields()) {
-    FieldComparison comparison{overlay(field, particles.profiles, continuum.profiles), {}};
-    for (const auto& zone : zones_of(particles.profiles, H, options))
+    FieldComparison comparison{overlay(field, ours, registered), {}};
+    for (const auto& zone : zones_of(ours, H, options.zones))
       comparison.zones.push_back({zone, errors_in(comparison.overlay, zone)});
     result.fields.push_back(std::move(comparison));
   }
+  result.slices = compared_slices(particles.fields, continuum.fields, options.registration, options.zones);
+  result.maps = compared_maps(particles.fields, continuum.fields, options.registration, options.zones);
   result.targets = judged_targets(result.fields, result.scalars);
   return result;
 }

@@ -1,7 +1,6 @@
 #include "coupling/comparison/paper_table.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -13,14 +12,6 @@ namespace drumlin {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-double header_number(const ProfileSet& profiles, const std::string& key) {
-  const auto found = profiles.header.find(key);
-  if (found == profiles.header.end()) return nan;
-  double value = nan;
-  std::from_chars(found->second.data(), found->second.data() + found->second.size(), value);
-  return value;
-}
 
 bool close(double a, double b) { return std::abs(a - b) <= 0.01 * std::abs(b); }
 
@@ -74,11 +65,11 @@ std::optional<double> paper_speed_rpm(const ProfileSet& profiles, const std::fil
   const Document experiment = paper_file(folder / "experiment.toml");
   const Node* drum = experiment.root.find("drum");
   const double paper_diameter_mm = number_in(drum == nullptr ? nullptr : drum->find("diameter_mm"));
-  const double d = header_number(profiles, "diameter_m");
-  if (!close(2e3 * header_number(profiles, "drum_radius") * d, paper_diameter_mm)) return std::nullopt;
+  const double d = header_number(profiles.header, "diameter_m");
+  if (!close(2e3 * header_number(profiles.header, "drum_radius") * d, paper_diameter_mm)) return std::nullopt;
   constexpr double gravity_m_s2 = 9.81;
   const double rpm =
-      header_number(profiles, "rotation") / std::sqrt(d / gravity_m_s2) * 30 / std::numbers::pi;
+      header_number(profiles.header, "rotation") / std::sqrt(d / gravity_m_s2) * 30 / std::numbers::pi;
   for (const auto& entry : paper_entries(paper_file(folder / "rotations.toml"), "rotation")) {
     const double speed = number_in(entry.find("rotation_rpm"));
     if (close(rpm, speed)) return speed;

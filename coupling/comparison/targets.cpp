@@ -1,5 +1,7 @@
 #include "coupling/comparison/targets.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -26,6 +28,7 @@ constexpr FieldTarget field_targets[] = {
     // A 1 % error of stress is a 30 % error of velocity with this law: velocity is the hard field.
     {"v_x", "flowing", &FieldErrors::rel_l2, "relative", 0.20},
     {"log10_shear_rate", "static", &FieldErrors::rms, "decades", 0.3},
+    {"axis_angle_deg", "all", &FieldErrors::rms, "deg", 5},
 };
 
 struct ScalarTarget {
@@ -46,12 +49,24 @@ Outcome outcome_of(double value, double limit) {
   return value <= limit ? Outcome::met : Outcome::missed;
 }
 
+void add_remark(Target& target, const std::string& text) {
+  target.remark += (target.remark.empty() ? "" : "; ") + text;
+}
+
+/// What the particles' own intervals amount to over a zone, by the same measure as the error.
+double interval_of(const FieldComparison& field, const std::string& name, bool relative) {
+  for (const auto& [zone, errors] : field.zones)
+    if (zone.name == name) return relative ? errors.interval_rms / errors.particles_rms : errors.interval_rms;
+  return nan;
+}
+
 Target judged(const FieldTarget& asked, const std::vector<FieldComparison>& fields) {
   Target target{asked.field, asked.zone, asked.words, asked.limit, nan, Outcome::not_measured, ""};
   const auto field = std::find_if(fields.begin(), fields.end(), [&](const FieldComparison& candidate) {
     return candidate.overlay.field == asked.field;
   });
   if (field == fields.end()) return target;
+  if (!field->overlay.present) target.remark = "a side has no such field";
   for (const auto& [zone, errors] : field->zones) {
     if (zone.name != asked.zone) continue;
     target.value = errors.*asked.measure;
@@ -60,9 +75,12 @@ Target judged(const FieldTarget& asked, const std::vector<FieldComparison>& fiel
       target.outcome = Outcome::missed;
       target.remark = std::to_string(errors.undefined) + " of " +
                       std::to_string(errors.undefined + errors.layers) + " layers undefined in the continuum";
-    } else if (errors.layers == 0) {
+    } else if (errors.layers == 0 && target.remark.empty()) {
       target.remark = "no layer in this zone";
     }
+    const double open = interval_of(*field, zone.name, asked.measure == &FieldErrors::rel_l2);
+    if (open > asked.limit)
+      add_remark(target, fmt::format("the particles' own interval amounts to {:.2g}", open));
   }
   return target;
 }
@@ -74,6 +92,9 @@ Target judged(const ScalarTarget& asked, const std::vector<ScalarPair>& scalars)
     const double difference = std::abs(pair.continuum - pair.particles);
     target.value = asked.relative ? difference / std::abs(pair.particles) : difference;
     target.outcome = outcome_of(target.value, target.limit);
+    const double open = pair.ci99.value_or(nan) / (asked.relative ? std::abs(pair.particles) : 1);
+    if (open > asked.limit)
+      add_remark(target, fmt::format("the particles know it to +-{:.2g} only", *pair.ci99));
     if (std::isnan(pair.particles)) target.remark = "not measured on the particles";
     if (std::isnan(pair.continuum)) target.remark = "not computed by the continuum";
   }
@@ -87,8 +108,6 @@ std::vector<Target> judged_targets(const std::vector<FieldComparison>& fields,
   std::vector<Target> targets;
   for (const auto& asked : field_targets) targets.push_back(judged(asked, fields));
   for (const auto& asked : scalar_targets) targets.push_back(judged(asked, scalars));
-  targets.push_back({"stress_strain_axis_angle", "all", "deg", 5, nan, Outcome::not_measured,
-                     "the profiles hold no strain-rate tensor"});
   return targets;
 }
 

@@ -81,25 +81,21 @@ void fit_flowing_layer(const std::vector<double>& z, const std::vector<double>& 
   scalars.fit_top = depth.front();
 }
 
-/// The exponential tail of the shear rate below the flowing layer.
-void fit_decay(const std::vector<double>& z, const std::vector<double>& rate,
-               const ProfileScalarOptions& options, ProfileScalars& scalars) {
-  const double from = -scalars.H - options.decay_from;
-  const double to = -scalars.H - options.decay_to;
+/// The exponential tail between two heights: ln rate = intercept + slope z.
+std::optional<Line> fitted_decay(const std::vector<double>& z, const std::vector<double>& rate, double from,
+                                 double to) {
   std::size_t lowest = 0;
   while (lowest < z.size() && !std::isfinite(rate[lowest])) ++lowest;
-  if (lowest == z.size() || z[lowest] > from) return;
+  if (lowest == z.size() || z[lowest] > from) return std::nullopt;
   std::vector<double> depth, log_rate;
   for (std::size_t i = 0; i < z.size(); ++i) {
     if (z[i] < from || z[i] > to) continue;
-    if (!(rate[i] > 0)) return;
+    if (!(rate[i] > 0)) return std::nullopt;
     depth.push_back(z[i]);
     log_rate.push_back(std::log(rate[i]));
   }
   const auto line = fitted_line(depth, log_rate);
-  if (!line || !(line->slope > 0)) return;
-  scalars.lambda = 1 / line->slope;
-  scalars.decay_log_rate = line->intercept;
+  return line && line->slope > 0 ? line : std::nullopt;
 }
 
 }  // namespace
@@ -113,9 +109,19 @@ ProfileScalars profile_scalars(const ProfileSet& profiles, const ProfileScalarOp
   if (!(scalars.surface_speed > 0)) return scalars;
   fit_flowing_layer(z, v_x, options.linear_share * scalars.surface_speed, scalars);
   if (!std::isfinite(scalars.H)) return scalars;
-  if (const auto* rate = profiles.find(options.decay_of)) fit_decay(z, rate->value, options, scalars);
+  if (const auto* rate = profiles.find(options.decay_of))
+    if (const auto line =
+            fitted_decay(z, rate->value, -scalars.H - options.decay_from, -scalars.H - options.decay_to)) {
+      scalars.lambda = 1 / line->slope;
+      scalars.decay_log_rate = line->intercept;
+    }
   if (const auto* inertial = profiles.find("I")) scalars.I_th = interpolated(z, inertial->value, -scalars.H);
   return scalars;
+}
+
+double decay_length(const ProfileSet& profiles, double from, double to, const std::string& column) {
+  const auto line = fitted_decay(profiles.z, profiles.column(column).value, from, to);
+  return line ? 1 / line->slope : none;
 }
 
 }  // namespace drumlin

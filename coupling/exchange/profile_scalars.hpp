@@ -2,6 +2,7 @@
 // Numbers read off a profile at the centre of a drum: the same definitions for both simulators
 // (docs/theory/measurement.md).
 #include <limits>
+#include <string>
 
 #include "coupling/exchange/profile_set.hpp"
 
@@ -37,5 +38,10 @@ struct ProfileScalars {
 /// profile or holds a layer that does not shear forwards. Unweighted fits, so that a profile without
 /// intervals gives the same numbers.
 ProfileScalars profile_scalars(const ProfileSet& profiles, const ProfileScalarOptions& options = {});
+
+/// Decay length of a column (as lambda, of shear_rate) between from and to; NaN when this window leaves the
+/// profile, or when a layer in it shears backwards or all do not decay downwards.
+double decay_length(const ProfileSet& profiles, double from, double to,
+                    const std::string& column = "shear_rate");
 
 }  // namespace drumlin

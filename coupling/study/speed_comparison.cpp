@@ -87,7 +87,10 @@ double mean_of(const std::vector<double>& values) {
 std::vector<FieldComparison> mean_errors(const std::vector<Comparison>& comparisons) {
   std::vector<FieldComparison> mean;
   for (const FieldComparison& field : comparisons.front().fields) {
-    mean.push_back({{field.overlay.field, {}, {}, {}, {}}, field.zones});
+    FieldOverlay named;
+    named.field = field.overlay.field;
+    named.present = field.overlay.present;
+    mean.push_back({std::move(named), field.zones});
     for (std::size_t z = 0; z < field.zones.size(); ++z) {
       FieldErrors& errors = mean.back().zones[z].errors;
       for (double FieldErrors::*measure :

@@ -71,9 +71,11 @@ def about_hdf5(path, found):
             forces = "contacts not known" if force is None else f"{len(force)} contacts" + (f", strongest {force.max():.1f}" if len(force) else "")
             return f"snapshot: time {snapshot['time'][0]:.2f}, {len(snapshot['grains/x'])} grains, {forces}"
         if kind == "drumlin-maps-1":
+            rows, columns = len(file["z"]), len(file["x"])
+            if "nu" not in file["fields"]:  # both sides of a comparison
+                return f"maps: {len(file['fields'])} fields on {columns} x {rows} nodes"
             if path.parent.name == "measured":  # the continuum's volume fraction is one number
                 found["maps"] = {"x": file["x"][:], "z": file["z"][:], "nu": file["fields/nu"][:]}
-            rows, columns = file["fields/nu"].shape
             return f"maps: {len(file['fields'])} fields on {columns} x {rows} nodes, nu up to {np.nanmax(file['fields/nu'][:]):.3f}"
         return f"{kind}: {', '.join(file.get('grains', file))}"
 

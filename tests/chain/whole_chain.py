@@ -18,7 +18,9 @@ MEASURED = ["theta_deg", "theta_com_deg", "Q", "H", "lambda", "shear_rate", "I_t
             "residual_mean"]
 RUN = ["wall_seconds", "cpu_seconds", "peak_memory_mb", "steps", "unconverged_steps", "revision", "seed"]
 FLOW = ["theta_deg", "Q", "H", "lambda", "unknowns", "iterations", "residual", "seconds", "ill_posed_share"]
-FIELDS = ["v_x", "sigma_zz", "sigma_xz", "sigma_xx", "log10_shear_rate"]
+FIELDS = ["v_x", "v_z", "log10_shear_rate", "sigma_xx", "sigma_zz", "sigma_xz", "p", "log10_I", "mu", "k", "axis_angle_deg"]
+FIGURES = {"drums", "velocity", "shear_rate", "stresses", "ratios", "friction", "slices", "maps_speed", "maps_shear_rate",
+           "maps_pressure", "maps_sigma_xz", "maps_mu", "maps_axis_angle"}
 
 
 def require_reduced(file, content):
@@ -76,7 +78,13 @@ def check_report(folder):
     page = (folder / "index.html").read_text(encoding="utf-8")
     require("reduced" in page and "data:image/png;base64," in page, "the page lacks its figures or the word reduced")
     require("<script" not in page and "src=\"http" not in page, "the page loads something")
-    require((folder / "overlay.csv").exists() and len(list(folder.glob("*.png"))) == 6, "CSV or figures are missing")
+    drawn = {file.stem for file in folder.glob("*.png")}
+    require(drawn == FIGURES, f"figures are missing or new: {drawn ^ FIGURES}")
+    require(len(comparison["slices"]) == 5 and len(list((folder / "overlay_slices").glob("*.csv"))) == 5, "five slices")
+    require(set(comparison["maps"]["zones"]) == {"flowing", "static", "upstream", "middle", "downstream", "all"}, "zones of the maps")
+    require((folder / "overlay.csv").exists() and (folder / "overlay_maps.h5").exists(), "overlays are missing")
+    require(comparison["registration"]["by"] == "axis", "registered by the axis")
+    require(comparison["particles"]["unsteady"], "an unsteady run was accepted and not called so")
 
 
 def check_other_drum_is_refused(drumlin, run, flow, folder):
@@ -87,8 +95,24 @@ def check_other_drum_is_refused(drumlin, run, flow, folder):
     faster = re.sub(r"# rotation = .*", "# rotation = 0.05", text)
     require(faster != text, "the continuum's profiles do not tell the rotation")
     (other / "profiles.csv").write_text(faster, encoding="utf-8")
-    _, said = drumlin("compare", run, other, "-o", folder / "mixed", code=2)
+    _, said = drumlin("compare", run, flow, "-o", folder / "mixed", code=2)
+    require("steadiness" in said and not (folder / "mixed").exists(), "an unsteady run was not refused as it should")
+    _, said = drumlin("compare", run, other, "-o", folder / "mixed", "--accept-unsteady", code=2)
     require("rotation" in said and not (folder / "mixed").exists(), "mixed drums were not refused as they should")
+
+
+def check_zeros(drumlin, sides, folder):
+    """A run against itself, of either kind: every error at the centre, in slices and maps is zero."""
+    for number, side in enumerate(sides):
+        report = folder / f"self-{number}"
+        drumlin("compare", side, side, "-o", report, "--accept-unsteady")
+        comparison = read_json(report / "comparison.json")
+        parts = [comparison["errors"], comparison["maps"]["errors"]] + [entry["errors"] for entry in comparison["slices"]]
+        zones = [zone for part in parts for field in part.values() for zone in field.values()]
+        require(len(zones) == 11 * (3 + 6 + 5 * 3), f"{len(zones)} errors")
+        for zone in zones:
+            require(zone["layers"] == 0 or zone["rms"] == zone["max"] == zone["undefined"] == 0, f"{side} differs from itself: {zone}")
+    print("compare: runs against themselves give zeros")
 
 
 def check_study(drumlin, runs, folder):
@@ -137,7 +161,7 @@ def main():
             (["measure", run], run / "measured", lambda: check_measured(run / "measured")),
             (["calibrate", run, "-o", law], law, lambda: require(law.exists(), "no law")),
             (["flow", here / "tiny-drum-flow.toml", "--rheology", law, "-o", flow], flow, lambda: check_flow(flow)),
-            (["compare", run, flow, "-o", report], report, lambda: check_report(report)),
+            (["compare", run, flow, "-o", report, "--accept-unsteady"], report, lambda: check_report(report)),
         ]
         for words, result, check in steps:
             drumlin(*words)
@@ -151,6 +175,7 @@ def main():
             print(f"{words[0]}: done, checked, repeated")
         check_readers([run, law, flow, report, here.parents[1] / "data" / "problems" / "drum-300-mu-0.4-flow.h5"], folder)
         check_other_drum_is_refused(drumlin, run, flow, folder)
+        check_zeros(drumlin, [run, flow], folder)
         # The scene that a run leaves makes the same run again; so does another number of threads.
         again = folder / "again"
         drumlin("run", run / "scene.toml", "-o", again, "--threads", "2")

@@ -19,13 +19,16 @@ inline ProfileSet example_profiles() {
                 {"reduced", "false"},     {"side", "particles"},    {"theta_deg", "19.7"},
                 {"axis_depth", "4"},      {"wall_z", "-60"},        {"position", "0"},
                 {"layer_thickness", "1"}, {"slice_width", "20"}};
-  set.columns = {{"v_x", {}, {}},      {"shear_rate", {}, {}}, {"nu", {}, {}}, {"sigma_xx", {}, {}},
-                 {"sigma_zz", {}, {}}, {"sigma_xz", {}, {}},   {"I", {}, {}}};
+  set.columns = {{"v_x", {}, {}},      {"shear_rate", {}, {}}, {"nu", {}, {}},
+                 {"sigma_xx", {}, {}}, {"sigma_zz", {}, {}},   {"sigma_xz", {}, {}},
+                 {"I", {}, {}},        {"v_z", {}, {}},        {"half_vorticity", {}, {}},
+                 {"mu", {}, {}},       {"k", {}, {}}};
   for (double z = -59.5; z < 0; z += 1) {
     const double rate = example_shear_rate(z);
     const double v = z > -example_H ? example_rate * (z + example_H + example_lambda) : rate * example_lambda;
     const double values[] = {
-        v, rate, example_nu, -0.78 * z, -0.75 * z, -0.27 * z, rate / std::sqrt(-0.75 * z)};
+        v,    rate,     example_nu, -0.78 * z, -0.75 * z, -0.27 * z, rate / std::sqrt(-0.75 * z),
+        1e-3, rate / 2, 0.36,       1.04};
     set.z.push_back(z);
     for (std::size_t i = 0; i < set.columns.size(); ++i) {
       set.columns[i].value.push_back(values[i]);
@@ -37,7 +40,23 @@ inline ProfileSet example_profiles() {
 
 inline ComparedSide example_side() {
   return {example_profiles(),
-          {{{"theta_deg", 19.7, 0.3}, {"Q", 21.8, 0.2}, {"H", example_H, 0.4}, {"lambda", 3.5, 0.3}}}};
+          {{{"theta_deg", 19.7, 0.3}, {"Q", 21.8, 0.2}, {"H", example_H, 0.4}, {"lambda", 3.5, 0.3}}},
+          {}};
+}
+
+/// The same numbers as a continuum has them: without intervals, and whatever it shears counts.
+inline ProfileSet continuum_profiles() {
+  ProfileSet set = example_profiles();
+  set.header["side"] = "continuum";
+  for (auto& column : set.columns) column.ci99.clear();
+  return set;
+}
+
+inline ComparedSide continuum_side() {
+  ComparedSide side = example_side();
+  side.profiles = continuum_profiles();
+  for (Scalar& scalar : side.scalars.scalars) scalar.ci99.reset();
+  return side;
 }
 
 inline ProfileColumn& column_of(ProfileSet& set, const std::string& name) {

@@ -12,11 +12,11 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::column_of;
+using testing::continuum_profiles;
 using testing::example_measured;
 using testing::example_profiles;
 using testing::example_run;
 using testing::flow_folder;
-using testing::flow_profiles;
 using testing::Json;
 using testing::measured_folder;
 using testing::message_of;
@@ -100,7 +100,7 @@ TEST(MeasuredRun, RefusesAnUnsteadyRunUnlessItIsAccepted) {
 
 TEST(MeasuredRun, RefusesTheOtherSideAndAFrameThatIsNotPlaced) {
   const TemporaryFolder folder;
-  expect_refused(measured_folder(folder, "side", flow_profiles()),
+  expect_refused(measured_folder(folder, "side", continuum_profiles()),
                  {"profiles.csv", "side", "continuum", "particles"});
   int number = 0;
   for (const char* key :
@@ -198,7 +198,7 @@ TEST(MeasuredRun, RefusesASliceOfAnotherFrame) {
 
 TEST(MeasuredRun, NamesAllItsFaultsAtOnce) {
   const TemporaryFolder folder;
-  ProfileSet profiles = flow_profiles();
+  ProfileSet profiles = continuum_profiles();
   profiles.header.erase("axis_depth");
   Json measured = example_measured();
   measured["steadiness"] = {{"steady", false}, {"reasons", {"half a turn only"}}};
@@ -233,11 +233,13 @@ TEST(FlowRunFolder, IsReadAndRefusedInTheSameWay) {
   EXPECT_TRUE(holds(refusal(flow_folder(folder, "side", example_profiles())), {"side", "continuum"}));
   Json other = testing::example_flow();
   other["format"] = "drumlin-flow-run-9";
-  EXPECT_TRUE(holds(refusal(flow_folder(folder, "version", flow_profiles(), other)), {"drumlin-flow-run-1"}));
+  EXPECT_TRUE(
+      holds(refusal(flow_folder(folder, "version", continuum_profiles(), other)), {"drumlin-flow-run-1"}));
   other = testing::example_flow();
   other["geometry"] = "chute";
-  EXPECT_TRUE(holds(refusal(flow_folder(folder, "chute", flow_profiles(), other)), {"geometry", "drum"}));
-  ProfileSet hole = flow_profiles();
+  EXPECT_TRUE(
+      holds(refusal(flow_folder(folder, "chute", continuum_profiles(), other)), {"geometry", "drum"}));
+  ProfileSet hole = continuum_profiles();
   column_of(hole, "v_x").value[30] = std::nan("");
   EXPECT_TRUE(holds(refusal(flow_folder(folder, "hole", hole)), {"v_x", "is empty"}));
   fs::remove(good / "flow.json");

@@ -55,17 +55,9 @@ inline Json example_flow() {
           {"settings", {{"rotation", 0.0115}, {"drum_radius", 68.18}, {"scales", example_scales()}}}};
 }
 
-/// Profiles of the continuum: those of the particles without intervals.
-inline ProfileSet flow_profiles() {
-  ProfileSet set = example_profiles();
-  set.header["side"] = "continuum";
-  for (auto& column : set.columns) column.ci99.clear();
-  return set;
-}
-
 /// FLOWRUN: flow.json, profiles.csv.
 inline std::filesystem::path flow_folder(const TemporaryFolder& folder, const std::string& name,
-                                         const ProfileSet& profiles = flow_profiles(),
+                                         const ProfileSet& profiles = continuum_profiles(),
                                          const Json& flow = example_flow()) {
   const std::filesystem::path path = folder / name;
   std::filesystem::create_directories(path);

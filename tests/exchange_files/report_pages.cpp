@@ -15,10 +15,16 @@ using Outcome = Target::Outcome;
 
 Comparison small_comparison() {
   Comparison comparison;
-  comparison.fields.push_back(
-      {{"v_x", {}, {}, {}, {}}, {{{"flowing", -15, -3}, {0.1, 0.02, 0.03, 0.5, 12, 0}}}});
+  FieldErrors errors;
+  errors.rel_l2 = 0.1, errors.rms = 0.02, errors.max = 0.03, errors.inside_band = 0.5, errors.layers = 12;
+  FieldComparison field;
+  field.overlay.field = "v_x";
+  field.zones.push_back({{"flowing", -15, -3}, errors});
+  comparison.fields.push_back(field);
+  comparison.slices.missing = "the first side has <neither>";
+  comparison.maps.missing = "the first side has no maps";
   comparison.scalars.push_back({"theta_deg", 19.5, 0.3, 18.0});
-  comparison.targets.push_back({"theta_deg", "", "deg", 1, 1.5, Outcome::missed, ""});
+  comparison.targets.push_back({"theta_deg", "", "deg", 1, 1.5, Outcome::missed, "a <remark>"});
   comparison.targets.push_back({"v_x", "flowing", "relative", 0.2, 0.1, Outcome::met, ""});
   return comparison;
 }
@@ -46,7 +52,7 @@ TEST(Base64, MeetsTheVectorsOfRfc4648) {
 TEST(ReportPage, SaysTheSizeOfAMissAndHidesNoText) {
   const auto page = report_page(content(false), {});
   EXPECT_NE(page.find("meets 1 of 2 targets"), std::string::npos);
-  EXPECT_NE(page.find("1.5 where 1 deg is asked"), std::string::npos);
+  EXPECT_NE(page.find("1.5 where 1 (deg) is asked"), std::string::npos);
   EXPECT_NE(page.find("a &lt;drum&gt; &amp; its flow"), std::string::npos);
   EXPECT_EQ(page.find("<drum>"), std::string::npos);
   EXPECT_EQ(page.find("reduced:"), std::string::npos);

@@ -1,0 +1,89 @@
+#include "apps/commands/compare_inputs.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "apps/support/header_check.hpp"
+#include "apps/support/json_file.hpp"
+#include "coupling/exchange/errors.hpp"
+#include "coupling/files/field_map_file.hpp"
+#include "particles/io/snapshot_file.hpp"
+
+namespace drumlin::apps {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// Maps are optional (the profiles that the repository keeps have none), but must be of the same frame.
+std::optional<FieldMap> maps_in(const fs::path& file, const ProfileSet& profiles) {
+  if (!fs::exists(file)) return std::nullopt;
+  FieldMap map = read_field_map(file);
+  std::vector<InputProblem> problems;
+  ProfileSet header;
+  header.header = map.header;
+  for (const char* key : {"theta_deg", "rotation", "drum_radius", "diameter_m", "axis_depth"})
+    require_number_near(file, header, key, header_number(profiles, key).value_or(std::nan("")),
+                        "profiles.csv", problems);
+  if (map.header["side"] != profiles.header.at("side"))
+    problems.push_back({file.string(), 0, 0, "side", "is " + map.header["side"], profiles.header.at("side")});
+  if (!problems.empty()) throw InputError(problems);
+  return map;
+}
+
+}  // namespace
+
+LoadedSide load_side(const fs::path& folder, Unsteady unsteady) {
+  LoadedSide side;
+  side.folder = folder;
+  if (fs::is_directory(folder) && is_flow_run(folder)) {
+    FlowRun flow = read_flow_run(folder);
+    side.kind = "continuum";
+    side.name = flow.name;
+    side.scales = flow.scales;
+    side.maps_file = folder / "maps.h5";
+    side.compared = {std::move(flow.profiles), std::move(flow.scalars), {}};
+  } else {
+    MeasuredRun run = read_measured_run(folder, unsteady);
+    side.kind = "particles";
+    side.name = run.name;
+    side.scales = run.scales;
+    side.unsteady = run.unsteady;
+    side.maps_file = folder / "measured" / "maps.h5";
+    side.compared = {std::move(run.profiles), std::move(run.scalars), {std::move(run.slices), {}}};
+    if (fs::is_directory(folder / "snapshots"))
+      if (const auto snapshots = snapshot_files(folder); !snapshots.empty()) side.snapshot = snapshots.back();
+  }
+  side.compared.fields.maps = maps_in(side.maps_file, side.compared.profiles);
+  if (!side.compared.fields.maps) side.maps_file.clear();
+  return side;
+}
+
+void require_same_scales(const LoadedSide& first, const LoadedSide& second) {
+  std::vector<InputProblem> problems;
+  const auto compare = [&](const char* key, double Scales::*unit) {
+    if (near(second.scales.*unit, first.scales.*unit)) return;
+    problems.push_back({"", 0, 0, key,
+                        fmt::format("{:.6g} in {}, {:.6g} in {}", first.scales.*unit, first.folder.string(),
+                                    second.scales.*unit, second.folder.string()),
+                        "the same units on both sides"});
+  };
+  compare("scales.length_m", &Scales::length_m);
+  compare("scales.time_s", &Scales::time_s);
+  compare("scales.density_kg_m3", &Scales::density_kg_m3);
+  if (!problems.empty()) throw InputError(problems);
+}
+
+Json records_of(const LoadedSide& side) {
+  const auto record = [&](const fs::path& file, const char* format) {
+    return fs::exists(file) ? read_json(file, format) : Json();
+  };
+  if (side.kind == "continuum") return {{"flow", record(side.folder / "flow.json", "drumlin-flow-run-1")}};
+  return {{"run", record(side.folder / "run.json", "drumlin-run-1")},
+          {"measured", record(side.folder / "measured" / "measured.json", "drumlin-measured-1")}};
+}
+
+}  // namespace drumlin::apps

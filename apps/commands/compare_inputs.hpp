@@ -1,0 +1,35 @@
+#pragma once
+// What `drumlin compare` reads: either side may be a RUN or a FLOWRUN.
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "apps/support/measured_run.hpp"
+#include "coupling/comparison/comparison.hpp"
+
+namespace drumlin::apps {
+
+/// One folder, read.
+struct LoadedSide {
+  ComparedSide compared;
+  std::string kind;  ///< "particles" or "continuum"
+  std::string name;  ///< of the folder
+  std::filesystem::path folder;
+  Scales scales;
+  std::vector<std::string> unsteady;  ///< why it is not steady, where that was accepted
+  std::filesystem::path maps_file;    ///< empty where there is none
+  std::filesystem::path snapshot;     ///< the last one; empty where there is none
+};
+
+/// Throws InputError on whatever read_measured_run and read_flow_run refuse, and on maps of another frame
+/// than the profiles beside them.
+LoadedSide load_side(const std::filesystem::path& folder, Unsteady unsteady);
+
+/// Throws InputError unless both sides have the same units (d, g, rho0 to 1e-3).
+void require_same_scales(const LoadedSide& first, const LoadedSide& second);
+
+/// The JSON files that the program left of this side: run and measured, or flow; an object each, or null.
+nlohmann::ordered_json records_of(const LoadedSide& side);
+
+}  // namespace drumlin::apps

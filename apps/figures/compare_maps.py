@@ -1,0 +1,141 @@
+"""Maps of `drumlin compare`: both sides on one colour scale, their difference, and the difference over the interval."""
+
+import math
+
+import matplotlib.collections
+import matplotlib.colors
+import matplotlib.pyplot as plt
+import numpy as np
+
+import style
+from drum_maps import read_grains, read_maps
+
+# Name of the sheet: field, label, logarithmic.
+SHEETS = {
+    "maps_speed": ("speed", r"speed in the frame of the drum  [$\sqrt{gd}$]", True),
+    "maps_shear_rate": ("strain_rate", r"shear rate $2\sqrt{D:D/2}$  [$\sqrt{g/d}$]", True),
+    "maps_pressure": ("p", r"$p$  [$\rho_0 g d$]", False),
+    "maps_sigma_xz": ("sigma_xz", r"$\sigma_{xz}$  [$\rho_0 g d$]", False),
+    "maps_mu": ("mu", r"$\mu = \tau/p$", False),
+    "maps_axis_angle": ("axis_angle_deg", "axis angle  [deg]", False),
+}
+WORST_INTERVALS = 3  # intervals at which the colour of the last panel ends
+
+
+def outline(axes, radius, axis_depth):
+    """The drum, its axis `axis_depth` above the free surface."""
+    angle = np.linspace(0, 2 * math.pi, 400)
+    axes.plot(radius * np.sin(angle), axis_depth - radius * np.cos(angle), color="black", linewidth=1)
+    axes.set_aspect("equal")
+    axes.set_xlim(-1.02 * radius, 1.02 * radius)
+    axes.set_ylim(axis_depth - 1.02 * radius, 0.3 * radius)
+    axes.grid(False)
+    axes.set_xlabel(r"$x$  [$d$], downslope")
+    axes.set_ylabel(style.LABELS["z"])
+
+
+def drums(comparison, snapshot, maps):
+    """Grains of one instant beside the other side's mean flow: speed in the frame of the drum, on one colour scale."""
+    header = comparison["particles"]["profiles"]
+    reduced = comparison["reduced"]
+    axis_depth, radius = float(header["axis_depth"]), float(header["drum_radius"])
+    grains = read_grains(snapshot, float(header["theta_deg"]), axis_depth)
+    maps_header, grids = read_maps(maps)
+    speed = np.ma.hypot(grids["v_x"], grids["v_z"])
+    top = max(float(speed.max()), float(np.quantile(grains["speed"], 0.999)))
+    norm = matplotlib.colors.LogNorm(1e-3 * top, top)
+    figure, (left, right) = plt.subplots(1, 2, figsize=(14, 4.9))
+    discs = matplotlib.collections.EllipseCollection(
+        2 * grains["radius"], 2 * grains["radius"], np.zeros_like(grains["radius"]), units="x",
+        offsets=np.column_stack((grains["x"], grains["z"])), transOffset=left.transData, cmap="viridis", norm=norm)
+    discs.set_array(np.maximum(grains["speed"], 1e-3 * top))
+    left.add_collection(discs)
+    outline(left, radius, axis_depth)
+    left.set_title(style.title_of("particles, one instant", reduced))
+    image = right.pcolormesh(grids["x"], grids["z"], np.ma.maximum(speed, 1e-3 * top), norm=norm, cmap="viridis",
+                             shading="nearest", rasterized=True)
+    outline(right, float(maps_header["drum_radius"]), float(maps_header["axis_depth"]))
+    right.set_title(style.title_of(f"{comparison['continuum']['kind']}, mean flow", reduced))
+    figure.colorbar(image, ax=[left, right], shrink=0.9, extend="min",
+                    label=r"speed in the frame of the drum  [$\sqrt{gd}$]")
+    return figure
+
+
+def with_speed(grids):
+    """Speed of both sides and the particles' half width of it, beside what the file holds."""
+    for side in ("particles", "continuum"):
+        grids["speed_" + side] = np.ma.hypot(grids["v_x_" + side], grids["v_z_" + side])
+        widths = [grids.get(f"ci99/{name}_{side}") for name in ("v_x", "v_z")]
+        if all(width is not None for width in widths):
+            speed = np.ma.masked_less_equal(grids["speed_" + side], 0)
+            grids["ci99/speed_" + side] = np.ma.hypot(widths[0] * grids["v_x_" + side], widths[1] * grids["v_z_" + side]) / speed
+    return grids
+
+
+def scale(first, second, inside, logarithmic):
+    """One scale for both, from the places that are compared."""
+    values = np.concatenate([side[inside].compressed() for side in (first, second)])
+    if logarithmic:
+        values = values[values > 0]
+    if values.size == 0:
+        return None
+    low, high = np.quantile(values, (0.005, 0.995))
+    if logarithmic:
+        low = max(low, 1e-5 * high)
+        return matplotlib.colors.LogNorm(low, max(high, 1.01 * low))
+    return matplotlib.colors.Normalize(low, high if high > low else low + 1)
+
+
+def symmetric(values, inside, largest=None):
+    """Zero in the middle, as far as 99 % of the compared places reach."""
+    known = np.abs(values[inside].compressed())
+    end = largest or (float(np.quantile(known, 0.99)) if known.size else 1) or 1
+    return matplotlib.colors.Normalize(-end, end)
+
+
+def difference_of(field, first, second, logarithmic):
+    if logarithmic:
+        return np.ma.log10(np.ma.masked_less_equal(second, 0)) - np.ma.log10(np.ma.masked_less_equal(first, 0))
+    difference = second - first
+    # Axes half a turn apart are one axis.
+    return difference - 180 * np.round(difference / 180) if field == "axis_angle_deg" else difference
+
+
+def sheet(grids, header, field, label, logarithmic, names, reduced):
+    """Four panels: one side, the other, second - first, the same over the first one's 99 % half width."""
+    first, second = grids[field + "_particles"], grids[field + "_continuum"]
+    inside = np.asarray(grids["zone"].filled(0)) > 0
+    if field in ("strain_rate", "axis_angle_deg"):
+        inside &= np.asarray(grids["noise"].filled(1)) == 0
+    norm = scale(first, second, inside, logarithmic)
+    if norm is None:
+        return None
+    difference = np.ma.masked_where(~inside, difference_of(field, first, second, logarithmic))
+    half_width = grids.get(f"ci99/{field}_particles")
+    panels = [(first, norm, "viridis", names[0], label), (second, norm, "viridis", names[1], label),
+              (difference, symmetric(difference, inside), "RdBu_r", "second - first",
+               "decades" if logarithmic else "difference, same unit")]
+    if half_width is not None:
+        over = np.ma.masked_where(~inside, difference_of(field, first, second, False) / np.ma.masked_less_equal(half_width, 0))
+        panels.append((over, symmetric(over, inside, WORST_INTERVALS), "RdBu_r", "second - first, in intervals",
+                       "99 % half widths of the first"))
+    figure, grid = plt.subplots(2, 2, figsize=(13, 8))
+    for axes, (values, colours, palette, title, text) in zip(grid.flat, panels):
+        if logarithmic and colours is norm:
+            values = np.ma.maximum(values, norm.vmin)
+        image = axes.pcolormesh(grids["x"], grids["z"], values, norm=colours, cmap=palette, shading="nearest", rasterized=True)
+        axes.contour(grids["x"], grids["z"], grids["zone"].filled(0), levels=[0.5, 1.5], colors="black", linewidths=0.6)
+        outline(axes, float(header["drum_radius"]), float(header["axis_depth"]))
+        axes.set_title(style.title_of(title, reduced))
+        figure.colorbar(image, ax=axes, shrink=0.85, label=text, extend="both")
+    for axes in grid.flat[len(panels):]:
+        axes.set_visible(False)
+    return figure
+
+
+def sheets(path, names, reduced):
+    """Figures by name."""
+    header, grids = read_maps(path, with_intervals=True)
+    with_speed(grids)
+    return {name: sheet(grids, header, field, label, logarithmic, names, reduced)
+            for name, (field, label, logarithmic) in SHEETS.items() if field + "_particles" in grids}

@@ -1,0 +1,165 @@
+#include "coupling/comparison/compared_fields.hpp"
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+
+#include "coupling/exchange/plane_invariants.hpp"
+
+namespace drumlin {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr const char* angle = "axis_angle_deg";
+
+FieldValues plain(std::vector<double> value, std::vector<double> ci99) {
+  const std::size_t size = value.size();
+  if (ci99.empty()) ci99.assign(size, nan);
+  return {std::move(value), std::move(ci99), std::vector<char>(size, 0), true};
+}
+
+FieldValues absent(std::size_t size) {
+  return {std::vector<double>(size, nan), std::vector<double>(size, nan), std::vector<char>(size, 0), false};
+}
+
+/// A measurement whose interval reaches zero has no known sign; a computed number is what it is.
+std::vector<char> lost_in_noise(const FieldValues& rate, bool measured) {
+  std::vector<char> lost(rate.value.size(), 0);
+  for (std::size_t i = 0; measured && i < lost.size(); ++i)
+    lost[i] = std::isfinite(rate.value[i]) && (rate.ci99[i] >= rate.value[i] || rate.value[i] <= 0);
+  return lost;
+}
+
+void leave_out(FieldValues& field, const std::vector<char>& noise) {
+  for (std::size_t i = 0; i < noise.size(); ++i)
+    if (noise[i] != 0) field.value[i] = field.ci99[i] = nan;
+  field.noise = noise;
+}
+
+FieldValues logarithm(FieldValues field, const std::vector<char>& noise) {
+  leave_out(field, noise);
+  for (std::size_t i = 0; i < field.value.size(); ++i) {
+    const double value = field.value[i];
+    field.value[i] = value > 0 ? std::log10(value) : nan;
+    field.ci99[i] = value > 0 ? field.ci99[i] / (value * std::numbers::ln10) : nan;
+  }
+  return field;
+}
+
+bool is_measured(const std::map<std::string, std::string>& header) {
+  const auto side = header.find("side");
+  return side == header.end() || side->second == "particles";
+}
+
+/// A column, or nothing.
+FieldValues column_or_nothing(const ProfileSet& profiles, const std::string& name) {
+  const ProfileColumn* column = profiles.find(name);
+  return column == nullptr ? absent(profiles.z.size()) : plain(column->value, column->ci99);
+}
+
+FieldValues needed_column(const ProfileSet& profiles, const std::string& name) {
+  const ProfileColumn& column = profiles.column(name);
+  return plain(column.value, column.ci99);
+}
+
+/// a + share b, errors independent.
+FieldValues sum(const FieldValues& a, double share, const FieldValues& b) {
+  FieldValues result = a;
+  result.present = a.present && b.present;
+  for (std::size_t i = 0; i < a.value.size(); ++i) {
+    result.value[i] = a.value[i] + share * b.value[i];
+    result.ci99[i] = std::hypot(a.ci99[i], share * b.ci99[i]);
+  }
+  return result;
+}
+
+FieldValues times(double factor, FieldValues field) {
+  for (double& value : field.value) value *= factor;
+  for (double& half_width : field.ci99) half_width *= std::abs(factor);
+  return field;
+}
+
+/// d/dz by the layers above and below.
+FieldValues slope_over_layers(const std::vector<double>& z, const FieldValues& field) {
+  FieldValues slope = absent(z.size());
+  slope.present = field.present;
+  for (std::size_t i = 1; i + 1 < z.size(); ++i) {
+    const double height = z[i + 1] - z[i - 1];
+    slope.value[i] = (field.value[i + 1] - field.value[i - 1]) / height;
+    slope.ci99[i] = std::hypot(field.ci99[i + 1], field.ci99[i - 1]) / height;
+  }
+  return slope;
+}
+
+/// Half width of atan2(a, b)/2 in degrees, for the half widths of a and b.
+double half_angle_ci99(double a, double a_ci99, double b, double b_ci99) {
+  return std::hypot(b * a_ci99, a * b_ci99) / (2 * (a * a + b * b)) * 180 / std::numbers::pi;
+}
+
+FieldValues profile_angle(const ProfileSet& profiles) {
+  const auto at = [&](const char* name) { return column_or_nothing(profiles, name); };
+  const FieldValues rate = needed_column(profiles, "shear_rate"), curl = at("half_vorticity");
+  const FieldValues v_z_dx = curl.present ? sum(rate, -2, curl) : at("d_v_z_dx");
+  const FieldValues along_z = at("d_v_z_dz"), along_x = at("d_v_x_dx");
+  const FieldValues v_z_dz = along_z.present ? along_z : slope_over_layers(profiles.z, at("v_z"));
+  const FieldValues v_x_dx = along_x.present ? along_x : times(-1, v_z_dz);
+  const FieldValues xx = needed_column(profiles, "sigma_xx"), zz = needed_column(profiles, "sigma_zz"),
+                    xz = needed_column(profiles, "sigma_xz");
+  FieldValues result = absent(profiles.z.size());
+  result.present = v_z_dx.present && v_z_dz.present && v_x_dx.present;
+  const FieldValues shear = sum(rate, 1, v_z_dx), stretch = sum(v_z_dz, -1, v_x_dx),
+                    difference = sum(xx, -1, zz);
+  for (std::size_t i = 0; i < result.value.size(); ++i) {
+    result.value[i] = axis_angle_deg({xx.value[i], -xz.value[i], -xz.value[i], zz.value[i]},
+                                     {v_x_dx.value[i], rate.value[i], v_z_dx.value[i], v_z_dz.value[i]});
+    result.ci99[i] =
+        std::hypot(half_angle_ci99(2 * xz.value[i], 2 * xz.ci99[i], difference.value[i], difference.ci99[i]),
+                   half_angle_ci99(shear.value[i], shear.ci99[i], stretch.value[i], stretch.ci99[i]));
+  }
+  return result;
+}
+
+}  // namespace
+
+const std::vector<std::string>& compared_fields() {
+  static const std::vector<std::string> fields{
+      "v_x", "v_z", "log10_shear_rate", "sigma_xx", "sigma_zz", "sigma_xz", "p", "log10_I", "mu", "k", angle};
+  return fields;
+}
+
+double period_of(const std::string& field) { return field == angle ? 180 : 0; }
+
+FieldValues profile_field(const std::string& name, const ProfileSet& profiles) {
+  if (name == "v_x" || name.starts_with("sigma_")) return needed_column(profiles, name);
+  if (name == "p" && profiles.find("p") == nullptr)
+    return times(0.5, sum(needed_column(profiles, "sigma_xx"), 1, needed_column(profiles, "sigma_zz")));
+  const bool shears = name == "log10_shear_rate" || name == "log10_I" || name == angle;
+  if (!shears) return column_or_nothing(profiles, name);
+  const FieldValues rate = needed_column(profiles, "shear_rate");
+  const auto noise = lost_in_noise(rate, is_measured(profiles.header));
+  if (name == "log10_shear_rate") return logarithm(rate, noise);
+  if (name == "log10_I") return logarithm(column_or_nothing(profiles, "I"), noise);
+  FieldValues result = profile_angle(profiles);
+  leave_out(result, noise);
+  return result;
+}
+
+FieldValues map_field(const std::string& name, const FieldMap& map) {
+  const auto at = [&](const std::string& field) {
+    const MapField* found = map.find(field);
+    return found == nullptr ? absent(map.grid.nodes()) : plain(found->value, found->ci99);
+  };
+  const bool shears = name == "log10_shear_rate" || name == "log10_I" || name == angle;
+  if (!shears) return at(name);
+  const FieldValues rate = at("strain_rate");
+  const auto noise = lost_in_noise(rate, is_measured(map.header));
+  if (name == "log10_shear_rate") return logarithm(rate, noise);
+  if (name == "log10_I") return logarithm(at("I"), noise);
+  FieldValues result = at(angle);
+  leave_out(result, noise);
+  return result;
+}
+
+}  // namespace drumlin

@@ -1,0 +1,115 @@
+#include "coupling/comparison/map_sampling.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace drumlin {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double rounding = 1e-9;  // of a spacing: a place this near to a node is the node
+
+/// Lower node and share of the upper one; false outside of the axis.
+bool bracket(double at, std::size_t nodes, std::size_t& lower, double& share) {
+  const double nearest = std::round(at);
+  if (std::abs(at - nearest) <= rounding) at = nearest;
+  if (!(at >= 0 && at <= static_cast<double>(nodes - 1))) return false;
+  lower = std::min(static_cast<std::size_t>(at), nodes - 1);
+  share = at - static_cast<double>(lower);
+  return true;
+}
+
+/// Places whose mean stands for a box: the middles of equal pieces.
+struct Box {
+  static constexpr int across = 8, along = 4;
+  double x = 0, z = 0, width = 0, height = 0;
+};
+
+double mean_over(const MapGrid& grid, const std::vector<double>& values, const Box& box) {
+  double sum = 0;
+  for (int i = 0; i < Box::across; ++i)
+    for (int k = 0; k < Box::along; ++k)
+      sum += bilinear(grid, values, box.x + box.width * ((i + 0.5) / Box::across - 0.5),
+                      box.z + box.height * ((k + 0.5) / Box::along - 0.5));
+  return sum / (Box::across * Box::along);
+}
+
+/// Name of the field in a map, name of the column in a profile.
+struct Sampled {
+  const char* field;
+  const char* column;
+  bool needed;
+};
+constexpr std::array sampled{Sampled{"v_x", "v_x", true},
+                             Sampled{"v_z", "v_z", false},
+                             Sampled{"d_v_x_dz", "shear_rate", true},
+                             Sampled{"half_vorticity", "half_vorticity", false},
+                             Sampled{"d_v_x_dx", "d_v_x_dx", false},
+                             Sampled{"d_v_z_dz", "d_v_z_dz", false},
+                             Sampled{"nu", "nu", false},
+                             Sampled{"sigma_xx", "sigma_xx", true},
+                             Sampled{"sigma_zz", "sigma_zz", true},
+                             Sampled{"sigma_xz", "sigma_xz", true}};
+
+/// numerator / denominator^power where the denominator presses, relative errors independent.
+ProfileColumn ratio(const char* name, const ProfileColumn& numerator, const ProfileColumn& denominator,
+                    double power) {
+  ProfileColumn result{name, {}, {}};
+  for (std::size_t i = 0; i < numerator.value.size(); ++i) {
+    const double below = denominator.value[i] > 0 ? denominator.value[i] : nan;
+    result.value.push_back(numerator.value[i] / std::pow(below, power));
+    if (numerator.ci99.empty() || denominator.ci99.empty()) continue;
+    result.ci99.push_back(std::abs(result.value.back()) * std::hypot(numerator.ci99[i] / numerator.value[i],
+                                                                     power * denominator.ci99[i] / below));
+  }
+  return result;
+}
+
+}  // namespace
+
+double bilinear(const MapGrid& grid, const std::vector<double>& values, double x, double z) {
+  std::size_t column = 0, row = 0;
+  double along_x = 0, along_z = 0;
+  if (!bracket((x - grid.x_first) / grid.spacing_x, grid.columns, column, along_x) ||
+      !bracket((z - grid.z_first) / grid.spacing_z, grid.rows, row, along_z))
+    return nan;
+  double sum = 0;
+  for (const std::size_t up : {0u, 1u})
+    for (const std::size_t right : {0u, 1u}) {
+      const double weight = (right ? along_x : 1 - along_x) * (up ? along_z : 1 - along_z);
+      // A node that does not count may lie outside of the grid or have no value.
+      if (weight > 0) sum += weight * values[(row + up) * grid.columns + column + right];
+    }
+  return sum;
+}
+
+ProfileSet profile_through(const FieldMap& map, double position, double width, const std::vector<double>& z,
+                           double thickness) {
+  ProfileSet set;
+  set.z = z;
+  set.header = map.header;
+  set.header["position"] = std::to_string(position);
+  set.header["slice_width"] = std::to_string(width);
+  set.header["layer_thickness"] = std::to_string(thickness);
+  for (const Sampled& wanted : sampled) {
+    const MapField* field = wanted.needed ? &map.field(wanted.field) : map.find(wanted.field);
+    if (field == nullptr) continue;
+    ProfileColumn column{wanted.column, {}, {}};
+    for (const double at : z) {
+      const Box box{position, at, width, thickness};
+      column.value.push_back(mean_over(map.grid, field->value, box));
+      if (!field->ci99.empty()) column.ci99.push_back(mean_over(map.grid, field->ci99, box));
+    }
+    set.columns.push_back(std::move(column));
+  }
+  set.columns.push_back(ratio("I", set.column("shear_rate"), set.column("sigma_zz"), 0.5));
+  set.columns.push_back(ratio("mu", set.column("sigma_xz"), set.column("sigma_zz"), 1));
+  set.columns.push_back(ratio("k", set.column("sigma_xx"), set.column("sigma_zz"), 1));
+  return set;
+}
+
+}  // namespace drumlin
