@@ -128,6 +128,10 @@ std::vector<ReportFigure> drawn_figures(const Inputs& inputs, const fs::path& ou
       words.insert(words.end(), {"--maps", inputs.second.maps_file.string()});
   }
   draw_figures("compare_figures.py", words);
+  // They are of full drums, and a reduced run shows no more than that the chain works.
+  const bool reduced = inputs.first.compared.profiles.header.at("reduced") == "true";
+  if (!reduced && fs::is_directory(cost_data_folder()))
+    draw_figures("report_costs.py", {cost_data_folder().string(), output.string()});
   return figures_in(output);
 }
 

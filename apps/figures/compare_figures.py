@@ -134,9 +134,10 @@ def slices(comparison, folder):
                 axes.set_xlabel("")
         grid[0][column].set_title(f"x = {entry['position']:+.1f} d")
     for row, (name, _) in enumerate(rows):
-        values = [line.get_ydata() for axes in grid[row] for line in axes.get_lines() if len(line.get_ydata()) > 2]
-        values = np.concatenate([np.asarray(v)[:-6] for v in values])
-        values = values[np.isfinite(values)]
+        # Between wall and surface alone: what touches either is not judged and would set the scale.
+        curves = [(np.asarray(line.get_xdata()), np.asarray(line.get_ydata())) for axes in grid[row] for line in axes.get_lines()
+                  if len(line.get_ydata()) > 2]
+        values = np.concatenate([y[np.isfinite(y) & (x < 0) & (x > np.min(x, where=np.isfinite(y), initial=0) + 3)] for x, y in curves])
         if values.size:
             grid[row][0].set_ylim(*(np.quantile(values, (0, 1)) + 0.05 * np.ptp(values) * np.array([-1, 1])))
     grid[0][0].legend()

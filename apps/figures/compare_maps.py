@@ -41,6 +41,7 @@ def drums(comparison, snapshot, maps):
     axis_depth, radius = float(header["axis_depth"]), float(header["drum_radius"])
     grains = read_grains(snapshot, float(header["theta_deg"]), axis_depth)
     maps_header, grids = read_maps(maps)
+    lift = comparison["registration"]["offset"]  # to the first side's z
     speed = np.ma.hypot(grids["v_x"], grids["v_z"])
     top = max(float(speed.max()), float(np.quantile(grains["speed"], 0.999)))
     norm = matplotlib.colors.LogNorm(1e-3 * top, top)
@@ -52,9 +53,9 @@ def drums(comparison, snapshot, maps):
     left.add_collection(discs)
     outline(left, radius, axis_depth)
     left.set_title(style.title_of("particles, one instant", reduced))
-    image = right.pcolormesh(grids["x"], grids["z"], np.ma.maximum(speed, 1e-3 * top), norm=norm, cmap="viridis",
+    image = right.pcolormesh(grids["x"], grids["z"] + lift, np.ma.maximum(speed, 1e-3 * top), norm=norm, cmap="viridis",
                              shading="nearest", rasterized=True)
-    outline(right, float(maps_header["drum_radius"]), float(maps_header["axis_depth"]))
+    outline(right, float(maps_header["drum_radius"]), float(maps_header["axis_depth"]) + lift)
     right.set_title(style.title_of(f"{comparison['continuum']['kind']}, mean flow", reduced))
     figure.colorbar(image, ax=[left, right], shrink=0.9, extend="min",
                     label=r"speed in the frame of the drum  [$\sqrt{gd}$]")
@@ -102,7 +103,7 @@ def difference_of(field, first, second, logarithmic):
 
 
 def sheet(grids, header, field, label, logarithmic, names, reduced):
-    """Four panels: one side, the other, second - first, the same over the first one's 99 % half width."""
+    """Four panels: one side, the other, their difference, the same over the first one's 99 % half width."""
     first, second = grids[field + "_particles"], grids[field + "_continuum"]
     inside = np.asarray(grids["zone"].filled(0)) > 0
     if field in ("strain_rate", "axis_angle_deg"):
@@ -113,12 +114,12 @@ def sheet(grids, header, field, label, logarithmic, names, reduced):
     difference = np.ma.masked_where(~inside, difference_of(field, first, second, logarithmic))
     half_width = grids.get(f"ci99/{field}_particles")
     panels = [(first, norm, "viridis", names[0], label), (second, norm, "viridis", names[1], label),
-              (difference, symmetric(difference, inside), "RdBu_r", "second - first",
+              (difference, symmetric(difference, inside), "RdBu_r", f"{names[1]} - {names[0]}",
                "decades" if logarithmic else "difference, same unit")]
     if half_width is not None:
         over = np.ma.masked_where(~inside, difference_of(field, first, second, False) / np.ma.masked_less_equal(half_width, 0))
-        panels.append((over, symmetric(over, inside, WORST_INTERVALS), "RdBu_r", "second - first, in intervals",
-                       "99 % half widths of the first"))
+        panels.append((over, symmetric(over, inside, WORST_INTERVALS), "RdBu_r", "the same in intervals",
+                       f"99 % half widths of the {names[0].split(':')[0]}"))
     figure, grid = plt.subplots(2, 2, figsize=(13, 8))
     for axes, (values, colours, palette, title, text) in zip(grid.flat, panels):
         if logarithmic and colours is norm:

@@ -15,6 +15,8 @@ th { background: #f4f4f4; font-weight: 600; } th:first-child, td:first-child, .l
 .verdict.good { border-color: #006b3c; } .verdict.bad { border-color: #b00000; }
 .reduced { background: #fff2cc; border: 1px solid #d6a400; padding: .5rem 1rem; font-weight: 600; }
 figure { margin: 1.2rem 0; } figure img { max-width: 100%; } figcaption, .note { color: #444; font-size: .92rem; }
+.wide { overflow-x: auto; } .errors { font-size: .9rem; } .errors th { white-space: normal; vertical-align: bottom; }
+.errors tr td[rowspan] { vertical-align: top; } .errors td { padding: .15rem .5rem; }
 details { margin: .6rem 0; overflow-x: auto; } summary { cursor: pointer; color: #333; }
 pre { background: #f7f7f7; padding: .7rem; overflow-x: auto; font-size: .85rem; }
 )";

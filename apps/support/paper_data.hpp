@@ -6,4 +6,7 @@ namespace drumlin::apps {
 /// The folder data/paper of the sources that this program was built from.
 std::filesystem::path paper_data_folder();
 
+/// The folder data/cost beside it: what accuracy and effects cost, as it was recorded.
+std::filesystem::path cost_data_folder();
+
 }  // namespace drumlin::apps

@@ -106,6 +106,54 @@ TEST(ProfileErrors, BandCountsTheLayersInsideTheInterval) {
   EXPECT_TRUE(std::isnan(errors_in(overlay("v_x", without, continuum), zone("flowing")).inside_band));
 }
 
+TEST(ProfileErrors, ExplainedIsWhatLiesWithinTheBandOfEitherSideOrBoth) {
+  FieldOverlay field;
+  field.field = "v_x";
+  field.x = {0, 0};
+  field.z = {-5, -6};
+  field.particles = {1, 1};
+  field.continuum = {5, 1};
+  field.ci99 = {3, 1};
+  field.continuum_ci99 = {nan, nan};
+  field.noise = {0, 0};
+  const auto errors = [&] { return errors_at(field, {0, 1}); };
+  EXPECT_TRUE(std::isnan(errors().explained_by_calibration)) << "no band";
+  EXPECT_DOUBLE_EQ(errors().explained_by_particles, 1 - 1.0 / 16);
+  EXPECT_DOUBLE_EQ(errors().max_z, -5);
+  field.continuum_ci99 = {2, 2};
+  EXPECT_DOUBLE_EQ(errors().explained_by_calibration, 1 - 4.0 / 16);
+  EXPECT_DOUBLE_EQ(errors().explained_by_both, 1 - std::pow(4 - std::sqrt(13.0), 2) / 16);
+  EXPECT_DOUBLE_EQ(errors().inside_band, 0.5);
+  field.continuum_ci99 = {4, 2};
+  EXPECT_DOUBLE_EQ(errors().explained_by_calibration, 1);
+  EXPECT_DOUBLE_EQ(errors().inside_both, 1);
+  field.continuum = field.particles;
+  EXPECT_TRUE(std::isnan(errors().explained_by_both)) << "nothing to explain";
+}
+
+TEST(ProfileErrors, OfAxesTakeTheNearestTurn) {
+  FieldOverlay field;
+  field.field = "axis_angle_deg";
+  field.x = {0};
+  field.z = {-5};
+  field.particles = {85};
+  field.continuum = {-88};
+  field.ci99 = field.continuum_ci99 = {nan};
+  field.noise = {0};
+  EXPECT_NEAR(errors_at(field, {0}).max, 7, 1e-12);
+}
+
+TEST(ProfileErrors, AxisAngleOfSimpleShearIsThatOfItsRatioOfStresses) {
+  const auto field = overlay("axis_angle_deg", example_profiles(), example_profiles());
+  // tan(2 angle) = (k - 1)/(2 mu), coupling/exchange/plane_invariants.hpp
+  const double expected = std::atan2(0.78 / 0.75 - 1, 2 * 0.27 / 0.75) / 2 * 180 / 3.14159265358979;
+  for (std::size_t i = 1; i + 1 < field.z.size(); ++i) EXPECT_NEAR(field.particles[i], expected, 1e-9);
+  EXPECT_GT(field.ci99[10], 0);
+  auto bare = example_profiles();
+  std::erase_if(bare.columns, [](const ProfileColumn& column) { return column.name == "half_vorticity"; });
+  EXPECT_FALSE(overlay("axis_angle_deg", example_profiles(), bare).present);
+}
+
 TEST(ProfileErrors, OfALinearProfileDoNotDependOnTheContinuumsLayers) {
   ProfileSet continuum = continuum_profiles();
   for (auto& column : continuum.columns) column.value.clear();

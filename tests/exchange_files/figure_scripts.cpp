@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "apps/support/figures.hpp"
+#include "apps/support/paper_data.hpp"
+#include "apps/support/report_page.hpp"
 #include "coupling/exchange/errors.hpp"
 #include "tests/exchange_files/folder.hpp"
 
@@ -33,6 +35,21 @@ TEST(FigureScript, GetsItsArgumentsAndABackendWithoutDisplay) {
   std::string text;
   std::getline(std::ifstream(folder / "out"), text);
   EXPECT_EQ(text, "Agg a b");
+}
+
+TEST(ReportCosts, DrawsWhatTheRepositoryRecordedAndThePageFindsIt) {
+  const TemporaryFolder folder;
+  draw_figures("report_costs.py", {cost_data_folder().string(), folder.path().string()});
+  int accuracy = 0, effects = 0;
+  for (const ReportFigure& figure : figures_in(folder.path())) {
+    EXPECT_EQ(figure.section, ReportSection::costs);
+    EXPECT_NE(figure.caption.find("data/cost/"), std::string::npos);
+    const std::string name = figure.png.filename().string();
+    accuracy += name.starts_with("cost_accuracy_");
+    effects += name.starts_with("cost_effects_");
+  }
+  EXPECT_GE(accuracy, 1);
+  EXPECT_GE(effects, 1);
 }
 
 }  // namespace

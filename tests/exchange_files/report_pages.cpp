@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "apps/support/comparison_json.hpp"
 #include "apps/support/report_page.hpp"
@@ -56,6 +58,58 @@ TEST(ReportPage, SaysTheSizeOfAMissAndHidesNoText) {
   EXPECT_NE(page.find("a &lt;drum&gt; &amp; its flow"), std::string::npos);
   EXPECT_EQ(page.find("<drum>"), std::string::npos);
   EXPECT_EQ(page.find("reduced:"), std::string::npos);
+}
+
+/// Every element that is opened is closed in its turn; the first that is not, else nothing.
+std::string unbalanced(const std::string& page) {
+  std::vector<std::string> open;
+  for (std::size_t at = page.find('<'); at != std::string::npos; at = page.find('<', at + 1)) {
+    const bool closes = page[at + 1] == '/';
+    const std::size_t from = at + (closes ? 2 : 1);
+    const std::string name = page.substr(from, page.find_first_of(" >", from) - from);
+    if (name == "!DOCTYPE" || name == "meta" || name == "img") continue;
+    if (!closes) {
+      open.push_back(name);
+    } else if (open.empty() || open.back() != name) {
+      return name + " after " + page.substr(at > 200 ? at - 200 : 0, 200);
+    } else {
+      open.pop_back();
+    }
+  }
+  return open.empty() ? std::string() : open.back();
+}
+
+TEST(ReportPage, IsSoundHtmlWhateverTheNamesAre) {
+  auto json = content(false);
+  json["particles"] = {{"kind", "particles"}, {"name", "<b>&"}, {"unsteady", {"a <reason>"}}};
+  json["continuum"] = {{"kind", "particles"}, {"name", "\"two\""}};
+  json["floor"] = {{"name", "<i>floor"}, {"kind", "particles"}};
+  json["costs"] = {{"a <cost>", 3.0}};
+  json["cost_ratio"] = {{"wall", 2.0}, {"processor", nullptr}};
+  json["targets"][0]["floor"] = 5.0;
+  const std::string page = report_page(json, {});
+  EXPECT_EQ(unbalanced(page), "");
+  for (const char* raw : {"<b>&", "<reason>", "<i>floor", "<cost>", "<neither>", "<remark>", "<drum>"})
+    EXPECT_EQ(page.find(raw), std::string::npos) << raw;
+  EXPECT_NE(page.find("&lt;neither&gt;"), std::string::npos);
+}
+
+TEST(ReportPage, TellsTheLargestMissItsMeaningAndTheNoiseFloor) {
+  auto json = content(false);
+  json["particles"] = {{"kind", "particles"}, {"name", "one"}};
+  json["continuum"] = {{"kind", "continuum"}, {"name", "two"}};
+  json["floor"] = {{"name", "seed2"}, {"kind", "particles"}};
+  json["targets"][0]["floor"] = 1.2;
+  json["costs"] = {{"particles run, processor", 250.0}, {"continuum solve, processor", 5.0}};
+  json["cost_ratio"] = {{"wall", nullptr}, {"processor", 50.0}};
+  const std::string page = report_page(json, {});
+  EXPECT_NE(
+      page.find("The largest miss: slope &theta; (deg), 1.5 where 1 (deg) is asked, 1.5 times the limit"),
+      std::string::npos);
+  EXPECT_NE(page.find("friction as a whole is off"), std::string::npos);
+  EXPECT_NE(page.find("(seed2), judged in the same way, misses slope &theta; (deg) (1.2)"),
+            std::string::npos);
+  EXPECT_NE(page.find("50 times the processor time"), std::string::npos);
 }
 
 TEST(ReportPage, OfAReducedRunSaysSo) {

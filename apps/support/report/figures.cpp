@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <cstdint>
+#include <set>
+#include <utility>
 
 #include "apps/support/html.hpp"
 #include "apps/support/report/sections.hpp"
@@ -55,6 +57,30 @@ const KnownFigure known[] = {
      "there. Differences that change sign along the row come from what the flow carries along."},
 };
 
+constexpr const char* accuracy_caption =
+    "What accuracy costs: errors against a finer reference over seconds, for other settings of the solver; "
+    "lower and further left is better, the scene's own setting is marked. Recorded on this repository's "
+    "drum, data/cost/";
+constexpr const char* effects_caption =
+    "Price list of the effects: what each one, alone, changes in results and in seconds. Recorded on this "
+    "repository's drum, data/cost/";
+
+/// Pictures of the records of costs, cost_accuracy_NAME.png and cost_effects_NAME.png, by name.
+void add_cost_figures(const std::filesystem::path& folder, std::vector<ReportFigure>& figures) {
+  std::set<std::filesystem::path> pictures;
+  if (std::filesystem::is_directory(folder))
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+      if (entry.path().extension() == ".png") pictures.insert(entry.path());
+  for (const auto& [prefix, caption] :
+       {std::pair("cost_accuracy_", accuracy_caption), std::pair("cost_effects_", effects_caption)})
+    for (const auto& png : pictures) {
+      const std::string stem = png.stem().string();
+      if (stem.starts_with(prefix))
+        figures.push_back(
+            {png, caption + stem.substr(std::string(prefix).size()) + ".json.", ReportSection::costs});
+    }
+}
+
 }  // namespace
 
 std::string base64(const std::string& bytes) {
@@ -80,6 +106,7 @@ std::vector<ReportFigure> figures_in(const std::filesystem::path& folder) {
     figures.push_back(
         {png, std::string(figure.caption) + (is_sheet ? how_to_read_maps : ""), figure.section});
   }
+  add_cost_figures(folder, figures);
   return figures;
 }
 

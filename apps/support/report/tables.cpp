@@ -33,35 +33,43 @@ std::string largest(const Json& errors) {
   return text;
 }
 
+/// The cells of one zone, from its name on.
+std::string error_cells(const std::string& zone, const Json& found, bool relative) {
+  const Json explained = found.value("explained", Json::object());
+  const Json floor = found.value(relative ? "floor_rel_l2" : "floor_rms", Json());
+  return fmt::format(
+      "<td "
+      "class=\"left\">{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
+      "<td>{}</td><td>{}</td>",
+      escaped(zone), relative ? percent_fine(found["rel_l2"]) : "&ndash;", shown(found["rms"]),
+      largest(found), relative ? percent_fine(floor) : shown(floor), percent(found["inside_band"]),
+      percent(found.value("inside_both_bands", Json())), percent(explained.value("calibration", Json())),
+      percent(explained.value("both", Json())),
+      fmt::format("{} / {} / {}", shown(found["layers"]), shown(found.value("undefined", Json())),
+                  shown(found.value("noise", Json()))));
+}
+
 std::string error_rows(const Json& errors) {
   std::string rows;
   for (const auto& [field, zones] : errors.items()) {
     if (!zones.is_object()) continue;
-    const bool relative = has_relative_error(field);
+    std::string first = fmt::format("<td rowspan=\"{}\">{}</td>", zones.size(), short_words_for(field));
     for (const auto& [zone, found] : zones.items()) {
-      const Json explained = found.value("explained", Json::object());
-      const Json floor = found.value(relative ? "floor_rel_l2" : "floor_rms", Json());
-      rows += fmt::format(
-          "<tr><td>{}</td><td class=\"left\">{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
-          "<td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-          words_for(field), escaped(zone), relative ? percent_fine(found["rel_l2"]) : "&ndash;",
-          shown(found["rms"]), largest(found), relative ? percent_fine(floor) : shown(floor),
-          percent(found["inside_band"]), percent(found.value("inside_both_bands", Json())),
-          percent(explained.value("calibration", Json())), percent(explained.value("both", Json())),
-          fmt::format("{} / {} / {}", shown(found["layers"]), shown(found.value("undefined", Json())),
-                      shown(found.value("noise", Json()))));
+      rows += "<tr>" + first + error_cells(zone, found, has_relative_error(field)) + "</tr>\n";
+      first.clear();
     }
   }
   return rows;
 }
 
 std::string error_table(const Json& errors) {
-  return "<table><tr><th>field</th><th class=\"left\">zone</th><th>relative L&sup2;</th><th>rms</th>"
-         "<th>largest, at (x, z)</th><th>noise floor</th><th>inside the 99 % band</th><th>inside both "
-         "bands</th>"
-         "<th>explained by the calibration</th><th>by both bands</th><th>places / undefined / "
-         "noise</th></tr>\n" +
-         error_rows(errors) + "</table>\n";
+  return "<div class=\"wide\"><table class=\"errors\"><tr><th>field</th><th "
+         "class=\"left\">zone</th><th>relative "
+         "L&sup2;</th><th>rms</th><th>largest, at (x, z)</th><th>noise floor</th><th>inside the 99 % "
+         "band</th>"
+         "<th>inside both bands</th><th>explained by the calibration</th><th>by both bands</th>"
+         "<th>places / undefined / noise</th></tr>\n" +
+         error_rows(errors) + "</table></div>\n";
 }
 
 std::string limits_of(const Json& zones) {

@@ -70,6 +70,18 @@ std::string words_for(const std::string& name) {
   return found == words().end() ? escaped(name) : found->second;
 }
 
+std::string short_words_for(const std::string& name) {
+  static const Words names{{"v_x", "v<sub>x</sub>"},
+                           {"v_z", "v<sub>z</sub>"},
+                           {"p", "p"},
+                           {"k", "k"},
+                           {"log10_I", "log<sub>10</sub> I"},
+                           {"log10_shear_rate", "log<sub>10</sub> shear rate"},
+                           {"axis_angle_deg", "axis angle (deg)"}};
+  const auto found = names.find(name);
+  return found == names.end() ? words_for(name) : found->second;
+}
+
 std::string meaning_of_a_miss(const std::string& quantity) {
   const auto found = meanings().find(quantity);
   return found == meanings().end() ? std::string() : found->second;

@@ -9,6 +9,7 @@ using Json = nlohmann::ordered_json;
 
 /// What a name of the files means to a reader; the escaped name itself where nothing better is known.
 std::string words_for(const std::string& name);
+std::string short_words_for(const std::string& name);  ///< for narrow columns
 
 /// Why a miss of this quantity matters, as a clause; empty for a quantity without one.
 std::string meaning_of_a_miss(const std::string& quantity);

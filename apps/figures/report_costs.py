@@ -1,0 +1,49 @@
+"""What accuracy and effects cost, for the report of `drumlin compare`: one picture per record of data/cost.
+
+usage: report_costs.py FOLDER_OF_RECORDS OUTPUT
+
+Writes OUTPUT/cost_accuracy_NAME.png or OUTPUT/cost_effects_NAME.png for every NAME.json whose format has a script that draws it; other
+files are records of something else and are passed over.
+"""
+
+import json
+import pathlib
+import runpy
+import shutil
+import sys
+import tempfile
+
+HERE = pathlib.Path(__file__).resolve().parent
+PICTURE, FOLDER = "PICTURE", "FOLDER"
+# format: kind of record, script, its words after the record
+DRAWN = {
+    "drumlin-cost-1": ("accuracy", "work_precision.py", [FOLDER]),
+    "drumlin-flow-costs-1": ("accuracy", "flow_cost_figures.py", [PICTURE]),
+    "drumlin-effect-prices-1": ("effects", "effect_price_figures.py", ["--output", PICTURE]),
+    "drumlin-flow-effect-prices-1": ("effects", "flow_price_figures.py", [PICTURE]),
+    "drumlin-effect-errors-1": ("effects", "flow_effect_figures.py", [PICTURE]),
+}
+
+
+def draw(record, picture, script, words):
+    """Runs the script as it is called by hand; one that draws into a folder leaves its first picture under its own name."""
+    with tempfile.TemporaryDirectory() as folder:
+        sys.argv = [str(HERE / script), str(record)] + [{PICTURE: str(picture), FOLDER: folder}.get(word, word) for word in words]
+        runpy.run_path(sys.argv[0], run_name="__main__")
+        drawn = pathlib.Path(folder) / (pathlib.Path(script).stem + ".png")
+        if drawn.exists():
+            shutil.move(drawn, picture)
+
+
+def main():
+    records, output = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
+    sys.path.insert(0, str(HERE))
+    for record in sorted(records.glob("*.json")):
+        known = DRAWN.get(json.loads(record.read_text(encoding="utf-8")).get("format"))
+        if known is not None:
+            kind, script, words = known
+            draw(record, output / f"cost_{kind}_{record.stem}.png", script, words)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,125 @@
+// drumlin compare on folders made here: what it refuses, and what it leaves.
+#include <gtest/gtest.h>
+
+#include "apps/commands.hpp"
+#include "coupling/exchange/errors.hpp"
+#include "coupling/files/field_map_file.hpp"
+#include "tests/comparison/example_maps.hpp"
+#include "tests/comparison/run_folders.hpp"
+
+namespace drumlin::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::column_of;
+using testing::continuum_profiles;
+using testing::example_flow;
+using testing::example_map;
+using testing::example_measured;
+using testing::example_profiles;
+using testing::flow_folder;
+using testing::Json;
+using testing::measured_folder;
+using testing::message_of;
+using testing::TemporaryFolder;
+
+CompareOptions options_for(const TemporaryFolder& folder, const fs::path& run, const fs::path& flow) {
+  CompareOptions options;
+  options.run = run;
+  options.flow_run = flow;
+  options.output = folder / "report";
+  return options;
+}
+
+/// The command refuses with all these words and writes nothing.
+void expect_refused(const TemporaryFolder& folder, const CompareOptions& options,
+                    const std::vector<std::string>& words) {
+  const std::string said = message_of<InputError>([&] { compare(options); });
+  for (const std::string& word : words)
+    EXPECT_NE(said.find(word), std::string::npos) << word << " in " << said;
+  EXPECT_FALSE(fs::exists(folder / "report")) << said;
+}
+
+TEST(CompareCommand, RefusesEitherSideThatIsWrongAndWritesNothing) {
+  const TemporaryFolder folder;
+  const fs::path run = measured_folder(folder, "run"), flow = flow_folder(folder, "flow");
+  Json unsteady = example_measured();
+  unsteady["steadiness"] = {{"steady", false}, {"reasons", {"half a turn only"}}};
+  expect_refused(folder,
+                 options_for(folder, measured_folder(folder, "a", example_profiles(), unsteady), flow),
+                 {"half a turn only", "--accept-unsteady"});
+  expect_refused(folder, options_for(folder, run, measured_folder(folder, "b", continuum_profiles())),
+                 {"side", "particles"});
+  expect_refused(folder, options_for(folder, run, flow_folder(folder, "c", example_profiles())),
+                 {"side", "continuum"});
+  expect_refused(folder, options_for(folder, run, folder / "nowhere"), {"no such folder"});
+  CompareOptions floor = options_for(folder, run, flow);
+  floor.floor = folder / "nowhere";
+  expect_refused(folder, floor, {"no such folder"});
+}
+
+TEST(CompareCommand, RefusesMixedUnitsDrumsAndSizes) {
+  const TemporaryFolder folder;
+  const fs::path run = measured_folder(folder, "run");
+  Json flow = example_flow();
+  flow["settings"]["scales"]["density_kg_m3"] = 2500.0;
+  expect_refused(folder, options_for(folder, run, flow_folder(folder, "units", continuum_profiles(), flow)),
+                 {"scales.density_kg_m3", "2700", "2500"});
+  ProfileSet faster = continuum_profiles();
+  faster.header["rotation"] = "0.05";
+  flow = example_flow();
+  flow["settings"]["rotation"] = 0.05;
+  expect_refused(folder, options_for(folder, run, flow_folder(folder, "faster", faster, flow)), {"rotation"});
+  ProfileSet reduced = continuum_profiles();
+  reduced.header["reduced"] = "true";
+  flow = example_flow();
+  flow["reduced"] = true;
+  expect_refused(folder, options_for(folder, run, flow_folder(folder, "reduced", reduced, flow)),
+                 {"reduced"});
+}
+
+TEST(CompareCommand, RefusesMapsOfAnotherFrame) {
+  const TemporaryFolder folder;
+  const fs::path run = measured_folder(folder, "run"), flow = flow_folder(folder, "flow");
+  FieldMap map = example_map("continuum");
+  map.header["axis_depth"] = "2";
+  write_field_map(flow / "maps.h5", map);
+  expect_refused(folder, options_for(folder, run, flow), {"maps.h5", "axis_depth"});
+}
+
+TEST(CompareCommand, LeavesAReportWithBandsAndFloorAndWhatIsMissingIsNull) {
+  const TemporaryFolder folder;
+  Json reduced = example_measured();  // spares the figures of costs
+  reduced["reduced"] = true;
+  ProfileSet particles = example_profiles(), continuum = continuum_profiles(), other = example_profiles();
+  for (ProfileSet* set : {&particles, &continuum, &other}) set->header["reduced"] = "true";
+  for (double& value : column_of(continuum, "v_x").value) value *= 1.1;
+  for (double& value : column_of(other, "v_x").value) value *= 1.02;
+  auto& speed = column_of(continuum, "v_x");
+  for (const double value : speed.value) speed.ci99.push_back(0.2 * value);
+  Json flow = example_flow();
+  flow["reduced"] = true;
+  flow["law_band"] = {{"replicates", 50}, {"scalars", {{"H", 0.7}}}};
+  CompareOptions options = options_for(folder, measured_folder(folder, "run", particles, reduced),
+                                       flow_folder(folder, "flow", continuum, flow));
+  options.floor = measured_folder(folder, "seed2", other, reduced);
+  EXPECT_EQ(compare(options), 0);
+  const Json report = Json::parse(file_text(folder / "report/comparison.json"));
+  const Json& errors = report["errors"]["v_x"]["flowing"];
+  EXPECT_NEAR(errors["rel_l2"].get<double>(), 0.1, 1e-9);
+  EXPECT_NEAR(errors["floor_rel_l2"].get<double>(), 0.02, 1e-9);
+  EXPECT_EQ(errors["explained"]["calibration"], 1.0);
+  EXPECT_EQ(errors["inside_both_bands"], 1.0);
+  EXPECT_EQ(errors["inside_band"], 0.0);
+  EXPECT_EQ(report["scalars"]["H"]["continuum"]["ci99"], 0.7);
+  EXPECT_TRUE(report["slices"].is_null() && report["slices_missing"].is_string());
+  EXPECT_TRUE(report["maps"].is_null() && report["maps_missing"].is_string());
+  EXPECT_EQ(report["floor"]["name"], "seed2");
+  EXPECT_EQ(report["cost_ratio"]["processor"], 50.0);
+  EXPECT_TRUE(fs::exists(folder / "report/overlay.csv") &&
+              !fs::exists(folder / "report/comparison.json.part"));
+  EXPECT_NE(file_text(folder / "report/index.html").find("data:image/png;base64,"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace drumlin::apps
