@@ -253,8 +253,7 @@ class CommandLine {
 
   void add_compare() {
     CLI::App& command = add_command("compare", "Sets a run and a continuum flow side by side", compare_);
-    command
-        .add_option("run", compare_.run, "Folder of a measured run (or of a flow): what is compared with")
+    command.add_option("run", compare_.run, "Folder of a measured run (or of a flow): what is compared with")
         ->type_name("RUN");
     command
         .add_option("flow_run", compare_.flow_run,
@@ -265,7 +264,7 @@ class CommandLine {
     command
         .add_option("--floor", compare_.floor,
                     "Another run of the same drum, from other random numbers: its errors against RUN are the "
-                    "best that any continuum could reach")
+                    "noise floor that stands beside every error")
         ->type_name("RUN2");
     command
         .add_option("--register", compare_.registration,

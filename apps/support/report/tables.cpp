@@ -120,8 +120,12 @@ std::string targets_table(const Json& comparison) {
          "<th>reached / limit</th><th>outcome</th><th>noise floor</th><th class=\"left\">remark</th></tr>\n" +
          rows +
          "</table>\n<p class=\"note\">All at the centre of the drum, below 3 d of depth. &ldquo;noise "
-         "floor&rdquo; is what another run of the same particles reaches, where one was given: nobody can be "
-         "asked for less.</p>\n";
+         "floor&rdquo;, "
+         "where another run of the same particles was given: how far that run is off. Both of its sides are "
+         "noisy; "
+         "a continuum that knew the mean of many runs exactly would reach about 0.7 of it, and less than "
+         "that is "
+         "luck.</p>\n";
 }
 
 std::string scalars_table(const Json& comparison) {

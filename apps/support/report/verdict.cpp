@@ -81,7 +81,7 @@ std::string floor_sentence(const Json& comparison) {
       "<p>The noise floor: another run of the particles ({}), judged in the same way, {}.</p>\n",
       escaped(floor.value("name", std::string())),
       missed.empty() ? std::string("meets every target")
-                     : "misses " + missed + ": no continuum can be asked for more");
+                     : "misses " + missed + ": that much is noise of the particles themselves");
 }
 
 std::string cost_sentence(const Json& comparison) {
