@@ -14,6 +14,7 @@
 #include "apps/support/study_run_folder.hpp"
 #include "coupling/exchange/errors.hpp"
 #include "coupling/exchange/text_file.hpp"
+#include "coupling/files/field_map_file.hpp"
 
 namespace drumlin::apps {
 
@@ -31,10 +32,14 @@ struct Sides {
 Sides read_sides(const std::vector<fs::path>& folders) {
   Sides sides;
   for (const fs::path& folder : folders) {
-    if (fs::is_directory(folder) && is_flow_run(folder))
-      sides.flows.push_back(read_study_flow(folder));
-    else
+    if (!fs::is_directory(folder) || !is_flow_run(folder)) {
       sides.particles.push_back(read_study_run(folder));
+      continue;
+    }
+    sides.flows.push_back(read_study_flow(folder));
+    // For the axes of the strain rate at the centre.
+    if (fs::exists(folder / "maps.h5"))
+      sides.flows.back().side.fields.maps = read_field_map(folder / "maps.h5");
   }
   return sides;
 }

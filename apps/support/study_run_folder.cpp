@@ -102,7 +102,7 @@ StudyFlow read_study_flow(const fs::path& folder) {
   StudyFlow run;
   run.name = read.name;
   run.rotation_rpm = rotation_rpm_of(read.profiles, read.scales);
-  run.side = {std::move(read.profiles), std::move(read.scalars)};
+  run.side = {std::move(read.profiles), std::move(read.scalars), {}};
   if (flow.value("cpu_seconds", Json()).is_number()) run.cpu_seconds = flow["cpu_seconds"].get<double>();
   run.start = text_of(flow.value("start", Json("not said")));
   for (const Json& fitted : law.value("fitted_on", Json::array())) run.fitted_on.push_back(text_of(fitted));

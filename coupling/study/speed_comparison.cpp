@@ -1,7 +1,6 @@
 #include "coupling/study/speed_comparison.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -15,15 +14,6 @@ namespace drumlin {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-double header_number(const ProfileSet& profiles, const std::string& key) {
-  const auto found = profiles.header.find(key);
-  double value = nan;
-  if (found == profiles.header.end()) return nan;
-  const char* end = found->second.data() + found->second.size();
-  const auto [stop, error] = std::from_chars(found->second.data(), end, value);
-  return error == std::errc() && stop == end ? value : nan;
-}
 
 bool same_speed(double a, double b) { return std::abs(a - b) <= 0.005 * std::abs(a); }
 
@@ -62,7 +52,8 @@ void require_one_drum(const std::vector<StudyRun>& particles, const std::vector<
   constexpr double tolerance = 1e-3;  // as in require_same_drum: the discs drawn against their mean
   for (const StudyFlow& flow : flows) {
     for (const char* key : {"drum_radius", "diameter_m"}) {
-      const double ours = header_number(run.profiles, key), theirs = header_number(flow.side.profiles, key);
+      const double ours = header_number(run.profiles.header, key),
+                   theirs = header_number(flow.side.profiles.header, key);
       if (!(std::abs(ours - theirs) <= tolerance * std::abs(ours)))
         problems.push_back({flow.name, 0, 0, key,
                             text_of(flow.side.profiles.header, key) + ", but " +
@@ -94,7 +85,8 @@ std::vector<FieldComparison> mean_errors(const std::vector<Comparison>& comparis
     for (std::size_t z = 0; z < field.zones.size(); ++z) {
       FieldErrors& errors = mean.back().zones[z].errors;
       for (double FieldErrors::*measure :
-           {&FieldErrors::rel_l2, &FieldErrors::rms, &FieldErrors::max, &FieldErrors::inside_band}) {
+           {&FieldErrors::rel_l2, &FieldErrors::rms, &FieldErrors::max, &FieldErrors::inside_band,
+            &FieldErrors::interval_rms, &FieldErrors::particles_rms}) {
         std::vector<double> values;
         for (const Comparison& one : comparisons)
           values.push_back(one.fields[mean.size() - 1].zones[z].errors.*measure);
@@ -117,20 +109,6 @@ double continuum_value(const std::vector<Comparison>& comparisons, const std::st
   return mean_of(values);
 }
 
-/// The continuum counted from the particles' surface: both see the same place of the drum at the same z. What
-/// it reads off its own surface is left out, so that it is read anew.
-ComparedSide registered_by_axis(ComparedSide continuum, const ProfileSet& particles) {
-  const double shift =
-      header_number(particles, "axis_depth") - header_number(continuum.profiles, "axis_depth");
-  for (double& z : continuum.profiles.z) z += shift;
-  continuum.profiles.header["axis_depth"] = text_of(particles.header, "axis_depth");
-  std::erase_if(continuum.scalars.scalars, [](const Scalar& scalar) {
-    return scalar.name == "H" || scalar.name == "lambda" || scalar.name == "shear_rate" ||
-           scalar.name == "I_th";
-  });
-  return continuum;
-}
-
 /// What the paper says of a quantity at a speed; NaN where it says nothing.
 Scalar said_by_paper(const std::vector<PaperNumber>& numbers, const std::string& name) {
   for (const PaperNumber& number : numbers)
@@ -150,8 +128,7 @@ ComparedSpeed compared_at(double rotation_rpm, const std::vector<StudyRun>& part
     speed.particles.push_back(particles[r].name);
     seconds.push_back(particles[r].cpu_seconds);
     if (flow != nullptr)
-      comparisons.push_back(compare({particles[r].profiles, particles[r].scalars},
-                                    registered_by_axis(flow->side, particles[r].profiles)));
+      comparisons.push_back(compare({particles[r].profiles, particles[r].scalars}, flow->side));
   }
   speed.particle_seconds = mean_of(seconds);
   speed.continuum_seconds = flow == nullptr ? nan : flow->cpu_seconds;

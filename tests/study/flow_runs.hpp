@@ -17,8 +17,9 @@ inline StudyFlow flow_run(double rpm, const DrumLaws& laws = {}, double lower = 
   flow.side.profiles.header["axis_depth"] = std::to_string(4 - lower);
   flow.side.profiles.header["side"] = "continuum";
   for (ProfileColumn& column : flow.side.profiles.columns) column.ci99.clear();
-  for (const Scalar& scalar : run.scalars.scalars)
-    flow.side.scalars.scalars.push_back({scalar.name, scalar.value, std::nullopt});
+  // The rest is read off its profile, which ends in a tail: the line through it reaches 3 d below H.
+  for (const char* name : {"theta_deg", "Q"})
+    flow.side.scalars.scalars.push_back({name, run.scalars.value(name), std::nullopt});
   flow.cpu_seconds = 5;
   flow.start = "cold";
   flow.identity = {{"law", "mu = 0.35 + 0.013 ln I"}, {"effects", "nothing"}};
