@@ -74,9 +74,17 @@ int export_run(const ExportOptions&);
 
 struct CalibrateOptions {
   std::vector<std::filesystem::path> runs;
+  std::vector<std::filesystem::path> validate;  ///< runs that the law is not fitted on but has to predict
   std::filesystem::path output;
-  double I_min = 1e-4;
-  double I_max = 1e-1;
+  std::string from = "auto";    ///< maps, profiles; auto: maps where all runs have them
+  std::string law = "auto";     ///< log, log-linear, table; auto: table where there are points enough
+  std::optional<double> I_min;  ///< absent: 1e-4 of profiles, 3e-5 of maps
+  std::optional<double> I_max;  ///< absent: 1e-1 of profiles, 1 of maps
+  int draws = 200;
+  bool k = false;
+  bool misalignment = false;
+  bool relaxation = false;
+  bool accept_unsteady = false;
   ExistingOutput existing = ExistingOutput::refuse;
 };
 int calibrate(const CalibrateOptions&);
@@ -87,6 +95,7 @@ struct FlowOptions {
   std::filesystem::path output;
   std::optional<std::filesystem::path> from;  ///< FLOWRUN to start from; absent: cold
   std::vector<std::string> overrides;
+  int law_draws = 8;  ///< laws of other draws that are solved as well, for the band of the law
   ExistingOutput existing = ExistingOutput::refuse;
 };
 /// Starts `drumlin-flow`, which stands beside the running executable, with the same words; returns its exit

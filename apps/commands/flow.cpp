@@ -28,6 +28,7 @@ std::vector<std::string> words_of(const FlowOptions& options) {
                                     options.output.string()};
   if (options.from) words.insert(words.end(), {"--from", options.from->string()});
   for (const std::string& change : options.overrides) words.insert(words.end(), {"--set", change});
+  words.insert(words.end(), {"--law-draws", std::to_string(options.law_draws)});
   if (options.existing == ExistingOutput::resume) words.push_back("--resume");
   if (options.existing == ExistingOutput::overwrite) words.push_back("--overwrite");
   return words;

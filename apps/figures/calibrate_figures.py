@@ -1,76 +1,95 @@
-"""Figure of `drumlin calibrate`: the layers of all runs over I, the fitted law and its 99 % band."""
+"""Figure of `drumlin calibrate`: the points of all runs over I, the law with its 99 % band, what is left, and the axes."""
 
 import argparse
-import math
+import json
 
 import matplotlib.pyplot as plt
+import numpy as np
 
 import style
-
-QUANTILE_99 = 2.576
 
 
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("profiles", nargs="+", help="profiles.csv of each run")
+    parser.add_argument("record", help="the .json of the calibration")
     parser.add_argument("--output", required=True, help="the figure")
-    for name in ("a", "b", "var-a", "cov-ab", "var-b", "I-min", "I-max", "rms", "surface-margin", "wall-margin"):
-        parser.add_argument("--" + name, type=float, required=True)
-    parser.add_argument("--reduced", action="store_true")
     return parser.parse_args()
 
 
-def layers_of(path, options):
-    """Layers with a positive I and a known mu: those of the fit, and all others."""
-    header, columns = style.read_profiles(path)
-    wall = float(header.get("wall_z", columns["z"][0]))
-    fitted, others = [], []
-    for i, z in enumerate(columns["z"]):
-        inertial, friction = columns["I"][i], columns["mu"][i]
-        if not (inertial > 0 and math.isfinite(friction)):
-            continue
-        inside = wall + options.wall_margin <= z <= -options.surface_margin
-        in_range = options.I_min * (1 - 1e-9) <= inertial <= options.I_max * (1 + 1e-9)
-        error = columns["mu_ci99"][i] if "mu_ci99" in columns else math.nan
-        (fitted if inside and in_range else others).append((inertial, friction, 0 if math.isnan(error) else error))
-    return header, fitted, others
+def colors_of(record):
+    """One colour per speed."""
+    speeds = sorted({round(run["rotation_rpm"], 2) for run in record["points"]})
+    cycle = [style.PARTICLES, style.CONTINUUM] + style.OTHERS
+    return {speed: cycle[i % len(cycle)] for i, speed in enumerate(speeds)}
 
 
-def draw_law(axes, options):
-    """The law over its range, with the band of its covariance."""
-    steps = 100
-    log_range = math.log(options.I_max / options.I_min)
-    inertial = [options.I_min * math.exp(log_range * i / steps) for i in range(steps + 1)]
-    law = [options.a + options.b * math.log(x) for x in inertial]
-    half = [QUANTILE_99 * math.sqrt(max(0, options.var_a + 2 * math.log(x) * options.cov_ab
-                                        + math.log(x) ** 2 * options.var_b)) for x in inertial]
-    axes.plot(inertial, law, color=style.PAPER,
-              label=rf"$\mu = {options.a:.3f} {options.b:+.4f}\,\ln I$,  rms {options.rms:.3f}")
-    axes.fill_between(inertial, [y - h for y, h in zip(law, half)], [y + h for y, h in zip(law, half)],
-                      color="0.5", alpha=0.4, linewidth=0, label="99 % of the fit")
+def draw_points(axes, record, quantity, colors, law=None):
+    labelled = set()
+    for run in record["points"]:
+        values = np.array([np.nan if v is None else v for v in run[quantity]])
+        inertial = np.array(run["I"])
+        if law is not None:
+            values = values - np.interp(np.log(inertial), np.log(law["I"]), law["value"])
+        speed = round(run["rotation_rpm"], 2)
+        label = None if (speed, run["held_out"]) in labelled else f"{speed:g} rpm" + (", held out" if run["held_out"] else "")
+        labelled.add((speed, run["held_out"]))
+        axes.plot(inertial, values, "o" if not run["held_out"] else "x", color=colors[speed], alpha=0.35,
+                  markersize=3, linestyle="none", label=label)
 
 
 def main():
     options = arguments()
+    with open(options.record, encoding="utf-8") as stream:
+        record = json.load(stream)
     style.use_style()
-    figure, axes = plt.subplots()
-    colors = [style.PARTICLES, style.CONTINUUM] + style.OTHERS
-    for i, path in enumerate(options.profiles):
-        header, fitted, others = layers_of(path, options)
-        color = colors[i % len(colors)]
-        label = rf"run {i + 1}, $\theta$ = {float(header['theta_deg']):.1f}°"
-        if fitted:
-            axes.errorbar(*zip(*fitted), fmt="o", color=color, elinewidth=1, label=label)
-        if others:
-            axes.plot([p[0] for p in others], [p[1] for p in others], "o", color=color, fillstyle="none", alpha=0.6)
-    draw_law(axes, options)
-    axes.set_xscale("log")
-    axes.set_xlim(left=options.I_min / 30)
-    axes.set_xlabel(style.LABELS["I"])
-    axes.set_ylabel(style.LABELS["mu"])
-    axes.set_title(style.title_of("Friction law; open: layers left out", options.reduced))
-    axes.legend(loc="upper left")
-    style.save(figure, options.output, options.reduced)
+    with_axes = record["turn"] is not None and "axis_angle_deg" in record["points"][0]
+    figure, panels = plt.subplots(1, 3 if with_axes else 2, figsize=(17 if with_axes else 12, 4.8))
+    colors = colors_of(record)
+    chosen = next(form for form in record["forms"] if form["chosen"])
+    curve = chosen["curve"]
+
+    axes = panels[0]
+    draw_points(axes, record, "mu", colors)
+    for form in record["forms"]:
+        if not form["chosen"]:
+            axes.plot(form["curve"]["I"], form["curve"]["value"], "--", color="0.45", linewidth=1.2,
+                      label=f"{form['form']}: rms {form['rms_misfit']:.4f}")
+    axes.fill_between(curve["I"], curve["low"], curve["high"], color="0.3", alpha=0.35, linewidth=0)
+    axes.plot(curve["I"], curve["value"], color=style.PAPER,
+              label=f"{chosen['form']}: rms {chosen['rms_misfit']:.4f}, 99 % band")
+    axes.set_ylim(bottom=0)
+    axes.set_ylabel(r"$\mu$ along the strain rate" if record["source"] == "maps" else style.LABELS["mu"])
+    axes.set_title(style.title_of("Friction law", record["reduced"]))
+    axes.legend(loc="lower right", fontsize=9)
+
+    axes = panels[1]
+    draw_points(axes, record, "mu", colors, curve)
+    value = np.array(curve["value"])
+    axes.fill_between(curve["I"], np.array(curve["low"]) - value, np.array(curve["high"]) - value, color="0.3",
+                      alpha=0.35, linewidth=0, label="99 % band of the law")
+    axes.axhline(0, color=style.PAPER, linewidth=1)
+    axes.set_ylim(-0.1, 0.1)
+    axes.set_ylabel(r"$\mu$ less the law")
+    axes.set_title("What the law leaves")
+    axes.legend(loc="lower right", fontsize=9)
+
+    if with_axes:
+        axes = panels[2]
+        draw_points(axes, record, "axis_angle_deg", colors)
+        axes.plot(record["turn"]["knots"], record["turn"]["axis_angle_deg"], color=style.PAPER, label="fit")
+        axes.axhline(0, color="0.5", linewidth=1)
+        axes.set_ylim(-50, 30)
+        axes.set_ylabel("axis of the stress less that of the strain rate [°]")
+        axes.set_title("Misalignment")
+        axes.legend(loc="lower right", fontsize=9)
+
+    for axes in panels:
+        axes.set_xscale("log")
+        axes.set_xlabel(r"$I = 2|D|/\sqrt{p}$" if record["source"] == "maps" else style.LABELS["I"])
+        for low, high in record["ill_posed_I"]:
+            axes.axvspan(low, high, color="#D55E00", alpha=0.08, linewidth=0)
+        axes.set_xlim(0.5 * curve["I"][0], 2 * curve["I"][-1])
+    style.save(figure, options.output, record["reduced"])
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@
 
 #include "apps/flow/flow_sensitivity.hpp"
 #include "apps/flow/flow_state_file.hpp"
+#include "apps/flow/law_band.hpp"
 #include "apps/support/figures.hpp"
 #include "apps/support/json_file.hpp"
 #include "continuum/rheology/ill_posed_ranges.hpp"
@@ -33,6 +34,7 @@ ProfileSet profiles_with_header(const FinishedFlow& flow) {
                      {"revision", provenance().revision}};
   for (const auto& [key, value] : flow.flow_case.profile_header(flow.solution.field))
     profiles.header[key] = value;
+  add_band(flow.law_band, profiles);
   return profiles;
 }
 
@@ -41,6 +43,7 @@ FieldMap maps_with_header(const FinishedFlow& flow, const ProfileSet& profiles) 
                            flow.scene.output.map_spacing);
   maps.scales = scales_of(flow.scene);
   maps.header.insert(profiles.header.begin(), profiles.header.end());
+  add_band(flow.law_band, maps);
   // What belongs to the slice of the profiles alone.
   for (const char* key : {"position", "slice_width", "layer_thickness", "wall_z"}) maps.header.erase(key);
   return maps;
@@ -229,6 +232,18 @@ Json sensitivity_json(const FinishedFlow& flow) {
   return list;
 }
 
+Json law_band_json(const FinishedFlow& flow) {
+  const LawBand& band = flow.law_band;
+  if (band.draws == 0) return nullptr;
+  Json content{{"draws", band.draws},
+               {"found", band.found},
+               {"iterations", band.iterations},
+               {"seconds", band.seconds}};
+  content["profile"] = to_json(Scalar{"profile", band.profile, {}});
+  content["scalars"] = scalars_json(band.scalars);
+  return content;
+}
+
 Json flow_json(const FinishedFlow& flow) {
   const MeshResult& result = flow.meshes.back();
   const FlowReport& report = flow.solution.report;
@@ -262,6 +277,7 @@ Json flow_json(const FinishedFlow& flow) {
   content["mesh_change_missing"] = mesh_change_missing(flow);
   content["mesh_limit"] = mesh_limit_json(flow.meshes);
   content["sensitivity"] = sensitivity_json(flow);
+  content["law_band"] = law_band_json(flow);
   content["settings"] = settings_json(flow);
   content["provenance"] = to_json(provenance());
   return content;

@@ -30,6 +30,7 @@ struct ScalarLimit {
 std::vector<ScalarLimit> limits_of(const std::vector<MeshResult>& meshes);
 
 struct Sensitivity;
+struct LawBand;
 
 /// What is read off the last field, once.
 struct FlowFindings {
@@ -59,6 +60,7 @@ struct FinishedFlow {
   bool reduced = false;
   int ranks = 1;
   const std::vector<Sensitivity>& sensitivities;  ///< empty: not asked for
+  const LawBand& law_band;                        ///< without draws: not asked for
   const FlowFindings& findings;
   std::optional<PlainFlow> plain = {};  ///< absent where the law holds nothing
   double cpu_seconds = 0;               ///< of the solve, on this rank

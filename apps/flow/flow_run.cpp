@@ -13,6 +13,7 @@
 #include "apps/flow/flow_sensitivity.hpp"
 #include "apps/flow/flow_state_file.hpp"
 #include "apps/flow/flow_text.hpp"
+#include "apps/flow/law_band.hpp"
 #include "apps/support/interruption.hpp"
 #include "apps/support/output_folder.hpp"
 #include "continuum/rheology/ill_posed_ranges.hpp"
@@ -216,9 +217,13 @@ int solve_flow_scene(const FlowOptions& options, const FemRuntime& runtime) {
   std::vector<Sensitivity> sensitivities;
   if (scene.solver.sensitivity && !plan)
     sensitivities = sensitivities_of(chosen, solution, meshes, solver_options(scene));
+  LawBand law_band;
+  if (options.law_draws > 0 && !fit.draws.empty() && !plan)
+    law_band = law_band_of(chosen, solution, fit, options.law_draws, scene.output.map_spacing,
+                           solver_options(scene));
   const FlowFindings findings = findings_of(chosen, solution.field);
-  const FinishedFlow flow{scene,           fit,           chosen,   solution, meshes,     reduced,
-                          runtime.ranks(), sensitivities, findings, plain,    cpu_seconds};
+  const FinishedFlow flow{scene,           fit,           chosen,   solution, meshes, reduced,
+                          runtime.ranks(), sensitivities, law_band, findings, plain,  cpu_seconds};
   write_flow(options.output, flow);
   if (plan) runtime.on_first_rank([&] { fs::remove(options.output / "checkpoint.h5"); });
   if (speaks) fmt::print("{}", finished_text(options.output, flow));

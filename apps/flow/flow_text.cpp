@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "apps/flow/flow_sensitivity.hpp"
+#include "apps/flow/law_band.hpp"
 
 namespace drumlin::apps {
 namespace {
@@ -86,8 +87,8 @@ std::string summary_text(const fs::path& folder, const FinishedFlow& flow) {
 }  // namespace
 
 std::string finished_text(const fs::path& folder, const FinishedFlow& flow) {
-  return checks_text(flow) + plain_text(flow) + sensitivity_text(flow) + limits_text(flow) +
-         summary_text(folder, flow);
+  return checks_text(flow) + plain_text(flow) + sensitivity_text(flow) + law_band_text(flow) +
+         limits_text(flow) + summary_text(folder, flow);
 }
 
 }  // namespace drumlin::apps

@@ -14,6 +14,19 @@ namespace drumlin::apps {
 
 namespace {
 
+/// A number within its range, as text of the command line.
+template <class T>
+CLI::Validator within(const Allowed& allowed) {
+  const std::string range = allowed_text("number", allowed);
+  return CLI::Validator(
+      [allowed, range](std::string& text) {
+        T number{};
+        const bool read = CLI::detail::lexical_cast(text, number);
+        return read && allowed.holds(static_cast<double>(number)) ? std::string() : text + " is not " + range;
+      },
+      "");
+}
+
 /// A number with its unit and range in the help, and held to that range.
 template <class T>
 void add_number(CLI::App& command, const std::string& name, T& target, const std::string& unit,
@@ -22,14 +35,17 @@ void add_number(CLI::App& command, const std::string& name, T& target, const std
   command
       .add_option(name, target, fmt::format("{} [{}{}]", sentence, unit.empty() ? "" : unit + ", ", range))
       ->capture_default_str()
-      ->check(CLI::Validator(
-          [allowed, range](std::string& text) {
-            T number{};
-            const bool read = CLI::detail::lexical_cast(text, number);
-            return read && allowed.holds(static_cast<double>(number)) ? std::string()
-                                                                      : text + " is not " + range;
-          },
-          ""));
+      ->check(within<T>(allowed));
+}
+
+/// A number that may be left out.
+void add_optional_number(CLI::App& command, const std::string& name, std::optional<double>& target,
+                         const Allowed& allowed, const std::string& sentence) {
+  command
+      .add_option_function<double>(
+          name, [&target](const double& number) { target = number; },
+          fmt::format("{} [{}]", sentence, allowed_text("number", allowed)))
+      ->check(within<double>(allowed));
 }
 
 void add_folder_or_file(CLI::App& command, const std::string& name, std::filesystem::path& target,
@@ -230,11 +246,35 @@ class CommandLine {
   }
 
   void add_calibrate() {
-    CLI::App& command = add_command("calibrate", "Fits mu(I) = a + b ln I to measured profiles", calibrate_);
+    CLI::App& command =
+        add_command("calibrate", "Fits mu(I), and k(I) on request, to measured runs", calibrate_);
     command.add_option("runs", calibrate_.runs, "Folders of measured runs")->required()->type_name("RUN");
     add_folder_or_file(command, "-o,--output", calibrate_.output, "RHEOLOGY.toml", "File for the law");
-    add_number(command, "--I-min", calibrate_.I_min, "", above(0), "Least inertial number that is fitted");
-    add_number(command, "--I-max", calibrate_.I_max, "", above(0), "Greatest one");
+    command
+        .add_option("--validate", calibrate_.validate,
+                    "Runs that the law is not fitted on: how well it predicts them")
+        ->type_name("RUN");
+    command
+        .add_option("--from", calibrate_.from,
+                    "The tensors of maps.h5 (stress along the strain rate), or the ratio of profiles.csv at "
+                    "the centre")
+        ->check(CLI::IsMember({"auto", "maps", "profiles"}))
+        ->capture_default_str();
+    command.add_option("--law", calibrate_.law, "Form of mu(I): a + b ln I, a + b ln I + c I, points")
+        ->check(CLI::IsMember({"auto", "log", "log-linear", "table"}))
+        ->capture_default_str();
+    command.add_flag("--k", calibrate_.k, "Ratio of the normal stresses k(I) as a part of the law");
+    command.add_flag("--misalignment", calibrate_.misalignment,
+                     "Angle between the axes of stress and strain rate over I (from maps)");
+    command.add_flag("--relaxation", calibrate_.relaxation,
+                     "Share of its fabric that the material renews per unit of shear (from maps)");
+    add_optional_number(command, "--I-min", calibrate_.I_min, above(0),
+                        "Least inertial number that is fitted");
+    add_optional_number(command, "--I-max", calibrate_.I_max, above(0), "Greatest one");
+    add_number(command, "--draws", calibrate_.draws, "", at_least(16, 10000),
+               "Draws of the points for the 99 % band");
+    command.add_flag("--accept-unsteady", calibrate_.accept_unsteady,
+                     "Takes runs that their measurement does not call steady, and says so");
     add_existing(command, calibrate_.existing, keep_what_is_done);
   }
 
@@ -247,6 +287,9 @@ class CommandLine {
     add_folder_or_file(command, "-o,--output", flow_.output, "FLOWRUN", "Folder for the results");
     add_optional_path(command, "--from", flow_.from, "FLOWRUN",
                       "Finished flow to start from: same geometry and mesh, other speed or law");
+    add_number(command, "--law-draws", flow_.law_draws, "", at_least(0, 16),
+               "Solves again with so many of the laws that other draws of the law's points gave: the part of "
+               "the result that the law leaves open; 3 at least for a band, 0: none");
     add_overrides(command, flow_.overrides);
     add_existing(command, flow_.existing, keep_what_is_done);
   }

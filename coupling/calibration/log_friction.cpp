@@ -111,9 +111,10 @@ void check(const std::vector<FrictionPoint>& points) {
 
 }  // namespace
 
-std::vector<FrictionPoint> friction_points(const ProfileSet& profiles, const LayerSelection& selection) {
+std::vector<FrictionPoint> friction_points(const ProfileSet& profiles, const LayerSelection& selection,
+                                           const std::string& of) {
   const ProfileColumn& inertial = profiles.column("I");
-  const ProfileColumn& friction = profiles.column("mu");
+  const ProfileColumn& friction = profiles.column(of);
   const auto wall = profiles.header.find("wall_z");
   const double wall_z = wall != profiles.header.end() ? std::stod(wall->second)
                         : profiles.z.empty()          ? 0

@@ -1,6 +1,7 @@
 #pragma once
 // mu(I) = a + b ln I fitted to the layers of particle profiles.
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "coupling/exchange/profile_set.hpp"
@@ -25,8 +26,9 @@ struct LayerSelection {
 };
 
 /// Layers of a particle profile within the selection. The wall is where the header's "wall_z" says, else at
-/// the lowest layer. Needs the columns I and mu.
-std::vector<FrictionPoint> friction_points(const ProfileSet& profiles, const LayerSelection& selection);
+/// the lowest layer. Needs the columns I and `of`, which stands in the place of mu.
+std::vector<FrictionPoint> friction_points(const ProfileSet& profiles, const LayerSelection& selection,
+                                           const std::string& of = "mu");
 
 /// A fit and how well it describes its points.
 struct FrictionFit {

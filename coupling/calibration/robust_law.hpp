@@ -1,24 +1,16 @@
 #pragma once
-// mu = a + b ln I + c I through the layers of particle profiles, robustly, and what other draws of the same
-// layers would have given.
+// mu(I) through measured points, robustly, and what other draws of the same points would have given.
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "coupling/calibration/friction_form.hpp"
 #include "coupling/calibration/log_friction.hpp"
 
 namespace drumlin {
 
-struct FrictionCoefficients {
-  double a = 0;
-  double b = 0;
-  double c = 0;  ///< 0: no linear term
-};
-
-enum class FrictionForm { log, log_linear };
-
 struct RobustFriction {
-  FrictionCoefficients law;
+  Coefficients law;
   double rms_misfit = 0;         ///< of mu, over all points alike
   double intrinsic_scatter = 0;  ///< standard deviation of mu beyond the errors of the points
   double outlier_share = 0;      ///< of the points, further off than 1.5 standard deviations
@@ -28,26 +20,25 @@ struct RobustFriction {
 /// Huber's estimator: least squares whose points count less than their weight where they lie further off than
 /// 1.5 standard deviations (Huber & Ronchetti, Robust Statistics, 2009, ch. 7). Variance of a point:
 /// mu_error^2 + (I dmu/dI I_error/I)^2 + s^2, s found together with the law (Huber's proposal 2), zero where
-/// the errors of the points explain the misfit. A slope b or c that comes out negative is held at zero: such
-/// a law would have no steady flow. Throws InputError with fewer points than coefficients and one, or all at
-/// the same I.
-RobustFriction fit_friction(const std::vector<FrictionPoint>& points, FrictionForm form);
+/// the errors of the points explain the misfit. Coefficients stay above least_coefficient(): active set, by
+/// the signs of the multipliers. Throws InputError with fewer points than coefficients and one, or all at the
+/// same I.
+RobustFriction fit_friction(const std::vector<FrictionPoint>& points, const FrictionForm& form);
 
-/// The law of `replicates` draws: from each run as many points as it has, in blocks of neighbours (4 layers,
-/// for layers next to each other move together), with replacement (Kuensch, Ann. Stat. 17 (1989) 1217); the
+/// The laws of `replicates` draws: from each run as many points as it has, in blocks of neighbours (4 points,
+/// for points next to each other move together), with replacement (Kuensch, Ann. Stat. 17 (1989) 1217); the
 /// scatter is that of all points. Draws are widened about the law of all points, since few blocks differ by
-/// less than new measurements would; a slope that this makes negative is held at zero. The same `seed` gives
-/// the same draws.
-std::vector<FrictionCoefficients> bootstrapped(const std::vector<std::vector<FrictionPoint>>& runs,
-                                               FrictionForm form, int replicates, std::uint64_t seed = 1);
-
-double friction(const FrictionCoefficients& law, double I);
+/// less than new measurements would; a coefficient that this takes below its least value is held there. The
+/// same `seed` gives the same draws.
+std::vector<Coefficients> bootstrapped(const std::vector<std::vector<FrictionPoint>>& runs,
+                                       const FrictionForm& form, int replicates, std::uint64_t seed = 1);
 
 /// Quantiles of the laws at I that leave out half of 1 - `share` at each end.
 struct FrictionBand {
   double low = 0;
   double high = 0;
 };
-FrictionBand band_at(const std::vector<FrictionCoefficients>& laws, double I, double share = 0.99);
+FrictionBand band_at(const FrictionForm& form, const std::vector<Coefficients>& laws, double I,
+                     double share = 0.99);
 
 }  // namespace drumlin

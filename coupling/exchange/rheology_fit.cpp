@@ -61,6 +61,9 @@ struct PackingTable {
   double nu = 0;
   std::optional<double> nu_ci99;
 };
+struct BandTable {
+  std::vector<double> draws;
+};
 struct OriginTable {
   std::vector<std::string> runs;
 };
@@ -68,6 +71,7 @@ struct RheologyFile {
   bool reduced = false;
   MuTable mu;
   std::optional<StressRatioTable> k;
+  std::optional<BandTable> band;
   PackingTable packing;
   OriginTable fitted_on;
 };
@@ -97,6 +101,14 @@ void describe(Visitor& v, PackingTable& t) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, BandTable& t) {
+  v.value("draws", t.draws,
+          required("", anything(),
+                   "Laws of other draws of the points, one after the other: a, b; a, b, c; or mu of each I "
+                   "of the table."));
+}
+
+template <class Visitor>
 void describe(Visitor& v, OriginTable& t) {
   v.value("runs", t.runs, required("", anything(), "Runs or publications that the law was fitted on."));
 }
@@ -107,6 +119,7 @@ void describe(Visitor& v, RheologyFile& t) {
   v.value("reduced", t.reduced, defaulted("", anything(), "Fitted on a reduced run."));
   v.table("mu", t.mu, Need::required, "Effective friction.");
   v.optional_table("k", t.k, "Ratio of the normal stresses; absent: no such ratio in the law.");
+  v.optional_table("band", t.band, "What the law owes to the draw of its points; absent: not known.");
   v.table("packing", t.packing, Need::required, "State that the law was measured in.");
   v.table("fitted_on", t.fitted_on, Need::required, "Origin.");
 }
@@ -125,6 +138,7 @@ class Faults {
   void refuse(const std::string& path, const std::string& what, const std::string& allowed) {
     problems_.push_back(problem_at(document_, path, what, allowed));
   }
+  const Document& document() const { return document_; }
 
  private:
   const Document& document_;
@@ -189,11 +203,67 @@ void check_together(const NormalStressRatio& points, Faults& faults) {
   }
 }
 
+// Numbers that tell a draw of a law from the others.
+std::size_t draw_size(const MeasuredFriction& mu) {
+  if (std::holds_alternative<LogFriction>(mu)) return 2;
+  if (std::holds_alternative<LogLinearFriction>(mu)) return 3;
+  const auto* table = std::get_if<FrictionTable>(&mu);
+  return table == nullptr ? 0 : table->mu.size();
+}
+
+std::vector<double> draw_of(const MeasuredFriction& mu) {
+  if (const auto* log = std::get_if<LogFriction>(&mu)) return {log->a, log->b};
+  if (const auto* both = std::get_if<LogLinearFriction>(&mu)) return {both->a, both->b, both->c};
+  const auto* table = std::get_if<FrictionTable>(&mu);
+  return table == nullptr ? std::vector<double>() : table->mu;
+}
+
+MeasuredFriction with_draw(MeasuredFriction mu, std::vector<double> draw) {
+  if (auto* log = std::get_if<LogFriction>(&mu)) {
+    log->a = draw[0];
+    log->b = draw[1];
+  } else if (auto* both = std::get_if<LogLinearFriction>(&mu)) {
+    both->a = draw[0];
+    both->b = draw[1];
+    both->c = draw[2];
+  } else if (auto* table = std::get_if<FrictionTable>(&mu)) {
+    table->mu = std::move(draw);
+  }
+  return mu;
+}
+
+std::vector<MeasuredFriction> draws_of(const MeasuredFriction& mu, const std::vector<double>& numbers) {
+  std::vector<MeasuredFriction> laws;
+  const std::size_t size = draw_size(mu);
+  for (std::size_t first = 0; first + size <= numbers.size(); first += size)
+    laws.push_back(with_draw(mu, {numbers.begin() + static_cast<std::ptrdiff_t>(first),
+                                  numbers.begin() + static_cast<std::ptrdiff_t>(first + size)}));
+  return laws;
+}
+
+void check_band(const RheologyFile& file, Faults& faults) {
+  const std::size_t size = draw_size(file.mu.friction), count = file.band->draws.size();
+  if (size == 0)
+    return faults.refuse("band.draws", "is of a law that is not fitted", "log, log-linear or table");
+  if (count == 0 || count % size != 0)
+    return faults.refuse("band.draws", "has " + std::to_string(count) + " numbers",
+                         "a multiple of " + std::to_string(size) + ", the numbers of one law");
+  for (const MeasuredFriction& draw : draws_of(file.mu.friction, file.band->draws)) {
+    std::vector<InputProblem> problems;
+    Faults of_draw(faults.document(), problems);
+    std::visit([&](const auto& mu) { check_together(mu, of_draw); }, draw);
+    if (!problems.empty())
+      return faults.refuse("band.draws", "holds a law that is none: " + problems.front().what,
+                           "laws whose mu grows");
+  }
+}
+
 /// What holds between keys.
 void check_together(const Document& document, const RheologyFile& file, std::vector<InputProblem>& problems) {
   Faults faults(document, problems);
   std::visit([&](const auto& mu) { check_together(mu, faults); }, file.mu.friction);
   if (file.k) check_together(file.k->points, faults);
+  if (file.band && problems.empty()) check_band(file, faults);
 }
 
 std::string number(double value) {
@@ -236,6 +306,7 @@ RheologyFit read_rheology(const std::filesystem::path& file) {
   fit.nu = content.packing.nu;
   fit.nu_ci99 = content.packing.nu_ci99;
   fit.rms_misfit = content.mu.rms_misfit;
+  if (content.band) fit.draws = draws_of(fit.mu, content.band->draws);
   fit.fitted_on = content.fitted_on.runs;
   fit.reduced = content.reduced;
   return fit;
@@ -246,6 +317,9 @@ void write_rheology(const std::filesystem::path& file, const RheologyFit& fit) {
   content.reduced = fit.reduced;
   content.mu = {fit.mu, fit.rms_misfit};
   if (fit.k) content.k = StressRatioTable{*fit.k};
+  if (!fit.draws.empty()) content.band.emplace();
+  for (const MeasuredFriction& draw : fit.draws)
+    for (const double number : draw_of(draw)) content.band->draws.push_back(number);
   content.packing = {fit.nu, fit.nu_ci99};
   content.fitted_on.runs = fit.fitted_on;
   replace_file(file, toml_text(write_keys(content)));

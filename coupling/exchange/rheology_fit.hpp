@@ -62,9 +62,10 @@ struct RheologyFit {
   std::optional<NormalStressRatio> k;
   double nu = 0;  ///< volume fraction of the bulk
   std::optional<double> nu_ci99;
-  std::optional<double> rms_misfit;    ///< of mu about the fit
-  std::vector<std::string> fitted_on;  ///< runs
-  bool reduced = false;                ///< fitted on a reduced (smoke) run
+  std::optional<double> rms_misfit;     ///< of mu about the fit
+  std::vector<MeasuredFriction> draws;  ///< laws of the same form that other draws of the points gave
+  std::vector<std::string> fitted_on;   ///< runs
+  bool reduced = false;                 ///< fitted on a reduced (smoke) run
 };
 
 /// The friction in words, for messages: "mu = 0.35 + 0.013 ln I".

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -10,60 +11,64 @@
 namespace drumlin {
 namespace {
 
-const FrictionCoefficients truth{.a = 0.33, .b = 0.011, .c = 0.6};
+const FrictionForm log_linear{FormKind::log_linear, {}};
+const FrictionForm logarithm{FormKind::log, {}};
+const Coefficients truth{0.33, 0.011, 0.6};
 
 /// Layers of I from 1e-4 to 0.1 with normal noise.
-std::vector<FrictionPoint> layers(const FrictionCoefficients& law, double noise, int count, unsigned seed,
+std::vector<FrictionPoint> layers(const Coefficients& law, double noise, int count, unsigned seed,
                                   bool errors_known = true) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal(0, 1);
   std::vector<FrictionPoint> points;
   for (int i = 0; i < count; ++i) {
     const double I = 1e-4 * std::pow(1e3, (i + 0.5) / count);
-    points.push_back({I, friction(law, I) + noise * normal(random), 0, errors_known ? noise : NAN});
+    points.push_back(
+        {I, friction(log_linear, law, I) + noise * normal(random), 0, errors_known ? noise : NAN});
   }
   return points;
 }
 
 TEST(RobustLaw, IsExactForPointsOnIt) {
   for (const bool known : {true, false}) {
-    const RobustFriction fit = fit_friction(layers(truth, 0, 30, 1, known), FrictionForm::log_linear);
-    EXPECT_NEAR(fit.law.a, truth.a, 1e-9);
-    EXPECT_NEAR(fit.law.b, truth.b, 1e-9);
-    EXPECT_NEAR(fit.law.c, truth.c, 1e-8);
+    const RobustFriction fit = fit_friction(layers(truth, 0, 30, 1, known), log_linear);
+    EXPECT_NEAR(fit.law[0], truth[0], 1e-9);
+    EXPECT_NEAR(fit.law[1], truth[1], 1e-9);
+    EXPECT_NEAR(fit.law[2], truth[2], 1e-8);
     EXPECT_EQ(fit.intrinsic_scatter, 0);
   }
 }
 
 TEST(RobustLaw, IsHardlyMovedByLayersThatAreFarOff) {
   auto points = layers(truth, 0.003, 60, 2);
-  const FrictionCoefficients before = fit_friction(points, FrictionForm::log_linear).law;
+  const Coefficients before = fit_friction(points, log_linear).law;
   for (const std::size_t bad : {3, 20, 41, 57}) points[bad].mu += 0.3;
-  const FrictionCoefficients after = fit_friction(points, FrictionForm::log_linear).law;
-  for (const double I : {1e-3, 1e-2, 0.08}) EXPECT_NEAR(friction(after, I), friction(before, I), 0.003) << I;
+  const Coefficients after = fit_friction(points, log_linear).law;
+  for (const double I : {1e-3, 1e-2, 0.08})
+    EXPECT_NEAR(friction(log_linear, after, I), friction(log_linear, before, I), 0.003) << I;
 }
 
 TEST(RobustLaw, FindsTheScatterThatErrorsDoNotExplain) {
   auto points = layers(truth, 0.01, 400, 3);
   for (FrictionPoint& point : points) point.mu_error = 0.006;
-  EXPECT_NEAR(fit_friction(points, FrictionForm::log_linear).intrinsic_scatter, 0.008, 0.001);
+  EXPECT_NEAR(fit_friction(points, log_linear).intrinsic_scatter, 0.008, 0.001);
 }
 
 TEST(RobustLaw, HoldsASlopeThatWouldBeNegativeAtNought) {
-  const FrictionCoefficients falling{.a = 0.3, .b = 0.02, .c = -0.5};
-  const RobustFriction fit = fit_friction(layers(falling, 0, 40, 4), FrictionForm::log_linear);
-  EXPECT_EQ(fit.law.c, 0);
-  EXPECT_GT(fit.law.b, 0);
+  const Coefficients falling{0.3, 0.02, -0.5};
+  const RobustFriction fit = fit_friction(layers(falling, 0, 40, 4), log_linear);
+  EXPECT_EQ(fit.law[2], 0);
+  EXPECT_GT(fit.law[1], 0);
 }
 
 TEST(RobustLaw, BandOfItsDrawsHoldsTheTruthAsOftenAsItSays) {
   int inside = 0, asked = 0;
   for (unsigned seed = 0; seed < 40; ++seed) {
     const auto points = layers(truth, 0.01, 60, 100 + seed);
-    const auto laws = bootstrapped({points}, FrictionForm::log_linear, 100);
+    const auto laws = bootstrapped({points}, log_linear, 100);
     for (const double I : {1e-3, 1e-2, 0.05}) {
-      const FrictionBand band = band_at(laws, I, 0.9);
-      inside += band.low <= friction(truth, I) && friction(truth, I) <= band.high;
+      const FrictionBand band = band_at(log_linear, laws, I, 0.9);
+      inside += band.low <= friction(log_linear, truth, I) && friction(log_linear, truth, I) <= band.high;
       ++asked;
     }
   }
@@ -72,15 +77,54 @@ TEST(RobustLaw, BandOfItsDrawsHoldsTheTruthAsOftenAsItSays) {
 
 TEST(RobustLaw, DrawsAreTheSameEachTime) {
   const auto points = layers(truth, 0.01, 30, 5);
-  const auto once = bootstrapped({points, points}, FrictionForm::log, 5),
-             again = bootstrapped({points, points}, FrictionForm::log, 5);
-  for (std::size_t k = 0; k < once.size(); ++k) EXPECT_EQ(once[k].b, again[k].b);
+  const auto once = bootstrapped({points, points}, logarithm, 5),
+             again = bootstrapped({points, points}, logarithm, 5);
+  for (std::size_t k = 0; k < once.size(); ++k) EXPECT_EQ(once[k], again[k]);
+}
+
+TEST(RobustLaw, ATableFollowsWhatNoFormulaDoes) {
+  const auto bent = [](double I) {
+    return I < 3e-3 ? 0.25 + 0.03 * std::log(I / 3e-3) : 0.25 + 0.02 * std::log(I / 3e-3);
+  };
+  std::vector<FrictionPoint> points;
+  for (int i = 0; i < 120; ++i) {
+    const double I = 1e-4 * std::pow(1e3, (i + 0.5) / 120);
+    points.push_back({I, bent(I), 0, 0.005});
+  }
+  const FrictionForm table{FormKind::table, {1e-4, 3e-3, 1e-1}};
+  const RobustFriction fit = fit_friction(points, table);
+  for (const double I : {2e-4, 1e-3, 1e-2, 0.08})
+    EXPECT_NEAR(friction(table, fit.law, I), bent(I), 1e-4) << I;
+  EXPECT_NEAR(friction_slope(table, fit.law, 1e-3), 0.03, 1e-4);
+}
+
+TEST(RobustLaw, ATableNeverFalls) {
+  std::vector<FrictionPoint> points;
+  for (int i = 0; i < 60; ++i) {
+    const double I = 1e-4 * std::pow(1e3, (i + 0.5) / 60);
+    points.push_back({I, I < 3e-3 ? 0.3 : 0.2 + 0.1 * I, 0, 0.01});
+  }
+  const FrictionForm table{FormKind::table, {1e-4, 1e-3, 1e-2, 1e-1}};
+  const RobustFriction fit = fit_friction(points, table);
+  for (std::size_t j = 1; j < fit.law.size(); ++j) EXPECT_GT(fit.law[j], 0) << j;
+}
+
+TEST(RobustLaw, KnotsHoldPointsBetweenThem) {
+  std::vector<double> I;
+  for (int i = 0; i < 50; ++i) I.push_back(std::pow(10, -4 + 3 * std::pow(i / 49.0, 3)));
+  const std::vector<double> knots = table_knots(I);
+  for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
+    const auto between =
+        std::count_if(I.begin(), I.end(), [&](double v) { return knots[k] <= v && v <= knots[k + 1]; });
+    EXPECT_GE(between, 6) << k;
+  }
+  EXPECT_EQ(knots.front(), I.front());
+  EXPECT_EQ(knots.back(), I.back());
 }
 
 TEST(RobustLaw, NeedsMorePointsThanCoefficients) {
-  EXPECT_THROW(fit_friction(layers(truth, 0, 3, 1), FrictionForm::log_linear), InputError);
-  EXPECT_THROW(fit_friction({{0.1, 0.3, 0, 0}, {0.1, 0.31, 0, 0}, {0.1, 0.32, 0, 0}}, FrictionForm::log),
-               InputError);
+  EXPECT_THROW(fit_friction(layers(truth, 0, 3, 1), log_linear), InputError);
+  EXPECT_THROW(fit_friction({{0.1, 0.3, 0, 0}, {0.1, 0.31, 0, 0}, {0.1, 0.32, 0, 0}}, logarithm), InputError);
 }
 
 }  // namespace

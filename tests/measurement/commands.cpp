@@ -1,6 +1,7 @@
 // drumlin measure and drumlin calibrate on run folders made here.
 #include "apps/commands.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -12,6 +13,7 @@
 #include "coupling/files/field_map_file.hpp"
 #include "coupling/files/h5_image.hpp"
 #include "particles/io/snapshot_file.hpp"
+#include "tests/comparison/run_folders.hpp"
 #include "tests/exchange_files/folder.hpp"
 #include "tests/measurement/packings.hpp"
 
@@ -187,37 +189,44 @@ TEST(MeasureCommand, WritesTheFieldsOfEveryGrainOfTheSnapshotsAskedFor) {
   EXPECT_EQ(kinetic[5], 0);  // eighteen grains at rest stand behind the mean
 }
 
+using drumlin::testing::column_of;
+using drumlin::testing::example_measured;
+using drumlin::testing::example_profiles;
+using drumlin::testing::Json;
+using drumlin::testing::measured_folder;
+
 /// A measured run whose layers lie on mu = 0.36 + b ln I.
-fs::path measured_run(const TemporaryFolder& folder, const std::string& name, double b) {
-  const fs::path measured = folder / name / "measured";
-  fs::create_directories(measured);
-  ProfileSet profiles;
-  profiles.header = {{"reduced", "false"}, {"theta_deg", "19.4"}, {"wall_z", "-60"}};
-  profiles.columns = {{"I", {}, {}}, {"mu", {}, {}}};
-  for (int l = -58; l <= 0; ++l) {
-    const double inertial = 0.12 * std::exp(l / 5.0);
-    profiles.z.push_back(l);
-    profiles.columns[0].value.push_back(inertial);
-    profiles.columns[0].ci99.push_back(0.1 * inertial);
-    profiles.columns[1].value.push_back(0.36 + b * std::log(inertial) + (l % 2 == 0 ? 0.01 : -0.01));
-    profiles.columns[1].ci99.push_back(0.005);
+fs::path measured_run(const TemporaryFolder& folder, const std::string& name, double b,
+                      double rotation = 0.0115) {
+  ProfileSet profiles = example_profiles();
+  profiles.header["rotation"] = fmt::format("{}", rotation);
+  ProfileColumn &I = column_of(profiles, "I"), &mu = column_of(profiles, "mu");
+  for (std::size_t l = 0; l < profiles.z.size(); ++l) {
+    I.value[l] = 0.12 * std::exp(profiles.z[l] / 5);
+    I.ci99[l] = 0.1 * I.value[l];
+    mu.value[l] = 0.36 + b * std::log(I.value[l]) + (l % 2 == 0 ? 0.01 : -0.01);
+    mu.ci99[l] = 0.005;
   }
-  write_profiles(measured / "profiles.csv", profiles);
-  replace_file(measured / "measured.json",
-               R"({"format": "drumlin-measured-1", "nu_bulk": {"value": 0.82, "ci99": 0.002}})");
-  return folder / name;
+  Json measured = example_measured();
+  measured["nu_bulk"] = {{"value", 0.82}, {"ci99", 0.002}};
+  measured["settings"]["rotation"] = rotation;
+  return measured_folder(folder, name, profiles, measured);
 }
 
 TEST(CalibrateCommand, LeavesTheLawOfItsRuns) {
   const TemporaryFolder folder;
   CalibrateOptions options;
-  options.runs = {measured_run(folder, "six", 0.0144), measured_run(folder, "ten", 0.0144)};
+  options.runs = {measured_run(folder, "six", 0.0144), measured_run(folder, "ten", 0.0144, 0.019)};
+  options.validate = {measured_run(folder, "five", 0.0144, 0.0096)};
+  options.law = "log";
   options.output = folder / "rheology.toml";
   EXPECT_EQ(calibrate(options), 0);
   const RheologyFit fit = read_rheology(options.output);
   const auto mu = std::get<LogFriction>(fit.mu);
   EXPECT_NEAR(mu.a, 0.36, 0.003);  // 35 layers off the law by 0.01 to either side in turn
   EXPECT_NEAR(mu.b, 0.0144, 0.0005);
+  EXPECT_GT(mu.covariance[0], 0);
+  EXPECT_EQ(fit.draws.size(), 16u);
   EXPECT_NEAR(*fit.rms_misfit, 0.01, 0.0005);
   EXPECT_GT(mu.I_min, 1e-4);
   EXPECT_LT(mu.I_max, 0.1);
@@ -225,7 +234,48 @@ TEST(CalibrateCommand, LeavesTheLawOfItsRuns) {
   EXPECT_NEAR(*fit.nu_ci99, 0.002 / std::sqrt(2.0), 1e-12);
   EXPECT_EQ(fit.fitted_on, (std::vector<std::string>{"six", "ten"}));
   EXPECT_TRUE(fs::exists(folder / "rheology.png"));
+  const Json record = Json::parse(file_text(folder / "rheology.json"));
+  EXPECT_EQ(record["forms"].size(), 3u);  // every form is judged, one is chosen
+  EXPECT_TRUE(record["well_posed"].get<bool>());
+  EXPECT_TRUE(record["one_law"]["holds"].get<bool>());
+  EXPECT_NEAR(record["held_out"][0]["bias"].get<double>(), 0, 0.003);
   EXPECT_THROW(calibrate(options), InputError);  // the law exists
+}
+
+TEST(CalibrateCommand, ATableAndKComeFromTheSameLayers) {
+  const TemporaryFolder folder;
+  CalibrateOptions options;
+  options.runs = {measured_run(folder, "six", 0.0144)};
+  options.k = true;
+  options.output = folder / "rheology.toml";
+  EXPECT_EQ(calibrate(options), 0);
+  const RheologyFit fit = read_rheology(options.output);
+  EXPECT_GE(std::get<FrictionTable>(fit.mu).I.size(), 4u);
+  ASSERT_TRUE(fit.k);
+  for (const double k : fit.k->k) EXPECT_NEAR(k, 1.04, 1e-6);
+}
+
+TEST(CalibrateCommand, RefusesWhatItCannotUse) {
+  const TemporaryFolder folder;
+  CalibrateOptions options;
+  options.runs = {measured_run(folder, "six", 0.0144)};
+  options.output = folder / "rheology.toml";
+  options.from = "maps";
+  EXPECT_NE(message_of<InputError>([&] { calibrate(options); }).find("--parts maps"), std::string::npos);
+  options.from = "auto";
+  options.relaxation = true;
+  EXPECT_THROW(calibrate(options), InputError);
+  options.relaxation = false;
+  Json unsteady = example_measured();
+  unsteady["nu_bulk"] = {{"value", 0.82}, {"ci99", 0.002}};
+  unsteady["steadiness"] = {{"steady", false}, {"reasons", {"the slope falls"}}};
+  options.validate = {measured_folder(folder, "falling", example_profiles(), unsteady)};
+  EXPECT_NE(message_of<InputError>([&] { calibrate(options); }).find("the slope falls"), std::string::npos);
+  Json other = example_measured();
+  other["settings"]["scales"]["density_kg_m3"] = 1000.0;
+  options.validate = {measured_folder(folder, "light", example_profiles(), other)};
+  EXPECT_THROW(calibrate(options), InputError);
+  EXPECT_FALSE(fs::exists(options.output));
 }
 
 TEST(CalibrateCommand, RefusesALawThatFallsWithI) {
@@ -233,6 +283,7 @@ TEST(CalibrateCommand, RefusesALawThatFallsWithI) {
   CalibrateOptions options;
   options.runs = {measured_run(folder, "six", -0.01)};
   options.output = folder / "rheology.toml";
+  options.law = "log";
   EXPECT_NE(message_of<InputError>([&] { calibrate(options); }).find("does not grow"), std::string::npos);
   EXPECT_FALSE(fs::exists(options.output));
 }
