@@ -51,12 +51,12 @@ FabricRelaxation fabric_relaxation(const FieldMap& map, const FrictionForm& form
   const double rotation = header_number(map, "rotation"), axis = header_number(map, "axis_depth");
   const MapField& v_x = map.field("v_x");
   const MapField& v_z = map.field("v_z");
-  const std::vector<LawPoint> points = law_points(map, selection);
+  const std::vector<LawBlock> points = law_points(map, selection);
   const auto key = [&](double x, double z) {
     return std::pair(std::lround(x / selection.width), std::lround(z / map.grid.spacing_z));
   };
-  std::map<std::pair<long, long>, const LawPoint*> places;
-  for (const LawPoint& point : points) places[key(point.x, point.z)] = &point;
+  std::map<std::pair<long, long>, const LawBlock*> places;
+  for (const LawBlock& point : points) places[key(point.x, point.z)] = &point;
   const auto turn_at = [&](double x, double z) {
     const auto found = places.find(key(x, z));
     return found == places.end() ? std::numeric_limits<double>::quiet_NaN() : found->second->turn;
@@ -64,7 +64,7 @@ FabricRelaxation fabric_relaxation(const FieldMap& map, const FrictionForm& form
 
   std::vector<Pair> pairs;
   double squares = 0;
-  for (const LawPoint& point : points) {
+  for (const LawBlock& point : points) {
     if (point.friction.I < I_min) continue;
     const double dx = selection.width, dz = map.grid.spacing_z;
     const double along = (turn_at(point.x + dx, point.z) - turn_at(point.x - dx, point.z)) / (2 * dx);

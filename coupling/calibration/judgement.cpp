@@ -67,11 +67,11 @@ LawScore score_of(const std::string& run, const std::vector<FrictionPoint>& poin
   return score;
 }
 
-OneLaw one_law_of(const std::vector<SpeedGroup>& speeds, const CalibratedLaw& common, int draws) {
+OneLaw one_law_of(const std::vector<RunsOfSpeed>& speeds, const CalibratedLaw& common, int draws) {
   if (speeds.size() < 2) throw InputError("one law for all speeds: there is one speed only");
   OneLaw result;
   double squares_common = 0, squares_own = 0, count = 0;
-  for (const SpeedGroup& speed : speeds) {
+  for (const RunsOfSpeed& speed : speeds) {
     const std::vector<FrictionPoint> points = all_of(speed.runs);
     FrictionForm form = common.form;
     if (form.kind == FormKind::table) {

@@ -45,12 +45,12 @@ struct OneLaw {
   std::string speed;
   bool holds = false;  ///< largest_ratio <= 1
 };
-struct SpeedGroup {
+struct RunsOfSpeed {
   std::string name;
   std::vector<std::vector<FrictionPoint>> runs;
 };
 /// Compared at 25 inertial numbers of the range that a speed and the common law share. Needs two speeds.
-OneLaw one_law_of(const std::vector<SpeedGroup>& speeds, const CalibratedLaw& common, int draws);
+OneLaw one_law_of(const std::vector<RunsOfSpeed>& speeds, const CalibratedLaw& common, int draws);
 
 /// Half width of the 99 % band at I, the mean of its two sides.
 double half_width_at(const CalibratedLaw& law, double I);

@@ -60,7 +60,7 @@ struct Traceless {
   Mean a, b;
 };
 
-LawPoint point_of(const Block& block, double x, double z, const BlockSelection& selection, bool& usable) {
+LawBlock point_of(const Block& block, double x, double z, const BlockSelection& selection, bool& usable) {
   const Traceless D{half(block.of("d_v_x_dx"), block.of("d_v_z_dz"), -1),
                     half(block.of("d_v_x_dz"), block.of("d_v_z_dx"), 1)};
   const Mean xx = block.of("sigma_xx"), zz = block.of("sigma_zz");
@@ -68,7 +68,7 @@ LawPoint point_of(const Block& block, double x, double z, const BlockSelection& 
              shear = half(block.of("sigma_xz"), block.of("sigma_zx"), 1);
   const double variance = D.a.variance + D.b.variance;
   const double squared = D.a.value * D.a.value + D.b.value * D.b.value - variance;
-  LawPoint point;
+  LawBlock point;
   point.x = x;
   point.z = z;
   usable = p.value > 0 && squared > 0 && squared >= std::pow(selection.least_signal, 2) * variance;
@@ -100,7 +100,7 @@ double half_of_one_plus_k(double turn) { return 1 / (1 - turn); }
 
 }  // namespace
 
-std::vector<LawPoint> law_points(const FieldMap& map, const BlockSelection& selection) {
+std::vector<LawBlock> law_points(const FieldMap& map, const BlockSelection& selection) {
   const MapGrid& grid = map.grid;
   const double radius = header_number(map, "drum_radius"), axis = header_number(map, "axis_depth");
   const MapField& nu = map.field("nu");
@@ -122,7 +122,7 @@ std::vector<LawPoint> law_points(const FieldMap& map, const BlockSelection& sele
 
   const double right = grid.x_of(grid.columns - 1);
   const auto halves = static_cast<int>(std::ceil(right / selection.width));
-  std::vector<LawPoint> points;
+  std::vector<LawBlock> points;
   for (int b = -halves; b <= halves; ++b) {
     const double from = (b - 0.5) * selection.width;
     for (std::size_t row = 0; row < grid.rows; ++row) {
@@ -136,7 +136,7 @@ std::vector<LawPoint> law_points(const FieldMap& map, const BlockSelection& sele
       }
       if (columns.empty() || 10 * columns.size() < 7 * all) continue;
       bool usable = false;
-      const LawPoint point = point_of(Block(map, row, std::move(columns)), from + selection.width / 2,
+      const LawBlock point = point_of(Block(map, row, std::move(columns)), from + selection.width / 2,
                                       grid.z_of(row), selection, usable);
       if (usable) points.push_back(point);
     }
@@ -144,20 +144,20 @@ std::vector<LawPoint> law_points(const FieldMap& map, const BlockSelection& sele
   return points;
 }
 
-std::vector<FrictionPoint> frictions(const std::vector<LawPoint>& points) {
+std::vector<FrictionPoint> frictions(const std::vector<LawBlock>& points) {
   std::vector<FrictionPoint> result;
-  for (const LawPoint& point : points) result.push_back(point.friction);
+  for (const LawBlock& point : points) result.push_back(point.friction);
   return result;
 }
 
-std::vector<FrictionPoint> turns(const std::vector<LawPoint>& points) {
+std::vector<FrictionPoint> turns(const std::vector<LawBlock>& points) {
   std::vector<FrictionPoint> result;
-  for (const LawPoint& point : points)
+  for (const LawBlock& point : points)
     result.push_back({point.friction.I, point.turn, point.friction.I_error, point.turn_error});
   return result;
 }
 
-std::vector<FrictionPoint> frictions_with_k(const std::vector<LawPoint>& points, const FrictionForm& form,
+std::vector<FrictionPoint> frictions_with_k(const std::vector<LawBlock>& points, const FrictionForm& form,
                                             const Coefficients& turn) {
   std::vector<FrictionPoint> result = frictions(points);
   for (FrictionPoint& point : result) {

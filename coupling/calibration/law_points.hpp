@@ -25,7 +25,7 @@ struct BlockSelection {
 /// One block. friction.mu is the stress along the strain rate over the pressure, tau:D/(2 |D| p), and
 /// friction.I = 2|D|/sqrt(p) with |D|^2 less its variance. In simple shear they are 2 mu/(1 + k) and
 /// I sqrt(2/(1 + k)) of sigma_xz/sigma_zz and (dv_x/dz)/sqrt(sigma_zz).
-struct LawPoint {
+struct LawBlock {
   double x = 0, z = 0;  ///< middle of the block, d
   FrictionPoint friction;
   double turn = 0;  ///< stress across the strain rate over the pressure: (k - 1)/(k + 1) in simple shear
@@ -38,17 +38,17 @@ struct LawPoint {
 /// each other. Errors from those of the nodes, two neighbouring nodes counting as one (they share their
 /// kernel). Needs the fields nu, sigma_.., d_v_.., and the header's axis_depth and drum_radius (both 0: no
 /// drum, no wall margin). Throws InputError when one is missing.
-std::vector<LawPoint> law_points(const FieldMap& map, const BlockSelection& selection = {});
+std::vector<LawBlock> law_points(const FieldMap& map, const BlockSelection& selection = {});
 
 /// Friction and inertial number of each point for a law without k.
-std::vector<FrictionPoint> frictions(const std::vector<LawPoint>& points);
+std::vector<FrictionPoint> frictions(const std::vector<LawBlock>& points);
 
 /// The turn of each point over its inertial number, in the place of mu.
-std::vector<FrictionPoint> turns(const std::vector<LawPoint>& points);
+std::vector<FrictionPoint> turns(const std::vector<LawBlock>& points);
 
 /// Friction and inertial number for a law with k, the ratios of simple shear: sigma_xz/sigma_zz = M (1 + k)/2
 /// and I sqrt((1 + k)/2), k = (1 + turn)/(1 - turn), where `turn` is the smooth one, not that of the point.
-std::vector<FrictionPoint> frictions_with_k(const std::vector<LawPoint>& points, const FrictionForm& form,
+std::vector<FrictionPoint> frictions_with_k(const std::vector<LawBlock>& points, const FrictionForm& form,
                                             const Coefficients& turn);
 
 /// k(I) at the knots of the turn's table, over the inertial number of a law with k.

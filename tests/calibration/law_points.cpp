@@ -69,7 +69,7 @@ TEST(LawPoints, ReadTheLawInAnyAxes) {
   for (const double angle : {0.0, 0.3, -0.7}) {
     const auto points = law_points(layer(angle, 0, 0), anywhere);
     ASSERT_GT(points.size(), 100u);
-    for (const LawPoint& point : points) {
+    for (const LawBlock& point : points) {
       EXPECT_NEAR(point.friction.mu, friction(logarithm, truth, point.friction.I), 1e-12);
       EXPECT_NEAR(point.turn, turn, 1e-12);
     }
@@ -79,7 +79,7 @@ TEST(LawPoints, ReadTheLawInAnyAxes) {
 TEST(LawPoints, NoiseOfTheGradientIsTakenOffItsLength) {
   // Without it |D| is 4 % too long in a block of ten nodes, and mu as much too small.
   double mu = 0, I = 0, count = 0;
-  for (const LawPoint& point : law_points(layer(0, 0, 0.6), anywhere)) {
+  for (const LawBlock& point : law_points(layer(0, 0, 0.6), anywhere)) {
     const double clean = 0.1 * std::exp(point.z / 7);
     mu += point.friction.mu / friction(logarithm, truth, clean);
     I += point.friction.I / clean;

@@ -69,7 +69,7 @@ Json points_json(const RunEvidence& run, const Calibration& calibration) {
             {"mu", numbers(mu)},
             {"mu_error", numbers(mu_error)}};
   if (calibration.source == Source::profiles || !calibration.turn) return json;
-  for (const LawPoint& point : run.blocks)
+  for (const LawBlock& point : run.blocks)
     angle.push_back(std::atan2(point.turn, point.friction.mu) * 90 / std::numbers::pi);
   json["axis_angle_deg"] = numbers(angle);
   return json;

@@ -15,7 +15,7 @@ namespace drumlin::apps {
 struct RunEvidence {
   MeasuredRun run;
   double rotation_rpm = 0;
-  std::vector<LawPoint> blocks;       ///< of maps.h5; empty when profiles are the source
+  std::vector<LawBlock> blocks;       ///< of maps.h5; empty when profiles are the source
   std::vector<FrictionPoint> layers;  ///< of profiles.csv: mu, I
   std::vector<FrictionPoint> ratios;  ///< of profiles.csv: k in the place of mu, I
   std::optional<FieldMap> map;        ///< kept for the relaxation of the fabric

@@ -113,14 +113,14 @@ RheologyFit rheology_of(const Calibration& calibration, const CalibrateOptions& 
   return fit;
 }
 
-std::vector<SpeedGroup> speeds_of(const Calibration& calibration) {
-  std::map<long, SpeedGroup> groups;  // by hundredths of a turn per minute
+std::vector<RunsOfSpeed> speeds_of(const Calibration& calibration) {
+  std::map<long, RunsOfSpeed> groups;  // by hundredths of a turn per minute
   for (const RunEvidence& run : calibration.runs) {
-    SpeedGroup& group = groups[std::lround(100 * run.rotation_rpm)];
+    RunsOfSpeed& group = groups[std::lround(100 * run.rotation_rpm)];
     group.name = fmt::format("{:.4g} rpm", run.rotation_rpm);
     group.runs.push_back(friction_of(run, calibration));
   }
-  std::vector<SpeedGroup> speeds;
+  std::vector<RunsOfSpeed> speeds;
   for (auto& entry : groups) speeds.push_back(std::move(entry.second));
   return speeds;
 }
