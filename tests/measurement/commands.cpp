@@ -247,6 +247,7 @@ TEST(CalibrateCommand, ATableAndKComeFromTheSameLayers) {
   CalibrateOptions options;
   options.runs = {measured_run(folder, "six", 0.0144)};
   options.k = true;
+  options.law = "table";
   options.output = folder / "rheology.toml";
   EXPECT_EQ(calibrate(options), 0);
   const RheologyFit fit = read_rheology(options.output);

@@ -52,10 +52,12 @@ void fit_turn(Calibration& calibration, const CalibrateOptions& options) {
 void fit_forms(Calibration& calibration, const CalibrateOptions& options) {
   const Points points = friction_of_all(calibration, calibration.runs);
   std::vector<FrictionForm> forms{{FormKind::log, {}}, {FormKind::log_linear, {}}};
-  if (const auto table = table_of(points, true)) forms.push_back(*table);
-  const FormKind asked = options.law != "auto"                  ? form_named(options.law)
-                         : forms.back().kind == FormKind::table ? FormKind::table
-                                                                : FormKind::log;
+  if (const auto knots = table_of(points, true)) forms.push_back(*knots);
+  // The layers of the centre are few: a table of them follows their noise.
+  const bool table = calibration.source == Source::maps && forms.back().kind == FormKind::table;
+  const FormKind asked = options.law != "auto" ? form_named(options.law)
+                         : table               ? FormKind::table
+                                               : FormKind::log;
   bool found = false;
   for (const FrictionForm& form : forms) {
     // One form more than the points allow is no fault unless it was asked for.
