@@ -13,7 +13,7 @@ plt = style.plt
 
 
 def name_of(target):
-    return target["quantity"].replace("_deg", "") + (f"\n{target['zone']}" if "zone" in target else "")
+    return target["quantity"].replace("_deg", "").replace("log10_shear_rate", "log rate").replace("axis_angle", "axes") + (f"\n{target['zone']}" if "zone" in target else "")
 
 
 def main():

@@ -49,6 +49,9 @@ def draw_sides(axes, study, name, over):
                       color=style.PARTICLES, markersize=6, capsize=3, elinewidth=1.2, label="particles, 99 %")
     flows = sorted(study.points(name, "continuum", over))
     axes.plot([p[0] for p in flows], [p[1] for p in flows], "-", color=style.CONTINUUM, linewidth=1, alpha=0.6)
+    for x, y, half, _ in flows:
+        if math.isfinite(half):  # what the calibration of the law leaves open
+            axes.errorbar(x, y, yerr=half, fmt="none", ecolor=style.CONTINUUM, elinewidth=1, capsize=3, alpha=0.7)
     for role, face, label in (("calibrated", style.CONTINUUM, "continuum, calibrated here"), (None, "white", "continuum, predicted")):
         chosen = [p for p in flows if (p[3] == "calibrated") == (role is not None)]
         if chosen:

@@ -46,7 +46,11 @@ Json json_of(const ComparedSpeed& speed) {
     Json paper = number(scalar.paper.value);
     if (scalar.paper.ci99) paper = {{"value", paper}, {"half_width", *scalar.paper.ci99}};
     scalars[scalar.particles.name] = {
-        {"paper", paper}, {"particles", to_json(scalar.particles)}, {"continuum", number(scalar.continuum)}};
+        {"paper", paper},
+        {"particles", to_json(scalar.particles)},
+        {"continuum", std::isfinite(scalar.continuum_ci99)
+                          ? Json{{"value", number(scalar.continuum)}, {"ci99", scalar.continuum_ci99}}
+                          : number(scalar.continuum)}};
   }
   for (const Target& target : speed.targets) targets.push_back(json_of(target, speed));
   return {{"rotation_rpm", speed.rotation_rpm},

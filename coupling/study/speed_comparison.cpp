@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <utility>
 
 #include "coupling/comparison/targets.hpp"
 #include "coupling/exchange/errors.hpp"
@@ -101,12 +102,17 @@ std::vector<FieldComparison> mean_errors(const std::vector<Comparison>& comparis
   return mean;
 }
 
-double continuum_value(const std::vector<Comparison>& comparisons, const std::string& name) {
-  std::vector<double> values;
+/// Value and half width (NaN where there is none).
+std::pair<double, double> continuum_value(const std::vector<Comparison>& comparisons,
+                                          const std::string& name) {
+  std::vector<double> values, intervals;
   for (const Comparison& comparison : comparisons)
     for (const ScalarPair& pair : comparison.scalars)
-      if (pair.name == name) values.push_back(pair.continuum);
-  return mean_of(values);
+      if (pair.name == name) {
+        values.push_back(pair.continuum);
+        intervals.push_back(pair.continuum_ci99.value_or(nan));
+      }
+  return {mean_of(values), mean_of(intervals)};
 }
 
 /// What the paper says of a quantity at a speed; NaN where it says nothing.
@@ -140,11 +146,11 @@ ComparedSpeed compared_at(double rotation_rpm, const std::vector<StudyRun>& part
   for (const std::string& name : compared_speed_scalars()) {
     const Scalar* found = group == nullptr ? nullptr : group->scalars.find(name);
     const Scalar ours = found == nullptr ? Scalar{name, nan, std::nullopt} : *found;
-    double theirs = continuum_value(comparisons, name);
+    auto [theirs, open] = continuum_value(comparisons, name);
     if (group == nullptr &&
         flow != nullptr)  // counted from its own surface: there is no other to register by
       if (const Scalar* own = flow->side.scalars.find(name)) theirs = own->value;
-    speed.scalars.push_back({said_by_paper(paper, name), ours, theirs});
+    speed.scalars.push_back({said_by_paper(paper, name), ours, theirs, open});
     pairs.push_back({name, ours.value, ours.ci99, theirs});
   }
   if (!comparisons.empty()) speed.targets = judged_targets(mean_errors(comparisons), pairs);

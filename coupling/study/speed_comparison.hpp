@@ -35,6 +35,9 @@ struct SpeedScalar {
   Scalar paper;
   Scalar particles;      ///< pooled over the runs of the speed
   double continuum = 0;  ///< mean of what it shows at the places of each run
+  /// What the law's calibration leaves open in it (99 %), the same for all runs; NaN where the flow does not
+  /// say.
+  double continuum_ci99 = std::numeric_limits<double>::quiet_NaN();
 };
 
 struct ComparedSpeed {
