@@ -77,7 +77,7 @@ struct CalibrateOptions {
   std::vector<std::filesystem::path> validate;  ///< runs that the law is not fitted on but has to predict
   std::filesystem::path output;
   std::string from = "auto";    ///< maps, profiles; auto: maps where all runs have them
-  std::string law = "auto";     ///< log, log-linear, table; auto: table of maps with points enough, else log
+  std::string law = "auto";     ///< log, log-linear, table; auto: table where there are points enough, else log
   std::optional<double> I_min;  ///< absent: 1e-4 of profiles, 3e-5 of maps
   std::optional<double> I_max;  ///< absent: 1e-1 of profiles, 1 of maps
   int draws = 200;

@@ -12,9 +12,9 @@
 namespace drumlin::apps {
 namespace {
 
-constexpr std::size_t points_of_a_table =
-    24;                                 // below, a formula says more than knots that hang on few points
-constexpr std::size_t kept_draws = 16;  // in the law's file: the continuum solves each
+constexpr std::size_t points_of_a_table = 24;        // fewer hold no knots
+constexpr std::size_t points_of_a_good_table = 100;  // fewer follow their noise: a formula says more
+constexpr std::size_t kept_draws = 16;               // in the law's file: the continuum solves each
 
 using Points = std::vector<std::vector<FrictionPoint>>;
 
@@ -53,8 +53,8 @@ void fit_forms(Calibration& calibration, const CalibrateOptions& options) {
   const Points points = friction_of_all(calibration, calibration.runs);
   std::vector<FrictionForm> forms{{FormKind::log, {}}, {FormKind::log_linear, {}}};
   if (const auto knots = table_of(points, true)) forms.push_back(*knots);
-  // The layers of the centre are few: a table of them follows their noise.
-  const bool table = calibration.source == Source::maps && forms.back().kind == FormKind::table;
+  const bool table =
+      forms.back().kind == FormKind::table && inertial_numbers(points).size() >= points_of_a_good_table;
   const FormKind asked = options.law != "auto" ? form_named(options.law)
                          : table               ? FormKind::table
                                                : FormKind::log;
