@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "apps/flow/flow_accuracy.hpp"
 #include "apps/flow/flow_sensitivity.hpp"
 #include "apps/flow/flow_state_file.hpp"
 #include "apps/flow/law_band.hpp"
@@ -227,6 +228,7 @@ Json sensitivity_json(const FinishedFlow& flow) {
     Json changes = Json::object();
     if (s.found) add_scalars(changes, s.changes);
     entry["changes"] = changes;
+    entry["cpu_seconds"] = s.cpu_seconds;
     list.push_back(std::move(entry));
   }
   return list;
@@ -278,6 +280,7 @@ Json flow_json(const FinishedFlow& flow) {
   content["mesh_limit"] = mesh_limit_json(flow.meshes);
   content["sensitivity"] = sensitivity_json(flow);
   content["law_band"] = law_band_json(flow);
+  content["accuracy"] = accuracy_json(flow);
   content["settings"] = settings_json(flow);
   content["provenance"] = to_json(provenance());
   return content;

@@ -1,5 +1,5 @@
 #pragma once
-// What eps, p_min and the mesh may be blamed for in a finished flow.
+// What eps, p_min, the mesh and the end of the iteration may be blamed for in a finished flow.
 #include <string>
 #include <vector>
 
@@ -7,17 +7,24 @@
 
 namespace drumlin::apps {
 
+inline constexpr const char* finer_shear_rate = "eps / 4";
+inline constexpr const char* weaker_pressure = "p_min - 20 %";
+inline constexpr const char* one_more_iteration = "one more iteration";
+inline constexpr const char* last_halving = "last halving of the cells";
+
 /// The change of every scalar of the flow, and of its profile of v_x (relative, in L2), from one changed
 /// setting.
 struct Sensitivity {
-  std::string setting;  ///< "eps / 4", "p_min - 20 %", "last halving of the cells"
+  std::string setting;  ///< one of the names above
   bool found = false;   ///< false: the flow with that setting did not converge, or there is no coarser mesh
   ScalarSet changes;    ///< changed minus unchanged
   double profile = 0;   ///< nan for the mesh
   int iterations = 0;   ///< that it took
+  double cpu_seconds = 0;
 };
 
-/// Solves the flow twice more on its last mesh, from its own state. Collective.
+/// Solves the flow anew on its last mesh, from its own state, with either setting and with one more step of
+/// the iteration (of the outer one, where the law holds fields of the flow). Collective.
 std::vector<Sensitivity> sensitivities_of(const FlowCase& flow_case, const FlowSolution& solution,
                                           const std::vector<MeshResult>& meshes,
                                           const FlowSolverOptions& options);

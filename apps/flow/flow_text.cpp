@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/flow/flow_accuracy.hpp"
 #include "apps/flow/flow_sensitivity.hpp"
 #include "apps/flow/law_band.hpp"
 
@@ -88,7 +89,7 @@ std::string summary_text(const fs::path& folder, const FinishedFlow& flow) {
 
 std::string finished_text(const fs::path& folder, const FinishedFlow& flow) {
   return checks_text(flow) + plain_text(flow) + sensitivity_text(flow) + law_band_text(flow) +
-         limits_text(flow) + summary_text(folder, flow);
+         limits_text(flow) + summary_text(folder, flow) + accuracy_text(flow);
 }
 
 }  // namespace drumlin::apps

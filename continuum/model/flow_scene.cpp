@@ -108,9 +108,10 @@ void describe(Visitor& v, FlowSolverKeys& s) {
           defaulted("", above(0, 1), "On the true relative residual of each linear solve."));
   v.value("max_iterations", s.max_iterations,
           defaulted("", at_least(1, 10000), "Newton iterations per phase."));
-  v.value(
-      "sensitivity", s.sensitivity,
-      defaulted("", anything(), "Solves again with eps / 4 and with p_min - 20 %, and says what they move."));
+  v.value("sensitivity", s.sensitivity,
+          defaulted("", anything(),
+                    "Solves again with eps / 4, with p_min - 20 % and for one more iteration, and says what "
+                    "they move."));
 }
 template <class Visitor>
 void describe(Visitor&, FlowInertia&) {}
