@@ -16,6 +16,8 @@ struct RunOptions {
   std::filesystem::path output;
   std::vector<std::string> overrides;  ///< "key=value"
   int threads = 1;
+  std::optional<std::filesystem::path>
+      accuracy;  ///< COST of the scene; absent: a shipped record, if there is one
   ExistingOutput existing = ExistingOutput::refuse;
 };
 int run(const RunOptions&);
@@ -31,6 +33,8 @@ struct MeasureOptions {
   double map_spacing = 1;          ///< d, of the nodes of the maps
   double map_width = 1;            ///< d, of their kernel
   std::string grains;  ///< snapshots whose grains get their fields written, a list as in export; empty: none
+  std::optional<std::filesystem::path>
+      accuracy;  ///< COST of the scene; absent: a shipped record, if there is one
   ExistingOutput existing = ExistingOutput::refuse;
 };
 int measure(const MeasureOptions&);
@@ -141,11 +145,16 @@ struct SolveContactsOptions {
 int solve_contacts(const SolveContactsOptions&);
 
 struct CostOptions {
-  std::filesystem::path scene;
-  bool effects = false;  ///< the price list of the scene's effects
-  std::optional<std::filesystem::path> output;
+  std::filesystem::path scene;  ///< of particles or of a flow
+  bool effects = false;         ///< the price list of the scene's effects, in place of a sweep
+  std::optional<std::filesystem::path> output;  ///< a sweep needs it
   std::vector<std::string> overrides;
-  double seconds = 1;  ///< simulated, from the start of the scene
+  double seconds = 1;               ///< of --effects, simulated, from the start of the scene
+  std::vector<std::string> sweep;   ///< "tolerance" or "tolerance=1e-2:1e-3"; empty: all that the scene has
+  std::optional<double> horizon_s;  ///< over which velocities are compared; absent: 16 steps of the scene
+  std::optional<double> statistics_s;             ///< length of a run whose measured numbers are compared
+  std::optional<std::filesystem::path> from;      ///< RUN to start from, of the same scene
+  std::optional<std::filesystem::path> rheology;  ///< of a flow scene, which needs one
   int threads = 1;
   ExistingOutput existing = ExistingOutput::refuse;
 };

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/commands.hpp"
+#include "apps/commands/accuracy_statement.hpp"
 #include "apps/commands/run_files.hpp"
 #include "apps/commands/run_report.hpp"
 #include "apps/support/interruption.hpp"
@@ -77,7 +78,7 @@ class ParticleRun {
     write_report("finished");
     progress_.show(progress_line());
     progress_.finish();
-    fmt::print("{}", run_summary(progress_now()));
+    fmt::print("{}{}", run_summary(progress_now()), accuracy_text());
     return static_cast<int>(ExitCode::done);
   }
 
@@ -218,6 +219,14 @@ class ParticleRun {
     return static_cast<int>(signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted);
   }
 
+  /// What the settings leave of error; averages have no interval before they are measured.
+  std::string accuracy_text() const {
+    const auto record =
+        options_.accuracy ? accuracy_record(*options_.accuracy, scene_) : shipped_record(scene_);
+    const RunCost cost{.cpu_seconds = totals_now().cpu_seconds, .simulated_seconds = simulated_seconds()};
+    return text_of(accuracy_statement(scene_, record, {}, cost));
+  }
+
   std::string missed_tolerance() const {
     const auto& judged = last_.solve.judgement;
     return fmt::format(
@@ -272,25 +281,18 @@ void same_scene_or_refuse(const fs::path& output, const std::string& theirs, con
                      "use --overwrite to start over");
 }
 
-const char* const grain_list = "grains.csv";
-
-/// The scene as it stands in the run folder, which holds a copy of a grain list of its own.
-Scene recorded(Scene scene) {
-  if (auto* listed = std::get_if<ListedGrains>(&scene.grains.source)) listed->file = grain_list;
-  return scene;
-}
-
 }  // namespace
 
 int run(const RunOptions& options) {
   const Scene scene = read_scene(options.scene, options.overrides);
   // What only shows when grains are placed must show before anything is written or removed.
   (void)Simulation(scene);
+  if (options.accuracy) (void)accuracy_record(*options.accuracy, scene);
   const auto* listed = std::get_if<ListedGrains>(&scene.grains.source);
   std::vector<fs::path> inputs{options.scene};
   if (listed != nullptr) inputs.push_back(listed->file);
   prepare_output(options.output, options.existing, {"run.json"}, inputs);
-  const std::string resolved = scene_text(recorded(scene));
+  const std::string resolved = scene_text(as_recorded(scene));
   std::optional<Checkpoint> from;
   if (options.existing == ExistingOutput::resume) {
     if (fs::exists(options.output / "scene.toml"))

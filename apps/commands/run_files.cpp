@@ -9,6 +9,11 @@ namespace drumlin::apps {
 
 namespace fs = std::filesystem;
 
+Scene as_recorded(Scene scene) {
+  if (auto* listed = std::get_if<ListedGrains>(&scene.grains.source)) listed->file = grain_list;
+  return scene;
+}
+
 RunTable::RunTable(const fs::path& file, const std::string& header, std::int64_t keep_bytes) : file_(file) {
   if (keep_bytes > 0) {
     if (!fs::exists(file) || fs::file_size(file) < static_cast<std::uintmax_t>(keep_bytes))

@@ -7,7 +7,14 @@
 #include <future>
 #include <string>
 
+#include "particles/scene/scene.hpp"
+
 namespace drumlin::apps {
+
+/// The file in a run folder that holds a copy of the grain list of its scene.
+inline constexpr const char* grain_list = "grains.csv";
+/// The scene as it stands in the run folder.
+Scene as_recorded(Scene scene);
 
 /// A table of a run, one line per logged step; on resuming cut back to the length that the checkpoint names.
 class RunTable {

@@ -10,6 +10,7 @@ import math
 import pathlib
 import re
 import sys
+import tomllib
 
 import matplotlib.pyplot as plt
 from matplotlib.ticker import LogLocator, NullFormatter, ScalarFormatter
@@ -23,20 +24,20 @@ SCALARS = [("theta_com_deg", r"$\theta$ (centre of mass)  [deg]", 2), ("H", r"$H
 
 
 def runs_of(standard, convergence):
-    """{setting: [(run.json, measured.json), ...]}, the standard first."""
+    """{setting: [(run.json, measured.json, folder), ...]}, the standard first."""
     groups = {}
     for folder in sorted(standard.glob("6rpm-seed*")):
         groups.setdefault("tolerance-3e-3, the standard", []).append(folder)
     for folder in sorted(convergence.glob("6rpm-*-seed*")):
         groups.setdefault(re.sub(r"^6rpm-|-seed\d+$", "", folder.name), []).append(folder)
     read = lambda path: json.loads(path.read_text(encoding="utf-8"))
-    return {name: [(read(folder / "run.json"), read(folder / "measured" / "measured.json")) for folder in folders
+    return {name: [(read(folder / "run.json"), read(folder / "measured" / "measured.json"), folder) for folder in folders
                    if (folder / "measured" / "measured.json").exists()] for name, folders in groups.items()}
 
 
 def pooled(runs, scalar):
     """Mean over the seeds; half width from the runs' own 99 % intervals, or from their scatter where that is larger."""
-    entries = [measured[scalar] for _, measured in runs if measured[scalar]["value"] is not None]
+    entries = [measured[scalar] for _, measured, _ in runs if measured[scalar]["value"] is not None]
     values = [entry["value"] for entry in entries]
     n = len(values)
     if n == 0:
@@ -52,9 +53,19 @@ def pooled(runs, scalar):
 
 def steps(runs):
     """Mean CPU seconds and sweeps a step."""
-    cpu = sum(run["cpu_seconds"] for run, _ in runs) / len(runs)
-    sweeps = sum(run["cost"]["sweeps_mean"] for run, _ in runs) / len(runs)
+    cpu = sum(run["cpu_seconds"] for run, *_ in runs) / len(runs)
+    sweeps = sum(run["cost"]["sweeps_mean"] for run, *_ in runs) / len(runs)
     return cpu, sweeps
+
+
+def settings_of(runs):
+    """What distinguishes the runs, as drumlin measure looks for it (apps/commands/accuracy_statement.hpp)."""
+    scene = tomllib.loads((runs[0][2] / "scene.toml").read_text(encoding="utf-8"))
+    result = {"solver": scene["solver"]["name"], "tolerance": scene["solver"]["tolerance"], "step_s": scene["stages"][-1]["time_step_s"],
+              "missed_share": sum(run["unconverged_steps"] / run["steps"] for run, *_ in runs) / len(runs)}
+    if scene["effects"]["friction"]["grain_grain"] != 0.4:
+        result["another_scene"] = True
+    return result
 
 
 def table(groups):
@@ -62,7 +73,7 @@ def table(groups):
     lines = ["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
     for name, runs in groups.items():
         cpu, sweeps = steps(runs)
-        missed = sum(run["unconverged_steps"] for run, _ in runs) / len(runs)
+        missed = sum(run["unconverged_steps"] for run, *_ in runs) / len(runs)
         cells = [name, str(len(runs)), f"{cpu:.0f}", f"{sweeps:.0f}", f"{missed:.0f}"]
         for scalar, _, digits in SCALARS:
             mean, half = pooled(runs, scalar)
@@ -103,11 +114,12 @@ def main():
     text = table(groups)
     (output / "convergence.md").write_text(text, encoding="utf-8")
     content = {"format": "drumlin-convergence-1", "settings": {
-        name: {"seeds": len(runs), "cpu_seconds": steps(runs)[0], "sweeps_mean": steps(runs)[1],
+        name: {"seeds": len(runs), **settings_of(runs), "cpu_seconds": steps(runs)[0], "sweeps_mean": steps(runs)[1],
                **{scalar: dict(zip(("value", "ci99"), pooled(runs, scalar))) for scalar, *_ in SCALARS}}
         for name, runs in groups.items()},
+        "scene": (next(iter(groups.values()))[0][2] / "scene.toml").read_text(encoding="utf-8"),
         "machine": next(iter(groups.values()))[0][0]["provenance"].get("machine"),
-        "revisions": sorted({run["revision"] for runs in groups.values() for run, _ in runs})}
+        "revisions": sorted({run["revision"] for runs in groups.values() for run, *_ in runs})}
     (output / "convergence.json").write_text(json.dumps(content, indent=2) + "\n", encoding="utf-8")
     style.save(figure({name: runs for name, runs in groups.items() if "friction" not in name}), output / "convergence.png", False)
     print(text)

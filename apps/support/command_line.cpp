@@ -83,6 +83,13 @@ void add_existing(CLI::App& command, ExistingOutput& existing, const std::string
   overwrite->excludes(resume);
 }
 
+void add_accuracy(CLI::App& command, std::optional<std::filesystem::path>& accuracy) {
+  add_optional_path(
+      command, "--accuracy", accuracy, "COST",
+      "Left by drumlin cost --statistics for the same scene: from it comes what solver tolerance and "
+      "time step leave of error; standard: a record of data/cost, if one is of the scene");
+}
+
 const char* const keep_what_is_done = "Keeps what an earlier call has finished";
 
 /// All commands with the options that they fill in; `request` receives those of the chosen one.
@@ -144,6 +151,7 @@ class CommandLine {
     add_overrides(command, run_.overrides);
     add_number(command, "--threads", run_.threads, "", at_least(1, 1024),
                "Threads; the results do not depend on it");
+    add_accuracy(command, run_.accuracy);
     add_existing(command, run_.existing, "Continues from the last checkpoint; starts over if there is none");
   }
 
@@ -179,6 +187,7 @@ class CommandLine {
             "Snapshots of which every grain's fields are written: all, last, or numbers and ranges such as "
             "1,5,10-20")
         ->type_name("LIST");
+    add_accuracy(command, measure_.accuracy);
     add_existing(command, measure_.existing, keep_what_is_done);
   }
 
@@ -388,25 +397,48 @@ class CommandLine {
   }
 
   void add_cost() {
-    CLI::App& command = add_command("cost", "Prices the effects of a scene", cost_);
+    CLI::App& command =
+        add_command("cost", "What accuracy costs in a scene, or its effects (docs/cost.md)", cost_);
+    add_folder_or_file(command, "scene", cost_.scene, "SCENE.toml", "Scene of particles or of a flow");
     command
-        .add_flag(
-            "--effects", cost_.effects,
-            "Runs the scene with each of its effects removed and each absent one added; prints seconds, "
-            "bytes, unknowns and results of each")
-        ->required();
-    add_folder_or_file(command, "scene", cost_.scene, "SCENE.toml", "Scene file (docs/formats/scene.md)");
+        .add_option("--sweep", cost_.sweep,
+                    "What is varied, each with its values or standard ones, e.g. tolerance=1e-2:1e-3,step; "
+                    "particles: solver, tolerance, step; flows: mesh, eps, tolerance [all]")
+        ->delimiter(',')
+        ->type_name("NAME[=VALUE:...],...");
+    command
+        .add_option_function<double>(
+            "--horizon", [this](double seconds) { cost_.horizon_s = seconds; },
+            "Particles: longest stretch after which velocities are compared; half or a quarter of it where "
+            "the "
+            "finest point leaves the reference earlier; standard: 16 steps of the scene [s, number > 0]")
+        ->check(CLI::PositiveNumber);
+    command
+        .add_option_function<double>(
+            "--statistics", [this](double seconds) { cost_.statistics_s = seconds; },
+            "Particles: compares the measured numbers of runs of this length as well [s, number > 0]")
+        ->check(CLI::PositiveNumber);
+    add_optional_path(
+        command, "--from", cost_.from, "RUN",
+        "Particles: finished run of the scene to start from; standard: the beginning of the last "
+        "stage, which is run up to first");
+    add_optional_path(command, "--rheology", cost_.rheology, "RHEOLOGY.toml",
+                      "Flows: law, from calibrate or data/rheology");
+    command.add_flag(
+        "--effects", cost_.effects,
+        "In place of a sweep: the scene with each of its effects removed and each absent one added; "
+        "seconds, unknowns and results of each");
     command
         .add_option_function<std::string>(
             "-o,--output", [this](const std::string& folder) { cost_.output = folder; },
-            "Folder for cost.json and prices.png; none is written without")
+            "Folder for cost.json, its points and figures; --effects of particles can do without")
         ->type_name("COST");
     add_overrides(command, cost_.overrides);
     add_number(command, "--seconds", cost_.seconds, "s", above(0),
-               "Simulated time from the start of the scene");
+               "With --effects, particles: simulated time from the start of the scene");
     add_number(command, "--threads", cost_.threads, "", at_least(1, 1024),
                "Threads; the results do not depend on it");
-    add_existing(command, cost_.existing, "Runs anew, over what an earlier call left");
+    add_existing(command, cost_.existing, "Keeps the points that an earlier call has finished");
   }
 
   void add_hardcases() {

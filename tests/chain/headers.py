@@ -14,6 +14,7 @@ import sys
 ALLOWED_ROOMS = {
     "coupling/exchange": ["coupling/exchange"],
     "coupling/files": ["coupling/exchange", "coupling/files"],
+    "coupling/accuracy": ["coupling/exchange", "coupling/accuracy"],
     "coupling/calibration": ["coupling/exchange", "coupling/calibration"],
     "coupling/comparison": ["coupling/exchange", "coupling/comparison"],
     "coupling/study": ["coupling/exchange", "coupling/calibration", "coupling/comparison", "coupling/study"],

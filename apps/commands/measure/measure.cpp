@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "apps/commands.hpp"
+#include "apps/commands/accuracy_statement.hpp"
 #include "apps/commands/measure/content.hpp"
 #include "apps/commands/measure/part.hpp"
 #include "apps/support/figures.hpp"
@@ -20,6 +21,7 @@
 #include "particles/io/snapshot_file.hpp"
 #include "particles/measurement/measurement.hpp"
 #include "particles/measurement/run_log.hpp"
+#include "particles/scene/scene_file.hpp"
 
 namespace drumlin::apps {
 
@@ -112,6 +114,29 @@ void print_scalar(const Scalar& scalar, const ScalarSensitivity& sensitivity) {
                                          known ? fmt::format("+- {:.2g}", *scalar.ci99) : "", windows)));
 }
 
+/// What is known beside the intervals; nothing of another program's run.
+std::optional<AccuracyStatement> statement_of(const MeasureOptions& options, const Json& run,
+                                              const Measurement& measured, const ScalarSet& scalars) {
+  if (run.value("imported", false) || !fs::exists(options.run / "scene.toml")) return std::nullopt;
+  const Scene scene = read_scene(options.run / "scene.toml");
+  const auto record = options.accuracy ? accuracy_record(*options.accuracy, scene) : shipped_record(scene);
+  const double snapshots = static_cast<double>(measured.series.time.size());
+  const double both_ends =
+      snapshots > 1 ? snapshots / (snapshots - 1) : 1;  // each snapshot stands for a stretch
+  const double sampled = both_ends * (measured.last_time() - measured.first_time()) * measured.scales.time_s;
+  const double turned = measured.series.wall_angle.empty()
+                            ? 0
+                            : measured.series.wall_angle.back() - measured.series.wall_angle.front();
+  const RunCost cost{.cpu_seconds = run.value("cpu_seconds", 0.0),
+                     .simulated_seconds = run.value("simulated_seconds", 0.0),
+                     .sampled_seconds = sampled,
+                     .turns = both_ends * std::abs(turned) / (2 * std::numbers::pi)};
+  ScalarSet with_intervals;
+  for (const Scalar& scalar : scalars.scalars)
+    if (scalar.ci99 && std::isfinite(scalar.value)) with_intervals.scalars.push_back(scalar);
+  return accuracy_statement(scene, record, with_intervals, cost);
+}
+
 void print_steadiness(const Steadiness& steadiness) {
   fmt::print("{}", steadiness.steady ? "steady" : "NOT STEADY, or too short to say:");
   for (const std::string& reason : steadiness.reasons) fmt::print("\n  - {}", reason);
@@ -176,6 +201,9 @@ int measure(const MeasureOptions& options) {
   for (const char* key : {"revision", "seed"})
     if (run.contains(key)) content["provenance"][std::string("run_") + key] = run[key];
 
+  const auto statement = statement_of(options, run, measured, scalars);
+  content["accuracy"] = statement ? to_json(*statement) : Json(nullptr);
+
   write_profiles(folder / "profiles.csv", measured.profiles);
   write_series(folder / "series.csv", measured.series);
   write_slices(folder, measured, settings, measured.profiles.header, content);
@@ -199,6 +227,7 @@ int measure(const MeasureOptions& options) {
   print_steadiness(measured.steadiness);
   for (const Part& part : parts)
     if (part.print) part.print();
+  if (statement) fmt::print("{}", text_of(*statement));
   return static_cast<int>(ExitCode::done);
 }
 

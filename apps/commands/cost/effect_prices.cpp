@@ -4,11 +4,10 @@
 #include <malloc.h>
 
 #include <cmath>
-#include <csignal>
-#include <ctime>
 #include <nlohmann/json.hpp>
 
-#include "apps/commands.hpp"
+#include "apps/commands/cost/cost.hpp"
+#include "apps/commands/cost/sweep.hpp"
 #include "apps/support/figures.hpp"
 #include "apps/support/interruption.hpp"
 #include "apps/support/json_file.hpp"
@@ -23,12 +22,6 @@ namespace drumlin::apps {
 namespace {
 
 namespace fs = std::filesystem;
-
-double cpu_seconds() {
-  std::timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 /// Bytes that the program has asked for and not given back.
 double heap_bytes() {
@@ -80,7 +73,7 @@ double slope_of(const Price& price, const Scene& scene) {
 /// Runs a scene's first `seconds`; an interruption leaves it unfinished.
 Price price_of(const Scene& scene, double seconds, int threads) {
   Price price;
-  const double bytes_before = heap_bytes(), start = cpu_seconds();
+  const double bytes_before = heap_bytes(), start = process_seconds();
   Simulation simulation(scene, threads);
   const Scales& scales = simulation.scales();
   const double end = seconds / scales.time_s;
@@ -99,7 +92,7 @@ Price price_of(const Scene& scene, double seconds, int threads) {
     price.kinetic_energy_J_kg += now.energy, price.center_x_mm += now.x, price.center_z_mm += now.z;
     price.overlap_d += report.overlap.mean;
   }
-  price.cpu_seconds = cpu_seconds() - start;
+  price.cpu_seconds = process_seconds() - start;
   price.bytes = heap_bytes() - bytes_before;
   price.unknowns_per_contact = simulation.stepper().unknowns_per_contact();
   price.velocities_per_body = simulation.stepper().velocities_per_body();
@@ -153,8 +146,7 @@ void print_row(const std::string& name, const Price& p) {
 
 }  // namespace
 
-int cost(const CostOptions& options) {
-  if (!options.effects) throw InputError("cost: nothing to price (allowed: --effects)");
+int price_particle_effects(const CostOptions& options) {
   const Scene scene = read_scene(options.scene, options.overrides);
   (void)Simulation(scene);
   if (options.output) prepare_output(*options.output, options.existing, {"cost.json"}, {options.scene});
@@ -175,8 +167,7 @@ int cost(const CostOptions& options) {
     row["name"] = name;
     if (variant.refused.empty()) {
       const Price price = price_of(variant.scene, options.seconds, options.threads);
-      if (const int signal = interruption())
-        return static_cast<int>(signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted);
+      stop_if_interrupted();
       add_price(row, price);
       print_row(name, price);
     } else {

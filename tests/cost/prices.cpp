@@ -7,38 +7,16 @@
 #include "apps/commands.hpp"
 #include "apps/support/json_file.hpp"
 #include "coupling/exchange/errors.hpp"
+#include "tests/cost/drum_of_a_dozen.hpp"
 #include "tests/exchange_files/folder.hpp"
 
 namespace drumlin {
 namespace {
 
-const std::string drum = R"(format = "drumlin-scene-1"
-[grains]
-density_kg_m3 = 2700
-[grains.generated]
-count = 12
-diameter_min_mm = 3.0
-diameter_max_mm = 3.6
-region = { shape = "circle", center_mm = [0, -1], radius_mm = 13 }
-[[walls]]
-name = "drum"
-shape = "container"
-radius_mm = 15
-[effects.gravity]
-[effects.friction]
-grain_grain = 0.4
-grain_wall = 0.9
-[effects.spin]
-[[stages]]
-name = "fall"
-duration_s = 0.2
-time_step_s = 1e-3
-)";
-
 TEST(EffectPrices, AreListedPrintedAndDrawn) {
   const testing::TemporaryFolder folder;
   apps::CostOptions options;
-  options.scene = folder.with("scene.toml", drum);
+  options.scene = folder.with("scene.toml", testing::drum_of_a_dozen);
   options.effects = true;
   options.output = folder / "cost";
   options.seconds = 0.15;
@@ -68,7 +46,7 @@ TEST(EffectPrices, AreListedPrintedAndDrawn) {
 TEST(EffectPrices, AreNotWrittenOverWhatStandsThere) {
   const testing::TemporaryFolder folder;
   apps::CostOptions options;
-  options.scene = folder.with("scene.toml", drum);
+  options.scene = folder.with("scene.toml", testing::drum_of_a_dozen);
   options.effects = true;
   options.output = folder / ".";
   EXPECT_THROW(apps::cost(options), InputError);

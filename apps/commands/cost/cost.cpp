@@ -1,0 +1,38 @@
+// drumlin cost: what accuracy costs, and what each effect; the kind of the scene decides how it is found out.
+#include "apps/commands/cost/cost.hpp"
+
+#include "apps/commands/cost/sweep.hpp"
+#include "coupling/exchange/document.hpp"
+#include "coupling/exchange/errors.hpp"
+
+namespace drumlin::apps {
+namespace {
+
+bool is_flow_scene(const std::filesystem::path& file) {
+  const Document document = read_toml(file);
+  const Node* format = document.root.find("format");
+  const auto* text = format != nullptr ? std::get_if<std::string>(&format->value) : nullptr;
+  if (text != nullptr && text->starts_with("drumlin-flow-scene-")) return true;
+  if (text != nullptr && text->starts_with("drumlin-scene-")) return false;
+  throw InputError({InputProblem{.file = file.string(),
+                                 .line = format != nullptr ? format->line : 0,
+                                 .key = "format",
+                                 .what = "is no scene that can be priced",
+                                 .allowed = "drumlin-scene-1, drumlin-flow-scene-1"}});
+}
+
+}  // namespace
+
+int cost(const CostOptions& options) {
+  const bool flow = is_flow_scene(options.scene);
+  if (flow && !options.rheology)
+    throw InputError(options.scene.string() + ": a flow scene needs --rheology RHEOLOGY.toml");
+  try {
+    if (options.effects) return flow ? price_flow_effects(options) : price_particle_effects(options);
+    return flow ? sweep_flow(options) : sweep_particles(options);
+  } catch (const Interrupted& stopped) {
+    return stopped.exit_code;
+  }
+}
+
+}  // namespace drumlin::apps

@@ -1,0 +1,76 @@
+#include "apps/commands/cost/long_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "apps/commands/cost/sweep.hpp"
+#include "apps/commands/run_files.hpp"
+#include "apps/support/json_file.hpp"
+#include "coupling/exchange/text_file.hpp"
+#include "particles/io/checkpoint_file.hpp"
+#include "particles/scene/scene_file.hpp"
+
+namespace drumlin::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr double snapshots_per_second = 40;  // as in the paper: 400 over a turn of 10 s
+constexpr int least_snapshots = 40;          // two in each of the twenty batches of an interval
+
+void succeed(int exit_code) {
+  if (exit_code != 0) throw Interrupted{exit_code};
+}
+
+/// The state as a checkpoint of the run, so that `drumlin run --resume` goes on from it.
+void lay_down(const SweepStart& start, const Scene& scene, const fs::path& run) {
+  fs::create_directories(run);
+  Checkpoint checkpoint;
+  checkpoint.scene = scene_text(as_recorded(scene));
+  checkpoint.state = start.state;
+  write_checkpoint(run / "checkpoint.h5", checkpoint);
+}
+
+}  // namespace
+
+Json long_run(const SweepStart& start, Scene scene, const fs::path& folder, int threads) {
+  const double seconds = duration_s(scene.stages.back());
+  scene.stages.back().snapshots =
+      std::max(least_snapshots, static_cast<int>(std::lround(snapshots_per_second * seconds)));
+  const fs::path file = folder / "scene.toml", run_folder = folder / "run";
+  const double load = load_average();
+  if (!fs::exists(run_folder / "checkpoint.h5")) {
+    lay_down(start, scene, run_folder);
+    replace_file(file, scene_text(scene));
+  }
+  RunOptions asked;
+  asked.scene = file, asked.output = run_folder, asked.threads = threads;
+  asked.existing = ExistingOutput::resume;
+  succeed(run(asked));
+  MeasureOptions measuring;
+  measuring.run = run_folder;
+  measuring.parts = {"none"};
+  measuring.existing = ExistingOutput::resume;
+  succeed(measure(measuring));
+
+  const Json ran = read_json(run_folder / "run.json", "drumlin-run-1");
+  const Json measured = read_json(run_folder / "measured" / "measured.json", "drumlin-measured-1");
+  const double all = ran.at("steps").get<double>(), own = all - static_cast<double>(start.state.step);
+  Json statistics{{"simulated_seconds", seconds},
+                  {"cpu_seconds", ran.at("cpu_seconds")},
+                  {"steps", own},
+                  {"sweeps_mean", ran.at("cost").at("sweeps_mean").get<double>() * all / own},
+                  {"missed_share", ran.at("unconverged_steps").get<double>() / own},
+                  {"load_before", load}};
+  Json scalars = Json::object();
+  for (const auto& [key, value] : measured.items())
+    if (value.is_object() && value.contains("value") && value.contains("ci99"))
+      scalars[key] = {{"value", value.at("value")}, {"ci99", value.at("ci99")}};
+  statistics["scalars"] = scalars;
+  fs::remove_all(folder);
+  return {{"statistics", statistics}};
+}
+
+}  // namespace drumlin::apps

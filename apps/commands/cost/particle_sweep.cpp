@@ -1,0 +1,314 @@
+// drumlin cost SCENE for particles: solvers, tolerances and time steps from one state, judged by the
+// velocities that they lead to and, on request, by what long runs measure.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "apps/commands/cost/cost.hpp"
+#include "apps/commands/cost/long_run.hpp"
+#include "apps/commands/cost/particle_points.hpp"
+#include "apps/commands/cost/sweep.hpp"
+#include "apps/support/figures.hpp"
+#include "apps/support/interruption.hpp"
+#include "apps/support/json_file.hpp"
+#include "apps/support/output_folder.hpp"
+#include "coupling/exchange/errors.hpp"
+#include "particles/io/checkpoint_file.hpp"
+#include "particles/measurement/motion_difference.hpp"
+#include "particles/scene/scene_file.hpp"
+#include "particles/solver/contact_solver.hpp"
+
+namespace drumlin::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// Errors are read where the finest point still follows the reference to this: what two sequences of impacts
+// make of a difference grows with time, whatever its size was.
+constexpr double largest_floor = 0.02;
+constexpr double standard_steps = 16;  // of the scene, in the stretch
+// "solver" is of the same step with a much tighter tolerance: what the contact solve alone leaves.
+const std::vector<std::string> quantities = {"field", "displacement", "velocity", "energy", "solver"};
+
+struct Sweep {
+  ParticleSettings standard;  ///< the scene's own
+  std::vector<ParticleSettings> points;
+  ParticleSettings reference;  ///< what the points are measured against
+  ParticleSettings finest;     ///< the point closest to it: what the reference itself is worth
+
+  /// Of the same step, solved as tightly as the reference.
+  ParticleSettings tight(double step_s) const { return {reference.solver, reference.tolerance, step_s}; }
+};
+
+std::vector<std::string> solvers_of(const SweepAxis& axis) {
+  const std::vector<std::string> known = contact_solver_names();
+  // cpg and reference take minutes where the others take seconds: on request.
+  if (axis.values.empty()) return {"accelerated", "accelerated-double", "nlgs", "nlgs-scalar", "nncg"};
+  for (const std::string& name : axis.values)
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      std::string allowed;
+      for (const std::string& one : known) allowed += (allowed.empty() ? "" : ", ") + one;
+      throw InputError({InputProblem{
+          .file = {}, .key = "--sweep solver", .what = "'" + name + "' is no solver", .allowed = allowed}});
+    }
+  return axis.values;
+}
+
+void add(std::vector<ParticleSettings>& points, const ParticleSettings& one) {
+  if (std::find(points.begin(), points.end(), one) == points.end()) points.push_back(one);
+}
+
+Sweep sweep_of(const CostOptions& options, const Scene& scene) {
+  const auto axes = sweep_axes(options.sweep, {"solver", "tolerance", "step"});
+  Sweep sweep;
+  const double tolerance = scene.solver.tolerance, step = scene.stages.back().time_step_s;
+  sweep.standard = {scene.solver.name, tolerance, step};
+  std::vector<double> tolerances = {tolerance}, steps = {step};
+  if (const auto* axis = find_axis(axes, "tolerance"))
+    tolerances = numbers_of(*axis, {10 * tolerance, 3 * tolerance, tolerance, tolerance / 3, tolerance / 10});
+  if (const auto* axis = find_axis(axes, "step")) steps = numbers_of(*axis, {2 * step, step, step / 2});
+  add(sweep.points, sweep.standard);
+  for (const double h : steps)
+    for (const double t : tolerances) add(sweep.points, {scene.solver.name, t, h});
+  if (const auto* axis = find_axis(axes, "solver"))
+    for (const std::string& name : solvers_of(*axis))
+      for (const double t : tolerances)
+        if (t >= 0.3 * tolerance) add(sweep.points, {name, t, step});
+  double least = INFINITY, shortest = INFINITY;
+  for (const ParticleSettings& p : sweep.points) {
+    least = std::min(least, p.tolerance);
+    shortest = std::min(shortest, p.step_s);
+  }
+  sweep.finest = {scene.solver.name, least, shortest};
+  sweep.reference = {"accelerated", least / 3, shortest / 2};
+  return sweep;
+}
+
+Json settings_json(const ParticleSettings& s) {
+  return {{"solver", s.solver}, {"tolerance", s.tolerance}, {"step_s", s.step_s}};
+}
+
+Json marks_json(const std::vector<Mark>& marks, double seconds) {
+  Json list = Json::array();
+  for (const Mark& mark : marks) {
+    const double steps = static_cast<double>(mark.steps);
+    list.push_back({{"simulated_seconds", seconds * steps / static_cast<double>(marks.back().steps)},
+                    {"cpu_seconds", mark.cpu_seconds},
+                    {"steps", mark.steps},
+                    {"sweeps", mark.sweeps},
+                    {"contact_sweeps", mark.contact_sweeps},
+                    {"missed_share", static_cast<double>(mark.missed) / steps},
+                    {"overlap_d", mark.overlap_d}});
+  }
+  return list;
+}
+
+class ParticleSweep {
+ public:
+  ParticleSweep(const CostOptions& options, const Scene& scene)
+      : options_(options),
+        scene_(scene),
+        sweep_(sweep_of(options, scene)),
+        stretch_s_(options.horizon_s.value_or(standard_steps * scene.stages.back().time_step_s)) {}
+
+  int execute() {
+    if (!options_.output) throw InputError("cost: a sweep needs --output COST for its points");
+    std::vector<fs::path> inputs = {options_.scene};
+    if (options_.from) inputs.push_back(*options_.from / "run.json");
+    prepare_output(*options_.output, options_.existing, {"sweep.json", "cost.json"}, inputs);
+    const Json shared{{"kind", "particles"},
+                      {"scene", scene_text(scene_)},
+                      {"from", options_.from ? options_.from->string() : "the beginning of the last stage"},
+                      {"horizon_s", stretch_s_},
+                      {"reference", settings_json(sweep_.reference)}};
+    const PointStore store(*options_.output, shared);
+    catch_interruptions();
+    const SweepStart start = sweep_start(options_, scene_);
+    fmt::print("{}: {:g} s from {}, {} points\n", options_.scene.string(), stretch_s_,
+               shared.at("from").get<std::string>(), sweep_.points.size());
+    make_reference(start, store, sweep_.reference);
+    const Json finest = measured_point(start, store, sweep_.finest);
+    const std::size_t horizon = chosen_horizon(finest);
+    Json points = Json::array();
+    fmt::print("{:>10} {:>8} {:>8}", "processor", "sweeps", "missed");
+    for (const std::string& name : quantities) fmt::print(" {:>12}", name);
+    fmt::print("  (processor seconds per simulated one; relative errors)\n");
+    for (const ParticleSettings& settings : sweep_.points)
+      points.push_back(flat(measured_point(start, store, settings), settings, horizon));
+    if (options_.statistics_s) add_statistics(start, store, points);
+    mark_fronts(points, quantities);
+    write_report(store, finest, points, horizon);
+    return static_cast<int>(ExitCode::done);
+  }
+
+ private:
+  fs::path reference_file(const PointStore& store, const ParticleSettings& reference, int mark) const {
+    return store.beside(fmt::format("{}-at-{}.h5", name_of(reference), mark + 1));
+  }
+
+  /// Runs through the stretch and keeps where the grains are at each mark.
+  void make_reference(const SweepStart& start, const PointStore& store,
+                      const ParticleSettings& settings) const {
+    const std::string name = "reference-" + name_of(settings);
+    if (store.finished(name)) return;
+    fmt::print("{}\n", name);
+    std::fflush(stdout);
+    const auto marks = marks_along(start, settings, stretch_s_, options_.threads);
+    for (int m = 0; m < marks_of_stretch; ++m) {
+      Checkpoint kept;
+      kept.scene = scene_text(start.scene);
+      kept.state = start.state;
+      kept.state.bodies = marks[static_cast<std::size_t>(m)].bodies;
+      write_checkpoint(reference_file(store, settings, m), kept);
+    }
+    Json point = settings_json(settings);
+    point["load_before"] = load_average();
+    point["marks"] = marks_json(marks, stretch_s_);
+    store.keep(name, point);
+  }
+
+  /// A stretch of a few steps is short for a clock: the least of some repetitions, which do the same work.
+  double least_seconds(const SweepStart& start, const ParticleSettings& settings, double first) const {
+    double least = first, all = first;
+    for (int again = 1; again < 5 && all < 0.5; ++again) {
+      const double seconds = marks_along(start, settings, stretch_s_, options_.threads).back().cpu_seconds;
+      least = std::min(least, seconds);
+      all += seconds;
+    }
+    return least;
+  }
+
+  MotionDifference apart(const SweepStart& start, const PointStore& store, const ParticleSettings& reference,
+                         int mark, const Bodies& bodies) const {
+    const Bodies there = read_checkpoint(reference_file(store, reference, mark)).state.bodies;
+    return motion_difference(start.state.bodies, there, bodies);
+  }
+
+  Json measured_point(const SweepStart& start, const PointStore& store,
+                      const ParticleSettings& settings) const {
+    const std::string name = name_of(settings);
+    if (const auto done = store.finished(name)) return *done;
+    make_reference(start, store, sweep_.tight(settings.step_s));
+    Json point = settings_json(settings);
+    point["load_before"] = load_average();
+    const auto marks = marks_along(start, settings, stretch_s_, options_.threads);
+    point["marks"] = marks_json(marks, stretch_s_);
+    point["cpu_seconds"] = least_seconds(start, settings, marks.back().cpu_seconds) / stretch_s_;
+    for (int m = 0; m < marks_of_stretch; ++m) {
+      const auto index = static_cast<std::size_t>(m);
+      const MotionDifference d = apart(start, store, sweep_.reference, m, marks[index].bodies);
+      const MotionDifference solver =
+          apart(start, store, sweep_.tight(settings.step_s), m, marks[index].bodies);
+      point["marks"][index]["errors"] = {{"field", d.field},       {"displacement", d.displacement},
+                                         {"velocity", d.velocity}, {"energy", d.energy},
+                                         {"solver", solver.field}, {"solver_velocity", solver.velocity}};
+    }
+    store.keep(name, point);
+    return store.finished(name).value();
+  }
+
+  /// The longest stretch over which the finest point still follows the reference.
+  std::size_t chosen_horizon(const Json& finest) const {
+    std::size_t chosen = 0;
+    for (std::size_t m = 0; m < marks_of_stretch; ++m) {
+      const Json& errors = finest.at("marks")[m].at("errors");
+      const auto floor = [&](const char* name) {
+        return errors.at(name).is_number() ? errors.at(name).get<double>() : NAN;
+      };
+      fmt::print("floor after {:g} s: field {:.2g}, displacement {:.2g}, velocity {:.2g}, energy {:.2g}\n",
+                 finest.at("marks")[m].at("simulated_seconds").get<double>(), floor("field"),
+                 floor("displacement"), floor("velocity"), floor("energy"));
+      if (floor("field") < largest_floor) chosen = m;
+    }
+    return chosen;
+  }
+
+  /// The point as it stands in cost.json: the numbers of the horizon that all are read at.
+  Json flat(const Json& point, const ParticleSettings& settings, std::size_t horizon) const {
+    Json row{{"name", point.at("name")}, {"default", settings == sweep_.standard}};
+    row.update(settings_json(settings));
+    for (const char* key : {"load_before", "cpu_seconds"}) row[key] = point.at(key);
+    const Json& mark = point.at("marks")[horizon];
+    for (const auto& [key, value] : mark.items())
+      if (key != "simulated_seconds" && key != "cpu_seconds") row[key] = value;
+    const double steps = mark.at("steps").get<double>();
+    fmt::print("{:8.2f} s {:8.1f} {:6.1f} %", point.at("cpu_seconds").get<double>(),
+               mark.at("sweeps").get<double>() / steps, 100 * mark.at("missed_share").get<double>());
+    for (const std::string& name : quantities) {
+      const Json& error = mark.at("errors").at(name);
+      fmt::print(" {:>12}", error.is_number() ? fmt::format("{:.2g}", error.get<double>()) : "-");
+    }
+    fmt::print("  {}{}\n", point.at("name").get<std::string>(),
+               settings == sweep_.standard ? " (the scene)" : "");
+    std::fflush(stdout);
+    return row;
+  }
+
+  /// Solvers apart, which differ by nothing but their work: the scene's own solver.
+  void add_statistics(const SweepStart& start, const PointStore& store, Json& points) const {
+    for (std::size_t i = 0; i < sweep_.points.size(); ++i) {
+      const ParticleSettings& settings = sweep_.points[i];
+      if (settings.solver != sweep_.standard.solver) continue;
+      const std::string name = fmt::format("{}-over-{:g}-s", name_of(settings), *options_.statistics_s);
+      auto kept = store.finished(name);
+      if (!kept) {
+        Scene scene = with_settings(start.scene, settings, *options_.statistics_s);
+        store.keep(name, long_run(start, scene, store.beside(name), options_.threads));
+        kept = store.finished(name);
+      }
+      points[i]["statistics"] = kept->at("statistics");
+    }
+  }
+
+  void write_report(const PointStore& store, const Json& finest, const Json& points,
+                    std::size_t horizon) const {
+    const Json reference = store.finished("reference-" + name_of(sweep_.reference)).value();
+    Json report{{"format", "drumlin-cost-1"},
+                {"kind", "particles"},
+                {"title", scene_.title},
+                {"reduced", scene_.reduced}};
+    report["scene_file"] = options_.scene.filename().string();
+    report["threads"] = options_.threads;
+    report["horizon_s"] = finest.at("marks")[horizon].at("simulated_seconds");
+    report["floor"] = finest.at("marks")[horizon].at("errors");
+    report["floors"] = Json::array();
+    for (const Json& mark : finest.at("marks"))
+      report["floors"].push_back(
+          {{"simulated_seconds", mark.at("simulated_seconds")}, {"errors", mark.at("errors")}});
+    report["reference"] = settings_json(sweep_.reference);
+    report["reference"]["cpu_seconds"] = reference.at("marks")[horizon].at("cpu_seconds");
+    report["quantities"] = quantities;
+    if (options_.statistics_s) report["statistics_s"] = *options_.statistics_s;
+    report["points"] = points;
+    report["scene"] = scene_text(scene_);
+    report["provenance"] = to_json(provenance());
+    const fs::path file = *options_.output / "cost.json";
+    draw(report);
+    write_json(file, report);
+    fmt::print("{}\n", file.string());
+  }
+
+  void draw(const Json& report) const {
+    const fs::path unfinished = *options_.output / "cost.json.part";
+    write_json(unfinished, report);
+    draw_figures("work_precision.py", {unfinished.string(), options_.output->string()});
+    fs::remove(unfinished);
+  }
+
+  const CostOptions& options_;
+  const Scene& scene_;
+  Sweep sweep_;
+  double stretch_s_;
+};
+
+}  // namespace
+
+int sweep_particles(const CostOptions& options) {
+  const Scene scene = read_scene(options.scene, options.overrides);
+  return ParticleSweep(options, scene).execute();
+}
+
+}  // namespace drumlin::apps
