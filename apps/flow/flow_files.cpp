@@ -342,7 +342,8 @@ void write_flow(const fs::path& folder, const FinishedFlow& flow) {
   // The figures read it under another name: flow.json itself says that all is there.
   const fs::path unfinished = folder / "flow.json.part";
   write_json(unfinished, content);
-  draw_figures("flow_figures.py", {folder.string(), "--flow", unfinished.string()});
+  if (flow.scene.output.figures)
+    draw_figures("flow_figures.py", {folder.string(), "--flow", unfinished.string()});
   write_json(folder / "flow.json", content);
   fs::remove(unfinished);
 }

@@ -178,6 +178,9 @@ void describe(Visitor& v, FlowOutput& o) {
                      "chord; elsewhere refused."));
   v.value("layer_thickness", o.layer_thickness, defaulted("d", above(0, 100), "Thickness of its layers."));
   v.value("map_spacing", o.map_spacing, defaulted("d", above(0, 100), "Spacing of the points of maps.h5."));
+  v.value(
+      "figures", o.figures,
+      defaulted("", anything(), "Draws the figures; false for many flows of which the numbers are wanted."));
 }
 template <class Visitor>
 void describe(Visitor& v, FlowScene& s) {

@@ -111,6 +111,7 @@ struct FlowOutput {
   std::optional<double> slice_width;  ///< d; of a drum alone, and always there
   double layer_thickness = 1;         ///< d
   double map_spacing = 0.5;           ///< d
+  bool figures = true;                ///< draws them
 };
 
 struct FlowScene {

@@ -63,7 +63,7 @@ Plain plain_files(const CostOptions& options, const PointStore& store) {
 }
 
 std::vector<std::string> changes_for(const Effect& effect, const Plain& plain) {
-  std::vector<std::string> changes = {"solver.sensitivity=false"};
+  std::vector<std::string> changes;
   for (const auto& [name, node] : plain.named)
     if (name == effect.name) {
       changes.push_back(fmt::format("effects.{}={}", name, toml_value(node)));
@@ -117,7 +117,6 @@ int price_flow_effects(const CostOptions& options) {
                           {"rheology", file_text(*options.rheology)}});
   catch_interruptions();
   const Plain plain = plain_files(options, store);
-  const std::vector<std::string> none = {"solver.sensitivity=false"};
   fmt::print("{}: processor seconds, iterations, scalars (what the effect changes)\n",
              options.scene.string());
   Json rows = Json::array();
@@ -125,7 +124,7 @@ int price_flow_effects(const CostOptions& options) {
     print(row);
     rows.push_back(std::move(row));
   };
-  const Json base = solved_point(store, {"none", plain.scene, plain.law, none});
+  const Json base = solved_point(store, {"none", plain.scene, plain.law, {}});
   if (base.contains("failure")) throw NotConvergedError("without any effect the flow did not converge");
   add(row_of("none", base, base));
   for (const Effect& effect : effects) {
@@ -138,13 +137,11 @@ int price_flow_effects(const CostOptions& options) {
                base));
   }
   if (!plain.named.empty() || plain.law_has_k) {
-    std::vector<std::string> changes = options.overrides;
-    changes.insert(changes.end(), none.begin(), none.end());
-    add(row_of("as it is", solved_point(store, {"as-it-is", options.scene, *options.rheology, changes}),
-               base));
+    add(row_of("as it is",
+               solved_point(store, {"as-it-is", options.scene, *options.rheology, options.overrides}), base));
   }
   // What differs between the two is noise of the machine.
-  add(row_of("none, again", solved_point(store, {"none-again", plain.scene, plain.law, none}), base));
+  add(row_of("none, again", solved_point(store, {"none-again", plain.scene, plain.law, {}}), base));
 
   Json report{{"format", "drumlin-flow-effect-prices-1"}, {"title", base.at("settings").at("title")}};
   const Document document = read_toml(options.scene, options.overrides);

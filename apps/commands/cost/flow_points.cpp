@@ -64,6 +64,8 @@ Json solved_point(const PointStore& store, const FlowToSolve& flow) {
   fs::remove_all(folder);  // of a call that was cut off
   std::vector<std::string> words = {flow.scene.string(), "--rheology", flow.rheology.string(), "-o",
                                     folder.string()};
+  for (const char* change : {"solver.sensitivity=false", "output.figures=false"})
+    words.insert(words.end(), {"--set", change});
   for (const std::string& change : flow.changes) words.insert(words.end(), {"--set", change});
   Json point{{"changes", flow.changes}, {"load_before", load_average()}};
   const int code = run_for_lines(program_beside("drumlin-flow"), words, [](const std::string&) {});

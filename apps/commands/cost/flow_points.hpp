@@ -13,7 +13,7 @@ struct FlowToSolve {
   std::string name;
   std::filesystem::path scene;
   std::filesystem::path rheology;
-  std::vector<std::string> changes;  ///< as for --set
+  std::vector<std::string> changes;  ///< as for --set, beside no sensitivities and no figures
 };
 
 /// Cost, scalars and profile of v_x of the flow (docs/formats/cost.md), from its file or solved now.

@@ -68,7 +68,6 @@ class FlowSweep {
  private:
   FlowToSolve flow(const std::string& name, std::vector<std::string> changes) const {
     changes.insert(changes.begin(), options_.overrides.begin(), options_.overrides.end());
-    changes.push_back("solver.sensitivity=false");
     return {name, options_.scene, *options_.rheology, changes};
   }
 

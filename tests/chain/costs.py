@@ -1,0 +1,111 @@
+"""drumlin cost on flows: errors against the closed form fall with the mesh, points are kept, refusals, the price list; the statement of a flow.
+
+usage: costs.py DRUMLIN FOLDER_OF_THIS_TEST DATA
+"""
+
+import pathlib
+import sys
+import tempfile
+
+from command import Drumlin, read_json, require
+
+CHUTE = """format = "drumlin-flow-scene-1"
+title = "Upright chute"
+reduced = true
+[chute]
+half_width_mm = 33
+pressure_pa = 2400
+[grains]
+diameter_min_mm = 3.0
+diameter_max_mm = 3.6
+density_kg_m3 = 2700
+[mesh]
+surface_cell = 0.2
+surface_zone = 2
+growth = 0.25
+[regularisation]
+shear_rate = 1e-4
+pressure = 1e-4
+[solver]
+tolerance = 1e-6
+"""
+
+
+def check_sweep(drumlin, work, law):
+    (work / "chute.toml").write_text(CHUTE, encoding="utf-8")
+    words = ["cost", work / "chute.toml", "--rheology", law, "-o", work / "cost", "--sweep", "mesh=1:2:3,eps=1e-2:1e-3"]
+    drumlin(*words)
+    report = read_json(work / "cost" / "cost.json")
+    require(report["format"] == "drumlin-cost-1" and report["kind"] == "continuum" and report["reduced"] is True, "not the report of a flow")
+    require(report["reference"] == "closed form", "a chute has a closed form")
+    by_level = {point["levels"]: point for point in report["points"] if "mesh" in point["axes"]}
+    mesh_errors = [by_level[level]["errors"]["v_x_mesh"] for level in (1, 2, 3)]
+    # Third order in v_x: at least 4 where 8 is asymptotic.
+    require(all(coarse > 4 * fine for coarse, fine in zip(mesh_errors, mesh_errors[1:])), f"errors by mesh: {mesh_errors}")
+    by_eps = {point["eps"]: point["errors"]["v_x"] for point in report["points"] if "eps" in point["axes"]}
+    require(by_eps[1e-2] > by_eps[1e-3] > by_eps[1e-4], f"errors by eps: {by_eps}")
+    require(sum(point["default"] for point in report["points"]) == 1, "one point is the scene as it is")
+    best = min(report["points"], key=lambda point: point["errors"]["v_x_mesh"])
+    require("v_x_mesh" in best["pareto"], "the most accurate point is not on the front")
+    require((work / "cost" / "work_precision.png").exists(), "no figure")
+
+    # Nothing is solved again: a point that is marked by hand stays marked, and the others are what they were.
+    kept = work / "cost" / "points" / "as-it-is.json"
+    kept.write_text(kept.read_text(encoding="utf-8").replace('"iterations": ', '"iterations": 1000'), encoding="utf-8")
+    drumlin(*words, code=2)
+    drumlin(*words, "--resume")
+    again = read_json(work / "cost" / "cost.json")
+    for before, after in zip(report["points"], again["points"]):
+        require(after["cpu_seconds"] == before["cpu_seconds"], f"{before['name']} was solved again")
+        require((after["iterations"] >= 1000) == after["default"], f"{after['name']}: {after['iterations']} iterations")
+    drumlin(*words, "--resume", "--set", "chute.pressure_pa=2500", code=2)
+
+
+def check_refusals(drumlin, work, law):
+    scene = work / "chute.toml"
+    for sweep in ("solver", "step=1e-3", "mesh=1.5", "mesh=0", "eps=small"):
+        drumlin("cost", scene, "--rheology", law, "-o", work / "refused", "--sweep", sweep, code=2)
+    drumlin("cost", scene, "-o", work / "refused", code=2)
+    drumlin("cost", scene, "--rheology", law, code=2)
+    drumlin("cost", scene, "--rheology", law, "-o", work / "refused", "--statistics", "1", code=2)
+
+
+def check_prices(drumlin, work, here, data):
+    scene = here / "tiny-drum-flow.toml"
+    said, _ = drumlin("cost", "--effects", scene, "--rheology", data / "rheology" / "paper.toml", "-o", work / "prices",
+                      "--set", "effects.wall_slip={friction=0.95}", "--set", "mesh.surface_cell=3")
+    report = read_json(work / "prices" / "cost.json")
+    rows = {row["effect"]: row for row in report["effects"]}
+    require(list(rows) == ["none", "inertia", "wall_slip", "rotating_frame", "k", "fabric", "nonlocal", "moving_surface", "as it is", "none, again"],
+            f"rows {list(rows)}")
+    require("refused" in rows["k"] and "refused" in rows["fabric"], "a law without k cannot show k")
+    require(rows["none"]["scalars"] == rows["none, again"]["scalars"], "the same flow again differs")
+    require(rows["as it is"]["scalars"] == rows["wall_slip"]["scalars"], "wall slip is all that the scene names")
+    require(abs(rows["rotating_frame"]["change"]["theta_deg"]) < 1e-3 < abs(rows["inertia"]["change"]["theta_deg"]), "a frame acts, or inertia does not")
+    require("moving_surface" in said and (work / "prices" / "prices.png").exists(), "no list or no figure")
+
+
+def check_statement(drumlin, work, here, data):
+    said, _ = drumlin("flow", here / "tiny-drum-flow.toml", "--rheology", data / "rheology" / "paper.toml", "-o", work / "flow",
+                      "--set", "mesh.levels=2")
+    accuracy = read_json(work / "flow" / "flow.json")["accuracy"]
+    require("accuracy: " in said and "half of the error by mesh" in said, f"no statement:\n{said}")
+    for name, scalar in accuracy["scalars"].items():
+        parts = [scalar[source] for source in ("mesh", "eps", "iteration")]
+        require(None not in parts and abs(sum(parts) - scalar["error"]) <= 1e-12 * max(parts), f"{name}: {scalar}")
+        require(scalar["iteration"] <= 1e-4 * abs(scalar["value"]), f"{name}: the iteration had not ended: {scalar}")
+    require(accuracy["halving"]["mesh"]["set"] == ["mesh.levels=3", "mesh.surface_cell=0.75"], f"{accuracy['halving']}")
+
+
+def main():
+    drumlin, here, data = Drumlin(sys.argv[1]), pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
+    with tempfile.TemporaryDirectory() as folder:
+        work = pathlib.Path(folder)
+        check_sweep(drumlin, work, data / "rheology" / "paper.toml")
+        check_refusals(drumlin, work, data / "rheology" / "paper.toml")
+        check_prices(drumlin, work, here, data)
+        check_statement(drumlin, work, here, data)
+
+
+if __name__ == "__main__":
+    main()
