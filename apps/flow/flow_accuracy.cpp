@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/flow/flow_sensitivity.hpp"
+#include "apps/flow/law_band.hpp"
 
 namespace drumlin::apps {
 namespace {
@@ -36,6 +37,11 @@ std::optional<double> mesh_error(const FinishedFlow& flow, const std::string& sc
       if (s.name == scalar && s.limit) return std::abs(s.limit->value - fine);
   const double change = std::abs(fine - coarse);
   return std::isfinite(change) ? std::optional(change) : std::nullopt;
+}
+
+std::optional<double> law_width(const FinishedFlow& flow, const std::string& scalar) {
+  const Scalar* found = flow.law_band.draws > 0 ? flow.law_band.scalars.find(scalar) : nullptr;
+  return found != nullptr && std::isfinite(found->value) ? std::optional(found->value) : std::nullopt;
 }
 
 // Wall time of the solve on its last mesh, as a share of all.
@@ -78,7 +84,8 @@ std::vector<ScalarAccuracy> accuracy_of(const FinishedFlow& flow) {
                     {{"mesh", mesh_error(flow, scalar.name)},
                      {"eps", eps},
                      {"iteration", change_of(flow, one_more_iteration, scalar.name)}},
-                    change_of(flow, weaker_pressure, scalar.name)});
+                    change_of(flow, weaker_pressure, scalar.name),
+                    law_width(flow, scalar.name)});
   }
   return list;
 }
@@ -112,6 +119,7 @@ Json accuracy_json(const FinishedFlow& flow) {
     entry["dominant"] = a.dominant().empty() ? Json(nullptr) : Json(a.dominant());
     for (const ErrorPart& part : a.parts) entry[part.source] = number_or_null(part.error);
     entry["p_min_20_percent"] = number_or_null(a.by_p_min);
+    entry["law"] = number_or_null(a.by_law);
     scalars[a.name] = std::move(entry);
   }
   for (const Halving& h : halvings_of(flow))
@@ -131,6 +139,7 @@ std::string accuracy_text(const FinishedFlow& flow) {
       text +=
           fmt::format(" {} {}", part.source, part.error ? fmt::format("{:.2g}", *part.error) : "not known");
     if (a.by_p_min) text += fmt::format("; model: {:.2g} by 20 % of p_min", *a.by_p_min);
+    if (a.by_law) text += fmt::format("{} {:.2g} by the law", a.by_p_min ? "," : "; model:", *a.by_law);
     text += "\n";
     if (!a.dominant().empty() && std::find(dominant.begin(), dominant.end(), a.dominant()) == dominant.end())
       dominant.push_back(a.dominant());

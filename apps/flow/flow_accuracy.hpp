@@ -20,6 +20,7 @@ struct ScalarAccuracy {
   double value = 0;
   std::vector<ErrorPart> parts;
   std::optional<double> by_p_min;  ///< what p_min - 20 % changes: a choice of the model, no error
+  std::optional<double> by_law;    ///< half width of the 99 % interval that the draws of the law give
 
   /// Sum of what is known; absent where nothing is.
   std::optional<double> error() const;

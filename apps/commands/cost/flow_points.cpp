@@ -62,8 +62,8 @@ Json solved_point(const PointStore& store, const FlowToSolve& flow) {
   stop_if_interrupted();
   const fs::path folder = store.beside(flow.name);
   fs::remove_all(folder);  // of a call that was cut off
-  std::vector<std::string> words = {flow.scene.string(), "--rheology", flow.rheology.string(), "-o",
-                                    folder.string()};
+  std::vector<std::string> words = {
+      flow.scene.string(), "--rheology", flow.rheology.string(), "--law-draws", "0", "-o", folder.string()};
   for (const char* change : {"solver.sensitivity=false", "output.figures=false"})
     words.insert(words.end(), {"--set", change});
   for (const std::string& change : flow.changes) words.insert(words.end(), {"--set", change});
