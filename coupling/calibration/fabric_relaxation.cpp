@@ -1,22 +1,14 @@
 #include "coupling/calibration/fabric_relaxation.hpp"
 
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <map>
 #include <utility>
 
-#include "coupling/exchange/errors.hpp"
 #include "coupling/exchange/student.hpp"
 
 namespace drumlin {
 namespace {
-
-double header_number(const FieldMap& map, const std::string& key) {
-  const auto found = map.header.find(key);
-  if (found == map.header.end()) throw InputError("maps.h5: header key " + key + " is missing");
-  return std::strtod(found->second.c_str(), nullptr);
-}
 
 // Values of a field at the node nearest to (x, z).
 double nearest(const FieldMap& map, const MapField& field, double x, double z) {

@@ -12,12 +12,6 @@
 namespace drumlin {
 namespace {
 
-double header_number(const FieldMap& map, const std::string& key) {
-  const auto found = map.header.find(key);
-  if (found == map.header.end()) throw InputError("maps.h5: header key " + key + " is missing");
-  return std::strtod(found->second.c_str(), nullptr);
-}
-
 // Mean over the nodes of a block and the standard error of it.
 struct Mean {
   double value = 0;
@@ -99,6 +93,15 @@ LawBlock point_of(const Block& block, double x, double z, const BlockSelection& 
 double half_of_one_plus_k(double turn) { return 1 / (1 - turn); }
 
 }  // namespace
+
+double header_number(const FieldMap& map, const std::string& key) {
+  const auto found = map.header.find(key);
+  const double number =
+      found == map.header.end() ? std::nan("") : std::strtod(found->second.c_str(), nullptr);
+  if (!std::isfinite(number))
+    throw InputError({InputProblem{"maps.h5", 0, 0, key, "is missing, or no number", "a finite number"}});
+  return number;
+}
 
 std::vector<LawBlock> law_points(const FieldMap& map, const BlockSelection& selection) {
   const MapGrid& grid = map.grid;

@@ -1,6 +1,7 @@
 #pragma once
 // What the tensors of a particle map say of the law: friction and turn of the stress over the inertial
 // number.
+#include <string>
 #include <vector>
 
 #include "coupling/calibration/friction_form.hpp"
@@ -39,6 +40,9 @@ struct LawBlock {
 /// kernel). Needs the fields nu, sigma_.., d_v_.., and the header's axis_depth and drum_radius (both 0: no
 /// drum, no wall margin). Throws InputError when one is missing.
 std::vector<LawBlock> law_points(const FieldMap& map, const BlockSelection& selection = {});
+
+/// A number of the map's header. Throws InputError where it is missing or not finite.
+double header_number(const FieldMap& map, const std::string& key);
 
 /// Friction and inertial number of each point for a law without k.
 std::vector<FrictionPoint> frictions(const std::vector<LawBlock>& points);
