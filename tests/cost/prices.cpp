@@ -40,7 +40,9 @@ TEST(EffectPrices, AreListedPrintedAndDrawn) {
   EXPECT_EQ(base.at("unknowns_per_contact"), 2);
   EXPECT_EQ(rows.at("without friction: and spin, which needs it").at("unknowns_per_contact"), 1);
   EXPECT_EQ(rows.at("with rolling_resistance: 0.1").at("unknowns_per_contact"), 3);
+#if !defined(__SANITIZE_ADDRESS__)  // the sanitizer has a heap of its own, which mallinfo2 does not see
   EXPECT_GT(base.at("bytes"), 0);
+#endif
 }
 
 TEST(EffectPrices, AreNotWrittenOverWhatStandsThere) {
