@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "apps/commands.hpp"
-#include "apps/support/command_line.hpp"
-#include "coupling/exchange/errors.hpp"
+#include "apps/command_line/command_line.hpp"
+#include "apps/support/commands.hpp"
+#include "coupling/common/errors.hpp"
 #include "particles/solver/contact_solver.hpp"
 
 namespace {
@@ -44,7 +44,7 @@ int failed(ExitCode code, const std::string& message) {
 
 int main(int argc, char** argv) {
   try {
-    return std::visit(Execute{}, apps::parse_command_line(argc, argv, contact_solver_names()));
+    return std::visit(Execute{}, apps::parse_command_line(argc, argv, particles::contact_solver_names()));
   } catch (const InputError& error) {
     return failed(ExitCode::wrong_input, error.what());  // one line per problem
   } catch (const NotConvergedError& error) {

@@ -3,18 +3,16 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/commands.hpp"
 #include "apps/commands/compare_inputs.hpp"
 #include "apps/commands/compare_overlays.hpp"
+#include "apps/support/commands.hpp"
 #include "apps/support/comparison_json.hpp"
-#include "apps/support/figures.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/output_folder.hpp"
 #include "apps/support/paper_data.hpp"
-#include "apps/support/report_page.hpp"
+#include "apps/support/pending_figures.hpp"
+#include "coupling/common/errors.hpp"
 #include "coupling/comparison/paper_table.hpp"
-#include "coupling/exchange/errors.hpp"
-#include "coupling/exchange/text_file.hpp"
 
 namespace drumlin::apps {
 
@@ -46,7 +44,7 @@ Json entry(const Json& object, const std::string& key) {
 
 Json header_of(const ProfileSet& profiles) {
   Json header;
-  for (const auto& [key, value] : profiles.header) header[key] = value;
+  for (const auto& [key, value] : header_texts(profiles.header)) header[key] = value;
   return header;
 }
 
@@ -92,22 +90,23 @@ void add_costs(Json& content, const Inputs& inputs) {
 std::string title_of(const Inputs& inputs) {
   Json title = entry(entry(records_of(inputs.first), "run"), "title");
   if (!title.is_string()) title = inputs.first.name;
-  const bool reduced = inputs.first.compared.profiles.header.at("reduced") == "true";
+  const bool reduced = inputs.first.compared.profiles.header.reduced.value();
   return fmt::format("{}: {} and {}{}", title.get<std::string>(), inputs.first.kind, inputs.second.kind,
                      reduced ? " (reduced)" : "");
 }
 
-Json content_of(const Inputs& inputs, const Comparison& comparison, const Comparison* floor,
-                const ComparisonOptions& options) {
+Json content_of(const Inputs& inputs, const coupling::Comparison& comparison,
+                const coupling::Comparison* floor, const coupling::ComparisonOptions& options) {
   const ProfileSet& profiles = inputs.first.compared.profiles;
   Json content{{"format", "drumlin-comparison-1"},
                {"title", title_of(inputs)},
-               {"reduced", profiles.header.at("reduced") == "true"}};
+               {"reduced", profiles.header.reduced.value()}};
   add_comparison(content, comparison, floor);
-  const auto speed = paper_speed_rpm(profiles, paper_data_folder());
-  add_paper(content, speed,
-            speed ? paper_table(paper_numbers(paper_data_folder(), *speed), comparison.scalars)
-                  : std::vector<PaperRow>());
+  const auto speed = coupling::paper_speed_rpm(profiles, paper_data_folder());
+  add_paper(
+      content, speed,
+      speed ? coupling::paper_table(coupling::paper_numbers(paper_data_folder(), *speed), comparison.scalars)
+            : std::vector<coupling::PaperRow>());
   add_costs(content, inputs);
   content["settings"] = {{"surface_margin", options.zones.surface_margin},
                          {"wall_margin", options.zones.wall_margin},
@@ -119,20 +118,20 @@ Json content_of(const Inputs& inputs, const Comparison& comparison, const Compar
   return content;
 }
 
-/// The script reads comparison.json and the overlays.
-std::vector<ReportFigure> drawn_figures(const Inputs& inputs, const fs::path& output, const fs::path& json) {
+/// The scripts read comparison.json and the overlays.
+std::vector<FigureScript> figures_of(const Inputs& inputs, const fs::path& output, const fs::path& json) {
   std::vector<std::string> words{"--comparison", json.string(), "--output", output.string()};
   if (!inputs.first.snapshot.empty()) {
     words.insert(words.end(), {"--snapshot", inputs.first.snapshot.string()});
     if (!inputs.second.maps_file.empty())
       words.insert(words.end(), {"--maps", inputs.second.maps_file.string()});
   }
-  draw_figures("compare_figures.py", words);
+  std::vector<FigureScript> figures{{"compare_figures.py", words}};
   // They are of full drums, and a reduced run shows no more than that the chain works.
-  const bool reduced = inputs.first.compared.profiles.header.at("reduced") == "true";
+  const bool reduced = inputs.first.compared.profiles.header.reduced.value();
   if (!reduced && fs::is_directory(cost_data_folder()))
-    draw_figures("report_costs.py", {cost_data_folder().string(), output.string()});
-  return figures_in(output);
+    figures.push_back({"report_costs.py", {cost_data_folder().string(), output.string()}});
+  return figures;
 }
 
 std::string short_number(const Json& value) {
@@ -161,15 +160,15 @@ std::string summary_of(const Json& content) {
 
 int compare(const CompareOptions& options) {
   const fs::path finished = options.output / "comparison.json";
-  if (options.existing == ExistingOutput::resume && fs::exists(finished)) {
+  if (options.existing == ExistingOutput::resume && is_complete(finished)) {
     fmt::print("{}: done already\n", options.output.string());
     return static_cast<int>(ExitCode::done);
   }
   const Inputs inputs = read_inputs(options);
-  const ComparisonOptions how{options.registration == "surface" ? Registration::surface : Registration::axis,
-                              {}};
-  const Comparison comparison = compare(inputs.first.compared, inputs.second.compared, how);
-  std::optional<Comparison> floor;
+  const coupling::ComparisonOptions how{
+      options.registration == "surface" ? coupling::Registration::surface : coupling::Registration::axis, {}};
+  const coupling::Comparison comparison = compare(inputs.first.compared, inputs.second.compared, how);
+  std::optional<coupling::Comparison> floor;
   if (inputs.floor) floor = compare(inputs.first.compared, inputs.floor->compared, how);
   const Json content = content_of(inputs, comparison, floor ? &*floor : nullptr, how);
 
@@ -177,14 +176,12 @@ int compare(const CompareOptions& options) {
   if (options.floor) read.push_back(*options.floor);
   prepare_output(options.output, options.existing, {"comparison.json", "overlay.csv"}, read);
   write_overlays(options.output, inputs.first.compared, inputs.second.compared, comparison);
-  // The figures read it under another name: comparison.json itself says that the report is whole.
-  const fs::path unfinished = options.output / "comparison.json.part";
-  write_json(unfinished, content);
-  const auto figures = drawn_figures(inputs, options.output, unfinished);
-  replace_file(options.output / "index.html", report_page(content, figures));
+  note_pending_figures(options.output);
   write_json(finished, content);
-  fs::remove(unfinished);
+  const auto failures = draw_pending_figures(options.output, figures_of(inputs, options.output, finished),
+                                             ResultPage{"comparison", finished});
   fmt::print("{}report: {}\n", summary_of(content), fs::absolute(options.output / "index.html").string());
+  throw_if_figures_failed(finished, failures);
   return static_cast<int>(ExitCode::done);
 }
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "apps/support/header_check.hpp"
 #include "apps/support/json_file.hpp"
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/exchange/run_checks.hpp"
 #include "coupling/files/field_map_file.hpp"
 #include "particles/io/snapshot_file.hpp"
 
@@ -23,13 +23,14 @@ std::optional<FieldMap> maps_in(const fs::path& file, const ProfileSet& profiles
   if (!fs::exists(file)) return std::nullopt;
   FieldMap map = read_field_map(file);
   std::vector<InputProblem> problems;
-  ProfileSet header;
-  header.header = map.header;
-  for (const char* key : {"theta_deg", "rotation", "drum_radius", "diameter_m", "axis_depth"})
-    require_number_near(file, header, key, header_number(profiles, key).value_or(std::nan("")),
-                        "profiles.csv", problems);
-  if (map.header["side"] != profiles.header.at("side"))
-    problems.push_back({file.string(), 0, 0, "side", "is " + map.header["side"], profiles.header.at("side")});
+  for (const HeaderNumber number : {&RunHeader::theta_deg, &RunHeader::rotation, &RunHeader::drum_radius,
+                                    &RunHeader::diameter_m, &RunHeader::axis_depth})
+    require_number_near(file, map.header, number, number_or_nan(profiles.header, number), "profiles.csv",
+                        problems);
+  if (map.header.side != profiles.header.side)
+    problems.push_back({file.string(), 0, 0, "side",
+                        map.header.side ? std::string("is ") + name_of(*map.header.side) : "is missing",
+                        name_of(profiles.header.side.value())});
   if (!problems.empty()) throw InputError(problems);
   return map;
 }
@@ -55,7 +56,8 @@ LoadedSide load_side(const fs::path& folder, Unsteady unsteady) {
     side.maps_file = folder / "measured" / "maps.h5";
     side.compared = {std::move(run.profiles), std::move(run.scalars), {std::move(run.slices), {}}};
     if (fs::is_directory(folder / "snapshots"))
-      if (const auto snapshots = snapshot_files(folder); !snapshots.empty()) side.snapshot = snapshots.back();
+      if (const auto snapshots = particles::snapshot_files(folder); !snapshots.empty())
+        side.snapshot = snapshots.back();
   }
   side.compared.fields.maps = maps_in(side.maps_file, side.compared.profiles);
   if (!side.compared.fields.maps) side.maps_file.clear();
@@ -65,7 +67,7 @@ LoadedSide load_side(const fs::path& folder, Unsteady unsteady) {
 void require_same_scales(const LoadedSide& first, const LoadedSide& second) {
   std::vector<InputProblem> problems;
   const auto compare = [&](const char* key, double Scales::*unit) {
-    if (near(second.scales.*unit, first.scales.*unit)) return;
+    if (nearly_equal(second.scales.*unit, first.scales.*unit)) return;
     problems.push_back({"", 0, 0, key,
                         fmt::format("{:.6g} in {}, {:.6g} in {}", first.scales.*unit, first.folder.string(),
                                     second.scales.*unit, second.folder.string()),
@@ -81,7 +83,7 @@ Json records_of(const LoadedSide& side) {
   const auto record = [&](const fs::path& file, const char* format) {
     return fs::exists(file) ? read_json(file, format) : Json();
   };
-  if (side.kind == "continuum") return {{"flow", record(side.folder / "flow.json", "drumlin-flow-run-1")}};
+  if (side.kind == "continuum") return {{"flow", record(side.folder / "flow.json", "drumlin-flow-run-2")}};
   return {{"run", record(side.folder / "run.json", "drumlin-run-1")},
           {"measured", record(side.folder / "measured" / "measured.json", "drumlin-measured-1")}};
 }

@@ -1,18 +1,18 @@
 #pragma once
-// What `drumlin compare` reads: either side may be a RUN or a FLOWRUN.
+// The two sides of `drumlin compare` as they are read from their folders, RUN or FLOWRUN each.
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
-#include "apps/support/measured_run.hpp"
 #include "coupling/comparison/comparison.hpp"
+#include "coupling/exchange/measured_run.hpp"
 
 namespace drumlin::apps {
 
 /// One folder, read.
 struct LoadedSide {
-  ComparedSide compared;
+  coupling::ComparedSide compared;
   std::string kind;  ///< "particles" or "continuum"
   std::string name;  ///< of the folder
   std::filesystem::path folder;

@@ -1,165 +1,44 @@
 // drumlin export: a run as files that ParaView reads, in SI (docs/formats/vtu.md).
 #include <fmt/format.h>
 
-#include <cmath>
-#include <nlohmann/json.hpp>
-#include <numbers>
-
-#include "apps/commands.hpp"
-#include "apps/commands/run_folder.hpp"
+#include "apps/support/commands.hpp"
 #include "apps/support/output_folder.hpp"
 #include "apps/support/progress.hpp"
-#include "apps/support/vtu_file.hpp"
-#include "coupling/exchange/errors.hpp"
-#include "coupling/exchange/text_file.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/common/text_file.hpp"
+#include "particles/io/run_folder.hpp"
+#include "particles/io/run_grids.hpp"
 #include "particles/io/snapshot_file.hpp"
 
 namespace drumlin::apps {
 
-namespace {
-
 namespace fs = std::filesystem;
-using Numbers = std::vector<double>;
-
-constexpr int circle_pieces = 360;  // of a container; those of a disc are fewer but look as round
-
-/// The plane of the grains is that of ParaView's first look: (x, z) of the project lies at (x, y) of VTK.
-void add_point(std::vector<float>& points, double x, double z) {
-  points.insert(points.end(), {static_cast<float>(x), static_cast<float>(z), 0.0f});
-}
-
-VtuArray scalar(const std::string& name, const Numbers& values, double unit) {
-  std::vector<float> scaled;
-  for (const double value : values) scaled.push_back(static_cast<float>(value * unit));
-  return {name, 1, std::move(scaled)};
-}
-
-VtuArray vector(const std::string& name, const Numbers& x, const Numbers& z, double unit) {
-  std::vector<float> scaled;
-  for (std::size_t i = 0; i < x.size(); ++i) add_point(scaled, x[i] * unit, z[i] * unit);
-  return {name, 3, std::move(scaled)};
-}
-
-/// x as it is shown: in a periodic domain brought back into it.
-Numbers shown_x(const RunFolder& run, const Snapshot& s) {
-  if (!run.scene.periodic_x) return s.x;
-  const double begin = run.scene.periodic_x->x_min_mm * 1e-3 / run.scales.length_m;
-  Numbers x;
-  for (const double value : s.x) x.push_back(value - std::floor((value - begin) / s.period_x) * s.period_x);
-  return x;
-}
-
-VtuGrid grains_of(const RunFolder& run, const Snapshot& s) {
-  const double metre = s.scales.length_m, second = s.scales.time_s;
-  VtuGrid grid;
-  const Numbers x = shown_x(run, s);
-  std::vector<std::int32_t> number;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    add_point(grid.points, x[i] * metre, s.z[i] * metre);
-    number.push_back(static_cast<std::int32_t>(i));
-    grid.offsets.push_back(static_cast<std::int32_t>(i + 1));
-  }
-  grid.connectivity = number;
-  grid.point_data = {scalar("radius_m", s.radius, metre),
-                     vector("velocity_m_s", s.v_x, s.v_z, metre / second)};
-  if (!s.spin.empty()) grid.point_data.push_back(scalar("spin_clockwise_rad_s", s.spin, 1 / second));
-  if (!s.displacement_x.empty())
-    grid.point_data.push_back(vector("displacement_m", s.displacement_x, s.displacement_z, metre));
-  grid.point_data.push_back({"grain", 1, std::move(number)});
-  return grid;
-}
-
-/// A line per loaded contact, from the centre of grain i to that of j, or to the wall.
-VtuGrid contacts_of(const RunFolder& run, const Snapshot& s) {
-  const double metre = s.scales.length_m, second = s.scales.time_s;
-  const double impulse_unit = s.scales.density_kg_m3 * metre * metre * metre / second;  // per metre of depth
-  VtuGrid grid;
-  grid.cell = VtuCell::line;
-  const Numbers x = shown_x(run, s);
-  Numbers n, t;
-  std::vector<std::int32_t> i, j;
-  for (const SnapshotContact& c : s.contacts) {
-    // Against the normal: right across the seam of a periodic domain, too.
-    const double reach = s.radius[c.i] + (c.j < 0 ? 0 : s.radius[c.j]);
-    add_point(grid.points, x[c.i] * metre, s.z[c.i] * metre);
-    add_point(grid.points, (x[c.i] - reach * c.normal_x) * metre, (s.z[c.i] - reach * c.normal_z) * metre);
-    const auto end = static_cast<std::int32_t>(grid.points.size() / 3);
-    grid.connectivity.insert(grid.connectivity.end(), {end - 2, end - 1});
-    grid.offsets.push_back(end);
-    n.push_back(c.impulse_n), t.push_back(c.impulse_t);
-    i.push_back(c.i), j.push_back(c.j);
-  }
-  const double force_unit = impulse_unit / (s.time_step * second);
-  grid.cell_data = {scalar("normal_impulse_N_s_m", n, impulse_unit),
-                    scalar("tangential_impulse_N_s_m", t, impulse_unit),
-                    scalar("normal_force_N_m", n, force_unit),
-                    scalar("tangential_force_N_m", t, force_unit),
-                    {"grain_i", 1, std::move(i)},
-                    {"grain_or_wall_j", 1, std::move(j)}};
-  return grid;
-}
-
-/// The outlines of all wall shapes.
-VtuGrid walls_of(const RunFolder& run, const Snapshot& s) {
-  const double metre = s.scales.length_m;
-  VtuGrid grid;
-  grid.cell = VtuCell::poly_line;
-  std::vector<std::int32_t> shape_numbers;
-  const auto close = [&](std::size_t first) {
-    for (std::size_t p = first; p < grid.points.size() / 3; ++p)
-      grid.connectivity.push_back(static_cast<std::int32_t>(p));
-    grid.offsets.push_back(static_cast<std::int32_t>(grid.connectivity.size()));
-  };
-  for (const PlacedShape& placed : shapes_at(run, s)) {
-    const std::size_t first = grid.points.size() / 3;
-    const auto circle = [&](const Point& center, double radius, int pieces) {
-      for (int k = 0; k <= pieces; ++k) {
-        const double angle = 2 * std::numbers::pi * k / pieces - placed.angle;
-        add_point(grid.points, (center.x + radius * std::cos(angle)) * metre,
-                  (center.z + radius * std::sin(angle)) * metre);
-      }
-    };
-    if (const auto* container = std::get_if<Container>(&placed.shape)) {
-      circle(container->center, container->radius, circle_pieces);
-    } else if (const auto* segment = std::get_if<Segment>(&placed.shape)) {
-      for (const Point& end : {segment->from, segment->to})
-        add_point(grid.points, end.x * metre, end.z * metre);
-    } else {
-      const auto& disc = std::get<FixedDisc>(placed.shape);
-      circle(disc.center, disc.radius, circle_pieces / 10);
-    }
-    close(first);
-    // As in grain_or_wall_j of the contacts.
-    shape_numbers.push_back(-1 - static_cast<std::int32_t>(shape_numbers.size()));
-  }
-  grid.cell_data = {{"wall", 1, std::move(shape_numbers)}};
-  return grid;
-}
-
-}  // namespace
 
 int export_run(const ExportOptions& options) {
-  nlohmann::ordered_json report;
-  const RunFolder run = read_run_folder(options.run, report);
+  const particles::RunFolder run = particles::read_run_folder(options.run);
   const fs::path folder = options.output.value_or(options.run / "vtu"), finished = folder / "grains.pvd";
   if (options.existing == ExistingOutput::resume && fs::exists(finished)) {
     fmt::print("{}: done already\n", folder.string());
     return static_cast<int>(ExitCode::done);
   }
-  const std::vector<fs::path> files = chosen_snapshots(run, options.snapshots);
-  (void)shapes_at(run, read_snapshot(files.front()));  // what does not fit shows before anything is written
+  const std::vector<fs::path> files = particles::chosen_snapshots(run, options.snapshots);
+  (void)particles::shapes_at(
+      run, particles::read_snapshot(files.front()));  // what does not fit shows before anything is written
   prepare_output(folder, options.existing, {"grains.pvd", "grains"}, {options.run / "run.json"});
 
-  const std::pair<const char*, VtuGrid (*)(const RunFolder&, const Snapshot&)> kinds[] = {
-      {"contacts", contacts_of}, {"walls", walls_of}, {"grains", grains_of}};
+  const std::pair<const char*,
+                  particles::VtuGrid (*)(const particles::RunFolder&, const particles::Snapshot&)>
+      kinds[] = {{"contacts", particles::contact_grid},
+                 {"walls", particles::wall_grid},
+                 {"grains", particles::grain_grid}};
   std::vector<std::pair<double, std::string>> steps;
   Progress progress;
   for (const fs::path& file : files) {
-    const Snapshot snapshot = read_snapshot(file);
+    const particles::Snapshot snapshot = particles::read_snapshot(file);
     const std::string name = file.stem().string() + ".vtu";
     for (const auto& [kind, grid_of] : kinds) {
       fs::create_directories(folder / kind);
-      replace_file(folder / kind / name, vtu_text(grid_of(run, snapshot)));
+      replace_file(folder / kind / name, particles::vtu_text(grid_of(run, snapshot)));
     }
     steps.emplace_back(snapshot.time * snapshot.scales.time_s, name);
     if (progress.due()) progress.show(fmt::format("export  {} of {} snapshots", steps.size(), files.size()));
@@ -168,7 +47,7 @@ int export_run(const ExportOptions& options) {
   for (const auto& [kind, grid_of] : kinds) {  // grains.pvd, which says that all is there, last
     auto inside = steps;
     for (auto& [time, name] : inside) name = std::string(kind) + "/" + name;
-    replace_file(folder / (std::string(kind) + ".pvd"), pvd_text(inside));
+    replace_file(folder / (std::string(kind) + ".pvd"), particles::pvd_text(inside));
   }
   fmt::print("{}{}: {} snapshots; open grains.pvd, contacts.pvd and walls.pvd in ParaView\n", folder.string(),
              run.scene.reduced ? " (reduced)" : "", files.size());

@@ -6,13 +6,13 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "apps/commands.hpp"
-#include "apps/support/child_process.hpp"
+#include "apps/support/commands.hpp"
 #include "apps/support/hard_case_json.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/output_folder.hpp"
-#include "coupling/exchange/errors.hpp"
-#include "particles/hardcases/hard_case.hpp"
+#include "coupling/common/child_process.hpp"
+#include "coupling/common/errors.hpp"
+#include "tests/hardcases/registry.hpp"
 
 namespace drumlin::apps {
 
@@ -30,17 +30,19 @@ struct Listed {
 };
 
 void ask_flow(const std::vector<std::string>& words, const std::function<void(const Json&)>& row) {
-  const auto program = program_beside("drumlin-flow");
-  std::vector<std::string> all = {"--hardcases"};
-  all.insert(all.end(), words.begin(), words.end());
-  const int code = run_for_lines(program, all, [&](const std::string& line) { row(Json::parse(line)); });
-  if (code != 0) throw IoError(fmt::format("{} --hardcases ended with {}", program.string(), code));
+  ProcessRequest request{.program = program_beside("drumlin-flow"), .words = {"--hardcases"}};
+  request.words.insert(request.words.end(), words.begin(), words.end());
+  request.output = ProcessOutput::standard;
+  request.line = [&](const std::string& line) { row(Json::parse(line)); };
+  const ProcessEnd end = run_process(request);
+  if (!end.succeeded())
+    throw IoError(fmt::format("{} --hardcases ended with {}", request.program.string(), end.shell_code()));
 }
 
 /// All cases, in the order of the table.
 std::vector<Listed> listed_cases() {
   std::vector<Listed> all;
-  for (const HardCase& hard : hard_cases()) all.push_back({hard.name, hard.fast, &hard});
+  for (const HardCase& hard : particle_hard_cases()) all.push_back({hard.name, hard.fast, &hard});
   ask_flow({"--list"}, [&](const Json& row) {
     all.push_back({row.at("name").get<std::string>(), row.at("fast").get<bool>(), nullptr});
   });

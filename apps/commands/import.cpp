@@ -4,12 +4,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/commands.hpp"
+#include "apps/support/commands.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/output_folder.hpp"
 #include "apps/support/progress.hpp"
-#include "coupling/exchange/errors.hpp"
-#include "coupling/exchange/text_file.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/common/text_file.hpp"
 #include "particles/import/import_run.hpp"
 #include "particles/io/snapshot_file.hpp"
 
@@ -19,7 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-Json report_of(const ImportDescription& description, const fs::path& file, const ImportReport& report) {
+Json report_of(const particles::ImportDescription& description, const fs::path& file,
+               const particles::ImportReport& report) {
   return {{"format", "drumlin-run-1"},
           {"title", description.title},
           {"reduced", description.reduced},
@@ -27,7 +28,7 @@ Json report_of(const ImportDescription& description, const fs::path& file, const
           {"imported", true},
           {"imported_from",
            {{"description", file.filename().string()},
-            {"kind", std::holds_alternative<LammpsSource>(description.source) ? "lammps" : "csv"},
+            {"kind", std::holds_alternative<particles::LammpsSource>(description.source) ? "lammps" : "csv"},
             {"files", report.files},
             {"unused_columns", report.unused_columns},
             {"with_spin", report.with_spin},
@@ -39,7 +40,8 @@ Json report_of(const ImportDescription& description, const fs::path& file, const
           {"provenance", to_json(provenance())}};
 }
 
-void print_summary(const fs::path& run, const ImportDescription& description, const ImportReport& report) {
+void print_summary(const fs::path& run, const particles::ImportDescription& description,
+                   const particles::ImportReport& report) {
   fmt::print("{}{}: {} snapshots of {} grains, {:.6g} s to {:.6g} s\n", run.string(),
              description.reduced ? " (reduced)" : "", report.snapshots, report.grains, report.first_time_s,
              report.last_time_s);
@@ -58,7 +60,8 @@ void print_summary(const fs::path& run, const ImportDescription& description, co
 
 int import_foreign(const ImportOptions& options) {
   if (options.keys) {
-    fmt::print("{}", options.markdown ? keys_as_markdown(import_keys()) : keys_as_text(import_keys()));
+    fmt::print("{}", options.markdown ? keys_as_markdown(particles::import_keys())
+                                      : keys_as_text(particles::import_keys()));
     return static_cast<int>(ExitCode::done);
   }
   if (!options.description || !options.output)
@@ -68,18 +71,20 @@ int import_foreign(const ImportOptions& options) {
     fmt::print("{}: done already\n", run.string());
     return static_cast<int>(ExitCode::done);
   }
-  const ImportDescription description = read_import_description(*options.description, options.overrides);
+  const particles::ImportDescription description =
+      particles::read_import_description(*options.description, options.overrides);
   const fs::path folder = fs::absolute(*options.description).parent_path();
   prepare_output(run, options.existing, {"run.json", "import.toml"}, {folder});
   fs::create_directories(run / "snapshots");
-  replace_file(run / "import.toml", import_description_text(description));
+  replace_file(run / "import.toml", particles::import_description_text(description));
 
   Progress progress;
   std::size_t done = 0;
-  const ImportReport report = import_run(description, folder, [&](const Snapshot& snapshot) {
-    write_snapshot(run / "snapshots" / fmt::format("{:06}.h5", snapshot.step), snapshot);
-    if (++done; progress.due()) progress.show(fmt::format("import  {} snapshots", done));
-  });
+  const particles::ImportReport report =
+      particles::import_run(description, folder, [&](const particles::Snapshot& snapshot) {
+        particles::write_snapshot(run / "snapshots" / fmt::format("{:06}.h5", snapshot.step), snapshot);
+        if (++done; progress.due()) progress.show(fmt::format("import  {} snapshots", done));
+      });
   progress.finish();
   // Last: it says that all is there.
   write_json(finished, report_of(description, *options.description, report));

@@ -3,14 +3,14 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/commands.hpp"
-#include "apps/commands/run_folder.hpp"
+#include "apps/support/commands.hpp"
 #include "apps/support/figures.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/output_folder.hpp"
-#include "apps/support/snapshot_list.hpp"
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
+#include "particles/io/run_folder.hpp"
 #include "particles/io/snapshot_file.hpp"
+#include "particles/io/snapshot_list.hpp"
 
 namespace drumlin::apps {
 
@@ -22,34 +22,34 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t most_frames = 150;  // of an animation: a picture each, and a file that opens anywhere
 
 struct ShapeJson {
-  Json operator()(const Container& c) const {
+  Json operator()(const particles::Container& c) const {
     return {{"shape", "container"}, {"x", c.center.x}, {"z", c.center.z}, {"radius", c.radius}};
   }
-  Json operator()(const Segment& s) const {
+  Json operator()(const particles::Segment& s) const {
     return {{"shape", "segment"}, {"x", {s.from.x, s.to.x}}, {"z", {s.from.z, s.to.z}}};
   }
-  Json operator()(const FixedDisc& d) const {
+  Json operator()(const particles::FixedDisc& d) const {
     return {{"shape", "disc"}, {"x", d.center.x}, {"z", d.center.z}, {"radius", d.radius}};
   }
 };
 
 /// What the script needs to draw one snapshot. Reading it here refuses damaged files before anything is
 /// drawn.
-Json frame_of(const RunFolder& run, const fs::path& file) {
-  const Snapshot snapshot = read_snapshot(file);
+Json frame_of(const particles::RunFolder& run, const fs::path& file) {
+  const particles::Snapshot snapshot = particles::read_snapshot(file);
   Json shapes = Json::array();
-  for (const PlacedShape& placed : shapes_at(run, snapshot)) {
+  for (const particles::PlacedShape& placed : particles::shapes_at(run, snapshot)) {
     shapes.push_back(std::visit(ShapeJson{}, placed.shape));
     shapes.back()["angle"] = placed.angle;
   }
   return {{"file", fs::absolute(file).string()},
-          {"number", snapshot_number(file)},
+          {"number", particles::snapshot_number(file)},
           {"time_s", snapshot.time * run.scales.time_s},
           {"walls", shapes}};
 }
 
 /// At most `most_frames` of all snapshots, evenly spread, the last among them.
-Json frames_of(const RunFolder& run) {
+Json frames_of(const particles::RunFolder& run) {
   const std::size_t all = run.snapshots.size();
   const std::size_t stride = (all + most_frames - 1) / most_frames;
   Json frames = Json::array();
@@ -58,15 +58,15 @@ Json frames_of(const RunFolder& run) {
   return frames;
 }
 
-Json stages_of(const Scene& scene) {
+Json stages_of(const particles::Scene& scene) {
   Json stages = Json::array();
   double end = 0;
-  for (const Stage& stage : scene.stages)
-    stages.push_back({{"name", stage.name}, {"end_s", end += duration_s(stage)}});
+  for (const particles::Stage& stage : scene.stages)
+    stages.push_back({{"name", stage.name}, {"end_s", end += particles::duration_s(stage)}});
   return stages;
 }
 
-Json drawing_of(const RunFolder& run, const Json& report, const PlotOptions& options) {
+Json drawing_of(const particles::RunFolder& run, const Json& report, const PlotOptions& options) {
   Json drawing{{"title", run.scene.title.empty() ? run.folder.filename().string() : run.scene.title},
                {"reduced", run.scene.reduced},
                {"status", run.status},
@@ -86,7 +86,7 @@ Json drawing_of(const RunFolder& run, const Json& report, const PlotOptions& opt
                          period->x_max_mm * 1e-3 / run.scales.length_m};
   const bool named = options.snapshot != "last";
   if (named || !run.snapshots.empty())
-    drawing["snapshot"] = frame_of(run, chosen_snapshot(run, options.snapshot));
+    drawing["snapshot"] = frame_of(run, particles::chosen_snapshot(run, options.snapshot));
   if (options.animation) {
     if (run.snapshots.size() < 2)
       throw InputError(fmt::format("{}: an animation needs two snapshots, there are {}", run.folder.string(),
@@ -99,13 +99,13 @@ Json drawing_of(const RunFolder& run, const Json& report, const PlotOptions& opt
 }  // namespace
 
 int plot(const PlotOptions& options) {
-  Json report;
-  const RunFolder run = read_run_folder(options.run, report);
+  const particles::RunFolder run = particles::read_run_folder(options.run);
   const fs::path folder = options.output.value_or(options.run / "plots"), finished = folder / "plots.json";
   if (options.existing == ExistingOutput::resume && fs::exists(finished)) {
     fmt::print("{}: done already\n", folder.string());
     return static_cast<int>(ExitCode::done);
   }
+  const Json report = read_json(options.run / "run.json", "drumlin-run-1");
   const Json drawing = drawing_of(run, report, options);
   prepare_output(folder, options.existing, {"plots.json", "plots.json.part"}, {options.run / "run.json"});
   // The script reads what to draw and adds what it drew; plots.json itself says that all is there.

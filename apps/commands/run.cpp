@@ -8,16 +8,16 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "apps/commands.hpp"
 #include "apps/commands/accuracy_statement.hpp"
 #include "apps/commands/run_files.hpp"
 #include "apps/commands/run_report.hpp"
+#include "apps/support/commands.hpp"
 #include "apps/support/interruption.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/output_folder.hpp"
 #include "apps/support/progress.hpp"
-#include "coupling/exchange/errors.hpp"
-#include "coupling/exchange/text_file.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/common/text_file.hpp"
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/io/contact_problem_file.hpp"
 #include "particles/io/snapshot_file.hpp"
@@ -49,14 +49,14 @@ const char* const log_header =
 
 class ParticleRun {
  public:
-  ParticleRun(const RunOptions& options, const Scene& scene, std::string resolved,
-              std::optional<Checkpoint> from)
+  ParticleRun(const RunOptions& options, const particles::Scene& scene, std::string resolved,
+              std::optional<particles::Checkpoint> from)
       : options_(options),
         scene_(scene),
         resolved_(std::move(resolved)),
-        totals_(from ? from->totals : RunTotals{}),
-        simulation_(from ? Simulation(scene, std::move(from->state), options.threads)
-                         : Simulation(scene, options.threads)),
+        totals_(from ? from->totals : particles::RunTotals{}),
+        simulation_(from ? particles::Simulation(scene, std::move(from->state), options.threads)
+                         : particles::Simulation(scene, options.threads)),
         log_(options.output / "log.csv", log_header, from ? from->log_bytes : 0),
         energy_bytes_(from ? from->energy_bytes : 0),
         writer_(options.threads > 1) {}
@@ -88,12 +88,12 @@ class ParticleRun {
   void advance() {
     last_ = simulation_.step();
     const auto& state = simulation_.state();
-    const bool converged = last_.solve.status == Status::converged || last_.contacts == 0;
+    const bool converged = last_.solve.status == particles::Status::converged || last_.contacts == 0;
     add_up(converged);
     if (state.step % scene_.output.log_every_steps == 0 || simulation_.finished() || last_.lost)
       log_step(converged);
-    const bool fatal =
-        !converged && (scene_.solver.stop_when_unconverged || last_.solve.status == Status::not_finite);
+    const bool fatal = !converged && (scene_.solver.stop_when_unconverged ||
+                                      last_.solve.status == particles::Status::not_finite);
     if (!converged && (totals_.unconverged_steps <= scene_.solver.capture_unconverged ||
                        (fatal && scene_.solver.capture_unconverged > 0)))
       capture_problem();
@@ -103,17 +103,17 @@ class ParticleRun {
   }
 
   void add_up(bool converged) {
-    const Judgement& judged = last_.solve.judgement;
+    const particles::ContactResidual& residual = last_.solve.residual;
     totals_.unconverged_steps += !converged;
     if (!converged && totals_.unconverged_steps == 1)
       totals_.first_unconverged_step = simulation_.state().step;
     totals_.sweeps += last_.solve.sweeps;
     totals_.contacts += last_.contacts;
     totals_.contact_sweeps += static_cast<double>(last_.contacts) * last_.solve.sweeps;
-    totals_.residual_sum += judged.residual;
-    totals_.residual_max = std::max(totals_.residual_max, judged.residual);
-    totals_.penetration_sum += judged.penetration;
-    totals_.penetration_max = std::max(totals_.penetration_max, judged.penetration);
+    totals_.residual_sum += residual.rms;
+    totals_.residual_max = std::max(totals_.residual_max, residual.rms);
+    totals_.penetration_sum += residual.penetration;
+    totals_.penetration_max = std::max(totals_.penetration_max, residual.penetration);
     totals_.overlap_sum += last_.overlap.mean;
     totals_.overlap_max = std::max(totals_.overlap_max, last_.overlap.max);
     totals_.detection_seconds += last_.detection_seconds;
@@ -124,26 +124,26 @@ class ParticleRun {
 
   void log_step(bool converged) {
     const auto& state = simulation_.state();
-    const auto& judged = last_.solve.judgement;
+    const auto& residual = last_.solve.residual;
     log_.write(fmt::format("{},{:.9g},{},{},{},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.9g},{}\n", state.step,
                            simulated_seconds(), scene_.stages[state.stage].name, last_.contacts,
-                           last_.solve.sweeps, judged.residual, judged.residual_max, judged.penetration,
+                           last_.solve.sweeps, residual.rms, residual.max, residual.penetration,
                            last_.overlap.mean, last_.overlap.max, kinetic_energy(state.bodies),
                            converged ? 1 : 0));
     if (state.energy) log_energy(*state.energy);
   }
 
-  void log_energy(const EnergyLedger& energy) {
+  void log_energy(const particles::EnergyLedger& energy) {
     std::string header = "step,time_s,kinetic,potential", line;
     line =
         fmt::format("{},{:.9g},{:.15g},{:.15g}", simulation_.state().step, simulated_seconds(),
                     energy.kinetic - energy.kinetic_at_start, energy.potential - energy.potential_at_start);
-    for (const auto& [name, work] : exchanges(energy)) {
+    for (const auto& [name, work] : particles::exchanges(energy)) {
       header += "," + name;
       line += fmt::format(",{:.15g}", work);
     }
     if (!energy_) energy_.emplace(options_.output / "energy.csv", header + ",closing_error\n", energy_bytes_);
-    energy_->write(line + fmt::format(",{:.3g}\n", closing_error(energy)));
+    energy_->write(line + fmt::format(",{:.3g}\n", particles::closing_error(energy)));
   }
 
   /// The problem of the last step, for `drumlin solve-contacts`.
@@ -153,37 +153,38 @@ class ParticleRun {
     const auto step = simulation_.state().step;
     const fs::path file = options_.output / "problems" / fmt::format("step-{:06}.h5", step);
     fs::create_directories(file.parent_path());
-    write_contact_problem(file, problem.value(),
-                          fmt::format("{}, step {}, {} to residual {:.3g}", scene_.title, step,
-                                      scene_.solver.name, last_.solve.judgement.residual));
+    particles::write_contact_problem(file, problem.value(),
+                                     fmt::format("{}, step {}, {} to residual {:.3g}", scene_.title, step,
+                                                 scene_.solver.name, last_.solve.residual.rms));
     totals_.output_seconds += seconds_between(begin, Clock::now());
   }
 
   void save_snapshot() {
     const auto begin = Clock::now();
-    Snapshot snapshot = simulation_.take_snapshot();
+    particles::Snapshot snapshot = simulation_.take_snapshot();
     const fs::path file =
         options_.output / "snapshots" / fmt::format("{:06}.h5", simulation_.state().snapshots);
-    writer_.write([file, snapshot = std::move(snapshot)] { write_snapshot(file, snapshot); });
+    writer_.write([file, snapshot = std::move(snapshot)] { particles::write_snapshot(file, snapshot); });
     totals_.output_seconds += seconds_between(begin, Clock::now());
   }
 
   void save_checkpoint() {
     const auto begin = Clock::now();
-    Checkpoint checkpoint;
+    particles::Checkpoint checkpoint;
     checkpoint.scene = resolved_;
     checkpoint.log_bytes = log_.flush();
     checkpoint.energy_bytes = energy_ ? energy_->flush() : energy_bytes_;
     checkpoint.totals = totals_now();
     checkpoint.state = simulation_.state();
     const fs::path file = options_.output / "checkpoint.h5";
-    writer_.write([file, checkpoint = std::move(checkpoint)] { write_checkpoint(file, checkpoint); });
+    writer_.write(
+        [file, checkpoint = std::move(checkpoint)] { particles::write_checkpoint(file, checkpoint); });
     next_checkpoint_s_ = simulated_seconds() + scene_.output.checkpoint_every_s;
     totals_.output_seconds += seconds_between(begin, Clock::now());
   }
 
-  RunTotals totals_now() const {
-    RunTotals totals = totals_;
+  particles::RunTotals totals_now() const {
+    particles::RunTotals totals = totals_;
     totals.wall_seconds += seconds_between(start_, Clock::now());
     totals.cpu_seconds += cpu_seconds() - cpu_before_;
     return totals;
@@ -206,8 +207,8 @@ class ParticleRun {
         "missed {}  left {}",
         scene_.reduced ? "reduced " : "",
         100.0 * static_cast<double>(state.step) / static_cast<double>(total), scene_.stages[state.stage].name,
-        simulated_seconds(), last_.contacts, last_.solve.sweeps, last_.solve.judgement.residual,
-        last_.overlap.mean, totals_.unconverged_steps, duration_text(left));
+        simulated_seconds(), last_.contacts, last_.solve.sweeps, last_.solve.residual.rms, last_.overlap.mean,
+        totals_.unconverged_steps, duration_text(left));
   }
 
   int stop_for(int signal) {
@@ -223,22 +224,24 @@ class ParticleRun {
   std::string accuracy_text() const {
     const auto record =
         options_.accuracy ? accuracy_record(*options_.accuracy, scene_) : shipped_record(scene_);
-    const RunCost cost{.cpu_seconds = totals_now().cpu_seconds, .simulated_seconds = simulated_seconds()};
-    return text_of(accuracy_statement(scene_, record, {}, cost));
+    const coupling::RunCost cost{.cpu_seconds = totals_now().cpu_seconds,
+                                 .simulated_seconds = simulated_seconds()};
+    const coupling::RunSettings settings{scene_.solver.tolerance, scene_.stages.back().time_step_s};
+    return text_of(coupling::accuracy_statement(settings, record, {}, cost));
   }
 
   std::string missed_tolerance() const {
-    const auto& judged = last_.solve.judgement;
+    const auto& residual = last_.solve.residual;
     return fmt::format(
         "contact solver {} ({}) after {} sweeps: residual {:.3g} (tolerance {:g}), penetration {:.3g} d "
         "(tolerance {:g})",
-        scene_.solver.name, to_string(last_.solve.status), last_.solve.sweeps, judged.residual,
-        scene_.solver.tolerance, judged.penetration, scene_.solver.penetration_tolerance);
+        scene_.solver.name, particles::to_string(last_.solve.status), last_.solve.sweeps, residual.rms,
+        scene_.solver.tolerance, residual.penetration, scene_.solver.penetration_tolerance);
   }
 
-  std::string describe(const LostGrain& lost) const {
-    return fmt::format("grain {} {}; it is at x = {:.6g} d, z = {:.6g} d", lost.grain, to_string(lost.how),
-                       lost.x, lost.z);
+  std::string describe(const particles::LostGrain& lost) const {
+    return fmt::format("grain {} {}; it is at x = {:.6g} d, z = {:.6g} d", lost.grain,
+                       particles::to_string(lost.how), lost.x, lost.z);
   }
 
   /// The last step must not be built upon: no checkpoint of it is written.
@@ -252,16 +255,16 @@ class ParticleRun {
   }
 
   RunOptions options_;
-  Scene scene_;
+  particles::Scene scene_;
   std::string resolved_;
-  RunTotals totals_;
-  Simulation simulation_;
+  particles::RunTotals totals_;
+  particles::Simulation simulation_;
   RunTable log_;
   std::optional<RunTable> energy_;  // opened with the first step: its columns depend on the scene
   std::int64_t energy_bytes_ = 0;   // of energy.csv at the checkpoint that the run continues
   BackgroundWriter writer_;
   Progress progress_;
-  StepReport last_;
+  particles::StepReport last_;
   Clock::time_point start_;
   double cpu_before_ = 0;
   double next_checkpoint_s_ = 0;
@@ -284,16 +287,16 @@ void same_scene_or_refuse(const fs::path& output, const std::string& theirs, con
 }  // namespace
 
 int run(const RunOptions& options) {
-  const Scene scene = read_scene(options.scene, options.overrides);
+  const particles::Scene scene = particles::read_scene(options.scene, options.overrides);
   // What only shows when grains are placed must show before anything is written or removed.
-  (void)Simulation(scene);
+  (void)particles::Simulation(scene);
   if (options.accuracy) (void)accuracy_record(*options.accuracy, scene);
-  const auto* listed = std::get_if<ListedGrains>(&scene.grains.source);
+  const auto* listed = std::get_if<particles::ListedGrains>(&scene.grains.source);
   std::vector<fs::path> inputs{options.scene};
   if (listed != nullptr) inputs.push_back(listed->file);
   prepare_output(options.output, options.existing, {"run.json"}, inputs);
-  const std::string resolved = scene_text(as_recorded(scene));
-  std::optional<Checkpoint> from;
+  const std::string resolved = particles::scene_text(as_recorded(scene));
+  std::optional<particles::Checkpoint> from;
   if (options.existing == ExistingOutput::resume) {
     if (fs::exists(options.output / "scene.toml"))
       same_scene_or_refuse(options.output, file_text(options.output / "scene.toml"), resolved);
@@ -304,7 +307,7 @@ int run(const RunOptions& options) {
       return static_cast<int>(ExitCode::done);
     }
     if (fs::exists(options.output / "checkpoint.h5")) {
-      from = read_checkpoint(options.output / "checkpoint.h5");
+      from = particles::read_checkpoint(options.output / "checkpoint.h5");
       same_scene_or_refuse(options.output, from->scene, resolved);
     }
   }

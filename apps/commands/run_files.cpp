@@ -3,14 +3,14 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 
 namespace drumlin::apps {
 
 namespace fs = std::filesystem;
 
-Scene as_recorded(Scene scene) {
-  if (auto* listed = std::get_if<ListedGrains>(&scene.grains.source)) listed->file = grain_list;
+particles::Scene as_recorded(particles::Scene scene) {
+  if (auto* listed = std::get_if<particles::ListedGrains>(&scene.grains.source)) listed->file = grain_list;
   return scene;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// What a run writes while it computes: tables that are cut back on resuming, HDF5 files beside the
-// computation.
+// Files that a run writes while it computes: tables that are cut back on resuming, and a writer of HDF5 files
+// beside the computation.
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -14,7 +14,7 @@ namespace drumlin::apps {
 /// The file in a run folder that holds a copy of the grain list of its scene.
 inline constexpr const char* grain_list = "grains.csv";
 /// The scene as it stands in the run folder.
-Scene as_recorded(Scene scene);
+particles::Scene as_recorded(particles::Scene scene);
 
 /// A table of a run, one line per logged step; on resuming cut back to the length that the checkpoint names.
 class RunTable {

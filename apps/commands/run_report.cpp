@@ -9,7 +9,7 @@
 
 #include "apps/support/json_file.hpp"
 #include "apps/support/progress.hpp"
-#include "coupling/exchange/provenance.hpp"
+#include "coupling/common/provenance.hpp"
 
 namespace drumlin::apps {
 namespace {
@@ -26,7 +26,7 @@ struct TimePart {
 };
 
 /// Where the wall time of a run went; the parts add up to it.
-std::array<TimePart, 6> time_parts(const RunTotals& t) {
+std::array<TimePart, 6> time_parts(const particles::RunTotals& t) {
   const double named =
       t.detection_seconds + t.setup_seconds + t.solver_seconds + t.projection_seconds + t.output_seconds;
   return {{{"detection", t.detection_seconds},
@@ -38,7 +38,7 @@ std::array<TimePart, 6> time_parts(const RunTotals& t) {
 }
 
 nlohmann::ordered_json accuracy(const RunProgress& run, double steps) {
-  const RunTotals& t = run.totals;
+  const particles::RunTotals& t = run.totals;
   return {{"solver", run.scene.solver.name},
           {"tolerance", run.scene.solver.tolerance},
           {"penetration_tolerance", run.scene.solver.penetration_tolerance},
@@ -51,7 +51,7 @@ nlohmann::ordered_json accuracy(const RunProgress& run, double steps) {
 }
 
 nlohmann::ordered_json cost(const RunProgress& run, double steps) {
-  const RunTotals& t = run.totals;
+  const particles::RunTotals& t = run.totals;
   nlohmann::ordered_json content = {
       {"contacts_mean", static_cast<double>(t.contacts) / steps},
       {"sweeps_mean", static_cast<double>(t.sweeps) / steps},
@@ -62,12 +62,12 @@ nlohmann::ordered_json cost(const RunProgress& run, double steps) {
   return content;
 }
 
-nlohmann::ordered_json energy(const EnergyLedger& ledger) {
+nlohmann::ordered_json energy(const particles::EnergyLedger& ledger) {
   nlohmann::ordered_json content = {{"kinetic", ledger.kinetic - ledger.kinetic_at_start},
                                     {"potential", ledger.potential - ledger.potential_at_start}};
-  for (const auto& [name, work] : exchanges(ledger)) content[name] = work;
+  for (const auto& [name, work] : particles::exchanges(ledger)) content[name] = work;
   content["turnover"] = ledger.turnover;
-  content["closing_error"] = closing_error(ledger);
+  content["closing_error"] = particles::closing_error(ledger);
   return content;
 }
 
@@ -103,7 +103,7 @@ nlohmann::ordered_json run_report(const RunProgress& run, const std::string& sta
 }
 
 std::string run_summary(const RunProgress& run) {
-  const RunTotals& t = run.totals;
+  const particles::RunTotals& t = run.totals;
   const auto& state = run.simulation.state();
   const double steps = std::max<double>(1, static_cast<double>(state.step));
   std::string text = fmt::format(

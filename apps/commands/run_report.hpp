@@ -1,5 +1,5 @@
 #pragma once
-// What a run says of itself: run.json and the summary at its end.
+// The report of a run: run.json, and the summary at its end.
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
@@ -10,9 +10,9 @@ namespace drumlin::apps {
 
 /// What a report speaks of; the times in `totals` are up to date.
 struct RunProgress {
-  const Scene& scene;
-  const Simulation& simulation;
-  RunTotals totals;
+  const particles::Scene& scene;
+  const particles::Simulation& simulation;
+  particles::RunTotals totals;
   int threads = 1;
 };
 

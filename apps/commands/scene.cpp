@@ -1,7 +1,7 @@
 // drumlin scene check | show | keys
 #include <fmt/format.h>
 
-#include "apps/commands.hpp"
+#include "apps/support/commands.hpp"
 #include "particles/scene/placement.hpp"
 #include "particles/scene/scene_file.hpp"
 #include "particles/stepping/simulation.hpp"
@@ -10,7 +10,7 @@ namespace drumlin::apps {
 
 namespace {
 
-std::string effects_text(const Effects& effects) {
+std::string effects_text(const particles::Effects& effects) {
   std::string text;
   const auto add = [&text](bool acts, const char* name) {
     if (acts) text += (text.empty() ? "" : ", ") + std::string(name);
@@ -27,12 +27,12 @@ std::string effects_text(const Effects& effects) {
 
 /// Makes the simulation too: what only shows there is a fault of the scene.
 void check(const SceneOptions& options) {
-  const Scene scene = read_scene(options.scene, options.overrides);
+  const particles::Scene scene = particles::read_scene(options.scene, options.overrides);
   const Scales scales = scales_of(scene);
-  const TimePlan plan = time_plan(scene, scales);
-  const Simulation simulation(scene);
+  const particles::TimePlan plan = particles::time_plan(scene, scales);
+  const particles::Simulation simulation(scene);
   const auto grains = simulation.state().bodies.count();
-  const auto shapes = walls_of(scene, scales).reference.size();
+  const auto shapes = particles::walls_of(scene, scales).reference.size();
   const int unknowns = simulation.stepper().unknowns_per_contact();
   fmt::print("{}: ok{}\n", options.scene.string(), scene.reduced ? " (reduced)" : "");
   if (!scene.title.empty()) fmt::print("title      {}\n", scene.title);
@@ -45,10 +45,10 @@ void check(const SceneOptions& options) {
              scene.solver.max_sweeps);
   double seconds = 0;
   for (std::size_t s = 0; s < scene.stages.size(); ++s) {
-    seconds += duration_s(scene.stages[s]);
+    seconds += particles::duration_s(scene.stages[s]);
     fmt::print("stage      {}: {:.6g} s in {} steps of {:.6g} s, {} snapshots\n", scene.stages[s].name,
-               duration_s(scene.stages[s]), plan.stages[s].steps, plan.stages[s].time_step * scales.time_s,
-               scene.stages[s].snapshots);
+               particles::duration_s(scene.stages[s]), plan.stages[s].steps,
+               plan.stages[s].time_step * scales.time_s, scene.stages[s].snapshots);
   }
   fmt::print("in all     {:.6g} s, {} steps, {} snapshots\n", seconds, plan.steps,
              plan.snapshot_steps.size());
@@ -62,10 +62,11 @@ int scene(const SceneOptions& options) {
       check(options);
       break;
     case SceneAction::show:
-      fmt::print("{}", scene_text(read_scene(options.scene, options.overrides)));
+      fmt::print("{}", particles::scene_text(particles::read_scene(options.scene, options.overrides)));
       break;
     case SceneAction::keys:
-      fmt::print("{}", options.markdown ? keys_as_markdown(scene_keys()) : keys_as_text(scene_keys()));
+      fmt::print("{}", options.markdown ? keys_as_markdown(particles::scene_keys())
+                                        : keys_as_text(particles::scene_keys()));
       break;
   }
   return 0;

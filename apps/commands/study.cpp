@@ -5,16 +5,15 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/commands.hpp"
-#include "apps/support/figures.hpp"
+#include "apps/support/commands.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/output_folder.hpp"
 #include "apps/support/paper_data.hpp"
+#include "apps/support/pending_figures.hpp"
 #include "apps/support/study_json.hpp"
-#include "apps/support/study_page.hpp"
-#include "apps/support/study_run_folder.hpp"
-#include "coupling/exchange/errors.hpp"
-#include "coupling/exchange/text_file.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/common/text_file.hpp"
+#include "coupling/study/study_run_folder.hpp"
 
 namespace drumlin::apps {
 
@@ -23,15 +22,15 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-void print_study(const Study& study, const Json& content) {
+void print_study(const coupling::Study& study, const Json& content) {
   for (const std::string& warning : study.warnings) fmt::print("warning: {}\n", warning);
   fmt::print("\nlaws over the speed of rotation (99 %)\n");
-  for (const SpeedLaw& law : study.laws) {
+  for (const coupling::SpeedLaw& law : study.laws) {
     fmt::print("  {:28} {}\n", law.name, law.formula);
     for (const auto& c : law.coefficients)
       fmt::print("  {:28}   {} = {:.4g} +- {:.2g}\n", "", c.name, c.value, c.ci99);
   }
-  for (const Collapse& collapse : study.collapses)
+  for (const coupling::Collapse& collapse : study.collapses)
     fmt::print("  {:28} spread between speeds / intervals = {:.2f} (limit {:.2f}): {}\n",
                collapse.column + "(I)", collapse.ratio, collapse.limit,
                collapse.collapse ? "one curve" : "not one curve");
@@ -46,17 +45,17 @@ void print_study(const Study& study, const Json& content) {
 
 int study(const StudyOptions& options) {
   const fs::path finished = options.output / "study.json";
-  if (options.existing == ExistingOutput::resume && fs::exists(finished)) {
+  if (options.existing == ExistingOutput::resume && is_complete(finished)) {
     fmt::print("{}: done already\n", options.output.string());
     return static_cast<int>(ExitCode::done);
   }
-  std::vector<StudyRun> runs;
+  std::vector<coupling::StudyRun> runs;
   std::vector<std::string> folders;
   for (const fs::path& run : options.runs) {
-    runs.push_back(read_study_run(run));
+    runs.push_back(coupling::read_study_run(run));
     folders.push_back(run.string());
   }
-  const Study result = study_of(std::move(runs), paper_data_folder());
+  const coupling::Study result = coupling::study_of(std::move(runs), paper_data_folder());
   prepare_output(options.output, options.existing, {"study.json", "paper_table.md"}, options.runs);
   fs::create_directories(options.output);
 
@@ -66,17 +65,14 @@ int study(const StudyOptions& options) {
   content["provenance"] = to_json(provenance());
   const std::string table = paper_table_markdown(result);
   replace_file(options.output / "paper_table.md", table);
-  // The figures read it under another name: study.json itself says that all is there.
-  const fs::path unfinished = options.output / "study.json.part";
-  write_json(unfinished, content);
-  std::vector<std::string> words{"--study",  unfinished.string(),    "--paper", paper_data_folder().string(),
+  note_pending_figures(options.output);
+  write_json(finished, content);
+  print_study(result, content);
+  std::vector<std::string> words{"--study",  finished.string(),      "--paper", paper_data_folder().string(),
                                  "--output", options.output.string()};
   words.insert(words.end(), folders.begin(), folders.end());
-  draw_figures("study_figures.py", words);
-  replace_file(options.output / "index.html", study_page(content, options.output));
-  write_json(finished, content);
-  fs::remove(unfinished);
-  print_study(result, content);
+  throw_if_figures_failed(finished, draw_pending_figures(options.output, {{"study_figures.py", words}},
+                                                         ResultPage{"study", finished}));
   return static_cast<int>(ExitCode::done);
 }
 

@@ -1,4 +1,6 @@
-"""Figure of `drumlin calibrate`: the points of all runs over I, the law with its 99 % band, what is left, and the axes."""
+"""Figure of `drumlin calibrate`: the points of all runs over I, the law with its 99 % band, what is left, and the axes.
+
+The law is drawn and subtracted as the record holds it: the command evaluates it, with the function that the flow uses."""
 
 import argparse
 import json
@@ -23,13 +25,13 @@ def colors_of(record):
     return {speed: cycle[i % len(cycle)] for i, speed in enumerate(speeds)}
 
 
-def draw_points(axes, record, quantity, colors, law=None):
+def draw_points(axes, record, quantity, colors, less_law=False):
     labelled = set()
     for run in record["points"]:
         values = np.array([np.nan if v is None else v for v in run[quantity]])
         inertial = np.array(run["I"])
-        if law is not None:
-            values = values - np.interp(np.log(inertial), np.log(law["I"]), law["value"])
+        if less_law:
+            values = values - np.array(run["law"])
         speed = round(run["rotation_rpm"], 2)
         label = None if (speed, run["held_out"]) in labelled else f"{speed:g} rpm" + (", held out" if run["held_out"] else "")
         labelled.add((speed, run["held_out"]))
@@ -63,7 +65,7 @@ def main():
     axes.legend(loc="lower right", fontsize=9)
 
     axes = panels[1]
-    draw_points(axes, record, "mu", colors, curve)
+    draw_points(axes, record, "mu", colors, less_law=True)
     value = np.array(curve["value"])
     axes.fill_between(curve["I"], np.array(curve["low"]) - value, np.array(curve["high"]) - value, color="0.3",
                       alpha=0.35, linewidth=0, label="99 % band of the law")
@@ -76,7 +78,7 @@ def main():
     if with_axes:
         axes = panels[2]
         draw_points(axes, record, "axis_angle_deg", colors)
-        axes.plot(record["turn"]["knots"], record["turn"]["axis_angle_deg"], color=style.PAPER, label="fit")
+        axes.plot(record["turn"]["axis_angle"]["I"], record["turn"]["axis_angle"]["degrees"], color=style.PAPER, label="fit")
         axes.axhline(0, color="0.5", linewidth=1)
         axes.set_ylim(-50, 30)
         axes.set_ylabel("axis of the stress less that of the strain rate [°]")

@@ -1,7 +1,7 @@
 """Figures of `drumlin compare`, from the overlays that it wrote: both sides at the same places, with their 99 % bands."""
 
 import argparse
-import json
+import functools
 import math
 import pathlib
 
@@ -9,6 +9,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import compare_maps
+import script
 import style
 
 LABELS = dict(style.LABELS, **{
@@ -134,7 +135,7 @@ def slices(comparison, folder):
                 axes.set_xlabel("")
         grid[0][column].set_title(f"x = {entry['position']:+.1f} d")
     for row, (name, _) in enumerate(rows):
-        # Between wall and surface alone: what touches either is not judged and would set the scale.
+        # Between wall and surface alone: what touches either is in no zone and would set the scale.
         curves = [(np.asarray(line.get_xdata()), np.asarray(line.get_ydata())) for axes in grid[row] for line in axes.get_lines()
                   if len(line.get_ydata()) > 2]
         values = np.concatenate([y[np.isfinite(y) & (x < 0) & (x > np.min(x, where=np.isfinite(y), initial=0) + 3)] for x, y in curves])
@@ -147,9 +148,8 @@ def slices(comparison, folder):
 def main():
     options = arguments()
     style.use_style()
-    with open(options.comparison, encoding="utf-8") as stream:
-        comparison = json.load(stream)
-    reduced = comparison["reduced"]
+    comparison = script.content_of(options.comparison)
+    reduced, names = comparison["reduced"], names_of(comparison)
     _, columns = style.read_profiles(options.output / "overlay.csv")
     sheets = {
         "velocity": ([("v_x", False), ("v_x", True), ("v_z", False)], (13, 4.2)),
@@ -157,16 +157,21 @@ def main():
         "stresses": ([("sigma_zz", False), ("sigma_xz", False), ("sigma_xx", False), ("p", False)], (16, 4.2)),
         "ratios": ([("I", True), ("mu", False), ("k", False), ("axis_angle_deg", False)], (16, 4.2)),
     }
-    figures = {name: over_depth(panels, columns, comparison, size) for name, (panels, size) in sheets.items()}
-    figures["friction"] = friction(columns, names_of(comparison))
-    figures["slices"] = slices(comparison, options.output)
+    drawings = {name: functools.partial(over_depth, panels, columns, comparison, size) for name, (panels, size) in sheets.items()}
+    drawings["friction"] = lambda: friction(columns, names)
+    drawings["slices"] = lambda: slices(comparison, options.output)
     if comparison["maps"]:
-        figures |= compare_maps.sheets(options.output / "overlay_maps.h5", names_of(comparison), reduced)
+        maps = compare_maps.overlaid(options.output / "overlay_maps.h5")
+        drawings |= {name: functools.partial(compare_maps.sheet_of, name, maps, names, reduced) for name in compare_maps.SHEETS}
     if options.snapshot and options.maps:
-        figures["drums"] = compare_maps.drums(comparison, options.snapshot, options.maps)
-    for name, figure in figures.items():
+        drawings["drums"] = lambda: compare_maps.drums(comparison, options.snapshot, options.maps)
+
+    def save(name, draw):
+        figure = draw()
         if figure is not None:
-            style.save(figure, f"{options.output}/{name}.png", reduced)
+            style.save(figure, options.output / f"{name}.png", reduced)
+
+    script.draw_each({name: functools.partial(save, name, draw) for name, draw in drawings.items()})
 
 
 if __name__ == "__main__":

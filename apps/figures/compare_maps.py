@@ -134,9 +134,14 @@ def sheet(grids, header, field, label, logarithmic, names, reduced):
     return figure
 
 
-def sheets(path, names, reduced):
-    """Figures by name."""
+def overlaid(path):
+    """(header, grids) of overlay_maps.h5, with intervals and speeds."""
     header, grids = read_maps(path, with_intervals=True)
-    with_speed(grids)
-    return {name: sheet(grids, header, field, label, logarithmic, names, reduced)
-            for name, (field, label, logarithmic) in SHEETS.items() if field + "_particles" in grids}
+    return header, with_speed(grids)
+
+
+def sheet_of(name, maps, names, reduced):
+    """The figure of one entry of SHEETS; None where the maps do not have its field."""
+    header, grids = maps
+    field, label, logarithmic = SHEETS[name]
+    return sheet(grids, header, field, label, logarithmic, names, reduced) if field + "_particles" in grids else None

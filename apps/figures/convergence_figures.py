@@ -22,6 +22,9 @@ SCALARS = [("theta_com_deg", r"$\theta$ (centre of mass)  [deg]", 2), ("H", r"$H
            ("domega_over_shear", r"$\delta\omega/\dot\gamma$", 2), ("mu_b", r"$b$ of $\mu = a + b \ln I$", 4),
            ("dv_exponent", r"exponent of $\delta v/\dot\gamma \sim I^p$", 3), ("overlap_mean", "mean overlap  [d]", 7)]
 
+# P(|t| <= value) = 0.99 for 1, 2, ... degrees of freedom (Abramowitz & Stegun 1964, table 26.10); the last for more.
+STUDENT_99 = [63.657, 9.925, 5.841, 4.604, 4.032, 3.707, 3.499, 3.355, 3.250, 3.169]
+
 
 def runs_of(standard, convergence):
     """{setting: [(run.json, measured.json, folder), ...]}, the standard first."""
@@ -35,20 +38,32 @@ def runs_of(standard, convergence):
                    if (folder / "measured" / "measured.json").exists()] for name, folders in groups.items()}
 
 
-def pooled(runs, scalar):
-    """Mean over the seeds; half width from the runs' own 99 % intervals, or from their scatter where that is larger."""
-    entries = [measured[scalar] for _, measured, _ in runs if measured[scalar]["value"] is not None]
-    values = [entry["value"] for entry in entries]
-    n = len(values)
+def entries_of(runs, scalar):
+    return [measured[scalar] for _, measured, _ in runs if measured[scalar]["value"] is not None]
+
+
+def seed_spread(groups, scalar):
+    """Student's t times the standard deviation between seeds, one for all settings: that of one setting has two degrees
+    of freedom at most (t = 9.9), those of all settings together have more. 0 where no setting has two seeds."""
+    squares, freedom = 0, 0
+    for runs in groups.values():
+        values = [entry["value"] for entry in entries_of(runs, scalar)]
+        mean = sum(values) / max(len(values), 1)
+        squares += sum((value - mean) ** 2 for value in values)
+        freedom += max(len(values) - 1, 0)
+    return STUDENT_99[min(freedom, len(STUDENT_99)) - 1] * math.sqrt(squares / freedom) if freedom > 0 else 0
+
+
+def pooled(groups, runs, scalar):
+    """Mean over the seeds; half width from the runs' own 99 % intervals, or from the spread between seeds where that is
+    larger. One seed keeps its own interval."""
+    entries = entries_of(runs, scalar)
+    n = len(entries)
     if n == 0:
         return math.nan, math.nan
-    mean = sum(values) / n
+    mean = sum(entry["value"] for entry in entries) / n
     own = math.sqrt(sum(entry["ci99"] ** 2 for entry in entries)) / n
-    if n < 2:
-        return mean, own
-    deviation = math.sqrt(sum((value - mean) ** 2 for value in values) / (n - 1))
-    # Not Student's t for two or three seeds (64, 9.9): each interval holds twenty batches already.
-    return mean, max(own, 2.576 * deviation / math.sqrt(n))
+    return mean, own if n < 2 else max(own, seed_spread(groups, scalar) / math.sqrt(n))
 
 
 def steps(runs):
@@ -76,7 +91,7 @@ def table(groups):
         missed = sum(run["unconverged_steps"] for run, *_ in runs) / len(runs)
         cells = [name, str(len(runs)), f"{cpu:.0f}", f"{sweeps:.0f}", f"{missed:.0f}"]
         for scalar, _, digits in SCALARS:
-            mean, half = pooled(runs, scalar)
+            mean, half = pooled(groups, runs, scalar)
             cells.append(f"{mean:.2e}" if scalar == "overlap_mean" else f"{mean:.{digits}f} +- {half:.{digits}f}")
         lines.append("| " + " | ".join(cells) + " |")
     return "\n".join(lines) + "\n"
@@ -87,7 +102,7 @@ def figure(groups):
     for axes, (scalar, label, _) in zip(panels.flat, SCALARS):
         for i, (name, runs) in enumerate(groups.items()):
             cpu, _ = steps(runs)
-            mean, half = pooled(runs, scalar)
+            mean, half = pooled(groups, runs, scalar)
             color = style.PARTICLES if name == "tolerance-3e-3, the standard" else (["0.35"] + style.OTHERS + [style.CONTINUUM])[i % 7]
             axes.errorbar([cpu], [mean], [half], fmt="s" if name == "tolerance-3e-3, the standard" else "o", color=color, capsize=3, markersize=7,
                           label=f"{name} ({len(runs)})")
@@ -115,7 +130,7 @@ def main():
     (output / "convergence.md").write_text(text, encoding="utf-8")
     content = {"format": "drumlin-convergence-1", "settings": {
         name: {"seeds": len(runs), **settings_of(runs), "cpu_seconds": steps(runs)[0], "sweeps_mean": steps(runs)[1],
-               **{scalar: dict(zip(("value", "ci99"), pooled(runs, scalar))) for scalar, *_ in SCALARS}}
+               **{scalar: dict(zip(("value", "ci99"), pooled(groups, runs, scalar))) for scalar, *_ in SCALARS}}
         for name, runs in groups.items()},
         "scene": (next(iter(groups.values()))[0][2] / "scene.toml").read_text(encoding="utf-8"),
         "machine": next(iter(groups.values()))[0][0]["provenance"].get("machine"),

@@ -1,11 +1,11 @@
 """Figure of `drumlin cost --effects`: what each effect of a scene takes and changes, relative to the scene as it is."""
 
 import argparse
-import json
 import math
 
 import matplotlib.pyplot as plt
 
+import script
 import style
 
 LONGEST = 50  # per cent
@@ -56,8 +56,7 @@ def draw_panel(axes, key, title, base, rows):
 
 def main():
     options = arguments()
-    with open(options.prices, encoding="utf-8") as stream:
-        report = json.load(stream)
+    report = script.content_of(options.prices)
     priced = [row for row in report["variants"] if "cpu_seconds" in row]
     base, rows = priced[0], priced[1:][::-1]
     style.use_style()

@@ -3,11 +3,11 @@
 usage: flow_cost_figures.py FLOW_COSTS_JSON PICTURE
 """
 
-import json
 import sys
 
 import matplotlib.pyplot as plt
 
+import script
 import style
 
 CURVES = [("theta_deg", r"$\theta$"), ("H", "$H$"), ("lambda", r"$\lambda$"), ("v_x_5d", r"$v_x$ at 5 $d$"), ("v_x_10d", r"$v_x$ at 10 $d$"),
@@ -29,8 +29,7 @@ def draw(axes, rows, along, label, reference):
 
 
 def main():
-    with open(sys.argv[1], encoding="utf-8") as stream:
-        report = json.load(stream)
+    report = script.content_of(sys.argv[1])
     style.use_style()
     meshes, eps = report["accuracy"]["meshes"], report["accuracy"]["eps"]
     figure, axes = plt.subplots(1, 3, figsize=(14.5, 5), sharey=True)

@@ -6,13 +6,13 @@ usage: flow_figures.py FLOWRUN [--flow FLOW_JSON]
 
 import argparse
 import csv
-import json
 import math
 import pathlib
 
 import matplotlib.colors
 import matplotlib.pyplot as plt
 import numpy as np
+import script
 import style
 from drum_maps import read_maps
 from flow_trust import draw_newton, draw_sensitivity, draw_well_posedness
@@ -154,17 +154,21 @@ def main():
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--flow", type=pathlib.Path, help="flow.json, if it stands elsewhere than in the folder")
     arguments = parser.parse_args()
-    flow = json.loads((arguments.flow or arguments.folder / "flow.json").read_text(encoding="utf-8"))
+    flow = script.content_of(arguments.flow or arguments.folder / "flow.json")
     style.use_style()
-    header, grids = read_maps(arguments.folder / "maps.h5")
+    folder = arguments.folder
+    header, grids = read_maps(folder / "maps.h5")
+    drawings = {
+        "profiles": lambda: draw_profiles(folder, flow),
+        "well_posedness": lambda: draw_well_posedness(folder, flow, header, grids, draw_map),
+        "newton": lambda: draw_newton(folder, flow),
+        "sensitivity": lambda: draw_sensitivity(folder, flow),
+    }
     if flow["geometry"] in ("drum", "annulus"):  # a strip is the same all along: its profiles say it all
-        draw_maps(arguments.folder, flow, header, grids)
-    draw_profiles(arguments.folder, flow)
-    draw_well_posedness(arguments.folder, flow, header, grids, draw_map)
-    draw_newton(arguments.folder, flow)
-    draw_sensitivity(arguments.folder, flow)
+        drawings["maps"] = lambda: draw_maps(folder, flow, header, grids)
     if "time" in flow:
-        draw_series(arguments.folder, flow)
+        drawings["series"] = lambda: draw_series(folder, flow)
+    script.draw_each(drawings)
 
 
 if __name__ == "__main__":

@@ -3,12 +3,12 @@
 usage: flow_price_figures.py COST_JSON PICTURE
 """
 
-import json
 import math
 import sys
 
 import matplotlib.pyplot as plt
 
+import script
 import style
 
 NAMES = {"theta_deg": r"$\theta$", "H": "$H$", "Q": "$Q$", "lambda": r"$\lambda$", "shear_rate": r"$\dot\gamma$", "I_th": r"$I_{th}$"}
@@ -47,8 +47,7 @@ def draw(report, path):
 
 
 def main():
-    with open(sys.argv[1], encoding="utf-8") as stream:
-        report = json.load(stream)
+    report = script.content_of(sys.argv[1])
     style.use_style()
     draw(report, sys.argv[2])
 

@@ -1,25 +1,16 @@
 """Figure of the part `forces` of `drumlin measure`: how contact forces are distributed and where they point."""
 
-import argparse
 import csv
-import json
 import math
-import pathlib
 
 import matplotlib.pyplot as plt
 
+import script
 import style
 
 ZONES = {"flowing": style.PARTICLES, "static": style.CONTINUUM, "wall": style.OTHERS[0]}
 NAMES = {"flowing": "flowing layer", "static": "static phase", "bulk": "bulk", "wall": "at the drum"}
 LEAST_COUNT = 10  # contacts in a bin that is drawn
-
-
-def arguments():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("folder", help="RUN/measured: holds forces.csv, force_distributions.csv, takes forces.png")
-    parser.add_argument("--measured", help="the scalars; standard: measured.json in the folder")
-    return parser.parse_args()
 
 
 class Forces:
@@ -153,10 +144,7 @@ def stress_ratio(axes, forces):
 
 
 def main():
-    options = arguments()
-    folder = pathlib.Path(options.folder)
-    with open(options.measured or folder / "measured.json", encoding="utf-8") as stream:
-        content = json.load(stream)
+    folder, content = script.measured_folder(__doc__)
     if content.get("forces") is None:
         return  # no contacts: nothing was measured
     forces = Forces(folder, content)

@@ -1,9 +1,6 @@
 """Grains coloured by volume fraction and by pressure: grains.png in RUN/measured, of the last snapshot with fields."""
 
-import argparse
-import json
 import math
-import pathlib
 
 import h5py
 import matplotlib.collections
@@ -12,18 +9,12 @@ import matplotlib.patches
 import matplotlib.pyplot as plt
 import numpy as np
 
+import script
 import style
 
 LONG_SIDE = 8.0  # inches of the longer side of one map
 LEAST_SHARE = 1e-3  # pressures below this share of the largest are drawn as none
 NO_CELL = "#E69F00"  # grains without a cell
-
-
-def arguments():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("folder", help="RUN/measured")
-    parser.add_argument("--measured", help="file with the scalars, if not measured.json in the folder")
-    return parser.parse_args()
 
 
 class Fields:
@@ -101,14 +92,11 @@ def draw(fields, number, reduced):
 
 
 def main():
-    options = arguments()
-    folder = pathlib.Path(options.folder)
-    with open(options.measured or folder / "measured.json", encoding="utf-8") as stream:
-        reduced = json.load(stream)["reduced"]
+    folder, content = script.measured_folder(__doc__)
     last = max((folder / "grains").glob("*.h5"))
     style.use_style()
     plt.rcParams["savefig.dpi"] = 130
-    style.save(draw(Fields(last), int(last.stem), reduced), folder / "grains.png", reduced)
+    style.save(draw(Fields(last), int(last.stem), content["reduced"]), folder / "grains.png", content["reduced"])
 
 
 if __name__ == "__main__":

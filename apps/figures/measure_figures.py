@@ -1,13 +1,12 @@
 """Figures of `drumlin measure`: the profiles at the centre with 99 % bands, and what was fitted to them."""
 
-import argparse
 import csv
-import json
+import functools
 import math
-import pathlib
 
 import matplotlib.pyplot as plt
 
+import script
 import style
 
 LEAST_SHOWN_NU = 0.05  # volume fraction of the loosest layer that is drawn
@@ -15,22 +14,13 @@ WIDEST_SHARE = 0.6  # of a value, up to which the figure of the sensitivities re
 FIT = style.CONTINUUM  # the colour of lines that are fitted or expected, not measured
 
 
-def arguments():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("folder", help="RUN/measured: holds profiles.csv and takes the figures")
-    parser.add_argument("--measured", help="the scalars; standard: measured.json in the folder")
-    return parser.parse_args()
-
-
 class Measured:
     """Scalars and profiles of one run; what was not measured is NaN."""
 
-    def __init__(self, folder, scalars):
+    def __init__(self, folder, content):
         self.folder = folder
         self.header, self.columns = style.read_profiles(folder / "profiles.csv")
-        with open(scalars, encoding="utf-8") as stream:
-            self.content = json.load(stream)
-        self.reduced = self.content["reduced"]
+        self.content, self.reduced = content, content["reduced"]
         # A handful of grains in the air would stretch every axis with their error bars.
         shown = [i for i, nu in enumerate(self.columns["nu"]) if nu > LEAST_SHOWN_NU]
         self.columns = {name: [values[i] for i in shown] for name, values in self.columns.items()}
@@ -357,15 +347,17 @@ def figures_of(run):
 
 
 def main():
-    options = arguments()
-    folder = pathlib.Path(options.folder)
-    run = Measured(folder, options.measured or folder / "measured.json")
+    folder, content = script.measured_folder(__doc__)
+    run = Measured(folder, content)
     style.use_style()
-    for draw_figure in figures_of(run):
+
+    def save(draw_figure):
         figure = draw_figure(run)
         if run.reduced and len(figure.axes) > 1:
             figure.suptitle("reduced run", fontsize=13)
         style.save(figure, folder / f"{draw_figure.__name__}.png", run.reduced)
+
+    script.draw_each({one.__name__: functools.partial(save, one) for one in figures_of(run)})
 
 
 if __name__ == "__main__":

@@ -1,15 +1,13 @@
 """maps.png of `drumlin measure`: fields over the whole drum, from maps.h5."""
 
-import argparse
-import json
 import math
-import pathlib
 
 import h5py
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import ListedColormap, LogNorm, Normalize
 
+import script
 import style
 from drum_maps import text_of
 
@@ -17,13 +15,6 @@ LEAST_SHOWN_NU = 0.05  # as in the profiles
 UNKNOWN = "0.85"  # where an interval is wider than what is shown
 WIDEST_ANGLE = 15  # deg, half width of the interval from which on an angle is not shown
 WIDEST_I = 1.0  # half width of the interval of I, as a share of I, from which on it is not shown
-
-
-def arguments():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("folder", help="RUN/measured: holds maps.h5 and takes the figure")
-    parser.add_argument("--measured", help="the scalars; standard: measured.json in the folder")
-    return parser.parse_args()
 
 
 class Maps:
@@ -135,10 +126,7 @@ def draw_streamlines(axes, maps):
 
 
 def main():
-    args = arguments()
-    folder = pathlib.Path(args.folder)
-    with open(args.measured or folder / "measured.json", encoding="utf-8") as stream:
-        reduced = json.load(stream)["reduced"]
+    folder, content = script.measured_folder(__doc__)
     maps = Maps(folder / "maps.h5")
     style.use_style()
     figure, axes = plt.subplots(3, 3, figsize=(16, 10.5), sharex=True, sharey=True)
@@ -147,7 +135,7 @@ def main():
         one.set_xlabel(r"$x$  [$d$], downslope")
     for one in axes[:, 0]:
         one.set_ylabel(style.LABELS["z"])
-    style.save(figure, folder / "maps.png", reduced)
+    style.save(figure, folder / "maps.png", content["reduced"])
 
 
 if __name__ == "__main__":

@@ -6,12 +6,14 @@ Writes OUTPUT/cost_accuracy_NAME.png or OUTPUT/cost_effects_NAME.png for every N
 files are records of something else and are passed over.
 """
 
-import json
+import functools
 import pathlib
 import runpy
 import shutil
 import sys
 import tempfile
+
+import script
 
 HERE = pathlib.Path(__file__).resolve().parent
 PICTURE, FOLDER = "PICTURE", "FOLDER"
@@ -25,24 +27,25 @@ DRAWN = {
 }
 
 
-def draw(record, picture, script, words):
+def draw(record, picture, name, words):
     """Runs the script as it is called by hand; one that draws into a folder leaves its first picture under its own name."""
     with tempfile.TemporaryDirectory() as folder:
-        sys.argv = [str(HERE / script), str(record)] + [{PICTURE: str(picture), FOLDER: folder}.get(word, word) for word in words]
+        sys.argv = [str(HERE / name), str(record)] + [{PICTURE: str(picture), FOLDER: folder}.get(word, word) for word in words]
         runpy.run_path(sys.argv[0], run_name="__main__")
-        drawn = pathlib.Path(folder) / (pathlib.Path(script).stem + ".png")
+        drawn = pathlib.Path(folder) / (pathlib.Path(name).stem + ".png")
         if drawn.exists():
             shutil.move(drawn, picture)
 
 
 def main():
     records, output = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
-    sys.path.insert(0, str(HERE))
+    drawings = {}
     for record in sorted(records.glob("*.json")):
-        known = DRAWN.get(json.loads(record.read_text(encoding="utf-8")).get("format"))
+        known = DRAWN.get(script.content_of(record).get("format"))
         if known is not None:
-            kind, script, words = known
-            draw(record, output / f"cost_{kind}_{record.stem}.png", script, words)
+            kind, name, words = known
+            drawings[record.name] = functools.partial(draw, record, output / f"cost_{kind}_{record.stem}.png", name, words)
+    script.draw_each(drawings)
 
 
 if __name__ == "__main__":

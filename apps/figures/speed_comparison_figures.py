@@ -1,10 +1,11 @@
 """Figures of `drumlin compare --study`: paper, particles and continuum over the speed of rotation; errors over their limits."""
 
 import argparse
-import json
+import functools
 import math
 import pathlib
 
+import script
 import style
 
 plt = style.plt
@@ -23,7 +24,7 @@ def number(value):
 
 class Study:
     def __init__(self, path):
-        content = json.loads(pathlib.Path(path).read_text(encoding="utf-8"))
+        content = script.content_of(path)
         self.speeds, self.laws, self.reduced = content["speeds"], content["laws"], content["reduced"]
 
     def points(self, name, side, over):
@@ -148,9 +149,8 @@ def main():
     options = parser.parse_args()
     style.use_style()
     study = Study(options.study)
-    speeds(study, options.output / "speeds.png")
-    rates(study, options.output / "rates.png")
-    errors(study, options.output / "errors.png")
+    script.draw_each({draw.__name__: functools.partial(draw, study, options.output / f"{draw.__name__}.png")
+                      for draw in (speeds, rates, errors)})
 
 
 if __name__ == "__main__":

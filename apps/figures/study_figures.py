@@ -4,9 +4,11 @@ figures.json lists them with a caption each: what the paper says, and what was f
 """
 
 import argparse
+import functools
 import json
 import pathlib
 
+import script
 import study_flow
 import study_rheology
 import study_stresses
@@ -49,16 +51,21 @@ def main():
     study = Study(options.study, options.runs, pathlib.Path(options.paper))
     style.use_style()
     listed = []
-    for name, draw in FIGURES:
+
+    def save(name, draw):
         drawn = draw(study)
         if drawn is None:
-            continue
+            return
         figure, title, paper, here = drawn
         style.save(figure, output / f"{name}.png", study.reduced)
         listed.append({"file": f"{name}.png", "title": title, "paper": paper, "here": here})
-    with open(output / "figures.json", "w", encoding="utf-8") as stream:
-        json.dump({"format": "drumlin-study-figures-1", "figures": listed}, stream, indent=2, ensure_ascii=False)
-        stream.write("\n")
+
+    def save_list():
+        with open(output / "figures.json", "w", encoding="utf-8") as stream:
+            json.dump({"format": "drumlin-study-figures-1", "figures": listed}, stream, indent=2, ensure_ascii=False)
+            stream.write("\n")
+
+    script.draw_each({name: functools.partial(save, name, draw) for name, draw in FIGURES} | {"figures.json": save_list})
 
 
 if __name__ == "__main__":

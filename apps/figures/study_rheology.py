@@ -29,11 +29,6 @@ def inertial_number(study):
             f"I_th = {shown(mean)} in the mean of all speeds; over Q it changes by {shown(study.trend('I_th'), 2)} of itself.")
 
 
-def law_line(axes, a, b, **options):
-    inertial = [1e-4, 1e-1]
-    axes.plot(inertial, [a + b * math.log(x) for x in inertial], **options)
-
-
 def ratio_panels(study, figure, run, name):
     """The main speed on a linear axis of I; beside it what the paper shows in an inset: all speeds, logarithmic."""
     linear, logarithmic = figure.subplots(1, 2)
@@ -64,13 +59,14 @@ def rheology(study):
     found = "no law was fitted"
     if friction:
         a, b = friction["a"]["value"], friction["b"]["value"]
-        law_line(logarithmic, a, b, color=FIT, linewidth=2, zorder=5, label=f"{a:.3f} + {b:.4f} ln $I$")
+        logarithmic.plot(friction["curve"]["I"], friction["curve"]["mu"], color=FIT, linewidth=2, zorder=5,
+                         label=f"{a:.3f} + {b:.4f} ln $I$")
         found = (f"all speeds together: {shown(friction['a'])} + ({shown(friction['b'])}) ln I; rms of the layers about it "
                  f"{friction['rms']:.3g}, about the laws of their own speeds {friction['rms_own']:.3g}")
-    a, b = study.paper_law("friction", "a"), study.paper_law("friction", "b")
-    if math.isfinite(a):
-        law_line(logarithmic, a, b, color=style.PAPER, linestyle="-.", linewidth=1.4, zorder=5,
-                 label=f"paper: {a:g} + {b:g} ln $I$")
+    paper = study.content["paper_friction"]
+    if paper:
+        logarithmic.plot(paper["curve"]["I"], paper["curve"]["mu"], color=style.PAPER, linestyle="-.", linewidth=1.4, zorder=5,
+                         label=f"paper: {paper['a']:g} + {paper['b']:g} ln $I$")
     speed_legend(logarithmic, study, loc="upper left", handletextpad=0.3, labelspacing=0.3)
     linear.legend(loc="lower right")
     for axes in (linear, logarithmic):

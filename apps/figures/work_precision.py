@@ -4,7 +4,6 @@ usage: work_precision.py COST_JSON FOLDER
 FOLDER takes work_precision.png and, of particles with long runs, statistics.png. draw() is for reports that show both sides.
 """
 
-import json
 import math
 import pathlib
 import sys
@@ -12,6 +11,7 @@ import sys
 import matplotlib.pyplot as plt
 from matplotlib.ticker import LogLocator, NullFormatter
 
+import script
 import style
 
 NAMES = {"field": "velocity field", "displacement": "velocity of each grain,\nmean over the stretch", "velocity": "velocity of each grain\nat the end",
@@ -137,8 +137,7 @@ def draw_statistics(cost, path):
 
 
 def main():
-    with open(sys.argv[1], encoding="utf-8") as stream:
-        cost = json.load(stream)
+    cost = script.content_of(sys.argv[1])
     folder = pathlib.Path(sys.argv[2])
     style.use_style()
     draw(cost, folder / "work_precision.png")

@@ -8,12 +8,12 @@
 #include <filesystem>
 #include <vector>
 
+#include "apps/command_line/command_line.hpp"
 #include "apps/flow/flow_hardcases.hpp"
 #include "apps/flow/flow_run.hpp"
-#include "apps/support/command_line.hpp"
 #include "continuum/fem/runtime.hpp"
 #include "continuum/model/flow_scene.hpp"
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 
 #if defined(__SANITIZE_ADDRESS__)
 // OpenMPI and the libraries behind PETSc keep memory until the process ends; the leak check would count it as
@@ -36,11 +36,12 @@ int failed(ExitCode code, const std::string& message) {
 int solve(int argc, char** argv) {
   if (argc > 1 && std::strcmp(argv[1], "--keys") == 0) {
     const bool markdown = argc > 2 && std::strcmp(argv[2], "--markdown") == 0;
-    fmt::print("{}", markdown ? keys_as_markdown(flow_scene_keys()) : keys_as_text(flow_scene_keys()));
+    fmt::print("{}", markdown ? keys_as_markdown(continuum::flow_scene_keys())
+                              : keys_as_text(continuum::flow_scene_keys()));
     return static_cast<int>(ExitCode::done);
   }
   if (argc > 1 && std::strcmp(argv[1], "--hardcases") == 0) {
-    const FemRuntime runtime(argc, argv);
+    const continuum::FemRuntime runtime(argc, argv);
     return apps::flow_hardcases({argv + 2, argv + argc});
   }
   std::vector<const char*> words = {"drumlin", "flow"};
@@ -50,11 +51,11 @@ int solve(int argc, char** argv) {
     fmt::print("{}", shown->text);
     return static_cast<int>(ExitCode::done);
   }
-  const FemRuntime runtime(argc, argv);
+  const continuum::FemRuntime runtime(argc, argv);
   speaks = runtime.rank() == 0;
   try {
     return apps::solve_flow_scene(std::get<apps::FlowOptions>(request), runtime);
-  } catch (const FailedOnFirstRank& failure) {
+  } catch (const continuum::FailedOnFirstRank& failure) {
     return static_cast<int>(failure.code);
   }
 }

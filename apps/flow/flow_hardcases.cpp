@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/support/hard_case_json.hpp"
-#include "continuum/hardcases/flow_hard_cases.hpp"
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
+#include "tests/hardcases/registry.hpp"
 
 namespace drumlin::apps {
 

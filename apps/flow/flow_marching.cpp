@@ -8,19 +8,18 @@
 #include <numbers>
 #include <sstream>
 
+#include "apps/flow/flow_json.hpp"
+#include "apps/support/interruption.hpp"
 #include "apps/support/json_file.hpp"
-#include "coupling/exchange/errors.hpp"
-#include "coupling/exchange/text_file.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/common/text_file.hpp"
+#include "coupling/documents/csv.hpp"
+#include "coupling/documents/number_text.hpp"
 
 namespace drumlin::apps {
 namespace {
 
 namespace fs = std::filesystem;
-
-double share_at(const MarchPlan& plan, double time_s) {
-  const double ramp = plan.time.ramp_s, begun = plan.start.start_share;
-  return time_s < ramp ? begun + (1 - begun) * time_s / ramp : 1;
-}
 
 std::string first_lines(const ScalarSet& scalars) {
   std::string text = "# drumlin-flow-series-1\nstep,time,time_s,rotation_rpm";
@@ -28,129 +27,96 @@ std::string first_lines(const ScalarSet& scalars) {
   return text + ",iterations,residual\n";
 }
 
-/// What an interrupted march has left, up to the step that it goes on from.
+std::string line_of(const continuum::MarchStep& step) {
+  std::string line =
+      fmt::format("{},{:.10g},{:.10g},{:.10g}", step.step, step.time, step.time_s, step.rotation_rpm);
+  for (const Scalar& scalar : step.scalars.scalars) line += "," + csv_number(scalar.value, 10);
+  return line + fmt::format(",{},{:.3e}\n", step.iterations, step.residual);
+}
+
+// What an interrupted march has left, up to the step that it goes on from.
 std::string lines_up_to(const fs::path& file, int steps) {
   std::istringstream lines(file_text(file));
   std::string kept;
+  int number = 0;
   for (std::string line; std::getline(lines, line);) {
+    ++number;
     const bool is_step = !line.empty() && line.front() >= '0' && line.front() <= '9';
-    if (!is_step || std::stoi(line) <= steps) kept += line + "\n";
+    const std::string step = line.substr(0, line.find(','));
+    if (!is_step || checked_count(step, {file.string(), number, "step"}) <= steps) kept += line + "\n";
   }
   return kept;
 }
 
-void add(FlowReport part, FlowReport& whole) {
-  for (IterationReport& line : part.history) line.seconds += whole.seconds;
-  whole.converged = part.converged;
-  whole.failure = part.failure;
-  whole.residual = part.residual;
-  whole.iterations += part.iterations;
-  whole.seconds += part.seconds;
-  whole.history.insert(whole.history.end(), part.history.begin(), part.history.end());
-  if (whole.phases.empty()) {
-    whole.phases = part.phases;
-    return;
-  }
-  for (std::size_t i = 0; i < whole.phases.size(); ++i) {
-    whole.phases[i].seconds += part.phases[i].seconds;
-    whole.phases[i].times += part.phases[i].times;
-  }
+void print_step(const continuum::MarchStep& step, int steps) {
+  fmt::print("step {}/{}  {:.4g} s  {:.4g} rpm", step.step, steps, step.time_s, step.rotation_rpm);
+  for (const Scalar& scalar : step.scalars.scalars) fmt::print("  {} {:.4g}", scalar.name, scalar.value);
+  fmt::print("  it {}  residual {:.1e}\n", step.iterations, step.residual);
+  std::fflush(stdout);
 }
 
-FlowField first_field(const MarchPlan& plan, const FlowProblem& problem) {
-  const bool rests = plan.start.steps == 0 && plan.start.state.cells.empty();
-  return rests ? flow_at_rest(problem, plan.options) : flow_of_state(plan.start.state, problem, plan.options);
+double rotation_rpm_of(const fs::path& flow_json, double time_unit_s) {
+  const auto flow = read_json(flow_json, flow_format);
+  const auto settings = flow.value("settings", nlohmann::ordered_json::object());
+  if (!settings.contains("rotation") || !settings["rotation"].is_number())
+    throw InputError(flow_json.string() + ": settings.rotation is missing: no drum");
+  return settings["rotation"].get<double>() / time_unit_s * 30 / std::numbers::pi;
+}
+
+continuum::MarchState start_from(const fs::path& flow_run, const continuum::DrumMarch& march) {
+  continuum::MarchState start;
+  start.state = continuum::read_flow_state(flow_run);
+  if (!start.state.surface.empty())
+    throw InputError((flow_run / "state.h5").string() +
+                     ": its surface has moved; steps in time hold it to the chord");
+  start.start_share = rotation_rpm_of(flow_run / "flow.json", march.time_unit_s) / march.rotation_rpm;
+  return start;
 }
 
 }  // namespace
 
-FlowCheckpoint march_start(const FlowOptions& options, const FlowScene& scene, const std::string& scene_text,
-                           const std::string& law_text) {
+FlowMarching read_marching(const FlowOptions& options, const FlowRequest& asked) {
+  FlowMarching marching{.march = continuum::drum_march(asked.scene, asked.law),
+                        .scene_text = continuum::flow_scene_text(asked.scene),
+                        .law_text = file_text(options.rheology)};
+  continuum::DrumMarch& march = marching.march;
+  if (options.from) march.start_name = options.from->string();
   const fs::path kept = options.output / "checkpoint.h5";
   if (options.existing == ExistingOutput::resume && fs::exists(kept)) {
-    FlowCheckpoint checkpoint = read_flow_checkpoint(kept);
-    if (checkpoint.scene != scene_text || checkpoint.law != law_text)
+    const continuum::FlowCheckpoint checkpoint = continuum::read_flow_checkpoint(kept);
+    if (checkpoint.scene != marching.scene_text || checkpoint.law != marching.law_text)
       throw InputError(kept.string() + ": was left by another scene or law; --overwrite starts over");
-    return checkpoint;
+    march.start = checkpoint.at;
+  } else if (options.from) {
+    march.start = start_from(*options.from, march);
   }
-  FlowCheckpoint start;
-  start.scene = scene_text;
-  start.law = law_text;
-  if (!options.from) return start;
-  start.state = read_flow_state(*options.from);
-  if (!start.state.surface.empty())
-    throw InputError((*options.from / "state.h5").string() +
-                     ": its surface has moved; steps in time hold it to the chord");
-  const auto flow = read_json(*options.from / "flow.json", "drumlin-flow-run-1");
-  const auto settings = flow.value("settings", nlohmann::ordered_json::object());
-  if (!settings.contains("rotation") || !settings["rotation"].is_number())
-    throw InputError((*options.from / "flow.json").string() + ": settings.rotation is missing: no drum");
-  const double rotation_rpm =
-      settings["rotation"].get<double>() / scales_of(scene).time_s * 30 / std::numbers::pi;
-  start.start_share = rotation_rpm / std::get<FlowDrum>(scene.geometry).rotation_rpm;
-  return start;
+  return marching;
 }
 
-FlowSolution march_scene(const MarchPlan& plan, const FemRuntime& runtime, const FlowObserver& observer) {
+continuum::FlowSolution march_scene(const FlowMarching& marching, const FlowOptions& options,
+                                    const continuum::FemRuntime& runtime) {
   const bool speaks = runtime.rank() == 0;
-  const FlowCase last = plan.case_at(1);
-  const fs::path series = plan.folder / "series.csv", checkpoint = plan.folder / "checkpoint.h5";
-  FlowCheckpoint kept = plan.start;
-  int iterations = 0, step = kept.steps;
-  double residual = 0;
-  FlowObserver watching = observer;
-  watching.iteration = [&](const IterationReport& line) {
-    ++iterations;
-    residual = line.residual;
-  };
+  const fs::path series = options.output / "series.csv", checkpoint = options.output / "checkpoint.h5";
+  const int steps = marching.march.time.steps;
   std::string lines;
-  if (kept.steps > 0 && speaks) lines = lines_up_to(series, kept.steps);
-
-  FlowMarch march{.time_step = plan.time.step_s / plan.time_unit_s};
-  march.boundary = [&](double time) {
-    return plan.case_at(share_at(plan, time * plan.time_unit_s)).problem.boundary;
+  if (marching.march.start.steps > 0 && speaks) lines = lines_up_to(series, marching.march.start.steps);
+  continuum::MarchObserver observer;
+  observer.interrupted = [] { return interruption() != 0; };
+  observer.stepped = [&](const continuum::MarchStep& step) {
+    if (!speaks) return;
+    if (lines.empty()) lines = first_lines(step.scalars);
+    lines += line_of(step);
+    print_step(step, steps);
   };
-  march.stepped = [&](double time, const FlowField& field) {
-    ++step;
-    const double time_s = time * plan.time_unit_s, share = share_at(plan, time_s);
-    const ScalarSet scalars = plan.case_at(share).scalars(field);
-    if (speaks) {
-      if (lines.empty()) lines = first_lines(scalars);
-      lines += fmt::format("{},{:.10g},{:.10g},{:.10g}", step, time, time_s, share * plan.rotation_rpm);
-      for (const Scalar& scalar : scalars.scalars)
-        lines += std::isfinite(scalar.value) ? fmt::format(",{:.10g}", scalar.value) : ",";
-      lines += fmt::format(",{},{:.3e}\n", iterations, residual);
-      fmt::print("step {}/{}  {:.4g} s  {:.4g} rpm", step, plan.time.steps, time_s,
-                 share * plan.rotation_rpm);
-      for (const Scalar& scalar : scalars.scalars) fmt::print("  {} {:.4g}", scalar.name, scalar.value);
-      fmt::print("  it {}  residual {:.1e}\n", iterations, residual);
-      std::fflush(stdout);
-    }
-    iterations = 0;
-  };
-
-  FlowSolution whole{FlowReport{}, first_field(plan, last.problem)};
-  whole.report.start = "march from " + plan.said;
-  while (kept.steps < plan.time.steps) {
-    march.first = kept.steps;
-    march.steps = std::min(plan.time.every, plan.time.steps - kept.steps);
-    FlowSolution part = march_flow(whole.field, last.problem, march, plan.options, watching);
-    whole.field = part.field;
-    add(part.report, whole.report);
-    if (!part.report.converged) {
-      whole.report.failure =
-          fmt::format("step {}, {:.4g} s: {}", step + 1, (step + 1) * plan.time.step_s, part.report.failure);
-      return whole;
-    }
-    kept.steps += march.steps;
-    kept.state = whole.field.state();
+  observer.kept = [&](const continuum::MarchState& state) {
     runtime.on_first_rank([&] {
       replace_file(series, lines);
       // The last step has to be done by whoever writes the results: they hold its acceleration too.
-      if (kept.steps < plan.time.steps) write_flow_checkpoint(checkpoint, kept);
+      if (state.steps < steps)
+        continuum::write_flow_checkpoint(checkpoint, {state, marching.scene_text, marching.law_text});
     });
-  }
-  return whole;
+  };
+  return continuum::march_drum(marching.march, observer);
 }
 
 }  // namespace drumlin::apps

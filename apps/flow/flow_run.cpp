@@ -10,17 +10,14 @@
 
 #include "apps/flow/flow_files.hpp"
 #include "apps/flow/flow_marching.hpp"
-#include "apps/flow/flow_sensitivity.hpp"
-#include "apps/flow/flow_state_file.hpp"
 #include "apps/flow/flow_text.hpp"
-#include "apps/flow/law_band.hpp"
 #include "apps/support/interruption.hpp"
 #include "apps/support/output_folder.hpp"
+#include "continuum/fem/scene_options.hpp"
 #include "continuum/rheology/ill_posed_ranges.hpp"
-#include "continuum/rheology/nonlocal_law.hpp"
-#include "continuum/sampling/flow_case.hpp"
-#include "coupling/exchange/errors.hpp"
-#include "coupling/exchange/text_file.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/common/text_file.hpp"
+#include "coupling/law/rheology_file.hpp"
 
 namespace drumlin::apps {
 namespace {
@@ -29,7 +26,7 @@ namespace fs = std::filesystem;
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-void print_iteration(const IterationReport& line) {
+void print_iteration(const continuum::IterationReport& line) {
   fmt::print(
       "mesh {} {:<11} eps {:8.2e}  it {:2}  residual {:8.2e}  step {:8.2e} x {:4.2f}  theta "
       "{:7.3f} deg {:7.1f} s\n",
@@ -38,7 +35,7 @@ void print_iteration(const IterationReport& line) {
   std::fflush(stdout);
 }
 
-void print_surface_step(const SurfaceStepReport& step) {
+void print_surface_step(const continuum::SurfaceStepReport& step) {
   fmt::print(
       "mesh {} surface: up to {:.3f} d from the chord, {:.4f} d (rms, {:.4f} resolved, largest {:.2f}) press "
       "on "
@@ -47,64 +44,39 @@ void print_surface_step(const SurfaceStepReport& step) {
   std::fflush(stdout);
 }
 
-void print_mesh(int level, const MeshResult& mesh) {
+void print_mesh(int level, const continuum::MeshResult& mesh) {
   fmt::print("mesh {} done: {} unknowns", level, mesh.unknowns);
   for (const Scalar& scalar : mesh.scalars.scalars) fmt::print(", {} {:.4g}", scalar.name, scalar.value);
   fmt::print("\n");
   std::fflush(stdout);
 }
 
-double ill_posed_share(const FlowField& field) {
-  const FlowIntegrals sums = field.integrals();
-  return sums.ill_posed_area / sums.area;
+// Faults of the scene that show only with its law, too, name the file of the scene.
+continuum::FlowCase case_of(const fs::path& scene_file, const continuum::FlowScene& scene,
+                            const RheologyFit& law) {
+  try {
+    return continuum::flow_case(scene, law);
+  } catch (const InputError& error) {
+    std::vector<InputProblem> problems = error.problems();
+    for (InputProblem& problem : problems)
+      if (problem.file.empty() && !problem.key.empty()) problem.file = scene_file.string();
+    throw InputError(problems);
+  }
 }
 
-FlowSolverOptions solver_options(const FlowScene& scene) {
-  FlowSolverOptions options;
-  options.levels = scene.mesh.levels;
-  options.refined_share = scene.mesh.refined_share;
-  options.tolerance = scene.solver.tolerance;
-  // Three meshes show an order: then they differ by their cells alone.
-  if (options.levels > 2) options.coarse_tolerance = options.tolerance;
-  options.linear_tolerance = scene.solver.linear_tolerance;
-  options.max_iterations = scene.solver.max_iterations;
-  return options;
-}
-
-// What a scene asks of a law that the file of the law does not give.
-void check_law(const FlowOptions& options, const FlowScene& scene, const RheologyFit& fit,
-               const StressLaw& law) {
-  std::vector<InputProblem> problems;
-  if (scene.effects.fabric && !fit.k)
-    problems.push_back(
-        {.file = options.scene.string(),
-         .key = "effects.fabric",
-         .what = fmt::format("carries k along with the material, and {} has no k", options.rheology.string()),
-         .allowed = "a rheology file with a table [k]"});
-  if (scene.effects.nonlocal && !tells_fluidity(law))
-    problems.push_back(
-        {.file = options.scene.string(),
-         .key = "effects.nonlocal",
-         .what =
-             fmt::format("spreads the fluidity that mu tells, and in {} mu is the same at all rates or has "
-                         "a threshold, below which it tells none",
-                         options.rheology.string()),
-         .allowed = "a rheology file whose mu is a logarithm or a table"});
-  if (!problems.empty()) throw InputError(problems);
-}
-
-void add_k(const NormalStressRatio& points, const FlowEffects& effects, FlowCase& chosen) {
-  chosen.problem.turned = TurnedStress{.k = StressRatioLaw(points.I, points.k)};
-  if (effects.fabric) chosen.problem.turned->fabric = CarriedFabric{effects.fabric->relaxation};
-  // In a ring k changes the pressure along the radius, and with it what the closed form takes for granted.
-  if (std::holds_alternative<AnnulusDomain>(chosen.problem.domain)) chosen.closed_form = nullptr;
+FlowRequest read_request(const FlowOptions& options) {
+  FlowRequest asked{.scene = continuum::read_flow_scene(options.scene, options.overrides),
+                    .law = read_rheology(options.rheology),
+                    .flow_case = {}};
+  asked.flow_case = case_of(options.scene, asked.scene, asked.law);
+  return asked;
 }
 
 // What is known to go wrong before anything is solved.
-std::string ill_posedness_text(const FlowProblem& problem) {
+std::string ill_posedness_text(const continuum::FlowProblem& problem) {
   std::string text;
   for (const InertialRange& range :
-       ill_posed_ranges(problem.law, problem.turned ? &problem.turned->k : nullptr))
+       continuum::ill_posed_ranges(problem.law, problem.turned ? &problem.turned->k : nullptr))
     text += fmt::format("{} {:.2g} to {:.2g}", text.empty() ? "" : ",", range.from, range.to);
   if (text.empty()) return text;
   return fmt::format(
@@ -114,118 +86,147 @@ std::string ill_posedness_text(const FlowProblem& problem) {
       text);
 }
 
-FlowScene at_share_of_speed(FlowScene scene, double share) {
-  if (auto* drum = std::get_if<FlowDrum>(&scene.geometry)) drum->rotation_rpm *= share;
-  return scene;
-}
-
-MarchPlan march_plan(const FlowOptions& options, const FlowScene& scene,
-                     const std::function<FlowCase(double)>& case_at) {
-  MarchPlan plan{.folder = options.output,
-                 .time = *scene.time,
-                 .time_unit_s = scales_of(scene).time_s,
-                 .rotation_rpm = std::get<FlowDrum>(scene.geometry).rotation_rpm,
-                 .start = march_start(options, scene, flow_scene_text(scene), file_text(options.rheology)),
-                 .said = options.from ? options.from->string() : "rest",
-                 .case_at = case_at,
-                 .options = solver_options(scene)};
-  return plan;
-}
+// Where the solve begins: cold where both are absent.
+struct FlowStart {
+  std::optional<continuum::FlowState> neighbour;
+  std::optional<FlowMarching> marching;
+};
 
 // A state that does not fit is refused before the folder is made.
-void require_fit(const FlowState& state, const fs::path& file, const FlowProblem& problem,
-                 const FlowSolverOptions& solver) {
+void require_fit(const continuum::FlowState& state, const fs::path& file, const FlowRequest& asked) {
   try {
-    (void)flow_of_state(state, problem, solver);
+    (void)continuum::flow_of_state(state, asked.flow_case.problem, continuum::solver_options(asked.scene));
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", file.string(), error.what()));
   }
 }
 
-}  // namespace
-
-int solve_flow_scene(const FlowOptions& options, const FemRuntime& runtime) {
-  const bool speaks = runtime.rank() == 0;
-  const fs::path finished = options.output / "flow.json";
-  if (options.existing == ExistingOutput::resume && fs::exists(finished)) {
-    if (speaks) fmt::print("{}: done already\n", options.output.string());
-    return static_cast<int>(ExitCode::done);
-  }
-  const FlowScene scene = read_flow_scene(options.scene, options.overrides);
-  const RheologyFit fit = read_rheology(options.rheology);
-  const StressLaw law = stress_law(fit);
-  check_law(options, scene, fit, law);
-  const auto case_at = [&](double share) {
-    FlowCase chosen = flow_case(at_share_of_speed(scene, share), fit.nu, law);
-    if (fit.k) add_k(*fit.k, scene.effects, chosen);
-    return chosen;
-  };
-  const FlowCase chosen = case_at(1);
-  const bool reduced = scene.reduced || fit.reduced;
-  std::optional<FlowState> neighbour;
-  std::optional<MarchPlan> plan;
-  if (scene.time)
-    plan = march_plan(options, scene, case_at);
+FlowStart read_start(const FlowOptions& options, const FlowRequest& asked) {
+  FlowStart start;
+  if (asked.scene.time)
+    start.marching = read_marching(options, asked);
   else if (options.from)
-    neighbour = read_flow_state(*options.from);
-  const bool goes_on = plan && plan->start.steps > 0;  // from a state of this very scene
+    start.neighbour = continuum::read_flow_state(*options.from);
+  const bool goes_on = start.marching && start.marching->march.start.steps > 0;  // from a state of this scene
   if (options.from && !goes_on)
-    require_fit(plan ? plan->start.state : *neighbour, *options.from / "state.h5", chosen.problem,
-                solver_options(scene));
-  runtime.on_first_rank([&] {
-    std::vector<fs::path> inputs = {options.scene, options.rheology};
-    if (options.from) inputs.push_back(*options.from / "state.h5");
-    prepare_output(options.output, options.existing, {"flow_scene.toml", "flow.json"}, inputs);
-    replace_file(options.output / "flow_scene.toml", flow_scene_text(scene));
-    replace_file(options.output / "rheology.toml", file_text(options.rheology));
-    fmt::print("{}{}: {}, nu = {:.3f}, {}{}\n", scene.title, reduced ? " (reduced)" : "", chosen.summary,
-               fit.nu, described(fit.mu),
-               runtime.ranks() > 1 ? fmt::format(", {} ranks", runtime.ranks()) : "");
-    fmt::print("{}", ill_posedness_text(chosen.problem));
-  });
-  catch_interruptions();
-  std::vector<MeshResult> meshes;
-  FlowObserver observer;
+    require_fit(start.marching ? start.marching->march.start.state : *start.neighbour,
+                *options.from / "state.h5", asked);
+  return start;
+}
+
+void begin_folder(const FlowOptions& options, const FlowRequest& asked, int ranks) {
+  std::vector<fs::path> inputs = {options.scene, options.rheology};
+  if (options.from) inputs.push_back(*options.from / "state.h5");
+  prepare_output(options.output, options.existing, {"flow_scene.toml", "flow.json"}, inputs);
+  replace_file(options.output / "flow_scene.toml", continuum::flow_scene_text(asked.scene));
+  replace_file(options.output / "rheology.toml", file_text(options.rheology));
+  fmt::print("{}{}: {}, nu = {:.3f}, {}{}\n", asked.scene.title, asked.reduced() ? " (reduced)" : "",
+             asked.flow_case.summary, asked.law.nu, described(asked.law.mu),
+             ranks > 1 ? fmt::format(", {} ranks", ranks) : "");
+  fmt::print("{}", ill_posedness_text(asked.flow_case.problem));
+}
+
+// The flow, and what was read off it on its way.
+struct SolvedFlow {
+  continuum::FlowSolution solution;
+  std::vector<continuum::MeshResult> meshes;
+  std::optional<continuum::PlainFlow> plain;
+  double cpu_seconds = 0;
+};
+
+continuum::FlowSolution solution_of(const FlowOptions& options, const FlowRequest& asked,
+                                    const FlowStart& start, const continuum::FemRuntime& runtime,
+                                    const continuum::FlowObserver& observer) {
+  if (start.marching) return march_scene(*start.marching, options, runtime);
+  const continuum::FlowProblem& problem = asked.flow_case.problem;
+  if (start.neighbour)
+    return continuum::solve_flow_from(*start.neighbour, problem, continuum::solver_options(asked.scene),
+                                      observer);
+  return continuum::solve_flow(problem, continuum::solver_options(asked.scene), observer);
+}
+
+SolvedFlow solved_flow(const FlowOptions& options, const FlowRequest& asked, const FlowStart& start,
+                       const continuum::FemRuntime& runtime) {
+  const bool speaks = runtime.rank() == 0;
+  const continuum::FlowCase& chosen = asked.flow_case;
+  std::vector<continuum::MeshResult> meshes;
+  std::optional<continuum::PlainFlow> plain;
+  continuum::FlowObserver observer;
   if (speaks) observer.iteration = print_iteration;
   if (speaks) observer.surface_step = print_surface_step;
   observer.interrupted = [] { return interruption() != 0; };
-  observer.level_finished = [&](int level, const FlowField& field) {
+  observer.level_finished = [&](int level, const continuum::FlowField& field) {
     // A neighbour that did not serve may have finished a mesh before: the cold start does them anew.
     while (!meshes.empty() && meshes.back().level >= level) meshes.pop_back();
     meshes.push_back({level, field.cells(), field.unknowns(), chosen.scalars(field)});
     if (speaks) print_mesh(level, meshes.back());
   };
-  std::optional<PlainFlow> plain;
-  observer.solved_plain = [&](const FlowField& field) {
-    plain = PlainFlow{chosen.scalars(field), chosen.profiles(field)};
+  observer.solved_plain = [&](const continuum::FlowField& field) {
+    plain = continuum::PlainFlow{chosen.scalars(field), chosen.profiles(field)};
   };
   const std::clock_t begun = std::clock();
-  const FlowSolution solution =
-      plan        ? march_scene(*plan, runtime, observer)
-      : neighbour ? solve_flow_from(*neighbour, chosen.problem, solver_options(scene), observer)
-                  : solve_flow(chosen.problem, solver_options(scene), observer);
+  continuum::FlowSolution solution = solution_of(options, asked, start, runtime, observer);
   const double cpu_seconds = static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;
-  runtime.on_first_rank([&] { write_iterations(options.output / "iterations.csv", solution.report); });
+  if (start.marching && solution.report.converged)
+    observer.level_finished(asked.scene.mesh.levels - 1, solution.field);
+  if (plain && solution.report.converged)
+    plain->v_x_change = continuum::v_x_change(plain->profiles, chosen.profiles(solution.field));
+  return {std::move(solution), std::move(meshes), std::move(plain), cpu_seconds};
+}
+
+void require_converged(const continuum::FlowSolution& solution) {
+  if (solution.report.converged) return;
+  const continuum::FlowIntegrals sums = solution.field.integrals();
+  throw NotConvergedError(
+      fmt::format("the flow did not converge: {}; the last iterate is ill-posed in {:.1f} % of the area",
+                  solution.report.failure, 100 * (sums.ill_posed_area / sums.area)));
+}
+
+FinishedFlow finished_flow(const FlowOptions& options, const FlowRequest& asked, SolvedFlow&& solved,
+                           int ranks) {
+  const continuum::FlowScene& scene = asked.scene;
+  FinishedFlow flow{.asked = asked,
+                    .solution = std::move(solved.solution),
+                    .meshes = std::move(solved.meshes),
+                    .plain = std::move(solved.plain),
+                    .cpu_seconds = solved.cpu_seconds,
+                    .ranks = ranks,
+                    .findings = {},
+                    .sensitivities = {},
+                    .law_band = {},
+                    .accuracy = {}};
+  if (scene.solver.sensitivity && !scene.time)
+    flow.sensitivities = continuum::sensitivities_of(asked.flow_case, flow.solution, flow.meshes,
+                                                     continuum::solver_options(scene));
+  if (options.law_draws > 0 && !asked.law.draws.empty() && !scene.time)
+    flow.law_band = continuum::law_band_of(asked.flow_case, flow.solution, asked.law, options.law_draws,
+                                           scene.output.map_spacing, continuum::solver_options(scene));
+  flow.findings = continuum::findings_of(asked.flow_case, flow.solution.field);
+  flow.accuracy = continuum::accuracy_of(
+      scene, {flow.solution.report, flow.meshes, flow.sensitivities, flow.law_band, flow.cpu_seconds});
+  return flow;
+}
+
+}  // namespace
+
+int solve_flow_scene(const FlowOptions& options, const continuum::FemRuntime& runtime) {
+  const bool speaks = runtime.rank() == 0;
+  if (options.existing == ExistingOutput::resume && fs::exists(options.output / "flow.json")) {
+    if (speaks) fmt::print("{}: done already\n", options.output.string());
+    return static_cast<int>(ExitCode::done);
+  }
+  const FlowRequest asked = read_request(options);
+  const FlowStart start = read_start(options, asked);
+  runtime.on_first_rank([&] { begin_folder(options, asked, runtime.ranks()); });
+  catch_interruptions();
+  SolvedFlow solved = solved_flow(options, asked, start, runtime);
+  runtime.on_first_rank([&] { write_iterations(options.output / "iterations.csv", solved.solution.report); });
   if (const int signal = interruption(); signal != 0)
     return static_cast<int>(signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted);
-  if (!solution.report.converged)
-    throw NotConvergedError(
-        fmt::format("the flow did not converge: {}; the last iterate is ill-posed in {:.1f} % of the area",
-                    solution.report.failure, 100 * ill_posed_share(solution.field)));
-  if (plan) observer.level_finished(scene.mesh.levels - 1, solution.field);
-  if (plain) plain->v_x_change = v_x_change(plain->profiles, chosen.profiles(solution.field));
-  std::vector<Sensitivity> sensitivities;
-  if (scene.solver.sensitivity && !plan)
-    sensitivities = sensitivities_of(chosen, solution, meshes, solver_options(scene));
-  LawBand law_band;
-  if (options.law_draws > 0 && !fit.draws.empty() && !plan)
-    law_band = law_band_of(chosen, solution, fit, options.law_draws, scene.output.map_spacing,
-                           solver_options(scene));
-  const FlowFindings findings = findings_of(chosen, solution.field);
-  const FinishedFlow flow{scene,           fit,           chosen,   solution, meshes, reduced,
-                          runtime.ranks(), sensitivities, law_band, findings, plain,  cpu_seconds};
+  require_converged(solved.solution);
+  const FinishedFlow flow = finished_flow(options, asked, std::move(solved), runtime.ranks());
   write_flow(options.output, flow);
-  if (plan) runtime.on_first_rank([&] { fs::remove(options.output / "checkpoint.h5"); });
+  if (start.marching) runtime.on_first_rank([&] { fs::remove(options.output / "checkpoint.h5"); });
   if (speaks) fmt::print("{}", finished_text(options.output, flow));
   return static_cast<int>(ExitCode::done);
 }

@@ -1,11 +1,12 @@
 #pragma once
-#include "apps/commands.hpp"
+// The command `drumlin flow`: reads, solves, writes FLOWRUN.
+#include "apps/support/commands.hpp"
 #include "continuum/fem/runtime.hpp"
 
 namespace drumlin::apps {
 
 /// Solves the flow of a scene with a law on all ranks and writes FLOWRUN on the first. Returns the exit code;
 /// throws InputError, NotConvergedError, IoError.
-int solve_flow_scene(const FlowOptions& options, const FemRuntime& runtime);
+int solve_flow_scene(const FlowOptions& options, const continuum::FemRuntime& runtime);
 
 }  // namespace drumlin::apps

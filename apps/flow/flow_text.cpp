@@ -1,10 +1,10 @@
 #include "apps/flow/flow_text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include "apps/flow/flow_accuracy.hpp"
-#include "apps/flow/flow_sensitivity.hpp"
-#include "apps/flow/law_band.hpp"
+#include <algorithm>
+#include <cmath>
 
 namespace drumlin::apps {
 namespace {
@@ -17,7 +17,7 @@ std::string checks_text(const FinishedFlow& flow) {
   for (const Scalar& check : flow.findings.checks.scalars)
     text += fmt::format("  {:<24} {:>13.6g}\n", check.name, check.value);
   if (!flow.findings.closed_form) return text;
-  const GapComparison& c = *flow.findings.closed_form;
+  const continuum::GapComparison& c = *flow.findings.closed_form;
   text +=
       fmt::format("  error of v_x (L2 over the gap): {:.1e} of the mesh, {:.1e} against the closed form\n",
                   c.mesh_error, c.closed_form_error);
@@ -30,36 +30,37 @@ std::string checks_text(const FinishedFlow& flow) {
 std::string limits_text(const FinishedFlow& flow) {
   if (flow.meshes.size() < 3) return "";
   std::string text = "on cells of no size:";
-  for (const ScalarLimit& s : limits_of(flow.meshes))
+  for (const continuum::ScalarLimit& s : continuum::limits_of(flow.meshes))
     text += s.limit ? fmt::format(" {} {:.6g} (order {:.1f})", s.name, s.limit->value, s.limit->order)
                     : fmt::format(" {} - (no order)", s.name);
   return text + "\n";
 }
 
-// What leaving out k and nonlocal fluidity would have cost.
+// Change of the results by k and nonlocal fluidity.
 std::string plain_text(const FinishedFlow& flow) {
   if (!flow.plain) return "";
-  const bool nonlocal = flow.scene.effects.nonlocal.has_value();
+  const bool nonlocal = flow.asked.scene.effects.nonlocal.has_value();
   std::string text =
-      fmt::format("  settled in {} updates of what the law holds; without {}:", flow.solution.report.turns,
-                  !flow.law.k ? "nonlocal fluidity"
-                  : nonlocal  ? "k and nonlocal fluidity"
-                              : "k");
+      fmt::format("  {} Picard updates of the fields that the law takes from the flow; without {}:",
+                  flow.solution.report.picard_updates,
+                  !flow.asked.law.k ? "nonlocal fluidity"
+                  : nonlocal        ? "k and nonlocal fluidity"
+                                    : "k");
   for (const Scalar& scalar : flow.plain->scalars.scalars)
     text += fmt::format(" {} {:.4g} ({:+.2g})", scalar.name, scalar.value,
                         scalar.value - flow.meshes.back().scalars.value(scalar.name));
   return text + fmt::format(", v_x off by {:.1f} % (rms over the profile)\n", 100 * flow.plain->v_x_change);
 }
 
-std::string left_out_text(const FinishedFlow& flow) {
-  if (!flow.findings.left_out) return "";
-  const LeftOut& rest = *flow.findings.left_out;
-  const FlowEffects& effects = flow.scene.effects;
+std::string neglected_text(const FinishedFlow& flow) {
+  if (!flow.findings.neglected) return "";
+  const continuum::NeglectedTerms& rest = *flow.findings.neglected;
+  const continuum::FlowEffects& effects = flow.asked.scene.effects;
   std::string text = fmt::format(
-      "left out: {}inertia {:.2g} of gravity (rms; at most {:.2g}), {}a surface that would rise by {:.2g} d "
+      "neglected: {}inertia {:.2g} of gravity (rms; at most {:.2g}), {}a surface that would rise by {:.2g} d "
       "(rms), {}"
       "a wall share of {:.2g} that asks for friction above 0.95",
-      has_inertia(flow.scene) ? "not " : "", rest.inertia_rms, rest.inertia_largest,
+      has_inertia(flow.asked.scene) ? "not " : "", rest.inertia_rms, rest.inertia_largest,
       effects.moving_surface ? "not " : "", rest.surface_height_rms, effects.wall_slip ? "not " : "",
       rest.wall_friction);
   if (!effects.nonlocal && rest.nonlocal)
@@ -71,18 +72,77 @@ std::string left_out_text(const FinishedFlow& flow) {
 }
 
 std::string summary_text(const fs::path& folder, const FinishedFlow& flow) {
-  const double share = flow.findings.sums.ill_posed_area / flow.findings.sums.area;
-  const FlowReport& report = flow.solution.report;
+  const double share = flow.findings.ill_posed_share();
+  const continuum::FlowReport& report = flow.solution.report;
   std::string text = "seconds in";
-  for (const PhaseSeconds& phase : report.phases)
+  for (const continuum::PhaseSeconds& phase : report.phases)
     text += fmt::format("{} {} {:.1f} ({} times)", phase.name == report.phases.front().name ? "" : ",",
                         phase.name, phase.seconds, phase.times);
   text += fmt::format(
       "\n{}{}: {} iterations ({}), {:.1f} s, residual {:.1e}, ill-posed in {:.2f} % of the area{}\n",
-      folder.string(), flow.reduced ? " (reduced)" : "", report.iterations, report.start, report.seconds,
-      report.residual, 100 * share,
+      folder.string(), flow.asked.reduced() ? " (reduced)" : "", report.iterations, report.start,
+      report.seconds, report.residual, 100 * share,
       share > 0 ? ": the flow there depends on the mesh (docs/formats/flow.md)" : "");
-  return text + left_out_text(flow);
+  return text + neglected_text(flow);
+}
+
+std::string sensitivity_text(const FinishedFlow& flow) {
+  if (flow.sensitivities.empty()) return "";
+  std::string text = fmt::format("{:<14} {:>11}", "changes by", "value");
+  for (const continuum::Sensitivity& s : flow.sensitivities) text += fmt::format(" {:>26}", s.setting);
+  text += "\n";
+  for (const Scalar& scalar : flow.meshes.back().scalars.scalars) {
+    text += fmt::format("  {:<12} {:>11.5g}", scalar.name, scalar.value);
+    for (const continuum::Sensitivity& s : flow.sensitivities)
+      text +=
+          s.found ? fmt::format(" {:>+26.2g}", s.changes.value(scalar.name)) : fmt::format(" {:>26}", "-");
+    text += "\n";
+  }
+  text += fmt::format("  {:<12} {:>11}", "v_x, L2", "");
+  for (const continuum::Sensitivity& s : flow.sensitivities)
+    text += s.found && std::isfinite(s.profile) ? fmt::format(" {:>24.2g} %", 100 * s.profile)
+                                                : fmt::format(" {:>26}", "-");
+  text += fmt::format("\n  {:<12} {:>11}", "iterations", "");
+  for (const continuum::Sensitivity& s : flow.sensitivities) text += fmt::format(" {:>26}", s.iterations);
+  return text + "\n";
+}
+
+std::string law_band_text(const FinishedFlow& flow) {
+  if (flow.law_band.draws == 0) return "";
+  const continuum::LawBand& band = flow.law_band;
+  std::string text = fmt::format(
+      "what the law's points leave open (99 %, {} of {} laws, {} iterations, {:.1f} s):", band.found,
+      band.draws, band.iterations, band.seconds);
+  for (const Scalar& width : band.scalars.scalars)
+    if (std::isfinite(width.value)) text += fmt::format(" {} +- {:.2g},", width.name, width.value);
+  return text + fmt::format(" v_x +- {:.2g} % (L2)\n", 100 * band.profile);
+}
+
+std::string accuracy_text(const FinishedFlow& flow) {
+  if (flow.accuracy.scalars.empty()) return "";
+  std::string text = "accuracy: estimated distance to the exact solution of the equations\n";
+  std::vector<std::string> dominant;
+  for (const continuum::ScalarAccuracy& a : flow.accuracy.scalars) {
+    text += fmt::format("  {:<12} {:>11.5g} {:>12} ", a.name, a.value,
+                        a.error() ? fmt::format("+- {:.2g}", *a.error()) : "not known");
+    for (const continuum::ErrorPart& part : a.parts)
+      text +=
+          fmt::format(" {} {}", part.source, part.error ? fmt::format("{:.2g}", *part.error) : "not known");
+    if (a.by_p_min) text += fmt::format("; model: {:.2g} by 20 % of p_min", *a.by_p_min);
+    if (a.by_law) text += fmt::format("{} {:.2g} by the law", a.by_p_min ? "," : "; model:", *a.by_law);
+    text += "\n";
+    if (!a.dominant().empty() && std::find(dominant.begin(), dominant.end(), a.dominant()) == dominant.end())
+      dominant.push_back(a.dominant());
+  }
+  if (flow.sensitivities.empty())
+    text += "  (what is not known: give solver.sensitivity=true, or drumlin cost SCENE)\n";
+  for (const continuum::Halving& h : flow.accuracy.halvings)
+    if (std::find(dominant.begin(), dominant.end(), h.source) != dominant.end())
+      text += fmt::format(
+          "  half of the error by {}: {}, about {:.2g} s of processor time in place of {:.2g} s\n", h.source,
+          h.changes.empty() ? "one more iteration" : fmt::format("{}", fmt::join(h.changes, ", ")),
+          h.cpu_seconds, flow.cpu_seconds);
+  return text;
 }
 
 }  // namespace

@@ -1,12 +1,13 @@
 #pragma once
-// What a finished flow says on the terminal.
+// The text that ends `drumlin flow` on the terminal.
+#include <filesystem>
 #include <string>
 
-#include "apps/flow/flow_files.hpp"
+#include "apps/flow/finished_flow.hpp"
 
 namespace drumlin::apps {
 
-/// Balances and closed form, what k and settings move, where the time went, what is left out.
+/// Balances and closed form, what k and settings change, accuracy, seconds by kind of work, neglected terms.
 std::string finished_text(const std::filesystem::path& folder, const FinishedFlow& flow);
 
 }  // namespace drumlin::apps

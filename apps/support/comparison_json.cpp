@@ -4,24 +4,26 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "apps/support/enum_name.hpp"
 #include "apps/support/json_file.hpp"
+#include "coupling/documents/json_numbers.hpp"
 
 namespace drumlin::apps {
 
 using Json = nlohmann::ordered_json;
-using Outcome = Target::Outcome;
+using Outcome = coupling::Target::Outcome;
 
 namespace {
 
-Json number(double value) { return to_json(Scalar{"", value, std::nullopt}); }
+Json number(double value) { return number_or_null(value); }
 
 /// The particles' numbers are measurements: {"value", "ci99"}; the continuum's are plain numbers.
-Json particles_of(const ScalarPair& pair) {
+Json particles_of(const coupling::ScalarPair& pair) {
   return to_json(
       Scalar{pair.name, pair.particles, pair.ci99.value_or(std::numeric_limits<double>::quiet_NaN())});
 }
 
-Json to_json(const FieldErrors& errors, const FieldErrors* floor) {
+Json to_json(const coupling::FieldErrors& errors, const coupling::FieldErrors* floor) {
   Json json{{"rel_l2", number(errors.rel_l2)},
             {"rms", number(errors.rms)},
             {"max", number(errors.max)},
@@ -45,7 +47,8 @@ Json to_json(const FieldErrors& errors, const FieldErrors* floor) {
 }
 
 /// Errors by field and zone; a field that a side does not have is null.
-Json errors_of(const std::vector<FieldComparison>& fields, const std::vector<FieldComparison>* floor) {
+Json errors_of(const std::vector<coupling::FieldComparison>& fields,
+               const std::vector<coupling::FieldComparison>* floor) {
   Json errors;
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const std::string& name = fields[i].overlay.field;
@@ -61,7 +64,7 @@ Json errors_of(const std::vector<FieldComparison>& fields, const std::vector<Fie
   return errors;
 }
 
-Json zones_of(const std::vector<FieldComparison>& fields) {
+Json zones_of(const std::vector<coupling::FieldComparison>& fields) {
   Json zones = Json::object();
   if (!fields.empty())
     for (const auto& [zone, found] : fields.front().zones)
@@ -69,12 +72,12 @@ Json zones_of(const std::vector<FieldComparison>& fields) {
   return zones;
 }
 
-void add_slices(Json& content, const Comparison& comparison, const Comparison* floor) {
+void add_slices(Json& content, const coupling::Comparison& comparison, const coupling::Comparison* floor) {
   const auto& slices = comparison.slices;
   content["slices"] = slices.missing.empty() ? Json::array() : Json();
   content["slices_missing"] = slices.missing.empty() ? Json() : Json(slices.missing);
   for (std::size_t i = 0; i < slices.part.size(); ++i) {
-    const SliceComparison& slice = slices.part[i];
+    const coupling::SliceComparison& slice = slices.part[i];
     const bool with_floor = floor != nullptr && floor->slices.part.size() == slices.part.size();
     content["slices"].push_back(
         {{"position", slice.position},
@@ -85,13 +88,13 @@ void add_slices(Json& content, const Comparison& comparison, const Comparison* f
   }
 }
 
-void add_maps(Json& content, const Comparison& comparison, const Comparison* floor) {
+void add_maps(Json& content, const coupling::Comparison& comparison, const coupling::Comparison* floor) {
   const auto& maps = comparison.maps;
   content["maps"] = nullptr;
   content["maps_missing"] = maps.missing.empty() ? Json() : Json(maps.missing);
   if (!maps.missing.empty()) return;
   Json zones;
-  for (const MapZone& zone : maps.part.zones) zones[zone.name] = {{"nodes", zone.nodes.size()}};
+  for (const coupling::MapZone& zone : maps.part.zones) zones[zone.name] = {{"nodes", zone.nodes.size()}};
   const bool with_floor = floor != nullptr && floor->maps.missing.empty();
   content["maps"] = {
       {"offset", number(maps.part.offset)},
@@ -99,7 +102,7 @@ void add_maps(Json& content, const Comparison& comparison, const Comparison* flo
       {"errors", errors_of(maps.part.fields, with_floor ? &floor->maps.part.fields : nullptr)}};
 }
 
-Json to_json(const ScalarPair& pair) {
+Json to_json(const coupling::ScalarPair& pair) {
   Json continuum = pair.continuum_ci99 ? apps::to_json(Scalar{"", pair.continuum, pair.continuum_ci99})
                                        : number(pair.continuum);
   Json json{{"particles", particles_of(pair)}, {"continuum", continuum}};
@@ -107,7 +110,19 @@ Json to_json(const ScalarPair& pair) {
   return json;
 }
 
-Json to_json(const Target& target) {
+}  // namespace
+
+std::string name_of(Outcome outcome) {
+  constexpr EnumName<Outcome> names[] = {
+      {Outcome::met, "met"}, {Outcome::missed, "missed"}, {Outcome::not_measured, "not_measured"}};
+  return enum_name(names, outcome);
+}
+
+std::string name_of(coupling::Registration by) {
+  return by == coupling::Registration::axis ? "axis" : "surface";
+}
+
+Json to_json(const coupling::Target& target) {
   Json json{{"quantity", target.quantity}};
   if (!target.zone.empty()) json["zone"] = target.zone;
   json["measure"] = target.measure;
@@ -118,34 +133,23 @@ Json to_json(const Target& target) {
   return json;
 }
 
-}  // namespace
-
-std::string name_of(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::met:
-      return "met";
-    case Outcome::missed:
-      return "missed";
-    case Outcome::not_measured:
-      return "not_measured";
-  }
-  return {};
+Json counts_of(const std::vector<coupling::Target>& targets) {
+  Json counts{{"met", 0}, {"missed", 0}, {"not_measured", 0}};
+  for (const coupling::Target& target : targets)
+    counts[name_of(target.outcome)] = counts[name_of(target.outcome)].get<int>() + 1;
+  return counts;
 }
 
-std::string name_of(Registration by) { return by == Registration::axis ? "axis" : "surface"; }
-
-void add_comparison(Json& content, const Comparison& comparison, const Comparison* floor) {
-  Json counts{{"met", 0}, {"missed", 0}, {"not_measured", 0}};
+void add_comparison(Json& content, const coupling::Comparison& comparison,
+                    const coupling::Comparison* floor) {
   Json targets = Json::array();
   for (std::size_t i = 0; i < comparison.targets.size(); ++i) {
-    const Target& target = comparison.targets[i];
-    counts[name_of(target.outcome)] = counts[name_of(target.outcome)].get<int>() + 1;
-    targets.push_back(to_json(target));
+    targets.push_back(to_json(comparison.targets[i]));
     if (floor != nullptr) targets.back()["floor"] = number(floor->targets[i].value);
   }
   Json scalars;
   for (const auto& pair : comparison.scalars) scalars[pair.name] = to_json(pair);
-  content["verdict"] = counts;
+  content["verdict"] = counts_of(comparison.targets);
   content["registration"] = {{"by", name_of(comparison.registration)}, {"offset", number(comparison.offset)}};
   content["zones"] = zones_of(comparison.fields);
   content["errors"] = errors_of(comparison.fields, floor == nullptr ? nullptr : &floor->fields);
@@ -155,7 +159,8 @@ void add_comparison(Json& content, const Comparison& comparison, const Compariso
   add_maps(content, comparison, floor);
 }
 
-void add_paper(Json& content, std::optional<double> rotation_rpm, const std::vector<PaperRow>& rows) {
+void add_paper(Json& content, std::optional<double> rotation_rpm,
+               const std::vector<coupling::PaperRow>& rows) {
   if (!rotation_rpm) {
     content["paper"] = nullptr;
     return;

@@ -1,39 +1,33 @@
 #include "apps/support/hard_case_json.hpp"
 
-#include <array>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
+
+#include "coupling/documents/enum_names.hpp"
+#include "coupling/documents/json_numbers.hpp"
 
 namespace drumlin::apps {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<std::pair<Relation, const char*>, 3> relations = {
+constexpr EnumNames<Relation, 3> relations = {
     {{Relation::equals, "equals"}, {Relation::at_most, "at_most"}, {Relation::at_least, "at_least"}}};
 
-// null stands for NaN.
-double number(const Json& value) {
-  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
-}
+double number(const Json& value) { return number_or_nan(value).value(); }
 
 }  // namespace
 
 Json to_json(const HardCase& hard, const HardResult& result) {
   Json checks = Json::array();
-  for (const HardCheck& check : result.checks) {
-    const char* relation = "";
-    for (const auto& [value, name] : relations)
-      if (value == check.relation) relation = name;
+  for (const HardCheck& check : result.checks)
     checks.push_back({{"what", check.what},
-                      {"relation", relation},
+                      {"relation", name_in(relations, check.relation)},
                       {"expected", check.expected},
                       {"got", check.got},
                       {"tolerance", check.tolerance},
                       {"reason", check.reason},
                       {"holds", check.holds()}});
-  }
   return {{"name", hard.name},         {"outcome", hard.outcome},   {"fast", hard.fast},
           {"seconds", result.seconds}, {"passed", result.passed()}, {"checks", checks}};
 }

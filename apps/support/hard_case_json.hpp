@@ -2,7 +2,7 @@
 // A hard case and its result as JSON: rows of hardcases.json, and what drumlin-flow hands to drumlin.
 #include <nlohmann/json_fwd.hpp>
 
-#include "coupling/exchange/hard_case.hpp"
+#include "tests/hardcases/hard_case.hpp"
 
 namespace drumlin::apps {
 

@@ -1,39 +1,19 @@
 #include "apps/support/json_file.hpp"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "coupling/exchange/errors.hpp"
-#include "coupling/exchange/text_file.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/common/text_file.hpp"
+#include "coupling/documents/json_numbers.hpp"
 
 namespace drumlin::apps {
 
 using Json = nlohmann::ordered_json;
 
-Json read_json(const std::filesystem::path& file, const std::string& format) {
-  Json content;
-  try {
-    content = Json::parse(file_text(file));
-  } catch (const Json::exception& error) {  // out of range, too: 1e999
-    throw InputError(file.string() + ": is no JSON: " + error.what());
-  }
-  const bool known = content.is_object() && content.contains("format") && content["format"] == format;
-  if (!known)
-    throw InputError(file.string() + ": format: is missing or not known here (allowed: \"" + format + "\")");
-  return content;
-}
-
 void write_json(const std::filesystem::path& file, const Json& content) {
   // The library writes NaN and infinity as null, which is what the formats ask for.
   replace_file(file, content.dump(2) + "\n");
 }
-
-namespace {
-
-/// In memory, too, what was not computed is null: a reader of the object need not know about NaN.
-Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
-
-}  // namespace
 
 Json to_json(const Scalar& scalar) {
   if (!scalar.ci99) return number_or_null(scalar.value);

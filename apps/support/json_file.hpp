@@ -1,17 +1,15 @@
 #pragma once
-// JSON files of the commands: read with the errors of the project, written aside and renamed.
+// JSON files of the commands, written aside and renamed, and the values that all of them hold.
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "coupling/exchange/provenance.hpp"
+#include "coupling/common/provenance.hpp"
+#include "coupling/common/scales.hpp"
+#include "coupling/documents/json_document.hpp"
 #include "coupling/exchange/scalar_set.hpp"
-#include "coupling/exchange/scales.hpp"
 
 namespace drumlin::apps {
-
-/// Throws InputError if the file is missing, no JSON object, or its "format" is not `format`.
-nlohmann::ordered_json read_json(const std::filesystem::path& file, const std::string& format);
 
 /// Indented, in the order of the keys, NaN as null; written aside and renamed. Throws IoError.
 void write_json(const std::filesystem::path& file, const nlohmann::ordered_json& content);

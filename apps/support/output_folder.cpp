@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 
 namespace drumlin::apps {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/commands.hpp"
+#include "apps/support/commands.hpp"
 
 namespace drumlin::apps {
 

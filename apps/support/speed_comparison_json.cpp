@@ -6,7 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/support/comparison_json.hpp"
+#include "apps/support/enum_name.hpp"
 #include "apps/support/json_file.hpp"
+#include "coupling/documents/json_numbers.hpp"
 
 namespace drumlin::apps {
 
@@ -14,35 +16,22 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+Json number(double value) { return number_or_null(value); }
 
-/// The outcome, and for a scalar whether the particles' interval covers the difference.
-Json json_of(const Target& target, const ComparedSpeed& speed) {
-  Json json{{"quantity", target.quantity}};
-  if (!target.zone.empty()) json["zone"] = target.zone;
-  json["measure"] = target.measure;
-  json["limit"] = target.limit;
-  json["value"] = number(target.value);
-  json["outcome"] = name_of(target.outcome);
+/// The target, and of a scalar whether the particles' interval covers the difference.
+Json json_of(const coupling::Target& target, const coupling::ComparedSpeed& speed) {
+  Json json = to_json(target);
   if (target.zone.empty())
-    for (const SpeedScalar& scalar : speed.scalars)
+    for (const coupling::SpeedScalar& scalar : speed.scalars)
       if (scalar.particles.name == target.quantity && scalar.particles.ci99 && std::isfinite(target.value))
         json["inside_interval"] =
             std::abs(scalar.continuum - scalar.particles.value) <= *scalar.particles.ci99;
-  if (!target.remark.empty()) json["remark"] = target.remark;
   return json;
 }
 
-Json counts_of(const std::vector<Target>& targets) {
-  Json counts{{"met", 0}, {"missed", 0}, {"not_measured", 0}};
-  for (const Target& target : targets)
-    counts[name_of(target.outcome)] = counts[name_of(target.outcome)].get<int>() + 1;
-  return counts;
-}
-
-Json json_of(const ComparedSpeed& speed) {
+Json json_of(const coupling::ComparedSpeed& speed) {
   Json scalars = Json::object(), targets = Json::array();
-  for (const SpeedScalar& scalar : speed.scalars) {
+  for (const coupling::SpeedScalar& scalar : speed.scalars) {
     Json paper = number(scalar.paper.value);
     if (scalar.paper.ci99) paper = {{"value", paper}, {"half_width", *scalar.paper.ci99}};
     scalars[scalar.particles.name] = {
@@ -52,7 +41,7 @@ Json json_of(const ComparedSpeed& speed) {
                           ? Json{{"value", number(scalar.continuum)}, {"ci99", scalar.continuum_ci99}}
                           : number(scalar.continuum)}};
   }
-  for (const Target& target : speed.targets) targets.push_back(json_of(target, speed));
+  for (const coupling::Target& target : speed.targets) targets.push_back(json_of(target, speed));
   return {{"rotation_rpm", speed.rotation_rpm},
           {"role", name_of(speed.role)},
           {"particles", speed.particles},
@@ -67,14 +56,31 @@ Json json_of(const ComparedSpeed& speed) {
             {"start", speed.start}}}};
 }
 
-void add_laws(Json& laws, const char* side, const std::vector<SpeedLaw>& of_side) {
-  for (const SpeedLaw& law : of_side) {
+void add_laws(Json& laws, const char* side, const std::vector<coupling::SpeedLaw>& of_side) {
+  for (const coupling::SpeedLaw& law : of_side) {
     laws[law.name]["formula"] = law.formula;
     Json coefficients = Json::object();
     for (const auto& c : law.coefficients)
       coefficients[c.name] = {{"value", number(c.value)}, {"ci99", number(c.ci99)}};
     laws[law.name][side] = coefficients;
   }
+}
+
+/// Met and missed targets over all speeds of one role.
+Json verdict_of(const std::vector<coupling::ComparedSpeed>& speeds, coupling::SpeedRole role) {
+  std::vector<coupling::Target> targets;
+  for (const coupling::ComparedSpeed& speed : speeds)
+    if (speed.role == role) targets.insert(targets.end(), speed.targets.begin(), speed.targets.end());
+  Json verdict{{"role", name_of(role)}};
+  verdict.update(counts_of(targets));
+  return verdict;
+}
+
+/// Predictions count, not what was fitted; where no speed is known to be one, those of unknown role.
+Json verdict_of(const std::vector<coupling::ComparedSpeed>& speeds) {
+  const Json predicted = verdict_of(speeds, coupling::SpeedRole::predicted);
+  const bool any = predicted["met"].get<int>() + predicted["missed"].get<int>() > 0;
+  return any ? predicted : verdict_of(speeds, coupling::SpeedRole::unknown);
 }
 
 std::string shown(const Json& value) {
@@ -142,32 +148,27 @@ std::string targets_table(const Json& content) {
 
 }  // namespace
 
-std::string name_of(SpeedRole role) {
-  switch (role) {
-    case SpeedRole::calibrated:
-      return "calibrated";
-    case SpeedRole::predicted:
-      return "predicted";
-    case SpeedRole::unknown:
-      return "unknown";
-    case SpeedRole::particles_only:
-      return "particles only";
-    case SpeedRole::continuum_only:
-      return "continuum only";
-  }
-  return "";
+std::string name_of(coupling::SpeedRole role) {
+  constexpr EnumName<coupling::SpeedRole> names[] = {{coupling::SpeedRole::calibrated, "calibrated"},
+                                                     {coupling::SpeedRole::predicted, "predicted"},
+                                                     {coupling::SpeedRole::unknown, "unknown"},
+                                                     {coupling::SpeedRole::particles_only, "particles only"},
+                                                     {coupling::SpeedRole::continuum_only, "continuum only"}};
+  return enum_name(names, role);
 }
 
-void add_speed_comparison(Json& content, const SpeedComparison& comparison) {
+void add_speed_comparison(Json& content, const coupling::SpeedComparison& comparison) {
   content["warnings"] = comparison.warnings;
   content["fitted_on"] = comparison.fitted_on;
   content["speeds"] = Json::array();
-  for (const ComparedSpeed& speed : comparison.speeds) content["speeds"].push_back(json_of(speed));
+  for (const coupling::ComparedSpeed& speed : comparison.speeds) content["speeds"].push_back(json_of(speed));
   Json laws = Json::object();
   add_laws(laws, "particles", comparison.particles_laws);
   add_laws(laws, "continuum", comparison.continuum_laws);
   add_laws(laws, "paper", comparison.paper_laws);
   content["laws"] = laws;
+  content["verdict"] = verdict_of(comparison.speeds);
+  content["verdict_lines"] = verdict_lines(content);
 }
 
 std::vector<std::string> verdict_lines(const Json& content) {

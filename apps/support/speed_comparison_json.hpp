@@ -1,5 +1,5 @@
 #pragma once
-// study.json of `drumlin compare --study` (docs/formats/comparison-study.md) and its table in Markdown.
+// Writers of study.json of `drumlin compare --study` (docs/formats/comparison-study.md) and of its table.
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
@@ -7,10 +7,11 @@
 
 namespace drumlin::apps {
 
-std::string name_of(SpeedRole role);  ///< "calibrated", "predicted", "unknown", "particles only", ...
+std::string name_of(
+    coupling::SpeedRole role);  ///< "calibrated", "predicted", "unknown", "particles only", ...
 
 /// Everything but format, title, reduced, law and provenance.
-void add_speed_comparison(nlohmann::ordered_json& content, const SpeedComparison& comparison);
+void add_speed_comparison(nlohmann::ordered_json& content, const coupling::SpeedComparison& comparison);
 
 /// One line per speed with the results of all sides, one line per target with its value at each speed.
 std::string speed_table_markdown(const nlohmann::ordered_json& content);

@@ -1,5 +1,5 @@
 #pragma once
-// study.json and paper_table.md (docs/formats/study.md) from a study.
+// Writers of study.json and paper_table.md of `drumlin measure --study` (docs/formats/study.md).
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
@@ -7,13 +7,13 @@
 
 namespace drumlin::apps {
 
-std::string name_of(Verdict verdict);  ///< "agrees", "near", "differs", "not measured"
-std::string name_of(Reason reason);    ///< words for a table
+std::string name_of(coupling::Verdict verdict);  ///< "agrees", "near", "differs", "not measured"
+std::string name_of(coupling::Reason reason);    ///< words for a table
 
 /// Everything but format, reduced, title and provenance.
-void add_study(nlohmann::ordered_json& content, const Study& study);
+void add_study(nlohmann::ordered_json& content, const coupling::Study& study);
 
 /// The paper's table in Markdown: one line per entry. Says so when the drum is none of the paper's.
-std::string paper_table_markdown(const Study& study);
+std::string paper_table_markdown(const coupling::Study& study);
 
 }  // namespace drumlin::apps

@@ -12,7 +12,7 @@
 #include "continuum/fem/detail/point_law.hpp"
 #include "continuum/fem/detail/spring_faces.hpp"
 
-namespace drumlin::fem {
+namespace drumlin::continuum::fem {
 namespace {
 
 using dealii::FEValues;
@@ -298,9 +298,9 @@ std::vector<PlaneTensor> advanced_dual(const Discretisation& d, const Regularisa
   next.reserve(state.dual.size());
   for_each_point(d, state.solution, [&](const PointValues& at, std::size_t) { D.push_back(at.D); });
   for_each_point(d, step, [&](const PointValues& change, std::size_t k) {
-    next.push_back(drumlin::advanced_dual(D[k], change.D, state.dual[k], regularised_rate(D[k], r)));
+    next.push_back(continuum::advanced_dual(D[k], change.D, state.dual[k], regularised_rate(D[k], r)));
   });
   return next;
 }
 
-}  // namespace drumlin::fem
+}  // namespace drumlin::continuum::fem

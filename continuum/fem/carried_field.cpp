@@ -10,9 +10,9 @@
 #include <algorithm>
 
 #include "continuum/fem/detail/direct_solver.hpp"
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 
-namespace drumlin::fem {
+namespace drumlin::continuum::fem {
 namespace {
 
 using dealii::FEValuesExtractors::Vector;
@@ -266,4 +266,4 @@ CarriedField carried_by_flow(const FlowProblem& problem, const Discretisation& d
   return carried;
 }
 
-}  // namespace drumlin::fem
+}  // namespace drumlin::continuum::fem

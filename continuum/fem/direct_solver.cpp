@@ -4,9 +4,9 @@
 
 #include <string>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 
-namespace drumlin::fem {
+namespace drumlin::continuum::fem {
 namespace {
 
 void check(PetscErrorCode code, const char* what) {
@@ -107,4 +107,4 @@ double DirectSolver::solve(const FieldVector& rhs, FieldVector& solution) const 
   return residual;
 }
 
-}  // namespace drumlin::fem
+}  // namespace drumlin::continuum::fem

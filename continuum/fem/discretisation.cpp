@@ -15,7 +15,7 @@
 #include <map>
 #include <set>
 
-namespace drumlin::fem {
+namespace drumlin::continuum::fem {
 namespace {
 
 using BoundaryValues = std::map<dealii::types::global_dof_index, double>;
@@ -285,7 +285,7 @@ bool Discretisation::move_surface(const FlowProblem& problem, const SurfaceShape
 dealii::Tensor<1, 2> Discretisation::surface_normal(const dealii::Point<2>& point,
                                                     const dealii::Tensor<1, 2>& of_mesh) const {
   if (!surface) return of_mesh;
-  const Vec2 n = drumlin::surface_normal(*surface, across(*surface, {point[0], point[1]}));
+  const Vec2 n = continuum::surface_normal(*surface, across(*surface, {point[0], point[1]}));
   return dealii::Tensor<1, 2>({n.x, n.z});
 }
 
@@ -339,4 +339,4 @@ void Discretisation::constrain(const FlowProblem& problem) {
   homogeneous.close();
 }
 
-}  // namespace drumlin::fem
+}  // namespace drumlin::continuum::fem

@@ -3,7 +3,7 @@
 
 #include "continuum/fem/detail/discretisation.hpp"
 
-namespace drumlin::fem {
+namespace drumlin::continuum::fem {
 
 dealii::Vector<float> velocity_error_indicator(const Discretisation& d, const FieldVector& solution) {
   dealii::Vector<float> indicator(d.mesh.n_active_cells());
@@ -12,4 +12,4 @@ dealii::Vector<float> velocity_error_indicator(const Discretisation& d, const Fi
   return indicator;
 }
 
-}  // namespace drumlin::fem
+}  // namespace drumlin::continuum::fem

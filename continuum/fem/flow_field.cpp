@@ -13,7 +13,7 @@
 #include "continuum/fem/detail/solved_level.hpp"
 #include "continuum/fem/detail/spring_faces.hpp"
 
-namespace drumlin {
+namespace drumlin::continuum {
 namespace {
 
 using dealii::FEValuesExtractors::Scalar;
@@ -201,4 +201,4 @@ FlowIntegrals FlowField::integrals(Vec2 centre) const {
   return sums;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::continuum

@@ -9,7 +9,7 @@
 #include "continuum/fem/flow_state.hpp"
 #include "continuum/model/surface_shape.hpp"
 
-namespace drumlin {
+namespace drumlin::continuum {
 
 namespace fem {
 struct SolvedLevel;
@@ -31,7 +31,7 @@ struct PointState {
   double axis_angle = 0;       ///< from the axes of D to those of the stress, rad
   double fluidity_factor = 1;  ///< g_loc/g with nonlocal fluidity; 1 without
   double viscosity = 0;
-  double well_posedness = 0;  ///< margin (continuum/rheology/well_posedness.hpp), negative: ill-posed
+  double well_posedness = 0;  ///< margin (coupling/law/well_posedness.hpp), negative: ill-posed
 };
 
 /// Integrals over the domain and its sides, by quadrature of the fields themselves.
@@ -75,21 +75,4 @@ class FlowField {
   std::shared_ptr<const fem::SolvedLevel> level_;
 };
 
-/// How large that is which a flow without an effect leaves out, from the flow itself: estimates, no errors of
-/// results.
-struct LeftOut {
-  double inertia_rms = 0;         ///< of |u.grad u| over gravity, over the area
-  double inertia_largest = 0;     ///< at the quadrature points
-  double surface_height_rms = 0;  ///< d: of the height sigma_nn/(nu cos theta) that would take the place of
-                                  ///< the traction which holds the surface where it is
-  double wall_friction = 0;  ///< share of the wall that asks for a shear stress above 0.95 of the pressure
-  /// Over what flows (I > 1e-3, p > 1): rms of ln(g/g_loc) for a nonlocal length of 1 d. Absent where the law tells
-  /// no fluidity, and without k, respectively.
-  std::optional<double> nonlocal;
-  /// Likewise, rms of what fabric with c = 1 would change in beta, over rms of beta.
-  std::optional<double> fabric;
-};
-/// Collective.
-LeftOut left_out(const FlowField& field);
-
-}  // namespace drumlin
+}  // namespace drumlin::continuum

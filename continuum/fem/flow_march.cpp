@@ -5,9 +5,9 @@
 #include "continuum/fem/detail/kept_state.hpp"
 #include "continuum/fem/detail/newton.hpp"
 #include "continuum/fem/flow_solver.hpp"
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 
-namespace drumlin {
+namespace drumlin::continuum {
 namespace {
 
 using fem::Newton;
@@ -140,4 +140,4 @@ FlowField flow_at_rest(const FlowProblem& problem, const FlowSolverOptions& opti
   return FlowField(level);
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::continuum

@@ -4,11 +4,11 @@
 
 #include "continuum/fem/detail/kept_state.hpp"
 #include "continuum/fem/detail/newton.hpp"
-#include "continuum/fem/detail/settle.hpp"
-#include "continuum/fem/detail/settle_surface.hpp"
-#include "coupling/exchange/errors.hpp"
+#include "continuum/fem/detail/picard.hpp"
+#include "continuum/fem/detail/surface_iteration.hpp"
+#include "coupling/common/errors.hpp"
 
-namespace drumlin {
+namespace drumlin::continuum {
 namespace {
 
 using fem::field_of;
@@ -19,7 +19,7 @@ using fem::now;
 using fem::Phase;
 using fem::run;
 using fem::Setting;
-using fem::settle_held;
+using fem::solve_held_fields;
 using fem::State;
 using fem::Work;
 using fem::WorkClock;
@@ -90,90 +90,133 @@ SurfaceShape first_shape(const FlowProblem& problem, const FlowState* neighbour)
   return shape;
 }
 
-FlowSolution solve(const FlowProblem& problem, const FlowSolverOptions& options, const FlowObserver& observer,
-                   const FlowState* neighbour) {
-  if (const auto reason = no_steady_state(problem)) throw NotConvergedError(*reason);
-  const double start = now();
+double first_theta(const FlowProblem& problem) {
+  const auto* fixed = std::get_if<FixedSlope>(&problem.slope);
+  return fixed ? fixed->theta : std::get<SlopeFromMoment>(problem.slope).first_guess;
+}
+
+std::shared_ptr<fem::SolvedLevel> coarsest_level(const FlowProblem& problem, const FlowState* neighbour) {
   auto level = std::make_shared<fem::SolvedLevel>();
   level->problem = problem;
   level->discretisation = std::make_shared<fem::Discretisation>(problem);
   auto& d = *level->discretisation;
-  auto& state = level->state;
-  if (const auto* fixed = std::get_if<FixedSlope>(&problem.slope))
-    state.theta = fixed->theta;
-  else
-    state.theta = std::get<SlopeFromMoment>(problem.slope).first_guess;
+  level->state.theta = first_theta(problem);
   if (problem.moving_surface && !d.move_surface(problem, first_shape(problem, neighbour)))
     throw InputError("the surface of the neighbouring flow does not fit into this mesh");
-  state.solution = d.field();
-  d.constraints.distribute(state.solution);
-  state.solution.update_ghost_values();
+  level->state.solution = d.field();
+  d.constraints.distribute(level->state.solution);
+  level->state.solution.update_ghost_values();
+  return level;
+}
 
-  FlowReport report;
-  report.start = neighbour ? "neighbour" : "cold";
-  WorkClock clock;
-  const auto finished = [&](bool converged) {
-    report.converged = converged;
-    report.seconds = now() - start;
+// One solve from mesh to mesh: cold, or from the state of another flow.
+class Continuation {
+ public:
+  Continuation(const FlowProblem& problem, const FlowSolverOptions& options, const FlowObserver& observer,
+               const FlowState* neighbour)
+      : problem_(problem),
+        options_(options),
+        observer_(observer),
+        neighbour_(neighbour),
+        level_(coarsest_level(problem, neighbour)) {
+    report_.start = neighbour ? "neighbour" : "cold";
+  }
+
+  FlowSolution solution() {
+    const int first = neighbour_ ? take_over_neighbour() : 0;
+    for (int mesh = first; mesh < options_.levels; ++mesh) {
+      if (mesh > first) refine();
+      if (!solve_mesh(mesh, mesh > first ? "refined" : report_.start)) return finished(false);
+      report_.failure.clear();
+      if (observer_.level_finished)
+        clock_(Work::evaluation, [&] { observer_.level_finished(mesh, field_of(level_)); });
+    }
+    return finished(true);
+  }
+
+ private:
+  // Refines up to the mesh that the neighbour fits, and returns its number.
+  int take_over_neighbour() {
+    int mesh = 0;
+    for (; !fem::fits(discretisation(), *neighbour_); ++mesh) {
+      if (mesh + 1 >= options_.levels) throw InputError(fem::no_mesh_fits);
+      clock_(Work::refinement, [&] { discretisation().refine(problem_, level_->state.solution); });
+    }
+    fem::take_over(*neighbour_, *level_);
+    return mesh;
+  }
+
+  void refine() {
+    clock_(Work::refinement, [&] {
+      if (options_.refined_share < 1)
+        discretisation().refine_adaptively(problem_, level_->state.solution, options_.refined_share);
+      else
+        discretisation().refine(problem_, level_->state.solution);
+    });
+  }
+
+  bool solve_mesh(int mesh, const std::string& start) {
+    FlowSolverOptions here = options_;
+    if (!is_last(mesh)) here.tolerance = std::max(options_.tolerance, options_.coarse_tolerance);
+    Newton newton(problem_, here, discretisation(), mesh, begun_, clock_, report_, observer_);
+    level_->state.held = nullptr;
+    if (!(start == "cold" ? solve_cold(newton, here, *level_) : solve_from(start, newton, here, *level_)))
+      return false;
+    if (fem::holds_fields(problem_)) {
+      if (observer_.solved_plain && is_last(mesh))
+        clock_(Work::evaluation, [&] { observer_.solved_plain(field_of(level_)); });
+      if (!solve_held_fields(newton, here, *level_, report_)) return false;
+    }
+    return !problem_.moving_surface || move_surface(mesh, here);
+  }
+
+  bool move_surface(int mesh, const FlowSolverOptions& here) {
+    report_.failure.clear();
+    const fem::SurfaceSolver solver{
+        .newton =
+            [&] {
+              return std::make_unique<Newton>(problem_, here, discretisation(), mesh, begun_, clock_, report_,
+                                              observer_);
+            },
+        .solve =
+            [&](Newton& again) {
+              return solve_from("surface", again, here, *level_) &&
+                     (!fem::holds_fields(problem_) || solve_held_fields(again, here, *level_, report_));
+            },
+        .stepped = observer_.surface_step,
+        .tolerance = is_last(mesh) ? 0 : options_.coarse_surface_tolerance};
+    // A coarser mesh whose ends are resolved too badly to converge is still a start for the next.
+    return fem::solve_surface(solver, *level_, mesh, response_, report_) ||
+           (!is_last(mesh) && report_.failure != "interrupted");
+  }
+
+  FlowSolution finished(bool converged) {
+    report_.converged = converged;
+    report_.seconds = now() - begun_;
     for (std::size_t i = 0; i < fem::work_names.size(); ++i)
-      report.phases.push_back(
-          {fem::work_names[i], clock.seconds(static_cast<Work>(i)), clock.times(static_cast<Work>(i))});
-    return FlowSolution{report, field_of(level)};
-  };
-  dealii::FullMatrix<double> response;  // of what presses on a moving surface to its shape, mesh after mesh
-  int first = 0;
-  if (neighbour) {
-    for (; !fem::fits(d, *neighbour); ++first) {
-      if (first + 1 >= options.levels) throw InputError(fem::no_mesh_fits);
-      clock(Work::refinement, [&] { d.refine(problem, state.solution); });
-    }
-    fem::take_over(*neighbour, *level);
+      report_.phases.push_back(
+          {fem::work_names[i], clock_.seconds(static_cast<Work>(i)), clock_.times(static_cast<Work>(i))});
+    return {report_, field_of(level_)};
   }
-  for (int mesh = first; mesh < options.levels; ++mesh) {
-    if (mesh > first)
-      clock(Work::refinement, [&] {
-        if (options.refined_share < 1)
-          d.refine_adaptively(problem, state.solution, options.refined_share);
-        else
-          d.refine(problem, state.solution);
-      });
-    FlowSolverOptions here = options;
-    if (mesh + 1 < options.levels) here.tolerance = std::max(options.tolerance, options.coarse_tolerance);
-    Newton newton(problem, here, d, mesh, start, clock, report, observer);
-    state.held = nullptr;
-    const bool converged = mesh > first ? solve_from("refined", newton, here, *level)
-                           : neighbour  ? solve_from("neighbour", newton, here, *level)
-                                        : solve_cold(newton, here, *level);
-    if (!converged) return finished(false);
-    if (fem::holds_fields(problem)) {
-      if (observer.solved_plain && mesh + 1 == options.levels)
-        clock(Work::evaluation, [&] { observer.solved_plain(field_of(level)); });
-      if (!settle_held(newton, here, *level, report)) return finished(false);
-    }
-    if (problem.moving_surface) {
-      report.failure.clear();
-      const fem::SurfaceSolver solver{
-          .newton =
-              [&] {
-                return std::make_unique<Newton>(problem, here, d, mesh, start, clock, report, observer);
-              },
-          .solve =
-              [&](Newton& again) {
-                return solve_from("surface", again, here, *level) &&
-                       (!fem::holds_fields(problem) || settle_held(again, here, *level, report));
-              },
-          .stepped = observer.surface_step,
-          .tolerance = mesh + 1 < options.levels ? options.coarse_surface_tolerance : 0};
-      // A coarser mesh that resolves its ends too badly to settle is still a start for the next.
-      if (!fem::settle_surface(solver, *level, mesh, response, report) &&
-          (mesh + 1 == options.levels || report.failure == "interrupted"))
-        return finished(false);
-    }
-    report.failure.clear();
-    if (observer.level_finished)
-      clock(Work::evaluation, [&] { observer.level_finished(mesh, field_of(level)); });
-  }
-  return finished(true);
+
+  fem::Discretisation& discretisation() { return *level_->discretisation; }
+  bool is_last(int mesh) const { return mesh + 1 == options_.levels; }
+
+  const double begun_ = now();
+  const FlowProblem& problem_;
+  const FlowSolverOptions& options_;
+  const FlowObserver& observer_;
+  const FlowState* neighbour_;
+  std::shared_ptr<fem::SolvedLevel> level_;
+  FlowReport report_;
+  WorkClock clock_;
+  dealii::FullMatrix<double> response_;  // of the misfit of a moving surface to its shape, mesh after mesh
+};
+
+FlowSolution solve(const FlowProblem& problem, const FlowSolverOptions& options, const FlowObserver& observer,
+                   const FlowState* neighbour) {
+  if (const auto reason = no_steady_state(problem)) throw NotConvergedError(*reason);
+  return Continuation(problem, options, observer, neighbour).solution();
 }
 
 }  // namespace
@@ -210,9 +253,9 @@ FlowSolution solve_flow_again(const FlowField& start, const FlowProblem& problem
   WorkClock clock;
   Newton newton(level->problem, options, *level->discretisation, 0, begun, clock, report, observer);
   report.converged = solve_from("again", newton, options, *level) &&
-                     (!fem::holds_fields(problem) || settle_held(newton, options, *level, report));
+                     (!fem::holds_fields(problem) || solve_held_fields(newton, options, *level, report));
   report.seconds = now() - begun;
   return {report, field_of(level)};
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::continuum

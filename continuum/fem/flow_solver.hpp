@@ -1,5 +1,5 @@
 #pragma once
-// Continuation and Newton's method from a problem to a flow.
+// Solves a flow problem by continuation and Newton's method; steps in time.
 #include <functional>
 #include <string>
 #include <vector>
@@ -7,7 +7,7 @@
 #include "continuum/fem/flow_field.hpp"
 #include "continuum/model/flow_problem.hpp"
 
-namespace drumlin {
+namespace drumlin::continuum {
 
 struct FlowSolverOptions {
   int levels = 2;  ///< meshes, each with cells half as large; the last one carries the result
@@ -25,10 +25,11 @@ struct FlowSolverOptions {
   double tolerance = 1e-8;                 ///< on the residual in the last phase of the last mesh
   double linear_tolerance = 1e-6;          ///< on the true relative residual of every linear solve
   int max_iterations = 40;                 ///< per phase
-  int max_turns = 40;  ///< updates of what the law holds of the flow (fem/detail/held_fields.hpp)
-  /// On what a whole such update moves, velocity (mean square) and slope, relative. Where the material hardly
-  /// shears the axes of its strain rate are noise: the drum at 6 rpm on cells of 2 d came to rest at 6e-4.
-  double turn_tolerance = 1e-3;
+  int max_picard_updates = 40;             ///< of the fields that the law takes from the flow
+  /// On what a whole Picard update moves, velocity (mean square) and slope, relative. Where the material
+  /// hardly shears the axes of its strain rate are noise: the drum at 6 rpm on cells of 2 d came to rest at
+  /// 6e-4.
+  double picard_tolerance = 1e-3;
 };
 
 /// One nonlinear iteration.
@@ -70,9 +71,10 @@ struct FlowReport {
   std::string failure;  ///< which phase, residual and last step; empty when converged
   std::string start;    ///< "cold", "neighbour", or why the neighbour did not serve
   double residual = 0;
-  int iterations = 0;      ///< over all phases and meshes
-  int turns = 0;           ///< updates of what the law holds of the flow, on the last mesh; 0: nothing
-  double turn_change = 0;  ///< what the last of them moved, relative, as if it had been taken whole
+  int iterations = 0;  ///< over all phases and meshes
+  /// Picard updates of the fields that the law takes from the flow, on the last mesh; 0: it takes none.
+  int picard_updates = 0;
+  double picard_change = 0;  ///< what the last of them moved, relative, as if it had been taken whole
   double seconds = 0;
   std::vector<PhaseSeconds> phases;
   std::vector<IterationReport> history;
@@ -80,11 +82,11 @@ struct FlowReport {
 };
 
 struct FlowObserver {
-  std::function<void(const IterationReport&)> iteration;            ///< empty: nobody watches
+  std::function<void(const IterationReport&)> iteration;            ///< empty: not observed
   std::function<void(int level, const FlowField&)> level_finished;  ///< also for the last level
   std::function<void(const SurfaceStepReport&)> surface_step;       ///< of a surface that moves
   std::function<bool()> interrupted;                                ///< asked between iterations
-  /// Where the law holds fields of the flow (k, nonlocal fluidity): that on the last mesh before they enter.
+  /// Where the law takes fields from the flow (k, nonlocal fluidity): the flow on the last mesh without them.
   std::function<void(const FlowField&)> solved_plain;
 };
 
@@ -94,16 +96,16 @@ struct FlowSolution {
 };
 
 /// Newtonian start, the law at a large eps, then eps downwards; on a finer mesh the coarser solution. With k
-/// or nonlocal fluidity the flow without them comes first on each mesh; then what the law holds of the flow
-/// is taken from it and the flow solved with that in turns until nothing changes. Newton's tangent is
-/// primal-dual, its step length found on the slope R(u + alpha du).du. Throws NotConvergedError for a slope
-/// that admits no steady flow (no_steady_state); a Newton iteration that does not converge, or a linear solve
-/// that misses its tolerance, is in the report.
+/// or nonlocal fluidity the flow without them comes first on each mesh; then Picard updates alternate between
+/// the fields that the law takes from the flow and the flow with them, until nothing changes. Newton's
+/// tangent is primal-dual, its step length found on the slope R(u + alpha du).du. Throws NotConvergedError
+/// for a slope that admits no steady flow (no_steady_state); a Newton iteration that does not converge, or a
+/// linear solve that misses its tolerance, is in the report.
 [[nodiscard]] FlowSolution solve_flow(const FlowProblem& problem, const FlowSolverOptions& options = {},
                                       const FlowObserver& observer = {});
 
 /// The same from the state of a flow at another speed or with another law, on that mesh of the problem which
-/// fits the state and those after it; the meshes before are left out. Where that fails it starts over cold,
+/// fits the state and those after it; the meshes before are skipped. Where that fails it starts over cold,
 /// and the report says so. Throws InputError when no mesh fits.
 [[nodiscard]] FlowSolution solve_flow_from(const FlowState& neighbour, const FlowProblem& problem,
                                            const FlowSolverOptions& options = {},
@@ -124,8 +126,7 @@ struct FlowMarch {
   int halvings = 6;  ///< of a step whose Newton iteration fails
   /// What holds on the sides over the step that ends at `time`; empty: that of the problem.
   std::function<std::map<Side, BoundaryCondition>(double time)> boundary = {};
-  std::function<void(double time, const FlowField&)> stepped =
-      {};  ///< after each step; empty: nobody watches
+  std::function<void(double time, const FlowField&)> stepped = {};  ///< after each step; empty: not observed
 };
 
 /// The flow of `problem` from the state `start`, with inertia, in time: nu (du/dt + u.grad u) = -grad p + div
@@ -143,7 +144,7 @@ struct FlowMarch {
 FlowField flow_of_state(const FlowState& kept, const FlowProblem& problem,
                         const FlowSolverOptions& options = {});
 
-/// Nothing moves and nothing presses: on the last mesh of the problem, to march from.
+/// Zero state on the finest mesh; initial condition of a march in time.
 FlowField flow_at_rest(const FlowProblem& problem, const FlowSolverOptions& options = {});
 
-}  // namespace drumlin
+}  // namespace drumlin::continuum

@@ -9,7 +9,7 @@
 #include "continuum/fem/detail/kept_state.hpp"
 #include "continuum/fem/flow_field.hpp"
 
-namespace drumlin {
+namespace drumlin::continuum {
 namespace fem {
 namespace {
 
@@ -130,4 +130,4 @@ void take_over(const FlowState& kept, SolvedLevel& level) {
 
 FlowState FlowField::state() const { return fem::kept_state(*level_); }
 
-}  // namespace drumlin
+}  // namespace drumlin::continuum

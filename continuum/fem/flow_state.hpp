@@ -1,10 +1,10 @@
 #pragma once
-// A flow as numbers apart from any mesh object or rank: what a run keeps, and another one starts from.
+// Velocity and pressure of a flow as plain numbers, independent of mesh objects and ranks: a stored state.
 #include <array>
 #include <cstdint>
 #include <vector>
 
-namespace drumlin {
+namespace drumlin::continuum {
 
 /// Place of a cell in the refinement of the coarse mesh: deal.II's CellId as numbers.
 using CellPlace = std::array<std::uint32_t, 4>;
@@ -20,4 +20,4 @@ struct FlowState {
   std::vector<double> values = {};   ///< values_per_cell per cell, in the order of deal.II's element
 };
 
-}  // namespace drumlin
+}  // namespace drumlin::continuum

@@ -12,9 +12,9 @@
 #include "continuum/fem/detail/point_law.hpp"
 #include "continuum/fem/detail/solved_level.hpp"
 #include "continuum/fem/flow_field.hpp"
-#include "coupling/exchange/text_file.hpp"
+#include "coupling/common/text_file.hpp"
 
-namespace drumlin {
+namespace drumlin::continuum {
 namespace {
 
 // Stresses and numbers of the law at the vertices of each cell.
@@ -122,4 +122,4 @@ void FlowField::write_vtu(const std::filesystem::path& file) const {
   replace_file(parallel.replace_extension(".pvtu"), record.str());
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::continuum

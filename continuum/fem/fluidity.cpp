@@ -10,9 +10,9 @@
 #include <cmath>
 
 #include "continuum/fem/detail/direct_solver.hpp"
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 
-namespace drumlin::fem {
+namespace drumlin::continuum::fem {
 namespace {
 
 struct HelmholtzSystem {
@@ -106,4 +106,4 @@ FluidityFactor fluidity_factor(const FlowProblem& problem, const Discretisation&
   return result;
 }
 
-}  // namespace drumlin::fem
+}  // namespace drumlin::continuum::fem

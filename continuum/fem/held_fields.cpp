@@ -9,7 +9,7 @@
 #include "continuum/fem/detail/fluidity.hpp"
 #include "continuum/fem/detail/point_law.hpp"
 
-namespace drumlin::fem {
+namespace drumlin::continuum::fem {
 namespace {
 
 void mix_in(const ScalarField* before, double share, ScalarField& field) {
@@ -91,4 +91,4 @@ std::shared_ptr<const HeldFields> held_from(const FlowProblem& problem, const Di
   return held;
 }
 
-}  // namespace drumlin::fem
+}  // namespace drumlin::continuum::fem

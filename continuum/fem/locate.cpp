@@ -9,7 +9,7 @@
 
 #include "continuum/fem/detail/discretisation.hpp"
 
-namespace drumlin::fem {
+namespace drumlin::continuum::fem {
 namespace {
 
 using Cell = dealii::DoFHandler<2>::active_cell_iterator;
@@ -100,4 +100,4 @@ std::vector<CellPlaces> locate(const Discretisation& d, std::span<const Vec2> po
   return result;
 }
 
-}  // namespace drumlin::fem
+}  // namespace drumlin::continuum::fem

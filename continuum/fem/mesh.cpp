@@ -9,7 +9,7 @@
 
 #include "continuum/fem/detail/discretisation.hpp"
 
-namespace drumlin::fem {
+namespace drumlin::continuum::fem {
 namespace {
 
 using dealii::Point;
@@ -138,4 +138,4 @@ void make_mesh(const Domain& domain, dealii::parallel::distributed::Triangulatio
   std::visit([&](const auto& chosen) { make_mesh(chosen, mesh); }, domain);
 }
 
-}  // namespace drumlin::fem
+}  // namespace drumlin::continuum::fem

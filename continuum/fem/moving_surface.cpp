@@ -9,7 +9,7 @@
 
 #include "continuum/fem/detail/spring_faces.hpp"
 
-namespace drumlin::fem {
+namespace drumlin::continuum::fem {
 namespace {
 
 constexpr double corner = 2;  // d
@@ -121,4 +121,4 @@ dealii::FullMatrix<double> surface_response(Newton& newton, SolvedLevel& level) 
   return response;
 }
 
-}  // namespace drumlin::fem
+}  // namespace drumlin::continuum::fem

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 
-namespace drumlin::fem {
+namespace drumlin::continuum::fem {
 namespace {
 
 // Over the norm of the weight. Steps that lead to a solution reach a few times the weight; beyond this they
@@ -85,6 +85,45 @@ double Newton::step_length(const Phase& phase, const State& state, const Step& s
   return best;
 }
 
+// Empty where the linear solve fails; the report says why.
+std::optional<Newton::Step> Newton::newton_step(const Phase& phase, const State& state) {
+  try {
+    factorise();
+    Step step = step_with_factors(state);
+    if (step.linear_residual <= options_.linear_tolerance) return step;
+    report_.failure =
+        fmt::format("linear solve: true relative residual {:.2e} after refinement, in phase '{}'",
+                    step.linear_residual, phase.name);
+  } catch (const NotConvergedError& error) {  // a singular tangent: a smaller step in eps may still do
+    report_.failure = fmt::format("{}, in phase '{}'", error.what(), phase.name);
+  }
+  return std::nullopt;
+}
+
+// Moves the state, assembles there, and fills in what the step did.
+void Newton::take(const Phase& phase, const Step& step, State& state, IterationReport& line) {
+  const double alpha = clock_(Work::step_length, [&] { return step_length(phase, state, step); });
+  FieldVector taken = step.solution;
+  taken *= alpha;
+  taken.update_ghost_values();
+  state.dual = advanced_dual(d_, phase.setting.regularisation, state, taken);
+  state = moved(state, step.solution, step.theta, alpha);
+  clock_(Work::assembly, [&] { assemble_tangent(problem_, d_, phase.setting, state, system_); });
+  line.residual = relative_residual();
+  line.step_length = alpha;
+  line.step_size = taken.l2_norm() / state.solution.l2_norm();
+  line.linear_residual = step.linear_residual;
+  line.theta = state.theta;
+  line.seconds = now() - start_;
+}
+
+void Newton::record(const IterationReport& line) {
+  report_.history.push_back(line);
+  report_.residual = line.residual;
+  ++report_.iterations;
+  if (observer_.iteration) observer_.iteration(line);
+}
+
 bool Newton::solve(const Phase& phase, State& state) {
   IterationReport line{
       .level = level_, .phase = phase.name, .shear_rate = phase.setting.regularisation.shear_rate};
@@ -93,51 +132,23 @@ bool Newton::solve(const Phase& phase, State& state) {
     reference_ = weight_norm_;
   else
     reference_ = std::max(1e-300, nodal_forces(problem_, d_, phase.setting, state).l2_norm());
-  for (int iteration = 1; iteration <= options_.max_iterations; ++iteration) {
+  for (line.iteration = 1; line.iteration <= options_.max_iterations; ++line.iteration) {
     if (was_interrupted()) {
       report_.failure = "interrupted";
       return false;
     }
-    Step step;
-    try {
-      factorise();
-      step = step_with_factors(state);
-    } catch (const NotConvergedError& error) {  // a singular tangent: a smaller step in eps may still do
-      report_.failure = fmt::format("{}, in phase '{}'", error.what(), phase.name);
-      return false;
-    }
-    if (!(step.linear_residual <= options_.linear_tolerance)) {
-      report_.failure =
-          fmt::format("linear solve: true relative residual {:.2e} after refinement, in phase '{}'",
-                      step.linear_residual, phase.name);
-      return false;
-    }
-    const double alpha = clock_(Work::step_length, [&] { return step_length(phase, state, step); });
-    FieldVector taken = step.solution;
-    taken *= alpha;
-    taken.update_ghost_values();
-    state.dual = advanced_dual(d_, phase.setting.regularisation, state, taken);
-    state = moved(state, step.solution, step.theta, alpha);
-    clock_(Work::assembly, [&] { assemble_tangent(problem_, d_, phase.setting, state, system_); });
-
-    line.iteration = iteration;
-    line.residual = relative_residual();
-    line.step_length = alpha;
-    line.step_size = taken.l2_norm() / state.solution.l2_norm();
-    line.linear_residual = step.linear_residual;
-    line.theta = state.theta;
-    line.seconds = now() - start_;
-    report_.history.push_back(line);
-    report_.residual = line.residual;
-    ++report_.iterations;
-    if (observer_.iteration) observer_.iteration(line);
+    const auto step = newton_step(phase, state);
+    if (!step) return false;
+    take(phase, *step, state, line);
+    record(line);
     if (!(line.residual < hopeless_residual)) break;
     if (line.residual <= phase.tolerance) return true;
   }
   report_.failure = fmt::format(
       "mesh {}, phase '{}' (eps = {:.3g}): residual {:.3e} after {} iterations, "
       "tolerance {:.1e}, last step {:.2e}",
-      level_, phase.name, line.shear_rate, line.residual, line.iteration, phase.tolerance, line.step_size);
+      level_, phase.name, line.shear_rate, line.residual, std::min(line.iteration, options_.max_iterations),
+      phase.tolerance, line.step_size);
   return false;
 }
 
@@ -171,4 +182,4 @@ std::shared_ptr<SolvedLevel> level_for(const FlowField& start, const FlowProblem
   return level;
 }
 
-}  // namespace drumlin::fem
+}  // namespace drumlin::continuum::fem

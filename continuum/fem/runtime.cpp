@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <exception>
 
-namespace drumlin {
+namespace drumlin::continuum {
 
 struct FemRuntime::Libraries {
   Libraries(int& argc, char**& argv) : mpi(argc, argv, 1) {}
@@ -42,4 +42,4 @@ void FemRuntime::on_first_rank(const std::function<void()>& action) const {
   if (code != static_cast<int>(ExitCode::done)) throw FailedOnFirstRank{static_cast<ExitCode>(code)};
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::continuum

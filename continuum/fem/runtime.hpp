@@ -1,11 +1,11 @@
 #pragma once
-// MPI and PETSc, which want to be started and ended once per program.
+// Starts and ends MPI and PETSc, once per program; runs actions on the first rank.
 #include <functional>
 #include <memory>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 
-namespace drumlin {
+namespace drumlin::continuum {
 
 /// What the other ranks throw where the first one failed: they end with its exit code, and say nothing.
 struct FailedOnFirstRank {
@@ -32,4 +32,4 @@ class FemRuntime {
   std::unique_ptr<Libraries> libraries_;
 };
 
-}  // namespace drumlin
+}  // namespace drumlin::continuum

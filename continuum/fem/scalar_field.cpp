@@ -2,7 +2,7 @@
 
 #include <deal.II/dofs/dof_tools.h>
 
-namespace drumlin::fem {
+namespace drumlin::continuum::fem {
 
 ScalarField::ScalarField(const Discretisation& d, const dealii::FiniteElement<2>& kind)
     : element(kind.clone()), places(d.mesh) {
@@ -46,4 +46,4 @@ std::vector<double> at_quadrature(const ScalarField& field, const Discretisation
   return all;
 }
 
-}  // namespace drumlin::fem
+}  // namespace drumlin::continuum::fem

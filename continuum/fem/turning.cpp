@@ -12,7 +12,7 @@
 #include "continuum/rheology/spin.hpp"
 #include "continuum/rheology/tensor_law.hpp"
 
-namespace drumlin::fem {
+namespace drumlin::continuum::fem {
 namespace {
 
 using dealii::FEValues;
@@ -191,4 +191,4 @@ std::shared_ptr<const Turning> turning_of(const FlowProblem& problem, const Disc
   return turning;
 }
 
-}  // namespace drumlin::fem
+}  // namespace drumlin::continuum::fem

@@ -6,9 +6,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "coupling/exchange/errors.hpp"
+#include "continuum/model/scene_effects.hpp"
+#include "coupling/common/errors.hpp"
 
-namespace drumlin {
+namespace drumlin::continuum {
 
 double DrumGeometry::half_chord() const { return std::sqrt(radius * radius - axis_offset * axis_offset); }
 
@@ -37,15 +38,6 @@ DrumGeometry drum_geometry(const FlowScene& scene, double nu) {
   return drum;
 }
 
-namespace {
-
-// Chebyshev's points of degree n are (pi/n)^2/2 of the half width apart at its ends.
-int resolved_degree(double half_width, double cell) {
-  return std::clamp(static_cast<int>(std::numbers::pi * std::sqrt(half_width / (1.6 * cell))), 4, 60);
-}
-
-}  // namespace
-
 Vec2 tapered_wall_velocity(const DrumGeometry& drum, double taper, Vec2 point, Vec2 left, Vec2 right) {
   const double from_corner = std::min(std::hypot(point.x - left.x, point.z - left.z),
                                       std::hypot(point.x - right.x, point.z - right.z));
@@ -55,8 +47,34 @@ Vec2 tapered_wall_velocity(const DrumGeometry& drum, double taper, Vec2 point, V
   return {share * rigid.x, share * rigid.z};
 }
 
-FlowProblem drum_problem(const DrumGeometry& drum, const StressLaw& law, const FlowMesh& mesh,
-                         const FlowBoundary& boundary, const FlowRegularisation& regularisation) {
+namespace {
+
+// Chebyshev's points of degree n are (pi/n)^2/2 of the half width apart at its ends.
+int resolved_degree(double half_width, double cell) {
+  return std::clamp(static_cast<int>(std::numbers::pi * std::sqrt(half_width / (1.6 * cell))), 4, 60);
+}
+
+void add_effects_of_the_drum(const FlowScene& scene, const DrumGeometry& drum, FlowProblem& problem) {
+  const FlowEffects& effects = scene.effects;
+  if (effects.rotating_frame) problem.frame = RotatingFrame{drum.rotation, drum.axis_offset};
+  if (const auto& moving = effects.moving_surface)
+    problem.moving_surface = MovingSurface{
+        .degree =
+            moving->degree ? *moving->degree : resolved_degree(drum.half_chord(), scene.mesh.surface_cell),
+        .tolerance = moving->tolerance,
+        .slope_half_length = std::min(20.0, 0.5 * drum.half_chord()),
+        .wall_velocity = [drum, taper = scene.boundary->corner_taper](Vec2 point, Vec2 left, Vec2 right) {
+          return tapered_wall_velocity(drum, taper, point, left, right);
+        }};
+  if (const auto& slip = effects.wall_slip)  // no taper: the wall slides along the corners
+    problem.boundary[Side::bottom] = FrictionWall{
+        .velocity = [drum](Vec2 point) { return rigid_rotation(drum.rotation, drum.axis_offset, point); },
+        .friction = slip->friction,
+        .slip_speed = slip->slip_speed};
+}
+
+FlowProblem drum_without_law(const DrumGeometry& drum, const FlowMesh& mesh, const FlowBoundary& boundary,
+                             const FlowRegularisation& regularisation) {
   FlowProblem problem;
   const double coarsest = mesh.surface_cell * std::pow(2.0, mesh.levels - 1);
   problem.domain = ChordDomain{.radius = drum.radius,
@@ -64,7 +82,6 @@ FlowProblem drum_problem(const DrumGeometry& drum, const StressLaw& law, const F
                                .surface_cell = coarsest,
                                .surface_zone = mesh.surface_zone,
                                .growth = mesh.growth};
-  problem.law = law;
   problem.regularisation = {regularisation.shear_rate, regularisation.pressure};
   problem.density = drum.nu;
   problem.slope = drum.slope ? Slope(FixedSlope{*drum.slope}) : Slope(SlopeFromMoment{});
@@ -75,26 +92,21 @@ FlowProblem drum_problem(const DrumGeometry& drum, const StressLaw& law, const F
   return problem;
 }
 
-FlowProblem drum_problem(const FlowScene& scene, const DrumGeometry& drum, const StressLaw& law) {
-  FlowProblem problem = drum_problem(drum, law, scene.mesh, scene.boundary.value(), scene.regularisation);
-  if (scene.effects.inertia) problem.inertia = Inertia{};
-  if (scene.effects.rotating_frame) problem.frame = RotatingFrame{drum.rotation, drum.axis_offset};
-  if (scene.effects.nonlocal) problem.nonlocal = NonlocalFluidity{scene.effects.nonlocal->length};
-  if (const auto& moving = scene.effects.moving_surface)
-    problem.moving_surface = MovingSurface{
-        .degree =
-            moving->degree ? *moving->degree : resolved_degree(drum.half_chord(), scene.mesh.surface_cell),
-        .tolerance = moving->tolerance,
-        .slope_half_length = std::min(20.0, 0.5 * drum.half_chord()),
-        .wall_velocity = [drum, taper = scene.boundary->corner_taper](Vec2 point, Vec2 left, Vec2 right) {
-          return tapered_wall_velocity(drum, taper, point, left, right);
-        }};
-  if (const auto& slip = scene.effects.wall_slip)  // no taper: the wall slides along the corners
-    problem.boundary[Side::bottom] = FrictionWall{
-        .velocity = [drum](Vec2 point) { return rigid_rotation(drum.rotation, drum.axis_offset, point); },
-        .friction = slip->friction,
-        .slip_speed = slip->slip_speed};
+}  // namespace
+
+FlowProblem drum_problem(const DrumGeometry& drum, const StressLaw& law, const FlowMesh& mesh,
+                         const FlowBoundary& boundary, const FlowRegularisation& regularisation) {
+  FlowProblem problem = drum_without_law(drum, mesh, boundary, regularisation);
+  problem.law = law;
   return problem;
 }
 
-}  // namespace drumlin
+FlowProblem drum_problem(const FlowScene& scene, const RheologyFit& law) {
+  const DrumGeometry drum = drum_geometry(scene, law.nu);
+  FlowProblem problem = drum_without_law(drum, scene.mesh, scene.boundary.value(), scene.regularisation);
+  add_law_and_effects(scene, law, problem);
+  add_effects_of_the_drum(scene, drum, problem);
+  return problem;
+}
+
+}  // namespace drumlin::continuum

@@ -1,10 +1,11 @@
 #pragma once
-// The drum of a flow scene as a FlowProblem.
+// A rotating drum as a flow problem: its geometry in units of the grains, and all that a scene and a law say
+// of it.
 #include "continuum/model/flow_problem.hpp"
 #include "continuum/model/flow_scene.hpp"
-#include "coupling/exchange/rheology_fit.hpp"
+#include "coupling/law/rheology_fit.hpp"
 
-namespace drumlin {
+namespace drumlin::continuum {
 
 /// A drum in units of its grains: what crosses from the particles besides the law.
 struct DrumGeometry {
@@ -27,13 +28,14 @@ DrumGeometry drum_geometry(const FlowScene& scene, double nu);
 /// drag material through it.
 Vec2 tapered_wall_velocity(const DrumGeometry& drum, double taper, Vec2 point, Vec2 left, Vec2 right);
 
-/// Laboratory frame, fixed chord, slope from the moment of the surface traction; on the wall the drum's
-/// velocity, rising from nought over corner_taper at both ends of the chord: there the wall would drag
-/// material through the surface.
-FlowProblem drum_problem(const FlowScene& scene, const DrumGeometry& drum, const StressLaw& law);
+/// The drum of a scene with a law, complete: mu, k, weight, sides, and every effect that the scene names.
+/// Laboratory frame, chord at z = 0, slope from the moment of the surface traction unless the scene gives it.
+/// On the wall the drum's velocity, rising from nought over corner_taper at both ends of the chord. Throws
+/// InputError if the grains do not fit into the drum or the law does not allow an effect of the scene.
+FlowProblem drum_problem(const FlowScene& scene, const RheologyFit& law);
 
-/// The same for other geometries than a scene's.
+/// A drum of any size with a friction law alone: no k, no effects; the rest as above.
 FlowProblem drum_problem(const DrumGeometry& drum, const StressLaw& law, const FlowMesh& mesh,
                          const FlowBoundary& boundary, const FlowRegularisation& regularisation);
 
-}  // namespace drumlin
+}  // namespace drumlin::continuum

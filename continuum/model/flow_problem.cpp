@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace drumlin {
+namespace drumlin::continuum {
 
 double segment_area(double radius, double axis_offset) {
   const double c = axis_offset / radius;
@@ -43,4 +43,4 @@ std::optional<std::string> no_steady_state(const FlowProblem& problem, double I_
       mu_needed, mu_limit, I_limit);
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::continuum

@@ -1,5 +1,5 @@
 #pragma once
-// What the finite-element side is asked to solve: domain, boundary data, forces, law. No deal.II here.
+// A flow problem: domain, boundary data, forces, law, effects. No deal.II here.
 #include <functional>
 #include <map>
 #include <optional>
@@ -7,10 +7,10 @@
 #include <variant>
 #include <vector>
 
-#include "continuum/rheology/stress_ratio.hpp"
 #include "continuum/rheology/tensor_law.hpp"
+#include "coupling/law/stress_ratio.hpp"
 
-namespace drumlin {
+namespace drumlin::continuum {
 
 /// Point or vector in the axes of the flow: x along the free surface downslope, z along its outward normal;
 /// d, sqrt(g d).
@@ -142,11 +142,11 @@ struct FlowProblem {
   std::map<Side, BoundaryCondition> boundary;
   StressLaw law;
   std::optional<TurnedStress> turned;  ///< absent: sigma_xx = sigma_zz in simple shear
-  /// Absent: mu is that of the local I. The law has to tell a fluidity at any stress
+  /// Absent: mu is that of the local I. The law has to determine a fluidity at any stress
   /// (continuum/rheology/nonlocal_law.hpp).
   std::optional<NonlocalFluidity> nonlocal;
-  Regularisation regularisation;       ///< what the last phase reaches
-  double density = 0;                  ///< nu; the weight is density (sin theta, -cos theta)
+  Regularisation regularisation;  ///< what the last phase reaches
+  double density = 0;             ///< nu; the weight is density (sin theta, -cos theta)
   Slope slope;
   std::function<Vec2(Vec2)> extra_force;  ///< added to the weight; empty: absent
   /// mu that statics alone asks for somewhere, where that is not the tan of a given slope.
@@ -170,4 +170,4 @@ Vec2 rigid_rotation(double rotation, double axis_offset, Vec2 point);
 /// say where the law ceases to be one.
 std::optional<std::string> no_steady_state(const FlowProblem& problem, double I_limit = 10);
 
-}  // namespace drumlin
+}  // namespace drumlin::continuum

@@ -1,10 +1,11 @@
 #include "continuum/model/flow_scene.hpp"
 
 #include <numbers>
+#include <utility>
 
-#include "coupling/exchange/key_table.hpp"
+#include "coupling/documents/key_table.hpp"
 
-namespace drumlin {
+namespace drumlin::continuum {
 
 template <class Visitor>
 void describe(Visitor& v, FlowDrum& d) {
@@ -272,8 +273,7 @@ FlowScene scene_of(const Document& document) {
           problem_at(document, "annulus.outer_radius_mm", "leaves no gap", "> annulus.inner_radius_mm"));
     sort_by_place(problems);
   }
-  if (!problems.empty()) throw InputError(problems);
-  return scene;
+  return accepted(std::move(scene), problems);
 }
 
 }  // namespace
@@ -292,8 +292,8 @@ std::string flow_scene_text(const FlowScene& scene) { return toml_text(write_key
 std::vector<KeyRow> flow_scene_keys() { return list_keys<FlowScene>(); }
 
 Scales scales_of(const FlowScene& scene) {
-  return scales_of(0.5e-3 * (scene.grains.diameter_min_mm + scene.grains.diameter_max_mm),
-                   scene.gravity.acceleration_m_s2, scene.grains.density_kg_m3);
+  return drumlin::scales_of(0.5e-3 * (scene.grains.diameter_min_mm + scene.grains.diameter_max_mm),
+                            scene.gravity.acceleration_m_s2, scene.grains.density_kg_m3);
 }
 
 double grain_area(const FlowGrains& grains, int count) {
@@ -302,4 +302,4 @@ double grain_area(const FlowGrains& grains, int count) {
   return count * std::numbers::pi / 4 * (1 + spread * spread / 12);
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::continuum

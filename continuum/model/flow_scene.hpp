@@ -1,15 +1,15 @@
 #pragma once
-// What a user asks of the continuum: one geometry, in SI as the keys say (docs/formats/flow.md).
+// A flow scene: what a user asks of the continuum, in SI as the keys say (docs/formats/flow.md).
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
-#include "coupling/exchange/key_lister.hpp"
-#include "coupling/exchange/scales.hpp"
+#include "coupling/common/scales.hpp"
+#include "coupling/documents/key_lister.hpp"
 
-namespace drumlin {
+namespace drumlin::continuum {
 
 struct FlowDrum {
   double diameter_mm = 0;
@@ -142,4 +142,4 @@ Scales scales_of(const FlowScene& scene);
 /// Expected total area of `count` discs, d^2.
 double grain_area(const FlowGrains& grains, int count);
 
-}  // namespace drumlin
+}  // namespace drumlin::continuum

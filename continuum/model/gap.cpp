@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
+#include <type_traits>
 
-namespace drumlin {
+#include "continuum/model/scene_effects.hpp"
+
+namespace drumlin::continuum {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
@@ -89,6 +93,17 @@ Gap gap_of(const FlowAnnulus& ring, const Scales& scales, double nu) {
           .scalars = {"Q", "torque", "mu_wall", "lambda"}};
 }
 
+Gap gap_of(const FlowScene& scene, double nu) {
+  return std::visit(
+      [&](const auto& geometry) -> Gap {
+        if constexpr (std::is_same_v<std::decay_t<decltype(geometry)>, FlowDrum>)
+          throw std::logic_error("a drum is no gap");
+        else
+          return gap_of(geometry, scales_of(scene), nu);
+      },
+      scene.geometry);
+}
+
 double gap_pressure(const Gap& gap, double y) { return gap.pressure + gap.weight * std::cos(gap.slope) * y; }
 
 double gap_shear_stress(const Gap& gap, double top_shear_stress, double y) {
@@ -99,12 +114,12 @@ double gap_shear_stress(const Gap& gap, double top_shear_stress, double y) {
   return top_shear_stress + gap.weight * std::sin(gap.slope) * y;
 }
 
-FlowProblem gap_problem(const Gap& gap, const StressLaw& law, const FlowMesh& mesh,
-                        const FlowRegularisation& regularisation) {
+namespace {
+
+FlowProblem gap_without_law(const Gap& gap, const FlowMesh& mesh, const FlowRegularisation& regularisation) {
   FlowProblem problem;
   const double coarsest = mesh.surface_cell * std::pow(2.0, mesh.levels - 1);
   auto layers = graded_layers(gap, coarsest, mesh.surface_zone, mesh.growth);
-  problem.law = law;
   problem.regularisation = {regularisation.shear_rate, regularisation.pressure};
   problem.density = gap.weight;
   problem.slope = FixedSlope{gap.slope};
@@ -125,6 +140,22 @@ FlowProblem gap_problem(const Gap& gap, const StressLaw& law, const FlowMesh& me
   return problem;
 }
 
+}  // namespace
+
+FlowProblem gap_problem(const Gap& gap, const StressLaw& law, const FlowMesh& mesh,
+                        const FlowRegularisation& regularisation) {
+  FlowProblem problem = gap_without_law(gap, mesh, regularisation);
+  problem.law = law;
+  return problem;
+}
+
+FlowProblem gap_problem(const FlowScene& scene, const RheologyFit& law) {
+  refuse_effects_of_the_drum(scene.effects);
+  FlowProblem problem = gap_without_law(gap_of(scene, law.nu), scene.mesh, scene.regularisation);
+  add_law_and_effects(scene, law, problem);
+  return problem;
+}
+
 GapPlace gap_place(const Gap& gap, double y, double s) {
   if (gap.inner_radius == 0) return {{0, -y}, {1, 0}, {0, 1}};  // the same all along the strip
   const double angle = 2 * std::numbers::pi * s;
@@ -133,4 +164,4 @@ GapPlace gap_place(const Gap& gap, double y, double s) {
   return {{r * outward.x, r * outward.z}, {-outward.z, outward.x}, {-outward.x, -outward.z}};
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::continuum

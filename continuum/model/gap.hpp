@@ -6,8 +6,9 @@
 
 #include "continuum/model/flow_problem.hpp"
 #include "continuum/model/flow_scene.hpp"
+#include "coupling/law/rheology_fit.hpp"
 
-namespace drumlin {
+namespace drumlin::continuum {
 
 /// A gap in units of its grains. The flow runs along x, towards which the weight pulls or the driven wall
 /// moves; z = -y points at the top. In an annulus the top is the inner wall, and x and z turn with the place:
@@ -31,15 +32,22 @@ Gap gap_of(const FlowIncline& incline, const Scales& scales, double nu);
 Gap gap_of(const FlowPlaneShear& shear, const Scales& scales, double nu);
 Gap gap_of(const FlowChute& chute, const Scales& scales, double nu);
 Gap gap_of(const FlowAnnulus& ring, const Scales& scales, double nu);
+/// Of a scene without a drum.
+Gap gap_of(const FlowScene& scene, double nu);
 
 /// sigma_zz at the distance y from the top, from statics (k = 1 in an annulus).
 double gap_pressure(const Gap& gap, double y);
 /// sigma_xz there, given its value at the top: with the weight along x, and as 1/r^2 in an annulus.
 double gap_shear_stress(const Gap& gap, double top_shear_stress, double y);
 
-/// Straight gaps become a periodic strip two cells wide, the annulus a whole ring. A driven wall: PressedWall
-/// above in plane shear, the given velocity of the inner wall and a PressedWall outside in an annulus (both
-/// walls at given velocities would leave the pressure open).
+/// The gap of a scene with a law, complete: mu, k, weight, sides, and every effect that the scene names.
+/// Throws InputError if the law does not allow an effect of the scene, or the effect needs a drum.
+FlowProblem gap_problem(const FlowScene& scene, const RheologyFit& law);
+
+/// A gap with a friction law alone: no k, no effects. Straight gaps become a periodic strip two cells wide,
+/// the annulus a whole ring. A driven wall: PressedWall above in plane shear, the given velocity of the inner
+/// wall and a PressedWall outside in an annulus (both walls at given velocities would leave the pressure
+/// open).
 FlowProblem gap_problem(const Gap& gap, const StressLaw& law, const FlowMesh& mesh,
                         const FlowRegularisation& regularisation);
 
@@ -52,4 +60,4 @@ struct GapPlace {
 };
 GapPlace gap_place(const Gap& gap, double y, double s);
 
-}  // namespace drumlin
+}  // namespace drumlin::continuum

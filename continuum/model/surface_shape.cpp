@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
-#include "continuum/reference/integral.hpp"
+#include "continuum/numerics/integral.hpp"
+#include "coupling/statistics/straight_line.hpp"
 
-namespace drumlin {
+namespace drumlin::continuum {
 namespace {
 
 // What a shape asks of its domain.
@@ -116,15 +118,13 @@ double highest_point(const SurfaceShape& shape) {
 
 double mean_slope(const SurfaceShape& shape, double half_length) {
   const double range = std::min(1.0, half_length / half_width(shape, 0));
-  double x = 0, z = 0, xx = 0, xz = 0;
+  std::vector<double> x, z;
   for (int i = 0; i < samples; ++i) {
     const Vec2 p = surface_point(shape, range * sample(i));
-    x += p.x / samples;
-    z += p.z / samples;
-    xx += p.x * p.x / samples;
-    xz += p.x * p.z / samples;
+    x.push_back(p.x);
+    z.push_back(p.z);
   }
-  return -std::atan((xz - x * z) / (xx - x * x));
+  return -std::atan(statistics::fit_line(x, z)->slope);
 }
 
 double area_above(const SurfaceShape& shape) {
@@ -154,4 +154,4 @@ Vec2 displaced(const SurfaceShape& shape, Vec2 point) {
   return {s * half_width(shape, z), z};
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::continuum

@@ -1,10 +1,10 @@
 #pragma once
-// The shape of a free surface that has moved, and where the material below it goes.
+// Shape of a free surface that has moved, and displacement of the points below it.
 #include <vector>
 
 #include "continuum/model/flow_problem.hpp"
 
-namespace drumlin {
+namespace drumlin::continuum {
 
 /// Height over the place that the domain gives the surface, z = 0: the sum of coefficient[n] T_n(s) over
 /// Chebyshev's polynomials, -1 <= s <= 1. s = x/W(z), W(z) being half of the width of the domain (a chord's
@@ -44,4 +44,4 @@ void restrain(SurfaceShape& shape, double half_length);
 /// there times (1 + z/reach)^2, reach being 0.8 of the depth; not at all below that.
 Vec2 displaced(const SurfaceShape& shape, Vec2 point);
 
-}  // namespace drumlin
+}  // namespace drumlin::continuum

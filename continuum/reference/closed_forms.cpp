@@ -5,9 +5,9 @@
 #include <limits>
 #include <numbers>
 
-#include "continuum/reference/integral.hpp"
+#include "continuum/numerics/integral.hpp"
 
-namespace drumlin {
+namespace drumlin::continuum {
 namespace {
 
 // mu(I) of any friction law: at p = 1 the strength is mu and I is 2 |D|.
@@ -116,4 +116,4 @@ double annular_couette_speed(const LogLaw& law, double pressure, double inner_ra
   return 0.5 * r * std::sqrt(pressure) * std::exp(-law.a / law.b) * (at(r) - at(outer_radius));
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::continuum

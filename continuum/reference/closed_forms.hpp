@@ -1,10 +1,10 @@
 #pragma once
-// Flows that can be written down; what the finite elements are held against. For mu = a + b ln I in closed
-// form, for any law by its inverse and one integral. None of them depends on k when the pressure that they
+// Closed-form flows, references for the finite elements: explicit for mu = a + b ln I, for any law by its
+// inverse and one integral. None of them depends on k when the pressure that they
 // take is sigma_zz, the normal stress across the layers: k then only sets sigma_xx = k(I) sigma_zz.
 #include "continuum/rheology/stress_law.hpp"
 
-namespace drumlin {
+namespace drumlin::continuum {
 
 /// I at which the law gives this friction, without the floor that keeps its mu positive.
 double inertial_number(const LogLaw& law, double mu);
@@ -56,4 +56,4 @@ double drum_centre_slope(const StressLaw& law, double nu, double kappa, double Q
 double annular_couette_speed(const LogLaw& law, double pressure, double inner_radius, double outer_radius,
                              double mu_i, double r);
 
-}  // namespace drumlin
+}  // namespace drumlin::continuum

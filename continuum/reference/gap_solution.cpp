@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace drumlin {
+namespace drumlin::continuum {
 namespace {
 
 constexpr std::array<double, 3> gauss_place = {0.1127016653792583, 0.5, 0.8872983346207417};
@@ -19,7 +19,8 @@ class Integral {
       : gap_(gap), law_(law), regularisation_(regularisation), top_(top) {}
 
   double rate(double y) const {
-    return drumlin::shear_rate(law_, regularisation_, gap_pressure(gap_, y), gap_shear_stress(gap_, top_, y));
+    return continuum::shear_rate(law_, regularisation_, gap_pressure(gap_, y),
+                                 gap_shear_stress(gap_, top_, y));
   }
   /// Of rate * rate_share over [from, to].
   double over(double from, double to) const {
@@ -111,4 +112,4 @@ GapSolution gap_solution(const Gap& gap, const StressLaw& law, const Regularisat
   return solution;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::continuum

@@ -1,13 +1,14 @@
 #pragma once
-// Flows across one gap by inversion of the law and quadrature: what the finite elements are held against, for
-// any law. With a vanishing regularisation these are the closed forms of GDR MiDi, Eur. Phys. J. E 14 (2004).
+// Reference flows across one gap for any law, by inversion of the law and quadrature; the finite elements are
+// compared with them. With a vanishing regularisation these are the closed forms of GDR MiDi, Eur. Phys. J. E
+// 14 (2004).
 #include <span>
 #include <vector>
 
 #include "continuum/model/gap.hpp"
 #include "continuum/rheology/tensor_law.hpp"
 
-namespace drumlin {
+namespace drumlin::continuum {
 
 /// Shear rate (>= 0) at which the regularised law carries this shear stress (>= 0) under the law's pressure
 /// p, which is regularised here; by bisection down to rounding. 0 below 1e-30: that is rest.
@@ -27,4 +28,4 @@ struct GapSolution {
 GapSolution gap_solution(const Gap& gap, const StressLaw& law, const Regularisation& regularisation,
                          std::span<const double> distances);
 
-}  // namespace drumlin
+}  // namespace drumlin::continuum

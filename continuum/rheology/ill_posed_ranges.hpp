@@ -1,22 +1,14 @@
 #pragma once
-// Where a law is ill-posed in simple shear, before anything is solved with it.
+// Ranges of I in which a law is ill-posed in simple shear.
 #include <vector>
 
 #include "continuum/rheology/stress_law.hpp"
-#include "continuum/rheology/stress_ratio.hpp"
+#include "coupling/law/ill_posed.hpp"
 
-namespace drumlin {
+namespace drumlin::continuum {
 
-/// Interval of inertial numbers, both ends within the interval that was searched.
-struct InertialRange {
-  double from = 0;
-  double to = 0;
-};
-
-/// Intervals of I in [I_min, I_max] where the law makes the equations ill-posed (well_posedness_margin() < 0)
-/// in simple shear; `k` null: no k in the law. Found on a grid of 1 % in I, their ends to 1e-6 of themselves:
-/// an interval narrower than the grid may be missed. Empty for a NewtonianLaw.
+/// ill_posed_intervals() of the friction law; none for a NewtonianLaw.
 std::vector<InertialRange> ill_posed_ranges(const StressLaw& law, const StressRatioLaw* k,
                                             double I_min = 1e-6, double I_max = 1);
 
-}  // namespace drumlin
+}  // namespace drumlin::continuum

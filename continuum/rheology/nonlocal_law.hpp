@@ -1,5 +1,5 @@
 #pragma once
-// A friction law in a material whose fluidity is not that of the place alone.
+// Friction law with nonlocal fluidity.
 //
 // The fluidity g = 2|D|/mu obeys g - length^2 lap g = g_loc, where g_loc(mu, p) is what the local law gives
 // at the stress of the place (Kamrin & Koval, Phys. Rev. Lett. 108 (2012); Bocquet, Colin & Ajdari, ibid. 103
@@ -8,14 +8,14 @@
 // far too stiff an equation for the stress.
 #include "continuum/rheology/stress_law.hpp"
 
-namespace drumlin {
+namespace drumlin::continuum {
 
 /// mu at factor I; the slope is that by ln I still.
 template <class Law>
 struct NonlocalLaw {
   const Law& law;
   double factor = 1;  ///< g_loc/g
-  Friction friction(double I) const { return law.friction(factor * I); }
+  FrictionValue friction(double I) const { return law.friction(factor * I); }
 };
 
 template <class Law>
@@ -25,10 +25,10 @@ Strength strength(const NonlocalLaw<Law>& nonlocal, double rate, double pressure
   return F;
 }
 
-/// Whether mu tells the fluidity: not with a law that has a threshold, below which g_loc = 0 and the factor
-/// says nothing.
+/// Whether mu determines the fluidity: not with a law that has a threshold, below which g_loc = 0 and the
+/// factor is undefined.
 inline bool tells_fluidity(const StressLaw& law) {
   return std::holds_alternative<LogLaw>(law) || std::holds_alternative<TabulatedLaw>(law);
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::continuum

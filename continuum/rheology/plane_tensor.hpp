@@ -2,7 +2,7 @@
 // Symmetric tensors in the plane (x, z), as the laws see them.
 #include <cmath>
 
-namespace drumlin {
+namespace drumlin::continuum {
 
 /// Symmetric 2 x 2 tensor: strain rate (1/sqrt(d/g)) or stress (rho0 g d).
 struct PlaneTensor {
@@ -26,4 +26,4 @@ inline double contraction(const PlaneTensor& a, const PlaneTensor& b) {
 /// |A| = sqrt(A:A/2): in simple shear |D| is half the shear rate.
 inline double magnitude(const PlaneTensor& a) { return std::sqrt(0.5 * contraction(a, a)); }
 
-}  // namespace drumlin
+}  // namespace drumlin::continuum

@@ -1,11 +1,11 @@
 #pragma once
-// How fast the material turns through its own axes of strain rate: what decides the side to which k turns the
-// stress.
+// Rate at which the material rotates relative to its axes of strain rate; its sign decides to which side k
+// turns the stress.
 #include <cmath>
 
 #include "continuum/rheology/plane_tensor.hpp"
 
-namespace drumlin {
+namespace drumlin::continuum {
 
 /// Spin of D's eigenframe along the path of the material, in the sense of dv_x/dz: Omega_D = -d(angle)/dt
 /// with the angle of the axes counted from x towards z. D_dot: material derivative of D, v.grad D in a steady
@@ -23,4 +23,4 @@ inline double turn_of(double relative_spin, double rate, double softness = 0.1) 
   return std::sqrt(1 + softness * softness) * relative_spin / std::hypot(relative_spin, softness * rate);
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::continuum

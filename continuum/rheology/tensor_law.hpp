@@ -5,7 +5,7 @@
 #include "continuum/rheology/plane_tensor.hpp"
 #include "continuum/rheology/stress_law.hpp"
 
-namespace drumlin {
+namespace drumlin::continuum {
 
 /// |D| -> sqrt(|D|^2 + shear_rate^2/4), and inside the law p -> (p + sqrt(p^2 + 4 pressure^2))/2.
 struct Regularisation {
@@ -80,4 +80,4 @@ inline PlaneTensor advanced_dual(const PlaneTensor& D, const PlaneTensor& dD, co
   return (1 / std::max(1.0, magnitude(next))) * next;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::continuum

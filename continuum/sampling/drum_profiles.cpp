@@ -9,7 +9,7 @@
 #include "continuum/sampling/gauss_points.hpp"
 #include "coupling/exchange/profile_scalars.hpp"
 
-namespace drumlin {
+namespace drumlin::continuum {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -171,6 +171,9 @@ ScalarSet drum_checks(const FlowField& field, const DrumGeometry& drum) {
 
 MapArea drum_map_area(const FlowField& field, const DrumGeometry& drum) {
   const double middle = middle_height(field), axis = drum.axis_offset - middle;
+  RunHeader header;
+  header.drum_radius = drum.radius;
+  header.axis_depth = axis;
   return {.x_min = -drum.radius,
           .x_max = drum.radius,
           .z_min = axis - drum.radius,
@@ -179,7 +182,7 @@ MapArea drum_map_area(const FlowField& field, const DrumGeometry& drum) {
           .inside = [drum, axis](Vec2 p) { return std::hypot(p.x, p.z - axis) < drum.radius; },
           .nu = drum.nu,
           .frame = RotatingFrame{drum.rotation, axis},
-          .header = {{"drum_radius", drum.radius}, {"axis_depth", axis}}};
+          .header = header};
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::continuum

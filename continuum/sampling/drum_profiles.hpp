@@ -6,7 +6,7 @@
 #include "coupling/exchange/profile_set.hpp"
 #include "coupling/exchange/scalar_set.hpp"
 
-namespace drumlin {
+namespace drumlin::continuum {
 
 struct SliceOptions {
   double width = 20;           ///< d; cut to a quarter of the chord, as on the particle side
@@ -43,4 +43,4 @@ ScalarSet drum_checks(const FlowField& field, const DrumGeometry& drum);
 /// the frame of the drum.
 MapArea drum_map_area(const FlowField& field, const DrumGeometry& drum);
 
-}  // namespace drumlin
+}  // namespace drumlin::continuum

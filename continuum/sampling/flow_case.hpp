@@ -1,9 +1,7 @@
 #pragma once
-// What the geometry of a scene contributes to a flow: the problem, and how a solution is read. Chosen once.
+// The complete problem of a scene and a law, and how its solution is read: chosen once by geometry.
 #include <functional>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "continuum/fem/flow_field.hpp"
 #include "continuum/model/flow_scene.hpp"
@@ -11,16 +9,17 @@
 #include "continuum/sampling/gap_profiles.hpp"
 #include "coupling/exchange/profile_set.hpp"
 #include "coupling/exchange/scalar_set.hpp"
+#include "coupling/law/rheology_fit.hpp"
 
-namespace drumlin {
+namespace drumlin::continuum {
 
 struct FlowCase {
   std::string geometry;  ///< name of the table of the scene
   std::string summary;   ///< one line: the geometry in d and sqrt(d/g)
-  FlowProblem problem;
-  ScalarSet given;     ///< numbers that stand beside the results: nu, the height of the axis
-  ScalarSet settings;  ///< of the geometry
-  std::function<std::vector<std::pair<std::string, std::string>>(const FlowField&)> profile_header;
+  FlowProblem problem;   ///< complete: nothing is added to it
+  ScalarSet given;       ///< numbers that stand beside the results: nu, the height of the axis
+  ScalarSet settings;    ///< of the geometry
+  std::function<RunHeader(const FlowField&)> profile_header;  ///< frame and geometry alone
   std::function<ProfileSet(const FlowField&)> profiles;
   std::function<ScalarSet(const FlowField&)> scalars;
   std::function<ScalarSet(const FlowField&)> checks;           ///< identities of the exact flow
@@ -28,7 +27,8 @@ struct FlowCase {
   std::function<MapArea(const FlowField&)> map_area;
 };
 
-/// Throws InputError if the grains do not fit into a drum.
-FlowCase flow_case(const FlowScene& scene, double nu, const StressLaw& law);
+/// Throws InputError if the grains do not fit into a drum, or the law does not allow an effect of the scene
+/// (problems without a file: the caller knows its name).
+FlowCase flow_case(const FlowScene& scene, const RheologyFit& law);
 
-}  // namespace drumlin
+}  // namespace drumlin::continuum

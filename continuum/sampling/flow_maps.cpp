@@ -1,7 +1,5 @@
 #include "continuum/sampling/flow_maps.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,7 +7,7 @@
 
 #include "coupling/exchange/plane_invariants.hpp"
 
-namespace drumlin {
+namespace drumlin::continuum {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -103,7 +101,7 @@ MapGrid grid_of(const MapArea& area, double spacing) {
 FieldMap flow_map(const FlowField& field, const MapArea& area, double spacing) {
   FieldMap map;
   map.grid = grid_of(area, spacing);
-  for (const auto& [key, value] : area.header) map.header[key] = fmt::format("{}", value);
+  map.header = area.header;
   for (const char* name : names)
     map.fields.push_back({name, std::vector<double>(map.grid.nodes(), none), {}});
   std::vector<std::size_t> nodes;
@@ -124,4 +122,4 @@ FieldMap flow_map(const FlowField& field, const MapArea& area, double spacing) {
   return map;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::continuum

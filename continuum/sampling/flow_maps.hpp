@@ -2,14 +2,12 @@
 // A solved flow over a square grid of points, under the names of the particles' maps (docs/formats/maps.md).
 #include <functional>
 #include <optional>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "continuum/fem/flow_field.hpp"
 #include "coupling/exchange/field_map.hpp"
 
-namespace drumlin {
+namespace drumlin::continuum {
 
 /// What a map shows.
 struct MapArea {
@@ -18,11 +16,11 @@ struct MapArea {
   std::function<bool(Vec2)> inside;    ///< whether a point of the rectangle belongs to the domain
   double nu = 0;                       ///< volume fraction
   std::optional<RotatingFrame> frame;  ///< that velocities are seen from; absent: the laboratory
-  std::vector<std::pair<std::string, double>> header;  ///< of the geometry
+  RunHeader header;                    ///< the geometry alone
 };
 
 /// Nodes are multiples of `spacing`, NaN outside of the domain; axes of the domain from z_zero on. Scales and
 /// the other lines of the header are the caller's. Collective, complete on every rank.
 FieldMap flow_map(const FlowField& field, const MapArea& area, double spacing);
 
-}  // namespace drumlin
+}  // namespace drumlin::continuum

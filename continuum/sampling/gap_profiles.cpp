@@ -9,7 +9,7 @@
 #include "continuum/reference/gap_solution.hpp"
 #include "continuum/sampling/gauss_points.hpp"
 
-namespace drumlin {
+namespace drumlin::continuum {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -284,8 +284,11 @@ GapComparison gap_comparison(const FlowField& field, const Gap& gap, const Stres
 }
 
 MapArea gap_map_area(const Gap& gap, double strip_width) {
+  RunHeader header;
   if (gap.inner_radius > 0) {
     const double inner = gap.inner_radius, outer = inner + gap.depth;
+    header.inner_radius = inner;
+    header.outer_radius = outer;
     return {.x_min = -outer,
             .x_max = outer,
             .z_min = -outer,
@@ -297,8 +300,9 @@ MapArea gap_map_area(const Gap& gap, double strip_width) {
                 },
             .nu = gap.nu,
             .frame = {},
-            .header = {{"inner_radius", inner}, {"outer_radius", outer}}};
+            .header = header};
   }
+  header.gap = gap.depth;
   return {.x_min = -0.5 * strip_width,
           .x_max = 0.5 * strip_width,
           .z_min = -gap.depth,
@@ -306,7 +310,7 @@ MapArea gap_map_area(const Gap& gap, double strip_width) {
           .inside = [](Vec2) { return true; },
           .nu = gap.nu,
           .frame = {},
-          .header = {{"gap", gap.depth}}};
+          .header = header};
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::continuum

@@ -5,7 +5,7 @@
 #include "coupling/exchange/profile_set.hpp"
 #include "coupling/exchange/scalar_set.hpp"
 
-namespace drumlin {
+namespace drumlin::continuum {
 
 /// Averages over layers across the gap, z = 0 at its top: v_x, v_z, shear_rate, nu, sigma_xx, sigma_zz,
 /// sigma_xz, I, mu, k as in a drum; laboratory frame, axes along the flow (continuum/model/gap.hpp). Headers
@@ -40,4 +40,4 @@ GapComparison gap_comparison(const FlowField& field, const Gap& gap, const Stres
 
 MapArea gap_map_area(const Gap& gap, double strip_width);
 
-}  // namespace drumlin
+}  // namespace drumlin::continuum

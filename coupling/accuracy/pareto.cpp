@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace drumlin {
+namespace drumlin::coupling {
 
 std::vector<bool> pareto_front(std::span<const double> cost, std::span<const double> error) {
   const auto known = [&](std::size_t i) { return std::isfinite(cost[i]) && std::isfinite(error[i]); };
@@ -18,4 +18,4 @@ std::vector<bool> pareto_front(std::span<const double> cost, std::span<const dou
   return front;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

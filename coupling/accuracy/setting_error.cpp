@@ -5,7 +5,10 @@
 #include <set>
 #include <vector>
 
-namespace drumlin {
+#include "coupling/statistics/quantiles.hpp"
+#include "coupling/statistics/straight_line.hpp"
+
+namespace drumlin::coupling {
 namespace {
 
 constexpr double near = 5;
@@ -16,38 +19,39 @@ std::set<double> settings_of(const std::vector<SettingPoint>& points) {
   return settings;
 }
 
-struct Line {
-  double slope = 0, slope_ci99 = 0, misfit = INFINITY;
+struct PowerFit {
+  SettingError found;
+  double chi_squared = 0;
+  double factor = 0;  ///< half width of the 99 % interval per root of the variance
 };
 
-// value = limit + slope x, x = setting^power.
-Line fitted(const std::vector<SettingPoint>& points, double power) {
-  const bool weighted =
+// value = limit + C x, x = setting^power, read off at `setting`.
+PowerFit fitted(const std::vector<SettingPoint>& points, double setting, double power) {
+  const bool told =
       std::all_of(points.begin(), points.end(), [](const SettingPoint& p) { return p.ci99 > 0; });
-  double w = 0, x = 0, y = 0;
-  const auto weight = [&](const SettingPoint& p) { return weighted ? 1 / (p.ci99 * p.ci99) : 1; };
+  std::vector<double> x, y, variance;
   for (const SettingPoint& p : points) {
-    w += weight(p);
-    x += weight(p) * std::pow(p.setting, power);
-    y += weight(p) * p.value;
+    x.push_back(std::pow(p.setting, power));
+    y.push_back(p.value);
+    variance.push_back(told ? std::pow(p.ci99 / statistics::normal_quantile_99, 2) : 1);
   }
-  x /= w, y /= w;
-  double xx = 0, xy = 0;
-  for (const SettingPoint& p : points) {
-    const double dx = std::pow(p.setting, power) - x;
-    xx += weight(p) * dx * dx;
-    xy += weight(p) * dx * (p.value - y);
-  }
-  Line line;
-  line.slope = xy / xx;
-  line.misfit = 0;
-  for (const SettingPoint& p : points)
-    line.misfit += weight(p) * std::pow(p.value - y - line.slope * (std::pow(p.setting, power) - x), 2);
-  const double freedom = static_cast<double>(points.size()) - 2;
-  // Weights are 1/ci99^2, so that the root of the variance is the half width itself.
-  const double scatter = std::sqrt(line.misfit / freedom);
-  line.slope_ci99 = (weighted ? std::max(1.0, scatter) : 2.576 * scatter) / std::sqrt(xx);
-  return line;
+  const auto line = statistics::fit_line(x, y, variance);  // three different settings at least
+  const double at = std::pow(setting, power);
+  const double factor =
+      interval_factor_99(*line, told ? statistics::Variances::told : statistics::Variances::relative);
+  return {{line->slope * at, factor * std::sqrt(line->var_slope) * at, power, 0}, line->chi_squared, factor};
+}
+
+// The power that fits best. The others are open as well, as long as their chi^2 exceeds its by no more than a
+// coefficient's does at the end of its 99 % interval: the interval covers theirs, too.
+SettingError best_of(const std::vector<PowerFit>& fits) {
+  const auto by_misfit = [](const PowerFit& a, const PowerFit& b) { return a.chi_squared < b.chi_squared; };
+  const PowerFit& best = *std::min_element(fits.begin(), fits.end(), by_misfit);
+  SettingError result = best.found;
+  for (const PowerFit& other : fits)
+    if (other.chi_squared <= best.chi_squared + best.factor * best.factor)
+      result.ci99 = std::max(result.ci99, std::abs(other.found.error - result.error) + other.found.ci99);
+  return result;
 }
 
 }  // namespace
@@ -68,16 +72,11 @@ std::optional<SettingError> setting_error(std::span<const SettingPoint> all, dou
   if (settings_of(points).size() < 3) points = within(INFINITY);
   const std::set<double> settings = settings_of(points);
   if (settings.size() < 3) return std::nullopt;
-  std::optional<SettingError> best;
-  double least = INFINITY;
-  for (const double power : powers) {
-    const Line line = fitted(points, power);
-    if (!(line.misfit < least)) continue;
-    least = line.misfit;
-    const double x = std::pow(setting, power);
-    best = SettingError{line.slope * x, line.slope_ci99 * x, power, *settings.begin()};
-  }
+  std::vector<PowerFit> fits;
+  for (const double power : powers) fits.push_back(fitted(points, setting, power));
+  SettingError best = best_of(fits);
+  best.smallest = *settings.begin();
   return best;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

@@ -5,9 +5,9 @@
 #include <map>
 #include <utility>
 
-#include "coupling/exchange/student.hpp"
+#include "coupling/statistics/quantiles.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 namespace {
 
 // Values of a field at the node nearest to (x, z).
@@ -38,9 +38,10 @@ double slope_of(const std::vector<Pair>& pairs, double without_x) {
 
 }  // namespace
 
-FabricRelaxation fabric_relaxation(const FieldMap& map, const FrictionForm& form, const Coefficients& turn,
+FabricRelaxation fabric_relaxation(const FieldMap& map, const FormCurve& turn,
                                    const BlockSelection& selection, double I_min) {
-  const double rotation = header_number(map, "rotation"), axis = header_number(map, "axis_depth");
+  const double rotation = needed_number(map.header, &RunHeader::rotation, "maps.h5");
+  const double axis = needed_number(map.header, &RunHeader::axis_depth, "maps.h5");
   const MapField& v_x = map.field("v_x");
   const MapField& v_z = map.field("v_z");
   const std::vector<LawBlock> points = law_points(map, selection);
@@ -65,7 +66,7 @@ FabricRelaxation fabric_relaxation(const FieldMap& map, const FrictionForm& form
     const double u_x = nearest(map, v_x, point.x, point.z) + rotation * (point.z - axis);
     const double u_z = nearest(map, v_z, point.x, point.z) - rotation * point.x;
     const Pair pair{point.x, u_x * along + u_z * up,
-                    point.strain_rate * (friction(form, turn, point.friction.I) - point.turn)};
+                    point.strain_rate * (turn.at(point.friction.I).value - point.turn)};
     if (!std::isfinite(pair.change) || !std::isfinite(pair.wish)) continue;
     pairs.push_back(pair);
     squares += pair.change * pair.change;
@@ -81,12 +82,12 @@ FabricRelaxation fabric_relaxation(const FieldMap& map, const FrictionForm& form
   double sum = 0;
   for (const auto& column : columns) sum += std::pow(slope_of(pairs, column.first) - result.c, 2);
   const auto count = static_cast<double>(columns.size());
-  result.ci99 =
-      student_quantile_99(static_cast<int>(columns.size()) - 1) * std::sqrt(sum * (count - 1) / count);
+  result.ci99 = statistics::student_quantile_99(static_cast<int>(columns.size()) - 1) *
+                std::sqrt(sum * (count - 1) / count);
   double left = 0;
   for (const Pair& pair : pairs) left += std::pow(pair.change - result.c * pair.wish, 2);
   result.explained = 1 - left / squares;
   return result;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

@@ -3,15 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 namespace {
 
 // A table that stands still would not say how fast its flow is: the growth of mu per unit of ln I that is
 // left then.
-constexpr double least_growth = 1e-4;
+constexpr double standing_growth = 1e-4;
 
 double interval_of(const FrictionForm& form, std::size_t j) {
   return std::log(form.knots[j + 1] / form.knots[j]);
@@ -34,68 +36,128 @@ std::array<double, 3> covariance_of(const std::vector<Coefficients>& draws) {
   return covariance;
 }
 
+bool is_table(FormKind kind) { return kind != FormKind::log && kind != FormKind::log_linear; }
+
+std::vector<double> values_at_knots(const Coefficients& law) {
+  std::vector<double> values(law.size());
+  std::partial_sum(law.begin(), law.end(), values.begin());
+  return values;
+}
+
+// (k - 1)/(k + 1) over 2|D|/sqrt(p), and what one of its derivatives by k at a fixed I is by k at fixed
+// 2|D|/sqrt(p), where I moves with k.
+struct TurnState {
+  ShearState at;
+  double gain = 1;      // d ln I/d ln(2|D|/sqrt(p))
+  double by_ratio = 0;  // of the turn by k
+};
+
+TurnState turn_state(const StressRatioLaw& k, double rate_number) {
+  const ShearState at = shear_state(k, 0.5 * rate_number, 1);
+  const double share = 2 / (1 + at.k);
+  return {at, 1 / (1 - 0.25 * share * at.k_slope), 0.5 * share * share};
+}
+
+// Least I dmu/dI of a law that is well-posed in simple shear where it has this mu.
+double least_slope(double mu) {
+  const double linear = 4 + mu * mu, square = 4 + mu * mu / 4;
+  return mu * (linear - std::sqrt(linear * linear - 4 * square * mu * mu)) / (2 * square);
+}
+
 }  // namespace
 
 std::size_t FrictionForm::size() const {
-  switch (kind) {
-    case FormKind::log:
-      return 2;
-    case FormKind::log_linear:
-      return 3;
-    case FormKind::table:
-      return knots.size();
-  }
-  return 0;
+  if (is_table(kind)) return knots.size();
+  return kind == FormKind::log ? 2 : 3;
 }
 
-std::vector<double> functions_at(const FrictionForm& form, double I) {
-  if (form.kind == FormKind::log) return {1, std::log(I)};
-  if (form.kind == FormKind::log_linear) return {1, std::log(I), I};
-  std::vector<double> functions(form.knots.size(), 0.0);
-  functions[0] = 1;
-  const std::size_t last = form.knots.size() - 2;
-  for (std::size_t j = 0; j <= last; ++j) {
-    const double share = std::log(I / form.knots[j]) / interval_of(form, j);
-    const double low = j == 0 ? -std::numeric_limits<double>::infinity() : 0;
-    const double high = j == last ? std::numeric_limits<double>::infinity() : 1;
-    functions[j + 1] = std::clamp(share, low, high);
+FormCurve::FormCurve(const FrictionForm& form, const Coefficients& law) : kind_(form.kind) {
+  if (is_table(kind_)) {
+    std::vector<double> ln_I;
+    for (const double I : form.knots) ln_I.push_back(std::log(I));
+    knots_.emplace_back(
+        std::move(ln_I), values_at_knots(law),
+        kind_ == FormKind::table ? MonotoneCubic::Outside::goes_on : MonotoneCubic::Outside::level);
   }
-  return functions;
+  if (kind_ == FormKind::stress_ratio || kind_ == FormKind::turn)
+    law_ = Ratio{stress_ratio_law(measured_stress_ratio(form, law)), kind_ == FormKind::turn};
+  else
+    law_ = friction_law(measured_friction(form, law, {}, 0, 0));
+}
+
+CurvePoint FormCurve::at(double I) const {
+  if (const auto* mu = std::get_if<FrictionLaw>(&law_)) {
+    const FrictionValue at = friction_at(*mu, I);
+    return {at.mu, at.slope};
+  }
+  const Ratio& ratio = std::get<Ratio>(law_);
+  if (!ratio.turn) return ratio.k.at_ln(std::log(I));
+  const TurnState state = turn_state(ratio.k, I);
+  return {(state.at.k - 1) / (state.at.k + 1), state.by_ratio * state.at.k_slope * state.gain};
+}
+
+void FormCurve::influence(double I, std::span<double> by_coefficient) const {
+  double factor = 1, ln_I = std::log(I);
+  if (const auto* mu = std::get_if<FrictionLaw>(&law_)) {
+    factor = positivity_slope(friction_at(*mu, I).mu);
+  } else if (const Ratio& ratio = std::get<Ratio>(law_); ratio.turn) {
+    const TurnState state = turn_state(ratio.k, I);
+    factor = state.by_ratio * state.gain;
+    ln_I = std::log(state.at.I);
+  }
+  if (knots_.empty()) {
+    by_coefficient[0] = factor;
+    by_coefficient[1] = factor * ln_I;
+    if (kind_ == FormKind::log_linear) by_coefficient[2] = factor * I;
+    return;
+  }
+  knots_.front().at(ln_I, by_coefficient);
+  // A coefficient lifts its own knot and all beyond it.
+  for (std::size_t j = by_coefficient.size(); j-- > 1;) by_coefficient[j - 1] += by_coefficient[j];
+  for (double& entry : by_coefficient) entry *= factor;
 }
 
 double friction(const FrictionForm& form, const Coefficients& law, double I) {
-  const std::vector<double> functions = functions_at(form, I);
-  double mu = 0;
-  for (std::size_t j = 0; j < functions.size(); ++j) mu += law[j] * functions[j];
-  return mu;
+  return FormCurve(form, law).at(I).value;
 }
 
 double friction_slope(const FrictionForm& form, const Coefficients& law, double I) {
-  if (form.kind == FormKind::log) return law[1];
-  if (form.kind == FormKind::log_linear) return law[1] + law[2] * I;
-  std::size_t j = 0;
-  while (j + 2 < form.knots.size() && I > form.knots[j + 1]) ++j;
-  return law[j + 1] / interval_of(form, j);
+  return FormCurve(form, law).at(I).slope;
 }
 
 double least_coefficient(const FrictionForm& form, std::size_t index) {
-  if (index == 0 || !form.growing) return -std::numeric_limits<double>::infinity();
+  if (index == 0 || form.kind == FormKind::stress_ratio || form.kind == FormKind::turn)
+    return -std::numeric_limits<double>::infinity();
   if (form.kind != FormKind::table) return 0;
-  const double growth = form.least_growth.empty() ? least_growth : form.least_growth[index - 1];
+  const double growth = form.least_growth.empty() ? standing_growth : form.least_growth[index - 1];
   return growth * interval_of(form, index - 1);
 }
 
 FrictionForm kept_well_posed(const FrictionForm& form, const Coefficients& law) {
+  if (form.kind != FormKind::table) return form;
   FrictionForm kept = form;
-  if (form.kind != FormKind::table || !form.growing) return kept;
-  kept.least_growth.clear();
+  bool flat = false;
+  kept.least_growth.resize(form.knots.size() - 1, standing_growth);
+  const FormCurve curve(form, law);
   for (std::size_t j = 0; j + 1 < form.knots.size(); ++j) {
-    const double mu = friction(form, law, std::sqrt(form.knots[j] * form.knots[j + 1]));
-    const double linear = 4 + mu * mu, square = 4 + mu * mu / 4;
-    const double y = (linear - std::sqrt(linear * linear - 4 * square * mu * mu)) / (2 * square);
-    kept.least_growth.push_back(std::max(least_growth, mu * y));
+    constexpr int places = 40;
+    double lacks = 0;  // largest quotient of the slope that is needed and that of the curve
+    double needed = 0;
+    for (int i = 0; i <= places; ++i) {
+      const double share = static_cast<double>(i) / places;
+      const CurvePoint at = curve.at(form.knots[j] * std::pow(form.knots[j + 1] / form.knots[j], share));
+      needed = std::max(needed, least_slope(at.value));
+      lacks = std::max(lacks, least_slope(at.value) / at.slope);
+    }
+    // Inside an interval the cubic is half as steep as its chord at least; what its ends lack beside a flat
+    // neighbour is the neighbour's to mend. One per cent more: the curve may be flatter between two places.
+    const double chord = law[j + 1] / interval_of(form, j);
+    const double raised = 1.01 * std::min(lacks * chord, 2 * needed);
+    if (lacks <= 1 || raised <= chord) continue;
+    kept.least_growth[j] = raised;
+    flat = true;
   }
-  return kept;
+  return flat ? kept : form;
 }
 
 std::size_t held_intervals(const FrictionForm& form, const Coefficients& law) {
@@ -130,21 +192,16 @@ MeasuredFriction measured_friction(const FrictionForm& form, const Coefficients&
                                    const std::vector<Coefficients>& draws, double I_min, double I_max) {
   if (form.kind == FormKind::log) return LogFriction{law[0], law[1], covariance_of(draws), I_min, I_max};
   if (form.kind == FormKind::log_linear) return LogLinearFriction{law[0], law[1], law[2], I_min, I_max};
-  FrictionTable table{form.knots, {}};
-  for (const double I : form.knots) table.mu.push_back(friction(form, law, I));
-  return table;
+  return FrictionTable{form.knots, values_at_knots(law)};
+}
+
+NormalStressRatio measured_stress_ratio(const FrictionForm& form, const Coefficients& law) {
+  return {form.knots, values_at_knots(law)};
 }
 
 std::string name_of(FormKind kind) {
-  switch (kind) {
-    case FormKind::log:
-      return "log";
-    case FormKind::log_linear:
-      return "log-linear";
-    case FormKind::table:
-      return "table";
-  }
-  return "";
+  constexpr std::array names{"log", "log-linear", "table", "stress-ratio", "turn"};  // as in FormKind
+  return names[static_cast<std::size_t>(kind)];
 }
 
 FormKind form_named(const std::string& name) {
@@ -153,4 +210,4 @@ FormKind form_named(const std::string& name) {
   throw InputError("no form of mu(I) is named \"" + name + "\" (allowed: log, log-linear, table)");
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

@@ -1,56 +1,84 @@
 #pragma once
-// The forms of mu(I) that a calibration chooses from: each a sum of coefficients times functions of I.
+// The forms of a law that a calibration fits, each a few coefficients; how a form is evaluated is the law's
+// own affair (coupling/law): what is fitted and scored is what a flow computes with.
 #include <cstddef>
-#include <limits>
+#include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
-#include "coupling/exchange/rheology_fit.hpp"
+#include "coupling/law/friction_law.hpp"
+#include "coupling/law/knot_influence.hpp"
+#include "coupling/law/rheology_fit.hpp"
+#include "coupling/law/stress_ratio.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 
-enum class FormKind { log, log_linear, table };
+/// log: mu = c0 + c1 ln I. log_linear: c0 + c1 ln I + c2 I. The others are tables whose coefficients are the
+/// value at the first knot and the growth from each knot to the next. table: mu, which grows. stress_ratio: k
+/// over I. turn: k as well, fitted to the stress across the strain rate over the pressure, (k - 1)/(k + 1),
+/// measured over 2|D|/sqrt(p).
+enum class FormKind { log, log_linear, table, stress_ratio, turn };
 
-/// log: mu = c0 + c1 ln I. log_linear: c0 + c1 ln I + c2 I. table: mu at the first knot, then what it grows
-/// by from each knot to the next; straight in ln I between them, and beyond the two ends as next to them.
 struct FrictionForm {
   FormKind kind = FormKind::log;
-  std::vector<double> knots;              ///< of a table: inertial numbers, ascending, two at least
-  bool growing = true;                    ///< false: of something else than mu, which may fall with I
-  std::vector<double> least_growth = {};  ///< of a table, per unit of ln I and interval; empty: 1e-4
+  std::vector<double> knots = {};         ///< of a table: inertial numbers, ascending, two at least
+  std::vector<double> least_growth = {};  ///< of `table`, per unit of ln I and interval; empty: 1e-4
   std::size_t size() const;               ///< number of coefficients
 };
 
 using Coefficients = std::vector<double>;
 
-/// Functions of I that the coefficients multiply.
-std::vector<double> functions_at(const FrictionForm& form, double I);
+/// A form with its coefficients, evaluated by the functions of coupling/law: the value over I, its slope, and
+/// how it moves with each coefficient.
+class FormCurve {
+ public:
+  FormCurve(const FrictionForm& form, const Coefficients& law);
+  /// The value (mu; k; (k - 1)/(k + 1)) and I d/dI of it, at the inertial number that the form is over.
+  CurvePoint at(double I) const;
+  /// Derivatives of the value by each coefficient; of a table's limiter those of one side.
+  void influence(double I, std::span<double> by_coefficient) const;
+
+ private:
+  struct Ratio {
+    StressRatioLaw k;
+    bool turn = false;  // the value is that of the turn
+  };
+  FormKind kind_;
+  std::variant<FrictionLaw, Ratio> law_;
+  std::vector<KnotInfluence> knots_;  // one of a table, else none
+};
+
+/// As FormCurve, for one value.
 double friction(const FrictionForm& form, const Coefficients& law, double I);
 /// I dmu/dI.
 double friction_slope(const FrictionForm& form, const Coefficients& law, double I);
 
-/// The table with the least growth that keeps a law well-posed in simple shear where mu is that of `law`: y =
-/// I mu'/mu at the lower root of 4 y^2 - 4 y + mu^2 (1 - y/2)^2 = 0 (Barker, Schaeffer, Bohorquez & Gray, J.
-/// Fluid Mech. 779 (2015)), about mu^3/4 per unit of ln I. A flatter law has no flow that a mesh could
-/// resolve.
+/// The table with its least growth raised where `law` is ill-posed in simple shear: there I mu'/mu lies below
+/// the lower root y of 4 y^2 - 4 y + mu^2 (1 - y/2)^2 = 0 (Barker, Schaeffer, Bohorquez & Gray, J. Fluid
+/// Mech. 779 (2015)), about mu^2/4. A flatter law has no flow that a mesh could resolve. What is no table of
+/// mu, or well-posed at each of its I, comes back as it is.
 FrictionForm kept_well_posed(const FrictionForm& form, const Coefficients& law);
 
-/// Intervals of a table that are held at their least growth.
+/// Intervals of a table of mu that are held at their least growth.
 std::size_t held_intervals(const FrictionForm& form, const Coefficients& law);
 
-/// Least value of a coefficient: a mu that falls with I has no steady flow. Minus
-/// infinity for mu itself, and for all of a form that need not grow.
+/// Least value of a coefficient: a mu that falls with I has no steady flow. Minus infinity for mu itself, and
+/// for all of a form that may fall.
 double least_coefficient(const FrictionForm& form, std::size_t index);
 
 /// Knots of a table: at most `per_decade` of them, with `least_points` points at least from each to the next,
 /// from the smallest I to the largest.
 std::vector<double> table_knots(std::vector<double> I, double per_decade = 2, std::size_t least_points = 6);
 
-/// The law as it crosses to the continuum; the covariance of the logarithm is that of `draws`.
+/// A form of mu as it crosses to the continuum; the covariance of the logarithm is that of `draws`.
 MeasuredFriction measured_friction(const FrictionForm& form, const Coefficients& law,
                                    const std::vector<Coefficients>& draws, double I_min, double I_max);
 
-std::string name_of(FormKind kind);            ///< "log", "log-linear", "table"
-FormKind form_named(const std::string& name);  ///< throws InputError
+/// k of `stress_ratio` or `turn` as it crosses to the continuum.
+NormalStressRatio measured_stress_ratio(const FrictionForm& form, const Coefficients& law);
 
-}  // namespace drumlin
+std::string name_of(FormKind kind);            ///< "log", "log-linear", "table", "stress-ratio", "turn"
+FormKind form_named(const std::string& name);  ///< of mu: the first three; throws InputError
+
+}  // namespace drumlin::coupling

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <numbers>
 #include <string>
 #include <utility>
 
-#include "coupling/exchange/errors.hpp"
-#include "coupling/exchange/student.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/statistics/quantiles.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 namespace {
 
 // Mean over the nodes of a block and the standard error of it.
@@ -21,7 +22,10 @@ struct Mean {
 class Block {
  public:
   Block(const FieldMap& map, std::size_t row, std::vector<std::size_t> columns)
-      : map_(map), row_(row), columns_(std::move(columns)) {}
+      : map_(map),
+        row_(row),
+        columns_(std::move(columns)),
+        factor_(map.header.interval_factor.value_or(statistics::normal_quantile_99)) {}
 
   Mean of(const std::string& name) const {
     const MapField& field = map_.field(name);
@@ -31,7 +35,7 @@ class Block {
       const std::size_t node = row_ * map_.grid.columns + column;
       mean.value += field.value[node] / count;
       if (field.ci99.empty()) continue;
-      const double error = field.ci99[node] / normal_quantile_99;
+      const double error = field.ci99[node] / factor_;
       // Two neighbours share so much of their kernels that they count as one.
       mean.variance += 2 * error * error / (count * count);
     }
@@ -42,6 +46,7 @@ class Block {
   const FieldMap& map_;
   std::size_t row_;
   std::vector<std::size_t> columns_;
+  double factor_;  // half widths of the map's 99 % intervals per standard error
 };
 
 // Half of a difference or of a sum.
@@ -89,23 +94,12 @@ LawBlock point_of(const Block& block, double x, double z, const BlockSelection& 
   return point;
 }
 
-// (1 + k)/2 of a turn (k - 1)/(k + 1).
-double half_of_one_plus_k(double turn) { return 1 / (1 - turn); }
-
 }  // namespace
-
-double header_number(const FieldMap& map, const std::string& key) {
-  const auto found = map.header.find(key);
-  const double number =
-      found == map.header.end() ? std::nan("") : std::strtod(found->second.c_str(), nullptr);
-  if (!std::isfinite(number))
-    throw InputError({InputProblem{"maps.h5", 0, 0, key, "is missing, or no number", "a finite number"}});
-  return number;
-}
 
 std::vector<LawBlock> law_points(const FieldMap& map, const BlockSelection& selection) {
   const MapGrid& grid = map.grid;
-  const double radius = header_number(map, "drum_radius"), axis = header_number(map, "axis_depth");
+  const double radius = needed_number(map.header, &RunHeader::drum_radius, "maps.h5");
+  const double axis = needed_number(map.header, &RunHeader::axis_depth, "maps.h5");
   const MapField& nu = map.field("nu");
   const MapField& stress = map.field("sigma_zz");
   const MapField& gradient = map.field("d_v_x_dz");
@@ -160,27 +154,21 @@ std::vector<FrictionPoint> turns(const std::vector<LawBlock>& points) {
   return result;
 }
 
-std::vector<FrictionPoint> frictions_with_k(const std::vector<LawBlock>& points, const FrictionForm& form,
-                                            const Coefficients& turn) {
+std::vector<FrictionPoint> frictions_with_k(const std::vector<LawBlock>& points, const StressRatioLaw& k) {
   std::vector<FrictionPoint> result = frictions(points);
   for (FrictionPoint& point : result) {
-    const double half_sum = half_of_one_plus_k(friction(form, turn, point.I));
+    const ShearState at = shear_state(k, 0.5 * point.I, 1);
+    const double half_sum = 0.5 * (1 + at.k);
     point.mu *= half_sum;
     point.mu_error *= half_sum;
-    point.I *= std::sqrt(half_sum);
-    point.I_error *= std::sqrt(half_sum);
+    point.I_error *= at.I / point.I;
+    point.I = at.I;
   }
   return result;
 }
 
-NormalStressRatio stress_ratio(const FrictionForm& form, const Coefficients& turn) {
-  NormalStressRatio ratio;
-  for (const double I : form.knots) {
-    const double half_sum = half_of_one_plus_k(friction(form, turn, I));
-    ratio.I.push_back(I * std::sqrt(half_sum));
-    ratio.k.push_back(2 * half_sum - 1);
-  }
-  return ratio;
+double turn_angle_deg(double turn, double friction) {
+  return std::atan2(turn, friction) * 90 / std::numbers::pi;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

@@ -8,7 +8,7 @@
 #include "coupling/calibration/log_friction.hpp"
 #include "coupling/exchange/field_map.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 
 /// Where a map speaks of the law; lengths in d. Stresses and velocity gradients are averaged over blocks one
 /// row high before invariants are formed: the length of a noisy tensor is too large, the more the slower the
@@ -41,21 +41,18 @@ struct LawBlock {
 /// drum, no wall margin). Throws InputError when one is missing.
 std::vector<LawBlock> law_points(const FieldMap& map, const BlockSelection& selection = {});
 
-/// A number of the map's header. Throws InputError where it is missing or not finite.
-double header_number(const FieldMap& map, const std::string& key);
-
 /// Friction and inertial number of each point for a law without k.
 std::vector<FrictionPoint> frictions(const std::vector<LawBlock>& points);
 
 /// The turn of each point over its inertial number, in the place of mu.
 std::vector<FrictionPoint> turns(const std::vector<LawBlock>& points);
 
-/// Friction and inertial number for a law with k, the ratios of simple shear: sigma_xz/sigma_zz = M (1 + k)/2
-/// and I sqrt((1 + k)/2), k = (1 + turn)/(1 - turn), where `turn` is the smooth one, not that of the point.
-std::vector<FrictionPoint> frictions_with_k(const std::vector<LawBlock>& points, const FrictionForm& form,
-                                            const Coefficients& turn);
+/// Friction and inertial number for a law with k, the ratios of simple shear: mu = M (1 + k)/2 and
+/// I = I_p sqrt((1 + k)/2) of a point's M and I_p, k that of the smooth law there (shear_state()).
+std::vector<FrictionPoint> frictions_with_k(const std::vector<LawBlock>& points, const StressRatioLaw& k);
 
-/// k(I) at the knots of the turn's table, over the inertial number of a law with k.
-NormalStressRatio stress_ratio(const FrictionForm& form, const Coefficients& turn);
+/// Angle by which the axes of stress are turned from those of the strain rate, in degrees, with the sign of
+/// axis_angle_deg(): tan(2 angle) = turn/friction, both over the pressure.
+double turn_angle_deg(double turn, double friction);
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

@@ -5,55 +5,35 @@
 #include <limits>
 #include <string>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/statistics/quantiles.hpp"
+#include "coupling/statistics/straight_line.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 namespace {
 
 /// Half widths of the profile's 99 % intervals per standard error; that of the normal distribution unless it
 /// says.
-double interval_factor(const ProfileSet& profiles) {
-  const auto found = profiles.header.find("interval_factor");
-  return found == profiles.header.end() ? 2.576 : std::stod(found->second);
-}
+double interval_factor(const ProfileSet& profiles) { return profiles.header.interval_factor.value_or(2.576); }
 
 constexpr double least_variance = 1e-100;  // of points exactly on a line: their weights must stay finite
 
 double known(double error) { return std::isfinite(error) ? error : 0; }
 
-struct Line {
-  double a = 0, b = 0;
-  double var_a = 0, cov_ab = 0, var_b = 0;
-};
+using Line = statistics::StraightLine;  // mu over ln I
 
 /// Weighted straight line through (ln I, mu); `variance` of each point's mu.
 Line weighted_line(const std::vector<FrictionPoint>& points, const std::vector<double>& variance) {
-  double w_sum = 0, x_mean = 0, y_mean = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double w = 1 / variance[i];
-    w_sum += w;
-    x_mean += w * std::log(points[i].I);
-    y_mean += w * points[i].mu;
+  std::vector<double> log_I, mu;
+  for (const FrictionPoint& point : points) {
+    log_I.push_back(std::log(point.I));
+    mu.push_back(point.mu);
   }
-  x_mean /= w_sum;
-  y_mean /= w_sum;
-  double sxx = 0, sxy = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double x = std::log(points[i].I) - x_mean;
-    sxx += x * x / variance[i];
-    sxy += x * (points[i].mu - y_mean) / variance[i];
-  }
-  Line line;
-  line.b = sxy / sxx;
-  line.a = y_mean - line.b * x_mean;
-  line.var_b = 1 / sxx;
-  line.var_a = 1 / w_sum + x_mean * x_mean / sxx;
-  line.cov_ab = -x_mean / sxx;
-  return line;
+  return *statistics::fit_line(log_I, mu, variance);
 }
 
 double residual(const FrictionPoint& point, const Line& line) {
-  return point.mu - line.a - line.b * std::log(point.I);
+  return point.mu - line.intercept - line.slope * std::log(point.I);
 }
 
 double sum_of_squares(const std::vector<FrictionPoint>& points, const Line& line) {
@@ -75,15 +55,15 @@ std::vector<double> variances(const std::vector<FrictionPoint>& points, double b
 /// of I count little where mu grows slowly.
 Line line_with_scatter(const std::vector<FrictionPoint>& points, double first_b, double scatter_squared) {
   Line line;
-  line.b = first_b;
+  line.slope = first_b;
   for (int round = 0; round < 20; ++round)
-    line = weighted_line(points, variances(points, line.b, scatter_squared));
+    line = weighted_line(points, variances(points, line.slope, scatter_squared));
   return line;
 }
 
 double reduced_chi_squared(const std::vector<FrictionPoint>& points, const Line& line,
                            double scatter_squared) {
-  const auto variance = variances(points, line.b, scatter_squared);
+  const auto variance = variances(points, line.slope, scatter_squared);
   double sum = 0;
   for (std::size_t i = 0; i < points.size(); ++i) sum += std::pow(residual(points[i], line), 2) / variance[i];
   return sum / static_cast<double>(points.size() - 2);
@@ -115,10 +95,7 @@ std::vector<FrictionPoint> friction_points(const ProfileSet& profiles, const Lay
                                            const std::string& of) {
   const ProfileColumn& inertial = profiles.column("I");
   const ProfileColumn& friction = profiles.column(of);
-  const auto wall = profiles.header.find("wall_z");
-  const double wall_z = wall != profiles.header.end() ? std::stod(wall->second)
-                        : profiles.z.empty()          ? 0
-                                                      : profiles.z.front();
+  const double wall_z = profiles.header.wall_z.value_or(profiles.z.empty() ? 0 : profiles.z.front());
   const double factor = interval_factor(profiles);
   const auto error = [factor](const ProfileColumn& column, std::size_t l) {
     return column.ci99.empty() ? std::numeric_limits<double>::quiet_NaN() : column.ci99[l] / factor;
@@ -140,7 +117,7 @@ FrictionFit fit_log_friction(const std::vector<FrictionPoint>& points) {
   const auto freedom = static_cast<double>(points.size() - 2);
   const Line plain = weighted_line(points, std::vector<double>(points.size(), 1.0));
   const double squares = sum_of_squares(points, plain);
-  const auto errors = variances(points, plain.b, 0);
+  const auto errors = variances(points, plain.slope, 0);
   const bool all_known = *std::min_element(errors.begin(), errors.end()) > 0;
 
   FrictionFit fit;
@@ -148,19 +125,19 @@ FrictionFit fit_log_friction(const std::vector<FrictionPoint>& points) {
   fit.birge_ratio = std::numeric_limits<double>::quiet_NaN();
   Line line;
   if (all_known) {
-    line = line_with_scatter(points, plain.b, 0);
+    line = line_with_scatter(points, plain.slope, 0);
     fit.birge_ratio = std::sqrt(reduced_chi_squared(points, line, 0));
   }
   if (!(fit.birge_ratio <= 1)) {
     // squares/freedom is the scatter of points without errors; with any errors s is below, 4 covers the
     // weights.
-    const double s2 = std::max(scatter_squared(points, plain.b, 4 * squares / freedom), least_variance);
+    const double s2 = std::max(scatter_squared(points, plain.slope, 4 * squares / freedom), least_variance);
     fit.intrinsic_scatter = std::sqrt(s2);
-    line = line_with_scatter(points, plain.b, s2);
+    line = line_with_scatter(points, plain.slope, s2);
   }
-  fit.law.a = line.a;
-  fit.law.b = line.b;
-  fit.law.covariance = {line.var_a, line.cov_ab, line.var_b};
+  fit.law.a = line.intercept;
+  fit.law.b = line.slope;
+  fit.law.covariance = {line.var_intercept, line.covariance, line.var_slope};
   fit.rms_misfit = std::sqrt(sum_of_squares(points, line) / static_cast<double>(points.size()));
   fit.law.I_min = fit.law.I_max = points.front().I;
   for (const FrictionPoint& point : points) {
@@ -170,4 +147,11 @@ FrictionFit fit_log_friction(const std::vector<FrictionPoint>& points) {
   return fit;
 }
 
-}  // namespace drumlin
+double half_width_99(const FrictionFit& fit, double variance) {
+  // With an intrinsic scatter the reduced chi^2 is one, and the scatter is what the points say.
+  const double reduced_chi2 = fit.birge_ratio <= 1 ? fit.birge_ratio * fit.birge_ratio : 1;
+  return std::sqrt(variance) *
+         statistics::quantile_99_of_told_errors(reduced_chi2, static_cast<int>(fit.points) - 2);
+}
+
+}  // namespace drumlin::coupling

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "coupling/exchange/profile_set.hpp"
-#include "coupling/exchange/rheology_fit.hpp"
+#include "coupling/law/rheology_fit.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 
 /// One layer: its inertial number and effective friction with their standard errors (NaN: not known).
 struct FrictionPoint {
@@ -50,4 +50,9 @@ struct FrictionFit {
 /// the same I.
 FrictionFit fit_log_friction(const std::vector<FrictionPoint>& points);
 
-}  // namespace drumlin
+/// Half width of the 99 % interval of a coefficient from its variance in fit.law.covariance: the larger of
+/// the normal quantile and Student's t with points - 2 degrees of freedom times the Birge ratio, which the
+/// intrinsic scatter brings to one where it exceeds one.
+double half_width_99(const FrictionFit& fit, double variance);
+
+}  // namespace drumlin::coupling

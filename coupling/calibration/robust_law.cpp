@@ -1,15 +1,17 @@
 #include "coupling/calibration/robust_law.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 #include <string>
 
-#include "coupling/exchange/errors.hpp"
-#include "coupling/exchange/student.hpp"
+#include "coupling/calibration/bounded_least_squares.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/statistics/quantiles.hpp"
+#include "coupling/statistics/resampling.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 namespace {
 
 constexpr double huber = 1.5;      // Huber's k
@@ -20,142 +22,154 @@ constexpr double least_scatter_squared = 1e-24;
 
 double known(double error) { return std::isfinite(error) ? error : 0; }
 
-double residual(const FrictionPoint& point, const FrictionForm& form, const Coefficients& law) {
-  return point.mu - friction(form, law, point.I);
+using Points = std::vector<FrictionPoint>;
+using Weights = std::vector<double>;
+
+double residual(const FrictionPoint& point, const FormCurve& curve) {
+  return point.mu - curve.at(point.I).value;
 }
 
-double variance(const FrictionPoint& point, const FrictionForm& form, const Coefficients& law,
-                double scatter_squared) {
-  const double slope = friction_slope(form, law, point.I);
+double variance(const FrictionPoint& point, double slope, double scatter_squared) {
   return std::pow(known(point.mu_error), 2) + std::pow(slope * known(point.I_error) / point.I, 2) +
          scatter_squared;
 }
 
-// Least squares in normal form, each coefficient at its least value or above.
-class BoundedLeastSquares {
+// A draw may leave an interval of the table without points. That neighbouring intervals are equally steep
+// then decides, with the weight of a hundredth of a point. Rows that ask for nought, each with its interval.
+std::vector<std::vector<double>> bends_of(const FrictionForm& form) {
+  std::vector<std::vector<double>> rows;
+  const auto width = [&](std::size_t k) { return std::log(form.knots[k] / form.knots[k - 1]); };
+  for (std::size_t j = 1; j + 1 < form.knots.size(); ++j) {
+    const double span = 0.5 * (width(j) + width(j + 1));
+    std::vector<double> row(form.size(), 0.0);
+    row[j] = span / width(j);
+    row[j + 1] = -span / width(j + 1);
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+// Weighted squares of the misfit, to be made small by steps of Gauss and Newton.
+class WeightedFit {
  public:
-  BoundedLeastSquares(const std::vector<FrictionPoint>& points, const std::vector<double>& weight,
-                      const FrictionForm& form)
-      : form_(form), size_(static_cast<Eigen::Index>(form.size())) {
-    matrix_ = Eigen::MatrixXd::Zero(size_, size_);
-    right_ = Eigen::VectorXd::Zero(size_);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const std::vector<double> functions = functions_at(form, points[i].I);
-      const Eigen::Map<const Eigen::VectorXd> f(functions.data(), size_);
-      matrix_ += weight[i] * f * f.transpose();
-      right_ += weight[i] * points[i].mu * f;
-    }
-    if (form.kind == FormKind::table) add_smoothness(weight);
-    least_.resize(size_);
-    for (Eigen::Index j = 0; j < size_; ++j) least_(j) = least_coefficient(form, static_cast<std::size_t>(j));
+  WeightedFit(const Points& points, const FrictionForm& form)
+      : points_(points), form_(form), bends_(bends_of(form)), weight_(points.size(), 1.0) {
+    for (std::size_t j = 0; j < form.size(); ++j) least_.push_back(least_coefficient(form, j));
+  }
+  void set_weights(Weights weight) {
+    weight_ = std::move(weight);
+    bend_weight_ =
+        0.01 * std::accumulate(weight_.begin(), weight_.end(), 0.0) / static_cast<double>(weight_.size());
   }
 
-  Coefficients solution() const {
-    std::vector<bool> held(form_.size(), false);
-    Eigen::VectorXd law = with(held);
-    // Each change of the set lowers the misfit or mends a bound; the limit is for rounding that cycles.
-    for (Eigen::Index round = 0; round < 4 * size_; ++round) {
-      if (!changed(held, law)) break;
-      law = with(held);
+  // The law one step on: exact for a form that is linear in its coefficients. The step is halved while it
+  // would make the squares larger, as where the limiter of a table changes sides.
+  Coefficients next(const Coefficients& law) const {
+    const Coefficients whole = bounded_minimum(linearised(law), least_);
+    const double before = squares(law);
+    Coefficients trial = whole;
+    for (double share = 1; share > 1e-3; share /= 2) {
+      for (std::size_t j = 0; j < law.size(); ++j) trial[j] = law[j] + share * (whole[j] - law[j]);
+      if (squares(trial) <= before) return trial;
     }
-    return {law.data(), law.data() + size_};
+    return law;
+  }
+
+  // A law within the bounds from which the first step starts: mu (or k) as it is on average, growing a little
+  // everywhere, so that no limiter acts.
+  Coefficients start() const {
+    Coefficients law(form_.size(), 0.01);
+    for (std::size_t j = 1; j < form_.knots.size(); ++j)
+      law[j] = std::max(least_[j], 0.01 * std::log(form_.knots[j] / form_.knots[j - 1]));
+    double mean = 0;
+    for (const FrictionPoint& point : points_) mean += point.mu / static_cast<double>(points_.size());
+    law[0] = form_.kind == FormKind::turn ? 1 : mean;
+    return law;
   }
 
  private:
-  bool is_held(const std::vector<bool>& held, Eigen::Index j) const {
-    return held[static_cast<std::size_t>(j)];
-  }
-
-  // A draw may leave an interval of the table without points. That neighbouring intervals are equally steep
-  // then decides, with the weight of a hundredth of a point.
-  void add_smoothness(const std::vector<double>& weight) {
-    double mean = 0;
-    for (const double w : weight) mean += w / static_cast<double>(weight.size());
-    for (Eigen::Index j = 1; j + 1 < size_; ++j) {
-      const auto width = [&](Eigen::Index k) {
-        return std::log(form_.knots[static_cast<std::size_t>(k)] /
-                        form_.knots[static_cast<std::size_t>(k - 1)]);
-      };
-      Eigen::VectorXd bend = Eigen::VectorXd::Zero(size_);
-      bend(j) = 1 / width(j);
-      bend(j + 1) = -1 / width(j + 1);
-      const double span = 0.5 * (width(j) + width(j + 1));
-      matrix_ += 0.01 * mean * span * span * bend * bend.transpose();
+  NormalEquations linearised(const Coefficients& law) const {
+    const FormCurve curve(form_, law);
+    NormalEquations equations(form_.size());
+    std::vector<double> row(form_.size());
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      curve.influence(points_[i].I, row);
+      const double tangent = std::inner_product(row.begin(), row.end(), law.begin(), 0.0);
+      equations.add(weight_[i], row, residual(points_[i], curve) + tangent);
     }
+    for (const auto& bend : bends_) equations.add(bend_weight_, bend, 0);
+    return equations;
   }
 
-  Eigen::VectorXd with(const std::vector<bool>& held) const {
-    Eigen::MatrixXd matrix = matrix_;
-    Eigen::VectorXd right = right_;
-    for (Eigen::Index j = 0; j < size_; ++j) {
-      if (!is_held(held, j)) continue;
-      right -= matrix.col(j) * least_(j);
-      matrix.row(j).setZero();
-      matrix.col(j).setZero();
-      matrix(j, j) = 1;
-      right(j) = least_(j);
-    }
-    const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
-    const Eigen::MatrixXd scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
-    return scale.asDiagonal() *
-           scaled.colPivHouseholderQr().solve((scale.asDiagonal() * right).eval()).eval();
+  double squares(const Coefficients& law) const {
+    const FormCurve curve(form_, law);
+    double sum = 0;
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      sum += weight_[i] * std::pow(residual(points_[i], curve), 2);
+    for (const auto& bend : bends_)
+      sum += bend_weight_ * std::pow(std::inner_product(bend.begin(), bend.end(), law.begin(), 0.0), 2);
+    return sum;
   }
 
-  // Holds what fell below; where nothing did, lets go of the one that wants to rise most.
-  bool changed(std::vector<bool>& held, const Eigen::VectorXd& law) const {
-    bool any = false;
-    for (Eigen::Index j = 0; j < size_; ++j)
-      if (!is_held(held, j) && law(j) < least_(j)) any = held[static_cast<std::size_t>(j)] = true;
-    if (any) return true;
-    const Eigen::VectorXd rise = right_ - matrix_ * law;
-    Eigen::Index best = -1;
-    double strongest = 0;
-    for (Eigen::Index j = 0; j < size_; ++j) {
-      const double wish = rise(j) / std::sqrt(matrix_(j, j));
-      if (is_held(held, j) && wish > strongest + 1e-9 * right_.norm()) {
-        strongest = wish;
-        best = j;
-      }
-    }
-    if (best < 0) return false;
-    held[static_cast<std::size_t>(best)] = false;
-    return true;
-  }
-
+  const Points& points_;
   const FrictionForm& form_;
-  Eigen::Index size_;
-  Eigen::MatrixXd matrix_;
-  Eigen::VectorXd right_;
-  Eigen::VectorXd least_;
+  std::vector<std::vector<double>> bends_;
+  Coefficients least_;
+  Weights weight_;
+  double bend_weight_ = 0.01;
 };
 
-Coefficients growing_law(const std::vector<FrictionPoint>& points, const std::vector<double>& weight,
-                         const FrictionForm& form) {
-  return BoundedLeastSquares(points, weight, form).solution();
+bool nearly_equal(const Coefficients& a, const Coefficients& b) {
+  for (std::size_t j = 0; j < a.size(); ++j)
+    if (std::abs(a[j] - b[j]) > 1e-10 * (std::abs(a[j]) + std::abs(b[j]))) return false;
+  return true;
+}
+
+// Least squares with equal weights.
+Coefficients plain_law(const Points& points, const FrictionForm& form) {
+  const WeightedFit fit(points, form);
+  Coefficients law = fit.start();
+  for (int round = 0; round < 30; ++round) {
+    const Coefficients next = fit.next(law);
+    const bool done = nearly_equal(next, law);
+    law = next;
+    if (done) break;
+  }
+  return law;
 }
 
 // Law for a given scatter; its weights depend on the law.
-Coefficients law_with_scatter(const std::vector<FrictionPoint>& points, const FrictionForm& form,
-                              Coefficients law, double scatter_squared) {
-  std::vector<double> weight(points.size());
+Coefficients law_with_scatter(const Points& points, const FrictionForm& form, Coefficients law,
+                              double scatter_squared) {
+  WeightedFit fit(points, form);
+  Weights weight(points.size());
   for (int round = 0; round < 15; ++round) {
+    const FormCurve curve(form, law);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const double v = variance(points[i], form, law, scatter_squared);
-      const double off = std::abs(residual(points[i], form, law)) / std::sqrt(v);
+      const CurvePoint at = curve.at(points[i].I);
+      const double v = variance(points[i], at.slope, scatter_squared);
+      const double off = std::abs(points[i].mu - at.value) / std::sqrt(v);
       weight[i] = std::min(1.0, huber / std::max(off, 1e-300)) / v;
     }
-    law = growing_law(points, weight, form);
+    fit.set_weights(weight);
+    const Coefficients next = fit.next(law);
+    const bool done = nearly_equal(next, law);
+    law = next;
+    if (done) break;
   }
   return law;
 }
 
 // Mean of the bounded squares over what it would be if the variances were right.
-double excess(const std::vector<FrictionPoint>& points, const FrictionForm& form, const Coefficients& law,
+double excess(const Points& points, const FrictionForm& form, const Coefficients& law,
               double scatter_squared) {
+  const FormCurve curve(form, law);
   double sum = 0;
-  for (const FrictionPoint& point : points)
-    sum += std::min(std::pow(residual(point, form, law), 2) / variance(point, form, law, scatter_squared),
+  for (const FrictionPoint& point : points) {
+    const CurvePoint at = curve.at(point.I);
+    sum += std::min(std::pow(point.mu - at.value, 2) / variance(point, at.slope, scatter_squared),
                     huber * huber);
+  }
   const double freedom = static_cast<double>(points.size()) - static_cast<double>(form.size());
   return sum / (kept * freedom);
 }
@@ -175,20 +189,14 @@ void check(const std::vector<FrictionPoint>& points, const FrictionForm& form) {
 double small_sample_factor(std::size_t points, int coefficients) {
   const int blocks = static_cast<int>(points) / block_length;
   const int freedom = std::max(1, blocks - coefficients);
-  return std::sqrt(static_cast<double>(std::max(blocks, 1)) / freedom) * student_quantile_99(freedom) /
-         normal_quantile_99;
+  return std::sqrt(static_cast<double>(std::max(blocks, 1)) / freedom) *
+         statistics::student_quantile_99(freedom) / statistics::normal_quantile_99;
 }
-
-// 0 .. count - 1; the library's distributions may differ from one standard library to the next.
-std::size_t drawn(std::mt19937_64& random, std::size_t count) { return random() % count; }
 
 std::vector<FrictionPoint> redrawn(const std::vector<FrictionPoint>& run, std::mt19937_64& random) {
   std::vector<FrictionPoint> draw;
-  while (draw.size() < run.size()) {
-    const std::size_t first = drawn(random, run.size());
-    for (std::size_t k = 0; k < block_length && draw.size() < run.size(); ++k)
-      draw.push_back(run[(first + k) % run.size()]);
-  }
+  if (run.empty()) return draw;
+  for (const std::size_t i : statistics::block_draw(run.size(), block_length, random)) draw.push_back(run[i]);
   return draw;
 }
 
@@ -196,9 +204,10 @@ std::vector<FrictionPoint> redrawn(const std::vector<FrictionPoint>& run, std::m
 
 RobustFriction fit_friction(const std::vector<FrictionPoint>& points, const FrictionForm& form) {
   check(points, form);
-  const Coefficients plain = growing_law(points, std::vector<double>(points.size(), 1.0), form);
+  const Coefficients plain = plain_law(points, form);
+  const FormCurve plain_curve(form, plain);
   double squares = 0;
-  for (const FrictionPoint& point : points) squares += std::pow(residual(point, form, plain), 2);
+  for (const FrictionPoint& point : points) squares += std::pow(residual(point, plain_curve), 2);
 
   double low = least_scatter_squared, high = std::max(2 * low, 4 * squares);
   Coefficients law = law_with_scatter(points, form, plain, low);
@@ -212,11 +221,13 @@ RobustFriction fit_friction(const std::vector<FrictionPoint>& points, const Fric
   }
   RobustFriction fit{
       .law = law, .intrinsic_scatter = s2 > 1e-23 ? std::sqrt(s2) : 0, .points = points.size()};
+  const FormCurve curve(form, law);
   double sum = 0, outliers = 0;
   for (const FrictionPoint& point : points) {
-    const double off = residual(point, form, law);
+    const CurvePoint at = curve.at(point.I);
+    const double off = point.mu - at.value;
     sum += off * off;
-    if (std::abs(off) > huber * std::sqrt(variance(point, form, law, s2))) ++outliers;
+    if (std::abs(off) > huber * std::sqrt(variance(point, at.slope, s2))) ++outliers;
   }
   fit.rms_misfit = std::sqrt(sum / static_cast<double>(points.size()));
   fit.outlier_share = outliers / static_cast<double>(points.size());
@@ -248,18 +259,26 @@ std::vector<Coefficients> bootstrapped(const std::vector<std::vector<FrictionPoi
   return laws;
 }
 
-FrictionBand band_at(const FrictionForm& form, const std::vector<Coefficients>& laws, double I,
-                     double share) {
+BandOfDraws::BandOfDraws(const FrictionForm& form, const std::vector<Coefficients>& laws) {
+  for (const Coefficients& law : laws) curves_.emplace_back(form, law);
+}
+
+FrictionBand BandOfDraws::at(double I, double share) const {
   std::vector<double> values;
-  for (const Coefficients& law : laws) values.push_back(friction(form, law, I));
+  for (const FormCurve& curve : curves_) values.push_back(curve.at(I).value);
   std::sort(values.begin(), values.end());
-  const auto at = [&](double quantile) {
-    const double place = quantile * static_cast<double>(values.size() - 1);
+  const auto quantile = [&](double of) {
+    const double place = of * static_cast<double>(values.size() - 1);
     const auto below = static_cast<std::size_t>(place);
     const std::size_t above = std::min(below + 1, values.size() - 1);
     return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
   };
-  return {at(0.5 * (1 - share)), at(0.5 * (1 + share))};
+  return {quantile(0.5 * (1 - share)), quantile(0.5 * (1 + share))};
 }
 
-}  // namespace drumlin
+double BandOfDraws::half_width_at(double I) const {
+  const FrictionBand band = at(I);
+  return (band.high - band.low) / 2;
+}
+
+}  // namespace drumlin::coupling

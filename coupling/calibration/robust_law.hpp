@@ -7,7 +7,7 @@
 #include "coupling/calibration/friction_form.hpp"
 #include "coupling/calibration/log_friction.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 
 struct RobustFriction {
   Coefficients law;
@@ -20,9 +20,9 @@ struct RobustFriction {
 /// Huber's estimator: least squares whose points count less than their weight where they lie further off than
 /// 1.5 standard deviations (Huber & Ronchetti, Robust Statistics, 2009, ch. 7). Variance of a point:
 /// mu_error^2 + (I dmu/dI I_error/I)^2 + s^2, s found together with the law (Huber's proposal 2), zero where
-/// the errors of the points explain the misfit. Coefficients stay above least_coefficient(): active set, by
-/// the signs of the multipliers. Throws InputError with fewer points than coefficients and one, or all at the
-/// same I.
+/// the errors of the points explain the misfit. Steps of Gauss and Newton where the form is not linear in its
+/// coefficients. Coefficients stay above least_coefficient(). Throws InputError with fewer points than
+/// coefficients and one, or all at the same I.
 RobustFriction fit_friction(const std::vector<FrictionPoint>& points, const FrictionForm& form);
 
 /// The laws of `replicates` draws: from each run as many points as it has, in blocks of neighbours (4 points,
@@ -33,12 +33,23 @@ RobustFriction fit_friction(const std::vector<FrictionPoint>& points, const Fric
 std::vector<Coefficients> bootstrapped(const std::vector<std::vector<FrictionPoint>>& runs,
                                        const FrictionForm& form, int replicates, std::uint64_t seed = 1);
 
-/// Quantiles of the laws at I that leave out half of 1 - `share` at each end.
 struct FrictionBand {
   double low = 0;
   double high = 0;
 };
-FrictionBand band_at(const FrictionForm& form, const std::vector<Coefficients>& laws, double I,
-                     double share = 0.99);
 
-}  // namespace drumlin
+/// Laws of several draws and what lies between them.
+class BandOfDraws {
+ public:
+  /// One law at least.
+  BandOfDraws(const FrictionForm& form, const std::vector<Coefficients>& laws);
+  /// Quantiles of the laws at I that leave out half of 1 - `share` at each end.
+  FrictionBand at(double I, double share = 0.99) const;
+  /// Half width of the 99 % band, the mean of its two sides.
+  double half_width_at(double I) const;
+
+ private:
+  std::vector<FormCurve> curves_;  // never empty
+};
+
+}  // namespace drumlin::coupling

@@ -7,7 +7,7 @@
 
 #include "coupling/exchange/plane_invariants.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 
 namespace {
 
@@ -48,9 +48,8 @@ FieldValues logarithm(FieldValues field, const std::vector<char>& noise) {
   return field;
 }
 
-bool is_measured(const std::map<std::string, std::string>& header) {
-  const auto side = header.find("side");
-  return side == header.end() || side->second == "particles";
+bool is_measured(const RunHeader& header) {
+  return header.side.value_or(RunSide::particles) == RunSide::particles;
 }
 
 /// A column, or nothing.
@@ -162,4 +161,4 @@ FieldValues map_field(const std::string& name, const FieldMap& map) {
   return result;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

@@ -1,12 +1,12 @@
 #pragma once
-// What is compared, and how each field is had from the profiles or maps of a side.
+// The fields that a comparison covers, each taken from the profiles or maps of a side.
 #include <string>
 #include <vector>
 
 #include "coupling/exchange/field_map.hpp"
 #include "coupling/exchange/profile_set.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 
 /// v_x, v_z, log10_shear_rate, sigma_xx, sigma_zz, sigma_xz, p, log10_I, mu, k, axis_angle_deg.
 const std::vector<std::string>& compared_fields();
@@ -34,4 +34,4 @@ FieldValues profile_field(const std::string& name, const ProfileSet& profiles);
 /// coupling/exchange/plane_invariants.hpp.
 FieldValues map_field(const std::string& name, const FieldMap& map);
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

@@ -4,7 +4,7 @@
 #include "coupling/comparison/map_sampling.hpp"
 #include "coupling/comparison/parts.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 
 namespace {
 
@@ -46,8 +46,8 @@ FieldOverlay map_overlay(const std::string& field, const FieldMap& first, const 
 }  // namespace
 
 std::vector<MapZone> map_zones(const FieldMap& map, const ZoneOptions& options) {
-  const double radius = header_number(map.header, "drum_radius");
-  const double axis = header_number(map.header, "axis_depth");
+  const double radius = number_or_nan(map.header, &RunHeader::drum_radius);
+  const double axis = number_or_nan(map.header, &RunHeader::axis_depth);
   const double third = std::sqrt(radius * radius - axis * axis) / 3;
   const auto& nu = map.field("nu").value;
   const auto& I = map.field("I").value;
@@ -115,4 +115,4 @@ PartOrReason<MapComparison> compared_maps(const SideFields& first, const SideFie
   return result;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

@@ -7,7 +7,7 @@
 
 #include "coupling/exchange/profile_scalars.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 
 namespace {
 
@@ -86,4 +86,4 @@ std::vector<ScalarPair> scalar_pairs(const ComparedSide& particles, const Compar
   return pairs;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

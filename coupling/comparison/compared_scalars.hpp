@@ -1,14 +1,14 @@
 #pragma once
-// The numbers of both sides, read with one definition from one place.
+// The scalars of both sides, read at one place with one definition.
 #include <vector>
 
 #include "coupling/comparison/comparison.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 
 /// `registered`: the second side's profile on the first one's axes, `offset` what it was moved by. A side
 /// that was not moved keeps its own words.
 std::vector<ScalarPair> scalar_pairs(const ComparedSide& particles, const ComparedSide& continuum,
                                      const ProfileSet& registered, double offset);
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

@@ -5,7 +5,7 @@
 #include "coupling/comparison/parts.hpp"
 #include "coupling/exchange/profile_scalars.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 
 namespace {
 
@@ -13,8 +13,9 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double slice_width = 2, same_place = 0.5;  // d
 
 /// Half the chord of the surface, from the header of a map.
-double half_chord(const std::map<std::string, std::string>& header) {
-  const double radius = header_number(header, "drum_radius"), height = header_number(header, "axis_depth");
+double half_chord(const RunHeader& header) {
+  const double radius = number_or_nan(header, &RunHeader::drum_radius);
+  const double height = number_or_nan(header, &RunHeader::axis_depth);
   return std::sqrt(radius * radius - height * height);
 }
 
@@ -47,8 +48,8 @@ std::optional<ProfileSet> counterpart(const SideFields& second, const ProfileSet
     }
   if (!second.maps) return std::nullopt;
   offset = registration_offset(ours.header, second.maps->header, by);
-  const double width = header_number(ours.header, "slice_width");
-  const double thickness = header_number(ours.header, "layer_thickness");
+  const double width = number_or_nan(ours.header, &RunHeader::slice_width);
+  const double thickness = number_or_nan(ours.header, &RunHeader::layer_thickness);
   return profile_through(moved(*second.maps, offset), position, std::isfinite(width) ? width : slice_width,
                          ours.z, std::isfinite(thickness) ? thickness : 1);
 }
@@ -89,4 +90,4 @@ PartOrReason<std::vector<SliceComparison>> compared_slices(const SideFields& fir
   return result;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

@@ -3,22 +3,16 @@
 #include <cmath>
 #include <limits>
 
+#include "coupling/common/errors.hpp"
 #include "coupling/comparison/compared_scalars.hpp"
 #include "coupling/comparison/map_sampling.hpp"
 #include "coupling/comparison/targets.hpp"
-#include "coupling/exchange/errors.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-/// Text of a header entry, empty if it is missing.
-std::string header_text(const ProfileSet& profiles, const std::string& key) {
-  const auto found = profiles.header.find(key);
-  return found == profiles.header.end() ? std::string() : found->second;
-}
 
 }  // namespace
 
@@ -26,8 +20,7 @@ void require_same_drum(const ProfileSet& particles, const ProfileSet& continuum)
   std::vector<InputProblem> problems;
   const auto differ = [&](const std::string& key, const std::string& allowed) {
     const auto shown = [&](const ProfileSet& side) {
-      const std::string text = header_text(side, key);
-      return text.empty() ? std::string("nothing") : text;
+      return header_text(side.header, key).value_or("nothing");
     };
     problems.push_back({"", 0, 0, key,
                         shown(particles) + " in the particles, " + shown(continuum) + " in the continuum",
@@ -36,15 +29,15 @@ void require_same_drum(const ProfileSet& particles, const ProfileSet& continuum)
   // Written by two programs from one scene: equal up to rounding, and up to the discs drawn against their
   // mean.
   constexpr double tolerance = 1e-3;
-  for (const auto* key : {"rotation", "drum_radius", "diameter_m", "position"}) {
-    const double ours = header_number(particles.header, key);
-    const double theirs = header_number(continuum.header, key);
+  for (const HeaderNumber number :
+       {&RunHeader::rotation, &RunHeader::drum_radius, &RunHeader::diameter_m, &RunHeader::position}) {
+    const double ours = number_or_nan(particles.header, number);
+    const double theirs = number_or_nan(continuum.header, number);
     if (!(std::abs(ours - theirs) <= tolerance * std::abs(ours)))
-      differ(key, "the same drum, speed, units and place on both sides");
+      differ(key_of(number), "the same drum, speed, units and place on both sides");
   }
-  if (header_number(particles.header, "drum_radius") <= 0) differ("drum_radius", "a drum");
-  if (header_text(particles, "reduced") != header_text(continuum, "reduced") ||
-      header_text(particles, "reduced").empty())
+  if (number_or_nan(particles.header, &RunHeader::drum_radius) <= 0) differ("drum_radius", "a drum");
+  if (particles.header.reduced != continuum.header.reduced || !particles.header.reduced)
     differ("reduced", "both reduced or both full");
   if (!problems.empty()) throw InputError(problems);
 }
@@ -54,11 +47,11 @@ double linear_layer_share(double shear_rate, double H, double Q) { return 0.4 * 
 ProfileSet registered_centre(const ComparedSide& first, const ComparedSide& second, Registration by) {
   ProfileSet profiles = second.profiles;
   if (second.fields.maps && profiles.find("half_vorticity") == nullptr) {
-    const double width = header_number(profiles.header, "slice_width");
-    const double thickness = header_number(profiles.header, "layer_thickness");
+    const double width = number_or_nan(profiles.header, &RunHeader::slice_width);
+    const double thickness = number_or_nan(profiles.header, &RunHeader::layer_thickness);
     const ProfileSet through = profile_through(
-        *second.fields.maps, header_number(profiles.header, "position"), std::isfinite(width) ? width : 20,
-        profiles.z, std::isfinite(thickness) ? thickness : 1);
+        *second.fields.maps, number_or_nan(profiles.header, &RunHeader::position),
+        std::isfinite(width) ? width : 20, profiles.z, std::isfinite(thickness) ? thickness : 1);
     for (const char* name : {"half_vorticity", "d_v_x_dx", "d_v_z_dz"})
       if (const ProfileColumn* column = through.find(name)) profiles.columns.push_back(*column);
   }
@@ -93,4 +86,4 @@ Comparison compare(const ComparedSide& particles, const ComparedSide& continuum,
   return result;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

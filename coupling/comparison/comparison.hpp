@@ -1,5 +1,5 @@
 #pragma once
-// Two runs of one drum side by side: errors, scalars, and what was asked of them.
+// Comparison of two runs of one drum: errors by field and zone, scalars, and the targets.
 #include <limits>
 #include <optional>
 #include <string>
@@ -10,7 +10,7 @@
 #include "coupling/exchange/profile_set.hpp"
 #include "coupling/exchange/scalar_set.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 
 /// Everything that one simulator left of a run.
 struct ComparedSide {
@@ -78,4 +78,4 @@ Comparison compare(const ComparedSide& particles, const ComparedSide& continuum,
 /// check that a set of Q, H and shear rate can belong to one profile.
 double linear_layer_share(double shear_rate, double H, double Q);
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

@@ -7,7 +7,7 @@
 #include "coupling/comparison/registration.hpp"
 #include "coupling/exchange/plane_invariants.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 
 namespace {
 
@@ -67,7 +67,7 @@ double interpolated(const std::vector<double>& z, const std::vector<double>& val
 
 FieldOverlay overlay(const std::string& field, const ProfileSet& particles, const ProfileSet& continuum) {
   const FieldValues ours = profile_field(field, particles), theirs = profile_field(field, continuum);
-  const double position = header_number(particles.header, "position");
+  const double position = number_or_nan(particles.header, &RunHeader::position);
   FieldOverlay result{field,
                       std::vector<double>(particles.z.size(), position),
                       particles.z,
@@ -136,4 +136,4 @@ FieldErrors errors_in(const FieldOverlay& field, const Zone& zone) {
   return errors_at(field, places);
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

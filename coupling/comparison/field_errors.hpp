@@ -1,12 +1,12 @@
 #pragma once
-// How far one side lies from the other, field by field and zone by zone.
+// Errors of one side against the other, field by field and zone by zone.
 #include <string>
 #include <vector>
 
 #include "coupling/comparison/compared_fields.hpp"
 #include "coupling/exchange/profile_set.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 
 /// A stretch of depth, from <= z <= to, in d below the free surface (z < 0).
 struct Zone {
@@ -16,7 +16,7 @@ struct Zone {
 };
 
 /// flowing: -H .. -surface_margin; static: wall + wall_margin .. -H; all: both. H, the surface and the wall
-/// are the particles': both sides are judged at the same places. The margins leave out the layers in which
+/// are the particles': both sides are compared at the same places. The margins leave out the layers in which
 /// the packing ends, where no continuum with one volume fraction can follow it.
 struct ZoneOptions {
   double surface_margin = 3;  ///< d
@@ -67,4 +67,4 @@ struct FieldErrors {
 FieldErrors errors_in(const FieldOverlay& overlay, const Zone& zone);
 FieldErrors errors_at(const FieldOverlay& overlay, const std::vector<std::size_t>& places);
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

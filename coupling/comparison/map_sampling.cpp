@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-namespace drumlin {
+namespace drumlin::coupling {
 
 namespace {
 
@@ -92,9 +92,9 @@ ProfileSet profile_through(const FieldMap& map, double position, double width, c
   ProfileSet set;
   set.z = z;
   set.header = map.header;
-  set.header["position"] = std::to_string(position);
-  set.header["slice_width"] = std::to_string(width);
-  set.header["layer_thickness"] = std::to_string(thickness);
+  set.header.position = position;
+  set.header.slice_width = width;
+  set.header.layer_thickness = thickness;
   for (const Sampled& wanted : sampled) {
     const MapField* field = wanted.needed ? &map.field(wanted.field) : map.find(wanted.field);
     if (field == nullptr) continue;
@@ -112,4 +112,4 @@ ProfileSet profile_through(const FieldMap& map, double position, double width, c
   return set;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

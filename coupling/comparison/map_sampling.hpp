@@ -5,7 +5,7 @@
 #include "coupling/exchange/field_map.hpp"
 #include "coupling/exchange/profile_set.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 
 /// Bilinear between the four nodes around (x, z), the node itself where it is one; NaN outside of the grid
 /// and beside a node without a value. `values` are one per node.
@@ -21,4 +21,4 @@ double bilinear(const MapGrid& grid, const std::vector<double>& values, double x
 ProfileSet profile_through(const FieldMap& map, double position, double width, const std::vector<double>& z,
                            double thickness);
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

@@ -2,9 +2,9 @@
 
 #include <limits>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 
 Document paper_file(const std::filesystem::path& file) {
   Document document = read_toml(file);
@@ -34,4 +34,4 @@ std::string text_in(const Node* node) {
   return text == nullptr ? std::string() : *text;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

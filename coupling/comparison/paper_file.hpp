@@ -1,11 +1,11 @@
 #pragma once
-// Reading the files of data/paper.
+// Readers of the files in data/paper.
 #include <filesystem>
 #include <string>
 
-#include "coupling/exchange/document.hpp"
+#include "coupling/documents/document.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 
 /// Throws InputError unless the file's format is "drumlin-paper-1".
 Document paper_file(const std::filesystem::path& file);
@@ -16,4 +16,4 @@ Node::Array paper_entries(const Document& document, const std::string& key);
 double number_in(const Node* node);     ///< NaN if it is absent or no number
 std::string text_in(const Node* node);  ///< empty if it is absent or no text
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

@@ -7,7 +7,7 @@
 
 #include "coupling/comparison/paper_file.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 
 namespace {
 
@@ -60,16 +60,16 @@ Target::Outcome outcome_of(double value, const PaperRow& row) {
 }  // namespace
 
 std::optional<double> paper_speed_rpm(const ProfileSet& profiles, const std::filesystem::path& folder) {
-  const auto reduced = profiles.header.find("reduced");
-  if (reduced == profiles.header.end() || reduced->second != "false") return std::nullopt;
+  if (profiles.header.reduced.value_or(true)) return std::nullopt;
   const Document experiment = paper_file(folder / "experiment.toml");
   const Node* drum = experiment.root.find("drum");
   const double paper_diameter_mm = number_in(drum == nullptr ? nullptr : drum->find("diameter_mm"));
-  const double d = header_number(profiles.header, "diameter_m");
-  if (!close(2e3 * header_number(profiles.header, "drum_radius") * d, paper_diameter_mm)) return std::nullopt;
+  const double d = number_or_nan(profiles.header, &RunHeader::diameter_m);
+  const double radius = number_or_nan(profiles.header, &RunHeader::drum_radius);
+  if (!close(2e3 * radius * d, paper_diameter_mm)) return std::nullopt;
   constexpr double gravity_m_s2 = 9.81;
-  const double rpm =
-      header_number(profiles.header, "rotation") / std::sqrt(d / gravity_m_s2) * 30 / std::numbers::pi;
+  const double rotation = number_or_nan(profiles.header, &RunHeader::rotation);
+  const double rpm = rotation / std::sqrt(d / gravity_m_s2) * 30 / std::numbers::pi;
   for (const auto& entry : paper_entries(paper_file(folder / "rotations.toml"), "rotation")) {
     const double speed = number_in(entry.find("rotation_rpm"));
     if (close(rpm, speed)) return speed;
@@ -119,4 +119,4 @@ std::vector<PaperRow> paper_table(const std::vector<PaperNumber>& numbers,
   return rows;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

@@ -1,5 +1,5 @@
 #pragma once
-// The paper's numbers (data/paper) beside ours.
+// Table of the paper's numbers (data/paper) beside those of both sides.
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -7,7 +7,7 @@
 
 #include "coupling/comparison/comparison.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 
 /// A number of the paper that holds at one speed of rotation, in d, sqrt(d/g), rho0 g d.
 struct PaperNumber {
@@ -41,4 +41,4 @@ struct PaperRow {
 std::vector<PaperRow> paper_table(const std::vector<PaperNumber>& numbers,
                                   const std::vector<ScalarPair>& scalars);
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

@@ -1,5 +1,5 @@
 #pragma once
-// Slices and whole maps, compared as the centre is.
+// Comparison of slices and of whole maps, by the definitions used at the centre.
 #include <map>
 #include <optional>
 #include <string>
@@ -8,7 +8,7 @@
 #include "coupling/comparison/field_errors.hpp"
 #include "coupling/comparison/registration.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 
 struct ZoneErrors {
   Zone zone;  ///< of a map: from and to are NaN
@@ -73,4 +73,4 @@ PartOrReason<MapComparison> compared_maps(const SideFields& first, const SideFie
 /// sides must have maps.
 FieldMap overlaid_maps(const FieldMap& first, const FieldMap& second, const MapComparison& comparison);
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace drumlin {
+namespace drumlin::coupling {
 
 namespace {
 
@@ -60,7 +60,7 @@ double interval_of(const FieldComparison& field, const std::string& name, bool r
   return nan;
 }
 
-Target judged(const FieldTarget& asked, const std::vector<FieldComparison>& fields) {
+Target assessed(const FieldTarget& asked, const std::vector<FieldComparison>& fields) {
   Target target{asked.field, asked.zone, asked.words, asked.limit, nan, Outcome::not_measured, ""};
   const auto field = std::find_if(fields.begin(), fields.end(), [&](const FieldComparison& candidate) {
     return candidate.overlay.field == asked.field;
@@ -85,7 +85,7 @@ Target judged(const FieldTarget& asked, const std::vector<FieldComparison>& fiel
   return target;
 }
 
-Target judged(const ScalarTarget& asked, const std::vector<ScalarPair>& scalars) {
+Target assessed(const ScalarTarget& asked, const std::vector<ScalarPair>& scalars) {
   Target target{asked.name, "", asked.words, asked.limit, nan, Outcome::not_measured, ""};
   for (const auto& pair : scalars) {
     if (pair.name != asked.name) continue;
@@ -106,9 +106,9 @@ Target judged(const ScalarTarget& asked, const std::vector<ScalarPair>& scalars)
 std::vector<Target> judged_targets(const std::vector<FieldComparison>& fields,
                                    const std::vector<ScalarPair>& scalars) {
   std::vector<Target> targets;
-  for (const auto& asked : field_targets) targets.push_back(judged(asked, fields));
-  for (const auto& asked : scalar_targets) targets.push_back(judged(asked, scalars));
+  for (const auto& asked : field_targets) targets.push_back(assessed(asked, fields));
+  for (const auto& asked : scalar_targets) targets.push_back(assessed(asked, scalars));
   return targets;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 
 namespace drumlin {
 namespace {
@@ -48,10 +48,7 @@ std::string fault_of(const FieldMap& map) {
     if (holds_infinity(field.value) || holds_infinity(field.ci99))
       return fmt::format("{} holds an infinite number", field.name);
   }
-  for (const auto& [key, value] : map.header)
-    if (key.empty() || key.find_first_of("=\n") != std::string::npos || value.find('\n') != std::string::npos)
-      return fmt::format("\"{}\" cannot stand in the header: one line, no = in the key", key);
-  return {};
+  return fault_of(map.header);
 }
 
 }  // namespace drumlin

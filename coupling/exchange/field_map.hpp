@@ -1,11 +1,11 @@
 #pragma once
-// Fields over a plane: what both simulators end in beside their profiles, and what a comparison maps.
+// A map: fields over the nodes of a rectangle in the plane of the flow, with its header.
 #include <cstddef>
-#include <map>
 #include <string>
 #include <vector>
 
-#include "coupling/exchange/scales.hpp"
+#include "coupling/common/scales.hpp"
+#include "coupling/exchange/run_header.hpp"
 
 namespace drumlin {
 
@@ -33,7 +33,7 @@ struct MapField {
 struct FieldMap {
   MapGrid grid;
   std::vector<MapField> fields;
-  std::map<std::string, std::string> header;  ///< settings and provenance, keys as in a ProfileSet
+  RunHeader header;  ///< settings and provenance, keys as in a ProfileSet
   Scales scales;
 
   const MapField* find(const std::string& name) const;

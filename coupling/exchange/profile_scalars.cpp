@@ -4,32 +4,18 @@
 #include <cstddef>
 #include <optional>
 
+#include "coupling/statistics/straight_line.hpp"
+
 namespace drumlin {
 namespace {
 
 constexpr double none = ProfileScalars::none;
 
-struct Line {
-  double slope = 0;
-  double intercept = 0;
-};
+using statistics::StraightLine;
 
 /// Least-squares line; nullopt with fewer than three points, through which every line would pass well enough.
-std::optional<Line> fitted_line(const std::vector<double>& x, const std::vector<double>& y) {
-  if (x.size() < 3) return std::nullopt;
-  double mean_x = 0, mean_y = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    mean_x += x[i] / static_cast<double>(x.size());
-    mean_y += y[i] / static_cast<double>(x.size());
-  }
-  double sxx = 0, sxy = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    sxx += (x[i] - mean_x) * (x[i] - mean_x);
-    sxy += (x[i] - mean_x) * (y[i] - mean_y);
-  }
-  if (!(sxx > 0)) return std::nullopt;
-  const double slope = sxy / sxx;
-  return Line{slope, mean_y - slope * mean_x};
+std::optional<StraightLine> fitted_line(const std::vector<double>& x, const std::vector<double>& y) {
+  return x.size() < 3 ? std::nullopt : statistics::fit_line(x, y);
 }
 
 /// Value at z between two layers; NaN outside the profile.
@@ -82,8 +68,8 @@ void fit_flowing_layer(const std::vector<double>& z, const std::vector<double>& 
 }
 
 /// The exponential tail between two heights: ln rate = intercept + slope z.
-std::optional<Line> fitted_decay(const std::vector<double>& z, const std::vector<double>& rate, double from,
-                                 double to) {
+std::optional<StraightLine> fitted_decay(const std::vector<double>& z, const std::vector<double>& rate,
+                                         double from, double to) {
   std::size_t lowest = 0;
   while (lowest < z.size() && !std::isfinite(rate[lowest])) ++lowest;
   if (lowest == z.size() || z[lowest] > from) return std::nullopt;

@@ -3,16 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <sstream>
 #include <string_view>
 #include <utility>
 
-#include "coupling/exchange/errors.hpp"
-#include "coupling/exchange/text_file.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/common/text_file.hpp"
+#include "coupling/documents/csv.hpp"
+#include "coupling/documents/number_text.hpp"
 
 namespace drumlin {
 
@@ -22,25 +22,6 @@ constexpr std::string_view first_line = "# drumlin-profiles-1";
 constexpr std::string_view interval_suffix = "_ci99";
 
 bool names_interval(std::string_view name) { return name.ends_with(interval_suffix); }
-
-std::string_view trimmed(std::string_view text) {
-  const auto from = text.find_first_not_of(" \t\r");
-  if (from == std::string_view::npos) return {};
-  return text.substr(from, text.find_last_not_of(" \t\r") - from + 1);
-}
-
-std::vector<std::string_view> fields_of(std::string_view line) {
-  std::vector<std::string_view> fields;
-  for (;;) {
-    const auto comma = line.find(',');
-    fields.push_back(trimmed(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return fields;
-    line.remove_prefix(comma + 1);
-  }
-}
-
-/// Shortest text that reads back to the same number; empty for NaN.
-std::string number_text(double value) { return std::isnan(value) ? std::string() : fmt::format("{}", value); }
 
 /// A set that could not be read back is refused here, where its maker can still be found.
 void check_writable(const std::filesystem::path& file, const ProfileSet& profiles) {
@@ -60,9 +41,7 @@ void check_writable(const std::filesystem::path& file, const ProfileSet& profile
         (!column.ci99.empty() && column.ci99.size() != profiles.z.size()))
       refuse(column.name, "has another length than z", fmt::format("{} entries", profiles.z.size()));
   }
-  for (const auto& [key, value] : profiles.header)
-    if (key.empty() || key.find_first_of("=\n") != std::string::npos || value.find('\n') != std::string::npos)
-      refuse(key, "cannot stand in the header", "one line, no = in the key");
+  if (const std::string fault = fault_of(profiles.header); !fault.empty()) refuse("", fault, "");
 }
 
 class ProfileReader {
@@ -72,13 +51,15 @@ class ProfileReader {
   ProfileSet read() {
     if (!next_line() || trimmed(line_) != first_line)
       refuse("", "is not a profile file of this version", fmt::format("\"{}\" as first line", first_line));
+    std::vector<HeaderLine> header;
     bool found_names = false;
     while (!found_names && next_line()) {
       if (trimmed(line_).starts_with('#'))
-        read_header_line();
+        header.push_back({number_, trimmed(line_).substr(1)});
       else
         found_names = true;
     }
+    profiles_.header = read_header(header, file_.string());
     if (!found_names) refuse("", "ends before the line of column names", "");
     read_names();
     while (next_line())
@@ -100,16 +81,8 @@ class ProfileReader {
     return true;
   }
 
-  void read_header_line() {
-    const auto body = trimmed(trimmed(line_).substr(1));
-    const auto equals = body.find('=');
-    if (equals == std::string_view::npos) refuse(body, "is no header line", "# key = value");
-    profiles_.header[std::string(trimmed(body.substr(0, equals)))] =
-        std::string(trimmed(body.substr(equals + 1)));
-  }
-
   void read_names() {
-    const auto names = fields_of(line_);
+    const auto names = csv_fields(line_);
     if (names.front() != "z") refuse(names.front(), "is not the first column", "z");
     std::set<std::string_view> seen{"z"};
     for (std::size_t i = 1; i < names.size(); ++i) {
@@ -127,17 +100,15 @@ class ProfileReader {
   }
 
   double number(std::string_view field, std::string_view key) const {
-    if (field.empty()) return std::numeric_limits<double>::quiet_NaN();
-    double value = 0;
-    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-    if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(value))
+    const auto value = csv_value(field);
+    if (!value)
       refuse(key, fmt::format("\"{}\" is no number", field),
              "a finite number, or nothing where it was not computed");
-    return value;
+    return *value;
   }
 
   void read_layer() {
-    const auto fields = fields_of(line_);
+    const auto fields = csv_fields(line_);
     if (fields.size() != is_interval_.size() + 1)
       refuse("", fmt::format("has {} fields", fields.size()), fmt::format("{}", is_interval_.size() + 1));
     const double z = number(fields[0], "z");
@@ -180,20 +151,20 @@ const ProfileColumn& ProfileSet::column(const std::string& name) const {
 void write_profiles(const std::filesystem::path& file, const ProfileSet& profiles) {
   check_writable(file, profiles);
   std::string text = fmt::format("{}\n", first_line);
-  for (const auto& [key, value] : profiles.header) text += fmt::format("# {} = {}\n", key, value);
-  text += "z";
+  text += header_lines(profiles.header, "# ");
+  std::vector<std::string> fields{"z"};
   for (const auto& column : profiles.columns) {
-    text += fmt::format(",{}", column.name);
-    if (!column.ci99.empty()) text += fmt::format(",{}{}", column.name, interval_suffix);
+    fields.push_back(column.name);
+    if (!column.ci99.empty()) fields.push_back(column.name + std::string(interval_suffix));
   }
-  text += "\n";
+  text += csv_line(fields);
   for (std::size_t i = 0; i < profiles.z.size(); ++i) {
-    text += number_text(profiles.z[i]);
+    fields = {csv_number(profiles.z[i])};
     for (const auto& column : profiles.columns) {
-      text += fmt::format(",{}", number_text(column.value[i]));
-      if (!column.ci99.empty()) text += fmt::format(",{}", number_text(column.ci99[i]));
+      fields.push_back(csv_number(column.value[i]));
+      if (!column.ci99.empty()) fields.push_back(csv_number(column.ci99[i]));
     }
-    text += "\n";
+    text += csv_line(fields);
   }
   replace_file(file, text);
 }

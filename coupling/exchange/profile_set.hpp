@@ -1,10 +1,10 @@
 #pragma once
-// Profiles over depth: what both simulators end in, and what calibration and comparison start from.
+// A profile: columns of numbers over the layers of one place, with its header and its file.
 #include <filesystem>
-#include <map>
-#include <optional>
 #include <string>
 #include <vector>
+
+#include "coupling/exchange/run_header.hpp"
 
 namespace drumlin {
 
@@ -22,7 +22,7 @@ struct ProfileColumn {
 struct ProfileSet {
   std::vector<double> z;
   std::vector<ProfileColumn> columns;
-  std::map<std::string, std::string> header;  ///< settings, provenance: one "# key = value" line each
+  RunHeader header;  ///< settings, provenance: one "# key = value" line each
 
   const ProfileColumn* find(const std::string& name) const;
   const ProfileColumn& column(const std::string& name) const;  ///< throws InputError if it is missing

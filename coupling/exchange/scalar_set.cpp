@@ -1,10 +1,10 @@
 #include "coupling/exchange/scalar_set.hpp"
 
-#include <limits>
 #include <nlohmann/json.hpp>
 
-#include "coupling/exchange/errors.hpp"
-#include "coupling/exchange/text_file.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/common/text_file.hpp"
+#include "coupling/documents/json_numbers.hpp"
 
 namespace drumlin {
 
@@ -18,17 +18,6 @@ double ScalarSet::value(const std::string& name) const {
   if (const auto* found = find(name)) return found->value;
   throw InputError("the results have no scalar " + name);
 }
-
-namespace {
-
-/// null stands for what was not computed.
-std::optional<double> number_of(const nlohmann::ordered_json& value) {
-  if (value.is_null()) return std::numeric_limits<double>::quiet_NaN();
-  if (value.is_number()) return value.get<double>();
-  return std::nullopt;
-}
-
-}  // namespace
 
 ScalarSet read_scalars(const std::filesystem::path& json_file, const std::string& format) {
   const std::string text = file_text(json_file);
@@ -47,14 +36,14 @@ ScalarSet read_scalars(const std::filesystem::path& json_file, const std::string
            "\"" + format + "\"");
   ScalarSet set;
   for (const auto& [name, value] : json.items()) {
-    if (const auto number = number_of(value)) {
+    if (const auto number = number_or_nan(value)) {
       set.scalars.push_back({name, *number, std::nullopt});
     } else if (value.is_object() && value.contains("value")) {
-      const auto number_inside = number_of(value["value"]);
+      const auto number_inside = number_or_nan(value["value"]);
       if (!number_inside) refuse(name + ".value", value["value"].dump(), "a number or null");
       Scalar scalar{name, *number_inside, std::nullopt};
       if (value.contains("ci99")) {
-        scalar.ci99 = number_of(value["ci99"]);
+        scalar.ci99 = number_or_nan(value["ci99"]);
         if (!scalar.ci99) refuse(name + ".ci99", value["ci99"].dump(), "a number or null");
       }
       set.scalars.push_back(scalar);

@@ -5,7 +5,7 @@
 #include <tuple>
 #include <utility>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 #include "coupling/files/h5_image.hpp"
 
 namespace drumlin {
@@ -33,14 +33,12 @@ std::pair<double, double> axis(const H5Reader& in, const char* name, const std::
   return {nodes.front(), spacing};
 }
 
-std::map<std::string, std::string> header(const H5Reader& in) {
-  std::map<std::string, std::string> entries;
-  for (const std::string& line : lines_of(in.text("header"))) {
-    const std::size_t equals = line.find(" = ");
-    if (equals == std::string::npos) in.refuse("header", "\"" + line + "\" is no line key = value");
-    entries[line.substr(0, equals)] = line.substr(equals + 3);
-  }
-  return entries;
+/// Lines are counted within the dataset.
+RunHeader header(const H5Reader& in, const std::filesystem::path& file) {
+  const std::vector<std::string> texts = lines_of(in.text("header"));
+  std::vector<HeaderLine> lines;
+  for (const std::string& text : texts) lines.push_back({static_cast<int>(lines.size()) + 1, text});
+  return read_header(lines, file.string() + " header");
 }
 
 std::vector<double> over_grid(const H5Reader& in, const std::string& name, const MapGrid& grid) {
@@ -57,13 +55,12 @@ void write_field_map(const std::filesystem::path& file, const FieldMap& map) {
   std::vector<double> x(grid.columns), z(grid.rows);
   for (std::size_t column = 0; column < x.size(); ++column) x[column] = grid.x_of(column);
   for (std::size_t row = 0; row < z.size(); ++row) z[row] = grid.z_of(row);
-  std::string head, names;
-  for (const auto& [key, value] : map.header) head.append(key).append(" = ").append(value).append("\n");
+  std::string names;
   for (const MapField& field : map.fields) names.append(field.name).append("\n");
 
   H5Writer out;
   out.add_text("format", format);
-  out.add_text("header", head);
+  out.add_text("header", header_lines(map.header, ""));
   out.add_text("names", names);
   out.add_number("scales/length_m", map.scales.length_m);
   out.add_number("scales/time_s", map.scales.time_s);
@@ -83,7 +80,7 @@ FieldMap read_field_map(const std::filesystem::path& file) {
     in.refuse("format",
               in.has("format") ? "'" + in.text("format") + "', this version reads " + format : "missing");
   FieldMap map;
-  map.header = header(in);
+  map.header = header(in, file);
   map.scales = {in.number("scales/length_m"), in.number("scales/time_s"), in.number("scales/density_kg_m3")};
   const std::vector<double> x = in.doubles("x"), z = in.doubles("z");
   std::tie(map.grid.x_first, map.grid.spacing_x) = axis(in, "x", x);

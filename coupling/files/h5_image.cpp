@@ -13,7 +13,7 @@
 #include <iterator>
 #include <string_view>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 
 namespace drumlin {
 namespace {

@@ -4,9 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "coupling/exchange/student.hpp"
+#include "coupling/statistics/quantiles.hpp"
+#include "coupling/statistics/samples.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -14,8 +15,7 @@ constexpr double surface_margin = 2, wall_margin = 3;  // d
 constexpr int points_per_decade = 4;
 
 double wall_of(const ProfileSet& profiles) {
-  const auto found = profiles.header.find("wall_z");
-  return found == profiles.header.end() ? profiles.z.front() : std::stod(found->second);
+  return profiles.header.wall_z ? *profiles.header.wall_z : profiles.z.front();
 }
 
 /// Interpolation in ln I; NaN outside the curve.
@@ -31,30 +31,20 @@ Scalar value_at(const InertialCurve& curve, double I) {
 
 /// Speeds at one I, each with its pooled value.
 CollapsePoint point_at(double I, const std::vector<std::vector<InertialCurve>>& speeds) {
-  std::vector<double> values, errors;
+  std::vector<std::vector<Scalar>> runs;
   for (const auto& curves : speeds) {
-    std::vector<Scalar> runs;
-    for (const InertialCurve& curve : curves) runs.push_back(value_at(curve, I));
-    const Scalar speed = pooled("", runs);
+    runs.emplace_back();
+    for (const InertialCurve& curve : curves) runs.back().push_back(value_at(curve, I));
+  }
+  std::vector<double> values, variances;
+  for (const Scalar& speed : pooled_speeds("", runs)) {
     if (!std::isfinite(speed.value) || !(speed.ci99.value_or(0) > 0)) continue;
     values.push_back(speed.value);
-    errors.push_back(*speed.ci99 / normal_quantile_99);
+    variances.push_back(std::pow(*speed.ci99 / statistics::normal_quantile_99, 2));
   }
-  CollapsePoint point{I, 0, 0, 0, values.size()};
-  if (values.size() < 2) return point;
-  double weight = 0, plain = 0;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    weight += 1 / (errors[i] * errors[i]);
-    point.mean += values[i] / (errors[i] * errors[i]);
-    plain += values[i] / static_cast<double>(values.size());
-  }
-  point.mean /= weight;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    point.chi2 += std::pow((values[i] - point.mean) / errors[i], 2);
-    point.spread += std::pow(values[i] - plain, 2);
-  }
-  point.spread = std::sqrt(point.spread / static_cast<double>(values.size() - 1));
-  return point;
+  if (values.size() < 2) return {I, 0, 0, 0, values.size()};
+  const auto mean = statistics::weighted_mean(values, variances);
+  return {I, mean.value, std::sqrt(statistics::variance(values)), mean.chi_squared, values.size()};
 }
 
 }  // namespace
@@ -115,11 +105,11 @@ Collapse collapse_of(const std::string& column, const std::vector<StudyRun>& run
   if (freedom == 0) return result;
   const auto most_freedom = static_cast<int>(most_speeds - 1);
   result.ratio = std::sqrt(chi2 / static_cast<double>(freedom));
-  result.limit = std::sqrt(chi_squared_quantile_99(most_freedom) / most_freedom);
+  result.limit = std::sqrt(statistics::chi_squared_quantile_99(most_freedom) / most_freedom);
   result.spread = std::sqrt(squares / static_cast<double>(result.points.size()));
   result.range = high - low;
   result.collapse = result.ratio <= result.limit;
   return result;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

@@ -5,7 +5,7 @@
 
 #include "coupling/study/study_run.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 
 /// One quantity over the inertial number in one run, I ascending; half widths of 99 % intervals, that of I
 /// counted through the slope of the curve.
@@ -45,4 +45,4 @@ struct Collapse {
 Collapse collapse_of(const std::string& column, const std::vector<StudyRun>& runs,
                      const std::vector<SpeedGroup>& groups, double I_min = 1e-4, double I_max = 1e-1);
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

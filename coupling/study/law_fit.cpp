@@ -3,14 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "coupling/exchange/student.hpp"
+#include "coupling/statistics/quantiles.hpp"
+#include "coupling/statistics/straight_line.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using statistics::StraightLine;
 
-double squared_error(double ci99) { return std::isfinite(ci99) ? std::pow(ci99 / normal_quantile_99, 2) : 0; }
+double squared_error(double ci99) {
+  return std::isfinite(ci99) ? std::pow(ci99 / statistics::normal_quantile_99, 2) : 0;
+}
 
 /// Points that can be used together: where some carry an interval, those without would count as exact.
 std::vector<LawPoint> usable(const std::vector<LawPoint>& points) {
@@ -23,80 +26,57 @@ std::vector<LawPoint> usable(const std::vector<LawPoint>& points) {
   return finite;
 }
 
-/// y = c0 + c1 x, or without c0.
-struct Solution {
-  double c0 = 0, c1 = 0;
-  double var_c0 = 0, var_c1 = 0;
+struct Columns {
+  std::vector<double> x, y;
 };
 
-Solution weighted(const std::vector<LawPoint>& points, const std::vector<double>& weight, bool with_offset) {
-  double w = 0, mean_x = 0, mean_y = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    w += weight[i];
-    mean_x += weight[i] * points[i].x;
-    mean_y += weight[i] * points[i].y;
+Columns columns_of(const std::vector<LawPoint>& points) {
+  Columns columns;
+  for (const LawPoint& point : points) {
+    columns.x.push_back(point.x);
+    columns.y.push_back(point.y);
   }
-  mean_x = with_offset ? mean_x / w : 0;
-  mean_y = with_offset ? mean_y / w : 0;
-  double sxx = 0, sxy = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double x = points[i].x - mean_x;
-    sxx += weight[i] * x * x;
-    sxy += weight[i] * x * (points[i].y - mean_y);
-  }
-  Solution solution;
-  solution.c1 = sxy / sxx;
-  solution.var_c1 = 1 / sxx;
-  if (!with_offset) return solution;
-  solution.c0 = mean_y - solution.c1 * mean_x;
-  solution.var_c0 = 1 / w + mean_x * mean_x / sxx;
-  return solution;
+  return columns;
 }
 
-std::vector<double> weights(const std::vector<LawPoint>& points, double slope) {
-  std::vector<double> weight;
+std::vector<double> variances(const std::vector<LawPoint>& points, double slope) {
+  std::vector<double> result;
   for (const LawPoint& point : points) {
     const double variance = squared_error(point.y_ci99) + slope * slope * squared_error(point.x_ci99);
-    weight.push_back(variance > 0 ? 1 / variance : 1.0);
+    result.push_back(variance > 0 ? variance : 1.0);
   }
-  return weight;
+  return result;
 }
 
-double residual(const LawPoint& point, const Solution& solution) {
-  return point.y - solution.c0 - solution.c1 * point.x;
+double rms_about(const Columns& points, const StraightLine& line) {
+  double squares = 0;
+  for (std::size_t i = 0; i < points.x.size(); ++i)
+    squares += std::pow(points.y[i] - line.intercept - line.slope * points.x[i], 2);
+  return std::sqrt(squares / static_cast<double>(points.x.size()));
 }
 
 LawFit fitted(const std::vector<LawPoint>& given, bool with_offset) {
   const std::vector<LawPoint> points = usable(given);
-  const std::size_t count = with_offset ? 2 : 1;
   LawFit fit;
   fit.points = points.size();
-  fit.coefficients.resize(count);
-  if (points.size() < count) return fit;
-  const bool known = points.front().y_ci99 > 0;
-
-  Solution solution = weighted(points, std::vector<double>(points.size(), 1.0), with_offset);
-  std::vector<double> weight;
-  for (int round = 0; round < 20; ++round) {  // the weights depend on the slope, weakly
-    weight = weights(points, known ? solution.c1 : 0);
-    solution = weighted(points, weight, with_offset);
-  }
-  double chi2 = 0, squares = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    chi2 += weight[i] * std::pow(residual(points[i], solution), 2);
-    squares += std::pow(residual(points[i], solution), 2);
-  }
-  const auto freedom = static_cast<int>(points.size() - count);
-  fit.rms = std::sqrt(squares / static_cast<double>(points.size()));
-  const double reduced = freedom > 0 ? chi2 / freedom : nan;
-  if (known) fit.reduced_chi2 = reduced;
-  double factor = known ? normal_quantile_99 : nan;
-  if (freedom > 0) factor = std::fmax(factor, student_quantile_99(freedom) * std::sqrt(reduced));
-  const LawFit::Coefficient slope{solution.c1, factor * std::sqrt(solution.var_c1)};
-  if (with_offset)
-    fit.coefficients = {{solution.c0, factor * std::sqrt(solution.var_c0)}, slope};
-  else
-    fit.coefficients = {slope};
+  fit.coefficients.resize(with_offset ? 2 : 1);
+  if (points.size() < fit.coefficients.size()) return fit;
+  const bool told = points.front().y_ci99 > 0;
+  const Columns columns = columns_of(points);
+  const auto line_through = [&](const std::vector<double>& variance) {
+    return with_offset ? statistics::fit_line(columns.x, columns.y, variance)
+                       : statistics::fit_proportional(columns.x, columns.y, variance);
+  };
+  auto line = line_through(std::vector<double>(points.size(), 1.0));
+  for (int round = 0; line && round < 20; ++round)  // the weights depend on the slope, weakly
+    line = line_through(variances(points, told ? line->slope : 0));
+  if (!line) return fit;
+  fit.rms = rms_about(columns, *line);
+  if (told) fit.reduced_chi2 = line->reduced_chi_squared();
+  const double factor =
+      interval_factor_99(*line, told ? statistics::Variances::told : statistics::Variances::relative);
+  if (with_offset) fit.coefficients[0] = {line->intercept, factor * std::sqrt(line->var_intercept)};
+  fit.coefficients.back() = {line->slope, factor * std::sqrt(line->var_slope)};
   return fit;
 }
 
@@ -119,4 +99,4 @@ LawFit fit_power(const std::vector<LawPoint>& points) {
   return fit;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

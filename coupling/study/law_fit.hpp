@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-namespace drumlin {
+namespace drumlin::coupling {
 
 /// A measured pair; half widths of 99 % intervals, NaN where there is none.
 struct LawPoint {
@@ -42,4 +42,4 @@ LawFit fit_power(const std::vector<LawPoint>& points);
 // intervals, the second when it does not. With fewer points than coefficients nothing is fitted (NaN); with
 // as many the scatter says nothing.
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

@@ -6,7 +6,7 @@
 
 #include "coupling/comparison/paper_file.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 namespace {
 
 using Expects = PaperEntry::Expects;
@@ -167,9 +167,9 @@ std::vector<PaperEntry> paper_entries_of(const std::filesystem::path& folder) {
   return entries;
 }
 
-PaperVerdict judged(const PaperEntry& entry, const Finding& finding) {
+PaperVerdict verdict_on(const PaperEntry& entry, const Finding& finding) {
   const auto [verdict, reason] = outcome_of(entry, finding);
   return {entry, finding, verdict, reason};
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

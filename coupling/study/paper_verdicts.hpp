@@ -7,7 +7,7 @@
 
 #include "coupling/exchange/scalar_set.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 
 /// What the paper says of one quantity.
 struct PaperEntry {
@@ -50,6 +50,6 @@ struct PaperVerdict {
 /// an interval that leaves both open is called near, reason unresolved. A collapse agrees up to its limit, is
 /// near up to twice it; a missing collapse agrees above the limit and differs below. "Wide" is an interval
 /// above 25 % of the paper's value: agreement with it says little.
-PaperVerdict judged(const PaperEntry& entry, const Finding& finding);
+PaperVerdict verdict_on(const PaperEntry& entry, const Finding& finding);
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

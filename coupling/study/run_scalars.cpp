@@ -10,7 +10,7 @@
 #include "coupling/exchange/profile_scalars.hpp"
 #include "coupling/study/law_fit.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -26,11 +26,6 @@ struct Value {
 Value value_of(const ScalarSet& scalars, const std::string& name) {
   const Scalar* found = scalars.find(name);
   return found == nullptr ? Value{} : Value{found->value, found->ci99.value_or(nan)};
-}
-
-double header_number(const ProfileSet& profiles, const std::string& key) {
-  const auto found = profiles.header.find(key);
-  return found == profiles.header.end() ? nan : std::stod(found->second);
 }
 
 /// One layer's entry; NaN where the column or its interval is missing.
@@ -72,7 +67,7 @@ Value tangent(const Value& angle_deg) {
 /// Layers below the flowing one where the sign of the shear rate is known.
 bool creeps(const ProfileSet& profiles, std::size_t layer, double H) {
   const Value rate = at(profiles, "shear_rate", layer);
-  const double wall = header_number(profiles, "wall_z");
+  const double wall = number_or_nan(profiles.header, &RunHeader::wall_z);
   const bool below = profiles.z[layer] < -H;
   const bool off_the_wall = std::isnan(wall) || profiles.z[layer] > wall + wall_margin;
   return below && off_the_wall && rate.value > (std::isfinite(rate.ci99) ? rate.ci99 : 0);
@@ -113,7 +108,7 @@ ScalarSet with_derived(const ScalarSet& measured, const ProfileSet& profiles) {
   };
   const auto known = [&](const std::string& name) { return value_of(measured, name); };
   const Value H = known("H"), Q = known("Q");
-  const double wall = header_number(profiles, "wall_z");
+  const double wall = number_or_nan(profiles.header, &RunHeader::wall_z);
 
   add("mu_eff", tangent(known("theta_deg")));
   add("mu_eff_com", tangent(known("theta_com_deg")));
@@ -144,14 +139,15 @@ ScalarSet with_derived(const ScalarSet& measured, const ProfileSet& profiles) {
   const Value beside = known("sigma_xz_over_weight_static");
   add("shear_stress_departure", {beside.value - 1, beside.ci99});
   const double weight = std::cos(known("theta_deg").value * degree);
-  const double rotation = header_number(profiles, "rotation");
+  const double rotation = number_or_nan(profiles.header, &RunHeader::rotation);
   const Value speed_at_surface = known("surface_speed");
   const Value rate = known("shear_rate");
   add("shear_rate_laboratory", {rate.value + rotation, rate.ci99});
   add("coriolis_share",
       {2 * rotation * speed_at_surface.value / weight, 2 * rotation * speed_at_surface.ci99 / weight});
-  add("centrifugal_share", {rotation * rotation * header_number(profiles, "drum_radius") / weight, nan});
+  add("centrifugal_share",
+      {rotation * rotation * number_or_nan(profiles.header, &RunHeader::drum_radius) / weight, nan});
   return set;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

@@ -3,7 +3,7 @@
 #include "coupling/exchange/profile_set.hpp"
 #include "coupling/exchange/scalar_set.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 
 /// `measured` and, where it lacks them, the following (docs/formats/study.md holds the same table):
 ///  mu_eff, mu_eff_com     tangent of theta_deg and of theta_com_deg
@@ -24,4 +24,4 @@ namespace drumlin {
 /// missing column, leaves NaN.
 ScalarSet with_derived(const ScalarSet& measured, const ProfileSet& profiles);
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

@@ -6,12 +6,12 @@
 #include <set>
 #include <utility>
 
+#include "coupling/common/errors.hpp"
 #include "coupling/comparison/targets.hpp"
-#include "coupling/exchange/errors.hpp"
 #include "coupling/study/paper_verdicts.hpp"
 #include "coupling/study/run_scalars.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -52,20 +52,19 @@ void require_one_drum(const std::vector<StudyRun>& particles, const std::vector<
   const StudyRun& run = particles.front();
   constexpr double tolerance = 1e-3;  // as in require_same_drum: the discs drawn against their mean
   for (const StudyFlow& flow : flows) {
-    for (const char* key : {"drum_radius", "diameter_m"}) {
-      const double ours = header_number(run.profiles.header, key),
-                   theirs = header_number(flow.side.profiles.header, key);
+    const RunHeader &first = run.profiles.header, &second = flow.side.profiles.header;
+    const auto both = [&](const std::string& key) {
+      return header_text(second, key).value_or("nothing") + ", but " +
+             header_text(first, key).value_or("nothing") + " in " + run.name;
+    };
+    for (const HeaderNumber number : {&RunHeader::drum_radius, &RunHeader::diameter_m}) {
+      const double ours = number_or_nan(first, number), theirs = number_or_nan(second, number);
       if (!(std::abs(ours - theirs) <= tolerance * std::abs(ours)))
-        problems.push_back({flow.name, 0, 0, key,
-                            text_of(flow.side.profiles.header, key) + ", but " +
-                                text_of(run.profiles.header, key) + " in " + run.name,
-                            "the same drum on both sides"});
+        problems.push_back(
+            {flow.name, 0, 0, key_of(number), both(key_of(number)), "the same drum on both sides"});
     }
-    const std::string ours = text_of(run.profiles.header, "reduced"),
-                      theirs = text_of(flow.side.profiles.header, "reduced");
-    if (ours != theirs || ours == "nothing")
-      problems.push_back({flow.name, 0, 0, "reduced", theirs + ", but " + ours + " in " + run.name,
-                          "both reduced or both full"});
+    if (first.reduced != second.reduced || !first.reduced)
+      problems.push_back({flow.name, 0, 0, "reduced", both("reduced"), "both reduced or both full"});
   }
 }
 
@@ -283,4 +282,4 @@ SpeedComparison compared_speeds(const std::vector<StudyRun>& particles, const st
   return result;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

@@ -11,7 +11,7 @@
 #include "coupling/study/speed_laws.hpp"
 #include "coupling/study/study_run.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 
 /// What `drumlin flow` left of one speed.
 struct StudyFlow {
@@ -74,4 +74,4 @@ SpeedComparison compared_speeds(const std::vector<StudyRun>& particles, const st
 /// The scalars that stand in ComparedSpeed::scalars, in this order.
 const std::vector<std::string>& compared_speed_scalars();
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <tuple>
 
-namespace drumlin {
+namespace drumlin::coupling {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -182,4 +182,4 @@ std::optional<FrictionCollapse> friction_collapse(const std::vector<StudyRun>& r
   return result;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

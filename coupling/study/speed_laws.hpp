@@ -8,7 +8,7 @@
 #include "coupling/study/law_fit.hpp"
 #include "coupling/study/study_run.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 
 struct SpeedLaw {
   struct Coefficient {
@@ -58,4 +58,4 @@ std::optional<FrictionCollapse> friction_collapse(const std::vector<StudyRun>& r
                                                   const std::vector<SpeedGroup>& groups,
                                                   const LayerSelection& selection = {});
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

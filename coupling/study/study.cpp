@@ -8,10 +8,9 @@
 #include "coupling/comparison/comparison.hpp"
 #include "coupling/comparison/paper_file.hpp"
 #include "coupling/comparison/paper_table.hpp"
-#include "coupling/exchange/student.hpp"
 #include "coupling/study/run_scalars.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -43,10 +42,10 @@ Scalar mean_of(const Study& study, const std::string& name) {
 Scalar friction_coefficient(const Study& study, bool slope) {
   const std::string name = slope ? "mu_b" : "mu_a";
   if (!study.friction) return absent(name);
-  const LogFriction& law = study.friction->common.law;
-  const double of_fit = normal_quantile_99 * std::sqrt(law.covariance[slope ? 2 : 0]);
+  const FrictionFit& fit = study.friction->common;
+  const double of_fit = half_width_99(fit, fit.law.covariance[slope ? 2 : 0]);
   const double of_speeds = mean_of(study, name).ci99.value_or(0);
-  return {name, slope ? law.b : law.a, std::max(of_fit, of_speeds)};
+  return {name, slope ? fit.law.b : fit.law.a, std::max(of_fit, of_speeds)};
 }
 
 /// LAW.COEFFICIENT of data/paper/laws.toml.
@@ -184,8 +183,8 @@ Study study_of(std::vector<StudyRun> runs, const std::filesystem::path& paper_fo
     study.consistency.push_back(consistency_of(group, paper_folder, is_papers));
   if (is_papers)
     for (const PaperEntry& entry : paper_entries_of(paper_folder))
-      study.paper.push_back(judged(entry, finding_for(entry, study)));
+      study.paper.push_back(verdict_on(entry, finding_for(entry, study)));
   return study;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

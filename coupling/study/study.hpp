@@ -10,7 +10,7 @@
 #include "coupling/study/speed_laws.hpp"
 #include "coupling/study/study_run.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 
 /// Whether the numbers of one speed belong together, ours and the paper's.
 struct ConsistencyRow {
@@ -41,4 +41,4 @@ Study study_of(std::vector<StudyRun> runs, const std::filesystem::path& paper_fo
 /// What the study holds against an entry of the paper; NaN where it has nothing.
 Finding finding_for(const PaperEntry& entry, const Study& study);
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

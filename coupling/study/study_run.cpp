@@ -4,12 +4,14 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 
-#include "coupling/exchange/errors.hpp"
-#include "coupling/exchange/student.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/statistics/quantiles.hpp"
+#include "coupling/statistics/samples.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 namespace {
 
 std::string text_of(const std::map<std::string, std::string>& texts, const std::string& key) {
@@ -53,26 +55,92 @@ void require_one_study(const std::vector<StudyRun>& runs) {
   if (!problems.empty()) throw InputError(problems);
 }
 
-Scalar pooled(const std::string& name, const std::vector<Scalar>& runs) {
-  double sum = 0, squares = 0, n = 0;
-  bool all_known = true;
+namespace {
+
+/// Plain mean of the runs of one speed, and how they lie about it in units of what their intervals say.
+struct PlainPool {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  double ci99 = std::numeric_limits<double>::quiet_NaN();  ///< as told by the runs; NaN where one tells none
+  double chi_squared = 0;
+  std::size_t runs = 0;
+};
+
+PlainPool plain_pool(const std::vector<Scalar>& runs) {
+  PlainPool pool;
+  double sum = 0, squares = 0;
   for (const Scalar& run : runs) {
     if (!std::isfinite(run.value)) continue;
-    n += 1;
+    ++pool.runs;
     sum += run.value;
-    squares += std::pow(run.ci99.value_or(0), 2);
-    all_known = all_known && run.ci99 && std::isfinite(*run.ci99);
+    squares += std::pow(run.ci99.value_or(std::numeric_limits<double>::quiet_NaN()), 2);
   }
-  Scalar result{name, n > 0 ? sum / n : std::numeric_limits<double>::quiet_NaN(), std::nullopt};
-  if (n == 0 || !all_known) return result;
-  double chi2 = 0;
+  if (pool.runs == 0) return pool;
+  const auto n = static_cast<double>(pool.runs);
+  pool.value = sum / n;
+  pool.ci99 = std::sqrt(squares) / n;
   for (const Scalar& run : runs)
-    if (std::isfinite(run.value) && *run.ci99 > 0)
-      chi2 += std::pow((run.value - result.value) * normal_quantile_99 / *run.ci99, 2);
-  const double birge = n > 1 ? std::sqrt(chi2 / (n - 1)) : 0;
-  result.ci99 = std::sqrt(squares) / n * std::max(1.0, birge);
+    if (std::isfinite(run.value) && run.ci99.value_or(0) > 0)
+      pool.chi_squared += std::pow((run.value - pool.value) * statistics::normal_quantile_99 / *run.ci99, 2);
+  return pool;
+}
+
+}  // namespace
+
+std::vector<Scalar> pooled_speeds(const std::string& name, const std::vector<std::vector<Scalar>>& speeds) {
+  std::vector<PlainPool> pools;
+  statistics::PooledVariance ratio;
+  for (const auto& runs : speeds) {
+    pools.push_back(plain_pool(runs));
+    if (std::isfinite(pools.back().ci99)) ratio.add(pools.back().chi_squared, pools.back().runs);
+  }
+  const double widening = statistics::quantile_99_of_told_errors(ratio.value(), ratio.degrees_of_freedom()) /
+                          statistics::normal_quantile_99;
+  std::vector<Scalar> result;
+  for (const PlainPool& pool : pools) {
+    result.push_back({name, pool.value, std::nullopt});
+    if (std::isfinite(pool.ci99)) result.back().ci99 = pool.ci99 * (pool.runs > 1 ? widening : 1);
+  }
   return result;
 }
+
+Scalar pooled(const std::string& name, const std::vector<Scalar>& runs) {
+  return pooled_speeds(name, {runs}).front();
+}
+
+namespace {
+
+/// Names of the scalars of a speed, each once, in the order of its runs.
+std::vector<std::string> scalar_names(const std::vector<StudyRun>& runs, const SpeedGroup& group) {
+  std::vector<std::string> names;
+  for (const std::size_t r : group.runs)
+    for (const Scalar& scalar : runs[r].scalars.scalars)
+      if (std::find(names.begin(), names.end(), scalar.name) == names.end()) names.push_back(scalar.name);
+  return names;
+}
+
+std::vector<Scalar> values_of(const std::vector<StudyRun>& runs, const SpeedGroup& group,
+                              const std::string& name) {
+  std::vector<Scalar> values;
+  for (const std::size_t r : group.runs)
+    if (const Scalar* found = runs[r].scalars.find(name)) values.push_back(*found);
+  return values;
+}
+
+void pool_scalars(const std::vector<StudyRun>& runs, std::vector<SpeedGroup>& groups) {
+  std::map<std::string, std::vector<Scalar>> pools;  // by name, one entry a speed
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    for (const std::string& name : scalar_names(runs, groups[g])) {
+      auto pool = pools.find(name);
+      if (pool == pools.end()) {
+        std::vector<std::vector<Scalar>> speeds;
+        for (const SpeedGroup& group : groups) speeds.push_back(values_of(runs, group, name));
+        pool = pools.emplace(name, pooled_speeds(name, speeds)).first;
+      }
+      groups[g].scalars.scalars.push_back(pool->second[g]);
+    }
+}
+
+}  // namespace
 
 std::vector<SpeedGroup> speed_groups(const std::vector<StudyRun>& runs) {
   std::vector<SpeedGroup> groups;
@@ -87,19 +155,8 @@ std::vector<SpeedGroup> speed_groups(const std::vector<StudyRun>& runs) {
   }
   std::sort(groups.begin(), groups.end(),
             [](const SpeedGroup& a, const SpeedGroup& b) { return a.rotation_rpm < b.rotation_rpm; });
-  for (SpeedGroup& group : groups) {
-    std::vector<std::string> names;
-    for (const std::size_t r : group.runs)
-      for (const Scalar& scalar : runs[r].scalars.scalars)
-        if (std::find(names.begin(), names.end(), scalar.name) == names.end()) names.push_back(scalar.name);
-    for (const std::string& name : names) {
-      std::vector<Scalar> values;
-      for (const std::size_t r : group.runs)
-        if (const Scalar* found = runs[r].scalars.find(name)) values.push_back(*found);
-      group.scalars.scalars.push_back(pooled(name, values));
-    }
-  }
+  pool_scalars(runs, groups);
   return groups;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

@@ -9,7 +9,7 @@
 #include "coupling/exchange/profile_set.hpp"
 #include "coupling/exchange/scalar_set.hpp"
 
-namespace drumlin {
+namespace drumlin::coupling {
 
 /// What `drumlin measure` left of one run.
 struct StudyRun {
@@ -40,13 +40,18 @@ struct SpeedGroup {
 };
 
 /// Mean of one quantity over several runs. Half width: that of the mean of independent runs,
-/// sqrt(sum ci99^2)/n, times the Birge ratio sqrt(chi^2/(n - 1)) of the runs about their mean where it
-/// exceeds one, so that a spread between runs that their intervals do not explain widens it. (Student's t of
-/// the spread alone would need t = 63.7 for two runs.) NaN values are left out; runs without an interval give
-/// a mean without one.
+/// sqrt(sum ci99^2)/n, or, where that is larger, Student's t with n - 1 degrees of freedom times the standard
+/// error by which the runs lie about their mean (statistics::quantile_99_of_told_errors): a spread between
+/// runs that their intervals do not explain widens it, by a factor of 25 for two runs that differ as much as
+/// they say. One run keeps its interval, which holds nothing of a spread between runs. NaN values are left
+/// out; runs without an interval give a mean without one.
 Scalar pooled(const std::string& name, const std::vector<Scalar>& runs);
+
+/// The same at several speeds, each about its own mean: the ratio of the spread to what the intervals say is
+/// taken to be one for all speeds of a quantity, so that their degrees of freedom add up.
+std::vector<Scalar> pooled_speeds(const std::string& name, const std::vector<std::vector<Scalar>>& speeds);
 
 /// Ascending speeds. Every scalar that one of the runs has is pooled.
 std::vector<SpeedGroup> speed_groups(const std::vector<StudyRun>& runs);
 
-}  // namespace drumlin
+}  // namespace drumlin::coupling

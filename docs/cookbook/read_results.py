@@ -89,7 +89,7 @@ def about_json(path, found):
         return "measured" + reduced + ": " + ", ".join("{} = {:.4g} +- {:.2g}".format(name, *value_of(content, name)) for name in ("theta_deg", "Q", "H"))
     if kind == "drumlin-run-1":
         return f"run{reduced}: {content['status']}, {content['grains']} grains, {content['snapshots']} snapshots, d = {content['scales']['length_m']:.4g} m"
-    if kind == "drumlin-flow-run-1":
+    if kind == "drumlin-flow-run-2":
         return f"continuum{reduced}: theta = {content['theta_deg']:.2f} deg, Q = {content['Q']:.3g}"
     if kind == "drumlin-comparison-1":
         verdict = content["verdict"]

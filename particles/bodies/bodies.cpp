@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-namespace drumlin {
+namespace drumlin::particles {
 
 double mass_of_disc(double radius) { return std::numbers::pi * radius * radius; }
 
@@ -28,4 +28,4 @@ double kinetic_energy(const Bodies& bodies) {
   return energy;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

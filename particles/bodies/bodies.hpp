@@ -1,10 +1,10 @@
 #pragma once
-// The discs as parallel arrays, dimensionless, laboratory frame.
+// Grains (discs) as parallel arrays, dimensionless, in the laboratory frame.
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// One entry per grain. Mass and moment of inertia follow from the radius: m = pi r^2, J = m r^2 / 2 (rho0 =
 /// 1, per unit depth).
@@ -25,4 +25,4 @@ double mass_of_disc(double radius);
 /// Kinetic energy, of the spin too where there is one.
 double kinetic_energy(const Bodies&);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -1,14 +1,13 @@
 #pragma once
 // Walls: rigid shapes that move as told. Their poses are functions of time, never integrated, so that a drum
-// turned a thousand times is still where its angle says.
+// turned a thousand times is still where its angle says; only walls that contacts push have a state.
 #include <cstdint>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
-#include "particles/scene/scene.hpp"
-
-namespace drumlin {
+namespace drumlin::particles {
 
 /// Rigid displacement p -> R(angle) p + offset; angle positive clockwise as drawn (the sense of spin).
 struct Pose {
@@ -62,21 +61,21 @@ struct Swinging {
   double amplitude = 0, rate = 0, phase = 0;
   Point center;
 };
-/// Moved along `direction` by a force and by contacts; `position` and `velocity` are state.
+/// Moved along `direction` by a force and by contacts; how far and how fast is a DrivenState.
 struct Driven {
   Point direction;  ///< unit vector
   double force = 0, inverse_mass = 0;
   double glide_x = 0, glide_z = 0;  ///< velocity across
-  double position = 0, velocity = 0;
+  int state = 0;                    ///< its place among the states
+};
+/// State of a driven wall along its direction: the one place where it is kept between steps.
+struct DrivenState {
+  double position = 0;  ///< since the stage began
+  double velocity = 0;
 };
 using Motion = std::variant<std::monostate, Turning, Gliding, Shaking, Swinging, Driven>;
-/// Displacement after `time` of a motion.
-Pose displacement(const Motion&, double time);
-
-/// What a driven wall has that no function of time tells.
-struct DrivenState {
-  double position = 0, velocity = 0;  ///< along its direction, position since the stage began
-};
+/// Displacement after `time` of a motion. `driven`: the states of all driven walls of the stage.
+Pose displacement(const Motion&, double time, std::span<const DrivenState> driven = {});
 
 /// All walls of a scene. A shape's index is its place in `reference`; shapes of one name belong to one wall.
 struct Walls {
@@ -87,27 +86,12 @@ struct Walls {
   std::vector<Motion> motion;                   ///< one per wall, of the current stage
   std::vector<Pose> pose_at_start;              ///< one per wall, when the current stage began
 
-  Pose pose(int wall, double time_in_stage) const;
-  /// States of the walls that the current stage drives, in the order of the walls.
-  std::vector<DrivenState> driven_states() const;
-  void set_driven_states(const std::vector<DrivenState>& states);  ///< as many as driven_states() gives
+  // `driven`: the state of each wall that the current stage drives, in the order of the walls.
+  Pose pose(int wall, double time_in_stage, std::span<const DrivenState> driven = {}) const;
   /// Shapes at a time of the current stage.
-  std::vector<Shape> shapes_at(double time_in_stage) const;
+  std::vector<Shape> shapes_at(double time_in_stage, std::span<const DrivenState> driven = {}) const;
 };
 
 Shape moved(const Rigid&, const Shape&);
 
-/// Length of the line on which discs can be glued; 0 for a disc.
-double wall_length_mm(const Wall& wall);
-/// Centres of the discs glued to a wall, in mm: evenly along a container, or a segment with half a spacing
-/// free at either end, so that a segment as long as the period closes on itself. Empty for a smooth wall.
-std::vector<Point_mm> glued_centers_mm(const Wall& wall);
-
-/// Dimensionless walls of a scene, at rest.
-Walls walls_of(const Scene&, const Scales&);
-/// Begins a stage: poses are carried over from `time_in_old_stage`, motions are replaced by those of `stage`.
-/// A wall that the new stage drives starts with what velocity it has along the new direction, if it was
-/// driven or glided.
-void begin_stage(Walls&, const Stage& stage, const Scales&, double time_in_old_stage);
-
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-namespace drumlin {
+namespace drumlin::particles {
 
 Eigen::Vector2d solve_planar_contact(const Eigen::Matrix2d& W, const Eigen::Vector2d& q, double mu) {
   if (q[0] >= 0) return Eigen::Vector2d::Zero();
@@ -72,4 +72,4 @@ double BlockDelassus::sweep(std::span<const double> q, std::span<const double> m
   return sum;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

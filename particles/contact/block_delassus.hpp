@@ -7,7 +7,7 @@
 
 #include "particles/contact/cone.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// Exact solution of one planar frictional contact u = W r + q with a full 2x2 block: no contact, sticking,
 /// or sliding forwards or backwards, whichever satisfies its own inequalities. W must be positive definite on
@@ -38,4 +38,4 @@ class BlockDelassus {
   Eigen::Vector2d row_times(int a, std::span<const double> r) const;
 };
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 /// Contacts of each body that moves, ascending. Walls and bodies of infinite mass couple nothing.
@@ -92,4 +92,4 @@ BlockProblem block_problem(const FrictionlessProblem& problem) {
   return blocks;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

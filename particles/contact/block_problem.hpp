@@ -1,17 +1,16 @@
 #pragma once
-// From problems that see W through their bodies to the blocks in which problems travel in files.
+// Converts contact problems to the block form in which they travel in files.
 #include "particles/contact/problems.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
-/// The same contacts, q, friction and time step with W assembled; u agrees to rounding and judge() returns
-/// the same.
+/// The same contacts, q, friction and time step with W assembled; u and the residual agree to rounding.
 BlockProblem block_problem(const CoulombProblem&);
 BlockProblem block_problem(const CoulombSpinProblem&);
 
 /// A frictionless contact gets mu = 0 and a tangential direction in which nothing acts: q_t = 0, W_tt = W_nn
 /// on the diagonal, no coupling. The solutions are the same; rms(q) runs over twice as many entries, so that
-/// judge() returns sqrt(2) times the residual.
+/// the residual is sqrt(2) times as large.
 BlockProblem block_problem(const FrictionlessProblem&);
 
 /// Already in that form.
@@ -29,4 +28,4 @@ std::vector<double> block_layout(std::span<const double> r) {
   }
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -11,7 +11,7 @@
 #include "particles/contact/cone.hpp"
 #include "particles/contact/sweep_plan.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// Velocity change of a body and what turns an impulse into it. With spin, `s` is r omega: the tangential
 /// velocity of the rim, which the contacts need, in place of omega. Velocities stand first, so that a vector
@@ -89,7 +89,7 @@ class BodyDelassus {
     return u;
   }
 
-  /// lambda_max(W_aa), the scale of the judge.
+  /// lambda_max(W_aa), the scale of the residual.
   double largest_eigenvalue(int a) const { return (dim == 2 && with_spin ? 3 : 1) / inverse_W_nn[a]; }
 
   /// State of given impulses, from scratch.
@@ -147,4 +147,4 @@ class BodyDelassus {
   }
 };
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

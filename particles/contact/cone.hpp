@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// Signorini alone: 0 <= u_n, r_n >= 0, u_n r_n = 0.
 struct Frictionless {
@@ -51,4 +51,4 @@ inline void project_on_cone(double mu, double mu_r, double& n, double& t, double
   r = std::clamp(r, -mu_r * n, mu_r * n);
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

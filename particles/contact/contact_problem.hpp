@@ -4,7 +4,7 @@
 // law.
 #include <vector>
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// `Cone` says how many unknowns a contact has, `Delassus` how W is stored: through the bodies (BodyDelassus,
 /// in time stepping) or as sparse blocks (BlockDelassus, from a file). Entries of contact a stand at dim * a,
@@ -23,4 +23,4 @@ struct ContactProblem {
   int contacts() const { return static_cast<int>(q.size()) / dim; }
 };
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

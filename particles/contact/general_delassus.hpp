@@ -1,6 +1,6 @@
 #pragma once
-// W = H M^-1 H^T of discs with rolling resistance, and of walls that contacts push: what BodyDelassus leaves
-// out, and scenes without these effects do not pay. Contact after contact, in the order of the problem.
+// W = H M^-1 H^T of discs with rolling resistance, and of walls that contacts push. Scenes without these
+// effects use BodyDelassus and pay nothing for them. Contact after contact, in the order of the problem.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include "particles/contact/body_delassus.hpp"
 #include "particles/contact/cone.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// A wall that moves along one direction, with a mass of its own; its velocity across is prescribed.
 struct DrivenBody {
@@ -126,7 +126,7 @@ class GeneralDelassus {
     return u;
   }
 
-  /// lambda_max(W_aa), the scale of the judge.
+  /// lambda_max(W_aa), the scale of the residual.
   double largest_eigenvalue(int a) const {
     const LocalBlock& W = blocks_[a];
     if constexpr (dim == 1) {
@@ -227,4 +227,4 @@ class GeneralDelassus {
   std::vector<LocalBlock> blocks_;
 };
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -1,12 +1,12 @@
 #pragma once
-// The problems that exist: which cones meet which bodies.
+// Names of the contact problems in use: one type for each combination of effects.
 #include "particles/contact/block_delassus.hpp"
 #include "particles/contact/body_delassus.hpp"
 #include "particles/contact/cone.hpp"
 #include "particles/contact/contact_problem.hpp"
 #include "particles/contact/general_delassus.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 using FrictionlessProblem = ContactProblem<Frictionless, BodyDelassus<Frictionless, false>>;
 using CoulombProblem = ContactProblem<Coulomb, BodyDelassus<Coulomb, false>>;  ///< bodies that do not turn
@@ -19,4 +19,4 @@ using DrivenCoulombSpinProblem = ContactProblem<Coulomb, GeneralDelassus<Coulomb
 using DrivenRollingProblem = ContactProblem<CoulombRolling, GeneralDelassus<CoulombRolling, true, true>>;
 using BlockProblem = ContactProblem<Coulomb, BlockDelassus>;  ///< from a file
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

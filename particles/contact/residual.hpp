@@ -1,68 +1,69 @@
 #pragma once
-// The one judge of every solver, test and cost plot (docs/conventions.md, "Accuracy of a contact solve"). It
-// computes u = W r + q from r alone and shares nothing with the solvers.
+// Residual of a contact problem: how far impulses are from solving it (docs/conventions.md, "Accuracy of a
+// contact solve"). It follows from the impulses alone, through u = W r + q, and shares nothing with the
+// solvers, so that all of them are measured alike.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
-#include <vector>
 
 #include "particles/contact/cone.hpp"
 #include "particles/contact/contact_problem.hpp"
+#include "particles/contact/solution.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
-/// How well impulses solve a problem. With e_a = |r_a - P_K(r_a - rho_a (u_a + mu_a |u_t,a| n))| / rho_a and
-/// rho_a = 1 / lambda_max(W_aa), a velocity. With rolling resistance the shift of u_n is mu |u_t| + mu_r
-/// |u_r|.
-struct Judgement {
-  double residual = 0;      ///< rms of e_a over the contacts / rms of all entries of q
-  double residual_max = 0;  ///< largest e_a / rms of all entries of q
-  double penetration = 0;   ///< max(-u_n) h, at least 0; in d inside the project
+/// With e_a = |r_a - P_K(r_a - rho_a (u_a + mu_a |u_t,a| n))| / rho_a and rho_a = 1 / lambda_max(W_aa), a
+/// velocity. With rolling resistance the shift of u_n is mu |u_t| + mu_r |u_r|.
+struct ContactResidual {
+  double rms = 0;          ///< rms of e_a over the contacts / rms of all entries of q: "residual" in files
+  double max = 0;          ///< largest e_a / rms of all entries of q: "residual_max" in files
+  double penetration = 0;  ///< max(-u_n) h, at least 0; in d inside the project
 };
 
-/// Scratch of the judge, kept between calls so that a step does not allocate.
-template <class Delassus>
-struct JudgeScratch {
-  typename Delassus::State state;
-  std::vector<double> u;
-};
-
-/// Judges r (dim * contacts entries). A problem without contacts, or with r exact, has residual 0; if every
-/// entry of q is zero and r does not solve it, infinity.
+/// e_a^2 of contact a.
 template <class Problem>
-Judgement judge(const Problem& problem, std::span<const double> r,
-                JudgeScratch<typename Problem::Delassus>& scratch) {
+double squared_error(const Problem& problem, int a, std::span<const double> r, std::span<const double> u) {
+  constexpr int dim = Problem::dim;
+  const double lambda = problem.W.largest_eigenvalue(a);
+  const double rho = 1 / lambda;
+  double squares = 0;  // of e / lambda
+  if constexpr (dim == 1) {
+    const double n = r[a] - std::max(0.0, r[a] - rho * u[a]);
+    squares = n * n;
+  } else if constexpr (dim == 3) {
+    const double mu = problem.mu[2 * a], mu_r = problem.mu[2 * a + 1];
+    double n = r[3 * a] - rho * (u[3 * a] + mu * std::abs(u[3 * a + 1]) + mu_r * std::abs(u[3 * a + 2]));
+    double t = r[3 * a + 1] - rho * u[3 * a + 1], roll = r[3 * a + 2] - rho * u[3 * a + 2];
+    project_on_cone(mu, mu_r, n, t, roll);
+    n -= r[3 * a], t -= r[3 * a + 1], roll -= r[3 * a + 2];
+    squares = n * n + t * t + roll * roll;
+  } else {
+    const double u_n = u[2 * a], u_t = u[2 * a + 1], mu = problem.mu[a];
+    double n = r[2 * a] - rho * (u_n + mu * std::abs(u_t)), t = r[2 * a + 1] - rho * u_t;
+    project_on_cone(mu, n, t);
+    n -= r[2 * a], t -= r[2 * a + 1];
+    squares = n * n + t * t;
+  }
+  return squares * (lambda * lambda);
+}
+
+/// Residual of impulses r (dim * contacts entries); `velocities` receives those that they cause. A problem
+/// without contacts, or with r exact, has residual 0; if every entry of q is zero and r does not solve it,
+/// infinity.
+template <class Problem>
+ContactResidual residual_of(const Problem& problem, std::span<const double> r,
+                            Velocities<typename Problem::Delassus>& velocities) {
   constexpr int dim = Problem::dim;
   const int count = problem.contacts();
-  Judgement verdict;
-  if (count == 0) return verdict;
-  problem.W.velocities(r, problem.q, scratch.state, scratch.u);
-  const auto& u = scratch.u;
+  ContactResidual residual;
+  problem.W.velocities(r, problem.q, velocities.bodies, velocities.contacts);
+  if (count == 0) return residual;
+  const auto& u = velocities.contacts;
   double sum = 0, largest = 0, lowest_u_n = 0, q_squares = 0;
   for (const double entry : problem.q) q_squares += entry * entry;
   for (int a = 0; a < count; ++a) {
-    const double lambda = problem.W.largest_eigenvalue(a);
-    const double rho = 1 / lambda;
-    double squares = 0;  // of e / lambda
-    if constexpr (dim == 1) {
-      const double n = r[a] - std::max(0.0, r[a] - rho * u[a]);
-      squares = n * n;
-    } else if constexpr (dim == 3) {
-      const double mu = problem.mu[2 * a], mu_r = problem.mu[2 * a + 1];
-      double n = r[3 * a] - rho * (u[3 * a] + mu * std::abs(u[3 * a + 1]) + mu_r * std::abs(u[3 * a + 2]));
-      double t = r[3 * a + 1] - rho * u[3 * a + 1], roll = r[3 * a + 2] - rho * u[3 * a + 2];
-      project_on_cone(mu, mu_r, n, t, roll);
-      n -= r[3 * a], t -= r[3 * a + 1], roll -= r[3 * a + 2];
-      squares = n * n + t * t + roll * roll;
-    } else {
-      const double u_n = u[2 * a], u_t = u[2 * a + 1], mu = problem.mu[a];
-      double n = r[2 * a] - rho * (u_n + mu * std::abs(u_t)), t = r[2 * a + 1] - rho * u_t;
-      project_on_cone(mu, n, t);
-      n -= r[2 * a], t -= r[2 * a + 1];
-      squares = n * n + t * t;
-    }
-    squares *= lambda * lambda;
+    const double squares = squared_error(problem, a, r, std::span<const double>(u));
     sum += squares;
     // A comparison that a NaN fails would hide it.
     if (!(squares <= largest)) largest = squares;
@@ -72,16 +73,22 @@ Judgement judge(const Problem& problem, std::span<const double> r,
   const auto relative = [scale](double e) {
     return e == 0 ? 0 : scale != 0 ? e / scale : std::numeric_limits<double>::infinity();
   };
-  verdict.residual = relative(std::sqrt(sum / count));
-  verdict.residual_max = relative(std::sqrt(largest));
-  verdict.penetration = -lowest_u_n * problem.time_step;
-  return verdict;
+  residual.rms = relative(std::sqrt(sum / count));
+  residual.max = relative(std::sqrt(largest));
+  residual.penetration = -lowest_u_n * problem.time_step;
+  return residual;
 }
 
 template <class Problem>
-Judgement judge(const Problem& problem, std::span<const double> r) {
-  JudgeScratch<typename Problem::Delassus> scratch;
-  return judge(problem, r, scratch);
+ContactResidual residual_of(const Problem& problem, std::span<const double> r) {
+  Velocities<typename Problem::Delassus> velocities;
+  return residual_of(problem, r, velocities);
 }
 
-}  // namespace drumlin
+/// Residual of a solution; sets its velocities.
+template <class Problem>
+ContactResidual residual_of(const Problem& problem, Solution<Problem>& solution) {
+  return residual_of(problem, std::span<const double>(solution.impulses), solution.velocities);
+}
+
+}  // namespace drumlin::particles

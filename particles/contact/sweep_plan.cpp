@@ -5,13 +5,13 @@
 #include <bit>
 #include <cmath>
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
-// A strip below this many contacts wastes vectors on the ends of its groups; lanes come in fours, so that two
-// and four threads share them evenly.
-constexpr std::int32_t contacts_per_strip = 700;
-constexpr std::int32_t lanes_at_once = 4;
+// A slice below this many contacts wastes vectors on the ends of its groups; strips come in fours, so that
+// two and four threads share them evenly.
+constexpr std::int32_t contacts_per_slice = 700;
+constexpr std::int32_t strips_at_once = 4;
 constexpr double most_slices = 4096;
 
 struct Graph {
@@ -73,45 +73,45 @@ class Levels {
   std::int32_t bodies_;
 };
 
-/// Merges levels into an even number of strips of about equal numbers of contacts; returns the strip of each
+/// Merges levels into an even number of slices of about equal numbers of contacts; returns the slice of each
 /// level.
-std::vector<std::int32_t> strips_of_levels(std::span<const std::int32_t> contacts_of_level) {
+std::vector<std::int32_t> slices_of_levels(std::span<const std::int32_t> contacts_of_level) {
   const auto levels = static_cast<std::int32_t>(contacts_of_level.size());
   std::int64_t contacts = 0;
   for (const std::int32_t count : contacts_of_level) contacts += count;
-  std::int64_t lanes = contacts / (2 * contacts_per_strip);
-  if (lanes > lanes_at_once) lanes -= lanes % lanes_at_once;
-  lanes = std::clamp<std::int64_t>(lanes, 1, std::max(1, levels / 2));
-  const std::int64_t strips = 2 * lanes;
-  std::vector<std::int32_t> strip(levels);
+  std::int64_t strips = contacts / (2 * contacts_per_slice);
+  if (strips > strips_at_once) strips -= strips % strips_at_once;
+  strips = std::clamp<std::int64_t>(strips, 1, std::max(1, levels / 2));
+  const std::int64_t slices = 2 * strips;
+  std::vector<std::int32_t> slice(levels);
   std::int64_t seen = 0;
   for (std::int32_t l = 0; l < levels; ++l) {
-    // By the middle of the level, so that a heavy level falls to the strip that holds most of it.
+    // By the middle of the level, so that a heavy level falls to the slice that holds most of it.
     const std::int64_t middle = 2 * seen + contacts_of_level[l];
-    const std::int64_t share = contacts > 0 ? middle * strips / (2 * contacts) : 0;
-    // No strip may be skipped: successive levels must lie in successive strips.
-    const std::int64_t next = l == 0 ? 0 : strip[l - 1] + 1;
-    strip[l] = static_cast<std::int32_t>(std::min({share, next, strips - 1}));
+    const std::int64_t share = contacts > 0 ? middle * slices / (2 * contacts) : 0;
+    // No slice may be skipped: successive levels must lie in successive slices.
+    const std::int64_t next = l == 0 ? 0 : slice[l - 1] + 1;
+    slice[l] = static_cast<std::int32_t>(std::min({share, next, slices - 1}));
     seen += contacts_of_level[l];
   }
-  return strip;
+  return slice;
 }
 
-/// Strips from levels (or slices) of bodies, of which a pair never skips one.
+/// Slices from levels (or slices) of bodies, of which a pair never skips one.
 std::vector<std::int32_t> merged(std::vector<std::int32_t> level, std::int32_t count,
                                  std::span<const std::int32_t> i, std::span<const std::int32_t> j) {
   const auto bodies = static_cast<std::int32_t>(level.size());
   std::vector<std::int32_t> contacts_of_level(count, 0);
   for (std::size_t a = 0; a < i.size(); ++a)
     ++contacts_of_level[moves(j[a], bodies) ? std::min(level[i[a]], level[j[a]]) : level[i[a]]];
-  const auto strip_of_level = strips_of_levels(contacts_of_level);
-  for (std::int32_t& l : level) l = strip_of_level[l];
+  const auto slice_of_level = slices_of_levels(contacts_of_level);
+  for (std::int32_t& l : level) l = slice_of_level[l];
   return level;
 }
 
 }  // namespace
 
-std::vector<std::int32_t> body_strips(std::int32_t bodies, std::span<const std::int32_t> i,
+std::vector<std::int32_t> body_slices(std::int32_t bodies, std::span<const std::int32_t> i,
                                       std::span<const std::int32_t> j) {
   if (bodies == 0) return {};
   const Graph graph = graph_of(bodies, i, j);
@@ -123,7 +123,7 @@ std::vector<std::int32_t> body_strips(std::int32_t bodies, std::span<const std::
   return merged(std::move(level), count, i, j);
 }
 
-std::vector<std::int32_t> body_strips_along(std::span<const double> position, std::span<const std::int32_t> i,
+std::vector<std::int32_t> body_slices_along(std::span<const double> position, std::span<const std::int32_t> i,
                                             std::span<const std::int32_t> j) {
   if (position.empty()) return {};
   const auto bodies = static_cast<std::int32_t>(position.size());
@@ -141,48 +141,48 @@ std::vector<std::int32_t> body_strips_along(std::span<const double> position, st
   return merged(std::move(slice), count, i, j);
 }
 
-bool SweepPlanner::plan(std::span<const std::int32_t> strip_of_body, std::span<const std::int32_t> i,
+bool SweepPlanner::plan(std::span<const std::int32_t> slice_of_body, std::span<const std::int32_t> i,
                         std::span<const std::int32_t> j, SweepPlan& plan, std::vector<std::int32_t>& order) {
-  const auto bodies = static_cast<std::int32_t>(strip_of_body.size());
+  const auto bodies = static_cast<std::int32_t>(slice_of_body.size());
   const std::size_t pairs = i.size();
-  strip_of_contact_.resize(pairs);
+  slice_of_contact_.resize(pairs);
   for (std::size_t a = 0; a < pairs; ++a) {
-    std::int32_t strip = strip_of_body[i[a]];
+    std::int32_t slice = slice_of_body[i[a]];
     if (moves(j[a], bodies)) {
-      const std::int32_t other = strip_of_body[j[a]];
-      if (other > strip + 1 || strip > other + 1) return false;
-      strip = std::min(strip, other);
+      const std::int32_t other = slice_of_body[j[a]];
+      if (other > slice + 1 || slice > other + 1) return false;
+      slice = std::min(slice, other);
     }
-    strip_of_contact_[a] = strip;
+    slice_of_contact_[a] = slice;
   }
-  const std::int32_t last = bodies > 0 ? *std::max_element(strip_of_body.begin(), strip_of_body.end()) : 0;
-  const std::int32_t lanes = last / 2 + 1;
+  const std::int32_t last = bodies > 0 ? *std::max_element(slice_of_body.begin(), slice_of_body.end()) : 0;
+  const std::int32_t strips = last / 2 + 1;
 
-  plan.lane_bodies.assign(lanes + 1, 0);
-  for (const std::int32_t strip : strip_of_body) ++plan.lane_bodies[strip / 2 + 1];
-  for (std::int32_t k = 0; k < lanes; ++k) plan.lane_bodies[k + 1] += plan.lane_bodies[k];
+  plan.strip_bodies.assign(strips + 1, 0);
+  for (const std::int32_t slice : slice_of_body) ++plan.strip_bodies[slice / 2 + 1];
+  for (std::int32_t k = 0; k < strips; ++k) plan.strip_bodies[k + 1] += plan.strip_bodies[k];
   plan.body_order.resize(bodies);
-  start_.assign(plan.lane_bodies.begin(), plan.lane_bodies.end() - 1);
-  for (std::int32_t b = 0; b < bodies; ++b) plan.body_order[start_[strip_of_body[b] / 2]++] = b;
+  start_.assign(plan.strip_bodies.begin(), plan.strip_bodies.end() - 1);
+  for (std::int32_t b = 0; b < bodies; ++b) plan.body_order[start_[slice_of_body[b] / 2]++] = b;
 
-  start_.assign(2 * static_cast<std::size_t>(lanes) + 1, 0);
-  for (const std::int32_t strip : strip_of_contact_) ++start_[strip + 1];
-  for (std::int32_t s = 0; s < 2 * lanes; ++s) start_[s + 1] += start_[s];
-  by_strip_.resize(pairs);
+  start_.assign(2 * static_cast<std::size_t>(strips) + 1, 0);
+  for (const std::int32_t slice : slice_of_contact_) ++start_[slice + 1];
+  for (std::int32_t s = 0; s < 2 * strips; ++s) start_[s + 1] += start_[s];
+  by_slice_.resize(pairs);
   for (std::size_t a = 0; a < pairs; ++a)
-    by_strip_[start_[strip_of_contact_[a]]++] = static_cast<std::int32_t>(a);
+    by_slice_[start_[slice_of_contact_[a]]++] = static_cast<std::int32_t>(a);
 
   plan.group_start.clear();
-  plan.strip_start.clear();
+  plan.slice_start.clear();
   order.clear();
   used_.resize(bodies);
   std::int32_t begin = 0;
-  for (std::int32_t s = 0; s < 2 * lanes; ++s) {
-    plan.strip_start.push_back(static_cast<std::int32_t>(plan.group_start.size()));
-    append_colours(std::span(by_strip_).subspan(begin, start_[s] - begin), i, j, plan, order);
+  for (std::int32_t s = 0; s < 2 * strips; ++s) {
+    plan.slice_start.push_back(static_cast<std::int32_t>(plan.group_start.size()));
+    append_colours(std::span(by_slice_).subspan(begin, start_[s] - begin), i, j, plan, order);
     begin = start_[s];
   }
-  plan.strip_start.push_back(static_cast<std::int32_t>(plan.group_start.size()));
+  plan.slice_start.push_back(static_cast<std::int32_t>(plan.group_start.size()));
   plan.group_start.push_back(static_cast<std::int32_t>(order.size()));
   return true;
 }
@@ -232,8 +232,8 @@ SweepPlan sweep_plan(std::int32_t bodies, std::span<const std::int32_t> i, std::
                      std::vector<std::int32_t>& order) {
   SweepPlan plan;
   SweepPlanner planner;
-  if (bodies > 0) planner.plan(body_strips(bodies, i, j), i, j, plan, order);
+  if (bodies > 0) planner.plan(body_slices(bodies, i, j), i, j, plan, order);
   return plan;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

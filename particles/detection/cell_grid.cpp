@@ -1,6 +1,6 @@
 #include "particles/detection/cell_grid.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 void CellGrid::sort(const Bodies& bodies, std::span<const double> v_x, std::span<const double> v_z,
                     std::span<const std::int32_t> members, double cell_size, const Period& period) {
@@ -67,4 +67,4 @@ void GrainGrids::sort(const Bodies& bodies, std::span<const double> v_x, std::sp
   }
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

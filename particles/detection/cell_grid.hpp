@@ -1,5 +1,5 @@
 #pragma once
-// Grains sorted into square cells: who is near a place or another grain, in a fixed order.
+// Spatial search: grains sorted into square cells, visited in a fixed order.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 #include "particles/bodies/bodies.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// Period of the domain in x; length 0: open.
 struct Period {
@@ -133,4 +133,4 @@ class GrainGrids {
   double range_ = 0;
 };
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

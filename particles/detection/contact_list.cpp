@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 /// A disc that would move further than this (in d) within one step is searched for by hand: it must not widen
@@ -130,7 +130,7 @@ class ContactDetection::Looking {
 
 void ContactDetection::weigh(std::size_t from, const DetectionInput& input) {
   weighed_.resize(looked_at_.size());
-  crew_.each(looked_at_.size() - from, [&](std::size_t begin, std::size_t end) {
+  loops_.each(looked_at_.size() - from, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = from + begin; p < from + end; ++p) {
       const bool in_order = looked_at_[p].a->body < looked_at_[p].b->body;
       const NearGrain& a = in_order ? *looked_at_[p].a : *looked_at_[p].b;
@@ -263,4 +263,4 @@ std::vector<Candidate>& ContactDetection::find(const Bodies& bodies, std::span<c
   return candidates_;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -1,25 +1,16 @@
 #pragma once
-// Which grains and walls touch or may touch within the next step.
+// Contact detection: pairs of grains and walls that touch or may touch within the next step.
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "particles/bodies/bodies.hpp"
 #include "particles/bodies/walls.hpp"
+#include "particles/detection/candidate.hpp"
 #include "particles/detection/cell_grid.hpp"
-#include "particles/parallel/crew.hpp"
+#include "particles/parallel/team_loops.hpp"
 
-namespace drumlin {
-
-/// A pair that may touch. The unit normal points from j to i.
-struct Candidate {
-  std::int32_t i = 0;  ///< grain
-  std::int32_t j = 0;  ///< grain with j > i, or -1 - s for wall shape s
-  double gap = 0;      ///< distance of the surfaces, negative when they overlap
-  double n_x = 0, n_z = 0;
-  double wall_v_x = 0,
-         wall_v_z = 0;  ///< displacement of the wall's material point over the step / step; 0 between grains
-};
+namespace drumlin::particles {
 
 struct DetectionInput {
   std::span<const Shape> shapes;      ///< at the beginning of the step
@@ -37,7 +28,7 @@ struct DetectionInput {
 class ContactDetection {
  public:
   /// Lets a team share the work; the result does not depend on it.
-  void use(ThreadTeam* team) { crew_ = Crew(team); }
+  void use(ThreadTeam* team) { loops_ = TeamLoops(team); }
   /// The result may be reordered by the caller.
   std::vector<Candidate>& find(const Bodies& bodies, std::span<const double> v_x, std::span<const double> v_z,
                                const DetectionInput& input);
@@ -60,7 +51,7 @@ class ContactDetection {
     Candidate pair;
     double reach;  // 2 h a
   };
-  Crew crew_;
+  TeamLoops loops_;
   GrainGrids grids_;
   std::vector<Pair> looked_at_;
   std::vector<NearGrain> fast_;  // grains around which is looked further
@@ -77,4 +68,4 @@ double gap_to_shape(const Shape& shape, double x, double z, double radius, doubl
 double gap_now(const Candidate& pair, const Bodies& bodies, std::span<const Shape> shapes,
                const Period& period, double& n_x, double& n_z);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace drumlin {
+namespace drumlin::particles {
 
 namespace {
 
@@ -20,10 +20,10 @@ void ContactOrder::sort(std::vector<Candidate>& pairs, const Bodies& bodies, con
   j_.resize(pairs.size());
   for (std::size_t p = 0; p < pairs.size(); ++p) i_[p] = pairs[p].i, j_[p] = pairs[p].j;
   const bool along_x = period.open() && extent(bodies.x) > extent(bodies.z);
-  planner_.plan(body_strips_along(along_x ? bodies.x : bodies.z, i_, j_), i_, j_, plan, order_);
+  planner_.plan(body_slices_along(along_x ? bodies.x : bodies.z, i_, j_), i_, j_, plan, order_);
   sorted_.resize(pairs.size());
   for (std::size_t p = 0; p < pairs.size(); ++p) sorted_[p] = pairs[order_[p]];
   pairs.swap(sorted_);
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -6,12 +6,12 @@
 #include "particles/contact/sweep_plan.hpp"
 #include "particles/detection/contact_list.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// Puts contacts into solve order; keeps work space only.
 class ContactOrder {
  public:
-  /// Sorts `pairs` and receives the plan: strips along the longer side of the packing (along z in a periodic
+  /// Sorts `pairs` and receives the plan: slices along the longer side of the packing (along z in a periodic
   /// domain).
   void sort(std::vector<Candidate>& pairs, const Bodies& bodies, const Period& period, SweepPlan& plan);
 
@@ -21,4 +21,4 @@ class ContactOrder {
   std::vector<Candidate> sorted_;
 };
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -1,11 +1,31 @@
 #pragma once
-// A coefficient of contacts (friction, restitution, ...) that depends on who touches whom.
+// Coefficient of a contact law (friction, restitution, ...) for each pair of materials: keys and values.
 #include <cstdint>
 #include <span>
+#include <string>
 #include <variant>
 #include <vector>
 
-namespace drumlin {
+#include "coupling/documents/key_spec.hpp"
+
+namespace drumlin::particles {
+
+/// The value of a law between two materials, in place of grain_grain or grain_wall. `Law` tells the values
+/// that are allowed: value_between(const Law*).
+template <class Law>
+struct MaterialPair {
+  std::vector<std::string> between;  ///< two names; the same one twice is a material with itself
+  double value = 0;
+};
+
+inline constexpr const char* pairs_sentence = "Values between two materials, in place of the two above.";
+
+template <class Visitor, class Law>
+void describe(Visitor& v, MaterialPair<Law>& p) {
+  v.value("between", p.between, required("", not_empty(), "The names of two materials, or of one twice."));
+  v.value("value", p.value,
+          required("", value_between(static_cast<const Law*>(nullptr)), "The value between them."));
+}
 
 /// One value between grains, one between a grain and a wall.
 struct PerPair {
@@ -19,6 +39,27 @@ struct PerMaterials {
 };
 
 using PairLaw = std::variant<PerPair, PerMaterials>;
+
+/// Place of a material's name among those of the scene; past the end for a name that is none of them.
+std::size_t material_place(const std::vector<std::string>& materials, const std::string& name);
+
+/// The law of keys grain_grain, grain_wall and pairs, between materials in the order of their names; grains
+/// and walls without a material have the number after the last. `unit` turns values of the scene into those
+/// of the simulation.
+template <class Effect>
+PairLaw pair_law(const Effect& effect, const std::vector<std::string>& materials, double unit = 1) {
+  if (effect.pairs.empty()) return PerPair{effect.grain_grain * unit, effect.grain_wall * unit};
+  const std::size_t count = materials.size() + 1;
+  PerMaterials table{static_cast<int>(count), std::vector<double>(count * count, effect.grain_grain * unit),
+                     std::vector<double>(count * count, effect.grain_wall * unit)};
+  for (const auto& pair : effect.pairs) {
+    const std::size_t a = material_place(materials, pair.between[0]),
+                      b = material_place(materials, pair.between[1]);
+    for (const std::size_t entry : {a * count + b, b * count + a})
+      table.grain_grain[entry] = table.grain_wall[entry] = pair.value * unit;
+  }
+  return table;
+}
 
 /// Materials of grains and wall shapes as numbers; both empty in a scene in which no law asks for them.
 struct MaterialsOf {
@@ -34,4 +75,4 @@ inline double value_of(const PairLaw& law, std::int32_t i, std::int32_t j, const
                : table.grain_grain[row + materials.grain[j]];
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

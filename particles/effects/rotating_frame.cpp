@@ -1,6 +1,8 @@
 #include "particles/effects/rotating_frame.hpp"
 
-namespace drumlin {
+#include <numbers>
+
+namespace drumlin::particles {
 namespace {
 
 /// The frame's displacement since time 0.
@@ -30,6 +32,12 @@ void add_rotation(double spin, const Point& center, Bodies& bodies) {
 
 }  // namespace
 
+TurningFrame frame_law(const RotatingFrame& key, const Scales& scales) {
+  const double unit = 1e-3 / scales.length_m;
+  return TurningFrame{key.speed_rpm * 2 * std::numbers::pi / 60 * scales.time_s,
+                      {key.center_mm[0] * unit, key.center_mm[1] * unit}};
+}
+
 void to_laboratory(const TurningFrame& frame, double time, Bodies& bodies) {
   turn(pose_of(frame, time), bodies);
   add_rotation(frame.spin, frame.center, bodies);
@@ -55,4 +63,4 @@ Point direction_in_frame(const TurningFrame& frame, double time, Point direction
   return Rigid(inverse(pose_of(frame, time))).turned(direction);
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -1,19 +1,40 @@
 #pragma once
-// A scene that is told in a frame which turns. Each step is done in the laboratory: the state is turned
-// there, and back after the step. Centrifugal and Coriolis forces so act exactly, without a time-step error
-// of their own (as body forces explicit in time they would raise the speed of a free disc by a factor of
-// sqrt(1 + (2 h Omega)^2) in each step). Costs two passes over the bodies per step, whatever the contacts.
+// Rotating frame: a scene that is told in a frame which turns. Each step is done in the laboratory: the state
+// is turned there, and back after the step. Centrifugal and Coriolis forces so act exactly, without a
+// time-step error of their own (as body forces explicit in time they would raise the speed of a free disc by
+// a factor of sqrt(1 + (2 h Omega)^2) in each step). Costs two passes over the bodies per step.
+#include "coupling/common/scales.hpp"
 #include "particles/bodies/bodies.hpp"
 #include "particles/bodies/walls.hpp"
-#include "particles/stepping/moreau_jean.hpp"
+#include "particles/effects/key_ranges.hpp"
+#include "particles/effects/wall_step.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
-/// Turns about `center`; coincides with the laboratory at time 0.
+/// The keys. Walls, motions, positions and velocities of the scene are those of the frame; gravity keeps its
+/// direction in the laboratory, with which the frame coincides at time 0.
+struct RotatingFrame {
+  double speed_rpm = 0;  ///< positive clockwise as drawn
+  Point_mm center_mm{0, 0};
+};
+
+template <class Visitor>
+void describe(Visitor& v, RotatingFrame& f) {
+  v.value("speed_rpm", f.speed_rpm,
+          required("turns/min", at_least(-1e6, 1e6),
+                   "Angular velocity of the frame, positive clockwise as drawn (z up)."));
+  v.value("center_mm", f.center_mm,
+          defaulted("mm", coordinate_mm(), "Point [x, z] about which the frame turns."));
+}
+
+/// The law. Turns about `center`; coincides with the laboratory at time 0.
 struct TurningFrame {
   double spin = 0;  ///< positive clockwise
   Point center;
 };
+TurningFrame frame_law(const RotatingFrame&, const Scales&);
+
+// Terms: before and after a step.
 
 /// Positions, velocities and spins of the frame to those of the laboratory, at `time` of the whole run.
 void to_laboratory(const TurningFrame& frame, double time, Bodies& bodies);
@@ -24,4 +45,4 @@ WallStep in_laboratory(const TurningFrame& frame, double time, double time_step,
 /// A direction of the laboratory as seen in the frame.
 Point direction_in_frame(const TurningFrame& frame, double time, Point direction);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

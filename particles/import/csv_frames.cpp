@@ -6,9 +6,11 @@
 #include <memory>
 #include <utility>
 
+#include "coupling/documents/csv.hpp"
+#include "coupling/documents/enum_names.hpp"
 #include "particles/import/line_reader.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 struct KnownColumn {
@@ -33,23 +35,14 @@ const std::vector<KnownColumn>& known_columns(CsvContent content) {
   return content == CsvContent::grains ? of_grains : of_contacts;
 }
 
-std::string si_suffix(Quantity quantity) {
-  switch (quantity) {
-    case Quantity::number:
-      return "";
-    case Quantity::time:
-      return "_s";
-    case Quantity::length:
-      return "_m";
-    case Quantity::velocity:
-      return "_m_s";
-    case Quantity::rate:
-      return "_rad_s";
-    case Quantity::force:
-      return "_N_m";
-  }
-  return "";
-}
+constexpr EnumNames<Quantity, 6> si_suffixes{{{Quantity::number, ""},
+                                              {Quantity::time, "_s"},
+                                              {Quantity::length, "_m"},
+                                              {Quantity::velocity, "_m_s"},
+                                              {Quantity::rate, "_rad_s"},
+                                              {Quantity::force, "_N_m"}}};
+
+std::string si_suffix(Quantity quantity) { return name_in(si_suffixes, quantity); }
 
 /// One column of a file: where its numbers go.
 struct Target {
@@ -89,7 +82,7 @@ class CsvFrames {
     row_waits_ = false;
     while (reader_->next()) {
       if (reader_->line().empty() || reader_->line().front() == '#') continue;
-      split_at_commas(reader_->line(), fields_);
+      csv_fields(reader_->line(), fields_);
       if (fields_.size() != targets_.size())
         reader_->refuse("", fmt::format("holds {} fields", fields_.size()),
                         fmt::format("{}, as many as there are names", targets_.size()));
@@ -108,7 +101,7 @@ class CsvFrames {
     bool found = false;
     while (!found && reader_->next()) found = !reader_->line().empty() && reader_->line().front() != '#';
     if (!found) reader_->refuse("", "holds no line of column names", "docs/formats/import.md");
-    split_at_commas(reader_->line(), fields_);
+    csv_fields(reader_->line(), fields_);
     for (const std::string_view name : fields_) {
       Target target{std::string(name), nullptr, true};
       for (const KnownColumn& column : known_columns(content_)) {
@@ -169,10 +162,10 @@ class CsvFrames {
 
 }  // namespace
 
-FrameSource csv_frames(std::vector<std::filesystem::path> files, CsvContent content,
-                       std::optional<double> interval_s, UnusedColumns& unused) {
+FrameTableSource csv_frames(std::vector<std::filesystem::path> files, CsvContent content,
+                            std::optional<double> interval_s, UnusedColumns& unused) {
   const auto frames = std::make_shared<CsvFrames>(std::move(files), content, interval_s, unused);
   return [frames] { return frames->next(); };
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -6,14 +6,14 @@
 
 #include "particles/import/frame_table.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 enum class CsvContent { grains, contacts };
 
 /// A frame per file, and per time where there is a column of time. Without one frame n has the time
 /// n interval_s; without that either, no time. Comment lines begin with #. Throws InputError (file, line) on
 /// the way. `unused` outlives the source.
-FrameSource csv_frames(std::vector<std::filesystem::path> files, CsvContent content,
-                       std::optional<double> interval_s, UnusedColumns& unused);
+FrameTableSource csv_frames(std::vector<std::filesystem::path> files, CsvContent content,
+                            std::optional<double> interval_s, UnusedColumns& unused);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cctype>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 #include "particles/import/description_keys.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 namespace fs = std::filesystem;
@@ -105,4 +105,4 @@ std::vector<fs::path> files_of(const fs::path& folder, const std::vector<std::st
   return files;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -1,5 +1,5 @@
 #pragma once
-// What is known about a run of another program beside its files (docs/formats/import.md).
+// Description of a run of another program: what its files do not say (docs/formats/import.md).
 #include <array>
 #include <filesystem>
 #include <optional>
@@ -7,10 +7,10 @@
 #include <variant>
 #include <vector>
 
-#include "coupling/exchange/key_lister.hpp"
+#include "coupling/documents/key_lister.hpp"
 #include "particles/scene/scene.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// Comma-separated files with a line of column names. Files count from the folder of the description; "*" in
 /// a name stands for any text.
@@ -75,4 +75,4 @@ std::vector<KeyRow> import_keys();
 std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder,
                                             const std::vector<std::string>& patterns);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -1,10 +1,10 @@
 #pragma once
-// The keys of a description of foreign snapshots, each described once (coupling/exchange/key_table.hpp).
-#include "coupling/exchange/key_table.hpp"
+// Keys of a description of foreign snapshots, each described once (coupling/documents/key_table.hpp).
+#include "coupling/documents/key_table.hpp"
 #include "particles/import/description.hpp"
 #include "particles/scene/scene_keys.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 inline constexpr const char* import_format = "drumlin-import-1";
 
@@ -102,4 +102,4 @@ void describe(Visitor& v, ImportDescription& d) {
       when_given("s", above(0, 1e6), "Time step of that run, for the record: forces do not depend on it."));
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -1,8 +1,8 @@
 #include "particles/import/frame_table.hpp"
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 double unit_of(Quantity quantity, const Scales& scales) {
   switch (quantity) {
@@ -39,4 +39,4 @@ void FrameTable::refuse(std::size_t row, const std::string& key, const std::stri
   throw InputError({{file, row < line.size() ? line[row] : first_line, 0, key, what, allowed}});
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "coupling/exchange/scales.hpp"
+#include "coupling/common/scales.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// What a column holds: decides its unit. Forces are per metre of depth.
 enum class Quantity { number, time, length, velocity, rate, force };
@@ -44,9 +44,9 @@ struct FrameTable {
 };
 
 /// Frames in order; none after the last.
-using FrameSource = std::function<std::optional<FrameTable>()>;
+using FrameTableSource = std::function<std::optional<FrameTable>()>;
 
 /// Names of columns that were there and told nothing.
 using UnusedColumns = std::set<std::string>;
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

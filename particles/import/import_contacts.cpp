@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 using Vector = std::array<double, 2>;
@@ -110,4 +110,4 @@ void add_contacts(const FrameTable& table, const FrameBodies& bodies, Snapshot& 
   }
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

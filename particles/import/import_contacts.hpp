@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <unordered_map>
 
+#include "particles/bodies/snapshot.hpp"
 #include "particles/import/frame_table.hpp"
-#include "particles/measurement/snapshot.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// Who the ids of a frame are.
 struct FrameBodies {
@@ -21,4 +21,4 @@ struct FrameBodies {
 /// towards its axis. Throws InputError (file, line).
 void add_contacts(const FrameTable& table, const FrameBodies& bodies, Snapshot& snapshot);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -8,12 +8,12 @@
 #include <numeric>
 #include <optional>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 #include "particles/import/csv_frames.hpp"
 #include "particles/import/import_contacts.hpp"
 #include "particles/import/lammps_frames.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 namespace fs = std::filesystem;
@@ -23,8 +23,8 @@ constexpr double same_time =
 
 /// What the files give, before any unit is known.
 struct Sources {
-  FrameSource grains;
-  std::optional<FrameSource> contacts;
+  FrameTableSource grains;
+  std::optional<FrameTableSource> contacts;
   std::vector<std::string> files;
 };
 
@@ -96,7 +96,8 @@ Scales scales_for(const ImportDescription& description, const FrameTable& table,
       diameter_m += 2 * radius[row] / static_cast<double>(rows.grains.size());
     if (!(diameter_m > 0)) table.refuse(0, "radius", "the mean radius is not above 0");
   }
-  return scales_of(diameter_m, description.gravity.acceleration_m_s2, description.grains.density_kg_m3);
+  return drumlin::scales_of(diameter_m, description.gravity.acceleration_m_s2,
+                            description.grains.density_kg_m3);
 }
 
 /// The state that does not come from the files.
@@ -176,7 +177,7 @@ void check_same_grains(const std::vector<std::int64_t>& before, const std::vecto
 /// table with times does not name has no contacts.
 class ContactFrames {
  public:
-  explicit ContactFrames(FrameSource source) : source_(std::move(source)), waiting_(source_()) {}
+  explicit ContactFrames(FrameTableSource source) : source_(std::move(source)), waiting_(source_()) {}
 
   std::optional<FrameTable> at(double time, const FrameTable& grains, const Scales& scales) {
     if (!waiting_) {
@@ -201,7 +202,7 @@ class ContactFrames {
   }
 
  private:
-  FrameSource source_;
+  FrameTableSource source_;
   std::optional<FrameTable> waiting_;
   bool timed_ = false;
 };
@@ -277,4 +278,4 @@ ImportReport import_run(const ImportDescription& description, const fs::path& fo
   return report;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -1,14 +1,14 @@
 #pragma once
-// From the files of another program to snapshots.
+// Import of the files of another program as snapshots.
 #include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "particles/bodies/snapshot.hpp"
 #include "particles/import/description.hpp"
-#include "particles/measurement/snapshot.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 struct ImportReport {
   std::size_t snapshots = 0;
@@ -28,4 +28,4 @@ struct ImportReport {
 ImportReport import_run(const ImportDescription& description, const std::filesystem::path& folder,
                         const std::function<void(const Snapshot&)>& sink);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -9,7 +9,7 @@
 
 #include "particles/import/line_reader.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 /// A column of the dump: where it goes, what one of its units is in SI, what is added to it.
@@ -134,14 +134,14 @@ class LammpsFrames {
   std::unique_ptr<LineReader> reader_;
 };
 
-FrameSource source_of(std::shared_ptr<LammpsFrames> frames) {
+FrameTableSource source_of(std::shared_ptr<LammpsFrames> frames) {
   return [frames = std::move(frames)] { return frames->next(); };
 }
 
 }  // namespace
 
-FrameSource lammps_grains(std::vector<std::filesystem::path> files, const LammpsSource& source,
-                          UnusedColumns& unused) {
+FrameTableSource lammps_grains(std::vector<std::filesystem::path> files, const LammpsSource& source,
+                               UnusedColumns& unused) {
   const double metre = source.length_unit_m, second = source.time_unit_s;
   const bool upright = source.plane == "xz";
   // The axes of the plane, the one across it, and the component of the angular velocity that turns in it.
@@ -169,8 +169,8 @@ FrameSource lammps_grains(std::vector<std::filesystem::path> files, const Lammps
       std::make_shared<LammpsFrames>(std::move(files), source.step_s, "ITEM: ATOMS", meaning, unused));
 }
 
-FrameSource lammps_contacts(std::vector<std::filesystem::path> files, const LammpsSource& source,
-                            UnusedColumns& unused) {
+FrameTableSource lammps_contacts(std::vector<std::filesystem::path> files, const LammpsSource& source,
+                                 UnusedColumns& unused) {
   const double newton =
       source.mass_unit_kg * source.length_unit_m / (source.time_unit_s * source.time_unit_s);
   const double sign = source.force_on == "first" ? 1 : -1;
@@ -187,4 +187,4 @@ FrameSource lammps_contacts(std::vector<std::filesystem::path> files, const Lamm
       std::make_shared<LammpsFrames>(std::move(files), source.step_s, "ITEM: ENTRIES", meaning, unused));
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

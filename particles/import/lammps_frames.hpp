@@ -7,15 +7,15 @@
 #include "particles/import/description.hpp"
 #include "particles/import/frame_table.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// Frames of a dump of atoms, in SI: id, x, z, v_x, v_z, radius, spin_clockwise, type, third (the coordinate
 /// across the plane). Scaled coordinates (xs) are put into their box; a triclinic box is refused.
-FrameSource lammps_grains(std::vector<std::filesystem::path> files, const LammpsSource& source,
-                          UnusedColumns& unused);
+FrameTableSource lammps_grains(std::vector<std::filesystem::path> files, const LammpsSource& source,
+                               UnusedColumns& unused);
 
 /// Frames of a dump of contacts, in SI: i, j, f_x, f_z; the force acts on i.
-FrameSource lammps_contacts(std::vector<std::filesystem::path> files, const LammpsSource& source,
-                            UnusedColumns& unused);
+FrameTableSource lammps_contacts(std::vector<std::filesystem::path> files, const LammpsSource& source,
+                                 UnusedColumns& unused);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -1,11 +1,9 @@
 #include "particles/import/line_reader.hpp"
 
-#include <charconv>
-#include <cmath>
+#include "coupling/common/errors.hpp"
+#include "coupling/documents/csv.hpp"
 
-#include "coupling/exchange/errors.hpp"
-
-namespace drumlin {
+namespace drumlin::particles {
 
 LineReader::LineReader(const std::filesystem::path& file) : file_(file) {
   std::error_code error;
@@ -33,17 +31,9 @@ void LineReader::refuse(const std::string& key, const std::string& what, const s
 
 double LineReader::number_from(std::string_view text, const std::string& key) const {
   const std::string_view digits = text.starts_with('+') ? text.substr(1) : text;
-  double value = 0;
-  const auto [end, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (digits.empty() || fault != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value))
-    refuse(key, "\"" + std::string(text) + "\" is no number", "a finite number");
-  return value;
-}
-
-std::string_view trimmed(std::string_view text) {
-  const auto from = text.find_first_not_of(" \t\r");
-  if (from == std::string_view::npos) return {};
-  return text.substr(from, text.find_last_not_of(" \t\r") - from + 1);
+  const auto value = finite_number(digits);
+  if (!value) refuse(key, "\"" + std::string(text) + "\" is no number", "a finite number");
+  return *value;
 }
 
 std::vector<std::string_view> words_of(std::string_view line) {
@@ -56,14 +46,4 @@ std::vector<std::string_view> words_of(std::string_view line) {
   return words;
 }
 
-void split_at_commas(std::string_view line, std::vector<std::string_view>& fields) {
-  fields.clear();
-  for (;;) {
-    const auto comma = line.find(',');
-    fields.push_back(trimmed(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return;
-    line.remove_prefix(comma + 1);
-  }
-}
-
-}  // namespace drumlin
+}  // namespace drumlin::particles

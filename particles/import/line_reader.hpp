@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace drumlin {
+namespace drumlin::particles {
 
 class LineReader {
  public:
@@ -29,10 +29,7 @@ class LineReader {
   int number_ = 0;
 };
 
-std::string_view trimmed(std::string_view text);
 /// Words between spaces.
 std::vector<std::string_view> words_of(std::string_view line);
-/// Fields between commas, trimmed.
-void split_at_commas(std::string_view line, std::vector<std::string_view>& fields);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

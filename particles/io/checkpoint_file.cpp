@@ -2,7 +2,7 @@
 
 #include "coupling/files/h5_image.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 const std::string format = "drumlin-checkpoint-1";
@@ -149,4 +149,4 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
   return checkpoint;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

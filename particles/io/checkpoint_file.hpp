@@ -6,7 +6,7 @@
 
 #include "particles/stepping/simulation.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// What a run has added up so far.
 struct RunTotals {
@@ -36,4 +36,4 @@ void write_checkpoint(const std::filesystem::path& file, const Checkpoint& check
 /// Throws InputError when the file is missing, damaged or of another version.
 Checkpoint read_checkpoint(const std::filesystem::path& file);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -6,7 +6,7 @@
 
 #include "coupling/files/h5_image.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 struct Entry {
@@ -153,4 +153,4 @@ void write_contact_problem(const std::filesystem::path& file, const BlockProblem
   out.save(file);
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -6,7 +6,7 @@
 
 #include "particles/contact/problems.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// Reads /fclib_local/{spacedim, W/{nzmax,m,n,nz,p,i,x}, vectors/{q,mu}}: nz = -2 compressed rows, -1
 /// compressed columns,
@@ -22,4 +22,4 @@ void write_contact_solution(const std::filesystem::path& file, std::span<const d
 void write_contact_problem(const std::filesystem::path& file, const BlockProblem& problem,
                            const std::string& description);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

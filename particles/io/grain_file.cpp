@@ -4,7 +4,7 @@
 
 #include "coupling/files/h5_image.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 void add_floats(H5Writer& out, const std::string& name, const std::vector<double>& values) {
@@ -55,4 +55,4 @@ void write_grains(const std::filesystem::path& file, const GrainRecord& record) 
   out.save(file);
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <vector>
 
-#include "coupling/exchange/scales.hpp"
+#include "coupling/common/scales.hpp"
 #include "particles/measurement/grains/grain_fields.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// One snapshot's fields and the frame that they are in. Dimensionless; x downslope from the drum's axis, z
 /// from the surface along its normal.
@@ -28,4 +28,4 @@ struct GrainRecord {
 /// that name is then untouched.
 void write_grains(const std::filesystem::path& file, const GrainRecord& record);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

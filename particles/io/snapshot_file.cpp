@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 #include "coupling/files/h5_image.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 const std::string format = "drumlin-snapshot-1";
 
@@ -133,4 +133,4 @@ std::vector<std::filesystem::path> snapshot_files(const std::filesystem::path& r
   return files;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <vector>
 
-#include "particles/measurement/snapshot.hpp"
+#include "particles/bodies/snapshot.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// Throws IoError when the file cannot be written; an older file of that name is then untouched.
 void write_snapshot(const std::filesystem::path& file, const Snapshot& snapshot);
@@ -15,4 +15,4 @@ Snapshot read_snapshot(const std::filesystem::path& file);
 /// The snapshot files of a run folder, in order of their numbers.
 std::vector<std::filesystem::path> snapshot_files(const std::filesystem::path& run);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -5,14 +5,14 @@
 #include <limits>
 #include <numbers>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
+#include "particles/measurement/frame/intervals.hpp"
 #include "particles/measurement/grains/cell_profiles.hpp"
-#include "particles/measurement/intervals.hpp"
 #include "particles/measurement/layers/packing_scalars.hpp"
 #include "particles/measurement/layers/slice.hpp"
 #include "particles/measurement/layers/variants.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
@@ -217,4 +217,4 @@ Measurement measurement(const SnapshotSource& source, const MeasurementOptions& 
   return result;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -1,5 +1,5 @@
 #pragma once
-// From the snapshots of a run to its profiles and scalars.
+// The measurement of a run: profiles, scalars and their intervals from its snapshots.
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -11,58 +11,16 @@
 #include "coupling/exchange/profile_set.hpp"
 #include "coupling/exchange/scalar_set.hpp"
 #include "particles/measurement/frame/flow_snapshot.hpp"
-#include "particles/measurement/frame/survey.hpp"
+#include "particles/measurement/frame/measurement_frame.hpp"
 #include "particles/measurement/layers/sensitivity.hpp"
 #include "particles/measurement/steadiness.hpp"
 
-namespace drumlin {
-
-/// Narrow slices, to follow the flow along the surface. The paper, Sec. III B: five of them, 2 d wide.
-struct SlicesRequest {
-  std::vector<double> positions;  ///< x of their middles, d; empty: 0, +-0.3, +-0.6 of half the chord
-  double width = 2;               ///< d
-};
+namespace drumlin::particles {
 
 struct MeasuredSlice {
   double position = 0, width = 0;
   ProfileSet profiles;  ///< with intervals, z counted from the surface in this slice
   double axis_depth = 0, wall_z = 0;
-};
-
-/// Lengths in d. What is not asked for is neither computed nor stored.
-struct MeasurementOptions {
-  double position = 0;      ///< x of the slice
-  double slice_width = 20;  ///< cut to a quarter of the surface's chord, or to the width of what there is
-  double layer_thickness = 1;
-  double slope_isoline = 0.4;       ///< volume fraction of the line that gives the slope
-  double slope_half_width = 20;     ///< cut to a quarter of the chord
-  double surface_nu = 0.7;          ///< volume fraction that marks z = 0
-  double bulk_margin = 4;           ///< nu_bulk keeps this distance from the surface and from the wall
-  double wall_margin = 3;           ///< so do means over the static phase, from the wall
-  double fluctuation_I_min = 1e-4;  ///< least I of the power laws of the fluctuations
-  std::size_t batches = 20;         ///< of the intervals
-  ProfileScalarOptions scalars;
-
-  std::optional<double>
-      gradient_step;  ///< derivatives from slices at position -+ this; cut to a quarter of half the chord
-  std::optional<SlicesRequest> slices;  ///< more profiles; none in a periodic domain
-  bool sensitivity = false;             ///< the scalars by other windows as well
-  bool voronoi = false;                 ///< columns of the middle slice by Voronoi cells
-};
-
-/// Where and how a run is measured: what a part needs to know before it sees the first snapshot.
-struct MeasurementFrame {
-  FlowFrame frame;  ///< origin on the drum's axis
-  FrameSource source = FrameSource::gravity;
-  double container_radius = 0;  ///< 0 without a drum
-  double period = 0;            ///< 0: open
-  double z_min = 0, z_max = 0;  ///< what the layers cover
-  double x_min = 0, x_max = 0;  ///< what the grains reach along x; -+ the radius in a drum
-  double rotation = 0;          ///< of the drum, clockwise
-  double slice_width = 0;       ///< of the slice in the middle
-  double gradient_step = 0;     ///< used; 0: no derivatives along x
-  double half_chord = 0;        ///< of the surface; infinite without a drum
-  std::size_t snapshots = 0, batches = 0;
 };
 
 /// Something else that reads the snapshots in the same pass. `begin` is called once the frame is known, then
@@ -110,4 +68,4 @@ Measurement measurement(const SnapshotSource& source, const MeasurementOptions& 
                         std::span<const MeasurementPart> parts = {},
                         const std::function<void(std::size_t done, std::size_t total)>& progress = {});
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 constexpr double side_of_square = 4;  // d: some sixteen grains
@@ -89,4 +89,4 @@ MotionDifference motion_difference(const Bodies& start, const Bodies& reference,
           std::abs(kinetic_energy(other) / kinetic_energy(reference) - 1)};
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

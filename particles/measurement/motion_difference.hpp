@@ -1,8 +1,8 @@
 #pragma once
-// How far two simulations from one state have come apart.
+// Difference between two simulations that started from one state.
 #include "particles/bodies/bodies.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// Differences as root mean squares over the grains, weighted with their masses, over that of the reference's
 /// own motion less its rigid part: what all grains share by translation and rotation is no flow, and counts
@@ -17,4 +17,4 @@ struct MotionDifference {
 /// The three have the same grains in the same order. NaN where the reference moves as a rigid body.
 MotionDifference motion_difference(const Bodies& start, const Bodies& reference, const Bodies& other);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -4,18 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
+#include <functional>
 #include <limits>
 #include <map>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "coupling/exchange/errors.hpp"
-#include "coupling/exchange/text_file.hpp"
-#include "particles/measurement/intervals.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/common/text_file.hpp"
+#include "coupling/documents/csv.hpp"
+#include "particles/measurement/frame/intervals.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -26,37 +28,25 @@ struct LogRow {
   double overlap_mean = none, overlap_max = none, residual = none;
 };
 
-std::vector<std::string> fields_of(const std::string& line) {
-  std::vector<std::string> fields;
-  std::istringstream stream(line);
-  for (std::string field; std::getline(stream, field, ',');) fields.push_back(field);
-  return fields;
-}
-
-double number_of(const std::string& text) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  return end == text.c_str() ? none : value;
-}
+double number_of(std::string_view text) { return finite_number(text).value_or(none); }
 
 std::vector<LogRow> read_log(const std::filesystem::path& file) {
   std::istringstream stream(file_text(file));
   std::string line;
   std::getline(stream, line);
-  const auto names = fields_of(line);
-  std::map<std::string, std::size_t> place;
-  for (std::size_t i = 0; i < names.size(); ++i) place[names[i]] = i;
+  std::map<std::string, std::size_t, std::less<>> place;
+  for (const std::string_view name : csv_fields(line)) place.emplace(name, place.size());
   for (const char* name : {"time_s", "stage", "overlap_mean", "overlap_max", "residual"})
     if (!place.contains(name))
       throw InputError({{file.string(), 1, 0, name, "no such column in the log", ""}});
 
   std::vector<LogRow> rows;
   for (int number = 2; std::getline(stream, line); ++number) {
-    auto fields = fields_of(line);
-    if (fields.size() != names.size())
+    const auto fields = csv_fields(line);
+    if (fields.size() != place.size())
       throw InputError({{file.string(), number, 0, "", fmt::format("holds {} fields", fields.size()),
-                         fmt::format("{}, as many as the first line", names.size())}});
-    LogRow row{number_of(fields[place["time_s"]]), fields[place["stage"]],
+                         fmt::format("{}, as many as the first line", place.size())}});
+    LogRow row{number_of(fields[place["time_s"]]), std::string(fields[place["stage"]]),
                number_of(fields[place["overlap_mean"]]), number_of(fields[place["overlap_max"]]),
                number_of(fields[place["residual"]])};
     if (!std::isfinite(row.time_s))
@@ -106,4 +96,4 @@ ScalarSet accuracy_scalars(const std::filesystem::path& log_csv, double first_ti
        averaged("residual_mean", finite_values(rows, &LogRow::residual))}};
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -1,10 +1,10 @@
 #pragma once
-// The run's own account of its accuracy (log.csv), averaged over the stages that were measured.
+// Accuracy of a run by its own log (log.csv), averaged over the stages that were measured.
 #include <filesystem>
 
 #include "coupling/exchange/scalar_set.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// overlap_mean (d, over loaded contacts, before the position projection) and residual_mean, both averaged
 /// over the logged steps, with the intervals of batch means; overlap_max without one. The steps are those of
@@ -13,4 +13,4 @@ namespace drumlin {
 /// file that is not of this kind.
 ScalarSet accuracy_scalars(const std::filesystem::path& log_csv, double first_time_s, double last_time_s);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

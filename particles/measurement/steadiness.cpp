@@ -7,9 +7,9 @@
 #include <numbers>
 #include <span>
 
-#include "particles/measurement/intervals.hpp"
+#include "particles/measurement/frame/intervals.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 // A drift counts when it is larger than its interval and than what would matter to a reader.
@@ -88,4 +88,4 @@ Steadiness steadiness(const TimeSeries& series, double rotation, std::size_t bat
   return result;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

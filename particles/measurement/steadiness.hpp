@@ -1,12 +1,12 @@
 #pragma once
-// Whether a run had reached steady flow and was watched long enough to say so.
+// Steadiness of a run: whether it had reached steady flow, and was observed for long enough to tell.
 #include <limits>
 #include <string>
 #include <vector>
 
 #include "particles/measurement/frame/survey.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// A change between the first and the second half of the snapshots, with its 99 % half width.
 struct Drift {
@@ -30,4 +30,4 @@ struct Steadiness {
 /// `rotation`: spin of the wall; `batches` of the intervals, half of them in each half of the series.
 Steadiness steadiness(const TimeSeries& series, double rotation, std::size_t batches);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -4,13 +4,13 @@
 #include <immintrin.h>
 #endif
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
-constexpr int looks_before_yielding = 4000;   // some 20 microseconds
+constexpr int spins_before_yielding = 4000;   // some 20 microseconds
 constexpr int yields_before_sleeping = 2000;  // between jobs only
 
-void rest_a_moment() {
+void pause() {
 #if defined(__x86_64__)
   _mm_pause();
 #endif
@@ -26,9 +26,9 @@ void Barrier::meet() {
     round_.store(round + 1, std::memory_order_release);
     return;
   }
-  for (int looks = 0; round_.load(std::memory_order_acquire) == round; ++looks)
-    if (looks < looks_before_yielding)
-      rest_a_moment();
+  for (int spins = 0; round_.load(std::memory_order_acquire) == round; ++spins)
+    if (spins < spins_before_yielding)
+      pause();
     else
       std::this_thread::yield();
 }
@@ -51,19 +51,19 @@ void ThreadTeam::run(const std::function<void(int)>& job) {
   started_.fetch_add(1, std::memory_order_release);
   started_.notify_all();
   job(0);
-  for (int looks = 0; running_.load(std::memory_order_acquire) > 0; ++looks)
-    if (looks < looks_before_yielding)
-      rest_a_moment();
+  for (int spins = 0; running_.load(std::memory_order_acquire) > 0; ++spins)
+    if (spins < spins_before_yielding)
+      pause();
     else
       std::this_thread::yield();
 }
 
 void ThreadTeam::help(int t) {
   for (std::uint32_t seen = 0;;) {
-    for (int looks = 0; started_.load(std::memory_order_acquire) == seen; ++looks) {
-      if (looks < looks_before_yielding)
-        rest_a_moment();
-      else if (looks < looks_before_yielding + yields_before_sleeping)
+    for (int spins = 0; started_.load(std::memory_order_acquire) == seen; ++spins) {
+      if (spins < spins_before_yielding)
+        pause();
+      else if (spins < spins_before_yielding + yields_before_sleeping)
         std::this_thread::yield();
       else
         started_.wait(seen, std::memory_order_acquire);
@@ -75,4 +75,4 @@ void ThreadTeam::help(int t) {
   }
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

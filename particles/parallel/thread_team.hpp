@@ -1,5 +1,5 @@
 #pragma once
-// Threads that work on one solve together and meet many thousand times a second.
+// Thread team: threads that work on one solve together and meet many thousand times a second.
 #include <atomic>
 #include <cstdint>
 #include <functional>
@@ -7,10 +7,10 @@
 #include <thread>
 #include <vector>
 
-namespace drumlin {
+namespace drumlin::particles {
 
-/// Meeting point of a fixed number of threads. Waits by looking, briefly; then lets others run, so that it
-/// still works with more threads than processors.
+/// Barrier of a fixed number of threads. Spins, then yields, so that it still works with more threads than
+/// processors.
 class Barrier {
  public:
   explicit Barrier(int threads) : threads_(threads) {}
@@ -48,4 +48,4 @@ class ThreadTeam {
   std::vector<std::thread> helpers_;
 };
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -7,7 +7,7 @@
 #include "particles/scene/sizes.hpp"
 #include "particles/scene/validate.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 class Variants {
@@ -150,4 +150,4 @@ std::vector<EffectVariant> effect_variants(const Scene& scene) {
   return variants.take();
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -6,7 +6,7 @@
 
 #include "particles/scene/scene.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 enum class EffectChange { none, removed, added };
 
@@ -22,4 +22,4 @@ struct EffectVariant {
 /// Effects that have no meaning in the scene (a rough wall where there is none) are left out.
 std::vector<EffectVariant> effect_variants(const Scene& scene);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace drumlin {
+namespace drumlin::particles {
 
 std::vector<std::string> material_names(const Scene& scene) {
   std::vector<std::string> names;
@@ -27,4 +27,4 @@ bool materials_matter(const Scene& scene) {
          (e.cohesion && !e.cohesion->pairs.empty());
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

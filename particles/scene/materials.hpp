@@ -1,12 +1,12 @@
 #pragma once
-// Names of materials as numbers.
+// Numbers of the materials of a scene.
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "particles/scene/scene.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 constexpr int most_materials = 200;
 
@@ -18,4 +18,4 @@ int material_number(const std::vector<std::string>& names, const std::optional<s
 /// Whether a law of the scene differs from pair to pair: only then materials are stored.
 bool materials_matter(const Scene& scene);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

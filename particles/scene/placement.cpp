@@ -1,19 +1,19 @@
 #include "particles/scene/placement.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <map>
 #include <numbers>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/documents/csv.hpp"
 #include "particles/scene/materials.hpp"
 #include "particles/scene/random.hpp"
 #include "particles/scene/sequential_placement.hpp"
 #include "particles/scene/sizes.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 constexpr double spacing_over_largest = 1.03;
@@ -102,17 +102,6 @@ struct ListedGrain {
   std::string material;
 };
 
-std::vector<std::string> fields_of(const std::string& line) {
-  std::vector<std::string> fields(1);
-  for (const char c : line) {
-    if (c == ',')
-      fields.emplace_back();
-    else if (c != ' ' && c != '\t' && c != '\r')
-      fields.back() += c;
-  }
-  return fields;
-}
-
 /// Largest magnitude of a listed number, in the unit of its column.
 double largest_allowed(const std::string& column) { return column == "diameter_mm" ? 1e5 : 1e7; }
 
@@ -130,7 +119,8 @@ std::vector<ListedGrain> listed(const std::filesystem::path& file) {
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
     if (line.empty() || line == "\r" || line[0] == '#') continue;
-    const auto fields = fields_of(line);
+    const auto texts = csv_fields(line);
+    const std::vector<std::string> fields(texts.begin(), texts.end());
     if (names.empty()) {
       names = fields;
       for (const auto& column : names)
@@ -156,9 +146,9 @@ std::vector<ListedGrain> listed(const std::filesystem::path& file) {
         grain.material = fields[f];
         continue;
       }
-      double value = 0;
-      const auto [end, error] = std::from_chars(fields[f].data(), fields[f].data() + fields[f].size(), value);
-      if (error != std::errc{} || end != fields[f].data() + fields[f].size() || !std::isfinite(value))
+      const auto number_read = finite_number(fields[f]);
+      const double value = number_read.value_or(0);
+      if (!number_read)
         problems.push_back({name, number, 0, names[f], "'" + fields[f] + "'", "a finite number"});
       else if (std::abs(value) > largest_allowed(names[f]))
         problems.push_back(
@@ -251,4 +241,4 @@ Bodies place_grains(const Scene& scene, const Scales& scales) {
 
 int capacity(const GeneratedGrains& grains) { return static_cast<int>(lattice_sites(grains).size()); }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

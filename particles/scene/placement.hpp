@@ -1,9 +1,9 @@
 #pragma once
-// From the grains that a scene asks for to bodies.
+// Makes and places the grains that a scene asks for.
 #include "particles/bodies/bodies.hpp"
 #include "particles/scene/scene.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// Mean diameter in metres: of the distribution, or of the grains listed. It is the unit of length.
 double mean_diameter_m(const Grains& grains);
@@ -17,4 +17,4 @@ Bodies place_grains(const Scene& scene, const Scales& scales);
 /// How many grains of the scene's largest diameter fit into the region of generated grains.
 int capacity(const GeneratedGrains& grains);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

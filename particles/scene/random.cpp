@@ -2,7 +2,7 @@
 
 #include <bit>
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 std::uint64_t splitmix64(std::uint64_t& state) {
@@ -40,4 +40,4 @@ std::uint64_t RandomStream::bits() {
 
 double RandomStream::uniform() { return static_cast<double>(bits() >> 11) * 0x1.0p-53; }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

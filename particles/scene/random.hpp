@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// xoshiro256++ (Blackman and Vigna 2019), seeded through splitmix64 from the scene's seed and the stream's
 /// name.
@@ -21,4 +21,4 @@ class RandomStream {
   std::array<std::uint64_t, 4> state_;
 };
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

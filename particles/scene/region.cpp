@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace drumlin {
+namespace drumlin::particles {
 
 namespace {
 
@@ -76,4 +76,4 @@ bool crosses(const Region& region, const WallShape& shape, double tolerance) {
   return distance(nearest, disc->center_mm) < disc->diameter_mm / 2 - margin;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -5,7 +5,7 @@
 
 #include "particles/scene/scene.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 using Region = std::variant<CircleRegion, RectangleRegion>;
 using WallShape = std::variant<ContainerShape, SegmentShape, DiscShape>;
@@ -18,4 +18,4 @@ double farthest_mm(const Region& region, const Point_mm& center);
 /// wall. `tolerance` is relative to the size of the region. A container crosses nothing.
 bool crosses(const Region& region, const WallShape& shape, double tolerance);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

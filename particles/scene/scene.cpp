@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace drumlin {
+namespace drumlin::particles {
 
 double duration_s(const Stage& stage) {
   if (stage.duration_s) return *stage.duration_s;
@@ -20,4 +20,4 @@ bool moves_walls_by_force(const Scene& scene) {
   return false;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

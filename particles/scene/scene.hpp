@@ -1,5 +1,5 @@
 #pragma once
-// What a user asks for, in SI as the keys say. Nothing here knows how it is solved.
+// Scene: what a user asks for, in SI as the keys say. Nothing here knows how it is solved.
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -8,11 +8,17 @@
 #include <variant>
 #include <vector>
 
-#include "coupling/exchange/scales.hpp"
+#include "coupling/common/scales.hpp"
+#include "particles/effects/cohesion.hpp"
+#include "particles/effects/driven_walls.hpp"
+#include "particles/effects/friction.hpp"
+#include "particles/effects/gravity.hpp"
+#include "particles/effects/restitution.hpp"
+#include "particles/effects/rolling.hpp"
+#include "particles/effects/rotating_frame.hpp"
+#include "particles/effects/spin.hpp"
 
-namespace drumlin {
-
-using Point_mm = std::array<double, 2>;  ///< x to the right, z upwards, laboratory frame
+namespace drumlin::particles {
 
 /// Periodic in x between two abscissae; a scene without it is open.
 struct PeriodicX {
@@ -104,54 +110,7 @@ struct Wall {
   std::optional<Roughness> rough = {};
 };
 
-/// Effects: absent means that nothing of it is stored or computed.
-struct Gravity {
-  double acceleration_m_s2 = 9.81;
-  double direction_deg = -90;  ///< angle from +x, anticlockwise as drawn; -90 points down
-};
-/// The value of a law between two materials, in place of grain_grain or grain_wall.
-template <class Law>
-struct MaterialPair {
-  std::vector<std::string> between;  ///< two names; the same one twice is a material with itself
-  double value = 0;
-};
-/// Coulomb friction; one unknown more per contact.
-struct Friction {
-  double grain_grain = 0;
-  double grain_wall = 0;
-  std::vector<MaterialPair<Friction>> pairs = {};
-};
-/// Newton restitution of the normal velocity.
-struct Restitution {
-  double grain_grain = 0;
-  double grain_wall = 0;
-  std::vector<MaterialPair<Restitution>> pairs = {};
-};
-/// Angular velocity of the grains; needs friction, which alone can turn a disc.
-struct Spin {};
-/// Rolling resistance: a couple of at most mu_r R_eff r_n that opposes rolling; one unknown more per contact,
-/// needs spin.
-struct RollingResistance {
-  double grain_grain = 0;
-  double grain_wall = 0;
-  std::vector<MaterialPair<RollingResistance>> pairs = {};
-};
-/// Constant attraction of surfaces that touch (gap below the range): contacts pull up to that force before
-/// they part, and Coulomb's bound counts it as load.
-struct Cohesion {
-  double grain_grain =
-      0;  ///< force, in weights of a disc of the mean diameter (of 9.81 m/s2 without gravity)
-  double grain_wall = 0;
-  double range_d = 1e-3;  ///< in mean diameters
-  std::vector<MaterialPair<Cohesion>> pairs = {};
-};
-/// The scene (walls, motions, positions, velocities) is that of a frame that turns about a point; gravity
-/// keeps its direction in the laboratory, with which the frame coincides at time 0.
-struct RotatingFrame {
-  double speed_rpm = 0;  ///< positive clockwise as drawn
-  Point_mm center_mm{0, 0};
-};
-
+/// What is absent is neither stored nor computed. Each effect is described in its file in particles/effects.
 struct Effects {
   std::optional<Gravity> gravity = {};
   std::optional<Friction> friction = {};
@@ -184,13 +143,6 @@ struct Rocking {
   double phase_deg = 0;
   Point_mm center_mm{0, 0};
 };
-/// A wall that a force moves along one direction, against the grains; across, its velocity is given.
-struct ForceControl {
-  std::array<double, 2> direction{0, 0};  ///< of the force and of the motion; its length does not matter
-  double force_n_m = 0;  ///< per metre of depth: all that acts beside the grains, weight included
-  double mass_kg_m = 0;
-  std::array<double, 2> velocity_mm_s{0, 0};  ///< at right angles to the direction
-};
 struct WallMotion {
   std::string wall;
   std::variant<Rotation, Translation, Oscillation, Rocking, ForceControl> motion;
@@ -213,7 +165,7 @@ struct SolverSettings {
   double tolerance = 1e-2;              ///< of `residual`
   double penetration_tolerance = 1e-3;  ///< of `penetration`, in d
   int max_sweeps = 100;
-  int check_every = 10;                ///< sweeps between two looks at the judge
+  int check_every = 10;                ///< sweeps between two evaluations of the residual
   int projection_sweeps = 20;          ///< at most; 0: no position projection
   bool stop_when_unconverged = false;  ///< end with exit code 3 at the first step that misses the tolerance
   int capture_unconverged = 0;         ///< so many steps that miss it leave their contact problem as a file
@@ -245,4 +197,4 @@ double duration_s(const Stage& stage);
 /// Whether a force moves a wall in some stage, so that the places of the walls are results.
 bool moves_walls_by_force(const Scene& scene);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -1,12 +1,13 @@
 #include "particles/scene/scene_file.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "particles/scene/placement.hpp"
 #include "particles/scene/scene_keys.hpp"
 #include "particles/scene/validate.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 namespace {
 
@@ -55,8 +56,7 @@ Scene scene_of(const Document& document) {
       problems.push_back(problem_at(document, fault.key, fault.what, fault.allowed));
   sort_by_place(problems);
   add_problems_of_list(scene, problems);
-  if (!problems.empty()) throw InputError(problems);
-  return scene;
+  return accepted(std::move(scene), problems);
 }
 
 }  // namespace
@@ -74,4 +74,4 @@ std::string scene_text(const Scene& scene) { return toml_text(write_keys(scene))
 
 std::vector<KeyRow> scene_keys() { return list_keys<Scene>(); }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "coupling/exchange/key_lister.hpp"
+#include "coupling/documents/key_lister.hpp"
 #include "particles/scene/scene.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// Reads and validates. Throws InputError with every problem of the file and of the overrides
 /// ("solver.max_sweeps=50").
@@ -23,4 +23,4 @@ std::string scene_text(const Scene& scene);
 /// Every key of a scene file, in the order of docs/formats/scene.md.
 std::vector<KeyRow> scene_keys();
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

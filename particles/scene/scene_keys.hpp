@@ -1,17 +1,14 @@
 #pragma once
 // The keys of a scene file, each described once: docs/formats/scene.md, reading, writing and `drumlin scene
-// keys` follow from this (coupling/exchange/key_table.hpp).
-#include "coupling/exchange/key_table.hpp"
+// keys` follow from this (coupling/documents/key_table.hpp). The keys of an effect stand beside its law, in
+// particles/effects.
+#include "coupling/documents/key_table.hpp"
 #include "particles/scene/scene.hpp"
 #include "particles/solver/contact_solver.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 inline constexpr const char* scene_format = "drumlin-scene-1";
-
-/// A kilometre either way: what lies beyond is a slip of the pen and would cost memory.
-inline Allowed coordinate_mm() { return at_least(-1e6, 1e6); }
-inline Allowed length_mm() { return above(0, 1e6); }
 
 template <class Visitor>
 void describe(Visitor& v, PeriodicX& p) {
@@ -146,80 +143,6 @@ void describe(Visitor& v, Wall& w) {
 }
 
 template <class Visitor>
-void describe(Visitor& v, Gravity& g) {
-  v.value("acceleration_m_s2", g.acceleration_m_s2,
-          defaulted("m/s2", above(0, 1e6), "Strength of gravity; sets the unit of time, sqrt(d/g)."));
-  v.value(
-      "direction_deg", g.direction_deg,
-      defaulted("deg", at_least(-360, 360), "Direction, from +x anticlockwise as drawn; -90 points down."));
-}
-
-inline constexpr const char* pairs_sentence = "Values between two materials, in place of the two above.";
-
-/// What the value of a law between two materials may be.
-inline Allowed value_between(const Friction*) { return at_least(0, 100); }
-inline Allowed value_between(const Restitution*) { return at_least(0, 1); }
-inline Allowed value_between(const RollingResistance*) { return at_least(0, 100); }
-inline Allowed value_between(const Cohesion*) { return at_least(0, 1e6); }
-
-template <class Visitor, class Law>
-void describe(Visitor& v, MaterialPair<Law>& p) {
-  v.value("between", p.between, required("", not_empty(), "The names of two materials, or of one twice."));
-  v.value("value", p.value,
-          required("", value_between(static_cast<const Law*>(nullptr)), "The value between them."));
-}
-
-template <class Visitor>
-void describe(Visitor& v, Friction& f) {
-  v.value("grain_grain", f.grain_grain, required("", at_least(0, 100), "Coefficient between two grains."));
-  v.value("grain_wall", f.grain_wall,
-          required("", at_least(0, 100), "Coefficient between a grain and a wall."));
-  v.tables("pairs", f.pairs, 0, pairs_sentence);
-}
-
-template <class Visitor>
-void describe(Visitor& v, Restitution& r) {
-  v.value("grain_grain", r.grain_grain,
-          required("", at_least(0, 1), "Share of the normal approach speed that two grains part with."));
-  v.value("grain_wall", r.grain_wall, required("", at_least(0, 1), "The same between a grain and a wall."));
-  v.tables("pairs", r.pairs, 0, pairs_sentence);
-}
-
-template <class Visitor>
-void describe(Visitor&, Spin&) {}
-
-template <class Visitor>
-void describe(Visitor& v, RollingResistance& r) {
-  v.value(
-      "grain_grain", r.grain_grain,
-      required("", at_least(0, 100),
-               "Coefficient mu_r between two grains: a couple of at most mu_r R r_n, 1/R = 1/r_i + 1/r_j."));
-  v.value("grain_wall", r.grain_wall,
-          required("", at_least(0, 100), "The same between a grain and a wall, R the grain's radius."));
-  v.tables("pairs", r.pairs, 0, pairs_sentence);
-}
-
-template <class Visitor>
-void describe(Visitor& v, Cohesion& c) {
-  v.value("grain_grain", c.grain_grain,
-          required("", at_least(0, 1e6),
-                   "Attraction of two grains that touch, in weights of a disc of the mean diameter."));
-  v.value("grain_wall", c.grain_wall, required("", at_least(0, 1e6), "The same between a grain and a wall."));
-  v.value("range_d", c.range_d,
-          defaulted("d", above(0, 1), "Surfaces closer than this touch, in mean diameters."));
-  v.tables("pairs", c.pairs, 0, pairs_sentence);
-}
-
-template <class Visitor>
-void describe(Visitor& v, RotatingFrame& f) {
-  v.value("speed_rpm", f.speed_rpm,
-          required("turns/min", at_least(-1e6, 1e6),
-                   "Angular velocity of the frame, positive clockwise as drawn (z up)."));
-  v.value("center_mm", f.center_mm,
-          defaulted("mm", coordinate_mm(), "Point [x, z] about which the frame turns."));
-}
-
-template <class Visitor>
 void describe(Visitor& v, Effects& e) {
   v.optional_table("gravity", e.gravity, "Uniform gravity.");
   v.optional_table("friction", e.friction, "Coulomb friction; costs one unknown more per contact.");
@@ -272,21 +195,6 @@ void describe(Visitor& v, Rocking& r) {
                 "The angle is amplitude (sin(2 pi f t + phase) - sin(phase)), t from the stage's start."));
   v.value("center_mm", r.center_mm,
           defaulted("mm", coordinate_mm(), "Point [x, z] about which the wall rocks."));
-}
-
-template <class Visitor>
-void describe(Visitor& v, ForceControl& f) {
-  v.value(
-      "direction", f.direction,
-      required("", at_least(-1e6, 1e6), "Direction [x, z] of force and motion; its length does not matter."));
-  v.value(
-      "force_n_m", f.force_n_m,
-      required("N/m", at_least(-1e12, 1e12),
-               "Force along it, per metre of depth: all that acts beside the grains, the weight included."));
-  v.value("mass_kg_m", f.mass_kg_m,
-          required("kg/m", above(0, 1e12), "Mass of the wall, per metre of depth: its inertia."));
-  v.value("velocity_mm_s", f.velocity_mm_s,
-          defaulted("mm/s", at_least(-1e9, 1e9), "Velocity [v_x, v_z] across the direction."));
 }
 
 template <class Visitor>
@@ -374,4 +282,4 @@ void describe(Visitor& v, Scene& s) {
   v.table("output", s.output, Need::defaulted, "What is written, and how often.");
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

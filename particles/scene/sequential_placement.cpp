@@ -7,10 +7,10 @@
 #include <numeric>
 #include <unordered_map>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 #include "particles/scene/random.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 constexpr double room_around = 1.01;  // radii are so much larger while discs are placed
@@ -129,4 +129,4 @@ std::vector<Point_mm> sequential_centers_mm(std::span<const double> diameters_mm
   return centers;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -5,7 +5,7 @@
 
 #include "particles/scene/region.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// Centres, in mm, of discs of the given diameters inside the region, nowhere closer than 1 % of their radii:
 /// the largest first, each at the first free of random places in the lowest part of the region that has room
@@ -19,4 +19,4 @@ constexpr double sequential_share = 0.5;
 
 double area_mm2(const Region& region);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 /// Integral of x^power between two bounds.
@@ -68,4 +68,4 @@ double mean_power_mm(const GeneratedGrains& grains, int power) {
   return std::visit([&](const auto& law) { return mean_power(law, low, high, power); }, *grains.sizes);
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

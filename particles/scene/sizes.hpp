@@ -1,13 +1,13 @@
 #pragma once
-// How the diameters of generated grains are distributed.
+// Distributions of the diameters of generated grains.
 #include "particles/scene/random.hpp"
 #include "particles/scene/scene.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// A diameter, in mm, between diameter_min_mm and diameter_max_mm.
 double drawn_diameter_mm(const GeneratedGrains& grains, RandomStream& random);
 /// Mean of the diameter to a power, in mm^power, of the distribution and not of the grains drawn.
 double mean_power_mm(const GeneratedGrains& grains, int power);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

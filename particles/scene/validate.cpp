@@ -7,14 +7,14 @@
 #include <numbers>
 #include <set>
 
-#include "particles/bodies/walls.hpp"
 #include "particles/scene/placement.hpp"
 #include "particles/scene/region.hpp"
+#include "particles/scene/scene_walls.hpp"
 #include "particles/scene/sequential_placement.hpp"
 #include "particles/scene/sizes.hpp"
 #include "particles/scene/validate_materials.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 namespace {
 
@@ -371,4 +371,4 @@ std::vector<SceneFault> validate(const Scene& scene) {
   return faults;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -1,11 +1,11 @@
 #pragma once
-// What no single key can say of itself: whether the parts of a scene fit together.
+// Consistency checks of a scene: whether its parts fit together, which no single key can say of itself.
 #include <string>
 #include <vector>
 
 #include "particles/scene/scene.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// A contradiction. `about` names the keys that it rests on (a path stands for all below it): where one of
 /// them is wrong by itself, the contradiction would only repeat that.
@@ -20,4 +20,4 @@ struct SceneFault {
 /// problems inside it carry their own place and are thrown as InputError by place_grains, not told here.
 std::vector<SceneFault> validate(const Scene& scene);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -6,7 +6,7 @@
 
 #include "particles/scene/materials.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 std::string listed_names(const std::vector<std::string>& names) {
@@ -68,4 +68,4 @@ void check_materials(const Scene& scene, std::vector<SceneFault>& faults) {
   if (effects.cohesion) check_pairs(scene, effects.cohesion->pairs, "cohesion", faults);
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

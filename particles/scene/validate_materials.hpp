@@ -1,12 +1,12 @@
 #pragma once
-// Whether the materials of a scene and the pairs of its laws fit together.
+// Consistency checks of materials and of the pairs in the laws of a scene.
 #include <vector>
 
 #include "particles/scene/validate.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// Appends what is wrong.
 void check_materials(const Scene& scene, std::vector<SceneFault>& faults);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -1,15 +1,14 @@
 #include "particles/solver/conjugate_projected_gradient.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "particles/contact/problems.hpp"
-#include "particles/parallel/crew.hpp"
+#include "particles/parallel/team_loops.hpp"
 #include "particles/solver/contact_solver.hpp"
 #include "particles/solver/diagonal_entry.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 // The bounds of friction move on when what is left of the quadratic problem is smaller than this share of
@@ -20,19 +19,19 @@ constexpr double share_left = 0.5;
 // Products after which u is computed anew, against the rounding errors of its updates.
 constexpr int refresh_every = 50;
 
-double dot(Crew& crew, std::span<const double> x, std::span<const double> y) {
-  return crew.sum(x.size(), [&](std::size_t begin, std::size_t end) {
+double dot(TeamLoops& loops, std::span<const double> x, std::span<const double> y) {
+  return loops.sum(x.size(), [&](std::size_t begin, std::size_t end) {
     double sum = 0;
     for (std::size_t k = begin; k < end; ++k) sum += x[k] * y[k];
     return sum;
   });
 }
 
-/// u = W r + q. Problems of discs in the order of a plan: the bodies gather impulses lane by lane, phase by
+/// u = W r + q. Problems of discs in the order of a plan: the bodies gather impulses strip by strip, phase by
 /// phase, and contacts read them off, both on all threads.
 template <class Problem>
-void multiply(const Problem& problem, const Crew& crew, std::span<const double> r, std::span<const double> q,
-              typename Problem::Delassus::State& state, std::vector<double>& u) {
+void multiply(const Problem& problem, const TeamLoops& loops, std::span<const double> r,
+              std::span<const double> q, typename Problem::Delassus::State& state, std::vector<double>& u) {
   if constexpr (requires { problem.W.plan; }) {
     const auto& W = problem.W;
     if (!W.plan.empty()) {
@@ -40,13 +39,13 @@ void multiply(const Problem& problem, const Crew& crew, std::span<const double> 
       const auto fixed = static_cast<std::int32_t>(W.inverse_mass.size()) - 1;
       W.rest(state);
       for (const int phase : {0, 1})
-        crew.each_of(W.plan.lanes(), [&](int lane) {
-          const std::int32_t* strip = &W.plan.strip_start[2 * lane + phase];
-          for (std::int32_t a = W.plan.group_start[strip[0]]; a < W.plan.group_start[strip[1]]; ++a)
+        loops.each_of(W.plan.strips(), [&](int strip) {
+          const std::int32_t* slice = &W.plan.slice_start[2 * strip + phase];
+          for (std::int32_t a = W.plan.group_start[slice[0]]; a < W.plan.group_start[slice[1]]; ++a)
             W.push(state, a, r[dim * a], dim == 2 ? r[dim * a + dim - 1] : 0, W.j[a] != fixed);
         });
       u.resize(q.size());
-      crew.each(static_cast<std::size_t>(W.contacts()), [&](std::size_t begin, std::size_t end) {
+      loops.each(static_cast<std::size_t>(W.contacts()), [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
           const int a = static_cast<int>(k);
           u[dim * k] = q[dim * k] + W.normal_velocity(state, a);
@@ -66,12 +65,12 @@ class ProjectedGradient {
   static constexpr int dim = Problem::dim;
 
  public:
-  ProjectedGradient(const Problem& problem, SolverScratch<Problem>& scratch, std::vector<double>& r)
+  ProjectedGradient(const Problem& problem, SolverWorkspace<Problem>& work, std::vector<double>& r)
       : problem_(problem),
-        state_(scratch.state),
-        work_(scratch.projected_gradient),
+        state_(work.state),
+        work_(work.projected_gradient),
         r_(r),
-        crew_(problem.contacts() > 2000 ? scratch.team : nullptr) {
+        loops_(problem.contacts() > 2000 ? work.team : nullptr) {
     const auto size = problem.q.size();
     r_.resize(size);
     work_.zero.assign(size, 0.0);
@@ -110,12 +109,12 @@ class ProjectedGradient {
       for (int a = 0; a < problem_.contacts(); ++a) work_.bound[a] = problem_.mu[a] * r_[2 * a];
     }
     project(r_);
-    multiply(problem_, crew_, r_, problem_.q, state_, work_.u);
+    multiply(problem_, loops_, r_, problem_.q, state_, work_.u);
     restart_ = true;
   }
 
   void project(std::vector<double>& x) const {
-    crew_.each(static_cast<std::size_t>(problem_.contacts()), [&](std::size_t begin, std::size_t end) {
+    loops_.each(static_cast<std::size_t>(problem_.contacts()), [&](std::size_t begin, std::size_t end) {
       for (std::size_t a = begin; a < end; ++a) {
         x[dim * a] = std::max(0.0, x[dim * a]);
         if constexpr (dim == 2) x[2 * a + 1] = std::clamp(x[2 * a + 1], -work_.bound[a], work_.bound[a]);
@@ -134,7 +133,7 @@ class ProjectedGradient {
 
   /// Returns the squared norm of the gradient, in the norm of the diagonal of W^-1.
   double project_gradient() {
-    return crew_.sum(static_cast<std::size_t>(problem_.contacts()), [&](std::size_t begin, std::size_t end) {
+    return loops_.sum(static_cast<std::size_t>(problem_.contacts()), [&](std::size_t begin, std::size_t end) {
       double squares = 0;
       for (std::size_t a = begin; a < end; ++a)
         for (int c = 0; c < dim; ++c) {
@@ -149,7 +148,7 @@ class ProjectedGradient {
   /// Squared norm, in the same sense, of what the friction would change if the bounds moved and every contact
   /// at its bound went along.
   double change_of_bounds() {
-    return crew_.sum(static_cast<std::size_t>(problem_.contacts()), [&](std::size_t begin, std::size_t end) {
+    return loops_.sum(static_cast<std::size_t>(problem_.contacts()), [&](std::size_t begin, std::size_t end) {
       double squares = 0;
       for (std::size_t a = begin; a < end; ++a) {
         const double now = r_[dim * a + 1], fresh = problem_.mu[a] * r_[dim * a];
@@ -165,10 +164,10 @@ class ProjectedGradient {
   /// tangent cone is kept (Renouf and Alart: the projected direction z).
   void choose_direction() {
     auto& p = work_.direction;
-    const double curvature = restart_ ? 0 : dot(crew_, p, work_.image);
+    const double curvature = restart_ ? 0 : dot(loops_, p, work_.image);
     if (curvature > 0) {
-      const double beta = -dot(crew_, work_.gradient, work_.image) / curvature;
-      crew_.each(static_cast<std::size_t>(problem_.contacts()), [&](std::size_t begin, std::size_t end) {
+      const double beta = -dot(loops_, work_.gradient, work_.image) / curvature;
+      loops_.each(static_cast<std::size_t>(problem_.contacts()), [&](std::size_t begin, std::size_t end) {
         for (std::size_t a = begin; a < end; ++a)
           for (int c = 0; c < dim; ++c) {
             const std::size_t k = dim * a + c;
@@ -176,21 +175,21 @@ class ProjectedGradient {
           }
       });
     }
-    if (curvature <= 0 || dot(crew_, work_.u, p) >= 0) p = work_.gradient;
+    if (curvature <= 0 || dot(loops_, work_.u, p) >= 0) p = work_.gradient;
     restart_ = false;
   }
 
-  double energy() { return (dot(crew_, r_, work_.u) + dot(crew_, r_, problem_.q)) / 2; }
+  double energy() { return (dot(loops_, r_, work_.u) + dot(loops_, r_, problem_.q)) / 2; }
 
   void step() {
     choose_direction();
-    multiply(problem_, crew_, work_.direction, work_.zero, state_, work_.image);
-    const double curvature = dot(crew_, work_.direction, work_.image);
+    multiply(problem_, loops_, work_.direction, work_.zero, state_, work_.image);
+    const double curvature = dot(loops_, work_.direction, work_.image);
     if (curvature <= 0) {  // at the minimum, the gradient is zero
       restart_ = true;
       return;
     }
-    const double length = -dot(crew_, work_.u, work_.direction) / curvature;
+    const double length = -dot(loops_, work_.u, work_.direction) / curvature;
     const double energy_before = energy();
     work_.r_before = r_;
     work_.u_before = work_.u;
@@ -211,7 +210,7 @@ class ProjectedGradient {
   }
 
   void go_along(double length) {
-    crew_.each(r_.size(), [&](std::size_t begin, std::size_t end) {
+    loops_.each(r_.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) {
         r_[k] += length * work_.direction[k];
         work_.u[k] += length * work_.image[k];
@@ -220,7 +219,7 @@ class ProjectedGradient {
   }
 
   void refresh() {
-    multiply(problem_, crew_, r_, problem_.q, state_, work_.u);
+    multiply(problem_, loops_, r_, problem_.q, state_, work_.u);
     steps_since_refresh_ = 0;
   }
 
@@ -239,9 +238,9 @@ class ProjectedGradient {
 
   const Problem& problem_;
   typename Problem::Delassus::State& state_;
-  ProjectedGradientScratch& work_;
+  ProjectedGradientWorkspace& work_;
   std::vector<double>& r_;
-  Crew crew_;
+  TeamLoops loops_;
   bool restart_ = true;
   int steps_since_refresh_ = 0;
 };
@@ -249,34 +248,28 @@ class ProjectedGradient {
 }  // namespace
 
 template <class Problem>
-SolveReport solve_cpg(const Problem& problem, const StoppingRule& rule, SolverScratch<Problem>& scratch,
-                      std::vector<double>& r) {
-  const auto start = std::chrono::steady_clock::now();
-  SolveReport report;
-  ProjectedGradient<Problem> gradient(problem, scratch, r);
-  for (;;) {
+SolveReport solve_cpg(const Problem& problem, const StoppingRule& rule, SolverWorkspace<Problem>& work,
+                      Solution<Problem>& solution) {
+  StoppingTest test(rule);
+  ProjectedGradient<Problem> gradient(problem, work, solution.impulses);
+  for (int sweeps = 1;; ++sweeps) {
     gradient.advance();
-    ++report.sweeps;
-    const bool last = report.sweeps >= rule.max_sweeps;
-    if (!last && report.sweeps % rule.check_every != 0) continue;
-    const std::vector<double>& judged = gradient.impulses_in_cone();
-    report.judgement = judge(problem, std::span<const double>(judged), scratch.judge);
-    report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (const auto status = reason_to_stop(rule, report)) {
-      report.status = *status;
-      r = judged;
-      return report;
-    }
+    if (!test.due(sweeps)) continue;
+    const std::vector<double>& found = gradient.impulses_in_cone();
+    if (!test.ends(sweeps, residual_of(problem, std::span<const double>(found), solution.velocities)))
+      continue;
+    solution.impulses = found;
+    return test.report();
   }
 }
 
-#define DRUMLIN_INSTANTIATE(Problem)                                                           \
-  template SolveReport solve_cpg(const Problem&, const StoppingRule&, SolverScratch<Problem>&, \
-                                 std::vector<double>&);
+#define DRUMLIN_INSTANTIATE(Problem)                                                             \
+  template SolveReport solve_cpg(const Problem&, const StoppingRule&, SolverWorkspace<Problem>&, \
+                                 Solution<Problem>&);
 DRUMLIN_INSTANTIATE(FrictionlessProblem)
 DRUMLIN_INSTANTIATE(CoulombProblem)
 DRUMLIN_INSTANTIATE(CoulombSpinProblem)
 DRUMLIN_INSTANTIATE(BlockProblem)
 #undef DRUMLIN_INSTANTIATE
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

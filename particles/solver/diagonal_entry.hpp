@@ -3,7 +3,7 @@
 #include "particles/contact/block_delassus.hpp"
 #include "particles/contact/body_delassus.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// W_nn or W_tt of contact a.
 template <class Cone, bool with_spin>
@@ -14,4 +14,4 @@ inline double diagonal_entry(const BlockDelassus& W, int a, int component) {
   return W.diagonal[a](component, component);
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -1,8 +1,8 @@
 #pragma once
-// How far the accelerated Gauss-Seidel method goes on along its last step.
+// Extrapolation factor of the accelerated Gauss-Seidel method.
 #include <algorithm>
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// Nesterov's extrapolation y = x + beta (x - x_before) between the sweeps of NLGS, x = sweep(y). beta is at
 /// least 0.8, and (k - 1)/(k + 2) in the k-th sweep since the last restart (Nesterov 1983; Beck and Teboulle
@@ -28,4 +28,4 @@ class Momentum {
   int sweeps_ = 0;
 };
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-namespace drumlin {
+namespace drumlin::particles {
 
 template <class Cone, bool with_spin>
 ResponseSystem<BodyDelassus<Cone, with_spin>>::ResponseSystem(const Delassus& W) : W_(W) {
@@ -120,4 +120,4 @@ template class ResponseSystem<FrictionlessProblem::Delassus>;
 template class ResponseSystem<CoulombProblem::Delassus>;
 template class ResponseSystem<CoulombSpinProblem::Delassus>;
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

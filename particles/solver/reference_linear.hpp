@@ -6,7 +6,7 @@
 
 #include "particles/contact/problems.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// How the impulse of one contact answers its velocity: dr = -D du. Friction at its bound follows the normal
 /// impulse (tn), friction within it answers alone (tt).
@@ -51,4 +51,4 @@ class ResponseSystem<BlockDelassus> {
   const BlockDelassus& W_;
 };
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -6,7 +6,6 @@
 // as long as Newton converges. What was tried before for the drum at mu = 0.4 and stalls near 5e-4 is listed
 // in docs/theory/solvers.md.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <optional>
 
@@ -15,7 +14,7 @@
 #include "particles/solver/diagonal_entry.hpp"
 #include "particles/solver/reference_linear.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 constexpr int first_sweeps = 5000;  // of NNCG: beyond, it wanders
@@ -118,26 +117,24 @@ class ProximalNewton {
 /// Follows the proximal steps, and what they have reached.
 template <class Problem>
 class ReferenceSolve {
-  using Clock = std::chrono::steady_clock;
-
  public:
-  ReferenceSolve(const Problem& problem, const StoppingRule& rule, SolverScratch<Problem>& scratch,
-                 std::vector<double>& r)
-      : problem_(problem), rule_(rule), scratch_(scratch), best_(r) {}
+  ReferenceSolve(const Problem& problem, const StoppingRule& rule, SolverWorkspace<Problem>& work,
+                 Solution<Problem>& solution)
+      : problem_(problem), rule_(rule), work_(work), solution_(solution), test_(rule) {}
 
   SolveReport execute() {
-    sweep(std::clamp(rule_.max_sweeps / 2, 1, first_sweeps), best_);
-    now_ = best_;
+    sweep(std::clamp(rule_.max_sweeps / 2, 1, first_sweeps), solution_, best_residual_);
+    now_ = solution_.impulses;
     std::optional<ProximalNewton<Problem>> newton;
     if (!stopped()) newton.emplace(problem_);
     double kappa = first_kappa;
     int wait = 0;  // proximal steps before kappa may grow
     while (!stopped()) {
-      const int before = rule_.max_sweeps - report_.sweeps;
+      const int before = rule_.max_sweeps - sweeps_;
       int left = before;
       const auto next = newton->step(now_, kappa, left);
       const int steps = before - std::max(0, left);
-      report_.sweeps += std::max(steps, 1);  // a step that changes nothing counts, or it might go on for ever
+      sweeps_ += std::max(steps, 1);  // a step that changes nothing counts, or it might go on for ever
       if (next) {
         extrapolate_and_take(*next);
         if (steps <= 8 && --wait < 0) kappa = std::min(3 * kappa, largest_kappa);
@@ -147,60 +144,62 @@ class ReferenceSolve {
       }
       if (++without_progress_ > patience) stir(kappa);
     }
-    report_.judgement =
-        judge(problem_, std::span<const double>(best_), scratch_.judge);  // also its velocities
-    return report_;
+    SolveReport report = test_.report();
+    report.residual = residual_of(problem_, solution_);  // also its velocities
+    return report;
   }
 
  private:
-  bool stopped() {
-    report_.seconds = std::chrono::duration<double>(Clock::now() - start_).count();
-    const auto reason = reason_to_stop(rule_, report_);
-    if (reason) report_.status = *reason;
-    return reason.has_value();
-  }
+  bool stopped() { return test_.ends(sweeps_, best_residual_); }
 
-  /// NNCG from r; what it reaches is kept if it is the best.
-  void sweep(int sweeps, std::vector<double>& r) {
+  /// NNCG from the impulses of a solution.
+  void sweep(int sweeps, Solution<Problem>& solution, ContactResidual& residual) {
     StoppingRule rule = rule_;
     rule.max_sweeps = sweeps;
     rule.max_seconds = rule_.max_seconds / 4;
-    const SolveReport swept = solve_nncg(problem_, rule, scratch_, r);
-    report_.sweeps += swept.sweeps;
-    if (&r == &best_)
-      report_.judgement = swept.judgement;
-    else
-      keep_if_best(r, swept.judgement);
+    const SolveReport swept = solve_nncg(problem_, rule, work_, solution);
+    sweeps_ += swept.sweeps;
+    residual = swept.residual;
   }
 
+  /// NNCG from where the steps are; what it reaches is kept if it is the best.
   void stir(double& kappa) {
-    const int left = rule_.max_sweeps - report_.sweeps;
-    if (left > 0) sweep(std::min(left, stirring_sweeps), now_);
+    const int left = rule_.max_sweeps - sweeps_;
+    if (left > 0) {
+      ContactResidual residual;
+      trial_.impulses.swap(now_);
+      sweep(std::min(left, stirring_sweeps), trial_, residual);
+      trial_.impulses.swap(now_);
+      keep_if_best(now_, residual);
+    }
     kappa = first_kappa;
     without_progress_ = 0;
   }
 
-  void keep_if_best(const std::vector<double>& r, const Judgement& judgement) {
-    if (!(judgement.residual < report_.judgement.residual)) return;
-    if (judgement.residual < 0.9 * report_.judgement.residual) without_progress_ = 0;
-    report_.judgement = judgement;
-    best_ = r;
+  ContactResidual residual(const std::vector<double>& r) {
+    return residual_of(problem_, std::span<const double>(r), trial_.velocities);
+  }
+
+  void keep_if_best(const std::vector<double>& r, const ContactResidual& residual) {
+    if (!(residual.rms < best_residual_.rms)) return;
+    if (residual.rms < 0.9 * best_residual_.rms) without_progress_ = 0;
+    best_residual_ = residual;
+    solution_.impulses = r;
   }
 
   /// Where the impulses are not unique, steps go on in one direction for long: try to go all the way to where
   /// a contact would leave its cone.
   void extrapolate_and_take(const std::vector<double>& next) {
-    Judgement judged = judge(problem_, std::span<const double>(next), scratch_.judge);
     const double length = length_within_cone(next);
     std::vector<double> beyond = next;
     for (std::size_t k = 0; k < next.size(); ++k) beyond[k] += length * (next[k] - now_[k]);
     now_ = next;
-    keep_if_best(now_, judged);
+    const ContactResidual of_next = residual(next);
+    keep_if_best(now_, of_next);
     if (!(length > 1)) return;
-    judged = judge(problem_, std::span<const double>(beyond), scratch_.judge);
-    if (judged.residual < judge(problem_, std::span<const double>(now_), scratch_.judge).residual)
-      now_ = beyond;
-    keep_if_best(beyond, judged);
+    const ContactResidual of_beyond = residual(beyond);
+    if (of_beyond.rms < of_next.rms) now_ = beyond;
+    keep_if_best(beyond, of_beyond);
   }
 
   double length_within_cone(const std::vector<double>& next) const {
@@ -225,29 +224,30 @@ class ReferenceSolve {
 
   const Problem& problem_;
   const StoppingRule& rule_;
-  SolverScratch<Problem>& scratch_;
-  std::vector<double>& best_;  // and report_.judgement is of it
+  SolverWorkspace<Problem>& work_;
+  Solution<Problem>& solution_;  ///< the best so far; its residual is best_residual_
+  ContactResidual best_residual_;
+  Solution<Problem> trial_;
   std::vector<double> now_;
-  SolveReport report_;
-  int without_progress_ = 0;
-  Clock::time_point start_ = Clock::now();
+  int sweeps_ = 0, without_progress_ = 0;
+  StoppingTest test_;
 };
 
 }  // namespace
 
 template <class Problem>
-SolveReport solve_reference(const Problem& problem, const StoppingRule& rule, SolverScratch<Problem>& scratch,
-                            std::vector<double>& r) {
-  return ReferenceSolve<Problem>(problem, rule, scratch, r).execute();
+SolveReport solve_reference(const Problem& problem, const StoppingRule& rule, SolverWorkspace<Problem>& work,
+                            Solution<Problem>& solution) {
+  return ReferenceSolve<Problem>(problem, rule, work, solution).execute();
 }
 
-#define DRUMLIN_INSTANTIATE(Problem)                                                                 \
-  template SolveReport solve_reference(const Problem&, const StoppingRule&, SolverScratch<Problem>&, \
-                                       std::vector<double>&);
+#define DRUMLIN_INSTANTIATE(Problem)                                                                   \
+  template SolveReport solve_reference(const Problem&, const StoppingRule&, SolverWorkspace<Problem>&, \
+                                       Solution<Problem>&);
 DRUMLIN_INSTANTIATE(FrictionlessProblem)
 DRUMLIN_INSTANTIATE(CoulombProblem)
 DRUMLIN_INSTANTIATE(CoulombSpinProblem)
 DRUMLIN_INSTANTIATE(BlockProblem)
 #undef DRUMLIN_INSTANTIATE
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

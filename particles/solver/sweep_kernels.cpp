@@ -8,7 +8,7 @@
 #include "particles/solver/sweep_kernels.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace drumlin::HWY_NAMESPACE {
+namespace drumlin::particles::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -314,11 +314,11 @@ void go_on_float(BodyRecord<float>* bodies, BodyRecord<float>* before, std::size
   go_on<float>(bodies, before, n, beta);
 }
 
-}  // namespace drumlin::HWY_NAMESPACE
+}  // namespace drumlin::particles::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace drumlin {
+namespace drumlin::particles {
 
 HWY_EXPORT(go_on_double);
 HWY_EXPORT(go_on_float);
@@ -354,5 +354,5 @@ DRUMLIN_DISPATCH(float, float, float_friction, 2, false)
 DRUMLIN_DISPATCH(float, float, float_spin, 2, true)
 #undef DRUMLIN_DISPATCH
 
-}  // namespace drumlin
+}  // namespace drumlin::particles
 #endif  // HWY_ONCE

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace drumlin {
+namespace drumlin::particles {
 
 template <class T, int dim>
 struct FrictionOfBlock {
@@ -48,4 +48,4 @@ struct SweepKernels {
   static void go_on(BodyRecord<T>* bodies, BodyRecord<T>* before, std::size_t count, T beta);
 };
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 void book(double work, double& account, EnergyLedger& ledger) {
@@ -94,4 +94,4 @@ void EnergyBooks::close(const Bodies& now, double h, EnergyLedger& ledger) const
   ledger.potential = potential(now);
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

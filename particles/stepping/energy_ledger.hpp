@@ -1,5 +1,5 @@
 #pragma once
-// Where the energy of the grains comes from and goes to, step by step, in identities that hold for the
+// Energy ledger: where the energy of the grains comes from and goes to, in identities that hold for the
 // discrete scheme and not only in the limit of small steps (docs/theory/energy.md).
 #include <cstdint>
 #include <optional>
@@ -11,7 +11,7 @@
 #include "particles/bodies/bodies.hpp"
 #include "particles/bodies/walls.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// Energies now, and what each mechanism gave to the grains since the start (a loss is negative); rho0 g d^3
 /// per unit of depth. kinetic + potential - those at the start = the sum of the others.
@@ -67,4 +67,4 @@ class EnergyBooks {
   std::vector<double> x_, z_, v_x_, v_z_, spin_;
 };
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

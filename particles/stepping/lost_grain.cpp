@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace drumlin {
+namespace drumlin::particles {
 
 std::string to_string(LostGrain::How how) {
   return how == LostGrain::How::left_container ? "left its container"
@@ -32,4 +32,4 @@ std::optional<LostGrain> grain_that_is_not_finite(const Bodies& bodies) {
   return LostGrain{static_cast<int>(worst), bodies.x[worst], bodies.z[worst], LostGrain::How::not_finite};
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

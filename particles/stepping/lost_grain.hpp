@@ -1,12 +1,12 @@
 #pragma once
-// Grains that a run must not go on with: outside their container, or no longer numbers.
+// Finds grains that a run must not go on with: outside their container, or no longer numbers.
 #include <optional>
 #include <string>
 
 #include "particles/bodies/bodies.hpp"
 #include "particles/bodies/walls.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 struct LostGrain {
   enum class How { left_container, not_finite };
@@ -23,4 +23,4 @@ bool has_left(const Shape& wall, double radius, double gap);
 /// The first grain whose place or kinetic energy is not finite.
 std::optional<LostGrain> grain_that_is_not_finite(const Bodies&);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -9,59 +9,27 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "particles/bodies/bodies.hpp"
-#include "particles/bodies/walls.hpp"
+#include "particles/bodies/snapshot.hpp"
 #include "particles/contact/problems.hpp"
-#include "particles/detection/contact_list.hpp"
-#include "particles/effects/pair_law.hpp"
-#include "particles/measurement/snapshot.hpp"
-#include "particles/solver/contact_solver.hpp"
+#include "particles/effects/wall_step.hpp"
+#include "particles/solver/stopping_rule.hpp"
 #include "particles/stepping/contact_memory.hpp"
 #include "particles/stepping/energy_ledger.hpp"
 #include "particles/stepping/lost_grain.hpp"
+#include "particles/stepping/overlap.hpp"
+#include "particles/stepping/step_laws.hpp"
 
-namespace drumlin {
-
-/// Dimensionless laws of a scene. An effect that the scene does not name is an empty optional.
-struct StepLaws {
-  struct RestitutionLaw {
-    PairLaw e;
-    double gravity = 0;  ///< impacts slower than 2 gravity h are at rest: a grain that lies arrives at
-                         ///< gravity h every step
-  };
-  struct CohesionLaw {
-    PairLaw force;
-    double range = 0;  ///< pairs with a smaller gap attract each other
-  };
-  struct Acceleration {
-    double x = 0, z = 0;
-  };
-  std::optional<Acceleration> gravity;
-  std::optional<PairLaw> friction;
-  std::optional<RestitutionLaw> restitution;
-  std::optional<CohesionLaw> cohesion;
-  bool spin = false;
-  std::optional<PairLaw> rolling;
-  bool energy_ledger = false;
-  bool driven_walls = false;  ///< whether contacts move a wall in some stage
-  Period period;
-  std::vector<std::uint8_t> material_of_shape;  ///< empty when no law asks for it
-  double detection_margin = 0.02;               ///< d; pairs closer than this are always candidates
-};
+namespace drumlin::particles {
 
 struct StepSolver {
   std::string name;
   StoppingRule rule;
-  int projection_sweeps = 0;
+  int projection_sweeps = 0;  ///< 0: no position projection
   int threads = 1;
-};
-
-/// Overlap of loaded contacts before the position projection, in d.
-struct Overlap {
-  double mean = 0, max = 0;
-  int loaded = 0;
 };
 
 struct StepReport {
@@ -72,31 +40,20 @@ struct StepReport {
   double detection_seconds = 0, setup_seconds = 0, projection_seconds = 0;
 };
 
-/// A wall that contacts push, over one step.
-struct DrivenStep {
-  Point direction;
-  double inverse_mass = 0;
-  double velocity_before = 0;
-  double velocity = 0;  ///< along the direction at the end: without contacts, until the step is done
+/// Everything that a step changes and the next one needs.
+struct MovingState {
+  Bodies& bodies;
+  ContactMemory& memory;
+  std::span<DrivenState> driven;        ///< in the order of WallStep::driven
+  std::optional<EnergyLedger>& energy;  ///< changed only if the laws ask for a ledger
 };
 
-/// Walls over one step: shapes at its beginning and end, and the displacement of each in between. Where
-/// contacts push walls, `after` is where they would be without, until the step is done.
-struct WallStep {
-  std::vector<Shape> before, after;
-  std::vector<Pose> displacement;
-  std::vector<DrivenStep> driven = {};             ///< of the current stage, in the order of the walls
-  std::vector<std::int32_t> driven_of_shape = {};  ///< -1: not driven; empty if no shape is
-};
-WallStep wall_step(const Walls& walls, double time_in_stage, double time_step);
-
-/// Does steps for one combination of effects; holds work space only, no state.
+/// Does steps for one combination of effects; holds workspace only, no state.
 class Stepper {
  public:
   virtual ~Stepper() = default;
-  /// `walls` is changed only where contacts push a wall, `energy` only if the laws ask for a ledger.
-  virtual StepReport advance(Bodies& bodies, ContactMemory& memory, WallStep& walls, double time_step,
-                             std::optional<EnergyLedger>& energy) = 0;
+  /// `walls` is changed only where contacts push a wall.
+  virtual StepReport advance(const MovingState& state, WallStep& walls, double time_step) = 0;
   /// Loaded contacts of the last step, with the normals that it used.
   virtual std::vector<SnapshotContact> loaded_contacts() const = 0;
   /// The contact problem of the last step, as it travels in files; none where a contact has more unknowns or
@@ -107,10 +64,7 @@ class Stepper {
   virtual int velocities_per_body() const = 0;
 };
 
-/// The laws of a scene, dimensionless.
-StepLaws laws_of(const Scene& scene, const Scales& scales);
-
 /// The stepper for the effects that are named in `laws`: the one place where they become types.
 std::unique_ptr<Stepper> make_stepper(const StepLaws& laws, const StepSolver& solver);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

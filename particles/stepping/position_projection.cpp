@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 // A projection that takes away the whole overlap at once opens neighbouring contacts; the load closes them at
@@ -10,7 +10,7 @@ namespace {
 // discs blew up so.
 constexpr double correction_share = 0.2;
 constexpr double largest_correction = 2e-3;  // d per step
-// Of the judge, relative to the corrections asked for. A few plain Gauss-Seidel sweeps leave the contacts
+// Of the residual, relative to the corrections asked for. A few plain Gauss-Seidel sweeps leave the contacts
 // that are solved early overlapped, the same ones in every step: their overlap grew to 0.1 d within a second.
 constexpr double tolerance = 0.05;
 
@@ -32,16 +32,16 @@ void PositionProjection::apply(Bodies& bodies, std::span<const ClosePair> pairs,
   }
   if (!overlapped) return;
   W.plan = plan;
-  lambda_.assign(pairs.size(), 0.0);
+  solution_.impulses.assign(pairs.size(), 0.0);
   StoppingRule rule;
   rule.tolerance = tolerance;
   rule.max_sweeps = sweeps;
   // What is left is seen, and reported, as the overlap of the next step.
-  (void)solve_accelerated(problem_, rule, scratch_, lambda_);
+  (void)solve_accelerated(problem_, rule, work_, solution_);
   for (std::size_t b = 0; b < bodies.count(); ++b) {
-    bodies.x[b] += scratch_.judge.state[b].x;
-    bodies.z[b] += scratch_.judge.state[b].z;
+    bodies.x[b] += solution_.velocities.bodies[b].x;
+    bodies.z[b] += solution_.velocities.bodies[b].z;
   }
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

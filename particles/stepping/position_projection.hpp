@@ -8,7 +8,7 @@
 #include "particles/contact/problems.hpp"
 #include "particles/solver/contact_solver.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// A contact at the end of a step: the normal points from j to i; j < 0 is a wall.
 struct ClosePair {
@@ -20,14 +20,14 @@ struct ClosePair {
 /// contact problem without friction, on positions. Overlaps ask for a share of themselves only.
 class PositionProjection {
  public:
-  void use(ThreadTeam* team) { scratch_.team = team; }
+  void use(ThreadTeam* team) { work_.team = team; }
   /// Moves `bodies` by at most `sweeps` sweeps; `pairs` in the order of `plan`.
   void apply(Bodies& bodies, std::span<const ClosePair> pairs, const SweepPlan& plan, int sweeps);
 
  private:
   FrictionlessProblem problem_;
-  SolverScratch<FrictionlessProblem> scratch_;
-  std::vector<double> lambda_;
+  SolverWorkspace<FrictionlessProblem> work_;
+  Solution<FrictionlessProblem> solution_;
 };
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

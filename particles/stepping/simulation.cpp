@@ -2,22 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "coupling/exchange/errors.hpp"
-#include "particles/effects/rotating_frame.hpp"
+#include "coupling/common/errors.hpp"
 #include "particles/scene/materials.hpp"
 #include "particles/scene/placement.hpp"
+#include "particles/scene/scene_walls.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 std::optional<TurningFrame> frame_of(const Scene& scene, const Scales& scales) {
   if (!scene.effects.rotating_frame) return std::nullopt;
-  const auto& frame = *scene.effects.rotating_frame;
-  const double unit = 1e-3 / scales.length_m;
-  return TurningFrame{frame.speed_rpm * 2 * std::numbers::pi / 60 * scales.time_s,
-                      {frame.center_mm[0] * unit, frame.center_mm[1] * unit}};
+  return frame_law(*scene.effects.rotating_frame, scales);
 }
 
 StepSolver solver_of(const Scene& scene, int threads) {
@@ -32,10 +28,6 @@ StepSolver solver_of(const Scene& scene, int threads) {
   solver.threads = threads;
   return solver;
 }
-
-}  // namespace
-
-namespace {
 
 /// A state from a file must fit its scene before anything indexes it.
 void check_state(const SimulationState& s, const Scene& scene, const TimePlan& plan, const Walls& walls) {
@@ -74,7 +66,7 @@ void check_state(const SimulationState& s, const Scene& scene, const TimePlan& p
 
 Scales scales_of(const Scene& scene) {
   const double g = scene.effects.gravity ? scene.effects.gravity->acceleration_m_s2 : 9.81;
-  return scales_of(mean_diameter_m(scene.grains), g > 0 ? g : 9.81, scene.grains.density_kg_m3);
+  return drumlin::scales_of(mean_diameter_m(scene.grains), g > 0 ? g : 9.81, scene.grains.density_kg_m3);
 }
 
 TimePlan time_plan(const Scene& scene, const Scales& scales) {
@@ -112,23 +104,21 @@ Simulation::Simulation(const Scene& scene, SimulationState state, int threads)
       state_(std::move(state)),
       stepper_(make_stepper(laws_of(scene, scales_), solver_of(scene, threads))) {
   check_state(state_, scene_, plan_, walls_);
-  begin_stage(walls_, scene_.stages[state_.stage], scales_, 0);
+  const auto driven = begin_stage(walls_, scene_.stages[state_.stage], scales_, 0);
   walls_.pose_at_start = state_.pose_at_start;
-  if (walls_.driven_states().size() != state_.driven.size())
+  if (driven.size() != state_.driven.size())
     throw InputError("checkpoint: walls moved by a force do not fit the scene");
-  walls_.set_driven_states(state_.driven);
 }
 
 Simulation::~Simulation() = default;
 
 void Simulation::enter_stage(int stage) {
-  begin_stage(walls_, scene_.stages[stage], scales_, state_.time_in_stage);
+  state_.driven = begin_stage(walls_, scene_.stages[stage], scales_, state_.time_in_stage, state_.driven);
   state_.stage = stage;
   state_.step_in_stage = 0;
   state_.time_at_stage_start += state_.time_in_stage;
   state_.time_in_stage = 0;
   state_.pose_at_start = walls_.pose_at_start;
-  state_.driven = walls_.driven_states();
 }
 
 void Simulation::mark_positions() {
@@ -153,21 +143,15 @@ StepReport Simulation::step() {
 }
 
 StepReport Simulation::advance_here(double h) {
-  WallStep walls = wall_step(walls_, state_.time_in_stage, h);
-  const StepReport report = stepper_->advance(state_.bodies, state_.memory, walls, h, state_.energy);
-  for (std::size_t k = 0; k < walls.driven.size(); ++k) {
-    state_.driven[k].velocity = walls.driven[k].velocity;
-    state_.driven[k].position += h * walls.driven[k].velocity;
-  }
-  walls_.set_driven_states(state_.driven);
-  return report;
+  WallStep walls = wall_step(walls_, state_.time_in_stage, h, state_.driven);
+  return stepper_->advance({state_.bodies, state_.memory, state_.driven, state_.energy}, walls, h);
 }
 
 StepReport Simulation::advance_in_laboratory(double h) {
   const double time = state_.time();
   to_laboratory(*frame_, time, state_.bodies);
   WallStep walls = in_laboratory(*frame_, time, h, wall_step(walls_, state_.time_in_stage, h));
-  const StepReport report = stepper_->advance(state_.bodies, state_.memory, walls, h, state_.energy);
+  const StepReport report = stepper_->advance({state_.bodies, state_.memory, {}, state_.energy}, walls, h);
   from_laboratory(*frame_, time + h, state_.bodies);
   return report;
 }
@@ -186,11 +170,11 @@ Snapshot Simulation::take_snapshot() {
   s.scales = scales_;
   for (std::size_t w = 0; w < walls_.names.size(); ++w)
     if (const auto* turning = std::get_if<Turning>(&walls_.motion[w])) {
-      s.wall_angle = walls_.pose(static_cast<int>(w), state_.time_in_stage).angle;
+      s.wall_angle = walls_.pose(static_cast<int>(w), state_.time_in_stage, state_.driven).angle;
       s.wall_spin = turning->spin;
       break;
     }
-  for (const Shape& shape : walls_.shapes_at(state_.time_in_stage))
+  for (const Shape& shape : walls_.shapes_at(state_.time_in_stage, state_.driven))
     if (const auto* container = std::get_if<Container>(&shape)) {
       s.container_x = container->center.x, s.container_z = container->center.z,
       s.container_radius = container->radius;
@@ -198,7 +182,7 @@ Snapshot Simulation::take_snapshot() {
     }
   if (moves_walls_by_force(scene_))
     for (std::size_t w = 0; w < walls_.names.size(); ++w) {
-      const Pose pose = walls_.pose(static_cast<int>(w), state_.time_in_stage);
+      const Pose pose = walls_.pose(static_cast<int>(w), state_.time_in_stage, state_.driven);
       s.wall_pose_angle.push_back(pose.angle);
       s.wall_pose_x.push_back(pose.x), s.wall_pose_z.push_back(pose.z);
     }
@@ -231,4 +215,4 @@ Snapshot Simulation::take_snapshot() {
   return s;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -8,14 +8,15 @@
 #include <vector>
 
 #include "particles/bodies/bodies.hpp"
+#include "particles/bodies/snapshot.hpp"
 #include "particles/bodies/walls.hpp"
 #include "particles/effects/rotating_frame.hpp"
-#include "particles/measurement/snapshot.hpp"
 #include "particles/scene/scene.hpp"
+#include "particles/scene/scene_walls.hpp"
 #include "particles/stepping/contact_memory.hpp"
 #include "particles/stepping/moreau_jean.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// Everything that the next step depends on: a run continued from it gives the same bytes.
 struct SimulationState {
@@ -94,4 +95,4 @@ class Simulation {
   std::unique_ptr<Stepper> stepper_;
 };
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 /// A point in the axes of a segment: distance along it from its beginning, in lengths, and across.
@@ -37,4 +37,4 @@ double undo_crossing(const Shape& before, const Shape& after, const Period& peri
   return depth;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

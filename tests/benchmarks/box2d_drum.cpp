@@ -11,14 +11,14 @@
 
 #include <chrono>
 #include <cmath>
-#include <ctime>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
 #include <string>
 
 #include "apps/support/json_file.hpp"
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/common/machine_load.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/scene/placement.hpp"
 #include "particles/scene/scene_file.hpp"
@@ -27,6 +27,7 @@
 namespace {
 
 using namespace drumlin;
+using namespace drumlin::particles;
 using Json = nlohmann::ordered_json;
 
 // Box2D's tolerances are made for bodies of 0.1 to 10 of its units: 1000 of them to the metre.
@@ -34,12 +35,6 @@ constexpr double units_per_metre = 1000;
 constexpr int velocity_iterations = 20, position_iterations = 10;
 constexpr int drum_edges = 360;   // they leave the circle by R (1 - cos(pi/360)): 0.26 % of a grain at 450 mm
 constexpr int sample_every = 10;  // steps between two looks at the overlaps
-
-double processor_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
 
 struct Grain {
   double x, z, v_x, v_z, spin, radius;  // SI, laboratory frame, spin clockwise
@@ -186,9 +181,9 @@ Measured advance(Box2dDrum& drum, const Stage& stage, double time_step_s, std::i
   Measured measured{0, 0, steps};
   for (std::int64_t k = 1; k <= steps; ++k) {
     const auto wall = std::chrono::steady_clock::now();
-    const double processor = processor_seconds();
+    const double processor = process_seconds();
     drum.step(time_step_s);
-    measured.processor_seconds += processor_seconds() - processor;
+    measured.processor_seconds += process_seconds() - processor;
     measured.wall_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
     if (sampled && k % sample_every == 0) drum.sample_overlaps();
   }

@@ -8,18 +8,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "apps/support/json_file.hpp"
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/common/machine_load.hpp"
 #include "particles/scene/scene_file.hpp"
 #include "tests/benchmarks/flow_steps.hpp"
 
 namespace {
 
 using namespace drumlin;
+using namespace drumlin::particles;
 using namespace drumlin::benchmark;
 using Json = nlohmann::ordered_json;
 
@@ -124,7 +125,7 @@ Json times_to_residual(const Flow& flow, double tolerance, int repetitions) {
   return result;
 }
 
-/// Time of `many_sweeps` sweeps with packing and one judgement, on one thread over that on two.
+/// Time of `many_sweeps` sweeps with packing and one residual, on one thread over that on two.
 Json two_threads(const Flow& flow, int repetitions) {
   std::vector<Contestant> contestants;
   contestants.reserve(2);
@@ -172,8 +173,7 @@ void measure(Json& result, const Scene& scene, const std::filesystem::path& cach
   result["ns_per_contact_and_sweep"] = sweep_costs(flow, sweeping, repetitions);
   keep("sweeps");
   const double tolerance = 1e-2;
-  result["to_residual"] = {{"residual", tolerance},
-                           {"solvers", times_to_residual(flow, tolerance, 1)}};
+  result["to_residual"] = {{"residual", tolerance}, {"solvers", times_to_residual(flow, tolerance, 1)}};
   keep("solves");
   result["threads"] = Json::array({two_threads(flow, repetitions + 1)});
   if (!quick) result["threads"].push_back(two_threads(flow_of(scene, 30000, 10, cache), repetitions + 1));
@@ -199,11 +199,10 @@ int main(int argc, char** argv) {
                 {"reduced", quick}};
     const Scene scene = read_scene(argv[1]);
     result["scene"] = scene.title;
-    std::array<double, 3> load{};
-    if (getloadavg(load.data(), 3) == 3) result["load_before"] = load[0];
+    result["load_before"] = load_average();
     result["provenance"] = apps::to_json(provenance());
     measure(result, scene, argv[3], quick, [&](const char* what) {
-      if (getloadavg(load.data(), 3) == 3) result["load_after"] = load[0];
+      result["load_after"] = load_average();
       apps::write_json(argv[2], result);
       fmt::print(stderr, "{} measured\n", what);
     });

@@ -1,18 +1,17 @@
 #include "tests/benchmarks/flow_steps.hpp"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <optional>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/child_process.hpp"
+#include "coupling/common/errors.hpp"
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/scene/scene_file.hpp"
 
 namespace drumlin::benchmark {
+using namespace particles;
 
 namespace {
 
@@ -89,26 +88,19 @@ Replay::Replay(const Flow& flow, const std::string& solver, int threads, const S
 StepReport Replay::operator()(const FlowStep& step) {
   work_ = step;
   std::optional<EnergyLedger> no_ledger;
-  return stepper_->advance(work_.bodies, work_.memory, work_.walls, time_step_, no_ledger);
+  return stepper_->advance({work_.bodies, work_.memory, {}, no_ledger}, work_.walls, time_step_);
 }
 
 double peak_memory_mb(const Scene& like, int discs, const std::filesystem::path& cache) {
   const Scene scene = drum_of(like, discs);
   (void)flowing_state(scene, cache);  // so that the process only reads it
   // A program of its own would not inherit what this one has in memory; called first, there is little.
-  const pid_t child = fork();
-  if (child == 0) {
+  const ProcessEnd end = run_in_copy([&] {
     Simulation simulation(scene, flowing_state(scene, cache));
     for (int k = 0; k < 100 && !simulation.finished(); ++k) (void)simulation.step();
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    _exit(0);
-  }
-  int status = 0;
-  rusage usage{};
-  if (child < 0 || wait4(child, &status, 0, &usage) != child || status != 0)
-    throw IoError("the process that shows how much memory a drum takes failed");
-  return static_cast<double>(usage.ru_maxrss) / 1024;
+  });
+  if (!end.succeeded()) throw IoError("the process that shows how much memory a drum takes failed");
+  return end.peak_memory_mb;
 }
 
 }  // namespace drumlin::benchmark

@@ -11,36 +11,36 @@ namespace drumlin::benchmark {
 
 /// What Stepper::advance takes, before it is called.
 struct FlowStep {
-  Bodies bodies;
-  ContactMemory memory;
-  WallStep walls;
+  particles::Bodies bodies;
+  particles::ContactMemory memory;
+  particles::WallStep walls;
 };
 
 struct Flow {
   int discs = 0;
-  StepLaws laws;
+  particles::StepLaws laws;
   double time_step = 0;  ///< sqrt(d/g)
   std::vector<FlowStep> steps;
 };
 
 /// A drum of `discs` grains like that of `scene`: filled as much, turned at the same Froude number, settled
-/// and then turned until it flows (above 10,000 discs: until it begins to turn); then `steps` steps of it. The
-/// state is kept in the folder `cache`.
-Flow flow_of(const Scene& scene, int discs, int steps, const std::filesystem::path& cache);
+/// and then turned until it flows (above 10,000 discs: until it begins to turn); then `steps` steps of it.
+/// The state is kept in the folder `cache`.
+Flow flow_of(const particles::Scene& scene, int discs, int steps, const std::filesystem::path& cache);
 
 /// A solver that is given steps again and again: its work space is warm after the first.
 class Replay {
  public:
-  Replay(const Flow& flow, const std::string& solver, int threads, const StoppingRule& rule);
-  StepReport operator()(const FlowStep& step);
+  Replay(const Flow& flow, const std::string& solver, int threads, const particles::StoppingRule& rule);
+  particles::StepReport operator()(const FlowStep& step);
 
  private:
   double time_step_;
-  std::unique_ptr<Stepper> stepper_;
+  std::unique_ptr<particles::Stepper> stepper_;
   FlowStep work_;
 };
 
 /// Largest resident memory, in MB, of a process that does nothing but steps of this drum.
-double peak_memory_mb(const Scene& scene, int discs, const std::filesystem::path& cache);
+double peak_memory_mb(const particles::Scene& scene, int discs, const std::filesystem::path& cache);
 
 }  // namespace drumlin::benchmark

@@ -13,18 +13,19 @@
 #include "apps/support/json_file.hpp"
 #include "continuum/fem/flow_solver.hpp"
 #include "continuum/fem/runtime.hpp"
-#include "continuum/hardcases/small_drum.hpp"
 #include "continuum/reference/closed_forms.hpp"
 #include "continuum/sampling/drum_profiles.hpp"
 #include "continuum/sampling/gap_profiles.hpp"
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 #include "tests/continuum/gap_flows.hpp"
 #include "tests/continuum/manufactured_flow.hpp"
 #include "tests/continuum/tangent_error.hpp"
+#include "tests/hardcases/continuum/small_drum.hpp"
 
 namespace {
 
 using namespace drumlin;
+using namespace drumlin::continuum;
 using Json = nlohmann::ordered_json;
 
 constexpr double degree = std::numbers::pi / 180;
@@ -43,7 +44,7 @@ Json manufactured(const testing_manufactured::Manufactured& made, int levels = 4
   options.levels = levels;
   options.tolerance = 1e-11;
   options.coarse_tolerance = options.tolerance;  // the errors of all meshes are compared
-  options.turn_tolerance = 1e-7;                 // below the errors of the finest mesh
+  options.picard_tolerance = 1e-7;               // below the errors of the finest mesh
   Json meshes = Json::array();
   double cell = 0.25;
   solve_and_look(problem_of(made), options, [&](const FlowField& field) {

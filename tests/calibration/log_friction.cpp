@@ -6,9 +6,10 @@
 #include <limits>
 #include <random>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 
 namespace drumlin {
+using namespace coupling;
 namespace {
 
 constexpr double a = 0.36, b = 0.0144;
@@ -111,7 +112,7 @@ TEST(LogFriction, TooFewLayersAreRefused) {
 
 TEST(LayerSelection, SurfaceWallAndRangeOfIAreLeftOut) {
   ProfileSet profiles;
-  profiles.header["wall_z"] = "-10.4";
+  profiles.header.wall_z = -10.4;
   profiles.columns = {{"I", {}, {}}, {"mu", {}, {}}};
   for (int l = -10; l <= 2; ++l) {
     profiles.z.push_back(l);

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "coupling/exchange/errors.hpp"
-#include "coupling/exchange/rheology_fit.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/law/rheology_file.hpp"
 #include "tests/exchange_files/folder.hpp"
 
 namespace drumlin {

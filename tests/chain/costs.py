@@ -68,6 +68,8 @@ def check_refusals(drumlin, work, law):
     drumlin("cost", scene, "-o", work / "refused", code=2)
     drumlin("cost", scene, "--rheology", law, code=2)
     drumlin("cost", scene, "--rheology", law, "-o", work / "refused", "--statistics", "1", code=2)
+    drumlin("cost", scene, "--rheology", law, "-o", work / "refused", "--variants", "inertia", code=2)
+    drumlin("cost", "--effects", scene, "--rheology", law, "-o", work / "refused", "--variants", "gravity", code=2)
 
 
 def check_prices(drumlin, work, here, data):
@@ -83,6 +85,29 @@ def check_prices(drumlin, work, here, data):
     require(rows["as it is"]["scalars"] == rows["wall_slip"]["scalars"], "wall slip is all that the scene names")
     require(abs(rows["rotating_frame"]["change"]["theta_deg"]) < 1e-3 < abs(rows["inertia"]["change"]["theta_deg"]), "a frame acts, or inertia does not")
     require("moving_surface" in said and (work / "prices" / "prices.png").exists(), "no list or no figure")
+
+
+def check_work(drumlin, work, here, data):
+    """Solves repeated, from a neighbour and on two ranks find the same flow; a combination of effects; a time limit."""
+    scene, law = here / "tiny-drum-flow.toml", data / "rheology" / "paper.toml"
+    common = ["--set", "mesh.surface_cell=3"]
+    drumlin("cost", scene, "--rheology", law, "-o", work / "work", "--sweep", "mesh=1", "--ranks", "1,2", "--neighbour", "drum.rotation_rpm=14",
+            "--repeats", "2", *common)
+    report = read_json(work / "work" / "cost.json")
+    point = next(point for point in report["points"] if point["default"])
+    kinds = [(entry["ranks"], entry["start"]) for entry in point["work"]]
+    require(kinds == [(1, "cold"), (1, "neighbour"), (2, "cold"), (2, "neighbour")], f"entries {kinds}")
+    cold, near = point["work"][:2]
+    require(cold["iterations"] == point["iterations"] and near["iterations"] < cold["iterations"], f"{near['iterations']} of {cold['iterations']}")
+    for entry in point["work"]:
+        require(len(entry["load_before"]) == 2 and 0 < entry["seconds"]["least"] <= entry["seconds"]["median"], f"{entry['seconds']}")
+        require(entry["assembled_unknowns"] > entry["unknowns"] and entry["peak_memory_mb"] > 10 and "assembly" in entry["phases"], f"{entry}")
+    drumlin("cost", "--effects", scene, "--rheology", law, "-o", work / "combined", "--variants", "inertia,inertia+rotating_frame", *common)
+    rows = {row["effect"]: row for row in read_json(work / "combined" / "cost.json")["effects"]}
+    require(list(rows) == ["none", "inertia", "inertia+rotating_frame", "none, again"], f"rows {list(rows)}")
+    both = rows["inertia+rotating_frame"]
+    require(both["changes"] == ["effects.inertia={}", "effects.rotating_frame={}"] and "theta_deg" in both["change"], f"{both}")
+    drumlin("cost", scene, "--rheology", law, "-o", work / "late", "--sweep", "mesh=1", "--time-limit", "0.01", *common, code=3)
 
 
 def check_statement(drumlin, work, here, data):
@@ -104,6 +129,7 @@ def main():
         check_sweep(drumlin, work, data / "rheology" / "paper.toml")
         check_refusals(drumlin, work, data / "rheology" / "paper.toml")
         check_prices(drumlin, work, here, data)
+        check_work(drumlin, work, here, data)
         check_statement(drumlin, work, here, data)
 
 

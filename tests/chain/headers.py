@@ -1,4 +1,8 @@
-"""Every public header compiles alone, and no include points the wrong way (docs/architecture.md, "Direction").
+"""Headers compile, alone and all together; includes and folders are those that docs/architecture.md states.
+
+The page is the rule: its table "Rooms" has a row for each folder with code, and names the folders that its files may
+include. This test fails on a folder without a row, a row without a folder, an include that the row does not allow,
+and a circle of folders.
 
 usage: headers.py SOURCE_ROOT COMPILER [INCLUDE_FOLDER...]
 """
@@ -10,55 +14,66 @@ import re
 import subprocess
 import sys
 
-# Which rooms a room may include from; tests may see everything.
-ALLOWED_ROOMS = {
-    "coupling/exchange": ["coupling/exchange"],
-    "coupling/files": ["coupling/exchange", "coupling/files"],
-    "coupling/accuracy": ["coupling/exchange", "coupling/accuracy"],
-    "coupling/calibration": ["coupling/exchange", "coupling/calibration"],
-    "coupling/comparison": ["coupling/exchange", "coupling/comparison"],
-    "coupling/study": ["coupling/exchange", "coupling/calibration", "coupling/comparison", "coupling/study"],
-    "particles/io": ["coupling/exchange", "coupling/files", "particles"],
-    "particles": ["coupling/exchange", "particles"],
-    "continuum": ["coupling/exchange", "continuum"],
-    "apps": ["coupling", "particles", "continuum", "apps"],
-}
+TOPS = ("particles", "continuum", "coupling", "apps", "tests/hardcases")
 # Third-party headers that a public header may show to those who include it.
-PUBLIC_LIBRARIES = {"particles": ["Eigen/"], "apps": ["nlohmann/json_fwd.hpp"]}
+PUBLIC_LIBRARIES = {"particles": ["Eigen/"], "apps": ["nlohmann/json_fwd.hpp"], "coupling/documents": ["nlohmann/json_fwd.hpp"]}
 # Headers that only these folders may include, in any file.
 PRIVATE_LIBRARIES = {
     "deal.II/": ["continuum/fem"],
     "petsc": ["continuum/fem"],
     "hdf5": ["coupling/files"],
-    "toml++/": ["coupling/exchange/document.cpp"],
-    "CLI/": ["apps/support"],
+    "toml++/": ["coupling/documents/document.cpp"],
+    "CLI/": ["apps/command_line"],
+    "boost/": ["coupling/statistics"],
 }
 # Private to the finite elements: included by continuum/fem alone, full of deal.II, no part of the interface.
 PRIVATE_FOLDERS = ["continuum/fem/detail"]
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]', re.MULTILINE)
+ROW = re.compile(r"^\| `([\w/]+)` \|.*\| ([^|]*) \|$", re.MULTILINE)
 
 
 def below(name, folders):
     return any(name == folder or name.startswith(folder + "/") for folder in folders)
 
 
-def room_of(name):
-    return next((room for room in ALLOWED_ROOMS if below(name, [room])), None)
+def folder_of(name):
+    """The room of a file. A folder `detail` holds the private headers of the room that it lies in."""
+    return str(pathlib.PurePosixPath(name).parent).removesuffix("/detail")
 
 
-def wrong_includes(root, name):
+def rooms_of(page):
+    """What the table "Rooms" says: folder -> folders that it may include. A word of its last column is a folder, or
+    the name of a group, which a line `group`: `folder`, ... of the page explains; "all" allows everything."""
+    text = page.read_text(encoding="utf-8")
+    groups = {name: re.findall(r"`([\w/]+)`", rest) for name, rest in re.findall(r"^- \*\*(\w+)\*\*: (.*)$", text, re.MULTILINE)}
+    rooms = {}
+    for folder, allowed in ROW.findall(text):
+        words = [word.strip(" `") for word in allowed.split(",") if word.strip(" `-")]
+        rooms[folder] = [room for word in words for room in groups.get(word, [word])]
+    return rooms
+
+
+def wrong_folders(rooms, folders):
+    for folder in sorted(folders - set(rooms)):
+        yield f"docs/architecture.md has no row for {folder}"
+    for folder in sorted(set(rooms) - folders):
+        yield f"docs/architecture.md has a row for {folder}, which holds no code"
+
+
+def wrong_includes(root, name, rooms):
     """What this file includes and should not, as messages."""
-    room, is_header = room_of(name), name.endswith(".hpp")
+    folder, is_header = folder_of(name), name.endswith(".hpp")
+    allowed = rooms.get(folder, [])
     for quote, included in INCLUDE.findall((root / name).read_text(encoding="utf-8")):
         if quote == '"' and (root / included).exists():
-            if not below(included, ALLOWED_ROOMS[room]):
-                yield f"{name}: {room} must not include {included}"
+            if folder_of(included) != folder and "all" not in allowed and folder_of(included) not in allowed:
+                yield f"{name}: {folder} must not include {included}"
             if below(included, PRIVATE_FOLDERS) and not below(name, ["continuum/fem"]):
                 yield f"{name}: {included} is private to continuum/fem"
         elif quote == '"':
             yield f"{name}: {included} is not a path from the root of the project"
         elif "/" in included or included.endswith((".h", ".hpp")):
-            owners = [folders for start, folders in PRIVATE_LIBRARIES.items() if included.startswith(start)]
+            owners = [places for start, places in PRIVATE_LIBRARIES.items() if included.startswith(start)]
             if owners and not below(name, owners[0]):
                 yield f"{name}: {included} belongs to {', '.join(owners[0])} alone"
             public = [start for key, starts in PUBLIC_LIBRARIES.items() if below(name, [key]) for start in starts]
@@ -66,25 +81,54 @@ def wrong_includes(root, name):
                 yield f"{name}: a public header must not show {included} to others"
 
 
-def compile_alone(root, name, compiler, folders):
+def circle_of(root, files):
+    """A circle of folders that include each other, as a list of folders; empty when there is none."""
+    edges = {}
+    for name in files:
+        for _, included in INCLUDE.findall((root / name).read_text(encoding="utf-8")):
+            if (root / included).exists() and folder_of(included) != folder_of(name):
+                edges.setdefault(folder_of(name), set()).add(folder_of(included))
+    done = set()
+
+    def walk(folder, path):
+        if folder in path:
+            return path[path.index(folder):] + [folder]
+        if folder in done:
+            return []
+        for other in sorted(edges.get(folder, ())):
+            if circle := walk(other, path + [folder]):
+                return circle
+        done.add(folder)
+        return []
+
+    return next((circle for folder in sorted(edges) if (circle := walk(folder, []))), [])
+
+
+def compiles(root, names, compiler, folders, what):
     command = [compiler, "-std=c++20", "-fsyntax-only", "-Wall", "-Wextra", "-Werror", "-I", str(root)]
     for folder in folders:
         command += ["-isystem", folder]
-    # Included twice: a forgotten #pragma once shows as well. From standard input, for a header as main file would warn.
-    text = f'#include "{name}"\n#include "{name}"\n'
+    # From standard input, for a header as main file would warn.
+    text = "".join(f'#include "{name}"\n' for name in names)
     result = subprocess.run(command + ["-x", "c++", "-"], input=text, capture_output=True, text=True, check=False)
-    return "" if result.returncode == 0 else f"{name} does not compile alone:\n{result.stderr}"
+    return "" if result.returncode == 0 else f"{what}:\n{result.stderr}"
 
 
 def main():
     root, compiler, folders = pathlib.Path(sys.argv[1]), sys.argv[2], [f for f in sys.argv[3:] if f]
-    files = sorted(str(path.relative_to(root)) for room in ("particles", "continuum", "coupling", "apps")
-                   for path in (root / room).rglob("*.[ch]pp"))
-    faults = [message for name in files for message in wrong_includes(root, name)]
+    files = sorted(str(path.relative_to(root)) for top in TOPS for path in (root / top).rglob("*.[ch]pp"))
+    rooms = rooms_of(root / "docs" / "architecture.md")
+    faults = list(wrong_folders(rooms, {folder_of(name) for name in files}))
+    faults += [message for name in files for message in wrong_includes(root, name, rooms)]
+    if circle := circle_of(root, files):
+        faults.append("folders include each other in a circle: " + " -> ".join(circle))
     headers = [name for name in files if name.endswith(".hpp") and not below(name, PRIVATE_FOLDERS)]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        faults += [fault for fault in pool.map(lambda name: compile_alone(root, name, compiler, folders), headers) if fault]
-    print(f"{len(headers)} headers compiled alone, {len(files)} files looked through")
+        # Twice: a forgotten #pragma once shows as well.
+        alone = pool.map(lambda name: compiles(root, [name, name], compiler, folders, f"{name} does not compile alone"), headers)
+        together = pool.submit(compiles, root, headers, compiler, folders, "all public headers do not compile together")
+        faults += [fault for fault in alone if fault] + [fault for fault in [together.result()] if fault]
+    print(f"{len(headers)} headers compiled alone and together, {len(files)} files of {len(rooms)} rooms looked through")
     if faults:
         sys.exit("\n".join(faults))
 

@@ -1,13 +1,14 @@
 // drumlin compare on folders made here: what it refuses, and what it leaves.
 #include <gtest/gtest.h>
 
-#include "apps/commands.hpp"
-#include "coupling/exchange/errors.hpp"
+#include "apps/support/commands.hpp"
+#include "coupling/common/errors.hpp"
 #include "coupling/files/field_map_file.hpp"
 #include "tests/comparison/example_maps.hpp"
 #include "tests/comparison/run_folders.hpp"
 
 namespace drumlin::apps {
+using namespace coupling;
 namespace {
 
 namespace fs = std::filesystem;
@@ -66,12 +67,12 @@ TEST(CompareCommand, RefusesMixedUnitsDrumsAndSizes) {
   expect_refused(folder, options_for(folder, run, flow_folder(folder, "units", continuum_profiles(), flow)),
                  {"scales.density_kg_m3", "2700", "2500"});
   ProfileSet faster = continuum_profiles();
-  faster.header["rotation"] = "0.05";
+  faster.header.rotation = 0.05;
   flow = example_flow();
   flow["settings"]["rotation"] = 0.05;
   expect_refused(folder, options_for(folder, run, flow_folder(folder, "faster", faster, flow)), {"rotation"});
   ProfileSet reduced = continuum_profiles();
-  reduced.header["reduced"] = "true";
+  reduced.header.reduced = true;
   flow = example_flow();
   flow["reduced"] = true;
   expect_refused(folder, options_for(folder, run, flow_folder(folder, "reduced", reduced, flow)),
@@ -82,7 +83,7 @@ TEST(CompareCommand, RefusesMapsOfAnotherFrame) {
   const TemporaryFolder folder;
   const fs::path run = measured_folder(folder, "run"), flow = flow_folder(folder, "flow");
   FieldMap map = example_map("continuum");
-  map.header["axis_depth"] = "2";
+  map.header.axis_depth = 2;
   write_field_map(flow / "maps.h5", map);
   expect_refused(folder, options_for(folder, run, flow), {"maps.h5", "axis_depth"});
 }
@@ -92,7 +93,7 @@ TEST(CompareCommand, LeavesAReportWithBandsAndFloorAndWhatIsMissingIsNull) {
   Json reduced = example_measured();  // spares the figures of costs
   reduced["reduced"] = true;
   ProfileSet particles = example_profiles(), continuum = continuum_profiles(), other = example_profiles();
-  for (ProfileSet* set : {&particles, &continuum, &other}) set->header["reduced"] = "true";
+  for (ProfileSet* set : {&particles, &continuum, &other}) set->header.reduced = true;
   for (double& value : column_of(continuum, "v_x").value) value *= 1.1;
   for (double& value : column_of(other, "v_x").value) value *= 1.02;
   auto& speed = column_of(continuum, "v_x");
@@ -116,8 +117,7 @@ TEST(CompareCommand, LeavesAReportWithBandsAndFloorAndWhatIsMissingIsNull) {
   EXPECT_TRUE(report["maps"].is_null() && report["maps_missing"].is_string());
   EXPECT_EQ(report["floor"]["name"], "seed2");
   EXPECT_EQ(report["cost_ratio"]["processor"], 50.0);
-  EXPECT_TRUE(fs::exists(folder / "report/overlay.csv") &&
-              !fs::exists(folder / "report/comparison.json.part"));
+  EXPECT_TRUE(fs::exists(folder / "report/overlay.csv") && !fs::exists(folder / "report/figures.pending"));
   EXPECT_NE(file_text(folder / "report/index.html").find("data:image/png;base64,"), std::string::npos);
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "coupling/comparison/comparison.hpp"
+#include "tests/support/headers.hpp"
 
 namespace drumlin::testing {
 
@@ -15,10 +16,17 @@ inline double example_shear_rate(double z) {
 /// Layers of 1 d from z = -60 to the surface, each column with an interval of 1 % of its value.
 inline ProfileSet example_profiles() {
   ProfileSet set;
-  set.header = {{"rotation", "0.0115"},   {"drum_radius", "68.18"}, {"diameter_m", "0.0033"},
-                {"reduced", "false"},     {"side", "particles"},    {"theta_deg", "19.7"},
-                {"axis_depth", "4"},      {"wall_z", "-60"},        {"position", "0"},
-                {"layer_thickness", "1"}, {"slice_width", "20"}};
+  set.header = header_from({{"rotation", "0.0115"},
+                            {"drum_radius", "68.18"},
+                            {"diameter_m", "0.0033"},
+                            {"reduced", "false"},
+                            {"side", "particles"},
+                            {"theta_deg", "19.7"},
+                            {"axis_depth", "4"},
+                            {"wall_z", "-60"},
+                            {"position", "0"},
+                            {"layer_thickness", "1"},
+                            {"slice_width", "20"}});
   set.columns = {{"v_x", {}, {}},      {"shear_rate", {}, {}}, {"nu", {}, {}},
                  {"sigma_xx", {}, {}}, {"sigma_zz", {}, {}},   {"sigma_xz", {}, {}},
                  {"I", {}, {}},        {"v_z", {}, {}},        {"half_vorticity", {}, {}},
@@ -38,7 +46,7 @@ inline ProfileSet example_profiles() {
   return set;
 }
 
-inline ComparedSide example_side() {
+inline coupling::ComparedSide example_side() {
   return {example_profiles(),
           {{{"theta_deg", 19.7, 0.3}, {"Q", 21.8, 0.2}, {"H", example_H, 0.4}, {"lambda", 3.5, 0.3}}},
           {}};
@@ -47,13 +55,13 @@ inline ComparedSide example_side() {
 /// The same numbers as a continuum has them: without intervals, and whatever it shears counts.
 inline ProfileSet continuum_profiles() {
   ProfileSet set = example_profiles();
-  set.header["side"] = "continuum";
+  set.header.side = RunSide::continuum;
   for (auto& column : set.columns) column.ci99.clear();
   return set;
 }
 
-inline ComparedSide continuum_side() {
-  ComparedSide side = example_side();
+inline coupling::ComparedSide continuum_side() {
+  coupling::ComparedSide side = example_side();
   side.profiles = continuum_profiles();
   for (Scalar& scalar : side.scalars.scalars) scalar.ci99.reset();
   return side;

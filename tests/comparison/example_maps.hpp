@@ -11,7 +11,7 @@ inline FieldMap example_map(const std::string& side = "particles") {
   FieldMap map;
   map.grid = {-68, -64, 0.5, 0.5, 273, 129};
   map.header = example_profiles().header;
-  map.header["side"] = side;
+  set_entry(map.header, "side", side);
   map.scales = {0.0033, 0.01834098, 2700};
   const char* names[] = {"nu",       "v_x",      "v_z",      "d_v_x_dx", "d_v_x_dz",       "d_v_z_dx",
                          "d_v_z_dz", "sigma_xx", "sigma_zz", "sigma_xz", "half_vorticity", "strain_rate",

@@ -4,10 +4,11 @@
 
 #include <limits>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 #include "tests/comparison/example.hpp"
 
 namespace drumlin {
+using namespace coupling;
 namespace {
 
 using testing::column_of;

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 
-#include "apps/support/measured_run.hpp"
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/exchange/measured_run.hpp"
 #include "tests/comparison/run_folders.hpp"
+#include "tests/support/data_folder.hpp"
 
 namespace drumlin::apps {
+using namespace coupling;
 namespace {
 
 namespace fs = std::filesystem;
@@ -33,6 +35,14 @@ void expect_refused(const fs::path& run, const std::vector<std::string>& words) 
   EXPECT_TRUE(holds(said, words)) << said;
 }
 
+/// Another text behind a key of the header in the file.
+void spoil_header(const fs::path& file, const std::string& key, const std::string& text) {
+  std::string content = file_text(file);
+  const auto from = content.find("# " + key + " = ");
+  content.replace(from, content.find('\n', from) - from, "# " + key + " = " + text);
+  replace_file(file, content);
+}
+
 TEST(MeasuredRun, ReadsWhatStandsInTheFolder) {
   const TemporaryFolder folder;
   const MeasuredRun run = read_measured_run(measured_folder(folder, "six"));
@@ -46,7 +56,7 @@ TEST(MeasuredRun, ReadsWhatStandsInTheFolder) {
 
 TEST(MeasuredRun, EveryRunOfTheRepositoryIsOne) {
   std::vector<MeasuredRun> runs;
-  for (const auto& entry : fs::directory_iterator(fs::path(DRUMLIN_DATA) / "profiles")) {
+  for (const auto& entry : fs::directory_iterator(drumlin::test::data_folder() / "profiles")) {
     runs.push_back(read_measured_run(entry.path()));
     EXPECT_EQ(runs.back().slices.size(), 5u) << runs.back().name;
   }
@@ -106,12 +116,13 @@ TEST(MeasuredRun, RefusesTheOtherSideAndAFrameThatIsNotPlaced) {
   for (const char* key :
        {"side", "theta_deg", "rotation", "drum_radius", "diameter_m", "position", "axis_depth", "wall_z"}) {
     ProfileSet profiles = example_profiles();
-    profiles.header.erase(key);
+    testing::erase_entry(profiles.header, key);
     expect_refused(measured_folder(folder, std::to_string(number++), profiles), {key, "is missing"});
     if (key == std::string("side")) continue;
-    for (const char* text : {"nan", "inf", "19 deg"}) {
-      profiles.header[key] = text;
-      expect_refused(measured_folder(folder, std::to_string(number++), profiles), {key, text});
+    for (const char* text : {"nan", "inf", "1e999", "19 deg"}) {
+      const fs::path run = measured_folder(folder, std::to_string(number++));
+      spoil_header(run / "measured" / "profiles.csv", key, text);
+      expect_refused(run, {"profiles.csv", key, text});
     }
   }
 }
@@ -167,7 +178,7 @@ TEST(MeasuredRun, RefusesNumbersThatAreNone) {
 TEST(MeasuredRun, RefusesUnitsThatDisagreeBetweenItsFiles) {
   const TemporaryFolder folder;
   ProfileSet millimetres = example_profiles();
-  millimetres.header["diameter_m"] = "3.3";
+  millimetres.header.diameter_m = 3.3;
   expect_refused(measured_folder(folder, "mm", millimetres),
                  {"diameter_m", "3.3", "0.0033", "the same units"});
   Json measured = example_measured();
@@ -188,10 +199,10 @@ TEST(MeasuredRun, RefusesASliceOfAnotherFrame) {
   const fs::path run = measured_folder(folder, "run");
   fs::create_directories(run / "measured" / "slices");
   ProfileSet slice = example_profiles();
-  slice.header["position"] = "20.5";
+  slice.header.position = 20.5;
   write_profiles(run / "measured" / "slices" / "x+20.5.csv", slice);
   EXPECT_EQ(read_measured_run(run).slices.begin()->first, 20.5);
-  slice.header["theta_deg"] = "25";
+  slice.header.theta_deg = 25;
   write_profiles(run / "measured" / "slices" / "x+20.5.csv", slice);
   expect_refused(run, {"x+20.5.csv", "theta_deg", "25"});
 }
@@ -199,7 +210,7 @@ TEST(MeasuredRun, RefusesASliceOfAnotherFrame) {
 TEST(MeasuredRun, NamesAllItsFaultsAtOnce) {
   const TemporaryFolder folder;
   ProfileSet profiles = continuum_profiles();
-  profiles.header.erase("axis_depth");
+  profiles.header.axis_depth.reset();
   Json measured = example_measured();
   measured["steadiness"] = {{"steady", false}, {"reasons", {"half a turn only"}}};
   expect_refused(measured_folder(folder, "run", profiles, measured),
@@ -234,7 +245,7 @@ TEST(FlowRunFolder, IsReadAndRefusedInTheSameWay) {
   Json other = testing::example_flow();
   other["format"] = "drumlin-flow-run-9";
   EXPECT_TRUE(
-      holds(refusal(flow_folder(folder, "version", continuum_profiles(), other)), {"drumlin-flow-run-1"}));
+      holds(refusal(flow_folder(folder, "version", continuum_profiles(), other)), {"drumlin-flow-run-2"}));
   other = testing::example_flow();
   other["geometry"] = "chute";
   EXPECT_TRUE(

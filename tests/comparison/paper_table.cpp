@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include "tests/comparison/example.hpp"
+#include "tests/support/data_folder.hpp"
 
 namespace drumlin {
+using namespace coupling;
 namespace {
 
 using Outcome = Target::Outcome;
-const std::filesystem::path paper = std::filesystem::path(DRUMLIN_DATA) / "paper";
+const std::filesystem::path paper = drumlin::test::data_folder() / "paper";
 
 const PaperRow& row(const std::vector<PaperRow>& rows, const std::string& name) {
   for (const auto& candidate : rows)
@@ -19,7 +21,7 @@ const PaperRow& row(const std::vector<PaperRow>& rows, const std::string& name) 
 TEST(PaperTable, FindsTheSpeedOfThePapersDrum) {
   EXPECT_EQ(paper_speed_rpm(testing::example_profiles(), paper), 6);
   auto faster = testing::example_profiles();
-  faster.header["rotation"] = "0.02881";
+  faster.header.rotation = 0.02881;
   EXPECT_EQ(paper_speed_rpm(faster, paper), 15);
 }
 
@@ -27,7 +29,7 @@ TEST(PaperTable, HoldsNothingForAnotherDrum) {
   for (const auto& [key, value] : std::map<std::string, std::string>{
            {"reduced", "true"}, {"drum_radius", "30"}, {"rotation", "0.0134"}, {"diameter_m", "0.001"}}) {
     auto other = testing::example_profiles();
-    other.header[key] = value;
+    testing::set_entry(other.header, key, value);
     EXPECT_FALSE(paper_speed_rpm(other, paper).has_value()) << key;
   }
 }

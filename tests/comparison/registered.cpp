@@ -1,12 +1,13 @@
 // The same place of the drum on both sides, slices and maps.
 #include <gtest/gtest.h>
 
+#include "coupling/common/errors.hpp"
 #include "coupling/comparison/comparison.hpp"
 #include "coupling/comparison/map_sampling.hpp"
-#include "coupling/exchange/errors.hpp"
 #include "tests/comparison/example_maps.hpp"
 
 namespace drumlin {
+using namespace coupling;
 namespace {
 
 using testing::column_of;
@@ -78,7 +79,7 @@ TEST(Registration, KeepsWhatASideSaysFromItsOwnSurface) {
 
 TEST(Registration, RefusesASideWithoutAnAxis) {
   auto continuum = continuum_side();
-  continuum.profiles.header.erase("axis_depth");
+  continuum.profiles.header.axis_depth.reset();
   EXPECT_THROW(compare(example_side(), continuum), InputError);
 }
 
@@ -117,7 +118,7 @@ TEST(Maps, ProfileThroughALinearFieldIsTheField) {
     EXPECT_NEAR(through.column("mu").value[i], 0.27 / 0.75, 1e-12);
     EXPECT_NEAR(through.column("k").value[i], 0.78 / 0.75, 1e-12);
   }
-  EXPECT_EQ(header_number(through.header, "position"), 10);
+  EXPECT_EQ(through.header.position, 10);
 }
 
 TEST(Maps, ZonesKeepOffSurfaceAndWallAndMeetAtTheFlow) {
@@ -146,7 +147,7 @@ TEST(Parts, OfARunAgainstItselfAreExactlyZero) {
   particles.fields.maps = example_map();
   for (const double position : {-20.0, 0.0, 20.0}) {
     particles.fields.slices[position] = particles.profiles;
-    particles.fields.slices[position].header["position"] = std::to_string(position);
+    particles.fields.slices[position].header.position = position;
   }
   continuum.fields.maps = example_map("continuum");
   for (const ComparedSide* side : {&particles, &continuum}) {

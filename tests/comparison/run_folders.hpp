@@ -2,7 +2,7 @@
 // Folders as `drumlin measure` and `drumlin flow` leave them, with the profiles of example.hpp.
 #include <nlohmann/json.hpp>
 
-#include "coupling/exchange/text_file.hpp"
+#include "coupling/common/text_file.hpp"
 #include "tests/comparison/example.hpp"
 #include "tests/exchange_files/folder.hpp"
 
@@ -43,7 +43,7 @@ inline std::filesystem::path measured_folder(const TemporaryFolder& folder, cons
 }
 
 inline Json example_flow() {
-  return {{"format", "drumlin-flow-run-1"},
+  return {{"format", "drumlin-flow-run-2"},
           {"reduced", false},
           {"geometry", "drum"},
           {"theta_deg", 19.7},

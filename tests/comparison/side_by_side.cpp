@@ -2,11 +2,12 @@
 
 #include <algorithm>
 
+#include "coupling/common/errors.hpp"
 #include "coupling/comparison/comparison.hpp"
-#include "coupling/exchange/errors.hpp"
 #include "tests/comparison/example.hpp"
 
 namespace drumlin {
+using namespace coupling;
 namespace {
 
 using testing::column_of;
@@ -102,11 +103,11 @@ TEST(Comparison, PaperNumbersDoNotFitOneLinearLayer) {
 
 TEST(SameDrum, MixedDrumsSpeedsUnitsAndSizesAreAllNamedAtOnce) {
   auto other = example_side();
-  other.profiles.header = {{"rotation", "0.0192"},
-                           {"drum_radius", "30"},
-                           {"diameter_m", "0.001"},
-                           {"reduced", "true"},
-                           {"position", "9"}};
+  other.profiles.header = testing::header_from({{"rotation", "0.0192"},
+                                                {"drum_radius", "30"},
+                                                {"diameter_m", "0.001"},
+                                                {"reduced", "true"},
+                                                {"position", "9"}});
   try {
     compare(example_side(), other);
     FAIL() << "mixed drums were compared";
@@ -121,12 +122,12 @@ TEST(SameDrum, EachDifferenceAloneIsRefusedAndSoIsSilence) {
   for (const auto& [key, value] : std::map<std::string, std::string>{
            {"rotation", "0.0117"}, {"drum_radius", "68.5"}, {"diameter_m", "0.00331"}, {"reduced", "true"}}) {
     auto other = example_side();
-    other.profiles.header[key] = value;
+    testing::set_entry(other.profiles.header, key, value);
     EXPECT_THROW(compare(example_side(), other), InputError) << key;
-    other.profiles.header.erase(key);
+    testing::erase_entry(other.profiles.header, key);
     EXPECT_THROW(compare(example_side(), other), InputError) << key;
     auto silent = example_side();
-    silent.profiles.header.erase(key);
+    testing::erase_entry(silent.profiles.header, key);
     EXPECT_THROW(compare(silent, other), InputError) << key << ": neither side says it";
   }
 }

@@ -7,6 +7,7 @@
 #include <numbers>
 
 namespace drumlin {
+using namespace continuum;
 namespace {
 
 const LogLaw paper{0.35, 0.013};

@@ -5,12 +5,22 @@
 #include <cmath>
 #include <numbers>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
+#include "tests/support/data_folder.hpp"
 
 namespace drumlin {
+using namespace continuum;
 namespace {
 
-FlowScene paper_scene() { return read_flow_scene(DRUMLIN_DATA "/scenes/drum-6rpm-flow.toml"); }
+RheologyFit paper_law() {
+  RheologyFit law;
+  law.mu = LogFriction{.a = 0.35, .b = 0.013};
+  law.nu = 0.82;
+  return law;
+}
+FlowScene paper_scene() {
+  return read_flow_scene(drumlin::test::data_folder() / "scenes/drum-6rpm-flow.toml");
+}
 
 TEST(DrumGeometry, GrainsCoverTheFlowDomainAtTheLawsVolumeFraction) {
   const FlowScene scene = paper_scene();
@@ -32,7 +42,7 @@ TEST(DrumGeometry, RefusesMoreGrainsThanFit) { EXPECT_THROW(drum_geometry(paper_
 
 TEST(DrumProblem, WallTurnsRigidlyAndRestsAtTheEndsOfTheSurface) {
   const DrumGeometry drum = drum_geometry(paper_scene(), 0.82);
-  const FlowProblem problem = drum_problem(paper_scene(), drum, LogLaw{0.35, 0.013});
+  const FlowProblem problem = drum_problem(paper_scene(), paper_law());
   const auto& wall = std::get<PrescribedVelocity>(problem.boundary.at(Side::bottom));
   const Vec2 lowest = wall.velocity({0, drum.axis_offset - drum.radius});
   EXPECT_NEAR(lowest.x, -drum.rotation * drum.radius, 1e-12);  // against the surface flow
@@ -43,12 +53,68 @@ TEST(DrumProblem, WallTurnsRigidlyAndRestsAtTheEndsOfTheSurface) {
 
 TEST(DrumProblem, SlopeIsFoundUnlessPrescribed) {
   FlowScene scene = paper_scene();
-  EXPECT_TRUE(std::holds_alternative<SlopeFromMoment>(
-      drum_problem(scene, drum_geometry(scene, 0.82), LogLaw{0.35, 0.013}).slope));
+  EXPECT_TRUE(std::holds_alternative<SlopeFromMoment>(drum_problem(scene, paper_law()).slope));
   std::get<FlowDrum>(scene.geometry).slope_deg = 23;
-  const FlowProblem steep = drum_problem(scene, drum_geometry(scene, 0.82), LogLaw{0.35, 0.013});
+  const FlowProblem steep = drum_problem(scene, paper_law());
   EXPECT_NEAR(std::get<FixedSlope>(steep.slope).theta, 23 * std::numbers::pi / 180, 1e-15);
   EXPECT_TRUE(no_steady_state(steep));
+}
+
+// Of a scene with every effect and a law with k.
+TEST(DrumProblem, HoldsAllThatTheSceneAndTheLawName) {
+  FlowScene scene = paper_scene();
+  scene.effects = FlowEffects{.inertia = FlowInertia{},
+                              .rotating_frame = FlowRotatingFrame{},
+                              .wall_slip = FlowWallSlip{.friction = 0.4, .slip_speed = 2e-4},
+                              .fabric = FlowFabric{.relaxation = 3},
+                              .nonlocal = FlowNonlocal{.length = 1.5},
+                              .moving_surface = FlowMovingSurface{.degree = 12, .tolerance = 0.02}};
+  RheologyFit law = paper_law();
+  law.k = NormalStressRatio{.I = {1e-3, 1e-2, 1e-1}, .k = {0.95, 1, 1.1}};
+  const FlowProblem problem = drum_problem(scene, law);
+  EXPECT_EQ(std::get<LogLaw>(problem.law).a, 0.35);
+  EXPECT_EQ(std::get<LogLaw>(problem.law).b, 0.013);
+  EXPECT_EQ(problem.density, 0.82);
+  ASSERT_TRUE(problem.turned);
+  EXPECT_DOUBLE_EQ(problem.turned->k.at_ln(std::log(1e-1)).value, 1.1);
+  ASSERT_TRUE(problem.turned->fabric);
+  EXPECT_EQ(problem.turned->fabric->relaxation, 3);
+  ASSERT_TRUE(problem.nonlocal);
+  EXPECT_EQ(problem.nonlocal->length, 1.5);
+  EXPECT_TRUE(problem.inertia);
+  ASSERT_TRUE(problem.frame);
+  EXPECT_EQ(problem.frame->rotation, drum_geometry(scene, 0.82).rotation);
+  ASSERT_TRUE(problem.moving_surface);
+  EXPECT_EQ(problem.moving_surface->degree, 12);
+  EXPECT_EQ(problem.moving_surface->tolerance, 0.02);
+  const auto& wall = std::get<FrictionWall>(problem.boundary.at(Side::bottom));
+  EXPECT_EQ(wall.friction, 0.4);
+  EXPECT_EQ(wall.slip_speed, 2e-4);
+}
+
+TEST(DrumProblem, HoldsNoEffectThatNobodyNames) {
+  FlowScene scene = paper_scene();
+  scene.effects = {};
+  const FlowProblem problem = drum_problem(scene, paper_law());
+  EXPECT_FALSE(problem.turned || problem.nonlocal || problem.inertia || problem.frame ||
+               problem.moving_surface || problem.extra_force);
+}
+
+TEST(DrumProblem, RefusesEffectsThatTheLawDoesNotAllow) {
+  FlowScene scene = paper_scene();
+  scene.effects = {};
+  scene.effects.fabric = FlowFabric{.relaxation = 1};
+  scene.effects.nonlocal = FlowNonlocal{.length = 1};
+  RheologyFit law = paper_law();
+  law.mu = JopFriction{0.38, 0.64, 0.28};  // a threshold: below it mu does not determine the fluidity
+  try {
+    (void)drum_problem(scene, law);
+    FAIL();
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.problems().size(), 2u);
+    EXPECT_EQ(error.problems()[0].key, "effects.fabric");
+    EXPECT_EQ(error.problems()[1].key, "effects.nonlocal");
+  }
 }
 
 TEST(NoSteadyState, IsSaidOfASlopeThatTheLawCannotCarry) {

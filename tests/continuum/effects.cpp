@@ -1,25 +1,16 @@
 // Effects of the continuum on a drum of 30 grains' width.
 #include "boxes.hpp"
 #include "continuum/fem/detail/solved_level.hpp"
-#include "continuum/hardcases/small_drum.hpp"
 #include "continuum/sampling/drum_profiles.hpp"
+#include "tests/hardcases/continuum/small_drum.hpp"
 
 namespace drumlin {
+using namespace continuum;
 namespace {
 
 using namespace testing_boxes;
 
-const DrumGeometry drum = drumlin::small_drum();
-
-FlowProblem small_drum(const DrumGeometry& geometry = drum) {
-  return small_drum_problem(LogLaw{0.35, 0.013}, 1e-3, geometry);
-}
-
-FlowSolverOptions one_mesh() {
-  FlowSolverOptions options;
-  options.levels = 1;
-  return options;
-}
+const DrumGeometry drum = small_drum();
 
 const std::vector<Vec2> places = {{0, -0.5}, {0, -3}, {5, -2}, {-6, -1}, {2, -9}};
 
@@ -35,7 +26,7 @@ void expect_same_flow(const FlowField& a, const FlowField& b, double tolerance) 
 
 TEST(RotatingFrame, ChangesNoAnswerWithInertiaOrWithout) {
   for (const bool inertia : {false, true}) {
-    FlowProblem laboratory = small_drum();
+    FlowProblem laboratory = small_drum_problem();
     if (inertia) laboratory.inertia = Inertia{};
     FlowProblem turning = laboratory;
     turning.frame = RotatingFrame{drum.rotation, drum.axis_offset};
@@ -49,7 +40,7 @@ TEST(Inertia, VanishesWithTheSquareOfTheSpeed) {
   const auto change = [](double rotation) {
     DrumGeometry geometry = drum;
     geometry.rotation = rotation;
-    FlowProblem slow = small_drum(geometry), with = slow;
+    FlowProblem slow = small_drum_problem(geometry), with = slow;
     with.inertia = Inertia{};
     return converged(with, one_mesh()).theta() - converged(slow, one_mesh()).theta();
   };
@@ -71,7 +62,7 @@ TEST(Inertia, IsFollowedToThePapersDrumAtTheEpsOfTheScenes) {
 }
 
 FlowProblem drum_with_friction(double friction) {
-  FlowProblem problem = small_drum();
+  FlowProblem problem = small_drum_problem();
   // The whole wall moves: where it meets the surface it slides along the material, and needs no taper.
   const auto velocity = [](Vec2 x) { return rigid_rotation(drum.rotation, drum.axis_offset, x); };
   problem.boundary[Side::bottom] = FrictionWall{.velocity = velocity, .friction = friction};
@@ -79,7 +70,7 @@ FlowProblem drum_with_friction(double friction) {
 }
 
 TEST(FrictionWall, CarriesTheDrumLikeARoughWallWhereItIsRougherThanTheFlow) {
-  const double stuck = converged(small_drum(), one_mesh()).theta();
+  const double stuck = converged(small_drum_problem(), one_mesh()).theta();
   // They differ at the corners, where a wall that holds the material has to come to rest: 0.6 deg in so small
   // a drum.
   EXPECT_NEAR(converged(drum_with_friction(0.95), one_mesh()).theta(), stuck, 1 * degree);
@@ -104,11 +95,12 @@ std::pair<int, std::size_t> system_of(const FlowField& field) {
 }
 
 TEST(AbsentEffects, LeaveNoUnknownNoEntryAndNoArray) {
-  const FlowField plain = converged(small_drum(), one_mesh());
+  const FlowField plain = converged(small_drum_problem(), one_mesh());
   EXPECT_FALSE(plain.level().setting.inertia);
   EXPECT_EQ(plain.level().state.held, nullptr);
   EXPECT_FALSE(plain.level().discretisation->surface);
-  FlowProblem turned = small_drum(), moving = small_drum(), seen = small_drum(), spread = small_drum();
+  FlowProblem turned = small_drum_problem(), moving = small_drum_problem(), seen = small_drum_problem(),
+              spread = small_drum_problem();
   turned.turned = TurnedStress{.k = StressRatioLaw({1e-4, 1e-1}, {1.02, 1.04})};
   FlowProblem carried = turned;
   carried.turned->fabric = CarriedFabric{1};
@@ -148,8 +140,8 @@ TEST(AdaptiveMesh, HalvesAShareOfTheCellsAndStaysCloseToTheFineMesh) {
 }
 
 TEST(SolveAgain, FindsTheFlowOfChangedSettingsOnTheSameMesh) {
-  const FlowField start = converged(small_drum(), one_mesh());
-  FlowProblem weaker = small_drum();
+  const FlowField start = converged(small_drum_problem(), one_mesh());
+  FlowProblem weaker = small_drum_problem();
   weaker.regularisation.pressure *= 0.8;
   const FlowSolution again = solve_flow_again(start, weaker, one_mesh());
   ASSERT_TRUE(again.report.converged) << again.report.failure;

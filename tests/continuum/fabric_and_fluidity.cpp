@@ -2,11 +2,12 @@
 #include "boxes.hpp"
 #include "continuum/fem/detail/carried_field.hpp"
 #include "continuum/fem/detail/solved_level.hpp"
-#include "continuum/hardcases/small_drum.hpp"
 #include "continuum/sampling/drum_profiles.hpp"
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
+#include "tests/hardcases/continuum/small_drum.hpp"
 
 namespace drumlin {
+using namespace continuum;
 namespace {
 
 using namespace testing_boxes;
@@ -16,7 +17,7 @@ const LogLaw paper{0.35, 0.013};
 FlowSolverOptions options_of(int levels, double held_tolerance) {
   FlowSolverOptions options;
   options.levels = levels;
-  options.turn_tolerance = held_tolerance;
+  options.picard_tolerance = held_tolerance;
   return options;
 }
 

@@ -9,6 +9,6 @@ extern "C" const char* __asan_default_options() { return "detect_leaks=0"; }
 
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
-  const drumlin::FemRuntime runtime(argc, argv);
+  const drumlin::continuum::FemRuntime runtime(argc, argv);
   return RUN_ALL_TESTS();
 }

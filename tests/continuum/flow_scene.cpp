@@ -6,9 +6,11 @@
 #include <set>
 #include <sstream>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
+#include "tests/support/data_folder.hpp"
 
 namespace drumlin {
+using namespace continuum;
 namespace {
 
 const std::string smallest = R"(format = "drumlin-flow-scene-1"
@@ -158,18 +160,20 @@ TEST(FlowScene, ListsEveryKeyOnceWithASentence) {
 }
 
 TEST(FlowScene, ShippedScenesAreRead) {
-  const FlowScene full = read_flow_scene(DRUMLIN_DATA "/scenes/drum-6rpm-flow.toml");
+  const FlowScene full = read_flow_scene(drumlin::test::data_folder() / "scenes/drum-6rpm-flow.toml");
   EXPECT_EQ(full.grains.count, 7183);
   EXPECT_FALSE(full.reduced);
-  const FlowScene smoke = read_flow_scene(DRUMLIN_DATA "/scenes/drum-smoke-flow.toml");
+  const FlowScene smoke = read_flow_scene(drumlin::test::data_folder() / "scenes/drum-smoke-flow.toml");
   EXPECT_EQ(smoke.grains.count, 798);
   EXPECT_TRUE(smoke.reduced);
   for (const char* name : {"incline", "plane-shear", "chute", "annulus"})
-    EXPECT_NO_THROW(read_flow_scene(DRUMLIN_DATA "/scenes/" + std::string(name) + "-flow.toml")) << name;
+    EXPECT_NO_THROW(
+        read_flow_scene(drumlin::test::data_folder() / "scenes" / (std::string(name) + "-flow.toml")))
+        << name;
 }
 
 TEST(FlowScene, DocumentationHoldsEveryKey) {
-  std::ifstream stream(DRUMLIN_DATA "/../docs/formats/flow.md");
+  std::ifstream stream(drumlin::test::docs_folder() / "formats/flow.md");
   std::stringstream text;
   text << stream.rdbuf();
   EXPECT_NE(text.str().find(keys_as_markdown(flow_scene_keys())), std::string::npos)

@@ -9,6 +9,7 @@
 #include "given_flow.hpp"
 
 namespace drumlin {
+using namespace continuum;
 namespace {
 
 using testing_given_flow::GivenFlow;

@@ -1,4 +1,4 @@
-#include "continuum/rheology/friction_law.hpp"
+#include "coupling/law/friction_law.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +7,7 @@
 #include "continuum/rheology/stress_law.hpp"
 
 namespace drumlin {
+using namespace continuum;
 namespace {
 
 const std::vector<double> I_of_table{1e-4, 1e-3, 3e-3, 1e-2, 0.1};
@@ -65,7 +66,7 @@ TEST(TabulatedLaw, GrowsEverywhereAndStaysPositive) {
   const TabulatedLaw table(I_of_table, {0.1, 0.2, 0.21, 0.3, 0.32});
   double last = 0;
   for (double I = 1e-20; I < 1e6; I *= 1.1) {
-    const Friction at = table.friction(I);
+    const FrictionValue at = table.friction(I);
     EXPECT_GT(at.mu, last) << I;
     EXPECT_GT(at.slope, 0) << I;
     last = at.mu;

@@ -9,8 +9,10 @@
 
 #include "continuum/reference/closed_forms.hpp"
 #include "continuum/reference/gap_solution.hpp"
+#include "coupling/common/errors.hpp"
 
 namespace drumlin {
+using namespace continuum;
 namespace {
 
 constexpr double degree = std::numbers::pi / 180, nu = 0.82;
@@ -93,6 +95,49 @@ TEST(Gap, ComesInUnitsOfItsGrains) {
   const Gap ring = gap_of(FlowAnnulus{66, 132, 13, 350}, scales, nu);
   EXPECT_NEAR(ring.inner_radius, 20, 1e-12);
   EXPECT_NEAR(*ring.speed, 13 * std::numbers::pi / 30 * 0.066 / std::sqrt(9.81 * 3.3e-3), 1e-12);
+}
+
+FlowScene scene_of(const FlowGeometry& geometry) {
+  FlowScene scene;
+  scene.geometry = geometry;
+  scene.grains = {.count = {}, .diameter_min_mm = 3, .diameter_max_mm = 3.6, .density_kg_m3 = 2700};
+  return scene;
+}
+
+RheologyFit paper_law() {
+  RheologyFit law;
+  law.mu = LogFriction{.a = 0.35, .b = 0.013};
+  law.nu = nu;
+  return law;
+}
+
+TEST(GapProblem, HoldsAllThatTheSceneAndTheLawName) {
+  RheologyFit law = paper_law();
+  law.k = NormalStressRatio{.I = {1e-3, 1e-2, 1e-1}, .k = {0.95, 1, 1.1}};
+  for (const FlowGeometry& geometry :
+       {FlowGeometry(FlowIncline{66, 18}), FlowGeometry(FlowPlaneShear{66, 72, 350}),
+        FlowGeometry(FlowChute{33, 2000}), FlowGeometry(FlowAnnulus{66, 132, 13, 350})}) {
+    FlowScene scene = scene_of(geometry);
+    scene.effects.inertia = FlowInertia{};
+    scene.effects.fabric = FlowFabric{.relaxation = 3};
+    scene.effects.nonlocal = FlowNonlocal{.length = 1.5};
+    const FlowProblem problem = gap_problem(scene, law);
+    EXPECT_EQ(std::get<LogLaw>(problem.law).a, 0.35);
+    EXPECT_EQ(problem.density, gap_of(scene, nu).weight);
+    ASSERT_TRUE(problem.turned);
+    EXPECT_DOUBLE_EQ(problem.turned->k.at_ln(std::log(1e-1)).value, 1.1);
+    ASSERT_TRUE(problem.turned->fabric);
+    EXPECT_EQ(problem.turned->fabric->relaxation, 3);
+    ASSERT_TRUE(problem.nonlocal);
+    EXPECT_EQ(problem.nonlocal->length, 1.5);
+    EXPECT_TRUE(problem.inertia);
+  }
+}
+
+TEST(GapProblem, RefusesEffectsOfTheDrum) {
+  FlowScene scene = scene_of(FlowIncline{66, 18});
+  scene.effects.wall_slip = FlowWallSlip{.friction = 0.4};
+  EXPECT_THROW(gap_problem(scene, paper_law()), InputError);
 }
 
 TEST(Gap, AxesOfAnAnnulusTurnWithThePlace) {

@@ -11,9 +11,9 @@ constexpr double nu = 0.82;
 const LogLaw steep{0.35, 0.05};
 
 struct GapFlow {
-  Gap gap;
+  continuum::Gap gap;
   double cell = 0;  ///< on the finest of three meshes
-  FlowRegularisation regularisation;
+  continuum::FlowRegularisation regularisation;
 };
 
 /// p_min takes the root of the shear rate away from the surface, where Q2 would be of order 2.

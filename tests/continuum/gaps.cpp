@@ -4,6 +4,7 @@
 #include "gap_flows.hpp"
 
 namespace drumlin {
+using namespace continuum;
 namespace {
 
 using namespace testing_boxes;

@@ -11,30 +11,31 @@
 
 namespace drumlin::testing_given_flow {
 
-inline FlowProblem problem_on(const Domain& domain) {
-  FlowProblem problem;
+inline continuum::FlowProblem problem_on(const continuum::Domain& domain) {
+  continuum::FlowProblem problem;
   problem.domain = domain;
-  problem.slope = FixedSlope{0};
+  problem.slope = continuum::FixedSlope{0};
   return problem;
 }
 
 /// Uniformly refined.
 struct GivenFlow {
-  FlowProblem problem;
-  fem::Discretisation d;
-  fem::FieldVector solution;
+  continuum::FlowProblem problem;
+  continuum::fem::Discretisation d;
+  continuum::fem::FieldVector solution;
 
-  GivenFlow(const Domain& domain, int refinements, const std::function<Vec2(Vec2)>& velocity)
+  GivenFlow(const continuum::Domain& domain, int refinements,
+            const std::function<continuum::Vec2(continuum::Vec2)>& velocity)
       : problem(problem_on(domain)), d(problem), solution(d.field()) {
     for (int i = 0; i < refinements; ++i) d.refine(problem, solution);
     fill(velocity);
   }
-  void fill(const std::function<Vec2(Vec2)>& velocity) {
-    solution = fem::velocity_field(d, velocity);
+  void fill(const std::function<continuum::Vec2(continuum::Vec2)>& velocity) {
+    solution = continuum::fem::velocity_field(d, velocity);
     solution.update_ghost_values();
   }
   /// `visit`(place, weight) at every quadrature point of this rank.
-  void for_points(const std::function<void(Vec2, double)>& visit) const {
+  void for_points(const std::function<void(continuum::Vec2, double)>& visit) const {
     dealii::FEValues<2> fe(d.mapping, d.elements, d.quadrature,
                            dealii::update_quadrature_points | dealii::update_JxW_values);
     for (const auto& cell : d.unknowns.active_cell_iterators()) {
@@ -44,16 +45,16 @@ struct GivenFlow {
         visit({fe.quadrature_point(q)[0], fe.quadrature_point(q)[1]}, fe.JxW(q));
     }
   }
-  std::vector<double> at_points(const std::function<double(Vec2)>& function) const {
+  std::vector<double> at_points(const std::function<double(continuum::Vec2)>& function) const {
     std::vector<double> values;
-    for_points([&](Vec2 x, double) { values.push_back(function(x)); });
+    for_points([&](continuum::Vec2 x, double) { values.push_back(function(x)); });
     return values;
   }
   /// Root mean square of the difference of values per quadrature point from a function, where it is not NaN.
-  double error(const std::vector<double>& values, const std::function<double(Vec2)>& exact) const {
+  double error(const std::vector<double>& values, const std::function<double(continuum::Vec2)>& exact) const {
     double sum = 0, area = 0;
     std::size_t point = 0;
-    for_points([&](Vec2 x, double weight) {
+    for_points([&](continuum::Vec2 x, double weight) {
       const double off = values[point++] - exact(x);
       if (std::isnan(off)) return;
       sum += off * off * weight;

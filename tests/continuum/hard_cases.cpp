@@ -1,5 +1,5 @@
 // The fast half of the continuum's rows in the table that `drumlin hardcases` shows.
-#include "continuum/hardcases/flow_hard_cases.hpp"
+#include "tests/hardcases/registry.hpp"
 #include "tests/support/hard_case_tests.hpp"
 
 namespace drumlin::testing_hard_cases {

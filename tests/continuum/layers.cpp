@@ -1,9 +1,10 @@
 // The finite elements against flows that can be written down, and against what they must refuse.
 #include "boxes.hpp"
 #include "continuum/reference/closed_forms.hpp"
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 
 namespace drumlin {
+using namespace continuum;
 namespace {
 
 using namespace testing_boxes;

@@ -5,6 +5,7 @@
 #include "manufactured_flow.hpp"
 
 namespace drumlin {
+using namespace continuum;
 namespace {
 
 using namespace testing_boxes;
@@ -16,7 +17,7 @@ std::array<Errors, 3> errors_on_three_meshes(const Manufactured& made) {
   options.levels = 3;
   options.tolerance = 1e-11;
   options.coarse_tolerance = options.tolerance;  // the errors of all meshes are compared
-  options.turn_tolerance = 1e-6;                 // below the errors of the finest mesh
+  options.picard_tolerance = 1e-6;               // below the errors of the finest mesh
   std::array<Errors, 3> found;
   FlowObserver observer;
   observer.level_finished = [&](int level, const FlowField& field) { found[level] = errors(field); };

@@ -1,49 +1,47 @@
 // Steps in time.
 #include "boxes.hpp"
 #include "continuum/fem/runtime.hpp"
-#include "continuum/hardcases/small_drum.hpp"
 #include "continuum/sampling/drum_profiles.hpp"
+#include "tests/hardcases/continuum/small_drum.hpp"
 
 namespace drumlin {
+using namespace continuum;
 namespace {
 
 using namespace testing_boxes;
 
-const DrumGeometry drum = drumlin::small_drum();
+const DrumGeometry drum = small_drum();
 
-FlowProblem small_drum(double rotation = drum.rotation) {
+FlowProblem inertial_drum(double rotation = drum.rotation) {
   DrumGeometry geometry = drum;
   geometry.rotation = rotation;
-  FlowProblem problem = small_drum_problem(LogLaw{0.35, 0.013}, 1e-3, geometry);
+  FlowProblem problem = small_drum_problem(geometry);
   problem.inertia = Inertia{};
   return problem;
 }
 
-FlowSolverOptions one_mesh() {
-  FlowSolverOptions options;
-  options.levels = 1;
-  return options;
-}
-
 TEST(March, ReturnsToTheSteadyDrumAfterAPush) {
-  const FlowField steady = converged(small_drum(), one_mesh());
+  const FlowField steady = converged(inertial_drum(), one_mesh());
   const double theta = steady.theta();
-  const FlowSolution push = march_flow(steady, small_drum(1.2 * drum.rotation), {.time_step = 2, .steps = 5});
+  const FlowSolution push =
+      march_flow(steady, inertial_drum(1.2 * drum.rotation), {.time_step = 2, .steps = 5});
   ASSERT_TRUE(push.report.converged) << push.report.failure;
   EXPECT_GT(std::abs(push.field.theta() - theta), 1e-4);
-  const FlowSolution rest = march_flow(push.field, small_drum(), {.time_step = 20, .steps = 40});
+  const FlowSolution rest = march_flow(push.field, inertial_drum(), {.time_step = 20, .steps = 40});
   ASSERT_TRUE(rest.report.converged) << rest.report.failure;
   EXPECT_NEAR(rest.field.theta(), theta, 1e-5);
 }
 
 FlowMarch spin_up(int steps, int first = 0) {
   FlowMarch march{.time_step = 5, .steps = steps, .first = first};
-  march.boundary = [](double time) { return small_drum(drum.rotation * std::min(1.0, time / 40)).boundary; };
+  march.boundary = [](double time) {
+    return inertial_drum(drum.rotation * std::min(1.0, time / 40)).boundary;
+  };
   return march;
 }
 
 TEST(March, LeadsFromRestToTheSteadyFlow) {
-  const FlowField rest = flow_at_rest(small_drum(), one_mesh());
+  const FlowField rest = flow_at_rest(inertial_drum(), one_mesh());
   std::vector<double> Q;
   FlowMarch march = spin_up(80);
   march.stepped = [&](double time, const FlowField& field) {
@@ -51,28 +49,28 @@ TEST(March, LeadsFromRestToTheSteadyFlow) {
     now.rotation *= std::min(1.0, time / 40);
     Q.push_back(discharge(field, now) / now.expected_Q());
   };
-  const FlowSolution end = march_flow(rest, small_drum(), march, one_mesh());
+  const FlowSolution end = march_flow(rest, inertial_drum(), march, one_mesh());
   ASSERT_TRUE(end.report.converged) << end.report.failure;
   ASSERT_EQ(Q.size(), 80u);
   for (const double q : Q) EXPECT_NEAR(q, 1, 1e-3);  // mass balance at every time
   // Nodal forces have the acceleration in them: a flow that has come to its steady state balances.
   EXPECT_NEAR(drum_checks(end.field, drum).value("torque_relative_error"), 0, 1e-3);
-  EXPECT_NEAR(end.field.theta(), converged(small_drum(), one_mesh()).theta(), 1e-4);
+  EXPECT_NEAR(end.field.theta(), converged(inertial_drum(), one_mesh()).theta(), 1e-4);
 }
 
 TEST(March, GoesOnFromAKeptStateToTheLastBit) {
   const auto second_half = [](const FlowField& middle) {
-    const FlowSolution end = march_flow(middle, small_drum(), spin_up(4, 4), one_mesh());
+    const FlowSolution end = march_flow(middle, inertial_drum(), spin_up(4, 4), one_mesh());
     EXPECT_TRUE(end.report.converged) << end.report.failure;
     return end.field.state();
   };
   const FlowSolution middle =
-      march_flow(flow_at_rest(small_drum(), one_mesh()), small_drum(), spin_up(4), one_mesh());
+      march_flow(flow_at_rest(inertial_drum(), one_mesh()), inertial_drum(), spin_up(4), one_mesh());
   ASSERT_TRUE(middle.report.converged) << middle.report.failure;
   const FlowState kept = middle.field.state();
   const FlowState at_a_stretch = second_half(middle.field);
-  EXPECT_EQ(flow_of_state(kept, small_drum(), one_mesh()).integrals().area, middle.field.integrals().area);
-  const FlowState resumed = second_half(flow_of_state(kept, small_drum(), one_mesh()));
+  EXPECT_EQ(flow_of_state(kept, inertial_drum(), one_mesh()).integrals().area, middle.field.integrals().area);
+  const FlowState resumed = second_half(flow_of_state(kept, inertial_drum(), one_mesh()));
   ASSERT_EQ(resumed.values.size(), at_a_stretch.values.size());
   if (FemRuntime::ranks() == 1) {
     EXPECT_EQ(resumed.theta, at_a_stretch.theta);

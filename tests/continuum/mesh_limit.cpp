@@ -1,4 +1,4 @@
-#include "continuum/model/mesh_limit.hpp"
+#include "continuum/numerics/mesh_limit.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,6 +6,7 @@
 #include <vector>
 
 namespace drumlin {
+using namespace continuum;
 namespace {
 
 std::vector<double> values(double limit, double error, double order, int meshes) {

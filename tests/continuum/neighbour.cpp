@@ -3,9 +3,10 @@
 
 #include "boxes.hpp"
 #include "continuum/model/drum.hpp"
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 
 namespace drumlin {
+using namespace continuum;
 namespace {
 
 using namespace testing_boxes;

@@ -2,25 +2,21 @@
 #include <random>
 
 #include "boxes.hpp"
-#include "continuum/hardcases/small_drum.hpp"
 #include "continuum/sampling/drum_profiles.hpp"
 #include "continuum/sampling/flow_maps.hpp"
-#include "coupling/calibration/judgement.hpp"
+#include "coupling/calibration/calibrated_law.hpp"
 #include "coupling/calibration/law_points.hpp"
+#include "tests/hardcases/continuum/small_drum.hpp"
 
 namespace drumlin {
+using namespace continuum;
+using namespace coupling;
 namespace {
 
 using namespace testing_boxes;
 
-const FrictionForm logarithm{FormKind::log, {}};
+const FrictionForm logarithm{.kind = FormKind::log};
 const Coefficients truth{0.35, 0.013};
-
-FlowSolverOptions one_mesh() {
-  FlowSolverOptions options;
-  options.levels = 1;
-  return options;
-}
 
 FlowProblem problem(const Coefficients& law) {
   FlowProblem drum = small_drum_problem(LogLaw{law[0], law[1]}, 1e-4, small_drum());
@@ -40,8 +36,8 @@ FieldMap noisy_maps(const FlowField& field, double noise) {
   area.inside = [drum](Vec2 p) { return p.z < 0 && std::hypot(p.x, p.z - drum.axis_offset) < drum.radius; };
   area.nu = drum.nu;
   FieldMap maps = flow_map(field, area, 1);
-  maps.header["drum_radius"] = std::to_string(drum.radius);
-  maps.header["axis_depth"] = std::to_string(drum.axis_offset);
+  maps.header.drum_radius = drum.radius;
+  maps.header.axis_depth = drum.axis_offset;
   std::mt19937 random(7);
   std::normal_distribution<double> normal(0, 1);
   for (MapField& of : maps.fields) {

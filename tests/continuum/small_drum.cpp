@@ -1,5 +1,5 @@
 // A drum of 30 grains' width: what must hold of every drum.
-#include "continuum/hardcases/small_drum.hpp"
+#include "tests/hardcases/continuum/small_drum.hpp"
 
 #include <filesystem>
 
@@ -9,24 +9,15 @@
 #include "coupling/files/field_map_file.hpp"
 
 namespace drumlin {
+using namespace continuum;
 namespace {
 
 using namespace testing_boxes;
 
 const DrumGeometry drum = small_drum();
 
-FlowProblem problem(const DrumGeometry& geometry = drum) {
-  return small_drum_problem(LogLaw{0.35, 0.013}, 1e-3, geometry);
-}
-
-FlowSolverOptions one_mesh() {
-  FlowSolverOptions options;
-  options.levels = 1;
-  return options;
-}
-
 TEST(SmallDrum, BalancesMassForcesTorqueAndPower) {
-  const FlowField field = converged(problem(), one_mesh());
+  const FlowField field = converged(small_drum_problem(), one_mesh());
   const FlowIntegrals sums = field.integrals({0, drum.axis_offset});
   EXPECT_NEAR(sums.area, segment_area(drum.radius, drum.axis_offset), 1e-3 * sums.area);  // quadratic arcs
   // Q from the velocity against mass balance: what the stiff surface lets through.
@@ -44,7 +35,7 @@ TEST(SmallDrum, FluxIsThatOfMassBalanceAtAnyFill) {
   for (const double fill : {0.3, 0.7}) {  // half full: above
     DrumGeometry filled = drum;
     filled.axis_offset = chord_offset(drum.radius, fill * std::numbers::pi * drum.radius * drum.radius);
-    const FlowField field = converged(problem(filled), one_mesh());
+    const FlowField field = converged(small_drum_problem(filled), one_mesh());
     EXPECT_NEAR(discharge(field, filled) / filled.expected_Q(), 1, 1e-3) << fill;
     EXPECT_NEAR(drum_checks(field, filled).value("torque_relative_error"), 0, 1e-4) << fill;
   }
@@ -58,7 +49,7 @@ TEST(SmallDrum, AsMuchFlowsInAsOutThroughAnyCut) {
   };
   FlowSolverOptions options;
   options.levels = 2;
-  (void)converged(problem(), options, observer);
+  (void)converged(small_drum_problem(), options, observer);
   // The worst cuts end in the corners, where the flow turns within the taper of 3 d: cells of 2 d
   // leave 2.5e-3 there, and Q2-Q1 holds div u = 0 in the mean of its pressures alone, to
   // second order.
@@ -66,7 +57,7 @@ TEST(SmallDrum, AsMuchFlowsInAsOutThroughAnyCut) {
   EXPECT_LT(imbalance[1], 1e-3);
   EXPECT_LT(imbalance[1], imbalance[0] / 3);
   // It sees a leak: a soft surface lets a share of the flow through.
-  FlowProblem soft = problem();
+  FlowProblem soft = small_drum_problem();
   soft.boundary[Side::top] = NormalSpring{10};
   EXPECT_GT(flux_imbalance(converged(soft, one_mesh()), drum), 2e-2);
 }
@@ -74,7 +65,7 @@ TEST(SmallDrum, AsMuchFlowsInAsOutThroughAnyCut) {
 TEST(SmallDrum, SurfaceCarriesTheMomentThatAPrescribedSlopeLeaves) {
   DrumGeometry flat = drum;
   flat.slope = 18 * degree;
-  const FlowField field = converged(problem(flat), one_mesh());
+  const FlowField field = converged(small_drum_problem(flat), one_mesh());
   EXPECT_EQ(field.theta(), *flat.slope);
   const ScalarSet checks = drum_checks(field, flat);
   // Flatter than the slope that is found: the weight's torque is smaller than the wall's.
@@ -84,13 +75,14 @@ TEST(SmallDrum, SurfaceCarriesTheMomentThatAPrescribedSlopeLeaves) {
 }
 
 TEST(SmallDrum, SlopeDoesNotDependOnItsFirstGuess) {
-  FlowProblem steep = problem();
+  FlowProblem steep = small_drum_problem();
   steep.slope = SlopeFromMoment{0.6};
-  EXPECT_NEAR(converged(problem(), one_mesh()).theta(), converged(steep, one_mesh()).theta(), 1e-6);
+  EXPECT_NEAR(converged(small_drum_problem(), one_mesh()).theta(), converged(steep, one_mesh()).theta(),
+              1e-6);
 }
 
 TEST(SmallDrum, LeavesProfilesAndAVtu) {
-  const FlowField field = converged(problem(), one_mesh());
+  const FlowField field = converged(small_drum_problem(), one_mesh());
   const ProfileSet profiles = drum_profiles(field, drum);
   ASSERT_EQ(profiles.z.size(), 14u);  // the depth, in layers of 1 d
   EXPECT_EQ(profiles.z.back(), -0.5);
@@ -113,7 +105,7 @@ TEST(SmallDrum, LeavesProfilesAndAVtu) {
 }
 
 TEST(SmallDrum, MapsHoldWhatTheParticlesMapsHoldUnderTheSameNames) {
-  const FlowField field = converged(problem(), one_mesh());
+  const FlowField field = converged(small_drum_problem(), one_mesh());
   FieldMap map = flow_map(field, drum_map_area(field, drum), 1);
   map.scales = {0.0033, 0.0183, 2700};
   // 31 columns across, from the lowest point within the wall up to the chord.
@@ -158,8 +150,8 @@ TEST(SmallDrum, MapsHoldWhatTheParticlesMapsHoldUnderTheSameNames) {
 }
 
 TEST(SmallDrum, IsFoundAgainToTheLastBit) {
-  const double first = converged(problem(), one_mesh()).theta();
-  const double second = converged(problem(), one_mesh()).theta();
+  const double first = converged(small_drum_problem(), one_mesh()).theta();
+  const double second = converged(small_drum_problem(), one_mesh()).theta();
   if (FemRuntime::ranks() == 1)
     EXPECT_EQ(first, second);
   else  // sums over ranks come in the order of their messages

@@ -8,6 +8,7 @@
 #include "continuum/rheology/tensor_law.hpp"
 
 namespace drumlin {
+using namespace continuum;
 namespace {
 
 const LogLaw paper{0.35, 0.013};

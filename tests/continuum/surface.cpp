@@ -1,9 +1,10 @@
 // A surface that moves: to where nothing presses on it, with all of the area.
 #include "boxes.hpp"
-#include "continuum/hardcases/small_drum.hpp"
 #include "continuum/sampling/drum_profiles.hpp"
+#include "tests/hardcases/continuum/small_drum.hpp"
 
 namespace drumlin {
+using namespace continuum;
 namespace {
 
 using namespace testing_boxes;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 namespace drumlin {
+using namespace continuum;
 namespace {
 
 constexpr double radius = 15, axis_offset = 1;

@@ -4,6 +4,7 @@
 #include "tangent_error.hpp"
 
 namespace drumlin {
+using namespace continuum;
 namespace {
 
 using namespace testing_tangent;

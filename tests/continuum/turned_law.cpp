@@ -10,6 +10,7 @@
 #include "continuum/rheology/spin.hpp"
 
 namespace drumlin {
+using namespace continuum;
 namespace {
 
 const LogLaw paper{0.35, 0.013};

@@ -1,4 +1,4 @@
-#include "continuum/rheology/well_posedness.hpp"
+#include "coupling/law/well_posedness.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,10 @@
 #include <random>
 
 #include "continuum/rheology/ill_posed_ranges.hpp"
+#include "continuum/rheology/turned_law.hpp"
 
 namespace drumlin {
+using namespace continuum;
 namespace {
 
 // Unit pressure: I = 2 |D|.
@@ -19,7 +21,7 @@ bool well_posed(const StressLaw& law, double I) {
 // Barker, Schaeffer, Bohorquez & Gray, J. Fluid Mech. 779 (2015), eq. (1.7) for two dimensions.
 template <class Law>
 bool barker(const Law& law, double I) {
-  const Friction f = law.friction(I);
+  const FrictionValue f = law.friction(I);
   const double y = f.slope / f.mu, half = f.mu * (1 - 0.5 * y);
   return 4 * y * y - 4 * y + half * half <= 0;
 }

@@ -4,6 +4,7 @@
 #include "continuum/sampling/drum_profiles.hpp"
 
 namespace drumlin {
+using namespace continuum;
 namespace {
 
 using namespace testing_boxes;
@@ -95,8 +96,8 @@ TEST(SmallDrumWithK, BalancesMassTorqueAndPower) {
       solve_flow(small_drum(StressRatioLaw({1e-4, 1e-2, 1e-1}, {0.96, 1.03, 1.0})), options, observer);
   ASSERT_TRUE(solution.report.converged) << solution.report.failure;
   EXPECT_EQ(seen, 1);
-  EXPECT_LT(solution.report.turn_change, options.turn_tolerance);
-  EXPECT_GT(solution.report.turns, 1);
+  EXPECT_LT(solution.report.picard_change, options.picard_tolerance);
+  EXPECT_GT(solution.report.picard_updates, 1);
   const FlowIntegrals sums = solution.field.integrals({0, drum.axis_offset});
   EXPECT_NEAR(discharge(solution.field, drum) / drum.expected_Q(), 1, 1e-3);
   EXPECT_NEAR(sums.given_side_torque / sums.weight_torque, -1, 1e-4);
@@ -109,7 +110,7 @@ TEST(SmallDrumWithK, BalancesMassTorqueAndPower) {
 TEST(SmallDrumWithK, IsTheSameForAnObserverThatTurns) {
   FlowSolverOptions options;
   options.levels = 1;
-  options.turn_tolerance = 1e-6;
+  options.picard_tolerance = 1e-6;
   FlowProblem laboratory = small_drum(StressRatioLaw({1e-4, 1e-2, 1e-1}, {0.96, 1.03, 1.0}));
   FlowProblem turning = laboratory;
   turning.frame = RotatingFrame{drum.rotation, drum.axis_offset};
@@ -128,7 +129,7 @@ TEST(SmallDrumWithK, OfAnIllPosedLawEndsWithItsShare) {
   problem.regularisation.shear_rate = 1e-5;  // a larger eps would hide that the law is ill-posed
   FlowSolverOptions options;
   options.levels = 1;
-  options.max_turns = 3;
+  options.max_picard_updates = 3;
   const FlowSolution solution = solve_flow(problem, options);
   EXPECT_TRUE(solution.report.converged || !solution.report.failure.empty());
   const FlowIntegrals sums = solution.field.integrals();

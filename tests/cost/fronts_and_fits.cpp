@@ -1,14 +1,19 @@
 // Fronts of work-precision diagrams, errors of settings, differences of motions.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 #include <vector>
 
 #include "coupling/accuracy/pareto.hpp"
 #include "coupling/accuracy/setting_error.hpp"
+#include "coupling/statistics/quantiles.hpp"
 #include "particles/measurement/motion_difference.hpp"
 
 namespace drumlin {
+using namespace coupling;
+using namespace particles;
 namespace {
 
 TEST(ParetoFront, HoldsWhatNoOtherPointBeats) {
@@ -45,6 +50,56 @@ TEST(SettingError, IsNotSignificantWhereTheIntervalsHideIt) {
 
 TEST(SettingError, NeedsThreeSettings) {
   EXPECT_FALSE(setting_error(std::vector<SettingPoint>{{1, 1, 0}, {2, 3, 0}, {2, 3.1, 0}}, 1, both));
+}
+
+// Values 1, 3, 2 at settings 1, 2, 3: slope 1/2, sum of squares about the line 3/2, one degree of freedom.
+std::vector<SettingPoint> three_points(double ci99) { return {{1, 1, ci99}, {2, 3, ci99}, {3, 2, ci99}}; }
+
+TEST(SettingError, OneDegreeOfFreedomAsksForStudentsT) {
+  const double by_scatter = statistics::student_quantile_99(1) * std::sqrt(1.5 / 2);
+  for (const double ci99 : {0.0, 0.1}) {  // no interval, or one that says less than the scatter
+    const auto found = setting_error(three_points(ci99), 1, std::vector<double>{1});
+    EXPECT_NEAR(found->error, 0.5, 1e-12);
+    EXPECT_NEAR(found->ci99, by_scatter, 1e-9);
+    EXPECT_FALSE(found->significant());
+  }
+  EXPECT_NEAR(setting_error(three_points(1000), 1, std::vector<double>{1})->ci99, 1000 / std::sqrt(2), 1e-9);
+}
+
+TEST(SettingError, IntervalCoversThePowersThatTheScatterLeavesOpen) {
+  const auto one = setting_error(three_points(0), 1, std::vector<double>{1}),
+             root = setting_error(three_points(0), 1, std::vector<double>{0.5}),
+             found = setting_error(three_points(0), 1, both);
+  EXPECT_GE(found->error + found->ci99, std::max(one->error + one->ci99, root->error + root->ci99) - 1e-9);
+  EXPECT_LE(found->error - found->ci99, std::min(one->error - one->ci99, root->error - root->ci99) + 1e-9);
+  // Nothing is left open by points that lie on one law.
+  std::vector<SettingPoint> exact;
+  for (const double h : {1.0, 2.0, 3.0}) exact.push_back({h, 7 - 5 * h, 0});
+  EXPECT_NEAR(setting_error(exact, 1, both)->ci99, 0, 1e-9);
+}
+
+/// Share of noisy records of so many settings whose interval holds the error C at the setting 1.
+double coverage(int settings, double C, double told) {
+  std::mt19937_64 engine(5);
+  std::normal_distribution<double> normal;
+  int inside = 0;
+  constexpr int trials = 4000;
+  for (int trial = 0; trial < trials; ++trial) {
+    std::vector<SettingPoint> points;
+    for (int i = 0; i < settings; ++i)
+      points.push_back({1.0 + i, 7 + C * (1 + i) + normal(engine), told * statistics::normal_quantile_99});
+    const auto found = setting_error(points, 1, both);
+    inside += std::abs(found->error - C) <= found->ci99;
+  }
+  return inside / double(trials);
+}
+
+TEST(SettingError, IntervalHoldsTheError) {
+  // Intervals of the points: none, right, three times too small. Binomial error of 4000 trials 0.16 %.
+  for (const int settings : {3, 4, 5})
+    for (const double C : {0.0, 1.0})
+      for (const double told : {0.0, 1.0, 1.0 / 3})
+        EXPECT_GT(coverage(settings, C, told), 0.985) << settings << ' ' << C << ' ' << told;
 }
 
 Bodies some_grains() {

@@ -5,9 +5,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "apps/commands.hpp"
+#include "apps/support/commands.hpp"
 #include "apps/support/json_file.hpp"
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 #include "tests/cost/drum_of_a_dozen.hpp"
 #include "tests/exchange_files/folder.hpp"
 
@@ -40,7 +40,7 @@ Json swept(const apps::CostOptions& options) {
   ::testing::internal::CaptureStdout();
   EXPECT_EQ(apps::cost(options), 0);
   ::testing::internal::GetCapturedStdout();
-  return apps::read_json(*options.output / "cost.json", "drumlin-cost-1");
+  return read_json(*options.output / "cost.json", "drumlin-cost-1");
 }
 
 TEST(ParticleSweep, SaysWhatATighterSolveBuysAndTakes) {
@@ -73,7 +73,7 @@ TEST(ParticleSweep, DoesNoPointTwice) {
   const fs::path lost = points / "accelerated-tolerance-0.001-step-0.001.json";
   const fs::path kept = points / "accelerated-tolerance-0.1-step-0.001.json";
   ASSERT_TRUE(fs::remove(lost));
-  Json marked = apps::read_json(kept, "drumlin-cost-point-1");
+  Json marked = read_json(kept, "drumlin-cost-point-1");
   marked["load_before"] = -7;
   apps::write_json(kept, marked);
   options.existing = apps::ExistingOutput::resume;

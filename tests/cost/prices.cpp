@@ -4,9 +4,9 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "apps/commands.hpp"
+#include "apps/support/commands.hpp"
 #include "apps/support/json_file.hpp"
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 #include "tests/cost/drum_of_a_dozen.hpp"
 #include "tests/exchange_files/folder.hpp"
 
@@ -25,7 +25,7 @@ TEST(EffectPrices, AreListedPrintedAndDrawn) {
   const std::string printed = ::testing::internal::GetCapturedStdout();
   EXPECT_NE(printed.find("without gravity"), std::string::npos);
   EXPECT_TRUE(std::filesystem::exists(folder / "cost" / "prices.png"));
-  const auto report = apps::read_json(folder / "cost" / "cost.json", "drumlin-effect-prices-1");
+  const auto report = read_json(folder / "cost" / "cost.json", "drumlin-effect-prices-1");
   std::map<std::string, nlohmann::ordered_json> rows;
   for (const auto& row : report.at("variants")) rows[row.at("name")] = row;
   // The scene once more is the same to the last bit: only the machine's part may differ.

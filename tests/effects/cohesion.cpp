@@ -4,6 +4,7 @@
 #include "tests/effects/drums.hpp"
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
 using test::add_stage;

@@ -1,10 +1,11 @@
 // Walls that a force moves against the grains.
 #include <numbers>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 #include "tests/effects/drums.hpp"
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
 using test::add_stage;

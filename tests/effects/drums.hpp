@@ -8,27 +8,28 @@
 namespace drumlin::test {
 
 /// Grains that fall into a drum of 30 mm that turns, with friction, restitution and spin.
-inline Scene turning_drum(int grains = 60) {
-  Scene scene;
+inline particles::Scene turning_drum(int grains = 60) {
+  particles::Scene scene;
   scene.grains.density_kg_m3 = 2700;
-  scene.grains.source = GeneratedGrains{grains, 3, 3.6, CircleRegion{{0, -8}, 20}};
-  scene.walls = {{"drum", ContainerShape{{0, 0}, 30}}};
-  scene.effects = {Gravity{}, Friction{0.4, 0.95}, Restitution{0.46, 0.46}, Spin{}};
-  Stage turn;
+  scene.grains.source = particles::GeneratedGrains{grains, 3, 3.6, particles::CircleRegion{{0, -8}, 20}};
+  scene.walls = {{"drum", particles::ContainerShape{{0, 0}, 30}}};
+  scene.effects = {particles::Gravity{}, particles::Friction{0.4, 0.95}, particles::Restitution{0.46, 0.46},
+                   particles::Spin{}};
+  particles::Stage turn;
   turn.name = "turn", turn.duration_s = 0.2, turn.time_step_s = 1e-3;
-  turn.motions = {{"drum", Rotation{60, {0, 0}}}};
+  turn.motions = {{"drum", particles::Rotation{60, {0, 0}}}};
   scene.stages = {turn};
   return scene;
 }
 
-inline Bodies bodies_at_end(const Scene& scene) {
-  Simulation simulation(scene);
+inline particles::Bodies bodies_at_end(const particles::Scene& scene) {
+  particles::Simulation simulation(scene);
   while (!simulation.finished()) (void)simulation.step();
   return simulation.state().bodies;
 }
 
 /// To the last bit.
-inline void expect_same(const Bodies& a, const Bodies& b) {
+inline void expect_same(const particles::Bodies& a, const particles::Bodies& b) {
   EXPECT_EQ(a.x, b.x);
   EXPECT_EQ(a.z, b.z);
   EXPECT_EQ(a.v_x, b.v_x);

@@ -2,11 +2,12 @@
 #include <fstream>
 #include <numeric>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 #include "particles/scene/placement.hpp"
 #include "tests/effects/drums.hpp"
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
 using test::add_stage;

@@ -3,6 +3,7 @@
 #include "tests/effects/drums.hpp"
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
 struct Case {

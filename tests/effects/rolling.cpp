@@ -8,6 +8,7 @@
 #include "tests/effects/drums.hpp"
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
 using test::add_stage;
@@ -205,15 +206,15 @@ TEST(RollingContact, SolversReachTheJudgeOfTheThreefoldLaw) {
   for (int b = 0; b < 8; ++b) add(b, 8, 0, 1, 1);
   for (int b = 0; b < 7; ++b) add(b + 1, b, 1, 0, random.uniform(0.2, 0.8));
   for (const char* name : {"nlgs", "nncg"}) {
-    SolverScratch<CoulombRollingProblem> scratch;
-    std::vector<double> r;
+    SolverWorkspace<CoulombRollingProblem> work;
+    Solution<CoulombRollingProblem> solution;
     StoppingRule rule;
     rule.tolerance = 1e-10, rule.max_sweeps = 5000;
-    const auto report = contact_solver<CoulombRollingProblem>(name)(problem, rule, scratch, r);
+    const auto report = contact_solver<CoulombRollingProblem>(name)(problem, rule, work, solution);
     EXPECT_EQ(report.status, Status::converged) << name;
-    // A wrong impulse is seen: the judge is no rubber stamp.
-    r[2] += 0.1;
-    EXPECT_GT(judge(problem, std::span<const double>(r)).residual, 1e-3);
+    // A wrong impulse is seen: the residual is no rubber stamp.
+    solution.impulses[2] += 0.1;
+    EXPECT_GT(residual_of(problem, solution).rms, 1e-3);
   }
 }
 

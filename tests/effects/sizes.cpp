@@ -3,13 +3,14 @@
 
 #include <numbers>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 #include "particles/detection/contact_list.hpp"
 #include "particles/scene/placement.hpp"
 #include "particles/stepping/wall_crossing.hpp"
 #include "tests/effects/drums.hpp"
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
 using Sizes = std::variant<TwoSizes, PowerLawSizes, LognormalSizes>;

@@ -5,6 +5,7 @@
 #include "tests/effects/drums.hpp"
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
 const EffectVariant* find(const std::vector<EffectVariant>& variants, const std::string& effect,

@@ -1,4 +1,4 @@
-#include "coupling/exchange/document.hpp"
+#include "coupling/documents/document.hpp"
 
 #include <gtest/gtest.h>
 

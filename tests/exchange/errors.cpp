@@ -1,9 +1,9 @@
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 
 #include <gtest/gtest.h>
 
-#include "coupling/exchange/provenance.hpp"
-#include "coupling/exchange/scales.hpp"
+#include "coupling/common/provenance.hpp"
+#include "coupling/common/scales.hpp"
 
 namespace drumlin {
 namespace {

@@ -1,4 +1,4 @@
-#include "coupling/exchange/key_table.hpp"
+#include "coupling/documents/key_table.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "coupling/exchange/toml_text.hpp"
+#include "coupling/documents/toml_text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,13 +2,15 @@
 
 #include "apps/support/figures.hpp"
 #include "apps/support/paper_data.hpp"
-#include "apps/support/report_page.hpp"
-#include "coupling/exchange/errors.hpp"
+#include "apps/support/pending_figures.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/common/text_file.hpp"
 #include "tests/exchange_files/folder.hpp"
 
 namespace drumlin::apps {
 namespace {
 
+namespace fs = std::filesystem;
 using drumlin::testing::message_of;
 using drumlin::testing::TemporaryFolder;
 
@@ -37,14 +39,37 @@ TEST(FigureScript, GetsItsArgumentsAndABackendWithoutDisplay) {
   EXPECT_EQ(text, "Agg a b");
 }
 
-TEST(ReportCosts, DrawsWhatTheRepositoryRecordedAndThePageFindsIt) {
+TEST(PendingFigures, AreAllDrawnButThoseThatFailAndTheseAreNamed) {
+  const TemporaryFolder folder;
+  const fs::path results = folder / "results", finished = results / "measured.json";
+  fs::create_directories(results);
+  const std::string bad = folder.with("bad.py", "import sys\nsys.exit('no ink')\n");
+  const std::string good = folder.with("good.py", "import sys\nopen(sys.argv[1], 'w').close()\n");
+  EXPECT_FALSE(is_complete(finished));
+  note_pending_figures(results);
+  replace_file(finished, "{}");
+  EXPECT_FALSE(is_complete(finished));
+
+  const auto failures =
+      draw_pending_figures(results, {{bad, {}}, {good, {(results / "drawn.png").string()}}});
+  ASSERT_EQ(failures.size(), 1u);
+  EXPECT_TRUE(fs::exists(results / "drawn.png"));
+  EXPECT_FALSE(is_complete(finished));
+  const auto message = message_of<IoError>([&] { throw_if_figures_failed(finished, failures); });
+  for (const char* part : {"bad.py", "no ink", "measured.json is complete"})
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+
+  EXPECT_TRUE(draw_pending_figures(results, {{good, {(results / "drawn.png").string()}}}).empty());
+  EXPECT_TRUE(is_complete(finished));
+  EXPECT_NO_THROW(throw_if_figures_failed(finished, {}));
+}
+
+TEST(ReportCosts, DrawsWhatTheRepositoryRecorded) {
   const TemporaryFolder folder;
   draw_figures("report_costs.py", {cost_data_folder().string(), folder.path().string()});
   int accuracy = 0, effects = 0;
-  for (const ReportFigure& figure : figures_in(folder.path())) {
-    EXPECT_EQ(figure.section, ReportSection::costs);
-    EXPECT_NE(figure.caption.find("data/cost/"), std::string::npos);
-    const std::string name = figure.png.filename().string();
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+    const std::string name = entry.path().filename().string();
     accuracy += name.starts_with("cost_accuracy_");
     effects += name.starts_with("cost_effects_");
   }

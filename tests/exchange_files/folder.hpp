@@ -1,11 +1,13 @@
 #pragma once
-// A folder of its own for each test, gone with it.
+// A folder of its own for each test, gone with it; what an error says; equal values.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 namespace drumlin::testing {
 
@@ -44,6 +46,16 @@ std::string message_of(Action action) {
   }
   ADD_FAILURE() << "nothing was refused";
   return {};
+}
+
+/// The same values, NaN where NaN is.
+inline void expect_same(const std::vector<double>& a, const std::vector<double>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (std::isnan(a[i]))
+      EXPECT_TRUE(std::isnan(b[i]));
+    else
+      EXPECT_EQ(a[i], b[i]);
 }
 
 }  // namespace drumlin::testing

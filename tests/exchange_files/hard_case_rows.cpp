@@ -4,9 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "apps/support/child_process.hpp"
 #include "apps/support/hard_case_json.hpp"
-#include "coupling/exchange/errors.hpp"
 
 namespace drumlin::apps {
 namespace {
@@ -33,16 +31,6 @@ TEST(HardCaseRow, StillFailsWithWhatIsNotANumber) {
   const HardRow row = hard_row(nlohmann::ordered_json::parse(to_json({}, result).dump()));
   EXPECT_TRUE(std::isnan(row.result.checks[0].got));
   EXPECT_FALSE(row.result.passed());
-}
-
-TEST(ChildProcess, HandsOverItsLinesAndItsExitCode) {
-  std::vector<std::string> lines;
-  const auto keep = [&](const std::string& line) { lines.push_back(line); };
-  EXPECT_EQ(run_for_lines("/bin/sh", {"-c", "echo one; printf 'two words'; exit 3"}, keep), 3);
-  EXPECT_EQ(lines, (std::vector<std::string>{"one", "two words"}));
-  EXPECT_EQ(run_for_lines("/bin/sh", {"-c", "kill -9 $$"}, keep), 128 + 9);
-  EXPECT_THROW(run_for_lines("/nowhere/to/be/found", {}, keep), IoError);
-  EXPECT_THROW(program_beside("no-such-program"), IoError);
 }
 
 }  // namespace

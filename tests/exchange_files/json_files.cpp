@@ -1,10 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
 
 #include "apps/support/json_file.hpp"
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/documents/json_numbers.hpp"
 #include "tests/exchange_files/folder.hpp"
 
 namespace drumlin::apps {
@@ -32,6 +36,14 @@ TEST(JsonFile, WhatWasNotComputedIsNull) {
   EXPECT_EQ(to_json(Scalar{"H", nan, nan}).dump(), R"({"value":null,"ci99":null})");
   EXPECT_EQ(to_json(Scalar{"Q", 21.5, std::nullopt}).dump(), "21.5");
   EXPECT_EQ(to_json(Scalar{"Q", nan, std::nullopt}).dump(), "null");
+}
+
+TEST(JsonNumbers, AreNullWhereThereIsNone) {
+  EXPECT_EQ(numbers_or_null(std::vector<double>{1.5, nan}).dump(), "[1.5,null]");
+  EXPECT_EQ(number_or_null(std::optional<double>()).dump(), "null");
+  EXPECT_EQ(number_or_nan(nlohmann::ordered_json(2)), 2);
+  EXPECT_TRUE(std::isnan(number_or_nan(nullptr).value()));
+  EXPECT_FALSE(number_or_nan("2"));
 }
 
 TEST(JsonFile, AnotherFormatIsRefused) {

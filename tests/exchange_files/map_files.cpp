@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "coupling/exchange/errors.hpp"
-#include "coupling/exchange/text_file.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/common/text_file.hpp"
 #include "coupling/files/field_map_file.hpp"
 #include "coupling/files/h5_image.hpp"
 #include "tests/exchange_files/folder.hpp"
@@ -13,6 +13,7 @@
 namespace drumlin {
 namespace {
 
+using testing::expect_same;
 using testing::message_of;
 using testing::TemporaryFolder;
 
@@ -23,18 +24,11 @@ FieldMap example() {
   map.grid = {-1.5, -0.1, 0.75, 0.5, 3, 2};
   map.fields = {{"nu", {0.1, 1.0 / 3.0, 2e-300, -0.0, nan, 6}, {nan, 1, 2, 3, 4, 5}},
                 {"k", {1, 2, 3, 4, 5, 6}, {}}};
-  map.header = {{"side", "particles"}, {"kernel", "a text, with = and # in it"}, {"empty", ""}};
+  map.header.side = RunSide::particles;
+  map.header.kernel = "a text, with = and # in it";
+  map.header.further = {{"empty", ""}};
   map.scales = {3.3e-3, 0.018, 2700};
   return map;
-}
-
-void expect_same(const std::vector<double>& a, const std::vector<double>& b) {
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i)
-    if (std::isnan(a[i]))
-      EXPECT_TRUE(std::isnan(b[i]));
-    else
-      EXPECT_EQ(a[i], b[i]);
 }
 
 TEST(MapFile, RoundTripKeepsEveryBit) {
@@ -93,7 +87,7 @@ TEST(MapFile, WhatCouldNotBeReadBackIsNotWritten) {
   refused("nu stands twice", [](FieldMap& map) { map.fields[1].name = "nu"; });
   refused("\"a/b\"", [](FieldMap& map) { map.fields[0].name = "a/b"; });
   refused("infinite", [](FieldMap& map) { map.fields[0].value[2] = HUGE_VAL; });
-  refused("header", [](FieldMap& map) { map.header["a=b"] = "c"; });
+  refused("header", [](FieldMap& map) { map.header.further["a=b"] = "c"; });
 }
 
 /// A file as write_field_map leaves it, with one dataset more, less or changed.

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 #include "tests/exchange_files/folder.hpp"
 
 namespace drumlin::apps {

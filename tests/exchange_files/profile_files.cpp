@@ -3,13 +3,14 @@
 #include <cmath>
 #include <limits>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 #include "coupling/exchange/profile_set.hpp"
 #include "tests/exchange_files/folder.hpp"
 
 namespace drumlin {
 namespace {
 
+using testing::expect_same;
 using testing::message_of;
 using testing::TemporaryFolder;
 
@@ -19,17 +20,9 @@ ProfileSet example() {
   ProfileSet set;
   set.z = {-2.5, -1.5, -0.5};
   set.columns = {{"v_x", {0.1, 1.0 / 3.0, 2e-300}, {0.01, 0.02, nan}}, {"k", {nan, 1.0, -0.0}, {}}};
-  set.header = {{"theta_deg", "19.7"}, {"title", "a text, with = and # in it"}};
+  set.header.theta_deg = 19.7;
+  set.header.title = "a text, with = and # in it";
   return set;
-}
-
-void expect_same(const std::vector<double>& a, const std::vector<double>& b) {
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i)
-    if (std::isnan(a[i]))
-      EXPECT_TRUE(std::isnan(b[i]));
-    else
-      EXPECT_EQ(a[i], b[i]);
 }
 
 TEST(ProfileFile, RoundTripKeepsEveryBit) {
@@ -120,7 +113,7 @@ TEST(ProfileFile, RefusesToWriteWhatItCouldNotRead) {
   refused([](ProfileSet& set) { set.columns[1].name = "v_x"; });
   refused([](ProfileSet& set) { set.columns[0].name = "v_x_ci99"; });
   refused([](ProfileSet& set) { std::swap(set.z[0], set.z[1]); });
-  refused([](ProfileSet& set) { set.header["title"] = "two\nlines"; });
+  refused([](ProfileSet& set) { set.header.title = "two\nlines"; });
 }
 
 }  // namespace

@@ -5,14 +5,22 @@
 #include <vector>
 
 #include "apps/support/comparison_json.hpp"
-#include "apps/support/report_page.hpp"
-#include "coupling/exchange/errors.hpp"
+#include "apps/support/json_file.hpp"
+#include "apps/support/pending_figures.hpp"
+#include "apps/support/speed_comparison_json.hpp"
+#include "apps/support/study_json.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/common/text_file.hpp"
+#include "coupling/law/friction_law.hpp"
 #include "tests/exchange_files/folder.hpp"
 
 namespace drumlin::apps {
+using namespace coupling;
 namespace {
 
+using drumlin::testing::message_of;
 using drumlin::testing::TemporaryFolder;
+using Json = nlohmann::ordered_json;
 using Outcome = Target::Outcome;
 
 Comparison small_comparison() {
@@ -31,34 +39,24 @@ Comparison small_comparison() {
   return comparison;
 }
 
-nlohmann::ordered_json content(bool reduced) {
-  nlohmann::ordered_json json{{"title", "a <drum> & its flow"}, {"reduced", reduced}};
+Json content(bool reduced) {
+  Json json{{"title", "a <drum> & its flow"}, {"reduced", reduced}};
   add_comparison(json, small_comparison());
   add_paper(json, std::nullopt, {});
   for (const auto* key : {"costs", "settings", "particles", "continuum", "provenance"})
-    json[key] = nlohmann::ordered_json::object();
+    json[key] = Json::object();
   return json;
 }
 
-TEST(Base64, MeetsTheVectorsOfRfc4648) {
-  EXPECT_EQ(base64(""), "");
-  EXPECT_EQ(base64("f"), "Zg==");
-  EXPECT_EQ(base64("fo"), "Zm8=");
-  EXPECT_EQ(base64("foo"), "Zm9v");
-  EXPECT_EQ(base64("foob"), "Zm9vYg==");
-  EXPECT_EQ(base64("fooba"), "Zm9vYmE=");
-  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
-  EXPECT_EQ(base64("\xff\xfe"), "//4=");
+/// The page that a template makes of this content and of the figures in the folder.
+std::string page_of(const TemporaryFolder& folder, const Json& json, const std::string& page = "comparison") {
+  const auto file = folder / "content.json";
+  write_json(file, json);
+  throw_if_figures_failed(file, draw_pending_figures(folder.path(), {}, ResultPage{page, file}));
+  return file_text(folder / "index.html");
 }
 
-TEST(ReportPage, SaysTheSizeOfAMissAndHidesNoText) {
-  const auto page = report_page(content(false), {});
-  EXPECT_NE(page.find("meets 1 of 2 targets"), std::string::npos);
-  EXPECT_NE(page.find("1.5 where 1 (deg) is asked"), std::string::npos);
-  EXPECT_NE(page.find("a &lt;drum&gt; &amp; its flow"), std::string::npos);
-  EXPECT_EQ(page.find("<drum>"), std::string::npos);
-  EXPECT_EQ(page.find("reduced:"), std::string::npos);
-}
+std::string page_of(const Json& json) { return page_of(TemporaryFolder(), json); }
 
 /// Every element that is opened is closed in its turn; the first that is not, else nothing.
 std::string unbalanced(const std::string& page) {
@@ -67,7 +65,7 @@ std::string unbalanced(const std::string& page) {
     const bool closes = page[at + 1] == '/';
     const std::size_t from = at + (closes ? 2 : 1);
     const std::string name = page.substr(from, page.find_first_of(" >", from) - from);
-    if (name == "!DOCTYPE" || name == "meta" || name == "img") continue;
+    if (name == "!DOCTYPE" || name == "meta" || name == "img" || name == "br") continue;
     if (!closes) {
       open.push_back(name);
     } else if (open.empty() || open.back() != name) {
@@ -79,6 +77,25 @@ std::string unbalanced(const std::string& page) {
   return open.empty() ? std::string() : open.back();
 }
 
+void expect_escaped(const std::string& page, const std::vector<std::string>& raw) {
+  EXPECT_EQ(unbalanced(page), "");
+  for (const std::string& text : raw) EXPECT_EQ(page.find(text), std::string::npos) << text;
+}
+
+void expect_nothing_loaded(const std::string& page) {
+  for (const auto* loaded : {"<script", "http://", "https://", "<link", "url(", "@import"})
+    EXPECT_EQ(page.find(loaded), std::string::npos) << loaded;
+}
+
+TEST(ReportPage, SaysTheSizeOfAMissAndHidesNoText) {
+  const auto page = page_of(content(false));
+  EXPECT_NE(page.find("meets 1 of 2 targets"), std::string::npos);
+  EXPECT_NE(page.find("1.5 (limit 1, deg)"), std::string::npos);
+  EXPECT_NE(page.find("a &lt;drum&gt; &amp; its flow"), std::string::npos);
+  EXPECT_EQ(page.find("<drum>"), std::string::npos);
+  EXPECT_EQ(page.find("reduced:"), std::string::npos);
+}
+
 TEST(ReportPage, IsSoundHtmlWhateverTheNamesAre) {
   auto json = content(false);
   json["particles"] = {{"kind", "particles"}, {"name", "<b>&"}, {"unsteady", {"a <reason>"}}};
@@ -87,11 +104,17 @@ TEST(ReportPage, IsSoundHtmlWhateverTheNamesAre) {
   json["costs"] = {{"a <cost>", 3.0}};
   json["cost_ratio"] = {{"wall", 2.0}, {"processor", nullptr}};
   json["targets"][0]["floor"] = 5.0;
-  const std::string page = report_page(json, {});
-  EXPECT_EQ(unbalanced(page), "");
-  for (const char* raw : {"<b>&", "<reason>", "<i>floor", "<cost>", "<neither>", "<remark>", "<drum>"})
-    EXPECT_EQ(page.find(raw), std::string::npos) << raw;
+  json["settings"] = {{"</pre><u>", "/tmp/<em>'path'"}};
+  const std::string page = page_of(json);
+  expect_escaped(
+      page, {"<b>&", "<reason>", "<i>floor", "<cost>", "<neither>", "<remark>", "<drum>", "<u>", "<em>"});
   EXPECT_NE(page.find("&lt;neither&gt;"), std::string::npos);
+}
+
+TEST(ReportPage, ShowsTemplatesInNamesAsText) {
+  auto json = content(false);
+  json["title"] = "{{ 6 * 7 }}{% raw %}";
+  EXPECT_NE(page_of(json).find("<h1>{{ 6 * 7 }}{% raw %}</h1>"), std::string::npos);
 }
 
 TEST(ReportPage, TellsTheLargestMissItsMeaningAndTheNoiseFloor) {
@@ -102,27 +125,179 @@ TEST(ReportPage, TellsTheLargestMissItsMeaningAndTheNoiseFloor) {
   json["targets"][0]["floor"] = 1.2;
   json["costs"] = {{"particles run, processor", 250.0}, {"continuum solve, processor", 5.0}};
   json["cost_ratio"] = {{"wall", nullptr}, {"processor", 50.0}};
-  const std::string page = report_page(json, {});
-  EXPECT_NE(
-      page.find("The largest miss: slope &theta; (deg), 1.5 where 1 (deg) is asked, 1.5 times the limit"),
-      std::string::npos);
-  EXPECT_NE(page.find("friction as a whole is off"), std::string::npos);
-  EXPECT_NE(page.find("(seed2), judged in the same way, misses slope &theta; (deg) (1.2)"),
+  const std::string page = page_of(json);
+  EXPECT_NE(page.find("The largest miss: slope θ (deg), 1.5 (limit 1, deg), 1.5 times the limit. "
+                      "The whole surface has another slope: the friction is off as a whole."),
+            std::string::npos);
+  EXPECT_NE(page.find("(seed2), compared in the same way,\nmisses slope θ (deg) (1.2): a difference"),
             std::string::npos);
   EXPECT_NE(page.find("50 times the processor time"), std::string::npos);
 }
 
-TEST(ReportPage, OfAReducedRunSaysSo) {
-  EXPECT_NE(report_page(content(true), {}).find("reduced:"), std::string::npos);
+TEST(ReportPage, FindsTheRecordsOfCosts) {
+  const TemporaryFolder folder;
+  for (const auto* name : {"cost_accuracy_one.png", "cost_effects_two.png"}) folder.with(name, "foobar");
+  const std::string page = page_of(folder, content(false));
+  for (const auto* record : {"data/cost/one.json.", "data/cost/two.json."})
+    EXPECT_NE(page.find(record), std::string::npos) << record;
 }
 
+TEST(ReportPage, OfAReducedRunSaysSo) {
+  EXPECT_NE(page_of(content(true)).find("reduced: a small drum and a short run"), std::string::npos);
+}
+
+/// The vectors of RFC 4648, and bytes that are no text.
 TEST(ReportPage, HoldsItsFiguresAndLoadsNothing) {
+  const std::vector<std::pair<std::string, std::string>> vectors{
+      {"velocity", "foobar"}, {"stresses", "fooba"}, {"ratios", "foob"}, {"friction", "\xff\xfe"}};
   const TemporaryFolder folder;
-  const auto page = report_page(content(false), {{folder.with("a.png", "foobar"), "A figure"}});
-  EXPECT_NE(page.find("data:image/png;base64,Zm9vYmFy"), std::string::npos);
-  for (const auto* loaded : {"<script", "http://", "https://", "<link", "url("})
-    EXPECT_EQ(page.find(loaded), std::string::npos) << loaded;
-  EXPECT_THROW(report_page(content(false), {{folder / "none.png", "missing"}}), InputError);
+  for (const auto& [name, bytes] : vectors) folder.with(name + ".png", bytes);
+  const std::string page = page_of(folder, content(false));
+  for (const auto* text : {"Zm9vYmFy\"", "Zm9vYmE=\"", "Zm9vYg==\"", "//4=\""})
+    EXPECT_NE(page.find(std::string("data:image/png;base64,") + text), std::string::npos) << text;
+  expect_nothing_loaded(page);
+}
+
+TEST(ReportPage, ThatLacksANumberIsAnErrorThatNamesIt) {
+  const TemporaryFolder folder;
+  auto json = content(false);
+  json.erase("zones");
+  const std::string message = message_of<IoError>([&] { page_of(folder, json); });
+  EXPECT_NE(message.find("zones"), std::string::npos) << message;
+  EXPECT_NE(message.find("comparison_tables.html"), std::string::npos) << message;
+  EXPECT_FALSE(std::filesystem::exists(folder / "index.html"));
+}
+
+Json speeds_content() {
+  SpeedComparison comparison;
+  ComparedSpeed speed;
+  speed.rotation_rpm = 4, speed.role = SpeedRole::predicted, speed.start = "<cold>";
+  for (const std::string& name : compared_speed_scalars())
+    speed.scalars.push_back({{name, 20, std::nullopt}, {name, 19.5, 1.8}, 18.0});
+  speed.targets = small_comparison().targets;
+  comparison.speeds = {speed};
+  comparison.fitted_on = {"run <six>"};
+  comparison.warnings = {"a <warning>"};
+  comparison.paper_laws = {{"depth", "H = <c> sqrt(Q)", {{"c", 3.0, 0.1}}}};
+  Json json{{"title", "speeds"}, {"reduced", true}, {"law", {{"a", "<law>"}}}, {"effects", "<effects>"}};
+  add_speed_comparison(json, comparison);
+  json["provenance"] = {{"machine", "<machine>"}};
+  return json;
+}
+
+TEST(SpeedComparisonPage, CountsPredictionsShowsEveryTableAndEscapesNames) {
+  const TemporaryFolder folder;
+  for (const auto* name : {"speeds.png", "rates.png", "errors.png"}) folder.with(name, "foobar");
+  const std::string page = page_of(folder, speeds_content(), "speed_comparison");
+  for (const auto* text :
+       {"At speeds that it was not calibrated on the continuum meets 1 of 2 targets", "reduced: small drums",
+        "4 rpm, predicted: 1 of 2 targets met", "<td>19.5 ± 1.8</td><td>18</td>",
+        "1.5 deg, inside the interval", "H = &lt;c&gt; sqrt(Q)", "c = 3 ± 0.1", "&lt;cold&gt;",
+        "run &lt;six&gt;", "Zm9vYmFy"})
+    EXPECT_NE(page.find(text), std::string::npos) << text;
+  expect_escaped(page,
+                 {"<six>", "<warning>", "<c>", "<law>", "<effects>", "<machine>", "<cold>", "<remark>"});
+  expect_nothing_loaded(page);
+}
+
+TEST(SpeedComparisonPage, WithoutAFigureIsAnErrorThatNamesIt) {
+  const TemporaryFolder folder;
+  folder.with("speeds.png", "foobar");
+  const std::string message =
+      message_of<IoError>([&] { page_of(folder, speeds_content(), "speed_comparison"); });
+  EXPECT_NE(message.find("rates.png: is missing"), std::string::npos) << message;
+}
+
+Json study_content() {
+  Study study;
+  study.warnings = {"run <2>: half a turn only"};
+  study.laws = {{"depth", "H = <c> sqrt(Q)", {{"c", 3.0, 0.1}}}};
+  PaperVerdict row;
+  row.entry.quantity = "H <d>", row.entry.value = 14.6, row.entry.half_width = 0.5,
+  row.entry.source = "Fig. <6>";
+  row.finding.ours = {"H", 19.7, 1.2};
+  row.verdict = Verdict::differs, row.reason = Reason::outside;
+  study.paper = {row};
+  Json json{{"reduced", false}};
+  add_study(json, study);
+  return json;
+}
+
+TEST(StudyJson, SamplesTheFittedLawAndThePapersForTheFigures) {
+  Study study;
+  study.friction.emplace();
+  study.friction->common.law = {0.36, 0.014, {0, 0, 0}, 1e-4, 1e-1};
+  PaperVerdict a, b;
+  a.entry.quantity = "friction.a", a.entry.value = 0.35;
+  b.entry.quantity = "friction.b", b.entry.value = 0.013;
+  study.paper = {a, b};
+  Json json;
+  add_study(json, study);
+  for (const auto& [curve, law] : {std::pair(json["friction"]["curve"], study.friction->common.law),
+                                   std::pair(json["paper_friction"]["curve"], LogFriction{0.35, 0.013})}) {
+    ASSERT_EQ(curve["I"].size(), 41u);
+    EXPECT_DOUBLE_EQ(curve["I"].back().get<double>(), 1e-1);
+    for (std::size_t i = 0; i < curve["I"].size(); ++i)
+      EXPECT_EQ(curve["mu"][i].get<double>(), friction_at(friction_law(law), curve["I"][i].get<double>()).mu);
+  }
+  study.paper = {b};
+  add_study(json, study);
+  EXPECT_TRUE(json["paper_friction"].is_null());
+}
+
+TEST(StudyPage, ShowsVerdictsLawsAndListedFiguresAndEscapesThem) {
+  const TemporaryFolder folder;
+  folder.with("fig01.png", "foobar");
+  folder.with("figures.json", R"({"format": "drumlin-study-figures-1", "figures": [{"file": "fig01.png",
+      "title": "Fig. <1>", "paper": "<p1>", "here": "<p2> & more"}]})");
+  const std::string page = page_of(folder, study_content(), "study");
+  for (const auto* text :
+       {"0 entries agree, 0 are near, 1 differ", "14.6 ± 0.5", "19.7 ± 1.2", "class=\"missed\">differs",
+        "c = 3 ± 0.1", "Fig. &lt;1&gt;", "&lt;p2&gt; &amp; more", "Zm9vYmFy", "half a turn only"})
+    EXPECT_NE(page.find(text), std::string::npos) << text;
+  expect_escaped(page, {"<2>", "<c>", "<d>", "<6>", "<1>", "<p1>", "<p2>"});
+  expect_nothing_loaded(page);
+}
+
+TEST(StudyPage, WithoutTheListOrAListedFigureIsAnError) {
+  const TemporaryFolder folder;
+  EXPECT_NE(message_of<IoError>([&] { page_of(folder, study_content(), "study"); }).find("figures.json"),
+            std::string::npos);
+  folder.with("figures.json", R"({"format": "drumlin-study-figures-1", "figures": [{"file": "none.png",
+      "title": "", "paper": "", "here": ""}]})");
+  EXPECT_NE(message_of<IoError>([&] { page_of(folder, study_content(), "study"); }).find("none.png"),
+            std::string::npos);
+}
+
+TEST(PendingFigures, ThatFailLoseNeitherTheOthersNorThePageAndAreNamed) {
+  const TemporaryFolder folder;
+  const auto result = folder / "comparison.json";
+  const auto bad = folder.with("bad.py", "import sys\nsys.exit('no <layers>')\n");
+  const auto good = folder.with("good.py", "import sys\nopen(sys.argv[1], 'w').write('foobar')\n");
+  note_pending_figures(folder.path());
+  write_json(result, content(false));
+  EXPECT_FALSE(is_complete(result)) << "nothing is drawn yet";
+  const auto failures =
+      draw_pending_figures(folder.path(), {{bad, {}}, {good, {(folder / "velocity.png").string()}}},
+                           ResultPage{"comparison", result});
+  const std::string message = message_of<IoError>([&] { throw_if_figures_failed(result, failures); });
+  EXPECT_NE(message.find("bad.py failed:\nno <layers>"), std::string::npos) << message;
+  EXPECT_FALSE(is_complete(result)) << "to be drawn again";
+  EXPECT_NE(file_text(folder / "figures.pending").find("bad.py failed:\nno <layers>"), std::string::npos);
+  const std::string page = file_text(folder / "index.html");
+  EXPECT_NE(page.find("no &lt;layers&gt;"), std::string::npos);
+  EXPECT_NE(page.find("Zm9vYmFy"), std::string::npos) << "the figure of the other script is there";
+  EXPECT_NE(page.find("meets 1 of 2 targets"), std::string::npos);
+}
+
+TEST(PendingFigures, ThatAreDrawnLeaveACompleteFolder) {
+  const TemporaryFolder folder;
+  const auto result = folder / "comparison.json";
+  note_pending_figures(folder.path());
+  write_json(result, content(false));
+  EXPECT_TRUE(draw_pending_figures(folder.path(), {}, ResultPage{"comparison", result}).empty());
+  EXPECT_TRUE(is_complete(result));
+  EXPECT_FALSE(is_complete(folder / "none.json"));
 }
 
 TEST(ComparisonJson, HasTheKeysThatTheFormatPromises) {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 #include "coupling/exchange/scalar_set.hpp"
 #include "tests/exchange_files/folder.hpp"
 

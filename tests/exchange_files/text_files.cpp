@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "coupling/exchange/errors.hpp"
-#include "coupling/exchange/text_file.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/common/text_file.hpp"
 #include "tests/exchange_files/folder.hpp"
 
 namespace drumlin {

@@ -7,6 +7,7 @@
 #include "tests/import/imported.hpp"
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
 using testing::imported;

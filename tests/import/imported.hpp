@@ -3,22 +3,24 @@
 #include <string>
 #include <vector>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 #include "particles/import/import_run.hpp"
 #include "tests/exchange_files/folder.hpp"
 
 namespace drumlin::testing {
 
 struct Imported {
-  ImportReport report;
-  std::vector<Snapshot> snapshots;
+  particles::ImportReport report;
+  std::vector<particles::Snapshot> snapshots;
 };
 
 /// Writes the description into the folder and imports what it names there.
 inline Imported imported(const TemporaryFolder& folder, const std::string& description) {
   Imported result;
-  const ImportDescription read = read_import_description(folder.with("import.toml", description));
-  result.report = import_run(read, folder.path(), [&](const Snapshot& s) { result.snapshots.push_back(s); });
+  const particles::ImportDescription read =
+      particles::read_import_description(folder.with("import.toml", description));
+  result.report = particles::import_run(read, folder.path(),
+                                        [&](const particles::Snapshot& s) { result.snapshots.push_back(s); });
   return result;
 }
 

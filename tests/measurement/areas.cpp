@@ -7,6 +7,7 @@
 #include "particles/measurement/frame/disc_area.hpp"
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
 /// Midpoint rule over the chord lengths; its error falls like n^-1.5 at the rim: 1e-6 with 20,000 strips.

@@ -1,23 +1,26 @@
 // drumlin measure and drumlin calibrate on run folders made here.
-#include "apps/commands.hpp"
+#include "apps/support/commands.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "coupling/exchange/errors.hpp"
-#include "coupling/exchange/rheology_fit.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/common/text_file.hpp"
 #include "coupling/exchange/scalar_set.hpp"
-#include "coupling/exchange/text_file.hpp"
 #include "coupling/files/field_map_file.hpp"
 #include "coupling/files/h5_image.hpp"
+#include "coupling/law/rheology_file.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "tests/comparison/run_folders.hpp"
 #include "tests/exchange_files/folder.hpp"
 #include "tests/measurement/packings.hpp"
 
 namespace drumlin::apps {
+using namespace coupling;
+using namespace particles;
 namespace {
 
 namespace fs = std::filesystem;
@@ -69,8 +72,8 @@ TEST(MeasureCommand, LeavesProfilesScalarsAndFigures) {
   EXPECT_TRUE(json["H"]["value"].is_null());
   EXPECT_EQ(json["reduced"], true);
   const ProfileSet profiles = read_profiles(run / "measured" / "profiles.csv");
-  EXPECT_EQ(profiles.header.at("reduced"), "true");
-  EXPECT_EQ(profiles.header.at("drum_radius"), "30");
+  EXPECT_EQ(profiles.header.reduced, true);
+  EXPECT_EQ(profiles.header.drum_radius, 30);
   for (const char* figure : {"velocity", "packing", "rotation", "stresses", "rheology", "fluctuations"})
     EXPECT_TRUE(fs::exists(run / "measured" / (figure + std::string(".png")))) << figure;
 }
@@ -84,9 +87,9 @@ TEST(MeasureCommand, MapsStandOnTheHeightsOfTheProfiles) {
   EXPECT_EQ(measure(options), 0);
   const FieldMap map = read_field_map(run / "measured" / "maps.h5");
   const ProfileSet profiles = read_profiles(run / "measured" / "profiles.csv");
-  EXPECT_EQ(map.header.at("side"), "particles");
-  EXPECT_EQ(map.header.at("theta_deg"), profiles.header.at("theta_deg"));
-  EXPECT_EQ(map.header.at("kernel_width"), "1");
+  EXPECT_EQ(map.header.side, RunSide::particles);
+  EXPECT_EQ(map.header.theta_deg, profiles.header.theta_deg);
+  EXPECT_EQ(map.header.kernel_width, 1);
   EXPECT_EQ(map.scales.time_s, 0.018);
   EXPECT_EQ(map.grid.columns, 8u);
   const double rows = (profiles.z.front() - map.grid.z_first) / map.grid.spacing_z;
@@ -145,6 +148,54 @@ TEST(MeasureCommand, KeepsWhatIsThereUnlessToldOtherwise) {
   EXPECT_EQ(measure(options_for(run, ExistingOutput::overwrite)), 0);
 }
 
+/// While it lives, Python ends before any script of this name.
+class FailingScript {
+ public:
+  FailingScript(const TemporaryFolder& folder, const std::string& script) {
+    folder.with("sitecustomize.py",
+                "import os, sys\n"
+                "if any(word.endswith('" +
+                    script +
+                    "') for word in sys.orig_argv):\n"
+                    "    sys.stderr.write('no ink left')\n"
+                    "    sys.stderr.flush()\n"
+                    "    os._exit(1)\n");
+    ::setenv("PYTHONPATH", folder.path().c_str(), 1);
+  }
+  ~FailingScript() { ::unsetenv("PYTHONPATH"); }
+  FailingScript(const FailingScript&) = delete;
+  FailingScript& operator=(const FailingScript&) = delete;
+};
+
+TEST(MeasureCommand, AFigureThatFailsIsNamedAndCostsNoNumber) {
+  const TemporaryFolder folder;
+  const fs::path run =
+      run_folder(folder, "finished",
+                 std::vector<Snapshot>(5, with_scales(drumlin::testing::stacked_columns(6, 12, 0.2))));
+  const fs::path results = run / "measured";
+  MeasureOptions options = options_for(run);
+  options.parts = {"forces"};
+  {
+    const FailingScript failing(folder, "measure_figures.py");
+    const auto message = message_of<IoError>([&] { measure(options); });
+    EXPECT_NE(message.find("measure_figures.py"), std::string::npos) << message;
+    EXPECT_NE(message.find("no ink left"), std::string::npos) << message;
+  }
+  const auto json = nlohmann::json::parse(file_text(results / "measured.json"));
+  for (const char* key : {"theta_deg", "forces", "settings", "accuracy", "seconds"})
+    EXPECT_TRUE(json.contains(key)) << key;
+  EXPECT_FALSE(read_profiles(results / "profiles.csv").z.empty());
+  EXPECT_FALSE(read_profiles(results / "forces.csv").z.empty());
+  EXPECT_FALSE(fs::exists(results / "velocity.png"));
+  EXPECT_TRUE(fs::exists(results / "forces.png"));  // the other script was called all the same
+
+  const std::string profiles = file_text(results / "profiles.csv");
+  options.existing = ExistingOutput::resume;
+  EXPECT_EQ(measure(options), 0);
+  EXPECT_TRUE(fs::exists(results / "velocity.png"));
+  EXPECT_EQ(file_text(results / "profiles.csv"), profiles);
+}
+
 TEST(MeasureCommand, RefusesWhatIsNoFinishedRun) {
   const TemporaryFolder folder;
   const fs::path run =
@@ -199,7 +250,7 @@ using drumlin::testing::measured_folder;
 fs::path measured_run(const TemporaryFolder& folder, const std::string& name, double b,
                       double rotation = 0.0115) {
   ProfileSet profiles = example_profiles();
-  profiles.header["rotation"] = fmt::format("{}", rotation);
+  profiles.header.rotation = rotation;
   ProfileColumn &I = column_of(profiles, "I"), &mu = column_of(profiles, "mu");
   for (std::size_t l = 0; l < profiles.z.size(); ++l) {
     I.value[l] = 0.12 * std::exp(profiles.z[l] / 5);
@@ -235,7 +286,7 @@ TEST(CalibrateCommand, LeavesTheLawOfItsRuns) {
   EXPECT_EQ(fit.fitted_on, (std::vector<std::string>{"six", "ten"}));
   EXPECT_TRUE(fs::exists(folder / "rheology.png"));
   const Json record = Json::parse(file_text(folder / "rheology.json"));
-  EXPECT_EQ(record["forms"].size(), 3u);  // every form is judged, one is chosen
+  EXPECT_EQ(record["forms"].size(), 3u);  // every form is scored, one is chosen
   EXPECT_TRUE(record["well_posed"].get<bool>());
   EXPECT_TRUE(record["one_law"]["holds"].get<bool>());
   EXPECT_NEAR(record["held_out"][0]["bias"].get<double>(), 0, 0.003);

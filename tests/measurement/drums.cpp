@@ -1,10 +1,11 @@
 // The flow frame, the frame of the drum, and that the laboratory's axes do not matter.
 #include <gtest/gtest.h>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 #include "tests/measurement/packings.hpp"
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
 using testing::filled_drum;

@@ -9,6 +9,7 @@
 #include "tests/measurement/packings.hpp"
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
 /// Maps of one snapshot per batch.

@@ -6,10 +6,11 @@
 #include "particles/measurement/forces/force_anisotropy.hpp"
 #include "particles/measurement/forces/force_distribution.hpp"
 #include "particles/measurement/forces/force_statistics.hpp"
-#include "particles/measurement/intervals.hpp"
+#include "particles/measurement/frame/intervals.hpp"
 #include "tests/measurement/packings.hpp"
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
 constexpr double pi = std::numbers::pi;

@@ -1,4 +1,4 @@
-#include "particles/measurement/intervals.hpp"
+#include "particles/measurement/frame/intervals.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,18 +7,11 @@
 #include <random>
 #include <vector>
 
-#include "coupling/exchange/student.hpp"
+#include "coupling/statistics/quantiles.hpp"
 
 namespace drumlin {
+using namespace particles;
 namespace {
-
-TEST(Intervals, StudentQuantilesOfTheTables) {
-  EXPECT_NEAR(student_quantile_99(1), 63.6567, 1e-4);
-  EXPECT_NEAR(student_quantile_99(2), 9.9248, 1e-4);
-  EXPECT_NEAR(student_quantile_99(10), 3.1693, 1e-4);
-  EXPECT_NEAR(student_quantile_99(19), 2.8609, 1e-4);
-  EXPECT_NEAR(student_quantile_99(100000), 2.5759, 1e-4);
-}
 
 TEST(Intervals, BatchesAreContiguousAndAlmostEqual) {
   std::vector<int> size(20, 0);
@@ -36,7 +29,7 @@ TEST(Intervals, JackknifeOfAMeanIsTheMethodOfBatchMeans) {
   // Three batches with means 3, 5, 4: standard error 1/sqrt(3). Their neighbours are correlated negatively,
   // which does not count. Half of three batches leave one degree of freedom.
   const std::vector<double> series{1, 5, 2, 8, 4, 4};
-  EXPECT_NEAR(mean_ci99(series, 3), student_quantile_99(1) / std::sqrt(3.0), 1e-12);
+  EXPECT_NEAR(mean_ci99(series, 3), statistics::student_quantile_99(1) / std::sqrt(3.0), 1e-12);
 }
 
 TEST(Intervals, NeighboursThatGoTogetherWidenTheInterval) {

@@ -4,6 +4,7 @@
 #include "tests/measurement/packings.hpp"
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
 using testing::hexagonal_layer;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
 /// A drum of radius 10 about (0, 1), full up to z = 0, in which `value` gives each field.
@@ -65,7 +66,7 @@ TEST(MapFindings, FloorAndSidesTakeThePlaceOfADrum) {
 }
 
 TEST(MapFindings, ExactLawsAreFoundWithoutScatter) {
-  const FrictionCollapse found = friction_collapse(drum_map(depth_law), drum, {}, 0);
+  const BulkFriction found = bulk_friction(drum_map(depth_law), drum, {}, 0);
   EXPECT_NEAR(found.invariant.a, 0.38, 1e-12);
   EXPECT_NEAR(found.invariant.b, 0.02, 1e-12);
   EXPECT_NEAR(found.invariant.rms, 0, 1e-12);

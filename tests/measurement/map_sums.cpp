@@ -6,11 +6,12 @@
 #include <numbers>
 #include <random>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 #include "particles/measurement/maps/spline_kernel.hpp"
 #include "tests/measurement/packings.hpp"
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
 MapSums sums_of(const CoarseGraining& graining, const Snapshot& snapshot) {

@@ -7,7 +7,7 @@
 
 namespace drumlin::testing {
 
-inline void add_grain(Snapshot& snapshot, double x, double z, double radius) {
+inline void add_grain(particles::Snapshot& snapshot, double x, double z, double radius) {
   snapshot.x.push_back(x);
   snapshot.z.push_back(z);
   snapshot.radius.push_back(radius);
@@ -17,8 +17,8 @@ inline void add_grain(Snapshot& snapshot, double x, double z, double radius) {
 }
 
 /// Touching discs of diameter 1 on a hexagonal lattice with rows along x, periodic in x.
-inline Snapshot hexagonal_layer(int columns, int rows) {
-  Snapshot snapshot;
+inline particles::Snapshot hexagonal_layer(int columns, int rows) {
+  particles::Snapshot snapshot;
   snapshot.time_step = 0.01;
   snapshot.period_x = columns;
   for (int row = 0; row < rows; ++row)
@@ -29,8 +29,8 @@ inline Snapshot hexagonal_layer(int columns, int rows) {
 
 /// Columns of discs of diameter 1 side by side on a floor at z = 0 (wall 0), periodic in x; each contact
 /// carries what lies above it in a gravity of 1 tilted by `slope` towards +x.
-inline Snapshot stacked_columns(int columns, int height, double slope) {
-  Snapshot snapshot;
+inline particles::Snapshot stacked_columns(int columns, int height, double slope) {
+  particles::Snapshot snapshot;
   snapshot.time_step = 0.01;
   snapshot.period_x = columns;
   snapshot.gravity_x = std::sin(slope);
@@ -50,8 +50,8 @@ inline Snapshot stacked_columns(int columns, int height, double slope) {
 /// A drum of radius R about (3, -2), filled with a hexagonal lattice up to a straight surface that lies
 /// `depth` below the axis and slopes down towards +x by theta. It turns clockwise with `spin`; grains are at
 /// rest in it.
-inline Snapshot filled_drum(double radius, double depth, double theta, double spin) {
-  Snapshot snapshot;
+inline particles::Snapshot filled_drum(double radius, double depth, double theta, double spin) {
+  particles::Snapshot snapshot;
   snapshot.time_step = 0.01;
   snapshot.container_x = 3;
   snapshot.container_z = -2;
@@ -74,7 +74,7 @@ inline Snapshot filled_drum(double radius, double depth, double theta, double sp
 }
 
 /// Everything turned anticlockwise by an angle about the laboratory's origin, gravity too.
-inline Snapshot turned(Snapshot snapshot, double angle) {
+inline particles::Snapshot turned(particles::Snapshot snapshot, double angle) {
   const double cosine = std::cos(angle), sine = std::sin(angle);
   const auto turn = [&](auto& x, auto& z) {
     const double old_x = x, old_z = z;
@@ -88,17 +88,18 @@ inline Snapshot turned(Snapshot snapshot, double angle) {
   }
   turn(snapshot.container_x, snapshot.container_z);
   turn(snapshot.gravity_x, snapshot.gravity_z);
-  for (SnapshotContact& contact : snapshot.contacts) turn(contact.normal_x, contact.normal_z);
+  for (particles::SnapshotContact& contact : snapshot.contacts) turn(contact.normal_x, contact.normal_z);
   return snapshot;
 }
 
-inline SnapshotSource source_of(std::vector<Snapshot> snapshots) {
+inline particles::SnapshotSource source_of(std::vector<particles::Snapshot> snapshots) {
   const std::size_t count = snapshots.size();
   return {count, [all = std::move(snapshots)](std::size_t index) { return all.at(index); }};
 }
 
-inline Measurement measurement_of(const Snapshot& snapshot, const MeasurementOptions& options = {}) {
-  return measurement(source_of({snapshot}), options);
+inline particles::Measurement measurement_of(const particles::Snapshot& snapshot,
+                                             const particles::MeasurementOptions& options = {}) {
+  return particles::measurement(source_of({snapshot}), options);
 }
 
 }  // namespace drumlin::testing

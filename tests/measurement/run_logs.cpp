@@ -2,11 +2,12 @@
 
 #include <cmath>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 #include "particles/measurement/run_log.hpp"
 #include "tests/exchange_files/folder.hpp"
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
 using testing::message_of;

@@ -7,6 +7,7 @@
 #include "tests/measurement/packings.hpp"
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
 using testing::add_grain;

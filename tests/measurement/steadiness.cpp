@@ -7,6 +7,7 @@
 #include <numbers>
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
 constexpr double rotation = 0.01;

@@ -10,6 +10,7 @@
 #include "tests/support/scenes.hpp"
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
 using std::numbers::pi;

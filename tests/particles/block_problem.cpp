@@ -9,6 +9,7 @@
 #include "particles/contact/residual.hpp"
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
 class Random {
@@ -49,7 +50,7 @@ class BlockForm : public testing::Test {};
 using BodyProblems = testing::Types<FrictionlessProblem, CoulombProblem, CoulombSpinProblem>;
 TYPED_TEST_SUITE(BlockForm, BodyProblems);
 
-TYPED_TEST(BlockForm, HasTheSameVelocitiesAndTheSameJudgement) {
+TYPED_TEST(BlockForm, HasTheSameVelocitiesAndTheSameResidual) {
   for (unsigned seed = 1; seed <= 5; ++seed) {
     std::vector<double> r;
     const auto problem = random_problem<TypeParam>(seed, r);
@@ -62,12 +63,12 @@ TYPED_TEST(BlockForm, HasTheSameVelocitiesAndTheSameJudgement) {
     for (int a = 0; a < problem.contacts(); ++a)
       for (int c = 0; c < TypeParam::dim; ++c)
         EXPECT_NEAR(u[TypeParam::dim * a + c], u_blocks[2 * a + c], 1e-13) << a;
-    const Judgement one = judge(problem, std::span<const double>(r));
-    const Judgement other = judge(blocks, std::span<const double>(r_blocks));
+    const ContactResidual one = residual_of(problem, std::span<const double>(r));
+    const ContactResidual other = residual_of(blocks, std::span<const double>(r_blocks));
     // A frictionless contact carries a second, empty entry of q.
     const double entries = TypeParam::dim == 1 ? std::sqrt(2.0) : 1;
-    EXPECT_NEAR(other.residual, entries * one.residual, 1e-13);
-    EXPECT_NEAR(other.residual_max, entries * one.residual_max, 1e-12);
+    EXPECT_NEAR(other.rms, entries * one.rms, 1e-13);
+    EXPECT_NEAR(other.max, entries * one.max, 1e-12);
     EXPECT_NEAR(other.penetration, one.penetration, 1e-14);
   }
 }

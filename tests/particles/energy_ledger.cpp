@@ -7,6 +7,7 @@
 #include "tests/support/scenes.hpp"
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
 using test::add_stage;
@@ -24,8 +25,7 @@ EnergyLedger ledger_of(Scene scene) {
     (void)simulation.step();
     const EnergyLedger& ledger = *simulation.state().energy;
     const double rounding = 1e-14 * (ledger.kinetic + std::abs(ledger.potential));
-    EXPECT_LE(std::abs(closing_error(ledger)), 1e-10 * ledger.turnover + rounding)
-        << simulation.state().step;
+    EXPECT_LE(std::abs(closing_error(ledger)), 1e-10 * ledger.turnover + rounding) << simulation.state().step;
   }
   const EnergyLedger& ledger = *simulation.state().energy;
   EXPECT_LE(std::abs(closing_error(ledger)), 1e-10 * ledger.turnover);

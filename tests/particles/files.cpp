@@ -3,15 +3,16 @@
 
 #include <fstream>
 
-#include "coupling/exchange/errors.hpp"
-#include "particles/io/contact_problem_file.hpp"
+#include "coupling/common/errors.hpp"
 #include "coupling/files/h5_image.hpp"
+#include "particles/io/contact_problem_file.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/scene/random.hpp"
 #include "particles/solver/contact_solver.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
 using test::TemporaryFolder;

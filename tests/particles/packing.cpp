@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 #include "particles/detection/contact_list.hpp"
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/scene/placement.hpp"
@@ -12,6 +12,7 @@
 #include "tests/support/scenes.hpp"
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
 using test::add_stage;

@@ -1,4 +1,4 @@
-// The judge's own tests: hand-made problems whose residual is known.
+// The residual itself: hand-made problems whose residual is known.
 #include "particles/contact/residual.hpp"
 
 #include <gtest/gtest.h>
@@ -8,6 +8,7 @@
 #include "particles/contact/problems.hpp"
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
 /// One disc of mass m on a fixed floor, approaching with q.
@@ -21,8 +22,8 @@ CoulombSpinProblem disc_on_floor(double q_n, double q_t, double mu, double mass 
   return problem;
 }
 
-Judgement verdict(const CoulombSpinProblem& problem, std::vector<double> r) {
-  return judge(problem, std::span<const double>(r));
+ContactResidual residual(const CoulombSpinProblem& problem, std::vector<double> r) {
+  return residual_of(problem, std::span<const double>(r));
 }
 
 TEST(Cone, ProjectionOfPointsInsideBesideAndBelow) {
@@ -50,39 +51,39 @@ TEST(Cone, WithoutFrictionIsTheRayOfPressure) {
   EXPECT_EQ(t, 0);
 }
 
-TEST(Judge, BlocksOfEqualEigenvaluesThatRoundingMadeUnsymmetric) {
+TEST(Residual, BlocksOfEqualEigenvaluesThatRoundingMadeUnsymmetric) {
   BlockDelassus W;
   W.diagonal.resize(1);
   W.diagonal[0] << 2, 1e-17, -1e-16, 2;
   EXPECT_NEAR(W.largest_eigenvalue(0), 2, 1e-15);
 }
 
-TEST(Judge, ExactStickingSolutionHasNoResidual) {
+TEST(Residual, ExactStickingSolutionHasNoResidual) {
   // W = (1/m, 3/m) = (0.5, 1.5): r = (2, -0.2) stops q = (-1, 0.3), within mu = 0.5.
-  const auto v = verdict(disc_on_floor(-1, 0.3, 0.5), {2, -0.2});
-  EXPECT_NEAR(v.residual, 0, 1e-15);
+  const auto v = residual(disc_on_floor(-1, 0.3, 0.5), {2, -0.2});
+  EXPECT_NEAR(v.rms, 0, 1e-15);
   EXPECT_NEAR(v.penetration, 0, 1e-15);
 }
 
-TEST(Judge, ExactSlidingSolutionHasNoResidual) {
+TEST(Residual, ExactSlidingSolutionHasNoResidual) {
   // mu = 0.05: r_t = -0.1, u_t = 0.3 - 0.15 = 0.15 > 0 opposes r_t.
-  EXPECT_NEAR(verdict(disc_on_floor(-1, 0.3, 0.05), {2, -0.1}).residual, 0, 1e-15);
+  EXPECT_NEAR(residual(disc_on_floor(-1, 0.3, 0.05), {2, -0.1}).rms, 0, 1e-15);
 }
 
-TEST(Judge, SeparatingContactNeedsNoImpulse) {
-  EXPECT_EQ(verdict(disc_on_floor(1, 0.3, 0.5), {0, 0}).residual, 0);
+TEST(Residual, SeparatingContactNeedsNoImpulse) {
+  EXPECT_EQ(residual(disc_on_floor(1, 0.3, 0.5), {0, 0}).rms, 0);
 }
 
-TEST(Judge, MissingImpulseCountsItsVelocity) {
+TEST(Residual, MissingImpulseCountsItsVelocity) {
   // r = 0: e = |P_K(-rho (u_n + mu |u_t|), -rho u_t)| / rho with rho = 1/1.5. For u = (-1, 0): the projection
   // is (rho, 0), so e = 1. rms(q) = 1/sqrt(2).
-  const auto v = verdict(disc_on_floor(-1, 0, 0.5), {0, 0});
-  EXPECT_NEAR(v.residual, std::sqrt(2.0), 1e-14);
-  EXPECT_NEAR(v.residual_max, std::sqrt(2.0), 1e-14);
+  const auto v = residual(disc_on_floor(-1, 0, 0.5), {0, 0});
+  EXPECT_NEAR(v.rms, std::sqrt(2.0), 1e-14);
+  EXPECT_NEAR(v.max, std::sqrt(2.0), 1e-14);
   EXPECT_NEAR(v.penetration, 0.1, 1e-15);
 }
 
-TEST(Judge, TakesTheRmsOverContacts) {
+TEST(Residual, TakesTheRmsOverContacts) {
   CoulombSpinProblem problem;
   problem.W.inverse_mass = {1, 1, 0};
   problem.W.add(0, 2, 0, 1);
@@ -91,33 +92,33 @@ TEST(Judge, TakesTheRmsOverContacts) {
   problem.mu = {0.5, 0.5};
   // The first contact is solved, the second is not: e = (0, 1), rms(q) = 1/sqrt(2).
   const std::vector<double> r{1, 0, 0, 0};
-  const auto v = judge(problem, std::span<const double>(r));
-  EXPECT_NEAR(v.residual, std::sqrt(0.5) * std::sqrt(2.0), 1e-14);
-  EXPECT_NEAR(v.residual_max, std::sqrt(2.0), 1e-14);
+  const auto v = residual_of(problem, std::span<const double>(r));
+  EXPECT_NEAR(v.rms, std::sqrt(0.5) * std::sqrt(2.0), 1e-14);
+  EXPECT_NEAR(v.max, std::sqrt(2.0), 1e-14);
 }
 
-TEST(Judge, DoesNotDependOnUnitsOfMassOrVelocity) {
-  const auto plain = verdict(disc_on_floor(-1, 0.3, 0.5), {1.7, -0.3});
-  const auto heavy = verdict(disc_on_floor(-1, 0.3, 0.5, 2000), {1700, -300});
+TEST(Residual, DoesNotDependOnUnitsOfMassOrVelocity) {
+  const auto plain = residual(disc_on_floor(-1, 0.3, 0.5), {1.7, -0.3});
+  const auto heavy = residual(disc_on_floor(-1, 0.3, 0.5, 2000), {1700, -300});
   auto fast = disc_on_floor(-10, 3, 0.5);
-  EXPECT_NEAR(plain.residual, heavy.residual, 1e-13);
-  EXPECT_NEAR(plain.residual, verdict(fast, {17, -3}).residual, 1e-13);
+  EXPECT_NEAR(plain.rms, heavy.rms, 1e-13);
+  EXPECT_NEAR(plain.rms, residual(fast, {17, -3}).rms, 1e-13);
 }
 
-TEST(Judge, SeesNotANumber) {
-  const auto v = verdict(disc_on_floor(-1, 0, 0.5), {std::numeric_limits<double>::quiet_NaN(), 0});
-  EXPECT_TRUE(std::isnan(v.residual));
+TEST(Residual, SeesNotANumber) {
+  const auto v = residual(disc_on_floor(-1, 0, 0.5), {std::numeric_limits<double>::quiet_NaN(), 0});
+  EXPECT_TRUE(std::isnan(v.rms));
 }
 
-TEST(Judge, SeesNotANumberInTheProblem) {
+TEST(Residual, SeesNotANumberInTheProblem) {
   EXPECT_TRUE(
-      std::isnan(verdict(disc_on_floor(std::numeric_limits<double>::quiet_NaN(), 0, 0.5), {1, 0}).residual));
+      std::isnan(residual(disc_on_floor(std::numeric_limits<double>::quiet_NaN(), 0, 0.5), {1, 0}).rms));
 }
 
-TEST(Judge, EmptyProblemIsSolved) {
+TEST(Residual, EmptyProblemIsSolved) {
   CoulombSpinProblem problem;
   problem.W.inverse_mass = {1, 0};
-  EXPECT_EQ(judge(problem, std::span<const double>()).residual, 0);
+  EXPECT_EQ(residual_of(problem, std::span<const double>()).rms, 0);
 }
 
 }  // namespace

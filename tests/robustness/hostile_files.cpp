@@ -6,8 +6,8 @@
 #include <fstream>
 #include <limits>
 
-#include "coupling/exchange/errors.hpp"
-#include "coupling/exchange/text_file.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/common/text_file.hpp"
 #include "coupling/files/field_map_file.hpp"
 #include "coupling/files/h5_image.hpp"
 #include "particles/io/checkpoint_file.hpp"
@@ -16,9 +16,11 @@
 #include "particles/scene/random.hpp"
 #include "particles/scene/scene_file.hpp"
 #include "particles/solver/contact_solver.hpp"
+#include "tests/support/data_folder.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
 using test::TemporaryFolder;
@@ -68,7 +70,7 @@ std::string mutated(std::string text, RandomStream& random) {
 TEST(HostileFile, NoSceneTextBreaksTheReader) {
   RandomStream random(11, "scenes");
   std::vector<std::string> seeds;
-  for (const auto& file : std::filesystem::directory_iterator(DRUMLIN_DATA "/scenes"))
+  for (const auto& file : std::filesystem::directory_iterator(drumlin::test::data_folder() / "scenes"))
     seeds.push_back(file_text(file.path()));
   std::sort(seeds.begin(), seeds.end());
   int read = 0;
@@ -256,11 +258,11 @@ TEST(HostileFile, NoContactProblemBreaksReaderOrSolver) {
     SCOPED_TRACE(k);
     read += read_or_refused([&] {
       const BlockProblem problem = read_contact_problem(file);
-      std::vector<double> r(problem.q.size(), 0.0);
-      SolverScratch<BlockProblem> scratch;
+      Solution<BlockProblem> solution;
+      SolverWorkspace<BlockProblem> work;
       StoppingRule rule;
       rule.max_sweeps = 20;
-      (void)solve_nlgs(problem, rule, scratch, r);
+      (void)solve_nlgs(problem, rule, work, solution);
     });
   }
   EXPECT_GT(read, 0);

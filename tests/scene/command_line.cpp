@@ -1,8 +1,8 @@
-#include "apps/support/command_line.hpp"
+#include "apps/command_line/command_line.hpp"
 
 #include <gtest/gtest.h>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 
 namespace drumlin::apps {
 namespace {
@@ -69,6 +69,24 @@ TEST(CommandLine, FillsTheOptionsOfEveryOtherCommand) {
   EXPECT_FALSE(std::get<SolveContactsOptions>(parsed({"solve-contacts", "p.h5"})).output);
 }
 
+TEST(CommandLine, FillsTheOptionsOfCost) {
+  const auto sweep = std::get<CostOptions>(
+      parsed({"cost", "s.toml", "--rheology", "law.toml", "--sweep", "mesh=1:2,eps", "--ranks", "1,2",
+              "--neighbour", "drum.rotation_rpm=5", "--repeats", "3", "-o", "c"}));
+  EXPECT_EQ(sweep.sweep, (std::vector<std::string>{"mesh=1:2", "eps"}));
+  EXPECT_EQ(sweep.ranks, (std::vector<int>{1, 2}));
+  EXPECT_EQ(sweep.neighbour, std::vector<std::string>{"drum.rotation_rpm=5"});
+  EXPECT_EQ(sweep.repeats, 3);
+  const auto effects =
+      std::get<CostOptions>(parsed({"cost", "--effects", "s.toml", "--variants", "k,inertia+k", "--against",
+                                    "r1", "r2", "--time-limit", "900"}));
+  EXPECT_EQ(effects.scene, "s.toml");
+  EXPECT_EQ(effects.variants, (std::vector<std::string>{"k", "inertia+k"}));
+  EXPECT_EQ(effects.against.size(), 2u);
+  EXPECT_EQ(effects.time_limit_s, 900);
+  EXPECT_EQ(effects.ranks, std::vector<int>{1});
+}
+
 TEST(CommandLine, RefusesWrongUsage) {
   const std::vector<std::vector<const char*>> wrong = {
       {},                 // no command
@@ -89,6 +107,11 @@ TEST(CommandLine, RefusesWrongUsage) {
       {"scene", "check"},
       {"solve-contacts", "p.h5", "--solver", "none"},
       {"solve-contacts", "p.h5", "--tolerance", "-1"},
+      {"cost", "s.toml", "--repeats", "0"},
+      {"cost", "s.toml", "--ranks", "1,0"},
+      {"cost", "s.toml", "--ranks", "two"},
+      {"cost", "s.toml", "--time-limit", "0"},
+      {"cost", "s.toml", "--horizon", "-1"},
   };
   for (const auto& words : wrong) {
     std::string line;

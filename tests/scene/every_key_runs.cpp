@@ -7,13 +7,14 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "apps/commands.hpp"
+#include "apps/support/commands.hpp"
 #include "apps/support/json_file.hpp"
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "tests/exchange_files/folder.hpp"
 
 namespace drumlin::testing {
+using namespace particles;
 
 namespace {
 
@@ -79,7 +80,7 @@ RunSummary summary_of_run(const std::string& scene, const std::vector<std::strin
   if (!std::filesystem::exists(options.output / "run.json")) return run;
   for (const auto& file : snapshot_files(options.output)) run.snapshots.push_back(read_snapshot(file));
   run.log = fields_of_file(options.output / "log.csv");
-  const auto report = apps::read_json(options.output / "run.json", "drumlin-run-1");
+  const auto report = read_json(options.output / "run.json", "drumlin-run-1");
   run.title = report.at("title");
   run.reduced = report.at("reduced");
   run.seed = report.at("seed");

@@ -3,14 +3,14 @@
 #include <string>
 #include <vector>
 
-#include "particles/measurement/snapshot.hpp"
+#include "particles/bodies/snapshot.hpp"
 
 namespace drumlin::testing {
 
 /// What a run leaves, as far as the same scene leaves the same again: no timings.
 struct RunSummary {
   int exit_code = 0;
-  std::vector<Snapshot> snapshots;
+  std::vector<particles::Snapshot> snapshots;
   std::vector<std::vector<std::string>> log;  ///< fields of each line, names first
   std::string title;
   bool reduced = false;

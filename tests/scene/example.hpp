@@ -5,30 +5,17 @@
 #include <string>
 #include <vector>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 #include "particles/scene/scene_file.hpp"
+#include "tests/support/scene_text.hpp"
 
 namespace drumlin::testing {
 
 /// Line numbers are those of the messages that the tests expect.
-inline const std::string example_scene = R"(format = "drumlin-scene-1"
-title = "example"
-[grains]
-density_kg_m3 = 2700
-[grains.generated]
-count = 12
-diameter_min_mm = 3.0
-diameter_max_mm = 3.6
-region = { shape = "circle", radius_mm = 15 }
-[[walls]]
-name = "drum"
-shape = "container"
-radius_mm = 15
-[effects.gravity]
-[effects.friction]
-grain_grain = 0.4
-grain_wall = 0.9
-[effects.spin]
+inline const std::string example_scene =
+    "format = \"drumlin-scene-1\"\ntitle = \"example\"\n" +
+    test::generated_grains(12, "{ shape = \"circle\", radius_mm = 15 }") + test::drum_wall() +
+    "[effects.gravity]\n" + test::friction("0.4", "0.9") + R"([effects.spin]
 [[stages]]
 name = "settle"
 duration_s = 0.1
@@ -52,7 +39,7 @@ inline std::string replaced(std::string text, const std::string& from, const std
 inline std::vector<InputProblem> scene_problems(const std::string& text,
                                                 const std::vector<std::string>& overrides = {}) {
   try {
-    parse_scene(text, "s.toml", overrides);
+    particles::parse_scene(text, "s.toml", overrides);
   } catch (const InputError& error) {
     return error.problems();
   }

@@ -1,14 +1,14 @@
 // The program as a user meets it: exit codes, what goes to which stream, what it refuses to overwrite.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdlib>
 #include <sstream>
 
+#include "coupling/common/child_process.hpp"
 #include "tests/exchange_files/folder.hpp"
 #include "tests/scene/example.hpp"
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
 struct Outcome {
@@ -28,11 +28,15 @@ class Program : public ::testing::Test {
     return text.str();
   }
   Outcome drumlin(const std::string& words) const {
-    const auto out = folder / "out.txt", err = folder / "err.txt";
-    const std::string line =
-        std::string(DRUMLIN_PROGRAM) + " " + words + " >" + out.string() + " 2>" + err.string();
-    const int status = std::system(line.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(out), content(err)};
+    const auto err = folder / "err.txt";
+    Outcome outcome;
+    ProcessRequest shell{.program = "/bin/sh"};
+    shell.words = {"-c", std::string(DRUMLIN_PROGRAM) + " " + words + " 2>" + err.string()};
+    shell.output = ProcessOutput::standard;
+    shell.line = [&](const std::string& line) { outcome.out += line + "\n"; };
+    outcome.code = run_process(shell).shell_code();
+    outcome.err = content(err);
+    return outcome;
   }
   std::string run_to(const std::string& name) const {
     return "run " + scene.string() + " -o " + (folder / name).string();

@@ -3,6 +3,7 @@
 #include "particles/scene/region.hpp"
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
 const Region circle = CircleRegion{{1, 2}, 5};

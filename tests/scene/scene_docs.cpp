@@ -5,12 +5,14 @@
 #include <sstream>
 
 #include "particles/scene/scene_file.hpp"
+#include "tests/support/data_folder.hpp"
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
 TEST(SceneDocs, HoldTheTableThatTheProgramPrints) {
-  std::ifstream page(std::string(DRUMLIN_DATA) + "/../docs/formats/scene.md");
+  std::ifstream page(drumlin::test::docs_folder() / "formats/scene.md");
   std::ostringstream text;
   text << page.rdbuf();
   EXPECT_NE(text.str().find(keys_as_markdown(scene_keys())), std::string::npos)

@@ -8,6 +8,7 @@
 #include "tests/scene/example.hpp"
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
 using testing::example_scene;

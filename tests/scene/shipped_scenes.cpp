@@ -4,11 +4,13 @@
 #include <filesystem>
 
 #include "particles/scene/scene_file.hpp"
+#include "tests/support/data_folder.hpp"
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
-const std::filesystem::path scenes = std::filesystem::path(DRUMLIN_DATA) / "scenes";
+const std::filesystem::path scenes = drumlin::test::data_folder() / "scenes";
 
 double rotation_rpm(const Scene& scene) {
   return std::get<Rotation>(scene.stages.back().motions.at(0).motion).speed_rpm;

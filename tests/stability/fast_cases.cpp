@@ -1,13 +1,13 @@
 // The fast half of the table that `drumlin hardcases` shows, one test per case, and what judges it.
 #include <cmath>
 
-#include "particles/hardcases/hard_case.hpp"
-#include "particles/hardcases/trends.hpp"
+#include "tests/hardcases/particles/trends.hpp"
+#include "tests/hardcases/registry.hpp"
 #include "tests/support/hard_case_tests.hpp"
 
 namespace drumlin::testing_hard_cases {
 
-INSTANTIATE_TEST_SUITE_P(Table, FastHardCase, testing::ValuesIn(fast_ones(hard_cases())), test_name);
+INSTANTIATE_TEST_SUITE_P(Table, FastHardCase, testing::ValuesIn(fast_ones(particle_hard_cases())), test_name);
 
 namespace {
 
@@ -22,9 +22,17 @@ TEST(HardCheck, FailsOnWhatIsNotANumber) {
   EXPECT_TRUE(equals("", 1, 1.5, 0.6, "").holds());
 }
 
+TEST(HardCheck, FailsOnTheLargestOfValuesOfWhichOneIsNotANumber) {
+  const double nan = std::nan("");
+  EXPECT_EQ(larger(1, 2), 2);
+  EXPECT_EQ(larger(2, 1), 2);
+  EXPECT_TRUE(std::isnan(larger(nan, 1)));
+  EXPECT_TRUE(std::isnan(larger(1, nan)));
+}
+
 TEST(HardResult, WithoutChecksHasNotPassed) { EXPECT_FALSE(HardResult{}.passed()); }
 
-TEST(HardCases, HaveNamesOfTheirOwn) { expect_names_of_their_own(hard_cases()); }
+TEST(HardCases, HaveNamesOfTheirOwn) { expect_names_of_their_own(particle_hard_cases()); }
 
 TEST(Trend, OfALineIsItsSlope) {
   std::vector<double> line;

@@ -1,12 +1,14 @@
 // Particles and continuum over the speed of rotation, on runs and flows made from known laws.
 #include <gtest/gtest.h>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 #include "coupling/study/speed_comparison.hpp"
 #include "tests/exchange_files/folder.hpp"
 #include "tests/study/flow_runs.hpp"
+#include "tests/support/data_folder.hpp"
 
 namespace drumlin {
+using namespace coupling;
 namespace {
 
 using testing::drum_run;
@@ -14,7 +16,7 @@ using testing::DrumLaws;
 using testing::flow_run;
 using testing::message_of;
 
-const std::filesystem::path paper = DRUMLIN_DATA "/paper";
+const std::filesystem::path paper = drumlin::test::data_folder() / "paper";
 
 const SpeedScalar& scalar(const ComparedSpeed& speed, const std::string& name) {
   for (const SpeedScalar& candidate : speed.scalars)
@@ -108,10 +110,10 @@ TEST(SpeedComparison, RefusesTwoLawsTwoFlowsOfASpeedAnotherDrumAndMixedUnits) {
   EXPECT_NE(refusal({flow_run(6), other}).find("effects"), std::string::npos);
   EXPECT_NE(refusal({flow_run(6), flow_run(6)}).find("one flow per speed"), std::string::npos);
   other = flow_run(6);
-  other.side.profiles.header["reduced"] = "true";
+  other.side.profiles.header.reduced = true;
   EXPECT_NE(refusal({other}).find("reduced"), std::string::npos);
   other = flow_run(6);
-  other.side.profiles.header["diameter_m"] = "0.004";
+  other.side.profiles.header.diameter_m = 0.004;
   EXPECT_NE(refusal({other}).find("diameter_m"), std::string::npos);
   EXPECT_NE(refusal({}).find("continuum flow"), std::string::npos);
   EXPECT_THROW(compared_speeds({}, {flow_run(6)}, paper), InputError);

@@ -6,6 +6,7 @@
 #include "tests/study/drum_runs.hpp"
 
 namespace drumlin {
+using namespace coupling;
 namespace {
 
 using drumlin::testing::DrumLaws;

@@ -3,13 +3,14 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/commands.hpp"
-#include "coupling/exchange/errors.hpp"
-#include "coupling/exchange/text_file.hpp"
+#include "apps/support/commands.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/common/text_file.hpp"
 #include "tests/exchange_files/folder.hpp"
 #include "tests/study/run_folders.hpp"
 
 namespace drumlin::apps {
+using namespace coupling;
 namespace {
 
 namespace fs = std::filesystem;
@@ -43,7 +44,7 @@ TEST(StudyCommand, LeavesStudyTablePageAndFiguresAndNamesAnUnsteadyRun) {
   EXPECT_NE(file_text(folder / "study/index.html").find("data:image/png;base64,"), std::string::npos);
   for (const char* figure : {"fig03_velocity.png", "fig06_depth_and_friction.png", "fig11_rheology.png"})
     EXPECT_TRUE(fs::exists(folder / "study" / figure)) << figure;
-  EXPECT_FALSE(fs::exists(folder / "study/study.json.part"));
+  EXPECT_FALSE(fs::exists(folder / "study/figures.pending"));
   EXPECT_THROW(study(options_for(folder, runs)), InputError) << "nothing is overwritten unasked";
   EXPECT_EQ(study(options_for(folder, runs, ExistingOutput::resume)), 0);
 }
@@ -88,7 +89,7 @@ TEST(StudyCommand, RefusesMixedSettingsReducedRunsAndOtherScenes) {
   EXPECT_NE(refusal().find("settings.linear_share"), std::string::npos);
 
   StudyRun reduced = run;
-  reduced.profiles.header["reduced"] = "true";
+  reduced.profiles.header.reduced = true;
   run_folder(folder, reduced, measured_json(reduced));
   EXPECT_NE(refusal().find("reduced"), std::string::npos);
 

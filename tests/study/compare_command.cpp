@@ -3,11 +3,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/commands.hpp"
-#include "coupling/exchange/errors.hpp"
+#include "apps/support/commands.hpp"
+#include "coupling/common/errors.hpp"
 #include "tests/study/run_folders.hpp"
 
 namespace drumlin::apps {
+using namespace coupling;
 namespace {
 
 namespace fs = std::filesystem;
@@ -43,7 +44,7 @@ TEST(CompareStudyCommand, SortsFoldersByTheirFilesAndLeavesTablePageAndFigures) 
   for (const char* figure : {"speeds.png", "rates.png", "errors.png"})
     EXPECT_TRUE(fs::exists(folder / "study" / figure)) << figure;
   EXPECT_NE(file_text(folder / "study/table.md").find("| 5 | predicted |"), std::string::npos);
-  EXPECT_FALSE(fs::exists(folder / "study/study.json.part"));
+  EXPECT_FALSE(fs::exists(folder / "study/figures.pending"));
   EXPECT_THROW(compare_study(options), InputError) << "nothing is overwritten unasked";
 }
 

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "coupling/study/study_run.hpp"
+#include "tests/support/headers.hpp"
 
 namespace drumlin::testing {
 
@@ -15,10 +16,10 @@ struct DrumLaws {
 };
 
 /// One run at a speed, every scalar with an interval of 3 % and moved by `noise` times its standard error.
-inline StudyRun drum_run(double rpm, const DrumLaws& laws = {}, std::mt19937_64* noise = nullptr) {
+inline coupling::StudyRun drum_run(double rpm, const DrumLaws& laws = {}, std::mt19937_64* noise = nullptr) {
   const double Q = 3.65 * rpm, theta = std::atan(laws.c0 + laws.c1 * Q) * 180 / 3.14159265358979;
   const double H = laws.depth * std::sqrt(Q), rate = 0.15;
-  StudyRun run;
+  coupling::StudyRun run;
   run.name = std::to_string(rpm);
   run.rotation_rpm = rpm;
   std::normal_distribution<double> normal(0, 1);
@@ -36,16 +37,16 @@ inline StudyRun drum_run(double rpm, const DrumLaws& laws = {}, std::mt19937_64*
   add("mu_a", laws.mu_a);
   add("mu_b", laws.mu_b);
   add("nu_bulk", 0.82);
-  run.profiles.header = {{"reduced", "false"},
-                         {"theta_deg", std::to_string(theta)},
-                         {"axis_depth", "4"},
-                         {"slice_width", "20"},
-                         {"rotation", std::to_string(rpm * 0.0019206626)},
-                         {"drum_radius", "68.1818"},
-                         {"diameter_m", "0.0033"},
-                         {"wall_z", "-64"},
-                         {"position", "0"},
-                         {"side", "particles"}};
+  run.profiles.header = header_from({{"reduced", "false"},
+                                     {"theta_deg", std::to_string(theta)},
+                                     {"axis_depth", "4"},
+                                     {"slice_width", "20"},
+                                     {"rotation", std::to_string(rpm * 0.0019206626)},
+                                     {"drum_radius", "68.1818"},
+                                     {"diameter_m", "0.0033"},
+                                     {"wall_z", "-64"},
+                                     {"position", "0"},
+                                     {"side", "particles"}});
   const char* names[] = {"v_x", "v_z", "shear_rate", "nu",       "sigma_zz", "sigma_zz_kinetic",
                          "I",   "mu",  "k",          "sigma_xx", "sigma_xz", "dv"};
   for (const char* name : names) run.profiles.columns.push_back({name, {}, {}});
@@ -66,8 +67,9 @@ inline StudyRun drum_run(double rpm, const DrumLaws& laws = {}, std::mt19937_64*
   return run;
 }
 
-inline std::vector<StudyRun> six_speeds(const DrumLaws& laws = {}, std::mt19937_64* noise = nullptr) {
-  std::vector<StudyRun> runs;
+inline std::vector<coupling::StudyRun> six_speeds(const DrumLaws& laws = {},
+                                                  std::mt19937_64* noise = nullptr) {
+  std::vector<coupling::StudyRun> runs;
   for (const double rpm : {2.0, 4.0, 5.0, 6.0, 10.0, 15.0}) runs.push_back(drum_run(rpm, laws, noise));
   return runs;
 }

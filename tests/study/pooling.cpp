@@ -3,11 +3,13 @@
 #include <cmath>
 #include <random>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/statistics/quantiles.hpp"
 #include "tests/exchange_files/folder.hpp"
 #include "tests/study/drum_runs.hpp"
 
 namespace drumlin {
+using namespace coupling;
 namespace {
 
 using drumlin::testing::drum_run;
@@ -26,9 +28,10 @@ TEST(Pooling, RunsThatAgreeNarrowTheInterval) {
 }
 
 TEST(Pooling, RunsThatDisagreeWidenIt) {
-  // Two runs 4 apart with standard errors of 1: chi^2 = 8 for one degree of freedom.
+  // Two runs 4 apart with standard errors of 1: the standard error of their mean is 2 by their spread, known
+  // with one degree of freedom.
   const Scalar mean = pooled("H", {{"H", 12, 2.5758293035489}, {"H", 16, 2.5758293035489}});
-  EXPECT_NEAR(*mean.ci99, 2.5758293035489 / std::sqrt(2) * std::sqrt(8), 1e-9);
+  EXPECT_NEAR(*mean.ci99, 2 * statistics::student_quantile_99(1), 1e-9);
 }
 
 TEST(Pooling, WhatWasNotMeasuredStandsAside) {
@@ -37,18 +40,36 @@ TEST(Pooling, WhatWasNotMeasuredStandsAside) {
   EXPECT_FALSE(pooled("Q", {{"Q", 14, std::nullopt}, {"Q", 15, 0.5}}).ci99.has_value());
 }
 
-TEST(Pooling, IntervalHoldsTheTruth) {
+TEST(Pooling, DegreesOfFreedomOfAllSpeedsAddUp) {
+  // Three speeds, at each two runs 4 apart with standard errors of 1: still 2, known with three degrees.
+  const std::vector<Scalar> slow{{"H", 12, 2.5758293035489}, {"H", 16, 2.5758293035489}},
+      fast{{"H", 22, 2.5758293035489}, {"H", 26, 2.5758293035489}}, alone{{"H", 30, 0.5}};
+  const auto means = pooled_speeds("H", {slow, fast, alone, slow});
+  EXPECT_NEAR(*means[1].ci99, 2 * statistics::student_quantile_99(3), 1e-9);
+  EXPECT_EQ(means[1].value, 24);
+  EXPECT_EQ(*means[2].ci99, 0.5) << "one run has no spread";
+}
+
+/// Share of means of so many runs that lie within their interval; `told`: standard error by their intervals,
+/// over the true one.
+double coverage(int runs_of_mean, double told) {
   std::mt19937_64 engine(3);
   std::normal_distribution<double> normal(0, 1);
   int inside = 0;
   constexpr int trials = 4000;
   for (int trial = 0; trial < trials; ++trial) {
     std::vector<Scalar> runs;
-    for (int r = 0; r < 3; ++r) runs.push_back({"H", 14 + normal(engine), 2.5758293035489});
+    for (int r = 0; r < runs_of_mean; ++r) runs.push_back({"H", 14 + normal(engine), 2.5758293035489 * told});
     const Scalar mean = pooled("H", runs);
     inside += std::abs(mean.value - 14) <= *mean.ci99;
   }
-  EXPECT_GT(inside / double(trials), 0.985);  // 99 % and more, for it never narrows
+  return inside / double(trials);
+}
+
+TEST(Pooling, IntervalHoldsTheTruth) {
+  EXPECT_GT(coverage(3, 1), 0.985);  // 99 % and more, for it never narrows
+  // Runs that differ by three times what they say: their spread takes over, from one degree of freedom on.
+  for (const int runs : {2, 3, 4, 5}) EXPECT_NEAR(coverage(runs, 1.0 / 3), 0.99, 0.005) << runs;
 }
 
 TEST(Pooling, SeedsOfOneSpeedFormAGroup) {

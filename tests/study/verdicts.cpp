@@ -5,11 +5,13 @@
 #include <set>
 
 #include "coupling/study/paper_verdicts.hpp"
+#include "tests/support/data_folder.hpp"
 
 namespace drumlin {
+using namespace coupling;
 namespace {
 
-const std::filesystem::path paper = std::filesystem::path(DRUMLIN_DATA) / "paper";
+const std::filesystem::path paper = drumlin::test::data_folder() / "paper";
 using Expects = PaperEntry::Expects;
 
 PaperEntry entry(Expects expects, double value = 0, std::optional<double> half_width = std::nullopt) {
@@ -18,7 +20,7 @@ PaperEntry entry(Expects expects, double value = 0, std::optional<double> half_w
 
 Verdict verdict_of(const PaperEntry& said, double ours, std::optional<double> ci99, double scale = 1,
                    double limit = 1) {
-  return judged(said, {{"some", ours, ci99}, scale, limit}).verdict;
+  return verdict_on(said, {{"some", ours, ci99}, scale, limit}).verdict;
 }
 
 TEST(Verdict, AValueAgreesInsideTheIntervalIsNearWithinTenPercentElseDiffers) {
@@ -36,8 +38,8 @@ TEST(Verdict, ThePapersOwnHalfWidthCounts) {
 }
 
 TEST(Verdict, AgreementInsideAWideIntervalIsCalledSo) {
-  EXPECT_EQ(judged(entry(Expects::value, 3), {{"some", 3.4, 1.5}}).reason, Reason::inside_wide_interval);
-  EXPECT_EQ(judged(entry(Expects::value, 3), {{"some", 3.4, 0.5}}).reason, Reason::inside_interval);
+  EXPECT_EQ(verdict_on(entry(Expects::value, 3), {{"some", 3.4, 1.5}}).reason, Reason::inside_wide_interval);
+  EXPECT_EQ(verdict_on(entry(Expects::value, 3), {{"some", 3.4, 0.5}}).reason, Reason::inside_interval);
 }
 
 TEST(Verdict, ZeroIsJudgedAgainstItsScale) {
@@ -51,7 +53,7 @@ TEST(Verdict, SignsNeedAnIntervalThatExcludesZero) {
   EXPECT_EQ(verdict_of(entry(Expects::not_zero), -0.2, 0.3), Verdict::near);
   EXPECT_EQ(verdict_of(entry(Expects::positive), 0.2, 0.05), Verdict::agrees);
   EXPECT_EQ(verdict_of(entry(Expects::positive), -0.2, 0.05), Verdict::differs);
-  EXPECT_EQ(judged(entry(Expects::positive), {{"some", 0.2, 0.3}}).reason, Reason::unresolved);
+  EXPECT_EQ(verdict_on(entry(Expects::positive), {{"some", 0.2, 0.3}}).reason, Reason::unresolved);
 }
 
 TEST(Verdict, CollapseAndItsAbsence) {

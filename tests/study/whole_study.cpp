@@ -6,13 +6,15 @@
 #include "coupling/study/run_scalars.hpp"
 #include "coupling/study/study.hpp"
 #include "tests/study/drum_runs.hpp"
+#include "tests/support/data_folder.hpp"
 
 namespace drumlin {
+using namespace coupling;
 namespace {
 
 using drumlin::testing::DrumLaws;
 using drumlin::testing::six_speeds;
-const std::filesystem::path paper = std::filesystem::path(DRUMLIN_DATA) / "paper";
+const std::filesystem::path paper = drumlin::test::data_folder() / "paper";
 
 const SpeedLaw::Coefficient& coefficient(const std::vector<SpeedLaw>& laws, const std::string& law,
                                          const std::string& name) {
@@ -83,7 +85,10 @@ TEST(Study, ASpeedThatIsMissingIsNotMeasured) {
 
 TEST(Study, AnotherDrumHasNoTable) {
   auto runs = six_speeds();
-  for (StudyRun& run : runs) run.profiles.header["drum_radius"] = run.identity["drum_radius"] = "20";
+  for (StudyRun& run : runs) {
+    run.profiles.header.drum_radius = 20;
+    run.identity["drum_radius"] = "20";
+  }
   EXPECT_TRUE(study_of(runs, paper).paper.empty());
 }
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "coupling/exchange/hard_case.hpp"
+#include "tests/hardcases/hard_case.hpp"
 
 namespace drumlin {
 

@@ -35,7 +35,8 @@ class TemporaryFolder {
 };
 
 /// A scene whose mean diameter is `unit_mm`, made of the given grains: d = unit_mm, g = 9.81 m/s2.
-inline Scene scene_of(const std::vector<Grain>& grains, const TemporaryFolder& folder, double unit_mm = 1) {
+inline particles::Scene scene_of(const std::vector<Grain>& grains, const TemporaryFolder& folder,
+                                 double unit_mm = 1) {
   const double time_s = std::sqrt(unit_mm * 1e-3 / 9.81), speed = unit_mm / time_s;
   const auto file = folder.path() / "grains.csv";
   std::ofstream out(file);
@@ -45,9 +46,9 @@ inline Scene scene_of(const std::vector<Grain>& grains, const TemporaryFolder& f
     out << g.x * unit_mm << ',' << g.z * unit_mm << ',' << g.diameter * unit_mm << ',' << g.v_x * speed << ','
         << g.v_z * speed << ',' << g.spin / time_s << '\n';
   out.close();
-  Scene scene;
+  particles::Scene scene;
   scene.grains.density_kg_m3 = 2700;
-  scene.grains.source = ListedGrains{file};
+  scene.grains.source = particles::ListedGrains{file};
   scene.solver.tolerance = 1e-9;
   scene.solver.penetration_tolerance = 1e-9;
   scene.solver.max_sweeps = 5000;
@@ -55,17 +56,17 @@ inline Scene scene_of(const std::vector<Grain>& grains, const TemporaryFolder& f
 }
 
 /// Adds a stage in simulation units.
-inline void add_stage(Scene& scene, double duration, double time_step, double unit_mm = 1) {
+inline void add_stage(particles::Scene& scene, double duration, double time_step, double unit_mm = 1) {
   const double time_s = std::sqrt(unit_mm * 1e-3 / 9.81);
-  Stage stage;
+  particles::Stage stage;
   stage.name = "stage";
   stage.duration_s = duration * time_s;
   stage.time_step_s = time_step * time_s;
   scene.stages.push_back(stage);
 }
 
-inline Wall floor_wall(double half_length = 1000, double unit_mm = 1) {
-  return {"floor", SegmentShape{{-half_length * unit_mm, 0}, {half_length * unit_mm, 0}}};
+inline particles::Wall floor_wall(double half_length = 1000, double unit_mm = 1) {
+  return {"floor", particles::SegmentShape{{-half_length * unit_mm, 0}, {half_length * unit_mm, 0}}};
 }
 
 }  // namespace drumlin::test

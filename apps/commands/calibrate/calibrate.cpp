@@ -3,14 +3,16 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
-#include "apps/commands.hpp"
 #include "apps/commands/calibrate/calibration_json.hpp"
-#include "apps/commands/calibrate/fitting.hpp"
+#include "apps/commands/calibrate/evidence.hpp"
+#include "apps/support/commands.hpp"
 #include "apps/support/figures.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/output_folder.hpp"
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/law/rheology_file.hpp"
 
 namespace drumlin::apps {
 
@@ -23,36 +25,36 @@ fs::path beside(const fs::path& file, const char* extension) {
   return other.replace_extension(extension);
 }
 
-std::string forms_text(const Calibration& calibration) {
+std::string forms_text(const coupling::Calibration& calibration) {
   std::string text;
   for (std::size_t f = 0; f < calibration.forms.size(); ++f) {
-    const CalibratedLaw& law = calibration.forms[f];
+    const coupling::CalibratedLaw& law = calibration.forms[f];
     const double middle = std::sqrt(law.I_min * law.I_max);
     text += fmt::format(
         "  {} {:<10}  rms misfit {:.4f}, scatter beyond the errors {:.4f}, band at I = {:.1e}: +- {:.4f}\n",
         f == calibration.chosen ? "*" : " ", name_of(law.form.kind), law.fit.rms_misfit,
-        law.fit.intrinsic_scatter, middle, half_width_at(law, middle));
+        law.fit.intrinsic_scatter, middle, coupling::half_width_at(law, middle));
   }
   return text;
 }
 
-std::string posedness_text(const Calibration& calibration) {
-  const CalibratedLaw& law = calibration.law();
+std::string posedness_text(const coupling::Calibration& calibration) {
+  const coupling::CalibratedLaw& law = calibration.law();
   std::string text;
-  if (const std::size_t held = held_intervals(law.form, law.fit.law); held > 0)
+  if (const std::size_t held = coupling::held_intervals(law.form, law.fit.law); held > 0)
     text = fmt::format(
         "  {} of {} intervals of the table are as flat as a well-posed law can be: the points ask for less\n",
         held, law.form.knots.size() - 1);
   if (calibration.ill_posed.empty()) return text + "  well-posed for every I from 1e-6 to 1 (simple shear)\n";
   text += "  ill-posed in simple shear for I";
-  for (const IllPosed& range : calibration.ill_posed)
+  for (const InertialRange& range : calibration.ill_posed)
     text += fmt::format(" {:.1e} ... {:.1e}", range.from, range.to);
   return text + ": there a flow depends on its mesh\n";
 }
 
-std::string score_text(const char* what, const std::vector<LawScore>& scores) {
+std::string score_text(const char* what, const std::vector<coupling::LawScore>& scores) {
   std::string text;
-  for (const LawScore& score : scores)
+  for (const coupling::LawScore& score : scores)
     text +=
         fmt::format("  {} {}: rms {:.4f}, mean {:+.4f}, {:.0f} % of {} points inside the 99 % interval{}\n",
                     what, score.run, score.rms, score.bias, 100 * score.inside_prediction, score.points,
@@ -60,9 +62,9 @@ std::string score_text(const char* what, const std::vector<LawScore>& scores) {
   return text;
 }
 
-std::string one_law_text(const Calibration& calibration) {
+std::string one_law_text(const coupling::Calibration& calibration) {
   if (!calibration.one_law) return "";
-  const OneLaw& one = *calibration.one_law;
+  const coupling::OneLaw& one = *calibration.one_law;
   return fmt::format(
       "  one law for all speeds: {} (rms {:.4f}, with a law for each {:.4f}; at I = {:.1e} {} lies {:+.4f} "
       "off, {:.1f} times "
@@ -71,18 +73,28 @@ std::string one_law_text(const Calibration& calibration) {
       one.largest_ratio);
 }
 
-std::string relaxation_text(const Calibration& calibration) {
+std::string relaxation_text(const coupling::Calibration& calibration) {
   std::string text;
   for (std::size_t r = 0; r < calibration.relaxations.size(); ++r) {
-    const FabricRelaxation& found = calibration.relaxations[r];
+    const coupling::FabricRelaxation& found = calibration.relaxations[r];
     text += fmt::format(
         "  relaxation of the fabric, {}: c = {:.3g} +- {:.2g} per unit of shear, explains {:.0f} % of the "
         "change along the "
         "path ({} blocks){}\n",
-        calibration.runs[r].run.name, found.c, found.ci99, 100 * found.explained, found.points,
+        calibration.runs[r].name, found.c, found.ci99, 100 * found.explained, found.points,
         found.c - found.ci99 > 0 ? "" : ": none found");
   }
   return text;
+}
+
+coupling::CalibrationOptions settings_of(const CalibrateOptions& options, coupling::EvidenceSource source) {
+  coupling::CalibrationOptions settings{.source = source,
+                                        .k = options.k,
+                                        .turn = options.misalignment,
+                                        .relaxation = options.relaxation,
+                                        .draws = options.draws};
+  if (options.law != "auto") settings.form = coupling::form_named(options.law);
+  return settings;
 }
 
 }  // namespace
@@ -96,28 +108,36 @@ int calibrate(const CalibrateOptions& options) {
   if (options.I_min && options.I_max && !(*options.I_min < *options.I_max))
     throw InputError(fmt::format("the range of I is {} to {} (allowed: 0 < I_min < I_max)", *options.I_min,
                                  *options.I_max));
-  const Calibration calibration = calibration_of(options);
+  const coupling::EvidenceSource source = source_of(options);
+  MeasuredEvidence fitted = evidence_of(options.runs, source, options);
+  require_bulk_fraction(fitted);
+  MeasuredEvidence held_out = evidence_of(options.validate, source, options);
+  std::vector<MeasuredRun> all = std::move(fitted.runs);
+  all.insert(all.end(), held_out.runs.begin(), held_out.runs.end());
+  require_same_units(all);
+  const coupling::Calibration calibration = coupling::calibration_of(
+      std::move(fitted.evidence), std::move(held_out.evidence), settings_of(options, source));
   prepare_output_file(options.output, options.existing);
   const fs::path record = beside(options.output, ".json");
-  write_json(record, calibration_json(calibration));
+  write_json(record, calibration_json(calibration, all));
   draw_figures("calibrate_figures.py",
                {record.string(), "--output", beside(options.output, ".png").string()});
   // Last: its presence says that all is there.
   write_rheology(options.output, calibration.rheology);
 
-  const CalibratedLaw& law = calibration.law();
-  fmt::print("{}{}\n  {}\n  {} points of {} with I from {:.2g} to {:.2g}, where it is valid; nu {:.4f}\n",
-             options.output.string(), calibration.rheology.reduced ? " (reduced)" : "",
-             described(calibration.rheology.mu), law.fit.points,
-             calibration.source == Source::maps ? "the tensors of maps.h5" : "the layers of profiles.csv",
-             law.I_min, law.I_max, calibration.rheology.nu);
+  const coupling::CalibratedLaw& law = calibration.law();
+  fmt::print(
+      "{}{}\n  {}\n  {} points of {} with I from {:.2g} to {:.2g}, where it is valid; nu {:.4f}\n",
+      options.output.string(), calibration.rheology.reduced ? " (reduced)" : "",
+      described(calibration.rheology.mu), law.fit.points,
+      source == coupling::EvidenceSource::maps ? "the tensors of maps.h5" : "the layers of profiles.csv",
+      law.I_min, law.I_max, calibration.rheology.nu);
   fmt::print("{}{}{}{}{}{}", forms_text(calibration), posedness_text(calibration),
              score_text("fitted", calibration.scores), score_text("predicted", calibration.predictions),
              one_law_text(calibration), relaxation_text(calibration));
-  for (const auto* group : {&calibration.runs, &calibration.held_out})
-    for (const RunEvidence& run : *group)
-      for (const std::string& reason : run.run.unsteady)
-        fmt::print("  warning: {} is not steady: {}\n", run.run.name, reason);
+  for (const MeasuredRun& run : all)
+    for (const std::string& reason : run.unsteady)
+      fmt::print("  warning: {} is not steady: {}\n", run.name, reason);
   return static_cast<int>(ExitCode::done);
 }
 

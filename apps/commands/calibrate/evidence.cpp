@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <utility>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 #include "coupling/files/field_map_file.hpp"
 
 namespace drumlin::apps {
@@ -16,63 +18,70 @@ namespace fs = std::filesystem;
 fs::path maps_of(const fs::path& run) { return run / "measured" / "maps.h5"; }
 
 void require_same_frame(const FieldMap& map, const MeasuredRun& run) {
-  for (const char* key : {"theta_deg", "axis_depth", "drum_radius", "rotation"}) {
-    const auto ours = map.header.find(key), theirs = run.profiles.header.find(key);
-    const bool both = ours != map.header.end() && theirs != run.profiles.header.end();
-    if (both && ours->second == theirs->second) continue;
-    throw InputError({InputProblem{maps_of(run.folder).string(), 0, 0, key,
-                                   both ? ours->second + ", in profiles.csv " + theirs->second : "is missing",
-                                   "the frame of the profiles: measure both anew"}});
+  for (const HeaderNumber number :
+       {&RunHeader::theta_deg, &RunHeader::axis_depth, &RunHeader::drum_radius, &RunHeader::rotation}) {
+    const auto ours = map.header.*number, theirs = run.profiles.header.*number;
+    if (ours && theirs && *ours == *theirs) continue;
+    throw InputError(
+        {InputProblem{maps_of(run.folder).string(), 0, 0, key_of(number),
+                      ours && theirs ? fmt::format("{}, in profiles.csv {}", *ours, *theirs) : "is missing",
+                      "the frame of the profiles: measure both anew"}});
   }
 }
 
-RunEvidence evidence_of(const fs::path& folder, Source source, const CalibrateOptions& options) {
-  RunEvidence evidence;
-  evidence.run = read_measured_run(folder, options.accept_unsteady ? Unsteady::accept : Unsteady::refuse);
-  const double rotation = std::stod(evidence.run.profiles.header.at("rotation"));
-  evidence.rotation_rpm = rotation / evidence.run.scales.time_s * 30 / std::numbers::pi;
-  if (source == Source::maps) {
-    evidence.map = read_field_map(maps_of(folder));
-    require_same_frame(*evidence.map, evidence.run);
-    BlockSelection selection;
-    selection.I_min = options.I_min.value_or(selection.I_min);
-    selection.I_max = options.I_max.value_or(selection.I_max);
-    evidence.blocks = law_points(*evidence.map, selection);
-    if (!options.relaxation) evidence.map.reset();
+coupling::RunEvidence evidence_of(const MeasuredRun& run, coupling::EvidenceSource source,
+                                  const CalibrateOptions& options) {
+  coupling::RunEvidence evidence{.name = run.name, .reduced = run.reduced};
+  if (const Scalar* nu = run.scalars.find("nu_bulk")) evidence.nu = *nu;
+  const double rotation = needed_number(run.profiles.header, &RunHeader::rotation, "profiles.csv");
+  evidence.rotation_rpm = rotation / run.scales.time_s * 30 / std::numbers::pi;
+  const coupling::InertialSelection range{options.I_min, options.I_max};
+  if (source == coupling::EvidenceSource::profiles) {
+    coupling::add_layers(evidence, run.profiles, range);
     return evidence;
   }
-  LayerSelection selection;
-  selection.I_min = options.I_min.value_or(selection.I_min);
-  selection.I_max = options.I_max.value_or(selection.I_max);
-  evidence.layers = friction_points(evidence.run.profiles, selection);
-  evidence.ratios = friction_points(evidence.run.profiles, selection, "k");
+  FieldMap map = read_field_map(maps_of(run.folder));
+  require_same_frame(map, run);
+  coupling::add_blocks(evidence, std::move(map), range);
+  if (!options.relaxation) evidence.map.reset();
   return evidence;
 }
 
 }  // namespace
 
-Source source_of(const CalibrateOptions& options) {
+coupling::EvidenceSource source_of(const CalibrateOptions& options) {
   if (options.from == "profiles") {
     if (options.misalignment || options.relaxation)
       throw InputError("--misalignment and --relaxation need tensors over the drum: --from maps");
-    return Source::profiles;
+    return coupling::EvidenceSource::profiles;
   }
   std::vector<fs::path> all = options.runs;
   all.insert(all.end(), options.validate.begin(), options.validate.end());
   const auto without =
       std::find_if(all.begin(), all.end(), [](const fs::path& run) { return !fs::exists(maps_of(run)); });
-  if (without == all.end()) return Source::maps;
+  if (without == all.end()) return coupling::EvidenceSource::maps;
   if (options.from == "maps" || options.misalignment || options.relaxation)
     throw InputError(maps_of(*without).string() +
                      ": is missing; drumlin measure RUN --parts maps makes it (or use --from profiles)");
-  return Source::profiles;
+  return coupling::EvidenceSource::profiles;
 }
 
-std::vector<RunEvidence> evidence_of(const std::vector<fs::path>& runs, Source source,
-                                     const CalibrateOptions& options) {
-  std::vector<RunEvidence> all;
-  for (const fs::path& run : runs) all.push_back(evidence_of(run, source, options));
+MeasuredEvidence evidence_of(const std::vector<fs::path>& runs, coupling::EvidenceSource source,
+                             const CalibrateOptions& options) {
+  MeasuredEvidence all;
+  for (const fs::path& folder : runs) {
+    all.runs.push_back(
+        read_measured_run(folder, options.accept_unsteady ? Unsteady::accept : Unsteady::refuse));
+    all.evidence.push_back(evidence_of(all.runs.back(), source, options));
+  }
   return all;
+}
+
+void require_bulk_fraction(const MeasuredEvidence& runs) {
+  for (std::size_t r = 0; r < runs.runs.size(); ++r)
+    if (!std::isfinite(runs.evidence[r].nu.value))
+      throw InputError((runs.runs[r].folder / "measured" / "measured.json").string() +
+                       ": nu_bulk: was not measured, and the law needs the volume fraction of the bulk");
 }
 
 }  // namespace drumlin::apps

@@ -1,33 +1,27 @@
 #pragma once
-// What the runs say of the law, before any form is fitted.
-#include <optional>
-#include <string>
+// Reads the measured runs that a calibration starts from.
 #include <vector>
 
-#include "apps/commands.hpp"
-#include "apps/support/measured_run.hpp"
-#include "coupling/calibration/law_points.hpp"
-#include "coupling/exchange/field_map.hpp"
+#include "apps/support/commands.hpp"
+#include "coupling/calibration/run_evidence.hpp"
+#include "coupling/exchange/measured_run.hpp"
 
 namespace drumlin::apps {
 
-/// Points of one run.
-struct RunEvidence {
-  MeasuredRun run;
-  double rotation_rpm = 0;
-  std::vector<LawBlock> blocks;       ///< of maps.h5; empty when profiles are the source
-  std::vector<FrictionPoint> layers;  ///< of profiles.csv: mu, I
-  std::vector<FrictionPoint> ratios;  ///< of profiles.csv: k in the place of mu, I
-  std::optional<FieldMap> map;        ///< kept for the relaxation of the fabric
+/// Maps or profiles, and which for "auto". Throws InputError where maps are asked for and a run has none.
+coupling::EvidenceSource source_of(const CalibrateOptions& options);
+
+/// Runs as they were read, and what they say of the law, in the same order.
+struct MeasuredEvidence {
+  std::vector<MeasuredRun> runs;
+  std::vector<coupling::RunEvidence> evidence;
 };
 
-enum class Source { maps, profiles };
-
-/// maps or profiles, and which for "auto". Throws InputError where maps are asked for and a run has none.
-Source source_of(const CalibrateOptions& options);
-
 /// Reads the runs strictly. Throws InputError.
-std::vector<RunEvidence> evidence_of(const std::vector<std::filesystem::path>& runs, Source source,
-                                     const CalibrateOptions& options);
+MeasuredEvidence evidence_of(const std::vector<std::filesystem::path>& runs, coupling::EvidenceSource source,
+                             const CalibrateOptions& options);
+
+/// Throws InputError where the volume fraction of the bulk was not measured, which a law needs.
+void require_bulk_fraction(const MeasuredEvidence& runs);
 
 }  // namespace drumlin::apps

@@ -1,6 +1,6 @@
 #pragma once
 // The parts of `drumlin cost`, one for each kind of scene and question. Each returns an exit code.
-#include "apps/commands.hpp"
+#include "apps/support/commands.hpp"
 
 namespace drumlin::apps {
 

@@ -7,7 +7,8 @@
 #include "apps/commands/cost/sweep.hpp"
 #include "apps/commands/run_files.hpp"
 #include "apps/support/json_file.hpp"
-#include "coupling/exchange/text_file.hpp"
+#include "coupling/common/machine_load.hpp"
+#include "coupling/common/text_file.hpp"
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/scene/scene_file.hpp"
 
@@ -25,25 +26,26 @@ void succeed(int exit_code) {
 }
 
 /// The state as a checkpoint of the run, so that `drumlin run --resume` goes on from it.
-void lay_down(const SweepStart& start, const Scene& scene, const fs::path& run) {
+void lay_down(const particles::SweepStart& start, const particles::Scene& scene, const fs::path& run) {
   fs::create_directories(run);
-  Checkpoint checkpoint;
-  checkpoint.scene = scene_text(as_recorded(scene));
+  particles::Checkpoint checkpoint;
+  checkpoint.scene = particles::scene_text(as_recorded(scene));
   checkpoint.state = start.state;
-  write_checkpoint(run / "checkpoint.h5", checkpoint);
+  particles::write_checkpoint(run / "checkpoint.h5", checkpoint);
 }
 
 }  // namespace
 
-Json long_run(const SweepStart& start, Scene scene, const fs::path& folder, int threads) {
-  const double seconds = duration_s(scene.stages.back());
+Json long_run(const particles::SweepStart& start, particles::Scene scene, const fs::path& folder,
+              int threads) {
+  const double seconds = particles::duration_s(scene.stages.back());
   scene.stages.back().snapshots =
       std::max(least_snapshots, static_cast<int>(std::lround(snapshots_per_second * seconds)));
   const fs::path file = folder / "scene.toml", run_folder = folder / "run";
   const double load = load_average();
   if (!fs::exists(run_folder / "checkpoint.h5")) {
     lay_down(start, scene, run_folder);
-    replace_file(file, scene_text(scene));
+    replace_file(file, particles::scene_text(scene));
   }
   RunOptions asked;
   asked.scene = file, asked.output = run_folder, asked.threads = threads;

@@ -11,7 +11,7 @@ namespace drumlin::apps {
 /// and `drumlin measure`: an interrupted one goes on from its checkpoint. Returns a point with "statistics":
 /// cpu_seconds, sweeps per step, and every scalar with its interval. What the run leaves is removed; throws
 /// Interrupted.
-nlohmann::ordered_json long_run(const SweepStart& start, Scene scene, const std::filesystem::path& folder,
-                                int threads);
+nlohmann::ordered_json long_run(const particles::SweepStart& start, particles::Scene scene,
+                                const std::filesystem::path& folder, int threads);
 
 }  // namespace drumlin::apps

@@ -1,9 +1,9 @@
-// drumlin cost SCENE for particles: solvers, tolerances and time steps from one state, judged by the
+// drumlin cost SCENE for particles: solvers, tolerances and time steps from one state, compared by the
 // velocities that they lead to and, on request, by what long runs measure.
+#include "coupling/accuracy/particle_sweep.hpp"
+
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "apps/commands/cost/cost.hpp"
@@ -14,7 +14,9 @@
 #include "apps/support/interruption.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/output_folder.hpp"
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/common/machine_load.hpp"
+#include "coupling/documents/json_numbers.hpp"
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/measurement/motion_difference.hpp"
 #include "particles/scene/scene_file.hpp"
@@ -26,74 +28,24 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// Errors are read where the finest point still follows the reference to this: what two sequences of impacts
-// make of a difference grows with time, whatever its size was.
-constexpr double largest_floor = 0.02;
 constexpr double standard_steps = 16;  // of the scene, in the stretch
 // "solver" is of the same step with a much tighter tolerance: what the contact solve alone leaves.
 const std::vector<std::string> quantities = {"field", "displacement", "velocity", "energy", "solver"};
 
-struct Sweep {
-  ParticleSettings standard;  ///< the scene's own
-  std::vector<ParticleSettings> points;
-  ParticleSettings reference;  ///< what the points are measured against
-  ParticleSettings finest;     ///< the point closest to it: what the reference itself is worth
-
-  /// Of the same step, solved as tightly as the reference.
-  ParticleSettings tight(double step_s) const { return {reference.solver, reference.tolerance, step_s}; }
-};
-
-std::vector<std::string> solvers_of(const SweepAxis& axis) {
-  const std::vector<std::string> known = contact_solver_names();
-  // cpg and reference take minutes where the others take seconds: on request.
-  if (axis.values.empty()) return {"accelerated", "accelerated-double", "nlgs", "nlgs-scalar", "nncg"};
-  for (const std::string& name : axis.values)
-    if (std::find(known.begin(), known.end(), name) == known.end()) {
-      std::string allowed;
-      for (const std::string& one : known) allowed += (allowed.empty() ? "" : ", ") + one;
-      throw InputError({InputProblem{
-          .file = {}, .key = "--sweep solver", .what = "'" + name + "' is no solver", .allowed = allowed}});
-    }
-  return axis.values;
+coupling::ParticleSweep sweep_of(const CostOptions& options, const particles::Scene& scene) {
+  const coupling::ParticleSettings standard{scene.solver.name, scene.solver.tolerance,
+                                            scene.stages.back().time_step_s};
+  return coupling::particle_sweep(standard, coupling::sweep_axes(options.sweep, coupling::particle_axes()),
+                                  particles::contact_solver_names());
 }
 
-void add(std::vector<ParticleSettings>& points, const ParticleSettings& one) {
-  if (std::find(points.begin(), points.end(), one) == points.end()) points.push_back(one);
-}
-
-Sweep sweep_of(const CostOptions& options, const Scene& scene) {
-  const auto axes = sweep_axes(options.sweep, {"solver", "tolerance", "step"});
-  Sweep sweep;
-  const double tolerance = scene.solver.tolerance, step = scene.stages.back().time_step_s;
-  sweep.standard = {scene.solver.name, tolerance, step};
-  std::vector<double> tolerances = {tolerance}, steps = {step};
-  if (const auto* axis = find_axis(axes, "tolerance"))
-    tolerances = numbers_of(*axis, {10 * tolerance, 3 * tolerance, tolerance, tolerance / 3, tolerance / 10});
-  if (const auto* axis = find_axis(axes, "step")) steps = numbers_of(*axis, {2 * step, step, step / 2});
-  add(sweep.points, sweep.standard);
-  for (const double h : steps)
-    for (const double t : tolerances) add(sweep.points, {scene.solver.name, t, h});
-  if (const auto* axis = find_axis(axes, "solver"))
-    for (const std::string& name : solvers_of(*axis))
-      for (const double t : tolerances)
-        if (t >= 0.3 * tolerance) add(sweep.points, {name, t, step});
-  double least = INFINITY, shortest = INFINITY;
-  for (const ParticleSettings& p : sweep.points) {
-    least = std::min(least, p.tolerance);
-    shortest = std::min(shortest, p.step_s);
-  }
-  sweep.finest = {scene.solver.name, least, shortest};
-  sweep.reference = {"accelerated", least / 3, shortest / 2};
-  return sweep;
-}
-
-Json settings_json(const ParticleSettings& s) {
+Json settings_json(const coupling::ParticleSettings& s) {
   return {{"solver", s.solver}, {"tolerance", s.tolerance}, {"step_s", s.step_s}};
 }
 
-Json marks_json(const std::vector<Mark>& marks, double seconds) {
+Json marks_json(const std::vector<particles::Mark>& marks, double seconds) {
   Json list = Json::array();
-  for (const Mark& mark : marks) {
+  for (const particles::Mark& mark : marks) {
     const double steps = static_cast<double>(mark.steps);
     list.push_back({{"simulated_seconds", seconds * steps / static_cast<double>(marks.back().steps)},
                     {"cpu_seconds", mark.cpu_seconds},
@@ -106,9 +58,9 @@ Json marks_json(const std::vector<Mark>& marks, double seconds) {
   return list;
 }
 
-class ParticleSweep {
+class SweepOfGrains {
  public:
-  ParticleSweep(const CostOptions& options, const Scene& scene)
+  SweepOfGrains(const CostOptions& options, const particles::Scene& scene)
       : options_(options),
         scene_(scene),
         sweep_(sweep_of(options, scene)),
@@ -120,13 +72,13 @@ class ParticleSweep {
     if (options_.from) inputs.push_back(*options_.from / "run.json");
     prepare_output(*options_.output, options_.existing, {"sweep.json", "cost.json"}, inputs);
     const Json shared{{"kind", "particles"},
-                      {"scene", scene_text(scene_)},
+                      {"scene", particles::scene_text(scene_)},
                       {"from", options_.from ? options_.from->string() : "the beginning of the last stage"},
                       {"horizon_s", stretch_s_},
                       {"reference", settings_json(sweep_.reference)}};
     const PointStore store(*options_.output, shared);
     catch_interruptions();
-    const SweepStart start = sweep_start(options_, scene_);
+    const particles::SweepStart start = sweep_start(options_, scene_);
     fmt::print("{}: {:g} s from {}, {} points\n", options_.scene.string(), stretch_s_,
                shared.at("from").get<std::string>(), sweep_.points.size());
     make_reference(start, store, sweep_.reference);
@@ -136,7 +88,7 @@ class ParticleSweep {
     fmt::print("{:>10} {:>8} {:>8}", "processor", "sweeps", "missed");
     for (const std::string& name : quantities) fmt::print(" {:>12}", name);
     fmt::print("  (processor seconds per simulated one; relative errors)\n");
-    for (const ParticleSettings& settings : sweep_.points)
+    for (const coupling::ParticleSettings& settings : sweep_.points)
       points.push_back(flat(measured_point(start, store, settings), settings, horizon));
     if (options_.statistics_s) add_statistics(start, store, points);
     mark_fronts(points, quantities);
@@ -145,62 +97,63 @@ class ParticleSweep {
   }
 
  private:
-  fs::path reference_file(const PointStore& store, const ParticleSettings& reference, int mark) const {
+  fs::path reference_file(const PointStore& store, const coupling::ParticleSettings& reference,
+                          int mark) const {
     return store.beside(fmt::format("{}-at-{}.h5", name_of(reference), mark + 1));
   }
 
   /// Runs through the stretch and keeps where the grains are at each mark.
-  void make_reference(const SweepStart& start, const PointStore& store,
-                      const ParticleSettings& settings) const {
+  void make_reference(const particles::SweepStart& start, const PointStore& store,
+                      const coupling::ParticleSettings& settings) const {
     const std::string name = "reference-" + name_of(settings);
     if (store.finished(name)) return;
     fmt::print("{}\n", name);
     std::fflush(stdout);
-    const auto marks = marks_along(start, settings, stretch_s_, options_.threads);
-    for (int m = 0; m < marks_of_stretch; ++m) {
-      Checkpoint kept;
-      kept.scene = scene_text(start.scene);
+    const double load = load_average();
+    const auto marks =
+        particles::marks_along(start, stretch_of(settings), options_.threads, stop_if_interrupted);
+    for (int m = 0; m < particles::marks_of_stretch; ++m) {
+      particles::Checkpoint kept;
+      kept.scene = particles::scene_text(start.scene);
       kept.state = start.state;
       kept.state.bodies = marks[static_cast<std::size_t>(m)].bodies;
-      write_checkpoint(reference_file(store, settings, m), kept);
+      particles::write_checkpoint(reference_file(store, settings, m), kept);
     }
     Json point = settings_json(settings);
-    point["load_before"] = load_average();
+    point["load_before"] = load;
     point["marks"] = marks_json(marks, stretch_s_);
     store.keep(name, point);
   }
 
-  /// A stretch of a few steps is short for a clock: the least of some repetitions, which do the same work.
-  double least_seconds(const SweepStart& start, const ParticleSettings& settings, double first) const {
-    double least = first, all = first;
-    for (int again = 1; again < 5 && all < 0.5; ++again) {
-      const double seconds = marks_along(start, settings, stretch_s_, options_.threads).back().cpu_seconds;
-      least = std::min(least, seconds);
-      all += seconds;
-    }
-    return least;
+  particles::StretchSettings stretch_of(const coupling::ParticleSettings& s) const {
+    return {s.solver, s.tolerance, s.step_s, stretch_s_};
   }
 
-  MotionDifference apart(const SweepStart& start, const PointStore& store, const ParticleSettings& reference,
-                         int mark, const Bodies& bodies) const {
-    const Bodies there = read_checkpoint(reference_file(store, reference, mark)).state.bodies;
-    return motion_difference(start.state.bodies, there, bodies);
+  particles::MotionDifference apart(const particles::SweepStart& start, const PointStore& store,
+                                    const coupling::ParticleSettings& reference, int mark,
+                                    const particles::Bodies& bodies) const {
+    const particles::Bodies there =
+        particles::read_checkpoint(reference_file(store, reference, mark)).state.bodies;
+    return particles::motion_difference(start.state.bodies, there, bodies);
   }
 
-  Json measured_point(const SweepStart& start, const PointStore& store,
-                      const ParticleSettings& settings) const {
+  Json measured_point(const particles::SweepStart& start, const PointStore& store,
+                      const coupling::ParticleSettings& settings) const {
     const std::string name = name_of(settings);
     if (const auto done = store.finished(name)) return *done;
     make_reference(start, store, sweep_.tight(settings.step_s));
     Json point = settings_json(settings);
     point["load_before"] = load_average();
-    const auto marks = marks_along(start, settings, stretch_s_, options_.threads);
+    const auto marks =
+        particles::marks_along(start, stretch_of(settings), options_.threads, stop_if_interrupted);
     point["marks"] = marks_json(marks, stretch_s_);
-    point["cpu_seconds"] = least_seconds(start, settings, marks.back().cpu_seconds) / stretch_s_;
-    for (int m = 0; m < marks_of_stretch; ++m) {
+    const double seconds = particles::least_seconds(start, stretch_of(settings), options_.threads,
+                                                    marks.back().cpu_seconds, stop_if_interrupted);
+    point["cpu_seconds"] = seconds / stretch_s_;
+    for (int m = 0; m < particles::marks_of_stretch; ++m) {
       const auto index = static_cast<std::size_t>(m);
-      const MotionDifference d = apart(start, store, sweep_.reference, m, marks[index].bodies);
-      const MotionDifference solver =
+      const particles::MotionDifference d = apart(start, store, sweep_.reference, m, marks[index].bodies);
+      const particles::MotionDifference solver =
           apart(start, store, sweep_.tight(settings.step_s), m, marks[index].bodies);
       point["marks"][index]["errors"] = {{"field", d.field},       {"displacement", d.displacement},
                                          {"velocity", d.velocity}, {"energy", d.energy},
@@ -210,24 +163,21 @@ class ParticleSweep {
     return store.finished(name).value();
   }
 
-  /// The longest stretch over which the finest point still follows the reference.
+  /// Over the longest stretch over which the finest point still follows the reference.
   std::size_t chosen_horizon(const Json& finest) const {
-    std::size_t chosen = 0;
-    for (std::size_t m = 0; m < marks_of_stretch; ++m) {
-      const Json& errors = finest.at("marks")[m].at("errors");
-      const auto floor = [&](const char* name) {
-        return errors.at(name).is_number() ? errors.at(name).get<double>() : NAN;
-      };
+    std::vector<double> floors;
+    for (const Json& mark : finest.at("marks")) {
+      const auto floor = [&](const char* name) { return number_or_nan(mark.at("errors").at(name)).value(); };
       fmt::print("floor after {:g} s: field {:.2g}, displacement {:.2g}, velocity {:.2g}, energy {:.2g}\n",
-                 finest.at("marks")[m].at("simulated_seconds").get<double>(), floor("field"),
-                 floor("displacement"), floor("velocity"), floor("energy"));
-      if (floor("field") < largest_floor) chosen = m;
+                 mark.at("simulated_seconds").get<double>(), floor("field"), floor("displacement"),
+                 floor("velocity"), floor("energy"));
+      floors.push_back(floor("field"));
     }
-    return chosen;
+    return coupling::last_followed(floors);
   }
 
   /// The point as it stands in cost.json: the numbers of the horizon that all are read at.
-  Json flat(const Json& point, const ParticleSettings& settings, std::size_t horizon) const {
+  Json flat(const Json& point, const coupling::ParticleSettings& settings, std::size_t horizon) const {
     Json row{{"name", point.at("name")}, {"default", settings == sweep_.standard}};
     row.update(settings_json(settings));
     for (const char* key : {"load_before", "cpu_seconds"}) row[key] = point.at(key);
@@ -247,15 +197,16 @@ class ParticleSweep {
     return row;
   }
 
-  /// Solvers apart, which differ by nothing but their work: the scene's own solver.
-  void add_statistics(const SweepStart& start, const PointStore& store, Json& points) const {
+  /// Only with the scene's own solver: the others differ by nothing but their work.
+  void add_statistics(const particles::SweepStart& start, const PointStore& store, Json& points) const {
     for (std::size_t i = 0; i < sweep_.points.size(); ++i) {
-      const ParticleSettings& settings = sweep_.points[i];
+      const coupling::ParticleSettings& settings = sweep_.points[i];
       if (settings.solver != sweep_.standard.solver) continue;
       const std::string name = fmt::format("{}-over-{:g}-s", name_of(settings), *options_.statistics_s);
       auto kept = store.finished(name);
       if (!kept) {
-        Scene scene = with_settings(start.scene, settings, *options_.statistics_s);
+        particles::Scene scene = particles::with_settings(
+            start.scene, {settings.solver, settings.tolerance, settings.step_s, *options_.statistics_s});
         store.keep(name, long_run(start, scene, store.beside(name), options_.threads));
         kept = store.finished(name);
       }
@@ -283,7 +234,7 @@ class ParticleSweep {
     report["quantities"] = quantities;
     if (options_.statistics_s) report["statistics_s"] = *options_.statistics_s;
     report["points"] = points;
-    report["scene"] = scene_text(scene_);
+    report["scene"] = particles::scene_text(scene_);
     report["provenance"] = to_json(provenance());
     const fs::path file = *options_.output / "cost.json";
     draw(report);
@@ -299,16 +250,16 @@ class ParticleSweep {
   }
 
   const CostOptions& options_;
-  const Scene& scene_;
-  Sweep sweep_;
+  const particles::Scene& scene_;
+  coupling::ParticleSweep sweep_;
   double stretch_s_;
 };
 
 }  // namespace
 
 int sweep_particles(const CostOptions& options) {
-  const Scene scene = read_scene(options.scene, options.overrides);
-  return ParticleSweep(options, scene).execute();
+  const particles::Scene scene = particles::read_scene(options.scene, options.overrides);
+  return SweepOfGrains(options, scene).execute();
 }
 
 }  // namespace drumlin::apps

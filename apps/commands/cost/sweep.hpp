@@ -1,27 +1,14 @@
 #pragma once
-// A sweep over settings whose points are files, so that what is done is never done again.
+// The points of a sweep as files, so that what is done is never done again.
 #include <filesystem>
-#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "coupling/accuracy/work_point.hpp"
+
 namespace drumlin::apps {
-
-/// One setting that is varied, and over which values; none: over standard ones.
-struct SweepAxis {
-  std::string name;
-  std::vector<std::string> values;
-};
-
-/// Reads "tolerance" or "tolerance=1e-2:1e-3"; without any word all of `allowed`. Throws InputError for a
-/// name that is not allowed, or given twice.
-std::vector<SweepAxis> sweep_axes(const std::vector<std::string>& words,
-                                  const std::vector<std::string>& allowed);
-const SweepAxis* find_axis(const std::vector<SweepAxis>& axes, const std::string& name);
-/// The values as numbers above 0, `standard` where there are none. Throws InputError.
-std::vector<double> numbers_of(const SweepAxis& axis, const std::vector<double>& standard);
 
 /// OUT/points/NAME.json, each written when its point is done.
 class PointStore {
@@ -38,13 +25,11 @@ class PointStore {
   std::filesystem::path points_;
 };
 
-/// Processor time of this process.
-double process_seconds();
-/// Of the last minute; how busy the machine is with other things.
-double load_average();
+/// An object of the numbers, null for NaN.
+nlohmann::ordered_json json_of(const coupling::NamedNumbers& numbers);
 
-/// Marks in every point, under "pareto", the quantities on whose front it stands: least error for its
-/// "cpu_seconds". Points without a number for a quantity are left out of its front.
+/// Marks in every point, under "pareto", the quantities on whose front it stands (`fronts`): least error for
+/// its "cpu_seconds".
 void mark_fronts(nlohmann::ordered_json& points, const std::vector<std::string>& quantities);
 
 /// Thrown through a sweep when a signal came; carries the exit code.

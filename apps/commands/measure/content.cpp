@@ -7,19 +7,23 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/support/json_file.hpp"
-#include "particles/measurement/intervals.hpp"
+#include "coupling/documents/json_numbers.hpp"
+#include "particles/measurement/frame/intervals.hpp"
 
 namespace drumlin::apps {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double quantile_99 = 2.576;  // half width of a 99 % interval per standard error
-
-LogFriction friction_law(const ProfileSet& profiles, const LayerSelection& selection) {
+coupling::FrictionFit friction_fit(const ProfileSet& profiles, const coupling::LayerSelection& selection) {
   const double nan = std::nan("");
-  const auto points = friction_points(profiles, selection);
-  return points.size() < 3 ? LogFriction{nan, nan, {nan, nan, nan}, nan, nan} : fit_log_friction(points).law;
+  const auto points = coupling::friction_points(profiles, selection);
+  return points.size() < 3 ? coupling::FrictionFit{.law = {nan, nan, {nan, nan, nan}, nan, nan}}
+                           : coupling::fit_log_friction(points);
+}
+
+LogFriction friction_law(const ProfileSet& profiles, const coupling::LayerSelection& selection) {
+  return friction_fit(profiles, selection).law;
 }
 
 /// A profile without header and intervals of its own borrows those of the measured one, layer by layer the
@@ -48,45 +52,8 @@ void add_law(const LogFriction& law, ScalarSet& scalars) {
 
 }  // namespace
 
-ScalarSensitivity sensitivity_of(const Scalar& scalar, const std::vector<ScalarVariant>& variants) {
-  ScalarSensitivity found{{}, scalar.value, scalar.value, {}};
-  constexpr double rounding = 1e-9;
-  double largest = 0;
-  for (const ScalarVariant& variant : variants) {
-    const Scalar* other = variant.scalars.find(scalar.name);
-    if (!other || !std::isfinite(scalar.value)) continue;
-    const double moved = std::abs(other->value - scalar.value);
-    if (!(moved > rounding * (1 + std::abs(scalar.value)))) continue;
-    found.changes.push_back({variant.change, other->value});
-    found.lowest = std::min(found.lowest, other->value);
-    found.highest = std::max(found.highest, other->value);
-    if (moved > largest) found.strongest = variant.change;
-    largest = std::max(largest, moved);
-  }
-  return found;
-}
-
-std::map<std::string, std::string> header_of(const Measurement& m, const MeasurementOptions& options,
-                                             bool reduced) {
-  const auto text = [](double value) { return fmt::format("{}", value); };
-  return {{"side", "particles"},
-          {"reduced", reduced ? "true" : "false"},
-          {"theta_deg", text(m.frame_angle_deg)},
-          {"axis_depth", text(m.axis_depth)},
-          {"wall_z", text(m.wall_z)},
-          {"rotation", text(m.place.rotation)},
-          {"drum_radius", text(m.place.container_radius)},
-          {"diameter_m", text(m.scales.length_m)},
-          {"position", text(options.position)},
-          {"slice_width", text(m.place.slice_width)},
-          {"layer_thickness", text(options.layer_thickness)},
-          {"snapshots", std::to_string(m.place.snapshots)},
-          {"batches", std::to_string(m.place.batches)},
-          {"interval_factor", text(m.place.batches > 1 ? interval_factor(m.place.batches) : std::nan(""))},
-          {"revision", provenance().revision}};
-}
-
-Json settings_of(const Measurement& m, const MeasurementOptions& options, const LayerSelection& selection) {
+Json settings_of(const particles::Measurement& m, const particles::MeasurementOptions& options,
+                 const coupling::LayerSelection& selection) {
   Json settings{
       {"frame", "turns with the drum; x downslope, z along the normal of the surface"},
       {"frame_from", name_of(m.place.source)},
@@ -135,9 +102,9 @@ Json fits_of(const ProfileScalars& fits) {
           {"decay_log_rate", fits.decay_log_rate}};
 }
 
-Json steadiness_of(const Steadiness& s) {
-  const auto drift = [](const Drift& d) { return to_json(Scalar{"", d.value, d.ci99}); };
-  const auto number = [](double value) { return to_json(Scalar{"", value, {}}); };
+Json steadiness_of(const particles::Steadiness& s) {
+  const auto drift = [](const particles::Drift& d) { return to_json(Scalar{"", d.value, d.ci99}); };
+  const auto number = [](double value) { return number_or_null(value); };
   return {{"steady", s.steady},
           {"reasons", s.reasons},
           {"turns", number(s.turns)},
@@ -148,12 +115,11 @@ Json steadiness_of(const Steadiness& s) {
           {"slope_std_deg", number(s.slope_std_deg)}};
 }
 
-Json scalar_with_sensitivity(const Scalar& scalar, const ScalarSensitivity& sensitivity) {
+Json scalar_with_sensitivity(const Scalar& scalar, const particles::ScalarSensitivity& sensitivity) {
   Json json = to_json(scalar);
   if (!json.is_object() || sensitivity.changes.empty()) return json;
   Json changes;
-  for (const auto& one : sensitivity.changes)
-    changes[one.change] = std::isfinite(one.value) ? Json(one.value) : Json();
+  for (const auto& one : sensitivity.changes) changes[one.change] = number_or_null(one.value);
   json["sensitivity"] = {{"lowest", sensitivity.lowest},
                          {"highest", sensitivity.highest},
                          {"strongest", sensitivity.strongest},
@@ -161,8 +127,9 @@ Json scalar_with_sensitivity(const Scalar& scalar, const ScalarSensitivity& sens
   return json;
 }
 
-ScalarSet friction_scalars(const Measurement& measured, const LayerSelection& selection) {
-  const LogFriction law = friction_law(measured.profiles, selection);
+ScalarSet friction_scalars(const particles::Measurement& measured,
+                           const coupling::LayerSelection& selection) {
+  const coupling::FrictionFit fit = friction_fit(measured.profiles, selection);
   std::vector<double> a, b;
   for (const ProfileSet& without : measured.leave_one_out) {
     const LogFriction one = friction_law(with_borrowed_intervals(without, measured.profiles), selection);
@@ -171,21 +138,23 @@ ScalarSet friction_scalars(const Measurement& measured, const LayerSelection& se
   }
   // Layers of one run move together (a steeper surface raises mu in all), which the fit cannot know: the
   // spread over time is added to its own errors.
-  return {{{"mu_a", law.a, std::hypot(jackknife_ci99(a), quantile_99 * std::sqrt(law.covariance[0]))},
-           {"mu_b", law.b, std::hypot(jackknife_ci99(b), quantile_99 * std::sqrt(law.covariance[2]))}}};
+  const auto& [var_a, covariance, var_b] = fit.law.covariance;
+  return {
+      {{"mu_a", fit.law.a, std::hypot(particles::jackknife_ci99(a), coupling::half_width_99(fit, var_a))},
+       {"mu_b", fit.law.b, std::hypot(particles::jackknife_ci99(b), coupling::half_width_99(fit, var_b))}}};
 }
 
-void add_friction_variants(const Measurement& measured, const LayerSelection& selection,
-                           std::vector<ScalarVariant>& variants) {
-  for (ScalarVariant& variant : variants)
+void add_friction_variants(const particles::Measurement& measured, const coupling::LayerSelection& selection,
+                           std::vector<particles::ScalarVariant>& variants) {
+  for (particles::ScalarVariant& variant : variants)
     if (!variant.profiles.z.empty())
       add_law(friction_law(with_borrowed_intervals(variant.profiles, measured.profiles), selection),
               variant.scalars);
-  const auto add = [&](const std::string& change, const LayerSelection& changed) {
+  const auto add = [&](const std::string& change, const coupling::LayerSelection& changed) {
     variants.push_back({change, {}, {}});
     add_law(friction_law(measured.profiles, changed), variants.back().scalars);
   };
-  LayerSelection changed = selection;
+  coupling::LayerSelection changed = selection;
   for (double factor : {0.1, 10.0}) {
     changed.I_min = factor * selection.I_min;
     add(fmt::format("mu(I) from I = {}", changed.I_min), changed);

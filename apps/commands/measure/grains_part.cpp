@@ -7,9 +7,9 @@
 #include <optional>
 #include <utility>
 
-#include "apps/support/snapshot_list.hpp"
 #include "particles/io/grain_file.hpp"
 #include "particles/io/snapshot_file.hpp"
+#include "particles/io/snapshot_list.hpp"
 #include "particles/measurement/grains/grain_fields.hpp"
 
 namespace drumlin::apps {
@@ -17,14 +17,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-GrainRecord record_of(Snapshot snapshot, const Measurement& measured, const VelocityMap& mean_velocity) {
+particles::GrainRecord record_of(particles::Snapshot snapshot, const particles::Measurement& measured,
+                                 const particles::VelocityMap& mean_velocity) {
   // The mean velocity is that of the last motion of the wall: no fluctuations are counted from it before.
   const bool same_motion = snapshot.time >= measured.first_time();
-  if (measured.in_mirror) snapshot = mirrored(std::move(snapshot));
-  const MeasurementFrame& place = measured.place;
-  FlowSnapshot in_frame;
-  to_flow_frame(snapshot, place.frame, VelocityKind::window, in_frame);
-  GrainRecord record;
+  if (measured.in_mirror) snapshot = particles::mirrored(std::move(snapshot));
+  const particles::MeasurementFrame& place = measured.place;
+  particles::FlowSnapshot in_frame;
+  particles::to_flow_frame(snapshot, place.frame, particles::VelocityKind::window, in_frame);
+  particles::GrainRecord record;
   record.step = snapshot.step;
   record.time = snapshot.time;
   record.frame_angle_deg = measured.frame_angle_deg;
@@ -33,10 +34,14 @@ GrainRecord record_of(Snapshot snapshot, const Measurement& measured, const Velo
   record.axis_z = -measured.surface_z;
   record.period_x = place.period;
   record.scales = measured.scales;
-  GrainFieldSet wanted{GrainField::cell,           GrainField::velocity,          GrainField::spin,
-                       GrainField::contact_stress, GrainField::rotational_stress, GrainField::coordination};
-  if (same_motion) wanted.add(GrainField::kinetic_stress);
-  record.fields = grain_fields(snapshot, in_frame, wanted, &mean_velocity);
+  particles::GrainFieldSet wanted{particles::GrainField::cell,
+                                  particles::GrainField::velocity,
+                                  particles::GrainField::spin,
+                                  particles::GrainField::contact_stress,
+                                  particles::GrainField::rotational_stress,
+                                  particles::GrainField::coordination};
+  if (same_motion) wanted.add(particles::GrainField::kinetic_stress);
+  record.fields = particles::grain_fields(snapshot, in_frame, wanted, &mean_velocity);
   record.x = std::move(in_frame.x);
   record.z = std::move(in_frame.z);
   record.radius = std::move(in_frame.radius);
@@ -48,22 +53,22 @@ GrainRecord record_of(Snapshot snapshot, const Measurement& measured, const Velo
 
 Part grains_part(const MeasureOptions& options) {
   // Refused before the first snapshot is read.
-  const auto files = listed_snapshots(options.run, snapshot_files(options.run), "--grains", options.grains);
-  auto mean_velocity = std::make_shared<std::optional<VelocityMap>>();
+  const auto files = particles::listed_snapshots(options.run, particles::snapshot_files(options.run),
+                                                 "--grains", options.grains);
+  auto mean_velocity = std::make_shared<std::optional<particles::VelocityMap>>();
   Part part;
   part.name = "grains";
-  part.reading.begin = [mean_velocity](const MeasurementFrame& place) {
+  part.reading.begin = [mean_velocity](const particles::MeasurementFrame& place) {
     mean_velocity->emplace(place.x_min, place.x_max, place.z_min, place.z_max, place.period);
   };
-  part.reading.add = [mean_velocity](const Snapshot&, const FlowSnapshot& in_frame, std::size_t) {
-    (*mean_velocity)->add(in_frame);
-  };
-  part.write = [mean_velocity, files](const Measurement& measured, const PartOutput& output) {
+  part.reading.add = [mean_velocity](const particles::Snapshot&, const particles::FlowSnapshot& in_frame,
+                                     std::size_t) { (*mean_velocity)->add(in_frame); };
+  part.write = [mean_velocity, files](const particles::Measurement& measured, const PartOutput& output) {
     fs::create_directories(output.folder / "grains");
     for (const fs::path& file : files)
-      write_grains(output.folder / "grains" / file.filename(),
-                   record_of(read_snapshot(file), measured, **mean_velocity));
-    output.content["settings"]["grains"] = {{"cell_reach", VoronoiOptions{}.reach},
+      particles::write_grains(output.folder / "grains" / file.filename(),
+                              record_of(particles::read_snapshot(file), measured, **mean_velocity));
+    output.content["settings"]["grains"] = {{"cell_reach", particles::VoronoiOptions{}.reach},
                                             {"files", static_cast<int>(files.size())}};
   };
   part.figures = "grain_field_figures.py";

@@ -7,19 +7,21 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "apps/commands.hpp"
 #include "apps/commands/accuracy_statement.hpp"
 #include "apps/commands/measure/content.hpp"
 #include "apps/commands/measure/part.hpp"
-#include "apps/support/figures.hpp"
+#include "apps/support/commands.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/output_folder.hpp"
+#include "apps/support/pending_figures.hpp"
 #include "apps/support/progress.hpp"
 #include "coupling/calibration/log_friction.hpp"
-#include "coupling/exchange/errors.hpp"
-#include "coupling/exchange/text_file.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/common/text_file.hpp"
+#include "coupling/documents/csv.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/measurement/measurement.hpp"
+#include "particles/measurement/measurement_header.hpp"
 #include "particles/measurement/run_log.hpp"
 #include "particles/scene/scene_file.hpp"
 
@@ -50,31 +52,28 @@ Json finished_run(const fs::path& run) {
   return json;
 }
 
-MeasurementOptions settings_for(const MeasureOptions& options) {
-  MeasurementOptions settings;
+particles::MeasurementOptions settings_for(const MeasureOptions& options) {
+  particles::MeasurementOptions settings;
   settings.position = options.position;
   settings.slice_width = options.slice_width;
   settings.layer_thickness = options.layer_thickness;
   if (names_part(options, "gradients")) settings.gradient_step = options.gradient_step;
-  if (names_part(options, "slices")) settings.slices = SlicesRequest{options.slices, narrow_slice_width};
+  if (names_part(options, "slices"))
+    settings.slices = particles::SlicesRequest{options.slices, narrow_slice_width};
   settings.sensitivity = names_part(options, "sensitivity");
   settings.voronoi = names_part(options, "voronoi");
   return settings;
 }
 
 /// slices/NAME.csv for each slice, and what was read off it.
-void write_slices(const fs::path& folder, const Measurement& measured, const MeasurementOptions& settings,
-                  const std::map<std::string, std::string>& header, Json& content) {
+void write_slices(const fs::path& folder, const particles::Measurement& measured,
+                  const particles::MeasurementOptions& settings, const RunHeader& header, Json& content) {
   if (measured.slices.empty()) return;
   fs::create_directories(folder / "slices");
   Json list = Json::array();
-  for (const MeasuredSlice& slice : measured.slices) {
+  for (const particles::MeasuredSlice& slice : measured.slices) {
     ProfileSet profiles = slice.profiles;
-    profiles.header = header;
-    profiles.header["position"] = fmt::format("{}", slice.position);
-    profiles.header["slice_width"] = fmt::format("{}", slice.width);
-    profiles.header["axis_depth"] = fmt::format("{}", slice.axis_depth);
-    profiles.header["wall_z"] = fmt::format("{}", slice.wall_z);
+    profiles.header = particles::slice_header(header, slice);
     const std::string file = fmt::format("slices/x{:+.1f}.csv", slice.position);
     write_profiles(folder / file, profiles);
     const ProfileScalars fits = profile_scalars(profiles, settings.scalars);
@@ -91,18 +90,17 @@ void write_slices(const fs::path& folder, const Measurement& measured, const Mea
 }
 
 /// series.csv: one line per snapshot.
-void write_series(const fs::path& file, const TimeSeries& series) {
+void write_series(const fs::path& file, const particles::TimeSeries& series) {
   std::string text = "# drumlin-series-1\ntime,turns,kinetic_energy,theta_com_deg\n";
   for (std::size_t s = 0; s < series.time.size(); ++s)
-    text += fmt::format("{},{},{},{}\n", series.time[s], series.wall_angle[s] / (2 * std::numbers::pi),
-                        series.kinetic_energy[s],
-                        series.mass_angle.empty()
-                            ? std::string()
-                            : fmt::format("{}", series.mass_angle[s] * 180 / std::numbers::pi));
+    text += csv_line(
+        {csv_number(series.time[s]), csv_number(series.wall_angle[s] / (2 * std::numbers::pi)),
+         csv_number(series.kinetic_energy[s]),
+         series.mass_angle.empty() ? "" : csv_number(series.mass_angle[s] * 180 / std::numbers::pi)});
   replace_file(file, text);
 }
 
-void print_scalar(const Scalar& scalar, const ScalarSensitivity& sensitivity) {
+void print_scalar(const Scalar& scalar, const particles::ScalarSensitivity& sensitivity) {
   const std::string value =
       std::isfinite(scalar.value) ? fmt::format("{:.4g}", scalar.value) : "not measured";
   const bool known = scalar.ci99 && std::isfinite(*scalar.ci99);
@@ -115,10 +113,11 @@ void print_scalar(const Scalar& scalar, const ScalarSensitivity& sensitivity) {
 }
 
 /// What is known beside the intervals; nothing of another program's run.
-std::optional<AccuracyStatement> statement_of(const MeasureOptions& options, const Json& run,
-                                              const Measurement& measured, const ScalarSet& scalars) {
+std::optional<coupling::AccuracyStatement> statement_of(const MeasureOptions& options, const Json& run,
+                                                        const particles::Measurement& measured,
+                                                        const ScalarSet& scalars) {
   if (run.value("imported", false) || !fs::exists(options.run / "scene.toml")) return std::nullopt;
-  const Scene scene = read_scene(options.run / "scene.toml");
+  const particles::Scene scene = particles::read_scene(options.run / "scene.toml");
   const auto record = options.accuracy ? accuracy_record(*options.accuracy, scene) : shipped_record(scene);
   const double snapshots = static_cast<double>(measured.series.time.size());
   const double both_ends =
@@ -127,17 +126,18 @@ std::optional<AccuracyStatement> statement_of(const MeasureOptions& options, con
   const double turned = measured.series.wall_angle.empty()
                             ? 0
                             : measured.series.wall_angle.back() - measured.series.wall_angle.front();
-  const RunCost cost{.cpu_seconds = run.value("cpu_seconds", 0.0),
-                     .simulated_seconds = run.value("simulated_seconds", 0.0),
-                     .sampled_seconds = sampled,
-                     .turns = both_ends * std::abs(turned) / (2 * std::numbers::pi)};
+  const coupling::RunCost cost{.cpu_seconds = run.value("cpu_seconds", 0.0),
+                               .simulated_seconds = run.value("simulated_seconds", 0.0),
+                               .sampled_seconds = sampled,
+                               .turns = both_ends * std::abs(turned) / (2 * std::numbers::pi)};
   ScalarSet with_intervals;
   for (const Scalar& scalar : scalars.scalars)
     if (scalar.ci99 && std::isfinite(scalar.value)) with_intervals.scalars.push_back(scalar);
-  return accuracy_statement(scene, record, with_intervals, cost);
+  return coupling::accuracy_statement({scene.solver.tolerance, scene.stages.back().time_step_s}, record,
+                                      with_intervals, cost);
 }
 
-void print_steadiness(const Steadiness& steadiness) {
+void print_steadiness(const particles::Steadiness& steadiness) {
   fmt::print("{}", steadiness.steady ? "steady" : "NOT STEADY, or too short to say:");
   for (const std::string& reason : steadiness.reasons) fmt::print("\n  - {}", reason);
   if (std::isfinite(steadiness.energy.value))
@@ -149,85 +149,123 @@ void print_steadiness(const Steadiness& steadiness) {
   fmt::print("\n");
 }
 
+/// A run with what was asked of it.
+struct Request {
+  const MeasureOptions& options;
+  particles::MeasurementOptions settings;
+  coupling::LayerSelection selection;  ///< of the fit of mu(I)
+  Json run;                            ///< its run.json
+  bool reduced = false;
+  std::vector<Part> parts;
+};
+
+particles::Measurement measured_run(const Request& request, const std::vector<fs::path>& files) {
+  std::vector<particles::MeasurementPart> readers;
+  for (const Part& part : request.parts) readers.push_back(part.reading);
+  const particles::SnapshotSource source{files.size(),
+                                         [&](std::size_t i) { return particles::read_snapshot(files[i]); }};
+  Progress progress;
+  particles::Measurement measured =
+      particles::measurement(source, request.settings, readers, [&](std::size_t done, std::size_t total) {
+        if (progress.due())
+          progress.show(fmt::format("measure  {:.0f} %",
+                                    100.0 * static_cast<double>(done) / static_cast<double>(total)));
+      });
+  progress.finish();
+  measured.profiles.header = particles::measurement_header(measured, request.settings, request.reduced);
+  return measured;
+}
+
+/// Those of the measurement, of the fit of mu(I) and of the log.
+ScalarSet all_scalars(const Request& request, const particles::Measurement& measured) {
+  ScalarSet scalars = measured.scalars;
+  const double second = measured.scales.time_s;
+  // A run of another program tells nothing of its accuracy.
+  const ScalarSet accuracy =
+      request.run.value("imported", false)
+          ? ScalarSet{}
+          : particles::accuracy_scalars(request.options.run / "log.csv", measured.first_time() * second,
+                                        measured.last_time() * second);
+  for (const ScalarSet& more : {friction_scalars(measured, request.selection), accuracy})
+    scalars.scalars.insert(scalars.scalars.end(), more.scalars.begin(), more.scalars.end());
+  return scalars;
+}
+
+/// measured.json but for what the parts and the slices add.
+Json content_of(const Request& request, const particles::Measurement& measured, const ScalarSet& scalars,
+                const std::optional<coupling::AccuracyStatement>& statement) {
+  const Json& run = request.run;
+  Json content{{"format", "drumlin-measured-1"}, {"reduced", request.reduced}};
+  for (const Scalar& scalar : scalars.scalars)
+    content[scalar.name] =
+        scalar_with_sensitivity(scalar, particles::sensitivity_of(scalar, measured.variants));
+  content["steadiness"] = steadiness_of(measured.steadiness);
+  content["fits"] = fits_of(measured.fits);
+  content["settings"] = settings_of(measured, request.settings, request.selection);
+  content["provenance"] = {{"measurement", to_json(provenance())}, {"run", run.value("provenance", Json())}};
+  for (const char* key : {"revision", "seed"})
+    if (run.contains(key)) content["provenance"][std::string("run_") + key] = run[key];
+  content["accuracy"] = statement ? to_json(*statement) : Json(nullptr);
+  return content;
+}
+
+void print_results(const Request& request, const fs::path& folder, const particles::Measurement& measured,
+                   const ScalarSet& scalars) {
+  fmt::print("{}{}\n", folder.string(), request.reduced ? " (reduced)" : "");
+  if (request.settings.sensitivity)
+    fmt::print("  {:32} {:>12} {:12} {}\n", "", "value", "99 %", "by other windows (measured.json has all)");
+  for (const Scalar& scalar : scalars.scalars)
+    print_scalar(scalar, particles::sensitivity_of(scalar, measured.variants));
+  print_steadiness(measured.steadiness);
+  for (const Part& part : request.parts)
+    if (part.print) part.print();
+}
+
+/// Of the files that are there now.
+std::vector<FigureScript> figures_of(const Request& request, const fs::path& folder) {
+  const std::vector<std::string> words{folder.string(), "--measured", (folder / "measured.json").string()};
+  std::vector<FigureScript> figures{{"measure_figures.py", words}};
+  for (const Part& part : request.parts)
+    if (!part.figures.empty()) figures.push_back({part.figures, words});
+  return figures;
+}
+
 }  // namespace
 
 int measure(const MeasureOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   check_parts(options.parts);
   const fs::path folder = options.run / "measured", finished = folder / "measured.json";
-  if (options.existing == ExistingOutput::resume && fs::exists(finished)) {
+  if (options.existing == ExistingOutput::resume && is_complete(finished)) {
     fmt::print("{}: done already\n", folder.string());
     return static_cast<int>(ExitCode::done);
   }
-  const Json run = finished_run(options.run);
-  const bool reduced = run.value("reduced", false);
-  const auto files = snapshot_files(options.run);
+  Request request{options, settings_for(options), {}, finished_run(options.run), false, {}};
+  request.reduced = request.run.value("reduced", false);
+  const auto files = particles::snapshot_files(options.run);
   if (files.empty())
     throw InputError(options.run.string() + ": holds no snapshots: there is nothing to measure");
   prepare_output(folder, options.existing, {"measured.json", "profiles.csv"});
+  request.parts = reading_parts(options);
 
-  const MeasurementOptions settings = settings_for(options);
-  const LayerSelection selection;
-  const std::vector<Part> parts = reading_parts(options);
-  std::vector<MeasurementPart> readers;
-  for (const Part& part : parts) readers.push_back(part.reading);
-  const SnapshotSource source{files.size(), [&](std::size_t i) { return read_snapshot(files[i]); }};
-  Progress progress;
-  Measurement measured = measurement(source, settings, readers, [&](std::size_t done, std::size_t total) {
-    if (progress.due())
-      progress.show(
-          fmt::format("measure  {:.0f} %", 100.0 * static_cast<double>(done) / static_cast<double>(total)));
-  });
-  progress.finish();
-  measured.profiles.header = header_of(measured, settings, reduced);
-  ScalarSet scalars = measured.scalars;
-  const double second = measured.scales.time_s;
-  // A run of another program tells nothing of its accuracy.
-  const ScalarSet accuracy = run.value("imported", false)
-                                 ? ScalarSet{}
-                                 : accuracy_scalars(options.run / "log.csv", measured.first_time() * second,
-                                                    measured.last_time() * second);
-  for (const ScalarSet& more : {friction_scalars(measured, selection), accuracy})
-    scalars.scalars.insert(scalars.scalars.end(), more.scalars.begin(), more.scalars.end());
-  if (settings.sensitivity) add_friction_variants(measured, selection, measured.variants);
-
-  Json content{{"format", "drumlin-measured-1"}, {"reduced", reduced}};
-  for (const Scalar& scalar : scalars.scalars)
-    content[scalar.name] = scalar_with_sensitivity(scalar, sensitivity_of(scalar, measured.variants));
-  content["steadiness"] = steadiness_of(measured.steadiness);
-  content["fits"] = fits_of(measured.fits);
-  content["settings"] = settings_of(measured, settings, selection);
-  content["provenance"] = {{"measurement", to_json(provenance())}, {"run", run.value("provenance", Json())}};
-  for (const char* key : {"revision", "seed"})
-    if (run.contains(key)) content["provenance"][std::string("run_") + key] = run[key];
-
-  const auto statement = statement_of(options, run, measured, scalars);
-  content["accuracy"] = statement ? to_json(*statement) : Json(nullptr);
+  particles::Measurement measured = measured_run(request, files);
+  const ScalarSet scalars = all_scalars(request, measured);
+  if (request.settings.sensitivity) add_friction_variants(measured, request.selection, measured.variants);
+  const auto statement = statement_of(options, request.run, measured, scalars);
+  Json content = content_of(request, measured, scalars, statement);
 
   write_profiles(folder / "profiles.csv", measured.profiles);
   write_series(folder / "series.csv", measured.series);
-  write_slices(folder, measured, settings, measured.profiles.header, content);
-  for (const Part& part : parts) part.write(measured, {folder, content, reduced});
-  // The figures read it under another name: measured.json itself says that all is there.
-  const fs::path unfinished = folder / "measured.json.part";
-  write_json(unfinished, content);
-  draw_figures("measure_figures.py", {folder.string(), "--measured", unfinished.string()});
-  for (const Part& part : parts)
-    if (!part.figures.empty())
-      draw_figures(part.figures, {folder.string(), "--measured", unfinished.string()});
+  write_slices(folder, measured, request.settings, measured.profiles.header, content);
+  for (const Part& part : request.parts) part.write(measured, {folder, content, request.reduced});
   content["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  // Figures come after all numbers: one that cannot be drawn must not cost them.
+  note_pending_figures(folder);
   write_json(finished, content);
-  fs::remove(unfinished);
 
-  fmt::print("{}{}\n", folder.string(), reduced ? " (reduced)" : "");
-  if (settings.sensitivity)
-    fmt::print("  {:32} {:>12} {:12} {}\n", "", "value", "99 %", "by other windows (measured.json has all)");
-  for (const Scalar& scalar : scalars.scalars)
-    print_scalar(scalar, sensitivity_of(scalar, measured.variants));
-  print_steadiness(measured.steadiness);
-  for (const Part& part : parts)
-    if (part.print) part.print();
+  print_results(request, folder, measured, scalars);
   if (statement) fmt::print("{}", text_of(*statement));
+  throw_if_figures_failed(finished, draw_pending_figures(folder, figures_of(request, folder)));
   return static_cast<int>(ExitCode::done);
 }
 

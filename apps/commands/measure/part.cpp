@@ -9,7 +9,7 @@
 #include "apps/commands/measure/forces_part.hpp"
 #include "apps/commands/measure/grains_part.hpp"
 #include "apps/commands/measure/maps_part.hpp"
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 
 namespace drumlin::apps {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/commands.hpp"
+#include "apps/support/commands.hpp"
 #include "particles/measurement/measurement.hpp"
 
 namespace drumlin::apps {
@@ -23,12 +23,12 @@ struct PartOutput {
 /// A part that reads the snapshots itself.
 struct Part {
   std::string name;
-  MeasurementPart reading;
+  particles::MeasurementPart reading;
   /// Writes its files and its keys of measured.json; draws nothing.
-  std::function<void(const Measurement&, const PartOutput&)> write;
+  std::function<void(const particles::Measurement&, const PartOutput&)> write;
   std::function<void()> print;  ///< what it found, in lines after the scalars; may be empty
   /// Script of apps/figures that draws its figures once all files are there; empty: none. It is called with
-  /// the folder and "--measured FILE", as measure_figures.py is.
+  /// the folder and "--measured RUN/measured/measured.json", as measure_figures.py is.
   std::string figures;
 };
 

@@ -5,7 +5,7 @@
 #include "continuum/fem/detail/discretisation.hpp"
 #include "continuum/fem/detail/held_fields.hpp"
 
-namespace drumlin::fem {
+namespace drumlin::continuum::fem {
 
 /// What Newton's method iterates on.
 struct State {
@@ -75,4 +75,4 @@ std::vector<PlaneTensor> dual_of(const Discretisation&, const Regularisation&, c
 std::vector<PlaneTensor> advanced_dual(const Discretisation&, const Regularisation&, const State& state,
                                        const FieldVector& step);
 
-}  // namespace drumlin::fem
+}  // namespace drumlin::continuum::fem

@@ -1,10 +1,10 @@
 #pragma once
-// What the material carries along and forgets: v.grad b = rate (target - b). Private to fem/.
+// Scalar that the material carries along and renews: v.grad b = rate (target - b). Private to fem/.
 #include <span>
 
 #include "continuum/fem/detail/scalar_field.hpp"
 
-namespace drumlin::fem {
+namespace drumlin::continuum::fem {
 
 /// Per quadrature point of this rank's cells.
 struct Relaxation {
@@ -29,4 +29,4 @@ struct CarriedField {
 CarriedField carried_by_flow(const FlowProblem& problem, const Discretisation& d, const FieldVector& solution,
                              const Relaxation& relaxation, double linear_tolerance);
 
-}  // namespace drumlin::fem
+}  // namespace drumlin::continuum::fem

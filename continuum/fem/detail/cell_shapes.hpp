@@ -7,7 +7,7 @@
 #include "continuum/fem/detail/discretisation.hpp"
 #include "continuum/rheology/plane_tensor.hpp"
 
-namespace drumlin::fem {
+namespace drumlin::continuum::fem {
 
 // Shape functions of one cell in the form that the integrals use. Q2-Q1 is primitive: each shape function has
 // one component.
@@ -74,4 +74,4 @@ void for_each_point(const Discretisation& d, const FieldVector& solution, Visit 
   }
 }
 
-}  // namespace drumlin::fem
+}  // namespace drumlin::continuum::fem

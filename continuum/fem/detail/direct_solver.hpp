@@ -6,7 +6,7 @@
 
 #include "continuum/fem/detail/discretisation.hpp"
 
-namespace drumlin::fem {
+namespace drumlin::continuum::fem {
 
 using SystemMatrix = dealii::PETScWrappers::MPI::SparseMatrix;
 
@@ -33,4 +33,4 @@ class DirectSolver {
   std::unique_ptr<Petsc> petsc_;
 };
 
-}  // namespace drumlin::fem
+}  // namespace drumlin::continuum::fem

@@ -18,7 +18,7 @@
 
 #include "continuum/model/surface_shape.hpp"
 
-namespace drumlin::fem {
+namespace drumlin::continuum::fem {
 
 /// One number per unknown, each on the rank that owns it; copies of those on the cells around that rank's
 /// part follow with update_ghost_values().
@@ -109,4 +109,4 @@ inline const BoundaryCondition* condition_on(const FlowProblem& problem, dealii:
   return found == problem.boundary.end() ? nullptr : &found->second;
 }
 
-}  // namespace drumlin::fem
+}  // namespace drumlin::continuum::fem

@@ -4,7 +4,7 @@
 
 #include "continuum/fem/detail/scalar_field.hpp"
 
-namespace drumlin::fem {
+namespace drumlin::continuum::fem {
 
 struct FluidityFactor {
   std::shared_ptr<ScalarField> ln_factor;  ///< ln(g_loc/g), continuous, linear on each cell edge
@@ -19,4 +19,4 @@ struct FluidityFactor {
 FluidityFactor fluidity_factor(const FlowProblem& problem, const Discretisation& d, double length,
                                std::span<const double> local_fluidity, double linear_tolerance);
 
-}  // namespace drumlin::fem
+}  // namespace drumlin::continuum::fem

@@ -5,7 +5,7 @@
 
 #include "continuum/model/flow_problem.hpp"
 
-namespace drumlin::fem {
+namespace drumlin::continuum::fem {
 
 /// Traction of the material on the wall along the sliding direction.
 struct WallFriction {
@@ -24,4 +24,4 @@ inline WallFriction wall_friction(const FrictionWall& wall, const Regularisation
           .by_pressure = wall.friction * pressure.slope * slip / length};
 }
 
-}  // namespace drumlin::fem
+}  // namespace drumlin::continuum::fem

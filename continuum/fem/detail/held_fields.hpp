@@ -1,10 +1,10 @@
 #pragma once
-// What the law takes from the flow beyond D and p, held while Newton's method runs: each part is absent
+// Fields that the law takes from the flow beyond D and p, held while Newton's method runs: each is absent
 // unless its effect is there. Private to fem/.
 #include "continuum/fem/detail/scalar_field.hpp"
 #include "continuum/fem/detail/turning.hpp"
 
-namespace drumlin::fem {
+namespace drumlin::continuum::fem {
 
 /// One number per point; empty without the effect.
 struct HeldValues {
@@ -40,11 +40,11 @@ std::shared_ptr<const HeldFields> held_from(const FlowProblem& problem, const Di
 /// g_loc = 2 |D| (g_loc/g)/mu of a flow, per quadrature point of this rank's cells.
 std::vector<double> local_fluidity(const FlowProblem& problem, const Discretisation& d, const State& state);
 
-/// The ways of the fabric: rate 2 c |D| and target beta_ss = turn (k - 1)/(k + 1), per quadrature point.
+/// Sources of the fabric's transport per quadrature point: rate 2 c |D|, target turn (k - 1)/(k + 1).
 struct FabricSources {
   std::vector<double> rate, target;
 };
 FabricSources fabric_sources(const FlowProblem& problem, const Discretisation& d, const State& state,
                              const std::vector<double>& turn, double relaxation);
 
-}  // namespace drumlin::fem
+}  // namespace drumlin::continuum::fem

@@ -6,7 +6,7 @@
 
 #include "continuum/fem/detail/cell_shapes.hpp"
 
-namespace drumlin::fem {
+namespace drumlin::continuum::fem {
 
 /// Velocity and its gradient at a point.
 struct PointMotion {
@@ -58,4 +58,4 @@ inline void add_inertia_tangent(const CellShapes& s, unsigned int q, const Point
   }
 }
 
-}  // namespace drumlin::fem
+}  // namespace drumlin::continuum::fem

@@ -1,9 +1,9 @@
 #pragma once
-// FlowState and a state on a mesh. Private to fem/.
+// Conversion between a stored FlowState and a state on a mesh. Private to fem/.
 #include "continuum/fem/detail/solved_level.hpp"
 #include "continuum/fem/flow_state.hpp"
 
-namespace drumlin::fem {
+namespace drumlin::continuum::fem {
 
 /// Collective; complete on every rank.
 FlowState kept_state(const SolvedLevel& level);
@@ -24,4 +24,4 @@ void lay_down(const FlowState& kept, SolvedLevel& level);
 /// speed is nearly that), which then hold exactly.
 void take_over(const FlowState& kept, SolvedLevel& level);
 
-}  // namespace drumlin::fem
+}  // namespace drumlin::continuum::fem

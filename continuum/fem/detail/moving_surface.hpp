@@ -1,10 +1,11 @@
 #pragma once
-// What presses on a surface, as heights, and how its shape changes that. Private to fem/.
+// Misfit of a moving surface (its normal stress, as heights) and its derivative by the shape. Private to
+// fem/.
 #include <deal.II/lac/full_matrix.h>
 
 #include "continuum/fem/detail/newton.hpp"
 
-namespace drumlin::fem {
+namespace drumlin::continuum::fem {
 
 /// sigma_nn/(nu cos theta) along the surface, d.
 struct SurfaceMisfit {
@@ -33,4 +34,4 @@ dealii::FullMatrix<double> surface_response(Newton&, SolvedLevel&);
 /// x of A x = b.
 std::vector<double> solution_of(dealii::FullMatrix<double> A, const std::vector<double>& b);
 
-}  // namespace drumlin::fem
+}  // namespace drumlin::continuum::fem

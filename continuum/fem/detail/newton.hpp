@@ -1,5 +1,6 @@
 #pragma once
 // Newton's method on one mesh: what the continuation and the steps in time share. Private to fem/.
+#include <optional>
 #include <string>
 
 #include "continuum/fem/detail/direct_solver.hpp"
@@ -7,7 +8,7 @@
 #include "continuum/fem/detail/work_clock.hpp"
 #include "continuum/fem/flow_solver.hpp"
 
-namespace drumlin::fem {
+namespace drumlin::continuum::fem {
 
 /// One system that is solved to one tolerance.
 struct Phase {
@@ -54,6 +55,9 @@ class Newton {
     double linear_residual = 0;
   };
   Step step_with_factors(const State& state);
+  std::optional<Step> newton_step(const Phase& phase, const State& state);
+  void take(const Phase& phase, const Step& step, State& state, IterationReport& line);
+  void record(const IterationReport& line);
   double slope(const Phase& phase, const State& state, const Step& step, double alpha);
   double step_length(const Phase& phase, const State& state, const Step& step);
   double relative_residual() const { return system_.residual.l2_norm() / reference_; }
@@ -87,4 +91,4 @@ std::shared_ptr<SolvedLevel> level_for(const FlowField& start, const FlowProblem
 /// What others look at: in the frame of the laboratory.
 FlowField field_of(const std::shared_ptr<SolvedLevel>& level);
 
-}  // namespace drumlin::fem
+}  // namespace drumlin::continuum::fem

@@ -8,9 +8,9 @@
 #include "continuum/fem/detail/assembly.hpp"
 #include "continuum/rheology/nonlocal_law.hpp"
 #include "continuum/rheology/turned_law.hpp"
-#include "continuum/rheology/well_posedness.hpp"
+#include "coupling/law/well_posedness.hpp"
 
-namespace drumlin::fem {
+namespace drumlin::continuum::fem {
 
 template <class Law>
 struct PlainPointLaw {
@@ -115,4 +115,4 @@ inline PointReport point_report(const FlowProblem& problem, const Setting& setti
   return report;
 }
 
-}  // namespace drumlin::fem
+}  // namespace drumlin::continuum::fem

@@ -8,7 +8,7 @@
 
 #include "continuum/fem/detail/discretisation.hpp"
 
-namespace drumlin::fem {
+namespace drumlin::continuum::fem {
 
 using MeshCell = dealii::DoFHandler<2>::active_cell_iterator;
 
@@ -37,4 +37,4 @@ std::vector<double> values_at(const ScalarField& field, const MeshCell& cell,
 /// Per quadrature point of this rank's cells.
 std::vector<double> at_quadrature(const ScalarField& field, const Discretisation& d);
 
-}  // namespace drumlin::fem
+}  // namespace drumlin::continuum::fem

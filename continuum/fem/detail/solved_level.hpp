@@ -2,7 +2,7 @@
 // A discretisation with a state on it: what FlowField looks into. Private to fem/.
 #include "continuum/fem/detail/assembly.hpp"
 
-namespace drumlin::fem {
+namespace drumlin::continuum::fem {
 
 struct SolvedLevel {
   FlowProblem problem;
@@ -11,4 +11,4 @@ struct SolvedLevel {
   State state;
 };
 
-}  // namespace drumlin::fem
+}  // namespace drumlin::continuum::fem

@@ -6,7 +6,7 @@
 
 #include "continuum/fem/detail/discretisation.hpp"
 
-namespace drumlin::fem {
+namespace drumlin::continuum::fem {
 
 /// Calls visit(cell, face, spring) for every face of this rank's cells that lies on a side with a spring;
 /// `face` knows values, places, normals and weights of its quadrature points.
@@ -28,4 +28,4 @@ void for_each_spring_face(const FlowProblem& problem, const Discretisation& d, V
   }
 }
 
-}  // namespace drumlin::fem
+}  // namespace drumlin::continuum::fem

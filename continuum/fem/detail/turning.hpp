@@ -1,6 +1,6 @@
 #pragma once
-// To which side, and by how much, k turns the stress at each point of a mesh: what the law with k takes from
-// the flow beyond D and p. It needs the second derivatives of the velocity and is held while Newton's method
+// Side and degree to which k turns the axes of the stress, as a field on a mesh: what the law with k takes
+// from the flow beyond D and p. It needs second derivatives of the velocity and is held while Newton's method
 // runs. Private to fem/.
 #include <deal.II/fe/fe_q.h>
 
@@ -10,7 +10,7 @@
 
 #include "continuum/fem/detail/scalar_field.hpp"
 
-namespace drumlin::fem {
+namespace drumlin::continuum::fem {
 
 /// s sgn(W - Omega_D) as a continuous field, linear on each cell edge.
 struct Turning {
@@ -37,4 +37,4 @@ std::shared_ptr<const Turning> turning_of(const FlowProblem& problem, const Disc
                                           double regularisation_rate, const FieldVector& solution,
                                           const Turning* before = nullptr, double share = 1);
 
-}  // namespace drumlin::fem
+}  // namespace drumlin::continuum::fem

@@ -1,10 +1,10 @@
 #pragma once
-// Where the time of a solve goes. Private to fem/.
+// Wall time of a solve by kind of work. Private to fem/.
 #include <array>
 #include <chrono>
 #include <cstddef>
 
-namespace drumlin::fem {
+namespace drumlin::continuum::fem {
 
 enum class Work : std::size_t { assembly, factorisation, linear_solves, step_length, refinement, evaluation };
 constexpr std::array<const char*, 6> work_names = {"assembly",    "factorisation", "linear solves",
@@ -41,4 +41,4 @@ class WorkClock {
   std::array<int, work_names.size()> times_{};
 };
 
-}  // namespace drumlin::fem
+}  // namespace drumlin::continuum::fem

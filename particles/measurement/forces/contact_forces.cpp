@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace drumlin {
+namespace drumlin::particles {
 
 void add_contact_forces(const LayerGrid& grid, const Snapshot& snapshot, ContactForces& forces) {
   const FlowFrame& frame = grid.frame;
@@ -28,4 +28,4 @@ void add_contact_forces(const LayerGrid& grid, const Snapshot& snapshot, Contact
   ++forces.snapshots;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -1,12 +1,12 @@
 #pragma once
-// The contacts of a slice with their forces, as the distributions and the anisotropy need them.
+// Contacts of a slice with their forces, collected for their distribution and anisotropy.
 #include <cstddef>
 #include <vector>
 
+#include "particles/bodies/snapshot.hpp"
 #include "particles/measurement/layers/layer_sums.hpp"
-#include "particles/measurement/snapshot.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// A loaded contact in the flow frame. Single precision: sums over it are double, and a run of 400 snapshots
 /// keeps a million of them.
@@ -32,4 +32,4 @@ inline std::size_t layer_of(const LayerGrid& grid, double z) {
   return static_cast<std::size_t>((z - grid.z_min) / grid.thickness);
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 using Complex = std::complex<double>;
@@ -131,4 +131,4 @@ ScalarSet direction_scalars(const DirectionSums& sums) {
   return set;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -1,5 +1,5 @@
 #pragma once
-// How contacts and their forces depend on direction: Rothenburg & Bathurst, Geotechnique 39 (1989) 601.
+// Anisotropy of contacts and of their forces: Rothenburg & Bathurst, Geotechnique 39 (1989) 601.
 #include <array>
 #include <complex>
 #include <cstddef>
@@ -7,7 +7,7 @@
 #include "coupling/exchange/scalar_set.hpp"
 #include "particles/measurement/forces/contact_forces.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// Sums over contacts between grains, whole and by direction of the normal: bin b holds the directions from
 /// b to b + 1 times pi/bins.
@@ -49,4 +49,4 @@ double stress_ratio_of(const ForceAnisotropy& anisotropy);
 /// stress_ratio_harmonics.
 ScalarSet direction_scalars(const DirectionSums& sums);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

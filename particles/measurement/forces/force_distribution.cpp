@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 constexpr double least = 1e-4, first_linear = 0.1, linear_width = 0.1;
@@ -106,4 +106,4 @@ ScalarSet distribution_scalars(const DistributionSums& sums, std::optional<doubl
   return set;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -1,5 +1,5 @@
 #pragma once
-// How contact forces are distributed about their mean.
+// Distribution of contact forces over their mean.
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -7,7 +7,7 @@
 #include "coupling/exchange/scalar_set.hpp"
 #include "particles/measurement/forces/contact_forces.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// Bins of f/<f>: eight per decade from 1e-4 to 0.1, then 0.1 wide up to 10. Strong forces fall off
 /// exponentially, weak ones as a power: each needs its own spacing.
@@ -54,4 +54,4 @@ double power_of(double mean_logarithm, double low, double high);
 /// mobilisation = f_t_over_f_n/mu and sliding_share.
 ScalarSet distribution_scalars(const DistributionSums& sums, std::optional<double> friction);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -7,9 +7,9 @@
 
 #include "particles/measurement/forces/force_anisotropy.hpp"
 #include "particles/measurement/forces/force_distribution.hpp"
-#include "particles/measurement/intervals.hpp"
+#include "particles/measurement/frame/intervals.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -270,4 +270,4 @@ ForceStatistics force_statistics(const LayerGrid& grid, const std::vector<Contac
   return result;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

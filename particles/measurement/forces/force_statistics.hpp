@@ -10,7 +10,7 @@
 #include "coupling/exchange/scalar_set.hpp"
 #include "particles/measurement/forces/contact_forces.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// Where the zones begin and end, and what the contacts are made of. Lengths in d, z from the surface.
 struct ForceSettings {
@@ -50,4 +50,4 @@ struct ForceStatistics {
 ForceStatistics force_statistics(const LayerGrid& grid, const std::vector<ContactForces>& batches,
                                  const ForceSettings& settings);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

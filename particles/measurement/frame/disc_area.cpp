@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace drumlin {
+namespace drumlin::particles {
 
 double disc_area_left_of(double radius, double a) {
   if (a <= -radius) return 0;
@@ -37,4 +37,4 @@ double disc_area_in(double x, double z, double radius, const Rectangle& rectangl
          disc_area_in_quadrant(radius, east, south) + disc_area_in_quadrant(radius, west, south);
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -1,7 +1,7 @@
 #pragma once
 // Exact areas of a disc within rectangles: volume fractions by coverage need nothing else.
 
-namespace drumlin {
+namespace drumlin::particles {
 
 struct Rectangle {
   double x_min = 0, x_max = 0, z_min = 0, z_max = 0;
@@ -14,4 +14,4 @@ double disc_area_in_quadrant(double radius, double a, double b);
 /// Area common to a disc and a rectangle.
 double disc_area_in(double x, double z, double radius, const Rectangle& rectangle);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

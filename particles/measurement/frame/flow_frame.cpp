@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <vector>
 
+#include "coupling/statistics/straight_line.hpp"
 #include "particles/measurement/frame/disc_area.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 FlowFrame frame_at_slope(double origin_x, double origin_z, double gravity_x, double gravity_z, double theta) {
   const double gravity = std::hypot(gravity_x, gravity_z);
@@ -147,29 +149,19 @@ double cut_half_width(double surface_z, const SlopeOptions& options) {
   return std::min(options.half_width, std::sqrt(std::max(0.0, square)) / 2);
 }
 
-struct IsolineFit {
-  double rise = 0;    ///< dz/dx of the line in the frame tried
-  double height = 0;  ///< at x = 0
-};
-
-std::optional<IsolineFit> fitted_isoline(const CoverageMap& map, double theta, double half_width,
-                                         double isoline) {
-  double n = 0, sx = 0, sz = 0, sxx = 0, sxz = 0;
+/// z over x in the frame tried.
+std::optional<statistics::StraightLine> fitted_isoline(const CoverageMap& map, double theta,
+                                                       double half_width, double isoline) {
+  std::vector<double> places, heights;
   const double rays = std::floor(half_width / ray_spacing);
   for (double ray = -rays; ray <= rays; ++ray) {
     const double x = ray * ray_spacing;
     const auto z = isoline_height(map, theta, x, isoline);
     if (!z) continue;
-    n += 1;
-    sx += x;
-    sz += *z;
-    sxx += x * x;
-    sxz += x * *z;
+    places.push_back(x);
+    heights.push_back(*z);
   }
-  const double spread = sxx - sx * sx / std::max(n, 1.0);
-  if (n < 3 || !(spread > 0)) return std::nullopt;
-  const double rise = (sxz - sx * sz / n) / spread;
-  return IsolineFit{rise, (sz - rise * sx) / n};
+  return places.size() < 3 ? std::nullopt : statistics::fit_line(places, heights);
 }
 
 }  // namespace
@@ -184,12 +176,12 @@ Slope isoline_slope(const CoverageMap& upright_map, double first_guess, const Sl
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     const auto line = fitted_isoline(upright_map, theta, half_width, options.isoline);
     if (!line) return {};
-    const double correction = std::atan(line->rise);
+    const double correction = std::atan(line->slope);
     theta -= correction;
-    half_width = cut_half_width(line->height, options);
-    if (std::abs(correction) < tolerance) return Slope{theta, half_width, line->height};
+    half_width = cut_half_width(line->intercept, options);
+    if (std::abs(correction) < tolerance) return Slope{theta, half_width, line->intercept};
   }
   return {};
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

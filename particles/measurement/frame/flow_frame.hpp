@@ -5,9 +5,9 @@
 #include <limits>
 #include <vector>
 
-#include "particles/measurement/snapshot.hpp"
+#include "particles/bodies/snapshot.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// Orthonormal axes in the laboratory; x turned clockwise into z by -90 degrees, as in the laboratory.
 struct FlowFrame {
@@ -74,4 +74,4 @@ struct Slope {
 /// iteration from `first_guess` (rad).
 Slope isoline_slope(const CoverageMap& upright_map, double first_guess, const SlopeOptions& options);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

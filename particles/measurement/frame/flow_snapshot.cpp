@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 void add_half_branches(const Snapshot& snapshot, const FlowFrame& frame, FlowSnapshot& result) {
@@ -85,4 +85,4 @@ void to_flow_frame(const Snapshot& snapshot, const FlowFrame& frame, VelocityKin
   result.contacts_known = snapshot.contacts_known;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

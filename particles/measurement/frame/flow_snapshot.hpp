@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "particles/bodies/snapshot.hpp"
 #include "particles/measurement/frame/flow_frame.hpp"
-#include "particles/measurement/snapshot.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// One grain's side of a contact: from its centre to the contact. Both sides together are the branch; across
 /// a periodic boundary each stays with its grain, and a wall has none.
@@ -44,4 +44,4 @@ struct RelativeVelocities {
 };
 void relative_velocities(const Snapshot& snapshot, VelocityKind kind, RelativeVelocities& result);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

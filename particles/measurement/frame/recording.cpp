@@ -3,10 +3,10 @@
 #include <string>
 #include <utility>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 #include "particles/measurement/frame/flow_frame.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 Snapshot Recording::read(std::size_t index) const {
   Snapshot snapshot = source->read(first + index);
@@ -29,4 +29,4 @@ Recording steady_recording(const SnapshotSource& source) {
   return Recording{&source, same, spin < 0};
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

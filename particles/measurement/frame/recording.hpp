@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <functional>
 
-#include "particles/measurement/snapshot.hpp"
+#include "particles/bodies/snapshot.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// Snapshots in order of time, fetched one by one: a long run does not fit in memory.
 struct SnapshotSource {
@@ -27,4 +27,4 @@ struct Recording {
 /// Throws InputError when there is none.
 Recording steady_recording(const SnapshotSource& source);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <numbers>
 
+#include "coupling/documents/enum_names.hpp"
 #include "particles/measurement/frame/flow_snapshot.hpp"
-#include "particles/measurement/intervals.hpp"
+#include "particles/measurement/frame/intervals.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 FlowFrame upright_frame(const Snapshot& snapshot) {
@@ -88,17 +89,11 @@ SlopeEstimate slope_estimate(const Survey& found, double first_guess, const Slop
 }
 
 std::string name_of(FrameSource source) {
-  switch (source) {
-    case FrameSource::isoline:
-      return "isoline";
-    case FrameSource::centre_of_mass:
-      return "centre of mass";
-    case FrameSource::gravity:
-      return "gravity";
-    case FrameSource::domain:
-      return "domain";
-  }
-  return {};
+  static constexpr EnumNames<FrameSource, 4> names{{{FrameSource::isoline, "isoline"},
+                                                    {FrameSource::centre_of_mass, "centre of mass"},
+                                                    {FrameSource::gravity, "gravity"},
+                                                    {FrameSource::domain, "domain"}}};
+  return name_in(names, source);
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -1,5 +1,5 @@
 #pragma once
-// The first reading of a run: in which frame it is measured, and how it changes over time.
+// Survey of a run, its first reading: the frame to measure in, and the series over time.
 #include <cstddef>
 #include <functional>
 #include <limits>
@@ -9,7 +9,7 @@
 #include "particles/measurement/frame/flow_frame.hpp"
 #include "particles/measurement/frame/recording.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// How the direction of the surface was found.
 enum class FrameSource { isoline, centre_of_mass, gravity, domain };
@@ -41,4 +41,4 @@ struct SlopeEstimate {
 };
 SlopeEstimate slope_estimate(const Survey& found, double first_guess, const SlopeOptions& options);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -94,4 +94,4 @@ void add_cell_columns(const Slice& slice, const CellSlice& cells, SliceProfiles&
   }
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -8,7 +8,7 @@
 #include "particles/measurement/grains/voronoi_cells.hpp"
 #include "particles/measurement/layers/slice.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// Sums over the grains with a cell whose centres lie in one layer.
 struct CellLayerSum {
@@ -35,4 +35,4 @@ void add_snapshot(const Slice& slice, const Snapshot& snapshot, const FlowSnapsh
 /// the slice and to those without one batch each.
 void add_cell_columns(const Slice& slice, const CellSlice& cells, SliceProfiles& measured);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

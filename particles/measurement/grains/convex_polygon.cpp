@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 double cross(PlanePoint a, PlanePoint b) { return a.x * b.z - a.z * b.x; }
@@ -158,4 +158,4 @@ RoundedArea area_within(const ConvexPolygon& polygon, std::span<const Circle> di
   return result;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

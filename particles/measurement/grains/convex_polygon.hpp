@@ -1,10 +1,9 @@
 #pragma once
-// A convex polygon that is cut by lines, and its exact area within discs: what a cell of a tessellation is
-// made of.
+// A convex polygon that is cut by lines, with its exact area within discs: a cell of a tessellation.
 #include <span>
 #include <vector>
 
-namespace drumlin {
+namespace drumlin::particles {
 
 struct PlanePoint {
   double x = 0, z = 0;
@@ -44,4 +43,4 @@ struct RoundedArea {
 /// circles.
 RoundedArea area_within(const ConvexPolygon& polygon, std::span<const Circle> discs);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 using std::numbers::pi;
@@ -75,4 +75,4 @@ GrainFields grain_fields(const Snapshot& snapshot, const FlowSnapshot& in_frame,
   return fields;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

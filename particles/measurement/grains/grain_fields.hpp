@@ -1,5 +1,5 @@
 #pragma once
-// What each grain of a snapshot is given: the fields from which the paper's profiles are averages (Sec. II).
+// Fields of each grain of a snapshot; the paper's profiles are averages of them (Sec. II).
 #include <cstdint>
 #include <initializer_list>
 #include <vector>
@@ -8,7 +8,7 @@
 #include "particles/measurement/grains/voronoi_cells.hpp"
 #include "particles/measurement/maps/velocity_map.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 enum class GrainField {
   cell,  ///< area of the Voronoi cell, volume fraction in it
@@ -63,4 +63,4 @@ struct GrainFields {
 GrainFields grain_fields(const Snapshot& snapshot, const FlowSnapshot& in_frame, const GrainFieldSet& wanted,
                          const VelocityMap* mean_velocity = nullptr, const VoronoiOptions& options = {});
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -183,4 +183,4 @@ std::vector<VoronoiCell> voronoi_cells(const Snapshot& snapshot, const VoronoiOp
   return cells;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "particles/bodies/snapshot.hpp"
 #include "particles/measurement/grains/convex_polygon.hpp"
-#include "particles/measurement/snapshot.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// The line that parts two grains.
 enum class Tessellation {
@@ -74,4 +74,4 @@ class VoronoiTessellation {
 /// All cells of a snapshot, in the order of its grains.
 std::vector<VoronoiCell> voronoi_cells(const Snapshot& snapshot, const VoronoiOptions& options = {});
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

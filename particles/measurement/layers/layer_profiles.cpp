@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -167,4 +167,4 @@ ProfileSet layer_profiles(const LayerGrid& grid, const LayerSums& sums, double s
   return std::move(columns.profiles);
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -1,9 +1,9 @@
 #pragma once
-// From the sums of the layers to the profiles of the paper (docs/theory/measurement.md defines each column).
+// Profiles from the sums of the layers (docs/theory/measurement.md defines each column).
 #include "coupling/exchange/profile_set.hpp"
 #include "particles/measurement/layers/layer_sums.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// z in the frame of the grid at which the volume fraction crosses `surface_nu`: the highest such place,
 /// linear between the middles of layers. NaN when it never does.
@@ -15,4 +15,4 @@ double surface_height(const LayerGrid& grid, const LayerSums& sums, double surfa
 /// above the highest grain and outside the container are left out. NaN where a layer holds too little.
 ProfileSet layer_profiles(const LayerGrid& grid, const LayerSums& sums, double surface_z);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 /// Every sum in turn, so that none is forgotten when batches are added or taken apart.
@@ -183,4 +183,4 @@ void add_snapshot(const LayerGrid& grid, const FlowSnapshot& snapshot, LayerSums
   ++sums.snapshots;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

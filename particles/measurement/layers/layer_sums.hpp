@@ -1,12 +1,12 @@
 #pragma once
-// What the layers of a slice hold, summed over snapshots; sums of batches can be added and taken apart again.
+// Sums over the layers of a slice and over snapshots; sums of batches can be added and subtracted.
 #include <cstddef>
 #include <vector>
 
 #include "particles/measurement/frame/disc_area.hpp"
 #include "particles/measurement/frame/flow_snapshot.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// Layers across a slice, in a flow frame. Layer l covers z_min + l thickness ... z_min + (l + 1) thickness.
 struct LayerGrid {
@@ -58,4 +58,4 @@ struct LayerSums {
 /// Adds one snapshot, seen in the grid's frame. `sums.layers` must have the grid's length.
 void add_snapshot(const LayerGrid& grid, const FlowSnapshot& snapshot, LayerSums& sums);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -3,14 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "coupling/exchange/profile_scalars.hpp"
-#include "particles/measurement/measurement.hpp"
+#include "coupling/statistics/straight_line.hpp"
+#include "particles/measurement/frame/measurement_frame.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 constexpr double none = ProfileScalars::none;
@@ -97,19 +99,16 @@ double power_of_I(const ProfileSet& profiles, Zone zone, const std::string& name
   const ProfileColumn* column = profiles.find(name);
   if (!column) return none;
   const auto &I = profiles.column("I").value, &rate = profiles.column("shear_rate").value;
-  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+  std::vector<double> log_I, log_ratio;
   for (std::size_t l = 0; l < profiles.z.size(); ++l) {
     if (!(profiles.z[l] >= zone.bottom && profiles.z[l] <= zone.top && I[l] >= I_min)) continue;
-    const double log_I = std::log(I[l]), log_ratio = std::log(column->value[l] / rate[l]);
-    if (!std::isfinite(log_ratio)) continue;
-    n += 1;
-    x += log_I;
-    y += log_ratio;
-    xx += log_I * log_I;
-    xy += log_I * log_ratio;
+    const double ratio = std::log(column->value[l] / rate[l]);
+    if (!std::isfinite(ratio)) continue;
+    log_I.push_back(std::log(I[l]));
+    log_ratio.push_back(ratio);
   }
-  const double spread = xx - x * x / n;
-  return n >= 3 && spread > 0 ? (xy - x * y / n) / spread : none;
+  const auto line = log_I.size() < 3 ? std::nullopt : statistics::fit_line(log_I, log_ratio);
+  return line ? line->slope : none;
 }
 
 void add_gradient_scalars(const ProfileSet& profiles, Zone flowing, Zone still, Zone whole,
@@ -193,4 +192,4 @@ ScalarSet packing_scalars(const ProfileSet& profiles, const ProfilePlace& place,
   return result;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -3,7 +3,7 @@
 #include "coupling/exchange/profile_set.hpp"
 #include "coupling/exchange/scalar_set.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 struct MeasurementOptions;
 
@@ -18,4 +18,4 @@ struct ProfilePlace {
 ScalarSet packing_scalars(const ProfileSet& profiles, const ProfilePlace& place,
                           const MeasurementOptions& options);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

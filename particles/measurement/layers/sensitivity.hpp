@@ -1,11 +1,12 @@
 #pragma once
-// The scalars by other windows than those of their definitions: how much hangs on the choice.
+// Sensitivity of the scalars to the windows of their definitions.
 #include <string>
+#include <vector>
 
 #include "coupling/exchange/profile_set.hpp"
 #include "coupling/exchange/scalar_set.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// All scalars with one window changed. Values alone: the snapshots are the same, so that their scatter
 /// cancels in the difference to the standard definition.
@@ -15,4 +16,17 @@ struct ScalarVariant {
   ProfileSet profiles;  ///< by this window; without intervals
 };
 
-}  // namespace drumlin
+/// How far a scalar moves under other windows than its own.
+struct ScalarSensitivity {
+  struct Change {
+    std::string change;
+    double value = 0;
+  };
+  std::vector<Change> changes;  ///< those that move it
+  double lowest = 0, highest = 0;
+  std::string strongest;  ///< the change that moves it most
+};
+/// Empty `changes` when nothing moves it or no variants were computed.
+ScalarSensitivity sensitivity_of(const Scalar& scalar, const std::vector<ScalarVariant>& variants);
+
+}  // namespace drumlin::particles

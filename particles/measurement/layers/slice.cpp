@@ -5,10 +5,10 @@
 #include <string>
 #include <utility>
 
-#include "particles/measurement/intervals.hpp"
+#include "particles/measurement/frame/intervals.hpp"
 #include "particles/measurement/layers/layer_profiles.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -128,4 +128,4 @@ void add_gradients(SliceProfiles& centre, const SliceProfiles& west, const Slice
     add_gradient_columns(centre.leave_one_out[b], west.leave_one_out[b], east.leave_one_out[b], distance);
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -1,12 +1,12 @@
 #pragma once
-// A slice of the packing: its layers summed batch by batch, and the profiles with intervals that come of it.
+// A slice of the packing: its layers summed batch by batch, and its profiles with intervals.
 #include <cstddef>
 #include <vector>
 
 #include "coupling/exchange/profile_set.hpp"
 #include "particles/measurement/layers/layer_sums.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// Sums of the layers of one grid, one entry per batch of snapshots.
 struct Slice {
@@ -41,4 +41,4 @@ void add_intervals(SliceProfiles& measured);
 void add_gradients(SliceProfiles& centre, const SliceProfiles& west, const SliceProfiles& east,
                    double distance);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 #include "particles/measurement/layers/packing_scalars.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
@@ -182,4 +182,4 @@ std::vector<ScalarVariant> scalar_variants(const VariantSlices& variants, const 
   return result;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

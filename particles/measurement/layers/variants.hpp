@@ -1,14 +1,15 @@
 #pragma once
-// The scalars by other windows: what is summed in the second reading for it, and what comes out.
+// Slices by other windows, summed in the second reading, and the scalars by each of them.
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "particles/measurement/frame/measurement_frame.hpp"
+#include "particles/measurement/layers/sensitivity.hpp"
 #include "particles/measurement/layers/slice.hpp"
-#include "particles/measurement/measurement.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// The layers of a slice of `width` about `position`. Throws InputError when it leaves the drum.
 LayerGrid slice_grid(const MeasurementFrame& place, double position, double width, double thickness);
@@ -42,4 +43,4 @@ std::vector<ScalarVariant> scalar_variants(const VariantSlices& variants, const 
                                            double wall_height, double frame_angle,
                                            const MeasurementOptions& options);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "coupling/exchange/plane_invariants.hpp"
-#include "particles/measurement/intervals.hpp"
+#include "particles/measurement/frame/intervals.hpp"
 #include "particles/measurement/maps/spline_kernel.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -285,4 +285,4 @@ FieldMap field_maps(const CoarseGraining& graining, std::span<const MapSums> bat
   return map;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

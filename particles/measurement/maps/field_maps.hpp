@@ -1,10 +1,10 @@
 #pragma once
-// From sums at the nodes to maps with intervals (docs/theory/coarse-graining.md defines each field).
+// Maps with intervals from the sums at their nodes (docs/theory/coarse-graining.md defines each field).
 #include <span>
 
 #include "particles/measurement/maps/map_sums.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// Least volume fraction at which a node has more than its volume fraction: above the surface a few grains in
 /// flight would stand for a field.
@@ -17,4 +17,4 @@ constexpr double least_map_nu = 0.05;
 FieldMap field_maps(const CoarseGraining& graining, std::span<const MapSums> batches, double container_radius,
                     double surface_z);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -5,9 +5,10 @@
 #include <map>
 #include <utility>
 
-#include "particles/measurement/intervals.hpp"
+#include "coupling/statistics/straight_line.hpp"
+#include "particles/measurement/frame/intervals.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 double wall_distance(const MapBounds& bounds, double x, double z) {
@@ -95,29 +96,19 @@ BalanceResidual residual_over(const FieldMap& map, const std::vector<std::size_t
                      root_mean_square(map.field("inertia_z").value, nodes))};
 }
 
-struct Point {
-  double log_I, y;
+struct Points {
+  std::vector<double> log_I, y;
 };
 
-LogLine line_through(const std::vector<Point>& points) {
+LogLine line_through(const Points& points) {
   LogLine line;
-  line.nodes = points.size();
-  const auto n = static_cast<double>(points.size());
-  double sx = 0, sy = 0;
-  for (const Point& point : points) {
-    sx += point.log_I / n;
-    sy += point.y / n;
+  line.nodes = points.y.size();
+  if (line.nodes < 3) return line;
+  if (const auto fit = statistics::fit_line(points.log_I, points.y)) {
+    line.a = fit->intercept;
+    line.b = fit->slope;
+    line.rms = std::sqrt(fit->chi_squared / static_cast<double>(line.nodes));
   }
-  double sxx = 0, sxy = 0, squares = 0;
-  for (const Point& point : points) {
-    sxx += (point.log_I - sx) * (point.log_I - sx);
-    sxy += (point.log_I - sx) * (point.y - sy);
-  }
-  if (points.size() < 3 || !(sxx > 0)) return line;
-  line.b = sxy / sxx;
-  line.a = sy - line.b * sx;
-  for (const Point& point : points) squares += std::pow(point.y - line.a - line.b * point.log_I, 2);
-  line.rms = std::sqrt(squares / n);
   return line;
 }
 
@@ -153,25 +144,28 @@ MomentumBalance momentum_balance(const FieldMap& map, const MapBounds& bounds,
   return {over(bulk), over(flowing), over(slow)};
 }
 
-FrictionCollapse friction_collapse(const FieldMap& map, const MapBounds& bounds,
-                                   const MapFindingOptions& options, std::size_t batches) {
+BulkFriction bulk_friction(const FieldMap& map, const MapBounds& bounds, const MapFindingOptions& options,
+                           std::size_t batches) {
   const auto &I = map.field("I").value, &mu = map.field("mu").value;
   const auto &rate = map.field("d_v_x_dz").value, &sigma_xz = map.field("sigma_xz").value,
              &sigma_zz = map.field("sigma_zz").value;
   const auto in_range = [&](double value) { return value >= options.I_min && value <= options.I_max; };
-  std::vector<Point> by_invariants, by_ratio;
+  Points by_invariants, by_ratio;
   std::vector<std::size_t> fitted;
   const auto bulk = bulk_nodes(map, bounds, options);
   for (std::size_t node : bulk) {
     if (in_range(I[node])) {
       fitted.push_back(node);
-      by_invariants.push_back({std::log(I[node]), mu[node]});
+      by_invariants.log_I.push_back(std::log(I[node]));
+      by_invariants.y.push_back(mu[node]);
     }
     const double layer_I = rate[node] / std::sqrt(sigma_zz[node]);
-    if (in_range(layer_I)) by_ratio.push_back({std::log(layer_I), sigma_xz[node] / sigma_zz[node]});
+    if (!in_range(layer_I)) continue;
+    by_ratio.log_I.push_back(std::log(layer_I));
+    by_ratio.y.push_back(sigma_xz[node] / sigma_zz[node]);
   }
   return {line_through(by_invariants), line_through(by_ratio), bulk.size(),
           noise_of(map.field("mu"), fitted, batches)};
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -1,13 +1,12 @@
 #pragma once
-// What the maps of a run say as a whole: whether momentum is balanced, and how well one mu(I) holds
-// everywhere.
+// Balance of momentum and fit of mu(I) over the whole of a map.
 #include <cstddef>
 #include <limits>
 #include <vector>
 
 #include "coupling/exchange/field_map.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// Where the packing ends, in the coordinates of the map.
 struct MapBounds {
@@ -58,13 +57,13 @@ struct LogLine {
 
 /// mu(I) over the bulk: by invariants (mu = |tau|/p over I), and as layers have it (sigma_xz/sigma_zz over
 /// dv_x/dz / sqrt(sigma_zz), where that is positive).
-struct FrictionCollapse {
+struct BulkFriction {
   LogLine invariant, ratio;
   std::size_t bulk = 0;  ///< nodes of the bulk
   double noise =
       std::numeric_limits<double>::quiet_NaN();  ///< rms standard error of mu over the invariant's nodes
 };
-FrictionCollapse friction_collapse(const FieldMap& map, const MapBounds& bounds,
-                                   const MapFindingOptions& options, std::size_t batches);
+BulkFriction bulk_friction(const FieldMap& map, const MapBounds& bounds, const MapFindingOptions& options,
+                           std::size_t batches);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -4,10 +4,10 @@
 #include <numbers>
 #include <string>
 
-#include "coupling/exchange/errors.hpp"
+#include "coupling/common/errors.hpp"
 #include "particles/measurement/maps/spline_kernel.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 constexpr std::size_t most_nodes = static_cast<std::size_t>(4 * most_spacings_per_width) + 1;
@@ -240,4 +240,4 @@ void MapDepositor::add(const Snapshot& snapshot, const FlowSnapshot& in_frame, M
   sums.with_contacts = sums.with_contacts && in_frame.contacts_known;
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -1,6 +1,6 @@
 #pragma once
-// What coarse graining adds up at the nodes of a map. All of it is linear in the snapshots: sums of batches
-// can be added and taken apart again, ratios come last (field_maps.hpp).
+// Sums of coarse graining at the nodes of a map. All of them are linear in the snapshots: sums of batches
+// can be added and subtracted, ratios come last (field_maps.hpp).
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -8,7 +8,7 @@
 #include "coupling/exchange/field_map.hpp"
 #include "particles/measurement/frame/flow_snapshot.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// How grains become fields. Lengths in d.
 struct CoarseGraining {
@@ -75,4 +75,4 @@ class MapDepositor {
   std::vector<double> force_x_, force_z_;  ///< of all contacts, per grain
 };
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// Cubic B-spline with knots one apart, integral 1, zero for |u| >= 2; variance 1/3. It is the density of the
 /// sum of four numbers drawn evenly from [-1/2, 1/2].
@@ -29,4 +29,4 @@ inline double spline_integral(double u) {
 /// distance of the knots. Error below 1e-4.
 double kernel_share_in_circle(double x, double z, double width, double radius);
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

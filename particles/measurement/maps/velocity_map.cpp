@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace drumlin {
+namespace drumlin::particles {
 namespace {
 
 constexpr double least_grains = 10;
@@ -65,4 +65,4 @@ std::array<double, 2> VelocityMap::at(double x, double z) const {
   return {v_x / weights, v_z / weights};
 }
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

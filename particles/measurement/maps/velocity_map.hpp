@@ -1,12 +1,12 @@
 #pragma once
-// Mean velocity at each place of the flow frame: what fluctuations of single grains are counted from.
+// Map of the mean velocity in the flow frame, from which fluctuations of single grains are counted.
 #include <array>
 #include <cstddef>
 #include <vector>
 
 #include "particles/measurement/frame/flow_snapshot.hpp"
 
-namespace drumlin {
+namespace drumlin::particles {
 
 /// Means over the grains whose centres lie in square cells of 1 d, over all snapshots added.
 class VelocityMap {
@@ -31,4 +31,4 @@ class VelocityMap {
   std::vector<Sum> cells_;
 };
 
-}  // namespace drumlin
+}  // namespace drumlin::particles

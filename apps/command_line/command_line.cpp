@@ -1,0 +1,165 @@
+#include "apps/command_line/command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <sstream>
+
+#include "apps/command_line/checked_options.hpp"
+#include "apps/command_line/command_options.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/common/provenance.hpp"
+
+namespace drumlin::apps {
+
+namespace {
+
+/// All commands with the options that they fill in; `request` receives those of the chosen one.
+class CommandLine {
+ public:
+  explicit CommandLine(const std::vector<std::string>& solvers)
+      : app_("Drumlin: dense granular flow, grains and continuum") {
+    app_.name("drumlin");
+    app_.set_version_flag("--version", version());
+    app_.require_subcommand(1);
+    app_.footer(
+        "Exit codes: 0 done, 2 wrong usage or input, 3 not converged, 74 input/output, 130 interrupted, 143 "
+        "terminated.\n"
+        "Each command has its own --help.");
+    add_run_options(add_command("run", "Runs a particle scene", run_), run_);
+    add_measure();
+    add_import_options(
+        add_command("import", "Makes a run folder of another program's snapshots (CSV, LAMMPS dumps)",
+                    import_),
+        import_);
+    add_plot_options(add_command("plot", "Draws a run: grains, force chains, accuracy and cost", plot_),
+                     plot_);
+    add_export_options(add_command("export", "Writes a run in a format of other programs", export_), export_);
+    add_calibrate_options(
+        add_command("calibrate", "Fits mu(I), and k(I) on request, to measured runs", calibrate_),
+        calibrate_);
+    add_flow_options(add_command("flow", "Solves the continuum flow with a law (starts drumlin-flow)", flow_),
+                     flow_);
+    add_compare();
+    add_scene();
+    add_solve_contacts_options(
+        add_command("solve-contacts", "Solves one contact problem from a file", solve_contacts_),
+        solve_contacts_, solvers);
+    add_cost_options(
+        add_command("cost", "What accuracy costs in a scene, or its effects (docs/cost.md)", cost_), cost_);
+    add_hardcases_options(
+        add_command("hardcases", "Runs cases with known outcomes through the engine (docs/hard-cases.md)",
+                    hardcases_),
+        hardcases_);
+  }
+
+  Request parse(int argc, const char* const* argv) {
+    try {
+      app_.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+      std::ostringstream shown, fault;
+      if (app_.exit(error, shown, fault) == 0) return TextToShow{shown.str()};
+      std::string text = fault.str();
+      while (!text.empty() && text.back() == '\n') text.pop_back();
+      throw InputError(text);
+    }
+    return request_();
+  }
+
+ private:
+  static std::string version() {
+    const Provenance p = provenance();
+    return fmt::format("drumlin {} ({}, {})", p.revision, p.compiler, p.build_type);
+  }
+
+  template <class Options>
+  CLI::App& add_command(const std::string& name, const std::string& sentence, const Options& options) {
+    CLI::App* command = app_.add_subcommand(name, sentence);
+    command->callback([this, &options] { request_ = [&options]() -> Request { return options; }; });
+    return *command;
+  }
+
+  /// Either one run is measured, or measured ones are studied together.
+  void add_measure() {
+    CLI::App& command = add_command("measure", "Profiles and scalars of a run, into RUN/measured", measure_);
+    add_measure_options(command, measure_, study_);
+    command.callback([this] {
+      if (study_.runs.empty() == measure_.run.empty())
+        throw CLI::RequiredError("one of RUN and --study RUN...");
+      if (study_.runs.empty() != study_.output.empty())
+        throw CLI::RequiredError("--study RUN... together with --output STUDY");
+      study_.existing = measure_.existing;
+      request_ = [this]() -> Request {
+        if (study_.runs.empty()) return measure_;
+        return study_;
+      };
+    });
+  }
+
+  /// Either a pair is compared, or all speeds of both sides are.
+  void add_compare() {
+    CLI::App& command = add_command("compare", "Sets a run and a continuum flow side by side", compare_);
+    add_compare_options(command, compare_, compare_study_);
+    command.callback([this] {
+      const bool is_study = !compare_study_.folders.empty();
+      const bool is_pair = !compare_.run.empty() && !compare_.flow_run.empty();
+      if (is_study ? !compare_.run.empty() : !is_pair)
+        throw CLI::RequiredError("either RUN and FLOWRUN, or --study DIR...,");
+      compare_study_.output = compare_.output;
+      compare_study_.existing = compare_.existing;
+      request_ = [this]() -> Request {
+        if (compare_study_.folders.empty()) return compare_;
+        return compare_study_;
+      };
+    });
+  }
+
+  void add_scene() {
+    CLI::App* scene = app_.add_subcommand("scene", "Checks, shows and explains scene files");
+    scene->require_subcommand(1);
+    const auto add_action = [&](const std::string& name, SceneAction action, const std::string& sentence) {
+      CLI::App* command = scene->add_subcommand(name, sentence);
+      command->callback([this, action] {
+        scene_.action = action;
+        request_ = [this]() -> Request { return scene_; };
+      });
+      return command;
+    };
+    for (auto [name, action, sentence] :
+         {std::tuple("check", SceneAction::check, "Validates a scene and says what it amounts to"),
+          std::tuple("show", SceneAction::show, "Prints a scene with all its defaults")}) {
+      CLI::App* command = add_action(name, action, sentence);
+      add_folder_or_file(*command, "scene", scene_.scene, "SCENE.toml", "Scene file");
+      add_overrides(*command, scene_.overrides);
+    }
+    CLI::App* keys =
+        add_action("keys", SceneAction::keys, "Lists every key with unit, range, default and meaning");
+    keys->add_flag("--markdown", scene_.markdown, "As the table of docs/formats/scene.md");
+  }
+
+  CLI::App app_;
+  RunOptions run_;
+  MeasureOptions measure_;
+  ImportOptions import_;
+  StudyOptions study_;
+  PlotOptions plot_;
+  ExportOptions export_;
+  CalibrateOptions calibrate_;
+  FlowOptions flow_;
+  CompareOptions compare_;
+  CompareStudyOptions compare_study_;
+  SceneOptions scene_;
+  SolveContactsOptions solve_contacts_;
+  CostOptions cost_;
+  HardcasesOptions hardcases_;
+  std::function<Request()> request_;
+};
+
+}  // namespace
+
+Request parse_command_line(int argc, const char* const* argv, const std::vector<std::string>& solvers) {
+  return CommandLine(solvers).parse(argc, argv);
+}
+
+}  // namespace drumlin::apps

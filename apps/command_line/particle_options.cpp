@@ -1,0 +1,127 @@
+// Options of the commands that run grains and look at their runs.
+#include <CLI/CLI.hpp>
+
+#include "apps/command_line/checked_options.hpp"
+#include "apps/command_line/command_options.hpp"
+
+namespace drumlin::apps {
+
+void add_run_options(CLI::App& command, RunOptions& options) {
+  add_folder_or_file(command, "scene", options.scene, "SCENE.toml", "Scene file (docs/formats/scene.md)");
+  add_folder_or_file(command, "-o,--output", options.output, "RUN", "Folder for the results");
+  add_overrides(command, options.overrides);
+  add_number(command, "--threads", options.threads, "", at_least(1, 1024),
+             "Threads; the results do not depend on it");
+  add_accuracy(command, options.accuracy);
+  add_existing(command, options.existing, "Continues from the last checkpoint; starts over if there is none");
+}
+
+void add_measure_options(CLI::App& command, MeasureOptions& options, StudyOptions& study) {
+  command.add_option("run", options.run, "Folder of a finished run")->type_name("RUN");
+  command
+      .add_option(
+          "--study", study.runs,
+          "Measured runs to be studied together instead: laws over the speed of rotation, the paper's "
+          "table, figures")
+      ->type_name("RUN...");
+  command.add_option("-o,--output", study.output, "Folder for the study; open its index.html")
+      ->type_name("STUDY");
+  add_number(command, "--slice-width", options.slice_width, "d", above(0),
+             "Width of the slice, across its middle");
+  add_number(command, "--layer-thickness", options.layer_thickness, "d", above(0), "Thickness of the layers");
+  add_number(command, "--position", options.position, "d", anything(),
+             "Place of the slice along the surface, from the middle of the drum, positive downslope");
+  command
+      .add_option(
+          "--parts", options.parts,
+          "What is measured beside the profiles, the rest is neither computed nor stored; none: nothing "
+          "[all of gradients, slices, sensitivity, voronoi, forces, maps]")
+      ->delimiter(',')
+      ->type_name("LIST");
+  add_number(command, "--gradient-step", options.gradient_step, "d", above(0),
+             "Derivatives along x from slices this far to either side");
+  command.add_option("--slices", options.slices, "Places of the narrow slices along the surface, d")
+      ->delimiter(',')
+      ->type_name("X,X,...");
+  add_number(command, "--map-spacing", options.map_spacing, "d", above(0),
+             "Distance of the nodes of the maps");
+  add_number(command, "--map-width", options.map_width, "d", above(0),
+             "Width of their kernel, 1 to 15 times the distance of the nodes");
+  command
+      .add_option(
+          "--grains", options.grains,
+          "Snapshots of which every grain's fields are written: all, last, or numbers and ranges such as "
+          "1,5,10-20")
+      ->type_name("LIST");
+  add_accuracy(command, options.accuracy);
+  add_existing(command, options.existing, keep_what_is_done);
+}
+
+void add_import_options(CLI::App& command, ImportOptions& options) {
+  add_optional_path(command, "description", options.description, "DESCRIPTION.toml",
+                    "What the files are (docs/formats/import.md)");
+  add_optional_path(command, "-o,--output", options.output, "RUN", "Folder for the snapshots");
+  add_overrides(command, options.overrides);
+  command.add_flag("--keys", options.keys,
+                   "Lists every key of a description with unit, range, default and meaning");
+  command.add_flag("--markdown", options.markdown, "With --keys: as the table of docs/formats/import.md");
+  add_existing(command, options.existing, keep_what_is_done);
+}
+
+void add_plot_options(CLI::App& command, PlotOptions& options) {
+  add_folder_or_file(command, "run", options.run, "RUN", "Folder of a run, finished or not");
+  command.add_option("--snapshot", options.snapshot, "Which snapshot is drawn: its number, or last")
+      ->type_name("N")
+      ->capture_default_str();
+  command.add_flag("--animation", options.animation, "Draws the snapshots as an animated GIF as well");
+  add_optional_path(command, "-o,--output", options.output, "DIR",
+                    "Folder for the figures; standard: RUN/plots");
+  add_existing(command, options.existing, keep_what_is_done);
+}
+
+void add_export_options(CLI::App& command, ExportOptions& options) {
+  add_folder_or_file(command, "run", options.run, "RUN", "Folder of a run, finished or not");
+  command.add_flag("--vtu", options.vtu, "VTK files with grains, contacts and walls, for ParaView")
+      ->required();
+  command
+      .add_option("--snapshots", options.snapshots,
+                  "Which snapshots: all, last, or numbers and ranges such as 1,5,10-20")
+      ->type_name("LIST")
+      ->capture_default_str();
+  add_optional_path(command, "-o,--output", options.output, "DIR", "Folder for the files; standard: RUN/vtu");
+  add_existing(command, options.existing, keep_what_is_done);
+}
+
+void add_solve_contacts_options(CLI::App& command, SolveContactsOptions& options,
+                                const std::vector<std::string>& solvers) {
+  add_folder_or_file(command, "problem", options.problem, "PROBLEM.h5",
+                     "Problem in FCLIB's fclib_local layout, spacedim 2");
+  command.add_option("--solver", options.solver, "Contact solver")
+      ->capture_default_str()
+      ->check(CLI::IsMember(solvers));
+  add_number(command, "--tolerance", options.tolerance, "", above(0, 10),
+             "It may stop below this residual (docs/conventions.md)");
+  add_number(command, "--max-seconds", options.max_seconds, "s", above(0),
+             "It stops after this wall time in any case");
+  command
+      .add_option_function<std::string>(
+          "--output", [&options](const std::string& file) { options.output = file; },
+          "File for the solution, r and u under /solution; none is written without")
+      ->type_name("SOL.h5");
+  command.add_flag("--json", options.json, "Prints status, residual, residual_max, sweeps, seconds as JSON");
+}
+
+void add_hardcases_options(CLI::App& command, HardcasesOptions& options) {
+  command.add_option("names", options.names, "Cases; all of them if none is named")->type_name("NAME");
+  command.add_flag("--fast", options.fast, "Only those that are part of ./check: quick, and known to hold");
+  command
+      .add_option_function<std::string>(
+          "-o,--output", [&options](const std::string& folder) { options.output = folder; },
+          "Folder for hardcases.json; none is written without")
+      ->type_name("DIR");
+  command.add_flag_callback(
+      "--overwrite", [&options] { options.existing = ExistingOutput::overwrite; },
+      "Replaces what an earlier call left");
+}
+
+}  // namespace drumlin::apps

@@ -1,0 +1,37 @@
+"""What the scripts of figures share as programs: the JSON file of a command, and drawing one figure after the other."""
+
+import argparse
+import json
+import pathlib
+import sys
+import traceback
+
+import matplotlib.pyplot as plt
+
+
+def content_of(path):
+    return json.loads(pathlib.Path(path).read_text(encoding="utf-8"))
+
+
+def measured_folder(description):
+    """(folder, content of measured.json), from the arguments of a script that draws a measured run."""
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("folder", type=pathlib.Path, help="RUN/measured: holds what was measured and takes the figures")
+    parser.add_argument("--measured", help="the scalars; standard: measured.json in the folder")
+    options = parser.parse_args()
+    return options.folder, content_of(options.measured or options.folder / "measured.json")
+
+
+def draw_each(drawings):
+    """Calls each function of {name of a figure: function}. A figure that fails does not keep the others from being drawn; the
+    program then ends with the names of all that failed, and why."""
+    failed = []
+    for name, draw in drawings.items():
+        try:
+            draw()
+        except (Exception, SystemExit) as error:  # pylint: disable=broad-except
+            place = traceback.extract_tb(error.__traceback__)[-1]
+            failed.append(f"{name}: {type(error).__name__}: {error} ({pathlib.Path(place.filename).name}, line {place.lineno})")
+            plt.close("all")
+    if failed:
+        sys.exit("\n".join(failed))

@@ -1,0 +1,15 @@
+#pragma once
+// The content of flow.json (docs/formats/flow.md).
+#include <nlohmann/json_fwd.hpp>
+
+#include "apps/flow/finished_flow.hpp"
+
+namespace drumlin::apps {
+
+/// Format of flow.json, also for readers within apps/flow.
+inline constexpr const char* flow_format = "drumlin-flow-run-2";
+
+/// Only reads what was computed: no collective call.
+nlohmann::ordered_json flow_json(const FinishedFlow& flow);
+
+}  // namespace drumlin::apps

@@ -1,0 +1,178 @@
+#pragma once
+// The commands of `drumlin`: what the command line fills in and the function that does it. Each throws the
+// errors of coupling/common/errors.hpp; drumlin.cpp turns them into exit codes.
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace drumlin::apps {
+
+/// What to do with an output folder that exists already.
+enum class ExistingOutput { refuse, resume, overwrite };
+
+struct RunOptions {
+  std::filesystem::path scene;
+  std::filesystem::path output;
+  std::vector<std::string> overrides;  ///< "key=value"
+  int threads = 1;
+  std::optional<std::filesystem::path>
+      accuracy;  ///< COST of the scene; absent: a shipped record, if there is one
+  ExistingOutput existing = ExistingOutput::refuse;
+};
+int run(const RunOptions&);
+
+struct MeasureOptions {
+  std::filesystem::path run;
+  double slice_width = 20;         ///< d
+  double layer_thickness = 1;      ///< d
+  double position = 0;             ///< x of the slice, d
+  std::vector<std::string> parts;  ///< beside the profiles; empty: all, "none": none (measure/part.hpp)
+  double gradient_step = 5;        ///< d
+  std::vector<double> slices;      ///< positions of the narrow slices, d; empty: spread over the surface
+  double map_spacing = 1;          ///< d, of the nodes of the maps
+  double map_width = 1;            ///< d, of their kernel
+  std::string grains;  ///< snapshots whose grains get their fields written, a list as in export; empty: none
+  std::optional<std::filesystem::path>
+      accuracy;  ///< COST of the scene; absent: a shipped record, if there is one
+  ExistingOutput existing = ExistingOutput::refuse;
+};
+int measure(const MeasureOptions&);
+
+struct StudyOptions {
+  std::vector<std::filesystem::path> runs;
+  std::filesystem::path output;
+  ExistingOutput existing = ExistingOutput::refuse;
+};
+/// `drumlin measure --study`: several measured runs together.
+int study(const StudyOptions&);
+
+struct ImportOptions {
+  std::optional<std::filesystem::path> description;
+  std::optional<std::filesystem::path> output;
+  std::vector<std::string> overrides;
+  bool keys = false;      ///< lists the keys of a description; nothing else
+  bool markdown = false;  ///< keys as a Markdown table
+  ExistingOutput existing = ExistingOutput::refuse;
+};
+/// Makes a run folder of the snapshots of another program.
+int import_foreign(const ImportOptions&);
+
+struct PlotOptions {
+  std::filesystem::path run;
+  std::optional<std::filesystem::path> output;  ///< standard: RUN/plots
+  std::string snapshot = "last";                ///< or its number, from 1
+  bool animation = false;
+  ExistingOutput existing = ExistingOutput::refuse;
+};
+int plot(const PlotOptions&);
+
+struct ExportOptions {
+  std::filesystem::path run;
+  std::optional<std::filesystem::path> output;  ///< standard: RUN/vtu
+  bool vtu = false;                             ///< the one format so far
+  std::string snapshots = "all";                ///< "all", "last", or "1,5,10-20"
+  ExistingOutput existing = ExistingOutput::refuse;
+};
+int export_run(const ExportOptions&);
+
+struct CalibrateOptions {
+  std::vector<std::filesystem::path> runs;
+  std::vector<std::filesystem::path> validate;  ///< runs that the law is not fitted on but has to predict
+  std::filesystem::path output;
+  std::string from = "auto";  ///< maps, profiles; auto: maps where all runs have them
+  std::string law = "auto";   ///< log, log-linear, table; auto: table where there are points enough, else log
+  std::optional<double> I_min;  ///< absent: 1e-4 of profiles, 3e-5 of maps
+  std::optional<double> I_max;  ///< absent: 1e-1 of profiles, 1 of maps
+  int draws = 200;
+  bool k = false;
+  bool misalignment = false;
+  bool relaxation = false;
+  bool accept_unsteady = false;
+  ExistingOutput existing = ExistingOutput::refuse;
+};
+int calibrate(const CalibrateOptions&);
+
+struct FlowOptions {
+  std::filesystem::path scene;
+  std::filesystem::path rheology;
+  std::filesystem::path output;
+  std::optional<std::filesystem::path> from;  ///< FLOWRUN to start from; absent: cold
+  std::vector<std::string> overrides;
+  int law_draws = 8;  ///< laws of other draws that are solved as well, for the band of the law
+  ExistingOutput existing = ExistingOutput::refuse;
+};
+/// Starts `drumlin-flow`, which stands beside the running executable, with the same words; returns its exit
+/// code.
+int flow(const FlowOptions&);
+
+struct CompareOptions {
+  std::filesystem::path run;       ///< RUN or FLOWRUN
+  std::filesystem::path flow_run;  ///< FLOWRUN or RUN
+  std::filesystem::path output;
+  std::optional<std::filesystem::path> floor;  ///< another RUN of the first one's drum: the noise floor
+  std::string registration = "axis";           ///< or "surface"
+  bool accept_unsteady = false;
+  ExistingOutput existing = ExistingOutput::refuse;
+};
+int compare(const CompareOptions&);
+
+struct CompareStudyOptions {
+  std::vector<std::filesystem::path> folders;  ///< measured runs and continuum flows, in any order
+  std::filesystem::path output;
+  ExistingOutput existing = ExistingOutput::refuse;
+};
+/// `drumlin compare --study`: both sides over the speed of rotation.
+int compare_study(const CompareStudyOptions&);
+
+enum class SceneAction { check, show, keys };
+struct SceneOptions {
+  SceneAction action = SceneAction::check;
+  std::filesystem::path scene;  ///< unused for keys
+  bool markdown = false;        ///< keys as a Markdown table
+  std::vector<std::string> overrides;
+};
+int scene(const SceneOptions&);
+
+struct SolveContactsOptions {
+  std::filesystem::path problem;
+  std::string solver = "accelerated";
+  double tolerance = 1e-4;
+  double max_seconds = 60;
+  std::optional<std::filesystem::path> output;
+  bool json = false;
+};
+int solve_contacts(const SolveContactsOptions&);
+
+struct CostOptions {
+  std::filesystem::path scene;  ///< of particles or of a flow
+  bool effects = false;         ///< the price list of the scene's effects, in place of a sweep
+  std::optional<std::filesystem::path> output;  ///< a sweep needs it
+  std::vector<std::string> overrides;
+  double seconds = 1;               ///< of --effects, simulated, from the start of the scene
+  std::vector<std::string> sweep;   ///< "tolerance" or "tolerance=1e-2:1e-3"; empty: all that the scene has
+  std::optional<double> horizon_s;  ///< over which velocities are compared; absent: 16 steps of the scene
+  std::optional<double> statistics_s;             ///< length of a run whose measured numbers are compared
+  std::optional<std::filesystem::path> from;      ///< RUN to start from, of the same scene
+  std::optional<std::filesystem::path> rheology;  ///< of a flow scene, which needs one
+  std::vector<int> ranks = {1};                   ///< flows: numbers of MPI processes on which each is solved
+  std::vector<std::string> neighbour;  ///< flows: changes that make the neighbour to start from; empty: none
+  int repeats = 1;                     ///< flows: solves of each, of which least and median time are kept
+  std::optional<double> time_limit_s;  ///< flows: after which one is given up
+  std::vector<std::string> variants;   ///< of --effects, flows: "inertia+k"; empty: each effect alone
+  std::vector<std::filesystem::path> against;  ///< of --effects, flows: measured runs to be compared with
+  int threads = 1;
+  ExistingOutput existing = ExistingOutput::refuse;
+};
+int cost(const CostOptions&);
+
+struct HardcasesOptions {
+  std::vector<std::string> names;  ///< none: all
+  bool fast = false;               ///< only those that are part of ./check
+  std::optional<std::filesystem::path> output;
+  ExistingOutput existing = ExistingOutput::refuse;
+};
+/// Runs cases with known outcomes; not_converged (3) if one fails.
+int hardcases(const HardcasesOptions&);
+
+}  // namespace drumlin::apps

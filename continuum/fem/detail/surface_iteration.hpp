@@ -1,0 +1,27 @@
+#pragma once
+// Iteration for the shape of a moving surface, whose normal stress has to vanish. Private to fem/.
+#include <functional>
+#include <memory>
+
+#include "continuum/fem/detail/moving_surface.hpp"
+
+namespace drumlin::continuum::fem {
+
+/// What the iteration needs of the solver: Newton's method on the mesh as it stands, and a solution from the
+/// level's state, near the last one.
+struct SurfaceSolver {
+  std::function<std::unique_ptr<Newton>()> newton;
+  std::function<bool(Newton&)> solve;
+  std::function<void(const SurfaceStepReport&)> stepped;  ///< empty: not observed
+  double tolerance = 0;                                   ///< d; where it is larger than the problem's
+};
+
+/// Newton's method on the shape: its free coefficients against those of what presses on it, with the response
+/// of the flow from differences. From step to step, and from mesh to mesh, the response is corrected by what
+/// was seen (Broyden); where a step with it does not lessen the misfit it is formed anew, and where that does
+/// not help steps are halved. The level has to be solved with the surface as it is; `response` is empty, or
+/// that of a coarser mesh, and is kept for a finer one.
+bool solve_surface(const SurfaceSolver&, SolvedLevel&, int mesh, dealii::FullMatrix<double>& response,
+                   FlowReport&);
+
+}  // namespace drumlin::continuum::fem

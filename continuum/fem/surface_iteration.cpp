@@ -1,0 +1,158 @@
+#include "continuum/fem/detail/surface_iteration.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace drumlin::continuum::fem {
+namespace {
+
+using Response = dealii::FullMatrix<double>;
+
+std::vector<double> free_part(const FlowProblem& problem, const std::vector<double>& coefficient) {
+  return {coefficient.begin() + static_cast<long>(first_free(problem)), coefficient.end()};
+}
+
+// The shape after a change of its free coefficients.
+SurfaceShape changed(const FlowProblem& problem, SurfaceShape shape, const std::vector<double>& step) {
+  for (std::size_t i = 0; i < step.size(); ++i) shape.coefficient[first_free(problem) + i] += step[i];
+  restrain(shape, slope_half_length(problem));
+  return shape;
+}
+
+// Broyden's update: the smallest change of the response that explains `answer` to `step`.
+void correct(Response& response, const std::vector<double>& step, const std::vector<double>& answer) {
+  double square = 0;
+  for (const double s : step) square += s * s;
+  for (std::size_t i = 0; i < step.size(); ++i) {
+    double missing = answer[i];
+    for (std::size_t j = 0; j < step.size(); ++j) missing -= response(i, j) * step[j];
+    for (std::size_t j = 0; j < step.size(); ++j) response(i, j) += missing * step[j] / square;
+  }
+}
+
+// Newton's step on the shape, no higher than `largest` anywhere.
+std::vector<double> step_of(const FlowProblem& problem, const Response& response, const SurfaceMisfit& misfit,
+                            double largest) {
+  std::vector<double> step = solution_of(response, free_part(problem, misfit.coefficient));
+  double size = 0;
+  for (double& s : step) size += std::abs(s = -s);
+  if (size > largest)
+    for (double& s : step) s *= largest / size;
+  return step;
+}
+
+// One flow with the surface in another place. False, where cells or Newton's method fail.
+bool solve_moved(const SurfaceSolver& solver, SolvedLevel& level, const SurfaceShape& shape) {
+  auto& d = *level.discretisation;
+  if (!d.move_surface(level.problem, shape)) return false;
+  d.rebuild_pattern();
+  d.constraints.distribute(level.state.solution);
+  level.state.solution.update_ghost_values();
+  return solver.solve(*solver.newton());
+}
+
+class Iteration {
+ public:
+  Iteration(const SurfaceSolver& solver, SolvedLevel& level, int mesh, Response& response, FlowReport& report)
+      : solver_(solver), level_(level), mesh_(mesh), response_(response), report_(report), now_(misfit()) {
+    record(0, 0);
+  }
+  const SurfaceMisfit& now() const { return now_; }
+
+  // One step that lessens the misfit; false if none is found.
+  bool step() {
+    if (response_.m() > 0 && try_step(1)) return true;
+    if (interrupted() || !form_response()) return false;
+    for (double share = 1; share > 0.05; share *= 0.5) {
+      if (try_step(share)) return true;
+      if (interrupted()) return false;
+    }
+    return false;
+  }
+
+ private:
+  SurfaceMisfit misfit() const {
+    return surface_misfit(level_.problem, *level_.discretisation, level_.state);
+  }
+  bool interrupted() const { return report_.failure == "interrupted"; }
+
+  bool form_response() {
+    const auto newton = solver_.newton();
+    if (!solver_.solve(*newton)) return false;
+    response_ = surface_response(*newton, level_);
+    return true;
+  }
+
+  // Leaves mesh and state as they were where the step is none.
+  bool try_step(double share) {
+    constexpr double largest = 8;  // d
+    const FlowProblem& problem = level_.problem;
+    const SurfaceShape shape = level_.discretisation->surface.value();
+    const State before = level_.state;
+    const int iterations = report_.iterations;
+    std::vector<double> step = step_of(problem, response_, now_, largest);
+    for (double& s : step) s *= share;
+    if (solve_moved(solver_, level_, changed(problem, shape, step))) {
+      const SurfaceMisfit next = misfit();
+      if (next.resolved < now_.resolved) {
+        std::vector<double> answer = free_part(problem, next.coefficient);
+        for (std::size_t i = 0; i < answer.size(); ++i)
+          answer[i] -= now_.coefficient[first_free(problem) + i];
+        correct(response_, step, answer);
+        // One that explains so little is none to go on with.
+        if (next.resolved > 0.5 * now_.resolved) response_.reinit(0, 0);
+        now_ = next;
+        record(share, report_.iterations - iterations);
+        return true;
+      }
+    }
+    level_.state = before;
+    if (!level_.discretisation->move_surface(problem, shape))
+      throw std::logic_error("cells that were valid are no more");
+    level_.discretisation->rebuild_pattern();
+    return false;
+  }
+
+  void record(double share, int iterations) {
+    const SurfaceShape& shape = level_.discretisation->surface.value();
+    report_.surface_steps.push_back(
+        {mesh_, share, largest_height(shape), now_.resolved, now_.rms, now_.largest, iterations});
+    if (solver_.stepped) solver_.stepped(report_.surface_steps.back());
+  }
+
+  const SurfaceSolver& solver_;
+  SolvedLevel& level_;
+  int mesh_;
+  Response& response_;
+  FlowReport& report_;
+  SurfaceMisfit now_;
+};
+
+}  // namespace
+
+bool solve_surface(const SurfaceSolver& solver, SolvedLevel& level, int mesh, Response& response,
+                   FlowReport& report) {
+  const MovingSurface& effect = level.problem.moving_surface.value();
+  const double tolerance = std::max(solver.tolerance, effect.tolerance);
+  Iteration iteration(solver, level, mesh, response, report);
+  for (int step = 0; iteration.now().resolved > tolerance; ++step) {
+    const std::string state =
+        fmt::format("moving surface, mesh {}: {:.3g} d (rms) still press on it after {} steps", mesh,
+                    iteration.now().resolved, step);
+    if (step == effect.max_steps) {
+      report.failure = state;
+      return false;
+    }
+    if (iteration.step()) continue;
+    if (report.failure != "interrupted")
+      report.failure = state + ", and no step lessens that" +
+                       (report.failure.empty() ? "" : " (last failure: " + report.failure + ")");
+    return false;
+  }
+  return true;
+}
+
+}  // namespace drumlin::continuum::fem

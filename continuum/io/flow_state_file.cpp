@@ -1,0 +1,99 @@
+#include "continuum/io/flow_state_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "coupling/common/errors.hpp"
+#include "coupling/files/h5_image.hpp"
+
+namespace drumlin::continuum {
+namespace {
+
+const std::string state_format = "drumlin-flow-state-1", checkpoint_format = "drumlin-flow-checkpoint-1";
+
+bool all_finite(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+}
+
+void put(const FlowState& state, H5Writer& out) {
+  std::vector<std::int64_t> cells;
+  for (const CellPlace& place : state.cells) cells.insert(cells.end(), place.begin(), place.end());
+  out.add_number("theta", state.theta);
+  out.add("cells", std::span<const std::int64_t>(cells));
+  if (!state.surface.empty()) out.add_table("surface", state.surface, 1);
+  out.add_table("centres", state.centres, 2);
+  out.add_table("values", state.values, FlowState::values_per_cell);
+}
+
+FlowState state_in(const H5Reader& in) {
+  FlowState state;
+  state.theta = in.number("theta");
+  const std::vector<std::int64_t> cells = in.longs("cells");
+  if (in.has("surface")) state.surface = in.doubles("surface");
+  state.centres = in.doubles("centres");
+  state.values = in.doubles("values");
+  const std::size_t count = cells.size() / 4;
+  if (count == 0 || cells.size() != 4 * count) in.refuse("cells", "not four numbers per cell");
+  if (state.centres.size() != 2 * count) in.refuse("centres", "not two numbers per cell");
+  if (state.values.size() != FlowState::values_per_cell * count)
+    in.refuse("values", "not 22 numbers per cell");
+  if (!std::isfinite(state.theta) || !all_finite(state.centres) || !all_finite(state.surface) ||
+      !all_finite(state.values))
+    in.refuse("values", "holds numbers that are none");
+  for (std::size_t c = 0; c < count; ++c) {
+    CellPlace place;
+    for (std::size_t i = 0; i < place.size(); ++i) place[i] = static_cast<std::uint32_t>(cells[4 * c + i]);
+    state.cells.push_back(place);
+  }
+  if (!std::is_sorted(state.cells.begin(), state.cells.end())) in.refuse("cells", "not in their order");
+  return state;
+}
+
+void require_format(const H5Reader& in, const std::string& format) {
+  if (!in.has("format") || in.text("format") != format)
+    in.refuse("format",
+              in.has("format") ? "'" + in.text("format") + "', this version reads " + format : "missing");
+}
+
+}  // namespace
+
+void write_flow_state(const std::filesystem::path& file, const FlowState& state) {
+  H5Writer out;
+  out.add_text("format", state_format);
+  put(state, out);
+  out.save(file);
+}
+
+FlowState read_flow_state(const std::filesystem::path& flow_run) {
+  const std::filesystem::path file = flow_run / "state.h5";
+  if (!std::filesystem::exists(file))
+    throw InputError(flow_run.string() + ": holds no state.h5 to start from: no finished flow");
+  const H5Reader in(file);
+  require_format(in, state_format);
+  return state_in(in);
+}
+
+void write_flow_checkpoint(const std::filesystem::path& file, const FlowCheckpoint& checkpoint) {
+  H5Writer out;
+  out.add_text("format", checkpoint_format);
+  out.add_number("steps", static_cast<std::int64_t>(checkpoint.at.steps));
+  out.add_number("start_share", checkpoint.at.start_share);
+  out.add_text("scene", checkpoint.scene);
+  out.add_text("law", checkpoint.law);
+  put(checkpoint.at.state, out);
+  out.save(file);
+}
+
+FlowCheckpoint read_flow_checkpoint(const std::filesystem::path& file) {
+  const H5Reader in(file);
+  require_format(in, checkpoint_format);
+  FlowCheckpoint checkpoint{.at = {.state = state_in(in),
+                                   .steps = static_cast<int>(in.integer("steps")),
+                                   .start_share = in.number("start_share")},
+                            .scene = in.text("scene"),
+                            .law = in.text("law")};
+  if (checkpoint.at.steps < 1 || !(checkpoint.at.start_share >= 0)) in.refuse("steps", "none were done");
+  return checkpoint;
+}
+
+}  // namespace drumlin::continuum

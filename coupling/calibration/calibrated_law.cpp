@@ -1,0 +1,50 @@
+#include "coupling/calibration/calibrated_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace drumlin::coupling {
+
+std::vector<FrictionPoint> all_of(const std::vector<std::vector<FrictionPoint>>& runs) {
+  std::vector<FrictionPoint> all;
+  for (const auto& run : runs) all.insert(all.end(), run.begin(), run.end());
+  return all;
+}
+
+CalibratedLaw calibrated(const std::vector<std::vector<FrictionPoint>>& runs, const FrictionForm& form,
+                         int draws) {
+  const std::vector<FrictionPoint> all = all_of(runs);
+  CalibratedLaw law{form, fit_friction(all, form), {}, all.front().I, all.front().I};
+  // A table that is held in one interval may become too flat in the next.
+  for (int round = 0; round < 20; ++round) {
+    const FrictionForm kept = kept_well_posed(law.form, law.fit.law);
+    if (kept.least_growth == law.form.least_growth) break;
+    law.form = kept;
+    law.fit = fit_friction(all, kept);
+  }
+  law.draws = bootstrapped(runs, law.form, draws);
+  for (const FrictionPoint& point : all) {
+    law.I_min = std::min(law.I_min, point.I);
+    law.I_max = std::max(law.I_max, point.I);
+  }
+  return law;
+}
+
+SampledLaw sampled(const CalibratedLaw& law, int intervals) {
+  const FormCurve curve = law.curve();
+  const BandOfDraws band = law.band();
+  SampledLaw samples;
+  for (int i = 0; i <= intervals; ++i) {
+    const double I = law.I_min * std::pow(law.I_max / law.I_min, static_cast<double>(i) / intervals);
+    const FrictionBand at = band.at(I);
+    samples.I.push_back(I);
+    samples.value.push_back(curve.at(I).value);
+    samples.low.push_back(at.low);
+    samples.high.push_back(at.high);
+  }
+  return samples;
+}
+
+double half_width_at(const CalibratedLaw& law, double I) { return law.band().half_width_at(I); }
+
+}  // namespace drumlin::coupling

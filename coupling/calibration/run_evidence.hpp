@@ -1,0 +1,41 @@
+#pragma once
+// What measured runs say of the law, before any form is fitted.
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "coupling/calibration/law_points.hpp"
+#include "coupling/exchange/field_map.hpp"
+#include "coupling/exchange/profile_set.hpp"
+#include "coupling/exchange/scalar_set.hpp"
+
+namespace drumlin::coupling {
+
+/// Where the points of a law come from: tensors of maps, or layers of profiles.
+enum class EvidenceSource { maps, profiles };
+
+/// Points of one run.
+struct RunEvidence {
+  std::string name;
+  double rotation_rpm = 0;
+  Scalar nu{"nu_bulk", std::nan(""), {}};  ///< volume fraction of the bulk; of runs that are fitted
+  bool reduced = false;                    ///< a small (smoke) run
+  std::vector<LawBlock> blocks = {};       ///< of maps; empty when profiles are the source
+  std::vector<FrictionPoint> layers = {};  ///< of profiles: mu, I
+  std::vector<FrictionPoint> ratios = {};  ///< of profiles: k in the place of mu, I
+  std::optional<FieldMap> map = {};        ///< where the relaxation of the fabric is asked for
+};
+
+/// Range of inertial numbers that points are taken from; absent: that of BlockSelection or LayerSelection.
+struct InertialSelection {
+  std::optional<double> I_min, I_max;
+};
+
+/// Blocks of a map (law_points()); the map is kept. Throws InputError as law_points().
+void add_blocks(RunEvidence& run, FieldMap map, const InertialSelection& range);
+
+/// Layers of a profile (friction_points()) with mu and with k. Throws InputError where a column is missing.
+void add_layers(RunEvidence& run, const ProfileSet& profiles, const InertialSelection& range);
+
+}  // namespace drumlin::coupling

@@ -1,0 +1,41 @@
+#pragma once
+// A TOML file as a tree that remembers where each value stands, and one description of keys that reads,
+// checks, writes and lists them. toml++ is included by document.cpp alone.
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "coupling/common/errors.hpp"
+
+namespace drumlin {
+
+/// A value of a document: boolean, integer, real, text, array or table, and its place in the file.
+struct Node {
+  using Array = std::vector<Node>;
+  using Table = std::vector<std::pair<std::string, Node>>;  ///< in the order of the file
+  std::variant<bool, std::int64_t, double, std::string, Array, Table> value;
+  int line = 0;
+  int column = 0;
+
+  const Node* find(const std::string& key) const;  ///< nullptr if this is no table or has no such key
+};
+
+/// A parsed file. `root` is always a table.
+struct Document {
+  std::string file;
+  Node root;
+};
+
+/// Reads a TOML file of at most 1 MiB without NUL bytes. `overrides` are texts "path.to.key=value" (array
+/// entries by index: "stages.1.time_step_s=2e-3"), the value in TOML syntax, a bare word counting as text.
+/// Throws InputError (file, line, column) on wrong syntax, on a missing or empty file, on a folder.
+Document read_toml(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+/// The same from a text; `name` stands for the file in messages.
+Document parse_toml(const std::string& text, const std::string& name,
+                    const std::vector<std::string>& overrides = {});
+
+}  // namespace drumlin

@@ -1,0 +1,80 @@
+#include "coupling/documents/key_spec.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace drumlin {
+
+namespace {
+
+std::string interval_text(const Allowed& allowed) {
+  const auto [min, max] = std::pair(allowed.min, allowed.max);
+  const bool below = std::isfinite(min), over = std::isfinite(max);
+  if (!below && !over) return "any finite";
+  if (!over) return fmt::format("{} {}", allowed.min_open ? ">" : ">=", min);
+  if (!below) return fmt::format("{} {}", allowed.max_open ? "<" : "<=", max);
+  return fmt::format("{}{} to {}{}", allowed.min_open ? "above " : "", min, allowed.max_open ? "below " : "",
+                     max);
+}
+
+std::string choices_text(const Allowed& allowed) {
+  if (allowed.choices.empty()) return allowed.may_be_empty ? "any" : "not empty";
+  std::string text;
+  for (const auto& word : allowed.choices) text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", word);
+  return text;
+}
+
+}  // namespace
+
+bool Allowed::holds(double number) const {
+  return std::isfinite(number) && (min_open ? number > min : number >= min) &&
+         (max_open ? number < max : number <= max);
+}
+
+std::string allowed_text(const std::string& type, const Allowed& allowed) {
+  if (type == "true or false") return "";
+  return type.find("number") != std::string::npos || type == "integer" ? interval_text(allowed)
+                                                                       : choices_text(allowed);
+}
+
+Allowed anything() {
+  Allowed allowed;
+  allowed.may_be_empty = true;
+  return allowed;
+}
+
+Allowed above(double min, double max) {
+  Allowed allowed = at_least(min, max);
+  allowed.min_open = true;
+  return allowed;
+}
+
+Allowed at_least(double min, double max) {
+  Allowed allowed;
+  allowed.min = min;
+  allowed.max = max;
+  return allowed;
+}
+
+Allowed not_empty() { return {}; }
+
+Allowed one_of(std::vector<std::string> words) {
+  Allowed allowed;
+  allowed.choices = std::move(words);
+  return allowed;
+}
+
+KeySpec required(std::string unit, Allowed allowed, std::string sentence) {
+  return {Need::required, std::move(unit), std::move(allowed), std::move(sentence)};
+}
+
+KeySpec defaulted(std::string unit, Allowed allowed, std::string sentence) {
+  return {Need::defaulted, std::move(unit), std::move(allowed), std::move(sentence)};
+}
+
+KeySpec when_given(std::string unit, Allowed allowed, std::string sentence) {
+  return {Need::optional, std::move(unit), std::move(allowed), std::move(sentence)};
+}
+
+}  // namespace drumlin

@@ -1,0 +1,11 @@
+#include "coupling/documents/key_writer.hpp"
+
+namespace drumlin {
+
+KeyWriter::KeyWriter() { root_.value = Node::Table{}; }
+
+void KeyWriter::add(const std::string& key, Node node) {
+  std::get<Node::Table>(root_.value).emplace_back(key, std::move(node));
+}
+
+}  // namespace drumlin

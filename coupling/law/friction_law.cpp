@@ -1,0 +1,74 @@
+#include "coupling/law/friction_law.hpp"
+
+#include <cmath>
+
+namespace drumlin {
+namespace {
+
+constexpr double least_mu = 1e-3;  // m of kept_positive()
+
+std::vector<double> logarithms(std::vector<double> values) {
+  for (double& value : values) value = std::log(value);
+  return values;
+}
+
+}  // namespace
+
+FrictionValue kept_positive(double mu, double slope) {
+  const double root = std::sqrt(mu * mu + 4 * least_mu * least_mu);
+  return {0.5 * (mu + root), 0.5 * slope * (1 + mu / root)};
+}
+
+double positivity_slope(double kept) { return kept * kept / (kept * kept + least_mu * least_mu); }
+
+FrictionValue LogLaw::friction(double I) const { return kept_positive(a + b * std::log(I), b); }
+
+FrictionValue LogLinearLaw::friction(double I) const {
+  return kept_positive(a + b * std::log(I) + c * I, b + c * I);
+}
+
+FrictionValue SaturatingLaw::friction(double I) const {
+  const double share = I / (I_0 + I);
+  return {mu_s + (mu_2 - mu_s) * share, (mu_2 - mu_s) * share * I_0 / (I_0 + I)};
+}
+
+FrictionValue ConstantLaw::friction(double /*I*/) const { return {mu, 0}; }
+
+TabulatedLaw::TabulatedLaw(const std::vector<double>& I, std::vector<double> mu)
+    : mu_of_ln_I_(logarithms(I), std::move(mu), MonotoneCubic::Outside::goes_on) {}
+
+FrictionValue TabulatedLaw::friction(double I) const {
+  const CurvePoint at = mu_of_ln_I_.at(std::log(I));
+  return kept_positive(at.value, at.slope);
+}
+
+namespace {
+
+// From what a file holds to what computes.
+struct LawOfFile {
+  FrictionLaw operator()(const LogFriction& mu) const { return LogLaw{mu.a, mu.b}; }
+  FrictionLaw operator()(const LogLinearFriction& mu) const { return LogLinearLaw{mu.a, mu.b, mu.c}; }
+  FrictionLaw operator()(const ConstantFriction& mu) const { return ConstantLaw{mu.mu}; }
+  FrictionLaw operator()(const JopFriction& mu) const { return SaturatingLaw{mu.mu_s, mu.mu_2, mu.I_0}; }
+  FrictionLaw operator()(const FrictionTable& mu) const { return TabulatedLaw(mu.I, mu.mu); }
+};
+
+struct Threshold {
+  std::optional<double> operator()(const SaturatingLaw& law) const { return law.mu_s; }
+  std::optional<double> operator()(const ConstantLaw& law) const { return law.mu; }
+  std::optional<double> operator()(const LogLaw&) const { return {}; }
+  std::optional<double> operator()(const LogLinearLaw&) const { return {}; }
+  std::optional<double> operator()(const TabulatedLaw&) const { return {}; }
+};
+
+}  // namespace
+
+FrictionLaw friction_law(const MeasuredFriction& mu) { return std::visit(LawOfFile{}, mu); }
+
+FrictionValue friction_at(const FrictionLaw& law, double I) {
+  return std::visit([I](const auto& chosen) { return chosen.friction(I); }, law);
+}
+
+std::optional<double> threshold(const FrictionLaw& law) { return std::visit(Threshold{}, law); }
+
+}  // namespace drumlin

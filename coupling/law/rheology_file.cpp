@@ -1,0 +1,310 @@
+#include "coupling/law/rheology_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "coupling/common/errors.hpp"
+#include "coupling/common/text_file.hpp"
+#include "coupling/documents/key_table.hpp"
+
+namespace drumlin {
+
+// Found through their arguments, hence not in the unnamed namespace.
+template <class Visitor>
+void describe(Visitor& v, LogFriction& t) {
+  v.value("a", t.a, required("", anything(), "Friction at I = 1."));
+  v.value("b", t.b, required("", anything(), "Growth of the friction with ln I, not negative."));
+  v.value("covariance", t.covariance, required("", anything(), "var(a), cov(a, b), var(b)."));
+  v.value("I_min", t.I_min, required("", above(0), "Smallest inertial number of the fit."));
+  v.value("I_max", t.I_max, required("", above(0), "Largest inertial number of the fit."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, LogLinearFriction& t) {
+  v.value("a", t.a, required("", anything(), "Friction at I = 1 without the linear term."));
+  v.value("b", t.b, required("", anything(), "Growth of the friction with ln I, not negative."));
+  v.value("c", t.c, required("", anything(), "Growth of the friction with I, not negative."));
+  v.value("I_min", t.I_min, required("", above(0), "Smallest inertial number of the fit."));
+  v.value("I_max", t.I_max, required("", above(0), "Largest inertial number of the fit."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, ConstantFriction& t) {
+  v.value("mu", t.mu, required("", above(0), "Friction at every inertial number."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, JopFriction& t) {
+  v.value("mu_s", t.mu_s, required("", above(0), "Friction for I -> 0."));
+  v.value("mu_2", t.mu_2, required("", above(0), "Friction for I -> infinity, not below mu_s."));
+  v.value("I_0", t.I_0, required("", above(0), "Inertial number half way between the two."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, FrictionTable& t) {
+  v.value("I", t.I, required("", above(0), "Inertial numbers, ascending, two at least."));
+  v.value("mu", t.mu, required("", above(0), "Friction there, growing; smooth in ln I between."));
+}
+
+namespace {
+
+/// The tables of the file; RheologyFit itself stays free of how it is written.
+struct MuTable {
+  MeasuredFriction friction;
+  std::optional<double> rms_misfit;
+};
+struct StressRatioTable {
+  NormalStressRatio points;
+};
+struct PackingTable {
+  double nu = 0;
+  std::optional<double> nu_ci99;
+};
+struct BandTable {
+  std::vector<double> draws;
+};
+struct OriginTable {
+  std::vector<std::string> runs;
+};
+struct RheologyFile {
+  bool reduced = false;
+  MuTable mu;
+  std::optional<StressRatioTable> k;
+  std::optional<BandTable> band;
+  PackingTable packing;
+  OriginTable fitted_on;
+};
+
+template <class Visitor>
+void describe(Visitor& v, MuTable& t) {
+  v.variant("law", t.friction, "Form of mu(I).",
+            alternative<LogFriction>("log", "mu = a + b ln I, natural logarithm."),
+            alternative<LogLinearFriction>("log-linear", "mu = a + b ln I + c I."),
+            alternative<ConstantFriction>("constant", "The same mu at every I."),
+            alternative<JopFriction>("jop", "mu_s + (mu_2 - mu_s)/(I_0/I + 1)."),
+            alternative<FrictionTable>("table", "Points, smoothly interpolated."));
+  v.value("rms_misfit", t.rms_misfit, when_given("", at_least(0), "Root mean square of mu about the fit."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, StressRatioTable& t) {
+  v.value("I", t.points.I, required("", above(0), "Inertial numbers, ascending."));
+  v.value("k", t.points.k,
+          required("", above(0), "sigma_xx/sigma_zz there; smooth in ln I between, constant outside."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, PackingTable& t) {
+  v.value("nu", t.nu, required("", above(0, 1), "Volume fraction of the bulk."));
+  v.value("nu_ci99", t.nu_ci99, when_given("", at_least(0), "Half width of its 99 % interval."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, BandTable& t) {
+  v.value("draws", t.draws,
+          required("", anything(),
+                   "Laws of other draws of the points, one after the other: a, b; a, b, c; or mu of each I "
+                   "of the table."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, OriginTable& t) {
+  v.value("runs", t.runs, required("", anything(), "Runs or publications that the law was fitted on."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, RheologyFile& t) {
+  v.format("drumlin-rheology-1");
+  v.value("reduced", t.reduced, defaulted("", anything(), "Fitted on a reduced run."));
+  v.table("mu", t.mu, Need::required, "Effective friction.");
+  v.optional_table("k", t.k, "Ratio of the normal stresses; absent: no such ratio in the law.");
+  v.optional_table("band", t.band, "What the law owes to the draw of its points; absent: not known.");
+  v.table("packing", t.packing, Need::required, "State that the law was measured in.");
+  v.table("fitted_on", t.fitted_on, Need::required, "Origin.");
+}
+
+bool ascending(const std::vector<double>& values) {
+  for (std::size_t i = 1; i < values.size(); ++i)
+    if (!(values[i - 1] < values[i])) return false;
+  return true;
+}
+
+/// Collects what does not hold between the keys of one file.
+class Faults {
+ public:
+  Faults(const Document& document, std::vector<InputProblem>& problems)
+      : document_(document), problems_(problems) {}
+  void refuse(const std::string& path, const std::string& what, const std::string& allowed) {
+    problems_.push_back(problem_at(document_, path, what, allowed));
+  }
+  const Document& document() const { return document_; }
+
+ private:
+  const Document& document_;
+  std::vector<InputProblem>& problems_;
+};
+
+// Why such a law is refused: a layer that shears a little faster would resist less, and faster still.
+constexpr const char* falling =
+    "mu falls with I: faster shear would meet less resistance, so that no flow of this law is stable, and "
+    "its "
+    "equations are ill-posed";
+
+void check_together(const LogFriction& mu, Faults& faults) {
+  if (mu.b < 0) faults.refuse("mu.b", falling, ">= 0");
+  if (!(mu.I_min < mu.I_max)) faults.refuse("mu.I_max", "is not above I_min", "> I_min");
+  const auto& [var_a, cov_ab, var_b] = mu.covariance;
+  // The tolerance lets a covariance pass whose parts were rounded when it was written by hand.
+  if (var_a < 0 || var_b < 0 || cov_ab * cov_ab > var_a * var_b * (1 + 1e-6))
+    faults.refuse("mu.covariance", "is no covariance", "var(a) >= 0, var(b) >= 0, cov^2 <= var(a) var(b)");
+}
+
+void check_together(const LogLinearFriction& mu, Faults& faults) {
+  if (mu.b < 0) faults.refuse("mu.b", falling, ">= 0");
+  if (mu.c < 0) faults.refuse("mu.c", falling, ">= 0");
+  if (!(mu.I_min < mu.I_max)) faults.refuse("mu.I_max", "is not above I_min", "> I_min");
+}
+
+void check_together(const ConstantFriction&, Faults&) {}
+
+void check_together(const JopFriction& mu, Faults& faults) {
+  if (mu.mu_2 < mu.mu_s) faults.refuse("mu.mu_2", falling, ">= mu_s");
+}
+
+void check_together(const FrictionTable& mu, Faults& faults) {
+  if (mu.I.size() < 2) faults.refuse("mu.I", "has fewer than two entries", "two at least");
+  if (mu.I.size() != mu.mu.size()) faults.refuse("mu.mu", "has another length than I", "one mu for each I");
+  if (!ascending(mu.I)) faults.refuse("mu.I", "is not sorted", "ascending");
+  for (std::size_t i = 1; i < mu.mu.size(); ++i) {
+    const std::string place = "from entry " + std::to_string(i) + " to " + std::to_string(i + 1) + ", ";
+    if (mu.mu[i] < mu.mu[i - 1]) return faults.refuse("mu.mu", place + falling, "growing");
+    if (mu.mu[i] == mu.mu[i - 1])
+      return faults.refuse("mu.mu", place + "mu stands still: the law would not say how fast its flow is",
+                           "growing");
+  }
+}
+
+void check_together(const NormalStressRatio& points, Faults& faults) {
+  if (points.I.size() != points.k.size())
+    return faults.refuse("k.k", "has another length than I", "one k for each I");
+  if (!ascending(points.I)) return faults.refuse("k.I", "is not sorted", "ascending");
+  // I stands on both sides of I = I_p sqrt((1 + k(I))/2), I_p = 2|D|/sqrt(p). The smooth curve is at most
+  // twice as steep as the chord, so that this bound keeps dk/dln I below 2 (1 + k) and leaves one I for each
+  // I_p.
+  for (std::size_t i = 1; i < points.k.size(); ++i) {
+    const double slope = (points.k[i] - points.k[i - 1]) / std::log(points.I[i] / points.I[i - 1]);
+    const double bound = 1 + std::min(points.k[i], points.k[i - 1]);
+    if (slope >= bound)
+      return faults.refuse("k.k",
+                           "grows so fast from entry " + std::to_string(i) + " to " + std::to_string(i + 1) +
+                               " that one shear rate would have several inertial numbers",
+                           "dk/dln I < 1 + k");
+  }
+}
+
+// Numbers that tell a draw of a law from the others.
+std::size_t draw_size(const MeasuredFriction& mu) {
+  if (std::holds_alternative<LogFriction>(mu)) return 2;
+  if (std::holds_alternative<LogLinearFriction>(mu)) return 3;
+  const auto* table = std::get_if<FrictionTable>(&mu);
+  return table == nullptr ? 0 : table->mu.size();
+}
+
+std::vector<double> draw_of(const MeasuredFriction& mu) {
+  if (const auto* log = std::get_if<LogFriction>(&mu)) return {log->a, log->b};
+  if (const auto* both = std::get_if<LogLinearFriction>(&mu)) return {both->a, both->b, both->c};
+  const auto* table = std::get_if<FrictionTable>(&mu);
+  return table == nullptr ? std::vector<double>() : table->mu;
+}
+
+MeasuredFriction with_draw(MeasuredFriction mu, std::vector<double> draw) {
+  if (auto* log = std::get_if<LogFriction>(&mu)) {
+    log->a = draw[0];
+    log->b = draw[1];
+  } else if (auto* both = std::get_if<LogLinearFriction>(&mu)) {
+    both->a = draw[0];
+    both->b = draw[1];
+    both->c = draw[2];
+  } else if (auto* table = std::get_if<FrictionTable>(&mu)) {
+    table->mu = std::move(draw);
+  }
+  return mu;
+}
+
+std::vector<MeasuredFriction> draws_of(const MeasuredFriction& mu, const std::vector<double>& numbers) {
+  std::vector<MeasuredFriction> laws;
+  const std::size_t size = draw_size(mu);
+  for (std::size_t first = 0; first + size <= numbers.size(); first += size)
+    laws.push_back(with_draw(mu, {numbers.begin() + static_cast<std::ptrdiff_t>(first),
+                                  numbers.begin() + static_cast<std::ptrdiff_t>(first + size)}));
+  return laws;
+}
+
+void check_band(const RheologyFile& file, Faults& faults) {
+  const std::size_t size = draw_size(file.mu.friction), count = file.band->draws.size();
+  if (size == 0)
+    return faults.refuse("band.draws", "is of a law that is not fitted", "log, log-linear or table");
+  if (count == 0 || count % size != 0)
+    return faults.refuse("band.draws", "has " + std::to_string(count) + " numbers",
+                         "a multiple of " + std::to_string(size) + ", the numbers of one law");
+  for (const MeasuredFriction& draw : draws_of(file.mu.friction, file.band->draws)) {
+    std::vector<InputProblem> problems;
+    Faults of_draw(faults.document(), problems);
+    std::visit([&](const auto& mu) { check_together(mu, of_draw); }, draw);
+    if (!problems.empty())
+      return faults.refuse("band.draws", "holds a law that is none: " + problems.front().what,
+                           "laws whose mu grows");
+  }
+}
+
+/// What holds between keys.
+void check_together(const Document& document, const RheologyFile& file, std::vector<InputProblem>& problems) {
+  Faults faults(document, problems);
+  std::visit([&](const auto& mu) { check_together(mu, faults); }, file.mu.friction);
+  if (file.k) check_together(file.k->points, faults);
+  if (file.band && problems.empty()) check_band(file, faults);
+}
+
+RheologyFit fit_of(const Document& document) {
+  std::vector<InputProblem> problems;
+  const auto content = read_keys<RheologyFile>(document, problems);
+  if (problems.empty()) check_together(document, content, problems);
+  if (!problems.empty()) throw InputError(problems);
+  RheologyFit fit;
+  fit.mu = content.mu.friction;
+  if (content.k) fit.k = content.k->points;
+  fit.nu = content.packing.nu;
+  fit.nu_ci99 = content.packing.nu_ci99;
+  fit.rms_misfit = content.mu.rms_misfit;
+  if (content.band) fit.draws = draws_of(fit.mu, content.band->draws);
+  fit.fitted_on = content.fitted_on.runs;
+  fit.reduced = content.reduced;
+  return fit;
+}
+
+}  // namespace
+
+RheologyFit read_rheology(const std::filesystem::path& file) { return fit_of(read_toml(file)); }
+
+RheologyFit parse_rheology(const std::string& text, const std::string& name) {
+  return fit_of(parse_toml(text, name));
+}
+
+std::string rheology_text(const RheologyFit& fit) {
+  RheologyFile content;
+  content.reduced = fit.reduced;
+  content.mu = {fit.mu, fit.rms_misfit};
+  if (fit.k) content.k = StressRatioTable{*fit.k};
+  if (!fit.draws.empty()) content.band.emplace();
+  for (const MeasuredFriction& draw : fit.draws)
+    for (const double number : draw_of(draw)) content.band->draws.push_back(number);
+  content.packing = {fit.nu, fit.nu_ci99};
+  content.fitted_on.runs = fit.fitted_on;
+  return toml_text(write_keys(content));
+}
+
+void write_rheology(const std::filesystem::path& file, const RheologyFit& fit) {
+  replace_file(file, rheology_text(fit));
+}
+
+}  // namespace drumlin

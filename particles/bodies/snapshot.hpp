@@ -1,0 +1,47 @@
+#pragma once
+// The state of all grains at one instant, frozen: what a run leaves and what measurement reads.
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "coupling/common/scales.hpp"
+
+namespace drumlin::particles {
+
+/// A loaded contact. The normal points from body j to body i; the impulse acts on i (and its opposite on j).
+/// tangent = normal turned clockwise by 90 degrees: (n_z, -n_x).
+struct SnapshotContact {
+  std::int32_t i = 0;  ///< grain
+  std::int32_t j = 0;  ///< grain, or -1 - w for wall shape w
+  float normal_x = 0;
+  float normal_z = 0;
+  double impulse_n = 0;  ///< over the last step; divide by `time_step` for a force
+  double impulse_t = 0;
+};
+
+/// Dimensionless (d, sqrt(d/g), rho0 d^2 per unit depth for masses), laboratory frame, x to the right, z up.
+/// Arrays have one entry per grain. Spins are positive in the sense of dv_x/dz (clockwise as drawn).
+struct Snapshot {
+  std::int64_t step = 0;
+  double time = 0;
+  double time_step = 0;
+  double wall_angle = 0;  ///< rad turned so far by the first rotating wall, positive clockwise; 0 if none
+  double wall_spin = 0;   ///< its angular velocity
+  double container_x = 0, container_z = 0,
+         container_radius = 0;           ///< first circular container; radius 0 if none
+  double gravity_x = 0, gravity_z = -1;  ///< body acceleration
+  double velocity_window = 0;            ///< 0: no displacements stored
+  double period_x = 0;                   ///< length of the periodic domain; 0: open
+  /// Displacement of each wall from where the scene has it: p -> R(angle) p + (x, z). Empty unless the scene
+  /// moves a wall by a force: else they follow from the scene and the time.
+  std::vector<double> wall_pose_angle, wall_pose_x, wall_pose_z;
+  Scales scales;
+  std::vector<double> x, z, v_x, v_z, radius;
+  std::vector<double> spin;  ///< empty when the scene has no spin
+  std::vector<double> displacement_x,
+      displacement_z;  ///< over the velocity window (laboratory frame); empty when not stored
+  std::vector<SnapshotContact> contacts;  ///< contacts that carry an impulse
+  bool contacts_known = true;             ///< false: the program that made it did not say where they are
+};
+
+}  // namespace drumlin::particles

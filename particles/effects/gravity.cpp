@@ -1,0 +1,22 @@
+#include "particles/effects/gravity.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace drumlin::particles {
+
+Point gravity_law(const Gravity& key, const Scales& scales) {
+  const double unit = scales.length_m / (scales.time_s * scales.time_s);
+  const double g = key.acceleration_m_s2 / unit;
+  // Straight down in a plain scene: exactly (0, -g), no rounding of cos(-90 deg).
+  if (key.direction_deg == -90) return {0, -g};
+  const double direction = key.direction_deg * std::numbers::pi / 180;
+  return {g * std::cos(direction), g * std::sin(direction)};
+}
+
+void add_gravity(const Point& acceleration, double time_step, FreeMotion& free) {
+  for (std::size_t b = 0; b < free.x.size(); ++b)
+    free.x[b] += time_step * acceleration.x, free.z[b] += time_step * acceleration.z;
+}
+
+}  // namespace drumlin::particles

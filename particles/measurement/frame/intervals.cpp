@@ -1,0 +1,43 @@
+#include "particles/measurement/frame/intervals.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "coupling/statistics/quantiles.hpp"
+#include "coupling/statistics/resampling.hpp"
+
+namespace drumlin::particles {
+
+std::size_t batch_of(std::size_t index, std::size_t count, std::size_t batches) {
+  return index * batches / count;
+}
+
+double interval_factor(std::size_t batches) {
+  return statistics::student_quantile_99(std::max(1, static_cast<int>(batches / 2) - 1));
+}
+
+double jackknife_ci99(std::span<const double> leave_one_out) {
+  if (leave_one_out.size() < 2) return std::numeric_limits<double>::quiet_NaN();
+  return interval_factor(leave_one_out.size()) * std::sqrt(statistics::jackknife_variance(leave_one_out));
+}
+
+double mean_ci99(std::span<const double> series, std::size_t batches) {
+  batches = std::min(batches, series.size());
+  if (batches < 2) return std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> sum(batches, 0.0), count(batches, 0.0);
+  double total = 0;
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    const std::size_t b = batch_of(i, series.size(), batches);
+    sum[b] += series[i];
+    count[b] += 1;
+    total += series[i];
+  }
+  std::vector<double> leave_one_out(batches);
+  for (std::size_t b = 0; b < batches; ++b)
+    leave_one_out[b] = (total - sum[b]) / (static_cast<double>(series.size()) - count[b]);
+  return jackknife_ci99(leave_one_out);
+}
+
+}  // namespace drumlin::particles

@@ -1,0 +1,124 @@
+#include "particles/scene/scene_walls.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "particles/scene/materials.hpp"
+
+namespace drumlin::particles {
+namespace {
+
+Point point_of(const Point_mm& p, const Scales& scales) {
+  return {p[0] * 1e-3 / scales.length_m, p[1] * 1e-3 / scales.length_m};
+}
+
+Shape shape_of(const Wall& wall, const Scales& scales) {
+  const double unit = 1e-3 / scales.length_m;
+  if (const auto* c = std::get_if<ContainerShape>(&wall.shape))
+    return Container{point_of(c->center_mm, scales), c->radius_mm * unit};
+  if (const auto* s = std::get_if<SegmentShape>(&wall.shape))
+    return Segment{point_of(s->from_mm, scales), point_of(s->to_mm, scales)};
+  const auto& d = std::get<DiscShape>(wall.shape);
+  return FixedDisc{point_of(d.center_mm, scales), d.diameter_mm / 2 * unit};
+}
+
+/// `driven`: how many walls the stage drives before this one.
+Motion motion_of(const WallMotion& asked, const Scales& scales, int driven) {
+  if (const auto* r = std::get_if<Rotation>(&asked.motion))
+    return Turning{r->speed_rpm * 2 * std::numbers::pi / 60 * scales.time_s, point_of(r->center_mm, scales)};
+  const double radian = std::numbers::pi / 180;
+  if (const auto* o = std::get_if<Oscillation>(&asked.motion))
+    return Shaking{point_of(o->amplitude_mm, scales), 2 * std::numbers::pi * o->frequency_hz * scales.time_s,
+                   o->phase_deg * radian};
+  if (const auto* r = std::get_if<Rocking>(&asked.motion))
+    return Swinging{r->amplitude_deg * radian, 2 * std::numbers::pi * r->frequency_hz * scales.time_s,
+                    r->phase_deg * radian, point_of(r->center_mm, scales)};
+  if (const auto* f = std::get_if<ForceControl>(&asked.motion)) return driven_law(*f, scales, driven);
+  const double unit = 1e-3 / scales.velocity_m_s();
+  const auto& t = std::get<Translation>(asked.motion);
+  return Gliding{t.velocity_mm_s[0] * unit, t.velocity_mm_s[1] * unit};
+}
+
+}  // namespace
+
+double wall_length_mm(const Wall& wall) {
+  if (const auto* c = std::get_if<ContainerShape>(&wall.shape)) return 2 * std::numbers::pi * c->radius_mm;
+  if (const auto* s = std::get_if<SegmentShape>(&wall.shape))
+    return std::hypot(s->to_mm[0] - s->from_mm[0], s->to_mm[1] - s->from_mm[1]);
+  return 0;
+}
+
+std::vector<Point_mm> glued_centers_mm(const Wall& wall) {
+  std::vector<Point_mm> centers;
+  if (!wall.rough || wall_length_mm(wall) <= 0) return centers;
+  // A length that is a whole number of spacings but for rounding has just as many.
+  const int discs =
+      static_cast<int>(std::ceil(std::min(wall_length_mm(wall) / wall.rough->spacing_mm, 1e7) * (1 - 1e-12)));
+  if (const auto* c = std::get_if<ContainerShape>(&wall.shape)) {
+    for (int k = 0; k < discs; ++k) {
+      const double angle = 2 * std::numbers::pi * k / discs;
+      centers.push_back({c->center_mm[0] + c->radius_mm * std::cos(angle),
+                         c->center_mm[1] + c->radius_mm * std::sin(angle)});
+    }
+  } else if (const auto* s = std::get_if<SegmentShape>(&wall.shape)) {
+    const double along_x = s->to_mm[0] - s->from_mm[0], along_z = s->to_mm[1] - s->from_mm[1];
+    for (int k = 0; k < discs; ++k) {
+      const double share = (k + 0.5) / discs;
+      centers.push_back({s->from_mm[0] + share * along_x, s->from_mm[1] + share * along_z});
+    }
+  }
+  return centers;
+}
+
+Walls walls_of(const Scene& scene, const Scales& scales) {
+  Walls walls;
+  const auto materials = material_names(scene);
+  const bool stored = materials_matter(scene);
+  for (const Wall& wall : scene.walls) {
+    auto known = std::find(walls.names.begin(), walls.names.end(), wall.name);
+    if (known == walls.names.end()) known = walls.names.insert(walls.names.end(), wall.name);
+    walls.reference.push_back(shape_of(wall, scales));
+    for (const Point_mm& center : glued_centers_mm(wall))
+      walls.reference.push_back(
+          FixedDisc{point_of(center, scales), wall.rough->diameter_mm / 2 * 1e-3 / scales.length_m});
+    walls.wall_of_shape.resize(walls.reference.size(), static_cast<int>(known - walls.names.begin()));
+    if (stored)
+      walls.material_of_shape.resize(walls.reference.size(),
+                                     static_cast<std::uint8_t>(material_number(materials, wall.material)));
+  }
+  walls.motion.resize(walls.names.size());
+  walls.pose_at_start.resize(walls.names.size());
+  return walls;
+}
+
+namespace {
+
+Point straight_velocity(const Motion& motion, std::span<const DrivenState> states) {
+  if (const auto* gliding = std::get_if<Gliding>(&motion)) return {gliding->v_x, gliding->v_z};
+  if (const auto* driven = std::get_if<Driven>(&motion)) {
+    const double velocity = states[driven->state].velocity;
+    return {velocity * driven->direction.x + driven->glide_x,
+            velocity * driven->direction.z + driven->glide_z};
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<DrivenState> begin_stage(Walls& walls, const Stage& stage, const Scales& scales,
+                                     double time_in_old_stage, std::span<const DrivenState> driven) {
+  std::vector<DrivenState> states;
+  for (std::size_t w = 0; w < walls.names.size(); ++w) {
+    walls.pose_at_start[w] = walls.pose(static_cast<int>(w), time_in_old_stage, driven);
+    const Point had = straight_velocity(walls.motion[w], driven);
+    walls.motion[w] = std::monostate{};
+    for (const WallMotion& asked : stage.motions)
+      if (asked.wall == walls.names[w])
+        walls.motion[w] = motion_of(asked, scales, static_cast<int>(states.size()));
+    if (const auto* now = std::get_if<Driven>(&walls.motion[w]))
+      states.push_back({0, had.x * now->direction.x + had.z * now->direction.z});
+  }
+  return states;
+}
+}  // namespace drumlin::particles

@@ -1,0 +1,52 @@
+#include "particles/solver/stopping_rule.hpp"
+
+#include <cmath>
+
+namespace drumlin::particles {
+
+std::string to_string(Status status) {
+  switch (status) {
+    case Status::converged:
+      return "converged";
+    case Status::out_of_sweeps:
+      return "out of sweeps";
+    case Status::out_of_time:
+      return "out of time";
+    case Status::not_finite:
+      return "not finite";
+  }
+  return "unknown";
+}
+
+StoppingRule remaining(const StoppingRule& rule, const SolveReport& spent) {
+  StoppingRule left = rule;
+  left.max_sweeps -= spent.sweeps;
+  left.max_seconds -= spent.seconds;
+  return left;
+}
+
+SolveReport together(const SolveReport& first, const SolveReport& second) {
+  SolveReport both = second;
+  both.sweeps += first.sweeps;
+  both.seconds += first.seconds;
+  return both;
+}
+
+bool StoppingTest::ends(int sweeps, const ContactResidual& residual, bool finite) {
+  report_.sweeps = sweeps;
+  report_.residual = residual;
+  report_.seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+  if (!finite || std::isnan(residual.rms))
+    report_.status = Status::not_finite;
+  else if (residual.rms <= rule_.tolerance && residual.penetration <= rule_.penetration)
+    report_.status = Status::converged;
+  else if (sweeps >= rule_.max_sweeps)
+    report_.status = Status::out_of_sweeps;
+  else if (report_.seconds > rule_.max_seconds)
+    report_.status = Status::out_of_time;
+  else
+    return false;
+  return true;
+}
+
+}  // namespace drumlin::particles

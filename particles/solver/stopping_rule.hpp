@@ -1,0 +1,56 @@
+#pragma once
+// When a contact solver stops, and what it reports. All solvers decide by StoppingTest and nowhere else.
+#include <chrono>
+#include <limits>
+#include <string>
+
+#include "particles/contact/residual.hpp"
+
+namespace drumlin::particles {
+
+enum class Status { converged, out_of_sweeps, out_of_time, not_finite };
+std::string to_string(Status);
+
+/// A solver stops when both tolerances hold, or at the first limit that it meets.
+struct StoppingRule {
+  double tolerance = 1e-2;                                       ///< of ContactResidual::rms
+  double penetration = std::numeric_limits<double>::infinity();  ///< of ContactResidual::penetration, d
+  int max_sweeps = 1000;                                         ///< at least 1
+  int check_every = 10;  ///< sweeps between two evaluations of the residual, which cost about one sweep each
+  double max_seconds =
+      std::numeric_limits<double>::infinity();  ///< wall time; finite limits make a run irreproducible
+};
+
+struct [[nodiscard]] SolveReport {
+  Status status = Status::out_of_sweeps;
+  int sweeps = 0;
+  ContactResidual residual;  ///< of the impulses returned
+  double seconds = 0;        ///< wall time
+};
+
+/// What a rule leaves to a second method after a first one has spent its sweeps and seconds.
+StoppingRule remaining(const StoppingRule&, const SolveReport& spent);
+/// Report of the second method, with the sweeps and seconds of the first added.
+SolveReport together(const SolveReport& first, const SolveReport& second);
+
+/// Applies a rule to one solve, which begins when this is made.
+class StoppingTest {
+ public:
+  explicit StoppingTest(const StoppingRule& rule) : rule_(rule) {}
+
+  /// Whether the residual is to be evaluated after so many sweeps.
+  bool due(int sweeps) const { return sweeps >= rule_.max_sweeps || sweeps % rule_.check_every == 0; }
+  /// Whether the solve ends with this residual after so many sweeps. `finite`: no sweep has made an infinity
+  /// or a NaN.
+  bool ends(int sweeps, const ContactResidual& residual, bool finite = true);
+  /// As of the last call of ends(); its status means something only if the solve ended.
+  const SolveReport& report() const { return report_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  StoppingRule rule_;
+  Clock::time_point start_ = Clock::now();
+  SolveReport report_;
+};
+
+}  // namespace drumlin::particles

@@ -1,0 +1,64 @@
+#pragma once
+// NLGS, plain and accelerated, on the bodies, in strips (particles/contact/sweep_plan.hpp): vectorised and
+// threaded, with the same result for any number of threads.
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "particles/contact/sweep_plan.hpp"
+#include "particles/parallel/thread_team.hpp"
+#include "particles/solver/sweep_kernels.hpp"
+
+namespace drumlin::particles {
+
+/// A contact problem in blocks of eight, ready to be swept, and its state. T is the precision of the sweeps.
+template <class T, int dim, bool spin>
+class StripProblem {
+ public:
+  using Kernels = SweepKernels<T, dim, spin>;
+
+  /// Copies a problem in body form and the impulses to start from. `order`: contacts of the problem in the
+  /// order of the plan; empty if they stand in it.
+  template <class Problem>
+  void pack(const Problem& problem, const SweepPlan& plan, std::span<const std::int32_t> order,
+            std::span<const double> r);
+  /// Impulses in the order of the problem, held to their cones, which single precision oversteps by a
+  /// rounding.
+  template <class Problem>
+  void unpack(const Problem& problem, std::vector<double>& r) const;
+
+  int strips() const { return static_cast<int>(strips_.size()); }
+  /// First strip of a thread's share: strips are shared by numbers of blocks.
+  int first_strip(int thread, int threads) const;
+
+  // Work on one strip; threads meet between phases.
+  /// Bodies receive the impulses to start from.
+  void load(int strip, int phase);
+  /// Remembers the bodies as the beginning of the first sweep.
+  void start(int strip);
+  /// With `accelerated`, by beta further on; bodies go on in phase 0, before any contact of theirs. Sums of
+  /// even and odd sweeps stand apart: a thread may begin a sweep while others add up the last one.
+  void sweep(int strip, int phase, int parity, T beta, bool accelerated);
+  /// Sum of squares of the steps of a sweep over all strips, in the order of the slices; all threads must
+  /// have met after it.
+  double step_squares(int parity) const;
+
+  /// Residuals of the contacts of a strip, and their sum of squares over all strips.
+  void look_at(int strip);
+  double residual_squares() const;
+
+ private:
+  struct Strip {
+    std::size_t bodies = 0, bodies_end = 0;  // those of wall contacts, which do not move, stand last
+    std::size_t block[3] = {0, 0, 0};        // first block of each phase, and the end
+  };
+  std::vector<Strip> strips_;
+  std::vector<ContactBlock<T, dim>> blocks_;
+  std::vector<std::int32_t> contact_;  // of each place in the blocks; -1: filled up
+  std::vector<BodyRecord<T>> bodies_, before_;
+  std::vector<std::int32_t> place_;       // of each body in bodies_
+  std::vector<double> step_squares_[2];   // of each slice, of even and odd sweeps
+  std::vector<double> residual_squares_;  // of each strip
+};
+
+}  // namespace drumlin::particles

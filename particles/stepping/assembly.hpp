@@ -1,0 +1,120 @@
+#pragma once
+// Assembles the contact problem u = W r + q of a step: W from normals and masses, q and the cones from what
+// each effect adds to a contact (particles/effects).
+#include <optional>
+
+#include "particles/contact/problems.hpp"
+#include "particles/effects/driven_walls.hpp"
+#include "particles/effects/friction.hpp"
+#include "particles/effects/restitution.hpp"
+#include "particles/effects/rolling.hpp"
+#include "particles/effects/spin.hpp"
+#include "particles/stepping/step_contacts.hpp"
+
+namespace drumlin::particles {
+
+/// Whether contacts of these problems push walls.
+template <class Problem>
+constexpr bool drives_walls = requires {
+  requires Problem::Delassus::has_driven;
+};
+
+/// Velocity of the wall of a pair without contacts, and of the same point at the beginning of the step.
+struct WallVelocity {
+  Point free, before;
+};
+
+template <class Problem>
+WallVelocity wall_velocity(const StepInput& step, const Candidate& pair) {
+  const Point prescribed{pair.wall_v_x, pair.wall_v_z};
+  if constexpr (drives_walls<Problem>)
+    if (const std::int32_t k = driven_wall_of(step.walls, pair); k >= 0) {
+      const Driven& wall = step.walls.driven[k];
+      // The pair has the wall's velocity by its force alone; cohesion may have changed that since.
+      const double seen = free_velocity(wall, step.driven[k], step.time_step);
+      return {along(prescribed, wall, step.free.driven[k] - seen),
+              along(prescribed, wall, step.driven[k].velocity - seen)};
+    }
+  return {prescribed, prescribed};
+}
+
+/// Free velocity of i relative to j.
+inline Point relative_velocity(const Candidate& pair, std::span<const double> v_x,
+                               std::span<const double> v_z, const Point& wall) {
+  if (pair.j < 0) return {v_x[pair.i] - wall.x, v_z[pair.i] - wall.z};
+  return {v_x[pair.i] - v_x[pair.j], v_z[pair.i] - v_z[pair.j]};
+}
+
+/// Bodies of the problem: the grains, the fixed one that walls share, the driven walls.
+template <class Problem>
+void assemble_bodies(const StepInput& step, Problem& problem) {
+  auto& W = problem.W;
+  W.clear();
+  W.inverse_mass.assign(step.bodies.inverse_mass.begin(), step.bodies.inverse_mass.end());
+  W.inverse_mass.push_back(0);
+  if constexpr (drives_walls<Problem>) {
+    W.driven.clear();
+    for (const Driven& wall : step.walls.driven)
+      W.driven.push_back({wall.direction.x, wall.direction.z, wall.inverse_mass});
+    W.inverse_mass.resize(W.inverse_mass.size() + step.walls.driven.size(), 0.0);
+  }
+}
+
+/// Place of j among the bodies of the problem.
+template <class Problem>
+std::int32_t second_body(const StepInput& step, const Candidate& pair) {
+  if (pair.j >= 0) return pair.j;
+  const auto fixed = static_cast<std::int32_t>(step.bodies.count());
+  if constexpr (drives_walls<Problem>) return fixed + 1 + driven_wall_of(step.walls, pair);
+  return fixed;
+}
+
+/// What Signorini's law of contact a acts on beside u_n.
+inline double normal_shift(const StepInput& step, StepContacts& contacts, std::size_t a, double u_n,
+                           const Point& wall_before) {
+  const Candidate& pair = contacts.pairs[a];
+  if (!step.laws.restitution) return predicted_gap(pair.gap, step.time_step);
+  const double u_before =
+      normal_part(pair, relative_velocity(pair, step.bodies.v_x, step.bodies.v_z, wall_before));
+  return restitution_shift(*step.laws.restitution, pair, step.materials(), u_before, u_n, step.time_step,
+                           contacts.approach[a]);
+}
+
+/// Writes the problem in the order of the contacts. Also turns contacts.approach into what the next step must
+/// know of contacts that act, and sets contacts.bounces.
+template <class Problem, bool with_spin>
+void assemble(const StepInput& step, StepContacts& contacts, Problem& problem) {
+  constexpr int dim = Problem::dim;
+  const StepLaws& laws = step.laws;
+  const Bodies& bodies = step.bodies;
+  const std::size_t count = contacts.pairs.size();
+  assemble_bodies(step, problem);
+  problem.q.resize(dim * count);
+  problem.mu.resize((dim - 1) * count);
+  problem.time_step = step.time_step;
+  if (laws.energy_ledger) contacts.bounces.resize(count);
+  for (std::size_t a = 0; a < count; ++a) {
+    const Candidate& pair = contacts.pairs[a];
+    const WallVelocity wall = wall_velocity<Problem>(step, pair);
+    const Point u = relative_velocity(pair, step.free.x, step.free.z, wall.free);
+    const double u_n = normal_part(pair, u), shift = normal_shift(step, contacts, a, u_n, wall.before);
+    problem.q[dim * a] = u_n + shift;
+    if (laws.energy_ledger) contacts.bounces[a] = shift < 0;
+    const std::int32_t second = second_body<Problem>(step, pair);
+    if constexpr (dim == 3) {
+      const double lever = lever_of(pair, bodies);
+      problem.W.add(pair.i, second, pair.n_x, pair.n_z, lever);
+      problem.q[dim * a + 2] = rolling_velocity(pair, bodies, step.walls, lever, step.time_step);
+      problem.mu[2 * a + 1] = rolling_bound(*laws.rolling, pair, step.materials());
+    } else {
+      problem.W.add(pair.i, second, pair.n_x, pair.n_z);
+    }
+    if constexpr (dim >= 2) {
+      const double u_t = tangential_part(pair, u);
+      problem.q[dim * a + 1] = with_spin ? sliding_of_rims(u_t, pair, bodies) : u_t;
+      problem.mu[(dim - 1) * a] = friction_bound(*laws.friction, pair, step.materials());
+    }
+  }
+}
+
+}  // namespace drumlin::particles

@@ -1,0 +1,47 @@
+#include "particles/stepping/contact_memory.hpp"
+
+namespace drumlin::particles {
+
+void Recollection::find(const ContactMemory& memory, std::size_t bodies, std::span<const Candidate> pairs) {
+  first_of_body_.assign(bodies, -1);
+  next_of_body_.resize(memory.i.size());
+  for (std::size_t m = 0; m < memory.i.size(); ++m) {
+    next_of_body_[m] = first_of_body_[memory.i[m]];
+    first_of_body_[memory.i[m]] = static_cast<std::int32_t>(m);
+  }
+  place_.resize(pairs.size());
+  for (std::size_t a = 0; a < pairs.size(); ++a) {
+    std::int32_t m = first_of_body_[pairs[a].i];
+    while (m >= 0 && memory.j[m] != pairs[a].j) m = next_of_body_[m];
+    place_[a] = m;
+  }
+}
+
+void Recollection::warm_start(const ContactMemory& memory, int dim, double time_step,
+                              std::vector<double>& impulses) const {
+  impulses.assign(dim * place_.size(), 0.0);
+  const double scale = memory.time_step > 0 ? time_step / memory.time_step : 1;
+  for (std::size_t a = 0; a < place_.size(); ++a)
+    if (const std::int32_t m = place_[a]; m >= 0)
+      for (int c = 0; c < dim; ++c) impulses[dim * a + c] = scale * memory.impulse[dim * m + c];
+}
+
+void Recollection::approach(const ContactMemory& memory, std::vector<double>& approach) const {
+  approach.assign(place_.size(), 0.0);
+  for (std::size_t a = 0; a < place_.size(); ++a)
+    if (place_[a] >= 0) approach[a] = memory.approach[place_[a]];
+}
+
+void remember(std::span<const Candidate> pairs, const std::vector<double>& impulses, int dim,
+              std::vector<double>& approach, double time_step, ContactMemory& memory) {
+  memory.time_step = time_step;
+  memory.i.resize(pairs.size());
+  memory.j.resize(pairs.size());
+  for (std::size_t a = 0; a < pairs.size(); ++a) memory.i[a] = pairs[a].i, memory.j[a] = pairs[a].j;
+  memory.impulse = impulses;
+  for (std::size_t a = 0; a < approach.size(); ++a)
+    if (impulses[dim * a] == 0) approach[a] = 0;
+  memory.approach = approach;
+}
+
+}  // namespace drumlin::particles

@@ -1,0 +1,56 @@
+#pragma once
+// Overlap at the end of a step, and the pairs between which the position projection removes it.
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "particles/bodies/bodies.hpp"
+#include "particles/contact/sweep_plan.hpp"
+#include "particles/detection/candidate.hpp"
+#include "particles/detection/cell_grid.hpp"
+#include "particles/effects/wall_step.hpp"
+#include "particles/parallel/team_loops.hpp"
+#include "particles/stepping/lost_grain.hpp"
+#include "particles/stepping/position_projection.hpp"
+
+namespace drumlin::particles {
+
+/// Overlap of loaded contacts before the position projection, in d.
+struct Overlap {
+  double mean = 0, max = 0;
+  int loaded = 0;
+};
+
+/// Contacts of a step that has been solved and whose bodies have been moved.
+struct MovedContacts {
+  std::span<const Candidate> pairs;
+  std::span<const double> impulses;  ///< dim per pair, normal first
+  int dim = 1;
+  const SweepPlan& plan;  ///< of the pairs
+};
+
+/// Looks at all pairs once more, at the end of the step; keeps workspace only.
+class OverlapSearch {
+ public:
+  /// Lets a team share the work; the result does not depend on it.
+  void use(ThreadTeam* team) { loops_ = TeamLoops(team); }
+
+  /// Lays grains that crossed a wall back (wall_crossing.hpp); returns the deepest that one was in it.
+  static double undo_crossings(std::span<const Candidate> pairs, const WallStep& walls, const Period& period,
+                               double time_step, Bodies& bodies);
+  /// Overlap of the loaded contacts. `lost` receives the first grain that left its container.
+  Overlap find(const MovedContacts& contacts, const Bodies& bodies, const WallStep& walls,
+               const Period& period, double margin, std::optional<LostGrain>& lost);
+
+  /// Pairs closer than `margin` in the last search, and their plan.
+  std::span<const ClosePair> close() const { return close_; }
+  const SweepPlan& plan() const { return plan_; }
+
+ private:
+  TeamLoops loops_;
+  std::vector<ClosePair> now_, close_;  // all pairs at the end of the step, and those that are close
+  SweepPlan plan_;
+};
+
+}  // namespace drumlin::particles

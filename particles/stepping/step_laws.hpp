@@ -1,0 +1,33 @@
+#pragma once
+// Laws of a step, dimensionless: those of the effects that a scene names, and where they act.
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "particles/detection/cell_grid.hpp"
+#include "particles/effects/cohesion.hpp"
+#include "particles/effects/pair_law.hpp"
+#include "particles/effects/restitution.hpp"
+#include "particles/scene/scene.hpp"
+
+namespace drumlin::particles {
+
+/// An effect that the scene does not name is an empty optional.
+struct StepLaws {
+  std::optional<Point> gravity;  ///< an acceleration
+  std::optional<PairLaw> friction;
+  std::optional<RestitutionLaw> restitution;
+  std::optional<CohesionLaw> cohesion;
+  std::optional<Spin> spin;
+  std::optional<PairLaw> rolling;
+  bool energy_ledger = false;
+  bool driven_walls = false;  ///< whether contacts move a wall in some stage
+  Period period;
+  std::vector<std::uint8_t> material_of_shape;  ///< empty when no law asks for it
+  double detection_margin = 0.02;               ///< d; pairs closer than this are always candidates
+};
+
+/// The laws of a scene.
+StepLaws laws_of(const Scene& scene, const Scales& scales);
+
+}  // namespace drumlin::particles

@@ -1,0 +1,94 @@
+// Started programs: what they print, how they end, what reaches them.
+#include "coupling/common/child_process.hpp"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <thread>
+
+#include "coupling/common/errors.hpp"
+
+namespace drumlin {
+namespace {
+
+ProcessRequest shell(const std::string& script, ProcessOutput output, std::vector<std::string>& lines) {
+  ProcessRequest request{.program = "/bin/sh", .words = {"-c", script}};
+  request.output = output;
+  request.line = [&](const std::string& line) { lines.push_back(line); };
+  return request;
+}
+
+TEST(ChildProcess, HandsOverItsLinesAndItsExitCode) {
+  std::vector<std::string> lines;
+  const ProcessEnd end =
+      run_process(shell("echo one; printf 'two words'; exit 3", ProcessOutput::standard, lines));
+  EXPECT_EQ(lines, (std::vector<std::string>{"one", "two words"}));
+  EXPECT_EQ(end.exit_code, 3);
+  EXPECT_EQ(end.signal, 0);
+  EXPECT_FALSE(end.succeeded());
+  EXPECT_GT(end.peak_memory_mb, 0);
+}
+
+TEST(ChildProcess, SaysWhichSignalEndedIt) {
+  std::vector<std::string> lines;
+  const ProcessEnd end = run_process(shell("kill -9 $$", ProcessOutput::standard, lines));
+  EXPECT_EQ(end.signal, SIGKILL);
+  EXPECT_EQ(end.shell_code(), 128 + SIGKILL);
+}
+
+TEST(ChildProcess, HandsOverBothStreamsInTheirOrder) {
+  std::vector<std::string> lines;
+  EXPECT_TRUE(
+      run_process(shell("echo a; echo b >&2; echo c", ProcessOutput::with_errors, lines)).succeeded());
+  EXPECT_EQ(lines, (std::vector<std::string>{"a", "b", "c"}));
+}
+
+TEST(ChildProcess, GetsVariablesInPlaceOfOurs) {
+  std::vector<std::string> lines;
+  ::setenv("DRUMLIN_TEST_VARIABLE", "ours", 1);
+  ProcessRequest request = shell("echo $DRUMLIN_TEST_VARIABLE $HOME", ProcessOutput::standard, lines);
+  request.environment = {"DRUMLIN_TEST_VARIABLE=given"};
+  EXPECT_TRUE(run_process(request).succeeded());
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_TRUE(lines[0].starts_with("given")) << lines[0];
+}
+
+TEST(ChildProcess, IsToldToEndAtItsTimeLimit) {
+  for (const ProcessOutput output : {ProcessOutput::inherited, ProcessOutput::standard}) {
+    std::vector<std::string> lines;
+    ProcessRequest request = shell("exec sleep 30", output, lines);
+    request.time_limit_s = 0.05;
+    const ProcessEnd end = run_process(request);
+    EXPECT_TRUE(end.timed_out);
+    EXPECT_EQ(end.signal, SIGTERM);
+    EXPECT_FALSE(end.succeeded());
+  }
+}
+
+volatile std::sig_atomic_t seen = 0;
+extern "C" void see(int signal) { seen = signal; }
+
+TEST(ChildProcess, GetsTheSignalsThatOurHandlerGets) {
+  std::signal(SIGTERM, see);
+  std::vector<std::string> lines;
+  // It ends this process's wait by the signal that it sends to its parent.
+  ProcessRequest request = shell("trap 'exit 7' TERM; kill -TERM $PPID; while :; do sleep 0.01; done",
+                                 ProcessOutput::standard, lines);
+  request.pass_signals_on = true;
+  EXPECT_EQ(run_process(request).exit_code, 7);
+  EXPECT_EQ(seen, SIGTERM);
+  EXPECT_EQ(std::signal(SIGTERM, SIG_DFL), see);  // our own is back
+}
+
+TEST(ChildProcess, IsMissed) {
+  EXPECT_THROW(run_process({.program = "/nowhere/to/be/found"}), IoError);
+  EXPECT_THROW(program_beside("no-such-program"), IoError);
+}
+
+TEST(ProcessCopy, EndsAsItsWorkDoes) {
+  EXPECT_TRUE(run_in_copy([] {}).succeeded());
+  EXPECT_FALSE(run_in_copy([] { throw IoError("lost"); }).succeeded());
+}
+
+}  // namespace
+}  // namespace drumlin

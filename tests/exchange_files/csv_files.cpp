@@ -1,0 +1,35 @@
+// Numbers and fields of tables as text.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "coupling/documents/csv.hpp"
+
+namespace drumlin {
+namespace {
+
+TEST(Csv, WritesTheShortestDigitsThatReadBackTheSame) {
+  for (const double value : {0.1, 1 / 3.0, -2.5e-300, 1e22, 5e-324, 0.0})
+    EXPECT_EQ(finite_number(csv_number(value)), value);
+  EXPECT_EQ(csv_number(0.1), "0.1");
+  EXPECT_EQ(csv_number(std::nan("")), "");
+  EXPECT_EQ(csv_number(1 / 3.0, 3), "0.333");
+  EXPECT_EQ(csv_number(std::numeric_limits<double>::infinity(), 3), "");
+}
+
+TEST(Csv, SplitsALineIntoTrimmedFields) {
+  EXPECT_EQ(csv_fields(" a,b c ,,1\r"), (std::vector<std::string_view>{"a", "b c", "", "1"}));
+  EXPECT_EQ(csv_fields(""), std::vector<std::string_view>{""});
+  EXPECT_EQ(csv_line({"a", "", "1"}), "a,,1\n");
+}
+
+TEST(Csv, ReadsWholeFiniteNumbersAlone) {
+  EXPECT_TRUE(std::isnan(csv_value("").value()));
+  EXPECT_EQ(csv_value("-1e3"), -1000);
+  for (const char* text : {"1x", "nan", "inf", "1e999", "1 2", "x"}) EXPECT_FALSE(csv_value(text)) << text;
+  EXPECT_FALSE(finite_number(""));
+}
+
+}  // namespace
+}  // namespace drumlin

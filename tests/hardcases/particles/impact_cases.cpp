@@ -1,0 +1,205 @@
+// Impacts of one disc, or of a few in a row.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "tests/hardcases/particles/case_lists.hpp"
+#include "tests/hardcases/particles/trial.hpp"
+
+namespace drumlin {
+namespace {
+
+Trial drop(double height, double e, double duration, double h) {
+  Trial trial;
+  trial.discs = {{0, 0.5 + height}};
+  trial.scene.walls = {trial_floor()};
+  trial.scene.effects.gravity = particles::Gravity{};
+  trial.scene.effects.restitution = particles::Restitution{e, e};
+  trial.add_stage(duration, h);
+  return trial;
+}
+
+std::vector<HardCheck> drop_peaks() {
+  const double e = 0.6, height = 4, h = 2e-4;
+  particles::Simulation simulation = drop(height, e, 14, h).start();
+  std::vector<double> peaks;
+  double before = height, now = height;
+  run_watched(simulation, [&](const particles::Simulation& s) {
+    const double z = s.state().bodies.z[0] - 0.5;
+    if (now > before && now > z) peaks.push_back(now);
+    before = now, now = z;
+  });
+  peaks.resize(4, std::nan(""));
+  std::vector<HardCheck> checks;
+  for (int n = 1; n <= 4; ++n)
+    checks.push_back(equals("height of peak " + std::to_string(n), height * std::pow(e, 2 * n), peaks[n - 1],
+                            5 * h * std::sqrt(2 * height),
+                            "the time of an impact is known to a step, its speed to g h: 5 h sqrt(2 g H)"));
+  return checks;
+}
+
+std::vector<HardCheck> drop_to_rest() {
+  const double e = 0.5, height = 2, h = 2e-4;
+  const double rest = std::sqrt(2 * height) * (1 + e) / (1 - e);
+  particles::Simulation simulation = drop(height, e, rest + 2, h).start();
+  double last_moving = 0, jitter = 0;
+  run_watched(simulation, [&](const particles::Simulation& s) {
+    const double speed = std::abs(s.state().bodies.v_z[0]);
+    if (speed > 2 * h) last_moving = s.state().time();
+    if (s.state().time() > rest * 1.01) jitter = larger(jitter, speed);
+  });
+  return {
+      equals("time of rest", rest, last_moving, 0.01 * rest,
+             "impacts below 2 g h are taken as rest, each impact is late by up to a step"),
+      at_most("speed afterwards", 1e-9, jitter, "the residual asked of the solver"),
+      equals("height at the end", 0.5, simulation.state().bodies.z[0], 1e-6, "overlap is projected away")};
+}
+
+Trial row(const std::vector<TrialDisc>& discs, double e, double duration, double h) {
+  Trial trial;
+  trial.discs = discs;
+  trial.scene.effects.restitution = particles::Restitution{e, e};
+  trial.scene.solver.tolerance = 1e-12;
+  trial.scene.solver.check_every = 1;
+  trial.add_stage(duration, h);
+  return trial;
+}
+
+std::vector<HardCheck> touching_cradle() {
+  std::vector<HardCheck> checks;
+  const double e = 0.4;
+  for (const int others : {2, 5}) {
+    std::vector<TrialDisc> discs{{-1.02, 0, 1, 1}};
+    for (int k = 0; k < others; ++k) discs.push_back({1.0 * k, 0});
+    const particles::Bodies end = end_of(row(discs, e, 0.1, 1e-3));
+    const std::string suffix = " of one on " + std::to_string(others);
+    const double N = others;
+    checks.push_back(equals("striker" + suffix, (1 - N * e) / (N + 1), end.v_x[0], 1e-8, "residual 1e-12"));
+    double worst = (1 + e) / (N + 1);
+    for (int k = 1; k <= others; ++k)
+      if (std::abs(end.v_x[k] - (1 + e) / (N + 1)) >= std::abs(worst - (1 + e) / (N + 1))) worst = end.v_x[k];
+    checks.push_back(equals("farthest off" + suffix, (1 + e) / (N + 1), worst, 1e-8, "residual 1e-12"));
+  }
+  return checks;
+}
+
+std::vector<HardCheck> resolved_cradle() {
+  const particles::Bodies end = end_of(row({{-1.3, 0, 1, 1}, {0, 0}, {1.3, 0}}, 1, 2, 1e-3));
+  std::vector<HardCheck> checks;
+  for (int k = 0; k < 3; ++k)
+    checks.push_back(equals("speed of disc " + std::to_string(k + 1), k == 2, end.v_x[k], 1e-10,
+                            "equal discs exchange velocities; residual 1e-12"));
+  return checks;
+}
+
+/// Velocities after a disc without spin has met a floor, without gravity.
+particles::Bodies oblique_impact(double v_t, double v_n, double mu, double e) {
+  Trial trial;
+  trial.discs = {{0, 0.55, 1, v_t, -v_n}};
+  trial.scene.walls = {trial_floor()};
+  trial.scene.effects.friction = particles::Friction{mu, mu};
+  trial.scene.effects.restitution = particles::Restitution{e, e};
+  trial.scene.effects.spin = particles::Spin{};
+  trial.add_stage(0.2, 1e-3);
+  return end_of(trial);
+}
+
+std::vector<HardCheck> oblique() {
+  const double e = 0.5, mu = 0.3, limit = 3 * mu * (1 + e);
+  const particles::Bodies sticks = oblique_impact(0.9 * limit, 1, mu, e),
+                          slips = oblique_impact(1.5 * limit, 1, mu, e);
+  const std::string why = "one contact is solved exactly";
+  return {equals("tangential speed, sticking", 2.0 / 3 * 0.9 * limit, sticks.v_x[0], 1e-8, why),
+          equals("speed of the rim, sticking", 0, sticks.v_x[0] - 0.5 * sticks.spin[0], 1e-8, why),
+          equals("normal speed, sticking", e, sticks.v_z[0], 1e-8, why),
+          equals("tangential speed, slipping", 1.5 * limit - mu * (1 + e), slips.v_x[0], 1e-8, why),
+          equals("normal speed, slipping", e, slips.v_z[0], 1e-8, why)};
+}
+
+std::vector<HardCheck> billiard() {
+  Trial trial = row({{0.3, 0, 1, 1}}, 1, 30500, 0.1);
+  trial.scene.walls = {trial_segment("left", -2, -5, -2, 5), trial_segment("right", 2, -5, 2, 5)};
+  trial.scene.solver.tolerance = 1e-14;
+  particles::Simulation simulation = trial.start();
+  const double before = kinetic_energy(simulation.state().bodies);
+  double velocity = 1;
+  int impacts = 0;
+  run_watched(simulation, [&](const particles::Simulation& s) {
+    const double now = s.state().bodies.v_x[0];
+    impacts += now * velocity < 0;
+    velocity = now;
+  });
+  return {at_least("impacts", 10000, impacts, "a way of 3 d each, at speed 1 for 30500"),
+          equals("energy at the end / at the start", 1, kinetic_energy(simulation.state().bodies) / before,
+                 1e-12, "rounding of 1e4 impacts")};
+}
+
+std::vector<HardCheck> shot() {
+  const double speed = 100, e = 0.5, radius = 20;
+  Trial trial;
+  trial.discs = {{0, 0, 1, 60, -80}};
+  trial.scene.walls = {trial_container(radius)};
+  trial.scene.effects.restitution = particles::Restitution{e, e};
+  trial.add_stage(0.35, 0.0545);  // 5.45 d per step; one impact
+  particles::Simulation simulation = trial.start();
+  double farthest = 0;
+  const Watch watch = run_watched(simulation, [&](const particles::Simulation& s) {
+    farthest = larger(farthest, std::hypot(s.state().bodies.x[0], s.state().bodies.z[0]) + 0.5);
+  });
+  const particles::Bodies& end = simulation.state().bodies;
+  return {at_most("reach in radii of the drum", 1 + 1e-6, farthest / radius,
+                  "no passing through the wall; residual 1e-9"),
+          equals("speed after the impact", e * speed, std::hypot(end.v_x[0], end.v_z[0]), 1e-6 * speed,
+                 "a central impact; residual 1e-9"),
+          at_most("steps with NaN", 0, watch.steps_not_finite, "none")};
+}
+
+std::vector<HardCheck> fast_passes() {
+  // Two discs that pass each other 0.05 d apart at 200 sqrt(g d), from different places within a step.
+  double worst = 0;
+  for (int k = 0; k < 40; ++k) {
+    Trial trial = row({{-20 - 0.25 * k, 0, 1, 200}, {0, 1.05}}, 0.5, 0.4, 0.05);
+    const particles::Bodies end = end_of(trial);
+    for (const double gained : {end.v_z[0], end.v_z[1], end.v_x[1]}) worst = larger(worst, std::abs(gained));
+  }
+  return {at_most("largest speed gained", 0, worst, "straight paths that do not meet: no contact acts")};
+}
+
+std::vector<HardCheck> fast_target() {
+  Trial trial;
+  trial.discs = {{-1, 0, 1, 200}, {0, 0}, {1.5, 0}};
+  trial.add_stage(0.5, 0.05);
+  particles::Simulation simulation = trial.start();
+  double overlap = 0;
+  run_watched(simulation, [&](const particles::Simulation& s) {
+    const particles::Bodies& b = s.state().bodies;
+    overlap = larger(overlap, larger(b.x[0] + 1 - b.x[1], b.x[1] + 1 - b.x[2]));
+  });
+  const particles::Bodies& end = simulation.state().bodies;
+  return {at_most("overlap", 1e-6, overlap, "gaps are closed, not crossed; residual 1e-9"),
+          equals("common speed", 200.0 / 3, end.v_x[2], 1e-5, "momentum, e = 0"),
+          equals("striker", 200.0 / 3, end.v_x[0], 1e-5, "momentum, e = 0")};
+}
+
+}  // namespace
+
+std::vector<HardCase> impact_cases() {
+  return {
+      {"drop-peaks", "a dropped disc peaks at e^(2n) of its height", true, drop_peaks},
+      {"drop-to-rest", "it rests at t = sqrt(2 H/g) (1+e)/(1-e), then no jitter", true, drop_to_rest},
+      {"cradle-touching", "one disc on N that touch, Newton's law: (1-Ne)/(N+1), the others (1+e)/(N+1)",
+       true, touching_cradle},
+      {"cradle-gaps", "one disc on two with gaps, e = 1: (0, 0, 1)", true, resolved_cradle},
+      {"oblique", "an impact slips iff |v_t| > 3 mu (1+e) |v_n|; else v_t' = 2/3 v_t", true, oblique},
+      {"billiard", "one disc between walls, e = 1: energy kept to 1e-12 over 1e4 impacts", true, billiard},
+      {"shot", "a disc at 100 sqrt(g d) stays in the drum and leaves the wall with e times its speed", true,
+       shot},
+      {"fast-pass", "discs at 200 sqrt(g d) that pass 0.05 d apart do not feel each other", false,
+       fast_passes},
+      {"fast-target", "a disc at 200 sqrt(g d) pushes its target onto the next, e = 0: v/3 each", true,
+       fast_target},
+  };
+}
+
+}  // namespace drumlin

@@ -1,0 +1,175 @@
+// What must not change the answer, and how it converges.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "tests/hardcases/particles/case_lists.hpp"
+#include "tests/hardcases/particles/trial.hpp"
+
+namespace drumlin {
+namespace {
+
+/// Angle after `time` of a disc that rolls inside a circle of radius R from rest: phi'' = -(2/3) g sin(phi) /
+/// (R - r). Runge-Kutta of fourth order in steps of 1e-4, exact to 1e-12 here.
+double rolling_pendulum(double phi, double swing, double time) {
+  const auto acceleration = [swing](double angle) { return -2.0 / 3 * std::sin(angle) / swing; };
+  const int steps = static_cast<int>(std::lround(time / 1e-4));
+  const double h = time / steps;
+  double v = 0;
+  for (int k = 0; k < steps; ++k) {
+    const double a1 = acceleration(phi), v2 = v + h / 2 * a1, a2 = acceleration(phi + h / 2 * v);
+    const double v3 = v + h / 2 * a2, a3 = acceleration(phi + h / 2 * v2), v4 = v + h * a3;
+    const double a4 = acceleration(phi + h * v3);
+    phi += h / 6 * (v + 2 * v2 + 2 * v3 + v4);
+    v += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
+  }
+  return phi;
+}
+
+double pendulum_error(double h) {
+  const double radius = 10, swing = radius - 0.5, start = 0.5, time = 10;
+  Trial trial;
+  trial.discs = {{swing * std::sin(start), -swing * std::cos(start)}};
+  trial.scene.walls = {trial_container(radius)};
+  trial.scene.effects = {particles::Gravity{}, particles::Friction{1, 1}, std::nullopt, particles::Spin{}};
+  trial.add_stage(time, h);
+  const particles::Bodies end = end_of(trial);
+  return std::atan2(end.x[0], -end.z[0]) - rolling_pendulum(start, swing, time);
+}
+
+double fall_error(double h) {
+  Trial trial;
+  trial.discs = {{0, 3}};
+  trial.scene.effects.gravity = particles::Gravity{};
+  trial.add_stage(1, h);
+  return end_of(trial).z[0] - 2.5;
+}
+
+std::vector<HardCheck> refinement() {
+  return {equals("order, free fall", 1, std::log2(fall_error(0.02) / fall_error(0.01)), 0.01,
+                 "the error is h t g / 2"),
+          equals("order, rolling in a circle", 1, std::log2(pendulum_error(0.02) / pendulum_error(0.01)), 0.1,
+                 "next order at h = 0.02"),
+          at_most("error of the angle at h = 0.01", 0.01, std::abs(pendulum_error(0.01)),
+                  "about h g t sin phi / (R - r) times h / 2")};
+}
+
+Trial heap() {
+  Trial trial;
+  for (int k = 0; k < 9; ++k)
+    trial.discs.push_back({1.01 * (k % 3) + 0.3 * (k / 3), 0.5 + 1.02 * (k / 3), 1, 0.1 * k, -0.3});
+  trial.scene.walls = {trial_segment("floor", -20, 0, 20, 0)};
+  trial.scene.effects = {particles::Gravity{}, particles::Friction{0.3, 0.3}, std::nullopt,
+                         particles::Spin{}};
+  trial.scene.solver.max_sweeps = 20000;
+  trial.add_stage(0.5, 0.01);
+  return trial;
+}
+
+std::vector<HardCheck> rotated_frame() {
+  const double c = std::cos(std::numbers::pi / 6), s = std::sin(std::numbers::pi / 6);
+  Trial other = heap();
+  for (TrialDisc& d : other.discs)
+    d = {c * d.x - s * d.z, s * d.x + c * d.z, d.diameter, c * d.v_x - s * d.v_z, s * d.v_x + c * d.v_z};
+  other.scene.walls = {trial_segment("floor", -20 * c, -20 * s, 20 * c, 20 * s)};
+  other.scene.effects.gravity->direction_deg = -60;
+  const particles::Bodies a = end_of(heap()), b = end_of(other);
+  double place = 0, spin = 0;
+  for (std::size_t k = 0; k < a.count(); ++k) {
+    place = larger(place, std::hypot(b.x[k] - c * a.x[k] + s * a.z[k], b.z[k] - s * a.x[k] - c * a.z[k]));
+    spin = larger(spin, std::abs(a.spin[k] - b.spin[k]));
+  }
+  return {at_most("largest difference of a position", 1e-6, place, "residual 1e-9 over 50 steps"),
+          at_most("largest difference of a spin", 1e-5, spin, "residual 1e-9 over 50 steps")};
+}
+
+std::vector<HardCheck> galilean_shift() {
+  Trial trial;
+  for (int k = 0; k < 12; ++k)
+    trial.discs.push_back({1.01 * (k % 4), 1.02 * (k / 4), 1, 0.3 * (k % 3) - 0.3, -0.2 * (k / 4)});
+  trial.scene.effects.friction = particles::Friction{0.3, 0.3};
+  trial.scene.effects.restitution = particles::Restitution{0.5, 0.5};
+  trial.scene.effects.spin = particles::Spin{};
+  trial.add_stage(1, 0.01);
+  Trial moving = trial;
+  for (TrialDisc& d : moving.discs) d.v_x += 5, d.v_z -= 3;
+  const particles::Bodies a = end_of(trial), b = end_of(moving);
+  double place = 0, spin = 0;
+  for (std::size_t k = 0; k < a.count(); ++k) {
+    place = larger(place, std::hypot(b.x[k] - a.x[k] - 5, b.z[k] - a.z[k] + 3));
+    spin = larger(spin, std::abs(a.spin[k] - b.spin[k]));
+  }
+  return {at_most("largest difference of a position", 1e-6, place, "residual 1e-9 over 100 steps"),
+          at_most("largest difference of a spin", 1e-5, spin, "residual 1e-9 over 100 steps")};
+}
+
+/// A drum of many discs that falls and begins to turn.
+Trial drum() {
+  Trial trial;
+  for (int i = -20; i <= 20; ++i)
+    for (int k = -20; k <= 20; ++k)
+      if (std::hypot(i, k) < 18)
+        trial.discs.push_back({1.04 * i + 0.01 * (k % 3), 1.04 * k, 0.9 + 0.02 * ((i * i + 3 * k * k) % 6)});
+  trial.scene.walls = {trial_container(20)};
+  trial.scene.effects = {particles::Gravity{}, particles::Friction{0.4, 0.9},
+                         particles::Restitution{0.46, 0.46}, particles::Spin{}};
+  trial.scene.solver.tolerance = 1e-2;
+  trial.scene.solver.max_sweeps = 50;
+  trial.add_stage(100 * 0.0545, 0.0545);
+  trial.turn("drum", 0.05);
+  return trial;
+}
+
+int differing(const particles::SimulationState& a, const particles::SimulationState& b) {
+  int count = 0;
+  const auto compare = [&count](const std::vector<double>& one, const std::vector<double>& other) {
+    count += one.size() != other.size();
+    for (std::size_t k = 0; k < std::min(one.size(), other.size()); ++k) count += one[k] != other[k];
+  };
+  compare(a.bodies.x, b.bodies.x), compare(a.bodies.z, b.bodies.z);
+  compare(a.bodies.v_x, b.bodies.v_x), compare(a.bodies.v_z, b.bodies.v_z);
+  compare(a.bodies.spin, b.bodies.spin);
+  compare(a.memory.impulse, b.memory.impulse), compare(a.memory.approach, b.memory.approach);
+  return count;
+}
+
+std::vector<HardCheck> threads() {
+  std::vector<HardCheck> checks;
+  particles::Simulation one = drum().start(1);
+  run_watched(one);
+  for (const int count : {2, 4}) {
+    particles::Simulation many = drum().start(count);
+    run_watched(many);
+    checks.push_back(equals("numbers that differ, 1 against " + std::to_string(count) + " threads", 0,
+                            differing(one.state(), many.state()), 0, "the same bytes"));
+  }
+  return checks;
+}
+
+std::vector<HardCheck> restart() {
+  const Trial trial = drum();
+  particles::Simulation whole = trial.start(), first = trial.start();
+  run_watched(whole);
+  for (int k = 0; k < 43; ++k) (void)first.step();
+  particles::Scene told = trial.scene;
+  told.grains.source = particles::GeneratedGrains{1, 1, 1, particles::RectangleRegion{{0, 0}, {1, 1}}};
+  particles::Simulation second(told, first.state());
+  run_watched(second);
+  return {equals("numbers that differ after a restart", 0, differing(whole.state(), second.state()), 0,
+                 "the same bytes")};
+}
+
+}  // namespace
+
+std::vector<HardCase> invariance_cases() {
+  return {
+      {"step-refinement", "the error falls with the step, order 1", true, refinement},
+      {"rotated-frame", "a heap and gravity turned by 30 degrees: the same answer", true, rotated_frame},
+      {"galilean-shift", "twelve discs that all move by more: the same answer", true, galilean_shift},
+      {"threads", "1, 2 and 4 threads: the same bytes", true, threads},
+      {"restart", "a run continued from its state: the same bytes", true, restart},
+  };
+}
+
+}  // namespace drumlin

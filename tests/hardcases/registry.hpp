@@ -1,0 +1,16 @@
+#pragma once
+// The registry of hard cases: one list per simulator, in the order in which `drumlin hardcases` shows them.
+#include <vector>
+
+#include "tests/hardcases/hard_case.hpp"
+
+namespace drumlin {
+
+/// The cases of the particles, run through the public engine. Library drumlin::particle_hard_cases.
+const std::vector<HardCase>& particle_hard_cases();
+
+/// The cases of the continuum, run through the public solver. FemRuntime has to live; all ranks run a case
+/// together. Library drumlin::flow_hard_cases, which links deal.II.
+const std::vector<HardCase>& flow_hard_cases();
+
+}  // namespace drumlin

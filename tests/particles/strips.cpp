@@ -1,0 +1,167 @@
+// Sweeps in strips: the plan keeps its promises, and neither threads nor the processor's vectors change a
+// bit.
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include <cmath>
+#include <random>
+#include <set>
+
+#include "particles/contact/problems.hpp"
+#include "particles/solver/contact_solver.hpp"
+
+namespace drumlin {
+using namespace particles;
+namespace {
+
+/// Discs of a square lattice on a floor, each in contact with its right and upper neighbour, at random
+/// velocities.
+CoulombSpinProblem lattice(int columns, int rows, unsigned seed) {
+  std::mt19937 bits(seed);
+  const auto uniform = [&bits] { return 2 * static_cast<double>(bits()) / 4294967296.0 - 1; };
+  CoulombSpinProblem problem;
+  const int bodies = columns * rows;
+  for (int b = 0; b < bodies; ++b) problem.W.inverse_mass.push_back(1 + 0.3 * uniform());
+  problem.W.inverse_mass.push_back(0);
+  const auto add = [&](int i, int j, double angle) {
+    problem.W.add(i, j, std::cos(angle), std::sin(angle));
+    problem.q.push_back(0.1 * uniform() - 0.05);
+    problem.q.push_back(0.1 * uniform());
+    problem.mu.push_back(0.4);
+  };
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column) {
+      const int b = row * columns + column;
+      if (row == 0) add(b, bodies, 1.5 + 0.1 * uniform());
+      if (column + 1 < columns) add(b, b + 1, 3.1 + 0.1 * uniform());
+      if (row + 1 < rows) add(b, b + columns, -1.5 + 0.1 * uniform());
+    }
+  return problem;
+}
+
+/// Bodies that the contacts of a slice touch, walls aside.
+std::set<int> touched(const CoulombSpinProblem& p, const SweepPlan& plan, std::span<const std::int32_t> order,
+                      int slice) {
+  std::set<int> bodies;
+  const int fixed = static_cast<int>(p.W.inverse_mass.size()) - 1;
+  for (int k = plan.group_start[plan.slice_start[slice]]; k < plan.group_start[plan.slice_start[slice + 1]];
+       ++k) {
+    bodies.insert(p.W.i[order[k]]);
+    if (p.W.j[order[k]] != fixed) bodies.insert(p.W.j[order[k]]);
+  }
+  return bodies;
+}
+
+TEST(SweepPlan, GroupsAndStripsOfAPhaseShareNoBody) {
+  const auto problem = lattice(120, 60, 1);
+  const int bodies = 120 * 60;
+  std::vector<std::int32_t> order;
+  const SweepPlan plan = sweep_plan(bodies, problem.W.i, problem.W.j, order);
+  EXPECT_GE(plan.strips(), 4);
+  EXPECT_EQ(std::set<int>(order.begin(), order.end()).size(), problem.W.i.size());
+  EXPECT_EQ(std::set<int>(plan.body_order.begin(), plan.body_order.end()).size(),
+            static_cast<std::size_t>(bodies));
+  for (std::size_t g = 0; g + 1 < plan.group_start.size(); ++g) {
+    std::set<int> seen;
+    for (int k = plan.group_start[g]; k < plan.group_start[g + 1]; ++k) {
+      EXPECT_TRUE(seen.insert(problem.W.i[order[k]]).second);
+      if (problem.W.j[order[k]] < bodies) {
+        EXPECT_TRUE(seen.insert(problem.W.j[order[k]]).second);
+      }
+    }
+  }
+  for (const int phase : {0, 1}) {
+    std::set<int> seen;
+    for (int strip = 0; strip < plan.strips(); ++strip)
+      for (const int b : touched(problem, plan, order, 2 * strip + phase)) EXPECT_TRUE(seen.insert(b).second);
+  }
+  // In the first phase a strip touches no bodies but its own.
+  for (int strip = 0; strip < plan.strips(); ++strip) {
+    const std::set<int> own(plan.body_order.begin() + plan.strip_bodies[strip],
+                            plan.body_order.begin() + plan.strip_bodies[strip + 1]);
+    for (const int b : touched(problem, plan, order, 2 * strip)) EXPECT_TRUE(own.contains(b));
+  }
+}
+
+TEST(SweepPlan, ABodyWithHundredsOfContactsGetsAsManyGroups) {
+  std::vector<std::int32_t> i, j, order;
+  for (int b = 1; b <= 300; ++b) i.push_back(0), j.push_back(b);
+  const SweepPlan plan = sweep_plan(301, i, j, order);
+  EXPECT_EQ(order.size(), 300u);
+  EXPECT_EQ(plan.group_start.size(), 301u);
+}
+
+CoulombSpinProblem in_order_of(const CoulombSpinProblem& problem, const SweepPlan& plan,
+                               std::span<const std::int32_t> order) {
+  CoulombSpinProblem sorted;
+  sorted.W.inverse_mass = problem.W.inverse_mass;
+  for (const auto a : order) {
+    sorted.W.add(problem.W.i[a], problem.W.j[a], problem.W.n_x[a], problem.W.n_z[a]);
+    sorted.q.push_back(problem.q[2 * a]), sorted.q.push_back(problem.q[2 * a + 1]);
+    sorted.mu.push_back(problem.mu[a]);
+  }
+  sorted.W.plan = plan;
+  return sorted;
+}
+
+std::vector<double> solved(const std::string& solver, ThreadTeam* team, int sweeps) {
+  static const auto problem = [] {  // in the order of its plan, as the steps of a run come
+    const auto unsorted = lattice(150, 100, 2);
+    std::vector<std::int32_t> order;
+    const SweepPlan plan = sweep_plan(150 * 100, unsorted.W.i, unsorted.W.j, order);
+    return in_order_of(unsorted, plan, order);
+  }();
+  SolverWorkspace<CoulombSpinProblem> work;
+  work.team = team;
+  StoppingRule rule;
+  rule.tolerance = 0;
+  rule.max_sweeps = sweeps;
+  Solution<CoulombSpinProblem> solution;
+  (void)contact_solver<CoulombSpinProblem>(solver)(problem, rule, work, solution);
+  return solution.impulses;
+}
+
+TEST(Strips, AnyNumberOfThreadsGivesTheSameBytes) {
+  for (const char* solver : {"nlgs", "accelerated", "accelerated-double", "cpg"}) {
+    const auto alone = solved(solver, nullptr, 50);
+    for (const int threads : {2, 3, 4}) {
+      ThreadTeam team(threads);
+      EXPECT_EQ(alone, solved(solver, &team, 50)) << solver << ", " << threads;
+    }
+  }
+}
+
+TEST(Strips, AnyInstructionSetGivesTheSameBytes) {
+  for (const char* solver : {"nlgs", "accelerated", "accelerated-double"}) {
+    const auto best = solved(solver, nullptr, 30);
+    for (const auto target : hwy::SupportedAndGeneratedTargets()) {
+      hwy::SetSupportedTargetsForTest(target);
+      hwy::GetChosenTarget().DeInit();
+      EXPECT_EQ(best, solved(solver, nullptr, 30)) << solver << " on " << hwy::TargetName(target);
+    }
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().DeInit();
+  }
+}
+
+TEST(Strips, SweepsAgreeWithThoseOfOneContactAfterTheOther) {
+  // In the order of the plan both do the same sums; the vectorised form adds n.(v_i - v_j) in another order.
+  auto problem = lattice(40, 30, 3);
+  std::vector<std::int32_t> order;
+  const SweepPlan plan = sweep_plan(40 * 30, problem.W.i, problem.W.j, order);
+  const CoulombSpinProblem sorted = in_order_of(problem, plan, order);
+  StoppingRule rule;
+  rule.tolerance = 0;
+  rule.max_sweeps = 20;
+  SolverWorkspace<CoulombSpinProblem> work;
+  Solution<CoulombSpinProblem> in_strips, scalar;
+  (void)solve_nlgs(sorted, rule, work, in_strips);
+  (void)contact_solver<CoulombSpinProblem>("nlgs-scalar")(sorted, rule, work, scalar);
+  double worst = 0;
+  for (std::size_t k = 0; k < scalar.impulses.size(); ++k)
+    worst = std::max(worst, std::abs(in_strips.impulses[k] - scalar.impulses[k]));
+  EXPECT_LT(worst, 1e-12);  // rounding of 20 sweeps
+}
+
+}  // namespace
+}  // namespace drumlin
