@@ -180,9 +180,9 @@ def rheology(run):
     left.set_title("Inertial number")
     over_inertia(middle, run, "mu")
     a, b = run.scalar("mu_a"), run.scalar("mu_b")
-    if math.isfinite(a):
-        inertial = run.content["settings"]["mu_fit_I"]
-        middle.plot(inertial, [a + b * math.log(x) for x in inertial], color=FIT, zorder=5,
+    curve = run.content.get("friction_curve")
+    if curve:
+        middle.plot(curve["I"], curve["mu"], color=FIT, zorder=5,
                     label=rf"{a:.3f} {b:+.4f} ln $I$")
     middle.set_title("Effective friction")
     middle.legend(loc="upper left")

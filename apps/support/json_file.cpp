@@ -36,4 +36,6 @@ void add_scalars(Json& content, const ScalarSet& scalars) {
   for (const auto& scalar : scalars.scalars) content[scalar.name] = to_json(scalar);
 }
 
+Json to_json(const LawCurve& curve) { return {{"I", curve.I}, {"mu", curve.mu}}; }
+
 }  // namespace drumlin::apps

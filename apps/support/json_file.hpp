@@ -8,6 +8,7 @@
 #include "coupling/common/scales.hpp"
 #include "coupling/documents/json_document.hpp"
 #include "coupling/exchange/scalar_set.hpp"
+#include "coupling/law/law_curve.hpp"
 
 namespace drumlin::apps {
 
@@ -19,6 +20,7 @@ void write_json(const std::filesystem::path& file, const nlohmann::ordered_json&
 nlohmann::ordered_json to_json(const Scalar& scalar);
 nlohmann::ordered_json to_json(const Provenance& provenance);
 nlohmann::ordered_json to_json(const Scales& scales);
+nlohmann::ordered_json to_json(const LawCurve& curve);  ///< {"I": [...], "mu": [...]}
 
 /// Adds each scalar under its name.
 void add_scalars(nlohmann::ordered_json& content, const ScalarSet& scalars);

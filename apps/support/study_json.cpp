@@ -10,7 +10,7 @@
 #include "apps/support/enum_name.hpp"
 #include "apps/support/json_file.hpp"
 #include "coupling/documents/json_numbers.hpp"
-#include "coupling/law/friction_law.hpp"
+#include "coupling/law/law_curve.hpp"
 
 namespace drumlin::apps {
 
@@ -45,16 +45,8 @@ Json json_of(const coupling::Collapse& collapse) {
           {"range", number(collapse.range)}, {"points", points}};
 }
 
-/// The law at 41 values of I, evenly in ln I, for figures: they evaluate no law themselves.
 Json curve_of(const LogFriction& law, double I_min, double I_max) {
-  constexpr int intervals = 40;
-  const FrictionLaw evaluated = friction_law(law);
-  Json I = Json::array(), mu = Json::array();
-  for (int k = 0; k <= intervals; ++k) {
-    I.push_back(I_min * std::pow(I_max / I_min, static_cast<double>(k) / intervals));
-    mu.push_back(friction_at(evaluated, I.back().get<double>()).mu);
-  }
-  return {{"I", I}, {"mu", mu}};
+  return to_json(law_curve(friction_law(law), I_min, I_max));
 }
 
 /// The paper's mu = a + b ln I, as a curve over the range of I that both are fitted on; null where it does

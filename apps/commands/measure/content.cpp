@@ -2,48 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "apps/support/json_file.hpp"
 #include "coupling/documents/json_numbers.hpp"
-#include "particles/measurement/frame/intervals.hpp"
 
 namespace drumlin::apps {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-coupling::FrictionFit friction_fit(const ProfileSet& profiles, const coupling::LayerSelection& selection) {
-  const double nan = std::nan("");
-  const auto points = coupling::friction_points(profiles, selection);
-  return points.size() < 3 ? coupling::FrictionFit{.law = {nan, nan, {nan, nan, nan}, nan, nan}}
-                           : coupling::fit_log_friction(points);
-}
-
-LogFriction friction_law(const ProfileSet& profiles, const coupling::LayerSelection& selection) {
-  return friction_fit(profiles, selection).law;
-}
-
-/// A profile without header and intervals of its own borrows those of the measured one, layer by layer the
-/// nearest: without them its layers would be chosen and weighted otherwise.
-ProfileSet with_borrowed_intervals(ProfileSet profiles, const ProfileSet& measured) {
-  profiles.header = measured.header;
-  for (ProfileColumn& column : profiles.columns) {
-    if (column.name != "I" && column.name != "mu") continue;
-    const auto& known = measured.column(column.name).ci99;
-    column.ci99.assign(profiles.z.size(), std::nan(""));
-    for (std::size_t l = 0; l < profiles.z.size() && !known.empty(); ++l) {
-      const auto above = std::lower_bound(measured.z.begin(), measured.z.end(), profiles.z[l]);
-      auto nearest = above == measured.z.end() ? above - 1 : above;
-      if (nearest != measured.z.begin() && profiles.z[l] - *(nearest - 1) < *nearest - profiles.z[l])
-        --nearest;
-      column.ci99[l] = known[static_cast<std::size_t>(nearest - measured.z.begin())];
-    }
-  }
-  return profiles;
-}
 
 void add_law(const LogFriction& law, ScalarSet& scalars) {
   scalars.scalars.push_back({"mu_a", law.a, {}});
@@ -127,47 +95,16 @@ Json scalar_with_sensitivity(const Scalar& scalar, const particles::ScalarSensit
   return json;
 }
 
-ScalarSet friction_scalars(const particles::Measurement& measured,
-                           const coupling::LayerSelection& selection) {
-  const coupling::FrictionFit fit = friction_fit(measured.profiles, selection);
-  std::vector<double> a, b;
-  for (const ProfileSet& without : measured.leave_one_out) {
-    const LogFriction one = friction_law(with_borrowed_intervals(without, measured.profiles), selection);
-    a.push_back(one.a);
-    b.push_back(one.b);
-  }
-  // Layers of one run move together (a steeper surface raises mu in all), which the fit cannot know: the
-  // spread over time is added to its own errors.
-  const auto& [var_a, covariance, var_b] = fit.law.covariance;
-  return {
-      {{"mu_a", fit.law.a, std::hypot(particles::jackknife_ci99(a), coupling::half_width_99(fit, var_a))},
-       {"mu_b", fit.law.b, std::hypot(particles::jackknife_ci99(b), coupling::half_width_99(fit, var_b))}}};
-}
-
 void add_friction_variants(const particles::Measurement& measured, const coupling::LayerSelection& selection,
                            std::vector<particles::ScalarVariant>& variants) {
   for (particles::ScalarVariant& variant : variants)
     if (!variant.profiles.z.empty())
-      add_law(friction_law(with_borrowed_intervals(variant.profiles, measured.profiles), selection),
+      add_law(coupling::friction_with_borrowed_intervals(variant.profiles, measured.profiles, selection),
               variant.scalars);
-  const auto add = [&](const std::string& change, const coupling::LayerSelection& changed) {
-    variants.push_back({change, {}, {}});
-    add_law(friction_law(measured.profiles, changed), variants.back().scalars);
-  };
-  coupling::LayerSelection changed = selection;
-  for (double factor : {0.1, 10.0}) {
-    changed.I_min = factor * selection.I_min;
-    add(fmt::format("mu(I) from I = {}", changed.I_min), changed);
+  for (const coupling::FrictionVariant& variant : coupling::friction_variants(measured.profiles, selection)) {
+    variants.push_back({variant.change, {}, {}});
+    add_law(variant.law, variants.back().scalars);
   }
-  changed = selection;
-  changed.I_max = 0.3 * selection.I_max;
-  add(fmt::format("mu(I) up to I = {}", changed.I_max), changed);
-  changed = selection;
-  changed.surface_margin = 2 * selection.surface_margin;
-  add(fmt::format("mu(I) from {} d below the surface", changed.surface_margin), changed);
-  changed = selection;
-  changed.wall_margin = 3 * selection.wall_margin;
-  add(fmt::format("mu(I) from {} d above the wall", changed.wall_margin), changed);
 }
 
 }  // namespace drumlin::apps

@@ -1,10 +1,10 @@
 #pragma once
-// The content of measured.json, and mu(I) at the centre with its intervals.
+// The content of measured.json.
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
-#include "coupling/calibration/log_friction.hpp"
+#include "coupling/calibration/centre_friction.hpp"
 #include "particles/measurement/measurement.hpp"
 
 namespace drumlin::apps {
@@ -20,8 +20,6 @@ nlohmann::ordered_json steadiness_of(const particles::Steadiness& steadiness);
 nlohmann::ordered_json scalar_with_sensitivity(const Scalar& scalar,
                                                const particles::ScalarSensitivity& sensitivity);
 
-/// mu_a and mu_b at the centre with what other windows make of them: see measurement.md.
-ScalarSet friction_scalars(const particles::Measurement& measured, const coupling::LayerSelection& selection);
 /// Adds mu_a and mu_b to each variant, and variants of the fit's own windows.
 void add_friction_variants(const particles::Measurement& measured, const coupling::LayerSelection& selection,
                            std::vector<particles::ScalarVariant>& variants);

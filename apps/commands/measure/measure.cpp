@@ -15,11 +15,11 @@
 #include "apps/support/output_folder.hpp"
 #include "apps/support/pending_figures.hpp"
 #include "apps/support/progress.hpp"
-#include "coupling/calibration/log_friction.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/common/text_file.hpp"
 #include "coupling/documents/csv.hpp"
 #include "particles/io/snapshot_file.hpp"
+#include "particles/measurement/frame/intervals.hpp"
 #include "particles/measurement/measurement.hpp"
 #include "particles/measurement/measurement_header.hpp"
 #include "particles/measurement/run_log.hpp"
@@ -176,8 +176,23 @@ particles::Measurement measured_run(const Request& request, const std::vector<fs
   return measured;
 }
 
+/// mu(I) at the centre, as mu_a and mu_b (docs/theory/measurement.md).
+coupling::CentreFriction friction_of(const Request& request, const particles::Measurement& measured) {
+  const std::size_t parts = measured.leave_one_out.size();
+  return coupling::centre_friction(measured.profiles, measured.leave_one_out,
+                                   parts < 2 ? std::nan("") : particles::interval_factor(parts),
+                                   request.selection);
+}
+
+/// The curve that figures draw: null where there is no law.
+Json curve_of(const LogFriction& law) {
+  if (!std::isfinite(law.a) || !(law.I_min < law.I_max)) return {};
+  return to_json(law_curve(friction_law(law), law.I_min, law.I_max));
+}
+
 /// Those of the measurement, of the fit of mu(I) and of the log.
-ScalarSet all_scalars(const Request& request, const particles::Measurement& measured) {
+ScalarSet all_scalars(const Request& request, const particles::Measurement& measured,
+                      const ScalarSet& friction) {
   ScalarSet scalars = measured.scalars;
   const double second = measured.scales.time_s;
   // A run of another program tells nothing of its accuracy.
@@ -186,7 +201,7 @@ ScalarSet all_scalars(const Request& request, const particles::Measurement& meas
           ? ScalarSet{}
           : particles::accuracy_scalars(request.options.run / "log.csv", measured.first_time() * second,
                                         measured.last_time() * second);
-  for (const ScalarSet& more : {friction_scalars(measured, request.selection), accuracy})
+  for (const ScalarSet& more : {friction, accuracy})
     scalars.scalars.insert(scalars.scalars.end(), more.scalars.begin(), more.scalars.end());
   return scalars;
 }
@@ -249,10 +264,12 @@ int measure(const MeasureOptions& options) {
   request.parts = reading_parts(options);
 
   particles::Measurement measured = measured_run(request, files);
-  const ScalarSet scalars = all_scalars(request, measured);
+  const coupling::CentreFriction friction = friction_of(request, measured);
+  const ScalarSet scalars = all_scalars(request, measured, friction.scalars);
   if (request.settings.sensitivity) add_friction_variants(measured, request.selection, measured.variants);
   const auto statement = statement_of(options, request.run, measured, scalars);
   Json content = content_of(request, measured, scalars, statement);
+  content["friction_curve"] = curve_of(friction.law);
 
   write_profiles(folder / "profiles.csv", measured.profiles);
   write_series(folder / "series.csv", measured.series);
