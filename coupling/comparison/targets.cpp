@@ -94,7 +94,7 @@ Target assessed(const ScalarTarget& asked, const std::vector<ScalarPair>& scalar
     target.outcome = outcome_of(target.value, target.limit);
     const double open = pair.ci99.value_or(nan) / (asked.relative ? std::abs(pair.particles) : 1);
     if (open > asked.limit)
-      add_remark(target, fmt::format("the particles know it to +-{:.2g} only", *pair.ci99));
+      add_remark(target, fmt::format("the particles' own interval is +-{:.2g}", *pair.ci99));
     if (std::isnan(pair.particles)) target.remark = "not measured on the particles";
     if (std::isnan(pair.continuum)) target.remark = "not computed by the continuum";
   }
