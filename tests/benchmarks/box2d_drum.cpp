@@ -19,6 +19,7 @@
 #include "apps/support/json_file.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/common/machine_load.hpp"
+#include "coupling/documents/number_text.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/scene/placement.hpp"
 #include "particles/scene/scene_file.hpp"
@@ -202,8 +203,8 @@ int measure(const std::vector<std::string>& words) {
   double seconds = 0, skip = 0;
   for (std::size_t k = 2; k + 1 < words.size(); k += 2) {
     if (words[k] == "--from") from = read_snapshot(words[k + 1]);
-    if (words[k] == "--seconds") seconds = std::stod(words[k + 1]);
-    if (words[k] == "--skip") skip = std::stod(words[k + 1]);
+    if (words[k] == "--seconds") seconds = checked_number(words[k + 1], {"command line", 0, words[k]});
+    if (words[k] == "--skip") skip = checked_number(words[k + 1], {"command line", 0, words[k]});
   }
   const Scene scene = read_scene(words.at(0));
   const Scales scales = scales_of(scene);
