@@ -5,7 +5,7 @@
 namespace drumlin::particles {
 namespace {
 
-const std::string format = "drumlin-checkpoint-1";
+const std::string format = "drumlin-checkpoint-2";
 
 /// Calls visit(name, field) for every single number: one list for writing and reading.
 template <class C, class Visit>
@@ -49,7 +49,7 @@ void each_account(L& ledger, Visit visit) {
   visit("energy/potential_at_start", ledger.potential_at_start);
   visit("energy/walls", ledger.walls);
   visit("energy/friction", ledger.friction);
-  visit("energy/restitution", ledger.restitution);
+  visit("energy/impacts", ledger.impacts);
   visit("energy/time_integration", ledger.time_integration);
   visit("energy/projection", ledger.projection);
   visit("energy/turnover", ledger.turnover);
@@ -66,7 +66,6 @@ void each_array(C& c, Visit visit) {
   visit("bodies/radius", b.radius);
   visit("bodies/inverse_mass", b.inverse_mass);
   visit("memory/impulse", c.state.memory.impulse);
-  visit("memory/approach", c.state.memory.approach);
 }
 
 }  // namespace

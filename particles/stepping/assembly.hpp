@@ -6,7 +6,6 @@
 #include "particles/contact/problems.hpp"
 #include "particles/effects/driven_walls.hpp"
 #include "particles/effects/friction.hpp"
-#include "particles/effects/restitution.hpp"
 #include "particles/effects/rolling.hpp"
 #include "particles/effects/spin.hpp"
 #include "particles/stepping/step_contacts.hpp"
@@ -19,23 +18,18 @@ constexpr bool drives_walls = requires {
   requires Problem::Delassus::has_driven;
 };
 
-/// Velocity of the wall of a pair without contacts, and of the same point at the beginning of the step.
-struct WallVelocity {
-  Point free, before;
-};
-
+/// Velocity of the wall of a pair without contacts.
 template <class Problem>
-WallVelocity wall_velocity(const StepInput& step, const Candidate& pair) {
+Point wall_velocity(const StepInput& step, const Candidate& pair) {
   const Point prescribed{pair.wall_v_x, pair.wall_v_z};
   if constexpr (drives_walls<Problem>)
     if (const std::int32_t k = driven_wall_of(step.walls, pair); k >= 0) {
       const Driven& wall = step.walls.driven[k];
-      // The pair has the wall's velocity by its force alone; cohesion may have changed that since.
-      const double seen = free_velocity(wall, step.driven[k], step.time_step);
-      return {along(prescribed, wall, step.free.driven[k] - seen),
-              along(prescribed, wall, step.driven[k].velocity - seen)};
+      // The pair has the wall's velocity by its force alone; impacts and cohesion may have changed that since.
+      return along(prescribed, wall,
+                   step.free.driven[k] - free_velocity(wall, step.driven[k], step.time_step));
     }
-  return {prescribed, prescribed};
+  return prescribed;
 }
 
 /// Free velocity of i relative to j.
@@ -69,21 +63,12 @@ std::int32_t second_body(const StepInput& step, const Candidate& pair) {
   return fixed;
 }
 
-/// What Signorini's law of contact a acts on beside u_n.
-inline double normal_shift(const StepInput& step, StepContacts& contacts, std::size_t a, double u_n,
-                           const Point& wall_before) {
-  const Candidate& pair = contacts.pairs[a];
-  if (!step.laws.restitution) return predicted_gap(pair.gap, step.time_step);
-  const double u_before =
-      normal_part(pair, relative_velocity(pair, step.bodies.v_x, step.bodies.v_z, wall_before));
-  return restitution_shift(*step.laws.restitution, pair, step.materials(), u_before, u_n, step.time_step,
-                           contacts.approach[a]);
-}
+/// Added to u_n: a contact may act before it touches, u_n >= -gap/h.
+inline double predicted_gap(double gap, double time_step) { return gap > 0 ? gap / time_step : 0; }
 
-/// Writes the problem in the order of the contacts. Also turns contacts.approach into what the next step must
-/// know of contacts that act, and sets contacts.bounces.
+/// Writes the problem in the order of the contacts.
 template <class Problem, bool with_spin>
-void assemble(const StepInput& step, StepContacts& contacts, Problem& problem) {
+void assemble(const StepInput& step, const StepContacts& contacts, Problem& problem) {
   constexpr int dim = Problem::dim;
   const StepLaws& laws = step.laws;
   const Bodies& bodies = step.bodies;
@@ -92,14 +77,11 @@ void assemble(const StepInput& step, StepContacts& contacts, Problem& problem) {
   problem.q.resize(dim * count);
   problem.mu.resize((dim - 1) * count);
   problem.time_step = step.time_step;
-  if (laws.energy_ledger) contacts.bounces.resize(count);
   for (std::size_t a = 0; a < count; ++a) {
     const Candidate& pair = contacts.pairs[a];
-    const WallVelocity wall = wall_velocity<Problem>(step, pair);
-    const Point u = relative_velocity(pair, step.free.x, step.free.z, wall.free);
-    const double u_n = normal_part(pair, u), shift = normal_shift(step, contacts, a, u_n, wall.before);
-    problem.q[dim * a] = u_n + shift;
-    if (laws.energy_ledger) contacts.bounces[a] = shift < 0;
+    const Point u =
+        relative_velocity(pair, step.free.x, step.free.z, wall_velocity<Problem>(step, pair));
+    problem.q[dim * a] = normal_part(pair, u) + predicted_gap(pair.gap, step.time_step);
     const std::int32_t second = second_body<Problem>(step, pair);
     if constexpr (dim == 3) {
       const double lever = lever_of(pair, bodies);

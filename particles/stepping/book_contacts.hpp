@@ -7,15 +7,16 @@
 
 namespace drumlin::particles {
 
-/// Mean velocity over the step of the wall of a pair, once `step.free.driven` holds the velocities that
-/// contacts left to driven walls.
+/// Mean velocity over the step, impacts aside, of the wall of a pair, once `step.free.driven` holds the
+/// velocities that contacts left to driven walls.
 template <class Problem>
-Point mean_wall_velocity(const StepInput& step, const Candidate& pair) {
+Point mean_wall_velocity(const StepInput& step, const StepContacts& contacts, const Candidate& pair) {
   const Point prescribed{pair.wall_v_x, pair.wall_v_z};
   if constexpr (drives_walls<Problem>)
     if (const std::int32_t k = driven_wall_of(step.walls, pair); k >= 0) {
       const Driven& wall = step.walls.driven[k];
-      const double mean = (step.driven[k].velocity + step.free.driven[k]) / 2;
+      const double jump = contacts.wall_jumps.empty() ? 0 : contacts.wall_jumps[k];
+      const double mean = (step.driven[k].velocity + jump + step.free.driven[k]) / 2;
       return along(prescribed, wall, mean - free_velocity(wall, step.driven[k], step.time_step));
     }
   return prescribed;
@@ -41,8 +42,7 @@ void book_contacts(const StepInput& step, const StepContacts& contacts, const Pr
       if (pair.j < 0) contact.wall_spin = wall_spin(pair, step.walls, step.time_step);
     }
     if (laws.cohesion) contact.attraction = contacts.attraction[a];
-    if (pair.j < 0) contact.wall_velocity = mean_wall_velocity<Problem>(step, pair);
-    contact.impact = contacts.bounces[a] || (laws.restitution && contacts.approach[a] != 0);
+    if (pair.j < 0) contact.wall_velocity = mean_wall_velocity<Problem>(step, contacts, pair);
     books.add(contact, step.bodies, step.time_step, ledger);
   }
 }

@@ -26,22 +26,13 @@ void Recollection::warm_start(const ContactMemory& memory, int dim, double time_
       for (int c = 0; c < dim; ++c) impulses[dim * a + c] = scale * memory.impulse[dim * m + c];
 }
 
-void Recollection::approach(const ContactMemory& memory, std::vector<double>& approach) const {
-  approach.assign(place_.size(), 0.0);
-  for (std::size_t a = 0; a < place_.size(); ++a)
-    if (place_[a] >= 0) approach[a] = memory.approach[place_[a]];
-}
-
-void remember(std::span<const Candidate> pairs, const std::vector<double>& impulses, int dim,
-              std::vector<double>& approach, double time_step, ContactMemory& memory) {
+void remember(std::span<const Candidate> pairs, const std::vector<double>& impulses, double time_step,
+              ContactMemory& memory) {
   memory.time_step = time_step;
   memory.i.resize(pairs.size());
   memory.j.resize(pairs.size());
   for (std::size_t a = 0; a < pairs.size(); ++a) memory.i[a] = pairs[a].i, memory.j[a] = pairs[a].j;
   memory.impulse = impulses;
-  for (std::size_t a = 0; a < approach.size(); ++a)
-    if (impulses[dim * a] == 0) approach[a] = 0;
-  memory.approach = approach;
 }
 
 }  // namespace drumlin::particles

@@ -1,5 +1,5 @@
 #pragma once
-// What contacts remember from one step to the next, by identity (i, j): warm start and approach speeds.
+// What contacts remember from one step to the next, by identity (i, j): the warm start.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -12,9 +12,6 @@ namespace drumlin::particles {
 struct ContactMemory {
   std::vector<std::int32_t> i, j;
   std::vector<double> impulse;  ///< dim per contact, normal first: the warm start
-  /// Approach speed (negative) of contacts that were slowed to just touching, for the restitution of the next
-  /// step; 0 otherwise. Empty in a scene without restitution.
-  std::vector<double> approach;
   double time_step = 0;  ///< the impulses belong to: they scale with it
 };
 
@@ -25,17 +22,14 @@ class Recollection {
   void find(const ContactMemory&, std::size_t bodies, std::span<const Candidate> pairs);
   /// Impulses that a step of length `time_step` starts from: those remembered, 0 for new contacts.
   void warm_start(const ContactMemory&, int dim, double time_step, std::vector<double>& impulses) const;
-  /// Approach speeds remembered, 0 for new contacts.
-  void approach(const ContactMemory&, std::vector<double>& approach) const;
 
  private:
   std::vector<std::int32_t> place_;                         // of each pair in the memory; -1: new
   std::vector<std::int32_t> first_of_body_, next_of_body_;  // places in the memory, linked by their i
 };
 
-/// Keeps contacts and impulses of a step; `approach` is empty without restitution, and 0 is kept for contacts
-/// that did not act: nothing was slowed.
-void remember(std::span<const Candidate> pairs, const std::vector<double>& impulses, int dim,
-              std::vector<double>& approach, double time_step, ContactMemory&);
+/// Keeps contacts and impulses of a step.
+void remember(std::span<const Candidate> pairs, const std::vector<double>& impulses, double time_step,
+              ContactMemory&);
 
 }  // namespace drumlin::particles

@@ -14,7 +14,7 @@ void book(double work, double& account, EnergyLedger& ledger) {
 
 std::vector<std::pair<std::string, double>> exchanges(const EnergyLedger& ledger) {
   std::vector<std::pair<std::string, double>> all = {
-      {"walls", ledger.walls}, {"friction", ledger.friction}, {"restitution", ledger.restitution}};
+      {"walls", ledger.walls}, {"friction", ledger.friction}, {"impacts", ledger.impacts}};
   if (ledger.rolling) all.emplace_back("rolling", *ledger.rolling);
   if (ledger.cohesion) all.emplace_back("cohesion", *ledger.cohesion);
   all.emplace_back("time_integration", ledger.time_integration);
@@ -44,6 +44,16 @@ void EnergyBooks::open(const Bodies& bodies, std::optional<EnergyLedger>& ledger
   ledger->potential = ledger->potential_at_start = potential(bodies);
 }
 
+void EnergyBooks::strike(std::span<const StruckGrain> struck, const ImpactWork& work, EnergyLedger& ledger) {
+  book(work.normal, ledger.impacts, ledger);
+  book(work.tangential, ledger.friction, ledger);
+  book(work.walls, ledger.walls, ledger);
+  for (const StruckGrain& grain : struck) {
+    v_x_[grain.grain] += grain.v_x, v_z_[grain.grain] += grain.v_z;
+    if (!spin_.empty()) spin_[grain.grain] += grain.spin;
+  }
+}
+
 void EnergyBooks::add(const WorkingContact& c, const Bodies& now, double h, EnergyLedger& ledger) const {
   const auto mean = [](const std::vector<double>& before, const std::vector<double>& after, std::int32_t b) {
     return (before[b] + after[b]) / 2;
@@ -67,8 +77,8 @@ void EnergyBooks::add(const WorkingContact& c, const Bodies& now, double h, Ener
   const double before_x = v_x_[c.i] - (wall ? c.wall_velocity.x : v_x_[c.j]);
   const double before_z = v_z_[c.i] - (wall ? c.wall_velocity.z : v_z_[c.j]);
   const double slowest = gravity_ ? 2 * h * std::hypot(gravity_->x, gravity_->z) : 0;
-  const bool impact = c.impact || c.n_x * before_x + c.n_z * before_z < -slowest;
-  book(c.normal * u_n, impact ? ledger.restitution : ledger.time_integration, ledger);
+  const bool impact = c.n_x * before_x + c.n_z * before_z < -slowest;
+  book(c.normal * u_n, impact ? ledger.impacts : ledger.time_integration, ledger);
   book(c.tangential * u_t, ledger.friction, ledger);
   if (ledger.cohesion) book(-c.attraction * u_n, *ledger.cohesion, ledger);
   if (!wall) return;

@@ -10,6 +10,7 @@
 
 #include "particles/bodies/bodies.hpp"
 #include "particles/bodies/walls.hpp"
+#include "particles/stepping/impacts.hpp"
 
 namespace drumlin::particles {
 
@@ -21,7 +22,7 @@ struct EnergyLedger {
   double kinetic_at_start = 0, potential_at_start = 0;
   double walls = 0;                ///< work of the walls
   double friction = 0;             ///< work of tangential impulses on sliding
-  double restitution = 0;          ///< work of normal impulses in impacts, faster than 2 g h or bouncing
+  double impacts = 0;              ///< work of normal impulses in impacts, faster than 2 g h
   double time_integration = 0;     ///< what vanishes with the step: gravity's part, normal impulses at rest
   double projection = 0;           ///< potential energy of position corrections
   std::optional<double> rolling;   ///< work of rolling couples; only with rolling resistance
@@ -45,7 +46,6 @@ struct WorkingContact {
   double attraction = 0;  ///< cohesive impulse
   Point wall_velocity;    ///< mean of before and after the step; of walls only
   double wall_spin = 0;
-  bool impact = false;  ///< bounces, or is stopped in order to bounce in the next step
 };
 
 /// A step that has been done: what the grains were at its beginning and before the position projection.
@@ -55,6 +55,8 @@ class EnergyBooks {
 
   /// Remembers the grains at the beginning of a step; the first time also where the ledger starts.
   void open(const Bodies&, std::optional<EnergyLedger>& ledger);
+  /// Books the impacts of the step, which come before its contacts.
+  void strike(std::span<const StruckGrain>, const ImpactWork&, EnergyLedger&);
   /// Adds the work of a contact, from the velocities then and now.
   void add(const WorkingContact&, const Bodies& now, double time_step, EnergyLedger&) const;
   /// Ends the step, after the position projection.

@@ -10,7 +10,9 @@
 #include "particles/solver/contact_solver.hpp"
 #include "particles/stepping/assembly.hpp"
 #include "particles/stepping/book_contacts.hpp"
+#include "particles/stepping/impacts.hpp"
 #include "particles/stepping/position_projection.hpp"
+#include "particles/stepping/swept_normals.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -51,6 +53,7 @@ class MoreauJean final : public Stepper {
     move_freely(step);
     detect(step);
     report.detection_seconds = watch.lap();
+    if (laws_.restitution) strike(step, state);
     if (laws_.cohesion)
       attract(*laws_.cohesion, contacts_.pairs, bodies, walls, step.materials(), time_step, free_,
               contacts_.attraction);
@@ -59,7 +62,7 @@ class MoreauJean final : public Stepper {
     report.setup_seconds = watch.lap();
     report.contacts = problem_.contacts();
     report.solve = solve_(problem_, solver_.rule, work_, solution_);
-    remember(contacts_.pairs, solution_.impulses, dim, contacts_.approach, time_step, state.memory);
+    remember(contacts_.pairs, solution_.impulses, time_step, state.memory);
     move(bodies, time_step);
     if (books_) book_contacts(step, contacts_, problem_, solution_.impulses, *books_, *state.energy);
     if constexpr (drives) move_driven_walls(free_, time_step, walls, state.driven);
@@ -72,11 +75,15 @@ class MoreauJean final : public Stepper {
 
   std::vector<SnapshotContact> loaded_contacts() const override {
     std::vector<SnapshotContact> loaded;
+    std::vector<Point> struck(contacts_.pairs.size());  // normal, tangential
+    for (const Strike& strike : contacts_.strikes)
+      struck[strike.pair].x += strike.normal, struck[strike.pair].z += strike.tangential;
     for (std::size_t a = 0; a < contacts_.pairs.size(); ++a) {
       const Candidate& pair = contacts_.pairs[a];
       const auto& r = solution_.impulses;
       const double pull = laws_.cohesion ? contacts_.attraction[a] : 0;
-      const double r_n = r[dim * a] - pull, r_t = dim >= 2 ? r[dim * a + 1 % dim] : 0;
+      const double r_n = r[dim * a] - pull + struck[a].x;
+      const double r_t = (dim >= 2 ? r[dim * a + 1 % dim] : 0) + struck[a].z;
       if (r_n != 0)
         loaded.push_back(
             {pair.i, pair.j, static_cast<float>(pair.n_x), static_cast<float>(pair.n_z), r_n, r_t});
@@ -117,13 +124,19 @@ class MoreauJean final : public Stepper {
     auto& found = detection_.find(step.bodies, free_.x, free_.z, input);
     order_.sort(found, step.bodies, laws_.period, problem_.W.plan);
     contacts_.pairs.swap(found);
+    sweep_normals(step, contacts_.pairs);
   }
 
-  /// The warm start, and with restitution the approach speeds of the last step.
+  /// Resolves the impacts of the step.
+  void strike(const StepInput& step, const MovingState& state) {
+    impacts_.resolve(step, free_, state.bodies.spin, contacts_);
+    if (books_) books_->strike(impacts_.struck(), impacts_.work(), *state.energy);
+  }
+
+  /// The warm start.
   void recall(const ContactMemory& memory, std::size_t bodies, double time_step) {
     recollection_.find(memory, bodies, contacts_.pairs);
     recollection_.warm_start(memory, dim, time_step, solution_.impulses);
-    if (laws_.restitution) recollection_.approach(memory, contacts_.approach);
   }
 
   /// New velocities from the solution, then new positions; of driven walls the velocities alone.
@@ -169,6 +182,7 @@ class MoreauJean final : public Stepper {
   ContactDetection detection_;
   ContactOrder order_;
   StepContacts contacts_;
+  Impacts impacts_;
   Recollection recollection_;
   Problem problem_;
   SolverWorkspace<Problem> work_;

@@ -52,9 +52,7 @@ void check_state(const SimulationState& s, const Scene& scene, const TimePlan& p
               s.step_in_stage <= plan.stages[s.stage].steps,
           "steps");
   require(s.pose_at_start.size() == walls.names.size(), "walls");
-  require(s.memory.j.size() == contacts && s.memory.impulse.size() == unknowns * contacts &&
-              (!scene.effects.restitution || s.memory.approach.size() == contacts),
-          "contacts");
+  require(s.memory.j.size() == contacts && s.memory.impulse.size() == unknowns * contacts, "contacts");
   for (std::size_t c = 0; c < contacts; ++c)
     require(s.memory.i[c] >= 0 && s.memory.i[c] < static_cast<std::int64_t>(n) &&
                 s.memory.j[c] < static_cast<std::int64_t>(n),

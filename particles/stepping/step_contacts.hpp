@@ -1,5 +1,6 @@
 #pragma once
 // The contacts of one step, and what a step that begins knows of everything else.
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -11,12 +12,18 @@
 
 namespace drumlin::particles {
 
+/// Impulses of an impact on a pair, in one pass (impacts.hpp).
+struct Strike {
+  std::int32_t pair = 0;  ///< its place
+  double normal = 0, tangential = 0;
+};
+
 /// Pairs in solve order and, beside each, what effects keep for it. Kept from step to step: memory alone.
 struct StepContacts {
   std::vector<Candidate> pairs;
   std::vector<double> attraction;  ///< cohesive force times h; empty without cohesion
-  std::vector<double> approach;    ///< ContactMemory::approach; empty without restitution
-  std::vector<char> bounces;       ///< gives back a speed; empty without an energy ledger
+  std::vector<Strike> strikes;      ///< impacts of the step; empty without restitution
+  std::vector<double> wall_jumps;  ///< what they add to the velocity of each driven wall; empty: nothing
 };
 
 /// A step from its beginning up to the solve.

@@ -57,7 +57,7 @@ TEST(EnergyLedger, ImpactLosesOneLessESquared) {
   scene.effects.restitution = Restitution{e, e};
   add_stage(scene, 0.2, 1e-3);
   const EnergyLedger ledger = ledger_of(scene);
-  EXPECT_NEAR(ledger.restitution, -(1 - e * e) * mass * v * v / 2, 1e-9);
+  EXPECT_NEAR(ledger.impacts, -(1 - e * e) * mass * v * v / 2, 1e-9);
   EXPECT_NEAR(ledger.time_integration, 0, 1e-12);
 }
 
@@ -71,7 +71,7 @@ TEST(EnergyLedger, ObliqueImpactSplitsIntoNormalAndTangentialLoss) {
   scene.effects.spin = Spin{};
   add_stage(scene, 0.2, 1e-3);
   const EnergyLedger ledger = ledger_of(scene);
-  EXPECT_NEAR(ledger.restitution, -(1 - e * e) * mass * v_n * v_n / 2, 1e-9);
+  EXPECT_NEAR(ledger.impacts, -(1 - e * e) * mass * v_n * v_n / 2, 1e-9);
   // Slips all the way: impulse mu (1 + e) m v_n on the mean of the sliding speeds v_t and v_t - 3 impulse/m.
   const double impulse = mu * (1 + e) * v_n;
   EXPECT_NEAR(ledger.friction, -mass * impulse * (v_t - 1.5 * impulse), 1e-8);
@@ -87,7 +87,7 @@ TEST(EnergyLedger, SlidingBlockTurnsItsEnergyIntoFriction) {
   add_stage(scene, 3, 1e-2);
   const EnergyLedger ledger = ledger_of(scene);
   EXPECT_NEAR(ledger.friction, -mass * v0 * v0 / 2, 1e-9);
-  EXPECT_NEAR(ledger.restitution, 0, 1e-9);
+  EXPECT_NEAR(ledger.impacts, 0, 1e-9);
 }
 
 TEST(EnergyLedger, MovingFloorWorksOnABlockUntilItFollows) {
@@ -139,7 +139,7 @@ TEST(EnergyLedger, ClosesForADrumAndItsTermsHaveTheirSigns) {
   const EnergyLedger ledger = ledger_of(busy_drum(folder));
   EXPECT_GT(ledger.walls, 0);
   EXPECT_LT(ledger.friction, 0);
-  EXPECT_LT(ledger.restitution, 0);
+  EXPECT_LT(ledger.impacts, 0);
   EXPECT_GE(ledger.projection, 0);
   EXPECT_FALSE(ledger.rolling || ledger.cohesion);
 }

@@ -1,0 +1,197 @@
+#include "particles/stepping/impact_pass.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace drumlin::particles {
+namespace {
+
+constexpr int most_sweeps = 1000;
+constexpr double friction_tolerance = 1e-13;
+
+/// Gives a body an impulse; `tangential` is its part that turns a grain.
+void move(ImpactBody& body, double p_x, double p_z, double tangential) {
+  if (body.along.x != 0 || body.along.z != 0) {
+    const double along = (p_x * body.along.x + p_z * body.along.z) * body.inverse_mass;
+    p_x = along * body.along.x, p_z = along * body.along.z;
+  } else {
+    p_x *= body.inverse_mass, p_z *= body.inverse_mass;
+  }
+  body.v_x += p_x, body.v_z += p_z;
+  if (body.spins) body.rim -= 2 * body.inverse_mass * tangential;  // r J^-1 (-r r_t) = -2 r_t / m
+}
+
+}  // namespace
+
+void ImpactPass::begin() {
+  contacts.clear();
+  for (ImpactBody& body : bodies)
+    body.before_x = body.v_x, body.before_z = body.v_z, body.before_rim = body.rim;
+}
+
+Point ImpactPass::velocity(const ImpactContact& c) const {
+  const ImpactBody& I = bodies[c.i];
+  double x = I.v_x - c.wall.x, z = I.v_z - c.wall.z, rims = I.rim;
+  if (c.j >= 0) x -= bodies[c.j].v_x, z -= bodies[c.j].v_z, rims += bodies[c.j].rim;
+  return {c.n_x * x + c.n_z * z, c.n_z * x - c.n_x * z - rims};
+}
+
+void ImpactPass::add(ImpactContact c) {
+  const ImpactBody& I = bodies[c.i];
+  double x = I.before_x - c.wall.x, z = I.before_z - c.wall.z, rims = I.before_rim;
+  c.W_nn = c.W_tt = I.inverse_mass;
+  bool spins = I.spins;
+  if (c.j >= 0) {
+    const ImpactBody& J = bodies[c.j];
+    x -= J.before_x, z -= J.before_z, rims += J.before_rim;
+    spins = spins || J.spins;
+    if (J.along.x == 0 && J.along.z == 0) c.W_nn += J.inverse_mass, c.W_tt += J.inverse_mass;
+  }
+  if (spins) c.W_tt *= 3;
+  if (c.j >= 0) {
+    const ImpactBody& J = bodies[c.j];
+    const double n = J.along.x * c.n_x + J.along.z * c.n_z, t = J.along.x * c.n_z - J.along.z * c.n_x;
+    c.W_nn += n * n * J.inverse_mass;
+    c.W_nt += n * t * J.inverse_mass;
+    c.W_tt += t * t * J.inverse_mass;
+  }
+  c.u_n = c.n_x * x + c.n_z * z;
+  c.u_t = c.n_z * x - c.n_x * z - rims;
+  contacts.push_back(c);
+}
+
+void ImpactPass::push(const ImpactContact& c, double normal, double tangential) {
+  const double p_x = c.n_x * normal + c.n_z * tangential, p_z = c.n_z * normal - c.n_x * tangential;
+  move(bodies[c.i], p_x, p_z, tangential);
+  if (c.j >= 0) move(bodies[c.j], -p_x, -p_z, tangential);
+}
+
+/// Returns the largest change of a velocity by the impulse of its own contact.
+double ImpactPass::sweep() {
+  double largest = 0;
+  for (ImpactContact& c : contacts) {
+    Point u = velocity(c);
+    const double normal = std::max(0.0, c.normal - u.x / c.W_nn), d_n = normal - c.normal;
+    double d_t = 0;
+    if (c.mu > 0) {
+      u.z += c.W_nt * d_n;
+      const double bound = c.mu * normal;
+      d_t = std::clamp(c.tangential - u.z / c.W_tt, -bound, bound) - c.tangential;
+    }
+    push(c, d_n, d_t);
+    c.normal = normal, c.tangential += d_t;
+    largest = std::max({largest, std::abs(d_n) * c.W_nn, std::abs(d_t) * c.W_tt});
+  }
+  return largest;
+}
+
+void ImpactPass::compress(double tolerance) {
+  double fastest = 0;
+  for (const ImpactContact& c : contacts) fastest = std::max(fastest, -c.u_n);
+  for (int k = 0; k < most_sweeps; ++k)
+    if (sweep() <= tolerance * fastest) return;
+}
+
+void ImpactPass::find_clusters() {
+  cluster_of_.resize(bodies.size());
+  std::iota(cluster_of_.begin(), cluster_of_.end(), 0);
+  const auto root = [this](std::int32_t b) {
+    while (cluster_of_[b] != b) b = cluster_of_[b] = cluster_of_[cluster_of_[b]];
+    return b;
+  };
+  for (const ImpactContact& c : contacts)
+    if (c.j >= 0) cluster_of_[root(c.i)] = root(c.j);
+  for (std::size_t b = 0; b < bodies.size(); ++b) cluster_of_[b] = root(static_cast<std::int32_t>(b));
+}
+
+/// With e of its own at each contact the expansion can give back more than the compression took; the energy
+/// of a cluster after a share s of it is E_1 + s B + s^2 A / 2.
+void ImpactPass::limit_expansion() {
+  share_.assign(bodies.size(), 1.0);
+  const bool one_e =
+      std::all_of(contacts.begin(), contacts.end(), [&](const auto& c) { return c.e == contacts[0].e; });
+  if (one_e) return;
+  std::vector<double> lost(bodies.size(), 0.0), linear(bodies.size(), 0.0), square(bodies.size(), 0.0);
+  std::vector<Point> compressed;
+  for (const ImpactContact& c : contacts) {
+    const Point u = velocity(c);
+    const std::int32_t k = cluster_of_[c.i];
+    lost[k] += (c.normal * (c.u_n + u.x) + c.tangential * (c.u_t + u.z)) / 2;
+    linear[k] += c.e * (c.normal * u.x + c.tangential * u.z);
+    compressed.push_back(u);
+  }
+  const std::vector<ImpactBody> kept = bodies;
+  for (const ImpactContact& c : contacts) push(c, c.e * c.normal, c.e * c.tangential);
+  for (std::size_t a = 0; a < contacts.size(); ++a) {
+    const ImpactContact& c = contacts[a];
+    const Point u = velocity(c);
+    square[cluster_of_[c.i]] +=
+        c.e * (c.normal * (u.x - compressed[a].x) + c.tangential * (u.z - compressed[a].z));
+  }
+  bodies = kept;
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    const double A = square[k], B = linear[k], E = std::min(0.0, lost[k]);
+    if (A > 0 && E + B + A / 2 > 0) share_[k] = std::clamp((-B + std::sqrt(B * B - 2 * A * E)) / A, 0.0, 1.0);
+  }
+}
+
+/// Coulomb's bound of the expansion alone: mu times the normal impulse that it gives, which stands. Each move
+/// takes energy.
+void ImpactPass::let_friction_act() {
+  double fastest = 0;
+  for (const ImpactContact& c : contacts) fastest = std::max({fastest, -c.u_n, std::abs(c.u_t)});
+  for (int k = 0; k < most_sweeps; ++k) {
+    double largest = 0;
+    for (std::size_t a = 0; a < contacts.size(); ++a) {
+      const ImpactContact& c = contacts[a];
+      const double bound = c.mu * share_[cluster_of_[c.i]] * c.e * c.normal;
+      if (bound <= 0) continue;
+      const double now = friction_[a];
+      friction_[a] = std::clamp(now - velocity(c).z / c.W_tt, -bound, bound);
+      push(c, 0, friction_[a] - now);
+      largest = std::max(largest, std::abs(friction_[a] - now) * c.W_tt);
+    }
+    if (largest <= friction_tolerance * fastest) return;
+  }
+}
+
+void ImpactPass::expand(ImpactWork& work) {
+  find_clusters();
+  limit_expansion();
+  friction_.clear();
+  for (ImpactContact& c : contacts) {
+    const double share = share_[cluster_of_[c.i]] * c.e;
+    c.compression = c.normal;
+    friction_.push_back(share * c.tangential);
+    push(c, share * c.normal, share * c.tangential);
+  }
+  let_friction_act();
+  for (std::size_t a = 0; a < contacts.size(); ++a) {
+    ImpactContact& c = contacts[a];
+    c.normal += share_[cluster_of_[c.i]] * c.e * c.compression;
+    c.tangential += friction_[a];
+  }
+  book(work);
+}
+
+void ImpactPass::book(ImpactWork& work) const {
+  for (const ImpactContact& c : contacts) {
+    const Point u = velocity(c);
+    work.normal += c.normal * (c.u_n + u.x) / 2;
+    work.tangential += c.tangential * (c.u_t + u.z) / 2;
+    Point wall = c.wall;
+    if (c.j >= 0) {
+      const ImpactBody& J = bodies[c.j];
+      if (J.along.x == 0 && J.along.z == 0) continue;
+      wall.x += (J.before_x + J.v_x) / 2, wall.z += (J.before_z + J.v_z) / 2;
+    } else if (wall.x == 0 && wall.z == 0) {
+      continue;
+    }
+    const double p_x = c.n_x * c.normal + c.n_z * c.tangential;
+    const double p_z = c.n_z * c.normal - c.n_x * c.tangential;
+    work.walls += p_x * wall.x + p_z * wall.z;
+  }
+}
+
+}  // namespace drumlin::particles

@@ -1,0 +1,72 @@
+#pragma once
+// One pass of impacts: a few pairs that close at once, compressed and then expanded. Knows neither grains nor
+// steps, only the bodies that it is given.
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "particles/bodies/walls.hpp"
+
+namespace drumlin::particles {
+
+/// A grain, or a wall moved by a force, in a pass.
+struct ImpactBody {
+  std::int32_t body = 0;     ///< number in the step: grains, then walls moved by a force
+  double v_x = 0, v_z = 0;   ///< velocity; of a wall, along its direction alone
+  double rim = 0;            ///< radius times spin
+  double inverse_mass = 0;
+  bool spins = false;        ///< turned by friction, with J = m r^2 / 2
+  Point along;               ///< unit direction in which alone a wall moves; zero: a grain
+  double before_x = 0, before_z = 0, before_rim = 0;  ///< velocities at the beginning of the pass
+};
+
+/// A pair in a pass. Normal and tangent as in Candidate.
+struct ImpactContact {
+  std::int32_t pair = 0;     ///< its number in the step
+  std::int32_t i = 0, j = 0; ///< places of the bodies; j < 0: a wall that is not pushed
+  double n_x = 0, n_z = 0;
+  Point wall;                ///< prescribed velocity of the wall
+  double e = 0, mu = 0;
+  double W_nn = 0, W_nt = 0, W_tt = 0;
+  double normal = 0, tangential = 0;  ///< impulses of the pass
+  double compression = 0;    ///< normal impulse of the compression
+  double u_n = 0, u_t = 0;            ///< velocities before the pass
+};
+
+/// Work of impacts on grains; losses are negative.
+struct ImpactWork {
+  double normal = 0, tangential = 0;
+  double walls = 0;
+};
+
+class ImpactPass {
+ public:
+  std::vector<ImpactBody> bodies;
+  std::vector<ImpactContact> contacts;  ///< of the pass in hand
+
+  /// Forgets the contacts and begins a pass.
+  void begin();
+  /// Adds a contact, with W and its velocities before the pass.
+  void add(ImpactContact contact);
+  /// Velocity of a contact as it stands: normal, tangential.
+  Point velocity(const ImpactContact&) const;
+  /// Gauss-Seidel sweeps until no contact closes; to a share `tolerance` of the largest closing speed.
+  void compress(double tolerance);
+  /// Gives the normal impulses back times e; adds up the work of the pass.
+  void expand(ImpactWork& work);
+
+ private:
+  void push(const ImpactContact&, double normal, double tangential);
+  double sweep();
+  void find_clusters();
+  /// Share of the expansion of each cluster that its energy allows: 1 where e is one number.
+  void limit_expansion();
+  void let_friction_act();
+  void book(ImpactWork&) const;
+
+  std::vector<std::int32_t> cluster_of_;  // body -> body that stands for its cluster
+  std::vector<double> share_;             // of the expansion, by cluster
+  std::vector<double> friction_;          // impulses of the expansion
+};
+
+}  // namespace drumlin::particles

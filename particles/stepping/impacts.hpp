@@ -1,0 +1,74 @@
+#pragma once
+// Impacts within a step: pairs that meet, or touch, and close faster than 2 g h rebound before the contact
+// problem of the step is assembled (docs/theory/impacts.md).
+//
+// A pass takes the velocities v at the beginning of the step to P(v), P the projection on u_n >= 0 of the
+// closing pairs with Coulomb friction (compression), and gives each normal impulse p back e times, with
+// friction up to mu e p (expansion). Without friction and for one e that is v -> (1 + e) P(v) - e v: Newton's
+// law for impacts at once. Passes follow one another until no pair closes. No pass raises the energy: proof
+// in the same place.
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "particles/bodies/free_motion.hpp"
+#include "particles/stepping/impact_pass.hpp"
+#include "particles/stepping/step_contacts.hpp"
+
+namespace drumlin::particles {
+
+/// A grain that impacts have struck: the changes of its velocities.
+struct StruckGrain {
+  std::int32_t grain = 0;
+  double v_x = 0, v_z = 0, spin = 0;
+};
+
+/// Resolves the impacts of steps; keeps workspace only, and does nothing in a step without impacts.
+class Impacts {
+ public:
+  /// Adds what impacts change to the velocities in `free` and to `spin` (of each grain; empty without spin),
+  /// and lists their impulses in `contacts.strikes`. Velocities of walls moved by a force change too;
+  /// `contacts.wall_jumps` receives by how much (empty without impacts).
+  void resolve(const StepInput& step, FreeMotion& free, std::span<double> spin, StepContacts& contacts);
+
+  // Of the last call.
+  std::span<const StruckGrain> struck() const { return struck_; }
+  const ImpactWork& work() const { return work_; }
+  /// Pairs that met, counted once per pass.
+  int count() const { return count_; }
+
+ private:
+  /// The pairs that meet within the step.
+  bool find_closings(const StepInput&, const StepContacts&);
+  /// Lists the pairs of each body.
+  void link(const StepInput&, const StepContacts&);
+  /// Place of a body in the pass, where it is taken up if it is new there.
+  std::int32_t take_up(const StepInput&, std::int32_t body);
+  void add(const StepInput&, const Candidate& pair, std::int32_t index);
+  /// Velocity of a body after the passes so far.
+  Point velocity(const StepInput&, std::int32_t body) const;
+  /// Whether a pair meets within the step fast enough, with the velocities as they stand.
+  bool closes(const StepInput&, const Candidate& pair) const;
+  /// Compresses, and takes in the touching pairs that this closes, until there are none.
+  void compress(const StepInput&, const StepContacts&);
+  void find_next_closings(const StepInput&, const StepContacts&);
+  /// Lists the impulses of a pass.
+  void list_strikes(StepContacts&);
+  void give_back(const StepInput&, FreeMotion&, std::span<double> spin, StepContacts&);
+  template <class Visit>
+  void each_pair_of(std::int32_t body, Visit visit) const {
+    for (std::int32_t k = first_[body]; k >= 0; k = next_[k]) visit(k / 2);
+  }
+
+  ImpactPass pass_;
+  std::vector<std::int32_t> closings_;      // pairs
+  std::vector<std::int32_t> place_;         // of each body in the pass; -1: not there
+  std::vector<std::int32_t> first_, next_;  // pairs of each body, linked
+  std::vector<std::int32_t> in_pass_;       // number of the last pass in which a pair took part
+  std::vector<StruckGrain> struck_;
+  ImpactWork work_;
+  int count_ = 0, pass_number_ = 0;
+  double slowest_ = 0;
+};
+
+}  // namespace drumlin::particles
