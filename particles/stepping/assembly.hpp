@@ -25,7 +25,8 @@ Point wall_velocity(const StepInput& step, const Candidate& pair) {
   if constexpr (drives_walls<Problem>)
     if (const std::int32_t k = driven_wall_of(step.walls, pair); k >= 0) {
       const Driven& wall = step.walls.driven[k];
-      // The pair has the wall's velocity by its force alone; impacts and cohesion may have changed that since.
+      // The pair has the wall's velocity by its force alone; impacts and cohesion may have changed that
+      // since.
       return along(prescribed, wall,
                    step.free.driven[k] - free_velocity(wall, step.driven[k], step.time_step));
     }
@@ -79,8 +80,7 @@ void assemble(const StepInput& step, const StepContacts& contacts, Problem& prob
   problem.time_step = step.time_step;
   for (std::size_t a = 0; a < count; ++a) {
     const Candidate& pair = contacts.pairs[a];
-    const Point u =
-        relative_velocity(pair, step.free.x, step.free.z, wall_velocity<Problem>(step, pair));
+    const Point u = relative_velocity(pair, step.free.x, step.free.z, wall_velocity<Problem>(step, pair));
     problem.q[dim * a] = normal_part(pair, u) + predicted_gap(pair.gap, step.time_step);
     const std::int32_t second = second_body<Problem>(step, pair);
     if constexpr (dim == 3) {

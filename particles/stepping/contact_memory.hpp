@@ -12,7 +12,7 @@ namespace drumlin::particles {
 struct ContactMemory {
   std::vector<std::int32_t> i, j;
   std::vector<double> impulse;  ///< dim per contact, normal first: the warm start
-  double time_step = 0;  ///< the impulses belong to: they scale with it
+  double time_step = 0;         ///< the impulses belong to: they scale with it
 };
 
 /// Finds contacts in a memory; keeps workspace only.

@@ -11,25 +11,25 @@ namespace drumlin::particles {
 
 /// A grain, or a wall moved by a force, in a pass.
 struct ImpactBody {
-  std::int32_t body = 0;     ///< number in the step: grains, then walls moved by a force
-  double v_x = 0, v_z = 0;   ///< velocity; of a wall, along its direction alone
-  double rim = 0;            ///< radius times spin
+  std::int32_t body = 0;    ///< number in the step: grains, then walls moved by a force
+  double v_x = 0, v_z = 0;  ///< velocity; of a wall, along its direction alone
+  double rim = 0;           ///< radius times spin
   double inverse_mass = 0;
-  bool spins = false;        ///< turned by friction, with J = m r^2 / 2
-  Point along;               ///< unit direction in which alone a wall moves; zero: a grain
+  bool spins = false;  ///< turned by friction, with J = m r^2 / 2
+  Point along;         ///< unit direction in which alone a wall moves; zero: a grain
   double before_x = 0, before_z = 0, before_rim = 0;  ///< velocities at the beginning of the pass
 };
 
 /// A pair in a pass. Normal and tangent as in Candidate.
 struct ImpactContact {
-  std::int32_t pair = 0;     ///< its number in the step
-  std::int32_t i = 0, j = 0; ///< places of the bodies; j < 0: a wall that is not pushed
+  std::int32_t pair = 0;      ///< its number in the step
+  std::int32_t i = 0, j = 0;  ///< places of the bodies; j < 0: a wall that is not pushed
   double n_x = 0, n_z = 0;
-  Point wall;                ///< prescribed velocity of the wall
+  Point wall;  ///< prescribed velocity of the wall
   double e = 0, mu = 0;
   double W_nn = 0, W_nt = 0, W_tt = 0;
   double normal = 0, tangential = 0;  ///< impulses of the pass
-  double compression = 0;    ///< normal impulse of the compression
+  double compression = 0;             ///< normal impulse of the compression
   double u_n = 0, u_t = 0;            ///< velocities before the pass
 };
 
@@ -50,21 +50,28 @@ class ImpactPass {
   void add(ImpactContact contact);
   /// Velocity of a contact as it stands: normal, tangential.
   Point velocity(const ImpactContact&) const;
-  /// Gauss-Seidel sweeps until no contact closes; to a share `tolerance` of the largest closing speed.
-  void compress(double tolerance);
+  /// A few Gauss-Seidel sweeps, which show the bodies that the impacts move.
+  void compress_roughly();
+  /// Sweeps until no contact closes, cluster by cluster. A large cluster may keep part of its closing speeds:
+  /// they are those of the next pass.
+  void compress();
   /// Gives the normal impulses back times e; adds up the work of the pass.
   void expand(ImpactWork& work);
 
  private:
   void push(const ImpactContact&, double normal, double tangential);
-  double sweep();
-  void find_clusters();
-  /// Share of the expansion of each cluster that its energy allows: 1 where e is one number.
+  double sweep(std::span<ImpactContact>);
+  static double fastest(std::span<const ImpactContact>);
+  /// Puts contacts that bodies join side by side: clusters.
+  void sort_into_clusters();
+  /// Share of the expansion of each cluster that its energy allows: 1 where e is one number and the
+  /// compression complete.
   void limit_expansion();
   void let_friction_act();
   void book(ImpactWork&) const;
 
   std::vector<std::int32_t> cluster_of_;  // body -> body that stands for its cluster
+  std::vector<char> complete_;            // compression, by cluster
   std::vector<double> share_;             // of the expansion, by cluster
   std::vector<double> friction_;          // impulses of the expansion
 };

@@ -12,8 +12,8 @@ namespace {
 // Pairs closer than this, in d, touch: an impact on one of the two is one on both. About what overlap the
 // projection leaves.
 constexpr double touching = 1e-4;
-// Of the largest closing speed: what compression leaves, and what is no impact but rounding.
-constexpr double compressed = 1e-13, roughly_compressed = 1e-3, rounding = 1e-9;
+// Of the largest closing speed: no impact but rounding.
+constexpr double rounding = 1e-9;
 // More impacts of one pair within a step are a collapse, in which each takes part of the speed: what is left
 // of it is lost in the contact problem.
 constexpr int most_passes = 200;
@@ -162,23 +162,25 @@ bool Impacts::closes(const StepInput& step, const Candidate& pair) const {
   return meets(pair, normal_part(pair, u), gain_on_wall(step, pair), slowest_, step.time_step);
 }
 
+bool Impacts::take_in_neighbours(const StepInput& step, const StepContacts& contacts) {
+  const std::size_t before = pass_.contacts.size();
+  for (std::size_t c = 0; c < before; ++c)
+    for (const std::int32_t place : {pass_.contacts[c].i, pass_.contacts[c].j}) {
+      if (place < 0) continue;
+      each_pair_of(pass_.bodies[place].body, [&](std::int32_t a) {
+        const Candidate& pair = contacts.pairs[a];
+        if (in_pass_[a] != pass_number_ && pair.gap <= touching && closes(step, pair)) add(step, pair, a);
+      });
+    }
+  return pass_.contacts.size() > before;
+}
+
 void Impacts::compress(const StepInput& step, const StepContacts& contacts) {
-  double tolerance = roughly_compressed;
-  for (;;) {
-    pass_.compress(tolerance);
-    const std::size_t before = pass_.contacts.size();
-    for (std::size_t c = 0; c < before; ++c)
-      for (const std::int32_t place : {pass_.contacts[c].i, pass_.contacts[c].j}) {
-        if (place < 0) continue;
-        each_pair_of(pass_.bodies[place].body, [&](std::int32_t a) {
-          const Candidate& pair = contacts.pairs[a];
-          if (in_pass_[a] != pass_number_ && pair.gap <= touching && closes(step, pair)) add(step, pair, a);
-        });
-      }
-    const bool complete = pass_.contacts.size() == before;
-    if (complete && tolerance == compressed) return;
-    tolerance = complete ? compressed : roughly_compressed;
-  }
+  do {
+    do pass_.compress_roughly();
+    while (take_in_neighbours(step, contacts));
+    pass_.compress();
+  } while (take_in_neighbours(step, contacts));
 }
 
 void Impacts::find_next_closings(const StepInput& step, const StepContacts& contacts) {

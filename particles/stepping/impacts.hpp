@@ -49,7 +49,9 @@ class Impacts {
   Point velocity(const StepInput&, std::int32_t body) const;
   /// Whether a pair meets within the step fast enough, with the velocities as they stand.
   bool closes(const StepInput&, const Candidate& pair) const;
-  /// Compresses, and takes in the touching pairs that this closes, until there are none.
+  /// Takes in the touching pairs that the pass has made close; false if there are none.
+  bool take_in_neighbours(const StepInput&, const StepContacts&);
+  /// Compresses with all touching pairs that this closes.
   void compress(const StepInput&, const StepContacts&);
   void find_next_closings(const StepInput&, const StepContacts&);
   /// Lists the impulses of a pass.

@@ -53,7 +53,7 @@ class MoreauJean final : public Stepper {
     move_freely(step);
     detect(step);
     report.detection_seconds = watch.lap();
-    if (laws_.restitution) strike(step, state);
+    if (laws_.restitution) report.impacts = strike(step, state);
     if (laws_.cohesion)
       attract(*laws_.cohesion, contacts_.pairs, bodies, walls, step.materials(), time_step, free_,
               contacts_.attraction);
@@ -127,10 +127,11 @@ class MoreauJean final : public Stepper {
     sweep_normals(step, contacts_.pairs);
   }
 
-  /// Resolves the impacts of the step.
-  void strike(const StepInput& step, const MovingState& state) {
+  /// Resolves the impacts of the step; returns how many there were.
+  int strike(const StepInput& step, const MovingState& state) {
     impacts_.resolve(step, free_, state.bodies.spin, contacts_);
     if (books_) books_->strike(impacts_.struck(), impacts_.work(), *state.energy);
+    return impacts_.count();
   }
 
   /// The warm start.

@@ -22,7 +22,7 @@ struct Strike {
 struct StepContacts {
   std::vector<Candidate> pairs;
   std::vector<double> attraction;  ///< cohesive force times h; empty without cohesion
-  std::vector<Strike> strikes;      ///< impacts of the step; empty without restitution
+  std::vector<Strike> strikes;     ///< impacts of the step; empty without restitution
   std::vector<double> wall_jumps;  ///< what they add to the velocity of each driven wall; empty: nothing
 };
 

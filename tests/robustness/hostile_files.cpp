@@ -154,8 +154,7 @@ TEST(HostileFile, NoCheckpointOfValidChecksumBreaksTheRun) {
   for (int k = 0; k < 400; ++k) {
     Checkpoint bad = good;
     SimulationState& s = bad.state;
-    std::vector<double>* doubles[] = {&s.bodies.x, &s.bodies.v_x, &s.bodies.spin,
-                                      &s.memory.impulse};
+    std::vector<double>* doubles[] = {&s.bodies.x, &s.bodies.v_x, &s.bodies.spin, &s.memory.impulse};
     switch (random.bits() % 4) {
       case 0:
         spoil(*doubles[below(random, std::size(doubles))], random);
