@@ -32,6 +32,8 @@ class ContactDetection {
   /// The result may be reordered by the caller.
   std::vector<Candidate>& find(const Bodies& bodies, std::span<const double> v_x, std::span<const double> v_z,
                                const DetectionInput& input);
+  /// Twice the way, in the last search, by which the approach of its pairs may push a grain: 2 h a_i.
+  double jolt(std::int32_t body) const { return jolt_[body]; }
 
  private:
   class Looking;

@@ -27,12 +27,6 @@ std::int32_t second_body_of(const StepInput& step, const Candidate& pair) {
   return wall < 0 ? -1 : grains_of(step) + wall;
 }
 
-Point velocity_before(const StepInput& step, std::int32_t body) {
-  if (body < grains_of(step)) return {step.bodies.v_x[body], step.bodies.v_z[body]};
-  const std::int32_t wall = body - grains_of(step);
-  return along({}, step.walls.driven[wall], step.driven[wall].velocity);
-}
-
 /// What forces add to the velocity of a body within the step.
 Point gain_of(const StepInput& step, std::int32_t body) {
   Point a = step.laws.gravity.value_or(Point{});
@@ -68,6 +62,12 @@ double gain_on_wall(const StepInput& step, const Candidate& pair) {
 }
 
 }  // namespace
+
+Point Impacts::velocity_before(const StepInput& step, std::int32_t body) const {
+  if (body < grains_of(step)) return {step.bodies.v_x[body], step.bodies.v_z[body]};
+  const std::int32_t wall = body - grains_of(step);
+  return along({}, step.walls.driven[wall], step.driven[wall].velocity + wall_jumps_[wall]);
+}
 
 bool Impacts::find_closings(const StepInput& step, const StepContacts& contacts) {
   closings_.clear();
@@ -201,39 +201,38 @@ void Impacts::list_strikes(StepContacts& contacts) {
   for (const ImpactContact& c : pass_.contacts) {
     if (c.normal == 0) continue;
     ++count_;
-    contacts.strikes.push_back({c.pair, c.normal, c.tangential});
+    const Candidate& pair = contacts.pairs[c.pair];
+    contacts.strikes.push_back({pair.i, pair.j, pair.n_x, pair.n_z, c.normal, c.tangential});
   }
 }
 
-void Impacts::give_back(const StepInput& step, FreeMotion& free, std::span<double> spin,
-                        StepContacts& contacts) {
+void Impacts::give_back(const StepInput& step, Bodies& bodies, StepContacts& contacts) {
   for (const ImpactBody& body : pass_.bodies) {
     place_[body.body] = -1;
     const Point before = velocity_before(step, body.body);
     const Point change{body.v_x - before.x, body.v_z - before.z};
     if (const std::int32_t k = body.body - grains_of(step); k >= 0) {
-      contacts.wall_jumps.resize(free.driven.size(), 0.0);
-      contacts.wall_jumps[k] = change.x * body.along.x + change.z * body.along.z;
-      free.driven[k] += contacts.wall_jumps[k];
+      contacts.wall_jumps[k] += change.x * body.along.x + change.z * body.along.z;
       continue;
     }
     const std::int32_t b = body.body;
     StruckGrain struck{b, change.x, change.z, 0};
-    free.x[b] += change.x, free.z[b] += change.z;
+    bodies.v_x[b] = body.v_x, bodies.v_z[b] = body.v_z;
     if (body.spins) {
-      struck.spin = body.rim / step.bodies.radius[b] - spin[b];
-      spin[b] += struck.spin;
+      const double spin = body.rim / bodies.radius[b];
+      struck.spin = spin - bodies.spin[b];
+      bodies.spin[b] = spin;
     }
     struck_.push_back(struck);
   }
 }
 
-void Impacts::resolve(const StepInput& step, FreeMotion& free, std::span<double> spin,
-                      StepContacts& contacts) {
+void Impacts::resolve(const StepInput& step, Bodies& bodies, StepContacts& contacts) {
   struck_.clear();
-  contacts.strikes.clear(), contacts.wall_jumps.clear();
   work_ = {};
   count_ = pass_number_ = 0;
+  contacts.wall_jumps.resize(step.walls.driven.size(), 0.0);
+  wall_jumps_ = contacts.wall_jumps;
   if (!find_closings(step, contacts)) return;
   link(step, contacts);
   pass_.bodies.clear();
@@ -247,7 +246,7 @@ void Impacts::resolve(const StepInput& step, FreeMotion& free, std::span<double>
     list_strikes(contacts);
     find_next_closings(step, contacts);
   }
-  give_back(step, free, spin, contacts);
+  give_back(step, bodies, contacts);
 }
 
 }  // namespace drumlin::particles

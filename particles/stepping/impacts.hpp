@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "particles/bodies/free_motion.hpp"
+#include "particles/bodies/bodies.hpp"
 #include "particles/stepping/impact_pass.hpp"
 #include "particles/stepping/step_contacts.hpp"
 
@@ -26,10 +26,10 @@ struct StruckGrain {
 /// Resolves the impacts of steps; keeps workspace only, and does nothing in a step without impacts.
 class Impacts {
  public:
-  /// Adds what impacts change to the velocities in `free` and to `spin` (of each grain; empty without spin),
-  /// and lists their impulses in `contacts.strikes`. Velocities of walls moved by a force change too;
-  /// `contacts.wall_jumps` receives by how much (empty without impacts).
-  void resolve(const StepInput& step, FreeMotion& free, std::span<double> spin, StepContacts& contacts);
+  /// Adds what impacts change to the velocities and spins of `bodies`, those of `step`, and lists their
+  /// impulses in `contacts.strikes`. Velocities of walls moved by a force change too: `contacts.wall_jumps`
+  /// adds up by how much.
+  void resolve(const StepInput& step, Bodies& bodies, StepContacts& contacts);
 
   // Of the last call.
   std::span<const StruckGrain> struck() const { return struck_; }
@@ -45,7 +45,8 @@ class Impacts {
   /// Place of a body in the pass, where it is taken up if it is new there.
   std::int32_t take_up(const StepInput&, std::int32_t body);
   void add(const StepInput&, const Candidate& pair, std::int32_t index);
-  /// Velocity of a body after the passes so far.
+  /// Velocity of a body before the first pass, and after the passes so far.
+  Point velocity_before(const StepInput&, std::int32_t body) const;
   Point velocity(const StepInput&, std::int32_t body) const;
   /// Whether a pair meets within the step fast enough, with the velocities as they stand.
   bool closes(const StepInput&, const Candidate& pair) const;
@@ -56,7 +57,7 @@ class Impacts {
   void find_next_closings(const StepInput&, const StepContacts&);
   /// Lists the impulses of a pass.
   void list_strikes(StepContacts&);
-  void give_back(const StepInput&, FreeMotion&, std::span<double> spin, StepContacts&);
+  void give_back(const StepInput&, Bodies&, StepContacts&);
   template <class Visit>
   void each_pair_of(std::int32_t body, Visit visit) const {
     for (std::int32_t k = first_[body]; k >= 0; k = next_[k]) visit(k / 2);
@@ -67,6 +68,7 @@ class Impacts {
   std::vector<std::int32_t> place_;         // of each body in the pass; -1: not there
   std::vector<std::int32_t> first_, next_;  // pairs of each body, linked
   std::vector<std::int32_t> in_pass_;       // number of the last pass in which a pair took part
+  std::vector<double> wall_jumps_;          // of earlier calls in the same step
   std::vector<StruckGrain> struck_;
   ImpactWork work_;
   int count_ = 0, pass_number_ = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 #include "particles/contact/block_problem.hpp"
@@ -29,6 +30,25 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+// Searches for pairs within a step, whose impacts may throw grains into pairs that no search has found.
+constexpr int most_searches = 5;
+
+/// Contacts sorted by their bodies; impulses of the same pair, impacts among them, are added up.
+std::vector<SnapshotContact> one_for_each_pair(std::vector<SnapshotContact> contacts) {
+  std::stable_sort(contacts.begin(), contacts.end(), [](const SnapshotContact& a, const SnapshotContact& b) {
+    return a.i != b.i ? a.i < b.i : a.j < b.j;
+  });
+  std::vector<SnapshotContact> sums;
+  for (const SnapshotContact& contact : contacts)
+    if (sums.empty() || sums.back().i != contact.i || sums.back().j != contact.j) {
+      sums.push_back(contact);
+    } else {
+      sums.back().impulse_n += contact.impulse_n;
+      sums.back().impulse_t += contact.impulse_t;
+    }
+  return sums;
+}
+
 template <class Problem, bool with_spin>
 class MoreauJean final : public Stepper {
   static constexpr int dim = Problem::dim;
@@ -50,16 +70,13 @@ class MoreauJean final : public Stepper {
     StepReport report;
     Stopwatch watch;
     if (books_) books_->open(bodies, state.energy);
-    move_freely(step);
-    detect(step);
-    report.detection_seconds = watch.lap();
-    if (laws_.restitution) report.impacts = strike(step, state);
+    detect(step, state, watch, report);
     if (laws_.cohesion)
       attract(*laws_.cohesion, contacts_.pairs, bodies, walls, step.materials(), time_step, free_,
               contacts_.attraction);
     recall(state.memory, bodies.count(), time_step);
     assemble<Problem, with_spin>(step, contacts_, problem_);
-    report.setup_seconds = watch.lap();
+    report.setup_seconds += watch.lap();
     report.contacts = problem_.contacts();
     report.solve = solve_(problem_, solver_.rule, work_, solution_);
     remember(contacts_.pairs, solution_.impulses, time_step, state.memory);
@@ -75,23 +92,19 @@ class MoreauJean final : public Stepper {
 
   std::vector<SnapshotContact> loaded_contacts() const override {
     std::vector<SnapshotContact> loaded;
-    std::vector<Point> struck(contacts_.pairs.size());  // normal, tangential
-    for (const Strike& strike : contacts_.strikes)
-      struck[strike.pair].x += strike.normal, struck[strike.pair].z += strike.tangential;
     for (std::size_t a = 0; a < contacts_.pairs.size(); ++a) {
       const Candidate& pair = contacts_.pairs[a];
       const auto& r = solution_.impulses;
       const double pull = laws_.cohesion ? contacts_.attraction[a] : 0;
-      const double r_n = r[dim * a] - pull + struck[a].x;
-      const double r_t = (dim >= 2 ? r[dim * a + 1 % dim] : 0) + struck[a].z;
+      const double r_n = r[dim * a] - pull, r_t = dim >= 2 ? r[dim * a + 1 % dim] : 0;
       if (r_n != 0)
         loaded.push_back(
             {pair.i, pair.j, static_cast<float>(pair.n_x), static_cast<float>(pair.n_z), r_n, r_t});
     }
-    std::sort(loaded.begin(), loaded.end(), [](const SnapshotContact& a, const SnapshotContact& b) {
-      return a.i != b.i ? a.i < b.i : a.j < b.j;
-    });
-    return loaded;
+    for (const Strike& strike : contacts_.strikes)
+      loaded.push_back({strike.i, strike.j, static_cast<float>(strike.n_x), static_cast<float>(strike.n_z),
+                        strike.normal, strike.tangential});
+    return one_for_each_pair(std::move(loaded));
   }
 
   std::optional<BlockProblem> last_problem() const override {
@@ -113,25 +126,46 @@ class MoreauJean final : public Stepper {
     if constexpr (drives) {
       free_.driven.clear();
       for (std::size_t k = 0; k < step.driven.size(); ++k)
-        free_.driven.push_back(free_velocity(step.walls.driven[k], step.driven[k], step.time_step));
+        free_.driven.push_back(free_velocity(step.walls.driven[k], step.driven[k], step.time_step) +
+                               (contacts_.wall_jumps.empty() ? 0 : contacts_.wall_jumps[k]));
     }
   }
 
+  /// The pairs that may touch once the impacts of the step are over.
+  void detect(const StepInput& step, const MovingState& state, Stopwatch& watch, StepReport& report) {
+    contacts_.strikes.clear(), contacts_.wall_jumps.clear();
+    for (int searches = 1;; ++searches) {
+      move_freely(step);
+      find_pairs(step);
+      report.detection_seconds += watch.lap();
+      if (!laws_.restitution) return;
+      impacts_.resolve(step, state.bodies, contacts_);
+      if (books_) books_->strike(impacts_.struck(), impacts_.work(), *state.energy);
+      report.impacts += impacts_.count();
+      report.setup_seconds += watch.lap();
+      if (impacts_.count() == 0) return;
+      if (searches == most_searches || !thrown_far(step)) break;
+    }
+    move_freely(step);
+  }
+
+  /// Whether an impact has thrown a grain further than the search for pairs allowed for.
+  bool thrown_far(const StepInput& step) const {
+    const auto struck = impacts_.struck();
+    return std::any_of(struck.begin(), struck.end(), [&](const StruckGrain& grain) {
+      const double reach = detection_.jolt(grain.grain) + laws_.detection_margin;
+      return 2 * step.time_step * std::hypot(grain.v_x, grain.v_z) > reach;
+    });
+  }
+
   /// The pairs that may touch, in solve order, and the plan of their solution.
-  void detect(const StepInput& step) {
+  void find_pairs(const StepInput& step) {
     const DetectionInput input{step.walls.before, step.walls.displacement, step.time_step,
                                laws_.detection_margin, laws_.period};
     auto& found = detection_.find(step.bodies, free_.x, free_.z, input);
     order_.sort(found, step.bodies, laws_.period, problem_.W.plan);
     contacts_.pairs.swap(found);
     sweep_normals(step, contacts_.pairs);
-  }
-
-  /// Resolves the impacts of the step; returns how many there were.
-  int strike(const StepInput& step, const MovingState& state) {
-    impacts_.resolve(step, free_, state.bodies.spin, contacts_);
-    if (books_) books_->strike(impacts_.struck(), impacts_.work(), *state.energy);
-    return impacts_.count();
   }
 
   /// The warm start.

@@ -12,9 +12,10 @@
 
 namespace drumlin::particles {
 
-/// Impulses of an impact on a pair, in one pass (impacts.hpp).
+/// An impact of a pair (i, j), in one pass (impacts.hpp): its normal, and its impulses.
 struct Strike {
-  std::int32_t pair = 0;  ///< its place
+  std::int32_t i = 0, j = 0;
+  double n_x = 0, n_z = 0;
   double normal = 0, tangential = 0;
 };
 
@@ -23,7 +24,7 @@ struct StepContacts {
   std::vector<Candidate> pairs;
   std::vector<double> attraction;  ///< cohesive force times h; empty without cohesion
   std::vector<Strike> strikes;     ///< impacts of the step; empty without restitution
-  std::vector<double> wall_jumps;  ///< what they add to the velocity of each driven wall; empty: nothing
+  std::vector<double> wall_jumps;  ///< what they add to the velocity of each driven wall
 };
 
 /// A step from its beginning up to the solve.

@@ -180,7 +180,7 @@ std::vector<HardCheck> elastic_gas() {
 /// Haff's law (1983): sqrt(T(0)/T(t)) = 1 + t/tau with 1/tau = (1 - e^2) omega/4, omega = 2 n chi sqrt(pi
 /// T/m) impacts of a disc per time (Enskog; chi by Henderson 1975), for diameter 1.
 std::vector<HardCheck> haff() {
-  const double fraction = 0.02, e = 0.9, side = side_of_gas(fraction), h = 0.01;
+  const double fraction = 0.01, e = 0.9, side = side_of_gas(fraction), h = 0.02;
   const double n = fraction * 4 / std::numbers::pi;
   const double chi = (1 - 7 * fraction / 16) / ((1 - fraction) * (1 - fraction));
   const double tau = 4 / ((1 - e * e) * 2 * n * chi * std::sqrt(std::numbers::pi));
