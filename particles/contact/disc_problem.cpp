@@ -181,8 +181,8 @@ std::optional<CoulombSpinProblem> disc_problem(const BlockProblem& blocks) {
   const int fixed = static_cast<int>(problem.W.inverse_mass.size());
   problem.W.inverse_mass.push_back(0);
   for (int a = 0; a < blocks.contacts(); ++a)
-    problem.W.add(ends[a][0] < 0 ? fixed : ends[a][0], ends[a][1] < 0 ? fixed : ends[a][1],
-                  normal[a].real(), normal[a].imag());
+    problem.W.add(ends[a][0] < 0 ? fixed : ends[a][0], ends[a][1] < 0 ? fixed : ends[a][1], normal[a].real(),
+                  normal[a].imag());
   if (!same_matrix(blocks.W, block_problem(problem).W)) return {};
   return problem;
 }

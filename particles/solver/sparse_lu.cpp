@@ -48,11 +48,11 @@ bool SparseLu::factorise(std::vector<double> values) {
   const int *start = f.pattern.column_start.data(), *row = f.pattern.row.data();
   int status = UMFPACK_OK;
   if (f.symbolic == nullptr)
-    status = umfpack_di_symbolic(size, size, start, row, f.values.data(), &f.symbolic, f.control.data(),
-                                 nullptr);
+    status =
+        umfpack_di_symbolic(size, size, start, row, f.values.data(), &f.symbolic, f.control.data(), nullptr);
   if (status == UMFPACK_OK)
-    status = umfpack_di_numeric(start, row, f.values.data(), f.symbolic, &f.numeric, f.control.data(),
-                                nullptr);
+    status =
+        umfpack_di_numeric(start, row, f.values.data(), f.symbolic, &f.numeric, f.control.data(), nullptr);
   if (status == UMFPACK_ERROR_out_of_memory) throw std::bad_alloc();
   if (status == UMFPACK_OK) return true;
   umfpack_di_free_numeric(&f.numeric);
