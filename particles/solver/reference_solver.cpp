@@ -15,15 +15,16 @@
 namespace drumlin::particles {
 namespace {
 
-constexpr int first_sweeps = 20000;  // accelerated, and at most as many plain ones
-constexpr double first_kappa = 300;
+constexpr int first_sweeps = 20000;  // accelerated
+constexpr double first_kappa = 100;
 // 1/kappa multiplies the differences that the last digits of r make in u: larger ones lose more than they
 // gain.
 constexpr double largest_kappa = 1e6;
 constexpr double smallest_kappa = 10;
-constexpr int few_factorisations = 6;  // with so few, a step could have been larger
-// Proximal steps without a better residual after which sweeps stir the impulses, and how many.
-constexpr int patience = 40, stirring_sweeps = 4000;
+constexpr int few_factorisations = 8;  // with so few, a step could have been larger
+// Proximal steps without a better residual after which plain sweeps stir the impulses; how many the first
+// time, twice as many each further time.
+constexpr int patience = 60, first_stirring_sweeps = 200;
 
 /// Follows the proximal steps, and what they have reached.
 template <class Problem>
@@ -37,7 +38,6 @@ class ReferenceSolve {
     const int first = std::clamp(rule_.max_sweeps / 2, 1, first_sweeps);
     best_residual_ = sweep(&solve_accelerated<Problem>, first, solution_);
     now_ = solution_.impulses;
-    if (!stopped()) stir(first / 2);
     std::optional<ProximalNewton<Problem>> newton;
     if (!stopped()) newton.emplace(problem_);
     double kappa = first_kappa;
@@ -47,13 +47,13 @@ class ReferenceSolve {
       if (next) {
         extrapolate_and_take(*next);
         if (newton->factorisations() <= few_factorisations && --wait < 0)
-          kappa = std::min(2 * kappa, largest_kappa);
+          kappa = std::min(3 * kappa, largest_kappa);
       } else {
         kappa = std::max(kappa / 4, smallest_kappa);
         wait = 2;
       }
       if (++without_progress_ > patience) {
-        stir(stirring_sweeps);
+        stir();
         kappa = first_kappa;
       }
     }
@@ -83,10 +83,11 @@ class ReferenceSolve {
   }
 
   /// Plain sweeps from where the steps are; what they reach is kept if it is the best.
-  void stir(int sweeps) {
+  void stir() {
     without_progress_ = 0;
-    sweeps = std::min(sweeps, rule_.max_sweeps - sweeps_);
+    const int sweeps = std::min(stirring_sweeps_, rule_.max_sweeps - sweeps_);
     if (sweeps <= 0) return;
+    stirring_sweeps_ = std::min(2 * stirring_sweeps_, first_sweeps);
     trial_.impulses.swap(now_);
     const ContactResidual reached = sweep(&solve_nlgs<Problem>, sweeps, trial_);
     trial_.impulses.swap(now_);
@@ -146,7 +147,7 @@ class ReferenceSolve {
   ContactResidual best_residual_;
   Solution<Problem> trial_;
   std::vector<double> now_;
-  int sweeps_ = 0, without_progress_ = 0;
+  int sweeps_ = 0, without_progress_ = 0, stirring_sweeps_ = first_stirring_sweeps;
   StoppingTest test_;
 };
 
