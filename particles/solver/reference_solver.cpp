@@ -15,7 +15,7 @@
 namespace drumlin::particles {
 namespace {
 
-constexpr int first_sweeps = 20000;  // accelerated
+constexpr int first_sweeps = 20000;  // accelerated, and at most as many plain ones after them
 constexpr double first_kappa = 100;
 // 1/kappa multiplies the differences that the last digits of r make in u: larger ones lose more than they
 // gain.
@@ -38,6 +38,7 @@ class ReferenceSolve {
     const int first = std::clamp(rule_.max_sweeps / 2, 1, first_sweeps);
     best_residual_ = sweep(&solve_accelerated<Problem>, first, solution_);
     now_ = solution_.impulses;
+    if (!stopped()) stir(std::min(first_sweeps, rule_.max_sweeps / 16));
     std::optional<ProximalNewton<Problem>> newton;
     if (!stopped()) newton.emplace(problem_);
     double kappa = first_kappa;
@@ -53,7 +54,8 @@ class ReferenceSolve {
         wait = 2;
       }
       if (++without_progress_ > patience) {
-        stir();
+        stir(stirring_sweeps_);
+        stirring_sweeps_ = std::min(2 * stirring_sweeps_, first_sweeps);
         kappa = first_kappa;
       }
     }
@@ -83,11 +85,10 @@ class ReferenceSolve {
   }
 
   /// Plain sweeps from where the steps are; what they reach is kept if it is the best.
-  void stir() {
+  void stir(int sweeps) {
     without_progress_ = 0;
-    const int sweeps = std::min(stirring_sweeps_, rule_.max_sweeps - sweeps_);
+    sweeps = std::min(sweeps, rule_.max_sweeps - sweeps_);
     if (sweeps <= 0) return;
-    stirring_sweeps_ = std::min(2 * stirring_sweeps_, first_sweeps);
     trial_.impulses.swap(now_);
     const ContactResidual reached = sweep(&solve_nlgs<Problem>, sweeps, trial_);
     trial_.impulses.swap(now_);
