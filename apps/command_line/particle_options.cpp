@@ -103,6 +103,8 @@ void add_solve_contacts_options(CLI::App& command, SolveContactsOptions& options
              "It may stop below this residual (docs/conventions.md)");
   add_number(command, "--max-seconds", options.max_seconds, "s", above(0),
              "It stops after this wall time in any case");
+  add_number(command, "--threads", options.threads, "", at_least(1, 1024),
+             "Threads, of solvers that know them and W of discs; the impulses do not depend on it");
   command
       .add_option_function<std::string>(
           "--output", [&options](const std::string& file) { options.output = file; },

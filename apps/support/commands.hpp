@@ -139,6 +139,7 @@ struct SolveContactsOptions {
   std::string solver = "accelerated";
   double tolerance = 1e-4;
   double max_seconds = 60;
+  int threads = 1;
   std::optional<std::filesystem::path> output;
   bool json = false;
 };

@@ -1,5 +1,6 @@
 #include "particles/io/contact_problem_file.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -15,6 +16,7 @@ struct Entry {
 };
 
 const std::string root = "fclib_local/";
+constexpr double largest_asymmetry = 1e-5;  // of W_aa; beyond, it is not a file written with few digits
 
 void check_entry(const H5Reader& in, const Entry& entry, std::int64_t size) {
   if (entry.row < 0 || entry.row >= size || entry.column < 0 || entry.column >= size)
@@ -66,9 +68,15 @@ std::vector<Entry> entries_of_W(const H5Reader& in, std::int64_t size) {
 }
 
 bool is_positive_definite(const Eigen::Matrix2d& block) {
-  const double rounding = 1e-8 * (std::abs(block(0, 0)) + std::abs(block(1, 1)));
-  return block(0, 0) > 0 && block(1, 1) > 0 && std::abs(block(0, 1) - block(1, 0)) <= rounding &&
-         block.determinant() > 0;
+  return block(0, 0) > 0 && block(1, 1) > 0 && block.determinant() > 0;
+}
+
+/// Makes a diagonal block symmetric; returns how far it was from it, relative to its trace.
+double symmetrise(Eigen::Matrix2d& block) {
+  const double trace = std::abs(block(0, 0)) + std::abs(block(1, 1));
+  const double difference = std::abs(block(0, 1) - block(1, 0));
+  block(0, 1) = block(1, 0) = (block(0, 1) + block(1, 0)) / 2;
+  return difference == 0 ? 0 : difference / trace;
 }
 
 std::vector<double> vector_of(const H5Reader& in, const std::string& name, std::int64_t size) {
@@ -82,7 +90,7 @@ std::vector<double> vector_of(const H5Reader& in, const std::string& name, std::
 
 }  // namespace
 
-BlockProblem read_contact_problem(const std::filesystem::path& file) {
+ContactProblemFile read_contact_problem_file(const std::filesystem::path& file) {
   const H5Reader in(file, false);
   if (in.integer(root + "spacedim") != 2) in.refuse(root + "spacedim", "only 2 is solved here");
   for (const char* equality : {"V", "R"})
@@ -90,7 +98,8 @@ BlockProblem read_contact_problem(const std::filesystem::path& file) {
   const std::int64_t size = in.integer(root + "W/m");
   if (size != in.integer(root + "W/n") || size % 2 != 0 || size <= 0 || size > (std::int64_t{1} << 28))
     in.refuse(root + "W/m", "not a square matrix of 2 rows per contact");
-  BlockProblem problem;
+  ContactProblemFile read;
+  BlockProblem& problem = read.problem;
   problem.q = vector_of(in, "q", size);
   problem.mu = vector_of(in, "mu", size / 2);
   for (const double mu : problem.mu)
@@ -105,14 +114,21 @@ BlockProblem read_contact_problem(const std::filesystem::path& file) {
   W.row_start.push_back(0);
   for (int a = 0; a < contacts; ++a) {
     const auto diagonal = rows[a].find(a);
-    if (diagonal == rows[a].end() || !is_positive_definite(diagonal->second))
+    const double asymmetry = diagonal == rows[a].end() ? 0 : symmetrise(diagonal->second);
+    if (!(asymmetry <= largest_asymmetry) || diagonal == rows[a].end() ||
+        !is_positive_definite(diagonal->second))
       in.refuse(root + "W",
                 "contact " + std::to_string(a) + " has no symmetric positive definite diagonal block");
+    read.asymmetry = std::max(read.asymmetry, asymmetry);
     W.diagonal.push_back(diagonal->second);
     for (const auto& [column, block] : rows[a]) W.column.push_back(column), W.block.push_back(block);
     W.row_start.push_back(static_cast<int>(W.column.size()));
   }
-  return problem;
+  return read;
+}
+
+BlockProblem read_contact_problem(const std::filesystem::path& file) {
+  return read_contact_problem_file(file).problem;
 }
 
 void write_contact_solution(const std::filesystem::path& file, std::span<const double> r,

@@ -75,9 +75,9 @@ SolveReport solve_nncg(const Problem&, const StoppingRule&, SolverWorkspace<Prob
 template <class Problem>
 SolveReport solve_cpg(const Problem&, const StoppingRule&, SolverWorkspace<Problem>&, Solution<Problem>&);
 
-/// As accurate as can be had: NNCG first, then proximal steps by a semismooth Newton method on the bodies (or
-/// blocks), until a tolerance or a limit ends it. A Newton step, one sparse LU, counts as a "sweep". Never
-/// returns worse than its NNCG start.
+/// As accurate as can be had: accelerated sweeps, plain ones, then proximal steps by a semismooth Newton
+/// method on the bodies (or blocks), until a tolerance or a limit ends it; both are asked before each Newton
+/// step. A Newton step, one sparse LU, counts as a "sweep". Returns the best impulses seen.
 template <class Problem>
 SolveReport solve_reference(const Problem&, const StoppingRule&, SolverWorkspace<Problem>&,
                             Solution<Problem>&);

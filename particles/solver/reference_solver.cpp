@@ -1,118 +1,30 @@
 // The solver `reference`: as accurate as can be had, at any price (declared in contact_solver.hpp).
 //
-// Proximal steps: r_{k+1} solves the problem with a compliance 1/kappa (in units of W_aa) around r_k. Each is
-// a piecewise linear equation for the velocities with one solution nearby even where the impulses are not
-// unique, and is solved by a semismooth Newton method; the fixed points are the exact solutions. kappa grows
-// as long as Newton converges. What was tried before for the drum at mu = 0.4 and stalls near 5e-4 is listed
-// in docs/theory/solvers.md.
+// Accelerated sweeps, then plain ones, then proximal steps r_{k+1} around r_k
+// (particles/solver/proximal_newton.hpp). The steps go implicitly, over a time kappa, where plain sweeps go
+// in times of order one; kappa grows as long as Newton converges. Plain sweeps come between since momentum
+// keeps drums at mu = 0.4 near 3e-4: what it feeds grows there. docs/theory/solvers.md has the measurements.
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "particles/contact/problems.hpp"
 #include "particles/solver/contact_solver.hpp"
-#include "particles/solver/diagonal_entry.hpp"
-#include "particles/solver/reference_linear.hpp"
+#include "particles/solver/proximal_newton.hpp"
 
 namespace drumlin::particles {
 namespace {
 
-constexpr int first_sweeps = 5000;  // of NNCG: beyond, it wanders
-constexpr int newton_steps = 40;    // without success by then, kappa was too large
+constexpr int first_sweeps = 20000;  // accelerated, and at most as many plain ones after them
 constexpr double first_kappa = 100;
 // 1/kappa multiplies the differences that the last digits of r make in u: larger ones lose more than they
 // gain.
 constexpr double largest_kappa = 1e6;
 constexpr double smallest_kappa = 10;
-// Proximal steps without a better residual after which NNCG stirs the impulses, and its sweeps.
-constexpr int patience = 60, stirring_sweeps = 1000;
-
-double dot(std::span<const double> x, std::span<const double> y) {
-  double sum = 0;
-  for (std::size_t k = 0; k < x.size(); ++k) sum += x[k] * y[k];
-  return sum;
-}
-
-template <class Problem>
-class ProximalNewton {
-  static constexpr int dim = Problem::dim;
-
- public:
-  explicit ProximalNewton(const Problem& problem)
-      : problem_(problem), system_(problem.W), zero_(problem.q.size(), 0.0), answers_(problem.contacts()) {}
-
-  /// Impulses of the proximal step from `centre`, nothing when Newton fails. `steps_left` counts down.
-  std::optional<std::vector<double>> step(const std::vector<double>& centre, double kappa, int& steps_left) {
-    centre_ = &centre;
-    kappa_ = kappa;
-    std::vector<double> r = centre;
-    double fault = evaluate(r);
-    // Of the velocities; rounding errors of u come back kappa times.
-    const double rounding = 1e-14 * kappa * std::sqrt(std::max(0.0, dot(r, u_) - dot(r, problem_.q)));
-    for (int k = 0; k < newton_steps && steps_left-- > 0; ++k) {
-      const std::vector<ContactResponse> piece = answers_;
-      const std::vector<double> change = system_.solution(piece, difference_);
-      if (change.empty()) return {};
-      const double length = search(r, change, fault);
-      // A whole step that ends on the linear piece where it began has solved it exactly.
-      if ((length == 1 && answers_ == piece) || (length == 0 && fault <= rounding)) return answer_;
-      if (length == 0) return {};
-    }
-    return {};
-  }
-
- private:
-  /// Answer of each contact to the velocities of r, and how far r is from it, in the norm of kinetic energy.
-  double evaluate(const std::vector<double>& r) {
-    problem_.W.velocities(r, problem_.q, state_, u_);
-    answer_.resize(r.size());
-    for (int a = 0; a < problem_.contacts(); ++a) answer(a);
-    difference_.resize(r.size());
-    for (std::size_t k = 0; k < r.size(); ++k) difference_[k] = r[k] - answer_[k];
-    problem_.W.velocities(difference_, zero_, state_, image_);
-    return std::sqrt(std::max(0.0, dot(difference_, image_)));
-  }
-
-  void answer(int a) {
-    ContactResponse& D = answers_[a];
-    const double k_n = kappa_ / diagonal_entry(problem_.W, a, 0);
-    const double r_n = (*centre_)[dim * a] - k_n * u_[dim * a];
-    D.nn = r_n > 0 ? k_n : 0;
-    answer_[dim * a] = std::max(0.0, r_n);
-    if constexpr (dim == 2) {
-      const double k_t = kappa_ / diagonal_entry(problem_.W, a, 1);
-      const double r_t = (*centre_)[2 * a + 1] - k_t * u_[2 * a + 1], bound = problem_.mu[a] * answer_[2 * a];
-      const bool sticks = std::abs(r_t) < bound;
-      D.tt = sticks ? k_t : 0;
-      D.tn = sticks ? 0 : std::copysign(problem_.mu[a] * D.nn, r_t);
-      answer_[2 * a + 1] = std::clamp(r_t, -bound, bound);
-    }
-  }
-
-  /// r - t change with the first t of 1, 1/2, 1/4... that makes r less wrong; returns t, 0 if none does.
-  double search(std::vector<double>& r, const std::vector<double>& change, double& fault) {
-    const std::vector<double> from = r;
-    for (double t = 1; t > 1e-4; t /= 2) {
-      for (std::size_t k = 0; k < r.size(); ++k) r[k] = from[k] - t * change[k];
-      const double now = evaluate(r);
-      if (now < (1 - 1e-4 * t) * fault) {
-        fault = now;
-        return t;
-      }
-    }
-    r = from;
-    evaluate(r);
-    return 0;
-  }
-
-  const Problem& problem_;
-  ResponseSystem<typename Problem::Delassus> system_;
-  typename Problem::Delassus::State state_;
-  std::vector<double> zero_, u_, answer_, difference_, image_;
-  std::vector<ContactResponse> answers_;
-  const std::vector<double>* centre_ = nullptr;
-  double kappa_ = 0;
-};
+constexpr int few_factorisations = 8;  // with so few, a step could have been larger
+// Proximal steps without a better residual after which plain sweeps stir the impulses; how many the first
+// time, twice as many each further time.
+constexpr int patience = 60, first_stirring_sweeps = 200;
 
 /// Follows the proximal steps, and what they have reached.
 template <class Problem>
@@ -123,26 +35,29 @@ class ReferenceSolve {
       : problem_(problem), rule_(rule), work_(work), solution_(solution), test_(rule) {}
 
   SolveReport execute() {
-    sweep(std::clamp(rule_.max_sweeps / 2, 1, first_sweeps), solution_, best_residual_);
+    const int first = std::clamp(rule_.max_sweeps / 2, 1, first_sweeps);
+    best_residual_ = sweep(&solve_accelerated<Problem>, first, solution_);
     now_ = solution_.impulses;
+    if (!stopped()) stir(std::min(first_sweeps, rule_.max_sweeps / 16));
     std::optional<ProximalNewton<Problem>> newton;
     if (!stopped()) newton.emplace(problem_);
     double kappa = first_kappa;
     int wait = 0;  // proximal steps before kappa may grow
     while (!stopped()) {
-      const int before = rule_.max_sweeps - sweeps_;
-      int left = before;
-      const auto next = newton->step(now_, kappa, left);
-      const int steps = before - std::max(0, left);
-      sweeps_ += std::max(steps, 1);  // a step that changes nothing counts, or it might go on for ever
+      const auto next = newton->step(now_, kappa, [this] { return may_factorise(); });
       if (next) {
         extrapolate_and_take(*next);
-        if (steps <= 8 && --wait < 0) kappa = std::min(3 * kappa, largest_kappa);
+        if (newton->factorisations() <= few_factorisations && --wait < 0)
+          kappa = std::min(3 * kappa, largest_kappa);
       } else {
         kappa = std::max(kappa / 4, smallest_kappa);
         wait = 2;
       }
-      if (++without_progress_ > patience) stir(kappa);
+      if (++without_progress_ > patience) {
+        stir(stirring_sweeps_);
+        stirring_sweeps_ = std::min(2 * stirring_sweeps_, first_sweeps);
+        kappa = first_kappa;
+      }
     }
     SolveReport report = test_.report();
     report.residual = residual_of(problem_, solution_);  // also its velocities
@@ -152,28 +67,32 @@ class ReferenceSolve {
  private:
   bool stopped() { return test_.ends(sweeps_, best_residual_); }
 
-  /// NNCG from the impulses of a solution.
-  void sweep(int sweeps, Solution<Problem>& solution, ContactResidual& residual) {
-    StoppingRule rule = rule_;
-    rule.max_sweeps = sweeps;
-    rule.max_seconds = rule_.max_seconds / 4;
-    const SolveReport swept = solve_nncg(problem_, rule, work_, solution);
-    sweeps_ += swept.sweeps;
-    residual = swept.residual;
+  /// Each factorisation counts as a sweep.
+  bool may_factorise() {
+    if (stopped()) return false;
+    ++sweeps_;
+    return true;
   }
 
-  /// NNCG from where the steps are; what it reaches is kept if it is the best.
-  void stir(double& kappa) {
-    const int left = rule_.max_sweeps - sweeps_;
-    if (left > 0) {
-      ContactResidual residual;
-      trial_.impulses.swap(now_);
-      sweep(std::min(left, stirring_sweeps), trial_, residual);
-      trial_.impulses.swap(now_);
-      keep_if_best(now_, residual);
-    }
-    kappa = first_kappa;
+  /// Sweeps from the impulses of a solution; returns what they reach.
+  ContactResidual sweep(ContactSolver<Problem> solver, int sweeps, Solution<Problem>& solution) {
+    StoppingRule rule = rule_;
+    rule.max_sweeps = sweeps;
+    rule.max_seconds = rule_.max_seconds / 8;
+    const SolveReport swept = solver(problem_, rule, work_, solution);
+    sweeps_ += swept.sweeps;
+    return swept.residual;
+  }
+
+  /// Plain sweeps from where the steps are; what they reach is kept if it is the best.
+  void stir(int sweeps) {
     without_progress_ = 0;
+    sweeps = std::min(sweeps, rule_.max_sweeps - sweeps_);
+    if (sweeps <= 0) return;
+    trial_.impulses.swap(now_);
+    const ContactResidual reached = sweep(&solve_nlgs<Problem>, sweeps, trial_);
+    trial_.impulses.swap(now_);
+    keep_if_best(now_, reached);
   }
 
   ContactResidual residual(const std::vector<double>& r) {
@@ -229,7 +148,7 @@ class ReferenceSolve {
   ContactResidual best_residual_;
   Solution<Problem> trial_;
   std::vector<double> now_;
-  int sweeps_ = 0, without_progress_ = 0;
+  int sweeps_ = 0, without_progress_ = 0, stirring_sweeps_ = first_stirring_sweeps;
   StoppingTest test_;
 };
 

@@ -159,6 +159,18 @@ TEST(ContactProblemFile, WrittenProblemReadsBack) {
   EXPECT_EQ(a.mu, b.mu);
 }
 
+TEST(ContactProblemFile, SmallAsymmetryOfADiagonalBlockIsTakenAway) {
+  const TemporaryFolder folder;
+  SmallProblem rounded;
+  rounded.dense[1] += 2e-5;  // W_nt of contact 0, whose trace is 5
+  write_fclib(folder.path() / "p.h5", rounded, -1);
+  const ContactProblemFile read = read_contact_problem_file(folder.path() / "p.h5");
+  EXPECT_NEAR(read.asymmetry, 4e-6, 1e-12);
+  EXPECT_NEAR(read.problem.W.diagonal[0](0, 1), 0.1 + 1e-5, 1e-15);
+  EXPECT_EQ(read.problem.W.diagonal[0], read.problem.W.diagonal[0].transpose());
+  EXPECT_EQ(read.problem.W.block[0], read.problem.W.diagonal[0]);
+}
+
 TEST(ContactProblemFile, EmptyFileIsRefusedWhateverLiesBeside) {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "empty.h5").close();
@@ -179,6 +191,10 @@ TEST(ContactProblemFile, FaultsAreRefused) {
   SmallProblem singular;
   singular.dense[0] = 0;
   write_fclib(file, singular, 0);
+  EXPECT_THROW(read_contact_problem(file), InputError);
+  SmallProblem one_sided;
+  one_sided.dense[6] *= 1 + 1e-3;
+  write_fclib(file, one_sided, -2);
   EXPECT_THROW(read_contact_problem(file), InputError);
   std::ofstream(file) << "not HDF5";
   EXPECT_THROW(read_contact_problem(file), InputError);

@@ -5,8 +5,11 @@
 #include <random>
 
 #include "particles/contact/block_problem.hpp"
+#include "particles/contact/disc_problem.hpp"
 #include "particles/solver/contact_solver.hpp"
+#include "particles/solver/proximal_newton.hpp"
 #include "particles/solver/reference_linear.hpp"
+#include "particles/solver/sparse_lu.hpp"
 
 namespace drumlin {
 using namespace particles;
@@ -114,7 +117,7 @@ TEST(Reference, SolvesAHyperstaticCrystalInFewNewtonSteps) {
   for (const double mu : {0.1, 0.4, 0.95}) {
     const auto problem = crystal<CoulombSpinProblem>(12, 8, mu);
     std::vector<double> r, s;
-    // 50 sweeps of NNCG and up to 50 Newton steps. Rounding errors end near 1e-10.
+    // 50 accelerated sweeps, 25 plain ones and up to 25 Newton steps. Rounding errors end near 1e-10.
     const auto report = solved(problem, 100, 1e-9, r);
     EXPECT_LE(report.residual.rms, 1e-9) << mu;
     const auto blocks = solved(block_problem(problem), 100, 1e-9, s);
@@ -133,18 +136,106 @@ TEST(Reference, MassRatiosOfAThousand) {
   EXPECT_LE(solved(crystal<CoulombSpinProblem>(6, 6, 0.4, 1e3), 2000, 1e-8, r).residual.rms, 1e-8);
 }
 
+template <class Problem>
+SolveReport accelerated(const Problem& problem, const StoppingRule& rule) {
+  SolverWorkspace<Problem> work;
+  Solution<Problem> solution;
+  return contact_solver<Problem>("accelerated")(problem, rule, work, solution);
+}
+
 TEST(Reference, IsNeverWorseThanItsStart) {
   const auto problem = crystal<CoulombSpinProblem>(20, 20, 0.4);
   for (const int sweeps : {1, 2, 7, 30}) {
     StoppingRule rule;
     rule.tolerance = 0;
     rule.max_sweeps = std::max(1, sweeps / 2);
-    SolverWorkspace<CoulombSpinProblem> work;
-    Solution<CoulombSpinProblem> solution;
     std::vector<double> s;
-    const auto start = contact_solver<CoulombSpinProblem>("nncg")(problem, rule, work, solution);
+    const auto start = accelerated(problem, rule);
     EXPECT_LE(solved(problem, sweeps, 0, s).residual.rms, start.residual.rms);
   }
+}
+
+TEST(Reference, ReturnsTheBestIterateThatItHasSeen) {
+  const auto problem = crystal<CoulombSpinProblem>(8, 8, 0.6, 1e3);
+  std::vector<double> best, first;
+  const auto to_the_end = solved(problem, 200, 0, best);
+  EXPECT_EQ(to_the_end.sweeps, 200);
+  EXPECT_EQ(to_the_end.residual.rms, residual_of(problem, std::span<const double>(best)).rms);
+  // Stopped where it first sees this residual, it is where the other run was best, to the last byte.
+  const auto stopped = solved(problem, 200, to_the_end.residual.rms, first);
+  EXPECT_EQ(stopped.status, Status::converged);
+  EXPECT_EQ(first, best);
+}
+
+TEST(Reference, FactorisesNothingWhenItsTimeIsUp) {
+  const auto problem = crystal<CoulombSpinProblem>(12, 8, 0.4);
+  StoppingRule rule;
+  rule.tolerance = 0;
+  rule.max_seconds = 0;
+  SolverWorkspace<CoulombSpinProblem> work;
+  Solution<CoulombSpinProblem> solution;
+  const auto report = contact_solver<CoulombSpinProblem>("reference")(problem, rule, work, solution);
+  EXPECT_EQ(report.status, Status::out_of_time);
+  EXPECT_EQ(report.sweeps, accelerated(problem, rule).sweeps);  // a factorisation counts as a sweep
+}
+
+TEST(Reference, AsksBeforeEachFactorisation) {
+  const auto problem = crystal<CoulombSpinProblem>(12, 8, 0.4);
+  ProximalNewton<CoulombSpinProblem> newton(problem);
+  const std::vector<double> nothing(problem.q.size(), 0.0);
+  int asked = 0;
+  ASSERT_TRUE(newton.step(nothing, 10, [&] { return ++asked > 0; }));
+  ASSERT_GT(asked, 2);
+  EXPECT_EQ(newton.factorisations(), asked);
+  int left = 2;
+  EXPECT_FALSE(newton.step(nothing, 10, [&] { return left-- > 0; }));
+  EXPECT_EQ(newton.factorisations(), 2);
+}
+
+TEST(SparseLu, SolvesBothWaysAndKnowsTheSignOfItsDeterminant) {
+  const SparsePattern pattern{{0, 2, 4}, {0, 1, 0, 1}};
+  SparseLu lu(pattern);
+  ASSERT_TRUE(lu.factorise({1, 3, 2, 4}));  // rows (1 2), (3 4)
+  EXPECT_EQ(lu.determinant_sign(), -1);
+  std::vector<double> x(2);
+  lu.solve(std::vector<double>{5, 11}, x);
+  EXPECT_NEAR(x[0], 1, 1e-14);
+  EXPECT_NEAR(x[1], 2, 1e-14);
+  lu.solve_transposed(std::vector<double>{7, 10}, x);
+  EXPECT_NEAR(x[0], 1, 1e-14);
+  EXPECT_NEAR(x[1], 2, 1e-14);
+  EXPECT_FALSE(lu.factorise({1, 2, 2, 4}));
+  EXPECT_FALSE(lu.factorise({1, std::nan(""), 2, 4}));
+  ASSERT_TRUE(lu.factorise({4, 3, 2, 4}));
+  EXPECT_EQ(lu.determinant_sign(), 1);
+}
+
+TEST(DiscProblem, IsFoundInTheMatrixOfDiscs) {
+  // Rings of three discs that touch one another, equal masses and masses 1:1000, walls.
+  for (const double ratio : {1.0, 1e3}) {
+    const auto discs = crystal<CoulombSpinProblem>(6, 5, 0.4, ratio);
+    const BlockProblem blocks = block_problem(discs);
+    const auto found = disc_problem(blocks);
+    ASSERT_TRUE(found) << ratio;
+    ASSERT_EQ(found->contacts(), discs.contacts());
+    Random random(7);
+    std::vector<double> r(discs.q.size());
+    for (double& value : r) value = random() - 0.5;
+    std::vector<double> u, v;
+    CoulombSpinProblem::Delassus::State state;
+    BlockDelassus::State none;
+    found->W.velocities(r, found->q, state, u);
+    blocks.W.velocities(r, blocks.q, none, v);
+    for (std::size_t k = 0; k < u.size(); ++k) EXPECT_NEAR(u[k], v[k], 1e-12) << ratio << ' ' << k;
+  }
+}
+
+TEST(DiscProblem, IsNotFoundWhereThereIsNone) {
+  BlockProblem blocks = block_problem(crystal<CoulombSpinProblem>(6, 5, 0.4));
+  blocks.W.block[1] *= 1.001;
+  EXPECT_FALSE(disc_problem(blocks));
+  EXPECT_FALSE(disc_problem(block_problem(crystal<CoulombProblem>(6, 5, 0.4))));  // that do not turn
+  EXPECT_FALSE(disc_problem(block_problem(crystal<FrictionlessProblem>(6, 5, 0))));
 }
 
 }  // namespace
