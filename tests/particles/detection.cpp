@@ -7,23 +7,21 @@
 
 #include "particles/detection/contact_list.hpp"
 #include "particles/scene/random.hpp"
+#include "tests/particles/many_grains.hpp"
 
 namespace drumlin {
 namespace {
 
 using namespace particles;
 
-struct Grains {
-  Bodies bodies;
-  std::vector<double> v_x, v_z;
-  void add(double x, double z, double radius, double speed_x, double speed_z) {
-    add_body(bodies, x, z, radius);
-    v_x.push_back(speed_x), v_z.push_back(speed_z);
-  }
-  std::size_t count() const { return bodies.count(); }
-};
+using test::falling;
+using test::flowing;
+using test::Grains;
+using test::packed;
+using test::scattered;
+using test::unlike;
 
-constexpr double time_step = 0.05, margin = 0.02;
+constexpr double time_step = test::grains_time_step, margin = 0.02;
 
 std::vector<Candidate> found(ContactDetection& detection, const Grains& g, const Period& period = {}) {
   const DetectionInput input{{}, {}, time_step, margin, period};
@@ -65,53 +63,6 @@ void expect_defined(const Grains& g, const Period& period, const char* what) {
     EXPECT_NEAR(pair.gap, next->second, 1e-9) << what;
     ++next;
   }
-}
-
-/// A square packing of `count` grains with places and velocities shaken.
-Grains packed(int count, double smallest, double speed, RandomStream& random) {
-  Grains g;
-  const int side = static_cast<int>(std::sqrt(count));
-  for (int k = 0; k < count; ++k)
-    g.add(k % side + random.uniform(-0.1, 0.1), k / side + random.uniform(-0.1, 0.1),
-          random.uniform(smallest / 2, 0.5), random.uniform(-speed, speed), random.uniform(-speed, speed));
-  return g;
-}
-
-Grains flowing(int count, RandomStream& random) {
-  Grains g = packed(count, 0.8, 0.5, random);
-  for (std::size_t b = 0; b < g.count(); ++b) g.v_x[b] += 0.3 * g.bodies.z[b];
-  return g;
-}
-
-/// The upper half falls on the lower one, ten diameters a step.
-Grains falling(int count, RandomStream& random) {
-  Grains g = packed(count, 0.8, 0.5, random);
-  const double middle = std::sqrt(count) / 2;
-  for (std::size_t b = 0; b < g.count(); ++b)
-    if (g.bodies.z[b] > middle) g.v_z[b] -= 10 / time_step;
-  return g;
-}
-
-Grains scattered(int count, RandomStream& random) {
-  Grains g;
-  const double side = 6 * std::sqrt(count), speed = 2 / time_step;
-  for (int k = 0; k < count; ++k)
-    g.add(random.uniform(0, side), random.uniform(0, side), random.uniform(0.4, 0.5),
-          random.uniform(-speed, speed), random.uniform(-speed, speed));
-  return g;
-}
-
-/// One to ten in size, the small ones in squares beside the large ones.
-Grains unlike(int count, RandomStream& random) {
-  Grains g;
-  const int side = static_cast<int>(std::sqrt(count / 51.0)) + 1;
-  for (int k = 0; static_cast<int>(g.count()) < count; ++k) {
-    const double x = 2.0 * (k % side), z = k / side;
-    g.add(x, z, random.uniform(0.4, 0.5), 0, 0);
-    for (int s = 0; s < 50; ++s)
-      g.add(x + 0.6 + 0.1 * (s % 8), z - 0.4 + 0.1 * (s / 8.0), random.uniform(0.04, 0.05), 0, 0);
-  }
-  return g;
 }
 
 TEST(Detection, FindsThePairsOfItsDefinitionAndNoOthers) {
@@ -164,28 +115,18 @@ double price(Make make, int count) {
 }
 
 TEST(Detection, LooksAtAsManyPairsPerGrainWhateverTheirNumber) {
-  const auto all_fall = [](int count, RandomStream& random) {
-    Grains g = packed(count, 0.8, 0.5, random);
-    for (double& v : g.v_z) v -= 1000 / time_step;
-    return g;
-  };
-  const auto with_stray = [](int count, RandomStream& random) {
-    Grains g = packed(count, 0.8, 0.5, random);
-    g.add(1e7, 1e7, 0.5, 0, 0);
-    return g;
-  };
   // Cells of 1.3 d hold 1.7 grains, and half of nine are looked at: some 8 per grain.
-  EXPECT_LT(price(flowing, 16000), 12);
-  EXPECT_LT(price(all_fall, 16000), 12);
-  EXPECT_LT(price(with_stray, 16000), 12);
-  EXPECT_LT(price(scattered, 16000), 4);
-  EXPECT_LT(price(unlike, 16000), 30);
-  for (const auto& [small, large] : {std::pair(price(flowing, 4000), price(flowing, 16000)),
-                                     std::pair(price(all_fall, 4000), price(all_fall, 16000)),
-                                     std::pair(price(falling, 4000), price(falling, 16000)),
-                                     std::pair(price(with_stray, 4000), price(with_stray, 16000)),
-                                     std::pair(price(scattered, 4000), price(scattered, 16000)),
-                                     std::pair(price(unlike, 4000), price(unlike, 16000))})
+  EXPECT_LT(price(flowing, 8000), 12);
+  EXPECT_LT(price(test::all_fall, 8000), 12);
+  EXPECT_LT(price(test::with_stray, 8000), 12);
+  EXPECT_LT(price(scattered, 8000), 6);
+  EXPECT_LT(price(unlike, 8000), 30);
+  for (const auto& [small, large] : {std::pair(price(flowing, 2000), price(flowing, 8000)),
+                                     std::pair(price(test::all_fall, 2000), price(test::all_fall, 8000)),
+                                     std::pair(price(falling, 2000), price(falling, 8000)),
+                                     std::pair(price(test::with_stray, 2000), price(test::with_stray, 8000)),
+                                     std::pair(price(scattered, 2000), price(scattered, 8000)),
+                                     std::pair(price(unlike, 2000), price(unlike, 8000))})
     EXPECT_LT(large, 1.2 * small);
 }
 
