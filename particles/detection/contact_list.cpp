@@ -166,10 +166,12 @@ void ContactDetection::find_near_walls(double fastest, double largest, const Det
 
 std::vector<Candidate>& ContactDetection::find(const Bodies& bodies, std::span<const double> v_x,
                                                std::span<const double> v_z, const DetectionInput& input) {
-  candidates_.clear();
+  if (bodies.count() == 0) {
+    candidates_.clear();
+    return candidates_;
+  }
   weighed_.clear();
   jolt_.assign(bodies.count(), 0.0);
-  if (bodies.count() == 0) return candidates_;
   const GrainMotion motion = motion_of(bodies, v_x, v_z, input.time_step);
   const PairRule rule{input.time_step, input.margin, motion.speeds, grid_range(motion, input), input.period};
   grids_.sort({bodies, v_x, v_z, input.period}, rule.range);

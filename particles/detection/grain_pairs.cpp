@@ -73,7 +73,7 @@ class GrainPairs::Weighing {
   }
 
   void weigh() {
-    if (piece_.near.size() < piece_.count + count_) piece_.near.resize(2 * (piece_.count + count_));
+    if (piece_.near.size() < piece_.count + count_) piece_.near.resize(piece_.count + count_);
     Near* const begin = piece_.near.data() + piece_.count;
     Near* end = begin;
     for (std::size_t f = 0; f < count_; ++f) {
@@ -203,8 +203,8 @@ void GrainPairs::keep(const PairRule& rule, std::span<const double> jolts, std::
   loops_.each(jolts.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto first = i == 0 ? 0 : row_[i - 1], last = row_[i];
-      std::sort(slots_.begin() + first, slots_.begin() + last,
-                [](const Slot& a, const Slot& b) { return a.j < b.j; });
+      for (auto s = first + 1; s < last; ++s)  // rows are short
+        for (auto t = s; t > first && slots_[t].j < slots_[t - 1].j; --t) std::swap(slots_[t], slots_[t - 1]);
       for (auto s = first; s < last; ++s) {
         const Slot& slot = slots_[s];
         candidates[s] =

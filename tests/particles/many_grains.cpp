@@ -39,7 +39,7 @@ Grains falling(int count, RandomStream& random) {
   Grains g = packed(count, 0.8, 0.5, random);
   const double middle = std::sqrt(count) / 2;
   for (std::size_t b = 0; b < g.count(); ++b)
-    if (g.bodies.z[b] > middle) g.v_z[b] -= 10 / grains_time_step;
+    if (g.bodies.z[b] > middle) g.v_z[b] -= 1 / grains_time_step;
   return g;
 }
 

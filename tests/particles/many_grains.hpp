@@ -24,7 +24,7 @@ Grains packed(int count, double smallest, double speed, particles::RandomStream&
 Grains flowing(int count, particles::RandomStream& random);
 /// A packing of which everything falls 1000 diameters a step.
 Grains all_fall(int count, particles::RandomStream& random);
-/// The upper half falls on the lower one, ten diameters a step.
+/// The upper half falls on the lower one, a diameter a step.
 Grains falling(int count, particles::RandomStream& random);
 /// A packing and one grain 1e7 diameters away.
 Grains with_stray(int count, particles::RandomStream& random);
