@@ -164,8 +164,9 @@ void ContactDetection::find_near_walls(double fastest, double largest, const Det
   }
 }
 
-std::vector<Candidate>& ContactDetection::find(const Bodies& bodies, std::span<const double> v_x,
-                                               std::span<const double> v_z, const DetectionInput& input) {
+const std::vector<Candidate>& ContactDetection::find(const Bodies& bodies, std::span<const double> v_x,
+                                                     std::span<const double> v_z,
+                                                     const DetectionInput& input) {
   if (bodies.count() == 0) {
     candidates_.clear();
     return candidates_;

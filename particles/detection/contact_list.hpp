@@ -29,9 +29,9 @@ class ContactDetection {
  public:
   /// Lets a team share the work; the result does not depend on it.
   void use(ThreadTeam* team) { pairs_.use(team); }
-  /// The result may be reordered by the caller.
-  std::vector<Candidate>& find(const Bodies& bodies, std::span<const double> v_x, std::span<const double> v_z,
-                               const DetectionInput& input);
+  /// The pairs stand until the next search.
+  const std::vector<Candidate>& find(const Bodies& bodies, std::span<const double> v_x,
+                                     std::span<const double> v_z, const DetectionInput& input);
 
   /// Pairs of grains whose distance the last search measured: what it cost.
   std::int64_t looked_at() const { return pairs_.looked_at(); }

@@ -41,10 +41,11 @@ class GrainPairs::Weighing {
 
   /// The pair in the order of its bodies; dx, dz: from b to a.
   static Near weighed(const NearGrain& a, const NearGrain& b, double dx, double dz, const PairRule& rule) {
-    const double way = a.body < b.body ? 1 : -1;
+    const double way = 2.0 * static_cast<int>(a.body < b.body) - 1;  // bodies stand in no order: no branch
     dx *= way, dz *= way;
     const double apart = std::sqrt(dx * dx + dz * dz);
-    const double n_x = apart > 0 ? dx / apart : 0, n_z = apart > 0 ? dz / apart : 1;
+    const double inverse = 1 / apart;
+    const double n_x = apart > 0 ? dx * inverse : 0, n_z = apart > 0 ? dz * inverse : 1;
     const double approach = -way * (n_x * (a.v_x - b.v_x) + n_z * (a.v_z - b.v_z));
     return {std::min(a.body, b.body),
             std::max(a.body, b.body),
@@ -81,9 +82,15 @@ class GrainPairs::Weighing {
       *end = weighed(a, b, period_.nearest(a.x - b.x), a.z - b.z, rule_);
       end += end->gap < rule_.range;
     }
-    for (const Near* pair = begin; pair < end; ++pair)
-      if (pair->reach > 0 && pair->gap < rule_.margin + pair->reach)
-        piece_.jolts.push_back({pair->i, pair->j, pair->reach});
+    std::vector<Jolt>& jolts = piece_.jolts;
+    std::size_t pushed = jolts.size();
+    jolts.resize(pushed + (end - begin));
+    for (const Near* pair = begin; pair < end; ++pair) {
+      jolts[pushed] = {pair->i, pair->j, pair->reach};
+      pushed += static_cast<std::size_t>(pair->reach > 0) &
+                static_cast<std::size_t>(pair->gap < rule_.margin + pair->reach);
+    }
+    jolts.resize(pushed);
     piece_.count += end - begin;
     count_ = 0;
   }

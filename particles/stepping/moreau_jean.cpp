@@ -114,9 +114,8 @@ class MoreauJean final : public Stepper {
   void detect(const StepInput& step) {
     const DetectionInput input{step.walls.before, step.walls.displacement, step.time_step,
                                laws_.detection_margin, laws_.period};
-    auto& found = detection_.find(step.bodies, free_.x, free_.z, input);
-    order_.sort(found, step.bodies, laws_.period, problem_.W.plan);
-    contacts_.pairs.swap(found);
+    const auto& found = detection_.find(step.bodies, free_.x, free_.z, input);
+    order_.sort(found, step.bodies, laws_.period, problem_.W.plan, contacts_.pairs);
   }
 
   /// The warm start, and with restitution the approach speeds of the last step.
