@@ -1,59 +1,111 @@
 #include "particles/detection/cell_grid.hpp"
 
+#include <bit>
+
 namespace drumlin::particles {
 
-void CellGrid::sort(const Bodies& bodies, std::span<const double> v_x, std::span<const double> v_z,
-                    std::span<const std::int32_t> members, double cell_size, const Period& period) {
-  const auto count = static_cast<std::int32_t>(members.size());
-  period_ = period;
+void CellGrid::sort(const SearchedState& state, std::span<const std::int32_t> members, double cell_size) {
+  const Bodies& bodies = state.bodies;
+  const std::size_t count = members.size();
+  period_ = state.period;
   double left = bodies.x[members[0]], right = left, low = bodies.z[members[0]], high = low;
   for (const std::int32_t b : members) {
     left = std::min(left, bodies.x[b]), right = std::max(right, bodies.x[b]);
     low = std::min(low, bodies.z[b]), high = std::max(high, bodies.z[b]);
   }
-  origin_x_ = period.open() ? left : period.origin;
+  origin_x_ = period_.open() ? left : period_.origin;
   origin_z_ = low;
-  const double width = period.open() ? right - left : period.length;
-  // A stray disc far away must not cost memory: never more than about four cells per grain.
-  const double most = 4.0 * count + 16;
-  while ((width / cell_size + 1) * ((high - low) / cell_size + 1) > most) cell_size *= 2;
-  columns_ = period.open() ? static_cast<int>(width / cell_size) + 1
-                           : std::max(1, static_cast<int>(width / cell_size));
-  rows_ = static_cast<int>((high - low) / cell_size) + 1;
-  cell_x_ = period.open() ? cell_size : period.length / columns_;
+  const double width = period_.open() ? right - left : period_.length;
+  cell_size = std::max(cell_size, std::max(width, high - low) / (1 << 30));  // so that places are integers
+  columns_ = period_.open() ? static_cast<int>(width / cell_size) + 1
+                            : std::max(1, static_cast<int>(width / cell_size));
+  const int rows = static_cast<int>((high - low) / cell_size) + 1;
+  cell_x_ = period_.open() ? cell_size : period_.length / columns_;
   cell_z_ = cell_size;
-  cell_of_.resize(count);
-  grains_.resize(count);
-  start_.assign(static_cast<std::size_t>(columns_) * rows_ + 1, 0);
-  for (std::int32_t m = 0; m < count; ++m) {
+  const int column_bits = std::bit_width(static_cast<unsigned>(columns_ - 1)),
+            row_bits = std::bit_width(static_cast<unsigned>(rows - 1));
+  places_.resize(count);
+  for (std::size_t m = 0; m < count; ++m) {
     const std::int32_t b = members[m];
     const int column =
-        std::clamp(static_cast<int>((period.first(bodies.x[b]) - origin_x_) / cell_x_), 0, columns_ - 1);
-    const int row = std::clamp(static_cast<int>((bodies.z[b] - origin_z_) / cell_z_), 0, rows_ - 1);
-    cell_of_[m] = row * columns_ + column;
-    ++start_[cell_of_[m] + 1];
+        std::clamp(static_cast<int>((period_.first(bodies.x[b]) - origin_x_) / cell_x_), 0, columns_ - 1);
+    const int row = std::clamp(static_cast<int>((bodies.z[b] - origin_z_) / cell_z_), 0, rows - 1);
+    places_[m] = {static_cast<std::uint64_t>(row) << column_bits | static_cast<std::uint64_t>(column), b};
   }
-  for (std::size_t c = 1; c < start_.size(); ++c) start_[c] += start_[c - 1];
-  next_.assign(start_.begin(), start_.end() - 1);
-  for (std::int32_t m = 0; m < count; ++m) {
-    const std::int32_t b = members[m];
-    grains_[next_[cell_of_[m]]++] = {
-        period.first(bodies.x[b]), bodies.z[b], bodies.radius[b], v_x[b], v_z[b], b};
+  sort_places(row_bits + column_bits);
+  grains_.resize(count);
+  cells_.clear();
+  rows_.clear();
+  const std::uint64_t column_mask = (std::uint64_t{1} << column_bits) - 1;
+  for (std::size_t m = 0; m < count; ++m) {
+    const auto [key, b] = places_[m];
+    grains_[m] = {period_.first(bodies.x[b]), bodies.z[b], bodies.radius[b], state.v_x[b], state.v_z[b], b};
+    if (m > 0 && key == places_[m - 1].key) continue;
+    const auto row = static_cast<std::int32_t>(key >> column_bits);
+    if (rows_.empty() || rows_.back().row != row)
+      rows_.push_back({row, static_cast<std::int32_t>(cells_.size())});
+    cells_.push_back({row, static_cast<std::int32_t>(key & column_mask), static_cast<std::int32_t>(m)});
+  }
+  rows_.push_back({rows, static_cast<std::int32_t>(cells_.size())});
+  cells_.push_back({rows, 0, static_cast<std::int32_t>(count)});
+}
+
+/// By as many counting sorts as the keys have digits of at most 12 bits, the last digit first.
+void CellGrid::sort_places(int bits) {
+  constexpr int widest = 12;
+  const int passes = (bits + widest - 1) / widest;
+  if (passes == 0) return;
+  const int width = (bits + passes - 1) / passes;
+  std::vector<std::int32_t> start;
+  sorted_.resize(places_.size());
+  for (int pass = 0; pass < passes; ++pass) {
+    const auto digit = [shift = pass * width, mask = (std::uint64_t{1} << width) - 1](std::uint64_t key) {
+      return static_cast<std::size_t>(key >> shift & mask);
+    };
+    start.assign((std::size_t{1} << width) + 1, 0);
+    for (const Place& place : places_) ++start[digit(place.key) + 1];
+    for (std::size_t d = 1; d < start.size(); ++d) start[d] += start[d - 1];
+    for (const Place& place : places_) sorted_[start[digit(place.key)]++] = place;
+    places_.swap(sorted_);
   }
 }
 
-void GrainGrids::sort(const Bodies& bodies, std::span<const double> v_x, std::span<const double> v_z,
-                      double range, const Period& period) {
+std::size_t CellGrid::row_at(std::int64_t row) const {
+  const auto rows = static_cast<std::int64_t>(rows_.size()) - 1;
+  const auto guess = std::clamp<std::int64_t>(row - rows_[0].row, 0, rows);  // not before the one sought
+  if (guess == 0 || rows_[guess - 1].row < row) return guess;
+  return std::lower_bound(rows_.begin(), rows_.begin() + guess, row,
+                          [](const Row& r, std::int64_t sought) { return r.row < sought; }) -
+         rows_.begin();
+}
+
+std::size_t CellGrid::cell_at(std::size_t r, std::int64_t column) const {
+  const std::int64_t first = rows_[r].first, end = rows_[r + 1].first;
+  const auto guess = first + std::clamp<std::int64_t>(column - cells_[first].column, 0, end - first);
+  if (guess == first || cells_[guess - 1].column < column) return guess;
+  return std::lower_bound(cells_.begin() + first, cells_.begin() + guess, column,
+                          [](const Cell& c, std::int64_t sought) { return c.column < sought; }) -
+         cells_.begin();
+}
+
+std::size_t CellGrid::row_of_cell(std::size_t cell) const {
+  return std::upper_bound(rows_.begin(), rows_.end(), static_cast<std::int32_t>(cell),
+                          [](std::int32_t sought, const Row& r) { return sought < r.first; }) -
+         rows_.begin() - 1;
+}
+
+void GrainGrids::sort(const SearchedState& state, double range) {
+  const Bodies& bodies = state.bodies;
   range_ = range;
   const auto [small, large] = std::minmax_element(bodies.radius.begin(), bodies.radius.end());
   const double largest = 2 * *large;
+  const bool alike = 2 * *small > *large;
   for (auto& members : members_) members.clear();
   for (std::size_t b = 0; b < bodies.count(); ++b) {
     // A grid holds grains of more than half the diameter of its largest; below the range, size no longer
     // matters.
     const double size = std::max(2 * bodies.radius[b], std::min(range, largest));
-    const auto level =
-        2 * *small > *large ? 0 : static_cast<std::size_t>(std::floor(std::log2(largest / size)));
+    const auto level = alike ? 0 : static_cast<std::size_t>(std::ilogb(largest / size));
     if (level >= members_.size()) members_.resize(level + 1);
     members_[level].push_back(static_cast<std::int32_t>(b));
   }
@@ -63,7 +115,7 @@ void GrainGrids::sort(const Bodies& bodies, std::span<const double> v_x, std::sp
     if (members_[level].empty()) continue;
     if (used_ == grids_.size()) grids_.emplace_back();
     largest_.push_back(largest / std::exp2(level));
-    grids_[used_++].sort(bodies, v_x, v_z, members_[level], largest_.back() + range, period);
+    grids_[used_++].sort(state, members_[level], largest_.back() + range);
   }
 }
 

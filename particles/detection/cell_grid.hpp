@@ -1,5 +1,6 @@
 #pragma once
-// Spatial search: grains sorted into square cells, visited in a fixed order.
+// Spatial search: grains sorted into square cells. Only cells that hold grains exist, so that a stray grain
+// costs neither memory nor time, wherever it is.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -27,73 +28,131 @@ struct NearGrain {
   std::int32_t body = 0;
 };
 
-/// Cells of at least the asked size; rebuilt every step in linear time.
+/// The state that a search sees: places and radii of the bodies, and velocities of its own.
+struct SearchedState {
+  const Bodies& bodies;
+  std::span<const double> v_x, v_z;
+  Period period;
+};
+
+/// Cells of at least the asked size, sorted by rows and, within a row, by columns.
 class CellGrid {
  public:
-  /// Takes the grains listed in `members`; v_x and v_z are the velocities that the search shall see.
-  void sort(const Bodies& bodies, std::span<const double> v_x, std::span<const double> v_z,
-            std::span<const std::int32_t> members, double cell_size, const Period& period);
+  /// One cell; its grains end where those of the next one begin.
+  struct Cell {
+    std::int32_t row = 0, column = 0;
+    std::int32_t first = 0;
+  };
+
+  /// Takes the grains listed in `members`, in linear time.
+  void sort(const SearchedState& state, std::span<const std::int32_t> members, double cell_size);
+
+  std::span<const NearGrain> grains() const { return grains_; }
+  /// The cells that hold grains; one more marks the end.
+  std::span<const Cell> cells() const { return cells_; }
+  std::size_t count() const { return cells_.size() - 1; }
 
   /// Calls `visit(grain)` for every grain in the cells that touch the rectangle, each once, in a fixed order.
   template <class Visit>
   void near(double x_low, double x_high, double z_low, double z_high, Visit visit) const {
-    const int first_row = std::max(0, cell(z_low, origin_z_, cell_z_));
-    const int last_row = std::min(rows_ - 1, cell(z_high, origin_z_, cell_z_));
-    int first_column = cell(x_low, origin_x_, cell_x_);
-    int last_column = cell(x_high, origin_x_, cell_x_);
-    if (period_.open()) {
-      first_column = std::max(0, first_column);
-      last_column = std::min(columns_ - 1, last_column);
-    } else if (last_column - first_column + 1 > columns_) {
-      last_column = first_column + columns_ - 1;
-    }
-    for (int row = first_row; row <= last_row; ++row)
-      for (int column = first_column; column <= last_column; ++column) {
-        const int wrapped = period_.open() ? column : ((column % columns_) + columns_) % columns_;
-        for (std::int32_t k = begin(row, wrapped); k < end(row, wrapped); ++k) visit(grains_[k]);
+    const int last_row = coordinate(z_high, origin_z_, cell_z_);
+    int left = coordinate(x_low, origin_x_, cell_x_), right = coordinate(x_high, origin_x_, cell_x_);
+    int again = 0;  // columns of the first period that a rectangle reaches beyond its end
+    if (!period_.open()) {
+      if (std::int64_t{right} - left + 1 >= columns_) {
+        left = 0, right = columns_ - 1;
+      } else {
+        const int wrapped = ((left % columns_) + columns_) % columns_;
+        right += wrapped - left, left = wrapped;
+        again = std::max(0, right - columns_ + 1);
       }
+    }
+    for (std::size_t r = row_at(coordinate(z_low, origin_z_, cell_z_));
+         r + 1 < rows_.size() && rows_[r].row <= last_row; ++r) {
+      each_in(r, left, right, visit);
+      if (again > 0) each_in(r, 0, again - 1, visit);
+    }
   }
 
-  /// Calls `visit(a, b)` once for every two grains in the same or in touching cells.
-  template <class Visit>
-  void each_pair(Visit visit) const {
+  /// Calls `meet(a, begin, end)` for the places of grains such that, over all cells, every two grains in the
+  /// same or in touching cells meet once: those of the cells [first, last) meet others.
+  template <class Meet>
+  void each_pair(std::size_t first, std::size_t last, Meet meet) const {
+    if (first >= last) return;
+    std::size_t r = row_of_cell(first);
+    std::size_t below = 0;  // cell of the next row: the first that is not left of the touching ones
+    bool entered = false;
     const bool narrow = !period_.open() && columns_ < 3;  // a cell is then its neighbour's neighbour too
-    for (int row = 0; row < rows_; ++row)
-      for (int column = 0; column < columns_; ++column)
-        for (std::int32_t a = begin(row, column); a < end(row, column); ++a) {
-          const auto meet = [&](std::int32_t from, std::int32_t to) {
-            for (std::int32_t b = from; b < to; ++b) visit(grains_[a], grains_[b]);
-          };
-          if (narrow) {
-            meet(a + 1, end(row, columns_ - 1));
-            if (row + 1 < rows_) meet(begin(row + 1, 0), end(row + 1, columns_ - 1));
-          } else if (period_.open()) {  // cells side by side are one stretch of grains
-            meet(a + 1, end(row, std::min(column + 1, columns_ - 1)));
-            if (row + 1 < rows_)
-              meet(begin(row + 1, std::max(column - 1, 0)), end(row + 1, std::min(column + 1, columns_ - 1)));
-          } else {
-            const int right = (column + 1) % columns_, left = (column + columns_ - 1) % columns_;
-            meet(a + 1, end(row, column));
-            meet(begin(row, right), end(row, right));
-            if (row + 1 < rows_)
-              for (const int c : {left, column, right}) meet(begin(row + 1, c), end(row + 1, c));
-          }
-        }
+    for (std::size_t c = first; c < last; ++c) {
+      for (; rows_[r + 1].first <= static_cast<std::int32_t>(c); ++r) entered = false;
+      const bool has_next = r + 2 < rows_.size() && rows_[r + 1].row == rows_[r].row + 1;
+      if (!entered) below = has_next ? rows_[r + 1].first : 0;
+      entered = true;
+      const Cell& cell = cells_[c];
+      const auto meets = [&](std::size_t from, std::size_t to) {  // cells
+        if (from < to)
+          for (std::int32_t a = cell.first; a < cells_[c + 1].first; ++a)
+            meet(a, cells_[from].first, cells_[to].first);
+      };
+      const std::size_t row_end = rows_[r + 1].first,
+                        next_end = has_next ? static_cast<std::size_t>(rows_[r + 2].first) : 0;
+      const bool beside =
+          narrow ? c + 1 < row_end : c + 1 < row_end && cells_[c + 1].column == cell.column + 1;
+      const std::size_t own_end = narrow ? row_end : c + 1 + beside;
+      for (std::int32_t a = cell.first; a < cells_[c + 1].first; ++a) meet(a, a + 1, cells_[own_end].first);
+      if (narrow) {
+        if (has_next) meets(rows_[r + 1].first, next_end);
+        continue;
+      }
+      if (has_next) {
+        while (below < next_end && cells_[below].column < cell.column - 1) ++below;
+        std::size_t end = below;
+        while (end < next_end && cells_[end].column <= cell.column + 1) ++end;
+        meets(below, end);
+      }
+      if (period_.open()) continue;
+      if (cell.column == columns_ - 1) {
+        if (const std::size_t c0 = rows_[r].first; cells_[c0].column == 0) meets(c0, c0 + 1);
+        if (const std::size_t c0 = rows_[r + 1].first; has_next && cells_[c0].column == 0) meets(c0, c0 + 1);
+      }
+      if (cell.column == 0 && has_next && cells_[next_end - 1].column == columns_ - 1)
+        meets(next_end - 1, next_end);
+    }
   }
-
-  std::span<const NearGrain> grains() const { return grains_; }
 
  private:
-  static int cell(double x, double origin, double size) {
-    return static_cast<int>(std::clamp(std::floor((x - origin) / size), -1e9, 1e9));
+  struct Row {
+    std::int32_t row = 0;
+    std::int32_t first = 0;  // cell
+  };
+  struct Place {
+    std::uint64_t key = 0;
+    std::int32_t body = 0;
+  };
+
+  static int coordinate(double x, double origin, double size) {
+    return static_cast<int>(std::clamp(std::floor((x - origin) / size), -1e9, 2e9));
   }
-  std::int32_t begin(int row, int column) const { return start_[row * columns_ + column]; }
-  std::int32_t end(int row, int column) const { return start_[row * columns_ + column + 1]; }
+  /// First row that is not below `row`, first cell of row r not left of `column`: where it is if none is
+  /// missing, otherwise by bisection.
+  std::size_t row_at(std::int64_t row) const;
+  std::size_t cell_at(std::size_t r, std::int64_t column) const;
+  std::size_t row_of_cell(std::size_t cell) const;
+  template <class Visit>
+  void each_in(std::size_t r, int left, int right, Visit visit) const {
+    for (auto c = cell_at(r, left); c < static_cast<std::size_t>(rows_[r + 1].first); ++c) {
+      if (cells_[c].column > right) break;
+      for (std::int32_t k = cells_[c].first; k < cells_[c + 1].first; ++k) visit(grains_[k]);
+    }
+  }
+  void sort_places(int bits);
 
   Period period_;
-  std::vector<std::int32_t> cell_of_, start_, next_;
-  std::vector<NearGrain> grains_;  // cell by cell, row by row
-  int columns_ = 0, rows_ = 0;
+  std::vector<Place> places_, sorted_;
+  std::vector<NearGrain> grains_;  // cell by cell
+  std::vector<Cell> cells_;        // one more marks the end
+  std::vector<Row> rows_;          // those with cells; one more marks the end
+  int columns_ = 0;                // of a period
   double origin_x_ = 0, origin_z_ = 0, cell_x_ = 1, cell_z_ = 1;
 };
 
@@ -101,28 +160,31 @@ class CellGrid {
 class GrainGrids {
  public:
   /// Prepares searches for pairs of grains whose surfaces are at most `range` apart.
-  void sort(const Bodies& bodies, std::span<const double> v_x, std::span<const double> v_z, double range,
-            const Period& period);
+  void sort(const SearchedState& state, double range);
 
   /// Calls `visit(grain)` for every grain whose centre is in the rectangle, and for some around it.
   template <class Visit>
   void near(double x_low, double x_high, double z_low, double z_high, Visit visit) const {
-    for (std::size_t level = 0; level < used_; ++level)
-      grids_[level].near(x_low, x_high, z_low, z_high, visit);
+    for (const CellGrid& grid : grids()) grid.near(x_low, x_high, z_low, z_high, visit);
   }
 
-  /// Calls `visit(a, b)` once for every two grains that may be within range.
-  template <class Visit>
-  void each_pair(Visit visit) const {
-    for (std::size_t level = 0; level < used_; ++level) {
-      grids_[level].each_pair(visit);
-      for (std::size_t larger = 0; larger < level; ++larger)
-        for (const NearGrain& a : grids_[level].grains()) {
-          const double reach = a.radius + largest_[larger] / 2 + range_;
-          grids_[larger].near(a.x - reach, a.x + reach, a.z - reach, a.z + reach,
-                              [&](const NearGrain& b) { visit(a, b); });
-        }
-    }
+  std::span<const CellGrid> grids() const { return std::span(grids_).first(used_); }
+  /// Calls `meet(a, others)` with spans of grains such that every two grains that may be within range meet
+  /// once: those of the cells [first, last) of a grid meet others.
+  template <class Meet>
+  void each_pair(std::size_t level, std::size_t first, std::size_t last, Meet meet) const {
+    const CellGrid& grid = grids_[level];
+    const auto grains = grid.grains();
+    grid.each_pair(first, last, [&](std::int32_t a, std::int32_t begin, std::int32_t end) {
+      meet(grains[a], grains.subspan(begin, end - begin));
+    });
+    for (std::size_t larger = 0; larger < level; ++larger)
+      for (std::int32_t k = grid.cells()[first].first; k < grid.cells()[last].first; ++k) {
+        const NearGrain& a = grains[k];
+        const double reach = a.radius + largest_[larger] / 2 + range_;
+        grids_[larger].near(a.x - reach, a.x + reach, a.z - reach, a.z + reach,
+                            [&](const NearGrain& b) { meet(a, std::span(&b, 1)); });
+      }
   }
 
  private:

@@ -8,10 +8,6 @@
 namespace drumlin::particles {
 namespace {
 
-/// A disc that would move further than this (in d) within one step is searched for by hand: it must not widen
-/// all cells.
-constexpr double fast_displacement = 0.25;
-
 double length(double x, double z) { return std::sqrt(x * x + z * z); }
 
 /// Unit vector of (dx, dz), upwards for coincident points; returns the length.
@@ -75,6 +71,35 @@ double largest_move(const Shape& shape, const Pose& step) {
   return move_of(center) + std::abs(step.angle) * radius;
 }
 
+/// What a search must know of all grains.
+struct GrainMotion {
+  double fastest = 0;  // displacement within the step
+  double speeds = 0;   // bound on the relative speed of any two
+  double largest = 0;  // diameter
+  double smallest = 0;
+};
+
+GrainMotion motion_of(const Bodies& bodies, std::span<const double> v_x, std::span<const double> v_z,
+                      double time_step) {
+  double fastest = 0, largest = 0, smallest = bodies.radius[0];
+  double x_low = v_x[0], x_high = x_low, z_low = v_z[0], z_high = z_low;
+  for (std::size_t b = 0; b < bodies.count(); ++b) {
+    fastest = std::max(fastest, v_x[b] * v_x[b] + v_z[b] * v_z[b]);
+    x_low = std::min(x_low, v_x[b]), x_high = std::max(x_high, v_x[b]);
+    z_low = std::min(z_low, v_z[b]), z_high = std::max(z_high, v_z[b]);
+    largest = std::max(largest, bodies.radius[b]);
+    smallest = std::min(smallest, bodies.radius[b]);
+  }
+  return {time_step * std::sqrt(fastest), length(x_high - x_low, z_high - z_low), 2 * largest, 2 * smallest};
+}
+
+/// Gap up to which pairs are looked for in grids: all that any pair may close, but not so much that grains
+/// have many more neighbours; pairs beyond are found by their speeds.
+double grid_range(const GrainMotion& motion, const DetectionInput& input) {
+  constexpr double widest = 0.25;  // of the smallest diameter
+  return input.margin + std::min(2 * input.time_step * motion.speeds, widest * motion.smallest);
+}
+
 }  // namespace
 
 double gap_to_shape(const Shape& shape, double x, double z, double radius, double& n_x, double& n_z,
@@ -105,60 +130,6 @@ double gap_now(const Candidate& pair, const Bodies& bodies, std::span<const Shap
   return normal_of(period.nearest(bodies.x[pair.i] - bodies.x[pair.j]), bodies.z[pair.i] - bodies.z[pair.j],
                    n_x, n_z) -
          bodies.radius[pair.i] - bodies.radius[pair.j];
-}
-
-/// Appends the pairs within a range to a list; without a branch that a processor could guess wrongly.
-class ContactDetection::Looking {
- public:
-  Looking(std::vector<Pair>& list, const Period& period, double range)
-      : list_(list), count_(list.size()), period_(period), range_(range) {}
-  ~Looking() { list_.resize(count_); }
-  void operator()(const NearGrain& a, const NearGrain& b) {
-    if (count_ == list_.size()) list_.resize(2 * count_ + 1024);
-    const double dx = period_.nearest(a.x - b.x), dz = a.z - b.z;
-    const double reach = a.radius + b.radius + range_;
-    list_[count_] = {&a, &b};
-    count_ += dx * dx + dz * dz <= reach * reach;
-  }
-
- private:
-  std::vector<Pair>& list_;
-  std::size_t count_;
-  Period period_;
-  double range_;
-};
-
-void ContactDetection::weigh(std::size_t from, const DetectionInput& input) {
-  weighed_.resize(looked_at_.size());
-  loops_.each(looked_at_.size() - from, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = from + begin; p < from + end; ++p) {
-      const bool in_order = looked_at_[p].a->body < looked_at_[p].b->body;
-      const NearGrain& a = in_order ? *looked_at_[p].a : *looked_at_[p].b;
-      const NearGrain& b = in_order ? *looked_at_[p].b : *looked_at_[p].a;
-      Weighed& w = weighed_[p];
-      w.pair = {a.body, b.body, 0, 0, 0, 0, 0};
-      w.pair.gap =
-          normal_of(input.period.nearest(a.x - b.x), a.z - b.z, w.pair.n_x, w.pair.n_z) - a.radius - b.radius;
-      const double approach = -(w.pair.n_x * (a.v_x - b.v_x) + w.pair.n_z * (a.v_z - b.v_z));
-      w.reach = 2 * input.time_step * std::max(0.0, approach);
-    }
-  });
-  for (const Weighed& w : std::span(weighed_).subspan(from)) {
-    const double jolt = w.pair.gap < input.margin + w.reach ? w.reach : 0;
-    jolt_[w.pair.i] = std::max(jolt_[w.pair.i], jolt);
-    jolt_[w.pair.j] = std::max(jolt_[w.pair.j], jolt);
-  }
-}
-
-void ContactDetection::keep_near_pairs(const DetectionInput& input) {
-  candidates_.resize(weighed_.size());
-  std::size_t kept = 0;
-  for (const Weighed& w : weighed_) {
-    const double jolt = jolt_[w.pair.i] + (w.pair.j >= 0 ? jolt_[w.pair.j] : 0);
-    candidates_[kept] = w.pair;
-    kept += w.pair.gap < input.margin + w.reach + jolt / 2;
-  }
-  candidates_.resize(kept);
 }
 
 void ContactDetection::look_at_wall(const NearGrain& grain, std::int32_t shape, double farthest,
@@ -193,73 +164,22 @@ void ContactDetection::find_near_walls(double fastest, double largest, const Det
   }
 }
 
-void ContactDetection::find_near_fast_grains(const Bodies& bodies, std::span<const double> v_x,
-                                             std::span<const double> v_z, const DetectionInput& input,
-                                             double looked_at, double fastest, double largest) {
-  const auto look_around = [&](const NearGrain& grain, double range) {
-    const double reach = largest + range;
-    Looking look(looked_at_, input.period, range);
-    grids_.near(grain.x - reach, grain.x + reach, grain.z - reach, grain.z + reach,
-                [&](const NearGrain& other) {
-                  if (other.body != grain.body) look(grain, other);
-                });
-  };
-  const std::size_t slow_pairs = looked_at_.size();
-  const double fast_range = input.margin + 4 * fastest;
-  for (const NearGrain& grain : fast_) look_around(grain, fast_range);
-  weigh(slow_pairs, input);
-  // An impact pushes its grains on to others.
-  const std::size_t pairs = looked_at_.size(), fast = fast_.size();
-  for (std::size_t i = 0; i < bodies.count(); ++i)
-    if (jolt_[i] > looked_at)
-      fast_.push_back({input.period.first(bodies.x[i]), bodies.z[i], bodies.radius[i], v_x[i], v_z[i],
-                       static_cast<std::int32_t>(i)});
-  // Pairs refer to the entries of fast_, which may have moved.
-  looked_at_.resize(slow_pairs);
-  for (const NearGrain& grain : std::span(fast_).first(fast)) look_around(grain, fast_range);
-  for (const NearGrain& grain : std::span(fast_).subspan(fast))
-    look_around(grain, looked_at + jolt_[grain.body]);
-  weigh(pairs, input);
-}
-
-std::vector<Candidate>& ContactDetection::find(const Bodies& bodies, std::span<const double> v_x,
-                                               std::span<const double> v_z, const DetectionInput& input) {
-  candidates_.clear();
-  looked_at_.clear();
-  fast_.clear();
+const std::vector<Candidate>& ContactDetection::find(const Bodies& bodies, std::span<const double> v_x,
+                                                     std::span<const double> v_z,
+                                                     const DetectionInput& input) {
+  if (bodies.count() == 0) {
+    candidates_.clear();
+    return candidates_;
+  }
+  weighed_.clear();
   jolt_.assign(bodies.count(), 0.0);
-  const auto count = static_cast<std::int32_t>(bodies.count());
-  if (count == 0) return candidates_;
-  double fastest = 0, slow = 0;
-  for (std::int32_t b = 0; b < count; ++b) {
-    const double moves = input.time_step * length(v_x[b], v_z[b]);
-    fastest = std::max(fastest, moves);
-    if (moves > fast_displacement)
-      fast_.push_back({input.period.first(bodies.x[b]), bodies.z[b], bodies.radius[b], v_x[b], v_z[b], b});
-    else
-      slow = std::max(slow, moves);
-  }
-  const bool any_fast = !fast_.empty();
-  const double largest = 2 * *std::max_element(bodies.radius.begin(), bodies.radius.end());
-  // Two discs that move m each close at most 2 m within the step; the rule above keeps twice that.
-  const double range = input.margin + 4 * slow;
-  grids_.sort(bodies, v_x, v_z, range, input.period);
-  {
-    Looking look(looked_at_, input.period, range);
-    grids_.each_pair([&look](const NearGrain& a, const NearGrain& b) { look(a, b); });
-  }
-  weigh(0, input);
-  if (any_fast) find_near_fast_grains(bodies, v_x, v_z, input, range, fastest, largest);
-  find_near_walls(fastest, largest, input);
-  keep_near_pairs(input);
-  if (any_fast) {  // a pair may have been found from both sides
-    std::sort(candidates_.begin(), candidates_.end(),
-              [](const Candidate& a, const Candidate& b) { return a.i != b.i ? a.i < b.i : a.j < b.j; });
-    candidates_.erase(
-        std::unique(candidates_.begin(), candidates_.end(),
-                    [](const Candidate& a, const Candidate& b) { return a.i == b.i && a.j == b.j; }),
-        candidates_.end());
-  }
+  const GrainMotion motion = motion_of(bodies, v_x, v_z, input.time_step);
+  const PairRule rule{input.time_step, input.margin, motion.speeds, grid_range(motion, input), input.period};
+  grids_.sort({bodies, v_x, v_z, input.period}, rule.range);
+  pairs_.look(grids_, rule, jolt_);
+  find_near_walls(motion.fastest, motion.largest, input);
+  pairs_.look_after_jolts(rule, jolt_);
+  pairs_.keep(rule, jolt_, weighed_, candidates_);
   return candidates_;
 }
 

@@ -8,7 +8,7 @@
 #include "particles/bodies/walls.hpp"
 #include "particles/detection/candidate.hpp"
 #include "particles/detection/cell_grid.hpp"
-#include "particles/parallel/team_loops.hpp"
+#include "particles/detection/grain_pairs.hpp"
 
 namespace drumlin::particles {
 
@@ -21,45 +21,32 @@ struct DetectionInput {
 };
 
 /// All pairs with gap < margin + 2 h a + h (a_i + a_j), where a is the approach speed of the pair (0 if it
-/// parts) and a_i the largest approach speed of any pair of body i: an impact on i pushes it on to neighbours
-/// that it did not approach. Pairs of slow bodies (less than 0.25 d per step) are looked at within margin + 4
-/// of their largest displacement. v_x and v_z are the velocities that the bodies would have without contacts.
-/// The order depends on nothing but the arguments.
+/// parts) and a_i the largest approach speed of body i in any pair with gap < margin + 2 h a: an impact on i
+/// pushes it on to neighbours that it did not approach. v_x and v_z are the velocities that the bodies would
+/// have without contacts. The cost grows with the number of bodies and of such pairs, not with the space that
+/// the bodies take nor with a motion that neighbours have in common. In the order of (i, j).
 class ContactDetection {
  public:
   /// Lets a team share the work; the result does not depend on it.
-  void use(ThreadTeam* team) { loops_ = TeamLoops(team); }
-  /// The result may be reordered by the caller.
-  std::vector<Candidate>& find(const Bodies& bodies, std::span<const double> v_x, std::span<const double> v_z,
-                               const DetectionInput& input);
+  void use(ThreadTeam* team) { pairs_.use(team); }
+  /// The pairs stand until the next search.
+  const std::vector<Candidate>& find(const Bodies& bodies, std::span<const double> v_x,
+                                     std::span<const double> v_z, const DetectionInput& input);
+
+  /// Pairs of grains whose distance the last search measured: what it cost.
+  std::int64_t looked_at() const { return pairs_.looked_at(); }
   /// Twice the way, in the last search, by which the approach of its pairs may push a grain: 2 h a_i.
   double jolt(std::int32_t body) const { return jolt_[body]; }
 
  private:
-  class Looking;
-  /// Gaps, normals and approach of the pairs looked at from `from` on, and what it does to their bodies.
-  void weigh(std::size_t from, const DetectionInput& input);
   void look_at_wall(const NearGrain& grain, std::int32_t shape, double farthest, const DetectionInput&);
   void find_near_walls(double fastest, double largest, const DetectionInput& input);
-  /// Looks further around the grains that move far within the step, and around those that they hit.
-  void find_near_fast_grains(const Bodies& bodies, std::span<const double> v_x, std::span<const double> v_z,
-                             const DetectionInput& input, double looked_at, double fastest, double largest);
-  void keep_near_pairs(const DetectionInput& input);
 
-  struct Pair {
-    const NearGrain *a, *b;
-  };
-  struct Weighed {
-    Candidate pair;
-    double reach;  // 2 h a
-  };
-  TeamLoops loops_;
   GrainGrids grids_;
-  std::vector<Pair> looked_at_;
-  std::vector<NearGrain> fast_;  // grains around which is looked further
-  std::vector<Weighed> weighed_;
+  GrainPairs pairs_;
+  std::vector<WeighedPair> weighed_;  // of grains and walls
+  std::vector<double> jolt_;          // 2 h a_i of each body
   std::vector<Candidate> candidates_;
-  std::vector<double> jolt_;  // 2 h a_i of each body
 };
 
 /// Gap and normal of a disc and a shape; `point` receives the point of the shape that is nearest.

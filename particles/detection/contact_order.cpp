@@ -14,16 +14,15 @@ double extent(const std::vector<double>& positions) {
 
 }  // namespace
 
-void ContactOrder::sort(std::vector<Candidate>& pairs, const Bodies& bodies, const Period& period,
-                        SweepPlan& plan) {
+void ContactOrder::sort(const std::vector<Candidate>& pairs, const Bodies& bodies, const Period& period,
+                        SweepPlan& plan, std::vector<Candidate>& sorted) {
   i_.resize(pairs.size());
   j_.resize(pairs.size());
   for (std::size_t p = 0; p < pairs.size(); ++p) i_[p] = pairs[p].i, j_[p] = pairs[p].j;
   const bool along_x = period.open() && extent(bodies.x) > extent(bodies.z);
   planner_.plan(body_slices_along(along_x ? bodies.x : bodies.z, i_, j_), i_, j_, plan, order_);
-  sorted_.resize(pairs.size());
-  for (std::size_t p = 0; p < pairs.size(); ++p) sorted_[p] = pairs[order_[p]];
-  pairs.swap(sorted_);
+  sorted.resize(pairs.size());
+  for (std::size_t p = 0; p < pairs.size(); ++p) sorted[p] = pairs[order_[p]];
 }
 
 }  // namespace drumlin::particles

@@ -1,10 +1,14 @@
 #include "particles/scene/placement.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
-#include <map>
 #include <numbers>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "coupling/common/errors.hpp"
 #include "coupling/documents/csv.hpp"
@@ -97,10 +101,22 @@ Bodies sequential(const GeneratedGrains& grains, std::uint64_t seed, double unit
   return bodies;
 }
 
+/// Columns of a list of grains, those that must be there first; the last one is a name.
+const std::array<std::string, 7> columns = {"x_mm",     "z_mm",       "diameter_mm", "v_x_mm_s",
+                                            "v_z_mm_s", "spin_rad_s", "material"};
+constexpr std::size_t needed_columns = 3, material_column = 6;
+
 struct ListedGrain {
-  std::map<std::string, double> value;
+  double x_mm = 0, z_mm = 0, diameter_mm = 0, v_x_mm_s = 0, v_z_mm_s = 0, spin_rad_s = 0;
   std::string material;
 };
+
+/// The number that stands in a column.
+double& number_in(ListedGrain& grain, std::size_t column) {
+  double* const numbers[] = {&grain.x_mm,     &grain.z_mm,     &grain.diameter_mm,
+                             &grain.v_x_mm_s, &grain.v_z_mm_s, &grain.spin_rad_s};
+  return *numbers[column];
+}
 
 /// Largest magnitude of a listed number, in the unit of its column.
 double largest_allowed(const std::string& column) { return column == "diameter_mm" ? 1e5 : 1e7; }
@@ -111,28 +127,30 @@ std::vector<ListedGrain> listed(const std::filesystem::path& file) {
   std::ifstream in(file);
   if (!in || std::filesystem::is_directory(file))
     throw InputError({InputProblem{name, 0, 0, "grains.listed.file", "cannot be read", ""}});
-  const std::vector<std::string> known = {"x_mm",     "z_mm",       "diameter_mm", "v_x_mm_s",
-                                          "v_z_mm_s", "spin_rad_s", "material"};
   std::vector<InputProblem> problems;
   std::vector<std::string> names;
+  std::vector<std::size_t> places;  // of the names among the columns
   std::vector<ListedGrain> grains;
+  std::vector<std::string_view> fields;
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
     if (line.empty() || line == "\r" || line[0] == '#') continue;
-    const auto texts = csv_fields(line);
-    const std::vector<std::string> fields(texts.begin(), texts.end());
+    csv_fields(line, fields);
     if (names.empty()) {
-      names = fields;
-      for (const auto& column : names)
-        if (std::find(known.begin(), known.end(), column) == known.end())
+      names.assign(fields.begin(), fields.end());
+      for (const auto& column : names) {
+        const auto found = std::find(columns.begin(), columns.end(), column);
+        places.push_back(found - columns.begin());
+        if (found == columns.end())
           problems.push_back({name, number, 0, column, "unknown column",
                               "x_mm, z_mm, diameter_mm, v_x_mm_s, v_z_mm_s, spin_rad_s, material"});
+      }
       for (const auto& column : names)
         if (std::count(names.begin(), names.end(), column) > 1)
           problems.push_back({name, number, 0, column, "stands more than once", ""});
-      for (int needed = 0; needed < 3; ++needed)
-        if (std::find(names.begin(), names.end(), known[needed]) == names.end())
-          problems.push_back({name, number, 0, known[needed], "missing column", ""});
+      for (std::size_t needed = 0; needed < needed_columns; ++needed)
+        if (std::find(names.begin(), names.end(), columns[needed]) == names.end())
+          problems.push_back({name, number, 0, columns[needed], "missing column", ""});
       continue;
     }
     if (fields.size() != names.size()) {
@@ -142,22 +160,23 @@ std::vector<ListedGrain> listed(const std::filesystem::path& file) {
     }
     ListedGrain grain;
     for (std::size_t f = 0; f < fields.size(); ++f) {
-      if (names[f] == "material") {
+      if (places[f] == material_column) {
         grain.material = fields[f];
         continue;
       }
       const auto number_read = finite_number(fields[f]);
       const double value = number_read.value_or(0);
       if (!number_read)
-        problems.push_back({name, number, 0, names[f], "'" + fields[f] + "'", "a finite number"});
-      else if (std::abs(value) > largest_allowed(names[f]))
         problems.push_back(
-            {name, number, 0, names[f], fields[f], "up to " + std::to_string(largest_allowed(names[f]))});
+            {name, number, 0, names[f], "'" + std::string(fields[f]) + "'", "a finite number"});
+      else if (std::abs(value) > largest_allowed(names[f]))
+        problems.push_back({name, number, 0, names[f], std::string(fields[f]),
+                            "up to " + std::to_string(largest_allowed(names[f]))});
       else if (names[f] == "diameter_mm" && value <= 0)
-        problems.push_back({name, number, 0, names[f], fields[f], "> 0"});
-      grain.value[names[f]] = value;
+        problems.push_back({name, number, 0, names[f], std::string(fields[f]), "> 0"});
+      if (places[f] < material_column) number_in(grain, places[f]) = value;
     }
-    grains.push_back(grain);
+    grains.push_back(std::move(grain));
   }
   if (grains.empty() && problems.empty())
     problems.push_back({name, 0, 0, "grains.listed.file", "lists no grains", ""});
@@ -208,7 +227,7 @@ double mean_diameter_m(const Grains& grains) {
            1e-3;
   const auto list = listed(std::get<ListedGrains>(grains.source).file);
   double sum = 0;
-  for (const auto& grain : list) sum += grain.value.at("diameter_mm");
+  for (const auto& grain : list) sum += grain.diameter_mm;
   return sum / static_cast<double>(list.size()) * 1e-3;
 }
 
@@ -224,14 +243,10 @@ Bodies place_grains(const Scene& scene, const Scales& scales) {
     const auto grains = listed(std::get<ListedGrains>(scene.grains.source).file);
     if (materials_matter(scene)) bodies.material = listed_materials(scene, grains);
     for (const auto& grain : grains) {
-      const auto value = [&grain](const char* name) {
-        const auto found = grain.value.find(name);
-        return found == grain.value.end() ? 0.0 : found->second;
-      };
-      add_body(bodies, value("x_mm") * unit, value("z_mm") * unit, value("diameter_mm") / 2 * unit);
-      bodies.v_x.back() = value("v_x_mm_s") * speed;
-      bodies.v_z.back() = value("v_z_mm_s") * speed;
-      spins.push_back(value("spin_rad_s") * scales.time_s);
+      add_body(bodies, grain.x_mm * unit, grain.z_mm * unit, grain.diameter_mm / 2 * unit);
+      bodies.v_x.back() = grain.v_x_mm_s * speed;
+      bodies.v_z.back() = grain.v_z_mm_s * speed;
+      spins.push_back(grain.spin_rad_s * scales.time_s);
     }
   }
   if (scene.effects.spin) bodies.spin = spins;

@@ -62,7 +62,7 @@ void describe(Visitor& v, std::variant<TwoSizes, PowerLawSizes, LognormalSizes>&
 
 template <class Visitor>
 void describe(Visitor& v, GeneratedGrains& g) {
-  v.value("count", g.count, required("", at_least(1, 1e6), "Number of grains."));
+  v.value("count", g.count, required("", at_least(1, 1e8), "Number of grains."));
   v.value("diameter_min_mm", g.diameter_min_mm, required("mm", length_mm(), "Smallest diameter."));
   v.value("diameter_max_mm", g.diameter_max_mm, required("mm", length_mm(), "Largest diameter."));
   v.table("region", g.region, Need::required, "Where the grains are placed, from below.");

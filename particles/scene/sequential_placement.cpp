@@ -1,11 +1,13 @@
 #include "particles/scene/sequential_placement.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <numeric>
-#include <unordered_map>
+#include <ranges>
+#include <vector>
 
 #include "coupling/common/errors.hpp"
 #include "particles/scene/random.hpp"
@@ -20,27 +22,32 @@ constexpr double share_at_first = 0.42;
 constexpr int attempts = 400;  // before the part of the region that is filled grows
 constexpr double growth = 1.05;
 
-/// Discs by octave of size, each octave in cells of its largest diameter.
+/// Discs by octave of size, each octave in cells of its largest diameter. Cells share the lists of a table: a
+/// disc of another cell is looked at in vain, but does no harm.
 class PlacedDiscs {
  public:
+  /// With room for discs of these radii.
+  explicit PlacedDiscs(std::span<const double> radii) {
+    std::map<int, std::size_t> count;
+    for (const double radius : radii) ++count[octave_of(radius)];
+    for (const auto& [octave, discs] : count) octaves_[octave].assign(std::bit_ceil(2 * discs), -1);
+    discs_.reserve(radii.size());
+  }
   void add(const Point_mm& center, double radius) {
-    const int octave = std::ilogb(2 * radius);
-    cells_[octave][cell(center[0], octave)][cell(center[1], octave)].push_back({center, radius});
+    const int octave = octave_of(radius);
+    Lists& lists = octaves_.at(octave);
+    std::int32_t& first = lists[list(lists, cell(center[0], octave), cell(center[1], octave))];
+    discs_.push_back({center, radius, first});
+    first = static_cast<std::int32_t>(discs_.size()) - 1;
   }
   bool free(const Point_mm& center, double radius) const {
-    for (const auto& [octave, columns] : cells_) {
+    for (const auto& [octave, lists] : std::views::reverse(octaves_)) {  // the largest fill most
       const double reach = radius + size(octave) / 2;
-      for (auto x = cell(center[0] - reach, octave); x <= cell(center[0] + reach, octave); ++x) {
-        const auto column = columns.find(x);
-        if (column == columns.end()) continue;
-        for (auto z = cell(center[1] - reach, octave); z <= cell(center[1] + reach, octave); ++z) {
-          const auto found = column->second.find(z);
-          if (found == column->second.end()) continue;
-          for (const Disc& disc : found->second)
-            if (std::hypot(disc.center[0] - center[0], disc.center[1] - center[1]) < disc.radius + radius)
-              return false;
-        }
-      }
+      const auto right = cell(center[0] + reach, octave), top = cell(center[1] + reach, octave);
+      for (auto x = cell(center[0] - reach, octave); x <= right; ++x)
+        for (auto z = cell(center[1] - reach, octave); z <= top; ++z)
+          for (std::int32_t d = lists[list(lists, x, z)]; d >= 0; d = discs_[d].next)
+            if (overlap(discs_[d], center, radius)) return false;
     }
     return true;
   }
@@ -49,13 +56,28 @@ class PlacedDiscs {
   struct Disc {
     Point_mm center;
     double radius;
+    std::int32_t next;  // of the same list; -1: the last
   };
-  using Column = std::unordered_map<std::int64_t, std::vector<Disc>>;
+  using Lists = std::vector<std::int32_t>;  // the disc that each begins with; -1: none
+  static int octave_of(double radius) { return std::ilogb(2 * radius); }
   static double size(int octave) { return std::ldexp(1.0, octave + 1); }
   static std::int64_t cell(double x, int octave) {
-    return static_cast<std::int64_t>(std::floor(x / size(octave)));
+    const double place = x / size(octave);
+    const auto towards_0 = static_cast<std::int64_t>(place);
+    return towards_0 - (place < static_cast<double>(towards_0));
   }
-  std::map<int, std::unordered_map<std::int64_t, Column>> cells_;
+  static std::size_t list(const Lists& lists, std::int64_t x, std::int64_t z) {
+    const auto mixed = static_cast<std::uint64_t>(x) * 0x9e3779b97f4a7c15u ^
+                       static_cast<std::uint64_t>(z) * 0xc2b2ae3d27d4eb4fu;
+    return static_cast<std::size_t>(mixed ^ mixed >> 32) & (lists.size() - 1);
+  }
+  static bool overlap(const Disc& disc, const Point_mm& center, double radius) {
+    const double dx = disc.center[0] - center[0], dz = disc.center[1] - center[1], sum = disc.radius + radius;
+    return dx * dx + dz * dz < 1.000001 * sum * sum && std::hypot(dx, dz) < sum;
+  }
+
+  std::vector<Disc> discs_;
+  std::map<int, Lists> octaves_;
 };
 
 /// Area of the part of a region below a height.
@@ -101,13 +123,15 @@ std::vector<Point_mm> sequential_centers_mm(std::span<const double> diameters_mm
   double discs = 0;
   for (const double d : diameters_mm) discs += std::numbers::pi / 4 * d * d;
   RandomStream places(seed, "grains/position");
-  PlacedDiscs placed;
+  std::vector<double> radii;
+  for (const double d : diameters_mm) radii.push_back(room_around * d / 2);
+  PlacedDiscs placed(radii);
   std::vector<Point_mm> centers(diameters_mm.size());
   const auto [left, right] = extent_mm(region, 0);
   const auto [bottom, top] = extent_mm(region, 1);
   double filled = std::min(discs / share_at_first, area_mm2(region)), height = height_of(region, filled);
   for (const std::size_t g : order) {
-    const double radius = room_around * diameters_mm[g] / 2;
+    const double radius = radii[g];
     for (int tries = 1;; ++tries) {
       const Point_mm center{places.uniform(left, right), places.uniform(bottom, height)};
       if (center[1] + radius <= height && inside(region, center, radius) && placed.free(center, radius)) {

@@ -162,9 +162,8 @@ class MoreauJean final : public Stepper {
   void find_pairs(const StepInput& step) {
     const DetectionInput input{step.walls.before, step.walls.displacement, step.time_step,
                                laws_.detection_margin, laws_.period};
-    auto& found = detection_.find(step.bodies, free_.x, free_.z, input);
-    order_.sort(found, step.bodies, laws_.period, problem_.W.plan);
-    contacts_.pairs.swap(found);
+    const auto& found = detection_.find(step.bodies, free_.x, free_.z, input);
+    order_.sort(found, step.bodies, laws_.period, problem_.W.plan, contacts_.pairs);
     sweep_normals(step, contacts_.pairs);
   }
 

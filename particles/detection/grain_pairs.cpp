@@ -1,0 +1,226 @@
+#include "particles/detection/grain_pairs.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace drumlin::particles {
+namespace {
+
+constexpr std::size_t cells_per_piece = 256;
+constexpr double rounding = 1 + 1e-12;  // two ways to compute a distance differ by less
+
+/// Whether the grids show all pairs that may touch.
+bool nothing_is_far(const PairRule& rule, double most_jolt) {
+  return rule.margin + 2 * rule.time_step * rule.speeds + most_jolt <= rule.range;
+}
+
+}  // namespace
+
+/// Collects pairs within a distance and weighs them by the hundred; without a branch that a processor could
+/// guess wrongly.
+class GrainPairs::Weighing {
+ public:
+  Weighing(Piece& piece, const PairRule& rule) : piece_(piece), rule_(rule), period_(rule.period) {}
+  ~Weighing() { weigh(); }
+  Weighing(const Weighing&) = delete;
+  Weighing& operator=(const Weighing&) = delete;
+
+  void meet(const NearGrain& a, std::span<const NearGrain> others) {
+    piece_.looked_at += static_cast<std::int64_t>(others.size());
+    while (!others.empty()) {
+      if (count_ + others.size() > most) weigh();
+      const auto some = others.first(std::min(others.size(), most));
+      if (period_.open())
+        collect(a, some, [](double dx) { return dx; });
+      else
+        collect(a, some, [this](double dx) { return period_.nearest(dx); });
+      others = others.subspan(some.size());
+    }
+  }
+
+  /// The pair in the order of its bodies; dx, dz: from b to a.
+  static Near weighed(const NearGrain& a, const NearGrain& b, double dx, double dz, const PairRule& rule) {
+    const double way = 2.0 * static_cast<int>(a.body < b.body) - 1;  // bodies stand in no order: no branch
+    dx *= way, dz *= way;
+    const double apart = std::sqrt(dx * dx + dz * dz);
+    const double inverse = 1 / apart;
+    const double n_x = apart > 0 ? dx * inverse : 0, n_z = apart > 0 ? dz * inverse : 1;
+    const double approach = -way * (n_x * (a.v_x - b.v_x) + n_z * (a.v_z - b.v_z));
+    return {std::min(a.body, b.body),
+            std::max(a.body, b.body),
+            apart - a.radius - b.radius,
+            n_x,
+            n_z,
+            2 * rule.time_step * std::max(0.0, approach)};
+  }
+
+ private:
+  static constexpr std::size_t most = 512;
+  struct Found {
+    const NearGrain *a, *b;
+  };
+
+  template <class Nearest>
+  void collect(const NearGrain& a, std::span<const NearGrain> others, Nearest nearest) {
+    const double x = a.x, z = a.z, reach = a.radius + rule_.range;
+    std::size_t count = count_;
+    for (const NearGrain& b : others) {
+      const double dx = nearest(x - b.x), dz = z - b.z, within = (reach + b.radius) * rounding;
+      found_[count] = {&a, &b};
+      count += dx * dx + dz * dz < within * within;
+    }
+    count_ = count;
+  }
+
+  void weigh() {
+    if (piece_.near.size() < piece_.count + count_) piece_.near.resize(piece_.count + count_);
+    Near* const begin = piece_.near.data() + piece_.count;
+    Near* end = begin;
+    for (std::size_t f = 0; f < count_; ++f) {
+      const NearGrain &a = *found_[f].a, &b = *found_[f].b;
+      *end = weighed(a, b, period_.nearest(a.x - b.x), a.z - b.z, rule_);
+      end += end->gap < rule_.range;
+    }
+    std::vector<Jolt>& jolts = piece_.jolts;
+    std::size_t pushed = jolts.size();
+    jolts.resize(pushed + (end - begin));
+    for (const Near* pair = begin; pair < end; ++pair) {
+      jolts[pushed] = {pair->i, pair->j, pair->reach};
+      pushed += static_cast<std::size_t>(pair->reach > 0) &
+                static_cast<std::size_t>(pair->gap < rule_.margin + pair->reach);
+    }
+    jolts.resize(pushed);
+    piece_.count += end - begin;
+    count_ = 0;
+  }
+
+  Piece& piece_;
+  const PairRule rule_;
+  const Period period_;
+  std::array<Found, most> found_;
+  std::size_t count_ = 0;
+};
+
+void GrainPairs::cut(const GrainGrids& grids) {
+  used_ = 1;
+  for (std::size_t level = 0; level < grids.grids().size(); ++level) {
+    const std::size_t cells = grids.grids()[level].count();
+    for (std::size_t first = 0; first < cells; first += cells_per_piece) {
+      if (++used_ > pieces_.size()) pieces_.resize(used_);
+      Piece& piece = pieces_[used_ - 1];
+      piece.level = level, piece.first = first, piece.last = std::min(cells, first + cells_per_piece);
+    }
+  }
+  for (std::size_t p = 0; p < used_; ++p)
+    pieces_[p].count = 0, pieces_[p].jolts.clear(), pieces_[p].looked_at = 0;
+}
+
+void GrainPairs::add_jolts(const Piece& piece, std::span<double> jolts) const {
+  for (const Jolt& jolt : piece.jolts) {
+    jolts[jolt.i] = std::max(jolts[jolt.i], jolt.reach);
+    jolts[jolt.j] = std::max(jolts[jolt.j], jolt.reach);
+  }
+}
+
+void GrainPairs::look(const GrainGrids& grids, const PairRule& rule, std::span<double> jolts) {
+  grids_ = &grids;
+  planted_ = false;
+  cut(grids);
+  loops_.each_of(static_cast<int>(used_ - 1), [&](int p) {
+    Piece& piece = pieces_[p + 1];
+    Weighing weighing(piece, rule);
+    grids.each_pair(piece.level, piece.first, piece.last,
+                    [&](const NearGrain& a, std::span<const NearGrain> others) { weighing.meet(a, others); });
+  });
+  look_far(rule, jolts, false);
+  looked_at_ = 0;
+  for (std::size_t p = 0; p < used_; ++p) {
+    add_jolts(pieces_[p], jolts);
+    looked_at_ += pieces_[p].looked_at;
+  }
+}
+
+void GrainPairs::look_after_jolts(const PairRule& rule, std::span<const double> jolts) {
+  look_far(rule, jolts, true);
+  looked_at_ += pieces_[0].looked_at;
+}
+
+void GrainPairs::look_far(const PairRule& rule, std::span<const double> jolts, bool after_jolts) {
+  const double most_jolt = after_jolts ? *std::max_element(jolts.begin(), jolts.end()) : 0;
+  if (nothing_is_far(rule, most_jolt)) return;
+  if (!planted_) tree_.build(*grids_, rule.period);
+  planted_ = true;
+  if (after_jolts) tree_.set_jolts(jolts);
+  Piece& piece = pieces_[0];
+  piece.looked_at = 0;
+  const auto look_at = [&](const NearGrain& a, const NearGrain& b, double shift) {
+    const double dx = rule.period.nearest(a.x - b.x);
+    if (!rule.period.open() && std::abs(a.x - b.x - shift - dx) > rule.period.length / 2) return;
+    ++piece.looked_at;
+    const Near pair = Weighing::weighed(a, b, dx, a.z - b.z, rule);
+    const bool close = pair.gap < rule.margin + pair.reach;
+    if (pair.gap < rule.range || close == after_jolts) return;
+    if (close)
+      piece.jolts.push_back({pair.i, pair.j, pair.reach});
+    else if (pair.gap >= rule.margin + pair.reach + (jolts[pair.i] + jolts[pair.j]) / 2)
+      return;
+    if (piece.count == piece.near.size()) piece.near.resize(2 * piece.count + 64);
+    piece.near[piece.count++] = pair;
+  };
+  tree_.far_pairs({rule.time_step, rule.margin, rule.range, after_jolts},
+                  [&](std::span<const NearGrain> a, std::span<const NearGrain> b, bool same, double shift) {
+                    for (std::size_t p = 0; p < a.size(); ++p)
+                      for (std::size_t q = same ? p + 1 : 0; q < b.size(); ++q) look_at(a[p], b[q], shift);
+                  });
+}
+
+/// Keeps the pairs that may touch in their pieces, and sorts them into slots by their first bodies.
+void GrainPairs::place(const PairRule& rule, std::span<const double> jolts,
+                       std::span<const WeighedPair> walls) {
+  const auto kept = [&](double gap, double reach, double jolt) {
+    return gap < rule.margin + reach + jolt / 2;
+  };
+  loops_.each_of(static_cast<int>(used_), [&](int p) {
+    Near* end = pieces_[p].near.data();
+    for (const Near& pair : pieces_[p].pairs()) {
+      *end = pair;
+      end += kept(pair.gap, pair.reach, jolts[pair.i] + jolts[pair.j]);
+    }
+    pieces_[p].count = end - pieces_[p].near.data();
+  });
+  row_.assign(jolts.size() + 1, 0);
+  const auto each = [&](auto visit) {
+    for (std::size_t w = 0; w < walls.size(); ++w)
+      if (const Candidate& pair = walls[w].pair; kept(pair.gap, walls[w].reach, jolts[pair.i]))
+        visit(pair.i, Slot{pair.j, static_cast<std::int32_t>(w), nullptr});
+    for (std::size_t p = 0; p < used_; ++p)
+      for (const Near& pair : pieces_[p].pairs()) visit(pair.i, Slot{pair.j, -1, &pair});
+  };
+  each([&](std::int32_t i, const Slot&) { ++row_[i + 1]; });
+  for (std::size_t i = 1; i < row_.size(); ++i) row_[i] += row_[i - 1];
+  slots_.resize(row_.back());
+  each([&](std::int32_t i, const Slot& slot) { slots_[row_[i]++] = slot; });
+}
+
+void GrainPairs::keep(const PairRule& rule, std::span<const double> jolts, std::span<const WeighedPair> walls,
+                      std::vector<Candidate>& candidates) {
+  place(rule, jolts, walls);
+  candidates.resize(slots_.size());
+  loops_.each(jolts.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto first = i == 0 ? 0 : row_[i - 1], last = row_[i];
+      for (auto s = first + 1; s < last; ++s)  // rows are short
+        for (auto t = s; t > first && slots_[t].j < slots_[t - 1].j; --t) std::swap(slots_[t], slots_[t - 1]);
+      for (auto s = first; s < last; ++s) {
+        const Slot& slot = slots_[s];
+        candidates[s] =
+            slot.near == nullptr
+                ? walls[slot.wall].pair
+                : Candidate{slot.near->i, slot.j, slot.near->gap, slot.near->n_x, slot.near->n_z, 0, 0};
+      }
+    }
+  });
+}
+
+}  // namespace drumlin::particles

@@ -1,0 +1,97 @@
+#include "particles/detection/motion_tree.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace drumlin::particles {
+namespace {
+
+MotionBounds bounds_of(std::span<const NearGrain> grains) {
+  MotionBounds all;
+  for (const NearGrain& g : grains) {
+    const MotionBounds one{g.x, g.x, g.z, g.z, g.v_x, g.v_x, g.v_z, g.v_z, g.radius, 0};
+    all = &g == grains.data() ? one : united(all, one);
+  }
+  return all;
+}
+
+}  // namespace
+
+void MotionTree::build(const GrainGrids& grids, const Period& period) {
+  period_ = period;
+  nodes_.clear();
+  roots_.clear();
+  for (const CellGrid& grid : grids.grids()) roots_.push_back(tree_of(grid));
+}
+
+std::int32_t MotionTree::tree_of(const CellGrid& grid) {
+  blocks_.clear();
+  const auto cells = grid.cells();
+  for (std::size_t c = 0; c < grid.count(); ++c) {
+    blocks_.push_back({cells[c].row, cells[c].column, static_cast<std::int32_t>(nodes_.size())});
+    Node& leaf = nodes_.emplace_back();
+    leaf.grains = grid.grains().subspan(cells[c].first, cells[c + 1].first - cells[c].first);
+    leaf.bounds = bounds_of(leaf.grains);
+  }
+  while (blocks_.size() > 1) {
+    raise(blocks_, above_);
+    blocks_.swap(above_);
+  }
+  return blocks_[0].node;
+}
+
+/// Blocks of two by two blocks; one that stands alone is its own parent.
+void MotionTree::raise(std::span<const Block> blocks, std::vector<Block>& above) {
+  constexpr auto none = std::numeric_limits<std::int32_t>::max();
+  above.clear();
+  for (std::size_t begin = 0; begin < blocks.size();) {
+    const std::int32_t row = blocks[begin].row >> 1;
+    std::size_t even = begin;
+    while (even < blocks.size() && blocks[even].row == 2 * row) ++even;
+    std::size_t end = even;
+    while (end < blocks.size() && blocks[end].row == 2 * row + 1) ++end;
+    for (std::size_t p = begin, q = even; p < even || q < end;) {
+      const std::int32_t column =
+          std::min(p < even ? blocks[p].column >> 1 : none, q < end ? blocks[q].column >> 1 : none);
+      std::array<std::int32_t, 4> child{-1, -1, -1, -1};
+      int children = 0;
+      for (; p < even && blocks[p].column >> 1 == column; ++p) child[children++] = blocks[p].node;
+      for (; q < end && blocks[q].column >> 1 == column; ++q) child[children++] = blocks[q].node;
+      std::int32_t node = child[0];
+      if (children > 1) {
+        node = static_cast<std::int32_t>(nodes_.size());
+        Node parent;
+        parent.child = child;
+        parent.bounds = nodes_[child[0]].bounds;
+        for (int c = 1; c < children; ++c) parent.bounds = united(parent.bounds, nodes_[child[c]].bounds);
+        nodes_.push_back(parent);
+      }
+      above.push_back({row, column, node});
+    }
+    begin = end;
+  }
+}
+
+void MotionTree::set_jolts(std::span<const double> jolts) {
+  for (Node& node : nodes_) {
+    double largest = 0;
+    for (const NearGrain& g : node.grains) largest = std::max(largest, jolts[g.body]);
+    for (const std::int32_t c : node.child)
+      if (c >= 0) largest = std::max(largest, nodes_[c].bounds.jolt);
+    node.bounds.jolt = largest;
+  }
+}
+
+void MotionTree::open_both(const Node& node) {
+  for (std::size_t p = 0; p < node.child.size() && node.child[p] >= 0; ++p)
+    for (std::size_t q = p; q < node.child.size() && node.child[q] >= 0; ++q)
+      stack_.push_back({node.child[p], node.child[q]});
+}
+
+void MotionTree::open_one(const Two& two, bool first) {
+  const Node& opened = nodes_[first ? two.a : two.b];
+  for (const std::int32_t c : opened.child)
+    if (c >= 0) stack_.push_back(first ? Two{c, two.b} : Two{two.a, c});
+}
+
+}  // namespace drumlin::particles

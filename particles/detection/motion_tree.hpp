@@ -1,0 +1,129 @@
+#pragma once
+// Search for pairs that only their speed brings together within a step: a tree over cells of grains that
+// bounds places and velocities. A motion that neighbours have in common costs nothing.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "particles/detection/cell_grid.hpp"
+
+namespace drumlin::particles {
+
+/// Bounds of some grains.
+struct MotionBounds {
+  double x_low = 0, x_high = 0, z_low = 0, z_high = 0;
+  double v_x_low = 0, v_x_high = 0, v_z_low = 0, v_z_high = 0;
+  double radius = 0;  ///< largest
+  double jolt = 0;    ///< largest, of MotionTree::set_jolts
+};
+
+/// Distance of the nearest places of a and of b moved by `shift` along x.
+inline double distance(const MotionBounds& a, const MotionBounds& b, double shift) {
+  const double dx = std::max({0.0, a.x_low - b.x_high - shift, b.x_low + shift - a.x_high});
+  const double dz = std::max({0.0, a.z_low - b.z_high, b.z_low - a.z_high});
+  return std::sqrt(dx * dx + dz * dz);
+}
+
+/// Bound on the relative speed of a grain of a and one of b.
+inline double relative_speed(const MotionBounds& a, const MotionBounds& b) {
+  const double u_x = std::max(a.v_x_high - b.v_x_low, b.v_x_high - a.v_x_low),
+               u_z = std::max(a.v_z_high - b.v_z_low, b.v_z_high - a.v_z_low);
+  return std::sqrt(u_x * u_x + u_z * u_z);
+}
+
+inline MotionBounds united(const MotionBounds& a, const MotionBounds& b) {
+  return {std::min(a.x_low, b.x_low),     std::max(a.x_high, b.x_high),     std::min(a.z_low, b.z_low),
+          std::max(a.z_high, b.z_high),   std::min(a.v_x_low, b.v_x_low),   std::max(a.v_x_high, b.v_x_high),
+          std::min(a.v_z_low, b.v_z_low), std::max(a.v_z_high, b.v_z_high), std::max(a.radius, b.radius),
+          std::max(a.jolt, b.jolt)};
+}
+
+/// Which pairs to look for.
+struct FarSearch {
+  double time_step = 0;
+  double margin = 0;
+  double seen = 0;           ///< pairs closer than this are known
+  bool after_jolts = false;  ///< look for what jolts add; otherwise for what speeds bring together
+};
+
+/// A tree over each of the grids of a search, and what it bounds. Keeps pointers into the grids.
+class MotionTree {
+ public:
+  void build(const GrainGrids& grids, const Period& period);
+  /// Sets what each body may be pushed beyond its own motion; one entry per body.
+  void set_jolts(std::span<const double> jolts);
+
+  /// Calls `meet(a, b, same, shift)` with the grains of two cells, which are one and the same if `same`, for
+  /// all that can hold pairs with
+  ///   seen <= gap < margin + 2 h |v_i - v_j|,  after jolts + (jolt_i + jolt_j) / 2,
+  /// b moved by `shift`, a whole period, along x.
+  template <class Meet>
+  void far_pairs(const FarSearch& search, Meet meet) {
+    for (std::size_t a = 0; a < roots_.size(); ++a)
+      for (std::size_t b = a; b < roots_.size(); ++b) {
+        far_pairs(search, roots_[a], roots_[b], 0, meet);
+        if (period_.open()) continue;
+        far_pairs(search, roots_[a], roots_[b], period_.length, meet);
+        if (a != b) far_pairs(search, roots_[a], roots_[b], -period_.length, meet);
+      }
+  }
+
+ private:
+  /// Up to four children, or the grains of a cell.
+  struct Node {
+    MotionBounds bounds;
+    std::array<std::int32_t, 4> child{-1, -1, -1, -1};
+    std::span<const NearGrain> grains;  // of a leaf
+    bool leaf() const { return !grains.empty(); }
+    double size() const { return bounds.x_high - bounds.x_low + bounds.z_high - bounds.z_low; }
+  };
+  /// A node and its place among the blocks of a level.
+  struct Block {
+    std::int32_t row, column, node;
+  };
+  struct Two {
+    std::int32_t a, b;
+  };
+
+  bool apart(const FarSearch& search, const Node& a, const Node& b, double shift) const {
+    const double jolts = search.after_jolts ? (a.bounds.jolt + b.bounds.jolt) / 2 : 0;
+    if (search.after_jolts && jolts == 0) return true;
+    const double reach = search.margin + 2 * search.time_step * relative_speed(a.bounds, b.bounds) + jolts;
+    return reach <= search.seen ||
+           distance(a.bounds, b.bounds, shift) - a.bounds.radius - b.bounds.radius > reach;
+  }
+
+  template <class Meet>
+  void far_pairs(const FarSearch& search, std::int32_t first, std::int32_t second, double shift, Meet& meet) {
+    stack_.assign(1, {first, second});
+    while (!stack_.empty()) {
+      const Two two = stack_.back();
+      stack_.pop_back();
+      const Node &a = nodes_[two.a], &b = nodes_[two.b];
+      if (apart(search, a, b, shift)) continue;
+      const bool same = two.a == two.b && shift == 0;
+      if (a.leaf() && b.leaf())
+        meet(a.grains, b.grains, same, shift);
+      else if (same)
+        open_both(a);
+      else
+        open_one(two, b.leaf() || (!a.leaf() && a.size() > b.size()));
+    }
+  }
+  void open_both(const Node& node);
+  void open_one(const Two& two, bool first);
+
+  std::int32_t tree_of(const CellGrid& grid);
+  void raise(std::span<const Block> blocks, std::vector<Block>& above);
+
+  Period period_;
+  std::vector<Node> nodes_;  // children before their parents
+  std::vector<std::int32_t> roots_;
+  std::vector<Two> stack_;
+  std::vector<Block> blocks_, above_;
+};
+
+}  // namespace drumlin::particles

@@ -1,0 +1,134 @@
+// Contact detection: the pairs of its definition and no others, at a cost that grows with the grains alone.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "particles/detection/contact_list.hpp"
+#include "particles/scene/random.hpp"
+#include "tests/particles/many_grains.hpp"
+
+namespace drumlin {
+namespace {
+
+using namespace particles;
+
+using test::falling;
+using test::flowing;
+using test::Grains;
+using test::packed;
+using test::scattered;
+using test::unlike;
+
+constexpr double time_step = test::grains_time_step, margin = 0.02;
+
+std::vector<Candidate> found(ContactDetection& detection, const Grains& g, const Period& period = {}) {
+  const DetectionInput input{{}, {}, time_step, margin, period};
+  return detection.find(g.bodies, g.v_x, g.v_z, input);
+}
+
+/// The pairs of the definition, from all pairs.
+std::map<std::pair<int, int>, double> defined(const Grains& g, const Period& period) {
+  const auto count = static_cast<int>(g.count());
+  struct Weighed {
+    int i, j;
+    double gap, reach;
+  };
+  std::vector<Weighed> all;
+  std::vector<double> jolt(g.count(), 0.0);
+  for (int i = 0; i < count; ++i)
+    for (int j = i + 1; j < count; ++j) {
+      double n_x = 0, n_z = 0;
+      const double gap = gap_now({i, j, 0, 0, 0, 0, 0}, g.bodies, {}, period, n_x, n_z);
+      const double approach = -(n_x * (g.v_x[i] - g.v_x[j]) + n_z * (g.v_z[i] - g.v_z[j]));
+      const double reach = 2 * time_step * std::max(0.0, approach);
+      all.push_back({i, j, gap, reach});
+      if (gap < margin + reach) jolt[i] = std::max(jolt[i], reach), jolt[j] = std::max(jolt[j], reach);
+    }
+  std::map<std::pair<int, int>, double> pairs;
+  for (const Weighed& w : all)
+    if (w.gap < margin + w.reach + (jolt[w.i] + jolt[w.j]) / 2) pairs[{w.i, w.j}] = w.gap;
+  return pairs;
+}
+
+void expect_defined(const Grains& g, const Period& period, const char* what) {
+  ContactDetection detection;
+  const auto pairs = found(detection, g, period);
+  const auto expected = defined(g, period);
+  ASSERT_EQ(pairs.size(), expected.size()) << what;
+  auto next = expected.begin();  // a map is in the order of (i, j)
+  for (const Candidate& pair : pairs) {
+    ASSERT_EQ(std::pair(pair.i, pair.j), next->first) << what;
+    EXPECT_NEAR(pair.gap, next->second, 1e-9) << what;
+    ++next;
+  }
+}
+
+TEST(Detection, FindsThePairsOfItsDefinitionAndNoOthers) {
+  RandomStream random(11, "test");
+  for (const Period& period : {Period{}, Period{-1, 27}}) {
+    expect_defined(flowing(700, random), period, "flowing");
+    expect_defined(falling(700, random), period, "falling");
+    expect_defined(scattered(500, random), period, "scattered");
+    expect_defined(unlike(700, random), period, "unlike");
+    Grains bullets = packed(700, 0.2, 1, random);
+    for (const std::size_t b : {3, 350, 699}) bullets.v_x[b] = 400, bullets.v_z[b] = -300;
+    expect_defined(bullets, period, "bullets");
+    Grains stray = packed(300, 0.5, 1, random);
+    stray.add(3e6, -2e7, 0.5, 1, 1);
+    expect_defined(stray, period, "stray");
+  }
+  // In a period of one or two cells a cell is its neighbour's neighbour, and a fast grain meets itself.
+  for (const double length : {3.2, 2.0}) {
+    Grains narrow;
+    for (int k = 0; k < 60; ++k)
+      narrow.add(random.uniform(-9, 9), k * 0.5, 0.3, random.uniform(-40, 40), random.uniform(-40, 40));
+    expect_defined(narrow, {-1, length}, "narrow");
+  }
+}
+
+TEST(Detection, GivesTheSameBytesForAnyNumberOfThreads) {
+  RandomStream random(12, "test");
+  const Grains g = falling(6000, random);
+  ContactDetection alone, shared;
+  ThreadTeam team(2);
+  shared.use(&team);
+  const auto one = found(alone, g), two = found(shared, g);
+  ASSERT_EQ(one.size(), two.size());
+  for (std::size_t p = 0; p < one.size(); ++p) {
+    EXPECT_EQ(one[p].i, two[p].i);
+    EXPECT_EQ(one[p].j, two[p].j);
+    EXPECT_EQ(one[p].gap, two[p].gap);
+    EXPECT_EQ(one[p].n_x, two[p].n_x);
+  }
+}
+
+/// Distances measured per grain.
+template <class Make>
+double price(Make make, int count) {
+  RandomStream random(13, "test");
+  const Grains g = make(count, random);
+  ContactDetection detection;
+  (void)found(detection, g);
+  return static_cast<double>(detection.looked_at()) / static_cast<double>(g.count());
+}
+
+TEST(Detection, LooksAtAsManyPairsPerGrainWhateverTheirNumber) {
+  // Cells of 1.3 d hold 1.7 grains, and half of nine are looked at: some 8 per grain.
+  EXPECT_LT(price(flowing, 8000), 12);
+  EXPECT_LT(price(test::all_fall, 8000), 12);
+  EXPECT_LT(price(test::with_stray, 8000), 12);
+  EXPECT_LT(price(scattered, 8000), 6);
+  EXPECT_LT(price(unlike, 8000), 30);
+  for (const auto& [small, large] : {std::pair(price(flowing, 2000), price(flowing, 8000)),
+                                     std::pair(price(test::all_fall, 2000), price(test::all_fall, 8000)),
+                                     std::pair(price(falling, 2000), price(falling, 8000)),
+                                     std::pair(price(test::with_stray, 2000), price(test::with_stray, 8000)),
+                                     std::pair(price(scattered, 2000), price(scattered, 8000)),
+                                     std::pair(price(unlike, 2000), price(unlike, 8000))})
+    EXPECT_LT(large, 1.2 * small);
+}
+
+}  // namespace
+}  // namespace drumlin
