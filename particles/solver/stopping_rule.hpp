@@ -43,6 +43,8 @@ class StoppingTest {
   /// Whether the solve ends with this residual after so many sweeps. `finite`: no sweep has made an infinity
   /// or a NaN.
   bool ends(int sweeps, const ContactResidual& residual, bool finite = true);
+  /// The solve returns other impulses than the last ones, with this residual.
+  void replace(const ContactResidual& residual) { report_.residual = residual; }
   /// As of the last call of ends(); its status means something only if the solve ended.
   const SolveReport& report() const { return report_; }
 

@@ -1,5 +1,6 @@
 #pragma once
 // Sweeps a StripProblem, on vectors and threads, until the stopping rule ends it.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -8,9 +9,58 @@
 
 namespace drumlin::particles {
 
+/// Where a solve in strips stands between two rounds of sweeps.
+template <class T>
+struct SweepState {
+  int sweeps = 0;
+  Momentum momentum;
+  T beta = 0;
+  bool finite = true;
+};
+
+/// Sweeps on to `until` and computes the residuals of the strips; one thread's share, which meets the others by
+/// calling meet().
+template <class T, class Strips, class Meet>
+void sweep_share(Strips& strips, int thread, int threads, int until, bool accelerated, SweepState<T>& state,
+                 Meet meet) {
+  const int first = strips.first_strip(thread, threads), end = strips.first_strip(thread + 1, threads);
+  SweepState<T> own = state;
+  if (own.sweeps == 0) {
+    for (const int phase : {0, 1}) {
+      for (int strip = first; strip < end; ++strip) strips.load(strip, phase);
+      meet();
+    }
+    if (strips.has_driven()) {
+      if (thread == 0) strips.load_driven(), strips.start_driven();
+      meet();
+    }
+    for (int strip = first; strip < end; ++strip) strips.start(strip);
+    meet();
+  }
+  while (own.sweeps < until && own.finite) {
+    ++own.sweeps;
+    for (const int phase : {0, 1}) {
+      for (int strip = first; strip < end; ++strip)
+        strips.sweep(strip, phase, own.sweeps % 2, own.beta, accelerated);
+      meet();
+    }
+    if (strips.has_driven()) {
+      if (thread == 0) strips.sweep_driven(own.sweeps % 2, own.beta, accelerated);
+      meet();
+    }
+    const double step_squares = strips.step_squares(own.sweeps % 2);
+    own.finite = std::isfinite(step_squares);
+    own.beta = static_cast<T>(own.momentum.next(step_squares));
+  }
+  for (int strip = first; strip < end; ++strip) strips.look_at(strip);
+  // All threads have taken their copies: they have met since.
+  if (thread == 0) state = own;
+}
+
 /// NLGS, plain or accelerated, in precision T. Every few sweeps the solver estimates its residual, on vectors
 /// and threads; when that is small enough the residual itself decides. In single precision it also ends, out
 /// of sweeps before they are, when the estimate stands still or the residual is more than three times of it.
+/// Impulses that miss the rule are the best by the estimate.
 template <class T, class Problem, class Strips>
 SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, SolverWorkspace<Problem>& work,
                             Strips& strips, Solution<Problem>& solution, bool accelerated) {
@@ -18,8 +68,7 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
   solution.impulses.resize(problem.q.size());
   auto& own = work.strips;
   if (problem.W.plan.empty())
-    own.plan = sweep_plan(static_cast<std::int32_t>(problem.W.inverse_mass.size()) - 1, problem.W.i,
-                          problem.W.j, own.order);
+    own.plan = sweep_plan(problem.W.fixed(), problem.W.i, problem.W.j, own.order);
   else
     own.order.clear();
   strips.pack(problem, problem.W.plan.empty() ? own.plan : problem.W.plan, own.order, solution.impulses);
@@ -28,60 +77,38 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
   for (const double q : problem.q) q_squares += q * q;
   // rms over contacts, relative to the rms of q.
   const double residual_scale = q_squares > 0 ? Problem::dim / q_squares : 1;
-
-  bool ended = false;  // what the threads tell one another
-  const auto look = [&](int sweeps, bool finite) {
-    strips.unpack(problem, solution.impulses);
-    ended = test.ends(sweeps, residual_of(problem, solution), finite);
-  };
-
   // Below four strips a second thread costs more than it saves.
   ThreadTeam* team = strips.strips() >= 4 ? work.team : nullptr;
-  const int threads = team ? team->size() : 1;
-  Barrier alone(1);
-  Barrier& barrier = team ? team->barrier() : alone;
   constexpr int patience = 100;  // sweeps without a tenth of progress; a flow takes 10 for that
-  const auto job = [&](int thread) {
-    const int first = strips.first_strip(thread, threads), end = strips.first_strip(thread + 1, threads);
-    for (const int phase : {0, 1}) {
-      for (int strip = first; strip < end; ++strip) strips.load(strip, phase);
-      barrier.meet();
+  constexpr bool single = sizeof(T) < sizeof(double);
+  SweepState<T> state;
+  double least = std::numeric_limits<double>::infinity(), best = least;
+  for (int progress_at = 0;;) {
+    int until = state.sweeps + 1;
+    while (!test.due(until)) ++until;
+    if (team)
+      team->run([&](int thread, int threads) {
+        sweep_share(strips, thread, threads, until, accelerated, state, [=] { team->meet(thread); });
+      });
+    else
+      sweep_share(strips, 0, 1, until, accelerated, state, [] {});
+    const double seen = std::sqrt(strips.residual_squares() * residual_scale);
+    if (seen < 0.9 * least) least = seen, progress_at = state.sweeps;
+    // Rounding of single precision hides the progress.
+    const bool stuck = single && state.sweeps - progress_at >= patience;
+    const bool last = state.sweeps >= rule.max_sweeps || !state.finite;
+    if (seen < best) best = seen, strips.keep();
+    if (!last && !stuck && seen > rule.tolerance && !std::isfinite(rule.max_seconds)) continue;
+    strips.unpack(problem, false, solution.impulses);
+    const bool ended = test.ends(state.sweeps, residual_of(problem, solution), state.finite);
+    const bool hidden = single && test.report().residual.rms > 3 * seen;
+    if (!ended && !stuck && !hidden) continue;
+    if (best < seen && test.report().status != Status::converged) {
+      strips.unpack(problem, true, solution.impulses);
+      test.replace(residual_of(problem, solution));
     }
-    for (int strip = first; strip < end; ++strip) strips.start(strip);
-    Momentum momentum;
-    double beta = 0, best = std::numeric_limits<double>::infinity();
-    int best_at = 0;
-    for (int sweeps = 1;; ++sweeps) {
-      for (const int phase : {0, 1}) {
-        if (phase == 0 && sweeps == 1) barrier.meet();  // all bodies are remembered
-        for (int strip = first; strip < end; ++strip)
-          strips.sweep(strip, phase, sweeps % 2, static_cast<T>(beta), accelerated);
-        barrier.meet();
-      }
-      const double step_squares = strips.step_squares(sweeps % 2);
-      const bool finite = std::isfinite(step_squares), last = sweeps >= rule.max_sweeps || !finite;
-      if (!finite || test.due(sweeps)) {
-        for (int strip = first; strip < end; ++strip) strips.look_at(strip);
-        barrier.meet();
-        const double seen = std::sqrt(strips.residual_squares() * residual_scale);
-        if (seen < 0.9 * best) best = seen, best_at = sweeps;
-        // Rounding of single precision hides the progress.
-        const bool stuck = sizeof(T) < sizeof(double) && sweeps - best_at >= patience;
-        if (last || stuck || seen <= rule.tolerance || std::isfinite(rule.max_seconds)) {
-          if (thread == 0) look(sweeps, finite);
-          barrier.meet();
-          if (ended || stuck) return;
-          if (sizeof(T) < sizeof(double) && test.report().residual.rms > 3 * seen) return;
-        }
-      }
-      beta = momentum.next(step_squares);
-    }
-  };
-  if (team)
-    team->run(job);
-  else
-    job(0);
-  return test.report();
+    return test.report();
+  }
 }
 
 }  // namespace drumlin::particles
