@@ -37,8 +37,8 @@ inline LocalBlock with_inverses(LocalBlock W) {
 /// strictly convex quadratic over a box, exactly. In: the impulses and the velocities that belong to them.
 inline void solve_in_box(const LocalBlock& W, double u_t, double u_r, double bound_t, double bound_r,
                          double& r_t, double& r_r) {
-  // One after the other from the free minimum, each clamped: where friction leaves the box first, rolling along
-  // that edge is right, or friction along the edge of rolling is.
+  // One after the other from the free minimum, each clamped: where friction leaves the box first, rolling
+  // along that edge is right, or friction along the edge of rolling is.
   const double before_t = r_t, before_r = r_r;
   const double free_t = before_t + (W.tr * u_r - W.rr * u_t) * W.inverse_determinant;
   const double first = std::clamp(free_t, -bound_t, bound_t);
@@ -47,7 +47,8 @@ inline void solve_in_box(const LocalBlock& W, double u_t, double u_r, double bou
 }
 
 /// One contact solved with the others as they stand: first the normal, then friction and rolling together,
-/// exactly where W_nt = 0. `u` are the velocities that belong to the impulses r, `mu` the dim - 1 coefficients.
+/// exactly where W_nt = 0. `u` are the velocities that belong to the impulses r, `mu` the dim - 1
+/// coefficients.
 template <int dim>
 std::array<double, dim> solved_contact(const LocalBlock& W, const double* mu, std::array<double, dim> u,
                                        const std::array<double, dim>& r) {
@@ -58,8 +59,7 @@ std::array<double, dim> solved_contact(const LocalBlock& W, const double* mu, st
     const double bound = mu[0] * fresh[0];
     fresh[1] = std::clamp(r[1] - u[1] * W.inverse_tt, -bound, bound);
   }
-  if constexpr (dim == 3)
-    solve_in_box(W, u[1], u[2], mu[0] * fresh[0], mu[1] * fresh[0], fresh[1], fresh[2]);
+  if constexpr (dim == 3) solve_in_box(W, u[1], u[2], mu[0] * fresh[0], mu[1] * fresh[0], fresh[1], fresh[2]);
   return fresh;
 }
 

@@ -11,10 +11,10 @@
 namespace drumlin::particles {
 namespace {
 
-constexpr double longest_spin = 30e-6;   // seconds; to fall asleep and to be woken takes about as long
-constexpr double stretch = 4e-3;         // seconds of jobs that tell whether the threads wait too much
-constexpr double least_share = 0.5;      // of the time, that threads must work
-constexpr double fewer_for_times = 20;   // as long as a bad stretch, so that to try again costs 5 % at most
+constexpr double longest_spin = 30e-6;  // seconds; to fall asleep and to be woken takes about as long
+constexpr double stretch = 4e-3;        // seconds of jobs that tell whether the threads wait too much
+constexpr double least_share = 0.5;     // of the time, that threads must work
+constexpr double fewer_for_times = 20;  // as long as a bad stretch, so that to try again costs 5 % at most
 
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();

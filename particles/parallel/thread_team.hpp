@@ -27,8 +27,8 @@ class Barrier {
 /// The calling thread and up to size() - 1 helpers, which sleep between two jobs.
 ///
 /// Where other processes want the processors too, threads wait for one that is not running. The team compares
-/// the processor time that its threads worked with the time that passed: when they worked less than half of it
-/// it goes on with half as many, for twenty times as long as it took to see that, and then tries again. So
+/// the processor time that its threads worked with the time that passed: when they worked less than half of
+/// it it goes on with half as many, for twenty times as long as it took to see that, and then tries again. So
 /// shares of a job must not decide its result: any number of threads from 1 to size() may be given any job.
 class ThreadTeam {
  public:

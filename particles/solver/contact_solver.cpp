@@ -14,7 +14,8 @@
 namespace drumlin::particles {
 namespace {
 
-/// Sweeps until the rule ends it; returns the best where that is missed. `after_sweep` may move r and the state on, but not after the last sweep.
+/// Sweeps until the rule ends it; returns the best where that is missed. `after_sweep` may move r and the
+/// state on, but not after the last sweep.
 template <class Problem, class AfterSweep>
 SolveReport sweep_until_done(const Problem& problem, const StoppingRule& rule, SolverWorkspace<Problem>& work,
                              Solution<Problem>& solution, AfterSweep after_sweep) {

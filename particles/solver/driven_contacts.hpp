@@ -1,6 +1,6 @@
 #pragma once
-// Contacts of walls that contacts push, in a solve in strips: one wall is a body of many contacts, so that they
-// are swept one after the other, on one thread, after the strips.
+// Contacts of walls that contacts push, in a solve in strips: one wall is a body of many contacts, so that
+// they are swept one after the other, on one thread, after the strips.
 #include <array>
 #include <cstdint>
 #include <span>
@@ -28,8 +28,7 @@ struct DrivenContact {
 /// Adds impulses of a contact to the records of its grain and of its wall, which holds the wall's change of
 /// velocity.
 template <bool spin, class T, int dim>
-void push(const DrivenContact<dim>& c, const typename DrivenContact<dim>::Impulse& r,
-          BodyRecord<T>* bodies) {
+void push(const DrivenContact<dim>& c, const typename DrivenContact<dim>::Impulse& r, BodyRecord<T>* bodies) {
   BodyRecord<T>&I = bodies[c.i], &J = bodies[c.wall];
   double p_x = c.n_x * r[0], p_z = c.n_z * r[0];
   if constexpr (dim >= 2) p_x += c.n_z * r[1], p_z -= c.n_x * r[1];

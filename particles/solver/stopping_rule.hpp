@@ -16,7 +16,9 @@ struct StoppingRule {
   double tolerance = 1e-2;                                       ///< of ContactResidual::rms
   double penetration = std::numeric_limits<double>::infinity();  ///< of ContactResidual::penetration, d
   int max_sweeps = 1000;                                         ///< at least 1
-  int check_every = 10;  ///< sweeps between two evaluations of the residual, which cost about one sweep each
+  int check_every =
+      10;  ///< sweeps between two evaluations of the residual, which cost about one sweep each;
+           ///< solves in strips leave out those that their steps call idle, at most three in turn
   double max_seconds =
       std::numeric_limits<double>::infinity();  ///< wall time; finite limits make a run irreproducible
 };

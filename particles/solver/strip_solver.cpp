@@ -13,7 +13,9 @@ namespace {
 
 /// A problem with walls that contacts push.
 template <class W>
-constexpr bool drives = requires(const W& w) { w.driven_wall(0); };
+constexpr bool drives = requires(const W& w) {
+  w.driven_wall(0);
+};
 
 template <class W>
 double inverse_W_nn(const W& w, std::int32_t c) {
@@ -71,8 +73,7 @@ void StripProblem<T, dim, spin>::pack_place(const Problem& problem, std::int32_t
     block.mu_r[k] = c >= 0 ? static_cast<T>(problem.mu[2 * c + 1]) : T(0);
     block.lever[k] = c >= 0 ? static_cast<T>(W.lever[c]) : T(0);
     block.inverse_W_rr[k] = c >= 0 ? static_cast<T>(1 / W.block(c).rr) : T(0);
-    block.inverse_W_tt[k] =
-        c >= 0 ? static_cast<T>(W.block(c).rr * W.block(c).inverse_determinant) : T(0);
+    block.inverse_W_tt[k] = c >= 0 ? static_cast<T>(W.block(c).rr * W.block(c).inverse_determinant) : T(0);
   }
 }
 
@@ -153,7 +154,8 @@ void StripProblem<T, dim, spin>::unpack(const Problem& problem, bool kept, std::
     if (contact_[p] < 0) continue;
     std::array<double, dim> own{};
     for (int e = 0; e < dim; ++e)
-      own[e] = static_cast<double>(kept ? kept_[p / width][e][p % width] : blocks_[p / width].r[e][p % width]);
+      own[e] =
+          static_cast<double>(kept ? kept_[p / width][e][p % width] : blocks_[p / width].r[e][p % width]);
     set(contact_[p], own);
   }
   for (const auto& contact : driven_) set(contact.contact, kept ? contact.kept : contact.r);
@@ -241,11 +243,11 @@ void StripProblem<T, dim, spin>::keep() {
                                                  std::span<const std::int32_t>, std::span<const double>); \
   template void StripProblem<T, dim, spin>::unpack(const Problem&, bool, std::vector<double>&) const;
 #define DRUMLIN_INSTANTIATE_BOTH(dim, spin, Problem, DrivenProblem) \
-  template class StripProblem<double, dim, spin>;                    \
-  template class StripProblem<float, dim, spin>;                     \
-  DRUMLIN_INSTANTIATE(double, dim, spin, Problem)                    \
-  DRUMLIN_INSTANTIATE(double, dim, spin, DrivenProblem)              \
-  DRUMLIN_INSTANTIATE(float, dim, spin, Problem)                     \
+  template class StripProblem<double, dim, spin>;                   \
+  template class StripProblem<float, dim, spin>;                    \
+  DRUMLIN_INSTANTIATE(double, dim, spin, Problem)                   \
+  DRUMLIN_INSTANTIATE(double, dim, spin, DrivenProblem)             \
+  DRUMLIN_INSTANTIATE(float, dim, spin, Problem)                    \
   DRUMLIN_INSTANTIATE(float, dim, spin, DrivenProblem)
 DRUMLIN_INSTANTIATE_BOTH(1, false, FrictionlessProblem, DrivenFrictionlessProblem)
 DRUMLIN_INSTANTIATE_BOTH(2, false, CoulombProblem, DrivenCoulombProblem)

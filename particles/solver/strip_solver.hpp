@@ -68,8 +68,8 @@ class StripProblem {
   template <class Problem>
   void pack_bodies(const Problem& problem, const SweepPlan& plan);
   template <class Problem>
-  void pack_place(const Problem& problem, std::int32_t c, std::int32_t fixed, std::span<const double> r, int k,
-                  Block& block) const;
+  void pack_place(const Problem& problem, std::int32_t c, std::int32_t fixed, std::span<const double> r,
+                  int k, Block& block) const;
   template <class Problem>
   void pack_driven(const Problem& problem, std::int32_t c, std::span<const double> r);
   std::vector<Strip> strips_;

@@ -5,7 +5,7 @@
 // Must come after foreach_target.h.
 #include <hwy/highway.h>
 
-#include "particles/solver/body_vectors-inl.hpp"
+#include "particles/solver/body_vectors-inl.h"
 #include "particles/solver/sweep_kernels.hpp"
 
 HWY_BEFORE_NAMESPACE();

@@ -1,10 +1,10 @@
-// Vectors of bodies: records of several bodies loaded as one vector for each of their numbers, and stored back.
-// Included once for each instruction set.
-#if defined(DRUMLIN_BODY_VECTORS_INL_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef DRUMLIN_BODY_VECTORS_INL_HPP
-#undef DRUMLIN_BODY_VECTORS_INL_HPP
+// Vectors of bodies: records of several bodies loaded as one vector for each of their numbers, and stored
+// back. Included once for each instruction set.
+#if defined(DRUMLIN_BODY_VECTORS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef DRUMLIN_BODY_VECTORS_INL_H
+#undef DRUMLIN_BODY_VECTORS_INL_H
 #else
-#define DRUMLIN_BODY_VECTORS_INL_HPP
+#define DRUMLIN_BODY_VECTORS_INL_H
 #endif
 
 #include <hwy/highway.h>
