@@ -45,6 +45,7 @@ class BodyDelassus {
   SweepPlan plan;  ///< of the contacts in their order; empty: a solver that needs one finds it
 
   int contacts() const { return static_cast<int>(i.size()); }
+  std::int32_t fixed() const { return static_cast<std::int32_t>(inverse_mass.size()) - 1; }
 
   /// Forgets the contacts; bodies and plan stay.
   void clear() { i.clear(), j.clear(), n_x.clear(), n_z.clear(), inverse_W_nn.clear(); }

@@ -3,6 +3,7 @@
 // effects use BodyDelassus and pay nothing for them. Contact after contact, in the order of the problem.
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -36,21 +37,30 @@ inline LocalBlock with_inverses(LocalBlock W) {
 /// strictly convex quadratic over a box, exactly. In: the impulses and the velocities that belong to them.
 inline void solve_in_box(const LocalBlock& W, double u_t, double u_r, double bound_t, double bound_r,
                          double& r_t, double& r_r) {
-  const double free_t = u_t - W.tt * r_t - W.tr * r_r, free_r = u_r - W.tr * r_t - W.rr * r_r;
-  r_t = (W.tr * free_r - W.rr * free_t) * W.inverse_determinant;
-  r_r = (W.tr * free_t - W.tt * free_r) * W.inverse_determinant;
-  if (std::abs(r_t) <= bound_t && std::abs(r_r) <= bound_r) return;
-  // With one of them at its bound the other follows; the minimum is on the edge whose own velocity points
-  // outwards (or, at a corner, on either of two).
-  for (const double s : {1.0, -1.0}) {
-    const double t = s * bound_t, r = std::clamp(-(free_r + W.tr * t) / W.rr, -bound_r, bound_r);
-    if (s * (free_t + W.tt * t + W.tr * r) <= 0) {
-      r_t = t, r_r = r;
-      return;
-    }
+  // One after the other from the free minimum, each clamped: where friction leaves the box first, rolling
+  // along that edge is right, or friction along the edge of rolling is.
+  const double before_t = r_t, before_r = r_r;
+  const double free_t = before_t + (W.tr * u_r - W.rr * u_t) * W.inverse_determinant;
+  const double first = std::clamp(free_t, -bound_t, bound_t);
+  r_r = std::clamp(before_r - (u_r + W.tr * (first - before_t)) / W.rr, -bound_r, bound_r);
+  r_t = std::clamp(before_t - (u_t + W.tr * (r_r - before_r)) * W.inverse_tt, -bound_t, bound_t);
+}
+
+/// One contact solved with the others as they stand: first the normal, then friction and rolling together,
+/// exactly where W_nt = 0. `u` are the velocities that belong to the impulses r, `mu` the dim - 1
+/// coefficients.
+template <int dim>
+std::array<double, dim> solved_contact(const LocalBlock& W, const double* mu, std::array<double, dim> u,
+                                       const std::array<double, dim>& r) {
+  std::array<double, dim> fresh = r;
+  fresh[0] = std::max(0.0, r[0] - u[0] * W.inverse_nn);
+  if constexpr (dim >= 2) u[1] += W.nt * (fresh[0] - r[0]);
+  if constexpr (dim == 2) {
+    const double bound = mu[0] * fresh[0];
+    fresh[1] = std::clamp(r[1] - u[1] * W.inverse_tt, -bound, bound);
   }
-  r_r = std::copysign(bound_r, r_r);
-  r_t = std::clamp(-(free_t + W.tr * r_r) / W.tt, -bound_t, bound_t);
+  if constexpr (dim == 3) solve_in_box(W, u[1], u[2], mu[0] * fresh[0], mu[1] * fresh[0], fresh[1], fresh[2]);
+  return fresh;
 }
 
 /// Contacts in solve order. Bodies: the grains, the fixed one, then the driven walls if `with_driven`.
@@ -73,6 +83,11 @@ class GeneralDelassus {
 
   int contacts() const { return static_cast<int>(i.size()); }
   std::int32_t fixed() const { return static_cast<std::int32_t>(inverse_mass.size() - driven.size()) - 1; }
+  /// The driven wall of contact a, or none.
+  const DrivenBody* driven_wall(int a) const {
+    const std::int32_t k = j[a] - fixed() - 1;
+    return k < 0 ? nullptr : &driven[k];
+  }
 
   void clear() { i.clear(), j.clear(), n_x.clear(), n_z.clear(), lever.clear(), blocks_.clear(); }
   /// Masses and driven walls must be there. `lever_i` without rolling: of no effect.
@@ -161,24 +176,15 @@ class GeneralDelassus {
     }
   }
 
-  /// One Gauss-Seidel sweep: of each contact first the normal, then friction and rolling together. Exact
-  /// where W_nt = 0. `mu` holds dim - 1 coefficients per contact.
+  /// One Gauss-Seidel sweep. `mu` holds dim - 1 coefficients per contact.
   double sweep(std::span<const double> q, std::span<const double> mu, std::span<double> r, State& state,
                std::span<double> step) const {
     double sum = 0;
     for (int a = 0; a < contacts(); ++a) {
       const Impulse old = impulse(r, a);
-      Impulse u = relative_velocity(state, a), fresh = old, change;
+      Impulse u = relative_velocity(state, a), change;
       for (int c = 0; c < dim; ++c) u[c] += q[dim * a + c];
-      const LocalBlock& W = blocks_[a];
-      fresh[0] = std::max(0.0, old[0] - u[0] * W.inverse_nn);
-      if constexpr (dim >= 2) u[1] += W.nt * (fresh[0] - old[0]);
-      if constexpr (dim == 2) {
-        const double bound = mu[a] * fresh[0];
-        fresh[1] = std::clamp(old[1] - u[1] * W.inverse_tt, -bound, bound);
-      }
-      if constexpr (dim == 3)
-        solve_in_box(W, u[1], u[2], mu[2 * a] * fresh[0], mu[2 * a + 1] * fresh[0], fresh[1], fresh[2]);
+      const Impulse fresh = solved_contact<dim>(blocks_[a], mu.data() + (dim - 1) * a, u, old);
       for (int c = 0; c < dim; ++c) {
         change[c] = fresh[c] - old[c];
         r[dim * a + c] = fresh[c];
@@ -213,10 +219,6 @@ class GeneralDelassus {
         W.tt += t * t * wall->inverse_mass;
       }
     return with_inverses(W);
-  }
-  const DrivenBody* driven_wall(int a) const {
-    const std::int32_t k = j[a] - fixed() - 1;
-    return k < 0 ? nullptr : &driven[k];
   }
   static Impulse impulse(std::span<const double> r, int a) {
     Impulse own;

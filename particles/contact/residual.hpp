@@ -21,31 +21,35 @@ struct ContactResidual {
   double penetration = 0;  ///< max(-u_n) h, at least 0; in d inside the project
 };
 
-/// e_a^2 of contact a.
-template <class Problem>
-double squared_error(const Problem& problem, int a, std::span<const double> r, std::span<const double> u) {
-  constexpr int dim = Problem::dim;
-  const double lambda = problem.W.largest_eigenvalue(a);
+/// e_a^2 of a contact with lambda_max(W_aa), its dim - 1 coefficients of friction, impulses and velocities.
+template <int dim>
+double squared_error(double lambda, const double* mu, const double* r, const double* u) {
   const double rho = 1 / lambda;
   double squares = 0;  // of e / lambda
   if constexpr (dim == 1) {
-    const double n = r[a] - std::max(0.0, r[a] - rho * u[a]);
+    const double n = r[0] - std::max(0.0, r[0] - rho * u[0]);
     squares = n * n;
   } else if constexpr (dim == 3) {
-    const double mu = problem.mu[2 * a], mu_r = problem.mu[2 * a + 1];
-    double n = r[3 * a] - rho * (u[3 * a] + mu * std::abs(u[3 * a + 1]) + mu_r * std::abs(u[3 * a + 2]));
-    double t = r[3 * a + 1] - rho * u[3 * a + 1], roll = r[3 * a + 2] - rho * u[3 * a + 2];
-    project_on_cone(mu, mu_r, n, t, roll);
-    n -= r[3 * a], t -= r[3 * a + 1], roll -= r[3 * a + 2];
+    double n = r[0] - rho * (u[0] + mu[0] * std::abs(u[1]) + mu[1] * std::abs(u[2]));
+    double t = r[1] - rho * u[1], roll = r[2] - rho * u[2];
+    project_on_cone(mu[0], mu[1], n, t, roll);
+    n -= r[0], t -= r[1], roll -= r[2];
     squares = n * n + t * t + roll * roll;
   } else {
-    const double u_n = u[2 * a], u_t = u[2 * a + 1], mu = problem.mu[a];
-    double n = r[2 * a] - rho * (u_n + mu * std::abs(u_t)), t = r[2 * a + 1] - rho * u_t;
-    project_on_cone(mu, n, t);
-    n -= r[2 * a], t -= r[2 * a + 1];
+    double n = r[0] - rho * (u[0] + mu[0] * std::abs(u[1])), t = r[1] - rho * u[1];
+    project_on_cone(mu[0], n, t);
+    n -= r[0], t -= r[1];
     squares = n * n + t * t;
   }
   return squares * (lambda * lambda);
+}
+
+/// e_a^2 of contact a of a problem.
+template <class Problem>
+double squared_error(const Problem& problem, int a, std::span<const double> r, std::span<const double> u) {
+  constexpr int dim = Problem::dim;
+  return squared_error<dim>(problem.W.largest_eigenvalue(a), problem.mu.data() + (dim - 1) * a,
+                            r.data() + dim * a, u.data() + dim * a);
 }
 
 /// Residual of impulses r (dim * contacts entries); `velocities` receives those that they cause. A problem

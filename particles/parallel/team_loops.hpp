@@ -23,9 +23,8 @@ class TeamLoops {
       for (std::size_t p = first; p < last; ++p) work(p * piece, std::min(count, (p + 1) * piece));
     };
     if (team_ == nullptr || pieces < 4) return some(0, pieces);
-    const auto threads = static_cast<std::size_t>(team_->size());
-    team_->run([&](int t) {
-      const auto thread = static_cast<std::size_t>(t);
+    team_->run([&](int t, int count_of_threads) {
+      const auto thread = static_cast<std::size_t>(t), threads = static_cast<std::size_t>(count_of_threads);
       some(pieces * thread / threads, pieces * (thread + 1) / threads);
     });
   }
@@ -37,8 +36,7 @@ class TeamLoops {
       for (int k = first; k < last; ++k) work(k);
     };
     if (team_ == nullptr || count < 2) return some(0, count);
-    const int threads = team_->size();
-    team_->run([&](int t) { some(count * t / threads, count * (t + 1) / threads); });
+    team_->run([&](int t, int threads) { some(count * t / threads, count * (t + 1) / threads); });
   }
 
   /// The sum of part(begin, end) over the pieces.

@@ -1,5 +1,9 @@
 #include "particles/parallel/thread_team.hpp"
 
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+
 #if defined(__x86_64__)
 #include <immintrin.h>
 #endif
@@ -7,8 +11,21 @@
 namespace drumlin::particles {
 namespace {
 
-constexpr int spins_before_yielding = 4000;   // some 20 microseconds
-constexpr int yields_before_sleeping = 2000;  // between jobs only
+constexpr double longest_spin = 30e-6;  // seconds; to fall asleep and to be woken takes about as long
+constexpr double stretch = 4e-3;        // seconds of jobs that tell whether the threads wait too much
+constexpr double least_share = 0.5;     // of the time, that threads must work
+constexpr double fewer_for_times = 20;  // as long as a bad stretch, so that to try again costs 5 % at most
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Processor time of the calling thread, in seconds.
+double processor_time() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
 
 void pause() {
 #if defined(__x86_64__)
@@ -16,63 +33,103 @@ void pause() {
 #endif
 }
 
-}  // namespace
-
-void Barrier::meet() {
-  if (threads_ == 1) return;
-  const std::uint32_t round = round_.load(std::memory_order_relaxed);
-  if (arrived_.fetch_add(1, std::memory_order_acq_rel) == threads_ - 1) {
-    arrived_.store(0, std::memory_order_relaxed);
-    round_.store(round + 1, std::memory_order_release);
-    return;
-  }
-  for (int spins = 0; round_.load(std::memory_order_acquire) == round; ++spins)
-    if (spins < spins_before_yielding)
+/// Waits until `value` is no longer `old`: spins, then sleeps. Returns the seconds spent spinning.
+template <class T>
+double wait_for_change(const std::atomic<T>& value, T old) {
+  constexpr int spins_between_looks = 32;
+  if (value.load(std::memory_order_acquire) != old) return 0;
+  const double start = now();
+  for (double spun = 0; spun < longest_spin; spun = now() - start)
+    for (int spin = 0; spin < spins_between_looks; ++spin) {
+      if (value.load(std::memory_order_acquire) != old) return std::min(now() - start, longest_spin);
       pause();
-    else
-      std::this_thread::yield();
+    }
+  value.wait(old, std::memory_order_acquire);
+  return longest_spin;
 }
 
-ThreadTeam::ThreadTeam(int threads) : barrier_(threads) {
+}  // namespace
+
+double Barrier::meet() {
+  if (threads_ == 1) return 0;
+  const std::uint32_t round = round_.load(std::memory_order_relaxed);
+  if (arrived_.fetch_add(1, std::memory_order_acq_rel) < threads_ - 1) return wait_for_change(round_, round);
+  arrived_.store(0, std::memory_order_relaxed);
+  round_.store(round + 1, std::memory_order_release);
+  round_.notify_all();
+  return 0;
+}
+
+ThreadTeam::ThreadTeam(int threads) : barrier_(threads), members_(static_cast<std::size_t>(threads)) {
   for (int t = 1; t < threads; ++t) helpers_.emplace_back([this, t] { help(t); });
 }
 
 ThreadTeam::~ThreadTeam() {
   over_ = true;
-  started_.fetch_add(1, std::memory_order_release);
-  started_.notify_all();
+  for (auto& member : members_) {
+    member.jobs.fetch_add(1, std::memory_order_release);
+    member.jobs.notify_one();
+  }
   for (auto& helper : helpers_) helper.join();
 }
 
-void ThreadTeam::run(const std::function<void(int)>& job) {
-  if (helpers_.empty()) return job(0);
+void ThreadTeam::run(const std::function<void(int, int)>& job) {
+  if (helpers_.empty()) return job(0, 1);
+  const double start = now();
   job_ = &job;
-  running_.store(static_cast<int>(helpers_.size()), std::memory_order_relaxed);
-  started_.fetch_add(1, std::memory_order_release);
-  started_.notify_all();
-  job(0);
-  for (int spins = 0; running_.load(std::memory_order_acquire) > 0; ++spins)
-    if (spins < spins_before_yielding)
-      pause();
-    else
-      std::this_thread::yield();
+  const int helping = threads() - 1;
+  running_.store(helping, std::memory_order_relaxed);
+  for (int t = 1; t <= helping; ++t) {
+    auto& jobs = members_[static_cast<std::size_t>(t)].jobs;
+    jobs.fetch_add(1, std::memory_order_release);
+    jobs.notify_one();
+  }
+  if (helping == 0) {
+    job(0, 1);
+  } else {
+    work(0);
+    for (int left = running_.load(std::memory_order_acquire); left > 0;
+         left = running_.load(std::memory_order_acquire))
+      (void)wait_for_change(running_, left);
+  }
+  choose_threads(now() - start);
+}
+
+void ThreadTeam::work(int t) {
+  Member& self = members_[static_cast<std::size_t>(t)];
+  self.spun = 0;
+  const double start = processor_time();
+  (*job_)(t, threads());
+  self.worked = processor_time() - start - self.spun;
 }
 
 void ThreadTeam::help(int t) {
-  for (std::uint32_t seen = 0;;) {
-    for (int spins = 0; started_.load(std::memory_order_acquire) == seen; ++spins) {
-      if (spins < spins_before_yielding)
-        pause();
-      else if (spins < spins_before_yielding + yields_before_sleeping)
-        std::this_thread::yield();
-      else
-        started_.wait(seen, std::memory_order_acquire);
-    }
-    ++seen;
+  auto& jobs = members_[static_cast<std::size_t>(t)].jobs;
+  for (std::uint32_t seen = 0;; ++seen) {
+    (void)wait_for_change(jobs, seen);
     if (over_) return;
-    (*job_)(t);
-    running_.fetch_sub(1, std::memory_order_release);
+    work(t);
+    if (running_.fetch_sub(1, std::memory_order_release) == 1) running_.notify_one();
   }
+}
+
+/// After a job that took `passed` seconds. No thread but the calling one is at work.
+void ThreadTeam::choose_threads(double passed) {
+  if (until_ > 0 && (until_ -= passed) <= 0) {
+    barrier_.threads_ = size();
+    worked_ = passed_ = 0;
+    return;
+  }
+  const int count = threads();
+  if (count == 1) return;
+  for (int t = 0; t < count; ++t) worked_ += std::max(0.0, members_[static_cast<std::size_t>(t)].worked);
+  passed_ += passed;
+  if (passed_ < stretch) return;
+  if (worked_ < least_share * count * passed_) {
+    barrier_.threads_ = std::max(1, count / 2);
+    until_ = fewer_for_times * passed_;
+  }
+  worked_ = passed_ = 0;
 }
 
 }  // namespace drumlin::particles

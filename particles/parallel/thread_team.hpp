@@ -9,20 +9,27 @@
 
 namespace drumlin::particles {
 
-/// Barrier of a fixed number of threads. Spins, then yields, so that it still works with more threads than
-/// processors.
+/// Barrier of a number of threads. Who waits spins for some microseconds and then sleeps, so that a processor
+/// that another process wants is left to it.
 class Barrier {
  public:
   explicit Barrier(int threads) : threads_(threads) {}
-  void meet();
+  /// Waits for the others; returns the seconds that this thread has spun for.
+  double meet();
 
  private:
+  friend class ThreadTeam;
   int threads_;
   alignas(64) std::atomic<int> arrived_{0};
   alignas(64) std::atomic<std::uint32_t> round_{0};
 };
 
-/// The calling thread and size() - 1 helpers, which sleep between two jobs.
+/// The calling thread and up to size() - 1 helpers, which sleep between two jobs.
+///
+/// Where other processes want the processors too, threads wait for one that is not running. The team compares
+/// the processor time that its threads worked with the time that passed: when they worked less than half of
+/// it it goes on with half as many, for twenty times as long as it took to see that, and then tries again. So
+/// shares of a job must not decide its result: any number of threads from 1 to size() may be given any job.
 class ThreadTeam {
  public:
   explicit ThreadTeam(int threads);
@@ -30,21 +37,32 @@ class ThreadTeam {
   ThreadTeam(const ThreadTeam&) = delete;
   ThreadTeam& operator=(const ThreadTeam&) = delete;
 
-  int size() const { return static_cast<int>(helpers_.size()) + 1; }
-  /// Calls job(t) for t in [0, size()), each on a thread of its own, and returns when all have returned. Jobs
-  /// must not throw.
-  void run(const std::function<void(int)>& job);
-  /// Where the threads of a job meet.
-  Barrier& barrier() { return barrier_; }
+  /// Most threads that a job is given.
+  int size() const { return static_cast<int>(members_.size()); }
+  /// Number of threads that the next job is given.
+  int threads() const { return barrier_.threads_; }
+  /// Calls job(t, threads) for t in [0, threads), each on a thread of its own, and returns when all have
+  /// returned. Jobs must not throw.
+  void run(const std::function<void(int, int)>& job);
+  /// Where the threads of a job meet; called by thread t of it.
+  void meet(int t) { members_[static_cast<std::size_t>(t)].spun += barrier_.meet(); }
 
  private:
+  struct alignas(64) Member {
+    double worked = 0, spun = 0;  // processor seconds of the job
+    std::atomic<std::uint32_t> jobs{0};
+  };
   void help(int t);
+  void work(int t);
+  void choose_threads(double passed);
 
   Barrier barrier_;
-  const std::function<void(int)>* job_ = nullptr;
-  std::atomic<std::uint32_t> started_{0};
+  std::vector<Member> members_;
+  const std::function<void(int, int)>* job_ = nullptr;
   std::atomic<int> running_{0};
   std::atomic<bool> over_{false};
+  double worked_ = 0, passed_ = 0;  // seconds, summed over jobs since the number of threads was chosen
+  double until_ = 0;                // seconds of jobs that fewer threads than all are still given
   std::vector<std::thread> helpers_;
 };
 

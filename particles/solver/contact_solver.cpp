@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "coupling/common/errors.hpp"
 #include "particles/contact/problems.hpp"
@@ -13,11 +14,13 @@
 namespace drumlin::particles {
 namespace {
 
-/// Sweeps until the rule ends it. `after_sweep` may move r and the state on, but not after the last sweep.
+/// Sweeps until the rule ends it; returns the best where that is missed. `after_sweep` may move r and the
+/// state on, but not after the last sweep.
 template <class Problem, class AfterSweep>
 SolveReport sweep_until_done(const Problem& problem, const StoppingRule& rule, SolverWorkspace<Problem>& work,
                              Solution<Problem>& solution, AfterSweep after_sweep) {
   StoppingTest test(rule);
+  double best = std::numeric_limits<double>::infinity();
   std::vector<double>& r = solution.impulses;
   r.resize(problem.q.size());
   work.step.resize(r.size());
@@ -25,8 +28,16 @@ SolveReport sweep_until_done(const Problem& problem, const StoppingRule& rule, S
   for (int sweeps = 1;; ++sweeps) {
     after_sweep.before(work);
     const double step_squares = problem.W.sweep(problem.q, problem.mu, r, work.state, work.step);
-    if (test.due(sweeps) && test.ends(sweeps, residual_of(problem, solution), std::isfinite(step_squares)))
-      return test.report();
+    if (test.due(sweeps)) {
+      const bool ended = test.ends(sweeps, residual_of(problem, solution), std::isfinite(step_squares));
+      const bool converged = ended && test.report().status == Status::converged;
+      if (test.report().residual.rms < best) best = test.report().residual.rms, work.best = r;
+      if (ended && !converged && best < test.report().residual.rms) {
+        r = work.best;
+        test.replace(residual_of(problem, solution));
+      }
+      if (ended) return test.report();
+    }
     after_sweep.after(work, r, step_squares);
   }
 }
@@ -163,7 +174,14 @@ SolveReport solve_accelerated(const Problem& problem, const StoppingRule& rule,
     if (done || first.status == Status::not_finite || first.status == Status::out_of_time ||
         first.sweeps >= rule.max_sweeps)
       return first;
-    return together(first, solve_accelerated_double(problem, remaining(rule, first), work, solution));
+    work.best = solution.impulses;
+    SolveReport both =
+        together(first, solve_accelerated_double(problem, remaining(rule, first), work, solution));
+    if (both.status != Status::converged && !(both.residual.rms <= first.residual.rms)) {
+      solution.impulses = work.best;
+      both.residual = residual_of(problem, solution);
+    }
+    return both;
   }
 }
 

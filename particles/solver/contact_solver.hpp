@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "particles/contact/body_delassus.hpp"
+#include "particles/contact/general_delassus.hpp"
 #include "particles/contact/solution.hpp"
 #include "particles/solver/conjugate_projected_gradient.hpp"
 #include "particles/solver/stopping_rule.hpp"
@@ -14,20 +15,25 @@ namespace drumlin::particles {
 /// Work space of the vectorised solvers; problems that they do not know have none.
 template <class Delassus>
 struct StripWorkspace {};
-template <class Cone, bool with_spin>
-struct StripWorkspace<BodyDelassus<Cone, with_spin>> {
-  StripProblem<double, Cone::dim, with_spin> in_double;
-  StripProblem<float, Cone::dim, with_spin> in_single;
+template <int dim, bool spin>
+struct WorkspaceOfStrips {
+  StripProblem<double, dim, spin> in_double;
+  StripProblem<float, dim, spin> in_single;
   SweepPlan plan;  ///< of a problem that brings none
   std::vector<std::int32_t> order;
 };
+template <class Cone, bool with_spin>
+struct StripWorkspace<BodyDelassus<Cone, with_spin>> : WorkspaceOfStrips<Cone::dim, with_spin> {};
+template <class Cone, bool with_spin, bool with_driven>
+struct StripWorkspace<GeneralDelassus<Cone, with_spin, with_driven>>
+    : WorkspaceOfStrips<Cone::dim, with_spin> {};
 
 /// Memory of a solver, kept between calls so that a step does not allocate. What is in it before a call is
 /// never read, and nothing in it is a result.
 template <class Problem>
 struct SolverWorkspace {
   typename Problem::Delassus::State state, state_before, direction_state;
-  std::vector<double> step, direction;
+  std::vector<double> step, direction, best;
   StripWorkspace<typename Problem::Delassus> strips;
   ProjectedGradientWorkspace projected_gradient;
   ThreadTeam* team = nullptr;  ///< none: the calling thread alone; results do not depend on it
@@ -43,7 +49,8 @@ using ContactSolver = SolveReport (*)(const Problem&, const StoppingRule&, Solve
 /// (particles/solver/momentum.hpp). Problems of discs are swept in strips, on vectors and threads: in single
 /// precision as long as that helps, which is down to residuals of some 1e-4, and in double precision from
 /// there. The residual is always that in double precision.
-/// Ends on a sweep, so that the impulses lie in their cones.
+/// Ends on a sweep, so that the impulses lie in their cones. Where they miss the rule they are the best that
+/// the solver has looked at.
 template <class Problem>
 SolveReport solve_accelerated(const Problem&, const StoppingRule&, SolverWorkspace<Problem>&,
                               Solution<Problem>&);

@@ -16,7 +16,9 @@ struct StoppingRule {
   double tolerance = 1e-2;                                       ///< of ContactResidual::rms
   double penetration = std::numeric_limits<double>::infinity();  ///< of ContactResidual::penetration, d
   int max_sweeps = 1000;                                         ///< at least 1
-  int check_every = 10;  ///< sweeps between two evaluations of the residual, which cost about one sweep each
+  int check_every =
+      10;  ///< sweeps between two evaluations of the residual, which cost about one sweep each;
+           ///< solves in strips leave out those that their steps call idle, at most three in turn
   double max_seconds =
       std::numeric_limits<double>::infinity();  ///< wall time; finite limits make a run irreproducible
 };
@@ -43,6 +45,8 @@ class StoppingTest {
   /// Whether the solve ends with this residual after so many sweeps. `finite`: no sweep has made an infinity
   /// or a NaN.
   bool ends(int sweeps, const ContactResidual& residual, bool finite = true);
+  /// The solve returns other impulses than the last ones, with this residual.
+  void replace(const ContactResidual& residual) { report_.residual = residual; }
   /// As of the last call of ends(); its status means something only if the solve ended.
   const SolveReport& report() const { return report_; }
 

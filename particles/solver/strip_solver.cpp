@@ -2,25 +2,38 @@
 
 #include <algorithm>
 #include <numeric>
+#include <type_traits>
+#include <utility>
 
 #include "particles/contact/problems.hpp"
 
 namespace drumlin::particles {
 
+namespace {
+
+/// A problem with walls that contacts push.
+template <class W>
+constexpr bool drives = requires(const W& w) {
+  w.driven_wall(0);
+};
+
+template <class W>
+double inverse_W_nn(const W& w, std::int32_t c) {
+  if constexpr (requires { w.inverse_W_nn; })
+    return w.inverse_W_nn[c];
+  else
+    return w.block(c).inverse_nn;
+}
+
+}  // namespace
+
 template <class T, int dim, bool spin>
 template <class Problem>
-void StripProblem<T, dim, spin>::pack(const Problem& problem, const SweepPlan& plan,
-                                      std::span<const std::int32_t> order, std::span<const double> r) {
-  constexpr int width = ContactBlock<T, dim>::width;
+void StripProblem<T, dim, spin>::pack_bodies(const Problem& problem, const SweepPlan& plan) {
   const auto& W = problem.W;
-  const int strip_count = plan.strips();
-  const auto bodies = static_cast<std::int32_t>(plan.body_order.size());
-  strips_.assign(strip_count, Strip{});
-  for (auto& squares : step_squares_) squares.assign(2 * static_cast<std::size_t>(strip_count), 0.0);
-  residual_squares_.assign(strip_count, 0.0);
-  place_.resize(bodies);
+  place_.resize(plan.body_order.size());
   bodies_.clear();
-  for (int k = 0; k < strip_count; ++k) {
+  for (int k = 0; k < plan.strips(); ++k) {
     strips_[k].bodies = bodies_.size();
     for (std::int32_t o = plan.strip_bodies[k]; o < plan.strip_bodies[k + 1]; ++o) {
       const std::int32_t b = plan.body_order[o];
@@ -30,55 +43,122 @@ void StripProblem<T, dim, spin>::pack(const Problem& problem, const SweepPlan& p
     // Records go in pairs (a vector of eight floats).
     if (bodies_.size() % 2 != 0) bodies_.push_back({});
     // The fixed body of walls, once for each place of a vector: contacts of a vector share no body.
-    bodies_.insert(bodies_.end(), width, BodyRecord<T>{});
+    bodies_.insert(bodies_.end(), Block::width, BodyRecord<T>{});
     strips_[k].bodies_end = bodies_.size();
   }
+  driven_bodies_ = bodies_.size();
+  if constexpr (drives<std::remove_cvref_t<decltype(W)>>)
+    bodies_.resize(driven_bodies_ + W.driven.size() + W.driven.size() % 2);
   before_.resize(bodies_.size());
+}
 
-  blocks_.clear();
-  contact_.clear();
-  for (int slice = 0; slice < 2 * strip_count; ++slice) {
-    Strip& strip = strips_[slice / 2];
-    strip.block[slice % 2] = blocks_.size();
-    const auto fixed = static_cast<std::int32_t>(strip.bodies_end) - width;
-    for (std::int32_t g = plan.slice_start[slice]; g < plan.slice_start[slice + 1]; ++g)
-      for (std::int32_t a = plan.group_start[g]; a < plan.group_start[g + 1]; a += width) {
-        auto& block = blocks_.emplace_back();
-        const std::int32_t end = std::min(a + width, plan.group_start[g + 1]);
-        for (int k = 0; k < width; ++k) {
-          const std::int32_t c = a + k >= end ? -1 : order.empty() ? a + k : order[a + k];
-          contact_.push_back(c);
-          block.i[k] = c >= 0 ? place_[W.i[c]] : fixed + k;
-          block.j[k] = c >= 0 && W.j[c] < bodies ? place_[W.j[c]] : fixed + k;
-          block.n_x[k] = c >= 0 ? static_cast<T>(W.n_x[c]) : T(0);
-          block.n_z[k] = c >= 0 ? static_cast<T>(W.n_z[c]) : T(0);
-          block.inverse_W_nn[k] = c >= 0 ? static_cast<T>(W.inverse_W_nn[c]) : T(1);
-          for (int e = 0; e < dim; ++e) {
-            block.q[e][k] = c >= 0 ? static_cast<T>(problem.q[dim * c + e]) : T(0);
-            block.r[e][k] = c >= 0 ? static_cast<T>(r[dim * c + e]) : T(0);
-            block.before[e][k] = block.r[e][k];
-          }
-          if constexpr (dim == 2) block.mu[k] = c >= 0 ? static_cast<T>(problem.mu[c]) : T(0);
-        }
-      }
-    strip.block[slice % 2 + 1] = blocks_.size();
+template <class T, int dim, bool spin>
+template <class Problem>
+void StripProblem<T, dim, spin>::pack_place(const Problem& problem, std::int32_t c, std::int32_t fixed,
+                                            std::span<const double> r, int k, Block& block) const {
+  const auto& W = problem.W;
+  const auto bodies = static_cast<std::int32_t>(place_.size());
+  block.i[k] = c >= 0 ? place_[W.i[c]] : fixed + k;
+  block.j[k] = c >= 0 && W.j[c] < bodies ? place_[W.j[c]] : fixed + k;
+  block.n_x[k] = c >= 0 ? static_cast<T>(W.n_x[c]) : T(0);
+  block.n_z[k] = c >= 0 ? static_cast<T>(W.n_z[c]) : T(0);
+  block.inverse_W_nn[k] = c >= 0 ? static_cast<T>(inverse_W_nn(W, c)) : T(1);
+  for (int e = 0; e < dim; ++e) {
+    block.q[e][k] = c >= 0 ? static_cast<T>(problem.q[dim * c + e]) : T(0);
+    block.r[e][k] = c >= 0 ? static_cast<T>(r[dim * c + e]) : T(0);
+    block.before[e][k] = block.r[e][k];
+  }
+  if constexpr (dim >= 2) block.mu[k] = c >= 0 ? static_cast<T>(problem.mu[(dim - 1) * c]) : T(0);
+  if constexpr (dim == 3) {
+    block.mu_r[k] = c >= 0 ? static_cast<T>(problem.mu[2 * c + 1]) : T(0);
+    block.lever[k] = c >= 0 ? static_cast<T>(W.lever[c]) : T(0);
+    block.inverse_W_rr[k] = c >= 0 ? static_cast<T>(1 / W.block(c).rr) : T(0);
+    block.inverse_W_tt[k] = c >= 0 ? static_cast<T>(W.block(c).rr * W.block(c).inverse_determinant) : T(0);
   }
 }
 
 template <class T, int dim, bool spin>
 template <class Problem>
-void StripProblem<T, dim, spin>::unpack(const Problem& problem, std::vector<double>& r) const {
-  constexpr int width = ContactBlock<T, dim>::width;
-  for (std::size_t p = 0; p < contact_.size(); ++p) {
-    const std::int32_t c = contact_[p];
-    if (c < 0) continue;
-    const auto& block = blocks_[p / width];
-    r[dim * c] = static_cast<double>(block.r[0][p % width]);
-    if constexpr (dim == 2) {
-      const double bound = problem.mu[c] * r[2 * c];
-      r[2 * c + 1] = std::clamp(static_cast<double>(block.r[1][p % width]), -bound, bound);
-    }
+void StripProblem<T, dim, spin>::pack_driven(const Problem& problem, std::int32_t c,
+                                             std::span<const double> r) {
+  const auto& W = problem.W;
+  auto& contact = driven_.emplace_back();
+  contact.contact = c;
+  contact.i = place_[W.i[c]];
+  contact.wall = static_cast<std::int32_t>(driven_bodies_) + W.j[c] - W.fixed() - 1;
+  contact.n_x = W.n_x[c], contact.n_z = W.n_z[c];
+  if constexpr (dim == 3) contact.lever = W.lever[c];
+  contact.driven = *W.driven_wall(c);
+  contact.W = W.block(c);
+  contact.largest_eigenvalue = W.largest_eigenvalue(c);
+  for (int e = 0; e < dim; ++e) {
+    contact.q[e] = problem.q[dim * c + e];
+    contact.r[e] = contact.before[e] = r[dim * c + e];
   }
+  for (int e = 0; e + 1 < dim; ++e) contact.mu[e] = problem.mu[(dim - 1) * c + e];
+}
+
+template <class T, int dim, bool spin>
+template <class Problem>
+void StripProblem<T, dim, spin>::pack(const Problem& problem, const SweepPlan& plan,
+                                      std::span<const std::int32_t> order, std::span<const double> r) {
+  constexpr int width = Block::width;
+  const int strip_count = plan.strips();
+  strips_.assign(strip_count, Strip{});
+  for (auto& squares : step_squares_) squares.assign(2 * static_cast<std::size_t>(strip_count) + 1, 0.0);
+  residual_squares_.assign(strip_count, 0.0);
+  pack_bodies(problem, plan);
+  blocks_.clear();
+  contact_.clear();
+  driven_.clear();
+  for (int slice = 0; slice < 2 * strip_count; ++slice) {
+    Strip& strip = strips_[slice / 2];
+    strip.block[slice % 2] = blocks_.size();
+    const auto fixed = static_cast<std::int32_t>(strip.bodies_end) - width;
+    for (std::int32_t g = plan.slice_start[slice]; g < plan.slice_start[slice + 1]; ++g) {
+      group_.clear();
+      for (std::int32_t a = plan.group_start[g]; a < plan.group_start[g + 1]; ++a) {
+        const std::int32_t c = order.empty() ? a : order[a];
+        if constexpr (drives<typename Problem::Delassus>)
+          if (problem.W.driven_wall(c) != nullptr) {
+            pack_driven(problem, c, r);
+            continue;
+          }
+        group_.push_back(c);
+      }
+      for (std::size_t a = 0; a < group_.size(); a += width) {
+        auto& block = blocks_.emplace_back();
+        for (int k = 0; k < width; ++k) {
+          contact_.push_back(a + k < group_.size() ? group_[a + k] : -1);
+          pack_place(problem, contact_.back(), fixed, r, k, block);
+        }
+      }
+    }
+    strip.block[slice % 2 + 1] = blocks_.size();
+  }
+  seen_.resize(blocks_.size());
+  kept_.resize(blocks_.size());
+}
+
+template <class T, int dim, bool spin>
+template <class Problem>
+void StripProblem<T, dim, spin>::unpack(const Problem& problem, bool kept, std::vector<double>& r) const {
+  constexpr int width = Block::width;
+  const auto set = [&](std::int32_t c, const std::array<double, dim>& own) {
+    for (int e = 0; e < dim; ++e) {
+      const double bound = e == 0 ? own[0] : problem.mu[(dim - 1) * c + e - 1] * own[0];
+      r[dim * c + e] = std::clamp(own[e], -bound, bound);
+    }
+  };
+  for (std::size_t p = 0; p < contact_.size(); ++p) {
+    if (contact_[p] < 0) continue;
+    std::array<double, dim> own{};
+    for (int e = 0; e < dim; ++e)
+      own[e] =
+          static_cast<double>(kept ? kept_[p / width][e][p % width] : blocks_[p / width].r[e][p % width]);
+    set(contact_[p], own);
+  }
+  for (const auto& contact : driven_) set(contact.contact, kept ? contact.kept : contact.r);
 }
 
 template <class T, int dim, bool spin>
@@ -119,28 +199,61 @@ double StripProblem<T, dim, spin>::step_squares(int parity) const {
 }
 
 template <class T, int dim, bool spin>
+void StripProblem<T, dim, spin>::load_driven() {
+  for (const auto& contact : driven_) push<spin>(contact, contact.r, bodies_.data());
+}
+
+template <class T, int dim, bool spin>
+void StripProblem<T, dim, spin>::start_driven() {
+  for (std::size_t b = driven_bodies_; b < bodies_.size(); ++b) before_[b] = bodies_[b];
+}
+
+template <class T, int dim, bool spin>
+void StripProblem<T, dim, spin>::sweep_driven(int parity, T beta, bool accelerated) {
+  // Nobody else reads the walls: they go on when their contacts come.
+  if (accelerated)
+    Kernels::go_on(&bodies_[driven_bodies_], &before_[driven_bodies_], bodies_.size() - driven_bodies_, beta);
+  step_squares_[parity].back() =
+      drumlin::particles::sweep<spin>(std::span(driven_), bodies_.data(), beta, accelerated);
+}
+
+template <class T, int dim, bool spin>
 void StripProblem<T, dim, spin>::look_at(int strip) {
   const Strip& l = strips_[strip];
   residual_squares_[strip] =
       Kernels::residual(blocks_.data() + l.block[0], l.block[2] - l.block[0], bodies_.data());
+  for (std::size_t b = l.block[0]; b < l.block[2]; ++b)
+    for (int e = 0; e < dim; ++e) seen_[b][e] = blocks_[b].r[e];
 }
 
 template <class T, int dim, bool spin>
-double StripProblem<T, dim, spin>::residual_squares() const {
-  return std::accumulate(residual_squares_.begin(), residual_squares_.end(), 0.0);
+double StripProblem<T, dim, spin>::residual_squares() {
+  const double own = residual<spin>(std::span<const DrivenContact<dim>>(driven_), bodies_.data());
+  return std::accumulate(residual_squares_.begin(), residual_squares_.end(), own);
+}
+
+template <class T, int dim, bool spin>
+void StripProblem<T, dim, spin>::keep() {
+  std::swap(seen_, kept_);
+  for (auto& contact : driven_) contact.kept = contact.r;
 }
 
 #define DRUMLIN_INSTANTIATE(T, dim, spin, Problem)                                                        \
-  template class StripProblem<T, dim, spin>;                                                              \
   template void StripProblem<T, dim, spin>::pack(const Problem&, const SweepPlan&,                        \
                                                  std::span<const std::int32_t>, std::span<const double>); \
-  template void StripProblem<T, dim, spin>::unpack(const Problem&, std::vector<double>&) const;
-DRUMLIN_INSTANTIATE(double, 1, false, FrictionlessProblem)
-DRUMLIN_INSTANTIATE(double, 2, false, CoulombProblem)
-DRUMLIN_INSTANTIATE(double, 2, true, CoulombSpinProblem)
-DRUMLIN_INSTANTIATE(float, 1, false, FrictionlessProblem)
-DRUMLIN_INSTANTIATE(float, 2, false, CoulombProblem)
-DRUMLIN_INSTANTIATE(float, 2, true, CoulombSpinProblem)
+  template void StripProblem<T, dim, spin>::unpack(const Problem&, bool, std::vector<double>&) const;
+#define DRUMLIN_INSTANTIATE_BOTH(dim, spin, Problem, DrivenProblem) \
+  template class StripProblem<double, dim, spin>;                   \
+  template class StripProblem<float, dim, spin>;                    \
+  DRUMLIN_INSTANTIATE(double, dim, spin, Problem)                   \
+  DRUMLIN_INSTANTIATE(double, dim, spin, DrivenProblem)             \
+  DRUMLIN_INSTANTIATE(float, dim, spin, Problem)                    \
+  DRUMLIN_INSTANTIATE(float, dim, spin, DrivenProblem)
+DRUMLIN_INSTANTIATE_BOTH(1, false, FrictionlessProblem, DrivenFrictionlessProblem)
+DRUMLIN_INSTANTIATE_BOTH(2, false, CoulombProblem, DrivenCoulombProblem)
+DRUMLIN_INSTANTIATE_BOTH(2, true, CoulombSpinProblem, DrivenCoulombSpinProblem)
+DRUMLIN_INSTANTIATE_BOTH(3, true, CoulombRollingProblem, DrivenRollingProblem)
+#undef DRUMLIN_INSTANTIATE_BOTH
 #undef DRUMLIN_INSTANTIATE
 
 }  // namespace drumlin::particles

@@ -1,12 +1,14 @@
 #pragma once
 // NLGS, plain and accelerated, on the bodies, in strips (particles/contact/sweep_plan.hpp): vectorised and
 // threaded, with the same result for any number of threads.
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "particles/contact/sweep_plan.hpp"
 #include "particles/parallel/thread_team.hpp"
+#include "particles/solver/driven_contacts.hpp"
 #include "particles/solver/sweep_kernels.hpp"
 
 namespace drumlin::particles {
@@ -23,9 +25,9 @@ class StripProblem {
   void pack(const Problem& problem, const SweepPlan& plan, std::span<const std::int32_t> order,
             std::span<const double> r);
   /// Impulses in the order of the problem, held to their cones, which single precision oversteps by a
-  /// rounding.
+  /// rounding. `kept`: those of the last keep().
   template <class Problem>
-  void unpack(const Problem& problem, std::vector<double>& r) const;
+  void unpack(const Problem& problem, bool kept, std::vector<double>& r) const;
 
   int strips() const { return static_cast<int>(strips_.size()); }
   /// First strip of a thread's share: strips are shared by numbers of blocks.
@@ -43,22 +45,44 @@ class StripProblem {
   /// have met after it.
   double step_squares(int parity) const;
 
-  /// Residuals of the contacts of a strip, and their sum of squares over all strips.
+  /// Whether there are contacts of driven walls: one thread sweeps them after the second phase.
+  bool has_driven() const { return !driven_.empty(); }
+  void load_driven();
+  void start_driven();
+  void sweep_driven(int parity, T beta, bool accelerated);
+
+  /// Residuals of the contacts of a strip, and their sum of squares over all strips and driven walls.
   void look_at(int strip);
-  double residual_squares() const;
+  double residual_squares();
+  /// Keeps the impulses that were last looked at.
+  void keep();
 
  private:
   struct Strip {
     std::size_t bodies = 0, bodies_end = 0;  // those of wall contacts, which do not move, stand last
     std::size_t block[3] = {0, 0, 0};        // first block of each phase, and the end
   };
+  using Block = ContactBlock<T, dim>;
+  using Impulses = std::array<std::array<T, Block::width>, dim>;  // of a block
+
+  template <class Problem>
+  void pack_bodies(const Problem& problem, const SweepPlan& plan);
+  template <class Problem>
+  void pack_place(const Problem& problem, std::int32_t c, std::int32_t fixed, std::span<const double> r,
+                  int k, Block& block) const;
+  template <class Problem>
+  void pack_driven(const Problem& problem, std::int32_t c, std::span<const double> r);
   std::vector<Strip> strips_;
-  std::vector<ContactBlock<T, dim>> blocks_;
+  std::vector<Block> blocks_;
   std::vector<std::int32_t> contact_;  // of each place in the blocks; -1: filled up
   std::vector<BodyRecord<T>> bodies_, before_;
   std::vector<std::int32_t> place_;       // of each body in bodies_
   std::vector<double> step_squares_[2];   // of each slice, of even and odd sweeps
   std::vector<double> residual_squares_;  // of each strip
+  std::vector<Impulses> seen_, kept_;     // of each block
+  std::vector<DrivenContact<dim>> driven_;
+  std::size_t driven_bodies_ = 0;  // first of them in bodies_
+  std::vector<std::int32_t> group_;
 };
 
 }  // namespace drumlin::particles

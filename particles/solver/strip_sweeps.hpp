@@ -1,5 +1,6 @@
 #pragma once
 // Sweeps a StripProblem, on vectors and threads, until the stopping rule ends it.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -8,80 +9,128 @@
 
 namespace drumlin::particles {
 
-/// NLGS, plain or accelerated, in precision T. Every few sweeps the solver estimates its residual, on vectors
-/// and threads; when that is small enough the residual itself decides. In single precision it also ends, out
-/// of sweeps before they are, when the estimate stands still or the residual is more than three times of it.
+/// Where a solve in strips stands between two rounds of sweeps.
+template <class T>
+struct SweepState {
+  int sweeps = 0;
+  Momentum momentum;
+  T beta = 0;
+  bool finite = true;
+  double steps = 0;     ///< sum of squares of the steps of the last sweep
+  double worth = 0;     ///< of `steps`: above it the residual, which costs about a sweep, is not looked at
+  int unseen = 0;       ///< rounds without a look at the residual
+  bool looked = false;  ///< in the last round
+};
+
+/// Sweeps on to `until` and, where it is due, computes the residuals of the strips; one thread's share, which
+/// meets the others by calling meet().
+template <class T, class Strips, class Meet>
+void sweep_share(Strips& strips, int thread, int threads, int until, bool last, bool accelerated,
+                 SweepState<T>& state, Meet meet) {
+  const int first = strips.first_strip(thread, threads), end = strips.first_strip(thread + 1, threads);
+  SweepState<T> own = state;
+  if (own.sweeps == 0) {
+    for (const int phase : {0, 1}) {
+      for (int strip = first; strip < end; ++strip) strips.load(strip, phase);
+      meet();
+    }
+    if (strips.has_driven()) {
+      if (thread == 0) strips.load_driven(), strips.start_driven();
+      meet();
+    }
+    for (int strip = first; strip < end; ++strip) strips.start(strip);
+    meet();
+  }
+  while (own.sweeps < until && own.finite) {
+    ++own.sweeps;
+    for (const int phase : {0, 1}) {
+      for (int strip = first; strip < end; ++strip)
+        strips.sweep(strip, phase, own.sweeps % 2, own.beta, accelerated);
+      meet();
+    }
+    if (strips.has_driven()) {
+      if (thread == 0) strips.sweep_driven(own.sweeps % 2, own.beta, accelerated);
+      meet();
+    }
+    own.steps = strips.step_squares(own.sweeps % 2);
+    own.finite = std::isfinite(own.steps);
+    own.beta = static_cast<T>(own.momentum.next(own.steps));
+  }
+  constexpr int most_unseen = 3;
+  own.looked = last || !own.finite || own.steps <= own.worth || own.unseen >= most_unseen;
+  own.unseen = own.looked ? 0 : own.unseen + 1;
+  if (own.looked)
+    for (int strip = first; strip < end; ++strip) strips.look_at(strip);
+  // All threads have taken their copies: they have met since.
+  if (thread == 0) state = own;
+}
+
+/// Packs a problem and the impulses to start from; returns what turns the squared residuals of its contacts
+/// into the square of the relative residual.
+template <class Problem, class Strips>
+double pack_in_strips(const Problem& problem, SolverWorkspace<Problem>& work, Strips& strips,
+                      Solution<Problem>& solution) {
+  solution.impulses.resize(problem.q.size());
+  auto& own = work.strips;
+  own.order.clear();
+  const bool planned = !problem.W.plan.empty();
+  if (!planned) own.plan = sweep_plan(problem.W.fixed(), problem.W.i, problem.W.j, own.order);
+  strips.pack(problem, planned ? problem.W.plan : own.plan, own.order, solution.impulses);
+  double q_squares = 0;
+  for (const double q : problem.q) q_squares += q * q;
+  return q_squares > 0 ? Problem::dim / q_squares : 1;  // rms over contacts, relative to the rms of q
+}
+
+/// NLGS, plain or accelerated, in precision T. Every few sweeps (while the steps say that it is far, every
+/// fourth time of these) the solver estimates its residual, on vectors and threads; when that is small enough
+/// the residual itself decides. In single precision it also ends, out of sweeps before they are, when the
+/// estimate stands still or the residual is more than three times of it. Impulses that miss the rule are the
+/// best by the estimate.
 template <class T, class Problem, class Strips>
 SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, SolverWorkspace<Problem>& work,
                             Strips& strips, Solution<Problem>& solution, bool accelerated) {
   StoppingTest test(rule);
-  solution.impulses.resize(problem.q.size());
-  auto& own = work.strips;
-  if (problem.W.plan.empty())
-    own.plan = sweep_plan(static_cast<std::int32_t>(problem.W.inverse_mass.size()) - 1, problem.W.i,
-                          problem.W.j, own.order);
-  else
-    own.order.clear();
-  strips.pack(problem, problem.W.plan.empty() ? own.plan : problem.W.plan, own.order, solution.impulses);
-
-  double q_squares = 0;
-  for (const double q : problem.q) q_squares += q * q;
-  // rms over contacts, relative to the rms of q.
-  const double residual_scale = q_squares > 0 ? Problem::dim / q_squares : 1;
-
-  bool ended = false;  // what the threads tell one another
-  const auto look = [&](int sweeps, bool finite) {
-    strips.unpack(problem, solution.impulses);
-    ended = test.ends(sweeps, residual_of(problem, solution), finite);
-  };
-
+  const double residual_scale = pack_in_strips(problem, work, strips, solution);
   // Below four strips a second thread costs more than it saves.
   ThreadTeam* team = strips.strips() >= 4 ? work.team : nullptr;
-  const int threads = team ? team->size() : 1;
-  Barrier alone(1);
-  Barrier& barrier = team ? team->barrier() : alone;
   constexpr int patience = 100;  // sweeps without a tenth of progress; a flow takes 10 for that
-  const auto job = [&](int thread) {
-    const int first = strips.first_strip(thread, threads), end = strips.first_strip(thread + 1, threads);
-    for (const int phase : {0, 1}) {
-      for (int strip = first; strip < end; ++strip) strips.load(strip, phase);
-      barrier.meet();
+  constexpr double hope = 2;     // times the tolerance: a residual that is looked for
+  constexpr bool single = sizeof(T) < sizeof(double);
+  const bool always = std::isfinite(rule.max_seconds);
+  SweepState<T> state;
+  state.worth = std::numeric_limits<double>::infinity();
+  double least = std::numeric_limits<double>::infinity(), best = least;
+  for (int progress_at = 0;;) {
+    int until = state.sweeps + 1;
+    while (!test.due(until)) ++until;
+    const bool look = always || until >= rule.max_sweeps;
+    if (team)
+      team->run([&](int t, int threads) {
+        sweep_share(strips, t, threads, until, look, accelerated, state, [=] { team->meet(t); });
+      });
+    else
+      sweep_share(strips, 0, 1, until, look, accelerated, state, [] {});
+    if (!state.looked) continue;
+    const double seen = std::sqrt(strips.residual_squares() * residual_scale);
+    // Residuals fall about as steps do.
+    const double fall = hope * rule.tolerance / seen;
+    state.worth = state.steps * fall * fall;
+    if (seen < 0.9 * least) least = seen, progress_at = state.sweeps;
+    // Rounding of single precision hides the progress.
+    const bool stuck = single && state.sweeps - progress_at >= patience;
+    const bool last = state.sweeps >= rule.max_sweeps || !state.finite;
+    if (seen < best) best = seen, strips.keep();
+    if (!last && !stuck && seen > rule.tolerance && !always) continue;
+    strips.unpack(problem, false, solution.impulses);
+    const bool ended = test.ends(state.sweeps, residual_of(problem, solution), state.finite);
+    const bool hidden = single && test.report().residual.rms > 3 * seen;
+    if (!ended && !stuck && !hidden) continue;
+    if (best < seen && test.report().status != Status::converged) {
+      strips.unpack(problem, true, solution.impulses);
+      test.replace(residual_of(problem, solution));
     }
-    for (int strip = first; strip < end; ++strip) strips.start(strip);
-    Momentum momentum;
-    double beta = 0, best = std::numeric_limits<double>::infinity();
-    int best_at = 0;
-    for (int sweeps = 1;; ++sweeps) {
-      for (const int phase : {0, 1}) {
-        if (phase == 0 && sweeps == 1) barrier.meet();  // all bodies are remembered
-        for (int strip = first; strip < end; ++strip)
-          strips.sweep(strip, phase, sweeps % 2, static_cast<T>(beta), accelerated);
-        barrier.meet();
-      }
-      const double step_squares = strips.step_squares(sweeps % 2);
-      const bool finite = std::isfinite(step_squares), last = sweeps >= rule.max_sweeps || !finite;
-      if (!finite || test.due(sweeps)) {
-        for (int strip = first; strip < end; ++strip) strips.look_at(strip);
-        barrier.meet();
-        const double seen = std::sqrt(strips.residual_squares() * residual_scale);
-        if (seen < 0.9 * best) best = seen, best_at = sweeps;
-        // Rounding of single precision hides the progress.
-        const bool stuck = sizeof(T) < sizeof(double) && sweeps - best_at >= patience;
-        if (last || stuck || seen <= rule.tolerance || std::isfinite(rule.max_seconds)) {
-          if (thread == 0) look(sweeps, finite);
-          barrier.meet();
-          if (ended || stuck) return;
-          if (sizeof(T) < sizeof(double) && test.report().residual.rms > 3 * seen) return;
-        }
-      }
-      beta = momentum.next(step_squares);
-    }
-  };
-  if (team)
-    team->run(job);
-  else
-    job(0);
-  return test.report();
+    return test.report();
+  }
 }
 
 }  // namespace drumlin::particles

@@ -5,6 +5,7 @@
 // Must come after foreach_target.h.
 #include <hwy/highway.h>
 
+#include "particles/solver/body_vectors-inl.h"
 #include "particles/solver/sweep_kernels.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -12,135 +13,35 @@ namespace drumlin::particles::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Four numbers of a body are 256 bits in double precision: longer vectors would only add permutations.
-template <class T>
-using Lanes = hn::CappedTag<T, 32 / sizeof(T)>;
-
-template <class T>
-struct BodyVectors {
-  hn::Vec<Lanes<T>> x, z, s, inverse_mass;
+/// What a couple R_eff r_r changes of the rims of i and j, per r_r; their difference is W_tr.
+template <class V>
+struct Turns {
+  V i, j;
 };
-
-#if HWY_TARGET == HWY_SCALAR
-
-// A processor without vectors, or one that Highway does not know.
-template <class T>
-HWY_INLINE BodyVectors<T> load_bodies(const BodyRecord<T>* bodies, const std::int32_t* index) {
-  const Lanes<T> d;
-  const BodyRecord<T>& b = bodies[index[0]];
-  return {hn::Load(d, &b.x), hn::Load(d, &b.z), hn::Load(d, &b.s), hn::Load(d, &b.inverse_mass)};
-}
-template <class T>
-HWY_INLINE void store_bodies(const BodyVectors<T>& v, BodyRecord<T>* bodies, const std::int32_t* index) {
-  const Lanes<T> d;
-  BodyRecord<T>& b = bodies[index[0]];
-  hn::Store(v.x, d, &b.x), hn::Store(v.z, d, &b.z), hn::Store(v.s, d, &b.s);
+template <class T, class V>
+HWY_INLINE Turns<V> turns_of(V lever, const BodyVectors<T>& I, const BodyVectors<T>& J) {
+  const V other = hn::Sub(hn::Set(Lanes<T>(), T(1)), lever);
+  return {hn::Mul(hn::Add(I.inverse_mass, I.inverse_mass), lever),
+          hn::Mul(hn::Add(J.inverse_mass, J.inverse_mass), other)};
 }
 
-#else
-
-/// Four records become four vectors, and back: the transposition is its own inverse within 4 x 4 blocks.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE void transpose_doubles(D d, V a, V b, V c, V e, V& x, V& z, V& s, V& m) {
-  const V low_ab = hn::InterleaveLower(d, a, b), high_ab = hn::InterleaveUpper(d, a, b);
-  const V low_ce = hn::InterleaveLower(d, c, e), high_ce = hn::InterleaveUpper(d, c, e);
-  x = hn::ConcatLowerLower(d, low_ce, low_ab);
-  z = hn::ConcatLowerLower(d, high_ce, high_ab);
-  s = hn::ConcatUpperUpper(d, low_ce, low_ab);
-  m = hn::ConcatUpperUpper(d, high_ce, high_ab);
+/// lever s_i - (1 - lever) s_j.
+template <class T, class V>
+HWY_INLINE V rolling_velocity(V lever, const BodyVectors<T>& I, const BodyVectors<T>& J) {
+  const V other = hn::Sub(hn::Set(Lanes<T>(), T(1)), lever);
+  return hn::Sub(hn::Mul(lever, I.s), hn::Mul(other, J.s));
 }
 
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE void transpose_floats(D d, V a, V b, V c, V e, V& x, V& z, V& s, V& m) {
-  const hn::Repartition<double, D> wide;
-  const auto low_ab = hn::BitCast(wide, hn::InterleaveLower(d, a, b));
-  const auto high_ab = hn::BitCast(wide, hn::InterleaveUpper(d, a, b));
-  const auto low_ce = hn::BitCast(wide, hn::InterleaveLower(d, c, e));
-  const auto high_ce = hn::BitCast(wide, hn::InterleaveUpper(d, c, e));
-  x = hn::BitCast(d, hn::InterleaveLower(wide, low_ab, low_ce));
-  z = hn::BitCast(d, hn::InterleaveUpper(wide, low_ab, low_ce));
-  s = hn::BitCast(d, hn::InterleaveLower(wide, high_ab, high_ce));
-  m = hn::BitCast(d, hn::InterleaveUpper(wide, high_ab, high_ce));
+template <class V>
+HWY_INLINE V clamped(V value, V bound) {
+  return hn::Min(bound, hn::Max(hn::Neg(bound), value));
 }
-
-HWY_INLINE BodyVectors<double> load_bodies(const BodyRecord<double>* bodies, const std::int32_t* index) {
-  const Lanes<double> d;
-  BodyVectors<double> v;
-#if HWY_TARGET <= HWY_AVX2
-  transpose_doubles(d, hn::Load(d, &bodies[index[0]].x), hn::Load(d, &bodies[index[1]].x),
-                    hn::Load(d, &bodies[index[2]].x), hn::Load(d, &bodies[index[3]].x), v.x, v.z, v.s,
-                    v.inverse_mass);
-#else
-  const auto a = hn::Load(d, &bodies[index[0]].x), b = hn::Load(d, &bodies[index[1]].x);
-  const auto c = hn::Load(d, &bodies[index[0]].s), e = hn::Load(d, &bodies[index[1]].s);
-  v.x = hn::InterleaveLower(d, a, b), v.z = hn::InterleaveUpper(d, a, b);
-  v.s = hn::InterleaveLower(d, c, e), v.inverse_mass = hn::InterleaveUpper(d, c, e);
-#endif
-  return v;
-}
-
-HWY_INLINE void store_bodies(const BodyVectors<double>& v, BodyRecord<double>* bodies,
-                             const std::int32_t* index) {
-  const Lanes<double> d;
-#if HWY_TARGET <= HWY_AVX2
-  hn::Vec<Lanes<double>> a, b, c, e;
-  transpose_doubles(d, v.x, v.z, v.s, v.inverse_mass, a, b, c, e);
-  hn::Store(a, d, &bodies[index[0]].x);
-  hn::Store(b, d, &bodies[index[1]].x);
-  hn::Store(c, d, &bodies[index[2]].x);
-  hn::Store(e, d, &bodies[index[3]].x);
-#else
-  hn::Store(hn::InterleaveLower(d, v.x, v.z), d, &bodies[index[0]].x);
-  hn::Store(hn::InterleaveLower(d, v.s, v.inverse_mass), d, &bodies[index[0]].s);
-  hn::Store(hn::InterleaveUpper(d, v.x, v.z), d, &bodies[index[1]].x);
-  hn::Store(hn::InterleaveUpper(d, v.s, v.inverse_mass), d, &bodies[index[1]].s);
-#endif
-}
-
-HWY_INLINE BodyVectors<float> load_bodies(const BodyRecord<float>* bodies, const std::int32_t* index) {
-  const Lanes<float> d;
-  BodyVectors<float> v;
-#if HWY_TARGET <= HWY_AVX2
-  const hn::Half<Lanes<float>> half;
-  const auto pair = [&](int k) HWY_ATTR {
-    return hn::Combine(d, hn::Load(half, &bodies[index[k + 4]].x), hn::Load(half, &bodies[index[k]].x));
-  };
-  transpose_floats(d, pair(0), pair(1), pair(2), pair(3), v.x, v.z, v.s, v.inverse_mass);
-#else
-  transpose_floats(d, hn::Load(d, &bodies[index[0]].x), hn::Load(d, &bodies[index[1]].x),
-                   hn::Load(d, &bodies[index[2]].x), hn::Load(d, &bodies[index[3]].x), v.x, v.z, v.s,
-                   v.inverse_mass);
-#endif
-  return v;
-}
-
-HWY_INLINE void store_bodies(const BodyVectors<float>& v, BodyRecord<float>* bodies,
-                             const std::int32_t* index) {
-  const Lanes<float> d;
-  hn::Vec<Lanes<float>> a, b, c, e;
-  transpose_floats(d, v.x, v.z, v.s, v.inverse_mass, a, b, c, e);
-#if HWY_TARGET <= HWY_AVX2
-  const hn::Half<Lanes<float>> half;
-  const auto store = [&](hn::Vec<Lanes<float>> pair, int k) HWY_ATTR {
-    hn::Store(hn::LowerHalf(half, pair), half, &bodies[index[k]].x);
-    hn::Store(hn::UpperHalf(half, pair), half, &bodies[index[k + 4]].x);
-  };
-  store(a, 0), store(b, 1), store(c, 2), store(e, 3);
-#else
-  hn::Store(a, d, &bodies[index[0]].x);
-  hn::Store(b, d, &bodies[index[1]].x);
-  hn::Store(c, d, &bodies[index[2]].x);
-  hn::Store(e, d, &bodies[index[3]].x);
-#endif
-}
-
-#endif  // HWY_TARGET == HWY_SCALAR
 
 /// Adds impulses (n, t) of contacts to their bodies.
 template <int dim, bool spin, class T, class V>
 HWY_INLINE void push(V n_x, V n_z, V n, V t, BodyVectors<T>& I, BodyVectors<T>& J) {
   V p_x = hn::Mul(n_x, n), p_z = hn::Mul(n_z, n);
-  if constexpr (dim == 2) {
+  if constexpr (dim >= 2) {
     p_x = hn::Add(p_x, hn::Mul(n_z, t));
     p_z = hn::Sub(p_z, hn::Mul(n_x, t));
   }
@@ -155,6 +56,14 @@ HWY_INLINE void push(V n_x, V n_z, V n, V t, BodyVectors<T>& I, BodyVectors<T>& 
   }
 }
 
+/// Adds the couples of rolling resistance: R_eff r_r on i and its opposite on j.
+template <class T, class V>
+HWY_INLINE void roll(V lever, V r, BodyVectors<T>& I, BodyVectors<T>& J) {
+  const auto turns = turns_of<T>(lever, I, J);
+  I.s = hn::Add(I.s, hn::Mul(turns.i, r));
+  J.s = hn::Sub(J.s, hn::Mul(turns.j, r));
+}
+
 template <class T, int dim, bool spin>
 void load(const ContactBlock<T, dim>* blocks, std::size_t count, BodyRecord<T>* bodies) {
   const Lanes<T> d;
@@ -163,8 +72,9 @@ void load(const ContactBlock<T, dim>* blocks, std::size_t count, BodyRecord<T>* 
     const auto& block = blocks[b];
     for (std::size_t k = 0; k < width; k += hn::Lanes(d)) {
       auto I = load_bodies(bodies, &block.i[k]), J = load_bodies(bodies, &block.j[k]);
-      const auto n = hn::Load(d, &block.r[0][k]), t = dim == 2 ? hn::Load(d, &block.r[dim - 1][k]) : n;
+      const auto n = hn::Load(d, &block.r[0][k]), t = dim >= 2 ? hn::Load(d, &block.r[dim >= 2][k]) : n;
       push<dim, spin, T>(hn::Load(d, &block.n_x[k]), hn::Load(d, &block.n_z[k]), n, t, I, J);
+      if constexpr (dim == 3) roll<T>(hn::Load(d, &block.lever[k]), hn::Load(d, &block.r[2][k]), I, J);
       store_bodies(I, bodies, &block.i[k]);
       store_bodies(J, bodies, &block.j[k]);
     }
@@ -176,6 +86,17 @@ HWY_INLINE double total(const std::array<T, 8>& sums) {
   double sum = 0;
   for (const T s : sums) sum += static_cast<double>(s);
   return sum;
+}
+
+/// Impulses that a sweep starts from. With momentum further on, and `before` becomes what they are.
+template <bool accelerated, class T, class V>
+HWY_INLINE V started_from(const std::array<T, 8>& r, std::array<T, 8>& before, std::size_t k, V beta) {
+  const Lanes<T> d;
+  const V now = hn::Load(d, &r[k]);
+  if constexpr (!accelerated) return now;
+  const V then = hn::Load(d, &before[k]);
+  hn::Store(now, d, &before[k]);
+  return hn::Add(now, hn::Mul(beta, hn::Sub(now, then)));
 }
 
 template <class T, int dim, bool spin, bool accelerated>
@@ -194,34 +115,43 @@ double sweep(ContactBlock<T, dim>* blocks, std::size_t count, BodyRecord<T>* bod
       const V n_x = hn::Load(d, &block.n_x[k]), n_z = hn::Load(d, &block.n_z[k]);
       const V w = hn::Load(d, &block.inverse_W_nn[k]);
       const V dv_x = hn::Sub(I.x, J.x), dv_z = hn::Sub(I.z, J.z);
-      V r_n = hn::Load(d, &block.r[0][k]);
-      if constexpr (accelerated) {
-        const V now = r_n;
-        r_n = hn::Add(now, hn::Mul(beta, hn::Sub(now, hn::Load(d, &block.before[0][k]))));
-        hn::Store(now, d, &block.before[0][k]);
-      }
+      const V r_n = started_from<accelerated>(block.r[0], block.before[0], k, beta);
       const V u_n = hn::Add(hn::Load(d, &block.q[0][k]), hn::Add(hn::Mul(n_x, dv_x), hn::Mul(n_z, dv_z)));
       // Max(a, NaN) is NaN, Max(NaN, a) is not.
       const V new_n = hn::Max(zero, hn::Sub(r_n, hn::Mul(u_n, w)));
       const V dr_n = hn::Sub(new_n, r_n);
       hn::Store(new_n, d, &block.r[0][k]);
       V sum = hn::Mul(dr_n, dr_n);
-      V dr_t = zero;
-      if constexpr (dim == 2) {
-        V r_t = hn::Load(d, &block.r[dim - 1][k]);
-        if constexpr (accelerated) {
-          const V now = r_t;
-          r_t = hn::Add(now, hn::Mul(beta, hn::Sub(now, hn::Load(d, &block.before[dim - 1][k]))));
-          hn::Store(now, d, &block.before[dim - 1][k]);
-        }
+      V dr_t = zero, dr_r = zero;
+      if constexpr (dim >= 2) {
+        const V r_t = started_from<accelerated>(block.r[dim >= 2], block.before[dim >= 2], k, beta);
         V slip = hn::Sub(hn::Mul(n_z, dv_x), hn::Mul(n_x, dv_z));
         if constexpr (spin) slip = hn::Sub(slip, hn::Add(I.s, J.s));
-        const V u_t = hn::Add(hn::Load(d, &block.q[dim - 1][k]), slip);
-        const V bound = hn::Mul(hn::Load(d, &block.mu[k]), new_n);
-        const V wanted = hn::Sub(r_t, hn::Mul(u_t, hn::Mul(w, ratio)));
-        const V new_t = hn::Min(bound, hn::Max(hn::Neg(bound), wanted));
+        const V u_t = hn::Add(hn::Load(d, &block.q[dim >= 2][k]), slip);
+        const V bound = hn::Mul(hn::Load(d, &block.mu[k]), new_n), inverse_W_tt = hn::Mul(w, ratio);
+        V new_t;
+        if constexpr (dim == 2) {
+          new_t = clamped(hn::Sub(r_t, hn::Mul(u_t, inverse_W_tt)), bound);
+        } else {
+          // The minimum over a box, exactly: friction as if rolling were free, clamped; rolling for that;
+          // friction for that.
+          const V r_r = started_from<accelerated>(block.r[2], block.before[2], k, beta);
+          const V lever = hn::Load(d, &block.lever[k]), inverse_W_rr = hn::Load(d, &block.inverse_W_rr[k]);
+          const auto turns = turns_of<T>(lever, I, J);
+          const V W_tr = hn::Sub(turns.j, turns.i);
+          const V u_r = hn::Add(hn::Load(d, &block.q[2][k]), rolling_velocity<T>(lever, I, J));
+          const V pulled = hn::Sub(u_t, hn::Mul(W_tr, hn::Mul(inverse_W_rr, u_r)));
+          const V first = clamped(hn::Sub(r_t, hn::Mul(pulled, hn::Load(d, &block.inverse_W_tt[k]))), bound);
+          const V rolled = hn::Mul(inverse_W_rr, hn::Add(u_r, hn::Mul(W_tr, hn::Sub(first, r_t))));
+          const V new_r = clamped(hn::Sub(r_r, rolled), hn::Mul(hn::Load(d, &block.mu_r[k]), new_n));
+          dr_r = hn::Sub(new_r, r_r);
+          new_t = clamped(hn::Sub(r_t, hn::Mul(inverse_W_tt, hn::Add(u_t, hn::Mul(W_tr, dr_r)))), bound);
+          hn::Store(new_r, d, &block.r[2][k]);
+          sum = hn::Add(sum, hn::Mul(dr_r, dr_r));
+          roll<T>(lever, dr_r, I, J);
+        }
         dr_t = hn::Sub(new_t, r_t);
-        hn::Store(new_t, d, &block.r[dim - 1][k]);
+        hn::Store(new_t, d, &block.r[dim >= 2][k]);
         sum = hn::Add(sum, hn::Mul(dr_t, dr_t));
       }
       hn::Store(hn::Add(hn::Load(d, &squares[k]), sum), d, &squares[k]);
@@ -233,12 +163,57 @@ double sweep(ContactBlock<T, dim>* blocks, std::size_t count, BodyRecord<T>* bod
   return total(squares);
 }
 
+/// Squared distance of r = (r_n, r_t) from the projection of (n, t) on the cone.
+template <class V>
+HWY_INLINE V missed_by_projection(V mu, V n, V t, V r_n, V r_t) {
+  const hn::DFromV<V> d;
+  const V zero = hn::Zero(d), one = hn::Set(d, 1);
+  // Itself inside, else on the ray or the tip.
+  const V size = hn::Abs(t);
+  const V ray = hn::Div(hn::Max(zero, hn::Add(n, hn::Mul(mu, size))), hn::Add(one, hn::Mul(mu, mu)));
+  const auto inside = hn::Le(size, hn::Mul(mu, n));
+  const V missed_n = hn::Sub(hn::IfThenElse(inside, n, ray), r_n);
+  const V missed_t = hn::Sub(hn::IfThenElse(inside, t, hn::CopySign(hn::Mul(mu, ray), t)), r_t);
+  return hn::Add(hn::Mul(missed_n, missed_n), hn::Mul(missed_t, missed_t));
+}
+
+/// The same with rolling resistance (project_on_cone in particles/contact/cone.hpp).
+template <class V>
+HWY_INLINE V missed_by_projection(V mu, V mu_r, V n, V t, V r, V r_n, V r_t, V r_r) {
+  const hn::DFromV<V> d;
+  const V one = hn::Set(d, 1), mu_2 = hn::Mul(mu, mu), mu_r_2 = hn::Mul(mu_r, mu_r);
+  const V with_t = hn::Mul(mu, hn::Abs(t)), with_r = hn::Mul(mu_r, hn::Abs(r));
+  V along = hn::Max(hn::Zero(d), n);
+  along = hn::Max(along, hn::Div(hn::Add(n, with_t), hn::Add(one, mu_2)));
+  along = hn::Max(along, hn::Div(hn::Add(n, with_r), hn::Add(one, mu_r_2)));
+  along = hn::Max(along, hn::Div(hn::Add(hn::Add(n, with_t), with_r), hn::Add(hn::Add(one, mu_2), mu_r_2)));
+  const V missed_n = hn::Sub(along, r_n), missed_t = hn::Sub(clamped(t, hn::Mul(mu, along)), r_t);
+  const V missed_r = hn::Sub(clamped(r, hn::Mul(mu_r, along)), r_r);
+  return hn::Add(hn::Add(hn::Mul(missed_n, missed_n), hn::Mul(missed_t, missed_t)),
+                 hn::Mul(missed_r, missed_r));
+}
+
+/// 1 / lambda_max(W_aa) with rolling resistance: the larger eigenvalue of friction and rolling, W_nn being
+/// below W_tt = 3 W_nn.
+template <class T, class V>
+HWY_INLINE V inverse_eigenvalue(V lever, const BodyVectors<T>& I, const BodyVectors<T>& J) {
+  const Lanes<T> d;
+  const V w = hn::Add(I.inverse_mass, J.inverse_mass), half = hn::Set(d, T(0.5)), one = hn::Set(d, T(1));
+  const auto turns = turns_of<T>(lever, I, J);
+  const V W_tt = hn::Add(w, hn::Add(w, w)), W_tr = hn::Sub(turns.j, turns.i);
+  const V W_rr = hn::Add(hn::Mul(lever, turns.i), hn::Mul(hn::Sub(one, lever), turns.j));
+  const V mean = hn::Mul(half, hn::Add(W_tt, W_rr)), off = hn::Mul(half, hn::Sub(W_tt, W_rr));
+  const V largest = hn::Add(mean, hn::Sqrt(hn::Add(hn::Mul(off, off), hn::Mul(W_tr, W_tr))));
+  // Places that are filled up have none.
+  return hn::Div(one, hn::Max(largest, hn::Set(d, T(1e-15))));
+}
+
 template <class T, int dim, bool spin>
 double residual(const ContactBlock<T, dim>* blocks, std::size_t count, const BodyRecord<T>* bodies) {
   const Lanes<T> d;
   using V = hn::Vec<Lanes<T>>;
   constexpr int width = ContactBlock<T, dim>::width;
-  const V zero = hn::Zero(d), one = hn::Set(d, T(1));
+  [[maybe_unused]] const V zero = hn::Zero(d);
   const V ratio = hn::Set(d, dim == 2 && spin ? T(1) / T(3) : T(1));  // W_nn / lambda_max
   HWY_ALIGN std::array<T, width> squares{};
   for (std::size_t b = 0; b < count; ++b) {
@@ -246,7 +221,7 @@ double residual(const ContactBlock<T, dim>* blocks, std::size_t count, const Bod
     for (std::size_t k = 0; k < width; k += hn::Lanes(d)) {
       const auto I = load_bodies(bodies, &block.i[k]), J = load_bodies(bodies, &block.j[k]);
       const V n_x = hn::Load(d, &block.n_x[k]), n_z = hn::Load(d, &block.n_z[k]);
-      const V rho = hn::Mul(hn::Load(d, &block.inverse_W_nn[k]), ratio);
+      V rho = hn::Mul(hn::Load(d, &block.inverse_W_nn[k]), ratio);
       const V dv_x = hn::Sub(I.x, J.x), dv_z = hn::Sub(I.z, J.z);
       const V r_n = hn::Load(d, &block.r[0][k]);
       V u_n = hn::Add(hn::Load(d, &block.q[0][k]), hn::Add(hn::Mul(n_x, dv_x), hn::Mul(n_z, dv_z)));
@@ -257,17 +232,21 @@ double residual(const ContactBlock<T, dim>* blocks, std::size_t count, const Bod
       } else {
         V slip = hn::Sub(hn::Mul(n_z, dv_x), hn::Mul(n_x, dv_z));
         if constexpr (spin) slip = hn::Sub(slip, hn::Add(I.s, J.s));
-        const V u_t = hn::Add(hn::Load(d, &block.q[dim - 1][k]), slip);
-        const V mu = hn::Load(d, &block.mu[k]), r_t = hn::Load(d, &block.r[dim - 1][k]);
+        const V u_t = hn::Add(hn::Load(d, &block.q[dim >= 2][k]), slip);
+        const V mu = hn::Load(d, &block.mu[k]), r_t = hn::Load(d, &block.r[dim >= 2][k]);
         u_n = hn::Add(u_n, hn::Mul(mu, hn::Abs(u_t)));  // De Saxce
-        const V n = hn::Sub(r_n, hn::Mul(rho, u_n)), t = hn::Sub(r_t, hn::Mul(rho, u_t));
-        // Projection on the cone: itself inside, else on the ray or the tip.
-        const V size = hn::Abs(t);
-        const V ray = hn::Div(hn::Max(zero, hn::Add(n, hn::Mul(mu, size))), hn::Add(one, hn::Mul(mu, mu)));
-        const auto inside = hn::Le(size, hn::Mul(mu, n));
-        const V missed_n = hn::Sub(hn::IfThenElse(inside, n, ray), r_n);
-        const V missed_t = hn::Sub(hn::IfThenElse(inside, t, hn::CopySign(hn::Mul(mu, ray), t)), r_t);
-        sum = hn::Add(hn::Mul(missed_n, missed_n), hn::Mul(missed_t, missed_t));
+        if constexpr (dim == 2) {
+          const V n = hn::Sub(r_n, hn::Mul(rho, u_n)), t = hn::Sub(r_t, hn::Mul(rho, u_t));
+          sum = missed_by_projection(mu, n, t, r_n, r_t);
+        } else {
+          const V lever = hn::Load(d, &block.lever[k]), mu_r = hn::Load(d, &block.mu_r[k]);
+          const V r_r = hn::Load(d, &block.r[2][k]);
+          const V u_r = hn::Add(hn::Load(d, &block.q[2][k]), rolling_velocity<T>(lever, I, J));
+          u_n = hn::Add(u_n, hn::Mul(mu_r, hn::Abs(u_r)));
+          rho = inverse_eigenvalue<T>(lever, I, J);
+          const V n = hn::Sub(r_n, hn::Mul(rho, u_n)), t = hn::Sub(r_t, hn::Mul(rho, u_t));
+          sum = missed_by_projection(mu, mu_r, n, t, hn::Sub(r_r, hn::Mul(rho, u_r)), r_n, r_t, r_r);
+        }
       }
       sum = hn::Div(sum, hn::Mul(rho, rho));
       hn::Store(hn::Add(hn::Load(d, &squares[k]), sum), d, &squares[k]);
@@ -302,9 +281,11 @@ void go_on(BodyRecord<T>* bodies, BodyRecord<T>* before, std::size_t count, T be
 DRUMLIN_KERNELS(double, double_smooth, 1, false)
 DRUMLIN_KERNELS(double, double_friction, 2, false)
 DRUMLIN_KERNELS(double, double_spin, 2, true)
+DRUMLIN_KERNELS(double, double_rolling, 3, true)
 DRUMLIN_KERNELS(float, float_smooth, 1, false)
 DRUMLIN_KERNELS(float, float_friction, 2, false)
 DRUMLIN_KERNELS(float, float_spin, 2, true)
+DRUMLIN_KERNELS(float, float_rolling, 3, true)
 #undef DRUMLIN_KERNELS
 
 void go_on_double(BodyRecord<double>* bodies, BodyRecord<double>* before, std::size_t n, double beta) {
@@ -349,9 +330,11 @@ HWY_EXPORT(go_on_float);
 DRUMLIN_DISPATCH(double, double, double_smooth, 1, false)
 DRUMLIN_DISPATCH(double, double, double_friction, 2, false)
 DRUMLIN_DISPATCH(double, double, double_spin, 2, true)
+DRUMLIN_DISPATCH(double, double, double_rolling, 3, true)
 DRUMLIN_DISPATCH(float, float, float_smooth, 1, false)
 DRUMLIN_DISPATCH(float, float, float_friction, 2, false)
 DRUMLIN_DISPATCH(float, float, float_spin, 2, true)
+DRUMLIN_DISPATCH(float, float, float_rolling, 3, true)
 #undef DRUMLIN_DISPATCH
 
 }  // namespace drumlin::particles

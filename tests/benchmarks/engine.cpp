@@ -8,8 +8,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "apps/support/json_file.hpp"
 #include "coupling/common/errors.hpp"
@@ -143,6 +146,39 @@ Json two_threads(const Flow& flow, int repetitions) {
           {"ms_two_threads", median(two)}, {"speed", median(ratios)}};
 }
 
+/// Threads that never rest, as of other processes.
+class BusyLoops {
+ public:
+  explicit BusyLoops(int count) {
+    for (int k = 0; k < count; ++k)
+      loops_.emplace_back([this] {
+        while (!over_.load(std::memory_order_relaxed)) {
+        }
+      });
+  }
+  ~BusyLoops() {
+    over_ = true;
+    for (std::thread& loop : loops_) loop.join();
+  }
+
+ private:
+  std::atomic<bool> over_{false};
+  std::vector<std::thread> loops_;
+};
+
+/// Time of the steps on two threads over that on one, in turn, beside busy loops.
+Json beside_busy_loops(const Flow& flow, int count) {
+  std::vector<Contestant> contestants;
+  contestants.reserve(2);
+  for (const int threads : {1, 2})
+    contestants.emplace_back(flow, "accelerated", threads, fixed_sweeps(many_sweeps));
+  const BusyLoops busy(count);
+  std::array<double, 2> seconds{};
+  for (const FlowStep& step : flow.steps)
+    for (std::size_t k = 0; k < 2; ++k) seconds[k] += contestants[k].replay(step).solve.seconds;
+  return {{"busy_loops", count}, {"two_threads_over_one", seconds[1] / seconds[0]}};
+}
+
 Json cost_of_size(const Flow& flow, int repetitions) {
   std::vector<Contestant> contestants;
   contestants.reserve(2);
@@ -177,6 +213,7 @@ void measure(Json& result, const Scene& scene, const std::filesystem::path& cach
   keep("solves");
   result["threads"] = Json::array({two_threads(flow, repetitions + 1)});
   if (!quick) result["threads"].push_back(two_threads(flow_of(scene, 30000, 10, cache), repetitions + 1));
+  for (const int loops : {1, 4}) result["beside"].push_back(beside_busy_loops(flow, loops));
   keep("threads");
   result["sizes"] = Json::array();
   for (const int discs : quick ? std::vector<int>{400, 800} : std::vector<int>{2000, 7183, 30000, 100000}) {

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <set>
 
@@ -124,7 +126,7 @@ std::vector<double> solved(const std::string& solver, ThreadTeam* team, int swee
 TEST(Strips, AnyNumberOfThreadsGivesTheSameBytes) {
   for (const char* solver : {"nlgs", "accelerated", "accelerated-double", "cpg"}) {
     const auto alone = solved(solver, nullptr, 50);
-    for (const int threads : {2, 3, 4}) {
+    for (const int threads : {2, 3, 4, 8, 16}) {  // more than there are processors, too
       ThreadTeam team(threads);
       EXPECT_EQ(alone, solved(solver, &team, 50)) << solver << ", " << threads;
     }
@@ -161,6 +163,132 @@ TEST(Strips, SweepsAgreeWithThoseOfOneContactAfterTheOther) {
   for (std::size_t k = 0; k < scalar.impulses.size(); ++k)
     worst = std::max(worst, std::abs(in_strips.impulses[k] - scalar.impulses[k]));
   EXPECT_LT(worst, 1e-12);  // rounding of 20 sweeps
+}
+
+/// The lattice with rolling resistance, its walls moved by forces, in the order of its plan.
+DrivenRollingProblem rolling_lattice(int columns, int rows, bool driven) {
+  const auto source = lattice(columns, rows, 4);
+  std::vector<std::int32_t> order;
+  const SweepPlan plan = sweep_plan(columns * rows, source.W.i, source.W.j, order);
+  DrivenRollingProblem problem;
+  auto& W = problem.W;
+  W.inverse_mass = source.W.inverse_mass;
+  if (driven) {
+    W.driven = {{0.6, 0.8, 0.02}, {0, 1, 0.05}};
+    W.inverse_mass.insert(W.inverse_mass.end(), 2, 0.0);
+  }
+  for (const auto a : order) {
+    const bool wall = source.W.j[a] == columns * rows;
+    const int moved = driven && wall ? 1 + source.W.i[a] % 2 : 0;
+    W.add(source.W.i[a], source.W.j[a] + moved, source.W.n_x[a], source.W.n_z[a], wall ? 1 : 0.4);
+    problem.q.insert(problem.q.end(), {source.q[2 * a], source.q[2 * a + 1], 0.5 * source.q[2 * a + 1]});
+    problem.mu.insert(problem.mu.end(), {0.4, 0.1});
+  }
+  W.plan = plan;
+  return problem;
+}
+
+std::vector<double> solved(const DrivenRollingProblem& problem, const char* solver, ThreadTeam* team,
+                           int sweeps) {
+  SolverWorkspace<DrivenRollingProblem> work;
+  work.team = team;
+  StoppingRule rule;
+  rule.tolerance = 0;
+  rule.max_sweeps = sweeps;
+  Solution<DrivenRollingProblem> solution;
+  (void)contact_solver<DrivenRollingProblem>(solver)(problem, rule, work, solution);
+  return solution.impulses;
+}
+
+TEST(Strips, RollingAndDrivenWallsGiveTheSameBytesOnAnyThreadsAndInstructionSet) {
+  const auto problem = rolling_lattice(100, 60, true);
+  for (const char* solver : {"nlgs", "accelerated"}) {
+    const auto alone = solved(problem, solver, nullptr, 30);
+    for (const int threads : {2, 3, 8}) {
+      ThreadTeam team(threads);
+      EXPECT_EQ(alone, solved(problem, solver, &team, 30)) << solver << ", " << threads;
+    }
+    for (const auto target : hwy::SupportedAndGeneratedTargets()) {
+      hwy::SetSupportedTargetsForTest(target);
+      hwy::GetChosenTarget().DeInit();
+      EXPECT_EQ(alone, solved(problem, solver, nullptr, 30)) << solver << " on " << hwy::TargetName(target);
+    }
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().DeInit();
+  }
+}
+
+TEST(Strips, RollingSweepsAgreeWithThoseOfOneContactAfterTheOther) {
+  const auto problem = rolling_lattice(40, 30, false);
+  const auto in_strips = solved(problem, "nlgs", nullptr, 20);
+  const auto scalar = solved(problem, "nlgs-scalar", nullptr, 20);
+  double worst = 0;
+  for (std::size_t k = 0; k < scalar.size(); ++k) worst = std::max(worst, std::abs(in_strips[k] - scalar[k]));
+  EXPECT_LT(worst, 1e-12);  // rounding of 20 sweeps
+}
+
+TEST(Strips, DrivenWallsAndRollingConvergeAsOneContactAfterTheOtherDoes) {
+  // Contacts of walls come last in strips: other sweeps, the same solution.
+  auto problem = rolling_lattice(14, 10, true);
+  std::fill(problem.mu.begin(), problem.mu.end(), 0.05);  // so that both converge
+  StoppingRule rule;
+  rule.tolerance = 1e-7;
+  rule.max_sweeps = 100000;
+  std::vector<std::vector<double>> velocities;
+  for (const char* solver : {"accelerated", "nlgs-scalar"}) {
+    SolverWorkspace<DrivenRollingProblem> work;
+    Solution<DrivenRollingProblem> solution;
+    const auto report = contact_solver<DrivenRollingProblem>(solver)(problem, rule, work, solution);
+    EXPECT_EQ(report.status, Status::converged) << solver;
+    velocities.push_back(solution.velocities.contacts);
+  }
+  double worst = 0;
+  for (std::size_t k = 0; k < velocities[0].size(); ++k)
+    worst = std::max(worst, std::abs(velocities[0][k] - velocities[1][k]));
+  EXPECT_LT(worst, 1e-5);  // of velocities of 0.1, at a residual of 1e-7
+}
+
+TEST(Strips, ASolveThatRunsOutReturnsTheBestThatItLookedAt) {
+  const auto problem = lattice(60, 40, 5);
+  StoppingRule rule;
+  rule.tolerance = 0;
+  rule.check_every = 1;
+  for (const char* solver : {"accelerated", "accelerated-double", "nncg"}) {
+    double best = std::numeric_limits<double>::infinity();
+    for (int sweeps = 1; sweeps <= 81; sweeps += 4) {  // far away, each fourth residual is looked at
+      rule.max_sweeps = sweeps;
+      SolverWorkspace<CoulombSpinProblem> work;
+      Solution<CoulombSpinProblem> solution;
+      const auto report = contact_solver<CoulombSpinProblem>(solver)(problem, rule, work, solution);
+      EXPECT_EQ(report.status, Status::out_of_sweeps);
+      EXPECT_EQ(report.residual.rms, residual_of(problem, solution).rms);
+      EXPECT_LE(report.residual.rms, best * 1.001)
+          << solver << ", " << sweeps;  // estimates in single precision
+      best = std::min(best, report.residual.rms);
+    }
+  }
+}
+
+TEST(Strips, AColumnOfNDiscsTakesSomeNSweeps) {
+  // 9 to 10 n were measured for 100 and for 1000 discs; plain sweeps take n^2.
+  for (const int discs : {100, 300}) {
+    CoulombSpinProblem problem;
+    problem.W.inverse_mass.assign(discs, 1.0);
+    problem.W.inverse_mass.push_back(0);
+    for (int k = 0; k < discs; ++k) {
+      problem.W.add(k, k == 0 ? discs : k - 1, 0, 1);
+      problem.q.insert(problem.q.end(), {k == 0 ? -1e-3 : 0.0, 0.0});
+      problem.mu.push_back(0.4);
+    }
+    StoppingRule rule;
+    rule.tolerance = 1e-6;
+    rule.max_sweeps = 20 * discs;
+    SolverWorkspace<CoulombSpinProblem> work;
+    Solution<CoulombSpinProblem> solution;
+    const auto report =
+        contact_solver<CoulombSpinProblem>("accelerated-double")(problem, rule, work, solution);
+    EXPECT_EQ(report.status, Status::converged) << discs << ", " << report.residual.rms;
+  }
 }
 
 }  // namespace

@@ -1,0 +1,87 @@
+#pragma once
+// Contacts of walls that contacts push, in a solve in strips: one wall is a body of many contacts, so that
+// they are swept one after the other, on one thread, after the strips.
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "particles/contact/general_delassus.hpp"
+#include "particles/contact/residual.hpp"
+#include "particles/solver/sweep_kernels.hpp"
+
+namespace drumlin::particles {
+
+/// What the sweep of one of them needs, in double precision whatever that of the strips.
+template <int dim>
+struct DrivenContact {
+  using Impulse = std::array<double, dim>;
+  int contact = 0;               ///< of the problem
+  std::int32_t i = 0, wall = 0;  ///< records of the grain and of the wall
+  double n_x = 0, n_z = 0, lever = 1, largest_eigenvalue = 0;
+  DrivenBody driven;
+  LocalBlock W;
+  Impulse q{}, r{}, before{}, kept{};
+  std::array<double, 2> mu{};  ///< friction, rolling
+};
+
+/// Adds impulses of a contact to the records of its grain and of its wall, which holds the wall's change of
+/// velocity.
+template <bool spin, class T, int dim>
+void push(const DrivenContact<dim>& c, const typename DrivenContact<dim>::Impulse& r, BodyRecord<T>* bodies) {
+  BodyRecord<T>&I = bodies[c.i], &J = bodies[c.wall];
+  double p_x = c.n_x * r[0], p_z = c.n_z * r[0];
+  if constexpr (dim >= 2) p_x += c.n_z * r[1], p_z -= c.n_x * r[1];
+  const double m = I.inverse_mass;
+  I.x += static_cast<T>(m * p_x), I.z += static_cast<T>(m * p_z);
+  if constexpr (spin && dim >= 2) I.s -= static_cast<T>(2 * m * r[1]);
+  if constexpr (dim == 3) I.s += static_cast<T>(2 * m * c.lever * r[2]);
+  const double along = (p_x * c.driven.e_x + p_z * c.driven.e_z) * c.driven.inverse_mass;
+  J.x -= static_cast<T>(along * c.driven.e_x), J.z -= static_cast<T>(along * c.driven.e_z);
+}
+
+/// u = W r + q of a contact. A wall does not turn.
+template <bool spin, class T, int dim>
+std::array<double, dim> velocity(const DrivenContact<dim>& c, const BodyRecord<T>* bodies) {
+  const BodyRecord<T>&I = bodies[c.i], &J = bodies[c.wall];
+  const double d_x = I.x - J.x, d_z = I.z - J.z;
+  auto u = c.q;
+  u[0] += c.n_x * d_x + c.n_z * d_z;
+  if constexpr (dim >= 2) u[1] += c.n_z * d_x - c.n_x * d_z;
+  if constexpr (spin && dim >= 2) u[1] -= I.s;
+  if constexpr (dim == 3) u[2] += c.lever * I.s;
+  return u;
+}
+
+/// One Gauss-Seidel sweep, as SweepKernels::sweep does.
+template <bool spin, class T, int dim>
+double sweep(std::span<DrivenContact<dim>> contacts, BodyRecord<T>* bodies, T beta, bool accelerated) {
+  double squares = 0;
+  for (auto& c : contacts) {
+    auto start = c.r;
+    if (accelerated)
+      for (int e = 0; e < dim; ++e) start[e] += static_cast<double>(beta) * (c.r[e] - c.before[e]);
+    c.before = c.r;
+    c.r = solved_contact<dim>(c.W, c.mu.data(), velocity<spin>(c, bodies), start);
+    auto step = c.r;
+    for (int e = 0; e < dim; ++e) {
+      step[e] -= start[e];
+      squares += step[e] * step[e];
+    }
+    push<spin>(c, step, bodies);
+  }
+  return squares;
+}
+
+/// The sum of their squared residuals e_a.
+template <bool spin, class T, int dim>
+double residual(std::span<const DrivenContact<dim>> contacts, const BodyRecord<T>* bodies) {
+  double squares = 0;
+  for (const auto& c : contacts) {
+    const auto u = velocity<spin>(c, bodies);
+    squares += squared_error<dim>(c.largest_eigenvalue, c.mu.data(), c.r.data(), u.data());
+  }
+  return squares;
+}
+
+}  // namespace drumlin::particles

@@ -1,0 +1,60 @@
+// Thread teams: every share of a job is done once, whatever the number of threads and their processors, and a
+// team whose threads wait gives its jobs fewer of them.
+#include "particles/parallel/thread_team.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+#include <vector>
+
+namespace drumlin {
+using namespace particles;
+namespace {
+
+TEST(ThreadTeam, EveryShareOfAJobIsDoneOnceAndThreadsMeet) {
+  for (const int size : {1, 2, 3, 8}) {
+    ThreadTeam team(size);
+    std::vector<long> sums(static_cast<std::size_t>(size), 0);
+    for (long job = 0; job < 300; ++job) {
+      std::vector<int> first(static_cast<std::size_t>(size), 0), second = first;
+      int threads_of_job = 0;
+      team.run([&](int t, int threads) {
+        const auto thread = static_cast<std::size_t>(t);
+        if (t == 0) threads_of_job = threads;
+        ++first[thread];
+        team.meet(t);
+        for (int other = 0; other < threads; ++other)
+          second[thread] += first[static_cast<std::size_t>(other)];
+        team.meet(t);
+        first[thread] = 0;
+      });
+      ASSERT_GE(threads_of_job, 1);
+      ASSERT_LE(threads_of_job, size);
+      for (int t = 0; t < size; ++t) {
+        const auto thread = static_cast<std::size_t>(t);
+        ASSERT_EQ(second[thread], t < threads_of_job ? threads_of_job : 0);
+        ASSERT_EQ(first[thread], 0);
+      }
+    }
+  }
+}
+
+TEST(ThreadTeam, ThreadsThatWaitAreLeftAloneForAWhileAndTriedAgain) {
+  // Nobody works: each job sleeps, as if its processor had been taken away.
+  ThreadTeam team(2);
+  const auto sleep = [&](int t, int) {
+    if (t == 0) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    team.meet(t);
+  };
+  EXPECT_EQ(team.threads(), 2);
+  team.run(sleep);
+  EXPECT_EQ(team.threads(), 1);
+  int jobs = 0;
+  for (; team.threads() == 1; ++jobs) team.run(sleep);
+  EXPECT_GT(jobs, 1);
+  EXPECT_EQ(team.threads(), 2);
+}
+
+}  // namespace
+}  // namespace drumlin
