@@ -44,8 +44,8 @@ double cpu_seconds() {
 }
 
 const char* const log_header =
-    "step,time_s,stage,contacts,sweeps,residual,residual_max,penetration,overlap_mean,overlap_max,"
-    "kinetic_energy,converged\n";
+    "step,time_s,stage,contacts,sweeps,residual,residual_max,penetration,sinking,overlap_mean,"
+    "overlap_max,kinetic_energy,converged\n";
 
 class ParticleRun {
  public:
@@ -114,6 +114,8 @@ class ParticleRun {
     totals_.residual_max = std::max(totals_.residual_max, residual.rms);
     totals_.penetration_sum += residual.penetration;
     totals_.penetration_max = std::max(totals_.penetration_max, residual.penetration);
+    totals_.sinking_sum += residual.sinking;
+    totals_.sinking_max = std::max(totals_.sinking_max, residual.sinking);
     totals_.overlap_sum += last_.overlap.mean;
     totals_.overlap_max = std::max(totals_.overlap_max, last_.overlap.max);
     totals_.detection_seconds += last_.detection_seconds;
@@ -125,11 +127,11 @@ class ParticleRun {
   void log_step(bool converged) {
     const auto& state = simulation_.state();
     const auto& residual = last_.solve.residual;
-    log_.write(fmt::format("{},{:.9g},{},{},{},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.9g},{}\n", state.step,
-                           simulated_seconds(), scene_.stages[state.stage].name, last_.contacts,
+    log_.write(fmt::format("{},{:.9g},{},{},{},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.9g},{}\n",
+                           state.step, simulated_seconds(), scene_.stages[state.stage].name, last_.contacts,
                            last_.solve.sweeps, residual.rms, residual.max, residual.penetration,
-                           last_.overlap.mean, last_.overlap.max, kinetic_energy(state.bodies),
-                           converged ? 1 : 0));
+                           residual.sinking, last_.overlap.mean, last_.overlap.max,
+                           kinetic_energy(state.bodies), converged ? 1 : 0));
     if (state.energy) log_energy(*state.energy);
   }
 
@@ -234,9 +236,9 @@ class ParticleRun {
     const auto& residual = last_.solve.residual;
     return fmt::format(
         "contact solver {} ({}) after {} sweeps: residual {:.3g} (tolerance {:g}), penetration {:.3g} d "
-        "(tolerance {:g})",
+        "and sinking {:.3g} d (tolerance {:g})",
         scene_.solver.name, particles::to_string(last_.solve.status), last_.solve.sweeps, residual.rms,
-        scene_.solver.tolerance, residual.penetration, scene_.solver.penetration_tolerance);
+        scene_.solver.tolerance, residual.penetration, residual.sinking, scene_.solver.penetration_tolerance);
   }
 
   std::string describe(const particles::LostGrain& lost) const {

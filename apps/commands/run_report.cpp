@@ -46,6 +46,8 @@ nlohmann::ordered_json accuracy(const RunProgress& run, double steps) {
           {"residual_max", t.residual_max},
           {"penetration_mean", t.penetration_sum / steps},
           {"penetration_max", t.penetration_max},
+          {"sinking_mean", t.sinking_sum / steps},
+          {"sinking_max", t.sinking_max},
           {"overlap_mean", t.overlap_sum / steps},
           {"overlap_max", t.overlap_max}};
 }
@@ -108,13 +110,13 @@ std::string run_summary(const RunProgress& run) {
   const double steps = std::max<double>(1, static_cast<double>(state.step));
   std::string text = fmt::format(
       "{}{} steps, {} snapshots in {} ({:.0f} s of processor time); {} steps missed a tolerance (residual "
-      "{:g}, penetration {:g} d)\n"
-      "residual mean {:.2g}, largest {:.2g}; penetration mean {:.2g} d, largest {:.2g} d; overlap mean "
-      "{:.2g} d, largest {:.2g} d\n",
+      "{:g}, penetration and sinking {:g} d)\n"
+      "residual mean {:.2g}, largest {:.2g}; penetration mean {:.2g} d, largest {:.2g} d; sinking mean "
+      "{:.2g} d, largest {:.2g} d; overlap mean {:.2g} d, largest {:.2g} d\n",
       run.scene.reduced ? "reduced: " : "", state.step, state.snapshots, duration_text(t.wall_seconds),
       t.cpu_seconds, t.unconverged_steps, run.scene.solver.tolerance, run.scene.solver.penetration_tolerance,
       t.residual_sum / steps, t.residual_max, t.penetration_sum / steps, t.penetration_max,
-      t.overlap_sum / steps, t.overlap_max);
+      t.sinking_sum / steps, t.sinking_max, t.overlap_sum / steps, t.overlap_max);
   text += fmt::format("{:<12}{:>12}{:>12}{:>9}\n", "time", "s", "ms/step", "share");
   for (const TimePart& part : time_parts(t))
     text +=

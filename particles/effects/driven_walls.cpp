@@ -38,17 +38,30 @@ void add_driven_walls(const Walls& walls, std::span<const DrivenState> states, d
   }
 }
 
+namespace {
+
+/// Moves the shapes of driven wall k at the end of a step by `way` along its direction.
+void move_shapes(std::size_t k, double way, WallStep& walls) {
+  const Point shift = along({}, walls.driven[k], way);
+  for (std::size_t s = 0; s < walls.after.size(); ++s) {
+    if (walls.driven_of_shape[s] != static_cast<std::int32_t>(k)) continue;
+    walls.after[s] = moved(Rigid({0, shift.x, shift.z}), walls.after[s]);
+    walls.displacement[s].x += shift.x, walls.displacement[s].z += shift.z;
+  }
+}
+
+}  // namespace
+
+void shift_driven_wall(std::size_t k, double way, WallStep& walls, DrivenState& state) {
+  move_shapes(k, way, walls);
+  state.position += way;
+}
+
 void move_driven_walls(const FreeMotion& motion, double time_step, WallStep& walls,
                        std::span<DrivenState> states) {
   for (std::size_t k = 0; k < walls.driven.size(); ++k) {
-    const Driven& wall = walls.driven[k];
-    const double without = free_velocity(wall, states[k], time_step);
-    const Point shift = along({}, wall, time_step * (motion.driven[k] - without));
-    for (std::size_t s = 0; s < walls.after.size(); ++s) {
-      if (walls.driven_of_shape[s] != static_cast<std::int32_t>(k)) continue;
-      walls.after[s] = moved(Rigid({0, shift.x, shift.z}), walls.after[s]);
-      walls.displacement[s].x += shift.x, walls.displacement[s].z += shift.z;
-    }
+    const double without = free_velocity(walls.driven[k], states[k], time_step);
+    move_shapes(k, time_step * (motion.driven[k] - without), walls);
     states[k].velocity = motion.driven[k];
     states[k].position += time_step * motion.driven[k];
   }

@@ -61,5 +61,7 @@ inline Point along(const Point& v, const Driven& wall, double change) {
 /// Moves walls with the velocities that contacts left them (`motion.driven`): their states, and their shapes
 /// and displacements at the end of the step.
 void move_driven_walls(const FreeMotion& motion, double time_step, WallStep&, std::span<DrivenState>);
+/// Moves driven wall k by `way` along its direction at the end of a step: position and shapes, not velocity.
+void shift_driven_wall(std::size_t k, double way, WallStep&, DrivenState&);
 
 }  // namespace drumlin::particles

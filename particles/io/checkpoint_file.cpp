@@ -22,6 +22,8 @@ void each_number(C& c, Visit visit) {
   visit("totals/residual_max", t.residual_max);
   visit("totals/penetration_sum", t.penetration_sum);
   visit("totals/penetration_max", t.penetration_max);
+  visit("totals/sinking_sum", t.sinking_sum);
+  visit("totals/sinking_max", t.sinking_max);
   visit("totals/overlap_sum", t.overlap_sum);
   visit("totals/overlap_max", t.overlap_max);
   visit("totals/wall_seconds", t.wall_seconds);

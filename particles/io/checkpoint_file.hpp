@@ -17,6 +17,7 @@ struct RunTotals {
   double contact_sweeps = 0;  ///< contacts times sweeps, summed
   double residual_sum = 0, residual_max = 0;
   double penetration_sum = 0, penetration_max = 0;
+  double sinking_sum = 0, sinking_max = 0;
   double overlap_sum = 0, overlap_max = 0;
   double wall_seconds = 0, cpu_seconds = 0;
   double detection_seconds = 0, setup_seconds = 0, solver_seconds = 0, projection_seconds = 0,

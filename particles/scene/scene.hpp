@@ -163,7 +163,7 @@ struct Stage {
 struct SolverSettings {
   std::string name = "accelerated";
   double tolerance = 1e-2;              ///< of `residual`
-  double penetration_tolerance = 1e-3;  ///< of `penetration`, in d
+  double penetration_tolerance = 1e-3;  ///< of `penetration` and `sinking`, in d
   int max_sweeps = 100;
   int check_every = 10;                ///< sweeps between two evaluations of the residual
   int projection_sweeps = 20;          ///< at most; 0: no position projection

@@ -231,9 +231,9 @@ void describe(Visitor& v, SolverSettings& s) {
   v.value("name", s.name, defaulted("", one_of(contact_solver_names()), "Contact solver."));
   v.value("tolerance", s.tolerance,
           defaulted("", above(0, 10), "The solver may stop below this residual (docs/conventions.md)."));
-  v.value(
-      "penetration_tolerance", s.penetration_tolerance,
-      defaulted("d", above(0, 1e3), "... and below this predicted penetration per step, in mean diameters."));
+  v.value("penetration_tolerance", s.penetration_tolerance,
+          defaulted("d", above(0, 1e3),
+                    "... and below this predicted penetration and sinking per step, in mean diameters."));
   v.value("max_sweeps", s.max_sweeps,
           defaulted("", at_least(1, 1e7), "It stops after this many sweeps in any case."));
   v.value("check_every", s.check_every,

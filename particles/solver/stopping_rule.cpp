@@ -38,7 +38,8 @@ bool StoppingTest::ends(int sweeps, const ContactResidual& residual, bool finite
   report_.seconds = std::chrono::duration<double>(Clock::now() - start_).count();
   if (!finite || std::isnan(residual.rms))
     report_.status = Status::not_finite;
-  else if (residual.rms <= rule_.tolerance && residual.penetration <= rule_.penetration)
+  else if (residual.rms <= rule_.tolerance && residual.penetration <= rule_.penetration &&
+           !(residual.sinking > rule_.sinking))  // not known of a problem without bodies
     report_.status = Status::converged;
   else if (sweeps >= rule_.max_sweeps)
     report_.status = Status::out_of_sweeps;

@@ -11,10 +11,11 @@ namespace drumlin::particles {
 enum class Status { converged, out_of_sweeps, out_of_time, not_finite };
 std::string to_string(Status);
 
-/// A solver stops when both tolerances hold, or at the first limit that it meets.
+/// A solver stops when all tolerances hold, or at the first limit that it meets.
 struct StoppingRule {
   double tolerance = 1e-2;                                       ///< of ContactResidual::rms
   double penetration = std::numeric_limits<double>::infinity();  ///< of ContactResidual::penetration, d
+  double sinking = std::numeric_limits<double>::infinity();      ///< of ContactResidual::sinking, d
   int max_sweeps = 1000;                                         ///< at least 1
   int check_every =
       10;  ///< sweeps between two evaluations of the residual, which cost about one sweep each;

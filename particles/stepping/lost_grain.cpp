@@ -5,12 +5,28 @@
 namespace drumlin::particles {
 
 std::string to_string(LostGrain::How how) {
-  return how == LostGrain::How::left_container ? "left its container"
-                                               : "has a place or speed that is no finite number";
+  switch (how) {
+    case LostGrain::How::left_container:
+      return "left its container";
+    case LostGrain::How::pushed_too_far:
+      return "meets a wall that moves further than the grain's radius in a step (time_step_s is too large)";
+    case LostGrain::How::went_through_wall:
+      return "went through a wall";
+    case LostGrain::How::not_finite:
+      return "has a place or speed that is no finite number";
+  }
+  return "is lost";
 }
 
 bool has_left(const Shape& wall, double radius, double gap) {
   return std::holds_alternative<Container>(wall) && gap < -radius;
+}
+
+bool pushed_too_far(const Shape& wall, const Pose& step, Point grain, Point normal, double radius) {
+  if (!std::holds_alternative<Segment>(wall)) return false;
+  const Point touched{grain.x - radius * normal.x, grain.z - radius * normal.z};
+  const Point before = moved(inverse(step), touched);
+  return std::abs((touched.x - before.x) * normal.x + (touched.z - before.z) * normal.z) > radius;
 }
 
 std::optional<LostGrain> grain_that_is_not_finite(const Bodies& bodies) {

@@ -9,7 +9,7 @@
 namespace drumlin::particles {
 
 struct LostGrain {
-  enum class How { left_container, not_finite };
+  enum class How { left_container, pushed_too_far, went_through_wall, not_finite };
   int grain = 0;
   double x = 0, z = 0;  ///< of its centre, d; not finite where that is what is wrong
   How how = How::not_finite;
@@ -17,8 +17,12 @@ struct LostGrain {
 std::string to_string(LostGrain::How);
 
 /// Whether the centre of a grain with that gap to a wall stands outside a container. (What carries it through
-/// a segment is undone: wall_crossing.hpp.)
+/// a wall is undone as far as it can be: wall_crossing.hpp.)
 bool has_left(const Shape& wall, double radius, double gap);
+
+/// Whether a segment that pushes a grain moves further than the grain's radius along the normal within a
+/// step: then the side on which the grain stands is no longer sure.
+bool pushed_too_far(const Shape& wall, const Pose& step, Point grain, Point normal, double radius);
 
 /// The first grain whose place or kinetic energy is not finite.
 std::optional<LostGrain> grain_that_is_not_finite(const Bodies&);

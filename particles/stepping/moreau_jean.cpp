@@ -14,6 +14,7 @@
 #include "particles/stepping/impacts.hpp"
 #include "particles/stepping/position_projection.hpp"
 #include "particles/stepping/swept_normals.hpp"
+#include "particles/stepping/wall_crossing.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -66,6 +67,7 @@ class MoreauJean final : public Stepper {
 
   StepReport advance(const MovingState& state, WallStep& walls, double time_step) override {
     Bodies& bodies = state.bodies;
+    crossings_.begin(bodies, walls.before);
     const StepInput step{laws_, bodies, walls, state.driven, free_, time_step};
     StepReport report;
     Stopwatch watch;
@@ -84,7 +86,7 @@ class MoreauJean final : public Stepper {
     if (books_) book_contacts(step, contacts_, problem_, solution_.impulses, *books_, *state.energy);
     if constexpr (drives) move_driven_walls(free_, time_step, walls, state.driven);
     (void)watch.lap();
-    report.overlap = project(bodies, walls, time_step, report.lost);
+    report.overlap = project(state, walls, report.lost);
     report.projection_seconds = watch.lap();
     if (books_) books_->close(bodies, time_step, *state.energy);
     return report;
@@ -196,15 +198,20 @@ class MoreauJean final : public Stepper {
       }
   }
 
-  /// The overlap that is left, which is then removed on positions alone.
-  Overlap project(Bodies& bodies, const WallStep& walls, double time_step, std::optional<LostGrain>& lost) {
+  /// The overlap that is left, which is then removed on positions alone. No grain ends beyond a segment.
+  Overlap project(const MovingState& state, WallStep& walls, std::optional<LostGrain>& lost) {
     const MovedContacts contacts{contacts_.pairs, solution_.impulses, dim, problem_.W.plan};
-    const double crossed =
-        OverlapSearch::undo_crossings(contacts.pairs, walls, laws_.period, time_step, bodies);
-    Overlap overlap = overlaps_.find(contacts, bodies, walls, laws_.period, laws_.detection_margin, lost);
-    overlap.max = std::max(overlap.max, crossed);
-    if (solver_.projection_sweeps > 0)
-      projection_.apply(bodies, overlaps_.close(), overlaps_.plan(), solver_.projection_sweeps);
+    const Crossings moved = crossings_.undo(walls, laws_.period, state.bodies);
+    Overlap overlap =
+        overlaps_.find(contacts, state.bodies, walls, laws_.period, laws_.detection_margin, lost);
+    Crossings pushed;
+    if (solver_.projection_sweeps > 0) {
+      projection_.apply({state.bodies, walls, state.driven}, overlaps_.close(), overlaps_.plan(),
+                        solver_.projection_sweeps);
+      pushed = crossings_.undo(walls, laws_.period, state.bodies);
+    }
+    overlap.max = std::max({overlap.max, moved.deepest, pushed.deepest});
+    if (!lost) lost = moved.lost ? moved.lost : pushed.lost;
     return overlap;
   }
 
@@ -222,7 +229,8 @@ class MoreauJean final : public Stepper {
   SolverWorkspace<Problem> work_;
   Solution<Problem> solution_;
   OverlapSearch overlaps_;
-  PositionProjection projection_;
+  PositionProjection<drives> projection_;
+  WallCrossings crossings_;
   std::optional<EnergyBooks> books_;  // only with an energy ledger
 };
 

@@ -3,21 +3,23 @@
 #include <algorithm>
 
 #include "particles/detection/contact_list.hpp"
-#include "particles/stepping/wall_crossing.hpp"
 
 namespace drumlin::particles {
+namespace {
 
-double OverlapSearch::undo_crossings(std::span<const Candidate> pairs, const WallStep& walls,
-                                     const Period& period, double time_step, Bodies& bodies) {
-  double deepest = 0;
-  for (const Candidate& pair : pairs) {
-    if (pair.j >= 0) continue;
-    const std::size_t s = -1 - pair.j;
-    deepest =
-        std::max(deepest, undo_crossing(walls.before[s], walls.after[s], period, time_step, bodies, pair.i));
-  }
-  return deepest;
+std::optional<LostGrain> lost_at_wall(const ClosePair& pair, bool loaded, const Bodies& bodies,
+                                      const WallStep& walls, const Period& period) {
+  const std::size_t shape = -1 - pair.j;
+  const double x = bodies.x[pair.i], z = bodies.z[pair.i], radius = bodies.radius[pair.i];
+  if (has_left(walls.after[shape], radius, pair.gap))
+    return LostGrain{pair.i, x, z, LostGrain::How::left_container};
+  if (loaded && pushed_too_far(walls.after[shape], walls.displacement[shape], {period.first(x), z},
+                               {pair.n_x, pair.n_z}, radius))
+    return LostGrain{pair.i, x, z, LostGrain::How::pushed_too_far};
+  return std::nullopt;
 }
+
+}  // namespace
 
 Overlap OverlapSearch::find(const MovedContacts& contacts, const Bodies& bodies, const WallStep& walls,
                             const Period& period, double margin, std::optional<LostGrain>& lost) {
@@ -39,9 +41,9 @@ Overlap OverlapSearch::find(const MovedContacts& contacts, const Bodies& bodies,
     for (; plan.group_start[group] == static_cast<std::int32_t>(a); ++group)
       plan_.group_start[group] = static_cast<std::int32_t>(close_.size());
     const ClosePair& now = now_[a];
-    if (now.j < 0 && !lost && has_left(walls.after[-1 - now.j], bodies.radius[now.i], now.gap))
-      lost = LostGrain{now.i, bodies.x[now.i], bodies.z[now.i], LostGrain::How::left_container};
-    if (contacts.impulses[contacts.dim * a] > 0) {
+    const bool loaded = contacts.impulses[contacts.dim * a] > 0;
+    if (now.j < 0 && !lost) lost = lost_at_wall(now, loaded, bodies, walls, period);
+    if (loaded) {
       const double depth = std::max(0.0, -now.gap);
       sum += depth;
       overlap.max = std::max(overlap.max, depth);

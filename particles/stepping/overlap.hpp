@@ -36,9 +36,6 @@ class OverlapSearch {
   /// Lets a team share the work; the result does not depend on it.
   void use(ThreadTeam* team) { loops_ = TeamLoops(team); }
 
-  /// Lays grains that crossed a wall back (wall_crossing.hpp); returns the deepest that one was in it.
-  static double undo_crossings(std::span<const Candidate> pairs, const WallStep& walls, const Period& period,
-                               double time_step, Bodies& bodies);
   /// Overlap of the loaded contacts. `lost` receives the first grain that left its container.
   Overlap find(const MovedContacts& contacts, const Bodies& bodies, const WallStep& walls,
                const Period& period, double margin, std::optional<LostGrain>& lost);

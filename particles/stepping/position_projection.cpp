@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "particles/effects/driven_walls.hpp"
+
 namespace drumlin::particles {
 namespace {
 
@@ -14,18 +16,42 @@ constexpr double largest_correction = 2e-3;  // d per step
 // that are solved early overlapped, the same ones in every step: their overlap grew to 0.1 d within a second.
 constexpr double tolerance = 0.05;
 
+/// Adds the walls that a force moves. One that presses and is heavier than the mean grain counts as heavy as
+/// that: a few sweeps would not lift it off the grains, its force would push it further in each step, and
+/// overlap would grow without end (docs/decisions/position-projection.md). Inertia is no matter of positions.
+/// A wall without force keeps its mass: one of huge mass is a fixed wall.
+void add_driven_walls(const Bodies& bodies, const WallStep& walls, DrivenFrictionlessProblem::Delassus& W) {
+  double of_a_grain = 0;
+  for (const double w : bodies.inverse_mass) of_a_grain += w;
+  of_a_grain /= static_cast<double>(bodies.count());
+  W.driven.clear();
+  for (const Driven& wall : walls.driven) {
+    const bool presses = wall.force != 0;
+    W.driven.push_back({wall.direction.x, wall.direction.z,
+                        presses ? std::max(wall.inverse_mass, of_a_grain) : wall.inverse_mass});
+  }
+  W.inverse_mass.resize(W.inverse_mass.size() + walls.driven.size(), 0.0);
+}
+
 }  // namespace
 
-void PositionProjection::apply(Bodies& bodies, std::span<const ClosePair> pairs, const SweepPlan& plan,
-                               int sweeps) {
+template <bool with_driven>
+void PositionProjection<with_driven>::apply(const Movable& movable, std::span<const ClosePair> pairs,
+                                            const SweepPlan& plan, int sweeps) {
+  auto& [bodies, walls, driven] = movable;
   auto& W = problem_.W;
   W.clear();
   W.inverse_mass.assign(bodies.inverse_mass.begin(), bodies.inverse_mass.end());
   W.inverse_mass.push_back(0);
+  const auto fixed = static_cast<std::int32_t>(bodies.count());
+  if constexpr (with_driven) add_driven_walls(bodies, walls, W);
   problem_.q.clear();
   bool overlapped = false;
   for (const ClosePair& pair : pairs) {
-    W.add(pair.i, pair.j < 0 ? static_cast<std::int32_t>(bodies.count()) : pair.j, pair.n_x, pair.n_z);
+    std::int32_t second = pair.j < 0 ? fixed : pair.j;
+    if constexpr (with_driven)
+      if (pair.j < 0 && !walls.driven_of_shape.empty()) second += 1 + walls.driven_of_shape[-1 - pair.j];
+    W.add(pair.i, second, pair.n_x, pair.n_z);
     problem_.q.push_back(pair.gap >= 0 ? pair.gap
                                        : std::max(correction_share * pair.gap, -largest_correction));
     overlapped = overlapped || pair.gap < 0;
@@ -38,10 +64,19 @@ void PositionProjection::apply(Bodies& bodies, std::span<const ClosePair> pairs,
   rule.max_sweeps = sweeps;
   // What is left is seen, and reported, as the overlap of the next step.
   (void)solve_accelerated(problem_, rule, work_, solution_);
+  const auto& moved = solution_.velocities.bodies;
   for (std::size_t b = 0; b < bodies.count(); ++b) {
-    bodies.x[b] += solution_.velocities.bodies[b].x;
-    bodies.z[b] += solution_.velocities.bodies[b].z;
+    bodies.x[b] += moved[b].x;
+    bodies.z[b] += moved[b].z;
   }
+  if constexpr (with_driven)
+    for (std::size_t k = 0; k < walls.driven.size(); ++k) {
+      const auto& wall = moved[fixed + 1 + k];
+      shift_driven_wall(k, wall.x * W.driven[k].e_x + wall.z * W.driven[k].e_z, walls, driven[k]);
+    }
 }
+
+template class PositionProjection<false>;
+template class PositionProjection<true>;
 
 }  // namespace drumlin::particles

@@ -1,33 +1,47 @@
 #pragma once
-// Removes overlap by moving discs along the normals of their contacts, velocities untouched.
+// Removes overlap by moving discs, and walls that a force moves, along the normals of their contacts;
+// velocities stay.
 #include <cstdint>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "particles/bodies/bodies.hpp"
 #include "particles/contact/problems.hpp"
+#include "particles/effects/wall_step.hpp"
 #include "particles/solver/contact_solver.hpp"
 
 namespace drumlin::particles {
 
 /// A contact at the end of a step: the normal points from j to i; j < 0 is a wall.
 struct ClosePair {
-  std::int32_t i = 0, j = 0;
+  std::int32_t i = 0, j = 0;  ///< wall shape s stands as -1 - s
   double gap = 0, n_x = 0, n_z = 0;
 };
 
+/// What the projection moves.
+struct Movable {
+  Bodies& bodies;
+  WallStep& walls;                ///< at the end of the step
+  std::span<DrivenState> driven;  ///< in the order of walls.driven
+};
+
 /// Solves 0 <= gap + n.(d_i - d_j), lambda >= 0 in the metric of the masses (the least displacement): a
-/// contact problem without friction, on positions. Overlaps ask for a share of themselves only.
+/// contact problem without friction, on positions. Overlaps ask for a share of themselves only. Walls that a
+/// force moves give way along their direction (`with_driven`); all others stay.
+template <bool with_driven>
 class PositionProjection {
  public:
   void use(ThreadTeam* team) { work_.team = team; }
-  /// Moves `bodies` by at most `sweeps` sweeps; `pairs` in the order of `plan`.
-  void apply(Bodies& bodies, std::span<const ClosePair> pairs, const SweepPlan& plan, int sweeps);
+  /// Moves by at most `sweeps` sweeps; `pairs` in the order of `plan`.
+  void apply(const Movable&, std::span<const ClosePair> pairs, const SweepPlan& plan, int sweeps);
 
  private:
-  FrictionlessProblem problem_;
-  SolverWorkspace<FrictionlessProblem> work_;
-  Solution<FrictionlessProblem> solution_;
+  using Problem = std::conditional_t<with_driven, DrivenFrictionlessProblem, FrictionlessProblem>;
+
+  Problem problem_;
+  SolverWorkspace<Problem> work_;
+  Solution<Problem> solution_;
 };
 
 }  // namespace drumlin::particles

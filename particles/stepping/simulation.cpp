@@ -22,6 +22,7 @@ StepSolver solver_of(const Scene& scene, int threads) {
   solver.name = asked.name;
   solver.rule.tolerance = asked.tolerance;
   solver.rule.penetration = asked.penetration_tolerance;
+  solver.rule.sinking = asked.penetration_tolerance;
   solver.rule.max_sweeps = asked.max_sweeps;
   solver.rule.check_every = asked.check_every;
   solver.projection_sweeps = asked.projection_sweeps;

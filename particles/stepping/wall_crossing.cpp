@@ -1,40 +1,213 @@
 #include "particles/stepping/wall_crossing.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace drumlin::particles {
 namespace {
 
+// A way through the point at which two segments meet misses neither by rounding. In lengths of a segment.
+constexpr double end_margin = 1e-9;
+// Laid back from one wall a disc can stand beyond the next one of a corner.
+constexpr int most_walls = 8;
+
 /// A point in the axes of a segment: distance along it from its beginning, in lengths, and across.
 struct Place {
   double along = 0, across = 0;
 };
-Place place_at(const Segment& s, double x, double z) {
-  const double e_x = s.to.x - s.from.x, e_z = s.to.z - s.from.z, length = std::hypot(e_x, e_z);
-  const double d_x = x - s.from.x, d_z = z - s.from.z;
-  return {(d_x * e_x + d_z * e_z) / (length * length), (e_x * d_z - e_z * d_x) / length};
+
+/// The way of a disc's centre over the step, as seen from a segment.
+struct Way {
+  Place from, to;
+  double image = 0;  // added to x: the image of the disc that the segment meets
+  bool crosses() const {
+    if (!(from.across * to.across < 0)) return false;
+    const double along = from.along + (to.along - from.along) * share();
+    return along >= -end_margin && along <= 1 + end_margin;
+  }
+  /// Of the way, where it crosses the line of the segment.
+  double share() const { return from.across / (from.across - to.across); }
+};
+
+/// A segment over a step, in the axes that it has at the beginning.
+class MovingSegment {
+ public:
+  MovingSegment(const WallStep& walls, std::size_t shape)
+      : was_(std::get<Segment>(walls.before[shape])),
+        is_(std::get<Segment>(walls.after[shape])),
+        step_(walls.displacement[shape]),
+        there_(step_),
+        back_(inverse(step_)),
+        e_x_(was_.to.x - was_.from.x),
+        e_z_(was_.to.z - was_.from.z),
+        length_(std::hypot(e_x_, e_z_)) {}
+
+  /// The way from `start` to `end` if it crosses the segment. In a periodic domain two images of the disc
+  /// may: the nearest at the start and at the end.
+  std::optional<Way> crossing(Point start, Point end, const Period& period) const {
+    const double middle = (was_.from.x + was_.to.x) / 2;
+    const auto image_of = [&](double x) {
+      return period.open() ? 0 : middle + period.nearest(x - middle) - x;
+    };
+    const double first = image_of(start.x), second = image_of(end.x);
+    if (const Way way = way_of(start, end, first); way.crosses()) return way;
+    if (second != first)
+      if (const Way way = way_of(start, end, second); way.crosses()) return way;
+    return std::nullopt;
+  }
+
+  /// The disc of a way laid onto the side that it came from.
+  Point laid_back(const Way& way, double radius) const {
+    const double across = std::copysign(radius, way.from.across) / length_;
+    const Point place = there_.moved({was_.from.x + way.to.along * e_x_ - across * e_z_,
+                                      was_.from.z + way.to.along * e_z_ + across * e_x_});
+    return {place.x - way.image, place.z};
+  }
+
+  /// A point that moves with the segment.
+  Point carried(Point p) const { return there_.moved(p); }
+
+  /// How far the segment moves across itself where a way begins.
+  double move_across(const Way& way) const {
+    const Point p{was_.from.x + way.from.along * e_x_ - way.from.across / length_ * e_z_,
+                  was_.from.z + way.from.along * e_z_ + way.from.across / length_ * e_x_};
+    const Point then = there_.moved(p);
+    return std::abs(e_x_ * (then.z - p.z) - e_z_ * (then.x - p.x)) / length_;
+  }
+
+  /// Calls `visit(b)` for every disc that can have crossed if none has moved further than `furthest` along an
+  /// axis.
+  template <class Visit>
+  void each_near(const Bodies& bodies, const Period& period, double furthest, Visit visit) const {
+    const auto move_of = [this](Point p) {
+      const Point then = there_.moved(p);
+      return std::hypot(then.x - p.x, then.z - p.z);
+    };
+    // Straight seen from a wall that turns is bent by at most a quarter of its angle on the relative way.
+    const double bend =
+        std::abs(step_.angle) / 4 * (2 * furthest + std::max(move_of(was_.from), move_of(was_.to)));
+    const double reach = furthest + bend;
+    const auto [x_low, x_high] = std::minmax({was_.from.x, was_.to.x, is_.from.x, is_.to.x});
+    const auto [z_low, z_high] = std::minmax({was_.from.z, was_.to.z, is_.from.z, is_.to.z});
+    const bool anywhere = !period.open();
+    for (std::size_t b = 0; b < bodies.count(); ++b)
+      if (bodies.z[b] >= z_low - reach && bodies.z[b] <= z_high + reach &&
+          (anywhere || (bodies.x[b] >= x_low - reach && bodies.x[b] <= x_high + reach)))
+        visit(b);
+  }
+
+ private:
+  Way way_of(Point start, Point end, double image) const {
+    return {place_of({start.x + image, start.z}), place_of(back_.moved({end.x + image, end.z})), image};
+  }
+  Place place_of(Point p) const {
+    const double d_x = p.x - was_.from.x, d_z = p.z - was_.from.z;
+    return {(d_x * e_x_ + d_z * e_z_) / (length_ * length_), (e_x_ * d_z - e_z_ * d_x) / length_};
+  }
+
+  Segment was_, is_;
+  Pose step_;
+  Rigid there_, back_;
+  double e_x_, e_z_, length_;
+};
+
+/// The segment that a disc meets first on its way, with that way.
+struct FirstCrossing {
+  const MovingSegment* wall = nullptr;
+  Way way;
+};
+FirstCrossing first_crossing(std::span<const MovingSegment> walls, Point start, Point end,
+                             const Period& period) {
+  FirstCrossing first;
+  for (const MovingSegment& wall : walls)
+    if (const auto way = wall.crossing(start, end, period))
+      if (!first.wall || way->share() < first.way.share()) first = {&wall, *way};
+  return first;
+}
+
+/// Lays disc b back from every segment that it crossed since it stood at `start`.
+void lay_back(std::span<const MovingSegment> walls, const Period& period, Point start, std::size_t b,
+              Bodies& bodies, Crossings& crossings) {
+  const auto lose = [&](LostGrain::How how) {
+    if (!crossings.lost) crossings.lost = LostGrain{static_cast<int>(b), bodies.x[b], bodies.z[b], how};
+  };
+  const double radius = bodies.radius[b];
+  for (int attempt = 0;; ++attempt) {
+    const auto [wall, way] = first_crossing(walls, start, {bodies.x[b], bodies.z[b]}, period);
+    if (!wall) return;
+    crossings.deepest = std::max(crossings.deepest, radius + std::abs(way.to.across));
+    if (wall->move_across(way) > radius) return lose(LostGrain::How::pushed_too_far);
+    if (attempt > most_walls) return lose(LostGrain::How::went_through_wall);
+    // Where walls leave no room for it, it keeps its place beside one of them.
+    const Point place = attempt < most_walls ? wall->laid_back(way, radius) : wall->carried(start);
+    bodies.x[b] = place.x, bodies.z[b] = place.z;
+  }
+}
+
+/// Lays disc b, whose centre stands outside of a container, back into it if it began the step inside and has
+/// not moved further than the largest disc's radius: pressed out by a larger one, not flown out of a solve
+/// that is worth nothing.
+void lay_into(const Container& was, const Container& is, const Period& period, Point start, std::size_t b,
+              Bodies& bodies, Crossings& crossings) {
+  const double largest = *std::max_element(bodies.radius.begin(), bodies.radius.end());
+  if (std::hypot(bodies.x[b] - start.x, bodies.z[b] - start.z) > largest ||
+      std::hypot(period.nearest(start.x - was.center.x), start.z - was.center.z) > was.radius)
+    return;
+  const double x = period.nearest(bodies.x[b] - is.center.x), z = bodies.z[b] - is.center.z;
+  const double distance = std::hypot(x, z), radius = bodies.radius[b];
+  const double change = (is.radius - radius) / distance - 1;
+  crossings.deepest = std::max(crossings.deepest, distance - is.radius + radius);
+  bodies.x[b] += change * x, bodies.z[b] += change * z;
 }
 
 }  // namespace
 
-double undo_crossing(const Shape& before, const Shape& after, const Period& period, double time_step,
-                     Bodies& bodies, std::size_t b) {
-  const auto* was = std::get_if<Segment>(&before);
-  if (!was) return 0;
-  const auto& is = std::get<Segment>(after);
-  const double middle = (is.from.x + is.to.x) / 2;
-  const double x = middle + period.nearest(bodies.x[b] - middle), z = bodies.z[b];
-  const Place from = place_at(*was, x - time_step * bodies.v_x[b], z - time_step * bodies.v_z[b]);
-  const Place to = place_at(is, x, z);
-  if (from.across * to.across >= 0) return 0;
-  const double crossed = from.along + (to.along - from.along) * from.across / (from.across - to.across);
-  if (crossed < 0 || crossed > 1) return 0;
-  const double radius = bodies.radius[b], depth = radius + std::abs(to.across);
-  const double e_x = is.to.x - is.from.x, e_z = is.to.z - is.from.z, length = std::hypot(e_x, e_z);
-  const double back = std::copysign(depth, from.across);
-  bodies.x[b] -= back * e_z / length;
-  bodies.z[b] += back * e_x / length;
-  return depth;
+void WallCrossings::begin(const Bodies& bodies, std::span<const Shape> shapes) {
+  segments_.clear(), containers_.clear();
+  for (std::size_t s = 0; s < shapes.size(); ++s) {
+    if (std::holds_alternative<Segment>(shapes[s])) segments_.push_back(s);
+    if (std::holds_alternative<Container>(shapes[s])) containers_.push_back(s);
+  }
+  x_ = bodies.x, z_ = bodies.z;
+}
+
+Crossings WallCrossings::undo(const WallStep& walls, const Period& period, Bodies& bodies) {
+  Crossings crossings;
+  undo_at_containers(walls, period, bodies, crossings);
+  if (segments_.empty()) return crossings;
+  undo_at_segments(walls, period, bodies, crossings);
+  undo_at_containers(walls, period, bodies, crossings);
+  return crossings;
+}
+
+void WallCrossings::undo_at_containers(const WallStep& walls, const Period& period, Bodies& bodies,
+                                       Crossings& crossings) const {
+  for (const std::size_t shape : containers_) {
+    const auto& was = std::get<Container>(walls.before[shape]);
+    const auto& is = std::get<Container>(walls.after[shape]);
+    for (std::size_t b = 0; b < bodies.count(); ++b) {
+      const double x = period.nearest(bodies.x[b] - is.center.x), z = bodies.z[b] - is.center.z;
+      if (x * x + z * z > is.radius * is.radius)
+        lay_into(was, is, period, {x_[b], z_[b]}, b, bodies, crossings);
+    }
+  }
+}
+
+void WallCrossings::undo_at_segments(const WallStep& walls, const Period& period, Bodies& bodies,
+                                     Crossings& crossings) {
+  double furthest = 0;
+  for (std::size_t b = 0; b < bodies.count(); ++b)
+    furthest = std::max({furthest, std::abs(bodies.x[b] - x_[b]), std::abs(bodies.z[b] - z_[b])});
+  std::vector<MovingSegment> moving;
+  for (const std::size_t shape : segments_) moving.emplace_back(walls, shape);
+  crossed_.clear();
+  for (const MovingSegment& wall : moving)
+    wall.each_near(bodies, period, furthest, [&](std::size_t b) {
+      if (wall.crossing({x_[b], z_[b]}, {bodies.x[b], bodies.z[b]}, period)) crossed_.push_back(b);
+    });
+  std::sort(crossed_.begin(), crossed_.end());
+  crossed_.erase(std::unique(crossed_.begin(), crossed_.end()), crossed_.end());
+  for (const std::size_t b : crossed_) lay_back(moving, period, {x_[b], z_[b]}, b, bodies, crossings);
 }
 
 }  // namespace drumlin::particles

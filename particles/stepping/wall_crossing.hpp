@@ -1,16 +1,45 @@
 #pragma once
-// Undoes passages of discs through walls: where a solve has failed a small disc, pressed by one a thousand
-// times as heavy, its centre can end a step beyond a segment, which would then push it on and out.
+// Keeps discs within containers and on their side of segments over a step, whatever moved them: their
+// velocity, contacts that a solve left open, the position projection, or the wall itself.
+//
+// A segment pushes a disc towards the side on which its centre stands; a centre that ended a step beyond
+// would be pushed on and out. The side is no memory: it is that at the beginning of the step, seen from the
+// wall.
+#include <optional>
+#include <span>
+#include <vector>
+
 #include "particles/bodies/bodies.hpp"
-#include "particles/bodies/walls.hpp"
 #include "particles/detection/cell_grid.hpp"
+#include "particles/effects/wall_step.hpp"
+#include "particles/stepping/lost_grain.hpp"
 
 namespace drumlin::particles {
 
-/// If the centre of disc b has gone through a segment within the step, between the segment's ends, lays it
-/// onto the side that it came from. Velocities stay. Returns how deep the disc was in the wall; 0 if it did
-/// not cross.
-double undo_crossing(const Shape& before, const Shape& after, const Period& period, double time_step,
-                     Bodies& bodies, std::size_t b);
+/// What became of the discs that crossed a wall.
+struct Crossings {
+  double deepest = 0;             ///< how deep one was in a wall, d; 0: none crossed
+  std::optional<LostGrain> lost;  ///< the first that could not be laid back
+};
+
+/// Remembers where discs stand when a step begins.
+class WallCrossings {
+ public:
+  /// The beginning of a step, before any disc is moved.
+  void begin(const Bodies&, std::span<const Shape> shapes);
+  /// Lays each disc whose centre has crossed a segment since, between the segment's ends, or a container,
+  /// back onto the side that it came from; velocities stay. Lost is one that met a segment which moves
+  /// further than the disc's radius within the step, or for which there is no place. A disc that has moved
+  /// further than the radius of the largest is left outside of a container (has_left()).
+  Crossings undo(const WallStep&, const Period&, Bodies&);
+
+ private:
+  void undo_at_containers(const WallStep&, const Period&, Bodies&, Crossings&) const;
+  void undo_at_segments(const WallStep&, const Period&, Bodies&, Crossings&);
+
+  std::vector<double> x_, z_;                       // centres at the beginning of the step
+  std::vector<std::size_t> segments_, containers_;  // shapes
+  std::vector<std::size_t> crossed_;
+};
 
 }  // namespace drumlin::particles

@@ -116,9 +116,12 @@ TEST(WallCrossing, IsUndoneOntoTheSideItCameFrom) {
   const Segment floor{{-2, 0}, {2, 0}}, lifted{{-2, 0.1}, {2, 0.1}};
   const auto after = [&](double x, double z, double v_x, double v_z, const Segment& to, double& depth) {
     Bodies bodies;
-    add_body(bodies, x, z, 0.5);
-    bodies.v_x[0] = v_x, bodies.v_z[0] = v_z;
-    depth = undo_crossing(floor, to, {}, 1, bodies, 0);
+    add_body(bodies, x - v_x, z - v_z, 0.5);
+    const WallStep step{{floor}, {to}, {{0, to.from.x - floor.from.x, to.from.z - floor.from.z}}};
+    WallCrossings crossings;
+    crossings.begin(bodies, step.before);
+    bodies.x[0] = x, bodies.z[0] = z;
+    depth = crossings.undo(step, {}, bodies).deepest;
     return Point{bodies.x[0], bodies.z[0]};
   };
   double depth = 0;
@@ -129,6 +132,70 @@ TEST(WallCrossing, IsUndoneOntoTheSideItCameFrom) {
   EXPECT_NEAR(after(0, 0.05, 0, 0, floor, depth).z, 0.05, 0);      // deep, but not through
   EXPECT_EQ(depth, 0);
   EXPECT_NEAR(after(3, -0.2, 0, -1, floor, depth).z, -0.2, 0);  // past its end
+}
+
+TEST(WallCrossing, IsSeenAtTheSeamOfAPeriodicDomain) {
+  // A floor as long as the period; the way crosses it just where the period ends.
+  const Segment floor{{0, 0}, {10, 0}};
+  const WallStep step{{floor}, {floor}, {Pose{}}};
+  for (const double x : {-0.01, 9.99, 20.02}) {
+    Bodies bodies;
+    add_body(bodies, x, 0.1, 0.5);
+    WallCrossings crossings;
+    crossings.begin(bodies, step.before);
+    bodies.x[0] += 0.03, bodies.z[0] -= 0.3;
+    EXPECT_NEAR(crossings.undo(step, {0, 10}, bodies).deepest, 0.7, 1e-12) << x;
+    EXPECT_NEAR(bodies.z[0], 0.5, 1e-12);
+    EXPECT_NEAR(bodies.x[0], x + 0.03, 1e-12);
+  }
+}
+
+TEST(WallCrossing, OfAWallThatTurnsIsSeenFromTheWall) {
+  // The end of an arm sweeps over a disc at rest, which stays before it.
+  const Segment arm{{0, 0}, {10, 0}};
+  const Pose turn{0.03, 0, 0};
+  const WallStep step{{arm}, {moved(Rigid(turn), Shape(arm))}, {turn}};
+  Bodies bodies;
+  add_body(bodies, 9, -0.1, 0.5);
+  WallCrossings crossings;
+  crossings.begin(bodies, step.before);
+  EXPECT_GT(crossings.undo(step, {}, bodies).deepest, 0.5);
+  const Point seen = moved(inverse(turn), {bodies.x[0], bodies.z[0]});
+  EXPECT_NEAR(seen.z, -0.5, 1e-12);
+}
+
+TEST(WallCrossing, InACornerEndsWithinBothWalls) {
+  const Segment floor{{0, 0}, {10, 0}}, left{{0, 0}, {0, 10}};
+  const WallStep step{{floor, left}, {floor, left}, {Pose{}, Pose{}}};
+  for (const double slope : {0.5, 1.0, 2.0}) {
+    Bodies bodies;
+    add_body(bodies, 0.3, 0.3, 0.5);
+    WallCrossings crossings;
+    crossings.begin(bodies, step.before);
+    bodies.x[0] -= 0.4 * slope, bodies.z[0] -= 0.4;
+    EXPECT_FALSE(crossings.undo(step, {}, bodies).lost);
+    EXPECT_GT(bodies.x[0], 0) << slope;
+    EXPECT_GT(bodies.z[0], 0) << slope;
+  }
+}
+
+TEST(WallCrossing, OfAContainerIsUndoneUnlessTheDiscFlewOut) {
+  const Container drum{{0, 0}, 5};
+  const WallStep step{{drum}, {drum}, {Pose{}}};
+  const auto x_after = [&](double from, double to) {
+    Bodies bodies;
+    add_body(bodies, from, 0, 0.1);
+    add_body(bodies, 0, 0, 1);
+    WallCrossings crossings;
+    crossings.begin(bodies, step.before);
+    bodies.x[0] = to;
+    (void)crossings.undo(step, {}, bodies);
+    return bodies.x[0];
+  };
+  EXPECT_NEAR(x_after(4.8, 5.2), 4.9, 1e-12);
+  EXPECT_EQ(x_after(4.8, 4.95), 4.95);
+  EXPECT_EQ(x_after(4.1, 5.2), 5.2);  // further than the largest radius
+  EXPECT_EQ(x_after(5.1, 5.2), 5.2);  // was outside before
 }
 
 TEST(Sizes, NoSmallGrainIsPressedThroughAWallByLargeOnes) {

@@ -83,6 +83,25 @@ TEST(Residual, MissingImpulseCountsItsVelocity) {
   EXPECT_NEAR(v.penetration, 0.1, 1e-15);
 }
 
+TEST(Residual, SinkingAddsUpAlongAChain) {
+  // Three discs of mass 1 on one another; each contact lets its disc sink by 0.1 against the one below. Their
+  // impulses are 1 - 0.1 k, the contacts carry those above, and 0.1 (0.9 + 2 0.8 + 3 0.7) / 2.4 is the mean
+  // velocity weighted with what is carried.
+  FrictionlessProblem problem;
+  problem.W.inverse_mass = {1, 1, 1, 0};
+  problem.W.add(0, 3, 0, 1);
+  problem.W.add(1, 0, 0, 1);
+  problem.W.add(2, 1, 0, 1);
+  problem.q = {-1, 0, 0};
+  problem.time_step = 0.1;
+  const std::vector<double> r = {2.4, 1.5, 0.7};
+  const ContactResidual v = residual_of(problem, std::span<const double>(r));
+  EXPECT_NEAR(v.penetration, 0.01, 1e-15);
+  EXPECT_NEAR(v.sinking, 0.1 * 0.46 / 2.4, 1e-15);
+  const std::vector<double> exact = {3, 2, 1};
+  EXPECT_NEAR(residual_of(problem, std::span<const double>(exact)).sinking, 0, 1e-15);
+}
+
 TEST(Residual, TakesTheRmsOverContacts) {
   CoulombSpinProblem problem;
   problem.W.inverse_mass = {1, 1, 0};

@@ -13,5 +13,6 @@ std::vector<HardCase> static_cases();
 std::vector<HardCase> overlap_cases();
 std::vector<HardCase> drum_cases();
 std::vector<HardCase> invariance_cases();
+std::vector<HardCase> wall_cases();
 
 }  // namespace drumlin

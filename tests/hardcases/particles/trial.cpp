@@ -53,6 +53,8 @@ particles::Simulation Trial::start(int threads) const {
   std::set<std::string> walls;
   for (const particles::Wall& wall : scene.walls) walls.insert(wall.name);
   state.pose_at_start.resize(walls.size());
+  for (const particles::WallMotion& motion : scene.stages.front().motions)
+    if (std::holds_alternative<particles::ForceControl>(motion.motion)) state.driven.emplace_back();
   return particles::Simulation(told, std::move(state), threads);
 }
 
@@ -82,6 +84,7 @@ void detail::watch_step(Watch& watch, const particles::Bodies& bodies, const par
   for (const auto* values : {&bodies.x, &bodies.z, &bodies.v_x, &bodies.v_z, &bodies.spin})
     for (const double value : *values) finite = finite && std::isfinite(value);
   watch.steps_not_finite += !finite;
+  watch.steps_lost += report.lost.has_value();
   const double kinetic = kinetic_energy(bodies);
   watch.largest_kinetic = larger(watch.largest_kinetic, kinetic);
   watch.largest_rise = larger(watch.largest_rise, kinetic - kinetic_before);

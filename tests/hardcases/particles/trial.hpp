@@ -35,6 +35,7 @@ std::vector<particles::Wall> trial_box(double half);
 struct Watch {
   int steps = 0;
   int steps_not_finite = 0;    ///< with a NaN or infinity in a position or velocity
+  int steps_lost = 0;          ///< that report a lost grain
   double largest_kinetic = 0;  ///< energy, of all discs
   double largest_rise = 0;     ///< of the kinetic energy within a step
   double largest_overlap = 0;  ///< of a loaded contact before the projection, d
