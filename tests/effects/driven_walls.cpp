@@ -114,12 +114,22 @@ TEST(Piston, OfHugeMassIsAFixedWall) {
   const TemporaryFolder folder, other;
   Scene fixed = column(5, 0, 1e12, 0.02, folder);
   fixed.walls[1].shape = SegmentShape{{-2, 4.99}, {2, 5.01}};  // askew: it squeezes the column a little
-  Scene driven = fixed;
-  fixed.stages[0].motions.clear();
-  const Bodies a = test::bodies_at_end(fixed), b = test::bodies_at_end(driven);
-  for (std::size_t k = 0; k < a.count(); ++k) {
-    EXPECT_NEAR(a.x[k], b.x[k], 1e-7);
-    EXPECT_NEAR(a.z[k], b.z[k], 1e-7);
+  // The projection sweeps the contacts of driven walls last and ends at a twentieth of the overlap: places
+  // agree to that alone. Without it they agree to the residual.
+  for (const int sweeps : {0, fixed.solver.projection_sweeps}) {
+    fixed.solver.projection_sweeps = sweeps;
+    Scene driven = fixed;
+    fixed.stages[0].motions.clear();
+    const Bodies a = test::bodies_at_end(fixed);
+    Simulation simulation(driven);
+    while (!simulation.finished()) (void)simulation.step();
+    const Bodies& b = simulation.state().bodies;
+    EXPECT_NEAR(simulation.state().driven[0].position, 0, 1e-12);
+    for (std::size_t k = 0; k < a.count(); ++k) {
+      EXPECT_NEAR(a.x[k], b.x[k], sweeps == 0 ? 1e-7 : 5e-6);
+      EXPECT_NEAR(a.z[k], b.z[k], sweeps == 0 ? 1e-7 : 5e-6);
+    }
+    fixed.stages[0].motions = driven.stages[0].motions;
   }
 }
 
