@@ -12,7 +12,10 @@ namespace drumlin::particles {
 namespace {
 
 constexpr double longest_spin = 30e-6;  // seconds; to fall asleep and to be woken takes about as long
-constexpr double stretch = 4e-3;        // seconds of jobs that tell whether the threads wait too much
+// Seconds between two jobs before a helper sleeps: a step's serial parts are shorter, and each job would else
+// begin with a thread to wake. It leaves its processor to anybody who wants it meanwhile.
+constexpr double longest_pause = 1e-3;
+constexpr double stretch = 20e-3;       // seconds of jobs that tell whether the threads wait too much
 constexpr double least_share = 0.5;     // of the time, that threads must work
 constexpr double fewer_for_times = 20;  // as long as a bad stretch, so that to try again costs 5 % at most
 
@@ -33,9 +36,10 @@ void pause() {
 #endif
 }
 
-/// Waits until `value` is no longer `old`: spins, then sleeps. Returns the seconds spent spinning.
+/// Waits until `value` is no longer `old`: spins, yields up to `awake` seconds, then sleeps. Returns the seconds
+/// spent spinning.
 template <class T>
-double wait_for_change(const std::atomic<T>& value, T old) {
+double wait_for_change(const std::atomic<T>& value, T old, double awake = 0) {
   constexpr int spins_between_looks = 32;
   if (value.load(std::memory_order_acquire) != old) return 0;
   const double start = now();
@@ -44,6 +48,10 @@ double wait_for_change(const std::atomic<T>& value, T old) {
       if (value.load(std::memory_order_acquire) != old) return std::min(now() - start, longest_spin);
       pause();
     }
+  while (now() - start < awake) {
+    if (value.load(std::memory_order_acquire) != old) return longest_spin;
+    std::this_thread::yield();
+  }
   value.wait(old, std::memory_order_acquire);
   return longest_spin;
 }
@@ -106,7 +114,7 @@ void ThreadTeam::work(int t) {
 void ThreadTeam::help(int t) {
   auto& jobs = members_[static_cast<std::size_t>(t)].jobs;
   for (std::uint32_t seen = 0;; ++seen) {
-    (void)wait_for_change(jobs, seen);
+    (void)wait_for_change(jobs, seen, longest_pause);
     if (over_) return;
     work(t);
     if (running_.fetch_sub(1, std::memory_order_release) == 1) running_.notify_one();
