@@ -36,8 +36,8 @@ void pause() {
 #endif
 }
 
-/// Waits until `value` is no longer `old`: spins, yields up to `awake` seconds, then sleeps. Returns the seconds
-/// spent spinning.
+/// Waits until `value` is no longer `old`: spins, yields up to `awake` seconds, then sleeps. Returns the
+/// seconds spent spinning.
 template <class T>
 double wait_for_change(const std::atomic<T>& value, T old, double awake = 0) {
   constexpr int spins_between_looks = 32;

@@ -197,9 +197,10 @@ std::vector<HardCheck> haff() {
   std::vector<HardCheck> checks;
   for (const double times : {1.0, 2.0, 3.0}) {
     while (!simulation.finished() && simulation.state().time() < times * tau) (void)simulation.step();
-    checks.push_back(equals("sqrt(T(0)/T) - 1 after " + std::to_string(static_cast<int>(times)) + " tau",
-                            times, std::sqrt(before / kinetic_energy(simulation.state().bodies)) - 1,
-                            0.03 * times, "3 %: chance of 900 discs and the step, 1 % each; denser ones part into vortices"));
+    checks.push_back(
+        equals("sqrt(T(0)/T) - 1 after " + std::to_string(static_cast<int>(times)) + " tau", times,
+               std::sqrt(before / kinetic_energy(simulation.state().bodies)) - 1, 0.03 * times,
+               "3 %: chance of 900 discs and the step, 1 % each; denser ones part into vortices"));
   }
   return checks;
 }
