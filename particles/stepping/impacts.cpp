@@ -79,7 +79,8 @@ bool Impacts::find_closings(const StepInput& step, const StepContacts& contacts)
     bool found = false;
     if (pair.j >= 0) {
       const double u_n = pair.n_x * (v_x[pair.i] - v_x[pair.j]) + pair.n_z * (v_z[pair.i] - v_z[pair.j]);
-      found = meets(pair, u_n, 0, slowest_, step.time_step);
+      found = meets(pair, u_n, 0, slowest_, step.time_step) &&
+              !rests(step, pair, static_cast<std::int32_t>(a), u_n);
     } else {
       Point u = prescribed_velocity(step, pair);
       u = {v_x[pair.i] - u.x, v_z[pair.i] - u.z};
@@ -87,7 +88,9 @@ bool Impacts::find_closings(const StepInput& step, const StepContacts& contacts)
         const Point w = velocity_before(step, wall);
         u.x -= w.x, u.z -= w.z;
       }
-      found = meets(pair, normal_part(pair, u), gain_on_wall(step, pair), slowest_, step.time_step);
+      const double u_n = normal_part(pair, u);
+      found = meets(pair, u_n, gain_on_wall(step, pair), slowest_, step.time_step) &&
+              !rests(step, pair, static_cast<std::int32_t>(a), u_n);
     }
     if (found) closings_.push_back(static_cast<std::int32_t>(a));
   }
@@ -150,16 +153,29 @@ Point Impacts::velocity(const StepInput& step, std::int32_t body) const {
   return {taken.v_x, taken.v_z};
 }
 
-bool Impacts::closes(const StepInput& step, const Candidate& pair) const {
+bool Impacts::rests(const StepInput& step, const Candidate& pair, std::int32_t a, double u_n) const {
+  const double load = loads_.of(static_cast<std::size_t>(a));
+  if (load <= 0) return false;
+  double W_nn = step.bodies.inverse_mass[pair.i];
+  if (pair.j >= 0) W_nn += step.bodies.inverse_mass[pair.j];
+  return -u_n <= 2 * load * W_nn;
+}
+
+bool Impacts::closes(const StepInput& step, const StepContacts& contacts, std::int32_t a) const {
+  const Candidate& pair = contacts.pairs[a];
   Point u = velocity(step, pair.i);
   if (const std::int32_t second = second_body_of(step, pair); second >= 0) {
     const Point v = velocity(step, second);
     u.x -= v.x, u.z -= v.z;
   }
-  if (pair.j >= 0) return meets(pair, normal_part(pair, u), 0, slowest_, step.time_step);
-  const Point wall = prescribed_velocity(step, pair);
-  u.x -= wall.x, u.z -= wall.z;
-  return meets(pair, normal_part(pair, u), gain_on_wall(step, pair), slowest_, step.time_step);
+  double gain = 0;
+  if (pair.j < 0) {
+    const Point wall = prescribed_velocity(step, pair);
+    u.x -= wall.x, u.z -= wall.z;
+    gain = gain_on_wall(step, pair);
+  }
+  const double u_n = normal_part(pair, u);
+  return meets(pair, u_n, gain, slowest_, step.time_step) && !rests(step, pair, a, u_n);
 }
 
 bool Impacts::take_in_neighbours(const StepInput& step, const StepContacts& contacts) {
@@ -169,7 +185,8 @@ bool Impacts::take_in_neighbours(const StepInput& step, const StepContacts& cont
       if (place < 0) continue;
       each_pair_of(pass_.bodies[place].body, [&](std::int32_t a) {
         const Candidate& pair = contacts.pairs[a];
-        if (in_pass_[a] != pass_number_ && pair.gap <= touching && closes(step, pair)) add(step, pair, a);
+        if (in_pass_[a] != pass_number_ && pair.gap <= touching && closes(step, contacts, a))
+          add(step, pair, a);
       });
     }
   return pass_.contacts.size() > before;
@@ -190,7 +207,7 @@ void Impacts::find_next_closings(const StepInput& step, const StepContacts& cont
     for (const std::int32_t place : {c.i, c.j}) {
       if (place < 0) continue;
       each_pair_of(pass_.bodies[place].body, [&](std::int32_t a) {
-        if (in_pass_[a] == pass_number_ || !closes(step, contacts.pairs[a])) return;
+        if (in_pass_[a] == pass_number_ || !closes(step, contacts, a)) return;
         in_pass_[a] = pass_number_;
         closings_.push_back(a);
       });
@@ -227,7 +244,8 @@ void Impacts::give_back(const StepInput& step, Bodies& bodies, StepContacts& con
   }
 }
 
-void Impacts::resolve(const StepInput& step, Bodies& bodies, StepContacts& contacts) {
+void Impacts::resolve(const StepInput& step, const Loads& loads, Bodies& bodies, StepContacts& contacts) {
+  loads_ = loads;
   struck_.clear();
   work_ = {};
   count_ = pass_number_ = 0;

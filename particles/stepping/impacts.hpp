@@ -1,6 +1,7 @@
 #pragma once
-// Impacts within a step: pairs that meet, or touch, and close faster than 2 g h rebound before the contact
-// problem of the step is assembled (docs/theory/impacts.md).
+// Impacts within a step: pairs that meet, or touch, and close faster than 2 g h, or than twice what their
+// load of the last step gives them, rebound before the contact problem of the step is assembled
+// (docs/theory/impacts.md).
 //
 // A pass takes the velocities v at the beginning of the step to P(v), P the projection on u_n >= 0 of the
 // closing pairs with Coulomb friction (compression), and gives each normal impulse p back e times, with
@@ -23,13 +24,21 @@ struct StruckGrain {
   double v_x = 0, v_z = 0, spin = 0;
 };
 
+/// Normal impulses that pairs carried in the last step: `dim` numbers per pair, normal first; 0 of a new
+/// pair.
+struct Loads {
+  std::span<const double> impulses;
+  int dim = 1;
+  double of(std::size_t pair) const { return impulses[dim * pair]; }
+};
+
 /// Resolves the impacts of steps; keeps workspace only, and does nothing in a step without impacts.
 class Impacts {
  public:
   /// Adds what impacts change to the velocities and spins of `bodies`, those of `step`, and lists their
   /// impulses in `contacts.strikes`. Velocities of walls moved by a force change too: `contacts.wall_jumps`
   /// adds up by how much.
-  void resolve(const StepInput& step, Bodies& bodies, StepContacts& contacts);
+  void resolve(const StepInput& step, const Loads& loads, Bodies& bodies, StepContacts& contacts);
 
   // Of the last call.
   std::span<const StruckGrain> struck() const { return struck_; }
@@ -48,8 +57,10 @@ class Impacts {
   /// Velocity of a body before the first pass, and after the passes so far.
   Point velocity_before(const StepInput&, std::int32_t body) const;
   Point velocity(const StepInput&, std::int32_t body) const;
-  /// Whether a pair meets within the step fast enough, with the velocities as they stand.
-  bool closes(const StepInput&, const Candidate& pair) const;
+  /// Whether pair a meets within the step fast enough, with the velocities as they stand.
+  bool closes(const StepInput&, const StepContacts&, std::int32_t a) const;
+  /// Whether pair a, which closes at u_n < 0, rests: its load would do as much within two steps.
+  bool rests(const StepInput&, const Candidate& pair, std::int32_t a, double u_n) const;
   /// Takes in the touching pairs that the pass has made close; false if there are none.
   bool take_in_neighbours(const StepInput&, const StepContacts&);
   /// Compresses with all touching pairs that this closes.
@@ -73,6 +84,7 @@ class Impacts {
   ImpactWork work_;
   int count_ = 0, pass_number_ = 0;
   double slowest_ = 0;
+  Loads loads_;
 };
 
 }  // namespace drumlin::particles

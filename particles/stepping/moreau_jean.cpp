@@ -76,7 +76,6 @@ class MoreauJean final : public Stepper {
     if (laws_.cohesion)
       attract(*laws_.cohesion, contacts_.pairs, bodies, walls, step.materials(), time_step, free_,
               contacts_.attraction);
-    recall(state.memory, bodies.count(), time_step);
     assemble<Problem, with_spin>(step, contacts_, problem_);
     report.setup_seconds += watch.lap();
     report.contacts = problem_.contacts();
@@ -140,8 +139,9 @@ class MoreauJean final : public Stepper {
       move_freely(step);
       find_pairs(step);
       report.detection_seconds += watch.lap();
+      recall(state.memory, state.bodies.count(), step.time_step);
       if (!laws_.restitution) return;
-      impacts_.resolve(step, state.bodies, contacts_);
+      impacts_.resolve(step, {solution_.impulses, dim}, state.bodies, contacts_);
       if (books_) books_->strike(impacts_.struck(), impacts_.work(), *state.energy);
       report.impacts += impacts_.count();
       report.setup_seconds += watch.lap();
