@@ -41,10 +41,11 @@ TEST(ThreadTeam, EveryShareOfAJobIsDoneOnceAndThreadsMeet) {
 }
 
 TEST(ThreadTeam, ThreadsThatWaitAreLeftAloneForAWhileAndTriedAgain) {
-  // Nobody works: each job sleeps, as if its processor had been taken away.
+  // Nobody works: each job sleeps longer than the stretch over which a team looks at itself, as if its processor
+  // had been taken away.
   ThreadTeam team(2);
   const auto sleep = [&](int t, int) {
-    if (t == 0) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    if (t == 0) std::this_thread::sleep_for(std::chrono::milliseconds(30));
     team.meet(t);
   };
   EXPECT_EQ(team.threads(), 2);
