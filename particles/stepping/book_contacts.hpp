@@ -15,8 +15,7 @@ Point mean_wall_velocity(const StepInput& step, const StepContacts& contacts, co
   if constexpr (drives_walls<Problem>)
     if (const std::int32_t k = driven_wall_of(step.walls, pair); k >= 0) {
       const Driven& wall = step.walls.driven[k];
-      const double jump = contacts.wall_jumps.empty() ? 0 : contacts.wall_jumps[k];
-      const double mean = (step.driven[k].velocity + jump + step.free.driven[k]) / 2;
+      const double mean = (step.driven[k].velocity + contacts.wall_jumps[k] + step.free.driven[k]) / 2;
       return along(prescribed, wall, mean - free_velocity(wall, step.driven[k], step.time_step));
     }
   return prescribed;

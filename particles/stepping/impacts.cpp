@@ -74,32 +74,20 @@ bool Impacts::find_closings(const StepInput& step, const StepContacts& contacts)
   slowest_ = slowest_impact(*step.laws.restitution, step.time_step);
   const auto& v_x = step.bodies.v_x;
   const auto& v_z = step.bodies.v_z;
-  for (std::size_t a = 0; a < contacts.pairs.size(); ++a) {
+  for (std::int32_t a = 0; a < static_cast<std::int32_t>(contacts.pairs.size()); ++a) {
     const Candidate& pair = contacts.pairs[a];
-    bool found = false;
-    if (pair.j >= 0) {
+    if (pair.j >= 0) {  // nearly all of them: no more than the velocities
       const double u_n = pair.n_x * (v_x[pair.i] - v_x[pair.j]) + pair.n_z * (v_z[pair.i] - v_z[pair.j]);
-      found = meets(pair, u_n, 0, slowest_, step.time_step) &&
-              !rests(step, pair, static_cast<std::int32_t>(a), u_n);
-    } else {
-      Point u = prescribed_velocity(step, pair);
-      u = {v_x[pair.i] - u.x, v_z[pair.i] - u.z};
-      if (const std::int32_t wall = second_body_of(step, pair); wall >= 0) {
-        const Point w = velocity_before(step, wall);
-        u.x -= w.x, u.z -= w.z;
-      }
-      const double u_n = normal_part(pair, u);
-      found = meets(pair, u_n, gain_on_wall(step, pair), slowest_, step.time_step) &&
-              !rests(step, pair, static_cast<std::int32_t>(a), u_n);
+      if (meets(pair, u_n, 0, slowest_, step.time_step) && !rests(step, pair, a, u_n)) closings_.push_back(a);
+    } else if (closes(step, contacts, a)) {
+      closings_.push_back(a);
     }
-    if (found) closings_.push_back(static_cast<std::int32_t>(a));
   }
   return !closings_.empty();
 }
 
 void Impacts::link(const StepInput& step, const StepContacts& contacts) {
-  const std::size_t bodies = step.bodies.count() + step.walls.driven.size();
-  place_.resize(bodies, -1);
+  const std::size_t bodies = place_.size();
   in_pass_.assign(contacts.pairs.size(), -1);
   first_.assign(bodies, -1);
   next_.resize(2 * contacts.pairs.size());
@@ -249,8 +237,8 @@ void Impacts::resolve(const StepInput& step, const Loads& loads, Bodies& bodies,
   struck_.clear();
   work_ = {};
   count_ = pass_number_ = 0;
-  contacts.wall_jumps.resize(step.walls.driven.size(), 0.0);
   wall_jumps_ = contacts.wall_jumps;
+  place_.resize(step.bodies.count() + step.walls.driven.size(), -1);
   if (!find_closings(step, contacts)) return;
   link(step, contacts);
   pass_.bodies.clear();

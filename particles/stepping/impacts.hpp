@@ -79,7 +79,7 @@ class Impacts {
   std::vector<std::int32_t> place_;         // of each body in the pass; -1: not there
   std::vector<std::int32_t> first_, next_;  // pairs of each body, linked
   std::vector<std::int32_t> in_pass_;       // number of the last pass in which a pair took part
-  std::vector<double> wall_jumps_;          // of earlier calls in the same step
+  std::span<const double> wall_jumps_;      // those of the step so far
   std::vector<StruckGrain> struck_;
   ImpactWork work_;
   int count_ = 0, pass_number_ = 0;

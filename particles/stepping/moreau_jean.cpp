@@ -128,13 +128,14 @@ class MoreauJean final : public Stepper {
       free_.driven.clear();
       for (std::size_t k = 0; k < step.driven.size(); ++k)
         free_.driven.push_back(free_velocity(step.walls.driven[k], step.driven[k], step.time_step) +
-                               (contacts_.wall_jumps.empty() ? 0 : contacts_.wall_jumps[k]));
+                               contacts_.wall_jumps[k]);
     }
   }
 
   /// The pairs that may touch once the impacts of the step are over.
   void detect(const StepInput& step, const MovingState& state, Stopwatch& watch, StepReport& report) {
-    contacts_.strikes.clear(), contacts_.wall_jumps.clear();
+    contacts_.strikes.clear();
+    contacts_.wall_jumps.assign(step.driven.size(), 0.0);
     for (int searches = 1;; ++searches) {
       move_freely(step);
       find_pairs(step);

@@ -168,7 +168,7 @@ void WallCrossings::begin(const Bodies& bodies, std::span<const Shape> shapes) {
     if (std::holds_alternative<Segment>(shapes[s])) segments_.push_back(s);
     if (std::holds_alternative<Container>(shapes[s])) containers_.push_back(s);
   }
-  x_ = bodies.x, z_ = bodies.z;
+  if (!segments_.empty() || !containers_.empty()) x_ = bodies.x, z_ = bodies.z;
 }
 
 Crossings WallCrossings::undo(const WallStep& walls, const Period& period, Bodies& bodies) {
