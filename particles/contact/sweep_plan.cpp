@@ -172,60 +172,72 @@ bool SweepPlanner::plan(std::span<const std::int32_t> slice_of_body, std::span<c
   for (std::size_t a = 0; a < pairs; ++a)
     by_slice_[start_[slice_of_contact_[a]]++] = static_cast<std::int32_t>(a);
 
+  order.resize(pairs);
+  colour_.resize(pairs);
+  used_.resize(bodies);
+  groups_.resize(2 * static_cast<std::size_t>(strips));
+  // Slices of the same parity share no body, as in a sweep.
+  for (const int parity : {0, 1})
+    loops_.each_of(strips, [&](int k) { colour(2 * k + parity, i, j, order); });
   plan.group_start.clear();
   plan.slice_start.clear();
-  order.clear();
-  used_.resize(bodies);
-  std::int32_t begin = 0;
-  for (std::int32_t s = 0; s < 2 * strips; ++s) {
+  for (const auto& groups : groups_) {
     plan.slice_start.push_back(static_cast<std::int32_t>(plan.group_start.size()));
-    append_colours(std::span(by_slice_).subspan(begin, start_[s] - begin), i, j, plan, order);
-    begin = start_[s];
+    plan.group_start.insert(plan.group_start.end(), groups.begin(), groups.end());
   }
   plan.slice_start.push_back(static_cast<std::int32_t>(plan.group_start.size()));
   plan.group_start.push_back(static_cast<std::int32_t>(order.size()));
   return true;
 }
 
-void SweepPlanner::append_colours(std::span<const std::int32_t> contacts, std::span<const std::int32_t> i,
-                                  std::span<const std::int32_t> j, SweepPlan& plan,
-                                  std::vector<std::int32_t>& order) {
-  constexpr int most = 64;
-  const auto bodies = static_cast<std::int32_t>(used_.size());
+void SweepPlanner::colour(int slice, std::span<const std::int32_t> i, std::span<const std::int32_t> j,
+                          std::span<std::int32_t> order) {
+  const std::int32_t begin = slice == 0 ? 0 : start_[slice - 1], end = start_[slice];
+  const auto contacts = std::span(by_slice_).subspan(begin, end - begin);
+  groups_[slice].clear();
   std::vector<std::int32_t> left;  // of bodies with more contacts than a mask has bits: served in rounds
-  for (auto served = contacts; !served.empty();) {
-    for (const std::int32_t a : served) {
-      used_[i[a]] = 0;
-      if (moves(j[a], bodies)) used_[j[a]] = 0;
-    }
-    std::array<std::int32_t, most + 1> start{};
-    colour_.resize(served.size());
+  std::int32_t first = begin;
+  for (std::span<const std::int32_t> served = contacts; !served.empty();) {
     std::vector<std::int32_t> next_left;
-    for (std::size_t k = 0; k < served.size(); ++k) {
-      const std::int32_t a = served[k];
-      const bool pair = moves(j[a], bodies);
-      const std::uint64_t taken = used_[i[a]] | (pair ? used_[j[a]] : 0);
-      const int colour = std::countr_one(taken);
-      colour_[k] = static_cast<std::int8_t>(colour);
-      if (colour == most) {
-        next_left.push_back(a);
-        continue;
-      }
-      used_[i[a]] |= std::uint64_t{1} << colour;
-      if (pair) used_[j[a]] |= std::uint64_t{1} << colour;
-      ++start[colour + 1];
-    }
-    const auto first = static_cast<std::int32_t>(order.size());
-    for (int c = 0; c < most && start[c + 1] > 0; ++c) {
-      plan.group_start.push_back(first + start[c]);
-      start[c + 1] += start[c];
-    }
-    order.resize(order.size() + served.size() - next_left.size());
-    for (std::size_t k = 0; k < served.size(); ++k)
-      if (colour_[k] < most) order[first + start[colour_[k]]++] = served[k];
+    first = colour_round(served, first, i, j, groups_[slice], order, next_left);
     left = std::move(next_left);
     served = left;
   }
+}
+
+std::int32_t SweepPlanner::colour_round(std::span<const std::int32_t> served, std::int32_t first,
+                                        std::span<const std::int32_t> i, std::span<const std::int32_t> j,
+                                        std::vector<std::int32_t>& groups, std::span<std::int32_t> order,
+                                        std::vector<std::int32_t>& left) {
+  constexpr int most = 64;
+  const auto bodies = static_cast<std::int32_t>(used_.size());
+  for (const std::int32_t a : served) {
+    used_[i[a]] = 0;
+    if (moves(j[a], bodies)) used_[j[a]] = 0;
+  }
+  std::array<std::int32_t, most + 1> start{};
+  const auto colours = std::span(colour_).subspan(first, served.size());
+  for (std::size_t k = 0; k < served.size(); ++k) {
+    const std::int32_t a = served[k];
+    const bool pair = moves(j[a], bodies);
+    const std::uint64_t taken = used_[i[a]] | (pair ? used_[j[a]] : 0);
+    const int colour = std::countr_one(taken);
+    colours[k] = static_cast<std::int8_t>(colour);
+    if (colour == most) {
+      left.push_back(a);
+      continue;
+    }
+    used_[i[a]] |= std::uint64_t{1} << colour;
+    if (pair) used_[j[a]] |= std::uint64_t{1} << colour;
+    ++start[colour + 1];
+  }
+  for (int c = 0; c < most && start[c + 1] > 0; ++c) {
+    groups.push_back(first + start[c]);
+    start[c + 1] += start[c];
+  }
+  for (std::size_t k = 0; k < served.size(); ++k)
+    if (colours[k] < most) order[first + start[colours[k]]++] = served[k];
+  return first + static_cast<std::int32_t>(served.size() - left.size());
 }
 
 SweepPlan sweep_plan(std::int32_t bodies, std::span<const std::int32_t> i, std::span<const std::int32_t> j,

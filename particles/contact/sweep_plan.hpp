@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "particles/parallel/team_loops.hpp"
+
 namespace drumlin::particles {
 
 /// A sweep in two phases over strips.
@@ -41,6 +43,8 @@ std::vector<std::int32_t> body_slices_along(std::span<const double> position, st
 /// Plans one set of contacts after the other; keeps work space only.
 class SweepPlanner {
  public:
+  /// Lets a team share the work; the plan does not depend on it.
+  void use(ThreadTeam* team) { loops_ = TeamLoops(team); }
   /// Plans the pairs (i, j) in given slices of bodies. `order` receives the pairs in solve order: slice by
   /// slice and greedy colour by colour, in the order given within a colour. False, and nothing planned, if
   /// the slices do not suit the pairs.
@@ -48,10 +52,18 @@ class SweepPlanner {
             std::span<const std::int32_t> j, SweepPlan& plan, std::vector<std::int32_t>& order);
 
  private:
-  void append_colours(std::span<const std::int32_t> contacts, std::span<const std::int32_t> i,
-                      std::span<const std::int32_t> j, SweepPlan& plan, std::vector<std::int32_t>& order);
+  /// Groups of a slice, and the order of its contacts.
+  void colour(int slice, std::span<const std::int32_t> i, std::span<const std::int32_t> j,
+              std::span<std::int32_t> order);
+  /// The same of contacts that are served at once, to places from `first` on; returns the place after them.
+  std::int32_t colour_round(std::span<const std::int32_t> served, std::int32_t first,
+                            std::span<const std::int32_t> i, std::span<const std::int32_t> j,
+                            std::vector<std::int32_t>& groups, std::span<std::int32_t> order,
+                            std::vector<std::int32_t>& left);
 
+  TeamLoops loops_;
   std::vector<std::int32_t> slice_of_contact_, by_slice_, start_;
+  std::vector<std::vector<std::int32_t>> groups_;  // of each slice
   std::vector<std::int8_t> colour_;
   std::vector<std::uint64_t> used_;  // colours of the contacts of each body, one bit each
 };

@@ -168,6 +168,9 @@ class GrainGrids {
     for (const CellGrid& grid : grids()) grid.near(x_low, x_high, z_low, z_high, visit);
   }
 
+  /// Largest diameter, and edge of the cells of the finest grid.
+  double largest() const { return largest_.front(); }
+  double finest_cell() const { return largest_.back() + range_; }
   std::span<const CellGrid> grids() const { return std::span(grids_).first(used_); }
   /// Calls `meet(a, others)` with spans of grains such that every two grains that may be within range meet
   /// once: those of the cells [first, last) of a grid meet others.

@@ -132,6 +132,19 @@ double gap_now(const Candidate& pair, const Bodies& bodies, std::span<const Shap
          bodies.radius[pair.i] - bodies.radius[pair.j];
 }
 
+namespace {
+
+/// Whether a grain is so deep in a container that its wall is beyond `farthest`, by its square: no root.
+bool deep_inside(const Shape& shape, const NearGrain& grain, double farthest) {
+  const auto* container = std::get_if<Container>(&shape);
+  if (container == nullptr) return false;
+  const double within = (container->radius - grain.radius - farthest) * (1 - 1e-12);
+  const double dx = grain.x - container->center.x, dz = grain.z - container->center.z;
+  return within > 0 && dx * dx + dz * dz < within * within;
+}
+
+}  // namespace
+
 void ContactDetection::look_at_wall(const NearGrain& grain, std::int32_t shape, double farthest,
                                     const DetectionInput& input) {
   Candidate pair{grain.body, -1 - shape, 0, 0, 0, 0, 0};
@@ -152,7 +165,9 @@ void ContactDetection::find_near_walls(double fastest, double largest, const Det
   for (std::size_t s = 0; s < input.shapes.size(); ++s) {
     const double farthest =
         input.margin + 2 * (fastest + largest_move(input.shapes[s], input.shape_steps[s]));
+    const bool open = input.period.open();
     const auto near_shape = [&](const NearGrain& grain) {
+      if (open && deep_inside(input.shapes[s], grain, farthest)) return;
       look_at_wall(grain, static_cast<std::int32_t>(s), farthest, input);
     };
     if (const auto box = surroundings(input.shapes[s], largest / 2 + farthest)) {
@@ -181,6 +196,66 @@ const std::vector<Candidate>& ContactDetection::find(const Bodies& bodies, std::
   pairs_.look_after_jolts(rule, jolt_);
   pairs_.keep(rule, jolt_, weighed_, candidates_);
   return candidates_;
+}
+
+bool ContactDetection::is_local(std::span<const ThrownGrain> thrown, double reach) const {
+  const double cells = 2 * reach / grids_.finest_cell() + 2;  // that a grain's search reads, along x and z
+  return static_cast<double>(thrown.size()) * cells * cells < static_cast<double>(jolt_.size());
+}
+
+bool ContactDetection::find_around(std::span<const ThrownGrain> thrown, const Bodies& bodies,
+                                   std::span<const double> v_x, std::span<const double> v_z,
+                                   const DetectionInput& input) {
+  const GrainMotion motion = motion_of(bodies, v_x, v_z, input.time_step);
+  for (const ThrownGrain& t : thrown) jolt_[t.grain] = std::max(jolt_[t.grain], t.push);
+  const double most_jolt = *std::max_element(jolt_.begin(), jolt_.end());
+  const double range = 2 * input.margin + 2 * input.time_step * motion.speeds + 1.5 * most_jolt;
+  if (!is_local(thrown, range + motion.largest)) {
+    find(bodies, v_x, v_z, input);
+    return true;
+  }
+  found_.clear();
+  weighed_.clear();
+  for (const ThrownGrain& t : thrown) find_around(t, range, bodies, v_x, v_z, input);
+  for (const WeighedPair& wall : weighed_)
+    if (wall.pair.gap < input.margin + wall.reach + jolt_[wall.pair.i] / 2) found_.push_back(wall.pair);
+  return insert_found();
+}
+
+void ContactDetection::find_around(const ThrownGrain& thrown, double range, const Bodies& bodies,
+                                   std::span<const double> v_x, std::span<const double> v_z,
+                                   const DetectionInput& input) {
+  const std::int32_t i = thrown.grain;
+  const NearGrain a{bodies.x[i], bodies.z[i], bodies.radius[i], v_x[i], v_z[i], i};
+  const double reach = range + a.radius + grids_.largest() / 2;
+  grids_.near(a.x - reach, a.x + reach, a.z - reach, a.z + reach, [&](const NearGrain& other) {
+    if (other.body == i) return;
+    NearGrain b = other;
+    b.v_x = v_x[b.body], b.v_z = v_z[b.body];
+    const NearPair pair =
+        near_pair(a, b, input.period.nearest(a.x - b.x), a.z - b.z, input.time_step);
+    if (pair.gap < 2 * input.margin + pair.reach + thrown.push / 2 + jolt_[b.body])
+      found_.push_back({pair.i, pair.j, pair.gap, pair.n_x, pair.n_z, 0, 0});
+  });
+  const auto shapes = static_cast<std::int32_t>(input.shapes.size());
+  for (std::int32_t s = 0; s < shapes; ++s)
+    look_at_wall(a, s, std::numeric_limits<double>::infinity(), input);
+}
+
+/// Puts the pairs found in the order of (i, j) among the candidates, once each; returns whether any is new.
+bool ContactDetection::insert_found() {
+  const auto before = [](const Candidate& a, const Candidate& b) {
+    return a.i != b.i ? a.i < b.i : a.j < b.j;
+  };
+  std::sort(found_.begin(), found_.end(), before);
+  const auto same = [](const Candidate& a, const Candidate& b) { return a.i == b.i && a.j == b.j; };
+  found_.erase(std::unique(found_.begin(), found_.end(), same), found_.end());
+  const std::size_t known = candidates_.size();
+  for (const Candidate& pair : found_)
+    if (!std::binary_search(candidates_.begin(), candidates_.begin() + known, pair, before))
+      candidates_.push_back(pair);
+  std::inplace_merge(candidates_.begin(), candidates_.begin() + known, candidates_.end(), before);
+  return candidates_.size() > known;
 }
 
 }  // namespace drumlin::particles

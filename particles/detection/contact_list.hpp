@@ -20,6 +20,12 @@ struct DetectionInput {
   Period period;
 };
 
+/// A grain that impacts have pushed beyond what a search allowed for: by 2 h |change of velocity|.
+struct ThrownGrain {
+  std::int32_t grain = 0;
+  double push = 0;
+};
+
 /// All pairs with gap < margin + 2 h a + h (a_i + a_j), where a is the approach speed of the pair (0 if it
 /// parts) and a_i the largest approach speed of body i in any pair with gap < margin + 2 h a: an impact on i
 /// pushes it on to neighbours that it did not approach. v_x and v_z are the velocities that the bodies would
@@ -33,6 +39,17 @@ class ContactDetection {
   const std::vector<Candidate>& find(const Bodies& bodies, std::span<const double> v_x,
                                      std::span<const double> v_z, const DetectionInput& input);
 
+  /// Adds the pairs that grains thrown by impacts may meet, now that v_x and v_z are the velocities: with a
+  /// wall those with gap < margin + 2 h a + J_i / 2, with another grain k
+  ///   gap < 2 margin + 2 h a + J_i / 2 + jolt(k),
+  /// J_i the push 2 h |change of velocity| of the thrown grain i, which becomes its jolt. So all pairs are
+  /// found that close within the step, if no grain is thrown further than (jolt + margin) / (2 h) again.
+  /// Looks around these grains only, at the places of the last search; anew at all grains where that would be
+  /// most of them. Returns whether the candidates are others than before.
+  bool find_around(std::span<const ThrownGrain> thrown, const Bodies& bodies, std::span<const double> v_x,
+                   std::span<const double> v_z, const DetectionInput& input);
+  const std::vector<Candidate>& candidates() const { return candidates_; }
+
   /// Pairs of grains whose distance the last search measured: what it cost.
   std::int64_t looked_at() const { return pairs_.looked_at(); }
   /// Twice the way, in the last search, by which the approach of its pairs may push a grain: 2 h a_i.
@@ -42,11 +59,18 @@ class ContactDetection {
   void look_at_wall(const NearGrain& grain, std::int32_t shape, double farthest, const DetectionInput&);
   void find_near_walls(double fastest, double largest, const DetectionInput& input);
 
+  /// Whether searches around the thrown grains alone, as far as `reach`, look at fewer grains than there are.
+  bool is_local(std::span<const ThrownGrain> thrown, double reach) const;
+  void find_around(const ThrownGrain& thrown, double range, const Bodies& bodies, std::span<const double> v_x,
+                   std::span<const double> v_z, const DetectionInput& input);
+  bool insert_found();
+
   GrainGrids grids_;
   GrainPairs pairs_;
   std::vector<WeighedPair> weighed_;  // of grains and walls
   std::vector<double> jolt_;          // 2 h a_i of each body
   std::vector<Candidate> candidates_;
+  std::vector<Candidate> found_;  // around thrown grains
 };
 
 /// Gap and normal of a disc and a shape; `point` receives the point of the shape that is nearest.

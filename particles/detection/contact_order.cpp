@@ -21,8 +21,14 @@ void ContactOrder::sort(const std::vector<Candidate>& pairs, const Bodies& bodie
   for (std::size_t p = 0; p < pairs.size(); ++p) i_[p] = pairs[p].i, j_[p] = pairs[p].j;
   const bool along_x = period.open() && extent(bodies.x) > extent(bodies.z);
   planner_.plan(body_slices_along(along_x ? bodies.x : bodies.z, i_, j_), i_, j_, plan, order_);
+  sort_again(pairs, sorted);
+}
+
+void ContactOrder::sort_again(const std::vector<Candidate>& pairs, std::vector<Candidate>& sorted) const {
   sorted.resize(pairs.size());
-  for (std::size_t p = 0; p < pairs.size(); ++p) sorted[p] = pairs[order_[p]];
+  loops_.each(pairs.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) sorted[p] = pairs[order_[p]];
+  });
 }
 
 }  // namespace drumlin::particles

@@ -15,7 +15,45 @@ bool nothing_is_far(const PairRule& rule, double most_jolt) {
   return rule.margin + 2 * rule.time_step * rule.speeds + most_jolt <= rule.range;
 }
 
+/// Pairs weighed side by side: one loop over arrays, which a compiler makes of vectors.
+template <std::size_t most>
+class PairBatch {
+ public:
+  /// dx, dz: from b to a.
+  void set(std::size_t k, const NearGrain& a, const NearGrain& b, double dx, double dz) {
+    const double way = 2.0 * static_cast<int>(a.body < b.body) - 1;  // bodies stand in no order: no branch
+    i_[k] = std::min(a.body, b.body), j_[k] = std::max(a.body, b.body);
+    d_x_[k] = way * dx, d_z_[k] = way * dz;
+    u_x_[k] = way * (a.v_x - b.v_x), u_z_[k] = way * (a.v_z - b.v_z);
+    radii_[k] = a.radius + b.radius;
+  }
+  void weigh(std::size_t count, double twice_step) {
+    for (std::size_t k = 0; k < count; ++k) {
+      const double apart = std::sqrt(d_x_[k] * d_x_[k] + d_z_[k] * d_z_[k]);
+      const bool same_place = !(apart > 0);
+      const double inverse = 1 / (apart + same_place);
+      const double n_x = d_x_[k] * inverse, n_z = d_z_[k] * inverse + same_place;
+      const double approach = -(n_x * u_x_[k] + n_z * u_z_[k]);
+      d_x_[k] = n_x, d_z_[k] = n_z;
+      gap_[k] = apart - radii_[k];
+      reach_[k] = twice_step * ((approach + std::abs(approach)) / 2);
+    }
+  }
+  NearPair pair(std::size_t k) const { return {i_[k], j_[k], gap_[k], d_x_[k], d_z_[k], reach_[k]}; }
+
+ private:
+  std::array<std::int32_t, most> i_, j_;
+  std::array<double, most> d_x_, d_z_, u_x_, u_z_, radii_, gap_, reach_;  // d becomes the normal
+};
+
 }  // namespace
+
+NearPair near_pair(const NearGrain& a, const NearGrain& b, double dx, double dz, double time_step) {
+  PairBatch<1> one;
+  one.set(0, a, b, dx, dz);
+  one.weigh(1, 2 * time_step);
+  return one.pair(0);
+}
 
 /// Collects pairs within a distance and weighs them by the hundred; without a branch that a processor could
 /// guess wrongly.
@@ -39,22 +77,6 @@ class GrainPairs::Weighing {
     }
   }
 
-  /// The pair in the order of its bodies; dx, dz: from b to a.
-  static Near weighed(const NearGrain& a, const NearGrain& b, double dx, double dz, const PairRule& rule) {
-    const double way = 2.0 * static_cast<int>(a.body < b.body) - 1;  // bodies stand in no order: no branch
-    dx *= way, dz *= way;
-    const double apart = std::sqrt(dx * dx + dz * dz);
-    const double inverse = 1 / apart;
-    const double n_x = apart > 0 ? dx * inverse : 0, n_z = apart > 0 ? dz * inverse : 1;
-    const double approach = -way * (n_x * (a.v_x - b.v_x) + n_z * (a.v_z - b.v_z));
-    return {std::min(a.body, b.body),
-            std::max(a.body, b.body),
-            apart - a.radius - b.radius,
-            n_x,
-            n_z,
-            2 * rule.time_step * std::max(0.0, approach)};
-  }
-
  private:
   static constexpr std::size_t most = 512;
   struct Found {
@@ -74,18 +96,22 @@ class GrainPairs::Weighing {
   }
 
   void weigh() {
-    if (piece_.near.size() < piece_.count + count_) piece_.near.resize(piece_.count + count_);
-    Near* const begin = piece_.near.data() + piece_.count;
-    Near* end = begin;
     for (std::size_t f = 0; f < count_; ++f) {
       const NearGrain &a = *found_[f].a, &b = *found_[f].b;
-      *end = weighed(a, b, period_.nearest(a.x - b.x), a.z - b.z, rule_);
+      batch_.set(f, a, b, period_.nearest(a.x - b.x), a.z - b.z);
+    }
+    batch_.weigh(count_, 2 * rule_.time_step);
+    if (piece_.near.size() < piece_.count + count_) piece_.near.resize(piece_.count + count_);
+    NearPair* const begin = piece_.near.data() + piece_.count;
+    NearPair* end = begin;
+    for (std::size_t f = 0; f < count_; ++f) {
+      *end = batch_.pair(f);
       end += end->gap < rule_.range;
     }
     std::vector<Jolt>& jolts = piece_.jolts;
     std::size_t pushed = jolts.size();
     jolts.resize(pushed + (end - begin));
-    for (const Near* pair = begin; pair < end; ++pair) {
+    for (const NearPair* pair = begin; pair < end; ++pair) {
       jolts[pushed] = {pair->i, pair->j, pair->reach};
       pushed += static_cast<std::size_t>(pair->reach > 0) &
                 static_cast<std::size_t>(pair->gap < rule_.margin + pair->reach);
@@ -99,6 +125,7 @@ class GrainPairs::Weighing {
   const PairRule rule_;
   const Period period_;
   std::array<Found, most> found_;
+  PairBatch<most> batch_;
   std::size_t count_ = 0;
 };
 
@@ -158,7 +185,7 @@ void GrainPairs::look_far(const PairRule& rule, std::span<const double> jolts, b
     const double dx = rule.period.nearest(a.x - b.x);
     if (!rule.period.open() && std::abs(a.x - b.x - shift - dx) > rule.period.length / 2) return;
     ++piece.looked_at;
-    const Near pair = Weighing::weighed(a, b, dx, a.z - b.z, rule);
+    const NearPair pair = near_pair(a, b, dx, a.z - b.z, rule.time_step);
     const bool close = pair.gap < rule.margin + pair.reach;
     if (pair.gap < rule.range || close == after_jolts) return;
     if (close)
@@ -182,8 +209,8 @@ void GrainPairs::place(const PairRule& rule, std::span<const double> jolts,
     return gap < rule.margin + reach + jolt / 2;
   };
   loops_.each_of(static_cast<int>(used_), [&](int p) {
-    Near* end = pieces_[p].near.data();
-    for (const Near& pair : pieces_[p].pairs()) {
+    NearPair* end = pieces_[p].near.data();
+    for (const NearPair& pair : pieces_[p].pairs()) {
       *end = pair;
       end += kept(pair.gap, pair.reach, jolts[pair.i] + jolts[pair.j]);
     }
@@ -195,7 +222,7 @@ void GrainPairs::place(const PairRule& rule, std::span<const double> jolts,
       if (const Candidate& pair = walls[w].pair; kept(pair.gap, walls[w].reach, jolts[pair.i]))
         visit(pair.i, Slot{pair.j, static_cast<std::int32_t>(w), nullptr});
     for (std::size_t p = 0; p < used_; ++p)
-      for (const Near& pair : pieces_[p].pairs()) visit(pair.i, Slot{pair.j, -1, &pair});
+      for (const NearPair& pair : pieces_[p].pairs()) visit(pair.i, Slot{pair.j, -1, &pair});
   };
   each([&](std::int32_t i, const Slot&) { ++row_[i + 1]; });
   for (std::size_t i = 1; i < row_.size(); ++i) row_[i] += row_[i - 1];

@@ -18,6 +18,16 @@ struct WeighedPair {
   double reach = 0;
 };
 
+/// A pair of grains, i < j, as a search sees it: its gap, its normal from j to i, and how far it may close,
+/// twice over: 2 h a.
+struct NearPair {
+  std::int32_t i, j;
+  double gap, n_x, n_z;
+  double reach;
+};
+/// The pair of a and b, `dx` and `dz` from b to a (of the nearest images).
+NearPair near_pair(const NearGrain& a, const NearGrain& b, double dx, double dz, double time_step);
+
 /// What decides which pairs are kept: those with gap < margin + 2 h a + (jolt_i + jolt_j) / 2.
 struct PairRule {
   double time_step = 0;
@@ -46,11 +56,6 @@ class GrainPairs {
   std::int64_t looked_at() const { return looked_at_; }
 
  private:
-  struct Near {
-    std::int32_t i, j;
-    double gap, n_x, n_z;
-    double reach;
-  };
   struct Jolt {
     std::int32_t i, j;
     double reach;
@@ -58,16 +63,16 @@ class GrainPairs {
   /// Cells [first, last) of a grid, and the pairs that they find; so few that threads share them evenly.
   struct Piece {
     std::size_t level = 0, first = 0, last = 0;
-    std::vector<Near> near;  // the first `count` of them
+    std::vector<NearPair> near;  // the first `count` of them
     std::size_t count = 0;
     std::vector<Jolt> jolts;
     std::int64_t looked_at = 0;
-    std::span<const Near> pairs() const { return {near.data(), count}; }
+    std::span<const NearPair> pairs() const { return {near.data(), count}; }
   };
   struct Slot {
     std::int32_t j;
     std::int32_t wall;  // place among the walls' pairs, if near is null
-    const Near* near;
+    const NearPair* near;
   };
   class Weighing;
 

@@ -31,7 +31,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-// Searches for pairs within a step, whose impacts may throw grains into pairs that no search has found.
+// Rounds of impacts within a step, which may throw grains into pairs that no search has found.
 constexpr int most_searches = 5;
 
 /// Contacts sorted by their bodies; impulses of the same pair, impacts among them, are added up.
@@ -61,6 +61,7 @@ class MoreauJean final : public Stepper {
     work_.team = &team_;
     projection_.use(&team_);
     detection_.use(&team_);
+    order_.use(&team_);
     overlaps_.use(&team_);
     if (laws.energy_ledger) books_.emplace(laws.gravity);
   }
@@ -136,38 +137,63 @@ class MoreauJean final : public Stepper {
   void detect(const StepInput& step, const MovingState& state, Stopwatch& watch, StepReport& report) {
     contacts_.strikes.clear();
     contacts_.wall_jumps.assign(step.driven.size(), 0.0);
+    move_freely(step);
+    find_pairs(step);
+    report.detection_seconds += watch.lap();
+    recall(state.memory, state.bodies.count(), step.time_step);
+    if (!laws_.restitution) return;
+    searched_.x = free_.x, searched_.z = free_.z;
     for (int searches = 1;; ++searches) {
-      move_freely(step);
-      find_pairs(step);
-      report.detection_seconds += watch.lap();
-      recall(state.memory, state.bodies.count(), step.time_step);
-      if (!laws_.restitution) return;
       impacts_.resolve(step, {solution_.impulses, dim}, state.bodies, contacts_);
       if (books_) books_->strike(impacts_.struck(), impacts_.work(), *state.energy);
       report.impacts += impacts_.count();
       report.setup_seconds += watch.lap();
       if (impacts_.count() == 0) return;
-      if (searches == most_searches || !thrown_far(step)) break;
+      move_freely(step);
+      if (searches == most_searches || !find_thrown(step)) return;
+      const bool more = find_more_pairs(step);
+      report.detection_seconds += watch.lap();
+      if (more) recall(state.memory, state.bodies.count(), step.time_step);
     }
-    move_freely(step);
   }
 
-  /// Whether an impact has thrown a grain further than the search for pairs allowed for.
-  bool thrown_far(const StepInput& step) const {
-    const auto struck = impacts_.struck();
-    return std::any_of(struck.begin(), struck.end(), [&](const StruckGrain& grain) {
-      const double reach = detection_.jolt(grain.grain) + laws_.detection_margin;
-      return 2 * step.time_step * std::hypot(grain.v_x, grain.v_z) > reach;
-    });
+  /// The grains that impacts have thrown further than the search for pairs allowed for; false if none.
+  bool find_thrown(const StepInput& step) {
+    thrown_.clear();
+    for (const StruckGrain& struck : impacts_.struck()) {
+      const std::int32_t b = struck.grain;
+      const double push =
+          2 * step.time_step * std::hypot(free_.x[b] - searched_.x[b], free_.z[b] - searched_.z[b]);
+      if (push <= detection_.jolt(b) + laws_.detection_margin) continue;
+      thrown_.push_back({b, push});
+      searched_.x[b] = free_.x[b], searched_.z[b] = free_.z[b];
+    }
+    return !thrown_.empty();
+  }
+
+  DetectionInput detection_input(const StepInput& step) const {
+    return {step.walls.before, step.walls.displacement, step.time_step, laws_.detection_margin, laws_.period};
   }
 
   /// The pairs that may touch, in solve order, and the plan of their solution.
   void find_pairs(const StepInput& step) {
-    const DetectionInput input{step.walls.before, step.walls.displacement, step.time_step,
-                               laws_.detection_margin, laws_.period};
-    const auto& found = detection_.find(step.bodies, free_.x, free_.z, input);
+    const auto& found = detection_.find(step.bodies, free_.x, free_.z, detection_input(step));
     order_.sort(found, step.bodies, laws_.period, problem_.W.plan, contacts_.pairs);
     sweep_normals(step, contacts_.pairs);
+  }
+
+  /// The same with the pairs that thrown grains may meet; normals of all by the new velocities. Returns
+  /// whether the pairs are others than before.
+  bool find_more_pairs(const StepInput& step) {
+    const bool more =
+        detection_.find_around(thrown_, step.bodies, free_.x, free_.z, detection_input(step));
+    const auto& found = detection_.candidates();
+    if (more)
+      order_.sort(found, step.bodies, laws_.period, problem_.W.plan, contacts_.pairs);
+    else
+      order_.sort_again(found, contacts_.pairs);
+    sweep_normals(step, contacts_.pairs);
+    return more;
   }
 
   /// The warm start.
@@ -221,6 +247,8 @@ class MoreauJean final : public Stepper {
   ContactSolver<Problem> solve_;
   ThreadTeam team_;
   FreeMotion free_;
+  FreeMotion searched_;              // velocities by which pairs were last looked for, grain by grain
+  std::vector<ThrownGrain> thrown_;  // since then
   ContactDetection detection_;
   ContactOrder order_;
   StepContacts contacts_;
