@@ -177,8 +177,7 @@ bool SweepPlanner::plan(std::span<const std::int32_t> slice_of_body, std::span<c
   used_.resize(bodies);
   groups_.resize(2 * static_cast<std::size_t>(strips));
   // Slices of the same parity share no body, as in a sweep.
-  for (const int parity : {0, 1})
-    loops_.each_of(strips, [&](int k) { colour(2 * k + parity, i, j, order); });
+  for (const int parity : {0, 1}) loops_.each_of(strips, [&](int k) { colour(2 * k + parity, i, j, order); });
   plan.group_start.clear();
   plan.slice_start.clear();
   for (const auto& groups : groups_) {

@@ -232,8 +232,7 @@ void ContactDetection::find_around(const ThrownGrain& thrown, double range, cons
     if (other.body == i) return;
     NearGrain b = other;
     b.v_x = v_x[b.body], b.v_z = v_z[b.body];
-    const NearPair pair =
-        near_pair(a, b, input.period.nearest(a.x - b.x), a.z - b.z, input.time_step);
+    const NearPair pair = near_pair(a, b, input.period.nearest(a.x - b.x), a.z - b.z, input.time_step);
     if (pair.gap < 2 * input.margin + pair.reach + thrown.push / 2 + jolt_[b.body])
       found_.push_back({pair.i, pair.j, pair.gap, pair.n_x, pair.n_z, 0, 0});
   });

@@ -176,9 +176,9 @@ void GrainPairs::look_after_jolts(const PairRule& rule, std::span<const double> 
 void GrainPairs::look_far(const PairRule& rule, std::span<const double> jolts, bool after_jolts) {
   const double most_jolt = after_jolts ? *std::max_element(jolts.begin(), jolts.end()) : 0;
   if (nothing_is_far(rule, most_jolt)) return;
-  if (!planted_) tree_.build(*grids_, rule.period);
+  if (!planted_) tree_.build(*grids_, rule.period, loops_);
   planted_ = true;
-  if (after_jolts) tree_.set_jolts(jolts);
+  if (after_jolts) tree_.set_jolts(jolts, loops_);
   Piece& piece = pieces_[0];
   piece.looked_at = 0;
   const auto look_at = [&](const NearGrain& a, const NearGrain& b, double shift) {

@@ -17,22 +17,26 @@ MotionBounds bounds_of(std::span<const NearGrain> grains) {
 
 }  // namespace
 
-void MotionTree::build(const GrainGrids& grids, const Period& period) {
+void MotionTree::build(const GrainGrids& grids, const Period& period, const TeamLoops& loops) {
   period_ = period;
   nodes_.clear();
   roots_.clear();
-  for (const CellGrid& grid : grids.grids()) roots_.push_back(tree_of(grid));
+  for (const CellGrid& grid : grids.grids()) roots_.push_back(tree_of(grid, loops));
 }
 
-std::int32_t MotionTree::tree_of(const CellGrid& grid) {
-  blocks_.clear();
+std::int32_t MotionTree::tree_of(const CellGrid& grid, const TeamLoops& loops) {
   const auto cells = grid.cells();
-  for (std::size_t c = 0; c < grid.count(); ++c) {
-    blocks_.push_back({cells[c].row, cells[c].column, static_cast<std::int32_t>(nodes_.size())});
-    Node& leaf = nodes_.emplace_back();
-    leaf.grains = grid.grains().subspan(cells[c].first, cells[c + 1].first - cells[c].first);
-    leaf.bounds = bounds_of(leaf.grains);
-  }
+  const std::size_t first = nodes_.size();
+  nodes_.resize(first + grid.count());
+  blocks_.resize(grid.count());
+  loops.each(grid.count(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c) {
+      blocks_[c] = {cells[c].row, cells[c].column, static_cast<std::int32_t>(first + c)};
+      Node& leaf = nodes_[first + c];
+      leaf.grains = grid.grains().subspan(cells[c].first, cells[c + 1].first - cells[c].first);
+      leaf.bounds = bounds_of(leaf.grains);
+    }
+  });
   while (blocks_.size() > 1) {
     raise(blocks_, above_);
     blocks_.swap(above_);
@@ -72,14 +76,17 @@ void MotionTree::raise(std::span<const Block> blocks, std::vector<Block>& above)
   }
 }
 
-void MotionTree::set_jolts(std::span<const double> jolts) {
-  for (Node& node : nodes_) {
-    double largest = 0;
-    for (const NearGrain& g : node.grains) largest = std::max(largest, jolts[g.body]);
+void MotionTree::set_jolts(std::span<const double> jolts, const TeamLoops& loops) {
+  loops.each(nodes_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) {
+      double largest = 0;
+      for (const NearGrain& g : nodes_[n].grains) largest = std::max(largest, jolts[g.body]);
+      nodes_[n].bounds.jolt = largest;
+    }
+  });
+  for (Node& node : nodes_)
     for (const std::int32_t c : node.child)
-      if (c >= 0) largest = std::max(largest, nodes_[c].bounds.jolt);
-    node.bounds.jolt = largest;
-  }
+      if (c >= 0) node.bounds.jolt = std::max(node.bounds.jolt, nodes_[c].bounds.jolt);
 }
 
 void MotionTree::open_both(const Node& node) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "particles/detection/cell_grid.hpp"
+#include "particles/parallel/team_loops.hpp"
 
 namespace drumlin::particles {
 
@@ -52,9 +53,9 @@ struct FarSearch {
 /// A tree over each of the grids of a search, and what it bounds. Keeps pointers into the grids.
 class MotionTree {
  public:
-  void build(const GrainGrids& grids, const Period& period);
+  void build(const GrainGrids& grids, const Period& period, const TeamLoops& loops);
   /// Sets what each body may be pushed beyond its own motion; one entry per body.
-  void set_jolts(std::span<const double> jolts);
+  void set_jolts(std::span<const double> jolts, const TeamLoops& loops);
 
   /// Calls `meet(a, b, same, shift)` with the grains of two cells, which are one and the same if `same`, for
   /// all that can hold pairs with
@@ -116,7 +117,7 @@ class MotionTree {
   void open_both(const Node& node);
   void open_one(const Two& two, bool first);
 
-  std::int32_t tree_of(const CellGrid& grid);
+  std::int32_t tree_of(const CellGrid& grid, const TeamLoops& loops);
   void raise(std::span<const Block> blocks, std::vector<Block>& above);
 
   Period period_;

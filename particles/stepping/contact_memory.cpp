@@ -10,20 +10,24 @@ void Recollection::find(const ContactMemory& memory, std::size_t bodies, std::sp
     first_of_body_[memory.i[m]] = static_cast<std::int32_t>(m);
   }
   place_.resize(pairs.size());
-  for (std::size_t a = 0; a < pairs.size(); ++a) {
-    std::int32_t m = first_of_body_[pairs[a].i];
-    while (m >= 0 && memory.j[m] != pairs[a].j) m = next_of_body_[m];
-    place_[a] = m;
-  }
+  loops_.each(pairs.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t a = begin; a < end; ++a) {
+      std::int32_t m = first_of_body_[pairs[a].i];
+      while (m >= 0 && memory.j[m] != pairs[a].j) m = next_of_body_[m];
+      place_[a] = m;
+    }
+  });
 }
 
 void Recollection::warm_start(const ContactMemory& memory, int dim, double time_step,
                               std::vector<double>& impulses) const {
   impulses.assign(dim * place_.size(), 0.0);
   const double scale = memory.time_step > 0 ? time_step / memory.time_step : 1;
-  for (std::size_t a = 0; a < place_.size(); ++a)
-    if (const std::int32_t m = place_[a]; m >= 0)
-      for (int c = 0; c < dim; ++c) impulses[dim * a + c] = scale * memory.impulse[dim * m + c];
+  loops_.each(place_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t a = begin; a < end; ++a)
+      if (const std::int32_t m = place_[a]; m >= 0)
+        for (int c = 0; c < dim; ++c) impulses[dim * a + c] = scale * memory.impulse[dim * m + c];
+  });
 }
 
 void remember(std::span<const Candidate> pairs, const std::vector<double>& impulses, double time_step,

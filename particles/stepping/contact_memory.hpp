@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "particles/detection/candidate.hpp"
+#include "particles/parallel/team_loops.hpp"
 
 namespace drumlin::particles {
 
@@ -18,12 +19,15 @@ struct ContactMemory {
 /// Finds contacts in a memory; keeps workspace only.
 class Recollection {
  public:
+  /// Lets a team share the work; the result does not depend on it.
+  void use(ThreadTeam* team) { loops_ = TeamLoops(team); }
   /// Finds the pairs of grains 0 to `bodies` in the memory.
   void find(const ContactMemory&, std::size_t bodies, std::span<const Candidate> pairs);
   /// Impulses that a step of length `time_step` starts from: those remembered, 0 for new contacts.
   void warm_start(const ContactMemory&, int dim, double time_step, std::vector<double>& impulses) const;
 
  private:
+  TeamLoops loops_;
   std::vector<std::int32_t> place_;                         // of each pair in the memory; -1: new
   std::vector<std::int32_t> first_of_body_, next_of_body_;  // places in the memory, linked by their i
 };

@@ -62,6 +62,7 @@ class MoreauJean final : public Stepper {
     projection_.use(&team_);
     detection_.use(&team_);
     order_.use(&team_);
+    recollection_.use(&team_);
     overlaps_.use(&team_);
     if (laws.energy_ledger) books_.emplace(laws.gravity);
   }
@@ -185,8 +186,7 @@ class MoreauJean final : public Stepper {
   /// The same with the pairs that thrown grains may meet; normals of all by the new velocities. Returns
   /// whether the pairs are others than before.
   bool find_more_pairs(const StepInput& step) {
-    const bool more =
-        detection_.find_around(thrown_, step.bodies, free_.x, free_.z, detection_input(step));
+    const bool more = detection_.find_around(thrown_, step.bodies, free_.x, free_.z, detection_input(step));
     const auto& found = detection_.candidates();
     if (more)
       order_.sort(found, step.bodies, laws_.period, problem_.W.plan, contacts_.pairs);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "particles/detection/contact_list.hpp"
 #include "particles/scene/random.hpp"
@@ -102,6 +103,61 @@ TEST(Detection, GivesTheSameBytesForAnyNumberOfThreads) {
     EXPECT_EQ(one[p].gap, two[p].gap);
     EXPECT_EQ(one[p].n_x, two[p].n_x);
   }
+}
+
+/// The pairs that a search around one thrown grain adds, from all pairs: jolts as before it.
+std::set<std::pair<int, int>> around(int thrown, double push, const Grains& g, const Period& period,
+                                     const ContactDetection& before) {
+  std::set<std::pair<int, int>> pairs;
+  for (int k = 0; k < static_cast<int>(g.count()); ++k) {
+    if (k == thrown) continue;
+    const int i = std::min(k, thrown), j = std::max(k, thrown);
+    double n_x = 0, n_z = 0;
+    const double gap = gap_now({i, j, 0, 0, 0, 0, 0}, g.bodies, {}, period, n_x, n_z);
+    const double approach = -(n_x * (g.v_x[i] - g.v_x[j]) + n_z * (g.v_z[i] - g.v_z[j]));
+    if (gap < 2 * margin + 2 * time_step * std::max(0.0, approach) + push / 2 + before.jolt(k))
+      pairs.insert({i, j});
+  }
+  return pairs;
+}
+
+TEST(Detection, AddsThePairsThatAThrownGrainMayMeet) {
+  RandomStream random(14, "test");
+  for (const Period& period : {Period{}, Period{-1, 40}})
+    for (const double speed : {2.0, 30.0}) {
+      Grains g = packed(1500, 1, 1, random);
+      ContactDetection detection;
+      std::set<std::pair<int, int>> expected;
+      for (const Candidate& pair : found(detection, g, period)) expected.insert({pair.i, pair.j});
+      const std::size_t known = expected.size();
+      const int thrown = 700;
+      g.v_x[thrown] += speed, g.v_z[thrown] -= speed;
+      const double push = 2 * time_step * speed * std::sqrt(2.0);
+      expected.merge(around(thrown, push, g, period, detection));
+      const DetectionInput input{{}, {}, time_step, margin, period};
+      const ThrownGrain one[] = {{thrown, push}};
+      EXPECT_TRUE(detection.find_around(one, g.bodies, g.v_x, g.v_z, input));
+      EXPECT_GT(expected.size(), known);
+      auto next = expected.begin();
+      ASSERT_EQ(detection.candidates().size(), expected.size());
+      for (const Candidate& pair : detection.candidates()) ASSERT_EQ(std::pair(pair.i, pair.j), *next++);
+      EXPECT_FALSE(detection.find_around(one, g.bodies, g.v_x, g.v_z, input));  // all are known by now
+    }
+}
+
+TEST(Detection, LooksAtAllGrainsAgainWhereMostAreThrown) {
+  RandomStream random(15, "test");
+  Grains g = packed(900, 1, 1, random);
+  ContactDetection detection;
+  (void)found(detection, g);
+  std::vector<ThrownGrain> thrown;
+  for (int i = 0; i < 900; ++i) {
+    g.v_x[i] += random.uniform(-20, 20);
+    thrown.push_back({i, 2.0});
+  }
+  const DetectionInput input{{}, {}, time_step, margin, {}};
+  EXPECT_TRUE(detection.find_around(thrown, g.bodies, g.v_x, g.v_z, input));
+  EXPECT_EQ(detection.candidates().size(), defined(g, {}).size());
 }
 
 /// Distances measured per grain.
