@@ -202,32 +202,37 @@ void GrainPairs::look_far(const PairRule& rule, std::span<const double> jolts, b
                   });
 }
 
-/// Keeps the pairs that may touch in their pieces, and sorts them into slots by their first bodies.
+/// Lists the pairs of each piece that may touch, and sorts them into slots by their first bodies.
 void GrainPairs::place(const PairRule& rule, std::span<const double> jolts,
                        std::span<const WeighedPair> walls) {
   const auto kept = [&](double gap, double reach, double jolt) {
     return gap < rule.margin + reach + jolt / 2;
   };
   loops_.each_of(static_cast<int>(used_), [&](int p) {
-    NearPair* end = pieces_[p].near.data();
-    for (const NearPair& pair : pieces_[p].pairs()) {
-      *end = pair;
+    Piece& piece = pieces_[p];
+    piece.kept.resize(piece.count);
+    Slot* end = piece.kept.data();
+    for (std::size_t k = 0; k < piece.count; ++k) {
+      const NearPair& pair = piece.near[k];
+      *end = {pair.i, pair.j, p, static_cast<std::int32_t>(k)};
       end += kept(pair.gap, pair.reach, jolts[pair.i] + jolts[pair.j]);
     }
-    pieces_[p].count = end - pieces_[p].near.data();
+    piece.kept.resize(end - piece.kept.data());
   });
+  kept_walls_.clear();
+  for (std::size_t w = 0; w < walls.size(); ++w)
+    if (const Candidate& pair = walls[w].pair; kept(pair.gap, walls[w].reach, jolts[pair.i]))
+      kept_walls_.push_back({pair.i, pair.j, -1, static_cast<std::int32_t>(w)});
   row_.assign(jolts.size() + 1, 0);
   const auto each = [&](auto visit) {
-    for (std::size_t w = 0; w < walls.size(); ++w)
-      if (const Candidate& pair = walls[w].pair; kept(pair.gap, walls[w].reach, jolts[pair.i]))
-        visit(pair.i, Slot{pair.j, static_cast<std::int32_t>(w), nullptr});
+    std::for_each(kept_walls_.begin(), kept_walls_.end(), visit);
     for (std::size_t p = 0; p < used_; ++p)
-      for (const NearPair& pair : pieces_[p].pairs()) visit(pair.i, Slot{pair.j, -1, &pair});
+      std::for_each(pieces_[p].kept.begin(), pieces_[p].kept.end(), visit);
   };
-  each([&](std::int32_t i, const Slot&) { ++row_[i + 1]; });
+  each([&](const Slot& slot) { ++row_[slot.i + 1]; });
   for (std::size_t i = 1; i < row_.size(); ++i) row_[i] += row_[i - 1];
   slots_.resize(row_.back());
-  each([&](std::int32_t i, const Slot& slot) { slots_[row_[i]++] = slot; });
+  each([&](const Slot& slot) { slots_[row_[slot.i]++] = slot; });
 }
 
 void GrainPairs::keep(const PairRule& rule, std::span<const double> jolts, std::span<const WeighedPair> walls,
@@ -241,10 +246,12 @@ void GrainPairs::keep(const PairRule& rule, std::span<const double> jolts, std::
         for (auto t = s; t > first && slots_[t].j < slots_[t - 1].j; --t) std::swap(slots_[t], slots_[t - 1]);
       for (auto s = first; s < last; ++s) {
         const Slot& slot = slots_[s];
-        candidates[s] =
-            slot.near == nullptr
-                ? walls[slot.wall].pair
-                : Candidate{slot.near->i, slot.j, slot.near->gap, slot.near->n_x, slot.near->n_z, 0, 0};
+        if (slot.piece < 0) {
+          candidates[s] = walls[slot.place].pair;
+          continue;
+        }
+        const NearPair& pair = pieces_[slot.piece].near[slot.place];
+        candidates[s] = {pair.i, pair.j, pair.gap, pair.n_x, pair.n_z, 0, 0};
       }
     }
   });

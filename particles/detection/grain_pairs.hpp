@@ -60,19 +60,19 @@ class GrainPairs {
     std::int32_t i, j;
     double reach;
   };
+  /// A pair that is kept, and where it is: in a piece, or (-1) among the walls' pairs.
+  struct Slot {
+    std::int32_t i, j;
+    std::int32_t piece, place;
+  };
   /// Cells [first, last) of a grid, and the pairs that they find; so few that threads share them evenly.
   struct Piece {
     std::size_t level = 0, first = 0, last = 0;
     std::vector<NearPair> near;  // the first `count` of them
     std::size_t count = 0;
+    std::vector<Slot> kept;
     std::vector<Jolt> jolts;
     std::int64_t looked_at = 0;
-    std::span<const NearPair> pairs() const { return {near.data(), count}; }
-  };
-  struct Slot {
-    std::int32_t j;
-    std::int32_t wall;  // place among the walls' pairs, if near is null
-    const NearPair* near;
   };
   class Weighing;
 
@@ -89,7 +89,7 @@ class GrainPairs {
   bool planted_ = false;               // the tree is that of this search
   std::int64_t looked_at_ = 0;
   std::vector<std::int32_t> row_;  // first slot of each body
-  std::vector<Slot> slots_;
+  std::vector<Slot> kept_walls_, slots_;
 };
 
 }  // namespace drumlin::particles
