@@ -73,7 +73,42 @@ nlohmann::ordered_json energy(const particles::EnergyLedger& ledger) {
   return content;
 }
 
+// Of the steps: fewer that miss a tolerance leave no trace in averages.
+constexpr double missed_share = 0.01;
+// d, mean over steps and loaded contacts: ten times that of the shipped drums, and what a penetration
+// tolerance of 1e-3 d stands for.
+constexpr double much_overlap = 1e-3;
+
 }  // namespace
+
+std::vector<std::string> run_warnings(const RunProgress& run) {
+  const particles::RunTotals& t = run.totals;
+  const double steps = std::max<double>(1, static_cast<double>(run.simulation.state().step));
+  const auto& solver = run.scene.solver;
+  std::vector<std::string> warnings;
+  if (const auto missed = static_cast<double>(t.unconverged_steps); missed > missed_share * steps)
+    warnings.push_back(fmt::format(
+        "{} of {:.0f} steps ({:.0f} %) missed a tolerance: forces and positions of these steps do "
+        "not hold. Raise solver.max_sweeps (now {}), shorten time_step_s, or allow larger errors by "
+        "solver.tolerance ({:g}) and solver.penetration_tolerance ({:g} d)",
+        t.unconverged_steps, steps, 100 * missed / steps, solver.max_sweeps, solver.tolerance,
+        solver.penetration_tolerance));
+  if (const double overlap = t.overlap_sum / steps; overlap > much_overlap)
+    warnings.push_back(fmt::format(
+        "loaded contacts overlap by {:.2g} d in the mean, and by {:.2g} d at worst: discs are not rigid here",
+        overlap, t.overlap_max));
+  if (const std::string text = start_warning(run.simulation.start_overlaps()); !text.empty())
+    warnings.push_back(text);
+  return warnings;
+}
+
+std::string start_warning(const particles::StartOverlaps& overlaps) {
+  if (overlaps.pairs == 0) return {};
+  return fmt::format(
+      "{} pairs overlap at the start, by up to {:.2g} of the smaller diameter; the run pushes "
+      "them apart",
+      overlaps.pairs, overlaps.depth);
+}
 
 nlohmann::ordered_json run_report(const RunProgress& run, const std::string& status) {
   const auto& state = run.simulation.state();
@@ -98,6 +133,7 @@ nlohmann::ordered_json run_report(const RunProgress& run, const std::string& sta
   report["snapshots"] = state.snapshots;
   report["accuracy"] = accuracy(run, steps);
   report["cost"] = cost(run, steps);
+  report["warnings"] = run_warnings(run);
   if (state.energy) report["energy"] = energy(*state.energy);
   report["scales"] = to_json(run.simulation.scales());
   report["provenance"] = to_json(provenance());
@@ -122,6 +158,7 @@ std::string run_summary(const RunProgress& run) {
     text +=
         fmt::format("{:<12}{:>12.2f}{:>12.3f}{:>7.1f} %\n", part.name, part.seconds,
                     1e3 * part.seconds / steps, t.wall_seconds > 0 ? 100 * part.seconds / t.wall_seconds : 0);
+  for (const std::string& warning : run_warnings(run)) text += "warning: " + warning + "\n";
   return text;
 }
 

@@ -2,6 +2,7 @@
 // The report of a run: run.json, and the summary at its end.
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/scene/scene.hpp"
@@ -19,7 +20,13 @@ struct RunProgress {
 /// The content of run.json (docs/formats/run.md).
 nlohmann::ordered_json run_report(const RunProgress&, const std::string& status);
 
-/// Steps, accuracy and the table of where the time went, in lines for the user.
+/// What a user must know before the results are used: steps that missed a tolerance, overlap that discs
+/// should not have, a start that overlaps. None where all holds.
+std::vector<std::string> run_warnings(const RunProgress&);
+/// The last of them; empty where nothing overlaps.
+std::string start_warning(const particles::StartOverlaps&);
+
+/// Steps, accuracy and the table of where the time went, in lines for the user; the warnings end it.
 std::string run_summary(const RunProgress&);
 
 }  // namespace drumlin::apps

@@ -1,6 +1,7 @@
 // drumlin scene check | show | keys
 #include <fmt/format.h>
 
+#include "apps/commands/run_report.hpp"
 #include "apps/support/commands.hpp"
 #include "particles/scene/placement.hpp"
 #include "particles/scene/scene_file.hpp"
@@ -52,6 +53,8 @@ void check(const SceneOptions& options) {
   }
   fmt::print("in all     {:.6g} s, {} steps, {} snapshots\n", seconds, plan.steps,
              plan.snapshot_steps.size());
+  if (const std::string warning = start_warning(simulation.start_overlaps()); !warning.empty())
+    fmt::print("warning: {}\n", warning);
 }
 
 }  // namespace

@@ -312,6 +312,21 @@ void check_steps(const Scene& scene, std::size_t s, Faults& faults) {
                       "at most that", with({"output.velocity_window_s", key + ".snapshots"})});
 }
 
+/// Within a step a grain must not fall past another one, from rest: g h^2 below the smallest diameter.
+void check_fall(const Scene& scene, std::size_t s, Faults& faults) {
+  const auto* made = std::get_if<GeneratedGrains>(&scene.grains.source);
+  if (!scene.effects.gravity || made == nullptr) return;
+  const double g = scene.effects.gravity->acceleration_m_s2, h = scene.stages[s].time_step_s;
+  const double longest = std::sqrt(1e-3 * made->diameter_min_mm / g);
+  if (!(h > longest)) return;
+  const std::string key = stage_key(s) + ".time_step_s";
+  faults.push_back({key,
+                    fmt::format("is {}, in which a grain falls by {:.3g} of the smallest diameters", h,
+                                h * h / (longest * longest)),
+                    fmt::format("up to {:.3g} s, for at most one", longest),
+                    {key, "grains.generated.diameter_min_mm", "effects.gravity"}});
+}
+
 void check_stages(const Scene& scene, Faults& faults) {
   std::set<std::string> names;
   for (std::size_t s = 0; s < scene.stages.size(); ++s) {
@@ -330,6 +345,7 @@ void check_stages(const Scene& scene, Faults& faults) {
     check_motions(scene, s, faults);
     check_length(stage, stage_key(s), faults);
     check_steps(scene, s, faults);
+    check_fall(scene, s, faults);
   }
 }
 

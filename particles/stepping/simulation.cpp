@@ -1,5 +1,7 @@
 #include "particles/stepping/simulation.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -61,6 +63,18 @@ void check_state(const SimulationState& s, const Scene& scene, const TimePlan& p
   for (const auto& mark : s.marks) require(mark.x.size() == n && mark.z.size() == n, "displacement windows");
 }
 
+void refuse_deep_overlap(const Scene& scene, const Walls& walls, const StartOverlaps& overlaps) {
+  if (!(overlaps.depth > most_at_start)) return;
+  const std::string second =
+      overlaps.j >= 0 ? fmt::format("grain {}", overlaps.j + 1)
+                      : fmt::format("wall \"{}\"", walls.names[walls.wall_of_shape[-1 - overlaps.j]]);
+  throw InputError({InputProblem{
+      std::get<ListedGrains>(scene.grains.source).file.string(), 0, 0, "x_mm, z_mm, diameter_mm",
+      fmt::format("grain {} overlaps {} by {:.3g} of a diameter, {} pairs overlap in all", overlaps.i + 1,
+                  second, overlaps.depth, overlaps.pairs),
+      fmt::format("at most {} of the smaller diameter; grains are counted from 1", most_at_start)}});
+}
+
 }  // namespace
 
 Scales scales_of(const Scene& scene) {
@@ -92,6 +106,11 @@ Simulation::Simulation(const Scene& scene, int threads)
       stepper_(make_stepper(laws_of(scene, scales_), solver_of(scene, threads))) {
   state_.bodies = place_grains(scene, scales_);
   enter_stage(0);
+  if (std::holds_alternative<ListedGrains>(scene.grains.source)) {
+    const auto shapes = walls_.shapes_at(0, state_.driven);
+    start_overlaps_ = overlaps_at_start(state_.bodies, shapes, laws_of(scene, scales_).period);
+    refuse_deep_overlap(scene, walls_, start_overlaps_);
+  }
 }
 
 Simulation::Simulation(const Scene& scene, SimulationState state, int threads)

@@ -15,6 +15,7 @@
 #include "particles/scene/scene_walls.hpp"
 #include "particles/stepping/contact_memory.hpp"
 #include "particles/stepping/moreau_jean.hpp"
+#include "particles/stepping/start_check.hpp"
 
 namespace drumlin::particles {
 
@@ -60,7 +61,8 @@ Scales scales_of(const Scene& scene);
 
 class Simulation {
  public:
-  /// Validates nothing but what only shows when grains are placed (InputError).
+  /// Validates nothing but what only shows when grains are placed (InputError): listed grains that overlap by
+  /// more than most_at_start are among it.
   /// The results do not depend on the number of threads.
   explicit Simulation(const Scene& scene, int threads = 1);
   /// Continues from a state. Throws InputError when it does not fit the scene.
@@ -79,6 +81,8 @@ class Simulation {
   const TimePlan& plan() const { return plan_; }
   const Scales& scales() const { return scales_; }
   const Stepper& stepper() const { return *stepper_; }
+  /// Overlaps of listed grains at the start; none of generated ones, nor where a state goes on.
+  const StartOverlaps& start_overlaps() const { return start_overlaps_; }
 
  private:
   void enter_stage(int stage);
@@ -92,6 +96,7 @@ class Simulation {
   Walls walls_;
   std::optional<TurningFrame> frame_;  ///< empty in a scene told in the laboratory
   SimulationState state_;
+  StartOverlaps start_overlaps_;
   std::unique_ptr<Stepper> stepper_;
 };
 

@@ -140,6 +140,42 @@ TEST_F(Program, EndsWithThreeWhereAGrainLeaves) {
   EXPECT_NE(content(folder.path() / "left" / "run.json").find("\"grain lost\""), std::string::npos);
 }
 
+TEST_F(Program, RefusesGrainsThatStandInOneAnotherOrInAWall) {
+  const auto listed = [&](const std::string& name, const std::string& rows) {
+    std::ofstream(folder.path() / name) << "x_mm,z_mm,diameter_mm\n" << rows;
+    return " --set 'grains={density_kg_m3=2700, listed={file=\"" + name + "\"}}'";
+  };
+  const std::string check = "scene check " + scene.string();
+  const Outcome coincident = drumlin(check + listed("coincident.csv", "0,0,3\n0,0,3\n"));
+  EXPECT_EQ(coincident.code, 2);
+  EXPECT_NE(coincident.err.find("grain 1 overlaps grain 2 by 1 of a diameter"), std::string::npos)
+      << coincident.err;
+  const Outcome outside = drumlin(check + listed("outside.csv", "0,0,3\n900,0,3\n"));
+  EXPECT_EQ(outside.code, 2);
+  EXPECT_NE(outside.err.find("grain 2 overlaps wall"), std::string::npos) << outside.err;
+  // A little is pushed apart, and told.
+  const Outcome little = drumlin(check + listed("little.csv", "0,0,3\n2.9,0,3\n"));
+  EXPECT_EQ(little.code, 0);
+  EXPECT_NE(little.out.find("warning: 1 pairs overlap at the start, by up to 0.033"), std::string::npos)
+      << little.out;
+}
+
+TEST_F(Program, EndsWithAWarningWhereManyStepsMissTheirTolerance) {
+  const Outcome missed = drumlin(
+      run_to("r") + " --set solver.tolerance=1e-12 --set solver.max_sweeps=1 --set solver.check_every=1");
+  EXPECT_EQ(missed.code, 0);
+  EXPECT_NE(missed.out.find("missed a tolerance: forces and positions of these steps do not hold"),
+            std::string::npos);
+  EXPECT_NE(content(folder.path() / "r" / "run.json").find("do not hold"), std::string::npos);
+  EXPECT_EQ(drumlin(run_to("s")).out.find("warning"), std::string::npos);
+}
+
+TEST_F(Program, RefusesAStepInWhichAGrainFallsPastAnother) {
+  const Outcome outcome = drumlin("scene check " + scene.string() + " --set stages.0.time_step_s=0.1");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("in which a grain falls by"), std::string::npos) << outcome.err;
+}
+
 TEST_F(Program, EndsWithSeventyFourWhereItCannotWrite) {
   EXPECT_EQ(drumlin("run " + scene.string() + " -o /dev/null/r").code, 74);
 }

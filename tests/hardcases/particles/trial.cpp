@@ -85,6 +85,7 @@ void detail::watch_step(Watch& watch, const particles::Bodies& bodies, const par
     for (const double value : *values) finite = finite && std::isfinite(value);
   watch.steps_not_finite += !finite;
   watch.steps_lost += report.lost.has_value();
+  watch.steps_missed += report.contacts > 0 && report.solve.status != particles::Status::converged;
   const double kinetic = kinetic_energy(bodies);
   watch.largest_kinetic = larger(watch.largest_kinetic, kinetic);
   watch.largest_rise = larger(watch.largest_rise, kinetic - kinetic_before);

@@ -36,6 +36,7 @@ struct Watch {
   int steps = 0;
   int steps_not_finite = 0;    ///< with a NaN or infinity in a position or velocity
   int steps_lost = 0;          ///< that report a lost grain
+  int steps_missed = 0;        ///< whose solve missed a tolerance
   double largest_kinetic = 0;  ///< energy, of all discs
   double largest_rise = 0;     ///< of the kinetic energy within a step
   double largest_overlap = 0;  ///< of a loaded contact before the projection, d

@@ -238,6 +238,25 @@ std::vector<HardCheck> column_height(int discs, int steps) {
                   "a step lets discs sink by 1e-3 d on average, the top by twice that; ten times it")};
 }
 
+/// The scene that a user would write: discs of 10 mm, a step of 1 ms, and nothing said of the solver.
+std::vector<HardCheck> column_default(int discs, int steps) {
+  const double h = 1e-3 / std::sqrt(10e-3 / 9.81);
+  Trial trial = with_default_solver();
+  for (int k = 0; k < discs; ++k) trial.discs.push_back({0, 0.5 + k});
+  trial.scene.walls = {trial_floor()};
+  trial.scene.effects.gravity = particles::Gravity{};
+  rub(trial, 0.4);
+  trial.scene.solver = particles::SolverSettings{};
+  trial.add_stage(steps * h, h);
+  particles::Simulation simulation = trial.start();
+  const Watch watch = run_watched(simulation);
+  return {
+      at_most("height lost, d", 0.3, discs - 0.5 - simulation.state().bodies.z.back(),
+              "a step sinks by 1e-3 d on average at most, the projection takes it away; 1e-3 a disc allowed"),
+      at_most("largest overlap, d", 1e-2, watch.largest_overlap, "ten times the penetration tolerance"),
+      at_most("steps that missed a tolerance", 0, watch.steps_missed, "5000 sweeps suffice")};
+}
+
 }  // namespace
 
 std::vector<HardCase> wall_cases() {
@@ -274,6 +293,8 @@ std::vector<HardCase> wall_cases() {
       {"column-100-height", "a column of 100, default tolerances, a large step: it keeps its height", true,
        [] { return column_height(100, 200); }},
       {"column-1000-height", "the same with 1000 discs", false, [] { return column_height(1000, 1000); }},
+      {"column-default", "1000 discs of 10 mm at 1 ms, every setting its default: they stay", false,
+       [] { return column_default(1000, 1000); }},
   };
 }
 
