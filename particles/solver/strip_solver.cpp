@@ -58,8 +58,10 @@ void StripProblem<T, dim, spin>::pack_place(const Problem& problem, std::int32_t
                                             std::span<const double> r, int k, Block& block) const {
   const auto& W = problem.W;
   const auto bodies = static_cast<std::int32_t>(place_.size());
-  block.i[k] = c >= 0 ? place_[W.i[c]] : fixed + k;
-  block.j[k] = c >= 0 && W.j[c] < bodies ? place_[W.j[c]] : fixed + k;
+  const std::int32_t i = c >= 0 ? place_[W.i[c]] : fixed + k;
+  const std::int32_t j = c >= 0 && W.j[c] < bodies ? place_[W.j[c]] : fixed + k;
+  block.i[k] = static_cast<std::uint32_t>(i * sizeof(BodyRecord<T>));
+  block.j[k] = static_cast<std::uint32_t>(j * sizeof(BodyRecord<T>));
   block.n_x[k] = c >= 0 ? static_cast<T>(W.n_x[c]) : T(0);
   block.n_z[k] = c >= 0 ? static_cast<T>(W.n_z[c]) : T(0);
   block.inverse_W_nn[k] = c >= 0 ? static_cast<T>(inverse_W_nn(W, c)) : T(1);
@@ -109,11 +111,13 @@ void StripProblem<T, dim, spin>::pack(const Problem& problem, const SweepPlan& p
   residual_squares_.assign(strip_count, 0.0);
   pack_bodies(problem, plan);
   blocks_.clear();
+  groups_.clear();
   contact_.clear();
   driven_.clear();
   for (int slice = 0; slice < 2 * strip_count; ++slice) {
     Strip& strip = strips_[slice / 2];
     strip.block[slice % 2] = blocks_.size();
+    strip.group[slice % 2] = groups_.size();
     const auto fixed = static_cast<std::int32_t>(strip.bodies_end) - width;
     for (std::int32_t g = plan.slice_start[slice]; g < plan.slice_start[slice + 1]; ++g) {
       group_.clear();
@@ -126,6 +130,7 @@ void StripProblem<T, dim, spin>::pack(const Problem& problem, const SweepPlan& p
           }
         group_.push_back(c);
       }
+      groups_.push_back(static_cast<std::int32_t>((group_.size() + width - 1) / width));
       for (std::size_t a = 0; a < group_.size(); a += width) {
         auto& block = blocks_.emplace_back();
         for (int k = 0; k < width; ++k) {
@@ -135,6 +140,7 @@ void StripProblem<T, dim, spin>::pack(const Problem& problem, const SweepPlan& p
       }
     }
     strip.block[slice % 2 + 1] = blocks_.size();
+    strip.group[slice % 2 + 1] = groups_.size();
   }
   seen_.resize(blocks_.size());
   kept_.resize(blocks_.size());
@@ -189,8 +195,9 @@ void StripProblem<T, dim, spin>::sweep(int strip, int phase, int parity, T beta,
   if (accelerated && phase == 0)
     Kernels::go_on(&bodies_[l.bodies], &before_[l.bodies], l.bodies_end - l.bodies, beta);
   step_squares_[parity][2 * strip + phase] =
-      Kernels::sweep(blocks_.data() + l.block[phase], l.block[phase + 1] - l.block[phase], bodies_.data(),
-                     beta, accelerated);
+      Kernels::sweep(blocks_.data() + l.block[phase],
+                     std::span(groups_).subspan(l.group[phase], l.group[phase + 1] - l.group[phase]),
+                     bodies_.data(), beta, accelerated);
 }
 
 template <class T, int dim, bool spin>

@@ -61,6 +61,7 @@ class StripProblem {
   struct Strip {
     std::size_t bodies = 0, bodies_end = 0;  // those of wall contacts, which do not move, stand last
     std::size_t block[3] = {0, 0, 0};        // first block of each phase, and the end
+    std::size_t group[3] = {0, 0, 0};        // likewise in groups_
   };
   using Block = ContactBlock<T, dim>;
   using Impulses = std::array<std::array<T, Block::width>, dim>;  // of a block
@@ -74,6 +75,7 @@ class StripProblem {
   void pack_driven(const Problem& problem, std::int32_t c, std::span<const double> r);
   std::vector<Strip> strips_;
   std::vector<Block> blocks_;
+  std::vector<std::int32_t> groups_;   // numbers of blocks that share no body
   std::vector<std::int32_t> contact_;  // of each place in the blocks; -1: filled up
   std::vector<BodyRecord<T>> bodies_, before_;
   std::vector<std::int32_t> place_;       // of each body in bodies_

@@ -99,66 +99,132 @@ HWY_INLINE V started_from(const std::array<T, 8>& r, std::array<T, 8>& before, s
   return hn::Add(now, hn::Mul(beta, hn::Sub(now, then)));
 }
 
-template <class T, int dim, bool spin, bool accelerated>
-double sweep(ContactBlock<T, dim>* blocks, std::size_t count, BodyRecord<T>* bodies, T beta_) {
+/// A vector of contacts: those of a block from k on.
+template <class T, int dim>
+struct Place {
+  ContactBlock<T, dim>* block;
+  std::size_t k;
+};
+
+/// What a sweep knows of a vector of contacts.
+template <class T>
+struct SweptContacts {
+  BodyVectors<T> I, J;
+  hn::Vec<Lanes<T>> dv_x, dv_z, new_n, dr_n, dr_t, squares;
+};
+
+template <class T, int dim, bool accelerated, class V>
+HWY_INLINE void solve_normals(const Place<T, dim>& at, V beta, SweptContacts<T>& c) {
   const Lanes<T> d;
-  using V = hn::Vec<Lanes<T>>;
-  constexpr int width = ContactBlock<T, dim>::width;
-  const V zero = hn::Zero(d), beta = hn::Set(d, beta_);
+  auto& [block, k] = at;
+  c.dv_x = hn::Sub(c.I.x, c.J.x), c.dv_z = hn::Sub(c.I.z, c.J.z);
+  const V n_x = hn::Load(d, &block->n_x[k]), n_z = hn::Load(d, &block->n_z[k]);
+  const V r_n = started_from<accelerated>(block->r[0], block->before[0], k, beta);
+  const V approach = hn::Add(hn::Mul(n_x, c.dv_x), hn::Mul(n_z, c.dv_z));
+  const V u_n = hn::Add(hn::Load(d, &block->q[0][k]), approach);
+  // Max(a, NaN) is NaN, Max(NaN, a) is not.
+  c.new_n = hn::Max(hn::Zero(d), hn::Sub(r_n, hn::Mul(u_n, hn::Load(d, &block->inverse_W_nn[k]))));
+  c.dr_n = hn::Sub(c.new_n, r_n);
+  hn::Store(c.new_n, d, &block->r[0][k]);
+  c.squares = hn::Mul(c.dr_n, c.dr_n);
+  c.dr_t = hn::Zero(d);
+}
+
+/// Friction r_t and rolling of contacts with tangential velocities u_t: the minimum over a box, exactly.
+/// Friction as if rolling were free, clamped; rolling for that; friction for that. Returns the new r_t.
+template <class T, bool accelerated, class V>
+HWY_INLINE V solve_rolling(const Place<T, 3>& at, V beta, V r_t, V u_t, V bound, V inverse_W_tt,
+                           SweptContacts<T>& c) {
+  const Lanes<T> d;
+  auto& [block, k] = at;
+  const V r_r = started_from<accelerated>(block->r[2], block->before[2], k, beta);
+  const V lever = hn::Load(d, &block->lever[k]), inverse_W_rr = hn::Load(d, &block->inverse_W_rr[k]);
+  const auto turns = turns_of<T>(lever, c.I, c.J);
+  const V W_tr = hn::Sub(turns.j, turns.i);
+  const V u_r = hn::Add(hn::Load(d, &block->q[2][k]), rolling_velocity<T>(lever, c.I, c.J));
+  const V pulled = hn::Sub(u_t, hn::Mul(W_tr, hn::Mul(inverse_W_rr, u_r)));
+  const V first = clamped(hn::Sub(r_t, hn::Mul(pulled, hn::Load(d, &block->inverse_W_tt[k]))), bound);
+  const V rolled = hn::Mul(inverse_W_rr, hn::Add(u_r, hn::Mul(W_tr, hn::Sub(first, r_t))));
+  const V new_r = clamped(hn::Sub(r_r, rolled), hn::Mul(hn::Load(d, &block->mu_r[k]), c.new_n));
+  const V dr_r = hn::Sub(new_r, r_r);
+  hn::Store(new_r, d, &block->r[2][k]);
+  c.squares = hn::Add(c.squares, hn::Mul(dr_r, dr_r));
+  roll<T>(lever, dr_r, c.I, c.J);
+  return clamped(hn::Sub(r_t, hn::Mul(inverse_W_tt, hn::Add(u_t, hn::Mul(W_tr, dr_r)))), bound);
+}
+
+template <class T, int dim, bool spin, bool accelerated, class V>
+HWY_INLINE void solve_tangents(const Place<T, dim>& at, V beta, SweptContacts<T>& c) {
+  const Lanes<T> d;
+  auto& [block, k] = at;
   const V ratio = hn::Set(d, spin ? T(1) / T(3) : T(1));  // W_nn / W_tt
+  const V r_t = started_from<accelerated>(block->r[1], block->before[1], k, beta);
+  V slip =
+      hn::Sub(hn::Mul(hn::Load(d, &block->n_z[k]), c.dv_x), hn::Mul(hn::Load(d, &block->n_x[k]), c.dv_z));
+  if constexpr (spin) slip = hn::Sub(slip, hn::Add(c.I.s, c.J.s));
+  const V u_t = hn::Add(hn::Load(d, &block->q[1][k]), slip);
+  const V bound = hn::Mul(hn::Load(d, &block->mu[k]), c.new_n);
+  const V inverse_W_tt = hn::Mul(hn::Load(d, &block->inverse_W_nn[k]), ratio);
+  V new_t;
+  if constexpr (dim == 2)
+    new_t = clamped(hn::Sub(r_t, hn::Mul(u_t, inverse_W_tt)), bound);
+  else
+    new_t = solve_rolling<T, accelerated>(at, beta, r_t, u_t, bound, inverse_W_tt, c);
+  c.dr_t = hn::Sub(new_t, r_t);
+  hn::Store(new_t, d, &block->r[1][k]);
+  c.squares = hn::Add(c.squares, hn::Mul(c.dr_t, c.dr_t));
+}
+
+/// Solves vectors of contacts that share no body, stage by stage: the chain of operations of one is longer
+/// than what a processor looks ahead.
+template <class T, int dim, bool spin, bool accelerated, std::size_t n, class V>
+HWY_INLINE void sweep_side_by_side(const std::array<Place<T, dim>, n>& at, BodyRecord<T>* bodies, V beta,
+                                   T* squares) {
+  const Lanes<T> d;
+  SweptContacts<T> c[n];
+  for (std::size_t e = 0; e < n; ++e) {
+    c[e].I = load_bodies(bodies, &at[e].block->i[at[e].k]);
+    c[e].J = load_bodies(bodies, &at[e].block->j[at[e].k]);
+  }
+  for (std::size_t e = 0; e < n; ++e) solve_normals<T, dim, accelerated>(at[e], beta, c[e]);
+  if constexpr (dim >= 2)
+    for (std::size_t e = 0; e < n; ++e) solve_tangents<T, dim, spin, accelerated>(at[e], beta, c[e]);
+  for (std::size_t e = 0; e < n; ++e) {
+    auto& [block, k] = at[e];
+    hn::Store(hn::Add(hn::Load(d, squares + k), c[e].squares), d, squares + k);
+    push<dim, spin, T>(hn::Load(d, &block->n_x[k]), hn::Load(d, &block->n_z[k]), c[e].dr_n, c[e].dr_t, c[e].I,
+                       c[e].J);
+  }
+  for (std::size_t e = 0; e < n; ++e) {
+    store_bodies(c[e].I, bodies, &at[e].block->i[at[e].k]);
+    store_bodies(c[e].J, bodies, &at[e].block->j[at[e].k]);
+  }
+}
+
+template <class T, int dim, bool spin, bool accelerated>
+double sweep(ContactBlock<T, dim>* blocks, std::span<const std::int32_t> groups, BodyRecord<T>* bodies,
+             T beta_) {
+  const Lanes<T> d;
+  constexpr std::size_t width = ContactBlock<T, dim>::width;
+  const std::size_t lanes = hn::Lanes(d);
+  const auto beta = hn::Set(d, beta_);
   // Eight sums whatever the length of a vector.
   HWY_ALIGN std::array<T, width> squares{};
-  for (std::size_t b = 0; b < count; ++b) {
-    auto& block = blocks[b];
-    for (std::size_t k = 0; k < width; k += hn::Lanes(d)) {
-      auto I = load_bodies(bodies, &block.i[k]), J = load_bodies(bodies, &block.j[k]);
-      const V n_x = hn::Load(d, &block.n_x[k]), n_z = hn::Load(d, &block.n_z[k]);
-      const V w = hn::Load(d, &block.inverse_W_nn[k]);
-      const V dv_x = hn::Sub(I.x, J.x), dv_z = hn::Sub(I.z, J.z);
-      const V r_n = started_from<accelerated>(block.r[0], block.before[0], k, beta);
-      const V u_n = hn::Add(hn::Load(d, &block.q[0][k]), hn::Add(hn::Mul(n_x, dv_x), hn::Mul(n_z, dv_z)));
-      // Max(a, NaN) is NaN, Max(NaN, a) is not.
-      const V new_n = hn::Max(zero, hn::Sub(r_n, hn::Mul(u_n, w)));
-      const V dr_n = hn::Sub(new_n, r_n);
-      hn::Store(new_n, d, &block.r[0][k]);
-      V sum = hn::Mul(dr_n, dr_n);
-      V dr_t = zero, dr_r = zero;
-      if constexpr (dim >= 2) {
-        const V r_t = started_from<accelerated>(block.r[dim >= 2], block.before[dim >= 2], k, beta);
-        V slip = hn::Sub(hn::Mul(n_z, dv_x), hn::Mul(n_x, dv_z));
-        if constexpr (spin) slip = hn::Sub(slip, hn::Add(I.s, J.s));
-        const V u_t = hn::Add(hn::Load(d, &block.q[dim >= 2][k]), slip);
-        const V bound = hn::Mul(hn::Load(d, &block.mu[k]), new_n), inverse_W_tt = hn::Mul(w, ratio);
-        V new_t;
-        if constexpr (dim == 2) {
-          new_t = clamped(hn::Sub(r_t, hn::Mul(u_t, inverse_W_tt)), bound);
-        } else {
-          // The minimum over a box, exactly: friction as if rolling were free, clamped; rolling for that;
-          // friction for that.
-          const V r_r = started_from<accelerated>(block.r[2], block.before[2], k, beta);
-          const V lever = hn::Load(d, &block.lever[k]), inverse_W_rr = hn::Load(d, &block.inverse_W_rr[k]);
-          const auto turns = turns_of<T>(lever, I, J);
-          const V W_tr = hn::Sub(turns.j, turns.i);
-          const V u_r = hn::Add(hn::Load(d, &block.q[2][k]), rolling_velocity<T>(lever, I, J));
-          const V pulled = hn::Sub(u_t, hn::Mul(W_tr, hn::Mul(inverse_W_rr, u_r)));
-          const V first = clamped(hn::Sub(r_t, hn::Mul(pulled, hn::Load(d, &block.inverse_W_tt[k]))), bound);
-          const V rolled = hn::Mul(inverse_W_rr, hn::Add(u_r, hn::Mul(W_tr, hn::Sub(first, r_t))));
-          const V new_r = clamped(hn::Sub(r_r, rolled), hn::Mul(hn::Load(d, &block.mu_r[k]), new_n));
-          dr_r = hn::Sub(new_r, r_r);
-          new_t = clamped(hn::Sub(r_t, hn::Mul(inverse_W_tt, hn::Add(u_t, hn::Mul(W_tr, dr_r)))), bound);
-          hn::Store(new_r, d, &block.r[2][k]);
-          sum = hn::Add(sum, hn::Mul(dr_r, dr_r));
-          roll<T>(lever, dr_r, I, J);
-        }
-        dr_t = hn::Sub(new_t, r_t);
-        hn::Store(new_t, d, &block.r[dim >= 2][k]);
-        sum = hn::Add(sum, hn::Mul(dr_t, dr_t));
-      }
-      hn::Store(hn::Add(hn::Load(d, &squares[k]), sum), d, &squares[k]);
-      push<dim, spin, T>(n_x, n_z, dr_n, dr_t, I, J);
-      store_bodies(I, bodies, &block.i[k]);
-      store_bodies(J, bodies, &block.j[k]);
+  const auto place = [&](std::size_t v) HWY_ATTR {
+    return Place<T, dim>{blocks + v * lanes / width, v * lanes % width};
+  };
+  for (const std::int32_t group : groups) {
+    const std::size_t vectors = group * (width / lanes);
+    std::size_t v = 0;
+    for (; v + 1 < vectors; v += 2) {
+      const std::array<Place<T, dim>, 2> two = {place(v), place(v + 1)};
+      sweep_side_by_side<T, dim, spin, accelerated>(two, bodies, beta, squares.data());
     }
+    if (v < vectors) {
+      const std::array<Place<T, dim>, 1> one = {place(v)};
+      sweep_side_by_side<T, dim, spin, accelerated>(one, bodies, beta, squares.data());
+    }
+    blocks += group;
   }
   return total(squares);
 }
@@ -268,15 +334,17 @@ void go_on(BodyRecord<T>* bodies, BodyRecord<T>* before, std::size_t count, T be
   }
 }
 
-#define DRUMLIN_KERNELS(T, name, dim, spin)                                                             \
-  void load_##name(const ContactBlock<T, dim>* b, std::size_t n, BodyRecord<T>* v) {                    \
-    load<T, dim, spin>(b, n, v);                                                                        \
-  }                                                                                                     \
-  double sweep_##name(ContactBlock<T, dim>* b, std::size_t n, BodyRecord<T>* v, T beta, bool fast) {    \
-    return fast ? sweep<T, dim, spin, true>(b, n, v, beta) : sweep<T, dim, spin, false>(b, n, v, beta); \
-  }                                                                                                     \
-  double residual_##name(const ContactBlock<T, dim>* b, std::size_t n, const BodyRecord<T>* v) {        \
-    return residual<T, dim, spin>(b, n, v);                                                             \
+#define DRUMLIN_KERNELS(T, name, dim, spin)                                                            \
+  void load_##name(const ContactBlock<T, dim>* b, std::size_t n, BodyRecord<T>* v) {                   \
+    load<T, dim, spin>(b, n, v);                                                                       \
+  }                                                                                                    \
+  double sweep_##name(ContactBlock<T, dim>* b, std::span<const std::int32_t> groups, BodyRecord<T>* v, \
+                      T beta, bool fast) {                                                             \
+    return fast ? sweep<T, dim, spin, true>(b, groups, v, beta)                                        \
+                : sweep<T, dim, spin, false>(b, groups, v, beta);                                      \
+  }                                                                                                    \
+  double residual_##name(const ContactBlock<T, dim>* b, std::size_t n, const BodyRecord<T>* v) {       \
+    return residual<T, dim, spin>(b, n, v);                                                            \
   }
 DRUMLIN_KERNELS(double, double_smooth, 1, false)
 DRUMLIN_KERNELS(double, double_friction, 2, false)
@@ -304,28 +372,28 @@ namespace drumlin::particles {
 HWY_EXPORT(go_on_double);
 HWY_EXPORT(go_on_float);
 
-#define DRUMLIN_DISPATCH(T, precision, name, dim, spin)                                                     \
-  HWY_EXPORT(load_##name);                                                                                  \
-  HWY_EXPORT(residual_##name);                                                                              \
-  HWY_EXPORT(sweep_##name);                                                                                 \
-  template <>                                                                                               \
-  void SweepKernels<T, dim, spin>::load(const Block* blocks, std::size_t count, BodyRecord<T>* bodies) {    \
-    HWY_DYNAMIC_DISPATCH(load_##name)(blocks, count, bodies);                                               \
-  }                                                                                                         \
-  template <>                                                                                               \
-  double SweepKernels<T, dim, spin>::sweep(Block* blocks, std::size_t count, BodyRecord<T>* bodies, T beta, \
-                                           bool accelerated) {                                              \
-    return HWY_DYNAMIC_DISPATCH(sweep_##name)(blocks, count, bodies, beta, accelerated);                    \
-  }                                                                                                         \
-  template <>                                                                                               \
-  double SweepKernels<T, dim, spin>::residual(const Block* blocks, std::size_t count,                       \
-                                              const BodyRecord<T>* bodies) {                                \
-    return HWY_DYNAMIC_DISPATCH(residual_##name)(blocks, count, bodies);                                    \
-  }                                                                                                         \
-  template <>                                                                                               \
-  void SweepKernels<T, dim, spin>::go_on(BodyRecord<T>* bodies, BodyRecord<T>* before, std::size_t count,   \
-                                         T beta) {                                                          \
-    HWY_DYNAMIC_DISPATCH(go_on_##precision)(bodies, before, count, beta);                                   \
+#define DRUMLIN_DISPATCH(T, precision, name, dim, spin)                                                   \
+  HWY_EXPORT(load_##name);                                                                                \
+  HWY_EXPORT(residual_##name);                                                                            \
+  HWY_EXPORT(sweep_##name);                                                                               \
+  template <>                                                                                             \
+  void SweepKernels<T, dim, spin>::load(const Block* blocks, std::size_t count, BodyRecord<T>* bodies) {  \
+    HWY_DYNAMIC_DISPATCH(load_##name)(blocks, count, bodies);                                             \
+  }                                                                                                       \
+  template <>                                                                                             \
+  double SweepKernels<T, dim, spin>::sweep(Block* blocks, std::span<const std::int32_t> groups,           \
+                                           BodyRecord<T>* bodies, T beta, bool accelerated) {             \
+    return HWY_DYNAMIC_DISPATCH(sweep_##name)(blocks, groups, bodies, beta, accelerated);                 \
+  }                                                                                                       \
+  template <>                                                                                             \
+  double SweepKernels<T, dim, spin>::residual(const Block* blocks, std::size_t count,                     \
+                                              const BodyRecord<T>* bodies) {                              \
+    return HWY_DYNAMIC_DISPATCH(residual_##name)(blocks, count, bodies);                                  \
+  }                                                                                                       \
+  template <>                                                                                             \
+  void SweepKernels<T, dim, spin>::go_on(BodyRecord<T>* bodies, BodyRecord<T>* before, std::size_t count, \
+                                         T beta) {                                                        \
+    HWY_DYNAMIC_DISPATCH(go_on_##precision)(bodies, before, count, beta);                                 \
   }
 DRUMLIN_DISPATCH(double, double, double_smooth, 1, false)
 DRUMLIN_DISPATCH(double, double, double_friction, 2, false)
