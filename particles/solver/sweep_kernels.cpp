@@ -175,30 +175,19 @@ HWY_INLINE void solve_tangents(const Place<T, dim>& at, V beta, SweptContacts<T>
   c.squares = hn::Add(c.squares, hn::Mul(c.dr_t, c.dr_t));
 }
 
-/// Solves vectors of contacts that share no body, stage by stage: the chain of operations of one is longer
-/// than what a processor looks ahead.
-template <class T, int dim, bool spin, bool accelerated, std::size_t n, class V>
-HWY_INLINE void sweep_side_by_side(const std::array<Place<T, dim>, n>& at, BodyRecord<T>* bodies, V beta,
-                                   T* squares) {
+template <class T, int dim>
+HWY_INLINE void bring_bodies(const Place<T, dim>& at, const BodyRecord<T>* bodies, SweptContacts<T>& c) {
+  c.I = load_bodies(bodies, &at.block->i[at.k]);
+  c.J = load_bodies(bodies, &at.block->j[at.k]);
+}
+
+template <class T, int dim, bool spin>
+HWY_INLINE void push_bodies(const Place<T, dim>& at, SweptContacts<T>& c, BodyRecord<T>* bodies) {
   const Lanes<T> d;
-  SweptContacts<T> c[n];
-  for (std::size_t e = 0; e < n; ++e) {
-    c[e].I = load_bodies(bodies, &at[e].block->i[at[e].k]);
-    c[e].J = load_bodies(bodies, &at[e].block->j[at[e].k]);
-  }
-  for (std::size_t e = 0; e < n; ++e) solve_normals<T, dim, accelerated>(at[e], beta, c[e]);
-  if constexpr (dim >= 2)
-    for (std::size_t e = 0; e < n; ++e) solve_tangents<T, dim, spin, accelerated>(at[e], beta, c[e]);
-  for (std::size_t e = 0; e < n; ++e) {
-    auto& [block, k] = at[e];
-    hn::Store(hn::Add(hn::Load(d, squares + k), c[e].squares), d, squares + k);
-    push<dim, spin, T>(hn::Load(d, &block->n_x[k]), hn::Load(d, &block->n_z[k]), c[e].dr_n, c[e].dr_t, c[e].I,
-                       c[e].J);
-  }
-  for (std::size_t e = 0; e < n; ++e) {
-    store_bodies(c[e].I, bodies, &at[e].block->i[at[e].k]);
-    store_bodies(c[e].J, bodies, &at[e].block->j[at[e].k]);
-  }
+  auto& [block, k] = at;
+  push<dim, spin, T>(hn::Load(d, &block->n_x[k]), hn::Load(d, &block->n_z[k]), c.dr_n, c.dr_t, c.I, c.J);
+  store_bodies(c.I, bodies, &block->i[k]);
+  store_bodies(c.J, bodies, &block->j[k]);
 }
 
 template <class T, int dim, bool spin, bool accelerated>
@@ -210,20 +199,29 @@ double sweep(ContactBlock<T, dim>* blocks, std::span<const std::int32_t> groups,
   const auto beta = hn::Set(d, beta_);
   // Eight sums whatever the length of a vector.
   HWY_ALIGN std::array<T, width> squares{};
-  const auto place = [&](std::size_t v) HWY_ATTR {
-    return Place<T, dim>{blocks + v * lanes / width, v * lanes % width};
+  const auto solve = [&](const Place<T, dim>& at, SweptContacts<T>& c) HWY_ATTR {
+    solve_normals<T, dim, accelerated>(at, beta, c);
+    if constexpr (dim >= 2) solve_tangents<T, dim, spin, accelerated>(at, beta, c);
+    hn::Store(hn::Add(hn::Load(d, &squares[at.k]), c.squares), d, &squares[at.k]);
   };
   for (const std::int32_t group : groups) {
-    const std::size_t vectors = group * (width / lanes);
-    std::size_t v = 0;
-    for (; v + 1 < vectors; v += 2) {
-      const std::array<Place<T, dim>, 2> two = {place(v), place(v + 1)};
-      sweep_side_by_side<T, dim, spin, accelerated>(two, bodies, beta, squares.data());
+    if (group == 0) continue;
+    // The chain of operations of one vector is longer than what a processor looks ahead: the bodies of the
+    // next one come while this one's are pushed.
+    Place<T, dim> at{blocks, 0};
+    SweptContacts<T> c, next;
+    bring_bodies(at, bodies, c);
+    for (std::size_t left = group * (width / lanes) - 1; left > 0; --left) {
+      solve(at, c);
+      const bool whole = at.k + lanes == width;
+      const Place<T, dim> after{whole ? at.block + 1 : at.block, whole ? 0 : at.k + lanes};
+      bring_bodies(after, bodies, next);
+      push_bodies<T, dim, spin>(at, c, bodies);
+      at = after;
+      c.I = next.I, c.J = next.J;
     }
-    if (v < vectors) {
-      const std::array<Place<T, dim>, 1> one = {place(v)};
-      sweep_side_by_side<T, dim, spin, accelerated>(one, bodies, beta, squares.data());
-    }
+    solve(at, c);
+    push_bodies<T, dim, spin>(at, c, bodies);
     blocks += group;
   }
   return total(squares);
