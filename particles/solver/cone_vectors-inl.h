@@ -1,12 +1,5 @@
-// Vectors of impulses and the cones of their contacts (particles/contact/cone.hpp). Included once for each
-// instruction set.
-#if defined(DRUMLIN_CONE_VECTORS_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef DRUMLIN_CONE_VECTORS_INL_H
-#undef DRUMLIN_CONE_VECTORS_INL_H
-#else
-#define DRUMLIN_CONE_VECTORS_INL_H
-#endif
-
+// Vectors of impulses and the cones of their contacts (particles/contact/cone.hpp). Without a guard: the
+// sweep kernels include this once for each instruction set.
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -51,5 +44,3 @@ HWY_INLINE V missed_by_projection(V mu, V mu_r, V n, V t, V r, V r_n, V r_t, V r
 
 }  // namespace drumlin::particles::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
-
-#endif
