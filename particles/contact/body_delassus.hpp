@@ -47,11 +47,17 @@ class BodyDelassus {
   int contacts() const { return static_cast<int>(i.size()); }
   std::int32_t fixed() const { return static_cast<std::int32_t>(inverse_mass.size()) - 1; }
 
-  /// Forgets the contacts; bodies and plan stay.
-  void clear() { i.clear(), j.clear(), n_x.clear(), n_z.clear(), inverse_W_nn.clear(); }
   void add(std::int32_t body_i, std::int32_t body_j, double normal_x, double normal_z) {
-    i.push_back(body_i), j.push_back(body_j), n_x.push_back(normal_x), n_z.push_back(normal_z);
-    inverse_W_nn.push_back(1 / (inverse_mass[body_i] + inverse_mass[body_j]));
+    resize(i.size() + 1);
+    set(contacts() - 1, body_i, body_j, normal_x, normal_z);
+  }
+  /// Makes room for contacts that are set one by one, in any order.
+  void resize(std::size_t count) {
+    i.resize(count), j.resize(count), n_x.resize(count), n_z.resize(count), inverse_W_nn.resize(count);
+  }
+  void set(int a, std::int32_t body_i, std::int32_t body_j, double normal_x, double normal_z) {
+    i[a] = body_i, j[a] = body_j, n_x[a] = normal_x, n_z[a] = normal_z;
+    inverse_W_nn[a] = 1 / (inverse_mass[body_i] + inverse_mass[body_j]);
   }
 
   /// State at r = 0.
@@ -104,9 +110,14 @@ class BodyDelassus {
                   std::vector<double>& u) const {
     load(scratch, r);
     u.resize(q.size());
-    for (int a = 0; a < contacts(); ++a) {
-      u[dim * a] = q[dim * a] + normal_velocity(scratch, a);
-      if constexpr (dim == 2) u[dim * a + 1] = q[dim * a + 1] + tangential_velocity(scratch, a);
+    velocities_of(0, contacts(), q, scratch, u);
+  }
+  /// The same of contacts `begin` to `end`, from a state that is loaded.
+  void velocities_of(int begin, int end, std::span<const double> q, const State& state,
+                     std::vector<double>& u) const {
+    for (int a = begin; a < end; ++a) {
+      u[dim * a] = q[dim * a] + normal_velocity(state, a);
+      if constexpr (dim == 2) u[dim * a + 1] = q[dim * a + 1] + tangential_velocity(state, a);
     }
   }
 

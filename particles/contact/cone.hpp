@@ -25,17 +25,14 @@ struct CoulombRolling {
   static constexpr int dim = 3;
 };
 
-/// Euclidean projection of (n, t) on K = {|t| <= mu n}, in place.
+/// Euclidean projection of (n, t) on K = {|t| <= mu n}, in place. Without branches, which nobody could
+/// foretell: contacts open, slide and stick at random. A NaN stays one.
 inline void project_on_cone(double mu, double& n, double& t) {
-  const double size = std::abs(t);
-  if (n >= 0 && size <= mu * n) return;  // 0 <= 0 * n for any n where mu = 0
-  if (mu * size <= -n) {
-    n = t = 0;
-    return;
-  }
-  const double along = (n + mu * size) / (1 + mu * mu);
-  t = std::copysign(mu * along, t);
-  n = along;
+  const double size = std::abs(t), above = std::max(n, 0.0);
+  const double along = std::max(n + mu * size, 0.0) / (1 + mu * mu);  // on the ray or the tip
+  const bool inside = size <= mu * above;
+  t = inside ? t : std::copysign(mu * along, t);
+  n = inside ? above : along;
 }
 
 /// Euclidean projection of (n, t, r) on K = {|t| <= mu n, |r| <= mu_r n}, in place. For given n the best t

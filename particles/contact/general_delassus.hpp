@@ -89,12 +89,21 @@ class GeneralDelassus {
     return k < 0 ? nullptr : &driven[k];
   }
 
-  void clear() { i.clear(), j.clear(), n_x.clear(), n_z.clear(), lever.clear(), blocks_.clear(); }
   /// Masses and driven walls must be there. `lever_i` without rolling: of no effect.
   void add(std::int32_t body_i, std::int32_t body_j, double normal_x, double normal_z, double lever_i = 1) {
-    i.push_back(body_i), j.push_back(body_j), n_x.push_back(normal_x), n_z.push_back(normal_z);
-    if constexpr (dim == 3) lever.push_back(lever_i);
-    blocks_.push_back(block_of(contacts() - 1));
+    resize(i.size() + 1);
+    set(contacts() - 1, body_i, body_j, normal_x, normal_z, lever_i);
+  }
+  /// Makes room for contacts that are set one by one, in any order.
+  void resize(std::size_t count) {
+    i.resize(count), j.resize(count), n_x.resize(count), n_z.resize(count), blocks_.resize(count);
+    if constexpr (dim == 3) lever.resize(count);
+  }
+  void set(int a, std::int32_t body_i, std::int32_t body_j, double normal_x, double normal_z,
+           double lever_i = 1) {
+    i[a] = body_i, j[a] = body_j, n_x[a] = normal_x, n_z[a] = normal_z;
+    if constexpr (dim == 3) lever[a] = lever_i;
+    blocks_[a] = block_of(a);
   }
 
   const LocalBlock& block(int a) const { return blocks_[a]; }
@@ -170,8 +179,13 @@ class GeneralDelassus {
                   std::vector<double>& u) const {
     load(scratch, r);
     u.resize(q.size());
-    for (int a = 0; a < contacts(); ++a) {
-      const Impulse own = relative_velocity(scratch, a);
+    velocities_of(0, contacts(), q, scratch, u);
+  }
+  /// The same of contacts `begin` to `end`, from a state that is loaded.
+  void velocities_of(int begin, int end, std::span<const double> q, const State& state,
+                     std::vector<double>& u) const {
+    for (int a = begin; a < end; ++a) {
+      const Impulse own = relative_velocity(state, a);
       for (int c = 0; c < dim; ++c) u[dim * a + c] = q[dim * a + c] + own[c];
     }
   }

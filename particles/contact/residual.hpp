@@ -3,6 +3,7 @@
 // contact solve"). It follows from the impulses alone, through u = W r + q, and shares nothing with the
 // solvers, so that all of them are measured alike.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -10,6 +11,7 @@
 #include "particles/contact/cone.hpp"
 #include "particles/contact/contact_problem.hpp"
 #include "particles/contact/solution.hpp"
+#include "particles/parallel/team_loops.hpp"
 
 namespace drumlin::particles {
 
@@ -56,51 +58,104 @@ double squared_error(const Problem& problem, int a, std::span<const double> r, s
                             r.data() + dim * a, u.data() + dim * a);
 }
 
+/// Sum of squares, in four parts: one part would wait for itself.
+inline double squared_norm(std::span<const double> entries) {
+  std::array<double, 4> parts{};
+  for (std::size_t k = 0; k < entries.size(); ++k) parts[k % 4] += entries[k] * entries[k];
+  return (parts[0] + parts[1]) + (parts[2] + parts[3]);
+}
+
 /// Sum over the bodies of the sizes of the impulses that gave them these velocities; NaN if it holds no
 /// bodies.
 template <class State>
-double summed_impulses(const State& bodies) {
-  double sum = std::numeric_limits<double>::quiet_NaN();
-  if constexpr (requires(typename State::value_type body) { body.inverse_mass; }) {
-    sum = 0;
-    for (const auto& body : bodies)
-      if (body.inverse_mass > 0) sum += std::sqrt(body.x * body.x + body.z * body.z) / body.inverse_mass;
+double summed_impulses(const State& bodies, TeamLoops& loops) {
+  if constexpr (requires(typename State::value_type body) { body.inverse_mass; })
+    return loops.sum(bodies.size(), [&](std::size_t begin, std::size_t end) {
+      double sum = 0;
+      for (std::size_t b = begin; b < end; ++b)
+        if (const auto& v = bodies[b]; v.inverse_mass > 0)
+          sum += std::sqrt(v.x * v.x + v.z * v.z) / v.inverse_mass;
+      return sum;
+    });
+  else
+    return std::numeric_limits<double>::quiet_NaN();
+}
+
+/// What the residual adds up over some contacts.
+struct ResidualSums {
+  double squares = 0, largest = 0, lowest_u_n = 0, let_through = 0;
+
+  void add(double squared_error, double r_n, double u_n) {
+    squares += squared_error;
+    // A comparison that a NaN fails would hide it.
+    if (!(squared_error <= largest)) largest = squared_error;
+    lowest_u_n = std::min(lowest_u_n, u_n);
+    let_through += r_n * std::max(0.0, -u_n);
   }
-  return sum;
+  void add(const ResidualSums& more) {
+    squares += more.squares;
+    if (!(more.largest <= largest)) largest = more.largest;
+    lowest_u_n = std::min(lowest_u_n, more.lowest_u_n);
+    let_through += more.let_through;
+  }
+};
+
+/// u = W r + q; `velocities` receives it, and what the bodies do.
+template <class Problem>
+void set_velocities(const Problem& problem, std::span<const double> r,
+                    Velocities<typename Problem::Delassus>& velocities, TeamLoops& loops) {
+  auto& u = velocities.contacts;
+  if constexpr (requires { problem.W.velocities_of(0, 0, problem.q, velocities.bodies, u); }) {
+    problem.W.load(velocities.bodies, r);
+    u.resize(problem.q.size());
+    loops.each(problem.contacts(), [&](std::size_t begin, std::size_t end) {
+      problem.W.velocities_of(static_cast<int>(begin), static_cast<int>(end), problem.q, velocities.bodies,
+                              u);
+    });
+  } else {
+    problem.W.velocities(r, problem.q, velocities.bodies, u);
+  }
 }
 
 /// Residual of impulses r (dim * contacts entries); `velocities` receives those that they cause. A problem
 /// without contacts, or with r exact, has residual 0; if every entry of q is zero and r does not solve it,
-/// infinity.
+/// infinity. The result does not depend on the team of the loops.
 template <class Problem>
 ContactResidual residual_of(const Problem& problem, std::span<const double> r,
-                            Velocities<typename Problem::Delassus>& velocities) {
+                            Velocities<typename Problem::Delassus>& velocities, TeamLoops& loops) {
   constexpr int dim = Problem::dim;
   const int count = problem.contacts();
   ContactResidual residual;
-  problem.W.velocities(r, problem.q, velocities.bodies, velocities.contacts);
+  set_velocities(problem, r, velocities, loops);
   if (count == 0) return residual;
-  const auto& u = velocities.contacts;
-  double sum = 0, largest = 0, lowest_u_n = 0, q_squares = 0, let_through = 0;
-  for (const double entry : problem.q) q_squares += entry * entry;
-  for (int a = 0; a < count; ++a) {
-    const double squares = squared_error(problem, a, r, std::span<const double>(u));
-    sum += squares;
-    // A comparison that a NaN fails would hide it.
-    if (!(squares <= largest)) largest = squares;
-    lowest_u_n = std::min(lowest_u_n, u[dim * a]);
-    let_through += r[dim * a] * std::max(0.0, -u[dim * a]);
-  }
+  const std::span<const double> u = velocities.contacts;
+  const auto sums = loops.template combined<ResidualSums>(count, [&](std::size_t begin, std::size_t end) {
+    ResidualSums own;
+    for (std::size_t a = begin; a < end; ++a)
+      own.add(squared_error(problem, static_cast<int>(a), r, u), r[dim * a], u[dim * a]);
+    return own;
+  });
+  const double q_squares = loops.sum(problem.q.size(), [&](std::size_t begin, std::size_t end) {
+    return squared_norm(std::span(problem.q).subspan(begin, end - begin));
+  });
   const double scale = std::sqrt(q_squares / static_cast<double>(problem.q.size()));
   const auto relative = [scale](double e) {
     return e == 0 ? 0 : scale != 0 ? e / scale : std::numeric_limits<double>::infinity();
   };
-  residual.rms = relative(std::sqrt(sum / count));
-  residual.max = relative(std::sqrt(largest));
-  residual.penetration = -lowest_u_n * problem.time_step;
-  residual.sinking =
-      let_through == 0 ? 0 : problem.time_step * let_through / summed_impulses(velocities.bodies);
+  residual.rms = relative(std::sqrt(sums.squares / count));
+  residual.max = relative(std::sqrt(sums.largest));
+  residual.penetration = -sums.lowest_u_n * problem.time_step;
+  residual.sinking = sums.let_through == 0
+                         ? 0
+                         : problem.time_step * sums.let_through / summed_impulses(velocities.bodies, loops);
   return residual;
+}
+
+template <class Problem>
+ContactResidual residual_of(const Problem& problem, std::span<const double> r,
+                            Velocities<typename Problem::Delassus>& velocities) {
+  TeamLoops alone;
+  return residual_of(problem, r, velocities, alone);
 }
 
 template <class Problem>
@@ -111,8 +166,13 @@ ContactResidual residual_of(const Problem& problem, std::span<const double> r) {
 
 /// Residual of a solution; sets its velocities.
 template <class Problem>
+ContactResidual residual_of(const Problem& problem, Solution<Problem>& solution, TeamLoops& loops) {
+  return residual_of(problem, std::span<const double>(solution.impulses), solution.velocities, loops);
+}
+template <class Problem>
 ContactResidual residual_of(const Problem& problem, Solution<Problem>& solution) {
-  return residual_of(problem, std::span<const double>(solution.impulses), solution.velocities);
+  TeamLoops alone;
+  return residual_of(problem, solution, alone);
 }
 
 }  // namespace drumlin::particles

@@ -49,6 +49,16 @@ class TeamLoops {
     return total;
   }
 
+  /// The sums part(begin, end) over the pieces, added up in their order by Sums::add.
+  template <class Sums, class Part>
+  Sums combined(std::size_t count, Part part) const {
+    std::vector<Sums> parts((count + piece - 1) / piece);
+    each(count, [&](std::size_t begin, std::size_t end) { parts[begin / piece] = part(begin, end); });
+    Sums all;
+    for (const Sums& own : parts) all.add(own);
+    return all;
+  }
+
   ThreadTeam* team() const { return team_; }
 
  private:

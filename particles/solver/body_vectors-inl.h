@@ -9,6 +9,9 @@
 
 #include <hwy/highway.h>
 
+#include <cstddef>
+#include <type_traits>
+
 #include "particles/solver/sweep_kernels.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -25,19 +28,26 @@ struct BodyVectors {
   hn::Vec<Lanes<T>> x, z, s, inverse_mass;
 };
 
+/// The record that begins so many bytes after the first one.
+template <class Record>
+HWY_INLINE Record& record(Record* bodies, std::uint32_t place) {
+  using Byte = std::conditional_t<std::is_const_v<Record>, const std::byte, std::byte>;
+  return *reinterpret_cast<Record*>(reinterpret_cast<Byte*>(bodies) + place);
+}
+
 #if HWY_TARGET == HWY_SCALAR
 
 // A processor without vectors, or one that Highway does not know.
 template <class T>
-HWY_INLINE BodyVectors<T> load_bodies(const BodyRecord<T>* bodies, const std::int32_t* index) {
+HWY_INLINE BodyVectors<T> load_bodies(const BodyRecord<T>* bodies, const std::uint32_t* places) {
   const Lanes<T> d;
-  const BodyRecord<T>& b = bodies[index[0]];
+  const BodyRecord<T>& b = record(bodies, places[0]);
   return {hn::Load(d, &b.x), hn::Load(d, &b.z), hn::Load(d, &b.s), hn::Load(d, &b.inverse_mass)};
 }
 template <class T>
-HWY_INLINE void store_bodies(const BodyVectors<T>& v, BodyRecord<T>* bodies, const std::int32_t* index) {
+HWY_INLINE void store_bodies(const BodyVectors<T>& v, BodyRecord<T>* bodies, const std::uint32_t* places) {
   const Lanes<T> d;
-  BodyRecord<T>& b = bodies[index[0]];
+  BodyRecord<T>& b = record(bodies, places[0]);
   hn::Store(v.x, d, &b.x), hn::Store(v.z, d, &b.z), hn::Store(v.s, d, &b.s);
 }
 
@@ -67,16 +77,16 @@ HWY_INLINE void transpose_floats(D d, V a, V b, V c, V e, V& x, V& z, V& s, V& m
   m = hn::BitCast(d, hn::InterleaveUpper(wide, high_ab, high_ce));
 }
 
-HWY_INLINE BodyVectors<double> load_bodies(const BodyRecord<double>* bodies, const std::int32_t* index) {
+HWY_INLINE BodyVectors<double> load_bodies(const BodyRecord<double>* bodies, const std::uint32_t* places) {
   const Lanes<double> d;
   BodyVectors<double> v;
 #if HWY_TARGET <= HWY_AVX2
-  transpose_doubles(d, hn::Load(d, &bodies[index[0]].x), hn::Load(d, &bodies[index[1]].x),
-                    hn::Load(d, &bodies[index[2]].x), hn::Load(d, &bodies[index[3]].x), v.x, v.z, v.s,
-                    v.inverse_mass);
+  transpose_doubles(d, hn::Load(d, &record(bodies, places[0]).x), hn::Load(d, &record(bodies, places[1]).x),
+                    hn::Load(d, &record(bodies, places[2]).x), hn::Load(d, &record(bodies, places[3]).x), v.x,
+                    v.z, v.s, v.inverse_mass);
 #else
-  const auto a = hn::Load(d, &bodies[index[0]].x), b = hn::Load(d, &bodies[index[1]].x);
-  const auto c = hn::Load(d, &bodies[index[0]].s), e = hn::Load(d, &bodies[index[1]].s);
+  const auto a = hn::Load(d, &record(bodies, places[0]).x), b = hn::Load(d, &record(bodies, places[1]).x);
+  const auto c = hn::Load(d, &record(bodies, places[0]).s), e = hn::Load(d, &record(bodies, places[1]).s);
   v.x = hn::InterleaveLower(d, a, b), v.z = hn::InterleaveUpper(d, a, b);
   v.s = hn::InterleaveLower(d, c, e), v.inverse_mass = hn::InterleaveUpper(d, c, e);
 #endif
@@ -84,57 +94,58 @@ HWY_INLINE BodyVectors<double> load_bodies(const BodyRecord<double>* bodies, con
 }
 
 HWY_INLINE void store_bodies(const BodyVectors<double>& v, BodyRecord<double>* bodies,
-                             const std::int32_t* index) {
+                             const std::uint32_t* places) {
   const Lanes<double> d;
 #if HWY_TARGET <= HWY_AVX2
   hn::Vec<Lanes<double>> a, b, c, e;
   transpose_doubles(d, v.x, v.z, v.s, v.inverse_mass, a, b, c, e);
-  hn::Store(a, d, &bodies[index[0]].x);
-  hn::Store(b, d, &bodies[index[1]].x);
-  hn::Store(c, d, &bodies[index[2]].x);
-  hn::Store(e, d, &bodies[index[3]].x);
+  hn::Store(a, d, &record(bodies, places[0]).x);
+  hn::Store(b, d, &record(bodies, places[1]).x);
+  hn::Store(c, d, &record(bodies, places[2]).x);
+  hn::Store(e, d, &record(bodies, places[3]).x);
 #else
-  hn::Store(hn::InterleaveLower(d, v.x, v.z), d, &bodies[index[0]].x);
-  hn::Store(hn::InterleaveLower(d, v.s, v.inverse_mass), d, &bodies[index[0]].s);
-  hn::Store(hn::InterleaveUpper(d, v.x, v.z), d, &bodies[index[1]].x);
-  hn::Store(hn::InterleaveUpper(d, v.s, v.inverse_mass), d, &bodies[index[1]].s);
+  hn::Store(hn::InterleaveLower(d, v.x, v.z), d, &record(bodies, places[0]).x);
+  hn::Store(hn::InterleaveLower(d, v.s, v.inverse_mass), d, &record(bodies, places[0]).s);
+  hn::Store(hn::InterleaveUpper(d, v.x, v.z), d, &record(bodies, places[1]).x);
+  hn::Store(hn::InterleaveUpper(d, v.s, v.inverse_mass), d, &record(bodies, places[1]).s);
 #endif
 }
 
-HWY_INLINE BodyVectors<float> load_bodies(const BodyRecord<float>* bodies, const std::int32_t* index) {
+HWY_INLINE BodyVectors<float> load_bodies(const BodyRecord<float>* bodies, const std::uint32_t* places) {
   const Lanes<float> d;
   BodyVectors<float> v;
 #if HWY_TARGET <= HWY_AVX2
   const hn::Half<Lanes<float>> half;
   const auto pair = [&](int k) HWY_ATTR {
-    return hn::Combine(d, hn::Load(half, &bodies[index[k + 4]].x), hn::Load(half, &bodies[index[k]].x));
+    return hn::Combine(d, hn::Load(half, &record(bodies, places[k + 4]).x),
+                       hn::Load(half, &record(bodies, places[k]).x));
   };
   transpose_floats(d, pair(0), pair(1), pair(2), pair(3), v.x, v.z, v.s, v.inverse_mass);
 #else
-  transpose_floats(d, hn::Load(d, &bodies[index[0]].x), hn::Load(d, &bodies[index[1]].x),
-                   hn::Load(d, &bodies[index[2]].x), hn::Load(d, &bodies[index[3]].x), v.x, v.z, v.s,
-                   v.inverse_mass);
+  transpose_floats(d, hn::Load(d, &record(bodies, places[0]).x), hn::Load(d, &record(bodies, places[1]).x),
+                   hn::Load(d, &record(bodies, places[2]).x), hn::Load(d, &record(bodies, places[3]).x), v.x,
+                   v.z, v.s, v.inverse_mass);
 #endif
   return v;
 }
 
 HWY_INLINE void store_bodies(const BodyVectors<float>& v, BodyRecord<float>* bodies,
-                             const std::int32_t* index) {
+                             const std::uint32_t* places) {
   const Lanes<float> d;
   hn::Vec<Lanes<float>> a, b, c, e;
   transpose_floats(d, v.x, v.z, v.s, v.inverse_mass, a, b, c, e);
 #if HWY_TARGET <= HWY_AVX2
   const hn::Half<Lanes<float>> half;
   const auto store = [&](hn::Vec<Lanes<float>> pair, int k) HWY_ATTR {
-    hn::Store(hn::LowerHalf(half, pair), half, &bodies[index[k]].x);
-    hn::Store(hn::UpperHalf(half, pair), half, &bodies[index[k + 4]].x);
+    hn::Store(hn::LowerHalf(half, pair), half, &record(bodies, places[k]).x);
+    hn::Store(hn::UpperHalf(half, pair), half, &record(bodies, places[k + 4]).x);
   };
   store(a, 0), store(b, 1), store(c, 2), store(e, 3);
 #else
-  hn::Store(a, d, &bodies[index[0]].x);
-  hn::Store(b, d, &bodies[index[1]].x);
-  hn::Store(c, d, &bodies[index[2]].x);
-  hn::Store(e, d, &bodies[index[3]].x);
+  hn::Store(a, d, &record(bodies, places[0]).x);
+  hn::Store(b, d, &record(bodies, places[1]).x);
+  hn::Store(c, d, &record(bodies, places[2]).x);
+  hn::Store(e, d, &record(bodies, places[3]).x);
 #endif
 }
 

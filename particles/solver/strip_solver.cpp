@@ -18,6 +18,14 @@ constexpr bool drives = requires(const W& w) {
 };
 
 template <class W>
+bool is_driven(const W& w, std::int32_t c) {
+  if constexpr (drives<W>)
+    return w.driven_wall(c) != nullptr;
+  else
+    return false;
+}
+
+template <class W>
 double inverse_W_nn(const W& w, std::int32_t c) {
   if constexpr (requires { w.inverse_W_nn; })
     return w.inverse_W_nn[c];
@@ -55,11 +63,16 @@ void StripProblem<T, dim, spin>::pack_bodies(const Problem& problem, const Sweep
 template <class T, int dim, bool spin>
 template <class Problem>
 void StripProblem<T, dim, spin>::pack_place(const Problem& problem, std::int32_t c, std::int32_t fixed,
-                                            std::span<const double> r, int k, Block& block) const {
+                                            std::span<const double> r, std::size_t place) {
   const auto& W = problem.W;
+  Block& block = blocks_[place / Block::width];
+  const auto k = static_cast<std::int32_t>(place % Block::width);
+  contact_[place] = c;
   const auto bodies = static_cast<std::int32_t>(place_.size());
-  block.i[k] = c >= 0 ? place_[W.i[c]] : fixed + k;
-  block.j[k] = c >= 0 && W.j[c] < bodies ? place_[W.j[c]] : fixed + k;
+  const std::int32_t i = c >= 0 ? place_[W.i[c]] : fixed + k;
+  const std::int32_t j = c >= 0 && W.j[c] < bodies ? place_[W.j[c]] : fixed + k;
+  block.i[k] = static_cast<std::uint32_t>(i * sizeof(BodyRecord<T>));
+  block.j[k] = static_cast<std::uint32_t>(j * sizeof(BodyRecord<T>));
   block.n_x[k] = c >= 0 ? static_cast<T>(W.n_x[c]) : T(0);
   block.n_z[k] = c >= 0 ? static_cast<T>(W.n_z[c]) : T(0);
   block.inverse_W_nn[k] = c >= 0 ? static_cast<T>(inverse_W_nn(W, c)) : T(1);
@@ -100,49 +113,69 @@ void StripProblem<T, dim, spin>::pack_driven(const Problem& problem, std::int32_
 
 template <class T, int dim, bool spin>
 template <class Problem>
-void StripProblem<T, dim, spin>::pack(const Problem& problem, const SweepPlan& plan,
-                                      std::span<const std::int32_t> order, std::span<const double> r) {
+void StripProblem<T, dim, spin>::lay_out(const Problem& problem, const SweepPlan& plan,
+                                         std::span<const std::int32_t> order, std::span<const double> r) {
   constexpr int width = Block::width;
+  std::size_t blocks = 0;
+  groups_.clear();
+  driven_.clear();
+  for (int slice = 0; slice < 2 * strips(); ++slice) {
+    Strip& strip = strips_[slice / 2];
+    strip.block[slice % 2] = blocks;
+    strip.group[slice % 2] = groups_.size();
+    for (std::int32_t g = plan.slice_start[slice]; g < plan.slice_start[slice + 1]; ++g) {
+      std::int32_t count = plan.group_start[g + 1] - plan.group_start[g];
+      if constexpr (drives<typename Problem::Delassus>)
+        for (std::int32_t a = plan.group_start[g]; a < plan.group_start[g + 1]; ++a)
+          if (const std::int32_t c = order.empty() ? a : order[a]; is_driven(problem.W, c))
+            pack_driven(problem, c, r), --count;
+      groups_.push_back((count + width - 1) / width);
+      blocks += groups_.back();
+    }
+    strip.block[slice % 2 + 1] = blocks;
+    strip.group[slice % 2 + 1] = groups_.size();
+  }
+  blocks_.resize(blocks);
+  contact_.resize(blocks * width);
+  kept_.resize(blocks);
+}
+
+template <class T, int dim, bool spin>
+template <class Problem>
+void StripProblem<T, dim, spin>::pack_strip(const Problem& problem, const SweepPlan& plan,
+                                            std::span<const std::int32_t> order, std::span<const double> r,
+                                            int strip) {
+  constexpr int width = Block::width;
+  const auto fixed = static_cast<std::int32_t>(strips_[strip].bodies_end) - width;
+  std::size_t place = width * strips_[strip].block[0];
+  const std::int32_t end = plan.slice_start[2 * strip + 2];
+  for (std::int32_t g = plan.slice_start[2 * strip]; g < end; ++g) {
+    for (std::int32_t a = plan.group_start[g]; a < plan.group_start[g + 1]; ++a)
+      if (const std::int32_t c = order.empty() ? a : order[a]; !is_driven(problem.W, c))
+        pack_place(problem, c, fixed, r, place++);
+    while (place % width != 0) pack_place(problem, -1, fixed, r, place++);
+  }
+}
+
+template <class T, int dim, bool spin>
+template <class Problem>
+void StripProblem<T, dim, spin>::pack(const Problem& problem, const SweepPlan& plan,
+                                      std::span<const std::int32_t> order, std::span<const double> r,
+                                      const TeamLoops& loops) {
   const int strip_count = plan.strips();
   strips_.assign(strip_count, Strip{});
   for (auto& squares : step_squares_) squares.assign(2 * static_cast<std::size_t>(strip_count) + 1, 0.0);
   residual_squares_.assign(strip_count, 0.0);
   pack_bodies(problem, plan);
-  blocks_.clear();
-  contact_.clear();
-  driven_.clear();
-  for (int slice = 0; slice < 2 * strip_count; ++slice) {
-    Strip& strip = strips_[slice / 2];
-    strip.block[slice % 2] = blocks_.size();
-    const auto fixed = static_cast<std::int32_t>(strip.bodies_end) - width;
-    for (std::int32_t g = plan.slice_start[slice]; g < plan.slice_start[slice + 1]; ++g) {
-      group_.clear();
-      for (std::int32_t a = plan.group_start[g]; a < plan.group_start[g + 1]; ++a) {
-        const std::int32_t c = order.empty() ? a : order[a];
-        if constexpr (drives<typename Problem::Delassus>)
-          if (problem.W.driven_wall(c) != nullptr) {
-            pack_driven(problem, c, r);
-            continue;
-          }
-        group_.push_back(c);
-      }
-      for (std::size_t a = 0; a < group_.size(); a += width) {
-        auto& block = blocks_.emplace_back();
-        for (int k = 0; k < width; ++k) {
-          contact_.push_back(a + k < group_.size() ? group_[a + k] : -1);
-          pack_place(problem, contact_.back(), fixed, r, k, block);
-        }
-      }
-    }
-    strip.block[slice % 2 + 1] = blocks_.size();
-  }
-  seen_.resize(blocks_.size());
-  kept_.resize(blocks_.size());
+  lay_out(problem, plan, order, r);
+  const auto pack_one = [&](int strip) { pack_strip(problem, plan, order, r, strip); };
+  (strip_count < 4 ? TeamLoops() : loops).each_of(strip_count, pack_one);
 }
 
 template <class T, int dim, bool spin>
 template <class Problem>
-void StripProblem<T, dim, spin>::unpack(const Problem& problem, bool kept, std::vector<double>& r) const {
+void StripProblem<T, dim, spin>::unpack(const Problem& problem, bool kept, std::vector<double>& r,
+                                        const TeamLoops& loops) const {
   constexpr int width = Block::width;
   const auto set = [&](std::int32_t c, const std::array<double, dim>& own) {
     for (int e = 0; e < dim; ++e) {
@@ -150,14 +183,15 @@ void StripProblem<T, dim, spin>::unpack(const Problem& problem, bool kept, std::
       r[dim * c + e] = std::clamp(own[e], -bound, bound);
     }
   };
-  for (std::size_t p = 0; p < contact_.size(); ++p) {
-    if (contact_[p] < 0) continue;
-    std::array<double, dim> own{};
-    for (int e = 0; e < dim; ++e)
-      own[e] =
-          static_cast<double>(kept ? kept_[p / width][e][p % width] : blocks_[p / width].r[e][p % width]);
-    set(contact_[p], own);
-  }
+  loops.each(contact_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      if (contact_[p] < 0) continue;
+      const Impulses& block = kept ? kept_[p / width] : blocks_[p / width].r;
+      std::array<double, dim> own{};
+      for (int e = 0; e < dim; ++e) own[e] = static_cast<double>(block[e][p % width]);
+      set(contact_[p], own);
+    }
+  });
   for (const auto& contact : driven_) set(contact.contact, kept ? contact.kept : contact.r);
 }
 
@@ -189,8 +223,9 @@ void StripProblem<T, dim, spin>::sweep(int strip, int phase, int parity, T beta,
   if (accelerated && phase == 0)
     Kernels::go_on(&bodies_[l.bodies], &before_[l.bodies], l.bodies_end - l.bodies, beta);
   step_squares_[parity][2 * strip + phase] =
-      Kernels::sweep(blocks_.data() + l.block[phase], l.block[phase + 1] - l.block[phase], bodies_.data(),
-                     beta, accelerated);
+      Kernels::sweep(blocks_.data() + l.block[phase],
+                     std::span(groups_).subspan(l.group[phase], l.group[phase + 1] - l.group[phase]),
+                     bodies_.data(), beta, accelerated);
 }
 
 template <class T, int dim, bool spin>
@@ -222,8 +257,6 @@ void StripProblem<T, dim, spin>::look_at(int strip) {
   const Strip& l = strips_[strip];
   residual_squares_[strip] =
       Kernels::residual(blocks_.data() + l.block[0], l.block[2] - l.block[0], bodies_.data());
-  for (std::size_t b = l.block[0]; b < l.block[2]; ++b)
-    for (int e = 0; e < dim; ++e) seen_[b][e] = blocks_[b].r[e];
 }
 
 template <class T, int dim, bool spin>
@@ -233,15 +266,21 @@ double StripProblem<T, dim, spin>::residual_squares() {
 }
 
 template <class T, int dim, bool spin>
-void StripProblem<T, dim, spin>::keep() {
-  std::swap(seen_, kept_);
+void StripProblem<T, dim, spin>::keep(int strip) {
+  for (std::size_t b = strips_[strip].block[0]; b < strips_[strip].block[2]; ++b) kept_[b] = blocks_[b].r;
+}
+
+template <class T, int dim, bool spin>
+void StripProblem<T, dim, spin>::keep_driven() {
   for (auto& contact : driven_) contact.kept = contact.r;
 }
 
-#define DRUMLIN_INSTANTIATE(T, dim, spin, Problem)                                                        \
-  template void StripProblem<T, dim, spin>::pack(const Problem&, const SweepPlan&,                        \
-                                                 std::span<const std::int32_t>, std::span<const double>); \
-  template void StripProblem<T, dim, spin>::unpack(const Problem&, bool, std::vector<double>&) const;
+#define DRUMLIN_INSTANTIATE(T, dim, spin, Problem)                                                       \
+  template void StripProblem<T, dim, spin>::pack(const Problem&, const SweepPlan&,                       \
+                                                 std::span<const std::int32_t>, std::span<const double>, \
+                                                 const TeamLoops&);                                      \
+  template void StripProblem<T, dim, spin>::unpack(const Problem&, bool, std::vector<double>&,           \
+                                                   const TeamLoops&) const;
 #define DRUMLIN_INSTANTIATE_BOTH(dim, spin, Problem, DrivenProblem) \
   template class StripProblem<double, dim, spin>;                   \
   template class StripProblem<float, dim, spin>;                    \

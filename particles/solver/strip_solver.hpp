@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "particles/contact/sweep_plan.hpp"
-#include "particles/parallel/thread_team.hpp"
+#include "particles/parallel/team_loops.hpp"
 #include "particles/solver/driven_contacts.hpp"
 #include "particles/solver/sweep_kernels.hpp"
 
@@ -23,11 +23,11 @@ class StripProblem {
   /// order of the plan; empty if they stand in it.
   template <class Problem>
   void pack(const Problem& problem, const SweepPlan& plan, std::span<const std::int32_t> order,
-            std::span<const double> r);
+            std::span<const double> r, const TeamLoops& loops);
   /// Impulses in the order of the problem, held to their cones, which single precision oversteps by a
   /// rounding. `kept`: those of the last keep().
   template <class Problem>
-  void unpack(const Problem& problem, bool kept, std::vector<double>& r) const;
+  void unpack(const Problem& problem, bool kept, std::vector<double>& r, const TeamLoops& loops) const;
 
   int strips() const { return static_cast<int>(strips_.size()); }
   /// First strip of a thread's share: strips are shared by numbers of blocks.
@@ -54,35 +54,45 @@ class StripProblem {
   /// Residuals of the contacts of a strip, and their sum of squares over all strips and driven walls.
   void look_at(int strip);
   double residual_squares();
-  /// Keeps the impulses that were last looked at.
-  void keep();
+  /// Keeps the impulses of a strip, and those of driven walls.
+  void keep(int strip);
+  void keep_driven();
 
  private:
   struct Strip {
     std::size_t bodies = 0, bodies_end = 0;  // those of wall contacts, which do not move, stand last
     std::size_t block[3] = {0, 0, 0};        // first block of each phase, and the end
+    std::size_t group[3] = {0, 0, 0};        // likewise in groups_
   };
   using Block = ContactBlock<T, dim>;
   using Impulses = std::array<std::array<T, Block::width>, dim>;  // of a block
 
   template <class Problem>
   void pack_bodies(const Problem& problem, const SweepPlan& plan);
+  /// Where the blocks of each slice stand; contacts of driven walls are packed apart.
+  template <class Problem>
+  void lay_out(const Problem& problem, const SweepPlan& plan, std::span<const std::int32_t> order,
+               std::span<const double> r);
+  template <class Problem>
+  void pack_strip(const Problem& problem, const SweepPlan& plan, std::span<const std::int32_t> order,
+                  std::span<const double> r, int strip);
+  /// Contact c, or none (-1).
   template <class Problem>
   void pack_place(const Problem& problem, std::int32_t c, std::int32_t fixed, std::span<const double> r,
-                  int k, Block& block) const;
+                  std::size_t place);
   template <class Problem>
   void pack_driven(const Problem& problem, std::int32_t c, std::span<const double> r);
   std::vector<Strip> strips_;
   std::vector<Block> blocks_;
+  std::vector<std::int32_t> groups_;   // numbers of blocks that share no body
   std::vector<std::int32_t> contact_;  // of each place in the blocks; -1: filled up
   std::vector<BodyRecord<T>> bodies_, before_;
   std::vector<std::int32_t> place_;       // of each body in bodies_
   std::vector<double> step_squares_[2];   // of each slice, of even and odd sweeps
   std::vector<double> residual_squares_;  // of each strip
-  std::vector<Impulses> seen_, kept_;     // of each block
+  std::vector<Impulses> kept_;            // of each block
   std::vector<DrivenContact<dim>> driven_;
   std::size_t driven_bodies_ = 0;  // first of them in bodies_
-  std::vector<std::int32_t> group_;
 };
 
 }  // namespace drumlin::particles

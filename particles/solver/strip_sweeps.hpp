@@ -20,6 +20,7 @@ struct SweepState {
   double worth = 0;     ///< of `steps`: above it the residual, which costs about a sweep, is not looked at
   int unseen = 0;       ///< rounds without a look at the residual
   bool looked = false;  ///< in the last round
+  bool keep = false;    ///< the impulses that it left are the best so far
 };
 
 /// Sweeps on to `until` and, where it is due, computes the residuals of the strips; one thread's share, which
@@ -41,6 +42,9 @@ void sweep_share(Strips& strips, int thread, int threads, int until, bool last, 
     for (int strip = first; strip < end; ++strip) strips.start(strip);
     meet();
   }
+  if (own.keep)
+    for (int strip = first; strip < end; ++strip) strips.keep(strip);
+  own.keep = false;
   while (own.sweeps < until && own.finite) {
     ++own.sweeps;
     for (const int phase : {0, 1}) {
@@ -69,15 +73,16 @@ void sweep_share(Strips& strips, int thread, int threads, int until, bool last, 
 /// into the square of the relative residual.
 template <class Problem, class Strips>
 double pack_in_strips(const Problem& problem, SolverWorkspace<Problem>& work, Strips& strips,
-                      Solution<Problem>& solution) {
+                      Solution<Problem>& solution, TeamLoops& loops) {
   solution.impulses.resize(problem.q.size());
   auto& own = work.strips;
   own.order.clear();
   const bool planned = !problem.W.plan.empty();
   if (!planned) own.plan = sweep_plan(problem.W.fixed(), problem.W.i, problem.W.j, own.order);
-  strips.pack(problem, planned ? problem.W.plan : own.plan, own.order, solution.impulses);
-  double q_squares = 0;
-  for (const double q : problem.q) q_squares += q * q;
+  strips.pack(problem, planned ? problem.W.plan : own.plan, own.order, solution.impulses, loops);
+  const double q_squares = loops.sum(problem.q.size(), [&](std::size_t begin, std::size_t end) {
+    return squared_norm(std::span(problem.q).subspan(begin, end - begin));
+  });
   return q_squares > 0 ? Problem::dim / q_squares : 1;  // rms over contacts, relative to the rms of q
 }
 
@@ -90,7 +95,8 @@ template <class T, class Problem, class Strips>
 SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, SolverWorkspace<Problem>& work,
                             Strips& strips, Solution<Problem>& solution, bool accelerated) {
   StoppingTest test(rule);
-  const double residual_scale = pack_in_strips(problem, work, strips, solution);
+  TeamLoops loops(work.team);
+  const double residual_scale = pack_in_strips(problem, work, strips, solution, loops);
   // Below four strips a second thread costs more than it saves.
   ThreadTeam* team = strips.strips() >= 4 ? work.team : nullptr;
   constexpr int patience = 100;  // sweeps without a tenth of progress; a flow takes 10 for that
@@ -98,6 +104,7 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
   constexpr bool single = sizeof(T) < sizeof(double);
   const bool always = std::isfinite(rule.max_seconds);
   SweepState<T> state;
+  state.momentum = Momentum(rule.tolerance);
   state.worth = std::numeric_limits<double>::infinity();
   double least = std::numeric_limits<double>::infinity(), best = least;
   for (int progress_at = 0;;) {
@@ -119,15 +126,15 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
     // Rounding of single precision hides the progress.
     const bool stuck = single && state.sweeps - progress_at >= patience;
     const bool last = state.sweeps >= rule.max_sweeps || !state.finite;
-    if (seen < best) best = seen, strips.keep();
+    if (seen < best) best = seen, state.keep = true, strips.keep_driven();
     if (!last && !stuck && seen > rule.tolerance && !always) continue;
-    strips.unpack(problem, false, solution.impulses);
-    const bool ended = test.ends(state.sweeps, residual_of(problem, solution), state.finite);
+    strips.unpack(problem, false, solution.impulses, loops);
+    const bool ended = test.ends(state.sweeps, residual_of(problem, solution, loops), state.finite);
     const bool hidden = single && test.report().residual.rms > 3 * seen;
     if (!ended && !stuck && !hidden) continue;
     if (best < seen && test.report().status != Status::converged) {
-      strips.unpack(problem, true, solution.impulses);
-      test.replace(residual_of(problem, solution));
+      strips.unpack(problem, true, solution.impulses, loops);
+      test.replace(residual_of(problem, solution, loops));
     }
     return test.report();
   }

@@ -6,6 +6,7 @@
 #include <hwy/highway.h>
 
 #include "particles/solver/body_vectors-inl.h"
+#include "particles/solver/cone_vectors-inl.h"
 #include "particles/solver/sweep_kernels.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -30,11 +31,6 @@ template <class T, class V>
 HWY_INLINE V rolling_velocity(V lever, const BodyVectors<T>& I, const BodyVectors<T>& J) {
   const V other = hn::Sub(hn::Set(Lanes<T>(), T(1)), lever);
   return hn::Sub(hn::Mul(lever, I.s), hn::Mul(other, J.s));
-}
-
-template <class V>
-HWY_INLINE V clamped(V value, V bound) {
-  return hn::Min(bound, hn::Max(hn::Neg(bound), value));
 }
 
 /// Adds impulses (n, t) of contacts to their bodies.
@@ -99,98 +95,132 @@ HWY_INLINE V started_from(const std::array<T, 8>& r, std::array<T, 8>& before, s
   return hn::Add(now, hn::Mul(beta, hn::Sub(now, then)));
 }
 
-template <class T, int dim, bool spin, bool accelerated>
-double sweep(ContactBlock<T, dim>* blocks, std::size_t count, BodyRecord<T>* bodies, T beta_) {
+/// A vector of contacts: those of a block from k on.
+template <class T, int dim>
+struct Place {
+  ContactBlock<T, dim>* block;
+  std::size_t k;
+};
+
+/// What a sweep knows of a vector of contacts.
+template <class T>
+struct SweptContacts {
+  BodyVectors<T> I, J;
+  hn::Vec<Lanes<T>> dv_x, dv_z, new_n, dr_n, dr_t, squares;
+};
+
+template <class T, int dim, bool accelerated, class V>
+HWY_INLINE void solve_normals(const Place<T, dim>& at, V beta, SweptContacts<T>& c) {
   const Lanes<T> d;
-  using V = hn::Vec<Lanes<T>>;
-  constexpr int width = ContactBlock<T, dim>::width;
-  const V zero = hn::Zero(d), beta = hn::Set(d, beta_);
+  auto& [block, k] = at;
+  c.dv_x = hn::Sub(c.I.x, c.J.x), c.dv_z = hn::Sub(c.I.z, c.J.z);
+  const V n_x = hn::Load(d, &block->n_x[k]), n_z = hn::Load(d, &block->n_z[k]);
+  const V r_n = started_from<accelerated>(block->r[0], block->before[0], k, beta);
+  const V approach = hn::Add(hn::Mul(n_x, c.dv_x), hn::Mul(n_z, c.dv_z));
+  const V u_n = hn::Add(hn::Load(d, &block->q[0][k]), approach);
+  // Max(a, NaN) is NaN, Max(NaN, a) is not.
+  c.new_n = hn::Max(hn::Zero(d), hn::Sub(r_n, hn::Mul(u_n, hn::Load(d, &block->inverse_W_nn[k]))));
+  c.dr_n = hn::Sub(c.new_n, r_n);
+  hn::Store(c.new_n, d, &block->r[0][k]);
+  c.squares = hn::Mul(c.dr_n, c.dr_n);
+  c.dr_t = hn::Zero(d);
+}
+
+/// Friction r_t and rolling of contacts with tangential velocities u_t: the minimum over a box, exactly.
+/// Friction as if rolling were free, clamped; rolling for that; friction for that. Returns the new r_t.
+template <class T, bool accelerated, class V>
+HWY_INLINE V solve_rolling(const Place<T, 3>& at, V beta, V r_t, V u_t, V bound, V inverse_W_tt,
+                           SweptContacts<T>& c) {
+  const Lanes<T> d;
+  auto& [block, k] = at;
+  const V r_r = started_from<accelerated>(block->r[2], block->before[2], k, beta);
+  const V lever = hn::Load(d, &block->lever[k]), inverse_W_rr = hn::Load(d, &block->inverse_W_rr[k]);
+  const auto turns = turns_of<T>(lever, c.I, c.J);
+  const V W_tr = hn::Sub(turns.j, turns.i);
+  const V u_r = hn::Add(hn::Load(d, &block->q[2][k]), rolling_velocity<T>(lever, c.I, c.J));
+  const V pulled = hn::Sub(u_t, hn::Mul(W_tr, hn::Mul(inverse_W_rr, u_r)));
+  const V first = clamped(hn::Sub(r_t, hn::Mul(pulled, hn::Load(d, &block->inverse_W_tt[k]))), bound);
+  const V rolled = hn::Mul(inverse_W_rr, hn::Add(u_r, hn::Mul(W_tr, hn::Sub(first, r_t))));
+  const V new_r = clamped(hn::Sub(r_r, rolled), hn::Mul(hn::Load(d, &block->mu_r[k]), c.new_n));
+  const V dr_r = hn::Sub(new_r, r_r);
+  hn::Store(new_r, d, &block->r[2][k]);
+  c.squares = hn::Add(c.squares, hn::Mul(dr_r, dr_r));
+  roll<T>(lever, dr_r, c.I, c.J);
+  return clamped(hn::Sub(r_t, hn::Mul(inverse_W_tt, hn::Add(u_t, hn::Mul(W_tr, dr_r)))), bound);
+}
+
+template <class T, int dim, bool spin, bool accelerated, class V>
+HWY_INLINE void solve_tangents(const Place<T, dim>& at, V beta, SweptContacts<T>& c) {
+  const Lanes<T> d;
+  auto& [block, k] = at;
   const V ratio = hn::Set(d, spin ? T(1) / T(3) : T(1));  // W_nn / W_tt
+  const V r_t = started_from<accelerated>(block->r[1], block->before[1], k, beta);
+  V slip =
+      hn::Sub(hn::Mul(hn::Load(d, &block->n_z[k]), c.dv_x), hn::Mul(hn::Load(d, &block->n_x[k]), c.dv_z));
+  if constexpr (spin) slip = hn::Sub(slip, hn::Add(c.I.s, c.J.s));
+  const V u_t = hn::Add(hn::Load(d, &block->q[1][k]), slip);
+  const V bound = hn::Mul(hn::Load(d, &block->mu[k]), c.new_n);
+  const V inverse_W_tt = hn::Mul(hn::Load(d, &block->inverse_W_nn[k]), ratio);
+  V new_t;
+  if constexpr (dim == 2)
+    new_t = clamped(hn::Sub(r_t, hn::Mul(u_t, inverse_W_tt)), bound);
+  else
+    new_t = solve_rolling<T, accelerated>(at, beta, r_t, u_t, bound, inverse_W_tt, c);
+  c.dr_t = hn::Sub(new_t, r_t);
+  hn::Store(new_t, d, &block->r[1][k]);
+  c.squares = hn::Add(c.squares, hn::Mul(c.dr_t, c.dr_t));
+}
+
+template <class T, int dim>
+HWY_INLINE void bring_bodies(const Place<T, dim>& at, const BodyRecord<T>* bodies, SweptContacts<T>& c) {
+  c.I = load_bodies(bodies, &at.block->i[at.k]);
+  c.J = load_bodies(bodies, &at.block->j[at.k]);
+}
+
+template <class T, int dim, bool spin>
+HWY_INLINE void push_bodies(const Place<T, dim>& at, SweptContacts<T>& c, BodyRecord<T>* bodies) {
+  const Lanes<T> d;
+  auto& [block, k] = at;
+  push<dim, spin, T>(hn::Load(d, &block->n_x[k]), hn::Load(d, &block->n_z[k]), c.dr_n, c.dr_t, c.I, c.J);
+  store_bodies(c.I, bodies, &block->i[k]);
+  store_bodies(c.J, bodies, &block->j[k]);
+}
+
+template <class T, int dim, bool spin, bool accelerated>
+double sweep(ContactBlock<T, dim>* blocks, std::span<const std::int32_t> groups, BodyRecord<T>* bodies,
+             T beta_) {
+  const Lanes<T> d;
+  constexpr std::size_t width = ContactBlock<T, dim>::width;
+  const std::size_t lanes = hn::Lanes(d);
+  const auto beta = hn::Set(d, beta_);
   // Eight sums whatever the length of a vector.
   HWY_ALIGN std::array<T, width> squares{};
-  for (std::size_t b = 0; b < count; ++b) {
-    auto& block = blocks[b];
-    for (std::size_t k = 0; k < width; k += hn::Lanes(d)) {
-      auto I = load_bodies(bodies, &block.i[k]), J = load_bodies(bodies, &block.j[k]);
-      const V n_x = hn::Load(d, &block.n_x[k]), n_z = hn::Load(d, &block.n_z[k]);
-      const V w = hn::Load(d, &block.inverse_W_nn[k]);
-      const V dv_x = hn::Sub(I.x, J.x), dv_z = hn::Sub(I.z, J.z);
-      const V r_n = started_from<accelerated>(block.r[0], block.before[0], k, beta);
-      const V u_n = hn::Add(hn::Load(d, &block.q[0][k]), hn::Add(hn::Mul(n_x, dv_x), hn::Mul(n_z, dv_z)));
-      // Max(a, NaN) is NaN, Max(NaN, a) is not.
-      const V new_n = hn::Max(zero, hn::Sub(r_n, hn::Mul(u_n, w)));
-      const V dr_n = hn::Sub(new_n, r_n);
-      hn::Store(new_n, d, &block.r[0][k]);
-      V sum = hn::Mul(dr_n, dr_n);
-      V dr_t = zero, dr_r = zero;
-      if constexpr (dim >= 2) {
-        const V r_t = started_from<accelerated>(block.r[dim >= 2], block.before[dim >= 2], k, beta);
-        V slip = hn::Sub(hn::Mul(n_z, dv_x), hn::Mul(n_x, dv_z));
-        if constexpr (spin) slip = hn::Sub(slip, hn::Add(I.s, J.s));
-        const V u_t = hn::Add(hn::Load(d, &block.q[dim >= 2][k]), slip);
-        const V bound = hn::Mul(hn::Load(d, &block.mu[k]), new_n), inverse_W_tt = hn::Mul(w, ratio);
-        V new_t;
-        if constexpr (dim == 2) {
-          new_t = clamped(hn::Sub(r_t, hn::Mul(u_t, inverse_W_tt)), bound);
-        } else {
-          // The minimum over a box, exactly: friction as if rolling were free, clamped; rolling for that;
-          // friction for that.
-          const V r_r = started_from<accelerated>(block.r[2], block.before[2], k, beta);
-          const V lever = hn::Load(d, &block.lever[k]), inverse_W_rr = hn::Load(d, &block.inverse_W_rr[k]);
-          const auto turns = turns_of<T>(lever, I, J);
-          const V W_tr = hn::Sub(turns.j, turns.i);
-          const V u_r = hn::Add(hn::Load(d, &block.q[2][k]), rolling_velocity<T>(lever, I, J));
-          const V pulled = hn::Sub(u_t, hn::Mul(W_tr, hn::Mul(inverse_W_rr, u_r)));
-          const V first = clamped(hn::Sub(r_t, hn::Mul(pulled, hn::Load(d, &block.inverse_W_tt[k]))), bound);
-          const V rolled = hn::Mul(inverse_W_rr, hn::Add(u_r, hn::Mul(W_tr, hn::Sub(first, r_t))));
-          const V new_r = clamped(hn::Sub(r_r, rolled), hn::Mul(hn::Load(d, &block.mu_r[k]), new_n));
-          dr_r = hn::Sub(new_r, r_r);
-          new_t = clamped(hn::Sub(r_t, hn::Mul(inverse_W_tt, hn::Add(u_t, hn::Mul(W_tr, dr_r)))), bound);
-          hn::Store(new_r, d, &block.r[2][k]);
-          sum = hn::Add(sum, hn::Mul(dr_r, dr_r));
-          roll<T>(lever, dr_r, I, J);
-        }
-        dr_t = hn::Sub(new_t, r_t);
-        hn::Store(new_t, d, &block.r[dim >= 2][k]);
-        sum = hn::Add(sum, hn::Mul(dr_t, dr_t));
-      }
-      hn::Store(hn::Add(hn::Load(d, &squares[k]), sum), d, &squares[k]);
-      push<dim, spin, T>(n_x, n_z, dr_n, dr_t, I, J);
-      store_bodies(I, bodies, &block.i[k]);
-      store_bodies(J, bodies, &block.j[k]);
+  const auto solve = [&](const Place<T, dim>& at, SweptContacts<T>& c) HWY_ATTR {
+    solve_normals<T, dim, accelerated>(at, beta, c);
+    if constexpr (dim >= 2) solve_tangents<T, dim, spin, accelerated>(at, beta, c);
+    hn::Store(hn::Add(hn::Load(d, &squares[at.k]), c.squares), d, &squares[at.k]);
+  };
+  for (const std::int32_t group : groups) {
+    if (group == 0) continue;
+    // The chain of operations of one vector is longer than what a processor looks ahead: the bodies of the
+    // next one come while this one's are pushed.
+    Place<T, dim> at{blocks, 0};
+    SweptContacts<T> c, next;
+    bring_bodies(at, bodies, c);
+    for (std::size_t left = group * (width / lanes) - 1; left > 0; --left) {
+      solve(at, c);
+      const bool whole = at.k + lanes == width;
+      const Place<T, dim> after{whole ? at.block + 1 : at.block, whole ? 0 : at.k + lanes};
+      bring_bodies(after, bodies, next);
+      push_bodies<T, dim, spin>(at, c, bodies);
+      at = after;
+      c.I = next.I, c.J = next.J;
     }
+    solve(at, c);
+    push_bodies<T, dim, spin>(at, c, bodies);
+    blocks += group;
   }
   return total(squares);
-}
-
-/// Squared distance of r = (r_n, r_t) from the projection of (n, t) on the cone.
-template <class V>
-HWY_INLINE V missed_by_projection(V mu, V n, V t, V r_n, V r_t) {
-  const hn::DFromV<V> d;
-  const V zero = hn::Zero(d), one = hn::Set(d, 1);
-  // Itself inside, else on the ray or the tip.
-  const V size = hn::Abs(t);
-  const V ray = hn::Div(hn::Max(zero, hn::Add(n, hn::Mul(mu, size))), hn::Add(one, hn::Mul(mu, mu)));
-  const auto inside = hn::Le(size, hn::Mul(mu, n));
-  const V missed_n = hn::Sub(hn::IfThenElse(inside, n, ray), r_n);
-  const V missed_t = hn::Sub(hn::IfThenElse(inside, t, hn::CopySign(hn::Mul(mu, ray), t)), r_t);
-  return hn::Add(hn::Mul(missed_n, missed_n), hn::Mul(missed_t, missed_t));
-}
-
-/// The same with rolling resistance (project_on_cone in particles/contact/cone.hpp).
-template <class V>
-HWY_INLINE V missed_by_projection(V mu, V mu_r, V n, V t, V r, V r_n, V r_t, V r_r) {
-  const hn::DFromV<V> d;
-  const V one = hn::Set(d, 1), mu_2 = hn::Mul(mu, mu), mu_r_2 = hn::Mul(mu_r, mu_r);
-  const V with_t = hn::Mul(mu, hn::Abs(t)), with_r = hn::Mul(mu_r, hn::Abs(r));
-  V along = hn::Max(hn::Zero(d), n);
-  along = hn::Max(along, hn::Div(hn::Add(n, with_t), hn::Add(one, mu_2)));
-  along = hn::Max(along, hn::Div(hn::Add(n, with_r), hn::Add(one, mu_r_2)));
-  along = hn::Max(along, hn::Div(hn::Add(hn::Add(n, with_t), with_r), hn::Add(hn::Add(one, mu_2), mu_r_2)));
-  const V missed_n = hn::Sub(along, r_n), missed_t = hn::Sub(clamped(t, hn::Mul(mu, along)), r_t);
-  const V missed_r = hn::Sub(clamped(r, hn::Mul(mu_r, along)), r_r);
-  return hn::Add(hn::Add(hn::Mul(missed_n, missed_n), hn::Mul(missed_t, missed_t)),
-                 hn::Mul(missed_r, missed_r));
 }
 
 /// 1 / lambda_max(W_aa) with rolling resistance: the larger eigenvalue of friction and rolling, W_nn being
@@ -268,15 +298,17 @@ void go_on(BodyRecord<T>* bodies, BodyRecord<T>* before, std::size_t count, T be
   }
 }
 
-#define DRUMLIN_KERNELS(T, name, dim, spin)                                                             \
-  void load_##name(const ContactBlock<T, dim>* b, std::size_t n, BodyRecord<T>* v) {                    \
-    load<T, dim, spin>(b, n, v);                                                                        \
-  }                                                                                                     \
-  double sweep_##name(ContactBlock<T, dim>* b, std::size_t n, BodyRecord<T>* v, T beta, bool fast) {    \
-    return fast ? sweep<T, dim, spin, true>(b, n, v, beta) : sweep<T, dim, spin, false>(b, n, v, beta); \
-  }                                                                                                     \
-  double residual_##name(const ContactBlock<T, dim>* b, std::size_t n, const BodyRecord<T>* v) {        \
-    return residual<T, dim, spin>(b, n, v);                                                             \
+#define DRUMLIN_KERNELS(T, name, dim, spin)                                                            \
+  void load_##name(const ContactBlock<T, dim>* b, std::size_t n, BodyRecord<T>* v) {                   \
+    load<T, dim, spin>(b, n, v);                                                                       \
+  }                                                                                                    \
+  double sweep_##name(ContactBlock<T, dim>* b, std::span<const std::int32_t> groups, BodyRecord<T>* v, \
+                      T beta, bool fast) {                                                             \
+    return fast ? sweep<T, dim, spin, true>(b, groups, v, beta)                                        \
+                : sweep<T, dim, spin, false>(b, groups, v, beta);                                      \
+  }                                                                                                    \
+  double residual_##name(const ContactBlock<T, dim>* b, std::size_t n, const BodyRecord<T>* v) {       \
+    return residual<T, dim, spin>(b, n, v);                                                            \
   }
 DRUMLIN_KERNELS(double, double_smooth, 1, false)
 DRUMLIN_KERNELS(double, double_friction, 2, false)
@@ -304,28 +336,28 @@ namespace drumlin::particles {
 HWY_EXPORT(go_on_double);
 HWY_EXPORT(go_on_float);
 
-#define DRUMLIN_DISPATCH(T, precision, name, dim, spin)                                                     \
-  HWY_EXPORT(load_##name);                                                                                  \
-  HWY_EXPORT(residual_##name);                                                                              \
-  HWY_EXPORT(sweep_##name);                                                                                 \
-  template <>                                                                                               \
-  void SweepKernels<T, dim, spin>::load(const Block* blocks, std::size_t count, BodyRecord<T>* bodies) {    \
-    HWY_DYNAMIC_DISPATCH(load_##name)(blocks, count, bodies);                                               \
-  }                                                                                                         \
-  template <>                                                                                               \
-  double SweepKernels<T, dim, spin>::sweep(Block* blocks, std::size_t count, BodyRecord<T>* bodies, T beta, \
-                                           bool accelerated) {                                              \
-    return HWY_DYNAMIC_DISPATCH(sweep_##name)(blocks, count, bodies, beta, accelerated);                    \
-  }                                                                                                         \
-  template <>                                                                                               \
-  double SweepKernels<T, dim, spin>::residual(const Block* blocks, std::size_t count,                       \
-                                              const BodyRecord<T>* bodies) {                                \
-    return HWY_DYNAMIC_DISPATCH(residual_##name)(blocks, count, bodies);                                    \
-  }                                                                                                         \
-  template <>                                                                                               \
-  void SweepKernels<T, dim, spin>::go_on(BodyRecord<T>* bodies, BodyRecord<T>* before, std::size_t count,   \
-                                         T beta) {                                                          \
-    HWY_DYNAMIC_DISPATCH(go_on_##precision)(bodies, before, count, beta);                                   \
+#define DRUMLIN_DISPATCH(T, precision, name, dim, spin)                                                   \
+  HWY_EXPORT(load_##name);                                                                                \
+  HWY_EXPORT(residual_##name);                                                                            \
+  HWY_EXPORT(sweep_##name);                                                                               \
+  template <>                                                                                             \
+  void SweepKernels<T, dim, spin>::load(const Block* blocks, std::size_t count, BodyRecord<T>* bodies) {  \
+    HWY_DYNAMIC_DISPATCH(load_##name)(blocks, count, bodies);                                             \
+  }                                                                                                       \
+  template <>                                                                                             \
+  double SweepKernels<T, dim, spin>::sweep(Block* blocks, std::span<const std::int32_t> groups,           \
+                                           BodyRecord<T>* bodies, T beta, bool accelerated) {             \
+    return HWY_DYNAMIC_DISPATCH(sweep_##name)(blocks, groups, bodies, beta, accelerated);                 \
+  }                                                                                                       \
+  template <>                                                                                             \
+  double SweepKernels<T, dim, spin>::residual(const Block* blocks, std::size_t count,                     \
+                                              const BodyRecord<T>* bodies) {                              \
+    return HWY_DYNAMIC_DISPATCH(residual_##name)(blocks, count, bodies);                                  \
+  }                                                                                                       \
+  template <>                                                                                             \
+  void SweepKernels<T, dim, spin>::go_on(BodyRecord<T>* bodies, BodyRecord<T>* before, std::size_t count, \
+                                         T beta) {                                                        \
+    HWY_DYNAMIC_DISPATCH(go_on_##precision)(bodies, before, count, beta);                                 \
   }
 DRUMLIN_DISPATCH(double, double, double_smooth, 1, false)
 DRUMLIN_DISPATCH(double, double, double_friction, 2, false)

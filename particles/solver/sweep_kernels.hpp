@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace drumlin::particles {
 
@@ -25,10 +26,11 @@ struct FrictionOfBlock<T, 3> {
 template <class T, int dim>
 struct alignas(64) ContactBlock : FrictionOfBlock<T, dim> {
   static constexpr int width = 8;
-  std::array<std::int32_t, width> i, j;  ///< places of the bodies
+  std::array<std::uint32_t, width> i, j;  ///< where the records of the bodies begin, in bytes
   std::array<T, width> n_x, n_z, inverse_W_nn;
-  std::array<T, width> q[dim], r[dim];
-  std::array<T, width> before[dim];  ///< r after the sweep before the last, where momentum needs it
+  std::array<std::array<T, width>, dim> q, r;
+  std::array<std::array<T, width>, dim>
+      before;  ///< r after the sweep before the last, where momentum needs it
 };
 
 /// Velocity change of a body: x, z, the tangential velocity of its rim, and the inverse mass that turns
@@ -44,10 +46,12 @@ struct SweepKernels {
   using Block = ContactBlock<T, dim>;
   /// Adds the impulses of the blocks to the bodies.
   static void load(const Block* blocks, std::size_t count, BodyRecord<T>* bodies);
-  /// One Gauss-Seidel sweep over the blocks in their order. With `accelerated` it starts further on, from r +
-  /// beta (r - before), and `before` becomes r. Returns the sum of
-  /// squares of the steps of the impulses.
-  static double sweep(Block* blocks, std::size_t count, BodyRecord<T>* bodies, T beta, bool accelerated);
+  /// One Gauss-Seidel sweep over the blocks in their order. `groups`: numbers of successive blocks that share
+  /// no body, so that the bodies of the next one are loaded before those of this one are stored. With
+  /// `accelerated` it starts further on, from r + beta (r - before), and `before` becomes r. Returns the sum
+  /// of squares of the steps of the impulses.
+  static double sweep(Block* blocks, std::span<const std::int32_t> groups, BodyRecord<T>* bodies, T beta,
+                      bool accelerated);
   /// The sum of squares of the residuals e_a (docs/conventions.md) of the blocks as they stand.
   static double residual(const Block* blocks, std::size_t count, const BodyRecord<T>* bodies);
   /// The same going on for bodies.

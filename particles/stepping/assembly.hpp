@@ -8,6 +8,7 @@
 #include "particles/effects/friction.hpp"
 #include "particles/effects/rolling.hpp"
 #include "particles/effects/spin.hpp"
+#include "particles/parallel/team_loops.hpp"
 #include "particles/stepping/step_contacts.hpp"
 
 namespace drumlin::particles {
@@ -44,7 +45,6 @@ inline Point relative_velocity(const Candidate& pair, std::span<const double> v_
 template <class Problem>
 void assemble_bodies(const StepInput& step, Problem& problem) {
   auto& W = problem.W;
-  W.clear();
   W.inverse_mass.assign(step.bodies.inverse_mass.begin(), step.bodies.inverse_mass.end());
   W.inverse_mass.push_back(0);
   if constexpr (drives_walls<Problem>) {
@@ -67,36 +67,44 @@ std::int32_t second_body(const StepInput& step, const Candidate& pair) {
 /// Added to u_n: a contact may act before it touches, u_n >= -gap/h.
 inline double predicted_gap(double gap, double time_step) { return gap > 0 ? gap / time_step : 0; }
 
-/// Writes the problem in the order of the contacts.
+/// Writes contact a of the problem.
 template <class Problem, bool with_spin>
-void assemble(const StepInput& step, const StepContacts& contacts, Problem& problem) {
+void assemble_contact(const StepInput& step, const Candidate& pair, int a, Problem& problem) {
   constexpr int dim = Problem::dim;
   const StepLaws& laws = step.laws;
   const Bodies& bodies = step.bodies;
+  const Point u = relative_velocity(pair, step.free.x, step.free.z, wall_velocity<Problem>(step, pair));
+  problem.q[dim * a] = normal_part(pair, u) + predicted_gap(pair.gap, step.time_step);
+  const std::int32_t second = second_body<Problem>(step, pair);
+  if constexpr (dim == 3) {
+    const double lever = lever_of(pair, bodies);
+    problem.W.set(a, pair.i, second, pair.n_x, pair.n_z, lever);
+    problem.q[dim * a + 2] = rolling_velocity(pair, bodies, step.walls, lever, step.time_step);
+    problem.mu[2 * a + 1] = rolling_bound(*laws.rolling, pair, step.materials());
+  } else {
+    problem.W.set(a, pair.i, second, pair.n_x, pair.n_z);
+  }
+  if constexpr (dim >= 2) {
+    const double u_t = tangential_part(pair, u);
+    problem.q[dim * a + 1] = with_spin ? sliding_of_rims(u_t, pair, bodies) : u_t;
+    problem.mu[(dim - 1) * a] = friction_bound(*laws.friction, pair, step.materials());
+  }
+}
+
+/// Writes the problem in the order of the contacts.
+template <class Problem, bool with_spin>
+void assemble(const StepInput& step, const StepContacts& contacts, const TeamLoops& loops, Problem& problem) {
+  constexpr int dim = Problem::dim;
   const std::size_t count = contacts.pairs.size();
   assemble_bodies(step, problem);
+  problem.W.resize(count);
   problem.q.resize(dim * count);
   problem.mu.resize((dim - 1) * count);
   problem.time_step = step.time_step;
-  for (std::size_t a = 0; a < count; ++a) {
-    const Candidate& pair = contacts.pairs[a];
-    const Point u = relative_velocity(pair, step.free.x, step.free.z, wall_velocity<Problem>(step, pair));
-    problem.q[dim * a] = normal_part(pair, u) + predicted_gap(pair.gap, step.time_step);
-    const std::int32_t second = second_body<Problem>(step, pair);
-    if constexpr (dim == 3) {
-      const double lever = lever_of(pair, bodies);
-      problem.W.add(pair.i, second, pair.n_x, pair.n_z, lever);
-      problem.q[dim * a + 2] = rolling_velocity(pair, bodies, step.walls, lever, step.time_step);
-      problem.mu[2 * a + 1] = rolling_bound(*laws.rolling, pair, step.materials());
-    } else {
-      problem.W.add(pair.i, second, pair.n_x, pair.n_z);
-    }
-    if constexpr (dim >= 2) {
-      const double u_t = tangential_part(pair, u);
-      problem.q[dim * a + 1] = with_spin ? sliding_of_rims(u_t, pair, bodies) : u_t;
-      problem.mu[(dim - 1) * a] = friction_bound(*laws.friction, pair, step.materials());
-    }
-  }
+  loops.each(count, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t a = begin; a < end; ++a)
+      assemble_contact<Problem, with_spin>(step, contacts.pairs[a], static_cast<int>(a), problem);
+  });
 }
 
 }  // namespace drumlin::particles

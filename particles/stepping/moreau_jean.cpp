@@ -78,7 +78,7 @@ class MoreauJean final : public Stepper {
     if (laws_.cohesion)
       attract(*laws_.cohesion, contacts_.pairs, bodies, walls, step.materials(), time_step, free_,
               contacts_.attraction);
-    assemble<Problem, with_spin>(step, contacts_, problem_);
+    assemble<Problem, with_spin>(step, contacts_, TeamLoops(&team_), problem_);
     report.setup_seconds += watch.lap();
     report.contacts = problem_.contacts();
     report.solve = solve_(problem_, solver_.rule, work_, solution_);

@@ -25,22 +25,22 @@ Overlap OverlapSearch::find(const MovedContacts& contacts, const Bodies& bodies,
                             const Period& period, double margin, std::optional<LostGrain>& lost) {
   const auto& pairs = contacts.pairs;
   const SweepPlan& plan = contacts.plan;
-  now_.resize(pairs.size());
+  pairs_.resize(pairs.size());
   loops_.each(pairs.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t a = begin; a < end; ++a) {
-      now_[a] = {pairs[a].i, pairs[a].j, 0, 0, 0};
-      now_[a].gap = gap_now(pairs[a], bodies, walls.after, period, now_[a].n_x, now_[a].n_z);
+      pairs_[a] = {pairs[a].i, pairs[a].j, 0, 0, 0};
+      pairs_[a].gap = gap_now(pairs[a], bodies, walls.after, period, pairs_[a].n_x, pairs_[a].n_z);
     }
   });
   Overlap overlap;
   double sum = 0;
-  close_.clear();
   plan_ = plan;
+  std::size_t close = 0;
   std::size_t group = 0;
   for (std::size_t a = 0; a < pairs.size(); ++a) {
     for (; plan.group_start[group] == static_cast<std::int32_t>(a); ++group)
-      plan_.group_start[group] = static_cast<std::int32_t>(close_.size());
-    const ClosePair& now = now_[a];
+      plan_.group_start[group] = static_cast<std::int32_t>(close);
+    const ClosePair now = pairs_[a];
     const bool loaded = contacts.impulses[contacts.dim * a] > 0;
     if (now.j < 0 && !lost) lost = lost_at_wall(now, loaded, bodies, walls, period);
     if (loaded) {
@@ -49,9 +49,10 @@ Overlap OverlapSearch::find(const MovedContacts& contacts, const Bodies& bodies,
       overlap.max = std::max(overlap.max, depth);
       ++overlap.loaded;
     }
-    if (now.gap < margin) close_.push_back(now);
+    if (now.gap < margin) pairs_[close++] = now;
   }
-  if (!pairs.empty()) plan_.group_start.back() = static_cast<std::int32_t>(close_.size());
+  pairs_.resize(close);
+  if (!pairs.empty()) plan_.group_start.back() = static_cast<std::int32_t>(close);
   if (overlap.loaded > 0) overlap.mean = sum / overlap.loaded;
   return overlap;
 }

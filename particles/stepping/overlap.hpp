@@ -41,12 +41,12 @@ class OverlapSearch {
                const Period& period, double margin, std::optional<LostGrain>& lost);
 
   /// Pairs closer than `margin` in the last search, and their plan.
-  std::span<const ClosePair> close() const { return close_; }
+  std::span<const ClosePair> close() const { return pairs_; }
   const SweepPlan& plan() const { return plan_; }
 
  private:
   TeamLoops loops_;
-  std::vector<ClosePair> now_, close_;  // all pairs at the end of the step, and those that are close
+  std::vector<ClosePair> pairs_;  // all of them at the end of the step, then those that are close
   SweepPlan plan_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "particles/effects/driven_walls.hpp"
+#include "particles/parallel/team_loops.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -39,24 +40,24 @@ template <bool with_driven>
 void PositionProjection<with_driven>::apply(const Movable& movable, std::span<const ClosePair> pairs,
                                             const SweepPlan& plan, int sweeps) {
   auto& [bodies, walls, driven] = movable;
+  if (std::none_of(pairs.begin(), pairs.end(), [](const ClosePair& pair) { return pair.gap < 0; })) return;
   auto& W = problem_.W;
-  W.clear();
   W.inverse_mass.assign(bodies.inverse_mass.begin(), bodies.inverse_mass.end());
   W.inverse_mass.push_back(0);
   const auto fixed = static_cast<std::int32_t>(bodies.count());
   if constexpr (with_driven) add_driven_walls(bodies, walls, W);
-  problem_.q.clear();
-  bool overlapped = false;
-  for (const ClosePair& pair : pairs) {
-    std::int32_t second = pair.j < 0 ? fixed : pair.j;
-    if constexpr (with_driven)
-      if (pair.j < 0 && !walls.driven_of_shape.empty()) second += 1 + walls.driven_of_shape[-1 - pair.j];
-    W.add(pair.i, second, pair.n_x, pair.n_z);
-    problem_.q.push_back(pair.gap >= 0 ? pair.gap
-                                       : std::max(correction_share * pair.gap, -largest_correction));
-    overlapped = overlapped || pair.gap < 0;
-  }
-  if (!overlapped) return;
+  W.resize(pairs.size());
+  problem_.q.resize(pairs.size());
+  TeamLoops(work_.team).each(pairs.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t a = begin; a < end; ++a) {
+      const ClosePair& pair = pairs[a];
+      std::int32_t second = pair.j < 0 ? fixed : pair.j;
+      if constexpr (with_driven)
+        if (pair.j < 0 && !walls.driven_of_shape.empty()) second += 1 + walls.driven_of_shape[-1 - pair.j];
+      W.set(static_cast<int>(a), pair.i, second, pair.n_x, pair.n_z);
+      problem_.q[a] = pair.gap >= 0 ? pair.gap : std::max(correction_share * pair.gap, -largest_correction);
+    }
+  });
   W.plan = plan;
   solution_.impulses.assign(pairs.size(), 0.0);
   StoppingRule rule;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "particles/contact/problems.hpp"
@@ -49,6 +50,56 @@ TEST(Cone, WithoutFrictionIsTheRayOfPressure) {
   project_on_cone(0, n, t);
   EXPECT_EQ(n, 2);
   EXPECT_EQ(t, 0);
+}
+
+TEST(Cone, ProjectionIsTheNearestPoint) {
+  // p - P(p) stands upright on P(p), and lies in the polar cone mu |t| <= -n.
+  for (const double mu : {0.0, 0.4, 2.0})
+    for (int a = -8; a <= 8; ++a)
+      for (int b = -8; b <= 8; ++b) {
+        double n = 0.25 * a, t = 0.25 * b;
+        project_on_cone(mu, n, t);
+        const double left_n = 0.25 * a - n, left_t = 0.25 * b - t;
+        EXPECT_GE(n, 0);
+        EXPECT_LE(std::abs(t), mu * n + 1e-15);
+        EXPECT_NEAR(left_n * n + left_t * t, 0, 1e-14) << mu << ", " << a << ", " << b;
+        EXPECT_LE(mu * std::abs(left_t), -left_n + 1e-14) << mu << ", " << a << ", " << b;
+      }
+}
+
+TEST(Cone, ANotANumberStaysOne) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  double n = nan, t = 0.1;
+  project_on_cone(0.4, n, t);
+  EXPECT_TRUE(std::isnan(n));
+  n = 1, t = nan;
+  project_on_cone(0.4, n, t);
+  EXPECT_TRUE(std::isnan(n) && std::isnan(t));
+}
+
+TEST(Residual, IsTheSameBytesForAnyTeam) {
+  // A chain long enough that threads share it.
+  constexpr int discs = 20000;
+  CoulombSpinProblem problem;
+  problem.W.inverse_mass.assign(discs, 1.0);
+  problem.W.inverse_mass.push_back(0);
+  std::vector<double> r;
+  for (int k = 0; k < discs; ++k) {
+    problem.W.add(k, k == 0 ? discs : k - 1, std::sin(k), std::cos(k));
+    problem.q.insert(problem.q.end(), {-1e-3 * std::sin(7 * k), 1e-3 * std::cos(3 * k)});
+    problem.mu.push_back(0.4);
+    r.insert(r.end(), {std::abs(std::sin(5 * k)), 0.3 * std::sin(11 * k)});
+  }
+  const auto alone = residual_of(problem, std::span<const double>(r));
+  ThreadTeam team(3);
+  TeamLoops loops(&team);
+  Velocities<CoulombSpinProblem::Delassus> velocities;
+  const auto shared = residual_of(problem, std::span<const double>(r), velocities, loops);
+  EXPECT_EQ(alone.rms, shared.rms);
+  EXPECT_EQ(alone.max, shared.max);
+  EXPECT_EQ(alone.penetration, shared.penetration);
+  EXPECT_EQ(alone.sinking, shared.sinking);
+  EXPECT_GT(alone.rms, 0);
 }
 
 TEST(Residual, BlocksOfEqualEigenvaluesThatRoundingMadeUnsymmetric) {
