@@ -39,6 +39,15 @@ void refuse_foreign(const fs::path& folder) {
       folder.string(), manifest_name));
 }
 
+/// What another command left is not replaced by this one.
+void refuse_other_command(const fs::path& folder, const std::string& command) {
+  if (!has_manifest(folder)) return;
+  if (const std::string theirs = read_manifest(folder).command; theirs != command)
+    throw InputError(
+        fmt::format("{}: holds the results of drumlin {}, not of drumlin {}; name another folder",
+                    folder.string(), theirs, command));
+}
+
 /// An output folder that holds what the command is about to read must not be emptied.
 void refuse_inside(const fs::path& folder, const std::vector<fs::path>& inputs) {
   const fs::path ours = fs::weakly_canonical(folder);
@@ -178,6 +187,7 @@ FolderLock claim(const OutputRequest& request) {
     if (!holds_nothing(folder) && request.existing == ExistingOutput::refuse)
       throw InputError(folder.string() +
                        ": exists already; give --resume or --overwrite, or name another folder");
+    refuse_other_command(folder, request.command);
     if (request.existing == ExistingOutput::overwrite) refuse_inside(folder, request.inputs);
     return lock;
   });

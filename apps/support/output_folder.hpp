@@ -19,8 +19,9 @@ struct OutputRequest {
 };
 
 /// Claims a folder: makes it, locks it, clears what a killed command left aside. Throws InputError if it is a
-/// file, is not empty and carries no manifest (whatever was asked for), is being written by another process,
-/// holds results and was not to be resumed or overwritten, or is to be overwritten and holds an input.
+/// file, is not empty and carries no manifest (whatever was asked for), holds results of another command, is
+/// being written by another process, holds results and was not to be resumed or overwritten, or is to be
+/// overwritten and holds an input.
 FolderLock claim(const OutputRequest& request);
 
 /// Results that are made in one go: written beside, in a folder within the folder, and put in the place of
