@@ -162,6 +162,16 @@ void set_aside(const fs::path& folder, const std::vector<std::string>& known) {
   remove_empty_folders(folder, names);
 }
 
+/// Whether an interrupted call has moved some of the results and not all.
+bool is_half_aside(const fs::path& folder) {
+  const fs::path aside = folder / replaced_name;
+  if (!has_manifest(aside)) return false;
+  const auto old = read_manifest(folder).files;
+  return read_manifest(aside).files == old && std::any_of(old.begin(), old.end(), [&](const auto& file) {
+           return !fs::exists(folder / file.first) && fs::exists(aside / file.first);
+         });
+}
+
 template <class Action>
 auto with_io_errors(Action action) {
   try {
@@ -230,13 +240,14 @@ void StagedOutput::publish() {
 GrowingOutput::GrowingOutput(OutputRequest request, std::vector<std::string> known)
     : request_(std::move(request)), known_(std::move(known)), lock_(claim(request_)) {
   with_io_errors([&] {
-    if (has_manifest(request_.folder) && request_.existing == ExistingOutput::resume) {
+    const bool is_there = has_manifest(request_.folder);
+    if (is_there && request_.existing == ExistingOutput::resume && !is_half_aside(request_.folder)) {
       const ResultFolder there = open_result_folder(request_.folder);
       check_all_files(there);
       manifest_ = *there.manifest;
       return;
     }
-    if (has_manifest(request_.folder)) set_aside(request_.folder, known_);
+    if (is_there) set_aside(request_.folder, known_);
     manifest_.command = request_.command;
     save();
   });
