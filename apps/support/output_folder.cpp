@@ -19,11 +19,12 @@ namespace {
 
 constexpr const char *staging_name = ".drumlin-new", *replaced_name = "replaced";
 
-/// Nothing but what a command leaves that was killed at once.
+/// Nothing but what a command leaves that was killed: empty folders, files aside.
 bool holds_nothing(const fs::path& folder) {
   return std::all_of(fs::directory_iterator(folder), fs::directory_iterator(), [](const auto& entry) {
     const std::string name = entry.path().filename().string();
-    return name == folder_lock_name || name == staging_name || is_left_aside(name);
+    return name == folder_lock_name || name == staging_name || is_left_aside(name) ||
+           (entry.is_directory() && !entry.is_symlink() && holds_nothing(entry.path()));
   });
 }
 
@@ -136,7 +137,11 @@ std::vector<std::string> our_files(const fs::path& folder, const std::vector<std
     else if (has_manifest(inner))
       add_inner(inner, name, names);
   }
-  return {names.begin(), names.end()};
+  std::vector<std::string> list(names.begin(), names.end());
+  // Manifests of folders within last: what is left by an interruption is still known by them.
+  std::stable_partition(list.begin(), list.end(),
+                        [](const std::string& name) { return fs::path(name).filename() != manifest_name; });
+  return list;
 }
 
 /// Moves our files to FOLDER/replaced; if results wait there already, what has come since is removed.
