@@ -213,6 +213,30 @@ TEST(GrowingOutput, OldResultsWaitUntilTheNewOnesAreComplete) {
   EXPECT_EQ(content_of(folder.path()), (Names{".lock", "notes.txt", "whole.csv"}));
 }
 
+TEST(GrowingOutput, AnInterruptedMoveOfOldResultsIsFinishedByTheNextClaim) {
+  const TemporaryFolder folder;
+  {
+    GrowingOutput output(request_for(folder.path(), ExistingOutput::refuse, "run"), {"points/*.h5"});
+    fs::create_directory(folder / "points");
+    folder.with("points/1.h5", "old");
+    output.finish();
+    leave(folder / "plots/inner", "a.csv", "old");
+    leave(folder / "plots/inner", "z.csv", "old", ExistingOutput::overwrite);
+  }
+  // As it stands when it was killed: the outer files are moved, of the inner folder not even its own.
+  fs::create_directories(folder / "replaced/points");
+  fs::copy(folder / manifest_name, folder / "replaced");
+  fs::rename(folder / "points/1.h5", folder / "replaced/points/1.h5");
+  fs::create_directories(folder / "plots/inner/emptied");
+  {
+    const GrowingOutput output(request_for(folder.path(), ExistingOutput::resume, "run"), {"points/*.h5"});
+    EXPECT_TRUE(output.manifest().files.empty());
+  }
+  EXPECT_EQ(content_of(folder.path()), (Names{"replaced/plots/inner/z.csv", "replaced/points/1.h5"}));
+  check_all_files(open_result_folder(folder / "replaced/plots/inner"));
+  StagedOutput{request_for(folder / "plots/inner")};  // holds but an empty folder
+}
+
 TEST(OutputFolder, OverwriteSparesAFolderThatHoldsAnInput) {
   const TemporaryFolder folder;
   leave(folder.path(), "run.json", "{}");
