@@ -182,7 +182,7 @@ fs::path neighbour_of(const PointStore& store, const FlowToSolve& flow, const Co
   neighbour.name += "-neighbour";
   neighbour.changes.insert(neighbour.changes.end(), options.neighbour.begin(), options.neighbour.end());
   const fs::path folder = store.beside(neighbour.name);
-  if (fs::exists(folder / "flow.json")) return folder;
+  if (holds_results(folder, "flow.json")) return folder;
   fs::remove_all(folder);  // of a call that was cut off
   if (const Json found = solved_into(folder, neighbour); found.contains("failure"))
     throw NotConvergedError("--neighbour: " + found.at("failure").get<std::string>());

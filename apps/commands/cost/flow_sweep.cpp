@@ -162,6 +162,7 @@ class FlowSweep {
     draw_figures("work_precision.py", {unfinished.string(), options_.output->string()});
     fs::remove(unfinished);
     write_json(file, report);
+    store_.finish();
     fmt::print("{}\n", file.string());
   }
 
@@ -179,9 +180,8 @@ int sweep_flow(const CostOptions& options) {
   if (!options.against.empty() || !options.variants.empty())
     throw InputError("cost: --against and --variants go with --effects");
   (void)coupling::sweep_axes(options.sweep, coupling::flow_axes());
-  prepare_output(*options.output, options.existing, {"sweep.json", "cost.json"},
-                 {options.scene, *options.rheology});
-  const PointStore store(*options.output, shared_by_flows("continuum", options));
+  GrowingOutput output = cost_output(*options.output, options.existing, {options.scene, *options.rheology});
+  const PointStore store(output, shared_by_flows("continuum", options));
   catch_interruptions();
   return FlowSweep(options, store).execute();
 }
