@@ -5,7 +5,7 @@
 
 namespace drumlin {
 
-/// Content of a file. Throws InputError if it is missing or a folder, IoError if it cannot be read.
+/// Content of a file. Throws InputError if it is missing or no regular file, IoError if it cannot be read.
 std::string file_text(const std::filesystem::path& file);
 
 /// Writes `text` aside, forces it to the disk and renames it to `file`: a kill leaves the old file or the new

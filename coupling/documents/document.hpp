@@ -30,7 +30,8 @@ struct Document {
   Node root;
 };
 
-/// Reads a TOML file of at most 1 MiB without NUL bytes. `overrides` are texts "path.to.key=value" (array
+/// Reads a TOML file of at most 1 MiB without NUL bytes, keys of at most 200 bytes and nothing deeper than 32
+/// levels; a byte order mark of UTF-8 is skipped. `overrides` are texts "path.to.key=value" (array
 /// entries by index: "stages.1.time_step_s=2e-3"), the value in TOML syntax, a bare word counting as text.
 /// Throws InputError (file, line, column) on wrong syntax, on a missing or empty file, on a folder.
 Document read_toml(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
