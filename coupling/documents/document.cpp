@@ -91,7 +91,7 @@ class Converter {
                              fmt::format("at most {}", longest_key)});
         continue;
       }
-      result.emplace_back(name, converted(*entry.node, path.empty() ? name : path + "." + name));
+      result.push_back({name, converted(*entry.node, path.empty() ? name : path + "." + name)});
     }
     return result;
   }
@@ -151,7 +151,7 @@ Node override_value(const std::string& text, const std::string& path) {
   try {
     Node root = parsed("value = " + text, override_source);
     forget_places(root);
-    return std::move(std::get<Node::Table>(root.value).front().second);
+    return std::move(std::get<Node::Table>(root.value).front().node);
   } catch (const InputError&) {
     if (is_bare_word(text)) return Node{text, 0, 0};
     throw refused();
@@ -173,7 +173,8 @@ Node& entry_of(Node& node, const std::string& step, const std::string& path) {
     throw fault(override_source, 0, 0, path, fmt::format("nothing can stand below at \"{}\"", step));
   for (auto& [name, entry] : *table)
     if (name == step) return entry;
-  return table->emplace_back(step, Node{Node::Table{}, 0, 0}).second;
+  table->push_back({step, Node{Node::Table{}, 0, 0}});
+  return table->back().node;
 }
 
 void apply_override(Node& root, const std::string& text) {
