@@ -9,7 +9,8 @@
 #include "apps/support/json_file.hpp"
 #include "apps/support/paper_data.hpp"
 #include "coupling/common/errors.hpp"
-#include "coupling/common/text_file.hpp"
+#include "coupling/common/input_file.hpp"
+#include "coupling/documents/json_shape.hpp"
 #include "particles/scene/physics.hpp"
 #include "particles/scene/scene_file.hpp"
 
@@ -47,11 +48,14 @@ struct SceneRecord {
 
 /// Nothing if the file is no record; its points may be none.
 std::optional<SceneRecord> record_in(const fs::path& file) {
-  const Json json = Json::parse(file_text(file), nullptr, false);
-  if (!json.is_object()) return std::nullopt;
-  const std::string format = json.value("format", "");
+  const std::string text = input_text(file);
+  if (!Json::accept(text)) return std::nullopt;
+  const Json json = parse_json(text, file.string());
+  if (!json.is_object() || !json.contains("format") || !json["format"].is_string()) return std::nullopt;
+  const std::string format = json["format"];
   const bool convergence = format == "drumlin-convergence-1";
   if (!(convergence || format == "drumlin-cost-1") || !json.contains("scene")) return std::nullopt;
+  if (const auto problems = type_problems(file, json, format); !problems.empty()) throw InputError(problems);
   if (!convergence && json.value("kind", "") != "particles") return std::nullopt;
   SceneRecord record{{file.filename().string(), {}},
                      particles::parse_scene(json.at("scene").get<std::string>(), file.string())};

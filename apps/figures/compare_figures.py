@@ -31,7 +31,7 @@ def names_of(comparison):
     first, second = comparison["particles"], comparison["continuum"]
     if first["kind"] != second["kind"]:
         return first["kind"], second["kind"]
-    return f"{first['kind']}: {first['name']}", f"{second['kind']}: {second['name']}"
+    return tuple(f"{side['kind']}: {style.plain(side['name'], 40)}" for side in (first, second))
 
 
 def mark_depths(axes, depth, zones=None):

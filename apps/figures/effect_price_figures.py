@@ -64,7 +64,7 @@ def main():
     for axes, (key, title) in zip(all_axes, PANELS):
         draw_panel(axes, key, title, base, rows)
     all_axes[0].set_yticks(range(len(rows)), [label(row) for row in rows])
-    figure.suptitle(style.title_of(f"{report['title']}, first {report['simulated_seconds']:g} s\n"
+    figure.suptitle(style.title_of(f"{style.plain(report['title'])}, first {report['simulated_seconds']:g} s\n"
                                    "without (-) and with (+) an effect, against the scene as it is",
                                    report["reduced"]), fontsize=13)
     style.save(figure, options.output, report["reduced"])

@@ -42,7 +42,7 @@ def draw(report, path):
         axes.set_xlabel(unit)
         axes.grid(axis="y", visible=False)
     all_axes[0].set_yticks(range(len(rows)), [row["effect"].replace("_", " ") for row in rows])
-    figure.suptitle(style.title_of(f"{report['title']}: each effect alone", report["reduced"]), fontsize=13)
+    figure.suptitle(style.title_of(f"{style.plain(report['title'])}: each effect alone", report["reduced"]), fontsize=13)
     style.save(figure, path, report["reduced"])
 
 

@@ -100,8 +100,8 @@ class View:
 
     @staticmethod
     def set_title(figure, drawing, what, frame):
-        state = "" if drawing["status"] == "finished" else f" (run {drawing['status']})"
-        figure.suptitle(style.title_of(f"{drawing['title']}\n{what}, t = {frame['time_s']:.2f} s{state}",
+        state = "" if drawing["status"] == "finished" else f" (run {style.plain(drawing['status'])})"
+        figure.suptitle(style.title_of(f"{style.plain(drawing['title'])}\n{what}, t = {frame['time_s']:.2f} s{state}",
                                        drawing["reduced"]), fontsize=13)
 
     def add_walls(self, axes, frame, period):
@@ -183,7 +183,7 @@ def draw_chains(drawing, view, grains, path):
         axes.add_collection(matplotlib.collections.LineCollection(lines[chosen], linewidths=width, colors=colour,
                                                                   capstyle="round"), autolim=False)
         keys.append(matplotlib.lines.Line2D([], [], color=colour, linewidth=points,
-                                            label=f"{name}: {chosen.sum()}"))
+                                            label=f"{style.plain(name, 30)}: {chosen.sum()}"))
     if keys:
         figure.legend(handles=keys, loc="upper center", ncol=len(keys), bbox_to_anchor=(0.5, 0.0),
                       title=rf"contacts; these widths carry the mean normal force, {mean:.3g} $\rho_0 g d^2$")

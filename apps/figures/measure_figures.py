@@ -301,7 +301,7 @@ def steadiness(run):
         panels[1].set_ylabel("angle of the\ncentre of mass  [deg]")
     panels[-1].set_xlabel("turns of the drum" if rotates else r"time  [$\sqrt{d/g}$]")
     verdict = run.content["steadiness"]
-    title = "steady" if verdict["steady"] else "not steady: " + "; ".join(verdict["reasons"])
+    title = "steady" if verdict["steady"] else style.plain("not steady: " + "; ".join(verdict["reasons"]), 110, 3)
     panels[0].set_title(style.title_of(title, run.reduced), fontsize=11 if len(title) > 60 else 13)
     return figure
 

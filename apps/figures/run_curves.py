@@ -35,7 +35,7 @@ def mark_stages(axes, stages, end):
         if begin < end:
             if begin > 0:
                 axes.axvline(begin, color="0.5", linewidth=0.8, linestyle=":")
-            axes.annotate(stage["name"], ((begin + min(stage["end_s"], end)) / 2, 1.0), ha="center", va="bottom",
+            axes.annotate(style.plain(stage["name"], 30, 1), ((begin + min(stage["end_s"], end)) / 2, 1.0), ha="center", va="bottom",
                           xycoords=("data", "axes fraction"), color="0.35", fontsize=10)
         begin = stage["end_s"]
 
@@ -71,8 +71,8 @@ def threshold(axes, value, name):
 
 
 def title(drawing, what):
-    state = "" if drawing["status"] == "finished" else f" (run {drawing['status']})"
-    return style.title_of(f"{drawing['title']}\n{what}{state}", drawing["reduced"])
+    state = "" if drawing["status"] == "finished" else f" (run {style.plain(drawing['status'])})"
+    return style.title_of(f"{style.plain(drawing['title'])}\n{what}{state}", drawing["reduced"])
 
 
 def draw_log(drawing, path):

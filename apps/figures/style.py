@@ -3,6 +3,7 @@
 import csv
 import math
 import sys
+import textwrap
 
 import matplotlib
 
@@ -55,6 +56,13 @@ def use_style():
         # The same data give the same bytes on every machine.
         "svg.hashsalt": "drumlin",
     })
+
+
+def plain(text, width=80, lines=3):
+    """A text of the user (a title, a name) as it stands, for a figure: no mathematics in it, what cannot be drawn replaced, wrapped,
+    and cut after so many lines. Matplotlib takes what stands between two $ for mathematics, and \\$ for the sign."""
+    seen = "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in str(text))
+    return textwrap.fill(seen, width, max_lines=lines, placeholder=" ...").replace("$", r"\$")
 
 
 def title_of(text, reduced):

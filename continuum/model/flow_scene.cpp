@@ -186,7 +186,7 @@ void describe(Visitor& v, FlowOutput& o) {
 template <class Visitor>
 void describe(Visitor& v, FlowScene& s) {
   v.format("drumlin-flow-scene-1");
-  v.value("title", s.title, defaulted("", anything(), "Title, for reports."));
+  v.value("title", s.title, defaulted("", title_line(), "Title, for reports."));
   v.value("reduced", s.reduced,
           defaulted("", anything(), "Says \"reduced\" on every output: a trial, no result."));
   v.one_table_of(s.geometry, "Geometry:", alternative<FlowDrum>("drum", "a rotating drum."),

@@ -7,26 +7,14 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
-#include <sstream>
 #include <utility>
 
 #include "coupling/common/errors.hpp"
+#include "coupling/common/input_file.hpp"
 
 namespace drumlin {
 
-std::string file_text(const std::filesystem::path& file) {
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) throw InputError(file.string() + ": no such file");
-  if (std::filesystem::is_directory(status)) throw InputError(file.string() + ": is a folder, not a file");
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream content;
-  // An empty file sets the failbit of `content` and is no fault here.
-  if (stream.good() && stream.peek() != std::ifstream::traits_type::eof()) content << stream.rdbuf();
-  if (!stream.is_open() || stream.bad()) throw IoError(file.string() + ": cannot be read");
-  return content.str();
-}
+std::string file_text(const std::filesystem::path& file) { return input_bytes(file, largest_text_file); }
 
 namespace {
 

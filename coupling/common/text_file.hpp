@@ -6,7 +6,7 @@
 
 namespace drumlin {
 
-/// Content of a file. Throws InputError if it is missing or a folder, IoError if it cannot be read.
+/// Content of a file. Throws InputError if it is missing or no regular file, IoError if it cannot be read.
 std::string file_text(const std::filesystem::path& file);
 
 /// Writes `content`, text or not, aside, forces it to the disk, renames it to `file` and forces the folder to

@@ -20,13 +20,16 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
+
+#include "coupling/common/input_file.hpp"
+#include "coupling/documents/toml_depth.hpp"
 
 namespace drumlin {
 
 namespace {
 
 constexpr std::size_t largest_file = 1 << 20;  // bytes; a scene of 10 kB is a long one
+constexpr std::size_t longest_key = 200;       // bytes of one part of a key
 
 /// An InputError with one problem.
 InputError fault(const std::string& file, int line, int column, const std::string& key,
@@ -82,7 +85,13 @@ class Converter {
     Node::Table result;
     for (const auto& entry : entries) {
       const std::string name(entry.key->str());
-      result.emplace_back(name, converted(*entry.node, path.empty() ? name : path + "." + name));
+      if (name.size() > longest_key) {
+        problems_.push_back({file_, line_of(entry.key->source().begin), column_of(entry.key->source().begin),
+                             name.substr(0, 40) + "...", fmt::format("is a key of {} bytes", name.size()),
+                             fmt::format("at most {}", longest_key)});
+        continue;
+      }
+      result.push_back({name, converted(*entry.node, path.empty() ? name : path + "." + name)});
     }
     return result;
   }
@@ -136,11 +145,13 @@ Node override_value(const std::string& text, const std::string& path) {
     return fault(override_source, 0, 0, path, fmt::format("cannot read \"{}\"", text),
                  "one value in TOML syntax, or a bare word as text");
   };
-  if (text.find_first_of("\n\r") != std::string::npos) throw refused();  // could smuggle in a second key
+  // A line could smuggle in a second key.
+  if (text.find_first_of("\n\r") != std::string::npos || first_line_too_deep("value = " + text) != 0)
+    throw refused();
   try {
     Node root = parsed("value = " + text, override_source);
     forget_places(root);
-    return std::move(std::get<Node::Table>(root.value).front().second);
+    return std::move(std::get<Node::Table>(root.value).front().node);
   } catch (const InputError&) {
     if (is_bare_word(text)) return Node{text, 0, 0};
     throw refused();
@@ -162,7 +173,8 @@ Node& entry_of(Node& node, const std::string& step, const std::string& path) {
     throw fault(override_source, 0, 0, path, fmt::format("nothing can stand below at \"{}\"", step));
   for (auto& [name, entry] : *table)
     if (name == step) return entry;
-  return table->emplace_back(step, Node{Node::Table{}, 0, 0}).second;
+  table->push_back({step, Node{Node::Table{}, 0, 0}});
+  return table->back().node;
 }
 
 void apply_override(Node& root, const std::string& text) {
@@ -170,6 +182,9 @@ void apply_override(Node& root, const std::string& text) {
   const std::string path = text.substr(0, equals);
   if (equals == std::string::npos || path.empty())
     throw fault(override_source, 0, 0, text, "is no override", "path.to.key=value");
+  if (std::count(path.begin(), path.end(), '.') >= deepest_level)
+    throw fault(override_source, 0, 0, path.substr(0, 40) + "...", "lies too deep",
+                fmt::format("at most {} levels", deepest_level));
   Node* node = &root;
   for (std::size_t from = 0; from <= path.size();) {
     const auto dot = std::min(path.find('.', from), path.size());
@@ -178,22 +193,6 @@ void apply_override(Node& root, const std::string& text) {
     from = dot + 1;
   }
   *node = override_value(text.substr(equals + 1), path);
-}
-
-/// The bytes of a file, refused before a parser sees what it need not bear.
-std::string checked_text(const std::filesystem::path& file) {
-  const std::string name = file.string();
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) throw fault(name, 0, 0, "", "does not exist", "a TOML file");
-  if (std::filesystem::is_directory(status)) throw fault(name, 0, 0, "", "is a folder", "a TOML file");
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw IoError(name + ": cannot be opened");
-  std::string text(largest_file + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (stream.bad()) throw IoError(name + ": cannot be read");
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  return text;
 }
 
 }  // namespace
@@ -214,13 +213,16 @@ Document parse_toml(const std::string& text, const std::string& name,
     const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(zero), '\n') + 1;
     throw fault(name, static_cast<int>(line), 0, "", "holds a NUL byte", "text");
   }
+  if (const int line = first_line_too_deep(text))
+    throw fault(name, line, 0, "", "keys, arrays or tables lie too deep in each other",
+                fmt::format("at most {} levels", deepest_level));
   Document document{name, parsed(text, name)};
   for (const auto& change : overrides) apply_override(document.root, change);
   return document;
 }
 
 Document read_toml(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  return parse_toml(checked_text(file), file.string(), overrides);
+  return parse_toml(input_text(file, largest_file), file.string(), overrides);
 }
 
 }  // namespace drumlin

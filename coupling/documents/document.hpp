@@ -16,12 +16,19 @@ namespace drumlin {
 /// A value of a document: boolean, integer, real, text, array or table, and its place in the file.
 struct Node {
   using Array = std::vector<Node>;
-  using Table = std::vector<std::pair<std::string, Node>>;  ///< in the order of the file
+  struct Entry;                      // no std::pair: clang wants its parts to be complete
+  using Table = std::vector<Entry>;  ///< in the order of the file
   std::variant<bool, std::int64_t, double, std::string, Array, Table> value;
   int line = 0;
   int column = 0;
 
   const Node* find(const std::string& key) const;  ///< nullptr if this is no table or has no such key
+};
+
+/// A key of a table and what it holds.
+struct Node::Entry {
+  std::string key;
+  Node node;
 };
 
 /// A parsed file. `root` is always a table.
@@ -30,7 +37,8 @@ struct Document {
   Node root;
 };
 
-/// Reads a TOML file of at most 1 MiB without NUL bytes. `overrides` are texts "path.to.key=value" (array
+/// Reads a TOML file of at most 1 MiB without NUL bytes, keys of at most 200 bytes and nothing deeper than 32
+/// levels; a byte order mark of UTF-8 is skipped. `overrides` are texts "path.to.key=value" (array
 /// entries by index: "stages.1.time_step_s=2e-3"), the value in TOML syntax, a bare word counting as text.
 /// Throws InputError (file, line, column) on wrong syntax, on a missing or empty file, on a folder.
 Document read_toml(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});

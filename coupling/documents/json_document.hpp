@@ -6,7 +6,12 @@
 
 namespace drumlin {
 
-/// Throws InputError if the file is missing, no JSON object, or its "format" is not `format`.
+/// A text as JSON; `name` stands for the file in messages. Throws InputError on wrong syntax, on numbers that
+/// are too large, on more than 32 levels, on a table of more than 10,000 keys.
+nlohmann::ordered_json parse_json(const std::string& text, const std::string& name);
+
+/// Throws InputError if the file is missing, larger than 64 MiB, no JSON object, if its "format" is not
+/// `format`, or if a value has another type than that format says (json_shape.hpp).
 nlohmann::ordered_json read_json(const std::filesystem::path& file, const std::string& format);
 
 /// A text without its quotes, any other value as it stands in JSON.

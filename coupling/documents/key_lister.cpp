@@ -50,7 +50,7 @@ void KeyLister::format(const std::string& text) {
 }
 
 std::string KeyLister::text_of_only_value(const Node& table) {
-  return toml_value(std::get<Node::Table>(table.value).front().second);
+  return toml_value(std::get<Node::Table>(table.value).front().node);
 }
 
 void KeyLister::add_value(const std::string& key, const std::string& type, const KeySpec& spec,

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "coupling/documents/number_text.hpp"
+#include "coupling/documents/one_line.hpp"
 
 namespace drumlin {
 
@@ -246,6 +247,8 @@ void KeyReader::assign(const Node& node, const std::string& key, std::string& ta
     report(node, key, fmt::format("is \"{}\"{}", *text, suggestion(*text, choices)), wish("text", spec));
   else if (text->empty() && !spec.allowed.may_be_empty)
     report(node, key, "is empty", wish("text", spec));
+  else if (const std::string fault = fault_of_line(*text, spec.allowed.longest); !fault.empty())
+    report(node, key, fault, fmt::format("one line of at most {} characters", spec.allowed.longest));
   else
     target = *text;
 }

@@ -19,6 +19,8 @@ std::string interval_text(const Allowed& allowed) {
 }
 
 std::string choices_text(const Allowed& allowed) {
+  if (allowed.longest < Allowed().longest)
+    return fmt::format("one line, at most {} characters", allowed.longest);
   if (allowed.choices.empty()) return allowed.may_be_empty ? "any" : "not empty";
   std::string text;
   for (const auto& word : allowed.choices) text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", word);
@@ -58,6 +60,12 @@ Allowed at_least(double min, double max) {
 }
 
 Allowed not_empty() { return {}; }
+
+Allowed title_line() {
+  Allowed allowed = anything();
+  allowed.longest = 200;
+  return allowed;
+}
 
 Allowed one_of(std::vector<std::string> words) {
   Allowed allowed;

@@ -1,6 +1,7 @@
 #pragma once
 // What a key may hold: the words in which a struct describes its keys (key_table.hpp).
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <limits>
 #include <string>
@@ -18,6 +19,7 @@ struct Allowed {
   bool max_open = false;
   std::vector<std::string> choices;  ///< empty: any text that is not empty
   bool may_be_empty = false;         ///< a text without characters, an array without entries
+  std::size_t longest = 4096;        ///< characters of a text, all on one line; what a path may have
 
   bool holds(double number) const;
 };
@@ -26,6 +28,8 @@ Allowed above(double min,
               double max = std::numeric_limits<double>::infinity());  ///< min excluded, max included
 Allowed at_least(double min, double max = std::numeric_limits<double>::infinity());  ///< both included
 Allowed not_empty();
+/// A text for people: one line of at most 200 characters, also an empty one.
+Allowed title_line();
 Allowed one_of(std::vector<std::string> words);
 
 enum class Need { required, defaulted, optional };

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "coupling/common/errors.hpp"
+#include "coupling/common/input_file.hpp"
 #include "coupling/common/text_file.hpp"
 #include "coupling/documents/csv.hpp"
 #include "coupling/documents/number_text.hpp"
@@ -46,7 +47,7 @@ void check_writable(const std::filesystem::path& file, const ProfileSet& profile
 
 class ProfileReader {
  public:
-  explicit ProfileReader(const std::filesystem::path& file) : file_(file), text_(file_text(file)) {}
+  explicit ProfileReader(const std::filesystem::path& file) : file_(file), text_(input_text(file)) {}
 
   ProfileSet read() {
     if (!next_line() || trimmed(line_) != first_line)

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "coupling/common/errors.hpp"
-#include "coupling/common/text_file.hpp"
+#include "coupling/documents/json_document.hpp"
 #include "coupling/documents/json_numbers.hpp"
 
 namespace drumlin {
@@ -20,20 +20,10 @@ double ScalarSet::value(const std::string& name) const {
 }
 
 ScalarSet read_scalars(const std::filesystem::path& json_file, const std::string& format) {
-  const std::string text = file_text(json_file);
-  nlohmann::ordered_json json;
-  try {
-    json = nlohmann::ordered_json::parse(text);
-  } catch (const nlohmann::ordered_json::exception& error) {  // out of range, too: 1e999
-    throw InputError(json_file.string() + ": is no JSON: " + error.what());
-  }
+  const nlohmann::ordered_json json = read_json(json_file, format);
   const auto refuse = [&](const std::string& key, const std::string& what, const std::string& allowed) {
     throw InputError({InputProblem{json_file.string(), 0, 0, key, what, allowed}});
   };
-  if (!json.is_object()) refuse("", "is no JSON object", "an object");
-  if (!json.contains("format") || json["format"] != format)
-    refuse("format", json.contains("format") ? json["format"].dump() + " is not known here" : "is missing",
-           "\"" + format + "\"");
   ScalarSet set;
   for (const auto& [name, value] : json.items()) {
     if (const auto number = number_or_nan(value)) {

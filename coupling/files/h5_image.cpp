@@ -5,13 +5,14 @@
 
 #include <algorithm>
 #include <cstring>
-#include <fstream>
 #include <initializer_list>
 #include <iterator>
 #include <string_view>
 
 #include "coupling/common/errors.hpp"
 #include "coupling/common/text_file.hpp"
+#include "coupling/common/input_file.hpp"
+#include "coupling/files/h5_storage.hpp"
 
 namespace drumlin {
 namespace {
@@ -20,11 +21,10 @@ constexpr std::string_view trailer_magic = "DRUMLCRC";
 constexpr std::size_t trailer_size = 8 + 4;
 // HDF5 wants a name for an image in memory and looks whether a file of that name exists: this one cannot.
 constexpr const char* image_name = "/dev/null/image";
-constexpr hssize_t largest_set = hssize_t{1}
-                                 << 28;  // numbers in a dataset; a run of a million grains has far fewer
 
-std::uint32_t checksum(std::span<const unsigned char> bytes) {
-  return static_cast<std::uint32_t>(crc32_z(crc32_z(0, nullptr, 0), bytes.data(), bytes.size()));
+std::uint32_t checksum(std::span<const char> bytes) {
+  const auto* first = reinterpret_cast<const unsigned char*>(bytes.data());
+  return static_cast<std::uint32_t>(crc32_z(crc32_z(0, nullptr, 0), first, bytes.size()));
 }
 
 /// An HDF5 identifier that closes itself.
@@ -68,16 +68,6 @@ void put(hid_t file, const std::string& name, hid_t memory_type, hid_t file_type
   check(set.valid(), "create a dataset");
   if (std::find(shape.begin(), shape.end(), hsize_t{0}) == shape.end())
     check(H5Dwrite(set.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0, "write a dataset");
-}
-
-std::vector<unsigned char> bytes_of(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) throw InputError(file.string() + ": no such file");
-  std::ifstream stream(file, std::ios::binary);
-  std::vector<unsigned char> bytes(std::filesystem::file_size(file));
-  stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (!stream) throw IoError(file.string() + ": cannot read");
-  return bytes;
 }
 
 }  // namespace
@@ -128,7 +118,7 @@ std::string H5Writer::image() const {
   check(size > 0, "size a file image");
   std::string bytes(static_cast<std::size_t>(size), '\0');
   check(H5Fget_file_image(handles_->file->get(), bytes.data(), bytes.size()) == size, "copy a file image");
-  const std::uint32_t sum = checksum({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()});
+  const std::uint32_t sum = checksum(bytes);
   bytes += trailer_magic;
   for (int byte = 0; byte < 4; ++byte) bytes += static_cast<char>(sum >> (8 * byte));
   return bytes;
@@ -139,7 +129,7 @@ void H5Writer::save_keeping(const std::filesystem::path& file, const std::filesy
 }
 
 struct H5Reader::Handles {
-  std::vector<unsigned char> bytes;
+  std::string bytes;
   Id access{H5Pcreate(H5P_FILE_ACCESS), H5Pclose};
   std::unique_ptr<Id> file;
 };
@@ -148,7 +138,7 @@ H5Reader::H5Reader(const std::filesystem::path& file, bool checked)
     : handles_(std::make_unique<Handles>()), file_(file) {
   silence();
   auto& bytes = handles_->bytes;
-  bytes = bytes_of(file);
+  bytes = input_bytes(file, largest_binary_file);
   if (bytes.empty()) throw InputError(file.string() + ": is empty");
   const bool has_trailer =
       bytes.size() > trailer_size && std::memcmp(bytes.data() + bytes.size() - trailer_size,
@@ -159,7 +149,7 @@ H5Reader::H5Reader(const std::filesystem::path& file, bool checked)
     const std::size_t size = bytes.size() - trailer_size;
     std::uint32_t stored = 0;
     for (int byte = 0; byte < 4; ++byte)
-      stored |= static_cast<std::uint32_t>(bytes[size + 8 + byte]) << (8 * byte);
+      stored |= std::uint32_t{static_cast<unsigned char>(bytes[size + 8 + byte])} << (8 * byte);
     if (stored != checksum({bytes.data(), size}))
       throw InputError(file.string() + ": damaged (checksum does not match)");
     bytes.resize(size);
@@ -179,7 +169,11 @@ void H5Reader::refuse(const std::string& name, const std::string& what) const {
 bool H5Reader::has(const std::string& name) const {
   // H5Lexists wants every group on the way to exist.
   for (std::size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {
-    if (H5Lexists(handles_->file->get(), name.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
+    const std::string part = name.substr(0, end);
+    if (H5Lexists(handles_->file->get(), part.c_str(), H5P_DEFAULT) <= 0) return false;
+    // Links lead anywhere: to other files, to other data, round in circles.
+    if (is_soft_or_external_link(handles_->file->get(), part.c_str()))
+      refuse(part, "a soft or external link (allowed: data that stand at this place)");
     if (end == std::string::npos) return true;
   }
 }
@@ -210,7 +204,7 @@ std::vector<T> read_set(const H5Reader& reader, hid_t file, const std::string& n
     reader.refuse(name, "of an unexpected type");
   const Id space(H5Dget_space(set.get()), H5Sclose);
   const hssize_t count = H5Sget_simple_extent_npoints(space.get());
-  if (count < 0 || count > largest_set) reader.refuse(name, "of an impossible size");
+  if (const char* fault = storage_fault(set.get(), stored.get(), count)) reader.refuse(name, fault);
   std::vector<T> values(static_cast<std::size_t>(count));
   if (count > 0 && H5Dread(set.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
     reader.refuse(name, "unreadable");

@@ -1,5 +1,7 @@
 #include "coupling/law/rheology_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,41 +11,49 @@
 
 namespace drumlin {
 
+namespace {
+
+// What a law may hold. Dense flows of any grains have mu of 0.1 to 1 at I of 1e-6 to 1; beyond these ranges
+// nothing flows as the equations say, and a solver would end without a reason.
+const Allowed friction_range = at_least(1e-3, 10), number_range = at_least(1e-12, 1e3);
+
+}  // namespace
+
 // Found through their arguments, hence not in the unnamed namespace.
 template <class Visitor>
 void describe(Visitor& v, LogFriction& t) {
-  v.value("a", t.a, required("", anything(), "Friction at I = 1."));
-  v.value("b", t.b, required("", anything(), "Growth of the friction with ln I, not negative."));
-  v.value("covariance", t.covariance, required("", anything(), "var(a), cov(a, b), var(b)."));
-  v.value("I_min", t.I_min, required("", above(0), "Smallest inertial number of the fit."));
-  v.value("I_max", t.I_max, required("", above(0), "Largest inertial number of the fit."));
+  v.value("a", t.a, required("", at_least(-10, 10), "Friction at I = 1."));
+  v.value("b", t.b, required("", at_least(-10, 10), "Growth of the friction with ln I, not negative."));
+  v.value("covariance", t.covariance, required("", at_least(-100, 100), "var(a), cov(a, b), var(b)."));
+  v.value("I_min", t.I_min, required("", number_range, "Smallest inertial number of the fit."));
+  v.value("I_max", t.I_max, required("", number_range, "Largest inertial number of the fit."));
 }
 
 template <class Visitor>
 void describe(Visitor& v, LogLinearFriction& t) {
-  v.value("a", t.a, required("", anything(), "Friction at I = 1 without the linear term."));
-  v.value("b", t.b, required("", anything(), "Growth of the friction with ln I, not negative."));
-  v.value("c", t.c, required("", anything(), "Growth of the friction with I, not negative."));
-  v.value("I_min", t.I_min, required("", above(0), "Smallest inertial number of the fit."));
-  v.value("I_max", t.I_max, required("", above(0), "Largest inertial number of the fit."));
+  v.value("a", t.a, required("", at_least(-10, 10), "Friction at I = 1 without the linear term."));
+  v.value("b", t.b, required("", at_least(-10, 10), "Growth of the friction with ln I, not negative."));
+  v.value("c", t.c, required("", at_least(-1e3, 1e3), "Growth of the friction with I, not negative."));
+  v.value("I_min", t.I_min, required("", number_range, "Smallest inertial number of the fit."));
+  v.value("I_max", t.I_max, required("", number_range, "Largest inertial number of the fit."));
 }
 
 template <class Visitor>
 void describe(Visitor& v, ConstantFriction& t) {
-  v.value("mu", t.mu, required("", above(0), "Friction at every inertial number."));
+  v.value("mu", t.mu, required("", friction_range, "Friction at every inertial number."));
 }
 
 template <class Visitor>
 void describe(Visitor& v, JopFriction& t) {
-  v.value("mu_s", t.mu_s, required("", above(0), "Friction for I -> 0."));
-  v.value("mu_2", t.mu_2, required("", above(0), "Friction for I -> infinity, not below mu_s."));
-  v.value("I_0", t.I_0, required("", above(0), "Inertial number half way between the two."));
+  v.value("mu_s", t.mu_s, required("", friction_range, "Friction for I -> 0."));
+  v.value("mu_2", t.mu_2, required("", friction_range, "Friction for I -> infinity, not below mu_s."));
+  v.value("I_0", t.I_0, required("", number_range, "Inertial number half way between the two."));
 }
 
 template <class Visitor>
 void describe(Visitor& v, FrictionTable& t) {
-  v.value("I", t.I, required("", above(0), "Inertial numbers, ascending, two at least."));
-  v.value("mu", t.mu, required("", above(0), "Friction there, growing; smooth in ln I between."));
+  v.value("I", t.I, required("", number_range, "Inertial numbers, ascending, two at least."));
+  v.value("mu", t.mu, required("", friction_range, "Friction there, growing; smooth in ln I between."));
 }
 
 namespace {
@@ -83,26 +93,28 @@ void describe(Visitor& v, MuTable& t) {
             alternative<ConstantFriction>("constant", "The same mu at every I."),
             alternative<JopFriction>("jop", "mu_s + (mu_2 - mu_s)/(I_0/I + 1)."),
             alternative<FrictionTable>("table", "Points, smoothly interpolated."));
-  v.value("rms_misfit", t.rms_misfit, when_given("", at_least(0), "Root mean square of mu about the fit."));
+  v.value("rms_misfit", t.rms_misfit,
+          when_given("", at_least(0, 10), "Root mean square of mu about the fit."));
 }
 
 template <class Visitor>
 void describe(Visitor& v, StressRatioTable& t) {
-  v.value("I", t.points.I, required("", above(0), "Inertial numbers, ascending."));
+  v.value("I", t.points.I, required("", number_range, "Inertial numbers, ascending."));
   v.value("k", t.points.k,
-          required("", above(0), "sigma_xx/sigma_zz there; smooth in ln I between, constant outside."));
+          required("", at_least(0.01, 100),
+                   "sigma_xx/sigma_zz there; smooth in ln I between, constant outside."));
 }
 
 template <class Visitor>
 void describe(Visitor& v, PackingTable& t) {
-  v.value("nu", t.nu, required("", above(0, 1), "Volume fraction of the bulk."));
-  v.value("nu_ci99", t.nu_ci99, when_given("", at_least(0), "Half width of its 99 % interval."));
+  v.value("nu", t.nu, required("", at_least(0.01, 1), "Volume fraction of the bulk."));
+  v.value("nu_ci99", t.nu_ci99, when_given("", at_least(0, 1), "Half width of its 99 % interval."));
 }
 
 template <class Visitor>
 void describe(Visitor& v, BandTable& t) {
   v.value("draws", t.draws,
-          required("", anything(),
+          required("", at_least(-1e3, 1e3),
                    "Laws of other draws of the points, one after the other: a, b; a, b, c; or mu of each I "
                    "of the table."));
 }
@@ -150,7 +162,21 @@ constexpr const char* falling =
     "its "
     "equations are ill-posed";
 
+/// A fitted law must be one where it was fitted. Below I_max it may fall to nothing (kept_positive), as the
+/// logarithm does.
+template <class Law>
+void check_at_largest(const Law& mu, Faults& faults) {
+  const double linear = [&] {
+    if constexpr (requires { mu.c; }) return mu.c * mu.I_max;
+    return 0.0;
+  }();
+  const double largest = mu.a + mu.b * std::log(mu.I_max) + linear;
+  if (!friction_range.holds(largest))
+    faults.refuse("mu.a", fmt::format("gives mu = {:.3g} at I_max", largest), "mu of 0.001 to 10 there");
+}
+
 void check_together(const LogFriction& mu, Faults& faults) {
+  check_at_largest(mu, faults);
   if (mu.b < 0) faults.refuse("mu.b", falling, ">= 0");
   if (!(mu.I_min < mu.I_max)) faults.refuse("mu.I_max", "is not above I_min", "> I_min");
   const auto& [var_a, cov_ab, var_b] = mu.covariance;
@@ -160,6 +186,7 @@ void check_together(const LogFriction& mu, Faults& faults) {
 }
 
 void check_together(const LogLinearFriction& mu, Faults& faults) {
+  check_at_largest(mu, faults);
   if (mu.b < 0) faults.refuse("mu.b", falling, ">= 0");
   if (mu.c < 0) faults.refuse("mu.c", falling, ">= 0");
   if (!(mu.I_min < mu.I_max)) faults.refuse("mu.I_max", "is not above I_min", "> I_min");

@@ -31,15 +31,25 @@ void check_together(const ImportDescription& description, const Document& docume
     refuse("lammps.depth_m", "is needed by the contacts: forces count per metre of depth", "a number");
 }
 
-/// Whether a text is a pattern's, "*" standing for any text.
+/// Whether a text is a pattern's, "*" standing for any text. The text between two stars goes where it fits
+/// first: whatever fits behind a later place fits behind that one too, so that nothing is tried twice.
 bool matches(std::string_view pattern, std::string_view text) {
-  const auto star = pattern.find('*');
-  if (star == std::string_view::npos) return pattern == text;
-  if (!text.starts_with(pattern.substr(0, star))) return false;
-  const auto rest = pattern.substr(star + 1);
-  for (std::size_t begin = star; begin <= text.size(); ++begin)
-    if (matches(rest, text.substr(begin))) return true;
-  return false;
+  const auto first = pattern.find('*');
+  if (first == std::string_view::npos) return pattern == text;
+  const auto last = pattern.rfind('*');
+  const std::string_view begin = pattern.substr(0, first), end = pattern.substr(last + 1);
+  if (text.size() < begin.size() + end.size() || !text.starts_with(begin) || !text.ends_with(end))
+    return false;
+  text = text.substr(begin.size(), text.size() - begin.size() - end.size());
+  for (std::size_t star = first; star < last;) {
+    const std::size_t next = pattern.find('*', star + 1);
+    const std::string_view part = pattern.substr(star + 1, next - star - 1);
+    const auto found = text.find(part);
+    if (found == std::string_view::npos) return false;
+    text.remove_prefix(found + part.size());
+    star = next;
+  }
+  return true;
 }
 
 /// a before b, runs of digits by value: dump.90 before dump.100.

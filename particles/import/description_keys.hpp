@@ -88,7 +88,7 @@ void describe(Visitor& v, ImportedPeriod& p) {
 template <class Visitor>
 void describe(Visitor& v, ImportDescription& d) {
   v.format(import_format);
-  v.value("title", d.title, defaulted("", anything(), "Title, for reports."));
+  v.value("title", d.title, defaulted("", title_line(), "Title, for reports."));
   v.value("reduced", d.reduced,
           defaulted("", anything(), "Says \"reduced\" on every output: a trial, no result."));
   v.one_table_of(d.source, "Where the snapshots are.", alternative<CsvSource>("csv", "Tables of numbers."),

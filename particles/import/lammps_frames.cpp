@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <utility>
@@ -17,6 +18,7 @@ struct Target {
   std::string name;  ///< empty: not used
   Quantity quantity = Quantity::number;
   double factor = 1, offset = 0;
+  bool is_scaled = false;  ///< by the box
 };
 
 /// Lower and upper bound of the box along x, y, z.
@@ -44,15 +46,18 @@ class LammpsFrames {
     frame.file = reader_->file();
     frame.first_line = reader_->number();
     std::optional<double> count;
-    Box box{};
+    std::optional<Box> box;
     for (;;) {
       const std::string item = reader_->line();
       if (item == "ITEM: TIMESTEP") {
-        frame.time = number_below("TIMESTEP") * step_s_;
+        require_first(!frame.time, "TIMESTEP");
+        frame.time = whole_number_below("TIMESTEP") * step_s_;
       } else if (item.starts_with("ITEM: NUMBER OF ")) {
-        count = number_below("NUMBER OF ...");
+        require_first(!count, "NUMBER OF ...");
+        count = whole_number_below("NUMBER OF ...");
       } else if (item.starts_with("ITEM: BOX BOUNDS")) {
-        read_box(item, box);
+        require_first(!box, "BOX BOUNDS");
+        read_box(item, box.emplace());
       } else if (item.starts_with(rows_item_)) {
         if (!frame.time) reader_->refuse(rows_item_, "comes before ITEM: TIMESTEP", "");
         if (!count) reader_->refuse(rows_item_, "comes before ITEM: NUMBER OF ...", "");
@@ -75,10 +80,15 @@ class LammpsFrames {
     return false;
   }
 
-  double number_below(const std::string& item) {
+  void require_first(bool first, const std::string& item) const {
+    if (!first) reader_->refuse(item, "stands a second time in this frame", "once in each frame");
+  }
+
+  double whole_number_below(const std::string& item) {
     if (!next_line()) reader_->refuse(item, "ends within a frame", "");
     const double value = reader_->number_from(reader_->line(), item);
-    if (value < 0 || value > 1e15) reader_->refuse(item, "is out of range", ">= 0");
+    if (value < 0 || value > 1e15) reader_->refuse(item, "is out of range", "0 to 1e15");
+    if (value != std::floor(value)) reader_->refuse(item, "is " + reader_->line(), "a whole number");
     return value;
   }
 
@@ -92,13 +102,19 @@ class LammpsFrames {
         reader_->refuse("BOX BOUNDS", fmt::format("holds {} numbers", words.size()),
                         "two: a box with right angles");
       bounds = {reader_->number_from(words[0], "BOX BOUNDS"), reader_->number_from(words[1], "BOX BOUNDS")};
+      if (!(bounds[0] <= bounds[1]))
+        reader_->refuse("BOX BOUNDS", "are not in their order", "lower, then upper");
     }
   }
 
-  void read_rows(const std::string& item, std::size_t count, const Box& box, FrameTable& frame) {
+  void read_rows(const std::string& item, std::size_t count, const std::optional<Box>& box,
+                 FrameTable& frame) {
     std::vector<Target> targets;
     for (const std::string_view name : words_of(std::string_view(item).substr(rows_item_.size()))) {
-      Target target = meaning_(name, box);
+      Target target = meaning_(name, box.value_or(Box{}));
+      if (target.is_scaled && !box)
+        reader_->refuse(std::string(name), "is scaled by a box that this frame does not give",
+                        "ITEM: BOX BOUNDS before it");
       if (target.name.empty()) {
         unused_.insert(std::string(name));
       } else if (!frame.columns.emplace(target.name, FrameColumn{{}, target.quantity, true}).second) {
@@ -163,7 +179,7 @@ FrameTableSource lammps_grains(std::vector<std::filesystem::path> files, const L
     if (kind.empty() || kind == "u") return {target, Quantity::length, metre};
     if (kind != "s" && kind != "su") return {};
     const auto& bounds = box[static_cast<std::size_t>(axis - 'x')];
-    return {target, Quantity::length, (bounds[1] - bounds[0]) * metre, bounds[0] * metre};
+    return {target, Quantity::length, (bounds[1] - bounds[0]) * metre, bounds[0] * metre, true};
   };
   return source_of(
       std::make_shared<LammpsFrames>(std::move(files), source.step_s, "ITEM: ATOMS", meaning, unused));

@@ -1,27 +1,52 @@
 #include "particles/import/line_reader.hpp"
 
+#include <algorithm>
+#include <limits>
+#include <span>
+
 #include "coupling/common/errors.hpp"
 #include "coupling/documents/csv.hpp"
 
 namespace drumlin::particles {
 
-LineReader::LineReader(const std::filesystem::path& file) : file_(file) {
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) throw InputError(file.string() + ": no such file");
-  if (std::filesystem::is_directory(status)) throw InputError(file.string() + ": is a folder, not a file");
-  stream_.open(file, std::ios::binary);
-  if (!stream_) throw IoError(file.string() + ": cannot be read");
+namespace {
+
+constexpr std::size_t piece = 1 << 16, longest_line = 1 << 20;  // bytes
+
+}  // namespace
+
+LineReader::LineReader(const std::filesystem::path& file)
+    : file_(file), input_(file, std::numeric_limits<std::uint64_t>::max()) {
+  fill();
+  cut_byte_order_mark(buffer_, file_);
+}
+
+/// Reads on behind what is not taken yet; false at the end of the file.
+bool LineReader::fill() {
+  buffer_.erase(0, taken_);
+  taken_ = 0;
+  const std::size_t kept = buffer_.size();
+  buffer_.resize(kept + piece);
+  buffer_.resize(kept + input_.read(std::span(buffer_).subspan(kept)));
+  return buffer_.size() > kept;
 }
 
 bool LineReader::next() {
-  if (!std::getline(stream_, line_)) {
-    if (stream_.bad()) throw IoError(file_.string() + ": cannot be read");
-    return false;
+  std::size_t end = buffer_.find('\n', taken_);
+  while (end == std::string::npos) {
+    const std::size_t seen = buffer_.size() - taken_;
+    if (seen > longest_line) {
+      ++number_;
+      refuse("", "is longer than 1 MiB", "lines of text");
+    }
+    if (!fill()) break;
+    end = buffer_.find('\n', seen);
   }
+  if (end == std::string::npos && taken_ == buffer_.size()) return false;
+  end = std::min(end, buffer_.size());
   ++number_;
-  const std::string_view kept = trimmed(line_);
-  if (kept.size() != line_.size()) line_ = std::string(kept);
+  line_ = trimmed(std::string_view(buffer_).substr(taken_, end - taken_));
+  taken_ = std::min(end + 1, buffer_.size());
   return true;
 }
 

@@ -1,18 +1,20 @@
 #pragma once
 // A text file line by line, numbered for messages. Dumps are too large to be held whole.
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "coupling/common/input_file.hpp"
 
 namespace drumlin::particles {
 
 class LineReader {
  public:
-  /// Throws InputError if the file is missing or a folder, IoError if it cannot be read.
+  /// Of any size. Throws InputError if the file is missing or no regular file, IoError if it cannot be read.
   explicit LineReader(const std::filesystem::path& file);
-  /// Goes on to the next line, white space at its ends cut off; false at the end.
+  /// Goes on to the next line, white space at its ends cut off; false at the end. Throws InputError on a line
+  /// of more than 1 MiB.
   bool next();
   const std::string& line() const { return line_; }
   int number() const { return number_; }
@@ -23,8 +25,12 @@ class LineReader {
   double number_from(std::string_view text, const std::string& key) const;
 
  private:
+  bool fill();
+
   std::filesystem::path file_;
-  std::ifstream stream_;
+  InputFile input_;
+  std::string buffer_;  ///< what was read; lines are taken from `taken_` on
+  std::size_t taken_ = 0;
   std::string line_;
   int number_ = 0;
 };

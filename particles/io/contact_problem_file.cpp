@@ -1,8 +1,11 @@
 #include "particles/io/contact_problem_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 
 #include "coupling/files/h5_image.hpp"
@@ -16,7 +19,7 @@ struct Entry {
 };
 
 const std::string root = "fclib_local/";
-constexpr double largest_asymmetry = 1e-5;  // of W_aa; beyond, it is not a file written with few digits
+constexpr double largest_asymmetry = 1e-5;  // of the diagonal; beyond, it is no file written with few digits
 
 void check_entry(const H5Reader& in, const Entry& entry, std::int64_t size) {
   if (entry.row < 0 || entry.row >= size || entry.column < 0 || entry.column >= size)
@@ -71,18 +74,59 @@ bool is_positive_definite(const Eigen::Matrix2d& block) {
   return block(0, 0) > 0 && block(1, 1) > 0 && block.determinant() > 0;
 }
 
-/// Makes a diagonal block symmetric; returns how far it was from it, relative to its trace.
-double symmetrise(Eigen::Matrix2d& block) {
-  const double trace = std::abs(block(0, 0)) + std::abs(block(1, 1));
-  const double difference = std::abs(block(0, 1) - block(1, 0));
-  block(0, 1) = block(1, 0) = (block(0, 1) + block(1, 0)) / 2;
-  return difference == 0 ? 0 : difference / trace;
+using BlockRows = std::vector<std::map<int, Eigen::Matrix2d>>;
+
+/// Makes W symmetric, block by block; returns how far it was from it: the largest difference of two entries
+/// that should be one, of the mean size of the two diagonal blocks. Every row has a diagonal block.
+double symmetrise(BlockRows& rows) {
+  const auto size = [&](int a) { return std::abs(rows[static_cast<std::size_t>(a)].at(a).trace()); };
+  double largest = 0;
+  for (int a = 0; a < static_cast<int>(rows.size()); ++a)
+    for (auto& [b, block] : rows[static_cast<std::size_t>(a)]) {
+      Eigen::Matrix2d& other =
+          rows[static_cast<std::size_t>(b)].try_emplace(a, Eigen::Matrix2d::Zero()).first->second;
+      const Eigen::Matrix2d mean = 0.5 * (block + other.transpose());
+      const double difference = (block - other.transpose()).cwiseAbs().maxCoeff();
+      const double share = difference == 0 ? 0 : 2 * difference / (size(a) + size(b));
+      // NaN comes of sums that are too large, and must not pass as none.
+      if (!std::isfinite(share)) return std::numeric_limits<double>::infinity();
+      largest = std::max(largest, share);
+      block = mean;
+      other = mean.transpose();
+    }
+  return largest;
+}
+
+/// The blocks of W by contacts, symmetric; `asymmetry` is what they were away from it.
+BlockRows rows_of_W(const H5Reader& in, std::int64_t size, double& asymmetry) {
+  BlockRows rows(static_cast<std::size_t>(size / 2));
+  for (const Entry& entry : entries_of_W(in, size)) {
+    auto [place, fresh] = rows[entry.row / 2].try_emplace(entry.column / 2, Eigen::Matrix2d::Zero());
+    place->second(entry.row % 2, entry.column % 2) += entry.value;  // triplets may repeat
+  }
+  const auto refuse = [&](std::size_t a) {
+    in.refuse(root + "W",
+              "contact " + std::to_string(a) + " has no symmetric positive definite diagonal block");
+  };
+  for (std::size_t a = 0; a < rows.size(); ++a)
+    if (!rows[a].contains(static_cast<int>(a))) refuse(a);
+  asymmetry = symmetrise(rows);
+  if (!(asymmetry <= largest_asymmetry))
+    in.refuse(root + "W",
+              fmt::format("is not symmetric: entries that should be equal differ by {:.1g} of the "
+                          "diagonal (allowed: {:g})",
+                          asymmetry, largest_asymmetry));
+  for (std::size_t a = 0; a < rows.size(); ++a)
+    if (!is_positive_definite(rows[a].at(static_cast<int>(a)))) refuse(a);
+  return rows;
 }
 
 std::vector<double> vector_of(const H5Reader& in, const std::string& name, std::int64_t size) {
-  auto values = in.doubles(root + "vectors/" + name);
-  if (static_cast<std::int64_t>(values.size()) != size)
+  std::size_t count = 1;
+  for (const std::size_t length : in.shape(root + "vectors/" + name)) count *= length;
+  if (static_cast<std::int64_t>(count) != size)
     in.refuse(root + "vectors/" + name, "not of length " + std::to_string(size));
+  auto values = in.doubles(root + "vectors/" + name);
   for (const double value : values)
     if (!std::isfinite(value)) in.refuse(root + "vectors/" + name, "a number is not finite");
   return values;
@@ -104,24 +148,12 @@ ContactProblemFile read_contact_problem_file(const std::filesystem::path& file) 
   problem.mu = vector_of(in, "mu", size / 2);
   for (const double mu : problem.mu)
     if (mu < 0) in.refuse(root + "vectors/mu", "negative friction");
-  const auto contacts = static_cast<int>(size / 2);
-  std::vector<std::map<int, Eigen::Matrix2d>> rows(contacts);
-  for (const Entry& entry : entries_of_W(in, size)) {
-    auto [place, fresh] = rows[entry.row / 2].try_emplace(entry.column / 2, Eigen::Matrix2d::Zero());
-    place->second(entry.row % 2, entry.column % 2) += entry.value;  // triplets may repeat
-  }
   auto& W = problem.W;
   W.row_start.push_back(0);
-  for (int a = 0; a < contacts; ++a) {
-    const auto diagonal = rows[a].find(a);
-    const double asymmetry = diagonal == rows[a].end() ? 0 : symmetrise(diagonal->second);
-    if (!(asymmetry <= largest_asymmetry) || diagonal == rows[a].end() ||
-        !is_positive_definite(diagonal->second))
-      in.refuse(root + "W",
-                "contact " + std::to_string(a) + " has no symmetric positive definite diagonal block");
-    read.asymmetry = std::max(read.asymmetry, asymmetry);
-    W.diagonal.push_back(diagonal->second);
-    for (const auto& [column, block] : rows[a]) W.column.push_back(column), W.block.push_back(block);
+  int a = 0;
+  for (const auto& row : rows_of_W(in, size, read.asymmetry)) {
+    W.diagonal.push_back(row.at(a++));
+    for (const auto& [column, block] : row) W.column.push_back(column), W.block.push_back(block);
     W.row_start.push_back(static_cast<int>(W.column.size()));
   }
   return read;

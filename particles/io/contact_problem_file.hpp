@@ -10,15 +10,15 @@ namespace drumlin::particles {
 
 /// A problem as a file holds it.
 struct ContactProblemFile {
-  BlockProblem problem;  ///< with its diagonal blocks made symmetric
-  double asymmetry = 0;  ///< largest |W_nt - W_tn| / (W_nn + W_tt) of them before that
+  BlockProblem problem;  ///< with W made symmetric
+  double asymmetry =
+      0;  ///< largest |W_ij - W_ji| over the mean trace of the two diagonal blocks, before that
 };
 
 /// Reads /fclib_local/{spacedim, W/{nzmax,m,n,nz,p,i,x}, vectors/{q,mu}}: nz = -2 compressed rows, -1
-/// compressed columns,
-/// >= 0 triplets; normal component first; u = W r + q. Throws InputError for whatever does not fit: another
-/// dimension, indices outside the matrix, a contact without a positive diagonal or with one that is
-/// asymmetric by more than 1e-5, numbers that are not finite.
+/// compressed columns, >= 0 triplets; normal component first; u = W r + q. Throws InputError for whatever
+/// does not fit: another dimension, indices outside the matrix, a contact without a positive diagonal, a W
+/// that is asymmetric by more than 1e-5, numbers that are not finite.
 ContactProblemFile read_contact_problem_file(const std::filesystem::path& file);
 /// The problem alone.
 BlockProblem read_contact_problem(const std::filesystem::path& file);

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "coupling/common/errors.hpp"
-#include "coupling/common/text_file.hpp"
+#include "coupling/common/input_file.hpp"
 #include "coupling/documents/csv.hpp"
 #include "particles/measurement/frame/intervals.hpp"
 
@@ -31,7 +31,7 @@ struct LogRow {
 double number_of(std::string_view text) { return finite_number(text).value_or(none); }
 
 std::vector<LogRow> read_log(const std::filesystem::path& file) {
-  std::istringstream stream(file_text(file));
+  std::istringstream stream(input_text(file));
   std::string line;
   std::getline(stream, line);
   std::map<std::string, std::size_t, std::less<>> place;

@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <numbers>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "coupling/common/errors.hpp"
+#include "coupling/common/input_file.hpp"
 #include "coupling/documents/csv.hpp"
 #include "particles/scene/materials.hpp"
 #include "particles/scene/random.hpp"
@@ -124,9 +125,7 @@ double largest_allowed(const std::string& column) { return column == "diameter_m
 /// Reads the CSV list; every fault of the file is reported at once.
 std::vector<ListedGrain> listed(const std::filesystem::path& file) {
   const std::string name = file.string();
-  std::ifstream in(file);
-  if (!in || std::filesystem::is_directory(file))
-    throw InputError({InputProblem{name, 0, 0, "grains.listed.file", "cannot be read", ""}});
+  std::istringstream in(input_text(file));
   std::vector<InputProblem> problems;
   std::vector<std::string> names;
   std::vector<std::size_t> places;  // of the names among the columns

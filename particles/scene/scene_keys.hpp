@@ -267,7 +267,7 @@ void describe(Visitor& v, Output& o) {
 template <class Visitor>
 void describe(Visitor& v, Scene& s) {
   v.format(scene_format);
-  v.value("title", s.title, defaulted("", anything(), "Title, for reports."));
+  v.value("title", s.title, defaulted("", title_line(), "Title, for reports."));
   v.value("reduced", s.reduced,
           defaulted("", anything(), "Says \"reduced\" on every output: a trial, no result."));
   v.value("seed", s.seed,

@@ -134,11 +134,12 @@ void check_grains(const Scene& scene, Faults& faults) {
   }
   const auto& file = std::get<ListedGrains>(scene.grains.source).file;
   if (!std::filesystem::is_regular_file(file))
-    faults.push_back(
-        {"grains.listed.file",
-         file.string() + (std::filesystem::is_directory(file) ? " is a folder" : " does not exist"),
-         "a CSV file",
-         {"grains.listed.file"}});
+    faults.push_back({"grains.listed.file",
+                      file.string() + (std::filesystem::is_directory(file) ? " is a folder"
+                                       : std::filesystem::exists(file)     ? " is no regular file"
+                                                                           : " does not exist"),
+                      "a CSV file",
+                      {"grains.listed.file"}});
 }
 
 void check_period(const Scene& scene, Faults& faults) {

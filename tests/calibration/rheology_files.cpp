@@ -106,6 +106,19 @@ TEST(RheologyFile, EveryFormOfMuNamesItsFaults) {
   expect("law = \"table\"\nI = [1e-3, 1e-2]\nmu = [-0.2, 0.3]\n", "5:", "mu.mu");
   // The natural logarithm is the only one: with log10 the same numbers are another law, ill-posed from I =
   // 1e-5.
+  // Out of the range of any material, one by one or together.
+  const std::string rest = "covariance = [0, 0, 0]\nI_min = 1e-4\nI_max = 0.1\n";
+  expect("law = \"log\"\na = 1e308\nb = 0.01\n" + rest, "4:", "-10 to 10");
+  expect("law = \"log\"\na = nan\nb = 0.01\n" + rest, "4:", "mu.a");
+  expect("law = \"log\"\na = -5\nb = 0.01\n" + rest, "4:", "mu of 0.001 to 10");
+  expect("law = \"log\"\na = 9\nb = -9\n" + rest, "4:", "mu of 0.001 to 10");
+  expect("law = \"log-linear\"\na = 1\nb = 0\nc = 900\nI_min = 1e-4\nI_max = 0.1\n", "4:", "gives mu = 91");
+  expect("law = \"log\"\na = 0.3\nb = inf\n" + rest, "5:", "mu.b");
+  expect("law = \"log\"\na = 0.3\nb = 0.01\ncovariance = [0, 0, 0]\nI_min = 1e-300\nI_max = 0.1\n",
+         "7:", "1e-12 to 1000");
+  expect("law = \"constant\"\nmu = 1e-9\n", "4:", "0.001 to 10");
+  expect("law = \"jop\"\nmu_s = 0.3\nmu_2 = 1e9\nI_0 = 0.3\n", "5:", "mu.mu_2");
+  expect("law = \"table\"\nI = [1e-3, 1e-2]\nmu = [0.2, 300]\n", "5:", "mu.mu.1");
   expect("law = \"log10\"\na = 0.35\nb = 0.013\n", "3:", "\"log10\"");
 }
 

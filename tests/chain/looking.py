@@ -29,8 +29,8 @@ diameter_max_mm = 4
 region = {{ shape = "rectangle", min_mm = [2, 3], max_mm = [28, 40] }}
 """
 
-# A disc that falls: no friction, no spin, one wall.
-ONE_DISC = 'format = "drumlin-scene-1"\ntitle = "One disc"\n' + GRAINS.format(count=1) + """
+# A disc that falls: no friction, no spin, one wall. Its title is what a figure must not take for mathematics.
+ONE_DISC = 'format = "drumlin-scene-1"\ntitle = "$x_1$ \\\\alpha_{5 % of <b>one</b> disc & $"\n' + GRAINS.format(count=1) + """
 [[walls]]
 name = "floor"
 shape = "segment"

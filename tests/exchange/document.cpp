@@ -94,6 +94,43 @@ TEST(Document, RefusesDeepNestingWithoutFalling) {
   EXPECT_EQ(problems_of("a = " + std::string(100000, '[')).size(), 1u);
 }
 
+std::string repeated(const std::string& part, int times) {
+  std::string text;
+  for (int k = 0; k < times; ++k) text += part;
+  return text;
+}
+
+// Each of them makes the parser call itself for every level.
+TEST(Document, RefusesWhatLiesTooDeepBeforeItIsParsed) {
+  const int many = 16000;
+  for (const std::string& text :
+       {repeated("a.", many) + "a = 1\n", "[" + repeated("a.", many) + "a]\n",
+        "x = {" + repeated("\"a\" . ", many) + "a = 1}\n", "x = " + repeated("[", many),
+        "x = " + repeated("{a = ", many), "x = " + repeated("[{a = ", many),
+        "[[" + repeated("'a'.", many) + "a]]\n", "x = '''\n'''\ny = " + repeated("[\n", many)}) {
+    const auto problems = problems_of(text);
+    EXPECT_NE(problems[0].what.find("too deep"), std::string::npos) << problems[0].text();
+    EXPECT_GE(problems[0].line, 1);
+  }
+  EXPECT_NE(problems_of("a = 1", {repeated("a.", many) + "a=1"})[0].what.find("too deep"), std::string::npos);
+  EXPECT_EQ(problems_of("a = 1", {"a=" + repeated("[", many)}).size(), 1u);
+}
+
+TEST(Document, DotsAndBracketsInTextsAndCommentsAreNoLevels) {
+  EXPECT_NO_THROW(parse_toml("a = \"" + repeated("[.", 100) + "\" # " + repeated("[.", 100) + "\nb = '''" +
+                                 repeated("{\n", 100) + "'''\nc = \"\"\"" + repeated("\\\"[", 100) +
+                                 "\"\"\"\n",
+                             "t.toml"));
+  EXPECT_NO_THROW(parse_toml(repeated("a.", 31) + "a = 1\n", "t.toml"));
+  EXPECT_NO_THROW(parse_toml("x = " + repeated("[", 32) + repeated("]", 32) + "\n", "t.toml"));
+}
+
+TEST(Document, RefusesKeysThatNobodyCouldRead) {
+  const auto problems = problems_of("[t]\n\"" + std::string(201, 'k') + "\" = 1\n");
+  EXPECT_EQ(problems[0].line, 2);
+  EXPECT_NE(problems[0].what.find("201 bytes"), std::string::npos);
+}
+
 TEST(Document, RefusesEmptyText) {
   EXPECT_EQ(problems_of("").size(), 1u);
   EXPECT_EQ(problems_of(" \n\t\r\n").size(), 1u);

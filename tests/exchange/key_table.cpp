@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "coupling/documents/one_line.hpp"
+
 namespace drumlin::garden {
 
 struct Round {
@@ -68,7 +72,7 @@ void describe(V& v, Bed& b) {
 template <class V>
 void describe(V& v, Garden& g) {
   v.format("garden-1");
-  v.value("title", g.title, defaulted("", anything(), "Title."));
+  v.value("title", g.title, defaulted("", title_line(), "Title."));
   v.value("open", g.open, defaulted("", anything(), "Whether it is open."));
   v.value("visitors", g.visitors, defaulted("", anything(), "Visitors."));
   v.value("height_m", g.height_m, when_given("m", above(0, 3), "Height."));
@@ -106,6 +110,37 @@ TEST(KeyTable, FillsAStructWithDefaults) {
   EXPECT_FALSE(g.height_m);
   ASSERT_EQ(g.beds.size(), 1u);
   EXPECT_EQ(std::get<Round>(g.beds[0].shape).radius_m, 1);
+}
+
+// They go into the headers of files, whose reader would meet the rest as another line.
+TEST(KeyTable, TextsStandOnOneLineWithoutControlCharacters) {
+  for (const char* escape : {"\\n", "\\r", "\\t", "\\u0000", "\\u001B", "\\u007F", "\\u0085", "\\u2028"})
+    for (const char* key : {"title", "beds.0.name"}) {
+      const auto problems = problems_of(least, {std::string(key) + "=\"a" + escape + "b\""});
+      EXPECT_TRUE(std::any_of(problems.begin(), problems.end(),
+                              [&](const InputProblem& problem) {
+                                return problem.key == key &&
+                                       problem.what.starts_with("holds a control character (U+");
+                              }))
+          << key << escape;
+    }
+}
+
+TEST(KeyTable, TitlesHaveAtMost200Characters) {
+  std::string umlauts;
+  for (int k = 0; k < 200; ++k) umlauts += "ü";
+  EXPECT_TRUE(problems_of(least, {"title=\"" + umlauts + "\""}).empty());
+  const std::string said = only_problem({"title=\"" + umlauts + "x\""});
+  EXPECT_NE(said.find("title: has 201 characters (allowed: one line of at most 200 characters)"),
+            std::string::npos)
+      << said;
+}
+
+TEST(OneLine, IsWellFormedUtf8) {
+  EXPECT_EQ(fault_of_line("$x_1$ \\alpha, 5 % – é \xF0\x9F\x98\x80", 100), "");
+  for (const char* bytes :
+       {"\xff", "\xC3", "\xC0\x80", "\xE0\x80\x80", "\xED\xA0\x80", "\xF5\x80\x80\x80", "a\x80"})
+    EXPECT_EQ(fault_of_line(bytes, 100), "is no UTF-8");
 }
 
 TEST(KeyTable, ReadsEveryKindOfValue) {

@@ -6,6 +6,7 @@
 #include "coupling/common/errors.hpp"
 #include "coupling/common/text_file.hpp"
 #include "tests/exchange_files/folder.hpp"
+#include "tests/support/data_folder.hpp"
 
 namespace drumlin::apps {
 namespace {
@@ -62,6 +63,29 @@ TEST(PendingFigures, AreAllDrawnButThoseThatFailAndTheseAreNamed) {
   EXPECT_TRUE(draw_pending_figures(results, {{good, {(results / "drawn.png").string()}}}).empty());
   EXPECT_TRUE(is_complete(finished));
   EXPECT_NO_THROW(throw_if_figures_failed(finished, {}));
+}
+
+// Two $ would begin mathematics, and 20,000 letters a picture that no one draws.
+TEST(FigureScript, DrawsTextsOfTheUserAsTheyStand) {
+  const TemporaryFolder folder;
+  const auto script = folder.with("titles.py", R"(import sys
+sys.path.insert(0, sys.argv[1])
+import style
+assert style.plain("a $x_1$ b") == r"a \$x_1\$ b"
+assert style.plain("one\ntwo\x00\x1b") == "one\N{REPLACEMENT CHARACTER}two" + 2 * "\N{REPLACEMENT CHARACTER}"
+assert max(map(len, style.plain("w" * 20000).splitlines())) <= 80 and len(style.plain("w" * 20000).splitlines()) == 3
+style.use_style()
+for number, text in enumerate(["$", "$x_", "$\\frac{1}{$", "\\", "a_b^{c", "$" * 200, "\\$" * 30, "%&#~{}", "_" * 20000, "\u202e x", ""]):
+    figure, axes = style.plt.subplots()
+    figure.suptitle(style.title_of(style.plain(text) + "\nbeside $x_1$", True))
+    axes.plot([0, 1], label=style.plain(text))
+    axes.legend()
+    style.save(figure, f"{sys.argv[2]}/{number}.png", True)
+    assert figure._suptitle.get_text().endswith("- reduced")
+)");
+  draw_figures(script, {(drumlin::test::docs_folder().parent_path() / "apps/figures").string(),
+                        folder.path().string()});
+  EXPECT_TRUE(fs::exists(folder / "10.png"));
 }
 
 TEST(ReportCosts, DrawsWhatTheRepositoryRecorded) {

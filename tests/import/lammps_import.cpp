@@ -113,12 +113,51 @@ TEST(LammpsImport, RefusesWithFileAndLine) {
            {frame(1, "id x y z radius vx vy", {"1 0 0 0 0.1 0 0", "2 0 0 5 0.1 0 0"}), "lie in space"},
            {frame(1, columns, {"1 0 0 1 0 0"}).substr(0, 60), "ends within a frame"},
            {frame(1, columns, {"1 0 0 1 0 0"}) + "ITEM: TIMESTEP\n2\n", "dump.a:12: ends within a frame"},
+           {"ITEM: TIMESTEP\n1\nITEM: NUMBER OF ATOMS\n1\nITEM: ATOMS id xs ys radius vx vy\n1 0.5 0.5 1 0 "
+            "0\n",
+            "dump.a:5: xs: is scaled by a box that this frame does not give"},
+           {"ITEM: TIMESTEP\n1\nITEM: NUMBER OF ATOMS\n2.7\n",
+            "dump.a:4: NUMBER OF ...: is 2.7 (allowed: a whole number"},
+           {"ITEM: TIMESTEP\n1.5\n", "dump.a:2: TIMESTEP: is 1.5 (allowed: a whole number"},
+           {"ITEM: TIMESTEP\n1\nITEM: TIMESTEP\n2\n", "dump.a:3: TIMESTEP: stands a second time"},
+           {"ITEM: TIMESTEP\n1\nITEM: BOX BOUNDS pp ff pp\n10 -10\n",
+            "dump.a:4: BOX BOUNDS: are not in their order"},
+           {"ITEM: TIMESTEP\n" + std::string(2 << 20, '1'), "dump.a:2: is longer than 1 MiB"},
            {"hello\n", "dump.a:1: \"hello\" is not expected here"},
            {"", "hold no snapshot"}}) {
     folder.with("dump.a", text);
     const std::string said = refusal(folder, description());
     EXPECT_NE(said.find(message), std::string::npos) << said;
   }
+}
+
+TEST(LammpsImport, ReadsLinesAcrossThePiecesOfItsFileAndWithoutALastEnd) {
+  const TemporaryFolder folder;
+  std::vector<std::string> rows;
+  for (int k = 0; k < 5000; ++k)
+    rows.push_back(std::to_string(k + 1) + " " + std::to_string(20 * k) + " 0 9.81 0 0");
+  std::string text = "\xEF\xBB\xBF" + frame(1, "id x y radius vx vy", rows);
+  text.pop_back();
+  folder.with("dump.a", text);
+  const auto result = imported(folder, description());
+  ASSERT_EQ(result.snapshots.at(0).x.size(), 5000u);
+  EXPECT_NEAR(result.snapshots[0].x[4999], 20 * 4999 / 9.81, 1e-9);
+}
+
+// Tried place by place for each star, this one would take longer than the universe is old.
+TEST(LammpsImport, PatternOfManyStarsIsMatchedAtOnce) {
+  const TemporaryFolder folder;
+  folder.with(std::string(200, 'a') + "b", frame(1, "id x y radius vx vy", {"1 0 0 9.81 0 0"}));
+  std::string stars;
+  for (int k = 0; k < 60; ++k) stars += "*a";
+  const auto named = [&](const std::string& pattern) {
+    std::string text = description();
+    return text.replace(text.find("dump.*"), 6, pattern);
+  };
+  EXPECT_NE(refusal(folder, named(stars)).find("no file of such a name"), std::string::npos);
+  EXPECT_EQ(imported(folder, named(stars + "*b")).snapshots.size(), 1u);
+  EXPECT_EQ(imported(folder, named("*aab*")).snapshots.size(), 1u);
+  EXPECT_NE(refusal(folder, named("*ab*b")).find("no file of such a name"), std::string::npos);
 }
 
 }  // namespace

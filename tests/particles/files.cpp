@@ -171,6 +171,31 @@ TEST(ContactProblemFile, SmallAsymmetryOfADiagonalBlockIsTakenAway) {
   EXPECT_EQ(read.problem.W.block[0], read.problem.W.diagonal[0]);
 }
 
+TEST(ContactProblemFile, AsymmetryBetweenContactsIsTakenAwayOrRefused) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "p.h5";
+  SmallProblem p;
+  p.dense[2] += 2e-5;  // W of contacts 0 and 1, whose traces are 5 and 6
+  write_fclib(file, p, -2);
+  const ContactProblemFile read = read_contact_problem_file(file);
+  EXPECT_NEAR(read.asymmetry, 2e-5 / 5.5, 1e-12);
+  const auto& W = read.problem.W;
+  ASSERT_EQ(W.column, (std::vector<int>{0, 1, 0, 1, 2}));
+  EXPECT_EQ(W.block[1], W.block[2].transpose());
+  EXPECT_NEAR(W.block[1](0, 0), 0.5 + 1e-5, 1e-15);
+  for (const int entry : {2, 4}) {  // one that differs, and one that stands on one side alone
+    SmallProblem wrong;
+    wrong.dense[entry] += 0.2;
+    write_fclib(file, wrong, -2);
+    try {
+      (void)read_contact_problem(file);
+      ADD_FAILURE() << entry;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("is not symmetric"), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST(ContactProblemFile, EmptyFileIsRefusedWhateverLiesBeside) {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "empty.h5").close();

@@ -25,7 +25,7 @@ using Json = nlohmann::ordered_json;
 
 void erase(Node& table, const std::string& key) {
   auto& entries = std::get<Node::Table>(table.value);
-  std::erase_if(entries, [&](const auto& entry) { return entry.first == key; });
+  std::erase_if(entries, [&](const auto& entry) { return entry.key == key; });
 }
 
 // The plain scene and law, as files beside the points.
