@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "coupling/common/errors.hpp"
+#include "coupling/common/unfinished_file.hpp"
 
 namespace drumlin {
 
@@ -27,31 +28,30 @@ std::string file_text(const std::filesystem::path& file) {
 
 namespace {
 
-[[noreturn]] void give_up(const std::filesystem::path& aside, const std::filesystem::path& file,
-                          int descriptor) {
+[[noreturn]] void give_up(const std::filesystem::path& file, int descriptor) {
   const std::string reason = std::strerror(errno);
   if (descriptor >= 0) ::close(descriptor);
-  ::unlink(aside.c_str());
   throw IoError(file.string() + ": cannot be written: " + reason);
 }
 
 }  // namespace
 
 void replace_file(const std::filesystem::path& file, const std::string& text) {
-  const std::filesystem::path aside = file.string() + ".part";
+  const UnfinishedFile unfinished(file.string() + ".part");
+  const std::filesystem::path& aside = unfinished.path();
   const int descriptor = ::open(aside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor < 0) give_up(aside, file, descriptor);
+  if (descriptor < 0) give_up(file, descriptor);
   std::size_t written = 0;
   while (written < text.size()) {
     const ssize_t bytes = ::write(descriptor, text.data() + written, text.size() - written);
     if (bytes < 0 && errno == EINTR) continue;
-    if (bytes < 0) give_up(aside, file, descriptor);
+    if (bytes < 0) give_up(file, descriptor);
     written += static_cast<std::size_t>(bytes);
   }
   // Some file systems report a full disk only here.
-  if (::fsync(descriptor) != 0) give_up(aside, file, descriptor);
-  if (::close(descriptor) != 0) give_up(aside, file, -1);
-  if (::rename(aside.c_str(), file.c_str()) != 0) give_up(aside, file, -1);
+  if (::fsync(descriptor) != 0) give_up(file, descriptor);
+  if (::close(descriptor) != 0) give_up(file, -1);
+  if (::rename(aside.c_str(), file.c_str()) != 0) give_up(file, -1);
 }
 
 }  // namespace drumlin

@@ -14,6 +14,7 @@
 #include <string_view>
 
 #include "coupling/common/errors.hpp"
+#include "coupling/common/unfinished_file.hpp"
 
 namespace drumlin {
 namespace {
@@ -82,7 +83,8 @@ void write_all(int descriptor, std::span<const unsigned char> bytes, const std::
 }
 
 void save_bytes(const std::filesystem::path& file, std::span<const unsigned char> bytes) {
-  const std::filesystem::path aside = file.string() + ".part";
+  const UnfinishedFile unfinished(file.string() + ".part");
+  const std::filesystem::path& aside = unfinished.path();
   const int descriptor = ::open(aside.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
   if (descriptor < 0) throw IoError(aside.string() + ": cannot open: " + std::strerror(errno));
   try {
@@ -90,15 +92,11 @@ void save_bytes(const std::filesystem::path& file, std::span<const unsigned char
     if (::fsync(descriptor) != 0) throw IoError(aside.string() + ": cannot sync: " + std::strerror(errno));
   } catch (...) {
     ::close(descriptor);
-    ::unlink(aside.c_str());
     throw;
   }
   ::close(descriptor);
-  if (::rename(aside.c_str(), file.c_str()) != 0) {
-    const std::string reason = std::strerror(errno);
-    ::unlink(aside.c_str());
-    throw IoError(file.string() + ": cannot rename: " + reason);
-  }
+  if (::rename(aside.c_str(), file.c_str()) != 0)
+    throw IoError(file.string() + ": cannot rename: " + std::strerror(errno));
 }
 
 std::vector<unsigned char> bytes_of(const std::filesystem::path& file) {
