@@ -3,8 +3,13 @@
 #include "particles/parallel/thread_team.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <chrono>
+#include <new>
+#include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -40,9 +45,26 @@ TEST(ThreadTeam, EveryShareOfAJobIsDoneOnceAndThreadsMeet) {
   }
 }
 
+TEST(ThreadTeam, ThreadsThatCannotBeStartedAreAnErrorThatTellsHowMany) {
+  EXPECT_EXIT(
+      {
+        const rlimit room{1 << 28, 1 << 28};  // bytes: stacks of some threads, not of all
+        ::setrlimit(RLIMIT_AS, &room);
+        try {
+          const ThreadTeam team(250);
+        } catch (const std::system_error& error) {
+          ::_exit(std::string(error.what()).starts_with("250 threads cannot be started") ? 7 : 8);
+        } catch (const std::bad_alloc&) {
+          ::_exit(7);
+        }
+        ::_exit(9);
+      },
+      ::testing::ExitedWithCode(7), "");
+}
+
 TEST(ThreadTeam, ThreadsThatWaitAreLeftAloneForAWhileAndTriedAgain) {
-  // Nobody works: each job sleeps longer than the stretch over which a team looks at itself, as if its processor
-  // had been taken away.
+  // Nobody works: each job sleeps longer than the stretch over which a team looks at itself, as if its
+  // processor had been taken away.
   ThreadTeam team(2);
   const auto sleep = [&](int t, int) {
     if (t == 0) std::this_thread::sleep_for(std::chrono::milliseconds(30));
