@@ -9,6 +9,7 @@
 #include "apps/support/paper_data.hpp"
 #include "apps/support/pending_figures.hpp"
 #include "apps/support/speed_comparison_json.hpp"
+#include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/common/text_file.hpp"
 #include "coupling/exchange/measured_run.hpp"
@@ -48,7 +49,7 @@ Sides read_sides(const std::vector<fs::path>& folders) {
 int compare_study(const CompareStudyOptions& options) {
   const fs::path finished = options.output / "study.json";
   if (options.existing == ExistingOutput::resume && is_complete(finished)) {
-    fmt::print("{}: done already\n", options.output.string());
+    print_out(fmt::format("{}: done already\n", options.output.string()));
     return static_cast<int>(ExitCode::done);
   }
   const Sides sides = read_sides(options.folders);
@@ -69,13 +70,13 @@ int compare_study(const CompareStudyOptions& options) {
   replace_file(options.output / "table.md", speed_table_markdown(content));
   note_pending_figures(options.output);
   write_json(finished, content);
-  for (const std::string& warning : comparison.warnings) fmt::print("warning: {}\n", warning);
-  for (const std::string& line : verdict_lines(content)) fmt::print("{}\n", line);
+  for (const std::string& warning : comparison.warnings) print_out(fmt::format("warning: {}\n", warning));
+  for (const std::string& line : verdict_lines(content)) print_out(fmt::format("{}\n", line));
   const FigureScript figures{"speed_comparison_figures.py",
                              {"--study", finished.string(), "--output", options.output.string()}};
   const auto failures =
       draw_pending_figures(options.output, {figures}, ResultPage{"speed_comparison", finished});
-  fmt::print("report: {}\n", fs::absolute(options.output / "index.html").string());
+  print_out(fmt::format("report: {}\n", fs::absolute(options.output / "index.html").string()));
   throw_if_figures_failed(finished, failures);
   return static_cast<int>(ExitCode::done);
 }

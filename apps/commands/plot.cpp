@@ -7,7 +7,9 @@
 #include "apps/support/figures.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/output_folder.hpp"
+#include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
+#include "coupling/common/unfinished_file.hpp"
 #include "particles/io/run_folder.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/io/snapshot_list.hpp"
@@ -102,26 +104,25 @@ int plot(const PlotOptions& options) {
   const particles::RunFolder run = particles::read_run_folder(options.run);
   const fs::path folder = options.output.value_or(options.run / "plots"), finished = folder / "plots.json";
   if (options.existing == ExistingOutput::resume && fs::exists(finished)) {
-    fmt::print("{}: done already\n", folder.string());
+    print_out(fmt::format("{}: done already\n", folder.string()));
     return static_cast<int>(ExitCode::done);
   }
   const Json report = read_json(options.run / "run.json", "drumlin-run-1");
   const Json drawing = drawing_of(run, report, options);
   prepare_output(folder, options.existing, {"plots.json", "plots.json.part"}, {options.run / "run.json"});
   // The script reads what to draw and adds what it drew; plots.json itself says that all is there.
-  const fs::path unfinished = folder / "plots.json.part";
-  write_json(unfinished, drawing);
-  draw_figures("plot_figures.py", {unfinished.string()});
+  const UnfinishedFile unfinished(folder / "plots.json.part");
+  write_json(unfinished.path(), drawing);
+  draw_figures("plot_figures.py", {unfinished.path().string()});
   const Json drawn = read_json(folder / "drawn.json", "drumlin-plots-1");
   write_json(finished, drawn);
   fs::remove(folder / "drawn.json");
-  fs::remove(unfinished);
-  fmt::print("{}{}\n", folder.string(), run.scene.reduced ? " (reduced)" : "");
+  print_out(fmt::format("{}{}\n", folder.string(), run.scene.reduced ? " (reduced)" : ""));
   if (!run.finished())
-    fmt::print("  the run is unfinished (status {}): drawn as far as it went\n", run.status);
-  if (run.snapshots.empty()) fmt::print("  the run holds no snapshots: no pictures of grains\n");
+    print_out(fmt::format("  the run is unfinished (status {}): drawn as far as it went\n", run.status));
+  if (run.snapshots.empty()) print_out("  the run holds no snapshots: no pictures of grains\n");
   for (const auto& [file, shows] : drawn["figures"].items())
-    fmt::print("  {:16} {}\n", file, shows.get<std::string>());
+    print_out(fmt::format("  {:16} {}\n", file, shows.get<std::string>()));
   return static_cast<int>(ExitCode::done);
 }
 

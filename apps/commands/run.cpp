@@ -4,7 +4,6 @@
 #include <sys/resource.h>
 
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -16,6 +15,7 @@
 #include "apps/support/json_file.hpp"
 #include "apps/support/output_folder.hpp"
 #include "apps/support/progress.hpp"
+#include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/common/text_file.hpp"
 #include "particles/io/checkpoint_file.hpp"
@@ -78,7 +78,7 @@ class ParticleRun {
     write_report("finished");
     progress_.show(progress_line());
     progress_.finish();
-    fmt::print("{}{}", run_summary(progress_now()), accuracy_text());
+    print_out(fmt::format("{}{}", run_summary(progress_now()), accuracy_text()));
     return static_cast<int>(ExitCode::done);
   }
 
@@ -218,8 +218,8 @@ class ParticleRun {
     writer_.wait();
     write_report("interrupted");
     progress_.finish();
-    fmt::print(stderr, "interrupted after step {}; continue with --resume\n", simulation_.state().step);
-    return static_cast<int>(signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted);
+    print_error(fmt::format("interrupted after step {}; continue with --resume\n", simulation_.state().step));
+    return exit_code_of(signal);
   }
 
   /// What the settings leave of error; averages have no interval before they are measured.
@@ -305,7 +305,7 @@ int run(const RunOptions& options) {
     if (listed != nullptr && fs::exists(options.output / grain_list))
       same_scene_or_refuse(options.output, file_text(options.output / grain_list), file_text(listed->file));
     if (is_finished(options.output)) {
-      fmt::print("{}: already finished, nothing to do\n", options.output.string());
+      print_out(fmt::format("{}: already finished, nothing to do\n", options.output.string()));
       return static_cast<int>(ExitCode::done);
     }
     if (fs::exists(options.output / "checkpoint.h5")) {
@@ -313,7 +313,7 @@ int run(const RunOptions& options) {
       same_scene_or_refuse(options.output, from->scene, resolved);
     }
   }
-  catch_interruptions();
+  const CaughtInterruptions caught;
   fs::create_directories(options.output / "snapshots");
   if (listed != nullptr) replace_file(options.output / grain_list, file_text(listed->file));
   replace_file(options.output / "scene.toml", resolved);
