@@ -9,6 +9,8 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend must be chosen first)
 
+import whole_file  # noqa: E402
+
 # Okabe and Ito's colours: told apart with any kind of colour vision, and in grey.
 PARTICLES = "#0072B2"
 CONTINUUM = "#D55E00"
@@ -70,7 +72,8 @@ def stamp(figure, reduced):
 
 def save(figure, path, reduced):
     stamp(figure, reduced)
-    figure.savefig(path, metadata={"Software": None})
+    with whole_file.aside(path) as unfinished:
+        figure.savefig(unfinished, metadata={"Software": None})
     plt.close(figure)
 
 
