@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cstdio>
-
 #include "apps/support/standard_streams.hpp"
 
 namespace drumlin::apps {
@@ -25,7 +23,6 @@ void Progress::show(const std::string& line) {
   else
     print_error(fmt::format("{}\n", line));
   width_ = line.size();
-  std::fflush(stderr);
 }
 
 void Progress::finish() {
