@@ -36,7 +36,8 @@ LABELS = {
 
 
 def use_style():
-    """Call once at the start of a script."""
+    """Call once at the start of a script. A matplotlibrc of the current folder or of the user changes nothing."""
+    matplotlib.rcdefaults()
     plt.rcParams.update({
         "figure.figsize": (6.4, 4.6),
         "figure.dpi": 110,
