@@ -48,6 +48,8 @@ class CommandLine {
         solve_contacts_, solvers);
     add_cost_options(
         add_command("cost", "What accuracy costs in a scene, or its effects (docs/cost.md)", cost_), cost_);
+    add_accept_options(add_command("accept", "Takes a result folder as it is after an edit by hand", accept_),
+                       accept_);
     add_hardcases_options(
         add_command("hardcases", "Runs cases with known outcomes through the engine (docs/hard-cases.md)",
                     hardcases_),
@@ -152,6 +154,7 @@ class CommandLine {
   SceneOptions scene_;
   SolveContactsOptions solve_contacts_;
   CostOptions cost_;
+  AcceptOptions accept_;
   HardcasesOptions hardcases_;
   std::function<Request()> request_;
 };

@@ -92,6 +92,13 @@ void add_export_options(CLI::App& command, ExportOptions& options) {
   add_existing(command, options.existing, keep_what_is_done);
 }
 
+void add_accept_options(CLI::App& command, AcceptOptions& options) {
+  add_folder_or_file(command, "folder", options.folder, "DIR", "Result folder of any command");
+  command.add_option("--reason", options.reason, "Why, in one line: it is told wherever the folder is read")
+      ->required()
+      ->type_name("TEXT");
+}
+
 void add_solve_contacts_options(CLI::App& command, SolveContactsOptions& options,
                                 const std::vector<std::string>& solvers) {
   add_folder_or_file(command, "problem", options.problem, "PROBLEM.h5",

@@ -116,6 +116,10 @@ Json content_of(const Inputs& inputs, const coupling::Comparison& comparison,
   content["continuum"] = origin_of(inputs.second);
   content["floor"] = inputs.floor ? Json{{"name", inputs.floor->name}, {"kind", inputs.floor->kind}} : Json();
   content["provenance"] = to_json(provenance());
+  std::vector<std::string> edits = inputs.first.accepted;
+  edits.insert(edits.end(), inputs.second.accepted.begin(), inputs.second.accepted.end());
+  if (inputs.floor) edits.insert(edits.end(), inputs.floor->accepted.begin(), inputs.floor->accepted.end());
+  add_accepted_edits(content["provenance"], edits);
   return content;
 }
 
@@ -175,12 +179,15 @@ int compare(const CompareOptions& options) {
 
   std::vector<fs::path> read{options.run, options.flow_run};
   if (options.floor) read.push_back(*options.floor);
-  prepare_output(options.output, options.existing, {"comparison.json", "overlay.csv"}, read);
-  write_overlays(options.output, inputs.first.compared, inputs.second.compared, comparison);
-  note_pending_figures(options.output);
-  write_json(finished, content);
-  const auto failures = draw_pending_figures(options.output, figures_of(inputs, options.output, finished),
-                                             ResultPage{"comparison", finished});
+  StagedOutput output({options.output, options.existing, "compare", read});
+  const fs::path& folder = output.folder();
+  write_overlays(folder, inputs.first.compared, inputs.second.compared, comparison);
+  note_pending_figures(folder);
+  const fs::path file = folder / "comparison.json";
+  write_json(file, content);
+  const auto failures =
+      draw_pending_figures(folder, figures_of(inputs, folder, file), ResultPage{"comparison", file});
+  output.publish();
   print_out(fmt::format("{}report: {}\n", summary_of(content),
                         fs::absolute(options.output / "index.html").string()));
   throw_if_figures_failed(finished, failures);

@@ -45,7 +45,8 @@ LoadedSide load_side(const fs::path& folder, Unsteady unsteady) {
     side.kind = "continuum";
     side.name = flow.name;
     side.scales = flow.scales;
-    side.maps_file = folder / "maps.h5";
+    side.maps_file = checked_file(flow.files, "maps.h5");
+    side.accepted = std::move(flow.accepted);
     side.compared = {std::move(flow.profiles), std::move(flow.scalars), {}};
   } else {
     MeasuredRun run = read_measured_run(folder, unsteady);
@@ -53,11 +54,12 @@ LoadedSide load_side(const fs::path& folder, Unsteady unsteady) {
     side.name = run.name;
     side.scales = run.scales;
     side.unsteady = run.unsteady;
-    side.maps_file = folder / "measured" / "maps.h5";
+    side.maps_file = checked_file(run.measured_files, "maps.h5");
+    side.accepted = std::move(run.accepted);
     side.compared = {std::move(run.profiles), std::move(run.scalars), {std::move(run.slices), {}}};
     if (fs::is_directory(folder / "snapshots"))
       if (const auto snapshots = particles::snapshot_files(folder); !snapshots.empty())
-        side.snapshot = snapshots.back();
+        side.snapshot = checked_file(run.files, "snapshots/" + snapshots.back().filename().string());
   }
   side.compared.fields.maps = maps_in(side.maps_file, side.compared.profiles);
   if (!side.compared.fields.maps) side.maps_file.clear();

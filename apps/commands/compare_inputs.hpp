@@ -20,6 +20,7 @@ struct LoadedSide {
   std::vector<std::string> unsteady;  ///< why it is not steady, where that was accepted
   std::filesystem::path maps_file;    ///< empty where there is none
   std::filesystem::path snapshot;     ///< the last one; empty where there is none
+  std::vector<std::string> accepted;  ///< edits by hand (accepted_edits)
 };
 
 /// Throws InputError on whatever read_measured_run and read_flow_run refuse, and on maps of another frame

@@ -26,6 +26,13 @@ using Json = nlohmann::ordered_json;
 struct Sides {
   std::vector<coupling::StudyRun> particles;
   std::vector<coupling::StudyFlow> flows;
+
+  std::vector<std::string> accepted_edits() const {
+    std::vector<std::string> edits;
+    for (const auto& run : particles) edits.insert(edits.end(), run.accepted.begin(), run.accepted.end());
+    for (const auto& flow : flows) edits.insert(edits.end(), flow.accepted.begin(), flow.accepted.end());
+    return edits;
+  }
 };
 
 /// A folder tells by its files which side it is.
@@ -38,8 +45,9 @@ Sides read_sides(const std::vector<fs::path>& folders) {
     }
     sides.flows.push_back(coupling::read_study_flow(folder));
     // For the axes of the strain rate at the centre.
+    const ResultFolder files = open_flow_run(folder);
     if (fs::exists(folder / "maps.h5"))
-      sides.flows.back().side.fields.maps = read_field_map(folder / "maps.h5");
+      sides.flows.back().side.fields.maps = read_field_map(checked_file(files, "maps.h5"));
   }
   return sides;
 }
@@ -55,8 +63,8 @@ int compare_study(const CompareStudyOptions& options) {
   const Sides sides = read_sides(options.folders);
   const coupling::SpeedComparison comparison =
       coupling::compared_speeds(sides.particles, sides.flows, paper_data_folder());
-  prepare_output(options.output, options.existing, {"study.json", "table.md"}, options.folders);
-  fs::create_directories(options.output);
+  StagedOutput output({options.output, options.existing, "compare --study", options.folders});
+  const fs::path& folder = output.folder();
 
   const bool reduced = sides.flows.front().side.profiles.header.reduced.value();
   Json content{{"format", "drumlin-comparison-study-1"},
@@ -67,15 +75,17 @@ int compare_study(const CompareStudyOptions& options) {
                {"effects", sides.flows.front().identity.at("effects")}};
   add_speed_comparison(content, comparison);
   content["provenance"] = to_json(provenance());
-  replace_file(options.output / "table.md", speed_table_markdown(content));
-  note_pending_figures(options.output);
-  write_json(finished, content);
+  add_accepted_edits(content["provenance"], sides.accepted_edits());
+  replace_file(folder / "table.md", speed_table_markdown(content));
+  note_pending_figures(folder);
+  const fs::path file = folder / "study.json";
+  write_json(file, content);
+  const FigureScript figures{"speed_comparison_figures.py",
+                             {"--study", file.string(), "--output", folder.string()}};
+  const auto failures = draw_pending_figures(folder, {figures}, ResultPage{"speed_comparison", file});
+  output.publish();
   for (const std::string& warning : comparison.warnings) print_out(fmt::format("warning: {}\n", warning));
   for (const std::string& line : verdict_lines(content)) print_out(fmt::format("{}\n", line));
-  const FigureScript figures{"speed_comparison_figures.py",
-                             {"--study", finished.string(), "--output", options.output.string()}};
-  const auto failures =
-      draw_pending_figures(options.output, {figures}, ResultPage{"speed_comparison", finished});
   print_out(fmt::format("report: {}\n", fs::absolute(options.output / "index.html").string()));
   throw_if_figures_failed(finished, failures);
   return static_cast<int>(ExitCode::done);

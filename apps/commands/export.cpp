@@ -17,15 +17,15 @@ namespace fs = std::filesystem;
 
 int export_run(const ExportOptions& options) {
   const particles::RunFolder run = particles::read_run_folder(options.run);
-  const fs::path folder = options.output.value_or(options.run / "vtu"), finished = folder / "grains.pvd";
-  if (options.existing == ExistingOutput::resume && fs::exists(finished)) {
+  const fs::path folder = options.output.value_or(options.run / "vtu");
+  if (options.existing == ExistingOutput::resume && holds_results(folder, "grains.pvd")) {
     print_out(fmt::format("{}: done already\n", folder.string()));
     return static_cast<int>(ExitCode::done);
   }
   const std::vector<fs::path> files = particles::chosen_snapshots(run, options.snapshots);
-  (void)particles::shapes_at(
-      run, particles::read_snapshot(files.front()));  // what does not fit shows before anything is written
-  prepare_output(folder, options.existing, {"grains.pvd", "grains"}, {options.run / "run.json"});
+  // What does not fit shows before anything is written.
+  (void)particles::shapes_at(run, particles::checked_snapshot(run, files.front()));
+  StagedOutput output({folder, options.existing, "export", {options.run / "run.json"}});
 
   const std::pair<const char*,
                   particles::VtuGrid (*)(const particles::RunFolder&, const particles::Snapshot&)>
@@ -35,21 +35,22 @@ int export_run(const ExportOptions& options) {
   std::vector<std::pair<double, std::string>> steps;
   Progress progress;
   for (const fs::path& file : files) {
-    const particles::Snapshot snapshot = particles::read_snapshot(file);
+    const particles::Snapshot snapshot = particles::checked_snapshot(run, file);
     const std::string name = file.stem().string() + ".vtu";
     for (const auto& [kind, grid_of] : kinds) {
-      fs::create_directories(folder / kind);
-      replace_file(folder / kind / name, particles::vtu_text(grid_of(run, snapshot)));
+      fs::create_directories(output.folder() / kind);
+      replace_file(output.folder() / kind / name, particles::vtu_text(grid_of(run, snapshot)));
     }
     steps.emplace_back(snapshot.time * snapshot.scales.time_s, name);
     if (progress.due()) progress.show(fmt::format("export  {} of {} snapshots", steps.size(), files.size()));
   }
   progress.finish();
-  for (const auto& [kind, grid_of] : kinds) {  // grains.pvd, which says that all is there, last
+  for (const auto& [kind, grid_of] : kinds) {
     auto inside = steps;
     for (auto& [time, name] : inside) name = std::string(kind) + "/" + name;
-    replace_file(folder / (std::string(kind) + ".pvd"), particles::pvd_text(inside));
+    replace_file(output.folder() / (std::string(kind) + ".pvd"), particles::pvd_text(inside));
   }
+  output.publish();
   print_out(fmt::format("{}{}: {} snapshots; open grains.pvd, contacts.pvd and walls.pvd in ParaView\n",
                         folder.string(), run.scene.reduced ? " (reduced)" : "", files.size()));
   if (!run.finished())

@@ -105,7 +105,8 @@ int hardcases(const HardcasesOptions& options) {
   refuse_unknown(all, options.names);
   const auto cases = chosen(all, options);
   if (cases.empty()) throw InputError("hardcases: none of the cases named is a fast one");
-  if (options.output) prepare_output(*options.output, options.existing, {file_name});
+  std::optional<StagedOutput> output;
+  if (options.output) output.emplace(OutputRequest{*options.output, options.existing, "hardcases", {}});
   print_out(fmt::format(row, "case", "what (d, sqrt(d/g), rho0 g d)", "expected", "got", "tolerance",
                         "seconds", "verdict"));
   Json results = Json::array();
@@ -130,11 +131,13 @@ int hardcases(const HardcasesOptions& options) {
       take(row_of_flow.hard, row_of_flow.result);
     });
   print_out(fmt::format("{} of {} cases passed, {:.1f} s\n", passed, cases.size(), seconds));
-  if (options.output)
-    write_json(*options.output / file_name, {{"format", "drumlin-hardcases-1"},
-                                             {"provenance", apps::to_json(provenance())},
-                                             {"seconds", seconds},
-                                             {"cases", results}});
+  if (output) {
+    write_json(output->folder() / file_name, {{"format", "drumlin-hardcases-1"},
+                                              {"provenance", apps::to_json(provenance())},
+                                              {"seconds", seconds},
+                                              {"cases", results}});
+    output->publish();
+  }
   return static_cast<int>(passed == cases.size() ? ExitCode::done : ExitCode::not_converged);
 }
 

@@ -68,28 +68,29 @@ int import_foreign(const ImportOptions& options) {
   }
   if (!options.description || !options.output)
     throw InputError("import: needs a description and an output: drumlin import DESCRIPTION.toml -o RUN");
-  const fs::path run = *options.output, finished = run / "run.json";
-  if (options.existing == ExistingOutput::resume && fs::exists(finished)) {
+  const fs::path run = *options.output;
+  if (options.existing == ExistingOutput::resume && holds_results(run, "run.json")) {
     print_out(fmt::format("{}: done already\n", run.string()));
     return static_cast<int>(ExitCode::done);
   }
   const particles::ImportDescription description =
       particles::read_import_description(*options.description, options.overrides);
   const fs::path folder = fs::absolute(*options.description).parent_path();
-  prepare_output(run, options.existing, {"run.json", "import.toml"}, {folder});
-  fs::create_directories(run / "snapshots");
-  replace_file(run / "import.toml", particles::import_description_text(description));
+  StagedOutput output({run, options.existing, "import", {folder}});
+  fs::create_directories(output.folder() / "snapshots");
+  replace_file(output.folder() / "import.toml", particles::import_description_text(description));
 
   Progress progress;
   std::size_t done = 0;
   const particles::ImportReport report =
       particles::import_run(description, folder, [&](const particles::Snapshot& snapshot) {
-        particles::write_snapshot(run / "snapshots" / fmt::format("{:06}.h5", snapshot.step), snapshot);
+        particles::write_snapshot(output.folder() / "snapshots" / fmt::format("{:06}.h5", snapshot.step),
+                                  snapshot);
         if (++done; progress.due()) progress.show(fmt::format("import  {} snapshots", done));
       });
   progress.finish();
-  // Last: it says that all is there.
-  write_json(finished, report_of(description, *options.description, report));
+  write_json(output.folder() / "run.json", report_of(description, *options.description, report));
+  output.publish();
   print_summary(run, description, report);
   return static_cast<int>(ExitCode::done);
 }

@@ -9,7 +9,6 @@
 #include "apps/support/output_folder.hpp"
 #include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
-#include "coupling/common/unfinished_file.hpp"
 #include "particles/io/run_folder.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/io/snapshot_list.hpp"
@@ -38,7 +37,7 @@ struct ShapeJson {
 /// What the script needs to draw one snapshot. Reading it here refuses damaged files before anything is
 /// drawn.
 Json frame_of(const particles::RunFolder& run, const fs::path& file) {
-  const particles::Snapshot snapshot = particles::read_snapshot(file);
+  const particles::Snapshot snapshot = particles::checked_snapshot(run, file);
   Json shapes = Json::array();
   for (const particles::PlacedShape& placed : particles::shapes_at(run, snapshot)) {
     shapes.push_back(std::visit(ShapeJson{}, placed.shape));
@@ -73,7 +72,7 @@ Json drawing_of(const particles::RunFolder& run, const Json& report, const PlotO
                {"reduced", run.scene.reduced},
                {"status", run.status},
                {"run", report},
-               {"log", fs::absolute(run.folder / "log.csv").string()},
+               {"log", fs::absolute(checked_file(run.files, "log.csv")).string()},
                {"energy", nullptr},
                {"tolerance", run.scene.solver.tolerance},
                {"penetration_tolerance", run.scene.solver.penetration_tolerance},
@@ -82,7 +81,7 @@ Json drawing_of(const particles::RunFolder& run, const Json& report, const PlotO
                {"snapshot", nullptr},
                {"frames", Json::array()}};
   if (fs::exists(run.folder / "energy.csv"))
-    drawing["energy"] = fs::absolute(run.folder / "energy.csv").string();
+    drawing["energy"] = fs::absolute(checked_file(run.files, "energy.csv")).string();
   if (const auto& period = run.scene.periodic_x)
     drawing["period"] = {period->x_min_mm * 1e-3 / run.scales.length_m,
                          period->x_max_mm * 1e-3 / run.scales.length_m};
@@ -102,21 +101,24 @@ Json drawing_of(const particles::RunFolder& run, const Json& report, const PlotO
 
 int plot(const PlotOptions& options) {
   const particles::RunFolder run = particles::read_run_folder(options.run);
-  const fs::path folder = options.output.value_or(options.run / "plots"), finished = folder / "plots.json";
-  if (options.existing == ExistingOutput::resume && fs::exists(finished)) {
+  const fs::path folder = options.output.value_or(options.run / "plots");
+  if (options.existing == ExistingOutput::resume && holds_results(folder, "plots.json")) {
     print_out(fmt::format("{}: done already\n", folder.string()));
     return static_cast<int>(ExitCode::done);
   }
   const Json report = read_json(options.run / "run.json", "drumlin-run-1");
   const Json drawing = drawing_of(run, report, options);
-  prepare_output(folder, options.existing, {"plots.json", "plots.json.part"}, {options.run / "run.json"});
-  // The script reads what to draw and adds what it drew; plots.json itself says that all is there.
-  const UnfinishedFile unfinished(folder / "plots.json.part");
-  write_json(unfinished.path(), drawing);
-  draw_figures("plot_figures.py", {unfinished.path().string()});
-  const Json drawn = read_json(folder / "drawn.json", "drumlin-plots-1");
-  write_json(finished, drawn);
-  fs::remove(folder / "drawn.json");
+  StagedOutput output({folder, options.existing, "plot", {options.run / "run.json"}});
+  // The script reads what to draw and writes what it drew.
+  const fs::path asked = output.folder() / "asked.json", found = output.folder() / "drawn.json";
+  write_json(asked, drawing);
+  draw_figures("plot_figures.py", {asked.string()});
+  Json drawn = read_json(found, "drumlin-plots-1");
+  add_accepted_edits(drawn, accepted_edits(run.files));
+  write_json(output.folder() / "plots.json", drawn);
+  fs::remove(found);
+  fs::remove(asked);
+  output.publish();
   print_out(fmt::format("{}{}\n", folder.string(), run.scene.reduced ? " (reduced)" : ""));
   if (!run.finished())
     print_out(fmt::format("  the run is unfinished (status {}): drawn as far as it went\n", run.status));

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "apps/commands/accuracy_statement.hpp"
@@ -17,6 +18,7 @@
 #include "apps/support/progress.hpp"
 #include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
+#include "coupling/common/last_whole.hpp"
 #include "coupling/common/text_file.hpp"
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/io/contact_problem_file.hpp"
@@ -43,21 +45,25 @@ double cpu_seconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
+constexpr const char *log_name = "log.csv", *energy_name = "energy.csv";
 const char* const log_header =
     "step,time_s,stage,contacts,sweeps,residual,residual_max,penetration,sinking,overlap_mean,"
     "overlap_max,kinetic_energy,converged\n";
 
+std::string snapshot_name(std::int64_t number) { return fmt::format("snapshots/{:06}.h5", number); }
+
 class ParticleRun {
  public:
-  ParticleRun(const RunOptions& options, const particles::Scene& scene, std::string resolved,
-              std::optional<particles::Checkpoint> from)
+  ParticleRun(const RunOptions& options, GrowingOutput& output, const particles::Scene& scene,
+              std::string resolved, std::optional<particles::Checkpoint> from)
       : options_(options),
+        output_(output),
         scene_(scene),
         resolved_(std::move(resolved)),
         totals_(from ? from->totals : particles::RunTotals{}),
         simulation_(from ? particles::Simulation(scene, std::move(from->state), options.threads)
                          : particles::Simulation(scene, options.threads)),
-        log_(options.output / "log.csv", log_header, from ? from->log_bytes : 0),
+        log_(options.output / log_name, log_header, from ? from->log_bytes : 0),
         energy_bytes_(from ? from->energy_bytes : 0),
         writer_(options.threads > 1) {}
 
@@ -76,6 +82,7 @@ class ParticleRun {
     save_checkpoint();
     writer_.wait();
     write_report("finished");
+    output_.finish();
     progress_.show(progress_line());
     progress_.finish();
     print_out(fmt::format("{}{}", run_summary(progress_now()), accuracy_text()));
@@ -144,7 +151,7 @@ class ParticleRun {
       header += "," + name;
       line += fmt::format(",{:.15g}", work);
     }
-    if (!energy_) energy_.emplace(options_.output / "energy.csv", header + ",closing_error\n", energy_bytes_);
+    if (!energy_) energy_.emplace(options_.output / energy_name, header + ",closing_error\n", energy_bytes_);
     energy_->write(line + fmt::format(",{:.3g}\n", particles::closing_error(energy)));
   }
 
@@ -153,20 +160,25 @@ class ParticleRun {
     const auto begin = Clock::now();
     const auto problem = simulation_.stepper().last_problem();
     const auto step = simulation_.state().step;
-    const fs::path file = options_.output / "problems" / fmt::format("step-{:06}.h5", step);
+    const std::string name = fmt::format("problems/step-{:06}.h5", step);
+    const fs::path file = options_.output / name;
     fs::create_directories(file.parent_path());
     particles::write_contact_problem(file, problem.value(),
                                      fmt::format("{}, step {}, {} to residual {:.3g}", scene_.title, step,
                                                  scene_.solver.name, last_.solve.residual.rms));
+    writer_.wait();  // it lists files too
+    output_.list(name);
     totals_.output_seconds += seconds_between(begin, Clock::now());
   }
 
   void save_snapshot() {
     const auto begin = Clock::now();
     particles::Snapshot snapshot = simulation_.take_snapshot();
-    const fs::path file =
-        options_.output / "snapshots" / fmt::format("{:06}.h5", simulation_.state().snapshots);
-    writer_.write([file, snapshot = std::move(snapshot)] { particles::write_snapshot(file, snapshot); });
+    const std::string name = snapshot_name(simulation_.state().snapshots);
+    writer_.write([this, name, snapshot = std::move(snapshot)] {
+      particles::write_snapshot(options_.output / name, snapshot);
+      output_.list(name);
+    });
     totals_.output_seconds += seconds_between(begin, Clock::now());
   }
 
@@ -178,9 +190,14 @@ class ParticleRun {
     checkpoint.energy_bytes = energy_ ? energy_->flush() : energy_bytes_;
     checkpoint.totals = totals_now();
     checkpoint.state = simulation_.state();
-    const fs::path file = options_.output / "checkpoint.h5";
-    writer_.write(
-        [file, checkpoint = std::move(checkpoint)] { particles::write_checkpoint(file, checkpoint); });
+    std::map<std::string, ManifestEntry> tables{{log_name, log_.entry()}};
+    if (energy_) tables[energy_name] = energy_->entry();
+    // The manifest first: what a checkpoint builds on is listed.
+    writer_.write([this, tables = std::move(tables), checkpoint = std::move(checkpoint)] {
+      for (const auto& [name, entry] : tables) output_.manifest().files[name] = entry;
+      output_.save();
+      particles::keep_checkpoint(options_.output, checkpoint);
+    });
     next_checkpoint_s_ = simulated_seconds() + scene_.output.checkpoint_every_s;
     totals_.output_seconds += seconds_between(begin, Clock::now());
   }
@@ -257,6 +274,7 @@ class ParticleRun {
   }
 
   RunOptions options_;
+  GrowingOutput& output_;
   particles::Scene scene_;
   std::string resolved_;
   particles::RunTotals totals_;
@@ -273,17 +291,46 @@ class ParticleRun {
   std::int64_t steps_before_ = 0;
 };
 
-bool is_finished(const fs::path& output) {
-  return fs::exists(output / "run.json") &&
-         read_json(output / "run.json", "drumlin-run-1").value("status", "") == "finished";
-}
-
 /// A folder continues only the scene that it was made from.
 void same_scene_or_refuse(const fs::path& output, const std::string& theirs, const std::string& ours) {
   if (theirs != ours)
     throw InputError(output.string() +
                      ": was made from another scene (compare its scene.toml with `drumlin scene show`); "
                      "use --overwrite to start over");
+}
+
+/// The manifest of what stood at the checkpoint; what stands behind it is made anew. Throws InputError if a
+/// snapshot is missing.
+void cut_back(GrowingOutput& output, const std::optional<particles::Checkpoint>& from) {
+  auto& files = output.manifest().files;
+  std::map<std::string, ManifestEntry> kept;
+  if (from) {
+    for (std::int64_t number = 1; number <= from->state.snapshots; ++number) {
+      const std::string name = snapshot_name(number);
+      if (!files.contains(name))
+        throw InputError(fmt::format("{}: is not listed in {}, and the checkpoint builds on it",
+                                     (output.folder() / name).string(), manifest_name));
+      kept[name] = files.at(name);
+    }
+    for (const auto& [name, entry] : files)
+      if (!name.starts_with("snapshots/")) kept[name] = entry;
+    for (const auto& [name, bytes] :
+         {std::pair(log_name, from->log_bytes), std::pair(energy_name, from->energy_bytes)}) {
+      kept.erase(name);
+      if (bytes > 0) kept[name] = {file_sum(output.folder() / name, static_cast<std::uint64_t>(bytes)), true};
+    }
+  }
+  files = std::move(kept);
+}
+
+/// The checkpoint that a run goes on from; absent: from its start.
+std::optional<particles::Checkpoint> checkpoint_in(const fs::path& output, const std::string& resolved) {
+  auto last = last_whole_checkpoint(output, particles::read_checkpoint);
+  if (!last) return std::nullopt;
+  if (!last->passed_over.empty())
+    print_error(fmt::format("{}\ngoes on from {} instead\n", last->passed_over, previous_checkpoint_name));
+  same_scene_or_refuse(output, last->content.scene, resolved);
+  return std::move(last->content);
 }
 
 }  // namespace
@@ -296,7 +343,8 @@ int run(const RunOptions& options) {
   const auto* listed = std::get_if<particles::ListedGrains>(&scene.grains.source);
   std::vector<fs::path> inputs{options.scene};
   if (listed != nullptr) inputs.push_back(listed->file);
-  prepare_output(options.output, options.existing, {"run.json"}, inputs);
+  const CaughtInterruptions caught;
+  GrowingOutput output({options.output, options.existing, "run", inputs}, run_file_names());
   const std::string resolved = particles::scene_text(as_recorded(scene));
   std::optional<particles::Checkpoint> from;
   if (options.existing == ExistingOutput::resume) {
@@ -304,20 +352,22 @@ int run(const RunOptions& options) {
       same_scene_or_refuse(options.output, file_text(options.output / "scene.toml"), resolved);
     if (listed != nullptr && fs::exists(options.output / grain_list))
       same_scene_or_refuse(options.output, file_text(options.output / grain_list), file_text(listed->file));
-    if (is_finished(options.output)) {
+    if (output.manifest().complete) {
       print_out(fmt::format("{}: already finished, nothing to do\n", options.output.string()));
       return static_cast<int>(ExitCode::done);
     }
-    if (fs::exists(options.output / "checkpoint.h5")) {
-      from = particles::read_checkpoint(options.output / "checkpoint.h5");
-      same_scene_or_refuse(options.output, from->scene, resolved);
-    }
+    from = checkpoint_in(options.output, resolved);
   }
-  const CaughtInterruptions caught;
+  cut_back(output, from);
   fs::create_directories(options.output / "snapshots");
-  if (listed != nullptr) replace_file(options.output / grain_list, file_text(listed->file));
+  if (listed != nullptr) {
+    replace_file(options.output / grain_list, file_text(listed->file));
+    output.list(grain_list);
+  }
   replace_file(options.output / "scene.toml", resolved);
-  return ParticleRun(options, scene, resolved, std::move(from)).execute();
+  output.list("scene.toml");
+  output.save();
+  return ParticleRun(options, output, scene, resolved, std::move(from)).execute();
 }
 
 }  // namespace drumlin::apps

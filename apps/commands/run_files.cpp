@@ -3,15 +3,41 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
+#include <string_view>
+
 #include "coupling/common/errors.hpp"
+#include "coupling/common/last_whole.hpp"
+#include "coupling/common/text_file.hpp"
 
 namespace drumlin::apps {
 
 namespace fs = std::filesystem;
 
+namespace {
+constexpr std::size_t largest_waiting = 1 << 16;  // bytes
+}
+
 particles::Scene as_recorded(particles::Scene scene) {
   if (auto* listed = std::get_if<particles::ListedGrains>(&scene.grains.source)) listed->file = grain_list;
   return scene;
+}
+
+std::vector<std::string> run_file_names() {
+  return {"scene.toml",
+          grain_list,
+          "run.json",
+          "log.csv",
+          "energy.csv",
+          checkpoint_name,
+          previous_checkpoint_name,
+          "snapshots/*.h5",
+          "problems/*.h5"};
+}
+
+void RunTable::fail(const std::string& what) const {
+  throw IoError(file_.string() + ": cannot be " + what + ": " + std::strerror(errno));
 }
 
 RunTable::RunTable(const fs::path& file, const std::string& header, std::int64_t keep_bytes) : file_(file) {
@@ -19,26 +45,40 @@ RunTable::RunTable(const fs::path& file, const std::string& header, std::int64_t
     if (!fs::exists(file) || fs::file_size(file) < static_cast<std::uintmax_t>(keep_bytes))
       throw InputError(file.string() +
                        ": is missing or shorter than the checkpoint says; start over with --overwrite");
-    fs::resize_file(file, static_cast<std::uintmax_t>(keep_bytes));
+    sum_.add(std::string_view(file_text(file)).substr(0, static_cast<std::size_t>(keep_bytes)));
   }
-  out_.open(file, keep_bytes > 0 ? std::ios::app : std::ios::trunc);
+  descriptor_ = ::open(file.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) fail("opened");
+  if (::ftruncate(descriptor_, keep_bytes) != 0 || ::lseek(descriptor_, 0, SEEK_END) != keep_bytes)
+    fail("cut back");
   bytes_ = keep_bytes;
   if (keep_bytes == 0) write(header);
 }
 
+RunTable::~RunTable() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
 void RunTable::write(const std::string& line) {
-  out_ << line;
+  waiting_ += line;
+  sum_.add(line);
   bytes_ += static_cast<std::int64_t>(line.size());
+  if (waiting_.size() >= largest_waiting) drain();
+}
+
+void RunTable::drain() {
+  while (!waiting_.empty()) {
+    const ssize_t written = ::write(descriptor_, waiting_.data(), waiting_.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail("written");
+    waiting_.erase(0, static_cast<std::size_t>(written));
+  }
 }
 
 std::int64_t RunTable::flush() {
-  out_.flush();
-  if (!out_) throw IoError(file_.string() + ": cannot write");
+  drain();
   // A checkpoint that outlives a power cut must not speak of lines that did not.
-  const int descriptor = ::open(file_.c_str(), O_WRONLY);
-  const bool synced = descriptor >= 0 && ::fsync(descriptor) == 0;
-  if (descriptor >= 0) ::close(descriptor);
-  if (!synced) throw IoError(file_.string() + ": cannot sync");
+  if (::fsync(descriptor_) != 0) fail("forced to the disk");
   return bytes_;
 }
 

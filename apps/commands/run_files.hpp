@@ -3,16 +3,19 @@
 // beside the computation.
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <future>
 #include <string>
+#include <vector>
 
+#include "coupling/common/manifest.hpp"
 #include "particles/scene/scene.hpp"
 
 namespace drumlin::apps {
 
 /// The file in a run folder that holds a copy of the grain list of its scene.
 inline constexpr const char* grain_list = "grains.csv";
+/// Names of all files of a run.
+std::vector<std::string> run_file_names();
 /// The scene as it stands in the run folder.
 particles::Scene as_recorded(particles::Scene scene);
 
@@ -22,13 +25,23 @@ class RunTable {
   /// `header` begins a new file; with `keep_bytes` > 0 the file must be there with at least so many bytes
   /// (InputError).
   RunTable(const std::filesystem::path& file, const std::string& header, std::int64_t keep_bytes);
+  ~RunTable();
+  RunTable(const RunTable&) = delete;
+  RunTable& operator=(const RunTable&) = delete;
+
   void write(const std::string& line);
   /// Everything so far reaches the disk (else IoError); returns the length of the file.
   std::int64_t flush();
+  /// Of everything so far, as the manifest of an unfinished run has it.
+  ManifestEntry entry() const { return {{static_cast<std::uint64_t>(bytes_), sum_.text()}, true}; }
 
  private:
+  void drain();
+  [[noreturn]] void fail(const std::string& what) const;
   std::filesystem::path file_;
-  std::ofstream out_;
+  int descriptor_ = -1;
+  std::string waiting_;  ///< not yet handed to the system
+  Checksum sum_;
   std::int64_t bytes_ = 0;
 };
 

@@ -85,7 +85,8 @@ void print_text(const particles::ContactProblemFile& file, const Solved& solved,
 
 int solve_contacts(const SolveContactsOptions& options) {
   const particles::ContactProblemFile file = particles::read_contact_problem_file(options.problem);
-  if (options.output) prepare_output_file(*options.output, ExistingOutput::refuse);
+  std::optional<FolderLock> lock;
+  if (options.output) lock.emplace(prepare_output_file(*options.output, ExistingOutput::refuse));
   const Solved solved = solve(file.problem, options);
   if (options.output)
     particles::write_contact_solution(*options.output, solved.solution.impulses,

@@ -58,23 +58,30 @@ int study(const StudyOptions& options) {
     folders.push_back(run.string());
   }
   const coupling::Study result = coupling::study_of(std::move(runs), paper_data_folder());
-  prepare_output(options.output, options.existing, {"study.json", "paper_table.md"}, options.runs);
-  fs::create_directories(options.output);
+  StagedOutput output({options.output, options.existing, "study", options.runs});
+  const fs::path& folder = output.folder();
 
   const bool reduced = result.runs.front().identity.at("reduced") == "true";
   Json content{{"format", "drumlin-study-1"}, {"reduced", reduced}};
+  std::vector<std::string> edits;
   add_study(content, result);
   content["provenance"] = to_json(provenance());
+  for (const coupling::StudyRun& run : result.runs)
+    edits.insert(edits.end(), run.accepted.begin(), run.accepted.end());
+  add_accepted_edits(content["provenance"], edits);
   const std::string table = paper_table_markdown(result);
-  replace_file(options.output / "paper_table.md", table);
-  note_pending_figures(options.output);
-  write_json(finished, content);
-  print_study(result, content);
-  std::vector<std::string> words{"--study",  finished.string(),      "--paper", paper_data_folder().string(),
-                                 "--output", options.output.string()};
+  replace_file(folder / "paper_table.md", table);
+  note_pending_figures(folder);
+  const fs::path file = folder / "study.json";
+  write_json(file, content);
+  std::vector<std::string> words{"--study",  file.string(),  "--paper", paper_data_folder().string(),
+                                 "--output", folder.string()};
   words.insert(words.end(), folders.begin(), folders.end());
-  throw_if_figures_failed(finished, draw_pending_figures(options.output, {{"study_figures.py", words}},
-                                                         ResultPage{"study", finished}));
+  const auto failures =
+      draw_pending_figures(folder, {{"study_figures.py", words}}, ResultPage{"study", file});
+  output.publish();
+  print_study(result, content);
+  throw_if_figures_failed(finished, failures);
   return static_cast<int>(ExitCode::done);
 }
 

@@ -12,6 +12,7 @@ struct FlowRequest {
   continuum::FlowScene scene;
   RheologyFit law;
   continuum::FlowCase flow_case;
+  std::vector<std::string> accepted = {};  ///< edits by hand of the flow that it starts from (accepted_edits)
   bool reduced() const { return scene.reduced || law.reduced; }
 };
 

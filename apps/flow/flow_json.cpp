@@ -269,6 +269,7 @@ Json flow_json(const FinishedFlow& flow) {
   content["accuracy"] = accuracy_json(flow);
   content["settings"] = settings_json(flow);
   content["provenance"] = to_json(provenance());
+  add_accepted_edits(content["provenance"], flow.asked.accepted);
   return content;
 }
 

@@ -13,6 +13,8 @@
 #include "apps/support/json_file.hpp"
 #include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
+#include "coupling/common/last_whole.hpp"
+#include "coupling/common/result_folder.hpp"
 #include "coupling/common/text_file.hpp"
 #include "coupling/documents/csv.hpp"
 #include "coupling/documents/number_text.hpp"
@@ -21,6 +23,8 @@ namespace drumlin::apps {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* series_name = "series.csv";
 
 std::string first_lines(const ScalarSet& scalars) {
   std::string text = "# drumlin-flow-series-1\nstep,time,time_s,rotation_rpm";
@@ -84,25 +88,32 @@ FlowMarching read_marching(const FlowOptions& options, const FlowRequest& asked)
                         .law_text = file_text(options.rheology)};
   continuum::DrumMarch& march = marching.march;
   if (options.from) march.start_name = options.from->string();
-  const fs::path kept = options.output / "checkpoint.h5";
-  if (options.existing == ExistingOutput::resume && fs::exists(kept)) {
-    const continuum::FlowCheckpoint checkpoint = continuum::read_flow_checkpoint(kept);
-    if (checkpoint.scene != marching.scene_text || checkpoint.law != marching.law_text)
-      throw InputError(kept.string() + ": was left by another scene or law; --overwrite starts over");
-    march.start = checkpoint.at;
+  std::optional<LastWhole<continuum::FlowCheckpoint>> kept;
+  if (options.existing == ExistingOutput::resume && has_manifest(options.output)) {
+    check_all_files(open_result_folder(options.output));
+    kept = last_whole_checkpoint(options.output, continuum::read_flow_checkpoint);
+  }
+  if (kept) {
+    if (kept->content.scene != marching.scene_text || kept->content.law != marching.law_text)
+      throw InputError(options.output.string() +
+                       ": was left by another scene or law; --overwrite starts over");
+    march.start = kept->content.at;
+    marching.passed_over = kept->passed_over;
   } else if (options.from) {
     march.start = start_from(*options.from, march);
   }
   return marching;
 }
 
-continuum::FlowSolution march_scene(const FlowMarching& marching, const FlowOptions& options,
+continuum::FlowSolution march_scene(const FlowMarching& marching, GrowingOutput* output,
                                     const continuum::FemRuntime& runtime) {
-  const bool speaks = runtime.rank() == 0;
-  const fs::path series = options.output / "series.csv", checkpoint = options.output / "checkpoint.h5";
+  const bool speaks = output != nullptr;
   const int steps = marching.march.time.steps;
   std::string lines;
-  if (marching.march.start.steps > 0 && speaks) lines = lines_up_to(series, marching.march.start.steps);
+  if (speaks && !marching.passed_over.empty())
+    print_error(fmt::format("{}\ngoes on from {} instead\n", marching.passed_over, previous_checkpoint_name));
+  if (marching.march.start.steps > 0 && speaks)
+    lines = lines_up_to(output->folder() / series_name, marching.march.start.steps);
   continuum::MarchObserver observer;
   observer.interrupted = [] { return interruption() != 0; };
   observer.stepped = [&](const continuum::MarchStep& step) {
@@ -113,10 +124,13 @@ continuum::FlowSolution march_scene(const FlowMarching& marching, const FlowOpti
   };
   observer.kept = [&](const continuum::MarchState& state) {
     runtime.on_first_rank([&] {
-      replace_file(series, lines);
+      replace_file(output->folder() / series_name, lines);
+      output->list(series_name);
+      output->manifest().files.at(series_name).grows = true;
+      output->save();
       // The last step has to be done by whoever writes the results: they hold its acceleration too.
       if (state.steps < steps)
-        continuum::write_flow_checkpoint(checkpoint, {state, marching.scene_text, marching.law_text});
+        continuum::keep_flow_checkpoint(output->folder(), {state, marching.scene_text, marching.law_text});
     });
   };
   return continuum::march_drum(marching.march, observer);

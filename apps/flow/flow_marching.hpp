@@ -2,6 +2,7 @@
 // Files and messages of a march in time: its start, series.csv, checkpoint.h5.
 #include "apps/flow/finished_flow.hpp"
 #include "apps/support/commands.hpp"
+#include "apps/support/output_folder.hpp"
 #include "continuum/fem/runtime.hpp"
 #include "continuum/io/flow_state_file.hpp"
 #include "continuum/marching/drum_march.hpp"
@@ -12,15 +13,16 @@ namespace drumlin::apps {
 struct FlowMarching {
   continuum::DrumMarch march;
   std::string scene_text, law_text;
+  std::string passed_over = {};  ///< why the newest checkpoint was not taken; empty: it was, or there is none
 };
 
 /// Begins at the checkpoint of an interrupted march (`resume`), at the flow of another run, or at rest.
 /// Throws InputError for a checkpoint of another scene or law, and for a flow that is no drum's.
 FlowMarching read_marching(const FlowOptions& options, const FlowRequest& asked);
 
-/// Marches to the end; after every time.every steps the first rank leaves series.csv and checkpoint.h5 in the
-/// output folder. Collective. Throws IoError.
-continuum::FlowSolution march_scene(const FlowMarching& marching, const FlowOptions& options,
+/// Marches to the end; after every time.every steps the first rank leaves series.csv and checkpoint.h5 in
+/// `output`, which is null on the others. Collective. Throws IoError.
+continuum::FlowSolution march_scene(const FlowMarching& marching, GrowingOutput* output,
                                     const continuum::FemRuntime& runtime);
 
 }  // namespace drumlin::apps

@@ -16,7 +16,9 @@
 #include "continuum/fem/scene_options.hpp"
 #include "continuum/rheology/ill_posed_ranges.hpp"
 #include "coupling/common/errors.hpp"
+#include "coupling/common/last_whole.hpp"
 #include "coupling/common/text_file.hpp"
+#include "coupling/exchange/measured_run.hpp"
 #include "coupling/law/rheology_file.hpp"
 
 namespace drumlin::apps {
@@ -70,6 +72,11 @@ FlowRequest read_request(const FlowOptions& options) {
                     .law = read_rheology(options.rheology),
                     .flow_case = {}};
   asked.flow_case = case_of(options.scene, asked.scene, asked.law);
+  if (options.from) {
+    const ResultFolder from = open_flow_run(*options.from);
+    for (const char* name : {"state.h5", "flow.json"}) (void)checked_file(from, name);
+    asked.accepted = accepted_edits(from);
+  }
   return asked;
 }
 
@@ -115,12 +122,27 @@ FlowStart read_start(const FlowOptions& options, const FlowRequest& asked) {
   return start;
 }
 
-void begin_folder(const FlowOptions& options, const FlowRequest& asked, int ranks) {
+// Of the first rank alone, which writes for all.
+using FlowOutput = std::optional<GrowingOutput>;
+
+std::vector<std::string> flow_file_names() {
+  return {"flow_scene.toml",    "rheology.toml",   "iterations.csv",
+          "profiles.csv",       "maps.h5",         "flow.vtu",
+          "state.h5",           "flow.json",       "flow.json.part",
+          "maps.png",           "profiles.png",    "newton.png",
+          "well_posedness.png", "sensitivity.png", "series.png",
+          "series.csv",         checkpoint_name,   previous_checkpoint_name};
+}
+
+void begin_folder(FlowOutput& output, const FlowOptions& options, const FlowRequest& asked, int ranks) {
   std::vector<fs::path> inputs = {options.scene, options.rheology};
   if (options.from) inputs.push_back(*options.from / "state.h5");
-  prepare_output(options.output, options.existing, {"flow_scene.toml", "flow.json"}, inputs);
+  output.emplace(OutputRequest{options.output, options.existing, "flow", inputs}, flow_file_names());
+  output->forget("*");  // all is written anew
   replace_file(options.output / "flow_scene.toml", continuum::flow_scene_text(asked.scene));
   replace_file(options.output / "rheology.toml", file_text(options.rheology));
+  for (const char* name : {"flow_scene.toml", "rheology.toml"}) output->list(name);
+  output->save();
   print_out(fmt::format("{}{}: {}, nu = {:.3f}, {}{}\n", asked.scene.title,
                         asked.reduced() ? " (reduced)" : "", asked.flow_case.summary, asked.law.nu,
                         described(asked.law.mu), ranks > 1 ? fmt::format(", {} ranks", ranks) : ""));
@@ -135,10 +157,10 @@ struct SolvedFlow {
   double cpu_seconds = 0;
 };
 
-continuum::FlowSolution solution_of(const FlowOptions& options, const FlowRequest& asked,
-                                    const FlowStart& start, const continuum::FemRuntime& runtime,
+continuum::FlowSolution solution_of(FlowOutput& output, const FlowRequest& asked, const FlowStart& start,
+                                    const continuum::FemRuntime& runtime,
                                     const continuum::FlowObserver& observer) {
-  if (start.marching) return march_scene(*start.marching, options, runtime);
+  if (start.marching) return march_scene(*start.marching, output ? &*output : nullptr, runtime);
   const continuum::FlowProblem& problem = asked.flow_case.problem;
   if (start.neighbour)
     return continuum::solve_flow_from(*start.neighbour, problem, continuum::solver_options(asked.scene),
@@ -146,7 +168,7 @@ continuum::FlowSolution solution_of(const FlowOptions& options, const FlowReques
   return continuum::solve_flow(problem, continuum::solver_options(asked.scene), observer);
 }
 
-SolvedFlow solved_flow(const FlowOptions& options, const FlowRequest& asked, const FlowStart& start,
+SolvedFlow solved_flow(FlowOutput& output, const FlowRequest& asked, const FlowStart& start,
                        const continuum::FemRuntime& runtime) {
   const bool speaks = runtime.rank() == 0;
   const continuum::FlowCase& chosen = asked.flow_case;
@@ -166,7 +188,7 @@ SolvedFlow solved_flow(const FlowOptions& options, const FlowRequest& asked, con
     plain = continuum::PlainFlow{chosen.scalars(field), chosen.profiles(field)};
   };
   const std::clock_t begun = std::clock();
-  continuum::FlowSolution solution = solution_of(options, asked, start, runtime, observer);
+  continuum::FlowSolution solution = solution_of(output, asked, start, runtime, observer);
   const double cpu_seconds = static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;
   if (start.marching && solution.report.converged)
     observer.level_finished(asked.scene.mesh.levels - 1, solution.field);
@@ -176,10 +198,10 @@ SolvedFlow solved_flow(const FlowOptions& options, const FlowRequest& asked, con
 }
 
 // What comes after it is ended by a signal at once: nothing is kept before all of it is there.
-SolvedFlow solved_until_interrupted(const FlowOptions& options, const FlowRequest& asked,
-                                    const FlowStart& start, const continuum::FemRuntime& runtime) {
+SolvedFlow solved_until_interrupted(FlowOutput& output, const FlowRequest& asked, const FlowStart& start,
+                                    const continuum::FemRuntime& runtime) {
   const CaughtInterruptions caught;
-  return solved_flow(options, asked, start, runtime);
+  return solved_flow(output, asked, start, runtime);
 }
 
 void require_converged(const continuum::FlowSolution& solution) {
@@ -219,20 +241,24 @@ FinishedFlow finished_flow(const FlowOptions& options, const FlowRequest& asked,
 
 int solve_flow_scene(const FlowOptions& options, const continuum::FemRuntime& runtime) {
   const bool speaks = runtime.rank() == 0;
-  if (options.existing == ExistingOutput::resume && fs::exists(options.output / "flow.json")) {
+  if (options.existing == ExistingOutput::resume && holds_results(options.output, "flow.json")) {
     if (speaks) print_out(fmt::format("{}: done already\n", options.output.string()));
     return static_cast<int>(ExitCode::done);
   }
   const FlowRequest asked = read_request(options);
   const FlowStart start = read_start(options, asked);
-  runtime.on_first_rank([&] { begin_folder(options, asked, runtime.ranks()); });
-  SolvedFlow solved = solved_until_interrupted(options, asked, start, runtime);
+  FlowOutput output;
+  runtime.on_first_rank([&] { begin_folder(output, options, asked, runtime.ranks()); });
+  SolvedFlow solved = solved_until_interrupted(output, asked, start, runtime);
   runtime.on_first_rank([&] { write_iterations(options.output / "iterations.csv", solved.solution.report); });
   if (const int signal = interruption(); signal != 0) return exit_code_of(signal);
   require_converged(solved.solution);
   const FinishedFlow flow = finished_flow(options, asked, std::move(solved), runtime.ranks());
   write_flow(options.output, flow);
-  if (start.marching) runtime.on_first_rank([&] { fs::remove(options.output / "checkpoint.h5"); });
+  runtime.on_first_rank([&] {
+    for (const char* name : {checkpoint_name, previous_checkpoint_name}) fs::remove(options.output / name);
+    output->finish();
+  });
   if (speaks) print_out(finished_text(options.output, flow));
   return static_cast<int>(ExitCode::done);
 }

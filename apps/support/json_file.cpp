@@ -15,6 +15,10 @@ void write_json(const std::filesystem::path& file, const Json& content) {
   replace_file(file, content.dump(2) + "\n");
 }
 
+void add_accepted_edits(Json& provenance, const std::vector<std::string>& edits) {
+  if (!edits.empty()) provenance["accepted_edits"] = edits;
+}
+
 Json to_json(const Scalar& scalar) {
   if (!scalar.ci99) return number_or_null(scalar.value);
   return {{"value", number_or_null(scalar.value)}, {"ci99", number_or_null(*scalar.ci99)}};

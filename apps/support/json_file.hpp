@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "coupling/common/provenance.hpp"
 #include "coupling/common/scales.hpp"
@@ -14,6 +15,9 @@ namespace drumlin::apps {
 
 /// Indented, in the order of the keys, NaN as null; written aside and renamed. Throws IoError.
 void write_json(const std::filesystem::path& file, const nlohmann::ordered_json& content);
+
+/// Adds "accepted_edits" to a provenance if there are any (`accepted_edits` of result_folder.hpp).
+void add_accepted_edits(nlohmann::ordered_json& provenance, const std::vector<std::string>& edits);
 
 /// {"value": , "ci99": } for a measurement, the plain number where there is no interval; null for what was
 /// not computed.

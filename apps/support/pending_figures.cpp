@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "apps/support/figures.hpp"
+#include "apps/support/output_folder.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/common/text_file.hpp"
 
@@ -31,7 +32,8 @@ void note_pending_figures(const fs::path& folder) {
 }
 
 bool is_complete(const fs::path& finished) {
-  return fs::exists(finished) && !fs::exists(note_in(finished.parent_path()));
+  return !fs::exists(note_in(finished.parent_path())) &&
+         holds_results(finished.parent_path(), finished.filename());
 }
 
 std::vector<std::string> draw_pending_figures(const fs::path& folder,

@@ -25,7 +25,8 @@ struct ResultPage {
 /// the results are complete, so that a command which ends early is known to have left no figures.
 void note_pending_figures(const std::filesystem::path& folder);
 
-/// Whether `finished` (measured.json, ...) is there and no figure of its folder is still to be drawn.
+/// Whether `finished` (measured.json, ...) is there with all results beside it and no figure of its folder is
+/// still to be drawn. Throws InputError as holds_results().
 bool is_complete(const std::filesystem::path& finished);
 
 /// Runs every script, whatever became of those before it, and then writes the page, which tells the failures

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "coupling/common/errors.hpp"
+#include "coupling/common/last_whole.hpp"
 #include "coupling/files/h5_image.hpp"
 
 namespace drumlin::continuum {
@@ -73,7 +74,7 @@ FlowState read_flow_state(const std::filesystem::path& flow_run) {
   return state_in(in);
 }
 
-void write_flow_checkpoint(const std::filesystem::path& file, const FlowCheckpoint& checkpoint) {
+void keep_flow_checkpoint(const std::filesystem::path& flow_run, const FlowCheckpoint& checkpoint) {
   H5Writer out;
   out.add_text("format", checkpoint_format);
   out.add_number("steps", static_cast<std::int64_t>(checkpoint.at.steps));
@@ -81,7 +82,7 @@ void write_flow_checkpoint(const std::filesystem::path& file, const FlowCheckpoi
   out.add_text("scene", checkpoint.scene);
   out.add_text("law", checkpoint.law);
   put(checkpoint.at.state, out);
-  out.save(file);
+  out.save_keeping(flow_run / checkpoint_name, flow_run / previous_checkpoint_name);
 }
 
 FlowCheckpoint read_flow_checkpoint(const std::filesystem::path& file) {

@@ -22,8 +22,9 @@ struct FlowCheckpoint {
   std::string scene, law;
 };
 
-/// Format "drumlin-flow-checkpoint-1". Throws IoError.
-void write_flow_checkpoint(const std::filesystem::path& file, const FlowCheckpoint& checkpoint);
+/// FLOWRUN/checkpoint.h5, format "drumlin-flow-checkpoint-1"; the one before stays as the previous one.
+/// Throws IoError.
+void keep_flow_checkpoint(const std::filesystem::path& flow_run, const FlowCheckpoint& checkpoint);
 
 /// Throws InputError as read_flow_state.
 FlowCheckpoint read_flow_checkpoint(const std::filesystem::path& file);

@@ -1,12 +1,16 @@
 #include "coupling/common/text_file.hpp"
 
 #include <fcntl.h>
+#include <sys/random.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <optional>
 #include <sstream>
+#include <utility>
 
 #include "coupling/common/errors.hpp"
 #include "coupling/common/unfinished_file.hpp"
@@ -28,30 +32,111 @@ std::string file_text(const std::filesystem::path& file) {
 
 namespace {
 
-[[noreturn]] void give_up(const std::filesystem::path& file, int descriptor) {
-  const std::string reason = std::strerror(errno);
-  if (descriptor >= 0) ::close(descriptor);
-  throw IoError(file.string() + ": cannot be written: " + reason);
+namespace fs = std::filesystem;
+
+constexpr std::string_view aside_begin = ".drumlin-", aside_end = ".part";
+constexpr std::size_t aside_letters = 32;
+
+[[noreturn]] void give_up(const fs::path& file, const std::string& what) {
+  throw IoError(file.string() + ": cannot be " + what + ": " + std::strerror(errno));
 }
+
+/// A descriptor that closes itself.
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int number() const { return number_; }
+  /// Whether the system had nothing to say of what was written.
+  bool close() { return ::close(std::exchange(number_, -1)) == 0; }
+
+ private:
+  int number_;
+};
+
+std::string unguessable_name(const fs::path& file) {
+  std::array<unsigned char, aside_letters / 2> bytes{};
+  if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
+    give_up(file, "written");
+  std::string name(aside_begin);
+  for (const unsigned char byte : bytes)
+    name += {"0123456789abcdef"[byte / 16], "0123456789abcdef"[byte % 16]};
+  return name.append(aside_end);
+}
+
+/// A file of the folder of `file` that takes its place when it is whole, and vanishes otherwise.
+class FileAside {
+ public:
+  explicit FileAside(const fs::path& file)
+      : file_(file),
+        folder_(file.has_parent_path() ? file.parent_path() : "."),
+        descriptor_(::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    if (descriptor_.number() < 0) give_up(file_, "written");
+  }
+  FileAside(const FileAside&) = delete;
+  FileAside& operator=(const FileAside&) = delete;
+
+  void write(std::string_view content) {
+    name_ = unguessable_name(file_);
+    unfinished_.emplace(folder_ / name_);
+    Descriptor aside(::openat(descriptor_.number(), name_.c_str(),
+                              O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
+    if (aside.number() < 0) give_up(file_, "written");
+    while (!content.empty()) {
+      const ssize_t bytes = ::write(aside.number(), content.data(), content.size());
+      if (bytes < 0 && errno == EINTR) continue;
+      if (bytes < 0) give_up(file_, "written");
+      content.remove_prefix(static_cast<std::size_t>(bytes));
+    }
+    // Some file systems report a full disk only here.
+    if (::fsync(aside.number()) != 0 || !aside.close()) give_up(file_, "written");
+  }
+
+  void take_the_place() {
+    if (!rename(name_, file_.filename())) give_up(file_, "written");
+    if (::fsync(descriptor_.number()) != 0) give_up(file_, "forced to the disk");
+  }
+
+  /// Renames within the folder.
+  bool rename(const fs::path& from, const fs::path& to) const {
+    return ::renameat(descriptor_.number(), from.c_str(), descriptor_.number(), to.c_str()) == 0;
+  }
+
+ private:
+  fs::path file_, folder_;
+  Descriptor descriptor_;
+  std::string name_;
+  std::optional<UnfinishedFile> unfinished_;  // removes it wherever this process ends before the rename
+};
 
 }  // namespace
 
-void replace_file(const std::filesystem::path& file, const std::string& text) {
-  const UnfinishedFile unfinished(file.string() + ".part");
-  const std::filesystem::path& aside = unfinished.path();
-  const int descriptor = ::open(aside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor < 0) give_up(file, descriptor);
-  std::size_t written = 0;
-  while (written < text.size()) {
-    const ssize_t bytes = ::write(descriptor, text.data() + written, text.size() - written);
-    if (bytes < 0 && errno == EINTR) continue;
-    if (bytes < 0) give_up(file, descriptor);
-    written += static_cast<std::size_t>(bytes);
-  }
-  // Some file systems report a full disk only here.
-  if (::fsync(descriptor) != 0) give_up(file, descriptor);
-  if (::close(descriptor) != 0) give_up(file, -1);
-  if (::rename(aside.c_str(), file.c_str()) != 0) give_up(file, -1);
+void replace_file(const fs::path& file, std::string_view content) {
+  FileAside aside(file);
+  aside.write(content);
+  aside.take_the_place();
+}
+
+void replace_file_keeping(const fs::path& file, const fs::path& previous, std::string_view content) {
+  FileAside aside(file);
+  aside.write(content);
+  if (!aside.rename(file.filename(), previous.filename()) && errno != ENOENT) give_up(file, "renamed");
+  aside.take_the_place();
+}
+
+bool is_left_aside(const fs::path& file) {
+  const std::string name = file.filename().string();
+  return name.size() == aside_begin.size() + aside_letters + aside_end.size() &&
+         name.starts_with(aside_begin) && name.ends_with(aside_end);
+}
+
+void force_to_disk(const fs::path& path) {
+  Descriptor opened(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (opened.number() < 0 || ::fsync(opened.number()) != 0) give_up(path, "forced to the disk");
 }
 
 }  // namespace drumlin

@@ -1,15 +1,29 @@
 #pragma once
-// Whole text files, read and written so that nobody ever sees half of one.
+// Whole files, read and written so that nobody ever sees half of one.
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace drumlin {
 
 /// Content of a file. Throws InputError if it is missing or a folder, IoError if it cannot be read.
 std::string file_text(const std::filesystem::path& file);
 
-/// Writes `text` aside, forces it to the disk and renames it to `file`: a kill leaves the old file or the new
-/// one. Throws IoError, the old file then being intact.
-void replace_file(const std::filesystem::path& file, const std::string& text);
+/// Writes `content`, text or not, aside, forces it to the disk, renames it to `file` and forces the folder to
+/// the disk: a kill or a power cut leaves the old file or the new one. The place aside is new and has a name
+/// that nobody can guess; a symbolic link in the place of `file` is replaced, not followed. Throws IoError,
+/// the old file then being intact.
+void replace_file(const std::filesystem::path& file, std::string_view content);
+
+/// The same, and the old file stays under the name `previous`, of the same folder: one of both is whole at
+/// any moment.
+void replace_file_keeping(const std::filesystem::path& file, const std::filesystem::path& previous,
+                          std::string_view content);
+
+/// Whether a file of this name is what a killed replace_file() has left aside.
+bool is_left_aside(const std::filesystem::path& file);
+
+/// Forces the content of a file, or the names in a folder, to the disk. Throws IoError.
+void force_to_disk(const std::filesystem::path& path);
 
 }  // namespace drumlin

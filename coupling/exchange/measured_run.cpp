@@ -69,13 +69,15 @@ void check_against_settings(const fs::path& file, const RunHeader& header, const
 }
 
 /// The narrow slices, each in the frame and units of the centre.
-std::map<double, ProfileSet> slices_below(const fs::path& folder, const ProfileSet& centre,
+std::map<double, ProfileSet> slices_below(const ResultFolder& measured, const ProfileSet& centre,
                                           Problems& problems) {
   std::map<double, ProfileSet> slices;
+  const fs::path folder = measured.path / "slices";
   if (!fs::is_directory(folder)) return slices;
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.path().extension() == ".csv") files.push_back(entry.path());
+    if (entry.path().extension() == ".csv")
+      files.push_back(checked_file(measured, "slices/" + entry.path().filename().string()));
   for (const fs::path& file : files) {
     ProfileSet profiles = read_profiles(file);
     const std::size_t before = problems.size();
@@ -123,7 +125,20 @@ void throw_if_any(Problems problems) {
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 
+/// A folder that a command has left whole, or files cut out of one.
+ResultFolder open_finished(const fs::path& folder, bool cut_out) {
+  ResultFolder opened =
+      open_result_folder(folder, cut_out ? WithoutManifest::accept : WithoutManifest::refuse);
+  if (opened.manifest && !opened.manifest->complete)
+    throw InputError(folder.string() + ": is unfinished; call the command that writes it with --resume");
+  return opened;
+}
+
 }  // namespace
+
+ResultFolder open_flow_run(const fs::path& folder) {
+  return open_finished(folder, !fs::exists(folder / "state.h5"));
+}
 
 std::string name_of_folder(const fs::path& folder) {
   const fs::path whole = fs::weakly_canonical(folder);
@@ -139,12 +154,19 @@ MeasuredRun read_measured_run(const fs::path& folder, Unsteady unsteady) {
   Problems problems;
   check_finished(folder / "run.json", problems);
   throw_if_any(problems);
-  const fs::path file = folder / "measured" / "measured.json";
-  const fs::path profile_file = folder / "measured" / "profiles.csv";
-  if (!fs::exists(file))
+  if (!fs::exists(folder / "measured" / "measured.json"))
     throw InputError(folder.string() + ": has not been measured; run drumlin measure first");
+  const bool cut_out = !fs::exists(folder / "log.csv") && !fs::exists(folder / "snapshots");
+  ResultFolder run_files = open_finished(folder, cut_out);
+  (void)checked_file(run_files, "run.json");
+  (void)checked_file(run_files, "scene.toml");
+  ResultFolder measured_files = open_finished(folder / "measured", cut_out);
+  const fs::path file = checked_file(measured_files, "measured.json");
+  const fs::path profile_file = checked_file(measured_files, "profiles.csv");
   const Json measured = read_json(file, "drumlin-measured-1");
   MeasuredRun run{name_of_folder(folder), folder, read_profiles(profile_file), {}, {}, {}, false, {}};
+  for (const ResultFolder* part : {&run_files, &measured_files})
+    for (const std::string& edit : accepted_edits(*part)) run.accepted.push_back(edit);
   run.scalars = read_scalars(file, "drumlin-measured-1");
   run.unsteady = reasons_against(measured);
   if (unsteady == Unsteady::refuse)
@@ -164,7 +186,8 @@ MeasuredRun read_measured_run(const fs::path& folder, Unsteady unsteady) {
                           {&RunHeader::theta_deg, "frame_angle_deg"}},
                          problems);
   check_layers(profile_file, run.profiles, problems);
-  run.slices = slices_below(folder / "measured" / "slices", run.profiles, problems);
+  run.slices = slices_below(measured_files, run.profiles, problems);
+  run.files = std::move(run_files), run.measured_files = std::move(measured_files);
   throw_if_any(std::move(problems));
   return run;
 }
@@ -175,6 +198,8 @@ FlowRun read_flow_run(const fs::path& folder) {
   if (!fs::exists(file))
     throw InputError(folder.string() +
                      ": holds no flow.json: no continuum flow, or one that was not finished");
+  ResultFolder files = open_flow_run(folder);
+  for (const char* name : {"flow.json", "profiles.csv", "flow_scene.toml"}) (void)checked_file(files, name);
   const Json flow = read_json(file, "drumlin-flow-run-2");
   Problems problems;
   const Json geometry = flow.value("geometry", Json("drum"));
@@ -182,6 +207,8 @@ FlowRun read_flow_run(const fs::path& folder) {
     problems.push_back({file.string(), 0, 0, "geometry", "is " + plain_text(geometry), "\"drum\""});
   throw_if_any(problems);
   FlowRun run{name_of_folder(folder), folder, read_profiles(profile_file), {}, {}, false};
+  run.accepted = accepted_edits(files);
+  run.files = std::move(files);
   run.scalars = read_scalars(file, "drumlin-flow-run-2");
   add_law_band(run.scalars, flow);
   check_frame(profile_file, run.profiles.header, RunSide::continuum, problems);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "coupling/common/result_folder.hpp"
 #include "coupling/common/scales.hpp"
 #include "coupling/exchange/profile_set.hpp"
 #include "coupling/exchange/scalar_set.hpp"
@@ -22,6 +23,8 @@ struct MeasuredRun {
   Scales scales;
   bool reduced = false;
   std::vector<std::string> unsteady;  ///< reasons, of a run that was accepted all the same; empty: steady
+  ResultFolder files = {}, measured_files = {};  ///< RUN and RUN/measured, for what else is read of them
+  std::vector<std::string> accepted = {};        ///< edits by hand (accepted_edits)
 };
 
 /// What to do with a run that its own measurement does not call steady.
@@ -31,8 +34,9 @@ enum class Unsteady { refuse, accept };
 /// another version, an unfinished run, one that is not steady, headers without the side "particles" or
 /// without the finite numbers that place the frame (theta_deg, rotation, drum_radius, diameter_m, position;
 /// in a drum axis_depth and wall_z), headers that disagree with measured.json or with each other in units,
-/// frame or speed, layers inside the packing without numbers, "reduced" on one file and not on the other. A
-/// folder without run.json (as cut out of a run) is taken for finished.
+/// frame or speed, layers inside the packing without numbers, "reduced" on one file and not on the other,
+/// files that are not as the manifests of RUN and RUN/measured say. A folder without run.json (as cut out of
+/// a run) is taken for finished, one without log.csv and snapshots needs no manifest.
 MeasuredRun read_measured_run(const std::filesystem::path& folder, Unsteady unsteady = Unsteady::refuse);
 
 /// What `drumlin flow` left of a drum.
@@ -43,11 +47,18 @@ struct FlowRun {
   ScalarSet scalars;
   Scales scales;
   bool reduced = false;
+  ResultFolder files = {};
+  std::vector<std::string> accepted = {};
 };
 
 /// As above, of a FLOWRUN: also refused are a flow that was not finished (no flow.json), profiles of another
-/// side than "continuum", and a flow that is no drum.
+/// side than "continuum", and a flow that is no drum. A folder without state.h5 (as cut out of a FLOWRUN)
+/// needs no manifest.
 FlowRun read_flow_run(const std::filesystem::path& folder);
+
+/// The files of a FLOWRUN, to be read by checked_file(). Throws InputError if it is not finished or not as
+/// its manifest says.
+ResultFolder open_flow_run(const std::filesystem::path& folder);
 
 /// Whether a folder is (or claims to be) a FLOWRUN: it holds flow.json or flow_scene.toml.
 bool is_flow_run(const std::filesystem::path& folder);

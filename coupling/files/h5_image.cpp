@@ -1,12 +1,9 @@
 #include "coupling/files/h5_image.hpp"
 
-#include <fcntl.h>
 #include <hdf5.h>
-#include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <initializer_list>
@@ -14,7 +11,7 @@
 #include <string_view>
 
 #include "coupling/common/errors.hpp"
-#include "coupling/common/unfinished_file.hpp"
+#include "coupling/common/text_file.hpp"
 
 namespace drumlin {
 namespace {
@@ -73,32 +70,6 @@ void put(hid_t file, const std::string& name, hid_t memory_type, hid_t file_type
     check(H5Dwrite(set.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0, "write a dataset");
 }
 
-void write_all(int descriptor, std::span<const unsigned char> bytes, const std::filesystem::path& file) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) throw IoError(file.string() + ": cannot write: " + std::strerror(errno));
-    bytes = bytes.subspan(static_cast<std::size_t>(written));
-  }
-}
-
-void save_bytes(const std::filesystem::path& file, std::span<const unsigned char> bytes) {
-  const UnfinishedFile unfinished(file.string() + ".part");
-  const std::filesystem::path& aside = unfinished.path();
-  const int descriptor = ::open(aside.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  if (descriptor < 0) throw IoError(aside.string() + ": cannot open: " + std::strerror(errno));
-  try {
-    write_all(descriptor, bytes, aside);
-    if (::fsync(descriptor) != 0) throw IoError(aside.string() + ": cannot sync: " + std::strerror(errno));
-  } catch (...) {
-    ::close(descriptor);
-    throw;
-  }
-  ::close(descriptor);
-  if (::rename(aside.c_str(), file.c_str()) != 0)
-    throw IoError(file.string() + ": cannot rename: " + std::strerror(errno));
-}
-
 std::vector<unsigned char> bytes_of(const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) throw InputError(file.string() + ": no such file");
@@ -151,18 +122,20 @@ void H5Writer::add_text(const std::string& name, const std::string& text) {
   put(handles_->file->get(), name, H5T_NATIVE_UINT8, H5T_STD_U8LE, text.data(), {text.size()});
 }
 
-void H5Writer::save(const std::filesystem::path& file) const {
+std::string H5Writer::image() const {
   check(H5Fflush(handles_->file->get(), H5F_SCOPE_GLOBAL) >= 0, "flush a file image");
   const ssize_t size = H5Fget_file_image(handles_->file->get(), nullptr, 0);
   check(size > 0, "size a file image");
-  std::vector<unsigned char> bytes(static_cast<std::size_t>(size) + trailer_size);
-  check(H5Fget_file_image(handles_->file->get(), bytes.data(), static_cast<std::size_t>(size)) == size,
-        "copy a file image");
-  const std::uint32_t sum = checksum({bytes.data(), static_cast<std::size_t>(size)});
-  unsigned char* trailer = bytes.data() + size;
-  std::memcpy(trailer, trailer_magic.data(), trailer_magic.size());
-  for (int byte = 0; byte < 4; ++byte) trailer[8 + byte] = static_cast<unsigned char>(sum >> (8 * byte));
-  save_bytes(file, bytes);
+  std::string bytes(static_cast<std::size_t>(size), '\0');
+  check(H5Fget_file_image(handles_->file->get(), bytes.data(), bytes.size()) == size, "copy a file image");
+  const std::uint32_t sum = checksum({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()});
+  bytes += trailer_magic;
+  for (int byte = 0; byte < 4; ++byte) bytes += static_cast<char>(sum >> (8 * byte));
+  return bytes;
+}
+void H5Writer::save(const std::filesystem::path& file) const { replace_file(file, image()); }
+void H5Writer::save_keeping(const std::filesystem::path& file, const std::filesystem::path& previous) const {
+  replace_file_keeping(file, previous, image());
 }
 
 struct H5Reader::Handles {

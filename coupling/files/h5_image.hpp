@@ -32,8 +32,11 @@ class H5Writer {
 
   /// Whole file with its checksum. Throws IoError; an older file of that name is then untouched.
   void save(const std::filesystem::path& file) const;
+  /// The same, the older file staying under the name `previous`.
+  void save_keeping(const std::filesystem::path& file, const std::filesystem::path& previous) const;
 
  private:
+  std::string image() const;
   struct Handles;
   std::unique_ptr<Handles> handles_;
 };

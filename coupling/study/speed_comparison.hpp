@@ -24,7 +24,8 @@ struct StudyFlow {
   std::map<std::string, std::string> identity;
   /// What may differ, but is worth a word: mesh, regularisation.
   std::map<std::string, std::string> numerics;
-  std::vector<std::string> fitted_on;  ///< runs that the law was calibrated on
+  std::vector<std::string> fitted_on;      ///< runs that the law was calibrated on
+  std::vector<std::string> accepted = {};  ///< edits by hand (accepted_edits of coupling/common)
 };
 
 /// What a speed can say of the law. `unknown`: the law was fitted on none of the runs of this study.

@@ -25,6 +25,7 @@ struct StudyRun {
   std::map<std::string, std::string> numerics;
   std::vector<std::string> warnings;  ///< why it counts less than a steady whole turn
   double cpu_seconds = std::numeric_limits<double>::quiet_NaN();  ///< of the run; NaN where it does not say
+  std::vector<std::string> accepted = {};  ///< edits by hand (accepted_edits of coupling/common)
 };
 
 /// Throws InputError, every difference at once, unless the runs show the same drum, grains and definitions;

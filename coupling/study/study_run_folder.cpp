@@ -79,6 +79,7 @@ StudyRun read_study_run(const fs::path& folder) {
   run.slices = std::move(measured.slices);
   run.scalars = std::move(measured.scalars);
   run.warnings = std::move(measured.unsteady);
+  run.accepted = std::move(measured.accepted);
   const Json settings = read_json(folder / "measured" / "measured.json", "drumlin-measured-1")
                             .value("settings", Json::object());
   for (const char* key : compared_settings)
@@ -99,6 +100,7 @@ StudyFlow read_study_flow(const fs::path& folder) {
   StudyFlow run;
   run.name = read.name;
   run.rotation_rpm = rotation_rpm_of(read.profiles, read.scales);
+  run.accepted = std::move(read.accepted);
   run.side = {std::move(read.profiles), std::move(read.scalars), {}};
   if (flow.value("cpu_seconds", Json()).is_number()) run.cpu_seconds = flow["cpu_seconds"].get<double>();
   run.start = plain_text(flow.value("start", Json("not said")));

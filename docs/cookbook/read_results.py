@@ -167,7 +167,7 @@ def main():
         series = [[file for file in files if file.parent.name == folder][:-1] for folder in ("snapshots", "grains")]
         for file in files:
             # Private to the program, and of many snapshots the last one.
-            if file.suffix not in READERS or file.name == "checkpoint.h5" or any(file in earlier for earlier in series):
+            if file.suffix not in READERS or file.name.startswith("checkpoint") or any(file in earlier for earlier in series):
                 continue
             print(f"{file}: {READERS[file.suffix](file, found)}")
     if not found:

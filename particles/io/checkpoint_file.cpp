@@ -1,5 +1,6 @@
 #include "particles/io/checkpoint_file.hpp"
 
+#include "coupling/common/last_whole.hpp"
 #include "coupling/files/h5_image.hpp"
 
 namespace drumlin::particles {
@@ -70,10 +71,7 @@ void each_array(C& c, Visit visit) {
   visit("memory/impulse", c.state.memory.impulse);
 }
 
-}  // namespace
-
-void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint) {
-  H5Writer out;
+void put(const Checkpoint& checkpoint, H5Writer& out) {
   out.add_text("format", format);
   out.add_text("scene", checkpoint.scene);
   each_number(checkpoint, [&out](const char* name, auto value) { out.add_number(name, value); });
@@ -106,12 +104,28 @@ void write_checkpoint(const std::filesystem::path& file, const Checkpoint& check
     out.add(name + "x", std::span<const double>(state.marks[m].x));
     out.add(name + "z", std::span<const double>(state.marks[m].z));
   }
+}
+
+}  // namespace
+
+void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint) {
+  H5Writer out;
+  put(checkpoint, out);
   out.save(file);
+}
+
+void keep_checkpoint(const std::filesystem::path& run, const Checkpoint& checkpoint) {
+  H5Writer out;
+  put(checkpoint, out);
+  out.save_keeping(run / checkpoint_name, run / previous_checkpoint_name);
 }
 
 Checkpoint read_checkpoint(const std::filesystem::path& file) {
   const H5Reader in(file);
-  if (!in.has("format") || in.text("format") != format) in.refuse("format", "not " + format);
+  if (!in.has("format")) in.refuse("format", "missing: no checkpoint");
+  if (const std::string found = in.text("format"); found != format)
+    in.refuse("format", "'" + found + "', this version reads " + format +
+                            ": start over, or go on with the version that wrote it");
   Checkpoint checkpoint;
   checkpoint.scene = in.text("scene");
   each_number(checkpoint, [&in](const char* name, auto& value) {

@@ -19,12 +19,13 @@ RunFolder read_run_folder(const fs::path& folder) {
   if (!fs::is_directory(folder)) throw InputError(folder.string() + ": no such folder");
   if (!fs::exists(folder / "run.json"))
     throw InputError(folder.string() + ": holds no run.json, so no particle run");
-  const auto run = read_json(folder / "run.json", "drumlin-run-1");
-  if (run.value("imported", false))
-    throw InputError(folder.string() + ": is an imported run, which has no scene; drumlin measure reads it");
   RunFolder result;
   result.folder = folder;
-  result.scene = read_scene(folder / "scene.toml");
+  result.files = open_result_folder(folder);
+  const auto run = read_json(checked_file(result.files, "run.json"), "drumlin-run-1");
+  if (run.value("imported", false))
+    throw InputError(folder.string() + ": is an imported run, which has no scene; drumlin measure reads it");
+  result.scene = read_scene(checked_file(result.files, "scene.toml"));
   result.scales = scales_of(result.scene);
   const auto status = run.find("status");
   if (status == run.end() || !status->is_string())
@@ -32,6 +33,10 @@ RunFolder read_run_folder(const fs::path& folder) {
   result.status = *status;
   result.snapshots = snapshot_files(folder);
   return result;
+}
+
+Snapshot checked_snapshot(const RunFolder& run, const fs::path& file) {
+  return read_snapshot(checked_file(run.files, "snapshots/" + file.filename().string()));
 }
 
 fs::path chosen_snapshot(const RunFolder& run, const std::string& name) {

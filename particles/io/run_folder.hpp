@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "coupling/common/result_folder.hpp"
 #include "coupling/common/scales.hpp"
 #include "particles/bodies/snapshot.hpp"
 #include "particles/bodies/walls.hpp"
@@ -14,6 +15,7 @@ namespace drumlin::particles {
 
 struct RunFolder {
   std::filesystem::path folder;
+  ResultFolder files;
   Scene scene;  ///< resolved, from scene.toml
   Scales scales;
   std::string status;                            ///< of run.json: "finished", "running", ...
@@ -22,9 +24,12 @@ struct RunFolder {
   bool finished() const { return status == "finished"; }
 };
 
-/// Throws InputError if the folder is missing, is no run or an imported one, or holds a scene that this
-/// version does not read.
+/// Throws InputError if the folder is missing, is no run or an imported one, is not as its manifest says, or
+/// holds a scene that this version does not read.
 RunFolder read_run_folder(const std::filesystem::path& folder);
+
+/// One of `snapshots`, read; refused if it is not as the manifest says. Throws InputError.
+Snapshot checked_snapshot(const RunFolder& run, const std::filesystem::path& file);
 
 /// The file of a snapshot by its number or "last". Throws InputError that says which there are.
 std::filesystem::path chosen_snapshot(const RunFolder& run, const std::string& name);

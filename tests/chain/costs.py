@@ -53,6 +53,8 @@ def check_sweep(drumlin, work, law):
     kept = work / "cost" / "points" / "as-it-is.json"
     kept.write_text(kept.read_text(encoding="utf-8").replace('"iterations": ', '"iterations": 1000'), encoding="utf-8")
     drumlin(*words, code=2)
+    drumlin(*words, "--resume", code=2)  # it was changed by hand
+    drumlin("accept", work / "cost", "--reason", "marked")
     drumlin(*words, "--resume")
     again = read_json(work / "cost" / "cost.json")
     for before, after in zip(report["points"], again["points"]):

@@ -25,6 +25,7 @@ PRIVATE_LIBRARIES = {
     "toml++/": ["coupling/documents/document.cpp"],
     "CLI/": ["apps/command_line"],
     "boost/": ["coupling/statistics"],
+    "openssl/": ["coupling/common/checksum.cpp"],
 }
 # Private to the finite elements: included by continuum/fem alone, full of deal.II, no part of the interface.
 PRIVATE_FOLDERS = ["continuum/fem/detail"]

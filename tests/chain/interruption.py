@@ -20,8 +20,9 @@ OVERRIDES = ["--set", "output.checkpoint_every_s=0.05", "--set", "stages.1.turns
 
 
 def results(run):
-    """What must not depend on how often a run was stopped: all but timings and the private checkpoint."""
-    return {name: content for name, content in bytes_below(run).items() if name not in ("run.json", "checkpoint.h5")}
+    """What must not depend on how often a run was stopped: all but timings, their sums and the private checkpoints."""
+    return {name: content for name, content in bytes_below(run).items()
+            if name not in ("run.json", "manifest.txt", "checkpoint.h5", "checkpoint-previous.h5")}
 
 
 def stopped(executable, scene, run, stop, code):
@@ -73,6 +74,12 @@ def stopped_within_a_step(executable, scene, run):
     steps = [line.split(",")[0] for line in (run / "log.csv").read_text(encoding="utf-8").splitlines()[1:]]
     require(report["status"] == "interrupted" and (run / "checkpoint.h5").exists(), "long steps: no checkpoint")
     require(report["steps"] == len(steps) and steps[-1] == str(len(steps)), "long steps: log and report disagree")
+
+
+def damage(file):
+    content = bytearray(file.read_bytes())
+    content[len(content) // 2] ^= 4
+    file.write_bytes(content)
 
 
 def full_disk(executable, drumlin, scene, kept, run, expected):
@@ -135,11 +142,18 @@ def main():
         (kept / "log.csv").unlink()
         drumlin("run", scene, "-o", kept, "--resume", *OVERRIDES, code=2)
         (kept / "log.csv").write_bytes(log)
-        checkpoint = bytearray((kept / "checkpoint.h5").read_bytes())
-        checkpoint[len(checkpoint) // 2] ^= 4
-        (kept / "checkpoint.h5").write_bytes(checkpoint)
+        one_damaged = work / "one-damaged"
+        shutil.copytree(kept, one_damaged)
+        damage(one_damaged / "checkpoint.h5")
+        if (one_damaged / "checkpoint-previous.h5").exists():
+            _, error = drumlin("run", scene, "-o", one_damaged, "--resume", *OVERRIDES)
+            require("checkpoint.h5" in error and "goes on from checkpoint-previous.h5" in error, f"another checkpoint without a word: {error}")
+            require(results(one_damaged) == expected, "from the checkpoint before, the run left other bytes than the whole one")
+        for name in ("checkpoint.h5", "checkpoint-previous.h5"):
+            if (kept / name).exists():
+                damage(kept / name)
         _, error = drumlin("run", scene, "-o", kept, "--resume", *OVERRIDES, code=2)
-        require("checkpoint.h5" in error and "damaged" in error, "damaged checkpoint: the message does not say so")
+        require("checkpoint.h5" in error and "damaged" in error, "damaged checkpoints: the message does not say so")
         require((kept / "log.csv").read_bytes() == log, "a refused resumption touched the log")
 
 

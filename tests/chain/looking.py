@@ -94,7 +94,7 @@ def require_figure(file):
 def require_plots(folder, expected):
     drawn = read_json(folder / "plots.json")
     require(sorted(drawn["figures"]) == sorted(expected), f"{folder}: {drawn['figures']} instead of {expected}")
-    require(sorted(path.name for path in folder.iterdir()) == sorted([*expected, "plots.json"]),
+    require(sorted(path.name for path in folder.iterdir()) == sorted([*expected, "manifest.txt", "plots.json"]),
             f"{folder}: other files than it names")
     for name in expected:
         if name.endswith(".png"):
@@ -123,8 +123,13 @@ def plots(drumlin, one_disc, periodic, none, folder):
     (one_disc / "run.json").write_text(json.dumps(report | {"status": "running"}), encoding="utf-8")
     log = one_disc / "log.csv"
     log.write_bytes(log.read_bytes()[:-7])
+    _, error = drumlin("plot", one_disc, "-o", folder / "elsewhere", code=2)
+    require("log.csv" in error and "drumlin accept" in error, f"changed files were drawn: {error}")
+    drumlin("accept", one_disc, "--reason", "cut to look like one that goes on")
     text, _ = drumlin("plot", one_disc, "-o", folder / "elsewhere")
     require("unfinished" in text, f"nothing said of an unfinished run: {text}")
+    edits = read_json(folder / "elsewhere" / "plots.json")["accepted_edits"]
+    require(len(edits) == 1 and "cut to look like one that goes on" in edits[0], f"not said what was edited: {edits}")
     require_plots(folder / "elsewhere", ["speed.png", "forces.png", "log.png", "time.png"])
 
     drumlin("plot", none)

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "apps/support/accept.hpp"
 #include "apps/support/commands.hpp"
 #include "apps/support/json_file.hpp"
 #include "coupling/common/errors.hpp"
@@ -76,6 +77,7 @@ TEST(ParticleSweep, DoesNoPointTwice) {
   Json marked = read_json(kept, "drumlin-cost-point-1");
   marked["load_before"] = -7;
   apps::write_json(kept, marked);
+  EXPECT_EQ(apps::accept({folder / "cost", "one point lost, one marked"}), 0);
   options.existing = apps::ExistingOutput::resume;
   const Json second = swept(options);
   EXPECT_TRUE(fs::exists(lost));

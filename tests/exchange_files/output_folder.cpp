@@ -1,75 +1,245 @@
 #include "apps/support/output_folder.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <csignal>
 
 #include "coupling/common/errors.hpp"
+#include "coupling/common/result_folder.hpp"
+#include "coupling/common/text_file.hpp"
 #include "tests/exchange_files/folder.hpp"
 
 namespace drumlin::apps {
 namespace {
 
+namespace fs = std::filesystem;
 using drumlin::testing::message_of;
 using drumlin::testing::TemporaryFolder;
 
-TEST(OutputFolder, IsMadeWithItsParents) {
+OutputRequest request_for(const fs::path& folder, ExistingOutput existing = ExistingOutput::refuse,
+                          const std::string& command = "measure") {
+  return {folder, existing, command, {}};
+}
+
+/// Results of one file, as a command leaves them.
+void leave(const fs::path& folder, const std::string& name, const std::string& text,
+           ExistingOutput existing = ExistingOutput::refuse) {
+  StagedOutput output(request_for(folder, existing));
+  fs::create_directories((output.folder() / name).parent_path());
+  replace_file(output.folder() / name, text);
+  output.publish();
+}
+
+/// What stands in a folder, the manifest left out.
+std::vector<std::string> content_of(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file() && entry.path().filename() != manifest_name)
+      names.push_back(entry.path().lexically_relative(folder));
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+using Names = std::vector<std::string>;
+
+TEST(OutputFolder, IsMadeWithItsParentsAndSigned) {
   const TemporaryFolder folder;
-  prepare_output(folder / "a/b", ExistingOutput::refuse, {"run.json"});
-  EXPECT_TRUE(std::filesystem::is_directory(folder / "a/b"));
-  prepare_output(folder / "a/b", ExistingOutput::refuse, {"run.json"});  // empty is as good as new
+  leave(folder / "a/b", "slices/1.csv", "1");
+  check_all_files(open_result_folder(folder / "a/b"));
+  EXPECT_EQ(content_of(folder / "a/b"), Names{"slices/1.csv"});
+  EXPECT_TRUE(holds_results(folder / "a/b", "slices/1.csv"));
 }
 
 TEST(OutputFolder, WithContentIsRefusedAndTheWayOutNamed) {
   const TemporaryFolder folder;
-  folder.with("run.json", "{}");
-  const auto message =
-      message_of<InputError>([&] { prepare_output(folder.path(), ExistingOutput::refuse, {"run.json"}); });
+  leave(folder.path(), "measured.json", "{}");
+  const auto message = message_of<InputError>([&] { StagedOutput{request_for(folder.path())}; });
   EXPECT_NE(message.find("--resume"), std::string::npos);
   EXPECT_NE(message.find("--overwrite"), std::string::npos);
-  EXPECT_TRUE(std::filesystem::exists(folder / "run.json"));
+  EXPECT_TRUE(fs::exists(folder / "measured.json"));
 }
 
-TEST(OutputFolder, ResumeKeepsEverything) {
+TEST(OutputFolder, OfAStrangerIsRefusedWhateverWasAskedFor) {
   const TemporaryFolder folder;
-  folder.with("run.json", "{}");
-  prepare_output(folder.path(), ExistingOutput::resume, {"run.json"});
-  EXPECT_TRUE(std::filesystem::exists(folder / "run.json"));
+  folder.with("log.csv", "of another program");
+  for (const auto existing : {ExistingOutput::refuse, ExistingOutput::resume, ExistingOutput::overwrite}) {
+    EXPECT_THROW(StagedOutput{request_for(folder.path(), existing)}, InputError);
+    const auto message = message_of<InputError>(
+        [&] { GrowingOutput(request_for(folder.path(), existing, "run"), {"log.csv"}); });
+    EXPECT_NE(message.find("drumlin accept"), std::string::npos) << message;
+    EXPECT_EQ(file_text(folder / "log.csv"), "of another program");
+    EXPECT_EQ(content_of(folder.path()), Names{"log.csv"});
+  }
 }
 
-TEST(OutputFolder, OverwriteEmptiesOnlyAFolderOfOurs) {
+TEST(OutputFolder, OfAnotherCommandIsRefused) {
   const TemporaryFolder folder;
-  folder.with("thesis.tex", "years of work");
-  EXPECT_THROW(prepare_output(folder.path(), ExistingOutput::overwrite, {"run.json", "scene.toml"}),
+  leave(folder.path(), "measured.json", "{}");
+  for (const auto existing : {ExistingOutput::resume, ExistingOutput::overwrite})
+    EXPECT_THROW(StagedOutput{request_for(folder.path(), existing, "plot")}, InputError);
+}
+
+TEST(OutputFolder, NewResultsReplaceTheOldOnesAndLeaveFilesOfOthers) {
+  const TemporaryFolder folder;
+  leave(folder.path(), "old/1.csv", "old");
+  folder.with("notes.txt", "years of work");
+  {
+    StagedOutput output(request_for(folder.path(), ExistingOutput::overwrite));
+    replace_file(output.folder() / "new.csv", "new");
+    check_all_files(open_result_folder(folder.path()));  // the old ones, until the new are there
+    EXPECT_EQ(file_text(folder / "old/1.csv"), "old");
+    output.publish();
+  }
+  EXPECT_EQ(content_of(folder.path()), (Names{"new.csv", "notes.txt"}));
+  EXPECT_FALSE(fs::exists(folder / "old"));
+  check_all_files(open_result_folder(folder.path()));
+}
+
+TEST(OutputFolder, AFailureLeavesTheOldResultsAndNothingElse) {
+  const TemporaryFolder folder;
+  leave(folder / "there", "a.csv", "old");
+  const auto fail = [&](const fs::path& path, ExistingOutput existing) {
+    const StagedOutput output(request_for(path, existing));
+    replace_file(output.folder() / "b.csv", "half");
+    throw InputError("a failure on the way");
+  };
+  EXPECT_THROW(fail(folder / "there", ExistingOutput::overwrite), InputError);
+  EXPECT_EQ(content_of(folder / "there"), Names{"a.csv"});
+  EXPECT_THROW(fail(folder / "new", ExistingOutput::refuse), InputError);
+  EXPECT_FALSE(fs::exists(folder / "new"));
+}
+
+TEST(OutputFolder, AFileOfSomebodyElseInTheWayIsNotReplaced) {
+  const TemporaryFolder folder;
+  leave(folder.path(), "a.csv", "ours");
+  folder.with("b.csv", "theirs");
+  EXPECT_THROW(leave(folder.path(), "b.csv", "ours", ExistingOutput::overwrite), InputError);
+  EXPECT_EQ(file_text(folder / "b.csv"), "theirs");
+  EXPECT_EQ(file_text(folder / "a.csv"), "ours");
+}
+
+/// Runs `action` in another process, which kills itself at its end.
+template <class Action>
+void killed(Action action) {
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    action();
+    ::raise(SIGKILL);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFSIGNALED(status));
+}
+
+TEST(OutputFolder, WhatAKilledCommandLeftIsNotSeen) {
+  const TemporaryFolder folder;
+  leave(folder.path(), "a.csv", "old");
+  killed([&] {
+    const StagedOutput output(request_for(folder.path(), ExistingOutput::overwrite));
+    replace_file(output.folder() / "snapshot.h5", "half");
+    ::raise(SIGKILL);
+  });
+  check_all_files(open_result_folder(folder.path()));
+  leave(folder.path(), "b.csv", "new", ExistingOutput::overwrite);
+  EXPECT_EQ(content_of(folder.path()), Names{"b.csv"});
+}
+
+TEST(OutputFolder, AnInterruptedReplacementIsFinishedByTheNextClaim) {
+  const TemporaryFolder folder;
+  leave(folder.path(), "a.csv", "old");
+  leave(folder / "other", "b.csv", "new");
+  leave(folder / "other", "c.csv", "new too", ExistingOutput::overwrite);
+  fs::rename(folder / "other", folder / ".drumlin-new");  // as it stands when all is written
+  (void)claim(request_for(folder.path(), ExistingOutput::resume));
+  check_all_files(open_result_folder(folder.path()));
+  EXPECT_EQ(content_of(folder.path()), Names{"c.csv"});
+}
+
+TEST(OutputFolder, HasOneWriter) {
+  const TemporaryFolder folder;
+  const StagedOutput first(request_for(folder / "out"));
+  for (const auto existing : {ExistingOutput::refuse, ExistingOutput::resume, ExistingOutput::overwrite}) {
+    const auto message = message_of<InputError>([&] { StagedOutput{request_for(folder / "out", existing)}; });
+    EXPECT_NE(message.find("is being written by process"), std::string::npos) << message;
+  }
+}
+
+TEST(GrowingOutput, GoesOnOnlyFromFilesThatAreWhole) {
+  const TemporaryFolder folder;
+  {
+    GrowingOutput output(request_for(folder.path(), ExistingOutput::refuse, "run"), {"*.csv"});
+    folder.with("a.csv", "1");
+    output.list("a.csv");
+    output.save();
+  }
+  folder.with("a.csv", "2");
+  EXPECT_THROW(GrowingOutput(request_for(folder.path(), ExistingOutput::resume, "run"), {"*.csv"}),
                InputError);
-  EXPECT_TRUE(std::filesystem::exists(folder / "thesis.tex"));
-  folder.with("scene.toml", "");
-  prepare_output(folder.path(), ExistingOutput::overwrite, {"run.json", "scene.toml"});
-  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+  folder.with("a.csv", "1");
+  GrowingOutput output(request_for(folder.path(), ExistingOutput::resume, "run"), {"*.csv"});
+  EXPECT_FALSE(holds_results(folder.path(), "a.csv"));
+  output.finish();
+  EXPECT_TRUE(holds_results(folder.path(), "a.csv"));
+}
+
+TEST(GrowingOutput, OldResultsWaitUntilTheNewOnesAreComplete) {
+  const TemporaryFolder folder;
+  const auto again = [&] {
+    return GrowingOutput(request_for(folder.path(), ExistingOutput::overwrite, "run"),
+                         {"*.csv", "points/*.h5"});
+  };
+  folder.with("notes.txt", "");
+  fs::remove(folder / "notes.txt");
+  {
+    GrowingOutput output(request_for(folder.path(), ExistingOutput::refuse, "run"), {"*.csv", "points/*.h5"});
+    fs::create_directory(folder / "points");
+    folder.with("points/1.h5", "old");
+    output.finish();
+    leave(folder / "measured", "measured.json", "{}");
+  }
+  folder.with("notes.txt", "years of work");
+  {
+    const GrowingOutput output = again();
+    folder.with("half.csv", "half");
+  }
+  EXPECT_EQ(content_of(folder.path()),
+            (Names{"half.csv", "notes.txt", "replaced/measured/measured.json", "replaced/points/1.h5"}));
+  check_all_files(open_result_folder(folder / "replaced"));
+  GrowingOutput output = again();
+  folder.with("whole.csv", "new");
+  output.finish();
+  EXPECT_EQ(content_of(folder.path()), (Names{".lock", "notes.txt", "whole.csv"}));
 }
 
 TEST(OutputFolder, OverwriteSparesAFolderThatHoldsAnInput) {
   const TemporaryFolder folder;
-  folder.with("run.json", "{}");
+  leave(folder.path(), "run.json", "{}");
   const auto scene = folder.with("scene.toml", "mine");
-  EXPECT_THROW(prepare_output(folder.path(), ExistingOutput::overwrite, {"run.json"}, {scene}), InputError);
-  EXPECT_TRUE(std::filesystem::exists(scene));
+  OutputRequest request = request_for(folder.path(), ExistingOutput::overwrite);
+  request.inputs = {scene};
+  EXPECT_THROW(StagedOutput{request}, InputError);
+  EXPECT_TRUE(fs::exists(scene));
 }
 
 TEST(OutputFolder, FileInItsPlaceIsRefusedAlways) {
   const TemporaryFolder folder;
   const auto file = folder.with("a", "text");
   for (const auto existing : {ExistingOutput::refuse, ExistingOutput::resume, ExistingOutput::overwrite})
-    EXPECT_THROW(prepare_output(file, existing, {"run.json"}), InputError);
-  EXPECT_TRUE(std::filesystem::is_regular_file(file));
+    EXPECT_THROW(StagedOutput{request_for(file, existing)}, InputError);
+  EXPECT_TRUE(fs::is_regular_file(file));
 }
 
 TEST(OutputFile, IsRefusedIfItExistsOrIsAFolder) {
   const TemporaryFolder folder;
-  prepare_output_file(folder / "new/rheology.toml", ExistingOutput::refuse);
-  EXPECT_TRUE(std::filesystem::is_directory(folder / "new"));
+  { const FolderLock lock = prepare_output_file(folder / "new/rheology.toml", ExistingOutput::refuse); }
+  EXPECT_TRUE(fs::is_directory(folder / "new"));
   const auto file = folder.with("rheology.toml", "");
-  EXPECT_THROW(prepare_output_file(file, ExistingOutput::refuse), InputError);
-  prepare_output_file(file, ExistingOutput::overwrite);
-  EXPECT_THROW(prepare_output_file(folder.path(), ExistingOutput::overwrite), InputError);
+  EXPECT_THROW((void)prepare_output_file(file, ExistingOutput::refuse), InputError);
+  const FolderLock lock = prepare_output_file(file, ExistingOutput::overwrite);
+  EXPECT_THROW((void)prepare_output_file(file, ExistingOutput::overwrite), InputError);  // by another writer
+  EXPECT_THROW((void)prepare_output_file(folder.path(), ExistingOutput::overwrite), InputError);
 }
 
 }  // namespace

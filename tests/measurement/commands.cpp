@@ -17,6 +17,7 @@
 #include "tests/comparison/run_folders.hpp"
 #include "tests/exchange_files/folder.hpp"
 #include "tests/measurement/packings.hpp"
+#include "tests/support/signed_folder.hpp"
 
 namespace drumlin::apps {
 using namespace coupling;
@@ -40,6 +41,7 @@ fs::path run_folder(const TemporaryFolder& folder, const std::string& status,
   replace_file(run / "log.csv", log_text);
   for (std::size_t s = 0; s < snapshots.size(); ++s)
     write_snapshot(run / "snapshots" / ("00000" + std::to_string(s) + ".h5"), snapshots[s]);
+  drumlin::testing::sign(run, "run", status == "finished");
   return run;
 }
 
@@ -206,6 +208,9 @@ TEST(MeasureCommand, RefusesWhatIsNoFinishedRun) {
   EXPECT_THROW(measure(options_for(folder.path())), InputError);
   const fs::path empty = run_folder(folder, "finished", {});
   fs::remove_all(empty / "snapshots");
+  EXPECT_NE(message_of<InputError>([&] { measure(options_for(empty)); }).find("is missing"),
+            std::string::npos);
+  drumlin::testing::sign(empty, "run");
   EXPECT_NE(message_of<InputError>([&] { measure(options_for(empty)); }).find("no snapshots"),
             std::string::npos);
 }

@@ -118,7 +118,7 @@ int calibrate(const CalibrateOptions& options) {
   require_same_units(all);
   const coupling::Calibration calibration = coupling::calibration_of(
       std::move(fitted.evidence), std::move(held_out.evidence), settings_of(options, source));
-  prepare_output_file(options.output, options.existing);
+  const FolderLock lock = prepare_output_file(options.output, options.existing);
   const fs::path record = beside(options.output, ".json");
   write_json(record, calibration_json(calibration, all));
   draw_figures("calibrate_figures.py",

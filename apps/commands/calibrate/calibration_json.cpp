@@ -138,6 +138,9 @@ Json calibration_json(const coupling::Calibration& calibration, const std::vecto
       json["unsteady"].push_back({{"run", run.name}, {"reason", reason}});
   json["points"] = points_of_all(calibration);
   json["provenance"] = to_json(provenance());
+  std::vector<std::string> edits;
+  for (const MeasuredRun& run : runs) edits.insert(edits.end(), run.accepted.begin(), run.accepted.end());
+  add_accepted_edits(json["provenance"], edits);
   return json;
 }
 

@@ -40,7 +40,7 @@ coupling::RunEvidence evidence_of(const MeasuredRun& run, coupling::EvidenceSour
     coupling::add_layers(evidence, run.profiles, range);
     return evidence;
   }
-  FieldMap map = read_field_map(maps_of(run.folder));
+  FieldMap map = read_field_map(checked_file(run.measured_files, "maps.h5"));
   require_same_frame(map, run);
   coupling::add_blocks(evidence, std::move(map), range);
   if (!options.relaxation) evidence.map.reset();

@@ -69,7 +69,9 @@ void print_row(const std::string& name, const particles::EffectPrice& p) {
 int price_particle_effects(const CostOptions& options) {
   const particles::Scene scene = particles::read_scene(options.scene, options.overrides);
   (void)particles::Simulation(scene);
-  if (options.output) prepare_output(*options.output, options.existing, {"cost.json"}, {options.scene});
+  std::optional<StagedOutput> output;
+  if (options.output)
+    output.emplace(OutputRequest{*options.output, options.existing, "cost", {options.scene}});
   const CaughtInterruptions caught;
   nlohmann::ordered_json report, rows = nlohmann::ordered_json::array();
   print_out(fmt::format(
@@ -97,7 +99,7 @@ int price_particle_effects(const CostOptions& options) {
     }
     rows.push_back(row);
   }
-  if (!options.output) return static_cast<int>(ExitCode::done);
+  if (!output) return static_cast<int>(ExitCode::done);
   report["format"] = "drumlin-effect-prices-1";
   report["title"] = scene.title;
   report["reduced"] = scene.reduced;
@@ -107,10 +109,11 @@ int price_particle_effects(const CostOptions& options) {
   report["threads"] = options.threads;
   report["variants"] = rows;
   report["provenance"] = to_json(provenance());
-  fs::create_directories(*options.output);
-  write_json(*options.output / "cost.json", report);
-  draw_figures("effect_price_figures.py", {(*options.output / "cost.json").string(), "--output",
-                                           (*options.output / "prices.png").string()});
+  const fs::path file = output->folder() / "cost.json";
+  write_json(file, report);
+  draw_figures("effect_price_figures.py",
+               {file.string(), "--output", (output->folder() / "prices.png").string()});
+  output->publish();
   return static_cast<int>(ExitCode::done);
 }
 

@@ -169,6 +169,7 @@ class FlowPrices {
       draw_figures("flow_effect_figures.py",
                    {unfinished.path().string(), (*options_.output / "effects.png").string()});
     write_json(*options_.output / "cost.json", report);
+    store_.finish();
   }
 
   const CostOptions& options_;
@@ -182,9 +183,8 @@ class FlowPrices {
 int price_flow_effects(const CostOptions& options) {
   if (!options.output) throw InputError("cost: the effects of a flow need --output COST for its points");
   (void)coupling::flow_variants(options.variants);
-  prepare_output(*options.output, options.existing, {"sweep.json", "cost.json"},
-                 {options.scene, *options.rheology});
-  const PointStore store(*options.output, shared_by_flows("continuum effects", options));
+  GrowingOutput output = cost_output(*options.output, options.existing, {options.scene, *options.rheology});
+  const PointStore store(output, shared_by_flows("continuum effects", options));
   const CaughtInterruptions caught;
   return FlowPrices(options, store).execute();
 }

@@ -165,6 +165,7 @@ class FlowSweep {
     write_json(unfinished.path(), report);
     draw_figures("work_precision.py", {unfinished.path().string(), options_.output->string()});
     write_json(file, report);
+    store_.finish();
     print_out(fmt::format("{}\n", file.string()));
   }
 
@@ -182,9 +183,8 @@ int sweep_flow(const CostOptions& options) {
   if (!options.against.empty() || !options.variants.empty())
     throw InputError("cost: --against and --variants go with --effects");
   (void)coupling::sweep_axes(options.sweep, coupling::flow_axes());
-  prepare_output(*options.output, options.existing, {"sweep.json", "cost.json"},
-                 {options.scene, *options.rheology});
-  const PointStore store(*options.output, shared_by_flows("continuum", options));
+  GrowingOutput output = cost_output(*options.output, options.existing, {options.scene, *options.rheology});
+  const PointStore store(output, shared_by_flows("continuum", options));
   const CaughtInterruptions caught;
   return FlowSweep(options, store).execute();
 }

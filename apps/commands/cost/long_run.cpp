@@ -8,6 +8,7 @@
 #include "apps/commands/run_files.hpp"
 #include "apps/support/interruption.hpp"
 #include "apps/support/json_file.hpp"
+#include "apps/support/output_folder.hpp"
 #include "coupling/common/machine_load.hpp"
 #include "coupling/common/text_file.hpp"
 #include "particles/io/checkpoint_file.hpp"
@@ -28,7 +29,7 @@ void succeed(int exit_code) {
 
 /// The state as a checkpoint of the run, so that `drumlin run --resume` goes on from it.
 void lay_down(const particles::SweepStart& start, const particles::Scene& scene, const fs::path& run) {
-  fs::create_directories(run);
+  const GrowingOutput marked({run, ExistingOutput::resume, "run", {}}, run_file_names());
   particles::Checkpoint checkpoint;
   checkpoint.scene = particles::scene_text(as_recorded(scene));
   checkpoint.state = start.state;

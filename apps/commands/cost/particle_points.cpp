@@ -27,7 +27,8 @@ particles::SweepStart from_run(const fs::path& folder, const particles::Scene& s
       particles::scene_text(particles::physics_of(scene)))
     throw InputError(folder.string() +
                      ": is a run of another scene: grains, walls, effects and motions have to be the same");
-  particles::SweepStart start{run.scene, particles::read_checkpoint(folder / "checkpoint.h5").state};
+  particles::SweepStart start{run.scene,
+                              particles::read_checkpoint(checked_file(run.files, "checkpoint.h5")).state};
   start.scene.solver = scene.solver;
   start.scene.output = scene.output;
   start.scene.stages.push_back(scene.stages.back());

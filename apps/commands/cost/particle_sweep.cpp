@@ -72,13 +72,13 @@ class SweepOfGrains {
     if (!options_.output) throw InputError("cost: a sweep needs --output COST for its points");
     std::vector<fs::path> inputs = {options_.scene};
     if (options_.from) inputs.push_back(*options_.from / "run.json");
-    prepare_output(*options_.output, options_.existing, {"sweep.json", "cost.json"}, inputs);
+    GrowingOutput output = cost_output(*options_.output, options_.existing, inputs);
     const Json shared{{"kind", "particles"},
                       {"scene", particles::scene_text(scene_)},
                       {"from", options_.from ? options_.from->string() : "the beginning of the last stage"},
                       {"horizon_s", stretch_s_},
                       {"reference", settings_json(sweep_.reference)}};
-    const PointStore store(*options_.output, shared);
+    const PointStore store(output, shared);
     const CaughtInterruptions caught;
     const particles::SweepStart start = sweep_start(options_, scene_);
     print_out(fmt::format("{}: {:g} s from {}, {} points\n", options_.scene.string(), stretch_s_,
@@ -243,6 +243,7 @@ class SweepOfGrains {
     const fs::path file = *options_.output / "cost.json";
     draw(report);
     write_json(file, report);
+    store.finish();
     print_out(fmt::format("{}\n", file.string()));
   }
 

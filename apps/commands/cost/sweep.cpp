@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "apps/support/json_file.hpp"
 #include "coupling/accuracy/work_point.hpp"
@@ -20,10 +21,18 @@ const char* const sweep_format = "drumlin-cost-sweep-1";
 
 }  // namespace
 
-PointStore::PointStore(fs::path output, const Json& shared) : points_(output / "points") {
+GrowingOutput cost_output(const fs::path& folder, ExistingOutput existing, std::vector<fs::path> inputs) {
+  return GrowingOutput(
+      {folder, existing, "cost", std::move(inputs)},
+      {"sweep.json", "cost.json", "cost.json.part", "start.h5", "work_precision.png", "statistics.png",
+       "prices.png", "effects.png", "points/*.json", "points/*.h5", "points/*/scene.toml"});
+}
+
+PointStore::PointStore(GrowingOutput& output, const Json& shared)
+    : output_(output), points_(output.folder() / "points") {
   Json said{{"format", sweep_format}};
   said.update(shared);
-  const fs::path file = output / "sweep.json";
+  const fs::path file = output.folder() / "sweep.json";
   if (fs::exists(file)) {
     const Json before = read_json(file, sweep_format);
     for (const auto& [key, value] : said.items())
@@ -31,22 +40,25 @@ PointStore::PointStore(fs::path output, const Json& shared) : points_(output / "
         throw InputError(
             fmt::format("{}: its points were made with another '{}'; name another folder or give "
                         "--overwrite",
-                        output.string(), key));
+                        output.folder().string(), key));
   }
   fs::create_directories(points_);
+  output.forget("*");  // what is written anew beside the points
+  output.save();
   write_json(file, said);
 }
 
 std::optional<Json> PointStore::finished(const std::string& name) const {
-  const fs::path file = beside(name + ".json");
-  if (!fs::exists(file)) return std::nullopt;
-  return read_json(file, point_format);
+  if (!output_.manifest().files.contains("points/" + name + ".json")) return std::nullopt;
+  return read_json(beside(name + ".json"), point_format);
 }
 
 void PointStore::keep(const std::string& name, Json point) const {
   Json content{{"format", point_format}, {"name", name}};
   content.update(point);
   write_json(beside(name + ".json"), content);
+  output_.list("points/" + name + ".json");
+  output_.save();
 }
 
 fs::path PointStore::beside(const std::string& name) const { return points_ / name; }

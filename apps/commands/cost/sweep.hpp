@@ -6,22 +6,30 @@
 #include <string>
 #include <vector>
 
+#include "apps/support/output_folder.hpp"
 #include "coupling/accuracy/work_point.hpp"
 
 namespace drumlin::apps {
 
-/// OUT/points/NAME.json, each written when its point is done.
+/// The folder of a sweep or a price list, claimed for `drumlin cost`.
+GrowingOutput cost_output(const std::filesystem::path& folder, ExistingOutput existing,
+                          std::vector<std::filesystem::path> inputs);
+
+/// OUT/points/NAME.json, each written and listed when its point is done.
 class PointStore {
  public:
   /// Makes OUT/points. OUT/sweep.json says what all points share; throws InputError if it stands there and
   /// says something else.
-  PointStore(std::filesystem::path output, const nlohmann::ordered_json& shared);
+  PointStore(GrowingOutput& output, const nlohmann::ordered_json& shared);
   std::optional<nlohmann::ordered_json> finished(const std::string& name) const;
   void keep(const std::string& name, nlohmann::ordered_json point) const;
   /// For what a point leaves beside its numbers.
   std::filesystem::path beside(const std::string& name) const;
+  /// All is there.
+  void finish() const { output_.finish(); }
 
  private:
+  GrowingOutput& output_;
   std::filesystem::path points_;
 };
 

@@ -17,6 +17,7 @@
 #include "apps/support/progress.hpp"
 #include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
+#include "coupling/common/result_folder.hpp"
 #include "coupling/common/text_file.hpp"
 #include "coupling/documents/csv.hpp"
 #include "particles/io/snapshot_file.hpp"
@@ -40,13 +41,21 @@ std::string trimmed(std::string text) {
   return text;
 }
 
-Json finished_run(const fs::path& run) {
+/// The run's folder, every file of it checked.
+ResultFolder whole_run(const fs::path& run) {
   if (!fs::is_directory(run)) throw InputError(run.string() + ": no such folder");
   if (!fs::exists(run / "run.json"))
     throw InputError(run.string() + ": holds no run.json, so no particle run");
+  ResultFolder folder = open_result_folder(run);
+  check_all_files(folder);
+  return folder;
+}
+
+Json finished_run(const ResultFolder& folder) {
+  const fs::path& run = folder.path;
   const Json json = read_json(run / "run.json", "drumlin-run-1");
   const Json status = json.value("status", Json());
-  if (status != "finished")
+  if (status != "finished" || !folder.manifest->complete)
     throw InputError(
         fmt::format("{}: the run is unfinished (status {}); continue it with drumlin run --resume",
                     run.string(), status.dump()));
@@ -254,18 +263,21 @@ std::vector<FigureScript> figures_of(const Request& request, const fs::path& fol
 int measure(const MeasureOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   check_parts(options.parts);
-  const fs::path folder = options.run / "measured", finished = folder / "measured.json";
+  const fs::path results = options.run / "measured", finished = results / "measured.json";
   if (options.existing == ExistingOutput::resume && is_complete(finished)) {
-    print_out(fmt::format("{}: done already\n", folder.string()));
+    print_out(fmt::format("{}: done already\n", results.string()));
     return static_cast<int>(ExitCode::done);
   }
-  Request request{options, settings_for(options), {}, finished_run(options.run), false, {}};
+  const ResultFolder run_folder = whole_run(options.run);
+  const FolderLock run_lock(options.run / folder_lock_name, "drumlin measure");
+  Request request{options, settings_for(options), {}, finished_run(run_folder), false, {}};
   request.reduced = request.run.value("reduced", false);
   const auto files = particles::snapshot_files(options.run);
   if (files.empty())
     throw InputError(options.run.string() + ": holds no snapshots: there is nothing to measure");
-  prepare_output(folder, options.existing, {"measured.json", "profiles.csv"});
   request.parts = reading_parts(options);
+  StagedOutput output({results, options.existing, "measure", {}});
+  const fs::path& folder = output.folder();
 
   particles::Measurement measured = measured_run(request, files);
   const coupling::CentreFriction friction = friction_of(request, measured);
@@ -274,6 +286,7 @@ int measure(const MeasureOptions& options) {
   const auto statement = statement_of(options, request.run, measured, scalars);
   Json content = content_of(request, measured, scalars, statement);
   content["friction_curve"] = curve_of(friction.law);
+  add_accepted_edits(content["provenance"], accepted_edits(run_folder));
 
   write_profiles(folder / "profiles.csv", measured.profiles);
   write_series(folder / "series.csv", measured.series);
@@ -282,11 +295,13 @@ int measure(const MeasureOptions& options) {
   content["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   // Figures come after all numbers: one that cannot be drawn must not cost them.
   note_pending_figures(folder);
-  write_json(finished, content);
+  write_json(folder / "measured.json", content);
+  const std::vector<std::string> failures = draw_pending_figures(folder, figures_of(request, folder));
+  output.publish();
 
-  print_results(request, folder, measured, scalars);
+  print_results(request, results, measured, scalars);
   if (statement) print_out(text_of(*statement));
-  throw_if_figures_failed(finished, draw_pending_figures(folder, figures_of(request, folder)));
+  throw_if_figures_failed(finished, failures);
   return static_cast<int>(ExitCode::done);
 }
 

@@ -1,0 +1,161 @@
+// drumlin accept: signs a result folder anew after an edit by hand.
+#include "apps/support/accept.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+
+#include "apps/support/standard_streams.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/common/folder_lock.hpp"
+#include "coupling/common/manifest.hpp"
+#include "coupling/documents/json_document.hpp"
+
+namespace drumlin::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t longest_reason = 500, most_named = 5;
+
+/// By which file a folder without a manifest is known, and the command that leaves it.
+constexpr std::pair<const char*, const char*> signs[] = {
+    {"import.toml", "import"},   {"run.json", "run"},          {"flow.json", "flow"},
+    {"flow_scene.toml", "flow"}, {"measured.json", "measure"}, {"comparison.json", "compare"},
+    {"study.json", "study"},     {"cost.json", "cost"},        {"sweep.json", "cost"},
+    {"plots.json", "plot"},      {"grains.pvd", "export"},     {"hardcases.json", "hardcases"}};
+
+std::optional<std::string> command_of(const fs::path& folder) {
+  for (const auto& [file, command] : signs)
+    if (fs::is_regular_file(folder / file)) return command;
+  return std::nullopt;
+}
+
+std::string checked_reason(const std::string& reason) {
+  const bool is_line = std::none_of(reason.begin(), reason.end(), [](char letter) {
+    return static_cast<unsigned char>(letter) < ' ' || letter == 127;
+  });
+  if (reason.find_first_not_of(' ') == std::string::npos || reason.size() > longest_reason || !is_line)
+    throw InputError(fmt::format("--reason: one line of 1 to {} bytes is needed", longest_reason));
+  return reason;
+}
+
+/// What an older version left: listed is what no later call of its command writes anew.
+Manifest first_manifest(const fs::path& folder, const std::string& command) {
+  Manifest manifest;
+  manifest.command = command;
+  if (command == "run")
+    manifest.complete = read_json(folder / "run.json", "drumlin-run-1").value("status", "") == "finished";
+  else
+    manifest.complete = (command != "flow" || fs::exists(folder / "flow.json")) &&
+                        (command != "import" || fs::exists(folder / "run.json"));
+  for (const std::string& name : files_below(folder)) {
+    const bool is_rewritten =
+        name == "run.json" || name.starts_with("checkpoint") || name == "iterations.csv";
+    if (!manifest.complete && is_rewritten) continue;
+    manifest.files[name].grows =
+        !manifest.complete && (name == "log.csv" || name == "energy.csv" || name == "series.csv");
+  }
+  return manifest;
+}
+
+/// The same manifest for the files as they are now.
+Manifest as_it_is(const fs::path& folder, const Manifest& before) {
+  std::set<std::pair<fs::path, fs::path>> kinds;
+  for (const auto& [name, entry] : before.files)
+    if (const fs::path path = name; path.has_parent_path())
+      kinds.emplace(path.parent_path(), path.extension());
+  Manifest now = before;
+  now.files.clear();
+  for (const std::string& name : files_below(folder)) {
+    const auto old = before.files.find(name);
+    const bool is_listed = old != before.files.end();
+    if (!is_listed && !kinds.contains({fs::path(name).parent_path(), fs::path(name).extension()})) continue;
+    const bool grows = is_listed && old->second.grows;
+    // Of what grows, the part that was summed; all of it, where nothing was.
+    const bool in_part = grows && !old->second.sum.checksum.empty();
+    now.files[name] = {file_sum(folder / name, in_part ? std::optional(old->second.sum.bytes) : std::nullopt),
+                       grows};
+  }
+  return now;
+}
+
+/// Files in which the two differ, by name.
+std::vector<std::string> differences(const Manifest& before, const Manifest& now) {
+  std::set<std::string> names;
+  for (const auto& [name, entry] : before.files)
+    if (!now.files.contains(name) || !(now.files.at(name) == entry)) names.insert(name);
+  for (const auto& [name, entry] : now.files)
+    if (!before.files.contains(name)) names.insert(name);
+  return {names.begin(), names.end()};
+}
+
+std::string named(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), most_named); ++i) text += (i > 0 ? ", " : "") + names[i];
+  if (names.size() > most_named) text += fmt::format(" and {} more", names.size() - most_named);
+  return text;
+}
+
+/// A manifest that can be read; damaged it counts as none.
+std::optional<Manifest> readable_manifest(const fs::path& folder) {
+  if (!has_manifest(folder)) return std::nullopt;
+  try {
+    return read_manifest(folder);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
+/// Says what was accepted; nothing if all is as it should be.
+std::string accept_one(const fs::path& folder, const std::string& reason) {
+  const FolderLock lock(folder / folder_lock_name, "drumlin accept");
+  const auto old = readable_manifest(folder);
+  const Manifest before = old ? *old : first_manifest(folder, command_of(folder).value_or("unknown"));
+  Manifest now = as_it_is(folder, before);
+  const std::vector<std::string> changed = differences(old ? *old : Manifest{}, now);
+  if (old && changed.empty()) return "";
+  now.accepted.push_back(fmt::format("{}: {} ({})", time_text(), reason, old ? named(changed) : "all files"));
+  write_manifest(folder, now);
+  std::string text = fmt::format("{}: {} files accepted\n", folder.string(), changed.size());
+  for (const std::string& name : changed) {
+    const bool is_there = now.files.contains(name), was_there = before.files.contains(name) && old;
+    text += fmt::format("  {:8} {}\n", !is_there ? "missing" : was_there ? "changed" : "new", name);
+  }
+  return text;
+}
+
+/// The inner result folders first: their files are none of the outer one.
+std::vector<fs::path> result_folders(const fs::path& folder) {
+  std::vector<fs::path> found;
+  for (auto entry = fs::recursive_directory_iterator(folder); entry != fs::recursive_directory_iterator();
+       ++entry) {
+    if (!entry->is_directory() || entry->is_symlink()) continue;
+    const fs::path& path = entry->path();
+    if (path.filename() == "replaced" || path.filename().string().starts_with(".drumlin-"))
+      entry.disable_recursion_pending();
+    else if (has_manifest(path) || command_of(path))
+      found.push_back(path);
+  }
+  std::reverse(found.begin(), found.end());
+  found.push_back(folder);
+  return found;
+}
+
+}  // namespace
+
+int accept(const AcceptOptions& options) {
+  const std::string reason = checked_reason(options.reason);
+  if (!fs::is_directory(options.folder)) throw InputError(options.folder.string() + ": no such folder");
+  if (!has_manifest(options.folder) && !command_of(options.folder))
+    throw InputError(options.folder.string() + ": is no result folder of this program");
+  std::string said;
+  for (const fs::path& folder : result_folders(options.folder)) said += accept_one(folder, reason);
+  print_out(said.empty() ? options.folder.string() + ": all files are as they were written\n" : said);
+  return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace drumlin::apps

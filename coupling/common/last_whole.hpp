@@ -1,0 +1,48 @@
+#pragma once
+// The newest of several files that can be read: two checkpoints alternate, so that one damaged file is not
+// the end.
+#include <filesystem>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "coupling/common/errors.hpp"
+
+namespace drumlin {
+
+/// Names of the last two checkpoints, of a run and of a march.
+inline constexpr const char *checkpoint_name = "checkpoint.h5",
+                            *previous_checkpoint_name = "checkpoint-previous.h5";
+
+template <class Content>
+struct LastWhole {
+  Content content;
+  std::string passed_over;  ///< why the newest was not taken; empty: it was
+};
+
+/// The first of the two checkpoints in `folder` that `read(file)` does not refuse; absent where there is
+/// none. Throws InputError, with the faults of both, if none that is there can be read.
+template <class Read>
+auto last_whole_checkpoint(const std::filesystem::path& folder, Read read) {
+  using Content = std::invoke_result_t<Read, std::filesystem::path>;
+  std::optional<LastWhole<Content>> found;
+  std::vector<InputProblem> problems;
+  for (const char* name : {checkpoint_name, previous_checkpoint_name}) {
+    if (!std::filesystem::exists(folder / name)) continue;
+    try {
+      const std::string passed_over = problems.empty() ? "" : InputError(problems).what();
+      found = LastWhole<Content>{read(folder / name), passed_over};
+      return found;
+    } catch (const InputError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  if (problems.empty()) return found;
+  problems.push_back({folder.string(), 0, 0, "", "no checkpoint can be read; --overwrite starts over", ""});
+  throw InputError(std::move(problems));
+}
+
+}  // namespace drumlin

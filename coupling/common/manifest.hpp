@@ -1,0 +1,45 @@
+#pragma once
+// manifest.txt: what a command has left in its result folder, every file with size and checksum
+// (docs/formats/manifest.md). It marks the folder as ours.
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "coupling/common/checksum.hpp"
+
+namespace drumlin {
+
+inline constexpr const char* manifest_name = "manifest.txt";
+
+struct ManifestEntry {
+  FileSum sum;
+  bool grows = false;  ///< more may follow the bytes that were summed: a log of an unfinished run
+  bool operator==(const ManifestEntry&) const = default;
+};
+
+struct Manifest {
+  std::string command;                         ///< that made the folder: "run", "measure", ...
+  bool complete = false;                       ///< its results are all there
+  std::vector<std::string> accepted;           ///< when and why edits by hand were accepted
+  std::map<std::string, ManifestEntry> files;  ///< by their paths in the folder
+};
+
+/// Whether the folder carries our marker.
+bool has_manifest(const std::filesystem::path& folder);
+
+/// Throws InputError if it is missing, damaged or of another version.
+Manifest read_manifest(const std::filesystem::path& folder);
+
+/// Throws IoError, an older manifest being intact then.
+void write_manifest(const std::filesystem::path& folder, const Manifest& manifest);
+
+/// All regular files below a folder by their paths in it, but for the manifest, the lock, files that begin
+/// with ".drumlin-" and what lies in result folders within (those with a manifest of their own).
+std::vector<std::string> files_below(const std::filesystem::path& folder);
+
+/// Sums of these files, as they are now.
+std::map<std::string, ManifestEntry> entries_of(const std::filesystem::path& folder,
+                                                const std::vector<std::string>& names);
+
+}  // namespace drumlin

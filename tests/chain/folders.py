@@ -1,0 +1,194 @@
+"""Result folders against damage, strangers and a second writer: every file is checked, what is not ours stays, one writes.
+
+usage: folders.py DRUMLIN FOLDER_OF_THIS_TEST
+"""
+
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+from command import Drumlin, bytes_below, read_json, require
+
+SHORT = ["--set", "stages.1.turns=0.05", "--set", "stages.2.turns=0.05", "--set", "stages.2.snapshots=6",
+         "--set", "output.checkpoint_every_s=0.05"]
+
+
+def damaged(file):
+    content = bytearray(file.read_bytes())
+    content[len(content) // 2] ^= 1
+    file.write_bytes(content)
+
+
+def every_file_is_checked(drumlin, run):
+    """A bit of any listed file: measure refuses the run, compare refuses the measured run, each by the file's name."""
+    kept = bytes_below(run)
+    checked = 0
+    for name in sorted(kept):
+        in_measured = name.startswith("measured/")
+        if name.endswith(".png") or name in ("run.json",) and in_measured:
+            continue
+        damaged(run / name)
+        if in_measured and name.rsplit("/", 1)[-1] not in ("measured.json", "profiles.csv", "maps.h5", "manifest.txt"):
+            _, said = drumlin("measure", run, "--resume", code=2)
+        elif in_measured:
+            _, said = drumlin("compare", run, run, "-o", run.parent / "report", "--accept-unsteady", code=2)
+        else:
+            _, said = drumlin("measure", run, "--overwrite", code=2)
+        require(name.rsplit("/", 1)[-1] in said and "drumlin accept" in said, f"{name}: {said}")
+        (run / name).write_bytes(kept[name])
+        checked += 1
+    print(f"{checked} damaged files refused")
+
+
+def missing_and_extra(drumlin, scene, run, folder):
+    for name in ("000003.h5", "000006.h5"):
+        file = run / "snapshots" / name
+        content = file.read_bytes()
+        file.unlink()
+        for words in (["measure", run, "--overwrite"], ["plot", run], ["export", run, "--vtu"],
+                      ["compare", run, run, "-o", folder / "report", "--accept-unsteady"],
+                      ["calibrate", run, "-o", folder / "law.toml", "--accept-unsteady"],
+                      ["measure", "--study", run, "-o", folder / "study"],
+                      ["run", scene, "-o", run, *SHORT, "--resume"]):
+            _, said = drumlin(*words, code=2)
+            require(name in said and "is missing" in said, f"{words}: {said}")
+        file.write_bytes(content)
+    shutil.copy(run / "snapshots" / "000001.h5", run / "snapshots" / "000007.h5")
+    _, said = drumlin("measure", run, "--overwrite", code=2)
+    require("000007.h5: is not listed" in said, said)
+    (run / "snapshots" / "000007.h5").unlink()
+    (run / "manifest.txt").rename(folder / "kept.txt")
+    for words in (["measure", run, "--overwrite"], ["plot", run], ["run", scene, "-o", run, *SHORT, "--overwrite"]):
+        _, said = drumlin(*words, code=2)
+        require("drumlin accept" in said, f"{words}: {said}")
+    (folder / "kept.txt").rename(run / "manifest.txt")
+
+
+def edits_are_told(drumlin, run, folder):
+    edited = folder / "edited"
+    shutil.copytree(run, edited)
+    log = edited / "log.csv"
+    log.write_text(log.read_text(encoding="utf-8").replace("sampled", "stirred"), encoding="utf-8")
+    drumlin("measure", edited, "--overwrite", code=2)
+    drumlin("accept", edited, code=2)  # without a reason
+    drumlin("accept", edited, "--reason", "two\nlines", code=2)
+    drumlin("accept", folder, "--reason", "no result folder", code=2)
+    text, _ = drumlin("accept", edited, "--reason", "another name of the stage")
+    require("changed" in text and "log.csv" in text, text)
+    text, _ = drumlin("accept", edited, "--reason", "again")
+    require("as they were written" in text, text)
+    drumlin("measure", edited, "--parts", "none", "--overwrite")
+    edits = read_json(edited / "measured" / "measured.json")["provenance"]["accepted_edits"]
+    require(len(edits) == 1 and "another name of the stage (log.csv)" in edits[0], f"{edits}")
+    # What a version without manifests has left.
+    for file in edited.rglob("manifest.txt"):
+        file.unlink()
+    drumlin("export", edited, "--vtu", code=2)
+    drumlin("accept", edited, "--reason", "older than manifests")
+    drumlin("export", edited, "--vtu", "--snapshots", "last")
+    drumlin("measure", edited, "--resume")
+
+
+def strangers_stay(drumlin, scene, run, folder):
+    theirs = folder / "theirs"
+    theirs.mkdir()
+    (theirs / "log.csv").write_text("of another program\n", encoding="utf-8")
+    before = bytes_below(theirs)
+    for word in ("--resume", "--overwrite"):
+        drumlin("run", scene, "-o", theirs, *SHORT, word, code=2)
+    require(bytes_below(theirs) == before, "a stranger's folder was touched")
+
+    ours = folder / "ours"
+    shutil.copytree(run, ours)
+    (ours / "notes.txt").write_text("years of work\n", encoding="utf-8")
+    (ours / "measured" / "notes.txt").write_text("years of work\n", encoding="utf-8")
+    drumlin("measure", ours, "--parts", "none", "--overwrite")
+    require((ours / "measured" / "notes.txt").exists() and not (ours / "measured" / "maps.h5").exists(), "measure: notes or old maps")
+    drumlin("run", scene, "-o", ours, *SHORT, "--set", "seed=2", "--overwrite")
+    require((ours / "notes.txt").exists() and (ours / "measured" / "notes.txt").exists(), "run --overwrite removed notes")
+    require(not (ours / "measured" / "measured.json").exists() and not (ours / "replaced").exists(), "old results are left")
+    drumlin("export", run, "--vtu", "-o", ours, "--overwrite", code=2)  # a run is no export
+
+    # A planted link is no way to a file elsewhere.
+    (ours / "scene.toml.part").symlink_to(folder / "target")
+    (folder / "target").write_text("years of work\n", encoding="utf-8")
+    drumlin("run", scene, "-o", ours, *SHORT, "--overwrite")
+    require((folder / "target").read_text(encoding="utf-8") == "years of work\n", "a link was followed")
+
+
+def old_results_wait(executable, drumlin, scene, run, folder):
+    """A run that replaces another is killed, then finished."""
+    again = folder / "again"
+    shutil.copytree(run, again)
+    words = ["run", scene, "-o", again, *SHORT, "--set", "stages.2.turns=0.2"]
+    process = subprocess.Popen([executable, *map(str, words), "--overwrite"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    deadline = time.monotonic() + 120
+    while not all((again / name).exists() for name in ("replaced/run.json", "run.json", "log.csv")):
+        require(process.poll() is None and time.monotonic() < deadline, "nothing was written")
+        time.sleep(0.001)
+    # The one that is at work is named; a second one does nothing.
+    process.send_signal(signal.SIGSTOP)
+    for second in (["--resume"], ["--overwrite"], []):
+        _, said = drumlin(*words, *second, code=2)
+        require(f"process {process.pid}, drumlin run, since" in said, f"{second}: {said}")
+    process.kill()
+    process.wait()
+    drumlin("run", scene, "-o", again / "replaced", *SHORT, "--resume")  # finished, and whole
+    drumlin("measure", again, code=2)
+    drumlin(*words, "--resume")
+    require(not (again / "replaced").exists() and not (again / ".lock").exists(), "old results or a lock are left")
+    # Killed while it moved the old results aside.
+    (again / "replaced" / "snapshots").mkdir(parents=True)
+    for moved in ("manifest.txt", "snapshots/000001.h5", "run.json"):
+        shutil.copy(again / moved, again / "replaced" / moved)
+    (again / "snapshots" / "000001.h5").unlink()
+    drumlin(*words, "--resume")
+    drumlin(*words, "--resume")
+    require(not (again / "replaced").exists(), "old results are left")
+
+
+def half_an_import(drumlin, folder):
+    """An import that fails leaves no frame; one that replaces another leaves the old ones."""
+    csv = folder / "csv"
+    csv.mkdir()
+    line = "time_s,x_m,z_m,v_x_m_s,v_z_m_s,radius_m\n"
+    for number in range(3):
+        (csv / f"grains-{number}.csv").write_text(
+            line + "".join(f"{number},{0.01 * grain},0,0,0,1e-3\n" for grain in range(5)), encoding="utf-8")
+    (csv / "import.toml").write_text(
+        'format = "drumlin-import-1"\ntitle = "Five discs"\n[grains]\ndensity_kg_m3 = 2700\n[csv]\ngrains = ["grains-*.csv"]\n',
+        encoding="utf-8")
+    words = ["import", csv / "import.toml", "-o", folder / "imported"]
+    drumlin(*words)
+    before = bytes_below(folder / "imported")
+    (csv / "grains-2.csv").write_text(line + "2,0,0,0,nan,1e-3\n", encoding="utf-8")
+    drumlin(*words, "--overwrite", code=2)
+    require(bytes_below(folder / "imported") == before, "a failed import changed what was there")
+    drumlin(*words[:-1], folder / "new", code=2)
+    require(not (folder / "new").exists(), "a failed import left frames")
+
+
+def main():
+    executable, tests = sys.argv[1], pathlib.Path(sys.argv[2])
+    drumlin = Drumlin(executable)
+    scene = tests / "tiny-drum.toml"
+    with tempfile.TemporaryDirectory(prefix="drumlin-folders-") as name:
+        folder = pathlib.Path(name)
+        run = folder / "run"
+        drumlin("run", scene, "-o", run, *SHORT)
+        drumlin("measure", run, "--parts", "maps")
+        every_file_is_checked(drumlin, run)
+        missing_and_extra(drumlin, scene, run, folder)
+        edits_are_told(drumlin, run, folder)
+        strangers_stay(drumlin, scene, run, folder)
+        old_results_wait(executable, drumlin, scene, run, folder)
+        half_an_import(drumlin, folder)
+    print("folders: checked, accepted, untouched, locked")
+
+
+if __name__ == "__main__":
+    main()
