@@ -18,8 +18,8 @@ PATIENCE = 120  # seconds for what takes less than one
 
 
 def results(run):
-    """What must not depend on where the output of a run goes: all but timings, which the checkpoint holds too."""
-    return {name: content for name, content in bytes_below(run).items() if name not in ("run.json", "checkpoint.h5")}
+    """What must not depend on where the output of a run goes: all but timings."""
+    return {name: content for name, content in bytes_below(run).items() if name in ("log.csv", "scene.toml") or name.startswith("snapshots/")}
 
 
 def by_shell(executable, words, streams):
