@@ -1,12 +1,9 @@
-// The drumlin command: words to options, options to a command, errors to an exit code.
-#include <fmt/format.h>
-
-#include <cstdio>
-#include <filesystem>
-
+// The drumlin command: words to options, options to a command.
 #include "apps/command_line/command_line.hpp"
 #include "apps/support/commands.hpp"
-#include "coupling/common/errors.hpp"
+#include "apps/support/interruption.hpp"
+#include "apps/support/program.hpp"
+#include "apps/support/standard_streams.hpp"
 #include "particles/solver/contact_solver.hpp"
 
 namespace {
@@ -15,7 +12,7 @@ using namespace drumlin;
 
 struct Execute {
   int operator()(const apps::TextToShow& shown) const {
-    fmt::print("{}", shown.text);
+    apps::print_out(shown.text);
     return 0;
   }
   int operator()(const apps::RunOptions& options) const { return apps::run(options); }
@@ -35,26 +32,28 @@ struct Execute {
   int operator()(const apps::HardcasesOptions& options) const { return apps::hardcases(options); }
 };
 
-int failed(ExitCode code, const std::string& message) {
-  std::fflush(stdout);
-  fmt::print(stderr, "{}\n", message);
-  return static_cast<int>(code);
+/// Whether the results of a command are files: it then finishes them although nobody reads what it prints.
+struct LeavesFiles {
+  bool operator()(const apps::TextToShow&) const { return false; }
+  bool operator()(const apps::SceneOptions&) const { return false; }
+  bool operator()(const apps::ImportOptions& options) const { return !options.keys; }
+  bool operator()(const apps::CostOptions& options) const { return options.output.has_value(); }
+  bool operator()(const apps::SolveContactsOptions& options) const { return options.output.has_value(); }
+  bool operator()(const apps::HardcasesOptions& options) const { return options.output.has_value(); }
+  template <class Other>
+  bool operator()(const Other&) const {
+    return true;
+  }
+};
+
+int done_as_asked(int argc, char** argv) {
+  const apps::Request request = apps::parse_command_line(argc, argv, particles::contact_solver_names());
+  if (std::visit(LeavesFiles{}, request)) apps::outlive_readers();
+  return std::visit(Execute{}, request);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return std::visit(Execute{}, apps::parse_command_line(argc, argv, particles::contact_solver_names()));
-  } catch (const InputError& error) {
-    return failed(ExitCode::wrong_input, error.what());  // one line per problem
-  } catch (const NotConvergedError& error) {
-    return failed(ExitCode::not_converged, error.what());
-  } catch (const IoError& error) {
-    return failed(ExitCode::input_output, error.what());
-  } catch (const std::filesystem::filesystem_error& error) {
-    return failed(ExitCode::input_output, error.what());
-  }
-  // Anything else is a fault of ours: it ends the program with its message and a core, not with a code that
-  // means something.
+  return drumlin::apps::run_program([&] { return done_as_asked(argc, argv); });
 }

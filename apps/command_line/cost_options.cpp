@@ -60,7 +60,7 @@ void add_cost_options(CLI::App& command, CostOptions& options) {
   add_overrides(command, options.overrides);
   add_number(command, "--seconds", options.seconds, "s", above(0),
              "With --effects, particles: simulated time from the start of the scene");
-  add_number(command, "--threads", options.threads, "", at_least(1, 1024),
+  add_number(command, "--threads", options.threads, "", at_least(1, most_threads),
              "Threads; the results do not depend on it");
   add_existing(command, options.existing, "Keeps the points that an earlier call has finished");
 }

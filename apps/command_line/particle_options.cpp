@@ -10,7 +10,7 @@ void add_run_options(CLI::App& command, RunOptions& options) {
   add_folder_or_file(command, "scene", options.scene, "SCENE.toml", "Scene file (docs/formats/scene.md)");
   add_folder_or_file(command, "-o,--output", options.output, "RUN", "Folder for the results");
   add_overrides(command, options.overrides);
-  add_number(command, "--threads", options.threads, "", at_least(1, 1024),
+  add_number(command, "--threads", options.threads, "", at_least(1, most_threads),
              "Threads; the results do not depend on it");
   add_accuracy(command, options.accuracy);
   add_existing(command, options.existing, "Continues from the last checkpoint; starts over if there is none");
@@ -110,7 +110,7 @@ void add_solve_contacts_options(CLI::App& command, SolveContactsOptions& options
              "It may stop below this residual (docs/conventions.md)");
   add_number(command, "--max-seconds", options.max_seconds, "s", above(0),
              "It stops after this wall time in any case");
-  add_number(command, "--threads", options.threads, "", at_least(1, 1024),
+  add_number(command, "--threads", options.threads, "", at_least(1, most_threads),
              "Threads, of solvers that know them and W of discs; the impulses do not depend on it");
   command
       .add_option_function<std::string>(

@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/common/folder_lock.hpp"
 #include "coupling/common/manifest.hpp"
@@ -153,7 +154,7 @@ int accept(const AcceptOptions& options) {
     throw InputError(options.folder.string() + ": is no result folder of this program");
   std::string said;
   for (const fs::path& folder : result_folders(options.folder)) said += accept_one(folder, reason);
-  fmt::print("{}", said.empty() ? options.folder.string() + ": all files are as they were written\n" : said);
+  print_out(said.empty() ? options.folder.string() + ": all files are as they were written\n" : said);
   return static_cast<int>(ExitCode::done);
 }
 

@@ -11,6 +11,7 @@
 #include "apps/support/output_folder.hpp"
 #include "apps/support/paper_data.hpp"
 #include "apps/support/pending_figures.hpp"
+#include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/comparison/paper_table.hpp"
 
@@ -165,7 +166,7 @@ std::string summary_of(const Json& content) {
 int compare(const CompareOptions& options) {
   const fs::path finished = options.output / "comparison.json";
   if (options.existing == ExistingOutput::resume && is_complete(finished)) {
-    fmt::print("{}: done already\n", options.output.string());
+    print_out(fmt::format("{}: done already\n", options.output.string()));
     return static_cast<int>(ExitCode::done);
   }
   const Inputs inputs = read_inputs(options);
@@ -187,7 +188,8 @@ int compare(const CompareOptions& options) {
   const auto failures =
       draw_pending_figures(folder, figures_of(inputs, folder, file), ResultPage{"comparison", file});
   output.publish();
-  fmt::print("{}report: {}\n", summary_of(content), fs::absolute(options.output / "index.html").string());
+  print_out(fmt::format("{}report: {}\n", summary_of(content),
+                        fs::absolute(options.output / "index.html").string()));
   throw_if_figures_failed(finished, failures);
   return static_cast<int>(ExitCode::done);
 }

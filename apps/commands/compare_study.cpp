@@ -9,6 +9,7 @@
 #include "apps/support/paper_data.hpp"
 #include "apps/support/pending_figures.hpp"
 #include "apps/support/speed_comparison_json.hpp"
+#include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/common/text_file.hpp"
 #include "coupling/exchange/measured_run.hpp"
@@ -56,7 +57,7 @@ Sides read_sides(const std::vector<fs::path>& folders) {
 int compare_study(const CompareStudyOptions& options) {
   const fs::path finished = options.output / "study.json";
   if (options.existing == ExistingOutput::resume && is_complete(finished)) {
-    fmt::print("{}: done already\n", options.output.string());
+    print_out(fmt::format("{}: done already\n", options.output.string()));
     return static_cast<int>(ExitCode::done);
   }
   const Sides sides = read_sides(options.folders);
@@ -83,9 +84,9 @@ int compare_study(const CompareStudyOptions& options) {
                              {"--study", file.string(), "--output", folder.string()}};
   const auto failures = draw_pending_figures(folder, {figures}, ResultPage{"speed_comparison", file});
   output.publish();
-  for (const std::string& warning : comparison.warnings) fmt::print("warning: {}\n", warning);
-  for (const std::string& line : verdict_lines(content)) fmt::print("{}\n", line);
-  fmt::print("report: {}\n", fs::absolute(options.output / "index.html").string());
+  for (const std::string& warning : comparison.warnings) print_out(fmt::format("warning: {}\n", warning));
+  for (const std::string& line : verdict_lines(content)) print_out(fmt::format("{}\n", line));
+  print_out(fmt::format("report: {}\n", fs::absolute(options.output / "index.html").string()));
   throw_if_figures_failed(finished, failures);
   return static_cast<int>(ExitCode::done);
 }

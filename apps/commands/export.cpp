@@ -4,6 +4,7 @@
 #include "apps/support/commands.hpp"
 #include "apps/support/output_folder.hpp"
 #include "apps/support/progress.hpp"
+#include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/common/text_file.hpp"
 #include "particles/io/run_folder.hpp"
@@ -18,7 +19,7 @@ int export_run(const ExportOptions& options) {
   const particles::RunFolder run = particles::read_run_folder(options.run);
   const fs::path folder = options.output.value_or(options.run / "vtu");
   if (options.existing == ExistingOutput::resume && holds_results(folder, "grains.pvd")) {
-    fmt::print("{}: done already\n", folder.string());
+    print_out(fmt::format("{}: done already\n", folder.string()));
     return static_cast<int>(ExitCode::done);
   }
   const std::vector<fs::path> files = particles::chosen_snapshots(run, options.snapshots);
@@ -50,9 +51,10 @@ int export_run(const ExportOptions& options) {
     replace_file(output.folder() / (std::string(kind) + ".pvd"), particles::pvd_text(inside));
   }
   output.publish();
-  fmt::print("{}{}: {} snapshots; open grains.pvd, contacts.pvd and walls.pvd in ParaView\n", folder.string(),
-             run.scene.reduced ? " (reduced)" : "", files.size());
-  if (!run.finished()) fmt::print("  the run is unfinished (status {}): as far as it went\n", run.status);
+  print_out(fmt::format("{}{}: {} snapshots; open grains.pvd, contacts.pvd and walls.pvd in ParaView\n",
+                        folder.string(), run.scene.reduced ? " (reduced)" : "", files.size()));
+  if (!run.finished())
+    print_out(fmt::format("  the run is unfinished (status {}): as far as it went\n", run.status));
   return static_cast<int>(ExitCode::done);
 }
 

@@ -1,5 +1,6 @@
 // drumlin flow: starts drumlin-flow, which stands beside this executable, and ends as it ends.
 #include "apps/support/commands.hpp"
+#include "apps/support/interruption.hpp"
 #include "coupling/common/child_process.hpp"
 
 namespace drumlin::apps {
@@ -21,6 +22,7 @@ std::vector<std::string> words_of(const FlowOptions& options) {
 int flow(const FlowOptions& options) {
   ProcessRequest request{.program = program_beside("drumlin-flow"), .words = words_of(options)};
   request.pass_signals_on = true;
+  const CaughtInterruptions caught;  // the child ends by them, and we with it
   return run_process(request).shell_code();
 }
 

@@ -10,6 +10,7 @@
 #include "apps/support/hard_case_json.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/output_folder.hpp"
+#include "apps/support/standard_streams.hpp"
 #include "coupling/common/child_process.hpp"
 #include "coupling/common/errors.hpp"
 #include "tests/hardcases/registry.hpp"
@@ -88,13 +89,13 @@ void print_result(const HardCase& hard, const HardResult& result) {
   for (std::size_t k = 0; k < result.checks.size(); ++k) {
     const HardCheck& check = result.checks[k];
     const bool first = k == 0;
-    fmt::print(row, first ? hard.name : "", check.what,
-               fmt::format("{}{:.6g}", relation_sign(check.relation), check.expected),
-               fmt::format("{:.6g}", check.got),
-               check.relation == Relation::equals ? fmt::format("{:.1e}", check.tolerance) : "",
-               first ? fmt::format("{:.2f}", result.seconds) : "", verdict(check.holds()));
+    print_out(fmt::format(row, first ? hard.name : "", check.what,
+                          fmt::format("{}{:.6g}", relation_sign(check.relation), check.expected),
+                          fmt::format("{:.6g}", check.got),
+                          check.relation == Relation::equals ? fmt::format("{:.1e}", check.tolerance) : "",
+                          first ? fmt::format("{:.2f}", result.seconds) : "", verdict(check.holds())));
   }
-  std::fflush(stdout);
+  flush_out();
 }
 
 }  // namespace
@@ -106,8 +107,8 @@ int hardcases(const HardcasesOptions& options) {
   if (cases.empty()) throw InputError("hardcases: none of the cases named is a fast one");
   std::optional<StagedOutput> output;
   if (options.output) output.emplace(OutputRequest{*options.output, options.existing, "hardcases", {}});
-  fmt::print(row, "case", "what (d, sqrt(d/g), rho0 g d)", "expected", "got", "tolerance", "seconds",
-             "verdict");
+  print_out(fmt::format(row, "case", "what (d, sqrt(d/g), rho0 g d)", "expected", "got", "tolerance",
+                        "seconds", "verdict"));
   Json results = Json::array();
   std::size_t passed = 0;
   double seconds = 0;
@@ -129,7 +130,7 @@ int hardcases(const HardcasesOptions& options) {
       const HardRow row_of_flow = hard_row(json);
       take(row_of_flow.hard, row_of_flow.result);
     });
-  fmt::print("{} of {} cases passed, {:.1f} s\n", passed, cases.size(), seconds);
+  print_out(fmt::format("{} of {} cases passed, {:.1f} s\n", passed, cases.size(), seconds));
   if (output) {
     write_json(output->folder() / file_name, {{"format", "drumlin-hardcases-1"},
                                               {"provenance", apps::to_json(provenance())},

@@ -8,6 +8,7 @@
 #include "apps/support/json_file.hpp"
 #include "apps/support/output_folder.hpp"
 #include "apps/support/progress.hpp"
+#include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/common/text_file.hpp"
 #include "particles/import/import_run.hpp"
@@ -42,33 +43,34 @@ Json report_of(const particles::ImportDescription& description, const fs::path& 
 
 void print_summary(const fs::path& run, const particles::ImportDescription& description,
                    const particles::ImportReport& report) {
-  fmt::print("{}{}: {} snapshots of {} grains, {:.6g} s to {:.6g} s\n", run.string(),
-             description.reduced ? " (reduced)" : "", report.snapshots, report.grains, report.first_time_s,
-             report.last_time_s);
-  fmt::print("  d = {:.6g} mm, sqrt(d/g) = {:.6g} s; velocities are those at the instant of the snapshot\n",
-             report.scales.length_m * 1e3, report.scales.time_s);
+  print_out(fmt::format("{}{}: {} snapshots of {} grains, {:.6g} s to {:.6g} s\n", run.string(),
+                        description.reduced ? " (reduced)" : "", report.snapshots, report.grains,
+                        report.first_time_s, report.last_time_s));
+  print_out(fmt::format(
+      "  d = {:.6g} mm, sqrt(d/g) = {:.6g} s; velocities are those at the instant of the snapshot\n",
+      report.scales.length_m * 1e3, report.scales.time_s));
   if (report.with_contacts)
-    fmt::print("  {} contacts that carry a force\n", report.contacts);
+    print_out(fmt::format("  {} contacts that carry a force\n", report.contacts));
   else
-    fmt::print("  without contacts: no stress will be measured\n");
-  if (!report.with_spin) fmt::print("  without spin\n");
+    print_out("  without contacts: no stress will be measured\n");
+  if (!report.with_spin) print_out("  without spin\n");
   if (!report.unused_columns.empty())
-    fmt::print("  columns that were not used: {}\n", fmt::join(report.unused_columns, ", "));
+    print_out(fmt::format("  columns that were not used: {}\n", fmt::join(report.unused_columns, ", ")));
 }
 
 }  // namespace
 
 int import_foreign(const ImportOptions& options) {
   if (options.keys) {
-    fmt::print("{}", options.markdown ? keys_as_markdown(particles::import_keys())
-                                      : keys_as_text(particles::import_keys()));
+    print_out(options.markdown ? keys_as_markdown(particles::import_keys())
+                               : keys_as_text(particles::import_keys()));
     return static_cast<int>(ExitCode::done);
   }
   if (!options.description || !options.output)
     throw InputError("import: needs a description and an output: drumlin import DESCRIPTION.toml -o RUN");
   const fs::path run = *options.output;
   if (options.existing == ExistingOutput::resume && holds_results(run, "run.json")) {
-    fmt::print("{}: done already\n", run.string());
+    print_out(fmt::format("{}: done already\n", run.string()));
     return static_cast<int>(ExitCode::done);
   }
   const particles::ImportDescription description =

@@ -7,6 +7,7 @@
 #include "apps/support/figures.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/output_folder.hpp"
+#include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
 #include "particles/io/run_folder.hpp"
 #include "particles/io/snapshot_file.hpp"
@@ -102,7 +103,7 @@ int plot(const PlotOptions& options) {
   const particles::RunFolder run = particles::read_run_folder(options.run);
   const fs::path folder = options.output.value_or(options.run / "plots");
   if (options.existing == ExistingOutput::resume && holds_results(folder, "plots.json")) {
-    fmt::print("{}: done already\n", folder.string());
+    print_out(fmt::format("{}: done already\n", folder.string()));
     return static_cast<int>(ExitCode::done);
   }
   const Json report = read_json(options.run / "run.json", "drumlin-run-1");
@@ -118,12 +119,12 @@ int plot(const PlotOptions& options) {
   fs::remove(found);
   fs::remove(asked);
   output.publish();
-  fmt::print("{}{}\n", folder.string(), run.scene.reduced ? " (reduced)" : "");
+  print_out(fmt::format("{}{}\n", folder.string(), run.scene.reduced ? " (reduced)" : ""));
   if (!run.finished())
-    fmt::print("  the run is unfinished (status {}): drawn as far as it went\n", run.status);
-  if (run.snapshots.empty()) fmt::print("  the run holds no snapshots: no pictures of grains\n");
+    print_out(fmt::format("  the run is unfinished (status {}): drawn as far as it went\n", run.status));
+  if (run.snapshots.empty()) print_out("  the run holds no snapshots: no pictures of grains\n");
   for (const auto& [file, shows] : drawn["figures"].items())
-    fmt::print("  {:16} {}\n", file, shows.get<std::string>());
+    print_out(fmt::format("  {:16} {}\n", file, shows.get<std::string>()));
   return static_cast<int>(ExitCode::done);
 }
 

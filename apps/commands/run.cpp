@@ -4,7 +4,6 @@
 #include <sys/resource.h>
 
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -17,6 +16,7 @@
 #include "apps/support/json_file.hpp"
 #include "apps/support/output_folder.hpp"
 #include "apps/support/progress.hpp"
+#include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/common/last_whole.hpp"
 #include "coupling/common/text_file.hpp"
@@ -85,7 +85,7 @@ class ParticleRun {
     output_.finish();
     progress_.show(progress_line());
     progress_.finish();
-    fmt::print("{}{}", run_summary(progress_now()), accuracy_text());
+    print_out(fmt::format("{}{}", run_summary(progress_now()), accuracy_text()));
     return static_cast<int>(ExitCode::done);
   }
 
@@ -235,8 +235,8 @@ class ParticleRun {
     writer_.wait();
     write_report("interrupted");
     progress_.finish();
-    fmt::print(stderr, "interrupted after step {}; continue with --resume\n", simulation_.state().step);
-    return static_cast<int>(signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted);
+    print_error(fmt::format("interrupted after step {}; continue with --resume\n", simulation_.state().step));
+    return exit_code_of(signal);
   }
 
   /// What the settings leave of error; averages have no interval before they are measured.
@@ -328,7 +328,7 @@ std::optional<particles::Checkpoint> checkpoint_in(const fs::path& output, const
   auto last = last_whole_checkpoint(output, particles::read_checkpoint);
   if (!last) return std::nullopt;
   if (!last->passed_over.empty())
-    fmt::print(stderr, "{}\ngoes on from {} instead\n", last->passed_over, previous_checkpoint_name);
+    print_error(fmt::format("{}\ngoes on from {} instead\n", last->passed_over, previous_checkpoint_name));
   same_scene_or_refuse(output, last->content.scene, resolved);
   return std::move(last->content);
 }
@@ -343,7 +343,7 @@ int run(const RunOptions& options) {
   const auto* listed = std::get_if<particles::ListedGrains>(&scene.grains.source);
   std::vector<fs::path> inputs{options.scene};
   if (listed != nullptr) inputs.push_back(listed->file);
-  catch_interruptions();
+  const CaughtInterruptions caught;
   GrowingOutput output({options.output, options.existing, "run", inputs}, run_file_names());
   const std::string resolved = particles::scene_text(as_recorded(scene));
   std::optional<particles::Checkpoint> from;
@@ -353,7 +353,7 @@ int run(const RunOptions& options) {
     if (listed != nullptr && fs::exists(options.output / grain_list))
       same_scene_or_refuse(options.output, file_text(options.output / grain_list), file_text(listed->file));
     if (output.manifest().complete) {
-      fmt::print("{}: already finished, nothing to do\n", options.output.string());
+      print_out(fmt::format("{}: already finished, nothing to do\n", options.output.string()));
       return static_cast<int>(ExitCode::done);
     }
     from = checkpoint_in(options.output, resolved);

@@ -3,6 +3,7 @@
 
 #include "apps/commands/run_report.hpp"
 #include "apps/support/commands.hpp"
+#include "apps/support/standard_streams.hpp"
 #include "particles/scene/placement.hpp"
 #include "particles/scene/scene_file.hpp"
 #include "particles/stepping/simulation.hpp"
@@ -35,26 +36,26 @@ void check(const SceneOptions& options) {
   const auto grains = simulation.state().bodies.count();
   const auto shapes = particles::walls_of(scene, scales).reference.size();
   const int unknowns = simulation.stepper().unknowns_per_contact();
-  fmt::print("{}: ok{}\n", options.scene.string(), scene.reduced ? " (reduced)" : "");
-  if (!scene.title.empty()) fmt::print("title      {}\n", scene.title);
-  fmt::print("grains     {}, mean diameter {:.4g} mm, sqrt(d/g) {:.4g} s\n", grains, scales.length_m * 1e3,
-             scales.time_s);
-  fmt::print("walls      {} shapes{}\n", shapes, scene.periodic_x ? ", periodic in x" : "");
-  fmt::print("effects    {}; {} unknown{} per contact\n", effects_text(scene.effects), unknowns,
-             unknowns > 1 ? "s" : "");
-  fmt::print("solver     {}, tolerance {}, at most {} sweeps\n", scene.solver.name, scene.solver.tolerance,
-             scene.solver.max_sweeps);
+  print_out(fmt::format("{}: ok{}\n", options.scene.string(), scene.reduced ? " (reduced)" : ""));
+  if (!scene.title.empty()) print_out(fmt::format("title      {}\n", scene.title));
+  print_out(fmt::format("grains     {}, mean diameter {:.4g} mm, sqrt(d/g) {:.4g} s\n", grains,
+                        scales.length_m * 1e3, scales.time_s));
+  print_out(fmt::format("walls      {} shapes{}\n", shapes, scene.periodic_x ? ", periodic in x" : ""));
+  print_out(fmt::format("effects    {}; {} unknown{} per contact\n", effects_text(scene.effects), unknowns,
+                        unknowns > 1 ? "s" : ""));
+  print_out(fmt::format("solver     {}, tolerance {}, at most {} sweeps\n", scene.solver.name,
+                        scene.solver.tolerance, scene.solver.max_sweeps));
   double seconds = 0;
   for (std::size_t s = 0; s < scene.stages.size(); ++s) {
     seconds += particles::duration_s(scene.stages[s]);
-    fmt::print("stage      {}: {:.6g} s in {} steps of {:.6g} s, {} snapshots\n", scene.stages[s].name,
-               particles::duration_s(scene.stages[s]), plan.stages[s].steps,
-               plan.stages[s].time_step * scales.time_s, scene.stages[s].snapshots);
+    print_out(fmt::format("stage      {}: {:.6g} s in {} steps of {:.6g} s, {} snapshots\n",
+                          scene.stages[s].name, particles::duration_s(scene.stages[s]), plan.stages[s].steps,
+                          plan.stages[s].time_step * scales.time_s, scene.stages[s].snapshots));
   }
-  fmt::print("in all     {:.6g} s, {} steps, {} snapshots\n", seconds, plan.steps,
-             plan.snapshot_steps.size());
+  print_out(fmt::format("in all     {:.6g} s, {} steps, {} snapshots\n", seconds, plan.steps,
+                        plan.snapshot_steps.size()));
   if (const std::string warning = start_warning(simulation.start_overlaps()); !warning.empty())
-    fmt::print("warning: {}\n", warning);
+    print_out(fmt::format("warning: {}\n", warning));
 }
 
 }  // namespace
@@ -65,11 +66,11 @@ int scene(const SceneOptions& options) {
       check(options);
       break;
     case SceneAction::show:
-      fmt::print("{}", particles::scene_text(particles::read_scene(options.scene, options.overrides)));
+      print_out(particles::scene_text(particles::read_scene(options.scene, options.overrides)));
       break;
     case SceneAction::keys:
-      fmt::print("{}", options.markdown ? keys_as_markdown(particles::scene_keys())
-                                        : keys_as_text(particles::scene_keys()));
+      print_out(options.markdown ? keys_as_markdown(particles::scene_keys())
+                                 : keys_as_text(particles::scene_keys()));
       break;
   }
   return 0;

@@ -6,6 +6,7 @@
 
 #include "apps/support/commands.hpp"
 #include "apps/support/output_folder.hpp"
+#include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
 #include "particles/contact/disc_problem.hpp"
 #include "particles/io/contact_problem_file.hpp"
@@ -64,20 +65,20 @@ void print_json(const particles::ContactProblemFile& file, const Solved& solved,
                                           {"asymmetry", file.asymmetry},
                                           {"solver", options.solver},
                                           {"tolerance", options.tolerance}};
-  fmt::print("{}\n", printed.dump(2));
+  print_out(fmt::format("{}\n", printed.dump(2)));
 }
 
 void print_text(const particles::ContactProblemFile& file, const Solved& solved,
                 const SolveContactsOptions& options) {
   const auto& report = solved.report;
   if (file.asymmetry > 1e-12)
-    fmt::print("the diagonal blocks of W were made symmetric (up to {:.1e} of their trace off)\n",
-               file.asymmetry);
-  fmt::print(
+    print_out(fmt::format("the diagonal blocks of W were made symmetric (up to {:.1e} of their trace off)\n",
+                          file.asymmetry));
+  print_out(fmt::format(
       "{} contacts{}, {}: {} after {} sweeps, {:.3g} s; residual {:.3g} (tolerance {:g}), largest {:.3g}\n",
       file.problem.contacts(), solved.of_discs ? " of discs" : "", options.solver,
       particles::to_string(report.status), report.sweeps, report.seconds, report.residual.rms,
-      options.tolerance, report.residual.max);
+      options.tolerance, report.residual.max));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "apps/support/output_folder.hpp"
 #include "apps/support/paper_data.hpp"
 #include "apps/support/pending_figures.hpp"
+#include "apps/support/standard_streams.hpp"
 #include "apps/support/study_json.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/common/text_file.hpp"
@@ -23,22 +24,23 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 void print_study(const coupling::Study& study, const Json& content) {
-  for (const std::string& warning : study.warnings) fmt::print("warning: {}\n", warning);
-  fmt::print("\nlaws over the speed of rotation (99 %)\n");
+  for (const std::string& warning : study.warnings) print_out(fmt::format("warning: {}\n", warning));
+  print_out("\nlaws over the speed of rotation (99 %)\n");
   for (const coupling::SpeedLaw& law : study.laws) {
-    fmt::print("  {:28} {}\n", law.name, law.formula);
+    print_out(fmt::format("  {:28} {}\n", law.name, law.formula));
     for (const auto& c : law.coefficients)
-      fmt::print("  {:28}   {} = {:.4g} +- {:.2g}\n", "", c.name, c.value, c.ci99);
+      print_out(fmt::format("  {:28}   {} = {:.4g} +- {:.2g}\n", "", c.name, c.value, c.ci99));
   }
   for (const coupling::Collapse& collapse : study.collapses)
-    fmt::print("  {:28} spread between speeds / intervals = {:.2f} (limit {:.2f}): {}\n",
-               collapse.column + "(I)", collapse.ratio, collapse.limit,
-               collapse.collapse ? "one curve" : "not one curve");
-  fmt::print("\n{}\n", paper_table_markdown(study));
+    print_out(fmt::format("  {:28} spread between speeds / intervals = {:.2f} (limit {:.2f}): {}\n",
+                          collapse.column + "(I)", collapse.ratio, collapse.limit,
+                          collapse.collapse ? "one curve" : "not one curve"));
+  print_out(fmt::format("\n{}\n", paper_table_markdown(study)));
   if (!study.paper.empty())
-    fmt::print("{} agree, {} near, {} differ, {} not measured\n", content["verdict"]["agrees"].get<int>(),
-               content["verdict"]["near"].get<int>(), content["verdict"]["differs"].get<int>(),
-               content["verdict"]["not measured"].get<int>());
+    print_out(fmt::format("{} agree, {} near, {} differ, {} not measured\n",
+                          content["verdict"]["agrees"].get<int>(), content["verdict"]["near"].get<int>(),
+                          content["verdict"]["differs"].get<int>(),
+                          content["verdict"]["not measured"].get<int>()));
 }
 
 }  // namespace
@@ -46,7 +48,7 @@ void print_study(const coupling::Study& study, const Json& content) {
 int study(const StudyOptions& options) {
   const fs::path finished = options.output / "study.json";
   if (options.existing == ExistingOutput::resume && is_complete(finished)) {
-    fmt::print("{}: done already\n", options.output.string());
+    print_out(fmt::format("{}: done already\n", options.output.string()));
     return static_cast<int>(ExitCode::done);
   }
   std::vector<coupling::StudyRun> runs;

@@ -12,6 +12,7 @@ import numpy as np
 from matplotlib.animation import PillowWriter
 
 import style
+import whole_file
 
 LONG_SIDE = 8.0  # inches of the longer side of a map
 SHORT_SIDE = 2.0  # least inches of the shorter one
@@ -217,7 +218,7 @@ def draw_animation(drawing, folder):
     plt.rcParams.update({"savefig.bbox": None})  # all frames of one size
     figure, axes, discs, walls = draw_speed(drawing, view, snapshots[0], norm)
     writer = PillowWriter(fps=12)
-    with writer.saving(figure, folder / "animation.gif", dpi=80):
+    with whole_file.aside(folder / "animation.gif") as unfinished, writer.saving(figure, unfinished, dpi=80):
         for grains in snapshots:
             discs.set_offsets(np.column_stack([grains.x, grains.z]))
             discs.set_array(np.maximum(grains.speed, norm.vmin))

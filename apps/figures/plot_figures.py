@@ -7,6 +7,7 @@ import sys
 import grain_maps
 import run_curves
 import style
+import whole_file
 
 
 def main():
@@ -22,7 +23,7 @@ def main():
     figures.update(run_curves.draw(drawing, folder))
     if drawing["frames"]:
         figures.update(grain_maps.draw_animation(drawing, folder))
-    with open(folder / "drawn.json", "w", encoding="utf-8") as stream:
+    with whole_file.aside(folder / "drawn.json") as unfinished, open(unfinished, "w", encoding="utf-8") as stream:
         snapshot = drawing["snapshot"] and drawing["snapshot"]["number"]
         json.dump({"format": "drumlin-plots-1", "snapshot": snapshot, "reduced": drawing["reduced"],
                    "status": drawing["status"], "figures": figures}, stream)

@@ -13,6 +13,7 @@ import study_flow
 import study_rheology
 import study_stresses
 import style
+import whole_file
 from study_runs import Study
 
 # In the order of the paper. Each draws a figure and gives (figure, title, paper says, we find), or None where the runs
@@ -61,7 +62,7 @@ def main():
         listed.append({"file": f"{name}.png", "title": title, "paper": paper, "here": here})
 
     def save_list():
-        with open(output / "figures.json", "w", encoding="utf-8") as stream:
+        with whole_file.aside(output / "figures.json") as unfinished, open(unfinished, "w", encoding="utf-8") as stream:
             json.dump({"format": "drumlin-study-figures-1", "figures": listed}, stream, indent=2, ensure_ascii=False)
             stream.write("\n")
 

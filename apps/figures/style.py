@@ -10,6 +10,8 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend must be chosen first)
 
+import whole_file  # noqa: E402
+
 # Okabe and Ito's colours: told apart with any kind of colour vision, and in grey.
 PARTICLES = "#0072B2"
 CONTINUUM = "#D55E00"
@@ -35,7 +37,8 @@ LABELS = {
 
 
 def use_style():
-    """Call once at the start of a script."""
+    """Call once at the start of a script. A matplotlibrc of the current folder or of the user changes nothing."""
+    matplotlib.rcdefaults()
     plt.rcParams.update({
         "figure.figsize": (6.4, 4.6),
         "figure.dpi": 110,
@@ -78,7 +81,8 @@ def stamp(figure, reduced):
 
 def save(figure, path, reduced):
     stamp(figure, reduced)
-    figure.savefig(path, metadata={"Software": None})
+    with whole_file.aside(path) as unfinished:
+        figure.savefig(unfinished, metadata={"Software": None})
     plt.close(figure)
 
 

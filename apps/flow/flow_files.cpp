@@ -12,6 +12,7 @@
 #include "continuum/io/flow_state_file.hpp"
 #include "coupling/common/provenance.hpp"
 #include "coupling/common/text_file.hpp"
+#include "coupling/common/unfinished_file.hpp"
 #include "coupling/files/field_map_file.hpp"
 
 namespace drumlin::apps {
@@ -75,12 +76,11 @@ void write_flow(const fs::path& folder, const FinishedFlow& flow) {
   write_field_map(folder / "maps.h5", maps);
   continuum::write_flow_state(folder / "state.h5", state);
   // The figures read it under another name: flow.json itself says that all is there.
-  const fs::path unfinished = folder / "flow.json.part";
-  write_json(unfinished, content);
+  const UnfinishedFile unfinished(folder / "flow.json.part");
+  write_json(unfinished.path(), content);
   if (flow.asked.scene.output.figures)
-    draw_figures("flow_figures.py", {folder.string(), "--flow", unfinished.string()});
+    draw_figures("flow_figures.py", {folder.string(), "--flow", unfinished.path().string()});
   write_json(folder / "flow.json", content);
-  fs::remove(unfinished);
 }
 
 }  // namespace drumlin::apps

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/support/hard_case_json.hpp"
+#include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
 #include "tests/hardcases/registry.hpp"
 
@@ -15,8 +16,8 @@ namespace drumlin::apps {
 int flow_hardcases(const std::vector<std::string>& words) {
   const auto& all = flow_hard_cases();
   const auto say = [](const nlohmann::ordered_json& line) {
-    fmt::print("{}\n", line.dump());
-    std::fflush(stdout);
+    print_out(fmt::format("{}\n", line.dump()));
+    flush_out();
   };
   if (!words.empty() && words.front() == "--list") {
     for (const HardCase& hard : all) say({{"name", hard.name}, {"fast", hard.fast}});

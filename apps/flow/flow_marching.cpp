@@ -11,6 +11,7 @@
 #include "apps/flow/flow_json.hpp"
 #include "apps/support/interruption.hpp"
 #include "apps/support/json_file.hpp"
+#include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/common/last_whole.hpp"
 #include "coupling/common/result_folder.hpp"
@@ -53,10 +54,12 @@ std::string lines_up_to(const fs::path& file, int steps) {
 }
 
 void print_step(const continuum::MarchStep& step, int steps) {
-  fmt::print("step {}/{}  {:.4g} s  {:.4g} rpm", step.step, steps, step.time_s, step.rotation_rpm);
-  for (const Scalar& scalar : step.scalars.scalars) fmt::print("  {} {:.4g}", scalar.name, scalar.value);
-  fmt::print("  it {}  residual {:.1e}\n", step.iterations, step.residual);
-  std::fflush(stdout);
+  print_out(
+      fmt::format("step {}/{}  {:.4g} s  {:.4g} rpm", step.step, steps, step.time_s, step.rotation_rpm));
+  for (const Scalar& scalar : step.scalars.scalars)
+    print_out(fmt::format("  {} {:.4g}", scalar.name, scalar.value));
+  print_out(fmt::format("  it {}  residual {:.1e}\n", step.iterations, step.residual));
+  flush_out();
 }
 
 double rotation_rpm_of(const fs::path& flow_json, double time_unit_s) {
@@ -108,7 +111,7 @@ continuum::FlowSolution march_scene(const FlowMarching& marching, GrowingOutput*
   const int steps = marching.march.time.steps;
   std::string lines;
   if (speaks && !marching.passed_over.empty())
-    fmt::print(stderr, "{}\ngoes on from {} instead\n", marching.passed_over, previous_checkpoint_name);
+    print_error(fmt::format("{}\ngoes on from {} instead\n", marching.passed_over, previous_checkpoint_name));
   if (marching.march.start.steps > 0 && speaks)
     lines = lines_up_to(output->folder() / series_name, marching.march.start.steps);
   continuum::MarchObserver observer;

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <csignal>
 #include <cstdio>
 #include <ctime>
 #include <numbers>
@@ -13,6 +12,7 @@
 #include "apps/flow/flow_text.hpp"
 #include "apps/support/interruption.hpp"
 #include "apps/support/output_folder.hpp"
+#include "apps/support/standard_streams.hpp"
 #include "continuum/fem/scene_options.hpp"
 #include "continuum/rheology/ill_posed_ranges.hpp"
 #include "coupling/common/errors.hpp"
@@ -29,28 +29,29 @@ namespace fs = std::filesystem;
 constexpr double degrees = 180 / std::numbers::pi;
 
 void print_iteration(const continuum::IterationReport& line) {
-  fmt::print(
-      "mesh {} {:<11} eps {:8.2e}  it {:2}  residual {:8.2e}  step {:8.2e} x {:4.2f}  theta "
-      "{:7.3f} deg {:7.1f} s\n",
-      line.level, line.phase, line.shear_rate, line.iteration, line.residual, line.step_size,
-      line.step_length, line.theta * degrees, line.seconds);
-  std::fflush(stdout);
+  print_out(
+      fmt::format("mesh {} {:<11} eps {:8.2e}  it {:2}  residual {:8.2e}  step {:8.2e} x {:4.2f}  theta "
+                  "{:7.3f} deg {:7.1f} s\n",
+                  line.level, line.phase, line.shear_rate, line.iteration, line.residual, line.step_size,
+                  line.step_length, line.theta * degrees, line.seconds));
+  flush_out();
 }
 
 void print_surface_step(const continuum::SurfaceStepReport& step) {
-  fmt::print(
+  print_out(fmt::format(
       "mesh {} surface: up to {:.3f} d from the chord, {:.4f} d (rms, {:.4f} resolved, largest {:.2f}) press "
       "on "
       "it\n",
-      step.level, step.height, step.rms, step.resolved, step.largest);
-  std::fflush(stdout);
+      step.level, step.height, step.rms, step.resolved, step.largest));
+  flush_out();
 }
 
 void print_mesh(int level, const continuum::MeshResult& mesh) {
-  fmt::print("mesh {} done: {} unknowns", level, mesh.unknowns);
-  for (const Scalar& scalar : mesh.scalars.scalars) fmt::print(", {} {:.4g}", scalar.name, scalar.value);
-  fmt::print("\n");
-  std::fflush(stdout);
+  print_out(fmt::format("mesh {} done: {} unknowns", level, mesh.unknowns));
+  for (const Scalar& scalar : mesh.scalars.scalars)
+    print_out(fmt::format(", {} {:.4g}", scalar.name, scalar.value));
+  print_out("\n");
+  flush_out();
 }
 
 // Faults of the scene that show only with its law, too, name the file of the scene.
@@ -142,10 +143,10 @@ void begin_folder(FlowOutput& output, const FlowOptions& options, const FlowRequ
   replace_file(options.output / "rheology.toml", file_text(options.rheology));
   for (const char* name : {"flow_scene.toml", "rheology.toml"}) output->list(name);
   output->save();
-  fmt::print("{}{}: {}, nu = {:.3f}, {}{}\n", asked.scene.title, asked.reduced() ? " (reduced)" : "",
-             asked.flow_case.summary, asked.law.nu, described(asked.law.mu),
-             ranks > 1 ? fmt::format(", {} ranks", ranks) : "");
-  fmt::print("{}", ill_posedness_text(asked.flow_case.problem));
+  print_out(fmt::format("{}{}: {}, nu = {:.3f}, {}{}\n", asked.scene.title,
+                        asked.reduced() ? " (reduced)" : "", asked.flow_case.summary, asked.law.nu,
+                        described(asked.law.mu), ranks > 1 ? fmt::format(", {} ranks", ranks) : ""));
+  print_out(ill_posedness_text(asked.flow_case.problem));
 }
 
 // The flow, and what was read off it on its way.
@@ -196,6 +197,13 @@ SolvedFlow solved_flow(FlowOutput& output, const FlowRequest& asked, const FlowS
   return {std::move(solution), std::move(meshes), std::move(plain), cpu_seconds};
 }
 
+// What comes after it is ended by a signal at once: nothing is kept before all of it is there.
+SolvedFlow solved_until_interrupted(FlowOutput& output, const FlowRequest& asked, const FlowStart& start,
+                                    const continuum::FemRuntime& runtime) {
+  const CaughtInterruptions caught;
+  return solved_flow(output, asked, start, runtime);
+}
+
 void require_converged(const continuum::FlowSolution& solution) {
   if (solution.report.converged) return;
   const continuum::FlowIntegrals sums = solution.field.integrals();
@@ -234,18 +242,16 @@ FinishedFlow finished_flow(const FlowOptions& options, const FlowRequest& asked,
 int solve_flow_scene(const FlowOptions& options, const continuum::FemRuntime& runtime) {
   const bool speaks = runtime.rank() == 0;
   if (options.existing == ExistingOutput::resume && holds_results(options.output, "flow.json")) {
-    if (speaks) fmt::print("{}: done already\n", options.output.string());
+    if (speaks) print_out(fmt::format("{}: done already\n", options.output.string()));
     return static_cast<int>(ExitCode::done);
   }
   const FlowRequest asked = read_request(options);
   const FlowStart start = read_start(options, asked);
-  catch_interruptions();
   FlowOutput output;
   runtime.on_first_rank([&] { begin_folder(output, options, asked, runtime.ranks()); });
-  SolvedFlow solved = solved_flow(output, asked, start, runtime);
+  SolvedFlow solved = solved_until_interrupted(output, asked, start, runtime);
   runtime.on_first_rank([&] { write_iterations(options.output / "iterations.csv", solved.solution.report); });
-  if (const int signal = interruption(); signal != 0)
-    return static_cast<int>(signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted);
+  if (const int signal = interruption(); signal != 0) return exit_code_of(signal);
   require_converged(solved.solution);
   const FinishedFlow flow = finished_flow(options, asked, std::move(solved), runtime.ranks());
   write_flow(options.output, flow);
@@ -253,7 +259,7 @@ int solve_flow_scene(const FlowOptions& options, const continuum::FemRuntime& ru
     for (const char* name : {checkpoint_name, previous_checkpoint_name}) fs::remove(options.output / name);
     output->finish();
   });
-  if (speaks) fmt::print("{}", finished_text(options.output, flow));
+  if (speaks) print_out(finished_text(options.output, flow));
   return static_cast<int>(ExitCode::done);
 }
 

@@ -73,6 +73,16 @@ def place_of(error):
     return place
 
 
+def write_whole(path, text):
+    """An error, or a signal, leaves neither a part nor a change."""
+    unfinished = path.with_name(f".{path.name}-{os.getpid()}.part")
+    try:
+        unfinished.write_text(text, encoding="utf-8")
+        os.replace(unfinished, path)
+    finally:
+        unfinished.unlink(missing_ok=True)
+
+
 def main():
     if len(sys.argv) not in (4, 5):
         sys.exit(__doc__)
@@ -82,9 +92,7 @@ def main():
         content = json.loads(source.read_text(encoding="utf-8"))
         figures = Figures(folder, bool(failures))
         text = environment(figures).get_template(template).render(content=content, failures=failures)
-        unfinished = folder / "index.html.part"
-        unfinished.write_text(text, encoding="utf-8")
-        os.replace(unfinished, folder / "index.html")
+        write_whole(folder / "index.html", text)
     except (jinja2.TemplateError, LookupError, OSError, TypeError, ValueError) as error:
         sys.exit(f"{source}: {type(error).__name__}: {error}{place_of(error)}")
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cstdio>
+#include "apps/support/standard_streams.hpp"
 
 namespace drumlin::apps {
 namespace {
@@ -19,15 +19,14 @@ void Progress::show(const std::string& line) {
   last_ = std::chrono::steady_clock::now();
   open_ = on_terminal();
   if (open_)
-    fmt::print(stderr, "\r{:<{}}", line, width_);
+    print_error(fmt::format("\r{:<{}}", line, width_));
   else
-    fmt::print(stderr, "{}\n", line);
+    print_error(fmt::format("{}\n", line));
   width_ = line.size();
-  std::fflush(stderr);
 }
 
 void Progress::finish() {
-  if (open_) fmt::print(stderr, "\n");
+  if (open_) print_error("\n");
   open_ = false;
 }
 

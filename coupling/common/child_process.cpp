@@ -2,7 +2,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -34,16 +34,16 @@ constexpr double grace_s = 10;  // between SIGTERM at the time limit and SIGKILL
 
 // What a signal handler can see: the child, what came before it was known, and the handlers of before.
 volatile std::sig_atomic_t child = 0, waiting = 0;
-struct sigaction interrupt_before {};
-struct sigaction terminate_before {};
+constexpr std::array passed_on{SIGINT, SIGTERM, SIGHUP};
+std::array<struct sigaction, passed_on.size()> before{};
 
 extern "C" void pass_on(int signal) {
   if (child > 0)
     ::kill(child, signal);
   else
     waiting = signal;
-  const struct sigaction& before = signal == SIGINT ? interrupt_before : terminate_before;
-  if (before.sa_handler != SIG_DFL && before.sa_handler != SIG_IGN) before.sa_handler(signal);
+  for (std::size_t s = 0; s < passed_on.size(); ++s)
+    if (passed_on[s] == signal && before[s].sa_handler != SIG_DFL) before[s].sa_handler(signal);
 }
 
 /// Passes signals on to a process while it lives; from before it is started, so that none is lost.
@@ -54,12 +54,14 @@ class PassingOn {
     waiting = 0;
     struct sigaction action {};
     action.sa_handler = pass_on;
-    ::sigaction(SIGINT, &action, &interrupt_before);
-    ::sigaction(SIGTERM, &action, &terminate_before);
+    action.sa_flags = SA_RESTART;
+    for (std::size_t s = 0; s < passed_on.size(); ++s) {
+      ::sigaction(passed_on[s], nullptr, &before[s]);
+      if (before[s].sa_handler != SIG_IGN) ::sigaction(passed_on[s], &action, nullptr);
+    }
   }
   ~PassingOn() {
-    ::sigaction(SIGINT, &interrupt_before, nullptr);
-    ::sigaction(SIGTERM, &terminate_before, nullptr);
+    for (std::size_t s = 0; s < passed_on.size(); ++s) ::sigaction(passed_on[s], &before[s], nullptr);
     child = 0;
   }
   void to(pid_t process) {
@@ -113,21 +115,80 @@ std::vector<std::string> environment_with(const std::vector<std::string>& settin
   return result;
 }
 
-pid_t started(const ProcessRequest& request, const Pipe& pipe) {
+/// Keeps signals from this thread while it lives: between fork and exec the child still has our handlers.
+class SignalsHeld {
+ public:
+  SignalsHeld() {
+    sigset_t all;
+    ::sigfillset(&all);
+    ::pthread_sigmask(SIG_SETMASK, &all, &before_);
+  }
+  ~SignalsHeld() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsHeld(const SignalsHeld&) = delete;
+  SignalsHeld& operator=(const SignalsHeld&) = delete;
+  const sigset_t& before() const { return before_; }
+
+ private:
+  sigset_t before_{};
+};
+
+/// What a child needs to become another program, made before the fork: between fork and exec nothing may be
+/// allocated.
+struct Start {
+  const char* program = nullptr;
+  char* const* words = nullptr;
+  char* const* environment = nullptr;
+  ProcessOutput output = ProcessOutput::inherited;
+  int captured = -1;   // where captured output goes
+  int failed = -1;     // takes errno if there is no such program
+  int end_signal = 0;  // that comes when the parent ends
+  pid_t parent = 0;
+  const sigset_t* mask = nullptr;
+};
+
+[[noreturn]] void become(const Start& start) {
+  ::prctl(PR_SET_PDEATHSIG, start.end_signal);
+  if (::getppid() != start.parent) ::_exit(128 + SIGKILL);  // it ended before it could be watched
+  if (start.output != ProcessOutput::inherited) ::dup2(start.captured, STDOUT_FILENO);
+  if (start.output == ProcessOutput::with_errors) ::dup2(start.captured, STDERR_FILENO);
+  for (const int signal : passed_on) {
+    struct sigaction action {};
+    ::sigaction(signal, nullptr, &action);
+    if (action.sa_handler != SIG_IGN) std::signal(signal, SIG_DFL);
+  }
+  std::signal(SIGPIPE, SIG_DFL);
+  ::pthread_sigmask(SIG_SETMASK, start.mask, nullptr);
+  ::execvpe(start.program, start.words, start.environment);
+  const int error = errno;
+  (void)!::write(start.failed, &error, sizeof error);
+  ::_exit(127);
+}
+
+pid_t started(const ProcessRequest& request, const Pipe& output) {
   std::vector<std::string> words = {request.program.string()};
   words.insert(words.end(), request.words.begin(), request.words.end());
   std::vector<std::string> variables = environment_with(request.environment);
-  posix_spawn_file_actions_t actions;
-  ::posix_spawn_file_actions_init(&actions);
-  if (request.output != ProcessOutput::inherited)
-    ::posix_spawn_file_actions_adddup2(&actions, pipe.write_end(), STDOUT_FILENO);
-  if (request.output == ProcessOutput::with_errors)
-    ::posix_spawn_file_actions_adddup2(&actions, pipe.write_end(), STDERR_FILENO);
-  pid_t process = 0;
-  const int error = ::posix_spawnp(&process, request.program.c_str(), &actions, nullptr,
-                                   pointers(words).data(), pointers(variables).data());
-  ::posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) fail(request.program, error);
+  const std::vector<char*> word_pointers = pointers(words), variable_pointers = pointers(variables);
+  Pipe failed(request.program);
+  const SignalsHeld held;
+  const Start start{.program = request.program.c_str(),
+                    .words = word_pointers.data(),
+                    .environment = variable_pointers.data(),
+                    .output = request.output,
+                    .captured = output.write_end(),
+                    .failed = failed.write_end(),
+                    .end_signal = request.end_signal,
+                    .parent = ::getpid(),
+                    .mask = &held.before()};
+  const pid_t process = ::fork();
+  if (process < 0) fail(request.program, errno);
+  if (process == 0) become(start);
+  failed.close_write_end();
+  int error = 0;
+  if (::read(failed.read_end(), &error, sizeof error) == static_cast<ssize_t>(sizeof error)) {
+    ::waitpid(process, nullptr, 0);
+    fail(request.program, error);
+  }
   return process;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 // Programs that this one starts: how they are started, what they print, how they end.
+#include <csignal>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -24,8 +25,12 @@ struct ProcessRequest {
   std::function<void(const std::string&)> line =
       {};                                   ///< takes each line of captured output; empty: it is dropped
   std::optional<double> time_limit_s = {};  ///< wall time after which the program is told to end
-  /// SIGINT and SIGTERM go to the program too, and this process, after its own handler, waits for its end.
+  /// SIGINT, SIGTERM and SIGHUP go to the program too, and this process, after its own handler, which must
+  /// return, waits for its end.
   bool pass_signals_on = false;
+  /// What the program gets when this process ends before it, by kill -9 for example: nobody would wait for it
+  /// any more. SIGTERM for one that has processes of its own to end (mpirun).
+  int end_signal = SIGKILL;
 };
 
 /// How a program ended.
@@ -40,7 +45,7 @@ struct ProcessEnd {
 };
 
 /// Starts the program and waits until it ends. Throws IoError if it cannot be started. At most one call of a
-/// process at a time passes signals on.
+/// process at a time passes signals on. To be called from a thread that lives on: the program ends with it.
 ProcessEnd run_process(const ProcessRequest& request);
 
 /// Does `work` in a copy of this process, whose memory can then be told from this one's, and waits for it.

@@ -7,10 +7,12 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 #include "coupling/common/errors.hpp"
 #include "coupling/common/input_file.hpp"
+#include "coupling/common/unfinished_file.hpp"
 
 namespace drumlin {
 
@@ -63,18 +65,15 @@ class FileAside {
         descriptor_(::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
     if (descriptor_.number() < 0) give_up(file_, "written");
   }
-  ~FileAside() {
-    if (!name_.empty()) ::unlinkat(descriptor_.number(), name_.c_str(), 0);
-  }
   FileAside(const FileAside&) = delete;
   FileAside& operator=(const FileAside&) = delete;
 
   void write(std::string_view content) {
-    const std::string name = unguessable_name(file_);
-    Descriptor aside(::openat(descriptor_.number(), name.c_str(),
+    name_ = unguessable_name(file_);
+    unfinished_.emplace(folder_ / name_);
+    Descriptor aside(::openat(descriptor_.number(), name_.c_str(),
                               O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
     if (aside.number() < 0) give_up(file_, "written");
-    name_ = name;
     while (!content.empty()) {
       const ssize_t bytes = ::write(aside.number(), content.data(), content.size());
       if (bytes < 0 && errno == EINTR) continue;
@@ -87,7 +86,6 @@ class FileAside {
 
   void take_the_place() {
     if (!rename(name_, file_.filename())) give_up(file_, "written");
-    name_.clear();
     if (::fsync(descriptor_.number()) != 0) give_up(file_, "forced to the disk");
   }
 
@@ -100,6 +98,7 @@ class FileAside {
   fs::path file_, folder_;
   Descriptor descriptor_;
   std::string name_;
+  std::optional<UnfinishedFile> unfinished_;  // removes it wherever this process ends before the rename
 };
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <ctime>
+#include <string>
+#include <system_error>
 
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -69,10 +71,20 @@ double Barrier::meet() {
 }
 
 ThreadTeam::ThreadTeam(int threads) : barrier_(threads), members_(static_cast<std::size_t>(threads)) {
-  for (int t = 1; t < threads; ++t) helpers_.emplace_back([this, t] { help(t); });
+  try {
+    for (int t = 1; t < threads; ++t) helpers_.emplace_back([this, t] { help(t); });
+  } catch (const std::system_error& error) {
+    end();
+    throw std::system_error(error.code(), std::to_string(threads) + " threads cannot be started");
+  } catch (...) {
+    end();
+    throw;
+  }
 }
 
-ThreadTeam::~ThreadTeam() {
+ThreadTeam::~ThreadTeam() { end(); }
+
+void ThreadTeam::end() {
   over_ = true;
   for (auto& member : members_) {
     member.jobs.fetch_add(1, std::memory_order_release);

@@ -32,6 +32,7 @@ class Barrier {
 /// shares of a job must not decide its result: any number of threads from 1 to size() may be given any job.
 class ThreadTeam {
  public:
+  /// Throws std::system_error if the system gives no more threads, and std::bad_alloc.
   explicit ThreadTeam(int threads);
   ~ThreadTeam();
   ThreadTeam(const ThreadTeam&) = delete;
@@ -55,6 +56,7 @@ class ThreadTeam {
   void help(int t);
   void work(int t);
   void choose_threads(double passed);
+  void end();
 
   Barrier barrier_;
   std::vector<Member> members_;

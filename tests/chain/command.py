@@ -6,6 +6,10 @@ import subprocess
 import sys
 
 
+# Changes of tiny-drum.toml that make a run of a fraction of a second.
+SHORT_RUN = ["--set", "stages.1.turns=0.02", "--set", "stages.2.turns=0.02", "--set", "stages.2.snapshots=4"]
+
+
 class Drumlin:
     def __init__(self, executable):
         self.executable = executable
@@ -40,3 +44,13 @@ def bytes_below(folder):
     """Every file below a folder with its content."""
     return {str(path.relative_to(folder)): path.read_bytes() for path in sorted(pathlib.Path(folder).rglob("*"))
             if path.is_file()}
+
+
+def require_whole_files(folder):
+    """No part of a file below the folder; JSON files are whole."""
+    for path in folder.rglob("*"):
+        require(".part" not in path.name, f"{path} was left")
+        if path.suffix == ".json" and path.is_file():
+            read_json(path)
+        if path.suffix == ".png":
+            require(path.read_bytes().endswith(b"IEND\xaeB`\x82"), f"{path} is half a picture")

@@ -2,7 +2,10 @@
 #include "coupling/common/child_process.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <array>
 #include <csignal>
 #include <thread>
 
@@ -78,6 +81,48 @@ TEST(ChildProcess, GetsTheSignalsThatOurHandlerGets) {
   EXPECT_EQ(run_process(request).exit_code, 7);
   EXPECT_EQ(seen, SIGTERM);
   EXPECT_EQ(std::signal(SIGTERM, SIG_DFL), see);  // our own is back
+}
+
+/// Whether nobody holds the other end of a pipe any more; waits until it is so.
+bool all_have_gone(int read_end) {
+  char byte = 0;
+  return ::read(read_end, &byte, 1) == 0;
+}
+
+TEST(ChildProcess, EndsWithItsParent) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(::pipe(ends.data()), 0);  // the child inherits the write end, and holds it while it lives
+  const pid_t parent = ::fork();
+  if (parent == 0) {
+    ::close(ends[0]);
+    ProcessRequest request{.program = "/bin/sh", .words = {"-c", "kill -9 $PPID; while :; do sleep 1; done"}};
+    request.pass_signals_on = true;
+    run_process(request);
+    ::_exit(0);
+  }
+  ::close(ends[1]);
+  EXPECT_TRUE(all_have_gone(ends[0]));
+  ::close(ends[0]);
+  int status = 0;
+  EXPECT_EQ(::waitpid(parent, &status, 0), parent);
+  EXPECT_EQ(WTERMSIG(status), SIGKILL);
+}
+
+TEST(ChildProcess, GetsAHangUpAndNoHandlerOfOurs) {
+  std::signal(SIGHUP, see);
+  std::vector<std::string> lines;
+  ProcessRequest request = shell("kill -HUP $PPID; sleep 30", ProcessOutput::standard, lines);
+  request.pass_signals_on = true;
+  EXPECT_EQ(run_process(request).signal, SIGHUP);
+  EXPECT_EQ(seen, SIGHUP);
+  EXPECT_EQ(std::signal(SIGHUP, SIG_DFL), see);
+}
+
+TEST(ChildProcess, IsEndedByAGoneReaderAlthoughWeAreNot) {
+  std::signal(SIGPIPE, SIG_IGN);
+  std::vector<std::string> lines;
+  EXPECT_EQ(run_process(shell("kill -PIPE $$; sleep 30", ProcessOutput::standard, lines)).signal, SIGPIPE);
+  std::signal(SIGPIPE, SIG_DFL);
 }
 
 TEST(ChildProcess, IsMissed) {

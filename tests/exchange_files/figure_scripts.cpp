@@ -40,6 +40,25 @@ TEST(FigureScript, GetsItsArgumentsAndABackendWithoutDisplay) {
   EXPECT_EQ(text, "Agg a b");
 }
 
+TEST(FigureScript, ImportsFromItsOwnFolderAndNeitherTheCurrentOneNorPythonpath) {
+  const TemporaryFolder own, strange;
+  const fs::path executed = strange / "executed", before = fs::current_path();
+  for (const char* module : {"json.py", "sitecustomize.py"})
+    strange.with(module, "open('" + executed.string() + "', 'w').close()\n");
+  own.with("neighbour.py", "ink = 'blue'\n");
+  const auto script = own.with(
+      "draw.py", "import json, sys\nimport neighbour\nopen(sys.argv[1], 'w').write(neighbour.ink)\n");
+  ::setenv("PYTHONPATH", strange.path().c_str(), 1);
+  ::setenv("PYTHONHOME", strange.path().c_str(), 1);
+  fs::current_path(strange.path());
+  EXPECT_NO_THROW(draw_figures(script, {(own / "drawn").string()}));
+  fs::current_path(before);
+  ::unsetenv("PYTHONPATH");
+  ::unsetenv("PYTHONHOME");
+  EXPECT_EQ(file_text(own / "drawn"), "blue");
+  EXPECT_FALSE(fs::exists(executed));
+}
+
 TEST(PendingFigures, AreAllDrawnButThoseThatFailAndTheseAreNamed) {
   const TemporaryFolder folder;
   const fs::path results = folder / "results", finished = results / "measured.json";

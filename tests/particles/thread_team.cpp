@@ -3,8 +3,13 @@
 #include "particles/parallel/thread_team.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <chrono>
+#include <new>
+#include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -40,9 +45,30 @@ TEST(ThreadTeam, EveryShareOfAJobIsDoneOnceAndThreadsMeet) {
   }
 }
 
+/// Ends this process with 7 if 250 threads in too little memory are an error that says so.
+[[noreturn]] void start_too_many() {
+  const rlimit room = {1 << 28, 1 << 28};  // bytes: stacks of some threads, not of all
+  ::setrlimit(RLIMIT_AS, &room);
+  try {
+    const ThreadTeam team(250);
+  } catch (const std::system_error& error) {
+    ::_exit(std::string(error.what()).starts_with("250 threads cannot be started") ? 7 : 8);
+  } catch (const std::bad_alloc&) {
+    ::_exit(7);
+  }
+  ::_exit(9);
+}
+
+TEST(ThreadTeam, ThreadsThatCannotBeStartedAreAnErrorThatTellsHowMany) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "the address sanitizer takes terabytes of addresses";
+#endif
+  EXPECT_EXIT(start_too_many(), ::testing::ExitedWithCode(7), "");
+}
+
 TEST(ThreadTeam, ThreadsThatWaitAreLeftAloneForAWhileAndTriedAgain) {
-  // Nobody works: each job sleeps longer than the stretch over which a team looks at itself, as if its processor
-  // had been taken away.
+  // Nobody works: each job sleeps longer than the stretch over which a team looks at itself, as if its
+  // processor had been taken away.
   ThreadTeam team(2);
   const auto sleep = [&](int t, int) {
     if (t == 0) std::this_thread::sleep_for(std::chrono::milliseconds(30));

@@ -11,6 +11,7 @@
 #include "apps/support/figures.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/output_folder.hpp"
+#include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/law/rheology_file.hpp"
 
@@ -101,7 +102,7 @@ coupling::CalibrationOptions settings_of(const CalibrateOptions& options, coupli
 
 int calibrate(const CalibrateOptions& options) {
   if (options.existing == ExistingOutput::resume && fs::is_regular_file(options.output)) {
-    fmt::print("{}: done already\n", options.output.string());
+    print_out(fmt::format("{}: done already\n", options.output.string()));
     return static_cast<int>(ExitCode::done);
   }
   if (options.runs.empty()) throw InputError("calibrate needs at least one measured run");
@@ -126,18 +127,19 @@ int calibrate(const CalibrateOptions& options) {
   write_rheology(options.output, calibration.rheology);
 
   const coupling::CalibratedLaw& law = calibration.law();
-  fmt::print(
+  print_out(fmt::format(
       "{}{}\n  {}\n  {} points of {} with I from {:.2g} to {:.2g}, where it is valid; nu {:.4f}\n",
       options.output.string(), calibration.rheology.reduced ? " (reduced)" : "",
       described(calibration.rheology.mu), law.fit.points,
       source == coupling::EvidenceSource::maps ? "the tensors of maps.h5" : "the layers of profiles.csv",
-      law.I_min, law.I_max, calibration.rheology.nu);
-  fmt::print("{}{}{}{}{}{}", forms_text(calibration), posedness_text(calibration),
-             score_text("fitted", calibration.scores), score_text("predicted", calibration.predictions),
-             one_law_text(calibration), relaxation_text(calibration));
+      law.I_min, law.I_max, calibration.rheology.nu));
+  print_out(fmt::format("{}{}{}{}{}{}", forms_text(calibration), posedness_text(calibration),
+                        score_text("fitted", calibration.scores),
+                        score_text("predicted", calibration.predictions), one_law_text(calibration),
+                        relaxation_text(calibration)));
   for (const MeasuredRun& run : all)
     for (const std::string& reason : run.unsteady)
-      fmt::print("  warning: {} is not steady: {}\n", run.name, reason);
+      print_out(fmt::format("  warning: {} is not steady: {}\n", run.name, reason));
   return static_cast<int>(ExitCode::done);
 }
 

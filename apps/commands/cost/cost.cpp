@@ -38,12 +38,8 @@ int cost(const CostOptions& options) {
   if (flow && !options.rheology)
     throw InputError(options.scene.string() + ": a flow scene needs --rheology RHEOLOGY.toml");
   refuse_options_of_the_other_kind(options, flow);
-  try {
-    if (options.effects) return flow ? price_flow_effects(options) : price_particle_effects(options);
-    return flow ? sweep_flow(options) : sweep_particles(options);
-  } catch (const Interrupted& stopped) {
-    return stopped.exit_code;
-  }
+  if (options.effects) return flow ? price_flow_effects(options) : price_particle_effects(options);
+  return flow ? sweep_flow(options) : sweep_particles(options);
 }
 
 }  // namespace drumlin::apps

@@ -11,6 +11,7 @@
 #include "apps/support/interruption.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/output_folder.hpp"
+#include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/documents/json_numbers.hpp"
 #include "particles/accuracy/effect_price.hpp"
@@ -56,11 +57,11 @@ void add_price(nlohmann::ordered_json& row, const particles::EffectPrice& p) {
 }
 
 void print_row(const std::string& name, const particles::EffectPrice& p) {
-  fmt::print("{:7.2f} s {:7.2f} MB {:8.0f} {:6.1f} {:5.1f} % {:10.3g} {:8.2f} {:>7} {:9.2g}  {}\n",
-             p.cpu_seconds, p.bytes / (1 << 20), p.unknowns(), p.sweeps, 100 * p.missed,
-             p.kinetic_energy_J_kg, p.center_z_mm,
-             std::isnan(p.slope_deg) ? "-" : fmt::format("{:.2f}", p.slope_deg), p.overlap_d, name);
-  std::fflush(stdout);
+  print_out(fmt::format(
+      "{:7.2f} s {:7.2f} MB {:8.0f} {:6.1f} {:5.1f} % {:10.3g} {:8.2f} {:>7} {:9.2g}  {}\n", p.cpu_seconds,
+      p.bytes / (1 << 20), p.unknowns(), p.sweeps, 100 * p.missed, p.kinetic_energy_J_kg, p.center_z_mm,
+      std::isnan(p.slope_deg) ? "-" : fmt::format("{:.2f}", p.slope_deg), p.overlap_d, name));
+  flush_out();
 }
 
 }  // namespace
@@ -71,12 +72,13 @@ int price_particle_effects(const CostOptions& options) {
   std::optional<StagedOutput> output;
   if (options.output)
     output.emplace(OutputRequest{*options.output, options.existing, "cost", {options.scene}});
-  catch_interruptions();
+  const CaughtInterruptions caught;
   nlohmann::ordered_json report, rows = nlohmann::ordered_json::array();
-  fmt::print("{}: the first {:g} s; results are means over the second half\n{}{}\n", options.scene.string(),
-             options.seconds, scene.reduced ? "reduced\n" : "",
-             "     time     memory unknowns sweeps  missed energy J/kg centre z   slope   overlap  scene\n"
-             "                                                             mm     deg         d");
+  print_out(fmt::format(
+      "{}: the first {:g} s; results are means over the second half\n{}{}\n", options.scene.string(),
+      options.seconds, scene.reduced ? "reduced\n" : "",
+      "     time     memory unknowns sweeps  missed energy J/kg centre z   slope   overlap  scene\n"
+      "                                                             mm     deg         d"));
   auto variants = particles::effect_variants(scene);
   // Once more at the end: what differs between the two is noise of the machine.
   variants.push_back(variants.front());
@@ -93,7 +95,7 @@ int price_particle_effects(const CostOptions& options) {
       print_row(name, price);
     } else {
       row["refused"] = variant.refused;
-      fmt::print("{:>88}  {}: {}\n", "not possible", name, variant.refused);
+      print_out(fmt::format("{:>88}  {}: {}\n", "not possible", name, variant.refused));
     }
     rows.push_back(row);
   }

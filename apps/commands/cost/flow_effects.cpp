@@ -10,9 +10,11 @@
 #include "apps/support/interruption.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/output_folder.hpp"
+#include "apps/support/standard_streams.hpp"
 #include "coupling/accuracy/flow_variants.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/common/text_file.hpp"
+#include "coupling/common/unfinished_file.hpp"
 #include "coupling/documents/document.hpp"
 #include "coupling/documents/json_numbers.hpp"
 #include "coupling/documents/toml_text.hpp"
@@ -66,33 +68,35 @@ Json row_of(const std::string& name, const Json& point, const Json& base) {
 
 /// The errors against the measured runs, a star where a target is missed.
 void print_errors(const Json& against) {
-  fmt::print("\n    ");
+  print_out("\n    ");
   for (const Json& target : against.at("targets")) {
     if (!target.at("value").is_number()) continue;
-    fmt::print("  {}{} {:.3f}{}", target.at("quantity").get<std::string>(),
-               target.contains("zone") ? " " + target.at("zone").get<std::string>() : "",
-               target.at("value").get<double>(), target.at("outcome") == "missed" ? "*" : "");
+    print_out(fmt::format("  {}{} {:.3f}{}", target.at("quantity").get<std::string>(),
+                          target.contains("zone") ? " " + target.at("zone").get<std::string>() : "",
+                          target.at("value").get<double>(), target.at("outcome") == "missed" ? "*" : ""));
   }
   const Json& verdict = against.at("verdict");
-  fmt::print("  ({} met, {} missed)", verdict.at("met").get<int>(), verdict.at("missed").get<int>());
+  print_out(
+      fmt::format("  ({} met, {} missed)", verdict.at("met").get<int>(), verdict.at("missed").get<int>()));
 }
 
 void print(const Json& row) {
   if (row.contains("refused") || row.contains("failure")) {
-    fmt::print("{:<16} {}\n", row.at("effect").get<std::string>(),
-               row.contains("refused") ? row.at("refused").get<std::string>()
-                                       : row.at("failure").get<std::string>());
+    print_out(fmt::format("{:<16} {}\n", row.at("effect").get<std::string>(),
+                          row.contains("refused") ? row.at("refused").get<std::string>()
+                                                  : row.at("failure").get<std::string>()));
     return;
   }
-  fmt::print("{:<16} {:8.1f} s {:6}", row.at("effect").get<std::string>(),
-             row.at("cpu_seconds").get<double>(), row.at("iterations").get<int>());
+  print_out(fmt::format("{:<16} {:8.1f} s {:6}", row.at("effect").get<std::string>(),
+                        row.at("cpu_seconds").get<double>(), row.at("iterations").get<int>()));
   for (const auto& [name, change] : row.at("change").items())
-    fmt::print("  {} {:.4g} ({:+.2g})", name, row.at("scalars").at(name).get<double>(), change.get<double>());
+    print_out(fmt::format("  {} {:.4g} ({:+.2g})", name, row.at("scalars").at(name).get<double>(),
+                          change.get<double>()));
   if (row.at("v_x_change").is_number())
-    fmt::print("  v_x {:.2g} %", 100 * row.at("v_x_change").get<double>());
+    print_out(fmt::format("  v_x {:.2g} %", 100 * row.at("v_x_change").get<double>()));
   if (row.contains("against")) print_errors(row.at("against"));
-  fmt::print("\n");
-  std::fflush(stdout);
+  print_out("\n");
+  flush_out();
 }
 
 /// The flows of the list, one after the other, and what each changes.
@@ -102,8 +106,8 @@ class FlowPrices {
       : options_(options), store_(store), plain_(plain_files(options, store)) {}
 
   int execute() {
-    fmt::print("{}: processor seconds, iterations, scalars (what the effect changes)\n",
-               options_.scene.string());
+    print_out(fmt::format("{}: processor seconds, iterations, scalars (what the effect changes)\n",
+                          options_.scene.string()));
     const FlowToSolve without = flow("none", plain_.scene, plain_.law, {});
     base_ = solved_point(store_, without);
     if (base_.contains("failure"))
@@ -157,13 +161,13 @@ class FlowPrices {
     for (const fs::path& run : options_.against) report["against"].push_back(run.filename().string());
     report["effects"] = rows_;
     report["provenance"] = to_json(provenance());
-    const fs::path unfinished = *options_.output / "cost.json.part";
-    write_json(unfinished, report);
-    draw_figures("flow_price_figures.py", {unfinished.string(), (*options_.output / "prices.png").string()});
+    const UnfinishedFile unfinished(*options_.output / "cost.json.part");
+    write_json(unfinished.path(), report);
+    draw_figures("flow_price_figures.py",
+                 {unfinished.path().string(), (*options_.output / "prices.png").string()});
     if (!options_.against.empty())
       draw_figures("flow_effect_figures.py",
-                   {unfinished.string(), (*options_.output / "effects.png").string()});
-    fs::remove(unfinished);
+                   {unfinished.path().string(), (*options_.output / "effects.png").string()});
     write_json(*options_.output / "cost.json", report);
     store_.finish();
   }
@@ -181,7 +185,7 @@ int price_flow_effects(const CostOptions& options) {
   (void)coupling::flow_variants(options.variants);
   GrowingOutput output = cost_output(*options.output, options.existing, {options.scene, *options.rheology});
   const PointStore store(output, shared_by_flows("continuum effects", options));
-  catch_interruptions();
+  const CaughtInterruptions caught;
   return FlowPrices(options, store).execute();
 }
 

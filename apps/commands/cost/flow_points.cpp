@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <csignal>
 #include <nlohmann/json.hpp>
 
+#include "apps/support/interruption.hpp"
 #include "apps/support/json_file.hpp"
+#include "apps/support/standard_streams.hpp"
 #include "coupling/common/child_process.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/common/machine_load.hpp"
@@ -98,6 +101,7 @@ ProcessRequest request_for(const FlowToSolve& flow, const fs::path& folder) {
   if (flow.ranks > 1) {
     request.program = "mpirun";
     request.words = {"-n", std::to_string(flow.ranks), program};
+    request.end_signal = SIGTERM;  // it ends its ranks
     request.environment = {"OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"};
   }
   request.words.insert(request.words.end(), {flow.scene.string(), "--rheology", flow.rheology.string(),
@@ -129,8 +133,9 @@ Json solved_into(const fs::path& folder, const FlowToSolve& flow) {
       return failure("the flow did not converge");
     case static_cast<int>(ExitCode::wrong_input):
       throw InputError(flow.name + ": drumlin-flow refused the scene or the law");
-    case static_cast<int>(ExitCode::interrupted):
-    case static_cast<int>(ExitCode::terminated):
+    case exit_code_of(SIGINT):
+    case exit_code_of(SIGTERM):
+    case exit_code_of(SIGHUP):
       throw Interrupted{end.shell_code()};
     default:
       throw IoError(fmt::format("{}: drumlin-flow ended with exit code {}", flow.name, end.shell_code()));
@@ -194,14 +199,15 @@ void print_work(const Json& entry) {
       fmt::format("{} rank{}, {}", entry.at("ranks").get<int>(), entry.at("ranks") == 1 ? "" : "s",
                   entry.at("start") == "cold" ? "cold" : "from a neighbour");
   if (entry.contains("failure")) {
-    fmt::print("    {}: {}\n", name, entry.at("failure").get<std::string>());
+    print_out(fmt::format("    {}: {}\n", name, entry.at("failure").get<std::string>()));
     return;
   }
-  fmt::print("    {}: {} iterations, {:.1f} s least, {:.1f} s median, {:.1f} s of processors, {:.0f} MB\n",
-             name, entry.at("iterations").get<int>(), entry.at("seconds").at("least").get<double>(),
-             entry.at("seconds").at("median").get<double>(),
-             entry.at("cpu_seconds").at("least").get<double>(), entry.at("peak_memory_mb").get<double>());
-  std::fflush(stdout);
+  print_out(fmt::format(
+      "    {}: {} iterations, {:.1f} s least, {:.1f} s median, {:.1f} s of processors, {:.0f} MB\n", name,
+      entry.at("iterations").get<int>(), entry.at("seconds").at("least").get<double>(),
+      entry.at("seconds").at("median").get<double>(), entry.at("cpu_seconds").at("least").get<double>(),
+      entry.at("peak_memory_mb").get<double>()));
+  flush_out();
 }
 
 coupling::NamedNumbers named_numbers(const Json& object) {

@@ -13,7 +13,9 @@
 #include "apps/support/interruption.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/output_folder.hpp"
+#include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
+#include "coupling/common/unfinished_file.hpp"
 #include "coupling/documents/document.hpp"
 #include "coupling/documents/toml_text.hpp"
 
@@ -29,8 +31,8 @@ class FlowSweep {
 
   int execute() {
     const auto axes = coupling::sweep_axes(options_.sweep, coupling::flow_axes());
-    fmt::print("{}: the scene as it is\n", options_.scene.string());
-    std::fflush(stdout);
+    print_out(fmt::format("{}: the scene as it is\n", options_.scene.string()));
+    flush_out();
     const Json as_it_is = solved_point(store_, flow("as-it-is", {}));
     if (as_it_is.contains("failure"))
       throw NotConvergedError(options_.scene.string() + ": " + as_it_is.at("failure").get<std::string>());
@@ -77,12 +79,12 @@ class FlowSweep {
     for (const char* key : {"unknowns", "iterations", "seconds", "cpu_seconds", "load_before", "scalars",
                             "closed_form", "failure"})
       if (found.contains(key)) point[key] = found.at(key);
-    fmt::print("{:>9} s  {}{}\n",
-               found.at("cpu_seconds").is_number()
-                   ? fmt::format("{:.2f}", found.at("cpu_seconds").get<double>())
-                   : "-",
-               name, found.contains("failure") ? ": " + found.at("failure").get<std::string>() : "");
-    std::fflush(stdout);
+    print_out(fmt::format(
+        "{:>9} s  {}{}\n",
+        found.at("cpu_seconds").is_number() ? fmt::format("{:.2f}", found.at("cpu_seconds").get<double>())
+                                            : "-",
+        name, found.contains("failure") ? ": " + found.at("failure").get<std::string>() : ""));
+    flush_out();
     if (asks_for_work(options_)) point["work"] = work_of(store_, flow_with(s), found, options_);
     points.push_back(std::move(point));
     swept_.push_back({s, {axis}, {}});
@@ -91,8 +93,8 @@ class FlowSweep {
 
   Json reference_of(const std::vector<coupling::SweepCurve>& curves) const {
     const coupling::FlowSettings finest = coupling::reference_settings(standard_, curves);
-    fmt::print("{:>11}  reference {}\n", "", name_of(finest));
-    std::fflush(stdout);
+    print_out(fmt::format("{:>11}  reference {}\n", "", name_of(finest)));
+    flush_out();
     Json reference =
         solved_point(store_, flow(name_of(finest), coupling::changes_of(finest, standard_, surface_cell_)));
     if (reference.contains("failure"))
@@ -118,21 +120,22 @@ class FlowSweep {
   }
 
   void print(const Json& points, const std::vector<std::string>& quantities) const {
-    fmt::print("{:>10}", "processor");
-    for (const std::string& name : quantities) fmt::print(" {:>12}", name);
-    fmt::print("  (relative errors; * on the front)\n");
+    print_out(fmt::format("{:>10}", "processor"));
+    for (const std::string& name : quantities) print_out(fmt::format(" {:>12}", name));
+    print_out("  (relative errors; * on the front)\n");
     for (const Json& point : points) {
       if (point.contains("failure")) continue;
-      fmt::print("{:8.2f} s", point.at("cpu_seconds").get<double>());
+      print_out(fmt::format("{:8.2f} s", point.at("cpu_seconds").get<double>()));
       for (const std::string& name : quantities) {
         const auto error = point.at("errors").find(name);
         const bool known = error != point.at("errors").end() && error->is_number();
         const bool front = std::find(point.at("pareto").begin(), point.at("pareto").end(), Json(name)) !=
                            point.at("pareto").end();
-        fmt::print(" {:>12}", known ? fmt::format("{:.2g}{}", error->get<double>(), front ? "*" : " ") : "-");
+        print_out(fmt::format(
+            " {:>12}", known ? fmt::format("{:.2g}{}", error->get<double>(), front ? "*" : " ") : "-"));
       }
-      fmt::print("  {}{}\n", point.at("name").get<std::string>(),
-                 point.at("default").get<bool>() ? " (the scene)" : "");
+      print_out(fmt::format("  {}{}\n", point.at("name").get<std::string>(),
+                            point.at("default").get<bool>() ? " (the scene)" : ""));
     }
   }
 
@@ -157,13 +160,13 @@ class FlowSweep {
     report["points"] = points;
     report["scene"] = toml_text(document.root);
     report["provenance"] = to_json(provenance());
-    const fs::path unfinished = *options_.output / "cost.json.part", file = *options_.output / "cost.json";
-    write_json(unfinished, report);
-    draw_figures("work_precision.py", {unfinished.string(), options_.output->string()});
-    fs::remove(unfinished);
+    const UnfinishedFile unfinished(*options_.output / "cost.json.part");
+    const fs::path file = *options_.output / "cost.json";
+    write_json(unfinished.path(), report);
+    draw_figures("work_precision.py", {unfinished.path().string(), options_.output->string()});
     write_json(file, report);
     store_.finish();
-    fmt::print("{}\n", file.string());
+    print_out(fmt::format("{}\n", file.string()));
   }
 
   const CostOptions& options_;
@@ -182,7 +185,7 @@ int sweep_flow(const CostOptions& options) {
   (void)coupling::sweep_axes(options.sweep, coupling::flow_axes());
   GrowingOutput output = cost_output(*options.output, options.existing, {options.scene, *options.rheology});
   const PointStore store(output, shared_by_flows("continuum", options));
-  catch_interruptions();
+  const CaughtInterruptions caught;
   return FlowSweep(options, store).execute();
 }
 

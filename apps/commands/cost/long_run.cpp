@@ -6,6 +6,7 @@
 
 #include "apps/commands/cost/sweep.hpp"
 #include "apps/commands/run_files.hpp"
+#include "apps/support/interruption.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/output_folder.hpp"
 #include "coupling/common/machine_load.hpp"

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/commands/cost/sweep.hpp"
+#include "apps/support/interruption.hpp"
 #include "apps/support/progress.hpp"
 #include "coupling/common/errors.hpp"
 #include "particles/io/checkpoint_file.hpp"

@@ -14,8 +14,10 @@
 #include "apps/support/interruption.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/output_folder.hpp"
+#include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/common/machine_load.hpp"
+#include "coupling/common/unfinished_file.hpp"
 #include "coupling/documents/json_numbers.hpp"
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/measurement/motion_difference.hpp"
@@ -77,17 +79,17 @@ class SweepOfGrains {
                       {"horizon_s", stretch_s_},
                       {"reference", settings_json(sweep_.reference)}};
     const PointStore store(output, shared);
-    catch_interruptions();
+    const CaughtInterruptions caught;
     const particles::SweepStart start = sweep_start(options_, scene_);
-    fmt::print("{}: {:g} s from {}, {} points\n", options_.scene.string(), stretch_s_,
-               shared.at("from").get<std::string>(), sweep_.points.size());
+    print_out(fmt::format("{}: {:g} s from {}, {} points\n", options_.scene.string(), stretch_s_,
+                          shared.at("from").get<std::string>(), sweep_.points.size()));
     make_reference(start, store, sweep_.reference);
     const Json finest = measured_point(start, store, sweep_.finest);
     const std::size_t horizon = chosen_horizon(finest);
     Json points = Json::array();
-    fmt::print("{:>10} {:>8} {:>8}", "processor", "sweeps", "missed");
-    for (const std::string& name : quantities) fmt::print(" {:>12}", name);
-    fmt::print("  (processor seconds per simulated one; relative errors)\n");
+    print_out(fmt::format("{:>10} {:>8} {:>8}", "processor", "sweeps", "missed"));
+    for (const std::string& name : quantities) print_out(fmt::format(" {:>12}", name));
+    print_out("  (processor seconds per simulated one; relative errors)\n");
     for (const coupling::ParticleSettings& settings : sweep_.points)
       points.push_back(flat(measured_point(start, store, settings), settings, horizon));
     if (options_.statistics_s) add_statistics(start, store, points);
@@ -107,8 +109,8 @@ class SweepOfGrains {
                       const coupling::ParticleSettings& settings) const {
     const std::string name = "reference-" + name_of(settings);
     if (store.finished(name)) return;
-    fmt::print("{}\n", name);
-    std::fflush(stdout);
+    print_out(fmt::format("{}\n", name));
+    flush_out();
     const double load = load_average();
     const auto marks =
         particles::marks_along(start, stretch_of(settings), options_.threads, stop_if_interrupted);
@@ -168,9 +170,10 @@ class SweepOfGrains {
     std::vector<double> floors;
     for (const Json& mark : finest.at("marks")) {
       const auto floor = [&](const char* name) { return number_or_nan(mark.at("errors").at(name)).value(); };
-      fmt::print("floor after {:g} s: field {:.2g}, displacement {:.2g}, velocity {:.2g}, energy {:.2g}\n",
-                 mark.at("simulated_seconds").get<double>(), floor("field"), floor("displacement"),
-                 floor("velocity"), floor("energy"));
+      print_out(fmt::format(
+          "floor after {:g} s: field {:.2g}, displacement {:.2g}, velocity {:.2g}, energy {:.2g}\n",
+          mark.at("simulated_seconds").get<double>(), floor("field"), floor("displacement"),
+          floor("velocity"), floor("energy")));
       floors.push_back(floor("field"));
     }
     return coupling::last_followed(floors);
@@ -185,15 +188,16 @@ class SweepOfGrains {
     for (const auto& [key, value] : mark.items())
       if (key != "simulated_seconds" && key != "cpu_seconds") row[key] = value;
     const double steps = mark.at("steps").get<double>();
-    fmt::print("{:8.2f} s {:8.1f} {:6.1f} %", point.at("cpu_seconds").get<double>(),
-               mark.at("sweeps").get<double>() / steps, 100 * mark.at("missed_share").get<double>());
+    print_out(fmt::format("{:8.2f} s {:8.1f} {:6.1f} %", point.at("cpu_seconds").get<double>(),
+                          mark.at("sweeps").get<double>() / steps,
+                          100 * mark.at("missed_share").get<double>()));
     for (const std::string& name : quantities) {
       const Json& error = mark.at("errors").at(name);
-      fmt::print(" {:>12}", error.is_number() ? fmt::format("{:.2g}", error.get<double>()) : "-");
+      print_out(fmt::format(" {:>12}", error.is_number() ? fmt::format("{:.2g}", error.get<double>()) : "-"));
     }
-    fmt::print("  {}{}\n", point.at("name").get<std::string>(),
-               settings == sweep_.standard ? " (the scene)" : "");
-    std::fflush(stdout);
+    print_out(fmt::format("  {}{}\n", point.at("name").get<std::string>(),
+                          settings == sweep_.standard ? " (the scene)" : ""));
+    flush_out();
     return row;
   }
 
@@ -240,14 +244,13 @@ class SweepOfGrains {
     draw(report);
     write_json(file, report);
     store.finish();
-    fmt::print("{}\n", file.string());
+    print_out(fmt::format("{}\n", file.string()));
   }
 
   void draw(const Json& report) const {
-    const fs::path unfinished = *options_.output / "cost.json.part";
-    write_json(unfinished, report);
-    draw_figures("work_precision.py", {unfinished.string(), options_.output->string()});
-    fs::remove(unfinished);
+    const UnfinishedFile unfinished(*options_.output / "cost.json.part");
+    write_json(unfinished.path(), report);
+    draw_figures("work_precision.py", {unfinished.path().string(), options_.output->string()});
   }
 
   const CostOptions& options_;

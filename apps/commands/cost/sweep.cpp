@@ -2,11 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <csignal>
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "apps/support/interruption.hpp"
 #include "apps/support/json_file.hpp"
 #include "coupling/accuracy/work_point.hpp"
 #include "coupling/common/errors.hpp"
@@ -81,11 +79,6 @@ void mark_fronts(Json& points, const std::vector<std::string>& quantities) {
   }
   const auto stands_on = coupling::fronts(work, quantities);
   for (std::size_t i = 0; i < work.size(); ++i) points[i]["pareto"] = Json(stands_on[i]);
-}
-
-void stop_if_interrupted() {
-  if (const int signal = interruption())
-    throw Interrupted{static_cast<int>(signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted)};
 }
 
 }  // namespace drumlin::apps

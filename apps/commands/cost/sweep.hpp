@@ -40,10 +40,4 @@ nlohmann::ordered_json json_of(const coupling::NamedNumbers& numbers);
 /// its "cpu_seconds".
 void mark_fronts(nlohmann::ordered_json& points, const std::vector<std::string>& quantities);
 
-/// Thrown through a sweep when a signal came; carries the exit code.
-struct Interrupted {
-  int exit_code;
-};
-void stop_if_interrupted();
-
 }  // namespace drumlin::apps

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/support/json_file.hpp"
+#include "apps/support/standard_streams.hpp"
 #include "coupling/documents/json_numbers.hpp"
 #include "coupling/files/field_map_file.hpp"
 #include "particles/measurement/maps/map_measurement.hpp"
@@ -82,26 +83,26 @@ void write(const particles::Measurement& measured, const PartOutput& output, con
 void print(const particles::MeasuredMaps& maps) {
   const auto line = [](const char* zone, const particles::BalanceResidual& r) {
     if (r.nodes == 0) return;
-    fmt::print("  {:8} {:.2f}, {:.2f} % along x, z", zone, 100 * r.rms_x, 100 * r.rms_z);
+    print_out(fmt::format("  {:8} {:.2f}, {:.2f} % along x, z", zone, 100 * r.rms_x, 100 * r.rms_z));
     if (std::isfinite(r.noise_x))
-      fmt::print(" (their noise {:.2f}, {:.2f} %)", 100 * r.noise_x, 100 * r.noise_z);
+      print_out(fmt::format(" (their noise {:.2f}, {:.2f} %)", 100 * r.noise_x, 100 * r.noise_z));
     if (std::isfinite(r.rms_x_blocks))
-      fmt::print("; means over {} d {:.2f}, {:.2f} %", particles::MapFindingOptions{}.block,
-                 100 * r.rms_x_blocks, 100 * r.rms_z_blocks);
-    fmt::print("\n");
+      print_out(fmt::format("; means over {} d {:.2f}, {:.2f} %", particles::MapFindingOptions{}.block,
+                            100 * r.rms_x_blocks, 100 * r.rms_z_blocks));
+    print_out("\n");
   };
-  fmt::print("momentum missing at the nodes of the maps, rms over nu g\n");
+  print_out("momentum missing at the nodes of the maps, rms over nu g\n");
   line("bulk", maps.balance.bulk);
   line("flowing", maps.balance.flowing);
   line("slow", maps.balance.slow);
   const particles::BulkFriction& fits = maps.friction;
   if (!std::isfinite(fits.invariant.rms)) return;
-  fmt::print("mu(I) over the whole bulk\n");
-  fmt::print(
+  print_out("mu(I) over the whole bulk\n");
+  print_out(fmt::format(
       "  |tau|/p             {:.4f} + {:.4f} ln I, rms {:.4f} (noise of mu at a node {:.4f}), {} nodes\n",
-      fits.invariant.a, fits.invariant.b, fits.invariant.rms, fits.noise, fits.invariant.nodes);
-  fmt::print("  sigma_xz/sigma_zz   {:.4f} + {:.4f} ln I, rms {:.4f}, {} nodes\n", fits.ratio.a, fits.ratio.b,
-             fits.ratio.rms, fits.ratio.nodes);
+      fits.invariant.a, fits.invariant.b, fits.invariant.rms, fits.noise, fits.invariant.nodes));
+  print_out(fmt::format("  sigma_xz/sigma_zz   {:.4f} + {:.4f} ln I, rms {:.4f}, {} nodes\n", fits.ratio.a,
+                        fits.ratio.b, fits.ratio.rms, fits.ratio.nodes));
 }
 
 }  // namespace

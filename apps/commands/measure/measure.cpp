@@ -15,6 +15,7 @@
 #include "apps/support/output_folder.hpp"
 #include "apps/support/pending_figures.hpp"
 #include "apps/support/progress.hpp"
+#include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/common/result_folder.hpp"
 #include "coupling/common/text_file.hpp"
@@ -117,8 +118,9 @@ void print_scalar(const Scalar& scalar, const particles::ScalarSensitivity& sens
                                   ? ""
                                   : fmt::format("{:.4g} ... {:.4g}, most by {}", sensitivity.lowest,
                                                 sensitivity.highest, sensitivity.strongest);
-  fmt::print("{}\n", trimmed(fmt::format("  {:32} {:>12} {:12} {}", scalar.name, value,
-                                         known ? fmt::format("+- {:.2g}", *scalar.ci99) : "", windows)));
+  print_out(fmt::format("{}\n",
+                        trimmed(fmt::format("  {:32} {:>12} {:12} {}", scalar.name, value,
+                                            known ? fmt::format("+- {:.2g}", *scalar.ci99) : "", windows))));
 }
 
 /// What is known beside the intervals; nothing of another program's run.
@@ -147,15 +149,16 @@ std::optional<coupling::AccuracyStatement> statement_of(const MeasureOptions& op
 }
 
 void print_steadiness(const particles::Steadiness& steadiness) {
-  fmt::print("{}", steadiness.steady ? "steady" : "NOT STEADY, or too short to say:");
-  for (const std::string& reason : steadiness.reasons) fmt::print("\n  - {}", reason);
+  print_out(steadiness.steady ? "steady" : "NOT STEADY, or too short to say:");
+  for (const std::string& reason : steadiness.reasons) print_out(fmt::format("\n  - {}", reason));
   if (std::isfinite(steadiness.energy.value))
-    fmt::print("{}energy {:+.1f} +- {:.1f} % from the first half to the second",
-               steadiness.steady ? ": " : "\n  ", 100 * steadiness.energy.value,
-               100 * steadiness.energy.ci99);
+    print_out(fmt::format("{}energy {:+.1f} +- {:.1f} % from the first half to the second",
+                          steadiness.steady ? ": " : "\n  ", 100 * steadiness.energy.value,
+                          100 * steadiness.energy.ci99));
   if (std::isfinite(steadiness.slope_deg.value))
-    fmt::print(", slope {:+.2f} +- {:.2f} deg", steadiness.slope_deg.value, steadiness.slope_deg.ci99);
-  fmt::print("\n");
+    print_out(
+        fmt::format(", slope {:+.2f} +- {:.2f} deg", steadiness.slope_deg.value, steadiness.slope_deg.ci99));
+  print_out("\n");
 }
 
 /// A run with what was asked of it.
@@ -235,9 +238,10 @@ Json content_of(const Request& request, const particles::Measurement& measured, 
 
 void print_results(const Request& request, const fs::path& folder, const particles::Measurement& measured,
                    const ScalarSet& scalars) {
-  fmt::print("{}{}\n", folder.string(), request.reduced ? " (reduced)" : "");
+  print_out(fmt::format("{}{}\n", folder.string(), request.reduced ? " (reduced)" : ""));
   if (request.settings.sensitivity)
-    fmt::print("  {:32} {:>12} {:12} {}\n", "", "value", "99 %", "by other windows (measured.json has all)");
+    print_out(fmt::format("  {:32} {:>12} {:12} {}\n", "", "value", "99 %",
+                          "by other windows (measured.json has all)"));
   for (const Scalar& scalar : scalars.scalars)
     print_scalar(scalar, particles::sensitivity_of(scalar, measured.variants));
   print_steadiness(measured.steadiness);
@@ -261,7 +265,7 @@ int measure(const MeasureOptions& options) {
   check_parts(options.parts);
   const fs::path results = options.run / "measured", finished = results / "measured.json";
   if (options.existing == ExistingOutput::resume && is_complete(finished)) {
-    fmt::print("{}: done already\n", results.string());
+    print_out(fmt::format("{}: done already\n", results.string()));
     return static_cast<int>(ExitCode::done);
   }
   const ResultFolder run_folder = whole_run(options.run);
@@ -296,7 +300,7 @@ int measure(const MeasureOptions& options) {
   output.publish();
 
   print_results(request, results, measured, scalars);
-  if (statement) fmt::print("{}", text_of(*statement));
+  if (statement) print_out(text_of(*statement));
   throw_if_figures_failed(finished, failures);
   return static_cast<int>(ExitCode::done);
 }

@@ -1,0 +1,28 @@
+"""Runs a script as `python3 -I` does, with the script's own folder, and nothing else, added to what it may import from.
+SIGINT, SIGTERM and SIGHUP stop it once, as Ctrl-C does, so that it leaves no part of a file.
+
+usage: python3 -I -B isolated.py SCRIPT [WORD...]
+"""
+
+import pathlib
+import runpy
+import signal
+import sys
+
+STOPPING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+
+
+def stop(*_):
+    for number in STOPPING:
+        signal.signal(number, signal.SIG_IGN)
+    raise KeyboardInterrupt
+
+
+if __name__ == "__main__":
+    for each in STOPPING:
+        if signal.getsignal(each) != signal.SIG_IGN:  # nohup
+            signal.signal(each, stop)
+    script = pathlib.Path(sys.argv[1]).resolve()
+    sys.path.insert(0, str(script.parent))
+    sys.argv = sys.argv[1:]
+    runpy.run_path(str(script), run_name="__main__")

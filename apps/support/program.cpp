@@ -1,0 +1,100 @@
+#include "apps/support/program.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "apps/support/interruption.hpp"
+#include "apps/support/standard_streams.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/common/unfinished_file.hpp"
+
+namespace drumlin::apps {
+namespace {
+
+constexpr auto fault = static_cast<ExitCode>(70);  // EX_SOFTWARE of sysexits.h: the program is wrong
+
+/// Hands code and message of the error that is being handled to `report`.
+template <class Report>
+void report_error(const Report& report) {
+  try {
+    throw;
+  } catch (const Interrupted& stopped) {
+    report(static_cast<ExitCode>(stopped.exit_code), "");
+  } catch (const InputError& error) {
+    report(ExitCode::wrong_input, error.what());  // one line per problem
+  } catch (const NotConvergedError& error) {
+    report(ExitCode::not_converged, error.what());
+  } catch (const IoError& error) {
+    report(ExitCode::input_output, error.what());
+  } catch (const std::bad_alloc&) {
+    report(ExitCode::input_output, "not enough memory");
+  } catch (const std::length_error& error) {
+    report(ExitCode::input_output, fmt::format("not enough memory ({})", error.what()).c_str());
+  } catch (const std::system_error& error) {  // files, and threads that cannot be started
+    report(ExitCode::input_output, error.what());
+  } catch (const nlohmann::json::exception& error) {
+    report(ExitCode::wrong_input,
+           fmt::format("a JSON file holds what it should not: {}", error.what()).c_str());
+  } catch (const std::exception& error) {
+    report(fault, fmt::format("a fault of this program: {}", error.what()).c_str());
+  } catch (...) {
+    report(fault, "a fault of this program");
+  }
+}
+
+[[noreturn]] void end_with_message() noexcept {
+  remove_unfinished_files();
+  if (std::current_exception())
+    report_error([](ExitCode code, const char* message) {
+      print_error(message);
+      print_error("\n");
+      ::_exit(static_cast<int>(code));
+    });
+  ::_exit(static_cast<int>(fault));
+}
+
+int code_with_output(int code, bool speaks) {
+  const int lost = lost_output();
+  if (lost == 0) return code;
+  if (lost == EPIPE) {
+    if (code != static_cast<int>(ExitCode::done)) return code;
+    std::signal(SIGPIPE, SIG_DFL);
+    std::raise(SIGPIPE);
+  }
+  if (speaks)
+    print_error(
+        fmt::format("standard output: cannot be written, a part of it is lost: {}\n", std::strerror(lost)));
+  return static_cast<int>(ExitCode::input_output);
+}
+
+}  // namespace
+
+int run_program(const std::function<int()>& work, const std::function<bool()>& speaks) {
+  open_standard_streams();
+  end_at_signals();
+  std::set_terminate(end_with_message);
+  int code = 0;
+  try {
+    code = work();
+  } catch (...) {
+    flush_out();
+    report_error([&](ExitCode of_error, const char* message) {
+      code = static_cast<int>(of_error);
+      if (!speaks() || *message == '\0') return;
+      print_error(message);
+      print_error("\n");
+    });
+  }
+  return code_with_output(code, speaks());
+}
+
+}  // namespace drumlin::apps

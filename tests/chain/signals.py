@@ -1,0 +1,121 @@
+"""Signals end every command cleanly, and what a command has started ends with it, also at kill -9.
+
+usage: signals.py DRUMLIN FOLDER_OF_THIS_TEST DATA
+"""
+
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+from command import SHORT_RUN, Drumlin, bytes_below, read_json, require, require_whole_files
+
+# Steps that nobody waits for, for what must be stopped.
+ENDLESS = ["--set", "stages.2.turns=1000"]
+SIGNALS = {signal.SIGINT: 130, signal.SIGTERM: 143, signal.SIGHUP: 129}
+PATIENCE = 120  # seconds for what takes less than one
+
+
+def unmasked():
+    """A test that is started in the background, or by nohup, inherits signals that are ignored."""
+    for number in SIGNALS:
+        signal.signal(number, signal.SIG_DFL)
+
+
+def started(command, **options):
+    return subprocess.Popen(list(map(str, command)), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, preexec_fn=unmasked, **options)
+
+
+def wait_until(condition, what):
+    deadline = time.monotonic() + PATIENCE
+    while not condition():
+        require(time.monotonic() < deadline, f"not in time: {what}")
+        time.sleep(0.002)
+
+
+def processes_of(folder):
+    """Processes whose command line names the folder, but this one."""
+    found = []
+    for entry in pathlib.Path("/proc").iterdir():
+        if entry.name.isdigit() and int(entry.name) != os.getpid():
+            try:
+                if str(folder).encode() in (entry / "cmdline").read_bytes():
+                    found.append(int(entry.name))
+            except OSError:
+                pass
+    return found
+
+
+def check_signals(executable, scene, problem, run, folder):
+    """Every command ends by a signal at any moment, with its code and without parts of files."""
+    for number, code in SIGNALS.items():
+        stopped = folder / f"stopped-{code}"
+        process = started([executable, "run", scene, "-o", stopped, *ENDLESS, "--set", "output.checkpoint_every_s=0.01"])
+        wait_until((stopped / "checkpoint.h5").exists, "a checkpoint")
+        process.send_signal(number)
+        require(process.wait(PATIENCE) == code, f"run: exit code {process.returncode} instead of {code}")
+        require(read_json(stopped / "run.json")["status"] == "interrupted", f"run: status after {number.name}")
+        require_whole_files(stopped)
+    commands = [["measure", run, "--parts", "none"], ["plot", run], ["export", run, "--vtu"], ["cost", scene, "--effects", "-o", run / "cost"],
+                ["scene", "check", scene], ["hardcases", "--fast"], ["solve-contacts", problem, "--tolerance", "1e-12"]]
+    before = bytes_below(run)
+    for words in commands:
+        for step, (number, code) in enumerate(SIGNALS.items()):
+            process = started([executable, *words])
+            time.sleep(0.03 + 0.1 * step)  # anywhere, the beginning and the end included
+            process.send_signal(number)
+            process.wait(PATIENCE)
+            # Before main() has begun, the signal ends the process itself; after its end it comes too late.
+            require(process.returncode in (code, -number, 0, 3), f"{words}: exit code {process.returncode} instead of {code}")
+            require_whole_files(run)
+            for folder_made in ("measured", "plots", "vtu", "cost"):
+                shutil.rmtree(run / folder_made, ignore_errors=True)
+            require(bytes_below(run) == before, f"{words}: {number.name} touched the run")
+    print("signals: clean ends")
+
+
+def check_children(executable, here, data, run, folder):
+    """What a command has started ends with it, also at kill -9."""
+    drawn = folder / "drawn"
+    shutil.copytree(run, drawn)
+    for number in (signal.SIGKILL, signal.SIGTERM):
+        process = started([executable, "measure", drawn, "--parts", "none", "--resume"])
+        wait_until(lambda: len(processes_of(drawn)) >= 2 or process.poll() is not None, "a script of figures")
+        require(process.poll() is None, "measure ended before it drew")
+        process.send_signal(number)
+        require(process.wait(PATIENCE) == (143 if number == signal.SIGTERM else -number), f"measure: exit code {process.returncode}")
+        wait_until(lambda: not processes_of(drawn), "the end of the script")
+        if number == signal.SIGTERM:
+            require_whole_files(drawn)
+    flow = folder / "flow"
+    march = ["flow", here / "tiny-drum-flow.toml", "--rheology", data / "rheology" / "paper.toml", "-o", flow,
+             "--set", "time.step_s=0.001", "--set", "time.steps=100000", "--set", "time.every=1"]
+    for number, code in {signal.SIGKILL: -signal.SIGKILL, signal.SIGHUP: 129}.items():
+        process = started([executable, *march, "--resume"])
+        (flow / "checkpoint.h5").unlink(missing_ok=True)
+        wait_until(lambda: (flow / "checkpoint.h5").exists() or process.poll() is not None, "a kept state")
+        require(process.poll() is None and len(processes_of(flow)) >= 2, f"flow: ended with {process.returncode}")
+        process.send_signal(number)
+        require(process.wait(PATIENCE) == code, f"flow: exit code {process.returncode} instead of {code}")
+        wait_until(lambda: not processes_of(flow), "the end of drumlin-flow")
+        require((flow / "checkpoint.h5").exists(), "flow: no checkpoint")
+    print("children: gone with their parents")
+
+
+def main():
+    executable, here, data = str(pathlib.Path(sys.argv[1]).resolve()), pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
+    scene, problem = here / "tiny-drum.toml", data / "problems" / "drum-300-mu-0.4-flow.h5"
+    with tempfile.TemporaryDirectory(prefix="drumlin-signals-") as name:
+        folder = pathlib.Path(name)
+        run = folder / "run"
+        Drumlin(executable)("run", scene, "-o", run, *SHORT_RUN)
+        check_signals(executable, scene, problem, run, folder)
+        check_children(executable, here, data, run, folder)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,155 @@
+"""What a command prints arrives or is said to be lost; missing memory, threads or room end it cleanly; Python runs our modules alone.
+
+usage: streams.py DRUMLIN FOLDER_OF_THIS_TEST DATA
+"""
+
+import os
+import pathlib
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+
+from command import SHORT_RUN, Drumlin, bytes_below, read_json, require, require_whole_files
+
+PATIENCE = 120  # seconds for what takes less than one
+
+
+def results(run):
+    """What must not depend on where the output of a run goes: all but timings."""
+    return {name: content for name, content in bytes_below(run).items() if name in ("log.csv", "scene.toml") or name.startswith("snapshots/")}
+
+
+def by_shell(executable, words, streams):
+    """Exit code of the command in a shell, with these redirections."""
+    line = " ".join([str(executable), *map(str, words), streams])
+    return subprocess.run(["/bin/bash", "-c", line], stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True, timeout=PATIENCE, check=False)
+
+
+def without_reader(words, **streams):
+    """The command with a pipe that nobody reads as its standard output, and as its standard error where `stderr` is True."""
+    reader, writer = os.pipe()
+    os.close(reader)
+    stderr = writer if streams.get("stderr") else subprocess.PIPE
+    result = subprocess.run(list(map(str, words)), stdout=writer, stderr=stderr, text=True, check=False, timeout=PATIENCE)
+    os.close(writer)
+    return result
+
+
+def check_lost_output(executable, scene, problem, run):
+    """Output that cannot be written is code 74, that nobody reads ends the command by SIGPIPE; no abort, no message without need."""
+    printing = [["scene", "keys"], ["scene", "show", scene], ["scene", "check", scene], ["solve-contacts", problem, "--json"],
+                ["solve-contacts", problem], ["import", "--keys"], ["--help"], ["--version"], ["run", "--help"],
+                ["hardcases", "shaken"], ["run", scene, "-o", run, *SHORT_RUN, "--resume"], ["measure", run, "--resume"]]
+    for words in printing:
+        for streams in (">/dev/full", ">&-", ">&- 2>&-") if words == printing[0] else (">/dev/full",):
+            result = by_shell(executable, words, streams)
+            require(result.returncode == 74, f"{words} {streams}: exit code {result.returncode} instead of 74\n{result.stderr}")
+            require("2>" in streams or "lost" in result.stderr, f"{words} {streams}: not said\n{result.stderr}")
+        result = without_reader([executable, *words])
+        require(result.returncode == -signal.SIGPIPE and not result.stderr, f"{words}: a gone reader gives {result.returncode}\n{result.stderr}")
+    for streams in ("2>/dev/full", "2>&-", "<&-"):
+        result = by_shell(executable, printing[0], streams)
+        require(result.returncode == 0, f"{printing[0]} {streams}: exit code {result.returncode}\n{result.stderr}")
+    for streams in (">/dev/full", "2>/dev/full", "2>&-"):
+        result = by_shell(executable, ["scene", "check", "nowhere.toml"], streams)
+        require(result.returncode == 2, f"a missing file {streams}: exit code {result.returncode}")
+    print(f"{len(printing)} commands say what is lost")
+
+
+def check_run_without_streams(executable, scene, folder, expected):
+    """A run keeps its files apart from streams that are closed, and outlives readers that have gone."""
+    for number, streams in enumerate(("2>&- >/dev/null", "0<&- 1>&- 2>&-", "2>/dev/full >/dev/null")):
+        run = folder / f"streams-{number}"
+        result = by_shell(executable, ["run", scene, "-o", run, *SHORT_RUN], streams)
+        require(result.returncode == (74 if "1>&-" in streams else 0), f"run {streams}: exit code {result.returncode}")
+        require(results(run) == expected, f"run {streams}: other files")
+    run = folder / "no-reader"
+    result = without_reader([executable, "run", scene, "-o", run, *SHORT_RUN], stderr=True)
+    require(result.returncode == -signal.SIGPIPE and results(run) == expected, f"a run without readers ended with {result.returncode}")
+    require(read_json(run / "run.json")["status"] == "finished", "a run without readers was not finished")
+
+
+def limited(kind, value):
+    def limit():
+        resource.setrlimit(kind, (value, value))
+    return limit
+
+
+def check_limits(executable, scene, problem, run, folder):
+    """Memory, threads and sizes of files that the system does not give end a command with a message and 74."""
+    mebibyte = 1 << 20
+
+    def refused(words, limit, said):
+        result = subprocess.run(list(map(str, [executable, *words])), preexec_fn=limit, capture_output=True, text=True, check=False, timeout=PATIENCE)
+        require(result.returncode == 74, f"{words}: exit code {result.returncode} instead of 74\n{result.stderr}")
+        require(any(word in result.stderr for word in said), f"{words}: not said why\n{result.stderr}")
+
+    if b"__asan_init" not in pathlib.Path(executable).read_bytes():  # the address sanitizer takes terabytes of addresses
+        few = limited(resource.RLIMIT_AS, 700 * mebibyte)
+        for words in (["run", scene, "-o", folder / "threads", *SHORT_RUN], ["solve-contacts", problem]):
+            refused([*words, "--threads", "256"], few, ["threads cannot be started", "not enough memory"])
+        diameters = [f"grains.generated.diameter_{which}_mm=0.05" for which in ("min", "max")]
+        refused(["scene", "check", scene, "--set", "grains.generated.count=3000000", "--set", diameters[0], "--set", diameters[1]],
+                limited(resource.RLIMIT_AS, 150 * mebibyte), ["not enough memory"])
+    for words in (["run", scene, "-o", folder / "many", "--threads", "257"], ["solve-contacts", problem, "--threads", "1024"],
+                  ["cost", scene, "--effects", "--threads", "100000"]):
+        result = subprocess.run(list(map(str, [executable, *words])), capture_output=True, text=True, check=False)
+        require(result.returncode == 2 and "1 to 256" in result.stderr, f"{words}: {result.returncode}\n{result.stderr}")
+    copy = folder / "no-room"
+    shutil.copytree(run, copy)
+    refused(["measure", copy, "--parts", "none"], limited(resource.RLIMIT_FSIZE, 1000), ["too large"])
+    require_whole_files(copy)
+    print("limits: said")
+
+
+def measured_among_strangers(executable, run, folder):
+    """Figures are drawn by our modules alone: none of the current folder, none of PYTHONPATH."""
+    strange, executed = folder / "strange", folder / "executed"
+    strange.mkdir()
+    for module in ("json", "csv", "style", "script", "sitecustomize", "usercustomize"):
+        (strange / f"{module}.py").write_text(f"open({str(executed)!r}, 'w').close()\nraise SystemExit('strange')\n", encoding="utf-8")
+    environment = os.environ | {"PYTHONPATH": str(strange), "PYTHONHOME": str(strange)}
+    result = subprocess.run([executable, "measure", run, "--parts", "none"], cwd=strange, env=environment, capture_output=True, text=True, check=False)
+    require(result.returncode == 0 and not executed.exists(), f"measure among strange modules: {result.returncode}\n{result.stderr}")
+
+
+def check_starts_of_python(root):
+    for script in ("reproduce", "check", ".ci/install", ".ci/run", "apps/paper_runs"):
+        for line in (root / script).read_text(encoding="utf-8").splitlines():
+            if "python3" in line and not line.lstrip().startswith(("python3-", "# ")):
+                require("/usr/bin/python3 -I" in line, f"{script}: {line}")
+    for listing in root.glob("tests/*/CMakeLists.txt"):
+        require("${DRUMLIN_PYTHON}" not in listing.read_text(encoding="utf-8"), f"{listing}: starts Python that is not isolated")
+
+
+def check_one_way_to_print(root):
+    for path in sorted((root / "apps").rglob("*.cpp")):
+        text = path.read_text(encoding="utf-8")
+        if path.name != "standard_streams.cpp":
+            for way in ("fmt::print", "std::cout", "std::cerr", "stdout", "stderr", "printf("):
+                require(way not in text, f"{path.relative_to(root)} prints by {way}; apps/support/standard_streams.hpp is the way")
+
+
+def main():
+    executable, here, data = str(pathlib.Path(sys.argv[1]).resolve()), pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
+    drumlin, root = Drumlin(executable), here.parents[1]
+    scene, problem = here / "tiny-drum.toml", data / "problems" / "drum-300-mu-0.4-flow.h5"
+    check_one_way_to_print(root)
+    check_starts_of_python(root)
+    with tempfile.TemporaryDirectory(prefix="drumlin-streams-") as name:
+        folder = pathlib.Path(name)
+        run = folder / "run"
+        drumlin("run", scene, "-o", run, *SHORT_RUN)
+        expected = results(run)
+        measured_among_strangers(executable, run, folder)
+        check_lost_output(executable, scene, problem, run)
+        shutil.rmtree(run / "measured")
+        check_run_without_streams(executable, scene, folder, expected)
+        check_limits(executable, scene, problem, run, folder)
+
+
+if __name__ == "__main__":
+    main()
