@@ -70,6 +70,11 @@ void end_of_library() {
       print_error("\n");
       ::_exit(static_cast<int>(code));
     });
+  // What leaves a function that must not throw, a destructor above all, is not always handed on by g++.
+  if (std::uncaught_exceptions() > 0) {
+    print_error("an error where none can be handled, most likely a lack of memory\n");
+    ::_exit(static_cast<int>(ExitCode::input_output));
+  }
   ::_exit(static_cast<int>(fault));
 }
 
