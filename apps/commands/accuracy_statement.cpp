@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <utility>
 
 #include "apps/support/json_file.hpp"
 #include "apps/support/paper_data.hpp"
@@ -57,8 +58,9 @@ std::optional<SceneRecord> record_in(const fs::path& file) {
   if (!(convergence || format == "drumlin-cost-1") || !json.contains("scene")) return std::nullopt;
   if (const auto problems = type_problems(file, json, format); !problems.empty()) throw InputError(problems);
   if (!convergence && json.value("kind", "") != "particles") return std::nullopt;
-  SceneRecord record{{file.filename().string(), {}},
-                     particles::parse_scene(json.at("scene").get<std::string>(), file.string())};
+  // Not within the braces: g++ 12 destroys what stands before it twice if it throws.
+  particles::Scene scene = particles::parse_scene(json.at("scene").get<std::string>(), file.string());
+  SceneRecord record{{file.filename().string(), {}}, std::move(scene)};
   const auto add = [&](const std::optional<coupling::AccuracyRecord::Point>& point) {
     if (point) record.runs.points.push_back(*point);
   };

@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <filesystem>
@@ -51,6 +52,16 @@ void report_error(const Report& report) {
   }
 }
 
+bool at_work = false;  // like its exit handler it belongs to the process
+
+/// HDF5 calls exit() where it gets no memory.
+void end_of_library() {
+  if (!at_work) return;
+  remove_unfinished_files();
+  print_error("a library has ended the program, most likely for lack of memory\n");
+  ::_exit(static_cast<int>(ExitCode::input_output));
+}
+
 [[noreturn]] void end_with_message() noexcept {
   remove_unfinished_files();
   if (std::current_exception())
@@ -59,6 +70,11 @@ void report_error(const Report& report) {
       print_error("\n");
       ::_exit(static_cast<int>(code));
     });
+  // What leaves a function that must not throw, a destructor above all, is not always handed on by g++.
+  if (std::uncaught_exceptions() > 0) {
+    print_error("an error where none can be handled, most likely a lack of memory\n");
+    ::_exit(static_cast<int>(ExitCode::input_output));
+  }
   ::_exit(static_cast<int>(fault));
 }
 
@@ -82,6 +98,8 @@ int run_program(const std::function<int()>& work, const std::function<bool()>& s
   open_standard_streams();
   end_at_signals();
   std::set_terminate(end_with_message);
+  if (std::atexit(end_of_library) != 0) return static_cast<int>(ExitCode::input_output);
+  at_work = true;
   int code = 0;
   try {
     code = work();
@@ -94,6 +112,7 @@ int run_program(const std::function<int()>& work, const std::function<bool()>& s
       print_error("\n");
     });
   }
+  at_work = false;
   return code_with_output(code, speaks());
 }
 

@@ -1,6 +1,8 @@
 #include "coupling/common/checksum.hpp"
 
-#include <openssl/evp.h>
+// OpenSSL's older functions need neither memory nor its settings; the newer ones crash where memory is short.
+#define OPENSSL_SUPPRESS_DEPRECATED
+#include <openssl/sha.h>
 
 #include <algorithm>
 #include <array>
@@ -12,8 +14,7 @@
 namespace drumlin {
 
 struct Checksum::Context {
-  Context() : digest(EVP_MD_CTX_new(), EVP_MD_CTX_free) {}
-  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> digest;
+  SHA256_CTX digest{};
 };
 
 namespace {
@@ -24,26 +25,22 @@ void require(int done) {
 
 }  // namespace
 
-Checksum::Checksum() : context_(std::make_unique<Context>()) {
-  require(EVP_DigestInit_ex(context_->digest.get(), EVP_sha256(), nullptr));
-}
+Checksum::Checksum() : context_(std::make_unique<Context>()) { require(SHA256_Init(&context_->digest)); }
 Checksum::~Checksum() = default;
 Checksum::Checksum(Checksum&&) noexcept = default;
 Checksum& Checksum::operator=(Checksum&&) noexcept = default;
 
 void Checksum::add(std::string_view bytes) {
-  require(EVP_DigestUpdate(context_->digest.get(), bytes.data(), bytes.size()));
+  require(SHA256_Update(&context_->digest, bytes.data(), bytes.size()));
 }
 
 std::string Checksum::text() const {
-  const Context so_far;
-  require(EVP_MD_CTX_copy_ex(so_far.digest.get(), context_->digest.get()));
-  std::array<unsigned char, EVP_MAX_MD_SIZE> bytes{};
-  unsigned int size = 0;
-  require(EVP_DigestFinal_ex(so_far.digest.get(), bytes.data(), &size));
+  SHA256_CTX so_far = context_->digest;
+  std::array<unsigned char, SHA256_DIGEST_LENGTH> bytes{};
+  require(SHA256_Final(bytes.data(), &so_far));
   std::string text;
-  for (unsigned int i = 0; i < size; ++i)
-    text += {"0123456789abcdef"[bytes[i] / 16], "0123456789abcdef"[bytes[i] % 16]};
+  for (const unsigned char byte : bytes)
+    text += {"0123456789abcdef"[byte / 16], "0123456789abcdef"[byte % 16]};
   return text;
 }
 

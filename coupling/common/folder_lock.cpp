@@ -74,8 +74,12 @@ bool FolderLock::take(const std::string& command) {
   named_ = std::make_unique<UnfinishedFile>(file_);
   const std::string said = fmt::format("process {}, {}, since {}", ::getpid(), command, time_text());
   if (::ftruncate(descriptor_, 0) != 0 ||
-      ::pwrite(descriptor_, said.data(), said.size(), 0) != static_cast<ssize_t>(said.size()))
+      ::pwrite(descriptor_, said.data(), said.size(), 0) != static_cast<ssize_t>(said.size())) {
+    const int error = errno;
+    ::unlink(file_.c_str());  // while it is held, as below
+    errno = error;
     fail("written");
+  }
   return true;
 }
 

@@ -10,8 +10,8 @@
 #include <string_view>
 
 #include "coupling/common/errors.hpp"
-#include "coupling/common/text_file.hpp"
 #include "coupling/common/input_file.hpp"
+#include "coupling/common/text_file.hpp"
 #include "coupling/files/h5_storage.hpp"
 
 namespace drumlin {
@@ -44,24 +44,36 @@ class Id {
   herr_t (*close_)(hid_t);
 };
 
-/// Keeps HDF5 from printing: we report its failures ourselves.
-void silence() {
-  static const bool once = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr) >= 0;
-  (void)once;
-}
-
 void check(bool good, const char* what) {
   if (!good) throw IoError(std::string("HDF5 could not ") + what);
+}
+
+/// Begins to use HDF5, which crashes if it is used after it could not start. It prints nothing, for we report
+/// its failures ourselves, and tidies nothing up when the program ends: after a failure that crashes too.
+void start_library() {
+  static const bool started = [] {
+    check(H5dont_atexit() >= 0 && H5open() >= 0, "start");
+    return H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr) >= 0;
+  }();
+  (void)started;
+}
+
+/// How a file image is opened: in memory.
+hid_t access_to_memory() {
+  start_library();
+  const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+  check(access >= 0 && H5Pset_fapl_core(access, 1 << 20, false) >= 0, "prepare a file image");
+  return access;
 }
 
 void put(hid_t file, const std::string& name, hid_t memory_type, hid_t file_type, const void* data,
          std::initializer_list<hsize_t> shape) {
   const Id links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
-  H5Pset_create_intermediate_group(links.get(), 1);
+  check(H5Pset_create_intermediate_group(links.get(), 1) >= 0, "create a group");
   const Id space(H5Screate_simple(static_cast<int>(shape.size()), std::data(shape), nullptr), H5Sclose);
   // No object times: the same state gives the same bytes.
   const Id creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  H5Pset_obj_track_times(creation.get(), false);
+  check(H5Pset_obj_track_times(creation.get(), false) >= 0, "leave out times");
   const Id set(
       H5Dcreate2(file, name.c_str(), file_type, space.get(), links.get(), creation.get(), H5P_DEFAULT),
       H5Dclose);
@@ -73,13 +85,11 @@ void put(hid_t file, const std::string& name, hid_t memory_type, hid_t file_type
 }  // namespace
 
 struct H5Writer::Handles {
-  Id access{H5Pcreate(H5P_FILE_ACCESS), H5Pclose};
+  Id access{access_to_memory(), H5Pclose};
   std::unique_ptr<Id> file;
 };
 
 H5Writer::H5Writer() : handles_(std::make_unique<Handles>()) {
-  silence();
-  H5Pset_fapl_core(handles_->access.get(), 1 << 20, false);
   handles_->file = std::make_unique<Id>(
       H5Fcreate(image_name, H5F_ACC_TRUNC, H5P_DEFAULT, handles_->access.get()), H5Fclose);
   check(handles_->file->valid(), "create a file image");
@@ -130,13 +140,12 @@ void H5Writer::save_keeping(const std::filesystem::path& file, const std::filesy
 
 struct H5Reader::Handles {
   std::string bytes;
-  Id access{H5Pcreate(H5P_FILE_ACCESS), H5Pclose};
+  Id access{access_to_memory(), H5Pclose};
   std::unique_ptr<Id> file;
 };
 
 H5Reader::H5Reader(const std::filesystem::path& file, bool checked)
     : handles_(std::make_unique<Handles>()), file_(file) {
-  silence();
   auto& bytes = handles_->bytes;
   bytes = input_bytes(file, largest_binary_file);
   if (bytes.empty()) throw InputError(file.string() + ": is empty");
@@ -154,8 +163,7 @@ H5Reader::H5Reader(const std::filesystem::path& file, bool checked)
       throw InputError(file.string() + ": damaged (checksum does not match)");
     bytes.resize(size);
   }
-  H5Pset_fapl_core(handles_->access.get(), 1 << 20, false);
-  H5Pset_file_image(handles_->access.get(), bytes.data(), bytes.size());
+  check(H5Pset_file_image(handles_->access.get(), bytes.data(), bytes.size()) >= 0, "take a file image");
   handles_->file =
       std::make_unique<Id>(H5Fopen(image_name, H5F_ACC_RDONLY, handles_->access.get()), H5Fclose);
   if (!handles_->file->valid()) throw InputError(file.string() + ": not an HDF5 file");

@@ -46,6 +46,12 @@ def bytes_below(folder):
             if path.is_file()}
 
 
+def results_of_run(run):
+    """What must not depend on how often a run was stopped, or on what failed: all but timings, their sums and the private checkpoints."""
+    return {name: content for name, content in bytes_below(run).items()
+            if name not in ("run.json", "manifest.txt", "checkpoint.h5", "checkpoint-previous.h5")}
+
+
 def require_whole_files(folder):
     """No part of a file below the folder; JSON files are whole."""
     for path in folder.rglob("*"):

@@ -20,6 +20,8 @@ def main():
         full.mkdir()
         (full / "keep.txt").write_text("years of work", encoding="utf-8")
         (folder / "empty.toml").write_text("", encoding="utf-8")
+        record = folder / "a-record-of-runs-whose-scene-cannot-be-read.json"
+        record.write_text('{"format": "drumlin-cost-1", "kind": "particles", "scene": "nonsense = [", "points": []}', encoding="utf-8")
         before = bytes_below(folder)
         output = folder / "output"
         refused = {
@@ -40,6 +42,7 @@ def main():
                 ["flow", folder / "empty.toml", "--rheology", law, "-o", output],
                 ["flow", flow_scene, "--rheology", folder / "empty.toml", "-o", output],
                 ["solve-contacts", folder / "empty.toml"]],
+            "a record of something else": [["run", scene, "-o", output, "--accuracy", record]],
             "an existing output": [
                 ["run", scene, "-o", full], ["flow", flow_scene, "--rheology", law, "-o", full]],
             "a folder that is not ours, to be overwritten": [

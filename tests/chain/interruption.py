@@ -13,16 +13,10 @@ import tempfile
 import time
 from random import Random
 
-from command import Drumlin, bytes_below, read_json, require
+from command import Drumlin, bytes_below, read_json, require, results_of_run
 
 OVERRIDES = ["--set", "output.checkpoint_every_s=0.05", "--set", "stages.1.turns=0.2", "--set", "stages.2.turns=0.2",
              "--set", "output.energy_ledger=true"]
-
-
-def results(run):
-    """What must not depend on how often a run was stopped: all but timings, their sums and the private checkpoints."""
-    return {name: content for name, content in bytes_below(run).items()
-            if name not in ("run.json", "manifest.txt", "checkpoint.h5", "checkpoint-previous.h5")}
 
 
 def stopped(executable, scene, run, stop, code):
@@ -54,7 +48,7 @@ def killed_again_and_again(executable, scene, run, expected):
             process.kill()
             process.wait()
             kills += 1
-    require(results(run) == expected, f"killed {kills} times: the run left other bytes than the whole one")
+    require(results_of_run(run) == expected, f"killed {kills} times: the run left other bytes than the whole one")
     print(f"killed {kills} times, the same bytes")
 
 
@@ -101,7 +95,7 @@ def full_disk(executable, drumlin, scene, kept, run, expected):
             if name.startswith("snapshots/"):
                 require(after.get(name) == content, f"{room} bytes of room: {name} was touched")
         drumlin("run", scene, "-o", run, "--resume", *OVERRIDES)
-        require(results(run) == expected, f"{room} bytes of room: the resumed run left other bytes than the whole one")
+        require(results_of_run(run) == expected, f"{room} bytes of room: the resumed run left other bytes than the whole one")
 
 
 def main():
@@ -112,7 +106,7 @@ def main():
         work = pathlib.Path(name)
         whole = work / "whole"
         drumlin("run", scene, "-o", whole, *OVERRIDES)
-        expected = results(whole)
+        expected = results_of_run(whole)
 
         for stop, code, status in ((signal.SIGINT, 130, "interrupted"), (signal.SIGTERM, 143, "interrupted"),
                                    (signal.SIGKILL, -signal.SIGKILL, "running")):
@@ -121,7 +115,7 @@ def main():
             require(read_json(run / "run.json")["status"] == status, f"{stop.name}: run.json does not say {status}")
             shutil.copytree(run, work / (stop.name + "-kept"))
             drumlin("run", scene, "-o", run, "--resume", "--threads", "2", *OVERRIDES)
-            require(results(run) == expected, f"{stop.name}: the resumed run left other bytes than the whole one")
+            require(results_of_run(run) == expected, f"{stop.name}: the resumed run left other bytes than the whole one")
             require(read_json(run / "run.json")["status"] == "finished", f"{stop.name}: not finished")
 
         killed_again_and_again(executable, scene, work / "often", expected)
@@ -148,7 +142,7 @@ def main():
         if (one_damaged / "checkpoint-previous.h5").exists():
             _, error = drumlin("run", scene, "-o", one_damaged, "--resume", *OVERRIDES)
             require("checkpoint.h5" in error and "goes on from checkpoint-previous.h5" in error, f"another checkpoint without a word: {error}")
-            require(results(one_damaged) == expected, "from the checkpoint before, the run left other bytes than the whole one")
+            require(results_of_run(one_damaged) == expected, "from the checkpoint before, the run left other bytes than the whole one")
         for name in ("checkpoint.h5", "checkpoint-previous.h5"):
             if (kept / name).exists():
                 damage(kept / name)

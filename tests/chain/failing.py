@@ -1,0 +1,100 @@
+"""Every call of a run to the system fails once: the run says so and ends cleanly, and --resume goes on to the same bytes.
+
+usage: failing.py DRUMLIN FAILING_CALLS_LIBRARY FOLDER_OF_THIS_TEST [--allocations COUNT] [--show]
+  --allocations COUNT  about how many of the run's tens of thousands of allocations are tried, spread evenly (default: 60); 0: all
+  --show               lists every failure that was tried with what the run said
+"""
+
+import argparse
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import tempfile
+
+from command import bytes_below, require, require_whole_files, results_of_run
+
+# 40 discs, 60 steps: a run of a twentieth of a second with all its kinds of files.
+SMALL = ["--set", "grains.generated.count=40", "--set", "grains.generated.diameter_min_mm=9", "--set", "grains.generated.diameter_max_mm=10",
+         "--set", "stages.0.duration_s=0.02", "--set", "stages.1.turns=0.005", "--set", "stages.2.turns=0.005", "--set", "stages.2.snapshots=2",
+         "--set", "output.checkpoint_every_s=0.03", "--set", "output.energy_ledger=true", "--set", "output.velocity_window_s=2e-3"]
+FILE_CALLS = ("open", "write", "fsync", "rename", "close")
+# HDF5 1.10 reads and frees what it did not get; the run must then go on to the same bytes all the same.
+CRASHES_OF_HDF5 = (-signal.SIGSEGV, -signal.SIGABRT)
+# The TOML library takes a number that it has no memory to read for one that is none; the message names it.
+MISTAKEN = (2,)
+PATIENCE = 120  # seconds for what takes a tenth of one
+
+
+class Trials:
+    """One small run, repeated with one failure after the other."""
+
+    def __init__(self, given, work):
+        self.words = [str(given.executable.resolve()), "run", given.tests / "tiny-drum.toml", *SMALL]
+        self.library, self.show, self.run = str(given.library.resolve()), given.show, work / "run"
+        whole, counts = work / "whole", work / "counts"
+        code, said = self.started(whole, FAILING_COUNTS_TO=str(counts))
+        require(code == 0, f"nothing fails: exit code {code}\n{said}")
+        self.expected = results_of_run(whole)
+        lines = [line.split() for line in counts.read_text(encoding="utf-8").splitlines()]
+        self.calls = {kind: int(count) for kind, count in lines}
+        require(all(self.calls.values()), f"not every kind of call was seen: {self.calls}")
+
+    def started(self, run, *words, **failing):
+        """Exit code of the run and what it said but for its progress."""
+        environment = os.environ | ({"LD_PRELOAD": self.library} | failing if failing else {})
+        result = subprocess.run([*self.words, "-o", run, *words], capture_output=True, text=True, check=False, timeout=PATIENCE, env=environment)
+        lines = (result.stdout + result.stderr).splitlines()
+        return result.returncode, "\n".join(line for line in lines if not line.startswith("reduced run"))
+
+    def fail(self, kind, number, count=1, crashes=()):
+        """One failure, or `count` from there on; True if it ended the run. `crashes`: exit codes that a library is to blame for."""
+        run, what = self.run, f"{kind} {number} of {self.calls[kind]}" + (" and all after it" if count > 1 else "")
+        shutil.rmtree(run, ignore_errors=True)
+        code, said = self.started(run, FAILING_CALL=kind, FAILING_FROM=str(number), FAILING_COUNT=str(count))
+        if self.show:
+            print(f"{what}: {code} {said.splitlines()[-1:] if code else ''}", flush=True)
+        require(code in (0, 74, *crashes), f"{what}: exit code {code}\n{said}")
+        require(code not in (2, 74) or said, f"{what}: ended with {code} and without a word")
+        if run.exists() and code not in crashes:
+            require_whole_files(run)
+        if code == 0:
+            require(results_of_run(run) == self.expected, f"{what}: ended well with other bytes")
+        again, said_again = self.started(run, "--resume")
+        require(again == 0, f"{what}: {said}\nresumed: exit code {again}\n{said_again}")
+        require(results_of_run(run) == self.expected, f"{what}: {said}\nthe resumed run left other bytes than the whole one")
+        require_whole_files(run)
+        require(not [file for file in bytes_below(run) if file.startswith(".")], f"{what}: files are left")
+        return code != 0
+
+    def fail_each(self, kind, numbers, crashes=()):
+        ended = sum(self.fail(kind, number, crashes=crashes) for number in numbers)
+        print(f"{kind}: {len(numbers)} failures of {self.calls[kind]} calls tried, {ended} ended the run", flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("executable", type=pathlib.Path)
+    parser.add_argument("library", type=pathlib.Path)
+    parser.add_argument("tests", type=pathlib.Path)
+    parser.add_argument("--allocations", type=int, default=60)
+    parser.add_argument("--show", action="store_true")
+    given = parser.parse_args()
+    if b"__asan_init" in given.executable.read_bytes():
+        print("the address sanitizer keeps these calls to itself: nothing tried")
+        return
+    with tempfile.TemporaryDirectory(prefix="drumlin-failing-") as name:
+        trials = Trials(given, pathlib.Path(name))
+        calls = trials.calls
+        for kind in FILE_CALLS:
+            trials.fail_each(kind, range(1, calls[kind] + 1))
+        for kind, crashes in (("malloc", MISTAKEN), ("malloc-in-hdf5", CRASHES_OF_HDF5)):
+            trials.fail_each(kind, range(1, calls[kind] + 1, max(1, calls[kind] // given.allocations) if given.allocations else 1), crashes)
+        # Memory that stays short: what tells of it and cleans up needs none.
+        for number in range(1, calls["malloc"], calls["malloc"] // 10):
+            trials.fail("malloc", number, count=1 << 40, crashes=MISTAKEN)
+
+
+if __name__ == "__main__":
+    main()
