@@ -76,7 +76,7 @@ bool FolderLock::take(const std::string& command) {
   if (::ftruncate(descriptor_, 0) != 0 ||
       ::pwrite(descriptor_, said.data(), said.size(), 0) != static_cast<ssize_t>(said.size())) {
     const int error = errno;
-    ::unlink(file_.c_str());  // while it is held, as below
+    named_.reset();  // while it is held, as below
     errno = error;
     fail("written");
   }
