@@ -71,6 +71,7 @@ bool FolderLock::take(const std::string& command) {
     ::close(std::exchange(descriptor_, -1));
     return false;
   }
+  named_ = std::make_unique<UnfinishedFile>(file_);
   const std::string said = fmt::format("process {}, {}, since {}", ::getpid(), command, time_text());
   if (::ftruncate(descriptor_, 0) != 0 ||
       ::pwrite(descriptor_, said.data(), said.size(), 0) != static_cast<ssize_t>(said.size())) {
@@ -83,12 +84,14 @@ bool FolderLock::take(const std::string& command) {
 }
 
 FolderLock::FolderLock(FolderLock&& other) noexcept
-    : file_(std::move(other.file_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
+    : file_(std::move(other.file_)),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      named_(std::move(other.named_)) {}
 
 FolderLock::~FolderLock() {
   if (descriptor_ < 0) return;
   // While it is held: whoever has opened it meanwhile sees that it has gone.
-  ::unlink(file_.c_str());
+  named_.reset();
   ::close(descriptor_);
 }
 

@@ -1,15 +1,18 @@
 #pragma once
 // A lock that one process at a time holds on what it writes; it ends with the process, however that ends.
 #include <filesystem>
+#include <memory>
 #include <string>
+
+#include "coupling/common/unfinished_file.hpp"
 
 namespace drumlin {
 
 /// The name of the lock file in a result folder.
 inline constexpr const char* folder_lock_name = ".lock";
 
-/// flock(2) on a file that exists only as long as the lock is held. A file that a killed process left is no
-/// obstacle.
+/// flock(2) on a file that exists only as long as the lock is held; signals that end the process remove it
+/// too. A file that a killed process left is no obstacle.
 class FolderLock {
  public:
   /// `command`: who holds it, for whom it keeps out. Throws InputError that names the holder (process,
@@ -24,6 +27,7 @@ class FolderLock {
   bool take(const std::string& command);
   std::filesystem::path file_;
   int descriptor_ = -1;
+  std::unique_ptr<UnfinishedFile> named_;  // while it is held
 };
 
 /// Now, as "2026-03-14 15:09:26 UTC".

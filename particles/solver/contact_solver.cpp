@@ -157,7 +157,9 @@ SolveReport solve_accelerated_double(const Problem& problem, const StoppingRule&
   if constexpr (has_strips<Problem>)
     return sweep_in_strips<double>(problem, rule, work, work.strips.in_double, solution, true);
   else
-    return sweep_until_done(problem, rule, work, solution, Extrapolation<typename Problem::Delassus>{Momentum(rule.tolerance)});
+    return sweep_until_done(
+        problem, rule, work, solution,
+        Extrapolation<typename Problem::Delassus>{Momentum(rule.tolerance, problem.q.size() / Problem::dim)});
 }
 
 template <class Problem>

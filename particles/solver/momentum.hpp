@@ -2,6 +2,7 @@
 // Extrapolation factor of the accelerated Gauss-Seidel method.
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 namespace drumlin::particles {
@@ -18,14 +19,17 @@ namespace drumlin::particles {
 /// again from nothing takes 204; a column of 1000 discs, cold, 6,190 to 1e-4 in place of 24,440
 /// (docs/decisions/contact-solver.md).
 ///
-/// The age begins where a solve is expected to need it: at 42 for a tolerance of 3e-3, since 0.8 is what the
-/// first fifty sweeps of a flow can use and larger factors what the next hundred can. Flow steps of 7183
-/// discs take 162 sweeps to 3e-3 where they took 188 from 0, 66 to 1e-2 as before (78 from 42).
+/// The age begins where a solve is expected to need it: by the tolerance, since 0.8 is what the first fifty
+/// sweeps of a flow can use and larger factors what the next hundred can; and by the size, since a wide
+/// packing has slow modes that a small one lacks. Flow steps of 7183 discs take 162 sweeps to 3e-3 where they
+/// took 188 from 0, 66 to 1e-2 as before (81 from 42).
 class Momentum {
  public:
   Momentum() = default;
-  /// For a solve to this residual.
-  explicit Momentum(double tolerance) : age_(std::clamp(80 * std::log10(1e-2 / tolerance), 0.0, oldest)) {}
+  /// For a solve of so many contacts to this residual.
+  Momentum(double tolerance, std::size_t contacts)
+      : age_(std::clamp(80 * std::log10(1e-2 / tolerance), 0.0,
+                        std::sqrt(static_cast<double>(contacts)) / 3)) {}
 
   /// beta of the next extrapolation, from the sum of squares of the steps of the last sweep.
   double next(double step_squares) {
@@ -41,7 +45,6 @@ class Momentum {
 
   static constexpr double least = 0.8;   // 0.9 without restarts ends in cycles at residuals of 3e-3
   static constexpr double growth = 1.1;  // of the squares; at 1.5 flows cycle
-  static constexpr double oldest = 200;  // at the beginning
   double least_squares_ = std::numeric_limits<double>::infinity();  // of the sweeps since the age was halved
   double age_ = 0;                                                  // in sweeps
 };

@@ -104,7 +104,7 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
   constexpr bool single = sizeof(T) < sizeof(double);
   const bool always = std::isfinite(rule.max_seconds);
   SweepState<T> state;
-  state.momentum = Momentum(rule.tolerance);
+  state.momentum = Momentum(rule.tolerance, static_cast<std::size_t>(problem.contacts()));
   state.worth = std::numeric_limits<double>::infinity();
   double least = std::numeric_limits<double>::infinity(), best = least;
   for (int progress_at = 0;;) {

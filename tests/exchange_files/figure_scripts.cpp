@@ -7,6 +7,7 @@
 #include "coupling/common/text_file.hpp"
 #include "tests/exchange_files/folder.hpp"
 #include "tests/support/data_folder.hpp"
+#include "tests/support/signed_folder.hpp"
 
 namespace drumlin::apps {
 namespace {
@@ -80,6 +81,7 @@ TEST(PendingFigures, AreAllDrawnButThoseThatFailAndTheseAreNamed) {
     EXPECT_NE(message.find(part), std::string::npos) << message;
 
   EXPECT_TRUE(draw_pending_figures(results, {{good, {(results / "drawn.png").string()}}}).empty());
+  drumlin::testing::sign(results, "drumlin measure");
   EXPECT_TRUE(is_complete(finished));
   EXPECT_NO_THROW(throw_if_figures_failed(finished, {}));
 }

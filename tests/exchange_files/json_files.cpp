@@ -76,7 +76,8 @@ TEST(JsonFile, ValuesOfAnotherTypeAreRefusedWithFileKeyAndWhatIsAllowed) {
   expect("drumlin-flow-run-2", R"("settings": {"law": [1, "a"]})",
          "settings.law: is [1,\"a\"] (allowed: a table)");
   expect("drumlin-flow-run-2", R"("meshes": [{"unknowns": 3}, {}])", "meshes.1.unknowns: is missing");
-  expect("drumlin-flow-run-2", R"("settings": {"scales": {"time_s": "1"}})", "settings.scales.time_s: is \"1\"");
+  expect("drumlin-flow-run-2", R"("settings": {"scales": {"time_s": "1"}})",
+         "settings.scales.time_s: is \"1\"");
   expect("drumlin-cost-1", R"("points": {"a": 1})", "points: is {\"a\":1} (allowed: an array)");
   expect("drumlin-comparison-study-1", R"("title": 3)", "speeds: is missing (allowed: an array)");
   // All of them at once.

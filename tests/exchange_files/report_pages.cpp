@@ -13,6 +13,7 @@
 #include "coupling/common/text_file.hpp"
 #include "coupling/law/friction_law.hpp"
 #include "tests/exchange_files/folder.hpp"
+#include "tests/support/signed_folder.hpp"
 
 namespace drumlin::apps {
 using namespace coupling;
@@ -296,6 +297,7 @@ TEST(PendingFigures, ThatAreDrawnLeaveACompleteFolder) {
   note_pending_figures(folder.path());
   write_json(result, content(false));
   EXPECT_TRUE(draw_pending_figures(folder.path(), {}, ResultPage{"comparison", result}).empty());
+  drumlin::testing::sign(folder.path(), "drumlin compare");
   EXPECT_TRUE(is_complete(result));
   EXPECT_FALSE(is_complete(folder / "none.json"));
 }
