@@ -48,7 +48,8 @@ void PositionProjection<with_driven>::apply(const Movable& movable, std::span<co
   if constexpr (with_driven) add_driven_walls(bodies, walls, W);
   W.resize(pairs.size());
   problem_.q.resize(pairs.size());
-  TeamLoops(work_.team).each(pairs.size(), [&](std::size_t begin, std::size_t end) {
+  // Named anew: clang 14 captures no structured binding.
+  TeamLoops(work_.team).each(pairs.size(), [&, &walls = walls](std::size_t begin, std::size_t end) {
     for (std::size_t a = begin; a < end; ++a) {
       const ClosePair& pair = pairs[a];
       std::int32_t second = pair.j < 0 ? fixed : pair.j;
