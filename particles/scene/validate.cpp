@@ -319,7 +319,7 @@ void check_fall(const Scene& scene, std::size_t s, Faults& faults) {
   if (!scene.effects.gravity || made == nullptr) return;
   const double g = scene.effects.gravity->acceleration_m_s2, h = scene.stages[s].time_step_s;
   const double longest = std::sqrt(1e-3 * made->diameter_min_mm / g);
-  if (!(h > longest)) return;
+  if (!(h > longest) || !(h <= duration_s(scene.stages[s]))) return;
   const std::string key = stage_key(s) + ".time_step_s";
   faults.push_back({key,
                     fmt::format("is {}, in which a grain falls by {:.3g} of the smallest diameters", h,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "coupling/common/errors.hpp"
 #include "particles/contact/problems.hpp"
@@ -90,6 +91,7 @@ struct FletcherReeves {
 template <class Delassus>
 struct Extrapolation {
   Momentum momentum;
+  bool begun = false;
 
   template <class Work>
   void before(Work&) {}
@@ -102,7 +104,7 @@ struct Extrapolation {
       then = x;
     };
     auto& r_before = work.direction;
-    if (beta == 0) {
+    if (beta == 0 || !std::exchange(begun, true)) {
       r_before = r;
       work.state_before = work.state;
       return;
