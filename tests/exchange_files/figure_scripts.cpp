@@ -81,7 +81,7 @@ TEST(PendingFigures, AreAllDrawnButThoseThatFailAndTheseAreNamed) {
     EXPECT_NE(message.find(part), std::string::npos) << message;
 
   EXPECT_TRUE(draw_pending_figures(results, {{good, {(results / "drawn.png").string()}}}).empty());
-  drumlin::testing::sign(results, "drumlin measure");
+  drumlin::testing::sign(results, "measure");
   EXPECT_TRUE(is_complete(finished));
   EXPECT_NO_THROW(throw_if_figures_failed(finished, {}));
 }

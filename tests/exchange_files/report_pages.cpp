@@ -297,7 +297,7 @@ TEST(PendingFigures, ThatAreDrawnLeaveACompleteFolder) {
   note_pending_figures(folder.path());
   write_json(result, content(false));
   EXPECT_TRUE(draw_pending_figures(folder.path(), {}, ResultPage{"comparison", result}).empty());
-  drumlin::testing::sign(folder.path(), "drumlin compare");
+  drumlin::testing::sign(folder.path(), "compare");
   EXPECT_TRUE(is_complete(result));
   EXPECT_FALSE(is_complete(folder / "none.json"));
 }

@@ -170,7 +170,7 @@ TEST(MeasureCommand, FiguresThatAreMissingAreDrawnAgainAndCostNoNumber) {
   // As a script that failed leaves it.
   fs::remove(results / "velocity.png");
   note_pending_figures(results);
-  drumlin::testing::sign(results, "drumlin measure");
+  drumlin::testing::sign(results, "measure");
   const std::string profiles = file_text(results / "profiles.csv");
   options.existing = ExistingOutput::resume;
   EXPECT_EQ(measure(options), 0);
