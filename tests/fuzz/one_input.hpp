@@ -31,10 +31,12 @@ inline std::string text_of(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-/// A folder that goes with the program.
+/// A folder that goes with the program. Like TemporaryFolder of tests/exchange_files, whose header needs
+/// GoogleTest; a target under libFuzzer is linked without it.
 class ScratchFolder {
  public:
   ScratchFolder() {
+    // mkdtemp() asks for the six X and replaces them.
     std::string pattern = (std::filesystem::temp_directory_path() / "drumlin-fuzz-XXXXXX").string();
     if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
     path_ = pattern;

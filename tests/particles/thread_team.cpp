@@ -61,6 +61,7 @@ TEST(ThreadTeam, EveryShareOfAJobIsDoneOnceAndThreadsMeet) {
 
 TEST(ThreadTeam, ThreadsThatCannotBeStartedAreAnErrorThatTellsHowMany) {
 #if defined(__SANITIZE_ADDRESS__)
+  // The test limits the addresses of the process, below what the sanitizer has reserved before main().
   GTEST_SKIP() << "the address sanitizer takes terabytes of addresses";
 #endif
   EXPECT_EXIT(start_too_many(), ::testing::ExitedWithCode(7), "");
