@@ -127,16 +127,17 @@ std::vector<std::int32_t> body_slices_along(std::span<const double> position, st
                                             std::span<const std::int32_t> j) {
   if (position.empty()) return {};
   const auto bodies = static_cast<std::int32_t>(position.size());
-  const auto [low, high] = std::minmax_element(position.begin(), position.end());
+  double low = position[0], high = low;
+  for (const double x : position) low = std::min(low, x), high = std::max(high, x);
   double longest = 0;
   for (std::size_t a = 0; a < i.size(); ++a)
     if (moves(j[a], bodies)) longest = std::max(longest, std::abs(position[i[a]] - position[j[a]]));
   // A stray body far away must not make thousands of empty slices; rounding must not skip one.
-  const double thickness = std::max(1.001 * longest, (*high - *low) / most_slices);
+  const double thickness = std::max(1.001 * longest, (high - low) / most_slices);
   std::vector<std::int32_t> slice(position.size(), 0);
   if (thickness > 0)
     for (std::size_t b = 0; b < position.size(); ++b)
-      slice[b] = static_cast<std::int32_t>((position[b] - *low) / thickness);
+      slice[b] = static_cast<std::int32_t>((position[b] - low) / thickness);
   const std::int32_t count = *std::max_element(slice.begin(), slice.end()) + 1;
   return merged(std::move(slice), count, i, j);
 }

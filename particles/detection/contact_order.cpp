@@ -8,8 +8,9 @@ namespace {
 
 double extent(const std::vector<double>& positions) {
   if (positions.empty()) return 0;
-  const auto [low, high] = std::minmax_element(positions.begin(), positions.end());
-  return *high - *low;
+  double low = positions[0], high = low;
+  for (const double x : positions) low = std::min(low, x), high = std::max(high, x);
+  return high - low;
 }
 
 }  // namespace
@@ -21,10 +22,6 @@ void ContactOrder::sort(const std::vector<Candidate>& pairs, const Bodies& bodie
   for (std::size_t p = 0; p < pairs.size(); ++p) i_[p] = pairs[p].i, j_[p] = pairs[p].j;
   const bool along_x = period.open() && extent(bodies.x) > extent(bodies.z);
   planner_.plan(body_slices_along(along_x ? bodies.x : bodies.z, i_, j_), i_, j_, plan, order_);
-  sort_again(pairs, sorted);
-}
-
-void ContactOrder::sort_again(const std::vector<Candidate>& pairs, std::vector<Candidate>& sorted) const {
   sorted.resize(pairs.size());
   loops_.each(pairs.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) sorted[p] = pairs[order_[p]];

@@ -1,6 +1,7 @@
 #pragma once
 // The order in which the contacts of a step are solved.
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "particles/contact/sweep_plan.hpp"
@@ -20,8 +21,8 @@ class ContactOrder {
   /// in a periodic domain).
   void sort(const std::vector<Candidate>& pairs, const Bodies& bodies, const Period& period, SweepPlan& plan,
             std::vector<Candidate>& sorted);
-  /// The same pairs in the order of the last time.
-  void sort_again(const std::vector<Candidate>& pairs, std::vector<Candidate>& sorted) const;
+  /// Place among the pairs given of each pair in solve order.
+  std::span<const std::int32_t> order() const { return order_; }
 
  private:
   TeamLoops loops_;

@@ -129,8 +129,9 @@ void StripProblem<T, dim, spin>::lay_out(const Problem& problem, const SweepPlan
         for (std::int32_t a = plan.group_start[g]; a < plan.group_start[g + 1]; ++a)
           if (const std::int32_t c = order.empty() ? a : order[a]; is_driven(problem.W, c))
             pack_driven(problem, c, r), --count;
-      groups_.push_back((count + width - 1) / width);
-      blocks += groups_.back();
+      const std::int32_t own = (count + width - 1) / width;
+      groups_.push_back({own, own});
+      blocks += own;
     }
     strip.block[slice % 2 + 1] = blocks;
     strip.group[slice % 2 + 1] = groups_.size();
@@ -149,10 +150,22 @@ void StripProblem<T, dim, spin>::pack_strip(const Problem& problem, const SweepP
   const auto fixed = static_cast<std::int32_t>(strips_[strip].bodies_end) - width;
   std::size_t place = width * strips_[strip].block[0];
   const std::int32_t end = plan.slice_start[2 * strip + 2];
+  std::vector<std::pair<double, std::int32_t>> open;
   for (std::int32_t g = plan.slice_start[2 * strip]; g < end; ++g) {
-    for (std::int32_t a = plan.group_start[g]; a < plan.group_start[g + 1]; ++a)
-      if (const std::int32_t c = order.empty() ? a : order[a]; !is_driven(problem.W, c))
+    open.clear();
+    const std::size_t first = place;
+    for (std::int32_t a = plan.group_start[g]; a < plan.group_start[g + 1]; ++a) {
+      const std::int32_t c = order.empty() ? a : order[a];
+      if (is_driven(problem.W, c)) continue;
+      if (r[dim * c] == 0)
+        open.push_back({problem.q[dim * c], c});
+      else
         pack_place(problem, c, fixed, r, place++);
+    }
+    // Those that start open stand last, the surest at the end, so that blocks of them can rest. Where all do,
+    // nothing is known yet.
+    if (place > first) std::sort(open.begin(), open.end());
+    for (const auto& [q_n, c] : open) pack_place(problem, c, fixed, r, place++);
     while (place % width != 0) pack_place(problem, -1, fixed, r, place++);
   }
 }
@@ -226,6 +239,23 @@ void StripProblem<T, dim, spin>::sweep(int strip, int phase, int parity, T beta,
       Kernels::sweep(blocks_.data() + l.block[phase],
                      std::span(groups_).subspan(l.group[phase], l.group[phase + 1] - l.group[phase]),
                      bodies_.data(), beta, accelerated);
+}
+
+template <class T, int dim, bool spin>
+void StripProblem<T, dim, spin>::let_rest(int strip, bool rest) {
+  const Strip& l = strips_[strip];
+  const auto open = [](const Block& block) {
+    T largest = 0;
+    for (int k = 0; k < Block::width; ++k) largest = std::max({largest, block.r[0][k], block.before[0][k]});
+    return largest == 0;
+  };
+  const Block* first = blocks_.data() + l.block[0];
+  for (std::size_t g = l.group[0]; g < l.group[2]; ++g) {
+    BlockGroup& group = groups_[g];
+    group.swept = group.count;
+    while (rest && group.swept > 0 && open(first[group.swept - 1])) --group.swept;
+    first += group.count;
+  }
 }
 
 template <class T, int dim, bool spin>

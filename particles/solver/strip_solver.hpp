@@ -41,6 +41,9 @@ class StripProblem {
   /// With `accelerated`, by beta further on; bodies go on in phase 0, before any contact of theirs. Sums of
   /// even and odd sweeps stand apart: a thread may begin a sweep while others add up the last one.
   void sweep(int strip, int phase, int parity, T beta, bool accelerated);
+  /// With `rest`, blocks at the end of a group of which all contacts were open in the last two sweeps are
+  /// left out of the next ones; else none is.
+  void let_rest(int strip, bool rest);
   /// Sum of squares of the steps of a sweep over all strips, in the order of the slices; all threads must
   /// have met after it.
   double step_squares(int parity) const;
@@ -84,7 +87,7 @@ class StripProblem {
   void pack_driven(const Problem& problem, std::int32_t c, std::span<const double> r);
   std::vector<Strip> strips_;
   std::vector<Block> blocks_;
-  std::vector<std::int32_t> groups_;   // numbers of blocks that share no body
+  std::vector<BlockGroup> groups_;
   std::vector<std::int32_t> contact_;  // of each place in the blocks; -1: filled up
   std::vector<BodyRecord<T>> bodies_, before_;
   std::vector<std::int32_t> place_;       // of each body in bodies_

@@ -9,6 +9,9 @@
 
 namespace drumlin::particles {
 
+/// Contacts that stay open take part in one sweep of so many (docs/decisions/contact-solver.md).
+inline constexpr int sweeps_of_rest = 5;
+
 /// Where a solve in strips stands between two rounds of sweeps.
 template <class T>
 struct SweepState {
@@ -46,6 +49,9 @@ void sweep_share(Strips& strips, int thread, int threads, int until, bool last, 
     for (int strip = first; strip < end; ++strip) strips.keep(strip);
   own.keep = false;
   while (own.sweeps < until && own.finite) {
+    const bool whole = own.sweeps % sweeps_of_rest == 0;
+    if (accelerated && (whole || own.sweeps % sweeps_of_rest == 1))
+      for (int strip = first; strip < end; ++strip) strips.let_rest(strip, !whole);
     ++own.sweeps;
     for (const int phase : {0, 1}) {
       for (int strip = first; strip < end; ++strip)
@@ -86,7 +92,8 @@ double pack_in_strips(const Problem& problem, SolverWorkspace<Problem>& work, St
   return q_squares > 0 ? Problem::dim / q_squares : 1;  // rms over contacts, relative to the rms of q
 }
 
-/// NLGS, plain or accelerated, in precision T. Every few sweeps (while the steps say that it is far, every
+/// NLGS, plain or accelerated, in precision T. Accelerated, contacts that are open may rest in four sweeps of
+/// five; the residual counts them always. Every few sweeps (while the steps say that it is far, every
 /// fourth time of these) the solver estimates its residual, on vectors and threads; when that is small enough
 /// the residual itself decides. In single precision it also ends, out of sweeps before they are, when the
 /// estimate stands still or the residual is more than three times of it. Impulses that miss the rule are the

@@ -187,7 +187,7 @@ HWY_INLINE void push_bodies(const Place<T, dim>& at, SweptContacts<T>& c, BodyRe
 }
 
 template <class T, int dim, bool spin, bool accelerated>
-double sweep(ContactBlock<T, dim>* blocks, std::span<const std::int32_t> groups, BodyRecord<T>* bodies,
+double sweep(ContactBlock<T, dim>* blocks, std::span<const BlockGroup> groups, BodyRecord<T>* bodies,
              T beta_) {
   const Lanes<T> d;
   constexpr std::size_t width = ContactBlock<T, dim>::width;
@@ -200,14 +200,16 @@ double sweep(ContactBlock<T, dim>* blocks, std::span<const std::int32_t> groups,
     if constexpr (dim >= 2) solve_tangents<T, dim, spin, accelerated>(at, beta, c);
     hn::Store(hn::Add(hn::Load(d, &squares[at.k]), c.squares), d, &squares[at.k]);
   };
-  for (const std::int32_t group : groups) {
-    if (group == 0) continue;
+  for (const auto& [count, swept] : groups) {
+    ContactBlock<T, dim>* const first = blocks;
+    blocks += count;
+    if (swept == 0) continue;
     // The chain of operations of one vector is longer than what a processor looks ahead: the bodies of the
     // next one come while this one's are pushed.
-    Place<T, dim> at{blocks, 0};
+    Place<T, dim> at{first, 0};
     SweptContacts<T> c, next;
     bring_bodies(at, bodies, c);
-    for (std::size_t left = group * (width / lanes) - 1; left > 0; --left) {
+    for (std::size_t left = swept * (width / lanes) - 1; left > 0; --left) {
       solve(at, c);
       const bool whole = at.k + lanes == width;
       const Place<T, dim> after{whole ? at.block + 1 : at.block, whole ? 0 : at.k + lanes};
@@ -218,7 +220,6 @@ double sweep(ContactBlock<T, dim>* blocks, std::span<const std::int32_t> groups,
     }
     solve(at, c);
     push_bodies<T, dim, spin>(at, c, bodies);
-    blocks += group;
   }
   return total(squares);
 }
@@ -298,17 +299,17 @@ void go_on(BodyRecord<T>* bodies, BodyRecord<T>* before, std::size_t count, T be
   }
 }
 
-#define DRUMLIN_KERNELS(T, name, dim, spin)                                                            \
-  void load_##name(const ContactBlock<T, dim>* b, std::size_t n, BodyRecord<T>* v) {                   \
-    load<T, dim, spin>(b, n, v);                                                                       \
-  }                                                                                                    \
-  double sweep_##name(ContactBlock<T, dim>* b, std::span<const std::int32_t> groups, BodyRecord<T>* v, \
-                      T beta, bool fast) {                                                             \
-    return fast ? sweep<T, dim, spin, true>(b, groups, v, beta)                                        \
-                : sweep<T, dim, spin, false>(b, groups, v, beta);                                      \
-  }                                                                                                    \
-  double residual_##name(const ContactBlock<T, dim>* b, std::size_t n, const BodyRecord<T>* v) {       \
-    return residual<T, dim, spin>(b, n, v);                                                            \
+#define DRUMLIN_KERNELS(T, name, dim, spin)                                                                  \
+  void load_##name(const ContactBlock<T, dim>* b, std::size_t n, BodyRecord<T>* v) {                         \
+    load<T, dim, spin>(b, n, v);                                                                             \
+  }                                                                                                          \
+  double sweep_##name(ContactBlock<T, dim>* b, std::span<const BlockGroup> groups, BodyRecord<T>* v, T beta, \
+                      bool fast) {                                                                           \
+    return fast ? sweep<T, dim, spin, true>(b, groups, v, beta)                                              \
+                : sweep<T, dim, spin, false>(b, groups, v, beta);                                            \
+  }                                                                                                          \
+  double residual_##name(const ContactBlock<T, dim>* b, std::size_t n, const BodyRecord<T>* v) {             \
+    return residual<T, dim, spin>(b, n, v);                                                                  \
   }
 DRUMLIN_KERNELS(double, double_smooth, 1, false)
 DRUMLIN_KERNELS(double, double_friction, 2, false)
@@ -345,7 +346,7 @@ HWY_EXPORT(go_on_float);
     HWY_DYNAMIC_DISPATCH(load_##name)(blocks, count, bodies);                                             \
   }                                                                                                       \
   template <>                                                                                             \
-  double SweepKernels<T, dim, spin>::sweep(Block* blocks, std::span<const std::int32_t> groups,           \
+  double SweepKernels<T, dim, spin>::sweep(Block* blocks, std::span<const BlockGroup> groups,             \
                                            BodyRecord<T>* bodies, T beta, bool accelerated) {             \
     return HWY_DYNAMIC_DISPATCH(sweep_##name)(blocks, groups, bodies, beta, accelerated);                 \
   }                                                                                                       \

@@ -40,17 +40,22 @@ struct alignas(4 * sizeof(T)) BodyRecord {
   T x = 0, z = 0, s = 0, inverse_mass = 0;
 };
 
+/// Successive blocks that share no body. The first `swept` of the `count` take part in a sweep.
+struct BlockGroup {
+  std::int32_t count = 0, swept = 0;
+};
+
 /// Kernels of one kind of problem; `spin`: bodies turn.
 template <class T, int dim, bool spin>
 struct SweepKernels {
   using Block = ContactBlock<T, dim>;
   /// Adds the impulses of the blocks to the bodies.
   static void load(const Block* blocks, std::size_t count, BodyRecord<T>* bodies);
-  /// One Gauss-Seidel sweep over the blocks in their order. `groups`: numbers of successive blocks that share
-  /// no body, so that the bodies of the next one are loaded before those of this one are stored. With
+  /// One Gauss-Seidel sweep over the blocks in their order. Blocks of a group share no body,
+  /// so that the bodies of the next one are loaded before those of this one are stored. With
   /// `accelerated` it starts further on, from r + beta (r - before), and `before` becomes r. Returns the sum
   /// of squares of the steps of the impulses.
-  static double sweep(Block* blocks, std::span<const std::int32_t> groups, BodyRecord<T>* bodies, T beta,
+  static double sweep(Block* blocks, std::span<const BlockGroup> groups, BodyRecord<T>* bodies, T beta,
                       bool accelerated);
   /// The sum of squares of the residuals e_a (docs/conventions.md) of the blocks as they stand.
   static double residual(const Block* blocks, std::size_t count, const BodyRecord<T>* bodies);

@@ -1,6 +1,14 @@
 #include "particles/stepping/contact_memory.hpp"
 
 namespace drumlin::particles {
+namespace {
+
+/// What turns an impulse that is remembered into one of a step of length `time_step`.
+double scale_of(const ContactMemory& memory, double time_step) {
+  return memory.time_step > 0 ? time_step / memory.time_step : 1;
+}
+
+}  // namespace
 
 void Recollection::find(const ContactMemory& memory, std::size_t bodies, std::span<const Candidate> pairs) {
   first_of_body_.assign(bodies, -1);
@@ -19,13 +27,17 @@ void Recollection::find(const ContactMemory& memory, std::size_t bodies, std::sp
   });
 }
 
+RememberedLoads Recollection::loads(const ContactMemory& memory, int dim, double time_step) const {
+  return {place_, memory.impulse, dim, scale_of(memory, time_step)};
+}
+
 void Recollection::warm_start(const ContactMemory& memory, int dim, double time_step,
-                              std::vector<double>& impulses) const {
+                              std::span<const std::int32_t> order, std::vector<double>& impulses) const {
   impulses.assign(dim * place_.size(), 0.0);
-  const double scale = memory.time_step > 0 ? time_step / memory.time_step : 1;
+  const double scale = scale_of(memory, time_step);
   loops_.each(place_.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t a = begin; a < end; ++a)
-      if (const std::int32_t m = place_[a]; m >= 0)
+      if (const std::int32_t m = place_[order[a]]; m >= 0)
         for (int c = 0; c < dim; ++c) impulses[dim * a + c] = scale * memory.impulse[dim * m + c];
   });
 }

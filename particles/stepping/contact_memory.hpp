@@ -16,6 +16,22 @@ struct ContactMemory {
   double time_step = 0;         ///< the impulses belong to: they scale with it
 };
 
+/// Normal impulses that the pairs of a step carried in the last one; 0 of a new pair. Refers to a memory and
+/// to a recollection of it.
+class RememberedLoads {
+ public:
+  RememberedLoads() = default;
+  RememberedLoads(std::span<const std::int32_t> place, std::span<const double> impulse, int dim, double scale)
+      : place_(place), impulse_(impulse), dim_(dim), scale_(scale) {}
+  double of(std::int32_t pair) const { return place_[pair] < 0 ? 0 : scale_ * impulse_[dim_ * place_[pair]]; }
+
+ private:
+  std::span<const std::int32_t> place_;
+  std::span<const double> impulse_;
+  int dim_ = 1;
+  double scale_ = 1;
+};
+
 /// Finds contacts in a memory; keeps workspace only.
 class Recollection {
  public:
@@ -23,8 +39,12 @@ class Recollection {
   void use(ThreadTeam* team) { loops_ = TeamLoops(team); }
   /// Finds the pairs of grains 0 to `bodies` in the memory.
   void find(const ContactMemory&, std::size_t bodies, std::span<const Candidate> pairs);
-  /// Impulses that a step of length `time_step` starts from: those remembered, 0 for new contacts.
-  void warm_start(const ContactMemory&, int dim, double time_step, std::vector<double>& impulses) const;
+  /// Normal impulses of the pairs that were looked for, for a step of length `time_step`.
+  RememberedLoads loads(const ContactMemory&, int dim, double time_step) const;
+  /// Impulses that a step of length `time_step` starts from: those remembered, 0 for new contacts. `order`:
+  /// place of each among the pairs that were looked for.
+  void warm_start(const ContactMemory&, int dim, double time_step, std::span<const std::int32_t> order,
+                  std::vector<double>& impulses) const;
 
  private:
   TeamLoops loops_;

@@ -37,6 +37,12 @@ Point gain_of(const StepInput& step, std::int32_t body) {
   return {a.x * step.time_step, a.z * step.time_step};
 }
 
+/// Pairs that pieces of a loop found, in the order of the pieces.
+struct PairList {
+  std::vector<std::int32_t> pairs;
+  void add(const PairList& more) { pairs.insert(pairs.end(), more.pairs.begin(), more.pairs.end()); }
+};
+
 /// Velocity of the wall of a pair but for what its own body has.
 Point prescribed_velocity(const StepInput& step, const Candidate& pair) {
   const Point seen{pair.wall_v_x, pair.wall_v_z};
@@ -70,19 +76,24 @@ Point Impacts::velocity_before(const StepInput& step, std::int32_t body) const {
 }
 
 bool Impacts::find_closings(const StepInput& step, const StepContacts& contacts) {
-  closings_.clear();
   slowest_ = slowest_impact(*step.laws.restitution, step.time_step);
   const auto& v_x = step.bodies.v_x;
   const auto& v_z = step.bodies.v_z;
-  for (std::int32_t a = 0; a < static_cast<std::int32_t>(contacts.pairs.size()); ++a) {
-    const Candidate& pair = contacts.pairs[a];
-    if (pair.j >= 0) {  // nearly all of them: no more than the velocities
-      const double u_n = pair.n_x * (v_x[pair.i] - v_x[pair.j]) + pair.n_z * (v_z[pair.i] - v_z[pair.j]);
-      if (meets(pair, u_n, 0, slowest_, step.time_step) && !rests(step, pair, a, u_n)) closings_.push_back(a);
-    } else if (closes(step, contacts, a)) {
-      closings_.push_back(a);
+  const auto among = [&](std::size_t begin, std::size_t end) {
+    PairList list;
+    for (auto a = static_cast<std::int32_t>(begin); a < static_cast<std::int32_t>(end); ++a) {
+      const Candidate& pair = contacts.pairs[a];
+      if (pair.j >= 0) {  // nearly all of them: no more than the velocities
+        const double u_n = pair.n_x * (v_x[pair.i] - v_x[pair.j]) + pair.n_z * (v_z[pair.i] - v_z[pair.j]);
+        if (meets(pair, u_n, 0, slowest_, step.time_step) && !rests(step, pair, a, u_n))
+          list.pairs.push_back(a);
+      } else if (closes(step, contacts, a)) {
+        list.pairs.push_back(a);
+      }
     }
-  }
+    return list;
+  };
+  closings_ = loops_.combined<PairList>(contacts.pairs.size(), among).pairs;
   return !closings_.empty();
 }
 
@@ -232,7 +243,8 @@ void Impacts::give_back(const StepInput& step, Bodies& bodies, StepContacts& con
   }
 }
 
-void Impacts::resolve(const StepInput& step, const Loads& loads, Bodies& bodies, StepContacts& contacts) {
+void Impacts::resolve(const StepInput& step, const RememberedLoads& loads, Bodies& bodies,
+                      StepContacts& contacts) {
   loads_ = loads;
   struck_.clear();
   work_ = {};

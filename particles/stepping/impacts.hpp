@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "particles/bodies/bodies.hpp"
+#include "particles/parallel/team_loops.hpp"
+#include "particles/stepping/contact_memory.hpp"
 #include "particles/stepping/impact_pass.hpp"
 #include "particles/stepping/step_contacts.hpp"
 
@@ -24,21 +26,15 @@ struct StruckGrain {
   double v_x = 0, v_z = 0, spin = 0;
 };
 
-/// Normal impulses that pairs carried in the last step: `dim` numbers per pair, normal first; 0 of a new
-/// pair.
-struct Loads {
-  std::span<const double> impulses;
-  int dim = 1;
-  double of(std::size_t pair) const { return impulses[dim * pair]; }
-};
-
 /// Resolves the impacts of steps; keeps workspace only, and does nothing in a step without impacts.
 class Impacts {
  public:
+  /// Lets a team share the work; the result does not depend on it.
+  void use(ThreadTeam* team) { loops_ = TeamLoops(team); }
   /// Adds what impacts change to the velocities and spins of `bodies`, those of `step`, and lists their
   /// impulses in `contacts.strikes`. Velocities of walls moved by a force change too: `contacts.wall_jumps`
   /// adds up by how much.
-  void resolve(const StepInput& step, const Loads& loads, Bodies& bodies, StepContacts& contacts);
+  void resolve(const StepInput& step, const RememberedLoads& loads, Bodies& bodies, StepContacts& contacts);
 
   // Of the last call.
   std::span<const StruckGrain> struck() const { return struck_; }
@@ -84,7 +80,8 @@ class Impacts {
   ImpactWork work_;
   int count_ = 0, pass_number_ = 0;
   double slowest_ = 0;
-  Loads loads_;
+  RememberedLoads loads_;
+  TeamLoops loops_;
 };
 
 }  // namespace drumlin::particles

@@ -63,6 +63,7 @@ class MoreauJean final : public Stepper {
     detection_.use(&team_);
     order_.use(&team_);
     recollection_.use(&team_);
+    impacts_.use(&team_);
     overlaps_.use(&team_);
     if (laws.energy_ledger) books_.emplace(laws.gravity);
   }
@@ -139,22 +140,39 @@ class MoreauJean final : public Stepper {
     contacts_.strikes.clear();
     contacts_.wall_jumps.assign(step.driven.size(), 0.0);
     move_freely(step);
-    find_pairs(step);
+    detection_.find(step.bodies, free_.x, free_.z, detection_input(step));
+    recollection_.find(state.memory, step.bodies.count(), detection_.candidates());
     report.detection_seconds += watch.lap();
-    recall(state.memory, state.bodies.count(), step.time_step);
-    if (!laws_.restitution) return;
+    if (laws_.restitution) strike(step, state, watch, report);
+    // In solve order only now: impacts may have brought more pairs together.
+    order_.sort(detection_.candidates(), step.bodies, laws_.period, problem_.W.plan, contacts_.pairs);
+    sweep_all_normals(step);
+    recollection_.warm_start(state.memory, dim, step.time_step, order_.order(), solution_.impulses);
+    report.detection_seconds += watch.lap();
+  }
+
+  void sweep_all_normals(const StepInput& step) {
+    TeamLoops(&team_).each(contacts_.pairs.size(), [&](std::size_t begin, std::size_t end) {
+      sweep_normals(step, std::span(contacts_.pairs).subspan(begin, end - begin));
+    });
+  }
+
+  /// The impacts of the step, on pairs in the order in which they are found.
+  void strike(const StepInput& step, const MovingState& state, Stopwatch& watch, StepReport& report) {
     searched_.x = free_.x, searched_.z = free_.z;
     for (int searches = 1;; ++searches) {
-      impacts_.resolve(step, {solution_.impulses, dim}, state.bodies, contacts_);
+      contacts_.pairs = detection_.candidates();
+      sweep_all_normals(step);
+      impacts_.resolve(step, recollection_.loads(state.memory, dim, step.time_step), state.bodies, contacts_);
       if (books_) books_->strike(impacts_.struck(), impacts_.work(), *state.energy);
       report.impacts += impacts_.count();
       report.setup_seconds += watch.lap();
       if (impacts_.count() == 0) return;
       move_freely(step);
       if (searches == most_searches || !find_thrown(step)) return;
-      const bool more = find_more_pairs(step);
+      if (detection_.find_around(thrown_, step.bodies, free_.x, free_.z, detection_input(step)))
+        recollection_.find(state.memory, step.bodies.count(), detection_.candidates());
       report.detection_seconds += watch.lap();
-      if (more) recall(state.memory, state.bodies.count(), step.time_step);
     }
   }
 
@@ -174,32 +192,6 @@ class MoreauJean final : public Stepper {
 
   DetectionInput detection_input(const StepInput& step) const {
     return {step.walls.before, step.walls.displacement, step.time_step, laws_.detection_margin, laws_.period};
-  }
-
-  /// The pairs that may touch, in solve order, and the plan of their solution.
-  void find_pairs(const StepInput& step) {
-    const auto& found = detection_.find(step.bodies, free_.x, free_.z, detection_input(step));
-    order_.sort(found, step.bodies, laws_.period, problem_.W.plan, contacts_.pairs);
-    sweep_normals(step, contacts_.pairs);
-  }
-
-  /// The same with the pairs that thrown grains may meet; normals of all by the new velocities. Returns
-  /// whether the pairs are others than before.
-  bool find_more_pairs(const StepInput& step) {
-    const bool more = detection_.find_around(thrown_, step.bodies, free_.x, free_.z, detection_input(step));
-    const auto& found = detection_.candidates();
-    if (more)
-      order_.sort(found, step.bodies, laws_.period, problem_.W.plan, contacts_.pairs);
-    else
-      order_.sort_again(found, contacts_.pairs);
-    sweep_normals(step, contacts_.pairs);
-    return more;
-  }
-
-  /// The warm start.
-  void recall(const ContactMemory& memory, std::size_t bodies, double time_step) {
-    recollection_.find(memory, bodies, contacts_.pairs);
-    recollection_.warm_start(memory, dim, time_step, solution_.impulses);
   }
 
   /// New velocities from the solution, then new positions; of driven walls the velocities alone.
