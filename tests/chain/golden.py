@@ -13,7 +13,7 @@ import tempfile
 from command import SHORT_RUN, Drumlin, require
 from result_hashes import content_of
 
-GOLDEN = "a0a0e165a4fed2a56b217709e8c52c1b429ed2367e6e9283ce60d974ecc99c35"
+GOLDEN = "9264eecf69c18e5ad1e33b9b1701b983f65381a9e12698b137ce5ad7d60435d1"
 
 
 def hash_of(run):
