@@ -1,7 +1,7 @@
 #pragma once
 // A flowing drum that another engine and ours compute in turn: processor time and overlaps of each, and the
 // ratio of the times, in one record.
-#include <cmath>
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <memory>
