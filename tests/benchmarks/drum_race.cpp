@@ -216,8 +216,8 @@ void race(const std::vector<std::string>& words, const OtherEngine& other) {
     result["speed_against_" + other.name][runners[k].name] = speed_of(runners[k], runners[0]);
   result["load_before"] = load, result["load_after"] = load_average();
   result["provenance"] = apps::to_json(provenance());
-  apps::write_json(words[2], result);
   fmt::print("{}\n", result.dump(2));
+  apps::write_json(words[2], result);
 }
 
 }  // namespace
@@ -233,6 +233,9 @@ int race_drums(int argc, char** argv, const OtherEngine& other) {
   } catch (const InputError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return static_cast<int>(ExitCode::wrong_input);
+  } catch (const IoError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return static_cast<int>(ExitCode::input_output);
   }
 }
 
