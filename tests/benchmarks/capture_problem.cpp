@@ -22,6 +22,7 @@ void capture(const std::vector<std::string>& words) {
   const Scene scene = benchmark::last_stage_of(read_scene(words[0]));
   Simulation simulation(scene, benchmark::state_at(scene, read_snapshot(words[1])));
   const int steps = checked_count(words[2], {"command line", 0, "STEPS"});
+  if (steps == 0) throw InputError("STEPS: at least 1");
   for (int k = 0; k < steps && !simulation.finished(); ++k) (void)simulation.step();
   const auto problem = simulation.stepper().last_problem();
   if (!problem) throw InputError("a file cannot hold the contact problems of this scene");

@@ -111,8 +111,9 @@ int main(int argc, char** argv) {
     BlockProblem problem = particles::read_contact_problem(argv[1]);
     std::optional<double> tolerance;
     if (argc == 4) tolerance = checked_number(argv[3], {"command line", 0, "RESIDUAL"});
-    const Solved solved =
-        solve(problem, checked_count(argv[2], {"command line", 0, "ITERATIONS"}), tolerance);
+    const int iterations = checked_count(argv[2], {"command line", 0, "ITERATIONS"});
+    if (iterations == 0) throw InputError("ITERATIONS: at least 1");
+    const Solved solved = solve(problem, iterations, tolerance);
     const nlohmann::ordered_json printed = {{"contacts", problem.contacts()},
                                             {"iterations", solved.iterations},
                                             {"residual", solved.residual.rms},
