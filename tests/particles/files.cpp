@@ -152,7 +152,7 @@ TEST(ContactProblemFile, WrittenProblemReadsBack) {
   const TemporaryFolder folder;
   write_fclib(folder.path() / "p.h5", {}, -1);
   const BlockProblem a = read_contact_problem(folder.path() / "p.h5");
-  write_contact_problem(folder.path() / "q.h5", a, "test");
+  write_contact_problem(folder.path() / "q.h5", a, {}, "test");
   const BlockProblem b = read_contact_problem(folder.path() / "q.h5");
   EXPECT_EQ(a.W.column, b.W.column);
   EXPECT_EQ(a.q, b.q);
