@@ -5,6 +5,8 @@
 #include <functional>
 #include <numeric>
 
+#include "particles/solver/momentum.hpp"
+
 namespace drumlin::particles {
 
 template <class Problem>
@@ -17,27 +19,51 @@ std::vector<ContactState> contact_states_of(const Problem& problem, std::span<co
   return states;
 }
 
-template <class Problem>
-StateChanges state_changes(const Problem& problem, std::span<const double> r, int sweeps) {
-  std::vector<double> swept(r.begin(), r.end()), step(r.size());
-  typename Problem::Delassus::State bodies;
-  problem.W.load(bodies, swept);
-  StateChanges found;
-  found.states = contact_states_of(problem, r);
-  found.changes.assign(problem.contacts(), 0);
-  std::vector<ContactState> last = found.states;
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
-    problem.W.sweep(problem.q, problem.mu, swept, bodies, step);
-    const std::vector<ContactState> now = contact_states_of(problem, std::span<const double>(swept));
-    // Impulses that were not left by a sweep meet their cones to a rounding only: the first sweep decides.
-    for (int a = 0; sweep > 0 && a < problem.contacts(); ++a) found.changes[a] += now[a] != last[a];
-    last = now;
+namespace {
+
+/// x + beta (x - before); `before` becomes x.
+void go_on(std::span<double> x, std::span<double> before, double beta) {
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const double swept = x[k];
+    x[k] += beta * (swept - before[k]);
+    before[k] = swept;
   }
+}
+
+void sum_up(StateChanges& found) {
   std::vector<std::int32_t> sorted = found.changes;
   std::sort(sorted.begin(), sorted.end(), std::greater<>());
   found.total = std::accumulate(sorted.begin(), sorted.end(), std::int64_t{0});
   for (const std::int32_t changes : sorted) found.changed += changes > 0;
   for (std::int64_t sum = 0; 5 * sum < 4 * found.total;) sum += sorted[found.most_of_it++];
+}
+
+}  // namespace
+
+template <class Problem>
+StateChanges state_changes(const Problem& problem, std::span<const double> r, int sweeps) {
+  using Delassus = typename Problem::Delassus;
+  constexpr double tolerance =
+      1e-4;  // the momentum's age at the beginning is that of a solve to this residual
+  std::vector<double> now(r.begin(), r.end()), before = now, step(r.size());
+  typename Delassus::State bodies;
+  problem.W.load(bodies, now);
+  auto bodies_before = bodies;
+  StateChanges found;
+  found.states = contact_states_of(problem, r);
+  found.changes.assign(problem.contacts(), 0);
+  std::vector<ContactState> last;
+  Momentum momentum(tolerance, found.changes.size());
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    const double beta = momentum.next(problem.W.sweep(problem.q, problem.mu, now, bodies, step));
+    const std::vector<ContactState> states = contact_states_of(problem, std::span<const double>(now));
+    // Impulses that no sweep has left meet their cones to a rounding only: the first sweep decides.
+    for (int a = 0; sweep > 0 && a < problem.contacts(); ++a) found.changes[a] += states[a] != last[a];
+    last = states;
+    go_on(now, before, beta);
+    go_on(Delassus::numbers(bodies), Delassus::numbers(bodies_before), beta);
+  }
+  sum_up(found);
   return found;
 }
 

@@ -22,9 +22,9 @@ struct StateChanges {
 template <class Problem>
 std::vector<ContactState> contact_states_of(const Problem&, std::span<const double> r);
 
-/// Sweeps on from r with plain Gauss-Seidel, one contact after the other, and counts the changes of state
-/// from one sweep to the next. A solution changes nothing; in what stands still without being one, some
-/// contacts fold: they find no state to stay in.
+/// Sweeps on from r as the solver `accelerated` does, one contact after the other, and counts the changes of
+/// state from one sweep to the next. A solution changes nothing; where a solver stands still without being at
+/// one, some contacts fold: they find no state to stay in.
 template <class Problem>
 StateChanges state_changes(const Problem&, std::span<const double> r, int sweeps);
 
