@@ -101,12 +101,12 @@ nlohmann::ordered_json to_json(const particles::BackwardError& error,
 
 void print_backward_errors(const Solved& solved) {
   for (const auto& error : solved.backward_errors)
-    print_out(
-        fmt::format("exact for friction within {:g} % of the given and free velocities that differ by "
-                    "{:.3g}, or impulses by {:.2g} of the mean ({:.0f} % of it at sticking, {:.0f} % at "
-                    "sliding, {:.0f} % at open contacts)\n",
-                    100 * error.friction, error.dq, error.force, 100 * error.states[1].share,
-                    100 * error.states[2].share, 100 * error.states[0].share));
+    print_out(fmt::format(
+        "exact for friction within {:g} % of the given and free velocities that differ by "
+        "{:.3g} of their rms, or impulses by {:.2g} of the mean ({:.0f} % of it at sticking, {:.0f} % at "
+        "sliding, {:.0f} % at open contacts)\n",
+        100 * error.friction, error.dq, error.force, 100 * error.states[1].share, 100 * error.states[2].share,
+        100 * error.states[0].share));
 }
 
 void print_changes(const particles::StateChanges& changes, int sweeps) {

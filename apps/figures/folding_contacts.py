@@ -68,12 +68,12 @@ def draw_places(axes, contacts, folding):
     axes.grid(False)
     axes.set_xlabel("$x$  [$d$]")
     axes.set_ylabel("$z$  [$d$]")
-    axes.legend(loc="upper right", title=f"contacts that make {MOST_OF_IT:.0%} of all changes", markerscale=1.5)
+    axes.legend(loc="upper right", title=f"contacts that make {100 * MOST_OF_IT:.0f} % of all changes", markerscale=1.5)
 
 
 def draw_loads(axes, contacts, folding):
     """How much the contacts that fold carry, against all that carry a load."""
-    edges = np.logspace(-3, 1, 33)
+    edges = np.logspace(-3, 1, 21)
     loaded = contacts.force > 0
     for chosen, color, label in ((loaded, "0.6", "all that carry a load"), (np.isin(np.arange(len(loaded)), folding) & loaded, style.CONTINUUM, "those that fold")):
         count = max(int(chosen.sum()), 1)
@@ -81,6 +81,7 @@ def draw_loads(axes, contacts, folding):
     axes.set_xscale("log")
     axes.set_xlabel(r"$r_n/\langle r_n\rangle$")
     axes.set_ylabel("share of the contacts")
+    axes.set_ylim(top=1.3 * axes.get_ylim()[1])
     axes.legend(loc="upper left")
 
 
@@ -93,7 +94,7 @@ def draw_concentration(axes, contacts):
     axes.set_xscale("log")
     axes.set_xlabel(f"contacts, of {len(contacts.changes)}")
     axes.set_ylabel("share")
-    axes.legend(loc="upper left")
+    axes.legend(loc="lower right")
 
 
 def main():

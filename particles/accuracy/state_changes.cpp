@@ -11,11 +11,13 @@ namespace drumlin::particles {
 
 template <class Problem>
 std::vector<ContactState> contact_states_of(const Problem& problem, std::span<const double> r) {
-  std::vector<ContactState> states(problem.contacts());
-  for (int a = 0; a < problem.contacts(); ++a)
-    states[a] = r[2 * a] == 0                                        ? ContactState::open
-                : std::abs(r[2 * a + 1]) >= problem.mu[a] * r[2 * a] ? ContactState::sliding
-                                                                     : ContactState::sticking;
+  constexpr double rounding = 1e-6;  // of sweeps in single precision
+  std::vector<ContactState> states(problem.contacts(), ContactState::open);
+  for (int a = 0; a < problem.contacts(); ++a) {
+    if (r[2 * a] == 0) continue;
+    const bool slides = std::abs(r[2 * a + 1]) >= (1 - rounding) * problem.mu[a] * r[2 * a];
+    states[a] = slides ? ContactState::sliding : ContactState::sticking;
+  }
   return states;
 }
 
@@ -52,13 +54,12 @@ StateChanges state_changes(const Problem& problem, std::span<const double> r, in
   StateChanges found;
   found.states = contact_states_of(problem, r);
   found.changes.assign(problem.contacts(), 0);
-  std::vector<ContactState> last;
+  std::vector<ContactState> last = found.states;
   Momentum momentum(tolerance, found.changes.size());
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     const double beta = momentum.next(problem.W.sweep(problem.q, problem.mu, now, bodies, step));
     const std::vector<ContactState> states = contact_states_of(problem, std::span<const double>(now));
-    // Impulses that no sweep has left meet their cones to a rounding only: the first sweep decides.
-    for (int a = 0; sweep > 0 && a < problem.contacts(); ++a) found.changes[a] += states[a] != last[a];
+    for (int a = 0; a < problem.contacts(); ++a) found.changes[a] += states[a] != last[a];
     last = states;
     go_on(now, before, beta);
     go_on(Delassus::numbers(bodies), Delassus::numbers(bodies_before), beta);
