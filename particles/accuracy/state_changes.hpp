@@ -18,7 +18,7 @@ struct StateChanges {
 };
 
 /// State of each contact in impulses r (2 per contact, in their cones): open where r_n = 0, sliding where
-/// |r_t| = mu r_n, which sweeps meet to the last digit, else sticking.
+/// |r_t| = mu r_n to 1e-6, else sticking.
 template <class Problem>
 std::vector<ContactState> contact_states_of(const Problem&, std::span<const double> r);
 
