@@ -115,8 +115,16 @@ void add_solve_contacts_options(CLI::App& command, SolveContactsOptions& options
   command
       .add_option_function<std::string>(
           "--output", [&options](const std::string& file) { options.output = file; },
-          "File for the solution, r and u under /solution; none is written without")
+          "File for the solution, r, u, state and error under /solution; none is written without")
       ->type_name("SOL.h5");
+  command.add_flag("--backward-error", options.backward_error,
+                   "Says how far the problem that the solution solves exactly is from this one");
+  command
+      .add_option_function<int>(
+          "--watch", [&options](const int sweeps) { options.watch = sweeps; },
+          "Sweeps on so many times from the solution and counts which contacts change their state")
+      ->type_name("SWEEPS")
+      ->check(CLI::Range(1, 1000000));
   command.add_flag("--json", options.json, "Prints status, residual, residual_max, sweeps, seconds as JSON");
 }
 

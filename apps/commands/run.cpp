@@ -163,7 +163,7 @@ class ParticleRun {
     const std::string name = fmt::format("problems/step-{:06}.h5", step);
     const fs::path file = options_.output / name;
     fs::create_directories(file.parent_path());
-    particles::write_contact_problem(file, problem.value(),
+    particles::write_contact_problem(file, problem.value(), simulation_.last_places(),
                                      fmt::format("{}, step {}, {} to residual {:.3g}", scene_.title, step,
                                                  scene_.solver.name, last_.solve.residual.rms));
     writer_.wait();  // it lists files too

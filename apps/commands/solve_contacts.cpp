@@ -1,6 +1,8 @@
 // drumlin solve-contacts: one contact problem from a file, measured by the project's residual.
 #include <fmt/format.h>
 
+#include <array>
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -8,6 +10,8 @@
 #include "apps/support/output_folder.hpp"
 #include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
+#include "particles/accuracy/backward_error.hpp"
+#include "particles/accuracy/state_changes.hpp"
 #include "particles/contact/disc_problem.hpp"
 #include "particles/io/contact_problem_file.hpp"
 #include "particles/parallel/thread_team.hpp"
@@ -23,7 +27,12 @@ struct Solved {
   particles::SolveReport report;
   particles::Solution<BlockProblem> solution;
   bool of_discs = false;
+  std::vector<particles::BackwardError> backward_errors;  ///< of --backward-error
+  std::optional<particles::StateChanges> changes;         ///< of --watch
 };
+
+/// By how much the friction of contacts may be off the given one in a backward error.
+constexpr std::array friction_changes{0.0, 1e-3, 1e-2, 5e-2};
 
 template <class Problem>
 particles::SolveReport solve(const Problem& problem, const SolveContactsOptions& options,
@@ -49,22 +58,81 @@ Solved solve(const BlockProblem& problem, const SolveContactsOptions& options) {
   solved.report = discs ? solve(*discs, options, solved.solution.impulses)
                         : solve(problem, options, solved.solution.impulses);
   solved.report.residual = particles::residual_of(problem, solved.solution);
+  const std::span<const double> r = solved.solution.impulses;
+  if (options.backward_error)
+    solved.backward_errors = particles::backward_errors(problem, r, friction_changes);
+  if (options.watch)
+    solved.changes = discs ? particles::state_changes(*discs, r, *options.watch)
+                           : particles::state_changes(problem, r, *options.watch);
   return solved;
+}
+
+double rms_of_q(const BlockProblem& problem) {
+  return std::sqrt(particles::squared_norm(problem.q) / static_cast<double>(problem.q.size()));
+}
+
+/// What the solution file says of each contact.
+particles::ContactNotes notes_of(const BlockProblem& problem, const Solved& solved) {
+  particles::ContactNotes notes;
+  const std::span<const double> r = solved.solution.impulses, u = solved.solution.velocities.contacts;
+  for (const auto state : particles::contact_states_of(problem, r))
+    notes.state.push_back(static_cast<std::int32_t>(state));
+  const double scale = rms_of_q(problem);
+  for (int a = 0; a < problem.contacts(); ++a) {
+    const double error = std::sqrt(particles::squared_error(problem, a, r, u));
+    notes.error.push_back(error == 0 ? 0 : error / scale);
+  }
+  if (solved.changes) notes.changes = solved.changes->changes;
+  return notes;
+}
+
+nlohmann::ordered_json to_json(const particles::BackwardError& error,
+                               const particles::ContactProblemFile& file) {
+  nlohmann::ordered_json json = {{"friction", error.friction}, {"dq", error.dq},
+                                 {"dq_max", error.dq_max},     {"dq_gh", nullptr},
+                                 {"force", error.force},       {"dr", error.dr},
+                                 {"normal", error.normal},     {"most_of_it", error.most_of_it}};
+  if (file.time_step) json["dq_gh"] = error.dq * rms_of_q(file.problem) / *file.time_step;
+  const std::array<const char*, particles::contact_states> names{"open", "sticking", "sliding"};
+  for (std::size_t k = 0; k < names.size(); ++k)
+    json[names[k]] = {{"contacts", error.states[k].contacts}, {"share", error.states[k].share}};
+  return json;
+}
+
+void print_backward_errors(const Solved& solved) {
+  for (const auto& error : solved.backward_errors)
+    print_out(fmt::format(
+        "exact for friction within {:g} % of the given and free velocities that differ by "
+        "{:.3g} of their rms, or impulses by {:.2g} of the mean ({:.0f} % of it at sticking, {:.0f} % at "
+        "sliding, {:.0f} % at open contacts)\n",
+        100 * error.friction, error.dq, error.force, 100 * error.states[1].share, 100 * error.states[2].share,
+        100 * error.states[0].share));
+}
+
+void print_changes(const particles::StateChanges& changes, int sweeps) {
+  print_out(fmt::format("in {} more sweeps {} contacts change their state, {} times; {} of them make 80 %\n",
+                        sweeps, changes.changed, changes.total, changes.most_of_it));
 }
 
 void print_json(const particles::ContactProblemFile& file, const Solved& solved,
                 const SolveContactsOptions& options) {
   const auto& report = solved.report;
-  const nlohmann::ordered_json printed = {{"status", particles::to_string(report.status)},
-                                          {"residual", report.residual.rms},
-                                          {"residual_max", report.residual.max},
-                                          {"sweeps", report.sweeps},
-                                          {"seconds", report.seconds},
-                                          {"contacts", file.problem.contacts()},
-                                          {"discs", solved.of_discs},
-                                          {"asymmetry", file.asymmetry},
-                                          {"solver", options.solver},
-                                          {"tolerance", options.tolerance}};
+  nlohmann::ordered_json printed = {{"status", particles::to_string(report.status)},
+                                    {"residual", report.residual.rms},
+                                    {"residual_max", report.residual.max},
+                                    {"sweeps", report.sweeps},
+                                    {"seconds", report.seconds},
+                                    {"contacts", file.problem.contacts()},
+                                    {"discs", solved.of_discs},
+                                    {"asymmetry", file.asymmetry},
+                                    {"solver", options.solver},
+                                    {"tolerance", options.tolerance}};
+  for (const auto& error : solved.backward_errors) printed["backward_error"].push_back(to_json(error, file));
+  if (const auto& changes = solved.changes)
+    printed["changes"] = {{"sweeps", *options.watch},
+                          {"contacts", changes->changed},
+                          {"total", changes->total},
+                          {"most_of_it", changes->most_of_it}};
   print_out(fmt::format("{}\n", printed.dump(2)));
 }
 
@@ -79,6 +147,8 @@ void print_text(const particles::ContactProblemFile& file, const Solved& solved,
       file.problem.contacts(), solved.of_discs ? " of discs" : "", options.solver,
       particles::to_string(report.status), report.sweeps, report.seconds, report.residual.rms,
       options.tolerance, report.residual.max));
+  print_backward_errors(solved);
+  if (solved.changes) print_changes(*solved.changes, *options.watch);
 }
 
 }  // namespace
@@ -90,7 +160,7 @@ int solve_contacts(const SolveContactsOptions& options) {
   const Solved solved = solve(file.problem, options);
   if (options.output)
     particles::write_contact_solution(*options.output, solved.solution.impulses,
-                                      solved.solution.velocities.contacts);
+                                      solved.solution.velocities.contacts, notes_of(file.problem, solved));
   if (options.json)
     print_json(file, solved, options);
   else

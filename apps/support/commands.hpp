@@ -140,6 +140,8 @@ struct SolveContactsOptions {
   double tolerance = 1e-4;
   double max_seconds = 60;
   int threads = 1;
+  bool backward_error = false;  ///< which problem the solution solves exactly
+  std::optional<int> watch;     ///< further plain sweeps in which changes of state are counted
   std::optional<std::filesystem::path> output;
   bool json = false;
 };

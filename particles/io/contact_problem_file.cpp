@@ -18,7 +18,7 @@ struct Entry {
   double value = 0;
 };
 
-const std::string root = "fclib_local/";
+const std::string root = "fclib_local/", time_step_name = "drumlin/time_step";
 constexpr double largest_asymmetry = 1e-5;  // of the diagonal; beyond, it is no file written with few digits
 
 void check_entry(const H5Reader& in, const Entry& entry, std::int64_t size) {
@@ -132,6 +132,13 @@ std::vector<double> vector_of(const H5Reader& in, const std::string& name, std::
   return values;
 }
 
+std::optional<double> time_step_of(const H5Reader& in) {
+  if (!in.has(time_step_name)) return std::nullopt;
+  const double step = in.number(time_step_name);
+  if (!(step > 0 && std::isfinite(step))) in.refuse(time_step_name, "must be positive");
+  return step;
+}
+
 }  // namespace
 
 ContactProblemFile read_contact_problem_file(const std::filesystem::path& file) {
@@ -148,6 +155,7 @@ ContactProblemFile read_contact_problem_file(const std::filesystem::path& file) 
   problem.mu = vector_of(in, "mu", size / 2);
   for (const double mu : problem.mu)
     if (mu < 0) in.refuse(root + "vectors/mu", "negative friction");
+  read.time_step = time_step_of(in);
   auto& W = problem.W;
   W.row_start.push_back(0);
   int a = 0;
@@ -164,15 +172,18 @@ BlockProblem read_contact_problem(const std::filesystem::path& file) {
 }
 
 void write_contact_solution(const std::filesystem::path& file, std::span<const double> r,
-                            std::span<const double> u) {
+                            std::span<const double> u, const ContactNotes& notes) {
   H5Writer out;
   out.add("solution/r", r);
   out.add("solution/u", u);
+  if (!notes.state.empty()) out.add("solution/state", std::span(notes.state));
+  if (!notes.changes.empty()) out.add("solution/changes", std::span(notes.changes));
+  if (!notes.error.empty()) out.add("solution/error", std::span(notes.error));
   out.save(file);
 }
 
 void write_contact_problem(const std::filesystem::path& file, const BlockProblem& problem,
-                           const std::string& description) {
+                           const ContactPlaces& places, const std::string& description) {
   const auto size = static_cast<std::int32_t>(problem.q.size());
   std::vector<std::int32_t> p{0}, i;
   std::vector<double> x;
@@ -198,6 +209,13 @@ void write_contact_problem(const std::filesystem::path& file, const BlockProblem
   out.add(root + "vectors/mu", std::span<const double>(problem.mu));
   out.add(root + "vectors/s", std::span<const double>());
   out.add_text(root + "info/description", description);
+  out.add_number(time_step_name, problem.time_step);
+  const std::string group = "drumlin/contacts/";
+  if (!places.x.empty()) {
+    out.add(group + "x", std::span(places.x)), out.add(group + "z", std::span(places.z));
+    out.add(group + "normal_x", std::span(places.normal_x));
+    out.add(group + "normal_z", std::span(places.normal_z));
+  }
   out.save(file);
 }
 

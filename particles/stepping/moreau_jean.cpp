@@ -118,6 +118,8 @@ class MoreauJean final : public Stepper {
       return std::nullopt;
   }
 
+  std::span<const Candidate> last_pairs() const override { return contacts_.pairs; }
+
   int unknowns_per_contact() const override { return dim; }
   int velocities_per_body() const override { return with_spin ? 3 : 2; }
 

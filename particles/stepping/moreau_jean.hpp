@@ -15,6 +15,7 @@
 #include "particles/bodies/bodies.hpp"
 #include "particles/bodies/snapshot.hpp"
 #include "particles/contact/problems.hpp"
+#include "particles/detection/candidate.hpp"
 #include "particles/effects/wall_step.hpp"
 #include "particles/solver/stopping_rule.hpp"
 #include "particles/stepping/contact_memory.hpp"
@@ -60,6 +61,8 @@ class Stepper {
   /// The contact problem of the last step, as it travels in files; none where a contact has more unknowns or
   /// couples than a file can hold (rolling resistance, walls moved by a force).
   virtual std::optional<BlockProblem> last_problem() const = 0;
+  /// Its pairs, in the order of its contacts.
+  virtual std::span<const Candidate> last_pairs() const = 0;
   /// Unknowns per contact and numbers of velocity per body: what the effects of the scene cost.
   virtual int unknowns_per_contact() const = 0;
   virtual int velocities_per_body() const = 0;

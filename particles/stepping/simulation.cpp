@@ -178,6 +178,24 @@ bool Simulation::snapshot_due() const {
   return std::binary_search(plan_.snapshot_steps.begin(), plan_.snapshot_steps.end(), state_.step);
 }
 
+Point Simulation::normal_in_scene(double n_x, double n_z) const {
+  if (!frame_) return {n_x, n_z};
+  // Normals are those of the beginning of the step.
+  return direction_in_frame(*frame_, state_.time() - plan_.stages[state_.stage].time_step, {n_x, n_z});
+}
+
+ContactPlaces Simulation::last_places() const {
+  ContactPlaces places;
+  const Bodies& bodies = state_.bodies;
+  for (const Candidate& pair : stepper_->last_pairs()) {
+    const Point normal = normal_in_scene(pair.n_x, pair.n_z);
+    places.x.push_back(bodies.x[pair.i] - bodies.radius[pair.i] * normal.x);
+    places.z.push_back(bodies.z[pair.i] - bodies.radius[pair.i] * normal.z);
+    places.normal_x.push_back(normal.x), places.normal_z.push_back(normal.z);
+  }
+  return places;
+}
+
 Snapshot Simulation::take_snapshot() {
   ++state_.snapshots;
   Snapshot s;
@@ -212,12 +230,10 @@ Snapshot Simulation::take_snapshot() {
   s.x = bodies.x, s.z = bodies.z, s.v_x = bodies.v_x, s.v_z = bodies.v_z, s.radius = bodies.radius,
   s.spin = bodies.spin;
   s.contacts = stepper_->loaded_contacts();
-  if (frame_)  // normals are those of the beginning of the step
-    for (SnapshotContact& contact : s.contacts) {
-      const Point normal =
-          direction_in_frame(*frame_, s.time - s.time_step, {contact.normal_x, contact.normal_z});
-      contact.normal_x = static_cast<float>(normal.x), contact.normal_z = static_cast<float>(normal.z);
-    }
+  for (SnapshotContact& contact : s.contacts) {
+    const Point normal = normal_in_scene(contact.normal_x, contact.normal_z);
+    contact.normal_x = static_cast<float>(normal.x), contact.normal_z = static_cast<float>(normal.z);
+  }
   while (!state_.marks.empty() && state_.marks.front().snapshot_step < state_.step) state_.marks.pop_front();
   if (!state_.marks.empty() && state_.marks.front().snapshot_step == state_.step) {
     const auto& mark = state_.marks.front();

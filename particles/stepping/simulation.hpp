@@ -10,6 +10,7 @@
 #include "particles/bodies/bodies.hpp"
 #include "particles/bodies/snapshot.hpp"
 #include "particles/bodies/walls.hpp"
+#include "particles/contact/contact_places.hpp"
 #include "particles/effects/rotating_frame.hpp"
 #include "particles/scene/scene.hpp"
 #include "particles/scene/scene_walls.hpp"
@@ -76,6 +77,8 @@ class Simulation {
   bool snapshot_due() const;
   /// The state after the last step. Counts as the next snapshot of the run.
   Snapshot take_snapshot();
+  /// Where the contacts of the last step's problem are after it, with the normals that it used.
+  ContactPlaces last_places() const;
 
   const SimulationState& state() const { return state_; }
   const TimePlan& plan() const { return plan_; }
@@ -89,6 +92,8 @@ class Simulation {
   StepReport advance_here(double time_step);
   StepReport advance_in_laboratory(double time_step);
   void mark_positions();
+  /// A normal of the last step, as the scene tells it.
+  Point normal_in_scene(double n_x, double n_z) const;
 
   Scene scene_;
   Scales scales_;

@@ -5,6 +5,7 @@
 #include "apps/support/pending_figures.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/common/text_file.hpp"
+#include "coupling/files/h5_image.hpp"
 #include "tests/exchange_files/folder.hpp"
 #include "tests/support/data_folder.hpp"
 #include "tests/support/signed_folder.hpp"
@@ -58,6 +59,37 @@ TEST(FigureScript, ImportsFromItsOwnFolderAndNeitherTheCurrentOneNorPythonpath) 
   ::unsetenv("PYTHONHOME");
   EXPECT_EQ(file_text(own / "drawn"), "blue");
   EXPECT_FALSE(fs::exists(executed));
+}
+
+/// Four contacts in a row, of which one has changed its state.
+void write_contacts(const fs::path& problem, const fs::path& solution, bool changes) {
+  const std::vector<double> x{1, 2, 3, 4}, none(4, 0.0), one(4, 1.0), r{1, 0, 2, 0.8, 0, 0, 1, 0.1};
+  const std::vector<std::int32_t> state{1, 2, 0, 1}, changed{0, 5, 0, 0};
+  {
+    H5Writer out;
+    out.add("drumlin/contacts/x", std::span(x)), out.add("drumlin/contacts/z", std::span(none));
+    out.add("drumlin/contacts/normal_x", std::span(one)),
+        out.add("drumlin/contacts/normal_z", std::span(none));
+    out.save(problem);
+  }
+  H5Writer out;
+  out.add("solution/r", std::span(r)), out.add("solution/error", std::span(one));
+  out.add("solution/state", std::span(state));
+  if (changes) out.add("solution/changes", std::span(changed));
+  out.save(solution);
+}
+
+TEST(FigureScript, DrawsTheContactsThatFoldWhereTheirChangesAreKnown) {
+  const TemporaryFolder folder;
+  const auto problem = folder.path() / "p.h5", solution = folder.path() / "s.h5",
+             drawn = folder.path() / "f.png";
+  const std::vector<std::string> words{problem.string(), solution.string(), drawn.string()};
+  write_contacts(problem, solution, true);
+  draw_figures("folding_contacts.py", words);
+  EXPECT_EQ(file_text(drawn).substr(1, 3), "PNG");
+  write_contacts(problem, solution, false);
+  const auto message = message_of<IoError>([&] { draw_figures("folding_contacts.py", words); });
+  EXPECT_NE(message.find("s.h5: holds no changes of states"), std::string::npos) << message;
 }
 
 TEST(PendingFigures, AreAllDrawnButThoseThatFailAndTheseAreNamed) {

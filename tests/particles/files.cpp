@@ -152,11 +152,39 @@ TEST(ContactProblemFile, WrittenProblemReadsBack) {
   const TemporaryFolder folder;
   write_fclib(folder.path() / "p.h5", {}, -1);
   const BlockProblem a = read_contact_problem(folder.path() / "p.h5");
-  write_contact_problem(folder.path() / "q.h5", a, "test");
+  write_contact_problem(folder.path() / "q.h5", a, {}, "test");
   const BlockProblem b = read_contact_problem(folder.path() / "q.h5");
   EXPECT_EQ(a.W.column, b.W.column);
   EXPECT_EQ(a.q, b.q);
   EXPECT_EQ(a.mu, b.mu);
+}
+
+TEST(ContactProblemFile, SaysTheTimeStepAndWhereTheContactsAre) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "q.h5";
+  write_fclib(file, {}, -1);
+  EXPECT_FALSE(read_contact_problem_file(file).time_step);
+  BlockProblem problem = read_contact_problem(file);
+  problem.time_step = 0.05;
+  write_contact_problem(file, problem, {{1, 2, 3}, {4, 5, 6}, {1, 0, 1}, {0, 1, 0}}, "test");
+  EXPECT_EQ(read_contact_problem_file(file).time_step, 0.05);
+  EXPECT_EQ(H5Reader(file).doubles("drumlin/contacts/z"), (std::vector<double>{4, 5, 6}));
+  problem.time_step = 0;
+  write_contact_problem(file, problem, {}, "test");
+  EXPECT_FALSE(H5Reader(file).has("drumlin/contacts/x"));
+  EXPECT_THROW(read_contact_problem(file), InputError);
+}
+
+TEST(ContactProblemFile, SolutionsSayStatesWhereTheyAreKnown) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "s.h5";
+  const std::vector<double> r{1, 0.5}, u{0, -1};
+  write_contact_solution(file, r, u);
+  EXPECT_FALSE(H5Reader(file).has("solution/state"));
+  write_contact_solution(file, r, u, {{2}, {7}, {1e-3}});
+  EXPECT_EQ(H5Reader(file).ints("solution/state"), std::vector<std::int32_t>{2});
+  EXPECT_EQ(H5Reader(file).ints("solution/changes"), std::vector<std::int32_t>{7});
+  EXPECT_EQ(H5Reader(file).doubles("solution/error"), std::vector<double>{1e-3});
 }
 
 TEST(ContactProblemFile, SmallAsymmetryOfADiagonalBlockIsTakenAway) {

@@ -55,13 +55,15 @@ TEST(CommandLine, FillsTheOptionsOfEveryOtherCommand) {
   EXPECT_EQ(show.overrides.size(), 1u);
   EXPECT_EQ(std::get<SceneOptions>(parsed({"scene", "check", "s.toml"})).scene, "s.toml");
   EXPECT_TRUE(std::get<SceneOptions>(parsed({"scene", "keys", "--markdown"})).markdown);
-  const auto solve =
-      std::get<SolveContactsOptions>(parsed({"solve-contacts", "p.h5", "--solver", "nlgs", "--tolerance",
-                                             "1e-6", "--max-seconds", "5", "--output", "s.h5", "--json"}));
+  const auto solve = std::get<SolveContactsOptions>(
+      parsed({"solve-contacts", "p.h5", "--solver", "nlgs", "--tolerance", "1e-6", "--max-seconds", "5",
+              "--output", "s.h5", "--json", "--backward-error", "--watch", "10"}));
   EXPECT_EQ(solve.solver, "nlgs");
   EXPECT_EQ(solve.tolerance, 1e-6);
   EXPECT_EQ(solve.output, "s.h5");
   EXPECT_TRUE(solve.json);
+  EXPECT_TRUE(solve.backward_error);
+  EXPECT_EQ(solve.watch, 10);
   const auto hard = std::get<HardcasesOptions>(parsed({"hardcases", "wedge", "shot", "--fast", "-o", "h"}));
   EXPECT_EQ(hard.names, (std::vector<std::string>{"wedge", "shot"}));
   EXPECT_TRUE(hard.fast);
@@ -107,6 +109,7 @@ TEST(CommandLine, RefusesWrongUsage) {
       {"scene", "check"},
       {"solve-contacts", "p.h5", "--solver", "none"},
       {"solve-contacts", "p.h5", "--tolerance", "-1"},
+      {"solve-contacts", "p.h5", "--watch", "0"},
       {"cost", "s.toml", "--repeats", "0"},
       {"cost", "s.toml", "--ranks", "1,0"},
       {"cost", "s.toml", "--ranks", "two"},

@@ -117,6 +117,12 @@ TEST_F(Program, LeavesTheProblemsThatItCouldNotSolveToSolveContacts) {
     problems.push_back(file.path());
   ASSERT_EQ(problems.size(), 2u);  // of all the steps that missed it
   EXPECT_EQ(drumlin("solve-contacts " + problems[0].string() + " --tolerance 1e-6").code, 0);
+  const Outcome looked =
+      drumlin("solve-contacts " + problems[0].string() + " --json --backward-error --watch 3");
+  EXPECT_EQ(looked.code, 0);
+  for (const char* part : {"\"backward_error\"", "\"friction\": 0.05", "\"sweeps\": 3"})
+    EXPECT_NE(looked.out.find(part), std::string::npos) << looked.out;
+  EXPECT_EQ(looked.out.find("null"), std::string::npos) << looked.out;  // the file says the time step
 
   // The step that ends a run leaves its problem too, and is named.
   const Outcome fatal = drumlin(run_to("s") + hopeless + " --set solver.stop_when_unconverged=true");
