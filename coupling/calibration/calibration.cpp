@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "coupling/common/errors.hpp"
+#include "coupling/law/rheology_file.hpp"
 
 namespace drumlin::coupling {
 namespace {
@@ -81,8 +82,12 @@ RheologyFit rheology_of(const Calibration& calibration) {
   RheologyFit fit;
   fit.mu = measured_friction(law.form, law.fit.law, law.draws, law.I_min, law.I_max);
   fit.rms_misfit = law.fit.rms_misfit;
-  for (std::size_t d = 0; d < std::min(kept_draws, law.draws.size()); ++d)
-    fit.draws.push_back(measured_friction(law.form, law.draws[d], {}, law.I_min, law.I_max));
+  for (const Coefficients& draw : law.draws) {
+    if (fit.draws.size() == kept_draws) break;
+    MeasuredFriction mu = measured_friction(law.form, draw, {}, law.I_min, law.I_max);
+    // Few and scattered points, of a small drum, give some that no flow could have.
+    if (is_law(mu)) fit.draws.push_back(std::move(mu));
+  }
   if (calibration.options.k) fit.k = measured_stress_ratio(calibration.turn->form, calibration.turn->fit.law);
   const auto runs = static_cast<double>(calibration.runs.size());
   double nu_ci99 = 0;

@@ -267,6 +267,13 @@ std::vector<MeasuredFriction> draws_of(const MeasuredFriction& mu, const std::ve
   return laws;
 }
 
+std::vector<InputProblem> problems_of(const MeasuredFriction& friction, const Document& document) {
+  std::vector<InputProblem> problems;
+  Faults faults(document, problems);
+  std::visit([&](const auto& mu) { check_together(mu, faults); }, friction);
+  return problems;
+}
+
 void check_band(const RheologyFile& file, Faults& faults) {
   const std::size_t size = draw_size(file.mu.friction), count = file.band->draws.size();
   if (size == 0)
@@ -274,14 +281,10 @@ void check_band(const RheologyFile& file, Faults& faults) {
   if (count == 0 || count % size != 0)
     return faults.refuse("band.draws", "has " + std::to_string(count) + " numbers",
                          "a multiple of " + std::to_string(size) + ", the numbers of one law");
-  for (const MeasuredFriction& draw : draws_of(file.mu.friction, file.band->draws)) {
-    std::vector<InputProblem> problems;
-    Faults of_draw(faults.document(), problems);
-    std::visit([&](const auto& mu) { check_together(mu, of_draw); }, draw);
-    if (!problems.empty())
+  for (const MeasuredFriction& draw : draws_of(file.mu.friction, file.band->draws))
+    if (const auto problems = problems_of(draw, faults.document()); !problems.empty())
       return faults.refuse("band.draws", "holds a law that is none: " + problems.front().what,
                            "laws whose mu grows");
-  }
 }
 
 /// What holds between keys.
@@ -310,6 +313,8 @@ RheologyFit fit_of(const Document& document) {
 }
 
 }  // namespace
+
+bool is_law(const MeasuredFriction& mu) { return problems_of(mu, Document()).empty(); }
 
 RheologyFit read_rheology(const std::filesystem::path& file) { return fit_of(read_toml(file)); }
 

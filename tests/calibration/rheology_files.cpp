@@ -30,6 +30,16 @@ std::string with(const std::string& from, const std::string& to) {
   return text;
 }
 
+TEST(RheologyFile, ALawGrowsAndIsPositiveAtTheLargestI) {
+  const LogFriction law{0.35, 0.013, {1e-4, 1e-5, 2e-6}, 1e-4, 0.1};
+  EXPECT_TRUE(is_law(law));
+  LogFriction negative = law, falling = law;
+  negative.a = -0.2;
+  falling.b = -0.01;
+  EXPECT_FALSE(is_law(negative));
+  EXPECT_FALSE(is_law(falling));
+}
+
 TEST(RheologyFile, WhatWasWrittenIsReadBack) {
   const TemporaryFolder folder;
   RheologyFit fit;
