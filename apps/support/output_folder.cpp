@@ -234,6 +234,7 @@ void StagedOutput::publish() {
     Manifest manifest;
     manifest.command = request_.command;
     manifest.complete = true;
+    manifest.source = request_.source;
     manifest.files = entries_of(staging_, files_below(staging_));
     const Manifest old = has_manifest(request_.folder) ? read_manifest(request_.folder) : Manifest{};
     for (const auto& [name, entry] : manifest.files) {
