@@ -24,8 +24,8 @@ class CommandLine {
     app_.set_version_flag("--version", version());
     app_.require_subcommand(1);
     app_.footer(
-        "Exit codes: 0 done, 2 wrong usage or input, 3 not converged, 74 input/output, 129 hung up, 130 "
-        "interrupted, 143 terminated.\n"
+        "Exit codes: 0 done, 2 wrong usage or input, 3 not converged, 70 a fault of this program, "
+        "74 input/output, 129 hung up, 130 interrupted, 143 terminated.\n"
         "Each command has its own --help.");
     add_run_options(add_command("run", "Runs a particle scene", run_), run_);
     add_measure();

@@ -110,17 +110,31 @@ std::optional<Manifest> readable_manifest(const fs::path& folder) {
   }
 }
 
+/// What was measured belongs to the run around it, as that is now.
+std::string source_now(const fs::path& folder, const Manifest& manifest) {
+  const auto run = manifest.command == "measure" ? readable_manifest(folder / "..") : std::nullopt;
+  return run ? manifest_sum(*run) : manifest.source;
+}
+
+/// Whether a folder that was computed from another one is taken for computed from that as it is now.
+enum class Source { kept, accepted };
+
 /// Says what was accepted; nothing if all is as it should be.
-std::string accept_one(const fs::path& folder, const std::string& reason) {
+std::string accept_one(const fs::path& folder, const std::string& reason, Source source) {
   const FolderLock lock(folder / folder_lock_name, "drumlin accept");
   const auto old = readable_manifest(folder);
   const Manifest before = old ? *old : first_manifest(folder, command_of(folder).value_or("unknown"));
   Manifest now = as_it_is(folder, before);
   const std::vector<std::string> changed = differences(old ? *old : Manifest{}, now);
-  if (old && changed.empty()) return "";
-  now.accepted.push_back(fmt::format("{}: {} ({})", time_text(), reason, old ? named(changed) : "all files"));
+  if (source == Source::accepted) now.source = source_now(folder, now);
+  const bool of_another = now.source != before.source;
+  if (old && changed.empty() && !of_another) return "";
+  std::string what = old ? named(changed) : "all files";
+  if (of_another) what += changed.empty() ? "of another state of the run" : ", of another state of the run";
+  now.accepted.push_back(fmt::format("{}: {} ({})", time_text(), reason, what));
   write_manifest(folder, now);
-  std::string text = fmt::format("{}: {} files accepted\n", folder.string(), changed.size());
+  std::string text = fmt::format("{}: {} files accepted{}\n", folder.string(), changed.size(),
+                                 of_another ? ", and that they are of another state of the run" : "");
   for (const std::string& name : changed) {
     const bool is_there = now.files.contains(name), was_there = before.files.contains(name) && old;
     text += fmt::format("  {:8} {}\n", !is_there ? "missing" : was_there ? "changed" : "new", name);
@@ -153,7 +167,17 @@ int accept(const AcceptOptions& options) {
   if (!has_manifest(options.folder) && !command_of(options.folder))
     throw InputError(options.folder.string() + ": is no result folder of this program");
   std::string said;
-  for (const fs::path& folder : result_folders(options.folder)) said += accept_one(folder, reason);
+  std::vector<fs::path> signed_first;
+  for (const fs::path& folder : result_folders(options.folder)) {
+    if (!readable_manifest(folder)) signed_first.push_back(folder);
+    said += accept_one(folder, reason, folder == options.folder ? Source::accepted : Source::kept);
+  }
+  // Only now is known what the folder around them was signed as.
+  for (const fs::path& folder : signed_first) {
+    Manifest manifest = read_manifest(folder);
+    manifest.source = source_now(folder, manifest);
+    write_manifest(folder, manifest);
+  }
   print_out(said.empty() ? options.folder.string() + ": all files are as they were written\n" : said);
   return static_cast<int>(ExitCode::done);
 }

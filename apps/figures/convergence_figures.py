@@ -16,6 +16,7 @@ import matplotlib.pyplot as plt
 from matplotlib.ticker import LogLocator, NullFormatter, ScalarFormatter
 
 import style
+import whole_file
 
 SCALARS = [("theta_com_deg", r"$\theta$ (centre of mass)  [deg]", 2), ("H", r"$H$  [$d$]", 1), ("shear_rate", r"$\dot\gamma$", 4),
            ("lambda", r"$\lambda$  [$d$]", 1), ("I_th", r"$I_{th}$", 4), ("dv_over_shear", r"$\delta v/\dot\gamma$", 2),
@@ -127,7 +128,7 @@ def main():
     groups = {name: runs for name, runs in runs_of(standard, convergence).items() if runs}
     style.use_style()
     text = table(groups)
-    (output / "convergence.md").write_text(text, encoding="utf-8")
+    whole_file.write_text(output / "convergence.md", text)
     content = {"format": "drumlin-convergence-1", "settings": {
         name: {"seeds": len(runs), **settings_of(runs), "cpu_seconds": steps(runs)[0], "sweeps_mean": steps(runs)[1],
                **{scalar: dict(zip(("value", "ci99"), pooled(groups, runs, scalar))) for scalar, *_ in SCALARS}}
@@ -135,7 +136,7 @@ def main():
         "scene": (next(iter(groups.values()))[0][2] / "scene.toml").read_text(encoding="utf-8"),
         "machine": next(iter(groups.values()))[0][0]["provenance"].get("machine"),
         "revisions": sorted({run["revision"] for runs in groups.values() for run, *_ in runs})}
-    (output / "convergence.json").write_text(json.dumps(content, indent=2) + "\n", encoding="utf-8")
+    whole_file.write_text(output / "convergence.json", json.dumps(content, indent=2) + "\n")
     style.save(figure({name: runs for name, runs in groups.items() if "friction" not in name}), output / "convergence.png", False)
     print(text)
 

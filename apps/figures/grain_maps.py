@@ -218,7 +218,7 @@ def draw_animation(drawing, folder):
     plt.rcParams.update({"savefig.bbox": None})  # all frames of one size
     figure, axes, discs, walls = draw_speed(drawing, view, snapshots[0], norm)
     writer = PillowWriter(fps=12)
-    with whole_file.aside(folder / "animation.gif") as unfinished, writer.saving(figure, unfinished, dpi=80):
+    with whole_file.aside(folder / "animation.gif") as stream, writer.saving(figure, stream, dpi=80):
         for grains in snapshots:
             discs.set_offsets(np.column_stack([grains.x, grains.z]))
             discs.set_array(np.maximum(grains.speed, norm.vmin))

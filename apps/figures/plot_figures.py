@@ -23,10 +23,9 @@ def main():
     figures.update(run_curves.draw(drawing, folder))
     if drawing["frames"]:
         figures.update(grain_maps.draw_animation(drawing, folder))
-    with whole_file.aside(folder / "drawn.json") as unfinished, open(unfinished, "w", encoding="utf-8") as stream:
-        snapshot = drawing["snapshot"] and drawing["snapshot"]["number"]
-        json.dump({"format": "drumlin-plots-1", "snapshot": snapshot, "reduced": drawing["reduced"],
-                   "status": drawing["status"], "figures": figures}, stream)
+    snapshot = drawing["snapshot"] and drawing["snapshot"]["number"]
+    whole_file.write_text(folder / "drawn.json", json.dumps(
+        {"format": "drumlin-plots-1", "snapshot": snapshot, "reduced": drawing["reduced"], "status": drawing["status"], "figures": figures}))
 
 
 if __name__ == "__main__":

@@ -62,9 +62,8 @@ def main():
         listed.append({"file": f"{name}.png", "title": title, "paper": paper, "here": here})
 
     def save_list():
-        with whole_file.aside(output / "figures.json") as unfinished, open(unfinished, "w", encoding="utf-8") as stream:
-            json.dump({"format": "drumlin-study-figures-1", "figures": listed}, stream, indent=2, ensure_ascii=False)
-            stream.write("\n")
+        content = {"format": "drumlin-study-figures-1", "figures": listed}
+        whole_file.write_text(output / "figures.json", json.dumps(content, indent=2, ensure_ascii=False) + "\n")
 
     script.draw_each({name: functools.partial(save, name, draw) for name, draw in FIGURES} | {"figures.json": save_list})
 

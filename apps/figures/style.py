@@ -2,6 +2,7 @@
 
 import csv
 import math
+import pathlib
 import sys
 import textwrap
 
@@ -81,8 +82,8 @@ def stamp(figure, reduced):
 
 def save(figure, path, reduced):
     stamp(figure, reduced)
-    with whole_file.aside(path) as unfinished:
-        figure.savefig(unfinished, metadata={"Software": None})
+    with whole_file.aside(path) as stream:
+        figure.savefig(stream, format=pathlib.Path(path).suffix[1:] or None, metadata={"Software": None})
     plt.close(figure)
 
 

@@ -1,17 +1,42 @@
-"""Files that appear whole or not at all: made in memory or aside, and renamed."""
+"""Files that appear whole or not at all, as replace_file() of the commands writes them: under a name that cannot be guessed,
+forced to the disk and renamed. Symbolic links are replaced, never followed."""
 
 import contextlib
 import os
 import pathlib
+import secrets
+
+
+def name_aside():
+    """As the commands know it: what a kill leaves under such a name, the next call removes."""
+    return f".drumlin-{secrets.token_hex(16)}.part"
 
 
 @contextlib.contextmanager
 def aside(path):
-    """Gives a path to write to, with the suffix of `path`, whose place it takes when all is written; an error leaves neither a part nor a change."""
+    """Gives a binary stream. When all is written, its file takes the place of `path`; an error leaves neither a part nor a change."""
     path = pathlib.Path(path)
-    unfinished = path.with_name(f".{path.stem}-{os.getpid()}.part{path.suffix}")
+    folder, unfinished = os.open(path.parent, os.O_RDONLY | os.O_DIRECTORY), name_aside()
+
+    def opener(*_):
+        return os.open(unfinished, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC, 0o666, dir_fd=folder)
+
     try:
-        yield unfinished
-        os.replace(unfinished, path)
+        stream = open(path, "wb", opener=opener)  # its name, and with it the kind of picture, is that of `path`
+        try:
+            with stream:
+                yield stream
+                stream.flush()
+                os.fsync(stream.fileno())
+            os.replace(unfinished, path.name, src_dir_fd=folder, dst_dir_fd=folder)
+            os.fsync(folder)
+        finally:
+            with contextlib.suppress(FileNotFoundError):
+                os.unlink(unfinished, dir_fd=folder)
     finally:
-        unfinished.unlink(missing_ok=True)
+        os.close(folder)
+
+
+def write_text(path, text):
+    with aside(path) as stream:
+        stream.write(text.encode("utf-8"))

@@ -8,7 +8,6 @@ FAILURES.txt says which figures could not be drawn and why; without it a figure 
 
 import base64
 import json
-import os
 import pathlib
 import sys
 
@@ -18,6 +17,9 @@ import formats
 import words
 
 TEMPLATES = pathlib.Path(__file__).resolve().parent
+sys.path.append(str(TEMPLATES.parent / "figures"))
+
+import whole_file  # noqa: E402  (it lies there)
 
 
 class Figures:
@@ -73,16 +75,6 @@ def place_of(error):
     return place
 
 
-def write_whole(path, text):
-    """An error, or a signal, leaves neither a part nor a change."""
-    unfinished = path.with_name(f".{path.name}-{os.getpid()}.part")
-    try:
-        unfinished.write_text(text, encoding="utf-8")
-        os.replace(unfinished, path)
-    finally:
-        unfinished.unlink(missing_ok=True)
-
-
 def main():
     if len(sys.argv) not in (4, 5):
         sys.exit(__doc__)
@@ -92,7 +84,7 @@ def main():
         content = json.loads(source.read_text(encoding="utf-8"))
         figures = Figures(folder, bool(failures))
         text = environment(figures).get_template(template).render(content=content, failures=failures)
-        write_whole(folder / "index.html", text)
+        whole_file.write_text(folder / "index.html", text)
     except (jinja2.TemplateError, LookupError, OSError, TypeError, ValueError) as error:
         sys.exit(f"{source}: {type(error).__name__}: {error}{place_of(error)}")
 

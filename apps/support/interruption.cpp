@@ -4,10 +4,15 @@
 
 #include <csignal>
 
+#include "coupling/common/errors.hpp"
 #include "coupling/common/unfinished_file.hpp"
 
 namespace drumlin::apps {
 namespace {
+
+static_assert(exit_code_of(SIGHUP) == static_cast<int>(ExitCode::hung_up) &&
+              exit_code_of(SIGINT) == static_cast<int>(ExitCode::interrupted) &&
+              exit_code_of(SIGTERM) == static_cast<int>(ExitCode::terminated));
 
 // The signal that came, and how many of those who want to be told so live.
 volatile std::sig_atomic_t caught = 0, only_caught = 0;

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 #include <fnmatch.h>
+#include <sys/stat.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <set>
 #include <utility>
 
@@ -196,7 +199,8 @@ FolderLock claim(const OutputRequest& request) {
     FolderLock lock(folder / folder_lock_name, "drumlin " + request.command);
     refuse_foreign(folder);
     const fs::path staging = folder / staging_name;
-    if (has_manifest(staging)) take_over(folder);
+    // Whatever a link in its place leads to is not ours.
+    if (fs::is_directory(fs::symlink_status(staging)) && has_manifest(staging)) take_over(folder);
     fs::remove_all(staging);
     remove_left_aside(folder);
     if (!holds_nothing(folder) && request.existing == ExistingOutput::refuse)
@@ -213,7 +217,9 @@ StagedOutput::StagedOutput(OutputRequest request)
       made_(!fs::exists(request_.folder)),
       lock_(claim(request_)),
       staging_(request_.folder / staging_name) {
-  with_io_errors([&] { return fs::create_directory(staging_); });
+  // New, and of this user alone: nobody plants a link where results and figures are about to be written.
+  if (::mkdir(staging_.c_str(), S_IRWXU) != 0)
+    throw IoError(fmt::format("{}: cannot be made: {}", staging_.string(), std::strerror(errno)));
 }
 
 StagedOutput::~StagedOutput() {
@@ -228,6 +234,7 @@ void StagedOutput::publish() {
     Manifest manifest;
     manifest.command = request_.command;
     manifest.complete = true;
+    manifest.source = request_.source;
     manifest.files = entries_of(staging_, files_below(staging_));
     const Manifest old = has_manifest(request_.folder) ? read_manifest(request_.folder) : Manifest{};
     for (const auto& [name, entry] : manifest.files) {

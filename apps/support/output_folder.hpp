@@ -16,6 +16,7 @@ struct OutputRequest {
   ExistingOutput existing = ExistingOutput::refuse;
   std::string command;                        ///< "run", "measure", ...
   std::vector<std::filesystem::path> inputs;  ///< what the command reads: never in a folder to be overwritten
+  std::string source = {};                    ///< manifest_sum() of the folder that all is computed from
 };
 
 /// Claims a folder: makes it, locks it, clears what a killed command left aside. Throws InputError if it is a

@@ -21,8 +21,6 @@
 namespace drumlin::apps {
 namespace {
 
-constexpr auto fault = static_cast<ExitCode>(70);  // EX_SOFTWARE of sysexits.h: the program is wrong
-
 /// Hands code and message of the error that is being handled to `report`.
 template <class Report>
 void report_error(const Report& report) {
@@ -46,9 +44,9 @@ void report_error(const Report& report) {
     report(ExitCode::wrong_input,
            fmt::format("a JSON file holds what it should not: {}", error.what()).c_str());
   } catch (const std::exception& error) {
-    report(fault, fmt::format("a fault of this program: {}", error.what()).c_str());
+    report(ExitCode::fault, fmt::format("a fault of this program: {}", error.what()).c_str());
   } catch (...) {
-    report(fault, "a fault of this program");
+    report(ExitCode::fault, "a fault of this program");
   }
 }
 
@@ -75,7 +73,7 @@ void end_of_library() {
     print_error("an error where none can be handled, most likely a lack of memory\n");
     ::_exit(static_cast<int>(ExitCode::input_output));
   }
-  ::_exit(static_cast<int>(fault));
+  ::_exit(static_cast<int>(ExitCode::fault));
 }
 
 int code_with_output(int code, bool speaks) {

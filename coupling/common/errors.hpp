@@ -55,7 +55,9 @@ enum class ExitCode : int {
   done = 0,
   wrong_input = 2,
   not_converged = 3,
+  fault = 70,  ///< the program is wrong: EX_SOFTWARE of sysexits.h
   input_output = 74,
+  hung_up = 129,  ///< this and the next two: 128 + signal, as a shell reports it
   interrupted = 130,
   terminated = 143
 };

@@ -48,6 +48,8 @@ class LineReader {
     if (const auto value = after(line, "# state = "))
       return manifest_.complete = *value == "complete", manifest_.complete || *value == "unfinished";
     if (const auto value = after(line, "# accepted = ")) return manifest_.accepted.push_back(*value), true;
+    if (const auto value = after(line, "# source = "))
+      return manifest_.source = *value, is_sum(manifest_.source);
     if (const auto value = after(line, "# bytes = ")) return read_size(*value);
     if (line.size() <= sum_letters + 2 || line.compare(sum_letters, 2, "  ") != 0) return false;
     const std::string name = line.substr(sum_letters + 2);
@@ -69,6 +71,18 @@ class LineReader {
   Manifest& manifest_;
   ManifestEntry entry_;
 };
+
+/// All lines but the last.
+std::string summed_text(const Manifest& manifest) {
+  std::string text = fmt::format("{}# command = {}\n# state = {}\n", first_line, manifest.command,
+                                 manifest.complete ? "complete" : "unfinished");
+  if (!manifest.source.empty()) text += "# source = " + manifest.source + "\n";
+  for (const std::string& reason : manifest.accepted) text += "# accepted = " + reason + "\n";
+  for (const auto& [name, entry] : manifest.files)
+    fmt::format_to(std::back_inserter(text), "# bytes = {}{}\n{}  {}\n", entry.sum.bytes,
+                   entry.grows ? ", grows" : "", entry.sum.checksum, name);
+  return text;
+}
 
 }  // namespace
 
@@ -101,13 +115,10 @@ Manifest read_manifest(const fs::path& folder) {
   return manifest;
 }
 
+std::string manifest_sum(const Manifest& manifest) { return checksum_of(summed_text(manifest)); }
+
 void write_manifest(const fs::path& folder, const Manifest& manifest) {
-  std::string text = fmt::format("{}# command = {}\n# state = {}\n", first_line, manifest.command,
-                                 manifest.complete ? "complete" : "unfinished");
-  for (const std::string& reason : manifest.accepted) text += "# accepted = " + reason + "\n";
-  for (const auto& [name, entry] : manifest.files)
-    fmt::format_to(std::back_inserter(text), "# bytes = {}{}\n{}  {}\n", entry.sum.bytes,
-                   entry.grows ? ", grows" : "", entry.sum.checksum, name);
+  std::string text = summed_text(manifest);
   text += fmt::format("{}{}\n", last_key, checksum_of(text));
   replace_file(folder / manifest_name, text);
 }

@@ -23,6 +23,7 @@ struct Manifest {
   bool complete = false;                       ///< its results are all there
   std::vector<std::string> accepted;           ///< when and why edits by hand were accepted
   std::map<std::string, ManifestEntry> files;  ///< by their paths in the folder
+  std::string source = {};  ///< manifest_sum() of the folder that the results were computed from; empty: none
 };
 
 /// Whether the folder carries our marker.
@@ -30,6 +31,10 @@ bool has_manifest(const std::filesystem::path& folder);
 
 /// Throws InputError if it is missing, damaged or of another version.
 Manifest read_manifest(const std::filesystem::path& folder);
+
+/// What stands behind "sum" in its file: another one after any change of the folder that is on record, a new
+/// file, an edit that was accepted, another state.
+std::string manifest_sum(const Manifest& manifest);
 
 /// Throws IoError, an older manifest being intact then.
 void write_manifest(const std::filesystem::path& folder, const Manifest& manifest);

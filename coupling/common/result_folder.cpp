@@ -100,6 +100,19 @@ void check_all_files(const ResultFolder& folder) {
   for (const auto& [name, entry] : folder.manifest->files) (void)checked_file(folder, name);
 }
 
+void check_source(const ResultFolder& results, const ResultFolder& source, const std::string& again) {
+  if (!results.manifest || !source.manifest || results.manifest->source == manifest_sum(*source.manifest))
+    return;
+  const std::string what =
+      results.manifest->source.empty()
+          ? fmt::format("does not say from which state of {} it was computed", source.path.string())
+          : fmt::format("was computed from {} as it was before: that was resumed, replaced or edited since",
+                        source.path.string());
+  throw InputError(
+      {problem(results.path, what),
+       problem(results.path, fmt::format("{} computes it anew; {}", again, way_out(results.path)))});
+}
+
 std::vector<std::string> accepted_edits(const ResultFolder& folder) {
   std::vector<std::string> edits;
   if (!folder.manifest) return edits;

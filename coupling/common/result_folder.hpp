@@ -30,6 +30,11 @@ std::filesystem::path checked_file(const ResultFolder& folder, const std::string
 /// Every file that is listed, as checked_file().
 void check_all_files(const ResultFolder& folder);
 
+/// Throws InputError unless `results` were computed from `source` as it is now: what was resumed, replaced or
+/// edited since is another. `again` is the command that computes them anew. Files cut out of either folder,
+/// without a manifest, are taken as they are.
+void check_source(const ResultFolder& results, const ResultFolder& source, const std::string& again);
+
 /// Edits by hand that were accepted, each with the folder: part of the provenance of what is read from it.
 std::vector<std::string> accepted_edits(const ResultFolder& folder);
 

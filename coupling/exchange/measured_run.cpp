@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "coupling/common/errors.hpp"
+#include "coupling/common/result_folder.hpp"
 #include "coupling/documents/json_document.hpp"
 #include "coupling/exchange/run_checks.hpp"
 
@@ -161,6 +162,7 @@ MeasuredRun read_measured_run(const fs::path& folder, Unsteady unsteady) {
   (void)checked_file(run_files, "run.json");
   (void)checked_file(run_files, "scene.toml");
   ResultFolder measured_files = open_finished(folder / "measured", cut_out);
+  check_source(measured_files, run_files, fmt::format("drumlin measure {} --overwrite", folder.string()));
   const fs::path file = checked_file(measured_files, "measured.json");
   const fs::path profile_file = checked_file(measured_files, "profiles.csv");
   const Json measured = read_json(file, "drumlin-measured-1");

@@ -35,8 +35,9 @@ enum class Unsteady { refuse, accept };
 /// without the finite numbers that place the frame (theta_deg, rotation, drum_radius, diameter_m, position;
 /// in a drum axis_depth and wall_z), headers that disagree with measured.json or with each other in units,
 /// frame or speed, layers inside the packing without numbers, "reduced" on one file and not on the other,
-/// files that are not as the manifests of RUN and RUN/measured say. A folder without run.json (as cut out of
-/// a run) is taken for finished, one without log.csv and snapshots needs no manifest.
+/// files that are not as the manifests of RUN and RUN/measured say, a RUN that has changed since it was
+/// measured. A folder without run.json (as cut out of a run) is taken for finished, one without log.csv and
+/// snapshots needs no manifest.
 MeasuredRun read_measured_run(const std::filesystem::path& folder, Unsteady unsteady = Unsteady::refuse);
 
 /// What `drumlin flow` left of a drum.

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <initializer_list>
 #include <iterator>
+#include <limits>
 #include <string_view>
 
 #include "coupling/common/errors.hpp"
@@ -171,8 +172,8 @@ H5Reader::H5Reader(const std::filesystem::path& file, bool checked)
 }
 H5Reader::~H5Reader() = default;
 
-void H5Reader::refuse(const std::string& name, const std::string& what) const {
-  throw InputError({InputProblem{file_.string(), 0, 0, name, what, ""}});
+void H5Reader::refuse(const std::string& name, const std::string& what, const std::string& allowed) const {
+  throw InputError({InputProblem{file_.string(), 0, 0, name, what, allowed}});
 }
 
 bool H5Reader::has(const std::string& name) const {
@@ -220,6 +221,14 @@ std::vector<T> read_set(const H5Reader& reader, hid_t file, const std::string& n
   return values;
 }
 
+void refuse_outside(const H5Reader& reader, const std::string& name, std::int64_t value, std::int64_t low,
+                    std::int64_t high) {
+  if (value >= low && value <= high) return;
+  const bool endless = high == std::numeric_limits<std::int64_t>::max();
+  reader.refuse(name, "is " + std::to_string(value),
+                std::to_string(low) + (endless ? " or more" : " to " + std::to_string(high)));
+}
+
 }  // namespace
 
 std::vector<double> H5Reader::doubles(const std::string& name) const {
@@ -243,6 +252,16 @@ std::int64_t H5Reader::integer(const std::string& name) const {
   const auto values = longs(name);
   if (values.size() != 1) refuse(name, "not a single number");
   return values[0];
+}
+std::int64_t H5Reader::integer(const std::string& name, std::int64_t low, std::int64_t high) const {
+  const std::int64_t value = integer(name);
+  refuse_outside(*this, name, value, low, high);
+  return value;
+}
+std::vector<std::int32_t> H5Reader::ints(const std::string& name, std::int32_t low, std::int32_t high) const {
+  std::vector<std::int32_t> values = ints(name);
+  for (const std::int32_t value : values) refuse_outside(*this, name, value, low, high);
+  return values;
 }
 std::string H5Reader::text(const std::string& name) const {
   const auto bytes =

@@ -60,8 +60,12 @@ class H5Reader {
   std::vector<std::int64_t> longs(const std::string& name) const;
   double number(const std::string& name) const;
   std::int64_t integer(const std::string& name) const;
+  /// Whole numbers within bounds, both included; refuses any other, before it is cut to another type.
+  std::int64_t integer(const std::string& name, std::int64_t low, std::int64_t high) const;
+  std::vector<std::int32_t> ints(const std::string& name, std::int32_t low, std::int32_t high) const;
   std::string text(const std::string& name) const;
-  [[noreturn]] void refuse(const std::string& name, const std::string& what) const;
+  [[noreturn]] void refuse(const std::string& name, const std::string& what,
+                           const std::string& allowed = "") const;
 
  private:
   struct Handles;

@@ -1,5 +1,11 @@
 #include "particles/io/checkpoint_file.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <string_view>
+
 #include "coupling/common/last_whole.hpp"
 #include "coupling/files/h5_image.hpp"
 
@@ -106,6 +112,18 @@ void put(const Checkpoint& checkpoint, H5Writer& out) {
   }
 }
 
+constexpr auto most = std::numeric_limits<std::int64_t>::max();
+
+/// Finite numbers in whole rows.
+std::vector<double> rows_of(const H5Reader& in, const std::string& name, std::size_t columns) {
+  std::vector<double> values = in.doubles(name);
+  if (values.size() % columns != 0)
+    in.refuse(name, fmt::format("{} numbers", values.size()), fmt::format("rows of {}", columns));
+  for (const double value : values)
+    if (!std::isfinite(value)) in.refuse(name, fmt::format("is {}", value), "finite numbers");
+  return values;
+}
+
 }  // namespace
 
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint) {
@@ -129,18 +147,22 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
   Checkpoint checkpoint;
   checkpoint.scene = in.text("scene");
   each_number(checkpoint, [&in](const char* name, auto& value) {
-    if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>)
+    if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>) {
       value = in.number(name);
-    else
-      value = in.integer(name);
+      // Totals of steps that missed their tolerance may hold others.
+      if (!std::isfinite(value) && !std::string_view(name).starts_with("totals/"))
+        in.refuse(name, fmt::format("is {}", value), "a finite number");
+    } else {
+      value = in.integer(name, 0, most);  // counters
+    }
   });
   each_array(checkpoint, [&in](const char* name, std::vector<double>& values) { values = in.doubles(name); });
   SimulationState& state = checkpoint.state;
-  state.stage = static_cast<int>(in.integer("state/stage"));
+  state.stage = static_cast<int>(in.integer("state/stage", 0, std::numeric_limits<int>::max()));
   state.memory.i = in.ints("memory/i");
   state.memory.j = in.ints("memory/j");
   if (in.has("bodies/material"))
-    for (const std::int32_t number : in.ints("bodies/material"))
+    for (const std::int32_t number : in.ints("bodies/material", 0, std::numeric_limits<std::uint8_t>::max()))
       state.bodies.material.push_back(static_cast<std::uint8_t>(number));
   if (in.has("energy")) {
     auto& energy = state.energy.emplace();
@@ -148,14 +170,14 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
     if (in.has("energy/rolling")) energy.rolling = in.number("energy/rolling");
     if (in.has("energy/cohesion")) energy.cohesion = in.number("energy/cohesion");
   }
-  const auto poses = in.doubles("walls/pose_at_start");
-  for (std::size_t p = 0; p + 2 < poses.size(); p += 3)
+  const auto poses = rows_of(in, "walls/pose_at_start", 3);
+  for (std::size_t p = 0; p < poses.size(); p += 3)
     state.pose_at_start.push_back({poses[p], poses[p + 1], poses[p + 2]});
   if (in.has("walls/driven")) {
-    const auto driven = in.doubles("walls/driven");
-    for (std::size_t d = 0; d + 1 < driven.size(); d += 2) state.driven.push_back({driven[d], driven[d + 1]});
+    const auto driven = rows_of(in, "walls/driven", 2);
+    for (std::size_t d = 0; d < driven.size(); d += 2) state.driven.push_back({driven[d], driven[d + 1]});
   }
-  const auto marks = in.integer("marks/count");
+  const auto marks = in.integer("marks/count", 0, most);
   for (std::int64_t m = 0; m < marks; ++m) {
     const std::string name = "marks/" + std::to_string(m) + "/";
     state.marks.push_back({in.integer(name + "snapshot_step"), in.number(name + "time"),

@@ -93,6 +93,39 @@ def edits_are_told(drumlin, run, folder):
     drumlin("measure", edited, "--resume")
 
 
+def measured_belongs_to_its_run(drumlin, scene, run, folder):
+    """What was measured of a run that has been replaced or edited since is refused, until it is measured anew or accepted by name."""
+    def refused(changed):
+        for words in (["compare", changed, changed, "-o", folder / "report", "--accept-unsteady"],
+                      ["calibrate", changed, "-o", folder / "law.toml", "--accept-unsteady"],
+                      ["measure", "--study", changed, "-o", folder / "study"], ["measure", changed, "--resume"]):
+            _, said = drumlin(*words, code=2)
+            require("as it was before" in said and f"drumlin measure {changed} --overwrite" in said and f"drumlin accept {changed / 'measured'}" in said,
+                    f"{words}: {said}")
+        drumlin("plot", changed, "--overwrite")  # of the run alone
+
+    changed = folder / "changed"
+    shutil.copytree(run, changed)
+    drumlin("measure", changed, "--resume")
+    log = changed / "log.csv"
+    log.write_text(log.read_text(encoding="utf-8").replace("sampled", "stirred"), encoding="utf-8")
+    drumlin("accept", changed, "--reason", "another name of the stage")
+    refused(changed)
+    text, _ = drumlin("accept", changed / "measured", "--reason", "names do not matter")
+    require("of another state of the run" in text, text)
+    drumlin("measure", changed, "--resume")
+    manifest = (changed / "measured" / "manifest.txt").read_text(encoding="utf-8")
+    require("names do not matter (of another state of the run)" in manifest, manifest)
+
+    # A whole run of the same files, each with its own manifest, takes the place of the first.
+    other = folder / "other"
+    drumlin("run", scene, "-o", other, *SHORT, "--set", "seed=3")
+    shutil.copytree(changed / "measured", other / "measured")
+    refused(other)
+    drumlin("measure", other, "--parts", "none", "--overwrite")
+    drumlin("measure", "--study", other, "-o", folder / "study")
+
+
 def strangers_stay(drumlin, scene, run, folder):
     theirs = folder / "theirs"
     theirs.mkdir()
@@ -184,6 +217,7 @@ def main():
         every_file_is_checked(drumlin, run)
         missing_and_extra(drumlin, scene, run, folder)
         edits_are_told(drumlin, run, folder)
+        measured_belongs_to_its_run(drumlin, scene, run, folder)
         strangers_stay(drumlin, scene, run, folder)
         old_results_wait(executable, drumlin, scene, run, folder)
         half_an_import(drumlin, folder)

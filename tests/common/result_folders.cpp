@@ -8,6 +8,7 @@
 #include "coupling/common/result_folder.hpp"
 #include "coupling/common/text_file.hpp"
 #include "tests/exchange_files/folder.hpp"
+#include "tests/support/signed_folder.hpp"
 
 namespace drumlin {
 namespace {
@@ -160,6 +161,36 @@ TEST(LastWhole, IsThePreviousCheckpointWhereTheNewestIsDamaged) {
   EXPECT_EQ(last_whole_checkpoint(folder.path(), read)->content, "old");
   folder.with(previous_checkpoint_name, "damaged");
   EXPECT_THROW(last_whole_checkpoint(folder.path(), read), InputError);
+}
+
+TEST(ResultFolder, ResultsBelongToTheStateThatTheyWereComputedFrom) {
+  const TemporaryFolder folder;
+  const fs::path run = folder / "run", measured = run / "measured";
+  fs::create_directories(measured);
+  replace_file(run / "log.csv", "1");
+  replace_file(measured / "measured.json", "{}");
+  const auto said = [&] {
+    return message_of<InputError>(
+        [&] { check_source(open_result_folder(measured), open_result_folder(run), "drumlin measure RUN"); });
+  };
+  testing::sign(measured, "measure");
+  testing::sign(run, "run");
+  EXPECT_NE(said().find("does not say from which state"), std::string::npos);
+  Manifest manifest = read_manifest(measured);
+  manifest.source = manifest_sum(read_manifest(run));
+  write_manifest(measured, manifest);
+  EXPECT_NO_THROW(check_source(open_result_folder(measured), open_result_folder(run), ""));
+  EXPECT_EQ(read_manifest(measured).source, manifest.source);
+
+  Manifest accepted = read_manifest(run);
+  accepted.accepted.emplace_back("now: why (log.csv)");
+  write_manifest(run, accepted);
+  for (const char* part :
+       {"measured", "as it was before", "drumlin measure RUN computes it anew", "drumlin accept"})
+    EXPECT_NE(said().find(part), std::string::npos) << said();
+  fs::remove(measured / manifest_name);  // cut out of a folder
+  EXPECT_NO_THROW(
+      check_source(open_result_folder(measured, WithoutManifest::accept), open_result_folder(run), ""));
 }
 
 }  // namespace

@@ -157,6 +157,27 @@ TEST(OutputFolder, AnInterruptedReplacementIsFinishedByTheNextClaim) {
   EXPECT_EQ(content_of(folder.path()), Names{"c.csv"});
 }
 
+// A link in the place of our folder for new results would have its target moved or written into.
+TEST(OutputFolder, APlantedLinkInThePlaceOfNewResultsIsRemovedAndNotFollowed) {
+  const TemporaryFolder folder;
+  const fs::path theirs = folder / "theirs", ours = folder / "ours";
+  leave(theirs, "measured.json", "theirs");
+  const Names before = content_of(theirs);
+  leave(ours, "measured.json", "old");
+  fs::create_directory_symlink(theirs, ours / ".drumlin-new");
+  leave(ours, "measured.json", "new", ExistingOutput::overwrite);
+  EXPECT_EQ(file_text(ours / "measured.json"), "new");
+  EXPECT_EQ(content_of(theirs), before);
+  EXPECT_EQ(file_text(theirs / "measured.json"), "theirs");
+  check_all_files(open_result_folder(theirs));
+}
+
+TEST(OutputFolder, NewResultsWaitInAFolderOfTheUserAlone) {
+  const TemporaryFolder folder;
+  const StagedOutput output(request_for(folder / "ours"));
+  EXPECT_EQ(fs::status(output.folder()).permissions(), fs::perms::owner_all);
+}
+
 TEST(OutputFolder, HasOneWriter) {
   const TemporaryFolder folder;
   const StagedOutput first(request_for(folder / "out"));

@@ -3,11 +3,12 @@
 #include "particles/solver/contact_solver.hpp"
 #include "tests/fuzz/h5_recipe.hpp"
 #include "tests/fuzz/one_input.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace drumlin;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const fuzz::ScratchFolder folder;
+  static const testing::TemporaryFolder folder;
   const std::string text = fuzz::text_of(data, size);
   if (text.starts_with("raw")) return 0;  // carries no checksum: that would be HDF5 itself
   fuzz::write_described(folder / "p.h5", text);

@@ -3,6 +3,7 @@
 #include "particles/measurement/run_log.hpp"
 #include "particles/scene/scene_file.hpp"
 #include "tests/fuzz/one_input.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace drumlin;
 
@@ -28,7 +29,7 @@ time_step_s = 1e-3
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const fuzz::ScratchFolder folder;
+  static const testing::TemporaryFolder folder;
   const std::string text = fuzz::text_of(data, size);
   const auto end = std::min(text.find('\n'), text.size());
   const std::string name = text.substr(0, end), content = text.substr(std::min(end + 1, text.size()));

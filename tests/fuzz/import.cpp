@@ -6,6 +6,7 @@
 #include "particles/import/description.hpp"
 #include "particles/import/import_run.hpp"
 #include "tests/fuzz/one_input.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace drumlin;
 
@@ -13,7 +14,7 @@ namespace {
 
 constexpr std::array names{"import.toml", "dump.1", "contacts.1", "grains.csv", "contacts.csv"};
 
-void write_files(const fuzz::ScratchFolder& folder, const std::string& text) {
+void write_files(const testing::TemporaryFolder& folder, const std::string& text) {
   for (const char* name : names) std::filesystem::remove(folder / name);
   std::istringstream lines(text);
   std::string name, content;
@@ -33,7 +34,7 @@ void write_files(const fuzz::ScratchFolder& folder, const std::string& text) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const fuzz::ScratchFolder folder;
+  static const testing::TemporaryFolder folder;
   write_files(folder, fuzz::text_of(data, size));
   return fuzz::read_or_refused([&] {
     const auto description = particles::read_import_description(folder / "import.toml");

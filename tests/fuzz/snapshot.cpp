@@ -2,11 +2,12 @@
 #include "particles/io/snapshot_file.hpp"
 #include "tests/fuzz/h5_recipe.hpp"
 #include "tests/fuzz/one_input.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace drumlin;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const fuzz::ScratchFolder folder;
+  static const testing::TemporaryFolder folder;
   fuzz::write_described(folder / "s.h5", fuzz::text_of(data, size));
   return fuzz::read_or_refused([&] { (void)particles::read_snapshot(folder / "s.h5"); });
 }

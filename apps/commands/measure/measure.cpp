@@ -41,14 +41,19 @@ std::string trimmed(std::string text) {
   return text;
 }
 
-/// The run's folder, every file of it checked.
-ResultFolder whole_run(const fs::path& run) {
+ResultFolder run_in(const fs::path& run) {
   if (!fs::is_directory(run)) throw InputError(run.string() + ": no such folder");
   if (!fs::exists(run / "run.json"))
     throw InputError(run.string() + ": holds no run.json, so no particle run");
-  ResultFolder folder = open_result_folder(run);
-  check_all_files(folder);
-  return folder;
+  return open_result_folder(run);
+}
+
+/// Measured, and of the run as it is now.
+bool is_measured(const fs::path& run, const fs::path& finished) {
+  if (!is_complete(finished)) return false;
+  check_source(open_result_folder(finished.parent_path()), run_in(run),
+               fmt::format("drumlin measure {} --overwrite", run.string()));
+  return true;
 }
 
 Json finished_run(const ResultFolder& folder) {
@@ -264,19 +269,21 @@ int measure(const MeasureOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   check_parts(options.parts);
   const fs::path results = options.run / "measured", finished = results / "measured.json";
-  if (options.existing == ExistingOutput::resume && is_complete(finished)) {
+  if (options.existing == ExistingOutput::resume && is_measured(options.run, finished)) {
     print_out(fmt::format("{}: done already\n", results.string()));
     return static_cast<int>(ExitCode::done);
   }
-  const ResultFolder run_folder = whole_run(options.run);
+  (void)run_in(options.run);  // a lock is left in no folder of somebody else
   const FolderLock run_lock(options.run / folder_lock_name, "drumlin measure");
+  const ResultFolder run_folder = run_in(options.run);
+  check_all_files(run_folder);
   Request request{options, settings_for(options), {}, finished_run(run_folder), false, {}};
   request.reduced = request.run.value("reduced", false);
   const auto files = particles::snapshot_files(options.run);
   if (files.empty())
     throw InputError(options.run.string() + ": holds no snapshots: there is nothing to measure");
   request.parts = reading_parts(options);
-  StagedOutput output({results, options.existing, "measure", {}});
+  StagedOutput output({results, options.existing, "measure", {}, manifest_sum(*run_folder.manifest)});
   const fs::path& folder = output.folder();
 
   particles::Measurement measured = measured_run(request, files);
