@@ -66,6 +66,9 @@ struct MuTable {
 struct StressRatioTable {
   NormalStressRatio points;
 };
+struct MemoryTable {
+  MemoryLaw law;
+};
 struct PackingTable {
   double nu = 0;
   std::optional<double> nu_ci99;
@@ -80,6 +83,7 @@ struct RheologyFile {
   bool reduced = false;
   MuTable mu;
   std::optional<StressRatioTable> k;
+  std::optional<MemoryTable> memory;
   std::optional<BandTable> band;
   PackingTable packing;
   OriginTable fitted_on;
@@ -103,6 +107,30 @@ void describe(Visitor& v, StressRatioTable& t) {
   v.value("k", t.points.k,
           required("", at_least(0.01, 100),
                    "sigma_xx/sigma_zz there; smooth in ln I between, constant outside."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, MemoryTable& t) {
+  v.value("c", t.law.c,
+          required("", above(0, 1e6), "Share of the memory that is renewed per unit of shear."));
+  v.value("m", t.law.m,
+          required("", at_least(0, 1),
+                   "Weight of the memory against the strain rate; above 1 a stress could do negative work."));
+  v.value(
+      "chi_deg", t.law.chi_deg,
+      required("deg", at_least(-90, 90),
+               "Turn of new memory against the strain rate below I_low, as a phase of xx + i xz: twice the "
+               "angle between the axes."));
+  v.value("c_rho", t.law.c_rho,
+          required("", above(0, 1e6), "Share of the normalisation that is renewed per unit of shear."));
+  v.value("I_low", t.law.I_low,
+          defaulted("", number_range, "Inertial number up to which the turn is chi_deg."));
+  v.value("I_high", t.law.I_high,
+          defaulted("", number_range, "Inertial number from which on the turn is atan(1/c)."));
+  v.value("I", t.law.mu.I, required("", number_range, "Inertial numbers, ascending, two at least."));
+  v.value("mu", t.law.mu.mu,
+          required("", friction_range,
+                   "Amount of the deviator of the stress over p there, growing; smooth in ln I between."));
 }
 
 template <class Visitor>
@@ -130,6 +158,7 @@ void describe(Visitor& v, RheologyFile& t) {
   v.value("reduced", t.reduced, defaulted("", anything(), "Fitted on a reduced run."));
   v.table("mu", t.mu, Need::required, "Effective friction.");
   v.optional_table("k", t.k, "Ratio of the normal stresses; absent: no such ratio in the law.");
+  v.optional_table("memory", t.memory, "Memory of the axes of stress; absent: the law has none.");
   v.optional_table("band", t.band, "What the law owes to the draw of its points; absent: not known.");
   v.table("packing", t.packing, Need::required, "State that the law was measured in.");
   v.table("fitted_on", t.fitted_on, Need::required, "Origin.");
@@ -198,17 +227,26 @@ void check_together(const JopFriction& mu, Faults& faults) {
   if (mu.mu_2 < mu.mu_s) faults.refuse("mu.mu_2", falling, ">= mu_s");
 }
 
-void check_together(const FrictionTable& mu, Faults& faults) {
-  if (mu.I.size() < 2) faults.refuse("mu.I", "has fewer than two entries", "two at least");
-  if (mu.I.size() != mu.mu.size()) faults.refuse("mu.mu", "has another length than I", "one mu for each I");
-  if (!ascending(mu.I)) faults.refuse("mu.I", "is not sorted", "ascending");
+// `table` is where the points stand.
+void check_points(const FrictionTable& mu, const std::string& table, Faults& faults) {
+  const std::string I_key = table + ".I", mu_key = table + ".mu";
+  if (mu.I.size() < 2) faults.refuse(I_key, "has fewer than two entries", "two at least");
+  if (mu.I.size() != mu.mu.size()) faults.refuse(mu_key, "has another length than I", "one mu for each I");
+  if (!ascending(mu.I)) faults.refuse(I_key, "is not sorted", "ascending");
   for (std::size_t i = 1; i < mu.mu.size(); ++i) {
     const std::string place = "from entry " + std::to_string(i) + " to " + std::to_string(i + 1) + ", ";
-    if (mu.mu[i] < mu.mu[i - 1]) return faults.refuse("mu.mu", place + falling, "growing");
+    if (mu.mu[i] < mu.mu[i - 1]) return faults.refuse(mu_key, place + falling, "growing");
     if (mu.mu[i] == mu.mu[i - 1])
-      return faults.refuse("mu.mu", place + "mu stands still: the law would not say how fast its flow is",
+      return faults.refuse(mu_key, place + "mu stands still: the law would not say how fast its flow is",
                            "growing");
   }
+}
+
+void check_together(const FrictionTable& mu, Faults& faults) { check_points(mu, "mu", faults); }
+
+void check_together(const MemoryLaw& memory, Faults& faults) {
+  check_points(memory.mu, "memory", faults);
+  if (!(memory.I_low < memory.I_high)) faults.refuse("memory.I_high", "is not above I_low", "> I_low");
 }
 
 void check_together(const NormalStressRatio& points, Faults& faults) {
@@ -292,6 +330,7 @@ void check_together(const Document& document, const RheologyFile& file, std::vec
   Faults faults(document, problems);
   std::visit([&](const auto& mu) { check_together(mu, faults); }, file.mu.friction);
   if (file.k) check_together(file.k->points, faults);
+  if (file.memory) check_together(file.memory->law, faults);
   if (file.band && problems.empty()) check_band(file, faults);
 }
 
@@ -303,6 +342,7 @@ RheologyFit fit_of(const Document& document) {
   RheologyFit fit;
   fit.mu = content.mu.friction;
   if (content.k) fit.k = content.k->points;
+  if (content.memory) fit.memory = content.memory->law;
   fit.nu = content.packing.nu;
   fit.nu_ci99 = content.packing.nu_ci99;
   fit.rms_misfit = content.mu.rms_misfit;
@@ -327,6 +367,7 @@ std::string rheology_text(const RheologyFit& fit) {
   content.reduced = fit.reduced;
   content.mu = {fit.mu, fit.rms_misfit};
   if (fit.k) content.k = StressRatioTable{*fit.k};
+  if (fit.memory) content.memory = MemoryTable{*fit.memory};
   if (!fit.draws.empty()) content.band.emplace();
   for (const MeasuredFriction& draw : fit.draws)
     for (const double number : draw_of(draw)) content.band->draws.push_back(number);

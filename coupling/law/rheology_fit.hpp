@@ -55,11 +55,24 @@ struct NormalStressRatio {
   std::vector<double> k;
 };
 
+/// Memory of the axes (coupling/law/memory_law.hpp): the material carries the axes of its past strain along,
+/// and they share in those of its stress. The amount of the stress follows I at once, as `mu` here says.
+struct MemoryLaw {
+  double c = 0;        ///< share of the memory that is renewed per unit of shear, > 0
+  double m = 0;        ///< weight of the memory against the strain rate, 0 to 1
+  double chi_deg = 0;  ///< by how much new memory is turned against the strain rate below I_low
+  double c_rho = 0;    ///< share of the normalisation that is renewed per unit of shear, > 0
+  double I_low = 1e-3;
+  double I_high = 1e-2;  ///< from here on the turn is atan(1/c): the stress of simple shear lies along D
+  FrictionTable mu;      ///< |s|/p, s the deviator of the stress; not tau:D/(2|D|p)
+};
+
 /// A law and the state it was measured in.
 struct RheologyFit {
   MeasuredFriction mu;
   std::optional<NormalStressRatio> k;
-  double nu = 0;  ///< volume fraction of the bulk
+  std::optional<MemoryLaw> memory;  ///< absent: the law has none
+  double nu = 0;                    ///< volume fraction of the bulk
   std::optional<double> nu_ci99;
   std::optional<double> rms_misfit;     ///< of mu about the fit
   std::vector<MeasuredFriction> draws;  ///< laws of the same form that other draws of the points gave

@@ -68,6 +68,53 @@ TEST(RheologyFile, WhatWasWrittenIsReadBack) {
   EXPECT_TRUE(read.reduced);
 }
 
+TEST(RheologyFile, MemoryIsWrittenAndReadBackAndAbsentOtherwise) {
+  const TemporaryFolder folder;
+  RheologyFit fit;
+  fit.mu = ConstantFriction{0.3};
+  fit.nu = 0.8;
+  write_rheology(folder / "without.toml", fit);
+  EXPECT_FALSE(read_rheology(folder / "without.toml").memory);
+  fit.memory = MemoryLaw{.c = 6.35,
+                         .m = 0.9,
+                         .chi_deg = 22.9,
+                         .c_rho = 300,
+                         .I_low = 2e-3,
+                         .I_high = 0.02,
+                         .mu = {{1e-6, 1e-3}, {0.15, 0.23}}};
+  write_rheology(folder / "with.toml", fit);
+  const auto memory = read_rheology(folder / "with.toml").memory;
+  ASSERT_TRUE(memory);
+  EXPECT_EQ(memory->c, 6.35);
+  EXPECT_EQ(memory->m, 0.9);
+  EXPECT_EQ(memory->chi_deg, 22.9);
+  EXPECT_EQ(memory->c_rho, 300);
+  EXPECT_EQ(memory->I_low, 2e-3);
+  EXPECT_EQ(memory->I_high, 0.02);
+  EXPECT_EQ(memory->mu.I, fit.memory->mu.I);
+  EXPECT_EQ(memory->mu.mu, fit.memory->mu.mu);
+}
+
+TEST(RheologyFile, MemoryNamesItsFaults) {
+  const TemporaryFolder folder;
+  const auto expect = [&](const std::string& from, const std::string& to, const std::string& words) {
+    std::string keys = "c = 6\nm = 1\nchi_deg = 20\nc_rho = 100\nI = [1e-5, 1e-3]\nmu = [0.2, 0.3]\n";
+    keys.replace(keys.find(from), from.size(), to);
+    const auto file = folder.with("law.toml", with("[packing]", "[memory]\n" + keys + "[packing]"));
+    const std::string text = message_of<InputError>([&] { read_rheology(file); });
+    EXPECT_NE(text.find("law.toml:"), std::string::npos) << text;
+    EXPECT_NE(text.find(words), std::string::npos) << text;
+  };
+  expect("c = 6\n", "", "memory.c");
+  expect("c = 6\n", "c = 0\n", "memory.c");
+  expect("m = 1\n", "m = 1.18\n", "0 to 1");
+  expect("chi_deg = 20", "chi_deg = 91", "memory.chi_deg");
+  expect("chi_deg = 20", "chi_deg = 20\nI_low = 0.1", "memory.I_high");
+  expect("mu = [0.2, 0.3]", "mu = [0.3, 0.2]", "memory.mu");
+  expect("mu = [0.2, 0.3]", "mu = [0.3]", "one mu for each I");
+  expect("I = [1e-5, 1e-3]", "I = [1e-3, 1e-3]", "ascending");
+}
+
 /// The smallest file with another table [mu].
 std::string with_mu(const std::string& keys) {
   return "format = \"drumlin-rheology-1\"\n[mu]\n" + keys + "[packing]\nnu = 0.82\n[fitted_on]\nruns = []\n";

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "continuum/rheology/stress_law.hpp"
+#include "coupling/law/memory_law.hpp"
 
 namespace drumlin {
 using namespace continuum;
@@ -83,6 +85,19 @@ TEST(StressLawOfAFile, HasTheFormThatTheFileNames) {
   EXPECT_EQ(std::get<SaturatingLaw>(stress_law(fit)).I_0, 0.279);
   fit.mu = FrictionTable{{1e-3, 1e-1}, {0.2, 0.3}};
   EXPECT_NEAR(std::get<TabulatedLaw>(stress_law(fit)).friction(0.01).mu, 0.25, 1e-5);
+}
+
+TEST(MemoryLaw, TurnsNewMemoryByChiInSlowShearAndAsSimpleShearAsksInFastShear) {
+  const MemoryLaw law{.c = 6, .m = 1, .chi_deg = 30, .c_rho = 100, .mu = {{1e-5, 1e-3}, {0.2, 0.25}}};
+  const double slow = 30 * std::numbers::pi / 180, fast = std::atan(1.0 / 6);
+  EXPECT_EQ(memory_turn(law, 1e-7), slow);
+  EXPECT_EQ(memory_turn(law, 1e-3), slow);
+  EXPECT_NEAR(memory_turn(law, std::sqrt(1e-5)), 0.5 * (slow + fast), 1e-12);
+  EXPECT_NEAR(memory_turn(law, 1e-2), fast, 1e-15);
+  EXPECT_NEAR(memory_turn(law, 1), fast, 1e-15);
+  for (const double I : {1e-3, 1e-2})  // no kink where it sets in and where it ends
+    EXPECT_NEAR((memory_turn(law, I * 1.001) - memory_turn(law, I / 1.001)) / 0.002, 0, 1e-3);
+  EXPECT_NEAR(memory_friction(law).friction(1e-4).mu, 0.225, 1e-5);
 }
 
 }  // namespace
