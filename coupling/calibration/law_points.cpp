@@ -27,6 +27,14 @@ class Block {
         columns_(std::move(columns)),
         factor_(map.header.interval_factor.value_or(statistics::normal_quantile_99)) {}
 
+  // Whether the map has this field, with numbers at every node of the block.
+  bool knows(const std::string& name) const {
+    const MapField* field = map_.find(name);
+    return field != nullptr && std::all_of(columns_.begin(), columns_.end(), [&](std::size_t column) {
+             return std::isfinite(field->value[row_ * map_.grid.columns + column]);
+           });
+  }
+
   Mean of(const std::string& name) const {
     const MapField& field = map_.field(name);
     const auto count = static_cast<double>(columns_.size());
@@ -60,8 +68,12 @@ struct Traceless {
 };
 
 LawBlock point_of(const Block& block, double x, double z, const BlockSelection& selection, bool& usable) {
-  const Traceless D{half(block.of("d_v_x_dx"), block.of("d_v_z_dz"), -1),
-                    half(block.of("d_v_x_dz"), block.of("d_v_z_dx"), 1)};
+  const bool moved = selection.displacements && block.knows("displacement_d_v_x_dx");
+  const auto gradient = [&](const char* name) {
+    return block.of(moved ? std::string("displacement_") + name : std::string(name));
+  };
+  const Mean stretch_x = gradient("d_v_x_dx"), stretch_z = gradient("d_v_z_dz");
+  const Traceless D{half(stretch_x, stretch_z, -1), half(gradient("d_v_x_dz"), gradient("d_v_z_dx"), 1)};
   const Mean xx = block.of("sigma_xx"), zz = block.of("sigma_zz");
   const Mean p = half(xx, zz, 1), difference = half(xx, zz, -1),
              shear = half(block.of("sigma_xz"), block.of("sigma_zx"), 1);
@@ -90,6 +102,11 @@ LawBlock point_of(const Block& block, double x, double z, const BlockSelection& 
   point.friction.I_error = point.friction.I * std::sqrt(0.5 * variance / squared);
   point.turn = across / p.value;
   point.turn_error = error(across, along);
+  const double s_squared = difference.value * difference.value + shear.value * shear.value;
+  const double amount_squared = s_squared - difference.variance - shear.variance;
+  point.amount = std::sqrt(std::max(amount_squared, 0.0)) / p.value;
+  point.amount_error = error(point.amount * p.value, 0);
+  point.dilatancy = (stretch_x.value + stretch_z.value) / (2 * rate);
   usable = point.friction.I >= selection.I_min && point.friction.I <= selection.I_max;
   return point;
 }
@@ -151,6 +168,13 @@ std::vector<FrictionPoint> turns(const std::vector<LawBlock>& points) {
   std::vector<FrictionPoint> result;
   for (const LawBlock& point : points)
     result.push_back({point.friction.I, point.turn, point.friction.I_error, point.turn_error});
+  return result;
+}
+
+std::vector<FrictionPoint> amounts(const std::vector<LawBlock>& points) {
+  std::vector<FrictionPoint> result;
+  for (const LawBlock& point : points)
+    result.push_back({point.friction.I, point.amount, point.friction.I_error, point.amount_error});
   return result;
 }
 

@@ -21,6 +21,9 @@ struct BlockSelection {
   double wall_margin = 4;     ///< grains order along the wall
   double least_nu = 0.6;
   double least_signal = 2;  ///< the strain rate over its standard error
+  /// Velocity gradients from displacements between snapshots (displacement_..) in blocks where the map has
+  /// them at every node.
+  bool displacements = false;
 };
 
 /// One block. friction.mu is the stress along the strain rate over the pressure, tau:D/(2 |D| p), and
@@ -33,6 +36,9 @@ struct LawBlock {
   double turn_error = 0;
   double strain_rate = 0;  ///< 2|D|
   double p = 0;
+  double amount = 0;  ///< |s|/p, s the deviator of the stress, |s| = sqrt(s:s/2), less its variance
+  double amount_error = 0;
+  double dilatancy = 0;  ///< div v/(2|D|)
 };
 
 /// Column of blocks after column from -x to x, each from below to above, so that neighbours stand next to
@@ -46,6 +52,9 @@ std::vector<FrictionPoint> frictions(const std::vector<LawBlock>& points);
 
 /// The turn of each point over its inertial number, in the place of mu.
 std::vector<FrictionPoint> turns(const std::vector<LawBlock>& points);
+
+/// The amount of the stress |s|/p of each point over its inertial number, in the place of mu.
+std::vector<FrictionPoint> amounts(const std::vector<LawBlock>& points);
 
 /// Friction and inertial number for a law with k, the ratios of simple shear: mu = M (1 + k)/2 and
 /// I = I_p sqrt((1 + k)/2) of a point's M and I_p, k that of the smooth law there (shear_state()).

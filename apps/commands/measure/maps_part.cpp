@@ -70,13 +70,15 @@ void write(const particles::Measurement& measured, const PartOutput& output, con
                                         {"flowing", content_of(balance.flowing)},
                                         {"slow", content_of(balance.slow)}};
   output.content["mu_invariant"] = collapse_of(maps.measured.friction, maps.measured.friction_ci99);
-  output.content["settings"]["maps"] = {{"spacing", options.map_spacing},
-                                        {"kernel_width", options.map_width},
-                                        {"least_nu", particles::least_map_nu},
-                                        {"bulk_margin", limits.margin},
-                                        {"block", limits.block},
-                                        {"flowing_I", limits.flowing_I},
-                                        {"mu_fit_I", {limits.I_min, limits.I_max}}};
+  output.content["settings"]["maps"] = {
+      {"spacing", options.map_spacing},
+      {"kernel_width", options.map_width},
+      {"least_nu", particles::least_map_nu},
+      {"displacement_interval", number(maps.measured.displacement_interval)},
+      {"bulk_margin", limits.margin},
+      {"block", limits.block},
+      {"flowing_I", limits.flowing_I},
+      {"mu_fit_I", {limits.I_min, limits.I_max}}};
   write_field_map(output.folder / "maps.h5", map);
 }
 

@@ -17,7 +17,7 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 struct Values {
   double nu = none, number_density = none, v_x = none, v_z = none, omega = none;
   double d_v_x_dx = none, d_v_x_dz = none, d_v_z_dx = none, d_v_z_dz = none;
-  double D_xx = none, D_zz = none, D_xz = none, strain_rate = none, half_vorticity = none;
+  double D_xx = none, D_zz = none, D_xz = none, dilation = none, strain_rate = none, half_vorticity = none;
   double sigma_xx = none, sigma_zz = none, sigma_xz = none, sigma_zx = none;
   double sigma_xx_kinetic = none, sigma_zz_kinetic = none, sigma_xz_kinetic = none;
   double p = none, tau = none, I = none, mu = none, k = none, axis_angle = none;
@@ -42,6 +42,7 @@ constexpr NamedField named_fields[] = {{"nu", &Values::nu},
                                        {"D_xx", &Values::D_xx},
                                        {"D_zz", &Values::D_zz},
                                        {"D_xz", &Values::D_xz},
+                                       {"dilation", &Values::dilation},
                                        {"strain_rate", &Values::strain_rate},
                                        {"half_vorticity", &Values::half_vorticity},
                                        {"sigma_xx", &Values::sigma_xx},
@@ -124,6 +125,7 @@ void set_velocity(const Means& m, bool with_spin, Values& f) {
   f.D_xx = f.d_v_x_dx;
   f.D_zz = f.d_v_z_dz;
   f.D_xz = (f.d_v_x_dz + f.d_v_z_dx) / 2;
+  f.dilation = f.D_xx + f.D_zz;
 }
 
 /// `inside`: share of the kernel within the container.

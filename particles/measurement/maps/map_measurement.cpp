@@ -1,6 +1,7 @@
 #include "particles/measurement/maps/map_measurement.hpp"
 
 #include "particles/measurement/frame/intervals.hpp"
+#include "particles/measurement/maps/displacement_maps.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -42,6 +43,16 @@ LogLine friction_intervals(const MapReading& reading, double container_radius, d
   return half_widths;
 }
 
+/// Mean time between the snapshots of a pair; 0 without one.
+double mean_interval(const std::vector<DisplacementSums>& batches) {
+  double time = 0, pairs = 0;
+  for (const DisplacementSums& batch : batches) {
+    time += batch.time;
+    pairs += static_cast<double>(batch.pairs);
+  }
+  return pairs > 0 ? time / pairs : 0;
+}
+
 }  // namespace
 
 MapReading begun_maps(const MeasurementFrame& place, double spacing, double width) {
@@ -53,12 +64,15 @@ MapReading begun_maps(const MeasurementFrame& place, double spacing, double widt
                                      place.z_max + rim, spacing, width, place.period);
   reading.depositor.emplace(reading.graining);
   reading.batches.assign(place.batches, empty_sums(reading.graining));
+  reading.follower.emplace(reading.graining);
+  reading.displacements.assign(place.batches, empty_displacements(reading.graining));
   return reading;
 }
 
 void add_snapshot(const Snapshot& snapshot, const FlowSnapshot& in_frame, std::size_t batch,
                   MapReading& reading) {
   reading.depositor->add(snapshot, in_frame, reading.batches[batch]);
+  reading.follower->add(snapshot, reading.displacements[batch]);
 }
 
 MeasuredMaps measured_maps(const MapReading& reading, const MeasurementFrame& place, double surface_z,
@@ -66,6 +80,8 @@ MeasuredMaps measured_maps(const MapReading& reading, const MeasurementFrame& pl
   const MapBounds bounds = bounds_of(place, surface_z);
   MeasuredMaps result;
   result.map = field_maps(reading.graining, reading.batches, place.container_radius, surface_z);
+  add_displacement_fields(reading.graining, reading.displacements, result.map);
+  result.displacement_interval = mean_interval(reading.displacements);
   result.balance = momentum_balance(result.map, bounds, limits, place.batches);
   result.friction = bulk_friction(result.map, bounds, limits, place.batches);
   result.friction_ci99 = friction_intervals(reading, place.container_radius, surface_z, bounds, limits);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "particles/measurement/frame/measurement_frame.hpp"
+#include "particles/measurement/maps/displacement_sums.hpp"
 #include "particles/measurement/maps/field_maps.hpp"
 #include "particles/measurement/maps/map_findings.hpp"
 
@@ -15,6 +16,8 @@ struct MapReading {
   CoarseGraining graining;
   std::optional<MapDepositor> depositor;
   std::vector<MapSums> batches;
+  std::optional<DisplacementDepositor> follower;
+  std::vector<DisplacementSums> displacements;  ///< per batch, that of the later snapshot of a pair
 };
 /// Nodes over all that the run reaches, at a distance of `spacing`, with a kernel of `width` (d). Throws
 /// InputError when the kernel does not suit the spacing.
@@ -27,6 +30,7 @@ struct MeasuredMaps {
   FieldMap map;  ///< without header and scales
   MomentumBalance balance;
   BulkFriction friction;
+  double displacement_interval = 0;  ///< mean time between the snapshots of a pair; 0: no pair
   LogLine friction_ci99;  ///< half widths for the line of the invariants; NaN with fewer than two batches
 };
 /// `surface_z`: height of the map's z = 0 in the frame of `place`.

@@ -1,0 +1,28 @@
+#pragma once
+// How grains become fields: the nodes of a map, the kernel, and the frame of both.
+#include <cstddef>
+
+#include "coupling/exchange/field_map.hpp"
+#include "particles/measurement/frame/flow_frame.hpp"
+
+namespace drumlin::particles {
+
+/// How grains become fields. Lengths in d.
+struct CoarseGraining {
+  FlowFrame frame;    ///< its origin is that of the grid
+  MapGrid grid;       ///< z counted from the frame's origin
+  double width = 1;   ///< distance of the knots of the kernel: it reaches 2 width to each side
+  double period = 0;  ///< > 0: columns wrap around after this length, which the grid spans once
+};
+
+/// Most spacings that a width may hold: the footprint of a point has a fixed size.
+constexpr double most_spacings_per_width = 15;
+
+/// Nodes over the ranges (frame coordinates): columns at whole multiples of the spacing, rows halfway between
+/// them, at the middles of layers as thick as the spacing. period > 0: the columns share it out evenly, from
+/// x_from on. Throws InputError unless 1 <= width/spacing <= most_spacings_per_width: a wider spacing would
+/// lose grains between nodes.
+CoarseGraining coarse_graining(const FlowFrame& frame, double x_from, double x_to, double z_from, double z_to,
+                               double spacing, double width, double period);
+
+}  // namespace drumlin::particles

@@ -1,0 +1,95 @@
+#include "particles/measurement/maps/displacement_sums.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "particles/measurement/maps/node_canvas.hpp"
+
+namespace drumlin::particles {
+namespace {
+
+void add_times(double factor, const std::array<double, 3>& values, std::array<double, 3>& sums) {
+  for (std::size_t i = 0; i < values.size(); ++i) sums[i] += factor * values[i];
+}
+
+void add_times(double factor, const DisplacementNode& values, DisplacementNode& sums) {
+  add_times(factor, values.sum, sums.sum);
+  add_times(factor, values.slope_x, sums.slope_x);
+  add_times(factor, values.slope_z, sums.slope_z);
+}
+
+}  // namespace
+
+DisplacementNode& DisplacementNode::operator+=(const DisplacementNode& other) {
+  add_times(1, other, *this);
+  return *this;
+}
+
+DisplacementNode& DisplacementNode::operator-=(const DisplacementNode& other) {
+  add_times(-1, other, *this);
+  return *this;
+}
+
+DisplacementSums empty_displacements(const CoarseGraining& graining) {
+  DisplacementSums sums;
+  sums.nodes.resize(graining.grid.nodes());
+  return sums;
+}
+
+void DisplacementDepositor::find_ends(const Snapshot& snapshot, Ends& ends) {
+  const bool turning = snapshot.container_radius > 0 && snapshot.wall_spin != 0;
+  const std::size_t count = snapshot.x.size();
+  ends.time = snapshot.time;
+  ends.angle = turning ? snapshot.wall_angle : 0;
+  ends.radius = snapshot.radius;
+  ends.v_x.clear();
+  if (snapshot.period_x > 0) ends.v_x = snapshot.v_x;
+  ends.x.resize(count);
+  ends.z.resize(count);
+  const double cosine = std::cos(ends.angle), sine = std::sin(ends.angle);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = snapshot.x[i] - snapshot.container_x, z = snapshot.z[i] - snapshot.container_z;
+    ends.x[i] = x * cosine - z * sine;  // turned back, anticlockwise
+    ends.z[i] = x * sine + z * cosine;
+  }
+}
+
+void DisplacementDepositor::add_pair(const Ends& from, const Ends& to, const Snapshot& snapshot,
+                                     DisplacementSums& sums) const {
+  NodeCanvas<DisplacementNode> canvas(graining_, sums.nodes);
+  const FlowFrame& frame = graining_.frame;
+  const double time = to.time - from.time, angle = (from.angle + to.angle) / 2;
+  const double cosine = std::cos(angle), sine = std::sin(angle);
+  for (std::size_t i = 0; i < to.x.size(); ++i) {
+    double d_x = to.x[i] - from.x[i];
+    const double d_z = to.z[i] - from.z[i];
+    if (const double period = snapshot.period_x; period > 0)
+      d_x -= period * std::round((d_x - time * (from.v_x[i] + to.v_x[i]) / 2) / period);
+    const double x = to.x[i] - d_x / 2, z = to.z[i] - d_z / 2;
+    const double lab_x = x * cosine + z * sine, lab_z = z * cosine - x * sine;
+    const double moved_x = d_x * cosine + d_z * sine, moved_z = d_z * cosine - d_x * sine;
+    const double area = std::numbers::pi * to.radius[i] * to.radius[i];
+    const std::array<double, 3> moments{area * time, area * frame.along(moved_x, moved_z),
+                                        area * frame.normal(moved_x, moved_z)};
+    canvas.each_node_with_slope(frame.x_of(snapshot.container_x + lab_x, snapshot.container_z + lab_z),
+                                frame.z_of(snapshot.container_x + lab_x, snapshot.container_z + lab_z),
+                                [&](DisplacementNode& node, double phi, double phi_x, double phi_z) {
+                                  add_times(phi, moments, node.sum);
+                                  add_times(phi_x, moments, node.slope_x);
+                                  add_times(phi_z, moments, node.slope_z);
+                                });
+  }
+  ++sums.pairs;
+  sums.time += time;
+}
+
+void DisplacementDepositor::add(const Snapshot& snapshot, DisplacementSums& sums) {
+  Ends ends;
+  find_ends(snapshot, ends);
+  if (last_ && ends.time > last_->time && ends.radius == last_->radius)
+    add_pair(*last_, ends, snapshot, sums);
+  last_ = std::move(ends);
+}
+
+}  // namespace drumlin::particles

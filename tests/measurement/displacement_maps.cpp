@@ -1,0 +1,163 @@
+// Motion from displacements between snapshots, of packings whose motion is known by hand.
+#include "particles/measurement/maps/displacement_maps.hpp"
+
+#include <gtest/gtest.h>
+
+#include "particles/measurement/maps/field_maps.hpp"
+#include "particles/measurement/maps/map_sums.hpp"
+#include "tests/measurement/packings.hpp"
+
+namespace drumlin {
+using namespace particles;
+namespace {
+
+/// Maps of snapshots in order of time, each in a batch of its own, with the fields of displacements.
+FieldMap maps_of(const CoarseGraining& graining, const std::vector<Snapshot>& snapshots, double radius = 0) {
+  std::vector<MapSums> batches;
+  std::vector<DisplacementSums> displacements;
+  DisplacementDepositor follower(graining);
+  FlowSnapshot in_frame;
+  for (const Snapshot& snapshot : snapshots) {
+    to_flow_frame(snapshot, graining.frame, VelocityKind::window, in_frame);
+    batches.push_back(empty_sums(graining));
+    displacements.push_back(empty_displacements(graining));
+    MapDepositor(graining).add(snapshot, in_frame, batches.back());
+    follower.add(snapshot, displacements.back());
+  }
+  FieldMap map = field_maps(graining, batches, radius, 0);
+  add_displacement_fields(graining, displacements, map);
+  return map;
+}
+
+struct Gradient {
+  double xx, xz, zx, zz;
+};
+
+/// Two snapshots of a square lattice of middles, whose grains move by a straight line of their middle: in
+/// axes that turn clockwise from -`angle` to `angle` about the origin meanwhile.
+std::vector<Snapshot> stretched_lattice(const Gradient& rate, double interval, double angle) {
+  std::vector<Snapshot> ends(2);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double side = k == 0 ? -0.5 : 0.5, turn = k == 0 ? -angle : angle;
+    ends[k].time_step = 0.01;
+    ends[k].time = k == 0 ? 3 : 3 + interval;
+    if (angle != 0) {
+      ends[k].container_radius = 40;
+      ends[k].wall_spin = 2 * angle / interval;
+      ends[k].wall_angle = turn;
+    }
+    for (int column = 0; column < 16; ++column)
+      for (int row = 0; row < 16; ++row) {
+        const double x = column - 7.5, z = row - 7.5;
+        const double end_x = x + side * interval * (rate.xx * x + rate.xz * z);
+        const double end_z = z + side * interval * (rate.zx * x + rate.zz * z);
+        testing::add_grain(ends[k], end_x * std::cos(turn) + end_z * std::sin(turn),
+                           end_z * std::cos(turn) - end_x * std::sin(turn), 0.5);
+      }
+  }
+  return ends;
+}
+
+void expect_gradient(const FieldMap& map, const Gradient& rate) {
+  int checked = 0;
+  for (std::size_t node = 0; node < map.grid.nodes(); ++node) {
+    const double x = map.grid.x_of(node % map.grid.columns), z = map.grid.z_of(node / map.grid.columns);
+    const auto value = [&](const char* name) { return map.field(name).value[node]; };
+    if (std::abs(x) > 4.5 || std::abs(z) > 4.5) continue;
+    ++checked;
+    EXPECT_NEAR(value("displacement_v_x"), rate.xx * x + rate.xz * z, 1e-12);
+    EXPECT_NEAR(value("displacement_v_z"), rate.zx * x + rate.zz * z, 1e-12);
+    EXPECT_NEAR(value("displacement_d_v_x_dx"), rate.xx, 1e-12);
+    EXPECT_NEAR(value("displacement_d_v_x_dz"), rate.xz, 1e-12);
+    EXPECT_NEAR(value("displacement_d_v_z_dx"), rate.zx, 1e-12);
+    EXPECT_NEAR(value("displacement_D_zz"), rate.zz, 1e-12);
+    EXPECT_NEAR(value("displacement_D_xz"), (rate.xz + rate.zx) / 2, 1e-12);
+    EXPECT_NEAR(value("displacement_dilation"), rate.xx + rate.zz, 1e-12);
+    EXPECT_NEAR(value("displacement_half_vorticity"), (rate.xz - rate.zx) / 2, 1e-12);
+    EXPECT_NEAR(
+        value("displacement_strain_rate"),
+        2 * std::sqrt(
+                (rate.xx * rate.xx + rate.zz * rate.zz + (rate.xz + rate.zx) * (rate.xz + rate.zx) / 2) / 2),
+        1e-12);
+  }
+  EXPECT_GT(checked, 60);
+}
+
+const CoarseGraining lattice_graining = coarse_graining(FlowFrame{}, -8, 8, -8, 8, 1, 1, 0);
+
+TEST(DisplacementMaps, StraightDisplacementsHaveTheirGradient) {
+  const Gradient rate{0.01, 0.02, -0.005, 0.003};
+  expect_gradient(maps_of(lattice_graining, stretched_lattice(rate, 2, 0)), rate);
+}
+
+TEST(DisplacementMaps, TurnOfTheDrumIsTakenOutOfThem) {
+  const Gradient rate{0.01, 0.02, -0.005, 0.003};
+  expect_gradient(maps_of(lattice_graining, stretched_lattice(rate, 2, 0.4)), rate);
+}
+
+TEST(DisplacementMaps, PackingThatTurnsWithItsDrumMovesByRoundingAlone) {
+  const double radius = 12, spin = 0.02;
+  const Snapshot upright = testing::filled_drum(radius, 2, 0.3, spin);
+  std::vector<Snapshot> snapshots;
+  for (int k = 0; k < 4; ++k) {
+    // A long interval: by the chord, grains at the wall would move by 2 d relative to the drum.
+    const double angle = 0.6 * k;
+    snapshots.push_back(upright);
+    Snapshot& at = snapshots.back();
+    at.time = angle / spin;
+    at.wall_angle = angle;
+    for (std::size_t i = 0; i < at.x.size(); ++i) {
+      const double x = upright.x[i] - 3, z = upright.z[i] + 2;
+      at.x[i] = 3 + x * std::cos(angle) + z * std::sin(angle);
+      at.z[i] = -2 + z * std::cos(angle) - x * std::sin(angle);
+    }
+  }
+  const FlowFrame frame = frame_at_slope(3, -2, 0, -1, 0.3);
+  const FieldMap map =
+      maps_of(coarse_graining(frame, -radius, radius, -radius, radius, 1, 1, 0), snapshots, radius);
+  int known = 0;
+  for (std::size_t node = 0; node < map.grid.nodes(); ++node) {
+    if (std::isnan(map.field("displacement_v_x").value[node])) continue;
+    ++known;
+    EXPECT_NEAR(map.field("displacement_v_x").value[node], 0, 1e-14);
+    EXPECT_NEAR(map.field("displacement_v_z").value[node], 0, 1e-14);
+    EXPECT_NEAR(map.field("displacement_strain_rate").value[node], 0, 1e-12);
+  }
+  EXPECT_GT(known, 200);
+}
+
+TEST(DisplacementMaps, GrainsAreFollowedAcrossAPeriodicBoundary) {
+  // 2.25 periods in one interval: the velocity says how often a grain went round.
+  Snapshot from = testing::hexagonal_layer(12, 12), to;
+  for (double& v : from.v_x) v = 0.27;
+  to = from;
+  to.time = 100;
+  for (double& x : to.x) x = std::fmod(x + 27, 12);
+  CoarseGraining wide = coarse_graining(FlowFrame{}, 0, 12, 0, 10, 1, 15, 12);
+  DisplacementDepositor follower(wide);
+  DisplacementSums sums = empty_displacements(wide);
+  follower.add(from, sums);
+  follower.add(to, sums);
+  ASSERT_EQ(sums.pairs, 1U);
+  for (const DisplacementNode& node : sums.nodes) EXPECT_NEAR(node.sum[1] / node.sum[0], 0.27, 1e-12);
+}
+
+TEST(DisplacementMaps, MotionOverMoreThanHalfAWidthIsNotCalledLocal) {
+  const FieldMap map = maps_of(lattice_graining, stretched_lattice({0, 0.1, 0, 0}, 2, 0));
+  const auto at = [&](double z) {
+    const auto row = static_cast<std::size_t>(std::lround(z - map.grid.z_first));
+    return map.field("displacement_v_x").value[row * map.grid.columns + 8];
+  };
+  EXPECT_TRUE(std::isfinite(at(2.5)));  // moves by 0.5 d
+  EXPECT_TRUE(std::isnan(at(3.5)));     // by 0.7 d
+}
+
+TEST(DisplacementMaps, OneSnapshotOrOtherGrainsGiveNoFields) {
+  std::vector<Snapshot> ends = stretched_lattice({0.01, 0, 0, 0}, 2, 0);
+  EXPECT_EQ(maps_of(lattice_graining, {ends[0]}).find("displacement_v_x"), nullptr);
+  testing::add_grain(ends[1], 0, 0, 0.5);
+  EXPECT_EQ(maps_of(lattice_graining, ends).find("displacement_v_x"), nullptr);
+}
+
+}  // namespace
+}  // namespace drumlin
