@@ -1,9 +1,11 @@
-"""Figure of `drumlin calibrate`: the points of all runs over I, the law with its 99 % band, what is left, and the axes.
+"""Figure of `drumlin calibrate`: the points of all runs over I, the law with its 99 % band, what is left, and the axes; below them the memory of
+the axes, where it was asked for.
 
 The law is drawn and subtracted as the record holds it: the command evaluates it, with the function that the flow uses."""
 
 import argparse
 import json
+import math
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -39,13 +41,66 @@ def draw_points(axes, record, quantity, colors, less_law=False):
                   markersize=3, linestyle="none", label=label)
 
 
+def draw_amount(axes, memory):
+    """|s|/p over I, with the table that the law holds."""
+    for points, color in zip(memory["amount"]["points"], [style.PARTICLES, *style.OTHERS] * 10):
+        axes.plot(points["I"], points["amount"], "o", color=color, alpha=0.35, markersize=3, linestyle="none", label=style.plain(points["run"]))
+    curve, line = memory["amount"]["curve"], memory["amount"]["bed_line"]
+    axes.fill_between(curve["I"], curve["low"], curve["high"], color="0.3", alpha=0.35, linewidth=0)
+    axes.plot(curve["I"], curve["value"], color=style.PAPER, label=f"table: rms {memory['amount']['rms_misfit']:.4f}, 99 % band")
+    if line is not None:
+        inertial = np.geomspace(curve["I"][0], 1e-3, 20)
+        axes.plot(inertial, line["a"] + line["b"] * np.log(inertial), "--", color=style.CONTINUUM,
+                  label=f"{line['a']:.3f} + {line['b']:.4f} ln I in the bed")
+    axes.set_xscale("log")
+    axes.set_ylim(bottom=0)
+    axes.set_xlabel(r"$I = 2|D|/\sqrt{p}$")
+    axes.set_ylabel(r"$|s|/p$")
+    axes.set_title("Amount of the stress")
+    axes.legend(loc="lower right", fontsize=8)
+
+
+def draw_arc(axes, arc, with_legend):
+    """Axes of stress and strain rate along an arc about the drum's axis."""
+    axes.plot(arc["angle_deg"], arc["stress_deg"], "o-", color=style.PARTICLES, label="stress")
+    axes.plot(arc["angle_deg"], arc["law_deg"], color=style.CONTINUUM, label="law with memory")
+    axes.plot(arc["angle_deg"], arc["strain_rate_deg"], "--", color="0.45", label="strain rate (no memory)")
+    axes.axhline(0, color="0.5", linewidth=1)
+    axes.set_title(f"r = {arc['radius'][0]:.0f} to {arc['radius'][1]:.0f} d")
+    axes.set_xlabel("from below the axis, downslope positive [°]")
+    if with_legend:
+        axes.set_ylabel("axis less that of simple shear [°]")
+        axes.legend(fontsize=9)
+
+
+def draw_memory(figure, memory):
+    panels = figure.subplots(1, 1 + len(memory["arcs"]))
+    draw_amount(panels[0], memory)
+    for i, arc in enumerate(memory["arcs"]):
+        draw_arc(panels[i + 1], arc, i == 0)
+        panels[i + 1].sharey(panels[1])
+    law, free = memory["law"], memory["free"]
+    found = ", ".join(f"{key} = {free[key]['value']:.2f} ± {free[key]['ci99_sectors'] or math.nan:.2f}" for key in ("c", "m", "chi"))
+    figure.suptitle(f"Memory of the axes: {found} (99 %); the law takes c = {law['c']:.2f}, m = {law['m']:.2f}, chi = {law['chi']:.2f}, "
+                    f"c_rho = {law['c_rho']:g}", fontsize=12)
+
+
 def main():
     options = arguments()
     with open(options.record, encoding="utf-8") as stream:
         record = json.load(stream)
     style.use_style()
     with_axes = record["turn"] is not None and "axis_angle_deg" in record["points"][0]
-    figure, panels = plt.subplots(1, 3 if with_axes else 2, figsize=(17 if with_axes else 12, 4.8))
+    memory = record.get("memory")
+    if memory is None:
+        figure, panels = plt.subplots(1, 3 if with_axes else 2, figsize=(17 if with_axes else 12, 4.8))
+    else:
+        figure = plt.figure(figsize=(17, 11.5))
+        above, below, words = figure.subfigures(3, 1, height_ratios=[1, 1.05, 0.3])
+        panels = above.subplots(1, 3 if with_axes else 2)
+        draw_memory(below, memory)
+        lines = ["What the runs cannot tell"] + ["- " + style.plain(sentence, 190) for sentence in memory["untold"]]
+        words.text(0.02, 0.95, "\n".join(lines), va="top", fontsize=10)
     colors = colors_of(record)
     chosen = next(form for form in record["forms"] if form["chosen"])
     curve = chosen["curve"]

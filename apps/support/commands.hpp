@@ -88,6 +88,7 @@ struct CalibrateOptions {
   bool k = false;
   bool misalignment = false;
   bool relaxation = false;
+  bool memory = false;
   bool accept_unsteady = false;
   ExistingOutput existing = ExistingOutput::refuse;
 };

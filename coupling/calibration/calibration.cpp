@@ -169,6 +169,10 @@ Calibration calibration_of(std::vector<RunEvidence> runs, std::vector<RunEvidenc
   if (options.relaxation)
     for (const RunEvidence& run : calibration.runs)
       calibration.relaxations.push_back(fabric_relaxation(*run.map, calibration.turn->curve()));
+  if (options.memory) {
+    calibration.memory = memory_calibration(calibration.runs, calibration.held_out, options.draws);
+    calibration.rheology.memory = measured_memory(*calibration.memory);
+  }
   return calibration;
 }
 

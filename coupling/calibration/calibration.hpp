@@ -5,6 +5,7 @@
 
 #include "coupling/calibration/fabric_relaxation.hpp"
 #include "coupling/calibration/law_score.hpp"
+#include "coupling/calibration/memory_calibration.hpp"
 #include "coupling/calibration/one_law.hpp"
 #include "coupling/calibration/run_evidence.hpp"
 #include "coupling/law/ill_posed.hpp"
@@ -17,6 +18,7 @@ struct CalibrationOptions {
   bool k = false;                     ///< k(I) is a part of the law
   bool turn = false;                  ///< the turn of the stress is fitted although it is no part of the law
   bool relaxation = false;            ///< needs the maps of the runs
+  bool memory = false;                ///< needs the maps and amount_blocks of the runs
   int draws = 200;
 };
 
@@ -31,6 +33,7 @@ struct Calibration {
   std::vector<LawScore> predictions;          ///< per run held out
   std::optional<OneLaw> one_law;              ///< with two speeds at least
   std::vector<FabricRelaxation> relaxations;  ///< per run
+  std::optional<MemoryCalibration> memory;    ///< where it is asked for
   std::vector<InertialRange> ill_posed;       ///< within 1e-6 ... 1, in simple shear
   RheologyFit rheology;
 

@@ -130,7 +130,7 @@ Minimum minimum_of(std::span<const PathsOfRun> runs, const AxisMemory& start,
     double share = 1;
     for (; share > 1e-3; share /= 2)
       if (total_of(sums_at(runs, at.x + share * whole, start, free, false)).cost <= here.cost) break;
-    at.found = (share * whole).cwiseAbs().maxCoeff() < 1e-5 || share <= 1e-3;
+    at.found = (share * whole).cwiseAbs().maxCoeff() < 1e-4 || share <= 1e-3;
     if (share > 1e-3) at.x = vector_of(law_at(at.x + share * whole, start));
   }
   return at;
@@ -170,22 +170,6 @@ void add_sector_intervals(const Sectors& sectors, const Vector& x, MemoryFit& fi
       if (fit.free[j] && fit.free[k]) fit.correlation[pair] = both / std::sqrt(first * second);
     }
   }
-}
-
-/// From what each run gives alone.
-void add_run_intervals(std::span<const PathsOfRun> runs, MemoryFit& fit) {
-  if (runs.size() < 2) return;
-  std::array<std::vector<double>, 3> alone;
-  for (const PathsOfRun& run : runs) {
-    if (run.paths.empty()) return;
-    const Minimum at = minimum_of({&run, 1}, fit.law, fit.free);
-    if (!at.found) return;
-    for (std::size_t j = 0; j < 3; ++j) alone[j].push_back(reported(at.x)[j]);
-  }
-  const double factor = statistics::student_quantile_99(static_cast<int>(runs.size()) - 1) /
-                        std::sqrt(static_cast<double>(runs.size()));
-  for (std::size_t j = 0; j < 3; ++j)
-    if (fit.free[j]) fit.ci99_runs[j] = factor * std::sqrt(statistics::variance(alone[j]));
 }
 
 /// Angle in degrees by which the axes of a are turned from those of b.
@@ -241,13 +225,27 @@ MemoryFit fit_memory(std::span<const PathsOfRun> runs, const AxisMemory& start,
   fit.rms = std::sqrt(total.squares / count);
   fit.cost = total.cost / count;
   add_sector_intervals(sectors, at.x, fit);
-  add_run_intervals(runs, fit);
   return fit;
+}
+
+void add_run_intervals(std::span<const PathsOfRun> runs, MemoryFit& fit) {
+  if (runs.size() < 2) return;
+  std::array<std::vector<double>, 3> alone;
+  for (const PathsOfRun& run : runs) {
+    if (run.paths.empty()) return;
+    const Minimum at = minimum_of({&run, 1}, fit.law, fit.free);
+    if (!at.found) return;
+    for (std::size_t j = 0; j < 3; ++j) alone[j].push_back(reported(at.x)[j]);
+  }
+  const double factor = statistics::student_quantile_99(static_cast<int>(runs.size()) - 1) /
+                        std::sqrt(static_cast<double>(runs.size()));
+  for (std::size_t j = 0; j < 3; ++j)
+    if (fit.free[j]) fit.ci99_runs[j] = factor * std::sqrt(statistics::variance(alone[j]));
 }
 
 MemoryScore memory_score(const PathsOfRun& run, const AxisMemory& law) {
   MemoryScore score{run.name, {}, {}};
-  const double bed_below = std::log(law.I_low);
+  const double bed_below = std::log(bed_I);
   for (auto [zone, in_bed] : {std::pair{&score.bed, true}, std::pair{&score.flow, false}}) {
     double squares = 0, angles = 0, coaxial_squares = 0, coaxial_angles = 0;
     for (std::size_t i = 0; i < run.paths.size(); ++i) {

@@ -66,7 +66,12 @@ struct MemoryFit {
 MemoryFit fit_memory(std::span<const PathsOfRun> runs, const AxisMemory& start,
                      const std::array<bool, 3>& free);
 
-/// What is left of a run: root mean squares over its paths in the bed (I < 1e-3) and in the flow.
+/// ci99_runs: with two runs at least, from the spread of what each run gives alone.
+void add_run_intervals(std::span<const PathsOfRun> runs, MemoryFit& fit);
+
+constexpr double bed_I = 1e-3;  ///< below it a path ends in the bed
+
+/// What is left of a run: root mean squares over its paths in the bed and in the flow.
 struct MemoryScore {
   struct Zone {
     std::size_t paths = 0;

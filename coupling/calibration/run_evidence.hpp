@@ -19,12 +19,13 @@ enum class EvidenceSource { maps, profiles };
 struct RunEvidence {
   std::string name;
   double rotation_rpm = 0;
-  Scalar nu{"nu_bulk", std::nan(""), {}};  ///< volume fraction of the bulk; of runs that are fitted
-  bool reduced = false;                    ///< a small (smoke) run
-  std::vector<LawBlock> blocks = {};       ///< of maps; empty when profiles are the source
-  std::vector<FrictionPoint> layers = {};  ///< of profiles: mu, I
-  std::vector<FrictionPoint> ratios = {};  ///< of profiles: k in the place of mu, I
-  std::optional<FieldMap> map = {};        ///< where the relaxation of the fabric is asked for
+  Scalar nu{"nu_bulk", std::nan(""), {}};    ///< volume fraction of the bulk; of runs that are fitted
+  bool reduced = false;                      ///< a small (smoke) run
+  std::vector<LawBlock> blocks = {};         ///< of maps; empty when profiles are the source
+  std::vector<FrictionPoint> layers = {};    ///< of profiles: mu, I
+  std::vector<FrictionPoint> ratios = {};    ///< of profiles: k in the place of mu, I
+  std::vector<LawBlock> amount_blocks = {};  ///< of maps, to smaller I: where memory is asked for
+  std::optional<FieldMap> map = {};          ///< where the relaxation of the fabric or memory is asked for
 };
 
 /// Range of inertial numbers that points are taken from; absent: that of BlockSelection or LayerSelection.
@@ -34,6 +35,10 @@ struct InertialSelection {
 
 /// Blocks of a map (law_points()); the map is kept. Throws InputError as law_points().
 void add_blocks(RunEvidence& run, FieldMap map, const InertialSelection& range);
+
+/// Blocks for the amount of the stress, of the map that add_blocks() kept: from I = 3e-6 on (unless the range
+/// says otherwise), with the motion of displacements where the map has it.
+void add_amount_blocks(RunEvidence& run, const InertialSelection& range);
 
 /// Layers of a profile (friction_points()) with mu and with k. Throws InputError where a column is missing.
 void add_layers(RunEvidence& run, const ProfileSet& profiles, const InertialSelection& range);

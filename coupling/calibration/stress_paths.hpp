@@ -30,7 +30,7 @@ struct PathOptions {
   double surface_margin = 3;  ///< d, nodes keep it from z = 0 and from the surface at their x
   double wall_margin = 4;     ///< d: grains order along the wall
   double I_min = 3e-6;
-  std::size_t stride = 2;  ///< every so many columns and rows: neighbours share their kernels
+  std::size_t stride = 3;  ///< every so many columns and rows: neighbours share their kernels
   double step = 1;         ///< d along the path
   double strain = 1.5;     ///< of |D| t, after which nothing before is asked for: e^(-2 c 1.5) of it is left
   std::size_t most_steps = 600;

@@ -88,11 +88,57 @@ std::string relaxation_text(const coupling::Calibration& calibration) {
   return text;
 }
 
+std::string interval_text(double value, const coupling::MemoryFit& fit, std::size_t j) {
+  if (!fit.free[j]) return fmt::format("{:.2f} (held)", value);
+  return fmt::format(
+      "{:.2f} +- {:.2f} (over sectors{})", value, fit.ci99_sectors[j],
+      std::isfinite(fit.ci99_runs[j]) ? fmt::format(", +- {:.2f} over runs", fit.ci99_runs[j]) : "");
+}
+
+std::string fit_text(const char* what, const coupling::MemoryFit& fit) {
+  return fmt::format("  {}: c = {}, m = {}, chi = {}; rms of s/p {:.4f} over {} paths\n", what,
+                     interval_text(fit.law.c, fit, coupling::memory_c),
+                     interval_text(fit.law.m, fit, coupling::memory_m),
+                     interval_text(fit.law.chi, fit, coupling::memory_chi), fit.rms, fit.paths);
+}
+
+std::string memory_scores_text(const char* what, const std::vector<coupling::MemoryScore>& scores) {
+  std::string text;
+  for (const coupling::MemoryScore& score : scores)
+    text += fmt::format(
+        "  {} {}: axes {:.1f} deg off in the bed, {:.1f} in the flow (without memory {:.1f}, {:.1f}); s/p "
+        "{:.4f}, {:.4f}\n",
+        what, score.run, score.bed.axes_deg, score.flow.axes_deg, score.bed.coaxial_axes_deg,
+        score.flow.coaxial_axes_deg, score.bed.rms, score.flow.rms);
+  return text;
+}
+
+std::string memory_text(const coupling::Calibration& calibration) {
+  if (!calibration.memory) return "";
+  const coupling::MemoryCalibration& found = *calibration.memory;
+  std::string text = fmt::format(
+      "memory of the axes\n  |s|/p: a table of {} points, I from {:.1e} to {:.1e}, rms {:.4f}",
+      found.amount.fit.points, found.amount.I_min, found.amount.I_max, found.amount.fit.rms_misfit);
+  if (found.bed_line)
+    text += fmt::format("; below I = {:g} {:.3f} + {:.4f} ln I, rms {:.4f}", coupling::bed_I,
+                        found.bed_line->law[0], found.bed_line->law[1], found.bed_line->rms_misfit);
+  text += "\n" + fit_text("all free", found.free);
+  if (!found.bounded.free[coupling::memory_m]) text += fit_text("m held", found.bounded);
+  text += fmt::format(
+      "  the law: c = {:.2f}, m = {:.2f}, chi = {:.2f} below I = {:g}, atan(1/c) above {:g}, c_rho = {:g}\n",
+      found.law.c, found.law.m, found.law.chi, found.law.I_low, found.law.I_high, *found.law.c_rho);
+  text += memory_scores_text("fitted", found.scores) + memory_scores_text("predicted", found.predictions);
+  text += "  what the runs cannot tell\n";
+  for (const std::string& sentence : found.untold) text += "  - " + sentence + "\n";
+  return text;
+}
+
 coupling::CalibrationOptions settings_of(const CalibrateOptions& options, coupling::EvidenceSource source) {
   coupling::CalibrationOptions settings{.source = source,
                                         .k = options.k,
                                         .turn = options.misalignment,
                                         .relaxation = options.relaxation,
+                                        .memory = options.memory,
                                         .draws = options.draws};
   if (options.law != "auto") settings.form = coupling::form_named(options.law);
   return settings;
@@ -133,10 +179,10 @@ int calibrate(const CalibrateOptions& options) {
       described(calibration.rheology.mu), law.fit.points,
       source == coupling::EvidenceSource::maps ? "the tensors of maps.h5" : "the layers of profiles.csv",
       law.I_min, law.I_max, calibration.rheology.nu));
-  print_out(fmt::format("{}{}{}{}{}{}", forms_text(calibration), posedness_text(calibration),
+  print_out(fmt::format("{}{}{}{}{}{}{}", forms_text(calibration), posedness_text(calibration),
                         score_text("fitted", calibration.scores),
                         score_text("predicted", calibration.predictions), one_law_text(calibration),
-                        relaxation_text(calibration)));
+                        relaxation_text(calibration), memory_text(calibration)));
   for (const MeasuredRun& run : all)
     for (const std::string& reason : run.unsteady)
       print_out(fmt::format("  warning: {} is not steady: {}\n", run.name, reason));

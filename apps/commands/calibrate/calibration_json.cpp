@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/commands/calibrate/memory_json.hpp"
 #include "apps/support/json_file.hpp"
 
 namespace drumlin::apps {
@@ -132,6 +133,7 @@ Json calibration_json(const coupling::Calibration& calibration, const std::vecto
     json["held_out"].push_back(score_json(score));
   json["one_law"] = calibration.one_law ? one_law_json(*calibration.one_law) : Json();
   json["relaxation"] = relaxation_json(calibration);
+  if (calibration.memory) json["memory"] = memory_json(*calibration.memory, calibration.runs);
   json["unsteady"] = Json::array();
   for (const MeasuredRun& run : runs)
     for (const std::string& reason : run.unsteady)

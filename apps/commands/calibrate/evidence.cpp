@@ -43,16 +43,18 @@ coupling::RunEvidence evidence_of(const MeasuredRun& run, coupling::EvidenceSour
   FieldMap map = read_field_map(checked_file(run.measured_files, "maps.h5"));
   require_same_frame(map, run);
   coupling::add_blocks(evidence, std::move(map), range);
-  if (!options.relaxation) evidence.map.reset();
+  if (options.memory) coupling::add_amount_blocks(evidence, range);
+  if (!options.relaxation && !options.memory) evidence.map.reset();
   return evidence;
 }
 
 }  // namespace
 
 coupling::EvidenceSource source_of(const CalibrateOptions& options) {
+  const bool needs_maps = options.misalignment || options.relaxation || options.memory;
   if (options.from == "profiles") {
-    if (options.misalignment || options.relaxation)
-      throw InputError("--misalignment and --relaxation need tensors over the drum: --from maps");
+    if (needs_maps)
+      throw InputError("--misalignment, --relaxation and --memory need tensors over the drum: --from maps");
     return coupling::EvidenceSource::profiles;
   }
   std::vector<fs::path> all = options.runs;
@@ -60,7 +62,7 @@ coupling::EvidenceSource source_of(const CalibrateOptions& options) {
   const auto without =
       std::find_if(all.begin(), all.end(), [](const fs::path& run) { return !fs::exists(maps_of(run)); });
   if (without == all.end()) return coupling::EvidenceSource::maps;
-  if (options.from == "maps" || options.misalignment || options.relaxation)
+  if (options.from == "maps" || needs_maps)
     throw InputError(maps_of(*without).string() +
                      ": is missing; drumlin measure RUN --parts maps makes it (or use --from profiles)");
   return coupling::EvidenceSource::profiles;
