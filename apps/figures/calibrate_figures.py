@@ -67,7 +67,7 @@ def draw_arc(axes, arc, with_legend):
     axes.plot(arc["angle_deg"], arc["strain_rate_deg"], "--", color="0.45", label="strain rate (no memory)")
     axes.axhline(0, color="0.5", linewidth=1)
     axes.set_title(f"r = {arc['radius'][0]:.0f} to {arc['radius'][1]:.0f} d")
-    axes.set_xlabel("from below the axis, downslope positive [°]")
+    axes.set_xlabel("angle from below the axis, downslope + [°]", fontsize=10)
     if with_legend:
         axes.set_ylabel("axis less that of simple shear [°]")
         axes.legend(fontsize=9)

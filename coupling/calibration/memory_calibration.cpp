@@ -83,6 +83,25 @@ std::vector<LeadTrial> lead_trials(const Runs& runs) {
   return trials;
 }
 
+/// Over the paths that end in the bed, with a chi that does not fall.
+MemoryFit bed_fit(const Runs& runs) {
+  Runs bed;
+  for (const PathsOfRun& run : runs) {
+    bed.push_back({run.name, {}, {}});
+    for (std::size_t i = 0; i < run.paths.size(); ++i) {
+      if (run.paths[i].ln_I >= std::log(bed_I)) continue;
+      bed.back().paths.push_back(run.paths[i]);
+      bed.back().amounts.push_back(run.amounts[i]);
+    }
+  }
+  AxisMemory start = first_guess;
+  start.I_low = 1e6;  // beyond every I
+  start.I_high = 1e7;
+  MemoryFit fit = fit_memory(bed, start, {true, true, true});
+  add_run_intervals(bed, fit);
+  return fit;
+}
+
 MemoryFit bounded_fit(const Runs& runs, const MemoryFit& free) {
   if (free.law.m <= 1) return free;
   AxisMemory start = free.law;
@@ -112,11 +131,11 @@ std::vector<CarriedRhoTrial> carried_trials(const Runs& runs, const MemoryFit& a
   return trials;
 }
 
-/// The slowest rho that the runs do not tell from rho at once, or the fastest that was tried.
+/// The one of the carried rho that fits best.
 AxisMemory solvable_law(const std::vector<CarriedRhoTrial>& trials) {
-  const auto found = std::find_if(trials.begin() + 1, trials.end(),
-                                  [](const CarriedRhoTrial& trial) { return !trial.told_apart; });
-  return found == trials.end() ? trials.back().fit.law : found->fit.law;
+  const auto best = std::min_element(trials.begin() + 1, trials.end(),
+                                     [](const auto& a, const auto& b) { return a.fit.cost < b.fit.cost; });
+  return best->fit.law;
 }
 
 std::vector<DilationShare> dilation_shares(std::span<const RunEvidence> runs) {
@@ -161,19 +180,20 @@ void tell_of_coefficients(const MemoryCalibration& found, std::vector<std::strin
 }
 
 void tell_of_trials(const MemoryCalibration& found, std::vector<std::string>& untold) {
-  const auto apart = [](const CarriedRhoTrial& trial) { return trial.told_apart; };
-  const auto carried = std::span(found.carried).subspan(1);
-  if (std::none_of(carried.begin(), carried.end(), apart))
-    untold.push_back("c_rho: no value tried (30 to 1000) is told from rho at once");
-  else if (std::all_of(carried.begin(), carried.end(), apart))
+  std::string alike_rho;
+  for (const CarriedRhoTrial& trial : std::span(found.carried).subspan(1))
+    if (!trial.told_apart)
+      alike_rho += fmt::format(" {:g} (cost {:+.0f} %),", *trial.fit.law.c_rho,
+                               100 * (trial.fit.cost / found.bounded.cost - 1));
+  if (alike_rho.empty()) {
     untold.push_back(
-        "c_rho: rho at once fits better than each value tried (30 to 1000); the largest is taken, "
-        "since a flow needs one");
-  else
-    untold.push_back(
-        fmt::format("c_rho: from {:g} on no value is told from rho at once; only a lower bound "
-                    "is known, and it is taken",
-                    *found.law.c_rho));
+        "c_rho: rho at once fits better than each value tried; the best of them is taken, since a "
+        "flow needs one");
+  } else {
+    alike_rho.pop_back();
+    untold.push_back(fmt::format("c_rho: not told from rho at once with 99 %:{}; {:g} is taken", alike_rho,
+                                 *found.law.c_rho));
+  }
   const auto low = std::min_element(found.leads.begin(), found.leads.end(),
                                     [](const auto& a, const auto& b) { return a.cost < b.cost; });
   std::string alike;
@@ -236,6 +256,7 @@ MemoryCalibration memory_calibration(std::span<const RunEvidence> runs, std::spa
   start.I_high = best->I_high;
   found.free = fit_memory(paths, start, {true, true, true});
   add_run_intervals(paths, found.free);
+  found.bed_alone = bed_fit(paths);
   found.bounded = bounded_fit(paths, found.free);
   found.carried = carried_trials(paths, found.bounded);
   found.law = solvable_law(found.carried);

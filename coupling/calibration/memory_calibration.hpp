@@ -41,8 +41,9 @@ struct MemoryCalibration {
   CalibratedLaw amount;                    ///< |s|/p over I, a table
   std::optional<RobustFriction> bed_line;  ///< a + b ln I through the amounts below bed_I; absent: too few
   std::vector<LeadTrial> leads;
-  MemoryFit free;                                ///< c, m, chi; rho at once
-  MemoryFit bounded;                             ///< the same with m at most 1
+  MemoryFit free;       ///< c, m, chi; rho at once
+  MemoryFit bed_alone;  ///< the same over paths that end in the bed alone, with chi at every I
+  MemoryFit bounded;    ///< the same with m at most 1
   std::vector<CarriedRhoTrial> carried;          ///< the first: at once
   AxisMemory law;                                ///< what a flow can solve: m at most 1, rho carried
   std::vector<MemoryScore> scores, predictions;  ///< per run of the fit, per run held out

@@ -122,7 +122,8 @@ std::string memory_text(const coupling::Calibration& calibration) {
   if (found.bed_line)
     text += fmt::format("; below I = {:g} {:.3f} + {:.4f} ln I, rms {:.4f}", coupling::bed_I,
                         found.bed_line->law[0], found.bed_line->law[1], found.bed_line->rms_misfit);
-  text += "\n" + fit_text("all free", found.free);
+  text += "\n" + fit_text("the bed alone, chi at every I", found.bed_alone) +
+          fit_text("bed and flow", found.free);
   if (!found.bounded.free[coupling::memory_m]) text += fit_text("m held", found.bounded);
   text += fmt::format(
       "  the law: c = {:.2f}, m = {:.2f}, chi = {:.2f} below I = {:g}, atan(1/c) above {:g}, c_rho = {:g}\n",

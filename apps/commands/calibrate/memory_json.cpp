@@ -125,6 +125,7 @@ Json memory_json(const coupling::MemoryCalibration& found, const std::vector<cou
             {"I_high", law.I_high}}},
           {"amount", amount_json(found, runs)},
           {"free", fit_json(found.free)},
+          {"bed_alone", fit_json(found.bed_alone)},
           {"bounded", fit_json(found.bounded)},
           {"trials", trials_json(found)},
           {"runs", scores_json(found.scores)},

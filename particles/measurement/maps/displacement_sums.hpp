@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "particles/bodies/snapshot.hpp"
+#include "particles/measurement/frame/flow_snapshot.hpp"
 #include "particles/measurement/maps/coarse_graining.hpp"
 
 namespace drumlin::particles {
