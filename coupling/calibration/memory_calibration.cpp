@@ -15,6 +15,7 @@
 namespace drumlin::coupling {
 namespace {
 
+constexpr std::size_t least_amounts = 24;  // fewer hold no knots of a table
 constexpr std::size_t least_bed_paths = 100;
 constexpr std::size_t least_bed_sectors = 5;
 constexpr double sector = 15 * std::numbers::pi / 180;
@@ -29,6 +30,11 @@ CalibratedLaw fitted_amount(std::span<const RunEvidence> runs, int draws) {
     points.push_back(amounts(run.amount_blocks));
     for (const FrictionPoint& point : points.back()) I.push_back(point.I);
   }
+  if (I.size() < least_amounts)
+    throw InputError(
+        fmt::format("--memory: the amount of the stress is known in {} blocks of the maps alone (needed: "
+                    "{}); take longer runs or a larger drum",
+                    I.size(), least_amounts));
   return calibrated(points, {.kind = FormKind::table, .knots = table_knots(I)}, draws);
 }
 
@@ -216,9 +222,9 @@ std::vector<std::string> what_is_untold(const MemoryCalibration& found, std::siz
                   found.amount.I_min, found.amount.I_max));
   if (const std::size_t held = held_intervals(found.amount.form, found.amount.fit.law); held > 0)
     untold.push_back(
-        fmt::format("|s|/p: {} intervals of the table are as flat as a well-posed law can be; "
+        fmt::format("|s|/p: {} of {} intervals of the table are as flat as a well-posed law can be; "
                     "the points ask for less",
-                    held));
+                    held, found.amount.form.knots.size() - 1));
   if (runs < 2) untold.push_back("one run alone: what differs from run to run is not known");
   if (*std::min_element(found.from_displacements.begin(), found.from_displacements.end()) < 0.3)
     untold.push_back(

@@ -156,6 +156,15 @@ TEST(MemoryCalibration, ADrumWithoutABedIsRefused) {
   EXPECT_THROW((void)memory_calibration(runs, {}, 16), InputError);
 }
 
+TEST(MemoryCalibration, MapsThatSayTooLittleAreRefused) {
+  RunEvidence run = evidence_of(remembering_drum({.radius = 40}), "short");
+  run.amount_blocks.resize(20);
+  EXPECT_THROW((void)memory_calibration({&run, 1}, {}, 16), InputError);
+  FieldMap layer = remembering_drum({.radius = 40});
+  layer.header.drum_radius = 0;
+  EXPECT_THROW(PathFields{layer}, InputError);
+}
+
 TEST(MemoryCalibration, MotionFromDisplacementsIsTakenWhereTheMapHasIt) {
   FieldMap map = remembering_drum({});
   // Velocities of the bed that are noise, beside displacements that are right.

@@ -176,6 +176,9 @@ def main():
                 drumlin(*words, "--resume")
             require(bytes_below(folder) == before, f"repeating {words[0]} changed files")
             print(f"{words[0]}: done, checked, repeated")
+        # A drum of 350 grains has no bed that could remember.
+        drumlin("calibrate", run, "-o", folder / "memory.toml", "--memory", "--accept-unsteady", code=2)
+        require(not list(folder.glob("memory.*")), "a calibration that was refused left files")
         check_readers([run, law, flow, report, here.parents[1] / "data" / "problems" / "drum-300-mu-0.4-flow.h5"], folder)
         check_other_drum_is_refused(drumlin, run, flow, folder)
         check_zeros(drumlin, [run, flow], folder)
