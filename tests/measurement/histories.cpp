@@ -75,8 +75,8 @@ TEST(RegionHistory, PutsTheWholeStressOfAChainIntoTheBox) {
   EXPECT_NEAR(state.pressure.zz, force, 1e-14);
   EXPECT_NEAR(state.pressure.xz, friction, 1e-14);  // tangent of a normal (0, 1) is (1, 0)
   EXPECT_NEAR(state.pressure.xx, 0, 1e-14);
-  EXPECT_EQ(state.grains, 5u);
-  EXPECT_NEAR(state.nu, 5 * pi / 4 / 5.5, 1e-14);
+  EXPECT_EQ(state.grains, 6u);
+  EXPECT_NEAR(state.nu, 6 * pi / 4 / 5.5, 1e-14);
   EXPECT_NEAR(state.coordination, 2, 1e-14);
   EXPECT_NEAR(state.fabric.zz, 1, 1e-14);
   EXPECT_TRUE(std::isnan(state.gradient.xx));
