@@ -48,6 +48,17 @@ def values_of(row, sense):
             "fabric_shear": -sense * row["fabric_xz"], "fabric_difference": 0.5 * (row["fabric_xx"] - row["fabric_zz"])}
 
 
+def sheared(rows, times_before, sense):
+    """Gives each row the shear strain since the turn, in the sense of the shear, so that noise adds nothing to it."""
+    time, strain = times_before[-1] if times_before else rows[0]["time"], 0
+    for row in rows:
+        gradient = row["d_v_x_dz"] + row["d_v_z_dx"]
+        if not math.isnan(gradient):
+            strain += sense * gradient * (row["time"] - time)
+        time = row["time"]
+        row["sheared"] = strain
+
+
 def turns_of(history):
     """One {bin: values} per turn, and the values of steady shear before."""
     rows = rows_of(history)
@@ -61,18 +72,16 @@ def turns_of(history):
         inside = [row for row in rows if start < row["time"] - 1e-9 * end <= end]
         if not inside:
             continue
-        before = [row["strain"] for row in rows if row["time"] <= start * (1 + 1e-9)]
-        zero = before[-1] if before else inside[0]["strain"]
+        sheared(inside, [row["time"] for row in rows if row["time"] <= start * (1 + 1e-9)], sense)
         if name.startswith("turned"):
             bins = {}
             for row in inside:
-                strain = row["strain"] - zero
+                strain = row["sheared"]
                 place = next((b for b in range(len(EDGES) - 1) if EDGES[b] <= strain < EDGES[b + 1]), None)
                 if place is not None:
                     bins.setdefault(place, []).append({"strain": strain, **values_of(row, sense)})
             turns.append({b: {key: sum(v[key] for v in found) / len(found) for key in found[0]} for b, found in bins.items()})
-        last = inside[-1]["strain"]
-        late = [values_of(row, sense) for row in inside if row["strain"] > last - 0.4]
+        late = [values_of(row, sense) for row in inside if row["sheared"] > inside[-1]["sheared"] - 0.4]
         steady.append({key: sum(v[key] for v in late) / len(late) for key in COLUMNS})
     return turns, steady
 
