@@ -128,7 +128,8 @@ struct CompareOptions {
 int compare(const CompareOptions&);
 
 struct CompareStudyOptions {
-  std::vector<std::filesystem::path> folders;  ///< measured runs and continuum flows, in any order
+  std::vector<std::filesystem::path> folders;   ///< measured runs and continuum flows, in any order
+  std::optional<std::filesystem::path> limits;  ///< limits by which each flow is judged beside; absent: none
   std::filesystem::path output;
   ExistingOutput existing = ExistingOutput::refuse;
 };
