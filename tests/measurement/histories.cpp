@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "coupling/common/errors.hpp"
 #include "particles/measurement/history/region_history.hpp"
 #include "particles/measurement/history/wall_history.hpp"
 
@@ -62,6 +63,13 @@ TEST(RegionHistory, AddsTheStrainOfSimpleShearAcrossAPeriod) {
     EXPECT_NEAR(state.gradient.xx, 0, 1e-13);
     EXPECT_NEAR(state.strain, 0.1 * (k + 1), 1e-12);
   }
+}
+
+TEST(RegionHistory, ABoxWiderThanThePeriodIsRefused) {
+  Snapshot s = lattice(20, 10);
+  s.period_x = 20;
+  EXPECT_THROW(RegionHistory({0, 21, 2, 8}).add(s), InputError);
+  EXPECT_NO_THROW(RegionHistory({5, 25, 2, 8}).add(s));
 }
 
 TEST(RegionHistory, PutsTheWholeStressOfAChainIntoTheBox) {

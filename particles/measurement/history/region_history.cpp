@@ -1,9 +1,13 @@
 #include "particles/measurement/history/region_history.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+
+#include "coupling/common/errors.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -152,6 +156,10 @@ std::optional<PlaneMatrix> mean_gradient(const Box& box, const Snapshot& before,
 }
 
 const RegionState& RegionHistory::add(const Snapshot& snapshot) {
+  if (snapshot.period_x > 0 && box_.x_max - box_.x_min > (1 + 1e-9) * snapshot.period_x)
+    throw InputError(
+        fmt::format("a box {} d wide in a domain with a period of {} d (allowed: up to the period)",
+                    box_.x_max - box_.x_min, snapshot.period_x));
   RegionState next;
   next.time = snapshot.time;
   next.strain = state_.strain;

@@ -43,6 +43,7 @@ std::optional<PlaneMatrix> mean_gradient(const Box& box, const Snapshot& before,
 class RegionHistory {
  public:
   explicit RegionHistory(const Box& box) : box_(box) {}
+  /// Throws InputError where the box is wider than the period.
   const RegionState& add(const Snapshot& snapshot);
 
  private:
