@@ -13,6 +13,7 @@ import math
 import pathlib
 import tomllib
 
+import numpy
 import style
 import whole_file
 
@@ -62,9 +63,7 @@ def sheared(rows, times_before, sense):
 def turns_of(history):
     """One {bin: values} per turn, and the values of steady shear before."""
     rows = rows_of(history)
-    with open(history / "region.csv", encoding="utf-8") as stream:
-        head = dict(line[2:].strip().split(" = ", 1) for line in stream if line.startswith("# ") and " = " in line)
-    unit = math.sqrt(float(head["diameter_m"]) / 9.81)
+    unit = math.sqrt(float(head_of(history)["diameter_m"]) / 9.81)
     turns, steady = [], []
     for name, start, end, sense in stages_of(history.parent, unit):
         if not sense:
@@ -110,13 +109,15 @@ def pooled(histories):
     return table, {key: mean_and_error([v[key] for v in steady]) for key in COLUMNS}
 
 
-def law_after_turn(c, m, chi, strains, steps_per_unit=4000):
-    """(shear, normal difference) over the amount mu, by the law with rho at once; steady shear the other way round before."""
+def law_after_turn(c, m, chi, strains, keeps_amount=True, steps_per_unit=4000):
+    """(shear, normal difference) over mu, by the law with rho = |n + m A| at once, or with rho held at its steady value; steady shear the
+    other way round before."""
     def steady_axes(n, turn):
         return cmath.exp(1j * turn * (chi - math.atan(1 / c))) * math.cos(math.atan(1 / c)) * n
 
     # n = D_xx + i D_xz over |D|: i for dv_x/dz > 0, whose spin is +; seen in the mirror of the new direction
     A = steady_axes(-1j, -1)
+    steady = abs(-1j + m * A)
     n, target, strain, found = 1j, cmath.exp(1j * chi) * 1j, 0.0, []
     step = 1 / steps_per_unit
 
@@ -131,23 +132,61 @@ def law_after_turn(c, m, chi, strains, steps_per_unit=4000):
             A += h * k2
             strain += h
         whole = n + m * A
-        whole /= max(abs(whole), 1e-9)
+        whole /= max(abs(whole), 1e-9) if keeps_amount else steady
         found.append((whole.imag, -whole.real))  # sigma_xx - sigma_zz = -2 s_xx
     return found
 
 
-def write_table(path, table, steady):
+def head_of(history):
+    """Lines "# key = value" of a history."""
+    with open(history / "region.csv", encoding="utf-8") as stream:
+        return dict(line[2:].strip().split(" = ", 1) for line in stream if line.startswith("# ") and " = " in line)
+
+
+def write_table(path, table, steady, histories):
     names = ["strain", "turns"] + [name for key in COLUMNS for name in (key, key + "_error")]
-    lines = [",".join(names)] + [",".join(f"{row[name]:.6g}" for name in names) for row in table]
+    lines = [f"# {history.parent.name}: {head_of(history)['title']}, box {head_of(history)['box']}, revision {head_of(history)['revision']}"
+             for history in histories]
+    lines += [",".join(names)] + [",".join(f"{row[name]:.6g}" for name in names) for row in table]
     lines.append("# steady: " + ", ".join(f"{key} = {mean:.6g} +- {error:.2g}" for key, (mean, error) in steady.items()))
     whole_file.write_text(path, "\n".join(lines) + "\n")
+
+
+def draw_fit(axes, table, steady_shear):
+    """c and m by least squares over the bins up to a strain of 0.6, chi = atan(1/c): steady shear as mu(I) has it."""
+    rows = [row for row in table if row["strain"] < 0.6]
+    strains = [row["strain"] for row in rows]
+
+    def misfit(logarithms):
+        c, m = numpy.exp(logarithms)
+        found = law_after_turn(c, m, math.atan(1 / c), strains, keeps_amount=False)
+        return numpy.array([(steady_shear * shear - row["shear"]) / max(row["shear_error"], 0.005) for (shear, _), row in zip(found, rows)])
+
+    at, small = numpy.log([10.0, 1.0]), 1e-3
+    for _ in range(40):  # Gauss and Newton, steps halved where they do not help
+        here = misfit(at)
+        slopes = numpy.array([(misfit(at + small * unit) - here) / small for unit in numpy.eye(2)]).T
+        step = -numpy.linalg.lstsq(slopes, here, rcond=None)[0]
+        while (misfit(at + step) ** 2).sum() > (here ** 2).sum() and abs(step).max() > 1e-6:
+            step = 0.5 * step
+        at = at + step
+        if abs(step).max() < 1e-5:
+            break
+    c, m = numpy.exp(at)
+    errors = numpy.exp(at) * numpy.sqrt(numpy.diag(numpy.linalg.inv(slopes.T @ slopes)))
+    print(f"rho held: c {c:.3g} +- {errors[0]:.2g}, m {m:.3g} +- {errors[1]:.2g} (standard errors), chi2 {(misfit(at) ** 2).sum():.3g} of {len(rows)} bins")
+    strains = [0.002 * i for i in range(501)]
+    found = law_after_turn(c, m, math.atan(1 / c), strains, keeps_amount=False)
+    axes.plot(strains, [steady_shear * shear for shear, _ in found], "--", color=style.PARTICLES, label=f"linear law: c = {c:.3g}, m = {m:.3g}")
+    axes.plot(strains, [steady_shear * difference for _, difference in found], "--", color=style.CONTINUUM)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("picture")
     parser.add_argument("--histories", nargs="+", type=pathlib.Path, required=True)
-    parser.add_argument("--memory", nargs=3, type=float, metavar=("C", "M", "CHI_DEG"))
+    parser.add_argument("--memory", nargs=3, type=float, metavar=("C", "M", "CHI_DEG"), help="draws the law that keeps the amount of stress")
+    parser.add_argument("--fit", action="store_true", help="fits c and m of the law whose rho stays at its steady value to the shear stress, and draws it")
     parser.add_argument("--table", type=pathlib.Path)
     parser.add_argument("--title", default="")
     options = parser.parse_args()
@@ -171,6 +210,8 @@ def main():
         stress.plot(strains, [mu * shear for shear, _ in found], "-", color=style.PARTICLES, label=f"law: c = {c:g}, m = {m:g}, chi = {options.memory[2]:g} deg")
         stress.plot(strains, [mu * difference for _, difference in found], "-", color=style.CONTINUUM)
         stress.plot([0, 1], [mu, mu], "-", color="0.4", linewidth=0.8)
+    if options.fit:
+        draw_fit(stress, table, steady["shear"][0])
     dots(fabric, "fabric_shear", style.PARTICLES, "along the shear")
     dots(fabric, "fabric_difference", style.CONTINUUM, r"$(F_{xx} - F_{zz})/2$")
     for axes, title in ((stress, "stress over p"), (fabric, "fabric of the contacts")):
@@ -183,7 +224,7 @@ def main():
         print("  ".join(f"{key} {row[key]:.4g}" for key in ("strain", "shear", "difference", "amount", "fabric_shear", "fabric_difference", "nu")))
     print("steady: " + ", ".join(f"{key} {mean:.4g} +- {error:.2g}" for key, (mean, error) in steady.items()))
     if options.table:
-        write_table(options.table, table, steady)
+        write_table(options.table, table, steady, options.histories)
 
 
 if __name__ == "__main__":
