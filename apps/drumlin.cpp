@@ -21,6 +21,7 @@ struct Execute {
   int operator()(const apps::ImportOptions& options) const { return apps::import_foreign(options); }
   int operator()(const apps::PlotOptions& options) const { return apps::plot(options); }
   int operator()(const apps::ExportOptions& options) const { return apps::export_run(options); }
+  int operator()(const apps::HistoryOptions& options) const { return apps::history(options); }
   int operator()(const apps::CalibrateOptions& options) const { return apps::calibrate(options); }
   int operator()(const apps::FlowOptions& options) const { return apps::flow(options); }
   int operator()(const apps::CompareOptions& options) const { return apps::compare(options); }

@@ -36,6 +36,10 @@ class CommandLine {
     add_plot_options(add_command("plot", "Draws a run: grains, force chains, accuracy and cost", plot_),
                      plot_);
     add_export_options(add_command("export", "Writes a run in a format of other programs", export_), export_);
+    add_history_options(
+        add_command("history", "Stress and strain of a region and forces on walls, snapshot by snapshot",
+                    history_),
+        history_);
     add_calibrate_options(
         add_command("calibrate", "Fits mu(I), and k(I) on request, to measured runs", calibrate_),
         calibrate_);
@@ -147,6 +151,7 @@ class CommandLine {
   StudyOptions study_;
   PlotOptions plot_;
   ExportOptions export_;
+  HistoryOptions history_;
   CalibrateOptions calibrate_;
   FlowOptions flow_;
   CompareOptions compare_;

@@ -18,6 +18,7 @@ void add_measure_options(CLI::App& command, MeasureOptions& options, StudyOption
 void add_import_options(CLI::App& command, ImportOptions& options);
 void add_plot_options(CLI::App& command, PlotOptions& options);
 void add_export_options(CLI::App& command, ExportOptions& options);
+void add_history_options(CLI::App& command, HistoryOptions& options);
 void add_solve_contacts_options(CLI::App& command, SolveContactsOptions& options,
                                 const std::vector<std::string>& solvers);
 void add_hardcases_options(CLI::App& command, HardcasesOptions& options);

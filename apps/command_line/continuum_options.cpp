@@ -83,6 +83,9 @@ void add_compare_options(CLI::App& command, CompareOptions& options, CompareStud
                   "of rotation instead: slope, depth, decay length, which speed was calibrated and which "
                   "predicted")
       ->type_name("DIR...");
+  add_optional_path(command, "--limits", study.limits, "LIMITS.toml",
+                    "With --study: limits by which the flows are judged as well, by both registrations, with "
+                    "the noise floor between seeds (data/limits/bed.toml)");
 }
 
 }  // namespace drumlin::apps

@@ -92,6 +92,22 @@ void add_export_options(CLI::App& command, ExportOptions& options) {
   add_existing(command, options.existing, keep_what_is_done);
 }
 
+void add_history_options(CLI::App& command, HistoryOptions& options) {
+  add_folder_or_file(command, "run", options.run, "RUN", "Folder of a run, finished or not");
+  command
+      .add_option(
+          "--box", options.box,
+          "Region whose mean stress, fabric and strain are written, in d, in the axes of the scene; absent: "
+          "the walls alone")
+      ->delimiter(',')
+      ->type_name("X_MIN,X_MAX,Z_MIN,Z_MAX");
+  add_number(command, "--sectors", options.sectors, "", at_least(1, 10000),
+             "Sectors of a circular container in which its tractions are averaged");
+  add_optional_path(command, "-o,--output", options.output, "DIR",
+                    "Folder for the tables; standard: RUN/history");
+  add_existing(command, options.existing, keep_what_is_done);
+}
+
 void add_accept_options(CLI::App& command, AcceptOptions& options) {
   add_folder_or_file(command, "folder", options.folder, "DIR", "Result folder of any command");
   command.add_option("--reason", options.reason, "Why, in one line: it is told wherever the folder is read")

@@ -76,6 +76,16 @@ struct ExportOptions {
 };
 int export_run(const ExportOptions&);
 
+struct HistoryOptions {
+  std::filesystem::path run;
+  std::optional<std::filesystem::path> output;  ///< standard: RUN/history
+  std::vector<double> box;  ///< x_min, x_max, z_min, z_max in d, laboratory axes; empty: walls alone
+  int sectors = 36;         ///< of a circular container
+  ExistingOutput existing = ExistingOutput::refuse;
+};
+/// Stress, fabric and strain of a region and forces on walls, snapshot by snapshot.
+int history(const HistoryOptions&);
+
 struct CalibrateOptions {
   std::vector<std::filesystem::path> runs;
   std::vector<std::filesystem::path> validate;  ///< runs that the law is not fitted on but has to predict
@@ -119,7 +129,8 @@ struct CompareOptions {
 int compare(const CompareOptions&);
 
 struct CompareStudyOptions {
-  std::vector<std::filesystem::path> folders;  ///< measured runs and continuum flows, in any order
+  std::vector<std::filesystem::path> folders;   ///< measured runs and continuum flows, in any order
+  std::optional<std::filesystem::path> limits;  ///< limits by which each flow is judged beside; absent: none
   std::filesystem::path output;
   ExistingOutput existing = ExistingOutput::refuse;
 };

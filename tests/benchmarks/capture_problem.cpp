@@ -6,6 +6,7 @@
 // others, as it is posed to the solver, without its warm start.
 #include <fmt/format.h>
 
+#include "apps/support/program.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/documents/number_text.hpp"
 #include "particles/io/contact_problem_file.hpp"
@@ -26,24 +27,17 @@ void capture(const std::vector<std::string>& words) {
   for (int k = 0; k < steps && !simulation.finished(); ++k) (void)simulation.step();
   const auto problem = simulation.stepper().last_problem();
   if (!problem) throw InputError("a file cannot hold the contact problems of this scene");
-  write_contact_problem(words[3], *problem, fmt::format("{}: step {} of its flow", scene.title, steps));
+  write_contact_problem(words[3], *problem, simulation.last_places(),
+                        fmt::format("{}: step {} of its flow", scene.title, steps));
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 5) {
-    fmt::print(stderr, "usage: {} SCENE.toml SNAPSHOT.h5 STEPS PROBLEM.h5\n", argv[0]);
-    return static_cast<int>(ExitCode::wrong_input);
-  }
-  try {
+  return apps::run_program([&] {
+    if (argc != 5)
+      throw InputError(fmt::format("usage: {} SCENE.toml SNAPSHOT.h5 STEPS PROBLEM.h5", argv[0]));
     capture({argv + 1, argv + argc});
     return static_cast<int>(ExitCode::done);
-  } catch (const InputError& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return static_cast<int>(ExitCode::wrong_input);
-  } catch (const IoError& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return static_cast<int>(ExitCode::input_output);
-  }
+  });
 }

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "apps/support/json_file.hpp"
+#include "apps/support/program.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/common/machine_load.hpp"
 #include "coupling/documents/number_text.hpp"
@@ -223,20 +224,12 @@ void race(const std::vector<std::string>& words, const OtherEngine& other) {
 }  // namespace
 
 int race_drums(int argc, char** argv, const OtherEngine& other) {
-  if (argc < 4) {
-    fmt::print(stderr, "usage: {} SCENE.toml SNAPSHOT.h5 RESULT.json [NAME=VALUE ...]\n", argv[0]);
-    return static_cast<int>(ExitCode::wrong_input);
-  }
-  try {
+  return apps::run_program([&] {
+    if (argc < 4)
+      throw InputError(fmt::format("usage: {} SCENE.toml SNAPSHOT.h5 RESULT.json [NAME=VALUE ...]", argv[0]));
     race({argv + 1, argv + argc}, other);
     return static_cast<int>(ExitCode::done);
-  } catch (const InputError& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return static_cast<int>(ExitCode::wrong_input);
-  } catch (const IoError& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return static_cast<int>(ExitCode::input_output);
-  }
+  });
 }
 
 }  // namespace drumlin::benchmark

@@ -62,7 +62,7 @@ def main():
         print(f"{sum(map(len, refused.values()))} commands refused with exit code 2")
         shown = 0
         for words in ([], ["run"], ["measure"], ["calibrate"], ["flow"], ["compare"], ["scene"], ["solve-contacts"],
-                      ["plot"], ["export"]):
+                      ["plot"], ["export"], ["history"]):
             text, _ = drumlin(*words, "--help")
             require(len(text) > 100, f"{words} --help says too little")
             shown += 1

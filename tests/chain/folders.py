@@ -49,7 +49,7 @@ def missing_and_extra(drumlin, scene, run, folder):
         file = run / "snapshots" / name
         content = file.read_bytes()
         file.unlink()
-        for words in (["measure", run, "--overwrite"], ["plot", run], ["export", run, "--vtu"],
+        for words in (["measure", run, "--overwrite"], ["plot", run], ["export", run, "--vtu"], ["history", run],
                       ["compare", run, run, "-o", folder / "report", "--accept-unsteady"],
                       ["calibrate", run, "-o", folder / "law.toml", "--accept-unsteady"],
                       ["measure", "--study", run, "-o", folder / "study"],

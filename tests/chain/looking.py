@@ -223,7 +223,37 @@ def exports(drumlin, one_disc, periodic, folder):
     require("done already" in text, f"exported again: {text}")
 
 
-def refusals(drumlin, one_disc, none, folder):
+def histories(drumlin, one_disc, periodic, folder):
+    """Forces on the floor are those of the snapshot; a box as wide as the period gets a stress, a single disc in the air none."""
+    drumlin("history", periodic, "--box", "0,8.571,0,8")
+    head, rows = table_of(periodic / "history" / "walls.csv")
+    require(head[0] == "# drumlin-history-walls-1", head[0])
+    with h5py.File(periodic / "snapshots" / "000005.h5") as snapshot:
+        contacts = {name: values[:] for name, values in snapshot["contacts"].items()}
+        step = snapshot["time_step"][0]
+    on_walls = contacts["j"] < 0
+    normal, tangential = contacts["impulse_n"][on_walls] / step, contacts["impulse_t"][on_walls] / step
+    n_x, n_z = contacts["normal_x"][on_walls].astype(float), contacts["normal_z"][on_walls].astype(float)
+    floor = next(row for row in rows if row["snapshot"] == "5")
+    for key, force in (("force_x", normal * n_x + tangential * n_z), ("force_z", normal * n_z - tangential * n_x)):
+        require(math.isclose(float(floor[key]), -force.sum(), rel_tol=1e-9, abs_tol=1e-9), f"{key}: {floor[key]}, not {-force.sum()}")
+    _, rows = table_of(periodic / "history" / "region.csv")
+    require(len(rows) == 5 and float(rows[-1]["sigma_zz"]) > 0 and rows[0]["d_v_x_dz"] == "", f"region: {rows}")
+    drumlin("history", one_disc, "-o", folder / "history")
+    require(not (folder / "history" / "region.csv").exists(), "a region that nobody asked for")
+    text, _ = drumlin("history", one_disc, "-o", folder / "history", "--resume")
+    require("done already" in text, f"made again: {text}")
+
+
+def table_of(file):
+    """(lines that start with #, rows by column)"""
+    lines = file.read_text().splitlines()
+    head = [line for line in lines if line.startswith("#")]
+    names, *rows = [line.split(",") for line in lines[len(head):]]
+    return head, [dict(zip(names, row)) for row in rows]
+
+
+def refusals(drumlin, one_disc, periodic, none, folder):
     (folder / "no-run").mkdir()
     damaged = folder / "damaged"
     damaged.mkdir()
@@ -238,10 +268,12 @@ def refusals(drumlin, one_disc, none, folder):
                   ["export", one_disc], ["export", one_disc, "--vtu", "--snapshots", "2-3"],
                   ["export", one_disc, "--vtu", "--snapshots", "2-"], ["export", one_disc, "--vtu", "--snapshots", ""],
                   ["export", one_disc, "--vtu", "-o", one_disc, "--overwrite"],
+                  ["history", folder / "no-run"], ["history", none], ["history", damaged], ["history", one_disc, "--box", "0,1,2"],
+                  ["history", one_disc, "--box", "1,0,0,1"], ["history", one_disc, "--sectors", "0"], ["history", periodic, "--box", "0,9,0,8"],
                   ["plot", one_disc, "-o", one_disc], ["plot", one_disc, "-o", one_disc, "--overwrite"]):
         _, said = drumlin(*words, code=2)
         require(said.strip(), f"{words} was refused without a word")
-    left = [path for run in (one_disc, none, damaged) for path in (run / "plots", run / "vtu") if path.exists()]
+    left = [path for run in (one_disc, none, damaged) for path in (run / "plots", run / "vtu", run / "history") if path.exists()]
     require(not left, f"a refusal left {left}")
 
 
@@ -251,8 +283,9 @@ def main():
         folder = pathlib.Path(name)
         one_disc, periodic, none = (made_run(drumlin, folder, *run) for run in
                                     (("one", ONE_DISC), ("periodic", PERIODIC), ("none", NO_SNAPSHOTS)))
-        refusals(drumlin, one_disc, none, folder)
+        refusals(drumlin, one_disc, periodic, none, folder)
         exports(drumlin, one_disc, periodic, folder)
+        histories(drumlin, one_disc, periodic, folder)
         plots(drumlin, one_disc, periodic, none, folder)
     print("figures drawn, not blank; exported numbers are those of the snapshots; what cannot be done refused")
 

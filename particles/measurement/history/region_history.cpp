@@ -1,0 +1,187 @@
+#include "particles/measurement/history/region_history.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "coupling/common/errors.hpp"
+
+namespace drumlin::particles {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+double disc_area(double radius) { return std::numbers::pi * radius * radius; }
+
+/// Of the images of a grain in a periodic domain the one next to the middle of the box.
+double image_x(const Box& box, const Snapshot& snapshot, double x) {
+  if (!(snapshot.period_x > 0)) return x;
+  const double from = 0.5 * (box.x_min + box.x_max - snapshot.period_x);
+  return x - snapshot.period_x * std::floor((x - from) / snapshot.period_x);
+}
+
+/// A box as wide as the period has no sides.
+Box without_sides(Box box, const Snapshot& snapshot) {
+  if (snapshot.period_x > 0 && box.x_max - box.x_min > (1 - 1e-9) * snapshot.period_x) {
+    box.x_min = -std::numeric_limits<double>::infinity();
+    box.x_max = std::numeric_limits<double>::infinity();
+  }
+  return box;
+}
+
+void add_dyad(double a_x, double a_z, double b_x, double b_z, double weight, PlaneMatrix& sum) {
+  sum.xx += weight * a_x * b_x;
+  sum.xz += weight * a_x * b_z;
+  sum.zx += weight * a_z * b_x;
+  sum.zz += weight * a_z * b_z;
+}
+
+PlaneMatrix scaled(double factor, const PlaneMatrix& m) {
+  return {factor * m.xx, factor * m.xz, factor * m.zx, factor * m.zz};
+}
+
+/// Grains: number, nu, and the stress of what they move relative to their affine mean (or to their common
+/// velocity while that is not known).
+void add_grains(const Box& box, const Snapshot& s, RegionState& state) {
+  double mass = 0, momentum_x = 0, momentum_z = 0, first_x = 0, first_z = 0;
+  std::vector<std::size_t> inside;
+  for (std::size_t i = 0; i < s.x.size(); ++i) {
+    const double x = image_x(box, s, s.x[i]);
+    if (!box.holds(x, s.z[i])) continue;
+    inside.push_back(i);
+    const double area = disc_area(s.radius[i]);
+    mass += area;
+    momentum_x += area * s.v_x[i];
+    momentum_z += area * s.v_z[i];
+    first_x += area * x;
+    first_z += area * s.z[i];
+  }
+  state.grains = inside.size();
+  state.nu = mass / box.area();
+  if (inside.empty()) return;
+  const PlaneMatrix G = std::isnan(state.gradient.xx) ? PlaneMatrix{} : state.gradient;
+  for (const std::size_t i : inside) {
+    const double x = image_x(box, s, s.x[i]) - first_x / mass, z = s.z[i] - first_z / mass;
+    const double c_x = s.v_x[i] - momentum_x / mass - G.xx * x - G.xz * z;
+    const double c_z = s.v_z[i] - momentum_z / mass - G.zx * x - G.zz * z;
+    add_dyad(c_x, c_z, c_x, c_z, disc_area(s.radius[i]) / box.area(), state.kinetic);
+  }
+}
+
+/// Contacts: each half branch counts with the share of it that lies in the box.
+void add_contacts(const Box& box, const Snapshot& s, RegionState& state) {
+  const Box open = without_sides(box, s);
+  double ends = 0, fabric = 0;
+  for (const SnapshotContact& contact : s.contacts) {
+    const double n_x = contact.normal_x, n_z = contact.normal_z;
+    const double f_n = contact.impulse_n / s.time_step, f_t = contact.impulse_t / s.time_step;
+    const double f_x = f_n * n_x + f_t * n_z, f_z = f_n * n_z - f_t * n_x;
+    const auto half_branch = [&](std::int32_t grain, double side) {
+      const auto g = static_cast<std::size_t>(grain);
+      const double x = image_x(box, s, s.x[g]), z = s.z[g], r = side * s.radius[g];
+      add_dyad(side * f_x, side * f_z, r * n_x, r * n_z,
+               share_inside(open, x, z, -r * n_x, -r * n_z) / box.area(), state.pressure);
+      if (!box.holds(x, z)) return;
+      ends += 1;
+      if (contact.j < 0) return;
+      fabric += 1;
+      add_dyad(n_x, n_z, n_x, n_z, 1, state.fabric);
+    };
+    half_branch(contact.i, 1);
+    if (contact.j >= 0) half_branch(contact.j, -1);
+  }
+  state.coordination = state.grains > 0 ? ends / static_cast<double>(state.grains) : none;
+  state.fabric = fabric > 0 ? scaled(1 / fabric, state.fabric) : PlaneMatrix{none, none, none, none};
+}
+
+/// Sums for a least squares fit of a vector that is affine in the place.
+struct AffineFit {
+  double n = 0, x = 0, z = 0, xx = 0, xz = 0, zz = 0;
+  double d_x = 0, d_z = 0, d_x_x = 0, d_x_z = 0, d_z_x = 0, d_z_z = 0;
+
+  void add(double at_x, double at_z, double by_x, double by_z) {
+    n += 1;
+    x += at_x, z += at_z;
+    xx += at_x * at_x, xz += at_x * at_z, zz += at_z * at_z;
+    d_x += by_x, d_z += by_z;
+    d_x_x += by_x * at_x, d_x_z += by_x * at_z, d_z_x += by_z * at_x, d_z_z += by_z * at_z;
+  }
+  std::optional<PlaneMatrix> matrix() const {
+    if (n < 4) return std::nullopt;
+    const double s_xx = xx - x * x / n, s_xz = xz - x * z / n, s_zz = zz - z * z / n;
+    const double det = s_xx * s_zz - s_xz * s_xz;
+    if (!(det > 1e-12 * s_xx * s_zz)) return std::nullopt;
+    const auto row = [&](double d, double by_x, double by_z) {
+      const double c_x = by_x - d * x / n, c_z = by_z - d * z / n;
+      return std::pair((c_x * s_zz - c_z * s_xz) / det, (c_z * s_xx - c_x * s_xz) / det);
+    };
+    const auto [g_xx, g_xz] = row(d_x, d_x_x, d_x_z);
+    const auto [g_zx, g_zz] = row(d_z, d_z_x, d_z_z);
+    return PlaneMatrix{g_xx, g_xz, g_zx, g_zz};
+  }
+};
+
+}  // namespace
+
+double share_inside(const Box& box, double x, double z, double dx, double dz) {
+  double from = 0, to = 1;
+  const auto cut = [&](double start, double step, double low, double high) {
+    if (step == 0) {
+      if (start < low || start > high) to = from;
+      return;
+    }
+    const double a = (low - start) / step, b = (high - start) / step;
+    from = std::max(from, std::min(a, b));
+    to = std::min(to, std::max(a, b));
+  };
+  cut(x, dx, box.x_min, box.x_max);
+  cut(z, dz, box.z_min, box.z_max);
+  return std::max(0.0, to - from);
+}
+
+std::optional<PlaneMatrix> mean_gradient(const Box& box, const Snapshot& before, const Snapshot& now) {
+  if (before.x.size() != now.x.size() || !(now.time > before.time)) return std::nullopt;
+  AffineFit fit;
+  for (std::size_t i = 0; i < now.x.size(); ++i) {
+    const double by_x = now.x[i] - before.x[i], by_z = now.z[i] - before.z[i];
+    const double x = image_x(box, now, now.x[i] - 0.5 * by_x), z = now.z[i] - 0.5 * by_z;
+    if (box.holds(x, z)) fit.add(x, z, by_x, by_z);
+  }
+  const auto matrix = fit.matrix();
+  if (!matrix) return std::nullopt;
+  return scaled(1 / (now.time - before.time), *matrix);
+}
+
+const RegionState& RegionHistory::add(const Snapshot& snapshot) {
+  if (snapshot.period_x > 0 && box_.x_max - box_.x_min > (1 + 1e-9) * snapshot.period_x)
+    throw InputError(
+        fmt::format("a box {} d wide in a domain with a period of {} d (allowed: up to the period)",
+                    box_.x_max - box_.x_min, snapshot.period_x));
+  RegionState next;
+  next.time = snapshot.time;
+  next.strain = state_.strain;
+  next.gradient = {none, none, none, none};
+  if (before_)
+    if (const auto gradient = mean_gradient(box_, *before_, snapshot)) {
+      next.gradient = *gradient;
+      const double diagonal = gradient->xx - gradient->zz, shear = gradient->xz + gradient->zx;
+      next.strain += std::hypot(diagonal, shear) * (snapshot.time - before_->time);
+    }
+  add_grains(box_, snapshot, next);
+  if (snapshot.contacts_known) {
+    add_contacts(box_, snapshot, next);
+    next.pressure = {next.pressure.xx + next.kinetic.xx, next.pressure.xz + next.kinetic.xz,
+                     next.pressure.zx + next.kinetic.zx, next.pressure.zz + next.kinetic.zz};
+  } else {
+    next.pressure = next.fabric = {none, none, none, none};
+    next.coordination = none;
+  }
+  state_ = next;
+  before_ = snapshot;
+  return state_;
+}
+
+}  // namespace drumlin::particles

@@ -1,0 +1,55 @@
+#pragma once
+// Stress, fabric and strain of one region of a run, snapshot by snapshot: how material responds that does not
+// flow steadily (docs/formats/history.md).
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "coupling/exchange/plane_invariants.hpp"
+#include "particles/bodies/snapshot.hpp"
+
+namespace drumlin::particles {
+
+/// Part of the plane, laboratory axes, d.
+struct Box {
+  double x_min = 0, x_max = 0, z_min = 0, z_max = 0;
+  double area() const { return (x_max - x_min) * (z_max - z_min); }
+  bool holds(double x, double z) const { return x >= x_min && x < x_max && z >= z_min && z < z_max; }
+};
+
+/// Mean over a box at one instant, dimensionless, laboratory axes.
+struct RegionState {
+  double time = 0;
+  std::size_t grains = 0;   ///< with their centres in the box
+  double nu = 0;            ///< area of these grains over that of the box
+  double coordination = 0;  ///< loaded contacts per grain, those with walls included
+  PlaneMatrix pressure;  ///< stress of contacts and of the motion, compression positive; NaN without contacts
+  PlaneMatrix kinetic;   ///< the second part alone
+  PlaneMatrix fabric;    ///< mean of n_a n_b over the contacts between grains: trace 1
+  PlaneMatrix gradient;  ///< d v_a/d x_b since the snapshot before (xz: d_v_x_dz); NaN in the first one
+  double strain = 0;     ///< shear strain since the first snapshot: sum of 2 |D| times the time between
+};
+
+/// The share of a straight line from (x, z) to (x + dx, z + dz) that lies in the box, 0 to 1.
+double share_inside(const Box& box, double x, double z, double dx, double dz);
+
+/// Affine part of the motion from one snapshot to the next of the grains that are in the box half-way: the
+/// matrix of the least squares fit of displacement over the place half-way, divided by the time. The place
+/// half-way makes the symmetric part of a rigid turn, however large, nought to rounding. Nothing with fewer
+/// than four grains, or when the snapshots have not the same number of them.
+std::optional<PlaneMatrix> mean_gradient(const Box& box, const Snapshot& before, const Snapshot& now);
+
+/// One state after the other; the snapshot before is kept for the displacements.
+class RegionHistory {
+ public:
+  explicit RegionHistory(const Box& box) : box_(box) {}
+  /// Throws InputError where the box is wider than the period.
+  const RegionState& add(const Snapshot& snapshot);
+
+ private:
+  Box box_;
+  std::optional<Snapshot> before_;
+  RegionState state_;
+};
+
+}  // namespace drumlin::particles
