@@ -140,6 +140,7 @@ inline PointReport point_report(const FlowProblem& problem, const Setting& setti
               viscosity_of(s), margin(s),      ratio,
               axis_angle(s),   across_of(s),   held.fluidity.empty() ? 1 : held.fluidity[point]};
   });
+  if (!held.memory.empty()) report.memory = held.memory[point];
   return report;
 }
 
