@@ -228,7 +228,7 @@ FinishedFlow finished_flow(const FlowOptions& options, const FlowRequest& asked,
   if (scene.solver.sensitivity && !scene.time)
     flow.sensitivities = continuum::sensitivities_of(asked.flow_case, flow.solution, flow.meshes,
                                                      continuum::solver_options(scene));
-  if (options.law_draws > 0 && !asked.law.draws.empty() && !scene.time)
+  if (options.law_draws > 0 && !asked.law.draws.empty() && !scene.time && !scene.effects.memory)
     flow.law_band = continuum::law_band_of(asked.flow_case, flow.solution, asked.law, options.law_draws,
                                            scene.output.map_spacing, continuum::solver_options(scene));
   flow.findings = continuum::findings_of(asked.flow_case, flow.solution.field);

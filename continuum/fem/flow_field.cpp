@@ -19,6 +19,8 @@ namespace {
 using dealii::FEValuesExtractors::Scalar;
 using dealii::FEValuesExtractors::Vector;
 
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
 // Values at the points of one FEValues, in the order of its points.
 struct Values {
   std::vector<dealii::Tensor<1, 2>> velocity;
@@ -55,12 +57,15 @@ PointState point_state(const fem::PointReport& s, const dealii::Tensor<1, 2>& u,
           .axis_angle = s.angle,
           .fluidity_factor = s.fluidity,
           .viscosity = s.viscosity,
+          .memory_xx = s.memory ? s.memory->xx : nan,
+          .memory_xz = s.memory ? s.memory->xz : nan,
+          .memory_rho = s.memory ? s.memory->rho : nan,
           .well_posedness = s.margin};
 }
 
 PointState outside() {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  return {{nan, nan}, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan};
+  return {{nan, nan}, nan, nan, nan, nan, nan, nan, nan, nan, nan,
+          nan,        nan, nan, nan, nan, nan, nan, nan, nan, nan};
 }
 
 // Force, power and torque of the sides with a given velocity, from the residual in their unknowns.
@@ -138,6 +143,7 @@ FlowField::FlowField(std::shared_ptr<const fem::SolvedLevel> level) : level_(std
 double FlowField::theta() const { return level_->state.theta; }
 const std::optional<SurfaceShape>& FlowField::surface() const { return level_->discretisation->surface; }
 int FlowField::unknowns() const { return static_cast<int>(level_->discretisation->unknowns.n_dofs()); }
+bool FlowField::remembers() const { return level_->problem.memory.has_value(); }
 bool FlowField::on_first_rank() const {
   return dealii::Utilities::MPI::this_mpi_process(level_->discretisation->mesh.get_communicator()) == 0;
 }

@@ -31,6 +31,7 @@ struct PointState {
   double axis_angle = 0;       ///< from the axes of D to those of the stress, rad
   double fluidity_factor = 1;  ///< g_loc/g with nonlocal fluidity; 1 without
   double viscosity = 0;
+  double memory_xx = 0, memory_xz = 0, memory_rho = 0;  ///< A and rho with memory of the axes; NaN without
   double well_posedness = 0;  ///< margin (coupling/law/well_posedness.hpp), negative: ill-posed
 };
 
@@ -60,6 +61,7 @@ class FlowField {
   const std::optional<SurfaceShape>& surface() const;
   int unknowns() const;
   int cells() const;
+  bool remembers() const;      ///< memory of the axes
   bool on_first_rank() const;  ///< the one that writes files and messages
   std::vector<PointState> at(std::span<const Vec2> points) const;
   /// For another solve to start from (solve_flow_from).

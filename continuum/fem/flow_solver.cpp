@@ -160,14 +160,34 @@ class Continuation {
     if (!is_last(mesh)) here.tolerance = std::max(options_.tolerance, options_.coarse_tolerance);
     Newton newton(problem_, here, discretisation(), mesh, begun_, clock_, report_, observer_);
     level_->state.held = nullptr;
+    if (problem_.memory && start != "cold" && solve_remembering(newton, start, here))
+      return !problem_.moving_surface || move_surface(mesh, here);
     if (!(start == "cold" ? solve_cold(newton, here, *level_) : solve_from(start, newton, here, *level_)))
       return false;
     if (fem::holds_fields(problem_)) {
-      if (observer_.solved_plain && is_last(mesh))
+      if (observer_.solved_plain && is_last(mesh) && !problem_.memory)
         clock_(Work::evaluation, [&] { observer_.solved_plain(field_of(level_)); });
       if (!solve_held_fields(newton, here, *level_, report_)) return false;
     }
     return !problem_.moving_surface || move_surface(mesh, here);
+  }
+
+  // From a flow nearby what the material remembers is at hand: it follows from that flow. The state is as it
+  // was where that fails.
+  bool solve_remembering(Newton& newton, const std::string& start, const FlowSolverOptions& here) {
+    const State before = level_->state;
+    level_->setting = final_setting(problem_);
+    if (problem_.inertia) level_->setting.inertia = fem::InertiaSetting{};
+    try {
+      level_->state.held =
+          fem::held_from(problem_, discretisation(), before, {.linear_tolerance = here.linear_tolerance});
+      if (solve_from(start, newton, here, *level_) && solve_held_fields(newton, here, *level_, report_))
+        return true;
+    } catch (const NotConvergedError& error) {
+      report_.failure = error.what();
+    }
+    level_->state = before;
+    return false;
   }
 
   bool move_surface(int mesh, const FlowSolverOptions& here) {

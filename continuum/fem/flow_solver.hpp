@@ -35,7 +35,7 @@ struct FlowSolverOptions {
 /// One nonlinear iteration.
 struct IterationReport {
   int level = 0;
-  std::string phase;      ///< "newtonian", "law", "shear rate", "refined", "neighbour", "k", "nonlocal"
+  std::string phase;  ///< "newtonian", "law", "shear rate", "refined", "neighbour", "k", "nonlocal", "memory"
   double shear_rate = 0;  ///< eps of the phase
   int iteration = 0;      ///< within the phase
   double residual = 0;    ///< ||R||/||weight||, after the step
@@ -86,7 +86,8 @@ struct FlowObserver {
   std::function<void(int level, const FlowField&)> level_finished;  ///< also for the last level
   std::function<void(const SurfaceStepReport&)> surface_step;       ///< of a surface that moves
   std::function<bool()> interrupted;                                ///< asked between iterations
-  /// Where the law takes fields from the flow (k, nonlocal fluidity): the flow on the last mesh without them.
+  /// Where the law takes fields from the flow (k, nonlocal fluidity), and remembers nothing: the flow on the
+  /// last mesh without them.
   std::function<void(const FlowField&)> solved_plain;
 };
 
@@ -97,10 +98,11 @@ struct FlowSolution {
 
 /// Newtonian start, the law at a large eps, then eps downwards; on a finer mesh the coarser solution. With k
 /// or nonlocal fluidity the flow without them comes first on each mesh; then Picard updates alternate between
-/// the fields that the law takes from the flow and the flow with them, until nothing changes. Newton's
-/// tangent is primal-dual, its step length found on the slope R(u + alpha du).du. Throws NotConvergedError
-/// for a slope that admits no steady flow (no_steady_state); a Newton iteration that does not converge, or a
-/// linear solve that misses its tolerance, is in the report.
+/// the fields that the law takes from the flow and the flow with them, until nothing changes. With memory of
+/// the axes that is so on the first mesh alone; on finer ones and from a neighbour the memory follows from
+/// the flow at hand. Newton's tangent is primal-dual, its step length found on the slope R(u + alpha du).du.
+/// Throws NotConvergedError for a slope that admits no steady flow (no_steady_state); a Newton iteration that
+/// does not converge, or a linear solve that misses its tolerance, is in the report.
 [[nodiscard]] FlowSolution solve_flow(const FlowProblem& problem, const FlowSolverOptions& options = {},
                                       const FlowObserver& observer = {});
 

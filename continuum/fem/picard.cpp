@@ -10,6 +10,9 @@
 namespace drumlin::continuum::fem {
 namespace {
 
+constexpr int memory_rise = 4;             // Picard updates
+constexpr double update_tolerance = 1e-6;  // of the residual, between updates of the memory
+
 // Relative change of the velocity, or of the slope where that is larger.
 double change_between(const Discretisation& d, const State& before, const State& after) {
   double change = 0, size = 0;
@@ -23,7 +26,10 @@ double change_between(const Discretisation& d, const State& before, const State&
   return std::max(std::sqrt(d.sum(change) / d.sum(size)), tilt > 0 ? tilt / std::abs(after.theta) : 0);
 }
 
-std::string phase_name(const FlowProblem& problem) { return problem.turned ? "k" : "nonlocal"; }
+std::string phase_name(const FlowProblem& problem) {
+  if (problem.memory) return "memory";
+  return problem.turned ? "k" : "nonlocal";
+}
 
 // The first solve starts at a larger eps: with k the stress jumps by up to (k - 1)/(2 mu) of itself.
 bool enter(Newton& newton, const FlowSolverOptions& options, const Setting& last, SolvedLevel& level) {
@@ -61,27 +67,40 @@ bool lower_shear_rate(Newton& newton, const FlowSolverOptions& options, double t
 bool solve_held_fields(Newton& newton, const FlowSolverOptions& options, SolvedLevel& level,
                        FlowReport& report) {
   const Setting last = level.setting;
-  const bool enters = !level.state.held;
+  const bool enters = !level.state.held, remembers = level.problem.memory.has_value();
+  // The weight of the memory rises over the first updates; between updates Newton's method goes as far as
+  // they need.
+  const int rise = enters && remembers ? memory_rise : 1;
+  const double tolerance = remembers ? std::max(options.tolerance, update_tolerance) : options.tolerance;
+  MemoryMixing mixing;
   double share = 1, last_change = INFINITY;
   for (report.picard_updates = 1; report.picard_updates <= options.max_picard_updates;
        ++report.picard_updates) {
-    const bool first = enters && report.picard_updates == 1;
+    const bool first = enters && report.picard_updates == 1, rises = report.picard_updates <= rise;
     const State before = level.state;
+    if (rises) mixing.forget();
     try {
-      level.state.held = held_from(level.problem, *level.discretisation, before,
-                                   {.share = share, .linear_tolerance = options.linear_tolerance});
+      level.state.held =
+          held_from(level.problem, *level.discretisation, before,
+                    {.share = share,
+                     .memory_share = rises ? static_cast<double>(report.picard_updates) / rise : 1,
+                     .mixing = remembers ? &mixing : nullptr,
+                     .linear_tolerance = options.linear_tolerance});
     } catch (const NotConvergedError& error) {
       report.failure = error.what();
       return false;
     }
     if (!(first ? enter(newton, options, last, level)
-                : run(newton, {phase_name(level.problem), last, options.tolerance}, level)))
+                : run(newton, {phase_name(level.problem), last, tolerance}, level)))
       return false;
-    report.picard_change = change_between(*level.discretisation, before, level.state) / share;
-    if (!first && report.picard_change <= options.picard_tolerance) return true;
+    report.picard_change = change_between(*level.discretisation, before, level.state) /
+                           (remembers ? MemoryMixing::share : share);
+    if (!first && (!rises || rise == 1) && report.picard_change <= options.picard_tolerance)
+      return tolerance == options.tolerance ||
+             run(newton, {phase_name(level.problem), last, options.tolerance}, level);
     // Smaller updates where whole ones do not converge: the turn of the axes depends on derivatives of
     // D, the stress on the turn, so that an update may overshoot, the more the finer the mesh.
-    if (report.picard_change > 0.8 * last_change) share = std::max(0.5 * share, 1.0 / 16);
+    if (!remembers && report.picard_change > 0.8 * last_change) share = std::max(0.5 * share, 1.0 / 16);
     last_change = report.picard_change;
   }
   report.failure = fmt::format(

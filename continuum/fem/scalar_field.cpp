@@ -25,22 +25,23 @@ dealii::AffineConstraints<double> conforming_lines(const FlowProblem& problem, c
 }
 
 std::vector<double> values_at(const ScalarField& field, const MeshCell& cell,
-                              const std::vector<dealii::Point<2>>& unit_points) {
+                              const std::vector<dealii::Point<2>>& unit_points, unsigned int component) {
   std::vector<dealii::types::global_dof_index> indices(field.element->n_dofs_per_cell());
   on(field.places, cell)->get_dof_indices(indices);
   std::vector<double> values(unit_points.size());
   for (std::size_t q = 0; q < values.size(); ++q)
     for (unsigned int i = 0; i < indices.size(); ++i)
-      values[q] += field.values[indices[i]] * field.element->shape_value(i, unit_points[q]);
+      values[q] +=
+          field.values[indices[i]] * field.element->shape_value_component(i, unit_points[q], component);
   return values;
 }
 
-std::vector<double> at_quadrature(const ScalarField& field, const Discretisation& d) {
+std::vector<double> at_quadrature(const ScalarField& field, const Discretisation& d, unsigned int component) {
   std::vector<double> all;
   all.reserve(d.mesh.n_locally_owned_active_cells() * d.quadrature.size());
   for (const auto& cell : d.unknowns.active_cell_iterators()) {
     if (!cell->is_locally_owned()) continue;
-    const auto values = values_at(field, cell, d.quadrature.get_points());
+    const auto values = values_at(field, cell, d.quadrature.get_points(), component);
     all.insert(all.end(), values.begin(), values.end());
   }
   return all;

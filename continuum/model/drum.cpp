@@ -57,6 +57,7 @@ int resolved_degree(double half_width, double cell) {
 void add_effects_of_the_drum(const FlowScene& scene, const DrumGeometry& drum, FlowProblem& problem) {
   const FlowEffects& effects = scene.effects;
   if (effects.rotating_frame) problem.frame = RotatingFrame{drum.rotation, drum.axis_offset};
+  if (problem.memory) problem.memory->turn = drum.rotation < 0 ? -1 : 1;
   if (const auto& moving = effects.moving_surface)
     problem.moving_surface = MovingSurface{
         .degree =

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "continuum/rheology/tensor_law.hpp"
+#include "coupling/law/memory_law.hpp"
 #include "coupling/law/stress_ratio.hpp"
 
 namespace drumlin::continuum {
@@ -124,6 +125,17 @@ struct NonlocalFluidity {
   double length = 0;  ///< d
 };
 
+/// Effect: the material carries the axes of its past strain along, and they share in those of its stress
+/// (continuum/rheology/memory_stress.hpp); in place of the problem's law its own mu(I) says how much.
+struct AxesMemory {
+  explicit AxesMemory(const MemoryLaw& of) : law(of), friction(memory_friction(of)) {}
+  MemoryLaw law;
+  TabulatedLaw friction;
+  /// t: the side to which the material turns through its axes of strain, 1 in the sense of dv_x/dz (in a drum
+  /// the sign of its rotation) or -1: the same for every observer.
+  double turn = 1;
+};
+
 /// Effect: the surface (the side with the NormalSpring) goes where nothing presses on it; its shape is
 /// continuum/model/surface_shape.hpp, its area above z = 0 nought. With the slope from the moment, x is along
 /// the middle of the surface: the line fitted to it over |x| < slope_half_length.
@@ -145,8 +157,9 @@ struct FlowProblem {
   /// Absent: mu is that of the local I. The law has to determine a fluidity at any stress
   /// (continuum/rheology/nonlocal_law.hpp).
   std::optional<NonlocalFluidity> nonlocal;
-  Regularisation regularisation;  ///< what the last phase reaches
-  double density = 0;             ///< nu; the weight is density (sin theta, -cos theta)
+  std::optional<AxesMemory> memory;  ///< absent: the stress has the axes that D and k give it; not with k
+  Regularisation regularisation;     ///< what the last phase reaches
+  double density = 0;                ///< nu; the weight is density (sin theta, -cos theta)
   Slope slope;
   std::function<Vec2(Vec2)> extra_force;  ///< added to the weight; empty: absent
   /// mu that statics alone asks for somewhere, where that is not the tan of a given slope.

@@ -132,6 +132,8 @@ void describe(Visitor& v, FlowFabric& f) {
           required("", above(0, 1e6), "Share of its fabric that the material renews per unit of shear."));
 }
 template <class Visitor>
+void describe(Visitor&, FlowMemory&) {}
+template <class Visitor>
 void describe(Visitor& v, FlowNonlocal& n) {
   v.value("length", n.length,
           required("d", above(0, 1000), "Length over which fluidity spreads beyond its place."));
@@ -156,6 +158,8 @@ void describe(Visitor& v, FlowEffects& e) {
   v.optional_table("wall_slip", e.wall_slip, "The material slides along the wall under Coulomb's law.");
   v.optional_table("fabric", e.fabric,
                    "The material carries its k along and renews it by shear; the law has to have k.");
+  v.optional_table("memory", e.memory,
+                   "The axes of the stress remember past strain, as the law's table [memory] says.");
   v.optional_table("nonlocal", e.nonlocal,
                    "Fluidity spreads: g - length^2 lap g = g_loc; the law has to yield at any stress.");
   v.optional_table("moving_surface", e.moving_surface,
@@ -229,8 +233,13 @@ void check_drum(const Document& document, FlowScene& scene, std::vector<InputPro
   };
   refuse_in_time(scene.effects.rotating_frame.has_value(), "effects.rotating_frame");
   refuse_in_time(scene.effects.fabric.has_value(), "effects.fabric");
+  refuse_in_time(scene.effects.memory.has_value(), "effects.memory");
   refuse_in_time(scene.effects.nonlocal.has_value(), "effects.nonlocal");
   refuse_in_time(scene.effects.moving_surface.has_value(), "effects.moving_surface");
+  if (scene.effects.memory && scene.effects.fabric)
+    problems.push_back(problem_at(document, "effects.fabric",
+                                  "turns the axes of the stress, and so does their memory",
+                                  "absent with effects.memory"));
   if (scene.effects.moving_surface && drum.slope_deg)
     problems.push_back(problem_at(document, "drum.slope_deg",
                                   "leaves the axes where a surface that moves turns itself",
@@ -251,6 +260,7 @@ void refuse_keys_of_the_drum(const Document& document, const FlowScene& scene,
   if (scene.effects.wall_slip) refuse("effects.wall_slip");
   if (scene.time) refuse("time");
   if (scene.effects.fabric) refuse("effects.fabric");
+  if (scene.effects.memory) refuse("effects.memory");
   if (scene.effects.nonlocal) refuse("effects.nonlocal");
   if (scene.effects.moving_surface) refuse("effects.moving_surface");
   if (scene.output.slice_width) refuse("output.slice_width");

@@ -83,6 +83,8 @@ struct FlowWallSlip {
 struct FlowFabric {
   double relaxation = 0;  ///< c: the share of its fabric that the material renews per unit of shear
 };
+/// Takes no key: the law says all.
+struct FlowMemory {};
 struct FlowNonlocal {
   double length = 0;  ///< d
 };
@@ -97,6 +99,7 @@ struct FlowEffects {
   std::optional<FlowRotatingFrame> rotating_frame;
   std::optional<FlowWallSlip> wall_slip;
   std::optional<FlowFabric> fabric;
+  std::optional<FlowMemory> memory;
   std::optional<FlowNonlocal> nonlocal;
   std::optional<FlowMovingSurface> moving_surface;
 };

@@ -13,7 +13,17 @@ void check_law(const FlowEffects& effects, const RheologyFit& law, const StressL
                         .key = "effects.fabric",
                         .what = "carries k along with the material, and the law has no k",
                         .allowed = "a rheology file with a table [k]"});
-  if (effects.nonlocal && !tells_fluidity(mu))
+  if (effects.memory && !law.memory)
+    problems.push_back({.file = "",
+                        .key = "effects.memory",
+                        .what = "carries the axes of past strain along, and the law has no table [memory]",
+                        .allowed = "a rheology file with a table [memory]"});
+  if (effects.memory && law.k)
+    problems.push_back({.file = "",
+                        .key = "effects.memory",
+                        .what = "turns the axes of the stress, and so does the k of the law",
+                        .allowed = "a rheology file without a table [k]"});
+  if (effects.nonlocal && !effects.memory && !tells_fluidity(mu))
     problems.push_back(
         {.file = "",
          .key = "effects.nonlocal",
@@ -32,6 +42,7 @@ void add_law_and_effects(const FlowScene& scene, const RheologyFit& law, FlowPro
   if (law.k) problem.turned = TurnedStress{.k = StressRatioLaw(law.k->I, law.k->k)};
   if (effects.fabric) problem.turned->fabric = CarriedFabric{effects.fabric->relaxation};
   if (effects.nonlocal) problem.nonlocal = NonlocalFluidity{effects.nonlocal->length};
+  if (effects.memory) problem.memory.emplace(*law.memory);
   if (effects.inertia) problem.inertia = Inertia{};
 }
 

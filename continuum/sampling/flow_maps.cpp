@@ -104,6 +104,10 @@ FieldMap flow_map(const FlowField& field, const MapArea& area, double spacing) {
   map.header = area.header;
   for (const char* name : names)
     map.fields.push_back({name, std::vector<double>(map.grid.nodes(), none), {}});
+  constexpr std::array of_memory = {"memory_xx", "memory_xz", "memory_rho"};
+  if (field.remembers())
+    for (const char* name : of_memory)
+      map.fields.push_back({name, std::vector<double>(map.grid.nodes(), none), {}});
   std::vector<std::size_t> nodes;
   std::vector<Vec2> points, places;  // in the map, in the domain
   for (std::size_t node = 0; node < map.grid.nodes(); ++node) {
@@ -118,6 +122,9 @@ FieldMap flow_map(const FlowField& field, const MapArea& area, double spacing) {
     if (!std::isfinite(states[i].pressure)) continue;  // between the domain and its quadratic cells
     const Values values = values_at(states[i], points[i], area);
     for (std::size_t f = 0; f < names.size(); ++f) map.fields[f].value[nodes[i]] = values[f];
+    const std::array memory = {states[i].memory_xx, states[i].memory_xz, states[i].memory_rho};
+    for (std::size_t f = names.size(); f < map.fields.size(); ++f)
+      map.fields[f].value[nodes[i]] = memory[f - names.size()];
   }
   return map;
 }

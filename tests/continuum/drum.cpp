@@ -67,6 +67,7 @@ TEST(DrumProblem, HoldsAllThatTheSceneAndTheLawName) {
                               .rotating_frame = FlowRotatingFrame{},
                               .wall_slip = FlowWallSlip{.friction = 0.4, .slip_speed = 2e-4},
                               .fabric = FlowFabric{.relaxation = 3},
+                              .memory = {},
                               .nonlocal = FlowNonlocal{.length = 1.5},
                               .moving_surface = FlowMovingSurface{.degree = 12, .tolerance = 0.02}};
   RheologyFit law = paper_law();
@@ -96,7 +97,7 @@ TEST(DrumProblem, HoldsNoEffectThatNobodyNames) {
   FlowScene scene = paper_scene();
   scene.effects = {};
   const FlowProblem problem = drum_problem(scene, paper_law());
-  EXPECT_FALSE(problem.turned || problem.nonlocal || problem.inertia || problem.frame ||
+  EXPECT_FALSE(problem.turned || problem.nonlocal || problem.memory || problem.inertia || problem.frame ||
                problem.moving_surface || problem.extra_force);
 }
 
@@ -115,6 +116,29 @@ TEST(DrumProblem, RefusesEffectsThatTheLawDoesNotAllow) {
     EXPECT_EQ(error.problems()[0].key, "effects.fabric");
     EXPECT_EQ(error.problems()[1].key, "effects.nonlocal");
   }
+}
+
+TEST(DrumProblem, TakesTheMemoryOfItsLawAndRefusesItWithoutOneAndWithK) {
+  FlowScene scene = paper_scene();
+  scene.effects = {};
+  scene.effects.memory = FlowMemory{};
+  const auto refused = [&](const RheologyFit& law) {
+    try {
+      (void)drum_problem(scene, law);
+    } catch (const InputError& error) {
+      return error.problems().front().key + " " + error.problems().front().what;
+    }
+    return std::string();
+  };
+  RheologyFit law = paper_law();
+  EXPECT_NE(refused(law).find("effects.memory carries"), std::string::npos);
+  law.memory = MemoryLaw{.c = 6, .m = 1, .chi_deg = 20, .c_rho = 100, .mu = {{1e-5, 1}, {0.2, 0.35}}};
+  const FlowProblem problem = drum_problem(scene, law);
+  ASSERT_TRUE(problem.memory);
+  EXPECT_EQ(problem.memory->turn, 1);
+  EXPECT_EQ(problem.memory->law.c, 6);
+  law.k = NormalStressRatio{.I = {1e-3, 1e-1}, .k = {0.95, 1}};
+  EXPECT_NE(refused(law).find("effects.memory turns"), std::string::npos);
 }
 
 TEST(NoSteadyState, IsSaidOfASlopeThatTheLawCannotCarry) {

@@ -105,10 +105,13 @@ TEST(AbsentEffects, LeaveNoUnknownNoEntryAndNoArray) {
   FlowProblem carried = turned;
   carried.turned->fabric = CarriedFabric{1};
   spread.nonlocal = NonlocalFluidity{1};
+  FlowProblem remembering = small_drum_problem();
+  remembering.memory.emplace(
+      MemoryLaw{.c = 6, .m = 0.9, .chi_deg = 20, .c_rho = 100, .mu = {{1e-6, 1}, {0.17, 0.35}}});
   moving.inertia = Inertia{};
   seen.frame = RotatingFrame{drum.rotation, drum.axis_offset};
   // Nor do these add any: their terms stand within the same entries, what is held lies beside the matrix.
-  for (const FlowProblem& problem : {turned, carried, spread, moving, seen})
+  for (const FlowProblem& problem : {turned, carried, spread, remembering, moving, seen})
     EXPECT_EQ(system_of(converged(problem, one_mesh())), system_of(plain));
   const auto held = [](const FlowProblem& problem) {
     return converged(problem, one_mesh()).level().state.held;
@@ -119,6 +122,10 @@ TEST(AbsentEffects, LeaveNoUnknownNoEntryAndNoArray) {
   EXPECT_TRUE(held(carried)->beta);
   EXPECT_TRUE(held(spread)->ln_fluidity);
   EXPECT_FALSE(held(spread)->turning);
+  EXPECT_FALSE(held(spread)->axes);
+  EXPECT_TRUE(held(remembering)->axes);
+  EXPECT_TRUE(held(remembering)->rho);
+  EXPECT_FALSE(held(remembering)->beta);
   EXPECT_TRUE(converged(moving, one_mesh()).level().setting.inertia);
 }
 

@@ -93,6 +93,11 @@ TEST(FlowScene, MarchesOnlyWhereItSaysHow) {
   EXPECT_THROW(parse_flow_scene(march + "[effects.rotating_frame]\n", "test"), InputError);
   EXPECT_THROW(parse_flow_scene(smallest + "[time]\nsteps = 20\n", "test"), InputError);
   EXPECT_THROW(parse_flow_scene(march + "[effects.fabric]\nrelaxation = 2\n", "test"), InputError);
+  EXPECT_THROW(parse_flow_scene(march + "[effects.memory]\n", "test"), InputError);
+  EXPECT_TRUE(parse_flow_scene(smallest + "[effects.memory]\n", "test").effects.memory);
+  EXPECT_FALSE(parse_flow_scene(smallest, "test").effects.memory);
+  EXPECT_THROW(parse_flow_scene(smallest + "[effects.memory]\n[effects.fabric]\nrelaxation = 1\n", "test"),
+               InputError);
   EXPECT_THROW(parse_flow_scene(march + "[effects.nonlocal]\nlength = 2\n", "test"), InputError);
 }
 

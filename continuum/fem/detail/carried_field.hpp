@@ -29,4 +29,22 @@ struct CarriedField {
 CarriedField carried_by_flow(const FlowProblem& problem, const Discretisation& d, const FieldVector& solution,
                              const Relaxation& relaxation, double linear_tolerance);
 
+/// Per quadrature point of this rank's cells.
+struct AxesRelaxation {
+  std::span<const double> rate;                  ///< > 0, 1/sqrt(d/g)
+  std::span<const double> target_xx, target_xz;  ///< of a traceless tensor, magnitude at most one
+};
+
+/// Draws A, two components as below, in each cell towards its mean until |A| <= 1: at every node of the cell,
+/// and so everywhere in it.
+void bring_into_unit_disc(const Discretisation& d, ScalarField& field);
+
+/// A traceless tensor A (components xx and xz of the field) that the material turns with itself and renews,
+/// v.grad A + 2 i W A = rate (target - A) for A as the complex number xx + i xz: as carried_by_flow, the two
+/// components in one system, velocity and spin W those of the laboratory. In each cell A is drawn towards its
+/// mean until |A| <= 1, a magnitude that no turn of the axes changes.
+std::shared_ptr<ScalarField> axes_carried_by_flow(const FlowProblem& problem, const Discretisation& d,
+                                                  const FieldVector& solution,
+                                                  const AxesRelaxation& relaxation, double linear_tolerance);
+
 }  // namespace drumlin::continuum::fem

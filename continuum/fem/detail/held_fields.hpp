@@ -1,23 +1,52 @@
 #pragma once
 // Fields that the law takes from the flow beyond D and p, held while Newton's method runs: each is absent
 // unless its effect is there. Private to fem/.
+#include <deque>
+#include <span>
+
 #include "continuum/fem/detail/scalar_field.hpp"
 #include "continuum/fem/detail/turning.hpp"
+#include "continuum/rheology/memory_stress.hpp"
 
 namespace drumlin::continuum::fem {
 
 /// One number per point; empty without the effect.
 struct HeldValues {
-  std::vector<double> turn;      ///< s sgn(W - Omega_D), with k
-  std::vector<double> beta;      ///< of the fabric that the material carries
-  std::vector<double> fluidity;  ///< g_loc/g, with nonlocal fluidity
+  std::vector<double> turn;        ///< s sgn(W - Omega_D), with k
+  std::vector<double> beta;        ///< of the fabric that the material carries
+  std::vector<double> fluidity;    ///< g_loc/g, with nonlocal fluidity
+  std::vector<Remembered> memory;  ///< A and rho, with memory of the axes
+  double memory_weight = 0;        ///< m, less while it rises
 };
 
 struct HeldFields {
   std::shared_ptr<const Turning> turning;
   std::shared_ptr<const ScalarField> beta;
   std::shared_ptr<const ScalarField> ln_fluidity;  ///< ln(g_loc/g)
-  HeldValues at_quadrature;                        ///< per quadrature point of this rank's cells
+  std::shared_ptr<const ScalarField> axes;         ///< A: components xx and xz
+  std::shared_ptr<const ScalarField> rho;
+  HeldValues at_quadrature;  ///< per quadrature point of this rank's cells
+};
+
+/// Anderson's mixing of the memory from one Picard update to the next (J. ACM 12 (1965) 547): the memory that
+/// comes out of a flow against the one that went into it, as what was seen in the last updates says. Half of
+/// the stress is memory, so that whole updates would swing.
+class MemoryMixing {
+ public:
+  static constexpr double share = 0.6;  ///< of the new memory that is taken where nothing was seen yet
+  /// The fields that come next, in place of those that came out. Nothing is mixed where `before` holds no
+  /// memory.
+  void mix(const Discretisation& d, const HeldFields* before, ScalarField& axes, ScalarField& rho);
+  void forget() { seen_.clear(); }
+
+ private:
+  struct Pair {
+    FieldVector axes, rho;
+  };
+  struct Update {
+    Pair went_in, change;
+  };
+  std::deque<Update> seen_;
 };
 
 /// At points of one cell, given by their places in the reference cell.
@@ -27,11 +56,15 @@ HeldValues held_at(const HeldFields& held, const Discretisation& d, const MeshCe
 struct State;
 
 struct HeldUpdate {
-  double share = 1;  ///< of the new fields; the rest is what `state` held
+  double share = 1;                ///< of the new fields; the rest is what `state` held. Not of memory
+  double memory_share = 1;         ///< of its weight m
+  MemoryMixing* mixing = nullptr;  ///< null: the new memory is taken whole
   double linear_tolerance = 1e-6;
 };
 /// Whether the problem has any of this.
-inline bool holds_fields(const FlowProblem& problem) { return problem.turned || problem.nonlocal; }
+inline bool holds_fields(const FlowProblem& problem) {
+  return problem.turned || problem.nonlocal || problem.memory;
+}
 /// From the flow of `state`, which was found with what that holds. Collective; throws NotConvergedError where
 /// a linear solve misses its tolerance.
 std::shared_ptr<const HeldFields> held_from(const FlowProblem& problem, const Discretisation& d,
@@ -46,5 +79,15 @@ struct FabricSources {
 };
 FabricSources fabric_sources(const FlowProblem& problem, const Discretisation& d, const State& state,
                              const std::vector<double>& turn, double relaxation);
+
+/// Sources of the memory's transport per quadrature point: rate 2 c |D|, target exp(i t chi(I)) D/|D|.
+struct AxesSources {
+  std::vector<double> rate, target_xx, target_xz;
+};
+AxesSources axes_sources(const FlowProblem& problem, const Discretisation& d, const State& state);
+
+/// Sources of rho at weight m with the axes at hand: rate 2 c_rho |D|, target rho_target().
+FabricSources rho_sources(const FlowProblem& problem, const Discretisation& d, const State& state, double m,
+                          const ScalarField& axes);
 
 }  // namespace drumlin::continuum::fem

@@ -1,11 +1,12 @@
 #pragma once
 // The law at a quadrature point, with or without k: the one place that chooses. Without k nothing of it
 // exists in the code that runs; the fabric that is carried and the spread of fluidity stand behind one test
-// per point. Private to fem/.
+// per point. Memory of the axes has a law of its own. Private to fem/.
 #include <span>
 #include <type_traits>
 
 #include "continuum/fem/detail/assembly.hpp"
+#include "continuum/rheology/memory_stress.hpp"
 #include "continuum/rheology/nonlocal_law.hpp"
 #include "continuum/rheology/turned_law.hpp"
 #include "coupling/law/well_posedness.hpp"
@@ -54,9 +55,24 @@ struct TurnedPointLaw {
   }
 };
 
+/// In place of the problem's law.
+struct MemoryPointLaw {
+  const TabulatedLaw& law;
+  const HeldValues& held;
+  MemoryResponse operator()(const Regularisation& r, const PlaneTensor& D, double p, const PlaneTensor& dual,
+                            std::size_t point) const {
+    const double m = held.memory_weight;
+    if (held.fluidity.empty()) return memory_response(law, m, held.memory[point], r, D, p, dual);
+    return memory_response(NonlocalLaw<TabulatedLaw>{law, held.fluidity[point]}, m, held.memory[point], r, D,
+                           p, dual);
+  }
+};
+
 /// Calls `visit` with the point law of a problem in this setting; `held` has to live as long.
 template <class Visit>
 void with_point_law(const FlowProblem& problem, const StressLaw& law, const HeldValues& held, Visit&& visit) {
+  if (!held.memory.empty() && !std::holds_alternative<NewtonianLaw>(law))
+    return visit(MemoryPointLaw{problem.memory->friction, held});
   std::visit(
       [&](const auto& chosen) {
         using Law = std::decay_t<decltype(chosen)>;
@@ -73,14 +89,31 @@ inline double margin(const StressResponse& s) {
 inline double margin(const TurnedResponse& s) {
   return well_posedness_margin(TurnedStrength{s.strength, s.across, s.at}, s.rate, magnitude(s.right));
 }
+inline double margin(const MemoryResponse& s) { return well_posedness_margin(s); }
 inline double ratio_of(const StressResponse&) { return 1; }
 inline double ratio_of(const TurnedResponse& s) { return s.at.k; }
 inline double across_of(const StressResponse&) { return 0; }
 inline double across_of(const TurnedResponse& s) { return s.across.value / s.law_pressure; }
+inline double across_of(const MemoryResponse& s) {
+  const std::complex<double> n = as_complex(s.right);
+  return std::abs(n) > 0 ? (as_complex(s.stress) * std::conj(n)).imag() / (std::abs(n) * s.law_pressure) : 0;
+}
+/// Stress along D.
+inline double along_of(const StressResponse& s, const PlaneTensor& D) { return s.modulus * magnitude(D); }
+inline double along_of(const MemoryResponse& s, const PlaneTensor& D) {
+  const double rate = magnitude(D);
+  return rate > 0 ? 0.5 * contraction(s.stress, D) / rate : 0;
+}
+inline double viscosity_of(const StressResponse& s) { return 0.5 * s.modulus; }
+inline double viscosity_of(const MemoryResponse& s) { return 0.25 * contraction(s.stress, s.right) / s.rate; }
 /// From the axes of D to those of the stress, rad.
 inline double axis_angle(const StressResponse&) { return 0; }
 inline double axis_angle(const TurnedResponse& s) {
   return 0.5 * std::atan2(s.across.value, s.strength.value);
+}
+
+inline double axis_angle(const MemoryResponse& s) {
+  return 0.5 * std::arg(as_complex(s.stress) * std::conj(as_complex(s.right)));
 }
 
 /// What is told of a point of the flow.
@@ -94,6 +127,7 @@ struct PointReport {
   double angle = 0;     ///< rad
   double beta = 0;      ///< stress across D over p
   double fluidity = 1;  ///< g_loc/g
+  std::optional<Remembered> memory = {};
 };
 
 inline PointReport point_report(const FlowProblem& problem, const Setting& setting, const PlaneTensor& D,
@@ -102,16 +136,11 @@ inline PointReport point_report(const FlowProblem& problem, const Setting& setti
   with_point_law(problem, setting.law, held, [&](const auto& law) {
     const auto s = law(setting.regularisation, D, p, D, point);
     const double ratio = ratio_of(s);
-    report = {s.stress,
-              s.modulus * magnitude(D),
-              2 * s.law_pressure / (1 + ratio),
-              0.5 * s.modulus,
-              margin(s),
-              ratio,
-              axis_angle(s),
-              across_of(s),
-              held.fluidity.empty() ? 1 : held.fluidity[point]};
+    report = {s.stress,        along_of(s, D), 2 * s.law_pressure / (1 + ratio),
+              viscosity_of(s), margin(s),      ratio,
+              axis_angle(s),   across_of(s),   held.fluidity.empty() ? 1 : held.fluidity[point]};
   });
+  if (!held.memory.empty()) report.memory = held.memory[point];
   return report;
 }
 

@@ -17,7 +17,8 @@ inline MeshCell on(const dealii::DoFHandler<2>& handler, const MeshCell& cell) {
   return {&handler.get_triangulation(), cell->level(), cell->index(), &handler};
 }
 
-/// Continuous or not, as its element is. It must not outlive the mesh that it was made for.
+/// Continuous or not, as its element is; with two components where that has them. It must not outlive the
+/// mesh that it was made for.
 struct ScalarField {
   ScalarField(const Discretisation& d, const dealii::FiniteElement<2>& kind);  ///< all zero
   ScalarField(const ScalarField&) = delete;
@@ -33,8 +34,9 @@ dealii::AffineConstraints<double> conforming_lines(const FlowProblem& problem, c
 
 /// At points of one cell of this rank, given by their places in the reference cell.
 std::vector<double> values_at(const ScalarField& field, const MeshCell& cell,
-                              const std::vector<dealii::Point<2>>& unit_points);
+                              const std::vector<dealii::Point<2>>& unit_points, unsigned int component = 0);
 /// Per quadrature point of this rank's cells.
-std::vector<double> at_quadrature(const ScalarField& field, const Discretisation& d);
+std::vector<double> at_quadrature(const ScalarField& field, const Discretisation& d,
+                                  unsigned int component = 0);
 
 }  // namespace drumlin::continuum::fem

@@ -1,0 +1,72 @@
+#pragma once
+// The law with memory of the axes: its stress stands between the strain rate and what the material remembers.
+//
+//   tau = p mu(I) (n + m h A)/rho,  n = D/|D|,  h = |n|^2,
+//
+// with the regularised |D|, so that h is one wherever the material shears faster than eps. h makes the
+// dissipation p mu |D| (|n|^2 + m h n.A)/rho >= 0 for |A| <= 1 and m <= 1, also where |D| < eps. A and rho
+// are given here (continuum/fem/detail/carried_axes.hpp says how they are carried); what depends on D and p
+// is differentiated exactly.
+#include <complex>
+
+#include "continuum/rheology/tensor_law.hpp"
+#include "coupling/law/memory_law.hpp"
+
+namespace drumlin::continuum {
+
+/// What the material carries.
+struct Remembered {
+  double xx = 0, xz = 0;  ///< A, traceless, |A| <= 1
+  double rho = 1;
+};
+
+/// Traceless part as a complex number: a turn of the axes by an angle multiplies it by exp(2 i angle).
+inline std::complex<double> as_complex(const PlaneTensor& a) { return {0.5 * (a.xx - a.zz), a.xz}; }
+inline PlaneTensor as_tensor(std::complex<double> a) { return {a.real(), -a.real(), a.imag()}; }
+
+/// StressResponse of the law; d tau has a term besides, 1/2 memory_slope A (right:dD). The base's strength is
+/// the amount p mu(I), its modulus and slope belong to n, its stress and by_pressure are the whole.
+struct MemoryResponse : StressResponse {
+  PlaneTensor memory;       ///< A
+  double weight = 0;        ///< m h
+  double weight_slope = 0;  ///< |D| d(m h)/d|D|
+  double rho = 1;
+  double memory_slope = 0;
+};
+
+/// As stress_response() of tensor_law.hpp; `m` is the weight of the memory.
+template <class Law>
+MemoryResponse memory_response(const Law& law, double m, const Remembered& held, const Regularisation& r,
+                               const PlaneTensor& D, double p, const PlaneTensor& dual) {
+  MemoryResponse response;
+  static_cast<StressResponse&>(response) = stress_response(law, r, D, p, dual);
+  const double h = 0.5 * contraction(response.right, response.right);
+  const Strength& F = response.strength;
+  response.memory = {held.xx, -held.xx, held.xz};
+  response.rho = held.rho;
+  response.weight = m * h;
+  response.weight_slope = 2 * m * (1 - h);
+  response.memory_slope =
+      (F.d_rate * response.weight + F.value / response.rate * response.weight_slope) / held.rho;
+  response.modulus /= held.rho;
+  response.slope /= held.rho;
+  const PlaneTensor direction = (1 / held.rho) * (response.right + response.weight * response.memory);
+  response.stress = F.value * direction;
+  response.by_pressure = F.d_pressure * direction;
+  return response;
+}
+
+inline PlaneTensor tangent(const MemoryResponse& s, const PlaneTensor& dD) {
+  return tangent(static_cast<const StressResponse&>(s), dD) +
+         (0.5 * s.memory_slope * contraction(s.right, dD)) * s.memory;
+}
+
+/// Well-posedness margin with A and rho held, as short waves see them (docs/theory/rheology.md).
+double well_posedness_margin(const MemoryResponse& s);
+
+/// What rho tends to: |n + m h A|, with one in place of |n|: the same wherever the material shears, and one
+/// where it remembers nothing. Not below least_rho.
+double rho_target(double m, std::complex<double> n, std::complex<double> A);
+constexpr double least_rho = 0.1;
+
+}  // namespace drumlin::continuum

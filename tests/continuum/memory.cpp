@@ -1,0 +1,178 @@
+// Memory of the axes, carried through given flows and through flows that it shapes.
+#include <gtest/gtest.h>
+
+#include <complex>
+
+#include "boxes.hpp"
+#include "continuum/fem/detail/carried_field.hpp"
+#include "continuum/fem/detail/held_fields.hpp"
+#include "continuum/fem/detail/solved_level.hpp"
+#include "given_flow.hpp"
+#include "tangent_error.hpp"
+#include "tests/hardcases/continuum/small_drum.hpp"
+
+namespace drumlin {
+using namespace continuum;
+namespace {
+
+using namespace testing_boxes;
+using testing_given_flow::GivenFlow;
+using Complex = std::complex<double>;
+using Tensor = std::function<Complex(Vec2)>;
+
+// As mu = 0.35 + 0.013 ln I of the small drum.
+const FrictionTable amount{{1e-6, 1}, {0.35 + 0.013 * std::log(1e-6), 0.35}};
+const MemoryLaw law{.c = 6, .m = 0.9, .chi_deg = 25, .c_rho = 100, .mu = amount};
+const double lag = std::atan(1 / law.c);
+
+struct Found {
+  std::vector<double> xx, xz;
+};
+Found carried(const GivenFlow& flow, double rate, const Tensor& target) {
+  const auto rates = flow.at_points([=](Vec2) { return rate; }),
+             xx = flow.at_points([&](Vec2 x) { return target(x).real(); }),
+             xz = flow.at_points([&](Vec2 x) { return target(x).imag(); });
+  const auto field = fem::axes_carried_by_flow(flow.problem, flow.d, flow.solution, {rates, xx, xz}, 1e-8);
+  return {fem::at_quadrature(*field, flow.d, 0), fem::at_quadrature(*field, flow.d, 1)};
+}
+
+TEST(CarriedAxes, ConvergeWithSecondOrderInAFlowThatShearsAndTurns) {
+  // u = f(r) times a rigid rotation about the origin: closed ways, W = f + r f'/2.
+  const auto f = [](double r) { return 0.3 + 0.2 * r; };
+  const auto velocity = [&](Vec2 x) {
+    const double here = f(std::hypot(x.x, x.z));
+    return Vec2{here * x.z, -here * x.x};
+  };
+  const Tensor A = [](Vec2 x) { return Complex(0.4 * std::sin(x.x), 0.3 * std::cos(x.z + 0.5 * x.x)); };
+  const double rate = 0.8;
+  const Tensor target = [&](Vec2 x) {
+    const double r = std::hypot(x.x, x.z), W = f(r) + 0.5 * r * 0.2;
+    const Vec2 u = velocity(x);
+    const Complex along_x(0.4 * std::cos(x.x), -0.15 * std::sin(x.z + 0.5 * x.x)),
+        along_z(0, -0.3 * std::sin(x.z + 0.5 * x.x));
+    return A(x) + (u.x * along_x + u.z * along_z + Complex(0, 2 * W) * A(x)) / rate;
+  };
+  std::vector<double> errors;
+  for (const int refinements : {0, 1, 2}) {
+    const GivenFlow flow(AnnulusDomain{.inner_radius = 2, .layers = {1, 1}, .cells_around = 16}, refinements,
+                         velocity);
+    const Found found = carried(flow, rate, target);
+    errors.push_back(std::hypot(flow.error(found.xx, [&](Vec2 x) { return A(x).real(); }),
+                                flow.error(found.xz, [&](Vec2 x) { return A(x).imag(); })));
+  }
+  EXPECT_GT(std::log2(errors[0] / errors[1]), 1.7);
+  EXPECT_GT(std::log2(errors[1] / errors[2]), 1.8);
+  EXPECT_LT(errors[2], 4e-3);
+}
+
+TEST(CarriedAxes, AreTheSameForATurningObserverAndNeverLongerThanOne) {
+  const double Omega = 0.5;
+  const auto laboratory = [=](Vec2 x) {
+    const Vec2 rigid = rigid_rotation(Omega, 0.2, x);
+    return Vec2{rigid.x + 0.1 * x.z, rigid.z + 0.1 * x.x};
+  };
+  const auto turning = [=](Vec2 x) { return Vec2{0.1 * x.z, 0.1 * x.x}; };
+  const AnnulusDomain ring{.inner_radius = 2, .layers = {1, 1}, .cells_around = 16};
+  const GivenFlow flow(ring, 0, laboratory);
+  GivenFlow seen(ring, 0, turning);
+  seen.problem.frame = RotatingFrame{Omega, 0.2};
+  const Tensor target = [](Vec2 x) { return x.x > 0 ? Complex(1, 0) : Complex(0, -1); };
+  for (const double rate : {0.2, 20.0}) {  // the faster overshoots where the target jumps
+    const Found here = carried(flow, rate, target), there = carried(seen, rate, target);
+    for (std::size_t q = 0; q < here.xx.size(); ++q) {
+      EXPECT_NEAR(here.xx[q], there.xx[q], 1e-9);
+      EXPECT_NEAR(here.xz[q], there.xz[q], 1e-9);
+      EXPECT_LE(std::hypot(here.xx[q], here.xz[q]), 1 + 1e-12);
+    }
+  }
+}
+
+FlowProblem sheared_strip() {
+  FlowProblem problem = strip(4, 4, TabulatedLaw(amount.I, amount.mu), constant_traction(0.28, -1));
+  problem.regularisation = {.shear_rate = 1e-6, .pressure = 1e-4};
+  return problem;
+}
+
+TEST(MemoryOfTheAxes, HasItsClosedFormInSimpleShear) {
+  FlowProblem problem = sheared_strip();
+  problem.memory.emplace(law);
+  problem.memory->law.I_low = 10;  // chi is the same everywhere
+  problem.memory->law.I_high = 20;
+  const PointState at = state_at(converged(problem, one_mesh()), {0, -2});
+  const Complex n(0, 1), A = std::polar(std::cos(lag), 25 * degree - lag) * n;
+  EXPECT_NEAR(at.memory_xx, A.real(), 1e-5);
+  EXPECT_NEAR(at.memory_xz, A.imag(), 1e-5);
+  EXPECT_NEAR(at.memory_rho, std::abs(n + law.m * A), 1e-5);
+  const Complex stress = (n + law.m * A) / std::abs(n + law.m * A);
+  const double amount_here =
+      TabulatedLaw(amount.I, amount.mu).friction(at.dvx_dz / std::sqrt(at.pressure)).mu;
+  EXPECT_NEAR(at.sigma_xz, amount_here * at.pressure * stress.imag(), 1e-5);
+  EXPECT_NEAR(at.sigma_xx, at.pressure - amount_here * at.pressure * stress.real(), 1e-5);
+  EXPECT_NEAR(at.axis_angle, 0.5 * std::arg(stress / n), 1e-5);
+  EXPECT_GT(at.axis_angle, 0);  // k > 1 and a positive angle are one statement
+  EXPECT_GT(at.sigma_xx, at.sigma_zz);
+}
+
+TEST(MemoryOfTheAxes, IsMuOfIInSimpleShearAtTheTurnOfTheSpin) {
+  FlowProblem plain = sheared_strip(), remembering = plain;
+  remembering.memory.emplace(law);
+  remembering.memory->law.chi_deg = lag / degree;
+  const PointState a = state_at(converged(plain, one_mesh()), {0, 0}),
+                   b = state_at(converged(remembering, one_mesh()), {0, 0});
+  EXPECT_NEAR(b.velocity.x / a.velocity.x, 1, 1e-4);
+  EXPECT_NEAR(b.sigma_xx, a.sigma_xx, 1e-6);
+}
+
+TEST(MemoryOfTheAxes, WithoutWeightIsNone) {
+  FlowProblem plain = small_drum_problem(), remembering = plain;
+  plain.law = TabulatedLaw(amount.I, amount.mu);
+  remembering.memory.emplace(law);
+  remembering.memory->law.m = 0;
+  const FlowField a = converged(plain, one_mesh()), b = converged(remembering, one_mesh());
+  EXPECT_NEAR(a.theta(), b.theta(), 1e-7);
+  EXPECT_NEAR(state_at(a, {0, -3}).velocity.x, state_at(b, {0, -3}).velocity.x, 1e-7);
+}
+
+FlowProblem small_remembering_drum() {
+  FlowProblem problem = small_drum_problem();
+  problem.memory.emplace(law);
+  problem.inertia = Inertia{};
+  return problem;
+}
+
+TEST(MemoryOfTheAxes, SolvesTheSmallDrumWithInertiaForAnyObserver) {
+  FlowProblem seen = small_remembering_drum();
+  seen.frame = RotatingFrame{small_drum().rotation, small_drum().axis_offset};
+  FlowSolution solved = solve_flow(small_remembering_drum(), one_mesh());
+  ASSERT_TRUE(solved.report.converged) << solved.report.failure;
+  EXPECT_LE(solved.report.picard_updates, 20);
+  const FlowField turning = converged(seen, one_mesh());
+  EXPECT_NEAR(turning.theta(), solved.field.theta(), 1e-5);
+  EXPECT_NEAR(state_at(turning, {2, -9}).sigma_xz, state_at(solved.field, {2, -9}).sigma_xz, 1e-4);
+  const FlowIntegrals sums = solved.field.integrals({0, small_drum().axis_offset});
+  EXPECT_EQ(sums.ill_posed_area, 0);
+  EXPECT_GT(sums.dissipation, 0);
+  EXPECT_NEAR(sums.given_side_torque / -sums.weight_torque, 1, 1e-2);
+  // The stress lags behind the axes of strain rate: memory shows.
+  EXPECT_GT(std::abs(state_at(solved.field, {2, -9}).axis_angle), 1 * degree);
+}
+
+TEST(MemoryOfTheAxes, IsTakenFromTheFlowThatANeighbourLeft) {
+  const FlowField slow = converged(small_remembering_drum(), one_mesh());
+  const FlowSolution from = solve_flow_from(slow.state(), small_remembering_drum(), one_mesh());
+  ASSERT_TRUE(from.report.converged) << from.report.failure;
+  EXPECT_EQ(from.report.start, "neighbour");
+  EXPECT_LE(from.report.picard_updates, 3);
+  EXPECT_NEAR(from.field.theta(), slow.theta(), 1e-4);
+}
+
+TEST(MemoryOfTheAxes, TangentIsTheDerivativeOfTheResidual) {
+  FlowProblem problem = testing_tangent::small_segment();
+  problem.memory.emplace(law);
+  EXPECT_LT(testing_tangent::tangent_error(problem, false, 1e-6), 1e-7);
+  problem.nonlocal = NonlocalFluidity{.length = 1.5};
+  EXPECT_LT(testing_tangent::tangent_error(problem, false, 1e-6), 1e-7);
+}
+
+}  // namespace
+}  // namespace drumlin
