@@ -104,19 +104,10 @@ TEST(CarriedField, StaysWithinItsTargetsAndWhereTheyAreOne) {
 }
 
 TEST(CarriedField, IsTheSameForATurningObserver) {
-  const double Omega = 0.5;
-  const auto laboratory = [=](Vec2 x) {
-    const Vec2 rigid = rigid_rotation(Omega, 0.2, x);
-    return Vec2{rigid.x + 0.1 * x.z, rigid.z + 0.1 * x.x};
-  };
-  const auto turning = [=](Vec2 x) { return Vec2{0.1 * x.z, 0.1 * x.x}; };
-  const AnnulusDomain ring{.inner_radius = 2, .layers = {1, 1}, .cells_around = 16};
-  const GivenFlow flow(ring, 0, laboratory);
-  GivenFlow seen(ring, 0, turning);
-  seen.problem.frame = RotatingFrame{Omega, 0.2};
+  const TwoObservers observers;
   const Function target = [](Vec2 x) { return x.x + std::sin(x.z); };
-  const auto here = carried(flow, everywhere(0.2), target).values,
-             there = carried(seen, everywhere(0.2), target).values;
+  const auto here = carried(observers.laboratory, everywhere(0.2), target).values,
+             there = carried(observers.turning, everywhere(0.2), target).values;
   for (std::size_t q = 0; q < here.size(); ++q) EXPECT_NEAR(here[q], there[q], 1e-9);
 }
 

@@ -64,4 +64,20 @@ struct GivenFlow {
   }
 };
 
+/// One flow in a ring as the laboratory sees it and as an observer does who turns about (0, 0.2).
+struct TwoObservers {
+  static constexpr double rotation = 0.5;
+  GivenFlow laboratory{continuum::AnnulusDomain{.inner_radius = 2, .layers = {1, 1}, .cells_around = 16}, 0,
+                       [](continuum::Vec2 x) {
+                         const continuum::Vec2 rigid = continuum::rigid_rotation(rotation, 0.2, x);
+                         return continuum::Vec2{rigid.x + 0.1 * x.z, rigid.z + 0.1 * x.x};
+                       }};
+  GivenFlow turning{continuum::AnnulusDomain{.inner_radius = 2, .layers = {1, 1}, .cells_around = 16}, 0,
+                    [](continuum::Vec2 x) {
+                      return continuum::Vec2{0.1 * x.z, 0.1 * x.x};
+                    }};
+
+  TwoObservers() { turning.problem.frame = continuum::RotatingFrame{rotation, 0.2}; }
+};
+
 }  // namespace drumlin::testing_given_flow

@@ -66,19 +66,11 @@ TEST(CarriedAxes, ConvergeWithSecondOrderInAFlowThatShearsAndTurns) {
 }
 
 TEST(CarriedAxes, AreTheSameForATurningObserverAndNeverLongerThanOne) {
-  const double Omega = 0.5;
-  const auto laboratory = [=](Vec2 x) {
-    const Vec2 rigid = rigid_rotation(Omega, 0.2, x);
-    return Vec2{rigid.x + 0.1 * x.z, rigid.z + 0.1 * x.x};
-  };
-  const auto turning = [=](Vec2 x) { return Vec2{0.1 * x.z, 0.1 * x.x}; };
-  const AnnulusDomain ring{.inner_radius = 2, .layers = {1, 1}, .cells_around = 16};
-  const GivenFlow flow(ring, 0, laboratory);
-  GivenFlow seen(ring, 0, turning);
-  seen.problem.frame = RotatingFrame{Omega, 0.2};
+  const TwoObservers observers;
   const Tensor target = [](Vec2 x) { return x.x > 0 ? Complex(1, 0) : Complex(0, -1); };
   for (const double rate : {0.2, 20.0}) {  // the faster overshoots where the target jumps
-    const Found here = carried(flow, rate, target), there = carried(seen, rate, target);
+    const Found here = carried(observers.laboratory, rate, target),
+                there = carried(observers.turning, rate, target);
     for (std::size_t q = 0; q < here.xx.size(); ++q) {
       EXPECT_NEAR(here.xx[q], there.xx[q], 1e-9);
       EXPECT_NEAR(here.xz[q], there.xz[q], 1e-9);
