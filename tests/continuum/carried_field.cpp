@@ -13,6 +13,7 @@ using namespace continuum;
 namespace {
 
 using testing_given_flow::GivenFlow;
+using testing_given_flow::TwoObservers;
 using Function = std::function<double(Vec2)>;
 
 struct Carried {

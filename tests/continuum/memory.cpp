@@ -17,6 +17,7 @@ namespace {
 
 using namespace testing_boxes;
 using testing_given_flow::GivenFlow;
+using testing_given_flow::TwoObservers;
 using Complex = std::complex<double>;
 using Tensor = std::function<Complex(Vec2)>;
 

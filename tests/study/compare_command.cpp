@@ -6,6 +6,7 @@
 #include "apps/support/commands.hpp"
 #include "coupling/common/errors.hpp"
 #include "tests/study/run_folders.hpp"
+#include "tests/support/data_folder.hpp"
 
 namespace drumlin::apps {
 using namespace coupling;
@@ -30,6 +31,7 @@ TEST(CompareStudyCommand, SortsFoldersByTheirFilesAndLeavesTablePageAndFigures) 
   const TemporaryFolder folder;
   const CompareStudyOptions options{{flow_folder(folder, flow_of_six(6)), run_folder(folder, 5),
                                      run_folder(folder, 6), flow_folder(folder, flow_of_six(5))},
+                                    {},
                                     folder / "study"};
   EXPECT_EQ(compare_study(options), 0);
   const Json json = Json::parse(file_text(folder / "study/study.json"));
@@ -48,13 +50,28 @@ TEST(CompareStudyCommand, SortsFoldersByTheirFilesAndLeavesTablePageAndFigures) 
   EXPECT_THROW(compare_study(options), InputError) << "nothing is overwritten unasked";
 }
 
+TEST(CompareStudyCommand, JudgesByLimitsOfAFile) {
+  const TemporaryFolder folder;
+  const CompareStudyOptions options{{flow_folder(folder, flow_of_six(6)), run_folder(folder, 5),
+                                     run_folder(folder, 6), flow_folder(folder, flow_of_six(5))},
+                                    test::data_folder() / "limits" / "bed.toml",
+                                    folder / "study"};
+  EXPECT_EQ(compare_study(options), 0);
+  const Json limits = Json::parse(file_text(folder / "study/study.json"))["limits"];
+  EXPECT_EQ(limits["speeds_rpm"].size(), 2u);
+  EXPECT_EQ(limits["rows"].size(), 32u);  // sixteen limits, two registrations
+  EXPECT_EQ(limits["judged_by_calibrating_runs"], Json::array({"rpm-6"}));
+  EXPECT_NE(file_text(folder / "study/limits.md").find("| sigma_xz static, centre, relative |"),
+            std::string::npos);
+}
+
 TEST(CompareStudyCommand, RefusesUnfinishedFlowsOtherEffectsAndOtherGeometries) {
   const TemporaryFolder folder;
   const fs::path run = run_folder(folder, 6), six = flow_folder(folder, flow_of_six(6)),
                  five = flow_folder(folder, flow_of_six(5), "[effects.inertia]\n");
   const auto refusal = [&](std::vector<fs::path> folders) {
     const std::string said = message_of<InputError>([&] {
-      compare_study({std::move(folders), folder / "study"});
+      compare_study({std::move(folders), {}, folder / "study"});
     });
     EXPECT_FALSE(fs::exists(folder / "study")) << "a refusal leaves nothing";
     return said;
