@@ -19,6 +19,7 @@ import whole_file
 
 plt = style.plt
 EDGES = [0.0, 0.01, 0.02, 0.03, 0.04, 0.06, 0.08, 0.1, 0.13, 0.16, 0.2, 0.25, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0]
+FORGOTTEN = 0.2  # shear strain after which a turn no longer shows
 COLUMNS = ("shear", "difference", "amount", "fabric_shear", "fabric_difference", "nu", "p")
 
 
@@ -80,8 +81,9 @@ def turns_of(history):
                 if place is not None:
                     bins.setdefault(place, []).append({"strain": strain, **values_of(row, sense)})
             turns.append({b: {key: sum(v[key] for v in found) / len(found) for key in found[0]} for b, found in bins.items()})
-        late = [values_of(row, sense) for row in inside if row["sheared"] > inside[-1]["sheared"] - 0.4]
-        steady.append({key: sum(v[key] for v in late) / len(late) for key in COLUMNS})
+        late = [values_of(row, sense) for row in inside if row["sheared"] > max(inside[-1]["sheared"] - 0.4, FORGOTTEN)]
+        if late:
+            steady.append({key: sum(v[key] for v in late) / len(late) for key in COLUMNS})
     return turns, steady
 
 
