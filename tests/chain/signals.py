@@ -72,7 +72,7 @@ def check_signals(executable, scene, problem, run, folder):
             # Before main() has begun, the signal ends the process itself; after its end it comes too late.
             require(process.returncode in (code, -number, 0, 3), f"{words}: exit code {process.returncode} instead of {code}")
             require_whole_files(run)
-            for folder_made in ("measured", "plots", "vtu", "cost"):
+            for folder_made in ("measured", "plots", "vtu", "history", "cost"):
                 shutil.rmtree(run / folder_made, ignore_errors=True)
             require(bytes_below(run) == before, f"{words}: {number.name} touched the run")
     print("signals: clean ends")
