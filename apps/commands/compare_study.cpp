@@ -46,8 +46,9 @@ Sides read_sides(const std::vector<fs::path>& folders, bool with_run_maps) {
       sides.particles.push_back(coupling::read_study_run(folder));
       const fs::path measured = folder / "measured";
       if (with_run_maps && fs::exists(measured / "maps.h5"))
-        sides.run_maps.emplace(sides.particles.back().name,
-                               read_field_map(checked_file(open_result_folder(measured), "maps.h5")));
+        sides.run_maps.emplace(
+            sides.particles.back().name,
+            read_field_map(checked_file(open_result_folder(measured, WithoutManifest::accept), "maps.h5")));
       continue;
     }
     sides.flows.push_back(coupling::read_study_flow(folder));
