@@ -10,16 +10,15 @@
 #include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/common/provenance.hpp"
+#include "coupling/common/result_folder.hpp"
 #include "coupling/common/text_file.hpp"
 #include "coupling/documents/csv.hpp"
-#include "coupling/documents/number_text.hpp"
 #include "coupling/exchange/run_header.hpp"
 #include "particles/io/run_folder.hpp"
 #include "particles/io/snapshot_list.hpp"
 #include "particles/measurement/history/region_history.hpp"
 #include "particles/measurement/history/wall_history.hpp"
-#include "particles/scene/placement.hpp"
-#include "particles/stepping/simulation.hpp"
+#include "particles/scene/scene_walls.hpp"
 
 namespace drumlin::apps {
 namespace {
@@ -53,6 +52,26 @@ particles::Point middle_of(const particles::Shape& shape) {
   return std::get<particles::Container>(shape).center;
 }
 
+/// What was asked for, as the heads of the tables say it.
+std::string settings_text(const HistoryOptions& options) {
+  return fmt::format("# box = {}\n# sectors = {}\n",
+                     options.box.empty() ? "none" : fmt::format("{}", fmt::join(options.box, " ")),
+                     options.sectors);
+}
+
+/// Whether an earlier call has finished this, of the run as it is now. Throws InputError where it was asked
+/// for something else, or the run has changed since.
+bool is_done(const fs::path& folder, const particles::RunFolder& run, const HistoryOptions& options) {
+  if (!holds_results(folder, "walls.csv")) return false;
+  const std::string again = fmt::format("drumlin history {} --overwrite", options.run.string());
+  const ResultFolder results = open_result_folder(folder);
+  check_source(results, run.files, again);
+  if (file_text(checked_file(results, "walls.csv")).find(settings_text(options)) == std::string::npos)
+    throw InputError(fmt::format("{}: holds the history of another box or other sectors; {} makes it anew",
+                                 folder.string(), again));
+  return true;
+}
+
 /// The three tables, line by line.
 class Tables {
  public:
@@ -64,7 +83,7 @@ class Tables {
     header.reduced = run.scene.reduced;
     header.revision = provenance().revision;
     header.diameter_m = run.scales.length_m;
-    const std::string lines = header_lines(header, "# ");
+    const std::string lines = header_lines(header, "# ") + settings_text(options);
     walls =
         "# drumlin-history-walls-1\n" + lines + "snapshot,time,wall,x,z,angle_deg,force_x,force_z,torque\n";
     tractions =
@@ -72,7 +91,7 @@ class Tables {
     if (options.box.empty()) return;
     history_.emplace(Box{options.box[0], options.box[1], options.box[2], options.box[3]});
     region =
-        "# drumlin-history-region-1\n" + lines + fmt::format("# box = {}\n", fmt::join(options.box, " ")) +
+        "# drumlin-history-region-1\n" + lines +
         "snapshot,time,grains,nu,coordination,sigma_xx,sigma_zz,sigma_xz,sigma_zx,sigma_xx_kinetic,"
         "sigma_zz_kinetic,sigma_xz_kinetic,fabric_xx,fabric_zz,fabric_xz,d_v_x_dx,d_v_x_dz,d_v_z_dx,d_v_z_dz,"
         "strain\n";
@@ -136,12 +155,13 @@ int history(const HistoryOptions& options) {
   check_box(options.box);
   const particles::RunFolder run = particles::read_run_folder(options.run);
   const fs::path folder = options.output.value_or(options.run / "history");
-  if (options.existing == ExistingOutput::resume && holds_results(folder, "walls.csv")) {
+  if (options.existing == ExistingOutput::resume && is_done(folder, run, options)) {
     print_out(fmt::format("{}: done already\n", folder.string()));
     return static_cast<int>(ExitCode::done);
   }
   if (run.snapshots.empty()) throw InputError(run.folder.string() + ": holds no snapshots");
-  StagedOutput output({folder, options.existing, "history", {options.run / "run.json"}});
+  StagedOutput output(
+      {folder, options.existing, "history", {options.run / "run.json"}, manifest_sum(*run.files.manifest)});
   Tables tables(run, options);
   Progress progress;
   std::size_t done = 0;

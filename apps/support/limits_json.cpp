@@ -5,21 +5,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "apps/support/enum_name.hpp"
+#include "apps/support/comparison_json.hpp"
 #include "coupling/documents/json_numbers.hpp"
 
 namespace drumlin::apps {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Outcome = coupling::LimitRow::Outcome;
-
-std::string name_of(Outcome outcome) {
-  constexpr EnumName<Outcome> names[] = {
-      {Outcome::met, "met"}, {Outcome::missed, "missed"}, {Outcome::not_measured, "not_measured"}};
-  return enum_name(names, outcome);
-}
-
 Json json_of(const coupling::LimitCell& cell) {
   Json json{{"rotation_rpm", cell.rotation_rpm},
             {"value", number_or_null(cell.value)},

@@ -18,7 +18,6 @@ namespace {
 constexpr std::size_t least_amounts = 24;  // fewer hold no knots of a table
 constexpr std::size_t least_bed_paths = 100;
 constexpr std::size_t least_bed_sectors = 5;
-constexpr double sector = 15 * std::numbers::pi / 180;
 constexpr AxisMemory first_guess{.c = 6, .m = 1, .chi = 0.5};
 
 using Runs = std::vector<PathsOfRun>;
@@ -64,13 +63,13 @@ void require_bed(const Runs& runs) {
     for (const StressPath& path : run.paths) {
       if (path.ln_I >= std::log(bed_I)) continue;
       ++paths;
-      sectors.insert(std::lround(path.depth_angle / sector));
+      sectors.insert(sector_of(path));
     }
   if (paths >= least_bed_paths && sectors.size() >= least_bed_sectors) return;
   throw InputError(fmt::format(
-      "--memory: too little bed: {} paths end where I < {:g}, in {} sectors of 15 deg (needed: {} "
+      "--memory: too little bed: {} paths end where I < {:g}, in {} sectors of {:g} deg (needed: {} "
       "in {}); the axes of the stress remember in the bed alone, so take runs of a larger drum",
-      paths, bed_I, sectors.size(), least_bed_paths, least_bed_sectors));
+      paths, bed_I, sectors.size(), sector_deg, least_bed_paths, least_bed_sectors));
 }
 
 /// Trials of the range over which chi falls: half decades.
@@ -87,6 +86,11 @@ std::vector<LeadTrial> lead_trials(const Runs& runs) {
       start = fit.law;
     }
   return trials;
+}
+
+const LeadTrial& best_of(const std::vector<LeadTrial>& trials) {
+  return *std::min_element(trials.begin(), trials.end(),
+                           [](const auto& a, const auto& b) { return a.cost < b.cost; });
 }
 
 /// Over the paths that end in the bed, with a chi that does not fall.
@@ -200,11 +204,10 @@ void tell_of_trials(const MemoryCalibration& found, std::vector<std::string>& un
     untold.push_back(fmt::format("c_rho: not told from rho at once with 99 %:{}; {:g} is taken", alike_rho,
                                  *found.law.c_rho));
   }
-  const auto low = std::min_element(found.leads.begin(), found.leads.end(),
-                                    [](const auto& a, const auto& b) { return a.cost < b.cost; });
+  const LeadTrial& best = best_of(found.leads);
   std::string alike;
   for (const LeadTrial& trial : found.leads)
-    if (&trial != &*low && trial.cost < 1.05 * low->cost)
+    if (&trial != &best && trial.cost < 1.05 * best.cost)
       alike += fmt::format(" {:g} to {:g},", trial.I_low, trial.I_high);
   if (!alike.empty()) {
     alike.pop_back();
@@ -255,11 +258,9 @@ MemoryCalibration memory_calibration(std::span<const RunEvidence> runs, std::spa
   const Runs paths = paths_of(runs, amount, &found.from_displacements);
   require_bed(paths);
   found.leads = lead_trials(paths);
-  const auto best = std::min_element(found.leads.begin(), found.leads.end(),
-                                     [](const auto& a, const auto& b) { return a.cost < b.cost; });
   AxisMemory start = first_guess;
-  start.I_low = best->I_low;
-  start.I_high = best->I_high;
+  start.I_low = best_of(found.leads).I_low;
+  start.I_high = best_of(found.leads).I_high;
   found.free = fit_memory(paths, start, {true, true, true});
   add_run_intervals(paths, found.free);
   found.bed_alone = bed_fit(paths);

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "coupling/law/memory_law.hpp"
 #include "coupling/statistics/quantiles.hpp"
 #include "coupling/statistics/resampling.hpp"
 #include "coupling/statistics/samples.hpp"
@@ -16,7 +17,6 @@ namespace {
 
 constexpr double soft = 0.05;  // of s/p, beyond which a misfit counts less than its square
 constexpr double degrees = 180 / std::numbers::pi;
-constexpr double sector_deg = 15;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 using Vector = Eigen::Vector3d;  // ln c, m, chi
@@ -30,8 +30,6 @@ AxisMemory law_at(const Vector& x, AxisMemory law) {
   law.chi = x(2);
   return law;
 }
-
-long sector_of(const StressPath& path) { return std::lround(path.depth_angle * degrees / sector_deg); }
 
 Deviator misfit(const PathsOfRun& run, std::size_t i, const AxisMemory& law) {
   return run.paths[i].stress - run.amounts[i] * carried_axes(run.paths[i], law);
@@ -178,10 +176,10 @@ double angle_deg(Deviator a, Deviator b) { return std::arg(a * std::conj(b)) * d
 }  // namespace
 
 double lead_angle(const AxisMemory& law, double ln_I) {
-  const double low = std::log(law.I_low), high = std::log(law.I_high);
-  const double t = std::clamp((ln_I - low) / (high - low), 0.0, 1.0), share = t * t * (3 - 2 * t);
-  return law.chi + share * (std::atan(1 / law.c) - law.chi);
+  return memory_turn(law.chi, law.c, law.I_low, law.I_high, ln_I);
 }
+
+long sector_of(const StressPath& path) { return std::lround(path.depth_angle * degrees / sector_deg); }
 
 Deviator carried_axes(const StressPath& path, const AxisMemory& law) {
   const auto target = [&](const PathStep& step) {

@@ -27,6 +27,11 @@ struct AxisMemory {
 /// chi at an inertial number, smooth in ln I.
 double lead_angle(const AxisMemory& law, double ln_I);
 
+/// Number of the sector about the drum's axis, sector_deg wide, in which a path ends: what is left out for an
+/// interval.
+constexpr double sector_deg = 15;
+long sector_of(const StressPath& path);
+
 /// (n + m A)/rho at the end of a path: s/p over the amount mu(I). Exact over each step, on which D, W and I
 /// are constant; before its first step the path was in steady state without spin.
 Deviator carried_axes(const StressPath& path, const AxisMemory& law);

@@ -15,6 +15,8 @@ namespace drumlin {
 /// kink. In steady simple shear A = exp(i t (chi - atan(1/c))) cos(atan(1/c)) n, so that chi = atan(1/c) is
 /// mu(I) exactly there.
 double memory_turn(const MemoryLaw& law, double I);
+/// The same of a law by its numbers, chi in rad.
+double memory_turn(double chi, double c, double I_low, double I_high, double ln_I);
 
 /// What evaluates mu(I) of the memory.
 TabulatedLaw memory_friction(const MemoryLaw& law);

@@ -11,9 +11,7 @@ namespace drumlin::coupling {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-using Outcome = LimitRow::Outcome;
-
-bool same_speed(double a, double b) { return std::abs(a - b) <= 0.005 * std::abs(a); }
+using Outcome = Target::Outcome;
 
 double mean_of(const std::vector<double>& values) {
   double sum = 0;

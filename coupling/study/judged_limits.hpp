@@ -40,7 +40,7 @@ struct LimitRow {
   Limit limit;
   Registration registration = Registration::axis;
   std::vector<LimitCell> cells;  ///< ascending speeds
-  enum class Outcome { met, missed, not_measured } must = Outcome::not_measured, aim = Outcome::not_measured;
+  Target::Outcome must = Target::Outcome::not_measured, aim = Target::Outcome::not_measured;
 };
 
 struct JudgedLimits {

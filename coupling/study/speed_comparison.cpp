@@ -16,8 +16,6 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-bool same_speed(double a, double b) { return std::abs(a - b) <= 0.005 * std::abs(a); }
-
 std::string text_of(const std::map<std::string, std::string>& texts, const std::string& key) {
   const auto found = texts.find(key);
   return found == texts.end() ? std::string("nothing") : found->second;

@@ -142,14 +142,14 @@ void pool_scalars(const std::vector<StudyRun>& runs, std::vector<SpeedGroup>& gr
 
 }  // namespace
 
+bool same_speed(double a, double b) { return std::abs(a - b) <= 0.005 * std::abs(a); }
+
 std::vector<SpeedGroup> speed_groups(const std::vector<StudyRun>& runs) {
   std::vector<SpeedGroup> groups;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const double rpm = runs[r].rotation_rpm;
-    const auto same_speed = [rpm](const SpeedGroup& group) {
-      return std::abs(group.rotation_rpm - rpm) <= 0.005 * rpm;
-    };
-    auto group = std::find_if(groups.begin(), groups.end(), same_speed);
+    const auto is_this = [rpm](const SpeedGroup& group) { return same_speed(rpm, group.rotation_rpm); };
+    auto group = std::find_if(groups.begin(), groups.end(), is_this);
     if (group == groups.end()) group = groups.insert(groups.end(), SpeedGroup{rpm, {}, {}});
     group->runs.push_back(r);
   }

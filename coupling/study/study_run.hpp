@@ -32,7 +32,10 @@ struct StudyRun {
 /// also when a run is named twice, stands still, or there is none.
 void require_one_study(const std::vector<StudyRun>& runs);
 
-/// Runs at one speed of rotation (to 0.5 %), as indices into the runs of the study, with their pooled
+/// Whether two speeds of rotation count as one: to 0.5 %.
+bool same_speed(double a, double b);
+
+/// Runs at one speed of rotation (same_speed), as indices into the runs of the study, with their pooled
 /// scalars.
 struct SpeedGroup {
   double rotation_rpm = 0;

@@ -243,6 +243,9 @@ def histories(drumlin, one_disc, periodic, folder):
     require(not (folder / "history" / "region.csv").exists(), "a region that nobody asked for")
     text, _ = drumlin("history", one_disc, "-o", folder / "history", "--resume")
     require("done already" in text, f"made again: {text}")
+    for words in (["--sectors", "5"], ["--box", "0,1,0,1"]):  # another question is not answered by what is there
+        _, said = drumlin("history", one_disc, "-o", folder / "history", "--resume", *words, code=2)
+        require("--overwrite" in said, said)
 
 
 def table_of(file):

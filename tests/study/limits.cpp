@@ -84,7 +84,7 @@ TEST(JudgedLimits, ErrorsAreMeansOverTheRunsThatCalibratedNothing) {
   EXPECT_NEAR(cell.floor, 0.1 / 0.34, 0.06);  // seed against seed: 0.1 of mu apart
   EXPECT_NEAR(cell.limit, 1.5 * cell.floor, 1e-12);
   EXPECT_TRUE(cell.met);
-  EXPECT_EQ(row(judged, "sigma_xz").must, LimitRow::Outcome::met);
+  EXPECT_EQ(row(judged, "sigma_xz").must, Target::Outcome::met);
 }
 
 TEST(JudgedLimits, ASpeedWithOneRunBorrowsTheFloorOfTheOthers) {
@@ -99,7 +99,7 @@ TEST(JudgedLimits, ASpeedWithOneRunBorrowsTheFloorOfTheOthers) {
   EXPECT_EQ(found.cells[0].floor, found.cells[1].floor);
   EXPECT_FALSE(found.cells[0].met);
   EXPECT_TRUE(found.cells[1].met);
-  EXPECT_EQ(found.must, LimitRow::Outcome::missed);
+  EXPECT_EQ(found.must, Target::Outcome::missed);
 }
 
 TEST(JudgedLimits, AWorstSpeedIsJudgedApartFromTheMean) {
@@ -109,8 +109,8 @@ TEST(JudgedLimits, AWorstSpeedIsJudgedApartFromTheMean) {
     return judged_limits({.limits = {limit}}, {run_side(6, "a"), run_side(5, "b", with_mu(mu))},
                          {flow_side(6), flow_side(5)}, {});
   };
-  EXPECT_EQ(row(judged(0.40), "sigma_xz").must, LimitRow::Outcome::met);  // 0 and 0.15: mean 0.08
-  EXPECT_EQ(row(judged(0.50), "sigma_xz").must, LimitRow::Outcome::missed);
+  EXPECT_EQ(row(judged(0.40), "sigma_xz").must, Target::Outcome::met);  // 0 and 0.15: mean 0.08
+  EXPECT_EQ(row(judged(0.50), "sigma_xz").must, Target::Outcome::missed);
 }
 
 TEST(JudgedLimits, ScalarsAreCountedWhereTheIntervalsHoldThem) {
@@ -121,8 +121,8 @@ TEST(JudgedLimits, ScalarsAreCountedWhereTheIntervalsHoldThem) {
                                             {flow_side(6), flow_side(5)}, {});
   const LimitRow& found = row(judged, "lambda");
   EXPECT_FALSE(found.cells[0].met);
-  EXPECT_EQ(found.must, found.cells[1].met ? LimitRow::Outcome::met : LimitRow::Outcome::missed);
-  EXPECT_EQ(found.aim, LimitRow::Outcome::missed);
+  EXPECT_EQ(found.must, found.cells[1].met ? Target::Outcome::met : Target::Outcome::missed);
+  EXPECT_EQ(found.aim, Target::Outcome::missed);
 }
 
 TEST(JudgedLimits, BothRegistrationsStandSideBySide) {
@@ -142,9 +142,9 @@ TEST(JudgedLimits, CostsGoByTheStartAndWallsNeedMaps) {
   const JudgedLimits judged =
       judged_limits({.limits = {cold, neighbour, wall}}, {run_side(6, "a")}, {flow_side(6)}, {"a"});
   EXPECT_EQ(judged.calibrated_by, (std::vector<std::string>{"a"}));
-  EXPECT_EQ(row(judged, "seconds_cold").must, LimitRow::Outcome::missed);  // 5 s
-  EXPECT_EQ(row(judged, "seconds_neighbour").must, LimitRow::Outcome::not_measured);
-  EXPECT_EQ(row(judged, "traction_ratio").must, LimitRow::Outcome::not_measured);
+  EXPECT_EQ(row(judged, "seconds_cold").must, Target::Outcome::missed);  // 5 s
+  EXPECT_EQ(row(judged, "seconds_neighbour").must, Target::Outcome::not_measured);
+  EXPECT_EQ(row(judged, "traction_ratio").must, Target::Outcome::not_measured);
 }
 
 // A uniform stress: shear over normal traction follows from the angle alone.
