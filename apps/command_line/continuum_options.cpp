@@ -30,6 +30,9 @@ void add_calibrate_options(CLI::App& command, CalibrateOptions& options) {
   command.add_flag("--memory", options.memory,
                    "Memory of the axes of stress as a part of the law: amount of the stress over I, share "
                    "renewed by strain, and what the runs cannot tell of them (from maps)");
+  command.add_flag("--nonlocal", options.nonlocal,
+                   "Threshold and length of nonlocal fluidity as a part of the law, and whether the runs ask "
+                   "for them (from maps)");
   add_optional_number(command, "--I-min", options.I_min, "", above(0),
                       "Least inertial number that is fitted");
   add_optional_number(command, "--I-max", options.I_max, "", above(0), "Greatest one");

@@ -81,14 +81,20 @@ void add_plot_options(CLI::App& command, PlotOptions& options) {
 
 void add_export_options(CLI::App& command, ExportOptions& options) {
   add_folder_or_file(command, "run", options.run, "RUN", "Folder of a run, finished or not");
-  command.add_flag("--vtu", options.vtu, "VTK files with grains, contacts and walls, for ParaView")
-      ->required();
+  auto* vtu =
+      command.add_flag("--vtu", options.vtu, "VTK files with grains, contacts and walls, for ParaView");
+  auto* measurements = command.add_flag(
+      "--measurements", options.measurements,
+      "What was measured, without snapshots and figures and with packed maps: what calibrate, compare and "
+      "measure --study read in the place of the run");
+  vtu->excludes(measurements);
   command
       .add_option("--snapshots", options.snapshots,
                   "Which snapshots: all, last, or numbers and ranges such as 1,5,10-20")
       ->type_name("LIST")
       ->capture_default_str();
-  add_optional_path(command, "-o,--output", options.output, "DIR", "Folder for the files; standard: RUN/vtu");
+  add_optional_path(command, "-o,--output", options.output, "DIR",
+                    "Folder for the files; standard with --vtu: RUN/vtu");
   add_existing(command, options.existing, keep_what_is_done);
 }
 

@@ -16,6 +16,8 @@ namespace drumlin::apps {
 namespace fs = std::filesystem;
 
 int export_run(const ExportOptions& options) {
+  if (options.measurements) return export_measurements(options);
+  if (!options.vtu) throw InputError("export: says no format (allowed: --vtu or --measurements)");
   const particles::RunFolder run = particles::read_run_folder(options.run);
   const fs::path folder = options.output.value_or(options.run / "vtu");
   if (options.existing == ExistingOutput::resume && holds_results(folder, "grains.pvd")) {

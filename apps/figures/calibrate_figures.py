@@ -85,21 +85,50 @@ def draw_memory(figure, memory):
                     f"c_rho = {law['c_rho']:g}", fontsize=12)
 
 
+def draw_nonlocal(figure, nonlocal_record):
+    """What curves upwards over mu, beside what a threshold would ask for."""
+    axes, misfits = figure.subplots(1, 2)
+    lengths = nonlocal_record["lengths"]
+    middle = [sum(length["mu"]) / 2 for length in lengths]
+    axes.plot(middle, [length["curvature"] for length in lengths], "o-", color=style.PARTICLES, label="measured")
+    laws = [("fit", nonlocal_record["amplitude"], nonlocal_record["mu_s"])]
+    laws += [(f"mu_s = {law['mu_s']:.2f}", law["amplitude"], law["mu_s"]) for law in nonlocal_record["given_mu_s"] if law["mu_s"] in (0.22, 0.26)]
+    for (name, amplitude, threshold), line in zip(laws, ("-", "--", ":")):
+        if amplitude > 0:
+            below = [mu for mu in middle if mu < threshold] + [threshold]
+            axes.plot(below, [(threshold - mu) / amplitude**2 for mu in below], line, color=style.CONTINUUM, label=f"{name}: A = {amplitude:.2f}")
+    axes.axhline(0, color="0.6", linewidth=0.8)
+    axes.set_ylim(top=2.5 * max(length["curvature"] for length in lengths))
+    axes.set_xlabel("|s|/p")
+    axes.set_ylabel("lap g/g [1/d²]")
+    axes.legend(fontsize=9)
+    given = nonlocal_record["given_mu_s"]
+    misfits.plot([law["mu_s"] for law in given], [law["rms_bed"] for law in given], "s-", color=style.CONTINUUM, label="a threshold at mu_s with its best A")
+    misfits.axhline(nonlocal_record["rms_local_bed"], color=style.PARTICLES, label="|s|/p follows I: no threshold")
+    misfits.set_ylim(bottom=0)
+    misfits.set_xlabel("mu_s")
+    misfits.set_ylabel("misfit of |s|/p in the bed, rms")
+    misfits.legend(fontsize=9)
+    figure.suptitle(f"Nonlocal fluidity with a threshold: A = {nonlocal_record['amplitude']:.2f}, mu_s = {nonlocal_record['mu_s']:.3f}", fontsize=12)
+
+
 def main():
     options = arguments()
     with open(options.record, encoding="utf-8") as stream:
         record = json.load(stream)
     style.use_style()
     with_axes = record["turn"] is not None and "axis_angle_deg" in record["points"][0]
-    memory = record.get("memory")
-    if memory is None:
+    further = [(draw, record[key]) for draw, key in ((draw_memory, "memory"), (draw_nonlocal, "nonlocal")) if key in record]
+    if not further:
         figure, panels = plt.subplots(1, 3 if with_axes else 2, figsize=(17 if with_axes else 12, 4.8))
     else:
-        figure = plt.figure(figsize=(17, 11.5))
-        above, below, words = figure.subfigures(3, 1, height_ratios=[1, 1.05, 0.3])
+        figure = plt.figure(figsize=(17, 6.5 + 5 * len(further)))
+        above, *below, words = figure.subfigures(2 + len(further), 1, height_ratios=[1, *[1.05] * len(further), 0.3])
         panels = above.subplots(1, 3 if with_axes else 2)
-        draw_memory(below, memory)
-        lines = ["What the runs cannot tell"] + ["- " + style.plain(sentence, 190) for sentence in memory["untold"]]
+        for part, (draw, found) in zip(below, further):
+            draw(part, found)
+        untold = [sentence for _, found in further for sentence in found["untold"]]
+        lines = ["What the runs cannot tell"] + ["- " + style.plain(sentence, 190) for sentence in untold]
         words.text(0.02, 0.95, "\n".join(lines), va="top", fontsize=10)
     colors = colors_of(record)
     chosen = next(form for form in record["forms"] if form["chosen"])

@@ -70,11 +70,15 @@ int plot(const PlotOptions&);
 struct ExportOptions {
   std::filesystem::path run;
   std::optional<std::filesystem::path> output;  ///< standard: RUN/vtu
-  bool vtu = false;                             ///< the one format so far
-  std::string snapshots = "all";                ///< "all", "last", or "1,5,10-20"
+  bool vtu = false;
+  std::string snapshots = "all";  ///< "all", "last", or "1,5,10-20"
   ExistingOutput existing = ExistingOutput::refuse;
+  bool measurements = false;  ///< what was measured, small, in place of VTK files; `output` has to be given
 };
 int export_run(const ExportOptions&);
+/// A measured run without snapshots and figures, its maps packed: what readers of measurements take in the
+/// place of the run.
+int export_measurements(const ExportOptions&);
 
 struct HistoryOptions {
   std::filesystem::path run;
@@ -101,6 +105,7 @@ struct CalibrateOptions {
   bool memory = false;
   bool accept_unsteady = false;
   ExistingOutput existing = ExistingOutput::refuse;
+  bool nonlocal = false;
 };
 int calibrate(const CalibrateOptions&);
 

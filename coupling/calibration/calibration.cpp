@@ -127,6 +127,21 @@ void assess(Calibration& calibration) {
   calibration.ill_posed = ill_posed_intervals(friction_law(calibration.rheology.mu), k ? &*k : nullptr);
 }
 
+void add_laws_of_the_bed(Calibration& calibration) {
+  const CalibratedLaw amount = amount_law(calibration.runs, calibration.options.draws);
+  if (calibration.options.memory) {
+    calibration.memory = memory_calibration(calibration.runs, calibration.held_out, amount);
+    calibration.rheology.memory = measured_memory(*calibration.memory);
+  }
+  if (calibration.options.nonlocal) {
+    std::vector<FluidityOfRun> runs;
+    for (const RunEvidence& run : calibration.runs)
+      runs.push_back({run.name, fluidity_points(PathFields(*run.map))});
+    calibration.nonlocal = fit_nonlocal(runs, amount.curve());
+    if (calibration.nonlocal->law.amplitude > 0) calibration.rheology.nonlocal = calibration.nonlocal->law;
+  }
+}
+
 }  // namespace
 
 std::vector<FrictionPoint> friction_of(const RunEvidence& run, const Calibration& calibration) {
@@ -169,10 +184,7 @@ Calibration calibration_of(std::vector<RunEvidence> runs, std::vector<RunEvidenc
   if (options.relaxation)
     for (const RunEvidence& run : calibration.runs)
       calibration.relaxations.push_back(fabric_relaxation(*run.map, calibration.turn->curve()));
-  if (options.memory) {
-    calibration.memory = memory_calibration(calibration.runs, calibration.held_out, options.draws);
-    calibration.rheology.memory = measured_memory(*calibration.memory);
-  }
+  if (options.memory || options.nonlocal) add_laws_of_the_bed(calibration);
   return calibration;
 }
 

@@ -6,6 +6,7 @@
 #include "coupling/calibration/fabric_relaxation.hpp"
 #include "coupling/calibration/law_score.hpp"
 #include "coupling/calibration/memory_calibration.hpp"
+#include "coupling/calibration/nonlocal_fit.hpp"
 #include "coupling/calibration/one_law.hpp"
 #include "coupling/calibration/run_evidence.hpp"
 #include "coupling/law/ill_posed.hpp"
@@ -20,6 +21,7 @@ struct CalibrationOptions {
   bool relaxation = false;            ///< needs the maps of the runs
   bool memory = false;                ///< needs the maps and amount_blocks of the runs
   int draws = 200;
+  bool nonlocal = false;  ///< needs the maps and amount_blocks of the runs
 };
 
 struct Calibration {
@@ -34,6 +36,7 @@ struct Calibration {
   std::optional<OneLaw> one_law;              ///< with two speeds at least
   std::vector<FabricRelaxation> relaxations;  ///< per run
   std::optional<MemoryCalibration> memory;    ///< where it is asked for
+  std::optional<NonlocalFit> nonlocal;        ///< where it is asked for
   std::vector<InertialRange> ill_posed;       ///< within 1e-6 ... 1, in simple shear
   RheologyFit rheology;
 

@@ -22,21 +22,6 @@ constexpr AxisMemory first_guess{.c = 6, .m = 1, .chi = 0.5};
 
 using Runs = std::vector<PathsOfRun>;
 
-CalibratedLaw fitted_amount(std::span<const RunEvidence> runs, int draws) {
-  std::vector<std::vector<FrictionPoint>> points;
-  std::vector<double> I;
-  for (const RunEvidence& run : runs) {
-    points.push_back(amounts(run.amount_blocks));
-    for (const FrictionPoint& point : points.back()) I.push_back(point.I);
-  }
-  if (I.size() < least_amounts)
-    throw InputError(
-        fmt::format("--memory: the amount of the stress is known in {} blocks of the maps alone (needed: "
-                    "{}); take longer runs or a larger drum",
-                    I.size(), least_amounts));
-  return calibrated(points, {.kind = FormKind::table, .knots = table_knots(I)}, draws);
-}
-
 std::optional<RobustFriction> fitted_bed_line(std::span<const RunEvidence> runs) {
   std::vector<FrictionPoint> bed;
   for (const RunEvidence& run : runs)
@@ -238,6 +223,21 @@ std::vector<std::string> what_is_untold(const MemoryCalibration& found, std::siz
 
 }  // namespace
 
+CalibratedLaw amount_law(std::span<const RunEvidence> runs, int draws) {
+  std::vector<std::vector<FrictionPoint>> points;
+  std::vector<double> I;
+  for (const RunEvidence& run : runs) {
+    points.push_back(amounts(run.amount_blocks));
+    for (const FrictionPoint& point : points.back()) I.push_back(point.I);
+  }
+  if (I.size() < least_amounts)
+    throw InputError(
+        fmt::format("--memory, --nonlocal: the amount of the stress is known in {} blocks of the maps alone "
+                    "(needed: {}); take longer runs or a larger drum",
+                    I.size(), least_amounts));
+  return calibrated(points, {.kind = FormKind::table, .knots = table_knots(I)}, draws);
+}
+
 double DilationShare::slope() const {
   return (upstream.mu - downstream.mu) / (upstream.dilatancy - downstream.dilatancy);
 }
@@ -250,9 +250,9 @@ MemoryLaw measured_memory(const MemoryCalibration& found) {
 }
 
 MemoryCalibration memory_calibration(std::span<const RunEvidence> runs, std::span<const RunEvidence> held_out,
-                                     int draws) {
+                                     const CalibratedLaw& amount_over_I) {
   MemoryCalibration found;
-  found.amount = fitted_amount(runs, draws);
+  found.amount = amount_over_I;
   found.bed_line = fitted_bed_line(runs);
   const FormCurve amount = found.amount.curve();
   const Runs paths = paths_of(runs, amount, &found.from_displacements);

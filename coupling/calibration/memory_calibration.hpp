@@ -54,11 +54,14 @@ struct MemoryCalibration {
   std::vector<std::string> untold;  ///< what the runs cannot tell, as sentences
 };
 
-/// `runs`, `held_out`: with their maps and blocks with_amounts(). Nothing of what is held out enters but
+/// The amount |s|/p over I, a table, of the blocks for it. Throws InputError with fewer than 24 of them.
+CalibratedLaw amount_law(std::span<const RunEvidence> runs, int draws);
+
+/// `runs`, `held_out`: with their maps; `amount`: of `runs`. Nothing of what is held out enters but
 /// `predictions`. Throws InputError where a map lacks a field, has no drum, or where the runs have too little
 /// bed: fewer than 100 paths that end in it, or in fewer than five sectors of 15 deg.
 MemoryCalibration memory_calibration(std::span<const RunEvidence> runs, std::span<const RunEvidence> held_out,
-                                     int draws);
+                                     const CalibratedLaw& amount);
 
 /// The law as it crosses to the continuum: the amount as its table.
 MemoryLaw measured_memory(const MemoryCalibration& found);

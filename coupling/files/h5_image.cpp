@@ -4,6 +4,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <initializer_list>
 #include <iterator>
@@ -68,14 +69,34 @@ hid_t access_to_memory() {
   return access;
 }
 
+/// To the nearest number of so many binary digits; what is not finite stays.
+float rounded_to(float value, int bits) {
+  if (!std::isfinite(value)) return value;
+  int exponent = 0;
+  const float fraction = std::frexp(value, &exponent);
+  return std::ldexp(std::nearbyint(std::ldexp(fraction, bits + 1)), exponent - bits - 1);
+}
+
+constexpr hsize_t packed_piece = 1 << 20;  // bytes of what is unpacked at once, at most
+
+/// Whole rows to a piece.
+void pack(hid_t creation, std::initializer_list<hsize_t> shape) {
+  const hsize_t rows = *std::data(shape), row_bytes = *(std::data(shape) + 1) * sizeof(float);
+  const hsize_t piece[] = {std::clamp<hsize_t>(packed_piece / row_bytes, 1, rows), *(std::data(shape) + 1)};
+  check(H5Pset_chunk(creation, 2, piece) >= 0 && H5Pset_shuffle(creation) >= 0 &&
+            H5Pset_deflate(creation, 9) >= 0,
+        "pack a dataset");
+}
+
 void put(hid_t file, const std::string& name, hid_t memory_type, hid_t file_type, const void* data,
-         std::initializer_list<hsize_t> shape) {
+         std::initializer_list<hsize_t> shape, bool packed = false) {
   const Id links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
   check(H5Pset_create_intermediate_group(links.get(), 1) >= 0, "create a group");
   const Id space(H5Screate_simple(static_cast<int>(shape.size()), std::data(shape), nullptr), H5Sclose);
   // No object times: the same state gives the same bytes.
   const Id creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   check(H5Pset_obj_track_times(creation.get(), false) >= 0, "leave out times");
+  if (packed) pack(creation.get(), shape);
   const Id set(
       H5Dcreate2(file, name.c_str(), file_type, space.get(), links.get(), creation.get(), H5P_DEFAULT),
       H5Dclose);
@@ -113,6 +134,13 @@ void H5Writer::add(const std::string& name, std::span<const std::int64_t> values
 void H5Writer::add_table(const std::string& name, std::span<const double> values, std::size_t columns) {
   put(handles_->file->get(), name, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, values.data(),
       {values.size() / columns, columns});
+}
+void H5Writer::add_packed_table(const std::string& name, std::span<const double> values, std::size_t columns,
+                                int bits) {
+  std::vector<float> rounded;
+  for (const double value : values) rounded.push_back(rounded_to(static_cast<float>(value), bits));
+  put(handles_->file->get(), name, H5T_NATIVE_FLOAT, H5T_IEEE_F32LE, rounded.data(),
+      {values.size() / columns, columns}, !values.empty());
 }
 void H5Writer::add_number(const std::string& name, double value) {
   add(name, std::span<const double>(&value, 1));

@@ -26,6 +26,10 @@ class H5Writer {
   void add(const std::string& name, std::span<const std::int64_t> values);
   /// Row after row; `values` holds a whole number of rows.
   void add_table(const std::string& name, std::span<const double> values, std::size_t columns);
+  /// The same in single precision, packed (shuffled and deflated) after rounding to `bits` binary digits, 1
+  /// to 23, of which the first one is not counted: a relative error of 2^-(bits + 1).
+  void add_packed_table(const std::string& name, std::span<const double> values, std::size_t columns,
+                        int bits);
   void add_number(const std::string& name, double value);
   void add_number(const std::string& name, std::int64_t value);
   void add_text(const std::string& name, const std::string& text);

@@ -8,6 +8,7 @@
 #include "coupling/common/errors.hpp"
 #include "coupling/common/text_file.hpp"
 #include "coupling/documents/key_table.hpp"
+#include "coupling/law/law_draws.hpp"
 
 namespace drumlin {
 
@@ -69,6 +70,9 @@ struct StressRatioTable {
 struct MemoryTable {
   MemoryLaw law;
 };
+struct NonlocalTable {
+  Threshold law;
+};
 struct PackingTable {
   double nu = 0;
   std::optional<double> nu_ci99;
@@ -84,6 +88,7 @@ struct RheologyFile {
   MuTable mu;
   std::optional<StressRatioTable> k;
   std::optional<MemoryTable> memory;
+  std::optional<NonlocalTable> nonlocal;
   std::optional<BandTable> band;
   PackingTable packing;
   OriginTable fitted_on;
@@ -134,6 +139,16 @@ void describe(Visitor& v, MemoryTable& t) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, NonlocalTable& t) {
+  v.value("amplitude", t.law.amplitude,
+          required("", above(0, 100), "A of the length A d/sqrt|mu - mu_s| over which flow spreads."));
+  v.value("mu_s", t.law.mu_s, required("", friction_range, "Friction below which the local law stands."));
+  v.value("amplitude_ci99", t.law.amplitude_ci99,
+          when_given("", at_least(0, 100), "Half width of its 99 % interval."));
+  v.value("mu_s_ci99", t.law.mu_s_ci99, when_given("", at_least(0, 10), "Half width of its 99 % interval."));
+}
+
+template <class Visitor>
 void describe(Visitor& v, PackingTable& t) {
   v.value("nu", t.nu, required("", at_least(0.01, 1), "Volume fraction of the bulk."));
   v.value("nu_ci99", t.nu_ci99, when_given("", at_least(0, 1), "Half width of its 99 % interval."));
@@ -159,6 +174,8 @@ void describe(Visitor& v, RheologyFile& t) {
   v.table("mu", t.mu, Need::required, "Effective friction.");
   v.optional_table("k", t.k, "Ratio of the normal stresses; absent: no such ratio in the law.");
   v.optional_table("memory", t.memory, "Memory of the axes of stress; absent: the law has none.");
+  v.optional_table("nonlocal", t.nonlocal,
+                   "Threshold and length of flow that spreads; absent: the law has none.");
   v.optional_table("band", t.band, "What the law owes to the draw of its points; absent: not known.");
   v.table("packing", t.packing, Need::required, "State that the law was measured in.");
   v.table("fitted_on", t.fitted_on, Need::required, "Origin.");
@@ -267,44 +284,6 @@ void check_together(const NormalStressRatio& points, Faults& faults) {
   }
 }
 
-// Numbers that tell a draw of a law from the others.
-std::size_t draw_size(const MeasuredFriction& mu) {
-  if (std::holds_alternative<LogFriction>(mu)) return 2;
-  if (std::holds_alternative<LogLinearFriction>(mu)) return 3;
-  const auto* table = std::get_if<FrictionTable>(&mu);
-  return table == nullptr ? 0 : table->mu.size();
-}
-
-std::vector<double> draw_of(const MeasuredFriction& mu) {
-  if (const auto* log = std::get_if<LogFriction>(&mu)) return {log->a, log->b};
-  if (const auto* both = std::get_if<LogLinearFriction>(&mu)) return {both->a, both->b, both->c};
-  const auto* table = std::get_if<FrictionTable>(&mu);
-  return table == nullptr ? std::vector<double>() : table->mu;
-}
-
-MeasuredFriction with_draw(MeasuredFriction mu, std::vector<double> draw) {
-  if (auto* log = std::get_if<LogFriction>(&mu)) {
-    log->a = draw[0];
-    log->b = draw[1];
-  } else if (auto* both = std::get_if<LogLinearFriction>(&mu)) {
-    both->a = draw[0];
-    both->b = draw[1];
-    both->c = draw[2];
-  } else if (auto* table = std::get_if<FrictionTable>(&mu)) {
-    table->mu = std::move(draw);
-  }
-  return mu;
-}
-
-std::vector<MeasuredFriction> draws_of(const MeasuredFriction& mu, const std::vector<double>& numbers) {
-  std::vector<MeasuredFriction> laws;
-  const std::size_t size = draw_size(mu);
-  for (std::size_t first = 0; first + size <= numbers.size(); first += size)
-    laws.push_back(with_draw(mu, {numbers.begin() + static_cast<std::ptrdiff_t>(first),
-                                  numbers.begin() + static_cast<std::ptrdiff_t>(first + size)}));
-  return laws;
-}
-
 std::vector<InputProblem> problems_of(const MeasuredFriction& friction, const Document& document) {
   std::vector<InputProblem> problems;
   Faults faults(document, problems);
@@ -343,6 +322,7 @@ RheologyFit fit_of(const Document& document) {
   fit.mu = content.mu.friction;
   if (content.k) fit.k = content.k->points;
   if (content.memory) fit.memory = content.memory->law;
+  if (content.nonlocal) fit.nonlocal = content.nonlocal->law;
   fit.nu = content.packing.nu;
   fit.nu_ci99 = content.packing.nu_ci99;
   fit.rms_misfit = content.mu.rms_misfit;
@@ -368,6 +348,7 @@ std::string rheology_text(const RheologyFit& fit) {
   content.mu = {fit.mu, fit.rms_misfit};
   if (fit.k) content.k = StressRatioTable{*fit.k};
   if (fit.memory) content.memory = MemoryTable{*fit.memory};
+  if (fit.nonlocal) content.nonlocal = NonlocalTable{*fit.nonlocal};
   if (!fit.draws.empty()) content.band.emplace();
   for (const MeasuredFriction& draw : fit.draws)
     for (const double number : draw_of(draw)) content.band->draws.push_back(number);

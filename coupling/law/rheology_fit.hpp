@@ -67,12 +67,21 @@ struct MemoryLaw {
   FrictionTable mu;      ///< |s|/p, s the deviator of the stress; not tau:D/(2|D|p)
 };
 
+/// Where flow stops and over what length it spreads beyond (docs/theory/rheology.md, nonlocal fluidity with a
+/// threshold): xi = amplitude d/sqrt|mu - mu_s|.
+struct Threshold {
+  double amplitude = 0;                                       ///< A
+  double mu_s = 0;                                            ///< of the local law for I -> 0
+  std::optional<double> amplitude_ci99 = {}, mu_s_ci99 = {};  ///< half widths of 99 % intervals
+};
+
 /// A law and the state it was measured in.
 struct RheologyFit {
   MeasuredFriction mu;
   std::optional<NormalStressRatio> k;
-  std::optional<MemoryLaw> memory;  ///< absent: the law has none
-  double nu = 0;                    ///< volume fraction of the bulk
+  std::optional<MemoryLaw> memory;    ///< absent: the law has none
+  std::optional<Threshold> nonlocal;  ///< absent: the law has none
+  double nu = 0;                      ///< volume fraction of the bulk
   std::optional<double> nu_ci99;
   std::optional<double> rms_misfit;     ///< of mu about the fit
   std::vector<MeasuredFriction> draws;  ///< laws of the same form that other draws of the points gave

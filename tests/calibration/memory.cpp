@@ -117,7 +117,7 @@ TEST(MemoryCalibration, FindsTheLawOfNoisyMapsAndSaysWhatItCannotTell) {
   std::vector<RunEvidence> runs, held_out;
   for (unsigned seed = 1; seed <= 2; ++seed)
     runs.push_back(evidence_of(remembering_drum({.noise = 0.02, .seed = seed}), "drum"));
-  const MemoryCalibration found = memory_calibration(runs, {}, 16);
+  const MemoryCalibration found = memory_calibration(runs, {}, amount_law(runs, 16));
   ASSERT_TRUE(found.bed_line);
   EXPECT_NEAR(found.bed_line->law[0], 0.31, 0.015);
   EXPECT_NEAR(found.bed_line->law[1], 0.011, 0.0015);
@@ -138,7 +138,7 @@ TEST(MemoryCalibration, FindsTheLawOfNoisyMapsAndSaysWhatItCannotTell) {
   AxisMemory other = known_memory;
   other.chi = -0.6;
   held_out.push_back(evidence_of(remembering_drum({}, other), "other"));
-  const MemoryCalibration again = memory_calibration(runs, held_out, 16);
+  const MemoryCalibration again = memory_calibration(runs, held_out, amount_law(runs, 16));
   EXPECT_EQ(again.law.c, found.law.c);
   EXPECT_EQ(again.law.chi, found.law.chi);
   EXPECT_EQ(again.amount.fit.law, found.amount.fit.law);
@@ -153,13 +153,13 @@ TEST(MemoryCalibration, FindsTheLawOfNoisyMapsAndSaysWhatItCannotTell) {
 TEST(MemoryCalibration, ADrumWithoutABedIsRefused) {
   const RememberingDrum fast{.surface_speed = 20, .decay = 40};
   const std::vector<RunEvidence> runs{evidence_of(remembering_drum(fast), "fast")};
-  EXPECT_THROW((void)memory_calibration(runs, {}, 16), InputError);
+  EXPECT_THROW((void)memory_calibration(runs, {}, amount_law(runs, 16)), InputError);
 }
 
 TEST(MemoryCalibration, MapsThatSayTooLittleAreRefused) {
   RunEvidence run = evidence_of(remembering_drum({.radius = 40}), "short");
   run.amount_blocks.resize(20);
-  EXPECT_THROW((void)memory_calibration({&run, 1}, {}, 16), InputError);
+  EXPECT_THROW((void)memory_calibration({&run, 1}, {}, amount_law({&run, 1}, 16)), InputError);
   FieldMap layer = remembering_drum({.radius = 40});
   layer.header.drum_radius = 0;
   EXPECT_THROW(PathFields{layer}, InputError);

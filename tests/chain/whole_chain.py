@@ -10,6 +10,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import tomllib
 
 from command import Drumlin, bytes_below, read_json, require, require_keys
 
@@ -154,6 +155,28 @@ def check_readers(files, folder):
     print("read_results.py: everything read")
 
 
+def check_measurements(drumlin, run, flow, law, folder):
+    """What is exported of a run stands in its place: the same comparison, and the same law but for the rounding of packed maps."""
+    kept = folder / "kept" / run.name
+    drumlin("export", run, code=2)
+    drumlin("export", run, "--measurements", code=2)
+    drumlin("export", run, "--measurements", "-o", kept)
+    before = bytes_below(kept)
+    drumlin("export", run, "--measurements", "-o", kept, code=2)
+    drumlin("export", run, "--measurements", "-o", kept, "--resume")
+    require(bytes_below(kept) == before, "repeating export changed files")
+    sizes = [sum(path.stat().st_size for path in folder_of.rglob("maps.h5")) for folder_of in (kept, run)]
+    require(0 < 3 * sizes[0] < sizes[1], f"maps of {sizes} bytes")
+    drumlin("calibrate", kept, "-o", folder / "kept.toml", "--accept-unsteady")
+    laws = [tomllib.loads(file.read_text(encoding="utf-8"))["mu"] for file in (law, folder / "kept.toml")]
+    for key in laws[0]:
+        if key not in ("law", "covariance"):
+            pairs = zip(*(value if isinstance(value, list) else [value] for value in (laws[0][key], laws[1][key])))
+            require(all(abs(a - b) <= 2e-3 * abs(a) for a, b in pairs), f"{key}: {laws}")
+    drumlin("compare", kept, flow, "-o", folder / "kept-report", "--accept-unsteady")
+    print("export --measurements: calibrated and compared in the place of the run")
+
+
 def main():
     drumlin, here = Drumlin(sys.argv[1]), pathlib.Path(sys.argv[2])
     with tempfile.TemporaryDirectory() as name:
@@ -179,6 +202,7 @@ def main():
         # A drum of 350 grains has no bed that could remember.
         drumlin("calibrate", run, "-o", folder / "memory.toml", "--memory", "--accept-unsteady", code=2)
         require(not list(folder.glob("memory.*")), "a calibration that was refused left files")
+        check_measurements(drumlin, run, flow, law, folder)
         check_readers([run, law, flow, report, here.parents[1] / "data" / "problems" / "drum-300-mu-0.4-flow.h5"], folder)
         check_other_drum_is_refused(drumlin, run, flow, folder)
         check_zeros(drumlin, [run, flow], folder)

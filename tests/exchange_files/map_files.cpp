@@ -65,6 +65,39 @@ TEST(MapFile, SameMapsGiveSameBytes) {
   EXPECT_EQ(file_text(folder / "a.h5"), file_text(folder / "b.h5"));
 }
 
+TEST(MapFile, PackedOneKeepsValuesTo3e5AndIntervalsToOnePercent) {
+  const TemporaryFolder folder;
+  FieldMap map = example();
+  map.grid = {0, 0, 1, 1, 300, 100};
+  for (MapField& field : map.fields) {
+    const bool with_interval = !field.ci99.empty();
+    field.value.clear(), field.ci99.clear();
+    for (std::size_t node = 0; node < map.grid.nodes(); ++node) {
+      const auto k = static_cast<double>(node);
+      field.value.push_back(node % 7 == 0 ? nan : std::pow(-1, k) * std::exp(k / 3000 - 9));
+      if (with_interval) field.ci99.push_back(node % 7 == 0 ? nan : std::exp(k / 4000 - 12));
+    }
+  }
+  write_field_map(folder / "maps.h5", map, MapStorage::packed);
+  const FieldMap read = read_field_map(folder / "maps.h5");
+  EXPECT_EQ(read.header, map.header);
+  const auto expect_near = [](const std::vector<double>& a, const std::vector<double>& b, double share) {
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      EXPECT_EQ(std::isnan(a[i]), std::isnan(b[i]));
+      if (!std::isnan(a[i])) EXPECT_NEAR(a[i], b[i], share * std::abs(b[i]));
+    }
+  };
+  for (std::size_t f = 0; f < 2; ++f) {
+    expect_near(read.fields[f].value, map.fields[f].value, 3.1e-5);
+    expect_near(read.fields[f].ci99, map.fields[f].ci99, 0.01);
+  }
+  write_field_map(folder / "again.h5", map, MapStorage::packed);
+  EXPECT_EQ(file_text(folder / "maps.h5"), file_text(folder / "again.h5"));
+  write_field_map(folder / "whole.h5", map);
+  EXPECT_LT(4 * file_text(folder / "maps.h5").size(), file_text(folder / "whole.h5").size());
+}
+
 TEST(MapFile, MissingFieldIsNamed) {
   EXPECT_EQ(example().find("mu"), nullptr);
   EXPECT_NE(message_of<InputError>([] { example().field("mu"); }).find("mu"), std::string::npos);

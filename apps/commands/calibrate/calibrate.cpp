@@ -7,6 +7,7 @@
 
 #include "apps/commands/calibrate/calibration_json.hpp"
 #include "apps/commands/calibrate/evidence.hpp"
+#include "apps/commands/calibrate/nonlocal_json.hpp"
 #include "apps/support/commands.hpp"
 #include "apps/support/figures.hpp"
 #include "apps/support/json_file.hpp"
@@ -140,7 +141,8 @@ coupling::CalibrationOptions settings_of(const CalibrateOptions& options, coupli
                                         .turn = options.misalignment,
                                         .relaxation = options.relaxation,
                                         .memory = options.memory,
-                                        .draws = options.draws};
+                                        .draws = options.draws,
+                                        .nonlocal = options.nonlocal};
   if (options.law != "auto") settings.form = coupling::form_named(options.law);
   return settings;
 }
@@ -184,6 +186,7 @@ int calibrate(const CalibrateOptions& options) {
                         score_text("fitted", calibration.scores),
                         score_text("predicted", calibration.predictions), one_law_text(calibration),
                         relaxation_text(calibration), memory_text(calibration)));
+  if (calibration.nonlocal) print_out(nonlocal_text(*calibration.nonlocal));
   for (const MeasuredRun& run : all)
     for (const std::string& reason : run.unsteady)
       print_out(fmt::format("  warning: {} is not steady: {}\n", run.name, reason));

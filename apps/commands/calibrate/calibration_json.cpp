@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/commands/calibrate/memory_json.hpp"
+#include "apps/commands/calibrate/nonlocal_json.hpp"
 #include "apps/support/json_file.hpp"
 
 namespace drumlin::apps {
@@ -134,6 +135,7 @@ Json calibration_json(const coupling::Calibration& calibration, const std::vecto
   json["one_law"] = calibration.one_law ? one_law_json(*calibration.one_law) : Json();
   json["relaxation"] = relaxation_json(calibration);
   if (calibration.memory) json["memory"] = memory_json(*calibration.memory, calibration.runs);
+  if (calibration.nonlocal) json["nonlocal"] = nonlocal_json(*calibration.nonlocal);
   json["unsteady"] = Json::array();
   for (const MeasuredRun& run : runs)
     for (const std::string& reason : run.unsteady)

@@ -43,18 +43,20 @@ coupling::RunEvidence evidence_of(const MeasuredRun& run, coupling::EvidenceSour
   FieldMap map = read_field_map(checked_file(run.measured_files, "maps.h5"));
   require_same_frame(map, run);
   coupling::add_blocks(evidence, std::move(map), range);
-  if (options.memory) coupling::add_amount_blocks(evidence, range);
-  if (!options.relaxation && !options.memory) evidence.map.reset();
+  const bool of_the_bed = options.memory || options.nonlocal;
+  if (of_the_bed) coupling::add_amount_blocks(evidence, range);
+  if (!options.relaxation && !of_the_bed) evidence.map.reset();
   return evidence;
 }
 
 }  // namespace
 
 coupling::EvidenceSource source_of(const CalibrateOptions& options) {
-  const bool needs_maps = options.misalignment || options.relaxation || options.memory;
+  const bool needs_maps = options.misalignment || options.relaxation || options.memory || options.nonlocal;
   if (options.from == "profiles") {
     if (needs_maps)
-      throw InputError("--misalignment, --relaxation and --memory need tensors over the drum: --from maps");
+      throw InputError(
+          "--misalignment, --relaxation, --memory and --nonlocal need tensors over the drum: --from maps");
     return coupling::EvidenceSource::profiles;
   }
   std::vector<fs::path> all = options.runs;

@@ -1,0 +1,58 @@
+#include "apps/commands/calibrate/nonlocal_json.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "coupling/documents/json_numbers.hpp"
+
+namespace drumlin::apps {
+
+using Json = nlohmann::ordered_json;
+
+Json nonlocal_json(const coupling::NonlocalFit& found) {
+  Json json{{"amplitude", found.law.amplitude},
+            {"mu_s", found.law.mu_s},
+            {"amplitude_ci99", number_or_null(found.law.amplitude_ci99)},
+            {"mu_s_ci99", number_or_null(found.law.mu_s_ci99)},
+            {"points", found.points},
+            {"rms", number_or_null(found.rms)},
+            {"rms_bed", number_or_null(found.rms_bed)},
+            {"rms_local", number_or_null(found.local_rms)},
+            {"rms_local_bed", number_or_null(found.local_rms_bed)},
+            {"given_mu_s", Json::array()},
+            {"lengths", Json::array()},
+            {"untold", found.untold}};
+  for (const auto& [rms, law] : found.given)
+    json["given_mu_s"].push_back(
+        {{"mu_s", law.mu_s}, {"amplitude", law.amplitude}, {"rms_bed", number_or_null(rms)}});
+  for (const coupling::LengthOverFriction& length : found.lengths)
+    json["lengths"].push_back({{"mu", {length.mu_from, length.mu_to}},
+                               {"points", length.points},
+                               {"I", length.I},
+                               {"curvature", length.curvature},
+                               {"xi", number_or_null(length.xi())}});
+  return json;
+}
+
+std::string nonlocal_text(const coupling::NonlocalFit& found) {
+  const auto with_interval = [](double value, const std::optional<double>& ci99) {
+    return fmt::format("{:.3g}{}", value, ci99 ? fmt::format(" +- {:.2g}", *ci99) : "");
+  };
+  std::string text = fmt::format(
+      "nonlocal fluidity with a threshold, from {} points\n"
+      "  A = {}, mu_s = {} (99 %, over sectors); |s|/p of the bed {:.4f} off, without a threshold {:.4f}\n",
+      found.points, with_interval(found.law.amplitude, found.law.amplitude_ci99),
+      with_interval(found.law.mu_s, found.law.mu_s_ci99), found.rms_bed, found.local_rms_bed);
+  for (const auto& [rms, law] : found.given)
+    text += fmt::format("  mu_s = {:.2f}: A = {:.2f}, bed {:.4f} off\n", law.mu_s, law.amplitude, rms);
+  text += "  measured: mu, I, lap g/g (per d^2), xi (d)\n";
+  for (const coupling::LengthOverFriction& length : found.lengths)
+    text += fmt::format("    {:.2f} to {:.2f}  {:.1e}  {:+.3f}  {}\n", length.mu_from, length.mu_to, length.I,
+                        length.curvature, length.curvature > 0 ? fmt::format("{:.1f}", length.xi()) : "none");
+  if (!found.untold.empty()) text += "  what the runs cannot tell\n";
+  for (const std::string& sentence : found.untold) text += "  - " + sentence + "\n";
+  return text;
+}
+
+}  // namespace drumlin::apps

@@ -1,0 +1,78 @@
+// drumlin export --measurements: what was measured of a run, small enough to be kept and passed on
+// (docs/formats/measurements.md).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "apps/support/commands.hpp"
+#include "apps/support/output_folder.hpp"
+#include "apps/support/standard_streams.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/exchange/measured_run.hpp"
+#include "coupling/files/field_map_file.hpp"
+
+namespace drumlin::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Fields of the balance of momentum and of single parts of the stress: what checks a measurement, and no law
+/// or comparison reads.
+bool is_kept(const MapField& field) {
+  constexpr std::array left_out{"kinetic", "residual", "inertia", "wall_"};
+  return std::none_of(left_out.begin(), left_out.end(),
+                      [&](const char* part) { return field.name.find(part) != std::string::npos; });
+}
+
+void copy(const fs::path& from, const fs::path& to) {
+  fs::create_directories(to.parent_path());
+  std::error_code failed;
+  if (!fs::copy_file(from, to, failed))
+    throw IoError(
+        fmt::format("{}: cannot be copied from {}: {}", to.string(), from.string(), failed.message()));
+}
+
+std::uintmax_t bytes_below(const fs::path& folder) {
+  std::uintmax_t bytes = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) bytes += entry.file_size();
+  return bytes;
+}
+
+}  // namespace
+
+int export_measurements(const ExportOptions& options) {
+  if (!options.output) throw InputError("export --measurements: wants a folder of its own for them: -o DIR");
+  const fs::path& folder = *options.output;
+  if (options.existing == ExistingOutput::resume && holds_results(folder, "run.json")) {
+    print_out(fmt::format("{}: done already\n", folder.string()));
+    return static_cast<int>(ExitCode::done);
+  }
+  const MeasuredRun run = read_measured_run(options.run, Unsteady::accept);
+  StagedOutput output({folder, options.existing, "export", {options.run / "run.json"}});
+  const fs::path staged = output.folder();
+  for (const char* name : {"run.json", "scene.toml"})
+    if (fs::exists(options.run / name)) copy(checked_file(run.files, name), staged / name);
+  for (const char* name : {"measured.json", "profiles.csv", "forces.csv"})
+    if (fs::exists(run.measured_files.path / name))
+      copy(checked_file(run.measured_files, name), staged / "measured" / name);
+  if (fs::is_directory(run.measured_files.path / "slices"))
+    for (const auto& entry : fs::directory_iterator(run.measured_files.path / "slices")) {
+      const std::string name = "slices/" + entry.path().filename().string();
+      copy(checked_file(run.measured_files, name), staged / "measured" / name);
+    }
+  if (fs::exists(run.measured_files.path / "maps.h5")) {
+    FieldMap map = read_field_map(checked_file(run.measured_files, "maps.h5"));
+    std::erase_if(map.fields, [](const MapField& field) { return !is_kept(field); });
+    write_field_map(staged / "measured" / "maps.h5", map, MapStorage::packed);
+  }
+  const double megabytes = static_cast<double>(bytes_below(staged)) * 1e-6;
+  output.publish();
+  print_out(fmt::format("{}{}: {:.2g} MB\n", folder.string(), run.reduced ? " (reduced)" : "", megabytes));
+  for (const std::string& reason : run.unsteady)
+    print_out(fmt::format("  warning: {} is not steady: {}\n", run.name, reason));
+  return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace drumlin::apps
