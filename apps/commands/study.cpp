@@ -37,9 +37,10 @@ void print_study(const coupling::Study& study, const Json& content) {
                           collapse.collapse ? "one curve" : "not one curve"));
   print_out(fmt::format("\n{}\n", paper_table_markdown(study)));
   if (!study.paper.empty())
-    print_out(fmt::format("{} agree, {} near, {} differ, {} not measured\n",
-                          content["verdict"]["agrees"].get<int>(), content["verdict"]["near"].get<int>(),
-                          content["verdict"]["differs"].get<int>(),
+    print_out(fmt::format("{} agree, {} open, {} near, {} differ, {} imposed, {} not measured\n",
+                          content["verdict"]["agrees"].get<int>(), content["verdict"]["open"].get<int>(),
+                          content["verdict"]["near"].get<int>(), content["verdict"]["differs"].get<int>(),
+                          content["verdict"]["imposed"].get<int>(),
                           content["verdict"]["not measured"].get<int>()));
 }
 

@@ -138,8 +138,9 @@ Json json_of(const coupling::PaperVerdict& row) {
 /// How many entries of the paper's table have each verdict.
 Json counts_of(const std::vector<coupling::PaperVerdict>& rows) {
   Json counts = Json::object();
-  for (const coupling::Verdict verdict : {coupling::Verdict::agrees, coupling::Verdict::near,
-                                          coupling::Verdict::differs, coupling::Verdict::not_measured}) {
+  using coupling::Verdict;
+  for (const Verdict verdict : {Verdict::agrees, Verdict::open, Verdict::near, Verdict::differs,
+                                Verdict::imposed, Verdict::not_measured}) {
     int n = 0;
     for (const coupling::PaperVerdict& row : rows) n += row.verdict == verdict;
     counts[name_of(verdict)] = n;
@@ -213,10 +214,10 @@ std::string cell(std::string text) {
 }  // namespace
 
 std::string name_of(coupling::Verdict verdict) {
-  constexpr EnumName<coupling::Verdict> names[] = {{coupling::Verdict::agrees, "agrees"},
-                                                   {coupling::Verdict::near, "near"},
-                                                   {coupling::Verdict::differs, "differs"},
-                                                   {coupling::Verdict::not_measured, "not measured"}};
+  constexpr EnumName<coupling::Verdict> names[] = {
+      {coupling::Verdict::agrees, "agrees"},   {coupling::Verdict::open, "open"},
+      {coupling::Verdict::near, "near"},       {coupling::Verdict::differs, "differs"},
+      {coupling::Verdict::imposed, "imposed"}, {coupling::Verdict::not_measured, "not measured"}};
   return enum_name(names, verdict);
 }
 
@@ -227,6 +228,7 @@ std::string name_of(coupling::Reason reason) {
       {coupling::Reason::within_ten_percent, "within 10 %"},
       {coupling::Reason::outside, "outside the interval"},
       {coupling::Reason::unresolved, "the interval holds zero"},
+      {coupling::Reason::given_by_the_scene, "fill and speed give it"},
       {coupling::Reason::absent, "not measured"}};
   return enum_name(names, reason);
 }

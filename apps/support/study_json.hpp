@@ -7,7 +7,7 @@
 
 namespace drumlin::apps {
 
-std::string name_of(coupling::Verdict verdict);  ///< "agrees", "near", "differs", "not measured"
+std::string name_of(coupling::Verdict verdict);  ///< "agrees", "open", "near", "differs", ...
 std::string name_of(coupling::Reason reason);    ///< words for a table
 
 /// Everything but format, reduced, title and provenance.

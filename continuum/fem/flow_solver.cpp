@@ -109,6 +109,13 @@ std::shared_ptr<fem::SolvedLevel> coarsest_level(const FlowProblem& problem, con
   return level;
 }
 
+// Memory settled as far as a flow needs that will change once more.
+FlowSolverOptions loosely_settled(FlowSolverOptions options) {
+  options.picard_tolerance = std::max(options.picard_tolerance, options.loose_picard_tolerance);
+  options.tolerance = std::max(options.tolerance, options.loose_tolerance);
+  return options;
+}
+
 // One solve from mesh to mesh: cold, or from the state of another flow.
 class Continuation {
  public:
@@ -158,6 +165,8 @@ class Continuation {
   bool solve_mesh(int mesh, const std::string& start) {
     FlowSolverOptions here = options_;
     if (!is_last(mesh)) here.tolerance = std::max(options_.tolerance, options_.coarse_tolerance);
+    // What settles now is settled again with the surface in its place.
+    if (problem_.memory && problem_.moving_surface) here = loosely_settled(here);
     Newton newton(problem_, here, discretisation(), mesh, begun_, clock_, report_, observer_);
     level_->state.held = nullptr;
     if (problem_.memory && start != "cold" && solve_remembering(newton, start, here))
@@ -190,8 +199,15 @@ class Continuation {
     return false;
   }
 
-  bool move_surface(int mesh, const FlowSolverOptions& here) {
+  bool move_surface(int mesh, FlowSolverOptions here) {
     report_.failure.clear();
+    // On a coarser mesh memory is but a start for the next.
+    const bool whole = is_last(mesh) || !problem_.memory;
+    const FlowSolverOptions loose = here;
+    if (whole) {
+      here.picard_tolerance = options_.picard_tolerance;
+      here.tolerance = is_last(mesh) ? options_.tolerance : here.tolerance;
+    }
     const fem::SurfaceSolver solver{
         .newton =
             [&] {
@@ -199,10 +215,12 @@ class Continuation {
                                               observer_);
             },
         .solve =
-            [&](Newton& again) {
-              return solve_from("surface", again, here, *level_) &&
-                     (!fem::holds_fields(problem_) || solve_held_fields(again, here, *level_, report_));
+            [&](Newton& again, fem::Settling settling) {
+              const FlowSolverOptions& how = settling == fem::Settling::loose ? loose : here;
+              return solve_from("surface", again, how, *level_) &&
+                     (!fem::holds_fields(problem_) || solve_held_fields(again, how, *level_, report_));
             },
+        .first = problem_.memory && is_last(mesh) ? fem::Settling::loose : fem::Settling::whole,
         .stepped = observer_.surface_step,
         .tolerance = is_last(mesh) ? 0 : options_.coarse_surface_tolerance};
     // A coarser mesh whose ends are resolved too badly to converge is still a start for the next.

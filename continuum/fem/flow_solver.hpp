@@ -30,6 +30,9 @@ struct FlowSolverOptions {
   /// hardly shears the axes of its strain rate are noise: the drum at 6 rpm on cells of 2 d came to rest at
   /// 6e-4.
   double picard_tolerance = 1e-3;
+  /// The same while the surface of a flow that remembers still moves, and on all meshes but the last one.
+  double loose_picard_tolerance = 1e-2;
+  double loose_tolerance = 1e-6;  ///< on the residual, likewise
 };
 
 /// One nonlinear iteration.

@@ -44,26 +44,40 @@ std::vector<double> step_of(const FlowProblem& problem, const Response& response
   return step;
 }
 
+// Over the tolerance: above it steps take a flow whose memory is loosely settled.
+constexpr double near_the_end = 5;
+
 // One flow with the surface in another place. False, where cells or Newton's method fail.
-bool solve_moved(const SurfaceSolver& solver, SolvedLevel& level, const SurfaceShape& shape) {
+bool solve_moved(const SurfaceSolver& solver, SolvedLevel& level, const SurfaceShape& shape,
+                 Settling settling) {
   auto& d = *level.discretisation;
   if (!d.move_surface(level.problem, shape)) return false;
   d.rebuild_pattern();
   d.constraints.distribute(level.state.solution);
   level.state.solution.update_ghost_values();
-  return solver.solve(*solver.newton());
+  return solver.solve(*solver.newton(), settling);
 }
 
 class Iteration {
  public:
-  Iteration(const SurfaceSolver& solver, SolvedLevel& level, int mesh, Response& response, FlowReport& report)
-      : solver_(solver), level_(level), mesh_(mesh), response_(response), report_(report), now_(misfit()) {
+  Iteration(const SurfaceSolver& solver, SolvedLevel& level, int mesh, Response& response, FlowReport& report,
+            double tolerance)
+      : solver_(solver),
+        level_(level),
+        mesh_(mesh),
+        response_(response),
+        report_(report),
+        tolerance_(tolerance),
+        settling_(solver.first),
+        now_(misfit()) {
     record(0, 0);
   }
   const SurfaceMisfit& now() const { return now_; }
+  bool done() const { return now_.resolved <= tolerance_ && settling_ == Settling::whole; }
 
-  // One step that lessens the misfit; false if none is found.
+  // One step that lessens the misfit, or settles what presses little enough; false if none is found.
   bool step() {
+    if (now_.resolved <= tolerance_) return settle();
     if (response_.m() > 0 && try_step(1)) return true;
     if (interrupted() || !form_response()) return false;
     for (double share = 1; share > 0.05; share *= 0.5) {
@@ -79,9 +93,22 @@ class Iteration {
   }
   bool interrupted() const { return report_.failure == "interrupted"; }
 
+  bool settle() {
+    const int iterations = report_.iterations;
+    if (!solver_.solve(*solver_.newton(), Settling::whole)) return false;
+    settling_ = Settling::whole;
+    now_ = misfit();
+    record(0, report_.iterations - iterations);
+    return true;
+  }
+
+  Settling settling_of_step() const {
+    return now_.resolved > near_the_end * tolerance_ ? settling_ : Settling::whole;
+  }
+
   bool form_response() {
     const auto newton = solver_.newton();
-    if (!solver_.solve(*newton)) return false;
+    if (!solver_.solve(*newton, settling_)) return false;
     response_ = surface_response(*newton, level_);
     return true;
   }
@@ -95,7 +122,8 @@ class Iteration {
     const int iterations = report_.iterations;
     std::vector<double> step = step_of(problem, response_, now_, largest);
     for (double& s : step) s *= share;
-    if (solve_moved(solver_, level_, changed(problem, shape, step))) {
+    const Settling settling = settling_of_step();
+    if (solve_moved(solver_, level_, changed(problem, shape, step), settling)) {
       const SurfaceMisfit next = misfit();
       if (next.resolved < now_.resolved) {
         std::vector<double> answer = free_part(problem, next.coefficient);
@@ -105,6 +133,7 @@ class Iteration {
         // One that explains so little is none to go on with.
         if (next.resolved > 0.5 * now_.resolved) response_.reinit(0, 0);
         now_ = next;
+        settling_ = settling;
         record(share, report_.iterations - iterations);
         return true;
       }
@@ -128,6 +157,8 @@ class Iteration {
   int mesh_;
   Response& response_;
   FlowReport& report_;
+  double tolerance_;
+  Settling settling_;  // of the state
   SurfaceMisfit now_;
 };
 
@@ -137,8 +168,8 @@ bool solve_surface(const SurfaceSolver& solver, SolvedLevel& level, int mesh, Re
                    FlowReport& report) {
   const MovingSurface& effect = level.problem.moving_surface.value();
   const double tolerance = std::max(solver.tolerance, effect.tolerance);
-  Iteration iteration(solver, level, mesh, response, report);
-  for (int step = 0; iteration.now().resolved > tolerance; ++step) {
+  Iteration iteration(solver, level, mesh, response, report, tolerance);
+  for (int step = 0; !iteration.done(); ++step) {
     const std::string state =
         fmt::format("moving surface, mesh {}: {:.3g} d (rms) still press on it after {} steps", mesh,
                     iteration.now().resolved, step);

@@ -101,12 +101,16 @@ struct Outcome {
   Reason reason;
 };
 
+Outcome inside(bool wide) {
+  return wide ? Outcome{Verdict::open, Reason::inside_wide_interval}
+              : Outcome{Verdict::agrees, Reason::inside_interval};
+}
+
 Outcome against_value(const PaperEntry& entry, const Scalar& ours) {
   const double difference = std::abs(ours.value - entry.value);
   const double interval = ours.ci99.value_or(0);
   if (difference <= interval + entry.half_width.value_or(0)) {
-    const bool wide = interval > wide_share * std::abs(entry.value);
-    return {Verdict::agrees, wide ? Reason::inside_wide_interval : Reason::inside_interval};
+    return inside(interval > wide_share * std::abs(entry.value));
   }
   if (difference <= near_share * std::abs(entry.value)) return {Verdict::near, Reason::within_ten_percent};
   return {Verdict::differs, Reason::outside};
@@ -115,8 +119,7 @@ Outcome against_value(const PaperEntry& entry, const Scalar& ours) {
 Outcome against_zero(const Finding& finding) {
   const double size = std::abs(finding.ours.value), interval = finding.ours.ci99.value_or(0);
   if (size <= interval) {
-    const bool wide = interval > wide_share * finding.scale;
-    return {Verdict::agrees, wide ? Reason::inside_wide_interval : Reason::inside_interval};
+    return inside(interval > wide_share * finding.scale);
   }
   if (size <= near_share * finding.scale) return {Verdict::near, Reason::within_ten_percent};
   return {Verdict::differs, Reason::outside};
@@ -139,6 +142,7 @@ Outcome against_collapse(const PaperEntry& entry, const Finding& finding) {
 
 Outcome outcome_of(const PaperEntry& entry, const Finding& finding) {
   if (!std::isfinite(finding.ours.value)) return {Verdict::not_measured, Reason::absent};
+  if (entry.quantity == "Q") return {Verdict::imposed, Reason::given_by_the_scene};
   switch (entry.expects) {
     case Expects::value:
       return against_value(entry, finding.ours);

@@ -32,10 +32,20 @@ struct Finding {
   double limit = 1;  ///< of the ratio, for a collapse
 };
 
-enum class Verdict { agrees, near, differs, not_measured };
+/// open: an interval so wide that what lies within it says little. imposed: the fill and the speed give the
+/// number, whatever the grains do.
+enum class Verdict { agrees, open, near, differs, imposed, not_measured };
 
 /// Why a verdict is what it is.
-enum class Reason { inside_interval, inside_wide_interval, within_ten_percent, outside, unresolved, absent };
+enum class Reason {
+  inside_interval,
+  inside_wide_interval,
+  within_ten_percent,
+  outside,
+  unresolved,
+  given_by_the_scene,
+  absent
+};
 
 struct PaperVerdict {
   PaperEntry entry;
@@ -48,8 +58,9 @@ struct PaperVerdict {
 /// it, else differs. Zero agrees when our interval holds it, is near when we stay below 10 % of the scale.
 /// Not zero and positive agree when our interval excludes the opposite and differ when it shows the opposite;
 /// an interval that leaves both open is called near, reason unresolved. A collapse agrees up to its limit, is
-/// near up to twice it; a missing collapse agrees above the limit and differs below. "Wide" is an interval
-/// above 25 % of the paper's value: agreement with it says little.
+/// near up to twice it; a missing collapse agrees above the limit and differs below. An interval above 25 %
+/// of the paper's value (of the scale) that holds it leaves the verdict open. Q is imposed: a drum that is
+/// filled so far and turns so fast has no other.
 PaperVerdict verdict_on(const PaperEntry& entry, const Finding& finding);
 
 }  // namespace drumlin::coupling

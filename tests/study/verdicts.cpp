@@ -37,9 +37,18 @@ TEST(Verdict, ThePapersOwnHalfWidthCounts) {
   EXPECT_EQ(verdict_of(entry(Expects::value, 3), 3.5, 0.25), Verdict::differs);
 }
 
-TEST(Verdict, AgreementInsideAWideIntervalIsCalledSo) {
+TEST(Verdict, AWideIntervalLeavesItOpen) {
   EXPECT_EQ(verdict_on(entry(Expects::value, 3), {{"some", 3.4, 1.5}}).reason, Reason::inside_wide_interval);
+  EXPECT_EQ(verdict_of(entry(Expects::value, 3), 3.4, 1.5), Verdict::open);
+  EXPECT_EQ(verdict_of(entry(Expects::zero), 0.1, 0.3), Verdict::open);
   EXPECT_EQ(verdict_on(entry(Expects::value, 3), {{"some", 3.4, 0.5}}).reason, Reason::inside_interval);
+}
+
+TEST(Verdict, WhatTheSceneGivesIsNoAgreement) {
+  PaperEntry flow_rate = entry(Expects::value, 28);
+  flow_rate.quantity = "Q";
+  EXPECT_EQ(verdict_of(flow_rate, 28, 0.5), Verdict::imposed);
+  EXPECT_EQ(verdict_of(flow_rate, NAN, 0.5), Verdict::not_measured);
 }
 
 TEST(Verdict, ZeroIsJudgedAgainstItsScale) {

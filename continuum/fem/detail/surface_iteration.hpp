@@ -7,11 +7,16 @@
 
 namespace drumlin::continuum::fem {
 
+/// How far the memory of the axes is settled with a flow: as the options ask, or as far as a step of the
+/// surface needs while much still presses on it.
+enum class Settling { whole, loose };
+
 /// What the iteration needs of the solver: Newton's method on the mesh as it stands, and a solution from the
 /// level's state, near the last one.
 struct SurfaceSolver {
   std::function<std::unique_ptr<Newton>()> newton;
-  std::function<bool(Newton&)> solve;
+  std::function<bool(Newton&, Settling)> solve;
+  Settling first = Settling::whole;                       ///< of the state that the iteration begins with
   std::function<void(const SurfaceStepReport&)> stepped;  ///< empty: not observed
   double tolerance = 0;                                   ///< d; where it is larger than the problem's
 };
