@@ -25,7 +25,7 @@ bool is_kept(const MapField& field) {
                       [&](const char* part) { return field.name.find(part) != std::string::npos; });
 }
 
-void copy(const fs::path& from, const fs::path& to) {
+void copy_to(const fs::path& from, const fs::path& to) {
   fs::create_directories(to.parent_path());
   std::error_code failed;
   if (!fs::copy_file(from, to, failed))
@@ -53,14 +53,14 @@ int export_measurements(const ExportOptions& options) {
   StagedOutput output({folder, options.existing, "export", {options.run / "run.json"}});
   const fs::path staged = output.folder();
   for (const char* name : {"run.json", "scene.toml"})
-    if (fs::exists(options.run / name)) copy(checked_file(run.files, name), staged / name);
+    if (fs::exists(options.run / name)) copy_to(checked_file(run.files, name), staged / name);
   for (const char* name : {"measured.json", "profiles.csv", "forces.csv"})
     if (fs::exists(run.measured_files.path / name))
-      copy(checked_file(run.measured_files, name), staged / "measured" / name);
+      copy_to(checked_file(run.measured_files, name), staged / "measured" / name);
   if (fs::is_directory(run.measured_files.path / "slices"))
     for (const auto& entry : fs::directory_iterator(run.measured_files.path / "slices")) {
       const std::string name = "slices/" + entry.path().filename().string();
-      copy(checked_file(run.measured_files, name), staged / "measured" / name);
+      copy_to(checked_file(run.measured_files, name), staged / "measured" / name);
     }
   if (fs::exists(run.measured_files.path / "maps.h5")) {
     FieldMap map = read_field_map(checked_file(run.measured_files, "maps.h5"));

@@ -77,10 +77,10 @@ std::vector<double> locals(const Points& points, const FormCurve& amount) {
   return local;
 }
 
-Threshold best_threshold(const Points& points, const FormCurve& amount) {
+NonlocalLength best_threshold(const Points& points, const FormCurve& amount) {
   const std::vector<double> local = locals(points, amount);
   const auto [low, high] = std::minmax_element(local.begin(), local.end());
-  Threshold best;
+  NonlocalLength best;
   double least = std::numeric_limits<double>::infinity();
   for (double mu_s = *low; mu_s <= *high; mu_s += threshold_step) {
     const auto [A, sum] = amplitude_at(points, local, mu_s);
@@ -90,7 +90,7 @@ Threshold best_threshold(const Points& points, const FormCurve& amount) {
 }
 
 /// Of mu_loc(I) without a threshold where `law` is null.
-double rms_of(const Points& points, const FormCurve& amount, const Threshold* law, double I_below) {
+double rms_of(const Points& points, const FormCurve& amount, const NonlocalLength* law, double I_below) {
   double sum = 0, count = 0;
   for (const FluidityPoint* point : points) {
     if (point->I >= I_below) continue;
@@ -102,7 +102,7 @@ double rms_of(const Points& points, const FormCurve& amount, const Threshold* la
   return std::sqrt(sum / count);
 }
 
-void add_intervals(const Points& points, const FormCurve& amount, Threshold& law) {
+void add_intervals(const Points& points, const FormCurve& amount, NonlocalLength& law) {
   std::set<long> sectors;
   for (const FluidityPoint* point : points) sectors.insert(point->sector);
   if (sectors.size() < 3) return;
@@ -111,7 +111,7 @@ void add_intervals(const Points& points, const FormCurve& amount, Threshold& law
     Points others;
     for (const FluidityPoint* point : points)
       if (point->sector != left_out) others.push_back(point);
-    const Threshold without = best_threshold(others, amount);
+    const NonlocalLength without = best_threshold(others, amount);
     amplitudes.push_back(without.amplitude);
     thresholds.push_back(without.mu_s);
   }
@@ -142,7 +142,7 @@ std::vector<LengthOverFriction> lengths_of(const Points& points) {
 
 std::vector<std::string> what_is_untold(const NonlocalFit& fit) {
   std::vector<std::string> untold;
-  const Threshold& law = fit.law;
+  const NonlocalLength& law = fit.law;
   if (fit.rms_bed > (1 - told_apart_share) * fit.local_rms_bed)
     untold.push_back(
         fmt::format("a threshold: |s|/p that follows I in the bed leaves {:.4f} (rms), the best threshold "
@@ -214,7 +214,7 @@ NonlocalFit fit_nonlocal(std::span<const FluidityOfRun> runs, const FormCurve& a
   fit.local_rms_bed = rms_of(points, amount, nullptr, bed_I);
   const std::vector<double> local = locals(points, amount);
   for (int step = 9; step < 15; ++step) {
-    Threshold at{.amplitude = 0, .mu_s = step * friction_bin};
+    NonlocalLength at{.amplitude = 0, .mu_s = step * friction_bin};
     at.amplitude = amplitude_at(points, local, at.mu_s).first;
     fit.given.emplace_back(rms_of(points, amount, &at, bed_I), at);
   }

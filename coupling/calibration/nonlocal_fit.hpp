@@ -47,12 +47,12 @@ struct LengthOverFriction {
 
 struct NonlocalFit {
   /// mu = max(mu_loc(I), mu_s) - A^2 lap g/g, least squares over all points; A = 0: no length is asked for.
-  Threshold law;
+  NonlocalLength law;
   std::size_t points = 0;
   double rms = std::numeric_limits<double>::quiet_NaN();  ///< of mu over all points
   double rms_bed = rms;                                   ///< over those with I < bed_I
   double local_rms = rms, local_rms_bed = rms;            ///< of mu_loc(I), which creeps at any mu
-  std::vector<std::pair<double, Threshold>> given;        ///< rms in the bed at given mu_s with its best A
+  std::vector<std::pair<double, NonlocalLength>> given;   ///< rms in the bed at given mu_s with its best A
   std::vector<LengthOverFriction> lengths;
   std::vector<std::string> untold;  ///< what the runs cannot tell, as sentences
 };

@@ -71,7 +71,7 @@ struct MemoryTable {
   MemoryLaw law;
 };
 struct NonlocalTable {
-  Threshold law;
+  NonlocalLength law;
 };
 struct PackingTable {
   double nu = 0;
@@ -175,7 +175,7 @@ void describe(Visitor& v, RheologyFile& t) {
   v.optional_table("k", t.k, "Ratio of the normal stresses; absent: no such ratio in the law.");
   v.optional_table("memory", t.memory, "Memory of the axes of stress; absent: the law has none.");
   v.optional_table("nonlocal", t.nonlocal,
-                   "Threshold and length of flow that spreads; absent: the law has none.");
+                   "NonlocalLength and length of flow that spreads; absent: the law has none.");
   v.optional_table("band", t.band, "What the law owes to the draw of its points; absent: not known.");
   v.table("packing", t.packing, Need::required, "State that the law was measured in.");
   v.table("fitted_on", t.fitted_on, Need::required, "Origin.");

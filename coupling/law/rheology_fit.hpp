@@ -69,7 +69,7 @@ struct MemoryLaw {
 
 /// Where flow stops and over what length it spreads beyond (docs/theory/rheology.md, nonlocal fluidity with a
 /// threshold): xi = amplitude d/sqrt|mu - mu_s|.
-struct Threshold {
+struct NonlocalLength {
   double amplitude = 0;                                       ///< A
   double mu_s = 0;                                            ///< of the local law for I -> 0
   std::optional<double> amplitude_ci99 = {}, mu_s_ci99 = {};  ///< half widths of 99 % intervals
@@ -79,9 +79,9 @@ struct Threshold {
 struct RheologyFit {
   MeasuredFriction mu;
   std::optional<NormalStressRatio> k;
-  std::optional<MemoryLaw> memory;    ///< absent: the law has none
-  std::optional<Threshold> nonlocal;  ///< absent: the law has none
-  double nu = 0;                      ///< volume fraction of the bulk
+  std::optional<MemoryLaw> memory;         ///< absent: the law has none
+  std::optional<NonlocalLength> nonlocal;  ///< absent: the law has none
+  double nu = 0;                           ///< volume fraction of the bulk
   std::optional<double> nu_ci99;
   std::optional<double> rms_misfit;     ///< of mu about the fit
   std::vector<MeasuredFriction> draws;  ///< laws of the same form that other draws of the points gave

