@@ -122,12 +122,13 @@ def main():
     if not further:
         figure, panels = plt.subplots(1, 3 if with_axes else 2, figsize=(17 if with_axes else 12, 4.8))
     else:
-        figure = plt.figure(figsize=(17, 6.5 + 5 * len(further)))
-        above, *below, words = figure.subfigures(2 + len(further), 1, height_ratios=[1, *[1.05] * len(further), 0.3])
+        untold = [sentence for _, found in further for sentence in found["untold"]]
+        share = 0.05 * (2 + len(untold))
+        figure = plt.figure(figsize=(17, 5 * (1 + 1.05 * len(further) + share)))
+        above, *below, words = figure.subfigures(2 + len(further), 1, height_ratios=[1, *[1.05] * len(further), share])
         panels = above.subplots(1, 3 if with_axes else 2)
         for part, (draw, found) in zip(below, further):
             draw(part, found)
-        untold = [sentence for _, found in further for sentence in found["untold"]]
         lines = ["What the runs cannot tell"] + ["- " + style.plain(sentence, 190) for sentence in untold]
         words.text(0.02, 0.95, "\n".join(lines), va="top", fontsize=10)
     colors = colors_of(record)

@@ -44,9 +44,6 @@ std::vector<double> step_of(const FlowProblem& problem, const Response& response
   return step;
 }
 
-// Over the tolerance: above it steps take a flow whose memory is loosely settled.
-constexpr double near_the_end = 5;
-
 // One flow with the surface in another place. False, where cells or Newton's method fail.
 bool solve_moved(const SurfaceSolver& solver, SolvedLevel& level, const SurfaceShape& shape,
                  Settling settling) {
@@ -102,10 +99,6 @@ class Iteration {
     return true;
   }
 
-  Settling settling_of_step() const {
-    return now_.resolved > near_the_end * tolerance_ ? settling_ : Settling::whole;
-  }
-
   bool form_response() {
     const auto newton = solver_.newton();
     if (!solver_.solve(*newton, settling_)) return false;
@@ -122,8 +115,7 @@ class Iteration {
     const int iterations = report_.iterations;
     std::vector<double> step = step_of(problem, response_, now_, largest);
     for (double& s : step) s *= share;
-    const Settling settling = settling_of_step();
-    if (solve_moved(solver_, level_, changed(problem, shape, step), settling)) {
+    if (solve_moved(solver_, level_, changed(problem, shape, step), settling_)) {
       const SurfaceMisfit next = misfit();
       if (next.resolved < now_.resolved) {
         std::vector<double> answer = free_part(problem, next.coefficient);
@@ -133,7 +125,6 @@ class Iteration {
         // One that explains so little is none to go on with.
         if (next.resolved > 0.5 * now_.resolved) response_.reinit(0, 0);
         now_ = next;
-        settling_ = settling;
         record(share, report_.iterations - iterations);
         return true;
       }

@@ -140,6 +140,18 @@ std::vector<LengthOverFriction> lengths_of(const Points& points) {
   return all;
 }
 
+/// Of mu and lap g/g where I < bed_I.
+double correlation_in_bed(const Points& points) {
+  double n = 0, mu = 0, q = 0, mu2 = 0, q2 = 0, both = 0;
+  for (const FluidityPoint* point : points) {
+    if (point->I >= bed_I) continue;
+    n += 1, mu += point->mu, q += point->curvature;
+    mu2 += point->mu * point->mu, q2 += point->curvature * point->curvature;
+    both += point->mu * point->curvature;
+  }
+  return (n * both - mu * q) / std::sqrt((n * mu2 - mu * mu) * (n * q2 - q * q));
+}
+
 std::vector<std::string> what_is_untold(const NonlocalFit& fit) {
   std::vector<std::string> untold;
   const NonlocalLength& law = fit.law;
@@ -150,13 +162,10 @@ std::vector<std::string> what_is_untold(const NonlocalFit& fit) {
                     fit.local_rms_bed, fit.rms_bed));
   if (!(law.amplitude > law.amplitude_ci99.value_or(0)))
     untold.push_back(fmt::format("a length: A = {:.2f} is not told from 0", law.amplitude));
-  const auto longest = std::max_element(fit.lengths.begin(), fit.lengths.end(),
-                                        [](auto& a, auto& b) { return a.curvature < b.curvature; });
-  if (longest != fit.lengths.end() && law.amplitude > 0)
-    untold.push_back(fmt::format(
-        "xi = A/sqrt(mu_s - mu) falls as mu falls; measured, lap g/g is largest ({:.3f}, xi = {:.1f} d) at "
-        "mu = {:.2f} to {:.2f}",
-        longest->curvature, longest->xi(), longest->mu_from, longest->mu_to));
+  untold.push_back(
+      fmt::format("what stops flow: a threshold asks lap g/g to fall in a line as |s|/p rises to mu_s; their "
+                  "correlation in the bed is {:+.2f}",
+                  fit.correlation_bed));
   return untold;
 }
 
@@ -218,6 +227,7 @@ NonlocalFit fit_nonlocal(std::span<const FluidityOfRun> runs, const FormCurve& a
     at.amplitude = amplitude_at(points, local, at.mu_s).first;
     fit.given.emplace_back(rms_of(points, amount, &at, bed_I), at);
   }
+  fit.correlation_bed = correlation_in_bed(points);
   fit.lengths = lengths_of(points);
   fit.untold = what_is_untold(fit);
   return fit;

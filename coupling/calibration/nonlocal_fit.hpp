@@ -52,7 +52,8 @@ struct NonlocalFit {
   double rms = std::numeric_limits<double>::quiet_NaN();  ///< of mu over all points
   double rms_bed = rms;                                   ///< over those with I < bed_I
   double local_rms = rms, local_rms_bed = rms;            ///< of mu_loc(I), which creeps at any mu
-  std::vector<std::pair<double, NonlocalLength>> given;   ///< rms in the bed at given mu_s with its best A
+  double correlation_bed = rms;  ///< of mu and lap g/g where I < bed_I; -1 where a threshold stops the flow
+  std::vector<std::pair<double, NonlocalLength>> given;  ///< rms in the bed at given mu_s with its best A
   std::vector<LengthOverFriction> lengths;
   std::vector<std::string> untold;  ///< what the runs cannot tell, as sentences
 };

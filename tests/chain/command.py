@@ -17,7 +17,7 @@ class Drumlin:
     def __call__(self, *words, code=0):
         """Runs the command and checks its exit code; returns what it wrote to (standard output, standard error)."""
         command = [self.executable, *map(str, words)]
-        result = subprocess.run(command, capture_output=True, text=True, timeout=300, check=False)
+        result = subprocess.run(command, capture_output=True, text=True, timeout=3000, check=False)
         require(result.returncode == code,
                 f"{' '.join(command)}\nexit code {result.returncode} instead of {code}\n{result.stdout}{result.stderr}")
         return result.stdout, result.stderr

@@ -24,7 +24,7 @@ FILE_CALLS = ("open", "write", "fsync", "rename", "close")
 CRASHES_OF_HDF5 = (-signal.SIGSEGV, -signal.SIGABRT)
 # The TOML library takes a number that it has no memory to read for one that is none; the message names it.
 MISTAKEN = (2,)
-PATIENCE = 120  # seconds for what takes a tenth of one
+PATIENCE = 1200  # seconds for what takes a tenth of one
 
 
 class Trials:

@@ -34,7 +34,7 @@ def stopped(command, run, stop, code):
         require(process.poll() is None and time.monotonic() < deadline, f"{run.name}: no kept state in time")
         time.sleep(0.001)
     process.send_signal(stop)
-    require(process.wait(timeout=60) == code, f"{run.name}: exit code {process.returncode} instead of {code}")
+    require(process.wait(timeout=600) == code, f"{run.name}: exit code {process.returncode} instead of {code}")
     require(not (run / "flow.json").exists(), f"{run.name}: finished although it was stopped")
 
 

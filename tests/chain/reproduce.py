@@ -13,7 +13,7 @@ import time
 
 from command import require
 
-PATIENCE = 120  # s, a machine that is very slow included
+PATIENCE = 1200  # s, a machine that is very slow included
 
 INSTALL = ".ci/install"
 STUB = "#!/bin/bash\nexit 0\n"

@@ -17,7 +17,7 @@ from command import SHORT_RUN, Drumlin, bytes_below, read_json, require, require
 # Steps that nobody waits for, for what must be stopped.
 ENDLESS = ["--set", "stages.2.turns=1000"]
 SIGNALS = {signal.SIGINT: 130, signal.SIGTERM: 143, signal.SIGHUP: 129}
-PATIENCE = 120  # seconds for what takes less than one
+PATIENCE = 1200  # seconds for what takes less than one
 
 
 def unmasked():

@@ -14,7 +14,7 @@ import tempfile
 
 from command import SHORT_RUN, Drumlin, bytes_below, read_json, require, require_whole_files
 
-PATIENCE = 120  # seconds for what takes less than one
+PATIENCE = 1200  # seconds for what takes less than one
 
 
 def results(run):

@@ -20,6 +20,7 @@ Json nonlocal_json(const coupling::NonlocalFit& found) {
             {"rms_bed", number_or_null(found.rms_bed)},
             {"rms_local", number_or_null(found.local_rms)},
             {"rms_local_bed", number_or_null(found.local_rms_bed)},
+            {"correlation_bed", number_or_null(found.correlation_bed)},
             {"given_mu_s", Json::array()},
             {"lengths", Json::array()},
             {"untold", found.untold}};
