@@ -138,7 +138,7 @@ void add_laws_of_the_bed(Calibration& calibration) {
     for (const RunEvidence& run : calibration.runs)
       runs.push_back({run.name, fluidity_points(PathFields(*run.map))});
     calibration.nonlocal = fit_nonlocal(runs, amount.curve());
-    if (calibration.nonlocal->law.amplitude > 0) calibration.rheology.nonlocal = calibration.nonlocal->law;
+    if (calibration.nonlocal->is_told()) calibration.rheology.nonlocal = calibration.nonlocal->law;
   }
 }
 

@@ -160,8 +160,9 @@ std::vector<std::string> what_is_untold(const NonlocalFit& fit) {
         fmt::format("a threshold: |s|/p that follows I in the bed leaves {:.4f} (rms), the best threshold "
                     "{:.4f}: the runs do not ask for one",
                     fit.local_rms_bed, fit.rms_bed));
-  if (!(law.amplitude > law.amplitude_ci99.value_or(0)))
-    untold.push_back(fmt::format("a length: A = {:.2f} is not told from 0", law.amplitude));
+  if (!fit.is_told())
+    untold.push_back(fmt::format("a length: A = {:.2f} is not told from 0, and the law is left without one",
+                                 law.amplitude));
   untold.push_back(
       fmt::format("what stops flow: a threshold asks lap g/g to fall in a line as |s|/p rises to mu_s; their "
                   "correlation in the bed is {:+.2f}",
@@ -170,6 +171,8 @@ std::vector<std::string> what_is_untold(const NonlocalFit& fit) {
 }
 
 }  // namespace
+
+bool NonlocalFit::is_told() const { return law.amplitude_ci99 && law.amplitude > *law.amplitude_ci99; }
 
 double LengthOverFriction::xi() const { return 1 / std::sqrt(curvature); }
 

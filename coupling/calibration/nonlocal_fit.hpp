@@ -56,6 +56,9 @@ struct NonlocalFit {
   std::vector<std::pair<double, NonlocalLength>> given;  ///< rms in the bed at given mu_s with its best A
   std::vector<LengthOverFriction> lengths;
   std::vector<std::string> untold;  ///< what the runs cannot tell, as sentences
+
+  /// Whether the amplitude lies outside its own interval of nought: what is not told is no part of a law.
+  bool is_told() const;
 };
 
 /// `amount`: mu_loc, |s|/p over I of the same runs. Intervals of 99 %: one sector of the drum (in all runs)
