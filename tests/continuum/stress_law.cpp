@@ -111,11 +111,11 @@ TEST(ThresholdFluidityLaw, IsTheLawWhereNothingSpreadsAndNeverFallsBelowItsThres
   for (const double I : {1e-6, 1e-4, 1e-2, 1e-1}) {
     const double p = 3, rate = 0.5 * I * std::sqrt(p), y = std::log(2 * rate / 0.3);
     const FluidityBalance at = fluidity_balance(falls, 0.26, y, rate, p);
-    EXPECT_DOUBLE_EQ(at.mu, 0.3);
+    EXPECT_NEAR(at.mu, 0.3, 1e-14);
     EXPECT_GT(at.local, 0.26);
     EXPECT_NEAR(at.local, std::max(0.26, falls.friction(I).mu), 2e-4) << I;  // half a thousandth at the kink
     EXPECT_DOUBLE_EQ(fluidity_balance(falls, {}, y, rate, p).local, falls.friction(I).mu);
-    EXPECT_DOUBLE_EQ(strength(FluidityLaw{y}, rate, p).value, 0.3 * p);
+    EXPECT_NEAR(strength(FluidityLaw{y}, rate, p).value, 0.3 * p, 1e-14);
   }
 }
 

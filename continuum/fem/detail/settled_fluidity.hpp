@@ -1,5 +1,7 @@
 #pragma once
 // The fluidity that belongs to a velocity and a pressure. Private to fem/.
+#include <utility>
+
 #include "continuum/fem/detail/assembly.hpp"
 #include "continuum/fem/detail/direct_solver.hpp"
 
@@ -20,19 +22,23 @@ class SettledFluidity {
   void limit(double largest, FieldVector& step) const;
 
  private:
+  using Index = dealii::types::global_dof_index;
   struct Source {
     double local, rate;  // mu_loc and 2|D|
   };
   std::vector<Source> sources(const Setting& setting, const State& state) const;
-  void assemble(const std::vector<Source>& at_points, const FieldVector& solution);
+  void assemble(const std::vector<Source>& at_points, bool exact);
+  bool step();  // false where the linear solve fails
+  bool start_anew(const std::vector<Source>& at_points);
+  bool iterate(const std::vector<Source>& at_points, double tolerance);
 
   const FlowProblem& problem_;
   const Discretisation& d_;
-  std::vector<unsigned int> local_;  // of the unknowns of a cell: those of y
-  std::vector<bool> is_fluidity_;    // per unknown of this rank
-  dealii::DynamicSparsityPattern pattern_;
-  SystemMatrix matrix_;  // of all unknowns: the others stay as they are
-  FieldVector residual_, step_;
+  ScalarField y_;  // on its own, numbered apart from velocity and pressure
+  dealii::AffineConstraints<double> lines_;
+  std::vector<std::pair<Index, Index>> places_;  // of the cells of this rank: in the flow, in y_
+  SystemMatrix matrix_;
+  FieldVector residual_, change_;
   DirectSolver factors_;
 };
 
