@@ -29,7 +29,7 @@ void check_threshold(const ThresholdKeys& keys, const RheologyFit& law, bool mem
     problems.push_back(nonlocal_problem("effects.nonlocal",
                                         "has a threshold, and the k of the law knows of none",
                                         "a rheology file without a table [k]"));
-  if (!keys.threshold && (memory || !threshold(friction_law(law.mu))))
+  if (keys.amplitude && !keys.threshold && (memory || !threshold(friction_law(law.mu))))
     problems.push_back(nonlocal_problem("effects.nonlocal.threshold",
                                         "is missing, and the law's mu(I) has no threshold of its own",
                                         "above 0"));
