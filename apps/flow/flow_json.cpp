@@ -89,6 +89,7 @@ Json plain_json(const FinishedFlow& flow) {
 
 Json ill_posed_json(const continuum::FlowProblem& problem) {
   Json ranges = Json::array();
+  if (problem.threshold_fluidity) return ranges;  // short waves see a fluidity that stays
   for (const InertialRange& range :
        continuum::ill_posed_ranges(problem.law, problem.turned ? &problem.turned->k : nullptr))
     ranges.push_back({range.from, range.to});

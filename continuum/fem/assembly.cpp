@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "continuum/fem/detail/cell_shapes.hpp"
+#include "continuum/fem/detail/fluidity_terms.hpp"
 #include "continuum/fem/detail/friction_wall.hpp"
 #include "continuum/fem/detail/inertia_terms.hpp"
 #include "continuum/fem/detail/point_law.hpp"
@@ -33,9 +34,9 @@ void add_point_residual(const CellShapes& s, unsigned int q, const PointValues& 
                         Vec2 force, double JxW, Vector<double>& residual) {
   for (unsigned int i = 0; i < s.n; ++i) {
     const auto k = q * s.n + i;
-    if (s.component[i] == 2)
+    if (s.component[i] == pressure_component)
       residual[i] -= s.value[k] * at.divergence * JxW;
-    else
+    else if (moves(s.component[i]))
       residual[i] += (contraction(stress, s.rate[k]) - at.p * s.divergence[k] -
                       (s.component[i] == 0 ? force.x : force.z) * s.value[k]) *
                      JxW;
@@ -47,18 +48,18 @@ void add_point_tangent(const CellShapes& s, unsigned int q, const Response& resp
                        dealii::FullMatrix<double>& matrix) {
   for (unsigned int j = 0; j < s.n; ++j) {
     const auto kj = q * s.n + j;
-    if (s.component[j] == 2) {
+    if (s.component[j] == pressure_component) {
       const PlaneTensor by_p = response.by_pressure;
       for (unsigned int i = 0; i < s.n; ++i)
-        if (s.component[i] != 2) {
+        if (moves(s.component[i])) {
           const auto ki = q * s.n + i;
           matrix(i, j) += s.value[kj] * (contraction(by_p, s.rate[ki]) - s.divergence[ki]) * JxW;
           matrix(j, i) -= s.value[kj] * s.divergence[ki] * JxW;
         }
-    } else {
+    } else if (moves(s.component[j])) {
       const PlaneTensor d_stress = JxW * tangent(response, s.rate[kj]);
       for (unsigned int i = 0; i < s.n; ++i)
-        if (s.component[i] != 2) matrix(i, j) += contraction(d_stress, s.rate[q * s.n + i]);
+        if (moves(s.component[i])) matrix(i, j) += contraction(d_stress, s.rate[q * s.n + i]);
     }
   }
 }
@@ -79,19 +80,21 @@ void add_friction_wall(const FrictionWall& wall, const FlowProblem& problem, con
   const Vec2 frame = frame_velocity_at(problem, x), moving = wall.velocity({x[0], x[1]});
   double slip = (frame.x - moving.x) * t[0] + (frame.z - moving.z) * t[1], p = 0;
   for (unsigned int i = 0; i < s.n; ++i)
-    if (const unsigned int c = s.component[i]; c == 2)
+    if (const unsigned int c = s.component[i]; c == pressure_component)
       p += local[i] * face.shape_value(i, q);
-    else
+    else if (moves(c))
       slip += local[i] * face.shape_value(i, q) * t[c];
   const WallFriction T = wall_friction(wall, r, slip, p);
   for (unsigned int i = 0; i < s.n; ++i) {
-    if (s.component[i] == 2) continue;
+    if (!moves(s.component[i])) continue;
     const double at_i = face.shape_value(i, q) * t[s.component[i]] * face.JxW(q);
     residual[i] += T.traction * at_i;
     if (matrix)
       for (unsigned int j = 0; j < s.n; ++j) {
         const unsigned int cj = s.component[j];
-        (*matrix)(i, j) += (cj == 2 ? T.by_pressure : T.by_slip * t[cj]) * face.shape_value(j, q) * at_i;
+        if (cj == fluidity_component) continue;
+        (*matrix)(i, j) +=
+            (cj == pressure_component ? T.by_pressure : T.by_slip * t[cj]) * face.shape_value(j, q) * at_i;
       }
   }
 }
@@ -109,24 +112,24 @@ void add_side(const Discretisation& d, const BoundaryCondition& condition, const
       const Vec2 frame = frame_velocity_at(problem, face.quadrature_point(q));
       double u_n = frame.x * normal[0] + frame.z * normal[1];
       for (unsigned int i = 0; i < s.n; ++i)
-        if (s.component[i] != 2) u_n += local[i] * along_normal(i);
+        if (moves(s.component[i])) u_n += local[i] * along_normal(i);
       for (unsigned int i = 0; i < s.n; ++i) {
-        if (s.component[i] == 2) continue;
+        if (!moves(s.component[i])) continue;
         residual[i] += spring->stiffness * u_n * along_normal(i) * JxW;
         if (matrix)
           for (unsigned int j = 0; j < s.n; ++j)
-            if (s.component[j] != 2)
+            if (moves(s.component[j]))
               (*matrix)(i, j) += spring->stiffness * along_normal(i) * along_normal(j) * JxW;
       }
     } else if (const auto* given = std::get_if<Traction>(&condition)) {
       const auto x = face.quadrature_point(q);
       const Vec2 t = given->traction({x[0], x[1]});
       for (unsigned int i = 0; i < s.n; ++i)
-        if (s.component[i] != 2)
+        if (moves(s.component[i]))
           residual[i] -= (s.component[i] == 0 ? t.x : t.z) * face.shape_value(i, q) * JxW;
     } else if (const auto* pressed = std::get_if<PressedWall>(&condition)) {
       for (unsigned int i = 0; i < s.n; ++i)
-        if (s.component[i] != 2) residual[i] += pressed->pressure * along_normal(i) * JxW;
+        if (moves(s.component[i])) residual[i] += pressed->pressure * along_normal(i) * JxW;
     } else if (const auto* wall = std::get_if<FrictionWall>(&condition)) {
       add_friction_wall(*wall, problem, regularisation, face, q, s, local, residual, matrix);
     }
@@ -188,7 +191,7 @@ void assemble(const FlowProblem& problem, const Discretisation& d, const PointLa
     local_matrix = 0;
     for (const unsigned int q : fe.quadrature_point_indices()) {
       const PointValues at = point_values(shapes, q, local);
-      const auto response = law(setting.regularisation, at.D, at.p, state.dual[point], point);
+      const auto response = law(setting.regularisation, at, state.dual[point], point);
       ++point;
       Vec2 force = body_force(problem, state.theta, fe.quadrature_point(q));
       if (setting.inertia)
@@ -196,6 +199,11 @@ void assemble(const FlowProblem& problem, const Discretisation& d, const PointLa
                     local_before, force, matrix ? &local_matrix : nullptr);
       add_point_residual(shapes, q, at, response.stress, force, fe.JxW(q), local_residual);
       if (matrix) add_point_tangent(shapes, q, response, fe.JxW(q), local_matrix);
+      if constexpr (requires { response.balance; }) {
+        const double amplitude = problem.threshold_fluidity->amplitude;
+        add_fluidity_residual(shapes, q, at, amplitude, response.balance, fe.JxW(q), local_residual);
+        if (matrix) add_fluidity_tangent(shapes, q, at, amplitude, response, fe.JxW(q), local_matrix);
+      }
     }
     for (const unsigned int f : cell->face_indices())
       if (cell->face(f)->at_boundary())
@@ -250,7 +258,7 @@ FieldVector load(const Discretisation& d, Vec2 force_density) {
     local = 0;
     for (unsigned int i = 0; i < indices.size(); ++i) {
       const unsigned int component = d.elements.system_to_component_index(i).first;
-      if (component == 2) continue;
+      if (!moves(component)) continue;
       for (const unsigned int q : fe.quadrature_point_indices())
         local[i] += (component == 0 ? force_density.x : force_density.z) * fe.shape_value(i, q) * fe.JxW(q);
     }
@@ -269,7 +277,7 @@ FieldVector surface_moment(const FlowProblem& problem, const Discretisation& d) 
     cell->get_dof_indices(indices);
     for (unsigned int i = 0; i < indices.size(); ++i) {
       const unsigned int component = d.elements.system_to_component_index(i).first;
-      if (component == 2) continue;
+      if (!moves(component)) continue;
       for (const unsigned int q : face.quadrature_point_indices()) {
         const auto normal = d.surface_normal(face.quadrature_point(q), face.normal_vector(q));
         result[indices[i]] += lever(face.quadrature_point(q), axis, normal) * spring.stiffness *

@@ -22,12 +22,13 @@ using BoundaryValues = std::map<dealii::types::global_dof_index, double>;
 
 class VelocityFunction : public dealii::Function<2> {
  public:
-  explicit VelocityFunction(const std::function<Vec2(Vec2)>& velocity) : Function(3), velocity_(velocity) {}
+  VelocityFunction(unsigned int components, const std::function<Vec2(Vec2)>& velocity)
+      : Function(components), velocity_(velocity) {}
   void vector_value(const dealii::Point<2>& p, dealii::Vector<double>& value) const override {
     const Vec2 v = velocity_({p[0], p[1]});
+    value = 0;
     value[0] = v.x;
     value[1] = v.z;
-    value[2] = 0;
   }
 
  private:
@@ -51,8 +52,8 @@ BoundaryValues prescribed_velocities(const FlowProblem& problem, const Discretis
       BoundaryValues here;
       const auto velocity = given_velocity(problem, d, side, *given);
       dealii::VectorTools::interpolate_boundary_values(d.mapping, d.unknowns, static_cast<int>(side),
-                                                       VelocityFunction(velocity), here,
-                                                       dealii::ComponentMask({true, true, false}));
+                                                       VelocityFunction(d.elements.n_components(), velocity),
+                                                       here, d.velocity_mask());
       all.insert(here.begin(), here.end());
     }
   return all;
@@ -82,7 +83,7 @@ void remove_net_flux(const FlowProblem& problem, const Discretisation& d, Bounda
       cell->get_dof_indices(indices);
       for (unsigned int i = 0; i < indices.size(); ++i) {
         const unsigned int component = d.elements.system_to_component_index(i).first;
-        if (component == 2) continue;
+        if (!moves(component)) continue;
         for (const unsigned int q : face.quadrature_point_indices())
           flux_of[indices[i]] += face.shape_value(i, q) * face.normal_vector(q)[component] * face.JxW(q);
       }
@@ -131,7 +132,7 @@ std::vector<WallNode> wall_nodes(const FlowProblem& problem, const Discretisatio
       if (!pressed && !rough) continue;
       face.reinit(cell, f);
       cell->face(f)->get_dof_indices(indices);
-      std::array<std::vector<unsigned int>, 3> of_component;  // in the order of the nodes of the face
+      std::array<std::vector<unsigned int>, 4> of_component;  // in the order of the nodes of the face
       for (unsigned int i = 0; i < indices.size(); ++i)
         of_component[d.elements.face_system_to_component_index(i).first].push_back(i);
       for (std::size_t k = 0; k < of_component[0].size(); ++k) {
@@ -179,8 +180,8 @@ FieldVector velocity_field(const Discretisation& d, const std::function<Vec2(Vec
   FieldVector result = d.field();
   std::map<dealii::types::global_dof_index, dealii::Point<2>> places;
   dealii::DoFTools::map_dofs_to_support_points(d.mapping, d.unknowns, places);
-  const auto along_x =
-      dealii::DoFTools::extract_dofs(d.unknowns, dealii::ComponentMask({true, false, false}));
+  const auto along_x = dealii::DoFTools::extract_dofs(
+      d.unknowns, d.elements.component_mask(dealii::FEValuesExtractors::Scalar(0)));
   for (std::size_t k = 0; k < d.is_velocity.size(); ++k) {
     if (!d.is_velocity[k]) continue;
     const auto i = d.owned.nth_index_in_set(k);
@@ -193,10 +194,14 @@ FieldVector velocity_field(const Discretisation& d, const std::function<Vec2(Vec
 
 Discretisation::Discretisation(const FlowProblem& problem)
     : mesh(MPI_COMM_WORLD, dealii::Triangulation<2>::limit_level_difference_at_vertices),
-      elements(dealii::FE_Q<2>(2), 2, dealii::FE_Q<2>(1), 1),
+      elements(dealii::FE_Q<2>(2), 2, dealii::FE_Q<2>(1), problem.threshold_fluidity ? 2 : 1),
       unknowns(mesh) {
   make_mesh(problem.domain, mesh);
   distribute_unknowns(problem);
+}
+
+dealii::ComponentMask Discretisation::velocity_mask() const {
+  return elements.component_mask(dealii::FEValuesExtractors::Vector(0));
 }
 
 double Discretisation::sum(double value) const {
@@ -235,9 +240,7 @@ void Discretisation::mark_given(const FlowProblem& problem) {
         std::holds_alternative<PressedWall>(condition) || std::holds_alternative<FrictionWall>(condition))
       sides.insert(static_cast<int>(side));
   given.clear();
-  if (!sides.empty())
-    given =
-        dealii::DoFTools::extract_boundary_dofs(unknowns, dealii::ComponentMask({true, true, false}), sides);
+  if (!sides.empty()) given = dealii::DoFTools::extract_boundary_dofs(unknowns, velocity_mask(), sides);
 }
 
 void Discretisation::place_cells() {
@@ -294,7 +297,7 @@ void Discretisation::distribute_unknowns(const FlowProblem& problem) {
   unknowns.distribute_dofs(elements);
   owned = unknowns.locally_owned_dofs();
   dealii::DoFTools::extract_locally_relevant_dofs(unknowns, relevant);
-  const auto velocity = dealii::DoFTools::extract_dofs(unknowns, dealii::ComponentMask({true, true, false}));
+  const auto velocity = dealii::DoFTools::extract_dofs(unknowns, velocity_mask());
   is_velocity.assign(owned.n_elements(), false);
   for (const auto index : velocity) is_velocity[owned.index_within_set(index)] = true;
   constrain(problem);

@@ -8,7 +8,7 @@ namespace drumlin::continuum::fem {
 dealii::Vector<float> velocity_error_indicator(const Discretisation& d, const FieldVector& solution) {
   dealii::Vector<float> indicator(d.mesh.n_active_cells());
   dealii::KellyErrorEstimator<2>::estimate(d.mapping, d.unknowns, dealii::QGauss<1>(3), {}, solution,
-                                           indicator, dealii::ComponentMask({true, true, false}));
+                                           indicator, d.velocity_mask());
   return indicator;
 }
 

@@ -25,18 +25,30 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 struct Values {
   std::vector<dealii::Tensor<1, 2>> velocity;
   std::vector<dealii::Tensor<2, 2>> gradient;
-  std::vector<double> pressure;
+  std::vector<double> pressure, ln_fluidity;
 
   Values(const dealii::FEValues<2>& fe, const fem::FieldVector& solution)
       : velocity(fe.n_quadrature_points), gradient(fe.n_quadrature_points), pressure(fe.n_quadrature_points) {
     fe[Vector(0)].get_function_values(solution, velocity);
     fe[Vector(0)].get_function_gradients(solution, gradient);
-    fe[Scalar(2)].get_function_values(solution, pressure);
+    fe[Scalar(fem::pressure_component)].get_function_values(solution, pressure);
+    if (fe.get_fe().n_components() > fem::fluidity_component) {
+      ln_fluidity.resize(fe.n_quadrature_points);
+      fe[Scalar(fem::fluidity_component)].get_function_values(solution, ln_fluidity);
+    }
   }
+  fem::PointValues at(unsigned int q) const;
 };
 
 PlaneTensor strain_rate(const dealii::Tensor<2, 2>& g) {
   return {g[0][0], g[1][1], 0.5 * (g[0][1] + g[1][0])};
+}
+
+fem::PointValues Values::at(unsigned int q) const {
+  return {.D = strain_rate(gradient[q]),
+          .divergence = gradient[q][0][0] + gradient[q][1][1],
+          .p = pressure[q],
+          .ln_fluidity = ln_fluidity.empty() ? 0 : ln_fluidity[q]};
 }
 
 PointState point_state(const fem::PointReport& s, const dealii::Tensor<1, 2>& u,
@@ -60,11 +72,12 @@ PointState point_state(const fem::PointReport& s, const dealii::Tensor<1, 2>& u,
           .memory_xx = s.memory ? s.memory->xx : nan,
           .memory_xz = s.memory ? s.memory->xz : nan,
           .memory_rho = s.memory ? s.memory->rho : nan,
-          .well_posedness = s.margin};
+          .well_posedness = s.margin,
+          .fluidity = nan};
 }
 
 PointState outside() {
-  return {{nan, nan}, nan, nan, nan, nan, nan, nan, nan, nan, nan,
+  return {{nan, nan}, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan,
           nan,        nan, nan, nan, nan, nan, nan, nan, nan, nan};
 }
 
@@ -143,6 +156,7 @@ FlowField::FlowField(std::shared_ptr<const fem::SolvedLevel> level) : level_(std
 double FlowField::theta() const { return level_->state.theta; }
 const std::optional<SurfaceShape>& FlowField::surface() const { return level_->discretisation->surface; }
 int FlowField::unknowns() const { return static_cast<int>(level_->discretisation->unknowns.n_dofs()); }
+bool FlowField::has_fluidity() const { return level_->discretisation->has_fluidity(); }
 bool FlowField::remembers() const { return level_->problem.memory.has_value(); }
 bool FlowField::on_first_rank() const {
   return dealii::Utilities::MPI::this_mpi_process(level_->discretisation->mesh.get_communicator()) == 0;
@@ -166,10 +180,10 @@ std::vector<PointState> FlowField::at(std::span<const Vec2> points) const {
     const auto held_here = held ? fem::held_at(*held, d, cell, unit_points) : fem::HeldValues{};
     for (std::size_t q = 0; q < places.size(); ++q) {
       found[places[q].point] = true;
-      const auto report = fem::point_report(level_->problem, level_->setting, strain_rate(values.gradient[q]),
-                                            values.pressure[q], held_here, q);
-      states[places[q].point] =
-          point_state(report, values.velocity[q], values.gradient[q], values.pressure[q]);
+      const auto report = fem::point_report(level_->problem, level_->setting, values.at(q), held_here, q);
+      auto& at = states[places[q].point];
+      at = point_state(report, values.velocity[q], values.gradient[q], values.pressure[q]);
+      if (d.has_fluidity()) at.fluidity = std::exp(values.ln_fluidity[q]);
     }
   }
   share_among_ranks(d, found, states);
@@ -192,7 +206,7 @@ FlowIntegrals FlowField::integrals(Vec2 centre) const {
     const Values values(fe, level_->state.solution);
     for (const unsigned int q : fe.quadrature_point_indices()) {
       const PlaneTensor D = strain_rate(values.gradient[q]);
-      const auto s = fem::point_report(problem, level_->setting, D, values.pressure[q], held, point++);
+      const auto s = fem::point_report(problem, level_->setting, values.at(q), held, point++);
       const auto x = fe.quadrature_point(q);
       sums.area += fe.JxW(q);
       if (s.margin < 0) sums.ill_posed_area += fe.JxW(q);

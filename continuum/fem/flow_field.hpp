@@ -33,6 +33,7 @@ struct PointState {
   double viscosity = 0;
   double memory_xx = 0, memory_xz = 0, memory_rho = 0;  ///< A and rho with memory of the axes; NaN without
   double well_posedness = 0;  ///< margin (coupling/law/well_posedness.hpp), negative: ill-posed
+  double fluidity = 0;        ///< g = 2|D|/mu with a threshold of fluidity, 1/sqrt(d/g); NaN without
 };
 
 /// Integrals over the domain and its sides, by quadrature of the fields themselves.
@@ -61,6 +62,7 @@ class FlowField {
   const std::optional<SurfaceShape>& surface() const;
   int unknowns() const;
   int cells() const;
+  bool has_fluidity() const;   ///< among the unknowns
   bool remembers() const;      ///< memory of the axes
   bool on_first_rank() const;  ///< the one that writes files and messages
   std::vector<PointState> at(std::span<const Vec2> points) const;

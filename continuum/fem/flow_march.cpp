@@ -75,7 +75,8 @@ std::shared_ptr<fem::SolvedLevel> coarsest_level(const FlowProblem& problem) {
 
 FlowSolution march_flow(const FlowField& start, const FlowProblem& problem, const FlowMarch& march,
                         const FlowSolverOptions& options, const FlowObserver& observer) {
-  if (problem.nonlocal || problem.memory || (problem.turned && problem.turned->fabric))
+  if (problem.nonlocal || problem.threshold_fluidity || problem.memory ||
+      (problem.turned && problem.turned->fabric))
     throw InputError(
         "steps in time know neither carried fabric nor memory of the axes nor nonlocal fluidity: the state "
         "that they go on from "

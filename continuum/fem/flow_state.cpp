@@ -24,6 +24,11 @@ long find(const FlowState& kept, const CellPlace& place) {
   return at != kept.cells.end() && *at == place ? at - kept.cells.begin() : -1;
 }
 
+// The fluidity follows from velocity and pressure.
+bool is_kept(const Discretisation& d, unsigned int i) {
+  return d.elements.system_to_component_index(i).first != fluidity_component;
+}
+
 FlowState own_cells(const SolvedLevel& level) {
   const auto& d = *level.discretisation;
   FlowState own;
@@ -33,7 +38,8 @@ FlowState own_cells(const SolvedLevel& level) {
     cell->get_dof_values(level.state.solution, local);
     own.cells.push_back(place_of(cell));
     own.centres.insert(own.centres.end(), {cell->center()[0], cell->center()[1]});
-    own.values.insert(own.values.end(), local.begin(), local.end());
+    for (unsigned int i = 0; i < local.size(); ++i)
+      if (is_kept(d, i)) own.values.push_back(local[i]);
   }
   return own;
 }
@@ -103,9 +109,12 @@ void lay_down(const FlowState& kept, SolvedLevel& level) {
     if (!cell->is_locally_owned()) continue;
     const auto c = static_cast<std::size_t>(find(kept, place_of(cell)));
     cell->get_dof_indices(indices);
-    for (std::size_t i = 0; i < indices.size(); ++i)
-      if (d.owned.is_element(indices[i]))
-        solution[indices[i]] = kept.values[c * FlowState::values_per_cell + i];
+    std::size_t next = c * FlowState::values_per_cell;
+    for (unsigned int i = 0; i < indices.size(); ++i) {
+      if (!is_kept(d, i)) continue;
+      const double value = kept.values[next++];
+      if (d.owned.is_element(indices[i])) solution[indices[i]] = value;
+    }
   }
   solution.update_ghost_values();
   level.state.theta = kept.theta;

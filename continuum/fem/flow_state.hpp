@@ -9,8 +9,8 @@ namespace drumlin::continuum {
 /// Place of a cell in the refinement of the coarse mesh: deal.II's CellId as numbers.
 using CellPlace = std::array<std::uint32_t, 4>;
 
-/// Velocity and pressure on every cell, sorted by cell: the same for any number of ranks. Laboratory frame;
-/// d, sqrt(g d), rho0 g d.
+/// Velocity and pressure on every cell (what else a flow has follows from them), sorted by cell: the same for
+/// any number of ranks. Laboratory frame; d, sqrt(g d), rho0 g d.
 struct FlowState {
   static constexpr int values_per_cell = 22;  ///< of Q2-Q1: two velocities at nine points, p at four
   double theta = 0;                           ///< rad

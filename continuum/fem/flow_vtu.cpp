@@ -53,7 +53,10 @@ class LawOutput : public dealii::DataPostprocessor<2> {
       const auto& g = input.solution_gradients[q];
       const PlaneTensor D{g[0][0], g[1][1], 0.5 * (g[0][1] + g[1][0])};
       const double p = input.solution_values[q][2], rate = magnitude(D);
-      const auto s = fem::point_report(level_.problem, level_.setting, D, p, held, q);
+      const double y =
+          level_.discretisation->has_fluidity() ? input.solution_values[q][fem::fluidity_component] : 0;
+      const auto s =
+          fem::point_report(level_.problem, level_.setting, {.D = D, .p = p, .ln_fluidity = y}, held, q);
       const std::array<double, 13> values = {p,
                                              p - s.stress.xx,
                                              p - s.stress.zz,
@@ -91,10 +94,15 @@ void FlowField::write_vtu(const std::filesystem::path& file) const {
   const LawOutput law(*level_);
   dealii::DataOut<2> output;
   output.attach_dof_handler(level_->discretisation->unknowns);
-  output.add_data_vector(level_->state.solution, std::vector<std::string>{"velocity", "velocity", "p"},
-                         dealii::DataOut<2>::type_dof_data,
-                         {Interpretation::component_is_part_of_vector,
-                          Interpretation::component_is_part_of_vector, Interpretation::component_is_scalar});
+  std::vector<std::string> names{"velocity", "velocity", "p"};
+  std::vector<Interpretation> kinds{Interpretation::component_is_part_of_vector,
+                                    Interpretation::component_is_part_of_vector,
+                                    Interpretation::component_is_scalar};
+  if (has_fluidity()) {
+    names.emplace_back("ln_fluidity");
+    kinds.push_back(Interpretation::component_is_scalar);
+  }
+  output.add_data_vector(level_->state.solution, names, dealii::DataOut<2>::type_dof_data, kinds);
   output.add_data_vector(level_->state.solution, law);
   output.build_patches(level_->discretisation->mapping, 2);
   dealii::DataOutBase::VtkFlags flags;
@@ -114,10 +122,10 @@ void FlowField::write_vtu(const std::filesystem::path& file) const {
   };
   replace_file(piece(dealii::Utilities::MPI::this_mpi_process(ranks)), text.str());
   if (dealii::Utilities::MPI::this_mpi_process(ranks) != 0) return;
-  std::vector<std::string> names;
-  for (unsigned int rank = 0; rank < count; ++rank) names.push_back(piece(rank).filename().string());
+  std::vector<std::string> pieces;
+  for (unsigned int rank = 0; rank < count; ++rank) pieces.push_back(piece(rank).filename().string());
   std::ostringstream record;
-  output.write_pvtu_record(record, names);
+  output.write_pvtu_record(record, pieces);
   auto parallel = file;
   replace_file(parallel.replace_extension(".pvtu"), record.str());
 }

@@ -73,37 +73,66 @@ void assemble(const Discretisation& d, const ScalarField& field,
   system.matrix.compress(dealii::VectorOperation::add);
 }
 
+struct Spread {
+  FieldVector g, mass, source;
+  double linear_residual = 0;
+};
+
+Spread spread(const FlowProblem& problem, const Discretisation& d, const ScalarField& field, double length,
+              std::span<const double> local_fluidity, double linear_tolerance) {
+  const auto lines = conforming_lines(problem, field);
+  Spread found;
+  HelmholtzSystem system;
+  assemble(d, field, lines, length, local_fluidity, system);
+  DirectSolver factors;
+  factors.factorise(system.matrix);
+  found.g = system.source;
+  found.linear_residual = factors.solve(system.source, found.g);
+  found.mass = std::move(system.mass);
+  found.source = std::move(system.source);
+  if (!(found.linear_residual <= linear_tolerance))
+    throw NotConvergedError(
+        fmt::format("nonlocal fluidity: true relative residual {:.2e} of the linear solve, tolerance {:.1e}",
+                    found.linear_residual, linear_tolerance));
+  bool positive = true;
+  for (const auto i : field.places.locally_owned_dofs())
+    if (!lines.is_constrained(i)) positive = positive && found.g[i] > 0;
+  if (d.sum(positive ? 0 : 1) > 0)
+    throw NotConvergedError(
+        "the nonlocal fluidity is not positive everywhere: its length asks for a finer mesh");
+  return found;
+}
+
+// The logarithm of `value` at each vertex that is free.
+template <class Value>
+std::shared_ptr<ScalarField> logarithm(const FlowProblem& problem, std::shared_ptr<ScalarField> field,
+                                       const Value& value) {
+  const auto lines = conforming_lines(problem, *field);
+  for (const auto i : field->places.locally_owned_dofs())
+    if (!lines.is_constrained(i)) field->values[i] = std::log(value(i));
+  field->values.update_ghost_values();
+  lines.distribute(field->values);
+  field->values.update_ghost_values();
+  return field;
+}
+
 }  // namespace
 
 FluidityFactor fluidity_factor(const FlowProblem& problem, const Discretisation& d, double length,
                                std::span<const double> local_fluidity, double linear_tolerance) {
-  auto ln_factor = std::make_shared<ScalarField>(d, dealii::FE_Q<2>(1));
-  const auto lines = conforming_lines(problem, *ln_factor);
-  HelmholtzSystem system;
-  assemble(d, *ln_factor, lines, length, local_fluidity, system);
-  DirectSolver factors;
-  factors.factorise(system.matrix);
-  FieldVector g = system.source;
-  FluidityFactor result;
-  result.linear_residual = factors.solve(system.source, g);
-  if (!(result.linear_residual <= linear_tolerance))
-    throw NotConvergedError(
-        fmt::format("nonlocal fluidity: true relative residual {:.2e} of the linear solve, tolerance {:.1e}",
-                    result.linear_residual, linear_tolerance));
-  bool positive = true;
-  for (const auto i : ln_factor->places.locally_owned_dofs()) {
-    if (lines.is_constrained(i)) continue;
-    positive = positive && g[i] > 0;
-    ln_factor->values[i] = std::log(system.source[i] / (system.mass[i] * g[i]));
-  }
-  if (d.sum(positive ? 0 : 1) > 0)
-    throw NotConvergedError(
-        "the nonlocal fluidity is not positive everywhere: its length asks for a finer mesh");
-  ln_factor->values.update_ghost_values();
-  lines.distribute(ln_factor->values);
-  ln_factor->values.update_ghost_values();
-  result.ln_factor = ln_factor;
-  return result;
+  auto field = std::make_shared<ScalarField>(d, dealii::FE_Q<2>(1));
+  const Spread found = spread(problem, d, *field, length, local_fluidity, linear_tolerance);
+  return {.ln_factor = logarithm(problem, std::move(field),
+                                 [&](auto i) { return found.source[i] / (found.mass[i] * found.g[i]); }),
+          .linear_residual = found.linear_residual};
+}
+
+std::shared_ptr<ScalarField> spread_fluidity(const FlowProblem& problem, const Discretisation& d,
+                                             double length, std::span<const double> local_fluidity,
+                                             double linear_tolerance) {
+  auto field = std::make_shared<ScalarField>(d, dealii::FE_Q<2>(1));
+  const Spread found = spread(problem, d, *field, length, local_fluidity, linear_tolerance);
+  return logarithm(problem, std::move(field), [&](auto i) { return found.g[i]; });
 }
 
 }  // namespace drumlin::continuum::fem

@@ -121,7 +121,7 @@ std::vector<double> local_fluidity(const FlowProblem& problem, const Discretisat
   const HeldValues& held = state.held_values();
   with_point_law(problem, problem.law, held, [&](const auto& law) {
     for_each_point(d, state.solution, [&](const PointValues& at, std::size_t point) {
-      const auto s = law(problem.regularisation, at.D, at.p, at.D, point);
+      const auto s = law(problem.regularisation, at, at.D, point);
       const double mu = s.strength.value * (1 + ratio_of(s)) / (2 * s.law_pressure);
       g.push_back(2 * s.rate * (held.fluidity.empty() ? 1 : held.fluidity[point]) / mu);
     });

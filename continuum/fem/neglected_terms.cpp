@@ -10,6 +10,7 @@
 #include "continuum/fem/detail/fluidity.hpp"
 #include "continuum/fem/detail/solved_level.hpp"
 #include "continuum/rheology/nonlocal_law.hpp"
+#include "continuum/rheology/threshold_fluidity.hpp"
 
 namespace drumlin::continuum {
 namespace {
@@ -40,10 +41,14 @@ void add_side(const fem::SolvedLevel& level, const BoundaryCondition& condition,
               const dealii::FEFaceValues<2>& face, Sums& sums) {
   std::vector<dealii::Tensor<1, 2>> u(face.n_quadrature_points);
   std::vector<dealii::Tensor<2, 2>> gradient(face.n_quadrature_points);
-  std::vector<double> p(face.n_quadrature_points);
+  std::vector<double> p(face.n_quadrature_points), y;
   face[Vector(0)].get_function_values(level.state.solution, u);
   face[Vector(0)].get_function_gradients(level.state.solution, gradient);
-  face[Scalar(2)].get_function_values(level.state.solution, p);
+  face[Scalar(fem::pressure_component)].get_function_values(level.state.solution, p);
+  if (level.discretisation->has_fluidity()) {
+    y.resize(p.size());
+    face[Scalar(fem::fluidity_component)].get_function_values(level.state.solution, y);
+  }
   for (const unsigned int q : face.quadrature_point_indices()) {
     const auto n = face.normal_vector(q);
     if (const auto* spring = std::get_if<NormalSpring>(&condition)) {
@@ -57,9 +62,11 @@ void add_side(const fem::SolvedLevel& level, const BoundaryCondition& condition,
       const PlaneTensor D{g[0][0], g[1][1], 0.5 * (g[0][1] + g[1][0])};
       const Regularisation& r = level.setting.regularisation;
       const double law_pressure = regularised_pressure(p[q], r).value;
-      const double F = strength(level.setting.law, regularised_rate(D, r), law_pressure).value;
+      const double rate = regularised_rate(D, r);
+      const double F = y.empty() ? strength(level.setting.law, rate, law_pressure).value
+                                 : strength(FluidityLaw{y[q]}, rate, law_pressure).value;
       const double D_tn = (D.zz - D.xx) * n[0] * n[1] + D.xz * (n[0] * n[0] - n[1] * n[1]);
-      const double shear_stress = F * std::abs(D_tn) / regularised_rate(D, r);
+      const double shear_stress = F * std::abs(D_tn) / rate;
       sums.wall += face.JxW(q);
       if (shear_stress > 0.95 * law_pressure) sums.overloaded += face.JxW(q);
     }
@@ -80,7 +87,7 @@ double flowing_rms(const fem::SolvedLevel& level, const std::vector<double>& val
     if (!cell->is_locally_owned()) continue;
     fe.reinit(cell);
     fe[Vector(0)].get_function_gradients(level.state.solution, gradient);
-    fe[Scalar(2)].get_function_values(level.state.solution, p);
+    fe[Scalar(fem::pressure_component)].get_function_values(level.state.solution, p);
     for (const unsigned int q : fe.quadrature_point_indices()) {
       const auto& g = gradient[q];
       const double rate = magnitude(PlaneTensor{g[0][0], g[1][1], 0.5 * (g[0][1] + g[1][0])});
@@ -99,7 +106,7 @@ double flowing_rms(const fem::SolvedLevel& level, const std::vector<double>& val
 
 std::optional<double> spread_of_fluidity(const fem::SolvedLevel& level) {
   const auto& d = *level.discretisation;
-  if (!tells_fluidity(level.problem.law)) return std::nullopt;
+  if (level.problem.threshold_fluidity || !tells_fluidity(level.problem.law)) return std::nullopt;
   const auto g = fem::local_fluidity(level.problem, d, level.state);
   const auto factor = fem::fluidity_factor(level.problem, d, 1, g, 1e-6);
   return flowing_rms(level, fem::at_quadrature(*factor.ln_factor, d));

@@ -14,6 +14,16 @@ namespace {
 // only waste the iterations that are left.
 constexpr double hopeless_residual = 1e5;
 
+// Of the fluidity, relative: far below what the residual of the momentum can tell, and what suffices to
+// compare step lengths.
+constexpr double settled = 1e-9, nearly_settled = 1e-4;
+// On the step of ln g from which it settles; g changes by seven at most.
+constexpr double largest_fluidity_step = 2;
+
+std::string unsettled(const Phase& phase) {
+  return fmt::format("the fluidity of a flow could not be found, in phase '{}'", phase.name);
+}
+
 State moved(const State& state, const FieldVector& step, double theta_step, double alpha) {
   State next = state;
   next.solution.add(alpha, step);
@@ -56,7 +66,9 @@ State Newton::corrected(const Setting& setting, const State& state) {
 }
 
 double Newton::slope(const Phase& phase, const State& state, const Step& step, double alpha) {
-  assemble_residual(problem_, d_, phase.setting, moved(state, step.solution, step.theta, alpha), system_);
+  State there = moved(state, step.solution, step.theta, alpha);
+  if (alpha > 0 && !settle(phase, nearly_settled, there)) return NAN;
+  assemble_residual(problem_, d_, phase.setting, there, system_);
   double sum = 0;
   for (std::size_t i = 0; i < d_.is_velocity.size(); ++i)
     if (d_.is_velocity[i]) sum += system_.residual.local_element(i) * step.solution.local_element(i);
@@ -90,6 +102,7 @@ std::optional<Newton::Step> Newton::newton_step(const Phase& phase, const State&
   try {
     factorise();
     Step step = step_with_factors(state);
+    if (fluidity_) fluidity_->limit(largest_fluidity_step, step.solution);
     if (step.linear_residual <= options_.linear_tolerance) return step;
     report_.failure =
         fmt::format("linear solve: true relative residual {:.2e} after refinement, in phase '{}'",
@@ -100,14 +113,15 @@ std::optional<Newton::Step> Newton::newton_step(const Phase& phase, const State&
   return std::nullopt;
 }
 
-// Moves the state, assembles there, and fills in what the step did.
-void Newton::take(const Phase& phase, const Step& step, State& state, IterationReport& line) {
+// Moves the state, assembles there, and fills in what the step did. False where the fluidity does not settle.
+bool Newton::take(const Phase& phase, const Step& step, State& state, IterationReport& line) {
   const double alpha = clock_(Work::step_length, [&] { return step_length(phase, state, step); });
   FieldVector taken = step.solution;
   taken *= alpha;
   taken.update_ghost_values();
   state.dual = advanced_dual(d_, phase.setting.regularisation, state, taken);
   state = moved(state, step.solution, step.theta, alpha);
+  if (!clock_(Work::assembly, [&] { return settle(phase, settled, state); })) return false;
   clock_(Work::assembly, [&] { assemble_tangent(problem_, d_, phase.setting, state, system_); });
   line.residual = relative_residual();
   line.step_length = alpha;
@@ -115,6 +129,7 @@ void Newton::take(const Phase& phase, const Step& step, State& state, IterationR
   line.linear_residual = step.linear_residual;
   line.theta = state.theta;
   line.seconds = now() - start_;
+  return true;
 }
 
 void Newton::record(const IterationReport& line) {
@@ -127,6 +142,10 @@ void Newton::record(const IterationReport& line) {
 bool Newton::solve(const Phase& phase, State& state) {
   IterationReport line{
       .level = level_, .phase = phase.name, .shear_rate = phase.setting.regularisation.shear_rate};
+  if (!clock_(Work::assembly, [&] { return settle(phase, settled, state); })) {
+    report_.failure = unsettled(phase);
+    return false;
+  }
   clock_(Work::assembly, [&] { assemble_tangent(problem_, d_, phase.setting, state, system_); });
   if (weight_norm_ > 0)
     reference_ = weight_norm_;
@@ -139,7 +158,10 @@ bool Newton::solve(const Phase& phase, State& state) {
     }
     const auto step = newton_step(phase, state);
     if (!step) return false;
-    take(phase, *step, state, line);
+    if (!take(phase, *step, state, line)) {
+      report_.failure = unsettled(phase);
+      return false;
+    }
     record(line);
     if (!(line.residual < hopeless_residual)) break;
     if (line.residual <= phase.tolerance) return true;

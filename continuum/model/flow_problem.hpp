@@ -125,6 +125,14 @@ struct NonlocalFluidity {
   double length = 0;  ///< d
 };
 
+/// Effect: the fluidity g = 2|D|/mu is a field, A^2 lap g/g = mu_loc(I) - mu, without flux through the sides
+/// (continuum/rheology/threshold_fluidity.hpp): one more unknown per vertex.
+struct ThresholdFluidity {
+  double amplitude = 0;  ///< A, d
+  /// mu_s, below which no layer flows by itself; absent: the law has one, or creeps at any stress.
+  std::optional<double> threshold = {};
+};
+
 /// Effect: the material carries the axes of its past strain along, and they share in those of its stress
 /// (continuum/rheology/memory_stress.hpp); in place of the problem's law its own mu(I) says how much.
 struct AxesMemory {
@@ -157,6 +165,8 @@ struct FlowProblem {
   /// Absent: mu is that of the local I. The law has to determine a fluidity at any stress
   /// (continuum/rheology/nonlocal_law.hpp).
   std::optional<NonlocalFluidity> nonlocal;
+  /// Absent: as with `nonlocal`; not with both, and not with k.
+  std::optional<ThresholdFluidity> threshold_fluidity;
   std::optional<AxesMemory> memory;  ///< absent: the stress has the axes that D and k give it; not with k
   Regularisation regularisation;     ///< what the last phase reaches
   double density = 0;                ///< nu; the weight is density (sin theta, -cos theta)

@@ -136,7 +136,15 @@ void describe(Visitor&, FlowMemory&) {}
 template <class Visitor>
 void describe(Visitor& v, FlowNonlocal& n) {
   v.value("length", n.length,
-          required("d", above(0, 1000), "Length over which fluidity spreads beyond its place."));
+          when_given("d", above(0, 1000),
+                     "Length over which fluidity spreads beyond its place, the same everywhere."));
+  v.value("amplitude", n.amplitude,
+          when_given("d", above(0, 100),
+                     "A of a length A/sqrt(abs(mu - mu_s)) in place of that: fluidity decays below the "
+                     "threshold mu_s, at any mu."));
+  v.value("threshold", n.threshold,
+          when_given("", above(0, 2),
+                     "mu_s, below which mu(I) does not fall; beside amplitude. Absent: that of the law."));
 }
 template <class Visitor>
 void describe(Visitor& v, FlowMovingSurface& m) {
@@ -160,8 +168,10 @@ void describe(Visitor& v, FlowEffects& e) {
                    "The material carries its k along and renews it by shear; the law has to have k.");
   v.optional_table("memory", e.memory,
                    "The axes of the stress remember past strain, as the law's table [memory] says.");
-  v.optional_table("nonlocal", e.nonlocal,
-                   "Fluidity spreads: g - length^2 lap g = g_loc; the law has to yield at any stress.");
+  v.optional_table(
+      "nonlocal", e.nonlocal,
+      "Fluidity spreads: g - length^2 lap g = g_loc, where the law has to yield at any stress, or "
+      "amplitude^2 lap g/g = mu(I) - mu with a threshold.");
   v.optional_table("moving_surface", e.moving_surface,
                    "The surface goes where nothing presses on it (the S-shape), its ends along the wall.");
 }
@@ -236,6 +246,15 @@ void check_drum(const Document& document, FlowScene& scene, std::vector<InputPro
   refuse_in_time(scene.effects.memory.has_value(), "effects.memory");
   refuse_in_time(scene.effects.nonlocal.has_value(), "effects.nonlocal");
   refuse_in_time(scene.effects.moving_surface.has_value(), "effects.moving_surface");
+  if (const auto& spread = scene.effects.nonlocal; spread && spread->length) {
+    const auto refuse_beside_length = [&](bool named, const char* path) {
+      if (named)
+        problems.push_back(problem_at(document, path, "belongs to another law than effects.nonlocal.length",
+                                      "absent with effects.nonlocal.length"));
+    };
+    refuse_beside_length(spread->amplitude.has_value(), "effects.nonlocal.amplitude");
+    refuse_beside_length(spread->threshold.has_value(), "effects.nonlocal.threshold");
+  }
   if (scene.effects.memory && scene.effects.fabric)
     problems.push_back(problem_at(document, "effects.fabric",
                                   "turns the axes of the stress, and so does their memory",

@@ -85,8 +85,12 @@ struct FlowFabric {
 };
 /// Takes no key: the law says all.
 struct FlowMemory {};
+/// Fluidity that spreads: over one length (NonlocalFluidity), or over one that grows towards a threshold
+/// (ThresholdFluidity).
 struct FlowNonlocal {
-  double length = 0;  ///< d
+  std::optional<double> length = {};     ///< d
+  std::optional<double> amplitude = {};  ///< A, d
+  std::optional<double> threshold = {};  ///< mu_s; absent: that of the law
 };
 /// See MovingSurface (continuum/model/flow_problem.hpp).
 struct FlowMovingSurface {

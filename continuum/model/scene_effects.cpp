@@ -6,6 +6,47 @@
 namespace drumlin::continuum {
 namespace {
 
+/// What the scene and the law say together of a fluidity with a threshold: here a law's own numbers take the
+/// place of those that the scene does not name.
+struct ThresholdKeys {
+  std::optional<double> amplitude, threshold;
+};
+ThresholdKeys threshold_keys(const FlowNonlocal& named, const RheologyFit& /*law*/) {
+  return {named.amplitude, named.threshold};
+}
+
+InputProblem nonlocal_problem(const std::string& key, const std::string& what, const std::string& allowed) {
+  return {.file = "", .key = key, .what = what, .allowed = allowed};
+}
+
+// `memory`: its mu(I), a table without a threshold, takes the place of the law's.
+void check_threshold(const ThresholdKeys& keys, const RheologyFit& law, bool memory,
+                     std::vector<InputProblem>& problems) {
+  if (!keys.amplitude)
+    problems.push_back(nonlocal_problem("effects.nonlocal", "says over which length nowhere",
+                                        "with the key length or the key amplitude"));
+  if (law.k)
+    problems.push_back(nonlocal_problem("effects.nonlocal",
+                                        "has a threshold, and the k of the law knows of none",
+                                        "a rheology file without a table [k]"));
+  if (keys.amplitude && !keys.threshold && (memory || !threshold(friction_law(law.mu))))
+    problems.push_back(nonlocal_problem("effects.nonlocal.threshold",
+                                        "is missing, and the law's mu(I) has no threshold of its own",
+                                        "above 0"));
+}
+
+void check_nonlocal(const FlowEffects& effects, const RheologyFit& law, const StressLaw& mu,
+                    std::vector<InputProblem>& problems) {
+  if (!effects.nonlocal->length)
+    check_threshold(threshold_keys(*effects.nonlocal, law), law, effects.memory.has_value(), problems);
+  else if (!effects.memory && !tells_fluidity(mu))
+    problems.push_back(nonlocal_problem(
+        "effects.nonlocal",
+        "spreads the fluidity that mu determines, and the law's mu is the same at all rates "
+        "or has a threshold, below which it determines none",
+        "a rheology file whose mu is a logarithm or a table, or effects.nonlocal.amplitude"));
+}
+
 void check_law(const FlowEffects& effects, const RheologyFit& law, const StressLaw& mu) {
   std::vector<InputProblem> problems;
   if (effects.fabric && !law.k)
@@ -23,14 +64,17 @@ void check_law(const FlowEffects& effects, const RheologyFit& law, const StressL
                         .key = "effects.memory",
                         .what = "turns the axes of the stress, and so does the k of the law",
                         .allowed = "a rheology file without a table [k]"});
-  if (effects.nonlocal && !effects.memory && !tells_fluidity(mu))
-    problems.push_back(
-        {.file = "",
-         .key = "effects.nonlocal",
-         .what = "spreads the fluidity that mu determines, and the law's mu is the same at all rates "
-                 "or has a threshold, below which it determines none",
-         .allowed = "a rheology file whose mu is a logarithm or a table"});
+  if (effects.nonlocal) check_nonlocal(effects, law, mu, problems);
   if (!problems.empty()) throw InputError(problems);
+}
+
+void add_nonlocal(const FlowNonlocal& named, const RheologyFit& law, FlowProblem& problem) {
+  if (named.length) {
+    problem.nonlocal = NonlocalFluidity{*named.length};
+    return;
+  }
+  const ThresholdKeys keys = threshold_keys(named, law);
+  problem.threshold_fluidity = ThresholdFluidity{keys.amplitude.value(), keys.threshold};
 }
 
 }  // namespace
@@ -41,7 +85,7 @@ void add_law_and_effects(const FlowScene& scene, const RheologyFit& law, FlowPro
   check_law(effects, law, problem.law);
   if (law.k) problem.turned = TurnedStress{.k = StressRatioLaw(law.k->I, law.k->k)};
   if (effects.fabric) problem.turned->fabric = CarriedFabric{effects.fabric->relaxation};
-  if (effects.nonlocal) problem.nonlocal = NonlocalFluidity{effects.nonlocal->length};
+  if (effects.nonlocal) add_nonlocal(*effects.nonlocal, law, problem);
   if (effects.memory) problem.memory.emplace(*law.memory);
   if (effects.inertia) problem.inertia = Inertia{};
 }

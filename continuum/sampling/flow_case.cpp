@@ -49,7 +49,7 @@ FlowCase drum_case(const FlowScene& scene, const RheologyFit& law) {
 // the radius.
 bool has_closed_form(const FlowProblem& problem) {
   const bool ring = std::holds_alternative<AnnulusDomain>(problem.domain);
-  return !problem.nonlocal && !(ring && (problem.turned || problem.inertia));
+  return !problem.nonlocal && !problem.threshold_fluidity && !(ring && (problem.turned || problem.inertia));
 }
 
 FlowCase gap_case(const FlowScene& scene, const RheologyFit& law) {

@@ -108,6 +108,8 @@ FieldMap flow_map(const FlowField& field, const MapArea& area, double spacing) {
   if (field.remembers())
     for (const char* name : of_memory)
       map.fields.push_back({name, std::vector<double>(map.grid.nodes(), none), {}});
+  if (field.has_fluidity())
+    map.fields.push_back({"fluidity", std::vector<double>(map.grid.nodes(), none), {}});
   std::vector<std::size_t> nodes;
   std::vector<Vec2> points, places;  // in the map, in the domain
   for (std::size_t node = 0; node < map.grid.nodes(); ++node) {
@@ -123,8 +125,10 @@ FieldMap flow_map(const FlowField& field, const MapArea& area, double spacing) {
     const Values values = values_at(states[i], points[i], area);
     for (std::size_t f = 0; f < names.size(); ++f) map.fields[f].value[nodes[i]] = values[f];
     const std::array memory = {states[i].memory_xx, states[i].memory_xz, states[i].memory_rho};
-    for (std::size_t f = names.size(); f < map.fields.size(); ++f)
-      map.fields[f].value[nodes[i]] = memory[f - names.size()];
+    if (field.remembers())
+      for (std::size_t f = 0; f < memory.size(); ++f)
+        map.fields[names.size() + f].value[nodes[i]] = memory[f];
+    if (field.has_fluidity()) map.fields.back().value[nodes[i]] = states[i].fluidity;
   }
   return map;
 }

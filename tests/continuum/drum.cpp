@@ -97,8 +97,8 @@ TEST(DrumProblem, HoldsNoEffectThatNobodyNames) {
   FlowScene scene = paper_scene();
   scene.effects = {};
   const FlowProblem problem = drum_problem(scene, paper_law());
-  EXPECT_FALSE(problem.turned || problem.nonlocal || problem.memory || problem.inertia || problem.frame ||
-               problem.moving_surface || problem.extra_force);
+  EXPECT_FALSE(problem.turned || problem.nonlocal || problem.threshold_fluidity || problem.memory ||
+               problem.inertia || problem.frame || problem.moving_surface || problem.extra_force);
 }
 
 TEST(DrumProblem, RefusesEffectsThatTheLawDoesNotAllow) {
@@ -116,6 +116,32 @@ TEST(DrumProblem, RefusesEffectsThatTheLawDoesNotAllow) {
     EXPECT_EQ(error.problems()[0].key, "effects.fabric");
     EXPECT_EQ(error.problems()[1].key, "effects.nonlocal");
   }
+}
+
+TEST(DrumProblem, TakesAThresholdFromTheSceneOrItsLaw) {
+  FlowScene scene = paper_scene();
+  scene.effects = {};
+  scene.effects.nonlocal = FlowNonlocal{.amplitude = 0.5};
+  const auto refused = [&](const RheologyFit& law) {
+    try {
+      (void)drum_problem(scene, law);
+    } catch (const InputError& error) {
+      return error.problems().front().key;
+    }
+    return std::string();
+  };
+  RheologyFit law = paper_law();
+  EXPECT_EQ(refused(law), "effects.nonlocal.threshold");  // a logarithm creeps at any stress
+  law.mu = JopFriction{0.38, 0.64, 0.28};
+  EXPECT_EQ(drum_problem(scene, law).threshold_fluidity.value().amplitude, 0.5);
+  EXPECT_FALSE(drum_problem(scene, law).threshold_fluidity->threshold);
+  EXPECT_FALSE(drum_problem(scene, law).nonlocal);
+  scene.effects.nonlocal->threshold = 0.26;
+  EXPECT_EQ(drum_problem(scene, paper_law()).threshold_fluidity.value().threshold, 0.26);
+  law.k = NormalStressRatio{.I = {1e-3, 1e-1}, .k = {0.95, 1.1}};
+  EXPECT_EQ(refused(law), "effects.nonlocal");
+  scene.effects.nonlocal = FlowNonlocal{};  // neither length nor amplitude
+  EXPECT_EQ(refused(paper_law()), "effects.nonlocal");
 }
 
 TEST(DrumProblem, TakesTheMemoryOfItsLawAndRefusesItWithoutOneAndWithK) {

@@ -55,9 +55,18 @@ TEST(FlowScene, HasTheEffectsThatItNames) {
           .effects;
   EXPECT_EQ(more.fabric.value().relaxation, 2);
   EXPECT_EQ(more.nonlocal.value().length, 1.5);
-  for (const char* without_its_key : {"[effects.wall_slip]\n", "[effects.fabric]\n", "[effects.nonlocal]\n"})
+  for (const char* without_its_key : {"[effects.wall_slip]\n", "[effects.fabric]\n"})
     EXPECT_THROW(parse_flow_scene(smallest + without_its_key, "test"), InputError) << without_its_key;
   EXPECT_THROW(parse_flow_scene(smallest + "[effects.nonlocal]\nlength = -1\n", "test"), InputError);
+  const FlowNonlocal creeping =
+      parse_flow_scene(smallest + "[effects.nonlocal]\namplitude = 0.5\nthreshold = 0.26\n", "test")
+          .effects.nonlocal.value();
+  EXPECT_EQ(creeping.amplitude, 0.5);
+  EXPECT_EQ(creeping.threshold, 0.26);
+  EXPECT_FALSE(creeping.length);
+  EXPECT_NE(refusal(smallest + "[effects.nonlocal]\nlength = 1\namplitude = 0.5\n", {})
+                .find("effects.nonlocal.amplitude"),
+            std::string::npos);
   EXPECT_FALSE(scene.effects.moving_surface);
   EXPECT_EQ(parse_flow_scene(smallest + "[effects.moving_surface]\ndegree = 12\n", "test")
                 .effects.moving_surface.value()

@@ -6,6 +6,7 @@
 
 #include "continuum/rheology/nonlocal_law.hpp"
 #include "continuum/rheology/tensor_law.hpp"
+#include "continuum/rheology/threshold_fluidity.hpp"
 
 namespace drumlin {
 using namespace continuum;
@@ -102,6 +103,35 @@ TEST(DualVariable, NeverLeavesTheUnitBall) {
     const PlaneTensor next =
         advanced_dual(D, {-length, length, 2 * length}, dual, regularised_rate(D, {1e-2, 0.1}));
     EXPECT_LE(magnitude(next), 1 + 1e-14);
+  }
+}
+
+TEST(ThresholdFluidityLaw, IsTheLawWhereNothingSpreadsAndNeverFallsBelowItsThreshold) {
+  const TabulatedLaw falls({1e-5, 1e-3, 1e-1}, {0.16, 0.25, 0.36});
+  for (const double I : {1e-6, 1e-4, 1e-2, 1e-1}) {
+    const double p = 3, rate = 0.5 * I * std::sqrt(p), y = std::log(2 * rate / 0.3);
+    const FluidityBalance at = fluidity_balance(falls, 0.26, y, rate, p);
+    EXPECT_NEAR(at.mu, 0.3, 1e-14);
+    EXPECT_GT(at.local, 0.26);
+    EXPECT_NEAR(at.local, std::max(0.26, falls.friction(I).mu), 2e-4) << I;  // half a thousandth at the kink
+    EXPECT_DOUBLE_EQ(fluidity_balance(falls, {}, y, rate, p).local, falls.friction(I).mu);
+    EXPECT_NEAR(strength(FluidityLaw{y}, rate, p).value, 0.3 * p, 1e-14);
+  }
+}
+
+TEST(ThresholdFluidityLaw, HasTheSlopesOfItsBalance) {
+  const TabulatedLaw falls({1e-5, 1e-3, 1e-1}, {0.16, 0.25, 0.36});
+  const double p = 3, y = -4, h = 1e-6;
+  for (const double rate : {1e-5, 1e-3, 1e-2}) {
+    const auto value = [&](double here, double pressure, double at_y) {
+      const FluidityBalance at = fluidity_balance(falls, 0.26, at_y, here, pressure);
+      return at.local - at.mu;
+    };
+    const FluidityBalance at = fluidity_balance(falls, 0.26, y, rate, p);
+    EXPECT_NEAR((value(rate * (1 + h), p, y) - value(rate * (1 - h), p, y)) / (2 * h), rate * at.by_rate,
+                1e-8);
+    EXPECT_NEAR((value(rate, p + h, y) - value(rate, p - h, y)) / (2 * h), at.by_pressure, 1e-8);
+    EXPECT_NEAR((value(rate, p, y + h) - value(rate, p, y - h)) / (2 * h), at.mu, 1e-8);
   }
 }
 

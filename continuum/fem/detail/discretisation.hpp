@@ -1,5 +1,6 @@
 #pragma once
-// Mesh, Q2-Q1 elements, constraints: what assembly, solver and evaluation share. Private to fem/.
+// Mesh, elements (Q2-Q1, and Q1 for a fluidity with a threshold), constraints: what assembly, solver and
+// evaluation share. Private to fem/.
 #include <deal.II/base/index_set.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/distributed/tria.h>
@@ -23,6 +24,10 @@ namespace drumlin::continuum::fem {
 /// One number per unknown, each on the rank that owns it; copies of those on the cells around that rank's
 /// part follow with update_ghost_values().
 using FieldVector = dealii::LinearAlgebra::distributed::Vector<double>;
+
+/// Components of the unknowns after the two of the velocity; the last one only with a threshold of fluidity.
+constexpr unsigned int pressure_component = 2, fluidity_component = 3;
+inline bool moves(unsigned int component) { return component < pressure_component; }
 
 /// One mesh level of a problem, cut into parts among the ranks of MPI_COMM_WORLD by p4est. The triangulation
 /// is refined in place; everything else is rebuilt with it. All member functions are collective.
@@ -50,6 +55,9 @@ struct Discretisation {
   /// All zero.
   FieldVector field() const { return {owned, relevant, mesh.get_communicator()}; }
   double sum(double value) const;  ///< over the ranks
+  dealii::ComponentMask velocity_mask() const;
+  /// Whether ln g is one of the unknowns: with a threshold of fluidity alone.
+  bool has_fluidity() const { return elements.n_components() > 3; }
 
   dealii::parallel::distributed::Triangulation<2> mesh;
   dealii::MappingQCache<2> mapping{2};  ///< quadratic cells; their support points are found once per mesh

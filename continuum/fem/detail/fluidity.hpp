@@ -19,4 +19,9 @@ struct FluidityFactor {
 FluidityFactor fluidity_factor(const FlowProblem& problem, const Discretisation& d, double length,
                                std::span<const double> local_fluidity, double linear_tolerance);
 
+/// ln g of the same equation, on linear elements.
+std::shared_ptr<ScalarField> spread_fluidity(const FlowProblem& problem, const Discretisation& d,
+                                             double length, std::span<const double> local_fluidity,
+                                             double linear_tolerance);
+
 }  // namespace drumlin::continuum::fem

@@ -24,7 +24,7 @@ inline PointMotion point_motion(const CellShapes& s, unsigned int q, const deali
   PointMotion at;
   for (unsigned int i = 0; i < s.n; ++i) {
     const unsigned int c = s.component[i];
-    if (c == 2) continue;
+    if (!moves(c)) continue;
     const auto k = q * s.n + i;
     const auto g = shape_gradient(s, i, k);
     at.u[c] += local[i] * s.value[k];
@@ -45,13 +45,13 @@ inline void add_inertia_tangent(const CellShapes& s, unsigned int q, const Point
                                 double per_time, double JxW, dealii::FullMatrix<double>& matrix) {
   for (unsigned int j = 0; j < s.n; ++j) {
     const unsigned int cj = s.component[j];
-    if (cj == 2) continue;
+    if (!moves(cj)) continue;
     const auto kj = q * s.n + j;
     const auto g = shape_gradient(s, j, kj);
     const double along = density * (at.u[0] * g[0] + at.u[1] * g[1]) + per_time * s.value[kj];
     for (unsigned int i = 0; i < s.n; ++i) {
       const unsigned int ci = s.component[i];
-      if (ci == 2) continue;
+      if (!moves(ci)) continue;
       const double turn = density * at.gradient[ci][cj] * s.value[kj];
       matrix(i, j) += (turn + (ci == cj ? along : 0)) * s.value[q * s.n + i] * JxW;
     }

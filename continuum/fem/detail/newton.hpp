@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "continuum/fem/detail/direct_solver.hpp"
+#include "continuum/fem/detail/settled_fluidity.hpp"
 #include "continuum/fem/detail/solved_level.hpp"
 #include "continuum/fem/detail/work_clock.hpp"
 #include "continuum/fem/flow_solver.hpp"
@@ -33,6 +33,7 @@ class Newton {
         moment_(surface_moment(problem, d_)),
         system_(d_) {
     if (problem.frame) frame_moment_ = moment_ * frame_velocity(problem, d_);
+    if (d_.has_fluidity()) fluidity_.emplace(problem, d_);
     weight_norm_ = problem.density > 0 ? load(d_, {0, problem.density}).l2_norm() : 0;
   }
 
@@ -56,7 +57,11 @@ class Newton {
   };
   Step step_with_factors(const State& state);
   std::optional<Step> newton_step(const Phase& phase, const State& state);
-  void take(const Phase& phase, const Step& step, State& state, IterationReport& line);
+  bool take(const Phase& phase, const Step& step, State& state, IterationReport& line);
+  /// True where nothing has to settle.
+  bool settle(const Phase& phase, double tolerance, State& state) {
+    return !fluidity_ || fluidity_->settle(phase.setting, tolerance, state);
+  }
   void record(const IterationReport& line);
   double slope(const Phase& phase, const State& state, const Step& step, double alpha);
   double step_length(const Phase& phase, const State& state, const Step& step);
@@ -66,6 +71,7 @@ class Newton {
   const FlowSolverOptions& options_;
   const Discretisation& d_;
   DirectSolver factors_;
+  std::optional<SettledFluidity> fluidity_;  // absent: ln g is none of the unknowns
   int level_;
   double start_;
   WorkClock& clock_;

@@ -1,13 +1,15 @@
 #pragma once
 // The law at a quadrature point, with or without k: the one place that chooses. Without k nothing of it
 // exists in the code that runs; the fabric that is carried and the spread of fluidity stand behind one test
-// per point. Memory of the axes has a law of its own. Private to fem/.
+// per point. Memory of the axes has a law of its own, and so has a fluidity with a threshold. Private to
+// fem/.
 #include <span>
 #include <type_traits>
 
 #include "continuum/fem/detail/assembly.hpp"
-#include "continuum/rheology/memory_stress.hpp"
+#include "continuum/fem/detail/cell_shapes.hpp"
 #include "continuum/rheology/nonlocal_law.hpp"
+#include "continuum/rheology/threshold_fluidity.hpp"
 #include "continuum/rheology/turned_law.hpp"
 #include "coupling/law/well_posedness.hpp"
 
@@ -17,10 +19,10 @@ template <class Law>
 struct PlainPointLaw {
   const Law& law;
   const HeldValues& held;
-  StressResponse operator()(const Regularisation& r, const PlaneTensor& D, double p, const PlaneTensor& dual,
+  StressResponse operator()(const Regularisation& r, const PointValues& at, const PlaneTensor& dual,
                             std::size_t point) const {
-    if (held.fluidity.empty()) return stress_response(law, r, D, p, dual);
-    return stress_response(NonlocalLaw<Law>{law, held.fluidity[point]}, r, D, p, dual);
+    if (held.fluidity.empty()) return stress_response(law, r, at.D, at.p, dual);
+    return stress_response(NonlocalLaw<Law>{law, held.fluidity[point]}, r, at.D, at.p, dual);
   }
 };
 /// The start of every flow, which knows of no effect.
@@ -28,9 +30,9 @@ template <>
 struct PlainPointLaw<NewtonianLaw> {
   const NewtonianLaw& law;
   const HeldValues& held;
-  StressResponse operator()(const Regularisation& r, const PlaneTensor& D, double p, const PlaneTensor& dual,
+  StressResponse operator()(const Regularisation& r, const PointValues& at, const PlaneTensor& dual,
                             std::size_t /*point*/) const {
-    return stress_response(law, r, D, p, dual);
+    return stress_response(law, r, at.D, at.p, dual);
   }
 };
 
@@ -39,10 +41,10 @@ struct TurnedPointLaw {
   const Law& law;
   const StressRatioLaw& k;
   const HeldValues& held;
-  TurnedResponse operator()(const Regularisation& r, const PlaneTensor& D, double p, const PlaneTensor& dual,
+  TurnedResponse operator()(const Regularisation& r, const PointValues& at, const PlaneTensor& dual,
                             std::size_t point) const {
-    if (held.fluidity.empty()) return with_ratio(law, r, D, p, dual, point);
-    return with_ratio(NonlocalLaw<Law>{law, held.fluidity[point]}, r, D, p, dual, point);
+    if (held.fluidity.empty()) return with_ratio(law, r, at.D, at.p, dual, point);
+    return with_ratio(NonlocalLaw<Law>{law, held.fluidity[point]}, r, at.D, at.p, dual, point);
   }
 
  private:
@@ -59,18 +61,71 @@ struct TurnedPointLaw {
 struct MemoryPointLaw {
   const TabulatedLaw& law;
   const HeldValues& held;
-  MemoryResponse operator()(const Regularisation& r, const PlaneTensor& D, double p, const PlaneTensor& dual,
+  MemoryResponse operator()(const Regularisation& r, const PointValues& at, const PlaneTensor& dual,
                             std::size_t point) const {
     const double m = held.memory_weight;
-    if (held.fluidity.empty()) return memory_response(law, m, held.memory[point], r, D, p, dual);
-    return memory_response(NonlocalLaw<TabulatedLaw>{law, held.fluidity[point]}, m, held.memory[point], r, D,
-                           p, dual);
+    if (held.fluidity.empty()) return memory_response(law, m, held.memory[point], r, at.D, at.p, dual);
+    return memory_response(NonlocalLaw<TabulatedLaw>{law, held.fluidity[point]}, m, held.memory[point], r,
+                           at.D, at.p, dual);
   }
 };
+
+/// mu_loc - mu at a point, its slope by p that by the true one.
+template <class Law>
+FluidityBalance point_balance(const Law& law, const ThresholdFluidity& effect, const Regularisation& r,
+                              const PointValues& at) {
+  const RegularisedPressure p = regularised_pressure(at.p, r);
+  auto balance = fluidity_balance(law, effect.threshold, at.ln_fluidity, regularised_rate(at.D, r), p.value);
+  balance.by_pressure *= p.slope;
+  return balance;
+}
+
+/// With ln g among the unknowns; the start of every flow is Newtonian, and its ln g follows from it.
+struct FluidityPointLaw {
+  const StressLaw& law;  ///< of mu_loc
+  const ThresholdFluidity& effect;
+  const NewtonianLaw* newtonian = nullptr;  ///< null: the stress is that of the fluidity
+  FluidityResponse<StressResponse> operator()(const Regularisation& r, const PointValues& at,
+                                              const PlaneTensor& dual, std::size_t /*point*/) const {
+    FluidityResponse<StressResponse> s{
+        newtonian ? stress_response(*newtonian, r, at.D, at.p, dual)
+                  : stress_response(FluidityLaw{at.ln_fluidity}, r, at.D, at.p, dual)};
+    s.balance = point_balance(law, effect, r, at);
+    if (!newtonian) s.by_fluidity = -s.strength.value * dual;
+    return s;
+  }
+};
+/// The same with memory of the axes.
+struct FluidityMemoryPointLaw {
+  const TabulatedLaw& law;
+  const ThresholdFluidity& effect;
+  const HeldValues& held;
+  FluidityResponse<MemoryResponse> operator()(const Regularisation& r, const PointValues& at,
+                                              const PlaneTensor& dual, std::size_t point) const {
+    FluidityResponse<MemoryResponse> s{memory_response(FluidityLaw{at.ln_fluidity}, held.memory_weight,
+                                                       held.memory[point], r, at.D, at.p, dual)};
+    s.balance = point_balance(law, effect, r, at);
+    s.by_fluidity = (-s.strength.value / s.rho) * (dual + s.weight * s.memory);
+    return s;
+  }
+};
+
+/// Calls `visit` with the point law of a problem that has ln g among its unknowns.
+template <class Visit>
+void with_fluidity_law(const FlowProblem& problem, const StressLaw& law, const HeldValues& held,
+                       Visit&& visit) {
+  const ThresholdFluidity& effect = problem.threshold_fluidity.value();
+  const auto* newtonian = std::get_if<NewtonianLaw>(&law);
+  if (!held.memory.empty() && !newtonian)
+    visit(FluidityMemoryPointLaw{problem.memory->friction, effect, held});
+  else
+    visit(FluidityPointLaw{newtonian ? problem.law : law, effect, newtonian});
+}
 
 /// Calls `visit` with the point law of a problem in this setting; `held` has to live as long.
 template <class Visit>
 void with_point_law(const FlowProblem& problem, const StressLaw& law, const HeldValues& held, Visit&& visit) {
+  if (problem.threshold_fluidity) return with_fluidity_law(problem, law, held, visit);
   if (!held.memory.empty() && !std::holds_alternative<NewtonianLaw>(law))
     return visit(MemoryPointLaw{problem.memory->friction, held});
   std::visit(
@@ -130,15 +185,15 @@ struct PointReport {
   std::optional<Remembered> memory = {};
 };
 
-inline PointReport point_report(const FlowProblem& problem, const Setting& setting, const PlaneTensor& D,
-                                double p, const HeldValues& held, std::size_t point) {
+inline PointReport point_report(const FlowProblem& problem, const Setting& setting, const PointValues& at,
+                                const HeldValues& held, std::size_t point) {
   PointReport report;
   with_point_law(problem, setting.law, held, [&](const auto& law) {
-    const auto s = law(setting.regularisation, D, p, D, point);
+    const auto s = law(setting.regularisation, at, at.D, point);
     const double ratio = ratio_of(s);
-    report = {s.stress,        along_of(s, D), 2 * s.law_pressure / (1 + ratio),
-              viscosity_of(s), margin(s),      ratio,
-              axis_angle(s),   across_of(s),   held.fluidity.empty() ? 1 : held.fluidity[point]};
+    report = {s.stress,        along_of(s, at.D), 2 * s.law_pressure / (1 + ratio),
+              viscosity_of(s), margin(s),         ratio,
+              axis_angle(s),   across_of(s),      held.fluidity.empty() ? 1 : held.fluidity[point]};
   });
   if (!held.memory.empty()) report.memory = held.memory[point];
   return report;
