@@ -11,8 +11,11 @@ namespace {
 struct ThresholdKeys {
   std::optional<double> amplitude, threshold;
 };
-ThresholdKeys threshold_keys(const FlowNonlocal& named, const RheologyFit& /*law*/) {
-  return {named.amplitude, named.threshold};
+ThresholdKeys threshold_keys(const FlowNonlocal& named, const RheologyFit& law) {
+  ThresholdKeys keys{named.amplitude, named.threshold};
+  if (law.nonlocal && !keys.amplitude) keys.amplitude = law.nonlocal->amplitude;
+  if (law.nonlocal && !keys.threshold) keys.threshold = law.nonlocal->mu_s;
+  return keys;
 }
 
 InputProblem nonlocal_problem(const std::string& key, const std::string& what, const std::string& allowed) {
@@ -23,8 +26,9 @@ InputProblem nonlocal_problem(const std::string& key, const std::string& what, c
 void check_threshold(const ThresholdKeys& keys, const RheologyFit& law, bool memory,
                      std::vector<InputProblem>& problems) {
   if (!keys.amplitude)
-    problems.push_back(nonlocal_problem("effects.nonlocal", "says over which length nowhere",
-                                        "with the key length or the key amplitude"));
+    problems.push_back(nonlocal_problem(
+        "effects.nonlocal", "says over which length nowhere",
+        "with the key length or the key amplitude, or a rheology file with a table [nonlocal]"));
   if (law.k)
     problems.push_back(nonlocal_problem("effects.nonlocal",
                                         "has a threshold, and the k of the law knows of none",
