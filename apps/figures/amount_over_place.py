@@ -1,0 +1,84 @@
+"""What the amount of the stress leaves over where it follows I alone, place by place in the bed: several runs beside one another.
+
+usage: amount_over_place.py PICTURE --runs RUN... [--record FILE.json]
+Each RUN has measured/maps.h5 with displacement fields. |s|/p less the straight line in ln I through all nodes of all runs with I below
+1e-3, means over blocks of 10 d x 4 d, at least 3 d below the surface and 4 d from the wall. What differs from place to place and is the
+same in every run is no noise: no law |s|/p = f(I) has it.
+"""
+
+import argparse
+import json
+import math
+import pathlib
+
+import h5py
+import numpy
+import style
+
+plt = style.plt
+BED_I, LEAST_I = 1e-3, 3.8e-6
+BLOCK = (10, 4)  # d
+LEAST_NODES = 10
+
+
+def bed_of(run):
+    """x, z, ln I and |s|/p of the nodes in the bed."""
+    with h5py.File(run / "measured" / "maps.h5") as maps:
+        header = dict(line.split(" = ", 1) for line in bytes(maps["header"][:]).decode().splitlines() if " = " in line)
+        fields = {name: maps["fields"][name][:] for name in ("nu", "mu", "displacement_I")}
+        x, z = numpy.meshgrid(maps["x"][:], maps["z"][:])
+    inside = numpy.hypot(x, z - float(header["axis_depth"])) < float(header["drum_radius"]) - 4
+    inertial = fields["displacement_I"]
+    bed = inside & (z < -3) & (fields["nu"] >= 0.6) & (inertial > LEAST_I) & (inertial < BED_I) & numpy.isfinite(fields["mu"])
+    return x[bed], z[bed], numpy.log(inertial[bed]), fields["mu"][bed]
+
+
+def blocks_of(x, z, left):
+    """Mean of what is left over by block."""
+    found = {}
+    for place, value in zip(zip(numpy.rint(x / BLOCK[0]).astype(int), numpy.rint(z / BLOCK[1]).astype(int)), left):
+        found.setdefault((int(place[0]), int(place[1])), []).append(value)
+    return {place: float(numpy.mean(values)) for place, values in found.items() if len(values) >= LEAST_NODES}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("picture", type=pathlib.Path)
+    parser.add_argument("--runs", type=pathlib.Path, nargs="+", required=True)
+    parser.add_argument("--record", type=pathlib.Path, help="file for the numbers")
+    options = parser.parse_args()
+    beds = [bed_of(run) for run in options.runs]
+    slope, level = numpy.polyfit(numpy.concatenate([bed[2] for bed in beds]), numpy.concatenate([bed[3] for bed in beds]), 1)
+    blocks = [blocks_of(x, z, amount - level - slope * ln_I) for x, z, ln_I, amount in beds]
+    places = sorted(set.intersection(*(set(found) for found in blocks)))
+    left = numpy.array([[found[place] for place in places] for found in blocks])
+    rms = float(numpy.sqrt(numpy.mean(left**2)))
+    of_seeds = float(numpy.sqrt(numpy.mean(numpy.var(left, axis=0, ddof=1)))) if len(blocks) > 1 else math.nan
+    correlations = numpy.corrcoef(left)[numpy.triu_indices(len(blocks), 1)]
+    decades = slope * math.log(10)
+    record = {"format": "drumlin-amount-over-place-1", "runs": [run.name for run in options.runs], "level": float(level), "slope": float(slope),
+              "blocks": len(places), "rms": rms, "rms_between_runs": of_seeds, "correlations": [float(c) for c in correlations],
+              "decades_of_shear_rate": rms / decades, "decades_between_runs": of_seeds / decades,
+              "places": [[BLOCK[0] * i, BLOCK[1] * k, *map(float, left[:, n])] for n, (i, k) in enumerate(places)]}
+    if options.record:
+        options.record.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
+
+    style.use_style()
+    rows = (len(blocks) + 1) // 2
+    figure, panels = plt.subplots(rows, min(2, len(blocks)), figsize=(14, 0.6 + 3 * rows), sharex=True, sharey=True, squeeze=False)
+    limit = max(abs(left.min()), abs(left.max()))
+    for axes, run, values in zip(panels.flat, options.runs, left):
+        shown = axes.scatter([BLOCK[0] * i for i, _ in places], [BLOCK[1] * k for _, k in places], c=values, cmap="RdBu_r", vmin=-limit, vmax=limit,
+                             marker="s", s=190)
+        axes.set_title(style.plain(run.name, 60), fontsize=11)
+        axes.set_xlabel("x [d]")
+        axes.set_ylabel("z [d]")
+    figure.colorbar(shown, ax=list(panels.flat), label="|s|/p less its law over I")
+    figure.suptitle(f"rms {rms:.4f} ({rms / decades:.2f} decades of shear rate); between runs {of_seeds:.4f} ({of_seeds / decades:.2f})", fontsize=12)
+    style.save(figure, options.picture, False)
+    print(f"|s|/p = {level:.3f} + {slope:.4f} ln I; left: rms {rms:.4f}, between runs {of_seeds:.4f}, correlations "
+          + ", ".join(f"{c:.2f}" for c in correlations))
+
+
+if __name__ == "__main__":
+    main()
