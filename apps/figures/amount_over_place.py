@@ -11,9 +11,10 @@ import json
 import math
 import pathlib
 
-import h5py
 import numpy
 import style
+import whole_file
+from drum_maps import read_maps
 
 plt = style.plt
 BED_I, LEAST_I = 1e-3, 3.8e-6
@@ -23,10 +24,9 @@ LEAST_NODES = 10
 
 def bed_of(run):
     """x, z, ln I and |s|/p of the nodes in the bed."""
-    with h5py.File(run / "measured" / "maps.h5") as maps:
-        header = dict(line.split(" = ", 1) for line in bytes(maps["header"][:]).decode().splitlines() if " = " in line)
-        fields = {name: maps["fields"][name][:] for name in ("nu", "mu", "displacement_I")}
-        x, z = numpy.meshgrid(maps["x"][:], maps["z"][:])
+    header, grids = read_maps(run / "measured" / "maps.h5")
+    fields = {name: grids[name].filled(numpy.nan) for name in ("nu", "mu", "displacement_I")}
+    x, z = numpy.meshgrid(grids["x"], grids["z"])
     inside = numpy.hypot(x, z - float(header["axis_depth"])) < float(header["drum_radius"]) - 4
     inertial = fields["displacement_I"]
     bed = inside & (z < -3) & (fields["nu"] >= 0.6) & (inertial > LEAST_I) & (inertial < BED_I) & numpy.isfinite(fields["mu"])
@@ -47,13 +47,15 @@ def main():
     parser.add_argument("--runs", type=pathlib.Path, nargs="+", required=True)
     parser.add_argument("--record", type=pathlib.Path, help="file for the numbers")
     options = parser.parse_args()
+    if len(options.runs) < 2:
+        parser.error("one run does not tell a pattern from noise: two runs at least")
     beds = [bed_of(run) for run in options.runs]
     slope, level = numpy.polyfit(numpy.concatenate([bed[2] for bed in beds]), numpy.concatenate([bed[3] for bed in beds]), 1)
     blocks = [blocks_of(x, z, amount - level - slope * ln_I) for x, z, ln_I, amount in beds]
     places = sorted(set.intersection(*(set(found) for found in blocks)))
     left = numpy.array([[found[place] for place in places] for found in blocks])
     rms = float(numpy.sqrt(numpy.mean(left**2)))
-    of_seeds = float(numpy.sqrt(numpy.mean(numpy.var(left, axis=0, ddof=1)))) if len(blocks) > 1 else math.nan
+    of_seeds = float(numpy.sqrt(numpy.mean(numpy.var(left, axis=0, ddof=1))))
     correlations = numpy.corrcoef(left)[numpy.triu_indices(len(blocks), 1)]
     decades = slope * math.log(10)
     record = {"format": "drumlin-amount-over-place-1", "runs": [run.name for run in options.runs], "level": float(level), "slope": float(slope),
@@ -61,11 +63,11 @@ def main():
               "decades_of_shear_rate": rms / decades, "decades_between_runs": of_seeds / decades,
               "places": [[BLOCK[0] * i, BLOCK[1] * k, *map(float, left[:, n])] for n, (i, k) in enumerate(places)]}
     if options.record:
-        options.record.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
+        whole_file.write_text(options.record, json.dumps(record, indent=1) + "\n")
 
     style.use_style()
     rows = (len(blocks) + 1) // 2
-    figure, panels = plt.subplots(rows, min(2, len(blocks)), figsize=(14, 0.6 + 3 * rows), sharex=True, sharey=True, squeeze=False)
+    figure, panels = plt.subplots(rows, 2, figsize=(14, 0.6 + 3 * rows), sharex=True, sharey=True, squeeze=False)
     limit = max(abs(left.min()), abs(left.max()))
     for axes, run, values in zip(panels.flat, options.runs, left):
         shown = axes.scatter([BLOCK[0] * i for i, _ in places], [BLOCK[1] * k for _, k in places], c=values, cmap="RdBu_r", vmin=-limit, vmax=limit,
@@ -73,6 +75,8 @@ def main():
         axes.set_title(style.plain(run.name, 60), fontsize=11)
         axes.set_xlabel("x [d]")
         axes.set_ylabel("z [d]")
+    for axes in panels.flat[len(blocks):]:
+        axes.set_visible(False)
     figure.colorbar(shown, ax=list(panels.flat), label="|s|/p less its law over I")
     figure.suptitle(f"rms {rms:.4f} ({rms / decades:.2f} decades of shear rate); between runs {of_seeds:.4f} ({of_seeds / decades:.2f})", fontsize=12)
     style.save(figure, options.picture, False)
