@@ -9,8 +9,10 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/commands/accuracy_statement.hpp"
+#include "apps/commands/region_table.hpp"
 #include "apps/commands/run_files.hpp"
 #include "apps/commands/run_report.hpp"
+#include "apps/commands/start_grains.hpp"
 #include "apps/commands/wall_table.hpp"
 #include "apps/support/commands.hpp"
 #include "apps/support/interruption.hpp"
@@ -56,17 +58,20 @@ std::string snapshot_name(std::int64_t number) { return fmt::format("snapshots/{
 class ParticleRun {
  public:
   ParticleRun(const RunOptions& options, GrowingOutput& output, const particles::Scene& scene,
-              std::string resolved, std::optional<particles::Checkpoint> from)
+              std::string resolved, std::optional<particles::Checkpoint> from,
+              nlohmann::ordered_json started_from)
       : options_(options),
         output_(output),
         scene_(scene),
         resolved_(std::move(resolved)),
+        started_from_(std::move(started_from)),
         totals_(from ? from->totals : particles::RunTotals{}),
         simulation_(from ? particles::Simulation(scene, std::move(from->state), options.threads)
                          : particles::Simulation(scene, options.threads)),
         log_(options.output / log_name, log_header, from ? from->log_bytes : 0),
         energy_bytes_(from ? from->energy_bytes : 0),
         walls_bytes_(from ? from->walls_bytes : 0),
+        regions_bytes_(from ? from->regions_bytes : 0),
         writer_(options.threads > 1) {}
 
   int execute() {
@@ -145,6 +150,11 @@ class ParticleRun {
                            residual.sinking, last_.overlap.mean, last_.overlap.max,
                            kinetic_energy(state.bodies), converged ? 1 : 0));
     if (state.energy) log_energy(*state.energy);
+    if (state.traffic) {
+      if (!regions_)
+        regions_.emplace(options_.output / region_table_name, region_table_header, regions_bytes_);
+      regions_->write(region_lines(scene_, simulation_));
+    }
   }
 
   void log_energy(const particles::EnergyLedger& energy) {
@@ -199,11 +209,13 @@ class ParticleRun {
     checkpoint.log_bytes = log_.flush();
     checkpoint.energy_bytes = energy_ ? energy_->flush() : energy_bytes_;
     checkpoint.walls_bytes = walls_ ? walls_->flush() : walls_bytes_;
+    checkpoint.regions_bytes = regions_ ? regions_->flush() : regions_bytes_;
     checkpoint.totals = totals_now();
     checkpoint.state = simulation_.state();
     std::map<std::string, ManifestEntry> tables{{log_name, log_.entry()}};
     if (energy_) tables[energy_name] = energy_->entry();
     if (walls_) tables[wall_table_name] = walls_->entry();
+    if (regions_) tables[region_table_name] = regions_->entry();
     // The manifest first: what a checkpoint builds on is listed.
     writer_.write([this, tables = std::move(tables), checkpoint = std::move(checkpoint)] {
       for (const auto& [name, entry] : tables) output_.manifest().files[name] = entry;
@@ -224,7 +236,9 @@ class ParticleRun {
   RunProgress progress_now() const { return {scene_, simulation_, totals_now(), options_.threads}; }
 
   void write_report(const std::string& status) const {
-    write_json(options_.output / "run.json", run_report(progress_now(), status));
+    nlohmann::ordered_json report = run_report(progress_now(), status);
+    if (!started_from_.is_null()) report["started_from"] = started_from_;
+    write_json(options_.output / "run.json", report);
   }
 
   std::string progress_line() const {
@@ -281,6 +295,7 @@ class ParticleRun {
     log_.flush();
     if (energy_) energy_->flush();
     if (walls_) walls_->flush();
+    if (regions_) regions_->flush();
     write_report(status);
     progress_.finish();
     throw NotConvergedError(fmt::format("step {}: {}", simulation_.state().step, why));
@@ -290,13 +305,16 @@ class ParticleRun {
   GrowingOutput& output_;
   particles::Scene scene_;
   std::string resolved_;
+  nlohmann::ordered_json started_from_;  // null where the grains are those of the scene alone
   particles::RunTotals totals_;
   particles::Simulation simulation_;
   RunTable log_;
-  std::optional<RunTable> energy_;  // opened with the first step: its columns depend on the scene
-  std::int64_t energy_bytes_ = 0;   // of energy.csv at the checkpoint that the run continues
-  std::optional<RunTable> walls_;   // opened with the first interval
-  std::int64_t walls_bytes_ = 0;    // as energy_bytes_
+  std::optional<RunTable> energy_;   // opened with the first step: its columns depend on the scene
+  std::int64_t energy_bytes_ = 0;    // of energy.csv at the checkpoint that the run continues
+  std::optional<RunTable> walls_;    // opened with the first interval
+  std::int64_t walls_bytes_ = 0;     // as energy_bytes_
+  std::optional<RunTable> regions_;  // opened with the first line of the log
+  std::int64_t regions_bytes_ = 0;
   BackgroundWriter writer_;
   Progress progress_;
   particles::StepReport last_;
@@ -312,6 +330,16 @@ void same_scene_or_refuse(const fs::path& output, const std::string& theirs, con
     throw InputError(output.string() +
                      ": was made from another scene (compare its scene.toml with `drumlin scene show`); "
                      "use --overwrite to start over");
+}
+
+/// The lists of grains of a scene as they stand in the run folder, by the names of their files there.
+std::map<std::string, std::string> list_texts(particles::Scene scene) {
+  const auto names = grain_list_names(scene);
+  std::map<std::string, std::string> texts;
+  std::size_t k = 0;
+  for (const auto* list : lists_of(scene))
+    texts[names[k++]] = list->text.empty() ? file_text(list->file) : list->text;
+  return texts;
 }
 
 /// The manifest of what stood at the checkpoint; what stands behind it is made anew. Throws InputError if a
@@ -331,7 +359,7 @@ void cut_back(GrowingOutput& output, const std::optional<particles::Checkpoint>&
       if (!name.starts_with("snapshots/")) kept[name] = entry;
     for (const auto& [name, bytes] :
          {std::pair(log_name, from->log_bytes), std::pair(energy_name, from->energy_bytes),
-          std::pair(wall_table_name, from->walls_bytes)}) {
+          std::pair(wall_table_name, from->walls_bytes), std::pair(region_table_name, from->regions_bytes)}) {
       kept.erase(name);
       if (bytes > 0) kept[name] = {file_sum(output.folder() / name, static_cast<std::uint64_t>(bytes)), true};
     }
@@ -352,13 +380,13 @@ std::optional<particles::Checkpoint> checkpoint_in(const fs::path& output, const
 }  // namespace
 
 int run(const RunOptions& options) {
-  const particles::Scene scene = particles::read_scene(options.scene, options.overrides);
+  particles::Scene scene = particles::read_scene(options.scene, options.overrides);
+  const nlohmann::ordered_json started_from = take_over_grains(scene);
   // What only shows when grains are placed must show before anything is written or removed.
   (void)particles::Simulation(scene);
   if (options.accuracy) (void)accuracy_record(*options.accuracy, scene);
-  const auto* listed = std::get_if<particles::ListedGrains>(&scene.grains.source);
   std::vector<fs::path> inputs{options.scene};
-  if (listed != nullptr) inputs.push_back(listed->file);
+  for (const auto* list : lists_of(scene)) inputs.push_back(list->file);
   const CaughtInterruptions caught;
   GrowingOutput output({options.output, options.existing, "run", inputs}, run_file_names());
   const std::string resolved = particles::scene_text(as_recorded(scene));
@@ -366,8 +394,9 @@ int run(const RunOptions& options) {
   if (options.existing == ExistingOutput::resume) {
     if (fs::exists(options.output / "scene.toml"))
       same_scene_or_refuse(options.output, file_text(options.output / "scene.toml"), resolved);
-    if (listed != nullptr && fs::exists(options.output / grain_list))
-      same_scene_or_refuse(options.output, file_text(options.output / grain_list), file_text(listed->file));
+    for (const auto& [name, text] : list_texts(scene))
+      if (fs::exists(options.output / name))
+        same_scene_or_refuse(options.output, file_text(options.output / name), text);
     if (output.manifest().complete) {
       print_out(fmt::format("{}: already finished, nothing to do\n", options.output.string()));
       return static_cast<int>(ExitCode::done);
@@ -376,14 +405,14 @@ int run(const RunOptions& options) {
   }
   cut_back(output, from);
   fs::create_directories(options.output / "snapshots");
-  if (listed != nullptr) {
-    replace_file(options.output / grain_list, file_text(listed->file));
-    output.list(grain_list);
+  for (const auto& [name, text] : list_texts(scene)) {
+    replace_file(options.output / name, text);
+    output.list(name);
   }
   replace_file(options.output / "scene.toml", resolved);
   output.list("scene.toml");
   output.save();
-  return ParticleRun(options, output, scene, resolved, std::move(from)).execute();
+  return ParticleRun(options, output, scene, resolved, std::move(from), started_from).execute();
 }
 
 }  // namespace drumlin::apps
