@@ -8,6 +8,7 @@
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/measurement/flow_rate.hpp"
+#include "particles/measurement/frame/flow_snapshot.hpp"
 #include "particles/scene/validate.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -245,6 +246,9 @@ TEST(Groups, OfTheirOwnDensityCollideByTheirMasses) {
   ASSERT_EQ(snapshot.mass.size(), 2u);
   EXPECT_NEAR(snapshot.mass[1] / snapshot.mass[0], 4, 1e-12);
   EXPECT_TRUE(snapshot.id.empty());
+  FlowSnapshot in_frame;
+  EXPECT_THROW(to_flow_frame(snapshot, FlowFrame{0, 0, 1, 0}, VelocityKind::instantaneous, in_frame),
+               InputError);
 }
 
 TEST(Groups, LeaveTheMainSourceAsItIsAndMustNotOverlapIt) {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "coupling/common/errors.hpp"
+
 namespace drumlin::particles {
 namespace {
 
@@ -63,6 +65,11 @@ void relative_velocities(const Snapshot& snapshot, VelocityKind kind, RelativeVe
 
 void to_flow_frame(const Snapshot& snapshot, const FlowFrame& frame, VelocityKind kind,
                    FlowSnapshot& result) {
+  if (!snapshot.mass.empty())
+    throw InputError(
+        "a snapshot has grains with a density of their own: profiles and maps take masses from radii "
+        "(allowed: "
+        "grains of one density; drumlin history takes true masses)");
   const std::size_t count = snapshot.x.size();
   RelativeVelocities velocity{std::move(result.v_x), std::move(result.v_z)};
   relative_velocities(snapshot, kind, velocity);

@@ -34,7 +34,8 @@ enum class VelocityKind { window, instantaneous };
 
 /// `window`: displacement over the stored window / window, the drum's own turn taken out exactly; a snapshot
 /// without displacements has only the instantaneous velocity. Overwrites `result`, whose memory is used
-/// again.
+/// again. Throws InputError for grains with a density of their own: what is made of it takes masses from
+/// radii.
 void to_flow_frame(const Snapshot& snapshot, const FlowFrame& frame, VelocityKind kind, FlowSnapshot& result);
 
 /// Velocities of the grains relative to a frame that turns with the container (the laboratory without one),
