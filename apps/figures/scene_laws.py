@@ -61,22 +61,26 @@ def transfers(shear, chute, chute_runs):
             predicted, packed = float(numpy.interp(value, chute_inertial, chute_mu)), float(numpy.interp(value, chute_inertial, chute_nu))
             back.append({"I": float(value), "mu": float(asked), "mu_from_chute": predicted, "mu_error": predicted / asked - 1,
                          "nu": float(volume), "nu_from_chute": packed, "nu_error": packed / volume - 1})
-    return {"format": "drumlin-scene-laws-1", "chute_from_shear": ahead, "shear_from_chute": back,
+    pooled = numpy.array([[p["I"], p["mu"]] for p in shear + chute]).T
+    slope, constant = numpy.polyfit(pooled[0], pooled[1], 1)
+    rest = pooled[1] - slope * pooled[0] - constant
+    line = {"mu_at_rest": float(constant), "slope": float(slope), "rms": float(numpy.sqrt((rest ** 2).mean())), "largest": float(numpy.abs(rest).max())}
+    return {"format": "drumlin-scene-laws-1", "pooled_line": line, "chute_from_shear": ahead, "shear_from_chute": back,
             "law_of_shear": {"I": inertial.tolist(), "mu": mu.tolist(), "nu": nu.tolist()}}
 
 
 def drawn(shear, chute, file):
     style.use_style()
-    figure, axes = plt.subplots(1, 2, figsize=(9.6, 4.2))
+    figure, axes = plt.subplots(1, 2, figsize=(9.6, 4.6))
     line = numpy.geomspace(2e-3, 0.25, 60)
     for axis, name, literature in ((axes[0], "mu", 0.25 + 1.1 * line), (axes[1], "nu", 0.81 - 0.3 * line)):
-        axis.semilogx(line, literature, color=style.PAPER, linestyle="--", label="da Cruz et al. (2005), coefficients from memory")
+        axis.semilogx(line, literature, color=style.PAPER, linestyle="--", label="da Cruz et al. 2005, from memory")
         errors = [point["mu_ci99"] for point in shear] if name == "mu" else None
-        axis.errorbar([p["I"] for p in shear], [p[name] for p in shear], yerr=errors, fmt="o", color=style.PARTICLES, label="plane shear, middle of the gap")
+        axis.errorbar([p["I"] for p in shear], [p[name] for p in shear], yerr=errors, fmt="o", color=style.PARTICLES, label="plane shear")
         axis.plot([p["I"] for p in chute], [p[name] for p in chute], "s", color=style.CONTINUUM, label="chute: mu = tan(slope)" if name == "mu" else "chute")
         axis.set_xlabel("I")
         axis.set_ylabel(r"$\mu$" if name == "mu" else r"$\nu$")
-    axes[0].legend()
+    axes[1].legend(loc="lower left")
     axes[0].set_title("Discs of +-20 %, friction 0.4 (bars: 99 %)")
     style.save(figure, file, reduced=True)
 
