@@ -40,6 +40,12 @@ def biaxial(numbers):
     within(numbers["nu_late"], 0.76, 0.84, "late volume fraction")
 
 
+def biaxial_dense(numbers):
+    within(numbers["sin_phi_late"], 0.16, 0.36, "late sin phi: that of the loose sample")
+    within(numbers["sin_phi_peak"], numbers["sin_phi_late"]["value"] + 0.08, 0.8, "peak of sin phi")
+    within(numbers["nu_start"] - numbers["nu_late"]["value"], 0.01, 0.06, "dilatancy")
+
+
 def janssen(numbers):
     within(numbers["sum_over_weight"], 0.97, 1.03, "floor and walls carry the weight")
     within(numbers["floor_over_weight"], 0.2, 0.85, "the floor carries less than the weight")
@@ -104,6 +110,9 @@ SCENES = {
     "biaxial": ("biaxial", "biaxial", biaxial, [
         "walls.2.from_mm=[30,-20]", "walls.2.to_mm=[30,100]", "grains.generated.region.max_mm=[30,72]", "grains.generated.count=220",
         "stages.0.motions.0.force_n_m=30", "stages.0.motions.1.force_n_m=30", "stages.1.motions.1.force_n_m=30", "stages.1.motions.0.velocity_mm_s=[0,-12]"]),
+    "biaxial-dense": ("biaxial-dense", "biaxial", biaxial_dense, [
+        "walls.2.from_mm=[30,-20]", "walls.2.to_mm=[30,100]", "grains.generated.region.max_mm=[30,72]", "grains.generated.count=220",
+        "stages.1.motions.0.velocity_mm_s=[0,-12]"]),
     "janssen": ("janssen", "janssen", janssen, ["grains.generated.count=250", "stages.2.duration_s=0.4", "stages.2.snapshots=100"]),
     "vibrated-layer": ("vibrated-layer", "vibrated", vibrated, ["stages.1.duration_s=0.25", "stages.2.duration_s=0.25", "stages.2.snapshots=200"]),
     "granular-gas": ("granular-gas", "gas", gas, ["stages.0.snapshots=45"]),
