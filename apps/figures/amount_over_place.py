@@ -4,7 +4,7 @@ usage: amount_over_place.py PICTURE --runs RUN... [--record FILE.json]
 Each RUN has measured/maps.h5 with displacement fields. |s|/p less the straight line in ln I through all nodes of all runs with I below
 1e-3, means over blocks of 10 d x 4 d, at least 3 d below the surface and 4 d from the wall. What differs from place to place and is the
 same in every run is no noise: no law |s|/p = f(I) has it. Then the same with a second and a third variable beside ln I, by least squares over
-means of all runs, in the bed (I below 1e-3) and in the flow (I from 1e-3 to 0.1): dilatancy psi (rate of dilation over |D|, from displacements), the
+means of all runs, in the bed (I below 1e-3) and in the flow (I from 1e-3 to 0.1): dilatancy psi (div v over the shear rate, from displacements), the
 amount |F| of the deviator of the fabric, the volume fraction, the cosine of the angle between the axes of stress and strain rate, and p.
 """
 
