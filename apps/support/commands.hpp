@@ -101,7 +101,6 @@ struct CalibrateOptions {
   int draws = 200;
   bool k = false;
   bool misalignment = false;
-  bool relaxation = false;
   bool memory = false;
   bool accept_unsteady = false;
   ExistingOutput existing = ExistingOutput::refuse;

@@ -66,7 +66,6 @@ TEST(DrumProblem, HoldsAllThatTheSceneAndTheLawName) {
   scene.effects = FlowEffects{.inertia = FlowInertia{},
                               .rotating_frame = FlowRotatingFrame{},
                               .wall_slip = FlowWallSlip{.friction = 0.4, .slip_speed = 2e-4},
-                              .fabric = FlowFabric{.relaxation = 3},
                               .memory = {},
                               .nonlocal = FlowNonlocal{.length = 1.5},
                               .moving_surface = FlowMovingSurface{.degree = 12, .tolerance = 0.02}};
@@ -78,8 +77,6 @@ TEST(DrumProblem, HoldsAllThatTheSceneAndTheLawName) {
   EXPECT_EQ(problem.density, 0.82);
   ASSERT_TRUE(problem.turned);
   EXPECT_DOUBLE_EQ(problem.turned->k.at_ln(std::log(1e-1)).value, 1.1);
-  ASSERT_TRUE(problem.turned->fabric);
-  EXPECT_EQ(problem.turned->fabric->relaxation, 3);
   ASSERT_TRUE(problem.nonlocal);
   EXPECT_EQ(problem.nonlocal->length, 1.5);
   EXPECT_TRUE(problem.inertia);
@@ -104,7 +101,7 @@ TEST(DrumProblem, HoldsNoEffectThatNobodyNames) {
 TEST(DrumProblem, RefusesEffectsThatTheLawDoesNotAllow) {
   FlowScene scene = paper_scene();
   scene.effects = {};
-  scene.effects.fabric = FlowFabric{.relaxation = 1};
+  scene.effects.memory = FlowMemory{};
   scene.effects.nonlocal = FlowNonlocal{.length = 1};
   RheologyFit law = paper_law();
   law.mu = JopFriction{0.38, 0.64, 0.28};  // a threshold: below it mu does not determine the fluidity
@@ -113,7 +110,7 @@ TEST(DrumProblem, RefusesEffectsThatTheLawDoesNotAllow) {
     FAIL();
   } catch (const InputError& error) {
     ASSERT_EQ(error.problems().size(), 2u);
-    EXPECT_EQ(error.problems()[0].key, "effects.fabric");
+    EXPECT_EQ(error.problems()[0].key, "effects.memory");
     EXPECT_EQ(error.problems()[1].key, "effects.nonlocal");
   }
 }
