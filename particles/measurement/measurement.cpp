@@ -161,6 +161,23 @@ void measure_other_slices(const Slices& slices, const MeasurementFrame& place,
   }
 }
 
+/// Grains with their centres outside of what is measured.
+std::size_t scattered_in(const FlowSnapshot& snapshot, const MeasurementFrame& place) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < snapshot.x.size(); ++i) {
+    const bool beside =
+        !(place.period > 0) && !(snapshot.x[i] >= place.x_min && snapshot.x[i] <= place.x_max);
+    count += beside || !(snapshot.z[i] >= place.z_min && snapshot.z[i] <= place.z_max) ? 1 : 0;
+  }
+  return count;
+}
+
+void add_scattered(std::size_t here, std::size_t snapshots, ScatteredGrains& scattered) {
+  scattered.mean += static_cast<double>(here) / static_cast<double>(snapshots);
+  scattered.most = std::max(scattered.most, here);
+  scattered.last = here;
+}
+
 }  // namespace
 
 Measurement measurement(const SnapshotSource& source, const MeasurementOptions& options,
@@ -183,6 +200,7 @@ Measurement measurement(const SnapshotSource& source, const MeasurementOptions& 
   const double frame_angle = angle_of(place.frame, last);
   result.place = place;
   result.frame_angle_deg = frame_angle * degrees;
+  if (found.cut_to_window) result.scattered.emplace();
 
   Slices slices = asked_slices(place, options);
   std::optional<VariantSlices> variants;
@@ -193,6 +211,7 @@ Measurement measurement(const SnapshotSource& source, const MeasurementOptions& 
     const Snapshot snapshot = recording.read(s);
     const std::size_t batch = batch_of(s, recording.count(), place.batches);
     to_flow_frame(snapshot, place.frame, VelocityKind::window, in_frame);
+    if (result.scattered) add_scattered(scattered_in(in_frame, place), recording.count(), *result.scattered);
     add_snapshot(slices, in_frame, batch);
     if (slices.cells) add_snapshot(slices.centre, snapshot, in_frame, batch, *slices.cells);
     if (variants) add_snapshot(*variants, snapshot, in_frame);

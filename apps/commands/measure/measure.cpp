@@ -106,12 +106,19 @@ void write_slices(const fs::path& folder, const particles::Measurement& measured
 
 /// series.csv: one line per snapshot.
 void write_series(const fs::path& file, const particles::TimeSeries& series) {
-  std::string text = "# drumlin-series-1\ntime,turns,kinetic_energy,theta_com_deg\n";
-  for (std::size_t s = 0; s < series.time.size(); ++s)
-    text += csv_line(
-        {csv_number(series.time[s]), csv_number(series.wall_angle[s] / (2 * std::numbers::pi)),
-         csv_number(series.kinetic_energy[s]),
-         series.mass_angle.empty() ? "" : csv_number(series.mass_angle[s] * 180 / std::numbers::pi)});
+  std::string text = "# drumlin-series-1\ntime,turns,kinetic_energy,theta_com_deg";
+  const bool packing = !series.pressure.empty();
+  text += packing ? ",pressure,shear_stress,shear_rate\n" : "\n";
+  for (std::size_t s = 0; s < series.time.size(); ++s) {
+    std::vector<std::string> fields{
+        csv_number(series.time[s]), csv_number(series.wall_angle[s] / (2 * std::numbers::pi)),
+        csv_number(series.kinetic_energy[s]),
+        series.mass_angle.empty() ? "" : csv_number(series.mass_angle[s] * 180 / std::numbers::pi)};
+    if (packing)
+      for (const auto* values : {&series.pressure, &series.shear_stress, &series.shear_rate})
+        fields.push_back(csv_number((*values)[s]));
+    text += csv_line(fields);
+  }
   replace_file(file, text);
 }
 
@@ -163,7 +170,21 @@ void print_steadiness(const particles::Steadiness& steadiness) {
   if (std::isfinite(steadiness.slope_deg.value))
     print_out(
         fmt::format(", slope {:+.2f} +- {:.2f} deg", steadiness.slope_deg.value, steadiness.slope_deg.ci99));
-  print_out("\n");
+  if (std::isfinite(steadiness.pressure.value))
+    print_out(fmt::format("{}pressure {:+.1f} +- {:.1f} %", ", ", 100 * steadiness.pressure.value,
+                          100 * steadiness.pressure.ci99));
+  print_out(fmt::format("; judged by {}\n", steadiness.judged_by));
+}
+
+void print_scattered(const particles::Measurement& measured) {
+  if (!measured.scattered) return;
+  const particles::MeasurementFrame& place = measured.place;
+  print_out(
+      fmt::format("measured is the window x {:.4g} ... {:.4g} d, z {:.4g} ... {:.4g} d around the densest "
+                  "part; outside fly "
+                  "{:.4g} grains in the mean, {} at most, {} at the end\n",
+                  place.x_min, place.x_max, place.z_min, place.z_max, measured.scattered->mean,
+                  measured.scattered->most, measured.scattered->last));
 }
 
 /// A run with what was asked of it.
@@ -249,6 +270,7 @@ void print_results(const Request& request, const fs::path& folder, const particl
                           "by other windows (measured.json has all)"));
   for (const Scalar& scalar : scalars.scalars)
     print_scalar(scalar, particles::sensitivity_of(scalar, measured.variants));
+  print_scattered(measured);
   print_steadiness(measured.steadiness);
   for (const Part& part : request.parts)
     if (part.print) part.print();
