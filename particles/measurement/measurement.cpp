@@ -8,6 +8,7 @@
 #include "coupling/common/errors.hpp"
 #include "particles/measurement/frame/intervals.hpp"
 #include "particles/measurement/grains/cell_profiles.hpp"
+#include "particles/measurement/layers/bulk_scalars.hpp"
 #include "particles/measurement/layers/packing_scalars.hpp"
 #include "particles/measurement/layers/slice.hpp"
 #include "particles/measurement/layers/variants.hpp"
@@ -129,11 +130,17 @@ void measure_centre(const Slices& slices, const MeasurementOptions& options, dou
   result.wall_z = wall_height - centre.surface_z;
   result.fits = profile_scalars(centre.profiles, options.scalars);
 
+  const auto scalars_of = [&](const ProfileSet& profiles, double wall_z) {
+    ScalarSet scalars = packing_scalars(profiles, {wall_z, frame_angle}, options);
+    if (!(result.place.container_radius > 0))
+      for (Scalar& scalar : bulk_scalars(profiles, wall_z, options.bulk_margin).scalars)
+        scalars.scalars.push_back(std::move(scalar));
+    return scalars;
+  };
   std::vector<ScalarSet> without;
   for (std::size_t b = 0; b < centre.leave_one_out.size(); ++b)
-    without.push_back(packing_scalars(
-        centre.leave_one_out[b], {wall_height - centre.leave_one_out_surface_z[b], frame_angle}, options));
-  for (Scalar& scalar : packing_scalars(centre.profiles, {result.wall_z, frame_angle}, options).scalars) {
+    without.push_back(scalars_of(centre.leave_one_out[b], wall_height - centre.leave_one_out_surface_z[b]));
+  for (Scalar& scalar : scalars_of(centre.profiles, result.wall_z).scalars) {
     std::vector<double> values;
     for (const ScalarSet& one : without) values.push_back(one.value(scalar.name));
     scalar.ci99 = jackknife_ci99(values);

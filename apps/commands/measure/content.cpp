@@ -56,6 +56,7 @@ Json settings_of(const particles::Measurement& m, const particles::MeasurementOp
       {"wall_z", m.wall_z},
       {"drum_radius", m.place.container_radius},
       {"scales", to_json(m.scales)}};
+  settings["geometry"] = m.place.container_radius > 0 ? "drum" : m.place.period > 0 ? "layers" : "open";
   if (m.scattered)
     settings["window"] = {{"x", {m.place.x_min, m.place.x_max}},
                           {"z", {m.place.z_min, m.place.z_max}},

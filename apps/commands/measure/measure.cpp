@@ -1,5 +1,6 @@
 // drumlin measure: profiles and scalars of a finished particle run.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <chrono>
 #include <cmath>
@@ -10,6 +11,7 @@
 #include "apps/commands/accuracy_statement.hpp"
 #include "apps/commands/measure/content.hpp"
 #include "apps/commands/measure/part.hpp"
+#include "apps/commands/run_accuracy.hpp"
 #include "apps/support/commands.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/output_folder.hpp"
@@ -22,6 +24,7 @@
 #include "coupling/documents/csv.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/measurement/frame/intervals.hpp"
+#include "particles/measurement/layers/bulk_scalars.hpp"
 #include "particles/measurement/measurement.hpp"
 #include "particles/measurement/measurement_header.hpp"
 #include "particles/measurement/run_log.hpp"
@@ -262,14 +265,33 @@ Json content_of(const Request& request, const particles::Measurement& measured, 
   return content;
 }
 
+/// What the run told of itself stands in the place of a statement that knows no errors.
+void print_accuracy(const Request& request, const std::optional<coupling::AccuracyStatement>& statement) {
+  const Json none, accuracy = request.run.value("accuracy", none);
+  const Json stretches = accuracy.is_object() ? accuracy.value("stretches", none) : none;
+  if (!stretches.is_null() && (!statement || statement->record.empty()))
+    print_out(text_of_stretches(stretches, request.run.value("cpu_seconds", 0.0)));
+  else if (statement)
+    print_out(text_of(*statement));
+}
+
 void print_results(const Request& request, const fs::path& folder, const particles::Measurement& measured,
                    const ScalarSet& scalars) {
   print_out(fmt::format("{}{}\n", folder.string(), request.reduced ? " (reduced)" : ""));
   if (request.settings.sensitivity)
     print_out(fmt::format("  {:32} {:>12} {:12} {}\n", "", "value", "99 %",
                           "by other windows (measured.json has all)"));
+  std::vector<std::string> unknown, of_a_drum;
+  const bool drum = measured.place.container_radius > 0;
   for (const Scalar& scalar : scalars.scalars)
-    print_scalar(scalar, particles::sensitivity_of(scalar, measured.variants));
+    if (std::isfinite(scalar.value))
+      print_scalar(scalar, particles::sensitivity_of(scalar, measured.variants));
+    else
+      (!drum && particles::belongs_to_a_drum(scalar.name) ? of_a_drum : unknown).push_back(scalar.name);
+  if (!unknown.empty()) print_out(fmt::format("  not measured: {}\n", fmt::join(unknown, ", ")));
+  if (!of_a_drum.empty())
+    print_out(fmt::format("  {} numbers of a drum's flow do not belong to {} (null in measured.json)\n",
+                          of_a_drum.size(), measured.place.period > 0 ? "layers" : "an open packing"));
   print_scattered(measured);
   print_steadiness(measured.steadiness);
   for (const Part& part : request.parts)
@@ -329,7 +351,7 @@ int measure(const MeasureOptions& options) {
   output.publish();
 
   print_results(request, results, measured, scalars);
-  if (statement) print_out(text_of(*statement));
+  print_accuracy(request, statement);
   throw_if_figures_failed(finished, failures);
   return static_cast<int>(ExitCode::done);
 }
