@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/commands/accuracy_statement.hpp"
+#include "apps/commands/run_accuracy.hpp"
 #include "apps/commands/run_files.hpp"
 #include "apps/commands/run_report.hpp"
 #include "apps/support/commands.hpp"
@@ -81,6 +82,13 @@ class ParticleRun {
     }
     save_checkpoint();
     writer_.wait();
+    if (options_.accuracy_seconds > 0) {
+      try {
+        tell_accuracy();
+      } catch (const Interrupted& by) {
+        return stop_for(by.signal);
+      }
+    }
     write_report("finished");
     output_.finish();
     progress_.show(progress_line());
@@ -90,6 +98,19 @@ class ParticleRun {
   }
 
  private:
+  /// A signal that came while accuracy was told.
+  struct Interrupted {
+    int signal;
+  };
+
+  void tell_accuracy() {
+    stretches_ = to_json(particles::paired_stretches(
+        scene_, simulation_.state(), options_.accuracy_seconds, options_.threads, [&] {
+          if (progress_.due()) progress_.show("run finished; stretches for its accuracy");
+          if (const int signal = interruption()) throw Interrupted{signal};
+        }));
+  }
+
   double simulated_seconds() const { return simulation_.state().time() * simulation_.scales().time_s; }
 
   void advance() {
@@ -212,7 +233,9 @@ class ParticleRun {
   RunProgress progress_now() const { return {scene_, simulation_, totals_now(), options_.threads}; }
 
   void write_report(const std::string& status) const {
-    write_json(options_.output / "run.json", run_report(progress_now(), status));
+    auto report = run_report(progress_now(), status);
+    if (!stretches_.is_null()) report["accuracy"]["stretches"] = stretches_;
+    write_json(options_.output / "run.json", report);
   }
 
   std::string progress_line() const {
@@ -246,7 +269,9 @@ class ParticleRun {
     const coupling::RunCost cost{.cpu_seconds = totals_now().cpu_seconds,
                                  .simulated_seconds = simulated_seconds()};
     const coupling::RunSettings settings{scene_.solver.tolerance, scene_.stages.back().time_step_s};
-    return text_of(coupling::accuracy_statement(settings, record, {}, cost));
+    if (!stretches_.is_null()) return text_of_stretches(stretches_, cost.cpu_seconds);
+    return text_of(coupling::accuracy_statement(settings, record, {}, cost)) +
+           (record ? "" : price_of_stretches(cost.cpu_seconds, cost.simulated_seconds));
   }
 
   std::string missed_tolerance() const {
@@ -289,6 +314,7 @@ class ParticleRun {
   double cpu_before_ = 0;
   double next_checkpoint_s_ = 0;
   std::int64_t steps_before_ = 0;
+  nlohmann::ordered_json stretches_;  ///< accuracy.stretches of run.json; null: none were asked for
 };
 
 /// A folder continues only the scene that it was made from.
