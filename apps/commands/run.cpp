@@ -108,8 +108,8 @@ class ParticleRun {
       capture_problem();
     if (last_.lost) fail("grain lost", describe(*last_.lost));
     if (fatal) fail("not converged", missed_tolerance());
-    if (last_.overlap.max > crushing_overlap && !scene_.solver.allow_crushing.value_or(false))
-      fail("crushed", crushed(last_.overlap.max));
+    if (last_.overlap.mean > crushing_overlap && !scene_.solver.allow_crushing.value_or(false))
+      fail("crushed", crushed(last_.overlap.mean));
     if (simulation_.wall_loads_due()) write_wall_loads();
     if (simulation_.snapshot_due()) save_snapshot();
   }
