@@ -38,7 +38,7 @@ TEST(StageContradiction, EffectsThatTheSceneDoesNotName) {
 }
 
 TEST(StageContradiction, StrongerGravityNeedsAShorterStep) {
-  expect_problem({"stages.0.gravity={acceleration_m_s2=9e5}"}, "stages.0.time_step_s", "falls by");
+  expect_problem({"stages.1.gravity={acceleration_m_s2=9e5}"}, "stages.1.time_step_s", "falls by");
 }
 
 TEST(StageContradiction, ServoWallsThatLackSomething) {
