@@ -37,6 +37,7 @@ struct ShapeJson {
   Json operator()(const particles::FixedDisc& d) const {
     return {{"shape", "disc"}, {"x", d.center.x}, {"z", d.center.z}, {"radius", d.radius}};
   }
+  Json operator()(const particles::Opened&) const { return nullptr; }
 };
 
 /// What the script needs to draw one snapshot. Reading it here refuses damaged files before anything is
@@ -45,6 +46,7 @@ Json frame_of(const particles::RunFolder& run, const fs::path& file) {
   const particles::Snapshot snapshot = particles::checked_snapshot(run, file);
   Json shapes = Json::array();
   for (const particles::PlacedShape& placed : particles::shapes_at(run, snapshot)) {
+    if (is_open(placed.shape)) continue;
     shapes.push_back(std::visit(ShapeJson{}, placed.shape));
     shapes.back()["angle"] = placed.angle;
   }

@@ -12,6 +12,7 @@
 #include "apps/commands/run_accuracy.hpp"
 #include "apps/commands/run_files.hpp"
 #include "apps/commands/run_report.hpp"
+#include "apps/commands/wall_table.hpp"
 #include "apps/support/commands.hpp"
 #include "apps/support/interruption.hpp"
 #include "apps/support/json_file.hpp"
@@ -66,6 +67,7 @@ class ParticleRun {
                          : particles::Simulation(scene, options.threads)),
         log_(options.output / log_name, log_header, from ? from->log_bytes : 0),
         energy_bytes_(from ? from->energy_bytes : 0),
+        walls_bytes_(from ? from->walls_bytes : 0),
         writer_(options.threads > 1) {}
 
   int execute() {
@@ -127,6 +129,9 @@ class ParticleRun {
       capture_problem();
     if (last_.lost) fail("grain lost", describe(*last_.lost));
     if (fatal) fail("not converged", missed_tolerance());
+    if (last_.overlap.mean > crushing_overlap && !scene_.solver.allow_crushing.value_or(false))
+      fail("crushed", crushed(last_.overlap.mean));
+    if (simulation_.wall_loads_due()) write_wall_loads();
     if (simulation_.snapshot_due()) save_snapshot();
   }
 
@@ -176,6 +181,11 @@ class ParticleRun {
     energy_->write(line + fmt::format(",{:.3g}\n", particles::closing_error(energy)));
   }
 
+  void write_wall_loads() {
+    if (!walls_) walls_.emplace(options_.output / wall_table_name, wall_table_header, walls_bytes_);
+    walls_->write(wall_lines(simulation_));
+  }
+
   /// The problem of the last step, for `drumlin solve-contacts`.
   void capture_problem() {
     const auto begin = Clock::now();
@@ -209,10 +219,12 @@ class ParticleRun {
     checkpoint.scene = resolved_;
     checkpoint.log_bytes = log_.flush();
     checkpoint.energy_bytes = energy_ ? energy_->flush() : energy_bytes_;
+    checkpoint.walls_bytes = walls_ ? walls_->flush() : walls_bytes_;
     checkpoint.totals = totals_now();
     checkpoint.state = simulation_.state();
     std::map<std::string, ManifestEntry> tables{{log_name, log_.entry()}};
     if (energy_) tables[energy_name] = energy_->entry();
+    if (walls_) tables[wall_table_name] = walls_->entry();
     // The manifest first: what a checkpoint builds on is listed.
     writer_.write([this, tables = std::move(tables), checkpoint = std::move(checkpoint)] {
       for (const auto& [name, entry] : tables) output_.manifest().files[name] = entry;
@@ -293,6 +305,7 @@ class ParticleRun {
     writer_.wait();
     log_.flush();
     if (energy_) energy_->flush();
+    if (walls_) walls_->flush();
     write_report(status);
     progress_.finish();
     throw NotConvergedError(fmt::format("step {}: {}", simulation_.state().step, why));
@@ -307,6 +320,8 @@ class ParticleRun {
   RunTable log_;
   std::optional<RunTable> energy_;  // opened with the first step: its columns depend on the scene
   std::int64_t energy_bytes_ = 0;   // of energy.csv at the checkpoint that the run continues
+  std::optional<RunTable> walls_;   // opened with the first interval
+  std::int64_t walls_bytes_ = 0;    // as energy_bytes_
   BackgroundWriter writer_;
   Progress progress_;
   particles::StepReport last_;
@@ -341,7 +356,8 @@ void cut_back(GrowingOutput& output, const std::optional<particles::Checkpoint>&
     for (const auto& [name, entry] : files)
       if (!name.starts_with("snapshots/")) kept[name] = entry;
     for (const auto& [name, bytes] :
-         {std::pair(log_name, from->log_bytes), std::pair(energy_name, from->energy_bytes)}) {
+         {std::pair(log_name, from->log_bytes), std::pair(energy_name, from->energy_bytes),
+          std::pair(wall_table_name, from->walls_bytes)}) {
       kept.erase(name);
       if (bytes > 0) kept[name] = {file_sum(output.folder() / name, static_cast<std::uint64_t>(bytes)), true};
     }
