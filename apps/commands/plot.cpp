@@ -77,7 +77,9 @@ GrainMaterials materials_of(const particles::RunFolder& run) {
                        particles::place_grains(run.scene, run.scales).material};
   if (found.names.empty() || found.of_grain.empty())
     throw InputError(
-        fmt::format("{}: --color material: the grains of this scene have no materials", run.folder.string()));
+        fmt::format("{}: --color material: the grains of this scene have no materials, "
+                    "or no law tells them apart",
+                    run.folder.string()));
   found.names.push_back("none");
   return found;
 }

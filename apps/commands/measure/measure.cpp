@@ -125,9 +125,9 @@ void write_series(const fs::path& file, const particles::TimeSeries& series) {
   replace_file(file, text);
 }
 
+/// One that was measured.
 void print_scalar(const Scalar& scalar, const particles::ScalarSensitivity& sensitivity) {
-  const std::string value =
-      std::isfinite(scalar.value) ? fmt::format("{:.4g}", scalar.value) : "not measured";
+  const std::string value = fmt::format("{:.4g}", scalar.value);
   const bool known = scalar.ci99 && std::isfinite(*scalar.ci99);
   const std::string windows = sensitivity.changes.empty()
                                   ? ""
@@ -275,23 +275,33 @@ void print_accuracy(const Request& request, const std::optional<coupling::Accura
     print_out(text_of(*statement));
 }
 
+/// In a line each: what was not measured though it belongs to the geometry, and how much does not belong.
+void print_unmeasured(const particles::MeasurementFrame& place, const ScalarSet& scalars) {
+  std::vector<std::string> unknown;
+  int of_a_drum = 0;
+  for (const Scalar& scalar : scalars.scalars) {
+    if (std::isfinite(scalar.value)) continue;
+    if (!(place.container_radius > 0) && particles::belongs_to_a_drum(scalar.name))
+      ++of_a_drum;
+    else
+      unknown.push_back(scalar.name);
+  }
+  if (!unknown.empty()) print_out(fmt::format("  not measured: {}\n", fmt::join(unknown, ", ")));
+  if (of_a_drum > 0)
+    print_out(fmt::format("  {} numbers of a drum's flow do not belong to {} (null in measured.json)\n",
+                          of_a_drum, place.period > 0 ? "layers" : "an open packing"));
+}
+
 void print_results(const Request& request, const fs::path& folder, const particles::Measurement& measured,
                    const ScalarSet& scalars) {
   print_out(fmt::format("{}{}\n", folder.string(), request.reduced ? " (reduced)" : ""));
   if (request.settings.sensitivity)
     print_out(fmt::format("  {:32} {:>12} {:12} {}\n", "", "value", "99 %",
                           "by other windows (measured.json has all)"));
-  std::vector<std::string> unknown, of_a_drum;
-  const bool drum = measured.place.container_radius > 0;
   for (const Scalar& scalar : scalars.scalars)
     if (std::isfinite(scalar.value))
       print_scalar(scalar, particles::sensitivity_of(scalar, measured.variants));
-    else
-      (!drum && particles::belongs_to_a_drum(scalar.name) ? of_a_drum : unknown).push_back(scalar.name);
-  if (!unknown.empty()) print_out(fmt::format("  not measured: {}\n", fmt::join(unknown, ", ")));
-  if (!of_a_drum.empty())
-    print_out(fmt::format("  {} numbers of a drum's flow do not belong to {} (null in measured.json)\n",
-                          of_a_drum.size(), measured.place.period > 0 ? "layers" : "an open packing"));
+  print_unmeasured(measured.place, scalars);
   print_scattered(measured);
   print_steadiness(measured.steadiness);
   for (const Part& part : request.parts)
