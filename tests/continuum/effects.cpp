@@ -121,7 +121,7 @@ TEST(AbsentEffects, LeaveNoUnknownNoEntryAndNoArray) {
   EXPECT_FALSE(held(spread)->axes);
   EXPECT_TRUE(held(remembering)->axes);
   EXPECT_TRUE(held(remembering)->rho);
-  EXPECT_FALSE(held(remembering)->beta);
+  EXPECT_FALSE(held(remembering)->turning);
   EXPECT_TRUE(converged(moving, one_mesh()).level().setting.inertia);
 }
 
