@@ -45,13 +45,6 @@ struct WallPlace {
   double angle = 0;
 };
 
-particles::Point middle_of(const particles::Shape& shape) {
-  if (const auto* segment = std::get_if<particles::Segment>(&shape))
-    return {0.5 * (segment->from.x + segment->to.x), 0.5 * (segment->from.z + segment->to.z)};
-  if (const auto* disc = std::get_if<particles::FixedDisc>(&shape)) return disc->center;
-  return std::get<particles::Container>(shape).center;
-}
-
 /// What was asked for, as the heads of the tables say it.
 std::string settings_text(const HistoryOptions& options) {
   return fmt::format("# box = {}\n# sectors = {}\n",
@@ -117,11 +110,12 @@ class Tables {
                  const std::vector<std::string>& stamp) {
     std::vector<particles::Shape> shapes;
     std::vector<WallPlace> places(walls_.names.size());
-    std::vector<bool> placed(walls_.names.size(), false);
+    std::vector<bool> placed(walls_.names.size(), false), standing(walls_.names.size(), true);
     for (const particles::PlacedShape& shape : particles::shapes_at(run, snapshot)) {
       const auto wall = static_cast<std::size_t>(walls_.wall_of_shape[shapes.size()]);
       if (!placed[wall]) places[wall] = {middle_of(shape.shape), shape.angle};
       placed[wall] = true;
+      standing[wall] = !is_open(shape.shape);
       shapes.push_back(shape.shape);
     }
     const auto states = particles::wall_states(snapshot, walls_.names.size(), walls_.wall_of_shape, shapes,
@@ -130,6 +124,7 @@ class Tables {
       auto first = stamp;
       first.push_back(walls_.names[w]);
       const WallPlace& place = places[w];
+      if (!standing[w]) continue;
       walls += line_of(first, numbers({place.at.x, place.at.z, place.angle * degrees, states[w].force_x,
                                        states[w].force_z, states[w].torque}));
       for (const particles::WallSector& s : states[w].sectors)

@@ -9,8 +9,10 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/commands/accuracy_statement.hpp"
+#include "apps/commands/run_accuracy.hpp"
 #include "apps/commands/run_files.hpp"
 #include "apps/commands/run_report.hpp"
+#include "apps/commands/wall_table.hpp"
 #include "apps/support/commands.hpp"
 #include "apps/support/interruption.hpp"
 #include "apps/support/json_file.hpp"
@@ -65,6 +67,7 @@ class ParticleRun {
                          : particles::Simulation(scene, options.threads)),
         log_(options.output / log_name, log_header, from ? from->log_bytes : 0),
         energy_bytes_(from ? from->energy_bytes : 0),
+        walls_bytes_(from ? from->walls_bytes : 0),
         writer_(options.threads > 1) {}
 
   int execute() {
@@ -81,6 +84,13 @@ class ParticleRun {
     }
     save_checkpoint();
     writer_.wait();
+    if (options_.accuracy_seconds > 0) {
+      try {
+        tell_accuracy();
+      } catch (const Interrupted& by) {
+        return stop_for(by.signal);
+      }
+    }
     write_report("finished");
     output_.finish();
     progress_.show(progress_line());
@@ -90,6 +100,19 @@ class ParticleRun {
   }
 
  private:
+  /// A signal that came while accuracy was told.
+  struct Interrupted {
+    int signal;
+  };
+
+  void tell_accuracy() {
+    stretches_ = to_json(particles::paired_stretches(
+        scene_, simulation_.state(), options_.accuracy_seconds, options_.threads, [&] {
+          if (progress_.due()) progress_.show("run finished; stretches for its accuracy");
+          if (const int signal = interruption()) throw Interrupted{signal};
+        }));
+  }
+
   double simulated_seconds() const { return simulation_.state().time() * simulation_.scales().time_s; }
 
   void advance() {
@@ -106,6 +129,9 @@ class ParticleRun {
       capture_problem();
     if (last_.lost) fail("grain lost", describe(*last_.lost));
     if (fatal) fail("not converged", missed_tolerance());
+    if (last_.overlap.mean > crushing_overlap && !scene_.solver.allow_crushing.value_or(false))
+      fail("crushed", crushed(last_.overlap.mean));
+    if (simulation_.wall_loads_due()) write_wall_loads();
     if (simulation_.snapshot_due()) save_snapshot();
   }
 
@@ -155,6 +181,11 @@ class ParticleRun {
     energy_->write(line + fmt::format(",{:.3g}\n", particles::closing_error(energy)));
   }
 
+  void write_wall_loads() {
+    if (!walls_) walls_.emplace(options_.output / wall_table_name, wall_table_header, walls_bytes_);
+    walls_->write(wall_lines(simulation_));
+  }
+
   /// The problem of the last step, for `drumlin solve-contacts`.
   void capture_problem() {
     const auto begin = Clock::now();
@@ -188,10 +219,12 @@ class ParticleRun {
     checkpoint.scene = resolved_;
     checkpoint.log_bytes = log_.flush();
     checkpoint.energy_bytes = energy_ ? energy_->flush() : energy_bytes_;
+    checkpoint.walls_bytes = walls_ ? walls_->flush() : walls_bytes_;
     checkpoint.totals = totals_now();
     checkpoint.state = simulation_.state();
     std::map<std::string, ManifestEntry> tables{{log_name, log_.entry()}};
     if (energy_) tables[energy_name] = energy_->entry();
+    if (walls_) tables[wall_table_name] = walls_->entry();
     // The manifest first: what a checkpoint builds on is listed.
     writer_.write([this, tables = std::move(tables), checkpoint = std::move(checkpoint)] {
       for (const auto& [name, entry] : tables) output_.manifest().files[name] = entry;
@@ -212,7 +245,9 @@ class ParticleRun {
   RunProgress progress_now() const { return {scene_, simulation_, totals_now(), options_.threads}; }
 
   void write_report(const std::string& status) const {
-    write_json(options_.output / "run.json", run_report(progress_now(), status));
+    auto report = run_report(progress_now(), status);
+    if (!stretches_.is_null()) report["accuracy"]["stretches"] = stretches_;
+    write_json(options_.output / "run.json", report);
   }
 
   std::string progress_line() const {
@@ -246,7 +281,9 @@ class ParticleRun {
     const coupling::RunCost cost{.cpu_seconds = totals_now().cpu_seconds,
                                  .simulated_seconds = simulated_seconds()};
     const coupling::RunSettings settings{scene_.solver.tolerance, scene_.stages.back().time_step_s};
-    return text_of(coupling::accuracy_statement(settings, record, {}, cost));
+    if (!stretches_.is_null()) return text_of_stretches(stretches_, cost.cpu_seconds);
+    return text_of(coupling::accuracy_statement(settings, record, {}, cost)) +
+           (record ? "" : price_of_stretches(cost.cpu_seconds, cost.simulated_seconds));
   }
 
   std::string missed_tolerance() const {
@@ -268,6 +305,7 @@ class ParticleRun {
     writer_.wait();
     log_.flush();
     if (energy_) energy_->flush();
+    if (walls_) walls_->flush();
     write_report(status);
     progress_.finish();
     throw NotConvergedError(fmt::format("step {}: {}", simulation_.state().step, why));
@@ -282,6 +320,8 @@ class ParticleRun {
   RunTable log_;
   std::optional<RunTable> energy_;  // opened with the first step: its columns depend on the scene
   std::int64_t energy_bytes_ = 0;   // of energy.csv at the checkpoint that the run continues
+  std::optional<RunTable> walls_;   // opened with the first interval
+  std::int64_t walls_bytes_ = 0;    // as energy_bytes_
   BackgroundWriter writer_;
   Progress progress_;
   particles::StepReport last_;
@@ -289,6 +329,7 @@ class ParticleRun {
   double cpu_before_ = 0;
   double next_checkpoint_s_ = 0;
   std::int64_t steps_before_ = 0;
+  nlohmann::ordered_json stretches_;  ///< accuracy.stretches of run.json; null: none were asked for
 };
 
 /// A folder continues only the scene that it was made from.
@@ -315,7 +356,8 @@ void cut_back(GrowingOutput& output, const std::optional<particles::Checkpoint>&
     for (const auto& [name, entry] : files)
       if (!name.starts_with("snapshots/")) kept[name] = entry;
     for (const auto& [name, bytes] :
-         {std::pair(log_name, from->log_bytes), std::pair(energy_name, from->energy_bytes)}) {
+         {std::pair(log_name, from->log_bytes), std::pair(energy_name, from->energy_bytes),
+          std::pair(wall_table_name, from->walls_bytes)}) {
       kept.erase(name);
       if (bytes > 0) kept[name] = {file_sum(output.folder() / name, static_cast<std::uint64_t>(bytes)), true};
     }

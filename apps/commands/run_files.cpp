@@ -25,15 +25,9 @@ particles::Scene as_recorded(particles::Scene scene) {
 }
 
 std::vector<std::string> run_file_names() {
-  return {"scene.toml",
-          grain_list,
-          "run.json",
-          "log.csv",
-          "energy.csv",
-          checkpoint_name,
-          previous_checkpoint_name,
-          "snapshots/*.h5",
-          "problems/*.h5"};
+  return {"scene.toml",     grain_list,     "run.json",      "log.csv",
+          "energy.csv",     "walls.csv",    checkpoint_name, previous_checkpoint_name,
+          "snapshots/*.h5", "problems/*.h5"};
 }
 
 void RunTable::fail(const std::string& what) const {

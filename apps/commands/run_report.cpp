@@ -78,6 +78,26 @@ constexpr double missed_share = 0.01;
 // d, mean over steps and loaded contacts: ten times that of the shipped drums, and what a penetration
 // tolerance of 1e-3 d stands for.
 constexpr double much_overlap = 1e-3;
+// d, the same mean: the packing holds more than its volume allows.
+constexpr double crushing = 1e-2;
+
+/// What ended each stage that is over, and when.
+nlohmann::ordered_json stage_ends(const RunProgress& run) {
+  nlohmann::ordered_json ends = nlohmann::ordered_json::array();
+  const particles::SimulationState& state = run.simulation.state();
+  std::int64_t step = 0;
+  double time = 0;
+  for (std::size_t s = 0; s < state.ends.size(); ++s) {
+    const particles::StageEnd& end = state.ends[s];
+    step += end.steps;
+    time += static_cast<double>(end.steps) * run.simulation.plan().stages[s].time_step;
+    ends.push_back({{"stage", run.scene.stages[s].name},
+                    {"ended_by", to_string(end.by)},
+                    {"step", step},
+                    {"time_s", time * run.simulation.scales().time_s}});
+  }
+  return ends;
+}
 
 }  // namespace
 
@@ -95,8 +115,10 @@ std::vector<std::string> run_warnings(const RunProgress& run) {
         solver.penetration_tolerance));
   if (const double overlap = t.overlap_sum / steps; overlap > much_overlap)
     warnings.push_back(fmt::format(
-        "loaded contacts overlap by {:.2g} d in the mean, and by {:.2g} d at worst: discs are not rigid here",
-        overlap, t.overlap_max));
+        "loaded contacts overlap by {:.2g} d in the mean, and by {:.2g} d at worst: discs are not rigid "
+        "here{}",
+        overlap, t.overlap_max,
+        overlap > crushing ? "; the load crushes them, or the time step is too long for it" : ""));
   if (const std::string text = start_warning(run.simulation.start_overlaps()); !text.empty())
     warnings.push_back(text);
   return warnings;
@@ -134,6 +156,7 @@ nlohmann::ordered_json run_report(const RunProgress& run, const std::string& sta
   report["accuracy"] = accuracy(run, steps);
   report["cost"] = cost(run, steps);
   report["warnings"] = run_warnings(run);
+  if (particles::ends_stages_early(run.scene)) report["stages"] = stage_ends(run);
   if (state.energy) report["energy"] = energy(*state.energy);
   report["scales"] = to_json(run.simulation.scales());
   report["provenance"] = to_json(provenance());

@@ -19,6 +19,7 @@ Scene with_settings(const Scene& scene, const StretchSettings& settings) {
   Scene changed = scene;
   Stage& stage = changed.stages.back();
   stage.turns.reset();
+  stage.until.reset();
   stage.duration_s = settings.length_s;
   const double parts = static_cast<double>(parts_of_stretch);
   stage.time_step_s =
@@ -36,12 +37,12 @@ Scene with_settings(const Scene& scene, const StretchSettings& settings) {
 SimulationState at_last_stage(const Scene& scene, int threads,
                               const std::function<void(double share_done)>& after_step) {
   Simulation simulation(scene, threads);
-  const auto& plan = simulation.plan();
-  const std::int64_t steps = plan.steps - plan.stages.back().steps;
-  while (simulation.state().step < steps) {
+  // Stages that end early bring the last one closer.
+  const auto before_last = [&plan = simulation.plan()] { return plan.steps - plan.stages.back().steps; };
+  while (simulation.state().step < before_last()) {
     const StepReport report = simulation.step();
     if (report.lost) throw NotConvergedError("a grain is lost on the way to the last stage");
-    after_step(static_cast<double>(simulation.state().step) / static_cast<double>(steps));
+    after_step(static_cast<double>(simulation.state().step) / static_cast<double>(before_last()));
   }
   return simulation.state();
 }

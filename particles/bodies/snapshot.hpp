@@ -33,8 +33,10 @@ struct Snapshot {
   double velocity_window = 0;            ///< 0: no displacements stored
   double period_x = 0;                   ///< length of the periodic domain; 0: open
   /// Displacement of each wall from where the scene has it: p -> R(angle) p + (x, z). Empty unless the scene
-  /// moves a wall by a force: else they follow from the scene and the time.
+  /// moves a wall by a force or ends stages early: else they follow from the scene and the time.
   std::vector<double> wall_pose_angle, wall_pose_x, wall_pose_z;
+  std::vector<std::int32_t>
+      wall_open;  ///< of each wall, 1: a stage has opened it; empty unless one opens any
   Scales scales;
   std::vector<double> x, z, v_x, v_z, radius;
   std::vector<double> spin;  ///< empty when the scene has no spin

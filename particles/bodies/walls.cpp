@@ -1,5 +1,6 @@
 #include "particles/bodies/walls.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace drumlin::particles {
@@ -42,14 +43,32 @@ Pose displacement(const Motion& motion, double time, std::span<const DrivenState
     return {0, position * driven->direction.x + driven->glide_x * time,
             position * driven->direction.z + driven->glide_z * time};
   }
+  if (const auto* straining = std::get_if<Straining>(&motion)) {
+    const double way = straining->distance * std::expm1(straining->rate * time);
+    return {0, way * straining->direction.x, way * straining->direction.z};
+  }
   return {};
 }
 
 Shape moved(const Rigid& pose, const Shape& shape) {
   if (const auto* c = std::get_if<Container>(&shape)) return Container{pose.moved(c->center), c->radius};
   if (const auto* s = std::get_if<Segment>(&shape)) return Segment{pose.moved(s->from), pose.moved(s->to)};
+  if (is_open(shape)) return shape;
   const auto& d = std::get<FixedDisc>(shape);
   return FixedDisc{pose.moved(d.center), d.radius};
+}
+
+Point middle_of(const Shape& shape) {
+  if (const auto* s = std::get_if<Segment>(&shape))
+    return {(s->from.x + s->to.x) / 2, (s->from.z + s->to.z) / 2};
+  if (const auto* d = std::get_if<FixedDisc>(&shape)) return d->center;
+  const auto* c = std::get_if<Container>(&shape);
+  return c ? c->center : Point{};
+}
+
+int first_shape(const Walls& walls, int wall) {
+  return static_cast<int>(std::find(walls.wall_of_shape.begin(), walls.wall_of_shape.end(), wall) -
+                          walls.wall_of_shape.begin());
 }
 
 Pose Walls::pose(int wall, double time_in_stage, std::span<const DrivenState> driven) const {
@@ -63,7 +82,10 @@ std::vector<Shape> Walls::shapes_at(double time_in_stage, std::span<const Driven
   std::vector<Shape> shapes;
   shapes.reserve(reference.size());
   for (std::size_t s = 0; s < reference.size(); ++s)
-    shapes.push_back(moved(poses[wall_of_shape[s]], reference[s]));
+    if (!open.empty() && open[wall_of_shape[s]])
+      shapes.emplace_back(Opened{});
+    else
+      shapes.push_back(moved(poses[wall_of_shape[s]], reference[s]));
   return shapes;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Walls: rigid shapes that move as told. Their poses are functions of time, never integrated, so that a drum
 // turned a thousand times is still where its angle says; only walls that contacts push have a state.
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -41,7 +42,13 @@ struct FixedDisc {
   Point center;
   double radius = 0;
 };
-using Shape = std::variant<Container, Segment, FixedDisc>;
+/// What is left of the shapes of a wall that a stage has opened: nothing that grains could touch. They keep
+/// their places in lists, so that indices keep their meaning.
+struct Opened {};
+using Shape = std::variant<Container, Segment, FixedDisc, Opened>;
+inline bool is_open(const Shape& shape) { return std::holds_alternative<Opened>(shape); }
+/// Centre of a container or a disc, middle of a segment; the origin for an opened one.
+Point middle_of(const Shape&);
 
 /// Motion of one wall within a stage.
 struct Turning {
@@ -61,19 +68,31 @@ struct Swinging {
   double amplitude = 0, rate = 0, phase = 0;
   Point center;
 };
+/// The distance from a reference along `direction` changes at a constant rate: distance exp(rate t).
+struct Straining {
+  Point direction;  ///< unit vector
+  double distance = 0, rate = 0;
+};
+/// Part of a force: amplitude sin(rate t + phase).
+struct Swell {
+  double amplitude = 0, rate = 0, phase = 0;
+};
 /// Moved along `direction` by a force and by contacts; how far and how fast is a DrivenState.
 struct Driven {
   Point direction;  ///< unit vector
   double force = 0, inverse_mass = 0;
   double glide_x = 0, glide_z = 0;  ///< velocity across
   int state = 0;                    ///< its place among the states
+  Swell swell = {};                 ///< added to the force
+  /// Shapes: the force is per length of the distance of their middles across the direction; -1: it is whole.
+  std::array<int, 2> between = {-1, -1};
 };
 /// State of a driven wall along its direction: the one place where it is kept between steps.
 struct DrivenState {
   double position = 0;  ///< since the stage began
   double velocity = 0;
 };
-using Motion = std::variant<std::monostate, Turning, Gliding, Shaking, Swinging, Driven>;
+using Motion = std::variant<std::monostate, Turning, Gliding, Shaking, Swinging, Driven, Straining>;
 /// Displacement after `time` of a motion. `driven`: the states of all driven walls of the stage.
 Pose displacement(const Motion&, double time, std::span<const DrivenState> driven = {});
 
@@ -85,6 +104,8 @@ struct Walls {
   std::vector<std::uint8_t> material_of_shape;  ///< empty when no law asks for it
   std::vector<Motion> motion;                   ///< one per wall, of the current stage
   std::vector<Pose> pose_at_start;              ///< one per wall, when the current stage began
+  std::vector<bool> open;  ///< one per wall, as far as the stages up to now opened any; else empty
+  double period = 0;       ///< length of a periodic domain; 0: open
 
   // `driven`: the state of each wall that the current stage drives, in the order of the walls.
   Pose pose(int wall, double time_in_stage, std::span<const DrivenState> driven = {}) const;
@@ -93,5 +114,7 @@ struct Walls {
 };
 
 Shape moved(const Rigid&, const Shape&);
+/// The index of a wall's first shape.
+int first_shape(const Walls&, int wall);
 
 }  // namespace drumlin::particles

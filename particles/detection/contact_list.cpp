@@ -46,13 +46,7 @@ std::optional<Box> surroundings(const Shape& shape, double reach) {
 /// once.
 double image_near(const Shape& shape, double x, const Period& period) {
   if (period.open()) return x;
-  double middle = 0;
-  if (const auto* s = std::get_if<Segment>(&shape))
-    middle = (s->from.x + s->to.x) / 2;
-  else if (const auto* d = std::get_if<FixedDisc>(&shape))
-    middle = d->center.x;
-  else
-    middle = std::get<Container>(shape).center.x;
+  const double middle = middle_of(shape).x;
   return middle + period.nearest(x - middle);
 }
 
@@ -163,6 +157,7 @@ void ContactDetection::look_at_wall(const NearGrain& grain, std::int32_t shape, 
 
 void ContactDetection::find_near_walls(double fastest, double largest, const DetectionInput& input) {
   for (std::size_t s = 0; s < input.shapes.size(); ++s) {
+    if (is_open(input.shapes[s])) continue;
     const double farthest =
         input.margin + 2 * (fastest + largest_move(input.shapes[s], input.shape_steps[s]));
     const bool open = input.period.open();
@@ -238,7 +233,7 @@ void ContactDetection::find_around(const ThrownGrain& thrown, double range, cons
   });
   const auto shapes = static_cast<std::int32_t>(input.shapes.size());
   for (std::int32_t s = 0; s < shapes; ++s)
-    look_at_wall(a, s, std::numeric_limits<double>::infinity(), input);
+    if (!is_open(input.shapes[s])) look_at_wall(a, s, std::numeric_limits<double>::infinity(), input);
 }
 
 /// Puts the pairs found in the order of (i, j) among the candidates, once each; returns whether any is new.

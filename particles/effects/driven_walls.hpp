@@ -3,6 +3,7 @@
 // One body more in a step, with one velocity. Everything that is state of such a wall is its DrivenState.
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "coupling/common/scales.hpp"
@@ -14,12 +15,30 @@
 
 namespace drumlin::particles {
 
+/// A part of a force that comes and goes: amplitude sin(2 pi f t + phase), t from the start of the stage.
+struct ForceOscillation {
+  double amplitude_n_m = 0;
+  double frequency_hz = 0;
+  double phase_deg = 0;
+};
+
+template <class Visitor>
+void describe(Visitor& v, ForceOscillation& o) {
+  v.value("amplitude_n_m", o.amplitude_n_m,
+          required("N/m", at_least(-1e12, 1e12), "Amplitude of the force, per metre of depth."));
+  v.value("frequency_hz", o.frequency_hz, required("Hz", above(0, 1e6), "Oscillations per second."));
+  v.value("phase_deg", o.phase_deg,
+          defaulted("deg", at_least(-360, 360),
+                    "The force is amplitude sin(2 pi f t + phase), t from the stage's start."));
+}
+
 /// The keys of a motion of kind "force".
 struct ForceControl {
   std::array<double, 2> direction{0, 0};  ///< of the force and of the motion; its length does not matter
   double force_n_m = 0;  ///< per metre of depth: all that acts beside the grains, weight included
   double mass_kg_m = 0;
   std::array<double, 2> velocity_mm_s{0, 0};  ///< at right angles to the direction
+  std::optional<ForceOscillation> oscillation = {};
 };
 
 template <class Visitor>
@@ -35,6 +54,7 @@ void describe(Visitor& v, ForceControl& f) {
           required("kg/m", above(0, 1e12), "Mass of the wall, per metre of depth: its inertia."));
   v.value("velocity_mm_s", f.velocity_mm_s,
           defaulted("mm/s", at_least(-1e9, 1e9), "Velocity [v_x, v_z] across the direction."));
+  v.optional_table("oscillation", f.oscillation, "A force that comes and goes, added to force_n_m.");
 }
 
 /// The law: direction, force and mass in the units of the simulation. `state`: its place among the states.
@@ -46,8 +66,12 @@ Driven driven_law(const ForceControl&, const Scales&, int state);
 inline double free_velocity(const Driven& wall, const DrivenState& state, double time_step) {
   return state.velocity + time_step * wall.force * wall.inverse_mass;
 }
+/// The force that acts on a driven wall over a step: its mean over an oscillation, the pressure times the
+/// length between two walls. `shapes`: at the beginning of the step.
+double force_in_step(const Driven&, std::span<const Shape> shapes, double time_in_stage, double time_step);
 /// Adds driven walls to a step, as the force alone moves them.
-void add_driven_walls(const Walls&, std::span<const DrivenState>, double time_step, WallStep&);
+void add_driven_walls(const Walls&, std::span<const DrivenState>, double time_in_stage, double time_step,
+                      WallStep&);
 
 /// The driven wall of a pair, as its place in WallStep::driven; -1: none.
 inline std::int32_t driven_wall_of(const WallStep& walls, const Candidate& pair) {

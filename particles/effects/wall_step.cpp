@@ -14,7 +14,7 @@ WallStep wall_step(const Walls& walls, double time_in_stage, double time_step,
     moves.push_back(after(walls.pose(wall, time_in_stage + time_step, driven),
                           inverse(walls.pose(wall, time_in_stage, driven))));
   for (const int wall : walls.wall_of_shape) step.displacement.push_back(moves[wall]);
-  add_driven_walls(walls, driven, time_step, step);
+  add_driven_walls(walls, driven, time_in_stage, time_step, step);
   return step;
 }
 

@@ -8,6 +8,7 @@
 
 #include "coupling/common/last_whole.hpp"
 #include "coupling/files/h5_image.hpp"
+#include "particles/io/checkpoint_stages.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -102,6 +103,7 @@ void put(const Checkpoint& checkpoint, H5Writer& out) {
   std::vector<double> driven;
   for (const DrivenState& wall : state.driven) driven.insert(driven.end(), {wall.position, wall.velocity});
   if (!driven.empty()) out.add("walls/driven", std::span<const double>(driven));
+  put_stage_changes(checkpoint, out);
   out.add_number("marks/count", static_cast<std::int64_t>(state.marks.size()));
   for (std::size_t m = 0; m < state.marks.size(); ++m) {
     const std::string name = "marks/" + std::to_string(m) + "/";
@@ -113,16 +115,6 @@ void put(const Checkpoint& checkpoint, H5Writer& out) {
 }
 
 constexpr auto most = std::numeric_limits<std::int64_t>::max();
-
-/// Finite numbers in whole rows.
-std::vector<double> rows_of(const H5Reader& in, const std::string& name, std::size_t columns) {
-  std::vector<double> values = in.doubles(name);
-  if (values.size() % columns != 0)
-    in.refuse(name, fmt::format("{} numbers", values.size()), fmt::format("rows of {}", columns));
-  for (const double value : values)
-    if (!std::isfinite(value)) in.refuse(name, fmt::format("is {}", value), "finite numbers");
-  return values;
-}
 
 }  // namespace
 
@@ -177,6 +169,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
     const auto driven = rows_of(in, "walls/driven", 2);
     for (std::size_t d = 0; d < driven.size(); d += 2) state.driven.push_back({driven[d], driven[d + 1]});
   }
+  get_stage_changes(in, checkpoint);
   const auto marks = in.integer("marks/count", 0, most);
   for (std::int64_t m = 0; m < marks; ++m) {
     const std::string name = "marks/" + std::to_string(m) + "/";

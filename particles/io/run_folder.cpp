@@ -79,14 +79,19 @@ std::vector<PlacedShape> shapes_at(const RunFolder& run, const Snapshot& snapsho
   std::vector<Pose> poses;
   for (std::size_t w = 0; w < snapshot.wall_pose_angle.size(); ++w)
     poses.push_back({snapshot.wall_pose_angle[w], snapshot.wall_pose_x[w], snapshot.wall_pose_z[w]});
-  if (!moves_walls_by_force(run.scene)) poses = poses_by_motion(walls, run.scene, run.scales, snapshot.time);
-  if (poses.size() != walls.names.size())
+  if (!moves_walls_by_force(run.scene) && !ends_stages_early(run.scene))
+    poses = poses_by_motion(walls, run.scene, run.scales, snapshot.time);
+  const auto& open = snapshot.wall_open;
+  if (poses.size() != walls.names.size() || (opens_walls(run.scene) && open.size() != poses.size()))
     throw InputError(fmt::format("{}: a snapshot tells where {} walls are, the scene has {}",
                                  run.folder.string(), poses.size(), walls.names.size()));
   std::vector<PlacedShape> placed;
   for (std::size_t s = 0; s < walls.reference.size(); ++s) {
     const Pose& pose = poses[walls.wall_of_shape[s]];
-    placed.push_back({moved(Rigid(pose), walls.reference[s]), pose.angle});
+    if (!open.empty() && open[walls.wall_of_shape[s]] != 0)
+      placed.push_back({Opened{}, pose.angle});
+    else
+      placed.push_back({moved(Rigid(pose), walls.reference[s]), pose.angle});
   }
   return placed;
 }

@@ -98,6 +98,7 @@ VtuGrid wall_grid(const RunFolder& run, const Snapshot& s) {
       grid.connectivity.push_back(static_cast<std::int32_t>(p));
     grid.offsets.push_back(static_cast<std::int32_t>(grid.connectivity.size()));
   };
+  std::int32_t shape = 0;
   for (const PlacedShape& placed : shapes_at(run, s)) {
     const std::size_t first = grid.points.size() / 3;
     const auto circle = [&](const Point& center, double radius, int pieces) {
@@ -112,13 +113,14 @@ VtuGrid wall_grid(const RunFolder& run, const Snapshot& s) {
     } else if (const auto* segment = std::get_if<Segment>(&placed.shape)) {
       for (const Point& end : {segment->from, segment->to})
         add_point(grid.points, end.x * metre, end.z * metre);
-    } else {
+    } else if (!is_open(placed.shape)) {
       const auto& disc = std::get<FixedDisc>(placed.shape);
       circle(disc.center, disc.radius, circle_pieces / 10);
     }
+    --shape;  // also that of an opened one, which is no cell: as in grain_or_wall_j of the contacts
+    if (is_open(placed.shape)) continue;
     close(first);
-    // As in grain_or_wall_j of the contacts.
-    shape_numbers.push_back(-1 - static_cast<std::int32_t>(shape_numbers.size()));
+    shape_numbers.push_back(shape);
   }
   grid.cell_data = {{"wall", 1, std::move(shape_numbers)}};
   return grid;

@@ -76,6 +76,7 @@ void write_snapshot(const std::filesystem::path& file, const Snapshot& s) {
     out.add("walls/x", std::span<const double>(s.wall_pose_x));
     out.add("walls/z", std::span<const double>(s.wall_pose_z));
   }
+  if (!s.wall_open.empty()) out.add("walls/open", std::span<const std::int32_t>(s.wall_open));
   if (s.contacts_known) add_contacts(s, out);
   out.save(file);
 }
@@ -119,6 +120,7 @@ Snapshot read_snapshot(const std::filesystem::path& file) {
     for (const std::size_t size : {s.wall_pose_x.size(), s.wall_pose_z.size()})
       if (size != s.wall_pose_angle.size()) in.refuse("walls", "arrays of unequal length");
   }
+  if (in.has("walls/open")) s.wall_open = in.ints("walls/open", 0, 1);
   s.contacts_known = in.has("contacts");
   if (s.contacts_known) read_contacts(in, s);
   return s;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "particles/scene/placement.hpp"
+#include "particles/scene/scene_walls.hpp"
 #include "particles/scene/sizes.hpp"
 #include "particles/scene/validate.hpp"
 
@@ -106,12 +107,11 @@ void toggle_walls(const Scene& scene, Variants& variants) {
       for (Wall& wall : s.walls) wall.rough.reset();
     });
   else if (std::any_of(scene.walls.begin(), scene.walls.end(),
-                       [](const Wall& wall) { return !std::holds_alternative<DiscShape>(wall.shape); }))
+                       [](const Wall& wall) { return wall_length_mm(wall) > 0; }))
     variants.add("rough walls", EffectChange::added,
                  "discs of half the mean diameter, as far apart as a grain", [grain_mm](Scene& s) {
                    for (Wall& wall : s.walls)
-                     if (!std::holds_alternative<DiscShape>(wall.shape))
-                       wall.rough = Roughness{grain_mm / 2, grain_mm};
+                     if (wall_length_mm(wall) > 0) wall.rough = Roughness{grain_mm / 2, grain_mm};
                    // What stands on the wall must not stand in the discs.
                    if (auto* made = std::get_if<GeneratedGrains>(&s.grains.source))
                      if (auto* circle = std::get_if<CircleRegion>(&made->region))
@@ -130,8 +130,7 @@ void toggle_walls(const Scene& scene, Variants& variants) {
   without("oscillating walls", [](const WallMotion& m) {
     return std::holds_alternative<Oscillation>(m.motion) || std::holds_alternative<Rocking>(m.motion);
   });
-  without("walls moved by a force",
-          [](const WallMotion& m) { return std::holds_alternative<ForceControl>(m.motion); });
+  without("walls moved by a force", [](const WallMotion& m) { return is_driven(m); });
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "particles/scene/scene_walls.hpp"
+
 namespace drumlin::particles {
 
 namespace {
@@ -57,6 +59,11 @@ double farthest_mm(const Region& region, const Point_mm& center) {
 }
 
 bool crosses(const Region& region, const WallShape& shape, double tolerance) {
+  if (const auto* line = std::get_if<PolylineShape>(&shape)) {
+    const auto segments = segments_of(*line);
+    return std::any_of(segments.begin(), segments.end(),
+                       [&](const SegmentShape& s) { return crosses(region, s, tolerance); });
+  }
   const auto [low, high] = extent_mm(region, 0);
   const double margin = tolerance * (high - low);
   const auto* segment = std::get_if<SegmentShape>(&shape);

@@ -8,7 +8,7 @@
 namespace drumlin::particles {
 
 using Region = std::variant<CircleRegion, RectangleRegion>;
-using WallShape = std::variant<ContainerShape, SegmentShape, DiscShape>;
+using WallShape = std::variant<ContainerShape, SegmentShape, DiscShape, PolylineShape>;
 
 /// Least and greatest coordinate along an axis: 0 for x, 1 for z.
 std::pair<double, double> extent_mm(const Region& region, int axis);

@@ -1,5 +1,6 @@
 #include "particles/scene/scene.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -16,8 +17,28 @@ double duration_s(const Stage& stage) {
 bool moves_walls_by_force(const Scene& scene) {
   for (const Stage& stage : scene.stages)
     for (const WallMotion& asked : stage.motions)
-      if (std::holds_alternative<ForceControl>(asked.motion)) return true;
+      if (is_driven(asked)) return true;
   return false;
+}
+
+bool is_driven(const WallMotion& asked) {
+  return std::holds_alternative<ForceControl>(asked.motion) ||
+         std::holds_alternative<PressureControl>(asked.motion);
+}
+
+bool ends_stages_early(const Scene& scene) {
+  return std::any_of(scene.stages.begin(), scene.stages.end(),
+                     [](const Stage& stage) { return stage.until.has_value(); });
+}
+
+bool opens_walls(const Scene& scene) {
+  return std::any_of(scene.stages.begin(), scene.stages.end(),
+                     [](const Stage& stage) { return stage.opens.has_value(); });
+}
+
+bool changes_gravity(const Scene& scene) {
+  return std::any_of(scene.stages.begin(), scene.stages.end(),
+                     [](const Stage& stage) { return stage.gravity.has_value(); });
 }
 
 }  // namespace drumlin::particles

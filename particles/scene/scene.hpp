@@ -17,6 +17,7 @@
 #include "particles/effects/rolling.hpp"
 #include "particles/effects/rotating_frame.hpp"
 #include "particles/effects/spin.hpp"
+#include "particles/scene/stage.hpp"
 
 namespace drumlin::particles {
 
@@ -78,6 +79,7 @@ struct Grains {
   double density_kg_m3 = 0;
   std::vector<GrainMaterial> materials = {};
   std::variant<GeneratedGrains, ListedGrains> source;
+  std::optional<double> thermal_speed_mm_s = {};  ///< of random velocities at the start (thermal.hpp)
 };
 
 /// Circular container, the grains inside it.
@@ -96,6 +98,12 @@ struct DiscShape {
   double diameter_mm = 0;
 };
 
+/// Straight lines from point to point: one wall without gaps at its corners.
+struct PolylineShape {
+  std::vector<double> x_mm, z_mm;
+  std::optional<bool> closed = {};  ///< true: a line leads from the last point back to the first
+};
+
 /// Discs glued along a container or a segment, their centres on it.
 struct Roughness {
   double diameter_mm = 0;
@@ -105,7 +113,7 @@ struct Roughness {
 /// A wall; several shapes of one name move together.
 struct Wall {
   std::string name;
-  std::variant<ContainerShape, SegmentShape, DiscShape> shape;
+  std::variant<ContainerShape, SegmentShape, DiscShape, PolylineShape> shape;
   std::optional<std::string> material = {};  ///< for laws that differ from pair to pair
   std::optional<Roughness> rough = {};
 };
@@ -121,44 +129,6 @@ struct Effects {
   std::optional<RotatingFrame> rotating_frame = {};
 };
 
-/// Turns a wall about a point; positive in the sense of the vorticity dv_x/dz (clockwise as drawn, z up).
-struct Rotation {
-  double speed_rpm = 0;
-  Point_mm center_mm{0, 0};
-};
-struct Translation {
-  std::array<double, 2> velocity_mm_s{0, 0};
-};
-/// Shakes a wall along a straight line: displacement amplitude (sin(2 pi f t + phase) - sin(phase)), t from
-/// the start of the stage.
-struct Oscillation {
-  std::array<double, 2> amplitude_mm{0, 0};
-  double frequency_hz = 0;
-  double phase_deg = 0;
-};
-/// The same in angle, about a point; positive clockwise as drawn.
-struct Rocking {
-  double amplitude_deg = 0;
-  double frequency_hz = 0;
-  double phase_deg = 0;
-  Point_mm center_mm{0, 0};
-};
-struct WallMotion {
-  std::string wall;
-  std::variant<Rotation, Translation, Oscillation, Rocking, ForceControl> motion;
-};
-
-/// A stretch of time with its own step, wall motions and number of snapshots (evenly spread, the last at its
-/// end).
-struct Stage {
-  std::string name;
-  std::optional<double> duration_s;
-  std::optional<double> turns;  ///< of the first rotation among its motions; exactly one of the two is given
-  double time_step_s = 0;
-  std::vector<WallMotion> motions;
-  int snapshots = 0;
-};
-
 /// Contact solver and when it may stop. Tolerances in the project's one definition (docs/conventions.md).
 struct SolverSettings {
   std::string name = "accelerated";
@@ -169,13 +139,15 @@ struct SolverSettings {
   int projection_sweeps = 20;           ///< at most; 0: no position projection
   bool stop_when_unconverged = false;   ///< end with exit code 3 at the first step that misses the tolerance
   int capture_unconverged = 0;          ///< so many steps that miss it leave their contact problem as a file
+  std::optional<bool> allow_crushing = {};  ///< true: no end with exit code 3 where discs are crushed
 };
 
 struct Output {
   double velocity_window_s = 6e-3;  ///< displacement over this window is stored with each snapshot; 0: none
   int log_every_steps = 1;
-  double checkpoint_every_s = 1.0;  ///< simulated time
-  bool energy_ledger = false;       ///< where energy comes from and goes to, in energy.csv
+  double checkpoint_every_s = 1.0;           ///< simulated time
+  bool energy_ledger = false;                ///< where energy comes from and goes to, in energy.csv
+  std::optional<double> walls_every_s = {};  ///< loads on walls as means over such intervals, in walls.csv
 };
 
 struct Scene {
@@ -191,10 +163,13 @@ struct Scene {
   Output output;
 };
 
-/// Seconds of a stage, from duration_s or from its turns; NaN for a stage that validate() refuses.
-double duration_s(const Stage& stage);
-
-/// Whether a force moves a wall in some stage, so that the places of the walls are results.
+/// Whether a force or a pressure moves a wall in some stage.
 bool moves_walls_by_force(const Scene& scene);
+/// Whether some stage ends when something has happened, so that the times of the stages are results.
+bool ends_stages_early(const Scene& scene);
+/// Whether some stage opens a wall.
+bool opens_walls(const Scene& scene);
+/// Whether some stage has a gravity of its own.
+bool changes_gravity(const Scene& scene);
 
 }  // namespace drumlin::particles

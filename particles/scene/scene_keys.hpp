@@ -4,6 +4,7 @@
 // particles/effects.
 #include "coupling/documents/key_table.hpp"
 #include "particles/scene/scene.hpp"
+#include "particles/scene/stage_keys.hpp"
 #include "particles/solver/contact_solver.hpp"
 
 namespace drumlin::particles {
@@ -101,6 +102,11 @@ void describe(Visitor& v, Grains& g) {
       g.source, "Where the grains come from.",
       alternative<GeneratedGrains>("generated", "Made from a distribution, on a shaken lattice in a region."),
       alternative<ListedGrains>("listed", "Listed one by one."));
+  v.value(
+      "thermal_speed_mm_s", g.thermal_speed_mm_s,
+      when_given("mm/s", above(0, 1e9),
+                 "Random velocities at the start, as in a gas: Maxwell's, their momentum zero, their energy "
+                 "that of all mass at this speed; added to those of a list."));
 }
 
 template <class Visitor>
@@ -122,6 +128,14 @@ void describe(Visitor& v, DiscShape& d) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, PolylineShape& p) {
+  v.value("x_mm", p.x_mm, required("mm", coordinate_mm(), "The points' x, in their order."));
+  v.value("z_mm", p.z_mm, required("mm", coordinate_mm(), "The points' z, as many."));
+  v.value("closed", p.closed,
+          when_given("", anything(), "A line leads from the last point back to the first."));
+}
+
+template <class Visitor>
 void describe(Visitor& v, Roughness& r) {
   v.value("diameter_mm", r.diameter_mm, required("mm", length_mm(), "Diameter of the glued discs."));
   v.value("spacing_mm", r.spacing_mm,
@@ -132,10 +146,12 @@ void describe(Visitor& v, Roughness& r) {
 template <class Visitor>
 void describe(Visitor& v, Wall& w) {
   v.value("name", w.name, required("", not_empty(), "Name of the wall; shapes of one name move together."));
-  v.variant("shape", w.shape, "Shape of the wall.",
-            alternative<ContainerShape>("container", "a circle with the grains inside it."),
-            alternative<SegmentShape>("segment", "a straight line, solid on both sides."),
-            alternative<DiscShape>("disc", "a disc that is part of the wall."));
+  v.variant(
+      "shape", w.shape, "Shape of the wall.",
+      alternative<ContainerShape>("container", "a circle with the grains inside it."),
+      alternative<SegmentShape>("segment", "a straight line, solid on both sides."),
+      alternative<DiscShape>("disc", "a disc that is part of the wall."),
+      alternative<PolylineShape>("polyline", "straight lines from point to point, solid on both sides."));
   v.value("material", w.material,
           when_given("", not_empty(), "Material of the wall, for laws that differ from pair to pair."));
   v.optional_table("rough", w.rough,
@@ -155,75 +171,6 @@ void describe(Visitor& v, Effects& e) {
                    "Constant attraction of surfaces that touch; counts as load in Coulomb's law.");
   v.optional_table("rotating_frame", e.rotating_frame,
                    "The scene is that of a frame that turns; gravity keeps its direction in the laboratory.");
-}
-
-template <class Visitor>
-void describe(Visitor& v, Rotation& r) {
-  v.value(
-      "speed_rpm", r.speed_rpm,
-      required("turns/min", at_least(-1e6, 1e6), "Angular velocity, positive clockwise as drawn (z up)."));
-  v.value("center_mm", r.center_mm,
-          defaulted("mm", coordinate_mm(), "Point [x, z] about which the wall turns."));
-}
-
-template <class Visitor>
-void describe(Visitor& v, Translation& t) {
-  v.value("velocity_mm_s", t.velocity_mm_s,
-          required("mm/s", at_least(-1e9, 1e9), "Velocity [v_x, v_z] of the wall."));
-}
-
-template <class Visitor>
-void describe(Visitor& v, Oscillation& o) {
-  v.value("amplitude_mm", o.amplitude_mm,
-          required("mm", coordinate_mm(), "Amplitude [x, z] of the displacement."));
-  v.value("frequency_hz", o.frequency_hz, required("Hz", above(0, 1e6), "Oscillations per second."));
-  v.value(
-      "phase_deg", o.phase_deg,
-      defaulted(
-          "deg", at_least(-360, 360),
-          "The displacement is amplitude (sin(2 pi f t + phase) - sin(phase)), t from the stage's start."));
-}
-
-template <class Visitor>
-void describe(Visitor& v, Rocking& r) {
-  v.value("amplitude_deg", r.amplitude_deg,
-          required("deg", at_least(-360, 360), "Amplitude of the angle, positive clockwise as drawn."));
-  v.value("frequency_hz", r.frequency_hz, required("Hz", above(0, 1e6), "Oscillations per second."));
-  v.value(
-      "phase_deg", r.phase_deg,
-      defaulted("deg", at_least(-360, 360),
-                "The angle is amplitude (sin(2 pi f t + phase) - sin(phase)), t from the stage's start."));
-  v.value("center_mm", r.center_mm,
-          defaulted("mm", coordinate_mm(), "Point [x, z] about which the wall rocks."));
-}
-
-template <class Visitor>
-void describe(Visitor& v, WallMotion& m) {
-  v.value("wall", m.wall,
-          required("", not_empty(), "Name of the wall that moves; walls without a motion stand still."));
-  v.variant(
-      "kind", m.motion, "Kind of motion.", alternative<Rotation>("rotation", "turns about a point."),
-      alternative<Translation>("translation", "glides along a straight line."),
-      alternative<Oscillation>("oscillation", "shakes along a straight line."),
-      alternative<Rocking>("rocking", "turns to and fro about a point."),
-      alternative<ForceControl>("force", "moves along one direction as a force and the grains push it."));
-}
-
-template <class Visitor>
-void describe(Visitor& v, Stage& s) {
-  v.value("name", s.name, required("", not_empty(), "Name of the stage, for the log."));
-  v.value("duration_s", s.duration_s,
-          when_given("s", above(0), "Length of the stage; either this or turns."));
-  v.value("turns", s.turns,
-          when_given("turns", above(0),
-                     "Length in turns of the first rotation among its motions; either this or duration_s."));
-  v.value("time_step_s", s.time_step_s,
-          required("s", above(0),
-                   "Time step; shortened or stretched a little where whole steps would not fill the stage."));
-  v.value("snapshots", s.snapshots,
-          defaulted("", at_least(0, 1e6),
-                    "Number of snapshots, evenly spread, the last at the end of the stage."));
-  v.tables("motions", s.motions, 0, "What moves during the stage, at most one motion per wall.");
 }
 
 template <class Visitor>
@@ -247,6 +194,9 @@ void describe(Visitor& v, SolverSettings& s) {
           defaulted("", at_least(0, 1e6),
                     "The contact problems of the first so many steps that miss the tolerances are left in "
                     "problems/, for drumlin solve-contacts."));
+  v.value(
+      "allow_crushing", s.allow_crushing,
+      when_given("", anything(), "No end with exit code 3 at the first step whose loaded contacts overlap by more than 0.2 d in the mean."));
 }
 
 template <class Visitor>
@@ -262,6 +212,10 @@ void describe(Visitor& v, Output& o) {
   v.value("energy_ledger", o.energy_ledger,
           defaulted("", anything(),
                     "energy.csv: where the energy of the grains comes from and goes to, with the log."));
+  v.value("walls_every_s", o.walls_every_s,
+          when_given("s", above(0),
+                     "walls.csv: force, torque, place and velocity of each wall, as means over intervals of "
+                     "so much simulated time."));
 }
 
 template <class Visitor>

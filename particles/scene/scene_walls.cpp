@@ -13,18 +13,24 @@ Point point_of(const Point_mm& p, const Scales& scales) {
   return {p[0] * 1e-3 / scales.length_m, p[1] * 1e-3 / scales.length_m};
 }
 
-Shape shape_of(const Wall& wall, const Scales& scales) {
-  const double unit = 1e-3 / scales.length_m;
-  if (const auto* c = std::get_if<ContainerShape>(&wall.shape))
-    return Container{point_of(c->center_mm, scales), c->radius_mm * unit};
-  if (const auto* s = std::get_if<SegmentShape>(&wall.shape))
-    return Segment{point_of(s->from_mm, scales), point_of(s->to_mm, scales)};
-  const auto& d = std::get<DiscShape>(wall.shape);
-  return FixedDisc{point_of(d.center_mm, scales), d.diameter_mm / 2 * unit};
+Segment segment_of(const SegmentShape& s, const Scales& scales) {
+  return {point_of(s.from_mm, scales), point_of(s.to_mm, scales)};
 }
 
-/// `driven`: how many walls the stage drives before this one.
-Motion motion_of(const WallMotion& asked, const Scales& scales, int driven) {
+/// Adds the shapes of a wall, without the discs glued to it.
+void add_shapes(const Wall& wall, const Scales& scales, std::vector<Shape>& shapes) {
+  const double unit = 1e-3 / scales.length_m;
+  if (const auto* c = std::get_if<ContainerShape>(&wall.shape))
+    shapes.push_back(Container{point_of(c->center_mm, scales), c->radius_mm * unit});
+  if (const auto* s = std::get_if<SegmentShape>(&wall.shape)) shapes.push_back(segment_of(*s, scales));
+  if (const auto* d = std::get_if<DiscShape>(&wall.shape))
+    shapes.push_back(FixedDisc{point_of(d->center_mm, scales), d->diameter_mm / 2 * unit});
+  if (const auto* p = std::get_if<PolylineShape>(&wall.shape))
+    for (const SegmentShape& s : segments_of(*p)) shapes.push_back(segment_of(s, scales));
+}
+
+/// The motion of wall `wall`. `driven`: how many walls the stage drives before this one.
+Motion motion_of(const WallMotion& asked, const Walls& walls, int wall, const Scales& scales, int driven) {
   if (const auto* r = std::get_if<Rotation>(&asked.motion))
     return Turning{r->speed_rpm * 2 * std::numbers::pi / 60 * scales.time_s, point_of(r->center_mm, scales)};
   const double radian = std::numbers::pi / 180;
@@ -35,12 +41,24 @@ Motion motion_of(const WallMotion& asked, const Scales& scales, int driven) {
     return Swinging{r->amplitude_deg * radian, 2 * std::numbers::pi * r->frequency_hz * scales.time_s,
                     r->phase_deg * radian, point_of(r->center_mm, scales)};
   if (const auto* f = std::get_if<ForceControl>(&asked.motion)) return driven_law(*f, scales, driven);
+  if (const auto* p = std::get_if<PressureControl>(&asked.motion))
+    return pressed_law(*p, walls, wall, scales, driven);
+  if (const auto* e = std::get_if<StrainRate>(&asked.motion)) return straining_law(*e, walls, wall, scales);
   const double unit = 1e-3 / scales.velocity_m_s();
   const auto& t = std::get<Translation>(asked.motion);
   return Gliding{t.velocity_mm_s[0] * unit, t.velocity_mm_s[1] * unit};
 }
 
 }  // namespace
+
+std::vector<SegmentShape> segments_of(const PolylineShape& line) {
+  const std::size_t points = std::min(line.x_mm.size(), line.z_mm.size());
+  std::vector<SegmentShape> segments;
+  const auto point = [&line](std::size_t p) { return Point_mm{line.x_mm[p], line.z_mm[p]}; };
+  for (std::size_t p = 1; p < points; ++p) segments.push_back({point(p - 1), point(p)});
+  if (line.closed.value_or(false) && points > 2) segments.push_back({point(points - 1), point(0)});
+  return segments;
+}
 
 double wall_length_mm(const Wall& wall) {
   if (const auto* c = std::get_if<ContainerShape>(&wall.shape)) return 2 * std::numbers::pi * c->radius_mm;
@@ -78,7 +96,7 @@ Walls walls_of(const Scene& scene, const Scales& scales) {
   for (const Wall& wall : scene.walls) {
     auto known = std::find(walls.names.begin(), walls.names.end(), wall.name);
     if (known == walls.names.end()) known = walls.names.insert(walls.names.end(), wall.name);
-    walls.reference.push_back(shape_of(wall, scales));
+    add_shapes(wall, scales, walls.reference);
     for (const Point_mm& center : glued_centers_mm(wall))
       walls.reference.push_back(
           FixedDisc{point_of(center, scales), wall.rough->diameter_mm / 2 * 1e-3 / scales.length_m});
@@ -89,6 +107,8 @@ Walls walls_of(const Scene& scene, const Scales& scales) {
   }
   walls.motion.resize(walls.names.size());
   walls.pose_at_start.resize(walls.names.size());
+  if (scene.periodic_x)
+    walls.period = (scene.periodic_x->x_max_mm - scene.periodic_x->x_min_mm) * 1e-3 / scales.length_m;
   return walls;
 }
 
@@ -106,8 +126,17 @@ Point straight_velocity(const Motion& motion, std::span<const DrivenState> state
 
 }  // namespace
 
+void open_walls(Walls& walls, const Stage& stage) {
+  if (!stage.opens) return;
+  walls.open.resize(walls.names.size());
+  for (std::size_t w = 0; w < walls.names.size(); ++w)
+    if (std::find(stage.opens->begin(), stage.opens->end(), walls.names[w]) != stage.opens->end())
+      walls.open[w] = true;
+}
+
 std::vector<DrivenState> begin_stage(Walls& walls, const Stage& stage, const Scales& scales,
                                      double time_in_old_stage, std::span<const DrivenState> driven) {
+  open_walls(walls, stage);
   std::vector<DrivenState> states;
   for (std::size_t w = 0; w < walls.names.size(); ++w) {
     walls.pose_at_start[w] = walls.pose(static_cast<int>(w), time_in_old_stage, driven);
@@ -115,7 +144,8 @@ std::vector<DrivenState> begin_stage(Walls& walls, const Stage& stage, const Sca
     walls.motion[w] = std::monostate{};
     for (const WallMotion& asked : stage.motions)
       if (asked.wall == walls.names[w])
-        walls.motion[w] = motion_of(asked, scales, static_cast<int>(states.size()));
+        walls.motion[w] =
+            motion_of(asked, walls, static_cast<int>(w), scales, static_cast<int>(states.size()));
     if (const auto* now = std::get_if<Driven>(&walls.motion[w]))
       states.push_back({0, had.x * now->direction.x + had.z * now->direction.z});
   }

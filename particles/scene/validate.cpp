@@ -13,6 +13,7 @@
 #include "particles/scene/sequential_placement.hpp"
 #include "particles/scene/sizes.hpp"
 #include "particles/scene/validate_materials.hpp"
+#include "particles/scene/validate_stages.hpp"
 
 namespace drumlin::particles {
 
@@ -215,7 +216,9 @@ void check_effects(const Scene& scene, Faults& faults) {
                       {"effects.spin", "effects.friction"}});
 }
 
-void check_force(const Scene& scene, const ForceControl& force, const std::string& key, Faults& faults) {
+/// Of a motion of kind force or pressure.
+template <class Drive>
+void check_drive(const Scene& scene, const Drive& force, const std::string& key, Faults& faults) {
   const auto& e = force.direction;
   const auto& v = force.velocity_mm_s;
   const double length = std::hypot(e[0], e[1]), speed = std::hypot(v[0], v[1]);
@@ -245,8 +248,11 @@ void check_motions(const Scene& scene, std::size_t s, Faults& faults) {
                         fmt::format("names no wall: \"{}\"", name),
                         known.empty() ? "none, the scene has no walls" : known,
                         {key, "walls"}});
+    const std::string drive = fmt::format("{}.motions.{}", stage_key(s), m);
     if (const auto* force = std::get_if<ForceControl>(&scene.stages[s].motions[m].motion))
-      check_force(scene, *force, fmt::format("{}.motions.{}", stage_key(s), m), faults);
+      check_drive(scene, *force, drive, faults);
+    if (const auto* pressure = std::get_if<PressureControl>(&scene.stages[s].motions[m].motion))
+      check_drive(scene, *pressure, drive, faults);
     if (!moving.insert(name).second)
       faults.push_back({key, fmt::format("moves \"{}\" a second time", name), "one motion per wall", {key}});
   }
@@ -317,7 +323,7 @@ void check_steps(const Scene& scene, std::size_t s, Faults& faults) {
 void check_fall(const Scene& scene, std::size_t s, Faults& faults) {
   const auto* made = std::get_if<GeneratedGrains>(&scene.grains.source);
   if (!scene.effects.gravity || made == nullptr) return;
-  const double g = scene.effects.gravity->acceleration_m_s2, h = scene.stages[s].time_step_s;
+  const double g = strongest_gravity(scene, s), h = scene.stages[s].time_step_s;
   const double longest = std::sqrt(1e-3 * made->diameter_min_mm / g);
   if (!(h > longest) || !(h <= duration_s(scene.stages[s]))) return;
   const std::string key = stage_key(s) + ".time_step_s";
@@ -361,7 +367,7 @@ void check_capture(const Scene& scene, Faults& faults) {
                       {key, "effects.rolling_resistance"}});
   for (std::size_t s = 0; s < scene.stages.size(); ++s)
     for (std::size_t m = 0; m < scene.stages[s].motions.size(); ++m)
-      if (std::holds_alternative<ForceControl>(scene.stages[s].motions[m].motion))
+      if (is_driven(scene.stages[s].motions[m]))
         faults.push_back(
             {key,
              "asks for contact problems with walls moved by a force, which their files cannot hold",
@@ -379,6 +385,7 @@ std::vector<SceneFault> validate(const Scene& scene) {
   check_materials(scene, faults);
   check_effects(scene, faults);
   check_stages(scene, faults);
+  check_stage_changes(scene, faults);
   if (scene.solver.check_every > scene.solver.max_sweeps)
     faults.push_back({"solver.check_every",
                       fmt::format("is {}", scene.solver.check_every),

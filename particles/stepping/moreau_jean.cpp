@@ -94,6 +94,25 @@ class MoreauJean final : public Stepper {
     return report;
   }
 
+  void follow(const StepLaws& laws) override { laws_ = laws; }
+
+  std::vector<WallContact> wall_contacts() const override {
+    std::vector<WallContact> at_walls;
+    const auto& r = solution_.impulses;
+    for (std::size_t a = 0; a < contacts_.pairs.size(); ++a) {
+      const Candidate& pair = contacts_.pairs[a];
+      if (pair.j >= 0) continue;
+      const double pull = laws_.cohesion ? contacts_.attraction[a] : 0;
+      at_walls.push_back({pair.i, -1 - pair.j, pair.n_x, pair.n_z, r[dim * a] - pull,
+                          dim >= 2 ? r[dim * a + 1 % dim] : 0, dim == 3 ? r[dim * a + 2 % dim] : 0});
+    }
+    for (const Strike& strike : contacts_.strikes)
+      if (strike.j < 0)
+        at_walls.push_back(
+            {strike.i, -1 - strike.j, strike.n_x, strike.n_z, strike.normal, strike.tangential, 0});
+    return at_walls;
+  }
+
   std::vector<SnapshotContact> loaded_contacts() const override {
     std::vector<SnapshotContact> loaded;
     for (std::size_t a = 0; a < contacts_.pairs.size(); ++a) {

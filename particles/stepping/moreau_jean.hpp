@@ -23,6 +23,7 @@
 #include "particles/stepping/lost_grain.hpp"
 #include "particles/stepping/overlap.hpp"
 #include "particles/stepping/step_laws.hpp"
+#include "particles/stepping/wall_loads.hpp"
 
 namespace drumlin::particles {
 
@@ -56,6 +57,10 @@ class Stepper {
   virtual ~Stepper() = default;
   /// `walls` is changed only where contacts push a wall.
   virtual StepReport advance(const MovingState& state, WallStep& walls, double time_step) = 0;
+  /// Takes over other coefficients or another gravity, from the next step on. The effects stay the same.
+  virtual void follow(const StepLaws& laws) = 0;
+  /// What walls gave grains in the last step, impacts among it.
+  virtual std::vector<WallContact> wall_contacts() const = 0;
   /// Loaded contacts of the last step, with the normals that it used.
   virtual std::vector<SnapshotContact> loaded_contacts() const = 0;
   /// The contact problem of the last step, as it travels in files; none where a contact has more unknowns or

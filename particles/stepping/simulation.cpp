@@ -9,6 +9,7 @@
 #include "particles/scene/materials.hpp"
 #include "particles/scene/placement.hpp"
 #include "particles/scene/scene_walls.hpp"
+#include "particles/scene/thermal.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -54,6 +55,13 @@ void check_state(const SimulationState& s, const Scene& scene, const TimePlan& p
   require(s.step >= 0 && s.step <= plan.steps && s.step_in_stage >= 0 &&
               s.step_in_stage <= plan.stages[s.stage].steps,
           "steps");
+  require(s.ends.size() <= plan.stages.size() &&
+              (!ends_stages_early(scene) || s.ends.size() >= static_cast<std::size_t>(s.stage)),
+          "ends of stages");
+  require(s.gravity.has_value() == changes_gravity(scene), "gravity of stages");
+  require(s.loads.has_value() == scene.output.walls_every_s.has_value() &&
+              (!s.loads || s.loads->walls.empty() || s.loads->walls.size() == walls.names.size()),
+          "loads on walls");
   require(s.pose_at_start.size() == walls.names.size(), "walls");
   require(s.memory.j.size() == contacts && s.memory.impulse.size() == unknowns * contacts, "contacts");
   for (std::size_t c = 0; c < contacts; ++c)
@@ -82,21 +90,6 @@ Scales scales_of(const Scene& scene) {
   return drumlin::scales_of(mean_diameter_m(scene.grains), g > 0 ? g : 9.81, scene.grains.density_kg_m3);
 }
 
-TimePlan time_plan(const Scene& scene, const Scales& scales) {
-  TimePlan plan;
-  for (const Stage& stage : scene.stages) {
-    const double duration = duration_s(stage);
-    const auto steps = std::max<std::int64_t>(1, std::llround(duration / stage.time_step_s));
-    for (std::int64_t s = 1; s <= stage.snapshots; ++s) {
-      const auto at = plan.steps + (s * steps + stage.snapshots / 2) / stage.snapshots;
-      if (plan.snapshot_steps.empty() || at > plan.snapshot_steps.back()) plan.snapshot_steps.push_back(at);
-    }
-    plan.stages.push_back({steps, duration / static_cast<double>(steps) / scales.time_s});
-    plan.steps += steps;
-  }
-  return plan;
-}
-
 Simulation::Simulation(const Scene& scene, int threads)
     : scene_(scene),
       scales_(scales_of(scene)),
@@ -105,6 +98,11 @@ Simulation::Simulation(const Scene& scene, int threads)
       frame_(frame_of(scene, scales_)),
       stepper_(make_stepper(laws_of(scene, scales_), solver_of(scene, threads))) {
   state_.bodies = place_grains(scene, scales_);
+  if (scene.grains.thermal_speed_mm_s)
+    add_thermal_motion(*scene.grains.thermal_speed_mm_s * 1e-3 / scales_.velocity_m_s(), scene.seed,
+                       state_.bodies);
+  if (changes_gravity(scene)) state_.gravity = scene.effects.gravity;
+  if (scene.output.walls_every_s) state_.loads.emplace();
   enter_stage(0);
   if (std::holds_alternative<ListedGrains>(scene.grains.source)) {
     const auto shapes = walls_.shapes_at(0, state_.driven);
@@ -116,12 +114,14 @@ Simulation::Simulation(const Scene& scene, int threads)
 Simulation::Simulation(const Scene& scene, SimulationState state, int threads)
     : scene_(scene),
       scales_(scales_of(scene)),
-      plan_(time_plan(scene, scales_)),
+      plan_(time_plan(scene, scales_, state.ends)),
       walls_(walls_of(scene, scales_)),
       frame_(frame_of(scene, scales_)),
       state_(std::move(state)),
       stepper_(make_stepper(laws_of(scene, scales_), solver_of(scene, threads))) {
   check_state(state_, scene_, plan_, walls_);
+  for (int before = 0; before < state_.stage; ++before) open_walls(walls_, scene_.stages[before]);
+  walls_.pose_at_start = state_.pose_at_start;
   const auto driven = begin_stage(walls_, scene_.stages[state_.stage], scales_, 0);
   walls_.pose_at_start = state_.pose_at_start;
   if (driven.size() != state_.driven.size())
@@ -131,6 +131,9 @@ Simulation::Simulation(const Scene& scene, SimulationState state, int threads)
 Simulation::~Simulation() = default;
 
 void Simulation::enter_stage(int stage) {
+  if (state_.gravity) state_.gravity = gravity_at(state_.time_in_stage);
+  // Those of a stage that may end at any step are made for snapshots that are not to come.
+  if (scene_.stages[state_.stage].until) state_.marks.clear();
   state_.driven = begin_stage(walls_, scene_.stages[stage], scales_, state_.time_in_stage, state_.driven);
   state_.stage = stage;
   state_.step_in_stage = 0;
@@ -144,7 +147,12 @@ void Simulation::mark_positions() {
   const double window = scene_.output.velocity_window_s / scales_.time_s;
   // Steps of the current stage stand for the window, also where it reaches into the next one.
   const auto steps = std::max<std::int64_t>(1, std::llround(window / plan_.stages[state_.stage].time_step));
-  if (std::binary_search(plan_.snapshot_steps.begin(), plan_.snapshot_steps.end(), state_.step + steps))
+  const bool may_end = scene_.stages[state_.stage].until && scene_.stages[state_.stage].snapshots > 0;
+  if (may_end)
+    while (!state_.marks.empty() && state_.marks.front().snapshot_step <= state_.step)
+      state_.marks.pop_front();
+  if (may_end ||
+      std::binary_search(plan_.snapshot_steps.begin(), plan_.snapshot_steps.end(), state_.step + steps))
     state_.marks.push_back({state_.step + steps, state_.time(), state_.bodies.x, state_.bodies.z});
 }
 
@@ -152,11 +160,15 @@ StepReport Simulation::step() {
   if (state_.step_in_stage == plan_.stages[state_.stage].steps) enter_stage(state_.stage + 1);
   mark_positions();
   const double h = plan_.stages[state_.stage].time_step;
+  follow_stage(h);
+  if (state_.loads && state_.loads->time == 0) book_walls(0);
   StepReport report = frame_ ? advance_in_laboratory(h) : advance_here(h);
   if (!report.lost) report.lost = grain_that_is_not_finite(state_.bodies);
   ++state_.step;
   ++state_.step_in_stage;
   state_.time_in_stage = static_cast<double>(state_.step_in_stage) * h;
+  if (state_.loads) book_walls(h);
+  end_stage_if_due();
   return report;
 }
 
@@ -216,13 +228,16 @@ Snapshot Simulation::take_snapshot() {
       s.container_radius = container->radius;
       break;
     }
-  if (moves_walls_by_force(scene_))
+  s.wall_open = std::vector<std::int32_t>(walls_.open.begin(), walls_.open.end());
+  if (opens_walls(scene_)) s.wall_open.resize(walls_.names.size());
+  if (moves_walls_by_force(scene_) || ends_stages_early(scene_))
     for (std::size_t w = 0; w < walls_.names.size(); ++w) {
       const Pose pose = walls_.pose(static_cast<int>(w), state_.time_in_stage, state_.driven);
       s.wall_pose_angle.push_back(pose.angle);
       s.wall_pose_x.push_back(pose.x), s.wall_pose_z.push_back(pose.z);
     }
-  const StepLaws laws = laws_of(scene_, scales_);
+  StepLaws laws = laws_of(scene_, scales_);
+  if (state_.gravity) set_gravity(gravity_at(state_.time_in_stage), scales_, laws);
   Point gravity{laws.gravity ? laws.gravity->x : 0, laws.gravity ? laws.gravity->z : 0};
   if (frame_) gravity = direction_in_frame(*frame_, s.time, gravity);
   s.gravity_x = gravity.x, s.gravity_z = gravity.z;

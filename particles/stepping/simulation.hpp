@@ -17,6 +17,8 @@
 #include "particles/stepping/contact_memory.hpp"
 #include "particles/stepping/moreau_jean.hpp"
 #include "particles/stepping/start_check.hpp"
+#include "particles/stepping/time_plan.hpp"
+#include "particles/stepping/wall_loads.hpp"
 
 namespace drumlin::particles {
 
@@ -43,20 +45,15 @@ struct SimulationState {
 
   std::optional<EnergyLedger> energy;  ///< after the first step of a scene that asks for it
 
+  // Of a scene that ends stages early.
+  std::vector<StageEnd> ends;   ///< stages that are over
+  std::int64_t rest_steps = 0;  ///< at rest in a row, up to the last one
+
+  std::optional<Gravity> gravity;  ///< when the current stage began; of a scene whose stages change it
+  std::optional<WallLoads> loads;  ///< of a scene that asks for walls.csv
+
   double time() const { return time_at_stage_start + time_in_stage; }
 };
-
-/// Steps of the whole scene and at which of them snapshots are due.
-struct TimePlan {
-  struct Part {
-    std::int64_t steps = 0;
-    double time_step = 0;  ///< dimensionless; the stage's step, so adjusted that whole steps fill the stage
-  };
-  std::vector<Part> stages;
-  std::vector<std::int64_t> snapshot_steps;  ///< ascending, counted over the whole run
-  std::int64_t steps = 0;
-};
-TimePlan time_plan(const Scene& scene, const Scales& scales);
 
 Scales scales_of(const Scene& scene);
 
@@ -77,12 +74,17 @@ class Simulation {
   bool snapshot_due() const;
   /// The state after the last step. Counts as the next snapshot of the run.
   Snapshot take_snapshot();
+  /// Whether an interval of loads on walls is over after the last step.
+  bool wall_loads_due() const;
+  /// The loads on walls since the last call, or the start; the next step begins another interval.
+  WallLoads take_wall_loads();
   /// Where the contacts of the last step's problem are after it, with the normals that it used.
   ContactPlaces last_places() const;
 
   const SimulationState& state() const { return state_; }
   const TimePlan& plan() const { return plan_; }
   const Scales& scales() const { return scales_; }
+  const Walls& walls() const { return walls_; }
   const Stepper& stepper() const { return *stepper_; }
   /// Overlaps of listed grains at the start; none of generated ones, nor where a state goes on.
   const StartOverlaps& start_overlaps() const { return start_overlaps_; }
@@ -92,6 +94,10 @@ class Simulation {
   StepReport advance_here(double time_step);
   StepReport advance_in_laboratory(double time_step);
   void mark_positions();
+  void follow_stage(double time_step);
+  Gravity gravity_at(double time_in_stage) const;
+  void book_walls(double time_step);
+  void end_stage_if_due();
   /// A normal of the last step, as the scene tells it.
   Point normal_in_scene(double n_x, double n_z) const;
 
@@ -103,6 +109,9 @@ class Simulation {
   SimulationState state_;
   StartOverlaps start_overlaps_;
   std::unique_ptr<Stepper> stepper_;
+  std::optional<StepLaws>
+      stage_laws_;  ///< of the stage whose laws the stepper has; only where stages change any
+  int laws_of_stage_ = -1;
 };
 
 }  // namespace drumlin::particles

@@ -32,4 +32,22 @@ StepLaws laws_of(const Scene& scene, const Scales& scales) {
   return laws;
 }
 
+StepLaws laws_in(const Scene& scene, const Scales& scales, const Stage& stage) {
+  Scene now = scene;
+  const auto replace = [](auto& effect, const std::optional<StageCoefficients>& asked) {
+    if (!asked) return;
+    effect->grain_grain = asked->grain_grain, effect->grain_wall = asked->grain_wall;
+    effect->pairs.clear();
+  };
+  replace(now.effects.friction, stage.friction);
+  replace(now.effects.restitution, stage.restitution);
+  replace(now.effects.rolling_resistance, stage.rolling_resistance);
+  return laws_of(now, scales);
+}
+
+void set_gravity(const Gravity& gravity, const Scales& scales, StepLaws& laws) {
+  laws.gravity = gravity_law(gravity, scales);
+  if (laws.restitution) laws.restitution->gravity = std::hypot(laws.gravity->x, laws.gravity->z);
+}
+
 }  // namespace drumlin::particles

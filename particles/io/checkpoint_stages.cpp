@@ -1,0 +1,77 @@
+#include "particles/io/checkpoint_stages.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace drumlin::particles {
+namespace {
+
+constexpr auto most = std::numeric_limits<std::int64_t>::max();
+
+/// Calls visit(number) for all numbers of a wall's load.
+template <class Load, class Visit>
+void each_number(Load& load, Visit visit) {
+  visit(load.impulse_x), visit(load.impulse_z), visit(load.moment), visit(load.time);
+  for (auto* place : {&load.place, &load.first, &load.last})
+    visit(place->x), visit(place->z), visit(place->angle);
+}
+constexpr std::size_t numbers_of_load = 13;
+
+}  // namespace
+
+std::vector<double> rows_of(const H5Reader& in, const std::string& name, std::size_t columns) {
+  std::vector<double> values = in.doubles(name);
+  if (values.size() % columns != 0)
+    in.refuse(name, fmt::format("{} numbers", values.size()), fmt::format("rows of {}", columns));
+  for (const double value : values)
+    if (!std::isfinite(value)) in.refuse(name, fmt::format("is {}", value), "finite numbers");
+  return values;
+}
+
+void put_stage_changes(const Checkpoint& checkpoint, H5Writer& out) {
+  const SimulationState& state = checkpoint.state;
+  if (!state.ends.empty() || state.rest_steps > 0) {
+    out.add_number("stages/rest_steps", state.rest_steps);
+    out.add_number("stages/ended", static_cast<std::int64_t>(state.ends.size()));
+    for (std::size_t e = 0; e < state.ends.size(); ++e) {
+      out.add_number(fmt::format("stages/{}/steps", e), state.ends[e].steps);
+      out.add_number(fmt::format("stages/{}/by", e), static_cast<std::int64_t>(state.ends[e].by));
+    }
+  }
+  if (state.gravity) {
+    out.add_number("gravity/acceleration_m_s2", state.gravity->acceleration_m_s2);
+    out.add_number("gravity/direction_deg", state.gravity->direction_deg);
+  }
+  if (!state.loads) return;
+  out.add_number("loads/bytes", checkpoint.walls_bytes);
+  out.add_number("loads/time", state.loads->time);
+  std::vector<double> rows;
+  for (const WallLoad& load : state.loads->walls)
+    each_number(load, [&rows](double number) { rows.push_back(number); });
+  out.add("loads/walls", std::span<const double>(rows));
+}
+
+void get_stage_changes(const H5Reader& in, Checkpoint& checkpoint) {
+  SimulationState& state = checkpoint.state;
+  if (in.has("stages")) {
+    state.rest_steps = in.integer("stages/rest_steps", 0, most);
+    const auto ended = in.integer("stages/ended", 0, most);
+    for (std::int64_t e = 0; e < ended; ++e)
+      state.ends.push_back({in.integer(fmt::format("stages/{}/steps", e), 1, most),
+                            static_cast<EndedBy>(in.integer(fmt::format("stages/{}/by", e), 0,
+                                                            static_cast<std::int64_t>(EndedBy::wall)))});
+  }
+  if (in.has("gravity"))
+    state.gravity = {in.number("gravity/acceleration_m_s2"), in.number("gravity/direction_deg")};
+  if (!in.has("loads")) return;
+  checkpoint.walls_bytes = in.integer("loads/bytes", 0, most);
+  state.loads.emplace().time = in.number("loads/time");
+  const auto rows = rows_of(in, "loads/walls", numbers_of_load);
+  for (std::size_t at = 0; at < rows.size();)
+    each_number(state.loads->walls.emplace_back(), [&](double& number) { number = rows[at++]; });
+}
+
+}  // namespace drumlin::particles

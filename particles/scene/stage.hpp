@@ -1,0 +1,89 @@
+#pragma once
+// Stages of a scene: stretches of time, what moves in them, what changes, and when they end.
+#include <array>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "coupling/common/scales.hpp"
+#include "particles/effects/driven_walls.hpp"
+#include "particles/effects/rotating_frame.hpp"
+#include "particles/effects/servo_walls.hpp"
+#include "particles/effects/stage_gravity.hpp"
+
+namespace drumlin::particles {
+
+/// Values of a law within one stage, in place of those of the effect and of its pairs.
+struct StageCoefficients {
+  double grain_grain = 0;
+  double grain_wall = 0;
+};
+
+/// The grains are at rest: their kinetic energy stays below a bound.
+struct UntilRest {
+  double energy = 1e-6;  ///< per grain, in weights of a disc of the mean diameter times that diameter
+  double for_s = 0;      ///< in all steps of so long a time
+};
+/// The middle of a wall's first shape is so far from where it stood when the stage began.
+struct UntilMoved {
+  std::string wall;
+  double distance_mm = 0;
+};
+/// What ends a stage before its time: the first of these that is met.
+struct Until {
+  std::optional<UntilRest> at_rest = {};
+  std::optional<UntilMoved> moved = {};
+};
+
+/// Turns a wall about a point; positive in the sense of the vorticity dv_x/dz (clockwise as drawn, z up).
+struct Rotation {
+  double speed_rpm = 0;
+  Point_mm center_mm{0, 0};
+};
+struct Translation {
+  std::array<double, 2> velocity_mm_s{0, 0};
+};
+/// Shakes a wall along a straight line: displacement amplitude (sin(2 pi f t + phase) - sin(phase)), t from
+/// the start of the stage.
+struct Oscillation {
+  std::array<double, 2> amplitude_mm{0, 0};
+  double frequency_hz = 0;
+  double phase_deg = 0;
+};
+/// The same in angle, about a point; positive clockwise as drawn.
+struct Rocking {
+  double amplitude_deg = 0;
+  double frequency_hz = 0;
+  double phase_deg = 0;
+  Point_mm center_mm{0, 0};
+};
+struct WallMotion {
+  std::string wall;
+  std::variant<Rotation, Translation, Oscillation, Rocking, ForceControl, PressureControl, StrainRate> motion;
+};
+
+/// Whether the motion is moved by a force or a pressure: one body more, its place a result.
+bool is_driven(const WallMotion&);
+
+/// A stretch of time with its own step, wall motions and number of snapshots (evenly spread, the last at its
+/// end).
+struct Stage {
+  std::string name;
+  std::optional<double> duration_s;
+  std::optional<double> turns;  ///< of the first rotation among its motions; exactly one of the two is given
+  double time_step_s = 0;
+  std::vector<WallMotion> motions;
+  int snapshots = 0;
+  std::optional<std::vector<std::string>> opens = {};  ///< walls that are gone from its start on
+  std::optional<StageGravity> gravity = {};            ///< stays until another stage changes it
+  // Coefficients of this stage alone, in place of those of the effects.
+  std::optional<StageCoefficients> friction = {}, restitution = {}, rolling_resistance = {};
+  std::optional<Until> until = {};
+};
+
+/// Seconds of a stage, from duration_s or from its turns; NaN for a stage that validate() refuses. One with
+/// `until` may end before.
+double duration_s(const Stage& stage);
+
+}  // namespace drumlin::particles

@@ -1,0 +1,117 @@
+#pragma once
+// The keys of a stage, each described once (scene_keys.hpp).
+#include "coupling/documents/key_table.hpp"
+#include "particles/scene/stage.hpp"
+
+namespace drumlin::particles {
+
+template <class Visitor>
+void describe(Visitor& v, Rotation& r) {
+  v.value(
+      "speed_rpm", r.speed_rpm,
+      required("turns/min", at_least(-1e6, 1e6), "Angular velocity, positive clockwise as drawn (z up)."));
+  v.value("center_mm", r.center_mm,
+          defaulted("mm", coordinate_mm(), "Point [x, z] about which the wall turns."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, Translation& t) {
+  v.value("velocity_mm_s", t.velocity_mm_s,
+          required("mm/s", at_least(-1e9, 1e9), "Velocity [v_x, v_z] of the wall."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, Oscillation& o) {
+  v.value("amplitude_mm", o.amplitude_mm,
+          required("mm", coordinate_mm(), "Amplitude [x, z] of the displacement."));
+  v.value("frequency_hz", o.frequency_hz, required("Hz", above(0, 1e6), "Oscillations per second."));
+  v.value(
+      "phase_deg", o.phase_deg,
+      defaulted(
+          "deg", at_least(-360, 360),
+          "The displacement is amplitude (sin(2 pi f t + phase) - sin(phase)), t from the stage's start."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, Rocking& r) {
+  v.value("amplitude_deg", r.amplitude_deg,
+          required("deg", at_least(-360, 360), "Amplitude of the angle, positive clockwise as drawn."));
+  v.value("frequency_hz", r.frequency_hz, required("Hz", above(0, 1e6), "Oscillations per second."));
+  v.value(
+      "phase_deg", r.phase_deg,
+      defaulted("deg", at_least(-360, 360),
+                "The angle is amplitude (sin(2 pi f t + phase) - sin(phase)), t from the stage's start."));
+  v.value("center_mm", r.center_mm,
+          defaulted("mm", coordinate_mm(), "Point [x, z] about which the wall rocks."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, WallMotion& m) {
+  v.value("wall", m.wall,
+          required("", not_empty(), "Name of the wall that moves; walls without a motion stand still."));
+  v.variant(
+      "kind", m.motion, "Kind of motion.", alternative<Rotation>("rotation", "turns about a point."),
+      alternative<Translation>("translation", "glides along a straight line."),
+      alternative<Oscillation>("oscillation", "shakes along a straight line."),
+      alternative<Rocking>("rocking", "turns to and fro about a point."),
+      alternative<ForceControl>("force", "moves along one direction as a force and the grains push it."),
+      alternative<PressureControl>("pressure", "the same under a pressure."),
+      alternative<StrainRate>("strain_rate",
+                              "moves so that its distance from a point changes at a constant rate."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, StageCoefficients& c) {
+  v.value("grain_grain", c.grain_grain, required("", at_least(0, 100), "Value between two grains."));
+  v.value("grain_wall", c.grain_wall, required("", at_least(0, 100), "Value between a grain and a wall."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, UntilRest& u) {
+  v.value("energy", u.energy,
+          defaulted("", above(0, 1e6),
+                    "Kinetic energy per grain, in weights of a disc of the mean diameter times that diameter "
+                    "(under the scene's gravity; under 9.81 m/s2 without)."));
+  v.value("for_s", u.for_s, required("s", at_least(0), "It is below that in all steps of so long a time."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, UntilMoved& u) {
+  v.value("wall", u.wall, required("", not_empty(), "Name of the wall."));
+  v.value("distance_mm", u.distance_mm,
+          required("mm", above(0, 1e6),
+                   "The middle of its first shape is so far from where it stood when the stage began."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, Until& u) {
+  v.optional_table("at_rest", u.at_rest, "The grains are at rest.");
+  v.optional_table("moved", u.moved, "A wall has moved.");
+}
+
+template <class Visitor>
+void describe(Visitor& v, Stage& s) {
+  v.value("name", s.name, required("", not_empty(), "Name of the stage, for the log."));
+  v.value("duration_s", s.duration_s,
+          when_given("s", above(0), "Length of the stage; either this or turns."));
+  v.value("turns", s.turns,
+          when_given("turns", above(0),
+                     "Length in turns of the first rotation among its motions; either this or duration_s."));
+  v.value("time_step_s", s.time_step_s,
+          required("s", above(0),
+                   "Time step; shortened or stretched a little where whole steps would not fill the stage."));
+  v.value("snapshots", s.snapshots,
+          defaulted("", at_least(0, 1e6),
+                    "Number of snapshots, evenly spread, the last at the end of the stage."));
+  v.tables("motions", s.motions, 0, "What moves during the stage, at most one motion per wall.");
+  v.value("opens", s.opens, when_given("", not_empty(), "Names of walls that are gone from its start on."));
+  v.optional_table("gravity", s.gravity, "Another gravity; it stays until another stage changes it.");
+  v.optional_table("friction", s.friction, "In this stage in place of the values of effects.friction.");
+  v.optional_table("restitution", s.restitution,
+                   "In this stage in place of the values of effects.restitution.");
+  v.optional_table("rolling_resistance", s.rolling_resistance,
+                   "In this stage in place of the values of effects.rolling_resistance.");
+  v.optional_table("until", s.until, "Ends the stage before its time, when the first of these is met.");
+}
+
+}  // namespace drumlin::particles

@@ -1,0 +1,91 @@
+// What stages change while a simulation runs, and what it looks at in scenes that ask for it.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "particles/stepping/simulation.hpp"
+
+namespace drumlin::particles {
+namespace {
+
+bool changes_laws(const Scene& scene) {
+  return changes_gravity(scene) || std::any_of(scene.stages.begin(), scene.stages.end(), [](const Stage& s) {
+           return s.friction || s.restitution || s.rolling_resistance;
+         });
+}
+
+/// Whether the middle of a wall's first shape has gone so far since the stage began.
+bool has_moved(const UntilMoved& asked, const Walls& walls, double time_in_stage,
+               std::span<const DrivenState> driven, const Scales& scales) {
+  const auto wall =
+      static_cast<int>(std::find(walls.names.begin(), walls.names.end(), asked.wall) - walls.names.begin());
+  const Point middle = middle_of(walls.reference[first_shape(walls, wall)]);
+  const Point then = moved(walls.pose_at_start[wall], middle);
+  const Point now = moved(walls.pose(wall, time_in_stage, driven), middle);
+  return std::hypot(now.x - then.x, now.z - then.z) >= asked.distance_mm * 1e-3 / scales.length_m;
+}
+
+}  // namespace
+
+Gravity Simulation::gravity_at(double time_in_stage) const {
+  const Stage& stage = scene_.stages[state_.stage];
+  return gravity_in_stage(stage.gravity, *state_.gravity, time_in_stage * scales_.time_s / duration_s(stage));
+}
+
+void Simulation::follow_stage(double time_step) {
+  if (laws_of_stage_ < 0 && !changes_laws(scene_)) return;
+  const Stage& stage = scene_.stages[state_.stage];
+  const bool entered = laws_of_stage_ != state_.stage;
+  if (!entered && !(stage.gravity && stage.gravity->ramp)) return;
+  if (entered) stage_laws_ = laws_in(scene_, scales_, stage);
+  laws_of_stage_ = state_.stage;
+  // That of the middle of the step: what a ramp gives in a step is exact.
+  if (state_.gravity) set_gravity(gravity_at(state_.time_in_stage + time_step / 2), scales_, *stage_laws_);
+  stepper_->follow(*stage_laws_);
+}
+
+void Simulation::end_stage_if_due() {
+  if (!ends_stages_early(scene_)) return;
+  const double h = plan_.stages[state_.stage].time_step;
+  const auto& until = scene_.stages[state_.stage].until;
+  std::optional<EndedBy> by;
+  if (until && until->at_rest) {
+    const double weight = std::numbers::pi / 4;  // of a disc of the mean diameter
+    const double energy = kinetic_energy(state_.bodies) / static_cast<double>(state_.bodies.count());
+    state_.rest_steps = energy < until->at_rest->energy * weight ? state_.rest_steps + 1 : 0;
+    const double rested = static_cast<double>(state_.rest_steps) * h * scales_.time_s;
+    if (state_.rest_steps > 0 && rested >= until->at_rest->for_s * (1 - 1e-9)) by = EndedBy::rest;
+  }
+  if (!by && until && until->moved &&
+      has_moved(*until->moved, walls_, state_.time_in_stage, state_.driven, scales_))
+    by = EndedBy::wall;
+  if (!by && state_.step_in_stage < plan_.stages[state_.stage].steps) return;
+  state_.ends.push_back({state_.step_in_stage, by.value_or(EndedBy::its_time)});
+  state_.rest_steps = 0;
+  plan_ = time_plan(scene_, scales_, state_.ends);
+}
+
+/// A step of length 0 begins an interval.
+void Simulation::book_walls(double time_step) {
+  const auto shapes = walls_.shapes_at(state_.time_in_stage, state_.driven);
+  std::vector<double> angles;
+  for (std::size_t w = 0; w < walls_.names.size(); ++w)
+    angles.push_back(walls_.pose(static_cast<int>(w), state_.time_in_stage, state_.driven).angle);
+  if (time_step == 0)
+    begin_interval(walls_, shapes, angles, *state_.loads);
+  else
+    add_step(walls_, shapes, angles, stepper_->wall_contacts(), state_.bodies, time_step, *state_.loads);
+}
+
+bool Simulation::wall_loads_due() const {
+  if (!state_.loads || !(state_.loads->time > 0)) return false;
+  return finished() || state_.loads->time * scales_.time_s >= *scene_.output.walls_every_s * (1 - 1e-9);
+}
+
+WallLoads Simulation::take_wall_loads() {
+  WallLoads over = *state_.loads;
+  state_.loads.emplace();
+  return over;
+}
+
+}  // namespace drumlin::particles
