@@ -89,7 +89,8 @@ def save(figure, path, reduced):
 
 def log_scale(axes, which):
     """A logarithmic axis, "x" or "y", where any line or point has a positive value on it: grains at rest have none."""
-    drawn = [getattr(line, f"get_{which}data")() for line in axes.get_lines()]
+    # Lines across the axes (axvline) count from 0 to 1 whatever is drawn.
+    drawn = [getattr(line, f"get_{which}data")() for line in axes.get_lines() if line.get_transform() == axes.transData]
     drawn += [points.get_offsets()[:, "xy".index(which)] for points in axes.collections if len(points.get_offsets())]
     if any(value > 0 for values in drawn for value in values):
         getattr(axes, f"set_{which}scale")("log")
