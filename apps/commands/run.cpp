@@ -5,13 +5,15 @@
 
 #include <chrono>
 #include <cstdio>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "apps/commands/accuracy_statement.hpp"
+#include "apps/commands/region_table.hpp"
 #include "apps/commands/run_accuracy.hpp"
 #include "apps/commands/run_files.hpp"
 #include "apps/commands/run_report.hpp"
+#include "apps/commands/run_resume.hpp"
+#include "apps/commands/start_grains.hpp"
 #include "apps/commands/wall_table.hpp"
 #include "apps/support/commands.hpp"
 #include "apps/support/interruption.hpp"
@@ -20,7 +22,6 @@
 #include "apps/support/progress.hpp"
 #include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
-#include "coupling/common/last_whole.hpp"
 #include "coupling/common/text_file.hpp"
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/io/contact_problem_file.hpp"
@@ -47,27 +48,27 @@ double cpu_seconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-constexpr const char *log_name = "log.csv", *energy_name = "energy.csv";
 const char* const log_header =
     "step,time_s,stage,contacts,sweeps,residual,residual_max,penetration,sinking,overlap_mean,"
     "overlap_max,kinetic_energy,converged\n";
 
-std::string snapshot_name(std::int64_t number) { return fmt::format("snapshots/{:06}.h5", number); }
-
 class ParticleRun {
  public:
   ParticleRun(const RunOptions& options, GrowingOutput& output, const particles::Scene& scene,
-              std::string resolved, std::optional<particles::Checkpoint> from)
+              std::string resolved, std::optional<particles::Checkpoint> from,
+              nlohmann::ordered_json started_from)
       : options_(options),
         output_(output),
         scene_(scene),
         resolved_(std::move(resolved)),
+        started_from_(std::move(started_from)),
         totals_(from ? from->totals : particles::RunTotals{}),
         simulation_(from ? particles::Simulation(scene, std::move(from->state), options.threads)
                          : particles::Simulation(scene, options.threads)),
         log_(options.output / log_name, log_header, from ? from->log_bytes : 0),
         energy_bytes_(from ? from->energy_bytes : 0),
         walls_bytes_(from ? from->walls_bytes : 0),
+        regions_bytes_(from ? from->regions_bytes : 0),
         writer_(options.threads > 1) {}
 
   int execute() {
@@ -166,6 +167,11 @@ class ParticleRun {
                            residual.sinking, last_.overlap.mean, last_.overlap.max,
                            kinetic_energy(state.bodies), converged ? 1 : 0));
     if (state.energy) log_energy(*state.energy);
+    if (state.traffic) {
+      if (!regions_)
+        regions_.emplace(options_.output / region_table_name, region_table_header, regions_bytes_);
+      regions_->write(region_lines(scene_, simulation_));
+    }
   }
 
   void log_energy(const particles::EnergyLedger& energy) {
@@ -220,11 +226,13 @@ class ParticleRun {
     checkpoint.log_bytes = log_.flush();
     checkpoint.energy_bytes = energy_ ? energy_->flush() : energy_bytes_;
     checkpoint.walls_bytes = walls_ ? walls_->flush() : walls_bytes_;
+    checkpoint.regions_bytes = regions_ ? regions_->flush() : regions_bytes_;
     checkpoint.totals = totals_now();
     checkpoint.state = simulation_.state();
     std::map<std::string, ManifestEntry> tables{{log_name, log_.entry()}};
     if (energy_) tables[energy_name] = energy_->entry();
     if (walls_) tables[wall_table_name] = walls_->entry();
+    if (regions_) tables[region_table_name] = regions_->entry();
     // The manifest first: what a checkpoint builds on is listed.
     writer_.write([this, tables = std::move(tables), checkpoint = std::move(checkpoint)] {
       for (const auto& [name, entry] : tables) output_.manifest().files[name] = entry;
@@ -245,8 +253,9 @@ class ParticleRun {
   RunProgress progress_now() const { return {scene_, simulation_, totals_now(), options_.threads}; }
 
   void write_report(const std::string& status) const {
-    auto report = run_report(progress_now(), status);
+    nlohmann::ordered_json report = run_report(progress_now(), status);
     if (!stretches_.is_null()) report["accuracy"]["stretches"] = stretches_;
+    if (!started_from_.is_null()) report["started_from"] = started_from_;
     write_json(options_.output / "run.json", report);
   }
 
@@ -306,6 +315,7 @@ class ParticleRun {
     log_.flush();
     if (energy_) energy_->flush();
     if (walls_) walls_->flush();
+    if (regions_) regions_->flush();
     write_report(status);
     progress_.finish();
     throw NotConvergedError(fmt::format("step {}: {}", simulation_.state().step, why));
@@ -315,13 +325,16 @@ class ParticleRun {
   GrowingOutput& output_;
   particles::Scene scene_;
   std::string resolved_;
+  nlohmann::ordered_json started_from_;  // null where the grains are those of the scene alone
   particles::RunTotals totals_;
   particles::Simulation simulation_;
   RunTable log_;
-  std::optional<RunTable> energy_;  // opened with the first step: its columns depend on the scene
-  std::int64_t energy_bytes_ = 0;   // of energy.csv at the checkpoint that the run continues
-  std::optional<RunTable> walls_;   // opened with the first interval
-  std::int64_t walls_bytes_ = 0;    // as energy_bytes_
+  std::optional<RunTable> energy_;   // opened with the first step: its columns depend on the scene
+  std::int64_t energy_bytes_ = 0;    // of energy.csv at the checkpoint that the run continues
+  std::optional<RunTable> walls_;    // opened with the first interval
+  std::int64_t walls_bytes_ = 0;     // as energy_bytes_
+  std::optional<RunTable> regions_;  // opened with the first line of the log
+  std::int64_t regions_bytes_ = 0;
   BackgroundWriter writer_;
   Progress progress_;
   particles::StepReport last_;
@@ -332,59 +345,16 @@ class ParticleRun {
   nlohmann::ordered_json stretches_;  ///< accuracy.stretches of run.json; null: none were asked for
 };
 
-/// A folder continues only the scene that it was made from.
-void same_scene_or_refuse(const fs::path& output, const std::string& theirs, const std::string& ours) {
-  if (theirs != ours)
-    throw InputError(output.string() +
-                     ": was made from another scene (compare its scene.toml with `drumlin scene show`); "
-                     "use --overwrite to start over");
-}
-
-/// The manifest of what stood at the checkpoint; what stands behind it is made anew. Throws InputError if a
-/// snapshot is missing.
-void cut_back(GrowingOutput& output, const std::optional<particles::Checkpoint>& from) {
-  auto& files = output.manifest().files;
-  std::map<std::string, ManifestEntry> kept;
-  if (from) {
-    for (std::int64_t number = 1; number <= from->state.snapshots; ++number) {
-      const std::string name = snapshot_name(number);
-      if (!files.contains(name))
-        throw InputError(fmt::format("{}: is not listed in {}, and the checkpoint builds on it",
-                                     (output.folder() / name).string(), manifest_name));
-      kept[name] = files.at(name);
-    }
-    for (const auto& [name, entry] : files)
-      if (!name.starts_with("snapshots/")) kept[name] = entry;
-    for (const auto& [name, bytes] :
-         {std::pair(log_name, from->log_bytes), std::pair(energy_name, from->energy_bytes),
-          std::pair(wall_table_name, from->walls_bytes)}) {
-      kept.erase(name);
-      if (bytes > 0) kept[name] = {file_sum(output.folder() / name, static_cast<std::uint64_t>(bytes)), true};
-    }
-  }
-  files = std::move(kept);
-}
-
-/// The checkpoint that a run goes on from; absent: from its start.
-std::optional<particles::Checkpoint> checkpoint_in(const fs::path& output, const std::string& resolved) {
-  auto last = last_whole_checkpoint(output, particles::read_checkpoint);
-  if (!last) return std::nullopt;
-  if (!last->passed_over.empty())
-    print_error(fmt::format("{}\ngoes on from {} instead\n", last->passed_over, previous_checkpoint_name));
-  same_scene_or_refuse(output, last->content.scene, resolved);
-  return std::move(last->content);
-}
-
 }  // namespace
 
 int run(const RunOptions& options) {
-  const particles::Scene scene = particles::read_scene(options.scene, options.overrides);
+  particles::Scene scene = particles::read_scene(options.scene, options.overrides);
+  const nlohmann::ordered_json started_from = take_over_grains(scene);
   // What only shows when grains are placed must show before anything is written or removed.
   (void)particles::Simulation(scene);
   if (options.accuracy) (void)accuracy_record(*options.accuracy, scene);
-  const auto* listed = std::get_if<particles::ListedGrains>(&scene.grains.source);
   std::vector<fs::path> inputs{options.scene};
-  if (listed != nullptr) inputs.push_back(listed->file);
+  for (const auto* list : lists_of(scene)) inputs.push_back(list->file);
   const CaughtInterruptions caught;
   GrowingOutput output({options.output, options.existing, "run", inputs}, run_file_names());
   const std::string resolved = particles::scene_text(as_recorded(scene));
@@ -392,8 +362,9 @@ int run(const RunOptions& options) {
   if (options.existing == ExistingOutput::resume) {
     if (fs::exists(options.output / "scene.toml"))
       same_scene_or_refuse(options.output, file_text(options.output / "scene.toml"), resolved);
-    if (listed != nullptr && fs::exists(options.output / grain_list))
-      same_scene_or_refuse(options.output, file_text(options.output / grain_list), file_text(listed->file));
+    for (const auto& [name, text] : list_texts(scene))
+      if (fs::exists(options.output / name))
+        same_scene_or_refuse(options.output, file_text(options.output / name), text);
     if (output.manifest().complete) {
       print_out(fmt::format("{}: already finished, nothing to do\n", options.output.string()));
       return static_cast<int>(ExitCode::done);
@@ -402,14 +373,14 @@ int run(const RunOptions& options) {
   }
   cut_back(output, from);
   fs::create_directories(options.output / "snapshots");
-  if (listed != nullptr) {
-    replace_file(options.output / grain_list, file_text(listed->file));
-    output.list(grain_list);
+  for (const auto& [name, text] : list_texts(scene)) {
+    replace_file(options.output / name, text);
+    output.list(name);
   }
   replace_file(options.output / "scene.toml", resolved);
   output.list("scene.toml");
   output.save();
-  return ParticleRun(options, output, scene, resolved, std::move(from)).execute();
+  return ParticleRun(options, output, scene, resolved, std::move(from), started_from).execute();
 }
 
 }  // namespace drumlin::apps

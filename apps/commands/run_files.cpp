@@ -1,6 +1,7 @@
 #include "apps/commands/run_files.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -20,13 +21,24 @@ constexpr std::size_t largest_waiting = 1 << 16;  // bytes
 }
 
 particles::Scene as_recorded(particles::Scene scene) {
-  if (auto* listed = std::get_if<particles::ListedGrains>(&scene.grains.source)) listed->file = grain_list;
+  const auto names = grain_list_names(scene);
+  const auto lists = lists_of(scene);
+  for (std::size_t k = 0; k < lists.size(); ++k) lists[k]->file = names[k];
   return scene;
 }
 
+std::vector<std::string> grain_list_names(particles::Scene scene) {
+  std::vector<std::string> names;
+  if (std::holds_alternative<particles::ListedGrains>(scene.grains.source)) names.push_back(grain_list);
+  for (std::size_t g = 0; g < scene.grains.groups.size(); ++g)
+    if (std::holds_alternative<particles::ListedGrains>(scene.grains.groups[g].source))
+      names.push_back(fmt::format("grains-{}.csv", g + 1));
+  return names;
+}
+
 std::vector<std::string> run_file_names() {
-  return {"scene.toml",     grain_list,     "run.json",      "log.csv",
-          "energy.csv",     "walls.csv",    checkpoint_name, previous_checkpoint_name,
+  return {"scene.toml",     grain_list,     "grains-*.csv", "run.json",      "log.csv",
+          "energy.csv",     "walls.csv",    "regions.csv",  checkpoint_name, previous_checkpoint_name,
           "snapshots/*.h5", "problems/*.h5"};
 }
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "apps/commands/region_table.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/progress.hpp"
 #include "coupling/common/provenance.hpp"
@@ -99,6 +100,32 @@ nlohmann::ordered_json stage_ends(const RunProgress& run) {
   return ends;
 }
 
+/// Grains that have left, stage by stage, and the first ones.
+nlohmann::ordered_json left_report(const RunProgress& run) {
+  const particles::LeftGrains& left = *run.simulation.state().left;
+  nlohmann::ordered_json stages = nlohmann::ordered_json::array(), first = stages;
+  std::int64_t all = 0;
+  for (std::size_t s = 0; s < left.per_stage.size(); ++s) {
+    all += left.per_stage[s];
+    stages.push_back({{"stage", run.scene.stages[s].name}, {"grains", left.per_stage[s]}});
+  }
+  for (const particles::LeftGrain& grain : left.first)
+    first.push_back({{"grain", grain.grain},
+                     {"stage", run.scene.stages[grain.stage].name},
+                     {"time_s", grain.time * run.simulation.scales().time_s}});
+  return {{"grains", all}, {"stages", stages}, {"first", first}};
+}
+
+std::string left_warning(const particles::LeftGrains& left) {
+  std::int64_t all = 0;
+  for (const std::int64_t count : left.per_stage) all += count;
+  std::string names;
+  for (const particles::LeftGrain& grain : left.first)
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", grain.grain);
+  return fmt::format("{} grains have left the scene (more than {:g} d outside), the first ones {}", all,
+                     particles::left_distance, names);
+}
+
 }  // namespace
 
 std::vector<std::string> run_warnings(const RunProgress& run) {
@@ -119,6 +146,7 @@ std::vector<std::string> run_warnings(const RunProgress& run) {
         "here{}",
         overlap, t.overlap_max,
         overlap > crushing ? "; the load crushes them, or the time step is too long for it" : ""));
+  if (const auto& left = run.simulation.state().left) warnings.push_back(left_warning(*left));
   if (const std::string text = start_warning(run.simulation.start_overlaps()); !text.empty())
     warnings.push_back(text);
   return warnings;
@@ -157,6 +185,8 @@ nlohmann::ordered_json run_report(const RunProgress& run, const std::string& sta
   report["cost"] = cost(run, steps);
   report["warnings"] = run_warnings(run);
   if (particles::ends_stages_early(run.scene)) report["stages"] = stage_ends(run);
+  if (state.traffic) report["regions"] = regions_report(run.scene, run.simulation);
+  if (state.left) report["left"] = left_report(run);
   if (state.energy) report["energy"] = energy(*state.energy);
   report["scales"] = to_json(run.simulation.scales());
   report["provenance"] = to_json(provenance());
@@ -181,6 +211,7 @@ std::string run_summary(const RunProgress& run) {
     text +=
         fmt::format("{:<12}{:>12.2f}{:>12.3f}{:>7.1f} %\n", part.name, part.seconds,
                     1e3 * part.seconds / steps, t.wall_seconds > 0 ? 100 * part.seconds / t.wall_seconds : 0);
+  text += regions_text(run.scene, run.simulation);
   for (const std::string& warning : run_warnings(run)) text += "warning: " + warning + "\n";
   return text;
 }

@@ -1,6 +1,8 @@
 #pragma once
 // The state of all grains at one instant, frozen: what a run leaves and what measurement reads.
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -43,7 +45,23 @@ struct Snapshot {
   std::vector<double> displacement_x,
       displacement_z;  ///< over the velocity window (laboratory frame); empty when not stored
   std::vector<SnapshotContact> contacts;  ///< contacts that carry an impulse
-  bool contacts_known = true;             ///< false: the program that made it did not say where they are
+  /// Identities, ascending and never given twice; empty where the number of grains cannot change.
+  std::vector<std::int64_t> id;
+  std::vector<double> mass;    ///< empty where it is that of the radius, pi r^2
+  bool contacts_known = true;  ///< false: the program that made it did not say where they are
 };
+
+/// Mass of a grain: its own, or that of its radius.
+double mass_of(const Snapshot&, std::size_t grain);
+
+/// The indices of one grain in two snapshots.
+struct SameGrain {
+  std::size_t before = 0, now = 0;
+};
+/// The grains that are in both, by their identities; by their indices where snapshots have no identities, and
+/// then none if the numbers of grains differ.
+std::vector<SameGrain> same_grains(const Snapshot& before, const Snapshot& now);
+std::vector<SameGrain> same_grains(std::span<const std::int64_t> id_before, std::size_t count_before,
+                                   std::span<const std::int64_t> id_now, std::size_t count_now);
 
 }  // namespace drumlin::particles

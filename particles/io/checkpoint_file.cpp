@@ -9,6 +9,7 @@
 #include "coupling/common/last_whole.hpp"
 #include "coupling/files/h5_image.hpp"
 #include "particles/io/checkpoint_stages.hpp"
+#include "particles/io/checkpoint_traffic.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -104,6 +105,7 @@ void put(const Checkpoint& checkpoint, H5Writer& out) {
   for (const DrivenState& wall : state.driven) driven.insert(driven.end(), {wall.position, wall.velocity});
   if (!driven.empty()) out.add("walls/driven", std::span<const double>(driven));
   put_stage_changes(checkpoint, out);
+  put_traffic(checkpoint, out);
   out.add_number("marks/count", static_cast<std::int64_t>(state.marks.size()));
   for (std::size_t m = 0; m < state.marks.size(); ++m) {
     const std::string name = "marks/" + std::to_string(m) + "/";
@@ -170,6 +172,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
     for (std::size_t d = 0; d < driven.size(); d += 2) state.driven.push_back({driven[d], driven[d + 1]});
   }
   get_stage_changes(in, checkpoint);
+  get_traffic(in, checkpoint);
   const auto marks = in.integer("marks/count", 0, most);
   for (std::int64_t m = 0; m < marks; ++m) {
     const std::string name = "marks/" + std::to_string(m) + "/";

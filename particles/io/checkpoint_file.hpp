@@ -30,7 +30,8 @@ struct Checkpoint {
   std::int64_t energy_bytes = 0;  ///< of energy.csv, if there is one
   RunTotals totals;
   SimulationState state;
-  std::int64_t walls_bytes = 0;  ///< of walls.csv, if there is one
+  std::int64_t walls_bytes = 0;    ///< of walls.csv, if there is one
+  std::int64_t regions_bytes = 0;  ///< of regions.csv, if there is one
 };
 
 /// Throws IoError; an older checkpoint is then untouched.

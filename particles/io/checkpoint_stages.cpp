@@ -62,7 +62,7 @@ void get_stage_changes(const H5Reader& in, Checkpoint& checkpoint) {
     for (std::int64_t e = 0; e < ended; ++e)
       state.ends.push_back({in.integer(fmt::format("stages/{}/steps", e), 1, most),
                             static_cast<EndedBy>(in.integer(fmt::format("stages/{}/by", e), 0,
-                                                            static_cast<std::int64_t>(EndedBy::wall)))});
+                                                            static_cast<std::int64_t>(EndedBy::outlet)))});
   }
   if (in.has("gravity"))
     state.gravity = {in.number("gravity/acceleration_m_s2"), in.number("gravity/direction_deg")};

@@ -1,6 +1,7 @@
 #include "particles/io/snapshot_file.hpp"
 
 #include <algorithm>
+#include <functional>
 
 #include "coupling/common/errors.hpp"
 #include "coupling/files/h5_image.hpp"
@@ -67,6 +68,8 @@ void write_snapshot(const std::filesystem::path& file, const Snapshot& s) {
                                                                        {"grains/radius", &s.radius}};
   for (const auto& [name, values] : arrays) out.add(name, std::span<const double>(*values));
   if (!s.spin.empty()) out.add("grains/spin", std::span<const double>(s.spin));
+  if (!s.id.empty()) out.add("grains/id", std::span<const std::int64_t>(s.id));
+  if (!s.mass.empty()) out.add("grains/mass", std::span<const double>(s.mass));
   if (!s.displacement_x.empty()) {
     out.add("grains/displacement_x", std::span<const double>(s.displacement_x));
     out.add("grains/displacement_z", std::span<const double>(s.displacement_z));
@@ -114,6 +117,13 @@ Snapshot read_snapshot(const std::filesystem::path& file) {
   per_grain("grains/radius", s.radius, false), per_grain("grains/spin", s.spin, true);
   per_grain("grains/displacement_x", s.displacement_x, true),
       per_grain("grains/displacement_z", s.displacement_z, true);
+  per_grain("grains/mass", s.mass, true);
+  if (in.has("grains/id")) {
+    s.id = in.longs("grains/id");
+    if (s.id.size() != grains) in.refuse("grains/id", "not one entry per grain");
+    if (std::adjacent_find(s.id.begin(), s.id.end(), std::greater_equal<>()) != s.id.end())
+      in.refuse("grains/id", "not ascending");
+  }
   if (in.has("walls/angle")) {
     s.wall_pose_angle = in.doubles("walls/angle");
     s.wall_pose_x = in.doubles("walls/x"), s.wall_pose_z = in.doubles("walls/z");

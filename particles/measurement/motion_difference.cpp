@@ -1,5 +1,6 @@
 #include "particles/measurement/motion_difference.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -75,9 +76,22 @@ VectorField averaged(const Bodies& at, const VectorField& v) {
   return mean;
 }
 
+/// The grains of one state that are in two others too.
+Bodies shared(Bodies bodies, const Bodies& a, const Bodies& b) {
+  std::vector<std::uint8_t> keep;
+  for (const std::int64_t id : bodies.id)
+    keep.push_back(std::binary_search(a.id.begin(), a.id.end(), id) &&
+                   std::binary_search(b.id.begin(), b.id.end(), id));
+  keep_bodies(keep, bodies);
+  return bodies;
+}
+
 }  // namespace
 
 MotionDifference motion_difference(const Bodies& start, const Bodies& reference, const Bodies& other) {
+  if (!start.id.empty() && !(start.id == reference.id && start.id == other.id))
+    return motion_difference(shared(start, reference, other), shared(reference, start, other),
+                             shared(other, start, reference));
   const VectorField velocity = without_rigid_part(start, {reference.v_x, reference.v_z});
   const VectorField path = without_rigid_part(start, difference(reference.x, reference.z, start.x, start.z));
   const VectorField apart = difference(other.x, other.z, reference.x, reference.z);

@@ -1,18 +1,15 @@
 #include "particles/scene/placement.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
-#include <sstream>
+#include <numeric>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "coupling/common/errors.hpp"
-#include "coupling/common/input_file.hpp"
-#include "coupling/documents/csv.hpp"
+#include "particles/scene/grain_list.hpp"
 #include "particles/scene/materials.hpp"
 #include "particles/scene/random.hpp"
 #include "particles/scene/sequential_placement.hpp"
@@ -56,12 +53,12 @@ std::vector<Site> lattice_sites(const GeneratedGrains& grains) {
 }
 
 /// A material for each generated grain, by their shares.
-std::vector<std::uint8_t> drawn_materials(const Scene& scene, std::size_t count) {
+std::vector<std::uint8_t> drawn_materials(const Scene& scene, std::uint64_t seed, std::size_t count) {
   const auto names = material_names(scene);
   const auto& materials = scene.grains.materials;
   double sum = 0;
   for (const auto& material : materials) sum += material.share;
-  RandomStream choice(scene.seed, "grains/material");
+  RandomStream choice(seed, "grains/material");
   std::vector<std::uint8_t> drawn(count, static_cast<std::uint8_t>(material_number(names, {})));
   for (std::size_t g = 0; g < count && !materials.empty(); ++g) {
     double place = choice.uniform() * sum;
@@ -93,8 +90,7 @@ Bodies generated(const GeneratedGrains& grains, std::uint64_t seed, double unit)
 /// Grains of a distribution of sizes.
 Bodies sequential(const GeneratedGrains& grains, std::uint64_t seed, double unit) {
   RandomStream sizes(seed, "grains/diameter");
-  std::vector<double> diameters;
-  for (int g = 0; g < grains.count; ++g) diameters.push_back(drawn_diameter_mm(grains, sizes));
+  const std::vector<double> diameters = diameters_mm(grains, sizes);
   const auto centers = sequential_centers_mm(diameters, grains.region, seed);
   Bodies bodies;
   for (std::size_t g = 0; g < centers.size(); ++g)
@@ -102,89 +98,9 @@ Bodies sequential(const GeneratedGrains& grains, std::uint64_t seed, double unit
   return bodies;
 }
 
-/// Columns of a list of grains, those that must be there first; the last one is a name.
-const std::array<std::string, 7> columns = {"x_mm",     "z_mm",       "diameter_mm", "v_x_mm_s",
-                                            "v_z_mm_s", "spin_rad_s", "material"};
-constexpr std::size_t needed_columns = 3, material_column = 6;
-
-struct ListedGrain {
-  double x_mm = 0, z_mm = 0, diameter_mm = 0, v_x_mm_s = 0, v_z_mm_s = 0, spin_rad_s = 0;
-  std::string material;
-};
-
-/// The number that stands in a column.
-double& number_in(ListedGrain& grain, std::size_t column) {
-  double* const numbers[] = {&grain.x_mm,     &grain.z_mm,     &grain.diameter_mm,
-                             &grain.v_x_mm_s, &grain.v_z_mm_s, &grain.spin_rad_s};
-  return *numbers[column];
-}
-
-/// Largest magnitude of a listed number, in the unit of its column.
-double largest_allowed(const std::string& column) { return column == "diameter_mm" ? 1e5 : 1e7; }
-
-/// Reads the CSV list; every fault of the file is reported at once.
-std::vector<ListedGrain> listed(const std::filesystem::path& file) {
-  const std::string name = file.string();
-  std::istringstream in(input_text(file));
-  std::vector<InputProblem> problems;
-  std::vector<std::string> names;
-  std::vector<std::size_t> places;  // of the names among the columns
-  std::vector<ListedGrain> grains;
-  std::vector<std::string_view> fields;
-  std::string line;
-  for (int number = 1; std::getline(in, line); ++number) {
-    if (line.empty() || line == "\r" || line[0] == '#') continue;
-    csv_fields(line, fields);
-    if (names.empty()) {
-      names.assign(fields.begin(), fields.end());
-      for (const auto& column : names) {
-        const auto found = std::find(columns.begin(), columns.end(), column);
-        places.push_back(found - columns.begin());
-        if (found == columns.end())
-          problems.push_back({name, number, 0, column, "unknown column",
-                              "x_mm, z_mm, diameter_mm, v_x_mm_s, v_z_mm_s, spin_rad_s, material"});
-      }
-      for (const auto& column : names)
-        if (std::count(names.begin(), names.end(), column) > 1)
-          problems.push_back({name, number, 0, column, "stands more than once", ""});
-      for (std::size_t needed = 0; needed < needed_columns; ++needed)
-        if (std::find(names.begin(), names.end(), columns[needed]) == names.end())
-          problems.push_back({name, number, 0, columns[needed], "missing column", ""});
-      continue;
-    }
-    if (fields.size() != names.size()) {
-      problems.push_back(
-          {name, number, 0, "", std::to_string(fields.size()) + " fields", std::to_string(names.size())});
-      continue;
-    }
-    ListedGrain grain;
-    for (std::size_t f = 0; f < fields.size(); ++f) {
-      if (places[f] == material_column) {
-        grain.material = fields[f];
-        continue;
-      }
-      const auto number_read = finite_number(fields[f]);
-      const double value = number_read.value_or(0);
-      if (!number_read)
-        problems.push_back(
-            {name, number, 0, names[f], "'" + std::string(fields[f]) + "'", "a finite number"});
-      else if (std::abs(value) > largest_allowed(names[f]))
-        problems.push_back({name, number, 0, names[f], std::string(fields[f]),
-                            "up to " + std::to_string(largest_allowed(names[f]))});
-      else if (names[f] == "diameter_mm" && value <= 0)
-        problems.push_back({name, number, 0, names[f], std::string(fields[f]), "> 0"});
-      if (places[f] < material_column) number_in(grain, places[f]) = value;
-    }
-    grains.push_back(std::move(grain));
-  }
-  if (grains.empty() && problems.empty())
-    problems.push_back({name, 0, 0, "grains.listed.file", "lists no grains", ""});
-  if (!problems.empty()) throw InputError(problems);
-  return grains;
-}
-
 /// The material of each listed grain; every one must be known.
-std::vector<std::uint8_t> listed_materials(const Scene& scene, const std::vector<ListedGrain>& grains) {
+std::vector<std::uint8_t> listed_materials(const Scene& scene, const ListedGrains& list,
+                                           const std::vector<ListedGrain>& grains) {
   const auto names = material_names(scene);
   const auto& materials = scene.grains.materials;
   std::vector<std::uint8_t> numbers;
@@ -192,14 +108,107 @@ std::vector<std::uint8_t> listed_materials(const Scene& scene, const std::vector
     const bool known = std::any_of(materials.begin(), materials.end(),
                                    [&](const GrainMaterial& m) { return m.name == grains[g].material; });
     if (!known && !materials.empty())
-      throw InputError(
-          {InputProblem{std::get<ListedGrains>(scene.grains.source).file.string(), 0, 0, "material",
-                        "grain " + std::to_string(g + 1) + " is of '" + grains[g].material + "'",
-                        "one of grains.materials"}});
+      throw InputError({InputProblem{list.file.string(), 0, 0, "material",
+                                     "grain " + std::to_string(g + 1) + " is of '" + grains[g].material + "'",
+                                     "one of grains.materials"}});
     numbers.push_back(static_cast<std::uint8_t>(known ? material_number(names, grains[g].material)
                                                       : material_number(names, {})));
   }
   return numbers;
+}
+
+/// Where grains come from, whichever group they are.
+struct GroupPlan {
+  const GeneratedGrains* made = nullptr;
+  const ListedGrains* list = nullptr;
+  std::uint64_t seed = 0;
+  std::optional<std::string> material;  ///< of all of them
+  double density = 1;                   ///< over that of the scene
+};
+
+void set_density(double density, std::size_t b, Bodies& bodies) {
+  if (density != 1) bodies.inverse_mass[b] /= density;
+}
+
+/// Spins beside: bodies hold them only where the scene has them.
+void append_listed(const Scene& scene, const GroupPlan& group, const Scales& scales, Bodies& bodies,
+                   std::vector<double>& spins) {
+  const double unit = 1e-3 / scales.length_m, speed = 1e-3 / scales.velocity_m_s();
+  const auto grains = listed(*group.list);
+  if (materials_matter(scene)) {
+    const auto numbers =
+        group.material
+            ? std::vector(grains.size(),
+                          static_cast<std::uint8_t>(material_number(material_names(scene), group.material)))
+            : listed_materials(scene, *group.list, grains);
+    bodies.material.insert(bodies.material.end(), numbers.begin(), numbers.end());
+  }
+  for (const auto& grain : grains) {
+    add_body(bodies, grain.x_mm * unit, grain.z_mm * unit, grain.diameter_mm / 2 * unit);
+    bodies.v_x.back() = grain.v_x_mm_s * speed;
+    bodies.v_z.back() = grain.v_z_mm_s * speed;
+    spins.push_back(grain.spin_rad_s * scales.time_s);
+    set_density(grain.density_kg_m3 > 0 ? grain.density_kg_m3 / scales.density_kg_m3 : group.density,
+                bodies.count() - 1, bodies);
+  }
+}
+
+void append(const Scene& scene, const GroupPlan& group, const Scales& scales, Bodies& bodies,
+            std::vector<double>& spins) {
+  if (group.list) return append_listed(scene, group, scales, bodies, spins);
+  const double unit = 1e-3 / scales.length_m;
+  Bodies made = group.made->sizes ? sequential(*group.made, group.seed, unit)
+                                  : generated(*group.made, group.seed, unit);
+  if (materials_matter(scene)) {
+    const auto numbers =
+        group.material
+            ? std::vector(made.count(),
+                          static_cast<std::uint8_t>(material_number(material_names(scene), group.material)))
+            : drawn_materials(scene, group.seed, made.count());
+    bodies.material.insert(bodies.material.end(), numbers.begin(), numbers.end());
+  }
+  for (std::size_t b = 0; b < made.count(); ++b) {
+    add_body(bodies, made.x[b], made.z[b], made.radius[b]);
+    set_density(group.density, bodies.count() - 1, bodies);
+  }
+  spins.resize(bodies.count(), 0.0);
+}
+
+template <class Source>
+GroupPlan plan_of(const Source& source, std::uint64_t seed) {
+  GroupPlan plan;
+  plan.made = std::get_if<GeneratedGrains>(&source), plan.list = std::get_if<ListedGrains>(&source);
+  plan.seed = seed;
+  return plan;
+}
+
+/// Grains of different groups must not overlap. `ends`: of each group, the first one being the main source.
+void refuse_overlapping_groups(const Grains& grains, const std::vector<std::size_t>& ends,
+                               const Bodies& bodies) {
+  const auto group_of = [&](std::size_t b) {
+    return std::upper_bound(ends.begin(), ends.end(), b) - ends.begin();
+  };
+  const auto name = [&](std::ptrdiff_t group) {
+    return group == 0 ? std::string("the grains of the scene's own source")
+                      : "group \"" + grains.groups[group - 1].name + "\"";
+  };
+  std::vector<std::size_t> order(bodies.count());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const double largest = *std::max_element(bodies.radius.begin(), bodies.radius.end());
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return bodies.x[a] < bodies.x[b]; });
+  for (std::size_t k = 0; k < order.size(); ++k)
+    for (std::size_t l = k + 1; l < order.size(); ++l) {
+      const std::size_t a = order[k], b = order[l];
+      const double dx = bodies.x[b] - bodies.x[a], dz = bodies.z[b] - bodies.z[a];
+      if (dx > bodies.radius[a] + largest) break;
+      const double reach = bodies.radius[a] + bodies.radius[b];
+      if (std::hypot(dx, dz) >= reach * (1 - 1e-9) || group_of(a) == group_of(b)) continue;
+      const auto later = std::max(group_of(a), group_of(b)), earlier = std::min(group_of(a), group_of(b));
+      throw InputError({InputProblem{"", 0, 0, "grains.groups." + std::to_string(later - 1) + ".name",
+                                     name(later) + " overlaps " + name(earlier) + " at the start",
+                                     "groups apart from one another"}});
+    }
 }
 
 /// In a period shorter than three of the largest discs, of grains or walls, a grain would meet a neighbour on
@@ -224,33 +233,43 @@ double mean_diameter_m(const Grains& grains) {
   if (const auto* made = std::get_if<GeneratedGrains>(&grains.source))
     return (made->sizes ? mean_power_mm(*made, 1) : (made->diameter_min_mm + made->diameter_max_mm) / 2) *
            1e-3;
-  const auto list = listed(std::get<ListedGrains>(grains.source).file);
+  const auto* source = std::get_if<ListedGrains>(&grains.source);
+  if (!source)
+    throw InputError({InputProblem{"", 0, 0, "grains.from_run", "names grains that are in another folder",
+                                   "`drumlin run` alone; the run folder then holds them as a list"}});
+  const auto list = listed(*source);
   double sum = 0;
   for (const auto& grain : list) sum += grain.diameter_mm;
   return sum / static_cast<double>(list.size()) * 1e-3;
 }
 
 Bodies place_grains(const Scene& scene, const Scales& scales) {
-  const double unit = 1e-3 / scales.length_m, speed = 1e-3 / scales.velocity_m_s();
   Bodies bodies;
   std::vector<double> spins;
-  if (const auto* made = std::get_if<GeneratedGrains>(&scene.grains.source)) {
-    bodies = made->sizes ? sequential(*made, scene.seed, unit) : generated(*made, scene.seed, unit);
-    spins.assign(bodies.count(), 0.0);
-    if (materials_matter(scene)) bodies.material = drawn_materials(scene, bodies.count());
-  } else {
-    const auto grains = listed(std::get<ListedGrains>(scene.grains.source).file);
-    if (materials_matter(scene)) bodies.material = listed_materials(scene, grains);
-    for (const auto& grain : grains) {
-      add_body(bodies, grain.x_mm * unit, grain.z_mm * unit, grain.diameter_mm / 2 * unit);
-      bodies.v_x.back() = grain.v_x_mm_s * speed;
-      bodies.v_z.back() = grain.v_z_mm_s * speed;
-      spins.push_back(grain.spin_rad_s * scales.time_s);
-    }
+  append(scene, plan_of(scene.grains.source, scene.seed), scales, bodies, spins);
+  std::vector<std::size_t> ends{bodies.count()};
+  for (const GrainGroup& group : scene.grains.groups) {
+    GroupPlan plan = plan_of(group.source, RandomStream(scene.seed, "groups/" + group.name).bits());
+    plan.material = group.material;
+    plan.density = group.density_kg_m3.value_or(scales.density_kg_m3) / scales.density_kg_m3;
+    append(scene, plan, scales, bodies, spins);
+    ends.push_back(bodies.count());
   }
+  if (!scene.grains.groups.empty()) refuse_overlapping_groups(scene.grains, ends, bodies);
   if (scene.effects.spin) bodies.spin = spins;
-  check_period(scene, bodies, unit);
+  check_period(scene, bodies, 1e-3 / scales.length_m);
   return bodies;
+}
+
+std::vector<Point_mm> listed_places_mm(const Grains& grains) {
+  std::vector<Point_mm> places;
+  const auto add = [&places](const auto& source) {
+    if (const auto* list = std::get_if<ListedGrains>(&source))
+      for (const ListedGrain& grain : listed(*list)) places.push_back({grain.x_mm, grain.z_mm});
+  };
+  add(grains.source);
+  for (const GrainGroup& group : grains.groups) add(group.source);
+  return places;
 }
 
 int capacity(const GeneratedGrains& grains) { return static_cast<int>(lattice_sites(grains).size()); }

@@ -41,4 +41,14 @@ bool changes_gravity(const Scene& scene) {
                      [](const Stage& stage) { return stage.gravity.has_value(); });
 }
 
+bool changes_grains(const Scene& scene) { return !scene.outlets.empty() || !scene.sources.empty(); }
+
+std::vector<ListedGrains*> lists_of(Scene& scene) {
+  std::vector<ListedGrains*> lists;
+  if (auto* list = std::get_if<ListedGrains>(&scene.grains.source)) lists.push_back(list);
+  for (GrainGroup& group : scene.grains.groups)
+    if (auto* list = std::get_if<ListedGrains>(&group.source)) lists.push_back(list);
+  return lists;
+}
+
 }  // namespace drumlin::particles

@@ -17,7 +17,9 @@
 #include "particles/effects/rolling.hpp"
 #include "particles/effects/rotating_frame.hpp"
 #include "particles/effects/spin.hpp"
+#include "particles/scene/generated_grains.hpp"
 #include "particles/scene/stage.hpp"
+#include "particles/scene/traffic.hpp"
 
 namespace drumlin::particles {
 
@@ -27,46 +29,27 @@ struct PeriodicX {
   double x_max_mm = 0;
 };
 
-/// Region in which generated grains are placed.
-struct CircleRegion {
-  Point_mm center_mm{0, 0};
-  double radius_mm = 0;
-};
-struct RectangleRegion {
-  Point_mm min_mm{0, 0};
-  Point_mm max_mm{0, 0};
-};
-
-/// Diameters that are either the smallest or the largest.
-struct TwoSizes {
-  double small_share = 0;  ///< by number
-};
-/// Numbers per diameter as D^-exponent, from the smallest to the largest.
-struct PowerLawSizes {
-  double exponent = 0;
-};
-/// Normal in ln D, cut at the smallest and the largest.
-struct LognormalSizes {
-  double median_mm = 0;
-  double sigma = 0;  ///< of ln D
-};
-
-/// Grains made from a distribution, placed without overlap on a jittered lattice in the region, from below.
-struct GeneratedGrains {
-  int count = 0;
-  double diameter_min_mm = 0;
-  double diameter_max_mm = 0;
-  std::variant<CircleRegion, RectangleRegion> region;
-  /// Without: uniform between the two, on a lattice of the largest. With: placed at random, the largest
-  /// first.
-  std::optional<std::variant<TwoSizes, PowerLawSizes, LognormalSizes>> sizes = {};
-};
-
-/// Grains listed in a CSV file: x_mm, z_mm, diameter_mm and optionally v_x_mm_s, v_z_mm_s, spin_rad_s; in a
-/// scene with materials also the name of each grain's material. read_scene makes the path absolute: in the
-/// file it counts from the folder of the scene.
+/// Grains listed in a CSV file: x_mm, z_mm, diameter_mm and optionally v_x_mm_s, v_z_mm_s, spin_rad_s,
+/// density_kg_m3; in a scene with materials also the name of each grain's material. read_scene makes the path
+/// absolute: in the file it counts from the folder of the scene.
 struct ListedGrains {
   std::filesystem::path file;
+  std::string text = {};  ///< no key: the list itself where it is not read from the file
+};
+
+/// The grains of a snapshot of another run, as they stand and move in it; in the run folder they stand as a
+/// list.
+struct GrainsOfRun {
+  std::filesystem::path run;
+  std::optional<double> time_s = {};  ///< of the snapshot; without, the last one
+};
+
+/// Grains beside those of the scene's main source, generated or listed.
+struct GrainGroup {
+  std::string name;
+  std::optional<std::string> material = {};
+  std::optional<double> density_kg_m3 = {};  ///< without, that of the scene
+  std::variant<GeneratedGrains, ListedGrains> source;
 };
 
 /// A material of grains, for laws that differ from pair to pair.
@@ -78,8 +61,9 @@ struct GrainMaterial {
 struct Grains {
   double density_kg_m3 = 0;
   std::vector<GrainMaterial> materials = {};
-  std::variant<GeneratedGrains, ListedGrains> source;
+  std::variant<GeneratedGrains, ListedGrains, GrainsOfRun> source;
   std::optional<double> thermal_speed_mm_s = {};  ///< of random velocities at the start (thermal.hpp)
+  std::vector<GrainGroup> groups = {};            ///< behind those of the source
 };
 
 /// Circular container, the grains inside it.
@@ -161,6 +145,8 @@ struct Scene {
   std::vector<Stage> stages;
   SolverSettings solver;
   Output output;
+  std::vector<Outlet> outlets = {};
+  std::vector<Source> sources = {};
 };
 
 /// Whether a force or a pressure moves a wall in some stage.
@@ -171,5 +157,9 @@ bool ends_stages_early(const Scene& scene);
 bool opens_walls(const Scene& scene);
 /// Whether some stage has a gravity of its own.
 bool changes_gravity(const Scene& scene);
+/// Whether the number of grains can change: the scene has outlets or sources.
+bool changes_grains(const Scene& scene);
+/// The lists of grains that a scene names: of its main source, if it is one, and of its groups.
+std::vector<ListedGrains*> lists_of(Scene& scene);
 
 }  // namespace drumlin::particles

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "particles/scene/placement.hpp"
+#include "particles/scene/grain_list.hpp"
 #include "particles/scene/scene_keys.hpp"
 #include "particles/scene/validate.hpp"
 
@@ -24,22 +24,25 @@ bool rests_on_a_problem(const SceneFault& fault, const std::vector<InputProblem>
   });
 }
 
-/// A list of grains counts from the folder of the scene, wherever the program was started.
-void resolve_list(Scene& scene, const std::string& scene_name) {
-  auto* list = std::get_if<ListedGrains>(&scene.grains.source);
-  if (!list || list->file.empty() || list->file.is_absolute()) return;
+/// Lists of grains and other runs count from the folder of the scene, wherever the program was started.
+void resolve_paths(Scene& scene, const std::string& scene_name) {
   const auto folder = std::filesystem::absolute(std::filesystem::path(scene_name)).parent_path();
-  list->file = (folder / list->file).lexically_normal();
+  const auto resolve = [&folder](std::filesystem::path& path) {
+    if (!path.empty() && !path.is_absolute()) path = (folder / path).lexically_normal();
+  };
+  for (ListedGrains* list : lists_of(scene)) resolve(list->file);
+  if (auto* other = std::get_if<GrainsOfRun>(&scene.grains.source)) resolve(other->run);
 }
 
-/// The problems inside the list of grains, which have places of their own.
-void add_problems_of_list(const Scene& scene, std::vector<InputProblem>& problems) {
-  const auto* list = std::get_if<ListedGrains>(&scene.grains.source);
-  if (!list || !std::filesystem::is_regular_file(list->file)) return;
-  try {
-    mean_diameter_m(scene.grains);
-  } catch (const InputError& error) {
-    problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+/// The problems inside lists of grains, which have places of their own.
+void add_problems_of_lists(Scene& scene, std::vector<InputProblem>& problems) {
+  for (const ListedGrains* list : lists_of(scene)) {
+    if (!std::filesystem::is_regular_file(list->file)) continue;
+    try {
+      (void)listed(*list);
+    } catch (const InputError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
   }
 }
 
@@ -49,13 +52,13 @@ Scene scene_of(const Document& document) {
   // Of a file of another version nothing was read that could contradict itself.
   if (document.root.find("format") && !problems.empty() && problems.front().key == "format")
     throw InputError(problems);
-  resolve_list(scene, document.file);
+  resolve_paths(scene, document.file);
   const std::vector<InputProblem> key_problems = problems;
   for (const auto& fault : validate(scene))
     if (!rests_on_a_problem(fault, key_problems))
       problems.push_back(problem_at(document, fault.key, fault.what, fault.allowed));
   sort_by_place(problems);
-  add_problems_of_list(scene, problems);
+  add_problems_of_lists(scene, problems);
   return accepted(std::move(scene), problems);
 }
 

@@ -5,6 +5,7 @@
 #include "coupling/documents/key_table.hpp"
 #include "particles/scene/scene.hpp"
 #include "particles/scene/stage_keys.hpp"
+#include "particles/scene/traffic_keys.hpp"
 #include "particles/solver/contact_solver.hpp"
 
 namespace drumlin::particles {
@@ -78,7 +79,7 @@ void describe(Visitor& v, ListedGrains& g) {
       required(
           "", not_empty(),
           "CSV file with the columns x_mm, z_mm, diameter_mm and, if wanted, v_x_mm_s, v_z_mm_s, spin_rad_s, "
-          "material; its path counts from the folder of the scene."));
+          "density_kg_m3, material; its path counts from the folder of the scene."));
 }
 
 template <class Visitor>
@@ -93,6 +94,25 @@ void describe(Visitor& v, GrainMaterial& m) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, GrainsOfRun& g) {
+  v.value("run", g.run, required("", not_empty(), "Folder of the run; it counts from that of the scene."));
+  v.value("time_s", g.time_s,
+          when_given("s", at_least(0), "Time of one of its snapshots; without, the last one."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, GrainGroup& g) {
+  v.value("name", g.name, required("", not_empty(), "Name of the group."));
+  v.value("material", g.material, when_given("", not_empty(), "One of grains.materials, for all of them."));
+  v.value("density_kg_m3", g.density_kg_m3,
+          when_given("kg/m3", above(0, 1e6), "Density of a disc; without, grains.density_kg_m3."));
+  v.one_table_of(
+      g.source, "Where the grains of the group come from.",
+      alternative<GeneratedGrains>("generated", "Made from a distribution, on a shaken lattice in a region."),
+      alternative<ListedGrains>("listed", "Listed one by one."));
+}
+
+template <class Visitor>
 void describe(Visitor& v, Grains& g) {
   v.value("density_kg_m3", g.density_kg_m3,
           required("kg/m3", above(0, 1e6),
@@ -101,12 +121,15 @@ void describe(Visitor& v, Grains& g) {
   v.one_table_of(
       g.source, "Where the grains come from.",
       alternative<GeneratedGrains>("generated", "Made from a distribution, on a shaken lattice in a region."),
-      alternative<ListedGrains>("listed", "Listed one by one."));
+      alternative<ListedGrains>("listed", "Listed one by one."),
+      alternative<GrainsOfRun>("from_run", "Those of another run, as they stand and move in a snapshot."));
   v.value(
       "thermal_speed_mm_s", g.thermal_speed_mm_s,
       when_given("mm/s", above(0, 1e9),
                  "Random velocities at the start, as in a gas: Maxwell's, their momentum zero, their energy "
                  "that of all mass at this speed; added to those of a list."));
+  v.tables("groups", g.groups, 0,
+           "More grains, each group with its own sizes, material and density; they stand behind the others.");
 }
 
 template <class Visitor>
@@ -234,6 +257,8 @@ void describe(Visitor& v, Scene& s) {
   v.tables("stages", s.stages, 1, "The stages of the run, one after the other.");
   v.table("solver", s.solver, Need::defaulted, "Contact solver and when it may stop.");
   v.table("output", s.output, Need::defaulted, "What is written, and how often.");
+  v.tables("outlets", s.outlets, 0, "Regions in which grains are taken away and counted.");
+  v.tables("sources", s.sources, 0, "Regions in which grains are poured.");
 }
 
 }  // namespace drumlin::particles

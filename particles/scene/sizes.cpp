@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace drumlin::particles {
 namespace {
@@ -59,6 +60,22 @@ double drawn_diameter_mm(const GeneratedGrains& grains, RandomStream& random) {
   const double diameter =
       std::visit([&](const auto& law) { return drawn(law, low, high, random); }, *grains.sizes);
   return std::clamp(diameter, low, high);  // powers round
+}
+
+std::vector<double> diameters_mm(const GeneratedGrains& grains, RandomStream& random) {
+  std::vector<double> diameters;
+  const auto* two = grains.sizes ? std::get_if<TwoSizes>(&*grains.sizes) : nullptr;
+  if (!two) {
+    for (int g = 0; g < grains.count; ++g) diameters.push_back(drawn_diameter_mm(grains, random));
+    return diameters;
+  }
+  const auto small = std::llround(two->small_share * grains.count);
+  diameters.assign(static_cast<std::size_t>(small), grains.diameter_min_mm);
+  diameters.resize(static_cast<std::size_t>(grains.count), grains.diameter_max_mm);
+  for (std::size_t left = diameters.size(); left > 1; --left)
+    std::swap(diameters[left - 1],
+              diameters[static_cast<std::size_t>(random.uniform() * static_cast<double>(left))]);
+  return diameters;
 }
 
 double mean_power_mm(const GeneratedGrains& grains, int power) {

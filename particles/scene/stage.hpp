@@ -30,10 +30,16 @@ struct UntilMoved {
   std::string wall;
   double distance_mm = 0;
 };
+/// An outlet has taken so many grains since the stage began.
+struct UntilOut {
+  std::string outlet;
+  int count = 0;
+};
 /// What ends a stage before its time: the first of these that is met.
 struct Until {
   std::optional<UntilRest> at_rest = {};
   std::optional<UntilMoved> moved = {};
+  std::optional<UntilOut> out = {};
 };
 
 /// Turns a wall about a point; positive in the sense of the vorticity dv_x/dz (clockwise as drawn, z up).

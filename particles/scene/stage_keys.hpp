@@ -84,9 +84,17 @@ void describe(Visitor& v, UntilMoved& u) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, UntilOut& u) {
+  v.value("outlet", u.outlet, required("", not_empty(), "Name of the outlet."));
+  v.value("count", u.count,
+          required("", at_least(1, 1e8), "It has taken so many grains since the stage began."));
+}
+
+template <class Visitor>
 void describe(Visitor& v, Until& u) {
   v.optional_table("at_rest", u.at_rest, "The grains are at rest.");
   v.optional_table("moved", u.moved, "A wall has moved.");
+  v.optional_table("out", u.out, "An outlet has taken grains.");
 }
 
 template <class Visitor>

@@ -53,8 +53,9 @@ void check_opened(const Scene& scene, Faults& faults) {
         require_wall(scene, stage.motions[m].wall, open, fmt::format("{}.motions.{}.wall", key, m), faults);
     if (stage.until && stage.until->moved)
       require_wall(scene, stage.until->moved->wall, open, key + ".until.moved.wall", faults);
-    if (stage.until && !stage.until->moved && !stage.until->at_rest)
-      faults.push_back({key + ".until", "names nothing to wait for", "at_rest or moved", {key + ".until"}});
+    if (stage.until && !stage.until->moved && !stage.until->at_rest && !stage.until->out)
+      faults.push_back(
+          {key + ".until", "names nothing to wait for", "at_rest, moved or out", {key + ".until"}});
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "coupling/common/errors.hpp"
 #include "particles/scene/materials.hpp"
@@ -33,6 +34,18 @@ StepSolver solver_of(const Scene& scene, int threads) {
   return solver;
 }
 
+bool fits(const Traffic& traffic, const Scene& scene, const Bodies& bodies) {
+  const bool ascending =
+      std::adjacent_find(bodies.id.begin(), bodies.id.end(), std::greater_equal<>()) == bodies.id.end();
+  const auto materials = static_cast<std::int32_t>(material_names(scene).size()) + 1;
+  for (const OutletState& outlet : traffic.outlets)
+    for (const WaitingGrain& grain : outlet.waiting)
+      if (grain.material >= materials) return false;
+  return traffic.outlets.size() == scene.outlets.size() && traffic.poured.size() == scene.sources.size() &&
+         bodies.id.size() == bodies.count() && ascending &&
+         (bodies.id.empty() || bodies.id.back() < traffic.next_id);
+}
+
 /// A state from a file must fit its scene before anything indexes it.
 void check_state(const SimulationState& s, const Scene& scene, const TimePlan& plan, const Walls& walls) {
   const auto require = [](bool good, const char* what) {
@@ -44,7 +57,10 @@ void check_state(const SimulationState& s, const Scene& scene, const TimePlan& p
   for (const auto* values :
        {&s.bodies.z, &s.bodies.v_x, &s.bodies.v_z, &s.bodies.radius, &s.bodies.inverse_mass})
     require(values->size() == n, "arrays of the grains");
-  require(n > 0 && s.bodies.spin.size() == (scene.effects.spin ? n : 0), "spins of the grains");
+  require(s.traffic.has_value() == changes_grains(scene) && (!s.traffic || fits(*s.traffic, scene, s.bodies)),
+          "outlets and sources");
+  require((n > 0 || s.traffic) && s.bodies.spin.size() == (scene.effects.spin ? n : 0),
+          "spins of the grains");
   require(!grain_that_is_not_finite(s.bodies), "numbers of the grains");
   const auto numbers = material_names(scene).size() + 1;
   require(s.bodies.material.size() == (materials_matter(scene) ? n : 0) &&
@@ -62,6 +78,8 @@ void check_state(const SimulationState& s, const Scene& scene, const TimePlan& p
   require(s.loads.has_value() == scene.output.walls_every_s.has_value() &&
               (!s.loads || s.loads->walls.empty() || s.loads->walls.size() == walls.names.size()),
           "loads on walls");
+  require(!s.left || (s.left->has_left.size() == n && s.left->per_stage.size() == plan.stages.size()),
+          "grains that have left");
   require(s.pose_at_start.size() == walls.names.size(), "walls");
   require(s.memory.j.size() == contacts && s.memory.impulse.size() == unknowns * contacts, "contacts");
   for (std::size_t c = 0; c < contacts; ++c)
@@ -76,8 +94,9 @@ void refuse_deep_overlap(const Scene& scene, const Walls& walls, const StartOver
   const std::string second =
       overlaps.j >= 0 ? fmt::format("grain {}", overlaps.j + 1)
                       : fmt::format("wall \"{}\"", walls.names[walls.wall_of_shape[-1 - overlaps.j]]);
+  const auto* list = std::get_if<ListedGrains>(&scene.grains.source);
   throw InputError({InputProblem{
-      std::get<ListedGrains>(scene.grains.source).file.string(), 0, 0, "x_mm, z_mm, diameter_mm",
+      list ? list->file.string() : "", 0, 0, "x_mm, z_mm, diameter_mm",
       fmt::format("grain {} overlaps {} by {:.3g} of a diameter, {} pairs overlap in all", overlaps.i + 1,
                   second, overlaps.depth, overlaps.pairs),
       fmt::format("at most {} of the smaller diameter; grains are counted from 1", most_at_start)}});
@@ -95,6 +114,7 @@ Simulation::Simulation(const Scene& scene, int threads)
       scales_(scales_of(scene)),
       plan_(time_plan(scene, scales_)),
       walls_(walls_of(scene, scales_)),
+      extent_(extent_of(scene, scales_, walls_)),
       frame_(frame_of(scene, scales_)),
       stepper_(make_stepper(laws_of(scene, scales_), solver_of(scene, threads))) {
   state_.bodies = place_grains(scene, scales_);
@@ -103,8 +123,9 @@ Simulation::Simulation(const Scene& scene, int threads)
                        state_.bodies);
   if (changes_gravity(scene)) state_.gravity = scene.effects.gravity;
   if (scene.output.walls_every_s) state_.loads.emplace();
+  if (changes_grains(scene)) state_.traffic = first_traffic(scene, state_.bodies);
   enter_stage(0);
-  if (std::holds_alternative<ListedGrains>(scene.grains.source)) {
+  if (Scene asked = scene; !lists_of(asked).empty()) {
     const auto shapes = walls_.shapes_at(0, state_.driven);
     start_overlaps_ = overlaps_at_start(state_.bodies, shapes, laws_of(scene, scales_).period);
     refuse_deep_overlap(scene, walls_, start_overlaps_);
@@ -116,6 +137,7 @@ Simulation::Simulation(const Scene& scene, SimulationState state, int threads)
       scales_(scales_of(scene)),
       plan_(time_plan(scene, scales_, state.ends)),
       walls_(walls_of(scene, scales_)),
+      extent_(extent_of(scene, scales_, walls_)),
       frame_(frame_of(scene, scales_)),
       state_(std::move(state)),
       stepper_(make_stepper(laws_of(scene, scales_), solver_of(scene, threads))) {
@@ -140,6 +162,8 @@ void Simulation::enter_stage(int stage) {
   state_.time_at_stage_start += state_.time_in_stage;
   state_.time_in_stage = 0;
   state_.pose_at_start = walls_.pose_at_start;
+  if (state_.traffic)
+    for (OutletState& outlet : state_.traffic->outlets) outlet.at_stage_start = outlet.taken();
 }
 
 void Simulation::mark_positions() {
@@ -158,6 +182,7 @@ void Simulation::mark_positions() {
 
 StepReport Simulation::step() {
   if (state_.step_in_stage == plan_.stages[state_.stage].steps) enter_stage(state_.stage + 1);
+  if (state_.traffic) exchange();
   mark_positions();
   const double h = plan_.stages[state_.stage].time_step;
   follow_stage(h);
@@ -168,6 +193,7 @@ StepReport Simulation::step() {
   ++state_.step_in_stage;
   state_.time_in_stage = static_cast<double>(state_.step_in_stage) * h;
   if (state_.loads) book_walls(h);
+  count_left();
   end_stage_if_due();
   return report;
 }
@@ -243,7 +269,9 @@ Snapshot Simulation::take_snapshot() {
   s.gravity_x = gravity.x, s.gravity_z = gravity.z;
   s.period_x = laws.period.length;
   s.x = bodies.x, s.z = bodies.z, s.v_x = bodies.v_x, s.v_z = bodies.v_z, s.radius = bodies.radius,
-  s.spin = bodies.spin;
+  s.spin = bodies.spin, s.id = bodies.id;
+  if (has_own_masses(bodies))
+    for (const double inverse : bodies.inverse_mass) s.mass.push_back(1 / inverse);
   s.contacts = stepper_->loaded_contacts();
   for (SnapshotContact& contact : s.contacts) {
     const Point normal = normal_in_scene(contact.normal_x, contact.normal_z);

@@ -15,6 +15,8 @@
 #include "particles/scene/scene.hpp"
 #include "particles/scene/scene_walls.hpp"
 #include "particles/stepping/contact_memory.hpp"
+#include "particles/stepping/exchange.hpp"
+#include "particles/stepping/left_grains.hpp"
 #include "particles/stepping/moreau_jean.hpp"
 #include "particles/stepping/start_check.hpp"
 #include "particles/stepping/time_plan.hpp"
@@ -51,6 +53,8 @@ struct SimulationState {
 
   std::optional<Gravity> gravity;  ///< when the current stage began; of a scene whose stages change it
   std::optional<WallLoads> loads;  ///< of a scene that asks for walls.csv
+  std::optional<Traffic> traffic;  ///< of a scene with outlets or sources
+  std::optional<LeftGrains> left;  ///< once a grain has left
 
   double time() const { return time_at_stage_start + time_in_stage; }
 };
@@ -94,6 +98,8 @@ class Simulation {
   StepReport advance_here(double time_step);
   StepReport advance_in_laboratory(double time_step);
   void mark_positions();
+  void exchange();
+  void count_left();
   void follow_stage(double time_step);
   Gravity gravity_at(double time_in_stage) const;
   void book_walls(double time_step);
@@ -105,6 +111,7 @@ class Simulation {
   Scales scales_;
   TimePlan plan_;
   Walls walls_;
+  Extent extent_;                      ///< of the scene at its start
   std::optional<TurningFrame> frame_;  ///< empty in a scene told in the laboratory
   SimulationState state_;
   StartOverlaps start_overlaps_;

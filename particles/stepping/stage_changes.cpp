@@ -25,7 +25,48 @@ bool has_moved(const UntilMoved& asked, const Walls& walls, double time_in_stage
   return std::hypot(now.x - then.x, now.z - then.z) >= asked.distance_mm * 1e-3 / scales.length_m;
 }
 
+bool has_taken(const UntilOut& asked, const Scene& scene, const Traffic& traffic) {
+  for (std::size_t o = 0; o < scene.outlets.size(); ++o)
+    if (scene.outlets[o].name == asked.outlet)
+      return traffic.outlets[o].taken() - traffic.outlets[o].at_stage_start >= asked.count;
+  return false;
+}
+
 }  // namespace
+
+/// Between the steps, so that contacts and impulses of a step name the grains that were there.
+void Simulation::exchange() {
+  const auto shapes = walls_.shapes_at(state_.time_in_stage, state_.driven);
+  std::vector<EarlierPlaces> marks;
+  for (auto& mark : state_.marks) marks.push_back({mark.time, &mark.x, &mark.z});
+  const auto before = state_.bodies.id;
+  exchange_grains({scene_, scales_, shapes, state_.time(), state_.step, stepper_->unknowns_per_contact()},
+                  {state_.bodies, state_.memory, *state_.traffic, std::move(marks)});
+  if (!state_.left || before == state_.bodies.id) return;
+  std::vector<std::uint8_t> keep;
+  for (const std::int64_t id : before)
+    keep.push_back(std::binary_search(state_.bodies.id.begin(), state_.bodies.id.end(), id));
+  keep_entries(keep, state_.left->has_left);
+  state_.left->has_left.resize(state_.bodies.count());
+}
+
+void Simulation::count_left() {
+  const Bodies& bodies = state_.bodies;
+  std::optional<Extent> now;
+  for (std::size_t b = 0; b < bodies.count(); ++b) {
+    if (!is_gone(extent_, bodies.x[b], bodies.z[b]) || (state_.left && state_.left->has_left[b])) continue;
+    if (!now) now = with_shapes(extent_, walls_.shapes_at(state_.time_in_stage, state_.driven));
+    if (!is_gone(*now, bodies.x[b], bodies.z[b])) continue;
+    if (!state_.left)
+      state_.left = {
+          std::vector<std::uint8_t>(bodies.count()), std::vector<std::int64_t>(plan_.stages.size()), {}};
+    state_.left->has_left[b] = 1;
+    ++state_.left->per_stage[state_.stage];
+    if (state_.left->first.size() < named_left)
+      state_.left->first.push_back(
+          {bodies.id.empty() ? static_cast<std::int64_t>(b) : bodies.id[b], state_.stage, state_.time()});
+  }
+}
 
 Gravity Simulation::gravity_at(double time_in_stage) const {
   const Stage& stage = scene_.stages[state_.stage];
@@ -51,7 +92,8 @@ void Simulation::end_stage_if_due() {
   std::optional<EndedBy> by;
   if (until && until->at_rest) {
     const double weight = std::numbers::pi / 4;  // of a disc of the mean diameter
-    const double energy = kinetic_energy(state_.bodies) / static_cast<double>(state_.bodies.count());
+    const auto grains = static_cast<double>(std::max<std::size_t>(1, state_.bodies.count()));
+    const double energy = kinetic_energy(state_.bodies) / grains;
     state_.rest_steps = energy < until->at_rest->energy * weight ? state_.rest_steps + 1 : 0;
     const double rested = static_cast<double>(state_.rest_steps) * h * scales_.time_s;
     if (state_.rest_steps > 0 && rested >= until->at_rest->for_s * (1 - 1e-9)) by = EndedBy::rest;
@@ -59,6 +101,7 @@ void Simulation::end_stage_if_due() {
   if (!by && until && until->moved &&
       has_moved(*until->moved, walls_, state_.time_in_stage, state_.driven, scales_))
     by = EndedBy::wall;
+  if (!by && until && until->out && has_taken(*until->out, scene_, *state_.traffic)) by = EndedBy::outlet;
   if (!by && state_.step_in_stage < plan_.stages[state_.stage].steps) return;
   state_.ends.push_back({state_.step_in_stage, by.value_or(EndedBy::its_time)});
   state_.rest_steps = 0;

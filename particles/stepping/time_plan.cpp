@@ -13,6 +13,8 @@ std::string to_string(EndedBy by) {
       return "at rest";
     case EndedBy::wall:
       return "wall moved";
+    case EndedBy::outlet:
+      return "grains out";
   }
   return "its time";
 }

@@ -11,7 +11,7 @@
 namespace drumlin::particles {
 
 /// What ended a stage.
-enum class EndedBy : std::int32_t { its_time, rest, wall };
+enum class EndedBy : std::int32_t { its_time, rest, wall, outlet };
 std::string to_string(EndedBy);
 
 /// A stage that is over.

@@ -105,6 +105,14 @@ const Case cases[] = {
        s.output.walls_every_s = 0.05;
        s.grains.thermal_speed_mm_s = 100;
      }},
+    {"OutletsAndSources",
+     [](Scene& s) {
+       s.outlets = {{"hole", RectangleRegion{{-12, -32}, {12, -20}}, RectangleRegion{{-8, 5}, {8, 15}}}};
+       Source rain{"rain", RectangleRegion{{-8, 16}, {8, 24}}};
+       rain.grains_per_s = 100, rain.diameter_min_mm = 2, rain.diameter_max_mm = 4;
+       rain.density_kg_m3 = 5000, rain.velocity_mm_s = {30, -50};
+       s.sources = {rain};
+     }},
 };
 
 std::vector<double> moments(const std::optional<WallLoads>& loads) {
@@ -131,6 +139,7 @@ TEST_P(Restart, ContinuesBitForBit) {
   Simulation second(scene, read_checkpoint(folder.path() / "checkpoint.h5").state);
   while (!second.finished()) (void)second.step();
   test::expect_same(whole.state().bodies, second.state().bodies);
+  EXPECT_EQ(whole.state().bodies.id, second.state().bodies.id);
   EXPECT_EQ(whole.state().memory.impulse, second.state().memory.impulse);
   ASSERT_EQ(whole.state().driven.size(), second.state().driven.size());
   for (std::size_t k = 0; k < whole.state().driven.size(); ++k) {

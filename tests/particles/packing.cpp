@@ -218,6 +218,11 @@ TEST(Effects, AbsentOnesCostNoUnknownAndNoState) {
   EXPECT_EQ(plain.stepper().unknowns_per_contact(), 1);
   (void)plain.step();
   EXPECT_EQ(plain.state().memory.impulse.size(), plain.state().memory.i.size());
+  EXPECT_TRUE(plain.state().bodies.id.empty());
+  EXPECT_FALSE(plain.state().traffic);
+  EXPECT_FALSE(plain.state().left);
+  EXPECT_TRUE(plain.take_snapshot().id.empty());
+  EXPECT_TRUE(plain.take_snapshot().mass.empty());
 }
 
 TEST(Periodic, PairAcrossTheSeamCollidesAsInside) {

@@ -23,17 +23,18 @@ FlowFrame upright_frame(const Snapshot& snapshot) {
   return frame_at_slope(mean_x, 0, snapshot.gravity_x, snapshot.gravity_z, 0);
 }
 
-/// Translation of all grains relative to the drum; masses pi r^2.
+/// Translation of all grains relative to the drum.
 double kinetic_energy(const Snapshot& snapshot, RelativeVelocities& velocity) {
   relative_velocities(snapshot, VelocityKind::instantaneous, velocity);
   double energy = 0;
   for (std::size_t i = 0; i < snapshot.x.size(); ++i)
-    energy += std::numbers::pi / 2 * snapshot.radius[i] * snapshot.radius[i] *
+    energy += mass_of(snapshot, i) / 2 *
               (velocity.x[i] * velocity.x[i] + velocity.z[i] * velocity.z[i]);
   return energy;
 }
 
 void widen_extent(const Snapshot& snapshot, bool first, Survey& found) {
+  if (snapshot.x.empty()) return;
   if (first) {
     const double x = found.upright.x_of(snapshot.x[0], snapshot.z[0]);
     const double z = found.upright.z_of(snapshot.x[0], snapshot.z[0]);

@@ -46,28 +46,29 @@ PlaneMatrix scaled(double factor, const PlaneMatrix& m) {
 /// Grains: number, nu, and the stress of what they move relative to their affine mean (or to their common
 /// velocity while that is not known).
 void add_grains(const Box& box, const Snapshot& s, RegionState& state) {
-  double mass = 0, momentum_x = 0, momentum_z = 0, first_x = 0, first_z = 0;
+  double mass = 0, all_area = 0, momentum_x = 0, momentum_z = 0, first_x = 0, first_z = 0;
   std::vector<std::size_t> inside;
   for (std::size_t i = 0; i < s.x.size(); ++i) {
     const double x = image_x(box, s, s.x[i]);
     if (!box.holds(x, s.z[i])) continue;
     inside.push_back(i);
-    const double area = disc_area(s.radius[i]);
-    mass += area;
-    momentum_x += area * s.v_x[i];
-    momentum_z += area * s.v_z[i];
-    first_x += area * x;
-    first_z += area * s.z[i];
+    const double m = mass_of(s, i);
+    all_area += disc_area(s.radius[i]);
+    mass += m;
+    momentum_x += m * s.v_x[i];
+    momentum_z += m * s.v_z[i];
+    first_x += m * x;
+    first_z += m * s.z[i];
   }
   state.grains = inside.size();
-  state.nu = mass / box.area();
+  state.nu = all_area / box.area();
   if (inside.empty()) return;
   const PlaneMatrix G = std::isnan(state.gradient.xx) ? PlaneMatrix{} : state.gradient;
   for (const std::size_t i : inside) {
     const double x = image_x(box, s, s.x[i]) - first_x / mass, z = s.z[i] - first_z / mass;
     const double c_x = s.v_x[i] - momentum_x / mass - G.xx * x - G.xz * z;
     const double c_z = s.v_z[i] - momentum_z / mass - G.zx * x - G.zz * z;
-    add_dyad(c_x, c_z, c_x, c_z, disc_area(s.radius[i]) / box.area(), state.kinetic);
+    add_dyad(c_x, c_z, c_x, c_z, mass_of(s, i) / box.area(), state.kinetic);
   }
 }
 
@@ -143,10 +144,10 @@ double share_inside(const Box& box, double x, double z, double dx, double dz) {
 }
 
 std::optional<PlaneMatrix> mean_gradient(const Box& box, const Snapshot& before, const Snapshot& now) {
-  if (before.x.size() != now.x.size() || !(now.time > before.time)) return std::nullopt;
+  if (!(now.time > before.time)) return std::nullopt;
   AffineFit fit;
-  for (std::size_t i = 0; i < now.x.size(); ++i) {
-    const double by_x = now.x[i] - before.x[i], by_z = now.z[i] - before.z[i];
+  for (const auto& [then, i] : same_grains(before, now)) {
+    const double by_x = now.x[i] - before.x[then], by_z = now.z[i] - before.z[then];
     const double x = image_x(box, now, now.x[i] - 0.5 * by_x), z = now.z[i] - 0.5 * by_z;
     if (box.holds(x, z)) fit.add(x, z, by_x, by_z);
   }

@@ -43,6 +43,7 @@ void DisplacementDepositor::find_ends(const Snapshot& snapshot, Ends& ends) {
   ends.time = snapshot.time;
   ends.angle = turning ? snapshot.wall_angle : 0;
   ends.radius = snapshot.radius;
+  ends.id = snapshot.id;
   ends.v_x.clear();
   if (snapshot.period_x > 0) ends.v_x = snapshot.v_x;
   ends.x.resize(count);
@@ -61,11 +62,11 @@ void DisplacementDepositor::add_pair(const Ends& from, const Ends& to, const Sna
   const FlowFrame& frame = graining_.frame;
   const double time = to.time - from.time, angle = (from.angle + to.angle) / 2;
   const double cosine = std::cos(angle), sine = std::sin(angle);
-  for (std::size_t i = 0; i < to.x.size(); ++i) {
-    double d_x = to.x[i] - from.x[i];
-    const double d_z = to.z[i] - from.z[i];
+  for (const auto& [before, i] : same_grains(from.id, from.x.size(), to.id, to.x.size())) {
+    double d_x = to.x[i] - from.x[before];
+    const double d_z = to.z[i] - from.z[before];
     if (const double period = snapshot.period_x; period > 0)
-      d_x -= period * std::round((d_x - time * (from.v_x[i] + to.v_x[i]) / 2) / period);
+      d_x -= period * std::round((d_x - time * (from.v_x[before] + to.v_x[i]) / 2) / period);
     const double x = to.x[i] - d_x / 2, z = to.z[i] - d_z / 2;
     const double lab_x = x * cosine + z * sine, lab_z = z * cosine - x * sine;
     const double moved_x = d_x * cosine + d_z * sine, moved_z = d_z * cosine - d_x * sine;
@@ -87,7 +88,7 @@ void DisplacementDepositor::add_pair(const Ends& from, const Ends& to, const Sna
 void DisplacementDepositor::add(const Snapshot& snapshot, DisplacementSums& sums) {
   Ends ends;
   find_ends(snapshot, ends);
-  if (last_ && ends.time > last_->time && ends.radius == last_->radius)
+  if (last_ && ends.time > last_->time && (!ends.id.empty() || ends.radius == last_->radius))
     add_pair(*last_, ends, snapshot, sums);
   last_ = std::move(ends);
 }

@@ -39,7 +39,8 @@ class DisplacementDepositor {
  public:
   explicit DisplacementDepositor(const CoarseGraining& graining) : graining_(graining) {}
   /// The first snapshot is remembered, each later one adds its pair to `sums`; one with other grains (number
-  /// or radii) than the one before, or not later than it, is remembered alone.
+  /// or radii) than the one before, or not later than it, is remembered alone. Grains with identities are
+  /// matched by these, and those that are in one of both alone are left out.
   void add(const Snapshot& snapshot, DisplacementSums& sums);
 
  private:
@@ -48,6 +49,7 @@ class DisplacementDepositor {
     std::vector<double> x, z;    ///< in the drum's axes, from the drum's middle
     std::vector<double> v_x;     ///< laboratory; of a periodic domain alone
     std::vector<double> radius;
+    std::vector<std::int64_t> id;  ///< empty where the number of grains cannot change
   };
   static void find_ends(const Snapshot& snapshot, Ends& ends);
   void add_pair(const Ends& from, const Ends& to, const Snapshot& snapshot, DisplacementSums& sums) const;

@@ -1,0 +1,45 @@
+#pragma once
+// Grains made from a distribution: their number, their sizes and the region in which they are placed.
+#include <optional>
+#include <variant>
+
+#include "coupling/common/scales.hpp"
+
+namespace drumlin::particles {
+
+/// Region in which generated grains are placed.
+struct CircleRegion {
+  Point_mm center_mm{0, 0};
+  double radius_mm = 0;
+};
+struct RectangleRegion {
+  Point_mm min_mm{0, 0};
+  Point_mm max_mm{0, 0};
+};
+
+/// Diameters that are either the smallest or the largest.
+struct TwoSizes {
+  double small_share = 0;  ///< by number
+};
+/// Numbers per diameter as D^-exponent, from the smallest to the largest.
+struct PowerLawSizes {
+  double exponent = 0;
+};
+/// Normal in ln D, cut at the smallest and the largest.
+struct LognormalSizes {
+  double median_mm = 0;
+  double sigma = 0;  ///< of ln D
+};
+
+/// Grains made from a distribution, placed without overlap on a jittered lattice in the region, from below.
+struct GeneratedGrains {
+  int count = 0;
+  double diameter_min_mm = 0;
+  double diameter_max_mm = 0;
+  std::variant<CircleRegion, RectangleRegion> region;
+  /// Without: uniform between the two, on a lattice of the largest. With: placed at random, the largest
+  /// first.
+  std::optional<std::variant<TwoSizes, PowerLawSizes, LognormalSizes>> sizes = {};
+};
+
+}  // namespace drumlin::particles

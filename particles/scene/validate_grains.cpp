@@ -1,0 +1,165 @@
+#include "particles/scene/validate_grains.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <set>
+
+#include "particles/scene/materials.hpp"
+#include "particles/scene/placement.hpp"
+#include "particles/scene/region.hpp"
+#include "particles/scene/scene_walls.hpp"
+#include "particles/scene/sequential_placement.hpp"
+#include "particles/scene/sizes.hpp"
+
+namespace drumlin::particles {
+namespace {
+
+using Faults = std::vector<SceneFault>;
+
+constexpr double rounding = 1e-9;   // relative; for comparisons of numbers that a user wrote to agree
+constexpr double most_sites = 1e7;  // of the lattice on which grains are placed: 160 MB
+
+std::string wall_key(std::size_t w) { return fmt::format("walls.{}", w); }
+
+/// Whether a rectangle has its corners the right way round; a circle always has.
+bool check_corners(const Region& region, const std::string& key, Faults& faults) {
+  const auto* box = std::get_if<RectangleRegion>(&region);
+  for (int axis : {0, 1})
+    if (box && !(box->min_mm[axis] < box->max_mm[axis])) {
+      faults.push_back({key + ".max_mm",
+                        fmt::format("is {} along {}", box->max_mm[axis], axis ? "z" : "x"),
+                        fmt::format("> min_mm = {}", box->min_mm[axis]),
+                        {key}});
+      return false;
+    }
+  return true;
+}
+
+/// The same for grains that are placed at random.
+void check_sizes(const GeneratedGrains& grains, const std::string& key, Faults& faults) {
+  if (const auto* cut = std::get_if<LognormalSizes>(&*grains.sizes))
+    if (cut->median_mm < grains.diameter_min_mm || cut->median_mm > grains.diameter_max_mm) {
+      faults.push_back({key + "sizes.median_mm",
+                        fmt::format("is {}", cut->median_mm),
+                        "between diameter_min_mm and diameter_max_mm",
+                        {key}});
+      return;
+    }
+  const double area = std::numbers::pi / 4 * mean_power_mm(grains, 2);
+  const double most = sequential_share * area_mm2(grains.region) / area;
+  if (grains.count > most)
+    faults.push_back({key + "count",
+                      fmt::format("is {}, of {:.4g} mm2 each in the mean", grains.count, area),
+                      fmt::format("at most {:.0f}, half of the region", most),
+                      {key}});
+}
+
+/// Whether the region has room for the grains, and a lattice that fits into memory.
+void check_room(const GeneratedGrains& grains, const std::string& key, Faults& faults) {
+  if (grains.diameter_min_mm > grains.diameter_max_mm) {
+    faults.push_back({key + "diameter_max_mm",
+                      fmt::format("is {}", grains.diameter_max_mm),
+                      fmt::format("number in mm, >= diameter_min_mm = {}", grains.diameter_min_mm),
+                      {key + "diameter_min_mm", key + "diameter_max_mm"}});
+    return;
+  }
+  const std::vector<std::string> about = {key + "count", key + "diameter_max_mm", key + "region"};
+  if (grains.sizes) {
+    check_sizes(grains, key, faults);
+    return;
+  }
+  const auto [left, right] = extent_mm(grains.region, 0);
+  const auto [bottom, top] = extent_mm(grains.region, 1);
+  const double sites =
+      ((right - left) / grains.diameter_max_mm + 1) * ((top - bottom) / grains.diameter_max_mm + 1);
+  if (!(sites <= most_sites)) {
+    faults.push_back({key + "region", fmt::format("has room for {:.0f} grains", sites),
+                      fmt::format("at most {:.0f}", most_sites), about});
+    return;
+  }
+  if (const int most = capacity(grains); grains.count > most)
+    faults.push_back({key + "count", fmt::format("is {}", grains.count),
+                      fmt::format("at most {} fit into the region", most), about});
+}
+
+bool crossed_by_glued(const Region& region, const Wall& wall) {
+  const auto centers = glued_centers_mm(wall);
+  return std::any_of(centers.begin(), centers.end(), [&](const Point_mm& center) {
+    return crosses(region, DiscShape{center, wall.rough->diameter_mm}, rounding);
+  });
+}
+
+/// Grains are placed anywhere in the region: it must lie inside the containers and clear of all other walls.
+void check_region_clear(const Scene& scene, const GeneratedGrains& grains, const std::string& key,
+                        Faults& faults) {
+  for (std::size_t w = 0; w < scene.walls.size(); ++w) {
+    const auto& wall = scene.walls[w];
+    const std::vector<std::string> about = {key, wall_key(w)};
+    if (const auto* container = std::get_if<ContainerShape>(&wall.shape)) {
+      const double reach = farthest_mm(grains.region, container->center_mm);
+      const double room = container->radius_mm - (wall.rough ? wall.rough->diameter_mm / 2 : 0);
+      if (reach > room * (1 + rounding))
+        faults.push_back({key,
+                          fmt::format("reaches {} mm from the centre of container \"{}\"", reach, wall.name),
+                          fmt::format("inside its radius of {} mm", room), about});
+    } else if (crosses(grains.region, wall.shape, rounding) || crossed_by_glued(grains.region, wall)) {
+      faults.push_back({key, fmt::format("is crossed by wall \"{}\" ({})", wall.name, wall_key(w)),
+                        "clear of segments and discs", about});
+    }
+  }
+}
+
+/// `key`: of the table of the generated grains, with a dot.
+void check_generated(const Scene& scene, const GeneratedGrains& grains, const std::string& key,
+                     Faults& faults) {
+  if (!check_corners(grains.region, key + "region", faults)) return;
+  check_room(grains, key, faults);
+  check_region_clear(scene, grains, key + "region", faults);
+}
+
+void check_list(const ListedGrains& list, const std::string& key, Faults& faults) {
+  const auto& file = list.file;
+  if (std::filesystem::is_regular_file(file)) return;
+  faults.push_back({key,
+                    file.string() + (std::filesystem::is_directory(file) ? " is a folder"
+                                     : std::filesystem::exists(file)     ? " is no regular file"
+                                                                         : " does not exist"),
+                    "a CSV file",
+                    {key}});
+}
+
+void check_group(const Scene& scene, std::size_t g, std::set<std::string>& names, Faults& faults) {
+  const GrainGroup& group = scene.grains.groups[g];
+  const std::string key = fmt::format("grains.groups.{}.", g);
+  if (!names.insert(group.name).second)
+    faults.push_back(
+        {key + "name", fmt::format("\"{}\" stands twice", group.name), "a name of its own", {key + "name"}});
+  const auto& materials = scene.grains.materials;
+  const auto known = [&](const GrainMaterial& m) { return group.material && m.name == *group.material; };
+  if (group.material && std::none_of(materials.begin(), materials.end(), known))
+    faults.push_back({key + "material",
+                      fmt::format("names no material: \"{}\"", *group.material),
+                      "one of grains.materials",
+                      {key + "material", "grains.materials"}});
+  if (const auto* made = std::get_if<GeneratedGrains>(&group.source))
+    check_generated(scene, *made, key + "generated.", faults);
+  else
+    check_list(std::get<ListedGrains>(group.source), key + "listed.file", faults);
+}
+
+}  // namespace
+
+void check_grains(const Scene& scene, Faults& faults) {
+  if (const auto* made = std::get_if<GeneratedGrains>(&scene.grains.source))
+    check_generated(scene, *made, "grains.generated.", faults);
+  if (const auto* list = std::get_if<ListedGrains>(&scene.grains.source))
+    check_list(*list, "grains.listed.file", faults);
+  std::set<std::string> names;
+  for (std::size_t g = 0; g < scene.grains.groups.size(); ++g) check_group(scene, g, names, faults);
+}
+
+}  // namespace drumlin::particles

@@ -1,0 +1,273 @@
+// Outlets, sources and grains that leave: counts, identities and what of a state follows them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "coupling/common/errors.hpp"
+#include "particles/io/checkpoint_file.hpp"
+#include "particles/io/snapshot_file.hpp"
+#include "particles/measurement/flow_rate.hpp"
+#include "particles/scene/validate.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace drumlin {
+using namespace particles;
+namespace {
+
+using test::add_stage;
+using test::Grain;
+using test::scene_of;
+using test::TemporaryFolder;
+
+/// Grains that fall freely, one above the other, into an outlet whose upper edge is at z = 0.
+Scene falling(int count, const TemporaryFolder& folder) {
+  std::vector<Grain> grains;
+  for (int k = 0; k < count; ++k) grains.push_back({0, 2 + 3.0 * k});
+  Scene scene = scene_of(grains, folder);
+  scene.effects.gravity = Gravity{};
+  scene.outlets = {{"below", RectangleRegion{{-50, -50}, {50, 0}}}};
+  return scene;
+}
+
+double largest_overlap(const Bodies& bodies) {
+  double deepest = 0;
+  for (std::size_t a = 0; a < bodies.count(); ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      deepest = std::max(deepest, bodies.radius[a] + bodies.radius[b] -
+                                      std::hypot(bodies.x[a] - bodies.x[b], bodies.z[a] - bodies.z[b]));
+  return deepest;
+}
+
+TEST(Outlets, TakeEachGrainWhenItFallsIn) {
+  const TemporaryFolder folder;
+  const double h = 1e-3;
+  Scene scene = falling(4, folder);
+  add_stage(scene, 5, h);
+  Simulation simulation(scene);
+  while (!simulation.finished()) (void)simulation.step();
+  const OutletState& outlet = simulation.state().traffic->outlets[0];
+  ASSERT_EQ(outlet.taken(), 4);
+  // Free fall; one step more until it is taken, and the scheme's own error of h t / 2 in the place.
+  for (int k = 0; k < 4; ++k) EXPECT_NEAR(outlet.times[k], std::sqrt(2 * (2 + 3.0 * k)), 2 * h) << k;
+  EXPECT_NEAR(outlet.mass, 4 * std::numbers::pi / 4, 1e-12);
+  EXPECT_EQ(simulation.state().bodies.count(), 0u);
+}
+
+TEST(Outlets, EndAStageAfterSoManyGrains) {
+  const TemporaryFolder folder;
+  Scene scene = falling(4, folder);
+  add_stage(scene, 5, 1e-3);
+  scene.stages[0].until.emplace().out = UntilOut{"below", 2};
+  EXPECT_TRUE(validate(scene).empty());
+  Simulation simulation(scene);
+  while (!simulation.finished()) (void)simulation.step();
+  ASSERT_EQ(simulation.state().ends.size(), 1u);
+  EXPECT_EQ(simulation.state().ends[0].by, EndedBy::outlet);
+  EXPECT_EQ(simulation.state().bodies.id, (std::vector<std::int64_t>{2, 3}));
+  scene.stages[0].until->out->outlet = "above";
+  EXPECT_FALSE(validate(scene).empty());
+}
+
+TEST(Outlets, LeaveImpulsesAndDisplacementsWithTheirGrains) {
+  // Grain 0 glides into the outlet; 1 and 2 press on each other and a floor; 3 glides on.
+  const TemporaryFolder folder;
+  Scene scene = scene_of({{-8, 20, 1, -1, 0}, {0, 0.5}, {0, 1.5}, {8, 20, 1, 1, 0}}, folder);
+  scene.walls = {test::floor_wall()};
+  scene.effects.gravity = Gravity{1, 0};
+  scene.outlets = {{"left", RectangleRegion{{-20, 10}, {-9, 30}}}};
+  add_stage(scene, 2, 0.01);
+  scene.stages[0].snapshots = 1;
+  scene.output.velocity_window_s = 1.5 * std::sqrt(1e-3 / 9.81);
+  Simulation simulation(scene);
+  while (!simulation.finished()) (void)simulation.step();
+  const Snapshot snapshot = simulation.take_snapshot();
+  EXPECT_EQ(snapshot.id, (std::vector<std::int64_t>{1, 2, 3}));
+  ASSERT_EQ(snapshot.displacement_x.size(), 3u);
+  EXPECT_NEAR(snapshot.displacement_x[2], snapshot.velocity_window, 1e-9);
+  EXPECT_NEAR(snapshot.displacement_x[0], 0, 1e-9);
+  const ContactMemory& memory = simulation.state().memory;
+  for (std::size_t c = 0; c < memory.i.size(); ++c) EXPECT_LT(memory.i[c], 3);
+  write_snapshot(folder.path() / "s.h5", snapshot);
+  EXPECT_EQ(read_snapshot(folder.path() / "s.h5").id, snapshot.id);
+}
+
+TEST(Outlets, ReturnWhatTheyTakeAsNewGrains) {
+  const TemporaryFolder folder;
+  Scene scene = falling(3, folder);
+  scene.outlets[0].returns_to = RectangleRegion{{-2, 20}, {2, 24}};
+  scene.outlets[0].return_velocity_mm_s = {0, -100};
+  add_stage(scene, 30, 1e-2);
+  Simulation simulation(scene);
+  while (!simulation.finished()) {
+    (void)simulation.step();
+    const auto& state = simulation.state();
+    EXPECT_EQ(state.bodies.count() + state.traffic->outlets[0].waiting.size(), 3u);
+  }
+  const auto& state = simulation.state();
+  EXPECT_GT(state.traffic->outlets[0].taken(), 6);
+  EXPECT_GE(state.bodies.id.front(), 3);
+  EXPECT_EQ(state.traffic->next_id, 3 + state.traffic->outlets[0].taken());
+}
+
+TEST(Sources, PourAtTheirRateUpToTheirCountWithoutOverlap) {
+  const TemporaryFolder folder;
+  Scene scene = scene_of({{0, 0.5}}, folder);
+  scene.walls = {test::floor_wall()};
+  scene.effects.gravity = Gravity{};
+  const double second = std::sqrt(1e-3 / 9.81);
+  Source source{"rain", RectangleRegion{{-20, 30}, {20, 36}}};
+  source.grains_per_s = 10 / second, source.count = 37;
+  source.diameter_min_mm = 0.8, source.diameter_max_mm = 1.2, source.velocity_mm_s = {0, -200};
+  scene.sources = {source};
+  add_stage(scene, 3, 0.01);
+  add_stage(scene, 2, 0.01);
+  scene.stages[1].name = "later";
+  ASSERT_TRUE(validate(scene).empty());
+  Simulation simulation(scene);
+  std::size_t before = 1;
+  while (!simulation.finished()) {
+    (void)simulation.step();
+    const auto& state = simulation.state();
+    const double due = std::floor(10 * (state.time() - 0.01) + 1e-6);
+    EXPECT_EQ(state.traffic->poured[0], std::min(37.0, due)) << state.step;
+    if (state.bodies.count() > before) {
+      EXPECT_LT(largest_overlap(state.bodies), 1e-3);
+    }
+    before = state.bodies.count();
+  }
+  EXPECT_EQ(before, 38u);
+}
+
+TEST(Sources, WaitForRoomAndCountWhatWaits) {
+  const TemporaryFolder folder;
+  // A disc of diameter 1 lies in the middle of a box of 2 x 2: there is no room for another of diameter 1.2.
+  Scene scene = scene_of({{0, 0, 1}}, folder);
+  Source source{"full", RectangleRegion{{-1, -1}, {1, 1}}};
+  source.grains_per_s = 1 / std::sqrt(1e-3 / 9.81);
+  source.diameter_min_mm = source.diameter_max_mm = 1.2;
+  scene.sources = {source};
+  add_stage(scene, 5.5, 0.1);
+  Simulation simulation(scene);
+  while (!simulation.finished()) (void)simulation.step();
+  const auto& state = simulation.state();
+  EXPECT_EQ(state.bodies.count(), 1u);
+  EXPECT_EQ(waiting(scene.sources[0], state.traffic->poured[0], state.time() * simulation.scales().time_s),
+            5);
+}
+
+TEST(Sources, AreRefusedWhereAnOutletTakesGrainsOrDiscsHaveNoRoom) {
+  const TemporaryFolder folder;
+  Scene scene = falling(1, folder);
+  add_stage(scene, 1, 0.01);
+  Source source{"rain", RectangleRegion{{-5, -5}, {5, 5}}};
+  source.grains_per_s = 1, source.diameter_min_mm = 1, source.diameter_max_mm = 2;
+  scene.sources = {source};
+  ASSERT_EQ(validate(scene).size(), 1u);
+  EXPECT_EQ(validate(scene)[0].key, "sources.0.region");
+  scene.sources[0].region = CircleRegion{{0, 8}, 0.9};
+  ASSERT_EQ(validate(scene).size(), 1u);
+  EXPECT_NE(validate(scene)[0].allowed.find("2 mm"), std::string::npos);
+  scene.sources[0].region = CircleRegion{{0, 8}, 5};
+  EXPECT_TRUE(validate(scene).empty());
+}
+
+TEST(FlowRate, IsThatOfTheMiddleOfTheOutflow) {
+  std::vector<double> times;
+  for (int k = 0; k < 1000; ++k) times.push_back(3 + 0.02 * k);
+  const auto flow = flow_rate(times);
+  ASSERT_TRUE(flow);
+  EXPECT_NEAR(flow->rate, 50, 0.1);
+  EXPECT_LT(flow->ci99, 0.5);
+  EXPECT_NEAR(flow->from, 5, 1e-9);
+  times.resize(99);
+  EXPECT_FALSE(flow_rate(times));
+}
+
+TEST(SameGrains, AreMatchedByIdentity) {
+  Snapshot before, now;
+  before.x.resize(4), now.x.resize(3);
+  EXPECT_TRUE(same_grains(before, now).empty());
+  before.id = {0, 2, 5, 7}, now.id = {2, 6, 7};
+  const auto same = same_grains(before, now);
+  ASSERT_EQ(same.size(), 2u);
+  EXPECT_EQ(same[0].before, 1u);
+  EXPECT_EQ(same[0].now, 0u);
+  EXPECT_EQ(same[1].before, 3u);
+  EXPECT_EQ(same[1].now, 2u);
+}
+
+TEST(LeftGrains, AreCountedOnceInTheirStage) {
+  const TemporaryFolder folder;
+  Scene scene = scene_of({{0, 0}, {10, 0, 1, 100, 0}}, folder);
+  scene.walls = {test::floor_wall(20)};
+  add_stage(scene, 1, 0.01);
+  add_stage(scene, 1, 0.01);
+  scene.stages[1].name = "later";
+  Simulation simulation(scene);
+  EXPECT_FALSE(simulation.state().left);
+  while (!simulation.finished()) (void)simulation.step();
+  // It passes x = 20 + 100 at t = 1.1.
+  ASSERT_TRUE(simulation.state().left);
+  const LeftGrains& left = *simulation.state().left;
+  EXPECT_EQ(left.per_stage, (std::vector<std::int64_t>{0, 1}));
+  ASSERT_EQ(left.first.size(), 1u);
+  EXPECT_EQ(left.first[0].grain, 1);
+  EXPECT_NEAR(left.first[0].time, 1.1, 0.011);
+  Checkpoint checkpoint;
+  checkpoint.state = simulation.state();
+  write_checkpoint(folder.path() / "c.h5", checkpoint);
+  const auto read = read_checkpoint(folder.path() / "c.h5").state.left;
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->has_left, left.has_left);
+  EXPECT_EQ(read->per_stage, left.per_stage);
+}
+
+/// A disc of the scene's density meets one of a group four times as dense, head on, and loses no energy.
+TEST(Groups, OfTheirOwnDensityCollideByTheirMasses) {
+  const TemporaryFolder folder, other;
+  Scene scene = scene_of({{0, 0, 1, 1, 0}}, folder);
+  const Scene heavy = scene_of({{2, 0, 1}}, other);
+  GrainGroup group;
+  group.name = "intruder", group.density_kg_m3 = 4 * 2700;
+  group.source = std::get<ListedGrains>(heavy.grains.source);
+  scene.grains.groups = {group};
+  scene.effects.restitution = Restitution{1, 1};
+  add_stage(scene, 3, 0.01);
+  scene.stages[0].snapshots = 1;
+  ASSERT_TRUE(validate(scene).empty());
+  Simulation simulation(scene);
+  while (!simulation.finished()) (void)simulation.step();
+  EXPECT_NEAR(simulation.state().bodies.v_x[0], -0.6, 1e-6);
+  EXPECT_NEAR(simulation.state().bodies.v_x[1], 0.4, 1e-6);
+  const Snapshot snapshot = simulation.take_snapshot();
+  ASSERT_EQ(snapshot.mass.size(), 2u);
+  EXPECT_NEAR(snapshot.mass[1] / snapshot.mass[0], 4, 1e-12);
+  EXPECT_TRUE(snapshot.id.empty());
+}
+
+TEST(Groups, LeaveTheMainSourceAsItIsAndMustNotOverlapIt) {
+  Scene scene;
+  scene.grains.density_kg_m3 = 2700;
+  scene.grains.source = GeneratedGrains{40, 1, 1.2, RectangleRegion{{0, 0}, {10, 10}}};
+  add_stage(scene, 1, 0.01);
+  const Bodies alone = Simulation(scene).state().bodies;
+  GrainGroup group;
+  group.name = "rain";
+  group.source = GeneratedGrains{20, 0.5, 0.6, RectangleRegion{{0, 12}, {10, 16}}};
+  scene.grains.groups = {group};
+  const Bodies both = Simulation(scene).state().bodies;
+  ASSERT_EQ(both.count(), 60u);
+  EXPECT_TRUE(std::equal(alone.x.begin(), alone.x.end(), both.x.begin()));
+  EXPECT_TRUE(std::equal(alone.z.begin(), alone.z.end(), both.z.begin()));
+  scene.grains.groups[0].source = GeneratedGrains{20, 0.5, 0.6, RectangleRegion{{0, 2}, {10, 6}}};
+  try {
+    (void)Simulation(scene);
+    FAIL() << "overlapping groups were placed";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("\"rain\""), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace drumlin
