@@ -29,10 +29,10 @@ std::pair<std::filesystem::path, particles::Snapshot> asked_snapshot(const parti
       return {file, std::move(snapshot)};
     if (std::abs(time - *time_s) < distance) nearest = time, distance = std::abs(time - *time_s);
   }
-  throw InputError({InputProblem{"", 0, 0, "grains.from_run.time_s",
-                                 fmt::format("is {}, at which {} has no snapshot", *time_s,
-                                             run.folder.string()),
-                                 fmt::format("time of a snapshot; the nearest one is {:.9g}", nearest)}});
+  throw InputError(
+      {InputProblem{"", 0, 0, "grains.from_run.time_s",
+                    fmt::format("is {}, at which {} has no snapshot", *time_s, run.folder.string()),
+                    fmt::format("time of a snapshot; the nearest one is {:.9g}", nearest)}});
 }
 
 /// Materials of the grains by their names; empty where laws ask for none.

@@ -154,6 +154,17 @@ TEST_P(Restart, ContinuesBitForBit) {
   EXPECT_NE(whole.state().bodies.x, test::bodies_at_end(test::turning_drum()).x);
 }
 
+TEST(OutletsAndSources, GiveTheSameBytesForAnyNumberOfThreads) {
+  Scene scene = test::turning_drum();
+  cases[std::size(cases) - 1].add(scene);
+  Simulation one(scene, 1), two(scene, 2);
+  while (!one.finished()) (void)one.step(), (void)two.step();
+  test::expect_same(one.state().bodies, two.state().bodies);
+  EXPECT_EQ(one.state().bodies.id, two.state().bodies.id);
+  EXPECT_GT(one.state().traffic->poured[0], 10);
+  EXPECT_GT(one.state().traffic->outlets[0].taken(), 3);
+}
+
 INSTANTIATE_TEST_SUITE_P(Effects, Restart, ::testing::ValuesIn(cases),
                          [](const auto& chosen) { return std::string(chosen.param.name); });
 

@@ -1,6 +1,7 @@
 // Grains of very different sizes: distributions, placement, detection.
 #include "particles/scene/sizes.hpp"
 
+#include <algorithm>
 #include <numbers>
 
 #include "coupling/common/errors.hpp"
@@ -36,6 +37,19 @@ TEST(Sizes, DrawnDiametersHaveTheMeansOfTheirDistribution) {
       const double deviation = std::sqrt((sums[2 * power] - sums[power] * sums[power]) / draws);
       EXPECT_NEAR(sums[power], mean_power_mm(grains, power), 5 * deviation) << sizes.index() << ' ' << power;
     }
+  }
+}
+
+TEST(Sizes, OfTwoAreDealtAndLieAnywhere) {
+  for (const auto& [share, small] :
+       {std::pair(0.96, 960), std::pair(0.0, 0), std::pair(1.0, 1000), std::pair(0.3333, 333)}) {
+    RandomStream random(7, "sizes");
+    const auto diameters = diameters_mm(one_to_fifty(1000, TwoSizes{share}), random);
+    ASSERT_EQ(diameters.size(), 1000u);
+    EXPECT_EQ(std::count(diameters.begin(), diameters.end(), 1.0), small) << share;
+    // Of the first half, half of them: binomial without replacement, within five deviations.
+    const auto half = std::count(diameters.begin(), diameters.begin() + 500, 1.0);
+    EXPECT_NEAR(half, small / 2.0, 5 * std::sqrt(1000 * share * (1 - share)) / 2 + 0.5) << share;
   }
 }
 

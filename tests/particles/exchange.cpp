@@ -74,7 +74,7 @@ TEST(Outlets, LeaveImpulsesAndDisplacementsWithTheirGrains) {
   const TemporaryFolder folder;
   Scene scene = scene_of({{-8, 20, 1, -1, 0}, {0, 0.5}, {0, 1.5}, {8, 20, 1, 1, 0}}, folder);
   scene.walls = {test::floor_wall()};
-  scene.effects.gravity = Gravity{1, 0};
+  scene.effects.gravity = Gravity{};
   scene.outlets = {{"left", RectangleRegion{{-20, 10}, {-9, 30}}}};
   add_stage(scene, 2, 0.01);
   scene.stages[0].snapshots = 1;
@@ -199,7 +199,7 @@ TEST(SameGrains, AreMatchedByIdentity) {
 
 TEST(LeftGrains, AreCountedOnceInTheirStage) {
   const TemporaryFolder folder;
-  Scene scene = scene_of({{0, 0}, {10, 0, 1, 100, 0}}, folder);
+  Scene scene = scene_of({{0, 1}, {10, 1, 1, 100, 0}}, folder);
   scene.walls = {test::floor_wall(20)};
   add_stage(scene, 1, 0.01);
   add_stage(scene, 1, 0.01);
@@ -235,7 +235,8 @@ TEST(Groups, OfTheirOwnDensityCollideByTheirMasses) {
   scene.effects.restitution = Restitution{1, 1};
   add_stage(scene, 3, 0.01);
   scene.stages[0].snapshots = 1;
-  ASSERT_TRUE(validate(scene).empty());
+  scene.output.velocity_window_s = 0;
+  for (const SceneFault& fault : validate(scene)) ADD_FAILURE() << fault.key << ' ' << fault.what;
   Simulation simulation(scene);
   while (!simulation.finished()) (void)simulation.step();
   EXPECT_NEAR(simulation.state().bodies.v_x[0], -0.6, 1e-6);
