@@ -25,8 +25,6 @@ void add_calibrate_options(CLI::App& command, CalibrateOptions& options) {
   command.add_flag("--k", options.k, "Ratio of the normal stresses k(I) as a part of the law");
   command.add_flag("--misalignment", options.misalignment,
                    "Angle between the axes of stress and strain rate over I (from maps)");
-  command.add_flag("--relaxation", options.relaxation,
-                   "Share of its fabric that the material renews per unit of shear (from maps)");
   command.add_flag("--memory", options.memory,
                    "Memory of the axes of stress as a part of the law: amount of the stress over I, share "
                    "renewed by strain, and what the runs cannot tell of them (from maps)");

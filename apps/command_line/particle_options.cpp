@@ -13,6 +13,10 @@ void add_run_options(CLI::App& command, RunOptions& options) {
   add_number(command, "--threads", options.threads, "", at_least(1, most_threads),
              "Threads; the results do not depend on it");
   add_accuracy(command, options.accuracy);
+  add_number(
+      command, "--accuracy-seconds", options.accuracy_seconds, "s", above(0),
+      "Ends with stretches of so many simulated seconds: as the scene is, with half the time step and with a "
+      "third of the tolerance; what they differ by tells the errors of the run (docs/cost.md)");
   add_existing(command, options.existing, "Continues from the last checkpoint; starts over if there is none");
 }
 
@@ -74,6 +78,19 @@ void add_plot_options(CLI::App& command, PlotOptions& options) {
       ->type_name("N")
       ->capture_default_str();
   command.add_flag("--animation", options.animation, "Draws the snapshots as an animated GIF as well");
+  add_number(command, "--every", options.every, "", at_least(1, 1000000),
+             "Every so manieth snapshot is a frame of the animation; without --animation each of them is a "
+             "still of its own");
+  command
+      .add_option("--color", options.color,
+                  "What the colour of a grain shows; absent: speed, and a second picture of the spin")
+      ->check(CLI::IsMember(std::vector<std::string>(plot_colors.begin(), plot_colors.end())))
+      ->type_name("WHAT");
+  command
+      .add_option("--window", options.window,
+                  "Part of the plane that is shown, in d, in the axes of the scene; absent: all grains")
+      ->delimiter(',')
+      ->type_name("X0,X1,Z0,Z1");
   add_optional_path(command, "-o,--output", options.output, "DIR",
                     "Folder for the figures; standard: RUN/plots");
   add_existing(command, options.existing, keep_what_is_done);

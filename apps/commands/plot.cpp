@@ -1,6 +1,9 @@
 // drumlin plot: pictures of a run, finished or not.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "apps/support/commands.hpp"
@@ -12,6 +15,8 @@
 #include "particles/io/run_folder.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/io/snapshot_list.hpp"
+#include "particles/scene/materials.hpp"
+#include "particles/scene/placement.hpp"
 
 namespace drumlin::apps {
 
@@ -51,14 +56,40 @@ Json frame_of(const particles::RunFolder& run, const fs::path& file) {
           {"walls", shapes}};
 }
 
-/// At most `most_frames` of all snapshots, evenly spread, the last among them.
-Json frames_of(const particles::RunFolder& run) {
+/// Every `every`-th snapshot, the last among them; 0: as many as `most_frames` leaves.
+Json frames_of(const particles::RunFolder& run, std::size_t every) {
   const std::size_t all = run.snapshots.size();
-  const std::size_t stride = (all + most_frames - 1) / most_frames;
+  const std::size_t stride = every > 0 ? every : (all + most_frames - 1) / most_frames;
   Json frames = Json::array();
   for (std::size_t i = (all - 1) % stride; i < all; i += stride)
     frames.push_back(frame_of(run, run.snapshots[i]));
   return frames;
+}
+
+/// Material of each grain, as the scene places them; empty names without any.
+struct GrainMaterials {
+  std::vector<std::string> names;
+  std::vector<std::uint8_t> of_grain;
+};
+
+GrainMaterials materials_of(const particles::RunFolder& run) {
+  GrainMaterials found{particles::material_names(run.scene),
+                       particles::place_grains(run.scene, run.scales).material};
+  if (found.names.empty() || found.of_grain.empty())
+    throw InputError(
+        fmt::format("{}: --color material: the grains of this scene have no materials, "
+                    "or no law tells them apart",
+                    run.folder.string()));
+  found.names.push_back("none");
+  return found;
+}
+
+void add_materials(const GrainMaterials& materials, Json& frame, const particles::RunFolder& run) {
+  const particles::Snapshot snapshot = particles::read_snapshot(frame["file"].get<std::string>());
+  if (snapshot.x.size() != materials.of_grain.size())
+    throw InputError(fmt::format("{}: --color material: a snapshot holds {} grains, the scene places {}",
+                                 run.folder.string(), snapshot.x.size(), materials.of_grain.size()));
+  frame["materials"] = materials.of_grain;
 }
 
 Json stages_of(const particles::Scene& scene) {
@@ -81,6 +112,10 @@ Json drawing_of(const particles::RunFolder& run, const Json& report, const PlotO
                {"stages", stages_of(run.scene)},
                {"period", nullptr},
                {"snapshot", nullptr},
+               {"color", options.color.empty() ? Json(nullptr) : Json(options.color)},
+               {"window", options.window.empty() ? Json(nullptr) : Json(options.window)},
+               {"animation", options.animation},
+               {"materials", Json::array()},
                {"frames", Json::array()}};
   if (fs::exists(run.folder / "energy.csv"))
     drawing["energy"] = fs::absolute(checked_file(run.files, "energy.csv")).string();
@@ -90,18 +125,37 @@ Json drawing_of(const particles::RunFolder& run, const Json& report, const PlotO
   const bool named = options.snapshot != "last";
   if (named || !run.snapshots.empty())
     drawing["snapshot"] = frame_of(run, particles::chosen_snapshot(run, options.snapshot));
-  if (options.animation) {
-    if (run.snapshots.size() < 2)
-      throw InputError(fmt::format("{}: an animation needs two snapshots, there are {}", run.folder.string(),
-                                   run.snapshots.size()));
-    drawing["frames"] = frames_of(run);
+  if (options.animation && run.snapshots.size() < 2)
+    throw InputError(fmt::format("{}: an animation needs two snapshots, there are {}", run.folder.string(),
+                                 run.snapshots.size()));
+  if (options.animation || (options.every > 0 && !run.snapshots.empty()))
+    drawing["frames"] = frames_of(run, static_cast<std::size_t>(options.every));
+  if (options.color == "material" && !drawing["snapshot"].is_null()) {
+    const GrainMaterials materials = materials_of(run);
+    drawing["materials"] = materials.names;
+    add_materials(materials, drawing["snapshot"], run);
+    for (Json& frame : drawing["frames"]) add_materials(materials, frame, run);
   }
+  if (options.color == "spin" && !run.scene.effects.spin)
+    throw InputError(run.folder.string() + ": --color spin: the grains of this scene have no spin");
   return drawing;
+}
+
+void check_window(const std::vector<double>& window) {
+  if (window.empty()) return;
+  const auto finite = [](double edge) { return std::isfinite(edge); };
+  if (window.size() != 4 || !std::all_of(window.begin(), window.end(), finite) || !(window[0] < window[1]) ||
+      !(window[2] < window[3]))
+    throw InputError(
+        fmt::format("--window: {} is no part of the plane (allowed: X0,X1,Z0,Z1 in d with X0 < X1 "
+                    "and Z0 < Z1)",
+                    fmt::join(window, ",")));
 }
 
 }  // namespace
 
 int plot(const PlotOptions& options) {
+  check_window(options.window);
   const particles::RunFolder run = particles::read_run_folder(options.run);
   const fs::path folder = options.output.value_or(options.run / "plots");
   if (options.existing == ExistingOutput::resume && holds_results(folder, "plots.json")) {

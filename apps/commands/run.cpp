@@ -5,13 +5,14 @@
 
 #include <chrono>
 #include <cstdio>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "apps/commands/accuracy_statement.hpp"
 #include "apps/commands/region_table.hpp"
+#include "apps/commands/run_accuracy.hpp"
 #include "apps/commands/run_files.hpp"
 #include "apps/commands/run_report.hpp"
+#include "apps/commands/run_resume.hpp"
 #include "apps/commands/start_grains.hpp"
 #include "apps/commands/wall_table.hpp"
 #include "apps/support/commands.hpp"
@@ -21,7 +22,6 @@
 #include "apps/support/progress.hpp"
 #include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
-#include "coupling/common/last_whole.hpp"
 #include "coupling/common/text_file.hpp"
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/io/contact_problem_file.hpp"
@@ -48,12 +48,9 @@ double cpu_seconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-constexpr const char *log_name = "log.csv", *energy_name = "energy.csv";
 const char* const log_header =
     "step,time_s,stage,contacts,sweeps,residual,residual_max,penetration,sinking,overlap_mean,"
     "overlap_max,kinetic_energy,converged\n";
-
-std::string snapshot_name(std::int64_t number) { return fmt::format("snapshots/{:06}.h5", number); }
 
 class ParticleRun {
  public:
@@ -88,6 +85,13 @@ class ParticleRun {
     }
     save_checkpoint();
     writer_.wait();
+    if (options_.accuracy_seconds > 0) {
+      try {
+        tell_accuracy();
+      } catch (const Interrupted& by) {
+        return stop_for(by.signal);
+      }
+    }
     write_report("finished");
     output_.finish();
     progress_.show(progress_line());
@@ -97,6 +101,19 @@ class ParticleRun {
   }
 
  private:
+  /// A signal that came while accuracy was told.
+  struct Interrupted {
+    int signal;
+  };
+
+  void tell_accuracy() {
+    stretches_ = to_json(particles::paired_stretches(
+        scene_, simulation_.state(), options_.accuracy_seconds, options_.threads, [&] {
+          if (progress_.due()) progress_.show("run finished; stretches for its accuracy");
+          if (const int signal = interruption()) throw Interrupted{signal};
+        }));
+  }
+
   double simulated_seconds() const { return simulation_.state().time() * simulation_.scales().time_s; }
 
   void advance() {
@@ -113,8 +130,8 @@ class ParticleRun {
       capture_problem();
     if (last_.lost) fail("grain lost", describe(*last_.lost));
     if (fatal) fail("not converged", missed_tolerance());
-    if (last_.overlap.max > crushing_overlap && !scene_.solver.allow_crushing.value_or(false))
-      fail("crushed", crushed(last_.overlap.max));
+    if (last_.overlap.mean > crushing_overlap && !scene_.solver.allow_crushing.value_or(false))
+      fail("crushed", crushed(last_.overlap.mean));
     if (simulation_.wall_loads_due()) write_wall_loads();
     if (simulation_.snapshot_due()) save_snapshot();
   }
@@ -237,6 +254,7 @@ class ParticleRun {
 
   void write_report(const std::string& status) const {
     nlohmann::ordered_json report = run_report(progress_now(), status);
+    if (!stretches_.is_null()) report["accuracy"]["stretches"] = stretches_;
     if (!started_from_.is_null()) report["started_from"] = started_from_;
     write_json(options_.output / "run.json", report);
   }
@@ -272,7 +290,9 @@ class ParticleRun {
     const coupling::RunCost cost{.cpu_seconds = totals_now().cpu_seconds,
                                  .simulated_seconds = simulated_seconds()};
     const coupling::RunSettings settings{scene_.solver.tolerance, scene_.stages.back().time_step_s};
-    return text_of(coupling::accuracy_statement(settings, record, {}, cost));
+    if (!stretches_.is_null()) return text_of_stretches(stretches_, cost.cpu_seconds);
+    return text_of(coupling::accuracy_statement(settings, record, {}, cost)) +
+           (record ? "" : price_of_stretches(cost.cpu_seconds, cost.simulated_seconds));
   }
 
   std::string missed_tolerance() const {
@@ -322,60 +342,8 @@ class ParticleRun {
   double cpu_before_ = 0;
   double next_checkpoint_s_ = 0;
   std::int64_t steps_before_ = 0;
+  nlohmann::ordered_json stretches_;  ///< accuracy.stretches of run.json; null: none were asked for
 };
-
-/// A folder continues only the scene that it was made from.
-void same_scene_or_refuse(const fs::path& output, const std::string& theirs, const std::string& ours) {
-  if (theirs != ours)
-    throw InputError(output.string() +
-                     ": was made from another scene (compare its scene.toml with `drumlin scene show`); "
-                     "use --overwrite to start over");
-}
-
-/// The lists of grains of a scene as they stand in the run folder, by the names of their files there.
-std::map<std::string, std::string> list_texts(particles::Scene scene) {
-  const auto names = grain_list_names(scene);
-  std::map<std::string, std::string> texts;
-  std::size_t k = 0;
-  for (const auto* list : lists_of(scene))
-    texts[names[k++]] = list->text.empty() ? file_text(list->file) : list->text;
-  return texts;
-}
-
-/// The manifest of what stood at the checkpoint; what stands behind it is made anew. Throws InputError if a
-/// snapshot is missing.
-void cut_back(GrowingOutput& output, const std::optional<particles::Checkpoint>& from) {
-  auto& files = output.manifest().files;
-  std::map<std::string, ManifestEntry> kept;
-  if (from) {
-    for (std::int64_t number = 1; number <= from->state.snapshots; ++number) {
-      const std::string name = snapshot_name(number);
-      if (!files.contains(name))
-        throw InputError(fmt::format("{}: is not listed in {}, and the checkpoint builds on it",
-                                     (output.folder() / name).string(), manifest_name));
-      kept[name] = files.at(name);
-    }
-    for (const auto& [name, entry] : files)
-      if (!name.starts_with("snapshots/")) kept[name] = entry;
-    for (const auto& [name, bytes] :
-         {std::pair(log_name, from->log_bytes), std::pair(energy_name, from->energy_bytes),
-          std::pair(wall_table_name, from->walls_bytes), std::pair(region_table_name, from->regions_bytes)}) {
-      kept.erase(name);
-      if (bytes > 0) kept[name] = {file_sum(output.folder() / name, static_cast<std::uint64_t>(bytes)), true};
-    }
-  }
-  files = std::move(kept);
-}
-
-/// The checkpoint that a run goes on from; absent: from its start.
-std::optional<particles::Checkpoint> checkpoint_in(const fs::path& output, const std::string& resolved) {
-  auto last = last_whole_checkpoint(output, particles::read_checkpoint);
-  if (!last) return std::nullopt;
-  if (!last->passed_over.empty())
-    print_error(fmt::format("{}\ngoes on from {} instead\n", last->passed_over, previous_checkpoint_name));
-  same_scene_or_refuse(output, last->content.scene, resolved);
-  return std::move(last->content);
-}
 
 }  // namespace
 

@@ -48,11 +48,13 @@ void check(const SceneOptions& options) {
   double seconds = 0;
   for (std::size_t s = 0; s < scene.stages.size(); ++s) {
     seconds += particles::duration_s(scene.stages[s]);
-    print_out(fmt::format("stage      {}: {:.6g} s in {} steps of {:.6g} s, {} snapshots\n",
-                          scene.stages[s].name, particles::duration_s(scene.stages[s]), plan.stages[s].steps,
+    print_out(fmt::format("stage      {}: {}{:.6g} s in {} steps of {:.6g} s, {} snapshots\n",
+                          scene.stages[s].name, scene.stages[s].until ? "at most " : "",
+                          particles::duration_s(scene.stages[s]), plan.stages[s].steps,
                           plan.stages[s].time_step * scales.time_s, scene.stages[s].snapshots));
   }
-  print_out(fmt::format("in all     {:.6g} s, {} steps, {} snapshots\n", seconds, plan.steps,
+  print_out(fmt::format("in all     {}{:.6g} s, {} steps, {} snapshots\n",
+                        ends_stages_early(scene) ? "at most " : "", seconds, plan.steps,
                         plan.snapshot_steps.size()));
   if (const std::string warning = start_warning(simulation.start_overlaps()); !warning.empty())
     print_out(fmt::format("warning: {}\n", warning));

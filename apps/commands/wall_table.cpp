@@ -30,7 +30,8 @@ std::string wall_lines(particles::Simulation& simulation) {
 
 std::string crushed(double overlap) {
   return fmt::format(
-      "discs overlap by {:.2g} d, more than {:g} d: they are crushed, forces and places mean nothing. "
+      "loaded contacts overlap by {:.2g} d in the mean, more than {:g} d: discs are crushed, forces and "
+      "places mean nothing. "
       "Shorten "
       "time_step_s, lower the load, or allow it by solver.allow_crushing",
       overlap, crushing_overlap);

@@ -3,7 +3,9 @@
 usage: amount_over_place.py PICTURE --runs RUN... [--record FILE.json]
 Each RUN has measured/maps.h5 with displacement fields. |s|/p less the straight line in ln I through all nodes of all runs with I below
 1e-3, means over blocks of 10 d x 4 d, at least 3 d below the surface and 4 d from the wall. What differs from place to place and is the
-same in every run is no noise: no law |s|/p = f(I) has it.
+same in every run is no noise: no law |s|/p = f(I) has it. Then the same with a second and a third variable beside ln I, by least squares over
+means of all runs, in the bed (I below 1e-3) and in the flow (I from 1e-3 to 0.1): dilatancy psi (div v over the shear rate, from displacements), the
+amount |F| of the deviator of the fabric, the volume fraction, the cosine of the angle between the axes of stress and strain rate, and p.
 """
 
 import argparse
@@ -31,6 +33,45 @@ def bed_of(run):
     inertial = fields["displacement_I"]
     bed = inside & (z < -3) & (fields["nu"] >= 0.6) & (inertial > LEAST_I) & (inertial < BED_I) & numpy.isfinite(fields["mu"])
     return x[bed], z[bed], numpy.log(inertial[bed]), fields["mu"][bed]
+
+
+ZONES = {"bed": (LEAST_I, BED_I), "flow": (BED_I, 0.1)}
+VARIABLES = {
+    "psi": lambda f: f["displacement_dilation"] / f["displacement_strain_rate"],
+    "abs(F)": lambda f: numpy.hypot((f["fabric_xx"] - f["fabric_zz"]) / 2, f["fabric_xz"]),
+    "nu": lambda f: f["nu"],
+    "cosine": lambda f: numpy.cos(numpy.radians(2 * f["displacement_axis_angle_deg"])),
+    "ln p": lambda f: numpy.log(f["p"]),
+}
+SETS = [[], ["psi"], ["abs(F)"], ["nu"], ["cosine"], ["ln p"], ["psi", "abs(F)"], ["psi", "cosine"], ["cosine", "abs(F)"], ["psi", "abs(F)", "nu"]]
+
+
+def block_means(run, zone):
+    """Means over blocks of |s|/p, ln I and every variable, by place."""
+    header, grids = read_maps(run / "measured" / "maps.h5")
+    f = {name: grids[name].filled(numpy.nan) if hasattr(grids[name], "filled") else grids[name] for name in grids}
+    x, z = numpy.meshgrid(f["x"], f["z"])
+    inertial = f["displacement_I"]
+    with numpy.errstate(invalid="ignore", divide="ignore"):
+        columns = [f["mu"], numpy.log(inertial), *(read(f) for read in VARIABLES.values())]
+        here = numpy.hypot(x, z - float(header["axis_depth"])) < float(header["drum_radius"]) - 4
+        here &= (z < -3) & (f["nu"] >= 0.6) & (inertial > zone[0]) & (inertial < zone[1]) & numpy.isfinite(sum(columns))
+    means = [blocks_of(x[here], z[here], column[here]) for column in columns]
+    return {place: [of[place] for of in means] for place in means[0]}
+
+
+def beside_inertial_number(runs, zone):
+    """[names, rms that is left, coefficients of 1, ln I and the names] for each set of variables, and the number of blocks."""
+    tables = [block_means(run, zone) for run in runs]
+    places = sorted(set.intersection(*(set(table) for table in tables)))
+    values = numpy.mean([[table[place] for place in places] for table in tables], axis=0).T
+    found = []
+    for names in SETS:
+        columns = [numpy.ones(len(places)), values[1], *(values[2 + list(VARIABLES).index(name)] for name in names)]
+        coefficients = numpy.linalg.lstsq(numpy.array(columns).T, values[0], rcond=None)[0]
+        left = values[0] - coefficients @ columns
+        found.append([names, float(numpy.sqrt(numpy.mean(left**2))), [float(c) for c in coefficients]])
+    return found, len(places)
 
 
 def blocks_of(x, z, left):
@@ -62,6 +103,9 @@ def main():
               "blocks": len(places), "rms": rms, "rms_between_runs": of_seeds, "correlations": [float(c) for c in correlations],
               "decades_of_shear_rate": rms / decades, "decades_between_runs": of_seeds / decades,
               "places": [[BLOCK[0] * i, BLOCK[1] * k, *map(float, left[:, n])] for n, (i, k) in enumerate(places)]}
+    beside = {name: beside_inertial_number(options.runs, zone) for name, zone in ZONES.items()}
+    record["beside_ln_I"] = {name: {"blocks": count, "sets": [{"variables": names, "rms": rms_left, "coefficients": coefficients}
+                                                              for names, rms_left, coefficients in found]} for name, (found, count) in beside.items()}
     if options.record:
         whole_file.write_text(options.record, json.dumps(record, indent=1) + "\n")
 
@@ -82,6 +126,9 @@ def main():
     style.save(figure, options.picture, False)
     print(f"|s|/p = {level:.3f} + {slope:.4f} ln I; left: rms {rms:.4f}, between runs {of_seeds:.4f}, correlations "
           + ", ".join(f"{c:.2f}" for c in correlations))
+    print("| beside ln I | " + " | ".join(f"rms left, {name} ({count} blocks)" for name, (_, count) in beside.items()) + " |\n|---|---|---|")
+    for rows in zip(*(found for found, _ in beside.values())):
+        print(f"| {', '.join(rows[0][0]) or 'nothing'} | " + " | ".join(f"{row[1]:.4f}" for row in rows) + " |")
 
 
 if __name__ == "__main__":

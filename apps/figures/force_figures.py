@@ -50,7 +50,7 @@ def densities(axes, forces, quantity, xlabel):
         axes.plot(x, y, "o-", markersize=3, color=color, label=NAMES[zone])
         axes.fill_between(x, [max(a - b, 0.1 * a) for a, b in zip(y, half)], [a + b for a, b in zip(y, half)],
                           color=color, alpha=0.25, linewidth=0)
-    axes.set_yscale("log")
+    style.log_scale(axes, "y")
     axes.set_xlabel(xlabel)
     axes.set_ylabel("probability density")
 
@@ -72,7 +72,7 @@ def strong_forces(axes, forces):
 
 def weak_forces(axes, forces):
     densities(axes, forces, "f_n", r"$f_n/\langle f_n\rangle$")
-    axes.set_xscale("log")
+    style.log_scale(axes, "x")
     axes.set_ylim(1e-3, 30)
     axes.set_title("The same, weak forces")
 

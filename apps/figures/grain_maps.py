@@ -1,4 +1,4 @@
-"""Grains of a snapshot as they lie: speed, spin, force chains; and the speed as an animation."""
+"""Grains of a snapshot as they lie, coloured by one of their quantities; force chains; animations and series of stills."""
 
 import math
 
@@ -11,6 +11,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.animation import PillowWriter
 
+import grain_colours
 import style
 import whole_file
 
@@ -24,7 +25,8 @@ PULL = style.OTHERS[1]
 MEAN_WIDTH = 0.22  # d: width of a line that carries the mean force...
 MOST_POINTS = 4.0  # ... but no more than this, where a few grains fill the picture
 MOST_MEANS = 4.5  # mean forces: lines do not grow beyond a grain
-STILL = 1e-6  # sqrt(g d), sqrt(g/d): what rests moves by rounding; no colours for that
+FAR = 1.0  # spans of the packing: what flies further out is left out of the picture, and counted
+FEW = 10  # grains that touch something are no packing
 
 
 class Grains:
@@ -40,11 +42,20 @@ class Grains:
             center = snapshot["container/x"][0], snapshot["container/z"][0]
             self.contacts = {name: snapshot["contacts/" + name][:] for name in ("i", "j", "normal_x", "normal_z")}
             self.force = snapshot["contacts/impulse_n"][:] / snapshot["time_step"][0]
+        # What numbers each grain for a colour by id or by material.
+        self.id = grain_colours.id_of(frame["file"], len(self.x))
+        materials = frame.get("materials")
+        self.material = None if materials is None else np.asarray(materials)
         # In a drum that turns all the bulk moves: what flows shows in the frame of the drum.
         self.speed = np.hypot(v_x - self.drum_spin * (self.z - center[1]), v_z + self.drum_spin * (self.x - center[0]))
         self.period = period
         if period is not None:
             self.x = period[0] + np.mod(self.x - period[0], period[1] - period[0])
+
+    def touching(self):
+        """Indices of the grains that carry a force."""
+        i, j = self.contacts["i"], self.contacts["j"]
+        return np.unique(np.concatenate([i, j[j >= 0]]))
 
     def chains(self):
         """Lines between the centres of grains in contact (n, 2, 2), their forces, and which of them end at a wall."""
@@ -64,15 +75,27 @@ class Grains:
         return lines, force, wall
 
 
-class View:
-    """The part of the plane that is shown: all grains, whole containers, other walls as far as they are near."""
+def extent_of(snapshots):
+    """Box around the discs of all snapshots, but for what has flown away: further from the middle 96 % of the grains that touch
+    something (of all grains, where hardly one does) than these are wide."""
+    low = np.min([[(s.x - s.radius).min(), (s.z - s.radius).min()] for s in snapshots], axis=0)
+    high = np.max([[(s.x + s.radius).max(), (s.z + s.radius).max()] for s in snapshots], axis=0)
+    touching = np.concatenate([np.column_stack([s.x, s.z])[s.touching()] for s in snapshots])
+    places = touching if len(touching) > FEW * len(snapshots) else np.concatenate([np.column_stack([s.x, s.z]) for s in snapshots])
+    core = np.quantile(places, [0.02, 0.98], axis=0)
+    reach = FAR * (core[1] - core[0]).max() + 2
+    return np.maximum(low, core[0] - reach), np.minimum(high, core[1] + reach)
 
-    def __init__(self, snapshots):
-        low = np.min([[(s.x - s.radius).min(), (s.z - s.radius).min()] for s in snapshots], axis=0)
-        high = np.max([[(s.x + s.radius).max(), (s.z + s.radius).max()] for s in snapshots], axis=0)
+
+class View:
+    """The part of the plane that is shown: the window that was asked for, else all grains, whole containers, and of other walls
+    what stands beside the grains."""
+
+    def __init__(self, snapshots, window=None):
+        low, high = extent_of(snapshots)
         if snapshots[0].period is not None:
             low[0], high[0] = snapshots[0].period
-        near = 0.5 * (high - low).max() + 2
+        near = 0.03 * (high - low).max() + 1
         limits = low - near, high + near
         for wall in (wall for s in snapshots for wall in s.frame["walls"]):
             x, z, radius = np.atleast_1d(wall["x"]), np.atleast_1d(wall["z"]), wall.get("radius", 0)
@@ -84,9 +107,16 @@ class View:
             low[0], high[0] = snapshots[0].period
         margin = 0.01 * (high - low).max() + 0.2
         self.low, self.high = low - margin, high + margin
+        if window is not None:
+            self.low, self.high = np.array([window[0], window[2]]), np.array([window[1], window[3]])
         size = self.high - self.low
         self.inches = LONG_SIDE / size.max()  # per d
         self.figure_size = np.maximum(size * self.inches, SHORT_SIDE)
+
+    def outside(self, grains):
+        """How many grains have their centres outside of the picture."""
+        places = np.column_stack([grains.x, grains.z])
+        return int(np.any((places < self.low) | (places > self.high), axis=1).sum())
 
     def axes(self, drawing, what, frame):
         figure, axes = plt.subplots(figsize=self.figure_size + [1.9, 1.1])
@@ -100,7 +130,8 @@ class View:
         return figure, axes
 
     @staticmethod
-    def set_title(figure, drawing, what, frame):
+    def set_title(figure, drawing, what, frame, outside=0):
+        what += f" ({outside} grains outside of the picture)" if outside else ""
         state = "" if drawing["status"] == "finished" else f" (run {style.plain(drawing['status'])})"
         figure.suptitle(style.title_of(f"{style.plain(drawing['title'])}\n{what}, t = {frame['time_s']:.2f} s{state}",
                                        drawing["reduced"]), fontsize=13)
@@ -118,15 +149,25 @@ class View:
                                  for r in (wall["radius"], 0.97 * wall["radius"])], axis=1)
                 marks = matplotlib.collections.LineCollection(ends, colors=WALL, linewidths=[2.5] + 11 * [1.0])
                 artists.append(axes.add_collection(marks, autolim=False))
-            elif wall["shape"] == "segment":
-                artists += axes.plot(wall["x"], wall["z"], color=WALL, linewidth=1.6, scalex=False, scaley=False)
-            else:
-                artists.append(axes.add_patch(matplotlib.patches.Circle((wall["x"], wall["z"]), wall["radius"],
-                                                                        facecolor="0.6", edgecolor=WALL,
-                                                                        linewidth=0.6)))
+                continue
+            x, z, radius = np.atleast_1d(wall["x"]), wall["z"], wall.get("radius", 0)
+            for shift in images(x.min() - radius, x.max() + radius, period):
+                if wall["shape"] == "segment":
+                    artist, = axes.plot(x + shift, z, color=WALL, linewidth=1.6, scalex=False, scaley=False)
+                else:
+                    artist = axes.add_patch(matplotlib.patches.Circle((wall["x"] + shift, z), radius, facecolor="0.6",
+                                                                      edgecolor=WALL, linewidth=0.6))
+                if period is not None:
+                    artist.set_clip_path(self.period_of_plane(axes, period))
+                artists.append(artist)
         if period is not None:
             artists += [axes.axvline(x, color=WALL, linewidth=0.8, linestyle=(0, (6, 6))) for x in period]
         return artists
+
+    def period_of_plane(self, axes, period):
+        """The strip of one period, beyond which nothing of a wall is drawn."""
+        return matplotlib.patches.Rectangle((period[0], self.low[1]), period[1] - period[0], self.high[1] - self.low[1],
+                                            transform=axes.transData)
 
     def add_grains(self, axes, grains, **colours):
         discs = matplotlib.collections.EllipseCollection(
@@ -137,33 +178,28 @@ class View:
         return axes.add_collection(discs, autolim=False)
 
 
-def speed_norm(speeds):
-    """Three decades below nearly the fastest: the slow creep deep in a packing is seen beside the flow."""
-    fast = max(np.quantile(speeds, 0.998), STILL)
-    return matplotlib.colors.LogNorm(1e-3 * fast, fast)
+def images(low, high, period):
+    """Shifts by whole periods that bring something from low to high into the period: a wall that moves along leaves it at one
+    side and comes in at the other. Without a period it stays where it is."""
+    if period is None:
+        return [0.0]
+    length = period[1] - period[0]
+    first, last = math.floor((period[0] - high) / length) + 1, math.ceil((period[1] - low) / length) - 1
+    return [k * length for k in range(first, last + 1)]
 
 
-def speed_words(grains):
-    return "speed in the frame of the drum" if grains.drum_spin != 0 else "speed"
-
-
-def draw_speed(drawing, view, grains, norm):
-    figure, axes = view.axes(drawing, speed_words(grains), grains.frame)
-    discs = view.add_grains(axes, grains, cmap="viridis", norm=norm, edgecolors="white")
-    discs.set_array(np.maximum(grains.speed, norm.vmin))
+def draw_colours(drawing, view, grains, colour):
+    figure, axes = view.axes(drawing, colour.words, grains.frame)
+    view.set_title(figure, drawing, colour.words, grains.frame, view.outside(grains) if drawing["window"] is None else 0)
+    discs = view.add_grains(axes, grains, cmap=colour.cmap, norm=colour.norm, edgecolors=colour.edges)
+    discs.set_array(colour.of(grains))
     walls = view.add_walls(axes, grains.frame, grains.period)
-    figure.colorbar(discs, ax=axes, extend="both", shrink=0.85, label=r"speed  [$\sqrt{gd}$]")
+    colour.add_scale(figure, axes, discs)
     return figure, axes, discs, walls
 
 
-def draw_spin(drawing, view, grains, path):
-    figure, axes = view.axes(drawing, "spin of the grains, positive clockwise", grains.frame)
-    most = max(np.quantile(np.abs(grains.spin), 0.99), STILL)
-    discs = view.add_grains(axes, grains, cmap="RdBu_r", norm=matplotlib.colors.Normalize(-most, most),
-                            edgecolors="0.75")
-    discs.set_array(grains.spin)
-    view.add_walls(axes, grains.frame, grains.period)
-    figure.colorbar(discs, ax=axes, extend="both", shrink=0.85, label=r"spin  [$\sqrt{g/d}$]")
+def draw_still(drawing, view, grains, colour, path):
+    figure, *_ = draw_colours(drawing, view, grains, colour)
     style.save(figure, path, drawing["reduced"])
 
 
@@ -194,38 +230,59 @@ def draw_chains(drawing, view, grains, path):
 
 
 def draw_snapshot(drawing, folder):
-    """Returns {file: what it shows}."""
+    """Returns {file: what it shows}: the colour that was asked for, else speed and spin; and force chains."""
     grains = Grains(drawing["snapshot"], drawing["period"])
-    view = View([grains])
+    view = View([grains], drawing["window"])
     number = f"snapshot {drawing['snapshot']['number']}"
     plt.rcParams.update({"savefig.dpi": DPI, "savefig.bbox": "tight"})
-    figure, *_ = draw_speed(drawing, view, grains, speed_norm(grains.speed))
-    style.save(figure, folder / "speed.png", drawing["reduced"])
-    figures = {"speed.png": f"{speed_words(grains)}, {number}"}
-    if grains.spin is not None:
-        draw_spin(drawing, view, grains, folder / "spin.png")
-        figures["spin.png"] = f"spin of the grains, {number}"
+    names = [drawing["color"]] if drawing["color"] else ["speed"] + ([] if grains.spin is None else ["spin"])
+    figures = {}
+    for name in names:
+        colour = grain_colours.Colour(name, [grains], drawing)
+        draw_still(drawing, view, grains, colour, folder / f"{name}.png")
+        figures[f"{name}.png"] = f"{colour.words.replace(', positive clockwise', '')}, {number}"
     draw_chains(drawing, view, grains, folder / "forces.png")
     figures["forces.png"] = f"normal forces of the contacts, {number}"
     return figures
 
 
+def series(drawing):
+    """Snapshots of a series, one view and one scale of colours for all of them."""
+    snapshots = [Grains(frame, drawing["period"]) for frame in drawing["frames"]]
+    return snapshots, View(snapshots, drawing["window"]), grain_colours.Colour(drawing["color"] or "speed", snapshots, drawing)
+
+
+def draw_stills(drawing, folder):
+    """stills/NNNNNN.png for each frame. Returns {file: what it shows}."""
+    snapshots, view, colour = series(drawing)
+    plt.rcParams.update({"savefig.dpi": DPI, "savefig.bbox": None})  # all of one size
+    (folder / "stills").mkdir(exist_ok=True)
+    figures = {}
+    for grains in snapshots:
+        number = grains.frame["number"]
+        draw_still(drawing, view, grains, colour, folder / "stills" / f"{number:06d}.png")
+        figures[f"stills/{number:06d}.png"] = f"{colour.words}, snapshot {number}"
+    return figures
+
+
 def draw_animation(drawing, folder):
     """Returns {file: what it shows}. The same view and colours in all frames."""
-    snapshots = [Grains(frame, drawing["period"]) for frame in drawing["frames"]]
-    view = View(snapshots)
-    norm = speed_norm(np.concatenate([grains.speed for grains in snapshots]))
+    snapshots, view, colour = series(drawing)
     plt.rcParams.update({"savefig.bbox": None})  # all frames of one size
-    figure, axes, discs, walls = draw_speed(drawing, view, snapshots[0], norm)
+    figure, axes, discs, walls = draw_colours(drawing, view, snapshots[0], colour)
+    discs.remove()
     writer = PillowWriter(fps=12)
     with whole_file.aside(folder / "animation.gif") as stream, writer.saving(figure, stream, dpi=80):
         for grains in snapshots:
-            discs.set_offsets(np.column_stack([grains.x, grains.z]))
-            discs.set_array(np.maximum(grains.speed, norm.vmin))
+            # Anew for each frame: grains may come and go.
+            discs = view.add_grains(axes, grains, cmap=colour.cmap, norm=colour.norm, edgecolors=colour.edges)
+            discs.set_array(colour.of(grains))
             for artist in walls:
                 artist.remove()
             walls = view.add_walls(axes, grains.frame, grains.period)
-            view.set_title(figure, drawing, speed_words(grains), grains.frame)
+            view.set_title(figure, drawing, colour.words, grains.frame,
+                           view.outside(grains) if drawing["window"] is None else 0)
             writer.grab_frame()
+            discs.remove()
     plt.close(figure)
-    return {"animation.gif": f"{speed_words(snapshots[0])}, {len(snapshots)} snapshots"}
+    return {"animation.gif": f"{colour.words}, {len(snapshots)} snapshots"}

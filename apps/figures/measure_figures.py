@@ -71,7 +71,7 @@ def draw_logarithmic(axes, run, name, color=style.PARTICLES, label=None, marker=
     if half is not None:
         axes.fill_between(run.z, [max(v - h, 1e-2 * v) for v, h in zip(values, half)],
                           [v + h for v, h in zip(values, half)], color=color, alpha=0.25, linewidth=0)
-    axes.set_yscale("log")
+    style.log_scale(axes, "y")
 
 
 def line_of(run, value):
@@ -167,7 +167,7 @@ def over_inertia(axes, run, name):
     axes.errorbar(x, y, error, fmt="o", color=style.PARTICLES, elinewidth=1, label="measured, 99 %")
     x, y, _ = groups[False]
     axes.plot(x, y, "o", color=style.PARTICLES, fillstyle="none", label="at the surface or the wall")
-    axes.set_xscale("log")
+    style.log_scale(axes, "x")
     axes.set_xlabel(style.LABELS["I"])
     axes.set_ylabel(style.LABELS[name])
 
@@ -205,7 +205,7 @@ def fluctuations(run):
         ratios = [value / rate if rate > 0 else math.nan
                   for value, rate in zip(run.columns[name], run.columns["shear_rate"])]
         axes.plot(run.z, ratios, "o-", color=style.PARTICLES)
-        axes.set_yscale("log")
+        style.log_scale(axes, "y")
         value = run.scalar(plateau)
         if math.isfinite(value):
             axes.plot([run.fit("fit_bottom"), -settings["surface_speed_depth"]], [value, value], color=FIT, zorder=5,
@@ -275,7 +275,7 @@ def slices(run):
         axes.set_xlabel(style.LABELS["z"] + ", each from its own surface")
         axes.set_ylabel(style.LABELS[name])
         axes.axvline(0, color="0.4", linestyle="--", linewidth=1)
-    right.set_yscale("log")
+    style.log_scale(right, "y")
     left.legend(loc="upper left")
     left.set_title("Velocity along the surface at five places")
     right.set_title("Shear rate")
@@ -291,14 +291,19 @@ def steadiness(run):
     turns = [float(row["turns"]) for row in rows]
     rotates = len(set(turns)) > 1
     at = turns if rotates else [float(row["time"]) for row in rows]
-    figure, panels = plt.subplots(2 if has_slope else 1, 1, figsize=(10, 6 if has_slope else 3.4), sharex=True, squeeze=False)
-    panels = list(panels.flat)
-    panels[0].plot(at, [float(row["kinetic_energy"]) for row in rows], ".-", linewidth=0.8)
-    panels[0].set_ylabel("kinetic energy\nin the drum's frame  [$\\rho_0 g d^3$]")
-    panels[0].set_ylim(bottom=0)
+    shown = [("kinetic_energy", "kinetic energy" + ("\nin the drum's frame" if has_slope else "") + "  [$\\rho_0 g d^3$]", style.PARTICLES)]
     if has_slope:
-        panels[1].plot(at, [float(row["theta_com_deg"]) for row in rows], ".-", linewidth=0.8, color=style.OTHERS[0])
-        panels[1].set_ylabel("angle of the\ncentre of mass  [deg]")
+        shown.append(("theta_com_deg", "angle of the\ncentre of mass  [deg]", style.OTHERS[0]))
+    for name, label in (("pressure", "pressure over\nthe discs  [$\\rho_0 g d$]"), ("shear_stress", "shear stress over\nthe discs  [$\\rho_0 g d$]"),
+                        ("shear_rate", "mean shear rate\n[$\\sqrt{g/d}$]")):
+        if any(row.get(name) for row in rows):
+            shown.append((name, label, style.OTHERS[0]))
+    figure, panels = plt.subplots(len(shown), 1, figsize=(10, 0.8 + 2.6 * len(shown)), sharex=True, squeeze=False)
+    panels = list(panels.flat)
+    for axes, (name, label, colour) in zip(panels, shown):
+        axes.plot(at, [float(row[name] or "nan") for row in rows], ".-", linewidth=0.8, color=colour)
+        axes.set_ylabel(label)
+    panels[0].set_ylim(bottom=0)
     panels[-1].set_xlabel("turns of the drum" if rotates else r"time  [$\sqrt{d/g}$]")
     verdict = run.content["steadiness"]
     title = "steady" if verdict["steady"] else style.plain("not steady: " + "; ".join(verdict["reasons"]), 110, 3)

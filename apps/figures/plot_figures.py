@@ -1,4 +1,4 @@
-"""Figures of `drumlin plot`: one snapshot, the log, where the time went, and an animation if it is asked for."""
+"""Figures of `drumlin plot`: one snapshot, the log, where the time went, and an animation or a series of stills if it is asked for."""
 
 import json
 import pathlib
@@ -21,7 +21,9 @@ def main():
     if drawing["snapshot"] is not None:
         figures.update(grain_maps.draw_snapshot(drawing, folder))
     figures.update(run_curves.draw(drawing, folder))
-    if drawing["frames"]:
+    if drawing["frames"] and not drawing["animation"]:
+        figures.update(grain_maps.draw_stills(drawing, folder))
+    if drawing["frames"] and drawing["animation"]:
         figures.update(grain_maps.draw_animation(drawing, folder))
     snapshot = drawing["snapshot"] and drawing["snapshot"]["number"]
     whole_file.write_text(folder / "drawn.json", json.dumps(

@@ -87,6 +87,15 @@ def save(figure, path, reduced):
     plt.close(figure)
 
 
+def log_scale(axes, which):
+    """A logarithmic axis, "x" or "y", where any line or point has a positive value on it: grains at rest have none."""
+    # Lines across the axes (axvline) count from 0 to 1 whatever is drawn.
+    drawn = [getattr(line, f"get_{which}data")() for line in axes.get_lines() if line.get_transform() == axes.transData]
+    drawn += [points.get_offsets()[:, "xy".index(which)] for points in axes.collections if len(points.get_offsets())]
+    if any(value > 0 for values in drawn for value in values):
+        getattr(axes, f"set_{which}scale")("log")
+
+
 def band(axes, x, y, half_width, color, label=None, marker="o"):
     """A curve with its 99 % interval as a band around it. x horizontal, y vertical."""
     axes.plot(x, y, marker=marker, color=color, label=label)

@@ -154,7 +154,6 @@ Json neglected_json(const FinishedFlow& flow) {
   if (!effects.moving_surface) content["surface_height_rms"] = rest.surface_height_rms;
   if (!effects.wall_slip) content["wall_above_friction_0.95"] = rest.wall_friction;
   if (!effects.nonlocal && rest.nonlocal) content["nonlocal_1_d_rms"] = *rest.nonlocal;
-  if (!effects.fabric && rest.fabric) content["fabric_c_1_rms"] = *rest.fabric;
   return content;
 }
 

@@ -66,8 +66,6 @@ std::string neglected_text(const FinishedFlow& flow) {
   if (!effects.nonlocal && rest.nonlocal)
     text += fmt::format(", fluidity that spreads over 1 d ({:.2g}, rms of its ln where it flows)",
                         *rest.nonlocal);
-  if (!effects.fabric && rest.fabric)
-    text += fmt::format(", fabric that is renewed with c = 1 ({:.2g} of beta)", *rest.fabric);
   return text + "\n";
 }
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-namespace drumlin::apps {
+#include "apps/support/existing_output.hpp"
+#include "apps/support/plot_options.hpp"
 
-/// What to do with an output folder that exists already.
-enum class ExistingOutput { refuse, resume, overwrite };
+namespace drumlin::apps {
 
 struct RunOptions {
   std::filesystem::path scene;
@@ -19,6 +19,7 @@ struct RunOptions {
   std::optional<std::filesystem::path>
       accuracy;  ///< COST of the scene; absent: a shipped record, if there is one
   ExistingOutput existing = ExistingOutput::refuse;
+  double accuracy_seconds = 0;  ///< simulated, of the stretches that tell errors at the end; 0: none
 };
 int run(const RunOptions&);
 
@@ -58,13 +59,6 @@ struct ImportOptions {
 /// Makes a run folder of the snapshots of another program.
 int import_foreign(const ImportOptions&);
 
-struct PlotOptions {
-  std::filesystem::path run;
-  std::optional<std::filesystem::path> output;  ///< standard: RUN/plots
-  std::string snapshot = "last";                ///< or its number, from 1
-  bool animation = false;
-  ExistingOutput existing = ExistingOutput::refuse;
-};
 int plot(const PlotOptions&);
 
 struct ExportOptions {
@@ -101,7 +95,6 @@ struct CalibrateOptions {
   int draws = 200;
   bool k = false;
   bool misalignment = false;
-  bool relaxation = false;
   bool memory = false;
   bool accept_unsteady = false;
   ExistingOutput existing = ExistingOutput::refuse;

@@ -1,11 +1,9 @@
 #include "continuum/fem/detail/carried_field.hpp"
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_dgq.h>
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/fe_values.h>
-#include <deal.II/lac/sparsity_tools.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -79,13 +77,7 @@ class Assembler {
         part_(d.mapping, *field.element, d.side_quadrature, side_flags),
         part_u_(d.mapping, d.elements, d.side_quadrature, u_flags),
         other_part_(d.mapping, *field.element, d.side_quadrature, dealii::update_values) {
-    const dealii::IndexSet owned = field.places.locally_owned_dofs();
-    dealii::IndexSet relevant;
-    dealii::DoFTools::extract_locally_relevant_dofs(field.places, relevant);
-    dealii::DynamicSparsityPattern pattern(owned.size(), owned.size(), relevant);
-    dealii::DoFTools::make_flux_sparsity_pattern(field.places, pattern);
-    dealii::SparsityTools::distribute_sparsity_pattern(pattern, owned, d.mesh.get_communicator(), relevant);
-    matrix.reinit(owned, owned, pattern, d.mesh.get_communicator());
+    couple_across_faces(d, field, matrix);
     rhs = field.values;
     rhs = 0;
   }

@@ -75,11 +75,9 @@ std::shared_ptr<fem::SolvedLevel> coarsest_level(const FlowProblem& problem) {
 
 FlowSolution march_flow(const FlowField& start, const FlowProblem& problem, const FlowMarch& march,
                         const FlowSolverOptions& options, const FlowObserver& observer) {
-  if (problem.nonlocal || problem.threshold_fluidity || problem.memory ||
-      (problem.turned && problem.turned->fabric))
+  if (problem.nonlocal || problem.threshold_fluidity || problem.memory)
     throw InputError(
-        "steps in time know neither carried fabric nor memory of the axes nor nonlocal fluidity: the state "
-        "that they go on from "
+        "steps in time know neither memory of the axes nor nonlocal fluidity: the state that they go on from "
         "holds velocity and pressure alone");
   const double begun = fem::now();
   FlowProblem unsteady = problem;

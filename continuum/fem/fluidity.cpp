@@ -1,10 +1,8 @@
 #include "continuum/fem/detail/fluidity.hpp"
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
-#include <deal.II/lac/sparsity_tools.h>
 #include <fmt/format.h>
 
 #include <cmath>
@@ -23,13 +21,7 @@ struct HelmholtzSystem {
 void assemble(const Discretisation& d, const ScalarField& field,
               const dealii::AffineConstraints<double>& lines, double length,
               std::span<const double> local_fluidity, HelmholtzSystem& system) {
-  const dealii::IndexSet owned = field.places.locally_owned_dofs();
-  dealii::IndexSet relevant;
-  dealii::DoFTools::extract_locally_relevant_dofs(field.places, relevant);
-  dealii::DynamicSparsityPattern pattern(owned.size(), owned.size(), relevant);
-  dealii::DoFTools::make_sparsity_pattern(field.places, pattern, lines, /*keep_constrained_dofs=*/false);
-  dealii::SparsityTools::distribute_sparsity_pattern(pattern, owned, d.mesh.get_communicator(), relevant);
-  system.matrix.reinit(owned, owned, pattern, d.mesh.get_communicator());
+  couple_in_cells(d, field, lines, system.matrix);
   system.mass = field.values;
   system.mass = 0;
   system.source = system.mass;
@@ -68,7 +60,7 @@ void assemble(const Discretisation& d, const ScalarField& field,
   }
   system.mass.compress(dealii::VectorOperation::add);
   system.source.compress(dealii::VectorOperation::add);
-  for (const auto i : owned)
+  for (const auto i : field.places.locally_owned_dofs())
     if (!lines.is_constrained(i)) system.matrix.add(i, i, system.mass[i]);
   system.matrix.compress(dealii::VectorOperation::add);
 }

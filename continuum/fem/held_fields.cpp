@@ -38,7 +38,7 @@ void add_memory(const FlowProblem& problem, const Discretisation& d, const State
   const AxesSources axes = axes_sources(problem, d, state);
   const auto A = axes_carried_by_flow(problem, d, state.solution, {axes.rate, axes.target_xx, axes.target_xz},
                                       update.linear_tolerance);
-  const FabricSources sources = rho_sources(problem, d, state, m, *A);
+  const RhoSources sources = rho_sources(problem, d, state, m, *A);
   const auto rho =
       carried_by_flow(problem, d, state.solution, {sources.rate, sources.target}, update.linear_tolerance)
           .field;
@@ -105,7 +105,6 @@ HeldValues held_at(const HeldFields& held, const Discretisation& d, const MeshCe
                    const std::vector<dealii::Point<2>>& unit_points) {
   HeldValues values;
   if (held.turning) values.turn = turn_at(*held.turning, d, cell, unit_points);
-  if (held.beta) values.beta = values_at(*held.beta, cell, unit_points);
   if (held.ln_fluidity) values.fluidity = exponentials(values_at(*held.ln_fluidity, cell, unit_points));
   if (held.axes) {
     values.memory =
@@ -129,19 +128,6 @@ std::vector<double> local_fluidity(const FlowProblem& problem, const Discretisat
   return g;
 }
 
-FabricSources fabric_sources(const FlowProblem& problem, const Discretisation& d, const State& state,
-                             const std::vector<double>& turn, double relaxation) {
-  FabricSources sources;
-  for_each_point(d, state.solution, [&](const PointValues& at, std::size_t point) {
-    const double rate = regularised_rate(at.D, problem.regularisation);
-    const LocalRatio local{&problem.turned->k, turn[point]};
-    const double p = regularised_pressure(at.p, problem.regularisation).value;
-    sources.rate.push_back(2 * relaxation * rate);
-    sources.target.push_back(local.turning(local.state(rate, p)).value);
-  });
-  return sources;
-}
-
 AxesSources axes_sources(const FlowProblem& problem, const Discretisation& d, const State& state) {
   const AxesMemory& memory = problem.memory.value();
   AxesSources sources;
@@ -157,10 +143,10 @@ AxesSources axes_sources(const FlowProblem& problem, const Discretisation& d, co
   return sources;
 }
 
-FabricSources rho_sources(const FlowProblem& problem, const Discretisation& d, const State& state, double m,
-                          const ScalarField& axes) {
+RhoSources rho_sources(const FlowProblem& problem, const Discretisation& d, const State& state, double m,
+                       const ScalarField& axes) {
   const auto xx = at_quadrature(axes, d, 0), xz = at_quadrature(axes, d, 1);
-  FabricSources sources;
+  RhoSources sources;
   for_each_point(d, state.solution, [&](const PointValues& at, std::size_t point) {
     const double rate = regularised_rate(at.D, problem.regularisation);
     sources.rate.push_back(2 * problem.memory->law.c_rho * rate);
@@ -179,15 +165,6 @@ std::shared_ptr<const HeldFields> held_from(const FlowProblem& problem, const Di
     held->turning = turning_of(problem, d, problem.regularisation.shear_rate, state.solution,
                                before ? before->turning.get() : nullptr, share);
     values.turn = held->turning->at_quadrature;
-    if (const auto& fabric = problem.turned->fabric) {
-      const FabricSources sources = fabric_sources(problem, d, state, values.turn, fabric->relaxation);
-      const auto beta =
-          carried_by_flow(problem, d, state.solution, {sources.rate, sources.target}, update.linear_tolerance)
-              .field;
-      mix_in(before ? before->beta.get() : nullptr, share, *beta);
-      values.beta = at_quadrature(*beta, d);
-      held->beta = beta;
-    }
   }
   if (problem.memory) add_memory(problem, d, state, update, *held);
   if (problem.nonlocal) {

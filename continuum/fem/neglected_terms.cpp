@@ -112,18 +112,6 @@ std::optional<double> spread_of_fluidity(const fem::SolvedLevel& level) {
   return flowing_rms(level, fem::at_quadrature(*factor.ln_factor, d));
 }
 
-std::optional<double> memory_of_fabric(const fem::SolvedLevel& level) {
-  const auto& d = *level.discretisation;
-  if (!level.problem.turned || !level.state.held) return std::nullopt;
-  const auto sources = fem::fabric_sources(level.problem, d, level.state, level.state.held_values().turn, 1);
-  const auto carried =
-      fem::carried_by_flow(level.problem, d, level.state.solution, {sources.rate, sources.target}, 1e-6);
-  std::vector<double> change = fem::at_quadrature(*carried.field, d);
-  for (std::size_t q = 0; q < change.size(); ++q) change[q] -= sources.target[q];
-  const double local = flowing_rms(level, sources.target);
-  return local > 0 ? flowing_rms(level, change) / local : 0;
-}
-
 }  // namespace
 
 NeglectedTerms neglected_terms(const FlowField& field) {
@@ -155,8 +143,7 @@ NeglectedTerms neglected_terms(const FlowField& field) {
           .inertia_largest = dealii::Utilities::MPI::max(sums.largest, d.mesh.get_communicator()),
           .surface_height_rms = std::sqrt(share(sums.height, sums.surface)),
           .wall_friction = share(sums.overloaded, sums.wall),
-          .nonlocal = spread_of_fluidity(level),
-          .fabric = memory_of_fabric(level)};
+          .nonlocal = spread_of_fluidity(level)};
 }
 
 }  // namespace drumlin::continuum

@@ -16,8 +16,6 @@ struct NeglectedTerms {
   /// Over what flows (I > 1e-3, p > 1): rms of ln(g/g_loc) for a nonlocal length of 1 d. Absent where the law
   /// determines no fluidity.
   std::optional<double> nonlocal;
-  /// Likewise, rms of what fabric with c = 1 would change in beta, over rms of beta. Absent without k.
-  std::optional<double> fabric;
 };
 
 /// Of a solved flow of any geometry. Collective. Throws NotConvergedError where a linear solve misses its

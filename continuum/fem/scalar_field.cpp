@@ -1,27 +1,63 @@
 #include "continuum/fem/detail/scalar_field.hpp"
 
 #include <deal.II/dofs/dof_tools.h>
+#include <deal.II/lac/sparsity_tools.h>
 
 namespace drumlin::continuum::fem {
+namespace {
+
+dealii::IndexSet relevant_to(const dealii::DoFHandler<2>& places) {
+  dealii::IndexSet relevant;
+  dealii::DoFTools::extract_locally_relevant_dofs(places, relevant);
+  return relevant;
+}
+
+template <class FillPattern>
+void reinit_matrix(const Discretisation& d, const ScalarField& field, const FillPattern& fill,
+                   SystemMatrix& matrix) {
+  const dealii::IndexSet owned = field.places.locally_owned_dofs(), relevant = relevant_to(field.places);
+  dealii::DynamicSparsityPattern pattern(owned.size(), owned.size(), relevant);
+  fill(pattern);
+  dealii::SparsityTools::distribute_sparsity_pattern(pattern, owned, d.mesh.get_communicator(), relevant);
+  matrix.reinit(owned, owned, pattern, d.mesh.get_communicator());
+}
+
+}  // namespace
 
 ScalarField::ScalarField(const Discretisation& d, const dealii::FiniteElement<2>& kind)
     : element(kind.clone()), places(d.mesh) {
   places.distribute_dofs(*element);
-  dealii::IndexSet relevant;
-  dealii::DoFTools::extract_locally_relevant_dofs(places, relevant);
-  values.reinit(places.locally_owned_dofs(), relevant, d.mesh.get_communicator());
+  values.reinit(places.locally_owned_dofs(), relevant_to(places), d.mesh.get_communicator());
 }
 
 dealii::AffineConstraints<double> conforming_lines(const FlowProblem& problem, const ScalarField& field) {
-  dealii::IndexSet relevant;
-  dealii::DoFTools::extract_locally_relevant_dofs(field.places, relevant);
-  dealii::AffineConstraints<double> lines(relevant);
+  dealii::AffineConstraints<double> lines(relevant_to(field.places));
   dealii::DoFTools::make_hanging_node_constraints(field.places, lines);
   if (const auto* box = std::get_if<BoxDomain>(&problem.domain); box && box->periodic_x)
     dealii::DoFTools::make_periodicity_constraints(field.places, static_cast<int>(Side::left),
                                                    static_cast<int>(Side::right), 0, lines);
   lines.close();
   return lines;
+}
+
+void couple_in_cells(const Discretisation& d, const ScalarField& field,
+                     const dealii::AffineConstraints<double>& lines, SystemMatrix& matrix) {
+  reinit_matrix(
+      d, field,
+      [&](dealii::DynamicSparsityPattern& pattern) {
+        dealii::DoFTools::make_sparsity_pattern(field.places, pattern, lines,
+                                                /*keep_constrained_dofs=*/false);
+      },
+      matrix);
+}
+
+void couple_across_faces(const Discretisation& d, const ScalarField& field, SystemMatrix& matrix) {
+  reinit_matrix(
+      d, field,
+      [&](dealii::DynamicSparsityPattern& pattern) {
+        dealii::DoFTools::make_flux_sparsity_pattern(field.places, pattern);
+      },
+      matrix);
 }
 
 std::vector<double> values_at(const ScalarField& field, const MeshCell& cell,

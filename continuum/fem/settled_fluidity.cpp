@@ -1,11 +1,9 @@
 #include "continuum/fem/detail/settled_fluidity.hpp"
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/lac/full_matrix.h>
-#include <deal.II/lac/sparsity_tools.h>
 
 #include <algorithm>
 #include <cmath>
@@ -44,13 +42,7 @@ SettledFluidity::SettledFluidity(const FlowProblem& problem, const Discretisatio
   }
   std::sort(places_.begin(), places_.end());
   places_.erase(std::unique(places_.begin(), places_.end()), places_.end());
-  const dealii::IndexSet owned = y_.places.locally_owned_dofs();
-  dealii::IndexSet relevant;
-  dealii::DoFTools::extract_locally_relevant_dofs(y_.places, relevant);
-  dealii::DynamicSparsityPattern pattern(owned.size(), owned.size(), relevant);
-  dealii::DoFTools::make_sparsity_pattern(y_.places, pattern, lines_, /*keep_constrained_dofs=*/false);
-  dealii::SparsityTools::distribute_sparsity_pattern(pattern, owned, d.mesh.get_communicator(), relevant);
-  matrix_.reinit(owned, owned, pattern, d.mesh.get_communicator());
+  couple_in_cells(d, y_, lines_, matrix_);
 }
 
 std::vector<SettledFluidity::Source> SettledFluidity::sources(const Setting& setting,

@@ -104,20 +104,12 @@ struct RotatingFrame {
   double axis_offset = 0;  ///< the observer turns about (0, axis_offset)
 };
 
-/// The material carries its fabric along and renews it as it shears: v.grad beta = 2 c |D| (beta_ss - beta),
-/// where beta_ss is the beta of the local k(I). In two dimensions a traceless tensor that turns with the axes
-/// of D is that one number, so that nothing else is carried.
-struct CarriedFabric {
-  double relaxation = 1;  ///< c: the share that is renewed per unit of shear
-};
-
 /// k(I): turns the stress against the strain rate (continuum/rheology/turned_law.hpp).
 struct TurnedStress {
   StressRatioLaw k;
   double softness = 0.1;  ///< c of turn_of()
   /// s sgn(W - Omega_D) at a point; empty: from the flow itself, for verification else.
   std::function<double(Vec2)> given_turn = {};
-  std::optional<CarriedFabric> fabric = {};  ///< absent: k is that of the local I
 };
 
 /// Fluidity g = 2|D|/mu spreads: g - length^2 lap g = g_loc, without flux through the sides.

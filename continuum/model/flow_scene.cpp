@@ -127,11 +127,6 @@ void describe(Visitor& v, FlowWallSlip& s) {
                     "Speed at which friction is nearly full; a wall that holds creeps at a part of it."));
 }
 template <class Visitor>
-void describe(Visitor& v, FlowFabric& f) {
-  v.value("relaxation", f.relaxation,
-          required("", above(0, 1e6), "Share of its fabric that the material renews per unit of shear."));
-}
-template <class Visitor>
 void describe(Visitor&, FlowMemory&) {}
 template <class Visitor>
 void describe(Visitor& v, FlowNonlocal& n) {
@@ -164,8 +159,6 @@ void describe(Visitor& v, FlowEffects& e) {
   v.optional_table("rotating_frame", e.rotating_frame,
                    "The solver's velocity is that seen from the drum; no answer changes.");
   v.optional_table("wall_slip", e.wall_slip, "The material slides along the wall under Coulomb's law.");
-  v.optional_table("fabric", e.fabric,
-                   "The material carries its k along and renews it by shear; the law has to have k.");
   v.optional_table("memory", e.memory,
                    "The axes of the stress remember past strain, as the law's table [memory] says.");
   v.optional_table(
@@ -242,7 +235,6 @@ void check_drum(const Document& document, FlowScene& scene, std::vector<InputPro
       problems.push_back(problem_at(document, path, "is one of the steady flow", "absent with [time]"));
   };
   refuse_in_time(scene.effects.rotating_frame.has_value(), "effects.rotating_frame");
-  refuse_in_time(scene.effects.fabric.has_value(), "effects.fabric");
   refuse_in_time(scene.effects.memory.has_value(), "effects.memory");
   refuse_in_time(scene.effects.nonlocal.has_value(), "effects.nonlocal");
   refuse_in_time(scene.effects.moving_surface.has_value(), "effects.moving_surface");
@@ -255,10 +247,6 @@ void check_drum(const Document& document, FlowScene& scene, std::vector<InputPro
     refuse_beside_length(spread->amplitude.has_value(), "effects.nonlocal.amplitude");
     refuse_beside_length(spread->threshold.has_value(), "effects.nonlocal.threshold");
   }
-  if (scene.effects.memory && scene.effects.fabric)
-    problems.push_back(problem_at(document, "effects.fabric",
-                                  "turns the axes of the stress, and so does their memory",
-                                  "absent with effects.memory"));
   if (scene.effects.moving_surface && drum.slope_deg)
     problems.push_back(problem_at(document, "drum.slope_deg",
                                   "leaves the axes where a surface that moves turns itself",
@@ -278,7 +266,6 @@ void refuse_keys_of_the_drum(const Document& document, const FlowScene& scene,
   if (scene.effects.rotating_frame) refuse("effects.rotating_frame");
   if (scene.effects.wall_slip) refuse("effects.wall_slip");
   if (scene.time) refuse("time");
-  if (scene.effects.fabric) refuse("effects.fabric");
   if (scene.effects.memory) refuse("effects.memory");
   if (scene.effects.nonlocal) refuse("effects.nonlocal");
   if (scene.effects.moving_surface) refuse("effects.moving_surface");

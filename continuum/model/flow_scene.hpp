@@ -80,9 +80,6 @@ struct FlowWallSlip {
   double friction = 0;       ///< of the wall against the grains
   double slip_speed = 1e-4;  ///< sqrt(g d)
 };
-struct FlowFabric {
-  double relaxation = 0;  ///< c: the share of its fabric that the material renews per unit of shear
-};
 /// Takes no key: the law says all.
 struct FlowMemory {};
 /// Fluidity that spreads: over one length (NonlocalFluidity), or over one that grows towards a threshold
@@ -102,7 +99,6 @@ struct FlowEffects {
   std::optional<FlowInertia> inertia;
   std::optional<FlowRotatingFrame> rotating_frame;
   std::optional<FlowWallSlip> wall_slip;
-  std::optional<FlowFabric> fabric;
   std::optional<FlowMemory> memory;
   std::optional<FlowNonlocal> nonlocal;
   std::optional<FlowMovingSurface> moving_surface;

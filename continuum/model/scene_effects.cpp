@@ -53,11 +53,6 @@ void check_nonlocal(const FlowEffects& effects, const RheologyFit& law, const St
 
 void check_law(const FlowEffects& effects, const RheologyFit& law, const StressLaw& mu) {
   std::vector<InputProblem> problems;
-  if (effects.fabric && !law.k)
-    problems.push_back({.file = "",
-                        .key = "effects.fabric",
-                        .what = "carries k along with the material, and the law has no k",
-                        .allowed = "a rheology file with a table [k]"});
   if (effects.memory && !law.memory)
     problems.push_back({.file = "",
                         .key = "effects.memory",
@@ -88,7 +83,6 @@ void add_law_and_effects(const FlowScene& scene, const RheologyFit& law, FlowPro
   problem.law = stress_law(law);
   check_law(effects, law, problem.law);
   if (law.k) problem.turned = TurnedStress{.k = StressRatioLaw(law.k->I, law.k->k)};
-  if (effects.fabric) problem.turned->fabric = CarriedFabric{effects.fabric->relaxation};
   if (effects.nonlocal) add_nonlocal(*effects.nonlocal, law, problem);
   if (effects.memory) problem.memory.emplace(*law.memory);
   if (effects.inertia) problem.inertia = Inertia{};

@@ -28,8 +28,8 @@ struct TurnedResponse : StressResponse {
 };
 
 /// As stress_response() of tensor_law.hpp, with k.
-template <class FrictionLaw, class Ratio>
-TurnedResponse turned_response(const FrictionLaw& law, const Ratio& ratio, const Regularisation& r,
+template <class FrictionLaw>
+TurnedResponse turned_response(const FrictionLaw& law, const LocalRatio& ratio, const Regularisation& r,
                                const PlaneTensor& D, double p, const PlaneTensor& dual) {
   TurnedResponse response;
   const RegularisedPressure pressure = regularised_pressure(p, r);

@@ -44,7 +44,6 @@ const std::vector<FlowEffect>& flow_effects() {
       {"wall_slip", "effects.wall_slip={friction=0.95}", false},
       {"rotating_frame", "effects.rotating_frame={}", false},
       {"k", "", true},
-      {"fabric", "effects.fabric={relaxation=1}", true},
       {"nonlocal", "effects.nonlocal={length=1}", false},
       {"moving_surface", "effects.moving_surface={}", false},
   };

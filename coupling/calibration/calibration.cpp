@@ -176,14 +176,11 @@ Calibration calibration_of(std::vector<RunEvidence> runs, std::vector<RunEvidenc
   calibration.options = options;
   calibration.runs = std::move(runs);
   calibration.held_out = std::move(held_out);
-  if (options.k || options.turn || options.relaxation) calibration.turn = fitted_turn(calibration);
+  if (options.k || options.turn) calibration.turn = fitted_turn(calibration);
   fit_forms(calibration);
   require_growth(calibration.law());
   calibration.rheology = rheology_of(calibration);
   assess(calibration);
-  if (options.relaxation)
-    for (const RunEvidence& run : calibration.runs)
-      calibration.relaxations.push_back(fabric_relaxation(*run.map, calibration.turn->curve()));
   if (options.memory || options.nonlocal) add_laws_of_the_bed(calibration);
   return calibration;
 }

@@ -3,7 +3,6 @@
 #include <optional>
 #include <vector>
 
-#include "coupling/calibration/fabric_relaxation.hpp"
 #include "coupling/calibration/law_score.hpp"
 #include "coupling/calibration/memory_calibration.hpp"
 #include "coupling/calibration/nonlocal_fit.hpp"
@@ -18,7 +17,6 @@ struct CalibrationOptions {
   std::optional<FormKind> form = {};  ///< of mu; absent: a table where there are points enough, else log
   bool k = false;                     ///< k(I) is a part of the law
   bool turn = false;                  ///< the turn of the stress is fitted although it is no part of the law
-  bool relaxation = false;            ///< needs the maps of the runs
   bool memory = false;                ///< needs the maps and amount_blocks of the runs
   int draws = 200;
   bool nonlocal = false;  ///< needs the maps and amount_blocks of the runs
@@ -30,14 +28,13 @@ struct Calibration {
   std::vector<RunEvidence> held_out;
   std::vector<CalibratedLaw> forms;  ///< every form that the points allow, one of them chosen
   std::size_t chosen = 0;
-  std::optional<CalibratedLaw> turn;          ///< FormKind::turn of maps, FormKind::stress_ratio of profiles
-  std::vector<LawScore> scores;               ///< per run of the fit
-  std::vector<LawScore> predictions;          ///< per run held out
-  std::optional<OneLaw> one_law;              ///< with two speeds at least
-  std::vector<FabricRelaxation> relaxations;  ///< per run
-  std::optional<MemoryCalibration> memory;    ///< where it is asked for
-  std::optional<NonlocalFit> nonlocal;        ///< where it is asked for
-  std::vector<InertialRange> ill_posed;       ///< within 1e-6 ... 1, in simple shear
+  std::optional<CalibratedLaw> turn;        ///< FormKind::turn of maps, FormKind::stress_ratio of profiles
+  std::vector<LawScore> scores;             ///< per run of the fit
+  std::vector<LawScore> predictions;        ///< per run held out
+  std::optional<OneLaw> one_law;            ///< with two speeds at least
+  std::optional<MemoryCalibration> memory;  ///< where it is asked for
+  std::optional<NonlocalFit> nonlocal;      ///< where it is asked for
+  std::vector<InertialRange> ill_posed;     ///< within 1e-6 ... 1, in simple shear
   RheologyFit rheology;
 
   const CalibratedLaw& law() const { return forms[chosen]; }

@@ -25,7 +25,7 @@ struct RunEvidence {
   std::vector<FrictionPoint> layers = {};    ///< of profiles: mu, I
   std::vector<FrictionPoint> ratios = {};    ///< of profiles: k in the place of mu, I
   std::vector<LawBlock> amount_blocks = {};  ///< of maps, to smaller I: where memory is asked for
-  std::optional<FieldMap> map = {};          ///< where the relaxation of the fabric or memory is asked for
+  std::optional<FieldMap> map = {};          ///< where a law of the bed is asked for
 };
 
 /// Range of inertial numbers that points are taken from; absent: that of BlockSelection or LayerSelection.

@@ -26,20 +26,6 @@ struct LocalRatio {
   }
 };
 
-/// k as the material carries it (its fabric): beta is given and held. With e = beta turn, in simple shear
-/// (turn = 1 or -1) k = (1 + e)/(1 - e) is the ratio of the normal stresses and mu(I) that of the shear
-/// stress to the one across the layers, as with LocalRatio; no equation for I is left.
-struct CarriedRatio {
-  double beta = 0;  ///< -1 to 1
-  double turn = 1;  ///< as in LocalRatio
-
-  ShearState state(double rate, double pressure) const {
-    const double e = beta * turn;
-    return {2 * rate / std::sqrt(pressure * (1 - e)), (1 + e) / (1 - e), 0};
-  }
-  StressTurn turning(const ShearState&) const { return {beta, 0}; }
-};
-
 /// Strengths along D and across it.
 struct TurnedStrength {
   Strength along;   ///< A and its slopes
@@ -48,8 +34,8 @@ struct TurnedStrength {
 };
 
 /// A and B at |D| > 0 and p > 0, the caller's regularised values.
-template <class Law, class Ratio>
-TurnedStrength turned_strength(const Law& law, const Ratio& ratio, double rate, double pressure) {
+template <class Law>
+TurnedStrength turned_strength(const Law& law, const LocalRatio& ratio, double rate, double pressure) {
   const ShearState at = ratio.state(rate, pressure);
   const FrictionValue f = law.friction(at.I);
   const double share = 2 / (1 + at.k);  // sigma_zz/p

@@ -8,6 +8,7 @@
 #include "coupling/common/errors.hpp"
 #include "particles/measurement/frame/intervals.hpp"
 #include "particles/measurement/grains/cell_profiles.hpp"
+#include "particles/measurement/layers/bulk_scalars.hpp"
 #include "particles/measurement/layers/packing_scalars.hpp"
 #include "particles/measurement/layers/slice.hpp"
 #include "particles/measurement/layers/variants.hpp"
@@ -129,11 +130,17 @@ void measure_centre(const Slices& slices, const MeasurementOptions& options, dou
   result.wall_z = wall_height - centre.surface_z;
   result.fits = profile_scalars(centre.profiles, options.scalars);
 
+  const auto scalars_of = [&](const ProfileSet& profiles, double wall_z) {
+    ScalarSet scalars = packing_scalars(profiles, {wall_z, frame_angle}, options);
+    if (!(result.place.container_radius > 0))
+      for (Scalar& scalar : bulk_scalars(profiles, wall_z, options.bulk_margin).scalars)
+        scalars.scalars.push_back(std::move(scalar));
+    return scalars;
+  };
   std::vector<ScalarSet> without;
   for (std::size_t b = 0; b < centre.leave_one_out.size(); ++b)
-    without.push_back(packing_scalars(
-        centre.leave_one_out[b], {wall_height - centre.leave_one_out_surface_z[b], frame_angle}, options));
-  for (Scalar& scalar : packing_scalars(centre.profiles, {result.wall_z, frame_angle}, options).scalars) {
+    without.push_back(scalars_of(centre.leave_one_out[b], wall_height - centre.leave_one_out_surface_z[b]));
+  for (Scalar& scalar : scalars_of(centre.profiles, result.wall_z).scalars) {
     std::vector<double> values;
     for (const ScalarSet& one : without) values.push_back(one.value(scalar.name));
     scalar.ci99 = jackknife_ci99(values);
@@ -161,6 +168,23 @@ void measure_other_slices(const Slices& slices, const MeasurementFrame& place,
   }
 }
 
+/// Grains with their centres outside of what is measured.
+std::size_t scattered_in(const FlowSnapshot& snapshot, const MeasurementFrame& place) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < snapshot.x.size(); ++i) {
+    const bool beside =
+        !(place.period > 0) && !(snapshot.x[i] >= place.x_min && snapshot.x[i] <= place.x_max);
+    count += beside || !(snapshot.z[i] >= place.z_min && snapshot.z[i] <= place.z_max) ? 1 : 0;
+  }
+  return count;
+}
+
+void add_scattered(std::size_t here, std::size_t snapshots, ScatteredGrains& scattered) {
+  scattered.mean += static_cast<double>(here) / static_cast<double>(snapshots);
+  scattered.most = std::max(scattered.most, here);
+  scattered.last = here;
+}
+
 }  // namespace
 
 Measurement measurement(const SnapshotSource& source, const MeasurementOptions& options,
@@ -183,6 +207,7 @@ Measurement measurement(const SnapshotSource& source, const MeasurementOptions& 
   const double frame_angle = angle_of(place.frame, last);
   result.place = place;
   result.frame_angle_deg = frame_angle * degrees;
+  if (found.cut_to_window) result.scattered.emplace();
 
   Slices slices = asked_slices(place, options);
   std::optional<VariantSlices> variants;
@@ -193,6 +218,7 @@ Measurement measurement(const SnapshotSource& source, const MeasurementOptions& 
     const Snapshot snapshot = recording.read(s);
     const std::size_t batch = batch_of(s, recording.count(), place.batches);
     to_flow_frame(snapshot, place.frame, VelocityKind::window, in_frame);
+    if (result.scattered) add_scattered(scattered_in(in_frame, place), recording.count(), *result.scattered);
     add_snapshot(slices, in_frame, batch);
     if (slices.cells) add_snapshot(slices.centre, snapshot, in_frame, batch, *slices.cells);
     if (variants) add_snapshot(*variants, snapshot, in_frame);

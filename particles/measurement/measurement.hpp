@@ -30,6 +30,14 @@ struct MeasurementPart {
   std::function<void(const Snapshot&, const FlowSnapshot&, std::size_t batch)> add;
 };
 
+/// Grains outside of the window of an open scene that reaches further than its limits (dense_window.hpp):
+/// they enter no profile and no map.
+struct ScatteredGrains {
+  double mean = 0;       ///< over the snapshots
+  std::size_t most = 0;  ///< in one snapshot
+  std::size_t last = 0;  ///< in the last one
+};
+
 /// What came of it, dimensionless; NaN where it was not measured. The drum turns clockwise here: one that
 /// turns the other way is seen in a mirror.
 struct Measurement {
@@ -53,6 +61,7 @@ struct Measurement {
   double wall_z = none;            ///< of the wall below the slice, of the lowest layer without a drum
   double slope_half_width = none;  ///< used
   bool in_mirror = false;
+  std::optional<ScatteredGrains> scattered;  ///< nothing when every grain is measured
   Scales scales;
 
   std::size_t first_snapshot = 0;  ///< snapshots before it belong to another motion of the wall

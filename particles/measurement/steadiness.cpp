@@ -7,6 +7,7 @@
 #include <numbers>
 #include <span>
 
+#include "coupling/statistics/straight_line.hpp"
 #include "particles/measurement/frame/intervals.hpp"
 
 namespace drumlin::particles {
@@ -16,6 +17,9 @@ namespace {
 constexpr double energy_that_matters = 0.1;  // of the mean
 constexpr double slope_that_matters = 0.5;   // deg
 constexpr double energy_too_vague = 0.5;     // an interval wider than this hides any change
+constexpr double trend_that_matters = 0.2;   // of ln(energy): twice what matters between the halves
+constexpr double stress_that_matters = 0.1;  // of the mean
+constexpr double stress_too_vague = 0.25;    // an interval wider than this hides any change
 constexpr double least_turns = 0.99;         // snapshots end one interval before the turn does
 constexpr std::size_t least_snapshots = 20;
 
@@ -44,47 +48,137 @@ bool counts(const Drift& drift, double matters) {
   return std::abs(drift.value) > matters && std::abs(drift.value) > drift.ci99;
 }
 
+void object(Steadiness& result, const std::string& sentence) {
+  result.steady = false;
+  result.reasons.push_back(sentence);
+}
+
+/// Means of blocks of a series in order of time.
+std::vector<double> block_means(std::span<const double> values, std::size_t batches) {
+  batches = std::min(batches, values.size());
+  std::vector<double> sum(batches, 0.0), count(batches, 0.0);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::size_t b = batch_of(i, values.size(), batches);
+    sum[b] += values[i];
+    count[b] += 1;
+  }
+  for (std::size_t b = 0; b < batches; ++b) sum[b] /= count[b];
+  return sum;
+}
+
+/// False when the energy scatters so much that it tells nothing.
+bool judge_energy(const TimeSeries& series, std::size_t batches, Steadiness& result) {
+  const double mean = mean_of(series.kinetic_energy);
+  if (!(mean > 0)) return true;
+  result.energy = drift_of(series.kinetic_energy, batches);
+  result.energy.value /= mean;
+  result.energy.ci99 /= mean;
+  result.energy_std = standard_deviation(series.kinetic_energy) / mean;
+  std::vector<double> blocks = block_means(series.kinetic_energy, batches);
+  if (std::all_of(blocks.begin(), blocks.end(), [](double energy) { return energy > 0; })) {
+    for (double& energy : blocks) energy = std::log(energy);
+    result.energy_trend = trend_over(blocks);
+  }
+  if (counts(result.energy, energy_that_matters)) {
+    object(result,
+           fmt::format("the kinetic energy changes by {:.0f} +- {:.0f} % from the first half to the second",
+                       100 * result.energy.value, 100 * result.energy.ci99));
+    return true;
+  }
+  if (const Trend& trend = result.energy_trend; counts({trend.value, trend.ci99}, trend_that_matters)) {
+    object(result, fmt::format("the kinetic energy {} by a factor of {:.2g} ({:.2g} ... {:.2g}) over the "
+                               "snapshots",
+                               trend.value < 0 ? "decays" : "grows", std::exp(std::abs(trend.value)),
+                               std::exp(std::abs(trend.value) - trend.ci99),
+                               std::exp(std::abs(trend.value) + trend.ci99)));
+    return true;
+  }
+  return !(result.energy.ci99 > energy_too_vague);
+}
+
+/// The change of a quantity over its mean; NaN where the mean is not known to half its size.
+Drift relative_drift(std::span<const double> values, std::size_t batches) {
+  const double mean = values.empty() ? 0 : mean_of(values);
+  if (!(std::abs(mean) > 2 * mean_ci99(values, batches))) return {};
+  const Drift drift = drift_of(values, batches);
+  return {drift.value / mean, drift.ci99 / std::abs(mean)};
+}
+
+/// Stress and shear rate of a packing without a drum: objects to a change that counts. True when they tell
+/// that there is none: the pressure and one of the others are known well enough.
+bool judge_packing(const TimeSeries& series, std::size_t batches, Steadiness& result) {
+  int known = 0;
+  const auto judge = [&](const char* name, const std::vector<double>& values, Drift& drift) {
+    drift = relative_drift(values, batches);
+    if (counts(drift, stress_that_matters))
+      object(result, fmt::format("the {} changes by {:.0f} +- {:.0f} % from the first half to the second",
+                                 name, 100 * drift.value, 100 * drift.ci99));
+    known += drift.ci99 <= stress_too_vague ? 1 : 0;
+  };
+  judge("pressure", series.pressure, result.pressure);
+  const bool pressure_known = known > 0;
+  judge("shear stress", series.shear_stress, result.shear_stress);
+  judge("shear rate", series.shear_rate, result.shear_rate);
+  return pressure_known && known > 1;
+}
+
 }  // namespace
+
+Trend trend_over(std::span<const double> blocks) {
+  if (blocks.size() < 4) return {};
+  std::vector<double> place;
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    place.push_back((static_cast<double>(b) + 0.5) / static_cast<double>(blocks.size()));
+  const auto line = statistics::fit_line(place, blocks);
+  if (!line) return {};
+  double square = 0, neighbours = 0, before = 0;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const double residual = blocks[b] - line->intercept - line->slope * place[b];
+    square += residual * residual;
+    neighbours += residual * before;
+    before = residual;
+  }
+  const double correlation = square > 0 ? std::max(0.0, neighbours / square) : 0;
+  const double variance = line->var_slope * line->reduced_chi_squared() * (1 + 2 * correlation);
+  return {line->slope, interval_factor(blocks.size()) * std::sqrt(variance)};
+}
 
 Steadiness steadiness(const TimeSeries& series, double rotation, std::size_t batches) {
   Steadiness result;
   const std::size_t count = series.time.size();
-  const auto object = [&](const std::string& sentence) {
-    result.steady = false;
-    result.reasons.push_back(sentence);
-  };
-  if (count < least_snapshots) object(fmt::format("{} snapshots are fewer than {}", count, least_snapshots));
+  if (count < least_snapshots)
+    object(result, fmt::format("{} snapshots are fewer than {}", count, least_snapshots));
   if (rotation != 0 && count > 1) {
     const double turn = 2 * std::numbers::pi / std::abs(rotation);
     const double snapshots = static_cast<double>(count);
     result.turns = (series.time.back() - series.time.front()) * snapshots / (snapshots - 1) / turn;
     result.turns_before = std::abs(series.wall_angle.front()) / (2 * std::numbers::pi);
     if (result.turns < least_turns)
-      object(fmt::format("{:.2f} turns were measured, less than one", result.turns));
+      object(result, fmt::format("{:.2f} turns were measured, less than one", result.turns));
     if (result.turns_before < least_turns)
-      object(fmt::format("{:.2f} turns before the first snapshot are less than one", result.turns_before));
+      object(result,
+             fmt::format("{:.2f} turns before the first snapshot are less than one", result.turns_before));
   }
-  if (const double mean = mean_of(series.kinetic_energy); mean > 0) {
-    result.energy = drift_of(series.kinetic_energy, batches);
-    result.energy.value /= mean;
-    result.energy.ci99 /= mean;
-    result.energy_std = standard_deviation(series.kinetic_energy) / mean;
-    if (counts(result.energy, energy_that_matters))
-      object(fmt::format("the kinetic energy changes by {:.0f} +- {:.0f} % from the first half to the second",
-                         100 * result.energy.value, 100 * result.energy.ci99));
-    if (result.energy.ci99 > energy_too_vague)
-      object(fmt::format("the kinetic energy fluctuates too much to tell: it changes by {:.0f} +- {:.0f} %",
-                         100 * result.energy.value, 100 * result.energy.ci99));
-  }
+  const bool energy_is_vague = !judge_energy(series, batches, result);
   if (!series.mass_angle.empty()) {
     std::vector<double> degrees;
     for (double angle : series.mass_angle) degrees.push_back(angle * 180 / std::numbers::pi);
     result.slope_deg = drift_of(degrees, batches);
     result.slope_std_deg = standard_deviation(degrees);
     if (counts(result.slope_deg, slope_that_matters))
-      object(fmt::format("the slope changes by {:.2f} +- {:.2f} deg from the first half to the second",
+      object(result,
+             fmt::format("the slope changes by {:.2f} +- {:.2f} deg from the first half to the second",
                          result.slope_deg.value, result.slope_deg.ci99));
   }
+  result.judged_by = series.mass_angle.empty() ? "kinetic energy" : "kinetic energy and slope";
+  const bool packing_tells = judge_packing(series, batches, result);
+  if (!energy_is_vague) return result;
+  if (packing_tells)
+    result.judged_by = "stress and shear rate";
+  else
+    object(result,
+           fmt::format("the kinetic energy fluctuates too much to tell: it changes by {:.0f} +- {:.0f} %",
+                       100 * result.energy.value, 100 * result.energy.ci99));
   return result;
 }
 

@@ -123,7 +123,7 @@ struct SolverSettings {
   int projection_sweeps = 20;           ///< at most; 0: no position projection
   bool stop_when_unconverged = false;   ///< end with exit code 3 at the first step that misses the tolerance
   int capture_unconverged = 0;          ///< so many steps that miss it leave their contact problem as a file
-  std::optional<bool> allow_crushing = {};  ///< true: no end with exit code 3 at overlaps of 0.2 d
+  std::optional<bool> allow_crushing = {};  ///< true: no end with exit code 3 where discs are crushed
 };
 
 struct Output {

@@ -219,7 +219,7 @@ void describe(Visitor& v, SolverSettings& s) {
                     "problems/, for drumlin solve-contacts."));
   v.value(
       "allow_crushing", s.allow_crushing,
-      when_given("", anything(), "No end with exit code 3 at the first step with an overlap above 0.2 d."));
+      when_given("", anything(), "No end with exit code 3 at the first step whose loaded contacts overlap by more than 0.2 d in the mean."));
 }
 
 template <class Visitor>

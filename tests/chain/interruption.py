@@ -19,9 +19,9 @@ OVERRIDES = ["--set", "output.checkpoint_every_s=0.05", "--set", "stages.1.turns
              "--set", "output.energy_ledger=true"]
 
 
-def stopped(executable, scene, run, stop, code):
+def stopped(executable, scene, run, stop, code, overrides=OVERRIDES):
     """Starts a run and stops it by a signal once it has left a checkpoint and a snapshot."""
-    process = subprocess.Popen([executable, "run", scene, "-o", run, *OVERRIDES], stdout=subprocess.DEVNULL,
+    process = subprocess.Popen([executable, "run", scene, "-o", run, *overrides], stdout=subprocess.DEVNULL,
                                stderr=subprocess.DEVNULL)
     deadline = time.monotonic() + 120
     while not ((run / "checkpoint.h5").exists() and list((run / "snapshots").glob("*.h5"))):

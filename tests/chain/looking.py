@@ -71,6 +71,10 @@ snapshots = 5
 motions = [{ wall = "floor", kind = "oscillation", amplitude_mm = [0, 2], frequency_hz = 5 }]
 """
 
+# A floor that slides 80 mm along a period of 30 mm.
+SLIDING = PERIODIC.replace("Shaken floor", "Sliding floor").replace(
+    'kind = "oscillation", amplitude_mm = [0, 2], frequency_hz = 5', 'kind = "translation", velocity_mm_s = [400, 0]')
+
 # Nothing to look at but the log.
 NO_SNAPSHOTS = ONE_DISC.replace("snapshots = 2", "snapshots = 0")
 
@@ -134,6 +138,49 @@ def plots(drumlin, one_disc, periodic, none, folder):
 
     drumlin("plot", none)
     require_plots(none / "plots", ["log.png", "time.png"])
+
+
+def chosen_plots(drumlin, periodic, folder):
+    """One colour in the place of the standard ones, a series of stills, a window; and what is asked for wrongly."""
+    common = ["forces.png", "log.png", "time.png"]
+    for colour in ("size", "pressure", "coordination", "id"):
+        drumlin("plot", periodic, "--color", colour, "-o", folder / colour)
+        require_plots(folder / colour, [f"{colour}.png", *common])
+    drumlin("plot", periodic, "--color", "spin", "--every", "2", "--window", "0,4,-1,3", "-o", folder / "stills")
+    names = [f"stills/{n:06}.png" for n in (1, 3, 5)]
+    require(sorted(read_json(folder / "stills" / "plots.json")["figures"]) == sorted(["spin.png", *common, *names]), "other stills")
+    sizes = {matplotlib.image.imread(folder / "stills" / name).shape for name in names}
+    require(len(sizes) == 1, f"stills of several sizes: {sizes}")
+    drumlin("plot", periodic, "--animation", "--every", "2", "-o", folder / "every")
+    require(frames_of_gif(folder / "every" / "animation.gif") == 3, "not every second snapshot of five")
+    for words, answer in ([["--window", "1,0,0,1"], "X0 < X1"], [["--color", "material"], "no materials"], [["--color", "mass"], "mass"]):
+        _, said = drumlin("plot", periodic, *words, "-o", folder / "refused", code=2)
+        require(answer in said, said)
+
+
+def sliding_wall(drumlin, folder):
+    """The glued discs of a floor that left the period nearly three times are seen over all its width."""
+    run = made_run(drumlin, folder, "sliding", SLIDING)
+    drumlin("plot", run)
+    pixels = matplotlib.image.imread(run / "plots" / "speed.png")[:, :, :3]
+    grey = (numpy.abs(pixels - 0.6) < 0.01).all(axis=2)
+    columns = numpy.flatnonzero(grey.sum(axis=0) > 3)
+    marked = numpy.flatnonzero((pixels.min(axis=2) < 0.95).any(axis=0))
+    require(len(columns) > 0.4 * (marked.max() - marked.min()), f"a wall over {len(columns)} columns of pixels")
+
+
+def stretches(drumlin, folder):
+    """The errors of a run that no record knows; the files of the run stay those of the run without."""
+    scene = folder / "periodic.toml"
+    drumlin("run", scene, "-o", folder / "told", "--accuracy-seconds", "0.02")
+    told = read_json(folder / "told" / "run.json")["accuracy"]["stretches"]
+    require(told["seconds"] == 0.02 and {"kinetic_energy", "pressure", "displacement"} <= set(told["quantities"]), f"{told}")
+    for name, one in told["quantities"].items():
+        for setting, factor in (("step", 2), ("solver", 2.3660254037844386)):
+            found = one[setting]
+            require(math.isclose(found["error_at_most"], factor * (abs(found["change"]) + found["ci99"]), rel_tol=1e-12), f"{name}: {found}")
+    for name in ["log.csv", *(f"snapshots/{n:06}.h5" for n in range(1, 6))]:
+        require((folder / "told" / name).read_bytes() == (folder / "periodic" / name).read_bytes(), f"{name} differs")
 
 
 def arrays_of(file):
@@ -290,6 +337,9 @@ def main():
         exports(drumlin, one_disc, periodic, folder)
         histories(drumlin, one_disc, periodic, folder)
         plots(drumlin, one_disc, periodic, none, folder)
+        chosen_plots(drumlin, periodic, folder)
+        sliding_wall(drumlin, folder)
+        stretches(drumlin, folder)
     print("figures drawn, not blank; exported numbers are those of the snapshots; what cannot be done refused")
 
 

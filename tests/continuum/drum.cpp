@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "coupling/common/errors.hpp"
 #include "tests/support/data_folder.hpp"
@@ -66,7 +68,6 @@ TEST(DrumProblem, HoldsAllThatTheSceneAndTheLawName) {
   scene.effects = FlowEffects{.inertia = FlowInertia{},
                               .rotating_frame = FlowRotatingFrame{},
                               .wall_slip = FlowWallSlip{.friction = 0.4, .slip_speed = 2e-4},
-                              .fabric = FlowFabric{.relaxation = 3},
                               .memory = {},
                               .nonlocal = FlowNonlocal{.length = 1.5},
                               .moving_surface = FlowMovingSurface{.degree = 12, .tolerance = 0.02}};
@@ -78,8 +79,6 @@ TEST(DrumProblem, HoldsAllThatTheSceneAndTheLawName) {
   EXPECT_EQ(problem.density, 0.82);
   ASSERT_TRUE(problem.turned);
   EXPECT_DOUBLE_EQ(problem.turned->k.at_ln(std::log(1e-1)).value, 1.1);
-  ASSERT_TRUE(problem.turned->fabric);
-  EXPECT_EQ(problem.turned->fabric->relaxation, 3);
   ASSERT_TRUE(problem.nonlocal);
   EXPECT_EQ(problem.nonlocal->length, 1.5);
   EXPECT_TRUE(problem.inertia);
@@ -104,18 +103,25 @@ TEST(DrumProblem, HoldsNoEffectThatNobodyNames) {
 TEST(DrumProblem, RefusesEffectsThatTheLawDoesNotAllow) {
   FlowScene scene = paper_scene();
   scene.effects = {};
-  scene.effects.fabric = FlowFabric{.relaxation = 1};
+  const auto refused = [&](const RheologyFit& law) {
+    std::vector<std::string> keys;
+    try {
+      (void)drum_problem(scene, law);
+    } catch (const InputError& error) {
+      for (const auto& problem : error.problems()) keys.push_back(problem.key);
+    }
+    return keys;
+  };
+  using Keys = std::vector<std::string>;
   scene.effects.nonlocal = FlowNonlocal{.length = 1};
+  EXPECT_EQ(refused(paper_law()), Keys{});
   RheologyFit law = paper_law();
   law.mu = JopFriction{0.38, 0.64, 0.28};  // a threshold: below it mu does not determine the fluidity
-  try {
-    (void)drum_problem(scene, law);
-    FAIL();
-  } catch (const InputError& error) {
-    ASSERT_EQ(error.problems().size(), 2u);
-    EXPECT_EQ(error.problems()[0].key, "effects.fabric");
-    EXPECT_EQ(error.problems()[1].key, "effects.nonlocal");
-  }
+  EXPECT_EQ(refused(law), Keys{"effects.nonlocal"});
+  // All faults at once; memory brings a mu(I) of its own, which has no threshold.
+  scene.effects.memory = FlowMemory{};
+  scene.effects.nonlocal = FlowNonlocal{.amplitude = 0.5};
+  EXPECT_EQ(refused(law), (Keys{"effects.memory", "effects.nonlocal.threshold"}));
 }
 
 TEST(DrumProblem, TakesAThresholdFromTheSceneOrItsLaw) {

@@ -102,8 +102,6 @@ TEST(AbsentEffects, LeaveNoUnknownNoEntryAndNoArray) {
   FlowProblem turned = small_drum_problem(), moving = small_drum_problem(), seen = small_drum_problem(),
               spread = small_drum_problem();
   turned.turned = TurnedStress{.k = StressRatioLaw({1e-4, 1e-1}, {1.02, 1.04})};
-  FlowProblem carried = turned;
-  carried.turned->fabric = CarriedFabric{1};
   spread.nonlocal = NonlocalFluidity{1};
   FlowProblem remembering = small_drum_problem();
   remembering.memory.emplace(
@@ -111,21 +109,19 @@ TEST(AbsentEffects, LeaveNoUnknownNoEntryAndNoArray) {
   moving.inertia = Inertia{};
   seen.frame = RotatingFrame{drum.rotation, drum.axis_offset};
   // Nor do these add any: their terms stand within the same entries, what is held lies beside the matrix.
-  for (const FlowProblem& problem : {turned, carried, spread, remembering, moving, seen})
+  for (const FlowProblem& problem : {turned, spread, remembering, moving, seen})
     EXPECT_EQ(system_of(converged(problem, one_mesh())), system_of(plain));
   const auto held = [](const FlowProblem& problem) {
     return converged(problem, one_mesh()).level().state.held;
   };
   EXPECT_TRUE(held(turned)->turning);
-  EXPECT_FALSE(held(turned)->beta);
   EXPECT_FALSE(held(turned)->ln_fluidity);
-  EXPECT_TRUE(held(carried)->beta);
   EXPECT_TRUE(held(spread)->ln_fluidity);
   EXPECT_FALSE(held(spread)->turning);
   EXPECT_FALSE(held(spread)->axes);
   EXPECT_TRUE(held(remembering)->axes);
   EXPECT_TRUE(held(remembering)->rho);
-  EXPECT_FALSE(held(remembering)->beta);
+  EXPECT_FALSE(held(remembering)->turning);
   EXPECT_TRUE(converged(moving, one_mesh()).level().setting.inertia);
 }
 

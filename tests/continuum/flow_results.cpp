@@ -30,11 +30,11 @@ FlowScene ring_scene() {
 
 TEST(FlowCase, HoldsTheCompleteProblem) {
   FlowScene scene = drum_scene();
-  scene.effects.fabric = FlowFabric{.relaxation = 3};
+  scene.effects.nonlocal = FlowNonlocal{.length = 1.5};
   const FlowCase chosen = flow_case(scene, law_with_k());
   ASSERT_TRUE(chosen.problem.turned);
-  ASSERT_TRUE(chosen.problem.turned->fabric);
-  EXPECT_EQ(chosen.problem.turned->fabric->relaxation, 3);
+  ASSERT_TRUE(chosen.problem.nonlocal);
+  EXPECT_EQ(chosen.problem.nonlocal->length, 1.5);
 }
 
 TEST(FlowCase, HasAClosedFormOnlyWhereTheProblemHas) {

@@ -49,14 +49,9 @@ TEST(FlowScene, HasTheEffectsThatItNames) {
   EXPECT_TRUE(scene.effects.inertia);
   EXPECT_FALSE(scene.effects.rotating_frame);
   EXPECT_EQ(scene.effects.wall_slip.value().friction, 0.95);
-  const FlowEffects more =
-      parse_flow_scene(smallest + "[effects.fabric]\nrelaxation = 2\n[effects.nonlocal]\nlength = 1.5\n",
-                       "test")
-          .effects;
-  EXPECT_EQ(more.fabric.value().relaxation, 2);
+  const FlowEffects more = parse_flow_scene(smallest + "[effects.nonlocal]\nlength = 1.5\n", "test").effects;
   EXPECT_EQ(more.nonlocal.value().length, 1.5);
-  for (const char* without_its_key : {"[effects.wall_slip]\n", "[effects.fabric]\n"})
-    EXPECT_THROW(parse_flow_scene(smallest + without_its_key, "test"), InputError) << without_its_key;
+  EXPECT_THROW(parse_flow_scene(smallest + "[effects.wall_slip]\n", "test"), InputError);
   EXPECT_THROW(parse_flow_scene(smallest + "[effects.nonlocal]\nlength = -1\n", "test"), InputError);
   const FlowNonlocal creeping =
       parse_flow_scene(smallest + "[effects.nonlocal]\namplitude = 0.5\nthreshold = 0.26\n", "test")
@@ -101,12 +96,9 @@ TEST(FlowScene, MarchesOnlyWhereItSaysHow) {
   EXPECT_THROW(parse_flow_scene(march + "ramp_s = 2.1\n", "test"), InputError);  // longer than the march
   EXPECT_THROW(parse_flow_scene(march + "[effects.rotating_frame]\n", "test"), InputError);
   EXPECT_THROW(parse_flow_scene(smallest + "[time]\nsteps = 20\n", "test"), InputError);
-  EXPECT_THROW(parse_flow_scene(march + "[effects.fabric]\nrelaxation = 2\n", "test"), InputError);
   EXPECT_THROW(parse_flow_scene(march + "[effects.memory]\n", "test"), InputError);
   EXPECT_TRUE(parse_flow_scene(smallest + "[effects.memory]\n", "test").effects.memory);
   EXPECT_FALSE(parse_flow_scene(smallest, "test").effects.memory);
-  EXPECT_THROW(parse_flow_scene(smallest + "[effects.memory]\n[effects.fabric]\nrelaxation = 1\n", "test"),
-               InputError);
   EXPECT_THROW(parse_flow_scene(march + "[effects.nonlocal]\nlength = 2\n", "test"), InputError);
 }
 

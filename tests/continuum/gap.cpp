@@ -119,15 +119,12 @@ TEST(GapProblem, HoldsAllThatTheSceneAndTheLawName) {
         FlowGeometry(FlowChute{33, 2000}), FlowGeometry(FlowAnnulus{66, 132, 13, 350})}) {
     FlowScene scene = scene_of(geometry);
     scene.effects.inertia = FlowInertia{};
-    scene.effects.fabric = FlowFabric{.relaxation = 3};
     scene.effects.nonlocal = FlowNonlocal{.length = 1.5};
     const FlowProblem problem = gap_problem(scene, law);
     EXPECT_EQ(std::get<LogLaw>(problem.law).a, 0.35);
     EXPECT_EQ(problem.density, gap_of(scene, nu).weight);
     ASSERT_TRUE(problem.turned);
     EXPECT_DOUBLE_EQ(problem.turned->k.at_ln(std::log(1e-1)).value, 1.1);
-    ASSERT_TRUE(problem.turned->fabric);
-    EXPECT_EQ(problem.turned->fabric->relaxation, 3);
     ASSERT_TRUE(problem.nonlocal);
     EXPECT_EQ(problem.nonlocal->length, 1.5);
     EXPECT_TRUE(problem.inertia);

@@ -71,24 +71,6 @@ TEST(TurnedLaw, SimpleShearCarriesExactlyMuAndK) {
   }
 }
 
-TEST(TurnedLaw, SimpleShearCarriesTheRatioOfItsFabricAndMu) {
-  for (const double turn : {1.0, -1.0})
-    for (const double k : {0.8, 1.0, 1.3}) {
-      const double p = 3, rate = 0.02;
-      const PlaneTensor D{0, 0, turn * rate};
-      const auto s = turned_response(paper, CarriedRatio{turn * (k - 1) / (k + 1), turn}, none, D, p, D);
-      const double sigma_zz = p - s.stress.zz;
-      EXPECT_NEAR((p - s.stress.xx) / sigma_zz, k, 1e-12);
-      const double I = 2 * rate / std::sqrt(sigma_zz);
-      EXPECT_NEAR(turn * s.stress.xz / sigma_zz, paper.friction(I).mu, 1e-12);
-      EXPECT_NEAR(s.at.k, k, 1e-12);
-      // The same stress as the local law with that k everywhere.
-      const StressRatioLaw same({1}, {k});
-      EXPECT_LT(distance(s.stress, turned_response(paper, LocalRatio{&same, turn}, none, D, p, D).stress),
-                1e-12);
-    }
-}
-
 TEST(TurnedLaw, TheOtherSenseOfShearHasTheSameNormalStresses) {
   const StressRatioLaw law = bump();
   const PlaneTensor D{0, 0, 0.01};
@@ -111,8 +93,8 @@ TEST(TurnedLaw, OfKOneIsTheLawWithoutK) {
   EXPECT_LT(distance(tangent(with, dD), tangent(without, dD)), 1e-13);
 }
 
-template <class Law, class Ratio>
-void expect_tangent_of_stress(const Law& mu, const Ratio& ratio, double size, double p) {
+template <class Law>
+void expect_tangent_of_stress(const Law& mu, const LocalRatio& ratio, double size, double p) {
   const Regularisation smooth{0.002, 0.3};
   const PlaneTensor dD{0.5, -0.2, 0.7}, D = size * PlaneTensor{0.03, -0.04, 0.9};
   const double h = 1e-7;
@@ -134,7 +116,6 @@ TEST(TurnedLaw, TangentIsTheDerivativeOfTheStress) {
     for (const double p : {-0.5, 0.2, 5.0})
       for (const double turn : {1.0, -0.6, 0.0}) {
         expect_tangent_of_stress(paper, LocalRatio{&law, turn}, size, p);
-        expect_tangent_of_stress(paper, CarriedRatio{0.1, turn}, size, p);
         expect_tangent_of_stress(NonlocalLaw<LogLaw>{paper, 0.03}, LocalRatio{&law, turn}, size, p);
       }
 }

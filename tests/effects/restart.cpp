@@ -12,6 +12,14 @@ struct Case {
 };
 void PrintTo(const Case& one, std::ostream* out) { *out << one.name; }
 
+/// Two stages in place of the one, the first so long.
+void cut(Scene& scene, double first_s) {
+  scene.stages.push_back(scene.stages[0]);
+  scene.stages[0].duration_s = first_s;
+  scene.stages[1].duration_s = *scene.stages[1].duration_s - first_s;
+  scene.stages[1].name = "on";
+}
+
 const Case cases[] = {
     {"MaterialPairs",
      [](Scene& s) {
@@ -49,6 +57,54 @@ const Case cases[] = {
      [](Scene& s) {
        s.stages[0].motions = {{"drum", Rocking{20, 4, 10, {0, 0}}}};
      }},
+    {"OpenedWall",
+     [](Scene& s) {
+       s.walls.push_back({"gate", SegmentShape{{-29, -12}, {29, -12}}});
+       std::get<GeneratedGrains>(s.grains.source).region = CircleRegion{{0, 9}, 19};
+       cut(s, 0.1);
+       s.stages[1].opens = {"gate"};
+     }},
+    {"StageGravity",
+     [](Scene& s) {
+       cut(s, 0.1);
+       s.stages[0].gravity = StageGravity{{}, -120, true};
+       s.stages[1].gravity = StageGravity{5, {}, true};
+     }},
+    {"StageCoefficients",
+     [](Scene& s) {
+       cut(s, 0.1);
+       s.stages[0].friction = StageCoefficients{0, 0};
+       s.stages[1].restitution = StageCoefficients{0.9, 0.9};
+     }},
+    {"StageThatEndsEarly",
+     [](Scene& s) {
+       cut(s, 0.1);
+       s.walls.push_back({"rod", DiscShape{{0, 25}, 1}});
+       for (Stage& stage : s.stages) stage.motions.push_back({"rod", Translation{{0, -10}}});
+       // At steps 60 and 150; the second one is never at rest for long enough.
+       s.stages[0].until = Until{{}, UntilMoved{"rod", 0.595}};
+       s.stages[1].until = Until{UntilRest{1e3, 10}, UntilMoved{"rod", 0.895}};
+       s.stages[0].snapshots = s.stages[1].snapshots = 3;
+     }},
+    {"PressedWall",
+     [](Scene& s) {
+       s.walls.push_back({"lid", SegmentShape{{-15, 15}, {15, 15}}});
+       s.walls.push_back({"post", DiscShape{{-28, 9}, 1}});
+       PressureControl lid{{0, -1}, 500, 0.05};
+       lid.between = {"post", "drum"};
+       s.stages[0].motions.push_back({"lid", lid});
+     }},
+    {"StrainedWall",
+     [](Scene& s) {
+       cut(s, 0.1);
+       s.walls.push_back({"lid", SegmentShape{{-15, 15}, {15, 15}}});
+       for (Stage& stage : s.stages) stage.motions.push_back({"lid", StrainRate{{0, 1}, {0, -20}, -3}});
+     }},
+    {"WallLoads",
+     [](Scene& s) {
+       s.output.walls_every_s = 0.05;
+       s.grains.thermal_speed_mm_s = 100;
+     }},
     {"OutletsAndSources",
      [](Scene& s) {
        s.outlets = {{"hole", RectangleRegion{{-12, -32}, {12, -20}}, RectangleRegion{{-8, 5}, {8, 15}}}};
@@ -58,6 +114,15 @@ const Case cases[] = {
        s.sources = {rain};
      }},
 };
+
+std::vector<double> moments(const std::optional<WallLoads>& loads) {
+  if (!loads) return {};
+  std::vector<double> all{loads->time};
+  for (const WallLoad& load : loads->walls)
+    all.insert(all.end(),
+               {load.moment, load.impulse_x, load.place.angle, load.last.angle - load.first.angle});
+  return all;
+}
 
 class Restart : public ::testing::TestWithParam<Case> {};
 
@@ -81,6 +146,10 @@ TEST_P(Restart, ContinuesBitForBit) {
     EXPECT_EQ(whole.state().driven[k].position, second.state().driven[k].position);
     EXPECT_EQ(whole.state().driven[k].velocity, second.state().driven[k].velocity);
   }
+  EXPECT_EQ(whole.state().step, second.state().step);
+  EXPECT_EQ(whole.state().ends.size(), second.state().ends.size());
+  EXPECT_EQ(whole.plan().snapshot_steps, second.plan().snapshot_steps);
+  EXPECT_EQ(moments(whole.state().loads), moments(second.state().loads));
   // The effect does something: without it the end is another.
   EXPECT_NE(whole.state().bodies.x, test::bodies_at_end(test::turning_drum()).x);
 }

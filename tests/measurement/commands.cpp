@@ -300,9 +300,9 @@ TEST(CalibrateCommand, RefusesWhatItCannotUse) {
   options.from = "maps";
   EXPECT_NE(message_of<InputError>([&] { calibrate(options); }).find("--parts maps"), std::string::npos);
   options.from = "auto";
-  options.relaxation = true;
+  options.misalignment = true;
   EXPECT_THROW(calibrate(options), InputError);
-  options.relaxation = false;
+  options.misalignment = false;
   Json unsteady = example_measured();
   unsteady["nu_bulk"] = {{"value", 0.82}, {"ci99", 0.002}};
   unsteady["steadiness"] = {{"steady", false}, {"reasons", {"the slope falls"}}};

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "coupling/exchange/profile_scalars.hpp"
+#include "particles/measurement/layers/bulk_scalars.hpp"
+#include "tests/measurement/packings.hpp"
 
 namespace drumlin {
 namespace {
@@ -80,6 +82,19 @@ TEST(ProfileScalars, ColumnsThatAreMissingCostOnlyTheirOwnScalar) {
   EXPECT_TRUE(std::isnan(scalars.Q));
   EXPECT_TRUE(std::isnan(scalars.lambda));
   EXPECT_TRUE(std::isnan(scalars.I_th));
+}
+
+TEST(BulkScalars, ColumnsOnAnInclineHaveTheirFrictionAndNoDrum) {
+  // 12 discs high: a layer holds one disc of each column, so nu is pi/4; mu is the slope's tangent at any
+  // depth.
+  const particles::Snapshot columns = testing::stacked_columns(8, 12, 0.3);
+  const particles::Measurement result = testing::measurement_of(columns);
+  EXPECT_NEAR(result.scalars.value("bulk_nu"), std::numbers::pi / 4, 1e-9);
+  EXPECT_NEAR(result.scalars.value("bulk_mu"), std::tan(0.3), 1e-6);
+  EXPECT_NEAR(result.scalars.value("bulk_shear_rate"), 0, 1e-12);
+  EXPECT_EQ(testing::measurement_of(testing::filled_drum(20, 3, 0.3, 0.02)).scalars.find("bulk_nu"), nullptr);
+  EXPECT_TRUE(particles::belongs_to_a_drum("coordination_static"));
+  EXPECT_FALSE(particles::belongs_to_a_drum("bulk_mu"));
 }
 
 }  // namespace

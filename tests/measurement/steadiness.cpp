@@ -72,5 +72,92 @@ TEST(Steadiness, FluctuationsThatHideAnyChangeAreSaid) {
   EXPECT_FALSE(steadiness(series, rotation, 20).steady);
 }
 
+/// Slow shear between plates: a few grains jump, so that the energy is 0.01 mostly and 1 now and then;
+/// pressure, stress and shear rate scatter by some percent about their means. `growth`: of the three over the
+/// whole time.
+TimeSeries slow_shear(double growth) {
+  TimeSeries series;
+  for (int s = 0; s < 400; ++s) {
+    const double flicker = std::sin(0.9 * s) + std::sin(0.37 * s), factor = 1 + growth * s / 400.0;
+    series.time.push_back(s);
+    series.wall_angle.push_back(0);
+    series.kinetic_energy.push_back((s * s) % 97 < 6 ? 1.0 + (s * 7) % 13 : 0.01);
+    series.pressure.push_back(5 * factor * (1 + 0.03 * flicker));
+    series.shear_stress.push_back(1.5 * factor * (1 + 0.05 * flicker));
+    series.shear_rate.push_back(1e-3 * (1 + 0.05 * flicker));
+  }
+  return series;
+}
+
+TEST(Steadiness, SlowShearIsJudgedByItsStressAndNotByTheGrainsThatJump) {
+  const Steadiness result = steadiness(slow_shear(0), 0, 20);
+  EXPECT_GT(result.energy.ci99, 0.5);  // the energy alone tells nothing
+  EXPECT_TRUE(result.steady) << result.reasons.front();
+  EXPECT_EQ(result.judged_by, "stress and shear rate");
+}
+
+TEST(Steadiness, StressThatDriftsIsNamed) {
+  const Steadiness result = steadiness(slow_shear(0.5), 0, 20);
+  ASSERT_EQ(result.reasons.size(), 2u);  // pressure and shear stress
+  EXPECT_NE(result.reasons[0].find("pressure"), std::string::npos) << result.reasons[0];
+  EXPECT_NEAR(result.pressure.value, 0.25 / 1.25, 0.01);  // halves lie 0.25 apart, about a mean of 1.25
+}
+
+TEST(Steadiness, WithoutContactsAnEnergyThatJumpsTellsNothing) {
+  TimeSeries series = slow_shear(0);
+  for (auto* values : {&series.pressure, &series.shear_stress, &series.shear_rate})
+    values->assign(values->size(), std::nan(""));
+  const Steadiness result = steadiness(series, 0, 20);
+  ASSERT_EQ(result.reasons.size(), 1u);
+  EXPECT_NE(result.reasons[0].find("too much to tell"), std::string::npos) << result.reasons[0];
+}
+
+/// Haff's law: E = E0/(1 + t/tau)^2, with collisions now and then in place of a stress.
+TimeSeries cooling_gas(double tau) {
+  TimeSeries series;
+  for (int s = 0; s < 400; ++s) {
+    series.time.push_back(s);
+    series.wall_angle.push_back(0);
+    series.kinetic_energy.push_back(100 / std::pow(1 + s / tau, 2));
+    series.pressure.push_back(s % 3 == 0 ? series.kinetic_energy.back() : 0);
+    series.shear_stress.push_back(s % 2 == 0 ? 1 : -1);
+    series.shear_rate.push_back(s % 4 < 2 ? 1 : -1);
+  }
+  return series;
+}
+
+TEST(Steadiness, CoolingGasDecaysHoweverFast) {
+  for (const double tau : {2.0, 20.0, 200.0, 2000.0}) {
+    const Steadiness result = steadiness(cooling_gas(tau), 0, 20);
+    EXPECT_FALSE(result.steady) << tau;
+    // Between the middles of the first and the last block; a straight line of the logarithm follows the
+    // hyperbola to a quarter when it decays over two decades.
+    const double decay = 2 * std::log((1 + 390 / tau) / (1 + 10 / tau));
+    EXPECT_NEAR(result.energy_trend.value, -decay, 0.3 * decay) << tau;
+  }
+}
+
+TEST(Steadiness, DriftInsideTheHalvesDoesNotHideItself) {
+  // A loss of 30 % in all: the halves lie 15 % of the mean apart, and each has a range as large as that.
+  TimeSeries series = cooling_gas(400 / (1 / std::sqrt(0.7) - 1));
+  for (std::size_t s = 0; s < series.time.size(); ++s)
+    series.kinetic_energy[s] *= 1 + 0.02 * std::sin(0.9 * static_cast<double>(s));
+  const Steadiness result = steadiness(series, 0, 20);
+  EXPECT_FALSE(result.steady);
+  EXPECT_NEAR(std::exp(result.energy_trend.value), 0.7, 0.02);
+}
+
+TEST(Trend, OfAStraightLineIsItsRiseAndOfNoiseIsWithinItsInterval) {
+  std::vector<double> rising, flat;
+  for (int b = 0; b < 20; ++b) {
+    rising.push_back(3 * (b + 0.5) / 20);
+    flat.push_back(std::sin(2.4 * b));
+  }
+  EXPECT_NEAR(trend_over(rising).value, 3, 1e-12);
+  EXPECT_LT(trend_over(rising).ci99, 1e-6);
+  EXPECT_LT(std::abs(trend_over(flat).value), trend_over(flat).ci99);
+  EXPECT_TRUE(std::isnan(trend_over(std::vector<double>{1, 2, 3}).value));
+}
+
 }  // namespace
 }  // namespace drumlin

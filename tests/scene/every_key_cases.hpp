@@ -39,5 +39,7 @@ std::vector<Case> cases_of_grains();   ///< periodic_x, grains
 std::vector<Case> cases_of_walls();
 std::vector<Case> cases_of_effects();
 std::vector<Case> cases_of_stages();
+std::vector<Case> cases_of_stage_changes();  ///< opened walls, gravity, coefficients, ends
+std::vector<Case> cases_of_servo_walls();    ///< and other keys that came with them
 
 }  // namespace drumlin::testing

@@ -88,6 +88,8 @@ RunSummary summary_of_run(const std::string& scene, const std::vector<std::strin
   run.has_checkpoint = std::filesystem::exists(options.output / "checkpoint.h5");
   std::ifstream energy(options.output / "energy.csv");
   std::getline(energy, run.energy_columns);
+  for (const auto& line : fields_of_file(options.output / "walls.csv"))
+    for (const auto& field : line) run.wall_lines += field + " ";
   if (std::filesystem::exists(options.output / "problems"))
     for (const auto& file : std::filesystem::directory_iterator(options.output / "problems"))
       run.captured += file.path().extension() == ".h5";
@@ -101,6 +103,7 @@ std::string steps(const RunSummary& run) { return std::to_string(run.steps); }
 std::string checkpoint(const RunSummary& run) { return run.has_checkpoint ? "there" : "none"; }
 
 std::string energy_columns(const RunSummary& run) { return run.energy_columns; }
+std::string wall_lines(const RunSummary& run) { return run.wall_lines; }
 std::string captured(const RunSummary& run) { return std::to_string(run.captured); }
 
 std::string positions_mm(const RunSummary& run) {

@@ -17,7 +17,7 @@ struct RunSummary {
   long long seed = 0, steps = 0;
   bool has_checkpoint = false;
   int captured = 0;  ///< contact problems
-  std::string energy_columns;
+  std::string energy_columns, wall_lines;
 };
 
 /// Runs a scene in a folder of its own, beside the lists of grains two.csv and three.csv.
@@ -33,6 +33,7 @@ std::string steps(const RunSummary&);
 std::string checkpoint(const RunSummary&);
 std::string captured(const RunSummary&);
 std::string energy_columns(const RunSummary&);
+std::string wall_lines(const RunSummary&);
 std::string positions_mm(const RunSummary&);  ///< of the last snapshot
 std::string spins_rad_s(const RunSummary&);
 std::string kinetic_energy(const RunSummary&);

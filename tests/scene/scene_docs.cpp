@@ -31,6 +31,8 @@ TEST(SceneDocs, SayAnUnitInEveryKeyThatHasOne) {
                                : row.unit == "Hz"      ? "hz"
                                : row.unit == "N/m"     ? "n_m"
                                : row.unit == "kg/m"    ? "kg_m"
+                               : row.unit == "N/m2"    ? "n_m2"
+                               : row.unit == "1/s"     ? "per_s"
                                                        : row.unit;
     EXPECT_TRUE(row.path.ends_with("_" + suffix)) << row.path;
   }

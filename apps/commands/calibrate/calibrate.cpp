@@ -75,20 +75,6 @@ std::string one_law_text(const coupling::Calibration& calibration) {
       one.largest_ratio);
 }
 
-std::string relaxation_text(const coupling::Calibration& calibration) {
-  std::string text;
-  for (std::size_t r = 0; r < calibration.relaxations.size(); ++r) {
-    const coupling::FabricRelaxation& found = calibration.relaxations[r];
-    text += fmt::format(
-        "  relaxation of the fabric, {}: c = {:.3g} +- {:.2g} per unit of shear, explains {:.0f} % of the "
-        "change along the "
-        "path ({} blocks){}\n",
-        calibration.runs[r].name, found.c, found.ci99, 100 * found.explained, found.points,
-        found.c - found.ci99 > 0 ? "" : ": none found");
-  }
-  return text;
-}
-
 std::string interval_text(double value, const coupling::MemoryFit& fit, std::size_t j) {
   if (!fit.free[j]) return fmt::format("{:.2f} (held)", value);
   return fmt::format(
@@ -139,7 +125,6 @@ coupling::CalibrationOptions settings_of(const CalibrateOptions& options, coupli
   coupling::CalibrationOptions settings{.source = source,
                                         .k = options.k,
                                         .turn = options.misalignment,
-                                        .relaxation = options.relaxation,
                                         .memory = options.memory,
                                         .draws = options.draws,
                                         .nonlocal = options.nonlocal};
@@ -182,10 +167,10 @@ int calibrate(const CalibrateOptions& options) {
       described(calibration.rheology.mu), law.fit.points,
       source == coupling::EvidenceSource::maps ? "the tensors of maps.h5" : "the layers of profiles.csv",
       law.I_min, law.I_max, calibration.rheology.nu));
-  print_out(fmt::format("{}{}{}{}{}{}{}", forms_text(calibration), posedness_text(calibration),
+  print_out(fmt::format("{}{}{}{}{}{}", forms_text(calibration), posedness_text(calibration),
                         score_text("fitted", calibration.scores),
                         score_text("predicted", calibration.predictions), one_law_text(calibration),
-                        relaxation_text(calibration), memory_text(calibration)));
+                        memory_text(calibration)));
   if (calibration.nonlocal) print_out(nonlocal_text(*calibration.nonlocal));
   for (const MeasuredRun& run : all)
     for (const std::string& reason : run.unsteady)

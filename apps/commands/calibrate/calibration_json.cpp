@@ -87,19 +87,6 @@ Json one_law_json(const coupling::OneLaw& one) {
           {"speed", one.speed}};
 }
 
-Json relaxation_json(const coupling::Calibration& calibration) {
-  Json json = Json::array();
-  for (std::size_t r = 0; r < calibration.relaxations.size(); ++r) {
-    const coupling::FabricRelaxation& found = calibration.relaxations[r];
-    json.push_back({{"run", calibration.runs[r].name},
-                    {"c", found.c},
-                    {"ci99", found.ci99},
-                    {"explained", found.explained},
-                    {"points", found.points}});
-  }
-  return json;
-}
-
 Json points_of_all(const coupling::Calibration& calibration) {
   Json json = Json::array();
   for (const auto* group : {&calibration.runs, &calibration.held_out})
@@ -133,7 +120,6 @@ Json calibration_json(const coupling::Calibration& calibration, const std::vecto
   for (const coupling::LawScore& score : calibration.predictions)
     json["held_out"].push_back(score_json(score));
   json["one_law"] = calibration.one_law ? one_law_json(*calibration.one_law) : Json();
-  json["relaxation"] = relaxation_json(calibration);
   if (calibration.memory) json["memory"] = memory_json(*calibration.memory, calibration.runs);
   if (calibration.nonlocal) json["nonlocal"] = nonlocal_json(*calibration.nonlocal);
   json["unsteady"] = Json::array();

@@ -45,18 +45,17 @@ coupling::RunEvidence evidence_of(const MeasuredRun& run, coupling::EvidenceSour
   coupling::add_blocks(evidence, std::move(map), range);
   const bool of_the_bed = options.memory || options.nonlocal;
   if (of_the_bed) coupling::add_amount_blocks(evidence, range);
-  if (!options.relaxation && !of_the_bed) evidence.map.reset();
+  if (!of_the_bed) evidence.map.reset();
   return evidence;
 }
 
 }  // namespace
 
 coupling::EvidenceSource source_of(const CalibrateOptions& options) {
-  const bool needs_maps = options.misalignment || options.relaxation || options.memory || options.nonlocal;
+  const bool needs_maps = options.misalignment || options.memory || options.nonlocal;
   if (options.from == "profiles") {
     if (needs_maps)
-      throw InputError(
-          "--misalignment, --relaxation, --memory and --nonlocal need tensors over the drum: --from maps");
+      throw InputError("--misalignment, --memory and --nonlocal need tensors over the drum: --from maps");
     return coupling::EvidenceSource::profiles;
   }
   std::vector<fs::path> all = options.runs;

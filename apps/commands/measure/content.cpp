@@ -56,6 +56,13 @@ Json settings_of(const particles::Measurement& m, const particles::MeasurementOp
       {"wall_z", m.wall_z},
       {"drum_radius", m.place.container_radius},
       {"scales", to_json(m.scales)}};
+  settings["geometry"] = m.place.container_radius > 0 ? "drum" : m.place.period > 0 ? "layers" : "open";
+  if (m.scattered)
+    settings["window"] = {{"x", {m.place.x_min, m.place.x_max}},
+                          {"z", {m.place.z_min, m.place.z_max}},
+                          {"scattered_mean", m.scattered->mean},
+                          {"scattered_most", m.scattered->most},
+                          {"scattered_last", m.scattered->last}};
   if (options.gradient_step) {
     settings["gradient_step"] = m.place.gradient_step;
     settings["gradient_step_asked"] = *options.gradient_step;
@@ -80,7 +87,12 @@ Json steadiness_of(const particles::Steadiness& s) {
           {"energy_change", drift(s.energy)},
           {"energy_std", number(s.energy_std)},
           {"slope_change_deg", drift(s.slope_deg)},
-          {"slope_std_deg", number(s.slope_std_deg)}};
+          {"slope_std_deg", number(s.slope_std_deg)},
+          {"judged_by", s.judged_by},
+          {"energy_trend", to_json(Scalar{"", s.energy_trend.value, s.energy_trend.ci99})},
+          {"pressure_change", drift(s.pressure)},
+          {"shear_stress_change", drift(s.shear_stress)},
+          {"shear_rate_change", drift(s.shear_rate)}};
 }
 
 Json scalar_with_sensitivity(const Scalar& scalar, const particles::ScalarSensitivity& sensitivity) {

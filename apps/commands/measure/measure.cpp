@@ -1,5 +1,6 @@
 // drumlin measure: profiles and scalars of a finished particle run.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <chrono>
 #include <cmath>
@@ -10,6 +11,7 @@
 #include "apps/commands/accuracy_statement.hpp"
 #include "apps/commands/measure/content.hpp"
 #include "apps/commands/measure/part.hpp"
+#include "apps/commands/run_accuracy.hpp"
 #include "apps/support/commands.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/output_folder.hpp"
@@ -22,6 +24,7 @@
 #include "coupling/documents/csv.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/measurement/frame/intervals.hpp"
+#include "particles/measurement/layers/bulk_scalars.hpp"
 #include "particles/measurement/measurement.hpp"
 #include "particles/measurement/measurement_header.hpp"
 #include "particles/measurement/run_log.hpp"
@@ -106,18 +109,25 @@ void write_slices(const fs::path& folder, const particles::Measurement& measured
 
 /// series.csv: one line per snapshot.
 void write_series(const fs::path& file, const particles::TimeSeries& series) {
-  std::string text = "# drumlin-series-1\ntime,turns,kinetic_energy,theta_com_deg\n";
-  for (std::size_t s = 0; s < series.time.size(); ++s)
-    text += csv_line(
-        {csv_number(series.time[s]), csv_number(series.wall_angle[s] / (2 * std::numbers::pi)),
-         csv_number(series.kinetic_energy[s]),
-         series.mass_angle.empty() ? "" : csv_number(series.mass_angle[s] * 180 / std::numbers::pi)});
+  std::string text = "# drumlin-series-1\ntime,turns,kinetic_energy,theta_com_deg";
+  const bool packing = !series.pressure.empty();
+  text += packing ? ",pressure,shear_stress,shear_rate\n" : "\n";
+  for (std::size_t s = 0; s < series.time.size(); ++s) {
+    std::vector<std::string> fields{
+        csv_number(series.time[s]), csv_number(series.wall_angle[s] / (2 * std::numbers::pi)),
+        csv_number(series.kinetic_energy[s]),
+        series.mass_angle.empty() ? "" : csv_number(series.mass_angle[s] * 180 / std::numbers::pi)};
+    if (packing)
+      for (const auto* values : {&series.pressure, &series.shear_stress, &series.shear_rate})
+        fields.push_back(csv_number((*values)[s]));
+    text += csv_line(fields);
+  }
   replace_file(file, text);
 }
 
+/// One that was measured.
 void print_scalar(const Scalar& scalar, const particles::ScalarSensitivity& sensitivity) {
-  const std::string value =
-      std::isfinite(scalar.value) ? fmt::format("{:.4g}", scalar.value) : "not measured";
+  const std::string value = fmt::format("{:.4g}", scalar.value);
   const bool known = scalar.ci99 && std::isfinite(*scalar.ci99);
   const std::string windows = sensitivity.changes.empty()
                                   ? ""
@@ -163,7 +173,21 @@ void print_steadiness(const particles::Steadiness& steadiness) {
   if (std::isfinite(steadiness.slope_deg.value))
     print_out(
         fmt::format(", slope {:+.2f} +- {:.2f} deg", steadiness.slope_deg.value, steadiness.slope_deg.ci99));
-  print_out("\n");
+  if (std::isfinite(steadiness.pressure.value))
+    print_out(fmt::format("{}pressure {:+.1f} +- {:.1f} %", ", ", 100 * steadiness.pressure.value,
+                          100 * steadiness.pressure.ci99));
+  print_out(fmt::format("; judged by {}\n", steadiness.judged_by));
+}
+
+void print_scattered(const particles::Measurement& measured) {
+  if (!measured.scattered) return;
+  const particles::MeasurementFrame& place = measured.place;
+  print_out(
+      fmt::format("measured is the window x {:.4g} ... {:.4g} d, z {:.4g} ... {:.4g} d around the densest "
+                  "part; outside fly "
+                  "{:.4g} grains in the mean, {} at most, {} at the end\n",
+                  place.x_min, place.x_max, place.z_min, place.z_max, measured.scattered->mean,
+                  measured.scattered->most, measured.scattered->last));
 }
 
 /// A run with what was asked of it.
@@ -241,6 +265,33 @@ Json content_of(const Request& request, const particles::Measurement& measured, 
   return content;
 }
 
+/// What the run told of itself stands in the place of a statement that knows no errors.
+void print_accuracy(const Request& request, const std::optional<coupling::AccuracyStatement>& statement) {
+  const Json none, accuracy = request.run.value("accuracy", none);
+  const Json stretches = accuracy.is_object() ? accuracy.value("stretches", none) : none;
+  if (!stretches.is_null() && (!statement || statement->record.empty()))
+    print_out(text_of_stretches(stretches, request.run.value("cpu_seconds", 0.0)));
+  else if (statement)
+    print_out(text_of(*statement));
+}
+
+/// In a line each: what was not measured though it belongs to the geometry, and how much does not belong.
+void print_unmeasured(const particles::MeasurementFrame& place, const ScalarSet& scalars) {
+  std::vector<std::string> unknown;
+  int of_a_drum = 0;
+  for (const Scalar& scalar : scalars.scalars) {
+    if (std::isfinite(scalar.value)) continue;
+    if (!(place.container_radius > 0) && particles::belongs_to_a_drum(scalar.name))
+      ++of_a_drum;
+    else
+      unknown.push_back(scalar.name);
+  }
+  if (!unknown.empty()) print_out(fmt::format("  not measured: {}\n", fmt::join(unknown, ", ")));
+  if (of_a_drum > 0)
+    print_out(fmt::format("  {} numbers of a drum's flow do not belong to {} (null in measured.json)\n",
+                          of_a_drum, place.period > 0 ? "layers" : "an open packing"));
+}
+
 void print_results(const Request& request, const fs::path& folder, const particles::Measurement& measured,
                    const ScalarSet& scalars) {
   print_out(fmt::format("{}{}\n", folder.string(), request.reduced ? " (reduced)" : ""));
@@ -248,7 +299,10 @@ void print_results(const Request& request, const fs::path& folder, const particl
     print_out(fmt::format("  {:32} {:>12} {:12} {}\n", "", "value", "99 %",
                           "by other windows (measured.json has all)"));
   for (const Scalar& scalar : scalars.scalars)
-    print_scalar(scalar, particles::sensitivity_of(scalar, measured.variants));
+    if (std::isfinite(scalar.value))
+      print_scalar(scalar, particles::sensitivity_of(scalar, measured.variants));
+  print_unmeasured(measured.place, scalars);
+  print_scattered(measured);
   print_steadiness(measured.steadiness);
   for (const Part& part : request.parts)
     if (part.print) part.print();
@@ -307,7 +361,7 @@ int measure(const MeasureOptions& options) {
   output.publish();
 
   print_results(request, results, measured, scalars);
-  if (statement) print_out(text_of(*statement));
+  print_accuracy(request, statement);
   throw_if_figures_failed(finished, failures);
   return static_cast<int>(ExitCode::done);
 }

@@ -13,7 +13,6 @@ namespace drumlin::continuum::fem {
 /// One number per point; empty without the effect.
 struct HeldValues {
   std::vector<double> turn;        ///< s sgn(W - Omega_D), with k
-  std::vector<double> beta;        ///< of the fabric that the material carries
   std::vector<double> fluidity;    ///< g_loc/g, with nonlocal fluidity
   std::vector<Remembered> memory;  ///< A and rho, with memory of the axes
   double memory_weight = 0;        ///< m, less while it rises
@@ -21,7 +20,6 @@ struct HeldValues {
 
 struct HeldFields {
   std::shared_ptr<const Turning> turning;
-  std::shared_ptr<const ScalarField> beta;
   std::shared_ptr<const ScalarField> ln_fluidity;  ///< ln(g_loc/g)
   std::shared_ptr<const ScalarField> axes;         ///< A: components xx and xz
   std::shared_ptr<const ScalarField> rho;
@@ -73,13 +71,6 @@ std::shared_ptr<const HeldFields> held_from(const FlowProblem& problem, const Di
 /// g_loc = 2 |D| (g_loc/g)/mu of a flow, per quadrature point of this rank's cells.
 std::vector<double> local_fluidity(const FlowProblem& problem, const Discretisation& d, const State& state);
 
-/// Sources of the fabric's transport per quadrature point: rate 2 c |D|, target turn (k - 1)/(k + 1).
-struct FabricSources {
-  std::vector<double> rate, target;
-};
-FabricSources fabric_sources(const FlowProblem& problem, const Discretisation& d, const State& state,
-                             const std::vector<double>& turn, double relaxation);
-
 /// Sources of the memory's transport per quadrature point: rate 2 c |D|, target exp(i t chi(I)) D/|D|.
 struct AxesSources {
   std::vector<double> rate, target_xx, target_xz;
@@ -87,7 +78,10 @@ struct AxesSources {
 AxesSources axes_sources(const FlowProblem& problem, const Discretisation& d, const State& state);
 
 /// Sources of rho at weight m with the axes at hand: rate 2 c_rho |D|, target rho_target().
-FabricSources rho_sources(const FlowProblem& problem, const Discretisation& d, const State& state, double m,
-                          const ScalarField& axes);
+struct RhoSources {
+  std::vector<double> rate, target;
+};
+RhoSources rho_sources(const FlowProblem& problem, const Discretisation& d, const State& state, double m,
+                       const ScalarField& axes);
 
 }  // namespace drumlin::continuum::fem

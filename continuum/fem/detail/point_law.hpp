@@ -1,8 +1,7 @@
 #pragma once
 // The law at a quadrature point, with or without k: the one place that chooses. Without k nothing of it
-// exists in the code that runs; the fabric that is carried and the spread of fluidity stand behind one test
-// per point. Memory of the axes has a law of its own, and so has a fluidity with a threshold. Private to
-// fem/.
+// exists in the code that runs; the spread of fluidity stands behind one test per point. Memory of the axes
+// has a law of its own, and so has a fluidity with a threshold. Private to fem/.
 #include <span>
 #include <type_traits>
 
@@ -51,9 +50,7 @@ struct TurnedPointLaw {
   template <class Friction>
   TurnedResponse with_ratio(const Friction& mu, const Regularisation& r, const PlaneTensor& D, double p,
                             const PlaneTensor& dual, std::size_t point) const {
-    const double turn = held.turn[point];
-    if (held.beta.empty()) return turned_response(mu, LocalRatio{&k, turn}, r, D, p, dual);
-    return turned_response(mu, CarriedRatio{held.beta[point], turn}, r, D, p, dual);
+    return turned_response(mu, LocalRatio{&k, held.turn[point]}, r, D, p, dual);
   }
 };
 

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "continuum/fem/detail/direct_solver.hpp"
 #include "continuum/fem/detail/discretisation.hpp"
 
 namespace drumlin::continuum::fem {
@@ -31,6 +32,12 @@ struct ScalarField {
 
 /// Hanging nodes and periodicity of a continuous field, closed.
 dealii::AffineConstraints<double> conforming_lines(const FlowProblem& problem, const ScalarField& field);
+
+/// An empty matrix of a continuous field: each unknown couples with those of its cells, `lines` aside.
+void couple_in_cells(const Discretisation&, const ScalarField&,
+                     const dealii::AffineConstraints<double>& lines, SystemMatrix&);
+/// An empty matrix of a discontinuous field: with those of its cell and of the cells beside it.
+void couple_across_faces(const Discretisation&, const ScalarField&, SystemMatrix&);
 
 /// At points of one cell of this rank, given by their places in the reference cell.
 std::vector<double> values_at(const ScalarField& field, const MeshCell& cell,

@@ -4,6 +4,8 @@
 #include <numbers>
 
 #include "coupling/documents/enum_names.hpp"
+#include "particles/measurement/frame/bulk_state.hpp"
+#include "particles/measurement/frame/dense_window.hpp"
 #include "particles/measurement/frame/flow_snapshot.hpp"
 #include "particles/measurement/frame/intervals.hpp"
 
@@ -49,11 +51,30 @@ void widen_extent(const Snapshot& snapshot, bool first, Survey& found) {
   }
 }
 
+/// Takes the window in place of an extent beyond the limits.
+void cut_to_window(const Occupancy& occupancy, std::size_t grains, double period, Survey& found) {
+  const WindowLimits limits = window_limits(grains);
+  const Rectangle extent{found.x_min, found.x_max, found.z_min, found.z_max};
+  if (fits(limits, extent, period)) return;
+  const Rectangle window = occupancy.window(extent, limits);
+  found.cut_to_window = true;
+  const double middle = period > 0 ? 0 : (window.x_min + window.x_max) / 2;
+  found.upright.origin_x += middle * found.upright.x_axis_x;
+  found.upright.origin_z += middle * found.upright.x_axis_z;
+  found.x_min = window.x_min - middle;
+  found.x_max = window.x_max - middle;
+  found.z_min = window.z_min;
+  found.z_max = window.z_max;
+}
+
 }  // namespace
 
 Survey survey(const Recording& recording, std::size_t batches, const std::function<void()>& tick) {
   Survey found;
   RelativeVelocities velocity;
+  Occupancy occupancy;
+  std::size_t most_grains = 0;
+  double period = 0;
   for (std::size_t s = 0; s < recording.count(); ++s) {
     const Snapshot snapshot = recording.read(s);
     const double radius = snapshot.container_radius;
@@ -68,9 +89,18 @@ Survey survey(const Recording& recording, std::size_t batches, const std::functi
     if (radius > 0) {
       found.maps[batch_of(s, recording.count(), batches)].add(snapshot, found.upright);
       found.series.mass_angle.push_back(centre_of_mass_angle(snapshot, found.upright));
+    } else {
+      occupancy.add(snapshot, found.upright);
+      period = snapshot.period_x;
+      most_grains = std::max(most_grains, snapshot.x.size());
+      const BulkState bulk = bulk_state(snapshot, found.upright);
+      found.series.pressure.push_back(bulk.pressure);
+      found.series.shear_stress.push_back(bulk.shear_stress);
+      found.series.shear_rate.push_back(bulk.shear_rate);
     }
     tick();
   }
+  if (most_grains > 0) cut_to_window(occupancy, most_grains, period, found);
   return found;
 }
 

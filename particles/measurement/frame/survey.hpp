@@ -21,6 +21,9 @@ struct TimeSeries {
   std::vector<double> wall_angle;      ///< rad turned so far, clockwise
   std::vector<double> mass_angle;      ///< rad, of the centre of mass; empty without a container
   std::vector<double> kinetic_energy;  ///< of the motion relative to the drum, rho0 g d^3 per unit depth
+  /// Without a container: sum over contacts of F_a b_a / 2 and of -F_x b_z, over the area of all grains; mean
+  /// shear rate: slope of v_x over z among the grains that touch something. NaN where no contact is known.
+  std::vector<double> pressure, shear_stress, shear_rate;
 };
 
 /// What the first reading finds out.
@@ -28,10 +31,12 @@ struct Survey {
   FlowFrame upright;              ///< z against gravity; along the laboratory's axes when x is periodic
   std::vector<CoverageMap> maps;  ///< one per batch; empty without a container
   TimeSeries series;
-  double x_min = 0, x_max = 0, z_min = 0, z_max = 0;  ///< what the grains reach in `upright`
+  double x_min = 0, x_max = 0, z_min = 0, z_max = 0;  ///< what the grains reach in `upright`, or the window
+  bool cut_to_window = false;                         ///< some grains lie outside of it (dense_window.hpp)
 };
 
-/// Reads every snapshot once; `tick` is called after each.
+/// Reads every snapshot once; `tick` is called after each. Where the grains of an open scene reach further
+/// than the limits of a window, the window is measured, and the frame's x counts from its middle.
 Survey survey(const Recording& recording, std::size_t batches, const std::function<void()>& tick);
 
 /// Slope of the surface with its 99 % half width (rad): the isoline of all maps, and without one batch each.

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
+#include <utility>
 
 namespace drumlin::particles {
 namespace {
@@ -12,6 +14,17 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double mean_weight = 0.25;  // of a grain of diameter 1
 
 int floor_divided(int a, int b) { return a / b - (a % b != 0 && (a < 0) != (b < 0) ? 1 : 0); }
+
+/// Beginning and length of the range that holds the middle 98 % of some sites.
+template <class Site>
+std::pair<double, double> middle_part(const std::vector<Site>& sites, double Site::*place) {
+  std::vector<double> places;
+  for (const Site& site : sites) places.push_back(site.*place);
+  std::sort(places.begin(), places.end());
+  const std::size_t rim = places.size() / 100 + 1;
+  if (places.size() <= 2 * rim) return {places.front(), places.back() - places.front()};
+  return {places[rim], places[places.size() - 1 - rim] - places[rim]};
+}
 
 int cell_at(double x, double x_min, double size) {
   return static_cast<int>(std::clamp(std::floor((x - x_min) / size), -1e9, 1e9));
@@ -64,10 +77,21 @@ VoronoiTessellation::Level VoronoiTessellation::sorted_level(std::vector<Site> s
       std::minmax_element(sites.begin(), sites.end(), [](auto& a, auto& b) { return a.z < b.z; });
   level.x_min = period > 0 ? 0 : west->x;
   level.z_min = low->z;
-  const double width = period > 0 ? period : east->x - west->x, height = high->z - low->z;
-  double size = largest_diameter;
-  // A stray grain far away must not cost memory.
-  while ((width / size + 1) * (height / size + 1) > 4.0 * static_cast<double>(sites.size()) + 16) size *= 2;
+  double width = period > 0 ? period : east->x - west->x, height = high->z - low->z;
+  // A stray grain far away must not cost memory...
+  const auto cell_for = [&] {
+    double size = largest_diameter;
+    while ((width / size + 1) * (height / size + 1) > 4.0 * static_cast<double>(sites.size()) + 16) size *= 2;
+    return size;
+  };
+  double size = cell_for();
+  if (size > 4 * largest_diameter) {
+    // ... nor time, by cells that hold hundreds of grains: cells cover the middle 98 %, those at the rim hold
+    // what is further out.
+    if (!(period > 0)) std::tie(level.x_min, width) = middle_part(sites, &Site::x);
+    std::tie(level.z_min, height) = middle_part(sites, &Site::z);
+    size = cell_for();
+  }
   level.columns = std::max(1, static_cast<int>(width / size) + (period > 0 ? 0 : 1));
   level.rows = static_cast<int>(height / size) + 1;
   level.cell_x = period > 0 ? period / level.columns : size;
@@ -94,13 +118,13 @@ VoronoiTessellation::Level VoronoiTessellation::sorted_level(std::vector<Site> s
 
 bool VoronoiTessellation::gather(const Site& site, const Level& level, double reach, double most_squared) {
   neighbours_.clear();
-  const int first_row = std::max(0, cell_at(site.z - reach, level.z_min, level.cell_z));
-  const int last_row = std::min(level.rows - 1, cell_at(site.z + reach, level.z_min, level.cell_z));
+  const int first_row = std::clamp(cell_at(site.z - reach, level.z_min, level.cell_z), 0, level.rows - 1);
+  const int last_row = std::clamp(cell_at(site.z + reach, level.z_min, level.cell_z), 0, level.rows - 1);
   int first_column = cell_at(site.x - reach, level.x_min, level.cell_x);
   int last_column = cell_at(site.x + reach, level.x_min, level.cell_x);
   if (!(period_ > 0)) {
-    first_column = std::max(0, first_column);
-    last_column = std::min(level.columns - 1, last_column);
+    first_column = std::clamp(first_column, 0, level.columns - 1);
+    last_column = std::clamp(last_column, 0, level.columns - 1);
   }
   // Beyond the ends of a period stand its images, the grain's own among them.
   const int first_image = period_ > 0 ? floor_divided(first_column, level.columns) : 0;

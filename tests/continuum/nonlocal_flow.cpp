@@ -1,8 +1,5 @@
-// Fabric that the material carries along and fluidity that spreads, in whole flows.
+// Fluidity that spreads over a given length, in whole flows.
 #include "boxes.hpp"
-#include "continuum/fem/detail/carried_field.hpp"
-#include "continuum/fem/detail/solved_level.hpp"
-#include "continuum/sampling/drum_profiles.hpp"
 #include "coupling/common/errors.hpp"
 #include "tests/hardcases/continuum/small_drum.hpp"
 
@@ -98,72 +95,11 @@ TEST(NonlocalFlow, TendsToTheLocalOneWithTheSquareOfItsLength) {
   EXPECT_NEAR(far / near, 4, 0.8);
 }
 
-void expect_balances(const FlowField& field) {
-  const FlowIntegrals sums = field.integrals({0, small_drum().axis_offset});
-  EXPECT_NEAR(discharge(field, small_drum()) / small_drum().expected_Q(), 1, 1e-3);
-  EXPECT_NEAR(sums.given_side_torque / sums.weight_torque, -1, 1e-4);
-  EXPECT_NEAR(sums.dissipation / (sums.given_side_power + sums.weight_power), 1, 1e-3);
-}
-
-FlowProblem drum_with_fabric(std::optional<double> relaxation) {
-  FlowProblem problem = small_drum_problem(paper);
-  problem.turned = TurnedStress{.k = StressRatioLaw({1e-3, 1}, {0.92, 1.06})};
-  if (relaxation) problem.turned->fabric = CarriedFabric{*relaxation};
-  return problem;
-}
-
-TEST(CarriedFabric, TendsToTheLocalOneTheFasterItIsRenewed) {
-  const FlowField field = converged(drum_with_fabric({}), options_of(1, 1e-4));
-  const auto& level = field.level();
-  const auto& d = *level.discretisation;
-  const auto lag = [&](double relaxation) {
-    const auto local =
-        fem::fabric_sources(level.problem, d, level.state, level.state.held_values().turn, relaxation);
-    const auto carried =
-        fem::carried_by_flow(level.problem, d, level.state.solution, {local.rate, local.target}, 1e-8);
-    const auto beta = fem::at_quadrature(*carried.field, d);
-    double change = 0, size = 0;
-    for (std::size_t q = 0; q < beta.size(); ++q) {
-      change += std::pow(beta[q] - local.target[q], 2);
-      size += std::pow(local.target[q], 2);
-    }
-    return std::sqrt(d.sum(change) / d.sum(size));
-  };
-  const double slow = lag(1), fast = lag(100), at_once = lag(1e4);
-  EXPECT_LT(fast, 0.3 * slow);
-  EXPECT_LT(at_once, fast);
-  EXPECT_LT(at_once, 0.15);  // cells of 2 d do not hold the jumps of the turn
-}
-
-TEST(CarriedFabric, ChangesAlongItsWayAsItIsRenewed) {
-  const double c = 0.5, h = 0.5;
-  const FlowProblem problem = drum_with_fabric(c);
-  const FlowField field = converged(problem, options_of(2, 1e-4));
-  expect_balances(field);
-  // v.grad k = -c gammadot (k - k_ss), to first order in k - k_ss, in simple shear: below the middle of the
-  // surface, where beta is carried with one sign.
-  double misfit = 0, size = 0;
-  for (const double z : {-3.0, -3.5, -4.0, -4.5, -5.0}) {
-    const auto k_at = [&](double dx, double dz) { return state_at(field, {dx, z + dz}).k; };
-    const PointState here = state_at(field, {0, z});
-    const double k_ss = problem.turned->k.at_ln(std::log(2 * here.rate / std::sqrt(here.law_pressure))).value;
-    const double carried =
-        (here.velocity.x * (k_at(h, 0) - k_at(-h, 0)) + here.velocity.z * (k_at(0, h) - k_at(0, -h))) /
-        (2 * h);
-    const double renewed = -c * 2 * here.rate * (here.k - k_ss);
-    misfit += std::pow(carried - renewed, 2);
-    size += std::pow(renewed, 2);
-  }
-  EXPECT_GT(std::sqrt(size), 5e-4);
-  EXPECT_LT(std::sqrt(misfit / size), 0.15);
-}
-
-TEST(CarriedFabric, AndNonlocalFluidityAreRefusedInTime) {
+TEST(NonlocalFlow, IsRefusedInTime) {
   const FlowField rest = flow_at_rest(small_drum_problem(paper), options_of(1, 1e-3));
   FlowProblem nonlocal = small_drum_problem(paper);
   nonlocal.nonlocal = NonlocalFluidity{1};
   EXPECT_THROW((void)march_flow(rest, nonlocal, {.time_step = 1, .steps = 1}), InputError);
-  EXPECT_THROW((void)march_flow(rest, drum_with_fabric(1), {.time_step = 1, .steps = 1}), InputError);
 }
 
 }  // namespace

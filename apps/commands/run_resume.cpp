@@ -1,0 +1,68 @@
+#include "apps/commands/run_resume.hpp"
+
+#include <fmt/format.h>
+
+#include "apps/commands/region_table.hpp"
+#include "apps/commands/run_files.hpp"
+#include "apps/commands/start_grains.hpp"
+#include "apps/commands/wall_table.hpp"
+#include "apps/support/standard_streams.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/common/last_whole.hpp"
+#include "coupling/common/text_file.hpp"
+
+namespace drumlin::apps {
+
+namespace fs = std::filesystem;
+
+std::string snapshot_name(std::int64_t number) { return fmt::format("snapshots/{:06}.h5", number); }
+
+void same_scene_or_refuse(const fs::path& output, const std::string& theirs, const std::string& ours) {
+  if (theirs != ours)
+    throw InputError(output.string() +
+                     ": was made from another scene (compare its scene.toml with `drumlin scene show`); "
+                     "use --overwrite to start over");
+}
+
+std::map<std::string, std::string> list_texts(particles::Scene scene) {
+  const auto names = grain_list_names(scene);
+  std::map<std::string, std::string> texts;
+  std::size_t k = 0;
+  for (const auto* list : lists_of(scene))
+    texts[names[k++]] = list->text.empty() ? file_text(list->file) : list->text;
+  return texts;
+}
+
+void cut_back(GrowingOutput& output, const std::optional<particles::Checkpoint>& from) {
+  auto& files = output.manifest().files;
+  std::map<std::string, ManifestEntry> kept;
+  if (from) {
+    for (std::int64_t number = 1; number <= from->state.snapshots; ++number) {
+      const std::string name = snapshot_name(number);
+      if (!files.contains(name))
+        throw InputError(fmt::format("{}: is not listed in {}, and the checkpoint builds on it",
+                                     (output.folder() / name).string(), manifest_name));
+      kept[name] = files.at(name);
+    }
+    for (const auto& [name, entry] : files)
+      if (!name.starts_with("snapshots/")) kept[name] = entry;
+    for (const auto& [name, bytes] :
+         {std::pair(log_name, from->log_bytes), std::pair(energy_name, from->energy_bytes),
+          std::pair(wall_table_name, from->walls_bytes), std::pair(region_table_name, from->regions_bytes)}) {
+      kept.erase(name);
+      if (bytes > 0) kept[name] = {file_sum(output.folder() / name, static_cast<std::uint64_t>(bytes)), true};
+    }
+  }
+  files = std::move(kept);
+}
+
+std::optional<particles::Checkpoint> checkpoint_in(const fs::path& output, const std::string& resolved) {
+  auto last = last_whole_checkpoint(output, particles::read_checkpoint);
+  if (!last) return std::nullopt;
+  if (!last->passed_over.empty())
+    print_error(fmt::format("{}\ngoes on from {} instead\n", last->passed_over, previous_checkpoint_name));
+  same_scene_or_refuse(output, last->content.scene, resolved);
+  return std::move(last->content);
+}
+
+}  // namespace drumlin::apps

@@ -1,0 +1,33 @@
+#pragma once
+// What `drumlin run --resume` finds in a run folder: whether it belongs to the scene, and where it goes on.
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "apps/support/output_folder.hpp"
+#include "particles/io/checkpoint_file.hpp"
+#include "particles/scene/scene.hpp"
+
+namespace drumlin::apps {
+
+inline constexpr const char *log_name = "log.csv", *energy_name = "energy.csv";
+/// Of the number-th snapshot, from 1.
+std::string snapshot_name(std::int64_t number);
+
+/// A folder continues only the scene that it was made from: throws InputError where the texts differ.
+void same_scene_or_refuse(const std::filesystem::path& output, const std::string& theirs,
+                          const std::string& ours);
+
+/// The lists of grains of a scene as they stand in the run folder, by the names of their files there.
+std::map<std::string, std::string> list_texts(particles::Scene scene);
+
+/// The manifest of what stood at the checkpoint; what stands behind it is made anew. Throws InputError if a
+/// snapshot is missing.
+void cut_back(GrowingOutput& output, const std::optional<particles::Checkpoint>& from);
+
+/// The checkpoint that a run goes on from; absent: from its start.
+std::optional<particles::Checkpoint> checkpoint_in(const std::filesystem::path& output,
+                                                   const std::string& resolved);
+
+}  // namespace drumlin::apps

@@ -1,0 +1,97 @@
+"""Snapshots of a run as arrays, with what scenes beyond the drum are judged by: stress and shear rate of a box, forces on walls, intervals.
+
+Everything is in the units of the run: d, sqrt(d/g), rho0 d^2 per unit of depth (docs/conventions.md).
+"""
+
+import json
+import math
+import pathlib
+import tomllib
+
+import h5py
+import numpy
+
+BATCHES = 10
+FACTOR = 3.250  # Student's t for 99 % with 9 degrees of freedom
+
+
+def read_run(folder):
+    folder = pathlib.Path(folder)
+    report = json.loads((folder / "run.json").read_text(encoding="utf-8"))
+    scene = tomllib.loads((folder / "scene.toml").read_text(encoding="utf-8"))
+    snapshots = [read_snapshot(file) for file in sorted((folder / "snapshots").glob("*.h5"))]
+    return {"report": report, "scene": scene, "snapshots": snapshots, "d_mm": 1e3 * report["scales"]["length_m"],
+            "second": report["scales"]["time_s"], "density": report["scales"]["density_kg_m3"]}
+
+
+def read_snapshot(file):
+    with h5py.File(file) as stored:
+        result = {name: stored["grains/" + name][:] for name in stored["grains"]}
+        result.update(time=stored["time"][0], gravity=numpy.array([stored["gravity_x"][0], stored["gravity_z"][0]]),
+                      period=stored["period_x"][0], window=stored["velocity_window"][0])
+        step = stored["time_step"][0]
+        contacts = stored["contacts"]
+        normal = numpy.array([contacts["normal_x"][:], contacts["normal_z"][:]], float).T
+        tangent = numpy.array([normal[:, 1], -normal[:, 0]]).T
+        result.update(i=contacts["i"][:], j=contacts["j"][:], normal=normal,
+                      force_n=contacts["impulse_n"][:] / step, force_t=contacts["impulse_t"][:] / step)
+        result["force"] = result["force_n"][:, None] * normal + result["force_t"][:, None] * tangent
+        if "walls" in stored:
+            result["walls"] = numpy.array([stored["walls/x"][:], stored["walls/z"][:]]).T
+    result["mass"] = math.pi * result["radius"] ** 2
+    return result
+
+
+def velocities(snapshot):
+    """Means over the stored window, as everywhere in this project; those at the end of the step where there is none."""
+    if snapshot["window"] > 0:
+        return numpy.array([snapshot["displacement_x"], snapshot["displacement_z"]]).T / snapshot["window"]
+    return numpy.array([snapshot["v_x"], snapshot["v_z"]]).T
+
+
+def inertial_number(shear_rate, pressure):
+    """I of da Cruz et al.: shear rate sqrt(m/P), m = pi/4 the mass of the mean disc."""
+    return shear_rate * math.sqrt(math.pi / 4 / pressure)
+
+
+def layer_state(snapshot, low, high, width):
+    """nu, shear rate, stress of the grains with their centres between two heights; compression positive, sigma_xz as in docs/conventions.md."""
+    inside = (snapshot["z"] >= low) & (snapshot["z"] < high)
+    area, mass, v = width * (high - low), snapshot["mass"], velocities(snapshot)
+    slope, middle = numpy.polyfit(snapshot["z"][inside], v[inside, 0], 1) if inside.sum() > 2 else (math.nan, math.nan)
+    dv = v[inside] - numpy.array([slope * snapshot["z"][inside] + middle, numpy.full(inside.sum(), v[inside, 1].mean())]).T
+    i, j = snapshot["i"], snapshot["j"]
+    both = numpy.where(inside[i], snapshot["radius"][i], 0)
+    grains = j >= 0
+    both[grains] += numpy.where(inside[j[grains]], snapshot["radius"][j[grains]], 0)
+    contact = numpy.einsum("c,ca,cb->ab", both, snapshot["force"], snapshot["normal"]) / area
+    motion = numpy.einsum("g,ga,gb->ab", mass[inside], dv, dv) / area
+    total = contact + motion
+    return {"nu": mass[inside].sum() / area, "shear_rate": slope, "sigma_xx": total[0, 0], "sigma_zz": total[1, 1], "sigma_xz": -total[0, 1]}
+
+
+def wall_forces(snapshot):
+    """Force of the grains on the walls, by where the wall lies as seen from the grain: below, above, left, right."""
+    wall = snapshot["j"] < 0
+    normal, force = snapshot["normal"][wall], -snapshot["force"][wall]
+    # A periodic scene has no sides: discs glued to its floor push sideways as well.
+    steep = numpy.full(len(normal), True) if snapshot["period"] else numpy.abs(normal[:, 1]) > numpy.abs(normal[:, 0])
+    sides = {"below": steep & (normal[:, 1] > 0), "above": steep & (normal[:, 1] < 0),
+             "left": ~steep & (normal[:, 0] > 0), "right": ~steep & (normal[:, 0] < 0)}
+    return {side: force[chosen].sum(axis=0) for side, chosen in sides.items()}
+
+
+def mean(values):
+    """Mean and half width of its 99 % interval, from ten batches of what follows in time."""
+    values = numpy.asarray(values, float)
+    if len(values) < 2 * BATCHES:
+        return {"value": float(values.mean()), "ci99": None}
+    batches = numpy.array([part.mean() for part in numpy.array_split(values, BATCHES)])
+    return {"value": float(values.mean()), "ci99": float(FACTOR * batches.std(ddof=1) / math.sqrt(BATCHES))}
+
+
+def line(x, y):
+    """Slope, constant and share of the variance that a straight line explains."""
+    slope, constant = numpy.polyfit(x, y, 1)
+    rest = numpy.asarray(y) - slope * numpy.asarray(x) - constant
+    return float(slope), float(constant), float(1 - rest.var() / numpy.var(y))

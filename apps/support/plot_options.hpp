@@ -1,0 +1,27 @@
+#pragma once
+// The options of `drumlin plot`.
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/support/existing_output.hpp"
+
+namespace drumlin::apps {
+
+struct PlotOptions {
+  std::filesystem::path run;
+  std::optional<std::filesystem::path> output;  ///< standard: RUN/plots
+  std::string snapshot = "last";                ///< or its number, from 1
+  bool animation = false;
+  ExistingOutput existing = ExistingOutput::refuse;
+  std::vector<double> window = {};  ///< x0, x1, z0, z1 in d; empty: all grains and what stands beside them
+  std::string color = {};           ///< one of plot_colors; empty: speed, and spin where there is one
+  int every = 0;  ///< snapshots per frame of the animation; without one, stills of each such snapshot
+};
+/// What the colour of a grain may show.
+constexpr std::array<const char*, 7> plot_colors{"speed",    "spin",         "size", "material",
+                                                 "pressure", "coordination", "id"};
+
+}  // namespace drumlin::apps

@@ -1,0 +1,72 @@
+// What validate() finds in stages that change something.
+#include <gtest/gtest.h>
+
+#include "tests/scene/example.hpp"
+
+namespace drumlin {
+namespace {
+
+using testing::example_scene;
+using testing::only_scene_problem;
+
+/// The only problem names this key and says this.
+void expect_problem(const std::vector<std::string>& overrides, const std::string& key,
+                    const std::string& what) {
+  const std::string problem = only_scene_problem(example_scene, overrides);
+  EXPECT_NE(problem.find(key + ": "), std::string::npos) << problem;
+  EXPECT_NE(problem.find(what), std::string::npos) << problem;
+}
+
+TEST(StageContradiction, WallsThatAreNotThere) {
+  expect_problem({"stages.0.opens=[\"gate\"]"}, "stages.0.opens", "names no wall");
+  expect_problem({"stages.1={name=\"on\", duration_s=0.1, time_step_s=1e-3, opens=[\"drum\", \"drum\"]}"},
+                 "stages.1.opens", "has been opened");
+  expect_problem({"stages.0.opens=[\"drum\"]"}, "stages.1.motions.0.wall", "has been opened");
+  expect_problem({"stages.0.until={moved={wall=\"lid\", distance_mm=1}}"}, "stages.0.until.moved.wall",
+                 "names no wall");
+  expect_problem({"stages.0.until={}"}, "stages.0.until", "nothing to wait for");
+}
+
+TEST(StageContradiction, EffectsThatTheSceneDoesNotName) {
+  const std::string values = "={grain_grain=0.1, grain_wall=0.1}";
+  expect_problem({"stages.0.rolling_resistance" + values}, "stages.0.rolling_resistance",
+                 "together with effects.rolling_resistance");
+  expect_problem({"effects.restitution" + values, "stages.0.restitution={grain_grain=2, grain_wall=0}"},
+                 "stages.0.restitution", "more than the approach speed");
+  expect_problem({"stages.0.gravity={direction_deg=-60}", "output.energy_ledger=true"}, "stages.0.gravity",
+                 "without output.energy_ledger");
+}
+
+TEST(StageContradiction, StrongerGravityNeedsAShorterStep) {
+  expect_problem({"stages.1.gravity={acceleration_m_s2=9e5}"}, "stages.1.time_step_s", "falls by");
+}
+
+TEST(StageContradiction, ServoWallsThatLackSomething) {
+  const auto motion = [](const std::string& keys) {
+    return "stages.1={name=\"press\", duration_s=0.1, time_step_s=1e-3, motions=[{wall=\"drum\", " + keys +
+           "}]}";
+  };
+  const std::string pressed = "kind=\"pressure\", direction=[0, 1], pressure_n_m2=1, mass_kg_m=1";
+  expect_problem({motion(pressed)}, "stages.1.motions.0.wall", "no length");
+  expect_problem({motion(pressed + ", between=[\"drum\", \"drum\"]")}, "stages.1.motions.0.between",
+                 "two walls");
+  expect_problem({motion("kind=\"strain_rate\", direction=[0, 0], reference_mm=[0, 0], rate_per_s=1")},
+                 "stages.1.motions.0.direction", "no length");
+}
+
+TEST(StageContradiction, PolylinesThatAreNone) {
+  const auto line = [](const std::string& keys) {
+    return "walls=[{name=\"drum\", shape=\"polyline\", " + keys + "}]";
+  };
+  expect_problem({line("x_mm=[-90, 90, 91], z_mm=[-90, -90]")}, "walls.0.z_mm", "as many");
+  expect_problem({line("x_mm=[-90, 90, 90], z_mm=[-90, -90, -90]")}, "walls.0.x_mm", "twice in a row");
+  expect_problem({line("x_mm=[-90, 90], z_mm=[0, 0]")}, "grains.generated.region", "is crossed by");
+}
+
+TEST(StageContradiction, LoadsOnWallsOfARotatingFrame) {
+  expect_problem({"effects.rotating_frame={speed_rpm=1}", "output.walls_every_s=0.1"}, "output.walls_every_s",
+                 "rotating frame");
+}
+
+}  // namespace
+}  // namespace drumlin
