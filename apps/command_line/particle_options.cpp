@@ -17,6 +17,9 @@ void add_run_options(CLI::App& command, RunOptions& options) {
       command, "--accuracy-seconds", options.accuracy_seconds, "s", above(0),
       "Ends with stretches of so many simulated seconds: as the scene is, with half the time step and with a "
       "third of the tolerance; what they differ by tells the errors of the run (docs/cost.md)");
+  add_number(command, "--extend", options.extend_seconds, "s", above(0),
+             "Prolongs the last stage of the finished run in RUN, whose scene is RUN/scene.toml, by so many "
+             "simulated seconds, in whole intervals of its snapshots");
   add_existing(command, options.existing, "Continues from the last checkpoint; starts over if there is none");
 }
 

@@ -356,20 +356,26 @@ int run(const RunOptions& options) {
   std::vector<fs::path> inputs{options.scene};
   for (const auto* list : lists_of(scene)) inputs.push_back(list->file);
   const CaughtInterruptions caught;
-  GrowingOutput output({options.output, options.existing, "run", inputs}, run_file_names());
-  const std::string resolved = particles::scene_text(as_recorded(scene));
+  const bool longer = options.extend_seconds > 0;
+  const ExistingOutput existing = longer ? ExistingOutput::resume : options.existing;
+  GrowingOutput output({options.output, existing, "run", inputs}, run_file_names());
+  std::string resolved = particles::scene_text(as_recorded(scene));
   std::optional<particles::Checkpoint> from;
-  if (options.existing == ExistingOutput::resume) {
+  if (existing == ExistingOutput::resume) {
     if (fs::exists(options.output / "scene.toml"))
       same_scene_or_refuse(options.output, file_text(options.output / "scene.toml"), resolved);
     for (const auto& [name, text] : list_texts(scene))
       if (fs::exists(options.output / name))
         same_scene_or_refuse(options.output, file_text(options.output / name), text);
-    if (output.manifest().complete) {
+    if (output.manifest().complete && !longer) {
       print_out(fmt::format("{}: already finished, nothing to do\n", options.output.string()));
       return static_cast<int>(ExitCode::done);
     }
     from = checkpoint_in(options.output, resolved);
+  }
+  if (longer) {
+    extend(output, options.extend_seconds, scene, from);
+    resolved = from->scene;
   }
   cut_back(output, from);
   fs::create_directories(options.output / "snapshots");

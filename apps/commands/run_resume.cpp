@@ -10,6 +10,8 @@
 #include "coupling/common/errors.hpp"
 #include "coupling/common/last_whole.hpp"
 #include "coupling/common/text_file.hpp"
+#include "particles/scene/scene_file.hpp"
+#include "particles/stepping/prolong.hpp"
 
 namespace drumlin::apps {
 
@@ -63,6 +65,22 @@ std::optional<particles::Checkpoint> checkpoint_in(const fs::path& output, const
     print_error(fmt::format("{}\ngoes on from {} instead\n", last->passed_over, previous_checkpoint_name));
   same_scene_or_refuse(output, last->content.scene, resolved);
   return std::move(last->content);
+}
+
+void extend(GrowingOutput& output, double seconds, particles::Scene& scene,
+            std::optional<particles::Checkpoint>& from) {
+  if (!output.manifest().complete || !from)
+    throw InputError(output.folder().string() + ": --extend takes a finished run; go on with --resume first");
+  scene = particles::prolonged(scene, seconds, from->state);
+  from->scene = particles::scene_text(as_recorded(scene));
+  // What an interruption leaves is a run of the longer scene or of the shorter one, never a mixture.
+  output.forget(checkpoint_name);
+  output.forget(previous_checkpoint_name);
+  output.forget("scene.toml");
+  output.forget("run.json");
+  output.save();
+  particles::keep_checkpoint(output.folder(), *from);
+  replace_file(output.folder() / "scene.toml", from->scene);
 }
 
 }  // namespace drumlin::apps

@@ -30,4 +30,10 @@ void cut_back(GrowingOutput& output, const std::optional<particles::Checkpoint>&
 std::optional<particles::Checkpoint> checkpoint_in(const std::filesystem::path& output,
                                                    const std::string& resolved);
 
+/// Prolongs the scene of a finished run by about `seconds` (prolong.hpp), and with it its checkpoint. The
+/// folder's own checkpoint is replaced: from then on it is that of an unfinished run of the longer scene.
+/// Throws InputError if the run is not finished.
+void extend(GrowingOutput& output, double seconds, particles::Scene& scene,
+            std::optional<particles::Checkpoint>& from);
+
 }  // namespace drumlin::apps

@@ -20,6 +20,7 @@ struct RunOptions {
       accuracy;  ///< COST of the scene; absent: a shipped record, if there is one
   ExistingOutput existing = ExistingOutput::refuse;
   double accuracy_seconds = 0;  ///< simulated, of the stretches that tell errors at the end; 0: none
+  double extend_seconds = 0;    ///< simulated, by which the finished run in `output` goes on; 0: none
 };
 int run(const RunOptions&);
 

@@ -1,5 +1,7 @@
 // A run that is stopped and read back from its checkpoint goes on as if nothing had been, with every effect.
+#include "coupling/common/errors.hpp"
 #include "particles/io/checkpoint_file.hpp"
+#include "particles/stepping/prolong.hpp"
 #include "tests/effects/drums.hpp"
 
 namespace drumlin {
@@ -163,6 +165,47 @@ TEST(OutletsAndSources, GiveTheSameBytesForAnyNumberOfThreads) {
   EXPECT_EQ(one.state().bodies.id, two.state().bodies.id);
   EXPECT_GT(one.state().traffic->poured[0], 10);
   EXPECT_GT(one.state().traffic->outlets[0].taken(), 3);
+}
+
+TEST(Prolong, GivesWhatTheLongerSceneGives) {
+  Scene scene = test::turning_drum();
+  scene.stages[0].snapshots = 4;
+  Simulation shorter(scene);
+  while (!shorter.finished()) {
+    (void)shorter.step();
+    if (shorter.snapshot_due()) (void)shorter.take_snapshot();
+  }
+  SimulationState state = shorter.state();
+  const Scene longer = prolonged(scene, 0.1, state);
+  EXPECT_EQ(longer.stages[0].snapshots, 6);
+  EXPECT_NEAR(*longer.stages[0].duration_s, 0.3, 1e-12);
+  Simulation whole(longer), second(longer, state);
+  while (!whole.finished()) {
+    (void)whole.step();
+    if (whole.snapshot_due() && !whole.finished()) (void)whole.take_snapshot();
+  }
+  while (!second.finished()) {
+    (void)second.step();
+    if (second.snapshot_due() && !second.finished()) (void)second.take_snapshot();
+  }
+  EXPECT_EQ(whole.state().step, 300);
+  test::expect_same(whole.state().bodies, second.state().bodies);
+  EXPECT_EQ(whole.state().memory.impulse, second.state().memory.impulse);
+  EXPECT_EQ(whole.state().snapshots, second.state().snapshots);
+  EXPECT_EQ(whole.take_snapshot().displacement_x, second.take_snapshot().displacement_x);
+}
+
+TEST(Prolong, RefusesWhatWouldHaveGoneAnotherWay) {
+  Scene scene = test::turning_drum(5);
+  Simulation simulation(scene);
+  SimulationState state = simulation.state();
+  EXPECT_THROW((void)prolonged(scene, 0.1, state), InputError);  // not finished
+  while (!simulation.finished()) (void)simulation.step();
+  state = simulation.state();
+  scene.stages[0].snapshots = 100;  // every second step, the window being six
+  EXPECT_THROW((void)prolonged(scene, 0.1, state), InputError);
+  scene.stages[0].snapshots = 0;
+  EXPECT_NO_THROW((void)prolonged(scene, 0.1, state));
 }
 
 INSTANTIATE_TEST_SUITE_P(Effects, Restart, ::testing::ValuesIn(cases),
