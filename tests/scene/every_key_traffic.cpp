@@ -7,6 +7,9 @@ namespace {
 const std::string circle = "shape = \"circle\"", rectangle = "shape = \"rectangle\"";
 const std::string box_low = "{shape=\"rectangle\", min_mm=[-9, -1], max_mm=[0, 3]}";
 const std::string disc_low = "{shape=\"circle\", center_mm=[-4, 2], radius_mm=4}";
+const std::string far_up = "grains.generated.region={shape=\"rectangle\", min_mm=[-8, 30], max_mm=[8, 50]}";
+const std::string listed_group = "grains.groups=[{name=\"more\", listed={file=\"two.csv\"}}]";
+const std::string box_middle = "{shape=\"rectangle\", min_mm=[-9, 5], max_mm=[9, 15]}";
 const std::string box_high = "{shape=\"rectangle\", min_mm=[-9, 20], max_mm=[9, 30]}";
 const std::string disc_high = "{shape=\"circle\", center_mm=[0, 26], radius_mm=6}";
 
@@ -48,7 +51,7 @@ void add_sizes(std::vector<Case>& all, const std::string& key, const std::string
   const std::string lognormal = made(", sizes={kind=\"lognormal\", median_mm=1, sigma=0.2}");
   all.push_back({key, "", F, {made("")}, two, positions_mm});
   all.push_back({key + ".kind", "", F, {two}, power, positions_mm});
-  all.push_back({key + ".small_share", "kind = \"two\"", F, {two}, name + ".small_share=0.1", positions_mm});
+  all.push_back({key + ".small_share", "kind = \"two\"", F, {two}, name + ".small_share=1", kinetic_energy});
   all.push_back({key + ".exponent", "kind = \"power_law\"", F, {power}, name + ".exponent=9", positions_mm});
   all.push_back(
       {key + ".median_mm", "kind = \"lognormal\"", F, {lognormal}, name + ".median_mm=0.9", positions_mm});
@@ -114,12 +117,7 @@ std::vector<Case> cases_of_traffic() {
        {group(box_high)},
        "grains.groups.0.density_kg_m3=9000",
        kinetic_energy},
-      {"grains.groups[].generated",
-       "",
-       F,
-       {"grains.groups=[{name=\"more\", listed={file=\"two.csv\"}}]"},
-       group(box_high),
-       exit_code},
+      {"grains.groups[].generated", "", F, {far_up, listed_group}, group(box_middle), positions_mm},
       {"grains.groups[].generated.count",
        "",
        F,
@@ -144,18 +142,13 @@ std::vector<Case> cases_of_traffic() {
        {group(box_high)},
        "grains.groups.0.generated.region=" + disc_high,
        positions_mm},
-      {"grains.groups[].listed",
-       "",
-       F,
-       {group(box_high)},
-       "grains.groups=[{name=\"more\", listed={file=\"two.csv\"}}]",
-       exit_code},
+      {"grains.groups[].listed", "", F, {far_up, group(box_middle)}, listed_group, positions_mm},
       {"grains.groups[].listed.file",
        "",
        F,
-       {"grains.groups=[{name=\"more\", listed={file=\"two.csv\"}}]"},
-       "grains.groups.0.listed.file=none.csv",
-       exit_code},
+       {far_up, listed_group},
+       "grains.groups.0.listed.file=three.csv",
+       positions_mm},
       {"grains.from_run", "", F, {}, "grains={density_kg_m3=2700, from_run={run=\"none\"}}", exit_code},
       {"grains.from_run.run", "", F, {}, "grains={density_kg_m3=2700, from_run={run=\"none\"}}", exit_code},
       {"grains.from_run.time_s",
