@@ -217,9 +217,10 @@ void describe(Visitor& v, SolverSettings& s) {
           defaulted("", at_least(0, 1e6),
                     "The contact problems of the first so many steps that miss the tolerances are left in "
                     "problems/, for drumlin solve-contacts."));
-  v.value(
-      "allow_crushing", s.allow_crushing,
-      when_given("", anything(), "No end with exit code 3 at the first step whose loaded contacts overlap by more than 0.2 d in the mean."));
+  v.value("allow_crushing", s.allow_crushing,
+          when_given("", anything(),
+                     "No end with exit code 3 at the first step whose loaded contacts overlap by more than "
+                     "0.2 d in the mean."));
 }
 
 template <class Visitor>

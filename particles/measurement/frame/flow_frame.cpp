@@ -42,8 +42,7 @@ Snapshot mirrored(Snapshot snapshot) {
 double centre_of_mass_angle(const Snapshot& snapshot, const FlowFrame& upright) {
   double mass = 0, x = 0, z = 0;
   for (std::size_t i = 0; i < snapshot.x.size(); ++i) {
-    const double weight =
-        snapshot.mass.empty() ? snapshot.radius[i] * snapshot.radius[i] : snapshot.mass[i];
+    const double weight = snapshot.mass.empty() ? snapshot.radius[i] * snapshot.radius[i] : snapshot.mass[i];
     mass += weight;
     x += weight * upright.x_of(snapshot.x[i], snapshot.z[i]);
     z += weight * upright.z_of(snapshot.x[i], snapshot.z[i]);

@@ -28,8 +28,7 @@ double kinetic_energy(const Snapshot& snapshot, RelativeVelocities& velocity) {
   relative_velocities(snapshot, VelocityKind::instantaneous, velocity);
   double energy = 0;
   for (std::size_t i = 0; i < snapshot.x.size(); ++i)
-    energy += mass_of(snapshot, i) / 2 *
-              (velocity.x[i] * velocity.x[i] + velocity.z[i] * velocity.z[i]);
+    energy += mass_of(snapshot, i) / 2 * (velocity.x[i] * velocity.x[i] + velocity.z[i] * velocity.z[i]);
   return energy;
 }
 
