@@ -3,7 +3,7 @@
 #include <optional>
 #include <variant>
 
-#include "coupling/common/scales.hpp"
+#include "particles/effects/key_ranges.hpp"
 
 namespace drumlin::particles {
 
