@@ -104,6 +104,28 @@ std::vector<HardCheck> galilean_shift() {
           at_most("largest difference of a spin", 1e-5, spin, "residual 1e-9 over 100 steps")};
 }
 
+/// Contacts that the solver saw, summed over all steps.
+long contacts_of(particles::Simulation& simulation) {
+  long sum = 0;
+  while (!simulation.finished()) sum += simulation.step().contacts;
+  return sum;
+}
+
+std::vector<HardCheck> stray_grain() {
+  Trial with = heap();
+  with.discs.push_back({9e5, 9e5, 1.2, 3, -2});  // last: the heap keeps its numbers
+  particles::Simulation alone = heap().start(), beside = with.start();
+  const long contacts = contacts_of(alone), contacts_beside = contacts_of(beside);
+  const particles::Bodies &a = alone.state().bodies, &b = beside.state().bodies;
+  double place = 0;
+  for (std::size_t k = 0; k < a.count(); ++k)
+    place = larger(place, std::hypot(b.x[k] - a.x[k], b.z[k] - a.z[k]));
+  return {equals("pairs that the solver saw more or less", 0, static_cast<double>(contacts_beside - contacts),
+                 0, "the stray disc meets nothing"),
+          at_most("largest difference of a position in the heap", 1e-6, place, "residual 1e-9 over 50 steps"),
+          equals("fall of the stray disc", -2 * 0.5 - 0.125, b.z.back() - 9e5, 3e-3, "h t g / 2 = 0.0025")};
+}
+
 /// A drum of many discs that falls and begins to turn.
 Trial drum() {
   Trial trial;
@@ -167,6 +189,7 @@ std::vector<HardCase> invariance_cases() {
       {"step-refinement", "the error falls with the step, order 1", true, refinement},
       {"rotated-frame", "a heap and gravity turned by 30 degrees: the same answer", true, rotated_frame},
       {"galilean-shift", "twelve discs that all move by more: the same answer", true, galilean_shift},
+      {"stray-grain", "a heap, and one disc 1e6 d away: nothing changes", true, stray_grain},
       {"threads", "1, 2 and 4 threads: the same bytes", true, threads},
       {"restart", "a run continued from its state: the same bytes", true, restart},
   };
