@@ -62,6 +62,15 @@ def silo(run):
     return result | {"rate_over_slot_power": result["rate"]["value"] / (slot - 1) ** 1.5}
 
 
+def recycled(run):
+    """Rate through the slot of a silo whose grains come back, as the run itself tells it: area of discs per time."""
+    floors = [wall for wall in run["scene"]["walls"] if wall["name"] == "floor"]
+    outlet = run["report"]["regions"][0]
+    area = outlet["out_kg_m"] / outlet["out"] / run["density"] / (1e-3 * run["d_mm"]) ** 2 * run["second"]
+    return {"slot": (floors[1]["from_mm"][0] - floors[0]["to_mm"][0]) / run["d_mm"], "out": outlet["out"], "waiting": outlet["waiting"],
+            "rate": {name: outlet["rate"][key] * area for name, key in (("value", "grains_per_s"), ("ci99", "ci99"))}}
+
+
 def hourglass(run):
     result = discharge(run, 0)
     last = run["snapshots"][-1]
@@ -101,4 +110,4 @@ def segregation(run):
             "distance_ratio_end": mean(ratios[-len(ratios) // 4:]), "ratios": [round(float(value), 4) for value in ratios[::max(1, len(ratios) // 16)]]}
 
 
-KINDS = {"collapse": collapse, "silo": silo, "hourglass": hourglass, "intruder": intruder, "segregation": segregation}
+KINDS = {"collapse": collapse, "silo": silo, "recycled": recycled, "hourglass": hourglass, "intruder": intruder, "segregation": segregation}

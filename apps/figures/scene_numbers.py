@@ -1,7 +1,7 @@
 """The numbers of a shipped scene that the literature or a closed form gives too, as JSON (docs/scenes.md).
 
 usage: scene_numbers.py KIND RUN... [-o FILE.json]
-KIND: shear, chute, biaxial, janssen, vibrated, gas (here); collapse, silo, hourglass, intruder, segregation (scene_events.py). Values are
+KIND: shear, chute, biaxial, janssen, vibrated, gas (here); collapse, silo, recycled, hourglass, intruder, segregation (scene_events.py). Values are
 dimensionless (d, sqrt(d/g), rho0 g d) unless their name ends in a unit; ci99 is the half width of the 99 % interval over time.
 """
 

@@ -79,6 +79,11 @@ def silo(numbers):
     within(numbers["rate_over_slot_power"], 0.5, 1, "C nu of Beverloo's law")
 
 
+def recycled(numbers):
+    within(numbers["rate"], 18, 36, "rate through a slot of 12 d: 26 in a silo that runs out")
+    within(numbers["waiting"], 0, 40, "grains that wait for room")
+
+
 def hourglass(numbers):
     within(numbers["inside"], numbers["grains"], numbers["grains"], "no grain lost")
     within(numbers["out_share"], 0.999, 1.001, "all runs down")
@@ -119,6 +124,7 @@ SCENES = {
     "column-collapse": ("column-collapse", "collapse", collapse, [
         "walls.2.from_mm=[20,1.1]", "walls.2.to_mm=[20,400]", "grains.generated.region.max_mm=[19,240]", "grains.generated.count=200", "stages.1.snapshots=20"]),
     "silo": ("silo", "silo", silo, ["grains.generated.count=700", "stages.1.duration_s=0.3", "stages.1.snapshots=60"]),
+    "silo-recycled": ("silo-recycled", "recycled", recycled, ["grains.generated.count=500", "stages.1.duration_s=0.5"]),
     "hourglass": ("hourglass", "hourglass", hourglass, ["grains.generated.count=300", "stages.1.duration_s=0.8", "stages.1.snapshots=80"]),
     "intruder": ("intruder", "intruder", intruder, ["stages.1.snapshots=65"]),
     "segregation-drum": ("segregation-drum", "segregation", segregation, [
