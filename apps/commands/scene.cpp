@@ -1,7 +1,10 @@
 // drumlin scene check | show | keys
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "apps/commands/run_report.hpp"
+#include "apps/commands/start_grains.hpp"
 #include "apps/support/commands.hpp"
 #include "apps/support/standard_streams.hpp"
 #include "particles/scene/placement.hpp"
@@ -29,7 +32,8 @@ std::string effects_text(const particles::Effects& effects) {
 
 /// Makes the simulation too: what only shows there is a fault of the scene.
 void check(const SceneOptions& options) {
-  const particles::Scene scene = particles::read_scene(options.scene, options.overrides);
+  particles::Scene scene = particles::read_scene(options.scene, options.overrides);
+  (void)take_over_grains(scene);
   const Scales scales = scales_of(scene);
   const particles::TimePlan plan = particles::time_plan(scene, scales);
   const particles::Simulation simulation(scene);

@@ -235,8 +235,9 @@ double mean_diameter_m(const Grains& grains) {
            1e-3;
   const auto* source = std::get_if<ListedGrains>(&grains.source);
   if (!source)
-    throw InputError({InputProblem{"", 0, 0, "grains.from_run", "names grains that are in another folder",
-                                   "`drumlin run` alone; the run folder then holds them as a list"}});
+    throw InputError(
+        {InputProblem{"", 0, 0, "grains.from_run", "names grains that are in another folder",
+                      "`drumlin run` and `scene check`; the run folder then holds them as a list"}});
   const auto list = listed(*source);
   double sum = 0;
   for (const auto& grain : list) sum += grain.diameter_mm;
