@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "apps/commands/cost/advice.hpp"
 #include "apps/commands/cost/cost.hpp"
 #include "apps/commands/cost/flow_points.hpp"
 #include "apps/support/figures.hpp"
@@ -47,6 +48,11 @@ class FlowSweep {
     const std::vector<std::string> quantities = add_errors(points, curves, reference);
     mark_fronts(points, quantities);
     print(points, quantities);
+    print_out(advice_text(points, quantities, [this](const Json& point) {
+      const coupling::FlowSettings s{point.at("levels"), point.at("eps"), point.at("tolerance")};
+      return "--set " +
+             fmt::format("{}", fmt::join(coupling::changes_of(s, standard_, surface_cell_), " --set "));
+    }));
     write_report(as_it_is, reference, points, quantities);
     return static_cast<int>(ExitCode::done);
   }

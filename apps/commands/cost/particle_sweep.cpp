@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/commands/cost/advice.hpp"
 #include "apps/commands/cost/cost.hpp"
 #include "apps/commands/cost/long_run.hpp"
 #include "apps/commands/cost/particle_points.hpp"
@@ -94,6 +95,11 @@ class SweepOfGrains {
       points.push_back(flat(measured_point(start, store, settings), settings, horizon));
     if (options_.statistics_s) add_statistics(start, store, points);
     mark_fronts(points, quantities);
+    print_out(advice_text(points, quantities, [this](const Json& point) {
+      return fmt::format("--set solver.name={} --set solver.tolerance={:g} --set stages.{}.time_step_s={:g}",
+                         point.at("solver").get<std::string>(), point.at("tolerance").get<double>(),
+                         scene_.stages.size() - 1, point.at("step_s").get<double>());
+    }));
     write_report(store, finest, points, horizon);
     return static_cast<int>(ExitCode::done);
   }
