@@ -39,7 +39,7 @@ void Simulation::exchange() {
   const auto shapes = walls_.shapes_at(state_.time_in_stage, state_.driven);
   std::vector<EarlierPlaces> marks;
   for (auto& mark : state_.marks) marks.push_back({mark.time, &mark.x, &mark.z});
-  const auto before = state_.bodies.id;
+  const auto before = state_.left ? state_.bodies.id : std::vector<std::int64_t>();
   exchange_grains({scene_, scales_, shapes, state_.time(), state_.step, stepper_->unknowns_per_contact()},
                   {state_.bodies, state_.memory, *state_.traffic, std::move(marks)});
   if (!state_.left || before == state_.bodies.id) return;
