@@ -25,9 +25,15 @@ void add_calibrate_options(CLI::App& command, CalibrateOptions& options) {
   command.add_flag("--k", options.k, "Ratio of the normal stresses k(I) as a part of the law");
   command.add_flag("--misalignment", options.misalignment,
                    "Angle between the axes of stress and strain rate over I (from maps)");
-  command.add_flag("--memory", options.memory,
-                   "Memory of the axes of stress as a part of the law: amount of the stress over I, share "
-                   "renewed by strain, and what the runs cannot tell of them (from maps)");
+  CLI::Option* memory = command.add_flag(
+      "--memory", options.memory,
+      "Memory of the axes of stress as a part of the law: amount of the stress over I, share "
+      "renewed by strain, and what the runs cannot tell of them (from maps)");
+  command
+      .add_flag("--amount", options.amount,
+                "With --memory: what past strain adds to the amount of the stress, dilatancy and lag of the "
+                "axes, as a part of the law")
+      ->needs(memory);
   command.add_flag("--nonlocal", options.nonlocal,
                    "Threshold and length of nonlocal fluidity as a part of the law, and whether the runs ask "
                    "for them (from maps)");

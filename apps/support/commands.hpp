@@ -100,6 +100,7 @@ struct CalibrateOptions {
   bool accept_unsteady = false;
   ExistingOutput existing = ExistingOutput::refuse;
   bool nonlocal = false;
+  bool amount = false;
 };
 int calibrate(const CalibrateOptions&);
 

@@ -216,7 +216,8 @@ class Continuation {
             },
         .solve =
             [&](Newton& again, fem::Settling settling) {
-              const FlowSolverOptions& how = settling == fem::Settling::loose ? loose : here;
+              FlowSolverOptions how = settling == fem::Settling::loose ? loose : here;
+              if (settling == fem::Settling::fine) how.picard_tolerance *= options_.fine_picard_share;
               return solve_from("surface", again, how, *level_) &&
                      (!fem::holds_fields(problem_) || solve_held_fields(again, how, *level_, report_));
             },

@@ -25,46 +25,65 @@ std::vector<double> exponentials(std::vector<double> values) {
 }
 
 std::vector<Remembered> remembered(const std::vector<double>& xx, const std::vector<double>& xz,
-                                   const std::vector<double>& rho) {
+                                   const std::vector<double>& rho, const std::vector<double>& added) {
   std::vector<Remembered> all;
-  for (std::size_t i = 0; i < rho.size(); ++i) all.push_back({xx[i], xz[i], rho[i]});
+  for (std::size_t i = 0; i < rho.size(); ++i)
+    all.push_back({xx[i], xz[i], rho[i], added.empty() ? 0 : added[i]});
   return all;
 }
 
-// What the memory of a flow is, as a whole: m as far as it has risen.
+// What the memory of a flow is, as a whole: m as far as it has risen. Amount and axes rise together.
 void add_memory(const FlowProblem& problem, const Discretisation& d, const State& state,
                 const HeldUpdate& update, HeldFields& held) {
-  const double m = update.memory_share * problem.memory->law.m;
+  const MemoryLaw& law = problem.memory->law;
+  const double m = update.memory_share * law.m;
   const AxesSources axes = axes_sources(problem, d, state);
   const auto A = axes_carried_by_flow(problem, d, state.solution, {axes.rate, axes.target_xx, axes.target_xz},
                                       update.linear_tolerance);
   const RhoSources sources = rho_sources(problem, d, state, m, *A);
-  const auto rho =
-      carried_by_flow(problem, d, state.solution, {sources.rate, sources.target}, update.linear_tolerance)
-          .field;
-  if (update.mixing) update.mixing->mix(d, state.held.get(), *A, *rho);
+  const auto carried = [&](const std::vector<double>& target) {
+    return carried_by_flow(problem, d, state.solution, {sources.rate, target}, update.linear_tolerance).field;
+  };
+  const auto rho = carried(sources.target);
+  std::shared_ptr<ScalarField> added;
+  if (law.amount)
+    added = carried(
+        added_target(problem, d, state, *A, *carried_dilatancy(problem, d, state, update.linear_tolerance)));
+  if (update.mixing) update.mixing->mix(d, state.held.get(), *A, *rho, added.get());
   held.at_quadrature.memory =
-      remembered(at_quadrature(*A, d, 0), at_quadrature(*A, d, 1), at_quadrature(*rho, d));
+      remembered(at_quadrature(*A, d, 0), at_quadrature(*A, d, 1), at_quadrature(*rho, d),
+                 added ? at_quadrature(*added, d) : std::vector<double>());
   held.at_quadrature.memory_weight = m;
+  held.at_quadrature.followed_slope = law.amount ? followed_slope(*law.amount) : 0;
   held.axes = A;
   held.rho = rho;
+  held.added = added;
 }
 
 }  // namespace
 
-void MemoryMixing::mix(const Discretisation& d, const HeldFields* before, ScalarField& axes,
-                       ScalarField& rho) {
+void MemoryMixing::mix(const Discretisation& d, const HeldFields* before, ScalarField& axes, ScalarField& rho,
+                       ScalarField* added) {
   constexpr std::size_t depth = 5;
+  constexpr double usual_friction = 0.2;  // brings `added` to the size of the others
   if (!before || !before->axes) return;
-  Update now{{before->axes->values, before->rho->values}, {axes.values, rho.values}};
-  now.change.axes -= now.went_in.axes;
-  now.change.rho -= now.went_in.rho;
-  const auto dot = [](const Pair& a, const Pair& b) { return a.axes * b.axes + a.rho * b.rho; };
-  const auto difference = [](const Pair& a, const Pair& b) {
-    Pair result = a;
-    result.axes -= b.axes;
-    result.rho -= b.rho;
-    return result;
+  const auto values = [](const ScalarField* field) { return field ? field->values : FieldVector(); };
+  Update now{{before->axes->values, before->rho->values, values(before->added.get())},
+             {axes.values, rho.values, values(added)}};
+  const auto subtract = [added](Fields& a, const Fields& b) {
+    a.axes -= b.axes;
+    a.rho -= b.rho;
+    if (added) a.added -= b.added;
+  };
+  subtract(now.change, now.went_in);
+  change_ = now.change.axes.l2_norm() / axes.values.l2_norm();
+  const auto dot = [added](const Fields& a, const Fields& b) {
+    const double both = a.axes * b.axes + a.rho * b.rho;
+    return added ? both + a.added * b.added / (usual_friction * usual_friction) : both;
+  };
+  const auto difference = [&](Fields a, const Fields& b) {
+    subtract(a, b);
+    return a;
   };
   // The combination of past changes that leaves least of the present one.
   const std::size_t n = seen_.size();
@@ -82,7 +101,7 @@ void MemoryMixing::mix(const Discretisation& d, const HeldFields* before, Scalar
     gram.gauss_jordan();
     gram.vmult(part, product);
   }
-  const auto combine = [&](FieldVector Pair::*field, FieldVector& next) {
+  const auto combine = [&](FieldVector Fields::*field, FieldVector& next) {
     next = now.went_in.*field;
     next.add(share, now.change.*field);
     for (std::size_t i = 0; i < n; ++i) {
@@ -90,13 +109,17 @@ void MemoryMixing::mix(const Discretisation& d, const HeldFields* before, Scalar
       next.add(-share * part[i], steps[i].change.*field);
     }
   };
-  combine(&Pair::axes, axes.values);
-  combine(&Pair::rho, rho.values);
+  combine(&Fields::axes, axes.values);
+  combine(&Fields::rho, rho.values);
   bring_into_unit_disc(d, axes);
   for (std::size_t i = 0; i < rho.values.locally_owned_size(); ++i)
     rho.values.local_element(i) = std::max(least_rho, rho.values.local_element(i));
   axes.values.update_ghost_values();
   rho.values.update_ghost_values();
+  if (added) {
+    combine(&Fields::added, added->values);
+    added->values.update_ghost_values();
+  }
   seen_.push_back(std::move(now));
   if (seen_.size() > depth) seen_.pop_front();
 }
@@ -109,8 +132,10 @@ HeldValues held_at(const HeldFields& held, const Discretisation& d, const MeshCe
   if (held.axes) {
     values.memory =
         remembered(values_at(*held.axes, cell, unit_points, 0), values_at(*held.axes, cell, unit_points, 1),
-                   values_at(*held.rho, cell, unit_points));
+                   values_at(*held.rho, cell, unit_points),
+                   held.added ? values_at(*held.added, cell, unit_points) : std::vector<double>());
     values.memory_weight = held.at_quadrature.memory_weight;
+    values.followed_slope = held.at_quadrature.followed_slope;
   }
   return values;
 }
@@ -153,6 +178,43 @@ RhoSources rho_sources(const FlowProblem& problem, const Discretisation& d, cons
     sources.target.push_back(rho_target(m, as_complex(at.D) / rate, {xx[point], xz[point]}));
   });
   return sources;
+}
+
+std::vector<double> added_target(const FlowProblem& problem, const Discretisation& d, const State& state,
+                                 const ScalarField& axes, const ScalarField& dilatancy) {
+  const AxesMemory& memory = problem.memory.value();
+  const AmountMemory& amount = memory.law.amount.value();
+  const auto xx = at_quadrature(axes, d, 0), xz = at_quadrature(axes, d, 1),
+             psi = at_quadrature(dilatancy, d);
+  std::vector<double> target;
+  for_each_point(d, state.solution, [&](const PointValues& at, std::size_t point) {
+    const double rate = regularised_rate(at.D, problem.regularisation);
+    const double I = 2 * rate / std::sqrt(regularised_pressure(at.p, problem.regularisation).value);
+    const double lag = axes_lag(memory.law, memory.turn, as_complex(at.D) / rate, {xx[point], xz[point]}, I);
+    target.push_back(added_friction(amount, memory.friction.friction(I).mu, psi[point], lag) -
+                     followed_slope(amount) * std::log(I));
+  });
+  return target;
+}
+
+std::shared_ptr<ScalarField> carried_dilatancy(const FlowProblem& problem, const Discretisation& d,
+                                               const State& state, double linear_tolerance) {
+  const MemoryLaw& law = problem.memory.value().law;
+  const AmountMemory& amount = law.amount.value();
+  std::vector<double> ln_I, rate, renewed;
+  for_each_point(d, state.solution, [&](const PointValues& at, std::size_t) {
+    rate.push_back(regularised_rate(at.D, problem.regularisation));
+    const double p = regularised_pressure(at.p, problem.regularisation).value;
+    ln_I.push_back(remembered_ln_I(law, 2 * rate.back() / std::sqrt(p)));
+  });
+  const auto carried = [&](double c, const std::vector<double>& target) {
+    renewed.clear();
+    for (const double here : rate) renewed.push_back(2 * c * here);
+    return carried_by_flow(problem, d, state.solution, {renewed, target}, linear_tolerance).field;
+  };
+  std::vector<double> target = at_quadrature(*carried(amount.c_nu, ln_I), d);
+  for (std::size_t i = 0; i < target.size(); ++i) target[i] = dilatancy_target(amount, ln_I[i], target[i]);
+  return carried(amount.c_psi, target);
 }
 
 std::shared_ptr<const HeldFields> held_from(const FlowProblem& problem, const Discretisation& d,

@@ -10,8 +10,9 @@
 namespace drumlin::continuum::fem {
 namespace {
 
-constexpr int memory_rise = 4;             // Picard updates
-constexpr double update_tolerance = 1e-6;  // of the residual, between updates of the memory
+constexpr int memory_rise = 4;              // Picard updates
+constexpr double memory_per_velocity = 50;  // of the change of A, whose axes are noise where nothing shears
+constexpr double update_tolerance = 1e-6;   // of the residual, between updates of the memory
 
 // Relative change of the velocity, or of the slope where that is larger.
 double change_between(const Discretisation& d, const State& before, const State& after) {
@@ -95,7 +96,11 @@ bool solve_held_fields(Newton& newton, const FlowSolverOptions& options, SolvedL
       return false;
     report.picard_change = change_between(*level.discretisation, before, level.state) /
                            (remembers ? MemoryMixing::share : share);
-    if (!first && (!rises || rise == 1) && report.picard_change <= options.picard_tolerance)
+    // A velocity that hardly changes is no proof: the mix may have come back to where it was.
+    const bool remembers_the_same =
+        !remembers || mixing.change() <= memory_per_velocity * options.picard_tolerance;
+    if (!first && (!rises || rise == 1) && report.picard_change <= options.picard_tolerance &&
+        remembers_the_same)
       return tolerance == options.tolerance ||
              run(newton, {phase_name(level.problem), last, options.tolerance}, level);
     // Smaller updates where whole ones do not converge: the turn of the axes depends on derivatives of

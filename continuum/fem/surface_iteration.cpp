@@ -70,18 +70,18 @@ class Iteration {
     record(0, 0);
   }
   const SurfaceMisfit& now() const { return now_; }
-  bool done() const { return now_.resolved <= tolerance_ && settling_ == Settling::whole; }
+  bool done() const { return now_.resolved <= tolerance_ && settling_ != Settling::loose; }
 
   // One step that lessens the misfit, or settles what presses little enough; false if none is found.
   bool step() {
-    if (now_.resolved <= tolerance_) return settle();
+    if (now_.resolved <= tolerance_) return settle(Settling::whole);
     if (response_.m() > 0 && try_step(1)) return true;
     if (interrupted() || !form_response()) return false;
     for (double share = 1; share > 0.05; share *= 0.5) {
       if (try_step(share)) return true;
       if (interrupted()) return false;
     }
-    return false;
+    return level_.problem.memory && settling_ != Settling::fine && settle(Settling::fine);
   }
 
  private:
@@ -90,10 +90,10 @@ class Iteration {
   }
   bool interrupted() const { return report_.failure == "interrupted"; }
 
-  bool settle() {
+  bool settle(Settling how) {
     const int iterations = report_.iterations;
-    if (!solver_.solve(*solver_.newton(), Settling::whole)) return false;
-    settling_ = Settling::whole;
+    if (!solver_.solve(*solver_.newton(), how)) return false;
+    settling_ = how;
     now_ = misfit();
     record(0, report_.iterations - iterations);
     return true;

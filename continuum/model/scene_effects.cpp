@@ -64,6 +64,11 @@ void check_law(const FlowEffects& effects, const RheologyFit& law, const StressL
                         .what = "turns the axes of the stress, and so does the k of the law",
                         .allowed = "a rheology file without a table [k]"});
   if (effects.nonlocal) check_nonlocal(effects, law, mu, problems);
+  if (effects.nonlocal && !effects.nonlocal->length && effects.memory && law.memory && law.memory->amount)
+    problems.push_back(nonlocal_problem("effects.nonlocal",
+                                        "has a threshold, below which the friction does not follow from I, "
+                                        "and the memory of the amount adds to a friction that does",
+                                        "effects.nonlocal.length, or a law without [memory.amount]"));
   if (!problems.empty()) throw InputError(problems);
 }
 

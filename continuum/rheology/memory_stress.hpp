@@ -18,11 +18,29 @@ namespace drumlin::continuum {
 struct Remembered {
   double xx = 0, xz = 0;  ///< A, traceless, |A| <= 1
   double rho = 1;
+  double added = 0;  ///< to mu(I) + slope ln I, see FollowedLaw
 };
 
 /// Traceless part as a complex number: a turn of the axes by an angle multiplies it by exp(2 i angle).
 inline std::complex<double> as_complex(const PlaneTensor& a) { return {0.5 * (a.xx - a.zz), a.xz}; }
 inline PlaneTensor as_tensor(std::complex<double> a) { return {a.real(), -a.real(), a.imag()}; }
+
+/// mu(I) + slope ln I + added, kept positive: what the past adds to the friction, part of it as it would
+/// follow from I, the rest held. Where nothing changes any more `added` has slope ln I taken out.
+template <class Law>
+struct FollowedLaw {
+  const Law& law;
+  double slope = 0, added = 0;
+};
+template <class Law>
+Strength strength(const FollowedLaw<Law>& followed, double rate, double pressure) {
+  const Strength F = strength(followed.law, rate, pressure);
+  const double mu = F.value / pressure, ln_I = std::log(2 * rate / std::sqrt(pressure));
+  const FrictionValue all = kept_positive(mu + followed.slope * ln_I + followed.added, 1);
+  const double by_pressure = (F.d_pressure - mu) / pressure - 0.5 * followed.slope / pressure;
+  return {pressure * all.mu, all.slope * (F.d_rate + pressure * followed.slope / rate),
+          all.mu + pressure * all.slope * by_pressure};
+}
 
 /// StressResponse of the law; d tau has a term besides, 1/2 memory_slope A (right:dD). The base's strength is
 /// the amount p mu(I), its modulus and slope belong to n, its stress and by_pressure are the whole.

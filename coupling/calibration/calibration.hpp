@@ -20,6 +20,7 @@ struct CalibrationOptions {
   bool memory = false;                ///< needs the maps and amount_blocks of the runs
   int draws = 200;
   bool nonlocal = false;  ///< needs the maps and amount_blocks of the runs
+  bool amount = false;    ///< with `memory`: past strain adds to the amount of the stress
 };
 
 struct Calibration {

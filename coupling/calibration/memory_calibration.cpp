@@ -243,14 +243,17 @@ double DilationShare::slope() const {
 }
 
 MemoryLaw measured_memory(const MemoryCalibration& found) {
-  const auto amount = measured_friction(found.amount.form, found.amount.fit.law, {}, 0, 0);
+  const CalibratedLaw& table = found.remembered ? found.remembered->table : found.amount;
+  const auto amount = measured_friction(table.form, table.fit.law, {}, 0, 0);
   const AxisMemory& law = found.law;
-  return {law.c,     law.m,      law.chi * 180 / std::numbers::pi, law.c_rho.value(),
-          law.I_low, law.I_high, std::get<FrictionTable>(amount)};
+  MemoryLaw memory{law.c,     law.m,      law.chi * 180 / std::numbers::pi, law.c_rho.value(),
+                   law.I_low, law.I_high, std::get<FrictionTable>(amount)};
+  if (found.remembered) memory.amount = found.remembered->law;
+  return memory;
 }
 
 MemoryCalibration memory_calibration(std::span<const RunEvidence> runs, std::span<const RunEvidence> held_out,
-                                     const CalibratedLaw& amount_over_I) {
+                                     const CalibratedLaw& amount_over_I, bool amount_remembers) {
   MemoryCalibration found;
   found.amount = amount_over_I;
   found.bed_line = fitted_bed_line(runs);
@@ -268,8 +271,9 @@ MemoryCalibration memory_calibration(std::span<const RunEvidence> runs, std::spa
   found.carried = carried_trials(paths, found.bounded);
   found.law = solvable_law(found.carried);
   for (const PathsOfRun& run : paths) found.scores.push_back(memory_score(run, found.law));
-  for (const PathsOfRun& run : paths_of(held_out, amount, nullptr))
-    found.predictions.push_back(memory_score(run, found.law));
+  const Runs others = paths_of(held_out, amount, nullptr);
+  for (const PathsOfRun& run : others) found.predictions.push_back(memory_score(run, found.law));
+  if (amount_remembers) found.remembered = fit_amount(paths, others, measured_memory(found), found.amount);
   const double radius = needed_number(runs.front().map->header, &RunHeader::drum_radius, "maps.h5");
   found.arcs = axes_on_arcs(paths, found.law, radius);
   found.dilation = dilation_shares(runs);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "coupling/calibration/amount_memory.hpp"
 #include "coupling/calibration/calibrated_law.hpp"
 #include "coupling/calibration/memory_fit.hpp"
 #include "coupling/calibration/run_evidence.hpp"
@@ -50,8 +51,9 @@ struct MemoryCalibration {
   std::vector<AxesOnArc> arcs;                   ///< of the runs of the fit
   std::vector<DilationShare> dilation;
   std::vector<double>
-      from_displacements;           ///< share of each run's nodes whose motion is that of displacements
-  std::vector<std::string> untold;  ///< what the runs cannot tell, as sentences
+      from_displacements;               ///< share of each run's nodes whose motion is that of displacements
+  std::vector<std::string> untold;      ///< what the runs cannot tell, as sentences
+  std::optional<AmountFit> remembered;  ///< where the amount remembers too: in place of `amount`
 };
 
 /// The amount |s|/p over I, a table, of the blocks for it. Throws InputError with fewer than 24 of them.
@@ -59,9 +61,10 @@ CalibratedLaw amount_law(std::span<const RunEvidence> runs, int draws);
 
 /// `runs`, `held_out`: with their maps; `amount`: of `runs`. Nothing of what is held out enters but
 /// `predictions`. Throws InputError where a map lacks a field, has no drum, or where the runs have too little
-/// bed: fewer than 100 paths that end in it, or in fewer than five sectors of 15 deg.
+/// bed: fewer than 100 paths that end in it, or in fewer than five sectors of 15 deg. `amount_remembers`:
+/// what past strain adds to the amount is fitted as well, after the axes.
 MemoryCalibration memory_calibration(std::span<const RunEvidence> runs, std::span<const RunEvidence> held_out,
-                                     const CalibratedLaw& amount);
+                                     const CalibratedLaw& amount, bool amount_remembers = false);
 
 /// The law as it crosses to the continuum: the amount as its table.
 MemoryLaw measured_memory(const MemoryCalibration& found);

@@ -170,6 +170,19 @@ void add_sector_intervals(const Sectors& sectors, const Vector& x, MemoryFit& fi
   }
 }
 
+/// What the material commits to memory on a step.
+Deviator committed(const PathStep& step, const AxisMemory& law) {
+  return step.axis * std::polar(1.0, lead_angle(law, step.ln_I));
+}
+
+/// A after a step.
+Deviator renewed(Deviator A, const PathStep& step, const AxisMemory& law) {
+  const double gain = 2 * law.c * step.strain;
+  const Deviator rate(gain, 2 * step.turn), left = std::exp(-rate);
+  return left * A +
+         (std::abs(rate) > 1e-12 ? gain / rate * (1.0 - left) : Deviator(gain)) * committed(step, law);
+}
+
 /// Angle in degrees by which the axes of a are turned from those of b.
 double angle_deg(Deviator a, Deviator b) { return std::arg(a * std::conj(b)) * degrees / 2; }
 
@@ -181,16 +194,17 @@ double lead_angle(const AxisMemory& law, double ln_I) {
 
 long sector_of(const StressPath& path) { return std::lround(path.depth_angle * degrees / sector_deg); }
 
+Deviator carried_memory(const StressPath& path, const AxisMemory& law) {
+  Deviator A = committed(path.steps.front(), law);
+  for (const PathStep& step : path.steps) A = renewed(A, step, law);
+  return A;
+}
+
 Deviator carried_axes(const StressPath& path, const AxisMemory& law) {
-  const auto target = [&](const PathStep& step) {
-    return step.axis * std::polar(1.0, lead_angle(law, step.ln_I));
-  };
-  Deviator A = target(path.steps.front());
+  Deviator A = committed(path.steps.front(), law);
   double rho = std::abs(path.steps.front().axis + law.m * A);
   for (const PathStep& step : path.steps) {
-    const double gain = 2 * law.c * step.strain;
-    const Deviator rate(gain, 2 * step.turn), left = std::exp(-rate);
-    A = left * A + (std::abs(rate) > 1e-12 ? gain / rate * (1.0 - left) : Deviator(gain)) * target(step);
+    A = renewed(A, step, law);
     if (!law.c_rho) continue;
     const double kept = std::exp(-2 * *law.c_rho * step.strain);
     rho = kept * rho + (1 - kept) * std::abs(step.axis + law.m * A);

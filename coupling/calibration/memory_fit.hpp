@@ -32,8 +32,11 @@ double lead_angle(const AxisMemory& law, double ln_I);
 constexpr double sector_deg = 15;
 long sector_of(const StressPath& path);
 
-/// (n + m A)/rho at the end of a path: s/p over the amount mu(I). Exact over each step, on which D, W and I
-/// are constant; before its first step the path was in steady state without spin.
+/// A at the end of a path. Exact over each step, on which D, W and I are constant; before its first step the
+/// path was in steady state without spin.
+Deviator carried_memory(const StressPath& path, const AxisMemory& law);
+
+/// (n + m A)/rho at the end of a path: s/p over the amount mu(I). As carried_memory().
 Deviator carried_axes(const StressPath& path, const AxisMemory& law);
 
 /// Paths of one run with the amount mu(I) at their ends.

@@ -75,7 +75,8 @@ PathFields::PathFields(const FieldMap& map, const PathFieldOptions& options) : g
                      (xz[node] - zx[node]) / 2 + rotation_,
                      (s_xx[node] + s_zz[node]) / 2,
                      {(xx[node] - zz[node]) / 2, (xz[node] + zx[node]) / 2},
-                     {(s_zz[node] - s_xx[node]) / 2, (s_xz[node] + s_zx[node]) / 2}};
+                     {(s_zz[node] - s_xx[node]) / 2, (s_xz[node] + s_zx[node]) / 2},
+                     xx[node] + zz[node]};
   }
 }
 
@@ -162,10 +163,11 @@ PathPoint PathFields::at(double x, double z) const {
     mean.p += weight * point.p;
     mean.rate += weight * point.rate;
     mean.stress += weight * point.stress;
+    mean.dilation += weight * point.dilation;
   }
   const double scale = total > 0 ? 1 / total : std::numeric_limits<double>::quiet_NaN();
-  return {mean.u * scale, mean.w * scale,    mean.spin * scale,
-          mean.p * scale, mean.rate * scale, mean.stress * scale};
+  return {mean.u * scale,    mean.w * scale,      mean.spin * scale,    mean.p * scale,
+          mean.rate * scale, mean.stress * scale, mean.dilation * scale};
 }
 
 }  // namespace drumlin::coupling

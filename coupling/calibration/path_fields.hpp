@@ -24,8 +24,9 @@ struct PathPoint {
   double u = 0, w = 0;  ///< velocity in the laboratory, the drum's turn included
   double spin = 0;      ///< W = (du/dz - dw/dx)/2, laboratory
   double p = 0;
-  Deviator rate;    ///< D
-  Deviator stress;  ///< s, traction-positive: s_xx = p - sigma_xx, s_xz = sigma_xz
+  Deviator rate;        ///< D
+  Deviator stress;      ///< s, traction-positive: s_xx = p - sigma_xx, s_xz = sigma_xz
+  double dilation = 0;  ///< div v
 };
 
 /// Fields over the nodes of a map. The gradient is that of the displacements from snapshot to snapshot where

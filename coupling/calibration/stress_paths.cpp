@@ -27,7 +27,8 @@ std::vector<PathStep> traced_back(const PathFields& fields, double x, double z, 
     const PathPoint middle = fields.at(middle_x, middle_z);
     if (!is_known(middle)) break;
     const double rate = std::abs(middle.rate);
-    steps.push_back({rate * time, middle.spin * time, middle.rate / rate, std::log(inertial(middle))});
+    steps.push_back({rate * time, middle.spin * time, middle.rate / rate, std::log(inertial(middle)),
+                     middle.dilation / (2 * rate)});
     strain += rate * time;
     x -= time * middle.u;
     z -= time * middle.w;

@@ -9,10 +9,11 @@ namespace drumlin::coupling {
 
 /// A stretch of a path over which everything is constant.
 struct PathStep {
-  double strain = 0;  ///< |D| t
-  double turn = 0;    ///< W t, rad
-  Deviator axis;      ///< n = D/|D|
-  double ln_I = 0;    ///< of I = 2|D|/sqrt(p)
+  double strain = 0;     ///< |D| t
+  double turn = 0;       ///< W t, rad
+  Deviator axis;         ///< n = D/|D|
+  double ln_I = 0;       ///< of I = 2|D|/sqrt(p)
+  double dilatancy = 0;  ///< div v/(2|D|)
 };
 
 /// A node and the path of the material that is there now.

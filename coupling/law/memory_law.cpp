@@ -16,6 +16,26 @@ double memory_turn(const MemoryLaw& law, double I) {
   return memory_turn(law.chi_deg * std::numbers::pi / 180, law.c, law.I_low, law.I_high, std::log(I));
 }
 
+double remembered_ln_I(const MemoryLaw& law, double I) {
+  return std::log(std::clamp(I, law.mu.I.front(), law.mu.I.back()));
+}
+
+double dilatancy_target(const AmountMemory& law, double ln_I, double carried) {
+  return law.swelling * law.c_nu * (ln_I - carried);
+}
+
+double axes_lag(const MemoryLaw& law, double turn, std::complex<double> n, std::complex<double> A, double I) {
+  const double behind = std::atan(1 / law.c);
+  return turn * (A * std::conj(n)).imag() - std::sin(memory_turn(law, I) - behind) * std::cos(behind);
+}
+
+double added_friction(const AmountMemory& law, double mu, double dilatancy, double axes_lag) {
+  constexpr double most = 0.5;  // of mu
+  return std::clamp(dilatancy - law.lag * axes_lag, -most * mu, most * mu);
+}
+
+double followed_slope(const AmountMemory& law) { return 0.5 * law.swelling * law.c_nu; }
+
 TabulatedLaw memory_friction(const MemoryLaw& law) { return {law.mu.I, law.mu.mu}; }
 
 }  // namespace drumlin

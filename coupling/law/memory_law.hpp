@@ -6,7 +6,12 @@
 //   v.grad rho = 2 c_rho |D| (|n + m A| - rho),
 //
 // with traceless tensors as complex numbers xx + i xz, n = D/|D|, W the spin in the sense of dv_x/dz, and t
-// the side to which the material turns (docs/theory/rheology.md).
+// the side to which the material turns (docs/theory/rheology.md). With AmountMemory the target amount is
+// mu(I) + psi - lag (axes_lag), where psi, the dilatancy, follows from what I was:
+//
+//   v.grad L = 2 c_nu |D| (ln I - L),   v.grad psi = 2 c_psi |D| (swelling c_nu (ln I - L) - psi).
+#include <complex>
+
 #include "coupling/law/friction_law.hpp"
 
 namespace drumlin {
@@ -17,6 +22,23 @@ namespace drumlin {
 double memory_turn(const MemoryLaw& law, double I);
 /// The same of a law by its numbers, chi in rad.
 double memory_turn(double chi, double c, double I_low, double I_high, double ln_I);
+
+/// ln I as the amount remembers it: within the ends of the law's table, beyond which no point was measured.
+double remembered_ln_I(const MemoryLaw& law, double I);
+
+/// Rate of change of ln nu per 2|D|, with the sign of div v, of a material whose I is exp(ln_I) now and whose
+/// volume fraction is that of the I exp(`carried`): what the dilatancy tends to.
+double dilatancy_target(const AmountMemory& law, double ln_I, double carried);
+
+/// t Im(A conj(n)), the lag of the remembered axes, less what steady simple shear has at this I.
+double axes_lag(const MemoryLaw& law, double turn, std::complex<double> n, std::complex<double> A, double I);
+
+/// What the past adds to mu, psi - lag (axes_lag), within half of mu. 0 in steady simple shear.
+double added_friction(const AmountMemory& law, double mu, double dilatancy, double axes_lag);
+
+/// A slope of what the past adds by ln I, half of what dilatancy could follow at most where I changes over a
+/// short way: a solver that takes it into mu(I), and out of what it holds, does not swing.
+double followed_slope(const AmountMemory& law);
 
 /// What evaluates mu(I) of the memory.
 TabulatedLaw memory_friction(const MemoryLaw& law);

@@ -67,8 +67,12 @@ struct MuTable {
 struct StressRatioTable {
   NormalStressRatio points;
 };
+struct AmountTable {
+  AmountMemory law;
+};
 struct MemoryTable {
   MemoryLaw law;
+  std::optional<AmountTable> amount;
 };
 struct NonlocalTable {
   NonlocalLength law;
@@ -115,6 +119,18 @@ void describe(Visitor& v, StressRatioTable& t) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, AmountTable& t) {
+  v.value("swelling", t.law.swelling,
+          required("", above(0, 1), "By how much ln nu falls per ln I in steady shear."));
+  v.value("c_nu", t.law.c_nu,
+          required("", above(0, 1e6), "Share of nu's way to that value that is made per unit of shear."));
+  v.value("c_psi", t.law.c_psi,
+          required("", above(0, 1e6), "Share of the dilatancy felt that is renewed per unit of shear."));
+  v.value("lag", t.law.lag,
+          required("", at_least(-1, 1), "By how much the amount falls per lag of the remembered axes."));
+}
+
+template <class Visitor>
 void describe(Visitor& v, MemoryTable& t) {
   v.value("c", t.law.c,
           required("", above(0, 1e6), "Share of the memory that is renewed per unit of shear."));
@@ -136,6 +152,8 @@ void describe(Visitor& v, MemoryTable& t) {
   v.value("mu", t.law.mu.mu,
           required("", friction_range,
                    "Amount of the deviator of the stress over p there, growing; smooth in ln I between."));
+  v.optional_table("amount", t.amount,
+                   "What the past adds to the amount: dilatancy and lag; absent: nothing.");
 }
 
 template <class Visitor>
@@ -322,6 +340,7 @@ RheologyFit fit_of(const Document& document) {
   fit.mu = content.mu.friction;
   if (content.k) fit.k = content.k->points;
   if (content.memory) fit.memory = content.memory->law;
+  if (content.memory && content.memory->amount) fit.memory->amount = content.memory->amount->law;
   if (content.nonlocal) fit.nonlocal = content.nonlocal->law;
   fit.nu = content.packing.nu;
   fit.nu_ci99 = content.packing.nu_ci99;
@@ -347,7 +366,8 @@ std::string rheology_text(const RheologyFit& fit) {
   content.reduced = fit.reduced;
   content.mu = {fit.mu, fit.rms_misfit};
   if (fit.k) content.k = StressRatioTable{*fit.k};
-  if (fit.memory) content.memory = MemoryTable{*fit.memory};
+  if (fit.memory) content.memory = MemoryTable{*fit.memory, {}};
+  if (fit.memory && fit.memory->amount) content.memory->amount = AmountTable{*fit.memory->amount};
   if (fit.nonlocal) content.nonlocal = NonlocalTable{*fit.nonlocal};
   if (!fit.draws.empty()) content.band.emplace();
   for (const MeasuredFriction& draw : fit.draws)

@@ -55,6 +55,15 @@ struct NormalStressRatio {
   std::vector<double> k;
 };
 
+/// What the past of the material adds to the amount of its stress (docs/theory/rheology.md, with dilatancy):
+/// its volume fraction follows that of its I, and it resists more while it swells.
+struct AmountMemory {
+  double swelling = 0;  ///< beta: by how much ln nu falls per ln I in steady shear, > 0
+  double c_nu = 0;      ///< share of nu's way to that value that is made per unit of shear, > 0
+  double c_psi = 0;     ///< share of the dilatancy that is felt which is renewed per unit of shear, > 0
+  double lag = 0;       ///< by how much the amount falls per lag of the axes, see axes_lag()
+};
+
 /// Memory of the axes (coupling/law/memory_law.hpp): the material carries the axes of its past strain along,
 /// and they share in those of its stress. The amount of the stress follows I at once, as `mu` here says.
 struct MemoryLaw {
@@ -65,6 +74,7 @@ struct MemoryLaw {
   double I_low = 1e-3;
   double I_high = 1e-2;  ///< from here on the turn is atan(1/c): the stress of simple shear lies along D
   FrictionTable mu;      ///< |s|/p, s the deviator of the stress; not tau:D/(2|D|p)
+  std::optional<AmountMemory> amount = {};  ///< absent: the amount is that of mu alone
 };
 
 /// Where flow stops and over what length it spreads beyond (docs/theory/rheology.md, nonlocal fluidity with a

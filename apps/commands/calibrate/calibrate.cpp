@@ -100,6 +100,25 @@ std::string memory_scores_text(const char* what, const std::vector<coupling::Mem
   return text;
 }
 
+std::string amount_scores_text(const char* what, const std::vector<coupling::AmountScore>& scores) {
+  std::string text;
+  for (const coupling::AmountScore& score : scores)
+    text +=
+        fmt::format("  {} {}: |s|/p {:.4f} off in the bed, {:.4f} in the flow (mu(I) alone {:.4f}, {:.4f})\n",
+                    what, score.run, score.bed, score.flow, score.bed_alone, score.flow_alone);
+  return text;
+}
+
+std::string amount_text(const coupling::AmountFit& fit) {
+  return fmt::format(
+             "  the amount: swelling {:.4f} +- {:.4f} per ln I, c_nu = {:g}, c_psi = {:g}, lag {:.3f} +- "
+             "{:.3f}; with the particles' own dilatancy, c_psi = {:g}, times {:.2f} +- {:.2f}\n",
+             fit.law.swelling, fit.ci99_sectors[coupling::amount_swelling], fit.law.c_nu, fit.law.c_psi,
+             fit.law.lag, fit.ci99_sectors[coupling::amount_lag], fit.measured.c_psi,
+             fit.measured.coefficient, fit.measured.coefficient_ci99) +
+         amount_scores_text("fitted", fit.scores) + amount_scores_text("predicted", fit.predictions);
+}
+
 std::string memory_text(const coupling::Calibration& calibration) {
   if (!calibration.memory) return "";
   const coupling::MemoryCalibration& found = *calibration.memory;
@@ -116,6 +135,7 @@ std::string memory_text(const coupling::Calibration& calibration) {
       "  the law: c = {:.2f}, m = {:.2f}, chi = {:.2f} below I = {:g}, atan(1/c) above {:g}, c_rho = {:g}\n",
       found.law.c, found.law.m, found.law.chi, found.law.I_low, found.law.I_high, *found.law.c_rho);
   text += memory_scores_text("fitted", found.scores) + memory_scores_text("predicted", found.predictions);
+  if (found.remembered) text += amount_text(*found.remembered);
   text += "  what the runs cannot tell\n";
   for (const std::string& sentence : found.untold) text += "  - " + sentence + "\n";
   return text;
@@ -127,7 +147,8 @@ coupling::CalibrationOptions settings_of(const CalibrateOptions& options, coupli
                                         .turn = options.misalignment,
                                         .memory = options.memory,
                                         .draws = options.draws,
-                                        .nonlocal = options.nonlocal};
+                                        .nonlocal = options.nonlocal,
+                                        .amount = options.amount};
   if (options.law != "auto") settings.form = coupling::form_named(options.law);
   return settings;
 }

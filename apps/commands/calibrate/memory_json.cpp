@@ -112,6 +112,41 @@ Json dilation_json(const coupling::MemoryCalibration& found) {
   return json;
 }
 
+Json amount_scores_json(const std::vector<coupling::AmountScore>& scores) {
+  Json json = Json::array();
+  for (const coupling::AmountScore& score : scores)
+    json.push_back({{"run", score.run},
+                    {"bed", {{"rms", number(score.bed)}, {"rms_alone", number(score.bed_alone)}}},
+                    {"flow", {{"rms", number(score.flow)}, {"rms_alone", number(score.flow_alone)}}}});
+  return json;
+}
+
+/// null without it.
+Json remembered_json(const std::optional<coupling::AmountFit>& fit) {
+  if (!fit) return {};
+  const auto coefficient = [](double value, double ci99) {
+    return Json{{"value", value}, {"ci99_sectors", ci99}};
+  };
+  Json trials = Json::array();
+  for (const coupling::AmountTrial& trial : fit->trials)
+    trials.push_back({{"c_nu", trial.c_nu}, {"c_psi", trial.c_psi}, {"rms", trial.rms}});
+  Json measured;
+  if (!fit->measured.trials.empty())
+    measured = {{"coefficient", coefficient(fit->measured.coefficient, fit->measured.coefficient_ci99)},
+                {"c_psi", fit->measured.c_psi},
+                {"lag", fit->measured.lag},
+                {"rms", fit->measured.rms}};
+  return {{"swelling", coefficient(fit->law.swelling, fit->ci99_sectors[coupling::amount_swelling])},
+          {"lag", coefficient(fit->law.lag, fit->ci99_sectors[coupling::amount_lag])},
+          {"c_nu", fit->law.c_nu},
+          {"c_psi", fit->law.c_psi},
+          {"rms_misfit", fit->table.fit.rms_misfit},
+          {"trials", trials},
+          {"measured_dilatancy", measured},
+          {"runs", amount_scores_json(fit->scores)},
+          {"held_out", amount_scores_json(fit->predictions)}};
+}
+
 }  // namespace
 
 Json memory_json(const coupling::MemoryCalibration& found, const std::vector<coupling::RunEvidence>& runs) {
@@ -132,6 +167,7 @@ Json memory_json(const coupling::MemoryCalibration& found, const std::vector<cou
           {"held_out", scores_json(found.predictions)},
           {"arcs", arcs_json(found)},
           {"dilation", dilation_json(found)},
+          {"remembered_amount", remembered_json(found.remembered)},
           {"from_displacements", found.from_displacements},
           {"untold", found.untold}};
 }

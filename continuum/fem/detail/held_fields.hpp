@@ -2,6 +2,7 @@
 // Fields that the law takes from the flow beyond D and p, held while Newton's method runs: each is absent
 // unless its effect is there. Private to fem/.
 #include <deque>
+#include <limits>
 #include <span>
 
 #include "continuum/fem/detail/scalar_field.hpp"
@@ -16,6 +17,7 @@ struct HeldValues {
   std::vector<double> fluidity;    ///< g_loc/g, with nonlocal fluidity
   std::vector<Remembered> memory;  ///< A and rho, with memory of the axes
   double memory_weight = 0;        ///< m, less while it rises
+  double followed_slope = 0;       ///< of FollowedLaw; 0: the amount is mu(I)
 };
 
 struct HeldFields {
@@ -23,7 +25,8 @@ struct HeldFields {
   std::shared_ptr<const ScalarField> ln_fluidity;  ///< ln(g_loc/g)
   std::shared_ptr<const ScalarField> axes;         ///< A: components xx and xz
   std::shared_ptr<const ScalarField> rho;
-  HeldValues at_quadrature;  ///< per quadrature point of this rank's cells
+  std::shared_ptr<const ScalarField> added;  ///< of FollowedLaw; null: the amount is mu(I)
+  HeldValues at_quadrature;                  ///< per quadrature point of this rank's cells
 };
 
 /// Anderson's mixing of the memory from one Picard update to the next (J. ACM 12 (1965) 547): the memory that
@@ -34,17 +37,22 @@ class MemoryMixing {
   static constexpr double share = 0.6;  ///< of the new memory that is taken where nothing was seen yet
   /// The fields that come next, in place of those that came out. Nothing is mixed where `before` holds no
   /// memory.
-  void mix(const Discretisation& d, const HeldFields* before, ScalarField& axes, ScalarField& rho);
+  /// `added`: null without.
+  void mix(const Discretisation& d, const HeldFields* before, ScalarField& axes, ScalarField& rho,
+           ScalarField* added);
   void forget() { seen_.clear(); }
+  /// |A that came out - A that went in| over |A|, root mean squares, at the last mix(); infinite before.
+  double change() const { return change_; }
 
  private:
-  struct Pair {
-    FieldVector axes, rho;
+  struct Fields {
+    FieldVector axes, rho, added;  ///< `added`: of no size without
   };
   struct Update {
-    Pair went_in, change;
+    Fields went_in, change;
   };
   std::deque<Update> seen_;
+  double change_ = std::numeric_limits<double>::infinity();
 };
 
 /// At points of one cell, given by their places in the reference cell.
@@ -83,5 +91,14 @@ struct RhoSources {
 };
 RhoSources rho_sources(const FlowProblem& problem, const Discretisation& d, const State& state, double m,
                        const ScalarField& axes);
+
+/// The dilatancy psi that the material feels (coupling/law/memory_law.hpp); the memory has to have an
+/// AmountMemory. Collective; throws NotConvergedError as held_from().
+std::shared_ptr<ScalarField> carried_dilatancy(const FlowProblem& problem, const Discretisation& d,
+                                               const State& state, double linear_tolerance);
+
+/// What `added` tends to, per quadrature point: added_friction() less followed_slope() ln I.
+std::vector<double> added_target(const FlowProblem& problem, const Discretisation& d, const State& state,
+                                 const ScalarField& axes, const ScalarField& dilatancy);
 
 }  // namespace drumlin::continuum::fem

@@ -60,10 +60,18 @@ struct MemoryPointLaw {
   const HeldValues& held;
   MemoryResponse operator()(const Regularisation& r, const PointValues& at, const PlaneTensor& dual,
                             std::size_t point) const {
-    const double m = held.memory_weight;
-    if (held.fluidity.empty()) return memory_response(law, m, held.memory[point], r, at.D, at.p, dual);
-    return memory_response(NonlocalLaw<TabulatedLaw>{law, held.fluidity[point]}, m, held.memory[point], r,
-                           at.D, at.p, dual);
+    if (held.fluidity.empty()) return with_amount(law, r, at, dual, point);
+    return with_amount(NonlocalLaw<TabulatedLaw>{law, held.fluidity[point]}, r, at, dual, point);
+  }
+
+ private:
+  template <class Friction>
+  MemoryResponse with_amount(const Friction& mu, const Regularisation& r, const PointValues& at,
+                             const PlaneTensor& dual, std::size_t point) const {
+    const Remembered& memory = held.memory[point];
+    const double m = held.memory_weight, slope = held.followed_slope;
+    if (slope == 0) return memory_response(mu, m, memory, r, at.D, at.p, dual);
+    return memory_response(FollowedLaw<Friction>{mu, slope, memory.added}, m, memory, r, at.D, at.p, dual);
   }
 };
 

@@ -7,9 +7,10 @@
 
 namespace drumlin::continuum::fem {
 
-/// How far the memory of the axes is settled with a flow: as the options ask, or as far as a step of the
-/// surface needs while much still presses on it.
-enum class Settling { whole, loose };
+/// How far the memory of the axes is settled with a flow: as the options ask, as far as a step of the surface
+/// needs while much still presses on it, or further than the options ask, where what is left of the memory's
+/// change hides what a step of the surface does.
+enum class Settling { whole, loose, fine };
 
 /// What the iteration needs of the solver: Newton's method on the mesh as it stands, and a solution from the
 /// level's state, near the last one.

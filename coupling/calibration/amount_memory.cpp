@@ -1,0 +1,223 @@
+#include "coupling/calibration/amount_memory.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "coupling/common/errors.hpp"
+#include "coupling/law/memory_law.hpp"
+#include "coupling/statistics/quantiles.hpp"
+#include "coupling/statistics/resampling.hpp"
+
+namespace drumlin::coupling {
+namespace {
+
+using Vector = Eigen::VectorXd;
+using Matrix = Eigen::MatrixXd;
+
+/// A mean of what a path passed through, the later the more: weight exp(-2 c strain).
+double carried(const StressPath& path, const MemoryLaw& law, double c) {
+  double value = remembered_ln_I(law, std::exp(path.steps.front().ln_I));
+  for (const PathStep& step : path.steps) {
+    const double kept = std::exp(-2 * c * step.strain);
+    value = kept * value + (1 - kept) * remembered_ln_I(law, std::exp(step.ln_I));
+  }
+  return value;
+}
+
+/// The dilatancy felt at the end of a path over the swelling. What relaxes with c_psi to c_nu (ln I - L),
+/// where L relaxes with c_nu to ln I, is the difference of two such means.
+double felt_dilatancy(const StressPath& path, const MemoryLaw& law, double c_nu, double c_psi) {
+  return c_nu * c_psi / (c_psi - c_nu) * (carried(path, law, c_psi) - carried(path, law, c_nu));
+}
+
+/// The same of the dilatancy that the path passed through itself.
+double seen_dilatancy(const StressPath& path, double c_psi) {
+  constexpr double most = 0.5;  // where the material hardly shears its dilatancy is noise
+  double Q = 0;
+  for (const PathStep& step : path.steps) {
+    const double kept = std::exp(-2 * c_psi * step.strain);
+    Q = kept * Q + (1 - kept) * std::clamp(step.dilatancy, -most, most);
+  }
+  return Q;
+}
+
+double lag_of(const StressPath& path, const MemoryLaw& law) {
+  const AxisMemory axes{law.c, law.m, law.chi_deg * (std::numbers::pi / 180), {}, law.I_low, law.I_high};
+  return axes_lag(law, 1, path.axis, carried_memory(path, axes), std::exp(path.ln_I));
+}
+
+/// Normal equations of the paths of one sector of the drum.
+struct Sums {
+  Matrix matrix;
+  Vector right;
+  double squares = 0;
+  std::size_t paths = 0;
+
+  void add(const Vector& row, double value) {
+    if (paths == 0) {
+      matrix = Matrix::Zero(row.size(), row.size());
+      right = Vector::Zero(row.size());
+    }
+    matrix.noalias() += row * row.transpose();
+    right += row * value;
+    squares += value * value;
+    ++paths;
+  }
+  Sums& operator+=(const Sums& other) {
+    if (paths == 0) return *this = other;
+    matrix += other.matrix;
+    right += other.right;
+    squares += other.squares;
+    paths += other.paths;
+    return *this;
+  }
+  Sums without(const Sums& other) const {
+    return {matrix - other.matrix, right - other.right, squares - other.squares, paths - other.paths};
+  }
+  // The shortest one where a knot has no path, as without the only sector that has one.
+  Vector solution() const { return Eigen::CompleteOrthogonalDecomposition<Matrix>(matrix).solve(right); }
+  bool is_determined() const {
+    return Eigen::CompleteOrthogonalDecomposition<Matrix>(matrix).rank() == matrix.rows();
+  }
+  double rms(const Vector& x) const {
+    return std::sqrt(std::max(0.0, squares - 2 * x.dot(right) + x.dot(matrix * x)) /
+                     static_cast<double>(paths));
+  }
+};
+
+/// Weights of the knots of a table at a place between them, straight in ln I, and room for two numbers more.
+Vector knot_weights(const std::vector<double>& knots, double ln_I) {
+  const auto last = static_cast<Eigen::Index>(knots.size()) - 1;
+  Vector row = Vector::Zero(last + 3);
+  Eigen::Index left = 0;
+  while (left + 1 < last && std::log(knots[static_cast<std::size_t>(left) + 1]) < ln_I) ++left;
+  const double from = std::log(knots[static_cast<std::size_t>(left)]),
+               to = std::log(knots[static_cast<std::size_t>(left) + 1]);
+  const double share = std::clamp((ln_I - from) / (to - from), 0.0, 1.0);
+  row[left] = 1 - share;
+  row[left + 1] = share;
+  return row;
+}
+
+struct Trial {
+  AmountTrial trial;
+  Vector x;
+  std::map<long, Sums> sectors;
+  Sums total;
+};
+
+/// `dilatancy` of a path: what its first coefficient beside the knots belongs to.
+template <class Dilatancy>
+Trial tried(std::span<const PathsOfRun> runs, const MemoryLaw& axes, const std::vector<double>& knots,
+            AmountTrial trial, Dilatancy dilatancy) {
+  Trial found{trial, {}, {}, {}};
+  for (const PathsOfRun& run : runs)
+    for (const StressPath& path : run.paths) {
+      Vector row = knot_weights(knots, path.ln_I);
+      row[row.size() - 2] = dilatancy(path);
+      row[row.size() - 1] = -lag_of(path, axes);
+      found.sectors[sector_of(path)].add(row, std::abs(path.stress));
+    }
+  for (const auto& [number, sums] : found.sectors) found.total += sums;
+  found.x = found.total.solution();
+  found.trial.rms = found.total.rms(found.x);
+  return found;
+}
+
+std::array<double, 2> sector_intervals(const Trial& best) {
+  std::array<std::vector<double>, 2> without;
+  for (const auto& [number, sums] : best.sectors) {
+    const Vector x = best.total.without(sums).solution();
+    for (std::size_t j = 0; j < 2; ++j) without[j].push_back(x[x.size() - 2 + static_cast<Eigen::Index>(j)]);
+  }
+  const double factor = statistics::student_quantile_99(static_cast<int>(best.sectors.size()) - 1);
+  return {factor * std::sqrt(statistics::jackknife_variance(without[0])),
+          factor * std::sqrt(statistics::jackknife_variance(without[1]))};
+}
+
+StressDilatancy stress_dilatancy(std::span<const PathsOfRun> runs, const MemoryLaw& axes,
+                                 const std::vector<double>& knots) {
+  StressDilatancy found;
+  for (const double c_psi : {2.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0, 32.0}) {
+    const Trial now = tried(runs, axes, knots, {0, c_psi, 0},
+                            [&](const StressPath& path) { return seen_dilatancy(path, c_psi); });
+    if (!now.total.is_determined()) return found;  // a motion without dilation
+    found.trials.push_back(now.trial);
+    if (found.trials.size() > 1 && !(now.trial.rms < found.rms)) continue;
+    found.c_psi = c_psi;
+    found.rms = now.trial.rms;
+    found.coefficient = now.x[now.x.size() - 2];
+    found.lag = now.x[now.x.size() - 1];
+    found.coefficient_ci99 = sector_intervals(now)[0];
+  }
+  return found;
+}
+
+std::vector<AmountScore> scores_of(std::span<const PathsOfRun> runs, const MemoryLaw& law,
+                                   const FormCurve& table, const FormCurve& alone) {
+  std::vector<AmountScore> scores;
+  for (const PathsOfRun& run : runs) {
+    double squares[2][2] = {};
+    std::size_t paths[2] = {};
+    for (const StressPath& path : run.paths) {
+      const std::size_t zone = path.ln_I < std::log(bed_I) ? 0 : 1;
+      const double I = std::exp(path.ln_I), amount = std::abs(path.stress);
+      ++paths[zone];
+      squares[zone][0] += std::pow(amount - table.at(I).value - added_amount(path, law), 2);
+      squares[zone][1] += std::pow(amount - alone.at(I).value, 2);
+    }
+    const auto rms = [&](std::size_t zone, std::size_t which) {
+      return std::sqrt(squares[zone][which] / static_cast<double>(paths[zone]));
+    };
+    scores.push_back({run.name, rms(0, 0), rms(1, 0), rms(0, 1), rms(1, 1)});
+  }
+  return scores;
+}
+
+}  // namespace
+
+double added_amount(const StressPath& path, const MemoryLaw& law) {
+  const AmountMemory& amount = law.amount.value();
+  return amount.swelling * felt_dilatancy(path, law, amount.c_nu, amount.c_psi) -
+         amount.lag * lag_of(path, law);
+}
+
+AmountFit fit_amount(std::span<const PathsOfRun> runs, std::span<const PathsOfRun> held_out,
+                     const MemoryLaw& axes, const CalibratedLaw& alone) {
+  const std::vector<double>& knots = alone.form.knots;
+  AmountFit found;
+  Trial best;
+  for (const double c_nu : {2.0, 3.0, 4.0, 6.0, 8.0})
+    for (const double c_psi : {8.0, 12.0, 16.0, 24.0, 32.0}) {
+      if (!(c_nu < c_psi)) continue;
+      Trial now = tried(runs, axes, knots, {c_nu, c_psi, 0},
+                        [&](const StressPath& path) { return felt_dilatancy(path, axes, c_nu, c_psi); });
+      if (!now.total.is_determined())
+        throw InputError(
+            "--amount: the paths do not determine what the past adds to the amount of the stress");
+      found.trials.push_back(now.trial);
+      if (best.sectors.empty() || now.trial.rms < best.trial.rms) best = std::move(now);
+    }
+  found.law = {best.x[best.x.size() - 2], best.trial.c_nu, best.trial.c_psi, best.x[best.x.size() - 1]};
+  found.ci99_sectors = sector_intervals(best);
+  found.measured = stress_dilatancy(runs, axes, knots);
+  MemoryLaw law = axes;
+  law.amount = found.law;
+  std::vector<std::vector<FrictionPoint>> left;
+  for (const PathsOfRun& run : runs) {
+    left.emplace_back();
+    for (const StressPath& path : run.paths)
+      left.back().push_back(
+          {.I = std::exp(path.ln_I), .mu = std::abs(path.stress) - added_amount(path, law)});
+  }
+  found.table = calibrated(left, {.kind = FormKind::table, .knots = knots}, 0);
+  const FormCurve table = found.table.curve(), without = alone.curve();
+  found.scores = scores_of(runs, law, table, without);
+  found.predictions = scores_of(held_out, law, table, without);
+  return found;
+}
+
+}  // namespace drumlin::coupling

@@ -1,0 +1,55 @@
+#pragma once
+// What past strain adds to the amount of the stress, fitted along the paths of the material: its dilatancy,
+// and the lag of its axes (docs/theory/rheology.md, with dilatancy).
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "coupling/calibration/calibrated_law.hpp"
+#include "coupling/calibration/memory_fit.hpp"
+#include "coupling/law/rheology_fit.hpp"
+
+namespace drumlin::coupling {
+
+enum : std::size_t { amount_swelling, amount_lag };  ///< places of the coefficients in arrays
+
+/// A pair of rates at which volume fraction and dilatancy follow, and what the fit leaves of |s|/p.
+struct AmountTrial {
+  double c_nu = 0, c_psi = 0, rms = 0;
+};
+
+/// What is left of |s|/p of a run: root mean squares over its paths, by mu(I) alone and with its memory.
+struct AmountScore {
+  std::string run;
+  double bed = 0, flow = 0, bed_alone = 0, flow_alone = 0;  ///< .._alone: mu(I) of the law without memory
+};
+
+/// The same with the dilatancy that the particles show in place of the law's: |s|/p = mu(I) + coefficient Q -
+/// lag axes_lag, v.grad Q = 2 c_psi |D| (div v/(2|D|) - Q). Taylor's coefficient is one.
+struct StressDilatancy {
+  double c_psi = 0, coefficient = 0, coefficient_ci99 = 0, lag = 0, rms = 0;
+  std::vector<AmountTrial> trials;  ///< c_nu: 0, has no part. Empty: the paths have no dilatancy
+};
+
+struct AmountFit {
+  AmountMemory law;
+  CalibratedLaw table;                 ///< |s|/p over I less what the past adds: mu(I) of steady simple shear
+  std::array<double, 2> ci99_sectors;  ///< of swelling and lag, over the sectors of the drum
+  std::vector<AmountTrial> trials;
+  StressDilatancy measured;  ///< no part of the law: what the law's own dilatancy is to be compared with
+  std::vector<AmountScore> scores, predictions;  ///< per run of the fit, per run held out
+};
+
+/// psi - lag axes_lag at the end of a path, what the past adds to mu(I) there; `law`: with an amount. t = 1.
+double added_amount(const StressPath& path, const MemoryLaw& law);
+
+/// Least squares of |s|/p over all paths: the knots of a table of mu(I), swelling and lag, for each pair of
+/// c_nu = 2, 3, 4, 6, 8 and c_psi = 8, 12, 16, 24, 32 above it, of which the best is taken; then the table
+/// once more, robustly, over what is left. `axes`: the law of the axes, `alone`: its mu(I) without memory,
+/// whose knots are kept. Nothing of `held_out` enters but the predictions. Throws InputError where the paths
+/// do not determine it.
+AmountFit fit_amount(std::span<const PathsOfRun> runs, std::span<const PathsOfRun> held_out,
+                     const MemoryLaw& axes, const CalibratedLaw& alone);
+
+}  // namespace drumlin::coupling
