@@ -154,5 +154,14 @@ TEST(Layers, SceneWithoutSpinHasNoColumnOfIt) {
   EXPECT_TRUE(std::isnan(result.scalars.value("spin_over_half_vorticity")));
 }
 
+TEST(Layers, GravityTellsWhichContinuumTheyHave) {
+  EXPECT_EQ(geometry_of_layers(0, 0), "plane_shear");
+  EXPECT_EQ(geometry_of_layers(std::sin(0.3), -std::cos(0.3)), "incline");
+  EXPECT_EQ(geometry_of_layers(1, 0), "chute");
+  EXPECT_EQ(geometry_of_layers(1, -1e-16), "chute");
+  EXPECT_EQ(geometry_of_layers(1e-16, -1), "");  // a level bed
+  EXPECT_EQ(geometry_of_layers(-0.3, -1), "");   // down towards -x
+}
+
 }  // namespace
 }  // namespace drumlin
