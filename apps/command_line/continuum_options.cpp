@@ -72,13 +72,14 @@ void add_compare_options(CLI::App& command, CompareOptions& options, CompareStud
                      "Folder for the report; open its index.html");
   command
       .add_option("--floor", options.floor,
-                  "Another run of the same drum, from other random numbers: its errors against RUN are the "
+                  "Another run of the same scene, from other random numbers: its errors against RUN are the "
                   "noise floor that stands beside every error")
       ->type_name("RUN2");
   command
-      .add_option("--register", options.registration,
-                  "What lies at the same place: at the same height below the drum's axis, or at the same "
-                  "depth below each side's own surface")
+      .add_option(
+          "--register", options.registration,
+          "What lies at the same place: at the same height below the drum's axis (in layers: above the "
+          "base of each side), or at the same depth below each side's own surface")
       ->check(CLI::IsMember({"axis", "surface"}))
       ->capture_default_str();
   command.add_flag("--accept-unsteady", options.accept_unsteady,

@@ -7,6 +7,7 @@
 
 #include "apps/support/json_file.hpp"
 #include "coupling/common/errors.hpp"
+#include "coupling/comparison/layers.hpp"
 #include "coupling/exchange/run_checks.hpp"
 #include "coupling/files/field_map_file.hpp"
 #include "particles/io/snapshot_file.hpp"
@@ -41,7 +42,7 @@ LoadedSide load_side(const fs::path& folder, Unsteady unsteady) {
   LoadedSide side;
   side.folder = folder;
   if (fs::is_directory(folder) && is_flow_run(folder)) {
-    FlowRun flow = read_flow_run(folder);
+    FlowRun flow = read_flow_run(folder, FlowGeometry::any);
     side.kind = "continuum";
     side.name = flow.name;
     side.scales = flow.scales;
@@ -61,7 +62,9 @@ LoadedSide load_side(const fs::path& folder, Unsteady unsteady) {
       if (const auto snapshots = particles::snapshot_files(folder); !snapshots.empty())
         side.snapshot = checked_file(run.files, "snapshots/" + snapshots.back().filename().string());
   }
-  side.compared.fields.maps = maps_in(side.maps_file, side.compared.profiles);
+  // Layers are the same everywhere along x.
+  if (coupling::geometry_of(side.compared.profiles) == "drum")
+    side.compared.fields.maps = maps_in(side.maps_file, side.compared.profiles);
   if (!side.compared.fields.maps) side.maps_file.clear();
   return side;
 }

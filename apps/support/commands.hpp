@@ -89,10 +89,10 @@ struct CalibrateOptions {
   std::vector<std::filesystem::path> runs;
   std::vector<std::filesystem::path> validate;  ///< runs that the law is not fitted on but has to predict
   std::filesystem::path output;
-  std::string from = "auto";  ///< maps, profiles; auto: maps where all runs have them
+  std::string from = "auto";  ///< maps, profiles; auto: maps where all runs are drums and have them
   std::string law = "auto";   ///< log, log-linear, table; auto: table where there are points enough, else log
   std::optional<double> I_min;  ///< absent: 1e-4 of profiles, 3e-5 of maps
-  std::optional<double> I_max;  ///< absent: 1e-1 of profiles, 1 of maps
+  std::optional<double> I_max;  ///< absent: 1e-1 of a drum's profiles, 1 of maps and of layers
   int draws = 200;
   bool k = false;
   bool misalignment = false;

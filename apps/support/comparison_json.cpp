@@ -159,6 +159,24 @@ void add_comparison(Json& content, const coupling::Comparison& comparison,
   add_maps(content, comparison, floor);
 }
 
+void add_layer_comparison(Json& content, const coupling::LayerComparison& comparison,
+                          const coupling::LayerComparison* floor) {
+  const auto extent = [](const coupling::LayerExtent& side) {
+    return Json{{"base", number(side.base)}, {"top", number(side.top)}, {"height", number(side.height())}};
+  };
+  Json scalars;
+  for (const auto& pair : comparison.scalars) scalars[pair.name] = to_json(pair);
+  content["geometry"] = comparison.geometry;
+  content["registration"] = {
+      {"by", comparison.registration == coupling::Registration::axis ? "base" : "surface"},
+      {"offset", number(comparison.offset)},
+      {"particles", extent(comparison.first)},
+      {"continuum", extent(comparison.second)}};
+  content["zones"] = zones_of(comparison.fields);
+  content["errors"] = errors_of(comparison.fields, floor == nullptr ? nullptr : &floor->fields);
+  content["scalars"] = scalars;
+}
+
 void add_paper(Json& content, std::optional<double> rotation_rpm,
                const std::vector<coupling::PaperRow>& rows) {
   if (!rotation_rpm) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "coupling/comparison/comparison.hpp"
+#include "coupling/comparison/layers.hpp"
 #include "coupling/comparison/paper_table.hpp"
 
 namespace drumlin::apps {
@@ -23,6 +24,10 @@ nlohmann::ordered_json counts_of(const std::vector<coupling::Target>& targets);
 /// none.
 void add_comparison(nlohmann::ordered_json& content, const coupling::Comparison& comparison,
                     const coupling::Comparison* floor = nullptr);
+
+/// Keys geometry, registration, zones, errors and scalars of flows in layers; `floor` as above.
+void add_layer_comparison(nlohmann::ordered_json& content, const coupling::LayerComparison& comparison,
+                          const coupling::LayerComparison* floor = nullptr);
 
 /// Key paper: the speed and one row per number; null when the drum is none of the paper's.
 void add_paper(nlohmann::ordered_json& content, std::optional<double> rotation_rpm,

@@ -6,6 +6,7 @@ namespace drumlin::coupling {
 namespace {
 
 constexpr double least_amount_I = 3e-6;
+constexpr double bulk_margin = 4;  // that of the means over a bulk in measured.json
 
 template <class Selection>
 Selection within(const InertialSelection& range) {
@@ -31,7 +32,12 @@ void add_amount_blocks(RunEvidence& run, const InertialSelection& range) {
 }
 
 void add_layers(RunEvidence& run, const ProfileSet& profiles, const InertialSelection& range) {
-  const auto selection = within<LayerSelection>(range);
+  auto selection = within<LayerSelection>(range);
+  run.in_layers = !(number_or_nan(profiles.header, &RunHeader::drum_radius) > 0);
+  if (run.in_layers) {
+    selection.surface_margin = selection.wall_margin = bulk_margin;
+    selection.I_max = range.I_max.value_or(1);
+  }
   run.layers = friction_points(profiles, selection);
   run.ratios = friction_points(profiles, selection, "k");
 }

@@ -26,6 +26,7 @@ struct RunEvidence {
   std::vector<FrictionPoint> ratios = {};    ///< of profiles: k in the place of mu, I
   std::vector<LawBlock> amount_blocks = {};  ///< of maps, to smaller I: where memory is asked for
   std::optional<FieldMap> map = {};          ///< where a law of the bed is asked for
+  bool in_layers = false;                    ///< a shear cell or a chute: its layers share one I, nearly
 };
 
 /// Range of inertial numbers that points are taken from; absent: that of BlockSelection or LayerSelection.
@@ -40,7 +41,8 @@ void add_blocks(RunEvidence& run, FieldMap map, const InertialSelection& range);
 /// says otherwise), with the motion of displacements where the map has it.
 void add_amount_blocks(RunEvidence& run, const InertialSelection& range);
 
-/// Layers of a profile (friction_points()) with mu and with k. Throws InputError where a column is missing.
+/// Layers of a profile (friction_points()) with mu and with k. Without a drum: 4 d from wall and surface,
+/// which may be a wall too, and up to I = 1. Throws InputError where a column is missing.
 void add_layers(RunEvidence& run, const ProfileSet& profiles, const InertialSelection& range);
 
 }  // namespace drumlin::coupling

@@ -21,6 +21,8 @@ void add_columns(ProfileSet& set, const FieldOverlay& field) {
   set.columns.push_back({field.field + "_continuum", field.continuum, band(field.continuum_ci99)});
 }
 
+}  // namespace
+
 ProfileSet compared_columns(const std::vector<FieldComparison>& fields, bool reduced) {
   ProfileSet set;
   set.header.reduced = reduced;
@@ -30,8 +32,6 @@ ProfileSet compared_columns(const std::vector<FieldComparison>& fields, bool red
   }
   return set;
 }
-
-}  // namespace
 
 ProfileSet centre_overlay(const ComparedSide& first, const ComparedSide& second,
                           const Comparison& comparison) {

@@ -5,6 +5,9 @@
 
 namespace drumlin::coupling {
 
+/// Both sides of every field that both have.
+ProfileSet compared_columns(const std::vector<FieldComparison>& fields, bool reduced);
+
 /// The centre: the compared fields, and every other column that both sides have.
 ProfileSet centre_overlay(const ComparedSide& first, const ComparedSide& second,
                           const Comparison& comparison);

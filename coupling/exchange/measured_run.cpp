@@ -122,6 +122,12 @@ void add_law_band(ScalarSet& scalars, const Json& flow) {
   }
 }
 
+/// What a flow across a gap does not have.
+void complete_gap_header(RunHeader& header) {
+  for (const HeaderNumber number : {&RunHeader::theta_deg, &RunHeader::rotation, &RunHeader::drum_radius})
+    if (!(header.*number)) header.*number = 0;
+}
+
 void throw_if_any(Problems problems) {
   if (!problems.empty()) throw InputError(std::move(problems));
 }
@@ -194,7 +200,7 @@ MeasuredRun read_measured_run(const fs::path& folder, Unsteady unsteady) {
   return run;
 }
 
-FlowRun read_flow_run(const fs::path& folder) {
+FlowRun read_flow_run(const fs::path& folder, FlowGeometry asked) {
   require_folder(folder);
   const fs::path file = folder / "flow.json", profile_file = folder / "profiles.csv";
   if (!fs::exists(file))
@@ -205,12 +211,13 @@ FlowRun read_flow_run(const fs::path& folder) {
   const Json flow = read_json(file, "drumlin-flow-run-2");
   Problems problems;
   const Json geometry = flow.value("geometry", Json("drum"));
-  if (geometry != "drum")
+  if (asked == FlowGeometry::drum && geometry != "drum")
     problems.push_back({file.string(), 0, 0, "geometry", "is " + plain_text(geometry), "\"drum\""});
   throw_if_any(problems);
   FlowRun run{name_of_folder(folder), folder, read_profiles(profile_file), {}, {}, false};
   run.accepted = accepted_edits(files);
   run.files = std::move(files);
+  if (geometry != "drum") complete_gap_header(run.profiles.header);
   run.scalars = read_scalars(file, "drumlin-flow-run-2");
   add_law_band(run.scalars, flow);
   check_frame(profile_file, run.profiles.header, RunSide::continuum, problems);

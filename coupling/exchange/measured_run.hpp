@@ -40,7 +40,7 @@ enum class Unsteady { refuse, accept };
 /// snapshots needs no manifest.
 MeasuredRun read_measured_run(const std::filesystem::path& folder, Unsteady unsteady = Unsteady::refuse);
 
-/// What `drumlin flow` left of a drum.
+/// What `drumlin flow` left.
 struct FlowRun {
   std::string name;
   std::filesystem::path folder;
@@ -52,10 +52,14 @@ struct FlowRun {
   std::vector<std::string> accepted = {};
 };
 
+/// Which flows are read. A flow across a gap has no drum, and between plates no slope: its header then says
+/// 0.
+enum class FlowGeometry { drum, any };
+
 /// As above, of a FLOWRUN: also refused are a flow that was not finished (no flow.json), profiles of another
-/// side than "continuum", and a flow that is no drum. A folder without state.h5 (as cut out of a FLOWRUN)
-/// needs no manifest.
-FlowRun read_flow_run(const std::filesystem::path& folder);
+/// side than "continuum", and unless `any` is asked for a flow that is no drum. A folder without state.h5 (as
+/// cut out of a FLOWRUN) needs no manifest.
+FlowRun read_flow_run(const std::filesystem::path& folder, FlowGeometry geometry = FlowGeometry::drum);
 
 /// The files of a FLOWRUN, to be read by checked_file(). Throws InputError if it is not finished or not as
 /// its manifest says.

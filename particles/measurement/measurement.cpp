@@ -25,6 +25,9 @@ double angle_of(const FlowFrame& frame, const Snapshot& snapshot) {
                     upright.along(frame.x_axis_x, frame.x_axis_z));
 }
 
+/// Smaller parts of gravity are rounding of its direction.
+constexpr double level = 1e-9;
+
 double mean_of(const std::vector<double>& values) {
   double sum = 0;
   for (double value : values) sum += value;
@@ -187,6 +190,13 @@ void add_scattered(std::size_t here, std::size_t snapshots, ScatteredGrains& sca
 
 }  // namespace
 
+std::string geometry_of_layers(double gravity_x, double gravity_z) {
+  const double size = std::hypot(gravity_x, gravity_z);
+  if (size == 0) return "plane_shear";
+  if (!(gravity_x > level * size) || gravity_z > level * size) return "";
+  return gravity_z < -level * size ? "incline" : "chute";
+}
+
 Measurement measurement(const SnapshotSource& source, const MeasurementOptions& options,
                         std::span<const MeasurementPart> parts,
                         const std::function<void(std::size_t, std::size_t)>& progress) {
@@ -207,6 +217,7 @@ Measurement measurement(const SnapshotSource& source, const MeasurementOptions& 
   const double frame_angle = angle_of(place.frame, last);
   result.place = place;
   result.frame_angle_deg = frame_angle * degrees;
+  if (place.period > 0) result.geometry = geometry_of_layers(last.gravity_x, last.gravity_z);
   if (found.cut_to_window) result.scattered.emplace();
 
   Slices slices = asked_slices(place, options);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <random>
 
+#include "coupling/calibration/run_evidence.hpp"
 #include "coupling/common/errors.hpp"
 
 namespace drumlin {
@@ -126,6 +127,30 @@ TEST(LayerSelection, SurfaceWallAndRangeOfIAreLeftOut) {
   EXPECT_NEAR(points[2].mu, 0.28, 1e-12);
   EXPECT_NEAR(points[0].I_error, 0.001, 1e-12);
   EXPECT_TRUE(std::isnan(points[0].mu_error));
+}
+
+TEST(LayerSelection, WithoutADrumTheBulkSpeaksUpToAnyI) {
+  ProfileSet profiles;
+  profiles.header.wall_z = -10.4;
+  profiles.header.drum_radius = 0;
+  for (const char* name : {"I", "mu", "k"}) profiles.columns.push_back({name, {}, {}});
+  for (int l = -10; l <= 2; ++l) {
+    profiles.z.push_back(l);
+    profiles.columns[0].value.push_back(0.2);
+    profiles.columns[1].value.push_back(0.5 + 0.01 * l);
+    profiles.columns[2].value.push_back(1);
+  }
+  RunEvidence run;
+  add_layers(run, profiles, {});
+  EXPECT_TRUE(run.in_layers);
+  ASSERT_EQ(run.layers.size(), 3u);  // of -6, -5, -4: 4 d from the wall and from the surface
+  EXPECT_NEAR(run.layers[0].mu, 0.44, 1e-12);
+  EXPECT_NEAR(run.layers[2].mu, 0.46, 1e-12);
+  profiles.header.drum_radius = 60;
+  RunEvidence drum;
+  add_layers(drum, profiles, {});
+  EXPECT_FALSE(drum.in_layers);
+  EXPECT_TRUE(drum.layers.empty());  // up to I = 0.1
 }
 
 }  // namespace

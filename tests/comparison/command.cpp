@@ -3,9 +3,12 @@
 
 #include "apps/support/commands.hpp"
 #include "coupling/common/errors.hpp"
+#include "coupling/comparison/layers.hpp"
 #include "coupling/files/field_map_file.hpp"
+#include "particles/measurement/layers/bulk_scalars.hpp"
 #include "tests/comparison/example_maps.hpp"
 #include "tests/comparison/run_folders.hpp"
+#include "tests/comparison/shear_example.hpp"
 
 namespace drumlin::apps {
 using namespace coupling;
@@ -18,10 +21,13 @@ using testing::example_flow;
 using testing::example_map;
 using testing::example_measured;
 using testing::example_profiles;
+using testing::example_scales;
 using testing::flow_folder;
 using testing::Json;
 using testing::measured_folder;
 using testing::message_of;
+using testing::sheared_continuum;
+using testing::sheared_packing;
 using testing::TemporaryFolder;
 
 CompareOptions options_for(const TemporaryFolder& folder, const fs::path& run, const fs::path& flow) {
@@ -119,6 +125,70 @@ TEST(CompareCommand, LeavesAReportWithBandsAndFloorAndWhatIsMissingIsNull) {
   EXPECT_EQ(report["cost_ratio"]["processor"], 50.0);
   EXPECT_TRUE(fs::exists(folder / "report/overlay.csv") && !fs::exists(folder / "report/figures.pending"));
   EXPECT_NE(file_text(folder / "report/index.html").find("data:image/png;base64,"), std::string::npos);
+}
+
+/// Folders of plane shear as `drumlin measure` and `drumlin flow` leave them.
+fs::path measured_shear(const TemporaryFolder& folder, const std::string& name) {
+  Json measured = example_measured();
+  measured["reduced"] = true;
+  measured["bulk_mu"] = {{"value", 0.3}, {"ci99", 0.01}};
+  measured["settings"] = {{"scales", example_scales()}};
+  measured["settings"]["scales"]["length_m"] = 0.002;
+  return measured_folder(folder, name, sheared_packing(), measured);
+}
+
+Json shear_flow() {
+  Json flow = example_flow();
+  flow["reduced"] = true;
+  flow["geometry"] = "plane_shear";
+  flow["settings"] = {{"scales", example_scales()}};
+  flow["settings"]["scales"]["length_m"] = 0.002;
+  return flow;
+}
+
+TEST(CompareCommand, ComparesLayersOfAnyGeometryThatBothSidesShare) {
+  const TemporaryFolder folder;
+  ProfileSet continuum = sheared_continuum();
+  for (double& value : column_of(continuum, "v_x").value) value *= 1.2;
+  // A flow between plates has neither a drum nor a slope.
+  for (const char* key : {"theta_deg", "rotation", "drum_radius"})
+    testing::erase_entry(continuum.header, key);
+  CompareOptions options = options_for(folder, measured_shear(folder, "run"),
+                                       flow_folder(folder, "flow", continuum, shear_flow()));
+  options.floor = measured_shear(folder, "seed2");
+  EXPECT_EQ(compare(options), 0);
+  const Json report = Json::parse(file_text(folder / "report/comparison.json"));
+  EXPECT_EQ(report["format"], "drumlin-layer-comparison-1");
+  EXPECT_EQ(report["geometry"], "plane_shear");
+  EXPECT_EQ(report["registration"]["by"], "base");
+  EXPECT_NEAR(report["errors"]["v_x"]["bulk"]["rel_l2"].get<double>(), 0.2, 1e-9);
+  EXPECT_EQ(report["errors"]["v_x"]["bulk"]["floor_rel_l2"], 0.0);
+  EXPECT_EQ(report["scalars"]["bulk_mu"]["particles"]["ci99"], 0.01);
+  for (const char* file : {"overlay.csv", "profiles.png", "ratios.png", "law.png"})
+    EXPECT_TRUE(fs::exists(folder / "report" / file)) << file;
+  EXPECT_FALSE(fs::exists(folder / "report/figures.pending"));
+  EXPECT_NE(file_text(folder / "report/index.html").find("between two rough plates"), std::string::npos);
+}
+
+TEST(CompareCommand, RefusesTwoGeometriesWithBothNames) {
+  const TemporaryFolder folder;
+  const fs::path shear = measured_shear(folder, "shear"), drum = flow_folder(folder, "drum");
+  expect_refused(folder, options_for(folder, shear, drum), {"geometry", "plane_shear", "drum"});
+}
+
+TEST(CompareCommand, BulkOfLayersIsThatOfTheMeasurement) {
+  const ProfileSet packing = sheared_packing();
+  const ScalarSet measured = particles::bulk_scalars(packing, *packing.header.wall_z, 4);
+  const LayerComparison comparison =
+      compare_layers(testing::shear_side(packing), testing::shear_side(packing), Registration::axis);
+  int found = 0;
+  for (const Scalar& scalar : measured.scalars)
+    for (const ScalarPair& pair : comparison.scalars) {
+      if (pair.name != scalar.name) continue;
+      EXPECT_DOUBLE_EQ(pair.particles, scalar.value) << pair.name;
+      ++found;
+    }
+  EXPECT_EQ(found, 6);
 }
 
 }  // namespace

@@ -154,5 +154,49 @@ TEST(Layers, SceneWithoutSpinHasNoColumnOfIt) {
   EXPECT_TRUE(std::isnan(result.scalars.value("spin_over_half_vorticity")));
 }
 
+TEST(Layers, GravityTellsWhichContinuumTheyHave) {
+  EXPECT_EQ(geometry_of_layers(0, 0), "plane_shear");
+  EXPECT_EQ(geometry_of_layers(std::sin(0.3), -std::cos(0.3)), "incline");
+  EXPECT_EQ(geometry_of_layers(1, 0), "chute");
+  EXPECT_EQ(geometry_of_layers(1, -1e-16), "chute");
+  EXPECT_EQ(geometry_of_layers(1e-16, -1), "");  // a level bed
+  EXPECT_EQ(geometry_of_layers(-0.3, -1), "");   // down towards -x
+}
+
+TEST(Layers, GrainsOfSeveralDensitiesCountByTheirMasses) {
+  Snapshot snapshot = stacked_columns(6, 20, 0);
+  for (std::size_t i = 0; i < snapshot.x.size(); ++i) {
+    // Columns in turn: density 1 at the speed 1, density 3 at the speed -1.
+    const bool heavy = static_cast<int>(std::floor(snapshot.x[i])) % 2 != 0;
+    snapshot.v_x[i] = heavy ? -1 : 1;
+    snapshot.mass.push_back((heavy ? 3 : 1) * std::numbers::pi / 4);
+  }
+  const Measurement result = measurement_of(snapshot);
+  const double nu = std::numbers::pi / 4;
+  // About the speed of the centre of mass, -1/2: (1 * 1.5^2 + 3 * 0.5^2)/2 per unit of nu.
+  EXPECT_NEAR(result.profiles.column("sigma_xx_kinetic").value[10], nu * 1.5, 1e-12);
+  EXPECT_NEAR(result.profiles.column("nu").value[10], nu, 1e-12);
+  EXPECT_NEAR(result.profiles.column("density").value[10], 2 * nu, 1e-12);
+  EXPECT_NEAR(result.profiles.column("v_x").value[10], 0, 1e-12);
+}
+
+TEST(Layers, OneDensityHasNoColumnOfItAndOneThatIsSaidChangesNothing) {
+  Snapshot snapshot = stacked_columns(6, 20, 0);
+  for (std::size_t i = 0; i < snapshot.x.size(); ++i) snapshot.v_x[i] = 0.1 * static_cast<double>(i % 7);
+  const Measurement plain = measurement_of(snapshot);
+  EXPECT_EQ(plain.profiles.find("density"), nullptr);
+  snapshot.mass.assign(snapshot.x.size(), std::numbers::pi / 4);
+  const Measurement said = measurement_of(snapshot);
+  for (const ProfileColumn& column : plain.profiles.columns) {
+    const auto& same = said.profiles.column(column.name).value;
+    for (std::size_t l = 1; l + 1 < same.size(); ++l) {
+      EXPECT_EQ(std::isfinite(same[l]), std::isfinite(column.value[l])) << column.name;
+      if (std::isfinite(same[l])) {
+        EXPECT_NEAR(same[l], column.value[l], 1e-12) << column.name;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace drumlin

@@ -1,10 +1,12 @@
 #include "apps/commands/calibrate/calibration_json.hpp"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "apps/commands/calibrate/memory_json.hpp"
 #include "apps/commands/calibrate/nonlocal_json.hpp"
 #include "apps/support/json_file.hpp"
+#include "coupling/statistics/straight_line.hpp"
 
 namespace drumlin::apps {
 namespace {
@@ -87,6 +89,29 @@ Json one_law_json(const coupling::OneLaw& one) {
           {"speed", one.speed}};
 }
 
+/// nu over I of runs in layers, a point each; null without two of them.
+Json volume_fractions(const std::vector<coupling::RunEvidence>& runs) {
+  Json points = Json::array();
+  std::vector<double> I, nu;
+  for (const coupling::RunEvidence& run : runs) {
+    if (!run.in_layers || run.layers.empty()) continue;
+    double sum = 0;
+    for (const coupling::FrictionPoint& point : run.layers) sum += point.I;
+    I.push_back(sum / static_cast<double>(run.layers.size()));
+    nu.push_back(run.nu.value);
+    points.push_back({{"run", run.name},
+                      {"I", I.back()},
+                      {"nu", nu.back()},
+                      {"ci99", run.nu.ci99 ? Json(*run.nu.ci99) : Json()}});
+  }
+  const auto line = I.size() < 2 ? std::nullopt : statistics::fit_line(I, nu);
+  if (!line) return nullptr;
+  return {{"points", points},
+          {"at_rest", line->intercept},
+          {"slope", line->slope},
+          {"rms", std::sqrt(line->chi_squared / static_cast<double>(I.size()))}};
+}
+
 Json points_of_all(const coupling::Calibration& calibration) {
   Json json = Json::array();
   for (const auto* group : {&calibration.runs, &calibration.held_out})
@@ -122,6 +147,8 @@ Json calibration_json(const coupling::Calibration& calibration, const std::vecto
   json["one_law"] = calibration.one_law ? one_law_json(*calibration.one_law) : Json();
   if (calibration.memory) json["memory"] = memory_json(*calibration.memory, calibration.runs);
   if (calibration.nonlocal) json["nonlocal"] = nonlocal_json(*calibration.nonlocal);
+  if (const Json fractions = volume_fractions(calibration.runs); !fractions.is_null())
+    json["volume_fraction"] = fractions;
   json["unsteady"] = Json::array();
   for (const MeasuredRun& run : runs)
     for (const std::string& reason : run.unsteady)

@@ -17,6 +17,13 @@ namespace fs = std::filesystem;
 
 fs::path maps_of(const fs::path& run) { return run / "measured" / "maps.h5"; }
 
+/// Layers without a drum speak through their profiles: in maps their walls would count.
+bool is_in_layers(const fs::path& run) {
+  const fs::path profiles = run / "measured" / "profiles.csv";
+  return fs::exists(profiles) &&
+         !(number_or_nan(read_profiles(profiles).header, &RunHeader::drum_radius) > 0);
+}
+
 void require_same_frame(const FieldMap& map, const MeasuredRun& run) {
   for (const HeaderNumber number :
        {&RunHeader::theta_deg, &RunHeader::axis_depth, &RunHeader::drum_radius, &RunHeader::rotation}) {
@@ -62,6 +69,8 @@ coupling::EvidenceSource source_of(const CalibrateOptions& options) {
   all.insert(all.end(), options.validate.begin(), options.validate.end());
   const auto without =
       std::find_if(all.begin(), all.end(), [](const fs::path& run) { return !fs::exists(maps_of(run)); });
+  if (options.from == "auto" && !needs_maps && std::any_of(all.begin(), all.end(), is_in_layers))
+    return coupling::EvidenceSource::profiles;
   if (without == all.end()) return coupling::EvidenceSource::maps;
   if (options.from == "maps" || needs_maps)
     throw InputError(maps_of(*without).string() +

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "coupling/common/errors.hpp"
+#include "particles/bodies/bodies.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -65,17 +65,15 @@ void relative_velocities(const Snapshot& snapshot, VelocityKind kind, RelativeVe
 
 void to_flow_frame(const Snapshot& snapshot, const FlowFrame& frame, VelocityKind kind,
                    FlowSnapshot& result) {
-  if (!snapshot.mass.empty())
-    throw InputError(
-        "a snapshot has grains with a density of their own: profiles and maps take masses from radii "
-        "(allowed: "
-        "grains of one density; drumlin history takes true masses)");
   const std::size_t count = snapshot.x.size();
   RelativeVelocities velocity{std::move(result.v_x), std::move(result.v_z)};
   relative_velocities(snapshot, kind, velocity);
   result.x.resize(count);
   result.z.resize(count);
   result.radius = snapshot.radius;
+  result.density = snapshot.mass;
+  for (std::size_t i = 0; i < result.density.size(); ++i)
+    result.density[i] /= mass_of_disc(snapshot.radius[i]);
   for (std::size_t i = 0; i < count; ++i) {
     result.x[i] = frame.x_of(snapshot.x[i], snapshot.z[i]);
     result.z[i] = frame.z_of(snapshot.x[i], snapshot.z[i]);

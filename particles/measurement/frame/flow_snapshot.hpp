@@ -24,6 +24,7 @@ struct HalfBranch {
 struct FlowSnapshot {
   std::vector<double> x, z, radius, v_x, v_z;
   std::vector<double> spin;                 ///< empty when the scene has none
+  std::vector<double> density;              ///< of each grain, rho0; empty when all have 1
   std::vector<std::uint16_t> coordination;  ///< loaded contacts, those with walls included
   std::vector<HalfBranch> half_branches;
   bool contacts_known = true;  ///< false: half_branches and coordination say nothing
@@ -34,8 +35,7 @@ enum class VelocityKind { window, instantaneous };
 
 /// `window`: displacement over the stored window / window, the drum's own turn taken out exactly; a snapshot
 /// without displacements has only the instantaneous velocity. Overwrites `result`, whose memory is used
-/// again. Throws InputError for grains with a density of their own: what is made of it takes masses from
-/// radii.
+/// again.
 void to_flow_frame(const Snapshot& snapshot, const FlowFrame& frame, VelocityKind kind, FlowSnapshot& result);
 
 /// Velocities of the grains relative to a frame that turns with the container (the laboratory without one),

@@ -29,7 +29,8 @@ void add_kinetic_stress(const FlowSnapshot& in_frame, const std::vector<double>&
   for (std::size_t i = 0; i < cell_area.size(); ++i) {
     const auto mean = mean_velocity.at(in_frame.x[i], in_frame.z[i]);
     const double c_x = in_frame.v_x[i] - mean[0], c_z = in_frame.v_z[i] - mean[1];
-    const double density = pi * in_frame.radius[i] * in_frame.radius[i] / cell_area[i];
+    const double fraction = pi * in_frame.radius[i] * in_frame.radius[i] / cell_area[i];
+    const double density = in_frame.density.empty() ? fraction : in_frame.density[i] * fraction;
     stress.xx.push_back(density * c_x * c_x);
     stress.zz.push_back(density * c_z * c_z);
     stress.xz.push_back(-density * c_x * c_z);
@@ -66,9 +67,11 @@ GrainFields grain_fields(const Snapshot& snapshot, const FlowSnapshot& in_frame,
     assert(mean_velocity != nullptr);
     add_kinetic_stress(in_frame, area, *mean_velocity, fields.kinetic);
   }
-  for (std::size_t i = 0; i < count && rotates; ++i)
+  for (std::size_t i = 0; i < count && rotates; ++i) {
     fields.rotational.push_back(pi / 4 * std::pow(in_frame.radius[i], 4) * in_frame.spin[i] *
                                 in_frame.spin[i] / area[i]);
+    if (!in_frame.density.empty()) fields.rotational.back() *= in_frame.density[i];
+  }
   if (wanted.has(GrainField::coordination) && in_frame.contacts_known)
     fields.coordination.assign(in_frame.coordination.begin(), in_frame.coordination.end());
   if (wanted.has(GrainField::cell)) fields.cell_area = std::move(area);

@@ -46,6 +46,25 @@ VelocityMoments velocity_moments(const LayerSum& sum, double shear_rate) {
           covariance(sum.v_x_v_z, sum.v_x, sum.v_z, n)};
 }
 
+/// The moments that a kinetic stress takes: per unit of nu. Grains of several densities count by their mass
+/// per area, about the velocity of their centre of mass.
+VelocityMoments stress_moments(const LayerSum& sum, double shear_rate) {
+  if (sum.density == 0) return velocity_moments(sum, shear_rate);
+  LayerSum dense;
+  dense.grains = sum.density;
+  dense.zeta = sum.dense_zeta;
+  dense.v_x = sum.dense_v_x;
+  dense.v_z = sum.dense_v_z;
+  dense.zeta_zeta = sum.dense_zeta_zeta;
+  dense.zeta_v_x = sum.dense_zeta_v_x;
+  dense.v_x_v_x = sum.dense_v_x_v_x;
+  dense.v_z_v_z = sum.dense_v_z_v_z;
+  dense.v_x_v_z = sum.dense_v_x_v_z;
+  const VelocityMoments of_mass = velocity_moments(dense, shear_rate);
+  const double mean_density = sum.density / sum.grains;
+  return {mean_density * of_mass.xx, mean_density * of_mass.zz, mean_density * of_mass.xz};
+}
+
 /// Slope of v_z over x within a layer: the other half of the vorticity.
 double normal_velocity_slope(const LayerSum& sum) {
   const double spread = covariance(sum.x_x, sum.x, sum.x, sum.grains);
@@ -81,6 +100,11 @@ void add_kinematics(Columns& columns) {
   columns.add("nu", [&](std::size_t l, const LayerSum&) {
     return volume_fraction(columns.grid, columns.sums, columns.first + l);
   });
+  if (!columns.sums.with_densities) return;
+  columns.add("density", [&](std::size_t l, const LayerSum& sum) {
+    const double area = columns.grid.area[columns.first + l] * static_cast<double>(columns.sums.snapshots);
+    return area > 0 ? sum.covered_mass / area : none;
+  });
 }
 
 /// Total stress = contact + kinetic. The rotational part stands beside them: momentum is balanced by the
@@ -90,7 +114,7 @@ void add_stresses(Columns& columns) {
   const auto nu = columns.of("nu");
   const auto kinetic = [&](double VelocityMoments::*moment) {
     return [&rate, &nu, moment](std::size_t l, const LayerSum& sum) {
-      return sum.grains > 0 ? nu[l] * velocity_moments(sum, rate[l]).*moment : 0.0;
+      return sum.grains > 0 ? nu[l] * stress_moments(sum, rate[l]).*moment : 0.0;
     };
   };
   columns.add("sigma_xx_kinetic", kinetic(&VelocityMoments::xx));

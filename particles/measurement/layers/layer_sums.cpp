@@ -31,20 +31,31 @@ void for_each_sum(LayerSum& a, const LayerSum& b, Action action) {
                       &LayerSum::force_z_branch_x,
                       &LayerSum::force_z_branch_z,
                       &LayerSum::contacts,
-                      &LayerSum::rotation})
+                      &LayerSum::rotation,
+                      &LayerSum::covered_mass,
+                      &LayerSum::density,
+                      &LayerSum::dense_zeta,
+                      &LayerSum::dense_v_x,
+                      &LayerSum::dense_v_z,
+                      &LayerSum::dense_zeta_zeta,
+                      &LayerSum::dense_zeta_v_x,
+                      &LayerSum::dense_v_x_v_x,
+                      &LayerSum::dense_v_z_v_z,
+                      &LayerSum::dense_v_x_v_z})
     action(a.*member, b.*member);
 }
 
-/// Adds the area of a disc that reaches into the slice to its layers.
-void add_covered_area(const LayerGrid& grid, double x, double z, double radius,
-                      std::vector<LayerSum>& layers) {
+/// Adds the area of a disc that reaches into the slice to its layers, and its mass where it has a density.
+template <class Add>
+void share_covered_area(const LayerGrid& grid, double x, double z, double radius,
+                        std::vector<LayerSum>& layers, Add add) {
   const auto layer_count = static_cast<double>(layers.size());
   const double first = std::max(0.0, std::floor((z - radius - grid.z_min) / grid.thickness));
   const double end = std::min(layer_count, std::ceil((z + radius - grid.z_min) / grid.thickness));
   if (x - radius < grid.x_min || x + radius > grid.x_max) {
     for (double layer = first; layer < end; ++layer) {
       const auto index = static_cast<std::size_t>(layer);
-      layers[index].covered += disc_area_in(x, z, radius, grid.rectangle(index));
+      add(layers[index], disc_area_in(x, z, radius, grid.rectangle(index)));
     }
     return;
   }
@@ -52,16 +63,37 @@ void add_covered_area(const LayerGrid& grid, double x, double z, double radius,
   double below = disc_area_left_of(radius, grid.z_min + first * grid.thickness - z);
   for (double layer = first; layer < end; ++layer) {
     const double up_to = disc_area_left_of(radius, grid.z_min + (layer + 1) * grid.thickness - z);
-    layers[static_cast<std::size_t>(layer)].covered += up_to - below;
+    add(layers[static_cast<std::size_t>(layer)], up_to - below);
     below = up_to;
   }
+}
+
+/// What the kinetic stress of grains of several densities needs.
+void add_dense_moments(double density, double zeta, double v_x, double v_z, LayerSum& sum) {
+  sum.density += density;
+  sum.dense_zeta += density * zeta;
+  sum.dense_v_x += density * v_x;
+  sum.dense_v_z += density * v_z;
+  sum.dense_zeta_zeta += density * zeta * zeta;
+  sum.dense_zeta_v_x += density * zeta * v_x;
+  sum.dense_v_x_v_x += density * v_x * v_x;
+  sum.dense_v_z_v_z += density * v_z * v_z;
+  sum.dense_v_x_v_z += density * v_x * v_z;
 }
 
 void add_grain(const LayerGrid& grid, const FlowSnapshot& snapshot, std::size_t i,
                std::vector<LayerSum>& layers) {
   const double x = snapshot.x[i], z = snapshot.z[i], radius = snapshot.radius[i];
   if (x + radius <= grid.x_min || x - radius >= grid.x_max) return;
-  add_covered_area(grid, x, z, radius, layers);
+  const bool dense = !snapshot.density.empty();
+  const double density = dense ? snapshot.density[i] : 1;
+  if (dense)
+    share_covered_area(grid, x, z, radius, layers, [density](LayerSum& sum, double area) {
+      sum.covered += area;
+      sum.covered_mass += density * area;
+    });
+  else
+    share_covered_area(grid, x, z, radius, layers, [](LayerSum& sum, double area) { sum.covered += area; });
   const double place = std::floor((z - grid.z_min) / grid.thickness);
   if (x < grid.x_min || x > grid.x_max || place < 0 || place >= static_cast<double>(layers.size())) return;
 
@@ -82,11 +114,13 @@ void add_grain(const LayerGrid& grid, const FlowSnapshot& snapshot, std::size_t 
   sum.v_z_v_z += v_z * v_z;
   sum.v_x_v_z += v_x * v_z;
   sum.contacts += snapshot.coordination[i];
+  if (dense) add_dense_moments(density, zeta, v_x, v_z, sum);
   if (snapshot.spin.empty()) return;
   const double spin = snapshot.spin[i];
   sum.spin += spin;
   sum.spin_spin += spin * spin;
-  sum.rotation += std::numbers::pi / 4 * std::pow(radius, 4) * spin * spin;
+  const double energy = std::numbers::pi / 4 * std::pow(radius, 4) * spin * spin;
+  sum.rotation += dense ? density * energy : energy;
 }
 
 /// Shares a half branch out among the layers in proportion to its length in each, cut at the sides of the
@@ -179,6 +213,7 @@ void add_snapshot(const LayerGrid& grid, const FlowSnapshot& snapshot, LayerSums
   for (std::size_t i = 0; i < snapshot.x.size(); ++i) add_grain(grid, snapshot, i, sums.layers);
   for (const HalfBranch& branch : snapshot.half_branches) add_half_branch(grid, branch, sums.layers);
   sums.with_spin = sums.with_spin && !snapshot.spin.empty();
+  sums.with_densities = sums.with_densities || !snapshot.density.empty();
   sums.with_contacts = sums.with_contacts && snapshot.contacts_known;
   ++sums.snapshots;
 }

@@ -38,7 +38,12 @@ struct LayerSum {
   /// to its centre, so that repulsion counts positive.
   double force_x_branch_x = 0, force_x_branch_z = 0, force_z_branch_x = 0, force_z_branch_z = 0;
   double contacts = 0;  ///< loaded contacts of the grains counted
-  double rotation = 0;  ///< sum of J spin^2 / 2 over them, J = pi r^4 / 2 the moment of inertia
+  double rotation = 0;  ///< sum of J spin^2 / 2 over them, J = m r^2 / 2 the moment of inertia
+  /// Of grains with densities of their own, else 0: mass of the covered area, sum of the densities, and the
+  /// sums of the same names with each grain counted by its density.
+  double covered_mass = 0, density = 0;
+  double dense_zeta = 0, dense_v_x = 0, dense_v_z = 0, dense_zeta_zeta = 0, dense_zeta_v_x = 0;
+  double dense_v_x_v_x = 0, dense_v_z_v_z = 0, dense_v_x_v_z = 0;
 
   LayerSum& operator+=(const LayerSum& other);
   LayerSum& operator-=(const LayerSum& other);
@@ -48,8 +53,9 @@ struct LayerSum {
 struct LayerSums {
   std::vector<LayerSum> layers;
   std::size_t snapshots = 0;
-  bool with_spin = true;      ///< false: the scene has no spin
-  bool with_contacts = true;  ///< false: the snapshots do not know them
+  bool with_spin = true;        ///< false: the scene has no spin
+  bool with_contacts = true;    ///< false: the snapshots do not know them
+  bool with_densities = false;  ///< grains have densities of their own
 
   LayerSums& operator+=(const LayerSums& other);
   LayerSums& operator-=(const LayerSums& other);

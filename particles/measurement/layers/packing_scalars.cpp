@@ -143,11 +143,13 @@ ScalarSet packing_scalars(const ProfileSet& profiles, const ProfilePlace& place,
   const Zone whole{wall, -2};
   const auto& nu = profiles.column("nu").value;
   const double nu_bulk = zone_mean(profiles, bulk, "nu");
+  // Mass per area: nu, where all grains have one density.
+  const double weight = profiles.find("density") ? zone_mean(profiles, bulk, "density") : nu_bulk;
   const auto over_weight = [&](const std::string& name, Zone zone, double share) {
     const auto& stress = profiles.column(name).value;
     zone.top = std::min(zone.top, -2.0);  // above it the surface's own width is most of the weight
     return zone_mean_of(profiles, zone,
-                        [&](std::size_t l) { return stress[l] / (-profiles.z[l] * nu_bulk * share); });
+                        [&](std::size_t l) { return stress[l] / (-profiles.z[l] * weight * share); });
   };
   const double cosine = std::cos(place.frame_angle), sine = std::sin(place.frame_angle);
   const Largest k = largest_k(profiles, {wall, -fits.H});

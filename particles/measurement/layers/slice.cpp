@@ -71,6 +71,7 @@ LayerSums total_of(const Slice& slice) {
   for (std::size_t b = 1; b < slice.batches.size(); ++b) {
     total += slice.batches[b];
     total.with_spin = total.with_spin && slice.batches[b].with_spin;
+    total.with_densities = total.with_densities || slice.batches[b].with_densities;
     total.with_contacts = total.with_contacts && slice.batches[b].with_contacts;
   }
   return total;

@@ -137,6 +137,11 @@ MapSums empty_sums(const CoarseGraining& graining) {
 }
 
 void MapDepositor::add(const Snapshot& snapshot, const FlowSnapshot& in_frame, MapSums& sums) {
+  if (!in_frame.density.empty())
+    throw InputError(
+        "a snapshot has grains with a density of their own, and maps take masses from radii (allowed: grains "
+        "of "
+        "one density; drumlin measure RUN --parts with parts other than maps)");
   Canvas canvas(graining_, sums.nodes);
   const FlowFrame& frame = graining_.frame;
   force_x_.assign(in_frame.x.size(), 0.0);

@@ -1,0 +1,92 @@
+// The report of `drumlin compare` on two runs of one drum.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/commands/compare_overlays.hpp"
+#include "apps/commands/compare_record.hpp"
+#include "apps/support/comparison_json.hpp"
+#include "apps/support/paper_data.hpp"
+#include "coupling/comparison/paper_table.hpp"
+
+namespace drumlin::apps {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+Json content_of(const ComparedRuns& runs, const coupling::Comparison& comparison,
+                const coupling::Comparison* floor, const coupling::ComparisonOptions& options) {
+  const ProfileSet& profiles = runs.first.compared.profiles;
+  Json content{{"format", "drumlin-comparison-1"},
+               {"title", title_of(runs)},
+               {"reduced", profiles.header.reduced.value()}};
+  add_comparison(content, comparison, floor);
+  const auto speed = coupling::paper_speed_rpm(profiles, paper_data_folder());
+  add_paper(
+      content, speed,
+      speed ? coupling::paper_table(coupling::paper_numbers(paper_data_folder(), *speed), comparison.scalars)
+            : std::vector<coupling::PaperRow>());
+  add_costs(content, runs);
+  content["settings"] = {{"surface_margin", options.zones.surface_margin},
+                         {"wall_margin", options.zones.wall_margin},
+                         {"register", name_of(options.registration)}};
+  add_origins(content, runs);
+  return content;
+}
+
+/// The scripts read comparison.json and the overlays.
+std::vector<FigureScript> figures_of(const ComparedRuns& runs, const fs::path& output, const fs::path& json) {
+  std::vector<std::string> words{"--comparison", json.string(), "--output", output.string()};
+  if (!runs.first.snapshot.empty()) {
+    words.insert(words.end(), {"--snapshot", runs.first.snapshot.string()});
+    if (!runs.second.maps_file.empty()) words.insert(words.end(), {"--maps", runs.second.maps_file.string()});
+  }
+  std::vector<FigureScript> figures{{"compare_figures.py", words}};
+  // They are of full drums, and a reduced run shows no more than that the chain works.
+  const bool reduced = runs.first.compared.profiles.header.reduced.value();
+  if (!reduced && fs::is_directory(cost_data_folder()))
+    figures.push_back({"report_costs.py", {cost_data_folder().string(), output.string()}});
+  return figures;
+}
+
+std::string short_number(const Json& value) {
+  return value.is_number() ? fmt::format("{:.3g}", value.get<double>()) : value.dump();
+}
+
+std::string summary_of(const Json& content) {
+  const Json& counts = content["verdict"];
+  std::string text =
+      fmt::format("{}\ntargets: {} met, {} missed, {} not measured\n", content["title"].get<std::string>(),
+                  counts["met"].get<int>(), counts["missed"].get<int>(), counts["not_measured"].get<int>());
+  for (const auto& target : content["targets"])
+    if (target["outcome"] == "missed")
+      text += fmt::format("  missed: {} {}: {} (limit {} {}) {}\n", target["quantity"].get<std::string>(),
+                          target.value("zone", std::string()), short_number(target["value"]),
+                          short_number(target["limit"]), target["measure"].get<std::string>(),
+                          target.value("remark", std::string()));
+  return text + unsteady_text(content);
+}
+
+}  // namespace
+
+ComparisonReport drum_report(const ComparedRuns& runs, const CompareOptions& options) {
+  const coupling::ComparisonOptions how{
+      options.registration == "surface" ? coupling::Registration::surface : coupling::Registration::axis, {}};
+  const coupling::Comparison comparison = compare(runs.first.compared, runs.second.compared, how);
+  std::optional<coupling::Comparison> floor;
+  if (runs.floor) floor = compare(runs.first.compared, runs.floor->compared, how);
+  ComparisonReport report{
+      content_of(runs, comparison, floor ? &*floor : nullptr, how), "comparison", "", {}, {}};
+  report.summary = summary_of(report.content);
+  report.write_overlays = [&runs, comparison](const fs::path& folder) {
+    write_overlays(folder, runs.first.compared, runs.second.compared, comparison);
+  };
+  report.figures = [&runs](const fs::path& folder, const fs::path& json) {
+    return figures_of(runs, folder, json);
+  };
+  return report;
+}
+
+}  // namespace drumlin::apps

@@ -1,0 +1,135 @@
+"""Figures of `drumlin compare` on flows in layers, from the overlay that it wrote: both sides over height, with their 99 % bands."""
+
+import argparse
+import pathlib
+
+import h5py
+import matplotlib.collections
+import matplotlib.patches
+import matplotlib.pyplot as plt
+import numpy as np
+
+import script
+import style
+
+COLOURS = {"particles": style.PARTICLES, "continuum": style.CONTINUUM}
+WIDE = 1.2  # of a picture, over the height of its layer
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--comparison", required=True, help="comparison.json, or what will become it")
+    parser.add_argument("--output", required=True, type=pathlib.Path, help="folder of the overlay, and for the figures")
+    parser.add_argument("--snapshot", help="snapshot of the first side to draw")
+    return parser.parse_args()
+
+
+def names_of(comparison):
+    """What the two sides are called in legends."""
+    sides = {key: comparison[key] for key in COLOURS}
+    kinds = [side["kind"] for side in sides.values()]
+    return {key: side["kind"] if kinds[0] != kinds[1] else style.plain(f"{side['kind']}: {side['name']}", 40) for key, side in sides.items()}
+
+
+def between(comparison, z):
+    """Which layers lie between base and top, and which of them in the bulk."""
+    zones = comparison["zones"]
+    return tuple((z >= zones[name]["from"]) & (z <= zones[name]["to"]) for name in ("all", "bulk"))
+
+
+def over_height(columns, comparison, fields):
+    """A panel per field, side by side, z upwards. None where no side has any of them."""
+    fields = [field for field in fields if field + "_particles" in columns]
+    if not fields:
+        return None
+    z = np.asarray(columns["z"])
+    whole, bulk = between(comparison, z)
+    figure, row = plt.subplots(1, len(fields), figsize=(3.2 * len(fields), 5.2), squeeze=False, sharey=True)
+    for axes, field in zip(row[0], fields):
+        for side, name in names_of(comparison).items():
+            values = np.asarray(columns[f"{field}_{side}"])
+            half_width = np.asarray(columns.get(f"{field}_{side}_ci99", np.full(len(z), np.nan)))
+            axes.plot(values[whole], z[whole], "o-" if comparison[side]["kind"] == "particles" else "-", color=COLOURS[side], label=name)
+            axes.fill_betweenx(z[whole], (values - half_width)[whole], (values + half_width)[whole], color=COLOURS[side], alpha=0.25, linewidth=0)
+        if bulk.any():
+            axes.axhspan(z[whole][0] - 0.5, z[bulk][0] - 0.5, color="0.93", zorder=0)
+            axes.axhspan(z[bulk][-1] + 0.5, z[whole][-1] + 0.5, color="0.93", zorder=0)
+        axes.set_xlabel(style.LABELS[field])
+    row[0][0].set_ylabel(style.LABELS["z"])
+    row[0][0].legend()
+    return figure
+
+
+def law(columns, comparison):
+    """mu over I of the layers: full symbols in the bulk."""
+    _, bulk = between(comparison, np.asarray(columns["z"]))
+    figure, axes = plt.subplots()
+    for (side, name), marker in zip(names_of(comparison).items(), "os"):
+        inertial, mu = (np.asarray(columns[f"{field}_{side}"]) for field in ("I", "mu"))
+        shears = inertial > 0
+        axes.plot(inertial[shears & bulk], mu[shears & bulk], marker, color=COLOURS[side], label=name)
+        axes.plot(inertial[shears & ~bulk], mu[shears & ~bulk], marker, color=COLOURS[side], fillstyle="none")
+    style.log_scale(axes, "x")
+    axes.set_ylim(0, 1.2 * np.nanmax([columns[f"mu_{side}"] for side in COLOURS]))
+    axes.set_xlabel(style.LABELS["I"])
+    axes.set_ylabel(style.LABELS["mu"])
+    axes.legend()
+    return figure
+
+
+def read_grains(path, base):
+    """Centres over the period and above the lowest layer, radii and speeds of a snapshot of a periodic domain."""
+    with h5py.File(path) as snapshot:
+        grains = {name: snapshot["grains/" + name][:] for name in ("x", "z", "v_x", "v_z", "radius")}
+        period = snapshot["period_x"][0]
+    return {"x": np.mod(grains["x"], period), "z": grains["z"] - (grains["z"] - grains["radius"]).min() + base, "radius": grains["radius"],
+            "speed": np.hypot(grains["v_x"], grains["v_z"]), "period": period}
+
+
+def picture(columns, comparison, snapshot):
+    """Grains on the left, the mean speed of the second side on the right, one colour scale."""
+    z, speed = np.asarray(columns["z"]), np.asarray(columns["v_x_continuum"])
+    known = np.isfinite(speed)
+    zones = comparison["zones"]
+    grains = read_grains(snapshot, zones["all"]["from"])
+    width = min(grains["period"], WIDE * comparison["registration"]["particles"]["height"])
+    shown = grains["x"] < width
+    scale = plt.Normalize(0, np.nanmax([np.quantile(grains["speed"], 0.99), speed[known].max()]))
+    figure, row = plt.subplots(1, 2, figsize=(11, 5.6), sharey=True)
+    discs = [matplotlib.patches.Circle(place, radius) for *place, radius in
+             zip(grains["x"][shown], grains["z"][shown], grains["radius"][shown])]
+    image = matplotlib.collections.PatchCollection(discs, cmap="viridis", norm=scale, linewidths=0)
+    image.set_array(grains["speed"][shown])
+    row[0].add_collection(image)
+    row[1].pcolormesh([0, width], np.append(z[known] - 0.5, z[known][-1] + 0.5), speed[known][:, None], cmap="viridis", norm=scale)
+    for axes, name in zip(row, names_of(comparison).values()):
+        for end in ("from", "to"):
+            axes.axhline(zones["bulk"][end], color="0.3", linestyle="--", linewidth=1)
+        axes.set(xlim=(0, width), ylim=(zones["all"]["from"] - 1, zones["all"]["to"] + 2), aspect="equal", title=name, xlabel=r"$x$  [$d$]")
+        axes.grid(False)
+    row[0].set_ylabel(style.LABELS["z"])
+    figure.colorbar(image, ax=row, label=r"speed  [$\sqrt{gd}$]", shrink=0.85)
+    return figure
+
+
+def main():
+    options = arguments()
+    style.use_style()
+    comparison = script.content_of(options.comparison)
+    _, columns = style.read_profiles(options.output / "overlay.csv")
+    drawings = {"profiles": lambda: over_height(columns, comparison, ["v_x", "shear_rate", "sigma_zz", "sigma_xz", "sigma_xx"]),
+                "ratios": lambda: over_height(columns, comparison, ["mu", "I", "k", "nu"]),
+                "law": lambda: law(columns, comparison)}
+    if options.snapshot:
+        drawings["picture"] = lambda: picture(columns, comparison, options.snapshot)
+
+    def save(name):
+        figure = drawings[name]()
+        if figure is not None:
+            style.save(figure, options.output / f"{name}.png", comparison["reduced"])
+
+    script.draw_each({name: lambda name=name: save(name) for name in drawings})
+
+
+if __name__ == "__main__":
+    main()
