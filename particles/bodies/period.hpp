@@ -42,9 +42,7 @@ struct Period {
     return {first(p.x), p.z};
   }
   /// Velocity of an image that is displaced by `shift`.
-  Point image_velocity(Point shift) const {
-    return {rate_x * shift.x + shear * shift.z, rate_z * shift.z};
-  }
+  Point image_velocity(Point shift) const { return {rate_x * shift.x + shear * shift.z, rate_z * shift.z}; }
 };
 
 }  // namespace drumlin::particles

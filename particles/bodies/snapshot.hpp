@@ -58,8 +58,8 @@ struct Snapshot {
   std::vector<SnapshotContact> contacts;  ///< contacts that carry an impulse
   /// Identities, ascending and never given twice; empty where the number of grains cannot change.
   std::vector<std::int64_t> id;
-  std::vector<double> mass;    ///< empty where it is that of the radius, pi r^2
-  bool contacts_known = true;  ///< false: the program that made it did not say where they are
+  std::vector<double> mass;               ///< empty where it is that of the radius, pi r^2
+  bool contacts_known = true;             ///< false: the program that made it did not say where they are
   std::optional<SnapshotCell> cell = {};  ///< only in a domain that is periodic in z too
 };
 

@@ -1,6 +1,7 @@
 #pragma once
-// W = H M^-1 H^T of discs with rolling resistance, of walls that contacts push, and of a cell under pressure. Scenes without these
-// effects use BodyDelassus and pay nothing for them. Contact after contact, in the order of the problem.
+// W = H M^-1 H^T of discs with rolling resistance, of walls that contacts push, and of a cell under pressure.
+// Scenes without these effects use BodyDelassus and pay nothing for them. Contact after contact, in the order
+// of the problem.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
@@ -86,9 +87,9 @@ class GeneralDelassus {
   std::vector<double> lever;         ///< R_eff / r_i = r_j / (r_i + r_j), 1 at a wall; empty without rolling
   std::vector<double> inverse_mass;  ///< of each body; 0 for the fixed one and the driven ones
   std::vector<DrivenBody> driven;
-  std::optional<CellBody> cell;         ///< excludes driven walls
-  std::vector<double> arm_x, arm_z;     ///< of contacts in a cell, from j to i; set before the contact
-  SweepPlan plan;  ///< of the contacts in their order
+  std::optional<CellBody> cell;      ///< excludes driven walls
+  std::vector<double> arm_x, arm_z;  ///< of contacts in a cell, from j to i; set before the contact
+  SweepPlan plan;                    ///< of the contacts in their order
 
   int contacts() const { return static_cast<int>(i.size()); }
   std::int32_t fixed() const {

@@ -17,7 +17,7 @@ namespace drumlin::particles {
 template <int dim>
 struct DrivenContact {
   using Impulse = std::array<double, dim>;
-  int contact = 0;               ///< of the problem
+  int contact = 0;            ///< of the problem
   std::int32_t i = 0, j = 0;  ///< records of the grain and of the wall; in a cell, of two grains
   std::int32_t cell = -1;     ///< record of the cell's rates; -1: none
   double n_x = 0, n_z = 0, lever = 1, largest_eigenvalue = 0;
