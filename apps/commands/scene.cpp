@@ -44,7 +44,10 @@ void check(const SceneOptions& options) {
   if (!scene.title.empty()) print_out(fmt::format("title      {}\n", scene.title));
   print_out(fmt::format("grains     {}, mean diameter {:.4g} mm, sqrt(d/g) {:.4g} s\n", grains,
                         scales.length_m * 1e3, scales.time_s));
-  print_out(fmt::format("walls      {} shapes{}\n", shapes, scene.periodic_x ? ", periodic in x" : ""));
+  print_out(fmt::format("walls      {} shapes{}\n", shapes,
+                        scene.periodic_z   ? ", periodic in x and z"
+                        : scene.periodic_x ? ", periodic in x"
+                                           : ""));
   print_out(fmt::format("effects    {}; {} unknown{} per contact\n", effects_text(scene.effects), unknowns,
                         unknowns > 1 ? "s" : ""));
   print_out(fmt::format("solver     {}, tolerance {}, at most {} sweeps\n", scene.solver.name,

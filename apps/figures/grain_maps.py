@@ -42,12 +42,23 @@ class Grains:
             center = snapshot["container/x"][0], snapshot["container/z"][0]
             self.contacts = {name: snapshot["contacts/" + name][:] for name in ("i", "j", "normal_x", "normal_z")}
             self.force = snapshot["contacts/impulse_n"][:] / snapshot["time_step"][0]
+            # Lower left and upper right corner of a cell that is periodic in x and z, and what the image above is displaced by.
+            self.cell = self.offset = None
+            if "cell" in snapshot:
+                corner = np.array([snapshot["cell/x"][0], snapshot["cell/z"][0]])
+                self.cell = corner, corner + [snapshot["period_x"][0], snapshot["cell/height"][0]]
+                self.offset = snapshot["cell/offset"][0]
         # What numbers each grain for a colour by id or by material.
         self.id = grain_colours.id_of(frame["file"], len(self.x))
         materials = frame.get("materials")
         self.material = None if materials is None else np.asarray(materials)
         # In a drum that turns all the bulk moves: what flows shows in the frame of the drum.
         self.speed = np.hypot(v_x - self.drum_spin * (self.z - center[1]), v_z + self.drum_spin * (self.x - center[0]))
+        if self.cell is not None:
+            (_, bottom), (_, top) = self.cell
+            period = self.cell[0][0], self.cell[1][0]
+            cells = np.floor((self.z - bottom) / (top - bottom))
+            self.x, self.z = self.x - cells * self.offset, self.z - cells * (top - bottom)
         self.period = period
         if period is not None:
             self.x = period[0] + np.mod(self.x - period[0], period[1] - period[0])
@@ -69,6 +80,8 @@ class Grains:
         force = self.force
         if self.period is not None:  # what crosses the seam is seen at both ends
             across = ~wall & (np.abs(self.x[i] - self.x[np.where(wall, 0, j)]) > (self.period[1] - self.period[0]) / 2)
+            if self.cell is not None:
+                across |= ~wall & (np.abs(self.z[i] - self.z[np.where(wall, 0, j)]) > (self.cell[1][1] - self.cell[0][1]) / 2)
             other = centers[j[across]]
             lines = np.concatenate([lines, np.stack([other, other + reach[across, None] * normal[across]], axis=1)])
             force, wall = np.concatenate([force, force[across]]), np.concatenate([wall, wall[across]])
@@ -105,6 +118,9 @@ class View:
             low, high = np.minimum(low, box[0]), np.maximum(high, box[1])
         if snapshots[0].period is not None:
             low[0], high[0] = snapshots[0].period
+        if snapshots[0].cell is not None:  # it may grow and shrink
+            low = np.min([s.cell[0] - s.radius.max() for s in snapshots], axis=0)
+            high = np.max([s.cell[1] + s.radius.max() for s in snapshots], axis=0)
         margin = 0.01 * (high - low).max() + 0.2
         self.low, self.high = low - margin, high + margin
         if window is not None:
@@ -136,8 +152,9 @@ class View:
         figure.suptitle(style.title_of(f"{style.plain(drawing['title'])}\n{what}, t = {frame['time_s']:.2f} s{state}",
                                        drawing["reduced"]), fontsize=13)
 
-    def add_walls(self, axes, frame, period):
-        """Returns what was drawn, to be taken away before the next frame."""
+    def add_walls(self, axes, grains):
+        """Walls, and the borders of a periodic domain. Returns what was drawn, to be taken away before the next frame."""
+        frame, period = grains.frame, grains.period
         artists = []
         for wall in frame["walls"]:
             if wall["shape"] == "container":
@@ -160,7 +177,11 @@ class View:
                 if period is not None:
                     artist.set_clip_path(self.period_of_plane(axes, period))
                 artists.append(artist)
-        if period is not None:
+        if grains.cell is not None:
+            low, high = grains.cell
+            artists.append(axes.add_patch(matplotlib.patches.Rectangle(low, *(high - low), fill=False, edgecolor=WALL, linewidth=0.8,
+                                                                       linestyle=(0, (6, 6)))))
+        elif period is not None:
             artists += [axes.axvline(x, color=WALL, linewidth=0.8, linestyle=(0, (6, 6))) for x in period]
         return artists
 
@@ -193,7 +214,7 @@ def draw_colours(drawing, view, grains, colour):
     view.set_title(figure, drawing, colour.words, grains.frame, view.outside(grains) if drawing["window"] is None else 0)
     discs = view.add_grains(axes, grains, cmap=colour.cmap, norm=colour.norm, edgecolors=colour.edges)
     discs.set_array(colour.of(grains))
-    walls = view.add_walls(axes, grains.frame, grains.period)
+    walls = view.add_walls(axes, grains)
     colour.add_scale(figure, axes, discs)
     return figure, axes, discs, walls
 
@@ -206,7 +227,7 @@ def draw_still(drawing, view, grains, colour, path):
 def draw_chains(drawing, view, grains, path):
     figure, axes = view.axes(drawing, "force chains", grains.frame)
     view.add_grains(axes, grains, facecolors="0.93", edgecolors="0.8")
-    view.add_walls(axes, grains.frame, grains.period)
+    view.add_walls(axes, grains)
     lines, force, wall = grains.chains()
     points = min(MEAN_WIDTH * view.inches * 72, MOST_POINTS)
     mean = np.abs(force).mean() if len(force) else math.nan
@@ -279,7 +300,7 @@ def draw_animation(drawing, folder):
             discs.set_array(colour.of(grains))
             for artist in walls:
                 artist.remove()
-            walls = view.add_walls(axes, grains.frame, grains.period)
+            walls = view.add_walls(axes, grains)
             view.set_title(figure, drawing, colour.words, grains.frame,
                            view.outside(grains) if drawing["window"] is None else 0)
             writer.grab_frame()

@@ -36,6 +36,8 @@ def read_snapshot(file):
         result.update(i=contacts["i"][:], j=contacts["j"][:], normal=normal,
                       force_n=contacts["impulse_n"][:] / step, force_t=contacts["impulse_t"][:] / step)
         result["force"] = result["force_n"][:, None] * normal + result["force_t"][:, None] * tangent
+        if "cell" in stored:
+            result["cell"] = {name: stored["cell/" + name][0] for name in stored["cell"]}
         if "walls/x" in stored:
             result["walls"] = numpy.array([stored["walls/x"][:], stored["walls/z"][:]]).T
     result["mass"] = math.pi * result["radius"] ** 2

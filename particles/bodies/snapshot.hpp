@@ -2,6 +2,7 @@
 // The state of all grains at one instant, frozen: what a run leaves and what measurement reads.
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,6 +20,16 @@ struct SnapshotContact {
   float normal_z = 0;
   double impulse_n = 0;  ///< over the last step; divide by `time_step` for a force
   double impulse_t = 0;
+};
+
+/// A cell that is periodic in x and z at one instant: its lower left corner, its height (its length is
+/// Snapshot::period_x), the displacement of the image above along x, and the rates of all that: an image that
+/// is displaced by s moves at (rate_x s_x + shear s_z, rate_z s_z).
+struct SnapshotCell {
+  double x = 0, z = 0, height = 0;
+  double offset = 0;
+  double rate_x = 0, rate_z = 0, shear = 0;
+  bool operator==(const SnapshotCell&) const = default;
 };
 
 /// Dimensionless (d, sqrt(d/g), rho0 d^2 per unit depth for masses), laboratory frame, x to the right, z up.
@@ -47,8 +58,9 @@ struct Snapshot {
   std::vector<SnapshotContact> contacts;  ///< contacts that carry an impulse
   /// Identities, ascending and never given twice; empty where the number of grains cannot change.
   std::vector<std::int64_t> id;
-  std::vector<double> mass;    ///< empty where it is that of the radius, pi r^2
-  bool contacts_known = true;  ///< false: the program that made it did not say where they are
+  std::vector<double> mass;               ///< empty where it is that of the radius, pi r^2
+  bool contacts_known = true;             ///< false: the program that made it did not say where they are
+  std::optional<SnapshotCell> cell = {};  ///< only in a domain that is periodic in z too
 };
 
 /// Mass of a grain: its own, or that of its radius.

@@ -1,11 +1,13 @@
 #pragma once
-// W = H M^-1 H^T of discs with rolling resistance, and of walls that contacts push. Scenes without these
-// effects use BodyDelassus and pay nothing for them. Contact after contact, in the order of the problem.
+// W = H M^-1 H^T of discs with rolling resistance, of walls that contacts push, and of a cell under pressure.
+// Scenes without these effects use BodyDelassus and pay nothing for them. Contact after contact, in the order
+// of the problem.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,7 +22,12 @@ struct DrivenBody {
   double inverse_mass = 0;
 };
 
-/// W_aa, symmetric: W_nr = 0 always, W_nt = 0 but at driven walls that are pushed askew.
+/// A periodic cell whose rates of strain answer contacts: it gives each the rate times its arm.
+struct CellBody {
+  double inverse_inertia_x = 0, inverse_inertia_z = 0;
+};
+
+/// W_aa, symmetric: W_nr = 0 always, W_nt = 0 but at driven walls that are pushed askew and in a cell.
 struct LocalBlock {
   double nn = 0, nt = 0, tt = 0, tr = 0, rr = 0;
   double inverse_nn = 0, inverse_tt = 0;
@@ -63,7 +70,8 @@ std::array<double, dim> solved_contact(const LocalBlock& W, const double* mu, st
   return fresh;
 }
 
-/// Contacts in solve order. Bodies: the grains, the fixed one, then the driven walls if `with_driven`.
+/// Contacts in solve order. Bodies: the grains, the fixed one, then the driven walls or the cell if
+/// `with_driven`.
 template <class Cone, bool with_spin, bool with_driven>
 class GeneralDelassus {
  public:
@@ -79,15 +87,23 @@ class GeneralDelassus {
   std::vector<double> lever;         ///< R_eff / r_i = r_j / (r_i + r_j), 1 at a wall; empty without rolling
   std::vector<double> inverse_mass;  ///< of each body; 0 for the fixed one and the driven ones
   std::vector<DrivenBody> driven;
-  SweepPlan plan;  ///< of the contacts in their order
+  std::optional<CellBody> cell;      ///< excludes driven walls
+  std::vector<double> arm_x, arm_z;  ///< of contacts in a cell, from j to i; set before the contact
+  SweepPlan plan;                    ///< of the contacts in their order
 
   int contacts() const { return static_cast<int>(i.size()); }
-  std::int32_t fixed() const { return static_cast<std::int32_t>(inverse_mass.size() - driven.size()) - 1; }
+  std::int32_t fixed() const {
+    return static_cast<std::int32_t>(inverse_mass.size() - driven.size() - cell.has_value()) - 1;
+  }
   /// The driven wall of contact a, or none.
   const DrivenBody* driven_wall(int a) const {
     const std::int32_t k = j[a] - fixed() - 1;
     return k < 0 ? nullptr : &driven[k];
   }
+  /// The cell's place among the bodies.
+  std::int32_t cell_body() const { return fixed() + 1; }
+  /// Whether contact a pushes more than its grains.
+  bool pushes_more(int a) const { return cell || driven_wall(a) != nullptr; }
 
   /// Masses and driven walls must be there. `lever_i` without rolling: of no effect.
   void add(std::int32_t body_i, std::int32_t body_j, double normal_x, double normal_z, double lever_i = 1) {
@@ -98,6 +114,7 @@ class GeneralDelassus {
   void resize(std::size_t count) {
     i.resize(count), j.resize(count), n_x.resize(count), n_z.resize(count), blocks_.resize(count);
     if constexpr (dim == 3) lever.resize(count);
+    if (cell) arm_x.resize(count), arm_z.resize(count);
   }
   void set(int a, std::int32_t body_i, std::int32_t body_j, double normal_x, double normal_z,
            double lever_i = 1) {
@@ -136,12 +153,20 @@ class GeneralDelassus {
         const double along = (p_x * wall->e_x + p_z * wall->e_z) * wall->inverse_mass;
         J.x -= along * wall->e_x, J.z -= along * wall->e_z;
       }
+    if constexpr (with_driven)
+      if (cell) {
+        Velocity& rates = state[cell_body()];
+        rates.x += cell->inverse_inertia_x * arm_x[a] * p_x;
+        rates.z += cell->inverse_inertia_z * arm_z[a] * p_z;
+      }
   }
 
   /// H v of the state: what contact a's bodies do to each other.
   Impulse relative_velocity(const State& state, int a) const {
     const Velocity &I = state[i[a]], &J = state[j[a]];
-    const double d_x = I.x - J.x, d_z = I.z - J.z;
+    double d_x = I.x - J.x, d_z = I.z - J.z;
+    if constexpr (with_driven)
+      if (cell) d_x += state[cell_body()].x * arm_x[a], d_z += state[cell_body()].z * arm_z[a];
     Impulse u{};
     u[0] = n_x[a] * d_x + n_z[a] * d_z;
     if constexpr (dim >= 2) u[1] = n_z[a] * d_x - n_x[a] * d_z;
@@ -231,6 +256,14 @@ class GeneralDelassus {
         W.nn += n * n * wall->inverse_mass;
         W.nt += n * t * wall->inverse_mass;
         W.tt += t * t * wall->inverse_mass;
+      }
+    if constexpr (with_driven)
+      if (cell) {
+        const double x = arm_x[a] * arm_x[a] * cell->inverse_inertia_x,
+                     z = arm_z[a] * arm_z[a] * cell->inverse_inertia_z;
+        W.nn += n_x[a] * n_x[a] * x + n_z[a] * n_z[a] * z;
+        W.nt += n_x[a] * n_z[a] * (x - z);
+        W.tt += n_z[a] * n_z[a] * x + n_x[a] * n_x[a] * z;
       }
     return with_inverses(W);
   }

@@ -12,8 +12,9 @@ struct Candidate {
   std::int32_t j = 0;  ///< grain with j > i, or -1 - s for wall shape s
   double gap = 0;      ///< distance of the surfaces, negative when they overlap
   double n_x = 0, n_z = 0;
-  double wall_v_x = 0,
-         wall_v_z = 0;  ///< displacement of the wall's material point over the step / step; 0 between grains
+  /// Displacement of the wall's material point over the step / step; between grains, velocity of the image of
+  /// j that is nearest against j itself, 0 unless images move.
+  double wall_v_x = 0, wall_v_z = 0;
 };
 
 /// Components of a relative velocity of i and j.

@@ -13,6 +13,7 @@ void CellGrid::sort(const SearchedState& state, std::span<const std::int32_t> me
     left = std::min(left, bodies.x[b]), right = std::max(right, bodies.x[b]);
     low = std::min(low, bodies.z[b]), high = std::max(high, bodies.z[b]);
   }
+  if (!period_.open_z()) low = period_.origin_z, high = low + period_.length_z;
   origin_x_ = period_.open() ? left : period_.origin;
   origin_z_ = low;
   const double width = period_.open() ? right - left : period_.length;
@@ -27,9 +28,9 @@ void CellGrid::sort(const SearchedState& state, std::span<const std::int32_t> me
   places_.resize(count);
   for (std::size_t m = 0; m < count; ++m) {
     const std::int32_t b = members[m];
-    const int column =
-        std::clamp(static_cast<int>((period_.first(bodies.x[b]) - origin_x_) / cell_x_), 0, columns_ - 1);
-    const int row = std::clamp(static_cast<int>((bodies.z[b] - origin_z_) / cell_z_), 0, rows - 1);
+    const Point first = period_.first({bodies.x[b], bodies.z[b]});
+    const int column = std::clamp(static_cast<int>((first.x - origin_x_) / cell_x_), 0, columns_ - 1);
+    const int row = std::clamp(static_cast<int>((first.z - origin_z_) / cell_z_), 0, rows - 1);
     places_[m] = {static_cast<std::uint64_t>(row) << column_bits | static_cast<std::uint64_t>(column), b};
   }
   sort_places(row_bits + column_bits);
@@ -39,7 +40,8 @@ void CellGrid::sort(const SearchedState& state, std::span<const std::int32_t> me
   const std::uint64_t column_mask = (std::uint64_t{1} << column_bits) - 1;
   for (std::size_t m = 0; m < count; ++m) {
     const auto [key, b] = places_[m];
-    grains_[m] = {period_.first(bodies.x[b]), bodies.z[b], bodies.radius[b], state.v_x[b], state.v_z[b], b};
+    const Point first = period_.first({bodies.x[b], bodies.z[b]});
+    grains_[m] = {first.x, first.z, bodies.radius[b], state.v_x[b], state.v_z[b], b};
     if (m > 0 && key == places_[m - 1].key) continue;
     const auto row = static_cast<std::int32_t>(key >> column_bits);
     if (rows_.empty() || rows_.back().row != row)
@@ -97,6 +99,7 @@ std::size_t CellGrid::row_of_cell(std::size_t cell) const {
 void GrainGrids::sort(const SearchedState& state, double range) {
   const Bodies& bodies = state.bodies;
   range_ = range;
+  period_ = state.period;
   const auto [small, large] = std::minmax_element(bodies.radius.begin(), bodies.radius.end());
   const double largest = 2 * *large;
   const bool alike = 2 * *small > *large;

@@ -8,19 +8,9 @@
 #include <vector>
 
 #include "particles/bodies/bodies.hpp"
+#include "particles/bodies/period.hpp"
 
 namespace drumlin::particles {
-
-/// Period of the domain in x; length 0: open.
-struct Period {
-  double origin = 0;
-  double length = 0;
-  bool open() const { return length <= 0; }
-  /// The nearest image of a difference.
-  double nearest(double dx) const { return open() ? dx : dx - length * std::round(dx / length); }
-  /// The image in the first period.
-  double first(double x) const { return open() ? x : x - length * std::floor((x - origin) / length); }
-};
 
 /// What a search needs of a grain, in one place.
 struct NearGrain {
@@ -167,6 +157,12 @@ class GrainGrids {
   void near(double x_low, double x_high, double z_low, double z_high, Visit visit) const {
     for (const CellGrid& grid : grids()) grid.near(x_low, x_high, z_low, z_high, visit);
   }
+  /// The same for a square of half edge `reach` about a place, which may reach across borders of the domain.
+  template <class Visit>
+  void near(Point place, double reach, Visit visit) const {
+    const Point first = period_.first(place);
+    for (const CellGrid& grid : grids()) near_on(grid, first.x, first.z, reach, visit);
+  }
 
   /// Largest diameter, and edge of the cells of the finest grid.
   double largest() const { return largest_.front(); }
@@ -178,19 +174,56 @@ class GrainGrids {
   void each_pair(std::size_t level, std::size_t first, std::size_t last, Meet meet) const {
     const CellGrid& grid = grids_[level];
     const auto grains = grid.grains();
-    grid.each_pair(first, last, [&](std::int32_t a, std::int32_t begin, std::int32_t end) {
-      meet(grains[a], grains.subspan(begin, end - begin));
-    });
+    if (period_.open_z()) {
+      grid.each_pair(first, last, [&](std::int32_t a, std::int32_t begin, std::int32_t end) {
+        meet(grains[a], grains.subspan(begin, end - begin));
+      });
+    } else {
+      // In a low cell two grains may be neighbours on both sides: they meet where they are nearest.
+      grid.each_pair(first, last, [&](std::int32_t a, std::int32_t begin, std::int32_t end) {
+        for (const NearGrain& b : grains.subspan(begin, end - begin))
+          if (in_image(grains[a].z, b, 0)) meet(grains[a], std::span(&b, 1));
+      });
+      for (std::int32_t k = grid.cells()[first].first; k < grid.cells()[last].first; ++k) {
+        const NearGrain& a = grains[k];  // those of the lowest rows are met from the highest ones
+        near_in_image(grid, a.x, a.z, a.radius + largest_[level] / 2 + range_, -1,
+                      [&](const NearGrain& b) { meet(a, std::span(&b, 1)); });
+      }
+    }
     for (std::size_t larger = 0; larger < level; ++larger)
       for (std::int32_t k = grid.cells()[first].first; k < grid.cells()[last].first; ++k) {
         const NearGrain& a = grains[k];
-        const double reach = a.radius + largest_[larger] / 2 + range_;
-        grids_[larger].near(a.x - reach, a.x + reach, a.z - reach, a.z + reach,
-                            [&](const NearGrain& b) { meet(a, std::span(&b, 1)); });
+        near_on(grids_[larger], a.x, a.z, a.radius + largest_[larger] / 2 + range_,
+                [&](const NearGrain& b) { meet(a, std::span(&b, 1)); });
       }
   }
 
  private:
+  /// Whether b is nearest to a place at z where that is moved by so many cells along z.
+  bool in_image(double z, const NearGrain& b, int cells) const {
+    return std::abs(z + cells * period_.length_z - b.z) <= period_.length_z / 2;
+  }
+  /// Grains of a grid about a place that is moved by so many cells along z, if they are nearest to it there.
+  template <class Visit>
+  void near_in_image(const CellGrid& grid, double x, double z, double reach, int cells, Visit visit) const {
+    const double there = z + cells * period_.length_z;
+    if (there - reach > period_.origin_z + period_.length_z || there + reach < period_.origin_z) return;
+    const double x_there = x + cells * period_.offset;
+    grid.near(x_there - reach, x_there + reach, there - reach, there + reach, [&](const NearGrain& b) {
+      if (in_image(z, b, cells)) visit(b);
+    });
+  }
+  /// Grains of a grid in the square of half edge `reach` about a place, each once.
+  template <class Visit>
+  void near_on(const CellGrid& grid, double x, double z, double reach, Visit visit) const {
+    if (period_.open_z()) {
+      grid.near(x - reach, x + reach, z - reach, z + reach, visit);
+      return;
+    }
+    for (const int cells : {0, -1, 1}) near_in_image(grid, x, z, reach, cells, visit);
+  }
+
+  Period period_;
   std::vector<CellGrid> grids_;  // the largest grains first; those without grains are left out
   std::size_t used_ = 0;
   std::vector<double> largest_;  // diameter in each grid

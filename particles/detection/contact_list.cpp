@@ -74,7 +74,7 @@ struct GrainMotion {
 };
 
 GrainMotion motion_of(const Bodies& bodies, std::span<const double> v_x, std::span<const double> v_z,
-                      double time_step) {
+                      const DetectionInput& input) {
   double fastest = 0, largest = 0, smallest = bodies.radius[0];
   double x_low = v_x[0], x_high = x_low, z_low = v_z[0], z_high = z_low;
   for (std::size_t b = 0; b < bodies.count(); ++b) {
@@ -84,7 +84,13 @@ GrainMotion motion_of(const Bodies& bodies, std::span<const double> v_x, std::sp
     largest = std::max(largest, bodies.radius[b]);
     smallest = std::min(smallest, bodies.radius[b]);
   }
-  return {time_step * std::sqrt(fastest), length(x_high - x_low, z_high - z_low), 2 * largest, 2 * smallest};
+  const Period& cell = input.period;
+  double images = 0;  // and one that images add
+  if (cell.moves())
+    images = std::abs(cell.rate_x) * 2 * cell.length +
+             (std::abs(cell.rate_z) + std::abs(cell.shear)) * cell.length_z;
+  return {input.time_step * std::sqrt(fastest), length(x_high - x_low, z_high - z_low) + images, 2 * largest,
+          2 * smallest};
 }
 
 /// Gap up to which pairs are looked for in grids: all that any pair may close, but not so much that grains
@@ -121,9 +127,9 @@ double gap_now(const Candidate& pair, const Bodies& bodies, std::span<const Shap
     return gap_to_shape(shape, image_near(shape, bodies.x[pair.i], period), bodies.z[pair.i],
                         bodies.radius[pair.i], n_x, n_z, point);
   }
-  return normal_of(period.nearest(bodies.x[pair.i] - bodies.x[pair.j]), bodies.z[pair.i] - bodies.z[pair.j],
-                   n_x, n_z) -
-         bodies.radius[pair.i] - bodies.radius[pair.j];
+  const Point d =
+      period.nearest(Point{bodies.x[pair.i] - bodies.x[pair.j], bodies.z[pair.i] - bodies.z[pair.j]});
+  return normal_of(d.x, d.z, n_x, n_z) - bodies.radius[pair.i] - bodies.radius[pair.j];
 }
 
 namespace {
@@ -183,13 +189,14 @@ const std::vector<Candidate>& ContactDetection::find(const Bodies& bodies, std::
   }
   weighed_.clear();
   jolt_.assign(bodies.count(), 0.0);
-  const GrainMotion motion = motion_of(bodies, v_x, v_z, input.time_step);
+  const GrainMotion motion = motion_of(bodies, v_x, v_z, input);
   const PairRule rule{input.time_step, input.margin, motion.speeds, grid_range(motion, input), input.period};
   grids_.sort({bodies, v_x, v_z, input.period}, rule.range);
   pairs_.look(grids_, rule, jolt_);
   find_near_walls(motion.fastest, motion.largest, input);
   pairs_.look_after_jolts(rule, jolt_);
   pairs_.keep(rule, jolt_, weighed_, candidates_);
+  if (input.period.moves()) add_image_velocities(bodies, input.period, candidates_);
   return candidates_;
 }
 
@@ -201,7 +208,7 @@ bool ContactDetection::is_local(std::span<const ThrownGrain> thrown, double reac
 bool ContactDetection::find_around(std::span<const ThrownGrain> thrown, const Bodies& bodies,
                                    std::span<const double> v_x, std::span<const double> v_z,
                                    const DetectionInput& input) {
-  const GrainMotion motion = motion_of(bodies, v_x, v_z, input.time_step);
+  const GrainMotion motion = motion_of(bodies, v_x, v_z, input);
   for (const ThrownGrain& t : thrown) jolt_[t.grain] = std::max(jolt_[t.grain], t.push);
   const double most_jolt = *std::max_element(jolt_.begin(), jolt_.end());
   const double range = 2 * input.margin + 2 * input.time_step * motion.speeds + 1.5 * most_jolt;
@@ -214,7 +221,19 @@ bool ContactDetection::find_around(std::span<const ThrownGrain> thrown, const Bo
   for (const ThrownGrain& t : thrown) find_around(t, range, bodies, v_x, v_z, input);
   for (const WeighedPair& wall : weighed_)
     if (wall.pair.gap < input.margin + wall.reach + jolt_[wall.pair.i] / 2) found_.push_back(wall.pair);
+  if (input.period.moves()) add_image_velocities(bodies, input.period, found_);
   return insert_found();
+}
+
+void ContactDetection::add_image_velocities(const Bodies& bodies, const Period& period,
+                                            std::span<Candidate> pairs) {
+  for (Candidate& pair : pairs) {
+    if (pair.j < 0) continue;
+    const Point whole{bodies.x[pair.i] - bodies.x[pair.j], bodies.z[pair.i] - bodies.z[pair.j]};
+    const Point d = period.nearest(whole);
+    const Point image = period.image_velocity({whole.x - d.x, whole.z - d.z});
+    pair.wall_v_x = image.x, pair.wall_v_z = image.z;
+  }
 }
 
 void ContactDetection::find_around(const ThrownGrain& thrown, double range, const Bodies& bodies,
@@ -223,11 +242,11 @@ void ContactDetection::find_around(const ThrownGrain& thrown, double range, cons
   const std::int32_t i = thrown.grain;
   const NearGrain a{bodies.x[i], bodies.z[i], bodies.radius[i], v_x[i], v_z[i], i};
   const double reach = range + a.radius + grids_.largest() / 2;
-  grids_.near(a.x - reach, a.x + reach, a.z - reach, a.z + reach, [&](const NearGrain& other) {
+  grids_.near({a.x, a.z}, reach, [&](const NearGrain& other) {
     if (other.body == i) return;
     NearGrain b = other;
     b.v_x = v_x[b.body], b.v_z = v_z[b.body];
-    const NearPair pair = near_pair(a, b, input.period.nearest(a.x - b.x), a.z - b.z, input.time_step);
+    const NearPair pair = near_pair(a, b, input.period, input.time_step);
     if (pair.gap < 2 * input.margin + pair.reach + thrown.push / 2 + jolt_[b.body])
       found_.push_back({pair.i, pair.j, pair.gap, pair.n_x, pair.n_z, 0, 0});
   });

@@ -64,6 +64,7 @@ class ContactDetection {
   void find_around(const ThrownGrain& thrown, double range, const Bodies& bodies, std::span<const double> v_x,
                    std::span<const double> v_z, const DetectionInput& input);
   bool insert_found();
+  static void add_image_velocities(const Bodies& bodies, const Period& period, std::span<Candidate>);
 
   GrainGrids grids_;
   GrainPairs pairs_;

@@ -15,13 +15,24 @@ double extent(const std::vector<double>& positions) {
 
 }  // namespace
 
+/// Distance along z from the middle of the cell: grains at opposite borders, which touch, are at one place.
+std::span<const double> ContactOrder::folded(const Bodies& bodies, const Period& period) {
+  folded_.resize(bodies.count());
+  const double middle = period.origin_z + period.length_z / 2;
+  for (std::size_t b = 0; b < bodies.count(); ++b)
+    folded_[b] = std::abs(period.first({bodies.x[b], bodies.z[b]}).z - middle);
+  return folded_;
+}
+
 void ContactOrder::sort(const std::vector<Candidate>& pairs, const Bodies& bodies, const Period& period,
                         SweepPlan& plan, std::vector<Candidate>& sorted) {
   i_.resize(pairs.size());
   j_.resize(pairs.size());
   for (std::size_t p = 0; p < pairs.size(); ++p) i_[p] = pairs[p].i, j_[p] = pairs[p].j;
   const bool along_x = period.open() && extent(bodies.x) > extent(bodies.z);
-  planner_.plan(body_slices_along(along_x ? bodies.x : bodies.z, i_, j_), i_, j_, plan, order_);
+  const std::span<const double> along =
+      !period.open_z() ? folded(bodies, period) : std::span<const double>(along_x ? bodies.x : bodies.z);
+  planner_.plan(body_slices_along(along, i_, j_), i_, j_, plan, order_);
   sorted.resize(pairs.size());
   loops_.each(pairs.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) sorted[p] = pairs[order_[p]];

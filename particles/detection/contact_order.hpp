@@ -18,7 +18,7 @@ class ContactOrder {
     planner_.use(team);
   }
   /// Sorts `pairs` into `sorted` and receives the plan: slices along the longer side of the packing (along z
-  /// in a periodic domain).
+  /// in a periodic domain; in a cell, folded there).
   void sort(const std::vector<Candidate>& pairs, const Bodies& bodies, const Period& period, SweepPlan& plan,
             std::vector<Candidate>& sorted);
   /// Place among the pairs given of each pair in solve order.
@@ -26,7 +26,10 @@ class ContactOrder {
 
  private:
   TeamLoops loops_;
+  std::span<const double> folded(const Bodies& bodies, const Period& period);
+
   SweepPlanner planner_;
+  std::vector<double> folded_;
   std::vector<std::int32_t> i_, j_, order_;
 };
 

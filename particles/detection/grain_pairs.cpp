@@ -19,12 +19,18 @@ bool nothing_is_far(const PairRule& rule, double most_jolt) {
 template <std::size_t most>
 class PairBatch {
  public:
-  /// dx, dz: from b to a.
-  void set(std::size_t k, const NearGrain& a, const NearGrain& b, double dx, double dz) {
+  /// From b to a.
+  void set(std::size_t k, const NearGrain& a, const NearGrain& b, const Period& period) {
+    const Point whole{a.x - b.x, a.z - b.z}, d = period.nearest(whole);
+    Point u{a.v_x - b.v_x, a.v_z - b.v_z};
+    if (period.moves()) {
+      const Point image = period.image_velocity({whole.x - d.x, whole.z - d.z});
+      u.x -= image.x, u.z -= image.z;
+    }
     const double way = 2.0 * static_cast<int>(a.body < b.body) - 1;  // bodies stand in no order: no branch
     i_[k] = std::min(a.body, b.body), j_[k] = std::max(a.body, b.body);
-    d_x_[k] = way * dx, d_z_[k] = way * dz;
-    u_x_[k] = way * (a.v_x - b.v_x), u_z_[k] = way * (a.v_z - b.v_z);
+    d_x_[k] = way * d.x, d_z_[k] = way * d.z;
+    u_x_[k] = way * u.x, u_z_[k] = way * u.z;
     radii_[k] = a.radius + b.radius;
   }
   void weigh(std::size_t count, double twice_step) {
@@ -48,9 +54,9 @@ class PairBatch {
 
 }  // namespace
 
-NearPair near_pair(const NearGrain& a, const NearGrain& b, double dx, double dz, double time_step) {
+NearPair near_pair(const NearGrain& a, const NearGrain& b, const Period& period, double time_step) {
   PairBatch<1> one;
-  one.set(0, a, b, dx, dz);
+  one.set(0, a, b, period);
   one.weigh(1, 2 * time_step);
   return one.pair(0);
 }
@@ -69,10 +75,12 @@ class GrainPairs::Weighing {
     while (!others.empty()) {
       if (count_ + others.size() > most) weigh();
       const auto some = others.first(std::min(others.size(), most));
-      if (period_.open())
-        collect(a, some, [](double dx) { return dx; });
+      if (!period_.open_z())
+        collect(a, some, [this](double dx, double dz) { return period_.nearest(Point{dx, dz}); });
+      else if (period_.open())
+        collect(a, some, [](double dx, double dz) { return Point{dx, dz}; });
       else
-        collect(a, some, [this](double dx) { return period_.nearest(dx); });
+        collect(a, some, [this](double dx, double dz) { return Point{period_.nearest(dx), dz}; });
       others = others.subspan(some.size());
     }
   }
@@ -88,9 +96,10 @@ class GrainPairs::Weighing {
     const double x = a.x, z = a.z, reach = a.radius + rule_.range;
     std::size_t count = count_;
     for (const NearGrain& b : others) {
-      const double dx = nearest(x - b.x), dz = z - b.z, within = (reach + b.radius) * rounding;
+      const Point d = nearest(x - b.x, z - b.z);
+      const double within = (reach + b.radius) * rounding;
       found_[count] = {&a, &b};
-      count += dx * dx + dz * dz < within * within;
+      count += d.x * d.x + d.z * d.z < within * within;
     }
     count_ = count;
   }
@@ -98,7 +107,7 @@ class GrainPairs::Weighing {
   void weigh() {
     for (std::size_t f = 0; f < count_; ++f) {
       const NearGrain &a = *found_[f].a, &b = *found_[f].b;
-      batch_.set(f, a, b, period_.nearest(a.x - b.x), a.z - b.z);
+      batch_.set(f, a, b, period_);
     }
     batch_.weigh(count_, 2 * rule_.time_step);
     if (piece_.near.size() < piece_.count + count_) piece_.near.resize(piece_.count + count_);
@@ -181,11 +190,12 @@ void GrainPairs::look_far(const PairRule& rule, std::span<const double> jolts, b
   if (after_jolts) tree_.set_jolts(jolts, loops_);
   Piece& piece = pieces_[0];
   piece.looked_at = 0;
-  const auto look_at = [&](const NearGrain& a, const NearGrain& b, double shift) {
-    const double dx = rule.period.nearest(a.x - b.x);
-    if (!rule.period.open() && std::abs(a.x - b.x - shift - dx) > rule.period.length / 2) return;
+  const auto look_at = [&](const NearGrain& a, const NearGrain& b, const Point& shift) {
+    const Point d = rule.period.nearest(Point{a.x - b.x, a.z - b.z});
+    if (!rule.period.open() && std::abs(a.x - b.x - shift.x - d.x) > rule.period.length / 2) return;
+    if (!rule.period.open_z() && std::abs(a.z - b.z - shift.z - d.z) > rule.period.length_z / 2) return;
     ++piece.looked_at;
-    const NearPair pair = near_pair(a, b, dx, a.z - b.z, rule.time_step);
+    const NearPair pair = near_pair(a, b, rule.period, rule.time_step);
     const bool close = pair.gap < rule.margin + pair.reach;
     if (pair.gap < rule.range || close == after_jolts) return;
     if (close)
@@ -195,11 +205,12 @@ void GrainPairs::look_far(const PairRule& rule, std::span<const double> jolts, b
     if (piece.count == piece.near.size()) piece.near.resize(2 * piece.count + 64);
     piece.near[piece.count++] = pair;
   };
-  tree_.far_pairs({rule.time_step, rule.margin, rule.range, after_jolts},
-                  [&](std::span<const NearGrain> a, std::span<const NearGrain> b, bool same, double shift) {
-                    for (std::size_t p = 0; p < a.size(); ++p)
-                      for (std::size_t q = same ? p + 1 : 0; q < b.size(); ++q) look_at(a[p], b[q], shift);
-                  });
+  tree_.far_pairs(
+      {rule.time_step, rule.margin, rule.range, after_jolts},
+      [&](std::span<const NearGrain> a, std::span<const NearGrain> b, bool same, const Image& image) {
+        for (std::size_t p = 0; p < a.size(); ++p)
+          for (std::size_t q = same ? p + 1 : 0; q < b.size(); ++q) look_at(a[p], b[q], image.shift);
+      });
 }
 
 /// Lists the pairs of each piece that may touch, and sorts them into slots by their first bodies.

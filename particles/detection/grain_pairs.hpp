@@ -25,8 +25,8 @@ struct NearPair {
   double gap, n_x, n_z;
   double reach;
 };
-/// The pair of a and b, `dx` and `dz` from b to a (of the nearest images).
-NearPair near_pair(const NearGrain& a, const NearGrain& b, double dx, double dz, double time_step);
+/// The pair of a and b, or of the images that are nearest.
+NearPair near_pair(const NearGrain& a, const NearGrain& b, const Period& period, double time_step);
 
 /// What decides which pairs are kept: those with gap < margin + 2 h a + (jolt_i + jolt_j) / 2.
 struct PairRule {

@@ -21,17 +21,25 @@ struct MotionBounds {
   double jolt = 0;    ///< largest, of MotionTree::set_jolts
 };
 
-/// Distance of the nearest places of a and of b moved by `shift` along x.
-inline double distance(const MotionBounds& a, const MotionBounds& b, double shift) {
-  const double dx = std::max({0.0, a.x_low - b.x_high - shift, b.x_low + shift - a.x_high});
-  const double dz = std::max({0.0, a.z_low - b.z_high, b.z_low - a.z_high});
+/// How far an image is from its original, and how fast it moves against it.
+struct Image {
+  Point shift, velocity;
+  bool original() const { return shift.x == 0 && shift.z == 0; }
+};
+
+/// Distance of the nearest places of a and of an image of b.
+inline double distance(const MotionBounds& a, const MotionBounds& b, const Image& image) {
+  const auto& [x, z] = image.shift;
+  const double dx = std::max({0.0, a.x_low - b.x_high - x, b.x_low + x - a.x_high});
+  const double dz = std::max({0.0, a.z_low - b.z_high - z, b.z_low + z - a.z_high});
   return std::sqrt(dx * dx + dz * dz);
 }
 
-/// Bound on the relative speed of a grain of a and one of b.
-inline double relative_speed(const MotionBounds& a, const MotionBounds& b) {
-  const double u_x = std::max(a.v_x_high - b.v_x_low, b.v_x_high - a.v_x_low),
-               u_z = std::max(a.v_z_high - b.v_z_low, b.v_z_high - a.v_z_low);
+/// Bound on the relative speed of a grain of a and one of an image of b.
+inline double relative_speed(const MotionBounds& a, const MotionBounds& b, const Image& image) {
+  const auto& [x, z] = image.velocity;
+  const double u_x = std::max(a.v_x_high - b.v_x_low - x, b.v_x_high + x - a.v_x_low),
+               u_z = std::max(a.v_z_high - b.v_z_low - z, b.v_z_high + z - a.v_z_low);
   return std::sqrt(u_x * u_x + u_z * u_z);
 }
 
@@ -57,18 +65,23 @@ class MotionTree {
   /// Sets what each body may be pushed beyond its own motion; one entry per body.
   void set_jolts(std::span<const double> jolts, const TeamLoops& loops);
 
-  /// Calls `meet(a, b, same, shift)` with the grains of two cells, which are one and the same if `same`, for
+  /// Calls `meet(a, b, same, image)` with the grains of two cells, which are one and the same if `same`, for
   /// all that can hold pairs with
   ///   seen <= gap < margin + 2 h |v_i - v_j|,  after jolts + (jolt_i + jolt_j) / 2,
-  /// b moved by `shift`, a whole period, along x.
+  /// b in an image of the domain.
   template <class Meet>
   void far_pairs(const FarSearch& search, Meet meet) {
     for (std::size_t a = 0; a < roots_.size(); ++a)
       for (std::size_t b = a; b < roots_.size(); ++b) {
-        far_pairs(search, roots_[a], roots_[b], 0, meet);
+        far_pairs(search, roots_[a], roots_[b], {}, meet);
         if (period_.open()) continue;
-        far_pairs(search, roots_[a], roots_[b], period_.length, meet);
-        if (a != b) far_pairs(search, roots_[a], roots_[b], -period_.length, meet);
+        far_pairs(search, roots_[a], roots_[b], image(1, 0), meet);
+        if (a != b) far_pairs(search, roots_[a], roots_[b], image(-1, 0), meet);
+        if (period_.open_z()) continue;
+        for (const int across : {-1, 0, 1}) {
+          far_pairs(search, roots_[a], roots_[b], image(across, 1), meet);
+          if (a != b) far_pairs(search, roots_[a], roots_[b], image(across, -1), meet);
+        }
       }
   }
 
@@ -89,25 +102,32 @@ class MotionTree {
     std::int32_t a, b;
   };
 
-  bool apart(const FarSearch& search, const Node& a, const Node& b, double shift) const {
+  Image image(int right, int up) const {
+    const Point shift{right * period_.length + up * period_.offset, up * period_.length_z};
+    return {shift, period_.image_velocity(shift)};
+  }
+
+  bool apart(const FarSearch& search, const Node& a, const Node& b, const Image& image) const {
     const double jolts = search.after_jolts ? (a.bounds.jolt + b.bounds.jolt) / 2 : 0;
     if (search.after_jolts && jolts == 0) return true;
-    const double reach = search.margin + 2 * search.time_step * relative_speed(a.bounds, b.bounds) + jolts;
+    const double reach =
+        search.margin + 2 * search.time_step * relative_speed(a.bounds, b.bounds, image) + jolts;
     return reach <= search.seen ||
-           distance(a.bounds, b.bounds, shift) - a.bounds.radius - b.bounds.radius > reach;
+           distance(a.bounds, b.bounds, image) - a.bounds.radius - b.bounds.radius > reach;
   }
 
   template <class Meet>
-  void far_pairs(const FarSearch& search, std::int32_t first, std::int32_t second, double shift, Meet& meet) {
+  void far_pairs(const FarSearch& search, std::int32_t first, std::int32_t second, const Image& image,
+                 Meet& meet) {
     stack_.assign(1, {first, second});
     while (!stack_.empty()) {
       const Two two = stack_.back();
       stack_.pop_back();
       const Node &a = nodes_[two.a], &b = nodes_[two.b];
-      if (apart(search, a, b, shift)) continue;
-      const bool same = two.a == two.b && shift == 0;
+      if (apart(search, a, b, image)) continue;
+      const bool same = two.a == two.b && image.original();
       if (a.leaf() && b.leaf())
-        meet(a.grains, b.grains, same, shift);
+        meet(a.grains, b.grains, same, image);
       else if (same)
         open_both(a);
       else

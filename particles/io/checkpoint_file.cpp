@@ -97,6 +97,7 @@ void put(const Checkpoint& checkpoint, H5Writer& out) {
     each_account(*state.energy, [&out](const char* name, double value) { out.add_number(name, value); });
     if (state.energy->rolling) out.add_number("energy/rolling", *state.energy->rolling);
     if (state.energy->cohesion) out.add_number("energy/cohesion", *state.energy->cohesion);
+    if (state.energy->cell) out.add_number("energy/cell", *state.energy->cell);
   }
   std::vector<double> poses;
   for (const Pose& pose : state.pose_at_start) poses.insert(poses.end(), {pose.angle, pose.x, pose.z});
@@ -163,6 +164,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
     each_account(energy, [&in](const char* name, double& value) { value = in.number(name); });
     if (in.has("energy/rolling")) energy.rolling = in.number("energy/rolling");
     if (in.has("energy/cohesion")) energy.cohesion = in.number("energy/cohesion");
+    if (in.has("energy/cell")) energy.cell = in.number("energy/cell");
   }
   const auto poses = rows_of(in, "walls/pose_at_start", 3);
   for (std::size_t p = 0; p < poses.size(); p += 3)

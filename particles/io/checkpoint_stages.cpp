@@ -20,6 +20,16 @@ void each_number(Load& load, Visit visit) {
 }
 constexpr std::size_t numbers_of_load = 13;
 
+/// Calls visit(name, number) for all numbers of a cell.
+template <class Cell, class Visit>
+void each_number_of(Cell& cell, Visit visit) {
+  visit("cell/middle_x", cell.middle_x), visit("cell/middle_z", cell.middle_z);
+  visit("cell/length_x", cell.length_x), visit("cell/length_z", cell.length_z);
+  visit("cell/offset", cell.offset);
+  visit("cell/rate_x", cell.rate_x), visit("cell/rate_z", cell.rate_z), visit("cell/shear", cell.shear);
+  visit("cell/struck_x", cell.struck_x), visit("cell/struck_z", cell.struck_z);
+}
+
 }  // namespace
 
 std::vector<double> rows_of(const H5Reader& in, const std::string& name, std::size_t columns) {
@@ -45,6 +55,8 @@ void put_stage_changes(const Checkpoint& checkpoint, H5Writer& out) {
     out.add_number("gravity/acceleration_m_s2", state.gravity->acceleration_m_s2);
     out.add_number("gravity/direction_deg", state.gravity->direction_deg);
   }
+  if (state.cell)
+    each_number_of(*state.cell, [&out](const char* name, double number) { out.add_number(name, number); });
   if (!state.loads) return;
   out.add_number("loads/bytes", checkpoint.walls_bytes);
   out.add_number("loads/time", state.loads->time);
@@ -66,6 +78,9 @@ void get_stage_changes(const H5Reader& in, Checkpoint& checkpoint) {
   }
   if (in.has("gravity"))
     state.gravity = {in.number("gravity/acceleration_m_s2"), in.number("gravity/direction_deg")};
+  if (in.has("cell"))
+    each_number_of(state.cell.emplace(),
+                   [&in](const char* name, double& number) { number = in.number(name); });
   if (!in.has("loads")) return;
   checkpoint.walls_bytes = in.integer("loads/bytes", 0, most);
   state.loads.emplace().time = in.number("loads/time");

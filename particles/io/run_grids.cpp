@@ -28,13 +28,20 @@ VtuArray vector(const std::string& name, const Numbers& x, const Numbers& z, dou
   return {name, 3, std::move(scaled)};
 }
 
-/// x as it is shown: in a periodic domain brought back into it.
-Numbers shown_x(const RunFolder& run, const Snapshot& s) {
-  if (!run.scene.periodic_x) return s.x;
-  const double begin = run.scene.periodic_x->x_min_mm * 1e-3 / run.scales.length_m;
-  Numbers x;
-  for (const double value : s.x) x.push_back(value - std::floor((value - begin) / s.period_x) * s.period_x);
-  return x;
+/// Places as they are shown: in a periodic domain, or a cell, brought back into it.
+struct ShownPlaces {
+  Numbers x, z;
+};
+ShownPlaces shown_places(const RunFolder& run, const Snapshot& s) {
+  if (!run.scene.periodic_x) return {s.x, s.z};
+  Period period{run.scene.periodic_x->x_min_mm * 1e-3 / run.scales.length_m, s.period_x};
+  if (s.cell) period = {s.cell->x, s.period_x, s.cell->z, s.cell->height, s.cell->offset};
+  ShownPlaces places;
+  for (std::size_t i = 0; i < s.x.size(); ++i) {
+    const Point first = period.first(Point{s.x[i], s.z[i]});
+    places.x.push_back(first.x), places.z.push_back(first.z);
+  }
+  return places;
 }
 
 }  // namespace
@@ -42,10 +49,10 @@ Numbers shown_x(const RunFolder& run, const Snapshot& s) {
 VtuGrid grain_grid(const RunFolder& run, const Snapshot& s) {
   const double metre = s.scales.length_m, second = s.scales.time_s;
   VtuGrid grid;
-  const Numbers x = shown_x(run, s);
+  const auto [x, z] = shown_places(run, s);
   std::vector<std::int32_t> number;
   for (std::size_t i = 0; i < x.size(); ++i) {
-    add_point(grid.points, x[i] * metre, s.z[i] * metre);
+    add_point(grid.points, x[i] * metre, z[i] * metre);
     number.push_back(static_cast<std::int32_t>(i));
     grid.offsets.push_back(static_cast<std::int32_t>(i + 1));
   }
@@ -64,14 +71,14 @@ VtuGrid contact_grid(const RunFolder& run, const Snapshot& s) {
   const double impulse_unit = s.scales.density_kg_m3 * metre * metre * metre / second;  // per metre of depth
   VtuGrid grid;
   grid.cell = VtuCell::line;
-  const Numbers x = shown_x(run, s);
+  const auto [x, z] = shown_places(run, s);
   Numbers n, t;
   std::vector<std::int32_t> i, j;
   for (const SnapshotContact& c : s.contacts) {
     // Against the normal: right across the seam of a periodic domain, too.
     const double reach = s.radius[c.i] + (c.j < 0 ? 0 : s.radius[c.j]);
-    add_point(grid.points, x[c.i] * metre, s.z[c.i] * metre);
-    add_point(grid.points, (x[c.i] - reach * c.normal_x) * metre, (s.z[c.i] - reach * c.normal_z) * metre);
+    add_point(grid.points, x[c.i] * metre, z[c.i] * metre);
+    add_point(grid.points, (x[c.i] - reach * c.normal_x) * metre, (z[c.i] - reach * c.normal_z) * metre);
     const auto end = static_cast<std::int32_t>(grid.points.size() / 3);
     grid.connectivity.insert(grid.connectivity.end(), {end - 2, end - 1});
     grid.offsets.push_back(end);

@@ -10,6 +10,14 @@ namespace drumlin::particles {
 namespace {
 const std::string format = "drumlin-snapshot-1";
 
+/// Calls visit(name, number) for all numbers of a cell.
+template <class Cell, class Visit>
+void each_number(Cell& cell, Visit visit) {
+  visit("cell/x", cell.x), visit("cell/z", cell.z), visit("cell/height", cell.height);
+  visit("cell/offset", cell.offset);
+  visit("cell/rate_x", cell.rate_x), visit("cell/rate_z", cell.rate_z), visit("cell/shear", cell.shear);
+}
+
 void add_contacts(const Snapshot& s, H5Writer& out) {
   std::vector<std::int32_t> i, j;
   std::vector<float> n_x, n_z;
@@ -80,6 +88,7 @@ void write_snapshot(const std::filesystem::path& file, const Snapshot& s) {
     out.add("walls/z", std::span<const double>(s.wall_pose_z));
   }
   if (!s.wall_open.empty()) out.add("walls/open", std::span<const std::int32_t>(s.wall_open));
+  if (s.cell) each_number(*s.cell, [&out](const char* name, double number) { out.add_number(name, number); });
   if (s.contacts_known) add_contacts(s, out);
   out.save(file);
 }
@@ -131,6 +140,8 @@ Snapshot read_snapshot(const std::filesystem::path& file) {
       if (size != s.wall_pose_angle.size()) in.refuse("walls", "arrays of unequal length");
   }
   if (in.has("walls/open")) s.wall_open = in.ints("walls/open", 0, 1);
+  if (in.has("cell"))
+    each_number(s.cell.emplace(), [&in](const char* name, double& number) { number = in.number(name); });
   s.contacts_known = in.has("contacts");
   if (s.contacts_known) read_contacts(in, s);
   return s;

@@ -225,6 +225,10 @@ void check_period(const Scene& scene, const Bodies& bodies, double unit) {
     throw InputError({InputProblem{"", 0, 0, "periodic_x.x_max_mm",
                                    "the period is too short for discs of " + std::to_string(largest) + " mm",
                                    "longer than 3 of the largest discs"}});
+  if (scene.periodic_z && scene.periodic_z->z_max_mm - scene.periodic_z->z_min_mm <= 3 * largest)
+    throw InputError({InputProblem{"", 0, 0, "periodic_z.z_max_mm",
+                                   "the cell is too low for discs of " + std::to_string(largest) + " mm",
+                                   "higher than 3 of the largest discs"}});
 }
 
 }  // namespace

@@ -41,6 +41,18 @@ bool changes_gravity(const Scene& scene) {
                      [](const Stage& stage) { return stage.gravity.has_value(); });
 }
 
+bool moves_cell(const Scene& scene) {
+  return std::any_of(scene.stages.begin(), scene.stages.end(),
+                     [](const Stage& stage) { return stage.cell.has_value(); });
+}
+
+bool presses_cell(const Scene& scene) {
+  const auto pressed = [](const std::optional<CellAxis>& axis) { return axis && axis->pressure_n_m2; };
+  return std::any_of(scene.stages.begin(), scene.stages.end(), [&](const Stage& stage) {
+    return stage.cell && (pressed(stage.cell->xx) || pressed(stage.cell->zz));
+  });
+}
+
 bool changes_grains(const Scene& scene) { return !scene.outlets.empty() || !scene.sources.empty(); }
 
 std::vector<ListedGrains*> lists_of(Scene& scene) {

@@ -29,6 +29,12 @@ struct PeriodicX {
   double x_max_mm = 0;
 };
 
+/// Periodic in z too, between two heights: a cell without walls.
+struct PeriodicZ {
+  double z_min_mm = 0;
+  double z_max_mm = 0;
+};
+
 /// Grains listed in a CSV file: x_mm, z_mm, diameter_mm and optionally v_x_mm_s, v_z_mm_s, spin_rad_s,
 /// density_kg_m3; in a scene with materials also the name of each grain's material. read_scene makes the path
 /// absolute: in the file it counts from the folder of the scene.
@@ -147,6 +153,7 @@ struct Scene {
   Output output;
   std::vector<Outlet> outlets = {};
   std::vector<Source> sources = {};
+  std::optional<PeriodicZ> periodic_z = {};
 };
 
 /// Whether a force or a pressure moves a wall in some stage.
@@ -157,6 +164,9 @@ bool ends_stages_early(const Scene& scene);
 bool opens_walls(const Scene& scene);
 /// Whether some stage has a gravity of its own.
 bool changes_gravity(const Scene& scene);
+/// Whether the cell moves in some stage, and whether a pressure moves it there.
+bool moves_cell(const Scene& scene);
+bool presses_cell(const Scene& scene);
 /// Whether the number of grains can change: the scene has outlets or sources.
 bool changes_grains(const Scene& scene);
 /// The lists of grains that a scene names: of its main source, if it is one, and of its groups.

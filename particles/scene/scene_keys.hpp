@@ -20,6 +20,13 @@ void describe(Visitor& v, PeriodicX& p) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, PeriodicZ& p) {
+  v.value("z_min_mm", p.z_min_mm, required("mm", coordinate_mm(), "Lower end of the cell."));
+  v.value("z_max_mm", p.z_max_mm,
+          required("mm", coordinate_mm(), "Upper end, where the lower end follows again."));
+}
+
+template <class Visitor>
 void describe(Visitor& v, CircleRegion& r) {
   v.value("center_mm", r.center_mm, defaulted("mm", coordinate_mm(), "Centre [x, z] of the region."));
   v.value("radius_mm", r.radius_mm, required("mm", length_mm(), "Radius of the region."));
@@ -260,6 +267,8 @@ void describe(Visitor& v, Scene& s) {
   v.table("output", s.output, Need::defaulted, "What is written, and how often.");
   v.tables("outlets", s.outlets, 0, "Regions in which grains are taken away and counted.");
   v.tables("sources", s.sources, 0, "Regions in which grains are poured.");
+  v.optional_table("periodic_z", s.periodic_z,
+                   "Together with periodic_x: a cell that is periodic in z too, without walls and gravity.");
 }
 
 }  // namespace drumlin::particles

@@ -8,6 +8,7 @@
 
 #include "coupling/common/scales.hpp"
 #include "particles/effects/driven_walls.hpp"
+#include "particles/effects/moving_cell.hpp"
 #include "particles/effects/rotating_frame.hpp"
 #include "particles/effects/servo_walls.hpp"
 #include "particles/effects/stage_gravity.hpp"
@@ -86,6 +87,7 @@ struct Stage {
   // Coefficients of this stage alone, in place of those of the effects.
   std::optional<StageCoefficients> friction = {}, restitution = {}, rolling_resistance = {};
   std::optional<Until> until = {};
+  std::optional<StageCell> cell = {};  ///< how a cell that is periodic in x and z moves
 };
 
 /// Seconds of a stage, from duration_s or from its turns; NaN for a stage that validate() refuses. One with

@@ -120,6 +120,9 @@ void describe(Visitor& v, Stage& s) {
   v.optional_table("rolling_resistance", s.rolling_resistance,
                    "In this stage in place of the values of effects.rolling_resistance.");
   v.optional_table("until", s.until, "Ends the stage before its time, when the first of these is met.");
+  v.optional_table(
+      "cell", s.cell,
+      "How the cell of a scene with periodic_z moves; without, its lengths and images stand still.");
 }
 
 }  // namespace drumlin::particles

@@ -9,6 +9,7 @@
 
 #include "particles/scene/region.hpp"
 #include "particles/scene/scene_walls.hpp"
+#include "particles/scene/validate_cell.hpp"
 #include "particles/scene/validate_grains.hpp"
 #include "particles/scene/validate_materials.hpp"
 #include "particles/scene/validate_stages.hpp"
@@ -270,6 +271,7 @@ std::vector<SceneFault> validate(const Scene& scene) {
   Faults faults;
   check_grains(scene, faults);
   check_period(scene, faults);
+  check_cell(scene, faults);
   check_walls(scene, faults);
   check_materials(scene, faults);
   check_effects(scene, faults);

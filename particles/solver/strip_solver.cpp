@@ -20,7 +20,7 @@ constexpr bool drives = requires(const W& w) {
 template <class W>
 bool is_driven(const W& w, std::int32_t c) {
   if constexpr (drives<W>)
-    return w.driven_wall(c) != nullptr;
+    return w.pushes_more(c);
   else
     return false;
 }
@@ -56,7 +56,7 @@ void StripProblem<T, dim, spin>::pack_bodies(const Problem& problem, const Sweep
   }
   driven_bodies_ = bodies_.size();
   if constexpr (drives<std::remove_cvref_t<decltype(W)>>)
-    bodies_.resize(driven_bodies_ + W.driven.size() + W.driven.size() % 2);
+    bodies_.resize(driven_bodies_ + W.driven.size() + W.driven.size() % 2 + 2 * W.cell.has_value());
   before_.resize(bodies_.size());
 }
 
@@ -98,10 +98,17 @@ void StripProblem<T, dim, spin>::pack_driven(const Problem& problem, std::int32_
   auto& contact = driven_.emplace_back();
   contact.contact = c;
   contact.i = place_[W.i[c]];
-  contact.wall = static_cast<std::int32_t>(driven_bodies_) + W.j[c] - W.fixed() - 1;
+  if (const DrivenBody* wall = W.driven_wall(c)) {
+    contact.driven = *wall;
+    contact.j = static_cast<std::int32_t>(driven_bodies_) + W.j[c] - W.fixed() - 1;
+  } else {
+    contact.j = place_[W.j[c]];
+    contact.cell = static_cast<std::int32_t>(driven_bodies_);
+    contact.arm_x = W.arm_x[c], contact.answer_x = W.arm_x[c] * W.cell->inverse_inertia_x;
+    contact.arm_z = W.arm_z[c], contact.answer_z = W.arm_z[c] * W.cell->inverse_inertia_z;
+  }
   contact.n_x = W.n_x[c], contact.n_z = W.n_z[c];
   if constexpr (dim == 3) contact.lever = W.lever[c];
-  contact.driven = *W.driven_wall(c);
   contact.W = W.block(c);
   contact.largest_eigenvalue = W.largest_eigenvalue(c);
   for (int e = 0; e < dim; ++e) {

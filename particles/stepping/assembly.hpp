@@ -9,6 +9,7 @@
 #include "particles/effects/rolling.hpp"
 #include "particles/effects/spin.hpp"
 #include "particles/parallel/team_loops.hpp"
+#include "particles/stepping/cell_step.hpp"
 #include "particles/stepping/step_contacts.hpp"
 
 namespace drumlin::particles {
@@ -34,14 +35,14 @@ Point wall_velocity(const StepInput& step, const Candidate& pair) {
   return prescribed;
 }
 
-/// Free velocity of i relative to j.
+/// Free velocity of i relative to j, or to the image of j that is nearest.
 inline Point relative_velocity(const Candidate& pair, std::span<const double> v_x,
                                std::span<const double> v_z, const Point& wall) {
   if (pair.j < 0) return {v_x[pair.i] - wall.x, v_z[pair.i] - wall.z};
-  return {v_x[pair.i] - v_x[pair.j], v_z[pair.i] - v_z[pair.j]};
+  return {v_x[pair.i] - v_x[pair.j] - pair.wall_v_x, v_z[pair.i] - v_z[pair.j] - pair.wall_v_z};
 }
 
-/// Bodies of the problem: the grains, the fixed one that walls share, the driven walls.
+/// Bodies of the problem: the grains, the fixed one that walls share, the driven walls or the cell.
 template <class Problem>
 void assemble_bodies(const StepInput& step, Problem& problem) {
   auto& W = problem.W;
@@ -52,6 +53,11 @@ void assemble_bodies(const StepInput& step, Problem& problem) {
     for (const Driven& wall : step.walls.driven)
       W.driven.push_back({wall.direction.x, wall.direction.z, wall.inverse_mass});
     W.inverse_mass.resize(W.inverse_mass.size() + step.walls.driven.size(), 0.0);
+    W.cell.reset();
+    if (step.cell.pressed()) {
+      W.cell = CellBody{step.cell.inverse_inertia_x, step.cell.inverse_inertia_z};
+      W.inverse_mass.push_back(0);
+    }
   }
 }
 
@@ -76,6 +82,11 @@ void assemble_contact(const StepInput& step, const Candidate& pair, int a, Probl
   const Point u = relative_velocity(pair, step.free.x, step.free.z, wall_velocity<Problem>(step, pair));
   problem.q[dim * a] = normal_part(pair, u) + predicted_gap(pair.gap, step.time_step);
   const std::int32_t second = second_body<Problem>(step, pair);
+  if constexpr (drives_walls<Problem>)
+    if (problem.W.cell) {
+      const Point arm = arm_of(bodies, pair.i, pair.j, pair.gap, {pair.n_x, pair.n_z});
+      problem.W.arm_x[a] = arm.x, problem.W.arm_z[a] = arm.z;
+    }
   if constexpr (dim == 3) {
     const double lever = lever_of(pair, bodies);
     problem.W.set(a, pair.i, second, pair.n_x, pair.n_z, lever);

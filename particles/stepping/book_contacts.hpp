@@ -21,12 +21,29 @@ Point mean_wall_velocity(const StepInput& step, const StepContacts& contacts, co
   return prescribed;
 }
 
-/// Books the contacts of a step whose bodies have been moved (step.bodies) but not its driven walls.
+/// What the mean velocity of contact a over the step lacks if the rates of a cell are those without contacts
+/// and the grains do not follow their change: the part of the cell.
+template <class Problem>
+Point image_velocity(const Problem& problem, Point change, const Candidate& pair, std::size_t a) {
+  Point image{pair.wall_v_x, pair.wall_v_z};
+  if constexpr (drives_walls<Problem>)
+    if (problem.W.cell) {
+      image.x -= change.x * problem.W.arm_x[a] / 2;
+      image.z -= change.z * problem.W.arm_z[a] / 2;
+    }
+  return image;
+}
+
+/// Books the contacts of a step whose bodies have been moved (step.bodies) but not its driven walls,
+/// nor its cell.
 template <class Problem>
 void book_contacts(const StepInput& step, const StepContacts& contacts, const Problem& problem,
-                   std::span<const double> impulses, const EnergyBooks& books, EnergyLedger& ledger) {
+                   const Solution<Problem>& solution, const EnergyBooks& books, EnergyLedger& ledger) {
   constexpr int dim = Problem::dim;
   const StepLaws& laws = step.laws;
+  const auto& impulses = solution.impulses;
+  Point change;
+  if constexpr (drives_walls<Problem>) change = cell_answer(problem, solution.velocities.bodies);
   if (dim == 3 && !ledger.rolling) ledger.rolling = 0;
   if (laws.cohesion && !ledger.cohesion) ledger.cohesion = 0;
   for (std::size_t a = 0; a < contacts.pairs.size(); ++a) {
@@ -41,7 +58,8 @@ void book_contacts(const StepInput& step, const StepContacts& contacts, const Pr
       if (pair.j < 0) contact.wall_spin = wall_spin(pair, step.walls, step.time_step);
     }
     if (laws.cohesion) contact.attraction = contacts.attraction[a];
-    if (pair.j < 0) contact.wall_velocity = mean_wall_velocity<Problem>(step, contacts, pair);
+    contact.wall_velocity = pair.j < 0 ? mean_wall_velocity<Problem>(step, contacts, pair)
+                                       : image_velocity(problem, change, pair, a);
     books.add(contact, step.bodies, step.time_step, ledger);
   }
 }

@@ -10,13 +10,22 @@ void book(double work, double& account, EnergyLedger& ledger) {
   ledger.turnover += std::abs(work);
 }
 
+/// What moves the other side of a contact: walls, or the cell.
+double& mover(EnergyLedger& ledger) { return ledger.cell ? *ledger.cell : ledger.walls; }
+
 }  // namespace
+
+void book_cell(double work, EnergyLedger& ledger) {
+  if (!ledger.cell) ledger.cell = 0;
+  book(work, *ledger.cell, ledger);
+}
 
 std::vector<std::pair<std::string, double>> exchanges(const EnergyLedger& ledger) {
   std::vector<std::pair<std::string, double>> all = {
       {"walls", ledger.walls}, {"friction", ledger.friction}, {"impacts", ledger.impacts}};
   if (ledger.rolling) all.emplace_back("rolling", *ledger.rolling);
   if (ledger.cohesion) all.emplace_back("cohesion", *ledger.cohesion);
+  if (ledger.cell) all.emplace_back("cell", *ledger.cell);
   all.emplace_back("time_integration", ledger.time_integration);
   all.emplace_back("projection", ledger.projection);
   return all;
@@ -47,7 +56,7 @@ void EnergyBooks::open(const Bodies& bodies, std::optional<EnergyLedger>& ledger
 void EnergyBooks::strike(std::span<const StruckGrain> struck, const ImpactWork& work, EnergyLedger& ledger) {
   book(work.normal, ledger.impacts, ledger);
   book(work.tangential, ledger.friction, ledger);
-  book(work.walls, ledger.walls, ledger);
+  book(work.walls, mover(ledger), ledger);
   for (const StruckGrain& grain : struck) {
     v_x_[grain.grain] += grain.v_x, v_z_[grain.grain] += grain.v_z;
     if (!spin_.empty()) spin_[grain.grain] += grain.spin;
@@ -59,8 +68,9 @@ void EnergyBooks::add(const WorkingContact& c, const Bodies& now, double h, Ener
     return (before[b] + after[b]) / 2;
   };
   const bool wall = c.j < 0;
-  const double d_x = mean(v_x_, now.v_x, c.i) - (wall ? c.wall_velocity.x : mean(v_x_, now.v_x, c.j));
-  const double d_z = mean(v_z_, now.v_z, c.i) - (wall ? c.wall_velocity.z : mean(v_z_, now.v_z, c.j));
+  const Point of_j = c.wall_velocity;  // beyond that of j itself
+  const double d_x = mean(v_x_, now.v_x, c.i) - (wall ? 0 : mean(v_x_, now.v_x, c.j)) - of_j.x;
+  const double d_z = mean(v_z_, now.v_z, c.i) - (wall ? 0 : mean(v_z_, now.v_z, c.j)) - of_j.z;
   const double u_n = c.n_x * d_x + c.n_z * d_z;
   double u_t = c.n_z * d_x - c.n_x * d_z;
   if (!spin_.empty()) {
@@ -74,17 +84,17 @@ void EnergyBooks::add(const WorkingContact& c, const Bodies& now, double h, Ener
       book(c.rolling * of_wall, ledger.walls, ledger);
     }
   }
-  const double before_x = v_x_[c.i] - (wall ? c.wall_velocity.x : v_x_[c.j]);
-  const double before_z = v_z_[c.i] - (wall ? c.wall_velocity.z : v_z_[c.j]);
+  const double before_x = v_x_[c.i] - (wall ? 0 : v_x_[c.j]) - of_j.x;
+  const double before_z = v_z_[c.i] - (wall ? 0 : v_z_[c.j]) - of_j.z;
   const double slowest = gravity_ ? 2 * h * std::hypot(gravity_->x, gravity_->z) : 0;
   const bool impact = c.n_x * before_x + c.n_z * before_z < -slowest;
   book(c.normal * u_n, impact ? ledger.impacts : ledger.time_integration, ledger);
   book(c.tangential * u_t, ledger.friction, ledger);
   if (ledger.cohesion) book(-c.attraction * u_n, *ledger.cohesion, ledger);
-  if (!wall) return;
+  if (!wall && of_j.x == 0 && of_j.z == 0) return;
   const double p_n = c.normal - c.attraction;
   const double p_x = c.n_x * p_n + c.n_z * c.tangential, p_z = c.n_z * p_n - c.n_x * c.tangential;
-  book(p_x * c.wall_velocity.x + p_z * c.wall_velocity.z, ledger.walls, ledger);
+  book(p_x * of_j.x + p_z * of_j.z, mover(ledger), ledger);
 }
 
 void EnergyBooks::close(const Bodies& now, double h, EnergyLedger& ledger) const {

@@ -27,6 +27,7 @@ struct EnergyLedger {
   double projection = 0;           ///< potential energy of position corrections
   std::optional<double> rolling;   ///< work of rolling couples; only with rolling resistance
   std::optional<double> cohesion;  ///< work of attraction; only with cohesion
+  std::optional<double> cell;      ///< work of a moving cell; only in a scene with one
   double turnover = 0;             ///< sum of the sizes of all these exchanges, step by step
 };
 
@@ -34,6 +35,10 @@ struct EnergyLedger {
 std::vector<std::pair<std::string, double>> exchanges(const EnergyLedger&);
 /// Energy now less that at the start less all exchanges: 0 but for rounding.
 double closing_error(const EnergyLedger&);
+
+/// Books the work of a cell that moves, between contacts or where grains cross its border: the kinetic energy
+/// that it adds.
+void book_cell(double work, EnergyLedger&);
 
 /// One contact of a step, as it acted.
 struct WorkingContact {
@@ -44,7 +49,7 @@ struct WorkingContact {
   double rolling = 0;  ///< and lever of i and j (GeneralDelassus)
   double lever = 0;
   double attraction = 0;  ///< cohesive impulse
-  Point wall_velocity;    ///< mean of before and after the step; of walls only
+  Point wall_velocity;    ///< mean of before and after the step; between grains that of the image
   double wall_spin = 0;
 };
 

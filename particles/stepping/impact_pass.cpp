@@ -208,11 +208,10 @@ void ImpactPass::book(ImpactWork& work) const {
     Point wall = c.wall;
     if (c.j >= 0) {
       const ImpactBody& J = bodies[c.j];
-      if (J.along.x == 0 && J.along.z == 0) continue;
-      wall.x += (J.before_x + J.v_x) / 2, wall.z += (J.before_z + J.v_z) / 2;
-    } else if (wall.x == 0 && wall.z == 0) {
-      continue;
+      if (J.along.x != 0 || J.along.z != 0)
+        wall.x += (J.before_x + J.v_x) / 2, wall.z += (J.before_z + J.v_z) / 2;
     }
+    if (wall.x == 0 && wall.z == 0) continue;
     const double p_x = c.n_x * c.normal + c.n_z * c.tangential;
     const double p_z = c.n_z * c.normal - c.n_x * c.tangential;
     work.walls += p_x * wall.x + p_z * wall.z;

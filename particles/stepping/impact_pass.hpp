@@ -25,7 +25,7 @@ struct ImpactContact {
   std::int32_t pair = 0;      ///< its number in the step
   std::int32_t i = 0, j = 0;  ///< places of the bodies; j < 0: a wall that is not pushed
   double n_x = 0, n_z = 0;
-  Point wall;  ///< prescribed velocity of the wall
+  Point wall;  ///< prescribed velocity of the wall, or of the image of j against j
   double e = 0, mu = 0;
   double W_nn = 0, W_nt = 0, W_tt = 0;
   double normal = 0, tangential = 0;  ///< impulses of the pass

@@ -43,7 +43,7 @@ struct PairList {
   void add(const PairList& more) { pairs.insert(pairs.end(), more.pairs.begin(), more.pairs.end()); }
 };
 
-/// Velocity of the wall of a pair but for what its own body has.
+/// Velocity of the wall of a pair, or of the image of j, but for what its own body has.
 Point prescribed_velocity(const StepInput& step, const Candidate& pair) {
   const Point seen{pair.wall_v_x, pair.wall_v_z};
   const std::int32_t k = driven_wall_of(step.walls, pair);
@@ -84,7 +84,8 @@ bool Impacts::find_closings(const StepInput& step, const StepContacts& contacts)
     for (auto a = static_cast<std::int32_t>(begin); a < static_cast<std::int32_t>(end); ++a) {
       const Candidate& pair = contacts.pairs[a];
       if (pair.j >= 0) {  // nearly all of them: no more than the velocities
-        const double u_n = pair.n_x * (v_x[pair.i] - v_x[pair.j]) + pair.n_z * (v_z[pair.i] - v_z[pair.j]);
+        const double u_n = pair.n_x * (v_x[pair.i] - v_x[pair.j] - pair.wall_v_x) +
+                           pair.n_z * (v_z[pair.i] - v_z[pair.j] - pair.wall_v_z);
         if (meets(pair, u_n, 0, slowest_, step.time_step) && !rests(step, pair, a, u_n))
           list.pairs.push_back(a);
       } else if (closes(step, contacts, a)) {
@@ -139,7 +140,7 @@ void Impacts::add(const StepInput& step, const Candidate& pair, std::int32_t ind
   const std::int32_t second = second_body_of(step, pair);
   contact.j = second < 0 ? -1 : take_up(step, second);
   contact.n_x = pair.n_x, contact.n_z = pair.n_z;
-  if (pair.j < 0) contact.wall = prescribed_velocity(step, pair);
+  contact.wall = prescribed_velocity(step, pair);
   contact.e = value_of(step.laws.restitution->e, pair.i, pair.j, step.materials());
   if (step.laws.friction) contact.mu = friction_bound(*step.laws.friction, pair, step.materials());
   pass_.add(contact);
@@ -167,12 +168,9 @@ bool Impacts::closes(const StepInput& step, const StepContacts& contacts, std::i
     const Point v = velocity(step, second);
     u.x -= v.x, u.z -= v.z;
   }
-  double gain = 0;
-  if (pair.j < 0) {
-    const Point wall = prescribed_velocity(step, pair);
-    u.x -= wall.x, u.z -= wall.z;
-    gain = gain_on_wall(step, pair);
-  }
+  const Point wall = prescribed_velocity(step, pair);
+  u.x -= wall.x, u.z -= wall.z;
+  const double gain = pair.j < 0 ? gain_on_wall(step, pair) : 0;
   const double u_n = normal_part(pair, u);
   return meets(pair, u_n, gain, slowest_, step.time_step) && !rests(step, pair, a, u_n);
 }

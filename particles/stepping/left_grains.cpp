@@ -48,6 +48,7 @@ Extent extent_of(const Scene& scene, const Scales& scales, const Walls& walls) {
   for (const Source& source : scene.sources) add(source.region, unit, extent);
   extent = with_shapes(extent, walls.reference);
   if (scene.periodic_x) extent.x_low = -infinite, extent.x_high = infinite;
+  if (scene.periodic_z) extent.z_low = -infinite, extent.z_high = infinite;
   return extent;
 }
 

@@ -11,6 +11,7 @@
 #include "particles/solver/contact_solver.hpp"
 #include "particles/stepping/assembly.hpp"
 #include "particles/stepping/book_contacts.hpp"
+#include "particles/stepping/cell_step.hpp"
 #include "particles/stepping/impacts.hpp"
 #include "particles/stepping/position_projection.hpp"
 #include "particles/stepping/swept_normals.hpp"
@@ -71,10 +72,13 @@ class MoreauJean final : public Stepper {
   StepReport advance(const MovingState& state, WallStep& walls, double time_step) override {
     Bodies& bodies = state.bodies;
     crossings_.begin(bodies, walls.before);
-    const StepInput step{laws_, bodies, walls, state.driven, free_, time_step};
+    if (state.cell) laws_.period = period_of(state.cell->state);
+    const CellResponse cell = state.cell ? state.cell->response : CellResponse{};
+    const StepInput step{laws_, bodies, walls, state.driven, free_, time_step, cell};
     StepReport report;
     Stopwatch watch;
     if (books_) books_->open(bodies, state.energy);
+    if (books_ && state.cell && !state.energy->cell) state.energy->cell = 0;
     detect(step, state, watch, report);
     if (laws_.cohesion)
       attract(*laws_.cohesion, contacts_.pairs, bodies, walls, step.materials(), time_step, free_,
@@ -85,7 +89,8 @@ class MoreauJean final : public Stepper {
     report.solve = solve_(problem_, solver_.rule, work_, solution_);
     remember(contacts_.pairs, solution_.impulses, time_step, state.memory);
     move(bodies, time_step);
-    if (books_) book_contacts(step, contacts_, problem_, solution_.impulses, *books_, *state.energy);
+    if (books_) book_contacts(step, contacts_, problem_, solution_, *books_, *state.energy);
+    if (state.cell) deform(step, state);
     if constexpr (drives) move_driven_walls(free_, time_step, walls, state.driven);
     (void)watch.lap();
     report.overlap = project(state, walls, report.lost);
@@ -238,6 +243,21 @@ class MoreauJean final : public Stepper {
       }
   }
 
+  /// Ends the step of a cell: its rates as contacts leave them, which the grains follow, and its new lengths.
+  void deform(const StepInput& step, const MovingState& state) {
+    CellState& cell = state.cell->state;
+    if constexpr (drives)
+      if (step.cell.pressed()) {
+        set_struck(contacts_.strikes, state.bodies, cell);
+        const Point change = cell_answer(problem_, solution_.velocities.bodies);
+        const double before = books_ ? kinetic_energy(state.bodies) : 0;
+        change_rates_in_step(change, step.time_step, cell, state.bodies);
+        if (books_) book_cell(kinetic_energy(state.bodies) - before, *state.energy);
+      }
+    move_cell(step.time_step, cell);
+    laws_.period = period_of(cell);
+  }
+
   /// The overlap that is left, which is then removed on positions alone. No grain ends beyond a segment.
   Overlap project(const MovingState& state, WallStep& walls, std::optional<LostGrain>& lost) {
     const MovedContacts contacts{contacts_.pairs, solution_.impulses, dim, problem_.W.plan};
@@ -246,8 +266,8 @@ class MoreauJean final : public Stepper {
         overlaps_.find(contacts, state.bodies, walls, laws_.period, laws_.detection_margin, lost);
     Crossings pushed;
     if (solver_.projection_sweeps > 0) {
-      projection_.apply({state.bodies, walls, state.driven}, overlaps_.close(), overlaps_.plan(),
-                        solver_.projection_sweeps);
+      projection_.apply({state.bodies, walls, state.driven, state.cell ? &*state.cell : nullptr},
+                        overlaps_.close(), overlaps_.plan(), solver_.projection_sweeps);
       pushed = crossings_.undo(walls, laws_.period, state.bodies);
     }
     overlap.max = std::max({overlap.max, moved.deepest, pushed.deepest});

@@ -16,6 +16,7 @@
 #include "particles/bodies/snapshot.hpp"
 #include "particles/contact/problems.hpp"
 #include "particles/detection/candidate.hpp"
+#include "particles/effects/moving_cell.hpp"
 #include "particles/effects/wall_step.hpp"
 #include "particles/solver/stopping_rule.hpp"
 #include "particles/stepping/contact_memory.hpp"
@@ -49,6 +50,7 @@ struct MovingState {
   ContactMemory& memory;
   std::span<DrivenState> driven;        ///< in the order of WallStep::driven
   std::optional<EnergyLedger>& energy;  ///< changed only if the laws ask for a ledger
+  std::optional<MovingCell> cell = {};
 };
 
 /// Does steps for one combination of effects; holds workspace only, no state.

@@ -4,6 +4,7 @@
 
 #include "particles/effects/driven_walls.hpp"
 #include "particles/parallel/team_loops.hpp"
+#include "particles/stepping/cell_step.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -34,18 +35,28 @@ void add_driven_walls(const Bodies& bodies, const WallStep& walls, DrivenFrictio
   W.inverse_mass.resize(W.inverse_mass.size() + walls.driven.size(), 0.0);
 }
 
+/// Adds a cell under pressure, with its inertia: it takes up what all contacts ask for together.
+void add_cell(const MovingCell* cell, DrivenFrictionlessProblem::Delassus& W) {
+  W.cell.reset();
+  if (cell == nullptr) return;
+  W.cell = CellBody{cell->response.inverse_inertia_x, cell->response.inverse_inertia_z};
+  W.inverse_mass.push_back(0);
+}
+
 }  // namespace
 
 template <bool with_driven>
 void PositionProjection<with_driven>::apply(const Movable& movable, std::span<const ClosePair> pairs,
                                             const SweepPlan& plan, int sweeps) {
-  auto& [bodies, walls, driven] = movable;
+  auto& [bodies, walls, driven, cell] = movable;
   if (std::none_of(pairs.begin(), pairs.end(), [](const ClosePair& pair) { return pair.gap < 0; })) return;
   auto& W = problem_.W;
   W.inverse_mass.assign(bodies.inverse_mass.begin(), bodies.inverse_mass.end());
   W.inverse_mass.push_back(0);
   const auto fixed = static_cast<std::int32_t>(bodies.count());
   if constexpr (with_driven) add_driven_walls(bodies, walls, W);
+  const bool gives_way = with_driven && movable.cell != nullptr && movable.cell->response.pressed();
+  if constexpr (with_driven) add_cell(gives_way ? movable.cell : nullptr, W);
   W.resize(pairs.size());
   problem_.q.resize(pairs.size());
   // Named anew: clang 14 captures no structured binding.
@@ -55,6 +66,11 @@ void PositionProjection<with_driven>::apply(const Movable& movable, std::span<co
       std::int32_t second = pair.j < 0 ? fixed : pair.j;
       if constexpr (with_driven)
         if (pair.j < 0 && !walls.driven_of_shape.empty()) second += 1 + walls.driven_of_shape[-1 - pair.j];
+      if constexpr (with_driven)
+        if (gives_way) {
+          const Point arm = arm_of(movable.bodies, pair.i, pair.j, pair.gap, {pair.n_x, pair.n_z});
+          W.arm_x[a] = arm.x, W.arm_z[a] = arm.z;
+        }
       W.set(static_cast<int>(a), pair.i, second, pair.n_x, pair.n_z);
       problem_.q[a] = pair.gap >= 0 ? pair.gap : std::max(correction_share * pair.gap, -largest_correction);
     }
@@ -76,6 +92,8 @@ void PositionProjection<with_driven>::apply(const Movable& movable, std::span<co
       const auto& wall = moved[fixed + 1 + k];
       shift_driven_wall(k, wall.x * W.driven[k].e_x + wall.z * W.driven[k].e_z, walls, driven[k]);
     }
+  if constexpr (with_driven)
+    if (gives_way) stretch_cell(cell_answer(problem_, moved), cell->state, bodies);
 }
 
 template class PositionProjection<false>;

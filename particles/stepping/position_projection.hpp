@@ -8,6 +8,7 @@
 
 #include "particles/bodies/bodies.hpp"
 #include "particles/contact/problems.hpp"
+#include "particles/effects/moving_cell.hpp"
 #include "particles/effects/wall_step.hpp"
 #include "particles/solver/contact_solver.hpp"
 
@@ -22,8 +23,9 @@ struct ClosePair {
 /// What the projection moves.
 struct Movable {
   Bodies& bodies;
-  WallStep& walls;                ///< at the end of the step
-  std::span<DrivenState> driven;  ///< in the order of walls.driven
+  WallStep& walls;                   ///< at the end of the step
+  std::span<DrivenState> driven;     ///< in the order of walls.driven
+  const MovingCell* cell = nullptr;  ///< gives way where it is under pressure
 };
 
 /// Solves 0 <= gap + n.(d_i - d_j), lambda >= 0 in the metric of the masses (the least displacement): a

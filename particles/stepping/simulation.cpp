@@ -46,6 +46,14 @@ bool fits(const Traffic& traffic, const Scene& scene, const Bodies& bodies) {
          (bodies.id.empty() || bodies.id.back() < traffic.next_id);
 }
 
+bool fits(const CellState& cell) {
+  const Period period = period_of(cell);
+  for (const double number : {cell.middle_x, cell.middle_z, cell.offset, cell.rate_x, cell.rate_z, cell.shear,
+                              cell.struck_x, cell.struck_z, period.length, period.length_z})
+    if (!std::isfinite(number)) return false;
+  return !period.open() && !period.open_z();
+}
+
 /// A state from a file must fit its scene before anything indexes it.
 void check_state(const SimulationState& s, const Scene& scene, const TimePlan& plan, const Walls& walls) {
   const auto require = [](bool good, const char* what) {
@@ -80,6 +88,7 @@ void check_state(const SimulationState& s, const Scene& scene, const TimePlan& p
           "loads on walls");
   require(!s.left || (s.left->has_left.size() == n && s.left->per_stage.size() == plan.stages.size()),
           "grains that have left");
+  require(s.cell.has_value() == moves_cell(scene) && (!s.cell || fits(*s.cell)), "the cell");
   require(s.pose_at_start.size() == walls.names.size(), "walls");
   require(s.memory.j.size() == contacts && s.memory.impulse.size() == unknowns * contacts, "contacts");
   for (std::size_t c = 0; c < contacts; ++c)
@@ -124,6 +133,10 @@ Simulation::Simulation(const Scene& scene, int threads)
   if (changes_gravity(scene)) state_.gravity = scene.effects.gravity;
   if (scene.output.walls_every_s) state_.loads.emplace();
   if (changes_grains(scene)) state_.traffic = first_traffic(scene, state_.bodies);
+  if (moves_cell(scene)) {
+    state_.cell = cell_at_rest(laws_of(scene, scales_).period);
+    wrap_grains(*state_.cell, state_.bodies);
+  }
   enter_stage(0);
   if (Scene asked = scene; !lists_of(asked).empty()) {
     const auto shapes = walls_.shapes_at(0, state_.driven);
@@ -200,7 +213,12 @@ StepReport Simulation::step() {
 
 StepReport Simulation::advance_here(double h) {
   WallStep walls = wall_step(walls_, state_.time_in_stage, h, state_.driven);
-  return stepper_->advance({state_.bodies, state_.memory, state_.driven, state_.energy}, walls, h);
+  MovingState moving{state_.bodies, state_.memory, state_.driven, state_.energy};
+  if (!state_.cell) return stepper_->advance(moving, walls, h);
+  moving.cell.emplace(begin_cell_step(h));
+  const StepReport report = stepper_->advance(moving, walls, h);
+  end_cell_step(h);
+  return report;
 }
 
 StepReport Simulation::advance_in_laboratory(double h) {
@@ -267,7 +285,11 @@ Snapshot Simulation::take_snapshot() {
   Point gravity{laws.gravity ? laws.gravity->x : 0, laws.gravity ? laws.gravity->z : 0};
   if (frame_) gravity = direction_in_frame(*frame_, s.time, gravity);
   s.gravity_x = gravity.x, s.gravity_z = gravity.z;
-  s.period_x = laws.period.length;
+  const Period period = state_.cell ? period_of(*state_.cell) : laws.period;
+  s.period_x = period.length;
+  if (!period.open_z())
+    s.cell = {period.origin, period.origin_z, period.length_z, period.offset,
+              period.rate_x, period.rate_z,   period.shear};
   s.x = bodies.x, s.z = bodies.z, s.v_x = bodies.v_x, s.v_z = bodies.v_z, s.radius = bodies.radius,
   s.spin = bodies.spin, s.id = bodies.id;
   if (has_own_masses(bodies))

@@ -55,6 +55,7 @@ struct SimulationState {
   std::optional<WallLoads> loads;  ///< of a scene that asks for walls.csv
   std::optional<Traffic> traffic;  ///< of a scene with outlets or sources
   std::optional<LeftGrains> left;  ///< once a grain has left
+  std::optional<CellState> cell;   ///< of a scene whose cell moves
 
   double time() const { return time_at_stage_start + time_in_stage; }
 };
@@ -97,6 +98,8 @@ class Simulation {
   void enter_stage(int stage);
   StepReport advance_here(double time_step);
   StepReport advance_in_laboratory(double time_step);
+  MovingCell begin_cell_step(double time_step);
+  void end_cell_step(double time_step);
   void mark_positions();
   void exchange();
   void count_left();

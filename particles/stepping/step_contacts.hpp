@@ -7,6 +7,7 @@
 #include "particles/bodies/bodies.hpp"
 #include "particles/bodies/free_motion.hpp"
 #include "particles/detection/candidate.hpp"
+#include "particles/effects/moving_cell.hpp"
 #include "particles/effects/wall_step.hpp"
 #include "particles/stepping/step_laws.hpp"
 
@@ -35,6 +36,7 @@ struct StepInput {
   std::span<const DrivenState> driven;  ///< in the order of walls.driven
   const FreeMotion& free;
   double time_step = 0;
+  CellResponse cell = {};  ///< of a cell that pressures move
 
   MaterialsOf materials() const { return {bodies.material, laws.material_of_shape}; }
 };

@@ -22,12 +22,16 @@ StepLaws laws_of(const Scene& scene, const Scales& scales) {
   if (effects.cohesion) laws.cohesion = cohesion_law(*effects.cohesion, materials);
   if (laws.cohesion) laws.detection_margin = std::max(laws.detection_margin, laws.cohesion->range);
   laws.energy_ledger = scene.output.energy_ledger;
-  laws.driven_walls = moves_walls_by_force(scene);
+  laws.driven_walls = moves_walls_by_force(scene) || presses_cell(scene);
   laws.material_of_shape = walls_of(scene, scales).material_of_shape;
   if (scene.periodic_x) {
     const double unit = 1e-3 / scales.length_m;
     laws.period = {scene.periodic_x->x_min_mm * unit,
                    (scene.periodic_x->x_max_mm - scene.periodic_x->x_min_mm) * unit};
+    if (const auto& z = scene.periodic_z) {
+      laws.period.origin_z = z->z_min_mm * unit;
+      laws.period.length_z = (z->z_max_mm - z->z_min_mm) * unit;
+    }
   }
   return laws;
 }

@@ -31,10 +31,8 @@ void sweep_normals(const StepInput& step, std::span<Candidate> pairs) {
   const double h = step.time_step;
   for (Candidate& pair : pairs) {
     Point m{step.free.x[pair.i], step.free.z[pair.i]};
-    if (pair.j >= 0)
-      m.x -= step.free.x[pair.j], m.z -= step.free.z[pair.j];
-    else
-      m.x -= pair.wall_v_x, m.z -= pair.wall_v_z;
+    m.x -= pair.wall_v_x, m.z -= pair.wall_v_z;
+    if (pair.j >= 0) m.x -= step.free.x[pair.j], m.z -= step.free.z[pair.j];
     m.x *= h, m.z *= h;
     if (m.x * m.x + m.z * m.z <= fast * fast || pair.gap <= 0) continue;
     const double reach = reach_of(step, pair);

@@ -25,6 +25,22 @@ def plane_shear(numbers):
     within(numbers["I"], 0.8 * numbers["I_gap"], 1.25 * numbers["I_gap"], "I of the middle: no slip")
 
 
+def plane_shear_cell(numbers):
+    within(numbers["sigma_zz"], 0.93 * numbers["pressure_asked"], 1.07 * numbers["pressure_asked"], "pressure of the cell")
+    # Without plates: the same mu and nu as between them (docs/scenes.md).
+    within(numbers["mu"], 0.85 * numbers["da_cruz"]["mu"], 1.3 * numbers["da_cruz"]["mu"], "mu")
+    within(numbers["nu"], 0.97 * numbers["da_cruz"]["nu"], 1.03 * numbers["da_cruz"]["nu"], "nu")
+    within(numbers["slope_over_rate"], 0.93, 1.07, "slope of the velocity over the shear rate")
+
+
+def biaxial_cell(numbers):
+    within(numbers["compressed_xx"], 0.97 * numbers["pressure_asked"], 1.03 * numbers["pressure_asked"], "stress along x after compression")
+    within(numbers["compressed_zz"], 0.97 * numbers["pressure_asked"], 1.03 * numbers["pressure_asked"], "stress along z after compression")
+    within(numbers["sigma_xx"], 0.95 * numbers["pressure_asked"], 1.05 * numbers["pressure_asked"], "stress along x under shortening")
+    within(numbers["sin_phi_late"], 0.16, 0.36, "late sin phi: mu of slow shear is 0.26")
+    within(numbers["nu_late"], 0.76, 0.84, "late volume fraction")
+
+
 def chute(numbers):
     within(numbers["base_normal_over_weight"], 0.85, 1.15, "normal force on the base")
     within(numbers["base_shear_over_weight"], 0.8, 1.2, "shear force on the base")
@@ -109,6 +125,12 @@ SCENES = {
     "plane-shear": ("plane-shear-da-cruz", "shear", plane_shear, [
         "periodic_x.x_max_mm=24", "walls.0.to_mm=[24,72]", "walls.1.to_mm=[24,0]", "grains.generated.region.max_mm=[24,70]", "grains.generated.count=200",
         "stages.1.duration_s=0.3", "stages.2.duration_s=0.6", "stages.2.snapshots=300", *SMALL_SHEAR]),
+    "plane-shear-cell": ("plane-shear-cell", "cell-shear", plane_shear_cell, [
+        "periodic_x.x_max_mm=24", "grains.generated.region.max_mm=[24,50]", "grains.generated.count=180", "stages.1.duration_s=0.3",
+        "stages.2.duration_s=0.6", "stages.2.snapshots=300"]),
+    "biaxial-cell": ("biaxial-cell", "cell-biaxial", biaxial_cell, [
+        "periodic_x.x_max_mm=32", "periodic_z.z_max_mm=32", "grains.generated.region.max_mm=[32,32]", "grains.generated.count=140",
+        "stages.1.duration_s=0.5", "stages.1.snapshots=100"]),
     "chute": ("chute", "chute", chute, [
         "periodic_x.x_max_mm=24", "walls.0.to_mm=[24,0]", "grains.generated.region.max_mm=[24,70]", "grains.generated.count=160",
         "effects.gravity.direction_deg=-68", "stages.0.duration_s=2", "stages.1.duration_s=1", "stages.1.snapshots=200"]),

@@ -22,6 +22,13 @@ void cut(Scene& scene, double first_s) {
   scene.stages[1].name = "on";
 }
 
+/// A cell without walls in place of the drum.
+void put_into_cell(Scene& s) {
+  s.walls.clear(), s.stages[0].motions.clear(), s.effects.gravity.reset();
+  s.periodic_x = PeriodicX{0, 32}, s.periodic_z = PeriodicZ{0, 32};
+  std::get<GeneratedGrains>(s.grains.source).region = RectangleRegion{{0, 0}, {32, 32}};
+}
+
 const Case cases[] = {
     {"MaterialPairs",
      [](Scene& s) {
@@ -107,6 +114,17 @@ const Case cases[] = {
        s.output.walls_every_s = 0.05;
        s.grains.thermal_speed_mm_s = 100;
      }},
+    {"ShearedCell",
+     [](Scene& s) {
+       put_into_cell(s);
+       s.stages[0].cell = StageCell{CellAxis{{}, -0.5}, {}, 5, 1};
+       s.stages[0].snapshots = 3;
+     }},
+    {"PressedCell",
+     [](Scene& s) {
+       put_into_cell(s);
+       s.stages[0].cell = StageCell{{}, CellAxis{200, {}}, 5, 1};
+     }},
     {"OutletsAndSources",
      [](Scene& s) {
        s.outlets = {{"hole", RectangleRegion{{-12, -32}, {12, -20}}, RectangleRegion{{-8, 5}, {8, 15}}}};
@@ -147,6 +165,13 @@ TEST_P(Restart, ContinuesBitForBit) {
   for (std::size_t k = 0; k < whole.state().driven.size(); ++k) {
     EXPECT_EQ(whole.state().driven[k].position, second.state().driven[k].position);
     EXPECT_EQ(whole.state().driven[k].velocity, second.state().driven[k].velocity);
+  }
+  ASSERT_EQ(whole.state().cell.has_value(), second.state().cell.has_value());
+  if (whole.state().cell) {
+    EXPECT_EQ(whole.state().cell->length_x, second.state().cell->length_x);
+    EXPECT_EQ(whole.state().cell->length_z, second.state().cell->length_z);
+    EXPECT_EQ(whole.state().cell->rate_z, second.state().cell->rate_z);
+    EXPECT_EQ(whole.state().cell->offset, second.state().cell->offset);
   }
   EXPECT_EQ(whole.state().step, second.state().step);
   EXPECT_EQ(whole.state().ends.size(), second.state().ends.size());

@@ -221,6 +221,8 @@ TEST(Effects, AbsentOnesCostNoUnknownAndNoState) {
   EXPECT_TRUE(plain.state().bodies.id.empty());
   EXPECT_FALSE(plain.state().traffic);
   EXPECT_FALSE(plain.state().left);
+  EXPECT_FALSE(plain.state().cell);
+  EXPECT_FALSE(plain.take_snapshot().cell);
   EXPECT_TRUE(plain.take_snapshot().id.empty());
   EXPECT_TRUE(plain.take_snapshot().mass.empty());
 }

@@ -93,7 +93,7 @@ std::vector<Case> cases() {
   std::vector<Case> all;
   for (const auto& part :
        {cases_of_the_run(), cases_of_grains(), cases_of_walls(), cases_of_effects(), cases_of_stages(),
-        cases_of_stage_changes(), cases_of_servo_walls(), cases_of_traffic()})
+        cases_of_stage_changes(), cases_of_servo_walls(), cases_of_cell(), cases_of_traffic()})
     std::copy(part.begin(), part.end(), std::back_inserter(all));
   return all;
 }

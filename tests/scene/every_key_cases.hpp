@@ -41,6 +41,7 @@ std::vector<Case> cases_of_effects();
 std::vector<Case> cases_of_stages();
 std::vector<Case> cases_of_stage_changes();  ///< opened walls, gravity, coefficients, ends
 std::vector<Case> cases_of_servo_walls();    ///< and other keys that came with them
+std::vector<Case> cases_of_cell();           ///< periodic_z, how stages move the cell
 std::vector<Case> cases_of_traffic();        ///< outlets, sources, groups, grains of other runs
 
 }  // namespace drumlin::testing

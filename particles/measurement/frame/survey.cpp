@@ -1,8 +1,10 @@
 #include "particles/measurement/frame/survey.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
+#include "coupling/common/errors.hpp"
 #include "coupling/documents/enum_names.hpp"
 #include "particles/measurement/frame/bulk_state.hpp"
 #include "particles/measurement/frame/dense_window.hpp"
@@ -66,6 +68,14 @@ void cut_to_window(const Occupancy& occupancy, std::size_t grains, double period
   found.z_max = window.z_max;
 }
 
+void refuse_changed_period(double before, double now) {
+  if (std::abs(now - before) > 1e-9 * before)
+    throw InputError(
+        "the cell of this run changes its length along x: layers and maps take one for all snapshots "
+        "(allowed: "
+        "a cell of one length; drumlin history, or stress and volume from the snapshots)");
+}
+
 }  // namespace
 
 Survey survey(const Recording& recording, std::size_t batches, const std::function<void()>& tick) {
@@ -81,6 +91,7 @@ Survey survey(const Recording& recording, std::size_t batches, const std::functi
       found.upright = upright_frame(snapshot);
       if (radius > 0) found.maps.assign(batches, CoverageMap(-radius, radius, -radius, radius));
     }
+    if (s > 0 && radius <= 0) refuse_changed_period(period, snapshot.period_x);
     widen_extent(snapshot, s == 0, found);
     found.series.time.push_back(snapshot.time);
     found.series.wall_angle.push_back(snapshot.wall_angle);

@@ -1,0 +1,51 @@
+// The moving cell of a simulation between its steps.
+#include <algorithm>
+
+#include "coupling/common/errors.hpp"
+#include "particles/stepping/simulation.hpp"
+
+namespace drumlin::particles {
+namespace {
+
+/// In a shorter cell a grain would meet the same neighbour on both sides.
+void refuse_short_cell(const CellState& cell, const Bodies& bodies) {
+  const double least = 6 * *std::max_element(bodies.radius.begin(), bodies.radius.end());
+  if (cell.length_x > least && cell.length_z > least) return;
+  throw NotConvergedError("the cell has become shorter than 3 of the largest grains");
+}
+
+}  // namespace
+
+MovingCell Simulation::begin_cell_step(double h) {
+  CellState& cell = *state_.cell;
+  refuse_short_cell(cell, state_.bodies);
+  const CellLaw law = cell_law(scene_.stages[state_.stage].cell, scales_);
+  const CellResponse response = response_of(law, cell, state_.bodies);
+  const double before = state_.energy ? kinetic_energy(state_.bodies) : 0;
+  drive_cell(law, response, h, cell, state_.bodies);
+  if (state_.energy) book_cell(kinetic_energy(state_.bodies) - before, *state_.energy);
+  return {cell, response};
+}
+
+/// Grains come back into the cell, and with them where they were at the beginning of velocity windows.
+void Simulation::end_cell_step(double h) {
+  CellState& cell = *state_.cell;
+  const double before = state_.energy ? kinetic_energy(state_.bodies) : 0;
+  const std::vector<Point> shifts = wrap_grains(cell, state_.bodies);
+  if (state_.energy) {
+    state_.energy->kinetic = kinetic_energy(state_.bodies);
+    book_cell(state_.energy->kinetic - before, *state_.energy);
+  }
+  if (shifts.empty()) return;
+  const Period period = period_of(cell);
+  for (auto& mark : state_.marks) {
+    const double since = state_.time() + h - mark.time;
+    for (std::size_t b = 0; b < shifts.size(); ++b) {
+      const Point velocity = period.image_velocity(shifts[b]);
+      mark.x[b] += shifts[b].x - since * velocity.x;
+      mark.z[b] += shifts[b].z - since * velocity.z;
+    }
+  }
+}
+
+}  // namespace drumlin::particles

@@ -1,0 +1,351 @@
+// The cell without walls: periodic in x and z, sheared after Lees and Edwards, deformed at given rates,
+// pressed.
+#include <numbers>
+
+#include "particles/detection/contact_list.hpp"
+#include "particles/effects/moving_cell.hpp"
+#include "particles/scene/random.hpp"
+#include "tests/effects/drums.hpp"
+
+namespace drumlin {
+using namespace particles;
+namespace {
+
+using test::add_stage;
+using test::Grain;
+using test::scene_of;
+using test::TemporaryFolder;
+
+// Of scene_of with d = 1 mm and 2700 kg/m3.
+const double time_s = std::sqrt(1e-3 / 9.81), pressure_unit = 2700 * 1e-3 * 9.81;
+const double disc_mass = std::numbers::pi / 4;  // of diameter 1
+
+/// A cell of so many unit lengths, its lower left corner at the origin.
+void set_cell(Scene& scene, double length, double height) {
+  scene.periodic_x = PeriodicX{0, length};
+  scene.periodic_z = PeriodicZ{0, height};
+}
+
+/// n x n discs, one in the middle of each square of edge `spacing`, at random velocities of mean zero.
+Scene gas(int n, double spacing, double speed, const TemporaryFolder& folder) {
+  RandomStream random(3, "gas");
+  std::vector<Grain> grains;
+  double mean_x = 0, mean_z = 0;
+  for (int k = 0; k < n * n; ++k) {
+    const double v_x = random.uniform(-speed, speed), v_z = random.uniform(-speed, speed);
+    grains.push_back({(k % n + 0.5) * spacing, (k / n + 0.5) * spacing, 1, v_x, v_z});
+    mean_x += v_x / (n * n), mean_z += v_z / (n * n);
+  }
+  for (Grain& g : grains) g.v_x -= mean_x, g.v_z -= mean_z;
+  Scene scene = scene_of(grains, folder);
+  set_cell(scene, n * spacing, n * spacing);
+  return scene;
+}
+
+Point momentum(const Bodies& bodies) {
+  Point p;
+  for (std::size_t b = 0; b < bodies.count(); ++b)
+    p.x += bodies.v_x[b] / bodies.inverse_mass[b], p.z += bodies.v_z[b] / bodies.inverse_mass[b];
+  return p;
+}
+
+void run(Simulation& simulation) {
+  while (!simulation.finished()) (void)simulation.step();
+}
+
+/// Stress of the contacts of a snapshot: xx, zz, and the force along x on planes across z. Compression > 0.
+struct Stress {
+  double xx = 0, zz = 0, xz = 0;
+};
+Stress stress_of(const Snapshot& s) {
+  Stress sum;
+  for (const SnapshotContact& c : s.contacts) {
+    const double n_x = c.normal_x, n_z = c.normal_z, arm = s.radius[c.i] + s.radius[c.j];
+    const double f_x = (c.impulse_n * n_x + c.impulse_t * n_z) / s.time_step;
+    const double f_z = (c.impulse_n * n_z - c.impulse_t * n_x) / s.time_step;
+    sum.xx += arm * n_x * f_x, sum.zz += arm * n_z * f_z, sum.xz -= arm * n_z * f_x;
+  }
+  const double area = s.period_x * s.cell->height;
+  return {sum.xx / area, sum.zz / area, sum.xz / area};
+}
+
+TEST(Cell, PairAcrossTheCornerCollidesAsInside) {
+  const auto end = [](double shift) {
+    const TemporaryFolder folder;
+    Scene scene =
+        scene_of({{5 - 0.6 + shift, 5 + shift, 1, 1}, {5 + 0.6 + shift, 5.2 + shift, 1, -1}}, folder);
+    set_cell(scene, 10, 10);
+    scene.effects.friction = Friction{0.3, 0.3};
+    scene.effects.spin = Spin{};
+    add_stage(scene, 1, 0.01);
+    Simulation simulation(scene);
+    run(simulation);
+    return simulation.state().bodies;
+  };
+  const Bodies inside = end(0), corner = end(5);
+  for (int k = 0; k < 2; ++k) {
+    EXPECT_NEAR(corner.x[k] - inside.x[k], 5, 1e-9);
+    EXPECT_NEAR(corner.z[k] - inside.z[k], 5, 1e-9);
+    EXPECT_NEAR(corner.v_z[k], inside.v_z[k], 1e-9);
+    EXPECT_NEAR(corner.spin[k], inside.spin[k], 1e-9);
+  }
+  EXPECT_NE(inside.v_z[0], 0);
+}
+
+TEST(Cell, ElasticGasKeepsMomentumAndEnergy) {
+  const TemporaryFolder folder;
+  Scene scene = gas(6, 1.6, 1, folder);
+  scene.effects.restitution = Restitution{1, 1};
+  add_stage(scene, 6, 0.01);
+  Simulation simulation(scene);
+  const double energy = kinetic_energy(simulation.state().bodies);
+  int impacts = 0;
+  while (!simulation.finished()) impacts += simulation.step().impacts;
+  EXPECT_GT(impacts, 100);
+  EXPECT_NEAR(momentum(simulation.state().bodies).x, 0, 1e-11);
+  EXPECT_NEAR(momentum(simulation.state().bodies).z, 0, 1e-11);
+  EXPECT_NEAR(kinetic_energy(simulation.state().bodies), energy, 1e-9 * energy);
+}
+
+TEST(Cell, DetectionFindsAllPairsOfAllImages) {
+  RandomStream random(7, "cell");
+  for (const double offset : {0.0, 1.7, -3.1}) {
+    const Period period{-3, 9, 2, 7, offset, 0.3, -0.2, 0.9};
+    Bodies bodies;
+    for (int k = 0; k < 120; ++k)
+      add_body(bodies, random.uniform(-3, 6), random.uniform(2, 9), random.uniform(0.1, 0.5));
+    for (int k = 0; k < 120; ++k)
+      bodies.v_x[k] = random.uniform(-9, 9), bodies.v_z[k] = random.uniform(-9, 9);
+    const double h = 0.02, margin = 0.02;
+    ContactDetection detection;
+    const auto& found = detection.find(bodies, bodies.v_x, bodies.v_z, {{}, {}, h, margin, period});
+    std::size_t needed = 0;
+    for (std::int32_t i = 0; i < 120; ++i)
+      for (std::int32_t j = i + 1; j < 120; ++j) {
+        double gap = 1e9, approach = 0;
+        for (int up = -2; up <= 2; ++up)
+          for (int right = -3; right <= 3; ++right) {
+            const Point shift{right * 9 + up * offset, up * 7.0};
+            const double dx = bodies.x[i] - bodies.x[j] - shift.x, dz = bodies.z[i] - bodies.z[j] - shift.z;
+            const double apart = std::hypot(dx, dz), here = apart - bodies.radius[i] - bodies.radius[j];
+            if (here >= gap) continue;
+            gap = here;
+            const Point image = period.image_velocity(shift);
+            approach = -(dx * (bodies.v_x[i] - bodies.v_x[j] - image.x) +
+                         dz * (bodies.v_z[i] - bodies.v_z[j] - image.z)) /
+                       apart;
+          }
+        const auto same = [&](const Candidate& c) { return c.i == i && c.j == j; };
+        const auto pair = std::find_if(found.begin(), found.end(), same);
+        if (gap < margin + 2 * h * std::max(0.0, approach)) {
+          ++needed;
+          ASSERT_NE(pair, found.end()) << i << " " << j << " offset " << offset << " gap " << gap;
+        }
+        if (pair != found.end()) {
+          EXPECT_NEAR(pair->gap, gap, 1e-12);
+        }
+        EXPECT_LE(std::count_if(found.begin(), found.end(), same), 1);
+      }
+    EXPECT_GT(needed, 100u);
+  }
+}
+
+TEST(Cell, StrainsGrainsHomogeneouslyAtGivenRates) {
+  const TemporaryFolder folder;
+  Scene scene = scene_of({{2, 3}, {6, 8}}, folder);
+  set_cell(scene, 10, 12);
+  add_stage(scene, 1, 0.01);
+  scene.stages[0].cell = StageCell{CellAxis{{}, 0.2 / time_s}, CellAxis{{}, -0.1 / time_s}, {}, 1};
+  Simulation simulation(scene);
+  run(simulation);
+  const double stretch_x = std::pow(1 + 0.01 * 0.2, 100), stretch_z = std::pow(1 - 0.01 * 0.1, 100);
+  const auto& state = simulation.state();
+  EXPECT_NEAR(state.cell->length_x, 10 * stretch_x, 1e-9);
+  EXPECT_NEAR(state.cell->length_z, 12 * stretch_z, 1e-9);
+  // Without contacts a grain keeps the velocity that it got when the cell began to move.
+  EXPECT_NEAR(state.bodies.x[1] - state.bodies.x[0], 4 * (1 + 0.2), 1e-9);
+  EXPECT_NEAR(state.bodies.z[1] - state.bodies.z[0], 5 * (1 - 0.1), 1e-9);
+}
+
+TEST(Cell, ShearedGrainsComeBackWithTheVelocityOfTheImage) {
+  // Two grains that move up and down at 1 in the middle of a cell of height 10, sheared at 0.5.
+  const TemporaryFolder folder;
+  Scene scene = scene_of({{2, 5, 1, 0, 1}, {25, 5, 1, 0, -1}}, folder);
+  set_cell(scene, 40, 10);
+  add_stage(scene, 6, 0.01);
+  scene.stages[0].cell = StageCell{{}, {}, 0.5 / time_s, 1};
+  Simulation simulation(scene);
+  run(simulation);
+  const Bodies& b = simulation.state().bodies;
+  EXPECT_NEAR(b.z[0], 1, 1e-9);     // 5 + 6 - 10
+  EXPECT_NEAR(b.v_x[0], -5, 1e-9);  // that of the image below
+  EXPECT_NEAR(b.z[1], 9, 1e-9);
+  EXPECT_NEAR(b.v_x[1], 5, 1e-9);
+  // The image above has moved by 0.5 * 10 * 6 = 30, a period less 10.
+  EXPECT_NEAR(simulation.state().cell->offset, -10, 1e-9);
+  // The borders were crossed at t = 5, when it was at 25; from then on the grains moved at -5 and 5.
+  EXPECT_NEAR(b.x[0], 2 - 25 - 5 + 40, 1e-9);
+  EXPECT_NEAR(b.x[1], 25 + 25 + 5 - 40, 1e-9);
+}
+
+Scene sheared_gas(const TemporaryFolder& folder) {
+  Scene scene = gas(8, 1.25, 0.5, folder);
+  scene.effects.restitution = Restitution{0.7, 0.7};
+  scene.effects.friction = Friction{0.3, 0.3};
+  scene.effects.spin = Spin{};
+  scene.output.energy_ledger = true;
+  add_stage(scene, 10, 0.01);
+  scene.stages[0].cell = StageCell{{}, {}, 1 / time_s, 1};
+  return scene;
+}
+
+TEST(Cell, ShearedGasKeepsItsInvariantAndItsProfile) {
+  const TemporaryFolder folder;
+  Simulation simulation(sheared_gas(folder));
+  (void)simulation.step();
+  // Momentum of unwrapped grains is conserved: sum m (v_x - shear z) of wrapped ones.
+  const auto invariant = [&] {
+    const Bodies& b = simulation.state().bodies;
+    double sum = 0;
+    for (std::size_t k = 0; k < b.count(); ++k) sum += disc_mass * (b.v_x[k] - b.z[k]);
+    return sum;
+  };
+  const double before = invariant();
+  double zz = 0, zv = 0;
+  while (!simulation.finished()) {
+    (void)simulation.step();
+    const Bodies& b = simulation.state().bodies;
+    for (std::size_t k = 0; k < b.count(); ++k)
+      zz += (b.z[k] - 5) * (b.z[k] - 5), zv += (b.z[k] - 5) * b.v_x[k];
+  }
+  EXPECT_NEAR(invariant(), before, 1e-9);
+  EXPECT_NEAR(momentum(simulation.state().bodies).z, 0, 1e-10);
+  EXPECT_NEAR(zv / zz, 1, 0.05);  // the slope is the shear rate
+}
+
+TEST(Cell, ResultsDoNotDependOnAGalileanShift) {
+  const TemporaryFolder folder;
+  Scene scene = sheared_gas(folder);
+  scene.stages[0].duration_s = 2 * time_s;
+  scene.effects.friction.reset(), scene.effects.spin.reset();
+  const Simulation at_rest(scene);
+  SimulationState state = at_rest.state();
+  for (std::size_t b = 0; b < state.bodies.count(); ++b) state.bodies.v_x[b] += 2, state.bodies.v_z[b] += 3;
+  Simulation one(scene), two(scene, state);
+  run(one), run(two);
+  const Bodies &a = one.state().bodies, &b = two.state().bodies;
+  const Period period = period_of(*one.state().cell);
+  for (std::size_t k = 1; k < a.count(); ++k) {
+    const Point d =
+        period.nearest(Point{(a.x[k] - a.x[0]) - (b.x[k] - b.x[0]), (a.z[k] - a.z[0]) - (b.z[k] - b.z[0])});
+    EXPECT_NEAR(d.x, 0, 1e-6);
+    EXPECT_NEAR(d.z, 0, 1e-6);
+  }
+}
+
+/// A cell of 4 x 4 touching discs under pressures.
+Scene lattice(double p_x, double p_z, const TemporaryFolder& folder) {
+  std::vector<Grain> grains;
+  for (int k = 0; k < 16; ++k) grains.push_back({k % 4 + 0.5, k / 4 + 0.5});
+  Scene scene = scene_of(grains, folder);
+  set_cell(scene, 4, 4);
+  add_stage(scene, 0.5, 0.01);
+  scene.stages[0].snapshots = 1;
+  scene.stages[0].cell =
+      StageCell{CellAxis{p_x * pressure_unit, {}}, CellAxis{p_z * pressure_unit, {}}, {}, 1};
+  return scene;
+}
+
+TEST(Cell, LatticeCarriesThePressuresOfItsAxes) {
+  const TemporaryFolder folder;
+  Simulation simulation(lattice(2, 5, folder));
+  run(simulation);
+  const Stress stress = stress_of(simulation.take_snapshot());
+  EXPECT_NEAR(stress.xx, 2, 1e-6);
+  EXPECT_NEAR(stress.zz, 5, 1e-6);
+  EXPECT_NEAR(simulation.state().cell->length_x, 4, 1e-6);
+  EXPECT_NEAR(simulation.state().cell->length_z, 4, 1e-6);
+}
+
+TEST(Cell, AxisUnderPressureFallsWithItsInertia) {
+  // No contact, no motion: Q d(rate)/dt = -V p with Q = m L^2 / 12, here for three steps.
+  const TemporaryFolder folder;
+  Scene scene = scene_of({{2, 2}, {7, 6}}, folder);
+  set_cell(scene, 10, 8);
+  add_stage(scene, 0.03, 0.01);
+  scene.stages[0].cell = StageCell{{}, CellAxis{0.1 * pressure_unit, {}}, {}, 2};
+  Simulation simulation(scene);
+  (void)simulation.step();
+  const double inertia = 2 * 2 * disc_mass * 64 / 12;
+  EXPECT_NEAR(simulation.state().cell->rate_z, -0.01 * 80 * 0.1 / inertia, 1e-12);
+  EXPECT_EQ(simulation.state().cell->rate_x, 0);
+}
+
+TEST(Cell, IsotropicCompressionReachesItsPressure) {
+  const TemporaryFolder folder;
+  Scene scene;
+  scene.grains.density_kg_m3 = 2700;
+  scene.grains.source = GeneratedGrains{100, 0.8, 1.2, RectangleRegion{{0, 0}, {13, 13}}};
+  set_cell(scene, 13, 13);
+  scene.effects.friction = Friction{0.2, 0.2};
+  scene.effects.spin = Spin{};
+  add_stage(scene, 40, 0.02);
+  scene.stages[0].snapshots = 1;
+  const CellAxis pressed{1 * pressure_unit, {}};
+  scene.stages[0].cell = StageCell{pressed, pressed, {}, 1};
+  scene.solver.max_sweeps = 2000;
+  scene.solver.tolerance = 1e-4;
+  Simulation simulation(scene);
+  run(simulation);
+  const Stress stress = stress_of(simulation.take_snapshot());
+  EXPECT_NEAR(stress.xx, 1, 0.02);
+  EXPECT_NEAR(stress.zz, 1, 0.02);
+  const auto& cell = *simulation.state().cell;
+  double area = 0;
+  for (const double r : simulation.state().bodies.radius) area += std::numbers::pi * r * r;
+  const double nu = area / (cell.length_x * cell.length_z);
+  EXPECT_GT(nu, 0.76);  // random packings of discs: 0.77 to 0.84
+  EXPECT_LT(nu, 0.87);
+}
+
+TEST(Cell, BooksItsWork) {
+  const TemporaryFolder folder;
+  Scene scene = sheared_gas(folder);
+  scene.stages[0].cell->zz = CellAxis{pressure_unit, {}};
+  Simulation simulation(scene);
+  run(simulation);
+  const EnergyLedger& ledger = *simulation.state().energy;
+  ASSERT_TRUE(ledger.cell);
+  EXPECT_GT(*ledger.cell, 0);
+  EXPECT_LT(ledger.friction, 0);
+  EXPECT_EQ(ledger.walls, 0);
+  EXPECT_NEAR(closing_error(ledger), 0, 1e-9 * ledger.turnover);
+}
+
+TEST(Cell, GivesTheSameBytesForAnyNumberOfThreads) {
+  const TemporaryFolder folder;
+  for (const bool pressed : {false, true}) {
+    Scene scene = sheared_gas(folder);
+    scene.stages[0].duration_s = 2 * time_s;
+    if (pressed) scene.stages[0].cell->zz = CellAxis{pressure_unit, {}};
+    Simulation one(scene, 1), three(scene, 3);
+    run(one), run(three);
+    test::expect_same(one.state().bodies, three.state().bodies);
+    EXPECT_EQ(one.state().cell->offset, three.state().cell->offset);
+    EXPECT_EQ(one.state().cell->length_z, three.state().cell->length_z);
+  }
+}
+
+TEST(Cell, AbsentItIsNoState) {
+  const TemporaryFolder folder;
+  Scene scene = gas(4, 1.5, 1, folder);
+  add_stage(scene, 0.05, 0.01);
+  Simulation still(scene);
+  EXPECT_FALSE(still.state().cell);  // it stands still
+  EXPECT_TRUE(still.take_snapshot().cell);
+  scene.periodic_z.reset();
+  EXPECT_FALSE(Simulation(scene).take_snapshot().cell);
+}
+
+}  // namespace
+}  // namespace drumlin

@@ -1,0 +1,50 @@
+// What validate() finds in scenes with a cell that is periodic in x and z.
+#include "tests/scene/example.hpp"
+
+namespace drumlin {
+using namespace particles;
+namespace {
+
+using testing::only_scene_problem;
+using testing::scene_problems;
+
+const std::string cell =
+    "format = \"drumlin-scene-1\"\n"
+    "periodic_x = { x_min_mm = 0, x_max_mm = 20 }\n"
+    "periodic_z = { z_min_mm = 0, z_max_mm = 20 }\n" +
+    test::generated_grains(8, "{ shape = \"rectangle\", min_mm = [0, 0], max_mm = [20, 20] }") +
+    "[[stages]]\nname = \"shear\"\nduration_s = 0.1\ntime_step_s = 1e-3\ncell = { shear_rate_per_s = 1 }\n";
+
+void expect_problem(const std::vector<std::string>& overrides, const std::string& key,
+                    const std::string& what) {
+  const std::string problem = only_scene_problem(cell, overrides);
+  EXPECT_NE(problem.find(key + ": "), std::string::npos) << problem;
+  EXPECT_NE(problem.find(what), std::string::npos) << problem;
+}
+
+TEST(CellContradiction, NoneWithoutWalls) { EXPECT_TRUE(scene_problems(cell).empty()); }
+
+TEST(CellContradiction, WhatNothingHoldsOrNothingMoves) {
+  expect_problem({"effects.gravity={}"}, "effects.gravity", "for ever");
+  expect_problem({"walls=[{name=\"floor\", shape=\"segment\", from_mm=[0, -5], to_mm=[20, -5]}]"}, "walls",
+                 "periodic in x and z");
+  expect_problem({"periodic_z.z_max_mm=10", "grains.generated.region.max_mm=[20, 10]"}, "periodic_z.z_max_mm",
+                 "3 of the largest grains");
+  expect_problem({"grains.generated.region.max_mm=[20, 21]"}, "grains.generated.region", "inside the cell");
+  expect_problem({"stages.0.cell={}"}, "stages.0.cell", "nothing that moves");
+  expect_problem({"stages.0.cell={xx={}}"}, "stages.0.cell.xx", "either pressure_n_m2 or rate_per_s");
+  expect_problem({"stages.0.cell={zz={pressure_n_m2=1, rate_per_s=1}}"}, "stages.0.cell.zz", "both");
+  expect_problem({"stages.0.cell={zz={pressure_n_m2=1}}", "solver.capture_unconverged=1"},
+                 "solver.capture_unconverged", "under pressure");
+}
+
+TEST(CellContradiction, CellsThatAreNone) {
+  const std::string open = testing::replaced(cell, "periodic_z = { z_min_mm = 0, z_max_mm = 20 }\n", "");
+  const auto problem = only_scene_problem(open);
+  EXPECT_NE(problem.find("periodic_x and periodic_z"), std::string::npos) << problem;
+  const std::string tube = testing::replaced(cell, "periodic_x = { x_min_mm = 0, x_max_mm = 20 }\n", "");
+  EXPECT_NE(only_scene_problem(tube).find("without periodic_x"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace drumlin
