@@ -51,7 +51,7 @@ int compare(const CompareOptions& options) {
   report.write_overlays(folder);
   note_pending_figures(folder);
   const fs::path file = folder / "comparison.json";
-  write_json(file, report.content);
+  write_json(file, *report.content);
   const auto failures =
       draw_pending_figures(folder, report.figures(folder, file), ResultPage{report.page, file});
   output.publish();

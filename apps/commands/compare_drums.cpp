@@ -78,8 +78,12 @@ ComparisonReport drum_report(const ComparedRuns& runs, const CompareOptions& opt
   std::optional<coupling::Comparison> floor;
   if (runs.floor) floor = compare(runs.first.compared, runs.floor->compared, how);
   ComparisonReport report{
-      content_of(runs, comparison, floor ? &*floor : nullptr, how), "comparison", "", {}, {}};
-  report.summary = summary_of(report.content);
+      std::make_shared<Json>(content_of(runs, comparison, floor ? &*floor : nullptr, how)),
+      "comparison",
+      "",
+      {},
+      {}};
+  report.summary = summary_of(*report.content);
   report.write_overlays = [&runs, comparison](const fs::path& folder) {
     write_overlays(folder, runs.first.compared, runs.second.compared, comparison);
   };

@@ -41,15 +41,16 @@ ComparisonReport layer_report(const ComparedRuns& runs, const CompareOptions& op
 
   ComparisonReport report;
   const ProfileSet& profiles = runs.first.compared.profiles;
-  report.content = {{"format", "drumlin-layer-comparison-1"},
-                    {"title", title_of(runs)},
-                    {"reduced", profiles.header.reduced.value()}};
-  add_layer_comparison(report.content, comparison, floor ? &*floor : nullptr);
-  add_costs(report.content, runs);
-  report.content["settings"] = {{"wall_margin", how.wall_margin}, {"top_margin", how.top_margin}};
-  add_origins(report.content, runs);
+  Json content{{"format", "drumlin-layer-comparison-1"},
+               {"title", title_of(runs)},
+               {"reduced", profiles.header.reduced.value()}};
+  add_layer_comparison(content, comparison, floor ? &*floor : nullptr);
+  add_costs(content, runs);
+  content["settings"] = {{"wall_margin", how.wall_margin}, {"top_margin", how.top_margin}};
+  add_origins(content, runs);
   report.page = "layer_comparison";
-  report.summary = summary_of(report.content);
+  report.summary = summary_of(content);
+  report.content = std::make_shared<Json>(std::move(content));
   report.write_overlays = [overlay = coupling::layer_overlay(comparison, profiles)](const fs::path& folder) {
     write_profiles(folder / "overlay.csv", overlay);
   };

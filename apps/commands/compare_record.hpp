@@ -2,7 +2,8 @@
 // What every report of `drumlin compare` says of its two sides: titles, origins, costs.
 #include <filesystem>
 #include <functional>
-#include <nlohmann/json.hpp>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,9 +22,9 @@ struct ComparedRuns {
 
 /// A report before any of it is written.
 struct ComparisonReport {
-  nlohmann::ordered_json content;  ///< comparison.json
-  std::string page;                ///< template of apps/pages
-  std::string summary;             ///< for the terminal
+  std::shared_ptr<nlohmann::ordered_json> content;  ///< comparison.json
+  std::string page;                                 ///< template of apps/pages
+  std::string summary;                              ///< for the terminal
   std::function<void(const std::filesystem::path& folder)> write_overlays;
   /// The scripts that read comparison.json and the overlays.
   std::function<std::vector<FigureScript>(const std::filesystem::path& folder,

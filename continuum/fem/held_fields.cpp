@@ -76,7 +76,8 @@ void MemoryMixing::mix(const Discretisation& d, const HeldFields* before, Scalar
     if (added) a.added -= b.added;
   };
   subtract(now.change, now.went_in);
-  change_ = now.change.axes.l2_norm() / axes.values.l2_norm();
+  const double size = axes.values.l2_norm();
+  change_ = size > 0 ? now.change.axes.l2_norm() / size : 0;  // what never sheared remembers nothing
   const auto dot = [added](const Fields& a, const Fields& b) {
     const double both = a.axes * b.axes + a.rho * b.rho;
     return added ? both + a.added * b.added / (usual_friction * usual_friction) : both;

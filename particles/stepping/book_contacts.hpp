@@ -2,6 +2,7 @@
 // The work of the contacts of a step, from the contact problem to the energy ledger.
 #include <optional>
 
+#include "particles/contact/solution.hpp"
 #include "particles/stepping/assembly.hpp"
 #include "particles/stepping/energy_ledger.hpp"
 
