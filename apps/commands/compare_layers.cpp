@@ -1,6 +1,8 @@
 // The report of `drumlin compare` on two flows in layers.
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "apps/commands/compare_record.hpp"
 #include "apps/support/comparison_json.hpp"
 

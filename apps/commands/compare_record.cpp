@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "apps/support/json_file.hpp"
 
 namespace drumlin::apps {
