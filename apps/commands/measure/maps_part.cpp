@@ -93,10 +93,12 @@ void print(const particles::MeasuredMaps& maps) {
                             100 * r.rms_x_blocks, 100 * r.rms_z_blocks));
     print_out("\n");
   };
-  print_out("momentum missing at the nodes of the maps, rms over nu g\n");
-  line("bulk", maps.balance.bulk);
-  line("flowing", maps.balance.flowing);
-  line("slow", maps.balance.slow);
+  if (std::isfinite(maps.balance.bulk.rms_x)) {  // not without weight
+    print_out("momentum missing at the nodes of the maps, rms over nu g\n");
+    line("bulk", maps.balance.bulk);
+    line("flowing", maps.balance.flowing);
+    line("slow", maps.balance.slow);
+  }
   const particles::BulkFriction& fits = maps.friction;
   if (!std::isfinite(fits.invariant.rms)) return;
   print_out("mu(I) over the whole bulk\n");
