@@ -23,9 +23,6 @@ SCALARS = [("theta_com_deg", r"$\theta$ (centre of mass)  [deg]", 2), ("H", r"$H
            ("domega_over_shear", r"$\delta\omega/\dot\gamma$", 2), ("mu_b", r"$b$ of $\mu = a + b \ln I$", 4),
            ("dv_exponent", r"exponent of $\delta v/\dot\gamma \sim I^p$", 3), ("overlap_mean", "mean overlap  [d]", 7)]
 
-# P(|t| <= value) = 0.99 for 1, 2, ... degrees of freedom (Abramowitz & Stegun 1964, table 26.10); the last for more.
-STUDENT_99 = [63.657, 9.925, 5.841, 4.604, 4.032, 3.707, 3.499, 3.355, 3.250, 3.169]
-
 
 def runs_of(standard, convergence):
     """{setting: [(run.json, measured.json, folder), ...]}, the standard first."""
@@ -52,7 +49,7 @@ def seed_spread(groups, scalar):
         mean = sum(values) / max(len(values), 1)
         squares += sum((value - mean) ** 2 for value in values)
         freedom += max(len(values) - 1, 0)
-    return STUDENT_99[min(freedom, len(STUDENT_99)) - 1] * math.sqrt(squares / freedom) if freedom > 0 else 0
+    return style.student_99(freedom) * math.sqrt(squares / freedom) if freedom > 0 else 0
 
 
 def pooled(groups, runs, scalar):

@@ -8,11 +8,12 @@ import math
 import pathlib
 import sys
 
-import matplotlib.pyplot as plt
 import numpy as np
 
 import drum_maps
 import style
+
+plt = style.plt
 
 INK = "#202020"
 

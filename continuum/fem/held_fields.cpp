@@ -32,7 +32,8 @@ std::vector<Remembered> remembered(const std::vector<double>& xx, const std::vec
   return all;
 }
 
-// What the memory of a flow is, as a whole: m as far as it has risen. Amount and axes rise together.
+// What the memory of a flow is, as a whole: m as far as it has risen. What is added to the amount is whole
+// from the first update.
 void add_memory(const FlowProblem& problem, const Discretisation& d, const State& state,
                 const HeldUpdate& update, HeldFields& held) {
   const MemoryLaw& law = problem.memory->law;

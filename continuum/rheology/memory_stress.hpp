@@ -5,7 +5,7 @@
 //
 // with the regularised |D|, so that h is one wherever the material shears faster than eps. h makes the
 // dissipation p mu |D| (|n|^2 + m h n.A)/rho >= 0 for |A| <= 1 and m <= 1, also where |D| < eps. A and rho
-// are given here (continuum/fem/detail/carried_axes.hpp says how they are carried); what depends on D and p
+// are given here (continuum/fem/detail/carried_field.hpp says how they are carried); what depends on D and p
 // is differentiated exactly.
 #include <complex>
 

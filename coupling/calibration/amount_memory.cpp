@@ -109,18 +109,33 @@ struct Trial {
   Sums total;
 };
 
-/// `dilatancy` of a path: what its first coefficient beside the knots belongs to.
-template <class Dilatancy>
-Trial tried(std::span<const PathsOfRun> runs, const MemoryLaw& axes, const std::vector<double>& knots,
-            AmountTrial trial, Dilatancy dilatancy) {
-  Trial found{trial, {}, {}, {}};
+/// A path, and of its row in the normal equations what no trial changes: all but the dilatancy.
+struct Sample {
+  const StressPath* path;
+  Vector row;
+};
+
+std::vector<Sample> samples_of(std::span<const PathsOfRun> runs, const MemoryLaw& axes,
+                               const std::vector<double>& knots) {
+  std::vector<Sample> samples;
   for (const PathsOfRun& run : runs)
     for (const StressPath& path : run.paths) {
       Vector row = knot_weights(knots, path.ln_I);
-      row[row.size() - 2] = dilatancy(path);
       row[row.size() - 1] = -lag_of(path, axes);
-      found.sectors[sector_of(path)].add(row, std::abs(path.stress));
+      samples.push_back({&path, std::move(row)});
     }
+  return samples;
+}
+
+/// `dilatancy` of a path: what its first coefficient beside the knots belongs to.
+template <class Dilatancy>
+Trial tried(const std::vector<Sample>& samples, AmountTrial trial, Dilatancy dilatancy) {
+  Trial found{trial, {}, {}, {}};
+  for (const Sample& sample : samples) {
+    Vector row = sample.row;
+    row[row.size() - 2] = dilatancy(*sample.path);
+    found.sectors[sector_of(*sample.path)].add(row, std::abs(sample.path->stress));
+  }
   for (const auto& [number, sums] : found.sectors) found.total += sums;
   found.x = found.total.solution();
   found.trial.rms = found.total.rms(found.x);
@@ -138,20 +153,16 @@ std::array<double, 2> sector_intervals(const Trial& best) {
           factor * std::sqrt(statistics::jackknife_variance(without[1]))};
 }
 
-StressDilatancy stress_dilatancy(std::span<const PathsOfRun> runs, const MemoryLaw& axes,
-                                 const std::vector<double>& knots) {
-  StressDilatancy found;
+/// Nothing where the motion has no dilatation.
+std::optional<StressDilatancy> stress_dilatancy(const std::vector<Sample>& samples) {
+  std::optional<StressDilatancy> found;
   for (const double c_psi : {2.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0, 32.0}) {
-    const Trial now = tried(runs, axes, knots, {0, c_psi, 0},
-                            [&](const StressPath& path) { return seen_dilatancy(path, c_psi); });
-    if (!now.total.is_determined()) return found;  // a motion without dilation
-    found.trials.push_back(now.trial);
-    if (found.trials.size() > 1 && !(now.trial.rms < found.rms)) continue;
-    found.c_psi = c_psi;
-    found.rms = now.trial.rms;
-    found.coefficient = now.x[now.x.size() - 2];
-    found.lag = now.x[now.x.size() - 1];
-    found.coefficient_ci99 = sector_intervals(now)[0];
+    const Trial now =
+        tried(samples, {0, c_psi, 0}, [&](const StressPath& path) { return seen_dilatancy(path, c_psi); });
+    if (!now.total.is_determined()) return {};
+    if (found && !(now.trial.rms < found->rms)) continue;
+    found = {c_psi, now.x[now.x.size() - 2], sector_intervals(now)[0], now.x[now.x.size() - 1],
+             now.trial.rms};
   }
   return found;
 }
@@ -188,12 +199,13 @@ double added_amount(const StressPath& path, const MemoryLaw& law) {
 AmountFit fit_amount(std::span<const PathsOfRun> runs, std::span<const PathsOfRun> held_out,
                      const MemoryLaw& axes, const CalibratedLaw& alone) {
   const std::vector<double>& knots = alone.form.knots;
+  const std::vector<Sample> samples = samples_of(runs, axes, knots);
   AmountFit found;
   Trial best;
   for (const double c_nu : {2.0, 3.0, 4.0, 6.0, 8.0})
     for (const double c_psi : {8.0, 12.0, 16.0, 24.0, 32.0}) {
       if (!(c_nu < c_psi)) continue;
-      Trial now = tried(runs, axes, knots, {c_nu, c_psi, 0},
+      Trial now = tried(samples, {c_nu, c_psi, 0},
                         [&](const StressPath& path) { return felt_dilatancy(path, axes, c_nu, c_psi); });
       if (!now.total.is_determined())
         throw InputError(
@@ -203,7 +215,7 @@ AmountFit fit_amount(std::span<const PathsOfRun> runs, std::span<const PathsOfRu
     }
   found.law = {best.x[best.x.size() - 2], best.trial.c_nu, best.trial.c_psi, best.x[best.x.size() - 1]};
   found.ci99_sectors = sector_intervals(best);
-  found.measured = stress_dilatancy(runs, axes, knots);
+  found.measured = stress_dilatancy(samples);
   MemoryLaw law = axes;
   law.amount = found.law;
   std::vector<std::vector<FrictionPoint>> left;

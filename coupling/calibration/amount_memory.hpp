@@ -1,7 +1,8 @@
 #pragma once
 // What past strain adds to the amount of the stress, fitted along the paths of the material: its dilatancy,
-// and the lag of its axes (docs/theory/rheology.md, with dilatancy).
+// and the lag of its axes (docs/theory/dilatancy.md).
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -29,7 +30,6 @@ struct AmountScore {
 /// lag axes_lag, v.grad Q = 2 c_psi |D| (div v/(2|D|) - Q). Taylor's coefficient is one.
 struct StressDilatancy {
   double c_psi = 0, coefficient = 0, coefficient_ci99 = 0, lag = 0, rms = 0;
-  std::vector<AmountTrial> trials;  ///< c_nu: 0, has no part. Empty: the paths have no dilatancy
 };
 
 struct AmountFit {
@@ -37,7 +37,7 @@ struct AmountFit {
   CalibratedLaw table;                 ///< |s|/p over I less what the past adds: mu(I) of steady simple shear
   std::array<double, 2> ci99_sectors;  ///< of swelling and lag, over the sectors of the drum
   std::vector<AmountTrial> trials;
-  StressDilatancy measured;  ///< no part of the law: what the law's own dilatancy is to be compared with
+  std::optional<StressDilatancy> measured;  ///< no part of the law, its check; none where nothing dilates
   std::vector<AmountScore> scores, predictions;  ///< per run of the fit, per run held out
 };
 

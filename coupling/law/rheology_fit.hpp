@@ -55,7 +55,7 @@ struct NormalStressRatio {
   std::vector<double> k;
 };
 
-/// What the past of the material adds to the amount of its stress (docs/theory/rheology.md, with dilatancy):
+/// What the past of the material adds to the amount of its stress (docs/theory/dilatancy.md):
 /// its volume fraction follows that of its I, and it resists more while it swells.
 struct AmountMemory {
   double swelling = 0;  ///< beta: by how much ln nu falls per ln I in steady shear, > 0

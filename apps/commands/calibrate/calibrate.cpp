@@ -110,12 +110,16 @@ std::string amount_scores_text(const char* what, const std::vector<coupling::Amo
 }
 
 std::string amount_text(const coupling::AmountFit& fit) {
+  const std::string own =
+      fit.measured
+          ? fmt::format("with the particles' own dilatancy, c_psi = {:g}, times {:.2f} +- {:.2f}",
+                        fit.measured->c_psi, fit.measured->coefficient, fit.measured->coefficient_ci99)
+          : "the particles show no dilatancy of their own to compare it with";
   return fmt::format(
              "  the amount: swelling {:.4f} +- {:.4f} per ln I, c_nu = {:g}, c_psi = {:g}, lag {:.3f} +- "
-             "{:.3f}; with the particles' own dilatancy, c_psi = {:g}, times {:.2f} +- {:.2f}\n",
+             "{:.3f}; {}\n",
              fit.law.swelling, fit.ci99_sectors[coupling::amount_swelling], fit.law.c_nu, fit.law.c_psi,
-             fit.law.lag, fit.ci99_sectors[coupling::amount_lag], fit.measured.c_psi,
-             fit.measured.coefficient, fit.measured.coefficient_ci99) +
+             fit.law.lag, fit.ci99_sectors[coupling::amount_lag], own) +
          amount_scores_text("fitted", fit.scores) + amount_scores_text("predicted", fit.predictions);
 }
 

@@ -131,11 +131,11 @@ Json remembered_json(const std::optional<coupling::AmountFit>& fit) {
   for (const coupling::AmountTrial& trial : fit->trials)
     trials.push_back({{"c_nu", trial.c_nu}, {"c_psi", trial.c_psi}, {"rms", trial.rms}});
   Json measured;
-  if (!fit->measured.trials.empty())
-    measured = {{"coefficient", coefficient(fit->measured.coefficient, fit->measured.coefficient_ci99)},
-                {"c_psi", fit->measured.c_psi},
-                {"lag", fit->measured.lag},
-                {"rms", fit->measured.rms}};
+  if (fit->measured)
+    measured = {{"coefficient", coefficient(fit->measured->coefficient, fit->measured->coefficient_ci99)},
+                {"c_psi", fit->measured->c_psi},
+                {"lag", fit->measured->lag},
+                {"rms", fit->measured->rms}};
   return {{"swelling", coefficient(fit->law.swelling, fit->ci99_sectors[coupling::amount_swelling])},
           {"lag", coefficient(fit->law.lag, fit->ci99_sectors[coupling::amount_lag])},
           {"c_nu", fit->law.c_nu},
