@@ -88,14 +88,14 @@ void DirectSolver::Petsc::apply_inverse(const FieldVector& rhs, FieldVector& sol
   check(KSPSolve(solver, b.get(), x.get()), "solve with the factors");
 }
 
-double DirectSolver::solve(const FieldVector& rhs, FieldVector& solution) const {
+double DirectSolver::solve(const FieldVector& rhs, FieldVector& solution, double enough) const {
   const double size = rhs.l2_norm();
   solution = 0;
   if (size == 0) return 0;
   petsc_->apply_inverse(rhs, solution);
   FieldVector remainder(rhs), correction(rhs);
   double residual = remainder_of(*petsc_->matrix, solution, rhs, remainder) / size;
-  for (int step = 0; step < 3 && residual > 1e-12; ++step) {
+  for (int step = 0; step < 3 && residual > enough; ++step) {
     petsc_->apply_inverse(remainder, correction);
     FieldVector candidate = solution;
     candidate += correction;

@@ -24,9 +24,9 @@ class DirectSolver {
 
   /// Throws NotConvergedError if the factorisation fails. `matrix` has to outlive the solves.
   void factorise(const SystemMatrix& matrix);
-  /// Solves with up to three steps of iterative refinement; returns ||A x - b||/||b||, formed with the matrix
-  /// itself and not with what the factors say of it.
-  double solve(const FieldVector& rhs, FieldVector& solution) const;
+  /// Solves, with up to three steps of iterative refinement while the residual is above `enough`; returns
+  /// ||A x - b||/||b||, formed with the matrix itself and not with what the factors say of it.
+  double solve(const FieldVector& rhs, FieldVector& solution, double enough = 1e-12) const;
 
  private:
   struct Petsc;
