@@ -1,0 +1,390 @@
+"""The tables of results in README and docs, printed from the files in data/ into the pages that show them.
+
+usage: result_tables.py [--check] PAGE...
+In a page a table stands between `<!-- table NAME -->` and `<!-- end of table -->`, NAME one of TABLES below. Without --check the pages are
+written anew where a table changed. With it nothing is written: the exit code is 1 if a page differs, and the first difference is printed.
+"""
+
+import json
+import math
+import pathlib
+import re
+import sys
+import tomllib
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.append(str(ROOT / "apps" / "figures"))
+
+import whole_file  # noqa: E402  (it lies there)
+
+DATA = ROOT / "data"
+SPEEDS = (2, 4, 5, 6, 10, 15)
+
+
+def read(name):
+    text = (DATA / name).read_text()
+    return tomllib.loads(text) if name.endswith(".toml") else json.loads(text)
+
+
+def number(value, digits=3):
+    """To `digits` significant digits, without exponent."""
+    if value is None or not math.isfinite(value):
+        return ""
+    if value == 0:
+        return "0"
+    return f"{value:.{max(0, digits - 1 - math.floor(math.log10(abs(value))))}f}"
+
+
+def interval(scalar):
+    """A value with its 99 % interval, both to the second digit of the interval."""
+    value, width = scalar["value"], scalar.get("ci99")
+    if not width:
+        return number(value)
+    places = max(0, 1 - math.floor(math.log10(width)))
+    return f"{value:.{places}f} +- {width:.{places}f}"
+
+
+def table(head, rows):
+    lines = ["| " + " | ".join(row) + " |" for row in [head, *rows]]
+    return "\n".join([lines[0], "|" + "---|" * len(head), *lines[1:]])
+
+
+def paper_rows():
+    """The paper's entries against the runs of data/bed: the cells of each."""
+    lines = (DATA / "memory/paper-table.md").read_text().splitlines()
+    return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines if line.startswith("| ") and not line.startswith("| quantity")]
+
+
+def rotations():
+    return {entry["rotation_rpm"]: entry for entry in read("paper/rotations.toml")["rotation"]}
+
+
+def observables():
+    return {(entry["name"], entry.get("rotation_rpm")): entry["value"] for entry in read("paper/observables.toml")["observable"]}
+
+
+def headline():
+    """6 rpm: what one ./reproduce gives."""
+    record, paper, said = read("cost/drum-6rpm.json"), rotations()[6], observables()
+    both = record["comparison"]["scalars"]
+    friction = next(law["coefficients"] for law in read("paper/laws.toml")["law"] if law["name"] == "friction")
+
+    def row(name, key, stated, continuum=None):
+        flow = both[key]["continuum"]
+        if continuum is None:
+            continuum = interval(flow) if isinstance(flow, dict) else number(flow)
+        return [name, number(stated), interval(both[key]["particles"]), continuum]
+
+    share = 0.4 * said[("shear_rate", 6)] * paper["H"] ** 2 / paper["Q"]
+    return table(["", "paper", "particles", "continuum"], [
+        row("slope theta (deg)", "theta_deg", paper["theta_deg"]),
+        row("flow rate Q", "Q", paper["Q"]),
+        row("depth of the flowing layer H", "H", paper["H"]),
+        row("shear rate of the flowing layer", "shear_rate", said[("shear_rate", 6)]),
+        row("decay length lambda", "lambda", said[("lambda", 6)]),
+        row("I at z = -H", "I_th", said[("I_th", None)]),
+        row("volume fraction of the bulk", "nu_bulk", said[("nu_bulk", None)], "taken over"),
+        ["a, b of mu = a + b ln I", f"{friction['a']:g}, {friction['b']:g}", interval(both["mu_a"]["particles"]) + ", " + interval(both["mu_b"]["particles"]), "a table from the tensors"],
+        row("linear share of Q, 0.4 shear rate H^2/Q", "linear_layer_share", share),
+        ["cost (processor seconds)", "", f"{record['particles']['cpu_seconds']:.0f}", f"{record['continuum']['cpu_seconds']:.0f}"],
+    ])
+
+
+def five_seeds():
+    found = {row[0]: row[3] for row in paper_rows() if row[1] == "6"}
+    return (f"Five seeds of five turns at 6 rpm (`data/memory/paper-table.md`): H {found['H']}, lambda {found['lambda']}, shear rate {found['shear_rate']}, "
+            f"theta {found['theta_deg']} deg.")
+
+
+def verdicts():
+    rows = paper_rows()
+    count = {word: sum(row[4].strip("*") == word for row in rows) for word in ("agrees", "open", "near", "differs", "imposed")}
+    return (f"Of {len(rows)} entries {count['agrees']} agree, {count['open']} are open, {count['near']} are near, {count['differs']} differ, and {count['imposed']} are imposed.")
+
+
+def entries():
+    """Over the speeds where an entry has one per speed, so that Table I of the paper is a table here, too."""
+    found = {}
+    for name, rpm, paper, ours, verdict, _, where in paper_rows():
+        found.setdefault((name, where), []).append((rpm, paper, ours, verdict))
+    rows = []
+    for (name, where), several in found.items():
+        for rpm, paper, ours, verdict in several:
+            rows.append([name, rpm, paper, ours, verdict, where])
+    return rows
+
+
+def paper_verdict(*wanted):
+    head = ["quantity", "rpm", "paper", "ours (99 %)", "where in the paper"]
+    return table(head, [[*row[:4], row[5]] for row in entries() if row[4].strip("*") in wanted])
+
+
+def linear_layer():
+    paper, laws = rotations(), {law["name"]: law["coefficients"] for law in read("paper/laws.toml")["law"]}
+    said, scaling, rows = observables(), laws["shear_rate"], []
+    for rpm in SPEEDS:
+        ours = read(f"bed/{rpm}rpm-{5 if rpm == 6 else 3}turns-seed1/measured/measured.json")
+        theirs = paper[rpm]
+        flat = math.radians(scaling["Phi_deg"])
+        rate = said.get(("shear_rate", rpm)) or scaling["c"] * math.sqrt((math.sin(math.radians(theirs["theta_deg"])) - math.sin(flat)) / math.cos(flat))
+
+        def share(shear_rate, H, Q):
+            return number(0.4 * shear_rate * H**2 / Q, 2)
+
+        mine = {name: ours[name]["value"] for name in ("shear_rate", "H", "Q")}
+        rows.append([str(rpm), interval(ours["Q"]), number(ours["Q_expected"]["value"] if isinstance(ours["Q_expected"], dict) else ours["Q_expected"]), number(theirs["Q"]),
+                     interval(ours["H"]), number(theirs["H"]), interval(ours["shear_rate"]), number(rate),
+                     share(mine["shear_rate"], mine["H"], mine["Q"]), share(rate, theirs["H"], theirs["Q"])])
+    return table(["rpm", "Q", "mass balance", "Q, paper", "H", "H, paper", "shear rate", "shear rate, paper", "linear share of Q", "share, paper"], rows)
+
+
+def read_profile(rpm):
+    """Columns of a profile at x = 0, from the surface downwards, where v_x is known."""
+    folder = DATA / f"bed/{rpm}rpm-{5 if rpm == 6 else 3}turns-seed1/measured"
+    lines = (folder / "profiles.csv").read_text().splitlines()
+    header = dict(line[2:].split(" = ", 1) for line in lines if line.startswith("# ") and " = " in line)
+    names, *rows = [line.split(",") for line in lines if not line.startswith("#")]
+    rows = [dict(zip(names, row)) for row in rows]
+    rows = [{name: float(row[name]) if row[name] else math.nan for name in ("z", "v_x", "shear_rate", "nu", "I")} for row in rows if row["v_x"]]
+    rows.sort(key=lambda row: -row["z"])
+    return rows, {name: float(header[name]) for name in ("rotation", "axis_depth")}
+
+
+def crossing(rows, name, level):
+    """The highest place z at which a column passes through `level`, below the surface or at it."""
+    for above, below in zip(rows, rows[1:]):
+        a, b = above[name] - level, below[name] - level
+        if a * b <= 0 and a != b:
+            return above["z"] + (below["z"] - above["z"]) * a / (a - b)
+    return math.nan
+
+
+def at(rows, name, z):
+    for above, below in zip(rows, rows[1:]):
+        if below["z"] <= z <= above["z"]:
+            return below[name] + (above[name] - below[name]) * (z - below["z"]) / (above["z"] - below["z"])
+    return math.nan
+
+
+def line_depth(rows, keep):
+    """Where the straight line through the layers below z = 0 that `keep` takes reaches zero."""
+    points = [(row["z"], row["v_x"]) for row in rows if row["z"] <= 0 and keep(row)]
+    n, sz, sv = len(points), sum(z for z, _ in points), sum(v for _, v in points)
+    slope = (sum(z * v for z, v in points) - sz * sv / n) / (sum(z * z for z, _ in points) - sz * sz / n)
+    return -(sz - sv / slope) / n
+
+
+def depths():
+    """H of each speed by each definition."""
+    paper = rotations()
+    runs = {rpm: read_profile(rpm) for rpm in SPEEDS}
+
+    def of(definition):
+        return [definition(*runs[rpm]) for rpm in SPEEDS]
+
+    def share(part):
+        return lambda rows, _: line_depth(rows, lambda row: row["v_x"] > part * at(rows, "v_x", 0))
+
+    def shifted(level):
+        return lambda rows, header: share(0.3)(rows, header) + crossing(rows, "nu", level)
+
+    def in_laboratory(rows, header):
+        seen = [{**row, "v_x": row["v_x"] + header["rotation"] * (row["z"] + header["axis_depth"])} for row in rows]
+        return share(0.3)(seen, header)
+
+    def steepest(rows, _):
+        low = min((row for row in rows if row["z"] <= 0), key=lambda row: -row["shear_rate"] if math.isfinite(row["shear_rate"]) else 0)
+        return low["v_x"] / low["shear_rate"] - low["z"]
+
+    stated = [paper[rpm]["H"] for rpm in SPEEDS]
+    found = {
+        "line where v_x > 0.3 v_x(0): the project's": of(share(0.3)),
+        "the same, v_x > 0.1 v_x(0)": of(share(0.1)),
+        "the same, v_x > 0.7 v_x(0)": of(share(0.7)),
+        "line through the top 5 d": of(lambda rows, _: line_depth(rows, lambda row: row["z"] > -5)),
+        "line through the top 8 d": of(lambda rows, _: line_depth(rows, lambda row: row["z"] > -8)),
+        "steepest tangent": of(steepest),
+        "surface where nu = 0.4": of(shifted(0.4)),
+        "surface where nu = 0.78": of(shifted(0.78)),
+        "velocity of the laboratory": of(in_laboratory),
+        "v_x = 0.2 v_x(0)": of(lambda rows, _: -crossing([row for row in rows if row["z"] < 0], "v_x", 0.2 * at(rows, "v_x", 0))),
+        "I = 0.018, the paper's I_th": of(lambda rows, _: -crossing([row for row in rows if row["z"] < -5], "I", 0.018)),
+    }
+    found["the project's, less 4.4 d (fitted to the paper)"] = [H - 4.4 for H in found["line where v_x > 0.3 v_x(0): the project's"]]
+
+    def misfit(values):
+        return number(math.sqrt(sum((mine / theirs - 1) ** 2 for mine, theirs in zip(values, stated)) / len(stated)), 2)
+
+    rows = [["**paper**", *(f"**{H:g}**" for H in stated), ""]]
+    rows += [[name, *(f"{H:.1f}" for H in values), misfit(values)] for name, values in found.items()]
+    return table(["definition of H", *(f"{rpm}" for rpm in SPEEDS[:-1]), "15 rpm", "misfit"], rows)
+
+
+def outcome(target):
+    places = {"deg": 1, "d": 1}.get(target["measure"], 3)
+    text = f"{target['value']:.{places}f}"
+    return text if target["outcome"] == "met" else f"**{text}**"
+
+
+def speeds():
+    """The continuum with mu(I), inertia and a moving surface against one-turn runs."""
+    wanted = [("v_x", "flowing"), ("sigma_zz", "all"), ("sigma_xz", "flowing"), ("sigma_xz", "static"), ("sigma_xx", "all"), ("log10_shear_rate", "static"), ("axis_angle_deg", "all")]
+    record = read("cost/speeds-flow.json")
+    first = record["speeds"][0]["targets"]
+    limits = {(t["quantity"], t.get("zone")): t["limit"] for t in first}
+    head = ["rpm", "theta (deg): particles", "continuum", "H: particles", "continuum", "lambda: particles", "continuum"]
+    words = {"log10_shear_rate": "log10 shear rate", "axis_angle_deg": "axes (deg)", "all": ""}
+    head += [" ".join(words.get(word, word) for word in key).strip() + f" ({limits[key]:g})" for key in wanted]
+    rows = []
+    for speed in record["speeds"]:
+        targets = {(t["quantity"], t.get("zone")): t for t in speed["targets"]}
+        row = [f"{speed['rotation_rpm']:.0f}"]
+        for name, places in (("theta_deg", 2), ("H", 1), ("lambda", 1)):
+            both = speed["scalars"][name]
+            value = f"{both['continuum']:.{places}f}"
+            row += [interval(both["particles"]), value if targets[(name, None)]["outcome"] == "met" else f"**{value}**"]
+        rows.append(row + [outcome(targets[key]) for key in wanted])
+    return table(head, rows)
+
+
+def effects_over_speed():
+    """Slope, and H in brackets, with effects named one after the other."""
+    record, whole = read("cost/effects-over-speed.json"), read("cost/speeds-flow.json")
+    by_speed = {f"{speed['rotation_rpm']:.0f}": speed["scalars"] for speed in whole["speeds"]}
+    shown = [str(rpm) for rpm in record["speeds_rpm"]]
+
+    def pair(theta, H):
+        return f"{theta:.1f} ({H:.1f})"
+
+    rows = [["particles", *(pair(by_speed[rpm]["theta_deg"]["particles"]["value"], by_speed[rpm]["H"]["particles"]["value"]) for rpm in shown)]]
+    rows += [[name, *(pair(flow["theta_deg"], flow["H"]) for flow in flows)] for name, flows in record["flows"].items()]
+    rows += [["inertia and moving surface", *(pair(by_speed[rpm]["theta_deg"]["continuum"], by_speed[rpm]["H"]["continuum"]) for rpm in shown)]]
+    return table(["theta in deg (H)", *(f"{rpm} rpm" for rpm in shown)], rows)
+
+
+ROWS = {  # of the limits, in the order of data/limits/bed.toml
+    ("sigma_xz", "centre", "static"): "sigma_xz, bed, x = 0",
+    ("traction_ratio", "wall", ""): "shear over normal traction along the wall",
+    ("axis_angle_deg", "centre", "all"): "axes of stress and strain rate (deg), x = 0",
+    ("log10_shear_rate", "centre", "static"): "log10 shear rate, bed, x = 0",
+    ("lambda", "scalar", ""): "lambda, over the interval of the particles",
+    ("sigma_xx", "centre", "all"): "sigma_xx, x = 0",
+    ("sigma_zz", "centre", "all"): "sigma_zz, x = 0",
+    ("sigma_xz", "centre", "flowing"): "sigma_xz, flow, x = 0",
+    ("v_x", "centre", "flowing"): "v_x, flow, x = 0",
+    ("theta_deg", "scalar", ""): "theta (deg)",
+    ("H", "scalar", ""): "H (d)",
+    ("sigma_xz", "map", "static"): "sigma_xz, bed, whole drum",
+    ("axis_angle_deg", "map", "all"): "axes (deg), whole drum",
+    ("log10_shear_rate", "map", "static"): "log10 shear rate, bed, whole drum",
+}
+
+
+def cells_of(entry):
+    """{(quantity, where, zone): (row, {rpm: cell})} by the axis."""
+    rows = [row for row in read("memory/limits-speeds.json")[entry]["limits"]["rows"] if row["registered_by"] == "axis"]
+    return {(row["quantity"], row["where"], row["zone"]): (row, {round(cell["rotation_rpm"]): cell for cell in row["cells"]}) for row in rows}
+
+
+def judged(cell):
+    if cell is None or cell["value"] is None:
+        return ""
+    return number(cell["value"]) if cell["met"] else f"**{number(cell['value'])}**"
+
+
+BLIND = (3, 12)
+AMOUNT, AXES, WITHOUT = "with effects.memory and the amount", "with effects.memory", "without"
+
+
+def limits(entry=AMOUNT):
+    found = cells_of(entry)
+    shown = sorted(next(iter(found.values()))[1])
+    head = [f"{rpm}{' (blind)' if rpm in BLIND else ''}" for rpm in shown]
+    head[-1] += " rpm"
+    if entry != AMOUNT:
+        return table(["", *head], [[name, *(judged(found[key][1].get(rpm)) for rpm in shown)] for key, name in ROWS.items()])
+    without, axes, rows = cells_of(WITHOUT), cells_of(AXES), []
+    for key, name in ROWS.items():
+        row, cells = found[key]
+        rows.append([name, f"{row['must']:g}; {row['aim']:g}", number(cells[6]["floor"], 2), judged(without[key][1].get(6)), judged(axes[key][1].get(6)), *(judged(cells.get(rpm)) for rpm in shown)])
+    return table(["", "must; aim", "noise floor, 6 rpm", "mu(I) alone, 6 rpm", "axes remember, 6 rpm", *head], rows)
+
+
+def sensitivities():
+    """The measures of the limits, by the axis, with one free number of the continuum changed at a time."""
+    record = read("memory/sensitivities-6rpm.json")
+    names = ["as it is", *(name for name in record["variants"] if name != "p_min-0.2")]
+    values, found = record["limits"]["axis"], {}
+    for key, value in values.items():
+        quantity, *place = key.split()
+        found[(quantity, *sorted(place[:-1]))] = value
+    rows = []
+    for (quantity, where, zone), name in ROWS.items():
+        value = found[(quantity, *sorted(word for word in (where, zone) if word))]
+        rows.append([name, *(number(value[variant]) for variant in names)])
+    for key, name in (("theta_deg", "theta of the flow (deg)"), ("H", "H of the flow, by its own surface (d)"), ("shear_rate", "shear rate of the flow")):
+        rows.append([name, *(number(record["values"][key][variant], 4) for variant in names)])
+    return table(["", "p_min 0.4, taper 4 d, eps 1e-5, 40,709 unknowns", *(name.replace("-", " ", 1) for name in names[1:])], rows)
+
+
+def second_variable():
+    """rms of |s|/p that ln I and further variables leave over the blocks of the maps."""
+    found = read("memory/amount-over-place-6rpm.json")["beside_ln_I"]
+    bed, flow = found["bed"], found["flow"]
+    left = {tuple(entry["variables"]): entry["rms"] for entry in flow["sets"]}
+    rows = [[", ".join(entry["variables"]) or "nothing", f"{entry['rms']:.4f}", f"{left[tuple(entry['variables'])]:.4f}"] for entry in bed["sets"]]
+    return table(["beside ln I", f"bed, {bed['blocks']} blocks", f"flow, {flow['blocks']} blocks"], rows)
+
+
+TABLES = {
+    "headline": headline,
+    "five seeds": five_seeds,
+    "verdicts": verdicts,
+    "entries that differ": lambda: paper_verdict("differs"),
+    "entries that are open": lambda: paper_verdict("open"),
+    "linear layer": linear_layer,
+    "definitions of H": depths,
+    "mu(I) over speed": speeds,
+    "effects over speed": effects_over_speed,
+    "limits": limits,
+    "limits, axes alone": lambda: limits(AXES),
+    "limits, p_min of the particles": lambda: limits("with effects.memory, the amount, and the p_min of the particles"),
+    "sensitivities": sensitivities,
+    "second variable": second_variable,
+}
+PLACE = re.compile(r"(<!-- table (?P<name>[^>]*) -->\n)(?P<text>.*?)(<!-- end of table -->)", re.DOTALL)
+
+
+def renewed(page):
+    def printed(match):
+        name = match["name"]
+        if name not in TABLES:
+            raise SystemExit(f"{page}: no table is called '{name}'; there are {', '.join(TABLES)}")
+        return f"{match[1]}{TABLES[name]()}\n{match[4]}"
+
+    return PLACE.sub(printed, page.read_text())
+
+
+def main():
+    words = sys.argv[1:]
+    check = "--check" in words
+    pages = [pathlib.Path(word) for word in words if word != "--check"]
+    if not pages:
+        raise SystemExit(__doc__)
+    failures = 0
+    for page in pages:
+        now, old = renewed(page), page.read_text()
+        if now == old:
+            continue
+        if not check:
+            whole_file.write_text(page, now)
+            print(f"written: {page}")
+            continue
+        failures += 1
+        line = next(k for k, (a, b) in enumerate(zip(old.splitlines() + [""], now.splitlines() + [""])) if a != b)
+        print(f"{page}, line {line + 1}: not what data/ says\n  there: {(old.splitlines() + [''])[line]}\n  data/: {(now.splitlines() + [''])[line]}")
+    sys.exit(1 if failures else 0)
+
+
+if __name__ == "__main__":
+    main()
