@@ -14,9 +14,6 @@ class App;
 
 namespace drumlin::apps {
 
-/// Of --threads: more than any machine that this program was made for, and few enough that all can be
-/// started.
-inline constexpr int most_threads = 256;
 inline constexpr const char* keep_what_is_done = "Keeps what an earlier call has finished";
 
 /// A number with its unit and range in the help, and held to that range; its value before is the default.

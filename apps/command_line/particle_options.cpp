@@ -11,7 +11,7 @@ void add_run_options(CLI::App& command, RunOptions& options) {
   add_folder_or_file(command, "-o,--output", options.output, "RUN", "Folder for the results");
   add_overrides(command, options.overrides);
   add_number(command, "--threads", options.threads, "", at_least(1, most_threads),
-             "Threads; the results do not depend on it");
+             "Threads, all processors unless told; the results do not depend on it");
   add_accuracy(command, options.accuracy);
   add_number(
       command, "--accuracy-seconds", options.accuracy_seconds, "s", above(0),

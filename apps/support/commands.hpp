@@ -11,11 +11,17 @@
 
 namespace drumlin::apps {
 
+/// Of --threads: more than any machine that this program was made for, and few enough that all can be
+/// started.
+inline constexpr int most_threads = 256;
+/// Processors that this process may use, most_threads at most.
+int processors_at_hand();
+
 struct RunOptions {
   std::filesystem::path scene;
   std::filesystem::path output;
   std::vector<std::string> overrides;  ///< "key=value"
-  int threads = 1;
+  int threads = processors_at_hand();
   std::optional<std::filesystem::path>
       accuracy;  ///< COST of the scene; absent: a shipped record, if there is one
   ExistingOutput existing = ExistingOutput::refuse;

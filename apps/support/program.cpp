@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
@@ -12,7 +13,9 @@
 #include <new>
 #include <nlohmann/json.hpp>
 #include <system_error>
+#include <thread>
 
+#include "apps/support/commands.hpp"
 #include "apps/support/interruption.hpp"
 #include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
@@ -91,6 +94,10 @@ int code_with_output(int code, bool speaks) {
 }
 
 }  // namespace
+
+int processors_at_hand() {
+  return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, most_threads);
+}
 
 int run_program(const std::function<int()>& work, const std::function<bool()>& speaks) {
   open_standard_streams();
