@@ -1,7 +1,7 @@
-"""docs/tutorial.md, command by command as it stands there, from step 1 on: each ends with 0, every file that it names is there, and what it
-says of numbers holds.
+"""Pages of docs, command by command as they stand there: each ends with 0. Of docs/tutorial.md, which is followed where no other page is
+given: every file that it names is there, and what it says of numbers holds.
 
-usage: tutorial.py DRUMLIN SOURCE_DIR
+usage: tutorial.py DRUMLIN SOURCE_DIR [PAGE...]   (PAGE: below docs, such as cookbook/flows.md)
 """
 
 import pathlib
@@ -17,20 +17,23 @@ BUILD, SOURCE = pathlib.Path(sys.argv[1]).parent, pathlib.Path(sys.argv[2])
 PAGE = (SOURCE / "docs" / "tutorial.md").read_text(encoding="utf-8")
 
 
-def commands():
-    """The lines of the blocks of shell commands, without those of the build."""
-    blocks = re.findall(r"^```sh\n(.*?)^```", PAGE, re.MULTILINE | re.DOTALL)
-    lines = [line for block in blocks for line in block.splitlines() if line.strip()]
-    return [line for line in lines if not line.startswith("cmake ")]
+def commands(text):
+    """The lines of the blocks of shell commands, without those of the build and those with a placeholder."""
+    blocks = re.findall(r"^```sh\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
+    lines = [line for block in blocks for line in block.replace("\\\n", " ").splitlines() if line.strip()]
+    return [line for line in lines if not line.startswith("cmake ") and not re.search(r"\b[A-Z]{3,}\b", line)]
 
 
-def follow(folder):
+def follow(text, folder):
     """What the commands print, one after the other, called where `build` and `data` are those of the source."""
     (folder / "build").symlink_to(BUILD)
     (folder / "data").symlink_to(SOURCE / "data")
     printed = {}
-    for line in commands():
-        done = subprocess.run(shlex.split(line), cwd=folder, capture_output=True, text=True, timeout=3000, check=False)
+    for line in commands(text):
+        words = shlex.split(line, comments=True)
+        if words[:1] == ["cd"] or "|" in words or ">" in words:
+            continue
+        done = subprocess.run(words, cwd=folder, capture_output=True, text=True, timeout=3000, check=False)
         require(done.returncode == 0, f"{line}\nexit code {done.returncode}\n{done.stdout}{done.stderr}")
         printed[line] = done.stdout
         print(line, flush=True)
@@ -56,7 +59,12 @@ def check_files(folder):
 
 with tempfile.TemporaryDirectory() as name:
     place = pathlib.Path(name)
-    output = follow(place)
-    require(len(output) >= 13, f"{len(output)} commands found")
-    check_numbers(place, output)
-    check_files(place)
+    if pages := sys.argv[3:]:
+        for page in pages:
+            (place / pathlib.Path(page).stem).mkdir()
+            follow((SOURCE / "docs" / page).read_text(encoding="utf-8"), place / pathlib.Path(page).stem)
+    else:
+        output = follow(PAGE, place)
+        require(len(output) == 13, f"{len(output)} commands found")
+        check_numbers(place, output)
+        check_files(place)
