@@ -18,23 +18,29 @@ PAGE = (SOURCE / "docs" / "tutorial.md").read_text(encoding="utf-8")
 
 
 def commands(text):
-    """The lines of the blocks of shell commands, without those of the build and those with a placeholder."""
-    blocks = re.findall(r"^```sh\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
-    lines = [line for block in blocks for line in block.replace("\\\n", " ").splitlines() if line.strip()]
-    return [line for line in lines if not line.startswith("cmake ") and not re.search(r"\b[A-Z]{3,}\b", line)]
+    """The lines of the blocks of shell commands, each with what the comment below it says that it prints; without those of the build, those
+    with a placeholder, and those that are more than one command."""
+    found = []
+    for block in re.findall(r"^```sh\n(.*?)^```", text, re.MULTILINE | re.DOTALL):
+        for line in block.replace("\\\n", " ").splitlines():
+            if line.startswith("# ") and found:
+                found[-1][1] = line[2:]
+            elif line.strip() and not line.startswith(("#", "cmake ", "cd ")) and not re.search(r"\b[A-Z]{3,}\b|[|>]", line):
+                found.append([line, None])
+    return found
 
 
 def follow(text, folder):
-    """What the commands print, one after the other, called where `build` and `data` are those of the source."""
+    """What the commands print, one after the other, called where `build` and `data` are those of the source. One that fails is one of which
+    the page says so, with its message."""
     (folder / "build").symlink_to(BUILD)
     (folder / "data").symlink_to(SOURCE / "data")
+    (folder / "docs").symlink_to(SOURCE / "docs")
     printed = {}
-    for line in commands(text):
-        words = shlex.split(line, comments=True)
-        if words[:1] == ["cd"] or "|" in words or ">" in words:
-            continue
-        done = subprocess.run(words, cwd=folder, capture_output=True, text=True, timeout=3000, check=False)
-        require(done.returncode == 0, f"{line}\nexit code {done.returncode}\n{done.stdout}{done.stderr}")
+    for line, said in commands(text):
+        done = subprocess.run(shlex.split(line, comments=True), cwd=folder, capture_output=True, text=True, timeout=3000, check=False)
+        everything = done.stdout + done.stderr
+        require(done.returncode == 0 or (said and said in everything), f"{line}\nexit code {done.returncode}\n{everything}")
         printed[line] = done.stdout
         print(line, flush=True)
     return printed
