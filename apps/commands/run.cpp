@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/commands/accuracy_statement.hpp"
+#include "apps/commands/expected_output.hpp"
 #include "apps/commands/region_table.hpp"
 #include "apps/commands/run_accuracy.hpp"
 #include "apps/commands/run_files.hpp"
@@ -351,7 +352,7 @@ int run(const RunOptions& options) {
   particles::Scene scene = particles::read_scene(options.scene, options.overrides);
   const nlohmann::ordered_json started_from = take_over_grains(scene);
   // What only shows when grains are placed must show before anything is written or removed.
-  (void)particles::Simulation(scene);
+  const std::size_t grains = particles::Simulation(scene).state().bodies.count();
   if (options.accuracy) (void)accuracy_record(*options.accuracy, scene);
   std::vector<fs::path> inputs{options.scene};
   for (const auto* list : lists_of(scene)) inputs.push_back(list->file);
@@ -386,6 +387,12 @@ int run(const RunOptions& options) {
   replace_file(options.output / "scene.toml", resolved);
   output.list("scene.toml");
   output.save();
+  if (!from) {
+    const particles::TimePlan plan = particles::time_plan(scene, scales_of(scene));
+    const ExpectedOutput expected = expected_output(scene, grains, plan.snapshot_steps.size(), plan.steps);
+    if (const std::string warning = room_warning(expected, options.output); !warning.empty())
+      print_error(fmt::format("warning: {}\n", warning));
+  }
   return ParticleRun(options, output, scene, resolved, std::move(from), started_from).execute();
 }
 

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/commands/expected_output.hpp"
 #include "apps/commands/run_report.hpp"
 #include "apps/commands/start_grains.hpp"
 #include "apps/support/commands.hpp"
@@ -63,6 +64,8 @@ void check(const SceneOptions& options) {
   print_out(fmt::format("in all     {}{:.6g} s, {} steps, {} snapshots\n",
                         ends_stages_early(scene) ? "at most " : "", seconds, plan.steps,
                         plan.snapshot_steps.size()));
+  print_out(fmt::format("output     {}\n", expected_output_text(expected_output(
+                                               scene, grains, plan.snapshot_steps.size(), plan.steps))));
   if (const std::string warning = start_warning(simulation.start_overlaps()); !warning.empty())
     print_out(fmt::format("warning: {}\n", warning));
 }

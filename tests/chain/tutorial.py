@@ -50,6 +50,9 @@ def check_numbers(folder, printed):
     first = next(iter(printed.values()))
     grains, steps = re.search(r"says what it amounts to: (\d+) grains, .* (\d+) time steps", PAGE).groups()
     require(grains in first and steps in first, f"scene check: not {grains} grains and {steps} steps\n{first}")
+    expected = float(re.search(r"^output +about ([\d.]+) MB", first, re.MULTILINE)[1])
+    written = sum(path.stat().st_size for path in (folder / "tut/run").rglob("*") if path.suffix in (".h5", ".csv")) * 1e-6
+    require(abs(written / expected - 1) < 0.2, f"the run wrote {written:.3g} MB, expected were {expected} MB")
     run = read_json(folder / "tut/run/run.json")
     residual = re.search(r"mean residual ([\d.]+)", PAGE)[1]
     require(f"{run['accuracy']['residual_mean']:.{len(residual) - 2}f}" == residual, f"mean residual {run['accuracy']['residual_mean']}, not {residual}")
