@@ -24,13 +24,26 @@ constexpr const char* compared_settings[] = {
     "linear_share",          "decay_window_below_H",   "bulk_margin",     "mu_fit_I",
     "mu_fit_surface_margin", "mu_fit_wall_margin"};
 
+/// A table without its empty lists: of a key that the run's program did not know yet, and of one that the
+/// scene does not use, the same is said.
+Node without_empty_lists(const Node& table) {
+  const auto* entries = std::get_if<Node::Table>(&table.value);
+  if (!entries) return table;
+  Node::Table kept;
+  for (const Node::Entry& entry : *entries) {
+    const auto* list = std::get_if<Node::Array>(&entry.node.value);
+    if (!list || !list->empty()) kept.push_back({entry.key, without_empty_lists(entry.node)});
+  }
+  return {kept, table.line, table.column};
+}
+
 /// Grains, walls and effects of the scene must agree, the numerics need not. A run from elsewhere has no
 /// scene.
 void add_scene(StudyRun& run, const fs::path& file) {
   if (!fs::exists(file)) return;
   const Document scene = read_toml(file);
   for (const char* part : {"grains", "effects"})
-    if (const Node* node = scene.root.find(part)) run.identity[part] = toml_text(*node);
+    if (const Node* node = scene.root.find(part)) run.identity[part] = toml_text(without_empty_lists(*node));
   if (const Node* solver = scene.root.find("solver"))
     if (const Node* tolerance = solver->find("tolerance"))
       run.numerics["solver.tolerance"] = toml_value(*tolerance);

@@ -97,6 +97,10 @@ TEST(StudyCommand, RefusesMixedSettingsReducedRunsAndOtherScenes) {
   replace_file(six / "scene.toml", "[effects.friction]\ngrain_grain = 0.4\n");
   replace_file(other / "scene.toml", "[effects.friction]\ngrain_grain = 0.2\n");
   EXPECT_NE(refusal().find("effects"), std::string::npos);
+
+  // An older program wrote no list of groups where there is none.
+  replace_file(other / "scene.toml", "[effects.friction]\ngrain_grain = 0.4\npairs = []\n");
+  EXPECT_EQ(study(options_for(folder, {six, other})), 0);
 }
 
 }  // namespace
