@@ -306,7 +306,8 @@ def limits(entry=AMOUNT):
     without, axes, rows = cells_of(WITHOUT), cells_of(AXES), []
     for key, name in ROWS.items():
         row, cells = found[key]
-        rows.append([name, f"{row['must']:g}; {row['aim']:g}", number(cells[6]["floor"], 2), judged(without[key][1].get(6)), judged(axes[key][1].get(6)), *(judged(cells.get(rpm)) for rpm in shown)])
+        worst = f" (one speed {row['must_worst']:g})" if "must_worst" in row else ""
+        rows.append([name, f"{row['must']:g}{worst}; {row['aim']:g}", number(cells[6]["floor"], 2), judged(without[key][1].get(6)), judged(axes[key][1].get(6)), *(judged(cells.get(rpm)) for rpm in shown)])
     return table(["", "must; aim", "noise floor, 6 rpm", "mu(I) alone, 6 rpm", "axes remember, 6 rpm", *head], rows)
 
 
