@@ -81,9 +81,11 @@ void add_plot_options(CLI::App& command, PlotOptions& options) {
       ->type_name("N")
       ->capture_default_str();
   command.add_flag("--animation", options.animation, "Draws the snapshots as an animated GIF as well");
+  command.add_flag("--player", options.player,
+                   "Writes player.html as well: one file in which the run plays, in any browser");
   add_number(command, "--every", options.every, "", at_least(1, 1000000),
-             "Every so manieth snapshot is a frame of the animation; without --animation each of them is a "
-             "still of its own");
+             "Every so manieth snapshot is a frame of the animation and of the player; without these each of "
+             "them is a still of its own");
   command
       .add_option("--color", options.color,
                   "What the colour of a grain shows; absent: speed, and a second picture of the spin")

@@ -26,6 +26,9 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_frames = 150;  // of an animation: a picture each, and a file that opens anywhere
+constexpr std::size_t most_played = 200;  // of a player: 7183 grains stay below 8 MB
+// Bytes of a player for each grain and each contact of a frame, as found on drums, chutes and silos.
+constexpr double bytes_per_grain = 3.3, bytes_per_contact = 1.2;
 
 struct ShapeJson {
   Json operator()(const particles::Container& c) const {
@@ -50,16 +53,15 @@ Json frame_of(const particles::RunFolder& run, const fs::path& file) {
     shapes.push_back(std::visit(ShapeJson{}, placed.shape));
     shapes.back()["angle"] = placed.angle;
   }
-  return {{"file", fs::absolute(file).string()},
-          {"number", particles::snapshot_number(file)},
-          {"time_s", snapshot.time * run.scales.time_s},
-          {"walls", shapes}};
+  return {{"file", fs::absolute(file).string()},         {"number", particles::snapshot_number(file)},
+          {"time_s", snapshot.time * run.scales.time_s}, {"grains", snapshot.x.size()},
+          {"contacts", snapshot.contacts.size()},        {"walls", shapes}};
 }
 
-/// Every `every`-th snapshot, the last among them; 0: as many as `most_frames` leaves.
-Json frames_of(const particles::RunFolder& run, std::size_t every) {
+/// Every `every`-th snapshot, the last among them; 0: as many as `most` leaves.
+Json frames_of(const particles::RunFolder& run, std::size_t every, std::size_t most) {
   const std::size_t all = run.snapshots.size();
-  const std::size_t stride = every > 0 ? every : (all + most_frames - 1) / most_frames;
+  const std::size_t stride = every > 0 ? every : (all + most - 1) / most;
   Json frames = Json::array();
   for (std::size_t i = (all - 1) % stride; i < all; i += stride)
     frames.push_back(frame_of(run, run.snapshots[i]));
@@ -92,6 +94,32 @@ void add_materials(const GrainMaterials& materials, Json& frame, const particles
   frame["materials"] = materials.of_grain;
 }
 
+/// Frames of the player, and materials where the scene has any and no grain comes or goes.
+Json player_of(const particles::RunFolder& run, std::size_t every) {
+  Json player{{"frames", frames_of(run, every, most_played)},
+              {"material_names", Json::array()},
+              {"materials", Json::array()}};
+  const bool same_grains =
+      std::all_of(player["frames"].begin(), player["frames"].end(),
+                  [&](const Json& frame) { return frame["grains"] == player["frames"].front()["grains"]; });
+  if (!same_grains || particles::changes_grains(run.scene) || !particles::materials_matter(run.scene))
+    return player;
+  const GrainMaterials materials = materials_of(run);
+  if (materials.of_grain.size() != player["frames"].front()["grains"]) return player;
+  player["material_names"] = materials.names;
+  player["materials"] = materials.of_grain;
+  return player;
+}
+
+/// About how large the player becomes: what is told before it is written.
+double bytes_of_player(const Json& player) {
+  double bytes = 5e4;  // of the page itself
+  for (const Json& frame : player["frames"])
+    bytes +=
+        bytes_per_grain * frame["grains"].get<double>() + bytes_per_contact * frame["contacts"].get<double>();
+  return bytes;
+}
+
 Json stages_of(const particles::Scene& scene) {
   Json stages = Json::array();
   double end = 0;
@@ -115,6 +143,7 @@ Json drawing_of(const particles::RunFolder& run, const Json& report, const PlotO
                {"color", options.color.empty() ? Json(nullptr) : Json(options.color)},
                {"window", options.window.empty() ? Json(nullptr) : Json(options.window)},
                {"animation", options.animation},
+               {"player", nullptr},
                {"materials", Json::array()},
                {"frames", Json::array()}};
   if (fs::exists(run.folder / "energy.csv"))
@@ -128,8 +157,12 @@ Json drawing_of(const particles::RunFolder& run, const Json& report, const PlotO
   if (options.animation && run.snapshots.size() < 2)
     throw InputError(fmt::format("{}: an animation needs two snapshots, there are {}", run.folder.string(),
                                  run.snapshots.size()));
-  if (options.animation || (options.every > 0 && !run.snapshots.empty()))
-    drawing["frames"] = frames_of(run, static_cast<std::size_t>(options.every));
+  if (options.player && run.snapshots.empty())
+    throw InputError(run.folder.string() + ": a player needs a snapshot, there is none");
+  const auto every = static_cast<std::size_t>(options.every);
+  if (options.animation || (every > 0 && !options.player && !run.snapshots.empty()))
+    drawing["frames"] = frames_of(run, every, most_frames);
+  if (options.player) drawing["player"] = player_of(run, every);
   if (options.color == "material" && !drawing["snapshot"].is_null()) {
     const GrainMaterials materials = materials_of(run);
     drawing["materials"] = materials.names;
@@ -168,6 +201,11 @@ int plot(const PlotOptions& options) {
   // The script reads what to draw and writes what it drew.
   const fs::path asked = output.folder() / "asked.json", found = output.folder() / "drawn.json";
   write_json(asked, drawing);
+  if (options.player)
+    print_out(fmt::format("player.html: {} of {} snapshots, about {:.1f} MB\n",
+                          drawing["player"]["frames"].size(), run.snapshots.size(),
+                          bytes_of_player(drawing["player"]) / 1e6));
+  flush_out();
   draw_figures("plot_figures.py", {asked.string()});
   Json drawn = read_json(found, "drumlin-plots-1");
   add_accepted_edits(drawn, accepted_edits(run.files));
