@@ -101,6 +101,24 @@ void add_plot_options(CLI::App& command, PlotOptions& options) {
   add_existing(command, options.existing, keep_what_is_done);
 }
 
+void add_report_options(CLI::App& command, ReportOptions& options) {
+  add_folder_or_file(command, "run", options.run, "RUN", "Folder of a run, finished or not, measured or not");
+  add_optional_path(command, "-o,--output", options.output, "DIR",
+                    "Folder for the page, open its index.html; standard: RUN/report");
+  add_existing(command, options.existing, keep_what_is_done);
+}
+
+void add_new_scene_options(CLI::App& command, NewSceneOptions& options) {
+  command.add_option("kind", options.kind, "What flows")
+      ->required()
+      ->check(CLI::IsMember(std::vector<std::string>(scene_kinds.begin(), scene_kinds.end())))
+      ->type_name("KIND");
+  add_folder_or_file(command, "-o,--output", options.output, "SCENE.toml", "File for the scene");
+  command.add_flag_callback(
+      "--overwrite", [&options] { options.existing = ExistingOutput::overwrite; },
+      "Replaces a file that is there");
+}
+
 void add_export_options(CLI::App& command, ExportOptions& options) {
   add_folder_or_file(command, "run", options.run, "RUN", "Folder of a run, finished or not");
   auto* vtu =
