@@ -20,6 +20,8 @@ struct Execute {
   int operator()(const apps::StudyOptions& options) const { return apps::study(options); }
   int operator()(const apps::ImportOptions& options) const { return apps::import_foreign(options); }
   int operator()(const apps::PlotOptions& options) const { return apps::plot(options); }
+  int operator()(const apps::ReportOptions& options) const { return apps::report(options); }
+  int operator()(const apps::NewSceneOptions& options) const { return apps::new_scene(options); }
   int operator()(const apps::ExportOptions& options) const { return apps::export_run(options); }
   int operator()(const apps::HistoryOptions& options) const { return apps::history(options); }
   int operator()(const apps::CalibrateOptions& options) const { return apps::calibrate(options); }

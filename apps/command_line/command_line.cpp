@@ -8,6 +8,7 @@
 
 #include "apps/command_line/checked_options.hpp"
 #include "apps/command_line/command_options.hpp"
+#include "apps/command_line/completion.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/common/provenance.hpp"
 
@@ -22,11 +23,20 @@ class CommandLine {
       : app_("Drumlin: dense granular flow, grains and continuum") {
     app_.name("drumlin");
     app_.set_version_flag("--version", version());
+    app_.add_option_function<std::string>(
+            "--completion",
+            [this](const std::string&) { throw CLI::CallForVersion(bash_completion(app_), 0); },
+            "Prints a script that completes commands and options: source <(drumlin --completion bash)")
+        ->check(CLI::IsMember({"bash"}))
+        ->type_name("SHELL");
     app_.require_subcommand(1);
     app_.footer(
+        "New here: drumlin new drum -o scene.toml, and docs/tutorial.md.\n"
         "Exit codes: 0 done, 2 wrong usage or input, 3 not converged, 70 a fault of this program, "
         "74 input/output, 129 hung up, 130 interrupted, 143 terminated.\n"
         "Each command has its own --help.");
+    add_new_scene_options(add_command("new", "Writes a commented scene to start from", new_scene_),
+                          new_scene_);
     add_run_options(add_command("run", "Runs a particle scene", run_), run_);
     add_measure();
     add_import_options(
@@ -35,6 +45,7 @@ class CommandLine {
         import_);
     add_plot_options(add_command("plot", "Draws a run: grains, force chains, accuracy and cost", plot_),
                      plot_);
+    add_report_options(add_command("report", "Puts a run on one page, with a player", report_), report_);
     add_export_options(add_command("export", "Writes a run in a format of other programs", export_), export_);
     add_history_options(
         add_command("history", "Stress and strain of a region and forces on walls, snapshot by snapshot",
@@ -150,6 +161,8 @@ class CommandLine {
   ImportOptions import_;
   StudyOptions study_;
   PlotOptions plot_;
+  ReportOptions report_;
+  NewSceneOptions new_scene_;
   ExportOptions export_;
   HistoryOptions history_;
   CalibrateOptions calibrate_;

@@ -17,6 +17,8 @@ void add_run_options(CLI::App& command, RunOptions& options);
 void add_measure_options(CLI::App& command, MeasureOptions& options, StudyOptions& study);
 void add_import_options(CLI::App& command, ImportOptions& options);
 void add_plot_options(CLI::App& command, PlotOptions& options);
+void add_report_options(CLI::App& command, ReportOptions& options);
+void add_new_scene_options(CLI::App& command, NewSceneOptions& options);
 void add_export_options(CLI::App& command, ExportOptions& options);
 void add_history_options(CLI::App& command, HistoryOptions& options);
 void add_solve_contacts_options(CLI::App& command, SolveContactsOptions& options,

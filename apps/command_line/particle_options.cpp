@@ -81,9 +81,11 @@ void add_plot_options(CLI::App& command, PlotOptions& options) {
       ->type_name("N")
       ->capture_default_str();
   command.add_flag("--animation", options.animation, "Draws the snapshots as an animated GIF as well");
+  command.add_flag("--player", options.player,
+                   "Writes player.html as well: one file in which the run plays, in any browser");
   add_number(command, "--every", options.every, "", at_least(1, 1000000),
-             "Every so manieth snapshot is a frame of the animation; without --animation each of them is a "
-             "still of its own");
+             "Every so manieth snapshot is a frame of the animation and of the player; without these each of "
+             "them is a still of its own");
   command
       .add_option("--color", options.color,
                   "What the colour of a grain shows; absent: speed, and a second picture of the spin")
@@ -97,6 +99,24 @@ void add_plot_options(CLI::App& command, PlotOptions& options) {
   add_optional_path(command, "-o,--output", options.output, "DIR",
                     "Folder for the figures; standard: RUN/plots");
   add_existing(command, options.existing, keep_what_is_done);
+}
+
+void add_report_options(CLI::App& command, ReportOptions& options) {
+  add_folder_or_file(command, "run", options.run, "RUN", "Folder of a run, finished or not, measured or not");
+  add_optional_path(command, "-o,--output", options.output, "DIR",
+                    "Folder for the page, open its index.html; standard: RUN/report");
+  add_existing(command, options.existing, keep_what_is_done);
+}
+
+void add_new_scene_options(CLI::App& command, NewSceneOptions& options) {
+  command.add_option("kind", options.kind, "What flows")
+      ->required()
+      ->check(CLI::IsMember(std::vector<std::string>(scene_kinds.begin(), scene_kinds.end())))
+      ->type_name("KIND");
+  add_folder_or_file(command, "-o,--output", options.output, "SCENE.toml", "File for the scene");
+  command.add_flag_callback(
+      "--overwrite", [&options] { options.existing = ExistingOutput::overwrite; },
+      "Replaces a file that is there");
 }
 
 void add_export_options(CLI::App& command, ExportOptions& options) {

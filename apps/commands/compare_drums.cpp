@@ -44,6 +44,12 @@ std::vector<FigureScript> figures_of(const ComparedRuns& runs, const fs::path& o
     if (!runs.second.maps_file.empty()) words.insert(words.end(), {"--maps", runs.second.maps_file.string()});
   }
   std::vector<FigureScript> figures{{"compare_figures.py", words}};
+  if (runs.first.moving.size() > 1 && !runs.second.maps_file.empty()) {
+    figures.push_back({"side_by_side.py",
+                       {"--comparison", json.string(), "--maps", runs.second.maps_file.string(), "--output",
+                        output.string(), "--snapshots"}});
+    for (const fs::path& file : runs.first.moving) figures.back().arguments.push_back(file.string());
+  }
   // They are of full drums, and a reduced run shows no more than that the chain works.
   const bool reduced = runs.first.compared.profiles.header.reduced.value();
   if (!reduced && fs::is_directory(cost_data_folder()))

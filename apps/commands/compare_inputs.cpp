@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -36,6 +37,17 @@ std::optional<FieldMap> maps_in(const fs::path& file, const ProfileSet& profiles
   return map;
 }
 
+/// The last snapshots, so many that a page shows a good part of a turn and stays small.
+std::vector<fs::path> moving_snapshots(const std::vector<fs::path>& all) {
+  constexpr std::size_t most = 120, fine = 200;  // frames; of one run, beyond which some are left out
+  const std::size_t stride = std::max<std::size_t>(1, all.size() / fine);
+  std::vector<fs::path> chosen;
+  for (std::size_t back = 0; back < all.size() && chosen.size() < most; back += stride)
+    chosen.push_back(all[all.size() - 1 - back]);
+  std::reverse(chosen.begin(), chosen.end());
+  return chosen;
+}
+
 }  // namespace
 
 LoadedSide load_side(const fs::path& folder, Unsteady unsteady) {
@@ -59,8 +71,9 @@ LoadedSide load_side(const fs::path& folder, Unsteady unsteady) {
     side.accepted = std::move(run.accepted);
     side.compared = {std::move(run.profiles), std::move(run.scalars), {std::move(run.slices), {}}};
     if (fs::is_directory(folder / "snapshots"))
-      if (const auto snapshots = particles::snapshot_files(folder); !snapshots.empty())
-        side.snapshot = checked_file(run.files, "snapshots/" + snapshots.back().filename().string());
+      for (const fs::path& file : moving_snapshots(particles::snapshot_files(folder)))
+        side.moving.push_back(checked_file(run.files, "snapshots/" + file.filename().string()));
+    if (!side.moving.empty()) side.snapshot = side.moving.back();
   }
   // Layers are the same everywhere along x.
   if (coupling::geometry_of(side.compared.profiles) == "drum")

@@ -20,6 +20,8 @@ struct LoadedSide {
   std::vector<std::string> unsteady;  ///< why it is not steady, where that was accepted
   std::filesystem::path maps_file;    ///< empty where there is none
   std::filesystem::path snapshot;     ///< the last one; empty where there is none
+  std::vector<std::filesystem::path>
+      moving;                         ///< snapshots that show it in motion; empty where there are none
   std::vector<std::string> accepted;  ///< edits by hand (accepted_edits)
 };
 

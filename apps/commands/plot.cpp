@@ -6,17 +6,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "apps/commands/plot_drawing.hpp"
 #include "apps/support/commands.hpp"
-#include "apps/support/figures.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/output_folder.hpp"
 #include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
-#include "particles/io/run_folder.hpp"
-#include "particles/io/snapshot_file.hpp"
-#include "particles/io/snapshot_list.hpp"
-#include "particles/scene/materials.hpp"
-#include "particles/scene/placement.hpp"
 
 namespace drumlin::apps {
 
@@ -24,122 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-constexpr std::size_t most_frames = 150;  // of an animation: a picture each, and a file that opens anywhere
-
-struct ShapeJson {
-  Json operator()(const particles::Container& c) const {
-    return {{"shape", "container"}, {"x", c.center.x}, {"z", c.center.z}, {"radius", c.radius}};
-  }
-  Json operator()(const particles::Segment& s) const {
-    return {{"shape", "segment"}, {"x", {s.from.x, s.to.x}}, {"z", {s.from.z, s.to.z}}};
-  }
-  Json operator()(const particles::FixedDisc& d) const {
-    return {{"shape", "disc"}, {"x", d.center.x}, {"z", d.center.z}, {"radius", d.radius}};
-  }
-  Json operator()(const particles::Opened&) const { return nullptr; }
-};
-
-/// What the script needs to draw one snapshot. Reading it here refuses damaged files before anything is
-/// drawn.
-Json frame_of(const particles::RunFolder& run, const fs::path& file) {
-  const particles::Snapshot snapshot = particles::checked_snapshot(run, file);
-  Json shapes = Json::array();
-  for (const particles::PlacedShape& placed : particles::shapes_at(run, snapshot)) {
-    if (is_open(placed.shape)) continue;
-    shapes.push_back(std::visit(ShapeJson{}, placed.shape));
-    shapes.back()["angle"] = placed.angle;
-  }
-  return {{"file", fs::absolute(file).string()},
-          {"number", particles::snapshot_number(file)},
-          {"time_s", snapshot.time * run.scales.time_s},
-          {"walls", shapes}};
-}
-
-/// Every `every`-th snapshot, the last among them; 0: as many as `most_frames` leaves.
-Json frames_of(const particles::RunFolder& run, std::size_t every) {
-  const std::size_t all = run.snapshots.size();
-  const std::size_t stride = every > 0 ? every : (all + most_frames - 1) / most_frames;
-  Json frames = Json::array();
-  for (std::size_t i = (all - 1) % stride; i < all; i += stride)
-    frames.push_back(frame_of(run, run.snapshots[i]));
-  return frames;
-}
-
-/// Material of each grain, as the scene places them; empty names without any.
-struct GrainMaterials {
-  std::vector<std::string> names;
-  std::vector<std::uint8_t> of_grain;
-};
-
-GrainMaterials materials_of(const particles::RunFolder& run) {
-  GrainMaterials found{particles::material_names(run.scene),
-                       particles::place_grains(run.scene, run.scales).material};
-  if (found.names.empty() || found.of_grain.empty())
-    throw InputError(
-        fmt::format("{}: --color material: the grains of this scene have no materials, "
-                    "or no law tells them apart",
-                    run.folder.string()));
-  found.names.push_back("none");
-  return found;
-}
-
-void add_materials(const GrainMaterials& materials, Json& frame, const particles::RunFolder& run) {
-  const particles::Snapshot snapshot = particles::read_snapshot(frame["file"].get<std::string>());
-  if (snapshot.x.size() != materials.of_grain.size())
-    throw InputError(fmt::format("{}: --color material: a snapshot holds {} grains, the scene places {}",
-                                 run.folder.string(), snapshot.x.size(), materials.of_grain.size()));
-  frame["materials"] = materials.of_grain;
-}
-
-Json stages_of(const particles::Scene& scene) {
-  Json stages = Json::array();
-  double end = 0;
-  for (const particles::Stage& stage : scene.stages)
-    stages.push_back({{"name", stage.name}, {"end_s", end += particles::duration_s(stage)}});
-  return stages;
-}
-
-Json drawing_of(const particles::RunFolder& run, const Json& report, const PlotOptions& options) {
-  Json drawing{{"title", run.scene.title.empty() ? run.folder.filename().string() : run.scene.title},
-               {"reduced", run.scene.reduced},
-               {"status", run.status},
-               {"run", report},
-               {"log", fs::absolute(checked_file(run.files, "log.csv")).string()},
-               {"energy", nullptr},
-               {"tolerance", run.scene.solver.tolerance},
-               {"penetration_tolerance", run.scene.solver.penetration_tolerance},
-               {"stages", stages_of(run.scene)},
-               {"period", nullptr},
-               {"snapshot", nullptr},
-               {"color", options.color.empty() ? Json(nullptr) : Json(options.color)},
-               {"window", options.window.empty() ? Json(nullptr) : Json(options.window)},
-               {"animation", options.animation},
-               {"materials", Json::array()},
-               {"frames", Json::array()}};
-  if (fs::exists(run.folder / "energy.csv"))
-    drawing["energy"] = fs::absolute(checked_file(run.files, "energy.csv")).string();
-  if (const auto& period = run.scene.periodic_x)
-    drawing["period"] = {period->x_min_mm * 1e-3 / run.scales.length_m,
-                         period->x_max_mm * 1e-3 / run.scales.length_m};
-  const bool named = options.snapshot != "last";
-  if (named || !run.snapshots.empty())
-    drawing["snapshot"] = frame_of(run, particles::chosen_snapshot(run, options.snapshot));
-  if (options.animation && run.snapshots.size() < 2)
-    throw InputError(fmt::format("{}: an animation needs two snapshots, there are {}", run.folder.string(),
-                                 run.snapshots.size()));
-  if (options.animation || (options.every > 0 && !run.snapshots.empty()))
-    drawing["frames"] = frames_of(run, static_cast<std::size_t>(options.every));
-  if (options.color == "material" && !drawing["snapshot"].is_null()) {
-    const GrainMaterials materials = materials_of(run);
-    drawing["materials"] = materials.names;
-    add_materials(materials, drawing["snapshot"], run);
-    for (Json& frame : drawing["frames"]) add_materials(materials, frame, run);
-  }
-  if (options.color == "spin" && !run.scene.effects.spin)
-    throw InputError(run.folder.string() + ": --color spin: the grains of this scene have no spin");
-  return drawing;
-}
 
 void check_window(const std::vector<double>& window) {
   if (window.empty()) return;
@@ -165,15 +44,14 @@ int plot(const PlotOptions& options) {
   const Json report = read_json(options.run / "run.json", "drumlin-run-1");
   const Json drawing = drawing_of(run, report, options);
   StagedOutput output({folder, options.existing, "plot", {options.run / "run.json"}});
-  // The script reads what to draw and writes what it drew.
-  const fs::path asked = output.folder() / "asked.json", found = output.folder() / "drawn.json";
-  write_json(asked, drawing);
-  draw_figures("plot_figures.py", {asked.string()});
-  Json drawn = read_json(found, "drumlin-plots-1");
+  if (options.player)
+    print_out(fmt::format("player.html: {} of {} snapshots, about {:.1f} MB\n",
+                          drawing["player"]["frames"].size(), run.snapshots.size(),
+                          bytes_of_player(drawing["player"]) / 1e6));
+  flush_out();
+  Json drawn = drawn_run(drawing, output.folder());
   add_accepted_edits(drawn, accepted_edits(run.files));
   write_json(output.folder() / "plots.json", drawn);
-  fs::remove(found);
-  fs::remove(asked);
   output.publish();
   print_out(fmt::format("{}{}\n", folder.string(), run.scene.reduced ? " (reduced)" : ""));
   if (!run.finished())

@@ -39,7 +39,8 @@ class Grains:
                                                      for name in ("x", "z", "v_x", "v_z", "radius"))
             self.spin = snapshot["grains/spin"][:] if "grains/spin" in snapshot else None
             self.drum_spin = snapshot["wall/spin"][0] if snapshot["container/radius"][0] > 0 else 0.0
-            center = snapshot["container/x"][0], snapshot["container/z"][0]
+            self.center = center = snapshot["container/x"][0], snapshot["container/z"][0]
+            self.container_radius, self.wall_angle = snapshot["container/radius"][0], snapshot["wall/angle"][0]
             self.contacts = {name: snapshot["contacts/" + name][:] for name in ("i", "j", "normal_x", "normal_z")}
             self.force = snapshot["contacts/impulse_n"][:] / snapshot["time_step"][0]
             # Lower left and upper right corner of a cell that is periodic in x and z, and what the image above is displaced by.

@@ -1,10 +1,12 @@
-"""Figures of `drumlin plot`: one snapshot, the log, where the time went, and an animation or a series of stills if it is asked for."""
+"""Figures of `drumlin plot`: one snapshot, the log, where the time went, and an animation, a series of stills or
+a player if it is asked for."""
 
 import json
 import pathlib
 import sys
 
 import grain_maps
+import player
 import run_curves
 import style
 import whole_file
@@ -25,6 +27,8 @@ def main():
         figures.update(grain_maps.draw_stills(drawing, folder))
     if drawing["frames"] and drawing["animation"]:
         figures.update(grain_maps.draw_animation(drawing, folder))
+    if drawing["player"]:
+        figures.update(player.draw(drawing, folder))
     snapshot = drawing["snapshot"] and drawing["snapshot"]["number"]
     whole_file.write_text(folder / "drawn.json", json.dumps(
         {"format": "drumlin-plots-1", "snapshot": snapshot, "reduced": drawing["reduced"], "status": drawing["status"], "figures": figures}))

@@ -51,6 +51,11 @@ class Figures:
             raise ValueError(f"{file}: format: is missing or not known here (allowed: \"drumlin-study-figures-1\")")
         return [figure | {"name": figure["file"].removesuffix(".png")} for figure in content["figures"]]
 
+    def motion(self):
+        """What side_by_side.py left of a comparison; None where nothing moves, or the script failed."""
+        file = self.folder / "motion.json"
+        return json.loads(file.read_text(encoding="utf-8")) if file.exists() else None
+
     def source(self, name):
         return "data:image/png;base64," + base64.b64encode((self.folder / f"{name}.png").read_bytes()).decode("ascii")
 

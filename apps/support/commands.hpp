@@ -1,6 +1,7 @@
 #pragma once
 // The commands of `drumlin`: what the command line fills in and the function that does it. Each throws the
 // errors of coupling/common/errors.hpp; drumlin.cpp turns them into exit codes.
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -67,6 +68,14 @@ struct ImportOptions {
 int import_foreign(const ImportOptions&);
 
 int plot(const PlotOptions&);
+
+struct ReportOptions {
+  std::filesystem::path run;
+  std::optional<std::filesystem::path> output;  ///< standard: RUN/report
+  ExistingOutput existing = ExistingOutput::refuse;
+};
+/// One page of a run: what was simulated, how exactly, what was measured, pictures, a player, costs.
+int report(const ReportOptions&);
 
 struct ExportOptions {
   std::filesystem::path run;
@@ -151,6 +160,16 @@ struct SceneOptions {
   std::vector<std::string> overrides;
 };
 int scene(const SceneOptions&);
+
+/// Kinds of scenes to start from, data/templates.
+constexpr std::array<const char*, 4> scene_kinds{"drum", "shear", "chute", "silo"};
+struct NewSceneOptions {
+  std::string kind;
+  std::filesystem::path output;
+  ExistingOutput existing = ExistingOutput::refuse;
+};
+/// Writes a commented scene to start from.
+int new_scene(const NewSceneOptions&);
 
 struct SolveContactsOptions {
   std::filesystem::path problem;

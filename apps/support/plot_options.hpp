@@ -15,10 +15,11 @@ struct PlotOptions {
   std::optional<std::filesystem::path> output;  ///< standard: RUN/plots
   std::string snapshot = "last";                ///< or its number, from 1
   bool animation = false;
+  bool player = false;  ///< a page that plays the run in a browser
   ExistingOutput existing = ExistingOutput::refuse;
   std::vector<double> window = {};  ///< x0, x1, z0, z1 in d; empty: all grains and what stands beside them
   std::string color = {};           ///< one of plot_colors; empty: speed, and spin where there is one
-  int every = 0;  ///< snapshots per frame of the animation; without one, stills of each such snapshot
+  int every = 0;  ///< snapshots per frame of animation and player; without both, stills of each such snapshot
 };
 /// What the colour of a grain may show.
 constexpr std::array<const char*, 7> plot_colors{"speed",    "spin",         "size", "material",

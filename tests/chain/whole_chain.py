@@ -12,6 +12,7 @@ import sys
 import tempfile
 import tomllib
 
+import browser
 from command import Drumlin, bytes_below, read_json, require, require_keys
 
 MEASURED = ["theta_deg", "theta_com_deg", "Q", "H", "lambda", "shear_rate", "I_th", "nu_bulk", "spin_over_half_vorticity",
@@ -78,7 +79,15 @@ def check_report(folder):
     require(error is not None and math.isfinite(error), "sigma_zz was not compared")
     page = (folder / "index.html").read_text(encoding="utf-8")
     require("reduced" in page and "data:image/png;base64," in page, "the page lacks its figures or the word reduced")
-    require("<script" not in page and "src=\"http" not in page, "the page loads something")
+    for word in ("<script src", "<link", "src=\"http", "url(", "@import", "fetch("):
+        require(word not in page, f"the page loads something: {word}")
+    # What moves on top: the run's own grains, and points that start where they are.
+    motion = read_json(folder / "motion.json")
+    require("id=\"motion\"" in page and motion["sides"] == ["particles", "continuum"], "nothing moves on the page")
+    require(len(motion["particles"]["number"]) == len(motion["tracers"]["number"]) == 40, f"{len(motion['particles']['number'])} frames")
+    require(0 < motion["tracers"]["count"] <= len(motion["marked"]) < motion["particles"]["count"] == 350, "other tracers")
+    links = set(re.findall(r'<a href="#(\w+)"', page))
+    require(links and links <= set(re.findall(r' id="(\w+)"', page)), f"links that lead nowhere: {links}")
     drawn = {file.stem for file in folder.glob("*.png")}
     require(drawn == FIGURES, f"figures are missing or new: {drawn ^ FIGURES}")
     require(len(comparison["slices"]) == 5 and len(list((folder / "overlay_slices").glob("*.csv"))) == 5, "five slices")
@@ -86,6 +95,27 @@ def check_report(folder):
     require((folder / "overlay.csv").exists() and (folder / "overlay_maps.h5").exists(), "overlays are missing")
     require(comparison["registration"]["by"] == "axis", "registered by the axis")
     require(comparison["particles"]["unsteady"], "an unsteady run was accepted and not called so")
+
+
+def check_motion(folder):
+    """What moves on the page: both canvases change with the frame, nothing is loaded, and a phone shows it whole."""
+    program = browser.executable()
+    if program is None:
+        print("compare: no Chromium is installed, the page was not opened")
+        return
+    file = folder / "index.html"
+    pixels = "['left', 'right'].map(n => { const c = document.getElementById('motion-' + n); return c.toDataURL(); })"
+    for size in ((1200, 900, 1, False), (390, 844, 2, True)):
+        with browser.Browser(program, *size) as page:
+            page.open(file.as_uri())
+            page.wait_for("document.readyState === 'complete' && document.getElementById('motion-clock').textContent !== ''")
+            before = page.value(pixels)
+            page.value("(() => { const s = document.getElementById('motion-scrub'); s.value = 20; s.dispatchEvent(new Event('input')); })()")
+            require(all(a != b for a, b in zip(before, page.value(pixels))), "a side that does not move")
+            require(page.value("document.documentElement.scrollWidth <= innerWidth"), "wider than the screen")
+            require(not page.faults() and all(url.startswith(("data:", file.as_uri())) for url in page.requests()),
+                    f"{page.faults()} {page.requests()}")
+    print("compare: the page moves")
 
 
 def check_other_drum_is_refused(drumlin, run, flow, folder):
@@ -187,7 +217,7 @@ def main():
             (["measure", run], run / "measured", lambda: check_measured(run / "measured")),
             (["calibrate", run, "-o", law, "--accept-unsteady"], law, lambda: require(law.exists(), "no law")),
             (["flow", here / "tiny-drum-flow.toml", "--rheology", law, "--law-draws", "3", "-o", flow], flow, lambda: check_flow(flow)),
-            (["compare", run, flow, "-o", report, "--accept-unsteady"], report, lambda: check_report(report)),
+            (["compare", run, flow, "-o", report, "--accept-unsteady"], report, lambda: (check_report(report), check_motion(report))),
         ]
         for words, result, check in steps:
             drumlin(*words)

@@ -36,6 +36,26 @@ TEST(CommandLine, RefusesExistingOutputUnlessTold) {
             ExistingOutput::overwrite);
 }
 
+TEST(CommandLine, FillsTheOptionsOfNewAndReport) {
+  const auto fresh = std::get<NewSceneOptions>(parsed({"new", "silo", "-o", "mine.toml", "--overwrite"}));
+  EXPECT_EQ(fresh.kind, "silo");
+  EXPECT_EQ(fresh.output, "mine.toml");
+  EXPECT_EQ(fresh.existing, ExistingOutput::overwrite);
+  EXPECT_THROW(parsed({"new", "avalanche", "-o", "mine.toml"}), InputError);
+  EXPECT_THROW(parsed({"new", "silo"}), InputError);
+  const auto report = std::get<ReportOptions>(parsed({"report", "RUN"}));
+  EXPECT_EQ(report.run, "RUN");
+  EXPECT_FALSE(report.output);
+  EXPECT_TRUE(std::get<PlotOptions>(parsed({"plot", "RUN", "--player"})).player);
+}
+
+TEST(CommandLine, PrintsACompletionWithoutACommand) {
+  const auto script = std::get<TextToShow>(parsed({"--completion", "bash"})).text;
+  EXPECT_NE(script.find("complete -o default -F _drumlin drumlin"), std::string::npos);
+  EXPECT_NE(script.find("--player"), std::string::npos);
+  EXPECT_THROW(parsed({"--completion", "fish"}), InputError);
+}
+
 TEST(CommandLine, FillsTheOptionsOfEveryOtherCommand) {
   const auto measure =
       std::get<MeasureOptions>(parsed({"measure", "r", "--slice-width", "10", "--position", "-5"}));

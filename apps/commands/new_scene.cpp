@@ -1,0 +1,51 @@
+// drumlin new: a commented scene to start from.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "apps/commands/scene_templates.hpp"
+#include "apps/support/commands.hpp"
+#include "apps/support/output_folder.hpp"
+#include "apps/support/standard_streams.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/common/text_file.hpp"
+
+namespace drumlin::apps {
+
+namespace {
+
+/// Whether a name can stand in a comment, and in a command that somebody copies from it.
+bool is_plain(const std::string& name) {
+  return std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
+           c == '_' || c == '-' || c == '/';
+  });
+}
+
+/// The template with the file's own name in the commands of its head.
+std::string named(std::string_view text, const std::string& file) {
+  constexpr std::string_view placeholder = "THIS.toml";
+  std::string result(text);
+  if (!is_plain(file)) return result;
+  for (std::size_t at = result.find(placeholder); at != std::string::npos;
+       at = result.find(placeholder, at + file.size()))
+    result.replace(at, placeholder.size(), file);
+  return result;
+}
+
+}  // namespace
+
+int new_scene(const NewSceneOptions& options) {
+  const auto& known = all_scene_templates();
+  const auto found = std::find_if(known.begin(), known.end(),
+                                  [&](const SceneTemplate& one) { return one.name == options.kind; });
+  if (found == known.end()) throw InputError(options.kind + ": is no kind of scene that is known here");
+  const FolderLock lock = prepare_output_file(options.output, options.existing);
+  replace_file(options.output, named(found->text, options.output.string()));
+  print_out(
+      fmt::format("{0}: a commented scene; next:\n  drumlin scene check {0}\n  drumlin run {0} -o RUN\n",
+                  options.output.string()));
+  return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace drumlin::apps

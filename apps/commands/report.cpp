@@ -1,0 +1,116 @@
+// drumlin report: a run on one page, whether a continuum stands beside it or not.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/commands/effects_text.hpp"
+#include "apps/commands/plot_drawing.hpp"
+#include "apps/support/commands.hpp"
+#include "apps/support/figures.hpp"
+#include "apps/support/json_file.hpp"
+#include "apps/support/output_folder.hpp"
+#include "apps/support/standard_streams.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/common/provenance.hpp"
+#include "particles/io/run_folder.hpp"
+#include "particles/scene/scene_file.hpp"
+#include "particles/stepping/simulation.hpp"
+
+namespace drumlin::apps {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+Json scene_of(const particles::RunFolder& run) {
+  const particles::TimePlan plan = particles::time_plan(run.scene, run.scales);
+  Json stages = Json::array();
+  for (std::size_t s = 0; s < run.scene.stages.size(); ++s) {
+    const particles::Stage& stage = run.scene.stages[s];
+    stages.push_back({{"name", stage.name},
+                      {"seconds", particles::duration_s(stage)},
+                      {"time_step_s", plan.stages[s].time_step * run.scales.time_s},
+                      {"snapshots", stage.snapshots},
+                      {"may_end_early", stage.until.has_value()}});
+  }
+  return {{"diameter_mm", run.scales.length_m * 1e3},
+          {"effects", effects_text(run.scene.effects)},
+          {"periodic", run.scene.periodic_z   ? "in x and z"
+                       : run.scene.periodic_x ? "in x"
+                                              : ""},
+          {"stages", stages},
+          {"text", particles::scene_text(run.scene)}};
+}
+
+/// RUN/measured as the page shows it: its numbers, its figures copied beside those of the report; else why
+/// there is none.
+void add_measured(const particles::RunFolder& run, const fs::path& folder, Json& content) {
+  const fs::path measured = run.folder / "measured";
+  content["measured"] = nullptr;
+  content["measured_figures"] = Json::array();
+  if (!fs::exists(measured / "measured.json")) {
+    content["measured_missing"] = "nothing was measured yet";
+    return;
+  }
+  try {
+    const ResultFolder found = open_result_folder(measured);
+    check_source(found, run.files, "drumlin measure RUN --overwrite");
+    content["measured"] = read_json(checked_file(found, "measured.json"), "drumlin-measured-1");
+    if (!found.manifest) return;
+    for (const auto& [name, entry] : found.manifest->files) {
+      if (fs::path(name).extension() != ".png" || fs::path(name).has_parent_path()) continue;
+      fs::copy_file(checked_file(found, name), folder / ("measured_" + name));
+      content["measured_figures"].push_back(fs::path(name).stem().string());
+    }
+  } catch (const InputError& error) {
+    content["measured"] = nullptr;
+    content["measured_missing"] = error.what();
+  }
+}
+
+Json content_of(const particles::RunFolder& run, const Json& report, const Json& drawn) {
+  Json content{{"format", "drumlin-report-1"},
+               {"title", run.scene.title.empty() ? run.folder.filename().string() : run.scene.title},
+               {"reduced", run.scene.reduced},
+               {"run", report},
+               {"scene", scene_of(run)},
+               {"figures", drawn["figures"]},
+               {"provenance", to_json(provenance())}};
+  add_accepted_edits(content["provenance"], accepted_edits(run.files));
+  return content;
+}
+
+}  // namespace
+
+int report(const ReportOptions& options) {
+  const particles::RunFolder run = particles::read_run_folder(options.run);
+  const fs::path folder = options.output.value_or(options.run / "report");
+  if (options.existing == ExistingOutput::resume && holds_results(folder, "report.json")) {
+    print_out(fmt::format("{}: done already\n", folder.string()));
+    return static_cast<int>(ExitCode::done);
+  }
+  const Json record = read_json(options.run / "run.json", "drumlin-run-1");
+  PlotOptions pictures;
+  pictures.run = options.run;
+  pictures.player = !run.snapshots.empty();
+  const Json drawing = drawing_of(run, record, pictures);
+  StagedOutput output({folder, options.existing, "report", {options.run / "run.json"}});
+  if (pictures.player) {
+    print_out(fmt::format("player.html: about {:.1f} MB\n", bytes_of_player(drawing["player"]) / 1e6));
+    flush_out();
+  }
+  Json content = content_of(run, record, drawn_run(drawing, output.folder()));
+  add_measured(run, output.folder(), content);
+  const fs::path file = output.folder() / "report.json";
+  write_json(file, content);
+  draw_figures("../pages/write_page.py", {"run.html", file.string(), output.folder().string()});
+  output.publish();
+  print_out(fmt::format("report: {}{}\n", fs::absolute(folder / "index.html").string(),
+                        run.scene.reduced ? " (reduced)" : ""));
+  if (content["measured"].is_null())
+    print_out(fmt::format("  without measurements: {}\n", content["measured_missing"].get<std::string>()));
+  return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace drumlin::apps
