@@ -1,0 +1,75 @@
+#pragma once
+// Solves a contact problem whose contacts are spread over ranks: Gauss-Seidel sweeps tile by tile in four
+// colours, with the momentum of the default solver. The result is the same bytes for any number of ranks and
+// threads.
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "particles/contact/problems.hpp"
+#include "particles/contact/solution.hpp"
+#include "particles/distributed/exact_sum.hpp"
+#include "particles/distributed/halo.hpp"
+#include "particles/distributed/ranks.hpp"
+#include "particles/distributed/step_pairs.hpp"
+#include "particles/parallel/team_loops.hpp"
+#include "particles/solver/stopping_rule.hpp"
+
+namespace drumlin::particles {
+
+/// The contacts of a rank in their tiles, and what its bodies share with other ranks.
+struct TiledContacts {
+  std::span<const TileRange> tiles;   ///< by colour, border tiles first
+  std::span<const char> counts_here;  ///< of each body: whether this rank is the one that counts it
+};
+
+/// Workspace of solves of one kind of problem, made once per run.
+template <class Problem>
+class TileSolver {
+ public:
+  TileSolver(const Ranks& ranks, ThreadTeam* team) : ranks_(ranks), loops_(team) {}
+
+  /// Solves from the warm start in solution.impulses, in double precision; `accelerated`: with momentum. All
+  /// ranks call it together; `problem` has the contacts of this rank alone. Velocities are set for all bodies
+  /// that its contacts touch or it owns. The report is the same on all ranks.
+  SolveReport solve(const Problem& problem, const TiledContacts& contacts, Halo& halo,
+                    const StoppingRule& rule, bool accelerated, Solution<Problem>& solution);
+  /// Residual of the impulses in a solution, whose velocities it sets; the definition is that of
+  /// residual_of().
+  ContactResidual residual(const Problem& problem, const TiledContacts& contacts, Halo& halo,
+                           Solution<Problem>& solution);
+
+ private:
+  static constexpr int dim = Problem::dim;
+  using Delassus = typename Problem::Delassus;
+  using Velocity = typename Delassus::Velocity;
+  static constexpr bool spin = requires(Velocity v) { v.s; };
+
+  struct Contact {
+    std::int32_t i = 0, j = 0;
+    double n_x = 0, n_z = 0, inverse_W_nn = 0, mu = 0;
+    std::array<double, dim> q{}, r{}, before{};
+  };
+
+  void pack(const Problem& problem, std::span<const double> r);
+  /// Calls work(t) for each tile, colour by colour, and exchanges what it has changed in `bodies`.
+  template <class Work>
+  void each_colour(const TiledContacts&, Halo&, std::vector<Velocity>& bodies, Work work);
+  void load(const TiledContacts&, Halo&);
+  double sweep_tile(const TileRange& tile, double beta);
+  double sweep(const TiledContacts&, Halo&, double beta);
+  /// The sum over all ranks of one number per tile; all ranks call it together.
+  double total_of_tiles();
+  double scale_of(const Problem&, const TiledContacts&);
+  double estimate(const TiledContacts&);
+
+  Ranks ranks_;
+  TeamLoops loops_;
+  std::vector<Contact> contacts_;
+  std::vector<Velocity> bodies_, before_;
+  std::vector<double> of_tile_, best_;
+  std::int32_t fixed_ = 0;
+};
+
+}  // namespace drumlin::particles
