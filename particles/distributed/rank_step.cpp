@@ -59,6 +59,8 @@ class RankMoreauJean final : public RankStepper {
     detection_.use(&team_);
     recollection_.use(&team_);
     if (laws.gravity) gravity_ = *laws.gravity;
+    if (solver.name == "accelerated-double") method_ = TileMethod::accelerated_double;
+    if (solver.name == "nlgs") method_ = TileMethod::nlgs;
   }
 
   StepReport advance(RankState& state, WallStep& walls, double time_step) override {
@@ -78,7 +80,7 @@ class RankMoreauJean final : public RankStepper {
     assemble<Problem, with_spin>(step, contacts_, TeamLoops(&team_), problem_);
     report.setup_seconds = watch.lap();
     const TiledContacts tiled{own_.tiles, counts_here_};
-    report.solve = solver_.solve(problem_, tiled, halo_, settings_.rule, settings_.name != "nlgs", solution_);
+    report.solve = solver_.solve(problem_, tiled, halo_, settings_.rule, method_, solution_);
     std::vector<std::int64_t> count{problem_.contacts()};
     ranks_.add(count);
     report.contacts = static_cast<int>(count[0]);
@@ -306,6 +308,7 @@ class RankMoreauJean final : public RankStepper {
   Ranks ranks_;
   ThreadTeam team_;
   Point gravity_;
+  TileMethod method_ = TileMethod::accelerated;
   RankGrains grains_;
   ContactDetection detection_;
   Recollection recollection_;

@@ -6,6 +6,7 @@
 
 #include "particles/contact/residual.hpp"
 #include "particles/solver/momentum.hpp"
+#include "particles/solver/strip_sweeps.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -27,27 +28,9 @@ void set_numbers(Velocity& v, const std::array<double, Halo::numbers>& numbers) 
 }  // namespace
 
 template <class Problem>
-void TileSolver<Problem>::pack(const Problem& problem, std::span<const double> r) {
-  const Delassus& W = problem.W;
-  fixed_ = W.fixed();
-  contacts_.resize(problem.contacts());
-  loops_.each(contacts_.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t a = begin; a < end; ++a) {
-      Contact& c = contacts_[a];
-      c.i = W.i[a], c.j = W.j[a], c.n_x = W.n_x[a], c.n_z = W.n_z[a], c.inverse_W_nn = W.inverse_W_nn[a];
-      if constexpr (dim == 2) c.mu = problem.mu[a];
-      for (int e = 0; e < dim; ++e) {
-        c.q[e] = problem.q[dim * a + e];
-        c.r[e] = c.before[e] = r[dim * a + e];
-      }
-    }
-  });
-}
-
-template <class Problem>
-template <class Work>
-void TileSolver<Problem>::each_colour(const TiledContacts& contacts, Halo& halo,
-                                      std::vector<Velocity>& bodies, Work work) {
+template <class Work, class Get, class Set>
+void TileSolver<Problem>::each_colour(const TiledContacts& contacts, Halo& halo, Work work, Get get,
+                                      Set set) {
   const auto& tiles = contacts.tiles;
   const auto some = [&](std::size_t begin, std::size_t end) {
     loops_.each_of(static_cast<int>(end - begin), [&](int k) { work(begin + k); });
@@ -59,65 +42,20 @@ void TileSolver<Problem>::each_colour(const TiledContacts& contacts, Halo& halo,
     std::size_t end = inner;
     while (end < tiles.size() && tiles[end].colour == colour) ++end;
     some(first, inner);
-    halo.start(colour, [&](std::int32_t b) { return numbers_of(bodies[b]); });
+    halo.start(colour, get);
     some(inner, end);
-    halo.finish(colour, [&](std::int32_t b, const auto& numbers) { set_numbers(bodies[b], numbers); });
+    halo.finish(colour, set);
     first = end;
   }
 }
 
 template <class Problem>
-void TileSolver<Problem>::load(const TiledContacts& contacts, Halo& halo) {
-  before_ = bodies_;  // at rest
-  each_colour(contacts, halo, bodies_, [&](std::size_t t) {
-    for (std::int32_t a = contacts.tiles[t].begin; a < contacts.tiles[t].end; ++a) {
-      const Contact& c = contacts_[a];
-      Velocity &I = bodies_[c.i], &J = bodies_[c.j];
-      double p_x = c.n_x * c.r[0], p_z = c.n_z * c.r[0];
-      if constexpr (dim == 2) p_x += c.n_z * c.r[1], p_z -= c.n_x * c.r[1];
-      I.x += I.inverse_mass * p_x, I.z += I.inverse_mass * p_z;
-      if constexpr (spin && dim == 2) I.s -= 2 * I.inverse_mass * c.r[1];
-      if (c.j == fixed_) continue;  // which tiles share
-      J.x -= J.inverse_mass * p_x, J.z -= J.inverse_mass * p_z;
-      if constexpr (spin && dim == 2) J.s -= 2 * J.inverse_mass * c.r[1];
-    }
-  });
-  before_ = bodies_;
-}
-
-/// As BodyDelassus::sweep(), from impulses that momentum has carried on by beta.
-template <class Problem>
-double TileSolver<Problem>::sweep_tile(const TileRange& tile, double beta) {
-  double squares = 0;
-  for (std::int32_t a = tile.begin; a < tile.end; ++a) {
-    Contact& c = contacts_[a];
-    Velocity &I = bodies_[c.i], &J = bodies_[c.j];
-    const double d_x = I.x - J.x, d_z = I.z - J.z;
-    std::array<double, dim> start;
-    for (int e = 0; e < dim; ++e) start[e] = c.r[e] + beta * (c.r[e] - c.before[e]);
-    c.before = c.r;
-    const double u_n = c.q[0] + c.n_x * d_x + c.n_z * d_z;
-    c.r[0] = std::max(0.0, start[0] - u_n * c.inverse_W_nn);
-    const double dr_n = c.r[0] - start[0];
-    squares += dr_n * dr_n;
-    double p_x = c.n_x * dr_n, p_z = c.n_z * dr_n, dr_t = 0;
-    if constexpr (dim == 2) {
-      constexpr double ratio = spin ? 1.0 / 3 : 1.0;  // W_nn / W_tt
-      double u_t = c.q[1] + c.n_z * d_x - c.n_x * d_z;
-      if constexpr (spin) u_t -= I.s + J.s;
-      const double bound = c.mu * c.r[0];
-      c.r[1] = std::clamp(start[1] - u_t * (c.inverse_W_nn * ratio), -bound, bound);
-      dr_t = c.r[1] - start[1];
-      squares += dr_t * dr_t;
-      p_x += c.n_z * dr_t, p_z -= c.n_x * dr_t;
-      if constexpr (spin) I.s -= 2 * I.inverse_mass * dr_t;
-    }
-    I.x += I.inverse_mass * p_x, I.z += I.inverse_mass * p_z;
-    if (c.j == fixed_) continue;
-    J.x -= J.inverse_mass * p_x, J.z -= J.inverse_mass * p_z;
-    if constexpr (spin && dim == 2) J.s -= 2 * J.inverse_mass * dr_t;
-  }
-  return squares;
+template <class T, class Work>
+void TileSolver<Problem>::each_colour(const TiledContacts& contacts, Halo& halo, Blocks<T>& blocks,
+                                      Work work) {
+  each_colour(
+      contacts, halo, work, [&](std::int32_t b) { return blocks.numbers(b); },
+      [&](std::int32_t b, const auto& numbers) { blocks.set_numbers(b, numbers); });
 }
 
 template <class Problem>
@@ -126,27 +64,6 @@ double TileSolver<Problem>::total_of_tiles() {
   for (const double term : of_tile_) sum.add(term);
   ranks_.add(sum.numbers());
   return sum.value();
-}
-
-/// All tiles once; returns the sum of the squares of the steps over all ranks.
-template <class Problem>
-double TileSolver<Problem>::sweep(const TiledContacts& contacts, Halo& halo, double beta) {
-  if (beta != 0) {
-    loops_.each(bodies_.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t b = begin; b < end; ++b) {
-        Velocity &now = bodies_[b], &then = before_[b];
-        const Velocity old = now;
-        now.x += beta * (now.x - then.x), now.z += beta * (now.z - then.z);
-        if constexpr (spin) now.s += beta * (now.s - then.s);
-        then = old;
-      }
-    });
-  } else {
-    before_ = bodies_;
-  }
-  each_colour(contacts, halo, bodies_,
-              [&](std::size_t t) { of_tile_[t] = sweep_tile(contacts.tiles[t], beta); });
-  return total_of_tiles();
 }
 
 /// What turns the summed squares of the residuals into the square of the relative one.
@@ -160,29 +77,6 @@ double TileSolver<Problem>::scale_of(const Problem& problem, const TiledContacts
   return squares > 0 ? dim / squares : 1;
 }
 
-/// The summed squares of the residuals of the impulses and velocities as sweeps carry them.
-template <class Problem>
-double TileSolver<Problem>::estimate(const TiledContacts& contacts) {
-  loops_.each_of(static_cast<int>(contacts.tiles.size()), [&](int t) {
-    double squares = 0;
-    for (std::int32_t a = contacts.tiles[t].begin; a < contacts.tiles[t].end; ++a) {
-      const Contact& c = contacts_[a];
-      const Velocity &I = bodies_[c.i], &J = bodies_[c.j];
-      const double d_x = I.x - J.x, d_z = I.z - J.z;
-      std::array<double, dim> u = c.q;
-      u[0] += c.n_x * d_x + c.n_z * d_z;
-      if constexpr (dim == 2) {
-        u[1] += c.n_z * d_x - c.n_x * d_z;
-        if constexpr (spin) u[1] -= I.s + J.s;
-      }
-      const double lambda = (dim == 2 && spin ? 3 : 1) / c.inverse_W_nn;
-      squares += squared_error<dim>(lambda, &c.mu, c.r.data(), u.data());
-    }
-    of_tile_[t] = squares;
-  });
-  return total_of_tiles();
-}
-
 template <class Problem>
 ContactResidual TileSolver<Problem>::residual(const Problem& problem, const TiledContacts& contacts,
                                               Halo& halo, Solution<Problem>& solution) {
@@ -190,10 +84,14 @@ ContactResidual TileSolver<Problem>::residual(const Problem& problem, const Tile
   auto& [state, u] = solution.velocities;
   const std::span<const double> r = solution.impulses;
   W.rest(state);
-  each_colour(contacts, halo, state, [&](std::size_t t) {
-    for (std::int32_t a = contacts.tiles[t].begin; a < contacts.tiles[t].end; ++a)
-      W.push(state, a, r[dim * a], dim == 2 ? r[dim * a + 1] : 0, W.j[a] != W.fixed());
-  });
+  each_colour(
+      contacts, halo,
+      [&](std::size_t t) {
+        for (std::int32_t a = contacts.tiles[t].begin; a < contacts.tiles[t].end; ++a)
+          W.push(state, a, r[dim * a], dim == 2 ? r[dim * a + 1] : 0, W.j[a] != W.fixed());
+      },
+      [&](std::int32_t b) { return numbers_of(state[b]); },
+      [&](std::int32_t b, const auto& numbers) { set_numbers(state[b], numbers); });
   u.resize(problem.q.size());
   std::vector<ResidualSums> of_tile(contacts.tiles.size());
   std::vector<double> q_squares(contacts.tiles.size());
@@ -241,60 +139,100 @@ ContactResidual TileSolver<Problem>::residual(const Problem& problem, const Tile
   return residual;
 }
 
+/// The loop of particles/solver/strip_sweeps.hpp, with sums over ranks.
 template <class Problem>
-SolveReport TileSolver<Problem>::solve(const Problem& problem, const TiledContacts& contacts, Halo& halo,
-                                       const StoppingRule& rule, bool accelerated,
-                                       Solution<Problem>& solution) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
+template <class T>
+SolveReport TileSolver<Problem>::sweep_until_done(const Problem& problem, const TiledContacts& contacts,
+                                                  Halo& halo, const StoppingRule& rule,
+                                                  std::int64_t contacts_of_all, Blocks<T>& blocks,
+                                                  bool accelerated, Solution<Problem>& solution) {
+  constexpr int patience = 100;   // sweeps without a tenth of progress
   constexpr double hope = 2;      // times the tolerance: a residual that is looked for
   constexpr int most_unseen = 3;  // looks left out in turn
+  constexpr bool single = sizeof(T) < sizeof(double);
   StoppingTest test(rule);
   std::vector<double>& r = solution.impulses;
-  r.resize(problem.q.size());
-  of_tile_.assign(contacts.tiles.size(), 0.0);
-  pack(problem, r);
-  problem.W.rest(bodies_);
-  load(contacts, halo);
+  const auto tiles = static_cast<int>(contacts.tiles.size());
+  blocks.pack(problem, contacts.tiles, r, loops_);
+  each_colour(contacts, halo, blocks, [&](std::size_t t) { blocks.load(t); });
+  blocks.start();
   const double scale = scale_of(problem, contacts);
-  std::array<std::int64_t, 1> count{problem.contacts()};
-  ranks_.add(count);
-  if (count[0] == 0) {
-    (void)test.ends(0, residual(problem, contacts, halo, solution));
-    return test.report();
-  }
-  Momentum momentum(rule.tolerance, static_cast<std::size_t>(count[0]));
-  const auto unpack = [&] {
-    for (std::size_t a = 0; a < contacts_.size(); ++a)
-      for (int e = 0; e < dim; ++e) r[dim * a + e] = contacts_[a].r[e];
-  };
-  double beta = 0, worth = infinity, best = infinity;
-  int unseen = 0;
-  for (int sweeps = 1;; ++sweeps) {
-    const double steps = sweep(contacts, halo, beta);
+  Momentum momentum(rule.tolerance, static_cast<std::size_t>(contacts_of_all));
+  T beta = 0;
+  double worth = std::numeric_limits<double>::infinity(), best = worth, least = worth;
+  for (int sweeps = 0, unseen = 0, progress_at = 0;;) {
+    const bool whole = sweeps % sweeps_of_rest == 0;
+    if (accelerated && (whole || sweeps % sweeps_of_rest == 1))
+      loops_.each_of(tiles, [&](int t) { blocks.let_rest(t, !whole); });
+    ++sweeps;
+    if (accelerated) blocks.go_on(beta, loops_);
+    each_colour(contacts, halo, blocks,
+                [&](std::size_t t) { of_tile_[t] = blocks.sweep(t, beta, accelerated); });
+    const double steps = total_of_tiles();
     const bool finite = std::isfinite(steps), last = sweeps >= rule.max_sweeps || !finite;
-    if (accelerated) beta = momentum.next(steps);
+    beta = static_cast<T>(momentum.next(steps));
     if (!test.due(sweeps) && finite) continue;
     if (!last && steps > worth && unseen < most_unseen) {
       ++unseen;
       continue;
     }
     unseen = 0;
-    const double seen = std::sqrt(estimate(contacts) * scale), fall = hope * rule.tolerance / seen;
-    worth = steps * fall * fall;  // residuals fall about as steps do
+    loops_.each_of(tiles, [&](int t) { of_tile_[t] = blocks.residual(t); });
+    const double seen = std::sqrt(total_of_tiles() * scale);
+    const double fall = hope * rule.tolerance / seen;  // residuals fall about as steps do
+    worth = steps * fall * fall;
+    if (seen < 0.9 * least) least = seen, progress_at = sweeps;
+    // Rounding of single precision hides the progress.
+    const bool stuck = single && sweeps - progress_at >= patience;
     if (seen < best) {
       best = seen;
-      unpack();
-      best_ = r;
+      loops_.each_of(tiles, [&](int t) { blocks.keep(t); });
     }
-    if (!last && seen > rule.tolerance) continue;
-    unpack();
-    if (!test.ends(sweeps, residual(problem, contacts, halo, solution), finite)) continue;
+    if (!last && !stuck && seen > rule.tolerance) continue;
+    blocks.unpack(problem, false, r, loops_);
+    const bool ended = test.ends(sweeps, residual(problem, contacts, halo, solution), finite);
+    const bool hidden = single && test.report().residual.rms > 3 * seen;
+    if (!ended && !stuck && !hidden) continue;
     if (best < seen && test.report().status != Status::converged) {
-      r = best_;
+      blocks.unpack(problem, true, r, loops_);
       test.replace(residual(problem, contacts, halo, solution));
     }
     return test.report();
   }
+}
+
+template <class Problem>
+SolveReport TileSolver<Problem>::solve(const Problem& problem, const TiledContacts& contacts, Halo& halo,
+                                       const StoppingRule& rule, TileMethod method,
+                                       Solution<Problem>& solution) {
+  constexpr double single_precision_reaches = 1e-4;
+  solution.impulses.resize(problem.q.size());
+  of_tile_.assign(contacts.tiles.size(), 0.0);
+  std::array<std::int64_t, 1> count{problem.contacts()};
+  ranks_.add(count);
+  if (count[0] == 0) {
+    StoppingTest test(rule);
+    (void)test.ends(0, residual(problem, contacts, halo, solution));
+    return test.report();
+  }
+  const auto in_double = [&](const StoppingRule& own) {
+    return sweep_until_done(problem, contacts, halo, own, count[0], in_double_, method != TileMethod::nlgs,
+                            solution);
+  };
+  if (method != TileMethod::accelerated) return in_double(rule);
+  StoppingRule coarse = rule;
+  coarse.tolerance = std::max(rule.tolerance, single_precision_reaches);
+  const SolveReport first =
+      sweep_until_done(problem, contacts, halo, coarse, count[0], in_single_, true, solution);
+  const bool done = first.status == Status::converged && rule.tolerance == coarse.tolerance;
+  if (done || first.status == Status::not_finite || first.sweeps >= rule.max_sweeps) return first;
+  best_ = solution.impulses;
+  SolveReport both = together(first, in_double(remaining(rule, first)));
+  if (both.status != Status::converged && !(both.residual.rms <= first.residual.rms)) {
+    solution.impulses = best_;
+    both.residual = residual(problem, contacts, halo, solution);
+  }
+  return both;
 }
 
 template class TileSolver<FrictionlessProblem>;

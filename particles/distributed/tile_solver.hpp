@@ -13,6 +13,7 @@
 #include "particles/distributed/halo.hpp"
 #include "particles/distributed/ranks.hpp"
 #include "particles/distributed/step_pairs.hpp"
+#include "particles/distributed/tile_blocks.hpp"
 #include "particles/parallel/team_loops.hpp"
 #include "particles/solver/stopping_rule.hpp"
 
@@ -24,17 +25,20 @@ struct TiledContacts {
   std::span<const char> counts_here;  ///< of each body: whether this rank is the one that counts it
 };
 
+/// As the solvers of these names on one process (solver/contact_solver.hpp).
+enum class TileMethod { accelerated, accelerated_double, nlgs };
+
 /// Workspace of solves of one kind of problem, made once per run.
 template <class Problem>
 class TileSolver {
  public:
   TileSolver(const Ranks& ranks, ThreadTeam* team) : ranks_(ranks), loops_(team) {}
 
-  /// Solves from the warm start in solution.impulses, in double precision; `accelerated`: with momentum. All
-  /// ranks call it together; `problem` has the contacts of this rank alone. Velocities are set for all bodies
-  /// that its contacts touch or it owns. The report is the same on all ranks.
+  /// Solves from the warm start in solution.impulses by one of the methods below. All ranks call it together;
+  /// `problem` has the contacts of this rank alone. Velocities are set for all bodies that its contacts touch
+  /// or it owns. The report is the same on all ranks, its time aside.
   SolveReport solve(const Problem& problem, const TiledContacts& contacts, Halo& halo,
-                    const StoppingRule& rule, bool accelerated, Solution<Problem>& solution);
+                    const StoppingRule& rule, TileMethod method, Solution<Problem>& solution);
   /// Residual of the impulses in a solution, whose velocities it sets; the definition is that of
   /// residual_of().
   ContactResidual residual(const Problem& problem, const TiledContacts& contacts, Halo& halo,
@@ -46,30 +50,28 @@ class TileSolver {
   using Velocity = typename Delassus::Velocity;
   static constexpr bool spin = requires(Velocity v) { v.s; };
 
-  struct Contact {
-    std::int32_t i = 0, j = 0;
-    double n_x = 0, n_z = 0, inverse_W_nn = 0, mu = 0;
-    std::array<double, dim> q{}, r{}, before{};
-  };
+  template <class T>
+  using Blocks = TileBlocks<T, dim, spin>;
 
-  void pack(const Problem& problem, std::span<const double> r);
-  /// Calls work(t) for each tile, colour by colour, and exchanges what it has changed in `bodies`.
-  template <class Work>
-  void each_colour(const TiledContacts&, Halo&, std::vector<Velocity>& bodies, Work work);
-  void load(const TiledContacts&, Halo&);
-  double sweep_tile(const TileRange& tile, double beta);
-  double sweep(const TiledContacts&, Halo&, double beta);
+  /// Calls work(t) for each tile, colour by colour, and exchanges what it has changed in the bodies that
+  /// `get` gives and `set` takes.
+  template <class Work, class Get, class Set>
+  void each_colour(const TiledContacts&, Halo&, Work work, Get get, Set set);
+  template <class T, class Work>
+  void each_colour(const TiledContacts&, Halo&, Blocks<T>&, Work work);
+  template <class T>
+  SolveReport sweep_until_done(const Problem&, const TiledContacts&, Halo&, const StoppingRule&,
+                               std::int64_t contacts_of_all, Blocks<T>&, bool accelerated,
+                               Solution<Problem>&);
   /// The sum over all ranks of one number per tile; all ranks call it together.
   double total_of_tiles();
   double scale_of(const Problem&, const TiledContacts&);
-  double estimate(const TiledContacts&);
 
   Ranks ranks_;
   TeamLoops loops_;
-  std::vector<Contact> contacts_;
-  std::vector<Velocity> bodies_, before_;
+  Blocks<float> in_single_;
+  Blocks<double> in_double_;
   std::vector<double> of_tile_, best_;
-  std::int32_t fixed_ = 0;
 };
 
 }  // namespace drumlin::particles
