@@ -12,6 +12,7 @@
 #include "apps/commands/region_table.hpp"
 #include "apps/commands/run_accuracy.hpp"
 #include "apps/commands/run_files.hpp"
+#include "apps/commands/run_log.hpp"
 #include "apps/commands/run_report.hpp"
 #include "apps/commands/run_resume.hpp"
 #include "apps/commands/start_grains.hpp"
@@ -48,10 +49,6 @@ double cpu_seconds() {
   };
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
-
-const char* const log_header =
-    "step,time_s,stage,contacts,sweeps,residual,residual_max,penetration,sinking,overlap_mean,"
-    "overlap_max,kinetic_energy,converged\n";
 
 class ParticleRun {
  public:
@@ -121,7 +118,7 @@ class ParticleRun {
     last_ = simulation_.step();
     const auto& state = simulation_.state();
     const bool converged = last_.solve.status == particles::Status::converged || last_.contacts == 0;
-    add_up(converged);
+    add_up(last_, state.step, converged, totals_);
     if (state.step % scene_.output.log_every_steps == 0 || simulation_.finished() || last_.lost)
       log_step(converged);
     const bool fatal = !converged && (scene_.solver.stop_when_unconverged ||
@@ -129,44 +126,18 @@ class ParticleRun {
     if (!converged && (totals_.unconverged_steps <= scene_.solver.capture_unconverged ||
                        (fatal && scene_.solver.capture_unconverged > 0)))
       capture_problem();
-    if (last_.lost) fail("grain lost", describe(*last_.lost));
-    if (fatal) fail("not converged", missed_tolerance());
+    if (last_.lost) fail("grain lost", lost_text(*last_.lost));
+    if (fatal) fail("not converged", missed_tolerance(scene_, last_));
     if (last_.overlap.mean > crushing_overlap && !scene_.solver.allow_crushing.value_or(false))
       fail("crushed", crushed(last_.overlap.mean));
     if (simulation_.wall_loads_due()) write_wall_loads();
     if (simulation_.snapshot_due()) save_snapshot();
   }
 
-  void add_up(bool converged) {
-    const particles::ContactResidual& residual = last_.solve.residual;
-    totals_.unconverged_steps += !converged;
-    if (!converged && totals_.unconverged_steps == 1)
-      totals_.first_unconverged_step = simulation_.state().step;
-    totals_.sweeps += last_.solve.sweeps;
-    totals_.contacts += last_.contacts;
-    totals_.contact_sweeps += static_cast<double>(last_.contacts) * last_.solve.sweeps;
-    totals_.residual_sum += residual.rms;
-    totals_.residual_max = std::max(totals_.residual_max, residual.rms);
-    totals_.penetration_sum += residual.penetration;
-    totals_.penetration_max = std::max(totals_.penetration_max, residual.penetration);
-    totals_.sinking_sum += residual.sinking;
-    totals_.sinking_max = std::max(totals_.sinking_max, residual.sinking);
-    totals_.overlap_sum += last_.overlap.mean;
-    totals_.overlap_max = std::max(totals_.overlap_max, last_.overlap.max);
-    totals_.detection_seconds += last_.detection_seconds;
-    totals_.setup_seconds += last_.setup_seconds;
-    totals_.solver_seconds += last_.solve.seconds;
-    totals_.projection_seconds += last_.projection_seconds;
-  }
-
   void log_step(bool converged) {
     const auto& state = simulation_.state();
-    const auto& residual = last_.solve.residual;
-    log_.write(fmt::format("{},{:.9g},{},{},{},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.9g},{}\n",
-                           state.step, simulated_seconds(), scene_.stages[state.stage].name, last_.contacts,
-                           last_.solve.sweeps, residual.rms, residual.max, residual.penetration,
-                           residual.sinking, last_.overlap.mean, last_.overlap.max,
-                           kinetic_energy(state.bodies), converged ? 1 : 0));
+    log_.write(log_line(last_, state.step, simulated_seconds(), scene_.stages[state.stage].name,
+                        kinetic_energy(state.bodies), converged));
     if (state.energy) log_energy(*state.energy);
     if (state.traffic) {
       if (!regions_)
@@ -294,20 +265,6 @@ class ParticleRun {
     if (!stretches_.is_null()) return text_of_stretches(stretches_, cost.cpu_seconds);
     return text_of(coupling::accuracy_statement(settings, record, {}, cost)) +
            (record ? "" : price_of_stretches(cost.cpu_seconds, cost.simulated_seconds));
-  }
-
-  std::string missed_tolerance() const {
-    const auto& residual = last_.solve.residual;
-    return fmt::format(
-        "contact solver {} ({}) after {} sweeps: residual {:.3g} (tolerance {:g}), penetration {:.3g} d "
-        "and sinking {:.3g} d (tolerance {:g})",
-        scene_.solver.name, particles::to_string(last_.solve.status), last_.solve.sweeps, residual.rms,
-        scene_.solver.tolerance, residual.penetration, residual.sinking, scene_.solver.penetration_tolerance);
-  }
-
-  std::string describe(const particles::LostGrain& lost) const {
-    return fmt::format("grain {} {}; it is at x = {:.6g} d, z = {:.6g} d", lost.grain,
-                       particles::to_string(lost.how), lost.x, lost.z);
   }
 
   /// The last step must not be built upon: no checkpoint of it is written.

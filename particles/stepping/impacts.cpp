@@ -241,6 +241,13 @@ void Impacts::give_back(const StepInput& step, Bodies& bodies, StepContacts& con
   }
 }
 
+bool Impacts::any(const StepInput& step, const RememberedLoads& loads, const StepContacts& contacts) {
+  loads_ = loads;
+  wall_jumps_ = contacts.wall_jumps;
+  place_.resize(step.bodies.count() + step.walls.driven.size(), -1);
+  return find_closings(step, contacts);
+}
+
 void Impacts::resolve(const StepInput& step, const RememberedLoads& loads, Bodies& bodies,
                       StepContacts& contacts) {
   loads_ = loads;

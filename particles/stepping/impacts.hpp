@@ -36,7 +36,10 @@ class Impacts {
   /// adds up by how much.
   void resolve(const StepInput& step, const RememberedLoads& loads, Bodies& bodies, StepContacts& contacts);
 
-  // Of the last call.
+  /// Whether resolve() would have anything to do; of a part of the pairs, whether these alone give it.
+  bool any(const StepInput& step, const RememberedLoads& loads, const StepContacts& contacts);
+
+  // Of the last call of resolve().
   std::span<const StruckGrain> struck() const { return struck_; }
   const ImpactWork& work() const { return work_; }
   /// Pairs that met, counted once per pass.

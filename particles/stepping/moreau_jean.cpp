@@ -14,6 +14,7 @@
 #include "particles/stepping/cell_step.hpp"
 #include "particles/stepping/impacts.hpp"
 #include "particles/stepping/position_projection.hpp"
+#include "particles/stepping/snapshot_of_state.hpp"
 #include "particles/stepping/swept_normals.hpp"
 #include "particles/stepping/wall_crossing.hpp"
 
@@ -34,22 +35,6 @@ class Stopwatch {
 
 // Rounds of impacts within a step, which may throw grains into pairs that no search has found.
 constexpr int most_searches = 5;
-
-/// Contacts sorted by their bodies; impulses of the same pair, impacts among them, are added up.
-std::vector<SnapshotContact> one_for_each_pair(std::vector<SnapshotContact> contacts) {
-  std::stable_sort(contacts.begin(), contacts.end(), [](const SnapshotContact& a, const SnapshotContact& b) {
-    return a.i != b.i ? a.i < b.i : a.j < b.j;
-  });
-  std::vector<SnapshotContact> sums;
-  for (const SnapshotContact& contact : contacts)
-    if (sums.empty() || sums.back().i != contact.i || sums.back().j != contact.j) {
-      sums.push_back(contact);
-    } else {
-      sums.back().impulse_n += contact.impulse_n;
-      sums.back().impulse_t += contact.impulse_t;
-    }
-  return sums;
-}
 
 template <class Problem, bool with_spin>
 class MoreauJean final : public Stepper {

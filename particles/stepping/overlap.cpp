@@ -3,24 +3,9 @@
 #include <algorithm>
 
 #include "particles/detection/contact_list.hpp"
+#include "particles/stepping/lost_at_wall.hpp"
 
 namespace drumlin::particles {
-namespace {
-
-std::optional<LostGrain> lost_at_wall(const ClosePair& pair, bool loaded, const Bodies& bodies,
-                                      const WallStep& walls, const Period& period) {
-  const std::size_t shape = -1 - pair.j;
-  const double x = bodies.x[pair.i], z = bodies.z[pair.i], radius = bodies.radius[pair.i];
-  if (has_left(walls.after[shape], radius, pair.gap))
-    return LostGrain{pair.i, x, z, LostGrain::How::left_container};
-  if (loaded && pushed_too_far(walls.after[shape], walls.displacement[shape], {period.first(x), z},
-                               {pair.n_x, pair.n_z}, radius))
-    return LostGrain{pair.i, x, z, LostGrain::How::pushed_too_far};
-  return std::nullopt;
-}
-
-}  // namespace
-
 Overlap OverlapSearch::find(const MovedContacts& contacts, const Bodies& bodies, const WallStep& walls,
                             const Period& period, double margin, std::optional<LostGrain>& lost) {
   const auto& pairs = contacts.pairs;

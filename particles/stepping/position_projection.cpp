@@ -5,18 +5,10 @@
 #include "particles/effects/driven_walls.hpp"
 #include "particles/parallel/team_loops.hpp"
 #include "particles/stepping/cell_step.hpp"
+#include "particles/stepping/projection_rule.hpp"
 
 namespace drumlin::particles {
 namespace {
-
-// A projection that takes away the whole overlap at once opens neighbouring contacts; the load closes them at
-// gap/h in the next step, the packing heats, solves get worse and overlap grows: a settling drum of 7183
-// discs blew up so.
-constexpr double correction_share = 0.2;
-constexpr double largest_correction = 2e-3;  // d per step
-// Of the residual, relative to the corrections asked for. A few plain Gauss-Seidel sweeps leave the contacts
-// that are solved early overlapped, the same ones in every step: their overlap grew to 0.1 d within a second.
-constexpr double tolerance = 0.05;
 
 /// Adds the walls that a force moves. One that presses and is heavier than the mean grain counts as heavy as
 /// that: a few sweeps would not lift it off the grains, its force would push it further in each step, and
@@ -72,13 +64,13 @@ void PositionProjection<with_driven>::apply(const Movable& movable, std::span<co
           W.arm_x[a] = arm.x, W.arm_z[a] = arm.z;
         }
       W.set(static_cast<int>(a), pair.i, second, pair.n_x, pair.n_z);
-      problem_.q[a] = pair.gap >= 0 ? pair.gap : std::max(correction_share * pair.gap, -largest_correction);
+      problem_.q[a] = wanted_gap(pair.gap);
     }
   });
   W.plan = plan;
   solution_.impulses.assign(pairs.size(), 0.0);
   StoppingRule rule;
-  rule.tolerance = tolerance;
+  rule.tolerance = projection_tolerance;
   rule.max_sweeps = sweeps;
   // What is left is seen, and reported, as the overlap of the next step.
   (void)solve_accelerated(problem_, rule, work_, solution_);

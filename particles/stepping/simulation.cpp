@@ -11,6 +11,8 @@
 #include "particles/scene/placement.hpp"
 #include "particles/scene/scene_walls.hpp"
 #include "particles/scene/thermal.hpp"
+#include "particles/stepping/scene_solver.hpp"
+#include "particles/stepping/snapshot_of_state.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -18,20 +20,6 @@ namespace {
 std::optional<TurningFrame> frame_of(const Scene& scene, const Scales& scales) {
   if (!scene.effects.rotating_frame) return std::nullopt;
   return frame_law(*scene.effects.rotating_frame, scales);
-}
-
-StepSolver solver_of(const Scene& scene, int threads) {
-  const SolverSettings& asked = scene.solver;
-  StepSolver solver;
-  solver.name = asked.name;
-  solver.rule.tolerance = asked.tolerance;
-  solver.rule.penetration = asked.penetration_tolerance;
-  solver.rule.sinking = asked.penetration_tolerance;
-  solver.rule.max_sweeps = asked.max_sweeps;
-  solver.rule.check_every = asked.check_every;
-  solver.projection_sweeps = asked.projection_sweeps;
-  solver.threads = threads;
-  return solver;
 }
 
 bool fits(const Traffic& traffic, const Scene& scene, const Bodies& bodies) {
@@ -254,62 +242,15 @@ ContactPlaces Simulation::last_places() const {
 
 Snapshot Simulation::take_snapshot() {
   ++state_.snapshots;
-  Snapshot s;
-  const Bodies& bodies = state_.bodies;
-  s.step = state_.step;
-  s.time = state_.time();
-  s.time_step = plan_.stages[state_.stage].time_step;
-  s.scales = scales_;
-  for (std::size_t w = 0; w < walls_.names.size(); ++w)
-    if (const auto* turning = std::get_if<Turning>(&walls_.motion[w])) {
-      s.wall_angle = walls_.pose(static_cast<int>(w), state_.time_in_stage, state_.driven).angle;
-      s.wall_spin = turning->spin;
-      break;
-    }
-  for (const Shape& shape : walls_.shapes_at(state_.time_in_stage, state_.driven))
-    if (const auto* container = std::get_if<Container>(&shape)) {
-      s.container_x = container->center.x, s.container_z = container->center.z,
-      s.container_radius = container->radius;
-      break;
-    }
-  s.wall_open = std::vector<std::int32_t>(walls_.open.begin(), walls_.open.end());
-  if (opens_walls(scene_)) s.wall_open.resize(walls_.names.size());
-  if (moves_walls_by_force(scene_) || ends_stages_early(scene_))
-    for (std::size_t w = 0; w < walls_.names.size(); ++w) {
-      const Pose pose = walls_.pose(static_cast<int>(w), state_.time_in_stage, state_.driven);
-      s.wall_pose_angle.push_back(pose.angle);
-      s.wall_pose_x.push_back(pose.x), s.wall_pose_z.push_back(pose.z);
-    }
   StepLaws laws = laws_of(scene_, scales_);
   if (state_.gravity) set_gravity(gravity_at(state_.time_in_stage), scales_, laws);
-  Point gravity{laws.gravity ? laws.gravity->x : 0, laws.gravity ? laws.gravity->z : 0};
-  if (frame_) gravity = direction_in_frame(*frame_, s.time, gravity);
-  s.gravity_x = gravity.x, s.gravity_z = gravity.z;
-  const Period period = state_.cell ? period_of(*state_.cell) : laws.period;
-  s.period_x = period.length;
-  if (!period.open_z())
-    s.cell = {period.origin, period.origin_z, period.length_z, period.offset,
-              period.rate_x, period.rate_z,   period.shear};
-  s.x = bodies.x, s.z = bodies.z, s.v_x = bodies.v_x, s.v_z = bodies.v_z, s.radius = bodies.radius,
-  s.spin = bodies.spin, s.id = bodies.id;
-  if (has_own_masses(bodies))
-    for (const double inverse : bodies.inverse_mass) s.mass.push_back(1 / inverse);
+  Point gravity = laws.gravity.value_or(Point{});
+  if (frame_) gravity = direction_in_frame(*frame_, state_.time(), gravity);
+  Snapshot s = snapshot_of({scene_, scales_, plan_, walls_, laws.period, gravity}, state_);
   s.contacts = stepper_->loaded_contacts();
   for (SnapshotContact& contact : s.contacts) {
     const Point normal = normal_in_scene(contact.normal_x, contact.normal_z);
     contact.normal_x = static_cast<float>(normal.x), contact.normal_z = static_cast<float>(normal.z);
-  }
-  while (!state_.marks.empty() && state_.marks.front().snapshot_step < state_.step) state_.marks.pop_front();
-  if (!state_.marks.empty() && state_.marks.front().snapshot_step == state_.step) {
-    const auto& mark = state_.marks.front();
-    s.velocity_window = state_.time() - mark.time;
-    s.displacement_x.resize(bodies.count());
-    s.displacement_z.resize(bodies.count());
-    for (std::size_t b = 0; b < bodies.count(); ++b) {
-      s.displacement_x[b] = bodies.x[b] - mark.x[b];
-      s.displacement_z[b] = bodies.z[b] - mark.z[b];
-    }
-    state_.marks.pop_front();
   }
   return s;
 }

@@ -148,8 +148,7 @@ void lay_back(std::span<const MovingSegment> walls, const Period& period, Point 
 /// not moved further than the largest disc's radius: pressed out by a larger one, not flown out of a solve
 /// that is worth nothing.
 void lay_into(const Container& was, const Container& is, const Period& period, Point start, std::size_t b,
-              Bodies& bodies, Crossings& crossings) {
-  const double largest = *std::max_element(bodies.radius.begin(), bodies.radius.end());
+              double largest, Bodies& bodies, Crossings& crossings) {
   if (std::hypot(bodies.x[b] - start.x, bodies.z[b] - start.z) > largest ||
       std::hypot(period.nearest(start.x - was.center.x), start.z - was.center.z) > was.radius)
     return;
@@ -162,7 +161,9 @@ void lay_into(const Container& was, const Container& is, const Period& period, P
 
 }  // namespace
 
-void WallCrossings::begin(const Bodies& bodies, std::span<const Shape> shapes) {
+void WallCrossings::begin(const Bodies& bodies, std::span<const Shape> shapes,
+                          std::optional<double> largest) {
+  largest_ = largest;
   segments_.clear(), containers_.clear();
   for (std::size_t s = 0; s < shapes.size(); ++s) {
     if (std::holds_alternative<Segment>(shapes[s])) segments_.push_back(s);
@@ -188,7 +189,9 @@ void WallCrossings::undo_at_containers(const WallStep& walls, const Period& peri
     for (std::size_t b = 0; b < bodies.count(); ++b) {
       const double x = period.nearest(bodies.x[b] - is.center.x), z = bodies.z[b] - is.center.z;
       if (x * x + z * z > is.radius * is.radius)
-        lay_into(was, is, period, {x_[b], z_[b]}, b, bodies, crossings);
+        lay_into(was, is, period, {x_[b], z_[b]}, b,
+                 largest_.value_or(*std::max_element(bodies.radius.begin(), bodies.radius.end())), bodies,
+                 crossings);
     }
   }
 }

@@ -25,8 +25,9 @@ struct Crossings {
 /// Remembers where discs stand when a step begins.
 class WallCrossings {
  public:
-  /// The beginning of a step, before any disc is moved.
-  void begin(const Bodies&, std::span<const Shape> shapes);
+  /// The beginning of a step, before any disc is moved. `largest`: radius of the largest disc of all, where
+  /// the bodies are a part of them; without, of the bodies.
+  void begin(const Bodies&, std::span<const Shape> shapes, std::optional<double> largest = {});
   /// Lays each disc whose centre has crossed a segment since, between the segment's ends, or a container,
   /// back onto the side that it came from; velocities stay. Lost is one that met a segment which moves
   /// further than the disc's radius within the step, or for which there is no place. A disc that has moved
@@ -37,6 +38,7 @@ class WallCrossings {
   void undo_at_containers(const WallStep&, const Period&, Bodies&, Crossings&) const;
   void undo_at_segments(const WallStep&, const Period&, Bodies&, Crossings&);
 
+  std::optional<double> largest_;
   std::vector<double> x_, z_;                       // centres at the beginning of the step
   std::vector<std::size_t> segments_, containers_;  // shapes
   std::vector<std::size_t> crossed_;

@@ -19,7 +19,7 @@ TOPS = ("particles", "continuum", "coupling", "apps", "tests/hardcases")
 PUBLIC_LIBRARIES = {"particles": ["Eigen/"], "apps": ["nlohmann/json_fwd.hpp"], "coupling/documents": ["nlohmann/json_fwd.hpp"]}
 # Headers that only these folders may include, in any file.
 PRIVATE_LIBRARIES = {
-    "deal.II/": ["continuum/fem"],
+    "deal.II/": ["continuum/fem", "particles/distributed"],
     "petsc": ["continuum/fem"],
     "hdf5": ["coupling/files"],
     "toml++/": ["coupling/documents/document.cpp"],

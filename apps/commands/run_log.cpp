@@ -1,0 +1,54 @@
+#include "apps/commands/run_log.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace drumlin::apps {
+
+std::string log_line(const particles::StepReport& report, std::int64_t step, double time_s,
+                     const std::string& stage, double kinetic_energy, bool converged) {
+  const auto& residual = report.solve.residual;
+  return fmt::format("{},{:.9g},{},{},{},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.9g},{}\n", step, time_s,
+                     stage, report.contacts, report.solve.sweeps, residual.rms, residual.max,
+                     residual.penetration, residual.sinking, report.overlap.mean, report.overlap.max,
+                     kinetic_energy, converged ? 1 : 0);
+}
+
+void add_up(const particles::StepReport& report, std::int64_t step, bool converged,
+            particles::RunTotals& totals) {
+  const particles::ContactResidual& residual = report.solve.residual;
+  totals.unconverged_steps += !converged;
+  if (!converged && totals.unconverged_steps == 1) totals.first_unconverged_step = step;
+  totals.sweeps += report.solve.sweeps;
+  totals.contacts += report.contacts;
+  totals.contact_sweeps += static_cast<double>(report.contacts) * report.solve.sweeps;
+  totals.residual_sum += residual.rms;
+  totals.residual_max = std::max(totals.residual_max, residual.rms);
+  totals.penetration_sum += residual.penetration;
+  totals.penetration_max = std::max(totals.penetration_max, residual.penetration);
+  totals.sinking_sum += residual.sinking;
+  totals.sinking_max = std::max(totals.sinking_max, residual.sinking);
+  totals.overlap_sum += report.overlap.mean;
+  totals.overlap_max = std::max(totals.overlap_max, report.overlap.max);
+  totals.detection_seconds += report.detection_seconds;
+  totals.setup_seconds += report.setup_seconds;
+  totals.solver_seconds += report.solve.seconds;
+  totals.projection_seconds += report.projection_seconds;
+}
+
+std::string missed_tolerance(const particles::Scene& scene, const particles::StepReport& report) {
+  const auto& residual = report.solve.residual;
+  return fmt::format(
+      "contact solver {} ({}) after {} sweeps: residual {:.3g} (tolerance {:g}), penetration {:.3g} d "
+      "and sinking {:.3g} d (tolerance {:g})",
+      scene.solver.name, particles::to_string(report.solve.status), report.solve.sweeps, residual.rms,
+      scene.solver.tolerance, residual.penetration, residual.sinking, scene.solver.penetration_tolerance);
+}
+
+std::string lost_text(const particles::LostGrain& lost) {
+  return fmt::format("grain {} {}; it is at x = {:.6g} d, z = {:.6g} d", lost.grain,
+                     particles::to_string(lost.how), lost.x, lost.z);
+}
+
+}  // namespace drumlin::apps

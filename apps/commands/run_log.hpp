@@ -1,0 +1,24 @@
+#pragma once
+// What a run says of its steps: lines of log.csv, sums for its report, and why it ends.
+#include <cstdint>
+#include <string>
+
+#include "particles/io/checkpoint_file.hpp"
+#include "particles/scene/scene.hpp"
+
+namespace drumlin::apps {
+
+inline constexpr const char* log_header =
+    "step,time_s,stage,contacts,sweeps,residual,residual_max,penetration,sinking,overlap_mean,"
+    "overlap_max,kinetic_energy,converged\n";
+std::string log_line(const particles::StepReport& report, std::int64_t step, double time_s,
+                     const std::string& stage, double kinetic_energy, bool converged);
+
+/// Adds a step to what a run has added up.
+void add_up(const particles::StepReport& report, std::int64_t step, bool converged,
+            particles::RunTotals& totals);
+
+std::string missed_tolerance(const particles::Scene& scene, const particles::StepReport& report);
+std::string lost_text(const particles::LostGrain& lost);
+
+}  // namespace drumlin::apps

@@ -1,0 +1,184 @@
+#include "particles/distributed/rank_simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "particles/distributed/exact_sum.hpp"
+#include "particles/distributed/step_pairs.hpp"
+#include "particles/scene/placement.hpp"
+#include "particles/scene/scene_walls.hpp"
+#include "particles/scene/thermal.hpp"
+#include "particles/stepping/scene_solver.hpp"
+#include "particles/stepping/snapshot_of_state.hpp"
+
+namespace drumlin::particles {
+namespace {
+
+/// A square around all that a scene names.
+Domain domain_of(const Scene& scene, const Scales& scales, const Walls& walls, const Bodies& bodies) {
+  constexpr double room = 2;  // d, on each side
+  Extent extent = extent_of(scene, scales, walls);
+  for (std::size_t b = 0; b < bodies.count(); ++b) extent.add(bodies.x[b], bodies.z[b], bodies.radius[b]);
+  Domain domain;
+  domain.edge = std::max(extent.x_high - extent.x_low, extent.z_high - extent.z_low) + 2 * room;
+  domain.low = {(extent.x_low + extent.x_high - domain.edge) / 2, extent.z_low - room};
+  domain.grains = static_cast<std::int64_t>(bodies.count());
+  for (const double radius : bodies.radius) domain.largest = std::max(domain.largest, 2 * radius);
+  return domain;
+}
+
+}  // namespace
+
+RankSimulation::RankSimulation(const Scene& scene, const Ranks& ranks, int threads)
+    : scene_(scene),
+      ranks_(ranks),
+      scales_(scales_of(scene)),
+      plan_(time_plan(scene, scales_)),
+      walls_(walls_of(scene, scales_)) {
+  Bodies all = place_grains(scene, scales_);
+  if (scene.grains.thermal_speed_mm_s)
+    add_thermal_motion(*scene.grains.thermal_speed_mm_s * 1e-3 / scales_.velocity_m_s(), scene.seed, all);
+  enter_stage(0);
+  make_stepper(threads, all);
+  take_own(all);
+}
+
+RankSimulation::RankSimulation(const Scene& scene, SimulationState state, const Ranks& ranks, int threads)
+    : scene_(scene),
+      ranks_(ranks),
+      scales_(scales_of(scene)),
+      plan_(time_plan(scene, scales_)),
+      walls_(walls_of(scene, scales_)),
+      state_(std::move(state)) {
+  for (int before = 0; before < state_.stage; ++before) open_walls(walls_, scene_.stages[before]);
+  walls_.pose_at_start = state_.pose_at_start;
+  (void)begin_stage(walls_, scene_.stages[state_.stage], scales_, 0);
+  walls_.pose_at_start = state_.pose_at_start;
+  const Bodies all = std::move(state_.bodies);
+  make_stepper(threads, all);
+  take_own(all);
+  const int dim = scene.effects.friction ? 2 : 1;
+  const ContactMemory& memory = state_.memory;
+  own_.memory_time_step = memory.time_step;
+  // The first rank brings all to their tiles' owners.
+  for (std::size_t m = 0; ranks_.rank() == 0 && m < memory.i.size(); ++m) {
+    RememberedContact contact;
+    contact.i = memory.i[m], contact.j = memory.j[m];
+    const Point place = middle_of({memory.i[m], memory.j[m]}, all);
+    contact.x = place.x, contact.z = place.z;
+    for (int c = 0; c < dim; ++c) contact.impulse[c] = memory.impulse[dim * m + c];
+    own_.memory.push_back(contact);
+  }
+  state_.bodies = {}, state_.memory = {};
+  if (ranks_.rank() != 0) state_.marks.clear();
+}
+
+void RankSimulation::make_stepper(int threads, const Bodies& all) {
+  // The walls of the scene where it begins: a run that is continued has the same domain.
+  const Walls first = walls_of(scene_, scales_);
+  const Domain domain =
+      domain_of(scene_, scales_, first, state_.step == 0 ? all : place_grains(scene_, scales_));
+  stepper_ = make_rank_stepper(laws_of(scene_, scales_), solver_of(scene_, threads), domain, ranks_);
+}
+
+/// Shares of about equal size; the first step sends them where they belong.
+void RankSimulation::take_own(const Bodies& all) {
+  const std::size_t rank = ranks_.rank(), ranks = ranks_.count();
+  for (std::size_t b = all.count() * rank / ranks; b < all.count() * (rank + 1) / ranks; ++b)
+    own_.grains.push_back({static_cast<std::int64_t>(b), all.x[b], all.z[b], all.v_x[b], all.v_z[b],
+                           all.spin.empty() ? 0 : all.spin[b], all.radius[b], all.inverse_mass[b]});
+}
+
+void RankSimulation::enter_stage(int stage) {
+  state_.driven = begin_stage(walls_, scene_.stages[stage], scales_, state_.time_in_stage, state_.driven);
+  state_.stage = stage;
+  state_.step_in_stage = 0;
+  state_.time_at_stage_start += state_.time_in_stage;
+  state_.time_in_stage = 0;
+  state_.pose_at_start = walls_.pose_at_start;
+}
+
+/// As in a simulation on one process; the first rank keeps the places.
+void RankSimulation::mark_positions() {
+  if (scene_.output.velocity_window_s <= 0) return;
+  const double window = scene_.output.velocity_window_s / scales_.time_s;
+  const auto steps = std::max<std::int64_t>(1, std::llround(window / plan_.stages[state_.stage].time_step));
+  if (!std::binary_search(plan_.snapshot_steps.begin(), plan_.snapshot_steps.end(), state_.step + steps))
+    return;
+  Bodies bodies = gathered_bodies();
+  if (ranks_.rank() == 0)
+    state_.marks.push_back({state_.step + steps, state_.time(), std::move(bodies.x), std::move(bodies.z)});
+}
+
+StepReport RankSimulation::step() {
+  if (state_.step_in_stage == plan_.stages[state_.stage].steps) enter_stage(state_.stage + 1);
+  mark_positions();
+  const double h = plan_.stages[state_.stage].time_step;
+  WallStep walls = wall_step(walls_, state_.time_in_stage, h);
+  const StepReport report = stepper_->advance(own_, walls, h);
+  ++state_.step;
+  ++state_.step_in_stage;
+  state_.time_in_stage = static_cast<double>(state_.step_in_stage) * h;
+  return report;
+}
+
+bool RankSimulation::snapshot_due() const {
+  return std::binary_search(plan_.snapshot_steps.begin(), plan_.snapshot_steps.end(), state_.step);
+}
+
+Bodies RankSimulation::gathered_bodies() const {
+  const auto grains = ranks_.gather<GrainRecord>(own_.grains);
+  Bodies bodies;
+  for (auto* values : {&bodies.x, &bodies.z, &bodies.v_x, &bodies.v_z, &bodies.radius, &bodies.inverse_mass})
+    values->resize(grains.size());
+  if (scene_.effects.spin) bodies.spin.resize(grains.size());
+  for (const GrainRecord& g : grains) {
+    const auto b = static_cast<std::size_t>(g.id);
+    bodies.x[b] = g.x, bodies.z[b] = g.z, bodies.v_x[b] = g.v_x, bodies.v_z[b] = g.v_z;
+    bodies.radius[b] = g.radius, bodies.inverse_mass[b] = g.inverse_mass;
+    if (scene_.effects.spin) bodies.spin[b] = g.spin;
+  }
+  return bodies;
+}
+
+Snapshot RankSimulation::take_snapshot() {
+  ++state_.snapshots;
+  state_.bodies = gathered_bodies();
+  auto contacts = stepper_->loaded_contacts();
+  const StepLaws laws = laws_of(scene_, scales_);
+  Snapshot snapshot =
+      snapshot_of({scene_, scales_, plan_, walls_, laws.period, laws.gravity.value_or(Point{})}, state_);
+  snapshot.contacts = std::move(contacts);
+  state_.bodies = {};
+  return snapshot;
+}
+
+SimulationState RankSimulation::gathered_state() const {
+  SimulationState all = state_;
+  all.bodies = gathered_bodies();
+  auto memory = ranks_.gather<RememberedContact>(own_.memory);
+  std::sort(memory.begin(), memory.end(), [](const RememberedContact& a, const RememberedContact& b) {
+    return std::tie(a.i, a.j) < std::tie(b.i, b.j);
+  });
+  const int dim = scene_.effects.friction ? 2 : 1;
+  all.memory.time_step = own_.memory_time_step;
+  for (const RememberedContact& contact : memory) {
+    all.memory.i.push_back(static_cast<std::int32_t>(contact.i));
+    all.memory.j.push_back(static_cast<std::int32_t>(contact.j));
+    for (int c = 0; c < dim; ++c) all.memory.impulse.push_back(contact.impulse[c]);
+  }
+  return all;
+}
+
+double RankSimulation::kinetic_energy() const {
+  ExactSum sum;
+  for (const GrainRecord& g : own_.grains) {
+    const double rim = g.radius * g.spin;
+    sum.add((g.v_x * g.v_x + g.v_z * g.v_z + rim * rim / 2) / (2 * g.inverse_mass));
+  }
+  ranks_.add(sum.numbers());
+  return sum.value();
+}
+
+}  // namespace drumlin::particles

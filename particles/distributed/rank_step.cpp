@@ -1,0 +1,341 @@
+#include "particles/distributed/rank_step.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "particles/detection/contact_list.hpp"
+#include "particles/distributed/gathered_impacts.hpp"
+#include "particles/distributed/rank_grains.hpp"
+#include "particles/distributed/rank_projection.hpp"
+#include "particles/stepping/assembly.hpp"
+#include "particles/stepping/snapshot_of_state.hpp"
+#include "particles/stepping/swept_normals.hpp"
+#include "particles/stepping/wall_crossing.hpp"
+
+namespace drumlin::particles {
+namespace {
+
+class Stopwatch {
+ public:
+  /// Seconds since the last call.
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+// Rounds of impacts within a step, which may throw grains into pairs that no search has found.
+constexpr int most_searches = 5;
+
+/// A lost grain as ranks tell each other.
+struct LostRecord {
+  std::int64_t id = 0;
+  double x = 0, z = 0;
+  int how = 0;
+};
+
+template <class Problem, bool with_spin>
+class RankMoreauJean final : public RankStepper {
+  static constexpr int dim = Problem::dim;
+
+ public:
+  RankMoreauJean(const StepLaws& laws, const StepSolver& solver, const Domain& domain, const Ranks& ranks)
+      : laws_(laws),
+        settings_(solver),
+        domain_(domain),
+        ranks_(ranks),
+        team_(solver.threads),
+        grains_(ranks, domain, with_spin, dim, laws.detection_margin),
+        impacts_(ranks),
+        solver_(ranks, &team_),
+        overlaps_(ranks),
+        projection_(ranks, &team_) {
+    detection_.use(&team_);
+    recollection_.use(&team_);
+    if (laws.gravity) gravity_ = *laws.gravity;
+    if (solver.name == "accelerated-double") method_ = TileMethod::accelerated_double;
+    if (solver.name == "nlgs") method_ = TileMethod::nlgs;
+  }
+
+  StepReport advance(RankState& state, WallStep& walls, double time_step) override {
+    StepReport report;
+    Stopwatch watch;
+    const Point gain{time_step * gravity_.x, time_step * gravity_.z};
+    grains_.settle(state, walls, time_step, gain);
+    detect(state, walls, time_step, gain, report);
+    own_ = rank_pairs(grains_.seen(), detection_.candidates(), grains_.tiles(), ranks_.rank());
+    halo_.follow(own_.halo);
+    take_used();
+    report.detection_seconds = watch.lap();
+    const StepInput step{laws_, bodies_, walls, {}, free_, time_step};
+    contacts_.pairs = own_.pairs;
+    sweep_normals(step, contacts_.pairs);
+    warm_start(time_step);
+    assemble<Problem, with_spin>(step, contacts_, TeamLoops(&team_), problem_);
+    report.setup_seconds = watch.lap();
+    const TiledContacts tiled{own_.tiles, counts_here_};
+    report.solve = solver_.solve(problem_, tiled, halo_, settings_.rule, method_, solution_);
+    std::vector<std::int64_t> count{problem_.contacts()};
+    ranks_.add(count);
+    report.contacts = static_cast<int>(count[0]);
+    (void)watch.lap();
+    crossings_.begin(bodies_, walls.before, domain_.largest / 2);
+    move(time_step);
+    const int projected = project(walls, report);
+    remember(state, time_step);
+    give_back(state);
+    report.projection_seconds = watch.lap();
+    add_up(state, report, projected);
+    return report;
+  }
+
+  std::vector<SnapshotContact> loaded_contacts() override {
+    std::vector<SnapshotContact> loaded;
+    const auto& r = solution_.impulses;
+    for (std::size_t a = 0; a < contacts_.pairs.size(); ++a) {
+      const Candidate& pair = contacts_.pairs[a];
+      if (r[dim * a] == 0) continue;
+      loaded.push_back({static_cast<std::int32_t>(bodies_.id[pair.i]),
+                        pair.j < 0 ? pair.j : static_cast<std::int32_t>(bodies_.id[pair.j]),
+                        static_cast<float>(pair.n_x), static_cast<float>(pair.n_z), r[dim * a],
+                        dim >= 2 ? r[dim * a + 1 % dim] : 0});
+    }
+    std::vector<SnapshotContact> all = ranks_.gather<SnapshotContact>(loaded);
+    for (const Strike& strike : impacts_.strikes())
+      all.push_back({strike.i, strike.j, static_cast<float>(strike.n_x), static_cast<float>(strike.n_z),
+                     strike.normal, strike.tangential});
+    return one_for_each_pair(std::move(all));
+  }
+
+  const RankCounts& counts() const override { return counts_; }
+
+ private:
+  /// Velocities without contacts, of all grains that this rank sees.
+  void move_freely(double time_step) {
+    free_.x = grains_.seen().bodies.v_x;
+    free_.z = grains_.seen().bodies.v_z;
+    if (laws_.gravity) add_gravity(gravity_, time_step, free_);
+  }
+
+  void find(const WallStep& walls, double time_step) {
+    const Bodies& seen = grains_.seen().bodies;
+    detection_.find(seen, free_.x, free_.z,
+                    {walls.before, walls.displacement, time_step, laws_.detection_margin, {}});
+  }
+
+  /// The pairs that may touch once the impacts of the step are over.
+  void detect(RankState& state, const WallStep& walls, double time_step, Point gain, StepReport& report) {
+    impacts_.clear();
+    move_freely(time_step);
+    find(walls, time_step);
+    if (!laws_.restitution) return;
+    FreeMotion searched = free_;
+    for (int searches = 1;; ++searches) {
+      const auto struck = strike(state, walls, time_step);
+      report.impacts += impacts_.count();
+      counts_.gathered += impacts_.count() > 0;
+      if (impacts_.count() == 0) return;
+      take_over(struck, state);
+      move_freely(time_step);
+      if (searches == most_searches || !ranks_.any(throws_further(searched, time_step))) return;
+      if (grains_.settle_again(state, walls, time_step, gain)) move_freely(time_step);
+      find(walls, time_step);
+      searched = free_;
+    }
+  }
+
+  /// The impacts among all pairs; those of this rank's tiles are its part.
+  std::vector<StruckRecord> strike(const RankState& state, const WallStep& walls, double time_step) {
+    const Bodies& seen = grains_.seen().bodies;
+    StepContacts mine;
+    for (const Candidate& pair : detection_.candidates())
+      if (grains_.tiles().owner_at(middle_of(pair, seen)) == ranks_.rank()) mine.pairs.push_back(pair);
+    const StepInput step{laws_, seen, walls, {}, free_, time_step};
+    sweep_normals(step, mine.pairs);
+    recollection_.find(grains_.memory(), seen.count(), mine.pairs);
+    const auto loads = recollection_.loads(grains_.memory(), dim, time_step);
+    return impacts_.resolve(step, loads, mine, state.grains);
+  }
+
+  void take_over(std::span<const StruckRecord> struck, RankState& state) {
+    SeenGrains& seen = grains_.seen();
+    for (const StruckRecord& record : struck) {
+      const std::int32_t b = grains_.place_of(record.id);
+      if (b < 0) continue;
+      seen.bodies.v_x[b] = record.v_x, seen.bodies.v_z[b] = record.v_z;
+      if constexpr (with_spin) seen.bodies.spin[b] = record.spin;
+      if (seen.place[b] < 0) continue;
+      GrainRecord& grain = state.grains[seen.place[b]];
+      grain.v_x = record.v_x, grain.v_z = record.v_z, grain.spin = record.spin;
+    }
+  }
+
+  /// Whether impacts have thrown an own grain further than the search for pairs allowed for.
+  bool throws_further(const FreeMotion& searched, double time_step) const {
+    const SeenGrains& seen = const_cast<RankMoreauJean*>(this)->grains_.seen();
+    for (std::size_t b = 0; b < seen.owner.size(); ++b) {
+      if (seen.place[b] < 0) continue;
+      const double push = 2 * time_step * std::hypot(free_.x[b] - searched.x[b], free_.z[b] - searched.z[b]);
+      if (push > detection_.jolt(static_cast<std::int32_t>(b)) + laws_.detection_margin) return true;
+    }
+    return false;
+  }
+
+  /// From here on the bodies are those that this rank's contacts touch, and its own.
+  void take_used() {
+    const SeenGrains& seen = grains_.seen();
+    bodies_ = used_bodies(seen, own_.used);
+    counts_here_.assign(own_.used.size(), 0);
+    FreeMotion of_used;
+    for (std::size_t b = 0; b < own_.used.size(); ++b) {
+      const std::int32_t s = own_.used[b];
+      of_used.x.push_back(free_.x[s]), of_used.z.push_back(free_.z[s]);
+      counts_here_[b] = seen.place[s] >= 0;
+    }
+    free_ = std::move(of_used);
+  }
+
+  void warm_start(double time_step) {
+    ContactMemory memory;
+    const ContactMemory& all = grains_.memory();
+    memory.time_step = all.time_step;
+    for (std::size_t m = 0; m < all.i.size(); ++m) {
+      const std::int32_t i = own_.in_used[all.i[m]], j = all.j[m] < 0 ? all.j[m] : own_.in_used[all.j[m]];
+      if (i < 0 || (all.j[m] >= 0 && j < 0)) continue;
+      memory.i.push_back(i), memory.j.push_back(j);
+      for (int c = 0; c < dim; ++c) memory.impulse.push_back(all.impulse[dim * m + c]);
+    }
+    recollection_.find(memory, bodies_.count(), contacts_.pairs);
+    std::vector<std::int32_t> as_they_stand(contacts_.pairs.size());
+    std::iota(as_they_stand.begin(), as_they_stand.end(), 0);
+    recollection_.warm_start(memory, dim, time_step, as_they_stand, solution_.impulses);
+  }
+
+  /// New velocities from the solution, then new positions.
+  void move(double time_step) {
+    const auto& changes = solution_.velocities.bodies;
+    for (std::size_t b = 0; b < bodies_.count(); ++b) {
+      bodies_.v_x[b] = free_.x[b] + changes[b].x;
+      bodies_.v_z[b] = free_.z[b] + changes[b].z;
+      if constexpr (with_spin) spin_up(bodies_, b, changes[b].s);
+      bodies_.x[b] += time_step * bodies_.v_x[b];
+      bodies_.z[b] += time_step * bodies_.v_z[b];
+    }
+  }
+
+  /// The overlap that is left, which is then removed on positions alone. Returns the sweeps of that.
+  int project(WallStep& walls, StepReport& report) {
+    const Period open;
+    const Crossings moved = crossings_.undo(walls, open, bodies_);
+    std::optional<LostGrain> lost;
+    report.overlap = overlaps_.find({contacts_.pairs, own_.tiles, solution_.impulses, dim}, bodies_, walls,
+                                    laws_.detection_margin, lost);
+    Crossings pushed;
+    int sweeps = 0;
+    if (settings_.projection_sweeps > 0) {
+      sweeps = projection_.apply(overlaps_, counts_here_, halo_, settings_.projection_sweeps, bodies_);
+      pushed = crossings_.undo(walls, open, bodies_);
+    }
+    std::array<double, 1> deepest{std::max({report.overlap.max, moved.deepest, pushed.deepest})};
+    ranks_.largest(deepest);
+    report.overlap.max = deepest[0];
+    if (!lost) lost = moved.lost ? moved.lost : pushed.lost;
+    if (!lost) lost = grain_that_is_not_finite(bodies_);
+    report.lost = first_lost(lost);
+    return sweeps;
+  }
+
+  /// Of those that ranks have lost the one of least identity.
+  std::optional<LostGrain> first_lost(const std::optional<LostGrain>& own) const {
+    if (!ranks_.any(own.has_value())) return std::nullopt;
+    std::vector<LostRecord> mine;
+    if (own) mine.push_back({bodies_.id[own->grain], own->x, own->z, static_cast<int>(own->how)});
+    const auto all = ranks_.gather_everywhere<LostRecord>(mine);
+    const auto& first = *std::min_element(
+        all.begin(), all.end(), [](const LostRecord& a, const LostRecord& b) { return a.id < b.id; });
+    return LostGrain{static_cast<int>(first.id), first.x, first.z, static_cast<LostGrain::How>(first.how)};
+  }
+
+  void remember(RankState& state, double time_step) {
+    state.memory.clear();
+    state.memory_time_step = time_step;
+    const auto& r = solution_.impulses;
+    for (std::size_t a = 0; a < contacts_.pairs.size(); ++a) {
+      const Candidate& pair = contacts_.pairs[a];
+      RememberedContact contact;
+      for (int c = 0; c < dim; ++c) contact.impulse[c] = r[dim * a + c];
+      if (contact.impulse == std::array<double, 2>{}) continue;
+      const Point place = middle_of(pair, bodies_);
+      contact.i = bodies_.id[pair.i], contact.j = pair.j < 0 ? pair.j : bodies_.id[pair.j];
+      contact.x = place.x, contact.z = place.z;
+      state.memory.push_back(contact);
+    }
+  }
+
+  void give_back(RankState& state) {
+    const SeenGrains& seen = grains_.seen();
+    for (std::size_t b = 0; b < own_.used.size(); ++b) {
+      const std::int32_t place = seen.place[own_.used[b]];
+      if (place < 0) continue;
+      GrainRecord& grain = state.grains[place];
+      grain.x = bodies_.x[b], grain.z = bodies_.z[b];
+      grain.v_x = bodies_.v_x[b], grain.v_z = bodies_.v_z[b];
+      if constexpr (with_spin) grain.spin = bodies_.spin[b];
+    }
+  }
+
+  void add_up(const RankState& state, const StepReport& report, int projected) {
+    ++counts_.steps;
+    counts_.sweeps += report.solve.sweeps + projected;
+    counts_.contacts += problem_.contacts();
+    counts_.grains += static_cast<std::int64_t>(state.grains.size());
+    counts_.ghosts += static_cast<std::int64_t>(grains_.ghosts());
+    counts_.shared_bytes_per_sweep += halo_.bytes_per_sweep();
+    counts_.halo_rounds = halo_.rounds(), counts_.halo_bytes = halo_.bytes();
+    counts_.rounds = Ranks::rounds();
+    counts_.forests = grains_.forests();
+  }
+
+  StepLaws laws_;
+  StepSolver settings_;
+  Domain domain_;
+  Ranks ranks_;
+  ThreadTeam team_;
+  Point gravity_;
+  TileMethod method_ = TileMethod::accelerated;
+  RankGrains grains_;
+  ContactDetection detection_;
+  Recollection recollection_;
+  GatheredImpacts impacts_;
+  RankPairs own_;
+  Halo halo_;
+  Bodies bodies_;                  // used ones
+  FreeMotion free_;                // of all seen grains, then of the used ones
+  std::vector<char> counts_here_;  // of each used grain: its own
+  StepContacts contacts_;
+  Problem problem_;
+  Solution<Problem> solution_;
+  TileSolver<Problem> solver_;
+  RankOverlap overlaps_;
+  RankProjection projection_;
+  WallCrossings crossings_;
+  RankCounts counts_;
+};
+
+}  // namespace
+
+std::unique_ptr<RankStepper> make_rank_stepper(const StepLaws& laws, const StepSolver& solver,
+                                               const Domain& domain, const Ranks& ranks) {
+  if (!laws.friction)
+    return std::make_unique<RankMoreauJean<FrictionlessProblem, false>>(laws, solver, domain, ranks);
+  if (!laws.spin) return std::make_unique<RankMoreauJean<CoulombProblem, false>>(laws, solver, domain, ranks);
+  return std::make_unique<RankMoreauJean<CoulombSpinProblem, true>>(laws, solver, domain, ranks);
+}
+
+}  // namespace drumlin::particles

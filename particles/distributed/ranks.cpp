@@ -1,0 +1,147 @@
+#include "particles/distributed/ranks.hpp"
+
+#include <deal.II/base/mpi.h>
+
+#include <cstdlib>
+#include <exception>
+#include <limits>
+#include <numeric>
+
+namespace drumlin::particles {
+namespace {
+
+std::int64_t rounds_so_far = 0;  // of this process, which is one rank
+
+/// Counts of bytes are ints in MPI 3.
+int as_count(std::size_t bytes) {
+  if (bytes > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+    throw IoError("a message of more than 2 GB between two ranks: use more of them");
+  return static_cast<int>(bytes);
+}
+
+}  // namespace
+
+struct RankRuntime::Libraries {
+  Libraries(int& argc, char**& argv) : mpi(argc, argv, 1) {}
+  dealii::Utilities::MPI::MPI_InitFinalize mpi;  // starts p4est as well
+};
+
+RankRuntime::RankRuntime(int& argc, char**& argv) {
+  setenv("OMP_NUM_THREADS", "1", /*overwrite=*/0);
+  libraries_ = std::make_unique<Libraries>(argc, argv);
+}
+
+RankRuntime::~RankRuntime() = default;
+
+int Ranks::rank() const {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  return rank;
+}
+
+int Ranks::count() const {
+  int count = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &count);
+  return count;
+}
+
+std::int64_t Ranks::rounds() { return rounds_so_far; }
+
+std::vector<std::vector<std::byte>> Ranks::exchange_bytes(
+    const std::vector<std::vector<std::byte>>& to_rank) const {
+  const auto ranks = static_cast<std::size_t>(count()), own = static_cast<std::size_t>(rank());
+  std::vector<int> sent(ranks), arriving(ranks);
+  for (std::size_t r = 0; r < ranks; ++r) sent[r] = as_count(to_rank[r].size());
+  MPI_Alltoall(sent.data(), 1, MPI_INT, arriving.data(), 1, MPI_INT, MPI_COMM_WORLD);
+  std::vector<std::vector<std::byte>> received(ranks);
+  std::vector<MPI_Request> requests;
+  constexpr int tag = 1;
+  for (std::size_t r = 0; r < ranks; ++r) {
+    received[r].resize(arriving[r]);
+    if (r == own || arriving[r] == 0) continue;
+    requests.emplace_back();
+    MPI_Irecv(received[r].data(), arriving[r], MPI_BYTE, static_cast<int>(r), tag, MPI_COMM_WORLD,
+              &requests.back());
+  }
+  for (std::size_t r = 0; r < ranks; ++r) {
+    if (r == own || sent[r] == 0) continue;
+    requests.emplace_back();
+    MPI_Isend(to_rank[r].data(), sent[r], MPI_BYTE, static_cast<int>(r), tag, MPI_COMM_WORLD,
+              &requests.back());
+  }
+  received[own] = to_rank[own];
+  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+  rounds_so_far += 2;
+  return received;
+}
+
+std::vector<std::byte> Ranks::gather_bytes(std::span<const std::byte> own) const {
+  const int mine = as_count(own.size());
+  std::vector<int> counts(count()), first(count() + 1, 0);
+  MPI_Gather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, MPI_COMM_WORLD);
+  std::size_t total = 0;
+  std::vector<std::byte> all;
+  if (rank() == 0) {
+    for (std::size_t r = 0; r < counts.size(); ++r) total += counts[r], first[r + 1] = as_count(total);
+    all.resize(total);
+  }
+  MPI_Gatherv(own.data(), mine, MPI_BYTE, all.data(), counts.data(), first.data(), MPI_BYTE, 0,
+              MPI_COMM_WORLD);
+  rounds_so_far += 2;
+  return all;
+}
+
+void Ranks::broadcast_bytes(std::vector<std::byte>& bytes) const {
+  std::int64_t size = static_cast<std::int64_t>(bytes.size());
+  MPI_Bcast(&size, 1, MPI_INT64_T, 0, MPI_COMM_WORLD);
+  bytes.resize(size);
+  MPI_Bcast(bytes.data(), as_count(bytes.size()), MPI_BYTE, 0, MPI_COMM_WORLD);
+  rounds_so_far += 2;
+}
+
+void Ranks::largest(std::span<double> values) const {
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_MAX,
+                MPI_COMM_WORLD);
+  ++rounds_so_far;
+}
+
+void Ranks::add(std::span<std::int64_t> values) const {
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_INT64_T, MPI_SUM,
+                MPI_COMM_WORLD);
+  ++rounds_so_far;
+}
+
+std::int64_t Ranks::least(std::int64_t value) const {
+  MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_INT64_T, MPI_MIN, MPI_COMM_WORLD);
+  ++rounds_so_far;
+  return value;
+}
+
+bool Ranks::any(bool value) const { return least(value ? 0 : 1) == 0; }
+
+void Ranks::on_first(const std::function<void()>& action) const {
+  std::exception_ptr thrown;
+  int code = static_cast<int>(ExitCode::done);
+  if (rank() == 0) {
+    try {
+      action();
+    } catch (const InputError&) {
+      thrown = std::current_exception(), code = static_cast<int>(ExitCode::wrong_input);
+    } catch (const NotConvergedError&) {
+      thrown = std::current_exception(), code = static_cast<int>(ExitCode::not_converged);
+    } catch (...) {
+      thrown = std::current_exception(), code = static_cast<int>(ExitCode::input_output);
+    }
+  }
+  MPI_Bcast(&code, 1, MPI_INT, 0, MPI_COMM_WORLD);
+  ++rounds_so_far;
+  if (thrown) std::rethrow_exception(thrown);
+  if (code != static_cast<int>(ExitCode::done)) throw FailedOnFirstRank{static_cast<ExitCode>(code)};
+}
+
+void Ranks::end_all(int exit_code) {
+  MPI_Abort(MPI_COMM_WORLD, exit_code);
+  std::abort();
+}
+
+}  // namespace drumlin::particles

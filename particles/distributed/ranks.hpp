@@ -1,0 +1,111 @@
+#pragma once
+// The processes (ranks) that share a run, and what they tell each other. MPI is seen in the .cpp files of
+// this room alone.
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include "coupling/common/errors.hpp"
+
+namespace drumlin::particles {
+
+/// What the other ranks throw where the first one failed: they end with its exit code, and say nothing.
+struct FailedOnFirstRank {
+  ExitCode code = ExitCode::done;
+};
+
+/// Keeps MPI alive while it lives: made first thing in main.
+class RankRuntime {
+ public:
+  RankRuntime(int& argc, char**& argv);
+  ~RankRuntime();
+  RankRuntime(const RankRuntime&) = delete;
+  RankRuntime& operator=(const RankRuntime&) = delete;
+
+ private:
+  struct Libraries;
+  std::unique_ptr<Libraries> libraries_;
+};
+
+/// All ranks of the program. Every member is called by all of them together; results that steer a run are
+/// independent of their number: maxima, and sums of integers.
+class Ranks {
+ public:
+  int rank() const;
+  int count() const;
+
+  /// Sends to_rank[r] to each rank r; returns what each rank sent here.
+  template <class T>
+  std::vector<std::vector<T>> exchange(const std::vector<std::vector<T>>& to_rank) const {
+    static_assert(std::is_trivially_copyable_v<T>);
+    std::vector<std::vector<std::byte>> bytes(to_rank.size());
+    for (std::size_t r = 0; r < to_rank.size(); ++r) {
+      const auto own = std::as_bytes(std::span(to_rank[r]));
+      bytes[r].assign(own.begin(), own.end());
+    }
+    std::vector<std::vector<T>> received(bytes.size());
+    const auto arrived = exchange_bytes(bytes);
+    for (std::size_t r = 0; r < arrived.size(); ++r) received[r] = as<T>(arrived[r]);
+    return received;
+  }
+  /// What all ranks give, in the order of the ranks: on the first; empty on the others.
+  template <class T>
+  std::vector<T> gather(std::span<const T> own) const {
+    static_assert(std::is_trivially_copyable_v<T>);
+    return as<T>(gather_bytes(std::as_bytes(own)));
+  }
+  /// The same, on all ranks.
+  template <class T>
+  std::vector<T> gather_everywhere(std::span<const T> own) const {
+    std::vector<T> all = gather(own);
+    broadcast(all);
+    return all;
+  }
+  /// Replaces the values of all ranks by those of the first.
+  template <class T>
+  void broadcast(std::vector<T>& values) const {
+    static_assert(std::is_trivially_copyable_v<T>);
+    std::vector<std::byte> bytes;
+    if (rank() == 0) {
+      const auto own = std::as_bytes(std::span(values));
+      bytes.assign(own.begin(), own.end());
+    }
+    broadcast_bytes(bytes);
+    if (rank() != 0) values = as<T>(bytes);
+  }
+
+  /// Each value becomes the largest of all ranks. No NaN.
+  void largest(std::span<double> values) const;
+  /// Each value becomes the sum over all ranks.
+  void add(std::span<std::int64_t> values) const;
+  /// The least of all ranks.
+  std::int64_t least(std::int64_t value) const;
+  bool any(bool value) const;
+
+  /// What one rank has to do for all: files and messages. What `action` throws there is thrown there, and
+  /// FailedOnFirstRank on the others.
+  void on_first(const std::function<void()>& action) const;
+  /// Ends all ranks at once with an exit code: for an error that one rank meets alone.
+  [[noreturn]] static void end_all(int exit_code);
+
+  /// Rounds of messages between all ranks so far: what a run costs where latency counts.
+  static std::int64_t rounds();
+
+ private:
+  template <class T>
+  static std::vector<T> as(const std::vector<std::byte>& bytes) {
+    std::vector<T> values(bytes.size() / sizeof(T));
+    const auto to = std::as_writable_bytes(std::span(values));
+    for (std::size_t k = 0; k < to.size(); ++k) to[k] = bytes[k];
+    return values;
+  }
+  std::vector<std::vector<std::byte>> exchange_bytes(const std::vector<std::vector<std::byte>>&) const;
+  std::vector<std::byte> gather_bytes(std::span<const std::byte>) const;
+  void broadcast_bytes(std::vector<std::byte>&) const;
+};
+
+}  // namespace drumlin::particles

@@ -1,0 +1,109 @@
+#include "particles/distributed/step_pairs.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace drumlin::particles {
+namespace {
+
+/// A candidate's tile and who owns that.
+struct Home {
+  std::int32_t tile = 0, owner = 0;
+};
+
+/// Touches of the grains that this rank uses and others may.
+std::vector<SharedTouch> shared_touches(const SeenGrains& seen, std::span<const Candidate> candidates,
+                                        std::span<const Home> homes, const RankPairs& own,
+                                        const TileGrid& grid, std::int32_t rank) {
+  std::vector<char> shared(seen.owner.size(), 0);
+  for (const std::int32_t b : own.used) shared[b] = seen.owner[b] != rank;
+  const auto each_body = [&](std::size_t a, auto visit) {
+    visit(candidates[a].i);
+    if (candidates[a].j >= 0) visit(candidates[a].j);
+  };
+  for (std::size_t a = 0; a < candidates.size(); ++a)
+    if (homes[a].owner != rank) each_body(a, [&](std::int32_t b) { shared[b] = own.in_used[b] >= 0; });
+  std::vector<SharedTouch> touches;
+  for (const std::int32_t b : own.used)
+    if (shared[b]) touches.push_back({own.in_used[b], seen.owner[b], -1});
+  for (std::size_t a = 0; a < candidates.size(); ++a)
+    each_body(a, [&](std::int32_t b) {
+      if (shared[b]) touches.push_back({own.in_used[b], homes[a].owner, grid.colour(homes[a].tile)});
+    });
+  std::stable_sort(touches.begin(), touches.end(),
+                   [](const SharedTouch& a, const SharedTouch& b) { return a.body < b.body; });
+  return touches;
+}
+
+}  // namespace
+
+Point middle_of(const Candidate& pair, const Bodies& bodies) {
+  if (pair.j < 0) return {bodies.x[pair.i], bodies.z[pair.i]};
+  return {(bodies.x[pair.i] + bodies.x[pair.j]) / 2, (bodies.z[pair.i] + bodies.z[pair.j]) / 2};
+}
+
+RankPairs rank_pairs(const SeenGrains& seen, std::span<const Candidate> candidates, const TileMap& tiles,
+                     std::int32_t rank) {
+  RankPairs own;
+  std::vector<Home> homes(candidates.size());
+  own.in_used.assign(seen.owner.size(), -1);
+  for (std::size_t b = 0; b < seen.owner.size(); ++b)
+    if (seen.owner[b] == rank) own.in_used[b] = 0;
+  std::vector<std::int32_t> mine;
+  for (std::size_t a = 0; a < candidates.size(); ++a) {
+    const Candidate& pair = candidates[a];
+    homes[a].tile = tiles.grid.tile_at(middle_of(pair, seen.bodies));
+    homes[a].owner = tiles.owner[homes[a].tile];
+    if (homes[a].owner != rank) continue;
+    mine.push_back(static_cast<std::int32_t>(a));
+    own.in_used[pair.i] = 0;
+    if (pair.j >= 0) own.in_used[pair.j] = 0;
+  }
+  for (std::size_t b = 0; b < seen.owner.size(); ++b)
+    if (own.in_used[b] == 0) {
+      own.in_used[b] = static_cast<std::int32_t>(own.used.size());
+      own.used.push_back(static_cast<std::int32_t>(b));
+    }
+  const auto touches = shared_touches(seen, candidates, homes, own, tiles.grid, rank);
+  own.halo = halo_plan(touches, rank);
+  std::vector<char> at_border(own.used.size(), 0);
+  for (const SharedTouch& touch : touches) at_border[touch.body] = 1;
+  std::vector<char> border_tile(tiles.owner.size(), 0);
+  for (const std::int32_t a : mine) {
+    const Candidate& pair = candidates[a];
+    if (at_border[own.in_used[pair.i]] || (pair.j >= 0 && at_border[own.in_used[pair.j]]))
+      border_tile[homes[a].tile] = 1;
+  }
+  const auto key = [&](std::int32_t a) {
+    const std::int32_t tile = homes[a].tile;
+    return std::tuple(tiles.grid.colour(tile), !border_tile[tile], tile, a);
+  };
+  std::sort(mine.begin(), mine.end(), [&](std::int32_t a, std::int32_t b) { return key(a) < key(b); });
+  for (const std::int32_t a : mine) {
+    Candidate pair = candidates[a];
+    pair.i = own.in_used[pair.i];
+    if (pair.j >= 0) pair.j = own.in_used[pair.j];
+    const auto place = static_cast<std::int32_t>(own.pairs.size());
+    const std::int32_t tile = homes[a].tile;
+    if (own.tiles.empty() || own.tiles.back().tile != tile)
+      own.tiles.push_back({tile, place, place, tiles.grid.colour(tile), border_tile[tile] != 0});
+    own.pairs.push_back(pair);
+    own.tiles.back().end = place + 1;
+  }
+  return own;
+}
+
+Bodies used_bodies(const SeenGrains& seen, std::span<const std::int32_t> used) {
+  const auto taken = [&](const auto& values) {
+    std::remove_cvref_t<decltype(values)> some;
+    if (values.empty()) return some;
+    for (const std::int32_t b : used) some.push_back(values[b]);
+    return some;
+  };
+  const Bodies& all = seen.bodies;
+  return {taken(all.x),    taken(all.z),      taken(all.v_x),          taken(all.v_z),
+          taken(all.spin), taken(all.radius), taken(all.inverse_mass), taken(all.material),
+          taken(all.id)};
+}
+
+}  // namespace drumlin::particles

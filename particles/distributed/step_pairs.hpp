@@ -1,0 +1,49 @@
+#pragma once
+// The contacts of a step on one rank: which are its own, in which order, and which grains they share with
+// other ranks.
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "particles/bodies/bodies.hpp"
+#include "particles/detection/candidate.hpp"
+#include "particles/distributed/halo.hpp"
+#include "particles/distributed/tiles.hpp"
+
+namespace drumlin::particles {
+
+/// Grains that a rank sees: its own and those of one layer of cells around, by ascending identity.
+struct SeenGrains {
+  Bodies bodies;                    ///< with identities
+  std::vector<std::int32_t> owner;  ///< rank of each
+  std::vector<std::int32_t> place;  ///< of own grains: their places in Forest::owned(); else -1
+};
+
+/// Contacts of one tile in a list.
+struct TileRange {
+  std::int32_t tile = 0, begin = 0, end = 0;
+  std::int32_t colour = 0;
+  bool border = false;  ///< a contact touches a grain that other ranks use
+};
+
+/// What a rank solves. Indices are places in `used`.
+struct RankPairs {
+  std::vector<std::int32_t> used;     ///< grains of SeenGrains that are its own or in its contacts
+  std::vector<std::int32_t> in_used;  ///< of each seen grain; -1: not used
+  std::vector<Candidate> pairs;       ///< its contacts: by colour, border tiles first, tile, (i, j)
+  std::vector<TileRange> tiles;       ///< the same, tile by tile
+  HaloPlan halo;
+};
+
+/// Where a pair is: between the centres of two grains, or at the centre of a grain at a wall.
+Point middle_of(const Candidate& pair, const Bodies& bodies);
+
+/// Takes the contacts of the rank's tiles from all `candidates` among the grains that it sees, in the order
+/// of (i, j).
+RankPairs rank_pairs(const SeenGrains& seen, std::span<const Candidate> candidates, const TileMap& tiles,
+                     std::int32_t rank);
+
+/// The entries of the used grains, in their order.
+Bodies used_bodies(const SeenGrains& seen, std::span<const std::int32_t> used);
+
+}  // namespace drumlin::particles

@@ -1,0 +1,242 @@
+#include "particles/distributed/tile_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "particles/contact/residual.hpp"
+#include "particles/solver/momentum.hpp"
+#include "particles/solver/strip_sweeps.hpp"
+
+namespace drumlin::particles {
+namespace {
+
+template <class Velocity>
+std::array<double, Halo::numbers> numbers_of(const Velocity& v) {
+  if constexpr (requires { v.s; })
+    return {v.x, v.z, v.s};
+  else
+    return {v.x, v.z, 0};
+}
+
+template <class Velocity>
+void set_numbers(Velocity& v, const std::array<double, Halo::numbers>& numbers) {
+  v.x = numbers[0], v.z = numbers[1];
+  if constexpr (requires { v.s; }) v.s = numbers[2];
+}
+
+}  // namespace
+
+template <class Problem>
+template <class Work, class Get, class Set>
+void TileSolver<Problem>::each_colour(const TiledContacts& contacts, Halo& halo, Work work, Get get,
+                                      Set set) {
+  const auto& tiles = contacts.tiles;
+  const auto some = [&](std::size_t begin, std::size_t end) {
+    loops_.each_of(static_cast<int>(end - begin), [&](int k) { work(begin + k); });
+  };
+  std::size_t first = 0;
+  for (int colour = 0; colour < 4; ++colour) {
+    std::size_t inner = first;
+    while (inner < tiles.size() && tiles[inner].colour == colour && tiles[inner].border) ++inner;
+    std::size_t end = inner;
+    while (end < tiles.size() && tiles[end].colour == colour) ++end;
+    some(first, inner);
+    halo.start(colour, get);
+    some(inner, end);
+    halo.finish(colour, set);
+    first = end;
+  }
+}
+
+template <class Problem>
+template <class T, class Work>
+void TileSolver<Problem>::each_colour(const TiledContacts& contacts, Halo& halo, Blocks<T>& blocks,
+                                      Work work) {
+  each_colour(
+      contacts, halo, work, [&](std::int32_t b) { return blocks.numbers(b); },
+      [&](std::int32_t b, const auto& numbers) { blocks.set_numbers(b, numbers); });
+}
+
+template <class Problem>
+double TileSolver<Problem>::total_of_tiles() {
+  ExactSum sum;
+  for (const double term : of_tile_) sum.add(term);
+  ranks_.add(sum.numbers());
+  return sum.value();
+}
+
+/// What turns the summed squares of the residuals into the square of the relative one.
+template <class Problem>
+double TileSolver<Problem>::scale_of(const Problem& problem, const TiledContacts& contacts) {
+  for (std::size_t t = 0; t < contacts.tiles.size(); ++t) {
+    const TileRange& tile = contacts.tiles[t];
+    of_tile_[t] = squared_norm(std::span(problem.q).subspan(dim * tile.begin, dim * (tile.end - tile.begin)));
+  }
+  const double squares = total_of_tiles();
+  return squares > 0 ? dim / squares : 1;
+}
+
+template <class Problem>
+ContactResidual TileSolver<Problem>::residual(const Problem& problem, const TiledContacts& contacts,
+                                              Halo& halo, Solution<Problem>& solution) {
+  const Delassus& W = problem.W;
+  auto& [state, u] = solution.velocities;
+  const std::span<const double> r = solution.impulses;
+  W.rest(state);
+  each_colour(
+      contacts, halo,
+      [&](std::size_t t) {
+        for (std::int32_t a = contacts.tiles[t].begin; a < contacts.tiles[t].end; ++a)
+          W.push(state, a, r[dim * a], dim == 2 ? r[dim * a + 1] : 0, W.j[a] != W.fixed());
+      },
+      [&](std::int32_t b) { return numbers_of(state[b]); },
+      [&](std::int32_t b, const auto& numbers) { set_numbers(state[b], numbers); });
+  u.resize(problem.q.size());
+  std::vector<ResidualSums> of_tile(contacts.tiles.size());
+  std::vector<double> q_squares(contacts.tiles.size());
+  loops_.each_of(static_cast<int>(contacts.tiles.size()), [&](int t) {
+    const TileRange& tile = contacts.tiles[t];
+    W.velocities_of(tile.begin, tile.end, problem.q, state, u);
+    for (std::int32_t a = tile.begin; a < tile.end; ++a)
+      of_tile[t].add(squared_error(problem, a, r, u), r[dim * a], u[dim * a]);
+    q_squares[t] =
+        squared_norm(std::span(problem.q).subspan(dim * tile.begin, dim * (tile.end - tile.begin)));
+  });
+  // Squares, q, let through, summed impulses, and the number of contacts.
+  std::array<ExactSum, 4> sums;
+  ResidualSums all;
+  for (std::size_t t = 0; t < of_tile.size(); ++t) {
+    sums[0].add(of_tile[t].squares), sums[1].add(q_squares[t]), sums[2].add(of_tile[t].let_through);
+    all.add(of_tile[t]);
+  }
+  for (std::size_t b = 0; b + 1 < state.size(); ++b)
+    if (contacts.counts_here[b])
+      sums[3].add(std::sqrt(state[b].x * state[b].x + state[b].z * state[b].z) / state[b].inverse_mass);
+  std::vector<std::int64_t> numbers{problem.contacts()};
+  for (auto& sum : sums) numbers.insert(numbers.end(), sum.numbers().begin(), sum.numbers().end());
+  ranks_.add(numbers);
+  for (std::size_t k = 0; k < sums.size(); ++k)
+    std::copy_n(numbers.begin() + 1 + k * ExactSum::size(), ExactSum::size(), sums[k].numbers().begin());
+  ContactResidual residual;
+  if (numbers[0] == 0) return residual;
+  const double squares = sums[0].value(), q = sums[1].value(), let_through = sums[2].value();
+  if (!std::isfinite(squares) || !std::isfinite(let_through)) {
+    residual.rms = residual.max = std::numeric_limits<double>::quiet_NaN();
+    return residual;
+  }
+  std::array<double, 2> extremes{all.largest, -all.lowest_u_n};
+  ranks_.largest(extremes);
+  const auto count = static_cast<double>(numbers[0]);
+  const double scale = std::sqrt(q / (dim * count));
+  const auto relative = [scale](double e) {
+    return e == 0 ? 0 : scale != 0 ? e / scale : std::numeric_limits<double>::infinity();
+  };
+  residual.rms = relative(std::sqrt(squares / count));
+  residual.max = relative(std::sqrt(extremes[0]));
+  residual.penetration = extremes[1] * problem.time_step;
+  residual.sinking = let_through == 0 ? 0 : problem.time_step * let_through / sums[3].value();
+  return residual;
+}
+
+/// The loop of particles/solver/strip_sweeps.hpp, with sums over ranks.
+template <class Problem>
+template <class T>
+SolveReport TileSolver<Problem>::sweep_until_done(const Problem& problem, const TiledContacts& contacts,
+                                                  Halo& halo, const StoppingRule& rule,
+                                                  std::int64_t contacts_of_all, Blocks<T>& blocks,
+                                                  bool accelerated, Solution<Problem>& solution) {
+  constexpr int patience = 100;   // sweeps without a tenth of progress
+  constexpr double hope = 2;      // times the tolerance: a residual that is looked for
+  constexpr int most_unseen = 3;  // looks left out in turn
+  constexpr bool single = sizeof(T) < sizeof(double);
+  StoppingTest test(rule);
+  std::vector<double>& r = solution.impulses;
+  const auto tiles = static_cast<int>(contacts.tiles.size());
+  blocks.pack(problem, contacts.tiles, r, loops_);
+  each_colour(contacts, halo, blocks, [&](std::size_t t) { blocks.load(t); });
+  blocks.start();
+  const double scale = scale_of(problem, contacts);
+  Momentum momentum(rule.tolerance, static_cast<std::size_t>(contacts_of_all));
+  T beta = 0;
+  double worth = std::numeric_limits<double>::infinity(), best = worth, least = worth;
+  for (int sweeps = 0, unseen = 0, progress_at = 0;;) {
+    const bool whole = sweeps % sweeps_of_rest == 0;
+    if (accelerated && (whole || sweeps % sweeps_of_rest == 1))
+      loops_.each_of(tiles, [&](int t) { blocks.let_rest(t, !whole); });
+    ++sweeps;
+    if (accelerated) blocks.go_on(beta, loops_);
+    each_colour(contacts, halo, blocks,
+                [&](std::size_t t) { of_tile_[t] = blocks.sweep(t, beta, accelerated); });
+    const double steps = total_of_tiles();
+    const bool finite = std::isfinite(steps), last = sweeps >= rule.max_sweeps || !finite;
+    beta = static_cast<T>(momentum.next(steps));
+    if (!test.due(sweeps) && finite) continue;
+    if (!last && steps > worth && unseen < most_unseen) {
+      ++unseen;
+      continue;
+    }
+    unseen = 0;
+    loops_.each_of(tiles, [&](int t) { of_tile_[t] = blocks.residual(t); });
+    const double seen = std::sqrt(total_of_tiles() * scale);
+    const double fall = hope * rule.tolerance / seen;  // residuals fall about as steps do
+    worth = steps * fall * fall;
+    if (seen < 0.9 * least) least = seen, progress_at = sweeps;
+    // Rounding of single precision hides the progress.
+    const bool stuck = single && sweeps - progress_at >= patience;
+    if (seen < best) {
+      best = seen;
+      loops_.each_of(tiles, [&](int t) { blocks.keep(t); });
+    }
+    if (!last && !stuck && seen > rule.tolerance) continue;
+    blocks.unpack(problem, false, r, loops_);
+    const bool ended = test.ends(sweeps, residual(problem, contacts, halo, solution), finite);
+    const bool hidden = single && test.report().residual.rms > 3 * seen;
+    if (!ended && !stuck && !hidden) continue;
+    if (best < seen && test.report().status != Status::converged) {
+      blocks.unpack(problem, true, r, loops_);
+      test.replace(residual(problem, contacts, halo, solution));
+    }
+    return test.report();
+  }
+}
+
+template <class Problem>
+SolveReport TileSolver<Problem>::solve(const Problem& problem, const TiledContacts& contacts, Halo& halo,
+                                       const StoppingRule& rule, TileMethod method,
+                                       Solution<Problem>& solution) {
+  constexpr double single_precision_reaches = 1e-4;
+  solution.impulses.resize(problem.q.size());
+  of_tile_.assign(contacts.tiles.size(), 0.0);
+  std::array<std::int64_t, 1> count{problem.contacts()};
+  ranks_.add(count);
+  if (count[0] == 0) {
+    StoppingTest test(rule);
+    (void)test.ends(0, residual(problem, contacts, halo, solution));
+    return test.report();
+  }
+  const auto in_double = [&](const StoppingRule& own) {
+    return sweep_until_done(problem, contacts, halo, own, count[0], in_double_, method != TileMethod::nlgs,
+                            solution);
+  };
+  if (method != TileMethod::accelerated) return in_double(rule);
+  StoppingRule coarse = rule;
+  coarse.tolerance = std::max(rule.tolerance, single_precision_reaches);
+  const SolveReport first =
+      sweep_until_done(problem, contacts, halo, coarse, count[0], in_single_, true, solution);
+  const bool done = first.status == Status::converged && rule.tolerance == coarse.tolerance;
+  if (done || first.status == Status::not_finite || first.sweeps >= rule.max_sweeps) return first;
+  best_ = solution.impulses;
+  SolveReport both = together(first, in_double(remaining(rule, first)));
+  if (both.status != Status::converged && !(both.residual.rms <= first.residual.rms)) {
+    solution.impulses = best_;
+    both.residual = residual(problem, contacts, halo, solution);
+  }
+  return both;
+}
+
+template class TileSolver<FrictionlessProblem>;
+template class TileSolver<CoulombProblem>;
+template class TileSolver<CoulombSpinProblem>;
+
+}  // namespace drumlin::particles

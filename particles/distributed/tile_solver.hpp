@@ -1,0 +1,77 @@
+#pragma once
+// Solves a contact problem whose contacts are spread over ranks: Gauss-Seidel sweeps tile by tile in four
+// colours, with the momentum of the default solver. The result is the same bytes for any number of ranks and
+// threads.
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "particles/contact/problems.hpp"
+#include "particles/contact/solution.hpp"
+#include "particles/distributed/exact_sum.hpp"
+#include "particles/distributed/halo.hpp"
+#include "particles/distributed/ranks.hpp"
+#include "particles/distributed/step_pairs.hpp"
+#include "particles/distributed/tile_blocks.hpp"
+#include "particles/parallel/team_loops.hpp"
+#include "particles/solver/stopping_rule.hpp"
+
+namespace drumlin::particles {
+
+/// The contacts of a rank in their tiles, and what its bodies share with other ranks.
+struct TiledContacts {
+  std::span<const TileRange> tiles;   ///< by colour, border tiles first
+  std::span<const char> counts_here;  ///< of each body: whether this rank is the one that counts it
+};
+
+/// As the solvers of these names on one process (solver/contact_solver.hpp).
+enum class TileMethod { accelerated, accelerated_double, nlgs };
+
+/// Workspace of solves of one kind of problem, made once per run.
+template <class Problem>
+class TileSolver {
+ public:
+  TileSolver(const Ranks& ranks, ThreadTeam* team) : ranks_(ranks), loops_(team) {}
+
+  /// Solves from the warm start in solution.impulses by one of the methods below. All ranks call it together;
+  /// `problem` has the contacts of this rank alone. Velocities are set for all bodies that its contacts touch
+  /// or it owns. The report is the same on all ranks, its time aside.
+  SolveReport solve(const Problem& problem, const TiledContacts& contacts, Halo& halo,
+                    const StoppingRule& rule, TileMethod method, Solution<Problem>& solution);
+  /// Residual of the impulses in a solution, whose velocities it sets; the definition is that of
+  /// residual_of().
+  ContactResidual residual(const Problem& problem, const TiledContacts& contacts, Halo& halo,
+                           Solution<Problem>& solution);
+
+ private:
+  static constexpr int dim = Problem::dim;
+  using Delassus = typename Problem::Delassus;
+  using Velocity = typename Delassus::Velocity;
+  static constexpr bool spin = requires(Velocity v) { v.s; };
+
+  template <class T>
+  using Blocks = TileBlocks<T, dim, spin>;
+
+  /// Calls work(t) for each tile, colour by colour, and exchanges what it has changed in the bodies that
+  /// `get` gives and `set` takes.
+  template <class Work, class Get, class Set>
+  void each_colour(const TiledContacts&, Halo&, Work work, Get get, Set set);
+  template <class T, class Work>
+  void each_colour(const TiledContacts&, Halo&, Blocks<T>&, Work work);
+  template <class T>
+  SolveReport sweep_until_done(const Problem&, const TiledContacts&, Halo&, const StoppingRule&,
+                               std::int64_t contacts_of_all, Blocks<T>&, bool accelerated,
+                               Solution<Problem>&);
+  /// The sum over all ranks of one number per tile; all ranks call it together.
+  double total_of_tiles();
+  double scale_of(const Problem&, const TiledContacts&);
+
+  Ranks ranks_;
+  TeamLoops loops_;
+  Blocks<float> in_single_;
+  Blocks<double> in_double_;
+  std::vector<double> of_tile_, best_;
+};
+
+}  // namespace drumlin::particles

@@ -1,0 +1,56 @@
+#pragma once
+// Tiles: the squares that order the contacts of a run, whatever the number of ranks.
+#include <cstdint>
+#include <vector>
+
+#include "particles/bodies/walls.hpp"
+
+namespace drumlin::particles {
+
+/// A square of 2^levels x 2^levels cells; a tile is two cells wide.
+struct TileGrid {
+  Point origin;     ///< its lower left corner
+  double cell = 1;  ///< edge of a cell
+  int levels = 1;   ///< at least 1
+
+  int cells_per_side() const { return 1 << levels; }
+  int per_side() const { return 1 << (levels - 1); }
+  std::int32_t count() const { return per_side() * per_side(); }
+  double edge() const { return cell * cells_per_side(); }
+  bool contains(Point p) const {
+    return p.x >= origin.x && p.z >= origin.z && p.x < origin.x + edge() && p.z < origin.z + edge();
+  }
+  /// Number of the tile of a point, row by row; points outside count to the nearest.
+  std::int32_t tile_at(Point p) const;
+  /// By the parities of row and column, 0 to 3.
+  int colour(std::int32_t tile) const { return (tile % per_side()) % 2 + 2 * ((tile / per_side()) % 2); }
+  bool operator==(const TileGrid& other) const {
+    return origin.x == other.origin.x && origin.z == other.origin.z && cell == other.cell &&
+           levels == other.levels;
+  }
+};
+
+/// Who owns each tile.
+struct TileMap {
+  TileGrid grid;
+  std::vector<std::int32_t> owner;  ///< rank of each tile
+  std::int32_t owner_at(Point p) const { return owner[grid.tile_at(p)]; }
+};
+
+/// What a step can bridge, and how large cells must be for it.
+struct Reach {
+  double largest = 0;   ///< diameter of a grain
+  double margin = 0;    ///< pairs closer than this are always candidates
+  double approach = 0;  ///< bound on 2 h times the approach speed of any pair
+  double way = 0;       ///< bound on the way of a grain within the step
+};
+
+/// Cells must be so large that a rank which knows the grains of one layer of cells around its own finds all
+/// contacts of every grain that its contacts touch (docs/decisions/ranks.md).
+double least_cell(const Reach&);
+/// The smallest grid whose cells are large enough and which covers the square from `low` of edge `edge`.
+/// Cells grow by steps of sqrt(2), so that most steps have that of the step before; nothing but the arguments
+/// decides, so that a run that is continued has the same tiles.
+TileGrid tile_grid(Point low, double edge, const Reach&);
+
+}  // namespace drumlin::particles

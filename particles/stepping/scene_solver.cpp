@@ -1,0 +1,19 @@
+#include "particles/stepping/scene_solver.hpp"
+
+namespace drumlin::particles {
+
+StepSolver solver_of(const Scene& scene, int threads) {
+  const SolverSettings& asked = scene.solver;
+  StepSolver solver;
+  solver.name = asked.name;
+  solver.rule.tolerance = asked.tolerance;
+  solver.rule.penetration = asked.penetration_tolerance;
+  solver.rule.sinking = asked.penetration_tolerance;
+  solver.rule.max_sweeps = asked.max_sweeps;
+  solver.rule.check_every = asked.check_every;
+  solver.projection_sweeps = asked.projection_sweeps;
+  solver.threads = threads;
+  return solver;
+}
+
+}  // namespace drumlin::particles

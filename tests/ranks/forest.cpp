@@ -1,0 +1,156 @@
+#include "particles/distributed/forest.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+#include <set>
+
+namespace drumlin::particles {
+namespace {
+
+const TileGrid grid{{-3, -1}, 1.5, 4};  // 16 x 16 cells, 8 x 8 tiles
+
+/// The same on all ranks.
+std::vector<GrainRecord> scattered(int count) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> along(0, grid.edge());
+  std::vector<GrainRecord> grains;
+  for (int k = 0; k < count; ++k)
+    grains.push_back({k, grid.origin.x + along(random), grid.origin.z + along(random), 0.1 * k, -0.2 * k,
+                      0.3 * k, 0.5, 1.0 + k});
+  return grains;
+}
+
+std::vector<GrainRecord> share_of(const std::vector<GrainRecord>& all, const Ranks& ranks) {
+  std::vector<GrainRecord> own;
+  for (std::size_t k = ranks.rank(); k < all.size(); k += ranks.count()) own.push_back(all[k]);
+  return own;
+}
+
+/// Every grain is where `all` has it, once; a rank owns those of its tiles and sees all within a cell of
+/// them.
+void expect_everybody(const Forest& forest, const std::vector<GrainRecord>& all) {
+  const Ranks& ranks = forest.ranks();
+  const std::int32_t rank = ranks.rank();
+  std::vector<std::int64_t> seen(all.size(), 0);
+  for (const GrainRecord& grain : forest.owned()) {
+    ++seen[grain.id];
+    const GrainRecord& right = all[grain.id];
+    EXPECT_EQ(grain.x, right.x);
+    EXPECT_EQ(grain.z, right.z);
+    EXPECT_EQ(grain.v_x, right.v_x);
+    EXPECT_EQ(grain.spin, right.spin);
+    EXPECT_EQ(grain.inverse_mass, right.inverse_mass);
+    EXPECT_EQ(forest.tiles().owner_at({grain.x, grain.z}), rank);
+  }
+  ranks.add(seen);
+  EXPECT_TRUE(std::all_of(seen.begin(), seen.end(), [](std::int64_t n) { return n == 1; }));
+  std::set<std::int64_t> ghosts;
+  for (const GhostRecord& ghost : forest.ghosts()) {
+    ghosts.insert(ghost.grain.id);
+    EXPECT_EQ(ghost.owner, forest.tiles().owner_at({ghost.grain.x, ghost.grain.z}));
+    EXPECT_EQ(ghost.grain.v_z, all[ghost.grain.id].v_z);
+  }
+  EXPECT_EQ(ghosts.size(), forest.ghosts().size());
+  for (const GrainRecord& grain : all) {
+    if (forest.tiles().owner_at({grain.x, grain.z}) == rank) continue;
+    bool near = false;
+    for (const double dx : {-1.0, 0.0, 1.0})
+      for (const double dz : {-1.0, 0.0, 1.0}) {
+        const Point p{grain.x + dx * grid.cell, grain.z + dz * grid.cell};
+        near = near || (grid.contains(p) && forest.tiles().owner_at(p) == rank);
+      }
+    if (near) {
+      EXPECT_TRUE(ghosts.contains(grain.id)) << grain.id;
+    }
+  }
+}
+
+TEST(Forest, OwnsEachGrainOnceAndSeesALayerOfCells) {
+  const Ranks ranks;
+  const auto all = scattered(600);
+  Forest forest(ranks, grid, std::vector<std::int64_t>(grid.count(), 1));
+  EXPECT_EQ(forest.place(share_of(all, ranks)).id, -1);
+  expect_everybody(forest, all);
+}
+
+TEST(Forest, FollowsGrainsThatMove) {
+  const Ranks ranks;
+  auto all = scattered(600);
+  Forest forest(ranks, grid, std::vector<std::int64_t>(grid.count(), 1));
+  ASSERT_EQ(forest.place(share_of(all, ranks)).id, -1);
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> step(-0.7, 0.7);
+  for (int k = 0; k < 10; ++k) {
+    for (GrainRecord& grain : all) {
+      const double high = grid.edge() - 1e-9;
+      grain.x = grid.origin.x + std::clamp(grain.x + step(random) - grid.origin.x, 1e-9, high);
+      grain.z = grid.origin.z + std::clamp(grain.z + step(random) - grid.origin.z, 1e-9, high);
+      grain.v_x += 1;
+    }
+    std::vector<GrainRecord> own = forest.owned();
+    for (GrainRecord& grain : own) grain = all[grain.id];
+    ASSERT_EQ(forest.move(own).id, -1);
+    expect_everybody(forest, all);
+  }
+}
+
+TEST(Forest, NamesTheFirstGrainThatLeaves) {
+  const Ranks ranks;
+  auto all = scattered(100);
+  Forest forest(ranks, grid, std::vector<std::int64_t>(grid.count(), 1));
+  ASSERT_EQ(forest.place(share_of(all, ranks)).id, -1);
+  all[77].x = grid.origin.x - 50;
+  all[31].z = grid.origin.z + 90;
+  std::vector<GrainRecord> own = forest.owned();
+  for (GrainRecord& grain : own) grain = all[grain.id];
+  const GrainOutside outside = forest.move(own);
+  EXPECT_EQ(outside.id, 31);
+  EXPECT_EQ(outside.z, all[31].z);
+  Forest other(ranks, grid, std::vector<std::int64_t>(grid.count(), 1));
+  EXPECT_EQ(other.place(share_of(all, ranks)).id, 31);
+}
+
+TEST(Forest, GivesEachRankItsShareOfTheWeight) {
+  const Ranks ranks;
+  // All the weight in the last rows.
+  std::vector<std::int64_t> weights(grid.count(), 1);
+  for (std::int32_t tile = 0; tile < grid.count(); ++tile)
+    if (tile / grid.per_side() >= 6) weights[tile] = 100;
+  const Forest forest(ranks, grid, weights);
+  std::int64_t own = 0, all = 0;
+  for (std::int32_t tile = 0; tile < grid.count(); ++tile) {
+    all += weights[tile];
+    if (forest.tiles().owner[tile] == ranks.rank()) own += weights[tile];
+  }
+  // Tiles are whole: a share is met to one heavy tile on each side.
+  EXPECT_NEAR(static_cast<double>(own), static_cast<double>(all) / ranks.count(), 200);
+}
+
+TEST(Tiles, OfOneColourAreATileApart) {
+  std::set<int> colours;
+  for (std::int32_t tile = 0; tile < grid.count(); ++tile) colours.insert(grid.colour(tile));
+  EXPECT_EQ(colours, (std::set<int>{0, 1, 2, 3}));
+  for (std::int32_t a = 0; a < grid.count(); ++a)
+    for (std::int32_t b = 0; b < a; ++b) {
+      if (grid.colour(a) != grid.colour(b)) continue;
+      const int side = grid.per_side();
+      EXPECT_TRUE(std::abs(a % side - b % side) >= 2 || std::abs(a / side - b / side) >= 2);
+    }
+}
+
+TEST(Tiles, AreLargeEnoughForTheReachAndNoLargerThanTheyMustBe) {
+  const Reach slow{1.1, 0.02, 0.1, 0.05}, fast{1.1, 0.02, 3, 1};
+  for (const Reach& reach : {slow, fast}) {
+    const TileGrid chosen = tile_grid({0, 0}, 100, reach);
+    EXPECT_GE(chosen.cell, least_cell(reach));
+    EXPECT_LE(chosen.cell, std::max(3.0 * reach.largest, 1.5 * least_cell(reach)));
+    EXPECT_GE(chosen.edge(), 100);
+  }
+}
+
+}  // namespace
+}  // namespace drumlin::particles

@@ -1,0 +1,185 @@
+"""Runs of drumlin-run on 1 to 4 ranks with 1 or 2 threads leave the same bytes; a killed rank ends the job, and its run
+goes on with another number of ranks; what ranks do not know is refused.
+
+usage: same_bytes.py DRUMLIN_RUN DRUMLIN MPIRUN
+"""
+
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+GRAINS = """format = "drumlin-scene-1"
+title = "Ranks"
+reduced = true
+[grains]
+density_kg_m3 = 2700
+[grains.generated]
+count = {count}
+diameter_min_mm = 3.0
+diameter_max_mm = 3.6
+region = {region}
+[effects.gravity]
+"""
+STAGES = """[[stages]]
+name = "settle"
+duration_s = {settle}
+time_step_s = 1e-3
+[[stages]]
+name = "moving"
+duration_s = {moving}
+time_step_s = 1e-3
+snapshots = 3
+motions = [{motion}]
+[solver]
+tolerance = 1e-2
+max_sweeps = 500
+[output]
+velocity_window_s = 3e-3
+checkpoint_every_s = 0.02
+"""
+DRUM = GRAINS.format(count=350, region='{ shape = "circle", radius_mm = 50 }') + """
+[[walls]]
+name = "drum"
+shape = "container"
+radius_mm = 50
+[effects.friction]
+grain_grain = 0.4
+grain_wall = 0.9
+[effects.restitution]
+grain_grain = 0.46
+grain_wall = 0.46
+[effects.spin]
+""" + STAGES.format(settle=0.12, moving=0.06, motion='{ wall = "drum", kind = "rotation", speed_rpm = 15 }')
+BOX_SHAPE = """shape = "polyline"
+x_mm = [0, 0, 120, 120]
+z_mm = [60, 0, 0, 60]
+"""
+BOX = GRAINS.format(count=300, region='{ shape = "rectangle", min_mm = [0, 0], max_mm = [120, 60] }') + """
+[[walls]]
+name = "box"
+""" + BOX_SHAPE + """[effects.friction]
+grain_grain = 0.5
+grain_wall = 0.5
+""" + STAGES.format(settle=0.08, moving=0.04,
+                    motion='{ wall = "box", kind = "oscillation", amplitude_mm = [1, 0], frequency_hz = 20 }')
+
+
+def require(condition, message):
+    if not condition:
+        sys.exit(message)
+
+
+class Ranks:
+    def __init__(self, program, mpirun):
+        self.program, self.mpirun = program, mpirun
+
+    def words(self, ranks, *words):
+        return [self.mpirun, "-n", str(ranks), self.program, *map(str, words)]
+
+    def __call__(self, ranks, *words, code=0):
+        result = subprocess.run(self.words(ranks, *words), capture_output=True, text=True, timeout=1200, check=False)
+        require(result.returncode == code, f"{words} on {ranks} ranks: exit code {result.returncode} instead of {code}\n"
+                                           f"{result.stdout}{result.stderr}")
+        return result.stderr
+
+
+def results(run):
+    """What must not depend on ranks, threads or interruptions."""
+    files = [run / "log.csv", *sorted((run / "snapshots").iterdir())]
+    return {str(file.relative_to(run)): file.read_bytes() for file in files}
+
+
+def require_same(right, run, what):
+    own = results(run)
+    require(own.keys() == right.keys(), f"{what}: other files: {sorted(own)}")
+    differing = [name for name in right if own[name] != right[name]]
+    require(not differing, f"{what}: other bytes in {', '.join(differing)}")
+
+
+def same_on_all(run_on, folder, name, text, ways=((1, 1), (1, 2), (2, 1), (2, 2), (3, 1), (4, 1))):
+    scene = folder / f"{name}.toml"
+    scene.write_text(text, encoding="utf-8")
+    right = None
+    for ranks, threads in ways:
+        run = folder / f"{name}-{ranks}x{threads}"
+        run_on(ranks, scene, "-o", run, "--threads", threads)
+        if right is None:
+            right = results(run)
+            require(len(right) == 4, f"{name}: not three snapshots and a log")
+        require_same(right, run, f"{name}, {ranks} ranks x {threads} threads")
+        report = json.loads((run / "run.json").read_text(encoding="utf-8"))
+        shares = report["ranks"]
+        require(len(shares) == ranks and report["status"] == "finished", f"{run}: not as run.json should say")
+        grains = sum(share["grains_mean"] for share in shares)
+        require(abs(grains - report["grains"]) < 1e-6 * grains, f"{run}: {grains} grains on the ranks together")
+        require(ranks == 1 or all(share["halo_rounds_per_sweep"] <= 12 for share in shares),
+                f"{run}: more rounds per sweep than colours, their start and their residual")
+    return scene, right
+
+
+def ranks_of(mpirun):
+    """The processes that an mpirun has started, which are ours."""
+    children = subprocess.run(["ps", "-o", "pid=,args=", "--ppid", str(mpirun.pid)], capture_output=True, text=True, check=True)
+    return [int(line.split()[0]) for line in children.stdout.splitlines() if "drumlin-run" in line]
+
+
+def going_on_elsewhere(run_on, folder, scene, right):
+    """A rank is killed once there is a checkpoint of four: the job ends with a message, one rank goes on, is told to
+    stop, and three finish."""
+    run = folder / "killed"
+    with subprocess.Popen(run_on.words(4, scene, "-o", run), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as job:
+        while not (run / "checkpoint.h5").exists():
+            require(job.poll() is None, "the job ended before its first checkpoint")
+            time.sleep(0.005)
+        os.kill(ranks_of(job)[-1], signal.SIGKILL)
+        _, said = job.communicate(timeout=300)
+    require(job.returncode != 0 and "signal 9" in said, f"a killed rank: exit code {job.returncode}, said\n{said}")
+    with subprocess.Popen(run_on.words(1, scene, "-o", run, "--resume"), stdout=subprocess.DEVNULL,
+                          stderr=subprocess.PIPE, text=True) as job:
+        before = (run / "checkpoint.h5").stat().st_mtime_ns
+        while job.poll() is None and (run / "checkpoint.h5").stat().st_mtime_ns == before:
+            time.sleep(0.005)
+        if job.poll() is None:
+            job.send_signal(signal.SIGTERM)
+        job.communicate(timeout=300)
+    run_on(3, scene, "-o", run, "--resume")
+    require_same(right, run, "killed on 4 ranks, gone on with 1, finished by 3")
+
+
+def refusals(run_on, folder):
+    scene = folder / "periodic.toml"
+    scene.write_text(BOX.replace("[effects.gravity]", "[periodic_x]\nx_min_mm = 0\nx_max_mm = 120\n[effects.gravity]")
+                     .replace(BOX_SHAPE, 'shape = "segment"\nfrom_mm = [0, 0]\nto_mm = [120, 0]\n'), encoding="utf-8")
+    said = run_on(2, scene, "-o", folder / "periodic", code=2)
+    require("periodic_x: not on ranks: deal.II 9.4 knows no ghosts across periodic sides" in said
+            and str(scene) in said and not (folder / "periodic").exists(), f"periodic_x on ranks:\n{said}")
+    scene.write_text(DRUM + "energy_ledger = true\n", encoding="utf-8")
+    said = run_on(2, scene, "-o", folder / "ledger", code=2)
+    require("output.energy_ledger" in said and said.count("not on ranks") == 1, f"a ledger on ranks, said once:\n{said}")
+
+
+def main():
+    program, drumlin, mpirun = sys.argv[1:]
+    run_on = Ranks(program, mpirun)
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        scene, right = same_on_all(run_on, folder, "drum", DRUM)
+        going_on_elsewhere(run_on, folder, scene, right)
+        same_on_all(run_on, folder, "box", BOX)
+        same_on_all(run_on, folder, "box-frictionless", BOX.replace("[effects.friction]\ngrain_grain = 0.5\ngrain_wall = 0.5\n", ""),
+                    ((1, 1), (3, 2)))
+        refusals(run_on, folder)
+        # The files are those of other runs.
+        listed = subprocess.run([drumlin, "export", folder / "drum-4x1", "-o", folder / "grids"], capture_output=True,
+                                text=True, check=False)
+        require(listed.returncode == 0, f"drumlin export of a run on ranks:\n{listed.stdout}{listed.stderr}")
+    print("the same bytes on 1 to 4 ranks")
+
+
+if __name__ == "__main__":
+    main()
