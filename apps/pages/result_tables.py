@@ -293,7 +293,7 @@ def judged(cell):
 
 
 BLIND = (3, 12)
-AMOUNT, AXES, WITHOUT = "with effects.memory and the amount", "with effects.memory", "without"
+AMOUNT, AXES, WITHOUT = "with effects.memory, the amount, and the p_min of the particles", "with effects.memory", "without"
 
 
 def limits(entry=AMOUNT):
@@ -348,7 +348,7 @@ TABLES = {
     "effects over speed": effects_over_speed,
     "limits": limits,
     "limits, axes alone": lambda: limits(AXES),
-    "limits, p_min of the particles": lambda: limits("with effects.memory, the amount, and the p_min of the particles"),
+    "limits, p_min of the scene": lambda: limits("with effects.memory and the amount"),
     "sensitivities": sensitivities,
     "second variable": second_variable,
 }
