@@ -162,7 +162,12 @@ function drawWalls(ctx, camera, run, f, pixel) {
 
 // Where a grain has been, and, paler, where it will be; open where it leaves a period at one side.
 function drawPath(ctx, camera, run, f, grain, pixel) {
-  const leap = run.content.period ? (run.content.period[1] - run.content.period[0]) / 2 : Infinity;
+  const half = (range, otherwise) => range ? (range[1] - range[0]) / 2 : otherwise;
+  const leaps = (now, before) => {
+    const cell = now.walls.find(wall => wall.shape === "cell");
+    return Math.abs(run.x(now, grain) - run.x(before, grain)) > half(cell ? cell.x : run.content.period, Infinity) ||
+      Math.abs(run.z(now, grain) - run.z(before, grain)) > half(cell && cell.z, Infinity);
+  };
   const stroke = (from, to, colour, width) => {
     ctx.strokeStyle = colour;
     ctx.lineWidth = width * pixel;
@@ -171,7 +176,7 @@ function drawPath(ctx, camera, run, f, grain, pixel) {
       const frame = run.frames[k];
       if (!frame.there[grain]) { open = true; continue; }
       const x = run.x(frame, grain), z = run.z(frame, grain);
-      if (!open && k > from && Math.abs(x - run.x(run.frames[k - 1], grain)) > leap) open = true;
+      if (!open && leaps(frame, run.frames[k - 1])) open = true;
       ctx[open ? "moveTo" : "lineTo"](camera.toX(x), camera.toY(z));
       open = false;
     }

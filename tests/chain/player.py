@@ -179,6 +179,16 @@ def main():
         require(require_player(periodic, folder / "every", 3).content["field"] == "pressure", "another field first")
         require_alone(folder / "every")
 
+        # Materials, with a name that would end the script it stands in.
+        evil = "a</script>b"
+        mixed = made_run(drumlin, folder, "mixed", PERIODIC.replace("[grains.generated]", f'materials = [{{ name = "{evil}", share = 3 }}, {{ name = "steel" }}]\n[grains.generated]')
+                         .replace("grain_grain = 0.4", f'grain_grain = 0.4\npairs = [{{ between = ["{evil}", "steel"], value = 0.2 }}]'))
+        drumlin("plot", mixed, "--player", "--color", "material")
+        player = require_player(mixed, mixed / "plots", 5)
+        field = next(f for f in player.content["fields"] if f["name"] == "material")
+        require(field["names"] == [evil, "steel", "none"] and {0, 1} == set(player.content["material"]) and len(field["colours"]) == 3, f"{field}")
+        require([s for s in player.parts.scripts if s != "program"] == ["content", "data"], f"{list(player.parts.scripts)}")
+
         drumlin("run", here / "tiny-drum.toml", "-o", folder / "drum", *SHORT_RUN)
         drumlin("plot", folder / "drum", "--player")
         drum = require_player(folder / "drum", folder / "drum" / "plots", 4)

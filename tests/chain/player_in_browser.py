@@ -27,6 +27,14 @@ def pixels(page):
     return page.value(PIXELS)
 
 
+def comes_true(page, expression, otherwise):
+    """Input takes its way through the browser: what it does is waited for."""
+    try:
+        page.wait_for(expression)
+    except TimeoutError:
+        sys.exit(otherwise)
+
+
 def opened(page, file):
     page.open(file.as_uri())
     page.wait_for("document.getElementById('message') !== null && document.getElementById('message').hidden")
@@ -56,49 +64,56 @@ def unpacks(page, player):
 def plays(page, count):
     first = pixels(page)
     page.click(*page.middle_of("#forward"))
-    require(page.value("shown.frame") == 1 and "frame 2 of" in page.value("$('clock').textContent"), "a click does not change the frame")
+    comes_true(page, "shown.frame === 1 && $('clock').textContent.includes('frame 2 of')", "a click does not change the frame")
     second = pixels(page)
     require(first != second, "another frame, the same pixels")
     page.click(*page.middle_of("#back"))
-    require(page.value("shown.frame") == 0 and pixels(page) == first, "one back is not the frame before")
+    comes_true(page, "shown.frame === 0", "no step back")
+    require(pixels(page) == first, "one back is not the frame before")
     page.key("ArrowRight")
-    require(page.value("shown.frame") == 1 and pixels(page) == second, "the key is not the button")
+    comes_true(page, "shown.frame === 1", "the key does nothing")
+    require(pixels(page) == second, "the key is not the button")
     page.key("End")
-    require(page.value("shown.frame") == count - 1, "End is not the last frame")
+    comes_true(page, f"shown.frame === {count - 1}", "End is not the last frame")
     left, top, width, height = page.value("(() => { const b = $('scrub').getBoundingClientRect(); return [b.x, b.y, b.width, b.height]; })()")
     page.click(left + 0.5 * width, top + 0.5 * height)
-    require(0 < page.value("shown.frame") < count - 1, "the slider does not move the frame")
+    comes_true(page, f"0 < shown.frame && shown.frame < {count - 1}", "the slider does not move the frame")
     page.key("Home")
+    comes_true(page, "shown.frame === 0", "Home is not the first frame")
     page.click(*page.middle_of("#play"))
     page.wait_for("shown.frame >= 2")
     page.key(" ", "Space", " ")
-    require(not page.value("shown.playing"), "the space bar does not pause")
+    comes_true(page, "!shown.playing", "the space bar does not pause")
     page.key("Home")
+    comes_true(page, "shown.frame === 0", "Home is not the first frame")
 
 
 def shows(page):
     seen = {pixels(page)}
     for name in page.value("run.content.fields.map(f => f.name)")[1:]:
         page.key("c")
-        require(page.value("shown.field.name") == name, f"not {name}")
+        comes_true(page, f"shown.field.name === '{name}'", f"not {name}")
         seen.add(pixels(page))
         require(page.value("document.getElementById('legend').textContent.length") > 3, f"no legend for {name}")
     require(len(seen) == page.value("run.content.fields.length"), "two fields of the same colours")
     page.key("c")
+    comes_true(page, "shown.field === run.content.fields[0]", "after the last field comes no first")
     plain = pixels(page)
     page.click(*page.middle_of("#chains"))
-    require(pixels(page) != plain and page.value("$('chains').getAttribute('aria-pressed')") == "true", "no force chains")
+    comes_true(page, "shown.chains && $('chains').getAttribute('aria-pressed') === 'true'", "no force chains")
+    require(pixels(page) != plain, "force chains without a line")
     page.key("f")
+    comes_true(page, "!shown.chains", "force chains stay")
     require(pixels(page) == plain, "force chains stay")
 
 
 def follows(page):
     grain = page.value("run.frames[0].there.findIndex(t => t)")
     page.click(*on_screen(page, grain))
-    require(page.value("shown.grain") == grain and not page.value("$('grain').hidden"), "a click on a grain does not follow it")
-    page.value(FRAME)
-    require(str(page.value(f"run.id[{grain}]")) in page.value("$('grain').textContent"), "its number is not shown")
+    comes_true(page, f"shown.grain === {grain} && !$('grain').hidden", "a click on a grain does not follow it")
+    comes_true(page, f"$('grain').textContent.includes('Grain ' + run.id[{grain}])", "its number is not shown")
     page.key("k")
+    comes_true(page, "shown.middle", "it is not kept in the middle")
     page.value(FRAME)
     require(page.value(f"Math.hypot(camera.toX(run.x(run.frames[shown.frame], {grain})) - camera.width / 2, "
                        f"camera.toY(run.z(run.frames[shown.frame], {grain})) - camera.height / 2)") < 1, "it is not in the middle")
@@ -107,8 +122,7 @@ def follows(page):
     page.call("Input.dispatchMouseEvent", type="mouseWheel", x=x, y=y, deltaX=0, deltaY=-200)
     page.wait_for(f"camera.scale > {before}")
     page.key("Escape")
-    require(page.value("$('grain').hidden && shown.grain === null"), "it is not let go")
-    page.key("0")
+    comes_true(page, "$('grain').hidden && shown.grain === null", "it is not let go")
 
 
 def fits_a_phone(page):
