@@ -27,7 +27,7 @@
 #include "particles/io/contact_problem_file.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/scene/scene_file.hpp"
-#include "particles/stepping/simulation.hpp"
+#include "particles/stepping/run_through.hpp"
 
 namespace drumlin::apps {
 namespace {
@@ -119,7 +119,7 @@ class ParticleRun {
   void advance() {
     last_ = simulation_.step();
     const auto& state = simulation_.state();
-    const bool converged = last_.solve.status == particles::Status::converged || last_.contacts == 0;
+    const bool converged = particles::is_converged(last_);
     add_up(converged);
     if (state.step % scene_.output.log_every_steps == 0 || simulation_.finished() || last_.lost)
       log_step(converged);
@@ -128,10 +128,7 @@ class ParticleRun {
     if (!converged && (totals_.unconverged_steps <= scene_.solver.capture_unconverged ||
                        (fatal && scene_.solver.capture_unconverged > 0)))
       capture_problem();
-    if (last_.lost) fail("grain lost", describe(*last_.lost));
-    if (fatal) fail("not converged", missed_tolerance());
-    if (last_.overlap.mean > crushing_overlap && !scene_.solver.allow_crushing.value_or(false))
-      fail("crushed", crushed(last_.overlap.mean));
+    if (const auto fault = particles::fault_of(last_, scene_.solver)) fail(fault->kind, fault->why);
     if (simulation_.wall_loads_due()) write_wall_loads();
     if (simulation_.snapshot_due()) save_snapshot();
   }
@@ -293,20 +290,6 @@ class ParticleRun {
     if (!stretches_.is_null()) return text_of_stretches(stretches_, cost.cpu_seconds);
     return text_of(coupling::accuracy_statement(settings, record, {}, cost)) +
            (record ? "" : price_of_stretches(cost.cpu_seconds, cost.simulated_seconds));
-  }
-
-  std::string missed_tolerance() const {
-    const auto& residual = last_.solve.residual;
-    return fmt::format(
-        "contact solver {} ({}) after {} sweeps: residual {:.3g} (tolerance {:g}), penetration {:.3g} d "
-        "and sinking {:.3g} d (tolerance {:g})",
-        scene_.solver.name, particles::to_string(last_.solve.status), last_.solve.sweeps, residual.rms,
-        scene_.solver.tolerance, residual.penetration, residual.sinking, scene_.solver.penetration_tolerance);
-  }
-
-  std::string describe(const particles::LostGrain& lost) const {
-    return fmt::format("grain {} {}; it is at x = {:.6g} d, z = {:.6g} d", lost.grain,
-                       particles::to_string(lost.how), lost.x, lost.z);
   }
 
   /// The last step must not be built upon: no checkpoint of it is written.

@@ -252,13 +252,22 @@ ContactPlaces Simulation::last_places() const {
   return places;
 }
 
+std::vector<SnapshotContact> Simulation::last_contacts() const {
+  std::vector<SnapshotContact> contacts = stepper_->loaded_contacts();
+  for (SnapshotContact& contact : contacts) {
+    const Point normal = normal_in_scene(contact.normal_x, contact.normal_z);
+    contact.normal_x = static_cast<float>(normal.x), contact.normal_z = static_cast<float>(normal.z);
+  }
+  return contacts;
+}
+
 Snapshot Simulation::take_snapshot() {
   ++state_.snapshots;
   Snapshot s;
   const Bodies& bodies = state_.bodies;
   s.step = state_.step;
   s.time = state_.time();
-  s.time_step = plan_.stages[state_.stage].time_step;
+  s.time_step = last_time_step();
   s.scales = scales_;
   for (std::size_t w = 0; w < walls_.names.size(); ++w)
     if (const auto* turning = std::get_if<Turning>(&walls_.motion[w])) {
@@ -294,11 +303,7 @@ Snapshot Simulation::take_snapshot() {
   s.spin = bodies.spin, s.id = bodies.id;
   if (has_own_masses(bodies))
     for (const double inverse : bodies.inverse_mass) s.mass.push_back(1 / inverse);
-  s.contacts = stepper_->loaded_contacts();
-  for (SnapshotContact& contact : s.contacts) {
-    const Point normal = normal_in_scene(contact.normal_x, contact.normal_z);
-    contact.normal_x = static_cast<float>(normal.x), contact.normal_z = static_cast<float>(normal.z);
-  }
+  s.contacts = last_contacts();
   while (!state_.marks.empty() && state_.marks.front().snapshot_step < state_.step) state_.marks.pop_front();
   if (!state_.marks.empty() && state_.marks.front().snapshot_step == state_.step) {
     const auto& mark = state_.marks.front();
