@@ -1,7 +1,5 @@
 #include "apps/command_line/command_line.hpp"
 
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <sstream>
@@ -22,7 +20,7 @@ class CommandLine {
   explicit CommandLine(const std::vector<std::string>& solvers)
       : app_("Drumlin: dense granular flow, grains and continuum") {
     app_.name("drumlin");
-    app_.set_version_flag("--version", version());
+    app_.set_version_flag("--version", "drumlin " + version_text());
     app_.add_option_function<std::string>(
             "--completion",
             [this](const std::string&) { throw CLI::CallForVersion(bash_completion(app_), 0); },
@@ -85,11 +83,6 @@ class CommandLine {
   }
 
  private:
-  static std::string version() {
-    const Provenance p = provenance();
-    return fmt::format("drumlin {} ({}, {})", p.revision, p.compiler, p.build_type);
-  }
-
   template <class Options>
   CLI::App& add_command(const std::string& name, const std::string& sentence, const Options& options) {
     CLI::App* command = app_.add_subcommand(name, sentence);

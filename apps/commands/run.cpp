@@ -29,7 +29,7 @@
 #include "particles/io/contact_problem_file.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/scene/scene_file.hpp"
-#include "particles/stepping/simulation.hpp"
+#include "particles/stepping/run_through.hpp"
 
 namespace drumlin::apps {
 namespace {
@@ -117,7 +117,7 @@ class ParticleRun {
   void advance() {
     last_ = simulation_.step();
     const auto& state = simulation_.state();
-    const bool converged = last_.solve.status == particles::Status::converged || last_.contacts == 0;
+    const bool converged = particles::is_converged(last_);
     add_up(last_, state.step, converged, totals_);
     if (state.step % scene_.output.log_every_steps == 0 || simulation_.finished() || last_.lost)
       log_step(converged);
@@ -126,10 +126,7 @@ class ParticleRun {
     if (!converged && (totals_.unconverged_steps <= scene_.solver.capture_unconverged ||
                        (fatal && scene_.solver.capture_unconverged > 0)))
       capture_problem();
-    if (last_.lost) fail("grain lost", lost_text(*last_.lost));
-    if (fatal) fail("not converged", missed_tolerance(scene_, last_));
-    if (last_.overlap.mean > crushing_overlap && !scene_.solver.allow_crushing.value_or(false))
-      fail("crushed", crushed(last_.overlap.mean));
+    if (const auto fault = particles::fault_of(last_, scene_.solver)) fail(fault->kind, fault->why);
     if (simulation_.wall_loads_due()) write_wall_loads();
     if (simulation_.snapshot_due()) save_snapshot();
   }

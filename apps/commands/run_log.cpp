@@ -37,18 +37,4 @@ void add_up(const particles::StepReport& report, std::int64_t step, bool converg
   totals.projection_seconds += report.projection_seconds;
 }
 
-std::string missed_tolerance(const particles::Scene& scene, const particles::StepReport& report) {
-  const auto& residual = report.solve.residual;
-  return fmt::format(
-      "contact solver {} ({}) after {} sweeps: residual {:.3g} (tolerance {:g}), penetration {:.3g} d "
-      "and sinking {:.3g} d (tolerance {:g})",
-      scene.solver.name, particles::to_string(report.solve.status), report.solve.sweeps, residual.rms,
-      scene.solver.tolerance, residual.penetration, residual.sinking, scene.solver.penetration_tolerance);
-}
-
-std::string lost_text(const particles::LostGrain& lost) {
-  return fmt::format("grain {} {}; it is at x = {:.6g} d, z = {:.6g} d", lost.grain,
-                     particles::to_string(lost.how), lost.x, lost.z);
-}
-
 }  // namespace drumlin::apps

@@ -1,10 +1,9 @@
 #pragma once
-// What a run says of its steps: lines of log.csv, sums for its report, and why it ends.
+// What a run says of its steps: lines of log.csv, and sums for its report.
 #include <cstdint>
 #include <string>
 
 #include "particles/io/checkpoint_file.hpp"
-#include "particles/scene/scene.hpp"
 
 namespace drumlin::apps {
 
@@ -17,8 +16,5 @@ std::string log_line(const particles::StepReport& report, std::int64_t step, dou
 /// Adds a step to what a run has added up.
 void add_up(const particles::StepReport& report, std::int64_t step, bool converged,
             particles::RunTotals& totals);
-
-std::string missed_tolerance(const particles::Scene& scene, const particles::StepReport& report);
-std::string lost_text(const particles::LostGrain& lost);
 
 }  // namespace drumlin::apps

@@ -1,4 +1,6 @@
 // drumlin solve-contacts: one contact problem from a file, measured by the project's residual.
+#include "particles/solver/solve_contacts.hpp"
+
 #include <fmt/format.h>
 
 #include <array>
@@ -14,19 +16,14 @@
 #include "particles/accuracy/state_changes.hpp"
 #include "particles/contact/disc_problem.hpp"
 #include "particles/io/contact_problem_file.hpp"
-#include "particles/parallel/thread_team.hpp"
-#include "particles/solver/contact_solver.hpp"
 
 namespace drumlin::apps {
 namespace {
 
 using particles::BlockProblem;
 
-/// Impulses and velocities of a problem from a file, and the report of the solver.
-struct Solved {
-  particles::SolveReport report;
-  particles::Solution<BlockProblem> solution;
-  bool of_discs = false;
+/// A solved problem, and what else was asked about it.
+struct Solved : particles::SolvedContacts {
   std::vector<particles::BackwardError> backward_errors;  ///< of --backward-error
   std::optional<particles::StateChanges> changes;         ///< of --watch
 };
@@ -34,36 +31,19 @@ struct Solved {
 /// By how much the friction of contacts may be off the given one in a backward error.
 constexpr std::array friction_changes{0.0, 1e-3, 1e-2, 5e-2};
 
-template <class Problem>
-particles::SolveReport solve(const Problem& problem, const SolveContactsOptions& options,
-                             std::vector<double>& impulses) {
+Solved solve(const BlockProblem& problem, const SolveContactsOptions& options) {
   particles::StoppingRule rule;
   rule.tolerance = options.tolerance;
   rule.max_seconds = options.max_seconds;
   rule.max_sweeps = std::numeric_limits<int>::max();
-  particles::ThreadTeam team(options.threads);
-  particles::SolverWorkspace<Problem> work;
-  work.team = &team;
-  particles::Solution<Problem> solution;
-  const auto report = particles::contact_solver<Problem>(options.solver)(problem, rule, work, solution);
-  impulses = std::move(solution.impulses);
-  return report;
-}
-
-/// Through the discs where W is that of discs, as in a run. The residual is that of the W of the file.
-Solved solve(const BlockProblem& problem, const SolveContactsOptions& options) {
-  Solved solved;
-  const auto discs = particles::disc_problem(problem);
-  solved.of_discs = discs.has_value();
-  solved.report = discs ? solve(*discs, options, solved.solution.impulses)
-                        : solve(problem, options, solved.solution.impulses);
-  solved.report.residual = particles::residual_of(problem, solved.solution);
+  Solved solved{particles::solve_contacts(problem, rule, options.solver, options.threads), {}, {}};
   const std::span<const double> r = solved.solution.impulses;
   if (options.backward_error)
     solved.backward_errors = particles::backward_errors(problem, r, friction_changes);
-  if (options.watch)
-    solved.changes = discs ? particles::state_changes(*discs, r, *options.watch)
-                           : particles::state_changes(problem, r, *options.watch);
+  if (!options.watch) return solved;
+  const auto discs = particles::disc_problem(problem);
+  solved.changes = discs ? particles::state_changes(*discs, r, *options.watch)
+                         : particles::state_changes(problem, r, *options.watch);
   return solved;
 }
 

@@ -28,13 +28,4 @@ std::string wall_lines(particles::Simulation& simulation) {
   return lines;
 }
 
-std::string crushed(double overlap) {
-  return fmt::format(
-      "loaded contacts overlap by {:.2g} d in the mean, more than {:g} d: discs are crushed, forces and "
-      "places mean nothing. "
-      "Shorten "
-      "time_step_s, lower the load, or allow it by solver.allow_crushing",
-      overlap, crushing_overlap);
-}
-
 }  // namespace drumlin::apps

@@ -14,8 +14,4 @@ inline constexpr const char* wall_table_header =
 /// A line for each wall that was there, of the interval that is over.
 std::string wall_lines(particles::Simulation& simulation);
 
-/// Mean overlap of the loaded contacts of a step, d, above which discs count as crushed.
-inline constexpr double crushing_overlap = 0.2;
-std::string crushed(double overlap);
-
 }  // namespace drumlin::apps

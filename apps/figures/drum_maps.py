@@ -5,22 +5,19 @@ import math
 import h5py
 import numpy as np
 
-
-def text_of(data):
-    return bytes(data[:]).decode()
+import result_files
 
 
 def read_maps(path, with_intervals=False):
     """(header, grids): each field as a masked array over (z, x), with the nodes x and z, and on request ci99/NAME, beside them."""
-    with h5py.File(path) as file:
-        if text_of(file["format"]) != "drumlin-maps-1":
-            raise SystemExit(f"{path}: is not a file of maps of this version")
-        header = dict(line.split(" = ", 1) for line in text_of(file["header"]).splitlines())
-        grids = {name: np.ma.masked_invalid(data[:]) for name, data in file["fields"].items()}
-        if with_intervals and "ci99" in file:
-            grids |= {"ci99/" + name: np.ma.masked_invalid(data[:]) for name, data in file["ci99"].items()}
-        grids["x"], grids["z"] = file["x"][:], file["z"][:]
-    return header, grids
+    try:
+        header, x, z, fields, half_widths = result_files.read_maps(path)
+    except ValueError as error:
+        raise SystemExit(str(error)) from error
+    grids = {name: np.ma.masked_invalid(values) for name, values in fields.items()}
+    if with_intervals:
+        grids |= {"ci99/" + name: np.ma.masked_invalid(values) for name, values in half_widths.items()}
+    return header, grids | {"x": x, "z": z}
 
 
 def read_grains(path, theta_deg, axis_depth):

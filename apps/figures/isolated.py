@@ -4,6 +4,7 @@ SIGINT, SIGTERM and SIGHUP stop it once, as Ctrl-C does, so that it leaves no pa
 usage: python3 -I -B isolated.py SCRIPT [WORD...]
 """
 
+import os
 import pathlib
 import runpy
 import signal
@@ -22,6 +23,7 @@ if __name__ == "__main__":
     for each in STOPPING:
         if signal.getsignal(each) != signal.SIG_IGN:  # nohup
             signal.signal(each, stop)
+    os.environ.setdefault("MPLBACKEND", "Agg")  # pictures are files: no display is asked for
     script = pathlib.Path(sys.argv[1]).resolve()
     sys.path.insert(0, str(script.parent))
     sys.argv = sys.argv[1:]

@@ -2,14 +2,13 @@
 
 import math
 
-import h5py
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import ListedColormap, LogNorm, Normalize
 
+import result_files
 import script
 import style
-from drum_maps import text_of
 
 LEAST_SHOWN_NU = 0.05  # as in the profiles
 UNKNOWN = "0.85"  # where an interval is wider than what is shown
@@ -21,13 +20,10 @@ class Maps:
     """Fields of one maps.h5; masked where there is no packing."""
 
     def __init__(self, path):
-        with h5py.File(path) as file:
-            if text_of(file["format"]) != "drumlin-maps-1":
-                raise SystemExit(f"{path}: is not a file of maps of this version")
-            self.x, self.z = file["x"][:], file["z"][:]
-            self.header = dict(line.split(" = ", 1) for line in text_of(file["header"]).splitlines())
-            self.fields = {name: data[:] for name, data in file["fields"].items()}
-            self.ci99 = {name: data[:] for name, data in file.get("ci99", {}).items()}
+        try:
+            self.header, self.x, self.z, self.fields, self.ci99 = result_files.read_maps(path)
+        except ValueError as error:
+            raise SystemExit(str(error)) from error
         with np.errstate(invalid="ignore"):
             self.empty = ~(self.fields["nu"] > LEAST_SHOWN_NU)
 

@@ -1,31 +1,18 @@
 """Curves over the time of a run: accuracy and state from log.csv, the energy ledger, and where the time went."""
 
-import csv
 import math
 
 import matplotlib.pyplot as plt
 import matplotlib.ticker
 import numpy as np
 
+import result_files
 import style
 
 
 def read_table(path):
-    """Columns by name, as arrays where they are numbers. Of a run that goes on the last line may be half there: it is dropped."""
-    with open(path, newline="", encoding="utf-8") as stream:
-        text = stream.read()
-    lines = [line for line in text[:text.rfind("\n") + 1].splitlines() if line and not line.startswith("#")]
-    if not lines:
-        return {}
-    rows = list(csv.reader(lines))
-    columns = {}
-    for k, name in enumerate(rows[0]):
-        values = [row[k] for row in rows[1:]]
-        try:
-            columns[name] = np.array([float(value) if value else math.nan for value in values])
-        except ValueError:
-            columns[name] = values
-    return columns
+    """Columns by name, as arrays where they are numbers."""
+    return result_files.read_table(path)[2]
 
 
 def mark_stages(axes, stages, end):

@@ -8,8 +8,9 @@ import math
 import pathlib
 import tomllib
 
-import h5py
 import numpy
+
+from result_files import read_snapshot
 
 BATCHES = 10
 FACTOR = 3.250  # Student's t for 99 % with 9 degrees of freedom
@@ -22,26 +23,6 @@ def read_run(folder):
     snapshots = [read_snapshot(file) for file in sorted((folder / "snapshots").glob("*.h5"))]
     return {"report": report, "scene": scene, "snapshots": snapshots, "d_mm": 1e3 * report["scales"]["length_m"],
             "second": report["scales"]["time_s"], "density": report["scales"]["density_kg_m3"]}
-
-
-def read_snapshot(file):
-    with h5py.File(file) as stored:
-        result = {name: stored["grains/" + name][:] for name in stored["grains"]}
-        result.update(time=stored["time"][0], gravity=numpy.array([stored["gravity_x"][0], stored["gravity_z"][0]]),
-                      period=stored["period_x"][0], window=stored["velocity_window"][0])
-        step = stored["time_step"][0]
-        contacts = stored["contacts"]
-        normal = numpy.array([contacts["normal_x"][:], contacts["normal_z"][:]], float).T
-        tangent = numpy.array([normal[:, 1], -normal[:, 0]]).T
-        result.update(i=contacts["i"][:], j=contacts["j"][:], normal=normal,
-                      force_n=contacts["impulse_n"][:] / step, force_t=contacts["impulse_t"][:] / step)
-        result["force"] = result["force_n"][:, None] * normal + result["force_t"][:, None] * tangent
-        if "cell" in stored:
-            result["cell"] = {name: stored["cell/" + name][0] for name in stored["cell"]}
-        if "walls/x" in stored:
-            result["walls"] = numpy.array([stored["walls/x"][:], stored["walls/z"][:]]).T
-    result["mass"] = math.pi * result["radius"] ** 2
-    return result
 
 
 def velocities(snapshot):

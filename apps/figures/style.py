@@ -1,17 +1,14 @@
 """What the figures of all commands share: sizes, colours, the word "reduced", bands, profile files."""
 
-import csv
-import math
 import pathlib
 import sys
 import textwrap
 
 import matplotlib
+import matplotlib.pyplot as plt
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402  (the backend must be chosen first)
-
-import whole_file  # noqa: E402
+import result_files
+import whole_file
 
 # Okabe and Ito's colours: told apart with any kind of colour vision, and in grey.
 PARTICLES = "#0072B2"
@@ -115,16 +112,8 @@ def band(axes, x, y, half_width, color, label=None, marker="o"):
 
 def read_profiles(path):
     """(header, columns) of a profiles.csv of version 1; columns as lists of floats, NaN where the field is empty."""
-    with open(path, newline="", encoding="utf-8") as stream:
-        if stream.readline().strip() != "# drumlin-profiles-1":
-            sys.exit(f"{path}: is not a profile file of this version")
-        header = {}
-        for line in stream:
-            if not line.startswith("#"):
-                break
-            key, _, value = line[1:].partition("=")
-            header[key.strip()] = value.strip()
-        names = [name.strip() for name in line.split(",")]
-        rows = [row for row in csv.reader(stream) if row]
-    columns = {name: [float(row[i]) if row[i].strip() else math.nan for row in rows] for i, name in enumerate(names)}
-    return header, columns
+    try:
+        _, header, columns = result_files.read_table(path, "drumlin-profiles-1")
+    except ValueError as error:
+        sys.exit(str(error))
+    return header, {name: [float(value) for value in column] for name, column in columns.items()}

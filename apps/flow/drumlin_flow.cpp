@@ -1,6 +1,7 @@
 // drumlin-flow: the continuum solve as a program of its own, so that `drumlin` starts without loading
 // deal.II. It takes the words of `drumlin flow`, whose command line it shares; `drumlin-flow --keys
-// [--markdown]` lists the keys of a flow scene, `--hardcases` runs cases for `drumlin hardcases`.
+// [--markdown]` lists the keys of a flow scene, `--version` says which program this is, `--hardcases` runs
+// cases for `drumlin hardcases`.
 #include <cstring>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "continuum/fem/runtime.hpp"
 #include "continuum/model/flow_scene.hpp"
 #include "coupling/common/errors.hpp"
+#include "coupling/common/provenance.hpp"
 
 #if defined(__SANITIZE_ADDRESS__)
 // OpenMPI and the libraries behind PETSc keep memory until the process ends; the leak check would count it as
@@ -30,6 +32,10 @@ int solve(int argc, char** argv, bool& speaks) {
     const bool markdown = argc > 2 && std::strcmp(argv[2], "--markdown") == 0;
     apps::print_out(markdown ? keys_as_markdown(continuum::flow_scene_keys())
                              : keys_as_text(continuum::flow_scene_keys()));
+    return static_cast<int>(ExitCode::done);
+  }
+  if (argc > 1 && std::strcmp(argv[1], "--version") == 0) {
+    apps::print_out("drumlin-flow " + version_text() + "\n");
     return static_cast<int>(ExitCode::done);
   }
   if (argc > 1 && std::strcmp(argv[1], "--hardcases") == 0) {

@@ -27,6 +27,7 @@
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/scene/scene_file.hpp"
+#include "particles/stepping/run_through.hpp"
 #include "particles/stepping/simulation.hpp"
 
 namespace drumlin::apps {
@@ -130,7 +131,7 @@ class RankRun {
   void advance() {
     last_ = simulation_.step();
     const auto& state = simulation_.progress();
-    const bool converged = last_.solve.status == particles::Status::converged || last_.contacts == 0;
+    const bool converged = particles::is_converged(last_);
     add_up(last_, state.step, converged, totals_);
     if (state.step % scene_.output.log_every_steps == 0 || simulation_.finished() || last_.lost) {
       const double energy = simulation_.kinetic_energy();
@@ -138,12 +139,7 @@ class RankRun {
         first_->log.write(log_line(last_, state.step, simulated_seconds(), scene_.stages[state.stage].name,
                                    energy, converged));
     }
-    const bool fatal = !converged && (scene_.solver.stop_when_unconverged ||
-                                      last_.solve.status == particles::Status::not_finite);
-    if (last_.lost) fail("grain lost", lost_text(*last_.lost));
-    if (fatal) fail("not converged", missed_tolerance(scene_, last_));
-    if (last_.overlap.mean > crushing_overlap && !scene_.solver.allow_crushing.value_or(false))
-      fail("crushed", crushed(last_.overlap.mean));
+    if (const auto fault = particles::fault_of(last_, scene_.solver)) fail(fault->kind, fault->why);
     if (simulation_.snapshot_due()) save_snapshot();
   }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "apps/support/interruption.hpp"
+#include "apps/support/program_files.hpp"
 #include "coupling/common/child_process.hpp"
 #include "coupling/common/errors.hpp"
 
@@ -13,7 +14,7 @@ namespace drumlin::apps {
 void draw_figures(const std::string& script, const std::vector<std::string>& arguments) {
   ProcessRequest request;
   request.program = DRUMLIN_PYTHON;
-  const std::filesystem::path figures = DRUMLIN_FIGURES;
+  const std::filesystem::path figures = figures_folder();
   // Nothing is imported from the current folder, from PYTHONPATH or from the user's own packages.
   request.words = {"-I", "-B", (figures / "isolated.py").string(), (figures / script).string()};
   request.words.insert(request.words.end(), arguments.begin(), arguments.end());

@@ -1,9 +1,11 @@
 #include "apps/support/paper_data.hpp"
 
+#include "apps/support/program_files.hpp"
+
 namespace drumlin::apps {
 
-std::filesystem::path paper_data_folder() { return DRUMLIN_PAPER_DATA; }
+std::filesystem::path paper_data_folder() { return data_folder() / "paper"; }
 
-std::filesystem::path cost_data_folder() { return paper_data_folder().parent_path() / "cost"; }
+std::filesystem::path cost_data_folder() { return data_folder() / "cost"; }
 
 }  // namespace drumlin::apps

@@ -3,7 +3,7 @@
 
 namespace drumlin::apps {
 
-/// The folder data/paper of the sources that this program was built from.
+/// The folder data/paper: the numbers of the paper.
 std::filesystem::path paper_data_folder();
 
 /// The folder data/cost beside it: what accuracy and effects cost, as it was recorded.

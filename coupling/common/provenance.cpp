@@ -31,4 +31,9 @@ Provenance provenance() {
           static_cast<int>(std::thread::hardware_concurrency())};
 }
 
+std::string version_text() {
+  const Provenance p = provenance();
+  return DRUMLIN_VERSION " (revision " + p.revision + ", " + p.compiler + ", " + p.build_type + ")";
+}
+
 }  // namespace drumlin

@@ -15,4 +15,7 @@ struct Provenance {
 
 Provenance provenance();
 
+/// "0.1.0 (revision 0123456789ab, GNU 12.2.0, Release)": what the programs answer to --version.
+std::string version_text();
+
 }  // namespace drumlin

@@ -1,6 +1,11 @@
 #include "coupling/law/friction_law.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
+
+#include "coupling/common/errors.hpp"
 
 namespace drumlin {
 namespace {
@@ -62,6 +67,28 @@ struct Threshold {
 };
 
 }  // namespace
+
+FrictionTable sampled_friction(const std::function<double(double)>& mu, double I_min, double I_max,
+                               int per_decade) {
+  if (!(I_min > 0 && I_min < I_max && std::isfinite(I_max) && per_decade > 0))
+    throw InputError(
+        fmt::format("a friction is sampled from {:g} to {:g} with {} points to a decade (allowed: "
+                    "0 < I_min < I_max, 1 point or more)",
+                    I_min, I_max, per_decade));
+  const int intervals = std::max(1, static_cast<int>(std::ceil(per_decade * std::log10(I_max / I_min))));
+  FrictionTable table;
+  for (int i = 0; i <= intervals; ++i) {
+    table.I.push_back(I_min * std::pow(I_max / I_min, static_cast<double>(i) / intervals));
+    table.mu.push_back(mu(table.I.back()));
+    const double least = i == 0 ? 0 : table.mu[static_cast<std::size_t>(i) - 1];
+    if (!(table.mu.back() > least && std::isfinite(table.mu.back())))
+      throw InputError(
+          fmt::format("mu({:.4g}) = {:.6g} (allowed: above {:.6g}, for a friction is positive and "
+                      "grows with I)",
+                      table.I.back(), table.mu.back(), least));
+  }
+  return table;
+}
 
 FrictionLaw friction_law(const MeasuredFriction& mu) { return std::visit(LawOfFile{}, mu); }
 

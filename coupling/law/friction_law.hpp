@@ -1,5 +1,6 @@
 #pragma once
 // mu(I) and its derivative: the one evaluation that calibration, continuum and figures share.
+#include <functional>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -69,6 +70,12 @@ using FrictionLaw = std::variant<LogLaw, LogLinearLaw, SaturatingLaw, ConstantLa
 
 /// What evaluates the law of a file (or of a calibration).
 FrictionLaw friction_law(const MeasuredFriction& mu);
+
+/// A friction of one's own as a table, `per_decade` points to a decade of I. A flow evaluates the table:
+/// between its points and beyond them it is TabulatedLaw. Throws InputError where mu is not positive, finite
+/// and growing, or the range is none.
+FrictionTable sampled_friction(const std::function<double(double)>& mu, double I_min, double I_max,
+                               int per_decade = 8);
 
 /// mu and I dmu/dI at I > 0.
 FrictionValue friction_at(const FrictionLaw& law, double I);

@@ -43,7 +43,7 @@ bool StoppingTest::ends(int sweeps, const ContactResidual& residual, bool finite
     report_.status = Status::converged;
   else if (sweeps >= rule_.max_sweeps)
     report_.status = Status::out_of_sweeps;
-  else if (report_.seconds > rule_.max_seconds)
+  else if (report_.seconds > rule_.max_seconds || (rule_.interrupted && rule_.interrupted()))
     report_.status = Status::out_of_time;
   else
     return false;

@@ -22,6 +22,7 @@ struct StoppingRule {
            ///< solves in strips leave out those that their steps call idle, at most three in turn
   double max_seconds =
       std::numeric_limits<double>::infinity();  ///< wall time; finite limits make a run irreproducible
+  bool (*interrupted)() = nullptr;  ///< asked with each residual; its true ends the solve as out of time
 };
 
 struct [[nodiscard]] SolveReport {

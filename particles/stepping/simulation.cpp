@@ -240,6 +240,15 @@ ContactPlaces Simulation::last_places() const {
   return places;
 }
 
+std::vector<SnapshotContact> Simulation::last_contacts() const {
+  std::vector<SnapshotContact> contacts = stepper_->loaded_contacts();
+  for (SnapshotContact& contact : contacts) {
+    const Point normal = normal_in_scene(contact.normal_x, contact.normal_z);
+    contact.normal_x = static_cast<float>(normal.x), contact.normal_z = static_cast<float>(normal.z);
+  }
+  return contacts;
+}
+
 Snapshot Simulation::take_snapshot() {
   ++state_.snapshots;
   StepLaws laws = laws_of(scene_, scales_);
@@ -247,11 +256,7 @@ Snapshot Simulation::take_snapshot() {
   Point gravity = laws.gravity.value_or(Point{});
   if (frame_) gravity = direction_in_frame(*frame_, state_.time(), gravity);
   Snapshot s = snapshot_of({scene_, scales_, plan_, walls_, laws.period, gravity}, state_);
-  s.contacts = stepper_->loaded_contacts();
-  for (SnapshotContact& contact : s.contacts) {
-    const Point normal = normal_in_scene(contact.normal_x, contact.normal_z);
-    contact.normal_x = static_cast<float>(normal.x), contact.normal_z = static_cast<float>(normal.z);
-  }
+  s.contacts = last_contacts();
   return s;
 }
 

@@ -83,9 +83,14 @@ class Simulation {
   bool wall_loads_due() const;
   /// The loads on walls since the last call, or the start; the next step begins another interval.
   WallLoads take_wall_loads();
+  /// Loaded contacts of the last step, with the normals that it used, as the scene tells them.
+  std::vector<SnapshotContact> last_contacts() const;
+  /// The time step of the last step: impulse / time step is a force.
+  double last_time_step() const { return plan_.stages[state_.stage].time_step; }
   /// Where the contacts of the last step's problem are after it, with the normals that it used.
   ContactPlaces last_places() const;
 
+  const Scene& scene() const { return scene_; }
   const SimulationState& state() const { return state_; }
   const TimePlan& plan() const { return plan_; }
   const Scales& scales() const { return scales_; }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "continuum/rheology/stress_law.hpp"
+#include "coupling/common/errors.hpp"
 #include "coupling/law/memory_law.hpp"
 
 namespace drumlin {
@@ -98,6 +99,29 @@ TEST(MemoryLaw, TurnsNewMemoryByChiInSlowShearAndAsSimpleShearAsksInFastShear) {
   for (const double I : {1e-3, 1e-2})  // no kink where it sets in and where it ends
     EXPECT_NEAR((memory_turn(law, I * 1.001) - memory_turn(law, I / 1.001)) / 0.002, 0, 1e-3);
   EXPECT_NEAR(memory_friction(law).friction(1e-4).mu, 0.225, 1e-5);
+}
+
+TEST(SampledFriction, IsTheFunctionAsAFlowEvaluatesIt) {
+  const auto mu = [](double I) { return 0.36 + 0.5 * std::pow(I, 0.7); };
+  const FrictionTable table = sampled_friction(mu, 1e-4, 1, 16);
+  EXPECT_EQ(table.I.size(), 65u);
+  const FrictionLaw law = friction_law(table);
+  for (double I = 1.3e-4; I < 1; I *= 1.7) {
+    EXPECT_NEAR(friction_at(law, I).mu, mu(I), 1e-4) << I;
+    EXPECT_NEAR(friction_at(law, I).slope, 0.35 * std::pow(I, 0.7), 5e-3) << I;
+  }
+}
+
+TEST(SampledFriction, RefusesWhatIsNoFriction) {
+  const auto refused = [](auto mu, double from, double to, int per_decade = 8) {
+    EXPECT_THROW((void)sampled_friction(mu, from, to, per_decade), InputError);
+  };
+  const auto level = [](double) { return 0.3; };
+  refused(level, 1e-3, 1e-1);
+  refused([](double I) { return I - 0.01; }, 1e-3, 1e-1);
+  refused([](double I) { return std::sqrt(0.05 - I); }, 1e-3, 1e-1);
+  const auto grows = [](double I) { return 0.3 + I; };
+  refused(grows, 0, 1), refused(grows, 1, 0.1), refused(grows, 1e-3, 1, 0);
 }
 
 }  // namespace

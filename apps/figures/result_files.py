@@ -1,0 +1,84 @@
+"""Files of results as arrays: the one place where Python reads tables, maps and snapshots. The package `drumlin` and the figures use it.
+
+What does not fit is a ValueError that names the file.
+"""
+
+import csv
+import math
+
+import h5py
+import numpy as np
+
+
+def text_of(data):
+    """The text of an HDF5 dataset of bytes."""
+    return bytes(np.asarray(data[()]).reshape(-1)).decode().rstrip("\0")
+
+
+def read_table(path, kind=None):
+    """(format, header, columns) of a CSV file: lines "# key = value", a line of names, rows. An empty field is NaN, a column of words an array of
+    texts. Of a table that still grows the last line may be half there: it is dropped. `kind`: the format that the file must have."""
+    with open(path, newline="", encoding="utf-8") as stream:
+        text = stream.read()
+    lines = text[:text.rfind("\n") + 1].splitlines()
+    comments = [line[1:].strip() for line in lines if line.startswith("#")]
+    found = comments[0] if comments and "=" not in comments[0] else ""
+    if kind is not None and found != kind:
+        raise ValueError(f"{path}: is {found or 'a table without a format'} (allowed: {kind})")
+    entries = [line.partition("=") for line in comments if "=" in line]
+    rows = list(csv.reader(line for line in lines if line and not line.startswith("#")))
+    names = [name.strip() for name in rows[0]] if rows else []
+    if any(len(row) != len(names) for row in rows):
+        raise ValueError(f"{path}: a line has more or fewer fields than the line of names")
+
+    def column(values):
+        try:
+            return np.array([float(value) if value.strip() else math.nan for value in values])
+        except ValueError:
+            return np.array(values)
+
+    columns = {name: column([row[i] for row in rows[1:]]) for i, name in enumerate(names)}
+    return found, {key.strip(): value.strip() for key, _, value in entries}, columns
+
+
+def read_maps(path):
+    """(header, x, z, fields, half widths of 99 % intervals): each field over (z, x), NaN where it was not computed."""
+    with h5py.File(path) as file:
+        if text_of(file["format"]) != "drumlin-maps-1":
+            raise ValueError(f"{path}: is not a file of maps of this version")
+        header = dict(line.split(" = ", 1) for line in text_of(file["header"]).splitlines())
+        fields = {name: data[:] for name, data in file["fields"].items()}
+        half_widths = {name: data[:] for name, data in file["ci99"].items()} if "ci99" in file else {}
+        return header, file["x"][:], file["z"][:], fields, half_widths
+
+
+def read_snapshot(path):
+    """Numbers and arrays of a snapshot by name: grains, contacts with their forces, the frame. Units of the run: d, sqrt(d/g), rho0 d^2."""
+    with h5py.File(path) as stored:
+        result = {name: stored["grains/" + name][:] for name in stored["grains"]}
+        result.update(time=stored["time"][0], gravity=np.array([stored["gravity_x"][0], stored["gravity_z"][0]]),
+                      period=stored["period_x"][0], window=stored["velocity_window"][0])
+        if "contacts" in stored:
+            step, contacts = stored["time_step"][0], stored["contacts"]
+            normal = np.array([contacts["normal_x"][:], contacts["normal_z"][:]], float).T
+            tangent = np.array([normal[:, 1], -normal[:, 0]]).T
+            result.update(i=contacts["i"][:], j=contacts["j"][:], normal=normal,
+                          force_n=contacts["impulse_n"][:] / step, force_t=contacts["impulse_t"][:] / step)
+            result["force"] = result["force_n"][:, None] * normal + result["force_t"][:, None] * tangent
+        if "cell" in stored:
+            result["cell"] = {name: stored["cell/" + name][0] for name in stored["cell"]}
+        if "walls/x" in stored:
+            result["walls"] = np.array([stored["walls/x"][:], stored["walls/z"][:]]).T
+        if "scales" in stored:
+            result["scales"] = {name: stored["scales/" + name][0] for name in stored["scales"]}
+    # A stored mass stands for itself: a density of the grain's own.
+    result.setdefault("mass", math.pi * result["radius"] ** 2)
+    return result
+
+
+def read_arrays(path):
+    """Every dataset of an HDF5 file by its path, and the format of the file."""
+    arrays = {}
+    with h5py.File(path) as file:
+        file.visititems(lambda name, entry: arrays.update({name: entry[()]}) if isinstance(entry, h5py.Dataset) else None)
+        return (text_of(file["format"]) if "format" in file else ""), arrays

@@ -1,0 +1,15 @@
+"""Drumlin in Python: read its files into numpy, step scenes, solve contact problems, calibrate laws, start its commands."""
+
+from . import errors, plot
+from ._drumlin import version
+from .commands import command, compare, measure, program, run, solve_flow
+from .contacts import ContactSolution, contact_residual, contact_solvers, solve_contacts
+from .errors import DrumlinError, InputError, IoError, NotConvergedError
+from .files import Arrays, Folder, read, value_of
+from .laws import CalibratedLaw, Law, calibrate
+from .scenes import Simulation, resolved, toml_of
+
+__version__ = version().split()[0]
+__all__ = ["Arrays", "CalibratedLaw", "ContactSolution", "DrumlinError", "Folder", "InputError", "IoError", "Law", "NotConvergedError", "Simulation",
+           "calibrate", "command", "compare", "contact_residual", "contact_solvers", "errors", "measure", "plot", "program", "read", "resolved", "run",
+           "solve_contacts", "solve_flow", "toml_of", "value_of", "version"]

@@ -1,0 +1,122 @@
+"""Every file of the project into numpy: runs, snapshots, profiles, maps, laws, flows, comparisons."""
+
+import json
+import pathlib
+import tomllib
+
+import numpy as np
+import scipy.sparse
+
+from .errors import InputError, IoError
+from .figures import result_files
+
+
+class Arrays(dict):
+    """Numbers and arrays of a file by name, also as attributes; `format`, `header` and `path` say what it is."""
+
+    def __init__(self, values, path, form="", header=None):
+        super().__init__(values)
+        self.path, self.format, self.header = pathlib.Path(path), form, header or {}
+
+    def __getattr__(self, name):
+        try:
+            return self[name]
+        except KeyError:
+            raise AttributeError(f"{self.path}: holds no {name}") from None
+
+    def __repr__(self):
+        return f"<{self.format or self.path.suffix[1:]} of {self.path}: {', '.join(self)}>"
+
+
+class Folder:
+    """A folder of results: its files are read when they are asked for, folder["log.csv"], folder["measured/maps.h5"]."""
+
+    def __init__(self, path):
+        self.path = pathlib.Path(path)
+
+    @property
+    def files(self):
+        """Names of all files that can be read."""
+        return [str(file.relative_to(self.path)) for file in sorted(self.path.rglob("*")) if file.is_file() and file.suffix in READERS]
+
+    @property
+    def snapshots(self):
+        """Paths of the snapshots of a run, in order of time."""
+        return sorted((self.path / "snapshots").glob("*.h5"))
+
+    def __getitem__(self, name):
+        return read(self.path / name)
+
+    def __contains__(self, name):
+        return (self.path / name).is_file()
+
+    def __repr__(self):
+        return f"<results in {self.path}: {len(self.files)} files>"
+
+
+def value_of(content, name):
+    """(value, half width of its 99 % interval) of a number of a JSON file; NaN for what was not measured."""
+    entry = content.get(name)
+    value, half = (entry.get("value"), entry.get("ci99")) if isinstance(entry, dict) else (entry, None)
+    return tuple(np.nan if number is None else number for number in (value, half))
+
+
+def _read_csv(path):
+    form, header, columns = result_files.read_table(path)
+    return Arrays(columns, path, form, header)
+
+
+def _read_json(path):
+    return json.loads(path.read_text(encoding="utf-8"))
+
+
+def _read_toml(path):
+    return tomllib.loads(path.read_text(encoding="utf-8"))
+
+
+def _contact_problem(arrays, path):
+    size = int(arrays["fclib_local/W/m"].reshape(-1)[0])
+    p, i, x = (arrays["fclib_local/W/" + name].reshape(-1) for name in "pix")
+    count = int(arrays["fclib_local/W/nz"].reshape(-1)[0])
+    if count == -2:
+        W = scipy.sparse.csr_matrix((x, i, p), (size, size))
+    elif count == -1:
+        W = scipy.sparse.csc_matrix((x, i, p), (size, size)).tocsr()
+    else:
+        W = scipy.sparse.coo_matrix((x[:count], (i[:count], p[:count])), (size, size)).tocsr()
+    further = {name.removeprefix("drumlin/"): values for name, values in arrays.items() if name.startswith("drumlin/")}
+    return Arrays({"W": W, "q": arrays["fclib_local/vectors/q"].reshape(-1), "mu": arrays["fclib_local/vectors/mu"].reshape(-1)} | further,
+                  path, "contact problem")
+
+
+def _read_hdf5(path):
+    form, arrays = result_files.read_arrays(path)
+    if form == "drumlin-snapshot-1":
+        return Arrays(result_files.read_snapshot(path), path, form)
+    if form == "drumlin-maps-1":
+        header, x, z, fields, half_widths = result_files.read_maps(path)
+        return Arrays({"x": x, "z": z} | fields | {name + "_ci99": values for name, values in half_widths.items()}, path, form, header)
+    if "fclib_local/W/m" in arrays:
+        return _contact_problem(arrays, path)
+    return Arrays({name.removeprefix("grains/").replace("/", "_"): values for name, values in arrays.items()}, path, form)
+
+
+READERS = {".csv": _read_csv, ".json": _read_json, ".toml": _read_toml, ".h5": _read_hdf5}
+
+
+def read(path):
+    """A folder of results, or one file of it: tables, maps, snapshots and contact problems as arrays by name, JSON and TOML as dicts."""
+    path = pathlib.Path(path)
+    if path.is_dir():
+        return Folder(path)
+    if not path.is_file():
+        raise IoError(f"{path}: is missing")
+    if path.suffix not in READERS:
+        raise InputError(f"{path}: no file of Drumlin's (allowed: a folder, {', '.join(READERS)})")
+    try:
+        return READERS[path.suffix](path)
+    except OSError as error:
+        raise IoError(f"{path}: {error}") from error
+    except (ValueError, KeyError) as error:
+        text = str(error)
+        raise InputError(text if str(path) in text else f"{path}: {text}") from error

@@ -1,0 +1,66 @@
+"""Laws mu(I): files evaluated over arrays, and calibration from arrays."""
+
+import pathlib
+
+import numpy as np
+
+from . import _drumlin
+
+
+class Law(_drumlin.Law):
+    """A law of a file rheology.toml, or of its text: mu(I) and slope(I) = I dmu/dI over arrays, as a flow computes with it."""
+
+    def __init__(self, source):
+        if isinstance(source, str) and "\n" in source:
+            text, name = source, "law"
+        else:
+            text, name = _text_of_file(source), str(source)
+        super().__init__(text, name)
+        self.text = text
+
+    def write(self, path):
+        pathlib.Path(path).write_text(self.text, encoding="utf-8")
+
+
+def _text_of_file(path):
+    from .errors import IoError
+    try:
+        return pathlib.Path(path).read_text(encoding="utf-8")
+    except OSError as error:
+        raise IoError(f"{path}: {error.strerror}") from error
+
+
+class CalibratedLaw(Law):
+    """A law with what is known of it: `form`, `coefficients`, `rms_misfit`, `scatter` beyond the errors of the points, `range` of I,
+    `ill_posed` ranges of I; band(I) is what lies between the laws of other draws of the points."""
+
+    def __init__(self, found):
+        super().__init__(found.text)
+        self._found = found
+
+    def __getattr__(self, name):
+        if name in ("form", "coefficients", "rms_misfit", "scatter", "points", "range", "ill_posed"):
+            return getattr(self._found, name)
+        raise AttributeError(name)
+
+    def band(self, I, share=0.99):  # noqa: E741
+        """(low, high) of mu at I."""
+        return self._found.band(I, share)
+
+
+def calibrate(I, mu, I_error=None, mu_error=None, *, nu, form="auto", draws=200, names=None):  # noqa: E741
+    """Fits mu(I) robustly to points, as `drumlin calibrate` does to measured layers.
+
+    I, mu: arrays of one run, or lists of arrays, one of each run, whose scatter tells the band. Errors are standard errors; without them
+    points count alike. nu: volume fraction of the bulk, which the law's file holds. form: "log", "log-linear", "table", "auto".
+    """
+    if np.ndim(I[0]) == 0:
+        I, mu = [I], [mu]  # noqa: E741
+        I_error, mu_error = [I_error], [mu_error]
+    unknown = [None] * len(I)
+    runs = []
+    for columns in zip(I, mu, I_error or unknown, mu_error or unknown, strict=True):
+        length = np.size(columns[0])
+        runs.append([np.full(length, np.nan) if column is None else np.asarray(column, float).reshape(-1) for column in columns])
+    names = names or [f"run {k + 1}" for k in range(len(runs))]
+    return CalibratedLaw(_drumlin.calibrate(runs, names, float(nu), form, int(draws)))

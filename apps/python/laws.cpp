@@ -1,0 +1,112 @@
+// Laws for Python: files evaluated over arrays, and calibration from arrays.
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <cmath>
+#include <memory>
+
+#include "apps/python/bindings.hpp"
+#include "coupling/calibration/calibration.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/law/friction_law.hpp"
+#include "coupling/law/rheology_file.hpp"
+
+namespace py = pybind11;
+
+namespace drumlin::python {
+namespace {
+
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+struct Law {
+  RheologyFit fit;
+  FrictionLaw friction;
+};
+
+/// The entries of a function over an array, in its shape.
+template <class Function>
+py::array_t<double> over(const Numbers& I, const Function& value) {
+  py::array_t<double> result(std::vector<py::ssize_t>(I.shape(), I.shape() + I.ndim()));
+  for (py::ssize_t k = 0; k < I.size(); ++k) {
+    if (!(I.data()[k] > 0)) throw InputError("an inertial number is not above 0");
+    result.mutable_data()[k] = value(I.data()[k]);
+  }
+  return result;
+}
+
+using Run = std::array<Numbers, 4>;  // I, mu and their standard errors
+
+coupling::RunEvidence evidence_of(const std::string& name, const Run& arrays, double nu) {
+  for (const Numbers& numbers : arrays)
+    if (numbers.size() != arrays[0].size())
+      throw InputError(name + ": I, mu and their errors are not of one length");
+  coupling::RunEvidence run{.name = name, .nu = {"nu_bulk", nu, {}}};
+  for (py::ssize_t k = 0; k < arrays[0].size(); ++k) {
+    const coupling::FrictionPoint point{arrays[0].data()[k], arrays[1].data()[k], arrays[2].data()[k],
+                                        arrays[3].data()[k]};
+    if (!(point.I > 0 && std::isfinite(point.I) && std::isfinite(point.mu)))
+      throw InputError(name + ": point " + std::to_string(k) + " has no I above 0, or no mu");
+    run.layers.push_back(point);
+  }
+  return run;
+}
+
+coupling::Calibration calibrated(const std::vector<Run>& arrays, const std::vector<std::string>& names,
+                                 double nu, const std::string& form, int draws) {
+  if (!(nu > 0 && nu < 1)) throw InputError("nu: the volume fraction of the bulk (allowed: between 0 and 1)");
+  if (draws < 20) throw InputError("draws: " + std::to_string(draws) + " (allowed: 20 or more)");
+  std::vector<coupling::RunEvidence> runs;
+  for (std::size_t k = 0; k < arrays.size(); ++k) runs.push_back(evidence_of(names.at(k), arrays[k], nu));
+  if (runs.empty()) throw InputError("no points");
+  coupling::CalibrationOptions options{.source = coupling::EvidenceSource::profiles, .draws = draws};
+  if (form != "auto") options.form = coupling::form_named(form);
+  const py::gil_scoped_release others_may_run;
+  return coupling::calibration_of(std::move(runs), {}, options);
+}
+
+py::tuple band_of(const coupling::Calibration& calibration, const Numbers& I, double share) {
+  const auto band = calibration.law().band();
+  return py::make_tuple(over(I, [&](double i) { return band.at(i, share).low; }),
+                        over(I, [&](double i) { return band.at(i, share).high; }));
+}
+
+}  // namespace
+
+void add_laws(py::module_& module) {
+  py::class_<Law> law(module, "Law");
+  law.def(py::init([](const std::string& text, const std::string& name) {
+    const RheologyFit fit = parse_rheology(text, name);
+    return Law{fit, friction_law(fit.mu)};
+  }));
+  law.def("mu", [](const Law& of, const Numbers& I) {
+    return over(I, [&](double i) { return friction_at(of.friction, i).mu; });
+  });
+  law.def("slope", [](const Law& of, const Numbers& I) {
+    return over(I, [&](double i) { return friction_at(of.friction, i).slope; });
+  });
+  law.def_property_readonly("nu", [](const Law& of) { return of.fit.nu; });
+  law.def_property_readonly("words", [](const Law& of) { return described(of.fit.mu); });
+
+  using coupling::Calibration;
+  py::class_<Calibration> calibration(module, "Calibration");
+  module.def("calibrate", &calibrated);
+  calibration.def_property_readonly("text", [](const Calibration& c) { return rheology_text(c.rheology); });
+  calibration.def_property_readonly("form", [](const Calibration& c) { return name_of(c.law().form.kind); });
+  calibration.def_property_readonly("coefficients", [](const Calibration& c) { return c.law().fit.law; });
+  calibration.def_property_readonly("rms_misfit",
+                                    [](const Calibration& c) { return c.law().fit.rms_misfit; });
+  calibration.def_property_readonly("scatter",
+                                    [](const Calibration& c) { return c.law().fit.intrinsic_scatter; });
+  calibration.def_property_readonly("points", [](const Calibration& c) { return c.law().fit.points; });
+  calibration.def_property_readonly(
+      "range", [](const Calibration& c) { return py::make_tuple(c.law().I_min, c.law().I_max); });
+  calibration.def_property_readonly("ill_posed", [](const Calibration& c) {
+    py::list ranges;
+    for (const InertialRange& range : c.ill_posed) ranges.append(py::make_tuple(range.from, range.to));
+    return ranges;
+  });
+  calibration.def("band", &band_of, py::arg("I"), py::arg("share") = 0.99);
+}
+
+}  // namespace drumlin::python

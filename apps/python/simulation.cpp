@@ -1,0 +1,156 @@
+// Simulations for Python: steps without the interpreter's lock, arrays as views.
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "apps/python/bindings.hpp"
+#include "coupling/common/errors.hpp"
+#include "particles/io/snapshot_file.hpp"
+#include "particles/scene/scene_file.hpp"
+#include "particles/stepping/run_through.hpp"
+
+namespace py = pybind11;
+
+namespace drumlin::python {
+namespace {
+
+using particles::Scene;
+using particles::Simulation;
+
+/// Reads a scene file, or a text that stands for the file `name`.
+Scene scene_of(const std::optional<std::string>& text, const std::string& name,
+               const std::vector<std::string>& overrides) {
+  return text ? particles::parse_scene(*text, name, overrides) : particles::read_scene(name, overrides);
+}
+
+void require_own_grains(const Scene& scene) {
+  if (std::holds_alternative<particles::GrainsOfRun>(scene.grains.source))
+    throw InputError(
+        "grains.from_run: grains of another run are taken over by `drumlin run` alone (allowed "
+        "here: grains.generated, grains.listed)");
+}
+
+/// Numbers that nobody writes to, kept alive by `owner`.
+template <class T>
+py::array read_only(py::array_t<T> numbers) {
+  numbers.attr("flags").attr("writeable") = false;
+  return numbers;
+}
+template <class T>
+py::array owned(std::vector<T>&& values) {
+  auto kept = std::make_unique<std::vector<T>>(std::move(values));
+  const auto* numbers = kept.get();
+  const py::capsule owner(kept.release(), [](void* data) { delete static_cast<std::vector<T>*>(data); });
+  return read_only(py::array_t<T>(static_cast<py::ssize_t>(numbers->size()), numbers->data(), owner));
+}
+
+class SteppedScene {
+ public:
+  SteppedScene(const std::optional<std::string>& text, const std::string& name,
+               const std::vector<std::string>& overrides, int threads) {
+    const Scene scene = scene_of(text, name, overrides);
+    require_own_grains(scene);
+    if (threads < 1) throw InputError("threads: " + std::to_string(threads) + " (allowed: 1 or more)");
+    simulation_ = std::make_unique<Simulation>(scene, threads);
+  }
+
+  py::dict step() {
+    if (!fault_.empty()) throw NotConvergedError(fault_);
+    if (simulation_->finished()) throw InputError("the scene is finished: there is no further step");
+    particles::StepReport report;
+    try {
+      const py::gil_scoped_release others_may_run;
+      report = particles::checked_step(*simulation_);
+    } catch (const NotConvergedError& error) {
+      fault_ = error.what();
+      throw;
+    }
+    const auto& solve = report.solve;
+    return py::dict(py::arg("contacts") = report.contacts, py::arg("impacts") = report.impacts,
+                    py::arg("converged") = particles::is_converged(report), py::arg("sweeps") = solve.sweeps,
+                    py::arg("residual") = solve.residual.rms, py::arg("residual_max") = solve.residual.max,
+                    py::arg("penetration") = solve.residual.penetration,
+                    py::arg("overlap_mean") = report.overlap.mean,
+                    py::arg("overlap_max") = report.overlap.max);
+  }
+
+  const Simulation& simulation() const { return *simulation_; }
+
+  /// A view of an array of the grains; a copy where grains come and go, for these arrays move.
+  py::array view(const std::vector<double>& values) const {
+    if (particles::changes_grains(simulation_->scene())) return owned(std::vector<double>(values));
+    return read_only(py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data(),
+                                         py::cast(this, py::return_value_policy::reference)));
+  }
+
+  void save_snapshot(const std::string& file) {
+    particles::write_snapshot(file, simulation_->take_snapshot());
+  }
+
+ private:
+  std::unique_ptr<Simulation> simulation_;
+  std::string fault_;  // of a step that must not be built upon
+};
+
+py::dict scales_of(const SteppedScene& scene) {
+  const Scales& scales = scene.simulation().scales();
+  return py::dict(py::arg("length_m") = scales.length_m, py::arg("time_s") = scales.time_s,
+                  py::arg("density_kg_m3") = scales.density_kg_m3,
+                  py::arg("velocity_m_s") = scales.velocity_m_s(), py::arg("stress_Pa") = scales.stress_Pa());
+}
+
+std::vector<double> masses(const SteppedScene& scene) {
+  std::vector<double> mass;
+  for (const double inverse : scene.simulation().state().bodies.inverse_mass) mass.push_back(1 / inverse);
+  return mass;
+}
+
+}  // namespace
+
+void add_simulation(py::module_& module) {
+  using particles::SnapshotContact;
+  PYBIND11_NUMPY_DTYPE(SnapshotContact, i, j, normal_x, normal_z, impulse_n, impulse_t);
+  using Text = std::optional<std::string>;
+  module.def(
+      "resolved_scene",
+      [](const Text& text, const std::string& name, const std::vector<std::string>& overrides) {
+        return particles::scene_text(scene_of(text, name, overrides));
+      },
+      py::arg("text"), py::arg("name"), py::arg("overrides"));
+
+  py::class_<SteppedScene> scene(module, "SteppedScene");
+  scene.def(py::init<const Text&, const std::string&, const std::vector<std::string>&, int>(),
+            py::arg("text"), py::arg("name"), py::arg("overrides"), py::arg("threads"));
+  scene.def("step", &SteppedScene::step);
+  scene.def("save_snapshot", &SteppedScene::save_snapshot);
+  scene.def_property_readonly("scales", &scales_of);
+  const auto number = [&](const char* name, auto of) {
+    scene.def_property_readonly(name, [of](const SteppedScene& s) { return of(s.simulation()); });
+  };
+  number("finished", [](const Simulation& s) { return s.finished(); });
+  number("steps", [](const Simulation& s) { return s.state().step; });
+  number("steps_planned", [](const Simulation& s) { return s.plan().steps; });
+  number("time", [](const Simulation& s) { return s.state().time(); });
+  number("time_step", [](const Simulation& s) { return s.last_time_step(); });
+  number("stage", [](const Simulation& s) { return s.scene().stages[s.state().stage].name; });
+  number("kinetic_energy", [](const Simulation& s) { return particles::kinetic_energy(s.state().bodies); });
+  number("walls", [](const Simulation& s) { return s.walls().names; });
+  number("wall_of_shape", [](const Simulation& s) { return s.walls().wall_of_shape; });
+  number("id", [](const Simulation& s) { return owned(std::vector(s.state().bodies.id)); });
+  const auto array = [&](const char* name, std::vector<double> particles::Bodies::*member) {
+    scene.def_property_readonly(
+        name, [member](const SteppedScene& s) { return s.view(s.simulation().state().bodies.*member); });
+  };
+  using particles::Bodies;
+  array("x", &Bodies::x), array("z", &Bodies::z), array("v_x", &Bodies::v_x), array("v_z", &Bodies::v_z);
+  array("spin", &Bodies::spin), array("radius", &Bodies::radius);
+  scene.def_property_readonly("mass", [](const SteppedScene& s) { return owned(masses(s)); });
+  scene.def_property_readonly("contacts",
+                              [](const SteppedScene& s) { return owned(s.simulation().last_contacts()); });
+}
+
+}  // namespace drumlin::python

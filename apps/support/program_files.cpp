@@ -1,0 +1,31 @@
+#include "apps/support/program_files.hpp"
+
+#include <fmt/format.h>
+
+#include "coupling/common/errors.hpp"
+
+namespace drumlin::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The folder as it lies in a build tree or where the program is installed, as seen from the program.
+fs::path beside_program(const char* what, const char* built, const char* installed) {
+  const fs::path program = fs::read_symlink("/proc/self/exe").parent_path();
+  for (const char* place : {built, installed})
+    if (const fs::path found = (program / place).lexically_normal(); fs::is_directory(found)) return found;
+  throw IoError(fmt::format("{}: are missing; neither {} nor {} is a folder", what,
+                            (program / built).lexically_normal().string(),
+                            (program / installed).lexically_normal().string()));
+}
+
+}  // namespace
+
+fs::path data_folder() { return beside_program("scenes and records", "data", DRUMLIN_DATA_FROM_PROGRAM); }
+
+fs::path figures_folder() {
+  return beside_program("the scripts that draw figures", "python/drumlin/figures",
+                        DRUMLIN_FIGURES_FROM_PROGRAM);
+}
+
+}  // namespace drumlin::apps

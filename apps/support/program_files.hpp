@@ -1,0 +1,13 @@
+#pragma once
+// Files that the programs use and do not hold: found from the place of the running program, in a build tree
+// as where it is installed, so that an installed tree may be moved.
+#include <filesystem>
+
+namespace drumlin::apps {
+
+/// Scenes, laws, records and the paper's numbers. Throws IoError where there are none.
+std::filesystem::path data_folder();
+/// The Python scripts that draw; the templates of pages stand beside it. Throws IoError likewise.
+std::filesystem::path figures_folder();
+
+}  // namespace drumlin::apps

@@ -1,0 +1,39 @@
+# What `cmake --install` puts where, below one prefix that may be moved afterwards: nothing installed knows where it was built.
+include(CMakePackageConfigHelpers)
+
+# The libraries that users name hold the small ones, which are exported too for they are static.
+add_library(drumlin_user_particles INTERFACE)
+target_link_libraries(drumlin_user_particles INTERFACE drumlin_particles drumlin_files)
+add_library(drumlin_user_coupling INTERFACE)
+target_link_libraries(drumlin_user_coupling INTERFACE drumlin_coupling drumlin_law drumlin_exchange drumlin_statistics)
+add_library(drumlin_user_continuum INTERFACE)
+target_link_libraries(drumlin_user_continuum INTERFACE drumlin_continuum drumlin_continuum_model drumlin_continuum_io)
+foreach(name particles coupling continuum)
+  set_target_properties(drumlin_user_${name} PROPERTIES EXPORT_NAME ${name})
+endforeach()
+
+install(TARGETS drumlin_flags drumlin_includes drumlin_common drumlin_documents drumlin_statistics drumlin_law drumlin_exchange drumlin_files
+                drumlin_particles drumlin_coupling drumlin_continuum_model drumlin_user_particles drumlin_user_coupling
+        EXPORT DrumlinTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS drumlin_continuum drumlin_continuum_io drumlin_user_continuum
+        EXPORT DrumlinContinuumTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS drumlin drumlin-flow RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+
+# As in the sources: #include "particles/stepping/simulation.hpp". Headers in `detail` are private to their room.
+install(DIRECTORY coupling particles continuum DESTINATION ${DRUMLIN_INSTALLED_INCLUDES}
+        FILES_MATCHING PATTERN "*.hpp" PATTERN detail EXCLUDE)
+
+install(DIRECTORY data/scenes data/rheology data/paper data/cost data/limits DESTINATION ${DRUMLIN_INSTALLED_DATA})
+install(FILES data/problems/drum-300-mu-0.4-flow.h5 DESTINATION ${DRUMLIN_INSTALLED_DATA}/problems)
+install(DIRECTORY apps/figures apps/pages DESTINATION ${DRUMLIN_INSTALLED_PACKAGE} PATTERN __pycache__ EXCLUDE)
+install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Drumlin)
+configure_package_config_file(cmake/DrumlinConfig.cmake.in ${CMAKE_BINARY_DIR}/cmake/DrumlinConfig.cmake
+                              INSTALL_DESTINATION ${config_folder} PATH_VARS DRUMLIN_INSTALLED_DATA)
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/cmake/DrumlinConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_BINARY_DIR}/cmake/DrumlinConfig.cmake ${CMAKE_BINARY_DIR}/cmake/DrumlinConfigVersion.cmake
+              cmake/DrumlinDependencies.cmake cmake/DrumlinDealII.cmake DESTINATION ${config_folder})
+foreach(set Drumlin DrumlinContinuum)
+  install(EXPORT ${set}Targets NAMESPACE Drumlin:: DESTINATION ${config_folder})
+endforeach()

@@ -1,0 +1,104 @@
+"""Every kind of file into numpy."""
+
+import os
+import signal
+import threading
+import time
+
+import drumlin
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory):
+    scene = tmp_path_factory.mktemp("run")
+    drumlin.run(__import__("conftest").SOURCES / "tests/chain/tiny-drum.toml", scene / "RUN",
+                {"stages.1.turns": 0.02, "stages.2.turns": 0.02, "stages.2.snapshots": 4})
+    return drumlin.read(scene / "RUN")
+
+
+def test_a_run_is_read(run):
+    assert run["run.json"]["status"] == "finished" and run["scene.toml"]["reduced"] is True
+    assert len(run.snapshots) == 4 and "log.csv" in run and "run.json" in run.files
+    log = run["log.csv"]
+    assert log.step[-1] == len(log["step"]) and log["stage"][0] == "settle"
+    last = drumlin.read(run.snapshots[-1])
+    assert last.format == "drumlin-snapshot-1" and last.x.shape == last.radius.shape == (350,)
+    # Forces on a grain that rests cancel its weight; over all grains those of the walls carry what is not accelerated.
+    assert last.force[last.j < 0].sum(axis=0)[1] == pytest.approx(last.mass.sum(), rel=0.5)
+    with pytest.raises(AttributeError, match="holds no weight"):
+        last.weight
+
+
+def test_a_snapshot_is_what_the_simulation_saw(run, tmp_path):
+    simulation = drumlin.Simulation(run.path / "scene.toml")
+    simulation.run(steps=20)
+    simulation.save_snapshot(str(tmp_path / "s.h5"))
+    stored = drumlin.read(tmp_path / "s.h5")
+    assert (stored.x == simulation.x).all() and (stored.i == simulation.contacts["i"]).all()
+    assert stored.force == pytest.approx(simulation.forces)
+
+
+def test_measurements_are_read(data):
+    folder = drumlin.read(data / "bed/6rpm-5turns-seed1/measured")
+    profiles, maps = folder["profiles.csv"], folder["maps.h5"]
+    assert profiles.format == "drumlin-profiles-1" and profiles.header["side"] == "particles"
+    assert np.isfinite(profiles.v_x).any() and profiles.v_x_ci99.shape == profiles.z.shape
+    assert maps.nu.shape == (len(maps.z), len(maps.x)) and "theta_deg" in maps.header
+    theta, half_width = drumlin.value_of(folder["measured.json"], "theta_deg")
+    assert 15 < theta < 25 and 0 < half_width < 2
+    assert np.isnan(drumlin.value_of({"theta_deg": None}, "theta_deg")[0])
+
+
+def test_every_file_of_the_data_is_read(data):
+    for file in drumlin.read(data).files:
+        assert drumlin.read(data / file) is not None
+
+
+def test_what_is_no_file_of_the_project_is_refused(tmp_path):
+    with pytest.raises(drumlin.IoError, match="is missing"):
+        drumlin.read(tmp_path / "none.csv")
+    (tmp_path / "a.png").write_bytes(b"")
+    with pytest.raises(drumlin.InputError, match="no file of Drumlin"):
+        drumlin.read(tmp_path / "a.png")
+    (tmp_path / "a.csv").write_text("a,b\n1\n", encoding="utf-8")
+    with pytest.raises(drumlin.InputError, match="a.csv: a line has more or fewer fields"):
+        drumlin.read(tmp_path / "a.csv")
+    (tmp_path / "a.json").write_text("{", encoding="utf-8")
+    with pytest.raises(drumlin.InputError, match="a.json: "):
+        drumlin.read(tmp_path / "a.json")
+    (tmp_path / "a.h5").write_bytes(b"no HDF5")
+    with pytest.raises(drumlin.IoError, match="a.h5"):
+        drumlin.read(tmp_path / "a.h5")
+
+
+def test_figures_are_drawn_on_axes_of_ones_own(run, data):
+    figure, (left, right) = plt.subplots(1, 2)
+    snapshot = drumlin.read(run.snapshots[0])
+    discs = drumlin.plot.grains(left, snapshot, np.hypot(snapshot.v_x, snapshot.v_z))
+    assert len(discs.get_offsets()) == 350
+    drumlin.plot.profile(right, drumlin.read(data / "bed/6rpm-5turns-seed1/measured/profiles.csv"), "v_x", label="particles")
+    assert right.get_lines() and right.get_ylabel().startswith("$v_x$")
+    figure.canvas.draw()
+
+
+def test_a_command_raises_what_it_fails_at(run, tmp_path):
+    with pytest.raises(drumlin.InputError, match="none.toml"):
+        drumlin.run(tmp_path / "none.toml", tmp_path / "OUT")
+    with pytest.raises(drumlin.InputError):
+        drumlin.compare(run.path, tmp_path / "none", tmp_path / "OUT")
+    assert drumlin.command("--version").split()[1] == drumlin.__version__
+
+
+def test_ctrl_c_ends_a_command_that_leaves_its_run_whole(data, tmp_path):
+    def interrupt():
+        while not (tmp_path / "RUN/log.csv").exists():
+            time.sleep(0.02)
+        os.kill(os.getpid(), signal.SIGINT)
+
+    threading.Thread(target=interrupt, daemon=True).start()
+    with pytest.raises(KeyboardInterrupt):
+        drumlin.run(data / "scenes/drum-6rpm.toml", tmp_path / "RUN")
+    assert drumlin.read(tmp_path / "RUN")["run.json"]["status"] == "interrupted"
