@@ -74,6 +74,8 @@ nlohmann::ordered_json to_json(const RankShare& share) {
           {"rounds_per_step", static_cast<double>(c.rounds) / steps},
           {"steps_gathered_for_impacts", c.gathered},
           {"forests", c.forests},
+          {"step_seconds", c.step_seconds / steps},
+          {"waiting_seconds", c.waiting_seconds / steps},
           {"cpu_seconds", share.cpu_seconds},
           {"peak_memory_mb", share.peak_memory_mb}};
 }

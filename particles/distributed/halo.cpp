@@ -6,6 +6,8 @@
 #include <map>
 #include <stdexcept>
 
+#include "particles/distributed/processor_time.hpp"
+
 namespace drumlin::particles {
 
 struct Halo::Requests {
@@ -106,6 +108,8 @@ void Halo::start(int colour) {
 }
 
 void Halo::finish(int colour) {
+  if (plan_[colour].send.empty() && plan_[colour].receive.empty()) return;
+  const WaitingTime waiting(waiting_seconds_);
   auto& [send, receive, status] = *requests_;
   status.resize(receive.size());
   MPI_Waitall(static_cast<int>(receive.size()), receive.data(), status.data());

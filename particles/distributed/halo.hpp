@@ -68,6 +68,8 @@ class Halo {
   /// Since the program began: rounds of messages in which this rank took part, and bytes that it sent.
   std::int64_t rounds() const { return rounds_; }
   std::int64_t bytes() const { return bytes_; }
+  /// Processor time spent in waiting for messages.
+  double waiting_seconds() const { return waiting_seconds_; }
   /// Sent within one sweep.
   std::int64_t bytes_per_sweep() const;
 
@@ -80,6 +82,7 @@ class Halo {
   std::array<std::vector<double>, 4> sent_, received_;
   std::unique_ptr<Requests> requests_;
   std::int64_t rounds_ = 0, bytes_ = 0;
+  double waiting_seconds_ = 0;
 };
 
 }  // namespace drumlin::particles

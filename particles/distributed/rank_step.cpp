@@ -8,6 +8,7 @@
 
 #include "particles/detection/contact_list.hpp"
 #include "particles/distributed/gathered_impacts.hpp"
+#include "particles/distributed/processor_time.hpp"
 #include "particles/distributed/rank_grains.hpp"
 #include "particles/distributed/rank_projection.hpp"
 #include "particles/stepping/assembly.hpp"
@@ -66,6 +67,7 @@ class RankMoreauJean final : public RankStepper {
   StepReport advance(RankState& state, WallStep& walls, double time_step) override {
     StepReport report;
     Stopwatch watch;
+    const double begin = processor_seconds(), waited = waiting_seconds();
     const Point gain{time_step * gravity_.x, time_step * gravity_.z};
     grains_.settle(state, walls, time_step, gain);
     detect(state, walls, time_step, gain, report);
@@ -92,6 +94,8 @@ class RankMoreauJean final : public RankStepper {
     give_back(state);
     report.projection_seconds = watch.lap();
     add_up(state, report, projected);
+    counts_.step_seconds += processor_seconds() - begin;
+    counts_.waiting_seconds += waiting_seconds() - waited;
     return report;
   }
 
@@ -116,6 +120,8 @@ class RankMoreauJean final : public RankStepper {
   const RankCounts& counts() const override { return counts_; }
 
  private:
+  double waiting_seconds() const { return halo_.waiting_seconds() + Ranks::waiting_seconds(); }
+
   /// Velocities without contacts, of all grains that this rank sees.
   void move_freely(double time_step) {
     free_.x = grains_.seen().bodies.v_x;

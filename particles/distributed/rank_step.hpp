@@ -35,7 +35,8 @@ struct RankCounts {
   std::int64_t rounds = 0;                       ///< of messages among all ranks
   std::int64_t contacts = 0, grains = 0, ghosts = 0, shared_bytes_per_sweep = 0;  ///< summed over steps
   std::int64_t forests = 0;                                                       ///< made
-  std::int64_t gathered = 0;  ///< times that all pairs went to the first rank for impacts
+  double step_seconds = 0, waiting_seconds = 0;  ///< processor time of the steps, and what of it was waiting
+  std::int64_t gathered = 0;                     ///< times that all pairs went to the first rank for impacts
 };
 
 /// The square that holds a run.

@@ -7,10 +7,14 @@
 #include <limits>
 #include <numeric>
 
+#include "particles/distributed/processor_time.hpp"
+
 namespace drumlin::particles {
 namespace {
 
-std::int64_t rounds_so_far = 0;  // of this process, which is one rank
+// Of this process, which is one rank.
+std::int64_t rounds_so_far = 0;
+double waited = 0;
 
 /// Counts of bytes are ints in MPI 3.
 int as_count(std::size_t bytes) {
@@ -46,9 +50,11 @@ int Ranks::count() const {
 }
 
 std::int64_t Ranks::rounds() { return rounds_so_far; }
+double Ranks::waiting_seconds() { return waited; }
 
 std::vector<std::vector<std::byte>> Ranks::exchange_bytes(
     const std::vector<std::vector<std::byte>>& to_rank) const {
+  const WaitingTime waiting(waited);
   const auto ranks = static_cast<std::size_t>(count()), own = static_cast<std::size_t>(rank());
   std::vector<int> sent(ranks), arriving(ranks);
   for (std::size_t r = 0; r < ranks; ++r) sent[r] = as_count(to_rank[r].size());
@@ -76,6 +82,7 @@ std::vector<std::vector<std::byte>> Ranks::exchange_bytes(
 }
 
 std::vector<std::byte> Ranks::gather_bytes(std::span<const std::byte> own) const {
+  const WaitingTime waiting(waited);
   const int mine = as_count(own.size());
   std::vector<int> counts(count()), first(count() + 1, 0);
   MPI_Gather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, MPI_COMM_WORLD);
@@ -92,6 +99,7 @@ std::vector<std::byte> Ranks::gather_bytes(std::span<const std::byte> own) const
 }
 
 void Ranks::broadcast_bytes(std::vector<std::byte>& bytes) const {
+  const WaitingTime waiting(waited);
   std::int64_t size = static_cast<std::int64_t>(bytes.size());
   MPI_Bcast(&size, 1, MPI_INT64_T, 0, MPI_COMM_WORLD);
   bytes.resize(size);
@@ -100,18 +108,21 @@ void Ranks::broadcast_bytes(std::vector<std::byte>& bytes) const {
 }
 
 void Ranks::largest(std::span<double> values) const {
+  const WaitingTime waiting(waited);
   MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_MAX,
                 MPI_COMM_WORLD);
   ++rounds_so_far;
 }
 
 void Ranks::add(std::span<std::int64_t> values) const {
+  const WaitingTime waiting(waited);
   MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_INT64_T, MPI_SUM,
                 MPI_COMM_WORLD);
   ++rounds_so_far;
 }
 
 std::int64_t Ranks::least(std::int64_t value) const {
+  const WaitingTime waiting(waited);
   MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_INT64_T, MPI_MIN, MPI_COMM_WORLD);
   ++rounds_so_far;
   return value;

@@ -94,6 +94,8 @@ class Ranks {
 
   /// Rounds of messages between all ranks so far: what a run costs where latency counts.
   static std::int64_t rounds();
+  /// Processor time that this rank has spent in them, most of it waiting for others.
+  static double waiting_seconds();
 
  private:
   template <class T>

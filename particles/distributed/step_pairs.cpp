@@ -74,21 +74,28 @@ RankPairs rank_pairs(const SeenGrains& seen, std::span<const Candidate> candidat
     if (at_border[own.in_used[pair.i]] || (pair.j >= 0 && at_border[own.in_used[pair.j]]))
       border_tile[homes[a].tile] = 1;
   }
-  const auto key = [&](std::int32_t a) {
-    const std::int32_t tile = homes[a].tile;
-    return std::tuple(tiles.grid.colour(tile), !border_tile[tile], tile, a);
-  };
-  std::sort(mine.begin(), mine.end(), [&](std::int32_t a, std::int32_t b) { return key(a) < key(b); });
+  // Tiles in the order of the sweeps, with places for their contacts, which come in the order of (i, j).
+  std::vector<std::int32_t> count(tiles.owner.size(), 0);
+  for (const std::int32_t a : mine) ++count[homes[a].tile];
+  for (std::size_t tile = 0; tile < count.size(); ++tile)
+    if (count[tile] > 0) {
+      const auto t = static_cast<std::int32_t>(tile);
+      own.tiles.push_back({t, 0, count[tile], tiles.grid.colour(t), border_tile[tile] != 0});
+    }
+  std::sort(own.tiles.begin(), own.tiles.end(), [](const TileRange& a, const TileRange& b) {
+    return std::tuple(a.colour, !a.border, a.tile) < std::tuple(b.colour, !b.border, b.tile);
+  });
+  std::int32_t place = 0;
+  for (TileRange& range : own.tiles) {
+    count[range.tile] = range.begin = place;
+    place = range.end += place;
+  }
+  own.pairs.resize(mine.size());
   for (const std::int32_t a : mine) {
-    Candidate pair = candidates[a];
+    Candidate& pair = own.pairs[count[homes[a].tile]++];
+    pair = candidates[a];
     pair.i = own.in_used[pair.i];
     if (pair.j >= 0) pair.j = own.in_used[pair.j];
-    const auto place = static_cast<std::int32_t>(own.pairs.size());
-    const std::int32_t tile = homes[a].tile;
-    if (own.tiles.empty() || own.tiles.back().tile != tile)
-      own.tiles.push_back({tile, place, place, tiles.grid.colour(tile), border_tile[tile] != 0});
-    own.pairs.push_back(pair);
-    own.tiles.back().end = place + 1;
   }
   return own;
 }
