@@ -17,11 +17,11 @@ install(TARGETS drumlin_flags drumlin_includes drumlin_common drumlin_documents 
         EXPORT DrumlinTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS drumlin_continuum drumlin_continuum_io drumlin_user_continuum
         EXPORT DrumlinContinuumTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(TARGETS drumlin drumlin-flow RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS drumlin drumlin-flow drumlin-run RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 
-# As in the sources: #include "particles/stepping/simulation.hpp". Headers in `detail` are private to their room.
+# As in the sources: #include "particles/stepping/simulation.hpp". Headers in `detail` are private to their room. Discs on ranks are a program only.
 install(DIRECTORY coupling particles continuum DESTINATION ${DRUMLIN_INSTALLED_INCLUDES}
-        FILES_MATCHING PATTERN "*.hpp" PATTERN detail EXCLUDE)
+        FILES_MATCHING PATTERN "*.hpp" PATTERN detail EXCLUDE PATTERN distributed EXCLUDE)
 
 install(DIRECTORY data/scenes data/rheology data/paper data/cost data/limits DESTINATION ${DRUMLIN_INSTALLED_DATA})
 install(FILES data/problems/drum-300-mu-0.4-flow.h5 DESTINATION ${DRUMLIN_INSTALLED_DATA}/problems)

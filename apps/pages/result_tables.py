@@ -306,7 +306,7 @@ def limits(entry=AMOUNT):
     without, axes, rows = cells_of(WITHOUT), cells_of(AXES), []
     for key, name in ROWS.items():
         row, cells = found[key]
-        worst = f" (one speed {row['must_worst']:g})" if "must_worst" in row else ""
+        worst = f" in the mean, each {row['must_worst']:g}" if "must_worst" in row else ""
         rows.append([name, f"{row['must']:g}{worst}; {row['aim']:g}", number(cells[6]["floor"], 2), judged(without[key][1].get(6)), judged(axes[key][1].get(6)), *(judged(cells.get(rpm)) for rpm in shown)])
     return table(["", "must; aim", "noise floor, 6 rpm", "mu(I) alone, 6 rpm", "axes remember, 6 rpm", *head], rows)
 
@@ -347,6 +347,7 @@ TABLES = {
     "mu(I) over speed": speeds,
     "effects over speed": effects_over_speed,
     "limits": limits,
+    "limits, mu(I) alone": lambda: limits(WITHOUT),
     "limits, axes alone": lambda: limits(AXES),
     "limits, p_min of the scene": lambda: limits("with effects.memory and the amount"),
     "sensitivities": sensitivities,

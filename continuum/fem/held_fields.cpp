@@ -67,7 +67,7 @@ void MemoryMixing::mix(const Discretisation& d, const HeldFields* before, Scalar
                        ScalarField* added) {
   constexpr std::size_t depth = 5;
   constexpr double usual_friction = 0.2;  // brings `added` to the size of the others
-  if (!before || !before->axes) return;
+  if (!before || !before->axes || (before->added == nullptr) != (added == nullptr)) return;
   const auto values = [](const ScalarField* field) { return field ? field->values : FieldVector(); };
   Update now{{before->axes->values, before->rho->values, values(before->added.get())},
              {axes.values, rho.values, values(added)}};

@@ -221,6 +221,16 @@ std::vector<std::string> what_is_untold(const MemoryCalibration& found, std::siz
   return untold;
 }
 
+// A file with such a law would be refused by whoever reads it.
+void refuse_what_no_law_has(const AmountMemory& law) {
+  if (law.swelling > 0 && std::abs(law.lag) <= 1) return;
+  throw InputError(fmt::format(
+      "--amount: the runs ask for a swelling of {:.3g} and a lag of {:.3g} (allowed: a swelling above 0, a "
+      "lag "
+      "between -1 and 1): the amount of their stress does not remember as the law says; leave --amount out",
+      law.swelling, law.lag));
+}
+
 }  // namespace
 
 CalibratedLaw amount_law(std::span<const RunEvidence> runs, int draws) {
@@ -273,7 +283,10 @@ MemoryCalibration memory_calibration(std::span<const RunEvidence> runs, std::spa
   for (const PathsOfRun& run : paths) found.scores.push_back(memory_score(run, found.law));
   const Runs others = paths_of(held_out, amount, nullptr);
   for (const PathsOfRun& run : others) found.predictions.push_back(memory_score(run, found.law));
-  if (amount_remembers) found.remembered = fit_amount(paths, others, measured_memory(found), found.amount);
+  if (amount_remembers) {
+    found.remembered = fit_amount(paths, others, measured_memory(found), found.amount);
+    refuse_what_no_law_has(found.remembered->law);
+  }
   const double radius = needed_number(runs.front().map->header, &RunHeader::drum_radius, "maps.h5");
   found.arcs = axes_on_arcs(paths, found.law, radius);
   found.dilation = dilation_shares(runs);
