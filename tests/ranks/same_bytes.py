@@ -175,7 +175,7 @@ def main():
                     ((1, 1), (3, 2)))
         refusals(run_on, folder)
         # The files are those of other runs.
-        listed = subprocess.run([drumlin, "export", folder / "drum-4x1", "-o", folder / "grids"], capture_output=True,
+        listed = subprocess.run([drumlin, "export", folder / "drum-4x1", "--vtu", "-o", folder / "grids"], capture_output=True,
                                 text=True, check=False)
         require(listed.returncode == 0, f"drumlin export of a run on ranks:\n{listed.stdout}{listed.stderr}")
     print("the same bytes on 1 to 4 ranks")
