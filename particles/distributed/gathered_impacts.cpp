@@ -31,8 +31,15 @@ std::vector<StruckRecord> GatheredImpacts::resolve(const StepInput& step, const 
 
 std::vector<StruckRecord> GatheredImpacts::resolve_for_all(const StepInput& step,
                                                            std::span<const GrainRecord> grains) {
-  std::sort(pairs_.begin(), pairs_.end(),
-            [](const PairRecord& a, const PairRecord& b) { return std::tie(a.i, a.j) < std::tie(b.i, b.j); });
+  // Those of each rank come in the order of (i, j): runs that are merged.
+  const auto before = [](const PairRecord& a, const PairRecord& b) {
+    return std::tie(a.i, a.j) < std::tie(b.i, b.j);
+  };
+  for (auto sorted = std::is_sorted_until(pairs_.begin(), pairs_.end(), before); sorted != pairs_.end();) {
+    const auto run = std::is_sorted_until(sorted, pairs_.end(), before);
+    std::inplace_merge(pairs_.begin(), sorted, run, before);
+    sorted = run;
+  }
   Bodies bodies;
   for (auto* values : {&bodies.x, &bodies.z, &bodies.v_x, &bodies.v_z, &bodies.radius, &bodies.inverse_mass})
     values->resize(grains.size());

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "coupling/common/errors.hpp"
 
@@ -105,16 +106,17 @@ bool RankGrains::settle_again(RankState& state, const WallStep& walls, double ti
 }
 
 void RankGrains::see(const RankState& state) {
-  struct Seen {
-    GrainRecord grain;
-    std::int32_t owner, place;
-  };
-  std::vector<Seen> all;
+  const auto own = static_cast<std::int32_t>(state.grains.size());
+  const auto& ghosts = forest_->ghosts();
+  std::vector<std::pair<std::int64_t, std::int32_t>>
+      order;  // identity, place among the own and then the ghosts
+  order.reserve(own + ghosts.size());
+  for (const GrainRecord& grain : state.grains)
+    order.push_back({grain.id, static_cast<std::int32_t>(order.size())});
+  for (const GhostRecord& ghost : ghosts)
+    order.push_back({ghost.grain.id, static_cast<std::int32_t>(order.size())});
+  std::sort(order.begin(), order.end());
   const std::int32_t rank = ranks_.rank();
-  for (std::size_t k = 0; k < state.grains.size(); ++k)
-    all.push_back({state.grains[k], rank, static_cast<std::int32_t>(k)});
-  for (const GhostRecord& ghost : forest_->ghosts()) all.push_back({ghost.grain, ghost.owner, -1});
-  std::sort(all.begin(), all.end(), [](const Seen& a, const Seen& b) { return a.grain.id < b.grain.id; });
   Bodies& bodies = seen_.bodies;
   for (auto* values :
        {&bodies.x, &bodies.z, &bodies.v_x, &bodies.v_z, &bodies.radius, &bodies.inverse_mass, &bodies.spin})
@@ -122,13 +124,16 @@ void RankGrains::see(const RankState& state) {
   bodies.id.clear(), seen_.owner.clear(), seen_.place.clear();
   if (place_of_.empty()) place_of_.assign(domain_.grains, -1);
   std::fill(place_of_.begin(), place_of_.end(), -1);
-  for (const auto& [grain, owner, place] : all) {
+  for (const auto& [id, place] : order) {
+    const bool mine = place < own;
+    const GrainRecord& grain = mine ? state.grains[place] : ghosts[place - own].grain;
     place_of_[grain.id] = static_cast<std::int32_t>(bodies.id.size());
     bodies.x.push_back(grain.x), bodies.z.push_back(grain.z);
     bodies.v_x.push_back(grain.v_x), bodies.v_z.push_back(grain.v_z);
     bodies.radius.push_back(grain.radius), bodies.inverse_mass.push_back(grain.inverse_mass);
     if (with_spin_) bodies.spin.push_back(grain.spin);
-    bodies.id.push_back(grain.id), seen_.owner.push_back(owner), seen_.place.push_back(place);
+    bodies.id.push_back(id), seen_.owner.push_back(mine ? rank : ghosts[place - own].owner);
+    seen_.place.push_back(mine ? place : -1);
   }
 }
 

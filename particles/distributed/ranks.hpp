@@ -1,6 +1,7 @@
 #pragma once
 // The processes (ranks) that share a run, and what they tell each other. MPI is seen in the .cpp files of
 // this room alone.
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -102,7 +103,7 @@ class Ranks {
   static std::vector<T> as(const std::vector<std::byte>& bytes) {
     std::vector<T> values(bytes.size() / sizeof(T));
     const auto to = std::as_writable_bytes(std::span(values));
-    for (std::size_t k = 0; k < to.size(); ++k) to[k] = bytes[k];
+    std::copy_n(bytes.begin(), to.size(), to.begin());
     return values;
   }
   std::vector<std::vector<std::byte>> exchange_bytes(const std::vector<std::vector<std::byte>>&) const;

@@ -124,8 +124,15 @@ def same_on_all(run_on, folder, name, text, ways=((1, 1), (1, 2), (2, 1), (2, 2)
 
 def ranks_of(mpirun):
     """The processes that an mpirun has started, which are ours."""
-    children = subprocess.run(["ps", "-o", "pid=,args=", "--ppid", str(mpirun.pid)], capture_output=True, text=True, check=True)
-    return [int(line.split()[0]) for line in children.stdout.splitlines() if "drumlin-run" in line]
+    ranks = []
+    for folder in pathlib.Path("/proc").glob("[0-9]*"):
+        try:
+            name, _, rest = (folder / "stat").read_text(encoding="utf-8").rpartition(")")
+        except OSError:  # it has ended since
+            continue
+        if int(rest.split()[1]) == mpirun.pid and "drumlin-run" in name:
+            ranks.append(int(folder.name))
+    return ranks
 
 
 def going_on_elsewhere(run_on, folder, scene, right):
@@ -175,7 +182,7 @@ def main():
                     ((1, 1), (3, 2)))
         refusals(run_on, folder)
         # The files are those of other runs.
-        listed = subprocess.run([drumlin, "export", folder / "drum-4x1", "-o", folder / "grids"], capture_output=True,
+        listed = subprocess.run([drumlin, "export", folder / "drum-4x1", "--vtu", "-o", folder / "grids"], capture_output=True,
                                 text=True, check=False)
         require(listed.returncode == 0, f"drumlin export of a run on ranks:\n{listed.stdout}{listed.stderr}")
     print("the same bytes on 1 to 4 ranks")
