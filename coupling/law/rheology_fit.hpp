@@ -65,7 +65,7 @@ struct AmountMemory {
 };
 
 /// Memory of the axes (coupling/law/memory_law.hpp): the material carries the axes of its past strain along,
-/// and they share in those of its stress. The amount of the stress follows I at once, as `mu` here says.
+/// and they share in those of its stress. Its amount follows I, as `mu` here says, and what `amount` adds.
 struct MemoryLaw {
   double c = 0;        ///< share of the memory that is renewed per unit of shear, > 0
   double m = 0;        ///< weight of the memory against the strain rate, 0 to 1
