@@ -93,6 +93,15 @@ TEST(RheologyFile, MemoryIsWrittenAndReadBackAndAbsentOtherwise) {
   EXPECT_EQ(memory->I_high, 0.02);
   EXPECT_EQ(memory->mu.I, fit.memory->mu.I);
   EXPECT_EQ(memory->mu.mu, fit.memory->mu.mu);
+  EXPECT_FALSE(memory->amount);
+  fit.memory->amount = AmountMemory{.swelling = 0.009, .c_nu = 4, .c_psi = 24, .lag = -0.05};
+  write_rheology(folder / "amount.toml", fit);
+  const auto amount = read_rheology(folder / "amount.toml").memory.value().amount;
+  ASSERT_TRUE(amount);
+  EXPECT_EQ(amount->swelling, 0.009);
+  EXPECT_EQ(amount->c_nu, 4);
+  EXPECT_EQ(amount->c_psi, 24);
+  EXPECT_EQ(amount->lag, -0.05);
 }
 
 TEST(RheologyFile, MemoryNamesItsFaults) {
@@ -113,6 +122,12 @@ TEST(RheologyFile, MemoryNamesItsFaults) {
   expect("mu = [0.2, 0.3]", "mu = [0.3, 0.2]", "memory.mu");
   expect("mu = [0.2, 0.3]", "mu = [0.3]", "one mu for each I");
   expect("I = [1e-5, 1e-3]", "I = [1e-3, 1e-3]", "ascending");
+  const std::string table = "mu = [0.2, 0.3]\n[memory.amount]\n";
+  expect("mu = [0.2, 0.3]\n", table + "c_nu = 4\nc_psi = 24\nlag = 0\n", "memory.amount.swelling");
+  expect("mu = [0.2, 0.3]\n", table + "swelling = 0\nc_nu = 4\nc_psi = 24\nlag = 0\n",
+         "memory.amount.swelling");
+  expect("mu = [0.2, 0.3]\n", table + "swelling = 0.01\nc_nu = 4\nc_psi = 24\nlag = 2\n",
+         "memory.amount.lag");
 }
 
 /// The smallest file with another table [mu].

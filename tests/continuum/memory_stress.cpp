@@ -96,6 +96,11 @@ TEST(MemoryStress, NeverGivesWorkBack) {
       at.held = {opposite.real(), opposite.imag(), least_rho};
     }
     EXPECT_GE(contraction(response_at(at).stress, at.D), 0);
+    // What the past adds to the amount may ask for more than all of the friction.
+    const FollowedLaw<LogLaw> followed{mu, 0.02, trial % 3 == 0 ? -1.0 : 0.1};
+    const PlaneTensor dual = (1 / regularised_rate(at.D, soft)) * at.D;
+    const auto s = memory_response(followed, at.m, at.held, soft, at.D, at.p, dual);
+    EXPECT_GE(contraction(s.stress, at.D), 0);
   }
 }
 
