@@ -19,12 +19,12 @@ using Cell = Triangulation::active_cell_iterator;
 
 constexpr unsigned int properties = 5;  // velocities, spin, radius, inverse mass
 
-std::array<double, properties> properties_of(const GrainRecord& g) {
+std::array<double, properties> properties_of(const RankGrain& g) {
   return {g.v_x, g.v_z, g.spin, g.radius, g.inverse_mass};
 }
 
 template <class Particle>
-GrainRecord record_of(const Particle& particle) {
+RankGrain record_of(const Particle& particle) {
   const auto& place = particle.get_location();
   const auto own = particle.get_properties();
   return {static_cast<std::int64_t>(particle.get_id()),
@@ -113,11 +113,11 @@ GrainOutside Forest::first_outside(const GrainOutside& own) const {
   return ranks_.gather_everywhere<GrainOutside>(mine).front();
 }
 
-GrainOutside Forest::place(std::span<const GrainRecord> grains) {
+GrainOutside Forest::place(std::span<const RankGrain> grains) {
   Library& lib = *library_;
   GrainOutside outside;
-  std::vector<std::vector<GrainRecord>> to_rank(ranks_.count());
-  for (const GrainRecord& grain : grains) {
+  std::vector<std::vector<RankGrain>> to_rank(ranks_.count());
+  for (const RankGrain& grain : grains) {
     if (!tiles_.grid.contains({grain.x, grain.z})) {
       if (outside.id < 0 || grain.id < outside.id) outside = {grain.id, grain.x, grain.z};
       continue;
@@ -133,7 +133,7 @@ GrainOutside Forest::place(std::span<const GrainRecord> grains) {
   lib.handler.clear_particles();
   const double edge = tiles_.grid.cell;
   for (const auto& of_rank : ranks_.exchange(to_rank))
-    for (const GrainRecord& grain : of_rank) {
+    for (const RankGrain& grain : of_rank) {
       const Cell& cell = cells[lib.cell_at({grain.x, grain.z})];
       const auto& corner = cell->vertex(0);
       const auto own = properties_of(grain);
@@ -149,12 +149,12 @@ GrainOutside Forest::place(std::span<const GrainRecord> grains) {
   return {};
 }
 
-GrainOutside Forest::move(std::span<const GrainRecord> grains) {
+GrainOutside Forest::move(std::span<const RankGrain> grains) {
   Library& lib = *library_;
   lib.outside = {};
   std::size_t k = 0;
   for (auto& particle : lib.handler) {
-    const GrainRecord& grain = grains[k++];
+    const RankGrain& grain = grains[k++];
     particle.set_location(dealii::Point<2>(grain.x, grain.z));
     const auto own = properties_of(grain);
     particle.set_properties(dealii::ArrayView<const double>(own.data(), own.size()));

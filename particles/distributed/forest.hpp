@@ -15,14 +15,14 @@
 namespace drumlin::particles {
 
 /// A grain as it travels between ranks.
-struct GrainRecord {
+struct RankGrain {
   std::int64_t id = 0;
   double x = 0, z = 0, v_x = 0, v_z = 0, spin = 0, radius = 0, inverse_mass = 0;
 };
 
 /// A grain that another rank owns.
 struct GhostRecord {
-  GrainRecord grain;
+  RankGrain grain;
   std::int32_t owner = 0;
 };
 
@@ -45,13 +45,13 @@ class Forest {
   const Ranks& ranks() const { return ranks_; }
   /// Sends each grain to the rank that owns its tile. Returns the first of all that lies outside of the grid;
   /// the forest must then not be used.
-  GrainOutside place(std::span<const GrainRecord> grains);
+  GrainOutside place(std::span<const RankGrain> grains);
   /// Gives the grains of owned(), in that order, new places and velocities, and sends those that have left
   /// the rank to their new owners. Returns as place().
-  GrainOutside move(std::span<const GrainRecord> grains);
+  GrainOutside move(std::span<const RankGrain> grains);
 
   /// Grains of this rank.
-  const std::vector<GrainRecord>& owned() const { return owned_; }
+  const std::vector<RankGrain>& owned() const { return owned_; }
   /// Grains of others within one layer of cells around those of this rank.
   const std::vector<GhostRecord>& ghosts() const { return ghosts_; }
 
@@ -63,7 +63,7 @@ class Forest {
   Ranks ranks_;
   TileMap tiles_;
   std::unique_ptr<Library> library_;
-  std::vector<GrainRecord> owned_;
+  std::vector<RankGrain> owned_;
   std::vector<GhostRecord> ghosts_;
 };
 

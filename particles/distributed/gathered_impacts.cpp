@@ -8,7 +8,7 @@ namespace drumlin::particles {
 
 std::vector<StruckRecord> GatheredImpacts::resolve(const StepInput& step, const RememberedLoads& loads,
                                                    const StepContacts& contacts,
-                                                   std::span<const GrainRecord> own) {
+                                                   std::span<const RankGrain> own) {
   count_ = 0;
   if (!ranks_.any(looked_.any(step, loads, contacts))) return {};
   const auto& id = step.bodies.id;
@@ -19,7 +19,7 @@ std::vector<StruckRecord> GatheredImpacts::resolve(const StepInput& step, const 
                     pair.wall_v_z, loads.of(static_cast<std::int32_t>(a))});
   }
   pairs_ = ranks_.gather<PairRecord>(mine);
-  const auto grains = ranks_.gather<GrainRecord>(own);
+  const auto grains = ranks_.gather<RankGrain>(own);
   std::vector<StruckRecord> struck;
   if (ranks_.rank() == 0) struck = resolve_for_all(step, grains);
   ranks_.broadcast(struck);
@@ -30,7 +30,7 @@ std::vector<StruckRecord> GatheredImpacts::resolve(const StepInput& step, const 
 }
 
 std::vector<StruckRecord> GatheredImpacts::resolve_for_all(const StepInput& step,
-                                                           std::span<const GrainRecord> grains) {
+                                                           std::span<const RankGrain> grains) {
   // Those of each rank come in the order of (i, j): runs that are merged.
   const auto before = [](const PairRecord& a, const PairRecord& b) {
     return std::tie(a.i, a.j) < std::tie(b.i, b.j);
@@ -44,7 +44,7 @@ std::vector<StruckRecord> GatheredImpacts::resolve_for_all(const StepInput& step
   for (auto* values : {&bodies.x, &bodies.z, &bodies.v_x, &bodies.v_z, &bodies.radius, &bodies.inverse_mass})
     values->resize(grains.size());
   if (step.laws.spin) bodies.spin.resize(grains.size());
-  for (const GrainRecord& grain : grains) {
+  for (const RankGrain& grain : grains) {
     const auto b = static_cast<std::size_t>(grain.id);
     bodies.x[b] = grain.x, bodies.z[b] = grain.z, bodies.v_x[b] = grain.v_x, bodies.v_z[b] = grain.v_z;
     bodies.radius[b] = grain.radius, bodies.inverse_mass[b] = grain.inverse_mass;

@@ -26,7 +26,7 @@ class GatheredImpacts {
   /// grains of `step`, whose identities are ascending; `own`: grains that this rank owns. All ranks call it
   /// together and get the grains that were struck. `step.laws` asks for restitution.
   std::vector<StruckRecord> resolve(const StepInput& step, const RememberedLoads& loads,
-                                    const StepContacts& contacts, std::span<const GrainRecord> own);
+                                    const StepContacts& contacts, std::span<const RankGrain> own);
   /// Pairs that met in the last call, counted once per pass.
   int count() const { return count_; }
   /// On the first rank: impulses since the last clear(), with identities in place of indices.
@@ -34,7 +34,7 @@ class GatheredImpacts {
   void clear() { strikes_.clear(); }
 
  private:
-  std::vector<StruckRecord> resolve_for_all(const StepInput& step, std::span<const GrainRecord> grains);
+  std::vector<StruckRecord> resolve_for_all(const StepInput& step, std::span<const RankGrain> grains);
 
   /// A pair as it travels; j < 0 is a wall shape.
   struct PairRecord {

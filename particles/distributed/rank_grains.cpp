@@ -39,7 +39,7 @@ Reach RankGrains::reach_of(const RankState& state, const WallStep& walls, double
                            Point gain) const {
   constexpr double none = -1e300;
   std::array<double, 5> extremes{none, none, none, none, 0};  // of v_x, -v_x, v_z, -v_z, and the speed
-  for (const GrainRecord& g : state.grains) {
+  for (const RankGrain& g : state.grains) {
     const double v_x = g.v_x + gain.x, v_z = g.v_z + gain.z;
     extremes[0] = std::max(extremes[0], v_x), extremes[1] = std::max(extremes[1], -v_x);
     extremes[2] = std::max(extremes[2], v_z), extremes[3] = std::max(extremes[3], -v_z);
@@ -66,7 +66,7 @@ void RankGrains::refuse(const GrainOutside& outside) const {
 void RankGrains::build(RankState& state, const TileGrid& grid) {
   constexpr std::int64_t of_a_grain = 10;
   std::vector<std::int64_t> weights(grid.count(), 0);
-  for (const GrainRecord& g : state.grains) weights[grid.tile_at({g.x, g.z})] += of_a_grain;
+  for (const RankGrain& g : state.grains) weights[grid.tile_at({g.x, g.z})] += of_a_grain;
   ranks_.add(weights);
   for (std::int64_t& weight : weights) ++weight;
   forest_.reset();
@@ -111,7 +111,7 @@ void RankGrains::see(const RankState& state) {
   std::vector<std::pair<std::int64_t, std::int32_t>>
       order;  // identity, place among the own and then the ghosts
   order.reserve(own + ghosts.size());
-  for (const GrainRecord& grain : state.grains)
+  for (const RankGrain& grain : state.grains)
     order.push_back({grain.id, static_cast<std::int32_t>(order.size())});
   for (const GhostRecord& ghost : ghosts)
     order.push_back({ghost.grain.id, static_cast<std::int32_t>(order.size())});
@@ -126,7 +126,7 @@ void RankGrains::see(const RankState& state) {
   std::fill(place_of_.begin(), place_of_.end(), -1);
   for (const auto& [id, place] : order) {
     const bool mine = place < own;
-    const GrainRecord& grain = mine ? state.grains[place] : ghosts[place - own].grain;
+    const RankGrain& grain = mine ? state.grains[place] : ghosts[place - own].grain;
     place_of_[grain.id] = static_cast<std::int32_t>(bodies.id.size());
     bodies.x.push_back(grain.x), bodies.z.push_back(grain.z);
     bodies.v_x.push_back(grain.v_x), bodies.v_z.push_back(grain.v_z);

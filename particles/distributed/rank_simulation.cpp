@@ -128,12 +128,12 @@ bool RankSimulation::snapshot_due() const {
 }
 
 Bodies RankSimulation::gathered_bodies() const {
-  const auto grains = ranks_.gather<GrainRecord>(own_.grains);
+  const auto grains = ranks_.gather<RankGrain>(own_.grains);
   Bodies bodies;
   for (auto* values : {&bodies.x, &bodies.z, &bodies.v_x, &bodies.v_z, &bodies.radius, &bodies.inverse_mass})
     values->resize(grains.size());
   if (scene_.effects.spin) bodies.spin.resize(grains.size());
-  for (const GrainRecord& g : grains) {
+  for (const RankGrain& g : grains) {
     const auto b = static_cast<std::size_t>(g.id);
     bodies.x[b] = g.x, bodies.z[b] = g.z, bodies.v_x[b] = g.v_x, bodies.v_z[b] = g.v_z;
     bodies.radius[b] = g.radius, bodies.inverse_mass[b] = g.inverse_mass;
@@ -173,7 +173,7 @@ SimulationState RankSimulation::gathered_state() const {
 
 double RankSimulation::kinetic_energy() const {
   ExactSum sum;
-  for (const GrainRecord& g : own_.grains) {
+  for (const RankGrain& g : own_.grains) {
     const double rim = g.radius * g.spin;
     sum.add((g.v_x * g.v_x + g.v_z * g.v_z + rim * rim / 2) / (2 * g.inverse_mass));
   }

@@ -177,7 +177,7 @@ class RankMoreauJean final : public RankStepper {
       seen.bodies.v_x[b] = record.v_x, seen.bodies.v_z[b] = record.v_z;
       if constexpr (with_spin) seen.bodies.spin[b] = record.spin;
       if (seen.place[b] < 0) continue;
-      GrainRecord& grain = state.grains[seen.place[b]];
+      RankGrain& grain = state.grains[seen.place[b]];
       grain.v_x = record.v_x, grain.v_z = record.v_z, grain.spin = record.spin;
     }
   }
@@ -289,7 +289,7 @@ class RankMoreauJean final : public RankStepper {
     for (std::size_t b = 0; b < own_.used.size(); ++b) {
       const std::int32_t place = seen.place[own_.used[b]];
       if (place < 0) continue;
-      GrainRecord& grain = state.grains[place];
+      RankGrain& grain = state.grains[place];
       grain.x = bodies_.x[b], grain.z = bodies_.z[b];
       grain.v_x = bodies_.v_x[b], grain.v_z = bodies_.v_z[b];
       if constexpr (with_spin) grain.spin = bodies_.spin[b];

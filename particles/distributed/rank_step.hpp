@@ -23,7 +23,7 @@ struct RememberedContact {
 
 /// What a rank keeps from step to step.
 struct RankState {
-  std::vector<GrainRecord> grains;        ///< its own
+  std::vector<RankGrain> grains;          ///< its own
   std::vector<RememberedContact> memory;  ///< of the contacts that it solved
   double memory_time_step = 0;
 };

@@ -14,31 +14,31 @@ namespace {
 const TileGrid grid{{-3, -1}, 1.5, 4};  // 16 x 16 cells, 8 x 8 tiles
 
 /// The same on all ranks.
-std::vector<GrainRecord> scattered(int count) {
+std::vector<RankGrain> scattered(int count) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> along(0, grid.edge());
-  std::vector<GrainRecord> grains;
+  std::vector<RankGrain> grains;
   for (int k = 0; k < count; ++k)
     grains.push_back({k, grid.origin.x + along(random), grid.origin.z + along(random), 0.1 * k, -0.2 * k,
                       0.3 * k, 0.5, 1.0 + k});
   return grains;
 }
 
-std::vector<GrainRecord> share_of(const std::vector<GrainRecord>& all, const Ranks& ranks) {
-  std::vector<GrainRecord> own;
+std::vector<RankGrain> share_of(const std::vector<RankGrain>& all, const Ranks& ranks) {
+  std::vector<RankGrain> own;
   for (std::size_t k = ranks.rank(); k < all.size(); k += ranks.count()) own.push_back(all[k]);
   return own;
 }
 
 /// Every grain is where `all` has it, once; a rank owns those of its tiles and sees all within a cell of
 /// them.
-void expect_everybody(const Forest& forest, const std::vector<GrainRecord>& all) {
+void expect_everybody(const Forest& forest, const std::vector<RankGrain>& all) {
   const Ranks& ranks = forest.ranks();
   const std::int32_t rank = ranks.rank();
   std::vector<std::int64_t> seen(all.size(), 0);
-  for (const GrainRecord& grain : forest.owned()) {
+  for (const RankGrain& grain : forest.owned()) {
     ++seen[grain.id];
-    const GrainRecord& right = all[grain.id];
+    const RankGrain& right = all[grain.id];
     EXPECT_EQ(grain.x, right.x);
     EXPECT_EQ(grain.z, right.z);
     EXPECT_EQ(grain.v_x, right.v_x);
@@ -55,7 +55,7 @@ void expect_everybody(const Forest& forest, const std::vector<GrainRecord>& all)
     EXPECT_EQ(ghost.grain.v_z, all[ghost.grain.id].v_z);
   }
   EXPECT_EQ(ghosts.size(), forest.ghosts().size());
-  for (const GrainRecord& grain : all) {
+  for (const RankGrain& grain : all) {
     if (forest.tiles().owner_at({grain.x, grain.z}) == rank) continue;
     bool near = false;
     for (const double dx : {-1.0, 0.0, 1.0})
@@ -85,14 +85,14 @@ TEST(Forest, FollowsGrainsThatMove) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> step(-0.7, 0.7);
   for (int k = 0; k < 10; ++k) {
-    for (GrainRecord& grain : all) {
+    for (RankGrain& grain : all) {
       const double high = grid.edge() - 1e-9;
       grain.x = grid.origin.x + std::clamp(grain.x + step(random) - grid.origin.x, 1e-9, high);
       grain.z = grid.origin.z + std::clamp(grain.z + step(random) - grid.origin.z, 1e-9, high);
       grain.v_x += 1;
     }
-    std::vector<GrainRecord> own = forest.owned();
-    for (GrainRecord& grain : own) grain = all[grain.id];
+    std::vector<RankGrain> own = forest.owned();
+    for (RankGrain& grain : own) grain = all[grain.id];
     ASSERT_EQ(forest.move(own).id, -1);
     expect_everybody(forest, all);
   }
@@ -105,8 +105,8 @@ TEST(Forest, NamesTheFirstGrainThatLeaves) {
   ASSERT_EQ(forest.place(share_of(all, ranks)).id, -1);
   all[77].x = grid.origin.x - 50;
   all[31].z = grid.origin.z + 90;
-  std::vector<GrainRecord> own = forest.owned();
-  for (GrainRecord& grain : own) grain = all[grain.id];
+  std::vector<RankGrain> own = forest.owned();
+  for (RankGrain& grain : own) grain = all[grain.id];
   const GrainOutside outside = forest.move(own);
   EXPECT_EQ(outside.id, 31);
   EXPECT_EQ(outside.z, all[31].z);

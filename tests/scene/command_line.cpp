@@ -18,7 +18,7 @@ TEST(CommandLine, FillsTheOptionsOfRun) {
   EXPECT_EQ(run.scene, "a.toml");
   EXPECT_EQ(run.output, "out");
   EXPECT_EQ(run.overrides, (std::vector<std::string>{"x=1", "y=[1, 2]"}));
-  EXPECT_EQ(run.threads, 1);
+  EXPECT_EQ(run.threads, processors_at_hand());
   EXPECT_EQ(run.existing, ExistingOutput::resume);
 }
 
