@@ -1,7 +1,6 @@
 // drumlin run: a particle run from a scene to snapshots, log and run.json; interruptible, and continued bit
 // for bit.
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <chrono>
 #include <cstdio>
@@ -24,6 +23,7 @@
 #include "apps/support/progress.hpp"
 #include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
+#include "coupling/common/own_costs.hpp"
 #include "coupling/common/text_file.hpp"
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/io/contact_problem_file.hpp"
@@ -39,15 +39,6 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_between(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
-}
-
-double cpu_seconds() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
 class ParticleRun {
@@ -72,7 +63,7 @@ class ParticleRun {
   int execute() {
     start_ = Clock::now();
     next_checkpoint_s_ = simulated_seconds() + scene_.output.checkpoint_every_s;
-    cpu_before_ = cpu_seconds();
+    cpu_before_ = own_cpu_seconds();
     steps_before_ = simulation_.state().step;
     write_report("running");
     while (!simulation_.finished()) {
@@ -215,7 +206,7 @@ class ParticleRun {
   particles::RunTotals totals_now() const {
     particles::RunTotals totals = totals_;
     totals.wall_seconds += seconds_between(start_, Clock::now());
-    totals.cpu_seconds += cpu_seconds() - cpu_before_;
+    totals.cpu_seconds += own_cpu_seconds() - cpu_before_;
     return totals;
   }
 

@@ -1,7 +1,6 @@
 #include "apps/commands/run_report.hpp"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <array>
@@ -10,16 +9,11 @@
 #include "apps/commands/region_table.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/progress.hpp"
+#include "coupling/common/own_costs.hpp"
 #include "coupling/common/provenance.hpp"
 
 namespace drumlin::apps {
 namespace {
-
-double peak_memory_mb() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024;
-}
 
 struct TimePart {
   const char* name;
@@ -170,7 +164,7 @@ nlohmann::ordered_json run_report(const RunProgress& run, const std::string& sta
   report["status"] = status;
   report["wall_seconds"] = run.totals.wall_seconds;
   report["cpu_seconds"] = run.totals.cpu_seconds;
-  report["peak_memory_mb"] = peak_memory_mb();
+  report["peak_memory_mb"] = own_peak_memory_mb();
   report["steps"] = state.step;
   report["steps_planned"] = run.simulation.plan().steps;
   report["unconverged_steps"] = run.totals.unconverged_steps;

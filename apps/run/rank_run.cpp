@@ -1,7 +1,6 @@
 #include "apps/run/rank_run.hpp"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <chrono>
 #include <nlohmann/json.hpp>
@@ -21,6 +20,7 @@
 #include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/common/last_whole.hpp"
+#include "coupling/common/own_costs.hpp"
 #include "coupling/common/text_file.hpp"
 #include "particles/distributed/rank_simulation.hpp"
 #include "particles/distributed/runs_on_ranks.hpp"
@@ -38,21 +38,6 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_between(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
-}
-
-double cpu_seconds() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
-double peak_memory_mb() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
 /// What one rank tells of its share at the end.
@@ -106,7 +91,7 @@ class RankRun {
 
   int execute() {
     ranks_.on_first([&] { first_.emplace(options_, log_bytes_); });
-    start_ = Clock::now(), cpu_before_ = cpu_seconds();
+    start_ = Clock::now(), cpu_before_ = own_cpu_seconds();
     steps_before_ = simulation_.progress().step;
     next_checkpoint_s_ = simulated_seconds() + scene_.output.checkpoint_every_s;
     write_report("running");
@@ -175,7 +160,7 @@ class RankRun {
   particles::RunTotals totals_now() const {
     particles::RunTotals totals = totals_;
     totals.wall_seconds += seconds_between(start_, Clock::now());
-    totals.cpu_seconds += cpu_seconds() - cpu_before_;
+    totals.cpu_seconds += own_cpu_seconds() - cpu_before_;
     return totals;
   }
 
@@ -183,7 +168,7 @@ class RankRun {
   /// state.
   void write_report(const std::string& status) {
     particles::SimulationState state = simulation_.gathered_state();
-    const RankShare own{simulation_.counts(), cpu_seconds(), peak_memory_mb()};
+    const RankShare own{simulation_.counts(), own_cpu_seconds(), own_peak_memory_mb()};
     const auto shares = ranks_.gather<RankShare>(std::span(&own, 1));
     ranks_.on_first([&] {
       const particles::Simulation as_one(scene_, std::move(state));

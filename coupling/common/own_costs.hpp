@@ -1,0 +1,9 @@
+#pragma once
+// What this process has cost so far.
+
+namespace drumlin {
+
+double own_cpu_seconds();     ///< of all its threads, in user and system mode
+double own_peak_memory_mb();  ///< the most that was resident at a time, 2^20 bytes
+
+}  // namespace drumlin
