@@ -2,6 +2,7 @@
 // takes the words of `drumlin run`, whose command line it shares; the results do not depend on N.
 #include <fmt/format.h>
 
+#include <cstring>
 #include <exception>
 #include <new>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "apps/support/program.hpp"
 #include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
+#include "coupling/common/provenance.hpp"
 #include "coupling/common/unfinished_file.hpp"
 #include "particles/distributed/ranks.hpp"
 
@@ -58,6 +60,10 @@ int run(int argc, char** argv, bool& speaks) {
   speaks = ranks.rank() == 0;
   apps::end_at_signals();  // the libraries have set handlers of their own
   apps::outlive_readers();
+  if (argc > 1 && std::strcmp(argv[1], "--version") == 0) {
+    if (speaks) apps::print_out("drumlin-run " + version_text() + "\n");
+    return static_cast<int>(ExitCode::done);
+  }
   const auto request = apps::parse_command_line(static_cast<int>(words.size()), words.data(), {});
   if (const auto* shown = std::get_if<apps::TextToShow>(&request)) {
     if (speaks) apps::print_out(shown->text);
