@@ -21,6 +21,11 @@ constexpr double stretch = 20e-3;       // seconds of jobs that tell whether the
 constexpr double least_share = 0.5;     // of the time, that threads must work
 constexpr double fewer_for_times = 20;  // as long as a bad stretch, so that to try again costs 5 % at most
 
+// Of what is told to threads that may sleep. notify_one() and notify_all() ask whether anybody sleeps,
+// without a barrier of their own: were the value stored with less, that could be answered before the store is
+// seen, by "nobody", while the sleeper still sees the old value, and all would sleep for ever.
+constexpr auto whole_order = std::memory_order_seq_cst;
+
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
@@ -65,7 +70,7 @@ double Barrier::meet() {
   const std::uint32_t round = round_.load(std::memory_order_relaxed);
   if (arrived_.fetch_add(1, std::memory_order_acq_rel) < threads_ - 1) return wait_for_change(round_, round);
   arrived_.store(0, std::memory_order_relaxed);
-  round_.store(round + 1, std::memory_order_release);
+  round_.store(round + 1, whole_order);
   round_.notify_all();
   return 0;
 }
@@ -87,7 +92,7 @@ ThreadTeam::~ThreadTeam() { end(); }
 void ThreadTeam::end() {
   over_ = true;
   for (auto& member : members_) {
-    member.jobs.fetch_add(1, std::memory_order_release);
+    member.jobs.fetch_add(1, whole_order);
     member.jobs.notify_one();
   }
   for (auto& helper : helpers_) helper.join();
@@ -101,7 +106,7 @@ void ThreadTeam::run(const std::function<void(int, int)>& job) {
   running_.store(helping, std::memory_order_relaxed);
   for (int t = 1; t <= helping; ++t) {
     auto& jobs = members_[static_cast<std::size_t>(t)].jobs;
-    jobs.fetch_add(1, std::memory_order_release);
+    jobs.fetch_add(1, whole_order);
     jobs.notify_one();
   }
   if (helping == 0) {
@@ -129,7 +134,7 @@ void ThreadTeam::help(int t) {
     (void)wait_for_change(jobs, seen, longest_pause);
     if (over_) return;
     work(t);
-    if (running_.fetch_sub(1, std::memory_order_release) == 1) running_.notify_one();
+    if (running_.fetch_sub(1, whole_order) == 1) running_.notify_one();
   }
 }
 

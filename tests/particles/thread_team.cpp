@@ -45,6 +45,23 @@ TEST(ThreadTeam, EveryShareOfAJobIsDoneOnceAndThreadsMeet) {
   }
 }
 
+TEST(Barrier, WakesWhoFallsAsleepJustWhenTheOthersCome) {
+  // One thread comes about as late as the other goes to sleep. A wake-up that is lost (one in a million times
+  // where the barrier does not order its store before it looks for sleepers) would make this test hang.
+  Barrier barrier(2);
+  constexpr int rounds = 20000;
+  std::thread early([&barrier] {
+    for (int round = 0; round < rounds; ++round) (void)barrier.meet();
+  });
+  using namespace std::chrono;
+  for (int round = 0; round < rounds; ++round) {
+    const auto late = steady_clock::now() + nanoseconds(32000 + round % 5000);
+    while (steady_clock::now() < late) continue;
+    (void)barrier.meet();
+  }
+  early.join();
+}
+
 /// Ends this process with 7 if 250 threads in too little memory are an error that says so.
 [[noreturn]] void start_too_many() {
   const rlimit room = {1 << 28, 1 << 28};  // bytes: stacks of some threads, not of all
