@@ -35,13 +35,14 @@ void CellGrid::sort(const SearchedState& state, std::span<const std::int32_t> me
   }
   sort_places(row_bits + column_bits);
   grains_.resize(count);
+  drift_ = 0;
   cells_.clear();
   rows_.clear();
   const std::uint64_t column_mask = (std::uint64_t{1} << column_bits) - 1;
   for (std::size_t m = 0; m < count; ++m) {
     const auto [key, b] = places_[m];
     const Point first = period_.first({bodies.x[b], bodies.z[b]});
-    grains_[m] = {first.x, first.z, bodies.radius[b], state.v_x[b], state.v_z[b], b};
+    grains_[m] = {first.x, first.z, bodies.radius[b], state.v_x[b], state.v_z[b], b, first.x, first.z};
     if (m > 0 && key == places_[m - 1].key) continue;
     const auto row = static_cast<std::int32_t>(key >> column_bits);
     if (rows_.empty() || rows_.back().row != row)
@@ -50,6 +51,16 @@ void CellGrid::sort(const SearchedState& state, std::span<const std::int32_t> me
   }
   rows_.push_back({rows, static_cast<std::int32_t>(cells_.size())});
   cells_.push_back({rows, 0, static_cast<std::int32_t>(count)});
+}
+
+void CellGrid::follow(const SearchedState& state) {
+  double farthest = 0;
+  for (NearGrain& g : grains_) {
+    g.x = state.bodies.x[g.body], g.z = state.bodies.z[g.body];
+    g.v_x = state.v_x[g.body], g.v_z = state.v_z[g.body];
+    farthest = std::max({farthest, std::abs(g.x - g.sorted_x), std::abs(g.z - g.sorted_z)});
+  }
+  drift_ = farthest;
 }
 
 /// By as many counting sorts as the keys have digits of at most 12 bits, the last digit first.
@@ -99,6 +110,7 @@ std::size_t CellGrid::row_of_cell(std::size_t cell) const {
 void GrainGrids::sort(const SearchedState& state, double range) {
   const Bodies& bodies = state.bodies;
   range_ = range;
+  drift_ = 0;
   period_ = state.period;
   const auto [small, large] = std::minmax_element(bodies.radius.begin(), bodies.radius.end());
   const double largest = 2 * *large;
@@ -120,6 +132,18 @@ void GrainGrids::sort(const SearchedState& state, double range) {
     largest_.push_back(largest / std::exp2(level));
     grids_[used_++].sort(state, members_[level], largest_.back() + range);
   }
+  radii_.assign(bodies.radius.begin(), bodies.radius.end());
+}
+
+bool GrainGrids::follow(const SearchedState& state, double farthest) {
+  if (!period_.open() || !state.period.open() || !std::ranges::equal(radii_, state.bodies.radius))
+    return false;
+  drift_ = 0;
+  for (CellGrid& grid : std::span(grids_).first(used_)) {
+    grid.follow(state);
+    drift_ = std::max(drift_, grid.drift());
+  }
+  return drift_ <= farthest;
 }
 
 }  // namespace drumlin::particles

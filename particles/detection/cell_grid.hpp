@@ -16,6 +16,7 @@ namespace drumlin::particles {
 struct NearGrain {
   double x = 0, z = 0, radius = 0, v_x = 0, v_z = 0;
   std::int32_t body = 0;
+  double sorted_x = 0, sorted_z = 0;  ///< where it was when it was sorted into its cell
 };
 
 /// The state that a search sees: places and radii of the bodies, and velocities of its own.
@@ -36,15 +37,21 @@ class CellGrid {
 
   /// Takes the grains listed in `members`, in linear time.
   void sort(const SearchedState& state, std::span<const std::int32_t> members, double cell_size);
+  /// Gives the grains their places and velocities of now; they stay in their cells. Of an open domain.
+  void follow(const SearchedState& state);
+  /// Bound on how far any grain has moved along x or z since it was sorted.
+  double drift() const { return drift_; }
 
   std::span<const NearGrain> grains() const { return grains_; }
   /// The cells that hold grains; one more marks the end.
   std::span<const Cell> cells() const { return cells_; }
   std::size_t count() const { return cells_.size() - 1; }
 
-  /// Calls `visit(grain)` for every grain in the cells that touch the rectangle, each once, in a fixed order.
+  /// Calls `visit(grain)` for every grain in the rectangle and for some around it, each once, in a fixed
+  /// order.
   template <class Visit>
   void near(double x_low, double x_high, double z_low, double z_high, Visit visit) const {
+    x_low -= drift_, x_high += drift_, z_low -= drift_, z_high += drift_;
     const int last_row = coordinate(z_high, origin_z_, cell_z_);
     int left = coordinate(x_low, origin_x_, cell_x_), right = coordinate(x_high, origin_x_, cell_x_);
     int again = 0;  // columns of the first period that a rectangle reaches beyond its end
@@ -143,6 +150,7 @@ class CellGrid {
   std::vector<Cell> cells_;        // one more marks the end
   std::vector<Row> rows_;          // those with cells; one more marks the end
   int columns_ = 0;                // of a period
+  double drift_ = 0;
   double origin_x_ = 0, origin_z_ = 0, cell_x_ = 1, cell_z_ = 1;
 };
 
@@ -151,6 +159,9 @@ class GrainGrids {
  public:
   /// Prepares searches for pairs of grains whose surfaces are at most `range` apart.
   void sort(const SearchedState& state, double range);
+  /// Whether the grains are those that were sorted, in an open domain, and none has moved further than
+  /// `farthest` along x or z: they then have their places and velocities of now, in the same cells.
+  bool follow(const SearchedState& state, double farthest);
 
   /// Calls `visit(grain)` for every grain whose centre is in the rectangle, and for some around it.
   template <class Visit>
@@ -164,9 +175,10 @@ class GrainGrids {
     for (const CellGrid& grid : grids()) near_on(grid, first.x, first.z, reach, visit);
   }
 
-  /// Largest diameter, and edge of the cells of the finest grid.
+  /// Bound on how far any grain has moved along x or z since it was sorted.
+  double drift() const { return drift_; }
+  /// Largest diameter.
   double largest() const { return largest_.front(); }
-  double finest_cell() const { return largest_.back() + range_; }
   std::span<const CellGrid> grids() const { return std::span(grids_).first(used_); }
   /// Calls `meet(a, others)` with spans of grains such that every two grains that may be within range meet
   /// once: those of the cells [first, last) of a grid meet others.
@@ -228,6 +240,8 @@ class GrainGrids {
   std::size_t used_ = 0;
   std::vector<double> largest_;  // diameter in each grid
   std::vector<std::vector<std::int32_t>> members_;
+  std::vector<double> radii_;  // of the bodies that were sorted
+  double drift_ = 0;
   double range_ = 0;
 };
 

@@ -93,11 +93,27 @@ GrainMotion motion_of(const Bodies& bodies, std::span<const double> v_x, std::sp
           2 * smallest};
 }
 
-/// Gap up to which pairs are looked for in grids: all that any pair may close, but not so much that grains
-/// have many more neighbours; pairs beyond are found by their speeds.
-double grid_range(const GrainMotion& motion, const DetectionInput& input) {
-  constexpr double widest = 0.25;  // of the smallest diameter
+// Of the smallest diameter: pairs within are listed, and within as much more if the list is to be used again.
+// No wider, or grains have many more neighbours: the second shell of a dense packing begins at 0.73.
+constexpr double widest = 0.25;
+// A list is made anew when a search had to measure more distances of other pairs than this, for each grain,
+// or when a grain has moved further than this along x or z, in the smallest diameter.
+constexpr double most_far = 1, farthest_drift = 1;
+// After a list that could not be used again so many are made to be used once.
+constexpr int lists_used_once = 30;
+
+/// Gap up to which pairs are listed: all that any pair may close, but at most `widest`; pairs beyond are
+/// found by their speeds.
+double listed_range(const GrainMotion& motion, const DetectionInput& input) {
   return input.margin + std::min(2 * input.time_step * motion.speeds, widest * motion.smallest);
+}
+
+/// Edge of the cells of the finest of the grids that list pairs up to a range.
+double finest_cell(const GrainMotion& motion, double range) {
+  const bool alike = 2 * motion.smallest > motion.largest;
+  const double size = std::max(motion.smallest, std::min(range, motion.largest));
+  const int level = alike ? 0 : std::ilogb(motion.largest / size);
+  return motion.largest / std::exp2(level) + range;
 }
 
 }  // namespace
@@ -180,6 +196,22 @@ void ContactDetection::find_near_walls(double fastest, double largest, const Det
   }
 }
 
+/// Makes the list of near pairs fit the state: the old one if it is good, else a new one.
+void ContactDetection::list_pairs(const SearchedState& state, const PairRule& rule, double range,
+                                  double smallest) {
+  if (lists_.good && grids_.follow(state, farthest_drift * smallest)) {
+    pairs_.look_again(state, rule);
+    ++lists_.used_again;
+    return;
+  }
+  if (lists_.skin > 0 && lists_.used_again == 0) lists_.once = lists_used_once;
+  lists_.skin = lists_.once > 0 || !state.period.open() ? 0 : widest * smallest;
+  lists_.once = std::max(0, lists_.once - 1);
+  lists_.used_again = 0;
+  grids_.sort(state, range + lists_.skin);
+  pairs_.list(grids_, range + lists_.skin, rule);
+}
+
 const std::vector<Candidate>& ContactDetection::find(const Bodies& bodies, std::span<const double> v_x,
                                                      std::span<const double> v_z,
                                                      const DetectionInput& input) {
@@ -190,18 +222,22 @@ const std::vector<Candidate>& ContactDetection::find(const Bodies& bodies, std::
   weighed_.clear();
   jolt_.assign(bodies.count(), 0.0);
   const GrainMotion motion = motion_of(bodies, v_x, v_z, input);
-  const PairRule rule{input.time_step, input.margin, motion.speeds, grid_range(motion, input), input.period};
-  grids_.sort({bodies, v_x, v_z, input.period}, rule.range);
-  pairs_.look(grids_, rule, jolt_);
+  const PairRule rule{input.time_step, input.margin, motion.speeds, input.period};
+  const double range = listed_range(motion, input);
+  cell_ = finest_cell(motion, range);
+  list_pairs({bodies, v_x, v_z, input.period}, rule, range, motion.smallest);
+  pairs_.look(rule, jolt_);
   find_near_walls(motion.fastest, motion.largest, input);
   pairs_.look_after_jolts(rule, jolt_);
   pairs_.keep(rule, jolt_, weighed_, candidates_);
+  lists_.good = lists_.skin > 0 &&
+                static_cast<double>(pairs_.looked_far()) < most_far * static_cast<double>(bodies.count());
   if (input.period.moves()) add_image_velocities(bodies, input.period, candidates_);
   return candidates_;
 }
 
 bool ContactDetection::is_local(std::span<const ThrownGrain> thrown, double reach) const {
-  const double cells = 2 * reach / grids_.finest_cell() + 2;  // that a grain's search reads, along x and z
+  const double cells = 2 * reach / cell_ + 2;  // that a grain's search reads, along x and z
   return static_cast<double>(thrown.size()) * cells * cells < static_cast<double>(jolt_.size());
 }
 

@@ -31,6 +31,9 @@ struct ThrownGrain {
 /// pushes it on to neighbours that it did not approach. v_x and v_z are the velocities that the bodies would
 /// have without contacts. The cost grows with the number of bodies and of such pairs, not with the space that
 /// the bodies take nor with a motion that neighbours have in common. In the order of (i, j).
+///
+/// A search may use the cells and the list of near pairs of earlier ones again, where grains have moved
+/// little against their neighbours since. That changes its cost, never what it finds.
 class ContactDetection {
  public:
   /// Lets a team share the work; the result does not depend on it.
@@ -50,6 +53,8 @@ class ContactDetection {
                    std::span<const double> v_z, const DetectionInput& input);
   const std::vector<Candidate>& candidates() const { return candidates_; }
 
+  /// The next search begins anew, as the first one.
+  void forget() { lists_ = {}; }
   /// Pairs of grains whose distance the last search measured: what it cost.
   std::int64_t looked_at() const { return pairs_.looked_at(); }
   /// Twice the way, in the last search, by which the approach of its pairs may push a grain: 2 h a_i.
@@ -66,8 +71,19 @@ class ContactDetection {
   bool insert_found();
   static void add_image_velocities(const Bodies& bodies, const Period& period, std::span<Candidate>);
 
+  /// Whether lists of near pairs are used again.
+  struct Lists {
+    double skin = 0;     ///< of the list, beyond what its own search asked for; 0: it is used once
+    int used_again = 0;  ///< the list, so many times
+    int once = 1;        ///< so many more lists are made to be used once
+    bool good = false;   ///< the next search may use the list
+  };
+  void list_pairs(const SearchedState& state, const PairRule& rule, double range, double smallest);
+
   GrainGrids grids_;
   GrainPairs pairs_;
+  Lists lists_;
+  double cell_ = 0;                   // edge of the cells of the finest grid of a list that is used once
   std::vector<WeighedPair> weighed_;  // of grains and walls
   std::vector<double> jolt_;          // 2 h a_i of each body
   std::vector<Candidate> candidates_;

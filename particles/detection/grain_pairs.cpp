@@ -8,12 +8,8 @@ namespace drumlin::particles {
 namespace {
 
 constexpr std::size_t cells_per_piece = 256;
+constexpr std::size_t pairs_per_share = 1024;
 constexpr double rounding = 1 + 1e-12;  // two ways to compute a distance differ by less
-
-/// Whether the grids show all pairs that may touch.
-bool nothing_is_far(const PairRule& rule, double most_jolt) {
-  return rule.margin + 2 * rule.time_step * rule.speeds + most_jolt <= rule.range;
-}
 
 /// Pairs weighed side by side: one loop over arrays, which a compiler makes of vectors.
 template <std::size_t most>
@@ -32,6 +28,14 @@ class PairBatch {
     d_x_[k] = way * d.x, d_z_[k] = way * d.z;
     u_x_[k] = way * u.x, u_z_[k] = way * u.z;
     radii_[k] = a.radius + b.radius;
+  }
+  /// The pair of bodies i < j of an open domain.
+  void set(std::size_t k, std::int32_t i, std::int32_t j, const SearchedState& state) {
+    const Bodies& bodies = state.bodies;
+    i_[k] = i, j_[k] = j;
+    d_x_[k] = bodies.x[i] - bodies.x[j], d_z_[k] = bodies.z[i] - bodies.z[j];
+    u_x_[k] = state.v_x[i] - state.v_x[j], u_z_[k] = state.v_z[i] - state.v_z[j];
+    radii_[k] = bodies.radius[i] + bodies.radius[j];
   }
   void weigh(std::size_t count, double twice_step) {
     for (std::size_t k = 0; k < count; ++k) {
@@ -65,7 +69,8 @@ NearPair near_pair(const NearGrain& a, const NearGrain& b, const Period& period,
 /// guess wrongly.
 class GrainPairs::Weighing {
  public:
-  Weighing(Piece& piece, const PairRule& rule) : piece_(piece), rule_(rule), period_(rule.period) {}
+  Weighing(Piece& piece, double range, const PairRule& rule)
+      : piece_(piece), range_(range), rule_(rule), period_(rule.period) {}
   ~Weighing() { weigh(); }
   Weighing(const Weighing&) = delete;
   Weighing& operator=(const Weighing&) = delete;
@@ -93,7 +98,7 @@ class GrainPairs::Weighing {
 
   template <class Nearest>
   void collect(const NearGrain& a, std::span<const NearGrain> others, Nearest nearest) {
-    const double x = a.x, z = a.z, reach = a.radius + rule_.range;
+    const double x = a.x, z = a.z, reach = a.radius + range_;
     std::size_t count = count_;
     for (const NearGrain& b : others) {
       const Point d = nearest(x - b.x, z - b.z);
@@ -115,22 +120,14 @@ class GrainPairs::Weighing {
     NearPair* end = begin;
     for (std::size_t f = 0; f < count_; ++f) {
       *end = batch_.pair(f);
-      end += end->gap < rule_.range;
+      end += end->gap < range_;
     }
-    std::vector<Jolt>& jolts = piece_.jolts;
-    std::size_t pushed = jolts.size();
-    jolts.resize(pushed + (end - begin));
-    for (const NearPair* pair = begin; pair < end; ++pair) {
-      jolts[pushed] = {pair->i, pair->j, pair->reach};
-      pushed += static_cast<std::size_t>(pair->reach > 0) &
-                static_cast<std::size_t>(pair->gap < rule_.margin + pair->reach);
-    }
-    jolts.resize(pushed);
     piece_.count += end - begin;
     count_ = 0;
   }
 
   Piece& piece_;
+  const double range_;
   const PairRule rule_;
   const Period period_;
   std::array<Found, most> found_;
@@ -139,132 +136,197 @@ class GrainPairs::Weighing {
 };
 
 void GrainPairs::cut(const GrainGrids& grids) {
-  used_ = 1;
+  used_ = 0;
   for (std::size_t level = 0; level < grids.grids().size(); ++level) {
     const std::size_t cells = grids.grids()[level].count();
     for (std::size_t first = 0; first < cells; first += cells_per_piece) {
       if (++used_ > pieces_.size()) pieces_.resize(used_);
       Piece& piece = pieces_[used_ - 1];
       piece.level = level, piece.first = first, piece.last = std::min(cells, first + cells_per_piece);
+      piece.count = 0, piece.looked_at = 0;
     }
   }
-  for (std::size_t p = 0; p < used_; ++p)
-    pieces_[p].count = 0, pieces_[p].jolts.clear(), pieces_[p].looked_at = 0;
 }
 
-void GrainPairs::add_jolts(const Piece& piece, std::span<double> jolts) const {
-  for (const Jolt& jolt : piece.jolts) {
-    jolts[jolt.i] = std::max(jolts[jolt.i], jolt.reach);
-    jolts[jolt.j] = std::max(jolts[jolt.j], jolt.reach);
-  }
+template <class Work>
+void GrainPairs::each_share(Work work) {
+  loops_.each_of(static_cast<int>(shares_.size()), [&](int s) { work(shares_[s]); });
 }
 
-void GrainPairs::look(const GrainGrids& grids, const PairRule& rule, std::span<double> jolts) {
+void GrainPairs::list(const GrainGrids& grids, double range, const PairRule& rule) {
   grids_ = &grids;
-  planted_ = false;
+  range_ = range;
+  planted_ = follows_ = false;
   cut(grids);
-  loops_.each_of(static_cast<int>(used_ - 1), [&](int p) {
-    Piece& piece = pieces_[p + 1];
-    Weighing weighing(piece, rule);
+  loops_.each_of(static_cast<int>(used_), [&](int p) {
+    Piece& piece = pieces_[p];
+    Weighing weighing(piece, range, rule);
     grids.each_pair(piece.level, piece.first, piece.last,
                     [&](const NearGrain& a, std::span<const NearGrain> others) { weighing.meet(a, others); });
   });
-  look_far(rule, jolts, false);
+  std::size_t bodies = 0;
+  for (const CellGrid& grid : grids.grids()) bodies += grid.grains().size();
+  put_in_order(bodies);
   looked_at_ = 0;
-  for (std::size_t p = 0; p < used_; ++p) {
-    add_jolts(pieces_[p], jolts);
-    looked_at_ += pieces_[p].looked_at;
+  for (std::size_t p = 0; p < used_; ++p) looked_at_ += pieces_[p].looked_at;
+  each_share([&](Share& share) { find_jolts(rule, share); });
+}
+
+/// Sorts the pairs of the pieces into the list, and cuts that into shares.
+void GrainPairs::put_in_order(std::size_t bodies) {
+  row_.assign(bodies + 1, 0);
+  const auto each = [&](auto visit) {
+    for (std::size_t p = 0; p < used_; ++p)
+      std::for_each(pieces_[p].near.begin(), pieces_[p].near.begin() + pieces_[p].count, visit);
+  };
+  each([&](const NearPair& pair) { ++row_[pair.i + 1]; });
+  for (std::size_t i = 1; i < row_.size(); ++i) row_[i] += row_[i - 1];
+  list_.resize(row_.back());
+  each([&](const NearPair& pair) { list_[row_[pair.i]++] = pair; });
+  loops_.each(bodies, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto first = i == 0 ? 0 : row_[i - 1], last = row_[i];
+      for (auto s = first + 1; s < last; ++s)  // rows are short
+        for (auto t = s; t > first && list_[t].j < list_[t - 1].j; --t) std::swap(list_[t], list_[t - 1]);
+    }
+  });
+  shares_.resize(std::max<std::size_t>(1, (list_.size() + pairs_per_share - 1) / pairs_per_share));
+  for (std::size_t s = 0; s < shares_.size(); ++s) {
+    shares_[s].first = s * pairs_per_share;
+    shares_[s].last = std::min(list_.size(), (s + 1) * pairs_per_share);
   }
+}
+
+void GrainPairs::find_jolts(const PairRule& rule, Share& share) const {
+  share.jolts.resize(share.last - share.first);
+  Jolt* end = share.jolts.data();
+  for (std::size_t p = share.first; p < share.last; ++p) {
+    const NearPair& pair = list_[p];
+    *end = {pair.i, pair.j, pair.reach};
+    end += static_cast<std::size_t>(pair.reach > 0) &
+           static_cast<std::size_t>(pair.gap < rule.margin + pair.reach);
+  }
+  share.jolts.resize(end - share.jolts.data());
+}
+
+void GrainPairs::look_again(const SearchedState& state, const PairRule& rule) {
+  follows_ = false;
+  looked_at_ = static_cast<std::int64_t>(list_.size());
+  each_share([&](Share& share) {
+    PairBatch<pairs_per_share> batch;
+    for (std::size_t p = share.first; p < share.last; ++p)
+      batch.set(p - share.first, list_[p].i, list_[p].j, state);
+    batch.weigh(share.last - share.first, 2 * rule.time_step);
+    for (std::size_t p = share.first; p < share.last; ++p) list_[p] = batch.pair(p - share.first);
+    find_jolts(rule, share);
+  });
+}
+
+void GrainPairs::look(const PairRule& rule, std::span<double> jolts) {
+  far_.clear();
+  looked_far_ = 0;
+  const auto add = [&](std::int32_t i, std::int32_t j, double reach) {
+    jolts[i] = std::max(jolts[i], reach);
+    jolts[j] = std::max(jolts[j], reach);
+  };
+  look_far(rule, jolts, false);
+  for (const NearPair& pair : far_) add(pair.i, pair.j, pair.reach);
+  for (const Share& share : shares_)
+    for (const Jolt& jolt : share.jolts) add(jolt.i, jolt.j, jolt.reach);
 }
 
 void GrainPairs::look_after_jolts(const PairRule& rule, std::span<const double> jolts) {
   look_far(rule, jolts, true);
-  looked_at_ += pieces_[0].looked_at;
+  looked_at_ += looked_far_;
 }
 
 void GrainPairs::look_far(const PairRule& rule, std::span<const double> jolts, bool after_jolts) {
   const double most_jolt = after_jolts ? *std::max_element(jolts.begin(), jolts.end()) : 0;
-  if (nothing_is_far(rule, most_jolt)) return;
-  if (!planted_) tree_.build(*grids_, rule.period, loops_);
-  planted_ = true;
+  const double ways = 2 * std::sqrt(2.0) * grids_->drift();
+  if (rule.margin + 2 * rule.time_step * rule.speeds + most_jolt + ways <= range_) return;  // nothing is far
+  if (!planted_)
+    tree_.build(*grids_, rule.period, loops_);
+  else if (!follows_)
+    tree_.follow(loops_);
+  planted_ = follows_ = true;
   if (after_jolts) tree_.set_jolts(jolts, loops_);
-  Piece& piece = pieces_[0];
-  piece.looked_at = 0;
+  const auto listed = [&](NearGrain a, NearGrain b) {
+    a.x = a.sorted_x, a.z = a.sorted_z, b.x = b.sorted_x, b.z = b.sorted_z;
+    return near_pair(a, b, rule.period, rule.time_step).gap < range_;
+  };
   const auto look_at = [&](const NearGrain& a, const NearGrain& b, const Point& shift) {
     const Point d = rule.period.nearest(Point{a.x - b.x, a.z - b.z});
     if (!rule.period.open() && std::abs(a.x - b.x - shift.x - d.x) > rule.period.length / 2) return;
     if (!rule.period.open_z() && std::abs(a.z - b.z - shift.z - d.z) > rule.period.length_z / 2) return;
-    ++piece.looked_at;
+    ++looked_far_;
     const NearPair pair = near_pair(a, b, rule.period, rule.time_step);
     const bool close = pair.gap < rule.margin + pair.reach;
-    if (pair.gap < rule.range || close == after_jolts) return;
-    if (close)
-      piece.jolts.push_back({pair.i, pair.j, pair.reach});
-    else if (pair.gap >= rule.margin + pair.reach + (jolts[pair.i] + jolts[pair.j]) / 2)
-      return;
-    if (piece.count == piece.near.size()) piece.near.resize(2 * piece.count + 64);
-    piece.near[piece.count++] = pair;
+    if (close == after_jolts) return;
+    if (!close && pair.gap >= rule.margin + pair.reach + (jolts[pair.i] + jolts[pair.j]) / 2) return;
+    if (!listed(a, b)) far_.push_back(pair);
   };
   tree_.far_pairs(
-      {rule.time_step, rule.margin, rule.range, after_jolts},
+      {rule.time_step, rule.margin, range_, after_jolts},
       [&](std::span<const NearGrain> a, std::span<const NearGrain> b, bool same, const Image& image) {
         for (std::size_t p = 0; p < a.size(); ++p)
           for (std::size_t q = same ? p + 1 : 0; q < b.size(); ++q) look_at(a[p], b[q], image.shift);
       });
 }
 
-/// Lists the pairs of each piece that may touch, and sorts them into slots by their first bodies.
-void GrainPairs::place(const PairRule& rule, std::span<const double> jolts,
-                       std::span<const WeighedPair> walls) {
-  const auto kept = [&](double gap, double reach, double jolt) {
-    return gap < rule.margin + reach + jolt / 2;
-  };
-  loops_.each_of(static_cast<int>(used_), [&](int p) {
-    Piece& piece = pieces_[p];
-    piece.kept.resize(piece.count);
-    Slot* end = piece.kept.data();
-    for (std::size_t k = 0; k < piece.count; ++k) {
-      const NearPair& pair = piece.near[k];
-      *end = {pair.i, pair.j, p, static_cast<std::int32_t>(k)};
-      end += kept(pair.gap, pair.reach, jolts[pair.i] + jolts[pair.j]);
-    }
-    piece.kept.resize(end - piece.kept.data());
-  });
-  kept_walls_.clear();
-  for (std::size_t w = 0; w < walls.size(); ++w)
-    if (const Candidate& pair = walls[w].pair; kept(pair.gap, walls[w].reach, jolts[pair.i]))
-      kept_walls_.push_back({pair.i, pair.j, -1, static_cast<std::int32_t>(w)});
-  row_.assign(jolts.size() + 1, 0);
-  const auto each = [&](auto visit) {
-    std::for_each(kept_walls_.begin(), kept_walls_.end(), visit);
-    for (std::size_t p = 0; p < used_; ++p)
-      std::for_each(pieces_[p].kept.begin(), pieces_[p].kept.end(), visit);
-  };
-  each([&](const Slot& slot) { ++row_[slot.i + 1]; });
-  for (std::size_t i = 1; i < row_.size(); ++i) row_[i] += row_[i - 1];
-  slots_.resize(row_.back());
-  each([&](const Slot& slot) { slots_[row_[slot.i]++] = slot; });
+namespace {
+
+bool comes_before(const Candidate& extra, const NearPair& pair) {
+  return extra.i != pair.i ? extra.i < pair.i : extra.j < pair.j;
+}
+
+}  // namespace
+
+/// The kept pairs of walls, and of grains that are not listed.
+void GrainPairs::find_extras(const PairRule& rule, std::span<const double> jolts,
+                             std::span<const WeighedPair> walls) {
+  extras_.clear();
+  for (const NearPair& far : far_) extras_.push_back({far.i, far.j, far.gap, far.n_x, far.n_z, 0, 0});
+  for (const auto& [pair, reach] : walls)
+    if (pair.gap < rule.margin + reach + jolts[pair.i] / 2) extras_.push_back(pair);
+  std::sort(extras_.begin(), extras_.end(),
+            [](const Candidate& a, const Candidate& b) { return a.i != b.i ? a.i < b.i : a.j < b.j; });
 }
 
 void GrainPairs::keep(const PairRule& rule, std::span<const double> jolts, std::span<const WeighedPair> walls,
                       std::vector<Candidate>& candidates) {
-  place(rule, jolts, walls);
-  candidates.resize(slots_.size());
-  loops_.each(jolts.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto first = i == 0 ? 0 : row_[i - 1], last = row_[i];
-      for (auto s = first + 1; s < last; ++s)  // rows are short
-        for (auto t = s; t > first && slots_[t].j < slots_[t - 1].j; --t) std::swap(slots_[t], slots_[t - 1]);
-      for (auto s = first; s < last; ++s) {
-        const Slot& slot = slots_[s];
-        if (slot.piece < 0) {
-          candidates[s] = walls[slot.place].pair;
-          continue;
-        }
-        const NearPair& pair = pieces_[slot.piece].near[slot.place];
-        candidates[s] = {pair.i, pair.j, pair.gap, pair.n_x, pair.n_z, 0, 0};
-      }
+  find_extras(rule, jolts, walls);
+  each_share([&](Share& share) {
+    share.kept.resize(share.last - share.first);
+    std::int32_t* end = share.kept.data();
+    for (std::size_t p = share.first; p < share.last; ++p) {
+      const NearPair& pair = list_[p];
+      *end = static_cast<std::int32_t>(p);
+      end += pair.gap < rule.margin + pair.reach + (jolts[pair.i] + jolts[pair.j]) / 2;
     }
+    share.kept.resize(end - share.kept.data());
+  });
+  std::size_t listed = 0;
+  for (Share& share : shares_) {
+    share.extras = 0;
+    if (share.first > 0) {
+      const auto before = [&](const Candidate& extra) { return comes_before(extra, list_[share.first]); };
+      share.extras = std::partition_point(extras_.begin(), extras_.end(), before) - extras_.begin();
+    }
+    share.place = listed + share.extras;
+    listed += share.kept.size();
+  }
+  candidates.resize(listed + extras_.size());
+  each_share([&](const Share& share) {
+    const bool last = &share == &shares_.back();
+    Candidate* to = candidates.data() + share.place;
+    const Candidate* extra = extras_.data() + share.extras;
+    const Candidate* const end = extras_.data() + (last ? extras_.size() : (&share + 1)->extras);
+    for (const std::int32_t p : share.kept) {
+      const NearPair& pair = list_[p];
+      while (extra < end && comes_before(*extra, pair)) *to++ = *extra++;
+      *to++ = {pair.i, pair.j, pair.gap, pair.n_x, pair.n_z, 0, 0};
+    }
+    std::copy(extra, end, to);
   });
 }
 

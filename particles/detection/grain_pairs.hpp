@@ -33,63 +33,78 @@ struct PairRule {
   double time_step = 0;
   double margin = 0;
   double speeds = 0;  ///< bound on the relative speed of any two grains
-  double range = 0;   ///< pairs closer than this are looked for in grids; no result depends on it
   Period period;
 };
 
-/// Looks for pairs of grains and keeps those that may touch. Keeps work space only; results do not depend on
-/// the number of threads.
+/// Lists pairs of grains that are near, which may be used again in later steps; looks for others that only
+/// their speed brings together, and keeps those that may touch. Results depend neither on the age of the list
+/// nor on the number of threads.
 class GrainPairs {
  public:
   void use(ThreadTeam* team) { loops_ = TeamLoops(team); }
 
-  /// Looks at the pairs closer than rule.range, with grids sorted for it, and at those that only their speed
-  /// brings together. jolts[i] becomes the largest 2 h a of body i with a partner closer than margin + 2 h a.
-  void look(const GrainGrids& grids, const PairRule& rule, std::span<double> jolts);
+  /// Lists the pairs closer than `range`, as they are now, from grids that were sorted for it. The grids have
+  /// to live as long as the list is used.
+  void list(const GrainGrids& grids, double range, const PairRule& rule);
+  /// Looks at the listed pairs as they are now; the grids have followed the state.
+  void look_again(const SearchedState& state, const PairRule& rule);
+
+  /// Looks for pairs that are not listed and that only their speed brings together. jolts[i] becomes the
+  /// largest 2 h a of body i with a partner closer than margin + 2 h a.
+  void look(const PairRule& rule, std::span<double> jolts);
   /// Looks further around bodies with jolts: an impact pushes them on to grains that they did not approach.
   void look_after_jolts(const PairRule& rule, std::span<const double> jolts);
   /// Writes the pairs that are kept, and those of walls, in the order of (i, j).
   void keep(const PairRule& rule, std::span<const double> jolts, std::span<const WeighedPair> walls,
             std::vector<Candidate>& kept);
 
-  /// Pairs of grains whose distance the last search measured: what it costs.
+  /// Pairs of grains whose distance the last search measured: what it cost.
   std::int64_t looked_at() const { return looked_at_; }
+  /// Those of them that are not in the list.
+  std::int64_t looked_far() const { return looked_far_; }
 
  private:
   struct Jolt {
     std::int32_t i, j;
     double reach;
   };
-  /// A pair that is kept, and where it is: in a piece, or (-1) among the walls' pairs.
-  struct Slot {
-    std::int32_t i, j;
-    std::int32_t piece, place;
-  };
   /// Cells [first, last) of a grid, and the pairs that they find; so few that threads share them evenly.
   struct Piece {
     std::size_t level = 0, first = 0, last = 0;
     std::vector<NearPair> near;  // the first `count` of them
     std::size_t count = 0;
-    std::vector<Slot> kept;
-    std::vector<Jolt> jolts;
     std::int64_t looked_at = 0;
+  };
+  /// Some pairs of the list.
+  struct Share {
+    std::size_t first = 0, last = 0;
+    std::vector<Jolt> jolts;
+    std::vector<std::int32_t> kept;
+    std::size_t extras = 0, place = 0;  // the first pair that is not listed, and where the share's pairs go
   };
   class Weighing;
 
   void cut(const GrainGrids& grids);
+  void put_in_order(std::size_t bodies);
+  template <class Work>
+  void each_share(Work work);
+  void find_jolts(const PairRule& rule, Share& share) const;
   void look_far(const PairRule& rule, std::span<const double> jolts, bool after_jolts);
-  void add_jolts(const Piece& piece, std::span<double> jolts) const;
-  void place(const PairRule& rule, std::span<const double> jolts, std::span<const WeighedPair> walls);
+  void find_extras(const PairRule& rule, std::span<const double> jolts, std::span<const WeighedPair> walls);
 
   TeamLoops loops_;
-  std::vector<Piece> pieces_;  // the first is of far pairs, the others are of cells
+  std::vector<Piece> pieces_;
   std::size_t used_ = 0;
+  std::vector<std::int32_t> row_;  // first listed pair of each body
+  std::vector<NearPair> list_;     // in the order of (i, j)
+  double range_ = 0;               // within which pairs were listed
+  std::vector<Share> shares_;
   MotionTree tree_;
-  const GrainGrids* grids_ = nullptr;  // of the search that is under way
-  bool planted_ = false;               // the tree is that of this search
-  std::int64_t looked_at_ = 0;
-  std::vector<std::int32_t> row_;  // first slot of each body
-  std::vector<Slot> kept_walls_, slots_;
+  bool planted_ = false, follows_ = false;  // the tree is that of the list; it bounds what is now
+  const GrainGrids* grids_ = nullptr;       // of the list
+  std::vector<NearPair> far_;
+  std::vector<Candidate> extras_;  // kept pairs that are not listed, in the order of (i, j)
+  std::int64_t looked_at_ = 0, looked_far_ = 0;
 };
 
 }  // namespace drumlin::particles

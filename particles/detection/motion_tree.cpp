@@ -9,7 +9,8 @@ namespace {
 MotionBounds bounds_of(std::span<const NearGrain> grains) {
   MotionBounds all;
   for (const NearGrain& g : grains) {
-    const MotionBounds one{g.x, g.x, g.z, g.z, g.v_x, g.v_x, g.v_z, g.v_z, g.radius, 0};
+    const double x = g.x - g.sorted_x, z = g.z - g.sorted_z;
+    const MotionBounds one{g.x, g.x, g.z, g.z, g.v_x, g.v_x, g.v_z, g.v_z, g.radius, 0, x, x, z, z};
     all = &g == grains.data() ? one : united(all, one);
   }
   return all;
@@ -22,6 +23,19 @@ void MotionTree::build(const GrainGrids& grids, const Period& period, const Team
   nodes_.clear();
   roots_.clear();
   for (const CellGrid& grid : grids.grids()) roots_.push_back(tree_of(grid, loops));
+}
+
+void MotionTree::follow(const TeamLoops& loops) {
+  loops.each(nodes_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n)
+      if (nodes_[n].leaf()) nodes_[n].bounds = bounds_of(nodes_[n].grains);
+  });
+  for (Node& node : nodes_) {
+    if (node.leaf()) continue;
+    node.bounds = nodes_[node.child[0]].bounds;
+    for (std::size_t c = 1; c < node.child.size() && node.child[c] >= 0; ++c)
+      node.bounds = united(node.bounds, nodes_[node.child[c]].bounds);
+  }
 }
 
 std::int32_t MotionTree::tree_of(const CellGrid& grid, const TeamLoops& loops) {

@@ -17,8 +17,9 @@ namespace drumlin::particles {
 struct MotionBounds {
   double x_low = 0, x_high = 0, z_low = 0, z_high = 0;
   double v_x_low = 0, v_x_high = 0, v_z_low = 0, v_z_high = 0;
-  double radius = 0;  ///< largest
-  double jolt = 0;    ///< largest, of MotionTree::set_jolts
+  double radius = 0;                                                    ///< largest
+  double jolt = 0;                                                      ///< largest, of MotionTree::set_jolts
+  double way_x_low = 0, way_x_high = 0, way_z_low = 0, way_z_high = 0;  ///< since the grains were sorted
 };
 
 /// How far an image is from its original, and how fast it moves against it.
@@ -43,18 +44,28 @@ inline double relative_speed(const MotionBounds& a, const MotionBounds& b, const
   return std::sqrt(u_x * u_x + u_z * u_z);
 }
 
+/// Bound on how far a grain of a and one of b have moved against each other since they were sorted.
+inline double relative_way(const MotionBounds& a, const MotionBounds& b) {
+  const double x = std::max(a.way_x_high - b.way_x_low, b.way_x_high - a.way_x_low),
+               z = std::max(a.way_z_high - b.way_z_low, b.way_z_high - a.way_z_low);
+  return std::sqrt(x * x + z * z);
+}
+
 inline MotionBounds united(const MotionBounds& a, const MotionBounds& b) {
-  return {std::min(a.x_low, b.x_low),     std::max(a.x_high, b.x_high),     std::min(a.z_low, b.z_low),
-          std::max(a.z_high, b.z_high),   std::min(a.v_x_low, b.v_x_low),   std::max(a.v_x_high, b.v_x_high),
-          std::min(a.v_z_low, b.v_z_low), std::max(a.v_z_high, b.v_z_high), std::max(a.radius, b.radius),
-          std::max(a.jolt, b.jolt)};
+  return {std::min(a.x_low, b.x_low),         std::max(a.x_high, b.x_high),
+          std::min(a.z_low, b.z_low),         std::max(a.z_high, b.z_high),
+          std::min(a.v_x_low, b.v_x_low),     std::max(a.v_x_high, b.v_x_high),
+          std::min(a.v_z_low, b.v_z_low),     std::max(a.v_z_high, b.v_z_high),
+          std::max(a.radius, b.radius),       std::max(a.jolt, b.jolt),
+          std::min(a.way_x_low, b.way_x_low), std::max(a.way_x_high, b.way_x_high),
+          std::min(a.way_z_low, b.way_z_low), std::max(a.way_z_high, b.way_z_high)};
 }
 
 /// Which pairs to look for.
 struct FarSearch {
   double time_step = 0;
   double margin = 0;
-  double seen = 0;           ///< pairs closer than this are known
+  double seen = 0;           ///< pairs that were closer than this when they were sorted are known
   bool after_jolts = false;  ///< look for what jolts add; otherwise for what speeds bring together
 };
 
@@ -62,13 +73,15 @@ struct FarSearch {
 class MotionTree {
  public:
   void build(const GrainGrids& grids, const Period& period, const TeamLoops& loops);
+  /// Bounds the grains as they are now that the grids have followed them.
+  void follow(const TeamLoops& loops);
   /// Sets what each body may be pushed beyond its own motion; one entry per body.
   void set_jolts(std::span<const double> jolts, const TeamLoops& loops);
 
   /// Calls `meet(a, b, same, image)` with the grains of two cells, which are one and the same if `same`, for
   /// all that can hold pairs with
-  ///   seen <= gap < margin + 2 h |v_i - v_j|,  after jolts + (jolt_i + jolt_j) / 2,
-  /// b in an image of the domain.
+  ///   gap < margin + 2 h |v_i - v_j|,  after jolts + (jolt_i + jolt_j) / 2,
+  /// but for those that are known, b in an image of the domain.
   template <class Meet>
   void far_pairs(const FarSearch& search, Meet meet) {
     for (std::size_t a = 0; a < roots_.size(); ++a)
@@ -112,7 +125,7 @@ class MotionTree {
     if (search.after_jolts && jolts == 0) return true;
     const double reach =
         search.margin + 2 * search.time_step * relative_speed(a.bounds, b.bounds, image) + jolts;
-    return reach <= search.seen ||
+    return reach + relative_way(a.bounds, b.bounds) <= search.seen ||
            distance(a.bounds, b.bounds, image) - a.bounds.radius - b.bounds.radius > reach;
   }
 

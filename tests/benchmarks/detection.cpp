@@ -50,6 +50,7 @@ Price price(const Grains& grains) {
   Price best;
   double spent = 0;
   for (int k = 0; k <= repetitions || spent < shortest; ++k) {
+    detection.forget();  // else a list of near pairs would be used again
     const double before = process_seconds();
     const auto& found = detection.find(grains.bodies, grains.v_x, grains.v_z, input);
     const double seconds = process_seconds() - before;
