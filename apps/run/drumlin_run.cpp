@@ -13,6 +13,7 @@
 #include "apps/support/program.hpp"
 #include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
+#include "coupling/common/first_rank.hpp"
 #include "coupling/common/provenance.hpp"
 #include "coupling/common/unfinished_file.hpp"
 #include "particles/distributed/ranks.hpp"
@@ -37,7 +38,7 @@ using namespace drumlin;
 int run_together(const apps::RunOptions& options, const particles::Ranks& ranks) {
   try {
     return apps::run_on_ranks(options, ranks);
-  } catch (const particles::FailedOnFirstRank& failure) {
+  } catch (const FailedOnFirstRank& failure) {
     return static_cast<int>(failure.code);
   } catch (
       const InputError&) {  // these two are met by all ranks, or by the first alone, which tells the others

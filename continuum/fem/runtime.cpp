@@ -3,7 +3,8 @@
 #include <deal.II/base/mpi.h>
 
 #include <cstdlib>
-#include <exception>
+
+#include "coupling/common/first_rank.hpp"
 
 namespace drumlin::continuum {
 
@@ -24,22 +25,8 @@ int FemRuntime::rank() { return static_cast<int>(dealii::Utilities::MPI::this_mp
 int FemRuntime::ranks() { return static_cast<int>(dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD)); }
 
 void FemRuntime::on_first_rank(const std::function<void()>& action) const {
-  std::exception_ptr thrown;
-  int code = static_cast<int>(ExitCode::done);
-  if (rank() == 0) {
-    try {
-      action();
-    } catch (const InputError&) {
-      thrown = std::current_exception(), code = static_cast<int>(ExitCode::wrong_input);
-    } catch (const NotConvergedError&) {
-      thrown = std::current_exception(), code = static_cast<int>(ExitCode::not_converged);
-    } catch (...) {
-      thrown = std::current_exception(), code = static_cast<int>(ExitCode::input_output);
-    }
-  }
-  code = dealii::Utilities::MPI::broadcast(MPI_COMM_WORLD, code, 0);
-  if (thrown) std::rethrow_exception(thrown);
-  if (code != static_cast<int>(ExitCode::done)) throw FailedOnFirstRank{static_cast<ExitCode>(code)};
+  do_on_first_rank(rank() == 0, action,
+                   [](int code) { return dealii::Utilities::MPI::broadcast(MPI_COMM_WORLD, code, 0); });
 }
 
 }  // namespace drumlin::continuum
