@@ -5,6 +5,7 @@
 #include <cstring>
 #include <exception>
 #include <new>
+#include <string>
 #include <vector>
 
 #include "apps/command_line/command_line.hpp"
@@ -52,6 +53,14 @@ int run_together(const apps::RunOptions& options, const particles::Ranks& ranks)
   }
 }
 
+/// The help of `drumlin run` under the name of this program.
+std::string under_our_name(std::string help) {
+  const std::string usage = "Usage: drumlin run";
+  if (const auto at = help.find(usage); at != std::string::npos)
+    help.replace(at, usage.size(), "Usage: mpirun -n RANKS drumlin-run");
+  return help;
+}
+
 /// `speaks`: whether this process is the first rank, who speaks for all.
 int run(int argc, char** argv, bool& speaks) {
   std::vector<const char*> words = {"drumlin", "run"};
@@ -67,7 +76,7 @@ int run(int argc, char** argv, bool& speaks) {
   }
   const auto request = apps::parse_command_line(static_cast<int>(words.size()), words.data(), {});
   if (const auto* shown = std::get_if<apps::TextToShow>(&request)) {
-    if (speaks) apps::print_out(shown->text);
+    if (speaks) apps::print_out(under_our_name(shown->text));
     return static_cast<int>(ExitCode::done);
   }
   return run_together(std::get<apps::RunOptions>(request), ranks);

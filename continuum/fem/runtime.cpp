@@ -9,13 +9,15 @@
 namespace drumlin::continuum {
 
 struct FemRuntime::Libraries {
-  Libraries(int& argc, char**& argv) : mpi(argc, argv, 1) {}
+  explicit Libraries(char** argv) : words(argv), mpi(count, words, 1) {}
+  int count = 1;  // the name alone: PETSc would tell of words that it does not know
+  char** words;
   dealii::Utilities::MPI::MPI_InitFinalize mpi;  // starts PETSc as well, with one thread
 };
 
-FemRuntime::FemRuntime(int& argc, char**& argv) {
+FemRuntime::FemRuntime(int&, char**& argv) {
   setenv("OMP_NUM_THREADS", "1", /*overwrite=*/0);  // read by the BLAS when it is first called
-  libraries_ = std::make_unique<Libraries>(argc, argv);
+  libraries_ = std::make_unique<Libraries>(argv);
 }
 
 FemRuntime::~FemRuntime() = default;

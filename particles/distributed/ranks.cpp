@@ -26,13 +26,15 @@ int as_count(std::size_t bytes) {
 }  // namespace
 
 struct RankRuntime::Libraries {
-  Libraries(int& argc, char**& argv) : mpi(argc, argv, 1) {}
+  explicit Libraries(char** argv) : words(argv), mpi(count, words, 1) {}
+  int count = 1;  // the name alone: PETSc would tell of words that it does not know
+  char** words;
   dealii::Utilities::MPI::MPI_InitFinalize mpi;  // starts p4est as well
 };
 
-RankRuntime::RankRuntime(int& argc, char**& argv) {
+RankRuntime::RankRuntime(int&, char**& argv) {
   setenv("OMP_NUM_THREADS", "1", /*overwrite=*/0);
-  libraries_ = std::make_unique<Libraries>(argc, argv);
+  libraries_ = std::make_unique<Libraries>(argv);
 }
 
 RankRuntime::~RankRuntime() = default;
