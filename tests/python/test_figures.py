@@ -14,7 +14,7 @@ def results(tmp_path_factory):
     """A tiny drum on both sides: run, law, flow, comparison."""
     place = tmp_path_factory.mktemp("results")
     drumlin.run(TESTS / "tiny-drum.toml", place / "RUN", {"stages.1.turns": 0.02, "stages.2.turns": 0.04, "stages.2.snapshots": 8})
-    drumlin.measure(place / "RUN")
+    drumlin.command("measure", place / "RUN", "--parts", "maps")
     drumlin.command("calibrate", place / "RUN", "-o", place / "law.toml", "--accept-unsteady")
     drumlin.solve_flow(TESTS / "tiny-drum-flow.toml", SOURCES / "data/rheology/paper.toml", place / "FLOW", {"solver.sensitivity": False})
     drumlin.compare(place / "RUN", place / "FLOW", place / "REPORT", accept_unsteady=True)
@@ -76,5 +76,8 @@ def test_a_history_of_a_run(results):
     drumlin.plot.history(axes, log, "kinetic_energy", "residual", logarithmic=True)
     assert [text.get_text() for text in axes.get_legend().get_texts()] == ["kinetic energy", "residual"]
     assert np.array_equal(axes.get_lines()[0].get_xdata(), log.time_s) and drawn(axes)
+    _, axes = plt.subplots()
+    drumlin.plot.history(axes, results["RUN/measured/series.csv"], "theta_com_deg")
+    assert "d/g" in axes.get_xlabel() and len(axes.get_lines()[0].get_xdata()) == 8 and drawn(axes)
     with pytest.raises(drumlin.InputError, match="log.csv: holds no weight over time"):
         drumlin.plot.history(axes, log, "weight")

@@ -85,16 +85,17 @@ def newton(axes, flow, over_time=False):
 
 
 def history(axes, table, *names, logarithmic=False):
-    """Draws columns of a table over its time: log.csv or energy.csv of a run, series.csv of a march, what `history` wrote."""
+    """Draws columns of a table over its time: log.csv or energy.csv of a run, series.csv of what was measured or of a march, what `history` wrote."""
+    time = next((name for name in ("time_s", "time") if name in table), None)
     for name in names:
-        if name not in table or "time_s" not in table:
-            raise InputError(f"{table.path}: holds no {name} over time (allowed: {', '.join(key for key in table if key != 'time_s')})")
+        if name not in table or time is None:
+            raise InputError(f"{table.path}: holds no {name} over time (allowed: {', '.join(key for key in table if key != time)})")
         values = np.asarray(table[name], float)
-        line, = axes.plot(table["time_s"], np.where(values > 0, values, np.nan) if logarithmic else values, label=name.replace("_", " "))
+        line, = axes.plot(table[time], np.where(values > 0, values, np.nan) if logarithmic else values, label=name.replace("_", " "))
         half_width = table.get(name + "_ci99")
         if half_width is not None and not logarithmic:
-            axes.fill_between(table["time_s"], values - half_width, values + half_width, color=line.get_color(), alpha=0.25, linewidth=0)
+            axes.fill_between(table[time], values - half_width, values + half_width, color=line.get_color(), alpha=0.25, linewidth=0)
     if logarithmic:
         axes.set_yscale("log")
-    axes.set(xlabel="time  [s]")
+    axes.set(xlabel="time  [s]" if time == "time_s" else r"time  [$\sqrt{d/g}$]")
     axes.legend()
