@@ -69,7 +69,7 @@ class ParticleRun {
     while (!simulation_.finished()) {
       advance();
       if (simulated_seconds() >= next_checkpoint_s_) save_checkpoint();
-      if (progress_.due()) progress_.show(progress_line());
+      if (progress_.due()) progress_.show(line_of_progress());
       if (const int signal = interruption()) return stop_for(signal);
     }
     save_checkpoint();
@@ -83,7 +83,7 @@ class ParticleRun {
     }
     write_report("finished");
     output_.finish();
-    progress_.show(progress_line());
+    progress_.show(line_of_progress());
     progress_.finish();
     print_out(fmt::format("{}{}", run_summary(progress_now()), accuracy_text()));
     return static_cast<int>(ExitCode::done);
@@ -219,19 +219,17 @@ class ParticleRun {
     write_json(options_.output / "run.json", report);
   }
 
-  std::string progress_line() const {
+  std::string line_of_progress() const {
     const auto& state = simulation_.state();
-    const auto total = simulation_.plan().steps;
-    const double spent = seconds_between(start_, Clock::now());
-    const double done = static_cast<double>(state.step - steps_before_);
-    const double left = done > 0 ? spent / done * static_cast<double>(total - state.step) : 0;
-    return fmt::format(
-        "{}run {:5.1f} %  {}  t = {:.2f} s  contacts {}  sweeps {}  residual {:.1e}  overlap {:.1e} d  "
-        "missed {}  left {}",
-        scene_.reduced ? "reduced " : "",
-        100.0 * static_cast<double>(state.step) / static_cast<double>(total), scene_.stages[state.stage].name,
-        simulated_seconds(), last_.contacts, last_.solve.sweeps, last_.solve.residual.rms, last_.overlap.mean,
-        totals_.unconverged_steps, duration_text(left));
+    const RunPosition at{scene_,
+                         steps_before_,
+                         state.step,
+                         simulation_.plan().steps,
+                         state.stage,
+                         simulated_seconds(),
+                         seconds_between(start_, Clock::now()),
+                         totals_.unconverged_steps};
+    return progress_line("run", at, last_);
   }
 
   int stop_for(int signal) {

@@ -154,6 +154,18 @@ std::string start_warning(const particles::StartOverlaps& overlaps) {
       overlaps.pairs, overlaps.depth);
 }
 
+std::string progress_line(const std::string& who, const RunPosition& at, const particles::StepReport& last) {
+  const auto done = static_cast<double>(at.step - at.steps_at_start);
+  const double left = done > 0 ? at.spent_seconds / done * static_cast<double>(at.steps - at.step) : 0;
+  return fmt::format(
+      "{}{} {:5.1f} %  {}  t = {:.2f} s  contacts {}  sweeps {}  residual {:.1e}  overlap {:.1e} d  "
+      "missed {}  left {}",
+      at.scene.reduced ? "reduced " : "", who,
+      100.0 * static_cast<double>(at.step) / static_cast<double>(at.steps),
+      at.scene.stages[static_cast<std::size_t>(at.stage)].name, at.simulated_seconds, last.contacts,
+      last.solve.sweeps, last.solve.residual.rms, last.overlap.mean, at.missed, duration_text(left));
+}
+
 nlohmann::ordered_json run_report(const RunProgress& run, const std::string& status) {
   const auto& state = run.simulation.state();
   const double steps = std::max<double>(1, static_cast<double>(state.step));

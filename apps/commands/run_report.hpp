@@ -1,5 +1,6 @@
 #pragma once
 // The report of a run: run.json, and the summary at its end.
+#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -16,6 +17,18 @@ struct RunProgress {
   particles::RunTotals totals;
   int threads = 1;
 };
+
+/// How far a run has come.
+struct RunPosition {
+  const particles::Scene& scene;
+  std::int64_t steps_at_start = 0, step = 0, steps = 0;
+  int stage = 0;
+  double simulated_seconds = 0, spent_seconds = 0;
+  std::int64_t missed = 0;  // steps that missed a tolerance
+};
+
+/// Its line of progress. `who` is "run", or "run on 3 ranks".
+std::string progress_line(const std::string& who, const RunPosition&, const particles::StepReport& last);
 
 /// The content of run.json (docs/formats/run.md).
 nlohmann::ordered_json run_report(const RunProgress&, const std::string& status);

@@ -112,6 +112,59 @@ def draw_nonlocal(figure, nonlocal_record):
     figure.suptitle(f"Nonlocal fluidity with a threshold: A = {nonlocal_record['amplitude']:.2f}, mu_s = {nonlocal_record['mu_s']:.3f}", fontsize=12)
 
 
+def curve_of(record):
+    return next(form for form in record["forms"] if form["chosen"])["curve"]
+
+
+def draw_law(axes, record):
+    """The points of all runs over I, the law that was chosen with its 99 % band, and the other forms."""
+    draw_points(axes, record, "mu", colors_of(record))
+    for form in record["forms"]:
+        if not form["chosen"]:
+            axes.plot(form["curve"]["I"], form["curve"]["value"], "--", color="0.45", linewidth=1.2,
+                      label=f"{form['form']}: rms {form['rms_misfit']:.4f}")
+    chosen = next(form for form in record["forms"] if form["chosen"])
+    curve = chosen["curve"]
+    axes.fill_between(curve["I"], curve["low"], curve["high"], color="0.3", alpha=0.35, linewidth=0)
+    axes.plot(curve["I"], curve["value"], color=style.PAPER,
+              label=f"{chosen['form']}: rms {chosen['rms_misfit']:.4f}, 99 % band")
+    axes.set_ylim(bottom=0)
+    axes.set_ylabel(r"$\mu$ along the strain rate" if record["source"] == "maps" else style.LABELS["mu"])
+    over_inertial_number(axes, record)
+
+
+def draw_rest(axes, record):
+    """What the law leaves of the points, beside its 99 % band."""
+    draw_points(axes, record, "mu", colors_of(record), less_law=True)
+    curve = curve_of(record)
+    value = np.array(curve["value"])
+    axes.fill_between(curve["I"], np.array(curve["low"]) - value, np.array(curve["high"]) - value, color="0.3",
+                      alpha=0.35, linewidth=0, label="99 % band of the law")
+    axes.axhline(0, color=style.PAPER, linewidth=1)
+    axes.set_ylim(-0.1, 0.1)
+    axes.set_ylabel(r"$\mu$ less the law")
+    over_inertial_number(axes, record)
+
+
+def draw_misalignment(axes, record):
+    draw_points(axes, record, "axis_angle_deg", colors_of(record))
+    axes.plot(record["turn"]["axis_angle"]["I"], record["turn"]["axis_angle"]["degrees"], color=style.PAPER, label="fit")
+    axes.axhline(0, color="0.5", linewidth=1)
+    axes.set_ylim(-50, 30)
+    axes.set_ylabel("axis of the stress less that of the strain rate [°]")
+    over_inertial_number(axes, record)
+
+
+def over_inertial_number(axes, record):
+    """The horizontal axis, and where the law is ill-posed."""
+    axes.set_xscale("log")
+    axes.set_xlabel(r"$I = 2|D|/\sqrt{p}$" if record["source"] == "maps" else style.LABELS["I"])
+    for low, high in record["ill_posed_I"]:
+        axes.axvspan(low, high, color="#D55E00", alpha=0.08, linewidth=0)
+    inertial = curve_of(record)["I"]
+    axes.set_xlim(0.5 * inertial[0], 2 * inertial[-1])
+
+
 def main():
     options = arguments()
     with open(options.record, encoding="utf-8") as stream:
@@ -131,51 +184,11 @@ def main():
             draw(part, found)
         lines = ["What the runs cannot tell"] + ["- " + style.plain(sentence, 190) for sentence in untold]
         words.text(0.02, 0.95, "\n".join(lines), va="top", fontsize=10)
-    colors = colors_of(record)
-    chosen = next(form for form in record["forms"] if form["chosen"])
-    curve = chosen["curve"]
-
-    axes = panels[0]
-    draw_points(axes, record, "mu", colors)
-    for form in record["forms"]:
-        if not form["chosen"]:
-            axes.plot(form["curve"]["I"], form["curve"]["value"], "--", color="0.45", linewidth=1.2,
-                      label=f"{form['form']}: rms {form['rms_misfit']:.4f}")
-    axes.fill_between(curve["I"], curve["low"], curve["high"], color="0.3", alpha=0.35, linewidth=0)
-    axes.plot(curve["I"], curve["value"], color=style.PAPER,
-              label=f"{chosen['form']}: rms {chosen['rms_misfit']:.4f}, 99 % band")
-    axes.set_ylim(bottom=0)
-    axes.set_ylabel(r"$\mu$ along the strain rate" if record["source"] == "maps" else style.LABELS["mu"])
-    axes.set_title(style.title_of("Friction law", record["reduced"]))
-    axes.legend(loc="lower right", fontsize=9)
-
-    axes = panels[1]
-    draw_points(axes, record, "mu", colors, less_law=True)
-    value = np.array(curve["value"])
-    axes.fill_between(curve["I"], np.array(curve["low"]) - value, np.array(curve["high"]) - value, color="0.3",
-                      alpha=0.35, linewidth=0, label="99 % band of the law")
-    axes.axhline(0, color=style.PAPER, linewidth=1)
-    axes.set_ylim(-0.1, 0.1)
-    axes.set_ylabel(r"$\mu$ less the law")
-    axes.set_title("What the law leaves")
-    axes.legend(loc="lower right", fontsize=9)
-
-    if with_axes:
-        axes = panels[2]
-        draw_points(axes, record, "axis_angle_deg", colors)
-        axes.plot(record["turn"]["axis_angle"]["I"], record["turn"]["axis_angle"]["degrees"], color=style.PAPER, label="fit")
-        axes.axhline(0, color="0.5", linewidth=1)
-        axes.set_ylim(-50, 30)
-        axes.set_ylabel("axis of the stress less that of the strain rate [°]")
-        axes.set_title("Misalignment")
+    parts = [(draw_law, style.title_of("Friction law", record["reduced"])), (draw_rest, "What the law leaves"), (draw_misalignment, "Misalignment")]
+    for axes, (draw, title) in zip(panels, parts):
+        draw(axes, record)
+        axes.set_title(title)
         axes.legend(loc="lower right", fontsize=9)
-
-    for axes in panels:
-        axes.set_xscale("log")
-        axes.set_xlabel(r"$I = 2|D|/\sqrt{p}$" if record["source"] == "maps" else style.LABELS["I"])
-        for low, high in record["ill_posed_I"]:
-            axes.axvspan(low, high, color="#D55E00", alpha=0.08, linewidth=0)
-        axes.set_xlim(0.5 * curve["I"][0], 2 * curve["I"][-1])
     style.save(figure, options.output, record["reduced"])
 
 

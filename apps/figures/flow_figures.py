@@ -19,7 +19,7 @@ from flow_trust import draw_newton, draw_sensitivity, draw_well_posedness
 
 
 def outline(header, surface):
-    """Lines around the domain of maps.h5; `surface` is that of flow.json, null where it has not moved."""
+    """Lines around the domain of maps.h5, none around a strip; `surface` is that of flow.json, null where it has not moved."""
     if "drum_radius" in header:
         radius, axis_depth = float(header["drum_radius"]), float(header["axis_depth"])
         if surface:
@@ -30,6 +30,8 @@ def outline(header, surface):
         angle = np.linspace(-half, half, 200)
         return [(radius * np.sin(angle), axis_depth - radius * np.cos(angle)),
                 ([-radius * math.sin(half), radius * math.sin(half)], [0, 0])]
+    if "inner_radius" not in header:
+        return []
     angle = np.linspace(0, 2 * math.pi, 400)
     return [(float(header[name]) * np.cos(angle), float(header[name]) * np.sin(angle))
             for name in ("inner_radius", "outer_radius")]

@@ -69,19 +69,24 @@ def draw_residuals(axes, rows, along, colors):
                           xycoords=("data", "axes fraction"), va="top", fontsize=10, color="grey")
 
 
+def draw_convergence(axes, rows, tolerance, over_time=False):
+    """How Newton's method went, from the rows of iterations.csv: residuals over the iterations, or over the seconds; a colour for each phase."""
+    phases = list(dict.fromkeys(row["phase"] for row in rows))
+    colors = dict(zip(phases, ([style.PARTICLES, style.CONTINUUM] + style.OTHERS + [style.PAPER]) * 3))
+    draw_residuals(axes, rows, [float(row["seconds"]) for row in rows] if over_time else list(range(1, len(rows) + 1)), colors)
+    axes.axhline(tolerance, color="grey", linewidth=0.8, linestyle="--")
+    axes.set_xlabel("seconds since the start" if over_time else "iteration")
+    if not over_time:
+        axes.xaxis.set_major_locator(matplotlib.ticker.MaxNLocator(integer=True))
+
+
 def draw_newton(folder, flow):
     rows = read_iterations(folder / "iterations.csv")
     if not rows:
         return
-    phases = list(dict.fromkeys(row["phase"] for row in rows))
-    colors = dict(zip(phases, ([style.PARTICLES, style.CONTINUUM] + style.OTHERS + [style.PAPER]) * 3))
     figure, axes = plt.subplots(1, 3, figsize=(14.5, 4.8), gridspec_kw={"width_ratios": [3, 3, 2]})
-    draw_residuals(axes[0], rows, list(range(1, len(rows) + 1)), colors)
-    draw_residuals(axes[1], rows, [float(row["seconds"]) for row in rows], colors)
-    for place, name in zip(axes, ("iteration", "seconds since the start")):
-        place.axhline(flow["settings"]["tolerance"], color="grey", linewidth=0.8, linestyle="--")
-        place.set_xlabel(name)
-    axes[0].xaxis.set_major_locator(matplotlib.ticker.MaxNLocator(integer=True))
+    for place, over_time in zip(axes, (False, True)):
+        draw_convergence(place, rows, flow["settings"]["tolerance"], over_time)
     axes[0].set_ylabel("residual / norm of the loads")
     axes[0].legend(loc="lower left", title="phase, each eps a line")
     work = flow["phases"]

@@ -14,6 +14,7 @@
 #include "continuum/fem/runtime.hpp"
 #include "continuum/model/flow_scene.hpp"
 #include "coupling/common/errors.hpp"
+#include "coupling/common/first_rank.hpp"
 #include "coupling/common/provenance.hpp"
 
 #if defined(__SANITIZE_ADDRESS__)
@@ -56,7 +57,7 @@ int solve(int argc, char** argv, bool& speaks) {
   apps::outlive_readers();
   try {
     return apps::solve_flow_scene(std::get<apps::FlowOptions>(request), runtime);
-  } catch (const continuum::FailedOnFirstRank& failure) {
+  } catch (const FailedOnFirstRank& failure) {
     return static_cast<int>(failure.code);
   }
 }

@@ -9,6 +9,7 @@
 
 #include "apps/python/bindings.hpp"
 #include "coupling/common/errors.hpp"
+#include "particles/io/grains_of_run.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/scene/scene_file.hpp"
 #include "particles/stepping/run_through.hpp"
@@ -25,13 +26,6 @@ using particles::Simulation;
 Scene scene_of(const std::optional<std::string>& text, const std::string& name,
                const std::vector<std::string>& overrides) {
   return text ? particles::parse_scene(*text, name, overrides) : particles::read_scene(name, overrides);
-}
-
-void require_own_grains(const Scene& scene) {
-  if (std::holds_alternative<particles::GrainsOfRun>(scene.grains.source))
-    throw InputError(
-        "grains.from_run: grains of another run are taken over by `drumlin run` alone (allowed "
-        "here: grains.generated, grains.listed)");
 }
 
 /// Numbers that nobody writes to, kept alive by `owner`.
@@ -52,8 +46,9 @@ class SteppedScene {
  public:
   SteppedScene(const std::optional<std::string>& text, const std::string& name,
                const std::vector<std::string>& overrides, int threads) {
-    const Scene scene = scene_of(text, name, overrides);
-    require_own_grains(scene);
+    Scene scene = scene_of(text, name, overrides);
+    if (const auto* asked = std::get_if<particles::GrainsOfRun>(&scene.grains.source))
+      scene.grains.source = particles::grains_of_run(*asked).grains;
     if (threads < 1) throw InputError("threads: " + std::to_string(threads) + " (allowed: 1 or more)");
     simulation_ = std::make_unique<Simulation>(scene, threads);
   }

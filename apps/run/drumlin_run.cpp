@@ -5,6 +5,7 @@
 #include <cstring>
 #include <exception>
 #include <new>
+#include <string>
 #include <vector>
 
 #include "apps/command_line/command_line.hpp"
@@ -13,6 +14,7 @@
 #include "apps/support/program.hpp"
 #include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
+#include "coupling/common/first_rank.hpp"
 #include "coupling/common/provenance.hpp"
 #include "coupling/common/unfinished_file.hpp"
 #include "particles/distributed/ranks.hpp"
@@ -37,7 +39,7 @@ using namespace drumlin;
 int run_together(const apps::RunOptions& options, const particles::Ranks& ranks) {
   try {
     return apps::run_on_ranks(options, ranks);
-  } catch (const particles::FailedOnFirstRank& failure) {
+  } catch (const FailedOnFirstRank& failure) {
     return static_cast<int>(failure.code);
   } catch (
       const InputError&) {  // these two are met by all ranks, or by the first alone, which tells the others
@@ -49,6 +51,14 @@ int run_together(const apps::RunOptions& options, const particles::Ranks& ranks)
     const bool of_files = dynamic_cast<const IoError*>(&error) || dynamic_cast<const std::bad_alloc*>(&error);
     end_all(ranks, error.what(), of_files ? ExitCode::input_output : ExitCode::fault);
   }
+}
+
+/// The help of `drumlin run` under the name of this program.
+std::string under_our_name(std::string help) {
+  const std::string usage = "Usage: drumlin run";
+  if (const auto at = help.find(usage); at != std::string::npos)
+    help.replace(at, usage.size(), "Usage: mpirun -n RANKS drumlin-run");
+  return help;
 }
 
 /// `speaks`: whether this process is the first rank, who speaks for all.
@@ -66,7 +76,7 @@ int run(int argc, char** argv, bool& speaks) {
   }
   const auto request = apps::parse_command_line(static_cast<int>(words.size()), words.data(), {});
   if (const auto* shown = std::get_if<apps::TextToShow>(&request)) {
-    if (speaks) apps::print_out(shown->text);
+    if (speaks) apps::print_out(under_our_name(shown->text));
     return static_cast<int>(ExitCode::done);
   }
   return run_together(std::get<apps::RunOptions>(request), ranks);

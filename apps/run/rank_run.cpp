@@ -98,14 +98,14 @@ class RankRun {
     while (!simulation_.finished()) {
       advance();
       if (simulated_seconds() >= next_checkpoint_s_) save_checkpoint();
-      if (first_ && first_->progress.due()) first_->progress.show(progress_line());
+      if (first_ && first_->progress.due()) first_->progress.show(line_of_progress());
       if (ranks_.any(interruption() != 0)) return stop();
     }
     save_checkpoint();
     write_report("finished");
     ranks_.on_first([&] {
       output_->finish();
-      first_->progress.show(progress_line());
+      first_->progress.show(line_of_progress());
       first_->progress.finish();
       print_out(summary_);
     });
@@ -184,19 +184,17 @@ class RankRun {
     });
   }
 
-  std::string progress_line() const {
+  std::string line_of_progress() const {
     const auto& state = simulation_.progress();
-    const auto total = simulation_.plan().steps;
-    const double spent = seconds_between(start_, Clock::now());
-    const double done = static_cast<double>(state.step - steps_before_);
-    const double left = done > 0 ? spent / done * static_cast<double>(total - state.step) : 0;
-    return fmt::format(
-        "{}run on {} ranks {:5.1f} %  {}  t = {:.2f} s  contacts {}  sweeps {}  residual {:.1e}  overlap "
-        "{:.1e} d  missed {}  left {}",
-        scene_.reduced ? "reduced " : "", ranks_.count(),
-        100.0 * static_cast<double>(state.step) / static_cast<double>(total), scene_.stages[state.stage].name,
-        simulated_seconds(), last_.contacts, last_.solve.sweeps, last_.solve.residual.rms, last_.overlap.mean,
-        totals_.unconverged_steps, duration_text(left));
+    const RunPosition at{scene_,
+                         steps_before_,
+                         state.step,
+                         simulation_.plan().steps,
+                         state.stage,
+                         simulated_seconds(),
+                         seconds_between(start_, Clock::now()),
+                         totals_.unconverged_steps};
+    return progress_line(fmt::format("run on {} ranks", ranks_.count()), at, last_);
   }
 
   int stop() {

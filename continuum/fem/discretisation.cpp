@@ -176,10 +176,19 @@ FieldVector frame_velocity(const FlowProblem& problem, const Discretisation& d) 
   return velocity_field(d, [&](Vec2 x) { return rigid_rotation(frame.rotation, frame.axis_offset, x); });
 }
 
-FieldVector velocity_field(const Discretisation& d, const std::function<Vec2(Vec2)>& velocity) {
-  FieldVector result = d.field();
+std::map<dealii::types::global_dof_index, dealii::Point<2>> places_of_unknowns(const Discretisation& d) {
+#if DEAL_II_VERSION_GTE(9, 6, 0)
+  return dealii::DoFTools::map_dofs_to_support_points(d.mapping, d.unknowns);
+#else
   std::map<dealii::types::global_dof_index, dealii::Point<2>> places;
   dealii::DoFTools::map_dofs_to_support_points(d.mapping, d.unknowns, places);
+  return places;
+#endif
+}
+
+FieldVector velocity_field(const Discretisation& d, const std::function<Vec2(Vec2)>& velocity) {
+  FieldVector result = d.field();
+  const auto places = places_of_unknowns(d);
   const auto along_x = dealii::DoFTools::extract_dofs(
       d.unknowns, d.elements.component_mask(dealii::FEValuesExtractors::Scalar(0)));
   for (std::size_t k = 0; k < d.is_velocity.size(); ++k) {

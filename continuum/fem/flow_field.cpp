@@ -85,8 +85,7 @@ PointState outside() {
 void add_given_sides(const fem::SolvedLevel& level, Vec2 centre, FlowIntegrals& sums) {
   const auto& d = *level.discretisation;
   const auto forces = fem::nodal_forces(level.problem, d, level.setting, level.state);
-  std::map<dealii::types::global_dof_index, dealii::Point<2>> places;
-  dealii::DoFTools::map_dofs_to_support_points(d.mapping, d.unknowns, places);
+  const auto places = fem::places_of_unknowns(d);
   const auto along_x =
       dealii::DoFTools::extract_dofs(d.unknowns, dealii::ComponentMask({true, false, false}));
   for (std::size_t k = 0; k < d.is_velocity.size(); ++k) {

@@ -3,18 +3,21 @@
 #include <deal.II/base/mpi.h>
 
 #include <cstdlib>
-#include <exception>
+
+#include "coupling/common/first_rank.hpp"
 
 namespace drumlin::continuum {
 
 struct FemRuntime::Libraries {
-  Libraries(int& argc, char**& argv) : mpi(argc, argv, 1) {}
+  explicit Libraries(char** argv) : words(argv), mpi(count, words, 1) {}
+  int count = 1;  // the name alone: PETSc would tell of words that it does not know
+  char** words;
   dealii::Utilities::MPI::MPI_InitFinalize mpi;  // starts PETSc as well, with one thread
 };
 
-FemRuntime::FemRuntime(int& argc, char**& argv) {
+FemRuntime::FemRuntime(int&, char**& argv) {
   setenv("OMP_NUM_THREADS", "1", /*overwrite=*/0);  // read by the BLAS when it is first called
-  libraries_ = std::make_unique<Libraries>(argc, argv);
+  libraries_ = std::make_unique<Libraries>(argv);
 }
 
 FemRuntime::~FemRuntime() = default;
@@ -24,22 +27,8 @@ int FemRuntime::rank() { return static_cast<int>(dealii::Utilities::MPI::this_mp
 int FemRuntime::ranks() { return static_cast<int>(dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD)); }
 
 void FemRuntime::on_first_rank(const std::function<void()>& action) const {
-  std::exception_ptr thrown;
-  int code = static_cast<int>(ExitCode::done);
-  if (rank() == 0) {
-    try {
-      action();
-    } catch (const InputError&) {
-      thrown = std::current_exception(), code = static_cast<int>(ExitCode::wrong_input);
-    } catch (const NotConvergedError&) {
-      thrown = std::current_exception(), code = static_cast<int>(ExitCode::not_converged);
-    } catch (...) {
-      thrown = std::current_exception(), code = static_cast<int>(ExitCode::input_output);
-    }
-  }
-  code = dealii::Utilities::MPI::broadcast(MPI_COMM_WORLD, code, 0);
-  if (thrown) std::rethrow_exception(thrown);
-  if (code != static_cast<int>(ExitCode::done)) throw FailedOnFirstRank{static_cast<ExitCode>(code)};
+  do_on_first_rank(rank() == 0, action,
+                   [](int code) { return dealii::Utilities::MPI::broadcast(MPI_COMM_WORLD, code, 0); });
 }
 
 }  // namespace drumlin::continuum

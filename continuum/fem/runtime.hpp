@@ -3,14 +3,7 @@
 #include <functional>
 #include <memory>
 
-#include "coupling/common/errors.hpp"
-
 namespace drumlin::continuum {
-
-/// What the other ranks throw where the first one failed: they end with its exit code, and say nothing.
-struct FailedOnFirstRank {
-  ExitCode code = ExitCode::done;
-};
 
 /// Keeps MPI and PETSc alive while it lives: made first thing in main. Libraries run on one thread unless
 /// OMP_NUM_THREADS says otherwise: on meshes of this size threads only cost.

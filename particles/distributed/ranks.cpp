@@ -3,10 +3,10 @@
 #include <deal.II/base/mpi.h>
 
 #include <cstdlib>
-#include <exception>
 #include <limits>
 #include <numeric>
 
+#include "coupling/common/first_rank.hpp"
 #include "particles/distributed/processor_time.hpp"
 
 namespace drumlin::particles {
@@ -26,13 +26,15 @@ int as_count(std::size_t bytes) {
 }  // namespace
 
 struct RankRuntime::Libraries {
-  Libraries(int& argc, char**& argv) : mpi(argc, argv, 1) {}
+  explicit Libraries(char** argv) : words(argv), mpi(count, words, 1) {}
+  int count = 1;  // the name alone: PETSc would tell of words that it does not know
+  char** words;
   dealii::Utilities::MPI::MPI_InitFinalize mpi;  // starts p4est as well
 };
 
-RankRuntime::RankRuntime(int& argc, char**& argv) {
+RankRuntime::RankRuntime(int&, char**& argv) {
   setenv("OMP_NUM_THREADS", "1", /*overwrite=*/0);
-  libraries_ = std::make_unique<Libraries>(argc, argv);
+  libraries_ = std::make_unique<Libraries>(argv);
 }
 
 RankRuntime::~RankRuntime() = default;
@@ -131,23 +133,11 @@ std::int64_t Ranks::least(std::int64_t value) const {
 bool Ranks::any(bool value) const { return least(value ? 0 : 1) == 0; }
 
 void Ranks::on_first(const std::function<void()>& action) const {
-  std::exception_ptr thrown;
-  int code = static_cast<int>(ExitCode::done);
-  if (rank() == 0) {
-    try {
-      action();
-    } catch (const InputError&) {
-      thrown = std::current_exception(), code = static_cast<int>(ExitCode::wrong_input);
-    } catch (const NotConvergedError&) {
-      thrown = std::current_exception(), code = static_cast<int>(ExitCode::not_converged);
-    } catch (...) {
-      thrown = std::current_exception(), code = static_cast<int>(ExitCode::input_output);
-    }
-  }
-  MPI_Bcast(&code, 1, MPI_INT, 0, MPI_COMM_WORLD);
-  ++rounds_so_far;
-  if (thrown) std::rethrow_exception(thrown);
-  if (code != static_cast<int>(ExitCode::done)) throw FailedOnFirstRank{static_cast<ExitCode>(code)};
+  do_on_first_rank(rank() == 0, action, [](int code) {
+    MPI_Bcast(&code, 1, MPI_INT, 0, MPI_COMM_WORLD);
+    ++rounds_so_far;
+    return code;
+  });
 }
 
 void Ranks::end_all(int exit_code) {

@@ -10,14 +10,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "coupling/common/errors.hpp"
-
 namespace drumlin::particles {
-
-/// What the other ranks throw where the first one failed: they end with its exit code, and say nothing.
-struct FailedOnFirstRank {
-  ExitCode code = ExitCode::done;
-};
 
 /// Keeps MPI alive while it lives: made first thing in main.
 class RankRuntime {

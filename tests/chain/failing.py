@@ -1,6 +1,7 @@
-"""Every call of a run to the system fails once: the run says so and ends cleanly, and --resume goes on to the same bytes.
+"""Calls of a run to the system fail, one in each trial: the run says so and ends cleanly, and --resume goes on to the same bytes.
 
-usage: failing.py DRUMLIN FAILING_CALLS_LIBRARY FOLDER_OF_THIS_TEST [--allocations COUNT] [--show]
+usage: failing.py DRUMLIN FAILING_CALLS_LIBRARY FOLDER_OF_THIS_TEST [--calls COUNT] [--allocations COUNT] [--show]
+  --calls COUNT        about how many calls of each kind that files are written with are tried, spread evenly (default: 0, all)
   --allocations COUNT  about how many of the run's tens of thousands of allocations are tried, spread evenly (default: 60); 0: all
   --show               lists every failure that was tried with what the run said
 """
@@ -68,7 +69,9 @@ class Trials:
         require(not [file for file in bytes_below(run) if file.startswith(".")], f"{what}: files are left")
         return code != 0
 
-    def fail_each(self, kind, numbers, crashes=()):
+    def fail_each(self, kind, wanted, crashes=()):
+        """About so many of the calls of this kind, spread evenly; all of them where 0 is wanted."""
+        numbers = range(1, self.calls[kind] + 1, max(1, self.calls[kind] // wanted) if wanted else 1)
         ended = sum(self.fail(kind, number, crashes=crashes) for number in numbers)
         print(f"{kind}: {len(numbers)} failures of {self.calls[kind]} calls tried, {ended} ended the run", flush=True)
 
@@ -78,6 +81,7 @@ def main():
     parser.add_argument("executable", type=pathlib.Path)
     parser.add_argument("library", type=pathlib.Path)
     parser.add_argument("tests", type=pathlib.Path)
+    parser.add_argument("--calls", type=int, default=0)
     parser.add_argument("--allocations", type=int, default=60)
     parser.add_argument("--show", action="store_true")
     given = parser.parse_args()
@@ -88,11 +92,11 @@ def main():
         trials = Trials(given, pathlib.Path(name))
         calls = trials.calls
         for kind in FILE_CALLS:
-            trials.fail_each(kind, range(1, calls[kind] + 1))
+            trials.fail_each(kind, given.calls)
         for kind, crashes in (("malloc", MISTAKEN), ("malloc-in-hdf5", CRASHES_OF_HDF5)):
-            trials.fail_each(kind, range(1, calls[kind] + 1, max(1, calls[kind] // given.allocations) if given.allocations else 1), crashes)
+            trials.fail_each(kind, given.allocations, crashes)
         # Memory that stays short: what tells of it and cleans up needs none.
-        for number in range(1, calls["malloc"], calls["malloc"] // 10):
+        for number in range(1, calls["malloc"], calls["malloc"] // min(10, given.allocations or 10)):
             trials.fail("malloc", number, count=1 << 40, crashes=MISTAKEN)
 
 

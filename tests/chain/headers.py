@@ -1,10 +1,13 @@
-"""Headers compile, alone and all together; includes and folders are those that docs/architecture.md states.
+"""Headers compile and reach what they name; includes and folders are those that docs/architecture.md states.
+
+All headers are compiled in one unit, and in another in the opposite order; what each names and does not reach is looked for in its text
+(header_names.py). With --each they are compiled one by one as well, each in a unit of its own: minutes of processor time.
 
 The page is the rule: its table "Rooms" has a row for each folder with code, and names the folders that its files may
 include. This test fails on a folder without a row, a row without a folder, an include that the row does not allow,
 and a circle of folders.
 
-usage: headers.py SOURCE_ROOT COMPILER [INCLUDE_FOLDER...]
+usage: headers.py SOURCE_ROOT COMPILER [--each] [INCLUDE_FOLDER...]
 """
 
 import concurrent.futures
@@ -13,6 +16,8 @@ import pathlib
 import re
 import subprocess
 import sys
+
+import header_names
 
 TOPS = ("particles", "continuum", "coupling", "apps", "tests/hardcases")
 # Third-party headers that a public header may show to those who include it.
@@ -115,8 +120,19 @@ def compiles(root, names, compiler, folders, what):
     return "" if result.returncode == 0 else f"{what}:\n{result.stderr}"
 
 
+def require_faults_are_seen():
+    """What header_names is for, on headers of three lines."""
+    texts = {"a.hpp": "#include <vector>\nstruct Grain {\n};", "b.hpp": "std::vector<Grain> grains;", "c.hpp": '#include "a.hpp"\nstd::vector<Grain> grains;'}
+    found = list(header_names.unreached(list(texts), texts.get, lambda name: INCLUDE.findall(texts[name])))
+    if [message.split()[:2] for message in found] != [["b.hpp:", "std::vector"], ["b.hpp:", "Grain"]]:
+        sys.exit(f"header_names.py does not see what it is for: {found}")
+
+
 def main():
-    root, compiler, folders = pathlib.Path(sys.argv[1]), sys.argv[2], [f for f in sys.argv[3:] if f]
+    require_faults_are_seen()
+    each = "--each" in sys.argv
+    root, compiler, *folders = [word for word in sys.argv[1:] if word not in ("", "--each")]
+    root = pathlib.Path(root)
     files = sorted(str(path.relative_to(root)) for top in TOPS for path in (root / top).rglob("*.[ch]pp"))
     rooms = rooms_of(root / "docs" / "architecture.md")
     faults = list(wrong_folders(rooms, {folder_of(name) for name in files}))
@@ -124,12 +140,15 @@ def main():
     if circle := circle_of(root, files):
         faults.append("folders include each other in a circle: " + " -> ".join(circle))
     headers = [name for name in files if name.endswith(".hpp") and not below(name, PRIVATE_FOLDERS)]
-    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+    texts = {name: (root / name).read_text(encoding="utf-8") for name in headers}
+    faults += header_names.unreached(headers, texts.get, lambda name: INCLUDE.findall(texts[name]))
+    units = [(headers, "all public headers do not compile together"), (headers[::-1], "all public headers do not compile in the opposite order")]
+    if each:
         # Twice: a forgotten #pragma once shows as well.
-        alone = pool.map(lambda name: compiles(root, [name, name], compiler, folders, f"{name} does not compile alone"), headers)
-        together = pool.submit(compiles, root, headers, compiler, folders, "all public headers do not compile together")
-        faults += [fault for fault in alone if fault] + [fault for fault in [together.result()] if fault]
-    print(f"{len(headers)} headers compiled alone and together, {len(files)} files of {len(rooms)} rooms looked through")
+        units += [([name, name], f"{name} does not compile alone") for name in headers]
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        faults += [fault for fault in pool.map(lambda unit: compiles(root, unit[0], compiler, folders, unit[1]), units) if fault]
+    print(f"{len(headers)} headers in {len(units)} units, {len(files)} files of {len(rooms)} rooms looked through")
     if faults:
         sys.exit("\n".join(faults))
 

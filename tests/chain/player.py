@@ -19,15 +19,18 @@ from player_file import Player
 # Names that would end a script or a title, were they not escaped.
 EVIL = "</script><script>alert('x')</script> </title> & <b>"
 
-# Grains that come and go, of two materials; a container that does not turn.
-TRAFFIC = 'format = "drumlin-scene-1"\ntitle = "Grains that come and go"\n' + """
+GRAINS = """
 [grains]
 density_kg_m3 = 2700
 [grains.generated]
 count = 40
 diameter_min_mm = 3
 diameter_max_mm = 4
-region = { shape = "rectangle", min_mm = [2, 20], max_mm = [28, 50] }
+region = {{ shape = "rectangle", min_mm = {low}, max_mm = {high} }}
+"""
+
+# Grains that come and go, of two materials; a container that does not turn.
+TRAFFIC = 'format = "drumlin-scene-1"\ntitle = "Grains that come and go"\n' + GRAINS.format(low=[2, 20], high=[28, 50]) + """
 [[walls]]
 name = "left"
 shape = "segment"
@@ -51,14 +54,7 @@ snapshots = 12
 """
 
 # A cell that is sheared: images above are displaced.
-CELL = 'format = "drumlin-scene-1"\ntitle = "Sheared cell"\n' + """
-[grains]
-density_kg_m3 = 2700
-[grains.generated]
-count = 40
-diameter_min_mm = 3
-diameter_max_mm = 4
-region = { shape = "rectangle", min_mm = [0, 0], max_mm = [30, 30] }
+CELL = 'format = "drumlin-scene-1"\ntitle = "Sheared cell"\n' + GRAINS.format(low=[0, 0], high=[30, 30]) + """
 [periodic_x]
 x_min_mm = 0
 x_max_mm = 30

@@ -58,6 +58,7 @@ def interrupted(root, slow, number):
 
 
 def main():
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell that runs us in the background has it ignored, and so would what we start
     source = pathlib.Path(sys.argv[1])
     with tempfile.TemporaryDirectory(prefix="drumlin-reproduce-") as name:
         root = pathlib.Path(name)

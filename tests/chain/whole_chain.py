@@ -4,6 +4,7 @@ usage: whole_chain.py DRUMLIN FOLDER_OF_THIS_TEST
 """
 
 import math
+import os
 import pathlib
 import re
 import shutil
@@ -174,7 +175,8 @@ def check_study(drumlin, runs, folder):
 def check_readers(files, folder):
     """docs/cookbook/read_results.py reads all that the chain leaves."""
     script = pathlib.Path(__file__).resolve().parents[2] / "docs" / "cookbook" / "read_results.py"
-    result = subprocess.run([sys.executable, "-I", script, *files, "-o", folder / "look.png"], capture_output=True, text=True, check=False)
+    package = os.environ | {"PYTHONPATH": str(pathlib.Path(sys.argv[1]).parent / "python")}
+    result = subprocess.run([sys.executable, "-B", script, *files, "-o", folder / "look.png"], capture_output=True, text=True, check=False, env=package)
     require(result.returncode == 0, result.stdout + result.stderr)
     for said in ("log.csv: log: ", "run.json: run (reduced): finished, 350 grains", "snapshot: time ", "scene.toml: drumlin-scene-1: ",
                  "measured (reduced): theta_deg = ", "profiles.csv: drumlin-profiles-1: ", "forces.csv: forces: ",

@@ -62,6 +62,22 @@ def test_steps_do_not_depend_on_threads_nor_on_who_calls_them(box):
     assert (one.x == two.x).all() and (one.v_z == two.v_z).all() and (one.contacts == two.contacts).all()
 
 
+def test_a_scene_starts_with_the_grains_of_another_run(box, tmp_path):
+    file = tmp_path / "scene.toml"
+    file.write_text(drumlin.toml_of({"format": "drumlin-scene-1"} | box), encoding="utf-8")
+    left = drumlin.read(drumlin.run(file, tmp_path / "RUN", {"stages.0.snapshots": 2}).snapshots[-1])
+    follows = box | {"grains": {"density_kg_m3": 2700, "from_run": {"run": str(tmp_path / "RUN")}}}
+    found = drumlin.Simulation(follows)
+    # The mean diameter is another where sizes are listed: compared in SI.
+    ours, theirs = found.scales, left.scales
+    for name, unit in (("x", lambda s: s["length_m"]), ("v_z", lambda s: s["length_m"] / s["time_s"]), ("spin", lambda s: 1 / s["time_s"])):
+        assert getattr(found, name) * unit(ours) == pytest.approx(left[name] * unit(theirs), rel=1e-9, abs=1e-12)
+    assert found.run(steps=10) == 10
+    follows["grains"]["from_run"]["time_s"] = 7.0
+    with pytest.raises(drumlin.InputError, match="grains.from_run.time_s.*the nearest one is 0.3"):
+        drumlin.Simulation(follows)
+
+
 def test_errors_have_the_texts_of_the_commands(box, tmp_path):
     box["effects"]["friction"]["grain_grain"] = -1
     with pytest.raises(drumlin.InputError) as refused:

@@ -173,6 +173,8 @@ def refusals(run_on, folder):
 def main():
     program, drumlin, mpirun = sys.argv[1:]
     run_on = Ranks(program, mpirun)
+    said = subprocess.run([program, "--help"], capture_output=True, text=True, check=False).stdout
+    require("Usage: mpirun -n RANKS drumlin-run [OPTIONS] scene" in said, f"drumlin-run --help:\n{said}")
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         scene, right = same_on_all(run_on, folder, "drum", DRUM)

@@ -78,7 +78,7 @@ def measure(run_folder, overwrite=False):
     return read(pathlib.Path(run_folder) / "measured")
 
 
-def compare(run_folder, flow_folder, output, overwrite=False):
+def compare(run_folder, flow_folder, output, overwrite=False, accept_unsteady=False):
     """`drumlin compare`: a measured run beside a flow, into a folder with comparison.json and a page."""
-    command("compare", run_folder, flow_folder, "-o", output, *_existing(overwrite))
+    command("compare", run_folder, flow_folder, "-o", output, *_existing(overwrite), *(["--accept-unsteady"] if accept_unsteady else []))
     return read(output)

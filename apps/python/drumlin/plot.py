@@ -1,10 +1,12 @@
-"""Figures on axes of one's own, in the colours and words of the commands' figures."""
+"""Figures on axes of one's own, in the colours and words of the commands' figures: theirs are drawn by the same functions."""
 
 import importlib
 import pathlib
 import sys
 
 import numpy as np
+
+from .errors import InputError
 
 _FIGURES = pathlib.Path(__file__).parent / "figures"
 
@@ -38,3 +40,62 @@ def profile(axes, table, name, color=None, label=None):
     half_width = table.get(name + "_ci99")
     style.band(axes, table["z"], table[name], half_width, color or style.PARTICLES, label)
     axes.set(xlabel=style.LABELS["z"], ylabel=style.LABELS.get(name, name))
+
+
+def compared(axes, report, name, logarithmic=False):
+    """Draws both sides of a comparison over z with their bands, interface and surface: report is the folder that `compare` left, name a field such as
+    "sigma_xz"."""
+    figures, style = figure_module("compare_figures"), figure_module("style")
+    comparison, overlay = report["comparison.json"], report["overlay.csv"]
+    if name + "_particles" not in overlay or name not in figures.LABELS:
+        known = [key for key in figures.LABELS if key + "_particles" in overlay]
+        raise InputError(f"{report.path}: compares no {name} (allowed: {', '.join(known)})")
+    figures.draw(axes, overlay, name, figures.names_of(comparison), logarithmic)
+    figures.mark_depths(axes, comparison["scalars"]["H"]["particles"]["value"], comparison["zones"])
+    axes.set_title(style.title_of("", comparison["reduced"]).removeprefix(" - "))
+
+
+def field(axes, maps, name, logarithmic=False, label=None, norm=None, cmap="viridis", surface=None):
+    """Draws a field of maps.h5, of either side, with the outline of drum or annulus and a bar of its colours. surface: "surface" of flow.json, where the
+    flow moved it."""
+    import matplotlib.colors
+
+    if name not in maps:
+        raise InputError(f"{maps.path}: holds no field {name} (allowed: {', '.join(key for key in maps if np.ndim(maps[key]) == 2)})")
+    values = np.ma.masked_invalid(maps[name])
+    if logarithmic:
+        values = np.ma.masked_less_equal(values, 0)
+        norm = norm or matplotlib.colors.LogNorm(max(values.min(), 1e-6 * values.max()), values.max())
+    style = figure_module("style")
+    figure_module("flow_figures").draw_map(axes, maps, values, label or style.LABELS.get(name, name), norm, cmap, maps.header, surface)
+
+
+def law(axes, record, rest=False):
+    """Draws what `calibrate` found: points of all runs and the law with its band over I; with rest=True what the law leaves of them. record: the JSON
+    file beside the law, which was read."""
+    figures = figure_module("calibrate_figures")
+    (figures.draw_rest if rest else figures.draw_law)(axes, record)
+
+
+def newton(axes, flow, over_time=False):
+    """Draws the residuals of a flow over its iterations or seconds, a colour for each phase: flow is the folder that `flow` left."""
+    trust = figure_module("flow_trust")
+    trust.draw_convergence(axes, trust.read_iterations(flow.path / "iterations.csv"), flow["flow.json"]["settings"]["tolerance"], over_time)
+    axes.set_ylabel("residual / norm of the loads")
+
+
+def history(axes, table, *names, logarithmic=False):
+    """Draws columns of a table over its time: log.csv or energy.csv of a run, series.csv of what was measured or of a march, what `history` wrote."""
+    time = next((name for name in ("time_s", "time") if name in table), None)
+    for name in names:
+        if name not in table or time is None:
+            raise InputError(f"{table.path}: holds no {name} over time (allowed: {', '.join(key for key in table if key != time)})")
+        values = np.asarray(table[name], float)
+        line, = axes.plot(table[time], np.where(values > 0, values, np.nan) if logarithmic else values, label=name.replace("_", " "))
+        half_width = table.get(name + "_ci99")
+        if half_width is not None and not logarithmic:
+            axes.fill_between(table[time], values - half_width, values + half_width, color=line.get_color(), alpha=0.25, linewidth=0)
+    if logarithmic:
+        axes.set_yscale("log")
+    axes.set(xlabel="time  [s]" if time == "time_s" else r"time  [$\sqrt{d/g}$]")
+    axes.legend()

@@ -12,6 +12,7 @@
 #include <deal.II/lac/la_parallel_vector.h>
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -90,6 +91,9 @@ struct Discretisation {
 
 /// The coarsest mesh of a domain; boundary ids are the numbers of Side.
 void make_mesh(const Domain& domain, dealii::parallel::distributed::Triangulation<2>& mesh);
+
+/// Where the unknowns lie, by their numbers.
+std::map<dealii::types::global_dof_index, dealii::Point<2>> places_of_unknowns(const Discretisation& d);
 
 /// The rigid rotation of the problem's frame, which has to be there, as a field: Q2 holds it exactly.
 FieldVector frame_velocity(const FlowProblem& problem, const Discretisation& d);

@@ -1,0 +1,83 @@
+"""The commands' figures on axes of one's own: they show what the files hold, and what the files do not hold is refused by name."""
+
+import drumlin
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+from conftest import SOURCES
+
+TESTS = SOURCES / "tests/chain"
+
+
+@pytest.fixture(scope="module")
+def results(tmp_path_factory):
+    """A tiny drum on both sides: run, law, flow, comparison."""
+    place = tmp_path_factory.mktemp("results")
+    drumlin.run(TESTS / "tiny-drum.toml", place / "RUN", {"stages.1.turns": 0.02, "stages.2.turns": 0.04, "stages.2.snapshots": 8})
+    drumlin.command("measure", place / "RUN", "--parts", "maps")
+    drumlin.command("calibrate", place / "RUN", "-o", place / "law.toml", "--accept-unsteady")
+    drumlin.solve_flow(TESTS / "tiny-drum-flow.toml", SOURCES / "data/rheology/paper.toml", place / "FLOW", {"solver.sensitivity": False})
+    drumlin.compare(place / "RUN", place / "FLOW", place / "REPORT", accept_unsteady=True)
+    return drumlin.read(place)
+
+
+def drawn(axes):
+    axes.figure.canvas.draw()
+    plt.close(axes.figure)
+    return axes
+
+
+def test_both_sides_of_a_comparison(results):
+    _, axes = plt.subplots()
+    report = drumlin.read(results.path / "REPORT")
+    drumlin.plot.compared(axes, report, "sigma_zz")
+    curves = {line.get_label(): line for line in axes.get_lines()}
+    assert {"particles", "continuum"} <= set(curves)
+    assert np.array_equal(curves["continuum"].get_ydata(), report["overlay.csv"].sigma_zz_continuum, equal_nan=True)
+    assert axes.get_title() == "reduced" and drawn(axes)
+    with pytest.raises(drumlin.InputError, match="compares no weight .allowed: v_x"):
+        drumlin.plot.compared(axes, report, "weight")
+
+
+@pytest.mark.parametrize("file", ["RUN/measured/maps.h5", "FLOW/maps.h5"])
+def test_a_map_of_either_side(results, file):
+    figure, axes = plt.subplots()
+    maps = results[file]
+    drumlin.plot.field(axes, maps, "p", logarithmic=True)
+    shown = axes.collections[0].get_array()
+    assert np.ma.count(shown) == (np.nan_to_num(maps.p) > 0).sum() and len(figure.axes) == 2
+    assert len(axes.get_lines()) == 2 and drawn(axes)  # the drum and its surface
+    with pytest.raises(drumlin.InputError, match="maps.h5: holds no field weight"):
+        drumlin.plot.field(axes, maps, "weight")
+
+
+def test_a_law_and_what_it_leaves(results):
+    _, (left, right) = plt.subplots(1, 2)
+    record = results["law.json"]
+    drumlin.plot.law(left, record)
+    drumlin.plot.law(right, record, rest=True)
+    chosen = next(form for form in record["forms"] if form["chosen"])
+    assert any(np.array_equal(line.get_ydata(), chosen["curve"]["value"]) for line in left.get_lines())
+    assert left.get_xscale() == "log" and right.get_ylim() == (-0.1, 0.1) and drawn(left)
+
+
+def test_how_newtons_method_went(results):
+    _, (left, right) = plt.subplots(1, 2)
+    flow = drumlin.read(results.path / "FLOW")
+    drumlin.plot.newton(left, flow)
+    drumlin.plot.newton(right, flow, over_time=True)
+    residuals = [value for line in left.get_lines() if line.get_linestyle() == "-" for value in line.get_ydata()]
+    assert residuals == list(flow["iterations.csv"].residual) and right.get_xlabel().startswith("seconds") and drawn(left)
+
+
+def test_a_history_of_a_run(results):
+    _, axes = plt.subplots()
+    log = results["RUN/log.csv"]
+    drumlin.plot.history(axes, log, "kinetic_energy", "residual", logarithmic=True)
+    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["kinetic energy", "residual"]
+    assert np.array_equal(axes.get_lines()[0].get_xdata(), log.time_s) and drawn(axes)
+    _, axes = plt.subplots()
+    drumlin.plot.history(axes, results["RUN/measured/series.csv"], "theta_com_deg")
+    assert "d/g" in axes.get_xlabel() and len(axes.get_lines()[0].get_xdata()) == 8 and drawn(axes)
+    with pytest.raises(drumlin.InputError, match="log.csv: holds no weight over time"):
+        drumlin.plot.history(axes, log, "weight")
