@@ -15,7 +15,9 @@ struct Execute {
     apps::print_out(shown.text);
     return 0;
   }
-  int operator()(const apps::RunOptions& options) const { return apps::run(options); }
+  int operator()(const apps::RunOptions& options) const {
+    return options.ranks ? apps::run_by_mpirun(options) : apps::run(options);
+  }
   int operator()(const apps::MeasureOptions& options) const { return apps::measure(options); }
   int operator()(const apps::StudyOptions& options) const { return apps::study(options); }
   int operator()(const apps::ImportOptions& options) const { return apps::import_foreign(options); }

@@ -12,6 +12,13 @@ void add_run_options(CLI::App& command, RunOptions& options) {
   add_overrides(command, options.overrides);
   add_number(command, "--threads", options.threads, "", at_least(1, most_threads),
              "Threads, all processors unless told; the results do not depend on it");
+  command
+      .add_option("--ranks", options.ranks,
+                  "Runs on so many MPI ranks of this machine, each with its share of the threads (starts "
+                  "drumlin-run); "
+                  "the results do not depend on how many (docs/scaling.md)")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
   add_accuracy(command, options.accuracy);
   add_number(
       command, "--accuracy-seconds", options.accuracy_seconds, "s", above(0),

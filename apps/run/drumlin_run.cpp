@@ -53,11 +53,12 @@ int run_together(const apps::RunOptions& options, const particles::Ranks& ranks)
   }
 }
 
-/// The help of `drumlin run` under the name of this program.
+/// The help of `drumlin run` under the name of this program, without the option that starts it.
 std::string under_our_name(std::string help) {
-  const std::string usage = "Usage: drumlin run";
+  const std::string usage = "Usage: drumlin run", ranks = "\n  --ranks", next = "\n  -";
   if (const auto at = help.find(usage); at != std::string::npos)
     help.replace(at, usage.size(), "Usage: mpirun -n RANKS drumlin-run");
+  if (const auto at = help.find(ranks); at != std::string::npos) help.erase(at, help.find(next, at + 1) - at);
   return help;
 }
 

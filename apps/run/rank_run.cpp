@@ -242,6 +242,9 @@ void require_known(const RunOptions& options, const particles::Scene& scene) {
     problems.push_back({"", 0, 0, "--extend", "not on ranks", "drumlin run, on one process"});
   if (options.accuracy_seconds > 0 || options.accuracy)
     problems.push_back({"", 0, 0, "--accuracy", "not on ranks", "drumlin run, on one process"});
+  if (options.ranks)
+    problems.push_back(
+        {"", 0, 0, "--ranks", "not here: mpirun says how many ranks there are", "mpirun -n N drumlin-run"});
   if (!problems.empty()) throw InputError(problems);
 }
 

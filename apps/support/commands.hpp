@@ -28,8 +28,12 @@ struct RunOptions {
   ExistingOutput existing = ExistingOutput::refuse;
   double accuracy_seconds = 0;  ///< simulated, of the stretches that tell errors at the end; 0: none
   double extend_seconds = 0;    ///< simulated, by which the finished run in `output` goes on; 0: none
+  std::optional<int> ranks;     ///< MPI ranks on which drumlin-run runs the scene; absent: this process alone
 };
 int run(const RunOptions&);
+/// Starts `drumlin-run`, which stands beside the running executable, by mpirun with the same words; returns
+/// the exit code of the job.
+int run_by_mpirun(const RunOptions&);
 
 struct MeasureOptions {
   std::filesystem::path run;

@@ -170,6 +170,37 @@ def refusals(run_on, folder):
     require("output.energy_ledger" in said and said.count("not on ranks") == 1, f"a ledger on ranks, said once:\n{said}")
 
 
+def started_by_drumlin(run_on, drumlin, folder, scene, right):
+    """`drumlin run --ranks` leaves the bytes of mpirun's call, and ends as the job ends."""
+    def start(*words, code):
+        result = subprocess.run([drumlin, "run", *map(str, words)], capture_output=True, text=True, timeout=1200, check=False)
+        require(result.returncode == code, f"drumlin run {words}: exit code {result.returncode} instead of {code}\n"
+                                           f"{result.stdout}{result.stderr}")
+        return result.stdout + result.stderr
+
+    start(scene, "-o", folder / "started", "--ranks", 2, code=0)
+    require_same(right, folder / "started", "drumlin run --ranks 2")
+    said = start(scene, "-o", folder / "started", "--ranks", 2, code=2)
+    require(str(folder / "started") in said, f"a folder that is taken, said\n{said}")
+    said = start(scene, "-o", folder / "longer", "--ranks", 2, "--extend", 1, code=2)
+    require("--extend" in said and not (folder / "longer").exists(), f"--extend on ranks, said\n{said}")
+    said = run_on(1, scene, "-o", folder / "twice", "--ranks", 2, code=2)
+    require("--ranks" in said and not (folder / "twice").exists(), f"--ranks on ranks, said\n{said}")
+    run = folder / "told-to-end"
+    with subprocess.Popen([drumlin, "run", scene, "-o", run, "--ranks", "2"], stdout=subprocess.DEVNULL,
+                          stderr=subprocess.PIPE, text=True) as job:
+        while not (run / "checkpoint.h5").exists():
+            require(job.poll() is None, "the job ended before its first checkpoint")
+            time.sleep(0.005)
+        job.send_signal(signal.SIGTERM)
+        _, said = job.communicate(timeout=300)
+    require(job.returncode == 143, f"told to end: exit code {job.returncode} instead of 143, said\n{said}")
+    start(scene, "-o", run, "--ranks", 3, "--resume", code=0)
+    require_same(right, run, "told to end on 2 ranks, finished by 3")
+    text = subprocess.run([run_on.program, "--help"], capture_output=True, text=True, check=False).stdout
+    require("drumlin-run" in text and "drumlin run" not in text and "--ranks" not in text, f"drumlin-run --help:\n{text}")
+
+
 def main():
     program, drumlin, mpirun = sys.argv[1:]
     run_on = Ranks(program, mpirun)
@@ -179,6 +210,7 @@ def main():
         folder = pathlib.Path(name)
         scene, right = same_on_all(run_on, folder, "drum", DRUM)
         going_on_elsewhere(run_on, folder, scene, right)
+        started_by_drumlin(run_on, drumlin, folder, scene, right)
         same_on_all(run_on, folder, "box", BOX)
         same_on_all(run_on, folder, "box-frictionless", BOX.replace("[effects.friction]\ngrain_grain = 0.5\ngrain_wall = 0.5\n", ""),
                     ((1, 1), (3, 2)))

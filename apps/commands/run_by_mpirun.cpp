@@ -1,0 +1,39 @@
+// drumlin run --ranks: starts drumlin-run, which stands beside this executable, by mpirun, and ends as it
+// ends.
+#include <algorithm>
+
+#include "apps/support/commands.hpp"
+#include "apps/support/interruption.hpp"
+#include "coupling/common/child_process.hpp"
+#include "coupling/common/errors.hpp"
+
+namespace drumlin::apps {
+namespace {
+
+std::vector<std::string> words_of(const RunOptions& options) {
+  const int ranks = *options.ranks;
+  std::vector<std::string> words = {"-n", std::to_string(ranks), program_beside("drumlin-run").string()};
+  words.insert(words.end(), {options.scene.string(), "-o", options.output.string()});
+  words.insert(words.end(), {"--threads", std::to_string(std::max(1, options.threads / ranks))});
+  for (const std::string& change : options.overrides) words.insert(words.end(), {"--set", change});
+  if (options.existing == ExistingOutput::resume) words.push_back("--resume");
+  if (options.existing == ExistingOutput::overwrite) words.push_back("--overwrite");
+  return words;
+}
+
+}  // namespace
+
+int run_by_mpirun(const RunOptions& options) {
+  if (options.extend_seconds > 0) throw InputError("--extend: not with --ranks");
+  if (options.accuracy_seconds > 0 || options.accuracy) throw InputError("--accuracy: not with --ranks");
+  ProcessRequest request{.program = "mpirun", .words = words_of(options)};
+  request.environment = {"OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"};
+  request.pass_signals_on = true;
+  request.end_signal = SIGTERM;      // it ends its ranks
+  const CaughtInterruptions caught;  // the job ends by them, and we with it
+  const ProcessEnd end = run_process(request);
+  // mpirun ends with 1 when it is told to end.
+  return interruption() != 0 && !end.succeeded() ? exit_code_of(interruption()) : end.shell_code();
+}
+
+}  // namespace drumlin::apps
