@@ -70,6 +70,9 @@ struct GrainMaterials {
 };
 
 GrainMaterials materials_of(const particles::RunFolder& run) {
+  if (particles::changes_grains(run.scene))
+    throw InputError(run.folder.string() +
+                     ": --color material: grains of this scene come and go, and snapshots hold no materials");
   GrainMaterials found{particles::material_names(run.scene),
                        particles::place_grains(run.scene, run.scales).material};
   if (found.names.empty() || found.of_grain.empty())
