@@ -63,7 +63,7 @@ std::vector<WindowChange> window_changes(const MeasurementOptions& standard) {
     add(fmt::format("v_x(0) read {} d below the surface", depth),
         [&](MeasurementOptions& o) { o.scalars.surface_speed_depth = depth; });
   for (const auto& [from, to] : {std::pair(6.0, 2.0), std::pair(8.0, 0.0), std::pair(12.0, 4.0)})
-    add(fmt::format("lambda from -H-{} to -H-{}", from, to), [&](MeasurementOptions& o) {
+    add(fmt::format("lambda from -H-{} to -H-{}", from, to), [from = from, to = to](MeasurementOptions& o) {
       o.scalars.decay_from = from;
       o.scalars.decay_to = to;
     });

@@ -42,10 +42,10 @@ constexpr NamedField named_fields[] = {
 
 Motion motion_at(const DisplacementNode& node, const PlaneMatrix& pressure) {
   Motion m;
-  const auto& [weight, moved_x, moved_z] = node.sum;
+  const double weight = node.sum[0];
   if (!(weight > 0)) return m;
-  m.v_x = moved_x / weight;
-  m.v_z = moved_z / weight;
+  m.v_x = node.sum[1] / weight;
+  m.v_z = node.sum[2] / weight;
   // The derivative of the quotient, each part by the kernel's own derivative.
   const auto slope = [&](const std::array<double, 3>& slopes, std::size_t moment, double velocity) {
     return (slopes[moment] - velocity * slopes[0]) / weight;
