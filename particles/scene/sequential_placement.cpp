@@ -6,7 +6,6 @@
 #include <map>
 #include <numbers>
 #include <numeric>
-#include <ranges>
 #include <vector>
 
 #include "coupling/common/errors.hpp"
@@ -41,7 +40,8 @@ class PlacedDiscs {
     first = static_cast<std::int32_t>(discs_.size()) - 1;
   }
   bool free(const Point_mm& center, double radius) const {
-    for (const auto& [octave, lists] : std::views::reverse(octaves_)) {  // the largest fill most
+    for (auto entry = octaves_.rbegin(); entry != octaves_.rend(); ++entry) {  // the largest fill most
+      const auto& [octave, lists] = *entry;
       const double reach = radius + size(octave) / 2;
       const auto right = cell(center[0] + reach, octave), top = cell(center[1] + reach, octave);
       for (auto x = cell(center[0] - reach, octave); x <= right; ++x)
