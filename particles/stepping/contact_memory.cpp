@@ -11,18 +11,25 @@ double scale_of(const ContactMemory& memory, double time_step) {
 }  // namespace
 
 void Recollection::find(const ContactMemory& memory, std::size_t bodies, std::span<const Candidate> pairs) {
-  first_of_body_.assign(bodies, -1);
-  next_of_body_.resize(memory.i.size());
-  for (std::size_t m = 0; m < memory.i.size(); ++m) {
-    next_of_body_[m] = first_of_body_[memory.i[m]];
-    first_of_body_[memory.i[m]] = static_cast<std::int32_t>(m);
-  }
+  const std::size_t contacts = memory.i.size();
+  row_.assign(bodies + 1, 0);
+  for (const std::int32_t i : memory.i) ++row_[i + 1];
+  for (std::size_t b = 0; b < bodies; ++b) row_[b + 1] += row_[b];
+  entries_.resize(contacts);
+  for (std::size_t m = 0; m < contacts; ++m)  // a row ends up where the next one begins
+    entries_[row_[memory.i[m]]++] = {memory.j[m], static_cast<std::int32_t>(m)};
+  find_again(pairs);
+}
+
+void Recollection::find_again(std::span<const Candidate> pairs) {
   place_.resize(pairs.size());
   loops_.each(pairs.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t a = begin; a < end; ++a) {
-      std::int32_t m = first_of_body_[pairs[a].i];
-      while (m >= 0 && memory.j[m] != pairs[a].j) m = next_of_body_[m];
-      place_[a] = m;
+      const std::int32_t i = pairs[a].i, j = pairs[a].j;
+      const Entry* entry = entries_.data() + (i == 0 ? 0 : row_[i - 1]);
+      const Entry* const row_end = entries_.data() + row_[i];
+      while (entry < row_end && entry->j != j) ++entry;
+      place_[a] = entry < row_end ? entry->place : -1;
     }
   });
 }

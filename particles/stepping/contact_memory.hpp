@@ -39,6 +39,8 @@ class Recollection {
   void use(ThreadTeam* team) { loops_ = TeamLoops(team); }
   /// Finds the pairs of grains 0 to `bodies` in the memory.
   void find(const ContactMemory&, std::size_t bodies, std::span<const Candidate> pairs);
+  /// Finds other pairs in the memory of the last find(), which must not have changed.
+  void find_again(std::span<const Candidate> pairs);
   /// Normal impulses of the pairs that were looked for, for a step of length `time_step`.
   RememberedLoads loads(const ContactMemory&, int dim, double time_step) const;
   /// Impulses that a step of length `time_step` starts from: those remembered, 0 for new contacts. `order`:
@@ -48,8 +50,12 @@ class Recollection {
 
  private:
   TeamLoops loops_;
-  std::vector<std::int32_t> place_;                         // of each pair in the memory; -1: new
-  std::vector<std::int32_t> first_of_body_, next_of_body_;  // places in the memory, linked by their i
+  struct Entry {
+    std::int32_t j, place;  // in the memory
+  };
+  std::vector<std::int32_t> place_;  // of each pair in the memory; -1: new
+  std::vector<Entry> entries_;       // of the memory, sorted by i
+  std::vector<std::int32_t> row_;    // where the entries of each i end
 };
 
 /// Keeps contacts and impulses of a step.

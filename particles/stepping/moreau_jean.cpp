@@ -182,7 +182,7 @@ class MoreauJean final : public Stepper {
       move_freely(step);
       if (searches == most_searches || !find_thrown(step)) return;
       if (detection_.find_around(thrown_, step.bodies, free_.x, free_.z, detection_input(step)))
-        recollection_.find(state.memory, step.bodies.count(), detection_.candidates());
+        recollection_.find_again(detection_.candidates());
       report.detection_seconds += watch.lap();
     }
   }
