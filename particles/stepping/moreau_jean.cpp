@@ -71,6 +71,8 @@ class MoreauJean final : public Stepper {
     assemble<Problem, with_spin>(step, contacts_, TeamLoops(&team_), problem_);
     report.setup_seconds += watch.lap();
     report.contacts = problem_.contacts();
+    const bool open = laws_.period.open() && laws_.period.open_z();  // else places are those of images
+    work_.places = open ? BodyPlaces{bodies.x, bodies.z} : BodyPlaces{};
     report.solve = solve_(problem_, solver_.rule, work_, solution_);
     remember(contacts_.pairs, solution_.impulses, time_step, state.memory);
     move(bodies, time_step);
