@@ -11,6 +11,8 @@ namespace {
 constexpr double contacts_per_cell = 1400;
 // Added to the diagonal, in parts of it and of its largest entry: nodes without loads keep s = 0.
 constexpr double damping = 1e-3, ground = 1e-10;
+// A tangential impulse that is so near to its bound, in parts of that, slides.
+constexpr double sliding = 1e-6;
 
 }  // namespace
 
@@ -68,7 +70,11 @@ void CoarseLoads::add_contacts(const CoarseProblem& problem, const BodyPlaces& p
     if (!(r_a[0] > 0)) continue;
     const double r_n = r_a[0], r_t = problem.dim == 2 ? r_a[1] : 0;
     double g = r_n * u_a[0];
-    if (problem.dim == 2) g += r_n * problem.mu[a] * std::abs(u_a[1]) + r_t * u_a[1];
+    if (problem.dim == 2) {
+      const double bound = r_n * problem.mu[a];
+      const bool slides = std::abs(r_t) >= bound * (1 - sliding);
+      g += r_t * u_a[1] + (slides ? bound * std::abs(u_a[1]) : 0);
+    }
     const std::int32_t i = problem.i[a], j = problem.j[a];
     const Weights at = weights_at(grid_, places.x[i], places.z[i]);
     for (int k = 0; k < 4; ++k)

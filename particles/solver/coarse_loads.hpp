@@ -3,9 +3,9 @@
 // balances over long distances, which sweeps settle last.
 //
 // r_a becomes (1 + s(x_a)) r_a with s = sum_k s_k phi_k, phi_k bilinear on square cells: every impulse stays
-// in its cone. At a solution no contact does more work than friction takes,
-//   g_a = r_n (u_n + mu |u_t|) + r_t u_t = 0;
-// the field makes its weighted sums vanish with |u_t| as it stands (a Galerkin step):
+// in its cone. At a solution no contact does work, but for the friction of those that slide,
+//   g_a = r_n u_n + r_t u_t (+ mu r_n |u_t| where |r_t| = mu r_n) = 0;
+// the field makes its weighted sums vanish, |u_t| as it stands (a Galerkin step):
 //   sum_l A_kl s_l = - sum_a phi_k(x_a) g_a,  A_kl = (phi_k r) . W (phi_l r).
 #include <array>
 #include <cstdint>
