@@ -41,19 +41,6 @@ TEST(Cohesion, LetsADiscFallThatIsHeavier) {
   EXPECT_LT(end.z[0], -0.5 - 1.8);
 }
 
-TEST(Cohesion, OfAStageHoldsADiscUntilTheNextOneLetsGo) {
-  const TemporaryFolder folder;
-  Scene scene = below_a_ceiling(0, folder);
-  add_stage(scene, 2, 1e-2);
-  scene.stages[0].cohesion = StageCohesion{0, 1.01};
-  Simulation simulation(scene);
-  while (simulation.state().stage == 0 && simulation.state().step < 200) (void)simulation.step();
-  EXPECT_NEAR(simulation.state().bodies.z[0], -0.5, 1e-9);
-  while (!simulation.finished()) (void)simulation.step();
-  EXPECT_LT(simulation.state().bodies.z[0], -0.5 - 1.8);  // nearly g t^2 / 2 = 2
-  EXPECT_EQ(simulation.stepper().unknowns_per_contact(), 1);
-}
-
 /// Speed after a time of 1 of a disc that cannot turn, on a floor in gravity tilted by 30 degrees.
 double speed_on_a_slope(double mu, double cohesion) {
   const TemporaryFolder folder;

@@ -85,12 +85,6 @@ const Case cases[] = {
        s.stages[0].friction = StageCoefficients{0, 0};
        s.stages[1].restitution = StageCoefficients{0.9, 0.9};
      }},
-    {"StageCohesion",
-     [](Scene& s) {
-       cut(s, 0.1);
-       s.effects.cohesion = Cohesion{5, 5, 0.1};
-       s.stages[1].cohesion = StageCohesion{0, 1};
-     }},
     {"StageThatEndsEarly",
      [](Scene& s) {
        cut(s, 0.1);

@@ -28,8 +28,6 @@ const std::string smooth = "stages.1.friction={grain_grain=0, grain_wall=0}";
 const std::string lively = "stages.0.restitution={grain_grain=0.9, grain_wall=0.9}";
 const std::string rolling = "effects.rolling_resistance={grain_grain=0.1, grain_wall=0.2}";
 const std::string stiff = "stages.1.rolling_resistance={grain_grain=1, grain_wall=1}";
-const std::string sticking = "effects.cohesion={grain_grain=5, grain_wall=5, range_d=0.1}";
-const std::string loose = "stages.1.cohesion={grain_grain=1, grain_wall=1}";
 const std::string moved = "stages.0.until={moved={wall=\"left\", distance_mm=1}}";
 const std::string never = "stages.0.until={moved={wall=\"right\", distance_mm=1}}";
 const std::string rested = "stages.0.until.at_rest={energy=1e6, for_s=0.01}";
@@ -120,19 +118,6 @@ std::vector<Case> cases_of_stage_changes() {
        {rolling, stiff},
        "stages.1.rolling_resistance.grain_wall=0",
        spins_rad_s},
-      {"stages[].cohesion", "", D, {sticking}, loose, positions_mm},
-      {"stages[].cohesion.grain_grain",
-       "",
-       D,
-       {sticking, loose},
-       "stages.1.cohesion.grain_grain=9",
-       positions_mm},
-      {"stages[].cohesion.grain_wall",
-       "",
-       D,
-       {sticking, loose},
-       "stages.1.cohesion.grain_wall=9",
-       positions_mm},
       {"stages[].until", "", F, {}, moved, steps},
       {"stages[].until.moved",
        "",
