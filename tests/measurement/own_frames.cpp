@@ -152,7 +152,7 @@ Snapshot silo_at_rest() {
 }
 
 TEST(Silo, UniformColumnHasTheHydrostaticStressOverItsHeight) {
-  const Reach reach{0, 8, 0, 20};
+  const SceneBox reach{0, 8, 0, 20};
   Slice slice = empty_slice(height_grid(2, 6, reach, 1), 1);
   add_snapshot(slice.grid, seen(silo_at_rest(), slice.grid.frame), slice.batches[0]);
   const ProfileSet profiles = height_profiles(slice);
@@ -176,7 +176,7 @@ TEST(Silo, WidthHasTheScenesComponents) {
     snapshot.v_x[i] = 0.05;
   }
   for (SnapshotContact& contact : snapshot.contacts) contact.impulse_t = 0.2 * contact.impulse_n;
-  const Reach reach{0, 8, 0, 20};
+  const SceneBox reach{0, 8, 0, 20};
   Slice slice = empty_slice(width_grid(4, 8, reach, 1), 1);
   add_snapshot(slice.grid, seen(snapshot, slice.grid.frame), slice.batches[0]);
   const ProfileSet profiles = width_profiles(slice);

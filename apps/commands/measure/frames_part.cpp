@@ -22,14 +22,14 @@ namespace {
 using Json = nlohmann::ordered_json;
 using particles::FlowSnapshot;
 using particles::MeasurementFrame;
-using particles::Reach;
+using particles::SceneBox;
 using particles::Snapshot;
 
 /// What grows while the snapshots are read.
 struct Frames {
   std::size_t batches = 0;
   double thickness = 1;
-  Reach reach;
+  SceneBox reach;
   bool in_mirror = false;
   std::optional<particles::RingGrid> rings;
   std::vector<particles::LayerSums> ring_batches;
@@ -38,9 +38,9 @@ struct Frames {
 };
 
 /// The box of what is measured, from the axes of the measurement back in those of the scene.
-Reach reach_of(const MeasurementFrame& place) {
+SceneBox reach_of(const MeasurementFrame& place) {
   const particles::FlowFrame& f = place.frame;
-  Reach reach{INFINITY, -INFINITY, INFINITY, -INFINITY};
+  SceneBox reach{INFINITY, -INFINITY, INFINITY, -INFINITY};
   for (const double x : {place.x_min, place.x_max})
     for (const double z : {place.z_min, place.z_max}) {
       const double there = f.origin_x + x * f.x_axis_x - z * f.x_axis_z;
@@ -69,7 +69,7 @@ void begin(const MeasureOptions& options, const MeasurementFrame& place, Frames&
   frames.thickness = options.layer_thickness;
   frames.reach = reach_of(place);
   frames.in_mirror = place.in_mirror;
-  const Reach& reach = frames.reach;
+  const SceneBox& reach = frames.reach;
   if (!options.radial.empty()) {
     const auto [x, z] = centre_of(options, place);
     double r_to = 0;

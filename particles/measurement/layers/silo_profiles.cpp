@@ -31,12 +31,12 @@ ProfileSet in_scene(const Slice& slice, std::initializer_list<Renamed> wanted) {
 
 }  // namespace
 
-LayerGrid height_grid(double x_from, double x_to, const Reach& reach, double thickness) {
+LayerGrid height_grid(double x_from, double x_to, const SceneBox& reach, double thickness) {
   return layer_grid(FlowFrame{}, (x_from + x_to) / 2, x_to - x_from, thickness, reach.z_min, reach.z_max, 0,
                     0);
 }
 
-LayerGrid width_grid(double z_from, double z_to, const Reach& reach, double thickness) {
+LayerGrid width_grid(double z_from, double z_to, const SceneBox& reach, double thickness) {
   // Turned by a quarter: its z is the scene's x, its x points down.
   return layer_grid(FlowFrame{0, 0, 0, -1}, -(z_from + z_to) / 2, z_to - z_from, thickness, reach.x_min,
                     reach.x_max, 0, 0);
