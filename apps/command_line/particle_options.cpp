@@ -67,6 +67,22 @@ void add_measure_options(CLI::App& command, MeasureOptions& options, StudyOption
           "Snapshots of which every grain's fields are written: all, last, or numbers and ranges such as "
           "1,5,10-20")
       ->type_name("LIST");
+  command
+      .add_option("--radial", options.radial,
+                  "Profiles over the distance from a point as well, in d and the axes of the scene, or from "
+                  "the axis of the circular wall: axis")
+      ->delimiter(',')
+      ->type_name("X,Z");
+  command
+      .add_option("--height", options.height,
+                  "Profiles over the height as well, within a band of x in d: a silo's axis")
+      ->delimiter(',')
+      ->type_name("X0,X1");
+  command
+      .add_option("--width", options.width,
+                  "Profiles over the width as well, within a band of z in d: a silo at one height")
+      ->delimiter(',')
+      ->type_name("Z0,Z1");
   add_accuracy(command, options.accuracy);
   add_existing(command, options.existing, keep_what_is_done);
 }

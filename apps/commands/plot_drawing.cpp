@@ -70,16 +70,17 @@ struct GrainMaterials {
 };
 
 GrainMaterials materials_of(const particles::RunFolder& run) {
-  if (particles::changes_grains(run.scene))
-    throw InputError(run.folder.string() +
-                     ": --color material: grains of this scene come and go, and snapshots hold no materials");
-  GrainMaterials found{particles::material_names(run.scene),
-                       particles::place_grains(run.scene, run.scales).material};
-  if (found.names.empty() || found.of_grain.empty())
+  const std::vector<std::string> names = particles::material_names(run.scene);
+  // Before the outlets: a scene that has none gains nothing by losing them.
+  if (names.empty() || !particles::materials_matter(run.scene))
     throw InputError(
         fmt::format("{}: --color material: the grains of this scene have no materials, "
                     "or no law tells them apart",
                     run.folder.string()));
+  if (particles::changes_grains(run.scene))
+    throw InputError(run.folder.string() +
+                     ": --color material: grains of this scene come and go, and snapshots hold no materials");
+  GrainMaterials found{names, particles::place_grains(run.scene, run.scales).material};
   found.names.push_back("none");
   return found;
 }

@@ -37,14 +37,16 @@ int run_by_mpirun(const RunOptions&);
 
 struct MeasureOptions {
   std::filesystem::path run;
-  double slice_width = 20;         ///< d
-  double layer_thickness = 1;      ///< d
-  double position = 0;             ///< x of the slice, d
-  std::vector<std::string> parts;  ///< beside the profiles; empty: all, "none": none (measure/part.hpp)
-  double gradient_step = 5;        ///< d
-  std::vector<double> slices;      ///< positions of the narrow slices, d; empty: spread over the surface
-  double map_spacing = 1;          ///< d, of the nodes of the maps
-  double map_width = 1;            ///< d, of their kernel
+  double slice_width = 20;            ///< d
+  double layer_thickness = 1;         ///< d
+  double position = 0;                ///< x of the slice, d
+  std::vector<std::string> parts;     ///< beside the profiles; empty: all, "none": none (measure/part.hpp)
+  double gradient_step = 5;           ///< d
+  std::vector<double> slices;         ///< positions of the narrow slices, d; empty: spread over the surface
+  double map_spacing = 1;             ///< d, of the nodes of the maps
+  double map_width = 1;               ///< d, of their kernel
+  std::vector<std::string> radial;    ///< centre of rings: "axis", or x and z in d; empty: none
+  std::vector<double> height, width;  ///< x0, x1 of a profile over the height; z0, z1 of one over the width
   std::string grains;  ///< snapshots whose grains get their fields written, a list as in export; empty: none
   std::optional<std::filesystem::path>
       accuracy;  ///< COST of the scene; absent: a shipped record, if there is one

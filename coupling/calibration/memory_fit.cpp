@@ -270,7 +270,8 @@ MemoryScore memory_score(const PathsOfRun& run, const AxisMemory& law) {
       coaxial_angles += std::pow(angle_deg(path.stress, path.axis), 2);
     }
     if (zone->paths == 0) continue;
-    const auto root = [&](double sum) { return std::sqrt(sum / static_cast<double>(zone->paths)); };
+    const auto paths = static_cast<double>(zone->paths);
+    const auto root = [paths](double sum) { return std::sqrt(sum / paths); };
     zone->rms = root(squares);
     zone->axes_deg = root(angles);
     zone->coaxial_rms = root(coaxial_squares);

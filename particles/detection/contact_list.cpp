@@ -248,6 +248,7 @@ bool ContactDetection::find_around(std::span<const ThrownGrain> thrown, const Bo
   for (const ThrownGrain& t : thrown) jolt_[t.grain] = std::max(jolt_[t.grain], t.push);
   const double most_jolt = *std::max_element(jolt_.begin(), jolt_.end());
   const double range = 2 * input.margin + 2 * input.time_step * motion.speeds + 1.5 * most_jolt;
+  added_.clear();
   if (!is_local(thrown, range + motion.largest)) {
     find(bodies, v_x, v_z, input);
     return true;
@@ -299,12 +300,23 @@ bool ContactDetection::insert_found() {
   std::sort(found_.begin(), found_.end(), before);
   const auto same = [](const Candidate& a, const Candidate& b) { return a.i == b.i && a.j == b.j; };
   found_.erase(std::unique(found_.begin(), found_.end(), same), found_.end());
-  const std::size_t known = candidates_.size();
-  for (const Candidate& pair : found_)
-    if (!std::binary_search(candidates_.begin(), candidates_.begin() + known, pair, before))
-      candidates_.push_back(pair);
-  std::inplace_merge(candidates_.begin(), candidates_.begin() + known, candidates_.end(), before);
-  return candidates_.size() > known;
+  std::erase_if(found_, [&](const Candidate& pair) {
+    return std::binary_search(candidates_.begin(), candidates_.end(), pair, before);
+  });
+  // From the back, each pair moves once, and only as far as there are new ones before it.
+  std::size_t end = candidates_.size();
+  if (candidates_.capacity() < end + found_.size()) candidates_.reserve(end + end / 16 + found_.size());
+  candidates_.resize(end + found_.size());
+  for (std::size_t left = found_.size(); left > 0; --left) {
+    const Candidate& pair = found_[left - 1];
+    const auto place = std::lower_bound(candidates_.begin(), candidates_.begin() + end, pair, before);
+    std::move_backward(place, candidates_.begin() + end, candidates_.begin() + end + left);
+    end = place - candidates_.begin();
+    candidates_[end + left - 1] = pair;
+    added_.push_back(static_cast<std::int32_t>(end + left - 1));
+  }
+  std::reverse(added_.begin(), added_.end());
+  return !found_.empty();
 }
 
 }  // namespace drumlin::particles

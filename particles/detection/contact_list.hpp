@@ -52,6 +52,9 @@ class ContactDetection {
   bool find_around(std::span<const ThrownGrain> thrown, const Bodies& bodies, std::span<const double> v_x,
                    std::span<const double> v_z, const DetectionInput& input);
   const std::vector<Candidate>& candidates() const { return candidates_; }
+  /// Places among the candidates, ascending, of the pairs that the last search around grains has added; empty
+  /// where it had to begin anew.
+  std::span<const std::int32_t> added() const { return added_; }
 
   /// The next search begins anew, as the first one.
   void forget() { lists_ = {}; }
@@ -87,7 +90,8 @@ class ContactDetection {
   std::vector<WeighedPair> weighed_;  // of grains and walls
   std::vector<double> jolt_;          // 2 h a_i of each body
   std::vector<Candidate> candidates_;
-  std::vector<Candidate> found_;  // around thrown grains
+  std::vector<Candidate> found_;     // around thrown grains
+  std::vector<std::int32_t> added_;  // places of those of them that were new
 };
 
 /// Gap and normal of a disc and a shape; `point` receives the point of the shape that is nearest.

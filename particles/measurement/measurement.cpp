@@ -213,7 +213,8 @@ Measurement measurement(const SnapshotSource& source, const MeasurementOptions& 
   result.in_mirror = recording.in_mirror;
   result.scales = last.scales;
   result.velocity_window = last.displacement_x.empty() ? 0 : last.velocity_window;
-  const MeasurementFrame place = found_frame(found, last, options, result);
+  MeasurementFrame place = found_frame(found, last, options, result);
+  place.in_mirror = recording.in_mirror;
   const double frame_angle = angle_of(place.frame, last);
   result.place = place;
   result.frame_angle_deg = frame_angle * degrees;

@@ -21,6 +21,12 @@ struct StageCoefficients {
   double grain_wall = 0;
 };
 
+/// Those of cohesion, in weights of a disc of the mean diameter; its range stays.
+struct StageCohesion {
+  double grain_grain = 0;
+  double grain_wall = 0;
+};
+
 /// The grains are at rest: their kinetic energy stays below a bound.
 struct UntilRest {
   double energy = 1e-6;  ///< per grain, in weights of a disc of the mean diameter times that diameter
@@ -86,6 +92,7 @@ struct Stage {
   std::optional<StageGravity> gravity = {};            ///< stays until another stage changes it
   // Coefficients of this stage alone, in place of those of the effects.
   std::optional<StageCoefficients> friction = {}, restitution = {}, rolling_resistance = {};
+  std::optional<StageCohesion> cohesion = {};
   std::optional<Until> until = {};
   std::optional<StageCell> cell = {};  ///< how a cell that is periodic in x and z moves
 };

@@ -67,6 +67,14 @@ void describe(Visitor& v, StageCoefficients& c) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, StageCohesion& c) {
+  v.value("grain_grain", c.grain_grain,
+          required("", at_least(0, 1e6),
+                   "Attraction of two grains that touch, in weights of a disc of the mean diameter."));
+  v.value("grain_wall", c.grain_wall, required("", at_least(0, 1e6), "The same between a grain and a wall."));
+}
+
+template <class Visitor>
 void describe(Visitor& v, UntilRest& u) {
   v.value("energy", u.energy,
           defaulted("", above(0, 1e6),
@@ -119,6 +127,8 @@ void describe(Visitor& v, Stage& s) {
                    "In this stage in place of the values of effects.restitution.");
   v.optional_table("rolling_resistance", s.rolling_resistance,
                    "In this stage in place of the values of effects.rolling_resistance.");
+  v.optional_table("cohesion", s.cohesion,
+                   "In this stage in place of the values of effects.cohesion, whose range stays.");
   v.optional_table("until", s.until, "Ends the stage before its time, when the first of these is met.");
   v.optional_table(
       "cell", s.cell,

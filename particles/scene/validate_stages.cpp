@@ -75,6 +75,7 @@ void check_coefficients(const Scene& scene, std::size_t s, Faults& faults) {
   check("friction", stage.friction.has_value(), effects.friction.has_value());
   check("restitution", stage.restitution.has_value(), effects.restitution.has_value());
   check("rolling_resistance", stage.rolling_resistance.has_value(), effects.rolling_resistance.has_value());
+  check("cohesion", stage.cohesion.has_value(), effects.cohesion.has_value());
   if (const auto& e = stage.restitution; e && std::max(e->grain_grain, e->grain_wall) > 1) {
     const std::string key = fmt::format("stages.{}.restitution", s);
     faults.push_back({key, "gives back more than the approach speed", "values of at most 1", {key}});

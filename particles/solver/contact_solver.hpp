@@ -6,6 +6,7 @@
 #include "particles/contact/body_delassus.hpp"
 #include "particles/contact/general_delassus.hpp"
 #include "particles/contact/solution.hpp"
+#include "particles/solver/coarse_loads.hpp"
 #include "particles/solver/conjugate_projected_gradient.hpp"
 #include "particles/solver/stopping_rule.hpp"
 #include "particles/solver/strip_solver.hpp"
@@ -36,6 +37,8 @@ struct SolverWorkspace {
   std::vector<double> step, direction, best;
   StripWorkspace<typename Problem::Delassus> strips;
   ProjectedGradientWorkspace projected_gradient;
+  CoarseLoads coarse;
+  BodyPlaces places;  ///< of the bodies of the problem, for `coarse`; none: large problems do without
   ThreadTeam* team = nullptr;  ///< none: the calling thread alone; results do not depend on it
 };
 
@@ -48,7 +51,8 @@ using ContactSolver = SolveReport (*)(const Problem&, const StoppingRule&, Solve
 /// The default: nonlinear Gauss-Seidel sweeps with Nesterov's extrapolation between them
 /// (particles/solver/momentum.hpp). Problems of discs are swept in strips, on vectors and threads: in single
 /// precision as long as that helps, which is down to residuals of some 1e-4, and in double precision from
-/// there. The residual is always that in double precision.
+/// there. The residual is always that in double precision. Where places of the bodies are known, large
+/// problems are corrected on a coarse grid every few sweeps (particles/solver/coarse_loads.hpp).
 /// Ends on a sweep, so that the impulses lie in their cones. Where they miss the rule they are the best that
 /// the solver has looked at.
 template <class Problem>

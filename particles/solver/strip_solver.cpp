@@ -216,6 +216,20 @@ void StripProblem<T, dim, spin>::unpack(const Problem& problem, bool kept, std::
 }
 
 template <class T, int dim, bool spin>
+void StripProblem<T, dim, spin>::restart(std::span<const double> r, const TeamLoops& loops) {
+  constexpr int width = Block::width;
+  loops.each(contact_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      if (contact_[p] < 0) continue;
+      Block& block = blocks_[p / width];
+      for (int e = 0; e < dim; ++e)
+        block.r[e][p % width] = block.before[e][p % width] = static_cast<T>(r[dim * contact_[p] + e]);
+    }
+  });
+  for (BodyRecord<T>& body : bodies_) body.x = body.z = body.s = 0;
+}
+
+template <class T, int dim, bool spin>
 int StripProblem<T, dim, spin>::first_strip(int thread, int threads) const {
   if (thread == threads) return strips();
   const std::size_t wanted = blocks_.size() * thread / threads;

@@ -29,6 +29,9 @@ class StripProblem {
   template <class Problem>
   void unpack(const Problem& problem, bool kept, std::vector<double>& r, const TeamLoops& loops) const;
 
+  /// Goes on from other impulses, in the order of the problem; bodies are loaded anew after it.
+  void restart(std::span<const double> r, const TeamLoops& loops);
+
   int strips() const { return static_cast<int>(strips_.size()); }
   /// First strip of a thread's share: strips are shared by numbers of blocks.
   int first_strip(int thread, int threads) const;

@@ -21,6 +21,7 @@ struct SweepState {
   bool finite = true;
   double steps = 0;     ///< sum of squares of the steps of the last sweep
   double worth = 0;     ///< of `steps`: above it the residual, which costs about a sweep, is not looked at
+  bool loaded = false;  ///< bodies have the impulses that they start from
   int unseen = 0;       ///< rounds without a look at the residual
   bool looked = false;  ///< in the last round
   bool keep = false;    ///< the impulses that it left are the best so far
@@ -33,7 +34,7 @@ void sweep_share(Strips& strips, int thread, int threads, int until, bool last, 
                  SweepState<T>& state, Meet meet) {
   const int first = strips.first_strip(thread, threads), end = strips.first_strip(thread + 1, threads);
   SweepState<T> own = state;
-  if (own.sweeps == 0) {
+  if (!own.loaded) {
     for (const int phase : {0, 1}) {
       for (int strip = first; strip < end; ++strip) strips.load(strip, phase);
       meet();
@@ -44,6 +45,7 @@ void sweep_share(Strips& strips, int thread, int threads, int until, bool last, 
     }
     for (int strip = first; strip < end; ++strip) strips.start(strip);
     meet();
+    own.loaded = true;
   }
   if (own.keep)
     for (int strip = first; strip < end; ++strip) strips.keep(strip);
@@ -92,6 +94,36 @@ double pack_in_strips(const Problem& problem, SolverWorkspace<Problem>& work, St
   return q_squares > 0 ? Problem::dim / q_squares : 1;  // rms over contacts, relative to the rms of q
 }
 
+/// Whether a problem is large enough to be corrected on a coarse grid, and tells what that needs.
+template <class Problem>
+bool wants_coarse_loads(const Problem& problem, const SolverWorkspace<Problem>& work) {
+  if constexpr (requires { problem.W.inverse_W_nn; })
+    return problem.contacts() >= least_contacts_of_coarse_loads && !problem.W.plan.empty() &&
+           work.places.x.size() == static_cast<std::size_t>(problem.W.fixed());
+  else
+    return false;
+}
+
+/// Corrects the impulses of the strips on a coarse grid; `solution` is overwritten.
+template <class T, class Problem, class Strips>
+void correct_loads(const Problem& problem, SolverWorkspace<Problem>& work, Strips& strips,
+                   Solution<Problem>& solution, TeamLoops& loops, SweepState<T>& state) {
+  if constexpr (requires { problem.W.inverse_W_nn; }) {
+    if (state.keep)
+      for (int strip = 0; strip < strips.strips(); ++strip) strips.keep(strip);
+    state.keep = false;
+    strips.unpack(problem, false, solution.impulses, loops);
+    set_velocities(problem, std::span<const double>(solution.impulses), solution.velocities, loops);
+    const auto& W = problem.W;
+    constexpr bool spin = requires { solution.velocities.bodies[0].s; };
+    work.coarse.scale({W.i, W.j, W.n_x, W.n_z, W.inverse_mass, problem.mu, W.plan, Problem::dim, spin},
+                      work.places, solution.velocities.contacts, solution.impulses, loops);
+    strips.restart(solution.impulses, loops);
+    state.loaded = false;
+    state.beta = 0;
+  }
+}
+
 /// NLGS, plain or accelerated, in precision T. Accelerated, contacts that are open may rest in four sweeps of
 /// five; the residual counts them always. Every few sweeps (while the steps say that it is far, every
 /// fourth time of these) the solver estimates its residual, on vectors and threads; when that is small enough
@@ -114,7 +146,14 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
   state.momentum = Momentum(rule.tolerance, static_cast<std::size_t>(problem.contacts()));
   state.worth = std::numeric_limits<double>::infinity();
   double least = std::numeric_limits<double>::infinity(), best = least;
-  for (int progress_at = 0;;) {
+  const bool coarse = accelerated && wants_coarse_loads(problem, work);
+  int corrected_at = 0;
+  const auto go_on = [&] {
+    if (!coarse || state.sweeps < corrected_at + sweeps_between_coarse_loads) return;
+    correct_loads(problem, work, strips, solution, loops, state);
+    corrected_at = state.sweeps;
+  };
+  for (int progress_at = 0;; go_on()) {
     int until = state.sweeps + 1;
     while (!test.due(until)) ++until;
     const bool look = always || until >= rule.max_sweeps;

@@ -39,8 +39,14 @@ class Recollection {
   void use(ThreadTeam* team) { loops_ = TeamLoops(team); }
   /// Finds the pairs of grains 0 to `bodies` in the memory.
   void find(const ContactMemory&, std::size_t bodies, std::span<const Candidate> pairs);
+  /// Finds other pairs in the memory of the last find(), which must not have changed.
+  void find_again(std::span<const Candidate> pairs);
+  /// The same for the pairs of the last call and more of them, at the places `added`, ascending.
+  void find_added(std::span<const Candidate> pairs, std::span<const std::int32_t> added);
   /// Normal impulses of the pairs that were looked for, for a step of length `time_step`.
   RememberedLoads loads(const ContactMemory&, int dim, double time_step) const;
+  /// The same of some pairs alone, whether they were looked for or not.
+  RememberedLoads loads_of(std::span<const Candidate> pairs, const ContactMemory&, int dim, double time_step);
   /// Impulses that a step of length `time_step` starts from: those remembered, 0 for new contacts. `order`:
   /// place of each among the pairs that were looked for.
   void warm_start(const ContactMemory&, int dim, double time_step, std::span<const std::int32_t> order,
@@ -48,8 +54,16 @@ class Recollection {
 
  private:
   TeamLoops loops_;
-  std::vector<std::int32_t> place_;                         // of each pair in the memory; -1: new
-  std::vector<std::int32_t> first_of_body_, next_of_body_;  // places in the memory, linked by their i
+  struct Entry {
+    std::int32_t j, place;  // in the memory
+  };
+  std::vector<std::int32_t> place_;  // of each pair in the memory; -1: new
+  void sort_entries(const ContactMemory& memory, std::size_t bodies);
+  std::int32_t place_of(const Candidate& pair) const;
+  std::vector<Entry> entries_;           // of the memory, in the order of (i, j)
+  std::vector<std::int32_t> row_;        // where the entries of each i end
+  std::vector<std::int32_t> by_second_;  // places in the memory, by j
+  std::vector<std::int32_t> place_of_some_;
 };
 
 /// Keeps contacts and impulses of a step.

@@ -71,6 +71,8 @@ class MoreauJean final : public Stepper {
     assemble<Problem, with_spin>(step, contacts_, TeamLoops(&team_), problem_);
     report.setup_seconds += watch.lap();
     report.contacts = problem_.contacts();
+    const bool open = laws_.period.open() && laws_.period.open_z();  // else places are those of images
+    work_.places = open ? BodyPlaces{bodies.x, bodies.z} : BodyPlaces{};
     report.solve = solve_(problem_, solver_.rule, work_, solution_);
     remember(contacts_.pairs, solution_.impulses, time_step, state.memory);
     move(bodies, time_step);
@@ -172,6 +174,7 @@ class MoreauJean final : public Stepper {
   void strike(const StepInput& step, const MovingState& state, Stopwatch& watch, StepReport& report) {
     searched_.x = free_.x, searched_.z = free_.z;
     for (int searches = 1;; ++searches) {
+      if (searches > 1 && !strikes_again(step, state)) return;
       contacts_.pairs = detection_.candidates();
       sweep_all_normals(step);
       impacts_.resolve(step, recollection_.loads(state.memory, dim, step.time_step), state.bodies, contacts_);
@@ -182,9 +185,31 @@ class MoreauJean final : public Stepper {
       move_freely(step);
       if (searches == most_searches || !find_thrown(step)) return;
       if (detection_.find_around(thrown_, step.bodies, free_.x, free_.z, detection_input(step)))
-        recollection_.find(state.memory, step.bodies.count(), detection_.candidates());
+        recollect_more();
       report.detection_seconds += watch.lap();
     }
+  }
+
+  /// Finds the pairs in the memory that a search around grains has added.
+  void recollect_more() {
+    if (detection_.added().empty())
+      recollection_.find_again(detection_.candidates());
+    else
+      recollection_.find_added(detection_.candidates(), detection_.added());
+  }
+
+  /// Whether any pair meets now, after impacts and another search: only one of a grain that they struck can.
+  bool strikes_again(const StepInput& step, const MovingState& state) {
+    if (!step.driven.empty()) return true;  // walls have been struck too
+    is_struck_.resize(step.bodies.count(), 0);
+    for (const StruckGrain& struck : impacts_.struck()) is_struck_[struck.grain] = 1;
+    struck_contacts_.pairs.clear();
+    for (const Candidate& pair : detection_.candidates())
+      if (is_struck_[pair.i] | (pair.j >= 0 ? is_struck_[pair.j] : 0)) struck_contacts_.pairs.push_back(pair);
+    for (const StruckGrain& struck : impacts_.struck()) is_struck_[struck.grain] = 0;
+    sweep_normals(step, struck_contacts_.pairs);
+    const auto loads = recollection_.loads_of(struck_contacts_.pairs, state.memory, dim, step.time_step);
+    return impacts_.any(step, loads, struck_contacts_);
   }
 
   /// The grains that impacts have thrown further than the search for pairs allowed for; false if none.
@@ -271,6 +296,8 @@ class MoreauJean final : public Stepper {
   ContactOrder order_;
   StepContacts contacts_;
   Impacts impacts_;
+  std::vector<char> is_struck_;   // of each grain, within strikes_again() alone
+  StepContacts struck_contacts_;  // pairs of struck grains
   Recollection recollection_;
   Problem problem_;
   SolverWorkspace<Problem> work_;

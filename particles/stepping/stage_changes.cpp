@@ -10,7 +10,7 @@ namespace {
 
 bool changes_laws(const Scene& scene) {
   return changes_gravity(scene) || std::any_of(scene.stages.begin(), scene.stages.end(), [](const Stage& s) {
-           return s.friction || s.restitution || s.rolling_resistance;
+           return s.friction || s.restitution || s.rolling_resistance || s.cohesion;
          });
 }
 

@@ -38,7 +38,7 @@ StepLaws laws_of(const Scene& scene, const Scales& scales) {
 
 StepLaws laws_in(const Scene& scene, const Scales& scales, const Stage& stage) {
   Scene now = scene;
-  const auto replace = [](auto& effect, const std::optional<StageCoefficients>& asked) {
+  const auto replace = [](auto& effect, const auto& asked) {
     if (!asked) return;
     effect->grain_grain = asked->grain_grain, effect->grain_wall = asked->grain_wall;
     effect->pairs.clear();
@@ -46,6 +46,7 @@ StepLaws laws_in(const Scene& scene, const Scales& scales, const Stage& stage) {
   replace(now.effects.friction, stage.friction);
   replace(now.effects.restitution, stage.restitution);
   replace(now.effects.rolling_resistance, stage.rolling_resistance);
+  replace(now.effects.cohesion, stage.cohesion);
   return laws_of(now, scales);
 }
 

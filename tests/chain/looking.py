@@ -75,6 +75,20 @@ motions = [{ wall = "floor", kind = "oscillation", amplitude_mm = [0, 2], freque
 SLIDING = PERIODIC.replace("Shaken floor", "Sliding floor").replace(
     'kind = "oscillation", amplitude_mm = [0, 2], frequency_hz = 5', 'kind = "translation", velocity_mm_s = [400, 0]')
 
+# The same grains between walls.
+BED = PERIODIC.replace("[periodic_x]\nx_min_mm = 0\nx_max_mm = 30\n", "").replace("[effects.gravity]", """
+[[walls]]
+name = "left"
+shape = "segment"
+from_mm = [0, 100]
+to_mm = [0, -10]
+[[walls]]
+name = "right"
+shape = "segment"
+from_mm = [30, -10]
+to_mm = [30, 100]
+[effects.gravity]""")
+
 # Nothing to look at but the log.
 NO_SNAPSHOTS = ONE_DISC.replace("snapshots = 2", "snapshots = 0")
 
@@ -303,6 +317,28 @@ def table_of(file):
     return head, [dict(zip(names, row)) for row in rows]
 
 
+def own_frames(drumlin, periodic, folder):
+    """Every grain of every snapshot is counted once in rings, over the height and over the width."""
+    bed = made_run(drumlin, folder, "bed", BED)
+    for words, answer in ([["--radial", "axis"], "no circular wall"], [["--radial", "1"], "X,Z"], [["--radial", "1,x"], "X,Z"],
+                          [["--height", "3,1"], "second one greater"], [["--width", "3"], "second one greater"]):
+        _, said = drumlin("measure", bed, "--parts", "none", *words, code=2)
+        require(answer in said and not (bed / "measured").exists(), f"{words}: {said}")
+    _, said = drumlin("measure", periodic, "--parts", "none", "--height", "0,5", code=2)
+    require("periodic" in said and not (periodic / "measured").exists(), said)
+    drumlin("measure", bed, "--parts", "none")
+    require("frames" not in read_json(bed / "measured/measured.json") and not list(bed.glob("measured/radial*")), "what nobody asked for")
+    drumlin("measure", bed, "--parts", "none", "--radial", "4,3", "--height=-1,10", "--width=-1,60", "--overwrite")
+    measured = read_json(bed / "measured/measured.json")
+    grains = 50 * measured["settings"]["snapshots"]
+    require([frame["file"] for frame in measured["frames"]] == ["radial.csv", "height.csv", "width.csv"], measured["frames"])
+    for name, first, there, foreign in (("radial", "r", "sigma_rt", "sigma_xz"), ("height", "z", "sigma_zz", "shear_rate"), ("width", "x", "d_v_z_dx", "k")):
+        head, rows = table_of(bed / "measured" / f"{name}.csv")
+        require(head[:2] == ["# drumlin-frame-1", f"# frame = {name}"] and "# reduced = true" in head, head)
+        require(list(rows[0])[0] == first and there in rows[0] and foreign not in rows[0] and f"{there}_ci99" in rows[0], list(rows[0]))
+        require(sum(float(row["count"]) for row in rows) == grains, f"{name}: {[row['count'] for row in rows]} of {grains}")
+
+
 def refusals(drumlin, one_disc, periodic, none, folder):
     (folder / "no-run").mkdir()
     damaged = folder / "damaged"
@@ -336,6 +372,7 @@ def main():
         refusals(drumlin, one_disc, periodic, none, folder)
         exports(drumlin, one_disc, periodic, folder)
         histories(drumlin, one_disc, periodic, folder)
+        own_frames(drumlin, periodic, folder)
         plots(drumlin, one_disc, periodic, none, folder)
         chosen_plots(drumlin, periodic, folder)
         sliding_wall(drumlin, folder)

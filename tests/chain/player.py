@@ -195,6 +195,8 @@ def main():
         drumlin("plot", traffic, "--player")
         came = require_player(traffic, traffic / "plots", 12)
         require(came.content["count"] > 40 and "there" in came.planes and "spin" not in came.content, "no grain came")
+        _, said = drumlin("plot", traffic, "--color", "material", "-o", folder / "traffic-plots", code=2)
+        require("have no materials" in said and "come and go" not in said, said)
         two = made_run(drumlin, folder, "two", TRAFFIC.replace("[grains.generated]", 'materials = [{ name = "glass" }, { name = "steel" }]\n[grains.generated]')
                        .replace("[effects.gravity]", '[effects.gravity]\n[effects.friction]\ngrain_grain = 0.4\ngrain_wall = 0.4\npairs = [{ between = ["glass", "steel"], value = 0.2 }]'))
         _, said = drumlin("plot", two, "--color", "material", "-o", folder / "two-plots", code=2)

@@ -41,6 +41,37 @@ TEST(Cohesion, LetsADiscFallThatIsHeavier) {
   EXPECT_LT(end.z[0], -0.5 - 1.8);
 }
 
+TEST(Cohesion, OfAStageHoldsADiscUntilTheNextStageTakesItAway) {
+  const TemporaryFolder folder;
+  Scene scene = below_a_ceiling(1.01, folder);
+  scene.stages[0].cohesion = StageCohesion{0, 0};
+  EXPECT_LT(test::bodies_at_end(scene).z[0], -0.5 - 1.8);  // the effect alone would hold it
+
+  scene.effects.cohesion = Cohesion{0, 0.5};  // too little
+  scene.stages[0].cohesion = StageCohesion{0, 1.01};
+  add_stage(scene, 2, 1e-2);
+  scene.stages[1].cohesion = StageCohesion{0, 0};
+  Simulation simulation(scene);
+  const auto go_on_to = [&](double time) {
+    while (simulation.state().time() < time - 1e-9) (void)simulation.step();
+  };
+  go_on_to(2);
+  EXPECT_NEAR(simulation.state().bodies.z[0], -0.5, 1e-9);
+  go_on_to(2.1);
+  // Free fall from the first step of the second stage on.
+  EXPECT_NEAR(simulation.state().bodies.v_z[0], -0.1, 1e-9);
+  go_on_to(4);
+  EXPECT_LT(simulation.state().bodies.z[0], -0.5 - 1.8);
+}
+
+TEST(Cohesion, OfAStageWithTheValuesOfTheEffectChangesNoBit) {
+  Scene scene = test::turning_drum();
+  scene.effects.cohesion = Cohesion{1, 2};
+  Scene told = scene;
+  for (Stage& stage : told.stages) stage.cohesion = StageCohesion{1, 2};
+  test::expect_same(test::bodies_at_end(scene), test::bodies_at_end(told));
+}
+
 /// Speed after a time of 1 of a disc that cannot turn, on a floor in gravity tilted by 30 degrees.
 double speed_on_a_slope(double mu, double cohesion) {
   const TemporaryFolder folder;

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "particles/measurement/maps/map_findings.hpp"
+#include "particles/measurement/maps/spline_kernel.hpp"
 #include "tests/measurement/packings.hpp"
 
 namespace drumlin {
@@ -211,6 +212,101 @@ TEST(FieldMaps, EqualBatchesHaveIntervalsOfZeroAndOneBatchHasNone) {
     EXPECT_NEAR(map.field("v_x").ci99[node], 0, 1e-10);
   }
   EXPECT_TRUE(maps_of(lattice_graining(), {lattice}).field("v_x").ci99.empty());
+}
+
+/// Grains of two densities, one of them moved and pushed against a wall and against its neighbour.
+Snapshot few_grains_of_two_densities() {
+  Snapshot snapshot;
+  snapshot.time_step = 0.5;
+  const double places[][3] = {{0.1, -0.2, 0.5}, {0.9, 0.3, 0.45}, {-0.6, 0.4, 0.55}};
+  const double velocities[][2] = {{1, 0.5}, {-2, 0.25}, {0.5, -1}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    testing::add_grain(snapshot, places[i][0], places[i][1], places[i][2]);
+    snapshot.v_x.back() = velocities[i][0];
+    snapshot.v_z.back() = velocities[i][1];
+    const double density = i == 1 ? 7.5 : 1;
+    snapshot.mass.push_back(density * std::numbers::pi * places[i][2] * places[i][2]);
+  }
+  snapshot.contacts = {{1, 0, 0.8f, 0.6f, 0.3, -0.1}, {2, -1, 0, 1, 0.2, 0.05}};
+  return snapshot;
+}
+
+TEST(FieldMaps, OfSeveralDensitiesAreDirectSumsWithEachGrainsOwnMass) {
+  const Snapshot snapshot = few_grains_of_two_densities();
+  const CoarseGraining graining = coarse_graining(FlowFrame{}, -1, 1, -1, 1, 0.5, 1, 0);
+  const FieldMap map = maps_of(graining, {snapshot});
+  // The contact part alone, of the same grains at rest: it takes no mass.
+  Snapshot resting = snapshot;
+  resting.v_x.assign(3, 0);
+  resting.v_z.assign(3, 0);
+  const FieldMap contacts = maps_of(graining, {resting});
+  std::size_t nodes = 0;
+  for (std::size_t node = 0; node < map.grid.nodes(); ++node) {
+    const double x = map.grid.x_of(node % map.grid.columns), z = map.grid.z_of(node / map.grid.columns);
+    double area = 0, m = 0, m_x = 0, m_z = 0, xx = 0, xz = 0, zz = 0, slope = 0, m_slope = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double phi = spline(x - snapshot.x[i]) * spline(z - snapshot.z[i]);
+      const double phi_z = spline(x - snapshot.x[i]) * spline_slope(z - snapshot.z[i]);
+      const double own = snapshot.mass[i], v_x = snapshot.v_x[i], v_z = snapshot.v_z[i];
+      area += std::numbers::pi * snapshot.radius[i] * snapshot.radius[i] * phi;
+      m += own * phi, m_x += own * v_x * phi, m_z += own * v_z * phi;
+      xx += own * v_x * v_x * phi, xz += own * v_x * v_z * phi, zz += own * v_z * v_z * phi;
+      slope += own * v_x * phi_z, m_slope += own * phi_z;
+    }
+    if (area < least_map_nu) continue;
+    ++nodes;
+    const auto value = [&](const char* name) { return map.field(name).value[node]; };
+    EXPECT_NEAR(value("nu"), area, 1e-12);
+    EXPECT_NEAR(value("density"), m, 1e-12);
+    EXPECT_NEAR(value("v_x"), m_x / m, 1e-12);
+    EXPECT_NEAR(value("v_z"), m_z / m, 1e-12);
+    EXPECT_NEAR(value("d_v_x_dz"), (slope - m_x / m * m_slope) / m, 1e-12);
+    EXPECT_NEAR(value("sigma_xx_kinetic"), xx - m_x * m_x / m, 1e-12);
+    EXPECT_NEAR(value("sigma_zz_kinetic"), zz - m_z * m_z / m, 1e-12);
+    EXPECT_NEAR(value("sigma_xz_kinetic"), -(xz - m_x * m_z / m), 1e-12);
+    EXPECT_NEAR(value("sigma_zz"), contacts.field("sigma_zz").value[node] + zz - m_z * m_z / m, 1e-12);
+  }
+  EXPECT_GT(nodes, 10u);
+}
+
+TEST(FieldMaps, OfSeveralDensitiesBalanceEachGrainsOwnWeight) {
+  // Columns at rest; every second grain is three times as heavy, and contacts carry what lies above them.
+  Snapshot snapshot = testing::stacked_columns(8, 10, 0.3);
+  std::vector<double> above(11);
+  for (int level = 9; level >= 0; --level)
+    above[level] = above[level + 1] + (level % 2 == 0 ? 1 : 3) * std::numbers::pi / 4;
+  for (std::size_t i = 0; i < snapshot.x.size(); ++i) {
+    const std::size_t level = i % 10;
+    snapshot.mass.push_back(above[level] - above[level + 1]);
+    const double impulse = above[level] * snapshot.time_step;
+    snapshot.contacts[i].impulse_n = impulse * std::cos(0.3);
+    snapshot.contacts[i].impulse_t = -impulse * std::sin(0.3);
+  }
+  const CoarseGraining graining = coarse_graining(FlowFrame{}, 0, 8, 0, 10, 1, 1, 8);
+  const FieldMap map = maps_of(graining, {snapshot});
+  for (const char* name : {"residual_x", "residual_z"})
+    for (std::size_t row = 1; row + 1 < map.grid.rows; ++row)
+      EXPECT_NEAR(map.field(name).value[row * map.grid.columns + 3], 0, 1e-9) << name << row;
+  // In the middle of the packing sigma_zz falls by the weight of the mean density.
+  const auto sigma = [&](std::size_t row) { return map.field("sigma_zz").value[row * map.grid.columns + 3]; };
+  EXPECT_NEAR(sigma(3) - sigma(5), 2 * 2 * std::numbers::pi / 4 * std::cos(0.3), 1e-9);
+}
+
+TEST(FieldMaps, AreasAreToldApartFromTheFirstDenseSnapshotOn) {
+  const Snapshot dense = few_grains_of_two_densities();
+  Snapshot plain = dense;
+  plain.mass.clear();
+  const CoarseGraining graining = coarse_graining(FlowFrame{}, -1, 1, -1, 1, 0.5, 1, 0);
+  const FieldMap both = maps_of(graining, {plain, dense}), turned = maps_of(graining, {dense, plain}),
+                 none = maps_of(graining, {plain, plain});
+  EXPECT_EQ(none.find("density"), nullptr);
+  for (std::size_t node = 0; node < both.grid.nodes(); ++node) {
+    EXPECT_NEAR(both.field("nu").value[node], none.field("nu").value[node], 1e-12);
+    if (both.field("nu").value[node] < least_map_nu) continue;
+    EXPECT_NEAR(both.field("density").value[node], turned.field("density").value[node], 1e-12);
+    EXPECT_NEAR(both.field("nu").ci99[node], 0, 1e-9);
+    EXPECT_GT(both.field("density").value[node], both.field("nu").value[node]);
+  }
 }
 
 }  // namespace

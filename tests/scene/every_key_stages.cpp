@@ -28,6 +28,8 @@ const std::string smooth = "stages.1.friction={grain_grain=0, grain_wall=0}";
 const std::string lively = "stages.0.restitution={grain_grain=0.9, grain_wall=0.9}";
 const std::string rolling = "effects.rolling_resistance={grain_grain=0.1, grain_wall=0.2}";
 const std::string stiff = "stages.1.rolling_resistance={grain_grain=1, grain_wall=1}";
+const std::string sticky = "effects.cohesion={grain_grain=1, grain_wall=1}";
+const std::string stickier = "stages.0.cohesion={grain_grain=5, grain_wall=5}";
 const std::string moved = "stages.0.until={moved={wall=\"left\", distance_mm=1}}";
 const std::string never = "stages.0.until={moved={wall=\"right\", distance_mm=1}}";
 const std::string rested = "stages.0.until.at_rest={energy=1e6, for_s=0.01}";
@@ -118,6 +120,19 @@ std::vector<Case> cases_of_stage_changes() {
        {rolling, stiff},
        "stages.1.rolling_resistance.grain_wall=0",
        spins_rad_s},
+      {"stages[].cohesion", "", D, {sticky}, stickier, positions_mm},
+      {"stages[].cohesion.grain_grain",
+       "",
+       D,
+       {sticky, stickier},
+       "stages.0.cohesion.grain_grain=0",
+       positions_mm},
+      {"stages[].cohesion.grain_wall",
+       "",
+       D,
+       {sticky, stickier},
+       "stages.0.cohesion.grain_wall=0",
+       positions_mm},
       {"stages[].until", "", F, {}, moved, steps},
       {"stages[].until.moved",
        "",

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/commands/measure/forces_part.hpp"
+#include "apps/commands/measure/frames_part.hpp"
 #include "apps/commands/measure/grains_part.hpp"
 #include "apps/commands/measure/maps_part.hpp"
 #include "coupling/common/errors.hpp"
@@ -37,6 +38,7 @@ std::vector<Part> reading_parts(const MeasureOptions& options) {
   if (names_part(options, "forces")) parts.push_back(forces_part(options));
   if (names_part(options, "maps")) parts.push_back(maps_part(options));
   if (!options.grains.empty()) parts.push_back(grains_part(options));
+  if (asks_for_frames(options)) parts.push_back(frames_part(options));
   return parts;
 }
 

@@ -50,6 +50,7 @@ struct MeasurementFrame {
   double gradient_step = 0;     ///< used; 0: no derivatives along x
   double half_chord = 0;        ///< of the surface; infinite without a drum
   std::size_t snapshots = 0, batches = 0;
+  bool in_mirror = false;  ///< snapshots are seen in a vertical mirror (Measurement)
 };
 
 }  // namespace drumlin::particles

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "particles/measurement/layers/velocity_moments.hpp"
+
 namespace drumlin::particles {
 namespace {
 
@@ -17,52 +19,12 @@ double volume_fraction(const LayerGrid& grid, const LayerSums& sums, std::size_t
 
 double mean(double sum, double count) { return count > 0 ? sum / count : none; }
 
-/// Covariance per grain; never below zero by rounding where it is a variance.
-double covariance(double product_sum, double a_sum, double b_sum, double count) {
-  return count > 0 ? product_sum / count - a_sum / count * (b_sum / count) : none;
-}
-
 /// (v[l + 1] - v[l - 1]) / (2 thickness); NaN at the ends and beside an empty layer.
 std::vector<double> central_difference(const std::vector<double>& value, double thickness) {
   std::vector<double> slope(value.size(), none);
   for (std::size_t l = 1; l + 1 < value.size(); ++l)
     slope[l] = (value[l + 1] - value[l - 1]) / (2 * thickness);
   return slope;
-}
-
-/// Second moments of the velocity in one layer, v_x counted from its mean profile v_x(z) and not from one
-/// number per layer: otherwise shear within a layer would pass for fluctuation.
-struct VelocityMoments {
-  double xx, zz, xz;
-};
-
-VelocityMoments velocity_moments(const LayerSum& sum, double shear_rate) {
-  const double slope = std::isfinite(shear_rate) ? shear_rate : 0;
-  const double n = sum.grains;
-  const double xx = covariance(sum.v_x_v_x, sum.v_x, sum.v_x, n) -
-                    2 * slope * covariance(sum.zeta_v_x, sum.zeta, sum.v_x, n) +
-                    slope * slope * covariance(sum.zeta_zeta, sum.zeta, sum.zeta, n);
-  return {std::max(0.0, xx), std::max(0.0, covariance(sum.v_z_v_z, sum.v_z, sum.v_z, n)),
-          covariance(sum.v_x_v_z, sum.v_x, sum.v_z, n)};
-}
-
-/// The moments that a kinetic stress takes: per unit of nu. Grains of several densities count by their mass
-/// per area, about the velocity of their centre of mass.
-VelocityMoments stress_moments(const LayerSum& sum, double shear_rate) {
-  if (sum.density == 0) return velocity_moments(sum, shear_rate);
-  LayerSum dense;
-  dense.grains = sum.density;
-  dense.zeta = sum.dense_zeta;
-  dense.v_x = sum.dense_v_x;
-  dense.v_z = sum.dense_v_z;
-  dense.zeta_zeta = sum.dense_zeta_zeta;
-  dense.zeta_v_x = sum.dense_zeta_v_x;
-  dense.v_x_v_x = sum.dense_v_x_v_x;
-  dense.v_z_v_z = sum.dense_v_z_v_z;
-  dense.v_x_v_z = sum.dense_v_x_v_z;
-  const VelocityMoments of_mass = velocity_moments(dense, shear_rate);
-  const double mean_density = sum.density / sum.grains;
-  return {mean_density * of_mass.xx, mean_density * of_mass.zz, mean_density * of_mass.xz};
 }
 
 /// Slope of v_z over x within a layer: the other half of the vorticity.

@@ -98,29 +98,7 @@ void add_grain(const LayerGrid& grid, const FlowSnapshot& snapshot, std::size_t 
   if (x < grid.x_min || x > grid.x_max || place < 0 || place >= static_cast<double>(layers.size())) return;
 
   const auto index = static_cast<std::size_t>(place);
-  LayerSum& sum = layers[index];
-  const double v_x = snapshot.v_x[i], v_z = snapshot.v_z[i];
-  const double zeta = z - grid.z_of(index);
-  sum.grains += 1;
-  sum.x += x;
-  sum.zeta += zeta;
-  sum.v_x += v_x;
-  sum.v_z += v_z;
-  sum.x_x += x * x;
-  sum.zeta_zeta += zeta * zeta;
-  sum.zeta_v_x += zeta * v_x;
-  sum.x_v_z += x * v_z;
-  sum.v_x_v_x += v_x * v_x;
-  sum.v_z_v_z += v_z * v_z;
-  sum.v_x_v_z += v_x * v_z;
-  sum.contacts += snapshot.coordination[i];
-  if (dense) add_dense_moments(density, zeta, v_x, v_z, sum);
-  if (snapshot.spin.empty()) return;
-  const double spin = snapshot.spin[i];
-  sum.spin += spin;
-  sum.spin_spin += spin * spin;
-  const double energy = std::numbers::pi / 4 * std::pow(radius, 4) * spin * spin;
-  sum.rotation += dense ? density * energy : energy;
+  add_centre({x, z - grid.z_of(index), snapshot.v_x[i], snapshot.v_z[i]}, snapshot, i, layers[index]);
 }
 
 /// Shares a half branch out among the layers in proportion to its length in each, cut at the sides of the
@@ -163,6 +141,32 @@ void add_half_branch(const LayerGrid& grid, const HalfBranch& branch, std::vecto
 }
 
 }  // namespace
+
+void add_centre(const CentreInLayer& centre, const FlowSnapshot& snapshot, std::size_t i, LayerSum& sum) {
+  const auto [x, zeta, v_x, v_z] = centre;
+  const bool dense = !snapshot.density.empty();
+  const double density = dense ? snapshot.density[i] : 1;
+  sum.grains += 1;
+  sum.x += x;
+  sum.zeta += zeta;
+  sum.v_x += v_x;
+  sum.v_z += v_z;
+  sum.x_x += x * x;
+  sum.zeta_zeta += zeta * zeta;
+  sum.zeta_v_x += zeta * v_x;
+  sum.x_v_z += x * v_z;
+  sum.v_x_v_x += v_x * v_x;
+  sum.v_z_v_z += v_z * v_z;
+  sum.v_x_v_z += v_x * v_z;
+  sum.contacts += snapshot.coordination[i];
+  if (dense) add_dense_moments(density, zeta, v_x, v_z, sum);
+  if (snapshot.spin.empty()) return;
+  const double spin = snapshot.spin[i];
+  sum.spin += spin;
+  sum.spin_spin += spin * spin;
+  const double energy = std::numbers::pi / 4 * std::pow(snapshot.radius[i], 4) * spin * spin;
+  sum.rotation += dense ? density * energy : energy;
+}
 
 LayerSum& LayerSum::operator+=(const LayerSum& other) {
   for_each_sum(*this, other, [](double& a, double b) { a += b; });

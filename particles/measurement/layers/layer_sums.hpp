@@ -49,6 +49,13 @@ struct LayerSum {
   LayerSum& operator-=(const LayerSum& other);
 };
 
+/// Where a grain's centre lies in its layer, and how it moves, in the axes of the layer.
+struct CentreInLayer {
+  double x = 0, zeta = 0, v_x = 0, v_z = 0;
+};
+/// Adds a grain with its centre in the layer: all but covered area and branches.
+void add_centre(const CentreInLayer& centre, const FlowSnapshot& snapshot, std::size_t grain, LayerSum& sum);
+
 /// Sums of all layers over some snapshots.
 struct LayerSums {
   std::vector<LayerSum> layers;

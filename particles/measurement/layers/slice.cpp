@@ -66,13 +66,15 @@ Slice empty_slice(LayerGrid grid, std::size_t batches) {
   return Slice{std::move(grid), std::vector<LayerSums>(batches, empty)};
 }
 
-LayerSums total_of(const Slice& slice) {
-  LayerSums total = slice.batches.front();
-  for (std::size_t b = 1; b < slice.batches.size(); ++b) {
-    total += slice.batches[b];
-    total.with_spin = total.with_spin && slice.batches[b].with_spin;
-    total.with_densities = total.with_densities || slice.batches[b].with_densities;
-    total.with_contacts = total.with_contacts && slice.batches[b].with_contacts;
+LayerSums total_of(const Slice& slice) { return total_of(slice.batches); }
+
+LayerSums total_of(const std::vector<LayerSums>& batches) {
+  LayerSums total = batches.front();
+  for (std::size_t b = 1; b < batches.size(); ++b) {
+    total += batches[b];
+    total.with_spin = total.with_spin && batches[b].with_spin;
+    total.with_densities = total.with_densities || batches[b].with_densities;
+    total.with_contacts = total.with_contacts && batches[b].with_contacts;
   }
   return total;
 }

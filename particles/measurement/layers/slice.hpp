@@ -15,6 +15,7 @@ struct Slice {
 };
 
 Slice empty_slice(LayerGrid grid, std::size_t batches);
+LayerSums total_of(const std::vector<LayerSums>& batches);
 LayerSums total_of(const Slice& slice);
 
 /// Profiles of a slice, and the same without one batch each.

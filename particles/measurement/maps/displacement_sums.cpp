@@ -1,7 +1,6 @@
 #include "particles/measurement/maps/displacement_sums.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "particles/measurement/maps/node_canvas.hpp"
@@ -70,9 +69,9 @@ void DisplacementDepositor::add_pair(const Ends& from, const Ends& to, const Sna
     const double x = to.x[i] - d_x / 2, z = to.z[i] - d_z / 2;
     const double lab_x = x * cosine + z * sine, lab_z = z * cosine - x * sine;
     const double moved_x = d_x * cosine + d_z * sine, moved_z = d_z * cosine - d_x * sine;
-    const double area = std::numbers::pi * to.radius[i] * to.radius[i];
-    const std::array<double, 3> moments{area * time, area * frame.along(moved_x, moved_z),
-                                        area * frame.normal(moved_x, moved_z)};
+    const double mass = mass_of(snapshot, i);
+    const std::array<double, 3> moments{mass * time, mass * frame.along(moved_x, moved_z),
+                                        mass * frame.normal(moved_x, moved_z)};
     canvas.each_node_with_slope(frame.x_of(snapshot.container_x + lab_x, snapshot.container_z + lab_z),
                                 frame.z_of(snapshot.container_x + lab_x, snapshot.container_z + lab_z),
                                 [&](DisplacementNode& node, double phi, double phi_x, double phi_z) {

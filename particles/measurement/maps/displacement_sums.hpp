@@ -11,10 +11,10 @@
 
 namespace drumlin::particles {
 
-/// Sums at one node: phi is the kernel around the middle of a displacement, A the grain's area, t the time
+/// Sums at one node: phi is the kernel around the middle of a displacement, m the grain's mass, t the time
 /// between the two snapshots, d the displacement relative to the drum, in the flow frame.
 struct DisplacementNode {
-  std::array<double, 3> sum{};                 ///< of phi times A t, A d_x, A d_z
+  std::array<double, 3> sum{};                 ///< of phi times m t, m d_x, m d_z
   std::array<double, 3> slope_x{}, slope_z{};  ///< d/dx and d/dz of them
 
   DisplacementNode& operator+=(const DisplacementNode& other);

@@ -25,6 +25,7 @@ struct Values {
   double wall_x = none, wall_z = none;
   double residual_x = none, residual_z = none, residual_x_contact = none, residual_z_contact = none;
   double inertia_x = none, inertia_z = none;
+  double density = none;
 };
 
 struct NamedField {
@@ -70,12 +71,24 @@ constexpr NamedField named_fields[] = {{"nu", &Values::nu},
                                        {"residual_z_without_kinetic", &Values::residual_z_contact},
                                        {"inertia_x", &Values::inertia_x},
                                        {"inertia_z", &Values::inertia_z},
-                                       {"number_density", &Values::number_density}};
+                                       {"number_density", &Values::number_density},
+                                       {"density", &Values::density}};
+
+/// Those that the snapshots tell of.
+std::vector<NamedField> known_fields(const MapSums& total) {
+  std::vector<NamedField> known;
+  for (const NamedField& field : named_fields) {
+    if (field.value == &Values::omega && !total.with_spin) continue;
+    if (field.value == &Values::density && total.area.empty()) continue;  // it is nu
+    known.push_back(field);
+  }
+  return known;
+}
 
 /// Means over the snapshots of what MapNode adds up, by name.
 struct Means {
-  double grains, contacts, spin, area, v_x, v_z, u_x, u_z, u_x_u_x, u_x_u_z, u_z_u_z, force_x, force_z;
-  std::array<double, 5> slope_x, slope_z;  ///< of area, A v_x, A v_z, A u_x, A u_z
+  double grains, contacts, spin, mass, v_x, v_z, u_x, u_z, u_x_u_x, u_x_u_z, u_z_u_z, force_x, force_z;
+  std::array<double, 5> slope_x, slope_z;  ///< of m, m v_x, m v_z, m u_x, m u_z
   std::array<double, 2> flux_divergence;
   std::array<double, 4> branch;
   std::array<double, 7> contact;
@@ -114,14 +127,14 @@ Means means_of(const MapNode& node, const MapSums& sums) {
 }
 
 void set_velocity(const Means& m, bool with_spin, Values& f) {
-  f.v_x = m.v_x / m.area;
-  f.v_z = m.v_z / m.area;
+  f.v_x = m.v_x / m.mass;
+  f.v_z = m.v_z / m.mass;
   if (with_spin) f.omega = m.spin / m.grains;
   // The derivative of the quotient, each part by the kernel's own derivative.
-  f.d_v_x_dx = (m.slope_x[1] - f.v_x * m.slope_x[0]) / m.area;
-  f.d_v_x_dz = (m.slope_z[1] - f.v_x * m.slope_z[0]) / m.area;
-  f.d_v_z_dx = (m.slope_x[2] - f.v_z * m.slope_x[0]) / m.area;
-  f.d_v_z_dz = (m.slope_z[2] - f.v_z * m.slope_z[0]) / m.area;
+  f.d_v_x_dx = (m.slope_x[1] - f.v_x * m.slope_x[0]) / m.mass;
+  f.d_v_x_dz = (m.slope_z[1] - f.v_x * m.slope_z[0]) / m.mass;
+  f.d_v_z_dx = (m.slope_x[2] - f.v_z * m.slope_x[0]) / m.mass;
+  f.d_v_z_dz = (m.slope_z[2] - f.v_z * m.slope_z[0]) / m.mass;
   f.D_xx = f.d_v_x_dx;
   f.D_zz = f.d_v_z_dz;
   f.D_xz = (f.d_v_x_dz + f.d_v_z_dx) / 2;
@@ -130,10 +143,10 @@ void set_velocity(const Means& m, bool with_spin, Values& f) {
 
 /// `inside`: share of the kernel within the container.
 void set_stress(const Means& m, double inside, Values& f) {
-  const double mean_u_x = m.u_x / m.area, mean_u_z = m.u_z / m.area;
+  const double mean_u_x = m.u_x / m.mass, mean_u_z = m.u_z / m.mass;
   const PlaneMatrix kinetic{
-      m.u_x_u_x - m.area * mean_u_x * mean_u_x, m.u_x_u_z - m.area * mean_u_x * mean_u_z,
-      m.u_x_u_z - m.area * mean_u_x * mean_u_z, m.u_z_u_z - m.area * mean_u_z * mean_u_z};
+      m.u_x_u_x - m.mass * mean_u_x * mean_u_x, m.u_x_u_z - m.mass * mean_u_x * mean_u_z,
+      m.u_x_u_z - m.mass * mean_u_x * mean_u_z, m.u_z_u_z - m.mass * mean_u_z * mean_u_z};
   const PlaneMatrix pressure{(m.branch[0] + kinetic.xx) / inside, (m.branch[1] + kinetic.xz) / inside,
                              (m.branch[2] + kinetic.zx) / inside, (m.branch[3] + kinetic.zz) / inside};
   f.sigma_xx_kinetic = kinetic.xx / inside;
@@ -168,12 +181,12 @@ void set_contacts(const Means& m, double inside, Values& f) {
 }
 
 /// Balance of momentum in the laboratory, whose axes at this instant are those of the frame:
-/// div(contact stress) + div(sum A u u phi) = nu g + force of the walls, all without the share inside.
+/// div(contact stress) + div(sum m u u phi) = density g + force of the walls, all without the share inside.
 void set_balance(const Means& m, Values& f) {
-  const double gravity = std::hypot(m.gravity_x, m.gravity_z), weight = m.area * gravity;
+  const double gravity = std::hypot(m.gravity_x, m.gravity_z), weight = m.mass * gravity;
   if (!(weight > 0)) return;
   const double contact_x = m.contact[0] - m.force_x, contact_z = m.contact[1] - m.force_z;
-  const double u_x = m.u_x / m.area, u_z = m.u_z / m.area;
+  const double u_x = m.u_x / m.mass, u_z = m.u_z / m.mass;
   // div(nu U U) of the mean velocity U: what is left of the flux is the kinetic stress.
   const double divergence = m.slope_x[3] + m.slope_z[4];
   const auto mean_flux = [&](double u, std::size_t moment) {
@@ -181,7 +194,7 @@ void set_balance(const Means& m, Values& f) {
     return u * divergence + along - u * (u_x * m.slope_x[0] + u_z * m.slope_z[0]);
   };
   const double inertia_x = mean_flux(u_x, 3), inertia_z = mean_flux(u_z, 4);
-  const double load_x = m.area * m.gravity_x + m.contact[2], load_z = m.area * m.gravity_z + m.contact[3];
+  const double load_x = m.mass * m.gravity_x + m.contact[2], load_z = m.mass * m.gravity_z + m.contact[3];
   f.residual_x = (contact_x + m.flux_divergence[0] - load_x) / weight;
   f.residual_z = (contact_z + m.flux_divergence[1] - load_z) / weight;
   f.residual_x_contact = (contact_x + inertia_x - load_x) / weight;
@@ -197,13 +210,15 @@ void forget_contacts(Means& m) {
   std::fill(std::begin(m.contact), std::end(m.contact), none);
 }
 
-Values values_at(const MapNode& node, const MapSums& sums, double inside) {
+/// `area`: of the grains around the node, as MapSums has it.
+Values values_at(const MapNode& node, double area, const MapSums& sums, double inside) {
   Values f;
   Means m = means_of(node, sums);
   if (!sums.with_contacts) forget_contacts(m);
   f.number_density = m.grains;
-  f.nu = m.area / inside;
+  f.nu = area / static_cast<double>(sums.snapshots) / inside;
   if (f.nu < least_map_nu) return f;
+  f.density = m.mass / inside;
   set_velocity(m, sums.with_spin, f);
   set_stress(m, inside, f);
   set_contacts(m, inside, f);
@@ -212,10 +227,10 @@ Values values_at(const MapNode& node, const MapSums& sums, double inside) {
 }
 
 void set_intervals(const std::vector<Values>& leave_one_out, const Values& whole, std::size_t node,
-                   std::vector<MapField>& fields) {
+                   std::span<const NamedField> known, std::vector<MapField>& fields) {
   std::vector<double> values(leave_one_out.size());
-  for (std::size_t f = 0; f < std::size(named_fields); ++f) {
-    const NamedField& field = named_fields[f];
+  for (std::size_t f = 0; f < known.size(); ++f) {
+    const NamedField& field = known[f];
     for (std::size_t b = 0; b < values.size(); ++b) {
       values[b] = leave_one_out[b].*field.value;
       if (field.value == &Values::axis_angle) values[b] = nearest_turn(values[b] - whole.*field.value, 180);
@@ -250,12 +265,13 @@ FieldMap field_maps(const CoarseGraining& graining, std::span<const MapSums> bat
   map.grid.z_first -= surface_z;
   const std::size_t nodes = map.grid.nodes();
   const bool with_intervals = batches.size() > 1;
-  for (const NamedField& field : named_fields) {
+  MapSums total = batches.front();
+  for (const MapSums& batch : batches.subspan(1)) total += batch;
+  const std::vector<NamedField> known = known_fields(total);
+  for (const NamedField& field : known) {
     map.fields.push_back({field.name, std::vector<double>(nodes, none), {}});
     if (with_intervals) map.fields.back().ci99.assign(nodes, none);
   }
-  MapSums total = batches.front();
-  for (const MapSums& batch : batches.subspan(1)) total += batch;
 
   std::vector<Values> leave_one_out(with_intervals ? batches.size() : 0);
   MapSums rest;  // but for its nodes, which are taken one by one
@@ -265,9 +281,8 @@ FieldMap field_maps(const CoarseGraining& graining, std::span<const MapSums> bat
     if (container_radius > 0 && std::hypot(x, z) > container_radius) continue;
     const double inside =
         container_radius > 0 ? kernel_share_in_circle(x, z, graining.width, container_radius) : 1;
-    const Values whole = values_at(total.nodes[node], total, inside);
-    for (std::size_t f = 0; f < std::size(named_fields); ++f)
-      map.fields[f].value[node] = whole.*named_fields[f].value;
+    const Values whole = values_at(total.nodes[node], total.area_at(node), total, inside);
+    for (std::size_t f = 0; f < known.size(); ++f) map.fields[f].value[node] = whole.*known[f].value;
     if (!with_intervals) continue;
     for (std::size_t b = 0; b < batches.size(); ++b) {
       MapNode without = total.nodes[node];
@@ -277,13 +292,12 @@ FieldMap field_maps(const CoarseGraining& graining, std::span<const MapSums> bat
       rest.gravity_z = total.gravity_z - batches[b].gravity_z;
       rest.with_spin = total.with_spin;
       rest.with_contacts = total.with_contacts;
-      leave_one_out[b] = values_at(without, rest, inside);
+      const double area = total.area_at(node) - batches[b].area_at(node);
+      leave_one_out[b] = values_at(without, area, rest, inside);
     }
-    set_intervals(leave_one_out, whole, node, map.fields);
+    set_intervals(leave_one_out, whole, node, known, map.fields);
   }
   crop(total.nodes, map);
-  if (!total.with_spin)
-    std::erase_if(map.fields, [](const MapField& field) { return field.name == "omega"; });
   return map;
 }
 

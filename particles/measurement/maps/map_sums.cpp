@@ -45,14 +45,14 @@ void add_half_branch(const HalfBranch& branch, double width, Canvas& canvas) {
 }
 
 struct GrainState {
-  double x, z, area, contacts, spin;
+  double x, z, mass, contacts, spin;
   double v_x, v_z;  ///< relative to the drum
   double u_x, u_z;  ///< laboratory, instantaneous
   double force_x, force_z;
 };
 
 void add_grain(const GrainState& g, Canvas& canvas) {
-  const std::array<double, 5> moments{g.area, g.area * g.v_x, g.area * g.v_z, g.area * g.u_x, g.area * g.u_z};
+  const std::array<double, 5> moments{g.mass, g.mass * g.v_x, g.mass * g.v_z, g.mass * g.u_x, g.mass * g.u_z};
   const double flux_xx = moments[3] * g.u_x, flux_xz = moments[3] * g.u_z, flux_zz = moments[4] * g.u_z;
   const std::array<double, 13> values{1,          g.contacts, g.spin,     moments[0], moments[1],
                                       moments[2], moments[3], moments[4], flux_xx,    flux_xz,
@@ -64,6 +64,20 @@ void add_grain(const GrainState& g, Canvas& canvas) {
     node.flux_divergence[0] += phi_x * flux_xx + phi_z * flux_xz;
     node.flux_divergence[1] += phi_x * flux_xz + phi_z * flux_zz;
   });
+}
+
+/// Areas beside the masses from here on.
+void tell_areas_apart(MapSums& sums) {
+  if (!sums.area.empty()) return;
+  sums.area.reserve(sums.nodes.size());
+  for (const MapNode& node : sums.nodes) sums.area.push_back(node.grain[3]);
+}
+
+/// Adds the areas of other sums, times a sign, before their nodes are.
+void add_areas(double sign, const MapSums& other, MapSums& sums) {
+  if (sums.area.empty() && other.area.empty()) return;
+  tell_areas_apart(sums);
+  for (std::size_t n = 0; n < sums.area.size(); ++n) sums.area[n] += sign * other.area_at(n);
 }
 
 template <class Action>
@@ -113,6 +127,7 @@ MapNode& MapNode::operator-=(const MapNode& other) {
 }
 
 MapSums& MapSums::operator+=(const MapSums& other) {
+  add_areas(1, other, *this);
   for (std::size_t n = 0; n < nodes.size(); ++n) nodes[n] += other.nodes[n];
   snapshots += other.snapshots;
   gravity_x += other.gravity_x;
@@ -123,6 +138,7 @@ MapSums& MapSums::operator+=(const MapSums& other) {
 }
 
 MapSums& MapSums::operator-=(const MapSums& other) {
+  add_areas(-1, other, *this);
   for (std::size_t n = 0; n < nodes.size(); ++n) nodes[n] -= other.nodes[n];
   snapshots -= other.snapshots;
   gravity_x -= other.gravity_x;
@@ -137,11 +153,8 @@ MapSums empty_sums(const CoarseGraining& graining) {
 }
 
 void MapDepositor::add(const Snapshot& snapshot, const FlowSnapshot& in_frame, MapSums& sums) {
-  if (!in_frame.density.empty())
-    throw InputError(
-        "a snapshot has grains with a density of their own, and maps take masses from radii (allowed: grains "
-        "of "
-        "one density; drumlin measure RUN --parts with parts other than maps)");
+  const bool dense = !in_frame.density.empty();
+  if (dense) tell_areas_apart(sums);
   Canvas canvas(graining_, sums.nodes);
   const FlowFrame& frame = graining_.frame;
   force_x_.assign(in_frame.x.size(), 0.0);
@@ -152,8 +165,11 @@ void MapDepositor::add(const Snapshot& snapshot, const FlowSnapshot& in_frame, M
     add_half_branch(branch, graining_.width, canvas);
   }
   for (std::size_t i = 0; i < in_frame.x.size(); ++i) {
-    const double radius = in_frame.radius[i];
-    add_grain({in_frame.x[i], in_frame.z[i], std::numbers::pi * radius * radius,
+    const double radius = in_frame.radius[i], area = std::numbers::pi * radius * radius;
+    if (!sums.area.empty())
+      NodeCanvas<double>(graining_, sums.area)
+          .each_node(in_frame.x[i], in_frame.z[i], [&](double& node, double phi) { node += phi * area; });
+    add_grain({in_frame.x[i], in_frame.z[i], dense ? in_frame.density[i] * area : area,
                static_cast<double>(in_frame.coordination[i]), in_frame.spin.empty() ? 0 : in_frame.spin[i],
                in_frame.v_x[i], in_frame.v_z[i], frame.along(snapshot.v_x[i], snapshot.v_z[i]),
                frame.normal(snapshot.v_x[i], snapshot.v_z[i]), force_x_[i], force_z_[i]},

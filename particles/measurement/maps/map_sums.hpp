@@ -11,15 +11,15 @@
 namespace drumlin::particles {
 
 /// Sums at one node; phi is the kernel around it, x_i a grain's centre, c a contact. v: velocity relative to
-/// the drum over the stored window; u: instantaneous, in the laboratory; A: area. Components in the flow
-/// frame.
+/// the drum over the stored window; u: instantaneous, in the laboratory; m: mass, which is the area of a
+/// grain without a density of its own. Components in the flow frame.
 struct MapNode {
-  /// sum of phi(x_i) times 1, contacts, spin, A, A v_x, A v_z, A u_x, A u_z, A u_x u_x, A u_x u_z, A u_z u_z,
+  /// sum of phi(x_i) times 1, contacts, spin, m, m v_x, m v_z, m u_x, m u_z, m u_x u_x, m u_x u_z, m u_z u_z,
   /// and the forces F_x, F_z of all contacts on the grain.
   std::array<double, 13> grain{};
-  /// d/dx and d/dz of the sums of A, A v_x, A v_z, A u_x, A u_z.
+  /// d/dx and d/dz of the sums of m, m v_x, m v_z, m u_x, m u_z.
   std::array<double, 5> slope_x{}, slope_z{};
-  /// d/dx A u_x u_x + d/dz A u_x u_z, and the same for z.
+  /// d/dx m u_x u_x + d/dz m u_x u_z, and the same for z.
   std::array<double, 2> flux_divergence{};
   /// sum over half branches of the integral of phi along it times F_x b_x, F_x b_z, F_z b_x, F_z b_z: F on
   /// the grain, b from the contact to its centre.
@@ -35,10 +35,15 @@ struct MapNode {
 /// Sums over some snapshots, row after row.
 struct MapSums {
   std::vector<MapNode> nodes;
+  /// sum of phi(x_i) times the area, at each node; empty where no grain has a density of its own: it is the
+  /// mass.
+  std::vector<double> area;
   std::size_t snapshots = 0;
   double gravity_x = 0, gravity_z = 0;  ///< flow frame, summed over the snapshots
   bool with_spin = true;                ///< false: the scene has no spin
   bool with_contacts = true;            ///< false: the snapshots do not know them
+
+  double area_at(std::size_t node) const { return area.empty() ? nodes[node].grain[3] : area[node]; }
 
   MapSums& operator+=(const MapSums& other);
   MapSums& operator-=(const MapSums& other);
@@ -46,7 +51,7 @@ struct MapSums {
 
 MapSums empty_sums(const CoarseGraining& graining);
 
-/// Adds one snapshot: as it is, and in graining.frame. Allocates nothing after the first call.
+/// Adds one snapshot: as it is, and in graining.frame. Allocates nothing after the first calls.
 class MapDepositor {
  public:
   explicit MapDepositor(const CoarseGraining& graining) : graining_(graining) {}

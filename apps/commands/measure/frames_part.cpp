@@ -1,0 +1,214 @@
+#include "apps/commands/measure/frames_part.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+
+#include "apps/support/standard_streams.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/common/text_file.hpp"
+#include "coupling/documents/csv.hpp"
+#include "particles/measurement/layers/silo_profiles.hpp"
+#include "particles/measurement/rings/ring_profiles.hpp"
+
+namespace drumlin::apps {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using particles::FlowSnapshot;
+using particles::MeasurementFrame;
+using particles::SceneBox;
+using particles::Snapshot;
+
+/// What grows while the snapshots are read.
+struct Frames {
+  std::size_t batches = 0;
+  double thickness = 1;
+  SceneBox reach;
+  bool in_mirror = false;
+  std::optional<particles::RingGrid> rings;
+  std::vector<particles::LayerSums> ring_batches;
+  std::optional<particles::Slice> height, width;
+  FlowSnapshot seen;
+};
+
+/// The box of what is measured, from the axes of the measurement back in those of the scene.
+SceneBox reach_of(const MeasurementFrame& place) {
+  const particles::FlowFrame& f = place.frame;
+  SceneBox reach{INFINITY, -INFINITY, INFINITY, -INFINITY};
+  for (const double x : {place.x_min, place.x_max})
+    for (const double z : {place.z_min, place.z_max}) {
+      const double there = f.origin_x + x * f.x_axis_x - z * f.x_axis_z;
+      const double scene_x = place.in_mirror ? -there : there;
+      const double scene_z = f.origin_z + x * f.x_axis_z + z * f.x_axis_x;
+      reach = {std::min(reach.x_min, scene_x), std::max(reach.x_max, scene_x), std::min(reach.z_min, scene_z),
+               std::max(reach.z_max, scene_z)};
+    }
+  return reach;
+}
+
+/// The centre of the rings in the axes of the scene.
+std::array<double, 2> centre_of(const MeasureOptions& options, const MeasurementFrame& place) {
+  if (options.radial.front() != "axis") return {std::stod(options.radial[0]), std::stod(options.radial[1])};
+  if (!(place.container_radius > 0))
+    throw InputError("--radial axis: the scene has no circular wall (allowed: X,Z, a point in d)");
+  return {place.in_mirror ? -place.frame.origin_x : place.frame.origin_x, place.frame.origin_z};
+}
+
+void begin(const MeasureOptions& options, const MeasurementFrame& place, Frames& frames) {
+  if (place.period > 0)
+    throw InputError(
+        "--radial, --height, --width: the scene is periodic in x, where rings and bands would be cut at the "
+        "seam (allowed: scenes without periodic_x; layers over the whole period are profiles.csv)");
+  frames.batches = place.batches;
+  frames.thickness = options.layer_thickness;
+  frames.reach = reach_of(place);
+  frames.in_mirror = place.in_mirror;
+  const SceneBox& reach = frames.reach;
+  if (!options.radial.empty()) {
+    const auto [x, z] = centre_of(options, place);
+    double r_to = 0;
+    for (const double corner_x : {reach.x_min, reach.x_max})
+      for (const double corner_z : {reach.z_min, reach.z_max})
+        r_to = std::max(r_to, std::hypot(corner_x - x, corner_z - z));
+    const bool about_axis = options.radial.front() == "axis";
+    frames.rings =
+        particles::ring_grid(x, z, frames.thickness, r_to, about_axis ? place.container_radius : 0);
+    frames.ring_batches.assign(
+        place.batches,
+        particles::LayerSums{std::vector<particles::LayerSum>(frames.rings->rings()), 0, true});
+  }
+  if (!options.height.empty())
+    frames.height = particles::empty_slice(
+        particles::height_grid(options.height[0], options.height[1], reach, frames.thickness), place.batches);
+  if (!options.width.empty())
+    frames.width = particles::empty_slice(
+        particles::width_grid(options.width[0], options.width[1], reach, frames.thickness), place.batches);
+}
+
+/// Velocities are those of the laboratory at the instant of the snapshot: a turning wall takes nothing off.
+void add(Snapshot snapshot, std::size_t batch, Frames& frames) {
+  if (frames.in_mirror) snapshot = particles::mirrored(std::move(snapshot));
+  snapshot.wall_spin = 0;
+  const auto see = [&](const particles::FlowFrame& frame) -> const FlowSnapshot& {
+    particles::to_flow_frame(snapshot, frame, particles::VelocityKind::instantaneous, frames.seen);
+    return frames.seen;
+  };
+  if (frames.rings) add_snapshot(*frames.rings, see(frames.rings->frame), frames.ring_batches[batch]);
+  for (auto* slice : {&frames.height, &frames.width})
+    if (*slice) add_snapshot((*slice)->grid, see((*slice)->grid.frame), (*slice)->batches[batch]);
+}
+
+/// As profiles.csv, but for the name of its first column and for a header that names the frame.
+void write_table(const std::filesystem::path& file, const char* coordinate, const Json& frame,
+                 const ProfileSet& profiles) {
+  std::string text = "# drumlin-frame-1\n";
+  for (const auto& [key, value] : frame.items())
+    text += fmt::format("# {} = {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+  std::vector<std::string> names{coordinate};
+  for (const ProfileColumn& column : profiles.columns) {
+    names.push_back(column.name);
+    if (!column.ci99.empty()) names.push_back(column.name + "_ci99");
+  }
+  text += csv_line(names);
+  for (std::size_t l = 0; l < profiles.z.size(); ++l) {
+    std::vector<std::string> fields{csv_number(profiles.z[l])};
+    for (const ProfileColumn& column : profiles.columns) {
+      fields.push_back(csv_number(column.value[l]));
+      if (!column.ci99.empty()) fields.push_back(csv_number(column.ci99[l]));
+    }
+    text += csv_line(fields);
+  }
+  replace_file(file, text);
+}
+
+void write(const MeasureOptions& options, const PartOutput& output, const Frames& frames) {
+  Json list = Json::array();
+  const auto leave = [&](const char* name, const char* coordinate, Json place, const ProfileSet& profiles) {
+    Json header{{"frame", name}};
+    header.update(place);
+    header["layer_thickness"] = frames.thickness;
+    header["batches"] = frames.batches;
+    if (output.reduced) header["reduced"] = true;
+    const std::string file = fmt::format("{}.csv", name);
+    write_table(output.folder / file, coordinate, header, profiles);
+    header["file"] = file;
+    list.push_back(header);
+  };
+  if (frames.rings) {
+    const particles::FlowFrame& f = frames.rings->frame;
+    leave("radial", "r",
+          {{"center", options.radial.front() == "axis" ? "axis" : "point"},
+           {"center_x", f.origin_x},
+           {"center_z", f.origin_z}},
+          particles::ring_profiles(*frames.rings, frames.ring_batches));
+  }
+  if (frames.height)
+    leave("height", "z", {{"x_from", options.height[0]}, {"x_to", options.height[1]}},
+          particles::height_profiles(*frames.height));
+  if (frames.width)
+    leave("width", "x", {{"z_from", options.width[0]}, {"z_to", options.width[1]}},
+          particles::width_profiles(*frames.width));
+  output.content["frames"] = list;
+}
+
+void print(const MeasureOptions& options) {
+  const auto line = [](bool asked, const char* name, const char* over) {
+    if (asked) print_out(fmt::format("  {}.csv: profiles over {}\n", name, over));
+  };
+  line(!options.radial.empty(), "radial", "the distance from a point");
+  line(!options.height.empty(), "height", "the height");
+  line(!options.width.empty(), "width", "the width");
+}
+
+/// Two numbers, the second one greater.
+void check_band(const char* option, const std::vector<double>& band) {
+  if (band.empty() || (band.size() == 2 && band[0] < band[1])) return;
+  throw InputError(fmt::format("{}: takes two numbers in d, the second one greater", option));
+}
+
+void check_centre(const std::vector<std::string>& radial) {
+  const auto is_number = [](const std::string& text) {
+    std::size_t end = 0;
+    try {
+      return std::isfinite(std::stod(text, &end)) && end == text.size();
+    } catch (const std::exception&) {
+      return false;
+    }
+  };
+  const bool point = radial.size() == 2 && is_number(radial[0]) && is_number(radial[1]);
+  if (radial.empty() || point || (radial.size() == 1 && radial[0] == "axis")) return;
+  throw InputError("--radial: takes axis, or X,Z in d");
+}
+
+}  // namespace
+
+bool asks_for_frames(const MeasureOptions& options) {
+  return !options.radial.empty() || !options.height.empty() || !options.width.empty();
+}
+
+Part frames_part(const MeasureOptions& options) {
+  // Refused before the first snapshot is read.
+  check_centre(options.radial);
+  check_band("--height", options.height);
+  check_band("--width", options.width);
+  auto frames = std::make_shared<Frames>();
+  Part part;
+  part.name = "frames";
+  part.reading.begin = [=](const MeasurementFrame& place) { begin(options, place, *frames); };
+  part.reading.add = [=](const Snapshot& snapshot, const FlowSnapshot&, std::size_t batch) {
+    add(snapshot, batch, *frames);
+  };
+  part.write = [=](const particles::Measurement&, const PartOutput& output) {
+    write(options, output, *frames);
+  };
+  part.print = [=] { print(options); };
+  return part;
+}
+
+}  // namespace drumlin::apps

@@ -1,0 +1,89 @@
+#pragma once
+// Coarse correction of the impulses of a large packing: a smooth field scales them, so that what they carry
+// balances over long distances, which sweeps settle last.
+//
+// r_a becomes (1 + s(x_a)) r_a with s = sum_k s_k phi_k, phi_k bilinear on square cells: every impulse stays
+// in its cone. At a solution no contact does work, but for the friction of those that slide,
+//   g_a = r_n u_n + r_t u_t (+ mu r_n |u_t| where |r_t| = mu r_n) = 0;
+// the field makes its weighted sums vanish, |u_t| as it stands (a Galerkin step):
+//   sum_l A_kl s_l = - sum_a phi_k(x_a) g_a,  A_kl = (phi_k r) . W (phi_l r).
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "particles/contact/sweep_plan.hpp"
+#include "particles/parallel/team_loops.hpp"
+
+namespace drumlin::particles {
+
+/// Where the bodies of a contact problem are, in any unit; empty where nobody knows.
+struct BodyPlaces {
+  std::span<const double> x, z;
+};
+
+/// Problems of fewer contacts are left to the sweeps.
+inline constexpr int least_contacts_of_coarse_loads = 100000;
+/// Sweeps between two corrections.
+inline constexpr int sweeps_between_coarse_loads = 40;
+
+/// What the correction must know of a problem of discs; body inverse_mass.size() - 1 is the fixed one.
+struct CoarseProblem {
+  std::span<const std::int32_t> i, j;
+  std::span<const double> n_x, n_z, inverse_mass;
+  std::span<const double> mu;  ///< empty without friction
+  const SweepPlan& plan;       ///< of the contacts as they stand
+  int dim = 1;                 ///< unknowns per contact: 1 or 2
+  bool spin = false;
+};
+
+/// Scales impulses; keeps workspace only.
+class CoarseLoads {
+ public:
+  /// Scales the impulses r, which cause the velocities u = W r + q, each by a factor between 1/2 and 2. The
+  /// result does not depend on the team of the loops.
+  void scale(const CoarseProblem&, const BodyPlaces&, std::span<const double> u, std::vector<double>& r,
+             const TeamLoops&);
+
+ private:
+  struct Node {
+    int column = 0, row = 0;
+  };
+  /// Nodes of the field, `columns` times `rows`, at the corners of square cells.
+  struct Grid {
+    double x = 0, z = 0, edge = 1;
+    int columns = 2, rows = 2;
+    std::size_t nodes() const { return static_cast<std::size_t>(columns) * rows; }
+    std::size_t index(const Node& n) const { return static_cast<std::size_t>(n.row) * columns + n.column; }
+  };
+  /// The four nodes around a place, the lowest and leftmost first, and their weights.
+  struct Weights {
+    Node first;
+    std::array<double, 4> of{};
+  };
+  /// What the impulses, weighted by the hats of the nodes around a body, do to its velocities: of the nearest
+  /// node and its eight neighbours.
+  struct Moves {
+    std::array<float, 9> x{}, z{}, s{};
+  };
+  /// Rows of A: the entries with the nodes at most two columns and rows away.
+  using Row = std::array<double, 25>;
+
+  static Grid grid_over(const BodyPlaces&, std::size_t contacts);
+  static Weights weights_at(const Grid&, double x, double z);
+  static Node nearest(const Grid&, double x, double z);
+  void add_contacts(const CoarseProblem&, const BodyPlaces&, std::span<const double> u,
+                    std::span<const double> r, int slice, std::vector<double>& work);
+  void add_bodies(const CoarseProblem&, const BodyPlaces&, int strip, std::vector<Row>& rows) const;
+  bool solve();
+
+  Grid grid_;
+  std::vector<Moves> moves_;  // of each body
+  // Strips are shared in so many parts, whatever the number of threads: sums are those of parts, in order.
+  static constexpr int parts = 16;
+  std::array<std::vector<double>, parts> work_;  // sums of phi_k g_a
+  std::array<std::vector<Row>, parts> rows_;     // of A
+  std::vector<double> field_;                    // s_k
+};
+
+}  // namespace drumlin::particles

@@ -1,0 +1,113 @@
+"""How sweeps grow with the packing: drums of 2,000 to 100,000 discs at the fill of the 6 rpm drum, settled and flowing, to a residual of 1e-2.
+
+usage: python3 tests/benchmarks/sweeps_over_size.py BUILD RECORD.json [DISCS...]   (2000, 7183, 30000, 100000 unless told)
+
+Each drum falls and turns by 0.17 of a turn at the Froude number of 6 rpm, roughly solved (3e-2, 150 sweeps at most). From there a run takes 300 steps of
+1e-3 s at rest and another 300 of the flow to 1e-2, with the bounds on penetration and sinking that scenes have. The first 100 steps of each, in which what
+the rough solution left dies out, are told apart. Counts depend on no machine; seconds are of this one.
+"""
+
+import csv
+import json
+import math
+import os
+import pathlib
+import statistics
+import subprocess
+import sys
+import tempfile
+
+SIZES = (2000, 7183, 30000, 100000)
+STEPS, TRANSIENT = 300, 100
+
+SCENE = """format = "drumlin-scene-1"
+title = "{title}"
+seed = 1
+
+[grains]
+density_kg_m3 = 2700
+
+{grains}
+[[walls]]
+name = "drum"
+shape = "container"
+radius_mm = {radius}
+
+[effects.gravity]
+[effects.friction]
+grain_grain = 0.4
+grain_wall = 0.95
+[effects.restitution]
+grain_grain = 0.46
+grain_wall = 0.46
+[effects.spin]
+
+{stages}
+[solver]
+name = "accelerated"
+tolerance = {tolerance}
+max_sweeps = {most}
+"""
+
+
+def stage(name, length, turning):
+    return f'[[stages]]\nname = "{name}"\n{length}\ntime_step_s = 1e-3\nsnapshots = 1\n{turning}\n'
+
+
+def scenes(discs):
+    """Of the preparation, of the settled packing, of the flow."""
+    scale = math.sqrt(discs / 7183)
+    radius, rpm, settling = round(225 * scale, 1), round(6 / math.sqrt(scale), 3), round(1.2 * math.sqrt(scale), 1)
+    turning = f'motions = [{{ wall = "drum", kind = "rotation", speed_rpm = {rpm} }}]'
+    grains = f'[grains.generated]\ncount = {discs}\ndiameter_min_mm = 3.0\ndiameter_max_mm = 3.6\nregion = {{ shape = "circle", radius_mm = {radius} }}\n'
+    both = stage("settle", f"duration_s = {settling}", "") + stage("approach", "turns = 0.17", turning)
+    made = {"preparation": SCENE.format(title="Preparation", grains=grains, radius=radius, stages=both, tolerance="3e-2", most=150)}
+    for name, motion, time in (("settled", "", f"time_s = {settling}\n"), ("flowing", turning, "")):
+        start = f'[grains.from_run]\nrun = "preparation"\n{time}'
+        stages = stage(name, f"duration_s = {STEPS * 1e-3:g}", motion)
+        made[name] = SCENE.format(title=name, grains=start, radius=radius, stages=stages, tolerance="1e-2", most=20000)
+    return made
+
+
+def counted(folder):
+    run = json.loads((folder / "run.json").read_text(encoding="utf-8"))
+    with (folder / "log.csv").open(encoding="utf-8") as log:
+        sweeps = [int(row["sweeps"]) for row in csv.DictReader(log)]
+
+    def told(some):
+        some = sorted(some)
+        return {"mean": statistics.mean(some), "median": statistics.median(some), "p90": some[int(0.9 * len(some))], "largest": some[-1]}
+
+    return run, {
+        "contacts_mean": run["cost"]["contacts_mean"],
+        "sweeps_first_100_steps": told(sweeps[:TRANSIENT]),
+        "sweeps_last_200_steps": told(sweeps[TRANSIENT:]),
+        "cpu_seconds": run["cpu_seconds"],
+        "solver_seconds": run["cost"]["solver_seconds"],
+        "peak_memory_mb": run["peak_memory_mb"],
+    }
+
+
+def main():
+    build, record, sizes = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]), [int(word) for word in sys.argv[3:]] or list(SIZES)
+    cases, run = [], {}
+    for discs in sizes:
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            case = {"discs": discs}
+            for what, text in scenes(discs).items():
+                (folder / f"{what}.toml").write_text(text, encoding="utf-8")
+                subprocess.run([build / "drumlin", "run", folder / f"{what}.toml", "-o", folder / what], check=True, stdout=subprocess.DEVNULL)
+                run, found = counted(folder / what)
+                if what != "preparation":
+                    case[what] = found
+                    print(f"{discs} discs, {what}: {found['sweeps_last_200_steps']['mean']:.0f} sweeps a step", flush=True)
+            cases.append(case)
+    whole = {"format": "drumlin-sweeps-over-size-1", "revision": run["revision"], "command": "python3 tests/benchmarks/sweeps_over_size.py BUILD RECORD.json",
+             "processors": os.cpu_count(), "tolerance": 1e-2, "steps": STEPS, "cases": cases}
+    record.parent.mkdir(parents=True, exist_ok=True)
+    record.write_text(json.dumps(whole, indent=1) + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
