@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <tuple>
+
 #include "coupling/documents/toml_text.hpp"
 
 namespace drumlin {
@@ -16,6 +18,36 @@ std::string cell(const std::string& text) {
 }
 
 bool is_table_row(const KeyRow& row) { return row.type == "table" || row.type == "array of tables"; }
+
+/// Where the keys of the table in row `table` end; `table` + 1 for a row that is no table.
+std::size_t end_of_table(const std::vector<KeyRow>& rows, std::size_t table) {
+  std::size_t end = table + 1;
+  if (is_table_row(rows[table]))
+    while (end < rows.size() && rows[end].path.starts_with(rows[table].path + ".")) ++end;
+  return end;
+}
+
+/// Whether two tables have the same keys, in all but the tables' names.
+bool same_keys(const std::vector<KeyRow>& rows, std::size_t first, std::size_t second) {
+  const std::size_t count = end_of_table(rows, second) - second;
+  if (end_of_table(rows, first) - first != count) return false;
+  for (std::size_t i = 1; i < count; ++i) {
+    const KeyRow &a = rows[first + i], &b = rows[second + i];
+    if (a.path.substr(rows[first].path.size()) != b.path.substr(rows[second].path.size()) ||
+        std::tie(a.type, a.unit, a.allowed, a.standard, a.condition, a.sentence) !=
+            std::tie(b.type, b.unit, b.allowed, b.standard, b.condition, b.sentence))
+      return false;
+  }
+  return true;
+}
+
+/// The first table that has the keys of the table in row `table`, if there are any and they stand before it.
+const KeyRow* same_table_before(const std::vector<KeyRow>& rows, std::size_t table) {
+  if (end_of_table(rows, table) == table + 1) return nullptr;
+  for (std::size_t i = 0; i < table; ++i)
+    if (is_table_row(rows[i]) && same_keys(rows, i, table)) return &rows[i];
+  return nullptr;
+}
 
 }  // namespace
 
@@ -34,13 +66,20 @@ std::string keys_as_text(const std::vector<KeyRow>& rows) {
 }
 
 std::string keys_as_markdown(const std::vector<KeyRow>& rows) {
-  std::string text = "| key | value | unit | allowed | default | meaning |\n|---|---|---|---|---|---|\n";
-  for (const auto& row : rows) {
+  std::string text = "| key | value | default | meaning |\n|---|---|---|---|\n";
+  for (std::size_t i = 0; i < rows.size();) {
+    const KeyRow& row = rows[i];
+    const std::size_t end = end_of_table(rows, i);
+    const KeyRow* printed = same_table_before(rows, i);
     const std::string condition = row.condition.empty() ? "" : " with `" + row.condition + "`";
+    const std::string unit = row.unit.empty() ? "" : " in " + row.unit;
+    const std::string allowed = row.allowed.empty() ? "" : ", " + row.allowed;
     const bool quotes_default = !is_table_row(row) && row.standard != "required" && row.standard != "absent";
-    text += fmt::format("| `{}`{} | {} | {} | {} | {} | {} |\n", cell(row.path), cell(condition), row.type,
-                        row.unit, cell(row.allowed),
-                        quotes_default ? "`" + cell(row.standard) + "`" : row.standard, cell(row.sentence));
+    text += fmt::format("| `{}`{} | {} | {} | {}{} |\n", cell(row.path), cell(condition),
+                        cell(row.type + unit + allowed),
+                        quotes_default ? "`" + cell(row.standard) + "`" : row.standard, cell(row.sentence),
+                        printed == nullptr ? "" : " Keys: those of `" + cell(printed->path) + "`.");
+    i = printed == nullptr ? i + 1 : end;
   }
   return text;
 }

@@ -267,8 +267,25 @@ TEST(KeyTable, ListsEveryKeyOfEveryAlternative) {
   EXPECT_EQ(rows[4].standard, "absent");
   EXPECT_NE(keys_as_text(rows).find("sown.seeds\n    integer, 1 to 100, required\n    Number of seeds.\n"),
             std::string::npos);
-  EXPECT_NE(keys_as_markdown(rows).find("| `height_m` | number | m | above 0 to 3 | absent | Height. |"),
+  EXPECT_NE(keys_as_markdown(rows).find("| `height_m` | number in m, above 0 to 3 | absent | Height. |"),
             std::string::npos);
+}
+
+TEST(KeyTable, PrintsTheKeysOfEqualTablesOnce) {
+  const auto table = [](const std::string& name, const std::string& depth) {
+    return std::vector<KeyRow>{{name, "table", "", "", "absent", "", "A pond."},
+                               {name + ".depth_m", "number", "m", depth, "required", "", "Depth."}};
+  };
+  std::vector<KeyRow> rows = table("pond", "> 0");
+  for (const auto& more : {table("pool", "> 0"), table("well", "> 9")})
+    rows.insert(rows.end(), more.begin(), more.end());
+  EXPECT_EQ(keys_as_markdown(rows),
+            "| key | value | default | meaning |\n|---|---|---|---|\n"
+            "| `pond` | table | absent | A pond. |\n"
+            "| `pond.depth_m` | number in m, > 0 | required | Depth. |\n"
+            "| `pool` | table | absent | A pond. Keys: those of `pond`. |\n"
+            "| `well` | table | absent | A pond. |\n"
+            "| `well.depth_m` | number in m, > 9 | required | Depth. |\n");
 }
 
 TEST(KeyTable, FindsThePlaceOfAPath) {
