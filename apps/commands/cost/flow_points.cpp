@@ -161,10 +161,12 @@ Json entry_of(const std::vector<Json>& repetitions, const FlowToSolve& flow) {
   for (const Json& one : repetitions) entry["load_before"].push_back(one.at("load_before"));
   for (const char* key : {"seconds", "cpu_seconds"})
     entry[key] = spread_of([&](const Json& one) { return one.at(key); });
-  for (const auto& [phase, found] : first.at("phases").items())
+  for (const auto& [name, found] : first.at("phases").items()) {
+    const std::string& phase = name;  // clang 14 captures no structured binding
     entry["phases"][phase] = {
         {"times", found.at("times")},
         {"seconds", spread_of([&](const Json& one) { return one.at("phases").at(phase).at("seconds"); })}};
+  }
   double memory = 0;
   for (const Json& one : repetitions) memory = std::max(memory, one.at("peak_memory_mb").get<double>());
   entry["peak_memory_mb"] = memory;
