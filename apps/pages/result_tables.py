@@ -311,6 +311,23 @@ def limits(entry=AMOUNT):
     return table(["", "must; aim", "noise floor, 6 rpm", "mu(I) alone, 6 rpm", "axes remember, 6 rpm", *head], rows)
 
 
+def sensitivities():
+    """The measures of the limits, by the axis, with one free number of the continuum changed at a time."""
+    record = read("memory/sensitivities-6rpm.json")
+    names = ["as it is", *(name for name in record["variants"] if name != "p_min-0.2")]
+    values, found = record["limits"]["axis"], {}
+    for key, value in values.items():
+        quantity, *place = key.split()
+        found[(quantity, *sorted(place[:-1]))] = value
+    rows = []
+    for (quantity, where, zone), name in ROWS.items():
+        value = found[(quantity, *sorted(word for word in (where, zone) if word))]
+        rows.append([name, *(number(value[variant]) for variant in names)])
+    for key, name in (("theta_deg", "theta of the flow (deg)"), ("H", "H of the flow, by its own surface (d)"), ("shear_rate", "shear rate of the flow")):
+        rows.append([name, *(number(record["values"][key][variant], 4) for variant in names)])
+    return table(["", "p_min 0.4, taper 4 d, eps 1e-5, 40,709 unknowns", *(name.replace("-", " ", 1) for name in names[1:])], rows)
+
+
 def second_variable():
     """rms of |s|/p that ln I and further variables leave over the blocks of the maps."""
     found = read("memory/amount-over-place-6rpm.json")["beside_ln_I"]
@@ -332,6 +349,8 @@ TABLES = {
     "limits": limits,
     "limits, mu(I) alone": lambda: limits(WITHOUT),
     "limits, axes alone": lambda: limits(AXES),
+    "limits, p_min of the scene": lambda: limits("with effects.memory and the amount"),
+    "sensitivities": sensitivities,
     "second variable": second_variable,
 }
 PLACE = re.compile(r"(<!-- table (?P<name>[^>]*) -->\n)(?P<text>.*?)(<!-- end of table -->)", re.DOTALL)

@@ -149,16 +149,13 @@ const ProfileColumn& ProfileSet::column(const std::string& name) const {
   throw InputError("the profiles have no column " + name);
 }
 
-void write_profiles(const std::filesystem::path& file, const ProfileSet& profiles) {
-  check_writable(file, profiles);
-  std::string text = fmt::format("{}\n", first_line);
-  text += header_lines(profiles.header, "# ");
-  std::vector<std::string> fields{"z"};
+std::string profile_table(const ProfileSet& profiles, const std::string& coordinate) {
+  std::vector<std::string> fields{coordinate};
   for (const auto& column : profiles.columns) {
     fields.push_back(column.name);
     if (!column.ci99.empty()) fields.push_back(column.name + std::string(interval_suffix));
   }
-  text += csv_line(fields);
+  std::string text = csv_line(fields);
   for (std::size_t i = 0; i < profiles.z.size(); ++i) {
     fields = {csv_number(profiles.z[i])};
     for (const auto& column : profiles.columns) {
@@ -167,7 +164,13 @@ void write_profiles(const std::filesystem::path& file, const ProfileSet& profile
     }
     text += csv_line(fields);
   }
-  replace_file(file, text);
+  return text;
+}
+
+void write_profiles(const std::filesystem::path& file, const ProfileSet& profiles) {
+  check_writable(file, profiles);
+  replace_file(file, fmt::format("{}\n{}{}", first_line, header_lines(profiles.header, "# "),
+                                 profile_table(profiles)));
 }
 
 ProfileSet read_profiles(const std::filesystem::path& file) { return ProfileReader(file).read(); }

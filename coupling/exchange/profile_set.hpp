@@ -28,6 +28,10 @@ struct ProfileSet {
   const ProfileColumn& column(const std::string& name) const;  ///< throws InputError if it is missing
 };
 
+/// The lines of a table as profiles.csv has them: names, of which the first is the coordinate's, then one
+/// line per layer.
+std::string profile_table(const ProfileSet& profiles, const std::string& coordinate = "z");
+
 /// profiles.csv, version 1: "# drumlin-profiles-1", "# key = value" lines, a line of names (z, then each
 /// column and, if it has one, NAME_ci99), then one line per layer. NaN is written as an empty field.
 void write_profiles(const std::filesystem::path& file, const ProfileSet& profiles);

@@ -5,6 +5,9 @@
 #include <limits>
 #include <optional>
 
+#include "particles/detection/open_gaps.hpp"
+
+
 namespace drumlin::particles {
 namespace {
 
@@ -303,19 +306,15 @@ bool ContactDetection::insert_found() {
   std::erase_if(found_, [&](const Candidate& pair) {
     return std::binary_search(candidates_.begin(), candidates_.end(), pair, before);
   });
-  // From the back, each pair moves once, and only as far as there are new ones before it.
-  std::size_t end = candidates_.size();
-  if (candidates_.capacity() < end + found_.size()) candidates_.reserve(end + end / 16 + found_.size());
-  candidates_.resize(end + found_.size());
-  for (std::size_t left = found_.size(); left > 0; --left) {
-    const Candidate& pair = found_[left - 1];
-    const auto place = std::lower_bound(candidates_.begin(), candidates_.begin() + end, pair, before);
-    std::move_backward(place, candidates_.begin() + end, candidates_.begin() + end + left);
-    end = place - candidates_.begin();
-    candidates_[end + left - 1] = pair;
-    added_.push_back(static_cast<std::int32_t>(end + left - 1));
-  }
-  std::reverse(added_.begin(), added_.end());
+  const std::size_t count = candidates_.size();
+  if (candidates_.capacity() < count + found_.size()) candidates_.reserve(count + count / 16 + found_.size());
+  added_.resize(found_.size());
+  open_gaps(candidates_, found_.size(), [&](std::size_t k, std::size_t end) {
+    const auto place = std::lower_bound(candidates_.begin(), candidates_.begin() + end, found_[k], before);
+    added_[k] = static_cast<std::int32_t>(place - candidates_.begin() + k);
+    return added_[k];
+  });
+  for (std::size_t k = 0; k < found_.size(); ++k) candidates_[added_[k]] = found_[k];
   return !found_.empty();
 }
 

@@ -13,54 +13,87 @@ constexpr double contacts_per_cell = 1400;
 constexpr double damping = 1e-3, ground = 1e-10;
 // A tangential impulse that is so near to its bound, in parts of that, slides.
 constexpr double sliding = 1e-6;
+// Of a cell, at least, over the distance of the bodies of a contact; 2, but for rounding.
+constexpr double edges_per_contact = 2.001;
+
+/// The longest distance of the two bodies of a contact along x or z.
+double longest_contact(const CoarseProblem& problem, const BodyPlaces& places, const TeamLoops& loops) {
+  constexpr int parts = 16;
+  std::array<double, parts> longest{};
+  const auto fixed = static_cast<std::int32_t>(problem.inverse_mass.size()) - 1;
+  loops.each_of(parts, [&](int part) {
+    const std::size_t contacts = problem.i.size(), end = contacts * (part + 1) / parts;
+    for (std::size_t a = contacts * part / parts; a < end; ++a) {
+      const std::int32_t i = problem.i[a], j = problem.j[a];
+      if (j == fixed) continue;
+      longest[part] =
+          std::max({longest[part], std::abs(places.x[i] - places.x[j]), std::abs(places.z[i] - places.z[j])});
+    }
+  });
+  return *std::max_element(longest.begin(), longest.end());
+}
 
 }  // namespace
 
-CoarseLoads::Grid CoarseLoads::grid_over(const BodyPlaces& places, std::size_t contacts) {
+CoarseLoads::Grid CoarseLoads::grid_over(const BodyPlaces& places, std::size_t contacts,
+                                         double longest_contact) {
   const auto [x_low, x_high] = std::minmax_element(places.x.begin(), places.x.end());
   const auto [z_low, z_high] = std::minmax_element(places.z.begin(), places.z.end());
   const double width = *x_high - *x_low, height = *z_high - *z_low;
   const double cells =
       std::max(1.0, std::round(std::sqrt(static_cast<double>(contacts) / contacts_per_cell)));
   Grid grid{*x_low, *z_low, std::max(width, height) / cells};
+  // The nodes around one body of a contact are then among the nine of the other.
+  grid.edge = std::max(grid.edge, edges_per_contact * longest_contact);
   if (!(grid.edge > 0)) grid.edge = 1;
   grid.columns = std::max(1, static_cast<int>(std::ceil(width / grid.edge))) + 1;
   grid.rows = std::max(1, static_cast<int>(std::ceil(height / grid.edge))) + 1;
   return grid;
 }
 
-CoarseLoads::Weights CoarseLoads::weights_at(const Grid& grid, double x, double z) {
-  const double from_left = (x - grid.x) / grid.edge, from_below = (z - grid.z) / grid.edge;
-  Weights weights;
-  weights.first = {std::clamp(static_cast<int>(from_left), 0, grid.columns - 2),
-                   std::clamp(static_cast<int>(from_below), 0, grid.rows - 2)};
-  const double right = from_left - weights.first.column, up = from_below - weights.first.row;
-  weights.of = {(1 - right) * (1 - up), right * (1 - up), (1 - right) * up, right * up};
-  return weights;
+CoarseLoads::Place CoarseLoads::place_at(double x, double z) const {
+  const double from_left = (x - grid_.x) / grid_.edge, from_below = (z - grid_.z) / grid_.edge;
+  const auto node = [](double from, int last) {
+    return static_cast<std::int16_t>(std::clamp(static_cast<int>(from), 0, last));
+  };
+  Place place{node(from_left, grid_.columns - 2), node(from_below, grid_.rows - 2),
+              node(from_left + 0.5, grid_.columns - 1), node(from_below + 0.5, grid_.rows - 1)};
+  place.right = from_left - place.column, place.up = from_below - place.row;
+  return place;
 }
 
-CoarseLoads::Node CoarseLoads::nearest(const Grid& grid, double x, double z) {
-  return {std::clamp(static_cast<int>((x - grid.x) / grid.edge + 0.5), 0, grid.columns - 1),
-          std::clamp(static_cast<int>((z - grid.z) / grid.edge + 0.5), 0, grid.rows - 1)};
+void CoarseLoads::lay_out(const CoarseProblem& problem, const BodyPlaces& places, const TeamLoops& loops) {
+  grid_ = grid_over(places, problem.i.size(), longest_contact(problem, places, loops));
+  rank_.resize(places.x.size());
+  places_.resize(places.x.size());
+  moves_.resize(places.x.size());
+  loops.each(places_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t rank = begin; rank < end; ++rank) {
+      const std::int32_t b = problem.plan.body_order[rank];
+      rank_[b] = static_cast<std::int32_t>(rank);
+      places_[rank] = place_at(places.x[b], places.z[b]);
+      places_[rank].inverse_mass = problem.inverse_mass[b];
+    }
+  });
 }
 
 /// The contacts of a slice: slices of the same parity share no body.
-void CoarseLoads::add_contacts(const CoarseProblem& problem, const BodyPlaces& places,
-                               std::span<const double> u, std::span<const double> r, int slice,
-                               std::vector<double>& work) {
+void CoarseLoads::add_contacts(const CoarseProblem& problem, std::span<const double> u,
+                               std::span<const double> r, int slice, std::vector<double>& work) {
   const SweepPlan& plan = problem.plan;
   const auto fixed = static_cast<std::int32_t>(problem.inverse_mass.size()) - 1;
-  const auto move = [&](std::int32_t b, const Weights& at, double p_x, double p_z, double p_s) {
-    const Node middle = nearest(grid_, places.x[b], places.z[b]);
-    Moves& moves = moves_[b];
-    for (int k = 0; k < 4; ++k) {
-      const int column = at.first.column + k % 2 - middle.column + 1,
-                row = at.first.row + k / 2 - middle.row + 1;
-      if (column < 0 || column > 2 || row < 0 || row > 2) continue;  // no contact is half a cell long
-      const double weight = at.of[k] * problem.inverse_mass[b];
-      moves.x[3 * row + column] += static_cast<float>(weight * p_x);
-      moves.z[3 * row + column] += static_cast<float>(weight * p_z);
-      moves.s[3 * row + column] += static_cast<float>(weight * p_s);
+  const auto move = [&](std::int32_t rank, const Place& at, const std::array<double, 4>& weights, double p_x,
+                        double p_z, double p_s) {
+    const Place& own = places_[rank];
+    Moves& moves = moves_[rank];
+    // Of the lower left node around the contact.
+    const int first = 3 * (at.row - own.next_row + 1) + at.column - own.next_column + 1;
+    for (const int k : {0, 1, 2, 3}) {
+      const double weight = weights[k] * own.inverse_mass;
+      Move& of_node = moves[first + k % 2 + 3 * (k / 2)];
+      of_node.x += static_cast<float>(weight * p_x);
+      of_node.z += static_cast<float>(weight * p_z);
+      of_node.s += static_cast<float>(weight * p_s);
     }
   };
   const std::int32_t end = plan.group_start[plan.slice_start[slice + 1]];
@@ -75,33 +108,40 @@ void CoarseLoads::add_contacts(const CoarseProblem& problem, const BodyPlaces& p
       const bool slides = std::abs(r_t) >= bound * (1 - sliding);
       g += r_t * u_a[1] + (slides ? bound * std::abs(u_a[1]) : 0);
     }
-    const std::int32_t i = problem.i[a], j = problem.j[a];
-    const Weights at = weights_at(grid_, places.x[i], places.z[i]);
-    for (int k = 0; k < 4; ++k)
-      work[grid_.index({at.first.column + k % 2, at.first.row + k / 2})] += at.of[k] * g;
+    const std::int32_t i = rank_[problem.i[a]], j = problem.j[a];
+    const Place& at = places_[i];
+    const auto weights = at.weights();
+    for (const int k : {0, 1, 2, 3}) work[grid_.index(at.column + k % 2, at.row + k / 2)] += weights[k] * g;
     const double p_x = problem.n_x[a] * r_n + problem.n_z[a] * r_t;
     const double p_z = problem.n_z[a] * r_n - problem.n_x[a] * r_t, p_s = problem.spin ? -2 * r_t : 0;
-    move(i, at, p_x, p_z, p_s);
-    if (j < fixed) move(j, at, -p_x, -p_z, p_s);
+    move(i, at, weights, p_x, p_z, p_s);
+    if (j < fixed) move(rank_[j], at, weights, -p_x, -p_z, p_s);
   }
 }
 
 /// Scalar products of what the hats of two nodes do to the bodies of a strip: m v . v' + J omega omega', with
 /// J = m r^2 / 2 and s = r omega.
-void CoarseLoads::add_bodies(const CoarseProblem& problem, const BodyPlaces& places, int strip,
-                             std::vector<Row>& rows) const {
-  for (std::int32_t o = problem.plan.strip_bodies[strip]; o < problem.plan.strip_bodies[strip + 1]; ++o) {
-    const std::int32_t b = problem.plan.body_order[o];
-    const double mass = 1 / problem.inverse_mass[b];
-    const Node middle = nearest(grid_, places.x[b], places.z[b]);
-    const Moves& v = moves_[b];
-    for (int k = 0; k < 9; ++k) {
-      if (v.x[k] == 0 && v.z[k] == 0 && v.s[k] == 0) continue;
-      Row& row = rows[grid_.index({middle.column + k % 3 - 1, middle.row + k / 3 - 1})];
-      for (int l = 0; l < 9; ++l)
-        row[5 * (l / 3 - k / 3 + 2) + l % 3 - k % 3 + 2] +=
-            mass * (static_cast<double>(v.x[k]) * v.x[l] + static_cast<double>(v.z[k]) * v.z[l] +
-                    static_cast<double>(v.s[k]) * v.s[l] / 2);
+void CoarseLoads::add_bodies(const CoarseProblem& problem, int strip, std::vector<Row>& rows) const {
+  for (std::int32_t rank = problem.plan.strip_bodies[strip]; rank < problem.plan.strip_bodies[strip + 1];
+       ++rank) {
+    const Place& at = places_[rank];
+    const Moves& moves = moves_[rank];
+    const double mass = 1 / at.inverse_mass;
+    std::array<int, 9> moved{};
+    int count = 0;
+    for (int k = 0; k < 9; ++k)
+      if (moves[k] != Move{}) moved[count++] = k;
+    for (int m = 0; m < count; ++m) {
+      const int k = moved[m];
+      const Move& v = moves[k];
+      Row& row = rows[grid_.index(at.next_column + k % 3 - 1, at.next_row + k / 3 - 1)];
+      for (int n = m; n < count; ++n) {
+        const int l = moved[n];
+        const Move& w = moves[l];
+        row[5 * (l / 3 - k / 3) + l % 3 - k % 3] +=
+            mass * (static_cast<double>(v.x) * w.x + static_cast<double>(v.z) * w.z +
+                    static_cast<double>(v.s) * w.s / 2);
+      }
     }
   }
 }
@@ -116,18 +156,18 @@ bool CoarseLoads::solve() {
   for (std::size_t strip = 1; strip < rows_.size(); ++strip)
     for (std::size_t k = 0; k < sum.size(); ++k)
       for (std::size_t e = 0; e < sum[k].size(); ++e) sum[k][e] += rows_[strip][k][e];
-  constexpr int diagonal = 12;
   double largest = 0;
-  for (const Row& row : sum) largest = std::max(largest, row[diagonal]);
+  for (const Row& row : sum) largest = std::max(largest, row[0]);
   if (!(largest > 0)) return false;
-  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<Eigen::Triplet<double>> entries;  // of the lower triangle
   for (int k = 0; k < nodes; ++k)
-    for (int e = 0; e < 25; ++e) {
-      const int column = k % grid_.columns + e % 5 - 2, row = k / grid_.columns + e / 5 - 2;
-      if (column < 0 || column >= grid_.columns || row < 0 || row >= grid_.rows) continue;
+    for (int e = 0; e < 13; ++e) {
+      const int aside = (e + 2) % 5 - 2, above = (e + 2) / 5;
+      const int column = k % grid_.columns + aside, row = k / grid_.columns + above;
+      if (column < 0 || column >= grid_.columns || row >= grid_.rows) continue;
       double value = sum[k][e];
-      if (e == diagonal) value += damping * value + ground * largest;
-      if (value != 0) entries.emplace_back(k, row * grid_.columns + column, value);
+      if (e == 0) value += damping * value + ground * largest;
+      if (value != 0) entries.emplace_back(row * grid_.columns + column, k, value);
     }
   Eigen::SparseMatrix<double> matrix(nodes, nodes);
   matrix.setFromTriplets(entries.begin(), entries.end());
@@ -139,10 +179,8 @@ bool CoarseLoads::solve() {
   return true;
 }
 
-void CoarseLoads::scale(const CoarseProblem& problem, const BodyPlaces& places, std::span<const double> u,
-                        std::vector<double>& r, const TeamLoops& loops) {
-  grid_ = grid_over(places, problem.i.size());
-  moves_.assign(places.x.size(), Moves{});
+void CoarseLoads::scale(const CoarseProblem& problem, std::span<const double> u, std::vector<double>& r,
+                        const TeamLoops& loops) {
   const int strips = problem.plan.strips();
   for (auto& work : work_) work.assign(grid_.nodes(), 0.0);
   for (auto& rows : rows_) rows.assign(grid_.nodes(), Row{});
@@ -151,16 +189,21 @@ void CoarseLoads::scale(const CoarseProblem& problem, const BodyPlaces& places, 
       for (int k = strips * part / parts; k < strips * (part + 1) / parts; ++k) visit(k, part);
     });
   };
+  each_strip([&](int k, int) {
+    for (std::int32_t rank = problem.plan.strip_bodies[k]; rank < problem.plan.strip_bodies[k + 1]; ++rank)
+      moves_[rank] = {};
+  });
   for (const int parity : {0, 1})
-    each_strip([&](int k, int part) { add_contacts(problem, places, u, r, 2 * k + parity, work_[part]); });
-  each_strip([&](int k, int part) { add_bodies(problem, places, k, rows_[part]); });
+    each_strip([&](int k, int part) { add_contacts(problem, u, r, 2 * k + parity, work_[part]); });
+  each_strip([&](int k, int part) { add_bodies(problem, k, rows_[part]); });
   if (!solve()) return;
   loops.each(problem.i.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t a = begin; a < end; ++a) {
-      const Weights at = weights_at(grid_, places.x[problem.i[a]], places.z[problem.i[a]]);
+      const Place& at = places_[rank_[problem.i[a]]];
+      const auto weights = at.weights();
       double factor = 1;
-      for (int k = 0; k < 4; ++k)
-        factor += at.of[k] * field_[grid_.index({at.first.column + k % 2, at.first.row + k / 2})];
+      for (const int k : {0, 1, 2, 3})
+        factor += weights[k] * field_[grid_.index(at.column + k % 2, at.row + k / 2)];
       factor = std::clamp(factor, 0.5, 2.0);
       for (int c = 0; c < problem.dim; ++c) r[problem.dim * a + c] *= factor;
     }

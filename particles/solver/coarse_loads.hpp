@@ -40,45 +40,51 @@ struct CoarseProblem {
 /// Scales impulses; keeps workspace only.
 class CoarseLoads {
  public:
-  /// Scales the impulses r, which cause the velocities u = W r + q, each by a factor between 1/2 and 2. The
-  /// result does not depend on the team of the loops.
-  void scale(const CoarseProblem&, const BodyPlaces&, std::span<const double> u, std::vector<double>& r,
-             const TeamLoops&);
+  /// Lays the nodes of the field over the bodies of a problem.
+  void lay_out(const CoarseProblem&, const BodyPlaces&, const TeamLoops&);
+  /// Scales the impulses r of the problem that was laid out, which cause the velocities u = W r + q, each by
+  /// a factor between 1/2 and 2. The result does not depend on the team of the loops.
+  void scale(const CoarseProblem&, std::span<const double> u, std::vector<double>& r, const TeamLoops&);
 
  private:
-  struct Node {
-    int column = 0, row = 0;
-  };
   /// Nodes of the field, `columns` times `rows`, at the corners of square cells.
   struct Grid {
     double x = 0, z = 0, edge = 1;
     int columns = 2, rows = 2;
     std::size_t nodes() const { return static_cast<std::size_t>(columns) * rows; }
-    std::size_t index(const Node& n) const { return static_cast<std::size_t>(n.row) * columns + n.column; }
+    std::size_t index(int column, int row) const { return static_cast<std::size_t>(row) * columns + column; }
   };
-  /// The four nodes around a place, the lowest and leftmost first, and their weights.
-  struct Weights {
-    Node first;
-    std::array<double, 4> of{};
+  /// Where a body is: the lowest and leftmost of the four nodes around it, the node next to it, and how far
+  /// to the right of the first and above it, in edges.
+  struct Place {
+    std::int16_t column = 0, row = 0, next_column = 0, next_row = 0;
+    double right = 0, up = 0, inverse_mass = 0;
+    std::array<double, 4> weights() const {
+      return {(1 - right) * (1 - up), right * (1 - up), (1 - right) * up, right * up};
+    }
   };
-  /// What the impulses, weighted by the hats of the nodes around a body, do to its velocities: of the nearest
-  /// node and its eight neighbours.
-  struct Moves {
-    std::array<float, 9> x{}, z{}, s{};
+  struct Move {
+    float x = 0, z = 0, s = 0;
+    bool operator==(const Move&) const = default;
   };
-  /// Rows of A: the entries with the nodes at most two columns and rows away.
-  using Row = std::array<double, 25>;
+  /// What the impulses, weighted by the hats of the nodes around a body, do to its velocities: of the node
+  /// next to it and the eight around that.
+  using Moves = std::array<Move, 9>;
+  /// Of a row of A, which is symmetric: the entries of the node itself and of those after it, up to two
+  /// columns and rows away.
+  using Row = std::array<double, 13>;
 
-  static Grid grid_over(const BodyPlaces&, std::size_t contacts);
-  static Weights weights_at(const Grid&, double x, double z);
-  static Node nearest(const Grid&, double x, double z);
-  void add_contacts(const CoarseProblem&, const BodyPlaces&, std::span<const double> u,
-                    std::span<const double> r, int slice, std::vector<double>& work);
-  void add_bodies(const CoarseProblem&, const BodyPlaces&, int strip, std::vector<Row>& rows) const;
+  static Grid grid_over(const BodyPlaces&, std::size_t contacts, double longest_contact);
+  Place place_at(double x, double z) const;
+  void add_contacts(const CoarseProblem&, std::span<const double> u, std::span<const double> r, int slice,
+                    std::vector<double>& work);
+  void add_bodies(const CoarseProblem&, int strip, std::vector<Row>& rows) const;
   bool solve();
 
   Grid grid_;
-  std::vector<Moves> moves_;  // of each body
+  std::vector<std::int32_t> rank_;  // of each body in the order of the strips, in which the next two stand
+  std::vector<Place> places_;
+  std::vector<Moves> moves_;
   // Strips are shared in so many parts, whatever the number of threads: sums are those of parts, in order.
   static constexpr int parts = 16;
   std::array<std::vector<double>, parts> work_;  // sums of phi_k g_a

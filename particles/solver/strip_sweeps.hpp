@@ -104,20 +104,25 @@ bool wants_coarse_loads(const Problem& problem, const SolverWorkspace<Problem>& 
     return false;
 }
 
-/// Corrects the impulses of the strips on a coarse grid; `solution` is overwritten.
+/// Corrects the impulses of the strips on a coarse grid, laid out anew if this is the `first` time.
+/// `solution` is overwritten; if it is `fresh`, it holds the impulses and velocities of the strips already.
 template <class T, class Problem, class Strips>
-void correct_loads(const Problem& problem, SolverWorkspace<Problem>& work, Strips& strips,
-                   Solution<Problem>& solution, TeamLoops& loops, SweepState<T>& state) {
+void correct_loads(const Problem& problem, SolverWorkspace<Problem>& work, Strips& strips, bool first,
+                   bool fresh, Solution<Problem>& solution, TeamLoops& loops, SweepState<T>& state) {
   if constexpr (requires { problem.W.inverse_W_nn; }) {
     if (state.keep)
       for (int strip = 0; strip < strips.strips(); ++strip) strips.keep(strip);
     state.keep = false;
-    strips.unpack(problem, false, solution.impulses, loops);
-    set_velocities(problem, std::span<const double>(solution.impulses), solution.velocities, loops);
+    if (!fresh) {
+      strips.unpack(problem, false, solution.impulses, loops);
+      set_velocities(problem, std::span<const double>(solution.impulses), solution.velocities, loops);
+    }
     const auto& W = problem.W;
     constexpr bool spin = requires { solution.velocities.bodies[0].s; };
-    work.coarse.scale({W.i, W.j, W.n_x, W.n_z, W.inverse_mass, problem.mu, W.plan, Problem::dim, spin},
-                      work.places, solution.velocities.contacts, solution.impulses, loops);
+    const CoarseProblem coarse{W.i,        W.j,    W.n_x,        W.n_z, W.inverse_mass,
+                               problem.mu, W.plan, Problem::dim, spin};
+    if (first) work.coarse.lay_out(coarse, work.places, loops);
+    work.coarse.scale(coarse, solution.velocities.contacts, solution.impulses, loops);
     strips.restart(solution.impulses, loops);
     state.loaded = false;
     state.beta = 0;
@@ -148,10 +153,13 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
   double least = std::numeric_limits<double>::infinity(), best = least;
   const bool coarse = accelerated && wants_coarse_loads(problem, work);
   int corrected_at = 0;
+  bool fresh = false;  // `solution` is that of the strips
   const auto go_on = [&] {
-    if (!coarse || state.sweeps < corrected_at + sweeps_between_coarse_loads) return;
-    correct_loads(problem, work, strips, solution, loops, state);
-    corrected_at = state.sweeps;
+    if (coarse && state.sweeps >= corrected_at + sweeps_between_coarse_loads) {
+      correct_loads(problem, work, strips, corrected_at == 0, fresh, solution, loops, state);
+      corrected_at = state.sweeps;
+    }
+    fresh = false;
   };
   for (int progress_at = 0;; go_on()) {
     int until = state.sweeps + 1;
@@ -176,6 +184,7 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
     if (!last && !stuck && seen > rule.tolerance && !always) continue;
     strips.unpack(problem, false, solution.impulses, loops);
     const bool ended = test.ends(state.sweeps, residual_of(problem, solution, loops), state.finite);
+    fresh = true;
     const bool hidden = single && test.report().residual.rms > 3 * seen;
     if (!ended && !stuck && !hidden) continue;
     if (best < seen && test.report().status != Status::converged) {

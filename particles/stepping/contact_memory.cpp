@@ -2,12 +2,23 @@
 
 #include <algorithm>
 
+#include "particles/detection/open_gaps.hpp"
+
 namespace drumlin::particles {
 namespace {
 
 /// What turns an impulse that is remembered into one of a step of length `time_step`.
 double scale_of(const ContactMemory& memory, double time_step) {
   return memory.time_step > 0 ? time_step / memory.time_step : 1;
+}
+
+/// Where the row of each key from `least` up to `bodies` begins in a list sorted by keys. Once each entry has
+/// been put at the beginning of its row, and that has moved on by one, they are the ends.
+void count_rows(std::span<const std::int32_t> keys, std::int32_t least, std::size_t bodies,
+                std::vector<std::int32_t>& begin) {
+  begin.assign(bodies - least + 1, 0);
+  for (const std::int32_t key : keys) ++begin[key - least + 1];
+  for (std::size_t row = 1; row < begin.size(); ++row) begin[row] += begin[row - 1];
 }
 
 }  // namespace
@@ -22,18 +33,13 @@ void Recollection::sort_entries(const ContactMemory& memory, std::size_t bodies)
   const std::size_t contacts = memory.i.size();
   const std::int32_t least =
       contacts > 0 ? std::min(0, *std::min_element(memory.j.begin(), memory.j.end())) : 0;
-  row_.assign(bodies - least + 1, 0);
-  for (const std::int32_t j : memory.j) ++row_[j - least + 1];
-  for (std::size_t r = 1; r < row_.size(); ++r) row_[r] += row_[r - 1];
+  count_rows(memory.j, least, bodies, row_end_);
   by_second_.resize(contacts);
   for (std::size_t m = 0; m < contacts; ++m)
-    by_second_[row_[memory.j[m] - least]++] = static_cast<std::int32_t>(m);
-  row_.assign(bodies + 1, 0);
-  for (const std::int32_t i : memory.i) ++row_[i + 1];
-  for (std::size_t b = 0; b < bodies; ++b) row_[b + 1] += row_[b];
+    by_second_[row_end_[memory.j[m] - least]++] = static_cast<std::int32_t>(m);
+  count_rows(memory.i, 0, bodies, row_end_);
   entries_.resize(contacts);
-  for (const std::int32_t m : by_second_)  // a row ends up where the next one begins
-    entries_[row_[memory.i[m]]++] = {memory.j[m], m};
+  for (const std::int32_t m : by_second_) entries_[row_end_[memory.i[m]]++] = {memory.j[m], m};
 }
 
 void Recollection::find_again(std::span<const Candidate> pairs) {
@@ -44,8 +50,8 @@ void Recollection::find_again(std::span<const Candidate> pairs) {
     for (std::size_t a = begin; a < end; ++a) {
       const std::int32_t i = pairs[a].i, j = pairs[a].j;
       if (a == begin || i != pairs[a - 1].i || j <= pairs[a - 1].j) {
-        entry = entries_.data() + (i == 0 ? 0 : row_[i - 1]);
-        row_end = entries_.data() + row_[i];
+        entry = row(i).data();
+        row_end = entry + row(i).size();
       }
       // Pairs that follow in the order of (i, j), as most do, go on from here: nearly every one is the next.
       while (entry < row_end && entry->j < j) ++entry;
@@ -56,22 +62,20 @@ void Recollection::find_again(std::span<const Candidate> pairs) {
   });
 }
 
+std::span<const Recollection::Entry> Recollection::row(std::int32_t i) const {
+  const std::int32_t begin = i == 0 ? 0 : row_end_[i - 1];
+  return {entries_.data() + begin, entries_.data() + row_end_[i]};
+}
+
 std::int32_t Recollection::place_of(const Candidate& pair) const {
-  const Entry* const begin = entries_.data() + (pair.i == 0 ? 0 : row_[pair.i - 1]);
-  const Entry* const end = entries_.data() + row_[pair.i];
-  const Entry* const found = std::find_if(begin, end, [&](const Entry& e) { return e.j == pair.j; });
-  return found < end ? found->place : -1;
+  for (const Entry& entry : row(pair.i))
+    if (entry.j == pair.j) return entry.place;
+  return -1;
 }
 
 void Recollection::find_added(std::span<const Candidate> pairs, std::span<const std::int32_t> added) {
-  std::size_t end = place_.size();
-  place_.resize(pairs.size());
-  for (std::size_t left = added.size(); left > 0; --left) {
-    const std::size_t a = added[left - 1];
-    std::move_backward(place_.begin() + (a - left + 1), place_.begin() + end, place_.begin() + end + left);
-    end = a - left + 1;
-    place_[a] = place_of(pairs[a]);
-  }
+  open_gaps(place_, added.size(), [&](std::size_t k, std::size_t) { return added[k]; });
+  for (const std::int32_t a : added) place_[a] = place_of(pairs[a]);
 }
 
 RememberedLoads Recollection::loads(const ContactMemory& memory, int dim, double time_step) const {

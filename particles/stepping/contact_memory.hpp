@@ -53,17 +53,22 @@ class Recollection {
                   std::vector<double>& impulses) const;
 
  private:
-  TeamLoops loops_;
   struct Entry {
     std::int32_t j, place;  // in the memory
   };
-  std::vector<std::int32_t> place_;  // of each pair in the memory; -1: new
+
   void sort_entries(const ContactMemory& memory, std::size_t bodies);
+  /// The contacts of grain i with those after it, and with walls.
+  std::span<const Entry> row(std::int32_t i) const;
+  /// Place of a pair in the memory; -1: none.
   std::int32_t place_of(const Candidate& pair) const;
-  std::vector<Entry> entries_;           // of the memory, in the order of (i, j)
-  std::vector<std::int32_t> row_;        // where the entries of each i end
-  std::vector<std::int32_t> by_second_;  // places in the memory, by j
-  std::vector<std::int32_t> place_of_some_;
+
+  TeamLoops loops_;
+  std::vector<std::int32_t> place_;          // of each pair that was looked for
+  std::vector<std::int32_t> place_of_some_;  // of the pairs of loads_of()
+  std::vector<Entry> entries_;               // of the memory, in the order of (i, j)
+  std::vector<std::int32_t> row_end_;        // of each i in them
+  std::vector<std::int32_t> by_second_;      // places in the memory, by j
 };
 
 /// Keeps contacts and impulses of a step.

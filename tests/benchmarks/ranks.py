@@ -8,25 +8,22 @@ Wall time means something on an idle machine only: the load before and after sta
 import json
 import os
 import pathlib
-import re
 import subprocess
 import sys
 import tempfile
 
-SOURCE = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from drums import drum, solved_to  # noqa: E402
+
 STEPS = {7183: 1000, 30000: 200}
 CALLS = 2
 
 
 def scene(discs, steps):
     """The 6 rpm drum with other grains, as far as it settles."""
-    text = (SOURCE / "data/scenes/drum-6rpm.toml").read_text(encoding="utf-8")
-    start, rest = text.split("[[stages]]", 1)[0], "[solver]" + text.split("[solver]", 1)[1].split("\n[output]", 1)[0]
-    radius = 225 * (discs / 7183) ** 0.5
-    start = re.sub(r"count = \d+", f"count = {discs}", start)
-    start = re.sub(r"radius_mm = [\d.]+", f"radius_mm = {radius:.1f}", start)
+    start, solver = drum(discs)
     stage = f'[[stages]]\nname = "settle"\nduration_s = {steps * 1e-3:g}\ntime_step_s = 1e-3\nsnapshots = 1\n\n'
-    return start + stage + re.sub(r"tolerance = \S+", "tolerance = 1e-2", rest, count=1) + "\n[output]\nvelocity_window_s = 0\ncheckpoint_every_s = 100\n"
+    return start + stage + solved_to("1e-2", solver) + "\n[output]\nvelocity_window_s = 0\ncheckpoint_every_s = 100\n"
 
 
 def timed(words, folder):

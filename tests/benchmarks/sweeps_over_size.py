@@ -12,43 +12,17 @@ import json
 import math
 import os
 import pathlib
+import re
 import statistics
 import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from drums import drum, solved_to  # noqa: E402
+
 SIZES = (2000, 7183, 30000, 100000)
 STEPS, TRANSIENT = 300, 100
-
-SCENE = """format = "drumlin-scene-1"
-title = "{title}"
-seed = 1
-
-[grains]
-density_kg_m3 = 2700
-
-{grains}
-[[walls]]
-name = "drum"
-shape = "container"
-radius_mm = {radius}
-
-[effects.gravity]
-[effects.friction]
-grain_grain = 0.4
-grain_wall = 0.95
-[effects.restitution]
-grain_grain = 0.46
-grain_wall = 0.46
-[effects.spin]
-
-{stages}
-[solver]
-name = "accelerated"
-tolerance = {tolerance}
-max_sweeps = {most}
-"""
-
 
 def stage(name, length, turning):
     return f'[[stages]]\nname = "{name}"\n{length}\ntime_step_s = 1e-3\nsnapshots = 1\n{turning}\n'
@@ -56,16 +30,16 @@ def stage(name, length, turning):
 
 def scenes(discs):
     """Of the preparation, of the settled packing, of the flow."""
+    start, solver = drum(discs)
     scale = math.sqrt(discs / 7183)
-    radius, rpm, settling = round(225 * scale, 1), round(6 / math.sqrt(scale), 3), round(1.2 * math.sqrt(scale), 1)
+    rpm, settling = round(6 / math.sqrt(scale), 3), round(1.2 * math.sqrt(scale), 1)
     turning = f'motions = [{{ wall = "drum", kind = "rotation", speed_rpm = {rpm} }}]'
-    grains = f'[grains.generated]\ncount = {discs}\ndiameter_min_mm = 3.0\ndiameter_max_mm = 3.6\nregion = {{ shape = "circle", radius_mm = {radius} }}\n'
     both = stage("settle", f"duration_s = {settling}", "") + stage("approach", "turns = 0.17", turning)
-    made = {"preparation": SCENE.format(title="Preparation", grains=grains, radius=radius, stages=both, tolerance="3e-2", most=150)}
+    made = {"preparation": start + both + re.sub(r"max_sweeps = \d+", "max_sweeps = 150", solved_to("3e-2", solver))}
     for name, motion, time in (("settled", "", f"time_s = {settling}\n"), ("flowing", turning, "")):
-        start = f'[grains.from_run]\nrun = "preparation"\n{time}'
+        of_run = re.sub(r"(?s)\[grains\.generated\].*?\n\n", f'[grains.from_run]\nrun = "preparation"\n{time}\n', start)
         stages = stage(name, f"duration_s = {STEPS * 1e-3:g}", motion)
-        made[name] = SCENE.format(title=name, grains=start, radius=radius, stages=stages, tolerance="1e-2", most=20000)
+        made[name] = of_run + stages + re.sub(r"max_sweeps = \d+", "max_sweeps = 20000", solved_to("1e-2", solver))
     return made
 
 

@@ -14,19 +14,20 @@ using namespace particles;
 namespace {
 
 /// Discs of diameter 1 in a triangular lattice on a floor between two walls, under their weight, in the order
-/// of a plan.
+/// of a plan; with `slab` a heavy body lies on the whole of the highest row.
 struct Heap {
   CoulombSpinProblem problem;
   std::vector<double> x, z;
 };
 
-Heap heap(int columns, int rows, double mu = 0.4) {
+Heap heap(int columns, int rows, double mu = 0.4, bool slab = false) {
   constexpr double time_step = 0.05;
   Heap heap;
   CoulombSpinProblem unsorted;
-  const int bodies = columns * rows;
+  const int discs = columns * rows, bodies = discs + slab;
   unsorted.W.inverse_mass.assign(bodies + 1, 1.0);
   unsorted.W.inverse_mass.back() = 0;
+  if (slab) unsorted.W.inverse_mass[discs] = 1e-3;
   const auto add = [&](int i, int j, double n_x, double n_z) {
     unsorted.W.add(i, j, n_x, n_z);
     unsorted.q.push_back(j == bodies ? -time_step * n_z : 0), unsorted.q.push_back(0);
@@ -46,6 +47,10 @@ Heap heap(int columns, int rows, double mu = 0.4) {
       if (left >= 0) add(b, b + columns + left - column, 0.5, -up);
       if (left + 1 < columns) add(b, b + columns + left + 1 - column, -0.5, -up);
     }
+  if (slab) {
+    heap.x.push_back(0.5 * columns), heap.z.push_back(1 + up * rows);
+    for (int b = discs - columns; b < discs; ++b) add(discs, b, 0, 1);
+  }
   std::vector<std::int32_t> order;
   auto& sorted = heap.problem;
   sorted.W.plan = SweepPlan{};
@@ -69,27 +74,40 @@ std::vector<double> corrected(const Heap& heap, std::vector<double> r, ThreadTea
   Velocities<CoulombSpinProblem::Delassus> velocities;
   set_velocities(heap.problem, std::span<const double>(r), velocities, loops);
   CoarseLoads coarse;
-  coarse.scale({W.i, W.j, W.n_x, W.n_z, W.inverse_mass, heap.problem.mu, W.plan, 2, true}, {heap.x, heap.z},
-               velocities.contacts, r, loops);
+  const CoarseProblem problem{W.i, W.j, W.n_x, W.n_z, W.inverse_mass, heap.problem.mu, W.plan, 2, true};
+  coarse.lay_out(problem, {heap.x, heap.z}, loops);
+  coarse.scale(problem, velocities.contacts, r, loops);
   return r;
 }
 
-TEST(CoarseLoads, FindWhatAllImpulsesLack) {
-  const Heap small = heap(60, 40, 0);  // with friction the impulses of other loads are no multiples
+/// The impulses of a heap without friction (with it those of other loads are no multiples).
+std::vector<double> impulses_of(const Heap& heap) {
   SolverWorkspace<CoulombSpinProblem> work;
   Solution<CoulombSpinProblem> solution;
   StoppingRule rule;
   rule.tolerance = 1e-6, rule.max_sweeps = 20000;
-  ASSERT_EQ(solve_accelerated_double(small.problem, rule, work, solution).status, Status::converged);
-  const auto r = corrected(small, solution.impulses, nullptr);
+  EXPECT_EQ(solve_accelerated_double(heap.problem, rule, work, solution).status, Status::converged);
+  return solution.impulses;
+}
+
+TEST(CoarseLoads, FindWhatAllImpulsesLack) {
+  const Heap small = heap(60, 40, 0);
+  const auto solved = impulses_of(small), r = corrected(small, solved, nullptr);
   const double largest = *std::max_element(r.begin(), r.end());
-  for (std::size_t k = 0; k < r.size(); ++k) EXPECT_NEAR(r[k], solution.impulses[k], 1e-3 * largest);
+  for (std::size_t k = 0; k < r.size(); ++k) EXPECT_NEAR(r[k], solved[k], 1e-3 * largest);
   for (std::size_t a = 0; a < small.problem.mu.size(); ++a)
     EXPECT_LE(std::abs(r[2 * a + 1]), small.problem.mu[a] * r[2 * a] * (1 + 1e-12));
   for (const int threads : {2, 3, 5}) {
     ThreadTeam team(threads);
-    EXPECT_EQ(corrected(small, solution.impulses, &team), r) << threads;
+    EXPECT_EQ(corrected(small, solved, &team), r) << threads;
   }
+}
+
+TEST(CoarseLoads, SeeContactsOfBodiesThatAreFarApart) {
+  const Heap small = heap(60, 40, 0, true);
+  const auto solved = impulses_of(small), r = corrected(small, solved, nullptr);
+  const double largest = *std::max_element(r.begin(), r.end());
+  for (std::size_t k = 0; k < r.size(); ++k) EXPECT_NEAR(r[k], solved[k], 1e-3 * largest);
 }
 
 /// To a residual of 1e-2 and a sinking of 1e-3 d, from these impulses.

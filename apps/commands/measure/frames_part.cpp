@@ -54,7 +54,8 @@ SceneBox reach_of(const MeasurementFrame& place) {
 
 /// The centre of the rings in the axes of the scene.
 std::array<double, 2> centre_of(const MeasureOptions& options, const MeasurementFrame& place) {
-  if (options.radial.front() != "axis") return {std::stod(options.radial[0]), std::stod(options.radial[1])};
+  if (options.radial.front() != "axis")
+    return {*finite_number(options.radial[0]), *finite_number(options.radial[1])};
   if (!(place.container_radius > 0))
     throw InputError("--radial axis: the scene has no circular wall (allowed: X,Z, a point in d)");
   return {place.in_mirror ? -place.frame.origin_x : place.frame.origin_x, place.frame.origin_z};
@@ -110,21 +111,7 @@ void write_table(const std::filesystem::path& file, const char* coordinate, cons
   std::string text = "# drumlin-frame-1\n";
   for (const auto& [key, value] : frame.items())
     text += fmt::format("# {} = {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
-  std::vector<std::string> names{coordinate};
-  for (const ProfileColumn& column : profiles.columns) {
-    names.push_back(column.name);
-    if (!column.ci99.empty()) names.push_back(column.name + "_ci99");
-  }
-  text += csv_line(names);
-  for (std::size_t l = 0; l < profiles.z.size(); ++l) {
-    std::vector<std::string> fields{csv_number(profiles.z[l])};
-    for (const ProfileColumn& column : profiles.columns) {
-      fields.push_back(csv_number(column.value[l]));
-      if (!column.ci99.empty()) fields.push_back(csv_number(column.ci99[l]));
-    }
-    text += csv_line(fields);
-  }
-  replace_file(file, text);
+  replace_file(file, text + profile_table(profiles, coordinate));
 }
 
 void write(const MeasureOptions& options, const PartOutput& output, const Frames& frames) {
@@ -173,15 +160,7 @@ void check_band(const char* option, const std::vector<double>& band) {
 }
 
 void check_centre(const std::vector<std::string>& radial) {
-  const auto is_number = [](const std::string& text) {
-    std::size_t end = 0;
-    try {
-      return std::isfinite(std::stod(text, &end)) && end == text.size();
-    } catch (const std::exception&) {
-      return false;
-    }
-  };
-  const bool point = radial.size() == 2 && is_number(radial[0]) && is_number(radial[1]);
+  const bool point = radial.size() == 2 && finite_number(radial[0]) && finite_number(radial[1]);
   if (radial.empty() || point || (radial.size() == 1 && radial[0] == "axis")) return;
   throw InputError("--radial: takes axis, or X,Z in d");
 }
