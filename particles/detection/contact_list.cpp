@@ -7,7 +7,6 @@
 
 #include "particles/detection/open_gaps.hpp"
 
-
 namespace drumlin::particles {
 namespace {
 
