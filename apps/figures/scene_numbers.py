@@ -1,7 +1,7 @@
 """The numbers of a shipped scene that the literature or a closed form gives too, as JSON (docs/scenes.md).
 
 usage: scene_numbers.py KIND RUN... [-o FILE.json]
-KIND: shear, chute, biaxial, janssen, vibrated, gas (here); cell-shear, cell-biaxial (scene_cells.py); collapse, silo, recycled, hourglass, intruder, segregation (scene_events.py). Values are
+KIND: shear, chute, biaxial, janssen, vibrated, gas (here); cell-shear, cell-biaxial (scene_cells.py); collapse, silo, recycled, hourglass, intruder, segregation (scene_events.py); silo-frames, drum-rings (scene_frames.py). Values are
 dimensionless (d, sqrt(d/g), rho0 g d) unless their name ends in a unit; ci99 is the half width of the 99 % interval over time.
 """
 
@@ -13,6 +13,7 @@ import sys
 import numpy
 import scene_cells
 import scene_events
+import scene_frames
 from scene_runs import inertial_number, layer_state, line, mean, read_run, velocities, wall_forces
 
 
@@ -178,7 +179,7 @@ def gas(run):
             "exponent": exponent, "tau_s": tau * run["second"]}
 
 
-KINDS = {"shear": shear, "chute": chute, "biaxial": biaxial, "janssen": janssen, "vibrated": vibrated, "gas": gas} | scene_cells.KINDS | scene_events.KINDS
+KINDS = {"shear": shear, "chute": chute, "biaxial": biaxial, "janssen": janssen, "vibrated": vibrated, "gas": gas} | scene_cells.KINDS | scene_events.KINDS | scene_frames.KINDS
 
 
 def main():

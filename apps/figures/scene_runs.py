@@ -21,7 +21,7 @@ def read_run(folder):
     report = json.loads((folder / "run.json").read_text(encoding="utf-8"))
     scene = tomllib.loads((folder / "scene.toml").read_text(encoding="utf-8"))
     snapshots = [read_snapshot(file) for file in sorted((folder / "snapshots").glob("*.h5"))]
-    return {"report": report, "scene": scene, "snapshots": snapshots, "d_mm": 1e3 * report["scales"]["length_m"],
+    return {"folder": folder, "report": report, "scene": scene, "snapshots": snapshots, "d_mm": 1e3 * report["scales"]["length_m"],
             "second": report["scales"]["time_s"], "density": report["scales"]["density_kg_m3"]}
 
 

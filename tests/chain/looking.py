@@ -328,10 +328,18 @@ def own_frames(drumlin, periodic, folder):
     require("periodic" in said and not (periodic / "measured").exists(), said)
     drumlin("measure", bed, "--parts", "none")
     require("frames" not in read_json(bed / "measured/measured.json") and not list(bed.glob("measured/radial*")), "what nobody asked for")
+    no_spin = made_run(drumlin, folder, "no-spin", BED.replace("[effects.spin]\n", ""))
+    drumlin("measure", no_spin, "--parts", "none", "--width", "5,6", "--height", "500,600")  # one band nearly empty, one without a grain
+    require_figure(no_spin / "measured/width.png")
+    require((no_spin / "measured/height.png").exists(), "a band without grains has no figure")
     drumlin("measure", bed, "--parts", "none", "--radial", "4,3", "--height=-1,10", "--width=-1,60", "--overwrite")
     measured = read_json(bed / "measured/measured.json")
     grains = 50 * measured["settings"]["snapshots"]
     require([frame["file"] for frame in measured["frames"]] == ["radial.csv", "height.csv", "width.csv"], measured["frames"])
+    # A frame without a figure, or a figure that says it could not be drawn, would have ended the call with 74.
+    for name in ("radial", "height", "width"):
+        require_figure(bed / f"measured/{name}.png")
+    require(not (bed / "measured/figures.pending").exists(), "figures are missing")
     for name, first, there, foreign in (("radial", "r", "sigma_rt", "sigma_xz"), ("height", "z", "sigma_zz", "shear_rate"), ("width", "x", "d_v_z_dx", "k")):
         head, rows = table_of(bed / "measured" / f"{name}.csv")
         require(head[:2] == ["# drumlin-frame-1", f"# frame = {name}"] and "# reduced = true" in head, head)

@@ -1,0 +1,124 @@
+"""Figures of `drumlin measure --radial, --height, --width`: the profiles in a frame of one's own, with 99 % bands."""
+
+import functools
+import math
+
+import matplotlib.pyplot as plt
+
+import result_files
+import script
+import style
+
+LEAST_SHARE = 0.2  # of the densest layer's volume fraction: looser layers are not drawn
+ROOM = 0.25  # beside the values, as a share of their range and zero: bands that reach further are cut
+AXES = {"radial": r"distance from the {center}, $r$  [$d$]", "height": r"height $z$  [$d$]", "width": r"$x$  [$d$]"}
+VELOCITY, STRESS, RATE = r"velocity  [$\sqrt{gd}$]", r"stress  [$\rho_0 g d$]", r"rate  [$\sqrt{g/d}$]"
+
+# By frame: panels of (label of the values, logarithmic, {column: name}); a column that a scene does not have is left out, and a panel without any.
+PANELS = {
+    "radial": [(VELOCITY, False, {"v_t": r"$v_t$, clockwise", "v_r": "$v_r$, outwards"}),
+               (RATE, True, {"shear_rate": r"$|\dot\gamma| = r\,|d(v_t/r)/dr|$"}),
+               (RATE, False, {"omega": r"$\omega$", "half_vorticity": r"half the vorticity"}),
+               (r"$\nu$", False, {"nu": "volume fraction", "density": r"density / $\rho_0$"}),
+               (STRESS, False, {"sigma_rr": r"$\sigma_{rr}$", "sigma_tt": r"$\sigma_{tt}$", "sigma_rt": r"$\sigma_{rt}$"}),
+               ("ratio of stresses", False, {"mu": r"$\mu = \sigma_{rt}/\sigma_{rr}$", "k": r"$k = \sigma_{tt}/\sigma_{rr}$"})],
+    "height": [(VELOCITY, False, {"v_z": "$v_z$", "v_x": "$v_x$"}),
+               (r"$\nu$", False, {"nu": "volume fraction", "density": r"density / $\rho_0$"}),
+               (STRESS, False, {"sigma_zz": r"$\sigma_{zz}$", "sigma_xx": r"$\sigma_{xx}$", "sigma_xz": r"$\sigma_{xz}$"}),
+               ("ratio of stresses", False, {"k": r"$k = \sigma_{xx}/\sigma_{zz}$"})],
+    "width": [(VELOCITY, False, {"v_z": "$v_z$", "v_x": "$v_x$"}),
+              (RATE, False, {"d_v_z_dx": r"$dv_z/dx$", "omega": r"$\omega$"}),
+              (r"$\nu$", False, {"nu": "volume fraction", "density": r"density / $\rho_0$"}),
+              (STRESS, False, {"sigma_zz": r"$\sigma_{zz}$", "sigma_xx": r"$\sigma_{xx}$", "sigma_xz": r"$\sigma_{xz}$"})],
+}
+COLORS = [style.PARTICLES, style.CONTINUUM, style.OTHERS[0]]
+
+
+class Frame:
+    """One table; layers that are too loose to be drawn are NaN, so that curves break there."""
+
+    def __init__(self, file):
+        _, self.header, columns = result_files.read_table(file, "drumlin-frame-1")
+        self.name = self.header["frame"]
+        self.coordinate, self.columns = next(iter(columns)), columns
+        dense = LEAST_SHARE * max(columns["nu"], default=0)
+        shown = [i for i, nu in enumerate(columns["nu"]) if nu > dense]
+        kept = range(shown[0], shown[-1] + 1) if shown else range(0)
+        self.at = [columns[self.coordinate][i] for i in kept]
+        loose = set(kept) - set(shown)
+        self.values = {name: [math.nan if i in loose else column[i] for i in kept] for name, column in columns.items()}
+
+    def place(self):
+        """What the frame is, as a title."""
+        if self.name == "radial":
+            return f"About x = {float(self.header['center_x']):g} d, z = {float(self.header['center_z']):g} d"
+        across, what = ("x", "Over the height") if self.name == "height" else ("z", "Over the width")
+        return f"{what}, {across} from {float(self.header[across + '_from']):g} to {float(self.header[across + '_to']):g} d"
+
+    def label(self):
+        return AXES[self.name].format(center=self.header.get("center", ""))
+
+
+def curve(axes, frame, name, color, label, logarithmic):
+    """A column with its band; over the height values run to the right and the coordinate upwards, as a silo stands."""
+    upright, values, half = frame.name == "height", frame.values[name], frame.values.get(name + "_ci99")
+    if logarithmic:  # either sense of turning
+        values = [abs(value) if value else math.nan for value in values]
+    axes.plot(*((values, frame.at) if upright else (frame.at, values)), "o-", color=color, label=label)
+    if half is not None:
+        low, high = [a - b for a, b in zip(values, half)], [a + b for a, b in zip(values, half)]
+        if logarithmic:  # a band that reaches zero ends at the foot of the axis
+            low = [max(a, 1e-2 * b) for a, b in zip(low, values)]
+        (axes.fill_betweenx if upright else axes.fill_between)(frame.at, low, high, color=color, alpha=0.25, linewidth=0)
+    return [value for value in values if math.isfinite(value)]
+
+
+def panel(axes, frame, label, logarithmic, columns):
+    upright = frame.name == "height"
+    which, other = ("x", "y") if upright else ("y", "x")
+    values = [value for color, (name, words) in zip(COLORS, columns.items()) for value in curve(axes, frame, name, color, words, logarithmic)]
+    if logarithmic:
+        style.log_scale(axes, which)
+        if values:
+            getattr(axes, f"set_{which}lim")(min(values) / 3, max(values) * 3)
+    elif values:
+        low, high = min(*values, 0), max(*values, 0)
+        room = ROOM * (high - low) + 1e-9
+        getattr(axes, f"set_{which}lim")(low - room if low < 0 else -0.1 * room, high + room if high > 0 else 0.1 * room)
+        (axes.axvline if upright else axes.axhline)(0, color="0.4", linewidth=1)
+    if frame.at:
+        getattr(axes, f"set_{other}lim")(frame.at[0] - 1, frame.at[-1] + 1)
+    getattr(axes, f"set_{which}label")(label)
+    if not upright or axes.get_subplotspec().is_first_col():
+        getattr(axes, f"set_{other}label")(frame.label())
+    axes.legend()
+
+
+def figure_of(frame):
+    known = [(label, logarithmic, {name: words for name, words in columns.items() if name in frame.columns})
+             for label, logarithmic, columns in PANELS[frame.name]]
+    known = [entry for entry in known if entry[2]]
+    rows = 1 if frame.name == "height" else 2  # heights stand side by side
+    count = math.ceil(len(known) / rows)
+    figure, panels = plt.subplots(rows, count, figsize=(4.2 * count, 6.4) if rows == 1 else (5.2 * count, 4.4 * rows), squeeze=False)
+    for axes in panels.flat[len(known):]:
+        axes.remove()
+    for axes, entry in zip(panels.flat, known):
+        panel(axes, frame, *entry)
+    figure.suptitle(style.title_of(f"{frame.place()}; bands: 99 %", frame.header.get("reduced") == "true"), fontsize=13)
+    return figure
+
+
+def main():
+    folder, content = script.measured_folder(__doc__)
+    style.use_style()
+
+    def save(file):
+        frame = Frame(folder / file)
+        style.save(figure_of(frame), folder / f"{frame.name}.png", content["reduced"])
+
+    script.draw_each({entry["frame"]: functools.partial(save, entry["file"]) for entry in content.get("frames", [])})
+
+
+if __name__ == "__main__":
+    main()
