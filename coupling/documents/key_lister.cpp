@@ -17,6 +17,14 @@ std::string cell(const std::string& text) {
   return result;
 }
 
+/// The value of a key for a table of a page: what its unit or its range says already is left out ("mm" is a
+/// number in mm).
+std::string value_cell(const KeyRow& row) {
+  std::string type = row.type.starts_with("array of ") ? row.type.substr(9) : row.type;
+  if (!row.unit.empty()) type = type == "number" ? row.unit : type + " in " + row.unit;
+  return row.allowed.empty() || row.allowed == "not empty" ? type : type + ", " + row.allowed;
+}
+
 bool is_table_row(const KeyRow& row) { return row.type == "table" || row.type == "array of tables"; }
 
 /// Where the keys of the table in row `table` end; `table` + 1 for a row that is no table.
@@ -72,13 +80,11 @@ std::string keys_as_markdown(const std::vector<KeyRow>& rows) {
     const std::size_t end = end_of_table(rows, i);
     const KeyRow* printed = same_table_before(rows, i);
     const std::string condition = row.condition.empty() ? "" : " with `" + row.condition + "`";
-    const std::string unit = row.unit.empty() ? "" : " in " + row.unit;
-    const std::string allowed = row.allowed.empty() ? "" : ", " + row.allowed;
     const bool quotes_default = !is_table_row(row) && row.standard != "required" && row.standard != "absent";
-    text += fmt::format("| `{}`{} | {} | {} | {}{} |\n", cell(row.path), cell(condition),
-                        cell(row.type + unit + allowed),
-                        quotes_default ? "`" + cell(row.standard) + "`" : row.standard, cell(row.sentence),
-                        printed == nullptr ? "" : " Keys: those of `" + cell(printed->path) + "`.");
+    text +=
+        fmt::format("| `{}`{} | {} | {} | {}{} |\n", cell(row.path), cell(condition), cell(value_cell(row)),
+                    quotes_default ? "`" + cell(row.standard) + "`" : row.standard, cell(row.sentence),
+                    printed == nullptr ? "" : " Keys: those of `" + cell(printed->path) + "`.");
     i = printed == nullptr ? i + 1 : end;
   }
   return text;
