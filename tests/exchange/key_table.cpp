@@ -269,6 +269,9 @@ TEST(KeyTable, ListsEveryKeyOfEveryAlternative) {
             std::string::npos);
   EXPECT_NE(keys_as_markdown(rows).find("| `height_m` | m, above 0 to 3 | absent | Height. |"),
             std::string::npos);
+  const KeyRow turn{"wall.turn_deg", "number", "deg", "-360 to 360", "0.0", "kind = \"rocking\"", "Turn."};
+  EXPECT_NE(keys_as_markdown({turn}).find("| `wall.turn_deg` (rocking) | deg, +-360 | `0.0` | Turn. |"),
+            std::string::npos);
 }
 
 TEST(KeyTable, PrintsTheKeysOfEqualTablesOnce) {
