@@ -12,10 +12,9 @@ void describe(Visitor& v, FlowDrum& d) {
   v.value("diameter_mm", d.diameter_mm, required("mm", above(0, 1e6), "Inner diameter of the drum."));
   v.value("rotation_rpm", d.rotation_rpm,
           required("rpm", above(0, 1e4), "Speed of rotation; the flow runs towards +x."));
-  v.value(
-      "slope_deg", d.slope_deg,
-      when_given("deg", above(0, 89),
-                 "Slope of the surface, prescribed; absent: the one at which the surface has no moment."));
+  v.value("slope_deg", d.slope_deg,
+          when_given("deg", above(0, 89),
+                     "Slope, prescribed; absent: the one at which the surface has no moment."));
 }
 template <class Visitor>
 void describe(Visitor& v, FlowIncline& i) {
@@ -46,11 +45,9 @@ void describe(Visitor& v, FlowAnnulus& a) {
 }
 template <class Visitor>
 void describe(Visitor& v, FlowGrains& g) {
-  v.value(
-      "count", g.count,
-      when_given("", at_least(1, 1e9),
-                 "Number of discs; with their diameters and the law's nu, the fill of a drum, which needs "
-                 "it; elsewhere refused."));
+  v.value("count", g.count,
+          when_given("", at_least(1, 1e9),
+                     "Number of discs: the fill of a drum, which needs it; elsewhere refused."));
   v.value("diameter_min_mm", g.diameter_min_mm, required("mm", above(0, 1e6), "Smallest diameter."));
   v.value("diameter_max_mm", g.diameter_max_mm,
           required("mm", above(0, 1e6), "Largest diameter; diameters are uniform between."));
@@ -59,47 +56,37 @@ void describe(Visitor& v, FlowGrains& g) {
 template <class Visitor>
 void describe(Visitor& v, FlowGravity& g) {
   v.value("acceleration_m_s2", g.acceleration_m_s2,
-          defaulted("m/s2", above(0, 1e4),
-                    "Strength of gravity; a part of the units even where no weight acts."));
+          defaulted("m/s2", above(0, 1e4), "Strength; a part of the units even where no weight acts."));
 }
 template <class Visitor>
 void describe(Visitor& v, FlowMesh& m) {
   v.value("surface_cell", m.surface_cell,
-          defaulted(
-              "d", above(0, 100),
-              "Largest cell near the surface, the driven wall, or the wall of a chute, on the finest mesh."));
+          defaulted("d", above(0, 100),
+                    "Largest cell near the surface, the driven wall, or the wall of a chute, finest mesh."));
   v.value("surface_zone", m.surface_zone,
           defaulted("d", at_least(0, 1e4), "Distance from there up to which cells keep that size."));
   v.value(
       "growth", m.growth,
       defaulted("", at_least(0, 1), "Growth of the cell size per unit of distance beyond, coarsest mesh."));
-  v.value("levels", m.levels,
-          defaulted("", at_least(1, 5),
-                    "Meshes, each twice as fine; the errors in flow.json compare the last two."));
+  v.value("levels", m.levels, defaulted("", at_least(1, 5), "Meshes, each twice as fine."));
   v.value("refined_share", m.refined_share,
           defaulted("", above(0, 1),
-                    "Share of the cells that each finer mesh halves, those with the largest jumps of the "
-                    "velocity gradient; 1: all."));
+                    "Share of the cells that each finer mesh halves, by jumps of the velocity gradient."));
 }
 template <class Visitor>
 void describe(Visitor& v, FlowBoundary& b) {
   v.value("corner_taper", b.corner_taper,
           defaulted("d", above(0, 100),
-                    "Distance from the ends of the surface over which the wall's speed rises from nought."));
-  v.value(
-      "surface_stiffness", b.surface_stiffness,
-      defaulted("rho0 g", above(0, 1e8), "T_nn = -stiffness u_n at the surface; large: nothing passes it."));
+                    "Over which the wall's speed rises from nought at the ends of the surface."));
+  v.value("surface_stiffness", b.surface_stiffness,
+          defaulted("rho0 g", above(0, 1e8), "T_nn = -stiffness u_n at the surface."));
 }
 template <class Visitor>
 void describe(Visitor& v, FlowRegularisation& r) {
   v.value("shear_rate", r.shear_rate,
-          defaulted("sqrt(g/d)", above(0, 1),
-                    "eps: |D| becomes sqrt(|D|^2 + eps^2/4); slower shear counts as rigid."));
-  v.value(
-      "pressure", r.pressure,
-      defaulted(
-          "rho0 g d", above(0, 10),
-          "p_min: the law's p becomes (p + sqrt(p^2 + 4 p_min^2))/2, the least strength at the surface."));
+          defaulted("sqrt(g/d)", above(0, 1), "eps: |D| becomes sqrt(|D|^2 + eps^2/4)."));
+  v.value("pressure", r.pressure,
+          defaulted("rho0 g d", above(0, 10), "p_min: the law's p becomes (p + sqrt(p^2 + 4 p_min^2))/2."));
 }
 template <class Visitor>
 void describe(Visitor& v, FlowSolverKeys& s) {
@@ -110,9 +97,7 @@ void describe(Visitor& v, FlowSolverKeys& s) {
   v.value("max_iterations", s.max_iterations,
           defaulted("", at_least(1, 10000), "Newton iterations per phase."));
   v.value("sensitivity", s.sensitivity,
-          defaulted("", anything(),
-                    "Solves again with eps / 4, with p_min - 20 % and for one more iteration, and says what "
-                    "they move."));
+          defaulted("", anything(), "Solves again with eps / 4, p_min - 20 % and one more iteration."));
 }
 template <class Visitor>
 void describe(Visitor&, FlowInertia&) {}
@@ -123,72 +108,54 @@ void describe(Visitor& v, FlowWallSlip& s) {
   v.value("friction", s.friction,
           required("", above(0, 2), "Coulomb friction of the wall against the grains."));
   v.value("slip_speed", s.slip_speed,
-          defaulted("sqrt(g d)", above(0, 1),
-                    "Speed at which friction is nearly full; a wall that holds creeps at a part of it."));
+          defaulted("sqrt(g d)", above(0, 1), "Speed at which friction is nearly full."));
 }
 template <class Visitor>
 void describe(Visitor&, FlowMemory&) {}
 template <class Visitor>
 void describe(Visitor& v, FlowNonlocal& n) {
-  v.value("length", n.length,
-          when_given("d", above(0, 1000),
-                     "Length over which fluidity spreads beyond its place, the same everywhere."));
+  v.value("length", n.length, when_given("d", above(0, 1000), "For a law without a threshold."));
   v.value("amplitude", n.amplitude,
-          when_given("d", above(0, 100),
-                     "A of a length A/sqrt(abs(mu - mu_s)) in place of that: fluidity decays below the "
-                     "threshold mu_s, at any mu."));
+          when_given("d", above(0, 100), "A of a length A/sqrt(abs(mu - mu_s)) in place of that."));
   v.value("threshold", n.threshold,
-          when_given("", above(0, 2),
-                     "mu_s, below which mu(I) does not fall; beside amplitude. Absent: that of the law."));
+          when_given("", above(0, 2), "mu_s, beside amplitude. Absent: that of the law."));
 }
 template <class Visitor>
 void describe(Visitor& v, FlowMovingSurface& m) {
   v.value("degree", m.degree,
           when_given("", at_least(4, 60),
-                     "Of the polynomial that is the surface's height; absent: at the ends of the surface it "
-                     "resolves 0.8 of a cell of the finest mesh."));
-  v.value(
-      "tolerance", m.tolerance,
-      defaulted(
-          "d", above(0, 1),
-          "Rms of what still presses on the surface, as a height, as far as that polynomial resolves it."));
+                     "Of its polynomial; absent: resolves 0.8 of a cell of the finest mesh at the ends."));
+  v.value("tolerance", m.tolerance,
+          defaulted("d", above(0, 1), "Rms of what still presses on it, as a height."));
 }
 template <class Visitor>
 void describe(Visitor& v, FlowEffects& e) {
   v.optional_table("inertia", e.inertia, "nu u.grad u in the balance of momentum.");
   v.optional_table("rotating_frame", e.rotating_frame,
-                   "The solver's velocity is that seen from the drum; no answer changes.");
-  v.optional_table("wall_slip", e.wall_slip, "The material slides along the wall under Coulomb's law.");
-  v.optional_table("memory", e.memory,
-                   "The axes of the stress remember past strain, as the law's table [memory] says.");
-  v.optional_table(
-      "nonlocal", e.nonlocal,
-      "Fluidity spreads: g - length^2 lap g = g_loc, where the law has to yield at any stress, or "
-      "amplitude^2 lap g/g = mu(I) - mu with a threshold.");
-  v.optional_table("moving_surface", e.moving_surface,
-                   "The surface goes where nothing presses on it (the S-shape), its ends along the wall.");
+                   "Velocities as seen from the drum; no answer changes.");
+  v.optional_table("wall_slip", e.wall_slip, "The material slides along the wall.");
+  v.optional_table("memory", e.memory, "Memory of the axes, as the law's table [memory] says.");
+  v.optional_table("nonlocal", e.nonlocal,
+                   "Fluidity spreads: g - length^2 lap g = g_loc, or amplitude^2 lap g/g = mu(I) - mu.");
+  v.optional_table("moving_surface", e.moving_surface, "The surface goes where nothing presses on it.");
 }
 template <class Visitor>
 void describe(Visitor& v, FlowTime& t) {
   v.value("step_s", t.step_s, required("s", above(0, 1e6), "Length of a step."));
   v.value("steps", t.steps, required("", at_least(1, 1e6), "Number of steps."));
-  v.value("ramp_s", t.ramp_s,
-          defaulted(
-              "s", at_least(0, 1e9),
-              "Time over which the drum's speed goes from that of the start, linearly; at most the whole."));
+  v.value(
+      "ramp_s", t.ramp_s,
+      defaulted("s", at_least(0, 1e9), "Over which the drum's speed goes from that of the start, linearly."));
   v.value("every", t.every, defaulted("", at_least(1, 1e6), "Steps from kept state to kept state."));
 }
 template <class Visitor>
 void describe(Visitor& v, FlowOutput& o) {
   v.value("slice_width", o.slice_width,
           when_given("d", above(0, 1e4),
-                     "Width of the slice of the profiles of a drum, 20 by default, cut to a quarter of the "
-                     "chord; elsewhere refused."));
+                     "Of the profiles of a drum: 20, at most a quarter of the chord; elsewhere refused."));
   v.value("layer_thickness", o.layer_thickness, defaulted("d", above(0, 100), "Thickness of its layers."));
   v.value("map_spacing", o.map_spacing, defaulted("d", above(0, 100), "Spacing of the points of maps.h5."));
-  v.value(
-      "figures", o.figures,
-      defaulted("", anything(), "Draws the figures; false for many flows of which the numbers are wanted."));
+  v.value("figures", o.figures, defaulted("", anything(), "Draws the figures."));
 }
 template <class Visitor>
 void describe(Visitor& v, FlowScene& s) {
@@ -204,13 +171,9 @@ void describe(Visitor& v, FlowScene& s) {
   v.table("grains", s.grains, Need::required, "The grains.");
   v.table("gravity", s.gravity, Need::defaulted, "Gravity.");
   v.table("mesh", s.mesh, Need::defaulted, "Finite-element meshes.");
-  v.optional_table("boundary", s.boundary,
-                   "Wall and free surface of a drum, there its defaults when absent; elsewhere refused.");
-  v.table("effects", s.effects, Need::defaulted, "What is simulated beyond slow flow; of a drum alone.");
-  v.optional_table(
-      "time", s.time,
-      "Steps in time with inertia, from rest or from the flow of --from; absent: the steady flow. Of "
-      "a drum alone.");
+  v.optional_table("boundary", s.boundary, "Wall and free surface of a drum; elsewhere refused.");
+  v.table("effects", s.effects, Need::defaulted, "Of a drum alone.");
+  v.optional_table("time", s.time, "Of a drum alone: steps in time; absent: the steady flow.");
   v.table("regularisation", s.regularisation, Need::defaulted, "Where the law is smoothed.");
   v.table("solver", s.solver, Need::defaulted, "When the solver may stop.");
   v.table("output", s.output, Need::defaulted, "Profiles and maps.");

@@ -17,6 +17,27 @@ std::string cell(const std::string& text) {
   return result;
 }
 
+/// The range of a key for a table of a page: "-1 to 1" as "+-1".
+std::string range_cell(const std::string& allowed) {
+  const std::size_t middle = allowed.find(" to ");
+  if (!allowed.starts_with('-') || middle == std::string::npos) return allowed;
+  const std::string most = allowed.substr(middle + 4);
+  return allowed.substr(1, middle - 1) == most ? "+-" + most : allowed;
+}
+
+/// The value of a key for a table of a page, where a unit alone ("mm") is a number in it.
+std::string value_cell(const KeyRow& row) {
+  std::string type = row.type.starts_with("array of ") ? row.type.substr(9) : row.type;
+  if (!row.unit.empty()) type = type == "number" ? row.unit : type + " in " + row.unit;
+  return row.allowed.empty() || row.allowed == "not empty" ? type : type + ", " + range_cell(row.allowed);
+}
+
+/// The word of `kind = "word"` that a key is of.
+std::string choice_cell(const std::string& condition) {
+  const std::size_t quote = condition.find('"');
+  return condition.empty() ? "" : " (" + condition.substr(quote + 1, condition.rfind('"') - quote - 1) + ")";
+}
+
 bool is_table_row(const KeyRow& row) { return row.type == "table" || row.type == "array of tables"; }
 
 /// Where the keys of the table in row `table` end; `table` + 1 for a row that is no table.
@@ -71,13 +92,10 @@ std::string keys_as_markdown(const std::vector<KeyRow>& rows) {
     const KeyRow& row = rows[i];
     const std::size_t end = end_of_table(rows, i);
     const KeyRow* printed = same_table_before(rows, i);
-    const std::string condition = row.condition.empty() ? "" : " with `" + row.condition + "`";
-    const std::string unit = row.unit.empty() ? "" : " in " + row.unit;
-    const std::string allowed = row.allowed.empty() ? "" : ", " + row.allowed;
     const bool quotes_default = !is_table_row(row) && row.standard != "required" && row.standard != "absent";
-    text += fmt::format("| `{}`{} | {} | {} | {}{} |\n", cell(row.path), cell(condition),
-                        cell(row.type + unit + allowed),
-                        quotes_default ? "`" + cell(row.standard) + "`" : row.standard, cell(row.sentence),
+    text += fmt::format("| `{}`{} | {} | {} | {}{} |\n", cell(row.path), choice_cell(row.condition),
+                        cell(value_cell(row)), quotes_default ? "`" + cell(row.standard) + "`" : row.standard,
+                        cell(row.sentence),
                         printed == nullptr ? "" : " Keys: those of `" + cell(printed->path) + "`.");
     i = printed == nullptr ? i + 1 : end;
   }

@@ -7,9 +7,8 @@ namespace drumlin::particles {
 
 template <class Visitor>
 void describe(Visitor& v, Rotation& r) {
-  v.value(
-      "speed_rpm", r.speed_rpm,
-      required("turns/min", at_least(-1e6, 1e6), "Angular velocity, positive clockwise as drawn (z up)."));
+  v.value("speed_rpm", r.speed_rpm,
+          required("turns/min", at_least(-1e6, 1e6), "Angular velocity, positive clockwise."));
   v.value("center_mm", r.center_mm,
           defaulted("mm", coordinate_mm(), "Point [x, z] about which the wall turns."));
 }
@@ -27,37 +26,32 @@ void describe(Visitor& v, Oscillation& o) {
   v.value("frequency_hz", o.frequency_hz, required("Hz", above(0, 1e6), "Oscillations per second."));
   v.value(
       "phase_deg", o.phase_deg,
-      defaulted(
-          "deg", at_least(-360, 360),
-          "The displacement is amplitude (sin(2 pi f t + phase) - sin(phase)), t from the stage's start."));
+      defaulted("deg", at_least(-360, 360),
+                "Displacement: amplitude (sin(2 pi f t + phase) - sin(phase)), t from the stage's start."));
 }
 
 template <class Visitor>
 void describe(Visitor& v, Rocking& r) {
   v.value("amplitude_deg", r.amplitude_deg,
-          required("deg", at_least(-360, 360), "Amplitude of the angle, positive clockwise as drawn."));
+          required("deg", at_least(-360, 360), "Amplitude of the angle, clockwise."));
   v.value("frequency_hz", r.frequency_hz, required("Hz", above(0, 1e6), "Oscillations per second."));
-  v.value(
-      "phase_deg", r.phase_deg,
-      defaulted("deg", at_least(-360, 360),
-                "The angle is amplitude (sin(2 pi f t + phase) - sin(phase)), t from the stage's start."));
+  v.value("phase_deg", r.phase_deg,
+          defaulted("deg", at_least(-360, 360),
+                    "Angle: amplitude (sin(2 pi f t + phase) - sin(phase)), t from the stage's start."));
   v.value("center_mm", r.center_mm,
           defaulted("mm", coordinate_mm(), "Point [x, z] about which the wall rocks."));
 }
 
 template <class Visitor>
 void describe(Visitor& v, WallMotion& m) {
-  v.value("wall", m.wall,
-          required("", not_empty(), "Name of the wall that moves; walls without a motion stand still."));
-  v.variant(
-      "kind", m.motion, "Kind of motion.", alternative<Rotation>("rotation", "turns about a point."),
-      alternative<Translation>("translation", "glides along a straight line."),
-      alternative<Oscillation>("oscillation", "shakes along a straight line."),
-      alternative<Rocking>("rocking", "turns to and fro about a point."),
-      alternative<ForceControl>("force", "moves along one direction as a force and the grains push it."),
-      alternative<PressureControl>("pressure", "the same under a pressure."),
-      alternative<StrainRate>("strain_rate",
-                              "moves so that its distance from a point changes at a constant rate."));
+  v.value("wall", m.wall, required("", not_empty(), "The wall that moves."));
+  v.variant("kind", m.motion, "Kind of motion.", alternative<Rotation>("rotation", "turns about a point."),
+            alternative<Translation>("translation", "glides along a straight line."),
+            alternative<Oscillation>("oscillation", "shakes along a straight line."),
+            alternative<Rocking>("rocking", "turns to and fro about a point."),
+            alternative<ForceControl>("force", "moves along a direction as a force and the grains push it."),
+            alternative<PressureControl>("pressure", "the same under a pressure."),
+            alternative<StrainRate>("strain_rate", "its distance from a point changes at a constant rate."));
 }
 
 template <class Visitor>
@@ -68,34 +62,31 @@ void describe(Visitor& v, StageCoefficients& c) {
 
 template <class Visitor>
 void describe(Visitor& v, StageCohesion& c) {
-  v.value("grain_grain", c.grain_grain,
-          required("", at_least(0, 1e6),
-                   "Attraction of two grains that touch, in weights of a disc of the mean diameter."));
+  v.value(
+      "grain_grain", c.grain_grain,
+      required("", at_least(0, 1e6), "Attraction of two grains that touch, in weights of the mean disc."));
   v.value("grain_wall", c.grain_wall, required("", at_least(0, 1e6), "The same between a grain and a wall."));
 }
 
 template <class Visitor>
 void describe(Visitor& v, UntilRest& u) {
   v.value("energy", u.energy,
-          defaulted("", above(0, 1e6),
-                    "Kinetic energy per grain, in weights of a disc of the mean diameter times that diameter "
-                    "(under the scene's gravity; under 9.81 m/s2 without)."));
-  v.value("for_s", u.for_s, required("s", at_least(0), "It is below that in all steps of so long a time."));
+          defaulted("", above(0, 1e6), "Kinetic energy per grain, in weights of the mean disc times d."));
+  v.value("for_s", u.for_s, required("s", at_least(0), "It is below that for so long."));
 }
 
 template <class Visitor>
 void describe(Visitor& v, UntilMoved& u) {
   v.value("wall", u.wall, required("", not_empty(), "Name of the wall."));
-  v.value("distance_mm", u.distance_mm,
-          required("mm", above(0, 1e6),
-                   "The middle of its first shape is so far from where it stood when the stage began."));
+  v.value(
+      "distance_mm", u.distance_mm,
+      required("mm", above(0, 1e6), "The middle of its first shape has moved so far since the stage began."));
 }
 
 template <class Visitor>
 void describe(Visitor& v, UntilOut& u) {
   v.value("outlet", u.outlet, required("", not_empty(), "Name of the outlet."));
-  v.value("count", u.count,
-          required("", at_least(1, 1e8), "It has taken so many grains since the stage began."));
+  v.value("count", u.count, required("", at_least(1, 1e8), "So many since the stage began."));
 }
 
 template <class Visitor>
@@ -111,28 +102,19 @@ void describe(Visitor& v, Stage& s) {
   v.value("duration_s", s.duration_s,
           when_given("s", above(0), "Length of the stage; either this or turns."));
   v.value("turns", s.turns,
-          when_given("turns", above(0),
-                     "Length in turns of the first rotation among its motions; either this or duration_s."));
+          when_given("turns", above(0), "The same in turns of the first rotation among its motions."));
   v.value("time_step_s", s.time_step_s,
-          required("s", above(0),
-                   "Time step; shortened or stretched a little where whole steps would not fill the stage."));
-  v.value("snapshots", s.snapshots,
-          defaulted("", at_least(0, 1e6),
-                    "Number of snapshots, evenly spread, the last at the end of the stage."));
-  v.tables("motions", s.motions, 0, "What moves during the stage, at most one motion per wall.");
-  v.value("opens", s.opens, when_given("", not_empty(), "Names of walls that are gone from its start on."));
+          required("s", above(0), "Time step; adapted a little so that whole steps fill the stage."));
+  v.value("snapshots", s.snapshots, defaulted("", at_least(0, 1e6), "Evenly spread, the last at its end."));
+  v.tables("motions", s.motions, 0, "At most one motion per wall.");
+  v.value("opens", s.opens, when_given("", not_empty(), "Walls that are gone from its start on."));
   v.optional_table("gravity", s.gravity, "Another gravity; it stays until another stage changes it.");
-  v.optional_table("friction", s.friction, "In this stage in place of the values of effects.friction.");
-  v.optional_table("restitution", s.restitution,
-                   "In this stage in place of the values of effects.restitution.");
-  v.optional_table("rolling_resistance", s.rolling_resistance,
-                   "In this stage in place of the values of effects.rolling_resistance.");
-  v.optional_table("cohesion", s.cohesion,
-                   "In this stage in place of the values of effects.cohesion, whose range stays.");
-  v.optional_table("until", s.until, "Ends the stage before its time, when the first of these is met.");
-  v.optional_table(
-      "cell", s.cell,
-      "How the cell of a scene with periodic_z moves; without, its lengths and images stand still.");
+  v.optional_table("friction", s.friction, "In place of effects.friction.");
+  v.optional_table("restitution", s.restitution, "In place of effects.restitution.");
+  v.optional_table("rolling_resistance", s.rolling_resistance, "In place of effects.rolling_resistance.");
+  v.optional_table("cohesion", s.cohesion, "In place of effects.cohesion, whose range stays.");
+  v.optional_table("until", s.until, "Ends the stage early, when the first of these is met.");
+  v.optional_table("cell", s.cell, "How the cell of periodic_z moves.");
 }
 
 }  // namespace drumlin::particles

@@ -267,7 +267,10 @@ TEST(KeyTable, ListsEveryKeyOfEveryAlternative) {
   EXPECT_EQ(rows[4].standard, "absent");
   EXPECT_NE(keys_as_text(rows).find("sown.seeds\n    integer, 1 to 100, required\n    Number of seeds.\n"),
             std::string::npos);
-  EXPECT_NE(keys_as_markdown(rows).find("| `height_m` | number in m, above 0 to 3 | absent | Height. |"),
+  EXPECT_NE(keys_as_markdown(rows).find("| `height_m` | m, above 0 to 3 | absent | Height. |"),
+            std::string::npos);
+  const KeyRow turn{"wall.turn_deg", "number", "deg", "-360 to 360", "0.0", "kind = \"rocking\"", "Turn."};
+  EXPECT_NE(keys_as_markdown({turn}).find("| `wall.turn_deg` (rocking) | deg, +-360 | `0.0` | Turn. |"),
             std::string::npos);
 }
 
@@ -282,10 +285,10 @@ TEST(KeyTable, PrintsTheKeysOfEqualTablesOnce) {
   EXPECT_EQ(keys_as_markdown(rows),
             "| key | value | default | meaning |\n|---|---|---|---|\n"
             "| `pond` | table | absent | A pond. |\n"
-            "| `pond.depth_m` | number in m, > 0 | required | Depth. |\n"
+            "| `pond.depth_m` | m, > 0 | required | Depth. |\n"
             "| `pool` | table | absent | A pond. Keys: those of `pond`. |\n"
             "| `well` | table | absent | A pond. |\n"
-            "| `well.depth_m` | number in m, > 9 | required | Depth. |\n");
+            "| `well.depth_m` | m, > 9 | required | Depth. |\n");
 }
 
 TEST(KeyTable, FindsThePlaceOfAPath) {
