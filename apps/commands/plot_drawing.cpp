@@ -8,6 +8,7 @@
 #include "apps/support/figures.hpp"
 #include "apps/support/json_file.hpp"
 #include "coupling/common/errors.hpp"
+#include "particles/bodies/arc.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/io/snapshot_list.hpp"
 #include "particles/scene/materials.hpp"
@@ -31,6 +32,15 @@ struct ShapeJson {
   }
   Json operator()(const particles::Segment& s) const {
     return {{"shape", "segment"}, {"x", {s.from.x, s.to.x}}, {"z", {s.from.z, s.to.z}}};
+  }
+  Json operator()(const particles::Arc& a) const {
+    constexpr int pieces = 48;  // of half a circle at most: chords leave it by 1/2000 of its radius
+    Json x = Json::array(), z = Json::array();
+    for (int k = 0; k <= pieces; ++k) {
+      const particles::Point p = at(a, a.turn * k / pieces);
+      x.push_back(p.x), z.push_back(p.z);
+    }
+    return {{"shape", "arc"}, {"x", x}, {"z", z}};
   }
   Json operator()(const particles::FixedDisc& d) const {
     return {{"shape", "disc"}, {"x", d.center.x}, {"z", d.center.z}, {"radius", d.radius}};

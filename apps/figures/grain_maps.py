@@ -170,7 +170,7 @@ class View:
                 continue
             x, z, radius = np.atleast_1d(wall["x"]), wall["z"], wall.get("radius", 0)
             for shift in images(x.min() - radius, x.max() + radius, period):
-                if wall["shape"] == "segment":
+                if wall["shape"] in ("segment", "arc"):
                     artist, = axes.plot(x + shift, z, color=WALL, linewidth=1.6, scalex=False, scaley=False)
                 else:
                     artist = axes.add_patch(matplotlib.patches.Circle((wall["x"] + shift, z), radius, facecolor="0.6",

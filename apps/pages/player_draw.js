@@ -140,11 +140,10 @@ function drawWalls(ctx, camera, run, f, pixel) {
   for (const wall of walls) {
     if (wall.shape === "container") drawContainer(ctx, camera, wall, pixel);
     ctx.lineWidth = 2 * pixel;
-    if (wall.shape === "segment") {
+    if (wall.shape === "segment" || wall.shape === "arc") {
       for (const by of shifts(Math.min(...wall.x), Math.max(...wall.x), period)) {
         ctx.beginPath();
-        ctx.moveTo(camera.toX(wall.x[0] + by), camera.toY(wall.z[0]));
-        ctx.lineTo(camera.toX(wall.x[1] + by), camera.toY(wall.z[1]));
+        for (let k = 0; k < wall.x.length; k++) ctx[k ? "lineTo" : "moveTo"](camera.toX(wall.x[k] + by), camera.toY(wall.z[k]));
         ctx.stroke();
       }
     }

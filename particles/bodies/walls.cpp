@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "particles/bodies/arc.hpp"
+
 namespace drumlin::particles {
 Rigid::Rigid(const Pose& pose)
     : cosine(std::cos(pose.angle)), sine(std::sin(pose.angle)), x(pose.x), z(pose.z) {}
@@ -54,6 +56,8 @@ Shape moved(const Rigid& pose, const Shape& shape) {
   if (const auto* c = std::get_if<Container>(&shape)) return Container{pose.moved(c->center), c->radius};
   if (const auto* s = std::get_if<Segment>(&shape)) return Segment{pose.moved(s->from), pose.moved(s->to)};
   if (is_open(shape)) return shape;
+  if (const auto* a = std::get_if<Arc>(&shape))
+    return Arc{pose.moved(a->center), a->radius, pose.turned(a->joint), a->turn};
   const auto& d = std::get<FixedDisc>(shape);
   return FixedDisc{pose.moved(d.center), d.radius};
 }
@@ -62,6 +66,7 @@ Point middle_of(const Shape& shape) {
   if (const auto* s = std::get_if<Segment>(&shape))
     return {(s->from.x + s->to.x) / 2, (s->from.z + s->to.z) / 2};
   if (const auto* d = std::get_if<FixedDisc>(&shape)) return d->center;
+  if (const auto* a = std::get_if<Arc>(&shape)) return at(*a, 0);
   const auto* c = std::get_if<Container>(&shape);
   return c ? c->center : Point{};
 }

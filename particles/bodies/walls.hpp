@@ -42,12 +42,20 @@ struct FixedDisc {
   Point center;
   double radius = 0;
 };
+/// Half of a piece of a circle, solid on both sides, from the joint with its other half to the piece's end: a
+/// disc touches a half at one point, and both ends of a piece at once if it is too large for it.
+struct Arc {
+  Point center;
+  double radius = 0;
+  Point joint;      ///< unit vector from the centre to the joint
+  double turn = 0;  ///< angle from there to the end, positive anticlockwise
+};
 /// What is left of the shapes of a wall that a stage has opened: nothing that grains could touch. They keep
 /// their places in lists, so that indices keep their meaning.
 struct Opened {};
-using Shape = std::variant<Container, Segment, FixedDisc, Opened>;
+using Shape = std::variant<Container, Segment, FixedDisc, Opened, Arc>;
 inline bool is_open(const Shape& shape) { return std::holds_alternative<Opened>(shape); }
-/// Centre of a container or a disc, middle of a segment; the origin for an opened one.
+/// Centre of a container or a disc, middle of a segment, joint of an arc; the origin for an opened one.
 Point middle_of(const Shape&);
 
 /// Motion of one wall within a stage.

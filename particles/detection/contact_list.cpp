@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "particles/bodies/arc.hpp"
 #include "particles/detection/open_gaps.hpp"
 
 namespace drumlin::particles {
@@ -41,6 +42,10 @@ std::optional<Box> surroundings(const Shape& shape, double reach) {
     const double r = d->radius + reach;
     return Box{d->center.x - r, d->center.x + r, d->center.z - r, d->center.z + r};
   }
+  if (const auto* a = std::get_if<Arc>(&shape)) {
+    const Reaches r = reaches_of(*a);
+    return Box{r.x_low - reach, r.x_high + reach, r.z_low - reach, r.z_high + reach};
+  }
   return std::nullopt;
 }
 
@@ -61,6 +66,7 @@ double largest_move(const Shape& shape, const Pose& step) {
   if (const auto* s = std::get_if<Segment>(&shape)) return std::max(move_of(s->from), move_of(s->to));
   const auto [center, radius] = [&shape] {
     if (const auto* c = std::get_if<Container>(&shape)) return std::pair(c->center, c->radius);
+    if (const auto* a = std::get_if<Arc>(&shape)) return std::pair(a->center, a->radius);
     const auto& d = std::get<FixedDisc>(shape);
     return std::pair(d.center, d.radius);
   }();
@@ -129,6 +135,10 @@ double gap_to_shape(const Shape& shape, double x, double z, double radius, doubl
   }
   if (const auto* s = std::get_if<Segment>(&shape)) {
     point = nearest_on_segment(*s, x, z);
+    return normal_of(x - point.x, z - point.z, n_x, n_z) - radius;
+  }
+  if (const auto* a = std::get_if<Arc>(&shape)) {
+    point = nearest_on(*a, {x, z});
     return normal_of(x - point.x, z - point.z, n_x, n_z) - radius;
   }
   const auto& disc = std::get<FixedDisc>(shape);

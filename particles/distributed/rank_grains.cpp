@@ -26,6 +26,8 @@ double speed_of(const Shape& shape, const Pose& step, double time_step) {
     move = move_of(c->center) + std::abs(step.angle) * c->radius;
   else if (const auto* d = std::get_if<FixedDisc>(&shape))
     move = move_of(d->center) + std::abs(step.angle) * d->radius;
+  else if (const auto* a = std::get_if<Arc>(&shape))
+    move = move_of(a->center) + std::abs(step.angle) * a->radius;
   return move / time_step;
 }
 

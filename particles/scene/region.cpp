@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "particles/scene/scene_walls.hpp"
 
@@ -33,6 +34,44 @@ bool segment_enters(const SegmentShape& s, const RectangleRegion& box) {
     }
   }
   return from < to;
+}
+
+/// Whether a point of the arc at an angle from +x lies on it.
+bool holds(const ArcShape& arc, double angle) {
+  const double turn = std::fmod(std::fmod(angle * 180 / std::numbers::pi - arc.from_deg, 360) + 360, 360);
+  return turn <= arc.to_deg - arc.from_deg;
+}
+
+Point_mm point_at(const ArcShape& arc, double angle) {
+  return {arc.center_mm[0] + arc.radius_mm * std::cos(angle),
+          arc.center_mm[1] + arc.radius_mm * std::sin(angle)};
+}
+
+double distance_to_arc(const Point_mm& p, const ArcShape& arc) {
+  const double angle = std::atan2(p[1] - arc.center_mm[1], p[0] - arc.center_mm[0]);
+  if (holds(arc, angle)) return std::abs(distance(p, arc.center_mm) - arc.radius_mm);
+  const double radian = std::numbers::pi / 180;
+  return std::min(distance(p, point_at(arc, arc.from_deg * radian)),
+                  distance(p, point_at(arc, arc.to_deg * radian)));
+}
+
+/// Whether an end of the arc lies inside the rectangle, or the arc cuts one of its sides.
+bool arc_enters(const ArcShape& arc, const RectangleRegion& box) {
+  const double radian = std::numbers::pi / 180;
+  const auto inside = [&box](const Point_mm& p, int axis) {
+    return p[axis] > box.min_mm[axis] && p[axis] < box.max_mm[axis];
+  };
+  const Point_mm end = point_at(arc, arc.from_deg * radian);
+  if (inside(end, 0) && inside(end, 1)) return true;
+  for (const int axis : {0, 1})
+    for (const double side : {box.min_mm[axis], box.max_mm[axis]}) {
+      const double share = (side - arc.center_mm[axis]) / arc.radius_mm;
+      if (!(std::abs(share) < 1)) continue;
+      const double first = axis == 0 ? std::acos(share) : std::asin(share);
+      for (const double angle : {first, axis == 0 ? -first : std::numbers::pi - first})
+        if (holds(arc, angle) && inside(point_at(arc, angle), 1 - axis)) return true;
+    }
+  return false;
 }
 
 RectangleRegion shrunk(const RectangleRegion& box, double margin) {
@@ -68,8 +107,10 @@ bool crosses(const Region& region, const WallShape& shape, double tolerance) {
   const double margin = tolerance * (high - low);
   const auto* segment = std::get_if<SegmentShape>(&shape);
   const auto* disc = std::get_if<DiscShape>(&shape);
+  const auto* arc = std::get_if<ArcShape>(&shape);
   if (const auto* circle = std::get_if<CircleRegion>(&region)) {
     if (segment) return distance_to_segment(circle->center_mm, *segment) < circle->radius_mm - margin;
+    if (arc) return distance_to_arc(circle->center_mm, *arc) < circle->radius_mm - margin;
     if (disc)
       return distance(circle->center_mm, disc->center_mm) <
              circle->radius_mm + disc->diameter_mm / 2 - margin;
@@ -77,6 +118,7 @@ bool crosses(const Region& region, const WallShape& shape, double tolerance) {
   }
   const auto& box = std::get<RectangleRegion>(region);
   if (segment) return segment_enters(*segment, shrunk(box, margin));
+  if (arc) return arc_enters(*arc, shrunk(box, margin));
   if (!disc) return false;
   const Point_mm nearest{std::clamp(disc->center_mm[0], box.min_mm[0], box.max_mm[0]),
                          std::clamp(disc->center_mm[1], box.min_mm[1], box.max_mm[1])};

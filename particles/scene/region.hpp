@@ -8,14 +8,14 @@
 namespace drumlin::particles {
 
 using Region = std::variant<CircleRegion, RectangleRegion>;
-using WallShape = std::variant<ContainerShape, SegmentShape, DiscShape, PolylineShape>;
+using WallShape = std::variant<ContainerShape, SegmentShape, DiscShape, PolylineShape, ArcShape>;
 
 /// Least and greatest coordinate along an axis: 0 for x, 1 for z.
 std::pair<double, double> extent_mm(const Region& region, int axis);
 /// Distance of the region's farthest point from `center`.
 double farthest_mm(const Region& region, const Point_mm& center);
-/// Whether a segment or a disc reaches into the region, its border not counted: a region may lie against a
-/// wall. `tolerance` is relative to the size of the region. A container crosses nothing.
+/// Whether a segment, an arc or a disc reaches into the region, its border not counted: a region may lie
+/// against a wall. `tolerance` is relative to the size of the region. A container crosses nothing.
 bool crosses(const Region& region, const WallShape& shape, double tolerance);
 
 }  // namespace drumlin::particles

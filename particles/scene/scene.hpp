@@ -94,6 +94,13 @@ struct PolylineShape {
   std::optional<bool> closed = {};  ///< true: a line leads from the last point back to the first
 };
 
+/// Piece of a circle, solid on both sides.
+struct ArcShape {
+  Point_mm center_mm{0, 0};
+  double radius_mm = 0;
+  double from_deg = 0, to_deg = 0;  ///< counter-clockwise from x
+};
+
 /// Discs glued along a container or a segment, their centres on it.
 struct Roughness {
   double diameter_mm = 0;
@@ -103,7 +110,7 @@ struct Roughness {
 /// A wall; several shapes of one name move together.
 struct Wall {
   std::string name;
-  std::variant<ContainerShape, SegmentShape, DiscShape, PolylineShape> shape;
+  std::variant<ContainerShape, SegmentShape, DiscShape, PolylineShape, ArcShape> shape;
   std::optional<std::string> material = {};  ///< for laws that differ from pair to pair
   std::optional<Roughness> rough = {};
 };

@@ -149,6 +149,16 @@ void describe(Visitor& v, PolylineShape& p) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, ArcShape& a) {
+  v.value("center_mm", a.center_mm, required("mm", coordinate_mm(), "Centre [x, z] of the arc's circle."));
+  v.value("radius_mm", a.radius_mm, required("mm", length_mm(), "Its radius."));
+  v.value("from_deg", a.from_deg,
+          required("deg", at_least(-360, 360), "Where the arc begins, from +x anticlockwise as drawn."));
+  v.value("to_deg", a.to_deg,
+          required("deg", at_least(-360, 720), "Where it ends: above from_deg, by less than 360."));
+}
+
+template <class Visitor>
 void describe(Visitor& v, Roughness& r) {
   v.value("diameter_mm", r.diameter_mm, required("mm", length_mm(), "Diameter of the glued discs."));
   v.value(
@@ -163,7 +173,8 @@ void describe(Visitor& v, Wall& w) {
             alternative<ContainerShape>("container", "a circle with the grains inside it."),
             alternative<SegmentShape>("segment", "a straight line, solid on both sides."),
             alternative<DiscShape>("disc", "a disc that is part of the wall."),
-            alternative<PolylineShape>("polyline", "straight lines, solid on both sides."));
+            alternative<PolylineShape>("polyline", "straight lines, solid on both sides."),
+            alternative<ArcShape>("arc", "a piece of a circle, solid on both sides."));
   v.value("material", w.material, when_given("", not_empty(), "Its material."));
   v.optional_table("rough", w.rough, "Discs glued along a container or a segment.");
 }

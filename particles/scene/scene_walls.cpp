@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "particles/bodies/arc.hpp"
 #include "particles/scene/materials.hpp"
 
 namespace drumlin::particles {
@@ -27,6 +28,11 @@ void add_shapes(const Wall& wall, const Scales& scales, std::vector<Shape>& shap
     shapes.push_back(FixedDisc{point_of(d->center_mm, scales), d->diameter_mm / 2 * unit});
   if (const auto* p = std::get_if<PolylineShape>(&wall.shape))
     for (const SegmentShape& s : segments_of(*p)) shapes.push_back(segment_of(s, scales));
+  if (const auto* a = std::get_if<ArcShape>(&wall.shape))
+    for (const Arc& half :
+         halves_of(point_of(a->center_mm, scales), a->radius_mm * unit, a->from_deg * std::numbers::pi / 180,
+                   a->to_deg * std::numbers::pi / 180))
+      shapes.push_back(half);
 }
 
 /// The motion of wall `wall`. `driven`: how many walls the stage drives before this one.

@@ -10,8 +10,7 @@ namespace drumlin::particles {
 
 /// The lines of a polyline, the one that closes it last.
 std::vector<SegmentShape> segments_of(const PolylineShape&);
-/// Length of the line on which discs can be glued; 0 for a disc
-/// or a polyline.
+/// Length of the line on which discs can be glued; 0 for a disc, a polyline or an arc.
 double wall_length_mm(const Wall& wall);
 /// Centres of the discs glued to a wall, in mm: evenly along a container, or a segment with half a spacing
 /// free at either end, so that a segment as long as the period closes on itself. Empty for a smooth wall.

@@ -50,7 +50,7 @@ void check_period(const Scene& scene, Faults& faults) {
     if (std::holds_alternative<ContainerShape>(scene.walls[w].shape))
       faults.push_back({wall_key(w) + ".shape",
                         "is a container in a periodic domain",
-                        "segments and discs, or a scene without periodic_x",
+                        "walls of other shapes, or a scene without periodic_x",
                         {"periodic_x", wall_key(w) + ".shape"}});
   if (const auto* grains = std::get_if<GeneratedGrains>(&scene.grains.source)) {
     const auto [left, right] = extent_mm(grains->region, 0);

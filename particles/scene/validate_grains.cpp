@@ -108,7 +108,7 @@ void check_region_clear(const Scene& scene, const GeneratedGrains& grains, const
                           fmt::format("inside its radius of {} mm", room), about});
     } else if (crosses(grains.region, wall.shape, rounding) || crossed_by_glued(grains.region, wall)) {
       faults.push_back({key, fmt::format("is crossed by wall \"{}\" ({})", wall.name, wall_key(w)),
-                        "clear of segments and discs", about});
+                        "clear of all walls but containers", about});
     }
   }
 }

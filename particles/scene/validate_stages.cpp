@@ -135,6 +135,14 @@ void check_polyline(const PolylineShape& line, bool rough, const std::string& ke
     faults.push_back({key + ".rough", "is glued to a polyline", "on containers and segments", about});
 }
 
+void check_arc(const ArcShape& arc, bool rough, const std::string& key, Faults& faults) {
+  const std::vector<std::string> about = {key};
+  if (!(arc.from_deg < arc.to_deg && arc.to_deg - arc.from_deg < 360))
+    faults.push_back({key + ".to_deg", fmt::format("is {}, from_deg {}", arc.to_deg, arc.from_deg),
+                      "above from_deg, by less than 360", about});
+  if (rough) faults.push_back({key + ".rough", "is glued to an arc", "on containers and segments", about});
+}
+
 }  // namespace
 
 double strongest_gravity(const Scene& scene, std::size_t stage) {
@@ -158,6 +166,9 @@ void check_stage_changes(const Scene& scene, Faults& faults) {
   for (std::size_t w = 0; w < scene.walls.size(); ++w)
     if (const auto* line = std::get_if<PolylineShape>(&scene.walls[w].shape))
       check_polyline(*line, scene.walls[w].rough.has_value(), fmt::format("walls.{}", w), faults);
+  for (std::size_t w = 0; w < scene.walls.size(); ++w)
+    if (const auto* arc = std::get_if<ArcShape>(&scene.walls[w].shape))
+      check_arc(*arc, scene.walls[w].rough.has_value(), fmt::format("walls.{}", w), faults);
   if (scene.output.walls_every_s && scene.effects.rotating_frame)
     faults.push_back({"output.walls_every_s",
                       "asks for loads in a rotating frame",

@@ -8,7 +8,7 @@ namespace drumlin::particles {
 
 /// Adds a fault for each wall that is opened twice, moved after, or unknown; for gravity and coefficients of
 /// effects that the scene does not name; for pressed and straining walls that lack what they need; for
-/// polylines that are none.
+/// polylines and arcs that are none.
 void check_stage_changes(const Scene&, std::vector<SceneFault>&);
 
 /// The strongest gravity of a stage, m/s2; 0 without gravity.

@@ -23,7 +23,7 @@ bool has_left(const Shape& wall, double radius, double gap) {
 }
 
 bool pushed_too_far(const Shape& wall, const Pose& step, Point grain, Point normal, double radius) {
-  if (!std::holds_alternative<Segment>(wall)) return false;
+  if (!std::holds_alternative<Segment>(wall) && !std::holds_alternative<Arc>(wall)) return false;
   const Point touched{grain.x - radius * normal.x, grain.z - radius * normal.z};
   const Point before = moved(inverse(step), touched);
   return std::abs((touched.x - before.x) * normal.x + (touched.z - before.z) * normal.z) > radius;

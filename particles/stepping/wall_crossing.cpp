@@ -2,32 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
+
+#include "particles/stepping/moving_arc.hpp"
+#include "particles/stepping/wall_way.hpp"
 
 namespace drumlin::particles {
 namespace {
 
-// A way through the point at which two segments meet misses neither by rounding. In lengths of a segment.
-constexpr double end_margin = 1e-9;
 // Laid back from one wall a disc can stand beyond the next one of a corner.
 constexpr int most_walls = 8;
-
-/// A point in the axes of a segment: distance along it from its beginning, in lengths, and across.
-struct Place {
-  double along = 0, across = 0;
-};
-
-/// The way of a disc's centre over the step, as seen from a segment.
-struct Way {
-  Place from, to;
-  double image = 0;  // added to x: the image of the disc that the segment meets
-  bool crosses() const {
-    if (!(from.across * to.across < 0)) return false;
-    const double along = from.along + (to.along - from.along) * share();
-    return along >= -end_margin && along <= 1 + end_margin;
-  }
-  /// Of the way, where it crosses the line of the segment.
-  double share() const { return from.across / (from.across - to.across); }
-};
 
 /// A segment over a step, in the axes that it has at the beginning.
 class MovingSegment {
@@ -50,10 +34,8 @@ class MovingSegment {
       return period.open() ? 0 : middle + period.nearest(x - middle) - x;
     };
     const double first = image_of(start.x), second = image_of(end.x);
-    if (const Way way = way_of(start, end, first); way.crosses()) return way;
-    if (second != first)
-      if (const Way way = way_of(start, end, second); way.crosses()) return way;
-    return std::nullopt;
+    if (const auto way = crossing_of(start, end, first)) return way;
+    return second != first ? crossing_of(start, end, second) : std::nullopt;
   }
 
   /// The disc of a way laid onto the side that it came from.
@@ -75,30 +57,30 @@ class MovingSegment {
     return std::abs(e_x_ * (then.z - p.z) - e_z_ * (then.x - p.x)) / length_;
   }
 
-  /// Calls `visit(b)` for every disc that can have crossed if none has moved further than `furthest` along an
-  /// axis.
-  template <class Visit>
-  void each_near(const Bodies& bodies, const Period& period, double furthest, Visit visit) const {
+  /// Where it is over the step.
+  Reaches reaches() const {
+    const auto [x_low, x_high] = std::minmax({was_.from.x, was_.to.x, is_.from.x, is_.to.x});
+    const auto [z_low, z_high] = std::minmax({was_.from.z, was_.to.z, is_.from.z, is_.to.z});
+    return {x_low, x_high, z_low, z_high};
+  }
+  /// How far its points move at most.
+  double furthest() const {
     const auto move_of = [this](Point p) {
       const Point then = there_.moved(p);
       return std::hypot(then.x - p.x, then.z - p.z);
     };
-    // Straight seen from a wall that turns is bent by at most a quarter of its angle on the relative way.
-    const double bend =
-        std::abs(step_.angle) / 4 * (2 * furthest + std::max(move_of(was_.from), move_of(was_.to)));
-    const double reach = furthest + bend;
-    const auto [x_low, x_high] = std::minmax({was_.from.x, was_.to.x, is_.from.x, is_.to.x});
-    const auto [z_low, z_high] = std::minmax({was_.from.z, was_.to.z, is_.from.z, is_.to.z});
-    const bool anywhere = !period.open();
-    for (std::size_t b = 0; b < bodies.count(); ++b)
-      if (bodies.z[b] >= z_low - reach && bodies.z[b] <= z_high + reach &&
-          (anywhere || (bodies.x[b] >= x_low - reach && bodies.x[b] <= x_high + reach)))
-        visit(b);
+    return std::max(move_of(was_.from), move_of(was_.to));
   }
+  double turns_by() const { return step_.angle; }
 
  private:
-  Way way_of(Point start, Point end, double image) const {
-    return {place_of({start.x + image, start.z}), place_of(back_.moved({end.x + image, end.z})), image};
+  std::optional<Way> crossing_of(Point start, Point end, double image) const {
+    Way way{place_of({start.x + image, start.z}), place_of(back_.moved({end.x + image, end.z})), image, 0};
+    if (!(way.from.across * way.to.across < 0)) return std::nullopt;
+    way.share = way.from.across / (way.from.across - way.to.across);
+    const double along = way.from.along + (way.to.along - way.from.along) * way.share;
+    if (along < -end_margin || along > 1 + end_margin) return std::nullopt;
+    return way;
   }
   Place place_of(Point p) const {
     const double d_x = p.x - was_.from.x, d_z = p.z - was_.from.z;
@@ -111,22 +93,48 @@ class MovingSegment {
   double e_x_, e_z_, length_;
 };
 
-/// The segment that a disc meets first on its way, with that way.
+/// A thin wall over a step.
+using MovingWall = std::variant<MovingSegment, MovingArc>;
+
+std::optional<Way> crossing(const MovingWall& wall, Point start, Point end, const Period& period) {
+  return std::visit([&](const auto& w) { return w.crossing(start, end, period); }, wall);
+}
+
+/// Calls `visit(b)` for every disc that can have crossed the wall if none has moved further than `furthest`
+/// along an axis.
+template <class Visit>
+void each_near(const MovingWall& moving, const Bodies& bodies, const Period& period, double furthest,
+               Visit visit) {
+  const auto [box, reach] = std::visit(
+      [furthest](const auto& wall) {
+        // Straight seen from a wall that turns is bent by at most a quarter of its angle on the relative way.
+        const double bend = std::abs(wall.turns_by()) / 4 * (2 * furthest + wall.furthest());
+        return std::pair(wall.reaches(), furthest + bend);
+      },
+      moving);
+  const bool anywhere = !period.open();
+  for (std::size_t b = 0; b < bodies.count(); ++b)
+    if (bodies.z[b] >= box.z_low - reach && bodies.z[b] <= box.z_high + reach &&
+        (anywhere || (bodies.x[b] >= box.x_low - reach && bodies.x[b] <= box.x_high + reach)))
+      visit(b);
+}
+
+/// The wall that a disc meets first on its way, with that way.
 struct FirstCrossing {
-  const MovingSegment* wall = nullptr;
+  const MovingWall* wall = nullptr;
   Way way;
 };
-FirstCrossing first_crossing(std::span<const MovingSegment> walls, Point start, Point end,
+FirstCrossing first_crossing(std::span<const MovingWall> walls, Point start, Point end,
                              const Period& period) {
   FirstCrossing first;
-  for (const MovingSegment& wall : walls)
-    if (const auto way = wall.crossing(start, end, period))
-      if (!first.wall || way->share() < first.way.share()) first = {&wall, *way};
+  for (const MovingWall& wall : walls)
+    if (const auto way = crossing(wall, start, end, period))
+      if (!first.wall || way->share < first.way.share) first = {&wall, *way};
   return first;
 }
 
-/// Lays disc b back from every segment that it crossed since it stood at `start`.
-void lay_back(std::span<const MovingSegment> walls, const Period& period, Point start, std::size_t b,
+/// Lays disc b back from every thin wall that it crossed since it stood at `start`.
+void lay_back(std::span<const MovingWall> walls, const Period& period, Point start, std::size_t b,
               Bodies& bodies, Crossings& crossings) {
   const auto lose = [&](LostGrain::How how) {
     if (!crossings.lost) crossings.lost = LostGrain{static_cast<int>(b), bodies.x[b], bodies.z[b], how};
@@ -136,10 +144,14 @@ void lay_back(std::span<const MovingSegment> walls, const Period& period, Point 
     const auto [wall, way] = first_crossing(walls, start, {bodies.x[b], bodies.z[b]}, period);
     if (!wall) return;
     crossings.deepest = std::max(crossings.deepest, radius + std::abs(way.to.across));
-    if (wall->move_across(way) > radius) return lose(LostGrain::How::pushed_too_far);
+    const auto of_wall = [wall = wall](auto act) { return std::visit(act, *wall); };
+    if (of_wall([way = way](const auto& w) { return w.move_across(way); }) > radius)
+      return lose(LostGrain::How::pushed_too_far);
     if (attempt > most_walls) return lose(LostGrain::How::went_through_wall);
     // Where walls leave no room for it, it keeps its place beside one of them.
-    const Point place = attempt < most_walls ? wall->laid_back(way, radius) : wall->carried(start);
+    const Point place = of_wall([&, way = way](const auto& w) {
+      return attempt < most_walls ? w.laid_back(way, radius) : w.carried(start);
+    });
     bodies.x[b] = place.x, bodies.z[b] = place.z;
   }
 }
@@ -164,19 +176,20 @@ void lay_into(const Container& was, const Container& is, const Period& period, P
 void WallCrossings::begin(const Bodies& bodies, std::span<const Shape> shapes,
                           std::optional<double> largest) {
   largest_ = largest;
-  segments_.clear(), containers_.clear();
+  thin_.clear(), containers_.clear();
   for (std::size_t s = 0; s < shapes.size(); ++s) {
-    if (std::holds_alternative<Segment>(shapes[s])) segments_.push_back(s);
+    if (std::holds_alternative<Segment>(shapes[s]) || std::holds_alternative<Arc>(shapes[s]))
+      thin_.push_back(s);
     if (std::holds_alternative<Container>(shapes[s])) containers_.push_back(s);
   }
-  if (!segments_.empty() || !containers_.empty()) x_ = bodies.x, z_ = bodies.z;
+  if (!thin_.empty() || !containers_.empty()) x_ = bodies.x, z_ = bodies.z;
 }
 
 Crossings WallCrossings::undo(const WallStep& walls, const Period& period, Bodies& bodies) {
   Crossings crossings;
   undo_at_containers(walls, period, bodies, crossings);
-  if (segments_.empty()) return crossings;
-  undo_at_segments(walls, period, bodies, crossings);
+  if (thin_.empty()) return crossings;
+  undo_at_thin_walls(walls, period, bodies, crossings);
   undo_at_containers(walls, period, bodies, crossings);
   return crossings;
 }
@@ -196,17 +209,21 @@ void WallCrossings::undo_at_containers(const WallStep& walls, const Period& peri
   }
 }
 
-void WallCrossings::undo_at_segments(const WallStep& walls, const Period& period, Bodies& bodies,
-                                     Crossings& crossings) {
+void WallCrossings::undo_at_thin_walls(const WallStep& walls, const Period& period, Bodies& bodies,
+                                       Crossings& crossings) {
   double furthest = 0;
   for (std::size_t b = 0; b < bodies.count(); ++b)
     furthest = std::max({furthest, std::abs(bodies.x[b] - x_[b]), std::abs(bodies.z[b] - z_[b])});
-  std::vector<MovingSegment> moving;
-  for (const std::size_t shape : segments_) moving.emplace_back(walls, shape);
+  std::vector<MovingWall> moving;
+  for (const std::size_t shape : thin_)
+    if (std::holds_alternative<Segment>(walls.before[shape]))
+      moving.emplace_back(MovingSegment(walls, shape));
+    else
+      moving.emplace_back(MovingArc(walls, shape));
   crossed_.clear();
-  for (const MovingSegment& wall : moving)
-    wall.each_near(bodies, period, furthest, [&](std::size_t b) {
-      if (wall.crossing({x_[b], z_[b]}, {bodies.x[b], bodies.z[b]}, period)) crossed_.push_back(b);
+  for (const MovingWall& wall : moving)
+    each_near(wall, bodies, period, furthest, [&](std::size_t b) {
+      if (crossing(wall, {x_[b], z_[b]}, {bodies.x[b], bodies.z[b]}, period)) crossed_.push_back(b);
     });
   std::sort(crossed_.begin(), crossed_.end());
   crossed_.erase(std::unique(crossed_.begin(), crossed_.end()), crossed_.end());

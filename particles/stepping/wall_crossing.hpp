@@ -1,8 +1,8 @@
 #pragma once
-// Keeps discs within containers and on their side of segments over a step, whatever moved them: their
-// velocity, contacts that a solve left open, the position projection, or the wall itself.
+// Keeps discs within containers and on their side of segments and arcs over a step, whatever moved them:
+// their velocity, contacts that a solve left open, the position projection, or the wall itself.
 //
-// A segment pushes a disc towards the side on which its centre stands; a centre that ended a step beyond
+// A thin wall pushes a disc towards the side on which its centre stands; a centre that ended a step beyond
 // would be pushed on and out. The side is no memory: it is that at the beginning of the step, seen from the
 // wall.
 #include <optional>
@@ -28,19 +28,19 @@ class WallCrossings {
   /// The beginning of a step, before any disc is moved. `largest`: radius of the largest disc of all, where
   /// the bodies are a part of them; without, of the bodies.
   void begin(const Bodies&, std::span<const Shape> shapes, std::optional<double> largest = {});
-  /// Lays each disc whose centre has crossed a segment since, between the segment's ends, or a container,
-  /// back onto the side that it came from; velocities stay. Lost is one that met a segment which moves
+  /// Lays each disc whose centre has crossed a segment or an arc since, between its ends, or a container,
+  /// back onto the side that it came from; velocities stay. Lost is one that met such a wall which moves
   /// further than the disc's radius within the step, or for which there is no place. A disc that has moved
   /// further than the radius of the largest is left outside of a container (has_left()).
   Crossings undo(const WallStep&, const Period&, Bodies&);
 
  private:
   void undo_at_containers(const WallStep&, const Period&, Bodies&, Crossings&) const;
-  void undo_at_segments(const WallStep&, const Period&, Bodies&, Crossings&);
+  void undo_at_thin_walls(const WallStep&, const Period&, Bodies&, Crossings&);
 
   std::optional<double> largest_;
-  std::vector<double> x_, z_;                       // centres at the beginning of the step
-  std::vector<std::size_t> segments_, containers_;  // shapes
+  std::vector<double> x_, z_;                   // centres at the beginning of the step
+  std::vector<std::size_t> thin_, containers_;  // shapes; thin: segments and arcs
   std::vector<std::size_t> crossed_;
 };
 

@@ -89,6 +89,24 @@ from_mm = [30, -10]
 to_mm = [30, 100]
 [effects.gravity]""")
 
+# A bowl that glides to the right by 10 mm, a little more than half a circle.
+BOWL = BED[:BED.index("[[walls]]")].replace("Shaken floor", "Bowl") + """
+[[walls]]
+name = "bowl"
+shape = "arc"
+center_mm = [15, 20]
+radius_mm = 30
+from_deg = 175
+to_deg = 365
+[effects.gravity]
+[[stages]]
+name = "glides"
+duration_s = 0.1
+time_step_s = 1e-3
+snapshots = 2
+motions = [{ wall = "bowl", kind = "translation", velocity_mm_s = [100, 0] }]
+"""
+
 # Nothing to look at but the log.
 NO_SNAPSHOTS = ONE_DISC.replace("snapshots = 2", "snapshots = 0")
 
@@ -181,6 +199,22 @@ def sliding_wall(drumlin, folder):
     columns = numpy.flatnonzero(grey.sum(axis=0) > 3)
     marked = numpy.flatnonzero((pixels.min(axis=2) < 0.95).any(axis=0))
     require(len(columns) > 0.4 * (marked.max() - marked.min()), f"a wall over {len(columns)} columns of pixels")
+
+
+def arcs(drumlin, folder):
+    """An arc is drawn where it is then, its grains in it; its points in .vtu files lie on its circle."""
+    run = made_run(drumlin, folder, "bowl", BOWL)
+    drumlin("plot", run, "--player")
+    require_figure(run / "plots" / "speed.png")
+    drumlin("export", run, "--vtu")
+    for number, x in ((1, 0.020), (2, 0.025)):
+        walls, grains = (arrays_of(run / "vtu" / kind / f"{number:06}.vtu") for kind in ("walls", "grains"))
+        points = walls["Points"][:, :2]
+        away = numpy.hypot(*(points - (x, 0.020)).T)
+        require(len(walls["offsets"]) == 2 and numpy.allclose(away, 0.030, atol=1e-7), f"{len(walls['offsets'])} pieces, {away}")
+        require(numpy.isclose(points[:, 1].min(), -0.010, atol=1e-5) and (points[:, 1] < 0.0227).all(), "another piece of the circle")
+        inside = numpy.hypot(*(grains["Points"][:, :2] - (x, 0.020)).T) + grains["radius_m"]
+        require(len(inside) == 50 and (inside < 0.0302).all(), f"grains outside: {inside.max()}")
 
 
 def stretches(drumlin, folder):
@@ -384,6 +418,7 @@ def main():
         plots(drumlin, one_disc, periodic, none, folder)
         chosen_plots(drumlin, periodic, folder)
         sliding_wall(drumlin, folder)
+        arcs(drumlin, folder)
         stretches(drumlin, folder)
     print("figures drawn, not blank; exported numbers are those of the snapshots; what cannot be done refused")
 

@@ -9,6 +9,7 @@ const std::string force = "kind = \"force\"";
 const std::string pressure = "kind = \"pressure\"";
 const std::string strain_rate = "kind = \"strain_rate\"";
 const std::string polyline = "shape = \"polyline\"";
+const std::string arc = "shape = \"arc\"";
 
 const std::string pushed =
     "stages.0.motions=[{wall=\"left\", kind=\"force\", direction=[1, 1], force_n_m=1, mass_kg_m=0.1}]";
@@ -20,6 +21,8 @@ const std::string strained =
     "stages.0.motions=[{wall=\"left\", kind=\"strain_rate\", direction=[1, 0], reference_mm=[4, 0], "
     "rate_per_s=-5}]";
 const std::string bent = "walls.0={name=\"floor\", shape=\"polyline\", x_mm=[-20, 0, 20], z_mm=[0, -1, 0]}";
+const std::string domed =
+    "walls.0={name=\"floor\", shape=\"arc\", center_mm=[0, -60], radius_mm=60, from_deg=60, to_deg=120}";
 // A lid that comes down until there is less room than grains need.
 const std::string crushing = "walls.1={name=\"left\", shape=\"segment\", from_mm=[-20, 13], to_mm=[20, 13]}";
 const std::string coming_down = "stages.0.motions.0.velocity_mm_s=[0, -120]";
@@ -70,6 +73,10 @@ std::vector<Case> cases_of_servo_walls() {
       {motion + "rate_per_s", strain_rate, F, {strained}, first + "rate_per_s=-8", positions_mm},
       {"walls[].x_mm", polyline, F, {bent}, "walls.0.x_mm=[-20, 1, 20]", positions_mm},
       {"walls[].z_mm", polyline, F, {bent}, "walls.0.z_mm=[0, -2, 0]", positions_mm},
+      {"walls[].center_mm", arc, F, {domed}, "walls.0.center_mm=[0, -61]", positions_mm},
+      {"walls[].radius_mm", arc, F, {domed}, "walls.0.radius_mm=59", positions_mm},
+      {"walls[].from_deg", arc, F, {domed}, "walls.0.from_deg=92", positions_mm},
+      {"walls[].to_deg", arc, F, {domed}, "walls.0.to_deg=88", positions_mm},
       {"walls[].closed", polyline, F, {bent}, "walls.0.closed=true", positions_mm},
       {"output.walls_every_s", "", D, {}, "output.walls_every_s=0.03", wall_lines},
       {"grains.thermal_speed_mm_s", "", D, {}, "grains.thermal_speed_mm_s=100", positions_mm},

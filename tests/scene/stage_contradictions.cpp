@@ -64,6 +64,17 @@ TEST(StageContradiction, PolylinesThatAreNone) {
   expect_problem({line("x_mm=[-90, 90], z_mm=[0, 0]")}, "grains.generated.region", "is crossed by");
 }
 
+TEST(StageContradiction, ArcsThatAreNone) {
+  const auto arc = [](const std::string& keys) {
+    return "walls=[{name=\"drum\", shape=\"arc\", center_mm=[0, 0], " + keys + "}]";
+  };
+  expect_problem({arc("radius_mm=400, from_deg=10, to_deg=10")}, "walls.0.to_deg", "above from_deg");
+  expect_problem({arc("radius_mm=400, from_deg=-10, to_deg=350")}, "walls.0.to_deg", "by less than 360");
+  expect_problem({arc("radius_mm=400, from_deg=0, to_deg=90, rough={diameter_mm=1, spacing_mm=1}")},
+                 "walls.0.rough", "glued to an arc");
+  expect_problem({arc("radius_mm=5, from_deg=0, to_deg=90")}, "grains.generated.region", "is crossed by");
+}
+
 TEST(StageContradiction, LoadsOnWallsOfARotatingFrame) {
   expect_problem({"effects.rotating_frame={speed_rpm=1}", "output.walls_every_s=0.1"}, "output.walls_every_s",
                  "rotating frame");

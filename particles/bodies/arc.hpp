@@ -1,0 +1,27 @@
+#pragma once
+// Geometry of an arc: which of its points a disc touches, how far it reaches.
+#include <array>
+
+#include "particles/bodies/walls.hpp"
+
+namespace drumlin::particles {
+
+/// The point at an angle from the joint, anticlockwise.
+Point at(const Arc&, double angle);
+/// Angle of a point about the centre, from the joint, anticlockwise, -pi to pi.
+double angle_from_joint(const Arc&, Point);
+/// The point of the half that a disc with its centre there can touch: on the circle beside the half, else its
+/// end. Near the joint both halves have the same point.
+Point nearest_on(const Arc&, Point);
+
+/// Least and greatest coordinates.
+struct Reaches {
+  double x_low, x_high, z_low, z_high;
+};
+Reaches reaches_of(const Arc&);
+
+/// The two halves of a circle's piece from an angle to a greater one, anticlockwise from +x, less than a
+/// turn.
+std::array<Arc, 2> halves_of(Point center, double radius, double from, double to);
+
+}  // namespace drumlin::particles

@@ -1,0 +1,71 @@
+#include "particles/stepping/moving_arc.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace drumlin::particles {
+
+MovingArc::MovingArc(const WallStep& walls, std::size_t shape)
+    : was_(std::get<Arc>(walls.before[shape])),
+      is_(std::get<Arc>(walls.after[shape])),
+      step_(walls.displacement[shape]),
+      there_(step_),
+      back_(inverse(step_)) {}
+
+Place MovingArc::place_of(Point p) const {
+  return {angle_from_joint(was_, p), std::hypot(p.x - was_.center.x, p.z - was_.center.z) - was_.radius};
+}
+
+std::optional<Way> MovingArc::crossing_of(Point start, Point end, double image) const {
+  const Point from{start.x + image, start.z}, to = back_.moved({end.x + image, end.z});
+  const Point c{from.x - was_.center.x, from.z - was_.center.z}, m{to.x - from.x, to.z - from.z};
+  const double along = c.x * m.x + c.z * m.z, way = m.x * m.x + m.z * m.z;
+  const double under = along * along - way * (c.x * c.x + c.z * c.z - was_.radius * was_.radius);
+  if (!(under > 0) || !(way > 0)) return std::nullopt;
+  int crossings = 0;
+  double first = 0;
+  for (const double root : {-std::sqrt(under), std::sqrt(under)}) {
+    const double share = (root - along) / way;
+    if (share < 0 || share > 1) continue;
+    const Point there{from.x + share * m.x, from.z + share * m.z};
+    const double angle = std::copysign(1, was_.turn) * angle_from_joint(was_, there);
+    if (angle < -end_margin || angle > std::abs(was_.turn) + end_margin) continue;
+    if (crossings++ == 0) first = share;
+  }
+  if (crossings % 2 == 0) return std::nullopt;
+  return Way{place_of(from), place_of(to), image, first};
+}
+
+std::optional<Way> MovingArc::crossing(Point start, Point end, const Period& period) const {
+  const double middle = at(was_, 0).x;
+  const auto image_of = [&](double x) { return period.open() ? 0 : middle + period.nearest(x - middle) - x; };
+  const double first = image_of(start.x), second = image_of(end.x);
+  if (const auto way = crossing_of(start, end, first)) return way;
+  return second != first ? crossing_of(start, end, second) : std::nullopt;
+}
+
+Point MovingArc::laid_back(const Way& way, double radius) const {
+  Arc beside = was_;
+  beside.radius = std::max(0.0, was_.radius + std::copysign(radius, way.from.across));
+  const Point place = there_.moved(at(beside, way.to.along));
+  return {place.x - way.image, place.z};
+}
+
+double MovingArc::move_across(const Way& way) const {
+  const Point p = at(was_, way.from.along), then = there_.moved(p);
+  return std::abs((then.x - p.x) * (p.x - was_.center.x) + (then.z - p.z) * (p.z - was_.center.z)) /
+         was_.radius;
+}
+
+Reaches MovingArc::reaches() const {
+  const Reaches a = reaches_of(was_), b = reaches_of(is_);
+  return {std::min(a.x_low, b.x_low), std::max(a.x_high, b.x_high), std::min(a.z_low, b.z_low),
+          std::max(a.z_high, b.z_high)};
+}
+
+double MovingArc::furthest() const {
+  const Point then = there_.moved(was_.center);
+  return std::hypot(then.x - was_.center.x, then.z - was_.center.z) + std::abs(step_.angle) * was_.radius;
+}
+
+}  // namespace drumlin::particles

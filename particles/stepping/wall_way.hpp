@@ -1,0 +1,23 @@
+#pragma once
+// The way of a disc over a step as a thin wall sees it.
+
+namespace drumlin::particles {
+
+// A way through the point at which two walls meet misses neither by rounding. In lengths of a segment, and
+// rad.
+inline constexpr double end_margin = 1e-9;
+
+/// A point in the axes of a wall: along it (of a segment from its beginning, in lengths; of an arc the angle
+/// from the joint), and across, its side by the sign.
+struct Place {
+  double along = 0, across = 0;
+};
+
+/// The way of a disc's centre over the step, in the axes that the wall has at the beginning.
+struct Way {
+  Place from, to;
+  double image = 0;  ///< added to x: the image of the disc that the wall meets
+  double share = 0;  ///< of the way, where it first crosses the wall
+};
+
+}  // namespace drumlin::particles

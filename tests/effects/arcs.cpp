@@ -1,0 +1,276 @@
+// Arcs as walls: where discs touch them, how they move, what they do to grains.
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+#include "particles/bodies/arc.hpp"
+#include "particles/detection/contact_list.hpp"
+#include "particles/scene/region.hpp"
+#include "particles/stepping/wall_crossing.hpp"
+#include "tests/effects/drums.hpp"
+
+namespace drumlin {
+using namespace particles;
+namespace {
+
+using test::add_stage;
+using test::scene_of;
+using test::TemporaryFolder;
+
+constexpr double pi = std::numbers::pi;
+const double time_s = std::sqrt(1e-3 / 9.81);  // of scene_of with d = 1 mm
+
+struct Touch {
+  double gap = std::numeric_limits<double>::infinity();
+  Point normal, point;
+};
+/// The nearest of several shapes.
+Touch touch_of(const std::vector<Shape>& shapes, Point p, double radius) {
+  Touch nearest;
+  for (const Shape& shape : shapes) {
+    Touch t;
+    t.gap = gap_to_shape(shape, p.x, p.z, radius, t.normal.x, t.normal.z, t.point);
+    if (t.gap < nearest.gap) nearest = t;
+  }
+  return nearest;
+}
+
+std::vector<Shape> moved_halves(const Pose& pose, const std::array<Arc, 2>& halves) {
+  std::vector<Shape> shapes;
+  for (const Arc& piece : halves) shapes.push_back(moved(Rigid(pose), Shape(piece)));
+  return shapes;
+}
+
+TEST(Arc, ADiscThatRollsAlongItTouchesItAllTheWay) {
+  // Around all of it: along the outside, around one end, along the inside, around the other. On the path
+  // every gap is 0 and the normal that of the path, which has no corner anywhere; with the arc moved and
+  // turned as well.
+  const Point center{3, -2};
+  const double R = 5, r = 0.7, from = -2.8, to = 1.1;
+  const auto halves = halves_of(center, R, from, to);
+  for (const Pose& pose : {Pose{}, Pose{0.7, 2, -9}, Pose{-2.9, -30, 4}}) {
+    const auto shapes = moved_halves(pose, halves);
+    const auto expect_touch = [&](double angle, double radial, double tangential) {
+      // The end or inner point of the arc, and the direction from it to the disc.
+      const double c = std::cos(angle), s = std::sin(angle);
+      const Point n{radial * c - tangential * s, radial * s + tangential * c};
+      const Point point{center.x + R * c, center.z + R * s};
+      const Point disc = moved(pose, {point.x + r * n.x, point.z + r * n.z});
+      const Touch touch = touch_of(shapes, disc, r);
+      const Point expected = Rigid(pose).turned(n), at_wall = moved(pose, point);
+      ASSERT_NEAR(touch.gap, 0, 1e-12) << angle;
+      ASSERT_NEAR(touch.normal.x, expected.x, 1e-12);
+      ASSERT_NEAR(touch.normal.z, expected.z, 1e-12);
+      ASSERT_NEAR(touch.point.x, at_wall.x, 1e-12);
+      ASSERT_NEAR(touch.point.z, at_wall.z, 1e-12);
+    };
+    for (int k = 0; k <= 1000; ++k) {
+      const double share = k / 1000.0, angle = from + share * (to - from), around = pi * share;
+      expect_touch(angle, 1, 0);
+      expect_touch(angle, -1, 0);
+      expect_touch(to, std::cos(around), std::sin(around));
+      expect_touch(from, std::cos(around), -std::sin(around));
+    }
+  }
+}
+
+TEST(Arc, ADiscThatIsTooLargeForItRestsOnBothEnds) {
+  const auto shapes = moved_halves({}, halves_of({0, 0}, 1, pi, 2 * pi));
+  // Radius 2 on ends 2 apart: its centre is sqrt(3) above them, and both halves touch.
+  int touching = 0;
+  for (const Shape& shape : shapes) touching += std::abs(touch_of({shape}, {0, std::sqrt(3)}, 2).gap) < 1e-12;
+  EXPECT_EQ(touching, 2);
+}
+
+TEST(Arc, ReachesAsFarAsItsPoints) {
+  for (int k = 0; k < 40; ++k) {
+    const double from = -3 + 0.16 * k, to = from + 0.4 + 0.03 * k;
+    for (const Arc& piece : halves_of({1, 2}, 3, from, to)) {
+      double x_low = 1e9, x_high = -1e9, z_low = 1e9, z_high = -1e9;
+      for (int p = -100; p <= 2000; ++p) {
+        const Point point = at(piece, piece.turn * p / 2000.0);
+        x_low = std::min(x_low, point.x), x_high = std::max(x_high, point.x);
+        z_low = std::min(z_low, point.z), z_high = std::max(z_high, point.z);
+      }
+      const Reaches reach = reaches_of(piece);
+      EXPECT_NEAR(reach.x_low, x_low, 1e-6);
+      EXPECT_NEAR(reach.x_high, x_high, 1e-6);
+      EXPECT_NEAR(reach.z_low, z_low, 1e-6);
+      EXPECT_NEAR(reach.z_high, z_high, 1e-6);
+    }
+  }
+}
+
+/// A disc of diameter 1 in a bowl of radius 10 about the origin, pushed aside by an angle.
+Scene bowl(double angle, bool rolls, double duration, const TemporaryFolder& folder) {
+  Scene scene = scene_of({{9.5 * std::sin(angle), -9.5 * std::cos(angle)}}, folder);
+  scene.walls = {{"bowl", ArcShape{{0, 0}, 10, -160, -20}}};
+  scene.effects.gravity = Gravity{};
+  if (rolls) scene.effects.friction = Friction{1, 1}, scene.effects.spin = Spin{};
+  add_stage(scene, duration, 2e-3);
+  return scene;
+}
+
+TEST(Arc, IsABowlInWhichADiscSwingsAsAPendulum) {
+  // Sliding: 2 pi sqrt(l) with l = 9.5; rolling: a disc's 3/2 of l; both times 1 + angle^2/16.
+  for (const bool rolls : {false, true}) {
+    const TemporaryFolder folder;
+    const double angle = 0.2, period = 2 * pi * std::sqrt(9.5 * (rolls ? 1.5 : 1)) * (1 + angle * angle / 16);
+    Simulation simulation(bowl(angle, rolls, period, folder));
+    EXPECT_EQ(simulation.walls().reference.size(), 2u);
+    double first_zero = 0;
+    while (!simulation.finished()) {
+      (void)simulation.step();
+      const Bodies& b = simulation.state().bodies;
+      ASSERT_NEAR(std::hypot(b.x[0], b.z[0]), 9.5, 1e-5);
+      if (first_zero == 0 && b.x[0] < 0) first_zero = simulation.state().time();
+    }
+    EXPECT_NEAR(first_zero, period / 4, 2e-3 * period) << rolls;
+    EXPECT_NEAR(simulation.state().bodies.x[0], 9.5 * std::sin(angle), 0.01) << rolls;
+  }
+}
+
+TEST(Arc, IsLeftByASlidingDiscWhereTheSphereIsLeft) {
+  // From rest near the top of a smooth cap: off where cos = 2/3 of the start's.
+  const TemporaryFolder folder;
+  const double R = 10.5, start = 0.1;
+  Scene scene = scene_of({{R * std::sin(start), R * std::cos(start)}}, folder);
+  scene.walls = {{"cap", ArcShape{{0, 0}, 10, 0, 180}}};
+  scene.effects.gravity = Gravity{};
+  add_stage(scene, 15, 1e-3);
+  Simulation simulation(scene);
+  double off = 0;
+  while (off == 0 && !simulation.finished()) {
+    (void)simulation.step();
+    const Bodies& b = simulation.state().bodies;
+    if (std::hypot(b.x[0], b.z[0]) > R + 1e-5) off = b.z[0] / R;
+  }
+  // The gap then grows as 0.094 t^3: 1e-5 takes 0.047, in which the disc falls by 0.009 R.
+  EXPECT_NEAR(off, 2.0 / 3 * std::cos(start) - 0.009, 0.003);
+}
+
+TEST(Arc, IsLeftAtItsEndWithoutAJolt) {
+  // A cap that ends 30 degrees from its top: the disc flies on with the velocity that it has there.
+  const TemporaryFolder folder;
+  const double R = 10.5, start = 0.1, end = pi / 6;
+  Scene scene = scene_of({{R * std::sin(start), R * std::cos(start)}}, folder);
+  scene.walls = {{"cap", ArcShape{{0, 0}, 10, 60, 120}}};
+  scene.effects.gravity = Gravity{};
+  add_stage(scene, 12, 1e-3);
+  Simulation simulation(scene);
+  double energy = R * std::cos(start), turned = 0;
+  Point before{};
+  while (!simulation.finished()) {
+    (void)simulation.step();
+    const Bodies& b = simulation.state().bodies;
+    const Point v{b.v_x[0], b.v_z[0]};
+    ASSERT_NEAR(b.z[0] + (v.x * v.x + v.z * v.z) / 2, energy, 5e-3);
+    // No step changes the velocity by more than gravity and the curvature of the cap do.
+    ASSERT_LT(std::hypot(v.x - before.x, v.z - before.z), 3e-3);
+    before = v;
+    if (turned == 0 && b.x[0] > R * std::sin(end)) turned = std::atan2(-v.z, v.x);
+    if (b.z[0] < 0) break;
+  }
+  EXPECT_NEAR(turned, end, 2e-3);
+}
+
+TEST(Arc, CarriesADiscWhereItMoves) {
+  // At the bottom, at the joint: with the exact place of the bowl, up and down below gravity.
+  const TemporaryFolder folder;
+  const double rate = 2, A = 0.9 / (rate * rate);
+  Scene scene = bowl(0, false, 2 * 2 * pi / rate, folder);
+  scene.stages[0].motions = {{"bowl", Oscillation{{0, A}, rate / (2 * pi) / time_s, 0}}};
+  Simulation simulation(scene);
+  while (!simulation.finished()) {
+    (void)simulation.step();
+    ASSERT_NEAR(simulation.state().bodies.z[0], -9.5 + A * std::sin(rate * simulation.state().time()), 1e-8);
+  }
+}
+
+TEST(Arc, ThatTurnsMovesADiscByFriction) {
+  // Steady in a bowl that turns about its centre: the disc spins on its place, at the bottom, with the wall's
+  // speed.
+  const TemporaryFolder folder;
+  Scene scene = bowl(0, true, 4, folder);
+  scene.walls[0].shape = ArcShape{{0, 0}, 10, -269, 89};
+  const double rpm = 0.1 / time_s * 60 / (2 * pi);  // spin 0.1: the wall's speed is 1
+  scene.stages[0].motions = {{"bowl", Rotation{rpm, {0, 0}}}};
+  Simulation simulation(scene);
+  while (!simulation.finished()) (void)simulation.step();
+  const Bodies& b = simulation.state().bodies;
+  // Rolls on the wall: v + spin r is the wall's speed there, -1 (clockwise at the bottom).
+  const double c = -b.z[0] / 9.5, s = b.x[0] / 9.5, along = b.v_x[0] * c + b.v_z[0] * s;
+  EXPECT_NEAR(along - 0.5 * b.spin[0], -1, 1e-3);
+}
+
+TEST(Arc, KeepsAGasInsideAndLosesNoEnergy) {
+  Scene scene;
+  scene.grains.density_kg_m3 = 2700;
+  scene.grains.source = GeneratedGrains{40, 0.8, 1.2, RectangleRegion{{-4.5, -4.5}, {4.5, 4.5}}};
+  scene.grains.thermal_speed_mm_s = 500;
+  // Two bowls that overlap: a lens with sharp corners, in which an arc of the one goes on beyond the other.
+  scene.walls = {{"lens", ArcShape{{-6, 0}, 14, -70, 70}}, {"lens", ArcShape{{6, 0}, 14, 110, 250}}};
+  scene.effects.restitution = Restitution{1, 1};
+  Stage stage;
+  stage.name = "gas", stage.duration_s = 0.5, stage.time_step_s = 2e-4;
+  scene.stages = {stage};
+  Simulation simulation(scene);
+  const auto energy = [](const Bodies& bodies) {
+    double sum = 0;
+    for (std::size_t b = 0; b < bodies.count(); ++b)
+      sum += bodies.radius[b] * bodies.radius[b] *
+             (bodies.v_x[b] * bodies.v_x[b] + bodies.v_z[b] * bodies.v_z[b]);
+    return sum;
+  };
+  const double before = energy(simulation.state().bodies), d = simulation.scales().length_m * 1e3;
+  while (!simulation.finished()) ASSERT_FALSE(simulation.step().lost);
+  const Bodies& bodies = simulation.state().bodies;
+  for (std::size_t b = 0; b < bodies.count(); ++b)
+    for (const double side : {-6.0, 6.0}) ASSERT_LT(std::hypot(bodies.x[b] - side / d, bodies.z[b]), 14 / d);
+  EXPECT_NEAR(energy(bodies), before, 0.02 * before);
+}
+
+TEST(Arc, ThatWasCrossedIsUncrossed) {
+  const auto pieces = halves_of({0, 0}, 5, 0, pi);
+  const Pose lift{0, 0, 0.3}, turn{0.2, 0, 0};
+  const auto end_of = [&](Point from, Point to, const Pose& move) {
+    WallStep step;
+    for (const Arc& piece : pieces) {
+      step.before.push_back(piece);
+      step.after.push_back(moved(Rigid(move), Shape(piece)));
+      step.displacement.push_back(move);
+    }
+    Bodies bodies;
+    add_body(bodies, from.x, from.z, 0.5);
+    WallCrossings crossings;
+    crossings.begin(bodies, step.before);
+    bodies.x[0] = to.x, bodies.z[0] = to.z;
+    EXPECT_FALSE(crossings.undo(step, {}, bodies).lost);
+    return Point{bodies.x[0], bodies.z[0]};
+  };
+  EXPECT_NEAR(end_of({0, 4.8}, {0, 5.4}, {}).z, 4.5, 1e-12);    // outwards, at the joint
+  EXPECT_NEAR(end_of({0, 5.2}, {0, 4.7}, {}).z, 5.5, 1e-12);    // inwards
+  EXPECT_NEAR(end_of({0, 5.1}, {0, 5.1}, lift).z, 5.8, 1e-12);  // the arc passed the disc
+  EXPECT_EQ(end_of({0, 5.5}, {0, 5.1}, {}).z, 5.1);             // deep, but not through
+  EXPECT_EQ(end_of({4.9, -0.2}, {5.4, -0.2}, {}).x, 5.4);       // past its end
+  // Turned in by 0.2: its end passes a disc that stands just beyond it, on neither side.
+  const Point beyond{5.2 * std::cos(-0.1), 5.2 * std::sin(-0.1)};
+  EXPECT_EQ(end_of(beyond, beyond, turn).x, beyond.x);
+}
+
+TEST(Arc, CrossesRegionsThatItEnters) {
+  const RectangleRegion box{{-1, -1}, {1, 1}};
+  const CircleRegion disc{{0, 0}, 1};
+  const auto crossed = [](const Region& region, const ArcShape& arc) { return crosses(region, arc, 1e-9); };
+  for (const Region& region : {Region{box}, Region{disc}}) {
+    EXPECT_FALSE(crossed(region, {{0, 0}, 2, 0, 359}));     // around it
+    EXPECT_TRUE(crossed(region, {{0, 0}, 0.5, 10, 20}));    // within it
+    EXPECT_TRUE(crossed(region, {{3, 0}, 2.5, 170, 190}));  // bulges in
+    EXPECT_FALSE(crossed(region, {{3, 0}, 2.5, -90, 90}));  // the other half of it
+    EXPECT_FALSE(crossed(region, {{3, 0}, 2, 0, 359}));     // lies against it
+    EXPECT_TRUE(crossed(region, {{3, 0}, 2.9, -200, 90}));  // over the zero of the angles
+  }
+}
+
+}  // namespace
+}  // namespace drumlin
