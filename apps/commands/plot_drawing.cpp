@@ -36,10 +36,7 @@ struct ShapeJson {
   Json operator()(const particles::Arc& a) const {
     constexpr int pieces = 48;  // of half a circle at most: chords leave it by 1/2000 of its radius
     Json x = Json::array(), z = Json::array();
-    for (int k = 0; k <= pieces; ++k) {
-      const particles::Point p = at(a, a.turn * k / pieces);
-      x.push_back(p.x), z.push_back(p.z);
-    }
+    for (const particles::Point& p : points_of(a, pieces)) x.push_back(p.x), z.push_back(p.z);
     return {{"shape", "arc"}, {"x", x}, {"z", z}};
   }
   Json operator()(const particles::FixedDisc& d) const {

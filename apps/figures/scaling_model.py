@@ -39,7 +39,7 @@ def line_through(cases, way):
 
 
 def power_of_sweeps(cases):
-    """sweeps = at_least (discs/least)^power of the flows that are not corrected: least squares of the logarithms."""
+    """sweeps = at_7183 (discs/7183)^power of the flows that are not corrected: least squares of the logarithms."""
     points = [(math.log(case["discs"]), math.log(case["flowing"]["sweeps_last_200_steps"]["mean"])) for case in cases if case["discs"] < 1e5]
     x_mean, y_mean = (sum(values) / len(points) for values in zip(*points))
     power = sum((x - x_mean) * (y - y_mean) for x, y in points) / sum((x - x_mean) ** 2 for x, _ in points)
@@ -60,16 +60,15 @@ def fitted(data):
                    "bytes_per_sweep_over_root_of_discs": cut, "wait_per_round_here_s": waits}
 
 
-def seconds(model, discs, cores, sweeps, impacts, contacts=None, network=None, sides=4):
-    """Of a step; contacts: of the rank that has most; sides: straight cuts that bound a rank."""
-    net = network or NETWORK
+def seconds(model, discs, cores, sweeps, impacts, contacts=None, net=NETWORK):
+    """Of a step; contacts: of the rank that has most. Four straight cuts bound a rank."""
     share = SHARE_OF_LARGEST if cores > 1 else 1
     most = contacts or share * model["contacts_per_disc"] * discs / cores
     rank = model["one_rank"]
     time = most * (rank["s_per_contact"] + sweeps * rank["s_per_contact_and_sweep"])
     if cores == 1:
         return time
-    bytes_sent = sides * model["bytes_per_sweep_over_root_of_discs"] * math.sqrt(discs / cores if sides == 4 else discs)
+    bytes_sent = 4 * model["bytes_per_sweep_over_root_of_discs"] * math.sqrt(discs / cores)
     sums = 2 * net["latency_s"] * math.ceil(math.log2(cores))
     time += sweeps * (ROUNDS_PER_SWEEP * net["latency_s"] + bytes_sent / net["bytes_per_s"] + sums) + ROUNDS_PER_STEP * sums
     if impacts:
@@ -85,7 +84,7 @@ def checked(model, ranks):
     for case in ranks:
         call = best(case, "2 ranks")
         most = max(rank["contacts_mean"] for rank in call["ranks"])
-        predicted = seconds(model, case["discs"], 2, call["sweeps_per_step"], False, most, here, 1)
+        predicted = seconds(model, case["discs"], 2, call["sweeps_per_step"], False, most, here)
         measured = call["wall_seconds_per_step"]
         found.append({"discs": case["discs"], "ranks": 2, "measured_s": measured, "predicted_s": predicted, "relative_error": predicted / measured - 1})
     return found

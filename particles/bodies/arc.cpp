@@ -21,6 +21,12 @@ Point at(const Arc& arc, double angle) {
           arc.center.z + arc.radius * (s * arc.joint.x + c * arc.joint.z)};
 }
 
+std::vector<Point> points_of(const Arc& arc, int pieces) {
+  std::vector<Point> points;
+  for (int k = 0; k <= pieces; ++k) points.push_back(at(arc, arc.turn * k / pieces));
+  return points;
+}
+
 double angle_from_joint(const Arc& arc, Point p) {
   const double x = p.x - arc.center.x, z = p.z - arc.center.z;
   return std::atan2(arc.joint.x * z - arc.joint.z * x, arc.joint.x * x + arc.joint.z * z);

@@ -1,6 +1,7 @@
 #pragma once
 // Geometry of an arc: which of its points a disc touches, how far it reaches.
 #include <array>
+#include <vector>
 
 #include "particles/bodies/walls.hpp"
 
@@ -8,6 +9,8 @@ namespace drumlin::particles {
 
 /// The point at an angle from the joint, anticlockwise.
 Point at(const Arc&, double angle);
+/// Points from the joint to the end that cut the half into equal pieces.
+std::vector<Point> points_of(const Arc&, int pieces);
 /// Angle of a point about the centre, from the joint, anticlockwise, -pi to pi.
 double angle_from_joint(const Arc&, Point);
 /// The point of the half that a disc with its centre there can touch: on the circle beside the half, else its

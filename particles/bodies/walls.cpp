@@ -71,6 +71,23 @@ Point middle_of(const Shape& shape) {
   return c ? c->center : Point{};
 }
 
+double largest_move(const Shape& shape, const Pose& displacement) {
+  const Rigid rigid(displacement);
+  const auto move_of = [&rigid](Point p) {
+    const Point then = rigid.moved(p);
+    const double x = then.x - p.x, z = then.z - p.z;
+    return std::sqrt(x * x + z * z);
+  };
+  const auto round = [&](const auto& s) {
+    return move_of(s.center) + std::abs(displacement.angle) * s.radius;
+  };
+  if (const auto* s = std::get_if<Segment>(&shape)) return std::max(move_of(s->from), move_of(s->to));
+  if (const auto* c = std::get_if<Container>(&shape)) return round(*c);
+  if (const auto* d = std::get_if<FixedDisc>(&shape)) return round(*d);
+  if (const auto* a = std::get_if<Arc>(&shape)) return round(*a);
+  return 0;
+}
+
 int first_shape(const Walls& walls, int wall) {
   return static_cast<int>(std::find(walls.wall_of_shape.begin(), walls.wall_of_shape.end(), wall) -
                           walls.wall_of_shape.begin());

@@ -57,6 +57,8 @@ using Shape = std::variant<Container, Segment, FixedDisc, Opened, Arc>;
 inline bool is_open(const Shape& shape) { return std::holds_alternative<Opened>(shape); }
 /// Centre of a container or a disc, middle of a segment, joint of an arc; the origin for an opened one.
 Point middle_of(const Shape&);
+/// Bound on how far a point of a shape moves by a displacement; 0 for an opened one.
+double largest_move(const Shape&, const Pose& displacement);
 
 /// Motion of one wall within a stage.
 struct Turning {

@@ -28,24 +28,20 @@ Point nearest_on_segment(const Segment& s, double x, double z) {
   return {s.from.x + along * ex, s.from.z + along * ez};
 }
 
-struct Box {
-  double x_low, x_high, z_low, z_high;
-};
-
 /// Where the centres of discs near a shape can be, `reach` away from its surface; a container has discs
 /// everywhere.
-std::optional<Box> surroundings(const Shape& shape, double reach) {
+std::optional<Reaches> surroundings(const Shape& shape, double reach) {
+  const auto around = [reach](const Reaches& r) {
+    return Reaches{r.x_low - reach, r.x_high + reach, r.z_low - reach, r.z_high + reach};
+  };
   if (const auto* s = std::get_if<Segment>(&shape))
-    return Box{std::min(s->from.x, s->to.x) - reach, std::max(s->from.x, s->to.x) + reach,
-               std::min(s->from.z, s->to.z) - reach, std::max(s->from.z, s->to.z) + reach};
+    return around({std::min(s->from.x, s->to.x), std::max(s->from.x, s->to.x), std::min(s->from.z, s->to.z),
+                   std::max(s->from.z, s->to.z)});
   if (const auto* d = std::get_if<FixedDisc>(&shape)) {
     const double r = d->radius + reach;
-    return Box{d->center.x - r, d->center.x + r, d->center.z - r, d->center.z + r};
+    return Reaches{d->center.x - r, d->center.x + r, d->center.z - r, d->center.z + r};
   }
-  if (const auto* a = std::get_if<Arc>(&shape)) {
-    const Reaches r = reaches_of(*a);
-    return Box{r.x_low - reach, r.x_high + reach, r.z_low - reach, r.z_high + reach};
-  }
+  if (const auto* a = std::get_if<Arc>(&shape)) return around(reaches_of(*a));
   return std::nullopt;
 }
 
@@ -55,22 +51,6 @@ double image_near(const Shape& shape, double x, const Period& period) {
   if (period.open()) return x;
   const double middle = middle_of(shape).x;
   return middle + period.nearest(x - middle);
-}
-
-/// Bound on how far a point of a shape moves within a step.
-double largest_move(const Shape& shape, const Pose& step) {
-  const auto move_of = [&step](Point p) {
-    const Point then = moved(step, p);
-    return length(then.x - p.x, then.z - p.z);
-  };
-  if (const auto* s = std::get_if<Segment>(&shape)) return std::max(move_of(s->from), move_of(s->to));
-  const auto [center, radius] = [&shape] {
-    if (const auto* c = std::get_if<Container>(&shape)) return std::pair(c->center, c->radius);
-    if (const auto* a = std::get_if<Arc>(&shape)) return std::pair(a->center, a->radius);
-    const auto& d = std::get<FixedDisc>(shape);
-    return std::pair(d.center, d.radius);
-  }();
-  return move_of(center) + std::abs(step.angle) * radius;
 }
 
 /// What a search must know of all grains.

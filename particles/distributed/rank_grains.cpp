@@ -13,24 +13,6 @@
 namespace drumlin::particles {
 namespace {
 
-/// Bound on how fast a point of a shape moves.
-double speed_of(const Shape& shape, const Pose& step, double time_step) {
-  const auto move_of = [&step](Point p) {
-    const Point then = moved(step, p);
-    return std::hypot(then.x - p.x, then.z - p.z);
-  };
-  double move = 0;
-  if (const auto* s = std::get_if<Segment>(&shape))
-    move = std::max(move_of(s->from), move_of(s->to));
-  else if (const auto* c = std::get_if<Container>(&shape))
-    move = move_of(c->center) + std::abs(step.angle) * c->radius;
-  else if (const auto* d = std::get_if<FixedDisc>(&shape))
-    move = move_of(d->center) + std::abs(step.angle) * d->radius;
-  else if (const auto* a = std::get_if<Arc>(&shape))
-    move = move_of(a->center) + std::abs(step.angle) * a->radius;
-  return move / time_step;
-}
-
 // A forest is weighed again after so many steps, if a rank has so much more than its share.
 constexpr std::int64_t steps_between = 200;
 constexpr double most_share = 1.1;
@@ -50,7 +32,7 @@ Reach RankGrains::reach_of(const RankState& state, const WallStep& walls, double
   ranks_.largest(extremes);
   double wall = 0;
   for (std::size_t s = 0; s < walls.before.size(); ++s)
-    wall = std::max(wall, speed_of(walls.before[s], walls.displacement[s], time_step));
+    wall = std::max(wall, largest_move(walls.before[s], walls.displacement[s]) / time_step);
   const double among = std::hypot(extremes[0] + extremes[1], extremes[2] + extremes[3]);
   const double approach = std::max(among, extremes[4] + wall);
   return {domain_.largest, margin_, 2 * time_step * approach, time_step * (extremes[4] + wall)};

@@ -123,11 +123,8 @@ VtuGrid wall_grid(const RunFolder& run, const Snapshot& s) {
       for (const Point& end : {segment->from, segment->to})
         add_point(grid.points, end.x * metre, end.z * metre);
     } else if (const auto* arc = std::get_if<Arc>(&placed.shape)) {
-      constexpr int pieces = circle_pieces / 2;
-      for (int k = 0; k <= pieces; ++k) {
-        const Point p = at(*arc, arc->turn * k / pieces);
+      for (const Point& p : points_of(*arc, circle_pieces / 2))
         add_point(grid.points, p.x * metre, p.z * metre);
-      }
     } else if (!is_open(placed.shape)) {
       const auto& disc = std::get<FixedDisc>(placed.shape);
       circle(disc.center, disc.radius, circle_pieces / 10);

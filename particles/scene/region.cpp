@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
+#include "particles/bodies/arc.hpp"
 #include "particles/scene/scene_walls.hpp"
 
 namespace drumlin::particles {
@@ -36,9 +38,11 @@ bool segment_enters(const SegmentShape& s, const RectangleRegion& box) {
   return from < to;
 }
 
-/// Whether a point of the arc at an angle from +x lies on it.
+constexpr double radian = std::numbers::pi / 180;
+
+/// Whether the point of an arc's circle at an angle from +x lies on the arc.
 bool holds(const ArcShape& arc, double angle) {
-  const double turn = std::fmod(std::fmod(angle * 180 / std::numbers::pi - arc.from_deg, 360) + 360, 360);
+  const double turn = std::fmod(std::fmod(angle / radian - arc.from_deg, 360) + 360, 360);
   return turn <= arc.to_deg - arc.from_deg;
 }
 
@@ -48,16 +52,17 @@ Point_mm point_at(const ArcShape& arc, double angle) {
 }
 
 double distance_to_arc(const Point_mm& p, const ArcShape& arc) {
-  const double angle = std::atan2(p[1] - arc.center_mm[1], p[0] - arc.center_mm[0]);
-  if (holds(arc, angle)) return std::abs(distance(p, arc.center_mm) - arc.radius_mm);
-  const double radian = std::numbers::pi / 180;
-  return std::min(distance(p, point_at(arc, arc.from_deg * radian)),
-                  distance(p, point_at(arc, arc.to_deg * radian)));
+  double least = std::numeric_limits<double>::infinity();
+  for (const Arc& half : halves_of({arc.center_mm[0], arc.center_mm[1]}, arc.radius_mm, arc.from_deg * radian,
+                                   arc.to_deg * radian)) {
+    const Point nearest = nearest_on(half, {p[0], p[1]});
+    least = std::min(least, distance(p, {nearest.x, nearest.z}));
+  }
+  return least;
 }
 
 /// Whether an end of the arc lies inside the rectangle, or the arc cuts one of its sides.
 bool arc_enters(const ArcShape& arc, const RectangleRegion& box) {
-  const double radian = std::numbers::pi / 180;
   const auto inside = [&box](const Point_mm& p, int axis) {
     return p[axis] > box.min_mm[axis] && p[axis] < box.max_mm[axis];
   };

@@ -16,21 +16,27 @@ constexpr double sliding = 1e-6;
 // Of a cell, at least, over the distance of the bodies of a contact; 2, but for rounding.
 constexpr double edges_per_contact = 2.001;
 
-/// The longest distance of the two bodies of a contact along x or z.
+/// A distance along x or z; added up, the longest.
+struct Longest {
+  double distance = 0;
+  void add(const Longest& other) { distance = std::max(distance, other.distance); }
+};
+
 double longest_contact(const CoarseProblem& problem, const BodyPlaces& places, const TeamLoops& loops) {
-  constexpr int parts = 16;
-  std::array<double, parts> longest{};
   const auto fixed = static_cast<std::int32_t>(problem.inverse_mass.size()) - 1;
-  loops.each_of(parts, [&](int part) {
-    const std::size_t contacts = problem.i.size(), end = contacts * (part + 1) / parts;
-    for (std::size_t a = contacts * part / parts; a < end; ++a) {
-      const std::int32_t i = problem.i[a], j = problem.j[a];
-      if (j == fixed) continue;
-      longest[part] =
-          std::max({longest[part], std::abs(places.x[i] - places.x[j]), std::abs(places.z[i] - places.z[j])});
-    }
-  });
-  return *std::max_element(longest.begin(), longest.end());
+  return loops
+      .combined<Longest>(problem.i.size(),
+                         [&](std::size_t begin, std::size_t end) {
+                           Longest own;
+                           for (std::size_t a = begin; a < end; ++a) {
+                             const std::int32_t i = problem.i[a], j = problem.j[a];
+                             if (j == fixed) continue;
+                             own.add({std::abs(places.x[i] - places.x[j])});
+                             own.add({std::abs(places.z[i] - places.z[j])});
+                           }
+                           return own;
+                         })
+      .distance;
 }
 
 }  // namespace

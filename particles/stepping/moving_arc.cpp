@@ -10,7 +10,8 @@ MovingArc::MovingArc(const WallStep& walls, std::size_t shape)
       is_(std::get<Arc>(walls.after[shape])),
       step_(walls.displacement[shape]),
       there_(step_),
-      back_(inverse(step_)) {}
+      back_(inverse(step_)),
+      middle_(middle_of(was_).x) {}
 
 Place MovingArc::place_of(Point p) const {
   return {angle_from_joint(was_, p), std::hypot(p.x - was_.center.x, p.z - was_.center.z) - was_.radius};
@@ -37,11 +38,8 @@ std::optional<Way> MovingArc::crossing_of(Point start, Point end, double image) 
 }
 
 std::optional<Way> MovingArc::crossing(Point start, Point end, const Period& period) const {
-  const double middle = at(was_, 0).x;
-  const auto image_of = [&](double x) { return period.open() ? 0 : middle + period.nearest(x - middle) - x; };
-  const double first = image_of(start.x), second = image_of(end.x);
-  if (const auto way = crossing_of(start, end, first)) return way;
-  return second != first ? crossing_of(start, end, second) : std::nullopt;
+  return crossing_of_images(middle_, start, end, period,
+                            [&](double image) { return crossing_of(start, end, image); });
 }
 
 Point MovingArc::laid_back(const Way& way, double radius) const {
@@ -61,11 +59,6 @@ Reaches MovingArc::reaches() const {
   const Reaches a = reaches_of(was_), b = reaches_of(is_);
   return {std::min(a.x_low, b.x_low), std::max(a.x_high, b.x_high), std::min(a.z_low, b.z_low),
           std::max(a.z_high, b.z_high)};
-}
-
-double MovingArc::furthest() const {
-  const Point then = there_.moved(was_.center);
-  return std::hypot(then.x - was_.center.x, then.z - was_.center.z) + std::abs(step_.angle) * was_.radius;
 }
 
 }  // namespace drumlin::particles

@@ -14,7 +14,7 @@ class MovingArc {
   MovingArc(const WallStep& walls, std::size_t shape);
 
   /// The way from `start` to `end` if it ends on the other side of the arc: if it crosses it an odd number of
-  /// times. In a periodic domain two images of the disc may, as with a segment.
+  /// times.
   std::optional<Way> crossing(Point start, Point end, const Period& period) const;
   /// The disc of a way laid onto the side that it came from.
   Point laid_back(const Way& way, double radius) const;
@@ -26,7 +26,7 @@ class MovingArc {
   /// Where it is over the step.
   Reaches reaches() const;
   /// Bound on how far one of its points moves.
-  double furthest() const;
+  double furthest() const { return largest_move(was_, step_); }
   double turns_by() const { return step_.angle; }
 
  private:
@@ -36,6 +36,7 @@ class MovingArc {
   Arc was_, is_;
   Pose step_;
   Rigid there_, back_;
+  double middle_;
 };
 
 }  // namespace drumlin::particles

@@ -24,18 +24,13 @@ class MovingSegment {
         back_(inverse(step_)),
         e_x_(was_.to.x - was_.from.x),
         e_z_(was_.to.z - was_.from.z),
-        length_(std::hypot(e_x_, e_z_)) {}
+        length_(std::hypot(e_x_, e_z_)),
+        middle_(middle_of(was_).x) {}
 
-  /// The way from `start` to `end` if it crosses the segment. In a periodic domain two images of the disc
-  /// may: the nearest at the start and at the end.
+  /// The way from `start` to `end` if it crosses the segment.
   std::optional<Way> crossing(Point start, Point end, const Period& period) const {
-    const double middle = (was_.from.x + was_.to.x) / 2;
-    const auto image_of = [&](double x) {
-      return period.open() ? 0 : middle + period.nearest(x - middle) - x;
-    };
-    const double first = image_of(start.x), second = image_of(end.x);
-    if (const auto way = crossing_of(start, end, first)) return way;
-    return second != first ? crossing_of(start, end, second) : std::nullopt;
+    return crossing_of_images(middle_, start, end, period,
+                              [&](double image) { return crossing_of(start, end, image); });
   }
 
   /// The disc of a way laid onto the side that it came from.
@@ -63,14 +58,8 @@ class MovingSegment {
     const auto [z_low, z_high] = std::minmax({was_.from.z, was_.to.z, is_.from.z, is_.to.z});
     return {x_low, x_high, z_low, z_high};
   }
-  /// How far its points move at most.
-  double furthest() const {
-    const auto move_of = [this](Point p) {
-      const Point then = there_.moved(p);
-      return std::hypot(then.x - p.x, then.z - p.z);
-    };
-    return std::max(move_of(was_.from), move_of(was_.to));
-  }
+  /// Bound on how far one of its points moves.
+  double furthest() const { return largest_move(was_, step_); }
   double turns_by() const { return step_.angle; }
 
  private:
@@ -90,7 +79,7 @@ class MovingSegment {
   Segment was_, is_;
   Pose step_;
   Rigid there_, back_;
-  double e_x_, e_z_, length_;
+  double e_x_, e_z_, length_, middle_;
 };
 
 /// A thin wall over a step.

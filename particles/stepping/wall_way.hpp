@@ -1,5 +1,9 @@
 #pragma once
 // The way of a disc over a step as a thin wall sees it.
+#include <optional>
+
+#include "particles/bodies/period.hpp"
+#include "particles/bodies/walls.hpp"
 
 namespace drumlin::particles {
 
@@ -19,5 +23,16 @@ struct Way {
   double image = 0;  ///< added to x: the image of the disc that the wall meets
   double share = 0;  ///< of the way, where it first crosses the wall
 };
+
+/// crossing_of(image) for the image of a disc that meets a wall, `middle` its place in x. In a periodic
+/// domain two may: the nearest at the start and at the end.
+template <class CrossingOf>
+std::optional<Way> crossing_of_images(double middle, Point start, Point end, const Period& period,
+                                      CrossingOf crossing_of) {
+  const auto image_of = [&](double x) { return period.open() ? 0 : middle + period.nearest(x - middle) - x; };
+  const double first = image_of(start.x), second = image_of(end.x);
+  if (const std::optional<Way> way = crossing_of(first)) return way;
+  return second != first ? crossing_of(second) : std::nullopt;
+}
 
 }  // namespace drumlin::particles

@@ -23,6 +23,11 @@ class Drumlin:
         return result.stdout, result.stderr
 
 
+def has_address_sanitizer(executable):
+    """Such a program takes terabytes of addresses, wants to be loaded first, and keeps calls to the system to itself."""
+    return b"__asan_init" in pathlib.Path(executable).read_bytes()
+
+
 def require(condition, message):
     if not condition:
         sys.exit(message)

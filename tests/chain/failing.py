@@ -14,7 +14,7 @@ import signal
 import subprocess
 import tempfile
 
-from command import bytes_below, require, require_whole_files, results_of_run
+from command import bytes_below, has_address_sanitizer, require, require_whole_files, results_of_run
 
 # 40 discs, 60 steps: a run of a twentieth of a second with all its kinds of files.
 SMALL = ["--set", "grains.generated.count=40", "--set", "grains.generated.diameter_min_mm=9", "--set", "grains.generated.diameter_max_mm=10",
@@ -85,7 +85,7 @@ def main():
     parser.add_argument("--allocations", type=int, default=60)
     parser.add_argument("--show", action="store_true")
     given = parser.parse_args()
-    if b"__asan_init" in given.executable.read_bytes():
+    if has_address_sanitizer(given.executable):
         print("the address sanitizer keeps these calls to itself: nothing tried")
         return
     with tempfile.TemporaryDirectory(prefix="drumlin-failing-") as name:

@@ -13,7 +13,7 @@ import shutil
 import subprocess
 import tempfile
 
-from command import SHORT_RUN, require
+from command import SHORT_RUN, has_address_sanitizer, require
 from result_hashes import content_of
 
 GOLDEN = "9264eecf69c18e5ad1e33b9b1701b983f65381a9e12698b137ce5ad7d60435d1"
@@ -51,8 +51,7 @@ def main():
     ways["a C library without AVX2 and FMA"] = (1, {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX512F"})
     with tempfile.TemporaryDirectory(prefix="drumlin-golden-") as name:
         work = pathlib.Path(name)
-        # The address sanitizer wants to be loaded first.
-        kernels = () if "libasan" in subprocess.run(["ldd", given.executable], capture_output=True, text=True, check=False).stdout else KERNELS
+        kernels = () if has_address_sanitizer(given.executable) else KERNELS
         for kernel in kernels:
             ways[f"{kernel} kernels"] = (1, {"LD_PRELOAD": library, "OLDER_PROCESSOR": kernel, "OLDER_PROCESSOR_TELLS": str(work / kernel)})
         for way, (threads, environment) in ways.items():

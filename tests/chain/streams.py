@@ -12,7 +12,7 @@ import subprocess
 import sys
 import tempfile
 
-from command import SHORT_RUN, Drumlin, bytes_below, read_json, require, require_whole_files
+from command import SHORT_RUN, Drumlin, bytes_below, has_address_sanitizer, read_json, require, require_whole_files
 
 PATIENCE = 1200  # seconds for what takes less than one
 
@@ -87,7 +87,7 @@ def check_limits(executable, scene, problem, run, folder):
         require(result.returncode == 74, f"{words}: exit code {result.returncode} instead of 74\n{result.stderr}")
         require(any(word in result.stderr for word in said), f"{words}: not said why\n{result.stderr}")
 
-    if b"__asan_init" not in pathlib.Path(executable).read_bytes():  # the address sanitizer takes terabytes of addresses
+    if not has_address_sanitizer(executable):
         few = limited(resource.RLIMIT_AS, 700 * mebibyte)
         for words in (["run", scene, "-o", folder / "threads", *SHORT_RUN], ["solve-contacts", problem]):
             refused([*words, "--threads", "256"], few, ["threads cannot be started", "not enough memory"])

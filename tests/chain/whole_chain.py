@@ -14,7 +14,7 @@ import tempfile
 import tomllib
 
 import browser
-from command import Drumlin, bytes_below, read_json, require, require_keys
+from command import Drumlin, bytes_below, has_address_sanitizer, read_json, require, require_keys
 
 MEASURED = ["theta_deg", "theta_com_deg", "Q", "H", "lambda", "shear_rate", "I_th", "nu_bulk", "spin_over_half_vorticity",
             "dv_over_shear", "domega_over_shear", "mu_a", "mu_b", "k_flowing", "overlap_mean", "overlap_max",
@@ -175,11 +175,10 @@ def check_study(drumlin, runs, folder):
 def check_readers(files, folder):
     """docs/cookbook/read_results.py reads all that the chain leaves."""
     script = pathlib.Path(__file__).resolve().parents[2] / "docs" / "cookbook" / "read_results.py"
-    packages = pathlib.Path(sys.argv[1]).parent / "python"
-    if not list(packages.glob("drumlin/_drumlin*.so")):
-        print("read_results.py: left out, this build has no Python package")  # with sanitizers
+    if has_address_sanitizer(sys.argv[1]):
+        print("read_results.py: left out, a build with sanitizers has no Python package")
         return
-    package = os.environ | {"PYTHONPATH": str(packages)}
+    package = os.environ | {"PYTHONPATH": str(pathlib.Path(sys.argv[1]).parent / "python")}
     result = subprocess.run([sys.executable, "-B", script, *files, "-o", folder / "look.png"], capture_output=True, text=True, check=False, env=package)
     require(result.returncode == 0, result.stdout + result.stderr)
     for said in ("log.csv: log: ", "run.json: run (reduced): finished, 350 grains", "snapshot: time ", "scene.toml: drumlin-scene-1: ",

@@ -187,6 +187,7 @@ Part frames_part(const MeasureOptions& options) {
     write(options, output, *frames);
   };
   part.print = [=] { print(options); };
+  part.figures = "frame_figures.py";
   return part;
 }
 

@@ -38,10 +38,7 @@ std::vector<Part> reading_parts(const MeasureOptions& options) {
   if (names_part(options, "forces")) parts.push_back(forces_part(options));
   if (names_part(options, "maps")) parts.push_back(maps_part(options));
   if (!options.grains.empty()) parts.push_back(grains_part(options));
-  if (asks_for_frames(options)) {
-    parts.push_back(frames_part(options));
-    parts.back().figures = "frame_figures.py";
-  }
+  if (asks_for_frames(options)) parts.push_back(frames_part(options));
   return parts;
 }
 
