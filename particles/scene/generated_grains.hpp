@@ -1,6 +1,7 @@
 #pragma once
 // Grains made from a distribution: their number, their sizes and the region in which they are placed.
 #include <optional>
+#include <string>
 #include <variant>
 
 #include "particles/effects/key_ranges.hpp"
@@ -31,7 +32,7 @@ struct LognormalSizes {
   double sigma = 0;  ///< of ln D
 };
 
-/// Grains made from a distribution, placed without overlap on a jittered lattice in the region, from below.
+/// Grains made from a distribution, placed without overlap in the region, from below.
 struct GeneratedGrains {
   int count = 0;
   double diameter_min_mm = 0;
@@ -40,6 +41,8 @@ struct GeneratedGrains {
   /// Without: uniform between the two, on a lattice of the largest. With: placed at random, the largest
   /// first.
   std::optional<std::variant<TwoSizes, PowerLawSizes, LognormalSizes>> sizes = {};
+  /// "apart": none touches another. "deposited": in hollows, nearly at rest (deposited_placement.hpp).
+  std::string placement = "apart";
 };
 
 }  // namespace drumlin::particles

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "coupling/common/errors.hpp"
+#include "particles/scene/deposited_placement.hpp"
 #include "particles/scene/grain_list.hpp"
 #include "particles/scene/materials.hpp"
 #include "particles/scene/random.hpp"
@@ -87,11 +88,13 @@ Bodies generated(const GeneratedGrains& grains, std::uint64_t seed, double unit)
   return bodies;
 }
 
-/// Grains of a distribution of sizes.
-Bodies sequential(const GeneratedGrains& grains, std::uint64_t seed, double unit) {
+/// Grains of a distribution of sizes, or in a packing nearly at rest.
+Bodies one_by_one(const GeneratedGrains& grains, std::uint64_t seed, double unit) {
   RandomStream sizes(seed, "grains/diameter");
   const std::vector<double> diameters = diameters_mm(grains, sizes);
-  const auto centers = sequential_centers_mm(diameters, grains.region, seed);
+  const auto centers = grains.placement == "deposited"
+                           ? deposited_centers_mm(diameters, grains.region, seed)
+                           : sequential_centers_mm(diameters, grains.region, seed);
   Bodies bodies;
   for (std::size_t g = 0; g < centers.size(); ++g)
     add_body(bodies, centers[g][0] * unit, centers[g][1] * unit, diameters[g] / 2 * unit);
@@ -157,8 +160,9 @@ void append(const Scene& scene, const GroupPlan& group, const Scales& scales, Bo
             std::vector<double>& spins) {
   if (group.list) return append_listed(scene, group, scales, bodies, spins);
   const double unit = 1e-3 / scales.length_m;
-  Bodies made = group.made->sizes ? sequential(*group.made, group.seed, unit)
-                                  : generated(*group.made, group.seed, unit);
+  const bool on_lattice = !group.made->sizes && group.made->placement == "apart";
+  Bodies made =
+      on_lattice ? generated(*group.made, group.seed, unit) : one_by_one(*group.made, group.seed, unit);
   if (materials_matter(scene)) {
     const auto numbers =
         group.material

@@ -11,7 +11,8 @@ double mean_diameter_m(const Grains& grains);
 
 /// Bodies of a scene, dimensionless, at rest or with the listed velocities. Generated grains stand on a
 /// triangular lattice of spacing 1.03 largest diameters, shaken by what room that leaves, filling the region
-/// from below; those of a distribution of sizes at random (sequential_placement.hpp). Throws InputError if
+/// from below; those of a distribution of sizes at random (sequential_placement.hpp),
+/// deposited ones in hollows (deposited_placement.hpp). Throws InputError if
 /// the region is too small for them, the list is faulty (file, line), or grains of
 /// different groups overlap.
 Bodies place_grains(const Scene& scene, const Scales& scales);

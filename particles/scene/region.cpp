@@ -102,6 +102,15 @@ double farthest_mm(const Region& region, const Point_mm& center) {
   return farthest;
 }
 
+bool inside(const Region& region, const Point_mm& center, double radius) {
+  if (const auto* circle = std::get_if<CircleRegion>(&region))
+    return std::hypot(center[0] - circle->center_mm[0], center[1] - circle->center_mm[1]) + radius <=
+           circle->radius_mm;
+  const auto& box = std::get<RectangleRegion>(region);
+  return center[0] - radius >= box.min_mm[0] && center[0] + radius <= box.max_mm[0] &&
+         center[1] - radius >= box.min_mm[1] && center[1] + radius <= box.max_mm[1];
+}
+
 bool crosses(const Region& region, const WallShape& shape, double tolerance) {
   if (const auto* line = std::get_if<PolylineShape>(&shape)) {
     const auto segments = segments_of(*line);

@@ -73,6 +73,10 @@ void describe(Visitor& v, GeneratedGrains& g) {
   v.value("diameter_max_mm", g.diameter_max_mm, required("mm", length_mm(), "Largest diameter."));
   v.table("region", g.region, Need::required, "Filled from below.");
   v.optional_table("sizes", g.sizes, "Distribution of the diameters; without it uniform.");
+  v.value("placement", g.placement,
+          defaulted("", one_of({"apart", "deposited"}),
+                    "apart: none touches another, and they fall. deposited: each falls along -z where the "
+                    "surface is lowest and rolls into a hollow, so that the packing is nearly at rest."));
 }
 
 template <class Visitor>

@@ -1,14 +1,13 @@
 #include "particles/scene/sequential_placement.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <numeric>
 #include <vector>
 
 #include "coupling/common/errors.hpp"
+#include "particles/scene/placed_discs.hpp"
 #include "particles/scene/random.hpp"
 
 namespace drumlin::particles {
@@ -21,65 +20,6 @@ constexpr double share_at_first = 0.42;
 constexpr int attempts = 400;  // before the part of the region that is filled grows
 constexpr double growth = 1.05;
 
-/// Discs by octave of size, each octave in cells of its largest diameter. Cells share the lists of a table: a
-/// disc of another cell is looked at in vain, but does no harm.
-class PlacedDiscs {
- public:
-  /// With room for discs of these radii.
-  explicit PlacedDiscs(std::span<const double> radii) {
-    std::map<int, std::size_t> count;
-    for (const double radius : radii) ++count[octave_of(radius)];
-    for (const auto& [octave, discs] : count) octaves_[octave].assign(std::bit_ceil(2 * discs), -1);
-    discs_.reserve(radii.size());
-  }
-  void add(const Point_mm& center, double radius) {
-    const int octave = octave_of(radius);
-    Lists& lists = octaves_.at(octave);
-    std::int32_t& first = lists[list(lists, cell(center[0], octave), cell(center[1], octave))];
-    discs_.push_back({center, radius, first});
-    first = static_cast<std::int32_t>(discs_.size()) - 1;
-  }
-  bool free(const Point_mm& center, double radius) const {
-    for (auto entry = octaves_.rbegin(); entry != octaves_.rend(); ++entry) {  // the largest fill most
-      const auto& [octave, lists] = *entry;
-      const double reach = radius + size(octave) / 2;
-      const auto right = cell(center[0] + reach, octave), top = cell(center[1] + reach, octave);
-      for (auto x = cell(center[0] - reach, octave); x <= right; ++x)
-        for (auto z = cell(center[1] - reach, octave); z <= top; ++z)
-          for (std::int32_t d = lists[list(lists, x, z)]; d >= 0; d = discs_[d].next)
-            if (overlap(discs_[d], center, radius)) return false;
-    }
-    return true;
-  }
-
- private:
-  struct Disc {
-    Point_mm center;
-    double radius;
-    std::int32_t next;  // of the same list; -1: the last
-  };
-  using Lists = std::vector<std::int32_t>;  // the disc that each begins with; -1: none
-  static int octave_of(double radius) { return std::ilogb(2 * radius); }
-  static double size(int octave) { return std::ldexp(1.0, octave + 1); }
-  static std::int64_t cell(double x, int octave) {
-    const double place = x / size(octave);
-    const auto towards_0 = static_cast<std::int64_t>(place);
-    return towards_0 - (place < static_cast<double>(towards_0));
-  }
-  static std::size_t list(const Lists& lists, std::int64_t x, std::int64_t z) {
-    const auto mixed = static_cast<std::uint64_t>(x) * 0x9e3779b97f4a7c15u ^
-                       static_cast<std::uint64_t>(z) * 0xc2b2ae3d27d4eb4fu;
-    return static_cast<std::size_t>(mixed ^ mixed >> 32) & (lists.size() - 1);
-  }
-  static bool overlap(const Disc& disc, const Point_mm& center, double radius) {
-    const double dx = disc.center[0] - center[0], dz = disc.center[1] - center[1], sum = disc.radius + radius;
-    return dx * dx + dz * dz < 1.000001 * sum * sum && std::hypot(dx, dz) < sum;
-  }
-
-  std::vector<Disc> discs_;
-  std::map<int, Lists> octaves_;
-};
-
 /// Area of the part of a region below a height.
 double area_below(const Region& region, double z) {
   if (const auto* box = std::get_if<RectangleRegion>(&region))
@@ -89,15 +29,6 @@ double area_below(const Region& region, double z) {
   const double up = std::clamp((z - circle.center_mm[1]) / circle.radius_mm, -1.0, 1.0);
   return circle.radius_mm * circle.radius_mm *
          (std::asin(up) + up * std::sqrt(1 - up * up) + std::numbers::pi / 2);
-}
-
-bool inside(const Region& region, const Point_mm& center, double radius) {
-  if (const auto* circle = std::get_if<CircleRegion>(&region))
-    return std::hypot(center[0] - circle->center_mm[0], center[1] - circle->center_mm[1]) + radius <=
-           circle->radius_mm;
-  const auto& box = std::get<RectangleRegion>(region);
-  return center[0] - radius >= box.min_mm[0] && center[0] + radius <= box.max_mm[0] &&
-         center[1] - radius >= box.min_mm[1] && center[1] + radius <= box.max_mm[1];
 }
 
 /// Height below which the region has this area.

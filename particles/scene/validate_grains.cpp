@@ -8,6 +8,7 @@
 #include <numbers>
 #include <set>
 
+#include "particles/scene/deposited_placement.hpp"
 #include "particles/scene/materials.hpp"
 #include "particles/scene/placement.hpp"
 #include "particles/scene/region.hpp"
@@ -39,9 +40,9 @@ bool check_corners(const Region& region, const std::string& key, Faults& faults)
   return true;
 }
 
-/// The same for grains that are placed at random.
+/// The same for grains that are placed at random or deposited.
 void check_sizes(const GeneratedGrains& grains, const std::string& key, Faults& faults) {
-  if (const auto* cut = std::get_if<LognormalSizes>(&*grains.sizes))
+  if (const auto* cut = grains.sizes ? std::get_if<LognormalSizes>(&*grains.sizes) : nullptr)
     if (cut->median_mm < grains.diameter_min_mm || cut->median_mm > grains.diameter_max_mm) {
       faults.push_back({key + "sizes.median_mm",
                         fmt::format("is {}", cut->median_mm),
@@ -50,11 +51,13 @@ void check_sizes(const GeneratedGrains& grains, const std::string& key, Faults& 
       return;
     }
   const double area = std::numbers::pi / 4 * mean_power_mm(grains, 2);
-  const double most = sequential_share * area_mm2(grains.region) / area;
+  const bool deposited = grains.placement == "deposited";
+  const double share = deposited ? deposited_share : sequential_share;
+  const double most = share * area_mm2(grains.region) / area;
   if (grains.count > most)
     faults.push_back({key + "count",
                       fmt::format("is {}, of {:.4g} mm2 each in the mean", grains.count, area),
-                      fmt::format("at most {:.0f}, half of the region", most),
+                      fmt::format("at most {:.0f}, {} of the region", most, share),
                       {key}});
 }
 
@@ -68,7 +71,7 @@ void check_room(const GeneratedGrains& grains, const std::string& key, Faults& f
     return;
   }
   const std::vector<std::string> about = {key + "count", key + "diameter_max_mm", key + "region"};
-  if (grains.sizes) {
+  if (grains.sizes || grains.placement == "deposited") {
     check_sizes(grains, key, faults);
     return;
   }

@@ -86,6 +86,7 @@ std::vector<Case> cases_of_grains() {
       {"grains.generated.diameter_min_mm", "", D, {}, "grains.generated.diameter_min_mm=2.9", positions_mm},
       {"grains.generated.diameter_max_mm", "", D, {}, "grains.generated.diameter_max_mm=3.7", positions_mm},
       {"grains.generated.sizes", "", D, {}, power_law, positions_mm},
+      {"grains.generated.placement", "", D, {}, "grains.generated.placement=\"deposited\"", positions_mm},
       {"grains.generated.sizes.kind",
        "",
        D,
