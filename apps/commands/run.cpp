@@ -19,6 +19,7 @@
 #include "apps/support/commands.hpp"
 #include "apps/support/interruption.hpp"
 #include "apps/support/json_file.hpp"
+#include "apps/support/memory_reserve.hpp"
 #include "apps/support/output_folder.hpp"
 #include "apps/support/progress.hpp"
 #include "apps/support/standard_streams.hpp"
@@ -71,6 +72,7 @@ class ParticleRun {
       if (simulated_seconds() >= next_checkpoint_s_) save_checkpoint();
       if (progress_.due()) progress_.show(line_of_progress());
       if (const int signal = interruption()) return stop_for(signal);
+      end_if_memory_was_short();
     }
     save_checkpoint();
     writer_.wait();

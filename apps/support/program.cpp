@@ -17,6 +17,7 @@
 
 #include "apps/support/commands.hpp"
 #include "apps/support/interruption.hpp"
+#include "apps/support/memory_reserve.hpp"
 #include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/common/unfinished_file.hpp"
@@ -103,6 +104,7 @@ int run_program(const std::function<int()>& work, const std::function<bool()>& s
   open_standard_streams();
   end_at_signals();
   std::set_terminate(end_with_message);
+  keep_memory_in_reserve();
   if (std::atexit(end_of_library) != 0) return static_cast<int>(ExitCode::input_output);
   at_work = true;
   int code = 0;
