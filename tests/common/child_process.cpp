@@ -111,7 +111,7 @@ TEST(ChildProcess, EndsWithItsParent) {
 TEST(ChildProcess, GetsAHangUpAndNoHandlerOfOurs) {
   std::signal(SIGHUP, see);
   std::vector<std::string> lines;
-  ProcessRequest request = shell("kill -HUP $PPID; sleep 30", ProcessOutput::standard, lines);
+  ProcessRequest request = shell("kill -HUP $PPID; exec sleep 30", ProcessOutput::standard, lines);
   request.pass_signals_on = true;
   EXPECT_EQ(run_process(request).signal, SIGHUP);
   EXPECT_EQ(seen, SIGHUP);
