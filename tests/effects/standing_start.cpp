@@ -1,0 +1,70 @@
+// The impulses from which a deposited packing starts.
+#include "particles/stepping/standing_start.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "particles/scene/placement.hpp"
+#include "tests/effects/drums.hpp"
+
+namespace drumlin {
+using namespace particles;
+namespace {
+
+Scene box(const std::string& placement) {
+  Scene scene;
+  scene.grains.density_kg_m3 = 2700;
+  GeneratedGrains grains{2000, 3.0, 3.6, RectangleRegion{{0, 0}, {100, 400}}};
+  grains.placement = placement;
+  scene.grains.source = grains;
+  scene.walls = {{"box", SegmentShape{{0, 0}, {100, 0}}},
+                 {"box", SegmentShape{{0, 0}, {0, 400}}},
+                 {"box", SegmentShape{{100, 0}, {100, 400}}}};
+  scene.effects = {Gravity{}, Friction{0.4, 0.4}, std::nullopt, Spin{}};
+  Stage stage;
+  stage.name = "settle", stage.duration_s = 0.01, stage.time_step_s = 1e-3;
+  scene.stages = {stage};
+  return scene;
+}
+
+TEST(StandingStart, TheFloorCarriesTheWeight) {
+  const Scene scene = box("deposited");
+  const Simulation simulation(scene);
+  const Bodies& bodies = simulation.state().bodies;
+  const ContactMemory& memory = simulation.state().memory;
+  double weight = 0, on_floor = 0, left = 0, right = 0;
+  for (const double inverse_mass : bodies.inverse_mass) weight += memory.time_step / inverse_mass;
+  for (std::size_t a = 0; a < memory.i.size(); ++a) {
+    EXPECT_GE(memory.impulse[2 * a], 0);
+    EXPECT_EQ(memory.impulse[2 * a + 1], 0);
+    if (memory.j[a] == -1) on_floor += memory.impulse[2 * a];
+    if (memory.j[a] == -2) left += memory.impulse[2 * a];
+    if (memory.j[a] == -3) right += memory.impulse[2 * a];
+  }
+  // Of a pressure as in a liquid, where every contact of a layer bears alike: half to once and a half.
+  EXPECT_GT(on_floor, 0.5 * weight);
+  EXPECT_LT(on_floor, 1.5 * weight);
+  EXPECT_NEAR(left, right, 0.3 * left);
+}
+
+TEST(StandingStart, SavesSweepsOfTheFirstSteps) {
+  const auto sweeps = [](const Scene& scene, bool forget) {
+    Simulation started(scene);
+    SimulationState state = started.state();
+    if (forget) state.memory = {};
+    Simulation simulation(scene, std::move(state));
+    int sum = 0;
+    while (!simulation.finished()) sum += simulation.step().solve.sweeps;
+    return sum;
+  };
+  const Scene scene = box("deposited");
+  EXPECT_LT(2 * sweeps(scene, false), sweeps(scene, true));
+}
+
+TEST(StandingStart, IsThatOfDepositedGrainsAlone) {
+  EXPECT_TRUE(Simulation(box("apart")).state().memory.i.empty());
+}
+
+}  // namespace
+}  // namespace drumlin
