@@ -31,7 +31,7 @@ std::map<std::string, std::string> list_texts(particles::Scene scene) {
   std::map<std::string, std::string> texts;
   std::size_t k = 0;
   for (const auto* list : lists_of(scene))
-    texts[names[k++]] = list->text.empty() ? file_text(list->file) : list->text;
+    texts[names[k++]] = list->text ? *list->text : file_text(list->file);
   return texts;
 }
 

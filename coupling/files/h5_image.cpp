@@ -156,7 +156,9 @@ std::string H5Writer::image() const {
   check(H5Fflush(handles_->file->get(), H5F_SCOPE_GLOBAL) >= 0, "flush a file image");
   const ssize_t size = H5Fget_file_image(handles_->file->get(), nullptr, 0);
   check(size > 0, "size a file image");
-  std::string bytes(static_cast<std::size_t>(size), '\0');
+  std::string bytes;
+  bytes.reserve(static_cast<std::size_t>(size) + trailer_size);  // or the trailer doubles what it holds
+  bytes.resize(static_cast<std::size_t>(size));
   check(H5Fget_file_image(handles_->file->get(), bytes.data(), bytes.size()) == size, "copy a file image");
   const std::uint32_t sum = checksum(bytes);
   bytes += trailer_magic;
@@ -169,15 +171,12 @@ void H5Writer::save_keeping(const std::filesystem::path& file, const std::filesy
 }
 
 struct H5Reader::Handles {
-  std::string bytes;
-  Id access{access_to_memory(), H5Pclose};
   std::unique_ptr<Id> file;
 };
 
 H5Reader::H5Reader(const std::filesystem::path& file, bool checked)
     : handles_(std::make_unique<Handles>()), file_(file) {
-  auto& bytes = handles_->bytes;
-  bytes = input_bytes(file, largest_binary_file);
+  std::string bytes = input_bytes(file, largest_binary_file);
   if (bytes.empty()) throw InputError(file.string() + ": is empty");
   const bool has_trailer =
       bytes.size() > trailer_size && std::memcmp(bytes.data() + bytes.size() - trailer_size,
@@ -193,9 +192,10 @@ H5Reader::H5Reader(const std::filesystem::path& file, bool checked)
       throw InputError(file.string() + ": damaged (checksum does not match)");
     bytes.resize(size);
   }
-  check(H5Pset_file_image(handles_->access.get(), bytes.data(), bytes.size()) >= 0, "take a file image");
-  handles_->file =
-      std::make_unique<Id>(H5Fopen(image_name, H5F_ACC_RDONLY, handles_->access.get()), H5Fclose);
+  const Id access{access_to_memory(), H5Pclose};  // holds a copy, which goes with it; the file has its own
+  check(H5Pset_file_image(access.get(), bytes.data(), bytes.size()) >= 0, "take a file image");
+  bytes = {};
+  handles_->file = std::make_unique<Id>(H5Fopen(image_name, H5F_ACC_RDONLY, access.get()), H5Fclose);
   if (!handles_->file->valid()) throw InputError(file.string() + ": not an HDF5 file");
 }
 H5Reader::~H5Reader() = default;

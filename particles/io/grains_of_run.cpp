@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -74,7 +75,8 @@ std::string list_of(const Snapshot& s, const std::vector<std::string>& materials
 GrainsTakenOver grains_of_run(const GrainsOfRun& asked) {
   RunFolder run = read_run_folder(asked.run);
   const auto [file, snapshot] = asked_snapshot(run, asked.time_s);
-  ListedGrains grains{run.folder / "grains.csv", list_of(snapshot, materials_of(run, snapshot))};
+  ListedGrains grains{run.folder / "grains.csv",
+                      std::make_shared<const std::string>(list_of(snapshot, materials_of(run, snapshot)))};
   return {std::move(run), file, snapshot.time * snapshot.scales.time_s, std::move(grains)};
 }
 

@@ -34,7 +34,7 @@ bool positive(const std::string& column) { return column == "diameter_mm" || col
 
 std::vector<ListedGrain> listed(const ListedGrains& list) {
   const std::string name = list.file.string();
-  std::istringstream in(list.text.empty() ? input_text(list.file) : list.text);
+  std::istringstream in(list.text ? *list.text : input_text(list.file));
   std::vector<InputProblem> problems;
   std::vector<std::string> names;
   std::vector<std::size_t> places;  // of the names among the columns

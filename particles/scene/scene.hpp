@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -40,7 +41,8 @@ struct PeriodicZ {
 /// absolute: in the file it counts from the folder of the scene.
 struct ListedGrains {
   std::filesystem::path file;
-  std::string text = {};  ///< no key: the list itself where it is not read from the file
+  /// No key: the list itself where it is not read from the file. Copies of a scene share it.
+  std::shared_ptr<const std::string> text = {};
 };
 
 /// The grains of a snapshot of another run, as they stand and move in it; in the run folder they stand as a
