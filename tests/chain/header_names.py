@@ -6,8 +6,8 @@ import re
 
 # Where each name of the standard library that a header may use is declared. A name that is missing here is a fault too: it is added.
 STANDARD = {
-    "algorithm": "clamp copy_n max min move_backward", "array": "array tuple_size_v", "atomic": "atomic", "charconv": "from_chars", "chrono": "chrono",
-    "cmath": "abs ceil copysign exp floor hypot isfinite log log10 nan round sqrt", "complex": "complex abs",
+    "algorithm": "clamp copy_n max min move_backward", "array": "array tuple_size_v", "atomic": "atomic", "bit": "bit_ceil", "charconv": "from_chars", "chrono": "chrono",
+    "cmath": "abs ceil copysign exp floor hypot ilogb isfinite ldexp log log10 nan round sqrt", "complex": "complex abs",
     "cstddef": "byte ptrdiff_t size_t", "cstdint": "int8_t int16_t int32_t int64_t uint8_t uint16_t uint32_t uint64_t", "deque": "deque",
     "filesystem": "filesystem", "functional": "function", "future": "async future launch", "initializer_list": "initializer_list",
     "limits": "numeric_limits", "map": "map", "memory": "shared_ptr unique_ptr", "optional": "optional nullopt", "random": "mt19937_64",
