@@ -168,6 +168,12 @@ std::vector<Case> cases_of_traffic() {
              box_high, disc_high, {"[-5, 22]", "[-5, 30]"}, {"[1, 30]", "5"});
   add_sizes(all, "sources[].sizes", "sources.0.sizes", sized_source);
   add_sizes(all, "grains.groups[].generated.sizes", "grains.groups.0.generated.sizes", sized_group);
+  all.push_back({"grains.groups[].generated.placement",
+                 "",
+                 F,
+                 {sized_group("")},
+                 sized_group(", placement=\"deposited\""),
+                 positions_mm});
   return all;
 }
 
