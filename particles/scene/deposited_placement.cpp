@@ -28,14 +28,15 @@ struct Support {
   Disc on{};  ///< where it is a disc
 };
 
-/// The region's border and the discs that lie in it, as one of them sees them that falls and rolls. Only
-/// square roots are taken: places are the same with every mathematical library.
+/// The region's border and the discs that lie in it, as one of them sees them that falls and rolls. Places
+/// are found with square roots alone: they are the same with every mathematical library.
 class Landscape {
  public:
   Landscape(const Region& region, std::span<const double> radii)
-      : region_(region), placed_(radii), largest_(*std::max_element(radii.begin(), radii.end())) {
-    if (const auto* circle = std::get_if<CircleRegion>(&region)) circle_ = *circle;
-  }
+      : region_(region),
+        circle_(std::get_if<CircleRegion>(&region)),
+        placed_(radii),
+        largest_(*std::max_element(radii.begin(), radii.end())) {}
   void add(const Point_mm& center, double radius) { placed_.add(center, radius); }
 
   /// Height of the centre of a disc that lies on the border below x.
@@ -159,7 +160,7 @@ class Landscape {
   }
 
   const Region& region_;
-  std::optional<CircleRegion> circle_;
+  const CircleRegion* circle_;  // the region, if it is one
   PlacedDiscs placed_;
   double largest_;
 };
@@ -167,10 +168,12 @@ class Landscape {
 /// The height of the surface along x, in bins, and which bin is lowest.
 class Surface {
  public:
-  Surface(const Region& region, double mean_diameter, const Landscape& landscape) {
+  /// `discs`: their number; there are no more bins.
+  Surface(const Region& region, double mean_diameter, std::size_t discs, const Landscape& landscape) {
     const auto [left, right] = extent_mm(region, 0);
     left_ = left, width_ = right - left;
-    tops_.resize(std::max<std::size_t>(1, static_cast<std::size_t>(width_ / (bin_width * mean_diameter))));
+    const double bins = std::clamp(width_ / (bin_width * mean_diameter), 1.0, static_cast<double>(discs));
+    tops_.resize(static_cast<std::size_t>(bins));
     for (std::size_t bin = 0; bin < tops_.size(); ++bin)
       set_top(bin, landscape.floor_mm((left_of(bin) + left_of(bin + 1)) / 2, 0));
   }
@@ -220,7 +223,7 @@ std::vector<Point_mm> deposited_centers_mm(std::span<const double> diameters_mm,
     mean += d / static_cast<double>(diameters_mm.size());
   }
   Landscape landscape(region, radii);
-  Surface surface(region, mean, landscape);
+  Surface surface(region, mean, radii.size(), landscape);
   RandomStream places(seed, "grains/position");
   std::vector<Point_mm> centers;
   centers.reserve(radii.size());

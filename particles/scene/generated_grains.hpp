@@ -43,6 +43,7 @@ struct GeneratedGrains {
   std::optional<std::variant<TwoSizes, PowerLawSizes, LognormalSizes>> sizes = {};
   /// "apart": none touches another. "deposited": in hollows, nearly at rest (deposited_placement.hpp).
   std::string placement = "apart";
+  bool deposited() const { return placement == "deposited"; }
 };
 
 }  // namespace drumlin::particles

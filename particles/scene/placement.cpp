@@ -92,9 +92,8 @@ Bodies generated(const GeneratedGrains& grains, std::uint64_t seed, double unit)
 Bodies one_by_one(const GeneratedGrains& grains, std::uint64_t seed, double unit) {
   RandomStream sizes(seed, "grains/diameter");
   const std::vector<double> diameters = diameters_mm(grains, sizes);
-  const auto centers = grains.placement == "deposited"
-                           ? deposited_centers_mm(diameters, grains.region, seed)
-                           : sequential_centers_mm(diameters, grains.region, seed);
+  const auto centers = grains.deposited() ? deposited_centers_mm(diameters, grains.region, seed)
+                                          : sequential_centers_mm(diameters, grains.region, seed);
   Bodies bodies;
   for (std::size_t g = 0; g < centers.size(); ++g)
     add_body(bodies, centers[g][0] * unit, centers[g][1] * unit, diameters[g] / 2 * unit);
@@ -160,7 +159,7 @@ void append(const Scene& scene, const GroupPlan& group, const Scales& scales, Bo
             std::vector<double>& spins) {
   if (group.list) return append_listed(scene, group, scales, bodies, spins);
   const double unit = 1e-3 / scales.length_m;
-  const bool on_lattice = !group.made->sizes && group.made->placement == "apart";
+  const bool on_lattice = !group.made->sizes && !group.made->deposited();
   Bodies made =
       on_lattice ? generated(*group.made, group.seed, unit) : one_by_one(*group.made, group.seed, unit);
   if (materials_matter(scene)) {

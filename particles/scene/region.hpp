@@ -14,7 +14,7 @@ using WallShape = std::variant<ContainerShape, SegmentShape, DiscShape, Polyline
 std::pair<double, double> extent_mm(const Region& region, int axis);
 /// Distance of the region's farthest point from `center`.
 double farthest_mm(const Region& region, const Point_mm& center);
-/// Whether a disc lies inside the region.
+/// Whether a disc lies inside the region; a point has the radius 0.
 bool inside(const Region& region, const Point_mm& center, double radius);
 /// Whether a segment, an arc or a disc reaches into the region, its border not counted: a region may lie
 /// against a wall. `tolerance` is relative to the size of the region. A container crosses nothing.

@@ -41,7 +41,7 @@ bool check_corners(const Region& region, const std::string& key, Faults& faults)
 }
 
 /// The same for grains that are placed at random or deposited.
-void check_sizes(const GeneratedGrains& grains, const std::string& key, Faults& faults) {
+void check_share(const GeneratedGrains& grains, const std::string& key, Faults& faults) {
   if (const auto* cut = grains.sizes ? std::get_if<LognormalSizes>(&*grains.sizes) : nullptr)
     if (cut->median_mm < grains.diameter_min_mm || cut->median_mm > grains.diameter_max_mm) {
       faults.push_back({key + "sizes.median_mm",
@@ -51,8 +51,7 @@ void check_sizes(const GeneratedGrains& grains, const std::string& key, Faults& 
       return;
     }
   const double area = std::numbers::pi / 4 * mean_power_mm(grains, 2);
-  const bool deposited = grains.placement == "deposited";
-  const double share = deposited ? deposited_share : sequential_share;
+  const double share = grains.deposited() ? deposited_share : sequential_share;
   const double most = share * area_mm2(grains.region) / area;
   if (grains.count > most)
     faults.push_back({key + "count",
@@ -71,8 +70,8 @@ void check_room(const GeneratedGrains& grains, const std::string& key, Faults& f
     return;
   }
   const std::vector<std::string> about = {key + "count", key + "diameter_max_mm", key + "region"};
-  if (grains.sizes || grains.placement == "deposited") {
-    check_sizes(grains, key, faults);
+  if (grains.sizes || grains.deposited()) {
+    check_share(grains, key, faults);
     return;
   }
   const auto [left, right] = extent_mm(grains.region, 0);

@@ -50,7 +50,7 @@ void take_away(const ExchangeInput& in, const Period& period, const ExchangeStat
   for (std::size_t b = 0; b < bodies.count(); ++b) {
     const double x = period.first(bodies.x[b]) * mm, z = bodies.z[b] * mm;
     for (std::size_t o = 0; o < in.scene.outlets.size(); ++o) {
-      if (!contains(in.scene.outlets[o].region, x, z)) continue;
+      if (!inside(in.scene.outlets[o].region, {x, z}, 0)) continue;
       if (keep.empty()) keep.assign(bodies.count(), 1);
       keep[b] = 0;
       OutletState& outlet = state.traffic.outlets[o];
@@ -202,13 +202,6 @@ void pour(const ExchangeInput& in, const Period& period, const ExchangeState& st
 }
 
 }  // namespace
-
-bool contains(const Region& region, double x_mm, double z_mm) {
-  if (const auto* circle = std::get_if<CircleRegion>(&region))
-    return std::hypot(x_mm - circle->center_mm[0], z_mm - circle->center_mm[1]) <= circle->radius_mm;
-  const auto& box = std::get<RectangleRegion>(region);
-  return x_mm >= box.min_mm[0] && x_mm <= box.max_mm[0] && z_mm >= box.min_mm[1] && z_mm <= box.max_mm[1];
-}
 
 Traffic first_traffic(const Scene& scene, Bodies& bodies) {
   bodies.id.resize(bodies.count());

@@ -68,7 +68,5 @@ Traffic first_traffic(const Scene&, Bodies&);
 void exchange_grains(const ExchangeInput&, const ExchangeState&);
 /// Grains of a source that should be there by now and found no room.
 std::int64_t waiting(const Source&, std::int64_t poured, double seconds);
-/// Whether a point is in a region; millimetres.
-bool contains(const std::variant<CircleRegion, RectangleRegion>& region, double x_mm, double z_mm);
 
 }  // namespace drumlin::particles

@@ -101,10 +101,10 @@ void refuse_deep_overlap(const Scene& scene, const Walls& walls, const StartOver
 }
 
 /// Whether grains of the scene start in hollows.
-bool starts_standing(const Scene& scene) {
+bool starts_deposited(const Scene& scene) {
   const auto deposited = [](const auto& source) {
     const auto* made = std::get_if<GeneratedGrains>(&source);
-    return made && made->placement == "deposited";
+    return made && made->deposited();
   };
   return deposited(scene.grains.source) ||
          std::any_of(scene.grains.groups.begin(), scene.grains.groups.end(),
@@ -138,10 +138,12 @@ Simulation::Simulation(const Scene& scene, int threads)
     wrap_grains(*state_.cell, state_.bodies);
   }
   enter_stage(0);
-  if (const StepLaws laws = laws_of(scene, scales_); laws.gravity && starts_standing(scene))
-    state_.memory =
-        impulses_under_weight(state_.bodies, walls_.shapes_at(0, state_.driven), laws.period, *laws.gravity,
-                        plan_.stages[0].time_step, stepper_->unknowns_per_contact());
+  if (starts_deposited(scene)) {
+    if (const StepLaws laws = laws_of(scene, scales_); laws.gravity)
+      state_.memory =
+          impulses_under_weight(state_.bodies, walls_.shapes_at(0, state_.driven), laws.period, *laws.gravity,
+                                plan_.stages[0].time_step, stepper_->unknowns_per_contact());
+  }
   if (Scene asked = scene; !lists_of(asked).empty()) {
     const auto shapes = walls_.shapes_at(0, state_.driven);
     start_overlaps_ = overlaps_at_start(state_.bodies, shapes, laws_of(scene, scales_).period);

@@ -69,9 +69,7 @@ ContactMemory impulses_under_weight(const Bodies& bodies, std::span<const Shape>
   const std::vector<double> rest(grains, 0.0);
   const std::vector<Pose> still(shapes.size());
   ContactDetection detection;
-  std::vector<Candidate> pairs;
-  for (const Candidate& pair : detection.find(bodies, rest, rest, {shapes, still, 1, touching, period}))
-    if (pair.gap < touching) pairs.push_back(pair);
+  const auto& pairs = detection.find(bodies, rest, rest, {shapes, still, 1, touching, period});
   // Mean stress sum r_n l / (2 A) of contacts of length l, in an area A: r_n = 2 p A / (contacts l).
   double area = 0;
   for (const double radius : bodies.radius) area += std::numbers::pi * radius * radius / packing;

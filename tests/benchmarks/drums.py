@@ -21,3 +21,18 @@ def drum(discs):
 
 def solved_to(tolerance, solver):
     return re.sub(r"tolerance = \S+", f"tolerance = {tolerance}", solver, count=1)
+
+
+def speed_rpm(discs):
+    """At which the drum has the Froude number of the 6 rpm drum."""
+    return 6 * (7183 / discs) ** 0.25
+
+
+def stage(name, length, motion="", snapshots=1):
+    """In steps of 1e-3 s; `length`: the key that says it."""
+    lines = ["[[stages]]", f'name = "{name}"', length, "time_step_s = 1e-3", f"snapshots = {snapshots}" if snapshots else "", f"motions = [{motion}]" if motion else ""]
+    return "\n".join(line for line in lines if line) + "\n\n"
+
+
+def rotation(rpm):
+    return f'{{ wall = "drum", kind = "rotation", speed_rpm = {rpm} }}'

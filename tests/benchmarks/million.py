@@ -22,7 +22,7 @@ import tempfile
 import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from drums import drum, solved_to  # noqa: E402
+from drums import drum, rotation, solved_to, speed_rpm, stage  # noqa: E402
 
 SIZES = (7183, 100000, 1000000)
 SETTLE, START, TURN = 0.1, 0.2, 0.1  # seconds, in steps of 1e-3
@@ -31,15 +31,11 @@ SETTLE, START, TURN = 0.1, 0.2, 0.1  # seconds, in steps of 1e-3
 def scene(discs):
     start, solver = drum(discs)
     start = re.sub(r'(region = .*"circle".*)', r'\1\nplacement = "deposited"', start)
-    degrees_per_s = 36 * (7183 / discs) ** 0.25  # the same omega^2 R/g
-    frequency = 1 / (4 * START)
-    amplitude = degrees_per_s / (2 * math.pi * frequency)
+    rpm, frequency = speed_rpm(discs), 1 / (4 * START)
+    amplitude = 6 * rpm / (2 * math.pi * frequency)  # degrees
     swing = f'{{ wall = "drum", kind = "rocking", amplitude_deg = {amplitude:.6f}, frequency_hz = {frequency}, phase_deg = -90 }}'
-    turning = f'{{ wall = "drum", kind = "rotation", speed_rpm = {degrees_per_s / 6:.6f} }}'
-    stages = ""
-    for name, seconds, motion in (("settle", SETTLE, None), ("start", START, swing), ("turn", TURN, turning)):
-        stages += f'[[stages]]\nname = "{name}"\nduration_s = {seconds}\ntime_step_s = 1e-3\n' + (f"motions = [{motion}]\n" if motion else "")
-        stages += "snapshots = 10\n\n" if name == "turn" else "\n"
+    stages = (stage("settle", f"duration_s = {SETTLE}", snapshots=0) + stage("start", f"duration_s = {START}", swing, snapshots=0)
+              + stage("turn", f"duration_s = {TURN}", rotation(f"{rpm:.6f}"), snapshots=10))
     return start + stages + solved_to("1e-2", solver) + "\n[output]\nvelocity_window_s = 6e-3\ncheckpoint_every_s = 0.1\n"
 
 

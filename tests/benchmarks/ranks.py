@@ -13,7 +13,7 @@ import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from drums import drum, solved_to  # noqa: E402
+from drums import drum, solved_to, stage  # noqa: E402
 
 STEPS = {7183: 1000, 30000: 200}
 CALLS = 2
@@ -22,8 +22,7 @@ CALLS = 2
 def scene(discs, steps):
     """The 6 rpm drum with other grains, as far as it settles."""
     start, solver = drum(discs)
-    stage = f'[[stages]]\nname = "settle"\nduration_s = {steps * 1e-3:g}\ntime_step_s = 1e-3\nsnapshots = 1\n\n'
-    return start + stage + solved_to("1e-2", solver) + "\n[output]\nvelocity_window_s = 0\ncheckpoint_every_s = 100\n"
+    return start + stage("settle", f"duration_s = {steps * 1e-3:g}") + solved_to("1e-2", solver) + "\n[output]\nvelocity_window_s = 0\ncheckpoint_every_s = 100\n"
 
 
 def timed(words, folder):

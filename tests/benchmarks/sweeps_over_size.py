@@ -9,7 +9,6 @@ the rough solution left dies out, are told apart. Counts depend on no machine; s
 
 import csv
 import json
-import math
 import os
 import pathlib
 import re
@@ -19,21 +18,17 @@ import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from drums import drum, solved_to  # noqa: E402
+from drums import drum, rotation, solved_to, speed_rpm, stage  # noqa: E402
 
 SIZES = (2000, 7183, 30000, 100000)
 STEPS, TRANSIENT = 300, 100
-
-def stage(name, length, turning):
-    return f'[[stages]]\nname = "{name}"\n{length}\ntime_step_s = 1e-3\nsnapshots = 1\n{turning}\n'
 
 
 def scenes(discs):
     """Of the preparation, of the settled packing, of the flow."""
     start, solver = drum(discs)
-    scale = math.sqrt(discs / 7183)
-    rpm, settling = round(6 / math.sqrt(scale), 3), round(1.2 * math.sqrt(scale), 1)
-    turning = f'motions = [{{ wall = "drum", kind = "rotation", speed_rpm = {rpm} }}]'
+    rpm = round(speed_rpm(discs), 3)
+    settling, turning = round(7.2 / rpm, 1), rotation(rpm)
     both = stage("settle", f"duration_s = {settling}", "") + stage("approach", "turns = 0.17", turning)
     made = {"preparation": start + both + re.sub(r"max_sweeps = \d+", "max_sweeps = 150", solved_to("3e-2", solver))}
     for name, motion, time in (("settled", "", f"time_s = {settling}\n"), ("flowing", turning, "")):

@@ -22,6 +22,22 @@ inline particles::Scene turning_drum(int grains = 60) {
   return scene;
 }
 
+/// A box without a lid, 100 steps.
+inline particles::Scene open_box(const particles::GeneratedGrains& grains, double width_mm,
+                                 double height_mm) {
+  particles::Scene scene;
+  scene.grains.density_kg_m3 = 2700;
+  scene.grains.source = grains;
+  scene.walls = {{"box", particles::SegmentShape{{0, 0}, {width_mm, 0}}},
+                 {"box", particles::SegmentShape{{0, 0}, {0, height_mm}}},
+                 {"box", particles::SegmentShape{{width_mm, 0}, {width_mm, height_mm}}}};
+  scene.effects = {particles::Gravity{}, particles::Friction{0.4, 0.4}, std::nullopt, particles::Spin{}};
+  particles::Stage stage;
+  stage.name = "settle", stage.duration_s = 0.1, stage.time_step_s = 1e-3;
+  scene.stages = {stage};
+  return scene;
+}
+
 inline particles::Bodies bodies_at_end(const particles::Scene& scene) {
   particles::Simulation simulation(scene);
   while (!simulation.finished()) (void)simulation.step();

@@ -62,19 +62,7 @@ TEST(Sizes, AFlatPowerLawIsUniform) {
   for (int k = 0; k < 100; ++k) EXPECT_NEAR(drawn_diameter_mm(flat, a), drawn_diameter_mm(uniform, b), 1e-12);
 }
 
-Scene box(const GeneratedGrains& grains) {
-  Scene scene;
-  scene.grains.density_kg_m3 = 2700;
-  scene.grains.source = grains;
-  scene.walls = {{"box", SegmentShape{{0, 0}, {400, 0}}},
-                 {"box", SegmentShape{{0, 0}, {0, 4000}}},
-                 {"box", SegmentShape{{400, 0}, {400, 4000}}}};
-  scene.effects = {Gravity{}, Friction{0.4, 0.4}, std::nullopt, Spin{}};
-  Stage stage;
-  stage.name = "settle", stage.duration_s = 0.1, stage.time_step_s = 1e-3;
-  scene.stages = {stage};
-  return scene;
-}
+Scene box(const GeneratedGrains& grains) { return test::open_box(grains, 400, 4000); }
 
 TEST(Sizes, PlacedGrainsLieInTheRegionAndNotInEachOther) {
   const Scene scene = box(one_to_fifty(3000, PowerLawSizes{2.5}));

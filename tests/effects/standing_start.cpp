@@ -12,19 +12,12 @@ namespace drumlin {
 using namespace particles;
 namespace {
 
+/// Ten steps.
 Scene box(const std::string& placement) {
-  Scene scene;
-  scene.grains.density_kg_m3 = 2700;
   GeneratedGrains grains{2000, 3.0, 3.6, RectangleRegion{{0, 0}, {100, 400}}};
   grains.placement = placement;
-  scene.grains.source = grains;
-  scene.walls = {{"box", SegmentShape{{0, 0}, {100, 0}}},
-                 {"box", SegmentShape{{0, 0}, {0, 400}}},
-                 {"box", SegmentShape{{100, 0}, {100, 400}}}};
-  scene.effects = {Gravity{}, Friction{0.4, 0.4}, std::nullopt, Spin{}};
-  Stage stage;
-  stage.name = "settle", stage.duration_s = 0.01, stage.time_step_s = 1e-3;
-  scene.stages = {stage};
+  Scene scene = test::open_box(grains, 100, 400);
+  scene.stages[0].duration_s = 0.01;
   return scene;
 }
 
