@@ -23,6 +23,7 @@ using Faults = std::vector<SceneFault>;
 
 constexpr double rounding = 1e-9;   // relative; for comparisons of numbers that a user wrote to agree
 constexpr double most_sites = 1e7;  // of the lattice on which grains are placed: 160 MB
+constexpr double widest = 1e5;      // region of deposited grains, in diameters: they roll that far
 
 std::string wall_key(std::size_t w) { return fmt::format("walls.{}", w); }
 
@@ -50,6 +51,15 @@ void check_share(const GeneratedGrains& grains, const std::string& key, Faults& 
                         {key}});
       return;
     }
+  const auto [left, right] = extent_mm(grains.region, 0);
+  if (const double width = (right - left) / grains.diameter_max_mm;
+      grains.deposited() && !(width <= widest)) {
+    faults.push_back({key + "region",
+                      fmt::format("is {:.3g} of the largest diameters wide", width),
+                      fmt::format("at most {:g} for deposited grains", widest),
+                      {key + "region", key + "diameter_max_mm", key + "placement"}});
+    return;
+  }
   const double area = std::numbers::pi / 4 * mean_power_mm(grains, 2);
   const double share = grains.deposited() ? deposited_share : sequential_share;
   const double most = share * area_mm2(grains.region) / area;

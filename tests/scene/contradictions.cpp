@@ -146,6 +146,18 @@ TEST(Contradiction, RegionTooLargeForTheMemory) {
                  "grains.generated.region", "has room for");
 }
 
+TEST(Contradiction, RegionTooWideToRollThrough) {
+  expect_problem(example_scene,
+                 {"walls.0.radius_mm=1e6", "grains.generated.region.radius_mm=1e6",
+                  "grains.generated.placement=deposited"},
+                 "grains.generated.region", "diameters wide");
+}
+
+TEST(Contradiction, DepositedGrainsFillNoMoreThanARegion) {
+  expect_problem(example_scene, {"grains.generated.count=10000", "grains.generated.placement=deposited"},
+                 "grains.generated.count", "0.9 of the region");
+}
+
 TEST(Contradiction, RegionThatIsNone) {
   expect_problem(example_scene,
                  {"grains.generated.region={shape=\"rectangle\", min_mm=[-5, 5], max_mm=[5, 5]}"},
