@@ -20,15 +20,19 @@ OVERRIDES = ["--set", "output.checkpoint_every_s=0.05", "--set", "stages.1.turns
 
 
 def stopped(executable, scene, run, stop, code, overrides=OVERRIDES):
-    """Starts a run and stops it by a signal once it has left a checkpoint and a snapshot."""
-    process = subprocess.Popen([executable, "run", scene, "-o", run, *overrides], stdout=subprocess.DEVNULL,
-                               stderr=subprocess.DEVNULL)
-    deadline = time.monotonic() + 120
-    while not ((run / "checkpoint.h5").exists() and list((run / "snapshots").glob("*.h5"))):
-        require(process.poll() is None and time.monotonic() < deadline, f"{run.name}: no checkpoint and snapshot in time")
-        time.sleep(0.001)
-    process.send_signal(stop)
-    require(process.wait(timeout=600) == code, f"{run.name}: exit code {process.returncode} instead of {code}")
+    """Starts a run and stops it by a signal once it has left a checkpoint and a snapshot; one that was done before is begun again."""
+    for _ in range(20):
+        shutil.rmtree(run, ignore_errors=True)
+        process = subprocess.Popen([executable, "run", scene, "-o", run, *overrides], stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.DEVNULL)
+        deadline = time.monotonic() + 120
+        while not ((run / "checkpoint.h5").exists() and list((run / "snapshots").glob("*.h5"))) and process.poll() is None:
+            require(time.monotonic() < deadline, f"{run.name}: no checkpoint and snapshot in time")
+            time.sleep(0.001)
+        process.send_signal(stop)
+        if process.wait(timeout=600) != 0:
+            break
+    require(process.returncode == code, f"{run.name}: exit code {process.returncode} instead of {code}")
 
 
 def killed_again_and_again(executable, scene, run, expected):
@@ -92,7 +96,8 @@ def full_disk(executable, drumlin, scene, kept, run, expected):
         after = bytes_below(run)
         require(after["checkpoint.h5"] == before["checkpoint.h5"], f"{room} bytes of room: the checkpoint was touched")
         for name, content in before.items():
-            if name.startswith("snapshots/"):
+            # A snapshot that the kill cut short is no snapshot: its unfinished file may go.
+            if name.startswith("snapshots/") and name.endswith(".h5"):
                 require(after.get(name) == content, f"{room} bytes of room: {name} was touched")
         drumlin("run", scene, "-o", run, "--resume", *OVERRIDES)
         require(results_of_run(run) == expected, f"{room} bytes of room: the resumed run left other bytes than the whole one")
