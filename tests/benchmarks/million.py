@@ -72,7 +72,7 @@ def main():
     parser.add_argument("discs", type=int, nargs="*", default=list(SIZES))
     parser.add_argument("--threads", type=int, default=os.cpu_count())
     parser.add_argument("--keep", type=pathlib.Path, help="folder in which the runs stay")
-    given = parser.parse_args()
+    given = parser.parse_intermixed_args()
     program, cases, run = given.build.resolve() / "drumlin", [], {}
     with tempfile.TemporaryDirectory() as name:
         folder = given.keep or pathlib.Path(name)

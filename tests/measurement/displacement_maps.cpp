@@ -139,7 +139,8 @@ TEST(DisplacementMaps, GrainsAreFollowedAcrossAPeriodicBoundary) {
   follower.add(from, sums);
   follower.add(to, sums);
   ASSERT_EQ(sums.pairs, 1U);
-  for (const DisplacementNode& node : sums.nodes) EXPECT_NEAR(node.sum[1] / node.sum[0], 0.27, 1e-12);
+  for (std::size_t node = 0; node < sums.nodes.size(); ++node)
+    EXPECT_NEAR(sums.nodes[node].sum[1] / sums.nodes[node].sum[0], 0.27, 1e-12);
 }
 
 TEST(DisplacementMaps, MotionOverMoreThanHalfAWidthIsNotCalledLocal) {

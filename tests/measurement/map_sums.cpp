@@ -87,7 +87,7 @@ TEST(MapSums, TotalsAreThoseOfTheGrainsAndContacts) {
         coarse_graining(FlowFrame{0.3, -0.2, 0.8, -0.6}, -15, 15, -15, 15, spacing, 5 * spacing, 0);
     const MapSums sums = sums_of(graining, snapshot);
     MapNode total;
-    for (const MapNode& node : sums.nodes) total += node;
+    for (std::size_t node = 0; node < sums.nodes.size(); ++node) total += sums.nodes[node];
     const double cell = spacing * spacing;
 
     FlowSnapshot in_frame;

@@ -32,7 +32,7 @@ DisplacementNode& DisplacementNode::operator-=(const DisplacementNode& other) {
 
 DisplacementSums empty_displacements(const CoarseGraining& graining) {
   DisplacementSums sums;
-  sums.nodes.resize(graining.grid.nodes());
+  sums.nodes = NodeTiles<DisplacementNode>(graining.grid);
   return sums;
 }
 

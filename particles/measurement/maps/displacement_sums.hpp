@@ -8,6 +8,7 @@
 
 #include "particles/measurement/frame/flow_snapshot.hpp"
 #include "particles/measurement/maps/coarse_graining.hpp"
+#include "particles/measurement/maps/node_tiles.hpp"
 
 namespace drumlin::particles {
 
@@ -21,9 +22,9 @@ struct DisplacementNode {
   DisplacementNode& operator-=(const DisplacementNode& other);
 };
 
-/// Sums over some pairs of snapshots, row after row.
+/// Sums over some pairs of snapshots.
 struct DisplacementSums {
-  std::vector<DisplacementNode> nodes;
+  NodeTiles<DisplacementNode> nodes;
   std::size_t pairs = 0;
   double time = 0;  ///< between the snapshots of the pairs, summed
 };

@@ -74,12 +74,39 @@ constexpr NamedField named_fields[] = {{"nu", &Values::nu},
                                        {"number_density", &Values::number_density},
                                        {"density", &Values::density}};
 
+/// What sums know beside their nodes, of some batches.
+struct Share {
+  std::size_t snapshots = 0;
+  double gravity_x = 0, gravity_z = 0;
+  bool with_spin = true, with_contacts = true, with_density = false;
+};
+
+Share share_of(std::span<const MapSums> batches) {
+  Share share;
+  for (const MapSums& batch : batches) {
+    share.snapshots += batch.snapshots;
+    share.gravity_x += batch.gravity_x;
+    share.gravity_z += batch.gravity_z;
+    share.with_spin = share.with_spin && batch.with_spin;
+    share.with_contacts = share.with_contacts && batch.with_contacts;
+    share.with_density = share.with_density || batch.area;
+  }
+  return share;
+}
+
+Share without(Share share, const MapSums& batch) {
+  share.snapshots -= batch.snapshots;
+  share.gravity_x -= batch.gravity_x;
+  share.gravity_z -= batch.gravity_z;
+  return share;
+}
+
 /// Those that the snapshots tell of.
-std::vector<NamedField> known_fields(const MapSums& total) {
+std::vector<NamedField> known_fields(const Share& total) {
   std::vector<NamedField> known;
   for (const NamedField& field : named_fields) {
     if (field.value == &Values::omega && !total.with_spin) continue;
-    if (field.value == &Values::density && total.area.empty()) continue;  // it is nu
+    if (field.value == &Values::density && !total.with_density) continue;  // it is nu
     known.push_back(field);
   }
   return known;
@@ -101,7 +128,7 @@ std::array<double, n> scaled(std::array<double, n> values, double factor) {
   return values;
 }
 
-Means means_of(const MapNode& node, const MapSums& sums) {
+Means means_of(const MapNode& node, const Share& sums) {
   const double share = 1 / static_cast<double>(sums.snapshots);
   const auto g = scaled(node.grain, share);
   return {g[0],
@@ -210,16 +237,36 @@ void forget_contacts(Means& m) {
   std::fill(std::begin(m.contact), std::end(m.contact), none);
 }
 
-/// `area`: of the grains around the node, as MapSums has it.
-Values values_at(const MapNode& node, double area, const MapSums& sums, double inside) {
+/// Sums of some batches at one node.
+struct NodeSums {
+  MapNode node;
+  double area = 0;  ///< as MapSums::area_at
+
+  void add(const MapSums& batch, std::size_t at) {
+    node += batch.nodes[at];
+    area += batch.area_at(at);
+  }
+  void take(const MapSums& batch, std::size_t at) {
+    node -= batch.nodes[at];
+    area -= batch.area_at(at);
+  }
+};
+
+NodeSums sums_at(std::size_t node, std::span<const MapSums> batches) {
+  NodeSums sums{batches.front().nodes[node], batches.front().area_at(node)};
+  for (const MapSums& batch : batches.subspan(1)) sums.add(batch, node);
+  return sums;
+}
+
+Values values_at(const NodeSums& sums, const Share& share, double inside) {
   Values f;
-  Means m = means_of(node, sums);
-  if (!sums.with_contacts) forget_contacts(m);
+  Means m = means_of(sums.node, share);
+  if (!share.with_contacts) forget_contacts(m);
   f.number_density = m.grains;
-  f.nu = area / static_cast<double>(sums.snapshots) / inside;
+  f.nu = sums.area / static_cast<double>(share.snapshots) / inside;
   if (f.nu < least_map_nu) return f;
   f.density = m.mass / inside;
-  set_velocity(m, sums.with_spin, f);
+  set_velocity(m, share.with_spin, f);
   set_stress(m, inside, f);
   set_contacts(m, inside, f);
   set_balance(m, f);
@@ -239,65 +286,83 @@ void set_intervals(const std::vector<Values>& leave_one_out, const Values& whole
   }
 }
 
-/// Drops the rows above the highest one that a grain reaches: half of a drum is air.
-void crop(const std::vector<MapNode>& nodes, FieldMap& map) {
-  MapGrid& grid = map.grid;
-  std::size_t rows = grid.rows;
+/// Rows up to the highest one that a grain reaches: half of a drum is air.
+std::size_t rows_reached(const MapGrid& grid, std::span<const MapSums> batches) {
   const auto is_empty = [&](std::size_t row) {
-    const auto first = nodes.begin() + static_cast<std::ptrdiff_t>(row * grid.columns);
-    return std::all_of(first, first + static_cast<std::ptrdiff_t>(grid.columns),
-                       [](const MapNode& node) { return node.grain[0] == 0; });
+    for (const MapSums& batch : batches)
+      for (std::size_t column = 0; column < grid.columns; ++column)
+        if (batch.nodes(column, row).grain[0] != 0) return false;
+    return true;
   };
+  std::size_t rows = grid.rows;
   while (rows > 1 && is_empty(rows - 1)) --rows;
-  grid.rows = rows;
-  for (MapField& field : map.fields) {
-    field.value.resize(grid.nodes());
-    if (!field.ci99.empty()) field.ci99.resize(grid.nodes());
+  return rows;
+}
+
+/// Share of the kernel at a node that lies within the container, 1 without one; 0 for a node outside.
+double share_inside(const CoarseGraining& graining, std::size_t node, double container_radius) {
+  if (!(container_radius > 0)) return 1;
+  const double x = graining.grid.x_of(node % graining.grid.columns);
+  const double z = graining.grid.z_of(node / graining.grid.columns);
+  if (std::hypot(x, z) > container_radius) return 0;
+  return kernel_share_in_circle(x, z, graining.width, container_radius);
+}
+
+FieldMap empty_map(const CoarseGraining& graining, std::span<const MapSums> batches,
+                   std::span<const NamedField> known, double surface_z, bool with_intervals) {
+  FieldMap map;
+  map.grid = graining.grid;
+  map.grid.z_first -= surface_z;
+  map.grid.rows = rows_reached(map.grid, batches);
+  for (const NamedField& field : known) {
+    map.fields.push_back({field.name, std::vector<double>(map.grid.nodes(), none), {}});
+    if (with_intervals) map.fields.back().ci99.assign(map.grid.nodes(), none);
   }
+  return map;
+}
+
+void set_values(const Values& values, std::size_t node, std::span<const NamedField> known, FieldMap& map) {
+  for (std::size_t f = 0; f < known.size(); ++f) map.fields[f].value[node] = values.*known[f].value;
 }
 
 }  // namespace
 
 FieldMap field_maps(const CoarseGraining& graining, std::span<const MapSums> batches, double container_radius,
                     double surface_z) {
-  FieldMap map;
-  map.grid = graining.grid;
-  map.grid.z_first -= surface_z;
-  const std::size_t nodes = map.grid.nodes();
   const bool with_intervals = batches.size() > 1;
-  MapSums total = batches.front();
-  for (const MapSums& batch : batches.subspan(1)) total += batch;
-  const std::vector<NamedField> known = known_fields(total);
-  for (const NamedField& field : known) {
-    map.fields.push_back({field.name, std::vector<double>(nodes, none), {}});
-    if (with_intervals) map.fields.back().ci99.assign(nodes, none);
-  }
-
+  const Share all = share_of(batches);
+  const std::vector<NamedField> known = known_fields(all);
+  FieldMap map = empty_map(graining, batches, known, surface_z, with_intervals);
   std::vector<Values> leave_one_out(with_intervals ? batches.size() : 0);
-  MapSums rest;  // but for its nodes, which are taken one by one
-  for (std::size_t node = 0; node < nodes; ++node) {
-    const double x = graining.grid.x_of(node % graining.grid.columns);
-    const double z = graining.grid.z_of(node / graining.grid.columns);
-    if (container_radius > 0 && std::hypot(x, z) > container_radius) continue;
-    const double inside =
-        container_radius > 0 ? kernel_share_in_circle(x, z, graining.width, container_radius) : 1;
-    const Values whole = values_at(total.nodes[node], total.area_at(node), total, inside);
-    for (std::size_t f = 0; f < known.size(); ++f) map.fields[f].value[node] = whole.*known[f].value;
+  for (std::size_t node = 0; node < map.grid.nodes(); ++node) {
+    const double inside = share_inside(graining, node, container_radius);
+    if (inside == 0) continue;
+    const NodeSums total = sums_at(node, batches);
+    const Values whole = values_at(total, all, inside);
+    set_values(whole, node, known, map);
     if (!with_intervals) continue;
     for (std::size_t b = 0; b < batches.size(); ++b) {
-      MapNode without = total.nodes[node];
-      without -= batches[b].nodes[node];
-      rest.snapshots = total.snapshots - batches[b].snapshots;
-      rest.gravity_x = total.gravity_x - batches[b].gravity_x;
-      rest.gravity_z = total.gravity_z - batches[b].gravity_z;
-      rest.with_spin = total.with_spin;
-      rest.with_contacts = total.with_contacts;
-      const double area = total.area_at(node) - batches[b].area_at(node);
-      leave_one_out[b] = values_at(without, area, rest, inside);
+      NodeSums rest = total;
+      rest.take(batches[b], node);
+      leave_one_out[b] = values_at(rest, without(all, batches[b]), inside);
     }
     set_intervals(leave_one_out, whole, node, known, map.fields);
   }
-  crop(total.nodes, map);
+  return map;
+}
+
+FieldMap field_maps_without(std::size_t left_out, const CoarseGraining& graining,
+                            std::span<const MapSums> batches, double container_radius, double surface_z) {
+  const Share all = share_of(batches), share = without(all, batches[left_out]);
+  const std::vector<NamedField> known = known_fields(all);
+  FieldMap map = empty_map(graining, batches, known, surface_z, false);
+  for (std::size_t node = 0; node < map.grid.nodes(); ++node) {
+    const double inside = share_inside(graining, node, container_radius);
+    if (inside == 0) continue;
+    NodeSums rest = sums_at(node, batches);
+    rest.take(batches[left_out], node);
+    set_values(values_at(rest, share, inside), node, known, map);
+  }
   return map;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 // Maps with intervals from the sums at their nodes (docs/theory/coarse-graining.md defines each field).
+#include <cstddef>
+#include <optional>
 #include <span>
 
 #include "particles/measurement/maps/map_sums.hpp"
@@ -16,5 +18,9 @@ constexpr double least_map_nu = 0.05;
 /// two batches. `batches` must not be empty.
 FieldMap field_maps(const CoarseGraining& graining, std::span<const MapSums> batches, double container_radius,
                     double surface_z);
+
+/// The same of all batches but one, without intervals.
+FieldMap field_maps_without(std::size_t left_out, const CoarseGraining& graining,
+                            std::span<const MapSums> batches, double container_radius, double surface_z);
 
 }  // namespace drumlin::particles

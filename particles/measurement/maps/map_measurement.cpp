@@ -25,13 +25,10 @@ LogLine friction_intervals(const MapReading& reading, double container_radius, d
                            const MapBounds& bounds, const MapFindingOptions& limits) {
   LogLine half_widths;
   if (reading.batches.size() < 2) return half_widths;
-  MapSums total = reading.batches.front();
-  for (std::size_t b = 1; b < reading.batches.size(); ++b) total += reading.batches[b];
   std::vector<double> a, b, rms;
-  for (const MapSums& batch : reading.batches) {
-    MapSums rest = total;
-    rest -= batch;
-    const FieldMap map = field_maps(reading.graining, {&rest, 1}, container_radius, surface_z);
+  for (std::size_t left_out = 0; left_out < reading.batches.size(); ++left_out) {
+    const FieldMap map =
+        field_maps_without(left_out, reading.graining, reading.batches, container_radius, surface_z);
     const LogLine line = bulk_friction(map, bounds, limits, 0).invariant;
     a.push_back(line.a);
     b.push_back(line.b);

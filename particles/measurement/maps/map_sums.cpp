@@ -68,16 +68,7 @@ void add_grain(const GrainState& g, Canvas& canvas) {
 
 /// Areas beside the masses from here on.
 void tell_areas_apart(MapSums& sums) {
-  if (!sums.area.empty()) return;
-  sums.area.reserve(sums.nodes.size());
-  for (const MapNode& node : sums.nodes) sums.area.push_back(node.grain[3]);
-}
-
-/// Adds the areas of other sums, times a sign, before their nodes are.
-void add_areas(double sign, const MapSums& other, MapSums& sums) {
-  if (sums.area.empty() && other.area.empty()) return;
-  tell_areas_apart(sums);
-  for (std::size_t n = 0; n < sums.area.size(); ++n) sums.area[n] += sign * other.area_at(n);
+  if (!sums.area) sums.area = sums.nodes.numbers([](const MapNode& node) { return node.grain[3]; });
 }
 
 template <class Action>
@@ -126,29 +117,9 @@ MapNode& MapNode::operator-=(const MapNode& other) {
   return *this;
 }
 
-MapSums& MapSums::operator+=(const MapSums& other) {
-  add_areas(1, other, *this);
-  for (std::size_t n = 0; n < nodes.size(); ++n) nodes[n] += other.nodes[n];
-  snapshots += other.snapshots;
-  gravity_x += other.gravity_x;
-  gravity_z += other.gravity_z;
-  with_spin = with_spin && other.with_spin;
-  with_contacts = with_contacts && other.with_contacts;
-  return *this;
-}
-
-MapSums& MapSums::operator-=(const MapSums& other) {
-  add_areas(-1, other, *this);
-  for (std::size_t n = 0; n < nodes.size(); ++n) nodes[n] -= other.nodes[n];
-  snapshots -= other.snapshots;
-  gravity_x -= other.gravity_x;
-  gravity_z -= other.gravity_z;
-  return *this;
-}
-
 MapSums empty_sums(const CoarseGraining& graining) {
   MapSums sums;
-  sums.nodes.resize(graining.grid.nodes());
+  sums.nodes = NodeTiles<MapNode>(graining.grid);
   return sums;
 }
 
@@ -166,8 +137,8 @@ void MapDepositor::add(const Snapshot& snapshot, const FlowSnapshot& in_frame, M
   }
   for (std::size_t i = 0; i < in_frame.x.size(); ++i) {
     const double radius = in_frame.radius[i], area = std::numbers::pi * radius * radius;
-    if (!sums.area.empty())
-      NodeCanvas<double>(graining_, sums.area)
+    if (sums.area)
+      NodeCanvas<double>(graining_, *sums.area)
           .each_node(in_frame.x[i], in_frame.z[i], [&](double& node, double phi) { node += phi * area; });
     add_grain({in_frame.x[i], in_frame.z[i], dense ? in_frame.density[i] * area : area,
                static_cast<double>(in_frame.coordination[i]), in_frame.spin.empty() ? 0 : in_frame.spin[i],

@@ -1,12 +1,13 @@
 #pragma once
-// Sums of coarse graining at the nodes of a map. All of them are linear in the snapshots: sums of batches
-// can be added and subtracted, ratios come last (field_maps.hpp).
+// Sums of coarse graining at the nodes of a map. All of them are linear in the snapshots: those of batches
+// can be added and subtracted, node by node, ratios come last (field_maps.hpp).
 #include <array>
 #include <cstddef>
-#include <vector>
+#include <optional>
 
 #include "particles/measurement/frame/flow_snapshot.hpp"
 #include "particles/measurement/maps/coarse_graining.hpp"
+#include "particles/measurement/maps/node_tiles.hpp"
 
 namespace drumlin::particles {
 
@@ -32,21 +33,18 @@ struct MapNode {
   MapNode& operator-=(const MapNode& other);
 };
 
-/// Sums over some snapshots, row after row.
+/// Sums over some snapshots.
 struct MapSums {
-  std::vector<MapNode> nodes;
-  /// sum of phi(x_i) times the area, at each node; empty where no grain has a density of its own: it is the
+  NodeTiles<MapNode> nodes;
+  /// sum of phi(x_i) times the area, at each node; nothing where no grain has a density of its own: it is the
   /// mass.
-  std::vector<double> area;
+  std::optional<NodeTiles<double>> area;
   std::size_t snapshots = 0;
   double gravity_x = 0, gravity_z = 0;  ///< flow frame, summed over the snapshots
   bool with_spin = true;                ///< false: the scene has no spin
   bool with_contacts = true;            ///< false: the snapshots do not know them
 
-  double area_at(std::size_t node) const { return area.empty() ? nodes[node].grain[3] : area[node]; }
-
-  MapSums& operator+=(const MapSums& other);
-  MapSums& operator-=(const MapSums& other);
+  double area_at(std::size_t node) const { return area ? (*area)[node] : nodes[node].grain[3]; }
 };
 
 MapSums empty_sums(const CoarseGraining& graining);

@@ -3,9 +3,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <vector>
 
 #include "particles/measurement/maps/coarse_graining.hpp"
+#include "particles/measurement/maps/node_tiles.hpp"
 #include "particles/measurement/maps/spline_kernel.hpp"
 
 namespace drumlin::particles {
@@ -39,7 +39,7 @@ void find_reach(double place, double spacings_per_width, double width, NodeReach
 template <class Node>
 class NodeCanvas {
  public:
-  NodeCanvas(const CoarseGraining& graining, std::vector<Node>& nodes)
+  NodeCanvas(const CoarseGraining& graining, NodeTiles<Node>& nodes)
       : graining_(graining), grid_(graining.grid), nodes_(nodes) {}
 
   /// Calls action(node, phi) for every node that (x, z) reaches.
@@ -82,14 +82,14 @@ class NodeCanvas {
         } else if (column < 0 || column >= columns) {
           continue;
         }
-        action(nodes_[static_cast<std::size_t>(row * columns + column)], c, k);
+        action(nodes_.at(static_cast<std::size_t>(column), static_cast<std::size_t>(row)), c, k);
       }
     }
   }
 
   const CoarseGraining& graining_;
   const MapGrid& grid_;
-  std::vector<Node>& nodes_;
+  NodeTiles<Node>& nodes_;
   NodeReach x_, z_;
 };
 

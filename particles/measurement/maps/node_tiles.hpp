@@ -1,0 +1,70 @@
+#pragma once
+// Sums at the nodes of a map, held where there are any: grains seldom fill the box around them.
+#include <cstddef>
+#include <vector>
+
+#include "coupling/exchange/field_map.hpp"
+
+namespace drumlin::particles {
+
+/// One sum per node of a grid, zero where nothing was added. Memory: of the square tiles that somebody wrote
+/// to.
+template <class Node>
+class NodeTiles {
+ public:
+  NodeTiles() = default;
+  explicit NodeTiles(const MapGrid& grid)
+      : columns_(grid.columns),
+        rows_(grid.rows),
+        across_(tiles_along(grid.columns)),
+        tiles_(across_ * tiles_along(grid.rows)) {}
+
+  /// For writing: makes the tile.
+  Node& at(std::size_t column, std::size_t row) {
+    std::vector<Node>& tile = tiles_[tile_of(column, row)];
+    if (tile.empty()) tile.resize(edge * edge);
+    return tile[place_in_tile(column, row)];
+  }
+  const Node& operator()(std::size_t column, std::size_t row) const {
+    static const Node zero{};
+    const std::vector<Node>& tile = tiles_[tile_of(column, row)];
+    return tile.empty() ? zero : tile[place_in_tile(column, row)];
+  }
+  /// Nodes counted row after row.
+  const Node& operator[](std::size_t node) const { return (*this)(node % columns_, node / columns_); }
+
+  std::size_t size() const { return columns_ * rows_; }
+
+  /// A number of each node, value(node), which is 0 for a node of zeros.
+  template <class Value>
+  NodeTiles<double> numbers(Value value) const {
+    NodeTiles<double> result;
+    result.columns_ = columns_;
+    result.rows_ = rows_;
+    result.across_ = across_;
+    for (const std::vector<Node>& tile : tiles_) {
+      std::vector<double>& numbers = result.tiles_.emplace_back();
+      numbers.reserve(tile.size());
+      for (const Node& node : tile) numbers.push_back(value(node));
+    }
+    return result;
+  }
+
+ private:
+  template <class Other>
+  friend class NodeTiles;
+
+  static constexpr std::size_t edge = 16;
+  static std::size_t tiles_along(std::size_t nodes) { return (nodes + edge - 1) / edge; }
+  std::size_t tile_of(std::size_t column, std::size_t row) const {
+    return row / edge * across_ + column / edge;
+  }
+  static std::size_t place_in_tile(std::size_t column, std::size_t row) {
+    return row % edge * edge + column % edge;
+  }
+
+  std::size_t columns_ = 0, rows_ = 0, across_ = 0;
+  std::vector<std::vector<Node>> tiles_;
+};
+
+}  // namespace drumlin::particles
