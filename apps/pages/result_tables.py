@@ -262,21 +262,21 @@ def effects_over_speed():
     return table(["theta in deg (H)", *(f"{rpm} rpm" for rpm in shown)], rows)
 
 
-ROWS = {  # of the limits, in the order of data/limits/bed.toml
-    ("sigma_xz", "centre", "static"): "sigma_xz, bed, x = 0",
-    ("traction_ratio", "wall", ""): "shear over normal traction along the wall",
-    ("axis_angle_deg", "centre", "all"): "axes of stress and strain rate (deg), x = 0",
-    ("log10_shear_rate", "centre", "static"): "log10 shear rate, bed, x = 0",
-    ("lambda", "scalar", ""): "lambda, over the interval of the particles",
-    ("sigma_xx", "centre", "all"): "sigma_xx, x = 0",
-    ("sigma_zz", "centre", "all"): "sigma_zz, x = 0",
-    ("sigma_xz", "centre", "flowing"): "sigma_xz, flow, x = 0",
-    ("v_x", "centre", "flowing"): "v_x, flow, x = 0",
+ROWS = {  # of the limits, in the order of data/limits/bed.toml; at x = 0 where no place is named
+    ("sigma_xz", "centre", "static"): "sigma_xz, bed",
+    ("traction_ratio", "wall", ""): "wall traction ratio",
+    ("axis_angle_deg", "centre", "all"): "axes (deg)",
+    ("log10_shear_rate", "centre", "static"): "log10 shear rate, bed",
+    ("lambda", "scalar", ""): "lambda",
+    ("sigma_xx", "centre", "all"): "sigma_xx",
+    ("sigma_zz", "centre", "all"): "sigma_zz",
+    ("sigma_xz", "centre", "flowing"): "sigma_xz, flow",
+    ("v_x", "centre", "flowing"): "v_x, flow",
     ("theta_deg", "scalar", ""): "theta (deg)",
     ("H", "scalar", ""): "H (d)",
-    ("sigma_xz", "map", "static"): "sigma_xz, bed, whole drum",
-    ("axis_angle_deg", "map", "all"): "axes (deg), whole drum",
-    ("log10_shear_rate", "map", "static"): "log10 shear rate, bed, whole drum",
+    ("sigma_xz", "map", "static"): "sigma_xz, bed, map",
+    ("axis_angle_deg", "map", "all"): "axes (deg), map",
+    ("log10_shear_rate", "map", "static"): "log10 shear rate, bed, map",
 }
 
 
@@ -323,7 +323,7 @@ def sensitivities():
     for (quantity, where, zone), name in ROWS.items():
         value = found[(quantity, *sorted(word for word in (where, zone) if word))]
         rows.append([name, *(number(value[variant]) for variant in names)])
-    for key, name in (("theta_deg", "theta of the flow (deg)"), ("H", "H of the flow, by its own surface (d)"), ("shear_rate", "shear rate of the flow")):
+    for key, name in (("theta_deg", "theta itself (deg)"), ("H", "H itself, by its own surface (d)"), ("shear_rate", "shear rate itself")):
         rows.append([name, *(number(record["values"][key][variant], 4) for variant in names)])
     return table(["", "p_min 0.4, taper 4 d, eps 1e-5, 40,709 unknowns", *(name.replace("-", " ", 1) for name in names[1:])], rows)
 
