@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "coupling/common/text_file.hpp"
 #include "coupling/comparison/overlay_profiles.hpp"
 #include "coupling/files/field_map_file.hpp"
 
@@ -10,7 +11,7 @@ namespace drumlin::apps {
 void write_overlays(const std::filesystem::path& folder, const coupling::ComparedSide& first,
                     const coupling::ComparedSide& second, const coupling::Comparison& comparison) {
   write_profiles(folder / "overlay.csv", coupling::centre_overlay(first, second, comparison));
-  if (!comparison.slices.part.empty()) std::filesystem::create_directories(folder / "overlay_slices");
+  if (!comparison.slices.part.empty()) make_folders(folder / "overlay_slices");
   for (const coupling::SliceComparison& slice : comparison.slices.part)
     write_profiles(folder / "overlay_slices" / fmt::format("x{:+.1f}.csv", slice.position),
                    coupling::slice_overlay(slice, first.profiles.header.reduced.value()));

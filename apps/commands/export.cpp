@@ -40,7 +40,7 @@ int export_run(const ExportOptions& options) {
     const particles::Snapshot snapshot = particles::checked_snapshot(run, file);
     const std::string name = file.stem().string() + ".vtu";
     for (const auto& [kind, grid_of] : kinds) {
-      fs::create_directories(output.folder() / kind);
+      make_folders(output.folder() / kind);
       replace_file(output.folder() / kind / name, particles::vtu_text(grid_of(run, snapshot)));
     }
     steps.emplace_back(snapshot.time * snapshot.scales.time_s, name);

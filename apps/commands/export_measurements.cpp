@@ -9,6 +9,7 @@
 #include "apps/support/output_folder.hpp"
 #include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
+#include "coupling/common/text_file.hpp"
 #include "coupling/exchange/measured_run.hpp"
 #include "coupling/files/field_map_file.hpp"
 
@@ -26,7 +27,7 @@ bool is_kept(const MapField& field) {
 }
 
 void copy_to(const fs::path& from, const fs::path& to) {
-  fs::create_directories(to.parent_path());
+  make_folders(to.parent_path());
   std::error_code failed;
   if (!fs::copy_file(from, to, failed))
     throw IoError(

@@ -77,7 +77,7 @@ int import_foreign(const ImportOptions& options) {
       particles::read_import_description(*options.description, options.overrides);
   const fs::path folder = fs::absolute(*options.description).parent_path();
   StagedOutput output({run, options.existing, "import", {folder}});
-  fs::create_directories(output.folder() / "snapshots");
+  make_folders(output.folder() / "snapshots");
   replace_file(output.folder() / "import.toml", particles::import_description_text(description));
 
   Progress progress;

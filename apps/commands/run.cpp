@@ -161,7 +161,7 @@ class ParticleRun {
     const auto step = simulation_.state().step;
     const std::string name = fmt::format("problems/step-{:06}.h5", step);
     const fs::path file = options_.output / name;
-    fs::create_directories(file.parent_path());
+    make_folders(file.parent_path());
     particles::write_contact_problem(file, problem.value(), simulation_.last_places(),
                                      fmt::format("{}, step {}, {} to residual {:.3g}", scene_.title, step,
                                                  scene_.solver.name, last_.solve.residual.rms));
@@ -324,7 +324,7 @@ int run(const RunOptions& options) {
     resolved = from->scene;
   }
   cut_back(output, from);
-  fs::create_directories(options.output / "snapshots");
+  make_folders(options.output / "snapshots");
   for (const auto& [name, text] : list_texts(scene)) {
     replace_file(options.output / name, text);
     output.list(name);

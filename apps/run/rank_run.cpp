@@ -270,7 +270,7 @@ std::optional<bool> goes_on(const RunOptions& options, const particles::Scene& s
     if (from) (void)particles::Simulation(scene, from->state);  // refuses what does not fit
   }
   cut_back(*output, from);
-  fs::create_directories(options.output / "snapshots");
+  make_folders(options.output / "snapshots");
   for (const auto& [name, text] : list_texts(scene)) {
     replace_file(options.output / name, text);
     output->list(name);

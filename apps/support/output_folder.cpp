@@ -88,7 +88,7 @@ void remove_empty_folders(const fs::path& folder, const std::vector<std::string>
 }
 
 void move_file(const fs::path& from, const fs::path& to) {
-  fs::create_directories(to.parent_path());
+  make_folders(to.parent_path());
   fs::rename(from, to);
 }
 
@@ -155,7 +155,7 @@ void set_aside(const fs::path& folder, const std::vector<std::string>& known) {
     if (fs::exists(aside) && !(fs::is_directory(aside) && holds_nothing(aside)))
       throw InputError(aside.string() +
                        ": stands where the old results are to wait for the new ones; move it");
-    fs::create_directories(aside);
+    make_folders(aside);
     write_manifest(aside, old);
   }
   const bool is_theirs = read_manifest(aside).files == old.files;  // or an interrupted call has moved some
@@ -195,7 +195,7 @@ FolderLock claim(const OutputRequest& request) {
   return with_io_errors([&] {
     const fs::path& folder = request.folder;
     refuse_foreign(folder);
-    fs::create_directories(folder);
+    make_folders(folder);
     FolderLock lock(folder / folder_lock_name, "drumlin " + request.command);
     refuse_foreign(folder);
     const fs::path staging = folder / staging_name;
@@ -311,7 +311,7 @@ FolderLock prepare_output_file(const fs::path& file, ExistingOutput existing) {
     if (fs::is_directory(file)) throw InputError(file.string() + ": is a folder, a file is needed");
     if (fs::exists(file) && existing == ExistingOutput::refuse)
       throw InputError(file.string() + ": exists already; give --overwrite, or name another file");
-    fs::create_directories(folder);
+    make_folders(folder);
     return FolderLock(folder / ("." + file.filename().string() + folder_lock_name),
                       "drumlin, for " + file.filename().string());
   });

@@ -127,4 +127,19 @@ void force_to_disk(const fs::path& path) {
   if (opened.number() < 0 || ::fsync(opened.number()) != 0) give_up(path, "forced to the disk");
 }
 
+void make_folders(const fs::path& folder) {
+  if (folder.empty() || fs::is_directory(folder)) return;
+  const fs::path above = folder.parent_path();
+  make_folders(above);
+  std::error_code error;
+  if (!fs::create_directory(folder, error)) {
+    if (error) throw IoError(folder.string() + ": cannot be made: " + error.message());
+    return;
+  }
+  const Descriptor opened(::open(above.empty() ? "." : above.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  // A folder that may be written but not read cannot be opened, and so not be forced.
+  if (opened.number() < 0 && errno == EACCES) return;
+  if (opened.number() < 0 || ::fsync(opened.number()) != 0) give_up(folder, "forced to the disk");
+}
+
 }  // namespace drumlin

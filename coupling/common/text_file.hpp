@@ -26,4 +26,8 @@ bool is_left_aside(const std::filesystem::path& file);
 /// Forces the content of a file, or the names in a folder, to the disk. Throws IoError.
 void force_to_disk(const std::filesystem::path& path);
 
+/// Makes a folder and those above it that are missing, and forces the name of each new one to the disk: what
+/// is forced to the disk within it outlives a power cut only if its name does. Throws IoError.
+void make_folders(const std::filesystem::path& folder);
+
 }  // namespace drumlin

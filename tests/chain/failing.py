@@ -1,8 +1,10 @@
 """Calls of a run to the system fail, one in each trial: the run says so and ends cleanly, and --resume goes on to the same bytes.
 
-usage: failing.py DRUMLIN FAILING_CALLS_LIBRARY FOLDER_OF_THIS_TEST [--calls COUNT] [--allocations COUNT] [--show]
+usage: failing.py DRUMLIN FAILING_CALLS_LIBRARY FOLDER_OF_THIS_TEST [--calls COUNT] [--allocations COUNT] [--from NUMBER] [--to NUMBER] [--show]
   --calls COUNT        about how many calls of each kind that files are written with are tried, spread evenly (default: 0, all)
   --allocations COUNT  about how many of the run's tens of thousands of allocations are tried, spread evenly (default: 60); 0: all
+  --from NUMBER, --to NUMBER
+                       nothing but the allocations from one number to another, each of them: to share them, or to go on
   --show               lists every failure that was tried with what the run said
 """
 
@@ -71,8 +73,15 @@ class Trials:
 
     def fail_each(self, kind, wanted, crashes=()):
         """About so many of the calls of this kind, spread evenly; all of them where 0 is wanted."""
-        numbers = range(1, self.calls[kind] + 1, max(1, self.calls[kind] // wanted) if wanted else 1)
-        ended = sum(self.fail(kind, number, crashes=crashes) for number in numbers)
+        self.fail_numbers(kind, range(1, self.calls[kind] + 1, max(1, self.calls[kind] // wanted) if wanted else 1), crashes)
+
+    def fail_numbers(self, kind, numbers, crashes):
+        """One failure after the other; says every 500 how far it is."""
+        ended = 0
+        for trial, number in enumerate(numbers, 1):
+            ended += self.fail(kind, number, crashes=crashes)
+            if trial % 500 == 0:
+                print(f"{kind}: {number} of {self.calls[kind]}, {ended} of {trial} ended the run", flush=True)
         print(f"{kind}: {len(numbers)} failures of {self.calls[kind]} calls tried, {ended} ended the run", flush=True)
 
 
@@ -83,6 +92,8 @@ def main():
     parser.add_argument("tests", type=pathlib.Path)
     parser.add_argument("--calls", type=int, default=0)
     parser.add_argument("--allocations", type=int, default=60)
+    parser.add_argument("--from", type=int, dest="first")
+    parser.add_argument("--to", type=int, default=1 << 40, dest="last")
     parser.add_argument("--show", action="store_true")
     given = parser.parse_args()
     if has_address_sanitizer(given.executable):
@@ -91,6 +102,9 @@ def main():
     with tempfile.TemporaryDirectory(prefix="drumlin-failing-") as name:
         trials = Trials(given, pathlib.Path(name))
         calls = trials.calls
+        if given.first is not None:
+            trials.fail_numbers("malloc", range(given.first, min(given.last, calls["malloc"]) + 1), MISTAKEN)
+            return
         for kind in FILE_CALLS:
             trials.fail_each(kind, given.calls)
         for kind, crashes in (("malloc", MISTAKEN), ("malloc-in-hdf5", CRASHES_OF_HDF5)):

@@ -8,6 +8,7 @@
 #include "apps/support/json_file.hpp"
 #include "coupling/accuracy/work_point.hpp"
 #include "coupling/common/errors.hpp"
+#include "coupling/common/text_file.hpp"
 #include "coupling/documents/json_numbers.hpp"
 
 namespace drumlin::apps {
@@ -42,7 +43,7 @@ PointStore::PointStore(GrowingOutput& output, const Json& shared)
                         "--overwrite",
                         output.folder().string(), key));
   }
-  fs::create_directories(points_);
+  make_folders(points_);
   output.forget("*");  // what is written anew beside the points
   output.save();
   write_json(file, said);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "coupling/common/text_file.hpp"
 #include "particles/io/grain_file.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/io/snapshot_list.hpp"
@@ -64,7 +65,7 @@ Part grains_part(const MeasureOptions& options) {
   part.reading.add = [mean_velocity](const particles::Snapshot&, const particles::FlowSnapshot& in_frame,
                                      std::size_t) { (*mean_velocity)->add(in_frame); };
   part.write = [mean_velocity, files](const particles::Measurement& measured, const PartOutput& output) {
-    fs::create_directories(output.folder / "grains");
+    make_folders(output.folder / "grains");
     for (const fs::path& file : files)
       particles::write_grains(output.folder / "grains" / file.filename(),
                               record_of(particles::read_snapshot(file), measured, **mean_velocity));

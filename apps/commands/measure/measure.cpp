@@ -87,7 +87,7 @@ particles::MeasurementOptions settings_for(const MeasureOptions& options) {
 void write_slices(const fs::path& folder, const particles::Measurement& measured,
                   const particles::MeasurementOptions& settings, const RunHeader& header, Json& content) {
   if (measured.slices.empty()) return;
-  fs::create_directories(folder / "slices");
+  make_folders(folder / "slices");
   Json list = Json::array();
   for (const particles::MeasuredSlice& slice : measured.slices) {
     ProfileSet profiles = slice.profiles;
