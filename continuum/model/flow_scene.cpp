@@ -9,77 +9,66 @@ namespace drumlin::continuum {
 
 template <class Visitor>
 void describe(Visitor& v, FlowDrum& d) {
-  v.value("diameter_mm", d.diameter_mm, required("mm", above(0, 1e6), "Inner diameter of the drum."));
-  v.value("rotation_rpm", d.rotation_rpm,
-          required("rpm", above(0, 1e4), "Speed of rotation; the flow runs towards +x."));
-  v.value("slope_deg", d.slope_deg,
-          when_given("deg", above(0, 89),
-                     "Slope, prescribed; absent: the one at which the surface has no moment."));
+  v.value("diameter_mm", d.diameter_mm, required("mm", above(0, 1e6), "Inner diameter."));
+  v.value("rotation_rpm", d.rotation_rpm, required("rpm", above(0, 1e4), "The flow runs towards +x."));
+  v.value("slope_deg", d.slope_deg, when_given("deg", above(0, 89), "Prescribed; absent: found."));
 }
 template <class Visitor>
 void describe(Visitor& v, FlowIncline& i) {
-  v.value("height_mm", i.height_mm, required("mm", above(0, 1e6), "Height of the layer."));
-  v.value("slope_deg", i.slope_deg, required("deg", above(0, 89), "Slope of the plane."));
+  v.value("height_mm", i.height_mm, required("mm", above(0, 1e6), "Of the layer."));
+  v.value("slope_deg", i.slope_deg, required("deg", above(0, 89), "Of the plane."));
 }
 template <class Visitor>
 void describe(Visitor& v, FlowPlaneShear& p) {
-  v.value("gap_mm", p.gap_mm, required("mm", above(0, 1e6), "Distance of the plates."));
-  v.value("wall_speed_mm_s", p.wall_speed_mm_s,
-          required("mm/s", above(0, 1e6), "Speed of the upper plate; the lower one rests."));
-  v.value("pressure_pa", p.pressure_pa, required("Pa", above(0, 1e9), "Pressure of the upper plate."));
+  v.value("gap_mm", p.gap_mm, required("mm", above(0, 1e6), "Between the plates."));
+  v.value("wall_speed_mm_s", p.wall_speed_mm_s, required("mm/s", above(0, 1e6), "Of the upper plate."));
+  v.value("pressure_pa", p.pressure_pa, required("Pa", above(0, 1e9), "Of the upper plate."));
 }
 template <class Visitor>
 void describe(Visitor& v, FlowChute& c) {
-  v.value("half_width_mm", c.half_width_mm,
-          required("mm", above(0, 1e6), "Half of the distance of the walls."));
-  v.value("pressure_pa", c.pressure_pa, required("Pa", above(0, 1e9), "Pressure of the walls."));
+  v.value("half_width_mm", c.half_width_mm, required("mm", above(0, 1e6), "Half the gap."));
+  v.value("pressure_pa", c.pressure_pa, required("Pa", above(0, 1e9), "Of the walls."));
 }
 template <class Visitor>
 void describe(Visitor& v, FlowAnnulus& a) {
-  v.value("inner_radius_mm", a.inner_radius_mm,
-          required("mm", above(0, 1e6), "Radius of the inner cylinder."));
-  v.value("outer_radius_mm", a.outer_radius_mm,
-          required("mm", above(0, 1e6), "Radius of the outer cylinder, which rests."));
-  v.value("rotation_rpm", a.rotation_rpm, required("rpm", above(0, 1e4), "Speed of the inner cylinder."));
-  v.value("pressure_pa", a.pressure_pa, required("Pa", above(0, 1e9), "Pressure of the outer cylinder."));
+  v.value("inner_radius_mm", a.inner_radius_mm, required("mm", above(0, 1e6), "Radius."));
+  v.value("outer_radius_mm", a.outer_radius_mm, required("mm", above(0, 1e6), "Radius."));
+  v.value("rotation_rpm", a.rotation_rpm, required("rpm", above(0, 1e4), "Of the inner cylinder."));
+  v.value("pressure_pa", a.pressure_pa, required("Pa", above(0, 1e9), "Of the outer cylinder."));
 }
 template <class Visitor>
 void describe(Visitor& v, FlowGrains& g) {
   v.value("count", g.count,
-          when_given("", at_least(1, 1e9),
-                     "Number of discs: the fill of a drum, which needs it; elsewhere refused."));
+          when_given("", at_least(1, 1e9), "Number of discs, the fill of a drum; elsewhere refused."));
   v.value("diameter_min_mm", g.diameter_min_mm, required("mm", above(0, 1e6), "Smallest diameter."));
-  v.value("diameter_max_mm", g.diameter_max_mm,
-          required("mm", above(0, 1e6), "Largest diameter; diameters are uniform between."));
+  v.value("diameter_max_mm", g.diameter_max_mm, required("mm", above(0, 1e6), "Largest; uniform between."));
   v.value("density_kg_m3", g.density_kg_m3, required("kg/m3", above(0, 1e6), "Density of a disc."));
 }
 template <class Visitor>
 void describe(Visitor& v, FlowGravity& g) {
   v.value("acceleration_m_s2", g.acceleration_m_s2,
-          defaulted("m/s2", above(0, 1e4), "Strength; a part of the units even where no weight acts."));
+          defaulted("m/s2", above(0, 1e4), "Part of the units even without weight."));
 }
 template <class Visitor>
 void describe(Visitor& v, FlowMesh& m) {
-  v.value("surface_cell", m.surface_cell,
-          defaulted("d", above(0, 100),
-                    "Largest cell near the surface, the driven wall, or the wall of a chute, finest mesh."));
-  v.value("surface_zone", m.surface_zone,
-          defaulted("d", at_least(0, 1e4), "Distance from there up to which cells keep that size."));
   v.value(
-      "growth", m.growth,
-      defaulted("", at_least(0, 1), "Growth of the cell size per unit of distance beyond, coarsest mesh."));
+      "surface_cell", m.surface_cell,
+      defaulted("d", above(0, 100), "Largest cell near surface, driven wall or chute wall, finest mesh."));
+  v.value("surface_zone", m.surface_zone,
+          defaulted("d", at_least(0, 1e4), "Up to this distance from there."));
+  v.value("growth", m.growth,
+          defaulted("", at_least(0, 1), "Growth of cells per distance beyond, coarsest mesh."));
   v.value("levels", m.levels, defaulted("", at_least(1, 5), "Meshes, each twice as fine."));
   v.value("refined_share", m.refined_share,
           defaulted("", above(0, 1),
-                    "Share of the cells that each finer mesh halves, by jumps of the velocity gradient."));
+                    "Share of cells that a finer mesh halves, by jumps of the velocity gradient."));
 }
 template <class Visitor>
 void describe(Visitor& v, FlowBoundary& b) {
   v.value("corner_taper", b.corner_taper,
-          defaulted("d", above(0, 100),
-                    "Over which the wall's speed rises from nought at the ends of the surface."));
+          defaulted("d", above(0, 100), "Over which the wall's speed rises from 0 at the surface."));
   v.value("surface_stiffness", b.surface_stiffness,
-          defaulted("rho0 g", above(0, 1e8), "T_nn = -stiffness u_n at the surface."));
+          defaulted("rho0 g", above(0, 1e8), "T_nn = -stiffness u_n."));
 }
 template <class Visitor>
 void describe(Visitor& v, FlowRegularisation& r) {
@@ -90,14 +79,12 @@ void describe(Visitor& v, FlowRegularisation& r) {
 }
 template <class Visitor>
 void describe(Visitor& v, FlowSolverKeys& s) {
-  v.value("tolerance", s.tolerance,
-          defaulted("", above(0, 1), "On the nonlinear residual over the norm of the weight."));
+  v.value("tolerance", s.tolerance, defaulted("", above(0, 1), "Nonlinear residual over the weight's norm."));
   v.value("linear_tolerance", s.linear_tolerance,
-          defaulted("", above(0, 1), "On the true relative residual of each linear solve."));
-  v.value("max_iterations", s.max_iterations,
-          defaulted("", at_least(1, 10000), "Newton iterations per phase."));
+          defaulted("", above(0, 1), "True relative residual of linear solves."));
+  v.value("max_iterations", s.max_iterations, defaulted("", at_least(1, 10000), "Newton, per phase."));
   v.value("sensitivity", s.sensitivity,
-          defaulted("", anything(), "Solves again with eps / 4, p_min - 20 % and one more iteration."));
+          defaulted("", anything(), "Solves again with eps / 4, p_min - 20 %, one more iteration."));
 }
 template <class Visitor>
 void describe(Visitor&, FlowInertia&) {}
@@ -105,8 +92,7 @@ template <class Visitor>
 void describe(Visitor&, FlowRotatingFrame&) {}
 template <class Visitor>
 void describe(Visitor& v, FlowWallSlip& s) {
-  v.value("friction", s.friction,
-          required("", above(0, 2), "Coulomb friction of the wall against the grains."));
+  v.value("friction", s.friction, required("", above(0, 2), "Of the wall against the grains."));
   v.value("slip_speed", s.slip_speed,
           defaulted("sqrt(g d)", above(0, 1), "Speed at which friction is nearly full."));
 }
@@ -114,68 +100,62 @@ template <class Visitor>
 void describe(Visitor&, FlowMemory&) {}
 template <class Visitor>
 void describe(Visitor& v, FlowNonlocal& n) {
-  v.value("length", n.length, when_given("d", above(0, 1000), "For a law without a threshold."));
-  v.value("amplitude", n.amplitude,
-          when_given("d", above(0, 100), "A of a length A/sqrt(abs(mu - mu_s)) in place of that."));
-  v.value("threshold", n.threshold,
-          when_given("", above(0, 2), "mu_s, beside amplitude. Absent: that of the law."));
+  v.value("length", n.length, when_given("d", above(0, 1000), "Law without threshold."));
+  v.value("amplitude", n.amplitude, when_given("d", above(0, 100), "A of a length A/sqrt(abs(mu - mu_s))."));
+  v.value("threshold", n.threshold, when_given("", above(0, 2), "mu_s; absent: the law's."));
 }
 template <class Visitor>
 void describe(Visitor& v, FlowMovingSurface& m) {
   v.value("degree", m.degree,
           when_given("", at_least(4, 60),
-                     "Of its polynomial; absent: resolves 0.8 of a cell of the finest mesh at the ends."));
-  v.value("tolerance", m.tolerance,
-          defaulted("d", above(0, 1), "Rms of what still presses on it, as a height."));
+                     "Of its polynomial; absent: resolves 0.8 of the finest cell at the ends."));
+  v.value("tolerance", m.tolerance, defaulted("d", above(0, 1), "Rms of what presses on it, as a height."));
 }
 template <class Visitor>
 void describe(Visitor& v, FlowEffects& e) {
   v.optional_table("inertia", e.inertia, "nu u.grad u in the balance of momentum.");
-  v.optional_table("rotating_frame", e.rotating_frame,
-                   "Velocities as seen from the drum; no answer changes.");
-  v.optional_table("wall_slip", e.wall_slip, "The material slides along the wall.");
-  v.optional_table("memory", e.memory, "Memory of the axes, as the law's table [memory] says.");
+  v.optional_table("rotating_frame", e.rotating_frame, "Velocities seen from the drum; no answer changes.");
+  v.optional_table("wall_slip", e.wall_slip, "Sliding along the wall.");
+  v.optional_table("memory", e.memory, "Memory of the axes, by the law's [memory].");
   v.optional_table("nonlocal", e.nonlocal,
-                   "Fluidity spreads: g - length^2 lap g = g_loc, or amplitude^2 lap g/g = mu(I) - mu.");
+                   "g - length^2 lap g = g_loc, or amplitude^2 lap g/g = mu(I) - mu.");
   v.optional_table("moving_surface", e.moving_surface, "The surface goes where nothing presses on it.");
 }
 template <class Visitor>
 void describe(Visitor& v, FlowTime& t) {
-  v.value("step_s", t.step_s, required("s", above(0, 1e6), "Length of a step."));
+  v.value("step_s", t.step_s, required("s", above(0, 1e6), "Step."));
   v.value("steps", t.steps, required("", at_least(1, 1e6), "Number of steps."));
-  v.value(
-      "ramp_s", t.ramp_s,
-      defaulted("s", at_least(0, 1e9), "Over which the drum's speed goes from that of the start, linearly."));
-  v.value("every", t.every, defaulted("", at_least(1, 1e6), "Steps from kept state to kept state."));
+  v.value("ramp_s", t.ramp_s,
+          defaulted("s", at_least(0, 1e9), "Linear change of the drum's speed from the start's."));
+  v.value("every", t.every, defaulted("", at_least(1, 1e6), "Steps from one kept state to the next."));
 }
 template <class Visitor>
 void describe(Visitor& v, FlowOutput& o) {
   v.value("slice_width", o.slice_width,
           when_given("d", above(0, 1e4),
-                     "Of the profiles of a drum: 20, at most a quarter of the chord; elsewhere refused."));
-  v.value("layer_thickness", o.layer_thickness, defaulted("d", above(0, 100), "Thickness of its layers."));
-  v.value("map_spacing", o.map_spacing, defaulted("d", above(0, 100), "Spacing of the points of maps.h5."));
-  v.value("figures", o.figures, defaulted("", anything(), "Draws the figures."));
+                     "Of a drum's profiles; absent: 20, at most a quarter of the chord. Elsewhere refused."));
+  v.value("layer_thickness", o.layer_thickness, defaulted("d", above(0, 100), "Thickness."));
+  v.value("map_spacing", o.map_spacing, defaulted("d", above(0, 100), "Of maps.h5."));
+  v.value("figures", o.figures, defaulted("", anything(), "Draws figures."));
 }
 template <class Visitor>
 void describe(Visitor& v, FlowScene& s) {
   v.format("drumlin-flow-scene-1");
-  v.value("title", s.title, defaulted("", title_line(), "Title, for reports."));
-  v.value("reduced", s.reduced,
-          defaulted("", anything(), "Says \"reduced\" on every output: a trial, no result."));
-  v.one_table_of(s.geometry, "Geometry:", alternative<FlowDrum>("drum", "a rotating drum."),
-                 alternative<FlowIncline>("incline", "a layer on a rough plane, free at its top."),
-                 alternative<FlowPlaneShear>("plane_shear", "between two rough plates, no weight."),
-                 alternative<FlowChute>("chute", "between two rough upright walls."),
-                 alternative<FlowAnnulus>("annulus", "between two rough cylinders, no weight."));
+  v.value("title", s.title, defaulted("", title_line(), "For reports."));
+  v.value("reduced", s.reduced, defaulted("", anything(), "Marks every output as a trial."));
+  v.one_table_of(s.geometry, "Geometry:", alternative<FlowDrum>("drum", "drum."),
+                 alternative<FlowIncline>("incline", "layer on a plane."),
+                 alternative<FlowPlaneShear>("plane_shear", "between plates."),
+                 alternative<FlowChute>("chute", "between upright walls."),
+                 alternative<FlowAnnulus>("annulus", "between cylinders."));
   v.table("grains", s.grains, Need::required, "The grains.");
   v.table("gravity", s.gravity, Need::defaulted, "Gravity.");
-  v.table("mesh", s.mesh, Need::defaulted, "Finite-element meshes.");
-  v.optional_table("boundary", s.boundary, "Wall and free surface of a drum; elsewhere refused.");
+  v.table("mesh", s.mesh, Need::defaulted, "Meshes.");
+  v.optional_table("boundary", s.boundary, "Of a drum; elsewhere refused.");
   v.table("effects", s.effects, Need::defaulted, "Of a drum alone.");
-  v.optional_table("time", s.time, "Of a drum alone: steps in time; absent: the steady flow.");
-  v.table("regularisation", s.regularisation, Need::defaulted, "Where the law is smoothed.");
-  v.table("solver", s.solver, Need::defaulted, "When the solver may stop.");
+  v.optional_table("time", s.time, "Steps of a drum; absent: steady flow.");
+  v.table("regularisation", s.regularisation, Need::defaulted, "Smoothing of the law.");
+  v.table("solver", s.solver, Need::defaulted, "Newton solver.");
   v.table("output", s.output, Need::defaulted, "Profiles and maps.");
 }
 

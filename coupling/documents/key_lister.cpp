@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <tuple>
 
 #include "coupling/documents/toml_text.hpp"
@@ -17,28 +19,55 @@ std::string cell(const std::string& text) {
   return result;
 }
 
-/// The range of a key for a table of a page: "-1 to 1" as "+-1".
+/// A number of a range as short as it goes: "1000000" as "1e6".
+std::string short_number(const std::string& number) {
+  const std::size_t last = number.find_last_not_of('0');
+  const std::size_t zeros = last == std::string::npos ? 0 : number.size() - 1 - last;
+  const bool is_power = zeros > 3 && number.find_first_not_of("-0123456789") == std::string::npos;
+  return is_power ? fmt::format("{}e{}", number.substr(0, last + 1), zeros) : number;
+}
+
+/// The range of a key for a table of a page: "above 0 to 1" as "(0, 1]", "-1 to 1" as "+-1".
 std::string range_cell(const std::string& allowed) {
   const std::size_t middle = allowed.find(" to ");
-  if (!allowed.starts_with('-') || middle == std::string::npos) return allowed;
+  if (middle == std::string::npos) return allowed;
+  const bool is_open = allowed.starts_with("above ");
+  const std::string least = allowed.substr(is_open ? 6 : 0, middle - (is_open ? 6 : 0));
   const std::string most = allowed.substr(middle + 4);
-  return allowed.substr(1, middle - 1) == most ? "+-" + most : allowed;
-}
-
-/// The value of a key for a table of a page, where a unit alone ("mm") is a number in it.
-std::string value_cell(const KeyRow& row) {
-  std::string type = row.type.starts_with("array of ") ? row.type.substr(9) : row.type;
-  if (!row.unit.empty()) type = type == "number" ? row.unit : type + " in " + row.unit;
-  return row.allowed.empty() || row.allowed == "not empty" ? type : type + ", " + range_cell(row.allowed);
-}
-
-/// The word of `kind = "word"` that a key is of.
-std::string choice_cell(const std::string& condition) {
-  const std::size_t quote = condition.find('"');
-  return condition.empty() ? "" : " (" + condition.substr(quote + 1, condition.rfind('"') - quote - 1) + ")";
+  if (least == "-" + most) return "+-" + short_number(most);
+  return fmt::format("{}{}, {}]", is_open ? '(' : '[', short_number(least), short_number(most));
 }
 
 bool is_table_row(const KeyRow& row) { return row.type == "table" || row.type == "array of tables"; }
+
+/// The value of a key for a table of a page, where a unit alone ("mm") is a number in it and a list of words
+/// a text.
+std::string value_cell(const KeyRow& row) {
+  std::string type = row.type.starts_with("array of ") ? row.type.substr(9) : row.type;
+  if (type == "true or false") type = "boolean";
+  if (!row.unit.empty()) type = type == "number" ? row.unit : type + " in " + row.unit;
+  if (row.allowed.empty() || row.allowed == "not empty") return type;
+  return row.allowed.starts_with('"') ? row.allowed : type + ", " + range_cell(row.allowed);
+}
+
+/// The default of a key for a table of a page: empty for one that is required.
+std::string default_cell(const KeyRow& row) {
+  if (row.standard == "required") return "";
+  return is_table_row(row) || row.standard == "absent" ? row.standard : "`" + cell(row.standard) + "`";
+}
+
+/// The word of `kind = "word"` that a key is of; empty for a key of no alternative.
+std::string choice_of(const KeyRow& row) {
+  const std::size_t quote = row.condition.find('"');
+  return row.condition.empty() ? "" : row.condition.substr(quote + 1, row.condition.rfind('"') - quote - 1);
+}
+
+/// Whether two rows say the same of one key of two alternatives.
+bool same_key_of_alternatives(const KeyRow& a, const KeyRow& b) {
+  return !a.condition.empty() && !b.condition.empty() &&
+         std::tie(a.path, a.type, a.unit, a.allowed, a.standard, a.sentence) ==
+             std::tie(b.path, b.type, b.unit, b.allowed, b.standard, b.sentence);
+}
 
 /// Where the keys of the table in row `table` end; `table` + 1 for a row that is no table.
 std::size_t end_of_table(const std::vector<KeyRow>& rows, std::size_t table) {
@@ -92,9 +121,18 @@ std::string keys_as_markdown(const std::vector<KeyRow>& rows) {
     const KeyRow& row = rows[i];
     const std::size_t end = end_of_table(rows, i);
     const KeyRow* printed = same_table_before(rows, i);
-    const bool quotes_default = !is_table_row(row) && row.standard != "required" && row.standard != "absent";
-    text += fmt::format("| `{}`{} | {} | {} | {}{} |\n", cell(row.path), choice_cell(row.condition),
-                        cell(value_cell(row)), quotes_default ? "`" + cell(row.standard) + "`" : row.standard,
+    const auto is_same = [&](const KeyRow& other) { return same_key_of_alternatives(row, other); };
+    const auto first = rows.begin() + static_cast<std::ptrdiff_t>(i);
+    if (!is_table_row(row) && std::any_of(rows.begin(), first, is_same)) {
+      ++i;
+      continue;
+    }
+    std::string choices = choice_of(row);
+    if (!is_table_row(row))
+      for (auto other = first + 1; other != rows.end(); ++other)
+        if (is_same(*other)) choices += ", " + choice_of(*other);
+    text += fmt::format("| `{}`{} | {} | {} | {}{} |\n", cell(row.path),
+                        choices.empty() ? "" : " (" + choices + ")", cell(value_cell(row)), default_cell(row),
                         cell(row.sentence),
                         printed == nullptr ? "" : " Keys: those of `" + cell(printed->path) + "`.");
     i = printed == nullptr ? i + 1 : end;
@@ -103,7 +141,7 @@ std::string keys_as_markdown(const std::vector<KeyRow>& rows) {
 }
 
 void KeyLister::format(const std::string& text) {
-  rows_.push_back({"format", "text", "", "\"" + text + "\"", "required", "", "Version of this format."});
+  rows_.push_back({"format", "text", "", "\"" + text + "\"", "required", "", "Version."});
 }
 
 std::string KeyLister::text_of_only_value(const Node& table) {

@@ -24,7 +24,8 @@ struct KeyRow {
   std::string sentence;
 };
 std::string keys_as_text(const std::vector<KeyRow>& rows);
-/// A Markdown table; a table whose keys stand there already under another name refers to them.
+/// A Markdown table. A table whose keys stand there already under another name refers to them; keys that
+/// several alternatives share stand there once. A key without a default is required.
 std::string keys_as_markdown(const std::vector<KeyRow>& rows);
 
 /// Walks a default-constructed struct, every alternative of its variants, one entry of its arrays.

@@ -25,11 +25,9 @@ inline Allowed value_between(const Cohesion*) { return at_least(0, 1e6); }
 template <class Visitor>
 void describe(Visitor& v, Cohesion& c) {
   v.value("grain_grain", c.grain_grain,
-          required("", at_least(0, 1e6),
-                   "Attraction of two grains that touch, in weights of a disc of the mean diameter."));
-  v.value("grain_wall", c.grain_wall, required("", at_least(0, 1e6), "The same between a grain and a wall."));
-  v.value("range_d", c.range_d,
-          defaulted("d", above(0, 1), "Surfaces closer than this touch, in mean diameters."));
+          required("", at_least(0, 1e6), "Between grains, in weights of the mean disc."));
+  v.value("grain_wall", c.grain_wall, required("", at_least(0, 1e6), "With a wall."));
+  v.value("range_d", c.range_d, defaulted("d", above(0, 1), "Surfaces closer than this touch."));
   v.tables("pairs", c.pairs, 0, pairs_sentence);
 }
 

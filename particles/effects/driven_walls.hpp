@@ -24,12 +24,11 @@ struct ForceOscillation {
 
 template <class Visitor>
 void describe(Visitor& v, ForceOscillation& o) {
-  v.value("amplitude_n_m", o.amplitude_n_m,
-          required("N/m", at_least(-1e12, 1e12), "Amplitude of the force, per metre of depth."));
-  v.value("frequency_hz", o.frequency_hz, required("Hz", above(0, 1e6), "Oscillations per second."));
-  v.value("phase_deg", o.phase_deg,
-          defaulted("deg", at_least(-360, 360),
-                    "The force is amplitude sin(2 pi f t + phase), t from the stage's start."));
+  v.value("amplitude_n_m", o.amplitude_n_m, required("N/m", at_least(-1e12, 1e12), "Amplitude."));
+  v.value("frequency_hz", o.frequency_hz, required("Hz", above(0, 1e6), "Frequency."));
+  v.value(
+      "phase_deg", o.phase_deg,
+      defaulted("deg", at_least(-360, 360), "amplitude sin(2 pi f t + phase), t from the stage's start."));
 }
 
 /// The keys of a motion of kind "force".
@@ -43,18 +42,14 @@ struct ForceControl {
 
 template <class Visitor>
 void describe(Visitor& v, ForceControl& f) {
-  v.value(
-      "direction", f.direction,
-      required("", at_least(-1e6, 1e6), "Direction [x, z] of force and motion; its length does not matter."));
-  v.value(
-      "force_n_m", f.force_n_m,
-      required("N/m", at_least(-1e12, 1e12),
-               "Force along it, per metre of depth: all that acts beside the grains, the weight included."));
-  v.value("mass_kg_m", f.mass_kg_m,
-          required("kg/m", above(0, 1e12), "Mass of the wall, per metre of depth: its inertia."));
+  v.value("direction", f.direction,
+          required("", at_least(-1e6, 1e6), "Direction [x, z]; its length does not matter."));
+  v.value("force_n_m", f.force_n_m,
+          required("N/m", at_least(-1e12, 1e12), "All beside the grains, weight included."));
+  v.value("mass_kg_m", f.mass_kg_m, required("kg/m", above(0, 1e12), "Inertia, per metre of depth."));
   v.value("velocity_mm_s", f.velocity_mm_s,
           defaulted("mm/s", at_least(-1e9, 1e9), "Velocity [v_x, v_z] across the direction."));
-  v.optional_table("oscillation", f.oscillation, "A force that comes and goes, added to force_n_m.");
+  v.optional_table("oscillation", f.oscillation, "Added to force_n_m.");
 }
 
 /// The law: direction, force and mass in the units of the simulation. `state`: its place among the states.

@@ -16,9 +16,8 @@ inline Allowed value_between(const Friction*) { return at_least(0, 100); }
 
 template <class Visitor>
 void describe(Visitor& v, Friction& f) {
-  v.value("grain_grain", f.grain_grain, required("", at_least(0, 100), "Coefficient between two grains."));
-  v.value("grain_wall", f.grain_wall,
-          required("", at_least(0, 100), "Coefficient between a grain and a wall."));
+  v.value("grain_grain", f.grain_grain, required("", at_least(0, 100), "Between grains."));
+  v.value("grain_wall", f.grain_wall, required("", at_least(0, 100), "With a wall."));
   v.tables("pairs", f.pairs, 0, pairs_sentence);
 }
 

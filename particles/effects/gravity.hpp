@@ -15,10 +15,9 @@ struct Gravity {
 template <class Visitor>
 void describe(Visitor& v, Gravity& g) {
   v.value("acceleration_m_s2", g.acceleration_m_s2,
-          defaulted("m/s2", above(0, 1e6), "Strength of gravity; sets the unit of time, sqrt(d/g)."));
-  v.value(
-      "direction_deg", g.direction_deg,
-      defaulted("deg", at_least(-360, 360), "Direction, from +x anticlockwise as drawn; -90 points down."));
+          defaulted("m/s2", above(0, 1e6), "Strength; sets the unit of time, sqrt(d/g)."));
+  v.value("direction_deg", g.direction_deg,
+          defaulted("deg", at_least(-360, 360), "Anticlockwise from +x; -90: down."));
 }
 
 /// The law: the acceleration in the units of the simulation.

@@ -21,11 +21,9 @@ struct CellAxis {
 template <class Visitor>
 void describe(Visitor& v, CellAxis& a) {
   v.value("pressure_n_m2", a.pressure_n_m2,
-          when_given("N/m2", above(0, 1e12),
-                     "The length follows a pressure: the grains' stress along the axis equals it in the "
-                     "mean. Either this or rate_per_s."));
+          when_given("N/m2", above(0, 1e12), "Mean stress along the axis. This or rate_per_s."));
   v.value("rate_per_s", a.rate_per_s,
-          when_given("1/s", at_least(-1e6, 1e6), "Rate of change over the length. Negative: compression."));
+          when_given("1/s", at_least(-1e6, 1e6), "Strain rate; negative: compression."));
 }
 
 /// The keys of a stage's cell.
@@ -37,14 +35,13 @@ struct StageCell {
 
 template <class Visitor>
 void describe(Visitor& v, StageCell& c) {
-  v.optional_table("xx", c.xx, "What moves the length along x; it stays where nothing does.");
-  v.optional_table("zz", c.zz, "What moves the length along z.");
+  v.optional_table("xx", c.xx, "Length along x; without: fixed.");
+  v.optional_table("zz", c.zz, "Length along z.");
   v.value("shear_rate_per_s", c.shear_rate_per_s,
-          when_given("1/s", at_least(-1e6, 1e6),
-                     "Shear rate dv_x/dz: the image above moves at the rate times the length along z."));
-  v.value("inertia", c.inertia,
-          defaulted("", above(0, 1e6),
-                    "Inertia of a length that follows a pressure, in m L^2 / 12, m the mass of all grains."));
+          when_given("1/s", at_least(-1e6, 1e6), "Shear rate dv_x/dz."));
+  v.value(
+      "inertia", c.inertia,
+      defaulted("", above(0, 1e6), "Of a length under pressure, in m L^2 / 12, m the mass of all grains."));
 }
 
 /// State of the cell: lengths, displacement of the image above along x, rates. Dimensionless. Its middle

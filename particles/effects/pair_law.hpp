@@ -18,13 +18,12 @@ struct MaterialPair {
   double value = 0;
 };
 
-inline constexpr const char* pairs_sentence = "Values between two materials, in place of the two above.";
+inline constexpr const char* pairs_sentence = "In place of the two above, by materials.";
 
 template <class Visitor, class Law>
 void describe(Visitor& v, MaterialPair<Law>& p) {
-  v.value("between", p.between, required("", not_empty(), "The names of two materials, or of one twice."));
-  v.value("value", p.value,
-          required("", value_between(static_cast<const Law*>(nullptr)), "The value between them."));
+  v.value("between", p.between, required("", not_empty(), "Two names, or one twice."));
+  v.value("value", p.value, required("", value_between(static_cast<const Law*>(nullptr)), "Value."));
 }
 
 /// One value between grains, one between a grain and a wall.

@@ -17,8 +17,8 @@ inline Allowed value_between(const Restitution*) { return at_least(0, 1); }
 template <class Visitor>
 void describe(Visitor& v, Restitution& r) {
   v.value("grain_grain", r.grain_grain,
-          required("", at_least(0, 1), "Share of the normal approach speed that two grains part with."));
-  v.value("grain_wall", r.grain_wall, required("", at_least(0, 1), "The same between a grain and a wall."));
+          required("", at_least(0, 1), "Between grains: speed after over before."));
+  v.value("grain_wall", r.grain_wall, required("", at_least(0, 1), "With a wall."));
   v.tables("pairs", r.pairs, 0, pairs_sentence);
 }
 

@@ -21,10 +21,8 @@ template <class Visitor>
 void describe(Visitor& v, RollingResistance& r) {
   v.value(
       "grain_grain", r.grain_grain,
-      required("", at_least(0, 100),
-               "Coefficient mu_r between two grains: a couple of at most mu_r R r_n, 1/R = 1/r_i + 1/r_j."));
-  v.value("grain_wall", r.grain_wall,
-          required("", at_least(0, 100), "The same between a grain and a wall, R the grain's radius."));
+      required("", at_least(0, 100), "mu_r between grains: a couple up to mu_r R r_n, 1/R = 1/r_i + 1/r_j."));
+  v.value("grain_wall", r.grain_wall, required("", at_least(0, 100), "With a wall; R the grain's radius."));
   v.tables("pairs", r.pairs, 0, pairs_sentence);
 }
 

@@ -20,11 +20,8 @@ struct RotatingFrame {
 
 template <class Visitor>
 void describe(Visitor& v, RotatingFrame& f) {
-  v.value("speed_rpm", f.speed_rpm,
-          required("turns/min", at_least(-1e6, 1e6),
-                   "Angular velocity of the frame, positive clockwise as drawn (z up)."));
-  v.value("center_mm", f.center_mm,
-          defaulted("mm", coordinate_mm(), "Point [x, z] about which the frame turns."));
+  v.value("speed_rpm", f.speed_rpm, required("turns/min", at_least(-1e6, 1e6), "Positive clockwise."));
+  v.value("center_mm", f.center_mm, defaulted("mm", coordinate_mm(), "Centre [x, z]."));
 }
 
 /// The law. Turns about `center`; coincides with the laboratory at time 0.

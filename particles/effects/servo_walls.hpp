@@ -26,21 +26,15 @@ struct PressureControl {
 template <class Visitor>
 void describe(Visitor& v, PressureControl& p) {
   v.value("direction", p.direction,
-          required("", at_least(-1e6, 1e6),
-                   "Direction [x, z] of pressure and motion; its length does not matter."));
+          required("", at_least(-1e6, 1e6), "Direction [x, z]; its length does not matter."));
   v.value("pressure_n_m2", p.pressure_n_m2,
-          required("N/m2", at_least(-1e12, 1e12),
-                   "Pressure along it: all that acts beside the grains, the weight of the wall included."));
-  v.value("mass_kg_m", p.mass_kg_m,
-          required("kg/m", above(0, 1e12), "Mass of the wall, per metre of depth: its inertia."));
+          required("N/m2", at_least(-1e12, 1e12), "All beside the grains, weight included."));
+  v.value("mass_kg_m", p.mass_kg_m, required("kg/m", above(0, 1e12), "Inertia, per metre of depth."));
   v.value("velocity_mm_s", p.velocity_mm_s,
           defaulted("mm/s", at_least(-1e9, 1e9), "Velocity [v_x, v_z] across the direction."));
   v.value(
       "between", p.between,
-      when_given(
-          "", not_empty(),
-          "Names of two walls: the pressure acts on the length between the middles of their "
-          "first shapes, as it is in each step. Without: on the length of the wall, at most the period."));
+      when_given("", not_empty(), "Two walls: pressed length, between the middles of their first shapes."));
 }
 
 /// The keys of a motion of kind "strain_rate".
@@ -53,14 +47,12 @@ struct StrainRate {
 template <class Visitor>
 void describe(Visitor& v, StrainRate& s) {
   v.value("direction", s.direction,
-          required("", at_least(-1e6, 1e6), "Direction [x, z] of the motion; its length does not matter."));
+          required("", at_least(-1e6, 1e6), "Direction [x, z]; its length does not matter."));
   v.value("reference_mm", s.reference_mm,
           required("mm", at_least(-1e6, 1e6),
-                   "Point [x, z] that the strain leaves in place: the distance from it is that of the middle "
-                   "of the wall's first shape, along the direction."));
+                   "Fixed point [x, z]; L: from it to the middle of the wall's first shape."));
   v.value("rate_per_s", s.rate_per_s,
-          required("1/s", at_least(-1e6, 1e6),
-                   "Velocity over distance: the distance is L exp(rate t). Negative: compression."));
+          required("1/s", at_least(-1e6, 1e6), "L grows as exp(rate t); negative: compression."));
 }
 
 /// The laws, in the units of the simulation, of wall `wall` at the start of a stage. `state`: the place of a

@@ -17,13 +17,10 @@ struct StageGravity {
 template <class Visitor>
 void describe(Visitor& v, StageGravity& g) {
   v.value("acceleration_m_s2", g.acceleration_m_s2,
-          when_given("m/s2", at_least(0, 1e6), "Strength of gravity; as before where it is not given."));
+          when_given("m/s2", at_least(0, 1e6), "Without: as before."));
   v.value("direction_deg", g.direction_deg,
-          when_given("deg", at_least(-360, 360),
-                     "Direction, from +x anticlockwise as drawn; as before where it is not given."));
-  v.value("ramp", g.ramp,
-          defaulted("", anything(),
-                    "From the values before to these at even rates, over the full length of the stage."));
+          when_given("deg", at_least(-360, 360), "Anticlockwise from +x; without: as before."));
+  v.value("ramp", g.ramp, defaulted("", anything(), "Changes at even rates over the full stage."));
 }
 
 /// Gravity in a stage that finds `before` and of whose full length the share `done` (0 to 1) has passed.

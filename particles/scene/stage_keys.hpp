@@ -7,113 +7,104 @@ namespace drumlin::particles {
 
 template <class Visitor>
 void describe(Visitor& v, Rotation& r) {
-  v.value("speed_rpm", r.speed_rpm,
-          required("turns/min", at_least(-1e6, 1e6), "Angular velocity, positive clockwise."));
+  v.value("speed_rpm", r.speed_rpm, required("turns/min", at_least(-1e6, 1e6), "Positive clockwise."));
   v.value("center_mm", r.center_mm,
           defaulted("mm", coordinate_mm(), "Point [x, z] about which the wall turns."));
 }
 
 template <class Visitor>
 void describe(Visitor& v, Translation& t) {
-  v.value("velocity_mm_s", t.velocity_mm_s,
-          required("mm/s", at_least(-1e9, 1e9), "Velocity [v_x, v_z] of the wall."));
+  v.value("velocity_mm_s", t.velocity_mm_s, required("mm/s", at_least(-1e9, 1e9), "Velocity [v_x, v_z]."));
 }
 
 template <class Visitor>
 void describe(Visitor& v, Oscillation& o) {
-  v.value("amplitude_mm", o.amplitude_mm,
-          required("mm", coordinate_mm(), "Amplitude [x, z] of the displacement."));
-  v.value("frequency_hz", o.frequency_hz, required("Hz", above(0, 1e6), "Oscillations per second."));
-  v.value(
-      "phase_deg", o.phase_deg,
-      defaulted("deg", at_least(-360, 360),
-                "Displacement: amplitude (sin(2 pi f t + phase) - sin(phase)), t from the stage's start."));
+  v.value("amplitude_mm", o.amplitude_mm, required("mm", coordinate_mm(), "Amplitude [x, z]."));
+  v.value("frequency_hz", o.frequency_hz, required("Hz", above(0, 1e6), "Frequency."));
+  v.value("phase_deg", o.phase_deg,
+          defaulted("deg", at_least(-360, 360),
+                    "Motion: amplitude (sin(2 pi f t + phase) - sin(phase)), t from the stage's start."));
 }
 
 template <class Visitor>
 void describe(Visitor& v, Rocking& r) {
-  v.value("amplitude_deg", r.amplitude_deg,
-          required("deg", at_least(-360, 360), "Amplitude of the angle, clockwise."));
-  v.value("frequency_hz", r.frequency_hz, required("Hz", above(0, 1e6), "Oscillations per second."));
+  v.value("amplitude_deg", r.amplitude_deg, required("deg", at_least(-360, 360), "Amplitude, clockwise."));
+  v.value("frequency_hz", r.frequency_hz, required("Hz", above(0, 1e6), "Frequency."));
   v.value("phase_deg", r.phase_deg,
           defaulted("deg", at_least(-360, 360),
-                    "Angle: amplitude (sin(2 pi f t + phase) - sin(phase)), t from the stage's start."));
+                    "Motion: amplitude (sin(2 pi f t + phase) - sin(phase)), t from the stage's start."));
   v.value("center_mm", r.center_mm,
-          defaulted("mm", coordinate_mm(), "Point [x, z] about which the wall rocks."));
+          defaulted("mm", coordinate_mm(), "Point [x, z] about which the wall turns."));
 }
 
 template <class Visitor>
 void describe(Visitor& v, WallMotion& m) {
-  v.value("wall", m.wall, required("", not_empty(), "The wall that moves."));
-  v.variant("kind", m.motion, "Kind of motion.", alternative<Rotation>("rotation", "turns about a point."),
-            alternative<Translation>("translation", "glides along a straight line."),
-            alternative<Oscillation>("oscillation", "shakes along a straight line."),
-            alternative<Rocking>("rocking", "turns to and fro about a point."),
-            alternative<ForceControl>("force", "moves along a direction as a force and the grains push it."),
-            alternative<PressureControl>("pressure", "the same under a pressure."),
-            alternative<StrainRate>("strain_rate", "its distance from a point changes at a constant rate."));
+  v.value("wall", m.wall, required("", not_empty(), "Its name."));
+  v.variant("kind", m.motion, "Kind.", alternative<Rotation>("rotation", "about a point."),
+            alternative<Translation>("translation", "along a line."),
+            alternative<Oscillation>("oscillation", "along a line, to and fro."),
+            alternative<Rocking>("rocking", "about a point, to and fro."),
+            alternative<ForceControl>("force", "along a line, as force and grains push."),
+            alternative<PressureControl>("pressure", "the same."),
+            alternative<StrainRate>("strain_rate", "distance changes at a constant rate."));
 }
 
 template <class Visitor>
 void describe(Visitor& v, StageCoefficients& c) {
-  v.value("grain_grain", c.grain_grain, required("", at_least(0, 100), "Value between two grains."));
-  v.value("grain_wall", c.grain_wall, required("", at_least(0, 100), "Value between a grain and a wall."));
+  v.value("grain_grain", c.grain_grain, required("", at_least(0, 100), "Between grains."));
+  v.value("grain_wall", c.grain_wall, required("", at_least(0, 100), "With a wall."));
 }
 
 template <class Visitor>
 void describe(Visitor& v, StageCohesion& c) {
-  v.value(
-      "grain_grain", c.grain_grain,
-      required("", at_least(0, 1e6), "Attraction of two grains that touch, in weights of the mean disc."));
-  v.value("grain_wall", c.grain_wall, required("", at_least(0, 1e6), "The same between a grain and a wall."));
+  v.value("grain_grain", c.grain_grain,
+          required("", at_least(0, 1e6), "Between grains, in weights of the mean disc."));
+  v.value("grain_wall", c.grain_wall, required("", at_least(0, 1e6), "With a wall."));
 }
 
 template <class Visitor>
 void describe(Visitor& v, UntilRest& u) {
   v.value("energy", u.energy,
           defaulted("", above(0, 1e6), "Kinetic energy per grain, in weights of the mean disc times d."));
-  v.value("for_s", u.for_s, required("s", at_least(0), "It is below that for so long."));
+  v.value("for_s", u.for_s, required("s", at_least(0), "Below that for so long."));
 }
 
 template <class Visitor>
 void describe(Visitor& v, UntilMoved& u) {
-  v.value("wall", u.wall, required("", not_empty(), "Name of the wall."));
-  v.value(
-      "distance_mm", u.distance_mm,
-      required("mm", above(0, 1e6), "The middle of its first shape has moved so far since the stage began."));
+  v.value("wall", u.wall, required("", not_empty(), "Its name."));
+  v.value("distance_mm", u.distance_mm,
+          required("mm", above(0, 1e6), "By the middle of its first shape, in this stage."));
 }
 
 template <class Visitor>
 void describe(Visitor& v, UntilOut& u) {
-  v.value("outlet", u.outlet, required("", not_empty(), "Name of the outlet."));
-  v.value("count", u.count, required("", at_least(1, 1e8), "So many since the stage began."));
+  v.value("outlet", u.outlet, required("", not_empty(), "Its name."));
+  v.value("count", u.count, required("", at_least(1, 1e8), "So many in this stage."));
 }
 
 template <class Visitor>
 void describe(Visitor& v, Until& u) {
-  v.optional_table("at_rest", u.at_rest, "The grains are at rest.");
+  v.optional_table("at_rest", u.at_rest, "Grains are at rest.");
   v.optional_table("moved", u.moved, "A wall has moved.");
   v.optional_table("out", u.out, "An outlet has taken grains.");
 }
 
 template <class Visitor>
 void describe(Visitor& v, Stage& s) {
-  v.value("name", s.name, required("", not_empty(), "Name of the stage, for the log."));
-  v.value("duration_s", s.duration_s,
-          when_given("s", above(0), "Length of the stage; either this or turns."));
-  v.value("turns", s.turns,
-          when_given("turns", above(0), "The same in turns of the first rotation among its motions."));
+  v.value("name", s.name, required("", not_empty(), "Name, in the log."));
+  v.value("duration_s", s.duration_s, when_given("s", above(0), "This or turns."));
+  v.value("turns", s.turns, when_given("turns", above(0), "Of the first rotation among its motions."));
   v.value("time_step_s", s.time_step_s,
-          required("s", above(0), "Time step; adapted a little so that whole steps fill the stage."));
-  v.value("snapshots", s.snapshots, defaulted("", at_least(0, 1e6), "Evenly spread, the last at its end."));
-  v.tables("motions", s.motions, 0, "At most one motion per wall.");
-  v.value("opens", s.opens, when_given("", not_empty(), "Walls that are gone from its start on."));
-  v.optional_table("gravity", s.gravity, "Another gravity; it stays until another stage changes it.");
+          required("s", above(0), "Adapted so that whole steps fill the stage."));
+  v.value("snapshots", s.snapshots, defaulted("", at_least(0, 1e6), "Evenly spread, last at the end."));
+  v.tables("motions", s.motions, 0, "At most one per wall.");
+  v.value("opens", s.opens, when_given("", not_empty(), "Walls gone from its start on."));
+  v.optional_table("gravity", s.gravity, "Stays until another stage changes it.");
   v.optional_table("friction", s.friction, "In place of effects.friction.");
   v.optional_table("restitution", s.restitution, "In place of effects.restitution.");
   v.optional_table("rolling_resistance", s.rolling_resistance, "In place of effects.rolling_resistance.");
   v.optional_table("cohesion", s.cohesion, "In place of effects.cohesion, whose range stays.");
-  v.optional_table("until", s.until, "Ends the stage early, when the first of these is met.");
+  v.optional_table("until", s.until, "Ends the stage when the first is met.");
   v.optional_table("cell", s.cell, "How the cell of periodic_z moves.");
 }
 

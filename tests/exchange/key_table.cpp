@@ -267,8 +267,7 @@ TEST(KeyTable, ListsEveryKeyOfEveryAlternative) {
   EXPECT_EQ(rows[4].standard, "absent");
   EXPECT_NE(keys_as_text(rows).find("sown.seeds\n    integer, 1 to 100, required\n    Number of seeds.\n"),
             std::string::npos);
-  EXPECT_NE(keys_as_markdown(rows).find("| `height_m` | m, above 0 to 3 | absent | Height. |"),
-            std::string::npos);
+  EXPECT_NE(keys_as_markdown(rows).find("| `height_m` | m, (0, 3] | absent | Height. |"), std::string::npos);
   const KeyRow turn{"wall.turn_deg", "number", "deg", "-360 to 360", "0.0", "kind = \"rocking\"", "Turn."};
   EXPECT_NE(keys_as_markdown({turn}).find("| `wall.turn_deg` (rocking) | deg, +-360 | `0.0` | Turn. |"),
             std::string::npos);
@@ -285,10 +284,21 @@ TEST(KeyTable, PrintsTheKeysOfEqualTablesOnce) {
   EXPECT_EQ(keys_as_markdown(rows),
             "| key | value | default | meaning |\n|---|---|---|---|\n"
             "| `pond` | table | absent | A pond. |\n"
-            "| `pond.depth_m` | m, > 0 | required | Depth. |\n"
+            "| `pond.depth_m` | m, > 0 |  | Depth. |\n"
             "| `pool` | table | absent | A pond. Keys: those of `pond`. |\n"
             "| `well` | table | absent | A pond. |\n"
-            "| `well.depth_m` | m, > 9 | required | Depth. |\n");
+            "| `well.depth_m` | m, > 9 |  | Depth. |\n");
+}
+
+TEST(KeyTable, PrintsOnceWhatAlternativesShare) {
+  const auto row = [](const std::string& allowed, const std::string& word) {
+    return KeyRow{"bed.side_m", "number", "m", allowed, "required", "shape = \"" + word + "\"", "Side."};
+  };
+  EXPECT_EQ(keys_as_markdown({row("above 0 to 1000000", "square"), row("0 to 150", "star"),
+                              row("above 0 to 1000000", "hexagon")}),
+            "| key | value | default | meaning |\n|---|---|---|---|\n"
+            "| `bed.side_m` (square, hexagon) | m, (0, 1e6] |  | Side. |\n"
+            "| `bed.side_m` (star) | m, [0, 150] |  | Side. |\n");
 }
 
 TEST(KeyTable, FindsThePlaceOfAPath) {
