@@ -104,7 +104,7 @@ class RowMaker {
       const auto value = known_[f].value;
       for (std::size_t b = 0; b < values_.size(); ++b) {
         values_[b] = left_out_[b].*value;
-        if (value == &MapValues::axis_angle) values_[b] = nearest_turn(values_[b] - whole.*value, 180);
+        if (value == &MapValues::axis_angle_deg) values_[b] = nearest_turn(values_[b] - whole.*value, 180);
       }
       rows_.fields[f].ci99[at] = jackknife_ci99(values_);
     }

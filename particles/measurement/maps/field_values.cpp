@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "coupling/exchange/plane_invariants.hpp"
-
 namespace drumlin::particles {
 namespace {
 
@@ -35,7 +33,7 @@ constexpr NamedMapField named_fields[] = {{"nu", &MapValues::nu},
                                           {"I", &MapValues::I},
                                           {"mu", &MapValues::mu},
                                           {"k", &MapValues::k},
-                                          {"axis_angle_deg", &MapValues::axis_angle},
+                                          {"axis_angle_deg", &MapValues::axis_angle_deg},
                                           {"coordination", &MapValues::coordination},
                                           {"fabric_xx", &MapValues::fabric_xx},
                                           {"fabric_zz", &MapValues::fabric_zz},
@@ -123,15 +121,8 @@ void set_stress(const Means& m, double inside, MapValues& f) {
   f.sigma_zz = pressure.zz;
   f.sigma_xz = -pressure.xz;
   f.sigma_zx = -pressure.zx;
-  const PlaneInvariants at = plane_invariants(pressure, {f.d_v_x_dx, f.d_v_x_dz, f.d_v_z_dx, f.d_v_z_dz});
-  f.strain_rate = at.strain_rate;
-  f.half_vorticity = at.half_vorticity;
-  f.p = at.p;
-  f.tau = at.tau;
-  f.I = at.I;
-  f.mu = at.mu;
-  f.k = at.k;
-  f.axis_angle = at.axis_angle_deg;
+  static_cast<PlaneInvariants&>(f) =
+      plane_invariants(pressure, {f.d_v_x_dx, f.d_v_x_dz, f.d_v_z_dx, f.d_v_z_dz});
 }
 
 void set_contacts(const Means& m, double inside, MapValues& f) {

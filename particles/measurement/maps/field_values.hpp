@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "coupling/exchange/plane_invariants.hpp"
 #include "particles/measurement/maps/map_sums.hpp"
 
 namespace drumlin::particles {
@@ -12,15 +13,15 @@ namespace drumlin::particles {
 /// flight would stand for a field.
 constexpr double least_map_nu = 0.05;
 
-/// All fields at one node; NaN where they are not known.
-struct MapValues {
+/// All fields at one node, with the invariants of stress and velocity gradient among them; NaN where they are
+/// not known.
+struct MapValues : PlaneInvariants {
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
   double nu = none, number_density = none, v_x = none, v_z = none, omega = none;
   double d_v_x_dx = none, d_v_x_dz = none, d_v_z_dx = none, d_v_z_dz = none;
-  double D_xx = none, D_zz = none, D_xz = none, dilation = none, strain_rate = none, half_vorticity = none;
+  double D_xx = none, D_zz = none, D_xz = none, dilation = none;
   double sigma_xx = none, sigma_zz = none, sigma_xz = none, sigma_zx = none;
   double sigma_xx_kinetic = none, sigma_zz_kinetic = none, sigma_xz_kinetic = none;
-  double p = none, tau = none, I = none, mu = none, k = none, axis_angle = none;
   double coordination = none, fabric_xx = none, fabric_zz = none, fabric_xz = none;
   double wall_x = none, wall_z = none;
   double residual_x = none, residual_z = none, residual_x_contact = none, residual_z_contact = none;
