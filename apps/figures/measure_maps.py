@@ -13,6 +13,8 @@ import style
 LEAST_SHOWN_NU = 0.05  # as in the profiles
 UNKNOWN = "0.85"  # where an interval is wider than what is shown
 WIDEST_ANGLE = 15  # deg, half width of the interval from which on an angle is not shown
+SHOWN = ("nu", "v_x", "v_z", "coordination", "I", "p", "mu", "k", "axis_angle_deg", "residual_x", "residual_z")
+MOST_COLUMNS = 640  # more than a panel has pixels
 WIDEST_I = 1.0  # half width of the interval of I, as a share of I, from which on it is not shown
 
 
@@ -21,7 +23,7 @@ class Maps:
 
     def __init__(self, path):
         try:
-            self.header, self.x, self.z, self.fields, self.ci99 = result_files.read_maps(path)
+            self.header, self.x, self.z, self.fields, self.ci99 = result_files.read_maps(path, SHOWN, MOST_COLUMNS)
         except ValueError as error:
             raise SystemExit(str(error)) from error
         with np.errstate(invalid="ignore"):

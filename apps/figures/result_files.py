@@ -41,15 +41,20 @@ def read_table(path, kind=None):
     return found, {key.strip(): value.strip() for key, _, value in entries}, columns
 
 
-def read_maps(path):
-    """(header, x, z, fields, half widths of 99 % intervals): each field over (z, x), NaN where it was not computed."""
+def read_maps(path, names=None, most_columns=None):
+    """(header, x, z, fields, half widths of 99 % intervals): each field over (z, x), NaN where it was not computed. `names`: fields to read, all unless
+    told; `most_columns`: of a wider map every second (third, ...) node along x and z is read, so that no more columns are left."""
     with h5py.File(path) as file:
         if text_of(file["format"]) != "drumlin-maps-1":
             raise ValueError(f"{path}: is not a file of maps of this version")
         header = dict(line.split(" = ", 1) for line in text_of(file["header"]).splitlines())
-        fields = {name: data[:] for name, data in file["fields"].items()}
-        half_widths = {name: data[:] for name, data in file["ci99"].items()} if "ci99" in file else {}
-        return header, file["x"][:], file["z"][:], fields, half_widths
+        step = 1 if most_columns is None else max(1, math.ceil(file["x"].shape[0] / most_columns))
+
+        def read(group):
+            return {name: data[:] if step == 1 else data[:][::step, ::step] for name, data in group.items() if names is None or name in names}
+
+        half_widths = read(file["ci99"]) if "ci99" in file else {}
+        return header, file["x"][::step], file["z"][::step], read(file["fields"]), half_widths
 
 
 def read_snapshot(path):

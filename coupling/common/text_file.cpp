@@ -36,6 +36,7 @@ class Descriptor {
   ~Descriptor() {
     if (number_ >= 0) ::close(number_);
   }
+  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
   int number() const { return number_; }
@@ -68,21 +69,33 @@ class FileAside {
   FileAside(const FileAside&) = delete;
   FileAside& operator=(const FileAside&) = delete;
 
-  void write(std::string_view content) {
+  /// A new file.
+  Descriptor made() {
     name_ = unguessable_name(file_);
     unfinished_.emplace(folder_ / name_);
     Descriptor aside(::openat(descriptor_.number(), name_.c_str(),
                               O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
     if (aside.number() < 0) give_up(file_, "written");
+    return aside;
+  }
+
+  void write(std::string_view content) {
+    Descriptor aside = made();
     while (!content.empty()) {
       const ssize_t bytes = ::write(aside.number(), content.data(), content.size());
       if (bytes < 0 && errno == EINTR) continue;
       if (bytes < 0) give_up(file_, "written");
       content.remove_prefix(static_cast<std::size_t>(bytes));
     }
-    // Some file systems report a full disk only here.
+    settle(aside);
+  }
+
+  /// Forces it to the disk. Some file systems report a full disk only here.
+  void settle(Descriptor& aside) const {
     if (::fsync(aside.number()) != 0 || !aside.close()) give_up(file_, "written");
   }
+
+  const fs::path& path() const { return unfinished_->path(); }
 
   void take_the_place() {
     if (!rename(name_, file_.filename())) give_up(file_, "written");
@@ -114,6 +127,22 @@ void replace_file_keeping(const fs::path& file, const fs::path& previous, std::s
   aside.write(content);
   if (!aside.rename(file.filename(), previous.filename()) && errno != ENOENT) give_up(file, "renamed");
   aside.take_the_place();
+}
+
+struct FileInTheMaking::Aside {
+  explicit Aside(const fs::path& file) : place(file), content(place.made()) {}
+  FileAside place;
+  Descriptor content;
+};
+
+FileInTheMaking::FileInTheMaking(const fs::path& file) : aside_(std::make_unique<Aside>(file)) {}
+FileInTheMaking::~FileInTheMaking() = default;
+
+const fs::path& FileInTheMaking::path() const { return aside_->place.path(); }
+
+void FileInTheMaking::take_the_place() {
+  aside_->place.settle(aside_->content);
+  aside_->place.take_the_place();
 }
 
 bool is_left_aside(const fs::path& file) {

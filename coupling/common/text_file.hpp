@@ -1,6 +1,7 @@
 #pragma once
 // Whole files, read and written so that nobody ever sees half of one.
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -19,6 +20,26 @@ void replace_file(const std::filesystem::path& file, std::string_view content);
 /// any moment.
 void replace_file_keeping(const std::filesystem::path& file, const std::filesystem::path& previous,
                           std::string_view content);
+
+/// A file that something else writes, aside as replace_file() does: it takes the place of `file` when it is
+/// whole, or vanishes with this object.
+class FileInTheMaking {
+ public:
+  /// Makes it, empty. Throws IoError.
+  explicit FileInTheMaking(const std::filesystem::path& file);
+  ~FileInTheMaking();
+  FileInTheMaking(const FileInTheMaking&) = delete;
+  FileInTheMaking& operator=(const FileInTheMaking&) = delete;
+
+  /// Where it is to be written.
+  const std::filesystem::path& path() const;
+  /// Forces it to the disk and renames it. Throws IoError, the old file then being intact.
+  void take_the_place();
+
+ private:
+  struct Aside;
+  std::unique_ptr<Aside> aside_;
+};
 
 /// Whether a file of this name is what a killed replace_file() has left aside.
 bool is_left_aside(const std::filesystem::path& file);

@@ -49,18 +49,14 @@ std::vector<double> over_grid(const H5Reader& in, const std::string& name, const
   return in.doubles(name);
 }
 
-}  // namespace
-
-void write_field_map(const std::filesystem::path& file, const FieldMap& map, MapStorage storage) {
-  if (const std::string fault = fault_of(map); !fault.empty()) throw InputError(file.string() + ": " + fault);
+/// All but the fields themselves.
+void add_outline(const FieldMap& map, H5Content& out) {
   const MapGrid& grid = map.grid;
   std::vector<double> x(grid.columns), z(grid.rows);
   for (std::size_t column = 0; column < x.size(); ++column) x[column] = grid.x_of(column);
   for (std::size_t row = 0; row < z.size(); ++row) z[row] = grid.z_of(row);
   std::string names;
   for (const MapField& field : map.fields) names.append(field.name).append("\n");
-
-  H5Writer out;
   out.add_text("format", format);
   out.add_text("header", header_lines(map.header, ""));
   out.add_text("names", names);
@@ -69,17 +65,63 @@ void write_field_map(const std::filesystem::path& file, const FieldMap& map, Map
   out.add_number("scales/density_kg_m3", map.scales.density_kg_m3);
   out.add("x", std::span<const double>(x));
   out.add("z", std::span<const double>(z));
-  const auto add = [&](const std::string& name, const std::vector<double>& values, int bits) {
-    if (storage == MapStorage::whole)
-      out.add_table(name, values, grid.columns);
-    else
-      out.add_packed_table(name, values, grid.columns, bits);
-  };
-  for (const MapField& field : map.fields) {
-    add("fields/" + field.name, field.value, packed_value_bits);
-    if (!field.ci99.empty()) add("ci99/" + field.name, field.ci99, packed_interval_bits);
+}
+
+void refuse_faults(const std::filesystem::path& file, const FieldMap& map) {
+  if (const std::string fault = fault_of(map); !fault.empty()) throw InputError(file.string() + ": " + fault);
+}
+
+/// Calls action(name, values, bits when packed) for all datasets of the fields, in their order.
+template <class Action>
+void each_set(const std::vector<MapField>& fields, Action action) {
+  for (const MapField& field : fields) {
+    action("fields/" + field.name, field.value, packed_value_bits);
+    if (!field.ci99.empty()) action("ci99/" + field.name, field.ci99, packed_interval_bits);
   }
+}
+
+}  // namespace
+
+void write_field_map(const std::filesystem::path& file, const FieldMap& map, MapStorage storage) {
+  refuse_faults(file, map);
+  H5Writer out;
+  add_outline(map, out);
+  each_set(map.fields, [&](const std::string& name, const std::vector<double>& values, int bits) {
+    if (storage == MapStorage::whole)
+      out.add_table(name, values, map.grid.columns);
+    else
+      out.add_packed_table(name, values, map.grid.columns, bits);
+  });
   out.save(file);
+}
+
+FieldMapWriter::FieldMapWriter(std::filesystem::path file, FieldMap outline)
+    : file_(std::move(file)), outline_(std::move(outline)), out_(file_) {}
+
+void FieldMapWriter::add(const std::vector<MapField>& fields) {
+  FieldMap rows;
+  rows.grid = outline_.grid;
+  rows.grid.rows = fields.empty() ? 0 : fields.front().value.size() / rows.grid.columns;
+  rows.fields = fields;
+  refuse_faults(file_, rows);
+  if (rows_ == 0) {
+    for (const MapField& field : fields) outline_.fields.push_back({field.name, {}, {}});
+    add_outline(outline_, out_);
+  }
+  each_set(fields, [&](const std::string& name, const std::vector<double>& values, int) {
+    if (rows_ == 0)
+      out_.begin_table(name, values, outline_.grid.rows, outline_.grid.columns);
+    else
+      out_.add_rows(name, rows_, values);
+  });
+  rows_ += rows.grid.rows;
+}
+
+void FieldMapWriter::save() {
+  if (rows_ != outline_.grid.rows)
+    throw InputError(file_.string() + ": of " + std::to_string(outline_.grid.rows) + " rows of the map " +
+                     std::to_string(rows_) + " were given");
+  out_.save();
 }
 
 FieldMap read_field_map(const std::filesystem::path& file) {
@@ -100,7 +142,7 @@ FieldMap read_field_map(const std::filesystem::path& file) {
     if (in.has("ci99/" + name)) field.ci99 = over_grid(in, "ci99/" + name, map.grid);
     map.fields.push_back(std::move(field));
   }
-  if (const std::string fault = fault_of(map); !fault.empty()) throw InputError(file.string() + ": " + fault);
+  refuse_faults(file, map);
   return map;
 }
 

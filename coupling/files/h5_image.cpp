@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <fstream>
 #include <initializer_list>
 #include <iterator>
 #include <limits>
 #include <string_view>
+#include <utility>
 
 #include "coupling/common/errors.hpp"
 #include "coupling/common/input_file.hpp"
@@ -40,6 +42,8 @@ class Id {
   Id& operator=(const Id&) = delete;
   hid_t get() const { return id_; }
   bool valid() const { return id_ >= 0; }
+  /// Before its time; whether HDF5 had nothing to say.
+  bool end() { return close_(std::exchange(id_, -1)) >= 0; }
 
  private:
   hid_t id_;
@@ -69,6 +73,37 @@ hid_t access_to_memory() {
   return access;
 }
 
+/// How a file on the disk is opened: nobody else knows its name, so that it needs no lock.
+hid_t access_to_disk() {
+  start_library();
+  const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+  check(access >= 0 && H5Pset_fapl_sec2(access) >= 0 && H5Pset_file_locking(access, false, true) >= 0,
+        "prepare a file");
+  return access;
+}
+
+std::string trailer(std::uint32_t sum) {
+  std::string bytes(trailer_magic);
+  for (int byte = 0; byte < 4; ++byte) bytes += static_cast<char>(sum >> (8 * byte));
+  return bytes;
+}
+
+/// Of all that a file holds, at its end.
+void append_checksum(const std::filesystem::path& file) {
+  std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
+  std::vector<char> piece(1 << 20);
+  uLong sum = crc32_z(0, nullptr, 0);
+  while (stream.read(piece.data(), static_cast<std::streamsize>(piece.size())), stream.gcount() > 0)
+    sum = crc32_z(sum, reinterpret_cast<const unsigned char*>(piece.data()),
+                  static_cast<std::size_t>(stream.gcount()));
+  const bool whole = stream.eof();
+  stream.clear();
+  stream.seekp(0, std::ios::end);
+  const std::string end = trailer(static_cast<std::uint32_t>(sum));
+  stream.write(end.data(), static_cast<std::streamsize>(end.size())).flush();
+  if (!whole || !stream) throw IoError(file.string() + ": cannot be closed by its checksum");
+}
+
 /// To the nearest number of so many binary digits; what is not finite stays.
 float rounded_to(float value, int bits) {
   if (!std::isfinite(value)) return value;
@@ -77,6 +112,7 @@ float rounded_to(float value, int bits) {
   return std::ldexp(std::nearbyint(std::ldexp(fraction, bits + 1)), exponent - bits - 1);
 }
 
+constexpr hsize_t all_rows = std::numeric_limits<hsize_t>::max();
 constexpr hsize_t packed_piece = 1 << 20;  // bytes of what is unpacked at once, at most
 
 /// Whole rows to a piece.
@@ -88,8 +124,21 @@ void pack(hid_t creation, std::initializer_list<hsize_t> shape) {
         "pack a dataset");
 }
 
+/// Rows of a table, from `first` on.
+void write_rows(hid_t set, hid_t memory_type, const void* data, hsize_t first, hsize_t rows) {
+  const Id space(H5Dget_space(set), H5Sclose);
+  hsize_t shape[2] = {};
+  H5Sget_simple_extent_dims(space.get(), shape, nullptr);
+  const hsize_t start[] = {first, 0}, count[] = {rows, shape[1]};
+  const Id memory(H5Screate_simple(2, count, nullptr), H5Sclose);
+  check(H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start, nullptr, count, nullptr) >= 0 &&
+            H5Dwrite(set, memory_type, memory.get(), space.get(), H5P_DEFAULT, data) >= 0,
+        "write rows of a dataset");
+}
+
+/// `rows`: of a table, that `data` holds; all of them unless told.
 void put(hid_t file, const std::string& name, hid_t memory_type, hid_t file_type, const void* data,
-         std::initializer_list<hsize_t> shape, bool packed = false) {
+         std::initializer_list<hsize_t> shape, bool packed = false, hsize_t rows = all_rows) {
   const Id links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
   check(H5Pset_create_intermediate_group(links.get(), 1) >= 0, "create a group");
   const Id space(H5Screate_simple(static_cast<int>(shape.size()), std::data(shape), nullptr), H5Sclose);
@@ -101,56 +150,62 @@ void put(hid_t file, const std::string& name, hid_t memory_type, hid_t file_type
       H5Dcreate2(file, name.c_str(), file_type, space.get(), links.get(), creation.get(), H5P_DEFAULT),
       H5Dclose);
   check(set.valid(), "create a dataset");
-  if (std::find(shape.begin(), shape.end(), hsize_t{0}) == shape.end())
+  if (std::find(shape.begin(), shape.end(), hsize_t{0}) != shape.end()) return;
+  if (rows != all_rows)
+    write_rows(set.get(), memory_type, data, 0, rows);
+  else
     check(H5Dwrite(set.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0, "write a dataset");
 }
 
 }  // namespace
 
-struct H5Writer::Handles {
-  Id access{access_to_memory(), H5Pclose};
+struct H5Content::Handles {
+  Handles(hid_t access_list, const char* name)
+      : access(access_list, H5Pclose),
+        file(std::make_unique<Id>(H5Fcreate(name, H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose)) {
+    check(file->valid(), "create a file");
+  }
+  Id access;
   std::unique_ptr<Id> file;
 };
 
-H5Writer::H5Writer() : handles_(std::make_unique<Handles>()) {
-  handles_->file = std::make_unique<Id>(
-      H5Fcreate(image_name, H5F_ACC_TRUNC, H5P_DEFAULT, handles_->access.get()), H5Fclose);
-  check(handles_->file->valid(), "create a file image");
-}
-H5Writer::~H5Writer() = default;
+H5Content::H5Content(std::unique_ptr<Handles> handles) : handles_(std::move(handles)) {}
+H5Content::~H5Content() = default;
 
-void H5Writer::add(const std::string& name, std::span<const double> values) {
+void H5Content::add(const std::string& name, std::span<const double> values) {
   put(handles_->file->get(), name, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, values.data(), {values.size()});
 }
-void H5Writer::add(const std::string& name, std::span<const float> values) {
+void H5Content::add(const std::string& name, std::span<const float> values) {
   put(handles_->file->get(), name, H5T_NATIVE_FLOAT, H5T_IEEE_F32LE, values.data(), {values.size()});
 }
-void H5Writer::add(const std::string& name, std::span<const std::int32_t> values) {
+void H5Content::add(const std::string& name, std::span<const std::int32_t> values) {
   put(handles_->file->get(), name, H5T_NATIVE_INT32, H5T_STD_I32LE, values.data(), {values.size()});
 }
-void H5Writer::add(const std::string& name, std::span<const std::int64_t> values) {
+void H5Content::add(const std::string& name, std::span<const std::int64_t> values) {
   put(handles_->file->get(), name, H5T_NATIVE_INT64, H5T_STD_I64LE, values.data(), {values.size()});
 }
-void H5Writer::add_table(const std::string& name, std::span<const double> values, std::size_t columns) {
+void H5Content::add_table(const std::string& name, std::span<const double> values, std::size_t columns) {
   put(handles_->file->get(), name, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, values.data(),
       {values.size() / columns, columns});
 }
-void H5Writer::add_packed_table(const std::string& name, std::span<const double> values, std::size_t columns,
-                                int bits) {
+void H5Content::add_packed_table(const std::string& name, std::span<const double> values, std::size_t columns,
+                                 int bits) {
   std::vector<float> rounded;
   for (const double value : values) rounded.push_back(rounded_to(static_cast<float>(value), bits));
   put(handles_->file->get(), name, H5T_NATIVE_FLOAT, H5T_IEEE_F32LE, rounded.data(),
       {values.size() / columns, columns}, !values.empty());
 }
-void H5Writer::add_number(const std::string& name, double value) {
+void H5Content::add_number(const std::string& name, double value) {
   add(name, std::span<const double>(&value, 1));
 }
-void H5Writer::add_number(const std::string& name, std::int64_t value) {
+void H5Content::add_number(const std::string& name, std::int64_t value) {
   add(name, std::span<const std::int64_t>(&value, 1));
 }
-void H5Writer::add_text(const std::string& name, const std::string& text) {
+void H5Content::add_text(const std::string& name, const std::string& text) {
   put(handles_->file->get(), name, H5T_NATIVE_UINT8, H5T_STD_U8LE, text.data(), {text.size()});
 }
+
+H5Writer::H5Writer() : H5Content(std::make_unique<Handles>(access_to_memory(), image_name)) {}
 
 std::string H5Writer::image() const {
   check(H5Fflush(handles_->file->get(), H5F_SCOPE_GLOBAL) >= 0, "flush a file image");
@@ -160,9 +215,7 @@ std::string H5Writer::image() const {
   bytes.reserve(static_cast<std::size_t>(size) + trailer_size);  // or the trailer doubles what it holds
   bytes.resize(static_cast<std::size_t>(size));
   check(H5Fget_file_image(handles_->file->get(), bytes.data(), bytes.size()) == size, "copy a file image");
-  const std::uint32_t sum = checksum(bytes);
-  bytes += trailer_magic;
-  for (int byte = 0; byte < 4; ++byte) bytes += static_cast<char>(sum >> (8 * byte));
+  bytes += trailer(checksum(bytes));
   return bytes;
 }
 void H5Writer::save(const std::filesystem::path& file) const { replace_file(file, image()); }
@@ -170,13 +223,58 @@ void H5Writer::save_keeping(const std::filesystem::path& file, const std::filesy
   replace_file_keeping(file, previous, image());
 }
 
+H5FileWriter::H5FileWriter(const std::filesystem::path& file) : H5Content(nullptr), aside_(file) {
+  handles_ = std::make_unique<Handles>(access_to_disk(), aside_.path().c_str());
+}
+H5FileWriter::~H5FileWriter() = default;
+
+void H5FileWriter::begin_table(const std::string& name, std::span<const double> values, std::size_t rows,
+                               std::size_t columns) {
+  put(handles_->file->get(), name, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, values.data(), {rows, columns}, false,
+      values.size() / columns);
+}
+
+void H5FileWriter::add_rows(const std::string& name, std::size_t first_row, std::span<const double> values) {
+  const Id set(H5Dopen2(handles_->file->get(), name.c_str(), H5P_DEFAULT), H5Dclose);
+  check(set.valid(), "open a dataset");
+  const Id space(H5Dget_space(set.get()), H5Sclose);
+  hsize_t shape[2] = {};
+  check(H5Sget_simple_extent_dims(space.get(), shape, nullptr) == 2, "open a table");
+  write_rows(set.get(), H5T_NATIVE_DOUBLE, values.data(), first_row, values.size() / shape[1]);
+}
+
+void H5FileWriter::save() {
+  check(handles_->file->end(), "write a file");
+  append_checksum(aside_.path());
+  aside_.take_the_place();
+}
+
+namespace {
+
+/// Hands HDF5 an image that the reader keeps: HDF5 would copy it twice. Nothing is ever written to it.
+H5FD_file_image_callbacks_t callbacks_for(std::string& bytes) {
+  H5FD_file_image_callbacks_t calls{};
+  calls.image_malloc = [](size_t, H5FD_file_image_op_t, void* image) -> void* {
+    return static_cast<std::string*>(image)->data();
+  };
+  calls.image_memcpy = [](void* to, const void*, size_t, H5FD_file_image_op_t, void*) { return to; };
+  calls.image_free = [](void*, H5FD_file_image_op_t, void*) -> herr_t { return 0; };
+  calls.udata_copy = [](void* image) { return image; };
+  calls.udata_free = [](void*) -> herr_t { return 0; };
+  calls.udata = &bytes;
+  return calls;
+}
+
+}  // namespace
+
 struct H5Reader::Handles {
+  std::string bytes;  // outlives the file
   std::unique_ptr<Id> file;
 };
 
 H5Reader::H5Reader(const std::filesystem::path& file, bool checked)
     : handles_(std::make_unique<Handles>()), file_(file) {
-  std::string bytes = input_bytes(file, largest_binary_file);
+  std::string& bytes = handles_->bytes = input_bytes(file, largest_binary_file);
   if (bytes.empty()) throw InputError(file.string() + ": is empty");
   const bool has_trailer =
       bytes.size() > trailer_size && std::memcmp(bytes.data() + bytes.size() - trailer_size,
@@ -192,9 +290,11 @@ H5Reader::H5Reader(const std::filesystem::path& file, bool checked)
       throw InputError(file.string() + ": damaged (checksum does not match)");
     bytes.resize(size);
   }
-  const Id access{access_to_memory(), H5Pclose};  // holds a copy, which goes with it; the file has its own
-  check(H5Pset_file_image(access.get(), bytes.data(), bytes.size()) >= 0, "take a file image");
-  bytes = {};
+  const Id access{access_to_memory(), H5Pclose};
+  H5FD_file_image_callbacks_t calls = callbacks_for(bytes);
+  check(H5Pset_file_image_callbacks(access.get(), &calls) >= 0 &&
+            H5Pset_file_image(access.get(), bytes.data(), bytes.size()) >= 0,
+        "take a file image");
   handles_->file = std::make_unique<Id>(H5Fopen(image_name, H5F_ACC_RDONLY, access.get()), H5Fclose);
   if (!handles_->file->valid()) throw InputError(file.string() + ": not an HDF5 file");
 }

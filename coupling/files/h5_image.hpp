@@ -10,15 +10,15 @@
 #include <string>
 #include <vector>
 
+#include "coupling/common/text_file.hpp"
+
 namespace drumlin {
 
-/// An HDF5 file in the making. Names are paths like "contacts/normal"; groups are made as needed.
-class H5Writer {
+/// What an HDF5 file in the making takes. Names are paths like "contacts/normal"; groups are made as needed.
+class H5Content {
  public:
-  H5Writer();
-  ~H5Writer();
-  H5Writer(const H5Writer&) = delete;
-  H5Writer& operator=(const H5Writer&) = delete;
+  H5Content(const H5Content&) = delete;
+  H5Content& operator=(const H5Content&) = delete;
 
   void add(const std::string& name, std::span<const double> values);
   void add(const std::string& name, std::span<const float> values);
@@ -34,6 +34,17 @@ class H5Writer {
   void add_number(const std::string& name, std::int64_t value);
   void add_text(const std::string& name, const std::string& text);
 
+ protected:
+  struct Handles;
+  explicit H5Content(std::unique_ptr<Handles> handles);
+  ~H5Content();
+  std::unique_ptr<Handles> handles_;
+};
+
+/// An HDF5 file that is made in memory.
+class H5Writer : public H5Content {
+ public:
+  H5Writer();
   /// Whole file with its checksum. Throws IoError; an older file of that name is then untouched.
   void save(const std::filesystem::path& file) const;
   /// The same, the older file staying under the name `previous`.
@@ -41,8 +52,24 @@ class H5Writer {
 
  private:
   std::string image() const;
-  struct Handles;
-  std::unique_ptr<Handles> handles_;
+};
+
+/// The same file, byte for byte, made on the disk: for tables that are never in memory as a whole.
+class H5FileWriter : public H5Content {
+ public:
+  /// Throws IoError; so do all members. The older file of that name is untouched until save().
+  explicit H5FileWriter(const std::filesystem::path& file);
+  ~H5FileWriter();
+  /// A table of `rows` rows whose first ones are `values`, a whole number of rows; the others follow by
+  /// add_rows().
+  void begin_table(const std::string& name, std::span<const double> values, std::size_t rows,
+                   std::size_t columns);
+  void add_rows(const std::string& name, std::size_t first_row, std::span<const double> values);
+  /// Closes it by its checksum and puts it in its place. Nothing is added after it.
+  void save();
+
+ private:
+  FileInTheMaking aside_;
 };
 
 /// An HDF5 file opened for reading. Every member throws InputError naming the file when something is missing

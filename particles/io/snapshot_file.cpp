@@ -41,6 +41,7 @@ void read_contacts(const H5Reader& in, Snapshot& s) {
   for (const std::size_t size : {j.size(), n_x.size(), n_z.size(), r_n.size(), r_t.size()})
     if (size != i.size()) in.refuse("contacts", "arrays of unequal length");
   const auto bodies = static_cast<std::int32_t>(s.x.size());
+  s.contacts.reserve(i.size());
   for (std::size_t c = 0; c < i.size(); ++c) {
     if (i[c] < 0 || i[c] >= bodies || j[c] >= bodies)
       in.refuse("contacts", "names a grain that does not exist");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 
 #include "coupling/common/errors.hpp"
@@ -32,6 +33,15 @@ double mean_of(const std::vector<double>& values) {
   double sum = 0;
   for (double value : values) sum += value;
   return sum / static_cast<double>(values.size());
+}
+
+/// Leaves what a snapshot says of the whole.
+void forget_grains(Snapshot& snapshot) {
+  for (auto* values : {&snapshot.x, &snapshot.z, &snapshot.v_x, &snapshot.v_z, &snapshot.radius,
+                       &snapshot.spin, &snapshot.displacement_x, &snapshot.displacement_z, &snapshot.mass})
+    *values = {};
+  snapshot.contacts = {};
+  snapshot.id = {};
 }
 
 /// The frame, and the scalars that the first reading gives.
@@ -201,18 +211,21 @@ Measurement measurement(const SnapshotSource& source, const MeasurementOptions& 
                         std::span<const MeasurementPart> parts,
                         const std::function<void(std::size_t, std::size_t)>& progress) {
   const Recording recording = steady_recording(source);
-  const Snapshot last = recording.read(recording.count() - 1);
+  Snapshot last = recording.read(recording.count() - 1);
+  const double velocity_window = last.displacement_x.empty() ? 0 : last.velocity_window;
+  forget_grains(last);
   std::size_t done = 0;
   const auto tick = [&] {
     if (progress) progress(++done, 2 * recording.count());
   };
-  Survey found = survey(recording, std::min(options.batches, recording.count()), tick);
+  Survey found = survey(recording, std::min(options.batches, recording.count()),
+                        std::make_shared<ScratchFile>(options.scratch_folder), tick);
 
   Measurement result;
   result.first_snapshot = recording.first;
   result.in_mirror = recording.in_mirror;
   result.scales = last.scales;
-  result.velocity_window = last.displacement_x.empty() ? 0 : last.velocity_window;
+  result.velocity_window = velocity_window;
   MeasurementFrame place = found_frame(found, last, options, result);
   place.in_mirror = recording.in_mirror;
   const double frame_angle = angle_of(place.frame, last);
@@ -233,8 +246,8 @@ Measurement measurement(const SnapshotSource& source, const MeasurementOptions& 
     if (result.scattered) add_scattered(scattered_in(in_frame, place), recording.count(), *result.scattered);
     add_snapshot(slices, in_frame, batch);
     if (slices.cells) add_snapshot(slices.centre, snapshot, in_frame, batch, *slices.cells);
-    if (variants) add_snapshot(*variants, snapshot, in_frame);
     for (const MeasurementPart& part : parts) part.add(snapshot, in_frame, batch);
+    if (variants) add_snapshot(*variants, snapshot, in_frame);
     tick();
   }
 

@@ -10,7 +10,7 @@ STANDARD = {
     "cmath": "abs ceil copysign exp floor hypot ilogb isfinite ldexp log log10 nan round sqrt", "complex": "complex abs",
     "cstddef": "byte ptrdiff_t size_t", "cstdint": "int8_t int16_t int32_t int64_t uint8_t uint16_t uint32_t uint64_t", "deque": "deque",
     "filesystem": "filesystem", "functional": "function", "future": "async future launch", "initializer_list": "initializer_list",
-    "limits": "numeric_limits", "map": "map", "memory": "shared_ptr unique_ptr", "optional": "optional nullopt", "random": "mt19937_64",
+    "limits": "numeric_limits", "map": "map", "memory": "make_shared shared_ptr unique_ptr", "optional": "optional nullopt", "random": "mt19937_64",
     "set": "set", "span": "span as_bytes as_writable_bytes", "stdexcept": "runtime_error", "string": "string to_string",
     "string_view": "string_view", "system_error": "errc", "thread": "thread",
     "type_traits": "conditional_t invoke_result_t is_integral_v is_same_v is_trivially_copyable_v", "unordered_map": "unordered_map",

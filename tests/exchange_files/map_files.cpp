@@ -65,6 +65,36 @@ TEST(MapFile, SameMapsGiveSameBytes) {
   EXPECT_EQ(file_text(folder / "a.h5"), file_text(folder / "b.h5"));
 }
 
+TEST(MapFile, RowsGivenOneAfterTheOtherMakeTheSameBytes) {
+  const TemporaryFolder folder;
+  const FieldMap map = example();
+  write_field_map(folder / "whole.h5", map);
+  FieldMap outline = map;
+  outline.fields.clear();
+  const auto rows = [&](std::ptrdiff_t from) {
+    std::vector<MapField> fields = map.fields;
+    for (MapField& field : fields)
+      for (auto* values : {&field.value, &field.ci99})
+        if (!values->empty()) *values = {values->begin() + from, values->begin() + from + 3};
+    return fields;
+  };
+  FieldMapWriter writer(folder / "rows.h5", outline);
+  writer.add(rows(0));
+  EXPECT_FALSE(std::filesystem::exists(folder / "rows.h5"));
+  EXPECT_THROW(writer.save(), InputError);  // a row is missing
+  writer.add(rows(3));
+  writer.save();
+  EXPECT_EQ(file_text(folder / "rows.h5"), file_text(folder / "whole.h5"));
+}
+
+TEST(MapFile, RowsThatAreGivenUpLeaveNothing) {
+  const TemporaryFolder folder;
+  FieldMap outline = example();
+  outline.fields.clear();
+  { FieldMapWriter writer(folder / "maps.h5", outline); }
+  EXPECT_TRUE(std::filesystem::is_empty(folder / "."));
+}
+
 TEST(MapFile, PackedOneKeepsValuesTo3e5AndIntervalsToOnePercent) {
   const TemporaryFolder folder;
   FieldMap map = example();

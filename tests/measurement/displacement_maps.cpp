@@ -4,29 +4,15 @@
 #include <gtest/gtest.h>
 
 #include "particles/measurement/maps/field_maps.hpp"
-#include "particles/measurement/maps/map_sums.hpp"
+#include "tests/measurement/collected_maps.hpp"
 #include "tests/measurement/packings.hpp"
 
 namespace drumlin {
 using namespace particles;
 namespace {
 
-/// Maps of snapshots in order of time, each in a batch of its own, with the fields of displacements.
 FieldMap maps_of(const CoarseGraining& graining, const std::vector<Snapshot>& snapshots, double radius = 0) {
-  std::vector<MapSums> batches;
-  std::vector<DisplacementSums> displacements;
-  DisplacementDepositor follower(graining);
-  FlowSnapshot in_frame;
-  for (const Snapshot& snapshot : snapshots) {
-    to_flow_frame(snapshot, graining.frame, VelocityKind::window, in_frame);
-    batches.push_back(empty_sums(graining));
-    displacements.push_back(empty_displacements(graining));
-    MapDepositor(graining).add(snapshot, in_frame, batches.back());
-    follower.add(snapshot, displacements.back());
-  }
-  FieldMap map = field_maps(graining, batches, radius, 0);
-  add_displacement_fields(graining, displacements, map);
-  return map;
+  return testing::collected_maps(graining, snapshots, radius);
 }
 
 struct Gradient {

@@ -7,6 +7,7 @@
 
 #include "particles/measurement/maps/map_findings.hpp"
 #include "particles/measurement/maps/spline_kernel.hpp"
+#include "tests/measurement/collected_maps.hpp"
 #include "tests/measurement/packings.hpp"
 
 namespace drumlin {
@@ -15,14 +16,7 @@ namespace {
 
 /// Maps of one snapshot per batch.
 FieldMap maps_of(const CoarseGraining& graining, const std::vector<Snapshot>& snapshots, double radius = 0) {
-  std::vector<MapSums> batches;
-  FlowSnapshot in_frame;
-  for (const Snapshot& snapshot : snapshots) {
-    to_flow_frame(snapshot, graining.frame, VelocityKind::window, in_frame);
-    batches.push_back(empty_sums(graining));
-    MapDepositor(graining).add(snapshot, in_frame, batches.back());
-  }
-  return field_maps(graining, batches, radius, 0);
+  return testing::collected_maps(graining, snapshots, radius);
 }
 
 /// Discs of diameter 1 on a square lattice over 16 x 16: a kernel of width 1 reproduces straight lines on it.

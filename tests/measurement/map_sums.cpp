@@ -98,7 +98,7 @@ TEST(MapSums, TotalsAreThoseOfTheGrainsAndContacts) {
       area += own;
       momentum_x += own * in_frame.v_x[i];
     }
-    for (const HalfBranch& branch : in_frame.half_branches) {
+    for (const HalfBranch& branch : in_frame.half_branches()) {
       xx -= branch.force_x * branch.toward_x;
       xz -= branch.force_x * branch.toward_z;
       zx -= branch.force_z * branch.toward_x;

@@ -134,7 +134,8 @@ TEST(Rings, StressesAreThoseOfTheBranches) {
 TEST(Rings, SumOfTheStressesIsThatOfTheContactsWhereverTheCentreIs) {
   const Snapshot column = testing::stacked_columns(6, 9, 0.3);
   double trace = 0;
-  for (const HalfBranch& b : seen(column, {}).half_branches)
+  const FlowSnapshot in_frame = seen(column, {});
+  for (const HalfBranch& b : in_frame.half_branches())
     trace -= b.force_x * b.toward_x + b.force_z * b.toward_z;
   for (const double x : {0.0, 2.3, -4.0}) {
     const LayerSums sums = sums_of(ring_grid(x, 4.5, 0.6, 30, 0), column);

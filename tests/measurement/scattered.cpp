@@ -37,7 +37,7 @@ Snapshot thrown_over(double size, std::size_t count) {
 }
 
 std::size_t nodes_of_maps(const Measurement& measured) {
-  return begun_maps(measured.place, 1, 1).graining.grid.nodes();
+  return begun_maps(measured.place, 1, 1, std::make_shared<ScratchFile>()).graining.grid.nodes();
 }
 
 /// What the limits leave of nodes 1 d apart, with the rim of a map around them.

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "apps/support/json_file.hpp"
+#include "coupling/common/scratch_file.hpp"
 #include "coupling/common/text_file.hpp"
 #include "coupling/documents/csv.hpp"
 #include "coupling/documents/json_numbers.hpp"
@@ -75,7 +76,8 @@ Part forces_part(const MeasureOptions& options) {
   part.reading.begin = [=](const particles::MeasurementFrame& place) {
     reading->grid =
         particles::slice_grid(place, options.position, place.slice_width, options.layer_thickness);
-    reading->batches.resize(place.batches);
+    const auto file = std::make_shared<ScratchFile>(options.run);
+    for (std::size_t b = 0; b < place.batches; ++b) reading->batches.emplace_back(file);
   };
   part.reading.add = [=](const particles::Snapshot& snapshot, const particles::FlowSnapshot&,
                          std::size_t batch) {

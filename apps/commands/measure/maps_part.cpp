@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
 
 #include "apps/support/json_file.hpp"
 #include "apps/support/standard_streams.hpp"
+#include "coupling/common/scratch_file.hpp"
 #include "coupling/documents/json_numbers.hpp"
 #include "coupling/files/field_map_file.hpp"
 #include "particles/measurement/maps/map_measurement.hpp"
@@ -59,12 +63,18 @@ Json collapse_of(const particles::BulkFriction& collapse, const particles::LogLi
 void write(const particles::Measurement& measured, const PartOutput& output, const MeasureOptions& options,
            Maps& maps) {
   const particles::MapFindingOptions limits;
-  maps.measured = particles::measured_maps(maps.reading, measured.place, measured.surface_z, limits);
-  FieldMap& map = maps.measured.map;
-  map.scales = measured.scales;
-  map.header = header_of_maps(measured.profiles.header);
-  map.header.kernel = "product of cubic B-splines";
-  map.header.kernel_width = options.map_width;
+  FieldMap outline;
+  outline.scales = measured.scales;
+  outline.header = header_of_maps(measured.profiles.header);
+  outline.header.kernel = "product of cubic B-splines";
+  outline.header.kernel_width = options.map_width;
+  std::optional<FieldMapWriter> file;
+  maps.measured = particles::measured_maps(std::move(maps.reading), measured.place, measured.surface_z,
+                                           limits, [&](const MapGrid& grid, const particles::MapRows& rows) {
+                                             outline.grid = grid;
+                                             if (!file) file.emplace(output.folder / "maps.h5", outline);
+                                             file->add(rows.fields);
+                                           });
   const particles::MomentumBalance& balance = maps.measured.balance;
   output.content["momentum_balance"] = {{"bulk", content_of(balance.bulk)},
                                         {"flowing", content_of(balance.flowing)},
@@ -79,7 +89,7 @@ void write(const particles::Measurement& measured, const PartOutput& output, con
       {"block", limits.block},
       {"flowing_I", limits.flowing_I},
       {"mu_fit_I", {limits.I_min, limits.I_max}}};
-  write_field_map(output.folder / "maps.h5", map);
+  file->save();
 }
 
 void print(const particles::MeasuredMaps& maps) {
@@ -119,7 +129,8 @@ Part maps_part(const MeasureOptions& options) {
   part.name = "maps";
   part.figures = "measure_maps.py";
   part.reading.begin = [maps, options](const particles::MeasurementFrame& place) {
-    maps->reading = particles::begun_maps(place, options.map_spacing, options.map_width);
+    maps->reading = particles::begun_maps(place, options.map_spacing, options.map_width,
+                                          std::make_shared<ScratchFile>(options.run));
   };
   part.reading.add = [maps](const particles::Snapshot& snapshot, const particles::FlowSnapshot& in_frame,
                             std::size_t batch) {

@@ -72,6 +72,7 @@ Json finished_run(const ResultFolder& folder) {
 
 particles::MeasurementOptions settings_for(const MeasureOptions& options) {
   particles::MeasurementOptions settings;
+  settings.scratch_folder = options.run;
   settings.position = options.position;
   settings.slice_width = options.slice_width;
   settings.layer_thickness = options.layer_thickness;

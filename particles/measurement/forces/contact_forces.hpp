@@ -1,8 +1,9 @@
 #pragma once
 // Contacts of a slice with their forces, collected for their distribution and anisotropy.
 #include <cstddef>
-#include <vector>
+#include <memory>
 
+#include "coupling/common/scratch_file.hpp"
 #include "particles/bodies/snapshot.hpp"
 #include "particles/measurement/layers/layer_sums.hpp"
 
@@ -18,9 +19,12 @@ struct ContactForce {
   float branch = 0;      ///< distance of the two centres, from the centre to the wall
 };
 
-/// Contacts of some snapshots.
+/// Contacts of some snapshots; all but the newest wait on the disk.
 struct ContactForces {
-  std::vector<ContactForce> between_grains, with_walls;
+  ContactForces() : ContactForces(std::make_shared<ScratchFile>()) {}
+  explicit ContactForces(const std::shared_ptr<ScratchFile>& file) : between_grains(file), with_walls(file) {}
+
+  ScratchList<ContactForce> between_grains, with_walls;
   std::size_t snapshots = 0;
 };
 

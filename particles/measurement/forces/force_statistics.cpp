@@ -142,8 +142,9 @@ std::vector<Choices<DirectionSums>> layer_choices(const LayerGrid& grid,
                                                   const std::vector<ContactForces>& batches) {
   std::vector<std::vector<DirectionSums>> sums(grid.layers(), std::vector<DirectionSums>(batches.size()));
   for (std::size_t b = 0; b < batches.size(); ++b)
-    for (const ContactForce& contact : batches[b].between_grains)
+    batches[b].between_grains.each([&](const ContactForce& contact) {
       sums[std::min(grid.layers() - 1, layer_of(grid, contact.z))][b].add(contact, 1);
+    });
   std::vector<Choices<DirectionSums>> layers;
   for (const auto& of_batches : sums) layers.emplace_back(of_batches);
   return layers;
@@ -191,8 +192,9 @@ void add_zone(const std::vector<ContactForces>& batches, const MeanForce& mean, 
   const double bottom = zone.z_from + settings.surface_z, top = zone.z_to + settings.surface_z;
   const auto for_each_contact = [&](const auto& action) {
     for (std::size_t b = 0; b < batches.size(); ++b)
-      for (const ContactForce& contact : batches[b].between_grains)
+      batches[b].between_grains.each([&](const ContactForce& contact) {
         if (contact.z >= bottom && contact.z < top) action(b, contact);
+      });
   };
   std::vector<DirectionSums> raw(batches.size()), directions(batches.size());
   std::vector<DistributionSums> local(batches.size()), common(batches.size());
@@ -231,14 +233,14 @@ void add_wall_zone(const std::vector<ContactForces>& batches, const ForceSetting
                    std::vector<ForceZone>& zones) {
   std::vector<DirectionSums> raw(batches.size());
   for (std::size_t b = 0; b < batches.size(); ++b)
-    for (const ContactForce& contact : batches[b].with_walls) raw[b].add(contact, 1);
+    batches[b].with_walls.each([&](const ContactForce& contact) { raw[b].add(contact, 1); });
   const Choices<DirectionSums> raw_choices(raw);
   if (raw_choices.total.contacts < least_contacts) return;
   const double scale = raw_choices.total.contacts / raw_choices.total.normal_sum;
   std::vector<DistributionSums> sums(batches.size());
   for (std::size_t b = 0; b < batches.size(); ++b)
-    for (const ContactForce& contact : batches[b].with_walls)
-      sums[b].add(contact, scale, settings.friction_walls);
+    batches[b].with_walls.each(
+        [&](const ContactForce& contact) { sums[b].add(contact, scale, settings.friction_walls); });
   const Choices<DistributionSums> choices(sums);
   ForceZone zone{"wall", settings.wall_z, settings.wall_z, with_intervals(raw_choices, mean_scalars), {}};
   append(zone.scalars, with_intervals(choices, [&](const DistributionSums& one) {

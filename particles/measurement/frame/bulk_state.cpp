@@ -16,7 +16,7 @@ BulkState bulk_state(const Snapshot& snapshot, const FlowFrame& frame) {
   to_flow_frame(snapshot, frame, VelocityKind::window, seen);
   double area = 0, trace = 0, shear = 0;
   for (const double radius : seen.radius) area += std::numbers::pi * radius * radius;
-  for (const HalfBranch& branch : seen.half_branches) {
+  for (const HalfBranch& branch : seen.half_branches()) {
     trace -= branch.force_x * branch.toward_x + branch.force_z * branch.toward_z;
     shear += branch.force_x * branch.toward_z;
   }

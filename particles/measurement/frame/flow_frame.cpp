@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "coupling/statistics/straight_line.hpp"
@@ -101,6 +103,23 @@ CoverageMap& CoverageMap::operator-=(const CoverageMap& other) {
   for (std::size_t i = 0; i < area_.size(); ++i) area_[i] -= other.area_[i];
   snapshots_ -= other.snapshots_;
   return *this;
+}
+
+CoverageBatches::CoverageBatches(const CoverageMap& empty, std::shared_ptr<ScratchFile> file)
+    : empty_(empty), newest_(empty), file_(std::move(file)) {}
+
+void CoverageBatches::add(const Snapshot& snapshot, const FlowFrame& frame, std::size_t batch) {
+  for (; stored_.size() < batch; newest_ = empty_)
+    stored_.push_back({file_->append(std::as_bytes(std::span(newest_.area_))), newest_.snapshots_});
+  newest_.add(snapshot, frame);
+}
+
+CoverageMap CoverageBatches::batch(std::size_t b) const {
+  if (b == stored_.size()) return newest_;
+  CoverageMap map = empty_;
+  file_->read(stored_[b].place, std::as_writable_bytes(std::span(map.area_)));
+  map.snapshots_ = stored_[b].snapshots;
+  return map;
 }
 
 double CoverageMap::cell(std::ptrdiff_t column, std::ptrdiff_t row) const {

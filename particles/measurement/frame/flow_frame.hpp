@@ -2,9 +2,12 @@
 // The frame in which everything is measured: x downslope along the surface, z its outward normal, and how its
 // slope is found (docs/theory/measurement.md).
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <memory>
 #include <vector>
 
+#include "coupling/common/scratch_file.hpp"
 #include "particles/bodies/snapshot.hpp"
 
 namespace drumlin::particles {
@@ -48,6 +51,7 @@ class CoverageMap {
   double volume_fraction(double x, double z) const;
 
  private:
+  friend class CoverageBatches;
   double cell(std::ptrdiff_t column, std::ptrdiff_t row) const;
   void add_disc(double x, double z, double radius);
 
@@ -55,6 +59,26 @@ class CoverageMap {
   std::size_t columns_, rows_, snapshots_ = 0;
   std::vector<double> area_;
   std::vector<double> corners_;  ///< workspace of add_disc
+};
+
+/// Coverage of the batches of a run, one in memory and the others in a scratch file.
+class CoverageBatches {
+ public:
+  /// `empty`: over the cells of all of them.
+  CoverageBatches(const CoverageMap& empty, std::shared_ptr<ScratchFile> file);
+  /// Batches in ascending order, from 0 on.
+  void add(const Snapshot& snapshot, const FlowFrame& frame, std::size_t batch);
+  std::size_t size() const { return stored_.size() + 1; }
+  CoverageMap batch(std::size_t b) const;
+
+ private:
+  struct Stored {
+    std::uint64_t place;
+    std::size_t snapshots;
+  };
+  CoverageMap empty_, newest_;
+  std::shared_ptr<ScratchFile> file_;
+  std::vector<Stored> stored_;
 };
 
 struct SlopeOptions {

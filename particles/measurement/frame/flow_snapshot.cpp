@@ -7,27 +7,19 @@
 namespace drumlin::particles {
 namespace {
 
-void add_half_branches(const Snapshot& snapshot, const FlowFrame& frame, FlowSnapshot& result) {
-  result.half_branches.clear();
+void add_contacts(const Snapshot& snapshot, const FlowFrame& frame, FlowSnapshot& result) {
+  result.contacts.clear();
+  result.contacts.reserve(snapshot.contacts.size());
   result.coordination.assign(snapshot.x.size(), 0);
   for (const SnapshotContact& contact : snapshot.contacts) {
     const double n_x = contact.normal_x, n_z = contact.normal_z;
     const double impulse_x = contact.impulse_n * n_x + contact.impulse_t * n_z;
     const double impulse_z = contact.impulse_n * n_z - contact.impulse_t * n_x;
-    const double force_x = frame.along(impulse_x, impulse_z) / snapshot.time_step;
-    const double force_z = frame.normal(impulse_x, impulse_z) / snapshot.time_step;
-    const double along = frame.along(n_x, n_z), normal = frame.normal(n_x, n_z);
-    const auto add = [&](std::int32_t grain, double sign) {
-      if (grain < 0) return;
-      const auto g = static_cast<std::size_t>(grain);
-      const double reach = -sign * snapshot.radius[g];
-      result.half_branches.push_back({static_cast<std::uint32_t>(grain), result.x[g], result.z[g],
-                                      reach * along, reach * normal, sign * force_x, sign * force_z,
-                                      contact.j < 0});
-      ++result.coordination[g];
-    };
-    add(contact.i, 1);
-    add(contact.j, -1);
+    result.contacts.push_back({contact.i, contact.j, frame.along(n_x, n_z), frame.normal(n_x, n_z),
+                               frame.along(impulse_x, impulse_z) / snapshot.time_step,
+                               frame.normal(impulse_x, impulse_z) / snapshot.time_step});
+    for (const std::int32_t grain : {contact.i, contact.j})
+      if (grain >= 0) ++result.coordination[static_cast<std::size_t>(grain)];
   }
 }
 
@@ -86,7 +78,7 @@ void to_flow_frame(const Snapshot& snapshot, const FlowFrame& frame, VelocityKin
   const double own_spin = snapshot.container_radius > 0 ? snapshot.wall_spin : 0.0;
   result.spin = snapshot.spin;
   for (double& spin : result.spin) spin -= own_spin;
-  add_half_branches(snapshot, frame, result);
+  add_contacts(snapshot, frame, result);
   result.contacts_known = snapshot.contacts_known;
 }
 

@@ -20,15 +20,71 @@ struct HalfBranch {
   bool at_wall = false;               ///< the other side is a wall
 };
 
+/// A loaded contact in the flow frame; the normal points from body j to grain i.
+struct FlowContact {
+  std::int32_t i = 0, j = 0;  ///< grains; j < 0: a wall
+  double normal_x = 0, normal_z = 0;
+  double force_x = 0, force_z = 0;  ///< on i
+};
+
+class HalfBranches;
+
 /// Components in the flow frame, one entry per grain. Velocities and spins are relative to the drum.
 struct FlowSnapshot {
   std::vector<double> x, z, radius, v_x, v_z;
   std::vector<double> spin;                 ///< empty when the scene has none
   std::vector<double> density;              ///< of each grain, rho0; empty when all have 1
   std::vector<std::uint16_t> coordination;  ///< loaded contacts, those with walls included
-  std::vector<HalfBranch> half_branches;
-  bool contacts_known = true;  ///< false: half_branches and coordination say nothing
+  std::vector<FlowContact> contacts;
+  bool contacts_known = true;  ///< false: contacts and coordination say nothing
+
+  /// Both sides of each contact in turn, that of i first; a wall has none.
+  HalfBranches half_branches() const;
 };
+
+/// The sides of all contacts of a snapshot, each made when it is looked at: stored they would take three
+/// times the memory of the contacts. The snapshot must outlive it.
+class HalfBranches {
+ public:
+  class Iterator {
+   public:
+    Iterator(const FlowSnapshot& of, std::size_t side) : of_(&of), side_(side) {}
+    HalfBranch operator*() const {
+      const FlowContact& contact = of_->contacts[side_ / 2];
+      const bool second = side_ % 2 != 0;
+      const double sign = second ? -1 : 1;
+      const std::int32_t grain = second ? contact.j : contact.i;
+      const auto g = static_cast<std::size_t>(grain);
+      const double reach = -sign * of_->radius[g];
+      return {static_cast<std::uint32_t>(grain),
+              of_->x[g],
+              of_->z[g],
+              reach * contact.normal_x,
+              reach * contact.normal_z,
+              sign * contact.force_x,
+              sign * contact.force_z,
+              contact.j < 0};
+    }
+    Iterator& operator++() {
+      side_ += side_ % 2 == 0 && of_->contacts[side_ / 2].j < 0 ? 2 : 1;
+      return *this;
+    }
+    bool operator!=(const Iterator& other) const { return side_ != other.side_; }
+
+   private:
+    const FlowSnapshot* of_;
+    std::size_t side_;
+  };
+
+  explicit HalfBranches(const FlowSnapshot& of) : of_(&of) {}
+  Iterator begin() const { return {*of_, 0}; }
+  Iterator end() const { return {*of_, 2 * of_->contacts.size()}; }
+
+ private:
+  const FlowSnapshot* of_;
+};
+
+inline HalfBranches FlowSnapshot::half_branches() const { return HalfBranches(*this); }
 
 /// Which velocity of a grain is meant.
 enum class VelocityKind { window, instantaneous };

@@ -1,6 +1,7 @@
 #pragma once
 // Options of a measurement, and the frame that it found to measure in.
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <vector>
 
@@ -29,6 +30,8 @@ struct MeasurementOptions {
   double fluctuation_I_min = 1e-4;  ///< least I of the power laws of the fluctuations
   std::size_t batches = 20;         ///< of the intervals
   ProfileScalarOptions scalars;
+  /// Where a file without a name takes what does not fit into memory.
+  std::filesystem::path scratch_folder = std::filesystem::temp_directory_path();
 
   std::optional<double>
       gradient_step;  ///< derivatives from slices at position -+ this; cut to a quarter of half the chord

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "coupling/common/errors.hpp"
 #include "coupling/documents/enum_names.hpp"
@@ -78,7 +79,8 @@ void refuse_changed_period(double before, double now) {
 
 }  // namespace
 
-Survey survey(const Recording& recording, std::size_t batches, const std::function<void()>& tick) {
+Survey survey(const Recording& recording, std::size_t batches, std::shared_ptr<ScratchFile> file,
+              const std::function<void()>& tick) {
   Survey found;
   RelativeVelocities velocity;
   Occupancy occupancy;
@@ -89,7 +91,7 @@ Survey survey(const Recording& recording, std::size_t batches, const std::functi
     const double radius = snapshot.container_radius;
     if (s == 0) {
       found.upright = upright_frame(snapshot);
-      if (radius > 0) found.maps.assign(batches, CoverageMap(-radius, radius, -radius, radius));
+      if (radius > 0) found.coverage.emplace(CoverageMap(-radius, radius, -radius, radius), std::move(file));
     }
     if (s > 0 && radius <= 0) refuse_changed_period(period, snapshot.period_x);
     widen_extent(snapshot, s == 0, found);
@@ -97,7 +99,7 @@ Survey survey(const Recording& recording, std::size_t batches, const std::functi
     found.series.wall_angle.push_back(snapshot.wall_angle);
     found.series.kinetic_energy.push_back(kinetic_energy(snapshot, velocity));
     if (radius > 0) {
-      found.maps[batch_of(s, recording.count(), batches)].add(snapshot, found.upright);
+      found.coverage->add(snapshot, found.upright, batch_of(s, recording.count(), batches));
       found.series.mass_angle.push_back(centre_of_mass_angle(snapshot, found.upright));
     } else {
       occupancy.add(snapshot, found.upright);
@@ -115,14 +117,15 @@ Survey survey(const Recording& recording, std::size_t batches, const std::functi
 }
 
 SlopeEstimate slope_estimate(const Survey& found, double first_guess, const SlopeOptions& options) {
-  CoverageMap total = found.maps.front();
-  for (std::size_t b = 1; b < found.maps.size(); ++b) total += found.maps[b];
+  const CoverageBatches& coverage = *found.coverage;
+  CoverageMap total = coverage.batch(0);
+  for (std::size_t b = 1; b < coverage.size(); ++b) total += coverage.batch(b);
   SlopeEstimate estimate;
   estimate.slope = isoline_slope(total, first_guess, options);
   std::vector<double> leave_one_out;
-  for (std::size_t b = 0; b < found.maps.size() && found.maps.size() > 1; ++b) {
+  for (std::size_t b = 0; b < coverage.size() && coverage.size() > 1; ++b) {
     CoverageMap rest = total;
-    rest -= found.maps[b];
+    rest -= coverage.batch(b);
     leave_one_out.push_back(isoline_slope(rest, first_guess, options).theta);
   }
   estimate.ci99 = jackknife_ci99(leave_one_out);

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,8 +30,8 @@ struct TimeSeries {
 
 /// What the first reading finds out.
 struct Survey {
-  FlowFrame upright;              ///< z against gravity; along the laboratory's axes when x is periodic
-  std::vector<CoverageMap> maps;  ///< one per batch; empty without a container
+  FlowFrame upright;  ///< z against gravity; along the laboratory's axes when x is periodic
+  std::optional<CoverageBatches> coverage;  ///< nothing without a container
   TimeSeries series;
   double x_min = 0, x_max = 0, z_min = 0, z_max = 0;  ///< what the grains reach in `upright`, or the window
   bool cut_to_window = false;                         ///< some grains lie outside of it (dense_window.hpp)
@@ -37,7 +39,8 @@ struct Survey {
 
 /// Reads every snapshot once; `tick` is called after each. Where the grains of an open scene reach further
 /// than the limits of a window, the window is measured, and the frame's x counts from its middle.
-Survey survey(const Recording& recording, std::size_t batches, const std::function<void()>& tick);
+Survey survey(const Recording& recording, std::size_t batches, std::shared_ptr<ScratchFile> file,
+              const std::function<void()>& tick);
 
 /// Slope of the surface with its 99 % half width (rad): the isoline of all maps, and without one batch each.
 struct SlopeEstimate {

@@ -70,7 +70,7 @@ void add_snapshot(const Slice& slice, const Snapshot& snapshot, const FlowSnapsh
   }
   if (!in_frame.contacts_known)
     for (CellLayerSum& sum : sums) sum.stress_xx = sum.stress_zz = sum.stress_xz = none;
-  for (const HalfBranch& half : in_frame.half_branches) {
+  for (const HalfBranch& half : in_frame.half_branches()) {
     if (cells.layer[half.grain] < 0) continue;
     CellLayerSum& sum = sums[static_cast<std::size_t>(cells.layer[half.grain])];
     const double area = cells.area[half.grain];

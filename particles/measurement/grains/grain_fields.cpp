@@ -15,7 +15,7 @@ void add_contact_stress(const FlowSnapshot& in_frame, const std::vector<double>&
                         GrainStress& stress) {
   const std::size_t count = cell_area.size();
   for (auto* component : {&stress.xx, &stress.zz, &stress.xz}) component->assign(count, 0.0);
-  for (const HalfBranch& half : in_frame.half_branches) {  // `toward` is against b
+  for (const HalfBranch& half : in_frame.half_branches()) {  // `toward` is against b
     stress.xx[half.grain] -= half.force_x * half.toward_x;
     stress.zz[half.grain] -= half.force_z * half.toward_z;
     stress.xz[half.grain] += half.force_x * half.toward_z;

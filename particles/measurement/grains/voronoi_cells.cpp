@@ -38,6 +38,7 @@ VoronoiTessellation::VoronoiTessellation(const Snapshot& snapshot, const Voronoi
       container_radius_(snapshot.container_radius),
       tangent_squared_(options.reach * options.reach - mean_weight) {
   double smallest = std::numeric_limits<double>::infinity(), largest = 0;
+  grains_.reserve(snapshot.x.size());
   for (std::size_t i = 0; i < snapshot.x.size(); ++i) {
     const double r = snapshot.radius[i];
     double x = snapshot.x[i] - (container_radius_ > 0 ? snapshot.container_x : 0);
@@ -102,6 +103,7 @@ VoronoiTessellation::Level VoronoiTessellation::sorted_level(std::vector<Site> s
   level.largest_weight = 0;
   level.start.assign(static_cast<std::size_t>(level.columns) * level.rows + 1, 0);
   std::vector<std::int32_t> cell_of;
+  cell_of.reserve(sites.size());
   for (const Site& site : sites) {
     const int column = std::clamp(cell_at(site.x, level.x_min, level.cell_x), 0, level.columns - 1);
     const int row = std::clamp(cell_at(site.z, level.z_min, level.cell_z), 0, level.rows - 1);

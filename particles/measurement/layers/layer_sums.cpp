@@ -215,7 +215,7 @@ LayerGrid layer_grid(const FlowFrame& frame, double position, double slice_width
 
 void add_snapshot(const LayerGrid& grid, const FlowSnapshot& snapshot, LayerSums& sums) {
   for (std::size_t i = 0; i < snapshot.x.size(); ++i) add_grain(grid, snapshot, i, sums.layers);
-  for (const HalfBranch& branch : snapshot.half_branches) add_half_branch(grid, branch, sums.layers);
+  for (const HalfBranch& branch : snapshot.half_branches()) add_half_branch(grid, branch, sums.layers);
   sums.with_spin = sums.with_spin && !snapshot.spin.empty();
   sums.with_densities = sums.with_densities || !snapshot.density.empty();
   sums.with_contacts = sums.with_contacts && snapshot.contacts_known;

@@ -147,7 +147,7 @@ VariantSlices variant_slices(const Survey& found, const MeasurementFrame& place,
   return variants;
 }
 
-void add_snapshot(VariantSlices& variants, const Snapshot& snapshot, const FlowSnapshot& in_frame) {
+void add_snapshot(VariantSlices& variants, const Snapshot& snapshot, FlowSnapshot& in_frame) {
   const auto add = [](VariantSlices::One& one, const FlowSnapshot& seen) {
     add_snapshot(one.slice.grid, seen, one.slice.batches.front());
   };
@@ -156,8 +156,8 @@ void add_snapshot(VariantSlices& variants, const Snapshot& snapshot, const FlowS
     for (Slice* slice : {&pair.west, &pair.east}) add_snapshot(slice->grid, in_frame, slice->batches.front());
   const auto add_own = [&](std::optional<VariantSlices::One>& one, VelocityKind kind) {
     if (!one) return;
-    to_flow_frame(snapshot, one->slice.grid.frame, kind, variants.workspace);
-    add(*one, variants.workspace);
+    to_flow_frame(snapshot, one->slice.grid.frame, kind, in_frame);
+    add(*one, in_frame);
   };
   add_own(variants.instantaneous, VelocityKind::instantaneous);
   add_own(variants.mass_angle_frame, VelocityKind::window);

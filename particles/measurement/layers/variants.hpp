@@ -30,11 +30,11 @@ struct VariantSlices {
     Slice west, east;
   };
   std::vector<Pair> gradients;
-  FlowSnapshot workspace;
 };
 VariantSlices variant_slices(const Survey& found, const MeasurementFrame& place, double frame_angle,
                              const MeasurementOptions& options);
-void add_snapshot(VariantSlices& variants, const Snapshot& snapshot, const FlowSnapshot& in_frame);
+/// Leaves `in_frame` in another frame: its memory is used for those of the variants.
+void add_snapshot(VariantSlices& variants, const Snapshot& snapshot, FlowSnapshot& in_frame);
 
 /// All variants: of the slices, of the windows that are applied to the profile of `centre`, and of the
 /// slope's.

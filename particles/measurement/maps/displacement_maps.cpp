@@ -1,24 +1,16 @@
 #include "particles/measurement/maps/displacement_maps.hpp"
 
 #include <cmath>
-#include <limits>
 #include <vector>
 
-#include "coupling/exchange/plane_invariants.hpp"
 #include "particles/measurement/frame/intervals.hpp"
 
 namespace drumlin::particles {
+
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
-/// All fields at one node.
-struct Motion {
-  double v_x = none, v_z = none;
-  PlaneMatrix gradient{none, none, none, none};
-  double D_xz = none, dilation = none;
-  PlaneInvariants invariants = {};
-};
+using Motion = DisplacementMotion;
+constexpr double none = Motion::none;
 
 struct NamedField {
   const char* name;
@@ -58,62 +50,45 @@ Motion motion_at(const DisplacementNode& node, const PlaneMatrix& pressure) {
   return m;
 }
 
-/// Stresses of the map at a node, with the sign of a pressure.
-PlaneMatrix pressure_at(const FieldMap& map, std::size_t node) {
-  const auto value = [&](const char* name) { return map.field(name).value[node]; };
-  return {value("sigma_xx"), -value("sigma_xz"), -value("sigma_zx"), value("sigma_zz")};
+}  // namespace
+
+DisplacementFields::DisplacementFields(const MapBatches& batches)
+    : pairs_(batches.pairs()), left_out_(batches.size() > 1 ? batches.size() : 0), values_(left_out_.size()) {
+  longest_ = longest_displacement * batches.graining().width * static_cast<double>(pairs_) / batches.time();
 }
 
-void set_intervals(const std::vector<Motion>& leave_one_out, const Motion& whole, std::size_t node,
-                   std::vector<MapField>& fields) {
-  std::vector<double> values(leave_one_out.size());
+void DisplacementFields::add_empty_fields(std::size_t nodes, std::vector<MapField>& fields) const {
+  if (pairs_ == 0) return;
+  for (const NamedField& field : named_fields) {
+    fields.push_back({field.name, std::vector<double>(nodes, none), {}});
+    if (!left_out_.empty()) fields.back().ci99.assign(nodes, none);
+  }
+}
+
+void DisplacementFields::set_node(const TileOfBatches& tile, std::size_t place, const MapValues& known,
+                                  std::size_t at, std::span<MapField> fields) {
+  if (pairs_ == 0 || std::isnan(known.v_x)) return;
+  const PlaneMatrix pressure{known.sigma_xx, -known.sigma_xz, -known.sigma_zx, known.sigma_zz};
+  DisplacementNode total = tile.displacement(0, place);
+  for (std::size_t b = 1; b < tile.batches.size(); ++b) total += tile.displacement(b, place);
+  const Motion whole = motion_at(total, pressure);
+  if (!(std::hypot(whole.v_x, whole.v_z) <= longest_)) return;
+  for (std::size_t f = 0; f < std::size(named_fields); ++f)
+    fields[f].value[at] = named_fields[f].value(whole);
+  if (left_out_.empty()) return;
+  for (std::size_t b = 0; b < left_out_.size(); ++b) {
+    DisplacementNode without = total;
+    without -= tile.displacement(b, place);
+    left_out_[b] = motion_at(without, pressure);
+  }
   for (std::size_t f = 0; f < std::size(named_fields); ++f) {
     const auto value_of = named_fields[f].value;
     const bool angle = fields[f].name == "displacement_axis_angle_deg";
-    for (std::size_t b = 0; b < values.size(); ++b)
-      values[b] = angle ? nearest_turn(value_of(leave_one_out[b]) - value_of(whole), 180)
-                        : value_of(leave_one_out[b]);
-    fields[f].ci99[node] = jackknife_ci99(values);
+    for (std::size_t b = 0; b < values_.size(); ++b)
+      values_[b] =
+          angle ? nearest_turn(value_of(left_out_[b]) - value_of(whole), 180) : value_of(left_out_[b]);
+    fields[f].ci99[at] = jackknife_ci99(values_);
   }
-}
-
-}  // namespace
-
-void add_displacement_fields(const CoarseGraining& graining, std::span<const DisplacementSums> batches,
-                             FieldMap& map) {
-  std::size_t pairs = 0;
-  double time = 0;
-  for (const DisplacementSums& batch : batches) {
-    pairs += batch.pairs;
-    time += batch.time;
-  }
-  if (pairs == 0) return;
-  const double longest = longest_displacement * graining.width * static_cast<double>(pairs) / time;
-  const bool with_intervals = batches.size() > 1;
-  const MapField& v_x = map.field("v_x");
-  std::vector<MapField> fields;
-  for (const NamedField& field : named_fields) {
-    fields.push_back({field.name, std::vector<double>(map.grid.nodes(), none), {}});
-    if (with_intervals) fields.back().ci99.assign(map.grid.nodes(), none);
-  }
-  std::vector<Motion> leave_one_out(with_intervals ? batches.size() : 0);
-  for (std::size_t node = 0; node < map.grid.nodes(); ++node) {
-    if (std::isnan(v_x.value[node])) continue;
-    DisplacementNode total = batches.front().nodes[node];
-    for (const DisplacementSums& batch : batches.subspan(1)) total += batch.nodes[node];
-    const PlaneMatrix pressure = pressure_at(map, node);
-    const Motion whole = motion_at(total, pressure);
-    if (!(std::hypot(whole.v_x, whole.v_z) <= longest)) continue;
-    for (std::size_t f = 0; f < std::size(named_fields); ++f)
-      fields[f].value[node] = named_fields[f].value(whole);
-    for (std::size_t b = 0; b < leave_one_out.size(); ++b) {
-      DisplacementNode without = total;
-      without -= batches[b].nodes[node];
-      leave_one_out[b] = motion_at(without, pressure);
-    }
-    if (with_intervals) set_intervals(leave_one_out, whole, node, fields);
-  }
-  for (MapField& field : fields) map.fields.push_back(std::move(field));
 }
 
 }  // namespace drumlin::particles

@@ -1,26 +1,35 @@
 #pragma once
-// Maps with intervals from the sums at their nodes (docs/theory/coarse-graining.md defines each field).
+// Maps with intervals from the sums at their nodes, rows after rows (docs/theory/coarse-graining.md defines
+// each field).
 #include <cstddef>
-#include <optional>
-#include <span>
+#include <functional>
+#include <vector>
 
-#include "particles/measurement/maps/map_sums.hpp"
+#include "particles/measurement/maps/map_batches.hpp"
 
 namespace drumlin::particles {
 
-/// Least volume fraction at which a node has more than its volume fraction: above the surface a few grains in
-/// flight would stand for a field.
-constexpr double least_map_nu = 0.05;
+/// What the fit of mu(I) takes of a map, over some rows.
+struct FrictionRows {
+  std::vector<double> nu, p, I, mu;
+};
 
-/// The fields of docs/formats/maps.md, NaN outside of a circle of `container_radius` about the frame's origin
-/// (0: none) and, nu and number_density apart, where nu < least_map_nu. z counts from `surface_z` (in the
-/// frame); rows above all grains are left out. Intervals by leaving one batch out each; none with fewer than
-/// two batches. `batches` must not be empty.
-FieldMap field_maps(const CoarseGraining& graining, std::span<const MapSums> batches, double container_radius,
-                    double surface_z);
+/// All fields over some rows of a map, from `first_row` on: the fields of docs/formats/maps.md, NaN outside
+/// of the container and, nu and number_density apart, where nu < least_map_nu. Intervals by leaving one batch
+/// out each; none with fewer than two batches.
+struct MapRows {
+  std::size_t first_row = 0, rows = 0;
+  std::vector<MapField> fields;
+  std::vector<FrictionRows> without;  ///< one batch each; empty with fewer than two batches
+};
 
-/// The same of all batches but one, without intervals.
-FieldMap field_maps_without(std::size_t left_out, const CoarseGraining& graining,
-                            std::span<const MapSums> batches, double container_radius, double surface_z);
+/// The grid of the whole map, without the rows above all grains. z counts from `surface_z` (in the frame).
+MapGrid map_grid(const MapBatches& batches, double surface_z);
+
+/// Calls action(rows) for the rows of map_grid(), a row of tiles at a time, from the lowest up. In memory are
+/// those rows, and the sums of all batches in one tile. `container_radius`: of a circle about the frame's
+/// origin; 0: none. There must be a batch.
+void each_map_rows(const MapBatches& batches, double container_radius,
+                   const std::function<void(const MapRows&)>& action);
 
 }  // namespace drumlin::particles

@@ -16,6 +16,11 @@ double wall_distance(const MapBounds& bounds, double x, double z) {
   return std::min({z - bounds.z_min, x - bounds.x_min, bounds.x_max - x});
 }
 
+double surface_between(const MapGrid& grid, std::size_t row, double nu, double nu_above, double surface_nu) {
+  if (row + 1 == grid.rows) return grid.z_of(row);
+  return grid.z_of(row) + grid.spacing_z * (nu - surface_nu) / (nu - nu_above);
+}
+
 /// Highest z of a column where nu crosses `surface_nu`, linear between nodes; minus infinity when it never
 /// does.
 double surface_z(const FieldMap& map, const std::vector<double>& nu, std::size_t column, double surface_nu) {
@@ -26,8 +31,7 @@ double surface_z(const FieldMap& map, const std::vector<double>& nu, std::size_t
   };
   for (std::size_t row = grid.rows; row-- > 0;) {
     if (at(row) < surface_nu) continue;
-    if (row + 1 == grid.rows) return grid.z_of(row);
-    return grid.z_of(row) + grid.spacing_z * (at(row) - surface_nu) / (at(row) - at(row + 1));
+    return surface_between(grid, row, at(row), row + 1 == grid.rows ? 0 : at(row + 1), surface_nu);
   }
   return -std::numeric_limits<double>::infinity();
 }
@@ -114,6 +118,23 @@ LogLine line_through(const Points& points) {
 
 }  // namespace
 
+std::span<const FindingField> fields_of_findings() {
+  static constexpr FindingField fields[] = {{"nu", false},
+                                            {"p", false},
+                                            {"I", false},
+                                            {"mu", true},
+                                            {"d_v_x_dz", false},
+                                            {"sigma_xz", false},
+                                            {"sigma_zz", false},
+                                            {"residual_x", true},
+                                            {"residual_z", true},
+                                            {"residual_x_without_kinetic", false},
+                                            {"residual_z_without_kinetic", false},
+                                            {"inertia_x", false},
+                                            {"inertia_z", false}};
+  return fields;
+}
+
 std::vector<std::size_t> bulk_nodes(const FieldMap& map, const MapBounds& bounds,
                                     const MapFindingOptions& options) {
   const auto& nu = map.field("nu").value;
@@ -166,6 +187,40 @@ BulkFriction bulk_friction(const FieldMap& map, const MapBounds& bounds, const M
   }
   return {line_through(by_invariants), line_through(by_ratio), bulk.size(),
           noise_of(map.field("mu"), fitted, batches)};
+}
+
+FrictionLine::FrictionLine(const MapGrid& grid, const MapBounds& bounds, const MapFindingOptions& options,
+                           const std::shared_ptr<ScratchFile>& file)
+    : grid_(grid), bounds_(bounds), options_(options), tops_(grid.columns), points_(file) {}
+
+void FrictionLine::add(std::size_t node, double nu, double p, double I, double mu) {
+  const std::size_t row = node / grid_.columns, column = node % grid_.columns;
+  const double known_nu = std::isnan(nu) ? 0 : nu;
+  Top& top = tops_[column];
+  if (top.row + 1 == row) top.nu_above = known_nu;
+  if (known_nu >= options_.surface_nu) top = {row, known_nu, 0};
+  if (std::isfinite(p) && I >= options_.I_min && I <= options_.I_max &&
+      wall_distance(bounds_, grid_.x_of(column), grid_.z_of(row)) > options_.margin)
+    points_.push_back({node, I, mu});
+}
+
+double FrictionLine::surface(std::size_t column) const {
+  const Top& top = tops_[column];
+  if (top.row == Top::none) return -std::numeric_limits<double>::infinity();
+  return surface_between(grid_, top.row, top.nu, top.nu_above, options_.surface_nu);
+}
+
+LogLine FrictionLine::line() const {
+  std::vector<double> surfaces(grid_.columns);
+  for (std::size_t column = 0; column < surfaces.size(); ++column) surfaces[column] = surface(column);
+  Points points;
+  points_.each([&](const Point& point) {
+    if (!(surfaces[point.node % grid_.columns] - grid_.z_of(point.node / grid_.columns) > options_.margin))
+      return;
+    points.log_I.push_back(std::log(point.I));
+    points.y.push_back(point.mu);
+  });
+  return line_through(points);
 }
 
 }  // namespace drumlin::particles

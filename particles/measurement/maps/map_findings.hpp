@@ -2,8 +2,11 @@
 // Balance of momentum and fit of mu(I) over the whole of a map.
 #include <cstddef>
 #include <limits>
+#include <memory>
+#include <span>
 #include <vector>
 
+#include "coupling/common/scratch_file.hpp"
 #include "coupling/exchange/field_map.hpp"
 
 namespace drumlin::particles {
@@ -29,6 +32,13 @@ struct MapFindingOptions {
 /// Nodes of the map in the bulk.
 std::vector<std::size_t> bulk_nodes(const FieldMap& map, const MapBounds& bounds,
                                     const MapFindingOptions& options);
+
+/// The fields that are read below.
+struct FindingField {
+  const char* name;
+  bool with_intervals;
+};
+std::span<const FindingField> fields_of_findings();
 
 /// What is missing in the balance of momentum over some nodes, in units of nu g.
 struct BalanceResidual {
@@ -65,5 +75,35 @@ struct BulkFriction {
 };
 BulkFriction bulk_friction(const FieldMap& map, const MapBounds& bounds, const MapFindingOptions& options,
                            std::size_t batches);
+
+/// BulkFriction::invariant of a map that is seen once, node after node, and not kept: what may belong to the
+/// bulk waits in a scratch file until the surface above it is known.
+class FrictionLine {
+ public:
+  FrictionLine(const MapGrid& grid, const MapBounds& bounds, const MapFindingOptions& options,
+               const std::shared_ptr<ScratchFile>& file);
+  /// Row after row from the lowest up; node = row columns + column.
+  void add(std::size_t node, double nu, double p, double I, double mu);
+  LogLine line() const;
+
+ private:
+  /// The highest node of a column so far that is as dense as the surface, and its neighbour above.
+  struct Top {
+    std::size_t row = none;
+    double nu = 0, nu_above = 0;
+    static constexpr std::size_t none = static_cast<std::size_t>(-1);
+  };
+  struct Point {
+    std::size_t node;
+    double I, mu;
+  };
+  double surface(std::size_t column) const;
+
+  MapGrid grid_;
+  MapBounds bounds_;
+  MapFindingOptions options_;
+  std::vector<Top> tops_;
+  ScratchList<Point> points_;
+};
 
 }  // namespace drumlin::particles

@@ -130,7 +130,7 @@ void MapDepositor::add(const Snapshot& snapshot, const FlowSnapshot& in_frame, M
   const FlowFrame& frame = graining_.frame;
   force_x_.assign(in_frame.x.size(), 0.0);
   force_z_.assign(in_frame.x.size(), 0.0);
-  for (const HalfBranch& branch : in_frame.half_branches) {
+  for (const HalfBranch& branch : in_frame.half_branches()) {
     force_x_[branch.grain] += branch.force_x;
     force_z_[branch.grain] += branch.force_z;
     add_half_branch(branch, graining_.width, canvas);

@@ -22,7 +22,7 @@ class NodeTiles {
   /// For writing: makes the tile.
   Node& at(std::size_t column, std::size_t row) {
     std::vector<Node>& tile = tiles_[tile_of(column, row)];
-    if (tile.empty()) tile.resize(edge * edge);
+    if (tile.empty()) tile.resize(nodes_per_tile);
     return tile[place_in_tile(column, row)];
   }
   const Node& operator()(std::size_t column, std::size_t row) const {
@@ -34,6 +34,19 @@ class NodeTiles {
   const Node& operator[](std::size_t node) const { return (*this)(node % columns_, node / columns_); }
 
   std::size_t size() const { return columns_ * rows_; }
+
+  static std::size_t tiles_along(std::size_t nodes) { return (nodes + edge - 1) / edge; }
+  /// Nodes along a side of a tile.
+  static constexpr std::size_t edge = 16;
+  static constexpr std::size_t nodes_per_tile = edge * edge;
+  std::size_t tiles() const { return tiles_.size(); }
+  /// Nodes of one tile, row after row, of a row of tiles after the one below it; empty where nobody wrote.
+  const std::vector<Node>& tile(std::size_t t) const { return tiles_[t]; }
+  std::size_t bytes() const {
+    std::size_t bytes = tiles_.capacity() * sizeof(tiles_.front());
+    for (const std::vector<Node>& tile : tiles_) bytes += tile.capacity() * sizeof(Node);
+    return bytes;
+  }
 
   /// A number of each node, value(node), which is 0 for a node of zeros.
   template <class Value>
@@ -54,8 +67,6 @@ class NodeTiles {
   template <class Other>
   friend class NodeTiles;
 
-  static constexpr std::size_t edge = 16;
-  static std::size_t tiles_along(std::size_t nodes) { return (nodes + edge - 1) / edge; }
   std::size_t tile_of(std::size_t column, std::size_t row) const {
     return row / edge * across_ + column / edge;
   }

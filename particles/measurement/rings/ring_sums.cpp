@@ -116,7 +116,7 @@ RingGrid ring_grid(double centre_x, double centre_z, double thickness, double r_
 void add_snapshot(const RingGrid& grid, const FlowSnapshot& snapshot, LayerSums& sums) {
   for (std::size_t i = 0; i < snapshot.x.size(); ++i) add_grain(grid, snapshot, i, sums.layers);
   std::vector<double> cuts;
-  for (const HalfBranch& branch : snapshot.half_branches) add_half_branch(grid, branch, cuts, sums.layers);
+  for (const HalfBranch& branch : snapshot.half_branches()) add_half_branch(grid, branch, cuts, sums.layers);
   sums.with_spin = sums.with_spin && !snapshot.spin.empty();
   sums.with_densities = sums.with_densities || !snapshot.density.empty();
   sums.with_contacts = sums.with_contacts && snapshot.contacts_known;

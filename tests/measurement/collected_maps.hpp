@@ -1,0 +1,59 @@
+#pragma once
+// Maps of a few snapshots, put together from the rows that they are handed out in.
+#include <memory>
+#include <vector>
+
+#include "coupling/common/scratch_file.hpp"
+#include "coupling/exchange/field_map.hpp"
+#include "particles/measurement/maps/field_maps.hpp"
+
+namespace drumlin::testing {
+
+/// The sums of snapshots in order of time, each of them in memory.
+struct SumsOfSnapshots {
+  std::vector<particles::MapSums> sums;
+  std::vector<particles::DisplacementSums> displacements;
+};
+
+inline SumsOfSnapshots sums_of_snapshots(const particles::CoarseGraining& graining,
+                                         const std::vector<particles::Snapshot>& snapshots) {
+  SumsOfSnapshots result;
+  particles::DisplacementDepositor follower(graining);
+  particles::FlowSnapshot in_frame;
+  for (const particles::Snapshot& snapshot : snapshots) {
+    particles::to_flow_frame(snapshot, graining.frame, particles::VelocityKind::window, in_frame);
+    result.sums.push_back(particles::empty_sums(graining));
+    result.displacements.push_back(particles::empty_displacements(graining));
+    particles::MapDepositor(graining).add(snapshot, in_frame, result.sums.back());
+    follower.add(snapshot, result.displacements.back());
+  }
+  return result;
+}
+
+inline particles::MapBatches batches_of(const particles::CoarseGraining& graining,
+                                        const SumsOfSnapshots& sums) {
+  particles::MapBatches batches(graining, std::make_shared<ScratchFile>());
+  for (std::size_t b = 0; b < sums.sums.size(); ++b) batches.put_away(sums.sums[b], sums.displacements[b]);
+  return batches;
+}
+
+/// Maps of snapshots in order of time, each in a batch of its own.
+inline FieldMap collected_maps(const particles::CoarseGraining& graining,
+                               const std::vector<particles::Snapshot>& snapshots, double radius = 0) {
+  const particles::MapBatches batches = batches_of(graining, sums_of_snapshots(graining, snapshots));
+  FieldMap map;
+  map.grid = particles::map_grid(batches, 0);
+  particles::each_map_rows(batches, radius, [&](const particles::MapRows& rows) {
+    map.fields.resize(rows.fields.size());
+    for (std::size_t f = 0; f < rows.fields.size(); ++f) {
+      const MapField& from = rows.fields[f];
+      MapField& field = map.fields[f];
+      field.name = from.name;
+      field.value.insert(field.value.end(), from.value.begin(), from.value.end());
+      field.ci99.insert(field.ci99.end(), from.ci99.begin(), from.ci99.end());
+    }
+  });
+  return map;
+}
+
+}  // namespace drumlin::testing
