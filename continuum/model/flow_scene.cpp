@@ -94,6 +94,10 @@ void describe(Visitor& v, FlowSolverKeys& s) {
           defaulted("", above(0, 1), "On the nonlinear residual over the norm of the weight."));
   v.value("linear_tolerance", s.linear_tolerance,
           defaulted("", above(0, 1), "On the true relative residual of each linear solve."));
+  v.value(
+      "linear", s.linear,
+      defaulted("", one_of({"automatic", "direct", "iterative"}),
+                "MUMPS (direct), or GMRES with multigrid; automatic: that from 1e6 unknowns of a mesh on."));
   v.value("max_iterations", s.max_iterations,
           defaulted("", at_least(1, 10000), "Newton iterations per phase."));
   v.value("sensitivity", s.sensitivity,
