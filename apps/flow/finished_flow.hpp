@@ -23,6 +23,8 @@ struct FinishedFlow {
   std::optional<continuum::PlainFlow> plain;  ///< absent where the law takes no fields from the flow
   double cpu_seconds = 0;                     ///< of the solve, on this rank
   int ranks = 1;
+  std::vector<double> rank_cpu_seconds,
+      rank_peak_memory_mb;  ///< of the whole process, up to the end of the solve
   continuum::FlowFindings findings;
   std::vector<continuum::Sensitivity> sensitivities;  ///< empty: not asked for
   continuum::LawBand law_band;                        ///< without draws: not asked for

@@ -17,6 +17,7 @@
 #include "continuum/rheology/ill_posed_ranges.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/common/last_whole.hpp"
+#include "coupling/common/own_costs.hpp"
 #include "coupling/common/text_file.hpp"
 #include "coupling/exchange/measured_run.hpp"
 #include "coupling/law/rheology_file.hpp"
@@ -155,6 +156,7 @@ struct SolvedFlow {
   std::vector<continuum::MeshResult> meshes;
   std::optional<continuum::PlainFlow> plain;
   double cpu_seconds = 0;
+  std::vector<double> rank_cpu_seconds, rank_peak_memory_mb;
 };
 
 continuum::FlowSolution solution_of(FlowOutput& output, const FlowRequest& asked, const FlowStart& start,
@@ -194,7 +196,12 @@ SolvedFlow solved_flow(FlowOutput& output, const FlowRequest& asked, const FlowS
     observer.level_finished(asked.scene.mesh.levels - 1, solution.field);
   if (plain && solution.report.converged)
     plain->v_x_change = continuum::v_x_change(plain->profiles, chosen.profiles(solution.field));
-  return {std::move(solution), std::move(meshes), std::move(plain), cpu_seconds};
+  return {std::move(solution),
+          std::move(meshes),
+          std::move(plain),
+          cpu_seconds,
+          continuum::FemRuntime::of_ranks(own_cpu_seconds()),
+          continuum::FemRuntime::of_ranks(own_peak_memory_mb())};
 }
 
 // What comes after it is ended by a signal at once: nothing is kept before all of it is there.
@@ -221,6 +228,8 @@ FinishedFlow finished_flow(const FlowOptions& options, const FlowRequest& asked,
                     .plain = std::move(solved.plain),
                     .cpu_seconds = solved.cpu_seconds,
                     .ranks = ranks,
+                    .rank_cpu_seconds = std::move(solved.rank_cpu_seconds),
+                    .rank_peak_memory_mb = std::move(solved.rank_peak_memory_mb),
                     .findings = {},
                     .sensitivities = {},
                     .law_band = {},

@@ -2,35 +2,10 @@
 
 #include <petscksp.h>
 
-#include <string>
-
-#include "coupling/common/errors.hpp"
+#include "continuum/fem/detail/field_view.hpp"
 
 namespace drumlin::continuum::fem {
 namespace {
-
-void check(PetscErrorCode code, const char* what) {
-  if (code)
-    throw NotConvergedError(std::string("PETSc failed to ") + what + " (code " + std::to_string(code) + ")");
-}
-
-// PETSc's view of the owned part of a field: no copy.
-class FieldView {
- public:
-  explicit FieldView(const FieldVector& field) {
-    check(VecCreateMPIWithArray(field.get_mpi_communicator(), 1,
-                                static_cast<PetscInt>(field.locally_owned_size()),
-                                static_cast<PetscInt>(field.size()), field.begin(), &vec_),
-          "take a vector");
-  }
-  ~FieldView() { VecDestroy(&vec_); }
-  FieldView(const FieldView&) = delete;
-  FieldView& operator=(const FieldView&) = delete;
-  Vec get() const { return vec_; }
-
- private:
-  Vec vec_ = nullptr;
-};
 
 // b - A x; its norm.
 double remainder_of(const SystemMatrix& matrix, const FieldVector& x, const FieldVector& b,

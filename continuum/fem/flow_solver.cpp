@@ -126,6 +126,10 @@ class Continuation {
         observer_(observer),
         neighbour_(neighbour),
         level_(coarsest_level(problem, neighbour)) {
+    const double growth = 1 + 3 * options.refined_share;
+    discretisation().keeps_nesting =
+        fem::iterates(options, static_cast<double>(discretisation().unknowns.n_dofs()) *
+                                   std::pow(growth, options.levels - 1));
     report_.start = neighbour ? "neighbour" : "cold";
   }
 

@@ -14,9 +14,6 @@ namespace {
 // only waste the iterations that are left.
 constexpr double hopeless_residual = 1e5;
 
-// True relative residual of a linear solve that asks for no refinement: below every tolerance on the flow.
-constexpr double enough = 1e-9;
-
 // Of the fluidity, relative: far below what the residual of the momentum can tell, and what suffices to
 // compare step lengths.
 constexpr double settled = 1e-9, nearly_settled = 1e-4;
@@ -37,22 +34,26 @@ State moved(const State& state, const FieldVector& step, double theta_step, doub
 
 }  // namespace
 
-// The slope is one more unknown, its equation (the moment) linear in the solution: two solves with the same
-// factors.
+double Newton::solved(const FieldVector& rhs, FieldVector& solution) {
+  return clock_(Work::linear_solves, [&] {
+    return linear_.solve(rhs, solution, report_.linear[static_cast<std::size_t>(level_)]);
+  });
+}
+
+// The slope is one more unknown, its equation (the moment) linear in the solution: two solves with one
+// matrix. The second starts from the response of the step before, where it iterates.
 Newton::Step Newton::step_with_factors(const State& state) {
   Step step{.solution = d_.field()};
   FieldVector rhs = system_.residual;
   rhs *= -1;
-  step.linear_residual =
-      clock_(Work::linear_solves, [&] { return factors_.solve(rhs, step.solution, enough); });
+  step.linear_residual = solved(rhs, step.solution);
   d_.homogeneous.distribute(step.solution);
   if (std::holds_alternative<SlopeFromMoment>(problem_.slope)) {
     const FieldVector by_theta =
         load(d_, {problem_.density * std::cos(state.theta), problem_.density * std::sin(state.theta)});
-    FieldVector response = d_.field();
-    step.linear_residual =
-        std::max(step.linear_residual,
-                 clock_(Work::linear_solves, [&] { return factors_.solve(by_theta, response, enough); }));
+    if (!response_) response_.emplace(d_.field());
+    FieldVector& response = *response_;
+    step.linear_residual = std::max(step.linear_residual, solved(by_theta, response));
     d_.homogeneous.distribute(response);
     step.theta = -(moment_ * state.solution + moment_ * step.solution + frame_moment_) / (moment_ * response);
     step.solution.add(step.theta, response);
@@ -108,9 +109,8 @@ std::optional<Newton::Step> Newton::newton_step(const Phase& phase, const State&
     Step step = step_with_factors(state);
     if (fluidity_) fluidity_->limit(largest_fluidity_step, step.solution);
     if (step.linear_residual <= options_.linear_tolerance) return step;
-    report_.failure =
-        fmt::format("linear solve: true relative residual {:.2e} after refinement, in phase '{}'",
-                    step.linear_residual, phase.name);
+    report_.failure = fmt::format("linear solve: true relative residual {:.2e}, in phase '{}'",
+                                  step.linear_residual, phase.name);
   } catch (const NotConvergedError& error) {  // a singular tangent: a smaller step in eps may still do
     report_.failure = fmt::format("{}, in phase '{}'", error.what(), phase.name);
   }

@@ -26,6 +26,10 @@ int FemRuntime::rank() { return static_cast<int>(dealii::Utilities::MPI::this_mp
 
 int FemRuntime::ranks() { return static_cast<int>(dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD)); }
 
+std::vector<double> FemRuntime::of_ranks(double value) {
+  return dealii::Utilities::MPI::all_gather(MPI_COMM_WORLD, value);
+}
+
 void FemRuntime::on_first_rank(const std::function<void()>& action) const {
   do_on_first_rank(rank() == 0, action,
                    [](int code) { return dealii::Utilities::MPI::broadcast(MPI_COMM_WORLD, code, 0); });

@@ -2,6 +2,7 @@
 // Starts and ends MPI and PETSc, once per program; runs actions on the first rank.
 #include <functional>
 #include <memory>
+#include <vector>
 
 namespace drumlin::continuum {
 
@@ -16,6 +17,7 @@ class FemRuntime {
 
   static int rank();
   static int ranks();
+  static std::vector<double> of_ranks(double value);  ///< that of each rank; collective
   /// What one rank has to do for all: files and messages. All ranks call it and wait for the first. What
   /// `action` throws there is thrown there, and FailedOnFirstRank on the others.
   void on_first_rank(const std::function<void()>& action) const;

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "continuum/fem/detail/linear_solver.hpp"
 #include "continuum/fem/detail/settled_fluidity.hpp"
 #include "continuum/fem/detail/solved_level.hpp"
 #include "continuum/fem/detail/work_clock.hpp"
@@ -31,16 +32,19 @@ class Newton {
         report_(report),
         observer_(observer),
         moment_(surface_moment(problem, d_)),
-        system_(d_) {
+        system_(d_),
+        linear_(options, d_) {
+    const auto meshes = static_cast<std::size_t>(level) + 1;
+    if (report.linear.size() < meshes) report.linear.resize(meshes);
     if (problem.frame) frame_moment_ = moment_ * frame_velocity(problem, d_);
     if (d_.has_fluidity()) fluidity_.emplace(problem, d_);
     weight_norm_ = problem.density > 0 ? load(d_, {0, problem.density}).l2_norm() : 0;
   }
 
   bool solve(const Phase& phase, State& state);
-  /// Factors of the tangent of the last iterate.
+  /// Readies the tangent of the last iterate for solves.
   void factorise() {
-    clock_(Work::factorisation, [&] { factors_.factorise(system_.matrix); });
+    clock_(Work::factorisation, [&] { linear_.prepare(system_.matrix); });
   }
   /// After one more step with these factors; the residual is of the mesh as it stands now.
   State corrected(const Setting& setting, const State& state);
@@ -56,6 +60,7 @@ class Newton {
     double linear_residual = 0;
   };
   Step step_with_factors(const State& state);
+  double solved(const FieldVector& rhs, FieldVector& solution);
   std::optional<Step> newton_step(const Phase& phase, const State& state);
   bool take(const Phase& phase, const Step& step, State& state, IterationReport& line);
   /// True where nothing has to settle.
@@ -70,7 +75,6 @@ class Newton {
   const FlowProblem& problem_;
   const FlowSolverOptions& options_;
   const Discretisation& d_;
-  DirectSolver factors_;
   std::optional<SettledFluidity> fluidity_;  // absent: ln g is none of the unknowns
   int level_;
   double start_;
@@ -79,7 +83,9 @@ class Newton {
   const FlowObserver& observer_;
   FieldVector moment_;
   System system_;
-  double frame_moment_ = 0;  // of the velocity that the unknown lacks in a rotating frame
+  LinearSolver linear_;
+  std::optional<FieldVector> response_;  // of the flow to the slope, of the last step
+  double frame_moment_ = 0;              // of the velocity that the unknown lacks in a rotating frame
   double weight_norm_ = 0;
   double reference_ = 1;
 };

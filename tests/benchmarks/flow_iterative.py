@@ -1,0 +1,67 @@
+"""What the linear systems of a flow cost by MUMPS and by iterations: the 6 rpm drum on finer and finer meshes, on 1 and 2 ranks.
+
+usage: python3 tests/benchmarks/flow_iterative.py BUILD RECORD.json [CASE...]   (CASE: LEVELS:SURFACE_CELL:METHOD:RANKS[:TOLERANCE])
+
+Each mesh halves the cells of the last one, from cells of 2 d. Without CASE: 2 to 4 meshes, both methods, 1 and 2 ranks. A case that stands in RECORD.json
+already is kept, so that the largest ones can be added by themselves. Processor seconds are those of each whole process; wall seconds mean something on an
+idle machine only: the load stands beside them.
+"""
+
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SCALARS = ("theta_deg", "H", "lambda")
+
+
+def solved(build, levels, cell, method, ranks, tolerance):
+    environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMP_NUM_THREADS": "1", "OMPI_MCA_mpi_yield_when_idle": "1"}
+    keys = {"mesh.levels": levels, "mesh.surface_cell": cell, "solver.linear": method, "solver.tolerance": tolerance, "solver.sensitivity": "false", "output.figures": "false"}
+    with tempfile.TemporaryDirectory() as name:
+        words = ["mpirun", "-n", ranks, build / "drumlin-flow", ROOT / "data/scenes/drum-6rpm-flow.toml", "--rheology", ROOT / "data/rheology/drum-6rpm.toml", "-o", f"{name}/flow"]
+        for key, value in keys.items():
+            words += ["--set", f"{key}={value}"]
+        load = os.getloadavg()[0]
+        subprocess.run([str(word) for word in words], check=True, env=environment, capture_output=True)
+        flow = json.loads(pathlib.Path(f"{name}/flow/flow.json").read_text(encoding="utf-8"))
+        table = [line.split(",") for line in pathlib.Path(f"{name}/flow/iterations.csv").read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
+    last = [row for row in table[1:] if int(row[0]) == levels - 1]
+    return {
+        "revision": flow["provenance"].get("revision"),
+        "unknowns": flow["unknowns"],
+        "newton_iterations": flow["iterations"],
+        "newton_iterations_last_mesh": len(last),
+        "linear": flow["linear"],
+        "largest_linear_residual": max(float(row[7]) for row in table[1:]),
+        "residual": flow["residual"],
+        "wall_seconds": flow["seconds"],
+        "load": [load, os.getloadavg()[0]],
+        "rank_costs": flow["rank_costs"],
+        "phases": flow["phases"],
+        **{name: flow[name] for name in SCALARS},
+    }
+
+
+def main():
+    build, record = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
+    cases = sys.argv[3:] or [f"{levels}:{2 / 2 ** (levels - 1):g}:{method}:{ranks}" for levels in (2, 3, 4) for method in ("direct", "iterative") for ranks in (1, 2)]
+    content = json.loads(record.read_text(encoding="utf-8")) if record.exists() else {"format": "drumlin-flow-iterative-1", "command": "python3 tests/benchmarks/flow_iterative.py build RECORD.json", "cases": {}}
+    for case in cases:
+        if case in content["cases"]:
+            continue
+        levels, cell, method, ranks, *rest = case.split(":")
+        found = solved(build, int(levels), float(cell), method, int(ranks), rest[0] if rest else "1e-8")
+        content["cases"][case] = found
+        twin = content["cases"].get(":".join([levels, cell, "direct", ranks, *rest])) if method == "iterative" else None
+        if twin:
+            found["relative_difference_from_direct"] = {name: abs(found[name] / twin[name] - 1) for name in SCALARS}
+        record.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
+        print(case, found["unknowns"], found["newton_iterations"], found["linear"][-1], found["rank_costs"], f"{found['wall_seconds']:.1f} s", flush=True)
+
+
+if __name__ == "__main__":
+    main()
