@@ -34,13 +34,14 @@ class H5Writer {
   void add_number(const std::string& name, std::int64_t value);
   void add_text(const std::string& name, const std::string& text);
 
-  /// Whole file with its checksum. Throws IoError; an older file of that name is then untouched.
+  /// The bytes of the whole file, with its checksum.
+  std::string image() const;
+  /// Writes them. Throws IoError; an older file of that name is then untouched.
   void save(const std::filesystem::path& file) const;
   /// The same, the older file staying under the name `previous`.
   void save_keeping(const std::filesystem::path& file, const std::filesystem::path& previous) const;
 
  private:
-  std::string image() const;
   struct Handles;
   std::unique_ptr<Handles> handles_;
 };
