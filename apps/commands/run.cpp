@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "apps/commands/accuracy_statement.hpp"
 #include "apps/commands/expected_output.hpp"
@@ -172,10 +173,11 @@ class ParticleRun {
 
   void save_snapshot() {
     const auto begin = Clock::now();
-    particles::Snapshot snapshot = simulation_.take_snapshot();
+    simulation_.release_memory();
+    std::string image = particles::snapshot_image(simulation_.take_snapshot());
     const std::string name = snapshot_name(simulation_.state().snapshots);
-    writer_.write([this, name, snapshot = std::move(snapshot)] {
-      particles::write_snapshot(options_.output / name, snapshot);
+    writer_.write([this, name, image = std::move(image)]() mutable {
+      replace_file(options_.output / name, std::exchange(image, {}));
       output_.list(name);
     });
     totals_.output_seconds += seconds_between(begin, Clock::now());
@@ -183,6 +185,7 @@ class ParticleRun {
 
   void save_checkpoint() {
     const auto begin = Clock::now();
+    simulation_.release_memory();
     particles::Checkpoint checkpoint;
     checkpoint.scene = resolved_;
     checkpoint.log_bytes = log_.flush();
@@ -196,11 +199,12 @@ class ParticleRun {
     if (walls_) tables[wall_table_name] = walls_->entry();
     if (regions_) tables[region_table_name] = regions_->entry();
     // The manifest first: what a checkpoint builds on is listed.
-    writer_.write([this, tables = std::move(tables), checkpoint = std::move(checkpoint)] {
-      for (const auto& [name, entry] : tables) output_.manifest().files[name] = entry;
-      output_.save();
-      particles::keep_checkpoint(options_.output, checkpoint);
-    });
+    writer_.write(
+        [this, tables = std::move(tables), image = particles::checkpoint_image(checkpoint)]() mutable {
+          for (const auto& [name, entry] : tables) output_.manifest().files[name] = entry;
+          output_.save();
+          particles::keep_checkpoint(options_.output, std::exchange(image, {}));
+        });
     next_checkpoint_s_ = simulated_seconds() + scene_.output.checkpoint_every_s;
     totals_.output_seconds += seconds_between(begin, Clock::now());
   }
@@ -291,6 +295,14 @@ class ParticleRun {
   nlohmann::ordered_json stretches_;  ///< accuracy.stretches of run.json; null: none were asked for
 };
 
+/// Lets the lists of grains that are in memory be those that stand in the run folder.
+void read_lists_from(const fs::path& folder, particles::Scene& scene) {
+  const auto names = grain_list_names(scene);
+  const auto lists = lists_of(scene);
+  for (std::size_t k = 0; k < lists.size(); ++k)
+    if (lists[k]->text) lists[k]->file = folder / names[k], lists[k]->text.reset();
+}
+
 }  // namespace
 
 int run(const RunOptions& options) {
@@ -338,6 +350,7 @@ int run(const RunOptions& options) {
     if (const std::string warning = room_warning(expected, options.output); !warning.empty())
       print_error(fmt::format("warning: {}\n", warning));
   }
+  read_lists_from(options.output, scene);
   return ParticleRun(options, output, scene, resolved, std::move(from), started_from).execute();
 }
 

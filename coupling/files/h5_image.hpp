@@ -45,13 +45,12 @@ class H5Content {
 class H5Writer : public H5Content {
  public:
   H5Writer();
-  /// Whole file with its checksum. Throws IoError; an older file of that name is then untouched.
+  /// The bytes of the whole file, with its checksum.
+  std::string image() const;
+  /// Writes them. Throws IoError; an older file of that name is then untouched.
   void save(const std::filesystem::path& file) const;
   /// The same, the older file staying under the name `previous`.
   void save_keeping(const std::filesystem::path& file, const std::filesystem::path& previous) const;
-
- private:
-  std::string image() const;
 };
 
 /// The same file, byte for byte, made on the disk: for tables that are never in memory as a whole.

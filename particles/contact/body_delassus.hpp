@@ -10,6 +10,7 @@
 
 #include "particles/contact/cone.hpp"
 #include "particles/contact/sweep_plan.hpp"
+#include "particles/parallel/work_memory.hpp"
 
 namespace drumlin::particles {
 
@@ -54,6 +55,12 @@ class BodyDelassus {
   /// Makes room for contacts that are set one by one, in any order.
   void resize(std::size_t count) {
     i.resize(count), j.resize(count), n_x.resize(count), n_z.resize(count), inverse_W_nn.resize(count);
+  }
+  /// The same for contacts that are all set anew.
+  void renew(std::size_t count) {
+    resize_closely(i, count), resize_closely(j, count), resize_closely(n_x, count),
+        resize_closely(n_z, count);
+    resize_closely(inverse_W_nn, count);
   }
   void set(int a, std::int32_t body_i, std::int32_t body_j, double normal_x, double normal_z) {
     i[a] = body_i, j[a] = body_j, n_x[a] = normal_x, n_z[a] = normal_z;

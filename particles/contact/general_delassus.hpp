@@ -111,6 +111,7 @@ class GeneralDelassus {
     set(contacts() - 1, body_i, body_j, normal_x, normal_z, lever_i);
   }
   /// Makes room for contacts that are set one by one, in any order.
+  void renew(std::size_t count) { resize(count); }
   void resize(std::size_t count) {
     i.resize(count), j.resize(count), n_x.resize(count), n_z.resize(count), blocks_.resize(count);
     if constexpr (dim == 3) lever.resize(count);

@@ -12,6 +12,7 @@
 #include "particles/contact/contact_problem.hpp"
 #include "particles/contact/solution.hpp"
 #include "particles/parallel/team_loops.hpp"
+#include "particles/parallel/work_memory.hpp"
 
 namespace drumlin::particles {
 
@@ -107,7 +108,7 @@ void set_velocities(const Problem& problem, std::span<const double> r,
   auto& u = velocities.contacts;
   if constexpr (requires { problem.W.velocities_of(0, 0, problem.q, velocities.bodies, u); }) {
     problem.W.load(velocities.bodies, r);
-    u.resize(problem.q.size());
+    resize_closely(u, problem.q.size());
     loops.each(problem.contacts(), [&](std::size_t begin, std::size_t end) {
       problem.W.velocities_of(static_cast<int>(begin), static_cast<int>(end), problem.q, velocities.bodies,
                               u);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "particles/parallel/team_loops.hpp"
+#include "particles/parallel/work_memory.hpp"
 
 namespace drumlin::particles {
 
@@ -45,6 +46,10 @@ class SweepPlanner {
  public:
   /// Lets a team share the work; the plan does not depend on it.
   void use(ThreadTeam* team) { loops_ = TeamLoops(team); }
+  /// Takes work space from a memory, in the frame that is open when pairs are planned.
+  void use(WorkMemory* memory) {
+    slice_of_contact_.use(memory), by_slice_.use(memory), colour_.use(memory), used_.use(memory);
+  }
   /// Plans the pairs (i, j) in given slices of bodies. `order` receives the pairs in solve order: slice by
   /// slice and greedy colour by colour, in the order given within a colour. False, and nothing planned, if
   /// the slices do not suit the pairs.
@@ -62,10 +67,11 @@ class SweepPlanner {
                             std::vector<std::int32_t>& left);
 
   TeamLoops loops_;
-  std::vector<std::int32_t> slice_of_contact_, by_slice_, start_;
+  WorkArray<std::int32_t> slice_of_contact_, by_slice_;
+  std::vector<std::int32_t> start_;
   std::vector<std::vector<std::int32_t>> groups_;  // of each slice
-  std::vector<std::int8_t> colour_;
-  std::vector<std::uint64_t> used_;  // colours of the contacts of each body, one bit each
+  WorkArray<std::int8_t> colour_;
+  WorkArray<std::uint64_t> used_;  // colours of the contacts of each body, one bit each
 };
 
 /// Both at once, for a single problem that comes without places.

@@ -25,7 +25,7 @@ void CellGrid::sort(const SearchedState& state, std::span<const std::int32_t> me
   cell_z_ = cell_size;
   const int column_bits = std::bit_width(static_cast<unsigned>(columns_ - 1)),
             row_bits = std::bit_width(static_cast<unsigned>(rows - 1));
-  places_.resize(count);
+  places_.renew(count);
   for (std::size_t m = 0; m < count; ++m) {
     const std::int32_t b = members[m];
     const Point first = period_.first({bodies.x[b], bodies.z[b]});
@@ -34,7 +34,7 @@ void CellGrid::sort(const SearchedState& state, std::span<const std::int32_t> me
     places_[m] = {static_cast<std::uint64_t>(row) << column_bits | static_cast<std::uint64_t>(column), b};
   }
   sort_places(row_bits + column_bits);
-  grains_.resize(count);
+  resize_closely(grains_, count);
   drift_ = 0;
   cells_.clear();
   rows_.clear();
@@ -53,14 +53,17 @@ void CellGrid::sort(const SearchedState& state, std::span<const std::int32_t> me
   cells_.push_back({rows, 0, static_cast<std::int32_t>(count)});
 }
 
-void CellGrid::follow(const SearchedState& state) {
+bool CellGrid::follow(const SearchedState& state) {
   double farthest = 0;
+  bool same = true;
   for (NearGrain& g : grains_) {
+    same &= g.radius == state.bodies.radius[g.body];
     g.x = state.bodies.x[g.body], g.z = state.bodies.z[g.body];
     g.v_x = state.v_x[g.body], g.v_z = state.v_z[g.body];
     farthest = std::max({farthest, std::abs(g.x - g.sorted_x), std::abs(g.z - g.sorted_z)});
   }
   drift_ = farthest;
+  return same;
 }
 
 /// By as many counting sorts as the keys have digits of at most 12 bits, the last digit first.
@@ -70,7 +73,7 @@ void CellGrid::sort_places(int bits) {
   if (passes == 0) return;
   const int width = (bits + passes - 1) / passes;
   std::vector<std::int32_t> start;
-  sorted_.resize(places_.size());
+  sorted_.renew(places_.size());
   for (int pass = 0; pass < passes; ++pass) {
     const auto digit = [shift = pass * width, mask = (std::uint64_t{1} << width) - 1](std::uint64_t key) {
       return static_cast<std::size_t>(key >> shift & mask);
@@ -79,7 +82,7 @@ void CellGrid::sort_places(int bits) {
     for (const Place& place : places_) ++start[digit(place.key) + 1];
     for (std::size_t d = 1; d < start.size(); ++d) start[d] += start[d - 1];
     for (const Place& place : places_) sorted_[start[digit(place.key)]++] = place;
-    places_.swap(sorted_);
+    std::swap(places_, sorted_);
   }
 }
 
@@ -128,19 +131,30 @@ void GrainGrids::sort(const SearchedState& state, double range) {
   largest_.clear();
   for (std::size_t level = 0; level < members_.size(); ++level) {
     if (members_[level].empty()) continue;
-    if (used_ == grids_.size()) grids_.emplace_back();
+    if (used_ == grids_.size()) grids_.emplace_back().use(memory_);
     largest_.push_back(largest / std::exp2(level));
     grids_[used_++].sort(state, members_[level], largest_.back() + range);
   }
-  radii_.assign(bodies.radius.begin(), bodies.radius.end());
+  count_ = bodies.count();
+}
+
+void GrainGrids::use(WorkMemory* memory) {
+  memory_ = memory;
+  for (CellGrid& grid : grids_) grid.use(memory);
+}
+
+std::size_t GrainGrids::bytes() const {
+  std::size_t sum = 0;
+  for (const CellGrid& grid : grids_) sum += grid.bytes();
+  for (const auto& members : members_) sum += members.capacity() * sizeof(std::int32_t);
+  return sum;
 }
 
 bool GrainGrids::follow(const SearchedState& state, double farthest) {
-  if (!period_.open() || !state.period.open() || !std::ranges::equal(radii_, state.bodies.radius))
-    return false;
+  if (!period_.open() || !state.period.open() || count_ != state.bodies.count()) return false;
   drift_ = 0;
   for (CellGrid& grid : std::span(grids_).first(used_)) {
-    grid.follow(state);
+    if (!grid.follow(state)) return false;
     drift_ = std::max(drift_, grid.drift());
   }
   return drift_ <= farthest;

@@ -9,6 +9,7 @@
 
 #include "particles/bodies/bodies.hpp"
 #include "particles/bodies/period.hpp"
+#include "particles/parallel/work_memory.hpp"
 
 namespace drumlin::particles {
 
@@ -35,10 +36,13 @@ class CellGrid {
     std::int32_t first = 0;
   };
 
+  /// Takes work space from a memory, in the frame that is open when grains are sorted.
+  void use(WorkMemory* memory) { places_.use(memory), sorted_.use(memory); }
   /// Takes the grains listed in `members`, in linear time.
   void sort(const SearchedState& state, std::span<const std::int32_t> members, double cell_size);
-  /// Gives the grains their places and velocities of now; they stay in their cells. Of an open domain.
-  void follow(const SearchedState& state);
+  /// Gives the grains their places and velocities of now; they stay in their cells. Of an open domain. False
+  /// if one has another radius than it had.
+  bool follow(const SearchedState& state);
   /// Bound on how far any grain has moved along x or z since it was sorted.
   double drift() const { return drift_; }
 
@@ -46,6 +50,11 @@ class CellGrid {
   /// The cells that hold grains; one more marks the end.
   std::span<const Cell> cells() const { return cells_; }
   std::size_t count() const { return cells_.size() - 1; }
+  /// What it holds from one search to the next.
+  std::size_t bytes() const {
+    return grains_.capacity() * sizeof(NearGrain) + cells_.capacity() * sizeof(Cell) +
+           rows_.capacity() * sizeof(Row);
+  }
 
   /// Calls `visit(grain)` for every grain in the rectangle and for some around it, each once, in a fixed
   /// order.
@@ -145,7 +154,7 @@ class CellGrid {
   void sort_places(int bits);
 
   Period period_;
-  std::vector<Place> places_, sorted_;
+  WorkArray<Place> places_, sorted_;
   std::vector<NearGrain> grains_;  // cell by cell
   std::vector<Cell> cells_;        // one more marks the end
   std::vector<Row> rows_;          // those with cells; one more marks the end
@@ -157,6 +166,9 @@ class CellGrid {
 /// One grid per octave of sizes: a large grain does not fill its cell with hundreds of small ones.
 class GrainGrids {
  public:
+  void use(WorkMemory* memory);
+  /// What it holds from one search to the next.
+  std::size_t bytes() const;
   /// Prepares searches for pairs of grains whose surfaces are at most `range` apart.
   void sort(const SearchedState& state, double range);
   /// Whether the grains are those that were sorted, in an open domain, and none has moved further than
@@ -240,7 +252,8 @@ class GrainGrids {
   std::size_t used_ = 0;
   std::vector<double> largest_;  // diameter in each grid
   std::vector<std::vector<std::int32_t>> members_;
-  std::vector<double> radii_;  // of the bodies that were sorted
+  std::size_t count_ = 0;  // of the bodies that were sorted
+  WorkMemory* memory_ = nullptr;
   double drift_ = 0;
   double range_ = 0;
 };

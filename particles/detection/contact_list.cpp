@@ -201,15 +201,14 @@ void ContactDetection::list_pairs(const SearchedState& state, const PairRule& ru
   lists_.once = std::max(0, lists_.once - 1);
   lists_.used_again = 0;
   grids_.sort(state, range + lists_.skin);
-  pairs_.list(grids_, range + lists_.skin, rule);
+  pairs_.list(grids_, state, range + lists_.skin, rule);
 }
 
-const std::vector<Candidate>& ContactDetection::find(const Bodies& bodies, std::span<const double> v_x,
-                                                     std::span<const double> v_z,
-                                                     const DetectionInput& input) {
+std::span<const Candidate> ContactDetection::find(const Bodies& bodies, std::span<const double> v_x,
+                                                  std::span<const double> v_z, const DetectionInput& input) {
   if (bodies.count() == 0) {
-    candidates_.clear();
-    return candidates_;
+    candidates_.renew(0);
+    return candidates();
   }
   weighed_.clear();
   jolt_.assign(bodies.count(), 0.0);
@@ -225,7 +224,7 @@ const std::vector<Candidate>& ContactDetection::find(const Bodies& bodies, std::
   lists_.good = lists_.skin > 0 &&
                 static_cast<double>(pairs_.looked_far()) < most_far * static_cast<double>(bodies.count());
   if (input.period.moves()) add_image_velocities(bodies, input.period, candidates_);
-  return candidates_;
+  return candidates();
 }
 
 bool ContactDetection::is_local(std::span<const ThrownGrain> thrown, double reach) const {
@@ -295,8 +294,6 @@ bool ContactDetection::insert_found() {
   std::erase_if(found_, [&](const Candidate& pair) {
     return std::binary_search(candidates_.begin(), candidates_.end(), pair, before);
   });
-  const std::size_t count = candidates_.size();
-  if (candidates_.capacity() < count + found_.size()) candidates_.reserve(count + count / 16 + found_.size());
   added_.resize(found_.size());
   open_gaps(candidates_, found_.size(), [&](std::size_t k, std::size_t end) {
     const auto place = std::lower_bound(candidates_.begin(), candidates_.begin() + end, found_[k], before);

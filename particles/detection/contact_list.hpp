@@ -38,9 +38,12 @@ class ContactDetection {
  public:
   /// Lets a team share the work; the result does not depend on it.
   void use(ThreadTeam* team) { pairs_.use(team); }
+  /// Takes the candidates, and what finds them, from a memory: they end with the frame in which they were
+  /// found.
+  void use(WorkMemory* memory) { grids_.use(memory), pairs_.use(memory), candidates_.use(memory); }
   /// The pairs stand until the next search.
-  const std::vector<Candidate>& find(const Bodies& bodies, std::span<const double> v_x,
-                                     std::span<const double> v_z, const DetectionInput& input);
+  std::span<const Candidate> find(const Bodies& bodies, std::span<const double> v_x,
+                                  std::span<const double> v_z, const DetectionInput& input);
 
   /// Adds the pairs that grains thrown by impacts may meet, now that v_x and v_z are the velocities: with a
   /// wall those with gap < margin + 2 h a + J_i / 2, with another grain k
@@ -51,7 +54,7 @@ class ContactDetection {
   /// most of them. Returns whether the candidates are others than before.
   bool find_around(std::span<const ThrownGrain> thrown, const Bodies& bodies, std::span<const double> v_x,
                    std::span<const double> v_z, const DetectionInput& input);
-  const std::vector<Candidate>& candidates() const { return candidates_; }
+  std::span<const Candidate> candidates() const { return {candidates_.data(), candidates_.size()}; }
   /// Places among the candidates, ascending, of the pairs that the last search around grains has added; empty
   /// where it had to begin anew.
   std::span<const std::int32_t> added() const { return added_; }
@@ -60,6 +63,9 @@ class ContactDetection {
   void forget() { lists_ = {}; }
   /// Pairs of grains whose distance the last search measured: what it cost.
   std::int64_t looked_at() const { return pairs_.looked_at(); }
+  /// Pairs that the list holds from one search to the next, and what that takes.
+  std::size_t listed() const { return pairs_.listed(); }
+  std::size_t bytes() const { return pairs_.bytes() + grids_.bytes(); }
   /// Twice the way, in the last search, by which the approach of its pairs may push a grain: 2 h a_i.
   double jolt(std::int32_t body) const { return jolt_[body]; }
 
@@ -89,7 +95,7 @@ class ContactDetection {
   double cell_ = 0;                   // edge of the cells of the finest grid of a list that is used once
   std::vector<WeighedPair> weighed_;  // of grains and walls
   std::vector<double> jolt_;          // 2 h a_i of each body
-  std::vector<Candidate> candidates_;
+  WorkArray<Candidate> candidates_;
   std::vector<Candidate> found_;     // around thrown grains
   std::vector<std::int32_t> added_;  // places of those of them that were new
 };

@@ -24,16 +24,16 @@ std::span<const double> ContactOrder::folded(const Bodies& bodies, const Period&
   return folded_;
 }
 
-void ContactOrder::sort(const std::vector<Candidate>& pairs, const Bodies& bodies, const Period& period,
+void ContactOrder::sort(std::span<const Candidate> pairs, const Bodies& bodies, const Period& period,
                         SweepPlan& plan, std::vector<Candidate>& sorted) {
-  i_.resize(pairs.size());
-  j_.resize(pairs.size());
+  i_.renew(pairs.size());
+  j_.renew(pairs.size());
   for (std::size_t p = 0; p < pairs.size(); ++p) i_[p] = pairs[p].i, j_[p] = pairs[p].j;
   const bool along_x = period.open() && extent(bodies.x) > extent(bodies.z);
   const std::span<const double> along =
       !period.open_z() ? folded(bodies, period) : std::span<const double>(along_x ? bodies.x : bodies.z);
   planner_.plan(body_slices_along(along, i_, j_), i_, j_, plan, order_);
-  sorted.resize(pairs.size());
+  resize_closely(sorted, pairs.size());
   loops_.each(pairs.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) sorted[p] = pairs[order_[p]];
   });

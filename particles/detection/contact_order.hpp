@@ -17,10 +17,13 @@ class ContactOrder {
     loops_ = TeamLoops(team);
     planner_.use(team);
   }
+  /// Takes work space from a memory, in the frame that is open when pairs are sorted.
+  void use(WorkMemory* memory) { i_.use(memory), j_.use(memory), planner_.use(memory); }
   /// Sorts `pairs` into `sorted` and receives the plan: slices along the longer side of the packing (along z
   /// in a periodic domain; in a cell, folded there).
-  void sort(const std::vector<Candidate>& pairs, const Bodies& bodies, const Period& period, SweepPlan& plan,
+  void sort(std::span<const Candidate> pairs, const Bodies& bodies, const Period& period, SweepPlan& plan,
             std::vector<Candidate>& sorted);
+  std::size_t bytes() const { return bytes_of(order_); }
   /// Place among the pairs given of each pair in solve order.
   std::span<const std::int32_t> order() const { return order_; }
 
@@ -30,7 +33,8 @@ class ContactOrder {
 
   SweepPlanner planner_;
   std::vector<double> folded_;
-  std::vector<std::int32_t> i_, j_, order_;
+  WorkArray<std::int32_t> i_, j_;
+  std::vector<std::int32_t> order_;
 };
 
 }  // namespace drumlin::particles

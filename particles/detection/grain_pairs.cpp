@@ -29,13 +29,19 @@ class PairBatch {
     u_x_[k] = way * u.x, u_z_[k] = way * u.z;
     radii_[k] = a.radius + b.radius;
   }
-  /// The pair of bodies i < j of an open domain.
-  void set(std::size_t k, std::int32_t i, std::int32_t j, const SearchedState& state) {
-    const Bodies& bodies = state.bodies;
-    i_[k] = i, j_[k] = j;
-    d_x_[k] = bodies.x[i] - bodies.x[j], d_z_[k] = bodies.z[i] - bodies.z[j];
-    u_x_[k] = state.v_x[i] - state.v_x[j], u_z_[k] = state.v_z[i] - state.v_z[j];
-    radii_[k] = bodies.radius[i] + bodies.radius[j];
+  /// The pair of bodies i < j, with places in the first period.
+  void set(std::size_t k, std::int32_t i, std::int32_t j, const SearchedState& state,
+           std::span<const double> x, std::span<const double> z) {
+    const Period& period = state.period;
+    const Point whole{x[i] - x[j], z[i] - z[j]}, d = period.open() ? whole : period.nearest(whole);
+    Point u{state.v_x[i] - state.v_x[j], state.v_z[i] - state.v_z[j]};
+    if (period.moves()) {
+      const Point image = period.image_velocity({whole.x - d.x, whole.z - d.z});
+      u.x -= image.x, u.z -= image.z;
+    }
+    d_x_[k] = d.x, d_z_[k] = d.z;
+    u_x_[k] = u.x, u_z_[k] = u.z;
+    radii_[k] = state.bodies.radius[i] + state.bodies.radius[j];
   }
   void weigh(std::size_t count, double twice_step) {
     for (std::size_t k = 0; k < count; ++k) {
@@ -50,6 +56,10 @@ class PairBatch {
     }
   }
   NearPair pair(std::size_t k) const { return {i_[k], j_[k], gap_[k], d_x_[k], d_z_[k], reach_[k]}; }
+  double gap(std::size_t k) const { return gap_[k]; }
+  double n_x(std::size_t k) const { return d_x_[k]; }
+  double n_z(std::size_t k) const { return d_z_[k]; }
+  double reach(std::size_t k) const { return reach_[k]; }
 
  private:
   std::array<std::int32_t, most> i_, j_;
@@ -65,75 +75,53 @@ NearPair near_pair(const NearGrain& a, const NearGrain& b, const Period& period,
   return one.pair(0);
 }
 
-/// Collects pairs within a distance and weighs them by the hundred; without a branch that a processor could
-/// guess wrongly.
-class GrainPairs::Weighing {
+/// Collects pairs within a distance; without a branch that a processor could guess wrongly.
+class GrainPairs::Collecting {
  public:
-  Weighing(Piece& piece, double range, const PairRule& rule)
-      : piece_(piece), range_(range), rule_(rule), period_(rule.period) {}
-  ~Weighing() { weigh(); }
-  Weighing(const Weighing&) = delete;
-  Weighing& operator=(const Weighing&) = delete;
+  Collecting(Piece& piece, double range, const Period& period)
+      : piece_(piece), range_(range), period_(period) {}
 
   void meet(const NearGrain& a, std::span<const NearGrain> others) {
     piece_.looked_at += static_cast<std::int64_t>(others.size());
-    while (!others.empty()) {
-      if (count_ + others.size() > most) weigh();
-      const auto some = others.first(std::min(others.size(), most));
-      if (!period_.open_z())
-        collect(a, some, [this](double dx, double dz) { return period_.nearest(Point{dx, dz}); });
-      else if (period_.open())
-        collect(a, some, [](double dx, double dz) { return Point{dx, dz}; });
-      else
-        collect(a, some, [this](double dx, double dz) { return Point{period_.nearest(dx), dz}; });
-      others = others.subspan(some.size());
-    }
+    const std::size_t most = piece_.count + others.size();
+    if (piece_.near.size() < most) piece_.near.resize(std::max(most, most + most / 8));
+    if (!period_.open_z())
+      collect(a, others, [this](double dx, double dz) { return period_.nearest(Point{dx, dz}); });
+    else if (period_.open())
+      collect(a, others, [](double dx, double dz) { return Point{dx, dz}; });
+    else
+      collect(a, others, [this](double dx, double dz) { return Point{period_.nearest(dx), dz}; });
   }
 
  private:
-  static constexpr std::size_t most = 512;
-  struct Found {
-    const NearGrain *a, *b;
-  };
-
   template <class Nearest>
   void collect(const NearGrain& a, std::span<const NearGrain> others, Nearest nearest) {
     const double x = a.x, z = a.z, reach = a.radius + range_;
-    std::size_t count = count_;
+    ListedPair* end = piece_.near.data() + piece_.count;
     for (const NearGrain& b : others) {
       const Point d = nearest(x - b.x, z - b.z);
       const double within = (reach + b.radius) * rounding;
-      found_[count] = {&a, &b};
-      count += d.x * d.x + d.z * d.z < within * within;
+      *end = {std::min(a.body, b.body), std::max(a.body, b.body)};
+      end += d.x * d.x + d.z * d.z < within * within;
     }
-    count_ = count;
-  }
-
-  void weigh() {
-    for (std::size_t f = 0; f < count_; ++f) {
-      const NearGrain &a = *found_[f].a, &b = *found_[f].b;
-      batch_.set(f, a, b, period_);
-    }
-    batch_.weigh(count_, 2 * rule_.time_step);
-    if (piece_.near.size() < piece_.count + count_) piece_.near.resize(piece_.count + count_);
-    NearPair* const begin = piece_.near.data() + piece_.count;
-    NearPair* end = begin;
-    for (std::size_t f = 0; f < count_; ++f) {
-      *end = batch_.pair(f);
-      end += end->gap < range_;
-    }
-    piece_.count += end - begin;
-    count_ = 0;
+    piece_.count = end - piece_.near.data();
   }
 
   Piece& piece_;
   const double range_;
-  const PairRule rule_;
   const Period period_;
-  std::array<Found, most> found_;
-  PairBatch<most> batch_;
-  std::size_t count_ = 0;
 };
+
+void GrainPairs::use(WorkMemory* memory) {
+  row_.use(memory), weights_.use(memory), jolts_.use(memory), kept_.use(memory);
+  first_x_.use(memory), first_z_.use(memory);
+}
+
+std::size_t GrainPairs::bytes() const {
+  std::size_t sum = list_.capacity() * sizeof(ListedPair) + shares_.capacity() * sizeof(Share);
+  for (const Piece& piece : pieces_) sum += sizeof(Piece) + piece.near.capacity() * sizeof(ListedPair);
+  return sum + tree_.bytes();
+}
 
 void GrainPairs::cut(const GrainGrids& grids) {
   used_ = 0;
@@ -153,36 +141,39 @@ void GrainPairs::each_share(Work work) {
   loops_.each_of(static_cast<int>(shares_.size()), [&](int s) { work(shares_[s]); });
 }
 
-void GrainPairs::list(const GrainGrids& grids, double range, const PairRule& rule) {
+void GrainPairs::list(const GrainGrids& grids, const SearchedState& state, double range,
+                      const PairRule& rule) {
   grids_ = &grids;
   range_ = range;
   planted_ = follows_ = false;
   cut(grids);
   loops_.each_of(static_cast<int>(used_), [&](int p) {
     Piece& piece = pieces_[p];
-    Weighing weighing(piece, range, rule);
-    grids.each_pair(piece.level, piece.first, piece.last,
-                    [&](const NearGrain& a, std::span<const NearGrain> others) { weighing.meet(a, others); });
+    Collecting collecting(piece, range, rule.period);
+    grids.each_pair(
+        piece.level, piece.first, piece.last,
+        [&](const NearGrain& a, std::span<const NearGrain> others) { collecting.meet(a, others); });
   });
-  std::size_t bodies = 0;
-  for (const CellGrid& grid : grids.grids()) bodies += grid.grains().size();
-  put_in_order(bodies);
+  put_in_order(state.bodies.count());
   looked_at_ = 0;
   for (std::size_t p = 0; p < used_; ++p) looked_at_ += pieces_[p].looked_at;
+  cut_list();
+  weigh_list(state, rule);
+  drop_those_beyond();
   each_share([&](Share& share) { find_jolts(rule, share); });
 }
 
-/// Sorts the pairs of the pieces into the list, and cuts that into shares.
+/// Sorts the pairs of the pieces into the list.
 void GrainPairs::put_in_order(std::size_t bodies) {
   row_.assign(bodies + 1, 0);
   const auto each = [&](auto visit) {
     for (std::size_t p = 0; p < used_; ++p)
       std::for_each(pieces_[p].near.begin(), pieces_[p].near.begin() + pieces_[p].count, visit);
   };
-  each([&](const NearPair& pair) { ++row_[pair.i + 1]; });
-  for (std::size_t i = 1; i < row_.size(); ++i) row_[i] += row_[i - 1];
-  list_.resize(row_.back());
-  each([&](const NearPair& pair) { list_[row_[pair.i]++] = pair; });
+  each([&](const ListedPair& pair) { ++row_[pair.i + 1]; });
+  for (std::size_t i = 1; i <= bodies; ++i) row_[i] += row_[i - 1];
+  resize_closely(list_, row_[bodies]);
+  each([&](const ListedPair& pair) { list_[row_[pair.i]++] = pair; });
   loops_.each(bodies, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto first = i == 0 ? 0 : row_[i - 1], last = row_[i];
@@ -190,6 +181,9 @@ void GrainPairs::put_in_order(std::size_t bodies) {
         for (auto t = s; t > first && list_[t].j < list_[t - 1].j; --t) std::swap(list_[t], list_[t - 1]);
     }
   });
+}
+
+void GrainPairs::cut_list() {
   shares_.resize(std::max<std::size_t>(1, (list_.size() + pairs_per_share - 1) / pairs_per_share));
   for (std::size_t s = 0; s < shares_.size(); ++s) {
     shares_[s].first = s * pairs_per_share;
@@ -197,29 +191,71 @@ void GrainPairs::put_in_order(std::size_t bodies) {
   }
 }
 
-void GrainPairs::find_jolts(const PairRule& rule, Share& share) const {
-  share.jolts.resize(share.last - share.first);
-  Jolt* end = share.jolts.data();
+void GrainPairs::fold(const SearchedState& state) {
+  const Bodies& bodies = state.bodies;
+  first_x_.renew(bodies.count()), first_z_.renew(bodies.count());
+  loops_.each(bodies.count(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      const Point first = state.period.first({bodies.x[b], bodies.z[b]});
+      first_x_[b] = first.x, first_z_[b] = first.z;
+    }
+  });
+}
+
+void GrainPairs::weigh_list(const SearchedState& state, const PairRule& rule) {
+  std::span<const double> x = state.bodies.x, z = state.bodies.z;
+  if (!state.period.open()) {
+    fold(state);
+    x = std::span<const double>(first_x_.data(), x.size());
+    z = std::span<const double>(first_z_.data(), z.size());
+  }
+  weights_.renew(list_.size()), jolts_.renew(list_.size());
+  each_share([&](Share& share) {
+    PairBatch<pairs_per_share> batch;
+    const std::size_t count = share.last - share.first;
+    for (std::size_t k = 0; k < count; ++k) {
+      const ListedPair& pair = list_[share.first + k];
+      batch.set(k, pair.i, pair.j, state, x, z);
+    }
+    batch.weigh(count, 2 * rule.time_step);
+    share.beyond = false;
+    for (std::size_t k = 0; k < count; ++k) {
+      weights_[share.first + k] = {batch.gap(k), batch.n_x(k), batch.n_z(k), batch.reach(k)};
+      share.beyond |= !(batch.gap(k) < range_);
+    }
+  });
+}
+
+/// The squares of distances, by which pairs are listed, round otherwise than distances.
+void GrainPairs::drop_those_beyond() {
+  if (std::none_of(shares_.begin(), shares_.end(), [](const Share& share) { return share.beyond; })) return;
+  std::size_t end = 0;
+  for (std::size_t p = 0; p < list_.size(); ++p) {
+    if (!(weights_[p].gap < range_)) continue;
+    list_[end] = list_[p], weights_[end] = weights_[p];
+    ++end;
+  }
+  list_.resize(end);
+  cut_list();
+}
+
+void GrainPairs::find_jolts(const PairRule& rule, Share& share) {
+  std::int32_t* const begin = jolts_.data() + share.first;
+  std::int32_t* end = begin;
   for (std::size_t p = share.first; p < share.last; ++p) {
-    const NearPair& pair = list_[p];
-    *end = {pair.i, pair.j, pair.reach};
+    const Weight& pair = weights_[p];
+    *end = static_cast<std::int32_t>(p);
     end += static_cast<std::size_t>(pair.reach > 0) &
            static_cast<std::size_t>(pair.gap < rule.margin + pair.reach);
   }
-  share.jolts.resize(end - share.jolts.data());
+  share.jolts = end - begin;
 }
 
 void GrainPairs::look_again(const SearchedState& state, const PairRule& rule) {
   follows_ = false;
   looked_at_ = static_cast<std::int64_t>(list_.size());
-  each_share([&](Share& share) {
-    PairBatch<pairs_per_share> batch;
-    for (std::size_t p = share.first; p < share.last; ++p)
-      batch.set(p - share.first, list_[p].i, list_[p].j, state);
-    batch.weigh(share.last - share.first, 2 * rule.time_step);
-    for (std::size_t p = share.first; p < share.last; ++p) list_[p] = batch.pair(p - share.first);
-    find_jolts(rule, share);
-  });
+  weigh_list(state, rule);
+  each_share([&](Share& share) { find_jolts(rule, share); });
 }
 
 void GrainPairs::look(const PairRule& rule, std::span<double> jolts) {
@@ -232,7 +268,8 @@ void GrainPairs::look(const PairRule& rule, std::span<double> jolts) {
   look_far(rule, jolts, false);
   for (const NearPair& pair : far_) add(pair.i, pair.j, pair.reach);
   for (const Share& share : shares_)
-    for (const Jolt& jolt : share.jolts) add(jolt.i, jolt.j, jolt.reach);
+    for (const std::int32_t p : std::span(jolts_.data() + share.first, share.jolts))
+      add(list_[p].i, list_[p].j, weights_[p].reach);
 }
 
 void GrainPairs::look_after_jolts(const PairRule& rule, std::span<const double> jolts) {
@@ -275,7 +312,8 @@ void GrainPairs::look_far(const PairRule& rule, std::span<const double> jolts, b
 
 namespace {
 
-bool comes_before(const Candidate& extra, const NearPair& pair) {
+template <class Pair>
+bool comes_before(const Candidate& extra, const Pair& pair) {
   return extra.i != pair.i ? extra.i < pair.i : extra.j < pair.j;
 }
 
@@ -293,17 +331,18 @@ void GrainPairs::find_extras(const PairRule& rule, std::span<const double> jolts
 }
 
 void GrainPairs::keep(const PairRule& rule, std::span<const double> jolts, std::span<const WeighedPair> walls,
-                      std::vector<Candidate>& candidates) {
+                      WorkArray<Candidate>& candidates) {
   find_extras(rule, jolts, walls);
+  kept_.renew(list_.size());
   each_share([&](Share& share) {
-    share.kept.resize(share.last - share.first);
-    std::int32_t* end = share.kept.data();
+    std::int32_t* const begin = kept_.data() + share.first;
+    std::int32_t* end = begin;
     for (std::size_t p = share.first; p < share.last; ++p) {
-      const NearPair& pair = list_[p];
+      const Weight& pair = weights_[p];
       *end = static_cast<std::int32_t>(p);
-      end += pair.gap < rule.margin + pair.reach + (jolts[pair.i] + jolts[pair.j]) / 2;
+      end += pair.gap < rule.margin + pair.reach + (jolts[list_[p].i] + jolts[list_[p].j]) / 2;
     }
-    share.kept.resize(end - share.kept.data());
+    share.kept = end - begin;
   });
   std::size_t listed = 0;
   for (Share& share : shares_) {
@@ -313,18 +352,21 @@ void GrainPairs::keep(const PairRule& rule, std::span<const double> jolts, std::
       share.extras = std::partition_point(extras_.begin(), extras_.end(), before) - extras_.begin();
     }
     share.place = listed + share.extras;
-    listed += share.kept.size();
+    listed += share.kept;
   }
-  candidates.resize(listed + extras_.size());
+  const std::size_t all = listed + extras_.size();
+  candidates.renew(all + all / 16);  // thrown grains may add some
+  candidates.renew(all);
   each_share([&](const Share& share) {
     const bool last = &share == &shares_.back();
     Candidate* to = candidates.data() + share.place;
     const Candidate* extra = extras_.data() + share.extras;
     const Candidate* const end = extras_.data() + (last ? extras_.size() : (&share + 1)->extras);
-    for (const std::int32_t p : share.kept) {
-      const NearPair& pair = list_[p];
+    for (const std::int32_t p : std::span(kept_.data() + share.first, share.kept)) {
+      const ListedPair& pair = list_[p];
+      const Weight& weight = weights_[p];
       while (extra < end && comes_before(*extra, pair)) *to++ = *extra++;
-      *to++ = {pair.i, pair.j, pair.gap, pair.n_x, pair.n_z, 0, 0};
+      *to++ = {pair.i, pair.j, weight.gap, weight.n_x, weight.n_z, 0, 0};
     }
     std::copy(extra, end, to);
   });

@@ -9,6 +9,7 @@
 #include "particles/detection/cell_grid.hpp"
 #include "particles/detection/motion_tree.hpp"
 #include "particles/parallel/team_loops.hpp"
+#include "particles/parallel/work_memory.hpp"
 
 namespace drumlin::particles {
 
@@ -42,10 +43,12 @@ struct PairRule {
 class GrainPairs {
  public:
   void use(ThreadTeam* team) { loops_ = TeamLoops(team); }
+  /// Takes what a search needs beside the list from a memory, in a frame that lasts until keep().
+  void use(WorkMemory* memory);
 
   /// Lists the pairs closer than `range`, as they are now, from grids that were sorted for it. The grids have
   /// to live as long as the list is used.
-  void list(const GrainGrids& grids, double range, const PairRule& rule);
+  void list(const GrainGrids& grids, const SearchedState& state, double range, const PairRule& rule);
   /// Looks at the listed pairs as they are now; the grids have followed the state.
   void look_again(const SearchedState& state, const PairRule& rule);
 
@@ -56,49 +59,64 @@ class GrainPairs {
   void look_after_jolts(const PairRule& rule, std::span<const double> jolts);
   /// Writes the pairs that are kept, and those of walls, in the order of (i, j).
   void keep(const PairRule& rule, std::span<const double> jolts, std::span<const WeighedPair> walls,
-            std::vector<Candidate>& kept);
+            WorkArray<Candidate>& kept);
 
   /// Pairs of grains whose distance the last search measured: what it cost.
   std::int64_t looked_at() const { return looked_at_; }
   /// Those of them that are not in the list.
   std::int64_t looked_far() const { return looked_far_; }
+  /// What the list holds from one search to the next.
+  std::size_t listed() const { return list_.size(); }
+  std::size_t bytes() const;
 
  private:
-  struct Jolt {
+  struct ListedPair {
     std::int32_t i, j;
-    double reach;
+  };
+  /// What a search finds of a listed pair, as in NearPair.
+  struct Weight {
+    double gap, n_x, n_z, reach;
   };
   /// Cells [first, last) of a grid, and the pairs that they find; so few that threads share them evenly.
   struct Piece {
     std::size_t level = 0, first = 0, last = 0;
-    std::vector<NearPair> near;  // the first `count` of them
+    std::vector<ListedPair> near;  // the first `count` of them
     std::size_t count = 0;
     std::int64_t looked_at = 0;
   };
   /// Some pairs of the list.
   struct Share {
     std::size_t first = 0, last = 0;
-    std::vector<Jolt> jolts;
-    std::vector<std::int32_t> kept;
+    std::size_t jolts = 0, kept = 0;    // entries of jolts_ and kept_ from `first` on
     std::size_t extras = 0, place = 0;  // the first pair that is not listed, and where the share's pairs go
+    bool beyond = false;                // has pairs that are no closer than the range, by rounding
   };
-  class Weighing;
+  class Collecting;
 
   void cut(const GrainGrids& grids);
   void put_in_order(std::size_t bodies);
+  void cut_list();
+  void fold(const SearchedState& state);
+  void weigh_list(const SearchedState& state, const PairRule& rule);
+  void drop_those_beyond();
   template <class Work>
   void each_share(Work work);
-  void find_jolts(const PairRule& rule, Share& share) const;
+  void find_jolts(const PairRule& rule, Share& share);
   void look_far(const PairRule& rule, std::span<const double> jolts, bool after_jolts);
   void find_extras(const PairRule& rule, std::span<const double> jolts, std::span<const WeighedPair> walls);
 
   TeamLoops loops_;
   std::vector<Piece> pieces_;
   std::size_t used_ = 0;
-  std::vector<std::int32_t> row_;  // first listed pair of each body
-  std::vector<NearPair> list_;     // in the order of (i, j)
-  double range_ = 0;               // within which pairs were listed
+  std::vector<ListedPair> list_;  // in the order of (i, j)
+  double range_ = 0;              // within which pairs were listed
   std::vector<Share> shares_;
+  // Of one search.
+  WorkArray<std::int32_t> row_;  // first listed pair of each body
+  WorkArray<Weight> weights_;    // of each listed pair
+  WorkArray<std::int32_t> jolts_,
+      kept_;  // listed pairs, share by share: those that close, those that are kept
+  WorkArray<double> first_x_, first_z_;  // places of the bodies in the first period
   MotionTree tree_;
   bool planted_ = false, follows_ = false;  // the tree is that of the list; it bounds what is now
   const GrainGrids* grids_ = nullptr;       // of the list

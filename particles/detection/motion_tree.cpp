@@ -6,14 +6,28 @@
 namespace drumlin::particles {
 namespace {
 
+/// Least and largest of some numbers, rounded outwards once at the end.
+struct Range {
+  double low, high;
+  explicit Range(double value) : low(value), high(value) {}
+  void add(double value) { low = std::min(low, value), high = std::max(high, value); }
+};
+
 MotionBounds bounds_of(std::span<const NearGrain> grains) {
-  MotionBounds all;
-  for (const NearGrain& g : grains) {
-    const double x = g.x - g.sorted_x, z = g.z - g.sorted_z;
-    const MotionBounds one{g.x, g.x, g.z, g.z, g.v_x, g.v_x, g.v_z, g.v_z, g.radius, 0, x, x, z, z};
-    all = &g == grains.data() ? one : united(all, one);
+  const NearGrain& one = grains[0];
+  Range x(one.x), z(one.z), v_x(one.v_x), v_z(one.v_z);
+  Range way_x(one.x - one.sorted_x), way_z(one.z - one.sorted_z), radius(one.radius);
+  for (const NearGrain& g : grains.subspan(1)) {
+    x.add(g.x), z.add(g.z), v_x.add(g.v_x), v_z.add(g.v_z);
+    way_x.add(g.x - g.sorted_x), way_z.add(g.z - g.sorted_z), radius.add(g.radius);
   }
-  return all;
+  return {bound_below(x.low),       bound_above(x.high),
+          bound_below(z.low),       bound_above(z.high),
+          bound_below(v_x.low),     bound_above(v_x.high),
+          bound_below(v_z.low),     bound_above(v_z.high),
+          bound_above(radius.high), 0,
+          bound_below(way_x.low),   bound_above(way_x.high),
+          bound_below(way_z.low),   bound_above(way_z.high)};
 }
 
 }  // namespace
@@ -28,7 +42,7 @@ void MotionTree::build(const GrainGrids& grids, const Period& period, const Team
 void MotionTree::follow(const TeamLoops& loops) {
   loops.each(nodes_.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n)
-      if (nodes_[n].leaf()) nodes_[n].bounds = bounds_of(nodes_[n].grains);
+      if (nodes_[n].leaf()) nodes_[n].bounds = bounds_of(nodes_[n].grains());
   });
   for (Node& node : nodes_) {
     if (node.leaf()) continue;
@@ -41,14 +55,16 @@ void MotionTree::follow(const TeamLoops& loops) {
 std::int32_t MotionTree::tree_of(const CellGrid& grid, const TeamLoops& loops) {
   const auto cells = grid.cells();
   const std::size_t first = nodes_.size();
+  nodes_.reserve(first + grid.count() + grid.count() / 2);
   nodes_.resize(first + grid.count());
   blocks_.resize(grid.count());
   loops.each(grid.count(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) {
       blocks_[c] = {cells[c].row, cells[c].column, static_cast<std::int32_t>(first + c)};
       Node& leaf = nodes_[first + c];
-      leaf.grains = grid.grains().subspan(cells[c].first, cells[c + 1].first - cells[c].first);
-      leaf.bounds = bounds_of(leaf.grains);
+      leaf.first = grid.grains().data() + cells[c].first;
+      leaf.count = cells[c + 1].first - cells[c].first;
+      leaf.bounds = bounds_of(leaf.grains());
     }
   });
   while (blocks_.size() > 1) {
@@ -94,8 +110,8 @@ void MotionTree::set_jolts(std::span<const double> jolts, const TeamLoops& loops
   loops.each(nodes_.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) {
       double largest = 0;
-      for (const NearGrain& g : nodes_[n].grains) largest = std::max(largest, jolts[g.body]);
-      nodes_[n].bounds.jolt = largest;
+      for (const NearGrain& g : nodes_[n].grains()) largest = std::max(largest, jolts[g.body]);
+      nodes_[n].bounds.jolt = largest > 0 ? bound_above(largest) : 0;
     }
   });
   for (Node& node : nodes_)

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -13,14 +14,22 @@
 
 namespace drumlin::particles {
 
-/// Bounds of some grains.
+/// Bounds of some grains, in single precision and rounded outwards (bound_below, bound_above).
 struct MotionBounds {
-  double x_low = 0, x_high = 0, z_low = 0, z_high = 0;
-  double v_x_low = 0, v_x_high = 0, v_z_low = 0, v_z_high = 0;
-  double radius = 0;                                                    ///< largest
-  double jolt = 0;                                                      ///< largest, of MotionTree::set_jolts
-  double way_x_low = 0, way_x_high = 0, way_z_low = 0, way_z_high = 0;  ///< since the grains were sorted
+  float x_low = 0, x_high = 0, z_low = 0, z_high = 0;
+  float v_x_low = 0, v_x_high = 0, v_z_low = 0, v_z_high = 0;
+  float radius = 0;                                                    ///< largest
+  float jolt = 0;                                                      ///< largest, of MotionTree::set_jolts
+  float way_x_low = 0, way_x_high = 0, way_z_low = 0, way_z_high = 0;  ///< since the grains were sorted
 };
+
+/// Bounds of a number in single precision. Beyond the range of that, and of no number, they are infinite.
+inline float bound_above(double value) {
+  const auto nearest = static_cast<float>(value);
+  const float above = nearest + std::abs(nearest) * 0x1p-22F + std::numeric_limits<float>::min();
+  return above == above ? above : std::numeric_limits<float>::infinity();
+}
+inline float bound_below(double value) { return -bound_above(-value); }
 
 /// How far an image is from its original, and how fast it moves against it.
 struct Image {
@@ -28,26 +37,28 @@ struct Image {
   bool original() const { return shift.x == 0 && shift.z == 0; }
 };
 
+inline double difference(float a, float b) { return static_cast<double>(a) - static_cast<double>(b); }
+
 /// Distance of the nearest places of a and of an image of b.
 inline double distance(const MotionBounds& a, const MotionBounds& b, const Image& image) {
   const auto& [x, z] = image.shift;
-  const double dx = std::max({0.0, a.x_low - b.x_high - x, b.x_low + x - a.x_high});
-  const double dz = std::max({0.0, a.z_low - b.z_high - z, b.z_low + z - a.z_high});
+  const double dx = std::max({0.0, difference(a.x_low, b.x_high) - x, difference(b.x_low, a.x_high) + x});
+  const double dz = std::max({0.0, difference(a.z_low, b.z_high) - z, difference(b.z_low, a.z_high) + z});
   return std::sqrt(dx * dx + dz * dz);
 }
 
 /// Bound on the relative speed of a grain of a and one of an image of b.
 inline double relative_speed(const MotionBounds& a, const MotionBounds& b, const Image& image) {
   const auto& [x, z] = image.velocity;
-  const double u_x = std::max(a.v_x_high - b.v_x_low - x, b.v_x_high + x - a.v_x_low),
-               u_z = std::max(a.v_z_high - b.v_z_low - z, b.v_z_high + z - a.v_z_low);
+  const double u_x = std::max(difference(a.v_x_high, b.v_x_low) - x, difference(b.v_x_high, a.v_x_low) + x),
+               u_z = std::max(difference(a.v_z_high, b.v_z_low) - z, difference(b.v_z_high, a.v_z_low) + z);
   return std::sqrt(u_x * u_x + u_z * u_z);
 }
 
 /// Bound on how far a grain of a and one of b have moved against each other since they were sorted.
 inline double relative_way(const MotionBounds& a, const MotionBounds& b) {
-  const double x = std::max(a.way_x_high - b.way_x_low, b.way_x_high - a.way_x_low),
-               z = std::max(a.way_z_high - b.way_z_low, b.way_z_high - a.way_z_low);
+  const double x = std::max(difference(a.way_x_high, b.way_x_low), difference(b.way_x_high, a.way_x_low)),
+               z = std::max(difference(a.way_z_high, b.way_z_low), difference(b.way_z_high, a.way_z_low));
   return std::sqrt(x * x + z * z);
 }
 
@@ -75,6 +86,9 @@ class MotionTree {
   void build(const GrainGrids& grids, const Period& period, const TeamLoops& loops);
   /// Bounds the grains as they are now that the grids have followed them.
   void follow(const TeamLoops& loops);
+  std::size_t bytes() const {
+    return nodes_.capacity() * sizeof(Node) + (blocks_.capacity() + above_.capacity()) * sizeof(Block);
+  }
   /// Sets what each body may be pushed beyond its own motion; one entry per body.
   void set_jolts(std::span<const double> jolts, const TeamLoops& loops);
 
@@ -103,9 +117,11 @@ class MotionTree {
   struct Node {
     MotionBounds bounds;
     std::array<std::int32_t, 4> child{-1, -1, -1, -1};
-    std::span<const NearGrain> grains;  // of a leaf
-    bool leaf() const { return !grains.empty(); }
-    double size() const { return bounds.x_high - bounds.x_low + bounds.z_high - bounds.z_low; }
+    const NearGrain* first = nullptr;  // of a leaf
+    std::int32_t count = 0;
+    bool leaf() const { return count > 0; }
+    std::span<const NearGrain> grains() const { return {first, static_cast<std::size_t>(count)}; }
+    float size() const { return bounds.x_high - bounds.x_low + bounds.z_high - bounds.z_low; }
   };
   /// A node and its place among the blocks of a level.
   struct Block {
@@ -121,12 +137,16 @@ class MotionTree {
   }
 
   bool apart(const FarSearch& search, const Node& a, const Node& b, const Image& image) const {
-    const double jolts = search.after_jolts ? (a.bounds.jolt + b.bounds.jolt) / 2 : 0;
+    const double jolts = search.after_jolts
+                             ? (static_cast<double>(a.bounds.jolt) + static_cast<double>(b.bounds.jolt)) / 2
+                             : 0;
     if (search.after_jolts && jolts == 0) return true;
     const double reach =
         search.margin + 2 * search.time_step * relative_speed(a.bounds, b.bounds, image) + jolts;
     return reach + relative_way(a.bounds, b.bounds) <= search.seen ||
-           distance(a.bounds, b.bounds, image) - a.bounds.radius - b.bounds.radius > reach;
+           distance(a.bounds, b.bounds, image) - static_cast<double>(a.bounds.radius) -
+                   static_cast<double>(b.bounds.radius) >
+               reach;
   }
 
   template <class Meet>
@@ -140,7 +160,7 @@ class MotionTree {
       if (apart(search, a, b, image)) continue;
       const bool same = two.a == two.b && image.original();
       if (a.leaf() && b.leaf())
-        meet(a.grains, b.grains, same, image);
+        meet(a.grains(), b.grains(), same, image);
       else if (same)
         open_both(a);
       else

@@ -2,7 +2,6 @@
 // Insertion of many entries into a list at once.
 #include <algorithm>
 #include <cstddef>
-#include <vector>
 
 namespace drumlin::particles {
 
@@ -10,8 +9,8 @@ namespace drumlin::particles {
 /// ascending. place(k, end) gives it[k]: it is called from the last to the first, when the first `end`
 /// entries still stand where they were. Each old entry moves once, and only as far as there are new ones
 /// before it.
-template <class T, class Place>
-void open_gaps(std::vector<T>& list, std::size_t count, Place place) {
+template <class List, class Place>
+void open_gaps(List& list, std::size_t count, Place place) {
   std::size_t end = list.size();
   list.resize(end + count);
   for (std::size_t left = count; left > 0; --left) {

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "coupling/common/last_whole.hpp"
+#include "coupling/common/text_file.hpp"
 #include "coupling/files/h5_image.hpp"
 #include "particles/io/checkpoint_stages.hpp"
 #include "particles/io/checkpoint_traffic.hpp"
@@ -127,10 +128,18 @@ void write_checkpoint(const std::filesystem::path& file, const Checkpoint& check
   out.save(file);
 }
 
-void keep_checkpoint(const std::filesystem::path& run, const Checkpoint& checkpoint) {
+std::string checkpoint_image(const Checkpoint& checkpoint) {
   H5Writer out;
   put(checkpoint, out);
-  out.save_keeping(run / checkpoint_name, run / previous_checkpoint_name);
+  return out.image();
+}
+
+void keep_checkpoint(const std::filesystem::path& run, const std::string& image) {
+  replace_file_keeping(run / checkpoint_name, run / previous_checkpoint_name, image);
+}
+
+void keep_checkpoint(const std::filesystem::path& run, const Checkpoint& checkpoint) {
+  keep_checkpoint(run, checkpoint_image(checkpoint));
 }
 
 Checkpoint read_checkpoint(const std::filesystem::path& file) {

@@ -39,8 +39,11 @@ void write_checkpoint(const std::filesystem::path& file, const Checkpoint& check
 /// Throws InputError when the file is missing, damaged or of another version.
 Checkpoint read_checkpoint(const std::filesystem::path& file);
 
-/// Writes RUN/checkpoint.h5; the one before stays as the previous one. Throws IoError, both being intact
-/// then.
+/// The bytes of the file of a checkpoint.
+std::string checkpoint_image(const Checkpoint& checkpoint);
+/// Writes them to RUN/checkpoint.h5; the one before stays as the previous one. Throws IoError, both being
+/// intact then.
+void keep_checkpoint(const std::filesystem::path& run, const std::string& image);
 void keep_checkpoint(const std::filesystem::path& run, const Checkpoint& checkpoint);
 
 }  // namespace drumlin::particles

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "coupling/common/errors.hpp"
+#include "coupling/common/text_file.hpp"
 #include "coupling/files/h5_image.hpp"
 
 namespace drumlin::particles {
@@ -22,6 +23,9 @@ void add_contacts(const Snapshot& s, H5Writer& out) {
   std::vector<std::int32_t> i, j;
   std::vector<float> n_x, n_z;
   std::vector<double> r_n, r_t;
+  i.reserve(s.contacts.size()), j.reserve(s.contacts.size());
+  n_x.reserve(s.contacts.size()), n_z.reserve(s.contacts.size());
+  r_n.reserve(s.contacts.size()), r_t.reserve(s.contacts.size());
   for (const SnapshotContact& c : s.contacts) {
     i.push_back(c.i), j.push_back(c.j), n_x.push_back(c.normal_x), n_z.push_back(c.normal_z);
     r_n.push_back(c.impulse_n), r_t.push_back(c.impulse_t);
@@ -51,7 +55,7 @@ void read_contacts(const H5Reader& in, Snapshot& s) {
 
 }  // namespace
 
-void write_snapshot(const std::filesystem::path& file, const Snapshot& s) {
+std::string snapshot_image(const Snapshot& s) {
   H5Writer out;
   out.add_text("format", format);
   out.add_number("step", s.step);
@@ -91,7 +95,10 @@ void write_snapshot(const std::filesystem::path& file, const Snapshot& s) {
   if (!s.wall_open.empty()) out.add("walls/open", std::span<const std::int32_t>(s.wall_open));
   if (s.cell) each_number(*s.cell, [&out](const char* name, double number) { out.add_number(name, number); });
   if (s.contacts_known) add_contacts(s, out);
-  out.save(file);
+  return out.image();
+}
+void write_snapshot(const std::filesystem::path& file, const Snapshot& s) {
+  replace_file(file, snapshot_image(s));
 }
 Snapshot read_snapshot(const std::filesystem::path& file) {
   const H5Reader in(file);

@@ -70,9 +70,9 @@ CoarseLoads::Place CoarseLoads::place_at(double x, double z) const {
 
 void CoarseLoads::lay_out(const CoarseProblem& problem, const BodyPlaces& places, const TeamLoops& loops) {
   grid_ = grid_over(places, problem.i.size(), longest_contact(problem, places, loops));
-  rank_.resize(places.x.size());
-  places_.resize(places.x.size());
-  moves_.resize(places.x.size());
+  rank_.renew(places.x.size());
+  places_.renew(places.x.size());
+  moves_.renew(places.x.size());
   loops.each(places_.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t rank = begin; rank < end; ++rank) {
       const std::int32_t b = problem.plan.body_order[rank];

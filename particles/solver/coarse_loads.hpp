@@ -14,6 +14,7 @@
 
 #include "particles/contact/sweep_plan.hpp"
 #include "particles/parallel/team_loops.hpp"
+#include "particles/parallel/work_memory.hpp"
 
 namespace drumlin::particles {
 
@@ -40,6 +41,8 @@ struct CoarseProblem {
 /// Scales impulses; keeps workspace only.
 class CoarseLoads {
  public:
+  /// Takes what it keeps of the bodies from a memory: it ends with the frame of lay_out().
+  void use(WorkMemory* memory) { rank_.use(memory), places_.use(memory), moves_.use(memory); }
   /// Lays the nodes of the field over the bodies of a problem.
   void lay_out(const CoarseProblem&, const BodyPlaces&, const TeamLoops&);
   /// Scales the impulses r of the problem that was laid out, which cause the velocities u = W r + q, each by
@@ -82,9 +85,9 @@ class CoarseLoads {
   bool solve();
 
   Grid grid_;
-  std::vector<std::int32_t> rank_;  // of each body in the order of the strips, in which the next two stand
-  std::vector<Place> places_;
-  std::vector<Moves> moves_;
+  WorkArray<std::int32_t> rank_;  // of each body in the order of the strips, in which the next two stand
+  WorkArray<Place> places_;
+  WorkArray<Moves> moves_;
   // Strips are shared in so many parts, whatever the number of threads: sums are those of parts, in order.
   static constexpr int parts = 16;
   std::array<std::vector<double>, parts> work_;  // sums of phi_k g_a

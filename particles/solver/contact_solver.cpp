@@ -185,6 +185,7 @@ SolveReport solve_accelerated(const Problem& problem, const StoppingRule& rule,
       solution.impulses = work.best;
       both.residual = residual_of(problem, solution);
     }
+    if (work.memory != nullptr) work.best = {};
     return both;
   }
 }

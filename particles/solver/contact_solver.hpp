@@ -39,7 +39,8 @@ struct SolverWorkspace {
   ProjectedGradientWorkspace projected_gradient;
   CoarseLoads coarse;
   BodyPlaces places;  ///< of the bodies of the problem, for `coarse`; none: large problems do without
-  ThreadTeam* team = nullptr;  ///< none: the calling thread alone; results do not depend on it
+  WorkMemory* memory = nullptr;  ///< for what a solve needs until it ends; none: it is kept
+  ThreadTeam* team = nullptr;    ///< none: the calling thread alone; results do not depend on it
 };
 
 /// Solves a problem from the warm start in solution.impulses and leaves there the impulses found, in their

@@ -39,25 +39,30 @@ template <class T, int dim, bool spin>
 template <class Problem>
 void StripProblem<T, dim, spin>::pack_bodies(const Problem& problem, const SweepPlan& plan) {
   const auto& W = problem.W;
-  place_.resize(plan.body_order.size());
-  bodies_.clear();
+  driven_bodies_ = 0;
   for (int k = 0; k < plan.strips(); ++k) {
-    strips_[k].bodies = bodies_.size();
-    for (std::int32_t o = plan.strip_bodies[k]; o < plan.strip_bodies[k + 1]; ++o) {
-      const std::int32_t b = plan.body_order[o];
-      place_[b] = static_cast<std::int32_t>(bodies_.size());
-      bodies_.push_back({0, 0, 0, static_cast<T>(W.inverse_mass[b])});
-    }
-    // Records go in pairs (a vector of eight floats).
-    if (bodies_.size() % 2 != 0) bodies_.push_back({});
-    // The fixed body of walls, once for each place of a vector: contacts of a vector share no body.
-    bodies_.insert(bodies_.end(), Block::width, BodyRecord<T>{});
-    strips_[k].bodies_end = bodies_.size();
+    strips_[k].bodies = driven_bodies_;
+    const std::size_t own = plan.strip_bodies[k + 1] - plan.strip_bodies[k];
+    // Records go in pairs (a vector of eight floats). The fixed body of walls stands once for each place of a
+    // vector: contacts of a vector share no body.
+    strips_[k].bodies_end = driven_bodies_ += own + own % 2 + Block::width;
   }
-  driven_bodies_ = bodies_.size();
+  std::size_t all = driven_bodies_;
   if constexpr (drives<std::remove_cvref_t<decltype(W)>>)
-    bodies_.resize(driven_bodies_ + W.driven.size() + W.driven.size() % 2 + 2 * W.cell.has_value());
-  before_.resize(bodies_.size());
+    all += W.driven.size() + W.driven.size() % 2 + 2 * W.cell.has_value();
+  place_.renew(plan.body_order.size());
+  bodies_.renew(all);
+  before_.renew(all);
+  for (int k = 0; k < plan.strips(); ++k) {
+    std::size_t place = strips_[k].bodies;
+    for (std::int32_t o = plan.strip_bodies[k]; o < plan.strip_bodies[k + 1]; ++o, ++place) {
+      const std::int32_t b = plan.body_order[o];
+      place_[b] = static_cast<std::int32_t>(place);
+      bodies_[place] = {0, 0, 0, static_cast<T>(W.inverse_mass[b])};
+    }
+    std::fill(bodies_.begin() + place, bodies_.begin() + strips_[k].bodies_end, BodyRecord<T>{});
+  }
+  std::fill(bodies_.begin() + driven_bodies_, bodies_.end(), BodyRecord<T>{});
 }
 
 template <class T, int dim, bool spin>
@@ -143,9 +148,9 @@ void StripProblem<T, dim, spin>::lay_out(const Problem& problem, const SweepPlan
     strip.block[slice % 2 + 1] = blocks;
     strip.group[slice % 2 + 1] = groups_.size();
   }
-  blocks_.resize(blocks);
-  contact_.resize(blocks * width);
-  kept_.resize(blocks);
+  blocks_.renew(blocks);
+  contact_.renew(blocks * width);
+  kept_.renew(blocks);
 }
 
 template <class T, int dim, bool spin>

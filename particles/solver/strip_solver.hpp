@@ -8,6 +8,7 @@
 
 #include "particles/contact/sweep_plan.hpp"
 #include "particles/parallel/team_loops.hpp"
+#include "particles/parallel/work_memory.hpp"
 #include "particles/solver/driven_contacts.hpp"
 #include "particles/solver/sweep_kernels.hpp"
 
@@ -19,6 +20,11 @@ class StripProblem {
  public:
   using Kernels = SweepKernels<T, dim, spin>;
 
+  /// Takes its blocks and bodies from a memory: they end with the frame of pack().
+  void use(WorkMemory* memory) {
+    blocks_.use(memory), contact_.use(memory), bodies_.use(memory), before_.use(memory);
+    place_.use(memory), kept_.use(memory);
+  }
   /// Copies a problem in body form and the impulses to start from. `order`: contacts of the problem in the
   /// order of the plan; empty if they stand in it.
   template <class Problem>
@@ -89,14 +95,14 @@ class StripProblem {
   template <class Problem>
   void pack_driven(const Problem& problem, std::int32_t c, std::span<const double> r);
   std::vector<Strip> strips_;
-  std::vector<Block> blocks_;
+  WorkArray<Block> blocks_;
   std::vector<BlockGroup> groups_;
-  std::vector<std::int32_t> contact_;  // of each place in the blocks; -1: filled up
-  std::vector<BodyRecord<T>> bodies_, before_;
-  std::vector<std::int32_t> place_;       // of each body in bodies_
+  WorkArray<std::int32_t> contact_;  // of each place in the blocks; -1: filled up
+  WorkArray<BodyRecord<T>> bodies_, before_;
+  WorkArray<std::int32_t> place_;         // of each body in bodies_
   std::vector<double> step_squares_[2];   // of each slice, of even and odd sweeps
   std::vector<double> residual_squares_;  // of each strip
-  std::vector<Impulses> kept_;            // of each block
+  WorkArray<Impulses> kept_;              // of each block
   std::vector<DrivenContact<dim>> driven_;
   std::size_t driven_bodies_ = 0;  // first of them in bodies_
 };

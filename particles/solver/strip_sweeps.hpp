@@ -121,7 +121,7 @@ void correct_loads(const Problem& problem, SolverWorkspace<Problem>& work, Strip
     constexpr bool spin = requires { solution.velocities.bodies[0].s; };
     const CoarseProblem coarse{W.i,        W.j,    W.n_x,        W.n_z, W.inverse_mass,
                                problem.mu, W.plan, Problem::dim, spin};
-    if (first) work.coarse.lay_out(coarse, work.places, loops);
+    if (first) work.coarse.use(work.memory), work.coarse.lay_out(coarse, work.places, loops);
     work.coarse.scale(coarse, solution.velocities.contacts, solution.impulses, loops);
     strips.restart(solution.impulses, loops);
     state.loaded = false;
@@ -140,6 +140,8 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
                             Strips& strips, Solution<Problem>& solution, bool accelerated) {
   StoppingTest test(rule);
   TeamLoops loops(work.team);
+  const WorkMemory::Frame frame(work.memory);
+  strips.use(work.memory);
   const double residual_scale = pack_in_strips(problem, work, strips, solution, loops);
   // Below four strips a second thread costs more than it saves.
   ThreadTeam* team = strips.strips() >= 4 ? work.team : nullptr;

@@ -9,6 +9,7 @@
 #include "particles/effects/rolling.hpp"
 #include "particles/effects/spin.hpp"
 #include "particles/parallel/team_loops.hpp"
+#include "particles/parallel/work_memory.hpp"
 #include "particles/stepping/cell_step.hpp"
 #include "particles/stepping/step_contacts.hpp"
 
@@ -108,9 +109,9 @@ void assemble(const StepInput& step, const StepContacts& contacts, const TeamLoo
   constexpr int dim = Problem::dim;
   const std::size_t count = contacts.pairs.size();
   assemble_bodies(step, problem);
-  problem.W.resize(count);
-  problem.q.resize(dim * count);
-  problem.mu.resize((dim - 1) * count);
+  problem.W.renew(count);
+  resize_closely(problem.q, dim * count);
+  resize_closely(problem.mu, (dim - 1) * count);
   problem.time_step = step.time_step;
   loops.each(count, [&](std::size_t begin, std::size_t end) {
     for (std::size_t a = begin; a < end; ++a)

@@ -15,10 +15,11 @@ double scale_of(const ContactMemory& memory, double time_step) {
 /// Where the row of each key from `least` up to `bodies` begins in a list sorted by keys. Once each entry has
 /// been put at the beginning of its row, and that has moved on by one, they are the ends.
 void count_rows(std::span<const std::int32_t> keys, std::int32_t least, std::size_t bodies,
-                std::vector<std::int32_t>& begin) {
-  begin.assign(bodies - least + 1, 0);
+                WorkArray<std::int32_t>& begin) {
+  const std::size_t rows = bodies - least;
+  begin.assign(rows + 1, 0);
   for (const std::int32_t key : keys) ++begin[key - least + 1];
-  for (std::size_t row = 1; row < begin.size(); ++row) begin[row] += begin[row - 1];
+  for (std::size_t row = 1; row <= rows; ++row) begin[row] += begin[row - 1];
 }
 
 }  // namespace
@@ -34,16 +35,16 @@ void Recollection::sort_entries(const ContactMemory& memory, std::size_t bodies)
   const std::int32_t least =
       contacts > 0 ? std::min(0, *std::min_element(memory.j.begin(), memory.j.end())) : 0;
   count_rows(memory.j, least, bodies, row_end_);
-  by_second_.resize(contacts);
+  by_second_.renew(contacts);
   for (std::size_t m = 0; m < contacts; ++m)
     by_second_[row_end_[memory.j[m] - least]++] = static_cast<std::int32_t>(m);
   count_rows(memory.i, 0, bodies, row_end_);
-  entries_.resize(contacts);
+  entries_.renew(contacts);
   for (const std::int32_t m : by_second_) entries_[row_end_[memory.i[m]]++] = {memory.j[m], m};
 }
 
 void Recollection::find_again(std::span<const Candidate> pairs) {
-  place_.resize(pairs.size());
+  place_.renew(pairs.size());
   loops_.each(pairs.size(), [&](std::size_t begin, std::size_t end) {
     const Entry* entry = nullptr;
     const Entry* row_end = nullptr;
@@ -79,7 +80,7 @@ void Recollection::find_added(std::span<const Candidate> pairs, std::span<const 
 }
 
 RememberedLoads Recollection::loads(const ContactMemory& memory, int dim, double time_step) const {
-  return {place_, memory.impulse, dim, scale_of(memory, time_step)};
+  return {{place_.data(), place_.size()}, memory.impulse, dim, scale_of(memory, time_step)};
 }
 
 RememberedLoads Recollection::loads_of(std::span<const Candidate> pairs, const ContactMemory& memory, int dim,
@@ -91,7 +92,8 @@ RememberedLoads Recollection::loads_of(std::span<const Candidate> pairs, const C
 
 void Recollection::warm_start(const ContactMemory& memory, int dim, double time_step,
                               std::span<const std::int32_t> order, std::vector<double>& impulses) const {
-  impulses.assign(dim * place_.size(), 0.0);
+  impulses.clear();
+  resize_closely(impulses, dim * place_.size());
   const double scale = scale_of(memory, time_step);
   loops_.each(place_.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t a = begin; a < end; ++a)
@@ -103,10 +105,11 @@ void Recollection::warm_start(const ContactMemory& memory, int dim, double time_
 void remember(std::span<const Candidate> pairs, const std::vector<double>& impulses, double time_step,
               ContactMemory& memory) {
   memory.time_step = time_step;
-  memory.i.resize(pairs.size());
-  memory.j.resize(pairs.size());
+  resize_closely(memory.i, pairs.size());
+  resize_closely(memory.j, pairs.size());
   for (std::size_t a = 0; a < pairs.size(); ++a) memory.i[a] = pairs[a].i, memory.j[a] = pairs[a].j;
-  memory.impulse = impulses;
+  resize_closely(memory.impulse, impulses.size());
+  std::copy(impulses.begin(), impulses.end(), memory.impulse.begin());
 }
 
 }  // namespace drumlin::particles

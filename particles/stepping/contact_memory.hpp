@@ -6,6 +6,7 @@
 
 #include "particles/detection/candidate.hpp"
 #include "particles/parallel/team_loops.hpp"
+#include "particles/parallel/work_memory.hpp"
 
 namespace drumlin::particles {
 
@@ -37,6 +38,10 @@ class Recollection {
  public:
   /// Lets a team share the work; the result does not depend on it.
   void use(ThreadTeam* team) { loops_ = TeamLoops(team); }
+  /// Takes what it finds, and work space, from a memory: they end with the frame of find().
+  void use(WorkMemory* memory) {
+    place_.use(memory), entries_.use(memory), row_end_.use(memory), by_second_.use(memory);
+  }
   /// Finds the pairs of grains 0 to `bodies` in the memory.
   void find(const ContactMemory&, std::size_t bodies, std::span<const Candidate> pairs);
   /// Finds other pairs in the memory of the last find(), which must not have changed.
@@ -64,11 +69,11 @@ class Recollection {
   std::int32_t place_of(const Candidate& pair) const;
 
   TeamLoops loops_;
-  std::vector<std::int32_t> place_;          // of each pair that was looked for
+  WorkArray<std::int32_t> place_;            // of each pair that was looked for
   std::vector<std::int32_t> place_of_some_;  // of the pairs of loads_of()
-  std::vector<Entry> entries_;               // of the memory, in the order of (i, j)
-  std::vector<std::int32_t> row_end_;        // of each i in them
-  std::vector<std::int32_t> by_second_;      // places in the memory, by j
+  WorkArray<Entry> entries_;                 // of the memory, in the order of (i, j)
+  WorkArray<std::int32_t> row_end_;          // of each i in them
+  WorkArray<std::int32_t> by_second_;        // places in the memory, by j
 };
 
 /// Keeps contacts and impulses of a step.

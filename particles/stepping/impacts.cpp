@@ -102,7 +102,7 @@ void Impacts::link(const StepInput& step, const StepContacts& contacts) {
   const std::size_t bodies = place_.size();
   in_pass_.assign(contacts.pairs.size(), -1);
   first_.assign(bodies, -1);
-  next_.resize(2 * contacts.pairs.size());
+  next_.renew(2 * contacts.pairs.size());
   const auto enter = [this](std::int32_t body, std::int32_t entry) {
     next_[entry] = first_[body];
     first_[body] = entry;

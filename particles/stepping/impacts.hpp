@@ -14,6 +14,7 @@
 
 #include "particles/bodies/bodies.hpp"
 #include "particles/parallel/team_loops.hpp"
+#include "particles/parallel/work_memory.hpp"
 #include "particles/stepping/contact_memory.hpp"
 #include "particles/stepping/impact_pass.hpp"
 #include "particles/stepping/step_contacts.hpp"
@@ -31,6 +32,8 @@ class Impacts {
  public:
   /// Lets a team share the work; the result does not depend on it.
   void use(ThreadTeam* team) { loops_ = TeamLoops(team); }
+  /// Takes the pairs of each body from a memory, in the frame that is open in resolve().
+  void use(WorkMemory* memory) { first_.use(memory), next_.use(memory), in_pass_.use(memory); }
   /// Adds what impacts change to the velocities and spins of `bodies`, those of `step`, and lists their
   /// impulses in `contacts.strikes`. Velocities of walls moved by a force change too: `contacts.wall_jumps`
   /// adds up by how much.
@@ -74,11 +77,11 @@ class Impacts {
   }
 
   ImpactPass pass_;
-  std::vector<std::int32_t> closings_;      // pairs
-  std::vector<std::int32_t> place_;         // of each body in the pass; -1: not there
-  std::vector<std::int32_t> first_, next_;  // pairs of each body, linked
-  std::vector<std::int32_t> in_pass_;       // number of the last pass in which a pair took part
-  std::span<const double> wall_jumps_;      // those of the step so far
+  std::vector<std::int32_t> closings_;    // pairs
+  std::vector<std::int32_t> place_;       // of each body in the pass; -1: not there
+  WorkArray<std::int32_t> first_, next_;  // pairs of each body, linked
+  WorkArray<std::int32_t> in_pass_;       // number of the last pass in which a pair took part
+  std::span<const double> wall_jumps_;    // those of the step so far
   std::vector<StruckGrain> struck_;
   ImpactWork work_;
   int count_ = 0, pass_number_ = 0;

@@ -8,6 +8,7 @@
 #include "particles/contact/block_problem.hpp"
 #include "particles/detection/contact_list.hpp"
 #include "particles/detection/contact_order.hpp"
+#include "particles/parallel/work_memory.hpp"
 #include "particles/solver/contact_solver.hpp"
 #include "particles/stepping/assembly.hpp"
 #include "particles/stepping/book_contacts.hpp"
@@ -44,13 +45,12 @@ class MoreauJean final : public Stepper {
  public:
   MoreauJean(const StepLaws& laws, const StepSolver& solver)
       : laws_(laws), solver_(solver), solve_(contact_solver<Problem>(solver.name)), team_(solver.threads) {
-    work_.team = &team_;
-    projection_.use(&team_);
-    detection_.use(&team_);
-    order_.use(&team_);
-    recollection_.use(&team_);
-    impacts_.use(&team_);
-    overlaps_.use(&team_);
+    work_.team = &team_, work_.memory = &memory_;
+    const auto share = [this](auto&... users) {
+      (users.use(&team_), ...);
+      (users.use(&memory_), ...);
+    };
+    share(detection_, recollection_, impacts_, order_, overlaps_, projection_);
     if (laws.energy_ledger) books_.emplace(laws.gravity);
   }
 
@@ -131,6 +131,20 @@ class MoreauJean final : public Stepper {
 
   std::span<const Candidate> last_pairs() const override { return contacts_.pairs; }
 
+  void release_memory() override { memory_.release(); }
+  StepMemory memory() const override {
+    const auto& W = problem_.W;
+    const std::size_t problem = bytes_of(W.i) + bytes_of(W.j) + bytes_of(W.n_x) + bytes_of(W.n_z) +
+                                bytes_of(W.inverse_mass) + bytes_of(problem_.q) + bytes_of(problem_.mu);
+    const std::size_t solution = bytes_of(solution_.impulses) + bytes_of(solution_.velocities.bodies) +
+                                 bytes_of(solution_.velocities.contacts);
+    const std::size_t grains =
+        bytes_of(free_.x) + bytes_of(free_.z) + bytes_of(searched_.x) + bytes_of(searched_.z);
+    return {detection_.bytes() + bytes_of(contacts_.pairs) + order_.bytes() + problem + solution + grains +
+                projection_.bytes(),
+            memory_.bytes()};
+  }
+
   int unknowns_per_contact() const override { return dim; }
   int velocities_per_body() const override { return with_spin ? 3 : 2; }
 
@@ -150,6 +164,7 @@ class MoreauJean final : public Stepper {
 
   /// The pairs that may touch once the impacts of the step are over.
   void detect(const StepInput& step, const MovingState& state, Stopwatch& watch, StepReport& report) {
+    const WorkMemory::Frame frame(&memory_);
     contacts_.strikes.clear();
     contacts_.wall_jumps.assign(step.driven.size(), 0.0);
     move_freely(step);
@@ -175,7 +190,7 @@ class MoreauJean final : public Stepper {
     searched_.x = free_.x, searched_.z = free_.z;
     for (int searches = 1;; ++searches) {
       if (searches > 1 && !strikes_again(step, state)) return;
-      contacts_.pairs = detection_.candidates();
+      take_candidates();
       sweep_all_normals(step);
       impacts_.resolve(step, recollection_.loads(state.memory, dim, step.time_step), state.bodies, contacts_);
       if (books_) books_->strike(impacts_.struck(), impacts_.work(), *state.energy);
@@ -188,6 +203,13 @@ class MoreauJean final : public Stepper {
         recollect_more();
       report.detection_seconds += watch.lap();
     }
+  }
+
+  /// The pairs in the order in which they are found.
+  void take_candidates() {
+    const auto found = detection_.candidates();
+    resize_closely(contacts_.pairs, found.size());
+    std::copy(found.begin(), found.end(), contacts_.pairs.begin());
   }
 
   /// Finds the pairs in the memory that a search around grains has added.
@@ -270,6 +292,7 @@ class MoreauJean final : public Stepper {
 
   /// The overlap that is left, which is then removed on positions alone. No grain ends beyond a segment.
   Overlap project(const MovingState& state, WallStep& walls, std::optional<LostGrain>& lost) {
+    const WorkMemory::Frame frame(&memory_);
     const MovedContacts contacts{contacts_.pairs, solution_.impulses, dim, problem_.W.plan};
     const Crossings moved = crossings_.undo(walls, laws_.period, state.bodies);
     Overlap overlap =
@@ -289,6 +312,7 @@ class MoreauJean final : public Stepper {
   StepSolver solver_;
   ContactSolver<Problem> solve_;
   ThreadTeam team_;
+  WorkMemory memory_;  // of one phase of a step after the other
   FreeMotion free_;
   FreeMotion searched_;              // velocities by which pairs were last looked for, grain by grain
   std::vector<ThrownGrain> thrown_;  // since then

@@ -6,6 +6,7 @@
 // act only when touching crush the packing at h = 6e-3 s), and without restitution; pairs that meet faster
 // than 2 g h rebound before, at the time at which they meet (impacts.hpp); what overlap remains is projected
 // away on positions alone.
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <span>
@@ -53,6 +54,12 @@ struct MovingState {
   std::optional<MovingCell> cell = {};
 };
 
+/// Bytes of what a stepper holds, used or not.
+struct StepMemory {
+  std::size_t kept = 0;    ///< from step to step: pairs, lists, the contact problem and its solution
+  std::size_t shared = 0;  ///< by the phases of a step, one after the other
+};
+
 /// Does steps for one combination of effects; holds workspace only, no state.
 class Stepper {
  public:
@@ -70,6 +77,9 @@ class Stepper {
   virtual std::optional<BlockProblem> last_problem() const = 0;
   /// Its pairs, in the order of its contacts.
   virtual std::span<const Candidate> last_pairs() const = 0;
+  /// Gives back what no other step needs to have kept, until the next one.
+  virtual void release_memory() = 0;
+  virtual StepMemory memory() const = 0;
   /// Unknowns per contact and numbers of velocity per body: what the effects of the scene cost.
   virtual int unknowns_per_contact() const = 0;
   virtual int velocities_per_body() const = 0;

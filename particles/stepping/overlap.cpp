@@ -10,7 +10,7 @@ Overlap OverlapSearch::find(const MovedContacts& contacts, const Bodies& bodies,
                             const Period& period, double margin, std::optional<LostGrain>& lost) {
   const auto& pairs = contacts.pairs;
   const SweepPlan& plan = contacts.plan;
-  pairs_.resize(pairs.size());
+  pairs_.renew(pairs.size());
   loops_.each(pairs.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t a = begin; a < end; ++a) {
       pairs_[a] = {pairs[a].i, pairs[a].j, 0, 0, 0};

@@ -11,6 +11,7 @@
 #include "particles/detection/cell_grid.hpp"
 #include "particles/effects/wall_step.hpp"
 #include "particles/parallel/team_loops.hpp"
+#include "particles/parallel/work_memory.hpp"
 #include "particles/stepping/lost_grain.hpp"
 #include "particles/stepping/position_projection.hpp"
 
@@ -35,18 +36,20 @@ class OverlapSearch {
  public:
   /// Lets a team share the work; the result does not depend on it.
   void use(ThreadTeam* team) { loops_ = TeamLoops(team); }
+  /// Takes the pairs from a memory: they end with the frame of find().
+  void use(WorkMemory* memory) { pairs_.use(memory); }
 
   /// Overlap of the loaded contacts. `lost` receives the first grain that left its container.
   Overlap find(const MovedContacts& contacts, const Bodies& bodies, const WallStep& walls,
                const Period& period, double margin, std::optional<LostGrain>& lost);
 
   /// Pairs closer than `margin` in the last search, and their plan.
-  std::span<const ClosePair> close() const { return pairs_; }
+  std::span<const ClosePair> close() const { return {pairs_.data(), pairs_.size()}; }
   const SweepPlan& plan() const { return plan_; }
 
  private:
   TeamLoops loops_;
-  std::vector<ClosePair> pairs_;  // all of them at the end of the step, then those that are close
+  WorkArray<ClosePair> pairs_;  // all of them at the end of the step, then those that are close
   SweepPlan plan_;
 };
 

@@ -49,8 +49,8 @@ void PositionProjection<with_driven>::apply(const Movable& movable, std::span<co
   if constexpr (with_driven) add_driven_walls(bodies, walls, W);
   const bool gives_way = with_driven && movable.cell != nullptr && movable.cell->response.pressed();
   if constexpr (with_driven) add_cell(gives_way ? movable.cell : nullptr, W);
-  W.resize(pairs.size());
-  problem_.q.resize(pairs.size());
+  W.renew(pairs.size());
+  resize_closely(problem_.q, pairs.size());
   // Named anew: clang 14 captures no structured binding.
   TeamLoops(work_.team).each(pairs.size(), [&, &walls = walls](std::size_t begin, std::size_t end) {
     for (std::size_t a = begin; a < end; ++a) {
@@ -68,7 +68,8 @@ void PositionProjection<with_driven>::apply(const Movable& movable, std::span<co
     }
   });
   W.plan = plan;
-  solution_.impulses.assign(pairs.size(), 0.0);
+  solution_.impulses.clear();
+  resize_closely(solution_.impulses, pairs.size());
   StoppingRule rule;
   rule.tolerance = projection_tolerance;
   rule.max_sweeps = sweeps;

@@ -35,6 +35,15 @@ template <bool with_driven>
 class PositionProjection {
  public:
   void use(ThreadTeam* team) { work_.team = team; }
+  /// Takes work space from a memory.
+  void use(WorkMemory* memory) { work_.memory = memory; }
+  /// What it holds between two calls.
+  std::size_t bytes() const {
+    const auto& W = problem_.W;
+    return bytes_of(W.i) + bytes_of(W.j) + bytes_of(W.n_x) + bytes_of(W.n_z) + bytes_of(W.inverse_mass) +
+           bytes_of(problem_.q) + bytes_of(solution_.impulses) + bytes_of(solution_.velocities.bodies) +
+           bytes_of(solution_.velocities.contacts);
+  }
   /// Moves by at most `sweeps` sweeps; `pairs` in the order of `plan`.
   void apply(const Movable&, std::span<const ClosePair> pairs, const SweepPlan& plan, int sweeps);
 

@@ -96,6 +96,8 @@ class Simulation {
   const Scales& scales() const { return scales_; }
   const Walls& walls() const { return walls_; }
   const Stepper& stepper() const { return *stepper_; }
+  /// Gives back what the next step can do without: before output takes memory of its own.
+  void release_memory() { stepper_->release_memory(); }
   /// Overlaps of listed grains at the start; none of generated ones, nor where a state goes on.
   const StartOverlaps& start_overlaps() const { return start_overlaps_; }
 

@@ -10,6 +10,7 @@ std::vector<SnapshotContact> one_for_each_pair(std::vector<SnapshotContact> cont
     return a.i != b.i ? a.i < b.i : a.j < b.j;
   });
   std::vector<SnapshotContact> sums;
+  sums.reserve(contacts.size());
   for (const SnapshotContact& contact : contacts)
     if (sums.empty() || sums.back().i != contact.i || sums.back().j != contact.j) {
       sums.push_back(contact);

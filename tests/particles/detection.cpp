@@ -26,7 +26,8 @@ constexpr double time_step = test::grains_time_step, margin = 0.02;
 
 std::vector<Candidate> found(ContactDetection& detection, const Grains& g, const Period& period = {}) {
   const DetectionInput input{{}, {}, time_step, margin, period};
-  return detection.find(g.bodies, g.v_x, g.v_z, input);
+  const auto pairs = detection.find(g.bodies, g.v_x, g.v_z, input);
+  return {pairs.begin(), pairs.end()};
 }
 
 /// The pairs of the definition, from all pairs.

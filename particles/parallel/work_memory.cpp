@@ -1,0 +1,58 @@
+#include "particles/parallel/work_memory.hpp"
+
+#include <stdexcept>
+
+namespace drumlin::particles {
+namespace {
+
+constexpr std::size_t boundary = 64;
+constexpr std::size_t least_piece = std::size_t{1} << 16;
+
+}  // namespace
+
+WorkMemory::Frame::Frame(WorkMemory* memory) : memory_(memory) {
+  if (memory == nullptr) return;
+  memory->frames_.push_back({++memory->frames_so_far_, memory->piece_, memory->used_});
+}
+
+WorkMemory::Frame::~Frame() {
+  if (memory_ == nullptr) return;
+  memory_->piece_ = memory_->frames_.back().piece, memory_->used_ = memory_->frames_.back().used;
+  memory_->frames_.pop_back();
+}
+
+std::size_t WorkMemory::bytes() const {
+  std::size_t sum = 0;
+  for (const Piece& piece : pieces_) sum += piece.size;
+  return sum;
+}
+
+void WorkMemory::release() {
+  if (!frames_.empty()) return;
+  next_piece_ = std::max(next_piece_, bytes());
+  pieces_.clear();
+}
+
+void WorkMemory::add_piece(std::size_t bytes) {
+  pieces_.push_back({std::unique_ptr<std::byte[], Free>(
+                         static_cast<std::byte*>(::operator new[](bytes, std::align_val_t{boundary}))),
+                     bytes});
+}
+
+void* WorkMemory::take(std::size_t bytes) {
+  if (frames_.empty()) throw std::logic_error("work memory is taken outside of a frame");
+  bytes = (bytes + boundary - 1) / boundary * boundary;
+  if (piece_ == 0 && used_ == 0 && pieces_.size() > 1) {  // nothing is taken: from now on one piece
+    const std::size_t all = this->bytes();
+    pieces_.clear();
+    add_piece(std::max(all, bytes));
+  }
+  while (piece_ < pieces_.size() && used_ + bytes > pieces_[piece_].size) ++piece_, used_ = 0;
+  if (piece_ == pieces_.size()) add_piece(std::max({bytes, least_piece, this->bytes() / 8, next_piece_}));
+  next_piece_ = 0;
+  void* const taken = pieces_[piece_].bytes.get() + used_;
+  used_ += bytes;
+  return taken;
+}
+
+}  // namespace drumlin::particles

@@ -1,0 +1,109 @@
+// Memory that the phases of a step share, and what a step takes of it.
+#include "particles/parallel/work_memory.hpp"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "particles/stepping/simulation.hpp"
+
+namespace drumlin {
+using namespace particles;
+namespace {
+
+TEST(WorkMemory, ArraysEndWithTheirFrame) {
+  WorkMemory memory;
+  WorkArray<double> outer, inner;
+  outer.use(&memory), inner.use(&memory);
+  {
+    const WorkMemory::Frame frame(&memory);
+    outer.assign(100, 1.0);
+    {
+      const WorkMemory::Frame within(&memory);
+      inner.assign(1000, 2.0);
+      EXPECT_EQ(inner.size(), 1000);
+    }
+    EXPECT_TRUE(inner.empty());
+    EXPECT_EQ(outer.size(), 100);
+    EXPECT_EQ(outer[99], 1.0);
+  }
+  EXPECT_TRUE(outer.empty());
+}
+
+TEST(WorkMemory, OneFrameTakesTheBytesOfTheOneBefore) {
+  WorkMemory memory;
+  WorkArray<double> first, second;
+  first.use(&memory), second.use(&memory);
+  for (int step = 0; step < 3; ++step) {
+    {
+      const WorkMemory::Frame frame(&memory);
+      first.assign(100000, 1.0);
+    }
+    const WorkMemory::Frame frame(&memory);
+    second.assign(90000, 2.0);
+  }
+  EXPECT_LE(memory.bytes(), 100000 * sizeof(double) + 64);
+}
+
+TEST(WorkMemory, PiecesOfItBecomeOne) {
+  WorkMemory memory;
+  for (int step = 0; step < 3; ++step) {
+    const WorkMemory::Frame frame(&memory);
+    for (int k = 0; k < 40; ++k) (void)memory.take(50000);
+  }
+  const std::size_t before = memory.bytes();
+  EXPECT_LE(before, 40 * 50048 * 5 / 4);
+  memory.release();
+  EXPECT_EQ(memory.bytes(), 0);
+  const WorkMemory::Frame frame(&memory);
+  (void)memory.take(1);
+  EXPECT_EQ(memory.bytes(), before);  // a page is the system's until it is used
+}
+
+TEST(WorkMemory, LongerArraysKeepWhatTheyHold) {
+  WorkMemory memory;
+  const WorkMemory::Frame frame(&memory);
+  for (WorkMemory* of : {&memory, static_cast<WorkMemory*>(nullptr)}) {
+    WorkArray<int> array;
+    array.use(of);
+    array.renew(3);
+    array[0] = 5, array[1] = 6, array[2] = 7;
+    array.resize(5000);
+    EXPECT_EQ(array.size(), 5000);
+    EXPECT_EQ(array[0], 5);
+    EXPECT_EQ(array[2], 7);
+  }
+}
+
+TEST(WorkMemory, NothingIsTakenOutsideOfAFrame) {
+  WorkMemory memory;
+  EXPECT_THROW((void)memory.take(8), std::logic_error);
+}
+
+/// Bytes per contact: those that stay from step to step, and those that its phases share.
+TEST(WorkMemory, AStepTakesSoMuchPerContact) {
+  constexpr int grains = 3000;
+  Scene scene;
+  scene.grains.density_kg_m3 = 2700;
+  GeneratedGrains made{grains, 3, 3.6, CircleRegion{{0, 0}, 146}};
+  made.placement = "deposited";
+  scene.grains.source = made;
+  scene.walls = {{"drum", ContainerShape{{0, 0}, 146}}};
+  scene.effects = {Gravity{}, Friction{0.4, 0.95}, Restitution{0.46, 0.46}, Spin{}};
+  Stage turn;
+  turn.name = "turn", turn.duration_s = 0.06, turn.time_step_s = 1e-3;
+  turn.motions = {{"drum", Rotation{6, {0, 0}}}};
+  scene.stages = {turn};
+  Simulation simulation(scene);
+  int contacts = 0;
+  while (!simulation.finished()) contacts = std::max(contacts, simulation.step().contacts);
+  const StepMemory memory = simulation.stepper().memory();
+  EXPECT_GT(contacts, 1.9 * grains);
+  EXPECT_LT(static_cast<double>(memory.kept), 400.0 * contacts);
+  EXPECT_LT(static_cast<double>(memory.shared), 240.0 * contacts);
+  simulation.release_memory();
+  EXPECT_EQ(simulation.stepper().memory().shared, 0);
+}
+
+}  // namespace
+}  // namespace drumlin
