@@ -143,9 +143,8 @@ class RankMoreauJean final : public RankStepper {
     if (!laws_.restitution) return;
     FreeMotion searched = free_;
     for (int searches = 1;; ++searches) {
-      const auto struck = strike(state, walls, time_step);
+      const auto struck = strike(walls, time_step);
       report.impacts += impacts_.count();
-      counts_.gathered += impacts_.count() > 0;
       if (impacts_.count() == 0) return;
       take_over(struck, state);
       move_freely(time_step);
@@ -157,7 +156,7 @@ class RankMoreauJean final : public RankStepper {
   }
 
   /// The impacts among all pairs; those of this rank's tiles are its part.
-  std::vector<StruckRecord> strike(const RankState& state, const WallStep& walls, double time_step) {
+  std::vector<StruckRecord> strike(const WallStep& walls, double time_step) {
     const Bodies& seen = grains_.seen().bodies;
     StepContacts mine;
     for (const Candidate& pair : detection_.candidates())
@@ -166,7 +165,7 @@ class RankMoreauJean final : public RankStepper {
     sweep_normals(step, mine.pairs);
     recollection_.find(grains_.memory(), seen.count(), mine.pairs);
     const auto loads = recollection_.loads(grains_.memory(), dim, time_step);
-    return impacts_.resolve(step, loads, mine, state.grains);
+    return impacts_.resolve({step, loads, mine, detection_.candidates(), grains_.places()});
   }
 
   void take_over(std::span<const StruckRecord> struck, RankState& state) {
@@ -306,6 +305,7 @@ class RankMoreauJean final : public RankStepper {
     counts_.halo_rounds = halo_.rounds(), counts_.halo_bytes = halo_.bytes();
     counts_.rounds = Ranks::rounds();
     counts_.forests = grains_.forests();
+    counts_.impacts = impacts_.counts();
   }
 
   StepLaws laws_;
