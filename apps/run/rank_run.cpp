@@ -58,6 +58,7 @@ nlohmann::ordered_json to_json(const RankShare& share) {
           {"halo_rounds_per_sweep", static_cast<double>(c.halo_rounds) / sweeps},
           {"halo_bytes_per_sweep", static_cast<double>(c.halo_bytes) / sweeps},
           {"rounds_per_step", static_cast<double>(c.rounds) / steps},
+          {"coarse_corrections", c.corrections},
           {"impacts_gathered", c.impacts.times},
           {"impact_messages_mean", static_cast<double>(c.impacts.rounds) / gathered},
           {"impact_pairs_sent_mean", static_cast<double>(c.impacts.pairs) / gathered},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <stdexcept>
 #include <tuple>
 #include <utility>
 
@@ -39,14 +40,11 @@ std::vector<StruckRecord> GatheredImpacts::resolve(const RankImpacts& mine) {
     else
       want(mine, ranks_.gather_everywhere<std::int32_t>(around(mine, reach[times])));
     send(mine);
-    if (all && ranks_.rank() == 0) {
-      whole_.clear();
-      for (const BodyRecord& body : bodies_) whole_.push_back(body.id);
-    }
     missing_.clear();
-    if (ranks_.rank() == 0) (void)resolve_gathered(mine.step, struck);
+    if (ranks_.rank() == 0) resolve_gathered(mine.step, all, struck);
     ranks_.broadcast(missing_);
     if (missing_.empty()) break;
+    if (all) throw std::logic_error("a pair of an impact is on no rank");
     seed_.assign(seen, 0);
     for (const std::int32_t id : missing_)
       if (const std::int32_t b = mine.place_of[id]; b >= 0) seed_[b] = 1;
@@ -134,7 +132,7 @@ void GatheredImpacts::send(const RankImpacts& mine) {
   bodies_.insert(bodies_.end(), named.begin(), named.end());
 }
 
-bool GatheredImpacts::resolve_gathered(const StepInput& step, std::vector<StruckRecord>& struck) {
+void GatheredImpacts::resolve_gathered(const StepInput& step, bool all, std::vector<StruckRecord>& struck) {
   std::sort(pairs_.begin(), pairs_.end(),
             [](const PairRecord& a, const PairRecord& b) { return std::tie(a.i, a.j) < std::tie(b.i, b.j); });
   std::sort(bodies_.begin(), bodies_.end(),
@@ -149,7 +147,7 @@ bool GatheredImpacts::resolve_gathered(const StepInput& step, std::vector<Struck
     bodies.v_x.push_back(body.v_x), bodies.v_z.push_back(body.v_z);
     bodies.radius.push_back(body.radius), bodies.inverse_mass.push_back(body.inverse_mass);
     if (step.laws.spin) bodies.spin.push_back(body.spin);
-    whole.push_back(std::binary_search(whole_.begin(), whole_.end(), body.id));
+    whole.push_back(all || std::binary_search(whole_.begin(), whole_.end(), body.id));
   }
   bodies.x.resize(bodies_.size()), bodies.z.resize(bodies_.size());  // impacts ask for no places
   const auto place = [this](std::int32_t id) {
@@ -171,7 +169,7 @@ bool GatheredImpacts::resolve_gathered(const StepInput& step, std::vector<Struck
   const StepInput known{step.laws, bodies, step.walls, {}, unused, step.time_step};
   if (!impacts_.resolve_part(known, {as_they_stand, load, 1, 1}, whole, bodies, contacts)) {
     for (const std::int32_t b : impacts_.missing()) missing_.push_back(bodies_[b].id);
-    return false;
+    return;
   }
   count_ = impacts_.count();
   for (Strike strike : contacts.strikes) {
@@ -183,7 +181,6 @@ bool GatheredImpacts::resolve_gathered(const StepInput& step, std::vector<Struck
     const std::int32_t b = grain.grain;
     struck.push_back({bodies_[b].id, bodies.v_x[b], bodies.v_z[b], step.laws.spin ? bodies.spin[b] : 0});
   }
-  return true;
 }
 
 }  // namespace drumlin::particles

@@ -67,8 +67,8 @@ class GatheredImpacts {
   void send(const RankImpacts& mine);
   /// Adds to the bodies whose pairs the first rank needs, and marks those that this rank sees.
   void want(const RankImpacts& mine, std::span<const std::int32_t> identities);
-  /// On the first rank; false if missing_ bodies came in.
-  bool resolve_gathered(const StepInput& step, std::vector<StruckRecord>& struck);
+  /// On the first rank; nothing changes where missing_ bodies came in. `all`: it holds all pairs.
+  void resolve_gathered(const StepInput& step, bool all, std::vector<StruckRecord>& struck);
 
   Ranks ranks_;
   Impacts looked_, impacts_;

@@ -11,6 +11,7 @@
 #include "particles/distributed/processor_time.hpp"
 #include "particles/distributed/rank_grains.hpp"
 #include "particles/distributed/rank_projection.hpp"
+#include "particles/solver/coarse_loads.hpp"
 #include "particles/stepping/assembly.hpp"
 #include "particles/stepping/snapshot_of_state.hpp"
 #include "particles/stepping/swept_normals.hpp"
@@ -54,7 +55,7 @@ class RankMoreauJean final : public RankStepper {
         team_(solver.threads),
         grains_(ranks, domain, with_spin, dim, laws.detection_margin),
         impacts_(ranks),
-        solver_(ranks, &team_),
+        solver_(ranks, &team_, least_contacts_of_coarse_loads),
         overlaps_(ranks),
         projection_(ranks, &team_) {
     detection_.use(&team_);
@@ -81,7 +82,7 @@ class RankMoreauJean final : public RankStepper {
     warm_start(time_step);
     assemble<Problem, with_spin>(step, contacts_, TeamLoops(&team_), problem_);
     report.setup_seconds = watch.lap();
-    const TiledContacts tiled{own_.tiles, counts_here_};
+    const TiledContacts tiled{own_.tiles, counts_here_, bodies_.x, bodies_.z};
     report.solve = solver_.solve(problem_, tiled, halo_, settings_.rule, method_, solution_);
     std::vector<std::int64_t> count{problem_.contacts()};
     ranks_.add(count);
@@ -305,6 +306,7 @@ class RankMoreauJean final : public RankStepper {
     counts_.halo_rounds = halo_.rounds(), counts_.halo_bytes = halo_.bytes();
     counts_.rounds = Ranks::rounds();
     counts_.forests = grains_.forests();
+    counts_.corrections = solver_.corrections();
     counts_.impacts = impacts_.counts();
   }
 

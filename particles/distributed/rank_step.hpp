@@ -37,6 +37,7 @@ struct RankCounts {
   std::int64_t contacts = 0, grains = 0, ghosts = 0, shared_bytes_per_sweep = 0;  ///< summed over steps
   std::int64_t forests = 0;                                                       ///< made
   double step_seconds = 0, waiting_seconds = 0;  ///< processor time of the steps, and what of it was waiting
+  std::int64_t corrections = 0;                  ///< of impulses on a coarse grid
   GatheredCounts impacts;
 };
 

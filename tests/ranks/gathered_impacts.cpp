@@ -51,8 +51,8 @@ TEST(GatheredImpacts, AreThoseOfOneProcessToTheLastBit) {
                   contacts);
   ASSERT_GT(impacts.struck().size(), 60U);  // they go through most of the row
   // A rank has a stretch of pairs, and sees three discs on each side of them.
-  const int first = (discs - 1) * ranks.rank() / ranks.count(),
-            last = (discs - 1) * (ranks.rank() + 1) / ranks.count();
+  const int stretch = ranks.count() - 1 - ranks.rank();  // against the order of the ranks
+  const int first = (discs - 1) * stretch / ranks.count(), last = (discs - 1) * (stretch + 1) / ranks.count();
   const int low = std::max(0, first - 3), high = std::min(discs, last + 4);
   Bodies seen;
   std::vector<std::int32_t> place_of(discs, -1);
@@ -85,8 +85,8 @@ TEST(GatheredImpacts, AreThoseOfOneProcessToTheLastBit) {
   }
   EXPECT_EQ(gathered.count(), impacts.count());
   EXPECT_EQ(gathered.counts().times, 1);
-  if (ranks.count() > 1)
-    EXPECT_GT(gathered.counts().rounds, 1);  // they reach further than what is sent first
+  // They reach further than what is sent first.
+  EXPECT_TRUE(ranks.count() == 1 || gathered.counts().rounds > 1);
   if (ranks.rank() != 0) return;
   ASSERT_EQ(gathered.strikes().size(), contacts.strikes.size());
   for (std::size_t k = 0; k < contacts.strikes.size(); ++k) {
