@@ -51,13 +51,18 @@ nlohmann::ordered_json to_json(const RankShare& share) {
   const particles::RankCounts& c = share.counts;
   const auto steps = static_cast<double>(std::max<std::int64_t>(1, c.steps));
   const auto sweeps = static_cast<double>(std::max<std::int64_t>(1, c.sweeps));
+  const auto gathered = static_cast<double>(std::max<std::int64_t>(1, c.impacts.times));
   return {{"grains_mean", static_cast<double>(c.grains) / steps},
           {"ghosts_mean", static_cast<double>(c.ghosts) / steps},
           {"contacts_mean", static_cast<double>(c.contacts) / steps},
           {"halo_rounds_per_sweep", static_cast<double>(c.halo_rounds) / sweeps},
           {"halo_bytes_per_sweep", static_cast<double>(c.halo_bytes) / sweeps},
           {"rounds_per_step", static_cast<double>(c.rounds) / steps},
-          {"steps_gathered_for_impacts", c.gathered},
+          {"coarse_corrections", c.corrections},
+          {"impacts_gathered", c.impacts.times},
+          {"impact_messages_mean", static_cast<double>(c.impacts.rounds) / gathered},
+          {"impact_pairs_sent_mean", static_cast<double>(c.impacts.pairs) / gathered},
+          {"impact_bytes_sent_mean", static_cast<double>(c.impacts.bytes) / gathered},
           {"forests", c.forests},
           {"step_seconds", c.step_seconds / steps},
           {"waiting_seconds", c.waiting_seconds / steps},

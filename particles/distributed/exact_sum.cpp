@@ -1,5 +1,6 @@
 #include "particles/distributed/exact_sum.hpp"
 
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -19,9 +20,11 @@ void ExactSum::add(double term) {
     ++numbers_[limbs];
     return;
   }
-  int exponent = 0;
-  auto digits = static_cast<std::uint64_t>(std::ldexp(std::frexp(std::abs(term), &exponent), 53));
-  int place = exponent - 53 - lowest;
+  // term = digits 2^(power - 1075), of normal numbers; others are below the lowest place.
+  const auto bits = std::bit_cast<std::uint64_t>(std::abs(term));
+  const auto power = static_cast<int>(bits >> 52);
+  std::uint64_t digits = (bits & ((std::uint64_t{1} << 52) - 1)) | (std::uint64_t{1} << 52);
+  int place = power - 1075 - lowest;
   if (place < 0) {
     if (place <= -53) return;
     digits >>= -place, place = 0;

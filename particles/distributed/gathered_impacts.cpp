@@ -1,75 +1,186 @@
 #include "particles/distributed/gathered_impacts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
+#include <stdexcept>
 #include <tuple>
+#include <utility>
 
 namespace drumlin::particles {
+namespace {
 
-std::vector<StruckRecord> GatheredImpacts::resolve(const StepInput& step, const RememberedLoads& loads,
-                                                   const StepContacts& contacts,
-                                                   std::span<const RankGrain> own) {
+// How many pairs around what closes, or around bodies that were missing, are sent at once. Passes of a
+// flowing drum go on by 2.4 pairs on average. After that many times all pairs are sent.
+constexpr std::array<int, 4> reach{2, 3, 6, 12};
+
+}  // namespace
+
+std::vector<StruckRecord> GatheredImpacts::resolve(const RankImpacts& mine) {
   count_ = 0;
-  if (!ranks_.any(looked_.any(step, loads, contacts))) return {};
-  const auto& id = step.bodies.id;
-  std::vector<PairRecord> mine;
-  for (std::size_t a = 0; a < contacts.pairs.size(); ++a) {
-    const Candidate& pair = contacts.pairs[a];
-    mine.push_back({id[pair.i], pair.j < 0 ? pair.j : id[pair.j], pair.gap, pair.n_x, pair.n_z, pair.wall_v_x,
-                    pair.wall_v_z, loads.of(static_cast<std::int32_t>(a))});
+  const bool close = looked_.any(mine.step, mine.loads, mine.contacts);
+  if (!ranks_.any(close)) return {};
+  ++counts_.times;
+  if (ranks_.count() == 1) return resolve_alone(mine);
+  const std::size_t seen = mine.step.bodies.count();
+  seed_.assign(seen, 0), wanted_.assign(seen, 0), sent_.assign(seen, 0);
+  pair_sent_.assign(mine.contacts.pairs.size(), 0);
+  whole_.clear(), pairs_.clear(), bodies_.clear();
+  for (const std::int32_t a : looked_.closings()) {
+    const Candidate& pair = mine.contacts.pairs[a];
+    seed_[pair.i] = 1;
+    if (pair.j >= 0) seed_[pair.j] = 1;
   }
-  pairs_ = ranks_.gather<PairRecord>(mine);
-  const auto grains = ranks_.gather<RankGrain>(own);
   std::vector<StruckRecord> struck;
-  if (ranks_.rank() == 0) struck = resolve_for_all(step, grains);
+  for (std::size_t times = 0;; ++times) {
+    ++counts_.rounds;
+    const bool all = times == reach.size();
+    if (all)
+      std::fill(wanted_.begin(), wanted_.end(), 1);
+    else
+      want(mine, ranks_.gather_everywhere<std::int32_t>(around(mine, reach[times])));
+    send(mine);
+    missing_.clear();
+    if (ranks_.rank() == 0) resolve_gathered(mine.step, all, struck);
+    ranks_.broadcast(missing_);
+    if (missing_.empty()) break;
+    if (all) throw std::logic_error("a pair of an impact is on no rank");
+    seed_.assign(seen, 0);
+    for (const std::int32_t id : missing_)
+      if (const std::int32_t b = mine.place_of[id]; b >= 0) seed_[b] = 1;
+  }
   ranks_.broadcast(struck);
-  std::vector<std::int64_t> count{count_};
+  std::array<std::int64_t, 1> count{count_};
   ranks_.add(count);  // of the first, who alone knows it
   count_ = static_cast<int>(count[0]);
   return struck;
 }
 
-std::vector<StruckRecord> GatheredImpacts::resolve_for_all(const StepInput& step,
-                                                           std::span<const RankGrain> grains) {
-  // Those of each rank come in the order of (i, j): runs that are merged.
-  const auto before = [](const PairRecord& a, const PairRecord& b) {
-    return std::tie(a.i, a.j) < std::tie(b.i, b.j);
-  };
-  for (auto sorted = std::is_sorted_until(pairs_.begin(), pairs_.end(), before); sorted != pairs_.end();) {
-    const auto run = std::is_sorted_until(sorted, pairs_.end(), before);
-    std::inplace_merge(pairs_.begin(), sorted, run, before);
-    sorted = run;
-  }
-  Bodies bodies;
-  for (auto* values : {&bodies.x, &bodies.z, &bodies.v_x, &bodies.v_z, &bodies.radius, &bodies.inverse_mass})
-    values->resize(grains.size());
-  if (step.laws.spin) bodies.spin.resize(grains.size());
-  for (const RankGrain& grain : grains) {
-    const auto b = static_cast<std::size_t>(grain.id);
-    bodies.x[b] = grain.x, bodies.z[b] = grain.z, bodies.v_x[b] = grain.v_x, bodies.v_z[b] = grain.v_z;
-    bodies.radius[b] = grain.radius, bodies.inverse_mass[b] = grain.inverse_mass;
-    if (step.laws.spin) bodies.spin[b] = grain.spin;
-  }
+/// On one rank nothing has to be sent.
+std::vector<StruckRecord> GatheredImpacts::resolve_alone(const RankImpacts& mine) {
+  Bodies bodies = mine.step.bodies;
   StepContacts contacts;
-  std::vector<double> load;
-  for (const PairRecord& pair : pairs_) {
-    contacts.pairs.push_back({static_cast<std::int32_t>(pair.i), static_cast<std::int32_t>(pair.j), pair.gap,
-                              pair.n_x, pair.n_z, pair.wall_v_x, pair.wall_v_z});
-    load.push_back(pair.load);
-  }
-  std::vector<std::int32_t> place(pairs_.size());
-  std::iota(place.begin(), place.end(), 0);
-  const FreeMotion unused;
-  const StepInput all{step.laws, bodies, step.walls, {}, unused, step.time_step};
-  impacts_.resolve(all, {place, load, 1, 1}, bodies, contacts);
+  contacts.pairs = mine.contacts.pairs;
+  const StepInput step{mine.step.laws, bodies, mine.step.walls, {}, mine.step.free, mine.step.time_step};
+  impacts_.resolve(step, mine.loads, bodies, contacts);
   count_ = impacts_.count();
-  strikes_.insert(strikes_.end(), contacts.strikes.begin(), contacts.strikes.end());
+  const auto& id = bodies.id;
+  for (Strike strike : contacts.strikes) {
+    strike.i = static_cast<std::int32_t>(id[strike.i]);
+    if (strike.j >= 0) strike.j = static_cast<std::int32_t>(id[strike.j]);
+    strikes_.push_back(strike);
+  }
   std::vector<StruckRecord> struck;
   for (const StruckGrain& grain : impacts_.struck()) {
     const std::int32_t b = grain.grain;
-    struck.push_back({b, bodies.v_x[b], bodies.v_z[b], step.laws.spin ? bodies.spin[b] : 0});
+    struck.push_back({id[b], bodies.v_x[b], bodies.v_z[b], step.laws.spin ? bodies.spin[b] : 0});
   }
   return struck;
+}
+
+std::vector<std::int32_t> GatheredImpacts::around(const RankImpacts& mine, int pairs) {
+  for (int k = 0; k < pairs; ++k) {
+    ring_ = seed_;
+    for (const Candidate& pair : mine.candidates) {
+      if (pair.j < 0) continue;
+      if (seed_[pair.i]) ring_[pair.j] = 1;
+      if (seed_[pair.j]) ring_[pair.i] = 1;
+    }
+    std::swap(seed_, ring_);
+  }
+  std::vector<std::int32_t> marked;
+  const auto& id = mine.step.bodies.id;
+  for (std::size_t b = 0; b < seed_.size(); ++b)
+    if (seed_[b] && !wanted_[b]) marked.push_back(static_cast<std::int32_t>(id[b]));
+  return marked;
+}
+
+void GatheredImpacts::want(const RankImpacts& mine, std::span<const std::int32_t> identities) {
+  for (const std::int32_t id : identities)
+    if (const std::int32_t b = mine.place_of[id]; b >= 0) wanted_[b] = 1;
+  if (ranks_.rank() != 0) return;
+  whole_.insert(whole_.end(), identities.begin(), identities.end());
+  std::sort(whole_.begin(), whole_.end());
+  whole_.erase(std::unique(whole_.begin(), whole_.end()), whole_.end());
+}
+
+void GatheredImpacts::send(const RankImpacts& mine) {
+  const Bodies& bodies = mine.step.bodies;
+  const auto& id = bodies.id;
+  std::vector<PairRecord> pairs;
+  std::vector<BodyRecord> grains;
+  const auto name = [&](std::int32_t b) {
+    if (!std::exchange(sent_[b], 1))
+      grains.push_back({static_cast<std::int32_t>(id[b]), bodies.v_x[b], bodies.v_z[b],
+                        bodies.spin.empty() ? 0 : bodies.spin[b], bodies.radius[b], bodies.inverse_mass[b]});
+    return static_cast<std::int32_t>(id[b]);
+  };
+  for (std::size_t a = 0; a < mine.contacts.pairs.size(); ++a) {
+    const Candidate& pair = mine.contacts.pairs[a];
+    if (pair_sent_[a] || !(wanted_[pair.i] | (pair.j >= 0 ? wanted_[pair.j] : 0))) continue;
+    pair_sent_[a] = 1;
+    const std::int32_t i = name(pair.i), j = pair.j < 0 ? pair.j : name(pair.j);
+    pairs.push_back({i, j, pair.gap, pair.n_x, pair.n_z, pair.wall_v_x, pair.wall_v_z,
+                     mine.loads.of(static_cast<std::int32_t>(a))});
+  }
+  counts_.pairs += static_cast<std::int64_t>(pairs.size());
+  counts_.bytes +=
+      static_cast<std::int64_t>(pairs.size() * sizeof(PairRecord) + grains.size() * sizeof(BodyRecord));
+  const auto more = ranks_.gather<PairRecord>(pairs);
+  pairs_.insert(pairs_.end(), more.begin(), more.end());
+  const auto named = ranks_.gather<BodyRecord>(grains);
+  bodies_.insert(bodies_.end(), named.begin(), named.end());
+}
+
+void GatheredImpacts::resolve_gathered(const StepInput& step, bool all, std::vector<StruckRecord>& struck) {
+  std::sort(pairs_.begin(), pairs_.end(),
+            [](const PairRecord& a, const PairRecord& b) { return std::tie(a.i, a.j) < std::tie(b.i, b.j); });
+  std::sort(bodies_.begin(), bodies_.end(),
+            [](const BodyRecord& a, const BodyRecord& b) { return a.id < b.id; });
+  // Several ranks may have told of one grain, all the same.
+  bodies_.erase(std::unique(bodies_.begin(), bodies_.end(),
+                            [](const BodyRecord& a, const BodyRecord& b) { return a.id == b.id; }),
+                bodies_.end());
+  Bodies bodies;
+  std::vector<char> whole;
+  for (const BodyRecord& body : bodies_) {
+    bodies.v_x.push_back(body.v_x), bodies.v_z.push_back(body.v_z);
+    bodies.radius.push_back(body.radius), bodies.inverse_mass.push_back(body.inverse_mass);
+    if (step.laws.spin) bodies.spin.push_back(body.spin);
+    whole.push_back(all || std::binary_search(whole_.begin(), whole_.end(), body.id));
+  }
+  bodies.x.resize(bodies_.size()), bodies.z.resize(bodies_.size());  // impacts ask for no places
+  const auto place = [this](std::int32_t id) {
+    const auto found =
+        std::lower_bound(bodies_.begin(), bodies_.end(), id,
+                         [](const BodyRecord& body, std::int32_t other) { return body.id < other; });
+    return static_cast<std::int32_t>(found - bodies_.begin());
+  };
+  StepContacts contacts;
+  std::vector<double> load;
+  for (const PairRecord& pair : pairs_) {
+    contacts.pairs.push_back({place(pair.i), pair.j < 0 ? pair.j : place(pair.j), pair.gap, pair.n_x,
+                              pair.n_z, pair.wall_v_x, pair.wall_v_z});
+    load.push_back(pair.load);
+  }
+  std::vector<std::int32_t> as_they_stand(pairs_.size());
+  std::iota(as_they_stand.begin(), as_they_stand.end(), 0);
+  const FreeMotion unused;
+  const StepInput known{step.laws, bodies, step.walls, {}, unused, step.time_step};
+  if (!impacts_.resolve_part(known, {as_they_stand, load, 1, 1}, whole, bodies, contacts)) {
+    for (const std::int32_t b : impacts_.missing()) missing_.push_back(bodies_[b].id);
+    return;
+  }
+  count_ = impacts_.count();
+  for (Strike strike : contacts.strikes) {
+    strike.i = bodies_[strike.i].id;
+    if (strike.j >= 0) strike.j = bodies_[strike.j].id;
+    strikes_.push_back(strike);
+  }
+  for (const StruckGrain& grain : impacts_.struck()) {
+    const std::int32_t b = grain.grain;
+    struck.push_back({bodies_[b].id, bodies.v_x[b], bodies.v_z[b], step.laws.spin ? bodies.spin[b] : 0});
+  }
 }
 
 }  // namespace drumlin::particles

@@ -1,11 +1,11 @@
 #pragma once
-// Impacts of a step on ranks: resolved by the first rank for all, since a pass may move a whole packing at
-// once. A step in which no pair closes fast enough gathers nothing.
+// Impacts of a step on ranks. The first rank resolves them for all, since passes of all impacts are one
+// computation; it gets the pairs that passes may reach and no others. A step in which no pair closes fast
+// enough gathers nothing.
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "particles/distributed/forest.hpp"
 #include "particles/distributed/ranks.hpp"
 #include "particles/stepping/impacts.hpp"
 #include "particles/stepping/step_contacts.hpp"
@@ -18,34 +18,69 @@ struct StruckRecord {
   double v_x = 0, v_z = 0, spin = 0;
 };
 
+/// The part of one rank in the impacts of a step.
+struct RankImpacts {
+  const StepInput& step;  ///< its bodies are the grains that the rank sees, by ascending identity
+  const RememberedLoads& loads;
+  const StepContacts& contacts;            ///< pairs of the rank's tiles, in the order of (i, j)
+  std::span<const Candidate> candidates;   ///< all pairs of the grains that it sees
+  std::span<const std::int32_t> place_of;  ///< of each identity among the bodies; -1: not seen
+};
+
+/// What impacts have sent to the first rank since the program began, from this rank.
+struct GatheredCounts {
+  std::int64_t times = 0;  ///< that anything was gathered
+  std::int64_t rounds = 0;
+  std::int64_t pairs = 0, bytes = 0;
+};
+
 class GatheredImpacts {
  public:
   explicit GatheredImpacts(const Ranks& ranks) : ranks_(ranks) {}
 
-  /// Resolves the impacts among the pairs of all ranks. `contacts`: pairs of this rank alone, among the
-  /// grains of `step`, whose identities are ascending; `own`: grains that this rank owns. All ranks call it
-  /// together and get the grains that were struck. `step.laws` asks for restitution.
-  std::vector<StruckRecord> resolve(const StepInput& step, const RememberedLoads& loads,
-                                    const StepContacts& contacts, std::span<const RankGrain> own);
+  /// Resolves the impacts among the pairs of all ranks; the result is that of one process, to the last bit.
+  /// All ranks call it together and get the grains that were struck. `mine.step.laws` asks for restitution.
+  std::vector<StruckRecord> resolve(const RankImpacts& mine);
   /// Pairs that met in the last call, counted once per pass.
   int count() const { return count_; }
   /// On the first rank: impulses since the last clear(), with identities in place of indices.
   const std::vector<Strike>& strikes() const { return strikes_; }
   void clear() { strikes_.clear(); }
+  const GatheredCounts& counts() const { return counts_; }
 
  private:
-  std::vector<StruckRecord> resolve_for_all(const StepInput& step, std::span<const RankGrain> grains);
-
-  /// A pair as it travels; j < 0 is a wall shape.
+  /// A pair as it travels, with identities; j < 0 is a wall shape.
   struct PairRecord {
-    std::int64_t i = 0, j = 0;
+    std::int32_t i = 0, j = 0;
     double gap = 0, n_x = 0, n_z = 0, wall_v_x = 0, wall_v_z = 0, load = 0;
   };
+  /// What impacts ask of a grain.
+  struct BodyRecord {
+    std::int32_t id = 0;
+    double v_x = 0, v_z = 0, spin = 0, radius = 0, inverse_mass = 0;
+  };
+
+  std::vector<StruckRecord> resolve_alone(const RankImpacts& mine);
+  /// Marks the seeds and all bodies within so many pairs of them; returns the identities of the marked.
+  std::vector<std::int32_t> around(const RankImpacts& mine, int pairs);
+  /// Adds the pairs of wanted bodies to what the first rank holds.
+  void send(const RankImpacts& mine);
+  /// Adds to the bodies whose pairs the first rank needs, and marks those that this rank sees.
+  void want(const RankImpacts& mine, std::span<const std::int32_t> identities);
+  /// On the first rank; nothing changes where missing_ bodies came in. `all`: it holds all pairs.
+  void resolve_gathered(const StepInput& step, bool all, std::vector<StruckRecord>& struck);
 
   Ranks ranks_;
   Impacts looked_, impacts_;
-  std::vector<PairRecord> pairs_;  // of all ranks, on the first
+  std::vector<char> seed_, ring_;       // of each seen body
+  std::vector<char> wanted_;            // of each seen body: all pairs of it are to be sent
+  std::vector<char> pair_sent_, sent_;  // of each pair of this rank; of each seen body
+  std::vector<std::int32_t> whole_;     // identities of wanted bodies, ascending
+  std::vector<PairRecord> pairs_;       // those that the first rank holds
+  std::vector<BodyRecord> bodies_;
+  std::vector<std::int32_t> missing_;  // identities
   std::vector<Strike> strikes_;
+  GatheredCounts counts_;
   int count_ = 0;
 };
 

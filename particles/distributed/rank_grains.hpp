@@ -30,6 +30,8 @@ class RankGrains {
   std::int64_t forests() const { return forests_; }
   /// Place of a grain among those seen; -1: not seen.
   std::int32_t place_of(std::int64_t id) const { return place_of_[id]; }
+  /// The same of all identities.
+  std::span<const std::int32_t> places() const { return place_of_; }
   /// What is remembered of pairs of seen grains, with their places.
   const ContactMemory& memory() const { return memory_; }
 

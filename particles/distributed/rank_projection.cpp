@@ -66,8 +66,8 @@ int RankProjection::apply(const RankOverlap& overlap, std::span<const char> coun
   rule.tolerance = projection_tolerance;
   rule.max_sweeps = sweeps;
   // What is left is seen, and reported, as the overlap of the next step.
-  const SolveReport report =
-      solver_.solve(problem_, {overlap.tiles(), counts_here}, halo, rule, TileMethod::accelerated, solution_);
+  const SolveReport report = solver_.solve(problem_, {overlap.tiles(), counts_here, {}, {}}, halo, rule,
+                                           TileMethod::accelerated, solution_);
   const auto& moved = solution_.velocities.bodies;
   for (std::size_t b = 0; b < bodies.count(); ++b) bodies.x[b] += moved[b].x, bodies.z[b] += moved[b].z;
   return report.sweeps;

@@ -1,6 +1,7 @@
 #pragma once
 // The end of a step on ranks: the overlap that is left, and its removal on positions alone.
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -41,7 +42,8 @@ class RankOverlap {
 /// PositionProjection on ranks.
 class RankProjection {
  public:
-  RankProjection(const Ranks& ranks, ThreadTeam* team) : solver_(ranks, team) {}
+  RankProjection(const Ranks& ranks, ThreadTeam* team)
+      : solver_(ranks, team, std::numeric_limits<std::int64_t>::max()) {}
   /// Returns the sweeps that it took.
   int apply(const RankOverlap& overlap, std::span<const char> counts_here, Halo& halo, int sweeps,
             Bodies& bodies);

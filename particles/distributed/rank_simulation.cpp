@@ -11,6 +11,7 @@
 #include "particles/scene/thermal.hpp"
 #include "particles/stepping/scene_solver.hpp"
 #include "particles/stepping/snapshot_of_state.hpp"
+#include "particles/stepping/standing_start.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -42,6 +43,13 @@ RankSimulation::RankSimulation(const Scene& scene, const Ranks& ranks, int threa
   enter_stage(0);
   make_stepper(threads, all);
   take_own(all);
+  const StepLaws laws = laws_of(scene, scales_);
+  if (!starts_deposited(scene) || !laws.gravity) return;
+  own_.memory_time_step = plan_.stages[0].time_step;
+  if (ranks_.rank() == 0)
+    take_memory(impulses_under_weight(all, walls_.shapes_at(0, state_.driven), laws.period, *laws.gravity,
+                                      own_.memory_time_step, scene.effects.friction ? 2 : 1),
+                all);
 }
 
 RankSimulation::RankSimulation(const Scene& scene, SimulationState state, const Ranks& ranks, int threads)
@@ -58,18 +66,8 @@ RankSimulation::RankSimulation(const Scene& scene, SimulationState state, const 
   const Bodies all = std::move(state_.bodies);
   make_stepper(threads, all);
   take_own(all);
-  const int dim = scene.effects.friction ? 2 : 1;
-  const ContactMemory& memory = state_.memory;
-  own_.memory_time_step = memory.time_step;
-  // The first rank brings all to their tiles' owners.
-  for (std::size_t m = 0; ranks_.rank() == 0 && m < memory.i.size(); ++m) {
-    RememberedContact contact;
-    contact.i = memory.i[m], contact.j = memory.j[m];
-    const Point place = middle_of({memory.i[m], memory.j[m]}, all);
-    contact.x = place.x, contact.z = place.z;
-    for (int c = 0; c < dim; ++c) contact.impulse[c] = memory.impulse[dim * m + c];
-    own_.memory.push_back(contact);
-  }
+  if (ranks_.rank() == 0) take_memory(state_.memory, all);
+  own_.memory_time_step = state_.memory.time_step;
   state_.bodies = {}, state_.memory = {};
   if (ranks_.rank() != 0) state_.marks.clear();
 }
@@ -88,6 +86,19 @@ void RankSimulation::take_own(const Bodies& all) {
   for (std::size_t b = all.count() * rank / ranks; b < all.count() * (rank + 1) / ranks; ++b)
     own_.grains.push_back({static_cast<std::int64_t>(b), all.x[b], all.z[b], all.v_x[b], all.v_z[b],
                            all.spin.empty() ? 0 : all.spin[b], all.radius[b], all.inverse_mass[b]});
+}
+
+/// Of the first rank, which has it brought to the owners of the tiles.
+void RankSimulation::take_memory(const ContactMemory& memory, const Bodies& all) {
+  const int dim = scene_.effects.friction ? 2 : 1;
+  for (std::size_t m = 0; m < memory.i.size(); ++m) {
+    RememberedContact contact;
+    contact.i = memory.i[m], contact.j = memory.j[m];
+    const Point place = middle_of({memory.i[m], memory.j[m]}, all);
+    contact.x = place.x, contact.z = place.z;
+    for (int c = 0; c < dim; ++c) contact.impulse[c] = memory.impulse[dim * m + c];
+    own_.memory.push_back(contact);
+  }
 }
 
 void RankSimulation::enter_stage(int stage) {

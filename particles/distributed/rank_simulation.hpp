@@ -35,6 +35,7 @@ class RankSimulation {
  private:
   void make_stepper(int threads, const Bodies& all);
   void take_own(const Bodies& all);
+  void take_memory(const ContactMemory& memory, const Bodies& all);
   void enter_stage(int stage);
   void mark_positions();
   Bodies gathered_bodies() const;

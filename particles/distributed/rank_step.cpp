@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "particles/detection/contact_list.hpp"
@@ -11,6 +10,7 @@
 #include "particles/distributed/processor_time.hpp"
 #include "particles/distributed/rank_grains.hpp"
 #include "particles/distributed/rank_projection.hpp"
+#include "particles/solver/coarse_loads.hpp"
 #include "particles/stepping/assembly.hpp"
 #include "particles/stepping/snapshot_of_state.hpp"
 #include "particles/stepping/swept_normals.hpp"
@@ -54,7 +54,7 @@ class RankMoreauJean final : public RankStepper {
         team_(solver.threads),
         grains_(ranks, domain, with_spin, dim, laws.detection_margin),
         impacts_(ranks),
-        solver_(ranks, &team_),
+        solver_(ranks, &team_, least_contacts_of_coarse_loads),
         overlaps_(ranks),
         projection_(ranks, &team_) {
     detection_.use(&team_);
@@ -71,17 +71,17 @@ class RankMoreauJean final : public RankStepper {
     const Point gain{time_step * gravity_.x, time_step * gravity_.z};
     grains_.settle(state, walls, time_step, gain);
     detect(state, walls, time_step, gain, report);
-    own_ = rank_pairs(grains_.seen(), detection_.candidates(), grains_.tiles(), ranks_.rank());
+    own_ = rank_pairs(grains_.seen(), detection_.candidates(), homed_, grains_.tiles(), ranks_.rank());
     halo_.follow(own_.halo);
     take_used();
     report.detection_seconds = watch.lap();
     const StepInput step{laws_, bodies_, walls, {}, free_, time_step};
     contacts_.pairs = own_.pairs;
     sweep_normals(step, contacts_.pairs);
-    warm_start(time_step);
+    recollection_.warm_start(grains_.memory(), dim, time_step, own_.order, solution_.impulses);
     assemble<Problem, with_spin>(step, contacts_, TeamLoops(&team_), problem_);
     report.setup_seconds = watch.lap();
-    const TiledContacts tiled{own_.tiles, counts_here_};
+    const TiledContacts tiled{own_.tiles, counts_here_, bodies_.x, bodies_.z};
     report.solve = solver_.solve(problem_, tiled, halo_, settings_.rule, method_, solution_);
     std::vector<std::int64_t> count{problem_.contacts()};
     ranks_.add(count);
@@ -133,6 +133,10 @@ class RankMoreauJean final : public RankStepper {
     const Bodies& seen = grains_.seen().bodies;
     detection_.find(seen, free_.x, free_.z,
                     {walls.before, walls.displacement, time_step, laws_.detection_margin, {}});
+    find_homes(grains_.seen(), detection_.candidates(), grains_.tiles(), ranks_.rank(), homed_);
+    mine_.pairs.clear();
+    for (const std::int32_t a : homed_.mine) mine_.pairs.push_back(detection_.candidates()[a]);
+    recollection_.find(grains_.memory(), seen.count(), mine_.pairs);
   }
 
   /// The pairs that may touch once the impacts of the step are over.
@@ -143,9 +147,8 @@ class RankMoreauJean final : public RankStepper {
     if (!laws_.restitution) return;
     FreeMotion searched = free_;
     for (int searches = 1;; ++searches) {
-      const auto struck = strike(state, walls, time_step);
+      const auto struck = strike(walls, time_step);
       report.impacts += impacts_.count();
-      counts_.gathered += impacts_.count() > 0;
       if (impacts_.count() == 0) return;
       take_over(struck, state);
       move_freely(time_step);
@@ -157,16 +160,12 @@ class RankMoreauJean final : public RankStepper {
   }
 
   /// The impacts among all pairs; those of this rank's tiles are its part.
-  std::vector<StruckRecord> strike(const RankState& state, const WallStep& walls, double time_step) {
+  std::vector<StruckRecord> strike(const WallStep& walls, double time_step) {
     const Bodies& seen = grains_.seen().bodies;
-    StepContacts mine;
-    for (const Candidate& pair : detection_.candidates())
-      if (grains_.tiles().owner_at(middle_of(pair, seen)) == ranks_.rank()) mine.pairs.push_back(pair);
     const StepInput step{laws_, seen, walls, {}, free_, time_step};
-    sweep_normals(step, mine.pairs);
-    recollection_.find(grains_.memory(), seen.count(), mine.pairs);
+    sweep_normals(step, mine_.pairs);
     const auto loads = recollection_.loads(grains_.memory(), dim, time_step);
-    return impacts_.resolve(step, loads, mine, state.grains);
+    return impacts_.resolve({step, loads, mine_, detection_.candidates(), grains_.places()});
   }
 
   void take_over(std::span<const StruckRecord> struck, RankState& state) {
@@ -205,22 +204,6 @@ class RankMoreauJean final : public RankStepper {
       counts_here_[b] = seen.place[s] >= 0;
     }
     free_ = std::move(of_used);
-  }
-
-  void warm_start(double time_step) {
-    ContactMemory memory;
-    const ContactMemory& all = grains_.memory();
-    memory.time_step = all.time_step;
-    for (std::size_t m = 0; m < all.i.size(); ++m) {
-      const std::int32_t i = own_.in_used[all.i[m]], j = all.j[m] < 0 ? all.j[m] : own_.in_used[all.j[m]];
-      if (i < 0 || (all.j[m] >= 0 && j < 0)) continue;
-      memory.i.push_back(i), memory.j.push_back(j);
-      for (int c = 0; c < dim; ++c) memory.impulse.push_back(all.impulse[dim * m + c]);
-    }
-    recollection_.find(memory, bodies_.count(), contacts_.pairs);
-    std::vector<std::int32_t> as_they_stand(contacts_.pairs.size());
-    std::iota(as_they_stand.begin(), as_they_stand.end(), 0);
-    recollection_.warm_start(memory, dim, time_step, as_they_stand, solution_.impulses);
   }
 
   /// New velocities from the solution, then new positions.
@@ -306,6 +289,8 @@ class RankMoreauJean final : public RankStepper {
     counts_.halo_rounds = halo_.rounds(), counts_.halo_bytes = halo_.bytes();
     counts_.rounds = Ranks::rounds();
     counts_.forests = grains_.forests();
+    counts_.corrections = solver_.corrections();
+    counts_.impacts = impacts_.counts();
   }
 
   StepLaws laws_;
@@ -319,6 +304,8 @@ class RankMoreauJean final : public RankStepper {
   ContactDetection detection_;
   Recollection recollection_;
   GatheredImpacts impacts_;
+  HomedPairs homed_;   // of the candidates
+  StepContacts mine_;  // those of this rank
   RankPairs own_;
   Halo halo_;
   Bodies bodies_;                  // used ones

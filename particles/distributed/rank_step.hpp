@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "particles/distributed/forest.hpp"
+#include "particles/distributed/gathered_impacts.hpp"
 #include "particles/distributed/ranks.hpp"
 #include "particles/stepping/left_grains.hpp"
 #include "particles/stepping/moreau_jean.hpp"
@@ -36,7 +37,8 @@ struct RankCounts {
   std::int64_t contacts = 0, grains = 0, ghosts = 0, shared_bytes_per_sweep = 0;  ///< summed over steps
   std::int64_t forests = 0;                                                       ///< made
   double step_seconds = 0, waiting_seconds = 0;  ///< processor time of the steps, and what of it was waiting
-  std::int64_t gathered = 0;                     ///< times that all pairs went to the first rank for impacts
+  std::int64_t corrections = 0;                  ///< of impulses on a coarse grid
+  GatheredCounts impacts;
 };
 
 /// The square that holds a run.

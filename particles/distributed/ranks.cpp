@@ -56,6 +56,7 @@ double Ranks::waiting_seconds() { return waited; }
 
 std::vector<std::vector<std::byte>> Ranks::exchange_bytes(
     const std::vector<std::vector<std::byte>>& to_rank) const {
+  if (count() == 1) return to_rank;
   const WaitingTime waiting(waited);
   const auto ranks = static_cast<std::size_t>(count()), own = static_cast<std::size_t>(rank());
   std::vector<int> sent(ranks), arriving(ranks);
@@ -84,6 +85,7 @@ std::vector<std::vector<std::byte>> Ranks::exchange_bytes(
 }
 
 std::vector<std::byte> Ranks::gather_bytes(std::span<const std::byte> own) const {
+  if (count() == 1) return {own.begin(), own.end()};
   const WaitingTime waiting(waited);
   const int mine = as_count(own.size());
   std::vector<int> counts(count()), first(count() + 1, 0);
@@ -101,6 +103,7 @@ std::vector<std::byte> Ranks::gather_bytes(std::span<const std::byte> own) const
 }
 
 void Ranks::broadcast_bytes(std::vector<std::byte>& bytes) const {
+  if (count() == 1) return;
   const WaitingTime waiting(waited);
   std::int64_t size = static_cast<std::int64_t>(bytes.size());
   MPI_Bcast(&size, 1, MPI_INT64_T, 0, MPI_COMM_WORLD);
@@ -110,6 +113,7 @@ void Ranks::broadcast_bytes(std::vector<std::byte>& bytes) const {
 }
 
 void Ranks::largest(std::span<double> values) const {
+  if (count() == 1) return;
   const WaitingTime waiting(waited);
   MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_MAX,
                 MPI_COMM_WORLD);
@@ -117,6 +121,7 @@ void Ranks::largest(std::span<double> values) const {
 }
 
 void Ranks::add(std::span<std::int64_t> values) const {
+  if (count() == 1) return;
   const WaitingTime waiting(waited);
   MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_INT64_T, MPI_SUM,
                 MPI_COMM_WORLD);
@@ -124,6 +129,7 @@ void Ranks::add(std::span<std::int64_t> values) const {
 }
 
 std::int64_t Ranks::least(std::int64_t value) const {
+  if (count() == 1) return value;
   const WaitingTime waiting(waited);
   MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_INT64_T, MPI_MIN, MPI_COMM_WORLD);
   ++rounds_so_far;

@@ -6,10 +6,7 @@
 namespace drumlin::particles {
 namespace {
 
-/// A candidate's tile and who owns that.
-struct Home {
-  std::int32_t tile = 0, owner = 0;
-};
+using Home = HomedPairs::Home;
 
 /// Touches of the grains that this rank uses and others may.
 std::vector<SharedTouch> shared_touches(const SeenGrains& seen, std::span<const Candidate> candidates,
@@ -42,22 +39,28 @@ Point middle_of(const Candidate& pair, const Bodies& bodies) {
   return {(bodies.x[pair.i] + bodies.x[pair.j]) / 2, (bodies.z[pair.i] + bodies.z[pair.j]) / 2};
 }
 
-RankPairs rank_pairs(const SeenGrains& seen, std::span<const Candidate> candidates, const TileMap& tiles,
-                     std::int32_t rank) {
+void find_homes(const SeenGrains& seen, std::span<const Candidate> candidates, const TileMap& tiles,
+                std::int32_t rank, HomedPairs& found) {
+  found.homes.resize(candidates.size());
+  found.mine.clear();
+  for (std::size_t a = 0; a < candidates.size(); ++a) {
+    Home& home = found.homes[a];
+    home.tile = tiles.grid.tile_at(middle_of(candidates[a], seen.bodies));
+    home.owner = tiles.owner[home.tile];
+    if (home.owner == rank) found.mine.push_back(static_cast<std::int32_t>(a));
+  }
+}
+
+RankPairs rank_pairs(const SeenGrains& seen, std::span<const Candidate> candidates, const HomedPairs& homed,
+                     const TileMap& tiles, std::int32_t rank) {
   RankPairs own;
-  std::vector<Home> homes(candidates.size());
+  const auto& [homes, mine] = homed;
   own.in_used.assign(seen.owner.size(), -1);
   for (std::size_t b = 0; b < seen.owner.size(); ++b)
     if (seen.owner[b] == rank) own.in_used[b] = 0;
-  std::vector<std::int32_t> mine;
-  for (std::size_t a = 0; a < candidates.size(); ++a) {
-    const Candidate& pair = candidates[a];
-    homes[a].tile = tiles.grid.tile_at(middle_of(pair, seen.bodies));
-    homes[a].owner = tiles.owner[homes[a].tile];
-    if (homes[a].owner != rank) continue;
-    mine.push_back(static_cast<std::int32_t>(a));
-    own.in_used[pair.i] = 0;
-    if (pair.j >= 0) own.in_used[pair.j] = 0;
+  for (const std::int32_t a : mine) {
+    own.in_used[candidates[a].i] = 0;
+    if (candidates[a].j >= 0) own.in_used[candidates[a].j] = 0;
   }
   for (std::size_t b = 0; b < seen.owner.size(); ++b)
     if (own.in_used[b] == 0) {
@@ -90,9 +93,11 @@ RankPairs rank_pairs(const SeenGrains& seen, std::span<const Candidate> candidat
     count[range.tile] = range.begin = place;
     place = range.end += place;
   }
-  own.pairs.resize(mine.size());
-  for (const std::int32_t a : mine) {
-    Candidate& pair = own.pairs[count[homes[a].tile]++];
+  own.pairs.resize(mine.size()), own.order.resize(mine.size());
+  for (std::size_t m = 0; m < mine.size(); ++m) {
+    const std::int32_t a = mine[m], to = count[homes[a].tile]++;
+    own.order[to] = static_cast<std::int32_t>(m);
+    Candidate& pair = own.pairs[to];
     pair = candidates[a];
     pair.i = own.in_used[pair.i];
     if (pair.j >= 0) pair.j = own.in_used[pair.j];

@@ -26,11 +26,22 @@ struct TileRange {
   bool border = false;  ///< a contact touches a grain that other ranks use
 };
 
+/// Candidates among the grains that a rank sees, in the order of (i, j), and where they are at home.
+struct HomedPairs {
+  /// A tile and who owns it.
+  struct Home {
+    std::int32_t tile = 0, owner = 0;
+  };
+  std::vector<Home> homes;         ///< of each candidate
+  std::vector<std::int32_t> mine;  ///< candidates of the rank's tiles
+};
+
 /// What a rank solves. Indices are places in `used`.
 struct RankPairs {
   std::vector<std::int32_t> used;     ///< grains of SeenGrains that are its own or in its contacts
   std::vector<std::int32_t> in_used;  ///< of each seen grain; -1: not used
   std::vector<Candidate> pairs;       ///< its contacts: by colour, border tiles first, tile, (i, j)
+  std::vector<std::int32_t> order;    ///< place of each of them in HomedPairs::mine
   std::vector<TileRange> tiles;       ///< the same, tile by tile
   HaloPlan halo;
 };
@@ -38,10 +49,12 @@ struct RankPairs {
 /// Where a pair is: between the centres of two grains, or at the centre of a grain at a wall.
 Point middle_of(const Candidate& pair, const Bodies& bodies);
 
-/// Takes the contacts of the rank's tiles from all `candidates` among the grains that it sees, in the order
-/// of (i, j).
-RankPairs rank_pairs(const SeenGrains& seen, std::span<const Candidate> candidates, const TileMap& tiles,
-                     std::int32_t rank);
+void find_homes(const SeenGrains& seen, std::span<const Candidate> candidates, const TileMap& tiles,
+                std::int32_t rank, HomedPairs& found);
+
+/// Takes the contacts of the rank's tiles from all candidates.
+RankPairs rank_pairs(const SeenGrains& seen, std::span<const Candidate> candidates, const HomedPairs& homed,
+                     const TileMap& tiles, std::int32_t rank);
 
 /// The entries of the used grains, in their order.
 Bodies used_bodies(const SeenGrains& seen, std::span<const std::int32_t> used);

@@ -192,6 +192,20 @@ void TileBlocks<T, dim, spin>::keep(std::size_t tile) {
 }
 
 template <class T, int dim, bool spin>
+void TileBlocks<T, dim, spin>::restart(std::span<const double> r, const TeamLoops& loops) {
+  constexpr int width = Block::width;
+  loops.each(contact_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      if (contact_[p] < 0) continue;
+      Block& block = blocks_[p / width];
+      for (int e = 0; e < dim; ++e)
+        block.r[e][p % width] = block.before[e][p % width] = static_cast<T>(r[dim * contact_[p] + e]);
+    }
+  });
+  for (BodyRecord<T>& body : bodies_) body.x = body.z = body.s = 0;
+}
+
+template <class T, int dim, bool spin>
 void TileBlocks<T, dim, spin>::start() {
   std::copy_n(bodies_.begin(), moving_, before_.begin());
 }

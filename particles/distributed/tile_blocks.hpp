@@ -37,6 +37,8 @@ class TileBlocks {
   double residual(std::size_t tile) const;
   void keep(std::size_t tile);
 
+  /// Takes other impulses, and lets the bodies rest: load() and start() have to follow.
+  void restart(std::span<const double> r, const TeamLoops& loops);
   /// Remembers the bodies as the beginning of the first sweep.
   void start();
   /// Bodies go on by beta, before a sweep.

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "particles/contact/residual.hpp"
+#include "particles/solver/coarse_loads.hpp"
 #include "particles/solver/momentum.hpp"
 #include "particles/solver/strip_sweeps.hpp"
 
@@ -29,31 +30,16 @@ void set_numbers(Velocity& v, const std::array<double, Halo::numbers>& numbers) 
 
 template <class Problem>
 template <class Work, class Get, class Set>
-void TileSolver<Problem>::each_colour(const TiledContacts& contacts, Halo& halo, Work work, Get get,
-                                      Set set) {
-  const auto& tiles = contacts.tiles;
-  const auto some = [&](std::size_t begin, std::size_t end) {
-    loops_.each_of(static_cast<int>(end - begin), [&](int k) { work(begin + k); });
-  };
-  std::size_t first = 0;
-  for (int colour = 0; colour < 4; ++colour) {
-    std::size_t inner = first;
-    while (inner < tiles.size() && tiles[inner].colour == colour && tiles[inner].border) ++inner;
-    std::size_t end = inner;
-    while (end < tiles.size() && tiles[end].colour == colour) ++end;
-    some(first, inner);
-    halo.start(colour, get);
-    some(inner, end);
-    halo.finish(colour, set);
-    first = end;
-  }
+void TileSolver<Problem>::work_on(const TiledContacts& contacts, Halo& halo, Work work, Get get, Set set) {
+  each_colour(
+      contacts.tiles, loops_, work, [&](int colour) { halo.start(colour, get); },
+      [&](int colour) { halo.finish(colour, set); });
 }
 
 template <class Problem>
 template <class T, class Work>
-void TileSolver<Problem>::each_colour(const TiledContacts& contacts, Halo& halo, Blocks<T>& blocks,
-                                      Work work) {
-  each_colour(
+void TileSolver<Problem>::work_on(const TiledContacts& contacts, Halo& halo, Blocks<T>& blocks, Work work) {
+  work_on(
       contacts, halo, work, [&](std::int32_t b) { return blocks.numbers(b); },
       [&](std::int32_t b, const auto& numbers) { blocks.set_numbers(b, numbers); });
 }
@@ -78,13 +64,13 @@ double TileSolver<Problem>::scale_of(const Problem& problem, const TiledContacts
 }
 
 template <class Problem>
-ContactResidual TileSolver<Problem>::residual(const Problem& problem, const TiledContacts& contacts,
-                                              Halo& halo, Solution<Problem>& solution) {
+void TileSolver<Problem>::set_velocities(const Problem& problem, const TiledContacts& contacts, Halo& halo,
+                                         Solution<Problem>& solution) {
   const Delassus& W = problem.W;
   auto& [state, u] = solution.velocities;
   const std::span<const double> r = solution.impulses;
   W.rest(state);
-  each_colour(
+  work_on(
       contacts, halo,
       [&](std::size_t t) {
         for (std::int32_t a = contacts.tiles[t].begin; a < contacts.tiles[t].end; ++a)
@@ -93,11 +79,21 @@ ContactResidual TileSolver<Problem>::residual(const Problem& problem, const Tile
       [&](std::int32_t b) { return numbers_of(state[b]); },
       [&](std::int32_t b, const auto& numbers) { set_numbers(state[b], numbers); });
   u.resize(problem.q.size());
+  loops_.each_of(static_cast<int>(contacts.tiles.size()), [&](int t) {
+    W.velocities_of(contacts.tiles[t].begin, contacts.tiles[t].end, problem.q, state, u);
+  });
+}
+
+template <class Problem>
+ContactResidual TileSolver<Problem>::residual(const Problem& problem, const TiledContacts& contacts,
+                                              Halo& halo, Solution<Problem>& solution) {
+  set_velocities(problem, contacts, halo, solution);
+  const auto& [state, u] = solution.velocities;
+  const std::span<const double> r = solution.impulses;
   std::vector<ResidualSums> of_tile(contacts.tiles.size());
   std::vector<double> q_squares(contacts.tiles.size());
   loops_.each_of(static_cast<int>(contacts.tiles.size()), [&](int t) {
     const TileRange& tile = contacts.tiles[t];
-    W.velocities_of(tile.begin, tile.end, problem.q, state, u);
     for (std::int32_t a = tile.begin; a < tile.end; ++a)
       of_tile[t].add(squared_error(problem, a, r, u), r[dim * a], u[dim * a]);
     q_squares[t] =
@@ -139,6 +135,21 @@ ContactResidual TileSolver<Problem>::residual(const Problem& problem, const Tile
   return residual;
 }
 
+template <class Problem>
+template <class T>
+void TileSolver<Problem>::correct_loads(const Problem& problem, const TiledContacts& contacts, Halo& halo,
+                                        bool first, std::int64_t contacts_of_all, Blocks<T>& blocks,
+                                        Solution<Problem>& solution) {
+  ++corrections_;
+  blocks.unpack(problem, false, solution.impulses, loops_);
+  set_velocities(problem, contacts, halo, solution);
+  if (first) coarse_.lay_out(problem, contacts, contacts_of_all);
+  coarse_.scale(problem, contacts, halo, solution.velocities.contacts, solution.impulses);
+  blocks.restart(solution.impulses, loops_);
+  work_on(contacts, halo, blocks, [&](std::size_t t) { blocks.load(t); });
+  blocks.start();
+}
+
 /// The loop of particles/solver/strip_sweeps.hpp, with sums over ranks.
 template <class Problem>
 template <class T>
@@ -154,20 +165,25 @@ SolveReport TileSolver<Problem>::sweep_until_done(const Problem& problem, const 
   std::vector<double>& r = solution.impulses;
   const auto tiles = static_cast<int>(contacts.tiles.size());
   blocks.pack(problem, contacts.tiles, r, loops_);
-  each_colour(contacts, halo, blocks, [&](std::size_t t) { blocks.load(t); });
+  work_on(contacts, halo, blocks, [&](std::size_t t) { blocks.load(t); });
   blocks.start();
   const double scale = scale_of(problem, contacts);
   Momentum momentum(rule.tolerance, static_cast<std::size_t>(contacts_of_all));
   T beta = 0;
   double worth = std::numeric_limits<double>::infinity(), best = worth, least = worth;
-  for (int sweeps = 0, unseen = 0, progress_at = 0;;) {
+  const bool coarse = accelerated && contacts_of_all >= least_corrected_ && ranks_.any(!contacts.x.empty());
+  for (int sweeps = 0, unseen = 0, progress_at = 0, corrected_at = 0;;) {
+    if (coarse && sweeps >= corrected_at + sweeps_between_coarse_loads) {
+      correct_loads(problem, contacts, halo, corrected_at == 0, contacts_of_all, blocks, solution);
+      corrected_at = sweeps;
+      beta = 0;
+    }
     const bool whole = sweeps % sweeps_of_rest == 0;
     if (accelerated && (whole || sweeps % sweeps_of_rest == 1))
       loops_.each_of(tiles, [&](int t) { blocks.let_rest(t, !whole); });
     ++sweeps;
     if (accelerated) blocks.go_on(beta, loops_);
-    each_colour(contacts, halo, blocks,
-                [&](std::size_t t) { of_tile_[t] = blocks.sweep(t, beta, accelerated); });
+    work_on(contacts, halo, blocks, [&](std::size_t t) { of_tile_[t] = blocks.sweep(t, beta, accelerated); });
     const double steps = total_of_tiles();
     const bool finite = std::isfinite(steps), last = sweeps >= rule.max_sweeps || !finite;
     beta = static_cast<T>(momentum.next(steps));

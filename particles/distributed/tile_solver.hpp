@@ -2,7 +2,6 @@
 // Solves a contact problem whose contacts are spread over ranks: Gauss-Seidel sweeps tile by tile in four
 // colours, with the momentum of the default solver. The result is the same bytes for any number of ranks and
 // threads.
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -12,18 +11,13 @@
 #include "particles/distributed/exact_sum.hpp"
 #include "particles/distributed/halo.hpp"
 #include "particles/distributed/ranks.hpp"
-#include "particles/distributed/step_pairs.hpp"
 #include "particles/distributed/tile_blocks.hpp"
+#include "particles/distributed/tile_coarse_loads.hpp"
+#include "particles/distributed/tiled_contacts.hpp"
 #include "particles/parallel/team_loops.hpp"
 #include "particles/solver/stopping_rule.hpp"
 
 namespace drumlin::particles {
-
-/// The contacts of a rank in their tiles, and what its bodies share with other ranks.
-struct TiledContacts {
-  std::span<const TileRange> tiles;   ///< by colour, border tiles first
-  std::span<const char> counts_here;  ///< of each body: whether this rank is the one that counts it
-};
 
 /// As the solvers of these names on one process (solver/contact_solver.hpp).
 enum class TileMethod { accelerated, accelerated_double, nlgs };
@@ -32,7 +26,9 @@ enum class TileMethod { accelerated, accelerated_double, nlgs };
 template <class Problem>
 class TileSolver {
  public:
-  TileSolver(const Ranks& ranks, ThreadTeam* team) : ranks_(ranks), loops_(team) {}
+  /// Problems of `least_corrected` contacts on all ranks, or more, are corrected on a coarse grid.
+  TileSolver(const Ranks& ranks, ThreadTeam* team, std::int64_t least_corrected)
+      : ranks_(ranks), loops_(team), coarse_(ranks, team), least_corrected_(least_corrected) {}
 
   /// Solves from the warm start in solution.impulses by one of the methods below. All ranks call it together;
   /// `problem` has the contacts of this rank alone. Velocities are set for all bodies that its contacts touch
@@ -43,6 +39,8 @@ class TileSolver {
   /// residual_of().
   ContactResidual residual(const Problem& problem, const TiledContacts& contacts, Halo& halo,
                            Solution<Problem>& solution);
+  /// Coarse corrections since the program began.
+  std::int64_t corrections() const { return corrections_; }
 
  private:
   static constexpr int dim = Problem::dim;
@@ -56,9 +54,15 @@ class TileSolver {
   /// Calls work(t) for each tile, colour by colour, and exchanges what it has changed in the bodies that
   /// `get` gives and `set` takes.
   template <class Work, class Get, class Set>
-  void each_colour(const TiledContacts&, Halo&, Work work, Get get, Set set);
+  void work_on(const TiledContacts&, Halo&, Work work, Get get, Set set);
   template <class T, class Work>
-  void each_colour(const TiledContacts&, Halo&, Blocks<T>&, Work work);
+  void work_on(const TiledContacts&, Halo&, Blocks<T>&, Work work);
+  /// Velocities of bodies and contacts from the impulses in a solution.
+  void set_velocities(const Problem&, const TiledContacts&, Halo&, Solution<Problem>&);
+  /// Corrects the impulses in blocks on a coarse grid, laid out anew if this is the `first` time.
+  template <class T>
+  void correct_loads(const Problem&, const TiledContacts&, Halo&, bool first, std::int64_t contacts_of_all,
+                     Blocks<T>&, Solution<Problem>&);
   template <class T>
   SolveReport sweep_until_done(const Problem&, const TiledContacts&, Halo&, const StoppingRule&,
                                std::int64_t contacts_of_all, Blocks<T>&, bool accelerated,
@@ -71,6 +75,8 @@ class TileSolver {
   TeamLoops loops_;
   Blocks<float> in_single_;
   Blocks<double> in_double_;
+  TileCoarseLoads<Problem> coarse_;
+  std::int64_t least_corrected_, corrections_ = 0;
   std::vector<double> of_tile_, best_;
 };
 

@@ -115,6 +115,7 @@ void Impacts::link(const StepInput& step, const StepContacts& contacts) {
 
 std::int32_t Impacts::take_up(const StepInput& step, std::int32_t body) {
   if (place_[body] >= 0) return place_[body];
+  if (!whole_.empty() && !whole_[body]) missing_.push_back(body);
   ImpactBody taken;
   taken.body = body;
   const Point v = velocity_before(step, body);
@@ -248,28 +249,46 @@ bool Impacts::any(const StepInput& step, const RememberedLoads& loads, const Ste
   return find_closings(step, contacts);
 }
 
+void Impacts::give_up(StepContacts& contacts, std::size_t strikes) {
+  for (const ImpactBody& body : pass_.bodies) place_[body.body] = -1;
+  contacts.strikes.resize(strikes);
+  count_ = 0;
+}
+
 void Impacts::resolve(const StepInput& step, const RememberedLoads& loads, Bodies& bodies,
                       StepContacts& contacts) {
+  (void)resolve_part(step, loads, {}, bodies, contacts);
+}
+
+bool Impacts::resolve_part(const StepInput& step, const RememberedLoads& loads, std::span<const char> whole,
+                           Bodies& bodies, StepContacts& contacts) {
   loads_ = loads;
-  struck_.clear();
+  whole_ = whole;
+  struck_.clear(), missing_.clear();
   work_ = {};
   count_ = pass_number_ = 0;
   wall_jumps_ = contacts.wall_jumps;
   place_.resize(step.bodies.count() + step.walls.driven.size(), -1);
-  if (!find_closings(step, contacts)) return;
+  if (!find_closings(step, contacts)) return true;
   link(step, contacts);
   pass_.bodies.clear();
+  const std::size_t strikes_before = contacts.strikes.size();
   for (int passes = 0; !closings_.empty() && passes < most_passes; ++passes) {
     pass_.begin();
     for (const std::int32_t a : closings_) add(step, contacts.pairs[a], a);
     if (passes == 0)
       for (const ImpactContact& c : pass_.contacts) slowest_ = std::max(slowest_, -rounding * c.u_n);
     compress(step, contacts);
+    if (!missing_.empty()) {
+      give_up(contacts, strikes_before);
+      return false;
+    }
     pass_.expand(work_);
     list_strikes(contacts);
     find_next_closings(step, contacts);
   }
   give_back(step, bodies, contacts);
+  return true;
 }
 
 }  // namespace drumlin::particles

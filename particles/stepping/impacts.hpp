@@ -39,9 +39,19 @@ class Impacts {
   /// adds up by how much.
   void resolve(const StepInput& step, const RememberedLoads& loads, Bodies& bodies, StepContacts& contacts);
 
+  /// The same of a part of the pairs: all that meet at first, and all pairs of the bodies b with whole[b].
+  /// Returns false, and changes nothing, where a pass takes up other bodies, which missing() lists; else the
+  /// result is that of all pairs, to the last bit.
+  bool resolve_part(const StepInput& step, const RememberedLoads& loads, std::span<const char> whole,
+                    Bodies& bodies, StepContacts& contacts);
+
   /// Whether resolve() would have anything to do; of a part of the pairs, whether these alone give it.
   bool any(const StepInput& step, const RememberedLoads& loads, const StepContacts& contacts);
 
+  // Of the last call, which was any(): the pairs that meet.
+  std::span<const std::int32_t> closings() const { return closings_; }
+  // Of the last call of resolve_part() alone.
+  std::span<const std::int32_t> missing() const { return missing_; }
   // Of the last call of resolve().
   std::span<const StruckGrain> struck() const { return struck_; }
   const ImpactWork& work() const { return work_; }
@@ -63,6 +73,8 @@ class Impacts {
   bool closes(const StepInput&, const StepContacts&, std::int32_t a) const;
   /// Whether pair a, which closes at u_n < 0, rests: its load would do as much within two steps.
   bool rests(const StepInput&, const Candidate& pair, std::int32_t a, double u_n) const;
+  /// Ends passes that took up bodies without their pairs.
+  void give_up(StepContacts&, std::size_t strikes);
   /// Takes in the touching pairs that the pass has made close; false if there are none.
   bool take_in_neighbours(const StepInput&, const StepContacts&);
   /// Compresses with all touching pairs that this closes.
@@ -78,6 +90,8 @@ class Impacts {
 
   ImpactPass pass_;
   std::vector<std::int32_t> closings_;    // pairs
+  std::span<const char> whole_;           // of each body, whether its pairs are all there; empty: of all
+  std::vector<std::int32_t> missing_;     // bodies taken up without that
   std::vector<std::int32_t> place_;       // of each body in the pass; -1: not there
   WorkArray<std::int32_t> first_, next_;  // pairs of each body, linked
   WorkArray<std::int32_t> in_pass_;       // number of the last pass in which a pair took part

@@ -100,17 +100,6 @@ void refuse_deep_overlap(const Scene& scene, const Walls& walls, const StartOver
       fmt::format("at most {} of the smaller diameter; grains are counted from 1", most_at_start)}});
 }
 
-/// Whether grains of the scene start in hollows.
-bool starts_deposited(const Scene& scene) {
-  const auto deposited = [](const auto& source) {
-    const auto* made = std::get_if<GeneratedGrains>(&source);
-    return made && made->deposited();
-  };
-  return deposited(scene.grains.source) ||
-         std::any_of(scene.grains.groups.begin(), scene.grains.groups.end(),
-                     [&](const GrainGroup& group) { return deposited(group.source); });
-}
-
 }  // namespace
 
 Scales scales_of(const Scene& scene) {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "particles/detection/contact_list.hpp"
@@ -62,6 +63,16 @@ class Overburden {
 };
 
 }  // namespace
+
+bool starts_deposited(const Scene& scene) {
+  const auto deposited = [](const auto& source) {
+    const auto* made = std::get_if<GeneratedGrains>(&source);
+    return made && made->deposited();
+  };
+  return deposited(scene.grains.source) ||
+         std::any_of(scene.grains.groups.begin(), scene.grains.groups.end(),
+                     [&](const GrainGroup& group) { return deposited(group.source); });
+}
 
 ContactMemory impulses_under_weight(const Bodies& bodies, std::span<const Shape> shapes, const Period& period,
                                     const Point& gravity, double time_step, int unknowns) {

@@ -5,9 +5,13 @@
 #include "particles/bodies/bodies.hpp"
 #include "particles/bodies/walls.hpp"
 #include "particles/detection/cell_grid.hpp"
+#include "particles/scene/scene.hpp"
 #include "particles/stepping/contact_memory.hpp"
 
 namespace drumlin::particles {
+
+/// Whether grains of the scene start in hollows, where they stand.
+bool starts_deposited(const Scene& scene);
 
 /// Normal impulses of a step of length `time_step` under the pressure p of the grains above each contact, as
 /// in a liquid: r_n = 2 p A h/(N l), for N contacts of lengths l in an area A, from the mean stress

@@ -7,6 +7,7 @@ usage: same_bytes.py DRUMLIN_RUN DRUMLIN MPIRUN
 import json
 import os
 import pathlib
+import re
 import signal
 import subprocess
 import sys
@@ -55,6 +56,9 @@ grain_grain = 0.46
 grain_wall = 0.46
 [effects.spin]
 """ + STAGES.format(settle=0.12, moving=0.06, motion='{ wall = "drum", kind = "rotation", speed_rpm = 15 }')
+# Discs that lie from the beginning, and then roll on and strike each other.
+DEPOSITED = DRUM.replace('region = {', 'placement = "deposited"\nregion = {').replace("duration_s = 0.12", "duration_s = 0.02").replace(
+    "speed_rpm = 15", "speed_rpm = 60").replace("duration_s = 0.06", "duration_s = 0.15")
 BOX_SHAPE = """shape = "polyline"
 x_mm = [0, 0, 120, 120]
 z_mm = [60, 0, 0, 60]
@@ -120,6 +124,32 @@ def same_on_all(run_on, folder, name, text, ways=((1, 1), (1, 2), (2, 1), (2, 2)
         require(ranks == 1 or all(share["halo_rounds_per_sweep"] <= 12 for share in shares),
                 f"{run}: more rounds per sweep than colours, their start and their residual")
     return scene, right
+
+
+def impacts_near_each_other(run_on, folder):
+    """Impacts of a drum that lies and rolls are few: ranks send the pairs near them, and not all."""
+    same_on_all(run_on, folder, "deposited", DEPOSITED, ((1, 1), (1, 2), (2, 1), (3, 1), (4, 1)))
+    report = json.loads((folder / "deposited-2x1" / "run.json").read_text(encoding="utf-8"))
+    shares, contacts = report["ranks"], report["cost"]["contacts_mean"]
+    sent = sum(share["impact_pairs_sent_mean"] for share in shares)
+    require(shares[0]["impacts_gathered"] > 0, "no impacts in the drum that rolls")
+    require(0 < sent < 0.8 * contacts, f"{sent} pairs of {contacts} sent for impacts")
+
+
+def coarse_corrections(run_on, drumlin, folder):
+    """So many contacts that a coarse grid corrects their impulses: sweeps stay about those of one process."""
+    text = re.sub(r"count = \d+", "count = 52000", DEPOSITED)
+    for old, new in (("radius_mm = 50", "radius_mm = 605"), ("tolerance = 1e-2", "tolerance = 3e-3"), ("velocity_window_s = 3e-3", "velocity_window_s = 0"),
+                     ("duration_s = 0.02", "duration_s = 0.002"), ("duration_s = 0.15", "duration_s = 0.003"), ("speed_rpm = 60", "speed_rpm = 0.05")):
+        text = text.replace(old, new)
+    scene, _ = same_on_all(run_on, folder, "large", text, ((1, 1), (2, 1), (3, 2)))
+    reports = [json.loads((folder / f"large-{way}" / "run.json").read_text(encoding="utf-8")) for way in ("1x1", "3x2")]
+    for report in reports:
+        require(all(share["coarse_corrections"] > 0 for share in report["ranks"]), "no coarse correction of a large packing")
+    subprocess.run([drumlin, "run", scene, "-o", folder / "large-one", "--threads", "1"], check=True, capture_output=True)
+    one = json.loads((folder / "large-one" / "run.json").read_text(encoding="utf-8"))["cost"]["sweeps_mean"]
+    own = reports[0]["cost"]["sweeps_mean"]
+    require(own < 1.5 * one, f"{own} sweeps a step on ranks, {one} in one process")
 
 
 def ranks_of(mpirun):
@@ -212,6 +242,8 @@ def main():
         going_on_elsewhere(run_on, folder, scene, right)
         started_by_drumlin(run_on, drumlin, folder, scene, right)
         same_on_all(run_on, folder, "box", BOX)
+        impacts_near_each_other(run_on, folder)
+        coarse_corrections(run_on, drumlin, folder)
         same_on_all(run_on, folder, "box-frictionless", BOX.replace("[effects.friction]\ngrain_grain = 0.5\ngrain_wall = 0.5\n", ""),
                     ((1, 1), (3, 2)))
         refusals(run_on, folder)

@@ -1,0 +1,78 @@
+#pragma once
+// Coarse correction of the impulses of a large packing that is spread over ranks: the field of
+// particles/solver/coarse_loads.hpp, which scales them. Its matrix and its right side are sums of integers,
+// so that they depend neither on ranks nor on threads; all ranks solve for the field.
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "particles/contact/problems.hpp"
+#include "particles/distributed/ranks.hpp"
+#include "particles/distributed/tiled_contacts.hpp"
+#include "particles/parallel/team_loops.hpp"
+
+namespace drumlin::particles {
+
+/// Nodes of a field at the corners of square cells, row by row.
+struct FieldGrid {
+  double x = 0, z = 0, edge = 1;
+  int columns = 2, rows = 2;
+  int nodes() const { return columns * rows; }
+  int index(int column, int row) const { return row * columns + column; }
+};
+/// Of a row of its matrix, which is symmetric: the entries of the node itself and of those after it, up to
+/// two columns and rows away.
+inline constexpr int entries_of_node = 13;
+/// Solves for the field; empty where the matrix or the result is no good.
+std::vector<double> solve_field(const FieldGrid& grid, std::span<const double> rows,
+                                std::span<const double> right);
+
+/// Scales impulses; keeps workspace only. All ranks call its members together.
+template <class Problem>
+class TileCoarseLoads {
+ public:
+  TileCoarseLoads(const Ranks& ranks, ThreadTeam* team) : ranks_(ranks), loops_(team) {}
+  /// Lays the nodes of the field over the bodies of a problem with so many contacts on all ranks.
+  void lay_out(const Problem& problem, const TiledContacts& contacts, std::int64_t contacts_of_all);
+  /// Scales the impulses r, which cause the velocities u = W r + q of the contacts, by factors between 1/2
+  /// and 2.
+  void scale(const Problem& problem, const TiledContacts& contacts, Halo& halo, std::span<const double> u,
+             std::vector<double>& r);
+
+ private:
+  static constexpr int dim = Problem::dim;
+  static constexpr bool spin = requires(typename Problem::Delassus::Velocity v) { v.s; };
+  /// Where a body is: the lowest and leftmost of the four nodes around it, the node next to it, and how far
+  /// to the right of the first and above it, in edges.
+  struct Place {
+    std::int16_t column = 0, row = 0, next_column = 0, next_row = 0;
+    double right = 0, up = 0;
+    std::array<double, 4> weights() const {
+      return {(1 - right) * (1 - up), right * (1 - up), (1 - right) * up, right * up};
+    }
+  };
+  /// What the impulses, weighted by the hat of a node, do to the velocities of a body.
+  using Move = std::array<double, Halo::numbers>;
+  /// Of the node next to the body and the eight around that.
+  using Moves = std::array<std::array<float, Halo::numbers>, 9>;
+
+  Place place_at(double x, double z) const;
+  /// Power that contact a has and should not.
+  static double power(const Problem&, std::int32_t a, std::span<const double> u, std::span<const double> r);
+  void move_bodies(const Problem&, const TiledContacts&, Halo&, std::span<const double> r);
+  void push(const Problem&, std::int32_t a, std::span<const double> r);
+  /// Sums over contacts and bodies, of all ranks: of each node its entries of the matrix, then its right
+  /// side.
+  std::vector<double> add_up(const Problem&, const TiledContacts&, std::span<const double> u,
+                             std::span<const double> r) const;
+
+  Ranks ranks_;
+  TeamLoops loops_;
+  FieldGrid grid_;
+  std::int64_t terms_ = 1;  // bound on the number of terms of a sum
+  std::vector<Place> places_;
+  std::vector<Moves> moves_;
+};
+
+}  // namespace drumlin::particles

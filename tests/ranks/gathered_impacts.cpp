@@ -1,0 +1,130 @@
+// Impacts on ranks against those of one process, where they spread over all ranks.
+#include "particles/distributed/gathered_impacts.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+namespace drumlin::particles {
+namespace {
+
+/// A row of discs of alternating masses that touch; some come in from the left, and one in the middle has
+/// been thrown to the right.
+struct Row {
+  explicit Row(int discs) {
+    for (int b = 0; b < discs; ++b) {
+      bodies.x.push_back(b), bodies.z.push_back(0);
+      bodies.v_x.push_back(b < 2 ? 1 : b == discs / 2 ? 0.25 : 0), bodies.v_z.push_back(0);
+      bodies.spin.push_back(b % 3 == 0 ? 0.1 : 0);
+      bodies.radius.push_back(0.5), bodies.inverse_mass.push_back(1 + 0.25 * (b % 2));
+      bodies.id.push_back(b);
+      if (b > 0) pairs.push_back({b - 1, b, 0, -1, 0, 0, 0});
+    }
+    laws.gravity = Point{0, -1};
+    laws.friction = PerPair{0.3, 0.3};
+    laws.restitution = RestitutionLaw{PerPair{0.8, 0.8}, 1};
+    laws.spin.emplace();
+  }
+  Bodies bodies;
+  std::vector<Candidate> pairs;
+  StepLaws laws;
+  WallStep walls;
+};
+
+TEST(GatheredImpacts, AreThoseOfOneProcessToTheLastBit) {
+  const Ranks ranks;
+  constexpr int discs = 90;
+  const Row row(discs);
+  const double time_step = 1e-3;
+  const FreeMotion unused;
+  // One process.
+  Bodies bodies = row.bodies;
+  StepContacts contacts;
+  contacts.pairs = row.pairs;
+  std::vector<std::int32_t> place(row.pairs.size());
+  std::iota(place.begin(), place.end(), 0);
+  const std::vector<double> none(row.pairs.size(), 0.0);
+  Impacts impacts;
+  impacts.resolve({row.laws, bodies, row.walls, {}, unused, time_step}, {place, none, 1, 1}, bodies,
+                  contacts);
+  ASSERT_GT(impacts.struck().size(), 60U);  // they go through most of the row
+  // A rank has a stretch of pairs, and sees three discs on each side of them.
+  const int stretch = ranks.count() - 1 - ranks.rank();  // against the order of the ranks
+  const int first = (discs - 1) * stretch / ranks.count(), last = (discs - 1) * (stretch + 1) / ranks.count();
+  const int low = std::max(0, first - 3), high = std::min(discs, last + 4);
+  Bodies seen;
+  std::vector<std::int32_t> place_of(discs, -1);
+  for (int b = low; b < high; ++b) {
+    place_of[b] = b - low;
+    seen.x.push_back(row.bodies.x[b]), seen.z.push_back(row.bodies.z[b]);
+    seen.v_x.push_back(row.bodies.v_x[b]), seen.v_z.push_back(row.bodies.v_z[b]);
+    seen.spin.push_back(row.bodies.spin[b]), seen.radius.push_back(row.bodies.radius[b]);
+    seen.inverse_mass.push_back(row.bodies.inverse_mass[b]), seen.id.push_back(b);
+  }
+  std::vector<Candidate> candidates;
+  StepContacts mine;
+  for (int a = low; a + 1 < high; ++a) {
+    Candidate pair = row.pairs[a];
+    pair.i -= low, pair.j -= low;
+    candidates.push_back(pair);
+    if (a >= first && a < last) mine.pairs.push_back(pair);
+  }
+  GatheredImpacts gathered(ranks);
+  const StepInput step{row.laws, seen, row.walls, {}, unused, time_step};
+  const RememberedLoads loads(place, none, 1, 1);
+  const auto struck = gathered.resolve({step, loads, mine, candidates, place_of});
+  ASSERT_EQ(struck.size(), impacts.struck().size());
+  for (std::size_t k = 0; k < struck.size(); ++k) {
+    const std::int32_t b = impacts.struck()[k].grain;
+    EXPECT_EQ(struck[k].id, b);
+    EXPECT_EQ(struck[k].v_x, bodies.v_x[b]);
+    EXPECT_EQ(struck[k].v_z, bodies.v_z[b]);
+    EXPECT_EQ(struck[k].spin, bodies.spin[b]);
+  }
+  EXPECT_EQ(gathered.count(), impacts.count());
+  EXPECT_EQ(gathered.counts().times, 1);
+  // They reach further than what is sent first.
+  EXPECT_TRUE(ranks.count() == 1 || gathered.counts().rounds > 1);
+  if (ranks.rank() != 0) return;
+  ASSERT_EQ(gathered.strikes().size(), contacts.strikes.size());
+  for (std::size_t k = 0; k < contacts.strikes.size(); ++k) {
+    EXPECT_EQ(gathered.strikes()[k].i, contacts.strikes[k].i);
+    EXPECT_EQ(gathered.strikes()[k].j, contacts.strikes[k].j);
+    EXPECT_EQ(gathered.strikes()[k].normal, contacts.strikes[k].normal);
+  }
+}
+
+/// Two discs that meet in the middle of a row at rest: what is far from them is not sent.
+TEST(GatheredImpacts, SendThePairsNearTheImpactsAlone) {
+  const Ranks ranks;
+  if (ranks.count() == 1) return;
+  constexpr int discs = 400;
+  Row row(discs);
+  std::fill(row.bodies.v_x.begin(), row.bodies.v_x.end(), 0.0);
+  row.bodies.v_x[0] = 1;
+  for (Candidate& pair : row.pairs) pair.gap = pair.i < 2 ? 0 : 0.1;
+  const FreeMotion unused;
+  StepContacts mine;
+  if (ranks.rank() == 1) mine.pairs = row.pairs;  // all of them; others see nothing
+  const Bodies nothing;
+  std::vector<std::int32_t> place(row.pairs.size()), places(discs, -1);
+  std::iota(place.begin(), place.end(), 0);
+  if (ranks.rank() == 1) std::iota(places.begin(), places.end(), 0);
+  const std::vector<double> none(row.pairs.size(), 0.0);
+  const StepInput step{row.laws, ranks.rank() == 1 ? row.bodies : nothing, row.walls, {}, unused, 1e-3};
+  GatheredImpacts gathered(ranks);
+  const RememberedLoads loads(place, none, 1, 1);
+  const auto struck = gathered.resolve({step, loads, mine, mine.pairs, places});
+  EXPECT_EQ(struck.size(), 3U);
+  if (ranks.rank() == 1) {
+    EXPECT_GE(gathered.counts().pairs, 2);
+    EXPECT_LE(gathered.counts().pairs, 8);
+  } else {
+    EXPECT_EQ(gathered.counts().pairs, 0);
+  }
+}
+
+}  // namespace
+}  // namespace drumlin::particles
