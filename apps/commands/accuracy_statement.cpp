@@ -21,6 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
+constexpr const char *convergence_format = "drumlin-convergence-1", *cost_format = "drumlin-cost-1";
 constexpr double missed_tolerance = 0.5;  // a point of which more steps missed it is none of that tolerance
 
 std::optional<double> number(const Json& object, const char* key) {
@@ -50,12 +51,14 @@ struct SceneRecord {
 /// Nothing if the file is no record; its points may be none.
 std::optional<SceneRecord> record_in(const fs::path& file) {
   const std::string text = input_text(file);
+  // Most files of the folder are of other formats, and large: they are not parsed.
+  if (text.find(convergence_format) == text.npos && text.find(cost_format) == text.npos) return std::nullopt;
   if (!Json::accept(text)) return std::nullopt;
   const Json json = parse_json(text, file.string());
   if (!json.is_object() || !json.contains("format") || !json["format"].is_string()) return std::nullopt;
   const std::string format = json["format"];
-  const bool convergence = format == "drumlin-convergence-1";
-  if (!(convergence || format == "drumlin-cost-1") || !json.contains("scene")) return std::nullopt;
+  const bool convergence = format == convergence_format;
+  if (!(convergence || format == cost_format) || !json.contains("scene")) return std::nullopt;
   if (const auto problems = type_problems(file, json, format); !problems.empty()) throw InputError(problems);
   if (!convergence && json.value("kind", "") != "particles") return std::nullopt;
   // Not within the braces: g++ 12 destroys what stands before it twice if it throws.
