@@ -97,7 +97,7 @@ void describe(Visitor& v, FlowSolverKeys& s) {
   v.value(
       "linear", s.linear,
       defaulted("", one_of({"automatic", "direct", "iterative"}),
-                "MUMPS (direct), or GMRES with multigrid; automatic: that from 1e6 unknowns of a mesh on."));
+                "MUMPS (direct), or GMRES with multigrid; automatic: that from 2e6 unknowns of a mesh on."));
   v.value("max_iterations", s.max_iterations,
           defaulted("", at_least(1, 10000), "Newton iterations per phase."));
   v.value("sensitivity", s.sensitivity,
