@@ -28,7 +28,7 @@ class Disk:
     """Files and folders as the program sees them, and as they were last forced to the disk. Folders are dictionaries of names to inodes."""
 
     def __init__(self, root, inode):
-        self.root, self.paths = root, {inode: {}}
+        self.root = root
         self.seen, self.forced = {inode: {}}, {inode: {}}
         self.top = inode
 
