@@ -18,10 +18,6 @@ function(drumlin_library target library)
   endif()
 endfunction()
 
-# The sparse LU of the contact solver `reference`; deal.II links the same shared library.
-find_library(DRUMLIN_UMFPACK_LIBRARY umfpack REQUIRED)
-find_path(DRUMLIN_UMFPACK_INCLUDES suitesparse/umfpack.h REQUIRED)
-drumlin_library(drumlin::umfpack ${DRUMLIN_UMFPACK_LIBRARY} INCLUDES ${DRUMLIN_UMFPACK_INCLUDES})
 # deal.II loads the OpenMPI flavour of HDF5: that flavour everywhere. CMake's own search would ask the projects of users for C and for MPI.
 find_library(DRUMLIN_HDF5_LIBRARY NAMES hdf5_openmpi hdf5 PATH_SUFFIXES hdf5/openmpi REQUIRED)
 drumlin_library(drumlin::hdf5 ${DRUMLIN_HDF5_LIBRARY})

@@ -2,6 +2,7 @@
 #include "particles/solver/solve_contacts.hpp"
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <array>
 #include <cmath>
@@ -27,6 +28,15 @@ struct Solved : particles::SolvedContacts {
   std::vector<particles::BackwardError> backward_errors;  ///< of --backward-error
   std::optional<particles::StateChanges> changes;         ///< of --watch
 };
+
+/// Lets the C library use again what a phase of this short program has freed. Else each gives its pages back
+/// and the next one asks the system for new ones, which takes longer than what is done with them.
+void keep_freed_memory() {
+#ifdef M_MMAP_THRESHOLD
+  (void)::mallopt(M_MMAP_THRESHOLD, 1 << 30);
+  (void)::mallopt(M_TRIM_THRESHOLD, 1 << 30);
+#endif
+}
 
 /// By how much the friction of contacts may be off the given one in a backward error.
 constexpr std::array friction_changes{0.0, 1e-3, 1e-2, 5e-2};
@@ -134,6 +144,7 @@ void print_text(const particles::ContactProblemFile& file, const Solved& solved,
 }  // namespace
 
 int solve_contacts(const SolveContactsOptions& options) {
+  keep_freed_memory();
   const particles::ContactProblemFile file = particles::read_contact_problem_file(options.problem);
   std::optional<FolderLock> lock;
   if (options.output) lock.emplace(prepare_output_file(*options.output, ExistingOutput::refuse));

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -19,17 +18,87 @@ bool is_positive_definite(const Eigen::Matrix2d& block) {
   return block(0, 0) > 0 && block(1, 1) > 0 && block.determinant() > 0;
 }
 
-using BlockRows = std::vector<std::map<int, Eigen::Matrix2d>>;
+/// Rows of blocks by contacts, columns ascending in each.
+struct BlockRows {
+  std::vector<int> start{0}, column;
+  std::vector<Eigen::Matrix2d> block;
+
+  std::size_t count() const { return start.size() - 1; }
+  /// Place of a block; -1 if there is none.
+  int find(int row, int at) const {
+    const auto begin = column.begin() + start[row], end = column.begin() + start[row + 1];
+    const auto found = std::lower_bound(begin, end, at);
+    return found != end && *found == at ? static_cast<int>(found - column.begin()) : -1;
+  }
+};
+
+/// Adds up the entries of each block in the order in which they come: triplets may repeat.
+class BlockSums {
+ public:
+  BlockSums(std::span<const MatrixEntry> entries, std::size_t contacts)
+      : entries_(entries), first_(contacts + 1), place_(contacts, -1) {
+    for (const MatrixEntry& entry : entries) ++first_[entry.row / 2 + 1];
+    for (std::size_t a = 0; a < contacts; ++a) first_[a + 1] += first_[a];
+    order_.resize(entries.size());
+    std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
+    for (std::size_t k = 0; k < entries.size(); ++k) order_[next[entries[k].row / 2]++] = k;
+  }
+
+  BlockRows rows() {
+    BlockRows rows;
+    rows.column.reserve(entries_.size() / 4), rows.block.reserve(entries_.size() / 4);
+    for (std::size_t a = 0; a + 1 < first_.size(); ++a) {
+      add_row(a);
+      std::sort(columns_.begin(), columns_.end());
+      for (const int column : columns_) {
+        rows.column.push_back(column), rows.block.push_back(blocks_[place_[column]]);
+        place_[column] = -1;
+      }
+      rows.start.push_back(static_cast<int>(rows.column.size()));
+    }
+    return rows;
+  }
+
+ private:
+  void add_row(std::size_t a) {
+    columns_.clear(), blocks_.clear();
+    for (std::size_t k = first_[a]; k < first_[a + 1]; ++k) {
+      const MatrixEntry& entry = entries_[order_[k]];
+      int& place = place_[entry.column / 2];
+      if (place < 0) {
+        place = static_cast<int>(blocks_.size());
+        columns_.push_back(entry.column / 2), blocks_.emplace_back(Eigen::Matrix2d::Zero());
+      }
+      blocks_[place](entry.row % 2, entry.column % 2) += entry.value;
+    }
+  }
+
+  std::span<const MatrixEntry> entries_;
+  std::vector<std::size_t> first_, order_;  // of the entries, row of blocks by row of blocks
+  std::vector<int> place_;                  // of each column among the blocks of the row at work, or -1
+  std::vector<int> columns_;
+  std::vector<Eigen::Matrix2d> blocks_;
+};
+
+/// Zeros in the place of blocks whose transposed block alone is there.
+std::vector<MatrixEntry> missing_blocks(const BlockRows& rows) {
+  std::vector<MatrixEntry> missing;
+  for (int a = 0; a < static_cast<int>(rows.count()); ++a)
+    for (int k = rows.start[a]; k < rows.start[a + 1]; ++k)
+      if (rows.find(rows.column[k], a) < 0) missing.push_back({2 * rows.column[k], 2 * a, 0});
+  return missing;
+}
 
 /// Makes W symmetric, block by block; returns how far it was from it: the largest difference of two entries
-/// that should be one, of the mean size of the two diagonal blocks. Every row has a diagonal block.
+/// that should be one, of the mean size of the two diagonal blocks. Every block has its transposed one.
 double symmetrise(BlockRows& rows) {
-  const auto size = [&](int a) { return std::abs(rows[static_cast<std::size_t>(a)].at(a).trace()); };
+  const auto size = [&](int a) { return std::abs(rows.block[rows.find(a, a)].trace()); };
   double largest = 0;
-  for (int a = 0; a < static_cast<int>(rows.size()); ++a)
-    for (auto& [b, block] : rows[static_cast<std::size_t>(a)]) {
-      Eigen::Matrix2d& other =
-          rows[static_cast<std::size_t>(b)].try_emplace(a, Eigen::Matrix2d::Zero()).first->second;
+  for (int a = 0; a < static_cast<int>(rows.count()); ++a)
+    for (int k = rows.start[a]; k < rows.start[a + 1]; ++k) {
+      const int b = rows.column[k];
+      if (b < a) continue;  // done from there
+      Eigen::Matrix2d &block = rows.block[k], &other = rows.block[rows.find(b, a)];
       const Eigen::Matrix2d mean = 0.5 * (block + other.transpose());
       const double difference = (block - other.transpose()).cwiseAbs().maxCoeff();
       const double share = difference == 0 ? 0 : 2 * difference / (size(a) + size(b));
@@ -45,23 +114,25 @@ double symmetrise(BlockRows& rows) {
 /// The blocks of W by contacts, symmetric; `asymmetry` is what they were away from it.
 BlockRows rows_of_W(std::span<const MatrixEntry> entries, std::size_t contacts, const Refusal& refuse_as,
                     double& asymmetry) {
-  BlockRows rows(contacts);
-  for (const MatrixEntry& entry : entries) {
-    auto [place, fresh] = rows[entry.row / 2].try_emplace(entry.column / 2, Eigen::Matrix2d::Zero());
-    place->second(entry.row % 2, entry.column % 2) += entry.value;  // triplets may repeat
-  }
-  const auto refuse = [&](std::size_t a) {
+  BlockRows rows = BlockSums(entries, contacts).rows();
+  const auto refuse = [&](int a) {
     refuse_as("W", "contact " + std::to_string(a) + " has no symmetric positive definite diagonal block");
   };
-  for (std::size_t a = 0; a < rows.size(); ++a)
-    if (!rows[a].contains(static_cast<int>(a))) refuse(a);
+  const int count = static_cast<int>(contacts);
+  for (int a = 0; a < count; ++a)
+    if (rows.find(a, a) < 0) refuse(a);
+  if (const auto missing = missing_blocks(rows); !missing.empty()) {
+    std::vector<MatrixEntry> all(entries.begin(), entries.end());
+    all.insert(all.end(), missing.begin(), missing.end());
+    rows = BlockSums(all, contacts).rows();
+  }
   asymmetry = symmetrise(rows);
   if (!(asymmetry <= largest_asymmetry))
     refuse_as("W", fmt::format("is not symmetric: entries that should be equal differ by {:.1g} of the "
                                "diagonal (allowed: {:g})",
                                asymmetry, largest_asymmetry));
-  for (std::size_t a = 0; a < rows.size(); ++a)
-    if (!is_positive_definite(rows[a].at(static_cast<int>(a)))) refuse(a);
+  for (int a = 0; a < count; ++a)
+    if (!is_positive_definite(rows.block[rows.find(a, a)])) refuse(a);
   return rows;
 }
 
@@ -93,14 +164,12 @@ MatrixProblem matrix_problem(std::span<const MatrixEntry> W, std::vector<double>
     refuse("mu", "negative friction");
   check_entries(W, q.size(), refuse);
   MatrixProblem result;
-  auto& rows = result.problem.W;
-  rows.row_start.push_back(0);
-  int a = 0;
-  for (const auto& row : rows_of_W(W, contacts, refuse, result.asymmetry)) {
-    rows.diagonal.push_back(row.at(a++));
-    for (const auto& [column, block] : row) rows.column.push_back(column), rows.block.push_back(block);
-    rows.row_start.push_back(static_cast<int>(rows.column.size()));
-  }
+  BlockRows rows = rows_of_W(W, contacts, refuse, result.asymmetry);
+  auto& blocks = result.problem.W;
+  for (int a = 0; a < static_cast<int>(contacts); ++a) blocks.diagonal.push_back(rows.block[rows.find(a, a)]);
+  blocks.row_start = std::move(rows.start);
+  blocks.column = std::move(rows.column);
+  blocks.block = std::move(rows.block);
   result.problem.q = std::move(q);
   result.problem.mu = std::move(mu);
   return result;

@@ -19,6 +19,7 @@ std::vector<MatrixEntry> compressed(const H5Reader& in, bool rows_are_major, std
   const auto x = in.doubles(root + "W/x");
   if (static_cast<std::int64_t>(p.size()) < size + 1) in.refuse(root + "W/p", "fewer entries than rows + 1");
   std::vector<MatrixEntry> entries;
+  entries.reserve(std::min(i.size(), x.size()));
   for (std::int64_t major = 0; major < size; ++major) {
     if (p[major] < 0 || p[major + 1] < p[major] ||
         static_cast<std::size_t>(p[major + 1]) > std::min(i.size(), x.size()))
@@ -37,6 +38,7 @@ std::vector<MatrixEntry> triplets(const H5Reader& in, std::int64_t count) {
   if (count > static_cast<std::int64_t>(std::min({columns.size(), rows.size(), x.size()})))
     in.refuse(root + "W/nz", "more triplets than stored");
   std::vector<MatrixEntry> entries;
+  entries.reserve(static_cast<std::size_t>(count));
   for (std::int64_t k = 0; k < count; ++k) entries.push_back({rows[k], columns[k], x[k]});
   return entries;
 }

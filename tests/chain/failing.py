@@ -30,12 +30,22 @@ MISTAKEN = (2,)
 PATIENCE = 1200  # seconds for what takes a tenth of one
 
 
+def place_of_hdf5(executable):
+    """Where a program holds HDF5 within itself: FIRST:LAST, hexadecimal; None if it loads it. Its functions stand side by side."""
+    listed = subprocess.run(["nm", "--numeric-sort", "--defined-only", executable], capture_output=True, text=True, check=True).stdout
+    functions = [line.split() for line in listed.splitlines()]
+    places = [address for address, kind, name in functions if kind in "tT" and name.startswith("H5") and not name.endswith(".cold")]
+    return f"{places[0]}:{places[-1]}" if places else None
+
+
 class Trials:
     """One small run, repeated with one failure after the other."""
 
     def __init__(self, given, work):
         self.words = [str(given.executable.resolve()), "run", given.tests / "tiny-drum.toml", *SMALL]
         self.library, self.show, self.run = str(given.library.resolve()), given.show, work / "run"
+        place = place_of_hdf5(given.executable)
+        self.environment = os.environ | {"LD_PRELOAD": self.library} | ({"FAILING_HDF5": place} if place else {})
         whole, counts = work / "whole", work / "counts"
         code, said = self.started(whole, FAILING_COUNTS_TO=str(counts))
         require(code == 0, f"nothing fails: exit code {code}\n{said}")
@@ -46,7 +56,7 @@ class Trials:
 
     def started(self, run, *words, **failing):
         """Exit code of the run and what it said but for its progress."""
-        environment = os.environ | ({"LD_PRELOAD": self.library} | failing if failing else {})
+        environment = self.environment | failing if failing else os.environ
         result = subprocess.run([*self.words, "-o", run, *words], capture_output=True, text=True, check=False, timeout=PATIENCE, env=environment)
         lines = (result.stdout + result.stderr).splitlines()
         return result.returncode, "\n".join(line for line in lines if not line.startswith("reduced run"))

@@ -3,8 +3,11 @@
 //
 // Environment, read when main() begins; calls before and after main() are neither counted nor touched:
 //   FAILING_CALL=KIND       open, write, fsync, rename, close, malloc, or malloc-in-hdf5 (of that library;
-//   malloc is of all others) FAILING_FROM=n          the n-th call of that kind fails, counted from 1
+//   malloc is of all others)
+//   FAILING_FROM=n          the n-th call of that kind fails, counted from 1
 //   FAILING_COUNT=m         and the m - 1 after it (1 if absent)
+//   FAILING_HDF5=FROM:TO    where the program holds HDF5, as its file counts addresses; a library of its own
+//   otherwise
 //   FAILING_COUNTS_TO=FILE  receives lines "KIND calls" when main() returns
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -45,7 +48,14 @@ long first = 0, last = 0;
 
 std::uintptr_t hdf5_begin = 0, hdf5_end = 0;  // its addresses
 
+/// The first entry is the program.
 int note_hdf5(dl_phdr_info* library, std::size_t, void*) {
+  if (const char* const own = std::getenv("FAILING_HDF5")) {
+    char* colon = nullptr;
+    hdf5_begin = library->dlpi_addr + std::strtoull(own, &colon, 16);
+    hdf5_end = library->dlpi_addr + std::strtoull(colon + 1, nullptr, 16);
+    return 1;
+  }
   if (std::strstr(library->dlpi_name, "libhdf5") == nullptr ||
       std::strstr(library->dlpi_name, "_hl") != nullptr)
     return 0;
