@@ -64,6 +64,7 @@ nlohmann::ordered_json to_json(const RankShare& share) {
           {"impact_pairs_sent_mean", static_cast<double>(c.impacts.pairs) / gathered},
           {"impact_bytes_sent_mean", static_cast<double>(c.impacts.bytes) / gathered},
           {"forests", c.forests},
+          {"sorts", c.sorts},
           {"step_seconds", c.step_seconds / steps},
           {"waiting_seconds", c.waiting_seconds / steps},
           {"cpu_seconds", share.cpu_seconds},

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "coupling/common/errors.hpp"
@@ -19,23 +18,37 @@ constexpr double most_share = 1.1;
 
 }  // namespace
 
-Reach RankGrains::reach_of(const RankState& state, const WallStep& walls, double time_step,
-                           Point gain) const {
+RankGrains::Need RankGrains::need_of(const RankState& state, const WallStep& walls, double time_step,
+                                     Point gain) const {
   constexpr double none = -1e300;
-  std::array<double, 5> extremes{none, none, none, none, 0};  // of v_x, -v_x, v_z, -v_z, and the speed
-  for (const RankGrain& g : state.grains) {
+  // Of v_x, -v_x, v_z, -v_z, the squares of speed and drift; 1 if a grain is outside.
+  std::array<double, 7> extremes{none, none, none, none, 0, 0, 0};
+  const bool sorted = forest_ != nullptr && sorted_at_.size() == state.grains.size();
+  for (std::size_t k = 0; k < state.grains.size(); ++k) {
+    const RankGrain& g = state.grains[k];
     const double v_x = g.v_x + gain.x, v_z = g.v_z + gain.z;
     extremes[0] = std::max(extremes[0], v_x), extremes[1] = std::max(extremes[1], -v_x);
     extremes[2] = std::max(extremes[2], v_z), extremes[3] = std::max(extremes[3], -v_z);
-    extremes[4] = std::max(extremes[4], std::hypot(v_x, v_z));
+    extremes[4] = std::max(extremes[4], v_x * v_x + v_z * v_z);
+    if (!sorted) continue;
+    const double x = g.x - sorted_at_[k].x, z = g.z - sorted_at_[k].z;
+    extremes[5] = std::max(extremes[5], x * x + z * z);
+    if (!forest_->tiles().grid.contains({g.x, g.z})) extremes[6] = 1;
   }
   ranks_.largest(extremes);
+  const double speed = std::sqrt(extremes[4]);
   double wall = 0;
   for (std::size_t s = 0; s < walls.before.size(); ++s)
     wall = std::max(wall, largest_move(walls.before[s], walls.displacement[s]) / time_step);
   const double among = std::hypot(extremes[0] + extremes[1], extremes[2] + extremes[3]);
-  const double approach = std::max(among, extremes[4] + wall);
-  return {domain_.largest, margin_, 2 * time_step * approach, time_step * (extremes[4] + wall)};
+  const double approach = std::max(among, speed + wall);
+  return {{domain_.largest, margin_, 2 * time_step * approach, time_step * (speed + wall)},
+          std::sqrt(extremes[5]),
+          extremes[6] > 0};
+}
+
+bool RankGrains::still_sorted(const Need& need) const {
+  return !need.outside && need.drift <= most_drift(need.reach, forest_->tiles().grid.cell);
 }
 
 void RankGrains::refuse(const GrainOutside& outside) const {
@@ -67,69 +80,133 @@ bool RankGrains::unbalanced() const {
   return most[0] * ranks_.count() > most_share * static_cast<double>(domain_.grains);
 }
 
+void RankGrains::sort(RankState& state) { refuse(forest_->move(state.grains)); }
+
 void RankGrains::settle(RankState& state, const WallStep& walls, double time_step, Point gain) {
-  const TileGrid grid = tile_grid(domain_.low, domain_.edge, reach_of(state, walls, time_step, gain));
-  if (!forest_ || !(forest_->tiles().grid == grid) || unbalanced())
+  const Need need = need_of(state, walls, time_step, gain);
+  const TileGrid grid = tile_grid(domain_.low, domain_.edge, need.reach);
+  const bool anew = !forest_ || !(forest_->tiles().grid == grid) || unbalanced();
+  ++steps_;
+  if (!anew && still_sorted(need)) {
+    follow(state);
+    bring_memory(state);
+    return;
+  }
+  if (anew)
     build(state, grid);
   else
-    refuse(forest_->move(state.grains));
-  ++steps_;
-  state.grains = forest_->owned();
-  see(state);
-  bring_memory(state);
+    sort(state);
+  take_sorted(state);
 }
 
 bool RankGrains::settle_again(RankState& state, const WallStep& walls, double time_step, Point gain) {
-  const Reach reach = reach_of(state, walls, time_step, gain);
-  if (least_cell(reach) <= forest_->tiles().grid.cell) return false;
-  build(state, tile_grid(domain_.low, domain_.edge, reach));
-  state.grains = forest_->owned();
-  see(state);
-  bring_memory(state);
+  const Need need = need_of(state, walls, time_step, gain);
+  const bool fits = least_cell(need.reach) <= forest_->tiles().grid.cell;
+  if (fits && still_sorted(need)) return false;
+  if (fits)
+    sort(state);
+  else
+    build(state, tile_grid(domain_.low, domain_.edge, need.reach));
+  take_sorted(state);
   return true;
 }
 
+void RankGrains::take_sorted(RankState& state) {
+  ++sorts_;
+  state.grains = forest_->owned();
+  sorted_at_.clear();
+  for (const RankGrain& grain : state.grains) sorted_at_.push_back({grain.x, grain.z});
+  see(state);
+  agree_on_ghosts();
+  bring_memory(state);
+}
+
+/// Seen grains stand in the order of their identities.
 void RankGrains::see(const RankState& state) {
   const auto own = static_cast<std::int32_t>(state.grains.size());
   const auto& ghosts = forest_->ghosts();
-  std::vector<std::pair<std::int64_t, std::int32_t>>
-      order;  // identity, place among the own and then the ghosts
-  order.reserve(own + ghosts.size());
-  for (const RankGrain& grain : state.grains)
-    order.push_back({grain.id, static_cast<std::int32_t>(order.size())});
-  for (const GhostRecord& ghost : ghosts)
-    order.push_back({ghost.grain.id, static_cast<std::int32_t>(order.size())});
-  std::sort(order.begin(), order.end());
+  const std::size_t count = own + ghosts.size();
+  place_of_.assign(domain_.grains, -1);
+  for (std::int32_t k = 0; k < own; ++k) place_of_[state.grains[k].id] = k;
+  for (std::size_t k = 0; k < ghosts.size(); ++k)
+    place_of_[ghosts[k].grain.id] = own + static_cast<std::int32_t>(k);
   const std::int32_t rank = ranks_.rank();
   Bodies& bodies = seen_.bodies;
-  for (auto* values :
-       {&bodies.x, &bodies.z, &bodies.v_x, &bodies.v_z, &bodies.radius, &bodies.inverse_mass, &bodies.spin})
-    values->clear();
-  bodies.id.clear(), seen_.owner.clear(), seen_.place.clear();
-  if (place_of_.empty()) place_of_.assign(domain_.grains, -1);
-  std::fill(place_of_.begin(), place_of_.end(), -1);
-  for (const auto& [id, place] : order) {
+  for (auto* values : {&bodies.x, &bodies.z, &bodies.v_x, &bodies.v_z, &bodies.radius, &bodies.inverse_mass})
+    values->resize(count);
+  if (with_spin_) bodies.spin.resize(count);
+  bodies.id.resize(count), seen_.owner.resize(count), seen_.place.resize(count);
+  std::int32_t b = 0;
+  for (std::int32_t& place_of_id : place_of_) {
+    const std::int32_t place = place_of_id;  // among the own and then the ghosts
+    if (place < 0) continue;
     const bool mine = place < own;
     const RankGrain& grain = mine ? state.grains[place] : ghosts[place - own].grain;
-    place_of_[grain.id] = static_cast<std::int32_t>(bodies.id.size());
-    bodies.x.push_back(grain.x), bodies.z.push_back(grain.z);
-    bodies.v_x.push_back(grain.v_x), bodies.v_z.push_back(grain.v_z);
-    bodies.radius.push_back(grain.radius), bodies.inverse_mass.push_back(grain.inverse_mass);
-    if (with_spin_) bodies.spin.push_back(grain.spin);
-    bodies.id.push_back(id), seen_.owner.push_back(mine ? rank : ghosts[place - own].owner);
-    seen_.place.push_back(mine ? place : -1);
+    bodies.x[b] = grain.x, bodies.z[b] = grain.z;
+    bodies.v_x[b] = grain.v_x, bodies.v_z[b] = grain.v_z;
+    bodies.radius[b] = grain.radius, bodies.inverse_mass[b] = grain.inverse_mass;
+    if (with_spin_) bodies.spin[b] = grain.spin;
+    bodies.id[b] = grain.id, seen_.owner[b] = mine ? rank : ghosts[place - own].owner;
+    seen_.place[b] = mine ? place : -1;
+    place_of_id = b++;
   }
+}
+
+/// Tells the owners of ghosts which of their grains this rank sees.
+void RankGrains::agree_on_ghosts() {
+  const auto ranks = static_cast<std::size_t>(ranks_.count());
+  std::vector<std::vector<std::int64_t>> wanted(ranks);
+  ghosts_of_.assign(ranks, {}), shown_to_.assign(ranks, {}), to_show_.assign(ranks, {});
+  for (std::size_t b = 0; b < seen_.owner.size(); ++b) {
+    if (seen_.place[b] >= 0) continue;
+    wanted[seen_.owner[b]].push_back(seen_.bodies.id[b]);
+    ghosts_of_[seen_.owner[b]].push_back(static_cast<std::int32_t>(b));
+  }
+  if (ranks == 1) return;
+  const auto asked = ranks_.exchange(wanted);
+  for (std::size_t r = 0; r < ranks; ++r)
+    for (const std::int64_t id : asked[r]) shown_to_[r].push_back(seen_.place[place_of_[id]]);
+}
+
+/// Seen grains as they are now.
+void RankGrains::follow(const RankState& state) {
+  Bodies& bodies = seen_.bodies;
+  const auto set = [&](std::size_t b, const auto& grain) {
+    bodies.x[b] = grain.x, bodies.z[b] = grain.z;
+    bodies.v_x[b] = grain.v_x, bodies.v_z[b] = grain.v_z;
+    if (with_spin_) bodies.spin[b] = grain.spin;
+  };
+  for (std::size_t b = 0; b < seen_.place.size(); ++b)
+    if (seen_.place[b] >= 0) set(b, state.grains[seen_.place[b]]);
+  if (ranks_.count() == 1) return;
+  for (std::size_t r = 0; r < shown_to_.size(); ++r) {
+    to_show_[r].clear();
+    for (const std::int32_t place : shown_to_[r]) {
+      const RankGrain& grain = state.grains[place];
+      to_show_[r].push_back({grain.x, grain.z, grain.v_x, grain.v_z, grain.spin});
+    }
+  }
+  const auto shown = ranks_.exchange(to_show_);
+  for (std::size_t r = 0; r < shown.size(); ++r)
+    for (std::size_t k = 0; k < shown[r].size(); ++k) set(ghosts_of_[r][k], shown[r][k]);
 }
 
 /// The place of a remembered pair is where the pair stands now: its tile's owner looks for it.
 void RankGrains::bring_memory(RankState& state) {
-  std::vector<std::vector<RememberedContact>> to_rank(ranks_.count());
-  for (const RememberedContact& contact : state.memory)
-    to_rank[forest_->tiles().owner_at({contact.x, contact.z})].push_back(contact);
-  state.memory.clear();
-  for (const auto& of_rank : ranks_.exchange(to_rank))
-    state.memory.insert(state.memory.end(), of_rank.begin(), of_rank.end());
+  const auto rank = static_cast<std::size_t>(ranks_.rank());
+  if (ranks_.count() > 1) {
+    std::vector<std::vector<RememberedContact>> to_rank(ranks_.count());
+    std::erase_if(state.memory, [&](const RememberedContact& contact) {
+      const auto owner = static_cast<std::size_t>(forest_->tiles().owner_at({contact.x, contact.z}));
+      if (owner != rank) to_rank[owner].push_back(contact);
+      return owner != rank;
+    });
+    for (const auto& of_rank : ranks_.exchange(to_rank))
+      state.memory.insert(state.memory.end(), of_rank.begin(), of_rank.end());
+  }
+  const std::size_t most = state.memory.size();
   memory_.i.clear(), memory_.j.clear(), memory_.impulse.clear();
+  memory_.i.reserve(most), memory_.j.reserve(most), memory_.impulse.reserve(unknowns_ * most);
   memory_.time_step = state.memory_time_step;
   for (const RememberedContact& contact : state.memory) {
     const std::int32_t i = place_of_[contact.i];

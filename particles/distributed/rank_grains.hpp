@@ -13,6 +13,8 @@
 
 namespace drumlin::particles {
 
+/// The forest sorts grains into its cells only when one of any rank has moved too far for that: until then a
+/// rank sees the same grains. When that is decides nothing but the time a step takes.
 class RankGrains {
  public:
   RankGrains(const Ranks& ranks, const Domain& domain, bool with_spin, int unknowns, double margin)
@@ -28,6 +30,8 @@ class RankGrains {
   const TileMap& tiles() const { return forest_->tiles(); }
   std::size_t ghosts() const { return forest_->ghosts().size(); }
   std::int64_t forests() const { return forests_; }
+  /// Steps in which grains were sorted into the cells.
+  std::int64_t sorts() const { return sorts_; }
   /// Place of a grain among those seen; -1: not seen.
   std::int32_t place_of(std::int64_t id) const { return place_of_[id]; }
   /// The same of all identities.
@@ -36,10 +40,27 @@ class RankGrains {
   const ContactMemory& memory() const { return memory_; }
 
  private:
-  Reach reach_of(const RankState&, const WallStep&, double time_step, Point gain) const;
+  /// What a step asks of the forest.
+  struct Need {
+    Reach reach;
+    double drift = 0;      ///< the furthest way of a grain since it was sorted
+    bool outside = false;  ///< a grain has left the grid
+  };
+  /// A grain that other ranks see, as it is now.
+  struct Shown {
+    double x, z, v_x, v_z, spin;
+  };
+
+  Need need_of(const RankState&, const WallStep&, double time_step, Point gain) const;
+  /// Whether the cells still hold what a rank must see.
+  bool still_sorted(const Need&) const;
   void build(RankState&, const TileGrid&);
+  void sort(RankState&);
   bool unbalanced() const;
+  void take_sorted(RankState&);
   void see(const RankState&);
+  void agree_on_ghosts();
+  void follow(const RankState&);
   void bring_memory(RankState&);
   void refuse(const GrainOutside&) const;
 
@@ -50,9 +71,13 @@ class RankGrains {
   double margin_;
   std::unique_ptr<Forest> forest_;
   SeenGrains seen_;
+  std::vector<Point> sorted_at_;                      // own grains
+  std::vector<std::vector<std::int32_t>> shown_to_;   // by rank: own grains that it sees, in its order
+  std::vector<std::vector<std::int32_t>> ghosts_of_;  // by rank: its grains among those seen
+  std::vector<std::vector<Shown>> to_show_;
   std::vector<std::int32_t> place_of_;
   ContactMemory memory_;
-  std::int64_t forests_ = 0, steps_ = 0;  // steps since the forest was made
+  std::int64_t forests_ = 0, sorts_ = 0, steps_ = 0;  // steps since the forest was made
 };
 
 }  // namespace drumlin::particles

@@ -197,13 +197,13 @@ class RankMoreauJean final : public RankStepper {
     const SeenGrains& seen = grains_.seen();
     bodies_ = used_bodies(seen, own_.used);
     counts_here_.assign(own_.used.size(), 0);
-    FreeMotion of_used;
+    of_used_.x.resize(own_.used.size()), of_used_.z.resize(own_.used.size());
     for (std::size_t b = 0; b < own_.used.size(); ++b) {
       const std::int32_t s = own_.used[b];
-      of_used.x.push_back(free_.x[s]), of_used.z.push_back(free_.z[s]);
+      of_used_.x[b] = free_.x[s], of_used_.z[b] = free_.z[s];
       counts_here_[b] = seen.place[s] >= 0;
     }
-    free_ = std::move(of_used);
+    std::swap(free_, of_used_);
   }
 
   /// New velocities from the solution, then new positions.
@@ -289,6 +289,7 @@ class RankMoreauJean final : public RankStepper {
     counts_.halo_rounds = halo_.rounds(), counts_.halo_bytes = halo_.bytes();
     counts_.rounds = Ranks::rounds();
     counts_.forests = grains_.forests();
+    counts_.sorts = grains_.sorts();
     counts_.corrections = solver_.corrections();
     counts_.impacts = impacts_.counts();
   }
@@ -308,8 +309,9 @@ class RankMoreauJean final : public RankStepper {
   StepContacts mine_;  // those of this rank
   RankPairs own_;
   Halo halo_;
-  Bodies bodies_;                  // used ones
-  FreeMotion free_;                // of all seen grains, then of the used ones
+  Bodies bodies_;    // used ones
+  FreeMotion free_;  // of all seen grains, then of the used ones
+  FreeMotion of_used_;
   std::vector<char> counts_here_;  // of each used grain: its own
   StepContacts contacts_;
   Problem problem_;

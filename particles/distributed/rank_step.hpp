@@ -36,6 +36,7 @@ struct RankCounts {
   std::int64_t rounds = 0;                       ///< of messages among all ranks
   std::int64_t contacts = 0, grains = 0, ghosts = 0, shared_bytes_per_sweep = 0;  ///< summed over steps
   std::int64_t forests = 0;                                                       ///< made
+  std::int64_t sorts = 0;                        ///< of grains into the cells of a forest
   double step_seconds = 0, waiting_seconds = 0;  ///< processor time of the steps, and what of it was waiting
   std::int64_t corrections = 0;                  ///< of impulses on a coarse grid
   GatheredCounts impacts;

@@ -109,7 +109,8 @@ Bodies used_bodies(const SeenGrains& seen, std::span<const std::int32_t> used) {
   const auto taken = [&](const auto& values) {
     std::remove_cvref_t<decltype(values)> some;
     if (values.empty()) return some;
-    for (const std::int32_t b : used) some.push_back(values[b]);
+    some.resize(used.size());
+    for (std::size_t b = 0; b < used.size(); ++b) some[b] = values[used[b]];
     return some;
   };
   const Bodies& all = seen.bodies;

@@ -14,13 +14,25 @@ std::int32_t TileGrid::tile_at(Point p) const {
   return place(p.z - origin.z) * per_side() + place(p.x - origin.x);
 }
 
-double least_cell(const Reach& reach) {
-  // Centres of pairs that push each other on, and of all candidates.
-  const double near = reach.largest + reach.margin + reach.approach, far = near + reach.approach;
-  // A contact of ours touches grains up to far/2 outside, whose partners are up to 1.5 far outside, and what
-  // those approach is `near` further.
-  constexpr double slack = 1 + 1e-6;  // places are sorted into cells with rounding
-  return slack * std::max(1.5 * far + near, 2 * reach.way);
+namespace {
+
+constexpr double slack = 1 + 1e-6;  // places are sorted into cells with rounding
+
+// Centres of pairs that push each other on, and of all candidates.
+double near_of(const Reach& reach) { return reach.largest + reach.margin + reach.approach; }
+double far_of(const Reach& reach) { return near_of(reach) + reach.approach; }
+
+// A contact of ours touches grains up to far/2 outside, whose partners are up to 1.5 far outside, and what
+// those approach is `near` further.
+double seen_by(const Reach& reach) { return 1.5 * far_of(reach) + near_of(reach); }
+
+}  // namespace
+
+double least_cell(const Reach& reach) { return slack * std::max(seen_by(reach), 2 * reach.way); }
+
+double most_drift(const Reach& reach, double cell) {
+  // Half of far: partners of a grain of ours that stands so far outside are then no further than seen_by().
+  return std::min(cell / slack - seen_by(reach), far_of(reach) / 2);
 }
 
 TileGrid tile_grid(Point low, double edge, const Reach& reach) {

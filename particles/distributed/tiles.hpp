@@ -48,6 +48,9 @@ struct Reach {
 /// Cells must be so large that a rank which knows the grains of one layer of cells around its own finds all
 /// contacts of every grain that its contacts touch (docs/decisions/ranks.md).
 double least_cell(const Reach&);
+/// How far grains may have moved since they were sorted into cells of this size: what a rank must see is then
+/// still in the cells that it sees. Negative where the cells are too small.
+double most_drift(const Reach&, double cell);
 /// The smallest grid whose cells are large enough and which covers the square from `low` of edge `edge`.
 /// Cells grow by steps of sqrt(2), so that most steps have that of the step before; nothing but the arguments
 /// decides, so that a run that is continued has the same tiles.
