@@ -1,6 +1,7 @@
 """How sweeps grow with the packing: drums of 2,000 to 100,000 discs at the fill of the 6 rpm drum, settled and flowing, to a residual of 1e-2.
 
-usage: python3 tests/benchmarks/sweeps_over_size.py BUILD RECORD.json [DISCS...]   (2000, 7183, 30000, 100000 unless told)
+usage: python3 tests/benchmarks/sweeps_over_size.py BUILD RECORD.json [--keep FOLDER] [DISCS...]   (2000, 7183, 30000, 100000 unless told)
+--keep: the scenes and runs stay there, in a folder for each size, for benchmarks that need a flow to begin with.
 
 Each drum falls and turns by 0.17 of a turn at the Froude number of 6 rpm, roughly solved (3e-2, 150 sweeps at most). From there a run takes 300 steps of
 1e-3 s at rest and another 300 of the flow to 1e-2, with the bounds on penetration and sinking that scenes have. The first 100 steps of each, in which what
@@ -58,11 +59,16 @@ def counted(folder):
 
 
 def main():
-    build, record, sizes = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]), [int(word) for word in sys.argv[3:]] or list(SIZES)
+    words, keep = sys.argv[3:], None
+    if "--keep" in words:
+        keep = pathlib.Path(words.pop(words.index("--keep") + 1))
+        words.remove("--keep")
+    build, record, sizes = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]), [int(word) for word in words] or list(SIZES)
     cases, run = [], {}
     for discs in sizes:
         with tempfile.TemporaryDirectory() as name:
-            folder = pathlib.Path(name)
+            folder = keep / str(discs) if keep else pathlib.Path(name)
+            folder.mkdir(parents=True, exist_ok=True)
             case = {"discs": discs}
             for what, text in scenes(discs).items():
                 (folder / f"{what}.toml").write_text(text, encoding="utf-8")
