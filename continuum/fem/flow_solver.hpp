@@ -32,9 +32,10 @@ struct FlowSolverOptions {
   double tolerance = 1e-8;                 ///< on the residual in the last phase of the last mesh
   double linear_tolerance = 1e-6;          ///< on the true relative residual of every linear solve
   LinearMethod linear_method = LinearMethod::automatic;
-  double iterative_from = 2e6;  ///< unknowns of a mesh
-  int max_iterations = 40;      ///< per phase
-  int max_picard_updates = 40;  ///< of the fields that the law takes from the flow
+  double iterative_from = 2e6;       ///< unknowns of a mesh
+  int most_linear_iterations = 150;  ///< of a solve by iterations
+  int max_iterations = 40;           ///< per phase
+  int max_picard_updates = 40;       ///< of the fields that the law takes from the flow
   /// On what a whole Picard update moves, velocity (mean square) and slope, relative. Where the material
   /// hardly shears the axes of its strain rate are noise: the drum at 6 rpm on cells of 2 d came to rest at
   /// 6e-4.

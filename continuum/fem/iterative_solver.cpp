@@ -9,7 +9,7 @@
 namespace drumlin::continuum::fem {
 namespace {
 
-constexpr int iterations_kept = 30, most_iterations = 150;
+constexpr int iterations_kept = 30;
 
 PetscErrorCode apply_multigrid(PC shell, Vec b, Vec x) {
   void* multigrid = nullptr;
@@ -21,11 +21,12 @@ PetscErrorCode apply_multigrid(PC shell, Vec b, Vec x) {
 }  // namespace
 
 struct IterativeSolver::Petsc {
-  explicit Petsc(const Discretisation& of) : d(of) {}
+  Petsc(const Discretisation& of, int iterations) : d(of), most_iterations(iterations) {}
   Petsc(const Petsc&) = delete;
   Petsc& operator=(const Petsc&) = delete;
 
   const Discretisation& d;
+  const int most_iterations;
   const SystemMatrix* matrix = nullptr;
   std::unique_ptr<Multigrid> multigrid;
   KSP solver = nullptr;
@@ -49,7 +50,8 @@ void IterativeSolver::Petsc::create() {
   check(PCShellSetApply(shell, apply_multigrid), "set up the solver");
 }
 
-IterativeSolver::IterativeSolver(const Discretisation& d) : petsc_(std::make_unique<Petsc>(d)) {}
+IterativeSolver::IterativeSolver(const Discretisation& d, int most_iterations)
+    : petsc_(std::make_unique<Petsc>(d, most_iterations)) {}
 IterativeSolver::~IterativeSolver() = default;
 
 void IterativeSolver::prepare(const SystemMatrix& matrix) {
@@ -69,7 +71,7 @@ IterativeSolver::Outcome IterativeSolver::solve(const FieldVector& rhs, FieldVec
     solution = 0;
     return {};
   }
-  check(KSPSetTolerances(p.solver, 0, tolerance * size, 1e100, most_iterations), "set the tolerance");
+  check(KSPSetTolerances(p.solver, 0, tolerance * size, 1e100, p.most_iterations), "set the tolerance");
   const FieldView b(rhs), x(solution);
   check(KSPSolve(p.solver, b.get(), x.get()), "solve by iterations");
   Outcome outcome;

@@ -23,7 +23,7 @@ bool iterates(const FlowSolverOptions& options, double unknowns) {
 
 LinearSolver::LinearSolver(const FlowSolverOptions& options, const Discretisation& d) : options_(options) {
   if (!d.nesting.empty() && iterates(options, static_cast<double>(d.unknowns.n_dofs())))
-    iterative_.emplace(d);
+    iterative_.emplace(d, options.most_linear_iterations);
 }
 
 void LinearSolver::prepare(const SystemMatrix& matrix) {

@@ -67,6 +67,8 @@ State Newton::corrected(const Setting& setting, const State& state) {
   if (problem_.frame) frame_moment_ = moment_ * frame_velocity(problem_, d_);
   clock_(Work::assembly, [&] { assemble_residual(problem_, d_, setting, state, system_); });
   const Step step = step_with_factors(state);
+  if (!(step.linear_residual <= options_.linear_tolerance))
+    throw NotConvergedError(fmt::format("linear solve: true relative residual {:.2e}", step.linear_residual));
   return moved(state, step.solution, step.theta, 1);
 }
 

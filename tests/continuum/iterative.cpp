@@ -57,5 +57,39 @@ TEST(IterativeSolver, ComesInBySizeAlone) {
   EXPECT_TRUE(solve_flow(small_drum_problem(), options).report.linear.back().iterative);
 }
 
+TEST(IterativeSolver, ThatFailsSaysSo) {
+  FlowSolverOptions options = by(LinearMethod::iterative, 2);
+  options.most_linear_iterations = 1;
+  const FlowSolution flow = solve_flow(small_drum_problem(), options);
+  EXPECT_FALSE(flow.report.converged);
+  EXPECT_NE(flow.report.failure.find("linear solve: true relative residual"), std::string::npos)
+      << flow.report.failure;
+}
+
+TEST(IterativeSolver, ThatFailsGivesWayToMumpsWhereNobodyAskedForIt) {
+  FlowSolverOptions options = by(LinearMethod::automatic, 2);
+  options.iterative_from = 1;
+  options.most_linear_iterations = 1;
+  const FlowSolution flow = solve_flow(small_drum_problem(), options);
+  ASSERT_TRUE(flow.report.converged) << flow.report.failure;
+  const LinearReport& linear = flow.report.linear.back();
+  EXPECT_GT(linear.direct_instead, 0);
+  EXPECT_EQ(linear.most_iterations, 1);
+  EXPECT_NEAR(flow.field.theta(), converged(small_drum_problem(), by(LinearMethod::direct, 2)).theta(), 1e-6);
+}
+
+// The tangent of a law with k is not symmetric in the axes of the stress: other systems than the drum's
+// alone.
+TEST(IterativeSolver, HasTheFlowOfMumpsWithNormalStressDifferences) {
+  FlowProblem problem = small_drum_problem();
+  problem.turned = TurnedStress{.k = StressRatioLaw({1e-3, 1e-1}, {0.93, 1.07})};
+  const FlowField direct = converged(problem, by(LinearMethod::direct, 2));
+  const FlowSolution iterative = solve_flow(problem, by(LinearMethod::iterative, 2));
+  ASSERT_TRUE(iterative.report.converged) << iterative.report.failure;
+  EXPECT_EQ(iterative.report.linear.back().direct_instead, 0);
+  EXPECT_LE(iterative.report.linear.back().most_iterations, 60);
+  EXPECT_NEAR(iterative.field.theta(), direct.theta(), 1e-5);  // Picard updates end at 1e-3
+}
+
 }  // namespace
 }  // namespace drumlin

@@ -8,7 +8,7 @@ namespace drumlin::continuum::fem {
 
 class IterativeSolver {
  public:
-  explicit IterativeSolver(const Discretisation& d);
+  IterativeSolver(const Discretisation& d, int most_iterations);
   ~IterativeSolver();
   IterativeSolver(const IterativeSolver&) = delete;
   IterativeSolver& operator=(const IterativeSolver&) = delete;
