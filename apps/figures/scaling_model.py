@@ -49,7 +49,8 @@ def power_of_sweeps(cases):
 
 
 def fitted(data):
-    ranks = json.loads((data / "cost/ranks.json").read_text(encoding="utf-8"))["cases"]
+    measured = json.loads((data / "cost/ranks.json").read_text(encoding="utf-8"))["cases"]
+    ranks = [case for case in measured if not case.get("lying") and not case.get("flowing")]  # those that fall and settle
     sizes = json.loads((data / "cost/sweeps-over-size.json").read_text(encoding="utf-8"))["cases"]
     flows = {case["discs"]: case["flowing"] for case in sizes}
     # Bytes over a straight cut, by the root of the discs: of the packing that lies.
