@@ -19,7 +19,8 @@ SCALARS = ("theta_deg", "H", "lambda")
 
 
 def solved(build, levels, cell, method, ranks, tolerance):
-    environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMP_NUM_THREADS": "1", "OMPI_MCA_mpi_yield_when_idle": "1"}
+    environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMP_NUM_THREADS": "1",
+                   "OMPI_MCA_mpi_yield_when_idle": str(int(ranks > (os.cpu_count() or 1)))}  # else a rank that waits gives its processor to others
     keys = {"mesh.levels": levels, "mesh.surface_cell": cell, "solver.linear": method, "solver.tolerance": tolerance, "solver.sensitivity": "false", "output.figures": "false"}
     with tempfile.TemporaryDirectory() as name:
         words = ["mpirun", "-n", ranks, build / "drumlin-flow", ROOT / "data/scenes/drum-6rpm-flow.toml", "--rheology", ROOT / "data/rheology/drum-6rpm.toml", "--law-draws", "0", "-o", f"{name}/flow"]
