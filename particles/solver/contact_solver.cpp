@@ -209,7 +209,7 @@ ContactSolver<Problem> contact_solver(const std::string& name) {
   if (std::find(names.begin(), names.end(), name) != names.end())
     throw InputError({InputProblem{
         "", 0, 0, "solver.name", "'" + name + "' knows neither rolling resistance nor walls moved by a force",
-        "accelerated, nlgs, nncg"}});
+        "accelerated, accelerated-double, nlgs, nncg, nlgs-scalar"}});
   throw InputError({InputProblem{"", 0, 0, "solver", "unknown solver '" + name + "'",
                                  fmt::format("{}", fmt::join(contact_solver_names(), ", "))}});
 }
