@@ -11,8 +11,19 @@ namespace drumlin::particles {
 namespace {
 
 // How many pairs around what closes, or around bodies that were missing, are sent at once. Passes of a
-// flowing drum go on by 2.4 pairs on average. After that many times all pairs are sent.
-constexpr std::array<int, 4> reach{2, 3, 6, 12};
+// flowing drum go on by 2.4 pairs on average, the furthest of a large one by a dozen. After that many times
+// all pairs are sent.
+constexpr std::array<int, 2> reach{3, 12};
+
+/// Sorts what consists of a few runs in order: the first `sorted` records and what each rank has sent.
+template <class Record, class Less>
+void merge_runs(std::vector<Record>& records, std::size_t sorted, Less less) {
+  for (auto end = records.begin() + static_cast<std::ptrdiff_t>(sorted); end != records.end();) {
+    const auto next = std::is_sorted_until(end, records.end(), less);
+    std::inplace_merge(records.begin(), end, next, less);
+    end = next;
+  }
+}
 
 }  // namespace
 
@@ -26,6 +37,8 @@ std::vector<StruckRecord> GatheredImpacts::resolve(const RankImpacts& mine) {
   seed_.assign(seen, 0), wanted_.assign(seen, 0), sent_.assign(seen, 0);
   pair_sent_.assign(mine.contacts.pairs.size(), 0);
   whole_.clear(), pairs_.clear(), bodies_.clear();
+  place_of_.resize(ranks_.rank() == 0 ? mine.place_of.size() : 0);
+  find_neighbours(mine);
   for (const std::int32_t a : looked_.closings()) {
     const Candidate& pair = mine.contacts.pairs[a];
     seed_[pair.i] = 1;
@@ -78,20 +91,38 @@ std::vector<StruckRecord> GatheredImpacts::resolve_alone(const RankImpacts& mine
   return struck;
 }
 
+void GatheredImpacts::find_neighbours(const RankImpacts& mine) {
+  first_.assign(mine.step.bodies.count() + 1, 0);
+  for (const Candidate& pair : mine.candidates)
+    if (pair.j >= 0) ++first_[pair.i], ++first_[pair.j];
+  std::exclusive_scan(first_.begin(), first_.end(), first_.begin(), 0);
+  neighbour_.resize(first_.back());
+  // Each body's first place moves on as it fills, to that of the next one.
+  for (const Candidate& pair : mine.candidates)
+    if (pair.j >= 0) neighbour_[first_[pair.i]++] = pair.j, neighbour_[first_[pair.j]++] = pair.i;
+  std::shift_right(first_.begin(), first_.end(), 1);
+  first_.front() = 0;
+}
+
 std::vector<std::int32_t> GatheredImpacts::around(const RankImpacts& mine, int pairs) {
-  for (int k = 0; k < pairs; ++k) {
-    ring_ = seed_;
-    for (const Candidate& pair : mine.candidates) {
-      if (pair.j < 0) continue;
-      if (seed_[pair.i]) ring_[pair.j] = 1;
-      if (seed_[pair.j]) ring_[pair.i] = 1;
-    }
-    std::swap(seed_, ring_);
-  }
+  ring_.clear();
+  for (std::size_t b = 0; b < seed_.size(); ++b)
+    if (seed_[b]) ring_.push_back(static_cast<std::int32_t>(b));
   std::vector<std::int32_t> marked;
   const auto& id = mine.step.bodies.id;
-  for (std::size_t b = 0; b < seed_.size(); ++b)
-    if (seed_[b] && !wanted_[b]) marked.push_back(static_cast<std::int32_t>(id[b]));
+  const auto mark = [&](std::int32_t b) {
+    if (!wanted_[b]) marked.push_back(static_cast<std::int32_t>(id[b]));
+  };
+  for (const std::int32_t b : ring_) mark(b);
+  std::size_t begin = 0;
+  for (int k = 0; k < pairs; ++k) {
+    const std::size_t end = ring_.size();
+    for (; begin < end; ++begin) {
+      const std::int32_t b = ring_[begin];
+      for (std::int32_t n = first_[b]; n < first_[b + 1]; ++n)
+        if (!std::exchange(seed_[neighbour_[n]], 1)) ring_.push_back(neighbour_[n]), mark(neighbour_[n]);
+    }
+  }
   return marked;
 }
 
@@ -107,6 +138,7 @@ void GatheredImpacts::want(const RankImpacts& mine, std::span<const std::int32_t
 void GatheredImpacts::send(const RankImpacts& mine) {
   const Bodies& bodies = mine.step.bodies;
   const auto& id = bodies.id;
+  const auto comes_before = [](const BodyRecord& a, const BodyRecord& b) { return a.id < b.id; };
   std::vector<PairRecord> pairs;
   std::vector<BodyRecord> grains;
   const auto name = [&](std::int32_t b) {
@@ -126,17 +158,19 @@ void GatheredImpacts::send(const RankImpacts& mine) {
   counts_.pairs += static_cast<std::int64_t>(pairs.size());
   counts_.bytes +=
       static_cast<std::int64_t>(pairs.size() * sizeof(PairRecord) + grains.size() * sizeof(BodyRecord));
+  std::sort(grains.begin(), grains.end(), comes_before);
   const auto more = ranks_.gather<PairRecord>(pairs);
+  const std::size_t held = pairs_.size(), known = bodies_.size();
   pairs_.insert(pairs_.end(), more.begin(), more.end());
+  merge_runs(pairs_, held, [](const PairRecord& a, const PairRecord& b) {
+    return std::tie(a.i, a.j) < std::tie(b.i, b.j);
+  });
   const auto named = ranks_.gather<BodyRecord>(grains);
   bodies_.insert(bodies_.end(), named.begin(), named.end());
+  merge_runs(bodies_, known, comes_before);
 }
 
 void GatheredImpacts::resolve_gathered(const StepInput& step, bool all, std::vector<StruckRecord>& struck) {
-  std::sort(pairs_.begin(), pairs_.end(),
-            [](const PairRecord& a, const PairRecord& b) { return std::tie(a.i, a.j) < std::tie(b.i, b.j); });
-  std::sort(bodies_.begin(), bodies_.end(),
-            [](const BodyRecord& a, const BodyRecord& b) { return a.id < b.id; });
   // Several ranks may have told of one grain, all the same.
   bodies_.erase(std::unique(bodies_.begin(), bodies_.end(),
                             [](const BodyRecord& a, const BodyRecord& b) { return a.id == b.id; }),
@@ -150,12 +184,7 @@ void GatheredImpacts::resolve_gathered(const StepInput& step, bool all, std::vec
     whole.push_back(all || std::binary_search(whole_.begin(), whole_.end(), body.id));
   }
   bodies.x.resize(bodies_.size()), bodies.z.resize(bodies_.size());  // impacts ask for no places
-  const auto place = [this](std::int32_t id) {
-    const auto found =
-        std::lower_bound(bodies_.begin(), bodies_.end(), id,
-                         [](const BodyRecord& body, std::int32_t other) { return body.id < other; });
-    return static_cast<std::int32_t>(found - bodies_.begin());
-  };
+  for (std::size_t b = 0; b < bodies_.size(); ++b) place_of_[bodies_[b].id] = static_cast<std::int32_t>(b);
   StepContacts contacts;
   std::vector<double> load;
   for (const PairRecord& pair : pairs_) {

@@ -72,13 +72,20 @@ class GatheredImpacts {
 
   Ranks ranks_;
   Impacts looked_, impacts_;
-  std::vector<char> seed_, ring_;       // of each seen body
-  std::vector<char> wanted_;            // of each seen body: all pairs of it are to be sent
-  std::vector<char> pair_sent_, sent_;  // of each pair of this rank; of each seen body
-  std::vector<std::int32_t> whole_;     // identities of wanted bodies, ascending
-  std::vector<PairRecord> pairs_;       // those that the first rank holds
-  std::vector<BodyRecord> bodies_;
-  std::vector<std::int32_t> missing_;  // identities
+  /// Which candidates join each seen body to which others.
+  void find_neighbours(const RankImpacts& mine);
+  /// Of a body that the first rank holds.
+  std::int32_t place(std::int32_t id) const { return place_of_[id]; }
+
+  std::vector<char> seed_;                              // of each seen body
+  std::vector<std::int32_t> first_, neighbour_, ring_;  // neighbours of b from first_[b] on
+  std::vector<char> wanted_;                            // of each seen body: all pairs of it are to be sent
+  std::vector<char> pair_sent_, sent_;                  // of each pair of this rank; of each seen body
+  std::vector<std::int32_t> whole_;                     // identities of wanted bodies, ascending
+  std::vector<PairRecord> pairs_;       // those that the first rank holds, in the order of (i, j)
+  std::vector<BodyRecord> bodies_;      // by identity
+  std::vector<std::int32_t> place_of_;  // of each identity among them; others are not set
+  std::vector<std::int32_t> missing_;   // identities
   std::vector<Strike> strikes_;
   GatheredCounts counts_;
   int count_ = 0;
