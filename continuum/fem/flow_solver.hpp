@@ -32,7 +32,7 @@ struct FlowSolverOptions {
   double tolerance = 1e-8;                 ///< on the residual in the last phase of the last mesh
   double linear_tolerance = 1e-6;          ///< on the true relative residual of every linear solve
   LinearMethod linear_method = LinearMethod::automatic;
-  double iterative_from = 2e6;       ///< unknowns of a mesh
+  double iterative_from = 1e7;       ///< unknowns of a mesh
   int most_linear_iterations = 150;  ///< of a solve by iterations
   int max_iterations = 40;           ///< per phase
   int max_picard_updates = 40;       ///< of the fields that the law takes from the flow

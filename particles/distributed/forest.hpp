@@ -7,6 +7,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "particles/distributed/ranks.hpp"
@@ -46,12 +47,12 @@ class Forest {
   /// Sends each grain to the rank that owns its tile. Returns the first of all that lies outside of the grid;
   /// the forest must then not be used.
   GrainOutside place(std::span<const RankGrain> grains);
-  /// Gives the grains of owned(), in that order, new places and velocities, and sends those that have left
-  /// the rank to their new owners. Returns as place().
+  /// Gives the grains of take_owned(), in that order, new places and velocities, and sends those that have
+  /// left the rank to their new owners. Returns as place().
   GrainOutside move(std::span<const RankGrain> grains);
 
-  /// Grains of this rank.
-  const std::vector<RankGrain>& owned() const { return owned_; }
+  /// Grains of this rank, once after each place() or move(): the forest keeps no copy.
+  std::vector<RankGrain> take_owned() { return std::exchange(owned_, {}); }
   /// Grains of others within one layer of cells around those of this rank.
   const std::vector<GhostRecord>& ghosts() const { return ghosts_; }
 

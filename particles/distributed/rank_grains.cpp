@@ -75,7 +75,7 @@ void RankGrains::build(RankState& state, const TileGrid& grid) {
 
 bool RankGrains::unbalanced() const {
   if (ranks_.count() == 1 || steps_ < steps_between || steps_ % steps_between != 0) return false;
-  std::array<double, 1> most{static_cast<double>(forest_->owned().size())};
+  std::array<double, 1> most{static_cast<double>(sorted_at_.size())};
   ranks_.largest(most);
   return most[0] * ranks_.count() > most_share * static_cast<double>(domain_.grains);
 }
@@ -113,7 +113,7 @@ bool RankGrains::settle_again(RankState& state, const WallStep& walls, double ti
 
 void RankGrains::take_sorted(RankState& state) {
   ++sorts_;
-  state.grains = forest_->owned();
+  state.grains = forest_->take_owned();
   sorted_at_.clear();
   for (const RankGrain& grain : state.grains) sorted_at_.push_back({grain.x, grain.z});
   see(state);

@@ -47,6 +47,8 @@ class RankProjection {
   /// Returns the sweeps that it took.
   int apply(const RankOverlap& overlap, std::span<const char> counts_here, Halo& halo, int sweeps,
             Bodies& bodies);
+  /// Gives back its memory, until the next step.
+  void release() { solver_.release(), problem_ = {}, solution_ = {}; }
 
  private:
   TileSolver<FrictionlessProblem> solver_;

@@ -31,6 +31,10 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+// From so many contacts of a rank on a phase of the step gives back what the next one does not need: to ask
+// for it again takes less than a hundredth of the step.
+constexpr std::size_t many_contacts = 200'000;
+
 // Rounds of impacts within a step, which may throw grains into pairs that no search has found.
 constexpr int most_searches = 5;
 
@@ -76,13 +80,16 @@ class RankMoreauJean final : public RankStepper {
     take_used();
     report.detection_seconds = watch.lap();
     const StepInput step{laws_, bodies_, walls, {}, free_, time_step};
-    contacts_.pairs = own_.pairs;
+    contacts_.pairs = std::move(own_.pairs);
+    const bool large = contacts_.pairs.size() > many_contacts;
+    if (large) mine_.pairs = {};
     sweep_normals(step, contacts_.pairs);
     recollection_.warm_start(grains_.memory(), dim, time_step, own_.order, solution_.impulses);
     assemble<Problem, with_spin>(step, contacts_, TeamLoops(&team_), problem_);
     report.setup_seconds = watch.lap();
     const TiledContacts tiled{own_.tiles, counts_here_, bodies_.x, bodies_.z};
     report.solve = solver_.solve(problem_, tiled, halo_, settings_.rule, method_, solution_);
+    if (large) solver_.release();
     std::vector<std::int64_t> count{problem_.contacts()};
     ranks_.add(count);
     report.contacts = static_cast<int>(count[0]);
@@ -90,6 +97,7 @@ class RankMoreauJean final : public RankStepper {
     crossings_.begin(bodies_, walls.before, domain_.largest / 2);
     move(time_step);
     const int projected = project(walls, report);
+    if (large) projection_.release();
     remember(state, time_step);
     give_back(state);
     report.projection_seconds = watch.lap();
@@ -255,6 +263,9 @@ class RankMoreauJean final : public RankStepper {
     state.memory.clear();
     state.memory_time_step = time_step;
     const auto& r = solution_.impulses;
+    std::size_t loaded = 0;
+    for (std::size_t a = 0; a < contacts_.pairs.size(); ++a) loaded += r[dim * a] != 0;
+    state.memory.reserve(loaded + loaded / 16);
     for (std::size_t a = 0; a < contacts_.pairs.size(); ++a) {
       const Candidate& pair = contacts_.pairs[a];
       RememberedContact contact;

@@ -16,7 +16,7 @@ namespace drumlin::particles {
 struct SeenGrains {
   Bodies bodies;                    ///< with identities
   std::vector<std::int32_t> owner;  ///< rank of each
-  std::vector<std::int32_t> place;  ///< of own grains: their places in Forest::owned(); else -1
+  std::vector<std::int32_t> place;  ///< of own grains: their places in RankState::grains; else -1
 };
 
 /// Contacts of one tile in a list.

@@ -40,6 +40,9 @@ class TileCoarseLoads {
   void scale(const Problem& problem, const TiledContacts& contacts, Halo& halo, std::span<const double> u,
              std::vector<double>& r);
 
+  /// Gives back the memory of what lay_out() has made.
+  void release() { places_ = {}, moves_ = {}; }
+
  private:
   static constexpr int dim = Problem::dim;
   static constexpr bool spin = requires(typename Problem::Delassus::Velocity v) { v.s; };

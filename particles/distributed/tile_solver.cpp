@@ -243,7 +243,9 @@ SolveReport TileSolver<Problem>::solve(const Problem& problem, const TiledContac
   const bool done = first.status == Status::converged && rule.tolerance == coarse.tolerance;
   if (done || first.status == Status::not_finite || first.sweeps >= rule.max_sweeps) return first;
   best_ = solution.impulses;
+  in_single_ = {};  // few solves need both: none holds both
   SolveReport both = together(first, in_double(remaining(rule, first)));
+  in_double_ = {};
   if (both.status != Status::converged && !(both.residual.rms <= first.residual.rms)) {
     solution.impulses = best_;
     both.residual = residual(problem, contacts, halo, solution);

@@ -39,6 +39,8 @@ class TileSolver {
   /// residual_of().
   ContactResidual residual(const Problem& problem, const TiledContacts& contacts, Halo& halo,
                            Solution<Problem>& solution);
+  /// Gives back the memory of the last solve; the next one asks for its own.
+  void release() { in_single_ = {}, in_double_ = {}, coarse_.release(); }
   /// Coarse corrections since the program began.
   std::int64_t corrections() const { return corrections_; }
 

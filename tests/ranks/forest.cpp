@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 #include <set>
+#include <span>
 
 namespace drumlin::particles {
 namespace {
@@ -32,11 +33,12 @@ std::vector<RankGrain> share_of(const std::vector<RankGrain>& all, const Ranks& 
 
 /// Every grain is where `all` has it, once; a rank owns those of its tiles and sees all within a cell of
 /// them.
-void expect_everybody(const Forest& forest, const std::vector<RankGrain>& all) {
+void expect_everybody(const Forest& forest, std::span<const RankGrain> own,
+                      const std::vector<RankGrain>& all) {
   const Ranks& ranks = forest.ranks();
   const std::int32_t rank = ranks.rank();
   std::vector<std::int64_t> seen(all.size(), 0);
-  for (const RankGrain& grain : forest.owned()) {
+  for (const RankGrain& grain : own) {
     ++seen[grain.id];
     const RankGrain& right = all[grain.id];
     EXPECT_EQ(grain.x, right.x);
@@ -74,7 +76,7 @@ TEST(Forest, OwnsEachGrainOnceAndSeesALayerOfCells) {
   const auto all = scattered(600);
   Forest forest(ranks, grid, std::vector<std::int64_t>(grid.count(), 1));
   EXPECT_EQ(forest.place(share_of(all, ranks)).id, -1);
-  expect_everybody(forest, all);
+  expect_everybody(forest, forest.take_owned(), all);
 }
 
 TEST(Forest, FollowsGrainsThatMove) {
@@ -82,6 +84,7 @@ TEST(Forest, FollowsGrainsThatMove) {
   auto all = scattered(600);
   Forest forest(ranks, grid, std::vector<std::int64_t>(grid.count(), 1));
   ASSERT_EQ(forest.place(share_of(all, ranks)).id, -1);
+  std::vector<RankGrain> own = forest.take_owned();
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> step(-0.7, 0.7);
   for (int k = 0; k < 10; ++k) {
@@ -91,10 +94,10 @@ TEST(Forest, FollowsGrainsThatMove) {
       grain.z = grid.origin.z + std::clamp(grain.z + step(random) - grid.origin.z, 1e-9, high);
       grain.v_x += 1;
     }
-    std::vector<RankGrain> own = forest.owned();
     for (RankGrain& grain : own) grain = all[grain.id];
     ASSERT_EQ(forest.move(own).id, -1);
-    expect_everybody(forest, all);
+    own = forest.take_owned();
+    expect_everybody(forest, own, all);
   }
 }
 
@@ -105,13 +108,23 @@ TEST(Forest, NamesTheFirstGrainThatLeaves) {
   ASSERT_EQ(forest.place(share_of(all, ranks)).id, -1);
   all[77].x = grid.origin.x - 50;
   all[31].z = grid.origin.z + 90;
-  std::vector<RankGrain> own = forest.owned();
+  std::vector<RankGrain> own = forest.take_owned();
   for (RankGrain& grain : own) grain = all[grain.id];
   const GrainOutside outside = forest.move(own);
   EXPECT_EQ(outside.id, 31);
   EXPECT_EQ(outside.z, all[31].z);
   Forest other(ranks, grid, std::vector<std::int64_t>(grid.count(), 1));
   EXPECT_EQ(other.place(share_of(all, ranks)).id, 31);
+}
+
+TEST(Tiles, LeaveRoomForGrainsThatDrift) {
+  const Reach reach{.largest = 1, .margin = 0.02, .approach = 0.1, .way = 0.1};
+  // 1.5 far + near = 1.5 x 1.22 + 1.12, in which far / 2 = 0.61.
+  EXPECT_NEAR(least_cell(reach), 2.95, 1e-5);
+  EXPECT_NEAR(most_drift(reach, least_cell(reach)), 0, 1e-12);
+  EXPECT_NEAR(most_drift(reach, 3), 0.05, 1e-5);
+  EXPECT_NEAR(most_drift(reach, 6), 0.61, 1e-12);
+  EXPECT_LT(most_drift(reach, 2.9), 0);
 }
 
 TEST(Forest, GivesEachRankItsShareOfTheWeight) {
