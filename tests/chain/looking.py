@@ -1,6 +1,7 @@
 """What `drumlin plot` and `drumlin export` leave of small runs of every kind: figures that are not blank, files that ParaView's rules hold for.
 
-usage: looking.py DRUMLIN FOLDER_OF_THIS_TEST
+usage: looking.py DRUMLIN FOLDER_OF_THIS_TEST [--short]
+--short: leaves out figures of other walls and of chosen moments.
 """
 
 import base64
@@ -416,9 +417,10 @@ def main():
         histories(drumlin, one_disc, periodic, folder)
         own_frames(drumlin, periodic, folder)
         plots(drumlin, one_disc, periodic, none, folder)
-        chosen_plots(drumlin, periodic, folder)
-        sliding_wall(drumlin, folder)
-        arcs(drumlin, folder)
+        if "--short" not in sys.argv:
+            chosen_plots(drumlin, periodic, folder)
+            sliding_wall(drumlin, folder)
+            arcs(drumlin, folder)
         stretches(drumlin, folder)
     print("figures drawn, not blank; exported numbers are those of the snapshots; what cannot be done refused")
 
