@@ -33,7 +33,7 @@ class Stopwatch {
 
 // From so many contacts of a rank on a phase of the step gives back what the next one does not need: to ask
 // for it again takes less than a hundredth of the step.
-constexpr std::size_t many_contacts = 200'000;
+constexpr std::size_t many_contacts = 400'000;
 
 // Rounds of impacts within a step, which may throw grains into pairs that no search has found.
 constexpr int most_searches = 5;
