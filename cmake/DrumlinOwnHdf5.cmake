@@ -2,7 +2,7 @@
 # than a small contact problem. A program that never links deal.II sets its property DRUMLIN_OWN_HDF5 and holds Debian's serial flavour, where that is
 # installed in the same version: our files are written without MPI in any case. The headers stay those of the one flavour.
 find_library(DRUMLIN_OWN_HDF5_LIBRARY NAMES libhdf5.a PATH_SUFFIXES hdf5/serial)
-find_path(DRUMLIN_OWN_HDF5_INCLUDES H5pubconf.h PATH_SUFFIXES hdf5/serial NO_CMAKE_ENVIRONMENT_PATH)
+find_path(DRUMLIN_OWN_HDF5_INCLUDES H5pubconf.h PATH_SUFFIXES hdf5/serial)
 find_library(DRUMLIN_SZIP_LIBRARY NAMES sz)
 mark_as_advanced(DRUMLIN_OWN_HDF5_LIBRARY DRUMLIN_OWN_HDF5_INCLUDES DRUMLIN_SZIP_LIBRARY)
 set(own_hdf5_version none)

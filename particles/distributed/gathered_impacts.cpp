@@ -188,7 +188,7 @@ void GatheredImpacts::resolve_gathered(const StepInput& step, bool all, std::vec
   StepContacts contacts;
   std::vector<double> load;
   for (const PairRecord& pair : pairs_) {
-    contacts.pairs.push_back({place(pair.i), pair.j < 0 ? pair.j : place(pair.j), pair.gap, pair.n_x,
+    contacts.pairs.push_back({place_of_[pair.i], pair.j < 0 ? pair.j : place_of_[pair.j], pair.gap, pair.n_x,
                               pair.n_z, pair.wall_v_x, pair.wall_v_z});
     load.push_back(pair.load);
   }

@@ -61,6 +61,8 @@ class GatheredImpacts {
   };
 
   std::vector<StruckRecord> resolve_alone(const RankImpacts& mine);
+  /// Finds which candidates join each seen body to which others.
+  void find_neighbours(const RankImpacts& mine);
   /// Marks the seeds and all bodies within so many pairs of them; returns the identities of the marked.
   std::vector<std::int32_t> around(const RankImpacts& mine, int pairs);
   /// Adds the pairs of wanted bodies to what the first rank holds.
@@ -72,11 +74,6 @@ class GatheredImpacts {
 
   Ranks ranks_;
   Impacts looked_, impacts_;
-  /// Which candidates join each seen body to which others.
-  void find_neighbours(const RankImpacts& mine);
-  /// Of a body that the first rank holds.
-  std::int32_t place(std::int32_t id) const { return place_of_[id]; }
-
   std::vector<char> seed_;                              // of each seen body
   std::vector<std::int32_t> first_, neighbour_, ring_;  // neighbours of b from first_[b] on
   std::vector<char> wanted_;                            // of each seen body: all pairs of it are to be sent

@@ -23,7 +23,7 @@ RankGrains::Need RankGrains::need_of(const RankState& state, const WallStep& wal
   constexpr double none = -1e300;
   // Of v_x, -v_x, v_z, -v_z, the squares of speed and drift; 1 if a grain is outside.
   std::array<double, 7> extremes{none, none, none, none, 0, 0, 0};
-  const bool sorted = forest_ != nullptr && sorted_at_.size() == state.grains.size();
+  const bool sorted = forest_ != nullptr;  // since then the grains stand as they were sorted
   for (std::size_t k = 0; k < state.grains.size(); ++k) {
     const RankGrain& g = state.grains[k];
     const double v_x = g.v_x + gain.x, v_z = g.v_z + gain.z;

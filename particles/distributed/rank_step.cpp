@@ -320,9 +320,9 @@ class RankMoreauJean final : public RankStepper {
   StepContacts mine_;  // those of this rank
   RankPairs own_;
   Halo halo_;
-  Bodies bodies_;    // used ones
-  FreeMotion free_;  // of all seen grains, then of the used ones
-  FreeMotion of_used_;
+  Bodies bodies_;                  // used ones
+  FreeMotion free_;                // of all seen grains, then of the used ones
+  FreeMotion of_used_;             // on their way into free_
   std::vector<char> counts_here_;  // of each used grain: its own
   StepContacts contacts_;
   Problem problem_;
