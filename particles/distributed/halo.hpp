@@ -26,7 +26,7 @@ struct SharedTouch {
   std::int32_t colour = 0;  ///< of the contact; -1: the owner of the grain, who wants to know
 };
 /// The plan of a rank that knows all touches of each grain that it uses. `touches` in the order of the
-/// bodies, which is that of their identities.
+/// identities of the bodies, by which ranks agree on the order of what they send.
 HaloPlan halo_plan(std::span<const SharedTouch> touches, std::int32_t rank);
 
 /// Sends along a plan, three numbers per grain.

@@ -8,24 +8,37 @@ namespace {
 
 using Home = HomedPairs::Home;
 
-/// Touches of the grains that this rank uses and others may.
+/// Of each seen grain, whether this rank uses it: its own ones and those that its contacts touch.
+std::vector<char> used_of_seen(const SeenGrains& seen, std::span<const Candidate> candidates,
+                               std::span<const std::int32_t> mine, std::int32_t rank) {
+  std::vector<char> uses(seen.owner.size());
+  for (std::size_t b = 0; b < uses.size(); ++b) uses[b] = seen.owner[b] == rank;
+  for (const std::int32_t a : mine) {
+    uses[candidates[a].i] = 1;
+    if (candidates[a].j >= 0) uses[candidates[a].j] = 1;
+  }
+  return uses;
+}
+
+/// Touches of the grains that this rank uses and others may, in the order of the seen grains, by which they
+/// name them.
 std::vector<SharedTouch> shared_touches(const SeenGrains& seen, std::span<const Candidate> candidates,
-                                        std::span<const Home> homes, const RankPairs& own,
+                                        std::span<const Home> homes, std::span<const char> uses,
                                         const TileGrid& grid, std::int32_t rank) {
-  std::vector<char> shared(seen.owner.size(), 0);
-  for (const std::int32_t b : own.used) shared[b] = seen.owner[b] != rank;
+  std::vector<char> shared(seen.owner.size());
+  for (std::size_t b = 0; b < shared.size(); ++b) shared[b] = uses[b] && seen.owner[b] != rank;
   const auto each_body = [&](std::size_t a, auto visit) {
     visit(candidates[a].i);
     if (candidates[a].j >= 0) visit(candidates[a].j);
   };
   for (std::size_t a = 0; a < candidates.size(); ++a)
-    if (homes[a].owner != rank) each_body(a, [&](std::int32_t b) { shared[b] = own.in_used[b] >= 0; });
+    if (homes[a].owner != rank) each_body(a, [&](std::int32_t b) { shared[b] = uses[b]; });
   std::vector<SharedTouch> touches;
-  for (const std::int32_t b : own.used)
-    if (shared[b]) touches.push_back({own.in_used[b], seen.owner[b], -1});
+  for (std::size_t b = 0; b < shared.size(); ++b)
+    if (shared[b]) touches.push_back({static_cast<std::int32_t>(b), seen.owner[b], -1});
   for (std::size_t a = 0; a < candidates.size(); ++a)
     each_body(a, [&](std::int32_t b) {
-      if (shared[b]) touches.push_back({own.in_used[b], homes[a].owner, grid.colour(homes[a].tile)});
+      if (shared[b]) touches.push_back({b, homes[a].owner, grid.colour(homes[a].tile)});
     });
   std::stable_sort(touches.begin(), touches.end(),
                    [](const SharedTouch& a, const SharedTouch& b) { return a.body < b.body; });
@@ -51,33 +64,13 @@ void find_homes(const SeenGrains& seen, std::span<const Candidate> candidates, c
   }
 }
 
-RankPairs rank_pairs(const SeenGrains& seen, std::span<const Candidate> candidates, const HomedPairs& homed,
-                     const TileMap& tiles, std::int32_t rank) {
-  RankPairs own;
+namespace {
+
+/// Tiles in the order of the sweeps, with places for their contacts, and the contacts in them in the order of
+/// (i, j). Bodies are those seen.
+void sort_into_tiles(std::span<const Candidate> candidates, const HomedPairs& homed, const TileMap& tiles,
+                     std::span<const char> border_tile, RankPairs& own) {
   const auto& [homes, mine] = homed;
-  own.in_used.assign(seen.owner.size(), -1);
-  for (std::size_t b = 0; b < seen.owner.size(); ++b)
-    if (seen.owner[b] == rank) own.in_used[b] = 0;
-  for (const std::int32_t a : mine) {
-    own.in_used[candidates[a].i] = 0;
-    if (candidates[a].j >= 0) own.in_used[candidates[a].j] = 0;
-  }
-  for (std::size_t b = 0; b < seen.owner.size(); ++b)
-    if (own.in_used[b] == 0) {
-      own.in_used[b] = static_cast<std::int32_t>(own.used.size());
-      own.used.push_back(static_cast<std::int32_t>(b));
-    }
-  const auto touches = shared_touches(seen, candidates, homes, own, tiles.grid, rank);
-  own.halo = halo_plan(touches, rank);
-  std::vector<char> at_border(own.used.size(), 0);
-  for (const SharedTouch& touch : touches) at_border[touch.body] = 1;
-  std::vector<char> border_tile(tiles.owner.size(), 0);
-  for (const std::int32_t a : mine) {
-    const Candidate& pair = candidates[a];
-    if (at_border[own.in_used[pair.i]] || (pair.j >= 0 && at_border[own.in_used[pair.j]]))
-      border_tile[homes[a].tile] = 1;
-  }
-  // Tiles in the order of the sweeps, with places for their contacts, which come in the order of (i, j).
   std::vector<std::int32_t> count(tiles.owner.size(), 0);
   for (const std::int32_t a : mine) ++count[homes[a].tile];
   for (std::size_t tile = 0; tile < count.size(); ++tile)
@@ -97,11 +90,47 @@ RankPairs rank_pairs(const SeenGrains& seen, std::span<const Candidate> candidat
   for (std::size_t m = 0; m < mine.size(); ++m) {
     const std::int32_t a = mine[m], to = count[homes[a].tile]++;
     own.order[to] = static_cast<std::int32_t>(m);
-    Candidate& pair = own.pairs[to];
-    pair = candidates[a];
-    pair.i = own.in_used[pair.i];
-    if (pair.j >= 0) pair.j = own.in_used[pair.j];
+    own.pairs[to] = candidates[a];
   }
+}
+
+/// Lists the bodies that the pairs touch as they first do, so that those of a tile stand together, and then
+/// the rank's other grains.
+void number_bodies(const SeenGrains& seen, std::int32_t rank, RankPairs& own) {
+  own.in_used.assign(seen.owner.size(), -1);
+  const auto use = [&](std::int32_t b) {
+    if (own.in_used[b] < 0) {
+      own.in_used[b] = static_cast<std::int32_t>(own.used.size());
+      own.used.push_back(b);
+    }
+    return own.in_used[b];
+  };
+  for (Candidate& pair : own.pairs) {
+    pair.i = use(pair.i);
+    if (pair.j >= 0) pair.j = use(pair.j);
+  }
+  for (std::size_t b = 0; b < seen.owner.size(); ++b)
+    if (seen.owner[b] == rank) use(static_cast<std::int32_t>(b));
+}
+
+}  // namespace
+
+RankPairs rank_pairs(const SeenGrains& seen, std::span<const Candidate> candidates, const HomedPairs& homed,
+                     const TileMap& tiles, std::int32_t rank) {
+  RankPairs own;
+  const auto& [homes, mine] = homed;
+  const std::vector<char> uses = used_of_seen(seen, candidates, mine, rank);
+  auto touches = shared_touches(seen, candidates, homes, uses, tiles.grid, rank);
+  std::vector<char> at_border(seen.owner.size(), 0), border_tile(tiles.owner.size(), 0);
+  for (const SharedTouch& touch : touches) at_border[touch.body] = 1;
+  for (const std::int32_t a : mine) {
+    const Candidate& pair = candidates[a];
+    if (at_border[pair.i] || (pair.j >= 0 && at_border[pair.j])) border_tile[homes[a].tile] = 1;
+  }
+  sort_into_tiles(candidates, homed, tiles, border_tile, own);
+  number_bodies(seen, rank, own);
+  for (SharedTouch& touch : touches) touch.body = own.in_used[touch.body];
+  own.halo = halo_plan(touches, rank);
   return own;
 }
 

@@ -38,7 +38,7 @@ struct HomedPairs {
 
 /// What a rank solves. Indices are places in `used`.
 struct RankPairs {
-  std::vector<std::int32_t> used;     ///< grains of SeenGrains that are its own or in its contacts
+  std::vector<std::int32_t> used;     ///< grains of SeenGrains: as its contacts first touch them, its others
   std::vector<std::int32_t> in_used;  ///< of each seen grain; -1: not used
   std::vector<Candidate> pairs;       ///< its contacts: by colour, border tiles first, tile, (i, j)
   std::vector<std::int32_t> order;    ///< place of each of them in HomedPairs::mine

@@ -181,7 +181,7 @@ void TileBlocks<T, dim, spin>::let_rest(std::size_t tile, bool rest) {
 }
 
 template <class T, int dim, bool spin>
-double TileBlocks<T, dim, spin>::residual(std::size_t tile) const {
+SeenResidual TileBlocks<T, dim, spin>::residual(std::size_t tile) const {
   return Kernels::residual(blocks_.data() + tiles_[tile].block, tiles_[tile + 1].block - tiles_[tile].block,
                            bodies_.data());
 }

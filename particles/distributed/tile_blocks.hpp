@@ -33,8 +33,10 @@ class TileBlocks {
   double sweep(std::size_t tile, T beta, bool accelerated);
   /// As StripProblem::let_rest().
   void let_rest(std::size_t tile, bool rest);
-  /// Sum of squares of the residuals as impulses and bodies stand.
-  double residual(std::size_t tile) const;
+  /// The residual as impulses and bodies stand.
+  SeenResidual residual(std::size_t tile) const;
+  /// Size of the impulse of a body as it stands.
+  double impulse(std::int32_t body) const { return impulse_of(bodies_[place_[body]]); }
   void keep(std::size_t tile);
 
   /// Takes other impulses, and lets the bodies rest: load() and start() have to follow.

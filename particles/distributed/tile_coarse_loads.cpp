@@ -2,7 +2,9 @@
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <type_traits>
 
 namespace drumlin::particles {
 namespace {
@@ -17,13 +19,33 @@ constexpr int parts = 16;
 class FixedPoint {
  public:
   FixedPoint(double bound, std::int64_t terms)
-      : unit_(std::ldexp(1, std::ilogb(bound) + 1 + std::ilogb(static_cast<double>(terms)) + 1 - 62)) {}
-  std::int64_t rounded(double term) const { return std::llrint(term / unit_); }
+      : unit_(std::ldexp(
+            1, std::ilogb(bound) + 1 + std::max(12, std::ilogb(static_cast<double>(terms)) + 1) - 62)),
+        units_(1 / unit_) {}
+  /// Rounded to the next integer: beside this one, which has no digits after the point, there are none
+  /// either.
+  std::int64_t rounded(double term) const {
+    constexpr double integers = 0x1.8p52;  // and all within 2^51 of it
+    return std::bit_cast<std::int64_t>(term * units_ + integers) - std::bit_cast<std::int64_t>(integers);
+  }
   double value(std::int64_t sum) const { return static_cast<double>(sum) * unit_; }
 
  private:
-  double unit_;  // a power of two
+  double unit_, units_;  // powers of two
 };
+
+/// The four entries of a move as one vector.
+template <class Move>
+auto vector_of(Move& move) {
+  using Entries = std::conditional_t<std::is_const_v<Move>, const Eigen::Array4f, Eigen::Array4f>;
+  return Eigen::Map<Entries, Eigen::Aligned16>(move.entries.data());
+}
+
+/// m v . v' + J omega omega', with J = m r^2 / 2 and s = r omega.
+template <class Move>
+double energy(const Move& v, const Move& w, double mass) {
+  return mass * static_cast<double>((vector_of(v) * Eigen::Array4f(1, 1, 0.5F, 0) * vector_of(w)).sum());
+}
 
 }  // namespace
 
@@ -114,18 +136,17 @@ void TileCoarseLoads<Problem>::push(const Problem& problem, std::int32_t a, std:
   if constexpr (dim == 2) r_t = r[2 * a + 1];
   const Place& at = places_[W.i[a]];
   const auto weights = at.weights();
-  const double p_x = W.n_x[a] * r_n + W.n_z[a] * r_t, p_z = W.n_z[a] * r_n - W.n_x[a] * r_t;
-  const auto move = [&](std::int32_t b, double sign) {
+  const auto p_x = static_cast<float>(W.n_x[a] * r_n + W.n_z[a] * r_t),
+             p_z = static_cast<float>(W.n_z[a] * r_n - W.n_x[a] * r_t), p_t = static_cast<float>(r_t);
+  const Eigen::Array4f shares = Eigen::Array4d::Map(weights.data()).template cast<float>();
+  const auto move = [&](std::int32_t b, float sign) {
     const Place& own = places_[b];
+    const auto mass = static_cast<float>(W.inverse_mass[b]);
+    const Eigen::Array4f change{sign * mass * p_x, sign * mass * p_z, spin ? -2 * mass * p_t : 0, 0};
     // Of the lower left node around the contact.
-    const int first = 3 * (at.row - own.next_row + 1) + at.column - own.next_column + 1;
-    for (const int k : {0, 1, 2, 3}) {
-      const double weight = weights[k] * W.inverse_mass[b];
-      auto& of_node = moves_[b][first + k % 2 + 3 * (k / 2)];
-      of_node[0] += static_cast<float>(sign * weight * p_x);
-      of_node[1] += static_cast<float>(sign * weight * p_z);
-      if constexpr (spin) of_node[2] += static_cast<float>(-2 * weight * r_t);
-    }
+    Move* const first = &moves_[b][3 * (at.row - own.next_row + 1) + at.column - own.next_column + 1];
+    vector_of(first[0]) += shares[0] * change, vector_of(first[1]) += shares[1] * change;
+    vector_of(first[3]) += shares[2] * change, vector_of(first[4]) += shares[3] * change;
   };
   move(W.i[a], 1);
   if (W.j[a] != W.fixed()) move(W.j[a], -1);
@@ -144,67 +165,81 @@ void TileCoarseLoads<Problem>::move_bodies(const Problem& problem, const TiledCo
       [&](int colour) {
         for (int k = 0; k < 9; ++k) {
           halo.start(colour, [&](std::int32_t b) {
-            const auto& move = moves_[b][k];
-            return Move{move[0], move[1], move[2]};
+            const auto& move = moves_[b][k].entries;
+            return std::array<double, Halo::numbers>{move[0], move[1], move[2]};
           });
-          halo.finish(colour, [&](std::int32_t b, const Move& move) {
-            for (std::size_t c = 0; c < move.size(); ++c) moves_[b][k][c] = static_cast<float>(move[c]);
+          halo.finish(colour, [&](std::int32_t b, const auto& numbers) {
+            for (std::size_t c = 0; c < numbers.size(); ++c)
+              moves_[b][k].entries[c] = static_cast<float>(numbers[c]);
           });
         }
       });
 }
 
 template <class Problem>
-std::vector<double> TileCoarseLoads<Problem>::add_up(const Problem& problem, const TiledContacts& contacts,
-                                                     std::span<const double> u,
-                                                     std::span<const double> r) const {
-  const auto& W = problem.W;
-  const auto energy = [](const auto& v, const auto& w) {  // m v . v' + J omega omega', per mass
-    return static_cast<double>(v[0]) * w[0] + static_cast<double>(v[1]) * w[1] +
-           static_cast<double>(v[2]) * w[2] / 2;
-  };
+std::array<double, 2> TileCoarseLoads<Problem>::find_bounds(const Problem& problem,
+                                                            const TiledContacts& contacts,
+                                                            std::span<const double> u,
+                                                            std::span<const double> r) {
   std::array<double, 2> bounds{0, 0};
-  for (int a = 0; a < problem.contacts(); ++a)
-    if (r[dim * a] > 0) bounds[0] = std::max(bounds[0], std::abs(power(problem, a, u, r)));
-  for (std::size_t b = 0; b < moves_.size(); ++b)
-    for (const auto& move : moves_[b])
-      if (contacts.counts_here[b]) bounds[1] = std::max(bounds[1], energy(move, move) / W.inverse_mass[b]);
+  power_.assign(problem.contacts(), 0.0);
+  for (int a = 0; a < problem.contacts(); ++a) {
+    if (!(r[dim * a] > 0)) continue;
+    power_[a] = power(problem, a, u, r);
+    bounds[0] = std::max(bounds[0], std::abs(power_[a]));
+  }
+  for (std::size_t b = 0; b < moves_.size(); ++b) {
+    if (!contacts.counts_here[b]) continue;
+    const double mass = 1 / problem.W.inverse_mass[b];
+    for (const Move& move : moves_[b]) bounds[1] = std::max(bounds[1], energy(move, move, mass));
+  }
   ranks_.largest(bounds);
+  return bounds;
+}
+
+template <class Problem>
+std::vector<double> TileCoarseLoads<Problem>::add_up(const Problem& problem, const TiledContacts& contacts,
+                                                     std::span<const double> u, std::span<const double> r) {
+  const auto& W = problem.W;
+  const std::array<double, 2> bounds = find_bounds(problem, contacts, u, r);
   if (!(bounds[0] > 0 && bounds[1] > 0 && bounds[0] < 1e100 && bounds[1] < 1e100)) return {};
   const FixedPoint powers(bounds[0], terms_), energies(bounds[1], 4 * terms_);
   constexpr int numbers = entries_of_node + 1;
   const std::size_t length = static_cast<std::size_t>(numbers) * grid_.nodes();
   std::array<std::vector<std::int64_t>, parts> sums;
   const auto share = [](std::size_t count, int part) { return count * part / parts; };
+  const auto add_contact = [&](std::size_t a, std::vector<std::int64_t>& sum) {
+    if (power_[a] == 0) return;
+    const Place& at = places_[W.i[a]];
+    const auto weights = at.weights();
+    for (const int k : {0, 1, 2, 3})
+      sum[numbers * grid_.index(at.column + k % 2, at.row + k / 2) + entries_of_node] +=
+          powers.rounded(weights[k] * power_[a]);
+  };
+  const auto add_body = [&](std::size_t b, std::vector<std::int64_t>& sum) {
+    const Place& at = places_[b];
+    const Moves& moves = moves_[b];
+    const double mass = 1 / W.inverse_mass[b];
+    std::array<int, 9> moved{};
+    int count = 0;
+    for (int k = 0; k < 9; ++k)
+      if ((vector_of(moves[k]) != 0).any()) moved[count++] = k;
+    for (int m = 0; m < count; ++m) {
+      const int k = moved[m];
+      const std::size_t row = numbers * grid_.index(at.next_column + k % 3 - 1, at.next_row + k / 3 - 1);
+      for (int n = m; n < count; ++n) {
+        const int l = moved[n];
+        sum[row + 5 * (l / 3 - k / 3) + l % 3 - k % 3] += energies.rounded(energy(moves[k], moves[l], mass));
+      }
+    }
+  };
   loops_.each_of(parts, [&](int part) {
     auto& sum = sums[part];
     sum.assign(length, 0);
     const std::size_t all = problem.contacts();
-    for (auto a = static_cast<std::int32_t>(share(all, part));
-         a < static_cast<std::int32_t>(share(all, part + 1)); ++a) {
-      if (!(r[dim * a] > 0)) continue;
-      const Place& at = places_[W.i[a]];
-      const auto weights = at.weights();
-      const double g = power(problem, a, u, r);
-      for (const int k : {0, 1, 2, 3})
-        sum[numbers * grid_.index(at.column + k % 2, at.row + k / 2) + entries_of_node] +=
-            powers.rounded(weights[k] * g);
-    }
-    for (std::size_t b = share(moves_.size(), part); b < share(moves_.size(), part + 1); ++b) {
-      if (!contacts.counts_here[b]) continue;
-      const Place& at = places_[b];
-      const double mass = 1 / W.inverse_mass[b];
-      for (int k = 0; k < 9; ++k) {
-        const auto& v = moves_[b][k];
-        if (v == typename Moves::value_type{}) continue;
-        const std::size_t row = numbers * grid_.index(at.next_column + k % 3 - 1, at.next_row + k / 3 - 1);
-        for (int l = k; l < 9; ++l) {
-          const auto& w = moves_[b][l];
-          if (w == typename Moves::value_type{}) continue;
-          sum[row + 5 * (l / 3 - k / 3) + l % 3 - k % 3] += energies.rounded(mass * energy(v, w));
-        }
-      }
-    }
+    for (std::size_t a = share(all, part); a < share(all, part + 1); ++a) add_contact(a, sum);
+    for (std::size_t b = share(moves_.size(), part); b < share(moves_.size(), part + 1); ++b)
+      if (contacts.counts_here[b]) add_body(b, sum);
   });
   for (int part = 1; part < parts; ++part)
     for (std::size_t k = 0; k < length; ++k) sums[0][k] += sums[part][k];

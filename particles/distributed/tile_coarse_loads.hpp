@@ -41,7 +41,7 @@ class TileCoarseLoads {
              std::vector<double>& r);
 
   /// Gives back the memory of what lay_out() has made.
-  void release() { places_ = {}, moves_ = {}; }
+  void release() { places_ = {}, moves_ = {}, power_ = {}; }
 
  private:
   static constexpr int dim = Problem::dim;
@@ -55,20 +55,25 @@ class TileCoarseLoads {
       return {(1 - right) * (1 - up), right * (1 - up), (1 - right) * up, right * up};
     }
   };
-  /// What the impulses, weighted by the hat of a node, do to the velocities of a body.
-  using Move = std::array<double, Halo::numbers>;
+  /// What the impulses, weighted by the hat of a node, do to the velocities of a body: x, z, s, and 0.
+  struct alignas(16) Move {
+    std::array<float, 4> entries{};
+  };
   /// Of the node next to the body and the eight around that.
-  using Moves = std::array<std::array<float, Halo::numbers>, 9>;
+  using Moves = std::array<Move, 9>;
 
   Place place_at(double x, double z) const;
   /// Power that contact a has and should not.
   static double power(const Problem&, std::int32_t a, std::span<const double> u, std::span<const double> r);
   void move_bodies(const Problem&, const TiledContacts&, Halo&, std::span<const double> r);
   void push(const Problem&, std::int32_t a, std::span<const double> r);
+  /// Bounds on the powers of the contacts, which it sets, and on the energies of the moves, on all ranks.
+  std::array<double, 2> find_bounds(const Problem&, const TiledContacts&, std::span<const double> u,
+                                    std::span<const double> r);
   /// Sums over contacts and bodies, of all ranks: of each node its entries of the matrix, then its right
   /// side.
   std::vector<double> add_up(const Problem&, const TiledContacts&, std::span<const double> u,
-                             std::span<const double> r) const;
+                             std::span<const double> r);
 
   Ranks ranks_;
   TeamLoops loops_;
@@ -76,6 +81,7 @@ class TileCoarseLoads {
   std::int64_t terms_ = 1;  // bound on the number of terms of a sum
   std::vector<Place> places_;
   std::vector<Moves> moves_;
+  std::vector<double> power_;  // of each contact with an impulse
 };
 
 }  // namespace drumlin::particles

@@ -52,6 +52,35 @@ double TileSolver<Problem>::total_of_tiles() {
   return sum.value();
 }
 
+template <class Problem>
+SeenResidual TileSolver<Problem>::seen_of_tiles() {
+  std::array<ExactSum, 2> sums;
+  for (const SeenResidual& of_tile : seen_) sums[0].add(of_tile.squares), sums[1].add(of_tile.let_through);
+  std::vector<std::int64_t> numbers;
+  for (auto& sum : sums) numbers.insert(numbers.end(), sum.numbers().begin(), sum.numbers().end());
+  ranks_.add(numbers);
+  for (std::size_t k = 0; k < sums.size(); ++k)
+    std::copy_n(numbers.begin() + k * ExactSum::size(), ExactSum::size(), sums[k].numbers().begin());
+  std::array<double, 1> closing{0};
+  for (const SeenResidual& of_tile : seen_) closing[0] = std::max(closing[0], -of_tile.lowest_u_n);
+  ranks_.largest(closing);
+  return {sums[0].value(), sums[1].value(), -closing[0]};
+}
+
+template <class Problem>
+template <class T>
+bool TileSolver<Problem>::surely_misses(const SeenResidual& seen, double time_step,
+                                        const TiledContacts& contacts, const Blocks<T>& blocks,
+                                        const StoppingRule& rule) {
+  if (closes_too_far(seen, time_step, rule)) return true;
+  if (!std::isfinite(rule.sinking)) return false;
+  ExactSum impulses;
+  for (std::size_t b = 0; b < contacts.counts_here.size(); ++b)
+    if (contacts.counts_here[b]) impulses.add(blocks.impulse(static_cast<std::int32_t>(b)));
+  ranks_.add(impulses.numbers());
+  return sinks_too_fast(seen, impulses.value(), time_step, rule);
+}
+
 /// What turns the summed squares of the residuals into the square of the relative one.
 template <class Problem>
 double TileSolver<Problem>::scale_of(const Problem& problem, const TiledContacts& contacts) {
@@ -193,8 +222,9 @@ SolveReport TileSolver<Problem>::sweep_until_done(const Problem& problem, const 
       continue;
     }
     unseen = 0;
-    loops_.each_of(tiles, [&](int t) { of_tile_[t] = blocks.residual(t); });
-    const double seen = std::sqrt(total_of_tiles() * scale);
+    loops_.each_of(tiles, [&](int t) { seen_[t] = blocks.residual(t); });
+    const SeenResidual sums = seen_of_tiles();
+    const double seen = std::sqrt(sums.squares * scale);
     const double fall = hope * rule.tolerance / seen;  // residuals fall about as steps do
     worth = steps * fall * fall;
     if (seen < 0.9 * least) least = seen, progress_at = sweeps;
@@ -204,7 +234,9 @@ SolveReport TileSolver<Problem>::sweep_until_done(const Problem& problem, const 
       best = seen;
       loops_.each_of(tiles, [&](int t) { blocks.keep(t); });
     }
-    if (!last && !stuck && seen > rule.tolerance) continue;
+    if (!last && !stuck &&
+        (seen > rule.tolerance || surely_misses(sums, problem.time_step, contacts, blocks, rule)))
+      continue;
     blocks.unpack(problem, false, r, loops_);
     const bool ended = test.ends(sweeps, residual(problem, contacts, halo, solution), finite);
     const bool hidden = single && test.report().residual.rms > 3 * seen;
@@ -224,6 +256,7 @@ SolveReport TileSolver<Problem>::solve(const Problem& problem, const TiledContac
   constexpr double single_precision_reaches = 1e-4;
   solution.impulses.resize(problem.q.size());
   of_tile_.assign(contacts.tiles.size(), 0.0);
+  seen_.assign(contacts.tiles.size(), {});
   std::array<std::int64_t, 1> count{problem.contacts()};
   ranks_.add(count);
   if (count[0] == 0) {

@@ -71,6 +71,12 @@ class TileSolver {
                                Solution<Problem>&);
   /// The sum over all ranks of one number per tile; all ranks call it together.
   double total_of_tiles();
+  /// The same of what it has seen of tiles.
+  SeenResidual seen_of_tiles();
+  /// Whether the solve misses the rule, and not by rounding, although the residual seems to be small enough.
+  template <class T>
+  bool surely_misses(const SeenResidual&, double time_step, const TiledContacts&, const Blocks<T>&,
+                     const StoppingRule&);
   double scale_of(const Problem&, const TiledContacts&);
 
   Ranks ranks_;
@@ -80,6 +86,7 @@ class TileSolver {
   TileCoarseLoads<Problem> coarse_;
   std::int64_t least_corrected_, corrections_ = 0;
   std::vector<double> of_tile_, best_;
+  std::vector<SeenResidual> seen_;  // of each tile
 };
 
 }  // namespace drumlin::particles

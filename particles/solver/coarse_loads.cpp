@@ -22,6 +22,13 @@ struct Longest {
   void add(const Longest& other) { distance = std::max(distance, other.distance); }
 };
 
+/// The four entries of a Move as one vector.
+auto vector_of(auto& move) {
+  using Entries = std::conditional_t<std::is_const_v<std::remove_reference_t<decltype(move)>>,
+                                     const Eigen::Array4f, Eigen::Array4f>;
+  return Eigen::Map<Entries, Eigen::Aligned16>(move.entries.data());
+}
+
 double longest_contact(const CoarseProblem& problem, const BodyPlaces& places, const TeamLoops& loops) {
   const auto fixed = static_cast<std::int32_t>(problem.inverse_mass.size()) - 1;
   return loops
@@ -83,24 +90,19 @@ void CoarseLoads::lay_out(const CoarseProblem& problem, const BodyPlaces& places
   });
 }
 
-/// The contacts of a slice: slices of the same parity share no body.
+/// The contacts of a slice.
 void CoarseLoads::add_contacts(const CoarseProblem& problem, std::span<const double> u,
                                std::span<const double> r, int slice, std::vector<double>& work) {
   const SweepPlan& plan = problem.plan;
   const auto fixed = static_cast<std::int32_t>(problem.inverse_mass.size()) - 1;
-  const auto move = [&](std::int32_t rank, const Place& at, const std::array<double, 4>& weights, double p_x,
-                        double p_z, double p_s) {
+  const auto move = [&](std::int32_t rank, const Place& at, const Eigen::Array4f& weights,
+                        const Eigen::Array4f& push) {
     const Place& own = places_[rank];
-    Moves& moves = moves_[rank];
+    const Eigen::Array4f change = static_cast<float>(own.inverse_mass) * push;
     // Of the lower left node around the contact.
-    const int first = 3 * (at.row - own.next_row + 1) + at.column - own.next_column + 1;
-    for (const int k : {0, 1, 2, 3}) {
-      const double weight = weights[k] * own.inverse_mass;
-      Move& of_node = moves[first + k % 2 + 3 * (k / 2)];
-      of_node.x += static_cast<float>(weight * p_x);
-      of_node.z += static_cast<float>(weight * p_z);
-      of_node.s += static_cast<float>(weight * p_s);
-    }
+    Move* const first = &moves_[rank][3 * (at.row - own.next_row + 1) + at.column - own.next_column + 1];
+    vector_of(first[0]) += weights[0] * change, vector_of(first[1]) += weights[1] * change;
+    vector_of(first[3]) += weights[2] * change, vector_of(first[4]) += weights[3] * change;
   };
   const std::int32_t end = plan.group_start[plan.slice_start[slice + 1]];
   for (std::int32_t a = plan.group_start[plan.slice_start[slice]]; a < end; ++a) {
@@ -118,10 +120,12 @@ void CoarseLoads::add_contacts(const CoarseProblem& problem, std::span<const dou
     const Place& at = places_[i];
     const auto weights = at.weights();
     for (const int k : {0, 1, 2, 3}) work[grid_.index(at.column + k % 2, at.row + k / 2)] += weights[k] * g;
-    const double p_x = problem.n_x[a] * r_n + problem.n_z[a] * r_t;
-    const double p_z = problem.n_z[a] * r_n - problem.n_x[a] * r_t, p_s = problem.spin ? -2 * r_t : 0;
-    move(i, at, weights, p_x, p_z, p_s);
-    if (j < fixed) move(rank_[j], at, weights, -p_x, -p_z, p_s);
+    const auto p_x = static_cast<float>(problem.n_x[a] * r_n + problem.n_z[a] * r_t);
+    const auto p_z = static_cast<float>(problem.n_z[a] * r_n - problem.n_x[a] * r_t);
+    const auto p_s = static_cast<float>(problem.spin ? -2 * r_t : 0);
+    const Eigen::Array4f shares = Eigen::Array4d::Map(weights.data()).cast<float>();
+    move(i, at, shares, {p_x, p_z, p_s, 0});
+    if (j < fixed) move(rank_[j], at, shares, {-p_x, -p_z, p_s, 0});
   }
 }
 
@@ -136,20 +140,49 @@ void CoarseLoads::add_bodies(const CoarseProblem& problem, int strip, std::vecto
     std::array<int, 9> moved{};
     int count = 0;
     for (int k = 0; k < 9; ++k)
-      if (moves[k] != Move{}) moved[count++] = k;
+      if ((vector_of(moves[k]) != 0).any()) moved[count++] = k;
     for (int m = 0; m < count; ++m) {
       const int k = moved[m];
-      const Move& v = moves[k];
+      const Eigen::Array4f v = vector_of(moves[k]) * Eigen::Array4f(1, 1, 0.5F, 0);
       Row& row = rows[grid_.index(at.next_column + k % 3 - 1, at.next_row + k / 3 - 1)];
       for (int n = m; n < count; ++n) {
         const int l = moved[n];
-        const Move& w = moves[l];
         row[5 * (l / 3 - k / 3) + l % 3 - k % 3] +=
-            mass * (static_cast<double>(v.x) * w.x + static_cast<double>(v.z) * w.z +
-                    static_cast<double>(v.s) * w.s / 2);
+            mass * static_cast<double>((v * vector_of(moves[l])).sum());
       }
     }
   }
+}
+
+/// Strip by strip, as long as what a strip moves is in the caches. The second slice of a part's last strip
+/// touches the first one of the next part, and waits until the parts are done.
+void CoarseLoads::add_up(const CoarseProblem& problem, std::span<const double> u, std::span<const double> r,
+                         const TeamLoops& loops) {
+  const int strips = problem.plan.strips();
+  const auto rest = [&](int strip) {
+    const auto& first = problem.plan.strip_bodies;
+    std::fill(moves_.begin() + first[strip], moves_.begin() + first[strip + 1], Moves{});
+  };
+  const auto first_of = [&](int part) { return strips * part / parts; };
+  loops.each_of(parts, [&](int part) {
+    const int begin = first_of(part), end = first_of(part + 1);
+    if (begin < end) rest(begin);
+    for (int k = begin; k < end; ++k) {
+      add_contacts(problem, u, r, 2 * k, work_[part]);
+      if (k + 1 == end) break;
+      rest(k + 1);
+      add_contacts(problem, u, r, 2 * k + 1, work_[part]);
+      if (k > begin) add_bodies(problem, k, rows_[part]);
+    }
+  });
+  for (int part = 0; part < parts; ++part)
+    if (const int last = first_of(part + 1) - 1; last >= first_of(part))
+      add_contacts(problem, u, r, 2 * last + 1, work_[part]);
+  loops.each_of(parts, [&](int part) {
+    const int begin = first_of(part), last = first_of(part + 1) - 1;
+    if (last >= begin) add_bodies(problem, begin, rows_[part]);
+    if (last > begin) add_bodies(problem, last, rows_[part]);
+  });
 }
 
 /// Solves for the field; false where the matrix or the result is no good.
@@ -187,21 +220,9 @@ bool CoarseLoads::solve() {
 
 void CoarseLoads::scale(const CoarseProblem& problem, std::span<const double> u, std::vector<double>& r,
                         const TeamLoops& loops) {
-  const int strips = problem.plan.strips();
   for (auto& work : work_) work.assign(grid_.nodes(), 0.0);
   for (auto& rows : rows_) rows.assign(grid_.nodes(), Row{});
-  const auto each_strip = [&](auto visit) {
-    loops.each_of(parts, [&](int part) {
-      for (int k = strips * part / parts; k < strips * (part + 1) / parts; ++k) visit(k, part);
-    });
-  };
-  each_strip([&](int k, int) {
-    for (std::int32_t rank = problem.plan.strip_bodies[k]; rank < problem.plan.strip_bodies[k + 1]; ++rank)
-      moves_[rank] = {};
-  });
-  for (const int parity : {0, 1})
-    each_strip([&](int k, int part) { add_contacts(problem, u, r, 2 * k + parity, work_[part]); });
-  each_strip([&](int k, int part) { add_bodies(problem, k, rows_[part]); });
+  add_up(problem, u, r, loops);
   if (!solve()) return;
   loops.each(problem.i.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t a = begin; a < end; ++a) {

@@ -66,9 +66,9 @@ class CoarseLoads {
       return {(1 - right) * (1 - up), right * (1 - up), (1 - right) * up, right * up};
     }
   };
-  struct Move {
-    float x = 0, z = 0, s = 0;
-    bool operator==(const Move&) const = default;
+  /// A change of velocity: x, z, s, and 0.
+  struct alignas(16) Move {
+    std::array<float, 4> entries;
   };
   /// What the impulses, weighted by the hats of the nodes around a body, do to its velocities: of the node
   /// next to it and the eight around that.
@@ -81,6 +81,8 @@ class CoarseLoads {
   Place place_at(double x, double z) const;
   void add_contacts(const CoarseProblem&, std::span<const double> u, std::span<const double> r, int slice,
                     std::vector<double>& work);
+  /// The sums of work_ and rows_.
+  void add_up(const CoarseProblem&, std::span<const double> u, std::span<const double> r, const TeamLoops&);
   void add_bodies(const CoarseProblem&, int strip, std::vector<Row>& rows) const;
   bool solve();
 

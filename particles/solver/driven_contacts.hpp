@@ -86,15 +86,17 @@ double sweep(std::span<DrivenContact<dim>> contacts, BodyRecord<T>* bodies, T be
   return squares;
 }
 
-/// The sum of their squared residuals e_a.
+/// Their residual as they stand.
 template <bool spin, class T, int dim>
-double residual(std::span<const DrivenContact<dim>> contacts, const BodyRecord<T>* bodies) {
-  double squares = 0;
+SeenResidual residual(std::span<const DrivenContact<dim>> contacts, const BodyRecord<T>* bodies) {
+  SeenResidual seen;
   for (const auto& c : contacts) {
     const auto u = velocity<spin>(c, bodies);
-    squares += squared_error<dim>(c.largest_eigenvalue, c.mu.data(), c.r.data(), u.data());
+    seen.squares += squared_error<dim>(c.largest_eigenvalue, c.mu.data(), c.r.data(), u.data());
+    seen.let_through += c.r[0] * std::max(0.0, -u[0]);
+    seen.lowest_u_n = std::min(seen.lowest_u_n, u[0]);
   }
-  return squares;
+  return seen;
 }
 
 }  // namespace drumlin::particles

@@ -190,7 +190,7 @@ void StripProblem<T, dim, spin>::pack(const Problem& problem, const SweepPlan& p
   const int strip_count = plan.strips();
   strips_.assign(strip_count, Strip{});
   for (auto& squares : step_squares_) squares.assign(2 * static_cast<std::size_t>(strip_count) + 1, 0.0);
-  residual_squares_.assign(strip_count, 0.0);
+  seen_.assign(strip_count, {});
   pack_bodies(problem, plan);
   lay_out(problem, plan, order, r);
   const auto pack_one = [&](int strip) { pack_strip(problem, plan, order, r, strip); };
@@ -311,14 +311,23 @@ void StripProblem<T, dim, spin>::sweep_driven(int parity, T beta, bool accelerat
 template <class T, int dim, bool spin>
 void StripProblem<T, dim, spin>::look_at(int strip) {
   const Strip& l = strips_[strip];
-  residual_squares_[strip] =
-      Kernels::residual(blocks_.data() + l.block[0], l.block[2] - l.block[0], bodies_.data());
+  seen_[strip] = Kernels::residual(blocks_.data() + l.block[0], l.block[2] - l.block[0], bodies_.data());
 }
 
 template <class T, int dim, bool spin>
-double StripProblem<T, dim, spin>::residual_squares() {
-  const double own = residual<spin>(std::span<const DrivenContact<dim>>(driven_), bodies_.data());
-  return std::accumulate(residual_squares_.begin(), residual_squares_.end(), own);
+SeenResidual StripProblem<T, dim, spin>::seen_residual() const {
+  SeenResidual all = residual<spin>(std::span<const DrivenContact<dim>>(driven_), bodies_.data());
+  for (const SeenResidual& of_strip : seen_) all.add(of_strip);
+  return all;
+}
+
+template <class T, int dim, bool spin>
+double StripProblem<T, dim, spin>::summed_impulses(TeamLoops& loops) const {
+  return loops.sum(bodies_.size(), [&](std::size_t begin, std::size_t end) {
+    double sum = 0;
+    for (std::size_t b = begin; b < end; ++b) sum += impulse_of(bodies_[b]);
+    return sum;
+  });
 }
 
 template <class T, int dim, bool spin>

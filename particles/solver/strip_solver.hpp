@@ -63,9 +63,11 @@ class StripProblem {
   void start_driven();
   void sweep_driven(int parity, T beta, bool accelerated);
 
-  /// Residuals of the contacts of a strip, and their sum of squares over all strips and driven walls.
+  /// Looks at the residuals of the contacts of a strip; what it saw of all strips, and of driven walls.
   void look_at(int strip);
-  double residual_squares();
+  SeenResidual seen_residual() const;
+  /// Sum of the impulses of the bodies as they stand.
+  double summed_impulses(TeamLoops& loops) const;
   /// Keeps the impulses of a strip, and those of driven walls.
   void keep(int strip);
   void keep_driven();
@@ -99,10 +101,10 @@ class StripProblem {
   std::vector<BlockGroup> groups_;
   WorkArray<std::int32_t> contact_;  // of each place in the blocks; -1: filled up
   WorkArray<BodyRecord<T>> bodies_, before_;
-  WorkArray<std::int32_t> place_;         // of each body in bodies_
-  std::vector<double> step_squares_[2];   // of each slice, of even and odd sweeps
-  std::vector<double> residual_squares_;  // of each strip
-  WorkArray<Impulses> kept_;              // of each block
+  WorkArray<std::int32_t> place_;        // of each body in bodies_
+  std::vector<double> step_squares_[2];  // of each slice, of even and odd sweeps
+  std::vector<SeenResidual> seen_;       // of each strip
+  WorkArray<Impulses> kept_;             // of each block
   std::vector<DrivenContact<dim>> driven_;
   std::size_t driven_bodies_ = 0;  // first of them in bodies_
 };

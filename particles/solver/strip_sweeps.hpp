@@ -153,6 +153,8 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
   state.momentum = Momentum(rule.tolerance, static_cast<std::size_t>(problem.contacts()));
   state.worth = std::numeric_limits<double>::infinity();
   double least = std::numeric_limits<double>::infinity(), best = least;
+  // Driven walls take impulses too, which the records do not tell.
+  const bool limits_sinking = std::isfinite(rule.sinking) && !strips.has_driven();
   const bool coarse = accelerated && wants_coarse_loads(problem, work);
   int corrected_at = 0;
   bool fresh = false;  // `solution` is that of the strips
@@ -174,7 +176,8 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
     else
       sweep_share(strips, 0, 1, until, look, accelerated, state, [] {});
     if (!state.looked) continue;
-    const double seen = std::sqrt(strips.residual_squares() * residual_scale);
+    const SeenResidual sums = strips.seen_residual();
+    const double seen = std::sqrt(sums.squares * residual_scale);
     // Residuals fall about as steps do.
     const double fall = hope * rule.tolerance / seen;
     state.worth = state.steps * fall * fall;
@@ -183,7 +186,10 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
     const bool stuck = single && state.sweeps - progress_at >= patience;
     const bool last = state.sweeps >= rule.max_sweeps || !state.finite;
     if (seen < best) best = seen, state.keep = true, strips.keep_driven();
-    if (!last && !stuck && seen > rule.tolerance && !always) continue;
+    const bool far =
+        seen > rule.tolerance || closes_too_far(sums, problem.time_step, rule) ||
+        (limits_sinking && sinks_too_fast(sums, strips.summed_impulses(loops), problem.time_step, rule));
+    if (!last && !stuck && far && !always) continue;
     strips.unpack(problem, false, solution.impulses, loops);
     const bool ended = test.ends(state.sweeps, residual_of(problem, solution, loops), state.finite);
     fresh = true;

@@ -240,13 +240,15 @@ HWY_INLINE V inverse_eigenvalue(V lever, const BodyVectors<T>& I, const BodyVect
 }
 
 template <class T, int dim, bool spin>
-double residual(const ContactBlock<T, dim>* blocks, std::size_t count, const BodyRecord<T>* bodies) {
+SeenResidual residual(const ContactBlock<T, dim>* blocks, std::size_t count, const BodyRecord<T>* bodies) {
   const Lanes<T> d;
   using V = hn::Vec<Lanes<T>>;
   constexpr int width = ContactBlock<T, dim>::width;
-  [[maybe_unused]] const V zero = hn::Zero(d);
+  const V zero = hn::Zero(d);
   const V ratio = hn::Set(d, dim == 2 && spin ? T(1) / T(3) : T(1));  // W_nn / lambda_max
   HWY_ALIGN std::array<T, width> squares{};
+  HWY_ALIGN std::array<T, width> let_through{};
+  HWY_ALIGN std::array<T, width> lowest_u_n{};
   for (std::size_t b = 0; b < count; ++b) {
     const auto& block = blocks[b];
     for (std::size_t k = 0; k < width; k += hn::Lanes(d)) {
@@ -256,6 +258,9 @@ double residual(const ContactBlock<T, dim>* blocks, std::size_t count, const Bod
       const V dv_x = hn::Sub(I.x, J.x), dv_z = hn::Sub(I.z, J.z);
       const V r_n = hn::Load(d, &block.r[0][k]);
       V u_n = hn::Add(hn::Load(d, &block.q[0][k]), hn::Add(hn::Mul(n_x, dv_x), hn::Mul(n_z, dv_z)));
+      const V closing = hn::Min(zero, u_n);
+      hn::Store(hn::Sub(hn::Load(d, &let_through[k]), hn::Mul(r_n, closing)), d, &let_through[k]);
+      hn::Store(hn::Min(hn::Load(d, &lowest_u_n[k]), closing), d, &lowest_u_n[k]);
       V sum;
       if constexpr (dim == 1) {
         const V missed = hn::Sub(hn::Max(zero, hn::Sub(r_n, hn::Mul(rho, u_n))), r_n);
@@ -283,7 +288,7 @@ double residual(const ContactBlock<T, dim>* blocks, std::size_t count, const Bod
       hn::Store(hn::Add(hn::Load(d, &squares[k]), sum), d, &squares[k]);
     }
   }
-  return total(squares);
+  return {total(squares), total(let_through), *std::min_element(lowest_u_n.begin(), lowest_u_n.end())};
 }
 
 template <class T>
@@ -308,7 +313,7 @@ void go_on(BodyRecord<T>* bodies, BodyRecord<T>* before, std::size_t count, T be
     return fast ? sweep<T, dim, spin, true>(b, groups, v, beta)                                              \
                 : sweep<T, dim, spin, false>(b, groups, v, beta);                                            \
   }                                                                                                          \
-  double residual_##name(const ContactBlock<T, dim>* b, std::size_t n, const BodyRecord<T>* v) {             \
+  SeenResidual residual_##name(const ContactBlock<T, dim>* b, std::size_t n, const BodyRecord<T>* v) {       \
     return residual<T, dim, spin>(b, n, v);                                                                  \
   }
 DRUMLIN_KERNELS(double, double_smooth, 1, false)
@@ -351,8 +356,8 @@ HWY_EXPORT(go_on_float);
     return HWY_DYNAMIC_DISPATCH(sweep_##name)(blocks, groups, bodies, beta, accelerated);                 \
   }                                                                                                       \
   template <>                                                                                             \
-  double SweepKernels<T, dim, spin>::residual(const Block* blocks, std::size_t count,                     \
-                                              const BodyRecord<T>* bodies) {                              \
+  SeenResidual SweepKernels<T, dim, spin>::residual(const Block* blocks, std::size_t count,               \
+                                                    const BodyRecord<T>* bodies) {                        \
     return HWY_DYNAMIC_DISPATCH(residual_##name)(blocks, count, bodies);                                  \
   }                                                                                                       \
   template <>                                                                                             \

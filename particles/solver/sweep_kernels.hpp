@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <span>
 
+#include "particles/solver/seen_residual.hpp"
+
 namespace drumlin::particles {
 
 template <class T, int dim>
@@ -57,8 +59,8 @@ struct SweepKernels {
   /// of squares of the steps of the impulses.
   static double sweep(Block* blocks, std::span<const BlockGroup> groups, BodyRecord<T>* bodies, T beta,
                       bool accelerated);
-  /// The sum of squares of the residuals e_a (docs/conventions.md) of the blocks as they stand.
-  static double residual(const Block* blocks, std::size_t count, const BodyRecord<T>* bodies);
+  /// The residual of the blocks as they stand.
+  static SeenResidual residual(const Block* blocks, std::size_t count, const BodyRecord<T>* bodies);
   /// The same going on for bodies.
   static void go_on(BodyRecord<T>* bodies, BodyRecord<T>* before, std::size_t count, T beta);
 };
