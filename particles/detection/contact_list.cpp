@@ -236,14 +236,33 @@ bool ContactDetection::find_around(std::span<const ThrownGrain> thrown, const Bo
                                    std::span<const double> v_x, std::span<const double> v_z,
                                    const DetectionInput& input) {
   const GrainMotion motion = motion_of(bodies, v_x, v_z, input);
+  const double range = range_of(thrown, motion.speeds, input);
+  if (is_local(thrown, range + motion.largest)) return add_around(thrown, range, bodies, v_x, v_z, input);
+  added_.clear();
+  find(bodies, v_x, v_z, input);
+  return true;
+}
+
+bool ContactDetection::add_around(std::span<const ThrownGrain> thrown, const Bodies& bodies,
+                                  std::span<const double> v_x, std::span<const double> v_z,
+                                  const DetectionInput& input) {
+  added_.clear();
+  if (thrown.empty()) return false;
+  const double range = range_of(thrown, motion_of(bodies, v_x, v_z, input).speeds, input);
+  return add_around(thrown, range, bodies, v_x, v_z, input);
+}
+
+double ContactDetection::range_of(std::span<const ThrownGrain> thrown, double speeds,
+                                  const DetectionInput& input) {
   for (const ThrownGrain& t : thrown) jolt_[t.grain] = std::max(jolt_[t.grain], t.push);
   const double most_jolt = *std::max_element(jolt_.begin(), jolt_.end());
-  const double range = 2 * input.margin + 2 * input.time_step * motion.speeds + 1.5 * most_jolt;
+  return 2 * input.margin + 2 * input.time_step * speeds + 1.5 * most_jolt;
+}
+
+bool ContactDetection::add_around(std::span<const ThrownGrain> thrown, double range, const Bodies& bodies,
+                                  std::span<const double> v_x, std::span<const double> v_z,
+                                  const DetectionInput& input) {
   added_.clear();
-  if (!is_local(thrown, range + motion.largest)) {
-    find(bodies, v_x, v_z, input);
-    return true;
-  }
   found_.clear();
   weighed_.clear();
   for (const ThrownGrain& t : thrown) find_around(t, range, bodies, v_x, v_z, input);

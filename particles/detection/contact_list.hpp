@@ -54,6 +54,9 @@ class ContactDetection {
   /// most of them. Returns whether the candidates are others than before.
   bool find_around(std::span<const ThrownGrain> thrown, const Bodies& bodies, std::span<const double> v_x,
                    std::span<const double> v_z, const DetectionInput& input);
+  /// The same, but never anew at all grains.
+  bool add_around(std::span<const ThrownGrain> thrown, const Bodies& bodies, std::span<const double> v_x,
+                  std::span<const double> v_z, const DetectionInput& input);
   std::span<const Candidate> candidates() const { return {candidates_.data(), candidates_.size()}; }
   /// Places among the candidates, ascending, of the pairs that the last search around grains has added; empty
   /// where it had to begin anew.
@@ -75,6 +78,10 @@ class ContactDetection {
 
   /// Whether searches around the thrown grains alone, as far as `reach`, look at fewer grains than there are.
   bool is_local(std::span<const ThrownGrain> thrown, double reach) const;
+  /// How far pairs of thrown grains, which get their jolts, may be apart; `speeds` bounds relative ones.
+  double range_of(std::span<const ThrownGrain> thrown, double speeds, const DetectionInput& input);
+  bool add_around(std::span<const ThrownGrain> thrown, double range, const Bodies& bodies,
+                  std::span<const double> v_x, std::span<const double> v_z, const DetectionInput& input);
   void find_around(const ThrownGrain& thrown, double range, const Bodies& bodies, std::span<const double> v_x,
                    std::span<const double> v_z, const DetectionInput& input);
   bool insert_found();

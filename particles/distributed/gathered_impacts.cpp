@@ -25,14 +25,19 @@ void merge_runs(std::vector<Record>& records, std::size_t sorted, Less less) {
   }
 }
 
+StruckRecord record_of(const StruckGrain& grain, const Bodies& bodies) {
+  const std::int32_t b = grain.grain;
+  return {bodies.id[b], bodies.v_x[b], bodies.v_z[b], bodies.spin.empty() ? 0 : bodies.spin[b], grain.before};
+}
+
 }  // namespace
 
 std::vector<StruckRecord> GatheredImpacts::resolve(const RankImpacts& mine) {
   count_ = 0;
+  if (ranks_.count() == 1) return resolve_alone(mine);
   const bool close = looked_.any(mine.step, mine.loads, mine.contacts);
   if (!ranks_.any(close)) return {};
   ++counts_.times;
-  if (ranks_.count() == 1) return resolve_alone(mine);
   const std::size_t seen = mine.step.bodies.count();
   seed_.assign(seen, 0), wanted_.assign(seen, 0), sent_.assign(seen, 0);
   pair_sent_.assign(mine.contacts.pairs.size(), 0);
@@ -71,23 +76,18 @@ std::vector<StruckRecord> GatheredImpacts::resolve(const RankImpacts& mine) {
 
 /// On one rank nothing has to be sent.
 std::vector<StruckRecord> GatheredImpacts::resolve_alone(const RankImpacts& mine) {
-  Bodies bodies = mine.step.bodies;
-  StepContacts contacts;
-  contacts.pairs = mine.contacts.pairs;
-  const StepInput step{mine.step.laws, bodies, mine.step.walls, {}, mine.step.free, mine.step.time_step};
-  impacts_.resolve(step, mine.loads, bodies, contacts);
+  mine.contacts.strikes.clear();
+  impacts_.resolve(mine.step, mine.loads, mine.bodies, mine.contacts);
   count_ = impacts_.count();
-  const auto& id = bodies.id;
-  for (Strike strike : contacts.strikes) {
+  counts_.times += count_ > 0;
+  const auto& id = mine.bodies.id;
+  for (Strike strike : mine.contacts.strikes) {
     strike.i = static_cast<std::int32_t>(id[strike.i]);
     if (strike.j >= 0) strike.j = static_cast<std::int32_t>(id[strike.j]);
     strikes_.push_back(strike);
   }
   std::vector<StruckRecord> struck;
-  for (const StruckGrain& grain : impacts_.struck()) {
-    const std::int32_t b = grain.grain;
-    struck.push_back({id[b], bodies.v_x[b], bodies.v_z[b], step.laws.spin ? bodies.spin[b] : 0});
-  }
+  for (const StruckGrain& grain : impacts_.struck()) struck.push_back(record_of(grain, mine.bodies));
   return struck;
 }
 
@@ -181,6 +181,7 @@ void GatheredImpacts::resolve_gathered(const StepInput& step, bool all, std::vec
     bodies.v_x.push_back(body.v_x), bodies.v_z.push_back(body.v_z);
     bodies.radius.push_back(body.radius), bodies.inverse_mass.push_back(body.inverse_mass);
     if (step.laws.spin) bodies.spin.push_back(body.spin);
+    bodies.id.push_back(body.id);
     whole.push_back(all || std::binary_search(whole_.begin(), whole_.end(), body.id));
   }
   bodies.x.resize(bodies_.size()), bodies.z.resize(bodies_.size());  // impacts ask for no places
@@ -206,10 +207,7 @@ void GatheredImpacts::resolve_gathered(const StepInput& step, bool all, std::vec
     if (strike.j >= 0) strike.j = bodies_[strike.j].id;
     strikes_.push_back(strike);
   }
-  for (const StruckGrain& grain : impacts_.struck()) {
-    const std::int32_t b = grain.grain;
-    struck.push_back({bodies_[b].id, bodies.v_x[b], bodies.v_z[b], step.laws.spin ? bodies.spin[b] : 0});
-  }
+  for (const StruckGrain& grain : impacts_.struck()) struck.push_back(record_of(grain, bodies));
 }
 
 }  // namespace drumlin::particles

@@ -12,17 +12,19 @@
 
 namespace drumlin::particles {
 
-/// New velocities of a grain that impacts have struck.
+/// New velocities of a grain that impacts have struck, and what they were before.
 struct StruckRecord {
   std::int64_t id = 0;
   double v_x = 0, v_z = 0, spin = 0;
+  Point before;
 };
 
 /// The part of one rank in the impacts of a step.
 struct RankImpacts {
   const StepInput& step;  ///< its bodies are the grains that the rank sees, by ascending identity
   const RememberedLoads& loads;
-  const StepContacts& contacts;            ///< pairs of the rank's tiles, in the order of (i, j)
+  Bodies& bodies;                          ///< those of the step: one rank alone sets their velocities
+  StepContacts& contacts;                  ///< pairs of the rank's tiles, in the order of (i, j)
   std::span<const Candidate> candidates;   ///< all pairs of the grains that it sees
   std::span<const std::int32_t> place_of;  ///< of each identity among the bodies; -1: not seen
 };

@@ -84,6 +84,7 @@ void RankGrains::sort(RankState& state) { refuse(forest_->move(state.grains)); }
 
 void RankGrains::settle(RankState& state, const WallStep& walls, double time_step, Point gain) {
   const Need need = need_of(state, walls, time_step, gain);
+  reach_ = need.reach;
   const TileGrid grid = tile_grid(domain_.low, domain_.edge, need.reach);
   const bool anew = !forest_ || !(forest_->tiles().grid == grid) || unbalanced();
   ++steps_;
@@ -101,6 +102,7 @@ void RankGrains::settle(RankState& state, const WallStep& walls, double time_ste
 
 bool RankGrains::settle_again(RankState& state, const WallStep& walls, double time_step, Point gain) {
   const Need need = need_of(state, walls, time_step, gain);
+  reach_ = need.reach;
   const bool fits = least_cell(need.reach) <= forest_->tiles().grid.cell;
   if (fits && still_sorted(need)) return false;
   if (fits)

@@ -28,6 +28,9 @@ class RankGrains {
 
   SeenGrains& seen() { return seen_; }
   const TileMap& tiles() const { return forest_->tiles(); }
+  /// What the last call of settle() or settle_again() asked for: the same on all ranks, however often grains
+  /// were sorted.
+  const Reach& reach() const { return reach_; }
   std::size_t ghosts() const { return forest_->ghosts().size(); }
   std::int64_t forests() const { return forests_; }
   /// Steps in which grains were sorted into the cells.
@@ -70,6 +73,7 @@ class RankGrains {
   int unknowns_;  // per contact
   double margin_;
   std::unique_ptr<Forest> forest_;
+  Reach reach_;
   SeenGrains seen_;
   std::vector<Point> sorted_at_;                      // own grains
   std::vector<std::vector<std::int32_t>> shown_to_;   // by rank: own grains that it sees, in its order

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
+
+#include "particles/detection/open_gaps.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -52,16 +55,47 @@ Point middle_of(const Candidate& pair, const Bodies& bodies) {
   return {(bodies.x[pair.i] + bodies.x[pair.j]) / 2, (bodies.z[pair.i] + bodies.z[pair.j]) / 2};
 }
 
+namespace {
+
+Home home_of(const Candidate& pair, const SeenGrains& seen, const TileMap& tiles) {
+  const std::int32_t tile = tiles.grid.tile_at(middle_of(pair, seen.bodies));
+  return {tile, tiles.owner[tile]};
+}
+
+}  // namespace
+
 void find_homes(const SeenGrains& seen, std::span<const Candidate> candidates, const TileMap& tiles,
                 std::int32_t rank, HomedPairs& found) {
-  found.homes.resize(candidates.size());
-  found.mine.clear();
+  found.homes.resize(candidates.size()), found.mine.resize(candidates.size());
+  std::size_t own = 0;
   for (std::size_t a = 0; a < candidates.size(); ++a) {
-    Home& home = found.homes[a];
-    home.tile = tiles.grid.tile_at(middle_of(candidates[a], seen.bodies));
-    home.owner = tiles.owner[home.tile];
-    if (home.owner == rank) found.mine.push_back(static_cast<std::int32_t>(a));
+    found.homes[a] = home_of(candidates[a], seen, tiles);
+    found.mine[own] = static_cast<std::int32_t>(a);
+    own += found.homes[a].owner == rank;
   }
+  found.mine.resize(own);
+}
+
+std::vector<std::int32_t> find_homes_of_added(const SeenGrains& seen, std::span<const Candidate> candidates,
+                                              std::span<const std::int32_t> added, const TileMap& tiles,
+                                              std::int32_t rank, HomedPairs& found) {
+  open_gaps(found.homes, added.size(), [&](std::size_t k, std::size_t) { return added[k]; });
+  std::vector<std::int32_t> mine, of_added;
+  mine.reserve(found.mine.size() + added.size());
+  std::size_t next = 0;
+  const auto take = [&](std::int32_t a) {
+    found.homes[a] = home_of(candidates[a], seen, tiles);
+    if (found.homes[a].owner != rank) return;
+    of_added.push_back(static_cast<std::int32_t>(mine.size()));
+    mine.push_back(a);
+  };
+  for (const std::int32_t old : found.mine) {
+    while (next < added.size() && added[next] <= old + static_cast<std::int32_t>(next)) take(added[next++]);
+    mine.push_back(old + static_cast<std::int32_t>(next));
+  }
+  while (next < added.size()) take(added[next++]);
+  found.mine = std::move(mine);
+  return of_added;
 }
 
 namespace {

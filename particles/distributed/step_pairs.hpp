@@ -51,6 +51,11 @@ Point middle_of(const Candidate& pair, const Bodies& bodies);
 
 void find_homes(const SeenGrains& seen, std::span<const Candidate> candidates, const TileMap& tiles,
                 std::int32_t rank, HomedPairs& found);
+/// The same where candidates have come in since, at the places `added`, ascending. Returns the places in
+/// HomedPairs::mine of those that are the rank's.
+std::vector<std::int32_t> find_homes_of_added(const SeenGrains& seen, std::span<const Candidate> candidates,
+                                              std::span<const std::int32_t> added, const TileMap& tiles,
+                                              std::int32_t rank, HomedPairs& found);
 
 /// Takes the contacts of the rank's tiles from all candidates.
 RankPairs rank_pairs(const SeenGrains& seen, std::span<const Candidate> candidates, const HomedPairs& homed,

@@ -231,7 +231,7 @@ void Impacts::give_back(const StepInput& step, Bodies& bodies, StepContacts& con
       continue;
     }
     const std::int32_t b = body.body;
-    StruckGrain struck{b, change.x, change.z, 0};
+    StruckGrain struck{b, change.x, change.z, 0, before};
     bodies.v_x[b] = body.v_x, bodies.v_z[b] = body.v_z;
     if (body.spins) {
       const double spin = body.rim / bodies.radius[b];

@@ -21,10 +21,11 @@
 
 namespace drumlin::particles {
 
-/// A grain that impacts have struck: the changes of its velocities.
+/// A grain that impacts have struck: the changes of its velocities, and what they were before.
 struct StruckGrain {
   std::int32_t grain = 0;
   double v_x = 0, v_z = 0, spin = 0;
+  Point before;
 };
 
 /// Resolves the impacts of steps; keeps workspace only, and does nothing in a step without impacts.

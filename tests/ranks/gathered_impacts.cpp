@@ -74,7 +74,7 @@ TEST(GatheredImpacts, AreThoseOfOneProcessToTheLastBit) {
   GatheredImpacts gathered(ranks);
   const StepInput step{row.laws, seen, row.walls, {}, unused, time_step};
   const RememberedLoads loads(place, none, 1, 1);
-  const auto struck = gathered.resolve({step, loads, mine, candidates, place_of});
+  const auto struck = gathered.resolve({step, loads, seen, mine, candidates, place_of});
   ASSERT_EQ(struck.size(), impacts.struck().size());
   for (std::size_t k = 0; k < struck.size(); ++k) {
     const std::int32_t b = impacts.struck()[k].grain;
@@ -82,6 +82,8 @@ TEST(GatheredImpacts, AreThoseOfOneProcessToTheLastBit) {
     EXPECT_EQ(struck[k].v_x, bodies.v_x[b]);
     EXPECT_EQ(struck[k].v_z, bodies.v_z[b]);
     EXPECT_EQ(struck[k].spin, bodies.spin[b]);
+    EXPECT_EQ(struck[k].before.x, row.bodies.v_x[b]);
+    EXPECT_EQ(struck[k].before.z, row.bodies.v_z[b]);
   }
   EXPECT_EQ(gathered.count(), impacts.count());
   EXPECT_EQ(gathered.counts().times, 1);
@@ -108,15 +110,16 @@ TEST(GatheredImpacts, SendThePairsNearTheImpactsAlone) {
   const FreeMotion unused;
   StepContacts mine;
   if (ranks.rank() == 1) mine.pairs = row.pairs;  // all of them; others see nothing
-  const Bodies nothing;
+  Bodies nothing;
   std::vector<std::int32_t> place(row.pairs.size()), places(discs, -1);
   std::iota(place.begin(), place.end(), 0);
   if (ranks.rank() == 1) std::iota(places.begin(), places.end(), 0);
   const std::vector<double> none(row.pairs.size(), 0.0);
-  const StepInput step{row.laws, ranks.rank() == 1 ? row.bodies : nothing, row.walls, {}, unused, 1e-3};
+  Bodies& seen = ranks.rank() == 1 ? row.bodies : nothing;
+  const StepInput step{row.laws, seen, row.walls, {}, unused, 1e-3};
   GatheredImpacts gathered(ranks);
   const RememberedLoads loads(place, none, 1, 1);
-  const auto struck = gathered.resolve({step, loads, mine, mine.pairs, places});
+  const auto struck = gathered.resolve({step, loads, seen, mine, mine.pairs, places});
   EXPECT_EQ(struck.size(), 3U);
   if (ranks.rank() == 1) {
     EXPECT_GE(gathered.counts().pairs, 2);
