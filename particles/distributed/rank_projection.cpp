@@ -12,7 +12,7 @@ namespace drumlin::particles {
 Overlap RankOverlap::find(const MovedTiles& contacts, const Bodies& bodies, const WallStep& walls,
                           double margin, std::optional<LostGrain>& lost) {
   pairs_.clear(), tiles_.clear();
-  ExactSum sum;
+  std::array<ExactSum, 1> sum;
   std::array<double, 2> extremes{0, 0};  // deepest of the loaded pairs, and of all
   std::int64_t loaded_pairs = 0;
   const Period open;
@@ -30,19 +30,16 @@ Overlap RankOverlap::find(const MovedTiles& contacts, const Bodies& bodies, cons
       extremes[1] = std::max(extremes[1], depth);
       if (now.gap < margin) pairs_.push_back(now);
     }
-    sum.add(of_tile);
+    sum[0].add(of_tile);
     close.end = static_cast<std::int32_t>(pairs_.size());
     tiles_.push_back(close);
   }
-  std::vector<std::int64_t> numbers(sum.numbers().begin(), sum.numbers().end());
-  numbers.push_back(loaded_pairs);
-  ranks_.add(numbers);
+  loaded_pairs = ranks_.add(sum, loaded_pairs);
   ranks_.largest(extremes);
-  std::copy_n(numbers.begin(), ExactSum::size(), sum.numbers().begin());
   Overlap overlap;
-  overlap.loaded = static_cast<int>(numbers.back());
+  overlap.loaded = static_cast<int>(loaded_pairs);
   overlap.max = extremes[0];
-  if (overlap.loaded > 0) overlap.mean = sum.value() / overlap.loaded;
+  if (overlap.loaded > 0) overlap.mean = sum[0].value() / overlap.loaded;
   any_ = extremes[1] > 0;
   return overlap;
 }

@@ -5,11 +5,10 @@
 #include <cmath>
 #include <utility>
 
-#include "particles/detection/contact_list.hpp"
-#include "particles/distributed/gathered_impacts.hpp"
 #include "particles/distributed/processor_time.hpp"
 #include "particles/distributed/rank_grains.hpp"
 #include "particles/distributed/rank_projection.hpp"
+#include "particles/distributed/rank_search.hpp"
 #include "particles/solver/coarse_loads.hpp"
 #include "particles/stepping/assembly.hpp"
 #include "particles/stepping/snapshot_of_state.hpp"
@@ -35,21 +34,6 @@ class Stopwatch {
 // for it again takes less than a hundredth of the step.
 constexpr std::size_t many_contacts = 400'000;
 
-// Rounds of impacts within a step, which may throw grains into pairs that no search has found.
-constexpr int most_searches = 5;
-
-/// A grain that impacts have thrown, as ranks tell each other.
-struct ThrownRecord {
-  std::int64_t id = 0;
-  double push = 0;
-};
-
-/// A round of impacts: whom they struck, and which of these further than the search for pairs allowed for.
-struct Round {
-  std::vector<StruckRecord> struck;
-  std::vector<ThrownRecord> thrown;
-};
-
 /// A lost grain as ranks tell each other.
 struct LostRecord {
   std::int64_t id = 0;
@@ -69,12 +53,10 @@ class RankMoreauJean final : public RankStepper {
         ranks_(ranks),
         team_(solver.threads),
         grains_(ranks, domain, with_spin, dim, laws.detection_margin),
-        impacts_(ranks),
+        search_(laws_, ranks, domain.grains, dim, grains_, &team_),
         solver_(ranks, &team_, least_contacts_of_coarse_loads),
         overlaps_(ranks),
         projection_(ranks, &team_) {
-    detection_.use(&team_);
-    recollection_.use(&team_);
     if (laws.gravity) gravity_ = *laws.gravity;
     if (solver.name == "accelerated-double") method_ = TileMethod::accelerated_double;
     if (solver.name == "nlgs") method_ = TileMethod::nlgs;
@@ -86,17 +68,17 @@ class RankMoreauJean final : public RankStepper {
     const double begin = processor_seconds(), waited = waiting_seconds();
     const Point gain{time_step * gravity_.x, time_step * gravity_.z};
     grains_.settle(state, walls, time_step, gain);
-    detect(state, walls, time_step, gain, report);
-    own_ = rank_pairs(grains_.seen(), detection_.candidates(), homed_, grains_.tiles(), ranks_.rank());
+    report.impacts = search_.find(state, walls, time_step, gain);
+    own_ = rank_pairs(grains_.seen(), search_.candidates(), search_.homed(), grains_.tiles(), ranks_.rank());
     halo_.follow(own_.halo);
     take_used();
     report.detection_seconds = watch.lap();
     const StepInput step{laws_, bodies_, walls, {}, free_, time_step};
     contacts_.pairs = std::move(own_.pairs);
     const bool large = contacts_.pairs.size() > many_contacts;
-    if (large) mine_.pairs = {};
+    if (large) search_.release();
     sweep_normals(step, contacts_.pairs);
-    recollection_.warm_start(grains_.memory(), dim, time_step, own_.order, solution_.impulses);
+    search_.recollection().warm_start(grains_.memory(), dim, time_step, own_.order, solution_.impulses);
     assemble<Problem, with_spin>(step, contacts_, TeamLoops(&team_), problem_);
     report.setup_seconds = watch.lap();
     const TiledContacts tiled{own_.tiles, counts_here_, bodies_.x, bodies_.z};
@@ -131,7 +113,7 @@ class RankMoreauJean final : public RankStepper {
                         dim >= 2 ? r[dim * a + 1 % dim] : 0});
     }
     std::vector<SnapshotContact> all = ranks_.gather<SnapshotContact>(loaded);
-    for (const Strike& strike : impacts_.strikes())
+    for (const Strike& strike : search_.impacts().strikes())
       all.push_back({strike.i, strike.j, static_cast<float>(strike.n_x), static_cast<float>(strike.n_z),
                      strike.normal, strike.tangential});
     return one_for_each_pair(std::move(all));
@@ -142,183 +124,18 @@ class RankMoreauJean final : public RankStepper {
  private:
   double waiting_seconds() const { return halo_.waiting_seconds() + Ranks::waiting_seconds(); }
 
-  /// Velocities without contacts, of all grains that this rank sees.
-  void move_freely(double time_step) {
-    free_.x = grains_.seen().bodies.v_x;
-    free_.z = grains_.seen().bodies.v_z;
-    if (laws_.gravity) add_gravity(gravity_, time_step, free_);
-  }
-
-  void find(const WallStep& walls, double time_step) {
-    rounds_.clear();
-    searched_.x = free_.x, searched_.z = free_.z;
-    detection_.find(grains_.seen().bodies, free_.x, free_.z, detection_input(walls, time_step));
-    find_homes(grains_.seen(), detection_.candidates(), grains_.tiles(), ranks_.rank(), homed_);
-    take_mine();
-    recollection_.find(grains_.memory(), grains_.seen().bodies.count(), mine_.pairs);
-  }
-
-  DetectionInput detection_input(const WallStep& walls, double time_step) const {
-    return {walls.before, walls.displacement, time_step, laws_.detection_margin, {}};
-  }
-
-  /// The pairs of this rank in the order in which they are found.
-  void take_mine() {
-    mine_.pairs.resize(homed_.mine.size());
-    for (std::size_t m = 0; m < homed_.mine.size(); ++m)
-      mine_.pairs[m] = detection_.candidates()[homed_.mine[m]];
-  }
-
-  /// The pairs that may touch once the impacts of the step are over.
-  void detect(RankState& state, const WallStep& walls, double time_step, Point gain, StepReport& report) {
-    impacts_.clear();
-    move_freely(time_step);
-    find(walls, time_step);
-    if (!laws_.restitution) return;
-    std::vector<StruckRecord> struck;
-    for (int searches = 1;; ++searches) {
-      if (searches > 1 && !ranks_.any(strikes_again(struck, walls, time_step))) return;
-      struck = strike(walls, time_step);
-      report.impacts += impacts_.count();
-      if (impacts_.count() == 0) return;
-      set_velocities(struck);
-      take_over(struck, state);
-      move_freely(time_step);
-      if (searches == most_searches) return;
-      auto thrown = ranks_.gather_everywhere<ThrownRecord>(thrown_of(struck, time_step));
-      if (thrown.empty()) return;
-      rounds_.push_back({struck, std::move(thrown)});
-      const bool sorted = grains_.settle_again(state, walls, time_step, gain);
-      if (sorted) move_freely(time_step);
-      if (!is_local(rounds_.back().thrown))
-        find(walls, time_step);
-      else if (sorted)
-        find_as_before(walls, time_step);
-      else
-        find_around(rounds_.back(), walls, time_step);
-    }
-  }
-
-  /// Whether to look around the thrown grains alone: the same answer on all ranks.
-  bool is_local(std::span<const ThrownRecord> thrown) const {
-    const Reach& reach = grains_.reach();
-    double push = reach.approach;
-    for (const ThrownRecord& grain : thrown) push = std::max(push, grain.push);
-    const double range = 2 * reach.margin + reach.approach + 1.5 * push;
-    const double cells = 2 * (range + reach.largest) / reach.largest + 2;  // along x and z
-    return static_cast<double>(thrown.size()) * cells * cells < static_cast<double>(domain_.grains);
-  }
-
-  /// Adds the pairs that grains thrown in a round may meet now.
-  void find_around(const Round& round, const WallStep& walls, double time_step) {
-    thrown_.clear();
-    for (const ThrownRecord& grain : round.thrown) {
-      const std::int32_t b = grains_.place_of(grain.id);
-      if (b < 0) continue;
-      thrown_.push_back({b, grain.push});
-      searched_.x[b] = free_.x[b], searched_.z[b] = free_.z[b];
-    }
-    const SeenGrains& seen = grains_.seen();
-    const bool more =
-        detection_.add_around(thrown_, seen.bodies, free_.x, free_.z, detection_input(walls, time_step));
-    std::vector<std::int32_t> added;
-    if (more)
-      added = find_homes_of_added(seen, detection_.candidates(), detection_.added(), grains_.tiles(),
-                                  ranks_.rank(), homed_);
-    take_mine();
-    if (!added.empty()) recollection_.find_added(mine_.pairs, added);
-  }
-
-  /// The same search, and those before it in this step, for the grains that the rank sees now that they have
-  /// been sorted: when that happens must not decide which pairs are found.
-  void find_as_before(const WallStep& walls, double time_step) {
-    const std::vector<Round> rounds = rounds_;
-    Bodies& bodies = grains_.seen().bodies;
-    for (auto round = rounds.rbegin(); round != rounds.rend(); ++round)
-      for (const StruckRecord& grain : round->struck)
-        if (const std::int32_t b = grains_.place_of(grain.id); b >= 0)
-          bodies.v_x[b] = grain.before.x, bodies.v_z[b] = grain.before.z;
-    move_freely(time_step);
-    find(walls, time_step);
-    for (const Round& round : rounds) {
-      set_velocities(round.struck);
-      move_freely(time_step);
-      find_around(round, walls, time_step);
-    }
-    rounds_ = rounds;
-  }
-
-  /// The impacts among all pairs; those of this rank's tiles are its part.
-  std::vector<StruckRecord> strike(const WallStep& walls, double time_step) {
-    Bodies& seen = grains_.seen().bodies;
-    const StepInput step{laws_, seen, walls, {}, free_, time_step};
-    sweep_normals(step, mine_.pairs);
-    const auto loads = recollection_.loads(grains_.memory(), dim, time_step);
-    return impacts_.resolve({step, loads, seen, mine_, detection_.candidates(), grains_.places()});
-  }
-
-  /// Whether a pair of this rank meets after impacts and another search: only one of a grain that they struck
-  /// can.
-  bool strikes_again(std::span<const StruckRecord> struck, const WallStep& walls, double time_step) {
-    const Bodies& seen = grains_.seen().bodies;
-    is_struck_.assign(seen.count(), 0);
-    for (const StruckRecord& grain : struck)
-      if (const std::int32_t b = grains_.place_of(grain.id); b >= 0) is_struck_[b] = 1;
-    struck_contacts_.pairs.clear();
-    for (const Candidate& pair : mine_.pairs)
-      if (is_struck_[pair.i] | (pair.j >= 0 ? is_struck_[pair.j] : 0)) struck_contacts_.pairs.push_back(pair);
-    const StepInput step{laws_, seen, walls, {}, free_, time_step};
-    sweep_normals(step, struck_contacts_.pairs);
-    const auto loads = recollection_.loads_of(struck_contacts_.pairs, grains_.memory(), dim, time_step);
-    return looking_.any(step, loads, struck_contacts_);
-  }
-
-  void set_velocities(std::span<const StruckRecord> struck) {
-    Bodies& bodies = grains_.seen().bodies;
-    for (const StruckRecord& grain : struck)
-      if (const std::int32_t b = grains_.place_of(grain.id); b >= 0) {
-        bodies.v_x[b] = grain.v_x, bodies.v_z[b] = grain.v_z;
-        if constexpr (with_spin) bodies.spin[b] = grain.spin;
-      }
-  }
-
-  /// The state of own grains that impacts have struck.
-  void take_over(std::span<const StruckRecord> struck, RankState& state) {
-    const SeenGrains& seen = grains_.seen();
-    for (const StruckRecord& record : struck) {
-      const std::int32_t b = grains_.place_of(record.id);
-      if (b < 0 || seen.place[b] < 0) continue;
-      RankGrain& grain = state.grains[seen.place[b]];
-      grain.v_x = record.v_x, grain.v_z = record.v_z, grain.spin = record.spin;
-    }
-  }
-
-  /// The own grains that impacts have thrown further than the search for pairs allowed for.
-  std::vector<ThrownRecord> thrown_of(std::span<const StruckRecord> struck, double time_step) {
-    const SeenGrains& seen = grains_.seen();
-    std::vector<ThrownRecord> thrown;
-    for (const StruckRecord& record : struck) {
-      const std::int32_t b = grains_.place_of(record.id);
-      if (b < 0 || seen.place[b] < 0) continue;
-      const double push =
-          2 * time_step * std::hypot(free_.x[b] - searched_.x[b], free_.z[b] - searched_.z[b]);
-      if (push > detection_.jolt(b) + laws_.detection_margin) thrown.push_back({record.id, push});
-    }
-    return thrown;
-  }
-
   /// From here on the bodies are those that this rank's contacts touch, and its own.
   void take_used() {
     const SeenGrains& seen = grains_.seen();
     bodies_ = used_bodies(seen, own_.used);
     counts_here_.assign(own_.used.size(), 0);
-    of_used_.x.resize(own_.used.size()), of_used_.z.resize(own_.used.size());
+    const FreeMotion& free = search_.free();
+    free_.x.resize(own_.used.size()), free_.z.resize(own_.used.size());
     for (std::size_t b = 0; b < own_.used.size(); ++b) {
       const std::int32_t s = own_.used[b];
-      of_used_.x[b] = free_.x[s], of_used_.z[b] = free_.z[s];
+      free_.x[b] = free.x[s], free_.z[b] = free.z[s];
       counts_here_[b] = seen.place[s] >= 0;
     }
-    std::swap(free_, of_used_);
   }
 
   /// New velocities from the solution, then new positions.
@@ -409,7 +226,7 @@ class RankMoreauJean final : public RankStepper {
     counts_.forests = grains_.forests();
     counts_.sorts = grains_.sorts();
     counts_.corrections = solver_.corrections();
-    counts_.impacts = impacts_.counts();
+    counts_.impacts = search_.impacts().counts();
   }
 
   StepLaws laws_;
@@ -420,22 +237,11 @@ class RankMoreauJean final : public RankStepper {
   Point gravity_;
   TileMethod method_ = TileMethod::accelerated;
   RankGrains grains_;
-  ContactDetection detection_;
-  Recollection recollection_;
-  GatheredImpacts impacts_;
-  Impacts looking_;
-  std::vector<Round> rounds_;        // since all pairs were last looked for
-  FreeMotion searched_;              // velocities by which pairs were last looked for, grain by grain
-  std::vector<ThrownGrain> thrown_;  // of a round
-  std::vector<char> is_struck_;      // of each seen grain, within strikes_again() alone
-  StepContacts struck_contacts_;     // pairs of struck grains
-  HomedPairs homed_;                 // of the candidates
-  StepContacts mine_;                // those of this rank
+  RankSearch search_;
   RankPairs own_;
   Halo halo_;
   Bodies bodies_;                  // used ones
-  FreeMotion free_;                // of all seen grains, then of the used ones
-  FreeMotion of_used_;             // on their way into free_
+  FreeMotion free_;                // of the used ones
   std::vector<char> counts_here_;  // of each used grain: its own
   StepContacts contacts_;
   Problem problem_;

@@ -128,6 +128,15 @@ void Ranks::add(std::span<std::int64_t> values) const {
   ++rounds_so_far;
 }
 
+std::int64_t Ranks::add(std::span<ExactSum> sums, std::int64_t count) const {
+  std::vector<std::int64_t> numbers{count};
+  for (ExactSum& sum : sums) numbers.insert(numbers.end(), sum.numbers().begin(), sum.numbers().end());
+  add(numbers);
+  for (std::size_t k = 0; k < sums.size(); ++k)
+    std::copy_n(numbers.begin() + 1 + k * ExactSum::size(), ExactSum::size(), sums[k].numbers().begin());
+  return numbers[0];
+}
+
 std::int64_t Ranks::least(std::int64_t value) const {
   if (count() == 1) return value;
   const WaitingTime waiting(waited);

@@ -10,6 +10,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "particles/distributed/exact_sum.hpp"
+
 namespace drumlin::particles {
 
 /// Keeps MPI alive while it lives: made first thing in main.
@@ -76,6 +78,8 @@ class Ranks {
   void largest(std::span<double> values) const;
   /// Each value becomes the sum over all ranks.
   void add(std::span<std::int64_t> values) const;
+  /// The same of exact sums, and of a count, in one round; returns the latter.
+  std::int64_t add(std::span<ExactSum> sums, std::int64_t count = 0) const;
   /// The least of all ranks.
   std::int64_t least(std::int64_t value) const;
   bool any(bool value) const;

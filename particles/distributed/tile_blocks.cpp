@@ -8,25 +8,13 @@
 
 namespace drumlin::particles {
 
-/// Bodies stand as contacts first touch them, so that those of a tile are near each other.
 template <class T, int dim, bool spin>
 template <class Problem>
 void TileBlocks<T, dim, spin>::pack_bodies(const Problem& problem, std::size_t tiles) {
   const auto& W = problem.W;
-  const std::int32_t fixed = W.fixed();
-  place_.assign(fixed, -1);
-  bodies_.clear();
-  const auto take = [&](std::int32_t b) {
-    if (b == fixed || place_[b] >= 0) return;
-    place_[b] = static_cast<std::int32_t>(bodies_.size());
-    bodies_.push_back({0, 0, 0, static_cast<T>(W.inverse_mass[b])});
-  };
-  for (int a = 0; a < problem.contacts(); ++a) take(W.i[a]), take(W.j[a]);
-  // Others may pass through here on their way between ranks.
-  for (std::int32_t b = 0; b < fixed; ++b) take(b);
-  if (bodies_.size() % 2 != 0) bodies_.push_back({});  // records go in pairs
-  moving_ = bodies_.size();
-  bodies_.resize(moving_ + Block::width * tiles);
+  moving_ = W.fixed() + W.fixed() % 2;  // records go in pairs
+  bodies_.assign(moving_ + Block::width * tiles, {});
+  for (std::int32_t b = 0; b < W.fixed(); ++b) bodies_[b].inverse_mass = static_cast<T>(W.inverse_mass[b]);
   before_.resize(moving_);
 }
 
@@ -73,8 +61,8 @@ void TileBlocks<T, dim, spin>::pack_place(const Problem& problem, std::int32_t c
   Block& block = blocks_[place / Block::width];
   const auto k = static_cast<std::int32_t>(place % Block::width);
   contact_[place] = c;
-  const std::int32_t i = c >= 0 ? place_[W.i[c]] : fixed + k;
-  const std::int32_t j = c >= 0 && W.j[c] != W.fixed() ? place_[W.j[c]] : fixed + k;
+  const std::int32_t i = c >= 0 ? W.i[c] : fixed + k;
+  const std::int32_t j = c >= 0 && W.j[c] != W.fixed() ? W.j[c] : fixed + k;
   block.i[k] = static_cast<std::uint32_t>(i * sizeof(BodyRecord<T>));
   block.j[k] = static_cast<std::uint32_t>(j * sizeof(BodyRecord<T>));
   block.n_x[k] = c >= 0 ? static_cast<T>(W.n_x[c]) : T(0);

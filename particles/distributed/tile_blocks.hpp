@@ -18,7 +18,8 @@ namespace drumlin::particles {
 template <class T, int dim, bool spin>
 class TileBlocks {
  public:
-  /// Copies a problem in body form and the impulses to start from; bodies are at rest.
+  /// Copies a problem in body form and the impulses to start from; bodies are at rest. Best where bodies are
+  /// numbered tile by tile, as rank_pairs() does.
   template <class Problem>
   void pack(const Problem& problem, std::span<const TileRange> tiles, std::span<const double> r,
             const TeamLoops& loops);
@@ -36,7 +37,7 @@ class TileBlocks {
   /// The residual as impulses and bodies stand.
   SeenResidual residual(std::size_t tile) const;
   /// Size of the impulse of a body as it stands.
-  double impulse(std::int32_t body) const { return impulse_of(bodies_[place_[body]]); }
+  double impulse(std::int32_t body) const { return impulse_of(bodies_[body]); }
   void keep(std::size_t tile);
 
   /// Takes other impulses, and lets the bodies rest: load() and start() have to follow.
@@ -47,11 +48,11 @@ class TileBlocks {
   void go_on(T beta, const TeamLoops& loops);
 
   std::array<double, Halo::numbers> numbers(std::int32_t body) const {
-    const BodyRecord<T>& record = bodies_[place_[body]];
+    const BodyRecord<T>& record = bodies_[body];
     return {record.x, record.z, record.s};
   }
   void set_numbers(std::int32_t body, const std::array<double, Halo::numbers>& numbers) {
-    BodyRecord<T>& record = bodies_[place_[body]];
+    BodyRecord<T>& record = bodies_[body];
     record.x = static_cast<T>(numbers[0]), record.z = static_cast<T>(numbers[1]);
     record.s = static_cast<T>(numbers[2]);
   }
@@ -84,9 +85,8 @@ class TileBlocks {
   std::vector<BlockGroup> groups_;
   std::vector<std::int32_t> order_, group_end_;  // contacts of all groups; where each group ends there
   std::vector<std::int32_t> contact_;            // of each place in the blocks; -1: filled up
-  std::vector<BodyRecord<T>> bodies_, before_;   // by first contact; then the fixed ones of each tile
+  std::vector<BodyRecord<T>> bodies_, before_;   // of the problem; then the fixed ones of each tile
   std::size_t moving_ = 0;                       // bodies before the fixed ones
-  std::vector<std::int32_t> place_;              // of each body in bodies_
   std::vector<std::uint64_t> used_;              // colours of the contacts of each body in a tile
   std::vector<Impulses> kept_;
 };

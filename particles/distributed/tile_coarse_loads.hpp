@@ -11,22 +11,9 @@
 #include "particles/distributed/ranks.hpp"
 #include "particles/distributed/tiled_contacts.hpp"
 #include "particles/parallel/team_loops.hpp"
+#include "particles/solver/coarse_field.hpp"
 
 namespace drumlin::particles {
-
-/// Nodes of a field at the corners of square cells, row by row.
-struct FieldGrid {
-  double x = 0, z = 0, edge = 1;
-  int columns = 2, rows = 2;
-  int nodes() const { return columns * rows; }
-  int index(int column, int row) const { return row * columns + column; }
-};
-/// Of a row of its matrix, which is symmetric: the entries of the node itself and of those after it, up to
-/// two columns and rows away.
-inline constexpr int entries_of_node = 13;
-/// Solves for the field; empty where the matrix or the result is no good.
-std::vector<double> solve_field(const FieldGrid& grid, std::span<const double> rows,
-                                std::span<const double> right);
 
 /// Scales impulses; keeps workspace only. All ranks call its members together.
 template <class Problem>
@@ -46,23 +33,6 @@ class TileCoarseLoads {
  private:
   static constexpr int dim = Problem::dim;
   static constexpr bool spin = requires(typename Problem::Delassus::Velocity v) { v.s; };
-  /// Where a body is: the lowest and leftmost of the four nodes around it, the node next to it, and how far
-  /// to the right of the first and above it, in edges.
-  struct Place {
-    std::int16_t column = 0, row = 0, next_column = 0, next_row = 0;
-    double right = 0, up = 0;
-    std::array<double, 4> weights() const {
-      return {(1 - right) * (1 - up), right * (1 - up), (1 - right) * up, right * up};
-    }
-  };
-  /// What the impulses, weighted by the hat of a node, do to the velocities of a body: x, z, s, and 0.
-  struct alignas(16) Move {
-    std::array<float, 4> entries{};
-  };
-  /// Of the node next to the body and the eight around that.
-  using Moves = std::array<Move, 9>;
-
-  Place place_at(double x, double z) const;
   /// Power that contact a has and should not.
   static double power(const Problem&, std::int32_t a, std::span<const double> u, std::span<const double> r);
   void move_bodies(const Problem&, const TiledContacts&, Halo&, std::span<const double> r);
@@ -79,8 +49,8 @@ class TileCoarseLoads {
   TeamLoops loops_;
   FieldGrid grid_;
   std::int64_t terms_ = 1;  // bound on the number of terms of a sum
-  std::vector<Place> places_;
-  std::vector<Moves> moves_;
+  std::vector<NodePlace> places_;
+  std::vector<NodeMoves> moves_;
   std::vector<double> power_;  // of each contact with an impulse
 };
 

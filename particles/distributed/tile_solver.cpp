@@ -56,11 +56,7 @@ template <class Problem>
 SeenResidual TileSolver<Problem>::seen_of_tiles() {
   std::array<ExactSum, 2> sums;
   for (const SeenResidual& of_tile : seen_) sums[0].add(of_tile.squares), sums[1].add(of_tile.let_through);
-  std::vector<std::int64_t> numbers;
-  for (auto& sum : sums) numbers.insert(numbers.end(), sum.numbers().begin(), sum.numbers().end());
-  ranks_.add(numbers);
-  for (std::size_t k = 0; k < sums.size(); ++k)
-    std::copy_n(numbers.begin() + k * ExactSum::size(), ExactSum::size(), sums[k].numbers().begin());
+  ranks_.add(sums);
   std::array<double, 1> closing{0};
   for (const SeenResidual& of_tile : seen_) closing[0] = std::max(closing[0], -of_tile.lowest_u_n);
   ranks_.largest(closing);
@@ -128,7 +124,7 @@ ContactResidual TileSolver<Problem>::residual(const Problem& problem, const Tile
     q_squares[t] =
         squared_norm(std::span(problem.q).subspan(dim * tile.begin, dim * (tile.end - tile.begin)));
   });
-  // Squares, q, let through, summed impulses, and the number of contacts.
+  // Squares, q, let through, summed impulses.
   std::array<ExactSum, 4> sums;
   ResidualSums all;
   for (std::size_t t = 0; t < of_tile.size(); ++t) {
@@ -136,15 +132,10 @@ ContactResidual TileSolver<Problem>::residual(const Problem& problem, const Tile
     all.add(of_tile[t]);
   }
   for (std::size_t b = 0; b + 1 < state.size(); ++b)
-    if (contacts.counts_here[b])
-      sums[3].add(std::sqrt(state[b].x * state[b].x + state[b].z * state[b].z) / state[b].inverse_mass);
-  std::vector<std::int64_t> numbers{problem.contacts()};
-  for (auto& sum : sums) numbers.insert(numbers.end(), sum.numbers().begin(), sum.numbers().end());
-  ranks_.add(numbers);
-  for (std::size_t k = 0; k < sums.size(); ++k)
-    std::copy_n(numbers.begin() + 1 + k * ExactSum::size(), ExactSum::size(), sums[k].numbers().begin());
+    if (contacts.counts_here[b]) sums[3].add(impulse_of(state[b]));
+  const std::int64_t contacts_of_all = ranks_.add(sums, problem.contacts());
   ContactResidual residual;
-  if (numbers[0] == 0) return residual;
+  if (contacts_of_all == 0) return residual;
   const double squares = sums[0].value(), q = sums[1].value(), let_through = sums[2].value();
   if (!std::isfinite(squares) || !std::isfinite(let_through)) {
     residual.rms = residual.max = std::numeric_limits<double>::quiet_NaN();
@@ -152,7 +143,7 @@ ContactResidual TileSolver<Problem>::residual(const Problem& problem, const Tile
   }
   std::array<double, 2> extremes{all.largest, -all.lowest_u_n};
   ranks_.largest(extremes);
-  const auto count = static_cast<double>(numbers[0]);
+  const auto count = static_cast<double>(contacts_of_all);
   const double scale = std::sqrt(q / (dim * count));
   const auto relative = [scale](double e) {
     return e == 0 ? 0 : scale != 0 ? e / scale : std::numeric_limits<double>::infinity();

@@ -15,6 +15,7 @@
 #include "particles/contact/sweep_plan.hpp"
 #include "particles/parallel/team_loops.hpp"
 #include "particles/parallel/work_memory.hpp"
+#include "particles/solver/coarse_field.hpp"
 
 namespace drumlin::particles {
 
@@ -50,51 +51,26 @@ class CoarseLoads {
   void scale(const CoarseProblem&, std::span<const double> u, std::vector<double>& r, const TeamLoops&);
 
  private:
-  /// Nodes of the field, `columns` times `rows`, at the corners of square cells.
-  struct Grid {
-    double x = 0, z = 0, edge = 1;
-    int columns = 2, rows = 2;
-    std::size_t nodes() const { return static_cast<std::size_t>(columns) * rows; }
-    std::size_t index(int column, int row) const { return static_cast<std::size_t>(row) * columns + column; }
+  struct Body {
+    NodePlace place;
+    double inverse_mass = 0;
   };
-  /// Where a body is: the lowest and leftmost of the four nodes around it, the node next to it, and how far
-  /// to the right of the first and above it, in edges.
-  struct Place {
-    std::int16_t column = 0, row = 0, next_column = 0, next_row = 0;
-    double right = 0, up = 0, inverse_mass = 0;
-    std::array<double, 4> weights() const {
-      return {(1 - right) * (1 - up), right * (1 - up), (1 - right) * up, right * up};
-    }
-  };
-  /// A change of velocity: x, z, s, and 0.
-  struct alignas(16) Move {
-    std::array<float, 4> entries;
-  };
-  /// What the impulses, weighted by the hats of the nodes around a body, do to its velocities: of the node
-  /// next to it and the eight around that.
-  using Moves = std::array<Move, 9>;
-  /// Of a row of A, which is symmetric: the entries of the node itself and of those after it, up to two
-  /// columns and rows away.
-  using Row = std::array<double, 13>;
 
-  static Grid grid_over(const BodyPlaces&, std::size_t contacts, double longest_contact);
-  Place place_at(double x, double z) const;
   void add_contacts(const CoarseProblem&, std::span<const double> u, std::span<const double> r, int slice,
                     std::vector<double>& work);
   /// The sums of work_ and rows_.
   void add_up(const CoarseProblem&, std::span<const double> u, std::span<const double> r, const TeamLoops&);
-  void add_bodies(const CoarseProblem&, int strip, std::vector<Row>& rows) const;
-  bool solve();
+  void add_bodies(const CoarseProblem&, int strip, std::vector<double>& rows) const;
+  std::vector<double> solve() const;
 
-  Grid grid_;
+  FieldGrid grid_;
   WorkArray<std::int32_t> rank_;  // of each body in the order of the strips, in which the next two stand
-  WorkArray<Place> places_;
-  WorkArray<Moves> moves_;
+  WorkArray<Body> places_;
+  WorkArray<NodeMoves> moves_;
   // Strips are shared in so many parts, whatever the number of threads: sums are those of parts, in order.
   static constexpr int parts = 16;
   std::array<std::vector<double>, parts> work_;  // sums of phi_k g_a
-  std::array<std::vector<Row>, parts> rows_;     // of A
-  std::vector<double> field_;                    // s_k
+  std::array<std::vector<double>, parts> rows_;  // of A, as solve_field() takes them
 };
 
 }  // namespace drumlin::particles

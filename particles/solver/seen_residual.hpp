@@ -1,8 +1,6 @@
 #pragma once
 // What a solver in blocks sees of its residual on the way, at about the price of a sweep.
 #include <algorithm>
-#include <cmath>
-#include <cstddef>
 
 #include "particles/solver/stopping_rule.hpp"
 
@@ -33,14 +31,6 @@ inline bool closes_too_far(const SeenResidual& seen, double time_step, const Sto
 inline bool sinks_too_fast(const SeenResidual& seen, double impulses, double time_step,
                            const StoppingRule& rule) {
   return time_step * seen.let_through > surely_beyond * rule.sinking * impulses;
-}
-
-/// Size of the impulse of a body from its record; 0 of what does not move.
-template <class Record>
-double impulse_of(const Record& body) {
-  if (!(body.inverse_mass > 0)) return 0;
-  const auto x = static_cast<double>(body.x), z = static_cast<double>(body.z);
-  return std::sqrt(x * x + z * z) / static_cast<double>(body.inverse_mass);
 }
 
 }  // namespace drumlin::particles

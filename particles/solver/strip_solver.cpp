@@ -323,11 +323,8 @@ SeenResidual StripProblem<T, dim, spin>::seen_residual() const {
 
 template <class T, int dim, bool spin>
 double StripProblem<T, dim, spin>::summed_impulses(TeamLoops& loops) const {
-  return loops.sum(bodies_.size(), [&](std::size_t begin, std::size_t end) {
-    double sum = 0;
-    for (std::size_t b = begin; b < end; ++b) sum += impulse_of(bodies_[b]);
-    return sum;
-  });
+  return drumlin::particles::summed_impulses(std::span<const BodyRecord<T>>(bodies_.data(), bodies_.size()),
+                                             loops);
 }
 
 template <class T, int dim, bool spin>

@@ -28,6 +28,29 @@ struct StruckGrain {
   Point before;
 };
 
+/// Picks out the pairs of struck grains; keeps workspace only.
+class StruckPairs {
+ public:
+  /// Sets `selected` to the pairs, in their order, of which place_of(struck) gives one side; -1: none.
+  template <class Struck, class Place>
+  void select(std::size_t bodies, std::span<const Candidate> pairs, std::span<const Struck> struck,
+              Place place_of, std::vector<Candidate>& selected) {
+    is_struck_.resize(bodies, 0);
+    const auto mark = [&](char value) {
+      for (const Struck& grain : struck)
+        if (const std::int32_t b = place_of(grain); b >= 0) is_struck_[b] = value;
+    };
+    mark(1);
+    selected.clear();
+    for (const Candidate& pair : pairs)
+      if (is_struck_[pair.i] | (pair.j >= 0 ? is_struck_[pair.j] : 0)) selected.push_back(pair);
+    mark(0);
+  }
+
+ private:
+  std::vector<char> is_struck_;  // of each body, within select() alone
+};
+
 /// Resolves the impacts of steps; keeps workspace only, and does nothing in a step without impacts.
 class Impacts {
  public:

@@ -223,12 +223,9 @@ class MoreauJean final : public Stepper {
   /// Whether any pair meets now, after impacts and another search: only one of a grain that they struck can.
   bool strikes_again(const StepInput& step, const MovingState& state) {
     if (!step.driven.empty()) return true;  // walls have been struck too
-    is_struck_.resize(step.bodies.count(), 0);
-    for (const StruckGrain& struck : impacts_.struck()) is_struck_[struck.grain] = 1;
-    struck_contacts_.pairs.clear();
-    for (const Candidate& pair : detection_.candidates())
-      if (is_struck_[pair.i] | (pair.j >= 0 ? is_struck_[pair.j] : 0)) struck_contacts_.pairs.push_back(pair);
-    for (const StruckGrain& struck : impacts_.struck()) is_struck_[struck.grain] = 0;
+    struck_pairs_.select(
+        step.bodies.count(), detection_.candidates(), impacts_.struck(),
+        [](const StruckGrain& struck) { return struck.grain; }, struck_contacts_.pairs);
     sweep_normals(step, struck_contacts_.pairs);
     const auto loads = recollection_.loads_of(struck_contacts_.pairs, state.memory, dim, step.time_step);
     return impacts_.any(step, loads, struck_contacts_);
@@ -320,7 +317,7 @@ class MoreauJean final : public Stepper {
   ContactOrder order_;
   StepContacts contacts_;
   Impacts impacts_;
-  std::vector<char> is_struck_;   // of each grain, within strikes_again() alone
+  StruckPairs struck_pairs_;
   StepContacts struck_contacts_;  // pairs of struck grains
   Recollection recollection_;
   Problem problem_;

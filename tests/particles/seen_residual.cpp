@@ -1,0 +1,72 @@
+// What solvers in strips see of their residual on the way is the residual.
+#include "particles/solver/seen_residual.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "particles/contact/problems.hpp"
+#include "particles/contact/residual.hpp"
+#include "particles/solver/strip_solver.hpp"
+
+namespace drumlin {
+using namespace particles;
+namespace {
+
+/// A column of discs on a floor whose impulses solve nothing.
+struct Column {
+  CoulombSpinProblem problem;
+  std::vector<double> r;
+};
+
+Column column(int discs) {
+  Column column;
+  auto& [problem, r] = column;
+  problem.W.inverse_mass.assign(discs + 1, 0.5);
+  problem.W.inverse_mass.back() = 0;
+  problem.time_step = 0.05;
+  for (int b = 0; b < discs; ++b) {
+    problem.W.add(b, b == 0 ? discs : b - 1, 0, 1);
+    problem.q.push_back(b == 0 ? -0.05 : 0.01 * (b % 3)), problem.q.push_back(0.02 * (b % 5 - 2));
+    problem.mu.push_back(0.4);
+    r.push_back(0.1 + 0.05 * (b % 4)), r.push_back(0.02 * (b % 3 - 1));
+  }
+  return column;
+}
+
+template <class T>
+void expect_seen(double precision) {
+  const auto [problem, r] = column(200);
+  std::vector<std::int32_t> order;
+  const SweepPlan plan = sweep_plan(problem.W.fixed(), problem.W.i, problem.W.j, order);
+  TeamLoops loops;
+  StripProblem<T, 2, true> strips;
+  strips.pack(problem, plan, order, r, loops);
+  for (const int phase : {0, 1})
+    for (int strip = 0; strip < strips.strips(); ++strip) strips.load(strip, phase);
+  for (int strip = 0; strip < strips.strips(); ++strip) strips.look_at(strip);
+  const SeenResidual seen = strips.seen_residual();
+  const double impulses = strips.summed_impulses(loops), h = problem.time_step;
+  const ContactResidual exact = residual_of(problem, std::span<const double>(r));
+  const double q_squares = squared_norm(problem.q);
+  EXPECT_NEAR(std::sqrt(seen.squares * 2 / q_squares) / exact.rms, 1, precision);
+  EXPECT_GT(exact.penetration, 0);
+  EXPECT_NEAR(-seen.lowest_u_n * h / exact.penetration, 1, precision);
+  EXPECT_GT(exact.sinking, 0);
+  EXPECT_NEAR(h * seen.let_through / impulses / exact.sinking, 1, precision);
+  // A limit is surely missed from two hundredths beyond it on.
+  StoppingRule rule;
+  EXPECT_FALSE(closes_too_far(seen, h, rule) || sinks_too_fast(seen, impulses, h, rule));
+  rule.penetration = exact.penetration / 1.01, rule.sinking = exact.sinking / 1.01;
+  EXPECT_FALSE(closes_too_far(seen, h, rule) || sinks_too_fast(seen, impulses, h, rule));
+  rule.penetration = exact.penetration / 1.03, rule.sinking = exact.sinking / 1.03;
+  EXPECT_TRUE(closes_too_far(seen, h, rule));
+  EXPECT_TRUE(sinks_too_fast(seen, impulses, h, rule));
+}
+
+TEST(SeenResidual, IsTheResidualInDoublePrecision) { expect_seen<double>(1e-12); }
+TEST(SeenResidual, IsNearlyTheResidualInSinglePrecision) { expect_seen<float>(1e-4); }
+
+}  // namespace
+}  // namespace drumlin
