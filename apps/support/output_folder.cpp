@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "coupling/common/errors.hpp"
+#include "coupling/common/input_file.hpp"
 #include "coupling/common/result_folder.hpp"
 #include "coupling/common/text_file.hpp"
 
@@ -32,8 +33,9 @@ bool holds_nothing(const fs::path& folder) {
 }
 
 void refuse_foreign(const fs::path& folder) {
-  if (!fs::exists(folder)) return;
-  if (!fs::is_directory(folder))
+  const auto status = input_status(folder);
+  if (!fs::exists(status)) return;
+  if (!fs::is_directory(status))
     throw InputError(folder.string() + ": is a file, a folder is needed for the results");
   if (holds_nothing(folder) || has_manifest(folder)) return;
   throw InputError(fmt::format(
@@ -214,7 +216,7 @@ FolderLock claim(const OutputRequest& request) {
 
 StagedOutput::StagedOutput(OutputRequest request)
     : request_(std::move(request)),
-      made_(!fs::exists(request_.folder)),
+      made_(!fs::exists(input_status(request_.folder))),
       lock_(claim(request_)),
       staging_(request_.folder / staging_name) {
   // New, and of this user alone: nobody plants a link where results and figures are about to be written.

@@ -42,6 +42,12 @@ void report_error(const Report& report) {
     report(ExitCode::input_output, "not enough memory");
   } catch (const std::length_error& error) {
     report(ExitCode::input_output, fmt::format("not enough memory ({})", error.what()).c_str());
+  } catch (const std::filesystem::filesystem_error& error) {
+    // No file can have such a name, whatever it was asked for.
+    const bool wrong_name = error.code() == std::errc::filename_too_long ||
+                            error.code() == std::errc::too_many_symbolic_link_levels;
+    report(wrong_name ? ExitCode::wrong_input : ExitCode::input_output,
+           fmt::format("{}: {}", error.path1().string(), error.code().message()).c_str());
   } catch (const std::system_error& error) {  // files, and threads that cannot be started
     report(ExitCode::input_output, error.what());
   } catch (const nlohmann::json::exception& error) {

@@ -77,6 +77,14 @@ std::size_t InputFile::read(std::span<char> bytes) {
   return filled;
 }
 
+std::filesystem::file_status input_status(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (status.type() != std::filesystem::file_type::none) return status;
+  errno = error.value();
+  say_why_not_open(file);
+}
+
 std::string input_bytes(const std::filesystem::path& file, std::uint64_t largest) {
   InputFile input(file, largest);
   // As large as it was when it was opened: what another program adds meanwhile is not waited for.

@@ -33,6 +33,10 @@ class InputFile {
   std::uint64_t size_ = 0;
 };
 
+/// What lies under a name that somebody gave: not_found if nothing does. Throws InputError on names that
+/// nothing can have (too long, links that lead back to themselves), and IoError.
+std::filesystem::file_status input_status(const std::filesystem::path& file);
+
 /// All bytes of a file. Throws as InputFile.
 std::string input_bytes(const std::filesystem::path& file, std::uint64_t largest);
 

@@ -141,7 +141,7 @@ void TileBlocks<T, dim, spin>::unpack(const Problem& problem, bool kept, std::ve
 
 template <class T, int dim, bool spin>
 void TileBlocks<T, dim, spin>::load(std::size_t tile) {
-  const auto blocks = blocks_of(tile);
+  const auto blocks = of_tile(tile);
   Kernels::load(blocks.data(), blocks.size(), bodies_.data());
 }
 
@@ -149,7 +149,7 @@ template <class T, int dim, bool spin>
 double TileBlocks<T, dim, spin>::sweep(std::size_t tile, T beta, bool accelerated) {
   const auto groups =
       std::span(groups_).subspan(tiles_[tile].group, tiles_[tile + 1].group - tiles_[tile].group);
-  return Kernels::sweep(blocks_of(tile).data(), groups, bodies_.data(), beta, accelerated);
+  return Kernels::sweep(of_tile(tile).data(), groups, bodies_.data(), beta, accelerated);
 }
 
 template <class T, int dim, bool spin>
@@ -159,7 +159,7 @@ void TileBlocks<T, dim, spin>::let_rest(std::size_t tile, bool rest) {
     for (int k = 0; k < Block::width; ++k) largest = std::max({largest, block.r[0][k], block.before[0][k]});
     return largest == 0;
   };
-  const Block* first = blocks_of(tile).data();
+  const Block* first = of_tile(tile).data();
   for (std::size_t g = tiles_[tile].group; g < tiles_[tile + 1].group; ++g) {
     BlockGroup& group = groups_[g];
     group.swept = group.count;
@@ -180,17 +180,10 @@ void TileBlocks<T, dim, spin>::keep(std::size_t tile) {
 }
 
 template <class T, int dim, bool spin>
-void TileBlocks<T, dim, spin>::restart(std::span<const double> r, const TeamLoops& loops) {
-  constexpr int width = Block::width;
-  loops.each(contact_.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) {
-      if (contact_[p] < 0) continue;
-      Block& block = blocks_[p / width];
-      for (int e = 0; e < dim; ++e)
-        block.r[e][p % width] = block.before[e][p % width] = static_cast<T>(r[dim * contact_[p] + e]);
-    }
+void TileBlocks<T, dim, spin>::rest(const TeamLoops& loops) {
+  loops.each(bodies_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) bodies_[b].x = bodies_[b].z = bodies_[b].s = 0;
   });
-  for (BodyRecord<T>& body : bodies_) body.x = body.z = body.s = 0;
 }
 
 template <class T, int dim, bool spin>

@@ -18,6 +18,8 @@ namespace drumlin::particles {
 template <class T, int dim, bool spin>
 class TileBlocks {
  public:
+  using Block = ContactBlock<T, dim>;
+
   /// Copies a problem in body form and the impulses to start from; bodies are at rest. Best where bodies are
   /// numbered tile by tile, as rank_pairs() does.
   template <class Problem>
@@ -40,8 +42,8 @@ class TileBlocks {
   double impulse(std::int32_t body) const { return impulse_of(bodies_[body]); }
   void keep(std::size_t tile);
 
-  /// Takes other impulses, and lets the bodies rest: load() and start() have to follow.
-  void restart(std::span<const double> r, const TeamLoops& loops);
+  /// Lets the bodies rest: load() and start() have to follow.
+  void rest(const TeamLoops& loops);
   /// Remembers the bodies as the beginning of the first sweep.
   void start();
   /// Bodies go on by beta, before a sweep.
@@ -57,9 +59,16 @@ class TileBlocks {
     record.s = static_cast<T>(numbers[2]);
   }
 
+  // As contacts and bodies stand.
+  std::span<Block> all() { return blocks_; }
+  std::span<Block> of_tile(std::size_t tile) {
+    return all().subspan(tiles_[tile].block, tiles_[tile + 1].block - tiles_[tile].block);
+  }
+  /// Those of the problem, then some that do not move.
+  std::span<const BodyRecord<T>> bodies() const { return bodies_; }
+
  private:
   using Kernels = SweepKernels<T, dim, spin>;
-  using Block = ContactBlock<T, dim>;
   using Impulses = std::array<std::array<T, Block::width>, dim>;
   /// First of a tile; those of the next one end it.
   struct Tile {
@@ -76,9 +85,6 @@ class TileBlocks {
   template <class Problem>
   void pack_place(const Problem& problem, std::int32_t c, std::int32_t fixed, std::span<const double> r,
                   std::size_t place);
-  std::span<Block> blocks_of(std::size_t tile) {
-    return std::span(blocks_).subspan(tiles_[tile].block, tiles_[tile + 1].block - tiles_[tile].block);
-  }
 
   std::vector<Tile> tiles_;
   std::vector<Block> blocks_;

@@ -56,66 +56,48 @@ void TileCoarseLoads<Problem>::lay_out(const Problem& problem, const TiledContac
 }
 
 template <class Problem>
-double TileCoarseLoads<Problem>::power(const Problem& problem, std::int32_t a, std::span<const double> u,
-                                       std::span<const double> r) {
-  if constexpr (dim == 1)
-    return power_of(r[a], u[a], 0, 0, 0);
-  else
-    return power_of(r[2 * a], u[2 * a], r[2 * a + 1], u[2 * a + 1], problem.mu[a]);
-}
-
-template <class Problem>
-void TileCoarseLoads<Problem>::push(const Problem& problem, std::int32_t a, std::span<const double> r) {
-  const auto& W = problem.W;
-  const double r_n = r[dim * a];
-  if (!(r_n > 0)) return;
-  double r_t = 0;
-  if constexpr (dim == 2) r_t = r[2 * a + 1];
-  const std::int32_t i = W.i[a], j = W.j[a];
-  const NodePush push(W.n_x[a], W.n_z[a], r_n, r_t, spin, places_[i]);
-  push.add_to(moves_[i], places_[i], W.inverse_mass[i], 1);
-  if (j != W.fixed()) push.add_to(moves_[j], places_[j], W.inverse_mass[j], -1);
-}
-
-template <class Problem>
-void TileCoarseLoads<Problem>::move_bodies(const Problem& problem, const TiledContacts& contacts, Halo& halo,
-                                           std::span<const double> r) {
+template <class T>
+void TileCoarseLoads<Problem>::move_bodies(const TiledContacts& contacts, Halo& halo,
+                                           TileBlocks<T, dim, spin>& blocks) {
   std::fill(moves_.begin(), moves_.end(), NodeMoves{});
-  each_colour(
-      contacts.tiles, loops_,
-      [&](std::size_t t) {
-        for (std::int32_t a = contacts.tiles[t].begin; a < contacts.tiles[t].end; ++a) push(problem, a, r);
-      },
-      [](int) {},
-      [&](int colour) {
-        for (int k = 0; k < 9; ++k) {
-          halo.start(colour, [&](std::int32_t b) {
-            const auto& move = moves_[b][k].entries;
-            return std::array<double, Halo::numbers>{move[0], move[1], move[2]};
-          });
-          halo.finish(colour, [&](std::int32_t b, const auto& numbers) {
-            for (std::size_t c = 0; c < numbers.size(); ++c)
-              moves_[b][k].entries[c] = static_cast<float>(numbers[c]);
-          });
-        }
+  const auto work = [&](std::size_t t) {
+    for (const auto& block : blocks.of_tile(t))
+      for (int k = 0; k < block.width; ++k)
+        if (block.r[0][k] > 0)
+          CoarseContact<T, dim, spin>(block, k).move(places_.data(), blocks.bodies().data(), moves_.data());
+  };
+  const auto exchange = [&](int colour) {
+    for (int k = 0; k < 9; ++k) {
+      halo.start(colour, [&](std::int32_t b) {
+        const auto& move = moves_[b][k].entries;
+        return std::array<double, Halo::numbers>{move[0], move[1], move[2]};
       });
+      halo.finish(colour, [&](std::int32_t b, const auto& numbers) {
+        for (std::size_t c = 0; c < numbers.size(); ++c)
+          moves_[b][k].entries[c] = static_cast<float>(numbers[c]);
+      });
+    }
+  };
+  each_colour(
+      contacts.tiles, loops_, work, [](int) {}, exchange);
 }
 
 template <class Problem>
-std::array<double, 2> TileCoarseLoads<Problem>::find_bounds(const Problem& problem,
-                                                            const TiledContacts& contacts,
-                                                            std::span<const double> u,
-                                                            std::span<const double> r) {
+template <class T>
+std::array<double, 2> TileCoarseLoads<Problem>::find_bounds(const TiledContacts& contacts,
+                                                            TileBlocks<T, dim, spin>& blocks) {
   std::array<double, 2> bounds{0, 0};
-  power_.assign(problem.contacts(), 0.0);
-  for (int a = 0; a < problem.contacts(); ++a) {
-    if (!(r[dim * a] > 0)) continue;
-    power_[a] = power(problem, a, u, r);
-    bounds[0] = std::max(bounds[0], std::abs(power_[a]));
-  }
+  power_.clear();
+  for (const auto& block : blocks.all())
+    for (int k = 0; k < block.width; ++k) {
+      const bool carries = block.r[0][k] > 0;
+      power_.push_back(carries ? CoarseContact<T, dim, spin>(block, k).power(block, k, blocks.bodies().data())
+                               : 0);
+      bounds[0] = std::max(bounds[0], std::abs(power_.back()));
+    }
   for (std::size_t b = 0; b < moves_.size(); ++b) {
     if (!contacts.counts_here[b]) continue;
-    const double mass = 1 / problem.W.inverse_mass[b];
+    const double mass = 1.0 / blocks.bodies()[b].inverse_mass;
     for (const NodeMove& move : moves_[b])
       bounds[1] = std::max(bounds[1], mass * product(weighted(move), move));
   }
@@ -124,33 +106,37 @@ std::array<double, 2> TileCoarseLoads<Problem>::find_bounds(const Problem& probl
 }
 
 template <class Problem>
-std::vector<double> TileCoarseLoads<Problem>::add_up(const Problem& problem, const TiledContacts& contacts,
-                                                     std::span<const double> u, std::span<const double> r) {
-  const auto& W = problem.W;
-  const std::array<double, 2> bounds = find_bounds(problem, contacts, u, r);
+template <class T>
+std::vector<double> TileCoarseLoads<Problem>::add_up(const TiledContacts& contacts,
+                                                     TileBlocks<T, dim, spin>& blocks) {
+  const std::array<double, 2> bounds = find_bounds(contacts, blocks);
   if (!(bounds[0] > 0 && bounds[1] > 0 && bounds[0] < 1e100 && bounds[1] < 1e100)) return {};
   const FixedPoint powers(bounds[0], terms_), energies(bounds[1], 4 * terms_);
   constexpr int numbers = entries_of_node + 1;
   const std::size_t length = static_cast<std::size_t>(numbers) * grid_.nodes();
   std::array<std::vector<std::int64_t>, parts> sums;
   const auto share = [](std::size_t count, int part) { return count * part / parts; };
-  const auto add_contact = [&](std::size_t a, std::vector<std::int64_t>& sum) {
-    if (power_[a] == 0) return;
-    const NodePlace& at = places_[W.i[a]];
-    const auto weights = at.weights();
-    for (const int k : {0, 1, 2, 3})
-      sum[numbers * grid_.corner(at, k) + entries_of_node] += powers.rounded(weights[k] * power_[a]);
+  const auto add_block = [&](std::size_t b, std::vector<std::int64_t>& sum) {
+    const auto& block = blocks.all()[b];
+    for (int k = 0; k < block.width; ++k) {
+      const double power = power_[block.width * b + k];
+      if (power == 0) continue;
+      const NodePlace& at = places_[CoarseContact<T, dim, spin>(block, k).i];
+      const auto weights = at.weights();
+      for (const int corner : {0, 1, 2, 3})
+        sum[numbers * grid_.corner(at, corner) + entries_of_node] += powers.rounded(weights[corner] * power);
+    }
   };
   const auto add_body = [&](std::size_t b, std::vector<std::int64_t>& sum) {
     each_product(
-        grid_, places_[b], moves_[b], 1 / W.inverse_mass[b],
+        grid_, places_[b], moves_[b], 1.0 / blocks.bodies()[b].inverse_mass,
         [&](int node, int entry, double energy) { sum[numbers * node + entry] += energies.rounded(energy); });
   };
   loops_.each_of(parts, [&](int part) {
     auto& sum = sums[part];
     sum.assign(length, 0);
-    const std::size_t all = problem.contacts();
-    for (std::size_t a = share(all, part); a < share(all, part + 1); ++a) add_contact(a, sum);
+    const std::size_t all = blocks.all().size();
+    for (std::size_t b = share(all, part); b < share(all, part + 1); ++b) add_block(b, sum);
     for (std::size_t b = share(moves_.size(), part); b < share(moves_.size(), part + 1); ++b)
       if (contacts.counts_here[b]) add_body(b, sum);
   });
@@ -164,11 +150,12 @@ std::vector<double> TileCoarseLoads<Problem>::add_up(const Problem& problem, con
 }
 
 template <class Problem>
-void TileCoarseLoads<Problem>::scale(const Problem& problem, const TiledContacts& contacts, Halo& halo,
-                                     std::span<const double> u, std::vector<double>& r) {
-  move_bodies(problem, contacts, halo, r);
-  const std::vector<double> sums = add_up(problem, contacts, u, r);
-  if (sums.empty()) return;
+template <class T>
+bool TileCoarseLoads<Problem>::scale(const TiledContacts& contacts, Halo& halo,
+                                     TileBlocks<T, dim, spin>& blocks) {
+  move_bodies(contacts, halo, blocks);
+  const std::vector<double> sums = add_up(contacts, blocks);
+  if (sums.empty()) return false;
   std::vector<double> rows, right;
   constexpr int numbers = entries_of_node + 1;
   for (int k = 0; k < grid_.nodes(); ++k) {
@@ -176,17 +163,22 @@ void TileCoarseLoads<Problem>::scale(const Problem& problem, const TiledContacts
     right.push_back(-sums[numbers * k + entries_of_node]);
   }
   const std::vector<double> field = solve_field(grid_, rows, right);
-  if (field.empty()) return;
-  loops_.each(problem.contacts(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t a = begin; a < end; ++a) {
-      const double factor = factor_at(grid_, places_[problem.W.i[a]], field);
-      for (int c = 0; c < dim; ++c) r[dim * a + c] *= factor;
-    }
+  if (field.empty()) return false;
+  loops_.each(blocks.all().size(), [&](std::size_t begin, std::size_t end) {
+    scale_blocks(blocks.all().subspan(begin, end - begin), grid_, places_.data(), field);
   });
+  return true;
 }
 
-template class TileCoarseLoads<FrictionlessProblem>;
-template class TileCoarseLoads<CoulombProblem>;
-template class TileCoarseLoads<CoulombSpinProblem>;
+#define DRUMLIN_INSTANTIATE(Problem)                                                                 \
+  template class TileCoarseLoads<Problem>;                                                           \
+  template bool TileCoarseLoads<Problem>::scale(                                                     \
+      const TiledContacts&, Halo&, TileBlocks<float, TileCoarseLoads::dim, TileCoarseLoads::spin>&); \
+  template bool TileCoarseLoads<Problem>::scale(                                                     \
+      const TiledContacts&, Halo&, TileBlocks<double, TileCoarseLoads::dim, TileCoarseLoads::spin>&);
+DRUMLIN_INSTANTIATE(FrictionlessProblem)
+DRUMLIN_INSTANTIATE(CoulombProblem)
+DRUMLIN_INSTANTIATE(CoulombSpinProblem)
+#undef DRUMLIN_INSTANTIATE
 
 }  // namespace drumlin::particles

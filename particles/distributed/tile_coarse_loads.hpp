@@ -9,6 +9,7 @@
 
 #include "particles/contact/problems.hpp"
 #include "particles/distributed/ranks.hpp"
+#include "particles/distributed/tile_blocks.hpp"
 #include "particles/distributed/tiled_contacts.hpp"
 #include "particles/parallel/team_loops.hpp"
 #include "particles/solver/coarse_field.hpp"
@@ -19,31 +20,30 @@ namespace drumlin::particles {
 template <class Problem>
 class TileCoarseLoads {
  public:
+  static constexpr int dim = Problem::dim;
+  static constexpr bool spin = requires(typename Problem::Delassus::Velocity v) { v.s; };
+
   TileCoarseLoads(const Ranks& ranks, ThreadTeam* team) : ranks_(ranks), loops_(team) {}
   /// Lays the nodes of the field over the bodies of a problem with so many contacts on all ranks.
   void lay_out(const Problem& problem, const TiledContacts& contacts, std::int64_t contacts_of_all);
-  /// Scales the impulses r, which cause the velocities u = W r + q of the contacts, by factors between 1/2
-  /// and 2.
-  void scale(const Problem& problem, const TiledContacts& contacts, Halo& halo, std::span<const double> u,
-             std::vector<double>& r);
+  /// Scales the impulses in blocks, as they and the bodies stand, by factors between 1/2 and 2. False, and
+  /// nothing scaled, where there is no good field.
+  template <class T>
+  bool scale(const TiledContacts& contacts, Halo& halo, TileBlocks<T, dim, spin>& blocks);
 
   /// Gives back the memory of what lay_out() has made.
   void release() { places_ = {}, moves_ = {}, power_ = {}; }
 
  private:
-  static constexpr int dim = Problem::dim;
-  static constexpr bool spin = requires(typename Problem::Delassus::Velocity v) { v.s; };
-  /// Power that contact a has and should not.
-  static double power(const Problem&, std::int32_t a, std::span<const double> u, std::span<const double> r);
-  void move_bodies(const Problem&, const TiledContacts&, Halo&, std::span<const double> r);
-  void push(const Problem&, std::int32_t a, std::span<const double> r);
+  template <class T>
+  void move_bodies(const TiledContacts&, Halo&, TileBlocks<T, dim, spin>&);
   /// Bounds on the powers of the contacts, which it sets, and on the energies of the moves, on all ranks.
-  std::array<double, 2> find_bounds(const Problem&, const TiledContacts&, std::span<const double> u,
-                                    std::span<const double> r);
+  template <class T>
+  std::array<double, 2> find_bounds(const TiledContacts&, TileBlocks<T, dim, spin>&);
   /// Sums over contacts and bodies, of all ranks: of each node its entries of the matrix, then its right
   /// side.
-  std::vector<double> add_up(const Problem&, const TiledContacts&, std::span<const double> u,
-                             std::span<const double> r);
+  template <class T>
+  std::vector<double> add_up(const TiledContacts&, TileBlocks<T, dim, spin>&);
 
   Ranks ranks_;
   TeamLoops loops_;
@@ -51,7 +51,7 @@ class TileCoarseLoads {
   std::int64_t terms_ = 1;  // bound on the number of terms of a sum
   std::vector<NodePlace> places_;
   std::vector<NodeMoves> moves_;
-  std::vector<double> power_;  // of each contact with an impulse
+  std::vector<double> power_;  // of each place in the blocks
 };
 
 }  // namespace drumlin::particles

@@ -158,14 +158,11 @@ ContactResidual TileSolver<Problem>::residual(const Problem& problem, const Tile
 template <class Problem>
 template <class T>
 void TileSolver<Problem>::correct_loads(const Problem& problem, const TiledContacts& contacts, Halo& halo,
-                                        bool first, std::int64_t contacts_of_all, Blocks<T>& blocks,
-                                        Solution<Problem>& solution) {
+                                        bool first, std::int64_t contacts_of_all, Blocks<T>& blocks) {
   ++corrections_;
-  blocks.unpack(problem, false, solution.impulses, loops_);
-  set_velocities(problem, contacts, halo, solution);
   if (first) coarse_.lay_out(problem, contacts, contacts_of_all);
-  coarse_.scale(problem, contacts, halo, solution.velocities.contacts, solution.impulses);
-  blocks.restart(solution.impulses, loops_);
+  if (!coarse_.scale(contacts, halo, blocks)) return;
+  blocks.rest(loops_);
   work_on(contacts, halo, blocks, [&](std::size_t t) { blocks.load(t); });
   blocks.start();
 }
@@ -194,7 +191,7 @@ SolveReport TileSolver<Problem>::sweep_until_done(const Problem& problem, const 
   const bool coarse = accelerated && contacts_of_all >= least_corrected_ && ranks_.any(!contacts.x.empty());
   for (int sweeps = 0, unseen = 0, progress_at = 0, corrected_at = 0;;) {
     if (coarse && sweeps >= corrected_at + sweeps_between_coarse_loads) {
-      correct_loads(problem, contacts, halo, corrected_at == 0, contacts_of_all, blocks, solution);
+      correct_loads(problem, contacts, halo, corrected_at == 0, contacts_of_all, blocks);
       corrected_at = sweeps;
       beta = 0;
     }

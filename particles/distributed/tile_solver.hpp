@@ -64,7 +64,7 @@ class TileSolver {
   /// Corrects the impulses in blocks on a coarse grid, laid out anew if this is the `first` time.
   template <class T>
   void correct_loads(const Problem&, const TiledContacts&, Halo&, bool first, std::int64_t contacts_of_all,
-                     Blocks<T>&, Solution<Problem>&);
+                     Blocks<T>&);
   template <class T>
   SolveReport sweep_until_done(const Problem&, const TiledContacts&, Halo&, const StoppingRule&,
                                std::int64_t contacts_of_all, Blocks<T>&, bool accelerated,

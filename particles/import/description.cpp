@@ -4,6 +4,7 @@
 #include <cctype>
 
 #include "coupling/common/errors.hpp"
+#include "coupling/common/input_file.hpp"
 #include "particles/import/description_keys.hpp"
 
 namespace drumlin::particles {
@@ -99,14 +100,14 @@ std::vector<fs::path> files_of(const fs::path& folder, const std::vector<std::st
     const fs::path whole = folder / pattern;
     const std::string name = whole.filename().string();
     if (name.find('*') == std::string::npos) {
-      if (!fs::exists(whole)) throw InputError(whole.string() + ": no such file");
+      if (!fs::exists(input_status(whole))) throw InputError(whole.string() + ": no such file");
       files.push_back(whole);
       continue;
     }
     std::vector<std::string> found;
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(whole.parent_path(), error))
-      if (entry.is_regular_file() && matches(name, entry.path().filename().string()))
+      if (fs::is_regular_file(input_status(entry)) && matches(name, entry.path().filename().string()))
         found.push_back(entry.path().filename().string());
     if (found.empty()) throw InputError(whole.string() + ": no file of such a name");
     std::sort(found.begin(), found.end(), natural_less);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "coupling/common/errors.hpp"
+#include "coupling/common/input_file.hpp"
 #include "coupling/documents/json_document.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/io/snapshot_list.hpp"
@@ -16,7 +17,7 @@ namespace drumlin::particles {
 namespace fs = std::filesystem;
 
 RunFolder read_run_folder(const fs::path& folder) {
-  if (!fs::is_directory(folder)) throw InputError(folder.string() + ": no such folder");
+  if (!fs::is_directory(input_status(folder))) throw InputError(folder.string() + ": no such folder");
   if (!fs::exists(folder / "run.json"))
     throw InputError(folder.string() + ": holds no run.json, so no particle run");
   RunFolder result;

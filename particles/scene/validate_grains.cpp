@@ -8,6 +8,7 @@
 #include <numbers>
 #include <set>
 
+#include "coupling/common/input_file.hpp"
 #include "particles/scene/deposited_placement.hpp"
 #include "particles/scene/materials.hpp"
 #include "particles/scene/placement.hpp"
@@ -134,12 +135,12 @@ void check_generated(const Scene& scene, const GeneratedGrains& grains, const st
 }
 
 void check_list(const ListedGrains& list, const std::string& key, Faults& faults) {
-  const auto& file = list.file;
-  if (std::filesystem::is_regular_file(file)) return;
+  const auto status = input_status(list.file);
+  if (std::filesystem::is_regular_file(status)) return;
   faults.push_back({key,
-                    file.string() + (std::filesystem::is_directory(file) ? " is a folder"
-                                     : std::filesystem::exists(file)     ? " is no regular file"
-                                                                         : " does not exist"),
+                    list.file.string() + (std::filesystem::is_directory(status) ? " is a folder"
+                                          : std::filesystem::exists(status)     ? " is no regular file"
+                                                                                : " does not exist"),
                     "a CSV file",
                     {key}});
 }

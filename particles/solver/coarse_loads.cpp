@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "particles/solver/coarse_moves.hpp"
+#include "particles/solver/strip_solver.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -14,17 +15,17 @@ struct Longest {
   void add(const Longest& other) { distance = std::max(distance, other.distance); }
 };
 
-double longest_contact(const CoarseProblem& problem, const BodyPlaces& places, const TeamLoops& loops) {
-  const auto fixed = static_cast<std::int32_t>(problem.inverse_mass.size()) - 1;
+double longest_contact(std::span<const std::int32_t> i, std::span<const std::int32_t> j,
+                       const BodyPlaces& places, const TeamLoops& loops) {
+  const auto fixed = static_cast<std::int32_t>(places.x.size());
   return loops
-      .combined<Longest>(problem.i.size(),
+      .combined<Longest>(i.size(),
                          [&](std::size_t begin, std::size_t end) {
                            Longest own;
                            for (std::size_t a = begin; a < end; ++a) {
-                             const std::int32_t i = problem.i[a], j = problem.j[a];
-                             if (j == fixed) continue;
-                             own.add({std::abs(places.x[i] - places.x[j])});
-                             own.add({std::abs(places.z[i] - places.z[j])});
+                             if (j[a] == fixed) continue;
+                             own.add({std::abs(places.x[i[a]] - places.x[j[a]])});
+                             own.add({std::abs(places.z[i[a]] - places.z[j[a]])});
                            }
                            return own;
                          })
@@ -33,84 +34,76 @@ double longest_contact(const CoarseProblem& problem, const BodyPlaces& places, c
 
 }  // namespace
 
-void CoarseLoads::lay_out(const CoarseProblem& problem, const BodyPlaces& places, const TeamLoops& loops) {
+void CoarseLoads::lay_out(std::span<const std::int32_t> i, std::span<const std::int32_t> j,
+                          const BodyPlaces& places, std::span<const std::int32_t> record, std::size_t records,
+                          const TeamLoops& loops) {
   const auto [x_low, x_high] = std::minmax_element(places.x.begin(), places.x.end());
   const auto [z_low, z_high] = std::minmax_element(places.z.begin(), places.z.end());
-  grid_ = field_grid({*x_low, *x_high, *z_low, *z_high}, static_cast<std::int64_t>(problem.i.size()),
-                     longest_contact(problem, places, loops));
-  rank_.renew(places.x.size());
-  places_.renew(places.x.size());
-  moves_.renew(places.x.size());
-  loops.each(places_.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t rank = begin; rank < end; ++rank) {
-      const std::int32_t b = problem.plan.body_order[rank];
-      rank_[b] = static_cast<std::int32_t>(rank);
-      places_[rank] = {grid_.place_at(places.x[b], places.z[b]), problem.inverse_mass[b]};
-    }
+  grid_ = field_grid({*x_low, *x_high, *z_low, *z_high}, static_cast<std::int64_t>(i.size()),
+                     longest_contact(i, j, places, loops));
+  places_.renew(records);
+  moves_.renew(records);
+  loops.each(record.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) places_[record[b]] = grid_.place_at(places.x[b], places.z[b]);
   });
 }
 
-/// The contacts of a slice.
-void CoarseLoads::add_contacts(const CoarseProblem& problem, std::span<const double> u,
-                               std::span<const double> r, int slice, std::vector<double>& work) {
-  const SweepPlan& plan = problem.plan;
-  const auto fixed = static_cast<std::int32_t>(problem.inverse_mass.size()) - 1;
-  const std::int32_t end = plan.group_start[plan.slice_start[slice + 1]];
-  for (std::int32_t a = plan.group_start[plan.slice_start[slice]]; a < end; ++a) {
-    const double* const r_a = r.data() + static_cast<std::ptrdiff_t>(problem.dim) * a;
-    const double* const u_a = u.data() + static_cast<std::ptrdiff_t>(problem.dim) * a;
-    if (!(r_a[0] > 0)) continue;
-    const bool rubs = problem.dim == 2;
-    const double r_n = r_a[0], r_t = rubs ? r_a[1] : 0;
-    const double g = power_of(r_n, u_a[0], r_t, rubs ? u_a[1] : 0, rubs ? problem.mu[a] : 0);
-    const std::int32_t i = rank_[problem.i[a]];
-    const Body& first = places_[i];
-    const auto weights = first.place.weights();
-    for (const int k : {0, 1, 2, 3}) work[grid_.corner(first.place, k)] += weights[k] * g;
-    const NodePush push(problem.n_x[a], problem.n_z[a], r_n, r_t, problem.spin, first.place);
-    push.add_to(moves_[i], first.place, first.inverse_mass, 1);
-    if (problem.j[a] == fixed) continue;
-    const std::int32_t j = rank_[problem.j[a]];
-    push.add_to(moves_[j], places_[j].place, places_[j].inverse_mass, -1);
-  }
+/// The contacts of a phase of a strip.
+template <class T, int dim, bool spin>
+void CoarseLoads::add_contacts(StripProblem<T, dim, spin>& strips, int strip, int phase,
+                               std::vector<double>& work) {
+  const auto* const bodies = strips.bodies().data();
+  for (const auto& block : strips.blocks(strip, phase))
+    for (int k = 0; k < block.width; ++k) {
+      if (!(block.r[0][k] > 0)) continue;
+      const CoarseContact<T, dim, spin> contact(block, k);
+      const double power = contact.power(block, k, bodies);
+      const NodePlace& at = places_[contact.i];
+      const auto weights = at.weights();
+      for (const int corner : {0, 1, 2, 3}) work[grid_.corner(at, corner)] += weights[corner] * power;
+      contact.move(places_.data(), bodies, moves_.data());
+    }
 }
 
 /// The bodies of a strip.
-void CoarseLoads::add_bodies(const CoarseProblem& problem, int strip, std::vector<double>& rows) const {
-  const auto& first = problem.plan.strip_bodies;
-  for (std::int32_t rank = first[strip]; rank < first[strip + 1]; ++rank)
-    each_product(grid_, places_[rank].place, moves_[rank], 1 / places_[rank].inverse_mass,
-                 [&](int node, int entry, double energy) { rows[entries_of_node * node + entry] += energy; });
+template <class T, int dim, bool spin>
+void CoarseLoads::add_bodies(const StripProblem<T, dim, spin>& strips, int strip,
+                             std::vector<double>& rows) const {
+  const auto [begin, end] = strips.records(strip);
+  for (std::size_t b = begin; b < end; ++b)
+    if (const double inverse_mass = strips.bodies()[b].inverse_mass; inverse_mass > 0)
+      each_product(grid_, places_[b], moves_[b], 1 / inverse_mass, [&](int node, int entry, double energy) {
+        rows[entries_of_node * node + entry] += energy;
+      });
 }
 
 /// Strip by strip, as long as what a strip moves is in the caches. The second slice of a part's last strip
 /// touches the first one of the next part, and waits until the parts are done.
-void CoarseLoads::add_up(const CoarseProblem& problem, std::span<const double> u, std::span<const double> r,
-                         const TeamLoops& loops) {
-  const int strips = problem.plan.strips();
+template <class T, int dim, bool spin>
+void CoarseLoads::add_up(StripProblem<T, dim, spin>& strips, const TeamLoops& loops) {
   const auto rest = [&](int strip) {
-    const auto& first = problem.plan.strip_bodies;
-    std::fill(moves_.begin() + first[strip], moves_.begin() + first[strip + 1], NodeMoves{});
+    const auto [begin, end] = strips.records(strip);
+    std::fill(moves_.begin() + begin, moves_.begin() + end, NodeMoves{});
   };
-  const auto first_of = [&](int part) { return strips * part / parts; };
+  const auto first_of = [&](int part) { return strips.strips() * part / parts; };
   loops.each_of(parts, [&](int part) {
     const int begin = first_of(part), end = first_of(part + 1);
     if (begin < end) rest(begin);
     for (int k = begin; k < end; ++k) {
-      add_contacts(problem, u, r, 2 * k, work_[part]);
+      add_contacts(strips, k, 0, work_[part]);
       if (k + 1 == end) break;
       rest(k + 1);
-      add_contacts(problem, u, r, 2 * k + 1, work_[part]);
-      if (k > begin) add_bodies(problem, k, rows_[part]);
+      add_contacts(strips, k, 1, work_[part]);
+      if (k > begin) add_bodies(strips, k, rows_[part]);
     }
   });
   for (int part = 0; part < parts; ++part)
     if (const int last = first_of(part + 1) - 1; last >= first_of(part))
-      add_contacts(problem, u, r, 2 * last + 1, work_[part]);
+      add_contacts(strips, last, 1, work_[part]);
   loops.each_of(parts, [&](int part) {
     const int begin = first_of(part), last = first_of(part + 1) - 1;
-    if (last >= begin) add_bodies(problem, begin, rows_[part]);
-    if (last > begin) add_bodies(problem, last, rows_[part]);
+    if (last >= begin) add_bodies(strips, begin, rows_[part]);
+    if (last > begin) add_bodies(strips, last, rows_[part]);
   });
 }
 
@@ -124,19 +117,24 @@ std::vector<double> CoarseLoads::solve() const {
   return solve_field(grid_, rows, right);
 }
 
-void CoarseLoads::scale(const CoarseProblem& problem, std::span<const double> u, std::vector<double>& r,
-                        const TeamLoops& loops) {
+template <class T, int dim, bool spin>
+bool CoarseLoads::scale(StripProblem<T, dim, spin>& strips, const TeamLoops& loops) {
   for (auto& work : work_) work.assign(grid_.nodes(), 0.0);
   for (auto& rows : rows_) rows.assign(static_cast<std::size_t>(entries_of_node) * grid_.nodes(), 0.0);
-  add_up(problem, u, r, loops);
+  add_up(strips, loops);
   const std::vector<double> field = solve();
-  if (field.empty()) return;
-  loops.each(problem.i.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t a = begin; a < end; ++a) {
-      const double factor = factor_at(grid_, places_[rank_[problem.i[a]]].place, field);
-      for (int c = 0; c < problem.dim; ++c) r[problem.dim * a + c] *= factor;
-    }
+  if (field.empty()) return false;
+  loops.each_of(strips.strips(), [&](int strip) {
+    for (const int phase : {0, 1}) scale_blocks(strips.blocks(strip, phase), grid_, places_.data(), field);
   });
+  return true;
 }
+
+template bool CoarseLoads::scale(StripProblem<float, 1, false>&, const TeamLoops&);
+template bool CoarseLoads::scale(StripProblem<float, 2, false>&, const TeamLoops&);
+template bool CoarseLoads::scale(StripProblem<float, 2, true>&, const TeamLoops&);
+template bool CoarseLoads::scale(StripProblem<double, 1, false>&, const TeamLoops&);
+template bool CoarseLoads::scale(StripProblem<double, 2, false>&, const TeamLoops&);
+template bool CoarseLoads::scale(StripProblem<double, 2, true>&, const TeamLoops&);
 
 }  // namespace drumlin::particles

@@ -12,7 +12,6 @@
 #include <span>
 #include <vector>
 
-#include "particles/contact/sweep_plan.hpp"
 #include "particles/parallel/team_loops.hpp"
 #include "particles/parallel/work_memory.hpp"
 #include "particles/solver/coarse_field.hpp"
@@ -29,43 +28,36 @@ inline constexpr int least_contacts_of_coarse_loads = 100000;
 /// Sweeps between two corrections.
 inline constexpr int sweeps_between_coarse_loads = 40;
 
-/// What the correction must know of a problem of discs; body inverse_mass.size() - 1 is the fixed one.
-struct CoarseProblem {
-  std::span<const std::int32_t> i, j;
-  std::span<const double> n_x, n_z, inverse_mass;
-  std::span<const double> mu;  ///< empty without friction
-  const SweepPlan& plan;       ///< of the contacts as they stand
-  int dim = 1;                 ///< unknowns per contact: 1 or 2
-  bool spin = false;
-};
+template <class T, int dim, bool spin>
+class StripProblem;
 
 /// Scales impulses; keeps workspace only.
 class CoarseLoads {
  public:
   /// Takes what it keeps of the bodies from a memory: it ends with the frame of lay_out().
-  void use(WorkMemory* memory) { rank_.use(memory), places_.use(memory), moves_.use(memory); }
-  /// Lays the nodes of the field over the bodies of a problem.
-  void lay_out(const CoarseProblem&, const BodyPlaces&, const TeamLoops&);
-  /// Scales the impulses r of the problem that was laid out, which cause the velocities u = W r + q, each by
-  /// a factor between 1/2 and 2. The result does not depend on the team of the loops.
-  void scale(const CoarseProblem&, std::span<const double> u, std::vector<double>& r, const TeamLoops&);
+  void use(WorkMemory* memory) { places_.use(memory), moves_.use(memory); }
+  /// Lays the nodes of the field over the bodies of the contacts (i, j); body places.x.size() is the fixed
+  /// one. `record`: of each body, of so many.
+  void lay_out(std::span<const std::int32_t> i, std::span<const std::int32_t> j, const BodyPlaces& places,
+               std::span<const std::int32_t> record, std::size_t records, const TeamLoops&);
+  /// Scales the impulses of the strips that were laid out each by a factor between 1/2 and 2,
+  /// as impulses and bodies stand. False, and nothing scaled, where there is no good field. The result does
+  /// not depend on the team of the loops.
+  template <class T, int dim, bool spin>
+  bool scale(StripProblem<T, dim, spin>&, const TeamLoops&);
 
  private:
-  struct Body {
-    NodePlace place;
-    double inverse_mass = 0;
-  };
-
-  void add_contacts(const CoarseProblem&, std::span<const double> u, std::span<const double> r, int slice,
-                    std::vector<double>& work);
+  template <class T, int dim, bool spin>
+  void add_contacts(StripProblem<T, dim, spin>&, int strip, int phase, std::vector<double>& work);
   /// The sums of work_ and rows_.
-  void add_up(const CoarseProblem&, std::span<const double> u, std::span<const double> r, const TeamLoops&);
-  void add_bodies(const CoarseProblem&, int strip, std::vector<double>& rows) const;
+  template <class T, int dim, bool spin>
+  void add_up(StripProblem<T, dim, spin>&, const TeamLoops&);
+  template <class T, int dim, bool spin>
+  void add_bodies(const StripProblem<T, dim, spin>&, int strip, std::vector<double>& rows) const;
   std::vector<double> solve() const;
 
   FieldGrid grid_;
-  WorkArray<std::int32_t> rank_;  // of each body in the order of the strips, in which the next two stand
-  WorkArray<Body> places_;
+  WorkArray<NodePlace> places_;  // of each record of a body, as the next one
   WorkArray<NodeMoves> moves_;
   // Strips are shared in so many parts, whatever the number of threads: sums are those of parts, in order.
   static constexpr int parts = 16;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "particles/solver/coarse_field.hpp"
+#include "particles/solver/sweep_kernels.hpp"
 
 namespace drumlin::particles {
 
@@ -46,6 +47,55 @@ struct NodePush {
   const Eigen::Array4f weights;
   const float x, z, s;
 };
+
+/// A contact of a block, as impulses and bodies stand.
+template <class T, int dim, bool spin>
+struct CoarseContact {
+  CoarseContact(const ContactBlock<T, dim>& block, int k)
+      : i(block.i[k] / sizeof(BodyRecord<T>)),
+        j(block.j[k] / sizeof(BodyRecord<T>)),
+        n_x(block.n_x[k]),
+        n_z(block.n_z[k]),
+        r_n(block.r[0][k]) {
+    if constexpr (dim == 2) r_t = block.r[1][k];
+  }
+  /// See power_of().
+  double power(const ContactBlock<T, dim>& block, int k, const BodyRecord<T>* bodies) const {
+    const BodyRecord<T>&I = bodies[i], &J = bodies[j];
+    const double d_x = I.x - J.x, d_z = I.z - J.z, u_n = block.q[0][k] + (n_x * d_x + n_z * d_z);
+    if constexpr (dim == 1)
+      return power_of(r_n, u_n, 0, 0, 0);
+    else {
+      double u_t = block.q[1][k] + (n_z * d_x - n_x * d_z);
+      if constexpr (spin) u_t -= I.s + J.s;
+      return power_of(r_n, u_n, r_t, u_t, block.mu[k]);
+    }
+  }
+  /// Adds what its impulse does to its bodies.
+  void move(const NodePlace* places, const BodyRecord<T>* bodies, NodeMoves* moves) const {
+    const NodePush push(n_x, n_z, r_n, r_t, spin, places[i]);
+    push.add_to(moves[i], places[i], bodies[i].inverse_mass, 1);
+    if (bodies[j].inverse_mass > 0) push.add_to(moves[j], places[j], bodies[j].inverse_mass, -1);
+  }
+
+  std::size_t i, j;  ///< records of its bodies
+  double n_x, n_z, r_n, r_t = 0;
+};
+
+/// Multiplies the impulses of blocks by the factors of a field where their first bodies are; momentum rests.
+template <class T, int dim>
+void scale_blocks(std::span<ContactBlock<T, dim>> blocks, const FieldGrid& grid, const NodePlace* places,
+                  std::span<const double> field) {
+  for (auto& block : blocks)
+    for (int k = 0; k < block.width; ++k) {
+      if (block.r[0][k] > 0) {
+        const auto factor =
+            static_cast<T>(factor_at(grid, places[block.i[k] / sizeof(BodyRecord<T>)], field));
+        for (int e = 0; e < dim; ++e) block.r[e][k] *= factor;
+      }
+      for (int e = 0; e < dim; ++e) block.before[e][k] = block.r[e][k];
+    }
+}
 
 /// Of m v . v' + J omega omega' of two moves, with J = m r^2 / 2 and s = r omega, all but the mass: of the
 /// first what weighted() makes of it.

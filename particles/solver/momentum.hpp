@@ -36,9 +36,12 @@ class Momentum {
     const bool grows = !(step_squares <= growth * least_squares_);
     least_squares_ = grows ? step_squares : std::min(least_squares_, step_squares);
     const bool begins = grows && of_age(age_) < least;
-    age_ = begins ? 1 : grows ? age_ / 2 : age_ + 1;
+    if (!grows) return next_of_falling();
+    age_ = begins ? 1 : age_ / 2;
     return begins ? 0 : std::max(least, of_age(age_));
   }
+  /// The same of a sweep whose steps have not grown.
+  double next_of_falling() { return std::max(least, of_age(++age_)); }
 
  private:
   static double of_age(double age) { return (age - 1) / (age + 2); }

@@ -221,17 +221,10 @@ void StripProblem<T, dim, spin>::unpack(const Problem& problem, bool kept, std::
 }
 
 template <class T, int dim, bool spin>
-void StripProblem<T, dim, spin>::restart(std::span<const double> r, const TeamLoops& loops) {
-  constexpr int width = Block::width;
-  loops.each(contact_.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) {
-      if (contact_[p] < 0) continue;
-      Block& block = blocks_[p / width];
-      for (int e = 0; e < dim; ++e)
-        block.r[e][p % width] = block.before[e][p % width] = static_cast<T>(r[dim * contact_[p] + e]);
-    }
+void StripProblem<T, dim, spin>::rest(const TeamLoops& loops) {
+  loops.each(bodies_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) bodies_[b].x = bodies_[b].z = bodies_[b].s = 0;
   });
-  for (BodyRecord<T>& body : bodies_) body.x = body.z = body.s = 0;
 }
 
 template <class T, int dim, bool spin>
@@ -257,11 +250,11 @@ void StripProblem<T, dim, spin>::start(int strip) {
 }
 
 template <class T, int dim, bool spin>
-void StripProblem<T, dim, spin>::sweep(int strip, int phase, int parity, T beta, bool accelerated) {
+void StripProblem<T, dim, spin>::sweep(int strip, int phase, int slot, T beta, bool accelerated) {
   const Strip& l = strips_[strip];
   if (accelerated && phase == 0)
     Kernels::go_on(&bodies_[l.bodies], &before_[l.bodies], l.bodies_end - l.bodies, beta);
-  step_squares_[parity][2 * strip + phase] =
+  step_squares_[slot][2 * strip + phase] =
       Kernels::sweep(blocks_.data() + l.block[phase],
                      std::span(groups_).subspan(l.group[phase], l.group[phase + 1] - l.group[phase]),
                      bodies_.data(), beta, accelerated);
@@ -285,8 +278,8 @@ void StripProblem<T, dim, spin>::let_rest(int strip, bool rest) {
 }
 
 template <class T, int dim, bool spin>
-double StripProblem<T, dim, spin>::step_squares(int parity) const {
-  return std::accumulate(step_squares_[parity].begin(), step_squares_[parity].end(), 0.0);
+double StripProblem<T, dim, spin>::step_squares(int slot) const {
+  return std::accumulate(step_squares_[slot].begin(), step_squares_[slot].end(), 0.0);
 }
 
 template <class T, int dim, bool spin>
@@ -300,11 +293,11 @@ void StripProblem<T, dim, spin>::start_driven() {
 }
 
 template <class T, int dim, bool spin>
-void StripProblem<T, dim, spin>::sweep_driven(int parity, T beta, bool accelerated) {
+void StripProblem<T, dim, spin>::sweep_driven(int slot, T beta, bool accelerated) {
   // Nobody else reads the walls: they go on when their contacts come.
   if (accelerated)
     Kernels::go_on(&bodies_[driven_bodies_], &before_[driven_bodies_], bodies_.size() - driven_bodies_, beta);
-  step_squares_[parity].back() =
+  step_squares_[slot].back() =
       drumlin::particles::sweep<spin>(std::span(driven_), bodies_.data(), beta, accelerated);
 }
 

@@ -11,6 +11,7 @@
 #include "particles/parallel/work_memory.hpp"
 #include "particles/solver/driven_contacts.hpp"
 #include "particles/solver/sweep_kernels.hpp"
+#include "particles/solver/sweep_wave.hpp"
 
 namespace drumlin::particles {
 
@@ -19,6 +20,8 @@ template <class T, int dim, bool spin>
 class StripProblem {
  public:
   using Kernels = SweepKernels<T, dim, spin>;
+  using Block = ContactBlock<T, dim>;
+  static constexpr int sum_slots = 2 * longest_wave;
 
   /// Takes its blocks and bodies from a memory: they end with the frame of pack().
   void use(WorkMemory* memory) {
@@ -35,8 +38,8 @@ class StripProblem {
   template <class Problem>
   void unpack(const Problem& problem, bool kept, std::vector<double>& r, const TeamLoops& loops) const;
 
-  /// Goes on from other impulses, in the order of the problem; bodies are loaded anew after it.
-  void restart(std::span<const double> r, const TeamLoops& loops);
+  /// Lets the bodies rest: they are loaded anew after it.
+  void rest(const TeamLoops& loops);
 
   int strips() const { return static_cast<int>(strips_.size()); }
   /// First strip of a thread's share: strips are shared by numbers of blocks.
@@ -47,21 +50,21 @@ class StripProblem {
   void load(int strip, int phase);
   /// Remembers the bodies as the beginning of the first sweep.
   void start(int strip);
-  /// With `accelerated`, by beta further on; bodies go on in phase 0, before any contact of theirs. Sums of
-  /// even and odd sweeps stand apart: a thread may begin a sweep while others add up the last one.
-  void sweep(int strip, int phase, int parity, T beta, bool accelerated);
+  /// With `accelerated`, by beta further on; bodies go on in phase 0, before any contact of theirs. `slot`,
+  /// of sum_slots: where the sums of the sweep stand, apart from those that others may be adding up.
+  void sweep(int strip, int phase, int slot, T beta, bool accelerated);
   /// With `rest`, blocks at the end of a group of which all contacts were open in the last two sweeps are
   /// left out of the next ones; else none is.
   void let_rest(int strip, bool rest);
   /// Sum of squares of the steps of a sweep over all strips, in the order of the slices; all threads must
   /// have met after it.
-  double step_squares(int parity) const;
+  double step_squares(int slot) const;
 
   /// Whether there are contacts of driven walls: one thread sweeps them after the second phase.
   bool has_driven() const { return !driven_.empty(); }
   void load_driven();
   void start_driven();
-  void sweep_driven(int parity, T beta, bool accelerated);
+  void sweep_driven(int slot, T beta, bool accelerated);
 
   /// Looks at the residuals of the contacts of a strip; what it saw of all strips, and of driven walls.
   void look_at(int strip);
@@ -72,13 +75,25 @@ class StripProblem {
   void keep(int strip);
   void keep_driven();
 
+  // As contacts and bodies stand.
+  std::span<Block> blocks(int strip, int phase) {
+    const Strip& l = strips_[strip];
+    return {blocks_.data() + l.block[phase], l.block[phase + 1] - l.block[phase]};
+  }
+  std::span<const BodyRecord<T>> bodies() const { return {bodies_.data(), bodies_.size()}; }
+  /// First record of a strip, and the end: with a few that do not move.
+  std::pair<std::size_t, std::size_t> records(int strip) const {
+    return {strips_[strip].bodies, strips_[strip].bodies_end};
+  }
+  /// The record of each body.
+  std::span<const std::int32_t> record() const { return {place_.data(), place_.size()}; }
+
  private:
   struct Strip {
     std::size_t bodies = 0, bodies_end = 0;  // those of wall contacts, which do not move, stand last
     std::size_t block[3] = {0, 0, 0};        // first block of each phase, and the end
     std::size_t group[3] = {0, 0, 0};        // likewise in groups_
   };
-  using Block = ContactBlock<T, dim>;
   using Impulses = std::array<std::array<T, Block::width>, dim>;  // of a block
 
   template <class Problem>
@@ -101,10 +116,10 @@ class StripProblem {
   std::vector<BlockGroup> groups_;
   WorkArray<std::int32_t> contact_;  // of each place in the blocks; -1: filled up
   WorkArray<BodyRecord<T>> bodies_, before_;
-  WorkArray<std::int32_t> place_;        // of each body in bodies_
-  std::vector<double> step_squares_[2];  // of each slice, of even and odd sweeps
-  std::vector<SeenResidual> seen_;       // of each strip
-  WorkArray<Impulses> kept_;             // of each block
+  WorkArray<std::int32_t> place_;         // of each body in bodies_
+  std::vector<double> step_squares_[20];  // of each slice, of the sweeps of two waves
+  std::vector<SeenResidual> seen_;        // of each strip
+  WorkArray<Impulses> kept_;              // of each block
   std::vector<DrivenContact<dim>> driven_;
   std::size_t driven_bodies_ = 0;  // first of them in bodies_
 };

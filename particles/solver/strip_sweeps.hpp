@@ -1,21 +1,30 @@
 #pragma once
 // Sweeps a StripProblem, on vectors and threads, until the stopping rule ends it.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "particles/solver/contact_solver.hpp"
 #include "particles/solver/momentum.hpp"
+#include "particles/solver/sweep_wave.hpp"
 
 namespace drumlin::particles {
 
 /// Contacts that stay open take part in one sweep of so many (docs/decisions/contact-solver.md).
 inline constexpr int sweeps_of_rest = 5;
 
+/// Problems of fewer contacts, which the caches hold, are swept once at a time; larger ones so often that a
+/// wave of sweeps ends where the residual is due.
+inline constexpr int least_contacts_of_waves = 30000;
+
 /// Where a solve in strips stands between two rounds of sweeps.
 template <class T>
 struct SweepState {
   int sweeps = 0;
+  int wave = 1;   ///< sweeps at once: momentum goes on through a wave and is judged by its steps afterwards
+  int waves = 0;  ///< done
   Momentum momentum;
   T beta = 0;
   bool finite = true;
@@ -51,22 +60,26 @@ void sweep_share(Strips& strips, int thread, int threads, int until, bool last, 
     for (int strip = first; strip < end; ++strip) strips.keep(strip);
   own.keep = false;
   while (own.sweeps < until && own.finite) {
-    const bool whole = own.sweeps % sweeps_of_rest == 0;
-    if (accelerated && (whole || own.sweeps % sweeps_of_rest == 1))
-      for (int strip = first; strip < end; ++strip) strips.let_rest(strip, !whole);
-    ++own.sweeps;
-    for (const int phase : {0, 1}) {
-      for (int strip = first; strip < end; ++strip)
-        strips.sweep(strip, phase, own.sweeps % 2, own.beta, accelerated);
-      meet();
-    }
+    const int sweeps = std::min(own.wave, until - own.sweeps), slots = own.waves++ % 2 * longest_wave;
+    std::array<T, longest_wave> betas{own.beta};
+    Momentum expected = own.momentum;
+    for (int s = 1; s < sweeps; ++s) betas[s] = static_cast<T>(expected.next_of_falling());
+    const auto part = [&](int s, int strip, int phase) {
+      const int since_whole = (own.sweeps + s) % sweeps_of_rest;
+      if (accelerated && phase == 0 && since_whole <= 1) strips.let_rest(strip, since_whole == 1);
+      strips.sweep(strip, phase, slots + s, betas[s], accelerated);
+    };
+    sweep_wave(strips, thread, threads, sweeps, part, meet);
     if (strips.has_driven()) {
-      if (thread == 0) strips.sweep_driven(own.sweeps % 2, own.beta, accelerated);
+      if (thread == 0) strips.sweep_driven(slots, own.beta, accelerated);
       meet();
     }
-    own.steps = strips.step_squares(own.sweeps % 2);
-    own.finite = std::isfinite(own.steps);
-    own.beta = static_cast<T>(own.momentum.next(own.steps));
+    own.sweeps += sweeps;
+    for (int s = 0; s < sweeps; ++s) {
+      own.steps = strips.step_squares(slots + s);
+      own.finite = own.finite && std::isfinite(own.steps);
+      own.beta = static_cast<T>(own.momentum.next(own.steps));
+    }
   }
   constexpr int most_unseen = 3;
   own.looked = last || !own.finite || own.steps <= own.worth || own.unseen >= most_unseen;
@@ -105,25 +118,19 @@ bool wants_coarse_loads(const Problem& problem, const SolverWorkspace<Problem>& 
 }
 
 /// Corrects the impulses of the strips on a coarse grid, laid out anew if this is the `first` time.
-/// `solution` is overwritten; if it is `fresh`, it holds the impulses and velocities of the strips already.
 template <class T, class Problem, class Strips>
 void correct_loads(const Problem& problem, SolverWorkspace<Problem>& work, Strips& strips, bool first,
-                   bool fresh, Solution<Problem>& solution, TeamLoops& loops, SweepState<T>& state) {
+                   const TeamLoops& loops, SweepState<T>& state) {
   if constexpr (requires { problem.W.inverse_W_nn; }) {
-    if (state.keep)
+    if (std::exchange(state.keep, false))
       for (int strip = 0; strip < strips.strips(); ++strip) strips.keep(strip);
-    state.keep = false;
-    if (!fresh) {
-      strips.unpack(problem, false, solution.impulses, loops);
-      set_velocities(problem, std::span<const double>(solution.impulses), solution.velocities, loops);
-    }
     const auto& W = problem.W;
-    constexpr bool spin = requires { solution.velocities.bodies[0].s; };
-    const CoarseProblem coarse{W.i,        W.j,    W.n_x,        W.n_z, W.inverse_mass,
-                               problem.mu, W.plan, Problem::dim, spin};
-    if (first) work.coarse.use(work.memory), work.coarse.lay_out(coarse, work.places, loops);
-    work.coarse.scale(coarse, solution.velocities.contacts, solution.impulses, loops);
-    strips.restart(solution.impulses, loops);
+    if (first) {
+      work.coarse.use(work.memory);
+      work.coarse.lay_out(W.i, W.j, work.places, strips.record(), strips.bodies().size(), loops);
+    }
+    if (!work.coarse.scale(strips, loops)) return;
+    strips.rest(loops);
     state.loaded = false;
     state.beta = 0;
   }
@@ -151,19 +158,19 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
   const bool always = std::isfinite(rule.max_seconds);
   SweepState<T> state;
   state.momentum = Momentum(rule.tolerance, static_cast<std::size_t>(problem.contacts()));
+  if (accelerated && !strips.has_driven() && problem.contacts() >= least_contacts_of_waves)
+    state.wave = longest_wave;
   state.worth = std::numeric_limits<double>::infinity();
   double least = std::numeric_limits<double>::infinity(), best = least;
   // Driven walls take impulses too, which the records do not tell.
   const bool limits_sinking = std::isfinite(rule.sinking) && !strips.has_driven();
   const bool coarse = accelerated && wants_coarse_loads(problem, work);
   int corrected_at = 0;
-  bool fresh = false;  // `solution` is that of the strips
   const auto go_on = [&] {
     if (coarse && state.sweeps >= corrected_at + sweeps_between_coarse_loads) {
-      correct_loads(problem, work, strips, corrected_at == 0, fresh, solution, loops, state);
+      correct_loads(problem, work, strips, corrected_at == 0, loops, state);
       corrected_at = state.sweeps;
     }
-    fresh = false;
   };
   for (int progress_at = 0;; go_on()) {
     int until = state.sweeps + 1;
@@ -192,7 +199,6 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
     if (!last && !stuck && far && !always) continue;
     strips.unpack(problem, false, solution.impulses, loops);
     const bool ended = test.ends(state.sweeps, residual_of(problem, solution, loops), state.finite);
-    fresh = true;
     const bool hidden = single && test.report().residual.rms > 3 * seen;
     if (!ended && !stuck && !hidden) continue;
     if (best < seen && test.report().status != Status::converged) {

@@ -16,7 +16,7 @@ def main():
     law = data / "rheology" / "paper.toml"
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        missing, full = folder / "missing", folder / "full"
+        missing, full, long = folder / "missing", folder / "full", folder / ("x" * 300)
         full.mkdir()
         (full / "keep.txt").write_text("years of work", encoding="utf-8")
         (folder / "empty.toml").write_text("", encoding="utf-8")
@@ -37,6 +37,11 @@ def main():
             "a file in place of a folder": [
                 ["run", scene, "-o", full / "keep.txt"], ["measure", scene], ["compare", scene, scene, "-o", output],
                 ["flow", flow_scene, "--rheology", law, "-o", full / "keep.txt"]],
+            "a name that nothing can have": [
+                ["run", long, "-o", output], ["run", scene, "-o", long], ["measure", long], ["report", long], ["export", long, "-o", output],
+                ["calibrate", long, "-o", output], ["flow", long, "--rheology", law, "-o", output],
+                ["flow", flow_scene, "--rheology", law, "-o", long], ["compare", long, long, "-o", output], ["accept", long, "--reason", "x"],
+                ["scene", "check", long], ["solve-contacts", long]],
             "an empty file": [
                 ["run", folder / "empty.toml", "-o", output], ["scene", "check", folder / "empty.toml"],
                 ["flow", folder / "empty.toml", "--rheology", law, "-o", output],

@@ -160,6 +160,14 @@ TEST(CsvImport, RefusesWithFileAndLine) {
   EXPECT_NE(refusal(folder, std::string(head) + "[csv]\ngrains = [\"none-*.csv\"]\n")
                 .find("no file of such a name"),
             std::string::npos);
+  // Found by fuzzing.
+  EXPECT_NE(refusal(folder, std::string(head) + "[csv]\ngrains = [\"" + std::string(300, 'x') + "\"]\n")
+                .find("has too long a name"),
+            std::string::npos);
+  std::filesystem::create_symlink("round-1", folder / "round-1");
+  EXPECT_NE(refusal(folder, std::string(head) + "[csv]\ngrains = [\"round-*\"]\n")
+                .find("is a link that leads back to itself"),
+            std::string::npos);
   folder.with("grains.csv", good + "2,2,0,0,0,0,0.5\n");
   EXPECT_EQ(imported(folder, std::string(head) + "may_change = true\n" + one_file).snapshots.size(), 2u);
 }

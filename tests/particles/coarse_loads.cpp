@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "particles/contact/problems.hpp"
-#include "particles/contact/residual.hpp"
 #include "particles/solver/contact_solver.hpp"
+#include "particles/solver/strip_solver.hpp"
 
 namespace drumlin {
 using namespace particles;
@@ -71,12 +71,14 @@ std::vector<double> corrected(const Heap& heap, std::vector<double> r, ThreadTea
   const auto& W = heap.problem.W;
   TeamLoops loops(team);
   for (double& entry : r) entry *= 0.8;
-  Velocities<CoulombSpinProblem::Delassus> velocities;
-  set_velocities(heap.problem, std::span<const double>(r), velocities, loops);
+  StripProblem<double, 2, true> strips;
+  strips.pack(heap.problem, W.plan, {}, r, loops);
+  for (const int phase : {0, 1})
+    for (int strip = 0; strip < strips.strips(); ++strip) strips.load(strip, phase);
   CoarseLoads coarse;
-  const CoarseProblem problem{W.i, W.j, W.n_x, W.n_z, W.inverse_mass, heap.problem.mu, W.plan, 2, true};
-  coarse.lay_out(problem, {heap.x, heap.z}, loops);
-  coarse.scale(problem, velocities.contacts, r, loops);
+  coarse.lay_out(W.i, W.j, {heap.x, heap.z}, strips.record(), strips.bodies().size(), loops);
+  EXPECT_TRUE(coarse.scale(strips, loops));
+  strips.unpack(heap.problem, false, r, loops);
   return r;
 }
 

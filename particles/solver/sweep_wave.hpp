@@ -1,0 +1,50 @@
+#pragma once
+// Several sweeps over strips at once: the order in which their phases are done, so that strips stay in the
+// caches from one sweep to the next.
+#include <algorithm>
+
+namespace drumlin::particles {
+
+/// Most sweeps of a wave.
+inline constexpr int longest_wave = 5;
+
+/// One thread's share of a number of sweeps over strips, which meets the others by calling meet();
+/// part(s, strip, phase) does a phase of sweep s on a strip. strips: tells strips() and first_strip(thread,
+/// threads), as StripProblem does.
+///
+/// Every strip sees the phases in the order of the sweeps: phase 0 of a strip comes after phase 1 of the
+/// sweep before on it and on the strip before, phase 1 after phase 0 on it and on the next strip. Nothing
+/// else ties strips together, so that the next sweep may follow one strip behind: the result is that of
+/// sweeps in turn. Where the shares of two threads meet, each leaves out what would need the other's; one of
+/// them does that after they have met. Shares that are too narrow for it take the sweeps in turn.
+template <class Strips, class Part, class Meet>
+void sweep_wave(const Strips& strips, int thread, int threads, int sweeps, Part part, Meet meet) {
+  const int first = strips.first_strip(thread, threads), end = strips.first_strip(thread + 1, threads);
+  bool together = sweeps > 1;
+  for (int t = 0; t < threads && threads > 1; ++t)
+    together &= strips.first_strip(t + 1, threads) - strips.first_strip(t, threads) >= 2 * sweeps;
+  if (!together) {
+    for (int s = 0; s < sweeps; ++s)
+      for (const int phase : {0, 1}) {
+        for (int strip = first; strip < end; ++strip) part(s, strip, phase);
+        meet();
+      }
+    return;
+  }
+  const bool left = thread > 0, right = thread + 1 < threads;
+  for (int front = first; front < end + sweeps; ++front)
+    for (int s = 0; s < sweeps; ++s) {
+      const int from = first + (left ? s : 0), until = end - (right ? s : 0), strip = front - s;
+      if (strip >= from && strip < until) part(s, strip, 0);
+      if (strip - 1 >= from && strip - 1 < until - right) part(s, strip - 1, 1);
+    }
+  meet();
+  if (right)
+    for (int s = 0; s < sweeps; ++s) {
+      for (int strip = end - s; strip < end + s; ++strip) part(s, strip, 0);
+      for (int strip = end - s - 1; strip < end + s; ++strip) part(s, strip, 1);
+    }
+  meet();
+}
+
+}  // namespace drumlin::particles
