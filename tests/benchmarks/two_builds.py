@@ -1,0 +1,65 @@
+"""What a change of the engine does to large packings: two builds of `drumlin` on the same scenes, in turn, on one thread and on two.
+
+usage: python3 tests/benchmarks/two_builds.py OLD_BUILD NEW_BUILD RECORD.json --flow FOLDER
+FOLDER: where `sweeps_over_size.py --keep FOLDER 30000 100000` has left its runs. 100 steps of each flow, twice, and 10 steps of a million deposited discs,
+once, to a residual of 1e-2. Seconds are processor seconds, of the solver its share of wall time. An idle machine: the load stands in the record.
+"""
+
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from ranks import scene  # noqa: E402
+
+FLOWS, FLOW_STEPS, CALLS = (30000, 100000), 100, 2
+DEPOSITED, DEPOSITED_STEPS = 1000000, 10
+
+
+def called(build, scene_file, threads, folder):
+    subprocess.run([build / "drumlin", "run", scene_file, "--threads", str(threads), "-o", folder], check=True, capture_output=True)
+    run = json.loads((folder / "run.json").read_text(encoding="utf-8"))
+    cost, sweeps = run["cost"], run["cost"]["sweeps_mean"] * run["steps"]
+    found = {"sweeps_per_step": cost["sweeps_mean"], "cpu_seconds": run["cpu_seconds"], "wall_seconds": run["wall_seconds"], "solver_seconds": cost["solver_seconds"],
+             "solver_ns_per_contact_and_sweep": 1e9 * cost["solver_seconds"] / (sweeps * cost["contacts_mean"])}
+    return found, run["revision"]
+
+
+def main():
+    given = sys.argv[1:]
+    flows = pathlib.Path(given.pop(given.index("--flow") + 1)).resolve()
+    given.remove("--flow")
+    builds, record = {"old": pathlib.Path(given[0]).resolve(), "new": pathlib.Path(given[1]).resolve()}, pathlib.Path(given[2])
+    load, cases, revisions = os.getloadavg()[0], [], {}
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        for discs in (*FLOWS, DEPOSITED):
+            flowing = discs in FLOWS
+            steps, scene_file = (FLOW_STEPS, flows / str(discs) / "in-turn.toml") if flowing else (DEPOSITED_STEPS, folder / "scene.toml")
+            text = (flows / str(discs) / "flowing.toml").read_text(encoding="utf-8") if flowing else scene(discs, steps, True)
+            scene_file.write_text(re.sub(r"duration_s = [\d.]+", f"duration_s = {steps * 1e-3:g}", text), encoding="utf-8")
+            case = {"discs": discs, "flowing": flowing, "steps": steps, "calls": []}
+            for call in range(CALLS if flowing else 1):
+                for threads in (1, 2):
+                    for which, build in builds.items():
+                        found, revisions[which] = called(build, scene_file, threads, folder / f"{discs}-{call}-{threads}-{which}")
+                        case["calls"].append({"build": which, "threads": threads, **found})
+                        print(discs, which, f"{threads} threads:", {key: round(value, 2) for key, value in found.items()}, flush=True)
+
+            def best(which, threads, case=case):
+                return min(c["solver_seconds"] for c in case["calls"] if c["build"] == which and c["threads"] == threads)
+
+            case["old_over_new_in_solver"] = {str(threads): best("old", threads) / best("new", threads) for threads in (1, 2)}
+            print(case["old_over_new_in_solver"])
+            cases.append(case)
+    content = {"format": "drumlin-two-builds-1", "command": "python3 tests/benchmarks/two_builds.py OLD_BUILD NEW_BUILD RECORD.json --flow FOLDER", "revisions": revisions,
+               "processors": os.cpu_count(), "load_before": load, "load_after": os.getloadavg()[0], "cases": cases}
+    record.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
