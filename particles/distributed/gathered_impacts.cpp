@@ -11,9 +11,9 @@ namespace drumlin::particles {
 namespace {
 
 // How many pairs around what closes, or around bodies that were missing, are sent at once. Passes of a
-// flowing drum go on by 2.4 pairs on average, the furthest of a large one by a dozen. After that many times
-// all pairs are sent.
-constexpr std::array<int, 2> reach{3, 12};
+// flowing drum go on by 2.4 pairs on average, the furthest of a large one by a dozen: one that goes on
+// further than was sent costs more than some pairs too many. After that many times all pairs are sent.
+constexpr std::array<int, 2> reach{5, 15};
 
 /// Sorts what consists of a few runs in order: the first `sorted` records and what each rank has sent.
 template <class Record, class Less>
@@ -41,8 +41,9 @@ std::vector<StruckRecord> GatheredImpacts::resolve(const RankImpacts& mine) {
   const std::size_t seen = mine.step.bodies.count();
   seed_.assign(seen, 0), wanted_.assign(seen, 0), sent_.assign(seen, 0);
   pair_sent_.assign(mine.contacts.pairs.size(), 0);
-  whole_.clear(), pairs_.clear(), bodies_.clear();
-  place_of_.resize(ranks_.rank() == 0 ? mine.place_of.size() : 0);
+  pairs_.clear(), bodies_.clear();
+  const std::size_t identities = ranks_.rank() == 0 ? mine.place_of.size() : 0;
+  whole_.assign(identities, 0), place_of_.resize(identities);
   find_neighbours(mine);
   for (const std::int32_t a : looked_.closings()) {
     const Candidate& pair = mine.contacts.pairs[a];
@@ -129,22 +130,18 @@ std::vector<std::int32_t> GatheredImpacts::around(const RankImpacts& mine, int p
 void GatheredImpacts::want(const RankImpacts& mine, std::span<const std::int32_t> identities) {
   for (const std::int32_t id : identities)
     if (const std::int32_t b = mine.place_of[id]; b >= 0) wanted_[b] = 1;
-  if (ranks_.rank() != 0) return;
-  whole_.insert(whole_.end(), identities.begin(), identities.end());
-  std::sort(whole_.begin(), whole_.end());
-  whole_.erase(std::unique(whole_.begin(), whole_.end()), whole_.end());
+  if (ranks_.rank() == 0)
+    for (const std::int32_t id : identities) whole_[id] = 1;
 }
 
 void GatheredImpacts::send(const RankImpacts& mine) {
   const Bodies& bodies = mine.step.bodies;
   const auto& id = bodies.id;
   const auto comes_before = [](const BodyRecord& a, const BodyRecord& b) { return a.id < b.id; };
+  constexpr char sent_now = 2;
   std::vector<PairRecord> pairs;
-  std::vector<BodyRecord> grains;
   const auto name = [&](std::int32_t b) {
-    if (!std::exchange(sent_[b], 1))
-      grains.push_back({static_cast<std::int32_t>(id[b]), bodies.v_x[b], bodies.v_z[b],
-                        bodies.spin.empty() ? 0 : bodies.spin[b], bodies.radius[b], bodies.inverse_mass[b]});
+    if (!sent_[b]) sent_[b] = sent_now;
     return static_cast<std::int32_t>(id[b]);
   };
   for (std::size_t a = 0; a < mine.contacts.pairs.size(); ++a) {
@@ -155,10 +152,16 @@ void GatheredImpacts::send(const RankImpacts& mine) {
     pairs.push_back({i, j, pair.gap, pair.n_x, pair.n_z, pair.wall_v_x, pair.wall_v_z,
                      mine.loads.of(static_cast<std::int32_t>(a))});
   }
+  std::vector<BodyRecord> grains;  // by identity, as the rank sees them
+  for (std::size_t b = 0; b < sent_.size(); ++b) {
+    if (sent_[b] != sent_now) continue;
+    sent_[b] = 1;
+    grains.push_back({static_cast<std::int32_t>(id[b]), bodies.v_x[b], bodies.v_z[b],
+                      bodies.spin.empty() ? 0 : bodies.spin[b], bodies.radius[b], bodies.inverse_mass[b]});
+  }
   counts_.pairs += static_cast<std::int64_t>(pairs.size());
   counts_.bytes +=
       static_cast<std::int64_t>(pairs.size() * sizeof(PairRecord) + grains.size() * sizeof(BodyRecord));
-  std::sort(grains.begin(), grains.end(), comes_before);
   const auto more = ranks_.gather<PairRecord>(pairs);
   const std::size_t held = pairs_.size(), known = bodies_.size();
   pairs_.insert(pairs_.end(), more.begin(), more.end());
@@ -175,19 +178,24 @@ void GatheredImpacts::resolve_gathered(const StepInput& step, bool all, std::vec
   bodies_.erase(std::unique(bodies_.begin(), bodies_.end(),
                             [](const BodyRecord& a, const BodyRecord& b) { return a.id == b.id; }),
                 bodies_.end());
+  const std::size_t count = bodies_.size();
   Bodies bodies;
-  std::vector<char> whole;
-  for (const BodyRecord& body : bodies_) {
-    bodies.v_x.push_back(body.v_x), bodies.v_z.push_back(body.v_z);
-    bodies.radius.push_back(body.radius), bodies.inverse_mass.push_back(body.inverse_mass);
-    if (step.laws.spin) bodies.spin.push_back(body.spin);
-    bodies.id.push_back(body.id);
-    whole.push_back(all || std::binary_search(whole_.begin(), whole_.end(), body.id));
+  for (auto* entries : {&bodies.x, &bodies.z, &bodies.v_x, &bodies.v_z, &bodies.radius, &bodies.inverse_mass})
+    entries->resize(count);  // impacts ask for no places
+  bodies.id.resize(count), bodies.spin.resize(step.laws.spin ? count : 0);
+  std::vector<char> whole(count);
+  for (std::size_t b = 0; b < count; ++b) {
+    const BodyRecord& body = bodies_[b];
+    bodies.v_x[b] = body.v_x, bodies.v_z[b] = body.v_z;
+    bodies.radius[b] = body.radius, bodies.inverse_mass[b] = body.inverse_mass;
+    if (step.laws.spin) bodies.spin[b] = body.spin;
+    bodies.id[b] = body.id;
+    whole[b] = static_cast<char>(all || whole_[body.id]);
+    place_of_[body.id] = static_cast<std::int32_t>(b);
   }
-  bodies.x.resize(bodies_.size()), bodies.z.resize(bodies_.size());  // impacts ask for no places
-  for (std::size_t b = 0; b < bodies_.size(); ++b) place_of_[bodies_[b].id] = static_cast<std::int32_t>(b);
   StepContacts contacts;
   std::vector<double> load;
+  contacts.pairs.reserve(pairs_.size()), load.reserve(pairs_.size());
   for (const PairRecord& pair : pairs_) {
     contacts.pairs.push_back({place_of_[pair.i], pair.j < 0 ? pair.j : place_of_[pair.j], pair.gap, pair.n_x,
                               pair.n_z, pair.wall_v_x, pair.wall_v_z});

@@ -80,7 +80,7 @@ class GatheredImpacts {
   std::vector<std::int32_t> first_, neighbour_, ring_;  // neighbours of b from first_[b] on
   std::vector<char> wanted_;                            // of each seen body: all pairs of it are to be sent
   std::vector<char> pair_sent_, sent_;                  // of each pair of this rank; of each seen body
-  std::vector<std::int32_t> whole_;                     // identities of wanted bodies, ascending
+  std::vector<char> whole_;                             // on the first rank, of each identity: wanted
   std::vector<PairRecord> pairs_;       // those that the first rank holds, in the order of (i, j)
   std::vector<BodyRecord> bodies_;      // by identity
   std::vector<std::int32_t> place_of_;  // of each identity among them; others are not set
