@@ -7,8 +7,9 @@
 #include <filesystem>
 #include <numbers>
 #include <set>
+#include <string>
+#include <system_error>
 
-#include "coupling/common/input_file.hpp"
 #include "particles/scene/deposited_placement.hpp"
 #include "particles/scene/materials.hpp"
 #include "particles/scene/placement.hpp"
@@ -135,14 +136,15 @@ void check_generated(const Scene& scene, const GeneratedGrains& grains, const st
 }
 
 void check_list(const ListedGrains& list, const std::string& key, Faults& faults) {
-  const auto status = input_status(list.file);
+  std::error_code unknown;
+  const auto status = std::filesystem::status(list.file, unknown);
   if (std::filesystem::is_regular_file(status)) return;
-  faults.push_back({key,
-                    list.file.string() + (std::filesystem::is_directory(status) ? " is a folder"
-                                          : std::filesystem::exists(status)     ? " is no regular file"
-                                                                                : " does not exist"),
-                    "a CSV file",
-                    {key}});
+  std::string what = std::filesystem::is_directory(status) ? "is a folder"
+                     : std::filesystem::exists(status)     ? "is no regular file"
+                     : status.type() == std::filesystem::file_type::not_found
+                         ? "does not exist"
+                         : "cannot be found: " + unknown.message();
+  faults.push_back({key, list.file.string() + " " + what, "a CSV file", {key}});
 }
 
 void check_group(const Scene& scene, std::size_t g, std::set<std::string>& names, Faults& faults) {

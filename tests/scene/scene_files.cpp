@@ -163,6 +163,14 @@ TEST_F(ListedGrainsFile, IsMissedWithTheKeyThatNamesIt) {
   EXPECT_NE(text.find("does not exist"), std::string::npos) << text;
 }
 
+// Found by fuzzing.
+TEST_F(ListedGrainsFile, IsMissedWithItsKeyWhereNoFileCanHaveItsName) {
+  const auto file = folder.with("s.toml", replaced(scene, "list.csv", std::string(300, 'x')));
+  const auto text = testing::message_of<InputError>([&] { read_scene(file); });
+  EXPECT_NE(text.find(":6:8: grains.listed.file"), std::string::npos) << text;
+  EXPECT_NE(text.find("cannot be found"), std::string::npos) << text;
+}
+
 TEST_F(ListedGrainsFile, ReportsItsProblemsBesideThoseOfTheScene) {
   folder.with("list.csv", "x_mm,z_mm,diameter_mm\n0,0,-3\n");
   const auto file = folder.with("s.toml", replaced(scene, "turns = 0.1", "turns = -1"));
