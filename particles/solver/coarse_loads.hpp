@@ -37,7 +37,7 @@ class CoarseLoads {
   /// Takes what it keeps of the bodies from a memory: it ends with the frame of lay_out().
   void use(WorkMemory* memory) { places_.use(memory), moves_.use(memory); }
   /// Lays the nodes of the field over the bodies of the contacts (i, j); body places.x.size() is the fixed
-  /// one. `record`: of each body, of so many.
+  /// one. `record`: where each body stands among so many `records`.
   void lay_out(std::span<const std::int32_t> i, std::span<const std::int32_t> j, const BodyPlaces& places,
                std::span<const std::int32_t> record, std::size_t records, const TeamLoops&);
   /// Scales the impulses of the strips that were laid out each by a factor between 1/2 and 2,

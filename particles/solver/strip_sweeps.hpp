@@ -15,8 +15,7 @@ namespace drumlin::particles {
 /// Contacts that stay open take part in one sweep of so many (docs/decisions/contact-solver.md).
 inline constexpr int sweeps_of_rest = 5;
 
-/// Problems of fewer contacts, which the caches hold, are swept once at a time; larger ones so often that a
-/// wave of sweeps ends where the residual is due.
+/// Problems of fewer contacts, which the caches hold, take one sweep at a time; larger ones `longest_wave`.
 inline constexpr int least_contacts_of_waves = 30000;
 
 /// Where a solve in strips stands between two rounds of sweeps.
@@ -41,7 +40,8 @@ struct SweepState {
 template <class T, class Strips, class Meet>
 void sweep_share(Strips& strips, int thread, int threads, int until, bool last, bool accelerated,
                  SweepState<T>& state, Meet meet) {
-  const int first = strips.first_strip(thread, threads), end = strips.first_strip(thread + 1, threads);
+  const StripShare share = share_of(strips, thread, threads);
+  const int first = share.first, end = share.end;
   SweepState<T> own = state;
   if (!own.loaded) {
     for (const int phase : {0, 1}) {
@@ -69,7 +69,7 @@ void sweep_share(Strips& strips, int thread, int threads, int until, bool last, 
       if (accelerated && phase == 0 && since_whole <= 1) strips.let_rest(strip, since_whole == 1);
       strips.sweep(strip, phase, slots + s, betas[s], accelerated);
     };
-    sweep_wave(strips, thread, threads, sweeps, part, meet);
+    sweep_wave(share, sweeps, part, meet);
     if (strips.has_driven()) {
       if (thread == 0) strips.sweep_driven(slots, own.beta, accelerated);
       meet();

@@ -8,22 +8,37 @@ namespace drumlin::particles {
 /// Most sweeps of a wave.
 inline constexpr int longest_wave = 5;
 
+/// The strips of one thread of a team, and how many the thread with the fewest has.
+struct StripShare {
+  int first = 0, end = 0, fewest = 0;
+  bool left = false, right = false;  ///< whether another thread's strips come before and after
+};
+
+/// strips: tells first_strip(thread, threads), as StripProblem does.
+template <class Strips>
+StripShare share_of(const Strips& strips, int thread, int threads) {
+  StripShare share{strips.first_strip(thread, threads), strips.first_strip(thread + 1, threads)};
+  share.left = thread > 0, share.right = thread + 1 < threads;
+  share.fewest = share.end - share.first;
+  for (int t = 0; t < threads && threads > 1; ++t)
+    share.fewest =
+        std::min(share.fewest, strips.first_strip(t + 1, threads) - strips.first_strip(t, threads));
+  return share;
+}
+
 /// One thread's share of a number of sweeps over strips, which meets the others by calling meet();
-/// part(s, strip, phase) does a phase of sweep s on a strip. strips: tells strips() and first_strip(thread,
-/// threads), as StripProblem does.
+/// part(s, strip, phase) does a phase of sweep s on a strip.
 ///
 /// Every strip sees the phases in the order of the sweeps: phase 0 of a strip comes after phase 1 of the
 /// sweep before on it and on the strip before, phase 1 after phase 0 on it and on the next strip. Nothing
 /// else ties strips together, so that the next sweep may follow one strip behind: the result is that of
 /// sweeps in turn. Where the shares of two threads meet, each leaves out what would need the other's; one of
 /// them does that after they have met. Shares that are too narrow for it take the sweeps in turn.
-template <class Strips, class Part, class Meet>
-void sweep_wave(const Strips& strips, int thread, int threads, int sweeps, Part part, Meet meet) {
-  const int first = strips.first_strip(thread, threads), end = strips.first_strip(thread + 1, threads);
-  bool together = sweeps > 1;
-  for (int t = 0; t < threads && threads > 1; ++t)
-    together &= strips.first_strip(t + 1, threads) - strips.first_strip(t, threads) >= 2 * sweeps;
-  if (!together) {
+template <class Part, class Meet>
+void sweep_wave(const StripShare& share, int sweeps, Part part, Meet meet) {
+  const auto [first, end, fewest, left, right] = share;
+  const bool alone = !left && !right;
+  if (sweeps == 1 || (!alone && fewest < 2 * sweeps)) {
     for (int s = 0; s < sweeps; ++s)
       for (const int phase : {0, 1}) {
         for (int strip = first; strip < end; ++strip) part(s, strip, phase);
@@ -31,7 +46,6 @@ void sweep_wave(const Strips& strips, int thread, int threads, int sweeps, Part 
       }
     return;
   }
-  const bool left = thread > 0, right = thread + 1 < threads;
   for (int front = first; front < end + sweeps; ++front)
     for (int s = 0; s < sweeps; ++s) {
       const int from = first + (left ? s : 0), until = end - (right ? s : 0), strip = front - s;

@@ -15,7 +15,6 @@ namespace {
 /// Strips of two slices each, shared by numbers.
 struct Strips {
   int count = 0;
-  int strips() const { return count; }
   int first_strip(int thread, int threads) const { return count * thread / threads; }
 };
 
@@ -53,7 +52,7 @@ TEST(SweepWave, GivesWhatSweepsInTurnGive) {
         Slices slices(strips);
         team.run([&](int t, int threads) {
           sweep_wave(
-              Strips{strips}, t, threads, sweeps,
+              share_of(Strips{strips}, t, threads), sweeps,
               [&](int s, int strip, int phase) { slices.touch(s, strip, phase); }, [&] { team.meet(t); });
         });
         EXPECT_EQ(slices.numbers(), in_turn(strips, sweeps))
