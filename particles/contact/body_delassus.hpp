@@ -103,8 +103,9 @@ class BodyDelassus {
     return u;
   }
 
-  /// lambda_max(W_aa), the scale of the residual.
-  double largest_eigenvalue(int a) const { return (dim == 2 && with_spin ? 3 : 1) / inverse_W_nn[a]; }
+  /// lambda_max(W_aa), the scale of the residual, in parts of W_nn.
+  static constexpr double largest_in_W_nn = dim == 2 && with_spin ? 3 : 1;
+  double largest_eigenvalue(int a) const { return largest_in_W_nn / inverse_W_nn[a]; }
 
   /// State of given impulses, from scratch.
   void load(State& state, std::span<const double> r) const {

@@ -8,9 +8,9 @@
 #include <limits>
 #include <span>
 
-#include "particles/contact/cone.hpp"
 #include "particles/contact/contact_problem.hpp"
 #include "particles/contact/solution.hpp"
+#include "particles/contact/squared_errors.hpp"
 #include "particles/parallel/team_loops.hpp"
 #include "particles/parallel/work_memory.hpp"
 
@@ -27,29 +27,6 @@ struct ContactResidual {
   /// that all miss by the same, n/2 times what one of them misses. NaN of a problem without bodies.
   double sinking = 0;
 };
-
-/// e_a^2 of a contact with lambda_max(W_aa), its dim - 1 coefficients of friction, impulses and velocities.
-template <int dim>
-double squared_error(double lambda, const double* mu, const double* r, const double* u) {
-  const double rho = 1 / lambda;
-  double squares = 0;  // of e / lambda
-  if constexpr (dim == 1) {
-    const double n = r[0] - std::max(0.0, r[0] - rho * u[0]);
-    squares = n * n;
-  } else if constexpr (dim == 3) {
-    double n = r[0] - rho * (u[0] + mu[0] * std::abs(u[1]) + mu[1] * std::abs(u[2]));
-    double t = r[1] - rho * u[1], roll = r[2] - rho * u[2];
-    project_on_cone(mu[0], mu[1], n, t, roll);
-    n -= r[0], t -= r[1], roll -= r[2];
-    squares = n * n + t * t + roll * roll;
-  } else {
-    double n = r[0] - rho * (u[0] + mu[0] * std::abs(u[1])), t = r[1] - rho * u[1];
-    project_on_cone(mu[0], n, t);
-    n -= r[0], t -= r[1];
-    squares = n * n + t * t;
-  }
-  return squares * (lambda * lambda);
-}
 
 /// e_a^2 of contact a of a problem.
 template <class Problem>
@@ -97,7 +74,7 @@ struct ResidualSums {
     // A comparison that a NaN fails would hide it.
     if (!(squared_error <= largest)) largest = squared_error;
     lowest_u_n = std::min(lowest_u_n, u_n);
-    let_through += r_n * std::max(0.0, -u_n);
+    let_through += r_n * ((std::abs(u_n) - u_n) / 2);  // max(0, -u_n), without a branch
   }
   void add(const ResidualSums& more) {
     squares += more.squares;
@@ -106,6 +83,38 @@ struct ResidualSums {
     let_through += more.let_through;
   }
 };
+
+/// e_a^2 of contacts from `first` on; of discs on vectors.
+template <class Problem>
+void set_squared_errors(const Problem& problem, std::size_t first, std::span<const double> r,
+                        std::span<const double> u, std::span<double> errors) {
+  constexpr std::size_t dim = Problem::dim;
+  if constexpr (requires { Problem::Delassus::largest_in_W_nn; })
+    set_squared_errors<dim>(Problem::Delassus::largest_in_W_nn, problem.W.inverse_W_nn.data() + first,
+                            problem.mu.data() + (dim - 1) * first, r.data() + dim * first,
+                            u.data() + dim * first, errors);
+  else
+    for (std::size_t k = 0; k < errors.size(); ++k)
+      errors[k] = squared_error(problem, static_cast<int>(first + k), r, u);
+}
+
+/// What the residual adds up over contacts `begin` to `end`.
+template <class Problem>
+ResidualSums residual_sums(const Problem& problem, std::size_t begin, std::size_t end,
+                           std::span<const double> r, std::span<const double> u) {
+  constexpr std::size_t dim = Problem::dim, some = 128;
+  ResidualSums sums;
+  std::array<double, some> errors;
+  for (; begin < end; begin += some) {
+    const std::size_t count = std::min(some, end - begin);
+    set_squared_errors(problem, begin, r, u, std::span(errors).first(count));
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t n = dim * (begin + k);
+      sums.add(errors[k], r[n], u[n]);
+    }
+  }
+  return sums;
+}
 
 /// u = W r + q; `velocities` receives it, and what the bodies do.
 template <class Problem>
@@ -130,18 +139,13 @@ void set_velocities(const Problem& problem, std::span<const double> r,
 template <class Problem>
 ContactResidual residual_of(const Problem& problem, std::span<const double> r,
                             Velocities<typename Problem::Delassus>& velocities, TeamLoops& loops) {
-  constexpr int dim = Problem::dim;
   const int count = problem.contacts();
   ContactResidual residual;
   set_velocities(problem, r, velocities, loops);
   if (count == 0) return residual;
   const std::span<const double> u = velocities.contacts;
-  const auto sums = loops.template combined<ResidualSums>(count, [&](std::size_t begin, std::size_t end) {
-    ResidualSums own;
-    for (std::size_t a = begin; a < end; ++a)
-      own.add(squared_error(problem, static_cast<int>(a), r, u), r[dim * a], u[dim * a]);
-    return own;
-  });
+  const auto sums = loops.template combined<ResidualSums>(
+      count, [&](std::size_t begin, std::size_t end) { return residual_sums(problem, begin, end, r, u); });
   const double q_squares = loops.sum(problem.q.size(), [&](std::size_t begin, std::size_t end) {
     return squared_norm(std::span(problem.q).subspan(begin, end - begin));
   });

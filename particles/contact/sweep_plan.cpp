@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cmath>
 
@@ -147,15 +148,19 @@ bool SweepPlanner::plan(std::span<const std::int32_t> slice_of_body, std::span<c
   const auto bodies = static_cast<std::int32_t>(slice_of_body.size());
   const std::size_t pairs = i.size();
   slice_of_contact_.renew(pairs);
-  for (std::size_t a = 0; a < pairs; ++a) {
-    std::int32_t slice = slice_of_body[i[a]];
-    if (moves(j[a], bodies)) {
-      const std::int32_t other = slice_of_body[j[a]];
-      if (other > slice + 1 || slice > other + 1) return false;
-      slice = std::min(slice, other);
+  std::atomic<bool> suits = true;
+  loops_.each(pairs, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t a = begin; a < end; ++a) {
+      std::int32_t slice = slice_of_body[i[a]];
+      if (moves(j[a], bodies)) {
+        const std::int32_t other = slice_of_body[j[a]];
+        if (other > slice + 1 || slice > other + 1) suits = false;
+        slice = std::min(slice, other);
+      }
+      slice_of_contact_[a] = slice;
     }
-    slice_of_contact_[a] = slice;
-  }
+  });
+  if (!suits) return false;
   const std::int32_t last = bodies > 0 ? *std::max_element(slice_of_body.begin(), slice_of_body.end()) : 0;
   const std::int32_t strips = last / 2 + 1;
 

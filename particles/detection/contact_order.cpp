@@ -24,19 +24,17 @@ std::span<const double> ContactOrder::folded(const Bodies& bodies, const Period&
   return folded_;
 }
 
-void ContactOrder::sort(std::span<const Candidate> pairs, const Bodies& bodies, const Period& period,
-                        SweepPlan& plan, std::vector<Candidate>& sorted) {
+void ContactOrder::find(std::span<const Candidate> pairs, const Bodies& bodies, const Period& period,
+                        SweepPlan& plan) {
   i_.renew(pairs.size());
   j_.renew(pairs.size());
-  for (std::size_t p = 0; p < pairs.size(); ++p) i_[p] = pairs[p].i, j_[p] = pairs[p].j;
+  loops_.each(pairs.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) i_[p] = pairs[p].i, j_[p] = pairs[p].j;
+  });
   const bool along_x = period.open() && extent(bodies.x) > extent(bodies.z);
   const std::span<const double> along =
       !period.open_z() ? folded(bodies, period) : std::span<const double>(along_x ? bodies.x : bodies.z);
   planner_.plan(body_slices_along(along, i_, j_), i_, j_, plan, order_);
-  resize_closely(sorted, pairs.size());
-  loops_.each(pairs.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) sorted[p] = pairs[order_[p]];
-  });
 }
 
 }  // namespace drumlin::particles

@@ -9,7 +9,7 @@
 
 namespace drumlin::particles {
 
-/// Puts contacts into solve order; keeps work space only.
+/// The solve order of contacts; keeps work space only.
 class ContactOrder {
  public:
   /// Lets a team share the work; the order does not depend on it.
@@ -19,10 +19,9 @@ class ContactOrder {
   }
   /// Takes work space from a memory, in the frame that is open when pairs are sorted.
   void use(WorkMemory* memory) { i_.use(memory), j_.use(memory), planner_.use(memory); }
-  /// Sorts `pairs` into `sorted` and receives the plan: slices along the longer side of the packing (along z
-  /// in a periodic domain; in a cell, folded there).
-  void sort(std::span<const Candidate> pairs, const Bodies& bodies, const Period& period, SweepPlan& plan,
-            std::vector<Candidate>& sorted);
+  /// Finds the order of `pairs`, and their plan: slices along the longer side of the packing (along z in a
+  /// periodic domain; in a cell, folded there).
+  void find(std::span<const Candidate> pairs, const Bodies& bodies, const Period& period, SweepPlan& plan);
   std::size_t bytes() const { return bytes_of(order_); }
   /// Place among the pairs given of each pair in solve order.
   std::span<const std::int32_t> order() const { return order_; }

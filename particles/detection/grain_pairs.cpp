@@ -29,19 +29,18 @@ class PairBatch {
     u_x_[k] = way * u.x, u_z_[k] = way * u.z;
     radii_[k] = a.radius + b.radius;
   }
-  /// The pair of bodies i < j, with places in the first period.
-  void set(std::size_t k, std::int32_t i, std::int32_t j, const SearchedState& state,
-           std::span<const double> x, std::span<const double> z) {
-    const Period& period = state.period;
-    const Point whole{x[i] - x[j], z[i] - z[j]}, d = period.open() ? whole : period.nearest(whole);
-    Point u{state.v_x[i] - state.v_x[j], state.v_z[i] - state.v_z[j]};
+  /// The pair of two bodies, the one of the lesser index first.
+  template <class Disc>
+  void set_discs(std::size_t k, const Disc& i, const Disc& j, const Period& period) {
+    const Point whole{i.x - j.x, i.z - j.z}, d = period.open() ? whole : period.nearest(whole);
+    Point u{i.v_x - j.v_x, i.v_z - j.v_z};
     if (period.moves()) {
       const Point image = period.image_velocity({whole.x - d.x, whole.z - d.z});
       u.x -= image.x, u.z -= image.z;
     }
     d_x_[k] = d.x, d_z_[k] = d.z;
     u_x_[k] = u.x, u_z_[k] = u.z;
-    radii_[k] = state.bodies.radius[i] + state.bodies.radius[j];
+    radii_[k] = i.radius + j.radius;
   }
   void weigh(std::size_t count, double twice_step) {
     for (std::size_t k = 0; k < count; ++k) {
@@ -114,7 +113,7 @@ class GrainPairs::Collecting {
 
 void GrainPairs::use(WorkMemory* memory) {
   row_.use(memory), weights_.use(memory), jolts_.use(memory), kept_.use(memory);
-  first_x_.use(memory), first_z_.use(memory);
+  discs_.use(memory);
 }
 
 std::size_t GrainPairs::bytes() const {
@@ -191,31 +190,27 @@ void GrainPairs::cut_list() {
   }
 }
 
-void GrainPairs::fold(const SearchedState& state) {
+void GrainPairs::collect_discs(const SearchedState& state) {
   const Bodies& bodies = state.bodies;
-  first_x_.renew(bodies.count()), first_z_.renew(bodies.count());
+  const bool open = state.period.open();
+  discs_.renew(bodies.count());
   loops_.each(bodies.count(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
-      const Point first = state.period.first({bodies.x[b], bodies.z[b]});
-      first_x_[b] = first.x, first_z_[b] = first.z;
+      const Point place{bodies.x[b], bodies.z[b]}, first = open ? place : state.period.first(place);
+      discs_[b] = {first.x, first.z, state.v_x[b], state.v_z[b], bodies.radius[b]};
     }
   });
 }
 
 void GrainPairs::weigh_list(const SearchedState& state, const PairRule& rule) {
-  std::span<const double> x = state.bodies.x, z = state.bodies.z;
-  if (!state.period.open()) {
-    fold(state);
-    x = std::span<const double>(first_x_.data(), x.size());
-    z = std::span<const double>(first_z_.data(), z.size());
-  }
+  collect_discs(state);
   weights_.renew(list_.size()), jolts_.renew(list_.size());
   each_share([&](Share& share) {
     PairBatch<pairs_per_share> batch;
     const std::size_t count = share.last - share.first;
     for (std::size_t k = 0; k < count; ++k) {
       const ListedPair& pair = list_[share.first + k];
-      batch.set(k, pair.i, pair.j, state, x, z);
+      batch.set_discs(k, discs_[pair.i], discs_[pair.j], state.period);
     }
     batch.weigh(count, 2 * rule.time_step);
     share.beyond = false;

@@ -73,6 +73,11 @@ class GrainPairs {
   struct ListedPair {
     std::int32_t i, j;
   };
+  /// What the weight of a pair depends on, of one of its bodies: side by side, since pairs come in no order.
+  struct MovingDisc {
+    double x, z;  // in the first period
+    double v_x, v_z, radius;
+  };
   /// What a search finds of a listed pair, as in NearPair.
   struct Weight {
     double gap, n_x, n_z, reach;
@@ -96,7 +101,7 @@ class GrainPairs {
   void cut(const GrainGrids& grids);
   void put_in_order(std::size_t bodies);
   void cut_list();
-  void fold(const SearchedState& state);
+  void collect_discs(const SearchedState& state);
   void weigh_list(const SearchedState& state, const PairRule& rule);
   void drop_those_beyond();
   template <class Work>
@@ -115,8 +120,8 @@ class GrainPairs {
   WorkArray<std::int32_t> row_;  // first listed pair of each body
   WorkArray<Weight> weights_;    // of each listed pair
   WorkArray<std::int32_t> jolts_,
-      kept_;  // listed pairs, share by share: those that close, those that are kept
-  WorkArray<double> first_x_, first_z_;  // places of the bodies in the first period
+      kept_;                     // listed pairs, share by share: those that close, those that are kept
+  WorkArray<MovingDisc> discs_;  // the bodies
   MotionTree tree_;
   bool planted_ = false, follows_ = false;  // the tree is that of the list; it bounds what is now
   const GrainGrids* grids_ = nullptr;       // of the list

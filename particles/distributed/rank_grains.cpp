@@ -218,6 +218,7 @@ void RankGrains::bring_memory(RankState& state) {
     memory_.impulse.insert(memory_.impulse.end(), contact.impulse.begin(),
                            contact.impulse.begin() + unknowns_);
   }
+  put_in_order(memory_);
 }
 
 }  // namespace drumlin::particles

@@ -74,7 +74,7 @@ void RankSearch::search(const Step& step) {
   detection_.find(grains_.seen().bodies, free_.x, free_.z, input(step));
   find_homes(grains_.seen(), detection_.candidates(), grains_.tiles(), ranks_.rank(), homed_);
   take_mine();
-  recollection_.find(grains_.memory(), grains_.seen().bodies.count(), mine_.pairs);
+  recollection_.find(grains_.memory(), mine_.pairs);
 }
 
 void RankSearch::search_around(const Round& round, const Step& step) {
@@ -91,7 +91,7 @@ void RankSearch::search_around(const Round& round, const Step& step) {
     added = find_homes_of_added(seen, detection_.candidates(), detection_.added(), grains_.tiles(),
                                 ranks_.rank(), homed_);
   take_mine();
-  if (!added.empty()) recollection_.find_added(mine_.pairs, added);
+  if (!added.empty()) recollection_.find_added(grains_.memory(), mine_.pairs, added);
 }
 
 void RankSearch::search_as_before(const Step& step) {

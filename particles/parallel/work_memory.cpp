@@ -1,11 +1,16 @@
 #include "particles/parallel/work_memory.hpp"
 
+#include <sys/mman.h>
+
 #include <stdexcept>
 
 namespace drumlin::particles {
 namespace {
 
 constexpr std::size_t boundary = 64;
+// Pieces of at least two huge pages ask for these: a sweep goes through more small ones than a processor
+// keeps the places of.
+constexpr std::size_t huge_page = std::size_t{1} << 21;
 constexpr std::size_t least_piece = std::size_t{1} << 16;
 
 }  // namespace
@@ -33,10 +38,15 @@ void WorkMemory::release() {
   pieces_.clear();
 }
 
+void WorkMemory::Free::operator()(std::byte* bytes) const { ::operator delete[](bytes, align); }
+
 void WorkMemory::add_piece(std::size_t bytes) {
-  pieces_.push_back({std::unique_ptr<std::byte[], Free>(
-                         static_cast<std::byte*>(::operator new[](bytes, std::align_val_t{boundary}))),
-                     bytes});
+  const bool large = bytes >= 2 * huge_page;
+  const std::align_val_t align{large ? huge_page : boundary};
+  auto* const piece = static_cast<std::byte*>(::operator new[](bytes, align));
+  pieces_.push_back({std::unique_ptr<std::byte[], Free>(piece, Free{align}), bytes});
+  // A wish: where the system does not know or grant it, nothing changes.
+  if (large) (void)madvise(piece, bytes / huge_page * huge_page, MADV_HUGEPAGE);
 }
 
 void* WorkMemory::take(std::size_t bytes) {

@@ -43,7 +43,8 @@ class WorkMemory {
 
  private:
   struct Free {
-    void operator()(std::byte* bytes) const { ::operator delete[](bytes, std::align_val_t{64}); }
+    std::align_val_t align{64};
+    void operator()(std::byte* bytes) const;
   };
   struct Piece {
     std::unique_ptr<std::byte[], Free> bytes;

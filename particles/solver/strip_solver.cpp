@@ -73,9 +73,8 @@ void StripProblem<T, dim, spin>::pack_place(const Problem& problem, std::int32_t
   Block& block = blocks_[place / Block::width];
   const auto k = static_cast<std::int32_t>(place % Block::width);
   contact_[place] = c;
-  const auto bodies = static_cast<std::int32_t>(place_.size());
   const std::int32_t i = c >= 0 ? place_[W.i[c]] : fixed + k;
-  const std::int32_t j = c >= 0 && W.j[c] < bodies ? place_[W.j[c]] : fixed + k;
+  const std::int32_t j = c >= 0 && W.j[c] < W.fixed() ? place_[W.j[c]] : fixed + k;
   block.i[k] = static_cast<std::uint32_t>(i * sizeof(BodyRecord<T>));
   block.j[k] = static_cast<std::uint32_t>(j * sizeof(BodyRecord<T>));
   block.n_x[k] = c >= 0 ? static_cast<T>(W.n_x[c]) : T(0);

@@ -5,8 +5,8 @@
 // Must come after foreach_target.h.
 #include <hwy/highway.h>
 
+#include "particles/contact/cone_vectors-inl.h"
 #include "particles/solver/body_vectors-inl.h"
-#include "particles/solver/cone_vectors-inl.h"
 #include "particles/solver/sweep_kernels.hpp"
 
 HWY_BEFORE_NAMESPACE();

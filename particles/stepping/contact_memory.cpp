@@ -1,6 +1,7 @@
 #include "particles/stepping/contact_memory.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "particles/detection/open_gaps.hpp"
 
@@ -12,71 +13,83 @@ double scale_of(const ContactMemory& memory, double time_step) {
   return memory.time_step > 0 ? time_step / memory.time_step : 1;
 }
 
-/// Where the row of each key from `least` up to `bodies` begins in a list sorted by keys. Once each entry has
-/// been put at the beginning of its row, and that has moved on by one, they are the ends.
-void count_rows(std::span<const std::int32_t> keys, std::int32_t least, std::size_t bodies,
-                WorkArray<std::int32_t>& begin) {
-  const std::size_t rows = bodies - least;
-  begin.assign(rows + 1, 0);
-  for (const std::int32_t key : keys) ++begin[key - least + 1];
-  for (std::size_t row = 1; row <= rows; ++row) begin[row] += begin[row - 1];
+/// Pairs in the order of (i, j) are in the order of these numbers.
+std::int64_t key_of(std::int32_t i, std::int32_t j) { return (std::int64_t{i} << 32) + j; }
+
+/// The first contact that is not before a pair.
+std::size_t first_from(const ContactMemory& memory, std::int64_t key) {
+  std::size_t first = 0;
+  for (std::size_t count = memory.i.size(); count > 0;) {
+    const std::size_t half = count / 2;
+    const bool before = key_of(memory.i[first + half], memory.j[first + half]) < key;
+    first = before ? first + half + 1 : first;
+    count = before ? count - half - 1 : half;
+  }
+  return first;
+}
+
+/// Place of a pair in the memory; -1: none.
+std::int32_t place_of(const ContactMemory& memory, const Candidate& pair) {
+  const std::size_t m = first_from(memory, key_of(pair.i, pair.j));
+  return m < memory.i.size() && memory.i[m] == pair.i && memory.j[m] == pair.j ? static_cast<std::int32_t>(m)
+                                                                               : -1;
+}
+
+bool in_order(const ContactMemory& memory) {
+  for (std::size_t m = 1; m < memory.i.size(); ++m)
+    if (key_of(memory.i[m - 1], memory.j[m - 1]) > key_of(memory.i[m], memory.j[m])) return false;
+  return true;
+}
+
+/// Places in the order of their keys, and of `places` among equal ones: a counting sort.
+std::vector<std::int32_t> sorted_by(std::span<const std::int32_t> keys,
+                                    std::span<const std::int32_t> places) {
+  const auto [least, largest] = std::minmax_element(keys.begin(), keys.end());
+  std::vector<std::int32_t> begin(*largest - *least + 2, 0), sorted(places.size());
+  for (const std::int32_t key : keys) ++begin[key - *least + 1];
+  for (std::size_t row = 1; row < begin.size(); ++row) begin[row] += begin[row - 1];
+  for (const std::int32_t m : places) sorted[begin[keys[m] - *least]++] = m;
+  return sorted;
 }
 
 }  // namespace
 
-void Recollection::find(const ContactMemory& memory, std::size_t bodies, std::span<const Candidate> pairs) {
-  sort_entries(memory, bodies);
-  find_again(pairs);
-}
-
-/// By i, and by j within each i: two counting sorts, the later key first.
-void Recollection::sort_entries(const ContactMemory& memory, std::size_t bodies) {
+void put_in_order(ContactMemory& memory) {
   const std::size_t contacts = memory.i.size();
-  const std::int32_t least =
-      contacts > 0 ? std::min(0, *std::min_element(memory.j.begin(), memory.j.end())) : 0;
-  count_rows(memory.j, least, bodies, row_end_);
-  by_second_.renew(contacts);
-  for (std::size_t m = 0; m < contacts; ++m)
-    by_second_[row_end_[memory.j[m] - least]++] = static_cast<std::int32_t>(m);
-  count_rows(memory.i, 0, bodies, row_end_);
-  entries_.renew(contacts);
-  for (const std::int32_t m : by_second_) entries_[row_end_[memory.i[m]]++] = {memory.j[m], m};
+  if (in_order(memory)) return;
+  std::vector<std::int32_t> places(contacts);
+  for (std::size_t m = 0; m < contacts; ++m) places[m] = static_cast<std::int32_t>(m);
+  places = sorted_by(memory.i, sorted_by(memory.j, places));  // the later key first
+  const std::size_t dim = memory.impulse.size() / contacts;
+  ContactMemory sorted;
+  sorted.time_step = memory.time_step;
+  sorted.i.reserve(contacts), sorted.j.reserve(contacts), sorted.impulse.reserve(memory.impulse.size());
+  for (const std::int32_t m : places) {
+    sorted.i.push_back(memory.i[m]), sorted.j.push_back(memory.j[m]);
+    for (std::size_t c = 0; c < dim; ++c) sorted.impulse.push_back(memory.impulse[dim * m + c]);
+  }
+  memory = std::move(sorted);
 }
 
-void Recollection::find_again(std::span<const Candidate> pairs) {
+void Recollection::find(const ContactMemory& memory, std::span<const Candidate> pairs) {
   place_.renew(pairs.size());
-  loops_.each(pairs.size(), [&](std::size_t begin, std::size_t end) {
-    const Entry* entry = nullptr;
-    const Entry* row_end = nullptr;
+  std::int32_t* const place = place_.data();
+  loops_.each(pairs.size(), [&, contacts = memory.i.size()](std::size_t begin, std::size_t end) {
+    std::size_t m = 0;
     for (std::size_t a = begin; a < end; ++a) {
-      const std::int32_t i = pairs[a].i, j = pairs[a].j;
-      if (a == begin || i != pairs[a - 1].i || j <= pairs[a - 1].j) {
-        entry = row(i).data();
-        row_end = entry + row(i).size();
-      }
-      // Pairs that follow in the order of (i, j), as most do, go on from here: nearly every one is the next.
-      while (entry < row_end && entry->j < j) ++entry;
-      const bool known = entry < row_end && entry->j == j;
-      place_[a] = known ? entry->place : -1;
-      entry += known;
+      const std::int64_t key = key_of(pairs[a].i, pairs[a].j);
+      if (a == begin || key <= key_of(pairs[a - 1].i, pairs[a - 1].j)) m = first_from(memory, key);
+      while (m < contacts && key_of(memory.i[m], memory.j[m]) < key) ++m;
+      const bool known = m < contacts && key_of(memory.i[m], memory.j[m]) == key;
+      place[a] = known ? static_cast<std::int32_t>(m) : -1;
     }
   });
 }
 
-std::span<const Recollection::Entry> Recollection::row(std::int32_t i) const {
-  const std::int32_t begin = i == 0 ? 0 : row_end_[i - 1];
-  return {entries_.data() + begin, entries_.data() + row_end_[i]};
-}
-
-std::int32_t Recollection::place_of(const Candidate& pair) const {
-  for (const Entry& entry : row(pair.i))
-    if (entry.j == pair.j) return entry.place;
-  return -1;
-}
-
-void Recollection::find_added(std::span<const Candidate> pairs, std::span<const std::int32_t> added) {
+void Recollection::find_added(const ContactMemory& memory, std::span<const Candidate> pairs,
+                              std::span<const std::int32_t> added) {
   open_gaps(place_, added.size(), [&](std::size_t k, std::size_t) { return added[k]; });
-  for (const std::int32_t a : added) place_[a] = place_of(pairs[a]);
+  for (const std::int32_t a : added) place_[a] = place_of(memory, pairs[a]);
 }
 
 RememberedLoads Recollection::loads(const ContactMemory& memory, int dim, double time_step) const {
@@ -86,7 +99,7 @@ RememberedLoads Recollection::loads(const ContactMemory& memory, int dim, double
 RememberedLoads Recollection::loads_of(std::span<const Candidate> pairs, const ContactMemory& memory, int dim,
                                        double time_step) {
   place_of_some_.clear();
-  for (const Candidate& pair : pairs) place_of_some_.push_back(place_of(pair));
+  for (const Candidate& pair : pairs) place_of_some_.push_back(place_of(memory, pair));
   return {place_of_some_, memory.impulse, dim, scale_of(memory, time_step)};
 }
 
@@ -95,21 +108,29 @@ void Recollection::warm_start(const ContactMemory& memory, int dim, double time_
   impulses.clear();
   resize_closely(impulses, dim * place_.size());
   const double scale = scale_of(memory, time_step);
+  const std::int32_t* const place = place_.data();
   loops_.each(place_.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t a = begin; a < end; ++a)
-      if (const std::int32_t m = place_[order[a]]; m >= 0)
+      if (const std::int32_t m = place[order[a]]; m >= 0)
         for (int c = 0; c < dim; ++c) impulses[dim * a + c] = scale * memory.impulse[dim * m + c];
   });
 }
 
-void remember(std::span<const Candidate> pairs, const std::vector<double>& impulses, double time_step,
+void remember(std::span<const Candidate> pairs, std::span<const std::int32_t> order,
+              const std::vector<double>& impulses, double time_step, const TeamLoops& loops,
               ContactMemory& memory) {
   memory.time_step = time_step;
   resize_closely(memory.i, pairs.size());
   resize_closely(memory.j, pairs.size());
-  for (std::size_t a = 0; a < pairs.size(); ++a) memory.i[a] = pairs[a].i, memory.j[a] = pairs[a].j;
   resize_closely(memory.impulse, impulses.size());
-  std::copy(impulses.begin(), impulses.end(), memory.impulse.begin());
+  const std::size_t dim = pairs.empty() ? 0 : impulses.size() / pairs.size();
+  loops.each(pairs.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t a = begin; a < end; ++a) {
+      const std::size_t m = order[a];
+      memory.i[m] = pairs[a].i, memory.j[m] = pairs[a].j;
+      for (std::size_t c = 0; c < dim; ++c) memory.impulse[dim * m + c] = impulses[dim * a + c];
+    }
+  });
 }
 
 }  // namespace drumlin::particles

@@ -10,12 +10,15 @@
 
 namespace drumlin::particles {
 
-/// Contacts of the last step, in the order in which they were solved.
+/// Contacts of the last step, in the order of (i, j), in which pairs are found too.
 struct ContactMemory {
   std::vector<std::int32_t> i, j;
   std::vector<double> impulse;  ///< dim per contact, normal first: the warm start
   double time_step = 0;         ///< the impulses belong to: they scale with it
 };
+
+/// Puts contacts that come from elsewhere in that order.
+void put_in_order(ContactMemory&);
 
 /// Normal impulses that the pairs of a step carried in the last one; 0 of a new pair. Refers to a memory and
 /// to a recollection of it.
@@ -38,16 +41,13 @@ class Recollection {
  public:
   /// Lets a team share the work; the result does not depend on it.
   void use(ThreadTeam* team) { loops_ = TeamLoops(team); }
-  /// Takes what it finds, and work space, from a memory: they end with the frame of find().
-  void use(WorkMemory* memory) {
-    place_.use(memory), entries_.use(memory), row_end_.use(memory), by_second_.use(memory);
-  }
-  /// Finds the pairs of grains 0 to `bodies` in the memory.
-  void find(const ContactMemory&, std::size_t bodies, std::span<const Candidate> pairs);
-  /// Finds other pairs in the memory of the last find(), which must not have changed.
-  void find_again(std::span<const Candidate> pairs);
+  /// Takes what it finds from a memory: it ends with the frame of find().
+  void use(WorkMemory* memory) { place_.use(memory); }
+  /// Finds pairs; those that follow one another in the order of (i, j) without a search.
+  void find(const ContactMemory&, std::span<const Candidate> pairs);
   /// The same for the pairs of the last call and more of them, at the places `added`, ascending.
-  void find_added(std::span<const Candidate> pairs, std::span<const std::int32_t> added);
+  void find_added(const ContactMemory&, std::span<const Candidate> pairs,
+                  std::span<const std::int32_t> added);
   /// Normal impulses of the pairs that were looked for, for a step of length `time_step`.
   RememberedLoads loads(const ContactMemory&, int dim, double time_step) const;
   /// The same of some pairs alone, whether they were looked for or not.
@@ -58,26 +58,13 @@ class Recollection {
                   std::vector<double>& impulses) const;
 
  private:
-  struct Entry {
-    std::int32_t j, place;  // in the memory
-  };
-
-  void sort_entries(const ContactMemory& memory, std::size_t bodies);
-  /// The contacts of grain i with those after it, and with walls.
-  std::span<const Entry> row(std::int32_t i) const;
-  /// Place of a pair in the memory; -1: none.
-  std::int32_t place_of(const Candidate& pair) const;
-
   TeamLoops loops_;
   WorkArray<std::int32_t> place_;            // of each pair that was looked for
   std::vector<std::int32_t> place_of_some_;  // of the pairs of loads_of()
-  WorkArray<Entry> entries_;                 // of the memory, in the order of (i, j)
-  WorkArray<std::int32_t> row_end_;          // of each i in them
-  WorkArray<std::int32_t> by_second_;        // places in the memory, by j
 };
 
-/// Keeps contacts and impulses of a step.
-void remember(std::span<const Candidate> pairs, const std::vector<double>& impulses, double time_step,
-              ContactMemory&);
+/// Keeps contacts and impulses of a step. `order`: place of each contact in the order of (i, j).
+void remember(std::span<const Candidate> pairs, std::span<const std::int32_t> order,
+              const std::vector<double>& impulses, double time_step, const TeamLoops&, ContactMemory&);
 
 }  // namespace drumlin::particles

@@ -74,7 +74,7 @@ class MoreauJean final : public Stepper {
     const bool open = laws_.period.open() && laws_.period.open_z();  // else places are those of images
     work_.places = open ? BodyPlaces{bodies.x, bodies.z} : BodyPlaces{};
     report.solve = solve_(problem_, solver_.rule, work_, solution_);
-    remember(contacts_.pairs, solution_.impulses, time_step, state.memory);
+    remember(contacts_.pairs, order_.order(), solution_.impulses, time_step, TeamLoops(&team_), state.memory);
     move(bodies, time_step);
     if (books_) book_contacts(step, contacts_, problem_, solution_, *books_, *state.energy);
     if (state.cell) deform(step, state);
@@ -169,18 +169,24 @@ class MoreauJean final : public Stepper {
     contacts_.wall_jumps.assign(step.driven.size(), 0.0);
     move_freely(step);
     detection_.find(step.bodies, free_.x, free_.z, detection_input(step));
-    recollection_.find(state.memory, step.bodies.count(), detection_.candidates());
+    recollection_.find(state.memory, detection_.candidates());
     report.detection_seconds += watch.lap();
     if (laws_.restitution) strike(step, state, watch, report);
     // In solve order only now: impacts may have brought more pairs together.
-    order_.sort(detection_.candidates(), step.bodies, laws_.period, problem_.W.plan, contacts_.pairs);
-    sweep_all_normals(step);
+    order_.find(detection_.candidates(), step.bodies, laws_.period, problem_.W.plan);
+    take_candidates(step, [order = order_.order()](std::size_t a) { return order[a]; });
     recollection_.warm_start(state.memory, dim, step.time_step, order_.order(), solution_.impulses);
     report.detection_seconds += watch.lap();
   }
 
-  void sweep_all_normals(const StepInput& step) {
-    TeamLoops(&team_).each(contacts_.pairs.size(), [&](std::size_t begin, std::size_t end) {
+  /// The pairs found, in the order of place(0), place(1), ..., with the normals of the time at which they
+  /// meet.
+  template <class Place>
+  void take_candidates(const StepInput& step, Place place) {
+    const auto found = detection_.candidates();
+    resize_closely(contacts_.pairs, found.size());
+    TeamLoops(&team_).each(found.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t a = begin; a < end; ++a) contacts_.pairs[a] = found[place(a)];
       sweep_normals(step, std::span(contacts_.pairs).subspan(begin, end - begin));
     });
   }
@@ -190,8 +196,7 @@ class MoreauJean final : public Stepper {
     searched_.x = free_.x, searched_.z = free_.z;
     for (int searches = 1;; ++searches) {
       if (searches > 1 && !strikes_again(step, state)) return;
-      take_candidates();
-      sweep_all_normals(step);
+      take_candidates(step, [](std::size_t a) { return a; });
       impacts_.resolve(step, recollection_.loads(state.memory, dim, step.time_step), state.bodies, contacts_);
       if (books_) books_->strike(impacts_.struck(), impacts_.work(), *state.energy);
       report.impacts += impacts_.count();
@@ -200,24 +205,17 @@ class MoreauJean final : public Stepper {
       move_freely(step);
       if (searches == most_searches || !find_thrown(step)) return;
       if (detection_.find_around(thrown_, step.bodies, free_.x, free_.z, detection_input(step)))
-        recollect_more();
+        recollect_more(state.memory);
       report.detection_seconds += watch.lap();
     }
   }
 
-  /// The pairs in the order in which they are found.
-  void take_candidates() {
-    const auto found = detection_.candidates();
-    resize_closely(contacts_.pairs, found.size());
-    std::copy(found.begin(), found.end(), contacts_.pairs.begin());
-  }
-
   /// Finds the pairs in the memory that a search around grains has added.
-  void recollect_more() {
+  void recollect_more(const ContactMemory& memory) {
     if (detection_.added().empty())
-      recollection_.find_again(detection_.candidates());
+      recollection_.find(memory, detection_.candidates());
     else
-      recollection_.find_added(detection_.candidates(), detection_.added());
+      recollection_.find_added(memory, detection_.candidates(), detection_.added());
   }
 
   /// Whether any pair meets now, after impacts and another search: only one of a grain that they struck can.
@@ -253,17 +251,19 @@ class MoreauJean final : public Stepper {
   void move(Bodies& bodies, double time_step) {
     const bool loaded = problem_.contacts() > 0;
     const auto& changes = solution_.velocities.bodies;
-    for (std::size_t b = 0; b < bodies.count(); ++b) {
-      bodies.v_x[b] = free_.x[b];
-      bodies.v_z[b] = free_.z[b];
-      if (loaded) {
-        bodies.v_x[b] += changes[b].x;
-        bodies.v_z[b] += changes[b].z;
-        if constexpr (with_spin) spin_up(bodies, b, changes[b].s);
+    TeamLoops(&team_).each(bodies.count(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t b = begin; b < end; ++b) {
+        bodies.v_x[b] = free_.x[b];
+        bodies.v_z[b] = free_.z[b];
+        if (loaded) {
+          bodies.v_x[b] += changes[b].x;
+          bodies.v_z[b] += changes[b].z;
+          if constexpr (with_spin) spin_up(bodies, b, changes[b].s);
+        }
+        bodies.x[b] += time_step * bodies.v_x[b];
+        bodies.z[b] += time_step * bodies.v_z[b];
       }
-      bodies.x[b] += time_step * bodies.v_x[b];
-      bodies.z[b] += time_step * bodies.v_z[b];
-    }
+    });
     if constexpr (drives)
       for (std::size_t k = 0; loaded && k < free_.driven.size(); ++k) {
         const auto& wall = problem_.W.driven[k];

@@ -150,6 +150,7 @@ Simulation::Simulation(const Scene& scene, SimulationState state, int threads)
       state_(std::move(state)),
       stepper_(make_stepper(laws_of(scene, scales_), solver_of(scene, threads))) {
   check_state(state_, scene_, plan_, walls_);
+  put_in_order(state_.memory);  // older checkpoints have it in the order of the solve
   for (int before = 0; before < state_.stage; ++before) open_walls(walls_, scene_.stages[before]);
   walls_.pose_at_start = state_.pose_at_start;
   const auto driven = begin_stage(walls_, scene_.stages[state_.stage], scales_, 0);

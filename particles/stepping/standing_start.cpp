@@ -97,8 +97,8 @@ ContactMemory impulses_under_weight(const Bodies& bodies, std::span<const Shape>
     impulses[static_cast<std::size_t>(unknowns) * a] =
         time_step * g * overburden.above(x, z) * per_pressure / reach;
   }
-  ContactMemory memory;
-  remember(pairs, impulses, time_step, memory);
+  ContactMemory memory{{}, {}, std::move(impulses), time_step};
+  for (const Candidate& pair : pairs) memory.i.push_back(pair.i), memory.j.push_back(pair.j);
   return memory;
 }
 

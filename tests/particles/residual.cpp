@@ -77,6 +77,32 @@ TEST(Cone, ANotANumberStaysOne) {
   EXPECT_TRUE(std::isnan(n) && std::isnan(t));
 }
 
+TEST(Residual, OnVectorsIsThatOfTheContactsOneByOne) {
+  // 1 / W_nn, mu, r and u of contacts that are open, slide, stick, or have no friction; some vectors and a
+  // rest.
+  constexpr std::size_t contacts = 45;
+  std::vector<double> inverse_W_nn, mu, r, u;
+  for (std::size_t k = 0; k < contacts; ++k) {
+    const double s = static_cast<double>(k);
+    inverse_W_nn.push_back(0.5 + 0.01 * s);
+    mu.push_back(k % 3 == 0 ? 0 : 0.1 * static_cast<double>(k % 5));
+    r.insert(r.end(), {k % 4 == 0 ? 0 : std::abs(std::sin(5 * s)), k % 4 == 0 ? 0 : 0.3 * std::sin(11 * s)});
+    u.insert(u.end(), {std::sin(7 * s), k % 6 == 0 ? 0 : std::cos(3 * s)});
+  }
+  mu[20] = std::numeric_limits<double>::quiet_NaN(), u[2 * 41] = std::numeric_limits<double>::infinity();
+  std::vector<double> errors(contacts), smooth(contacts);
+  set_squared_errors<2>(3, inverse_W_nn.data(), mu.data(), r.data(), u.data(), errors);
+  set_squared_errors<1>(1, inverse_W_nn.data(), nullptr, r.data(), u.data(), smooth);
+  for (std::size_t k = 0; k < contacts; ++k) {
+    const double one = squared_error<2>(3 / inverse_W_nn[k], &mu[k], &r[2 * k], &u[2 * k]);
+    if (k == 20)
+      EXPECT_TRUE(std::isnan(errors[k]) && std::isnan(one));
+    else
+      EXPECT_EQ(errors[k], one) << k;
+    EXPECT_EQ(smooth[k], squared_error<1>(1 / inverse_W_nn[k], nullptr, &r[k], &u[k])) << k;
+  }
+}
+
 TEST(Residual, IsTheSameBytesForAnyTeam) {
   // A chain long enough that threads share it.
   constexpr int discs = 20000;

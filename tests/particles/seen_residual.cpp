@@ -68,5 +68,18 @@ void expect_seen(double precision) {
 TEST(SeenResidual, IsTheResidualInDoublePrecision) { expect_seen<double>(1e-12); }
 TEST(SeenResidual, IsNearlyTheResidualInSinglePrecision) { expect_seen<float>(1e-4); }
 
+TEST(SeenResidual, OfAContactThatOpensWithoutFrictionIsNothing) {
+  auto [problem, r] = column(200);
+  std::fill(r.begin(), r.end(), 0.0);
+  std::fill(problem.mu.begin(), problem.mu.end(), 0.0);
+  for (int a = 0; a < problem.contacts(); ++a) problem.q[2 * a] = 0.1, problem.q[2 * a + 1] = 0;
+  std::vector<std::int32_t> order;
+  const SweepPlan plan = sweep_plan(problem.W.fixed(), problem.W.i, problem.W.j, order);
+  StripProblem<float, 2, true> strips;
+  strips.pack(problem, plan, order, r, TeamLoops());
+  for (int strip = 0; strip < strips.strips(); ++strip) strips.look_at(strip);
+  EXPECT_EQ(strips.seen_residual().squares, 0);
+}
+
 }  // namespace
 }  // namespace drumlin

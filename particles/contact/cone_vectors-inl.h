@@ -1,5 +1,5 @@
-// Vectors of impulses and the cones of their contacts (particles/contact/cone.hpp). Without a guard: the
-// sweep kernels include this once for each instruction set.
+// Vectors of impulses and the cones of their contacts (particles/contact/cone.hpp). Without a guard: those
+// who include this do so once for each instruction set.
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -18,10 +18,10 @@ HWY_INLINE V missed_by_projection(V mu, V n, V t, V r_n, V r_t) {
   const hn::DFromV<V> d;
   const V zero = hn::Zero(d), one = hn::Set(d, 1);
   // Itself inside, else on the ray or the tip.
-  const V size = hn::Abs(t);
+  const V size = hn::Abs(t), above = hn::Max(zero, n);
   const V ray = hn::Div(hn::Max(zero, hn::Add(n, hn::Mul(mu, size))), hn::Add(one, hn::Mul(mu, mu)));
-  const auto inside = hn::Le(size, hn::Mul(mu, n));
-  const V missed_n = hn::Sub(hn::IfThenElse(inside, n, ray), r_n);
+  const auto inside = hn::Le(size, hn::Mul(mu, above));
+  const V missed_n = hn::Sub(hn::IfThenElse(inside, above, ray), r_n);
   const V missed_t = hn::Sub(hn::IfThenElse(inside, t, hn::CopySign(hn::Mul(mu, ray), t)), r_t);
   return hn::Add(hn::Mul(missed_n, missed_n), hn::Mul(missed_t, missed_t));
 }

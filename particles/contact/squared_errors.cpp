@@ -1,0 +1,81 @@
+// Compiled once for each instruction set: foreach_target.h includes this file again and again.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "particles/contact/squared_errors.cpp"
+#include <hwy/foreach_target.h>
+// Must come after foreach_target.h.
+#include <hwy/highway.h>
+
+#include "particles/contact/cone_vectors-inl.h"
+#include "particles/contact/squared_errors.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace drumlin::particles::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// The contacts that fill vectors; returns how many these are.
+template <int dim>
+std::size_t errors_on_vectors(double largest, const double* inverse_W_nn, const double* mu, const double* r,
+                              const double* u, std::span<double> errors) {
+  const hn::CappedTag<double, 8> d;
+  using V = hn::Vec<decltype(d)>;
+  const V one = hn::Set(d, 1.0), zero = hn::Zero(d);
+  std::size_t k = 0;
+  for (; k + hn::Lanes(d) <= errors.size(); k += hn::Lanes(d)) {
+    const V lambda = hn::Div(hn::Set(d, largest), hn::LoadU(d, inverse_W_nn + k));
+    const V rho = hn::Div(one, lambda);
+    V squares;
+    if constexpr (dim == 1) {
+      const V r_n = hn::LoadU(d, r + k), stays = hn::Sub(r_n, hn::Mul(rho, hn::LoadU(d, u + k)));
+      const V missed = hn::Sub(r_n, hn::Max(zero, stays));
+      squares = hn::Mul(missed, missed);
+    } else {
+      const V friction = hn::LoadU(d, mu + k);
+      V r_n, r_t, u_n, u_t;
+      hn::LoadInterleaved2(d, r + 2 * k, r_n, r_t);
+      hn::LoadInterleaved2(d, u + 2 * k, u_n, u_t);
+      const V n = hn::Sub(r_n, hn::Mul(rho, hn::Add(u_n, hn::Mul(friction, hn::Abs(u_t)))));
+      squares = missed_by_projection(friction, n, hn::Sub(r_t, hn::Mul(rho, u_t)), r_n, r_t);
+    }
+    hn::StoreU(hn::Mul(squares, hn::Mul(lambda, lambda)), d, errors.data() + k);
+  }
+  return k;
+}
+
+std::size_t errors_without_friction(double largest, const double* inverse_W_nn, const double* mu,
+                                    const double* r, const double* u, std::span<double> errors) {
+  return errors_on_vectors<1>(largest, inverse_W_nn, mu, r, u, errors);
+}
+std::size_t errors_with_friction(double largest, const double* inverse_W_nn, const double* mu,
+                                 const double* r, const double* u, std::span<double> errors) {
+  return errors_on_vectors<2>(largest, inverse_W_nn, mu, r, u, errors);
+}
+
+}  // namespace drumlin::particles::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace drumlin::particles {
+
+HWY_EXPORT(errors_without_friction);
+HWY_EXPORT(errors_with_friction);
+
+template <int dim>
+void set_squared_errors(double largest_in_W_nn, const double* inverse_W_nn, const double* mu, const double* r,
+                        const double* u, std::span<double> errors) {
+  std::size_t done = 0;
+  if constexpr (dim == 1)
+    done = HWY_DYNAMIC_DISPATCH(errors_without_friction)(largest_in_W_nn, inverse_W_nn, mu, r, u, errors);
+  else
+    done = HWY_DYNAMIC_DISPATCH(errors_with_friction)(largest_in_W_nn, inverse_W_nn, mu, r, u, errors);
+  for (std::size_t k = done; k < errors.size(); ++k)
+    errors[k] =
+        squared_error<dim>(largest_in_W_nn / inverse_W_nn[k], mu + (dim - 1) * k, r + dim * k, u + dim * k);
+}
+template void set_squared_errors<1>(double, const double*, const double*, const double*, const double*,
+                                    std::span<double>);
+template void set_squared_errors<2>(double, const double*, const double*, const double*, const double*,
+                                    std::span<double>);
+
+}  // namespace drumlin::particles
+#endif  // HWY_ONCE

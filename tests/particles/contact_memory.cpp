@@ -1,0 +1,126 @@
+// Impulses are found again by the pairs that carried them.
+#include "particles/stepping/contact_memory.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <random>
+
+namespace drumlin {
+using namespace particles;
+namespace {
+
+using Pair = std::pair<std::int32_t, std::int32_t>;
+
+Candidate pair_of(std::int32_t i, std::int32_t j) { return {i, j, 0, 0, 1, 0, 0}; }
+
+/// Some of all pairs of `bodies` bodies and three walls, in the order of (i, j): each with the odds given.
+std::vector<Candidate> some_pairs(int bodies, double odds, unsigned seed) {
+  std::mt19937 random(seed);
+  std::bernoulli_distribution taken(odds);
+  std::vector<Candidate> pairs;
+  for (int i = 0; i < bodies; ++i)
+    for (int j = -3; j < bodies; ++j)
+      if ((j < 0 || j > i) && taken(random)) pairs.push_back(pair_of(i, j));
+  return pairs;
+}
+
+/// Remembers pairs with impulses (10 i + j, -1), solved from the last to the first.
+ContactMemory remembered(const std::vector<Candidate>& pairs, double time_step) {
+  std::vector<Candidate> solved(pairs.rbegin(), pairs.rend());
+  std::vector<std::int32_t> order;
+  std::vector<double> impulses;
+  for (std::size_t a = 0; a < solved.size(); ++a) {
+    order.push_back(static_cast<std::int32_t>(solved.size() - 1 - a));
+    impulses.insert(impulses.end(), {10.0 * solved[a].i + solved[a].j, -1});
+  }
+  ContactMemory memory;
+  remember(solved, order, impulses, time_step, TeamLoops(), memory);
+  return memory;
+}
+
+void expect_loads(const std::vector<Candidate>& pairs, const std::vector<Candidate>& known,
+                  const RememberedLoads& loads) {
+  std::map<Pair, double> carried;
+  for (const Candidate& pair : known) carried[{pair.i, pair.j}] = 2 * (10.0 * pair.i + pair.j);
+  for (std::size_t a = 0; a < pairs.size(); ++a) {
+    const auto found = carried.find({pairs[a].i, pairs[a].j});
+    EXPECT_EQ(loads.of(static_cast<std::int32_t>(a)), found == carried.end() ? 0 : found->second)
+        << pairs[a].i << ", " << pairs[a].j;
+  }
+}
+
+TEST(ContactMemory, FindsPairsInTheirOrderAndInAnyOther) {
+  const auto before = some_pairs(60, 0.3, 1);
+  const ContactMemory memory = remembered(before, 0.5);
+  EXPECT_TRUE(std::is_sorted(memory.i.begin(), memory.i.end()));
+  auto now = some_pairs(60, 0.3, 2);
+  Recollection recollection;
+  recollection.find(memory, now);
+  expect_loads(now, before, recollection.loads(memory, 2, 1));
+  std::shuffle(now.begin(), now.end(), std::mt19937(3));
+  recollection.find(memory, now);
+  expect_loads(now, before, recollection.loads(memory, 2, 1));
+  expect_loads(now, before, recollection.loads_of(now, memory, 2, 1));
+  recollection.find({}, now);
+  expect_loads(now, {}, recollection.loads({}, 2, 1));
+}
+
+TEST(ContactMemory, FindsPairsThatAreAdded) {
+  const auto before = some_pairs(40, 0.5, 4), now = some_pairs(40, 0.5, 5);
+  const ContactMemory memory = remembered(before, 0.5);
+  std::vector<Candidate> first;
+  std::vector<std::int32_t> added;
+  for (std::size_t a = 0; a < now.size(); ++a)
+    if (a % 7 == 3 || a + 1 == now.size())
+      added.push_back(static_cast<std::int32_t>(a));
+    else
+      first.push_back(now[a]);
+  Recollection recollection;
+  recollection.find(memory, first);
+  recollection.find_added(memory, now, added);
+  expect_loads(now, before, recollection.loads(memory, 2, 1));
+}
+
+TEST(ContactMemory, WarmStartsInTheOrderOfTheSolve) {
+  const auto pairs = some_pairs(20, 0.5, 6);
+  const ContactMemory memory = remembered(pairs, 0.5);
+  std::vector<std::int32_t> order;
+  for (std::size_t a = 0; a < pairs.size(); ++a) order.push_back(static_cast<std::int32_t>(a));
+  std::shuffle(order.begin(), order.end(), std::mt19937(7));
+  Recollection recollection;
+  recollection.find(memory, pairs);
+  std::vector<double> impulses;
+  recollection.warm_start(memory, 2, 1, order, impulses);
+  ASSERT_EQ(impulses.size(), 2 * pairs.size());
+  for (std::size_t a = 0; a < pairs.size(); ++a) {
+    EXPECT_EQ(impulses[2 * a], 2 * (10.0 * pairs[order[a]].i + pairs[order[a]].j));
+    EXPECT_EQ(impulses[2 * a + 1], -2);
+  }
+}
+
+TEST(ContactMemory, OfOthersIsPutInOrder) {
+  const auto pairs = some_pairs(30, 0.4, 8);
+  const ContactMemory sorted = remembered(pairs, 0.25);
+  ContactMemory memory;
+  memory.time_step = 0.25;
+  std::vector<std::size_t> places(pairs.size());
+  for (std::size_t m = 0; m < places.size(); ++m) places[m] = m;
+  std::shuffle(places.begin(), places.end(), std::mt19937(9));
+  for (const std::size_t m : places) {
+    memory.i.push_back(sorted.i[m]), memory.j.push_back(sorted.j[m]);
+    memory.impulse.insert(memory.impulse.end(), {sorted.impulse[2 * m], sorted.impulse[2 * m + 1]});
+  }
+  put_in_order(memory);
+  EXPECT_EQ(memory.i, sorted.i);
+  EXPECT_EQ(memory.j, sorted.j);
+  EXPECT_EQ(memory.impulse, sorted.impulse);
+  EXPECT_EQ(memory.time_step, 0.25);
+  ContactMemory nothing;
+  put_in_order(nothing);
+  EXPECT_TRUE(nothing.i.empty());
+}
+
+}  // namespace
+}  // namespace drumlin
