@@ -154,16 +154,11 @@ double TileBlocks<T, dim, spin>::sweep(std::size_t tile, T beta, bool accelerate
 
 template <class T, int dim, bool spin>
 void TileBlocks<T, dim, spin>::let_rest(std::size_t tile, bool rest) {
-  const auto open = [](const Block& block) {
-    T largest = 0;
-    for (int k = 0; k < Block::width; ++k) largest = std::max({largest, block.r[0][k], block.before[0][k]});
-    return largest == 0;
-  };
   const Block* first = of_tile(tile).data();
   for (std::size_t g = tiles_[tile].group; g < tiles_[tile + 1].group; ++g) {
     BlockGroup& group = groups_[g];
     group.swept = group.count;
-    while (rest && group.swept > 0 && open(first[group.swept - 1])) --group.swept;
+    while (rest && group.swept > 0 && stays_open(first[group.swept - 1])) --group.swept;
     first += group.count;
   }
 }

@@ -262,16 +262,11 @@ void StripProblem<T, dim, spin>::sweep(int strip, int phase, int slot, T beta, b
 template <class T, int dim, bool spin>
 void StripProblem<T, dim, spin>::let_rest(int strip, bool rest) {
   const Strip& l = strips_[strip];
-  const auto open = [](const Block& block) {
-    T largest = 0;
-    for (int k = 0; k < Block::width; ++k) largest = std::max({largest, block.r[0][k], block.before[0][k]});
-    return largest == 0;
-  };
   const Block* first = blocks_.data() + l.block[0];
   for (std::size_t g = l.group[0]; g < l.group[2]; ++g) {
     BlockGroup& group = groups_[g];
     group.swept = group.count;
-    while (rest && group.swept > 0 && open(first[group.swept - 1])) --group.swept;
+    while (rest && group.swept > 0 && stays_open(first[group.swept - 1])) --group.swept;
     first += group.count;
   }
 }

@@ -35,6 +35,14 @@ struct alignas(64) ContactBlock : FrictionOfBlock<T, dim> {
       before;  ///< r after the sweep before the last, where momentum needs it
 };
 
+/// Whether all contacts of a block were open in the last two sweeps.
+template <class T, int dim>
+bool stays_open(const ContactBlock<T, dim>& block) {
+  bool loaded = false;
+  for (int k = 0; k < block.width; ++k) loaded |= (block.r[0][k] > 0) | (block.before[0][k] > 0);
+  return !loaded;
+}
+
 /// Velocity change of a body: x, z, the tangential velocity of its rim, and the inverse mass that turns
 /// impulses into these. One record is one load.
 template <class T>
