@@ -80,8 +80,9 @@ void check_state(const SimulationState& s, const Scene& scene, const TimePlan& p
   require(s.cell.has_value() == moves_cell(scene) && (!s.cell || fits(*s.cell)), "the cell");
   require(s.pose_at_start.size() == walls.names.size(), "walls");
   require(s.memory.j.size() == contacts && s.memory.impulse.size() == unknowns * contacts, "contacts");
+  const auto shapes = static_cast<std::int64_t>(walls.wall_of_shape.size());
   for (std::size_t c = 0; c < contacts; ++c)
-    require(s.memory.i[c] >= 0 && s.memory.i[c] < static_cast<std::int64_t>(n) &&
+    require(s.memory.i[c] >= 0 && s.memory.i[c] < static_cast<std::int64_t>(n) && s.memory.j[c] >= -shapes &&
                 s.memory.j[c] < static_cast<std::int64_t>(n),
             "contacts");
   for (const auto& mark : s.marks) require(mark.x.size() == n && mark.z.size() == n, "displacement windows");
