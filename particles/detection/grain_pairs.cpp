@@ -30,8 +30,7 @@ class PairBatch {
     radii_[k] = a.radius + b.radius;
   }
   /// The pair of two bodies, the one of the lesser index first.
-  template <class Disc>
-  void set_discs(std::size_t k, const Disc& i, const Disc& j, const Period& period) {
+  void set(std::size_t k, const MovingDisc& i, const MovingDisc& j, double radii, const Period& period) {
     const Point whole{i.x - j.x, i.z - j.z}, d = period.open() ? whole : period.nearest(whole);
     Point u{i.v_x - j.v_x, i.v_z - j.v_z};
     if (period.moves()) {
@@ -40,7 +39,7 @@ class PairBatch {
     }
     d_x_[k] = d.x, d_z_[k] = d.z;
     u_x_[k] = u.x, u_z_[k] = u.z;
-    radii_[k] = i.radius + j.radius;
+    radii_[k] = radii;
   }
   void weigh(std::size_t count, double twice_step) {
     for (std::size_t k = 0; k < count; ++k) {
@@ -197,27 +196,39 @@ void GrainPairs::collect_discs(const SearchedState& state) {
   loops_.each(bodies.count(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
       const Point place{bodies.x[b], bodies.z[b]}, first = open ? place : state.period.first(place);
-      discs_[b] = {first.x, first.z, state.v_x[b], state.v_z[b], bodies.radius[b]};
+      discs_[b] = {first.x, first.z, state.v_x[b], state.v_z[b]};
     }
   });
+}
+
+/// Weighs the pairs from the one numbered `done` on.
+void GrainPairs::weigh_rest(std::span<const ListedPair> pairs, std::size_t done, const SearchedState& state,
+                            double twice_step, PairWeight* weights) const {
+  PairBatch<pairs_per_share> batch;
+  const auto& radius = state.bodies.radius;
+  const std::size_t count = pairs.size() - done;
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto& [i, j] = pairs[done + k];
+    batch.set(k, discs_[i], discs_[j], radius[i] + radius[j], state.period);
+  }
+  batch.weigh(count, twice_step);
+  for (std::size_t k = 0; k < count; ++k)
+    weights[done + k] = {batch.gap(k), batch.n_x(k), batch.n_z(k), batch.reach(k)};
 }
 
 void GrainPairs::weigh_list(const SearchedState& state, const PairRule& rule) {
   collect_discs(state);
   weights_.renew(list_.size()), jolts_.renew(list_.size());
   each_share([&](Share& share) {
-    PairBatch<pairs_per_share> batch;
-    const std::size_t count = share.last - share.first;
-    for (std::size_t k = 0; k < count; ++k) {
-      const ListedPair& pair = list_[share.first + k];
-      batch.set_discs(k, discs_[pair.i], discs_[pair.j], state.period);
-    }
-    batch.weigh(count, 2 * rule.time_step);
+    const auto pairs = std::span(list_).subspan(share.first, share.last - share.first);
+    PairWeight* const weights = weights_.data() + share.first;
+    const auto& radius = state.bodies.radius;
+    std::size_t done = 0;
+    if (state.period.open())
+      done = weigh_on_vectors(pairs, discs_.data(), radius.data(), 2 * rule.time_step, weights);
+    weigh_rest(pairs, done, state, 2 * rule.time_step, weights);
     share.beyond = false;
-    for (std::size_t k = 0; k < count; ++k) {
-      weights_[share.first + k] = {batch.gap(k), batch.n_x(k), batch.n_z(k), batch.reach(k)};
-      share.beyond |= !(batch.gap(k) < range_);
-    }
+    for (std::size_t k = 0; k < pairs.size(); ++k) share.beyond |= !(weights[k].gap < range_);
   });
 }
 
@@ -238,7 +249,7 @@ void GrainPairs::find_jolts(const PairRule& rule, Share& share) {
   std::int32_t* const begin = jolts_.data() + share.first;
   std::int32_t* end = begin;
   for (std::size_t p = share.first; p < share.last; ++p) {
-    const Weight& pair = weights_[p];
+    const PairWeight& pair = weights_[p];
     *end = static_cast<std::int32_t>(p);
     end += static_cast<std::size_t>(pair.reach > 0) &
            static_cast<std::size_t>(pair.gap < rule.margin + pair.reach);
@@ -333,7 +344,7 @@ void GrainPairs::keep(const PairRule& rule, std::span<const double> jolts, std::
     std::int32_t* const begin = kept_.data() + share.first;
     std::int32_t* end = begin;
     for (std::size_t p = share.first; p < share.last; ++p) {
-      const Weight& pair = weights_[p];
+      const PairWeight& pair = weights_[p];
       *end = static_cast<std::int32_t>(p);
       end += pair.gap < rule.margin + pair.reach + (jolts[list_[p].i] + jolts[list_[p].j]) / 2;
     }
@@ -359,7 +370,7 @@ void GrainPairs::keep(const PairRule& rule, std::span<const double> jolts, std::
     const Candidate* const end = extras_.data() + (last ? extras_.size() : (&share + 1)->extras);
     for (const std::int32_t p : std::span(kept_.data() + share.first, share.kept)) {
       const ListedPair& pair = list_[p];
-      const Weight& weight = weights_[p];
+      const PairWeight& weight = weights_[p];
       while (extra < end && comes_before(*extra, pair)) *to++ = *extra++;
       *to++ = {pair.i, pair.j, weight.gap, weight.n_x, weight.n_z, 0, 0};
     }

@@ -8,6 +8,7 @@
 #include "particles/detection/candidate.hpp"
 #include "particles/detection/cell_grid.hpp"
 #include "particles/detection/motion_tree.hpp"
+#include "particles/detection/pair_weights.hpp"
 #include "particles/parallel/team_loops.hpp"
 #include "particles/parallel/work_memory.hpp"
 
@@ -70,18 +71,6 @@ class GrainPairs {
   std::size_t bytes() const;
 
  private:
-  struct ListedPair {
-    std::int32_t i, j;
-  };
-  /// What the weight of a pair depends on, of one of its bodies: side by side, since pairs come in no order.
-  struct MovingDisc {
-    double x, z;  // in the first period
-    double v_x, v_z, radius;
-  };
-  /// What a search finds of a listed pair, as in NearPair.
-  struct Weight {
-    double gap, n_x, n_z, reach;
-  };
   /// Cells [first, last) of a grid, and the pairs that they find; so few that threads share them evenly.
   struct Piece {
     std::size_t level = 0, first = 0, last = 0;
@@ -102,6 +91,8 @@ class GrainPairs {
   void put_in_order(std::size_t bodies);
   void cut_list();
   void collect_discs(const SearchedState& state);
+  void weigh_rest(std::span<const ListedPair> pairs, std::size_t done, const SearchedState& state,
+                  double twice_step, PairWeight* weights) const;
   void weigh_list(const SearchedState& state, const PairRule& rule);
   void drop_those_beyond();
   template <class Work>
@@ -117,11 +108,11 @@ class GrainPairs {
   double range_ = 0;              // within which pairs were listed
   std::vector<Share> shares_;
   // Of one search.
-  WorkArray<std::int32_t> row_;  // first listed pair of each body
-  WorkArray<Weight> weights_;    // of each listed pair
+  WorkArray<std::int32_t> row_;    // first listed pair of each body
+  WorkArray<PairWeight> weights_;  // of each listed pair
   WorkArray<std::int32_t> jolts_,
       kept_;                     // listed pairs, share by share: those that close, those that are kept
-  WorkArray<MovingDisc> discs_;  // the bodies
+  WorkArray<MovingDisc> discs_;  // the bodies, in the first period
   MotionTree tree_;
   bool planted_ = false, follows_ = false;  // the tree is that of the list; it bounds what is now
   const GrainGrids* grids_ = nullptr;       // of the list
