@@ -119,8 +119,7 @@ ContactResidual TileSolver<Problem>::residual(const Problem& problem, const Tile
   std::vector<double> q_squares(contacts.tiles.size());
   loops_.each_of(static_cast<int>(contacts.tiles.size()), [&](int t) {
     const TileRange& tile = contacts.tiles[t];
-    for (std::int32_t a = tile.begin; a < tile.end; ++a)
-      of_tile[t].add(squared_error(problem, a, r, u), r[dim * a], u[dim * a]);
+    of_tile[t] = residual_sums(problem, tile.begin, tile.end, r, u);
     q_squares[t] =
         squared_norm(std::span(problem.q).subspan(dim * tile.begin, dim * (tile.end - tile.begin)));
   });
