@@ -12,14 +12,21 @@ HWY_INLINE V clamped(V value, V bound) {
   return hn::Min(bound, hn::Max(hn::Neg(bound), value));
 }
 
+/// max(0, value), of no number itself: hn::Max forgets that on some processors.
+template <class V>
+HWY_INLINE V positive_part(V value) {
+  const V zero = hn::Zero(hn::DFromV<V>());
+  return hn::IfThenElse(hn::Lt(value, zero), zero, value);
+}
+
 /// Squared distance of r = (r_n, r_t) from the projection of (n, t) on the cone.
 template <class V>
 HWY_INLINE V missed_by_projection(V mu, V n, V t, V r_n, V r_t) {
   const hn::DFromV<V> d;
-  const V zero = hn::Zero(d), one = hn::Set(d, 1);
+  const V one = hn::Set(d, 1);
   // Itself inside, else on the ray or the tip.
-  const V size = hn::Abs(t), above = hn::Max(zero, n);
-  const V ray = hn::Div(hn::Max(zero, hn::Add(n, hn::Mul(mu, size))), hn::Add(one, hn::Mul(mu, mu)));
+  const V size = hn::Abs(t), above = positive_part(n);
+  const V ray = hn::Div(positive_part(hn::Add(n, hn::Mul(mu, size))), hn::Add(one, hn::Mul(mu, mu)));
   const auto inside = hn::Le(size, hn::Mul(mu, above));
   const V missed_n = hn::Sub(hn::IfThenElse(inside, above, ray), r_n);
   const V missed_t = hn::Sub(hn::IfThenElse(inside, t, hn::CopySign(hn::Mul(mu, ray), t)), r_t);

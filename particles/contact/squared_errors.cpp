@@ -19,7 +19,7 @@ std::size_t errors_on_vectors(double largest, const double* inverse_W_nn, const 
                               const double* u, std::span<double> errors) {
   const hn::CappedTag<double, 8> d;
   using V = hn::Vec<decltype(d)>;
-  const V one = hn::Set(d, 1.0), zero = hn::Zero(d);
+  const V one = hn::Set(d, 1.0);
   std::size_t k = 0;
   for (; k + hn::Lanes(d) <= errors.size(); k += hn::Lanes(d)) {
     const V lambda = hn::Div(hn::Set(d, largest), hn::LoadU(d, inverse_W_nn + k));
@@ -27,7 +27,7 @@ std::size_t errors_on_vectors(double largest, const double* inverse_W_nn, const 
     V squares;
     if constexpr (dim == 1) {
       const V r_n = hn::LoadU(d, r + k), stays = hn::Sub(r_n, hn::Mul(rho, hn::LoadU(d, u + k)));
-      const V missed = hn::Sub(r_n, hn::Max(zero, stays));
+      const V missed = hn::Sub(r_n, positive_part(stays));
       squares = hn::Mul(missed, missed);
     } else {
       const V friction = hn::LoadU(d, mu + k);

@@ -15,7 +15,7 @@ double squared_error(double lambda, const double* mu, const double* r, const dou
   const double rho = 1 / lambda;
   double squares = 0;  // of e / lambda
   if constexpr (dim == 1) {
-    const double n = r[0] - std::max(0.0, r[0] - rho * u[0]);
+    const double n = r[0] - std::max(r[0] - rho * u[0], 0.0);  // NaN stays
     squares = n * n;
   } else if constexpr (dim == 3) {
     double n = r[0] - rho * (u[0] + mu[0] * std::abs(u[1]) + mu[1] * std::abs(u[2]));
