@@ -52,7 +52,9 @@ class StripProblem {
   void start(int strip);
   /// With `accelerated`, by beta further on; bodies go on in phase 0, before any contact of theirs. `slot`,
   /// of sum_slots: where the sums of the sweep stand, apart from those that others may be adding up.
-  void sweep(int strip, int phase, int slot, T beta, bool accelerated);
+  void sweep(int strip, int phase, int slot, T beta, bool accelerated, const MemoryAhead& ahead = {});
+  /// One of a number of parts of what sweeps over a strip need.
+  MemoryAhead memory(int strip, int part, int parts) const;
   /// With `rest`, blocks at the end of a group of which all contacts were open in the last two sweeps are
   /// left out of the next ones; else none is.
   void let_rest(int strip, bool rest);

@@ -35,6 +35,16 @@ struct SweepState {
   bool keep = false;    ///< the impulses that it left are the best so far
 };
 
+/// What a part of sweep s > 0 of a wave asks for: of the strip that the wave comes to next one of as many
+/// shares as such parts there are between one strip of it and the next.
+template <class Strips>
+MemoryAhead ahead_of_wave(const Strips& strips, const StripShare& share, int sweeps, int s, int strip,
+                          int phase) {
+  const int next = strip + s + phase + 1;
+  if (s == 0 || next >= share.end) return {};
+  return strips.memory(next, 2 * (s - 1) + phase, 2 * (sweeps - 1));
+}
+
 /// Sweeps on to `until` and, where it is due, computes the residuals of the strips; one thread's share, which
 /// meets the others by calling meet().
 template <class T, class Strips, class Meet>
@@ -67,7 +77,8 @@ void sweep_share(Strips& strips, int thread, int threads, int until, bool last, 
     const auto part = [&](int s, int strip, int phase) {
       const int since_whole = (own.sweeps + s) % sweeps_of_rest;
       if (accelerated && phase == 0 && since_whole <= 1) strips.let_rest(strip, since_whole == 1);
-      strips.sweep(strip, phase, slots + s, betas[s], accelerated);
+      strips.sweep(strip, phase, slots + s, betas[s], accelerated,
+                   ahead_of_wave(strips, share, sweeps, s, strip, phase));
     };
     sweep_wave(share, sweeps, part, meet);
     if (strips.has_driven()) {

@@ -55,6 +55,22 @@ struct BlockGroup {
   std::int32_t count = 0, swept = 0;
 };
 
+/// Pieces of memory that a later call needs: a sweep asks for them, a few lines with every block, so that they
+/// come into the second cache while it works. Changes no number.
+struct MemoryAhead {
+  struct Piece {
+    const std::byte *begin = nullptr, *end = nullptr;
+  };
+  std::array<Piece, 3> pieces;
+
+  /// Part number `part` of `parts` about equal ones.
+  template <class T>
+  static Piece piece_of(std::span<const T> whole, std::size_t part, std::size_t parts) {
+    const auto bytes = std::as_bytes(whole);
+    return {bytes.data() + bytes.size() * part / parts, bytes.data() + bytes.size() * (part + 1) / parts};
+  }
+};
+
 /// Kernels of one kind of problem; `spin`: bodies turn.
 template <class T, int dim, bool spin>
 struct SweepKernels {
@@ -66,7 +82,7 @@ struct SweepKernels {
   /// `accelerated` it starts further on, from r + beta (r - before), and `before` becomes r. Returns the sum
   /// of squares of the steps of the impulses.
   static double sweep(Block* blocks, std::span<const BlockGroup> groups, BodyRecord<T>* bodies, T beta,
-                      bool accelerated);
+                      bool accelerated, const MemoryAhead& ahead = {});
   /// The residual of the blocks as they stand.
   static SeenResidual residual(const Block* blocks, std::size_t count, const BodyRecord<T>* bodies);
   /// The same going on for bodies.
