@@ -5,7 +5,6 @@
 
 #include "particles/detection/contact_list.hpp"
 #include "particles/stepping/lost_at_wall.hpp"
-#include "particles/stepping/projection_rule.hpp"
 
 namespace drumlin::particles {
 
@@ -45,7 +44,7 @@ Overlap RankOverlap::find(const MovedTiles& contacts, const Bodies& bodies, cons
 }
 
 int RankProjection::apply(const RankOverlap& overlap, std::span<const char> counts_here, Halo& halo,
-                          int sweeps, Bodies& bodies) {
+                          const ProjectionRule& projection, Bodies& bodies) {
   if (!overlap.any()) return 0;
   const auto pairs = overlap.close();
   auto& W = problem_.W;
@@ -56,12 +55,12 @@ int RankProjection::apply(const RankOverlap& overlap, std::span<const char> coun
   for (std::size_t a = 0; a < pairs.size(); ++a) {
     const ClosePair& pair = pairs[a];
     W.set(static_cast<int>(a), pair.i, pair.j < 0 ? W.fixed() : pair.j, pair.n_x, pair.n_z);
-    problem_.q[a] = wanted_gap(pair.gap);
+    problem_.q[a] = projection.wanted_gap(pair.gap);
   }
   solution_.impulses.assign(pairs.size(), 0.0);
   StoppingRule rule;
   rule.tolerance = projection_tolerance;
-  rule.max_sweeps = sweeps;
+  rule.max_sweeps = projection.sweeps;
   // What is left is seen, and reported, as the overlap of the next step.
   const SolveReport report = solver_.solve(problem_, {overlap.tiles(), counts_here, {}, {}}, halo, rule,
                                            TileMethod::accelerated, solution_);

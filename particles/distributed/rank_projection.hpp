@@ -8,6 +8,7 @@
 #include "particles/distributed/tile_solver.hpp"
 #include "particles/stepping/overlap.hpp"
 #include "particles/stepping/position_projection.hpp"
+#include "particles/stepping/projection_rule.hpp"
 
 namespace drumlin::particles {
 
@@ -45,7 +46,7 @@ class RankProjection {
   RankProjection(const Ranks& ranks, ThreadTeam* team)
       : solver_(ranks, team, std::numeric_limits<std::int64_t>::max()) {}
   /// Returns the sweeps that it took.
-  int apply(const RankOverlap& overlap, std::span<const char> counts_here, Halo& halo, int sweeps,
+  int apply(const RankOverlap& overlap, std::span<const char> counts_here, Halo& halo, const ProjectionRule&,
             Bodies& bodies);
   /// Gives back its memory, until the next step.
   void release() { solver_.release(), problem_ = {}, solution_ = {}; }

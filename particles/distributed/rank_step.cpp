@@ -159,8 +159,8 @@ class RankMoreauJean final : public RankStepper {
                                     laws_.detection_margin, lost);
     Crossings pushed;
     int sweeps = 0;
-    if (settings_.projection_sweeps > 0) {
-      sweeps = projection_.apply(overlaps_, counts_here_, halo_, settings_.projection_sweeps, bodies_);
+    if (settings_.projection.sweeps > 0) {
+      sweeps = projection_.apply(overlaps_, counts_here_, halo_, settings_.projection, bodies_);
       pushed = crossings_.undo(walls, open, bodies_);
     }
     std::array<double, 1> deepest{std::max({report.overlap.max, moved.deepest, pushed.deepest})};

@@ -131,13 +131,14 @@ struct Effects {
 /// Contact solver and when it may stop. Tolerances in the project's one definition (docs/conventions.md).
 struct SolverSettings {
   std::string name = "accelerated";
-  double tolerance = 1e-2;              ///< of `residual`
-  double penetration_tolerance = 1e-3;  ///< of `penetration` and `sinking`, in d
-  int max_sweeps = 5000;                ///< a column of 1000 discs takes some 1000 a step
-  int check_every = 10;                 ///< sweeps between two evaluations of the residual
-  int projection_sweeps = 20;           ///< at most; 0: no position projection
-  bool stop_when_unconverged = false;   ///< end with exit code 3 at the first step that misses the tolerance
-  int capture_unconverged = 0;          ///< so many steps that miss it leave their contact problem as a file
+  double tolerance = 1e-2;                      ///< of `residual`
+  double penetration_tolerance = 1e-3;          ///< of `penetration` and `sinking`, in d
+  int max_sweeps = 5000;                        ///< a column of 1000 discs takes some 1000 a step
+  int check_every = 10;                         ///< sweeps between two evaluations of the residual
+  int projection_sweeps = 20;                   ///< at most; 0: no position projection
+  std::optional<double> projection_share = {};  ///< of an overlap that a step takes off; absent: 0.2
+  bool stop_when_unconverged = false;  ///< end with exit code 3 at the first step that misses the tolerance
+  int capture_unconverged = 0;         ///< so many steps that miss it leave their contact problem as a file
   std::optional<bool> allow_crushing = {};  ///< true: no end with exit code 3 where discs are crushed
 };
 

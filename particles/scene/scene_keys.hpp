@@ -194,6 +194,8 @@ void describe(Visitor& v, SolverSettings& s) {
   v.value("check_every", s.check_every, defaulted("", at_least(1, 1e7), "Sweeps from check to check."));
   v.value("projection_sweeps", s.projection_sweeps,
           defaulted("", at_least(0, 1e6), "Sweeps that remove overlap; 0: none."));
+  v.value("projection_share", s.projection_share,
+          when_given("", above(0, 1), "Of an overlap, taken off per step; absent: 0.2."));
   v.value("stop_when_unconverged", s.stop_when_unconverged,
           defaulted("", anything(), "Exit 3 at the first step that misses a tolerance."));
   v.value(

@@ -55,8 +55,8 @@ struct BlockGroup {
   std::int32_t count = 0, swept = 0;
 };
 
-/// Pieces of memory that a later call needs: a sweep asks for them, a few lines with every block, so that they
-/// come into the second cache while it works. Changes no number.
+/// Pieces of memory that a later call needs: a sweep asks for them, a few lines with every block, so that
+/// they come into the second cache while it works. Changes no number.
 struct MemoryAhead {
   struct Piece {
     const std::byte *begin = nullptr, *end = nullptr;

@@ -295,9 +295,9 @@ class MoreauJean final : public Stepper {
     Overlap overlap =
         overlaps_.find(contacts, state.bodies, walls, laws_.period, laws_.detection_margin, lost);
     Crossings pushed;
-    if (solver_.projection_sweeps > 0) {
+    if (solver_.projection.sweeps > 0) {
       projection_.apply({state.bodies, walls, state.driven, state.cell ? &*state.cell : nullptr},
-                        overlaps_.close(), overlaps_.plan(), solver_.projection_sweeps);
+                        overlaps_.close(), overlaps_.plan(), solver_.projection);
       pushed = crossings_.undo(walls, laws_.period, state.bodies);
     }
     overlap.max = std::max({overlap.max, moved.deepest, pushed.deepest});

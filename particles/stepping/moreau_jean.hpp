@@ -24,6 +24,7 @@
 #include "particles/stepping/energy_ledger.hpp"
 #include "particles/stepping/lost_grain.hpp"
 #include "particles/stepping/overlap.hpp"
+#include "particles/stepping/projection_rule.hpp"
 #include "particles/stepping/step_laws.hpp"
 #include "particles/stepping/wall_loads.hpp"
 
@@ -32,7 +33,7 @@ namespace drumlin::particles {
 struct StepSolver {
   std::string name;
   StoppingRule rule;
-  int projection_sweeps = 0;  ///< 0: no position projection
+  ProjectionRule projection;
   int threads = 1;
 };
 

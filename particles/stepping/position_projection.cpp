@@ -5,7 +5,6 @@
 #include "particles/effects/driven_walls.hpp"
 #include "particles/parallel/team_loops.hpp"
 #include "particles/stepping/cell_step.hpp"
-#include "particles/stepping/projection_rule.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -39,7 +38,7 @@ void add_cell(const MovingCell* cell, DrivenFrictionlessProblem::Delassus& W) {
 
 template <bool with_driven>
 void PositionProjection<with_driven>::apply(const Movable& movable, std::span<const ClosePair> pairs,
-                                            const SweepPlan& plan, int sweeps) {
+                                            const SweepPlan& plan, const ProjectionRule& projection) {
   auto& [bodies, walls, driven, cell] = movable;
   if (std::none_of(pairs.begin(), pairs.end(), [](const ClosePair& pair) { return pair.gap < 0; })) return;
   auto& W = problem_.W;
@@ -64,7 +63,7 @@ void PositionProjection<with_driven>::apply(const Movable& movable, std::span<co
           W.arm_x[a] = arm.x, W.arm_z[a] = arm.z;
         }
       W.set(static_cast<int>(a), pair.i, second, pair.n_x, pair.n_z);
-      problem_.q[a] = wanted_gap(pair.gap);
+      problem_.q[a] = projection.wanted_gap(pair.gap);
     }
   });
   W.plan = plan;
@@ -72,7 +71,7 @@ void PositionProjection<with_driven>::apply(const Movable& movable, std::span<co
   resize_closely(solution_.impulses, pairs.size());
   StoppingRule rule;
   rule.tolerance = projection_tolerance;
-  rule.max_sweeps = sweeps;
+  rule.max_sweeps = projection.sweeps;
   // What is left is seen, and reported, as the overlap of the next step.
   (void)solve_accelerated(problem_, rule, work_, solution_);
   const auto& moved = solution_.velocities.bodies;

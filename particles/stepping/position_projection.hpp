@@ -11,6 +11,7 @@
 #include "particles/effects/moving_cell.hpp"
 #include "particles/effects/wall_step.hpp"
 #include "particles/solver/contact_solver.hpp"
+#include "particles/stepping/projection_rule.hpp"
 
 namespace drumlin::particles {
 
@@ -44,8 +45,8 @@ class PositionProjection {
            bytes_of(problem_.q) + bytes_of(solution_.impulses) + bytes_of(solution_.velocities.bodies) +
            bytes_of(solution_.velocities.contacts);
   }
-  /// Moves by at most `sweeps` sweeps; `pairs` in the order of `plan`.
-  void apply(const Movable&, std::span<const ClosePair> pairs, const SweepPlan& plan, int sweeps);
+  /// `pairs` in the order of `plan`.
+  void apply(const Movable&, std::span<const ClosePair> pairs, const SweepPlan& plan, const ProjectionRule&);
 
  private:
   using Problem = std::conditional_t<with_driven, DrivenFrictionlessProblem, FrictionlessProblem>;

@@ -7,15 +7,19 @@ namespace drumlin::particles {
 // A projection that takes away the whole overlap at once opens neighbouring contacts; the load closes them at
 // gap/h in the next step, the packing heats, solves get worse and overlap grows: a settling drum of 7183
 // discs blew up so.
-inline constexpr double correction_share = 0.2;
+inline constexpr double usual_correction_share = 0.2;
 inline constexpr double largest_correction = 2e-3;  // d per step
 // Of the residual, relative to the corrections asked for. A few plain Gauss-Seidel sweeps leave the contacts
 // that are solved early overlapped, the same ones in every step: their overlap grew to 0.1 d within a second.
 inline constexpr double projection_tolerance = 0.05;
 
-/// What the projection of a contact with this gap starts from: overlaps ask for a share of themselves only.
-inline double wanted_gap(double gap) {
-  return gap >= 0 ? gap : std::max(correction_share * gap, -largest_correction);
-}
+/// What a scene may choose of it.
+struct ProjectionRule {
+  int sweeps = 0;  ///< at most; 0: no projection
+  double share = usual_correction_share;
+
+  /// What the projection of a contact with this gap starts from: overlaps ask for a share of themselves only.
+  double wanted_gap(double gap) const { return gap >= 0 ? gap : std::max(share * gap, -largest_correction); }
+};
 
 }  // namespace drumlin::particles

@@ -11,7 +11,7 @@ StepSolver solver_of(const Scene& scene, int threads) {
   solver.rule.sinking = asked.penetration_tolerance;
   solver.rule.max_sweeps = asked.max_sweeps;
   solver.rule.check_every = asked.check_every;
-  solver.projection_sweeps = asked.projection_sweeps;
+  solver.projection = {asked.projection_sweeps, asked.projection_share.value_or(usual_correction_share)};
   solver.threads = threads;
   return solver;
 }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <optional>
+#include <string>
 
 #include "apps/support/json_file.hpp"
 #include "apps/support/program.hpp"
@@ -34,13 +36,24 @@ Corner drum_corner(int k) {
 namespace {
 
 constexpr int look_every = 10;  // steps
-// That of the scene; the one at which our overlap is 1e-5 d, between the overlaps of the other two; a rough
-// one.
-constexpr double our_tolerances[] = {3e-3, 3.7e-3, 1e-2};
+struct OurSettings {
+  double tolerance;
+  std::optional<double> projection_share;
+};
+// The tolerance of the scene; the one at which our overlap is 1e-5 d, between the overlaps of 3e-3 and 1e-2;
+// one at which it is less than that where the projection takes off three fifths of an overlap in a step; a
+// rough one.
+constexpr OurSettings our_settings[] = {{3e-3, {}}, {3.7e-3, {}}, {5.5e-3, 0.6}, {1e-2, {}}};
 
-Scene with_tolerance(Scene scene, double tolerance) {
-  scene.solver.tolerance = tolerance;
+Scene with(const OurSettings& own, Scene scene) {
+  scene.solver.tolerance = own.tolerance;
+  scene.solver.projection_share = own.projection_share;
   return scene;
+}
+
+std::string name_of(const OurSettings& own) {
+  const std::string name = fmt::format("drumlin, {:g}", own.tolerance);
+  return own.projection_share ? fmt::format("{}, share {:g}", name, *own.projection_share) : name;
 }
 
 /// The scene in our engine.
@@ -178,12 +191,9 @@ std::vector<Runner> runners_of(const Scene& scene, const Snapshot& from, const O
   std::vector<Runner> runners;
   runners.push_back({other.name, other.make(drum_of(scene, from), settings), {}, {}, {}});
   if (ours)
-    for (const double tolerance : our_tolerances)
-      runners.push_back({fmt::format("drumlin, {:g}", tolerance),
-                         std::make_unique<OurDrum>(with_tolerance(last_stage_of(scene), tolerance), from),
-                         {},
-                         {},
-                         {}});
+    for (const OurSettings& own : our_settings)
+      runners.push_back(
+          {name_of(own), std::make_unique<OurDrum>(with(own, last_stage_of(scene)), from), {}, {}, {}});
   return runners;
 }
 

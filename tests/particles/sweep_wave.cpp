@@ -80,10 +80,11 @@ TEST(SweepWave, AsksForAStripOnceBeforeItComes) {
     AskedStrips strips{{count}, std::vector<std::vector<int>>(count)};
     const StripShare share = share_of(strips, 0, 1);
     const auto part = [&](int s, int strip, int phase) {
-      if (s == 0 && phase == 0 && strip > sweeps)
+      if (s == 0 && phase == 0 && strip > sweeps) {
         EXPECT_EQ(strips.parts[static_cast<std::size_t>(strip)],
                   std::vector<int>(2 * static_cast<std::size_t>(sweeps - 1), 1))
             << "strip " << strip << " of waves of " << sweeps;
+      }
       ahead_of_wave(strips, share, sweeps, s, strip, phase);
     };
     sweep_wave(share, sweeps, part, [] {});

@@ -130,7 +130,7 @@ TEST(SceneFile, OverridesCountAsTheFile) {
             "capture_unconverged, "
             "check_every, "
             "max_sweeps, name, "
-            "penetration_tolerance, projection_sweeps, stop_when_unconverged, tolerance)");
+            "penetration_tolerance, projection_share, projection_sweeps, stop_when_unconverged, tolerance)");
 }
 
 class ListedGrainsFile : public ::testing::Test {
