@@ -1,6 +1,7 @@
 // Starts that overlap: the projection opens them and gives no energy.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "tests/hardcases/particles/case_lists.hpp"
 #include "tests/hardcases/particles/trial.hpp"
@@ -46,13 +47,15 @@ std::vector<HardCheck> opens_slowly(const Trial& trial, double share) {
       at_most("steps with NaN", 0, watch.steps_not_finite, "none")};
 }
 
-std::vector<HardCheck> thirty_percent_in_gravity() {
+/// `share`: of an overlap, taken off per step.
+std::vector<HardCheck> thirty_percent_in_gravity(std::optional<double> share) {
   Trial trial = squeezed(6, 0.7, 800);
   trial.scene.walls = {trial_floor(), trial_segment("left", -0.5, 0, -0.5, 100),
                        trial_segment("right", 4, 0, 4, 100)};
   trial.scene.effects.gravity = particles::Gravity{};
   trial.scene.solver.tolerance = 1e-2;
   trial.scene.solver.max_sweeps = 100;
+  trial.scene.solver.projection_share = share;
   particles::Simulation simulation = trial.start();
   const Watch watch = run_watched(simulation);
   const particles::Bodies& b = simulation.state().bodies;
@@ -77,7 +80,9 @@ std::vector<HardCase> overlap_cases() {
       {"overlap-30", "the same with an overlap of 30 %", true,
        [] { return opens_slowly(squeezed(6, 0.7, 1500), 0.05); }},
       {"overlap-30-heap", "30 % of overlap between walls, in gravity: it opens, energy stays bounded", true,
-       thirty_percent_in_gravity},
+       [] { return thirty_percent_in_gravity({}); }},
+      {"overlap-30-heap-share", "the same where three fifths of an overlap go in a step", true,
+       [] { return thirty_percent_in_gravity(0.6); }},
   };
 }
 
