@@ -83,7 +83,7 @@ Flow flow_of(const Scene& like, int discs, int steps, const std::filesystem::pat
 }
 
 Replay::Replay(const Flow& flow, const std::string& solver, int threads, const StoppingRule& rule)
-    : time_step_(flow.time_step), stepper_(make_stepper(flow.laws, {solver, rule, 0, threads})) {}
+    : time_step_(flow.time_step), stepper_(make_stepper(flow.laws, {solver, rule, {}, threads})) {}
 
 StepReport Replay::operator()(const FlowStep& step) {
   work_ = step;
