@@ -41,7 +41,7 @@ template <class Strips>
 MemoryAhead ahead_of_wave(const Strips& strips, const StripShare& share, int sweeps, int s, int strip,
                           int phase) {
   const int next = strip + s + phase + 1;
-  if (s == 0 || next >= share.end) return {};
+  if (s == 0 || next >= share.end || !share.takes_wave(sweeps)) return {};
   return strips.memory(next, 2 * (s - 1) + phase, 2 * (sweeps - 1));
 }
 

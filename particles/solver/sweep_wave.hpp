@@ -12,6 +12,9 @@ inline constexpr int longest_wave = 5;
 struct StripShare {
   int first = 0, end = 0, fewest = 0;
   bool left = false, right = false;  ///< whether another thread's strips come before and after
+
+  /// Whether so many sweeps go through it together; else they are taken in turn.
+  bool takes_wave(int sweeps) const { return sweeps > 1 && ((!left && !right) || fewest >= 2 * sweeps); }
 };
 
 /// strips: tells first_strip(thread, threads), as StripProblem does.
@@ -36,9 +39,9 @@ StripShare share_of(const Strips& strips, int thread, int threads) {
 /// them does that after they have met. Shares that are too narrow for it take the sweeps in turn.
 template <class Part, class Meet>
 void sweep_wave(const StripShare& share, int sweeps, Part part, Meet meet) {
-  const auto [first, end, fewest, left, right] = share;
-  const bool alone = !left && !right;
-  if (sweeps == 1 || (!alone && fewest < 2 * sweeps)) {
+  const int first = share.first, end = share.end;
+  const bool left = share.left, right = share.right;
+  if (!share.takes_wave(sweeps)) {
     for (int s = 0; s < sweeps; ++s)
       for (const int phase : {0, 1}) {
         for (int strip = first; strip < end; ++strip) part(s, strip, phase);

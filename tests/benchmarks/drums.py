@@ -19,6 +19,11 @@ def drum(discs):
     return re.sub(r"radius_mm = [\d.]+", f"radius_mm = {radius_mm(discs):.1f}", start), rest
 
 
+def started_from(run, start, more=""):
+    """The same with the grains of a run at its end; `more`: further keys of that table."""
+    return re.sub(r"(?s)\[grains\.generated\].*?\n\n", f'[grains.from_run]\nrun = "{run}"\n{more}\n', start)
+
+
 def solved_to(tolerance, solver):
     return re.sub(r"tolerance = \S+", f"tolerance = {tolerance}", solver, count=1)
 

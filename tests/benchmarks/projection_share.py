@@ -9,14 +9,13 @@ import csv
 import json
 import os
 import pathlib
-import re
 import statistics
 import subprocess
 import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from drums import drum, rotation, solved_to, stage  # noqa: E402
+from drums import drum, rotation, solved_to, stage, started_from  # noqa: E402
 
 # Tolerance and share: the scene's; rougher, with the usual share and with larger ones.
 CASES = ((3e-3, 0.2), (5.5e-3, 0.2), (5.5e-3, 0.6), (5.5e-3, 1))
@@ -27,9 +26,8 @@ STUDENT = 2.31  # 95 %, nine means
 
 def scene(run, tolerance, share):
     start, solver = drum(7183)
-    start = re.sub(r"\[grains\.generated\].*?\n\n", f'[grains.from_run]\nrun = "{run}"\n\n', start, flags=re.DOTALL)
     solver = solved_to(f"{tolerance:g}", solver).rstrip() + f"\nprojection_share = {share:g}\n"
-    return start + stage("turn", f"duration_s = {SECONDS}", rotation(6)) + solver + "\n[output]\nvelocity_window_s = 0\n"
+    return started_from(run, start) + stage("turn", f"duration_s = {SECONDS}", rotation(6)) + solver + "\n[output]\nvelocity_window_s = 0\n"
 
 
 def mean_and_interval(values):

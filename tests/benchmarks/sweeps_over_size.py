@@ -19,7 +19,7 @@ import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from drums import drum, rotation, solved_to, speed_rpm, stage  # noqa: E402
+from drums import drum, rotation, solved_to, speed_rpm, stage, started_from  # noqa: E402
 
 SIZES = (2000, 7183, 30000, 100000)
 STEPS, TRANSIENT = 300, 100
@@ -33,7 +33,7 @@ def scenes(discs):
     both = stage("settle", f"duration_s = {settling}", "") + stage("approach", "turns = 0.17", turning)
     made = {"preparation": start + both + re.sub(r"max_sweeps = \d+", "max_sweeps = 150", solved_to("3e-2", solver))}
     for name, motion, time in (("settled", "", f"time_s = {settling}\n"), ("flowing", turning, "")):
-        of_run = re.sub(r"(?s)\[grains\.generated\].*?\n\n", f'[grains.from_run]\nrun = "preparation"\n{time}\n', start)
+        of_run = started_from("preparation", start, time)
         stages = stage(name, f"duration_s = {STEPS * 1e-3:g}", motion)
         made[name] = of_run + stages + re.sub(r"max_sweeps = \d+", "max_sweeps = 20000", solved_to("1e-2", solver))
     return made
