@@ -43,8 +43,9 @@ Overlap RankOverlap::find(const MovedTiles& contacts, const Bodies& bodies, cons
   return overlap;
 }
 
-int RankProjection::apply(const RankOverlap& overlap, std::span<const char> counts_here, Halo& halo,
-                          const ProjectionRule& projection, Bodies& bodies) {
+int RankProjection::apply(const RankOverlap& overlap, const TileOrder& order,
+                          std::span<const char> counts_here, Halo& halo, const ProjectionRule& projection,
+                          Bodies& bodies) {
   if (!overlap.any()) return 0;
   const auto pairs = overlap.close();
   auto& W = problem_.W;
@@ -62,8 +63,8 @@ int RankProjection::apply(const RankOverlap& overlap, std::span<const char> coun
   rule.tolerance = projection_tolerance;
   rule.max_sweeps = projection.sweeps;
   // What is left is seen, and reported, as the overlap of the next step.
-  const SolveReport report = solver_.solve(problem_, {overlap.tiles(), counts_here, {}, {}}, halo, rule,
-                                           TileMethod::accelerated, solution_);
+  const SolveReport report = solver_.solve(problem_, {overlap.tiles(), order, counts_here, {}, {}}, halo,
+                                           rule, TileMethod::accelerated, solution_);
   const auto& moved = solution_.velocities.bodies;
   for (std::size_t b = 0; b < bodies.count(); ++b) bodies.x[b] += moved[b].x, bodies.z[b] += moved[b].z;
   return report.sweeps;

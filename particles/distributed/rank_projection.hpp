@@ -46,8 +46,8 @@ class RankProjection {
   RankProjection(const Ranks& ranks, ThreadTeam* team)
       : solver_(ranks, team, std::numeric_limits<std::int64_t>::max()) {}
   /// Returns the sweeps that it took.
-  int apply(const RankOverlap& overlap, std::span<const char> counts_here, Halo& halo, const ProjectionRule&,
-            Bodies& bodies);
+  int apply(const RankOverlap& overlap, const TileOrder& order, std::span<const char> counts_here, Halo& halo,
+            const ProjectionRule&, Bodies& bodies);
   /// Gives back its memory, until the next step.
   void release() { solver_.release(), problem_ = {}, solution_ = {}; }
 

@@ -69,19 +69,20 @@ class RankMoreauJean final : public RankStepper {
     const Point gain{time_step * gravity_.x, time_step * gravity_.z};
     grains_.settle(state, walls, time_step, gain);
     report.impacts = search_.find(state, walls, time_step, gain);
-    own_ = rank_pairs(grains_.seen(), search_.candidates(), search_.homed(), grains_.tiles(), ranks_.rank());
+    find_rank_pairs(grains_.seen(), search_.candidates(), search_.homed(), grains_.tiles(), ranks_.rank(),
+                    own_);
     halo_.follow(own_.halo);
     take_used();
     report.detection_seconds = watch.lap();
     const StepInput step{laws_, bodies_, walls, {}, free_, time_step};
-    contacts_.pairs = std::move(own_.pairs);
+    std::swap(contacts_.pairs, own_.pairs);
     const bool large = contacts_.pairs.size() > many_contacts;
-    if (large) search_.release();
+    if (large) search_.release(), own_.pairs = {};
     sweep_normals(step, contacts_.pairs);
     search_.recollection().warm_start(grains_.memory(), dim, time_step, own_.order, solution_.impulses);
     assemble<Problem, with_spin>(step, contacts_, TeamLoops(&team_), problem_);
     report.setup_seconds = watch.lap();
-    const TiledContacts tiled{own_.tiles, counts_here_, bodies_.x, bodies_.z};
+    const TiledContacts tiled{own_.tiles, own_.tile_order, counts_here_, bodies_.x, bodies_.z};
     report.solve = solver_.solve(problem_, tiled, halo_, settings_.rule, method_, solution_);
     if (large) solver_.release();
     std::vector<std::int64_t> count{problem_.contacts()};
@@ -127,7 +128,7 @@ class RankMoreauJean final : public RankStepper {
   /// From here on the bodies are those that this rank's contacts touch, and its own.
   void take_used() {
     const SeenGrains& seen = grains_.seen();
-    bodies_ = used_bodies(seen, own_.used);
+    take_used_bodies(seen, own_.used, bodies_);
     counts_here_.assign(own_.used.size(), 0);
     const FreeMotion& free = search_.free();
     free_.x.resize(own_.used.size()), free_.z.resize(own_.used.size());
@@ -160,7 +161,8 @@ class RankMoreauJean final : public RankStepper {
     Crossings pushed;
     int sweeps = 0;
     if (settings_.projection.sweeps > 0) {
-      sweeps = projection_.apply(overlaps_, counts_here_, halo_, settings_.projection, bodies_);
+      sweeps =
+          projection_.apply(overlaps_, own_.tile_order, counts_here_, halo_, settings_.projection, bodies_);
       pushed = crossings_.undo(walls, open, bodies_);
     }
     std::array<double, 1> deepest{std::max({report.overlap.max, moved.deepest, pushed.deepest})};
@@ -188,9 +190,14 @@ class RankMoreauJean final : public RankStepper {
     state.memory_time_step = time_step;
     const auto& r = solution_.impulses;
     std::size_t loaded = 0;
-    for (std::size_t a = 0; a < contacts_.pairs.size(); ++a) loaded += r[dim * a] != 0;
+    place_in_order_.resize(own_.order.size());
+    for (std::size_t a = 0; a < own_.order.size(); ++a) {
+      loaded += r[dim * a] != 0;
+      place_in_order_[own_.order[a]] = static_cast<std::int32_t>(a);
+    }
     state.memory.reserve(loaded + loaded / 16);
-    for (std::size_t a = 0; a < contacts_.pairs.size(); ++a) {
+    // By identities, so that the next step need not sort what stays on this rank.
+    for (const std::int32_t a : place_in_order_) {
       const Candidate& pair = contacts_.pairs[a];
       RememberedContact contact;
       for (int c = 0; c < dim; ++c) contact.impulse[c] = r[dim * a + c];
@@ -244,6 +251,7 @@ class RankMoreauJean final : public RankStepper {
   FreeMotion free_;                // of the used ones
   std::vector<char> counts_here_;  // of each used grain: its own
   StepContacts contacts_;
+  std::vector<std::int32_t> place_in_order_;  // of each pair as it was found: its place in contacts_
   Problem problem_;
   Solution<Problem> solution_;
   TileSolver<Problem> solver_;

@@ -8,6 +8,7 @@
 #include "particles/bodies/bodies.hpp"
 #include "particles/detection/candidate.hpp"
 #include "particles/distributed/halo.hpp"
+#include "particles/distributed/tile_order.hpp"
 #include "particles/distributed/tiles.hpp"
 
 namespace drumlin::particles {
@@ -17,13 +18,6 @@ struct SeenGrains {
   Bodies bodies;                    ///< with identities
   std::vector<std::int32_t> owner;  ///< rank of each
   std::vector<std::int32_t> place;  ///< of own grains: their places in RankState::grains; else -1
-};
-
-/// Contacts of one tile in a list.
-struct TileRange {
-  std::int32_t tile = 0, begin = 0, end = 0;
-  std::int32_t colour = 0;
-  bool border = false;  ///< a contact touches a grain that other ranks use
 };
 
 /// Candidates among the grains that a rank sees, in the order of (i, j), and where they are at home.
@@ -38,11 +32,12 @@ struct HomedPairs {
 
 /// What a rank solves. Indices are places in `used`.
 struct RankPairs {
-  std::vector<std::int32_t> used;     ///< grains of SeenGrains: as its contacts first touch them, its others
+  std::vector<std::int32_t> used;     ///< grains of SeenGrains by strip: as contacts first touch them, others
   std::vector<std::int32_t> in_used;  ///< of each seen grain; -1: not used
-  std::vector<Candidate> pairs;       ///< its contacts: by colour, border tiles first, tile, (i, j)
+  std::vector<Candidate> pairs;       ///< its contacts: by strip, colour, tile, (i, j)
   std::vector<std::int32_t> order;    ///< place of each of them in HomedPairs::mine
   std::vector<TileRange> tiles;       ///< the same, tile by tile
+  TileOrder tile_order;
   HaloPlan halo;
 };
 
@@ -57,11 +52,11 @@ std::vector<std::int32_t> find_homes_of_added(const SeenGrains& seen, std::span<
                                               std::span<const std::int32_t> added, const TileMap& tiles,
                                               std::int32_t rank, HomedPairs& found);
 
-/// Takes the contacts of the rank's tiles from all candidates.
-RankPairs rank_pairs(const SeenGrains& seen, std::span<const Candidate> candidates, const HomedPairs& homed,
-                     const TileMap& tiles, std::int32_t rank);
+/// Takes the contacts of the rank's tiles from all candidates; what `own` was is lost, but for its memory.
+void find_rank_pairs(const SeenGrains& seen, std::span<const Candidate> candidates, const HomedPairs& homed,
+                     const TileMap& tiles, std::int32_t rank, RankPairs& own);
 
-/// The entries of the used grains, in their order.
-Bodies used_bodies(const SeenGrains& seen, std::span<const std::int32_t> used);
+/// The entries of the used grains, in their order. `taken` is empty or of an earlier call.
+void take_used_bodies(const SeenGrains& seen, std::span<const std::int32_t> used, Bodies& taken);
 
 }  // namespace drumlin::particles

@@ -1,6 +1,7 @@
 #include "particles/distributed/tile_blocks.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <utility>
 
@@ -12,7 +13,7 @@ template <class T, int dim, bool spin>
 template <class Problem>
 void TileBlocks<T, dim, spin>::pack_bodies(const Problem& problem, std::size_t tiles) {
   const auto& W = problem.W;
-  moving_ = W.fixed() + W.fixed() % 2;  // records go in pairs
+  moving_ = W.fixed();
   bodies_.assign(moving_ + Block::width * tiles, {});
   for (std::int32_t b = 0; b < W.fixed(); ++b) bodies_[b].inverse_mass = static_cast<T>(W.inverse_mass[b]);
   before_.resize(moving_);
@@ -22,34 +23,35 @@ template <class T, int dim, bool spin>
 template <class Problem>
 void TileBlocks<T, dim, spin>::colour(const Problem& problem, const TileRange& tile) {
   constexpr int most = 64;  // a body with more contacts is served in rounds
+  constexpr std::int8_t none = -1, placed = -2;
   const auto& W = problem.W;
-  std::vector<std::int32_t> served, left;
-  for (std::int32_t a = tile.begin; a < tile.end; ++a) served.push_back(a);
-  std::vector<std::vector<std::int32_t>> groups;
-  for (; !served.empty(); served = std::exchange(left, {})) {
-    for (const std::int32_t a : served) {
-      used_[W.i[a]] = 0;
-      if (W.j[a] != W.fixed()) used_[W.j[a]] = 0;
-    }
-    groups.clear();
-    for (const std::int32_t a : served) {
-      const bool pair = W.j[a] != W.fixed();
-      const int own = std::countr_one(used_[W.i[a]] | (pair ? used_[W.j[a]] : 0));
-      if (own == most) {
-        left.push_back(a);
-        continue;
-      }
-      used_[W.i[a]] |= std::uint64_t{1} << own;
-      if (pair) used_[W.j[a]] |= std::uint64_t{1} << own;
-      if (static_cast<std::size_t>(own) >= groups.size()) groups.resize(own + 1);
-      groups[own].push_back(a);
-    }
-    for (const auto& group : groups) {
-      order_.insert(order_.end(), group.begin(), group.end());
-      group_end_.push_back(static_cast<std::int32_t>(order_.size()));
-      const auto blocks = static_cast<std::int32_t>((group.size() + Block::width - 1) / Block::width);
+  const auto each_left = [&](auto work) {
+    for (std::int32_t a = tile.begin; a < tile.end; ++a)
+      if (colour_[a] == none) work(a, W.i[a], W.j[a]);
+  };
+  std::fill(colour_.begin() + tile.begin, colour_.begin() + tile.end, none);
+  for (std::int32_t first = tile.begin; first < tile.end;) {
+    each_left([&](std::int32_t, std::int32_t i, std::int32_t j) { used_[i] = used_[j] = 0; });
+    std::array<std::int32_t, most> count{};
+    each_left([&](std::int32_t a, std::int32_t i, std::int32_t j) {
+      used_[W.fixed()] = 0;  // walls are not shared
+      const int own = std::countr_one(used_[i] | used_[j]);
+      if (own == most) return;
+      used_[i] |= std::uint64_t{1} << own, used_[j] |= std::uint64_t{1} << own;
+      colour_[a] = static_cast<std::int8_t>(own);
+      ++count[own];
+    });
+    std::array<std::int32_t, most> place{};
+    for (int c = 0; c < most && count[c] > 0; ++c) {
+      place[c] = first;
+      first += count[c];
+      group_end_.push_back(first);
+      const std::int32_t blocks = (count[c] + Block::width - 1) / Block::width;
       groups_.push_back({blocks, blocks});
     }
+    for (std::int32_t a = tile.begin; a < tile.end; ++a)
+      if (const std::int8_t own = std::exchange(colour_[a], colour_[a] == none ? none : placed); own >= 0)
+        order_[place[own]++] = a;
   }
 }
 
@@ -106,7 +108,8 @@ template <class Problem>
 void TileBlocks<T, dim, spin>::pack(const Problem& problem, std::span<const TileRange> tiles,
                                     std::span<const double> r, const TeamLoops& loops) {
   pack_bodies(problem, tiles.size());
-  tiles_.clear(), groups_.clear(), order_.clear(), group_end_.clear();
+  tiles_.clear(), groups_.clear(), group_end_.clear();
+  order_.resize(problem.contacts()), colour_.resize(problem.contacts());
   used_.resize(problem.W.inverse_mass.size());
   std::size_t blocks = 0;
   for (const TileRange& tile : tiles) {
@@ -146,10 +149,10 @@ void TileBlocks<T, dim, spin>::load(std::size_t tile) {
 }
 
 template <class T, int dim, bool spin>
-double TileBlocks<T, dim, spin>::sweep(std::size_t tile, T beta, bool accelerated) {
+double TileBlocks<T, dim, spin>::sweep(std::size_t tile, T beta, bool accelerated, const MemoryAhead& ahead) {
   const auto groups =
       std::span(groups_).subspan(tiles_[tile].group, tiles_[tile + 1].group - tiles_[tile].group);
-  return Kernels::sweep(of_tile(tile).data(), groups, bodies_.data(), beta, accelerated);
+  return Kernels::sweep(of_tile(tile).data(), groups, bodies_.data(), beta, accelerated, ahead);
 }
 
 template <class T, int dim, bool spin>
@@ -187,11 +190,20 @@ void TileBlocks<T, dim, spin>::start() {
 }
 
 template <class T, int dim, bool spin>
-void TileBlocks<T, dim, spin>::go_on(T beta, const TeamLoops& loops) {
-  // In pairs of records, whatever the pieces of the loop.
-  loops.each(moving_ / 2, [&](std::size_t begin, std::size_t end) {
-    Kernels::go_on(&bodies_[2 * begin], &before_[2 * begin], 2 * (end - begin), beta);
-  });
+void TileBlocks<T, dim, spin>::go_on(const TileStrip& strip, T beta) {
+  const auto [begin, end] = strip.bodies;
+  Kernels::go_on(bodies_.data() + begin, before_.data() + begin, end - begin, beta);
+}
+
+template <class T, int dim, bool spin>
+MemoryAhead TileBlocks<T, dim, spin>::memory(const TileStrip& strip, int part, int parts) const {
+  const auto [begin, end] = strip.bodies;
+  const std::size_t first = tiles_[strip.phases[0].begin].block, last = tiles_[strip.phases[1].end].block;
+  const std::span<const Block> blocks(blocks_.data() + first, last - first);
+  const std::span<const BodyRecord<T>> now(bodies_.data() + begin, end - begin);
+  const std::span<const BodyRecord<T>> before(before_.data() + begin, end - begin);
+  return {MemoryAhead::piece_of(blocks, part, parts), MemoryAhead::piece_of(now, part, parts),
+          MemoryAhead::piece_of(before, part, parts)};
 }
 
 #define DRUMLIN_INSTANTIATE(T, dim, spin, Problem)                                           \

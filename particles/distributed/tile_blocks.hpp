@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "particles/distributed/halo.hpp"
-#include "particles/distributed/step_pairs.hpp"
+#include "particles/distributed/tile_order.hpp"
 #include "particles/parallel/team_loops.hpp"
 #include "particles/solver/sweep_kernels.hpp"
 
@@ -33,7 +33,7 @@ class TileBlocks {
   /// Bodies receive the impulses to start from.
   void load(std::size_t tile);
   /// One Gauss-Seidel sweep; returns the sum of squares of its steps.
-  double sweep(std::size_t tile, T beta, bool accelerated);
+  double sweep(std::size_t tile, T beta, bool accelerated, const MemoryAhead& ahead = {});
   /// As StripProblem::let_rest().
   void let_rest(std::size_t tile, bool rest);
   /// The residual as impulses and bodies stand.
@@ -46,8 +46,10 @@ class TileBlocks {
   void rest(const TeamLoops& loops);
   /// Remembers the bodies as the beginning of the first sweep.
   void start();
-  /// Bodies go on by beta, before a sweep.
-  void go_on(T beta, const TeamLoops& loops);
+  /// Bodies of a strip go on by beta, before a sweep.
+  void go_on(const TileStrip& strip, T beta);
+  /// What a sweep over a strip uses, one of so many pieces of it.
+  MemoryAhead memory(const TileStrip& strip, int part, int parts) const;
 
   std::array<double, Halo::numbers> numbers(std::int32_t body) const {
     const BodyRecord<T>& record = bodies_[body];
@@ -90,6 +92,7 @@ class TileBlocks {
   std::vector<Block> blocks_;
   std::vector<BlockGroup> groups_;
   std::vector<std::int32_t> order_, group_end_;  // contacts of all groups; where each group ends there
+  std::vector<std::int8_t> colour_;              // of each contact, while a tile is coloured
   std::vector<std::int32_t> contact_;            // of each place in the blocks; -1: filled up
   std::vector<BodyRecord<T>> bodies_, before_;   // of the problem; then the fixed ones of each tile
   std::size_t moving_ = 0;                       // bodies before the fixed ones

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "particles/solver/coarse_moves.hpp"
+#include "particles/solver/coarse_kernels.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -34,8 +34,9 @@ class FixedPoint {
 }  // namespace
 
 template <class Problem>
+template <class T>
 void TileCoarseLoads<Problem>::lay_out(const Problem& problem, const TiledContacts& contacts,
-                                       std::int64_t contacts_of_all) {
+                                       std::int64_t contacts_of_all, const TileBlocks<T, dim, spin>& blocks) {
   const auto& W = problem.W;
   constexpr double none = -1e300;
   std::array<double, 5> extremes{none, none, none, none, 0};  // of x, -x, z, -z; longest contact
@@ -49,57 +50,61 @@ void TileCoarseLoads<Problem>::lay_out(const Problem& problem, const TiledContac
                               std::abs(contacts.z[W.i[a]] - contacts.z[W.j[a]])});
   ranks_.largest(extremes);
   grid_ = field_grid({-extremes[1], extremes[0], -extremes[3], extremes[2]}, contacts_of_all, extremes[4]);
-  terms_ = contacts_of_all;
-  places_.resize(contacts.x.size());
-  moves_.resize(contacts.x.size());
-  for (std::size_t b = 0; b < places_.size(); ++b) places_[b] = grid_.place_at(contacts.x[b], contacts.z[b]);
+  terms_ = 2 * contacts_of_all;
+  auto& own = records<T>();
+  for (auto* of_bodies : {&own.at, &own.along_x, &own.along_z}) of_bodies->assign(blocks.bodies().size(), {});
+  for (std::size_t b = 0; b < contacts.x.size(); ++b) {
+    own.at[b].x = static_cast<T>((contacts.x[b] - grid_.x) / grid_.edge);
+    own.at[b].z = static_cast<T>((contacts.z[b] - grid_.z) / grid_.edge);
+  }
 }
 
 template <class Problem>
 template <class T>
-void TileCoarseLoads<Problem>::move_bodies(const TiledContacts& contacts, Halo& halo,
-                                           TileBlocks<T, dim, spin>& blocks) {
-  std::fill(moves_.begin(), moves_.end(), NodeMoves{});
+void TileCoarseLoads<Problem>::add_contacts(const TiledContacts& contacts, Halo& halo,
+                                            TileBlocks<T, dim, spin>& blocks) {
+  auto& own = records<T>();
+  for (BodyRecord<T>& at : own.at) at.s = 0;
+  for (auto* along : {&own.along_x, &own.along_z}) std::fill(along->begin(), along->end(), BodyRecord<T>{});
   const auto work = [&](std::size_t t) {
-    for (const auto& block : blocks.of_tile(t))
-      for (int k = 0; k < block.width; ++k)
-        if (block.r[0][k] > 0)
-          CoarseContact<T, dim, spin>(block, k).move(places_.data(), blocks.bodies().data(), moves_.data());
+    const auto of_tile = blocks.of_tile(t);
+    CoarseKernels<T, dim, spin>::add_contacts(of_tile.data(), of_tile.size(), blocks.bodies().data(),
+                                              own.bodies());
   };
   const auto exchange = [&](int colour) {
-    for (int k = 0; k < 9; ++k) {
+    for (auto* of_bodies : {&own.at, &own.along_x, &own.along_z}) {
       halo.start(colour, [&](std::int32_t b) {
-        const auto& move = moves_[b][k].entries;
-        return std::array<double, Halo::numbers>{move[0], move[1], move[2]};
+        const BodyRecord<T>& record = (*of_bodies)[b];
+        return std::array<double, Halo::numbers>{record.x, record.z, record.s};
       });
       halo.finish(colour, [&](std::int32_t b, const auto& numbers) {
-        for (std::size_t c = 0; c < numbers.size(); ++c)
-          moves_[b][k].entries[c] = static_cast<float>(numbers[c]);
+        BodyRecord<T>& record = (*of_bodies)[b];
+        record.x = static_cast<T>(numbers[0]), record.z = static_cast<T>(numbers[1]);
+        record.s = static_cast<T>(numbers[2]);
       });
     }
   };
   each_colour(
-      contacts.tiles, loops_, work, [](int) {}, exchange);
+      contacts.order.rounds, loops_, work, [](int) {}, exchange);
 }
 
 template <class Problem>
 template <class T>
-std::array<double, 2> TileCoarseLoads<Problem>::find_bounds(const TiledContacts& contacts,
-                                                            TileBlocks<T, dim, spin>& blocks) {
+std::array<double, 2> TileCoarseLoads<Problem>::bounds(const TiledContacts& contacts,
+                                                       const TileBlocks<T, dim, spin>& blocks) {
+  constexpr double rounding = 1.001;  // of terms in single precision
   std::array<double, 2> bounds{0, 0};
-  power_.clear();
-  for (const auto& block : blocks.all())
-    for (int k = 0; k < block.width; ++k) {
-      const bool carries = block.r[0][k] > 0;
-      power_.push_back(carries ? CoarseContact<T, dim, spin>(block, k).power(block, k, blocks.bodies().data())
-                               : 0);
-      bounds[0] = std::max(bounds[0], std::abs(power_.back()));
-    }
-  for (std::size_t b = 0; b < moves_.size(); ++b) {
-    if (!contacts.counts_here[b]) continue;
-    const double mass = 1.0 / blocks.bodies()[b].inverse_mass;
-    for (const NodeMove& move : moves_[b])
-      bounds[1] = std::max(bounds[1], mass * product(weighted(move), move));
+  const auto& own = records<T>();
+  const auto size_of = [](const BodyRecord<T>& v) {
+    return static_cast<double>(v.x) * v.x + static_cast<double>(v.z) * v.z + 0.5 * v.s * v.s;
+  };
+  for (std::size_t b = 0; b < contacts.counts_here.size(); ++b) {
+    const BodyRecord<T>& body = blocks.bodies()[b];
+    if (!contacts.counts_here[b] || !(body.inverse_mass > 0)) continue;
+    bounds[0] = std::max(bounds[0], std::abs(static_cast<double>(own.at[b].s)));
+    // Hats are at most 1 and their slopes, too: m |V + S_x + S_z|^2 is below three times the sum of squares.
+    const double squares = size_of(body) + size_of(own.along_x[b]) + size_of(own.along_z[b]);
+    bounds[1] = std::max(bounds[1], rounding * 3 * squares / static_cast<double>(body.inverse_mass));
   }
   ranks_.largest(bounds);
   return bounds;
@@ -108,37 +113,28 @@ std::array<double, 2> TileCoarseLoads<Problem>::find_bounds(const TiledContacts&
 template <class Problem>
 template <class T>
 std::vector<double> TileCoarseLoads<Problem>::add_up(const TiledContacts& contacts,
-                                                     TileBlocks<T, dim, spin>& blocks) {
-  const std::array<double, 2> bounds = find_bounds(contacts, blocks);
-  if (!(bounds[0] > 0 && bounds[1] > 0 && bounds[0] < 1e100 && bounds[1] < 1e100)) return {};
-  const FixedPoint powers(bounds[0], terms_), energies(bounds[1], 4 * terms_);
+                                                     const TileBlocks<T, dim, spin>& blocks) {
+  const std::array<double, 2> largest = bounds(contacts, blocks);
+  if (!(largest[0] > 0 && largest[1] > 0 && largest[0] < 1e100 && largest[1] < 1e100)) return {};
+  const FixedPoint powers(largest[0], terms_), energies(largest[1], terms_);
   constexpr int numbers = entries_of_node + 1;
   const std::size_t length = static_cast<std::size_t>(numbers) * grid_.nodes();
   std::array<std::vector<std::int64_t>, parts> sums;
   const auto share = [](std::size_t count, int part) { return count * part / parts; };
-  const auto add_block = [&](std::size_t b, std::vector<std::int64_t>& sum) {
-    const auto& block = blocks.all()[b];
-    for (int k = 0; k < block.width; ++k) {
-      const double power = power_[block.width * b + k];
-      if (power == 0) continue;
-      const NodePlace& at = places_[CoarseContact<T, dim, spin>(block, k).i];
-      const auto weights = at.weights();
-      for (const int corner : {0, 1, 2, 3})
-        sum[numbers * grid_.corner(at, corner) + entries_of_node] += powers.rounded(weights[corner] * power);
-    }
-  };
-  const auto add_body = [&](std::size_t b, std::vector<std::int64_t>& sum) {
-    each_product(
-        grid_, places_[b], moves_[b], 1.0 / blocks.bodies()[b].inverse_mass,
-        [&](int node, int entry, double energy) { sum[numbers * node + entry] += energies.rounded(energy); });
-  };
   loops_.each_of(parts, [&](int part) {
     auto& sum = sums[part];
     sum.assign(length, 0);
-    const std::size_t all = blocks.all().size();
-    for (std::size_t b = share(all, part); b < share(all, part + 1); ++b) add_block(b, sum);
-    for (std::size_t b = share(moves_.size(), part); b < share(moves_.size(), part + 1); ++b)
-      if (contacts.counts_here[b]) add_body(b, sum);
+    const std::size_t all = contacts.counts_here.size();
+    for (std::size_t begin = share(all, part), end = share(all, part + 1), last = begin; begin < end;
+         begin = last) {
+      last = begin + 1;  // bodies in a row that are all counted here, or all not
+      while (last < end && !contacts.counts_here[last] == !contacts.counts_here[begin]) ++last;
+      if (!contacts.counts_here[begin]) continue;
+      each_coarse_term(
+          grid_, blocks.bodies().data(), records<T>().bodies(), begin, last - begin,
+          [&](int node, int entry, T energy) { sum[numbers * node + entry] += energies.rounded(energy); },
+          [&](int node, T power) { sum[numbers * node + entries_of_node] += powers.rounded(power); });
+    }
   });
   for (int part = 1; part < parts; ++part)
     for (std::size_t k = 0; k < length; ++k) sums[0][k] += sums[part][k];
@@ -153,7 +149,7 @@ template <class Problem>
 template <class T>
 bool TileCoarseLoads<Problem>::scale(const TiledContacts& contacts, Halo& halo,
                                      TileBlocks<T, dim, spin>& blocks) {
-  move_bodies(contacts, halo, blocks);
+  add_contacts(contacts, halo, blocks);
   const std::vector<double> sums = add_up(contacts, blocks);
   if (sums.empty()) return false;
   std::vector<double> rows, right;
@@ -164,21 +160,31 @@ bool TileCoarseLoads<Problem>::scale(const TiledContacts& contacts, Halo& halo,
   }
   const std::vector<double> field = solve_field(grid_, rows, right);
   if (field.empty()) return false;
+  auto& at = records<T>().at;
+  loops_.each(at.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b)
+      at[b].s = static_cast<T>(factor_at(grid_, at[b].x, at[b].z, field));
+  });
   loops_.each(blocks.all().size(), [&](std::size_t begin, std::size_t end) {
-    scale_blocks(blocks.all().subspan(begin, end - begin), grid_, places_.data(), field);
+    CoarseKernels<T, dim, spin>::scale(blocks.all().data() + begin, end - begin, at.data());
   });
   return true;
 }
 
-#define DRUMLIN_INSTANTIATE(Problem)                                                                 \
-  template class TileCoarseLoads<Problem>;                                                           \
-  template bool TileCoarseLoads<Problem>::scale(                                                     \
-      const TiledContacts&, Halo&, TileBlocks<float, TileCoarseLoads::dim, TileCoarseLoads::spin>&); \
-  template bool TileCoarseLoads<Problem>::scale(                                                     \
-      const TiledContacts&, Halo&, TileBlocks<double, TileCoarseLoads::dim, TileCoarseLoads::spin>&);
+#define DRUMLIN_INSTANTIATE_FOR(T, Problem)                                                      \
+  template bool TileCoarseLoads<Problem>::scale(                                                 \
+      const TiledContacts&, Halo&, TileBlocks<T, TileCoarseLoads::dim, TileCoarseLoads::spin>&); \
+  template void TileCoarseLoads<Problem>::lay_out(                                               \
+      const Problem&, const TiledContacts&, std::int64_t,                                        \
+      const TileBlocks<T, TileCoarseLoads::dim, TileCoarseLoads::spin>&);
+#define DRUMLIN_INSTANTIATE(Problem)       \
+  template class TileCoarseLoads<Problem>; \
+  DRUMLIN_INSTANTIATE_FOR(float, Problem)  \
+  DRUMLIN_INSTANTIATE_FOR(double, Problem)
 DRUMLIN_INSTANTIATE(FrictionlessProblem)
 DRUMLIN_INSTANTIATE(CoulombProblem)
 DRUMLIN_INSTANTIATE(CoulombSpinProblem)
 #undef DRUMLIN_INSTANTIATE
+#undef DRUMLIN_INSTANTIATE_FOR
 
 }  // namespace drumlin::particles

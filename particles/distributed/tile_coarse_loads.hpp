@@ -12,7 +12,7 @@
 #include "particles/distributed/tile_blocks.hpp"
 #include "particles/distributed/tiled_contacts.hpp"
 #include "particles/parallel/team_loops.hpp"
-#include "particles/solver/coarse_field.hpp"
+#include "particles/solver/coarse_kernels.hpp"
 
 namespace drumlin::particles {
 
@@ -24,34 +24,48 @@ class TileCoarseLoads {
   static constexpr bool spin = requires(typename Problem::Delassus::Velocity v) { v.s; };
 
   TileCoarseLoads(const Ranks& ranks, ThreadTeam* team) : ranks_(ranks), loops_(team) {}
-  /// Lays the nodes of the field over the bodies of a problem with so many contacts on all ranks.
-  void lay_out(const Problem& problem, const TiledContacts& contacts, std::int64_t contacts_of_all);
+  /// Lays the nodes of the field over the bodies of a problem, which has been packed, with so many contacts
+  /// on all ranks.
+  template <class T>
+  void lay_out(const Problem& problem, const TiledContacts& contacts, std::int64_t contacts_of_all,
+               const TileBlocks<T, dim, spin>& blocks);
   /// Scales the impulses in blocks, as they and the bodies stand, by factors between 1/2 and 2. False, and
   /// nothing scaled, where there is no good field.
   template <class T>
   bool scale(const TiledContacts& contacts, Halo& halo, TileBlocks<T, dim, spin>& blocks);
 
   /// Gives back the memory of what lay_out() has made.
-  void release() { places_ = {}, moves_ = {}, power_ = {}; }
+  void release() { in_single_ = {}, in_double_ = {}; }
 
  private:
+  /// Of each record of a body one for each member of CoarseBodies.
   template <class T>
-  void move_bodies(const TiledContacts&, Halo&, TileBlocks<T, dim, spin>&);
-  /// Bounds on the powers of the contacts, which it sets, and on the energies of the moves, on all ranks.
+  struct Records {
+    std::vector<BodyRecord<T>> at, along_x, along_z;
+    CoarseBodies<T> bodies() { return {at.data(), along_x.data(), along_z.data()}; }
+  };
   template <class T>
-  std::array<double, 2> find_bounds(const TiledContacts&, TileBlocks<T, dim, spin>&);
-  /// Sums over contacts and bodies, of all ranks: of each node its entries of the matrix, then its right
-  /// side.
+  Records<T>& records() {
+    if constexpr (sizeof(T) == sizeof(float))
+      return in_single_;
+    else
+      return in_double_;
+  }
   template <class T>
-  std::vector<double> add_up(const TiledContacts&, TileBlocks<T, dim, spin>&);
+  void add_contacts(const TiledContacts&, Halo&, TileBlocks<T, dim, spin>&);
+  /// Of the powers of bodies and of what they add to the matrix, on all ranks.
+  template <class T>
+  std::array<double, 2> bounds(const TiledContacts&, const TileBlocks<T, dim, spin>&);
+  /// Sums over bodies, of all ranks: of each node its entries of the matrix, then its right side.
+  template <class T>
+  std::vector<double> add_up(const TiledContacts&, const TileBlocks<T, dim, spin>&);
 
   Ranks ranks_;
   TeamLoops loops_;
   FieldGrid grid_;
   std::int64_t terms_ = 1;  // bound on the number of terms of a sum
-  std::vector<NodePlace> places_;
-  std::vector<NodeMoves> moves_;
-  std::vector<double> power_;  // of each place in the blocks
+  Records<float> in_single_;
+  Records<double> in_double_;
 };
 
 }  // namespace drumlin::particles

@@ -30,17 +30,17 @@ void set_numbers(Velocity& v, const std::array<double, Halo::numbers>& numbers) 
 
 template <class Problem>
 template <class Work, class Get, class Set>
-void TileSolver<Problem>::work_on(const TiledContacts& contacts, Halo& halo, Work work, Get get, Set set) {
+void TileSolver<Problem>::work_on(const TileRounds& rounds, Halo& halo, Work work, Get get, Set set) {
   each_colour(
-      contacts.tiles, loops_, work, [&](int colour) { halo.start(colour, get); },
+      rounds, loops_, work, [&](int colour) { halo.start(colour, get); },
       [&](int colour) { halo.finish(colour, set); });
 }
 
 template <class Problem>
 template <class T, class Work>
-void TileSolver<Problem>::work_on(const TiledContacts& contacts, Halo& halo, Blocks<T>& blocks, Work work) {
+void TileSolver<Problem>::work_on(const TileRounds& rounds, Halo& halo, Blocks<T>& blocks, Work work) {
   work_on(
-      contacts, halo, work, [&](std::int32_t b) { return blocks.numbers(b); },
+      rounds, halo, work, [&](std::int32_t b) { return blocks.numbers(b); },
       [&](std::int32_t b, const auto& numbers) { blocks.set_numbers(b, numbers); });
 }
 
@@ -96,7 +96,7 @@ void TileSolver<Problem>::set_velocities(const Problem& problem, const TiledCont
   const std::span<const double> r = solution.impulses;
   W.rest(state);
   work_on(
-      contacts, halo,
+      contacts.order.rounds, halo,
       [&](std::size_t t) {
         for (std::int32_t a = contacts.tiles[t].begin; a < contacts.tiles[t].end; ++a)
           W.push(state, a, r[dim * a], dim == 2 ? r[dim * a + 1] : 0, W.j[a] != W.fixed());
@@ -159,11 +159,79 @@ template <class T>
 void TileSolver<Problem>::correct_loads(const Problem& problem, const TiledContacts& contacts, Halo& halo,
                                         bool first, std::int64_t contacts_of_all, Blocks<T>& blocks) {
   ++corrections_;
-  if (first) coarse_.lay_out(problem, contacts, contacts_of_all);
+  if (first) coarse_.lay_out(problem, contacts, contacts_of_all, blocks);
   if (!coarse_.scale(contacts, halo, blocks)) return;
   blocks.rest(loops_);
-  work_on(contacts, halo, blocks, [&](std::size_t t) { blocks.load(t); });
+  work_on(contacts.order.rounds, halo, blocks, [&](std::size_t t) { blocks.load(t); });
   blocks.start();
+}
+
+/// One part of a wave: a phase of sweep s on a strip. A thread does it alone.
+template <class Problem>
+template <class T>
+void TileSolver<Problem>::sweep_part(const TileOrder& order, const Wave<T>& wave, const StripShare& share,
+                                     int s, int strip, int phase, Blocks<T>& blocks) {
+  const auto [begin, end] = order.strips[strip].phases[phase];
+  if (phase == 0) begin_sweep(order.strips[strip], wave, s, blocks);
+  const int next = strip + s + phase + 1, tiles = end - begin;
+  const bool ahead = s > 0 && next < share.end;
+  for (std::int32_t t = begin; t < end; ++t) {
+    // In the first sweep what a strip needs comes from memory: the others ask for it.
+    const int piece = (2 * (s - 1) + phase) * tiles + t - begin, pieces = 2 * (wave.sweeps - 1) * tiles;
+    squares_[s][t] = blocks.sweep(t, wave.betas[s], wave.accelerated,
+                                  ahead ? blocks.memory(order.strips[next], piece, pieces) : MemoryAhead{});
+  }
+}
+
+/// What a sweep does to a strip before its contacts.
+template <class Problem>
+template <class T>
+void TileSolver<Problem>::begin_sweep(const TileStrip& strip, const Wave<T>& wave, int s, Blocks<T>& blocks) {
+  if (!wave.accelerated) return;
+  const int since_whole = (wave.first + s) % sweeps_of_rest;
+  if (since_whole <= 1)
+    for (const auto [begin, end] : strip.phases)
+      for (std::int32_t t = begin; t < end; ++t) blocks.let_rest(t, since_whole == 1);
+  blocks.go_on(strip, wave.betas[s]);
+}
+
+/// Takes several sweeps. Where a strip's neighbours allow it they go through the strips together
+/// (sweep_wave.hpp); then the rest follows sweep by sweep and colour by colour, with messages. Where shares
+/// of strips end decides only which of both takes a tile: the result is that of sweeps in turn.
+template <class Problem>
+template <class T>
+void TileSolver<Problem>::take_wave(const TiledContacts& contacts, Halo& halo, const Wave<T>& wave,
+                                    Blocks<T>& blocks) {
+  const auto& [tiles, order, counts_here, x, z] = contacts;
+  std::vector<StripShare> shares;
+  // One sweep alone gains nothing but the caches of one thread, and what lies inside hides the messages.
+  if (wave.sweeps > 1 || (ranks_.count() == 1 && loops_.threads() == 1))
+    shares = shares_between_borders(tiles, order, wave.sweeps, loops_.threads());
+  loops_.each_of(static_cast<int>(shares.size()), [&](int k) {
+    sweep_alone(shares[k], wave.sweeps, [&](int s, int strip, int phase) {
+      sweep_part(order, wave, shares[k], s, strip, phase, blocks);
+    });
+  });
+  for (int s = 0; s < wave.sweeps; ++s) {
+    find_left(tiles, order, shares, s, left_);
+    if (ranks_.count() == 1 && left_.nothing()) continue;
+    loops_.each_of(static_cast<int>(left_.strips.size()),
+                   [&](int k) { begin_sweep(order.strips[left_.strips[k]], wave, s, blocks); });
+    work_on(left_.rounds, halo, blocks,
+            [&](std::size_t t) { squares_[s][t] = blocks.sweep(t, wave.betas[s], wave.accelerated); });
+  }
+}
+
+/// The sums over all ranks of the squared steps of the sweeps of a wave.
+template <class Problem>
+std::array<double, longest_wave> TileSolver<Problem>::steps_of_wave(int sweeps) {
+  std::array<ExactSum, longest_wave> sums;
+  for (int s = 0; s < sweeps; ++s)
+    for (const double squares : squares_[s]) sums[s].add(squares);
+  ranks_.add(std::span(sums).first(sweeps));
+  std::array<double, longest_wave> steps{};
+  for (int s = 0; s < sweeps; ++s) steps[s] = sums[s].value();
+  return steps;
 }
 
 /// The loop of particles/solver/strip_sweeps.hpp, with sums over ranks.
@@ -180,11 +248,13 @@ SolveReport TileSolver<Problem>::sweep_until_done(const Problem& problem, const 
   StoppingTest test(rule);
   std::vector<double>& r = solution.impulses;
   const auto tiles = static_cast<int>(contacts.tiles.size());
+  for (auto& squares : squares_) squares.assign(contacts.tiles.size(), 0.0);
   blocks.pack(problem, contacts.tiles, r, loops_);
-  work_on(contacts, halo, blocks, [&](std::size_t t) { blocks.load(t); });
+  work_on(contacts.order.rounds, halo, blocks, [&](std::size_t t) { blocks.load(t); });
   blocks.start();
   const double scale = scale_of(problem, contacts);
   Momentum momentum(rule.tolerance, static_cast<std::size_t>(contacts_of_all));
+  const int most_at_once = accelerated && contacts_of_all >= least_contacts_of_waves ? longest_wave : 1;
   T beta = 0;
   double worth = std::numeric_limits<double>::infinity(), best = worth, least = worth;
   const bool coarse = accelerated && contacts_of_all >= least_corrected_ && ranks_.any(!contacts.x.empty());
@@ -194,16 +264,27 @@ SolveReport TileSolver<Problem>::sweep_until_done(const Problem& problem, const 
       corrected_at = sweeps;
       beta = 0;
     }
-    const bool whole = sweeps % sweeps_of_rest == 0;
-    if (accelerated && (whole || sweeps % sweeps_of_rest == 1))
-      loops_.each_of(tiles, [&](int t) { blocks.let_rest(t, !whole); });
-    ++sweeps;
-    if (accelerated) blocks.go_on(beta, loops_);
-    work_on(contacts, halo, blocks, [&](std::size_t t) { of_tile_[t] = blocks.sweep(t, beta, accelerated); });
-    const double steps = total_of_tiles();
-    const bool finite = std::isfinite(steps), last = sweeps >= rule.max_sweeps || !finite;
-    beta = static_cast<T>(momentum.next(steps));
-    if (!test.due(sweeps) && finite) continue;
+    int until = sweeps + 1;
+    while (!test.due(until)) ++until;
+    bool finite = true;
+    double steps = 0;
+    while (sweeps < until && finite) {
+      Wave<T> wave;
+      wave.first = sweeps, wave.sweeps = std::min(most_at_once, until - sweeps);
+      wave.accelerated = accelerated;
+      Momentum expected = momentum;
+      for (int s = 0; s < wave.sweeps; ++s)
+        wave.betas[s] = s == 0 ? beta : static_cast<T>(expected.next_of_falling());
+      take_wave(contacts, halo, wave, blocks);
+      const auto of_sweeps = steps_of_wave(wave.sweeps);
+      for (int s = 0; s < wave.sweeps; ++s) {
+        steps = of_sweeps[s];
+        finite = finite && std::isfinite(steps);
+        beta = static_cast<T>(momentum.next(steps));
+      }
+      sweeps += wave.sweeps;
+    }
+    const bool last = sweeps >= rule.max_sweeps || !finite;
     if (!last && steps > worth && unseen < most_unseen) {
       ++unseen;
       continue;

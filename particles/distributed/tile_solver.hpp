@@ -2,6 +2,7 @@
 // Solves a contact problem whose contacts are spread over ranks: Gauss-Seidel sweeps tile by tile in four
 // colours, with the momentum of the default solver. The result is the same bytes for any number of ranks and
 // threads.
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -13,9 +14,11 @@
 #include "particles/distributed/ranks.hpp"
 #include "particles/distributed/tile_blocks.hpp"
 #include "particles/distributed/tile_coarse_loads.hpp"
+#include "particles/distributed/tile_wave.hpp"
 #include "particles/distributed/tiled_contacts.hpp"
 #include "particles/parallel/team_loops.hpp"
 #include "particles/solver/stopping_rule.hpp"
+#include "particles/solver/sweep_wave.hpp"
 
 namespace drumlin::particles {
 
@@ -56,15 +59,30 @@ class TileSolver {
   /// Calls work(t) for each tile, colour by colour, and exchanges what it has changed in the bodies that
   /// `get` gives and `set` takes.
   template <class Work, class Get, class Set>
-  void work_on(const TiledContacts&, Halo&, Work work, Get get, Set set);
+  void work_on(const TileRounds&, Halo&, Work work, Get get, Set set);
   template <class T, class Work>
-  void work_on(const TiledContacts&, Halo&, Blocks<T>&, Work work);
+  void work_on(const TileRounds&, Halo&, Blocks<T>&, Work work);
   /// Velocities of bodies and contacts from the impulses in a solution.
   void set_velocities(const Problem&, const TiledContacts&, Halo&, Solution<Problem>&);
   /// Corrects the impulses in blocks on a coarse grid, laid out anew if this is the `first` time.
   template <class T>
   void correct_loads(const Problem&, const TiledContacts&, Halo&, bool first, std::int64_t contacts_of_all,
                      Blocks<T>&);
+  /// Sweeps that are taken together: their factors of momentum, and the number of the first.
+  template <class T>
+  struct Wave {
+    int first = 0, sweeps = 1;
+    std::array<T, longest_wave> betas{};
+    bool accelerated = true;
+  };
+  template <class T>
+  void take_wave(const TiledContacts&, Halo&, const Wave<T>&, Blocks<T>&);
+  template <class T>
+  void sweep_part(const TileOrder&, const Wave<T>&, const StripShare&, int s, int strip, int phase,
+                  Blocks<T>&);
+  template <class T>
+  void begin_sweep(const TileStrip&, const Wave<T>&, int s, Blocks<T>&);
+  std::array<double, longest_wave> steps_of_wave(int sweeps);
   template <class T>
   SolveReport sweep_until_done(const Problem&, const TiledContacts&, Halo&, const StoppingRule&,
                                std::int64_t contacts_of_all, Blocks<T>&, bool accelerated,
@@ -86,6 +104,8 @@ class TileSolver {
   TileCoarseLoads<Problem> coarse_;
   std::int64_t least_corrected_, corrections_ = 0;
   std::vector<double> of_tile_, best_;
+  std::array<std::vector<double>, longest_wave> squares_;  // of the steps of each tile, by sweep of a wave
+  LeftOfSweep left_;
   std::vector<SeenResidual> seen_;  // of each tile
 };
 

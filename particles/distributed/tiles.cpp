@@ -14,6 +14,11 @@ std::int32_t TileGrid::tile_at(Point p) const {
   return place(p.z - origin.z) * per_side() + place(p.x - origin.x);
 }
 
+std::int32_t TileGrid::strip_of_body(double x) const {
+  const double columns = (x - origin.x) / (2 * cell);
+  return static_cast<std::int32_t>(std::clamp(std::floor((columns + 0.5) / 2), 0.0, strips() - 1.0));
+}
+
 namespace {
 
 constexpr double slack = 1 + 1e-6;  // places are sorted into cells with rounding

@@ -22,8 +22,14 @@ struct TileGrid {
   }
   /// Number of the tile of a point, row by row; points outside count to the nearest.
   std::int32_t tile_at(Point p) const;
-  /// By the parities of row and column, 0 to 3.
-  int colour(std::int32_t tile) const { return (tile % per_side()) % 2 + 2 * ((tile / per_side()) % 2); }
+  std::int32_t column(std::int32_t tile) const { return tile % per_side(); }
+  /// By the parities of column and row, 0 to 3: 0 and 1 in even columns.
+  int colour(std::int32_t tile) const { return (tile / per_side()) % 2 + 2 * (column(tile) % 2); }
+  /// Strip k: columns 2k and 2k + 1. Bodies belong to it from the middle of column 2k - 1 to that of 2k + 1,
+  /// so that only contacts of odd columns touch bodies of two strips.
+  std::int32_t strips() const { return (per_side() + 1) / 2; }
+  std::int32_t strip_of_tile(std::int32_t tile) const { return column(tile) / 2; }
+  std::int32_t strip_of_body(double x) const;
   bool operator==(const TileGrid& other) const {
     return origin.x == other.origin.x && origin.z == other.origin.z && cell == other.cell &&
            levels == other.levels;

@@ -2,6 +2,7 @@
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace drumlin::particles {
@@ -11,28 +12,16 @@ namespace {
 constexpr double contacts_per_cell = 1400;
 // Added to the diagonal, in parts of it and of its largest entry: nodes without loads keep s = 0.
 constexpr double damping = 1e-3, ground = 1e-10;
-// Of a cell, at least, over the distance of the bodies of a contact; 2, but for rounding.
-constexpr double edges_per_contact = 2.001;
+// Of a cell, at least, over the distance of the bodies of a contact, over which hats count as linear.
+constexpr double edges_per_contact = 2;
 
 }  // namespace
-
-NodePlace FieldGrid::place_at(double place_x, double place_z) const {
-  const double from_left = (place_x - x) / edge, from_below = (place_z - z) / edge;
-  const auto node = [](double from, int last) {
-    return static_cast<std::int16_t>(std::clamp(static_cast<int>(from), 0, last));
-  };
-  NodePlace place{node(from_left, columns - 2), node(from_below, rows - 2),
-                  node(from_left + 0.5, columns - 1), node(from_below + 0.5, rows - 1)};
-  place.right = from_left - place.column, place.up = from_below - place.row;
-  return place;
-}
 
 FieldGrid field_grid(const FieldExtent& extent, std::int64_t contacts, double longest) {
   const double width = extent.x_high - extent.x_low, height = extent.z_high - extent.z_low;
   const double cells =
       std::max(1.0, std::round(std::sqrt(static_cast<double>(contacts) / contacts_per_cell)));
   FieldGrid grid{extent.x_low, extent.z_low, std::max(width, height) / cells};
-  // The nodes around one body of a contact are then among the nine of the other.
   grid.edge = std::max(grid.edge, edges_per_contact * longest);
   if (!(grid.edge > 0)) grid.edge = 1;
   grid.columns = std::max(1, static_cast<int>(std::ceil(width / grid.edge))) + 1;
@@ -49,7 +38,8 @@ std::vector<double> solve_field(const FieldGrid& grid, std::span<const double> r
   std::vector<Eigen::Triplet<double>> entries;  // of the lower triangle
   for (int k = 0; k < nodes; ++k)
     for (int e = 0; e < entries_of_node; ++e) {
-      const int column = k % grid.columns + (e + 2) % 5 - 2, row = k / grid.columns + (e + 2) / 5;
+      constexpr std::array<int, entries_of_node> right_of{0, 1, -1, 0, 1}, above{0, 0, 1, 1, 1};
+      const int column = k % grid.columns + right_of[e], row = k / grid.columns + above[e];
       if (column < 0 || column >= grid.columns || row >= grid.rows) continue;
       double value = rows[entries_of_node * k + e];
       if (e == 0) value += damping * value + ground * largest;
@@ -64,11 +54,12 @@ std::vector<double> solve_field(const FieldGrid& grid, std::span<const double> r
   return {field.begin(), field.end()};
 }
 
-double factor_at(const FieldGrid& grid, const NodePlace& at, std::span<const double> field) {
-  const auto weights = at.weights();
-  double factor = 1;
-  for (const int k : {0, 1, 2, 3}) factor += weights[k] * field[grid.corner(at, k)];
-  return std::clamp(factor, 0.5, 2.0);
+double factor_at(const FieldGrid& grid, double from_left, double from_below, std::span<const double> field) {
+  const int cell = grid.cell_at(from_left, from_below);
+  const double right = from_left - cell % grid.columns, up = from_below - cell / grid.columns;
+  const double low = (1 - right) * field[cell] + right * field[cell + 1];
+  const double high = (1 - right) * field[grid.corner(cell, 2)] + right * field[grid.corner(cell, 3)];
+  return std::clamp(1 + ((1 - up) * low + up * high), 0.5, 2.0);
 }
 
 }  // namespace drumlin::particles

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "particles/solver/coarse_moves.hpp"
 #include "particles/solver/strip_solver.hpp"
 
 namespace drumlin::particles {
@@ -34,76 +33,74 @@ double longest_contact(std::span<const std::int32_t> i, std::span<const std::int
 
 }  // namespace
 
+template <class T, int dim, bool spin>
 void CoarseLoads::lay_out(std::span<const std::int32_t> i, std::span<const std::int32_t> j,
-                          const BodyPlaces& places, std::span<const std::int32_t> record, std::size_t records,
+                          const BodyPlaces& places, const StripProblem<T, dim, spin>& strips,
                           const TeamLoops& loops) {
   const auto [x_low, x_high] = std::minmax_element(places.x.begin(), places.x.end());
   const auto [z_low, z_high] = std::minmax_element(places.z.begin(), places.z.end());
   grid_ = field_grid({*x_low, *x_high, *z_low, *z_high}, static_cast<std::int64_t>(i.size()),
                      longest_contact(i, j, places, loops));
-  places_.renew(records);
-  moves_.renew(records);
+  auto& own = records<T>();
+  for (auto* of_bodies : {&own.at, &own.along_x, &own.along_z}) of_bodies->assign(strips.bodies().size(), {});
+  const auto record = strips.record();
   loops.each(record.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t b = begin; b < end; ++b) places_[record[b]] = grid_.place_at(places.x[b], places.z[b]);
+    for (std::size_t b = begin; b < end; ++b) {
+      BodyRecord<T>& at = own.at[record[b]];
+      at.x = static_cast<T>((places.x[b] - grid_.x) / grid_.edge);
+      at.z = static_cast<T>((places.z[b] - grid_.z) / grid_.edge);
+    }
   });
 }
 
 /// The contacts of a phase of a strip.
 template <class T, int dim, bool spin>
-void CoarseLoads::add_contacts(StripProblem<T, dim, spin>& strips, int strip, int phase,
-                               std::vector<double>& work) {
-  const auto* const bodies = strips.bodies().data();
-  for (const auto& block : strips.blocks(strip, phase))
-    for (int k = 0; k < block.width; ++k) {
-      if (!(block.r[0][k] > 0)) continue;
-      const CoarseContact<T, dim, spin> contact(block, k);
-      const double power = contact.power(block, k, bodies);
-      const NodePlace& at = places_[contact.i];
-      const auto weights = at.weights();
-      for (const int corner : {0, 1, 2, 3}) work[grid_.corner(at, corner)] += weights[corner] * power;
-      contact.move(places_.data(), bodies, moves_.data());
-    }
+void CoarseLoads::add_contacts(StripProblem<T, dim, spin>& strips, int strip, int phase) {
+  const auto blocks = strips.blocks(strip, phase);
+  CoarseKernels<T, dim, spin>::add_contacts(blocks.data(), blocks.size(), strips.bodies().data(),
+                                            records<T>().bodies());
 }
 
 /// The bodies of a strip.
 template <class T, int dim, bool spin>
-void CoarseLoads::add_bodies(const StripProblem<T, dim, spin>& strips, int strip,
-                             std::vector<double>& rows) const {
+void CoarseLoads::add_bodies(const StripProblem<T, dim, spin>& strips, int strip, int part) {
   const auto [begin, end] = strips.records(strip);
-  for (std::size_t b = begin; b < end; ++b)
-    if (const double inverse_mass = strips.bodies()[b].inverse_mass; inverse_mass > 0)
-      each_product(grid_, places_[b], moves_[b], 1 / inverse_mass, [&](int node, int entry, double energy) {
-        rows[entries_of_node * node + entry] += energy;
-      });
+  auto &rows = rows_[part], &work = work_[part];
+  each_coarse_term(
+      grid_, strips.bodies().data(), records<T>().bodies(), begin, end - begin,
+      [&](int node, int entry, T energy) { rows[entries_of_node * node + entry] += energy; },
+      [&](int node, T power) { work[node] += power; });
 }
 
 /// Strip by strip, as long as what a strip moves is in the caches. The second slice of a part's last strip
 /// touches the first one of the next part, and waits until the parts are done.
 template <class T, int dim, bool spin>
 void CoarseLoads::add_up(StripProblem<T, dim, spin>& strips, const TeamLoops& loops) {
+  auto& own = records<T>();
   const auto rest = [&](int strip) {
     const auto [begin, end] = strips.records(strip);
-    std::fill(moves_.begin() + begin, moves_.begin() + end, NodeMoves{});
+    for (std::size_t b = begin; b < end; ++b) own.at[b].s = 0;
+    std::fill(own.along_x.begin() + begin, own.along_x.begin() + end, BodyRecord<T>{});
+    std::fill(own.along_z.begin() + begin, own.along_z.begin() + end, BodyRecord<T>{});
   };
   const auto first_of = [&](int part) { return strips.strips() * part / parts; };
   loops.each_of(parts, [&](int part) {
     const int begin = first_of(part), end = first_of(part + 1);
     if (begin < end) rest(begin);
     for (int k = begin; k < end; ++k) {
-      add_contacts(strips, k, 0, work_[part]);
+      add_contacts(strips, k, 0);
       if (k + 1 == end) break;
       rest(k + 1);
-      add_contacts(strips, k, 1, work_[part]);
-      if (k > begin) add_bodies(strips, k, rows_[part]);
+      add_contacts(strips, k, 1);
+      if (k > begin) add_bodies(strips, k, part);
     }
   });
   for (int part = 0; part < parts; ++part)
-    if (const int last = first_of(part + 1) - 1; last >= first_of(part))
-      add_contacts(strips, last, 1, work_[part]);
+    if (const int last = first_of(part + 1) - 1; last >= first_of(part)) add_contacts(strips, last, 1);
   loops.each_of(parts, [&](int part) {
     const int begin = first_of(part), last = first_of(part + 1) - 1;
-    if (last >= begin) add_bodies(strips, begin, rows_[part]);
-    if (last > begin) add_bodies(strips, last, rows_[part]);
+    if (last >= begin) add_bodies(strips, begin, part);
+    if (last > begin) add_bodies(strips, last, part);
   });
 }
 
@@ -124,17 +121,32 @@ bool CoarseLoads::scale(StripProblem<T, dim, spin>& strips, const TeamLoops& loo
   add_up(strips, loops);
   const std::vector<double> field = solve();
   if (field.empty()) return false;
+  BodyRecord<T>* const at = records<T>().at.data();
   loops.each_of(strips.strips(), [&](int strip) {
-    for (const int phase : {0, 1}) scale_blocks(strips.blocks(strip, phase), grid_, places_.data(), field);
+    const auto [begin, end] = strips.records(strip);
+    for (std::size_t b = begin; b < end; ++b)
+      at[b].s = static_cast<T>(factor_at(grid_, at[b].x, at[b].z, field));
+  });
+  loops.each_of(strips.strips(), [&](int strip) {
+    for (const int phase : {0, 1}) {
+      const auto blocks = strips.blocks(strip, phase);
+      CoarseKernels<T, dim, spin>::scale(blocks.data(), blocks.size(), at);
+    }
   });
   return true;
 }
 
-template bool CoarseLoads::scale(StripProblem<float, 1, false>&, const TeamLoops&);
-template bool CoarseLoads::scale(StripProblem<float, 2, false>&, const TeamLoops&);
-template bool CoarseLoads::scale(StripProblem<float, 2, true>&, const TeamLoops&);
-template bool CoarseLoads::scale(StripProblem<double, 1, false>&, const TeamLoops&);
-template bool CoarseLoads::scale(StripProblem<double, 2, false>&, const TeamLoops&);
-template bool CoarseLoads::scale(StripProblem<double, 2, true>&, const TeamLoops&);
+#define DRUMLIN_INSTANTIATE(T, dim, spin)                                                          \
+  template bool CoarseLoads::scale(StripProblem<T, dim, spin>&, const TeamLoops&);                 \
+  template void CoarseLoads::lay_out(std::span<const std::int32_t>, std::span<const std::int32_t>, \
+                                     const BodyPlaces&, const StripProblem<T, dim, spin>&,         \
+                                     const TeamLoops&);
+DRUMLIN_INSTANTIATE(float, 1, false)
+DRUMLIN_INSTANTIATE(float, 2, false)
+DRUMLIN_INSTANTIATE(float, 2, true)
+DRUMLIN_INSTANTIATE(double, 1, false)
+DRUMLIN_INSTANTIATE(double, 2, false)
+DRUMLIN_INSTANTIATE(double, 2, true)
+#undef DRUMLIN_INSTANTIATE
 
 }  // namespace drumlin::particles

@@ -6,7 +6,8 @@
 // in its cone. At a solution no contact does work, but for the friction of those that slide,
 //   g_a = r_n u_n + r_t u_t (+ mu r_n |u_t| where |r_t| = mu r_n) = 0;
 // the field makes its weighted sums vanish, |u_t| as it stands (a Galerkin step):
-//   sum_l A_kl s_l = - sum_a phi_k(x_a) g_a,  A_kl = (phi_k r) . W (phi_l r).
+//   sum_l A_kl s_l = - sum_a phi_k(x_a) g_a,  A_kl = (phi_k r) . W (phi_l r),
+// in A with hats that are linear between the bodies of a contact (particles/solver/coarse_kernels.hpp).
 #include <array>
 #include <cstdint>
 #include <span>
@@ -15,6 +16,7 @@
 #include "particles/parallel/team_loops.hpp"
 #include "particles/parallel/work_memory.hpp"
 #include "particles/solver/coarse_field.hpp"
+#include "particles/solver/coarse_kernels.hpp"
 
 namespace drumlin::particles {
 
@@ -35,11 +37,12 @@ class StripProblem;
 class CoarseLoads {
  public:
   /// Takes what it keeps of the bodies from a memory: it ends with the frame of lay_out().
-  void use(WorkMemory* memory) { places_.use(memory), moves_.use(memory); }
-  /// Lays the nodes of the field over the bodies of the contacts (i, j); body places.x.size() is the fixed
-  /// one. `record`: where each body stands among so many `records`.
+  void use(WorkMemory* memory) { in_single_.use(memory), in_double_.use(memory); }
+  /// Lays the nodes of the field over the bodies of the contacts (i, j), which have been packed in strips;
+  /// body places.x.size() is the fixed one.
+  template <class T, int dim, bool spin>
   void lay_out(std::span<const std::int32_t> i, std::span<const std::int32_t> j, const BodyPlaces& places,
-               std::span<const std::int32_t> record, std::size_t records, const TeamLoops&);
+               const StripProblem<T, dim, spin>&, const TeamLoops&);
   /// Scales the impulses of the strips that were laid out each by a factor between 1/2 and 2,
   /// as impulses and bodies stand. False, and nothing scaled, where there is no good field. The result does
   /// not depend on the team of the loops.
@@ -47,18 +50,32 @@ class CoarseLoads {
   bool scale(StripProblem<T, dim, spin>&, const TeamLoops&);
 
  private:
+  /// Of each record of a body one for each member of CoarseBodies.
+  template <class T>
+  struct Records {
+    WorkArray<BodyRecord<T>> at, along_x, along_z;
+    void use(WorkMemory* memory) { at.use(memory), along_x.use(memory), along_z.use(memory); }
+    CoarseBodies<T> bodies() { return {at.data(), along_x.data(), along_z.data()}; }
+  };
+  template <class T>
+  Records<T>& records() {
+    if constexpr (sizeof(T) == sizeof(float))
+      return in_single_;
+    else
+      return in_double_;
+  }
   template <class T, int dim, bool spin>
-  void add_contacts(StripProblem<T, dim, spin>&, int strip, int phase, std::vector<double>& work);
+  void add_contacts(StripProblem<T, dim, spin>&, int strip, int phase);
+  template <class T, int dim, bool spin>
+  void add_bodies(const StripProblem<T, dim, spin>&, int strip, int part);
   /// The sums of work_ and rows_.
   template <class T, int dim, bool spin>
   void add_up(StripProblem<T, dim, spin>&, const TeamLoops&);
-  template <class T, int dim, bool spin>
-  void add_bodies(const StripProblem<T, dim, spin>&, int strip, std::vector<double>& rows) const;
   std::vector<double> solve() const;
 
   FieldGrid grid_;
-  WorkArray<NodePlace> places_;  // of each record of a body, as the next one
-  WorkArray<NodeMoves> moves_;
+  Records<float> in_single_;
+  Records<double> in_double_;
   // Strips are shared in so many parts, whatever the number of threads: sums are those of parts, in order.
   static constexpr int parts = 16;
   std::array<std::vector<double>, parts> work_;  // sums of phi_k g_a

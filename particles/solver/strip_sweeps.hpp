@@ -138,7 +138,7 @@ void correct_loads(const Problem& problem, SolverWorkspace<Problem>& work, Strip
     const auto& W = problem.W;
     if (first) {
       work.coarse.use(work.memory);
-      work.coarse.lay_out(W.i, W.j, work.places, strips.record(), strips.bodies().size(), loops);
+      work.coarse.lay_out(W.i, W.j, work.places, strips, loops);
     }
     if (!work.coarse.scale(strips, loops)) return;
     strips.rest(loops);

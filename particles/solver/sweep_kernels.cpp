@@ -313,17 +313,24 @@ SeenResidual residual(const ContactBlock<T, dim>* blocks, std::size_t count, con
   return {total(squares), total(let_through), *std::min_element(lowest_u_n.begin(), lowest_u_n.end())};
 }
 
-template <class T>
-void go_on(BodyRecord<T>* bodies, BodyRecord<T>* before, std::size_t count, T beta_) {
-  const Lanes<T> d;
+/// x becomes x + beta (x - before), and `before` what x was; returns the first number that is left over.
+template <class D, class T>
+HWY_INLINE std::size_t go_on(D d, T* now, T* before, std::size_t first, std::size_t end, T beta_) {
   const auto beta = hn::Set(d, beta_);
-  T *now = &bodies->x, *then = &before->x;
-  // Inverse masses stand still: their difference is zero.
-  for (std::size_t k = 0; k < 4 * count; k += hn::Lanes(d)) {
-    const auto x = hn::LoadU(d, now + k);
-    hn::StoreU(hn::Add(x, hn::Mul(beta, hn::Sub(x, hn::LoadU(d, then + k)))), d, now + k);
-    hn::StoreU(x, d, then + k);
+  for (; first + hn::Lanes(d) <= end; first += hn::Lanes(d)) {
+    const auto x = hn::LoadU(d, now + first);
+    hn::StoreU(hn::Add(x, hn::Mul(beta, hn::Sub(x, hn::LoadU(d, before + first)))), d, now + first);
+    hn::StoreU(x, d, before + first);
   }
+  return first;
+}
+
+template <class T>
+void go_on(BodyRecord<T>* bodies, BodyRecord<T>* before, std::size_t count, T beta) {
+  // Inverse masses stand still: their difference is zero.
+  const std::size_t most = go_on(Lanes<T>(), &bodies->x, &before->x, 0, 4 * count, beta);
+  const hn::CappedTag<T, 4> of_a_record;
+  go_on(of_a_record, &bodies->x, &before->x, most, 4 * count, beta);
 }
 
 #define DRUMLIN_KERNELS(T, name, dim, spin)                                                                  \

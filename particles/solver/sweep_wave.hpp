@@ -17,6 +17,27 @@ struct StripShare {
   bool takes_wave(int sweeps) const { return sweeps > 1 && ((!left && !right) || fewest >= 2 * sweeps); }
 };
 
+/// Strips first to end - 1.
+struct StripRange {
+  int first = 0, end = 0;
+  bool holds(int strip) const { return strip >= first && strip < end; }
+};
+
+/// The strips on which a share takes a phase of sweep s of a wave without the shares beside it.
+inline StripRange alone(const StripShare& share, int s, int phase) {
+  return {share.first + (share.left ? s : 0), share.end - (share.right ? s + phase : 0)};
+}
+
+/// A share's part of a wave that needs nothing of the shares beside it: part(s, strip, phase) does a phase of
+/// sweep s on a strip.
+template <class Part>
+void sweep_alone(const StripShare& share, int sweeps, Part part) {
+  for (int front = share.first; front < share.end + sweeps; ++front)
+    for (int s = 0; s < sweeps; ++s)
+      for (const int phase : {0, 1})
+        if (const int strip = front - s - phase; alone(share, s, phase).holds(strip)) part(s, strip, phase);
+}
+
 /// strips: tells first_strip(thread, threads), as StripProblem does.
 template <class Strips>
 StripShare share_of(const Strips& strips, int thread, int threads) {
@@ -40,7 +61,6 @@ StripShare share_of(const Strips& strips, int thread, int threads) {
 template <class Part, class Meet>
 void sweep_wave(const StripShare& share, int sweeps, Part part, Meet meet) {
   const int first = share.first, end = share.end;
-  const bool left = share.left, right = share.right;
   if (!share.takes_wave(sweeps)) {
     for (int s = 0; s < sweeps; ++s)
       for (const int phase : {0, 1}) {
@@ -49,14 +69,9 @@ void sweep_wave(const StripShare& share, int sweeps, Part part, Meet meet) {
       }
     return;
   }
-  for (int front = first; front < end + sweeps; ++front)
-    for (int s = 0; s < sweeps; ++s) {
-      const int from = first + (left ? s : 0), until = end - (right ? s : 0), strip = front - s;
-      if (strip >= from && strip < until) part(s, strip, 0);
-      if (strip - 1 >= from && strip - 1 < until - right) part(s, strip - 1, 1);
-    }
+  sweep_alone(share, sweeps, part);
   meet();
-  if (right)
+  if (share.right)
     for (int s = 0; s < sweeps; ++s) {
       for (int strip = end - s; strip < end + s; ++strip) part(s, strip, 0);
       for (int strip = end - s - 1; strip < end + s; ++strip) part(s, strip, 1);

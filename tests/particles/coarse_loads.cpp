@@ -1,6 +1,7 @@
 // The coarse correction of large packings: it finds what all impulses lack in common, stays in the cones, and
 // saves sweeps.
 #include <gtest/gtest.h>
+#include <hwy/highway.h>
 
 #include <algorithm>
 #include <cmath>
@@ -76,7 +77,7 @@ std::vector<double> corrected(const Heap& heap, std::vector<double> r, ThreadTea
   for (const int phase : {0, 1})
     for (int strip = 0; strip < strips.strips(); ++strip) strips.load(strip, phase);
   CoarseLoads coarse;
-  coarse.lay_out(W.i, W.j, {heap.x, heap.z}, strips.record(), strips.bodies().size(), loops);
+  coarse.lay_out(W.i, W.j, {heap.x, heap.z}, strips, loops);
   EXPECT_TRUE(coarse.scale(strips, loops));
   strips.unpack(heap.problem, false, r, loops);
   return r;
@@ -92,11 +93,22 @@ std::vector<double> impulses_of(const Heap& heap) {
   return solution.impulses;
 }
 
+/// Impulses after a correction against solved ones, relative to the largest: the hats count as linear between
+/// the bodies of a contact, which the few across the border of two cells show.
+void expect_found(const std::vector<double>& r, const std::vector<double>& solved) {
+  const double largest = *std::max_element(r.begin(), r.end());
+  std::size_t near = 0;
+  for (std::size_t k = 0; k < r.size(); ++k) {
+    EXPECT_NEAR(r[k], solved[k], 3e-3 * largest);
+    near += std::abs(r[k] - solved[k]) <= 1e-3 * largest;
+  }
+  EXPECT_GE(near, 0.998 * r.size());
+}
+
 TEST(CoarseLoads, FindWhatAllImpulsesLack) {
   const Heap small = heap(60, 40, 0);
   const auto solved = impulses_of(small), r = corrected(small, solved, nullptr);
-  const double largest = *std::max_element(r.begin(), r.end());
-  for (std::size_t k = 0; k < r.size(); ++k) EXPECT_NEAR(r[k], solved[k], 1e-3 * largest);
+  expect_found(r, solved);
   for (std::size_t a = 0; a < small.problem.mu.size(); ++a)
     EXPECT_LE(std::abs(r[2 * a + 1]), small.problem.mu[a] * r[2 * a] * (1 + 1e-12));
   for (const int threads : {2, 3, 5}) {
@@ -105,11 +117,22 @@ TEST(CoarseLoads, FindWhatAllImpulsesLack) {
   }
 }
 
+TEST(CoarseLoads, AreTheSameOnAnyInstructionSet) {
+  const Heap small = heap(60, 40, 0);
+  const auto solved = impulses_of(small), best = corrected(small, solved, nullptr);
+  for (const auto target : hwy::SupportedAndGeneratedTargets()) {
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().DeInit();
+    EXPECT_EQ(best, corrected(small, solved, nullptr)) << hwy::TargetName(target);
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().DeInit();
+}
+
 TEST(CoarseLoads, SeeContactsOfBodiesThatAreFarApart) {
   const Heap small = heap(60, 40, 0, true);
   const auto solved = impulses_of(small), r = corrected(small, solved, nullptr);
-  const double largest = *std::max_element(r.begin(), r.end());
-  for (std::size_t k = 0; k < r.size(); ++k) EXPECT_NEAR(r[k], solved[k], 1e-3 * largest);
+  expect_found(r, solved);
 }
 
 /// To a residual of 1e-2 and a sinking of 1e-3 d, from these impulses.

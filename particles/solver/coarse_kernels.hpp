@@ -1,0 +1,85 @@
+#pragma once
+// The inner loops of the coarse correction (particles/solver/coarse_loads.hpp), on vectors: the same numbers
+// on any processor, as in sweep_kernels.hpp.
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "particles/solver/coarse_field.hpp"
+#include "particles/solver/sweep_kernels.hpp"
+
+namespace drumlin::particles {
+
+/// What the field knows of bodies, one record for each of theirs.
+///
+/// v_k, what the impulses weighted by the hat phi_k do to a body, is phi_k V + d_x phi_k S_x + d_z phi_k S_z:
+/// V its velocity change; S_x and S_z the changes by the contacts of which it is the second body, each times
+/// how far to the right of it, and above it, the contact is. Contacts are where their first bodies are; phi_k
+/// counts as linear between the two.
+template <class T>
+struct CoarseBodies {
+  BodyRecord<T>* at;  ///< x, z: place in edges of the field; s: power of the contacts it is the first body of
+  BodyRecord<T>* along_x;  ///< S_x
+  BodyRecord<T>* along_z;  ///< S_z
+};
+
+/// What up to eight bodies add to the matrix and the right side, at the nodes of the cells in which they are.
+template <class T>
+struct CoarseTerms {
+  static constexpr std::size_t width = 8;
+  using Numbers = std::array<T, width>;
+  alignas(64) std::array<Numbers, 10> energies;  ///< m v_k . v_l of the pairs (k, l) of `pairs`
+  alignas(64) std::array<Numbers, 4> powers;     ///< phi_k times the power
+  /// Corners of a cell from left to right and then up.
+  struct Pair {
+    int k, l, entry;  ///< entry: of the row of k (coarse_field.hpp)
+  };
+  static constexpr std::array<Pair, 10> pairs{{{0, 0, 0},
+                                               {1, 1, 0},
+                                               {2, 2, 0},
+                                               {3, 3, 0},
+                                               {0, 1, 1},
+                                               {2, 3, 1},
+                                               {1, 2, 2},
+                                               {0, 2, 3},
+                                               {1, 3, 3},
+                                               {0, 3, 4}}};
+};
+
+/// `bodies`: of one problem, as they stand.
+template <class T>
+CoarseTerms<T> coarse_terms(const FieldGrid&, const BodyRecord<T>* bodies, const CoarseBodies<T>&,
+                            std::size_t first, std::size_t count);
+
+/// Calls energy(node, entry, value) and power(node, value) for what `count` bodies from `first` on add to the
+/// matrix and to the right side, body by body.
+template <class T, class Energy, class Power>
+void each_coarse_term(const FieldGrid& grid, const BodyRecord<T>* bodies, const CoarseBodies<T>& coarse,
+                      std::size_t first, std::size_t count, Energy energy, Power power) {
+  using Terms = CoarseTerms<T>;
+  for (std::size_t begin = first, end = first + count; begin < end; begin += Terms::width) {
+    const std::size_t some = std::min(Terms::width, end - begin);
+    const Terms terms = coarse_terms(grid, bodies, coarse, begin, some);
+    for (std::size_t b = 0; b < some; ++b) {
+      const BodyRecord<T>& at = coarse.at[begin + b];
+      const int cell = grid.cell_at(at.x, at.z);
+      for (std::size_t p = 0; p < Terms::pairs.size(); ++p)
+        energy(grid.corner(cell, Terms::pairs[p].k), Terms::pairs[p].entry, terms.energies[p][b]);
+      for (int k = 0; k < 4; ++k) power(grid.corner(cell, k), terms.powers[k][b]);
+    }
+  }
+}
+
+template <class T, int dim, bool spin>
+struct CoarseKernels {
+  using Block = ContactBlock<T, dim>;
+  /// Adds what contacts do to S_x, S_z and powers.
+  static void add_contacts(const Block* blocks, std::size_t count, const BodyRecord<T>* bodies,
+                           const CoarseBodies<T>&);
+  /// Multiplies impulses by the factors that stand for the first bodies in place of powers; momentum rests.
+  static void scale(Block* blocks, std::size_t count, const BodyRecord<T>* factors);
+};
+
+}  // namespace drumlin::particles
