@@ -124,16 +124,20 @@ std::vector<double> TileCoarseLoads<Problem>::add_up(const TiledContacts& contac
   loops_.each_of(parts, [&](int part) {
     auto& sum = sums[part];
     sum.assign(length, 0);
+    const auto add = [&](const CoarseTerms<T>& terms, std::span<const int> cells) {
+      for (std::size_t b = 0; b < cells.size(); ++b)
+        each_coarse_term(
+            grid_, terms, b, cells[b],
+            [&](int node, int entry, T energy) { sum[numbers * node + entry] += energies.rounded(energy); },
+            [&](int node, T power) { sum[numbers * node + entries_of_node] += powers.rounded(power); });
+    };
     const std::size_t all = contacts.counts_here.size();
     for (std::size_t begin = share(all, part), end = share(all, part + 1), last = begin; begin < end;
          begin = last) {
       last = begin + 1;  // bodies in a row that are all counted here, or all not
       while (last < end && !contacts.counts_here[last] == !contacts.counts_here[begin]) ++last;
       if (!contacts.counts_here[begin]) continue;
-      each_coarse_term(
-          grid_, blocks.bodies().data(), records<T>().bodies(), begin, last - begin,
-          [&](int node, int entry, T energy) { sum[numbers * node + entry] += energies.rounded(energy); },
-          [&](int node, T power) { sum[numbers * node + entries_of_node] += powers.rounded(power); });
+      each_coarse_terms(grid_, blocks.bodies().data(), records<T>().bodies(), begin, last - begin, add);
     }
   });
   for (int part = 1; part < parts; ++part)

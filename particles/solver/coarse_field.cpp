@@ -55,10 +55,12 @@ std::vector<double> solve_field(const FieldGrid& grid, std::span<const double> r
 }
 
 double factor_at(const FieldGrid& grid, double from_left, double from_below, std::span<const double> field) {
-  const int cell = grid.cell_at(from_left, from_below);
-  const double right = from_left - cell % grid.columns, up = from_below - cell / grid.columns;
-  const double low = (1 - right) * field[cell] + right * field[cell + 1];
-  const double high = (1 - right) * field[grid.corner(cell, 2)] + right * field[grid.corner(cell, 3)];
+  const int column = grid.column_at(from_left), row = grid.row_at(from_below);
+  const double right = from_left - column, up = from_below - row;
+  const double* const below = &field[grid.index(column, row)];
+  const double* const above = &field[grid.index(column, row + 1)];
+  const double low = (1 - right) * below[0] + right * below[1];
+  const double high = (1 - right) * above[0] + right * above[1];
   return std::clamp(1 + ((1 - up) * low + up * high), 0.5, 2.0);
 }
 

@@ -15,10 +15,12 @@ struct FieldGrid {
 
   int nodes() const { return columns * rows; }
   int index(int column, int row) const { return row * columns + column; }
-  /// The lower left node of the cell of a place in edges from the first node; places are not outside.
+  /// Column and row of the cell of a place in edges from the first node, which is not outside; the cell goes
+  /// by its lower left node.
+  int column_at(double from_left) const { return std::min(static_cast<int>(from_left), columns - 2); }
+  int row_at(double from_below) const { return std::min(static_cast<int>(from_below), rows - 2); }
   int cell_at(double from_left, double from_below) const {
-    return index(std::min(static_cast<int>(from_left), columns - 2),
-                 std::min(static_cast<int>(from_below), rows - 2));
+    return index(column_at(from_left), row_at(from_below));
   }
   /// A corner of the cell: from left to right and then up.
   int corner(int cell, int k) const { return cell + k % 2 + columns * (k / 2); }

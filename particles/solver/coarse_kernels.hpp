@@ -32,6 +32,12 @@ struct CoarseTerms {
   using Numbers = std::array<T, width>;
   alignas(64) std::array<Numbers, 10> energies;  ///< m v_k . v_l of the pairs (k, l) of `pairs`
   alignas(64) std::array<Numbers, 4> powers;     ///< phi_k times the power
+  void add(const CoarseTerms& more) {
+    for (std::size_t p = 0; p < energies.size(); ++p)
+      for (std::size_t b = 0; b < width; ++b) energies[p][b] += more.energies[p][b];
+    for (std::size_t k = 0; k < powers.size(); ++k)
+      for (std::size_t b = 0; b < width; ++b) powers[k][b] += more.powers[k][b];
+  }
   /// Corners of a cell from left to right and then up.
   struct Pair {
     int k, l, entry;  ///< entry: of the row of k (coarse_field.hpp)
@@ -53,23 +59,28 @@ template <class T>
 CoarseTerms<T> coarse_terms(const FieldGrid&, const BodyRecord<T>* bodies, const CoarseBodies<T>&,
                             std::size_t first, std::size_t count);
 
-/// Calls energy(node, entry, value) and power(node, value) for what `count` bodies from `first` on add to the
-/// matrix and to the right side, body by body.
-template <class T, class Energy, class Power>
-void each_coarse_term(const FieldGrid& grid, const BodyRecord<T>* bodies, const CoarseBodies<T>& coarse,
-                      std::size_t first, std::size_t count, Energy energy, Power power) {
-  using Terms = CoarseTerms<T>;
-  for (std::size_t begin = first, end = first + count; begin < end; begin += Terms::width) {
-    const std::size_t some = std::min(Terms::width, end - begin);
-    const Terms terms = coarse_terms(grid, bodies, coarse, begin, some);
-    for (std::size_t b = 0; b < some; ++b) {
-      const BodyRecord<T>& at = coarse.at[begin + b];
-      const int cell = grid.cell_at(at.x, at.z);
-      for (std::size_t p = 0; p < Terms::pairs.size(); ++p)
-        energy(grid.corner(cell, Terms::pairs[p].k), Terms::pairs[p].entry, terms.energies[p][b]);
-      for (int k = 0; k < 4; ++k) power(grid.corner(cell, k), terms.powers[k][b]);
-    }
+/// Calls visit(terms, cells) for what `count` bodies from `first` on add to the matrix and to the right side,
+/// up to eight at a time; `cells` of the bodies of the terms.
+template <class T, class Visit>
+void each_coarse_terms(const FieldGrid& grid, const BodyRecord<T>* bodies, const CoarseBodies<T>& coarse,
+                       std::size_t first, std::size_t count, Visit visit) {
+  constexpr std::size_t width = CoarseTerms<T>::width;
+  std::array<int, width> cells{};
+  for (std::size_t begin = first, end = first + count; begin < end; begin += width) {
+    const std::size_t some = std::min(width, end - begin);
+    for (std::size_t b = 0; b < some; ++b)
+      cells[b] = grid.cell_at(coarse.at[begin + b].x, coarse.at[begin + b].z);
+    visit(coarse_terms(grid, bodies, coarse, begin, some), std::span(cells).first(some));
   }
+}
+
+/// Calls energy(node, entry, value) and power(node, value) for the terms of body b in a cell.
+template <class T, class Energy, class Power>
+void each_coarse_term(const FieldGrid& grid, const CoarseTerms<T>& terms, std::size_t b, int cell,
+                      Energy energy, Power power) {
+  for (std::size_t p = 0; p < terms.pairs.size(); ++p)
+    energy(grid.corner(cell, terms.pairs[p].k), terms.pairs[p].entry, terms.energies[p][b]);
+  for (int k = 0; k < 4; ++k) power(grid.corner(cell, k), terms.powers[k][b]);
 }
 
 template <class T, int dim, bool spin>

@@ -61,15 +61,41 @@ void CoarseLoads::add_contacts(StripProblem<T, dim, spin>& strips, int strip, in
                                             records<T>().bodies());
 }
 
-/// The bodies of a strip.
+/// The bodies of a strip. Most of those in a row are in one cell: their terms are added up before they go to
+/// the nodes.
 template <class T, int dim, bool spin>
 void CoarseLoads::add_bodies(const StripProblem<T, dim, spin>& strips, int strip, int part) {
   const auto [begin, end] = strips.records(strip);
   auto &rows = rows_[part], &work = work_[part];
-  each_coarse_term(
-      grid_, strips.bodies().data(), records<T>().bodies(), begin, end - begin,
-      [&](int node, int entry, T energy) { rows[entries_of_node * node + entry] += energy; },
-      [&](int node, T power) { work[node] += power; });
+  const auto to_nodes = [&](const CoarseTerms<T>& terms, std::size_t b, int cell) {
+    each_coarse_term(
+        grid_, terms, b, cell,
+        [&](int node, int entry, T energy) { rows[entries_of_node * node + entry] += energy; },
+        [&](int node, T power) { work[node] += power; });
+  };
+  CoarseTerms<T> sums{};
+  int cell_of_sums = -1;
+  const auto end_sums = [&] {
+    if (cell_of_sums >= 0)
+      for (std::size_t b = 0; b < sums.width; ++b) to_nodes(sums, b, cell_of_sums);
+    cell_of_sums = -1;
+  };
+  each_coarse_terms(grid_, strips.bodies().data(), records<T>().bodies(), begin, end - begin,
+                    [&](const CoarseTerms<T>& terms, std::span<const int> cells) {
+                      const bool together =
+                          cells.size() == terms.width &&
+                          std::all_of(cells.begin(), cells.end(), [&](int cell) { return cell == cells[0]; });
+                      if (!together) {
+                        for (std::size_t b = 0; b < cells.size(); ++b) to_nodes(terms, b, cells[b]);
+                        return;
+                      }
+                      if (cells[0] != cell_of_sums)
+                        end_sums(), sums = terms;
+                      else
+                        sums.add(terms);
+                      cell_of_sums = cells[0];
+                    });
+  end_sums();
 }
 
 /// Strip by strip, as long as what a strip moves is in the caches. The second slice of a part's last strip

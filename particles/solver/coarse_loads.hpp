@@ -26,7 +26,7 @@ struct BodyPlaces {
 };
 
 /// Problems of fewer contacts are left to the sweeps.
-inline constexpr int least_contacts_of_coarse_loads = 100000;
+inline constexpr int least_contacts_of_coarse_loads = 50000;
 /// Sweeps between two corrections.
 inline constexpr int sweeps_between_coarse_loads = 40;
 
