@@ -1,11 +1,12 @@
 """A million discs: deposited, settled, turned and measured, beside smaller drums of the same fill.
 
-usage: python3 tests/benchmarks/million.py BUILD RECORD.json [--threads N] [--keep FOLDER] [DISCS...]   (7183, 100000, 1000000 unless told)
+usage: python3 tests/benchmarks/million.py BUILD RECORD.json [--threads N] [--ranks N] [--keep FOLDER] [DISCS...]   (7183, 100000, 1000000 unless told)
 
 Each drum starts from deposited discs (grains.generated.placement), lies for 100 steps of 1e-3 s, is brought to the Froude number of the 6 rpm drum within
 200 steps (a quarter of a swing, so that its speed does not jump), and turns with it for 100 steps, to a residual of 1e-2 with the bounds on penetration and
 sinking that scenes have. The speed of its rim grows as the fourth root of the number of discs. What it took to place the discs, to take the steps of each
 stage and to measure ten snapshots is told: counts depend on no machine, seconds and memory are of this one.
+--ranks: the run, and nothing else, goes on so many ranks of one thread each; its memory is the sum of their peaks.
 """
 
 import argparse
@@ -71,6 +72,7 @@ def main():
     parser.add_argument("record", type=pathlib.Path)
     parser.add_argument("discs", type=int, nargs="*", default=list(SIZES))
     parser.add_argument("--threads", type=int, default=os.cpu_count())
+    parser.add_argument("--ranks", type=int, default=0)
     parser.add_argument("--keep", type=pathlib.Path, help="folder in which the runs stay")
     given = parser.parse_intermixed_args()
     program, cases, run = given.build.resolve() / "drumlin", [], {}
@@ -81,8 +83,12 @@ def main():
             file, where = folder / f"drum-{discs}.toml", folder / f"drum-{discs}"
             file.write_text(scene(discs), encoding="utf-8")
             case = {"discs": discs, "placing": taken([program, "scene", "check", file])}
-            case["run"] = taken([program, "run", file, "-o", where, "--threads", str(given.threads)])
+            shared = ["--ranks", str(given.ranks), "--threads", str(given.ranks)] if given.ranks else ["--threads", str(given.threads)]
+            case["run"] = taken([program, "run", file, "-o", where, *shared])
             run = json.loads((where / "run.json").read_text(encoding="utf-8"))
+            if given.ranks:
+                case["ranks"] = run["ranks"]
+                case["run"]["peak_memory_mb"] = sum(rank["peak_memory_mb"] for rank in run["ranks"])
             with (where / "log.csv").open(encoding="utf-8") as log:
                 rows = list(csv.DictReader(log))
             case["stages"] = {stage: told([row for row in rows if row["stage"] == stage]) for stage in ("settle", "start", "turn")}
@@ -93,8 +99,8 @@ def main():
             case["measure"] = taken([program, "measure", where])
             print(f"{discs} discs: {sweeps} sweeps in {len(rows)} steps, {case['run']['wall_seconds']:.0f} s", flush=True)
             cases.append(case)
-    whole = {"format": "drumlin-million-1", "revision": run["revision"], "command": "python3 tests/benchmarks/million.py BUILD RECORD.json",
-             "processors": os.cpu_count(), "threads": given.threads, "tolerance": 1e-2, "time_step_s": 1e-3, "cases": cases}
+    whole = {"format": "drumlin-million-1", "revision": run["revision"], "command": "python3 tests/benchmarks/million.py BUILD RECORD.json" + (f" --ranks {given.ranks}" if given.ranks else ""),
+             "processors": os.cpu_count(), **({"ranks": given.ranks} if given.ranks else {"threads": given.threads}), "tolerance": 1e-2, "time_step_s": 1e-3, "cases": cases}
     given.record.parent.mkdir(parents=True, exist_ok=True)
     given.record.write_text(json.dumps(whole, indent=1) + "\n", encoding="utf-8")
 
