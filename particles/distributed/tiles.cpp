@@ -6,19 +6,6 @@
 
 namespace drumlin::particles {
 
-std::int32_t TileGrid::tile_at(Point p) const {
-  const double tile = 2 * cell;
-  const auto place = [&](double along) {
-    return static_cast<std::int32_t>(std::clamp(std::floor(along / tile), 0.0, per_side() - 1.0));
-  };
-  return place(p.z - origin.z) * per_side() + place(p.x - origin.x);
-}
-
-std::int32_t TileGrid::strip_of_body(double x) const {
-  const double columns = (x - origin.x) / (2 * cell);
-  return static_cast<std::int32_t>(std::clamp(std::floor((columns + 0.5) / 2), 0.0, strips() - 1.0));
-}
-
 namespace {
 
 constexpr double slack = 1 + 1e-6;  // places are sorted into cells with rounding

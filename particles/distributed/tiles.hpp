@@ -1,5 +1,6 @@
 #pragma once
 // Tiles: the squares that order the contacts of a run, whatever the number of ranks.
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -21,7 +22,14 @@ struct TileGrid {
     return p.x >= origin.x && p.z >= origin.z && p.x < origin.x + edge() && p.z < origin.z + edge();
   }
   /// Number of the tile of a point, row by row; points outside count to the nearest.
-  std::int32_t tile_at(Point p) const;
+  std::int32_t tile_at(Point p) const {
+    // Asked for every pair of a step: a loop divides once.
+    const double tiles_per_length = 1 / (2 * cell);
+    const auto place = [&](double along) {
+      return static_cast<std::int32_t>(std::clamp(along * tiles_per_length, 0.0, per_side() - 1.0));
+    };
+    return place(p.z - origin.z) * per_side() + place(p.x - origin.x);
+  }
   std::int32_t column(std::int32_t tile) const { return tile % per_side(); }
   /// By the parities of column and row, 0 to 3: 0 and 1 in even columns.
   int colour(std::int32_t tile) const { return (tile / per_side()) % 2 + 2 * (column(tile) % 2); }
@@ -29,7 +37,11 @@ struct TileGrid {
   /// so that only contacts of odd columns touch bodies of two strips.
   std::int32_t strips() const { return (per_side() + 1) / 2; }
   std::int32_t strip_of_tile(std::int32_t tile) const { return column(tile) / 2; }
-  std::int32_t strip_of_body(double x) const;
+  std::int32_t strip_of_body(double x) const {
+    const double strips_per_length = 1 / (4 * cell);
+    return static_cast<std::int32_t>(
+        std::clamp((x - origin.x) * strips_per_length + 0.25, 0.0, strips() - 1.0));
+  }
   bool operator==(const TileGrid& other) const {
     return origin.x == other.origin.x && origin.z == other.origin.z && cell == other.cell &&
            levels == other.levels;
