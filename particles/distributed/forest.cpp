@@ -23,34 +23,48 @@ std::array<double, properties> properties_of(const RankGrain& g) {
   return {g.v_x, g.v_z, g.spin, g.radius, g.inverse_mass};
 }
 
+/// The curve of p4est goes first along x. Where it is to go first along z, the forest has x and z exchanged.
+struct Axes {
+  bool exchanged = false;
+  dealii::Point<2> in_forest(Point p) const {
+    return exchanged ? dealii::Point<2>(p.z, p.x) : dealii::Point<2>(p.x, p.z);
+  }
+  Point outside(const dealii::Point<2>& p) const { return exchanged ? Point{p[1], p[0]} : Point{p[0], p[1]}; }
+};
+
+/// A packing that is wider than high is cut into columns.
+Axes axes_for(const TileGrid& grid, std::span<const std::int64_t> weights) {
+  const std::int64_t empty = *std::min_element(weights.begin(), weights.end());
+  std::array<std::int32_t, 2> low{grid.per_side(), grid.per_side()}, high{0, 0};
+  for (std::int32_t tile = 0; tile < grid.count(); ++tile) {
+    if (weights[tile] == empty) continue;
+    const std::array<std::int32_t, 2> at{grid.column(tile), grid.row(tile)};
+    for (const int axis : {0, 1})
+      low[axis] = std::min(low[axis], at[axis]), high[axis] = std::max(high[axis], at[axis]);
+  }
+  return {high[0] - low[0] >= high[1] - low[1]};
+}
+
 template <class Particle>
-RankGrain record_of(const Particle& particle) {
-  const auto& place = particle.get_location();
+RankGrain record_of(const Particle& particle, const Axes& axes) {
+  const Point place = axes.outside(particle.get_location());
   const auto own = particle.get_properties();
-  return {static_cast<std::int64_t>(particle.get_id()),
-          place[0],
-          place[1],
-          own[0],
-          own[1],
-          own[2],
-          own[3],
-          own[4]};
+  return {
+      static_cast<std::int64_t>(particle.get_id()), place.x, place.z, own[0], own[1], own[2], own[3], own[4]};
 }
 
 }  // namespace
 
 struct Forest::Library {
-  Library(const TileGrid& grid_) : grid(grid_), triangulation(MPI_COMM_WORLD), mapping(1) {
-    const dealii::Point<2> low(grid.origin.x, grid.origin.z);
+  Library(const TileGrid& grid_, const Axes& axes_)
+      : grid(grid_), axes(axes_), triangulation(MPI_COMM_WORLD), mapping(1) {
+    const dealii::Point<2> low = axes.in_forest(grid.origin);
     dealii::GridGenerator::hyper_rectangle(triangulation, low,
                                            dealii::Point<2>(low[0] + grid.edge(), low[1] + grid.edge()));
     triangulation.refine_global(grid.levels);
   }
 
-  Point middle(const Cell& cell) const {
-    const auto p = cell->center();
-    return {p[0], p[1]};
-  }
+  Point middle(const Cell& cell) const { return axes.outside(cell->center()); }
   std::int32_t tile_of(const Cell& cell) const { return grid.tile_at(middle(cell)); }
   /// Number of the cell of a point.
   std::int64_t cell_at(Point p) const {
@@ -62,6 +76,7 @@ struct Forest::Library {
   }
 
   TileGrid grid;
+  Axes axes;
   Triangulation triangulation;
   dealii::MappingQ<2> mapping;
   Handler handler;
@@ -69,13 +84,12 @@ struct Forest::Library {
 };
 
 Forest::Forest(const Ranks& ranks, const TileGrid& grid, std::span<const std::int64_t> weights)
-    : ranks_(ranks), library_(std::make_unique<Library>(grid)) {
+    : ranks_(ranks), library_(std::make_unique<Library>(grid, axes_for(grid, weights))) {
   Library& lib = *library_;
   {
     const auto weighed = lib.triangulation.signals.weight.connect(
         [&](const Triangulation::cell_iterator& cell, const Triangulation::CellStatus) {
-          const auto p = cell->center();
-          const std::int64_t weight = weights[grid.tile_at({p[0], p[1]})];
+          const std::int64_t weight = weights[grid.tile_at(lib.axes.outside(cell->center()))];
           return static_cast<unsigned int>(std::min<std::int64_t>(weight, 1 << 20));
         });
     if (ranks.count() > 1) lib.triangulation.repartition();
@@ -97,7 +111,8 @@ Forest::Forest(const Ranks& ranks, const TileGrid& grid, std::span<const std::in
   lib.handler.signals.particle_lost.connect([&lib](const auto& particle, const auto&) {
     const auto id = static_cast<std::int64_t>(particle->get_id());
     if (lib.outside.id >= 0 && lib.outside.id <= id) return;
-    lib.outside = {id, particle->get_location()[0], particle->get_location()[1]};
+    const Point place = lib.axes.outside(particle->get_location());
+    lib.outside = {id, place.x, place.z};
   });
 }
 
@@ -135,11 +150,11 @@ GrainOutside Forest::place(std::span<const RankGrain> grains) {
   for (const auto& of_rank : ranks_.exchange(to_rank))
     for (const RankGrain& grain : of_rank) {
       const Cell& cell = cells[lib.cell_at({grain.x, grain.z})];
+      const dealii::Point<2> place = lib.axes.in_forest({grain.x, grain.z});
       const auto& corner = cell->vertex(0);
       const auto own = properties_of(grain);
       lib.handler.insert_particle(
-          dealii::Point<2>(grain.x, grain.z),
-          dealii::Point<2>((grain.x - corner[0]) / edge, (grain.z - corner[1]) / edge),
+          place, dealii::Point<2>((place[0] - corner[0]) / edge, (place[1] - corner[1]) / edge),
           static_cast<dealii::types::particle_index>(grain.id), cell,
           dealii::ArrayView<const double>(own.data(), own.size()));
     }
@@ -155,7 +170,7 @@ GrainOutside Forest::move(std::span<const RankGrain> grains) {
   std::size_t k = 0;
   for (auto& particle : lib.handler) {
     const RankGrain& grain = grains[k++];
-    particle.set_location(dealii::Point<2>(grain.x, grain.z));
+    particle.set_location(lib.axes.in_forest({grain.x, grain.z}));
     const auto own = properties_of(grain);
     particle.set_properties(dealii::ArrayView<const double>(own.data(), own.size()));
   }
@@ -170,10 +185,10 @@ GrainOutside Forest::move(std::span<const RankGrain> grains) {
 void Forest::read_back() {
   Library& lib = *library_;
   owned_.clear(), ghosts_.clear();
-  for (const auto& particle : lib.handler) owned_.push_back(record_of(particle));
+  for (const auto& particle : lib.handler) owned_.push_back(record_of(particle, lib.axes));
   for (auto particle = lib.handler.begin_ghost(); particle != lib.handler.end_ghost(); ++particle)
-    ghosts_.push_back(
-        {record_of(*particle), static_cast<std::int32_t>(particle->get_surrounding_cell()->subdomain_id())});
+    ghosts_.push_back({record_of(*particle, lib.axes),
+                       static_cast<std::int32_t>(particle->get_surrounding_cell()->subdomain_id())});
 }
 
 }  // namespace drumlin::particles

@@ -61,9 +61,11 @@ void RankGrains::refuse(const GrainOutside& outside) const {
 }
 
 void RankGrains::build(RankState& state, const TileGrid& grid) {
-  constexpr std::int64_t of_a_grain = 10;
+  // Sweeps are the work of contacts, most else is that of grains.
+  constexpr std::int64_t of_a_grain = 10, of_a_loaded_contact = 10;
   std::vector<std::int64_t> weights(grid.count(), 0);
   for (const RankGrain& g : state.grains) weights[grid.tile_at({g.x, g.z})] += of_a_grain;
+  for (const RememberedContact& c : state.memory) weights[grid.tile_at({c.x, c.z})] += of_a_loaded_contact;
   ranks_.add(weights);
   for (std::int64_t& weight : weights) ++weight;
   forest_.reset();

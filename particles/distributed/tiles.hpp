@@ -31,8 +31,9 @@ struct TileGrid {
     return place(p.z - origin.z) * per_side() + place(p.x - origin.x);
   }
   std::int32_t column(std::int32_t tile) const { return tile % per_side(); }
+  std::int32_t row(std::int32_t tile) const { return tile / per_side(); }
   /// By the parities of column and row, 0 to 3: 0 and 1 in even columns.
-  int colour(std::int32_t tile) const { return (tile / per_side()) % 2 + 2 * (column(tile) % 2); }
+  int colour(std::int32_t tile) const { return row(tile) % 2 + 2 * (column(tile) % 2); }
   /// Strip k: columns 2k and 2k + 1. Bodies belong to it from the middle of column 2k - 1 to that of 2k + 1,
   /// so that only contacts of odd columns touch bodies of two strips.
   std::int32_t strips() const { return (per_side() + 1) / 2; }
