@@ -1,7 +1,7 @@
 """What discs cost on ranks: a settling drum on 1 and 2 ranks of one thread each, and in one process, twice each, in turns.
 
 usage: python3 tests/benchmarks/ranks.py BUILD RECORD.json [--lying] [--flow FOLDER] [DISCS...]   (7183 and 30000 unless told; the 6 rpm drum at the same fill)
---flow: 100 steps of the flow that `sweeps_over_size.py --keep FOLDER` has left for each of these sizes, one call each. Cases of other sizes or of other
+--flow: 100 steps of the flow that `sweeps_over_size.py --keep FOLDER` has left for each of these sizes, three calls each. Cases of other sizes or of other
 kinds that the record holds already stay.
 --lying: discs are deposited from the beginning, 20 steps, one call each: large drums, and machines that others use. What counts then is the work of the
 rank that has most: processor seconds less those in which it waited.
@@ -76,7 +76,7 @@ def main():
                 text, scene_file = (flows / str(discs) / "flowing.toml").read_text(encoding="utf-8"), flows / str(discs) / "on-ranks.toml"
                 text = re.sub(r"duration_s = [\d.]+", f"duration_s = {steps * 1e-3:g}", text)
             scene_file.write_text(text or scene(discs, steps, lying), encoding="utf-8")
-            for call in range(1 if lying or flows else CALLS):
+            for call in range(1 if lying else 3 if flows else CALLS):
                 for number, (way, words) in enumerate(ways.items()):
                     found, run = timed([*words, scene_file, "--threads", "1"], folder / f"{call}-{number}")
                     case["calls"][way].append(found)

@@ -71,18 +71,43 @@ void expect_everybody(const Forest& forest, std::span<const RankGrain> own,
   }
 }
 
+/// Weights of packings that are wider than high, or higher than wide: they are cut along other axes.
+std::vector<std::int64_t> weights_of(bool wide) {
+  std::vector<std::int64_t> weights(grid.count(), 1);
+  for (std::int32_t tile = 0; tile < grid.count(); ++tile)
+    if ((wide ? grid.row(tile) : grid.column(tile)) < 3) weights[tile] = 100;
+  return weights;
+}
+
 TEST(Forest, OwnsEachGrainOnceAndSeesALayerOfCells) {
   const Ranks ranks;
   const auto all = scattered(600);
-  Forest forest(ranks, grid, std::vector<std::int64_t>(grid.count(), 1));
-  EXPECT_EQ(forest.place(share_of(all, ranks)).id, -1);
-  expect_everybody(forest, forest.take_owned(), all);
+  for (const bool wide : {false, true}) {
+    Forest forest(ranks, grid, weights_of(wide));
+    EXPECT_EQ(forest.place(share_of(all, ranks)).id, -1);
+    expect_everybody(forest, forest.take_owned(), all);
+  }
+}
+
+TEST(Forest, CutsPackingsAcrossTheirLongerSide) {
+  const Ranks ranks;
+  for (const bool wide : {false, true}) {
+    const Forest forest(ranks, grid, weights_of(wide));
+    int cut = 0;  // lines of heavy tiles across the longer side that several ranks share
+    for (int line = 0; line < grid.per_side(); ++line) {
+      std::set<std::int32_t> owners;
+      for (int k = 0; k < 3; ++k)
+        owners.insert(forest.tiles().owner[wide ? k * grid.per_side() + line : line * grid.per_side() + k]);
+      cut += owners.size() > 1;
+    }
+    EXPECT_LE(cut, 2 * (ranks.count() - 1)) << wide;
+  }
 }
 
 TEST(Forest, FollowsGrainsThatMove) {
   const Ranks ranks;
   auto all = scattered(600);
-  Forest forest(ranks, grid, std::vector<std::int64_t>(grid.count(), 1));
+  Forest forest(ranks, grid, weights_of(false));
   ASSERT_EQ(forest.place(share_of(all, ranks)).id, -1);
   std::vector<RankGrain> own = forest.take_owned();
   std::mt19937_64 random(3);
@@ -152,6 +177,17 @@ TEST(Tiles, OfOneColourAreATileApart) {
       if (grid.colour(a) != grid.colour(b)) continue;
       const int side = grid.per_side();
       EXPECT_TRUE(std::abs(a % side - b % side) >= 2 || std::abs(a / side - b / side) >= 2);
+    }
+}
+
+TEST(Tiles, OfEvenColumnsTouchBodiesOfTheirStripAlone) {
+  const double tile = 2 * grid.cell, reach = tile / 4;  // tiles are wider than four times what contacts reach
+  for (std::int32_t column = 0; column < grid.per_side(); ++column)
+    for (const double along : {-reach, 0.0, tile / 2, tile, tile + reach}) {
+      const double x = grid.origin.x + column * tile + along * 0.999;
+      if (x < grid.origin.x || x > grid.origin.x + grid.edge()) continue;
+      const std::int32_t strip = grid.strip_of_tile(column), of_body = grid.strip_of_body(x);
+      EXPECT_TRUE(of_body == strip || (column % 2 == 1 && of_body == strip + 1)) << column << " " << along;
     }
 }
 
