@@ -15,6 +15,8 @@ namespace {
 // A forest is weighed again after so many steps, if a rank has so much more than its share.
 constexpr std::int64_t steps_between = 200;
 constexpr double most_share = 1.1;
+// Of that work: sweeps are that of contacts, most else that of grains.
+constexpr std::int64_t of_a_grain = 10, of_a_loaded_contact = 10;
 
 }  // namespace
 
@@ -61,8 +63,6 @@ void RankGrains::refuse(const GrainOutside& outside) const {
 }
 
 void RankGrains::build(RankState& state, const TileGrid& grid) {
-  // Sweeps are the work of contacts, most else is that of grains.
-  constexpr std::int64_t of_a_grain = 10, of_a_loaded_contact = 10;
   std::vector<std::int64_t> weights(grid.count(), 0);
   for (const RankGrain& g : state.grains) weights[grid.tile_at({g.x, g.z})] += of_a_grain;
   for (const RememberedContact& c : state.memory) weights[grid.tile_at({c.x, c.z})] += of_a_loaded_contact;
@@ -75,11 +75,14 @@ void RankGrains::build(RankState& state, const TileGrid& grid) {
   refuse(forest_->place(state.grains));
 }
 
-bool RankGrains::unbalanced() const {
+bool RankGrains::unbalanced(const RankState& state) const {
   if (ranks_.count() == 1 || steps_ < steps_between || steps_ % steps_between != 0) return false;
-  std::array<double, 1> most{static_cast<double>(sorted_at_.size())};
+  std::array<std::int64_t, 1> all{of_a_grain * static_cast<std::int64_t>(state.grains.size()) +
+                                  of_a_loaded_contact * static_cast<std::int64_t>(state.memory.size())};
+  std::array<double, 1> most{static_cast<double>(all[0])};
   ranks_.largest(most);
-  return most[0] * ranks_.count() > most_share * static_cast<double>(domain_.grains);
+  ranks_.add(all);
+  return most[0] * ranks_.count() > most_share * static_cast<double>(all[0]);
 }
 
 void RankGrains::sort(RankState& state) { refuse(forest_->move(state.grains)); }
@@ -88,7 +91,7 @@ void RankGrains::settle(RankState& state, const WallStep& walls, double time_ste
   const Need need = need_of(state, walls, time_step, gain);
   reach_ = need.reach;
   const TileGrid grid = tile_grid(domain_.low, domain_.edge, need.reach);
-  const bool anew = !forest_ || !(forest_->tiles().grid == grid) || unbalanced();
+  const bool anew = !forest_ || !(forest_->tiles().grid == grid) || unbalanced(state);
   ++steps_;
   if (!anew && still_sorted(need)) {
     follow(state);

@@ -59,7 +59,7 @@ class RankGrains {
   bool still_sorted(const Need&) const;
   void build(RankState&, const TileGrid&);
   void sort(RankState&);
-  bool unbalanced() const;
+  bool unbalanced(const RankState&) const;
   void take_sorted(RankState&);
   void see(const RankState&);
   void agree_on_ghosts();

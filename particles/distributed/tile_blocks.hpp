@@ -21,7 +21,7 @@ class TileBlocks {
   using Block = ContactBlock<T, dim>;
 
   /// Copies a problem in body form and the impulses to start from; bodies are at rest. Best where bodies are
-  /// numbered tile by tile, as rank_pairs() does.
+  /// numbered tile by tile, as find_rank_pairs() does.
   template <class Problem>
   void pack(const Problem& problem, std::span<const TileRange> tiles, std::span<const double> r,
             const TeamLoops& loops);

@@ -51,21 +51,17 @@ void TileCoarseLoads<Problem>::lay_out(const Problem& problem, const TiledContac
   ranks_.largest(extremes);
   grid_ = field_grid({-extremes[1], extremes[0], -extremes[3], extremes[2]}, contacts_of_all, extremes[4]);
   terms_ = 2 * contacts_of_all;
-  auto& own = records<T>();
-  for (auto* of_bodies : {&own.at, &own.along_x, &own.along_z}) of_bodies->assign(blocks.bodies().size(), {});
-  for (std::size_t b = 0; b < contacts.x.size(); ++b) {
-    own.at[b].x = static_cast<T>((contacts.x[b] - grid_.x) / grid_.edge);
-    own.at[b].z = static_cast<T>((contacts.z[b] - grid_.z) / grid_.edge);
-  }
+  auto& own = records_.template of<T>();
+  own.make(blocks.bodies().size());
+  for (std::size_t b = 0; b < contacts.x.size(); ++b) own.place(b, contacts.x[b], contacts.z[b], grid_);
 }
 
 template <class Problem>
 template <class T>
 void TileCoarseLoads<Problem>::add_contacts(const TiledContacts& contacts, Halo& halo,
                                             TileBlocks<T, dim, spin>& blocks) {
-  auto& own = records<T>();
-  for (BodyRecord<T>& at : own.at) at.s = 0;
-  for (auto* along : {&own.along_x, &own.along_z}) std::fill(along->begin(), along->end(), BodyRecord<T>{});
+  auto& own = records_.template of<T>();
+  own.rest(0, own.at.size());
   const auto work = [&](std::size_t t) {
     const auto of_tile = blocks.of_tile(t);
     CoarseKernels<T, dim, spin>::add_contacts(of_tile.data(), of_tile.size(), blocks.bodies().data(),
@@ -94,7 +90,7 @@ std::array<double, 2> TileCoarseLoads<Problem>::bounds(const TiledContacts& cont
                                                        const TileBlocks<T, dim, spin>& blocks) {
   constexpr double rounding = 1.001;  // of terms in single precision
   std::array<double, 2> bounds{0, 0};
-  const auto& own = records<T>();
+  const auto& own = records_.template of<T>();
   const auto size_of = [](const BodyRecord<T>& v) {
     return static_cast<double>(v.x) * v.x + static_cast<double>(v.z) * v.z + 0.5 * v.s * v.s;
   };
@@ -137,7 +133,8 @@ std::vector<double> TileCoarseLoads<Problem>::add_up(const TiledContacts& contac
       last = begin + 1;  // bodies in a row that are all counted here, or all not
       while (last < end && !contacts.counts_here[last] == !contacts.counts_here[begin]) ++last;
       if (!contacts.counts_here[begin]) continue;
-      each_coarse_terms(grid_, blocks.bodies().data(), records<T>().bodies(), begin, last - begin, add);
+      each_coarse_terms(grid_, blocks.bodies().data(), records_.template of<T>().bodies(), begin,
+                        last - begin, add);
     }
   });
   for (int part = 1; part < parts; ++part)
@@ -164,13 +161,11 @@ bool TileCoarseLoads<Problem>::scale(const TiledContacts& contacts, Halo& halo,
   }
   const std::vector<double> field = solve_field(grid_, rows, right);
   if (field.empty()) return false;
-  auto& at = records<T>().at;
-  loops_.each(at.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t b = begin; b < end; ++b)
-      at[b].s = static_cast<T>(factor_at(grid_, at[b].x, at[b].z, field));
-  });
+  auto& own = records_.template of<T>();
+  loops_.each(own.at.size(),
+              [&](std::size_t begin, std::size_t end) { own.set_factors(begin, end, grid_, field); });
   loops_.each(blocks.all().size(), [&](std::size_t begin, std::size_t end) {
-    CoarseKernels<T, dim, spin>::scale(blocks.all().data() + begin, end - begin, at.data());
+    CoarseKernels<T, dim, spin>::scale(blocks.all().data() + begin, end - begin, own.at.data());
   });
   return true;
 }

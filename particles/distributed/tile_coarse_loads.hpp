@@ -35,22 +35,11 @@ class TileCoarseLoads {
   bool scale(const TiledContacts& contacts, Halo& halo, TileBlocks<T, dim, spin>& blocks);
 
   /// Gives back the memory of what lay_out() has made.
-  void release() { in_single_ = {}, in_double_ = {}; }
+  void release() { records_ = {}; }
 
  private:
-  /// Of each record of a body one for each member of CoarseBodies.
   template <class T>
-  struct Records {
-    std::vector<BodyRecord<T>> at, along_x, along_z;
-    CoarseBodies<T> bodies() { return {at.data(), along_x.data(), along_z.data()}; }
-  };
-  template <class T>
-  Records<T>& records() {
-    if constexpr (sizeof(T) == sizeof(float))
-      return in_single_;
-    else
-      return in_double_;
-  }
+  using Vector = std::vector<T>;
   template <class T>
   void add_contacts(const TiledContacts&, Halo&, TileBlocks<T, dim, spin>&);
   /// Of the powers of bodies and of what they add to the matrix, on all ranks.
@@ -64,8 +53,7 @@ class TileCoarseLoads {
   TeamLoops loops_;
   FieldGrid grid_;
   std::int64_t terms_ = 1;  // bound on the number of terms of a sum
-  Records<float> in_single_;
-  Records<double> in_double_;
+  CoarseRecords<Vector> records_;
 };
 
 }  // namespace drumlin::particles

@@ -45,14 +45,6 @@ void TileSolver<Problem>::work_on(const TileRounds& rounds, Halo& halo, Blocks<T
 }
 
 template <class Problem>
-double TileSolver<Problem>::total_of_tiles() {
-  ExactSum sum;
-  for (const double term : of_tile_) sum.add(term);
-  ranks_.add(sum.numbers());
-  return sum.value();
-}
-
-template <class Problem>
 SeenResidual TileSolver<Problem>::seen_of_tiles() {
   std::array<ExactSum, 2> sums;
   for (const SeenResidual& of_tile : seen_) sums[0].add(of_tile.squares), sums[1].add(of_tile.let_through);
@@ -80,11 +72,11 @@ bool TileSolver<Problem>::surely_misses(const SeenResidual& seen, double time_st
 /// What turns the summed squares of the residuals into the square of the relative one.
 template <class Problem>
 double TileSolver<Problem>::scale_of(const Problem& problem, const TiledContacts& contacts) {
-  for (std::size_t t = 0; t < contacts.tiles.size(); ++t) {
-    const TileRange& tile = contacts.tiles[t];
-    of_tile_[t] = squared_norm(std::span(problem.q).subspan(dim * tile.begin, dim * (tile.end - tile.begin)));
-  }
-  const double squares = total_of_tiles();
+  ExactSum sum;
+  for (const TileRange& tile : contacts.tiles)
+    sum.add(squared_norm(std::span(problem.q).subspan(dim * tile.begin, dim * (tile.end - tile.begin))));
+  ranks_.add(sum.numbers());
+  const double squares = sum.value();
   return squares > 0 ? dim / squares : 1;
 }
 
@@ -173,14 +165,15 @@ void TileSolver<Problem>::sweep_part(const TileOrder& order, const Wave<T>& wave
                                      int s, int strip, int phase, Blocks<T>& blocks) {
   const auto [begin, end] = order.strips[strip].phases[phase];
   if (phase == 0) begin_sweep(order.strips[strip], wave, s, blocks);
-  const int next = strip + s + phase + 1, tiles = end - begin;
-  const bool ahead = s > 0 && next < share.end;
-  for (std::int32_t t = begin; t < end; ++t) {
-    // In the first sweep what a strip needs comes from memory: the others ask for it.
-    const int piece = (2 * (s - 1) + phase) * tiles + t - begin, pieces = 2 * (wave.sweeps - 1) * tiles;
-    squares_[s][t] = blocks.sweep(t, wave.betas[s], wave.accelerated,
-                                  ahead ? blocks.memory(order.strips[next], piece, pieces) : MemoryAhead{});
-  }
+  // In the first sweep what a strip needs comes from memory: the tiles of the others ask for it.
+  const auto ahead = ahead_of_part(share, wave.sweeps, s, strip, phase);
+  const auto memory_ahead = [&](std::int32_t tile) {
+    if (!ahead) return MemoryAhead{};
+    const int tiles = end - begin, piece = ahead->part * tiles + tile - begin;
+    return blocks.memory(order.strips[ahead->strip], piece, ahead->parts * tiles);
+  };
+  for (std::int32_t t = begin; t < end; ++t)
+    squares_[s][t] = blocks.sweep(t, wave.betas[s], wave.accelerated, memory_ahead(t));
 }
 
 /// What a sweep does to a strip before its contacts.
@@ -203,21 +196,26 @@ template <class T>
 void TileSolver<Problem>::take_wave(const TiledContacts& contacts, Halo& halo, const Wave<T>& wave,
                                     Blocks<T>& blocks) {
   const auto& [tiles, order, counts_here, x, z] = contacts;
-  std::vector<StripShare> shares;
-  // One sweep alone gains nothing but the caches of one thread, and what lies inside hides the messages.
-  if (wave.sweeps > 1 || (ranks_.count() == 1 && loops_.threads() == 1))
-    shares = shares_between_borders(tiles, order, wave.sweeps, loops_.threads());
-  loops_.each_of(static_cast<int>(shares.size()), [&](int k) {
-    sweep_alone(shares[k], wave.sweeps, [&](int s, int strip, int phase) {
-      sweep_part(order, wave, shares[k], s, strip, phase, blocks);
+  std::optional<WavePlan>& plan = plans_[wave.sweeps - 1];
+  if (!plan) {
+    std::vector<StripShare> shares;
+    // One sweep alone gains nothing but the caches of one thread, and what lies inside hides the messages.
+    if (wave.sweeps > 1 || (ranks_.count() == 1 && loops_.threads() == 1))
+      shares = shares_between_borders(tiles, order, wave.sweeps, loops_.threads());
+    plan = wave_plan(tiles, order, std::move(shares), wave.sweeps);
+  }
+  loops_.each_of(static_cast<int>(plan->shares.size()), [&](int k) {
+    const StripShare& share = plan->shares[k];
+    sweep_alone(share, wave.sweeps, [&](int s, int strip, int phase) {
+      sweep_part(order, wave, share, s, strip, phase, blocks);
     });
   });
   for (int s = 0; s < wave.sweeps; ++s) {
-    find_left(tiles, order, shares, s, left_);
-    if (ranks_.count() == 1 && left_.nothing()) continue;
-    loops_.each_of(static_cast<int>(left_.strips.size()),
-                   [&](int k) { begin_sweep(order.strips[left_.strips[k]], wave, s, blocks); });
-    work_on(left_.rounds, halo, blocks,
+    const auto& [strips, rounds] = plan->left[s];
+    if (ranks_.count() == 1 && plan->left[s].nothing()) continue;
+    loops_.each_of(static_cast<int>(strips.size()),
+                   [&](int k) { begin_sweep(order.strips[strips[k]], wave, s, blocks); });
+    work_on(rounds, halo, blocks,
             [&](std::size_t t) { squares_[s][t] = blocks.sweep(t, wave.betas[s], wave.accelerated); });
   }
 }
@@ -248,6 +246,7 @@ SolveReport TileSolver<Problem>::sweep_until_done(const Problem& problem, const 
   StoppingTest test(rule);
   std::vector<double>& r = solution.impulses;
   const auto tiles = static_cast<int>(contacts.tiles.size());
+  plans_ = {};
   for (auto& squares : squares_) squares.assign(contacts.tiles.size(), 0.0);
   blocks.pack(problem, contacts.tiles, r, loops_);
   work_on(contacts.order.rounds, halo, blocks, [&](std::size_t t) { blocks.load(t); });
@@ -323,7 +322,6 @@ SolveReport TileSolver<Problem>::solve(const Problem& problem, const TiledContac
                                        Solution<Problem>& solution) {
   constexpr double single_precision_reaches = 1e-4;
   solution.impulses.resize(problem.q.size());
-  of_tile_.assign(contacts.tiles.size(), 0.0);
   seen_.assign(contacts.tiles.size(), {});
   std::array<std::int64_t, 1> count{problem.contacts()};
   ranks_.add(count);

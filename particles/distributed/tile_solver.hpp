@@ -4,6 +4,7 @@
 // threads.
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -87,9 +88,7 @@ class TileSolver {
   SolveReport sweep_until_done(const Problem&, const TiledContacts&, Halo&, const StoppingRule&,
                                std::int64_t contacts_of_all, Blocks<T>&, bool accelerated,
                                Solution<Problem>&);
-  /// The sum over all ranks of one number per tile; all ranks call it together.
-  double total_of_tiles();
-  /// The same of what it has seen of tiles.
+  /// What all ranks have seen of tiles; they call it together.
   SeenResidual seen_of_tiles();
   /// Whether the solve misses the rule, and not by rounding, although the residual seems to be small enough.
   template <class T>
@@ -103,10 +102,10 @@ class TileSolver {
   Blocks<double> in_double_;
   TileCoarseLoads<Problem> coarse_;
   std::int64_t least_corrected_, corrections_ = 0;
-  std::vector<double> of_tile_, best_;
-  std::array<std::vector<double>, longest_wave> squares_;  // of the steps of each tile, by sweep of a wave
-  LeftOfSweep left_;
-  std::vector<SeenResidual> seen_;  // of each tile
+  std::vector<double> best_;
+  std::array<std::vector<double>, longest_wave> squares_;    // of the steps of each tile, by sweep of a wave
+  std::array<std::optional<WavePlan>, longest_wave> plans_;  // of a solve, by the sweeps of a wave
+  std::vector<SeenResidual> seen_;                           // of each tile
 };
 
 }  // namespace drumlin::particles

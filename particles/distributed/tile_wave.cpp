@@ -1,6 +1,7 @@
 #include "particles/distributed/tile_wave.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace drumlin::particles {
 namespace {
@@ -8,6 +9,10 @@ namespace {
 /// Cuts the strips of a share into parts of about equal numbers of contacts.
 void cut_into(std::span<const TileRange> tiles, const TileOrder& order, const StripShare& whole, int parts,
               std::vector<StripShare>& shares) {
+  const auto append = [&](StripShare share) {
+    share.fewest = share.end - share.first;
+    shares.push_back(share);
+  };
   const auto contacts_up_to = [&](int strip) {  // its own included
     const std::int32_t end = order.strips[strip].phases[1].end;
     return end > 0 ? std::int64_t{tiles[end - 1].end} : 0;
@@ -19,11 +24,11 @@ void cut_into(std::span<const TileRange> tiles, const TileOrder& order, const St
     share.end = share.first;
     while (share.end < whole.end && contacts_up_to(share.end) - before < all * part / parts) ++share.end;
     share.right = true;
-    shares.push_back(share);
+    append(share);
     share.first = share.end, share.left = true;
   }
   share.end = whole.end, share.right = whole.right;
-  shares.push_back(share);
+  append(share);
 }
 
 }  // namespace
@@ -50,10 +55,9 @@ bool LeftOfSweep::nothing() const {
          });
 }
 
-void find_left(std::span<const TileRange> tiles, const TileOrder& order, std::span<const StripShare> shares,
-               int s, LeftOfSweep& left) {
-  left.strips.clear();
-  for (TileRound& round : left.rounds) round.border.clear(), round.inner.clear();
+LeftOfSweep left_of_sweep(std::span<const TileRange> tiles, const TileOrder& order,
+                          std::span<const StripShare> shares, int s) {
+  LeftOfSweep left;
   for (int strip = 0; strip < std::ssize(order.strips); ++strip)
     for (const int phase : {0, 1}) {
       const bool done = std::any_of(shares.begin(), shares.end(), [&](const StripShare& share) {
@@ -64,6 +68,14 @@ void find_left(std::span<const TileRange> tiles, const TileOrder& order, std::sp
       const auto [begin, end] = order.strips[strip].phases[phase];
       for (std::int32_t t = begin; t < end; ++t) left.rounds[tiles[t].colour].add(t, tiles[t].border);
     }
+  return left;
+}
+
+WavePlan wave_plan(std::span<const TileRange> tiles, const TileOrder& order, std::vector<StripShare> shares,
+                   int sweeps) {
+  WavePlan plan{std::move(shares), {}};
+  for (int s = 0; s < sweeps; ++s) plan.left.push_back(left_of_sweep(tiles, order, plan.shares, s));
+  return plan;
 }
 
 }  // namespace drumlin::particles

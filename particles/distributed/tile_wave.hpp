@@ -14,13 +14,21 @@ namespace drumlin::particles {
 std::vector<StripShare> shares_between_borders(std::span<const TileRange> tiles, const TileOrder& order,
                                                int sweeps, int threads);
 
-/// What the shares leave of sweep s: strips whose bodies are to go on, and tiles.
+/// What the shares leave of a sweep: strips whose bodies are to go on, and tiles.
 struct LeftOfSweep {
   std::vector<std::int32_t> strips;
   TileRounds rounds;
   bool nothing() const;
 };
-void find_left(std::span<const TileRange> tiles, const TileOrder& order, std::span<const StripShare> shares,
-               int s, LeftOfSweep& left);
+LeftOfSweep left_of_sweep(std::span<const TileRange> tiles, const TileOrder& order,
+                          std::span<const StripShare> shares, int s);
+
+/// Who does what in a wave; the same for all waves of so many sweeps of a solve.
+struct WavePlan {
+  std::vector<StripShare> shares;
+  std::vector<LeftOfSweep> left;  ///< of each sweep
+};
+WavePlan wave_plan(std::span<const TileRange> tiles, const TileOrder& order, std::vector<StripShare> shares,
+                   int sweeps);
 
 }  // namespace drumlin::particles

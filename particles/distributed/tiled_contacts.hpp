@@ -12,7 +12,7 @@ namespace drumlin::particles {
 
 /// The contacts of a rank in their tiles, and what its bodies share with other ranks.
 struct TiledContacts {
-  std::span<const TileRange> tiles;
+  std::span<const TileRange> tiles;  ///< in the order that `order` tells of
   const TileOrder& order;
   std::span<const char> counts_here;  ///< of each body: whether this rank is the one that counts it
   std::span<const double> x, z;       ///< where bodies are; empty: large problems are not corrected

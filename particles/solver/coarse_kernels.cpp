@@ -8,6 +8,16 @@
 #include "particles/solver/body_vectors-inl.h"
 #include "particles/solver/coarse_kernels.hpp"
 
+// Calls DO(precision, name, dim, spin) for the kinds of problems that are corrected.
+#undef DRUMLIN_EACH_KIND
+#define DRUMLIN_EACH_KIND(DO)           \
+  DO(double, double_smooth, 1, false)   \
+  DO(double, double_friction, 2, false) \
+  DO(double, double_spin, 2, true)      \
+  DO(float, float_smooth, 1, false)     \
+  DO(float, float_friction, 2, false)   \
+  DO(float, float_spin, 2, true)
+
 HWY_BEFORE_NAMESPACE();
 namespace drumlin::particles::HWY_NAMESPACE {
 
@@ -135,12 +145,7 @@ void terms(const BodyRecord<T>* bodies, const CoarseBodies<T>& coarse, const std
   void scale_##name(ContactBlock<T, dim>* b, std::size_t n, const BodyRecord<T>* f) {   \
     scale<T, dim>(b, n, f);                                                             \
   }
-DRUMLIN_KERNELS(double, double_smooth, 1, false)
-DRUMLIN_KERNELS(double, double_friction, 2, false)
-DRUMLIN_KERNELS(double, double_spin, 2, true)
-DRUMLIN_KERNELS(float, float_smooth, 1, false)
-DRUMLIN_KERNELS(float, float_friction, 2, false)
-DRUMLIN_KERNELS(float, float_spin, 2, true)
+DRUMLIN_EACH_KIND(DRUMLIN_KERNELS)
 #undef DRUMLIN_KERNELS
 
 void terms_double(const BodyRecord<double>* v, const CoarseBodies<double>& c, const std::uint32_t* places,
@@ -189,12 +194,7 @@ DRUMLIN_DISPATCH(float)
   void CoarseKernels<T, dim, spin>::scale(Block* blocks, std::size_t count, const BodyRecord<T>* factors) { \
     HWY_DYNAMIC_DISPATCH(scale_##name)(blocks, count, factors);                                             \
   }
-DRUMLIN_DISPATCH(double, double_smooth, 1, false)
-DRUMLIN_DISPATCH(double, double_friction, 2, false)
-DRUMLIN_DISPATCH(double, double_spin, 2, true)
-DRUMLIN_DISPATCH(float, float_smooth, 1, false)
-DRUMLIN_DISPATCH(float, float_friction, 2, false)
-DRUMLIN_DISPATCH(float, float_spin, 2, true)
+DRUMLIN_EACH_KIND(DRUMLIN_DISPATCH)
 #undef DRUMLIN_DISPATCH
 
 }  // namespace drumlin::particles

@@ -25,6 +25,52 @@ struct CoarseBodies {
   BodyRecord<T>* along_z;  ///< S_z
 };
 
+/// The memory of CoarseBodies, in single or double precision, as the sweeps have it.
+template <template <class> class Array>
+class CoarseRecords {
+ public:
+  template <class T>
+  struct Of {
+    Array<BodyRecord<T>> at, along_x, along_z;
+
+    CoarseBodies<T> bodies() { return {at.data(), along_x.data(), along_z.data()}; }
+    void make(std::size_t count) {
+      for (auto* of_bodies : {&at, &along_x, &along_z}) of_bodies->assign(count, {});
+    }
+    void place(std::size_t b, double x, double z, const FieldGrid& grid) {
+      at[b].x = static_cast<T>((x - grid.x) / grid.edge), at[b].z = static_cast<T>((z - grid.z) / grid.edge);
+    }
+    /// Bodies begin to end - 1 have powers and moves of none.
+    void rest(std::size_t begin, std::size_t end) {
+      for (std::size_t b = begin; b < end; ++b) at[b].s = 0, along_x[b] = along_z[b] = {};
+    }
+    /// Factors of the field take the place of powers.
+    void set_factors(std::size_t begin, std::size_t end, const FieldGrid& grid,
+                     std::span<const double> field) {
+      for (std::size_t b = begin; b < end; ++b)
+        at[b].s = static_cast<T>(factor_at(grid, at[b].x, at[b].z, field));
+    }
+  };
+  template <class T>
+  Of<T>& of() {
+    if constexpr (sizeof(T) == sizeof(float))
+      return in_single_;
+    else
+      return in_double_;
+  }
+  template <class Memory>
+  void use(Memory* memory) {
+    const auto lend = [memory](auto& own) {
+      for (auto* of_bodies : {&own.at, &own.along_x, &own.along_z}) of_bodies->use(memory);
+    };
+    lend(in_single_), lend(in_double_);
+  }
+
+ private:
+  Of<float> in_single_;
+  Of<double> in_double_;
+};
+
 /// What up to eight bodies add to the matrix and the right side, at the nodes of the cells in which they are.
 template <class T>
 struct CoarseTerms {

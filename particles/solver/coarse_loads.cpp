@@ -41,15 +41,11 @@ void CoarseLoads::lay_out(std::span<const std::int32_t> i, std::span<const std::
   const auto [z_low, z_high] = std::minmax_element(places.z.begin(), places.z.end());
   grid_ = field_grid({*x_low, *x_high, *z_low, *z_high}, static_cast<std::int64_t>(i.size()),
                      longest_contact(i, j, places, loops));
-  auto& own = records<T>();
-  for (auto* of_bodies : {&own.at, &own.along_x, &own.along_z}) of_bodies->assign(strips.bodies().size(), {});
+  auto& own = records_.of<T>();
+  own.make(strips.bodies().size());
   const auto record = strips.record();
   loops.each(record.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t b = begin; b < end; ++b) {
-      BodyRecord<T>& at = own.at[record[b]];
-      at.x = static_cast<T>((places.x[b] - grid_.x) / grid_.edge);
-      at.z = static_cast<T>((places.z[b] - grid_.z) / grid_.edge);
-    }
+    for (std::size_t b = begin; b < end; ++b) own.place(record[b], places.x[b], places.z[b], grid_);
   });
 }
 
@@ -58,7 +54,7 @@ template <class T, int dim, bool spin>
 void CoarseLoads::add_contacts(StripProblem<T, dim, spin>& strips, int strip, int phase) {
   const auto blocks = strips.blocks(strip, phase);
   CoarseKernels<T, dim, spin>::add_contacts(blocks.data(), blocks.size(), strips.bodies().data(),
-                                            records<T>().bodies());
+                                            records_.of<T>().bodies());
 }
 
 /// The bodies of a strip. Most of those in a row are in one cell: their terms are added up before they go to
@@ -80,7 +76,7 @@ void CoarseLoads::add_bodies(const StripProblem<T, dim, spin>& strips, int strip
       for (std::size_t b = 0; b < sums.width; ++b) to_nodes(sums, b, cell_of_sums);
     cell_of_sums = -1;
   };
-  each_coarse_terms(grid_, strips.bodies().data(), records<T>().bodies(), begin, end - begin,
+  each_coarse_terms(grid_, strips.bodies().data(), records_.of<T>().bodies(), begin, end - begin,
                     [&](const CoarseTerms<T>& terms, std::span<const int> cells) {
                       const bool together =
                           cells.size() == terms.width &&
@@ -102,12 +98,9 @@ void CoarseLoads::add_bodies(const StripProblem<T, dim, spin>& strips, int strip
 /// touches the first one of the next part, and waits until the parts are done.
 template <class T, int dim, bool spin>
 void CoarseLoads::add_up(StripProblem<T, dim, spin>& strips, const TeamLoops& loops) {
-  auto& own = records<T>();
   const auto rest = [&](int strip) {
     const auto [begin, end] = strips.records(strip);
-    for (std::size_t b = begin; b < end; ++b) own.at[b].s = 0;
-    std::fill(own.along_x.begin() + begin, own.along_x.begin() + end, BodyRecord<T>{});
-    std::fill(own.along_z.begin() + begin, own.along_z.begin() + end, BodyRecord<T>{});
+    records_.of<T>().rest(begin, end);
   };
   const auto first_of = [&](int part) { return strips.strips() * part / parts; };
   loops.each_of(parts, [&](int part) {
@@ -147,16 +140,15 @@ bool CoarseLoads::scale(StripProblem<T, dim, spin>& strips, const TeamLoops& loo
   add_up(strips, loops);
   const std::vector<double> field = solve();
   if (field.empty()) return false;
-  BodyRecord<T>* const at = records<T>().at.data();
+  auto& own = records_.of<T>();
   loops.each_of(strips.strips(), [&](int strip) {
     const auto [begin, end] = strips.records(strip);
-    for (std::size_t b = begin; b < end; ++b)
-      at[b].s = static_cast<T>(factor_at(grid_, at[b].x, at[b].z, field));
+    own.set_factors(begin, end, grid_, field);
   });
   loops.each_of(strips.strips(), [&](int strip) {
     for (const int phase : {0, 1}) {
       const auto blocks = strips.blocks(strip, phase);
-      CoarseKernels<T, dim, spin>::scale(blocks.data(), blocks.size(), at);
+      CoarseKernels<T, dim, spin>::scale(blocks.data(), blocks.size(), own.at.data());
     }
   });
   return true;

@@ -37,7 +37,7 @@ class StripProblem;
 class CoarseLoads {
  public:
   /// Takes what it keeps of the bodies from a memory: it ends with the frame of lay_out().
-  void use(WorkMemory* memory) { in_single_.use(memory), in_double_.use(memory); }
+  void use(WorkMemory* memory) { records_.use(memory); }
   /// Lays the nodes of the field over the bodies of the contacts (i, j), which have been packed in strips;
   /// body places.x.size() is the fixed one.
   template <class T, int dim, bool spin>
@@ -50,20 +50,6 @@ class CoarseLoads {
   bool scale(StripProblem<T, dim, spin>&, const TeamLoops&);
 
  private:
-  /// Of each record of a body one for each member of CoarseBodies.
-  template <class T>
-  struct Records {
-    WorkArray<BodyRecord<T>> at, along_x, along_z;
-    void use(WorkMemory* memory) { at.use(memory), along_x.use(memory), along_z.use(memory); }
-    CoarseBodies<T> bodies() { return {at.data(), along_x.data(), along_z.data()}; }
-  };
-  template <class T>
-  Records<T>& records() {
-    if constexpr (sizeof(T) == sizeof(float))
-      return in_single_;
-    else
-      return in_double_;
-  }
   template <class T, int dim, bool spin>
   void add_contacts(StripProblem<T, dim, spin>&, int strip, int phase);
   template <class T, int dim, bool spin>
@@ -74,8 +60,7 @@ class CoarseLoads {
   std::vector<double> solve() const;
 
   FieldGrid grid_;
-  Records<float> in_single_;
-  Records<double> in_double_;
+  CoarseRecords<WorkArray> records_;
   // Strips are shared in so many parts, whatever the number of threads: sums are those of parts, in order.
   static constexpr int parts = 16;
   std::array<std::vector<double>, parts> work_;  // sums of phi_k g_a

@@ -35,14 +35,12 @@ struct SweepState {
   bool keep = false;    ///< the impulses that it left are the best so far
 };
 
-/// What a part of sweep s > 0 of a wave asks for: of the strip that the wave comes to next one of as many
-/// shares as such parts there are between one strip of it and the next.
+/// The memory that a part of a wave asks for.
 template <class Strips>
 MemoryAhead ahead_of_wave(const Strips& strips, const StripShare& share, int sweeps, int s, int strip,
                           int phase) {
-  const int next = strip + s + phase + 1;
-  if (s == 0 || next >= share.end || !share.takes_wave(sweeps)) return {};
-  return strips.memory(next, 2 * (s - 1) + phase, 2 * (sweeps - 1));
+  const auto ahead = ahead_of_part(share, sweeps, s, strip, phase);
+  return ahead ? strips.memory(ahead->strip, ahead->part, ahead->parts) : MemoryAhead{};
 }
 
 /// Sweeps on to `until` and, where it is due, computes the residuals of the strips; one thread's share, which

@@ -95,9 +95,9 @@ std::vector<std::uint64_t> in_a_wave(const Tiling& tiling, int sweeps, int threa
            t < order.strips[strip].phases[phase].end; ++t)
         trace.sweep(s, t);
     });
-  LeftOfSweep left;
+  const WavePlan plan = wave_plan(tiles, order, shares, sweeps);
   for (int s = 0; s < sweeps; ++s) {
-    find_left(tiles, order, shares, s, left);
+    const LeftOfSweep& left = plan.left[s];
     for (const std::int32_t strip : left.strips) trace.go_on(s, strip);
     take_rounds(left.rounds, s, trace);
   }
@@ -126,11 +126,7 @@ TEST(TileWave, LeavesNothingToMessagesOfARankAlone) {
   const Tiling alone = tiling(std::vector<bool>(30, false), random);
   const auto shares = shares_between_borders(alone.tiles, alone.order, 5, 1);
   ASSERT_EQ(shares.size(), 1U);
-  LeftOfSweep left;
-  for (int s = 0; s < 5; ++s) {
-    find_left(alone.tiles, alone.order, shares, s, left);
-    EXPECT_TRUE(left.nothing());
-  }
+  for (int s = 0; s < 5; ++s) EXPECT_TRUE(left_of_sweep(alone.tiles, alone.order, shares, s).nothing());
 }
 
 TEST(TileWave, CutsSharesOfAboutEqualNumbersOfContacts) {
