@@ -10,6 +10,7 @@
 
 #include "particles/contact/cone.hpp"
 #include "particles/contact/sweep_plan.hpp"
+#include "particles/parallel/ask_ahead.hpp"
 #include "particles/parallel/work_memory.hpp"
 
 namespace drumlin::particles {
@@ -113,6 +114,30 @@ class BodyDelassus {
     for (int a = 0; a < contacts(); ++a) push(state, a, r[dim * a], dim == 2 ? r[dim * a + 1] : 0);
   }
 
+  /// The same on a team. Many contacts that are planned are added slice by slice, first those of even
+  /// slices, whatever the number of threads.
+  void load(State& state, std::span<const double> r, const TeamLoops& loops) const {
+    constexpr int many = 50'000;
+    if (plan.empty() || contacts() < many) return load(state, r);
+    resize_closely(state, inverse_mass.size());
+    loops.each(state.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t b = begin; b < end; ++b) {
+        state[b] = {};
+        state[b].inverse_mass = inverse_mass[b];
+      }
+    });
+    const auto first = [&](int slice) { return plan.group_start[plan.slice_start[slice]]; };
+    for (const int parity : {0, 1})
+      loops.each_of(plan.strips(), [&](int strip) {
+        const int slice = 2 * strip + parity;
+        const int end = first(slice + 1);
+        for (int a = first(slice); a < end; ++a) {
+          ask_for_bodies(state, a + turns_ahead, end);
+          push(state, a, r[dim * a], dim == 2 ? r[dim * a + 1] : 0, j[a] != fixed());
+        }
+      });
+  }
+
   /// u = W r + q. `scratch` is overwritten.
   void velocities(std::span<const double> r, std::span<const double> q, State& scratch,
                   std::vector<double>& u) const {
@@ -124,6 +149,7 @@ class BodyDelassus {
   void velocities_of(int begin, int end, std::span<const double> q, const State& state,
                      std::vector<double>& u) const {
     for (int a = begin; a < end; ++a) {
+      ask_for_bodies(state, a + turns_ahead, contacts());
       u[dim * a] = q[dim * a] + normal_velocity(state, a);
       if constexpr (dim == 2) u[dim * a + 1] = q[dim * a + 1] + tangential_velocity(state, a);
     }
@@ -159,6 +185,11 @@ class BodyDelassus {
       }
     }
     return sum;
+  }
+
+  /// Asks for the bodies of a contact that comes soon, if it is one of those before `end`.
+  void ask_for_bodies(const State& state, int a, int end) const {
+    if (a < end) ask_for(&state[i[a]]), ask_for(&state[j[a]]);
   }
 
   /// The velocities of a state as one array of doubles; the inverse masses in it must not be changed.

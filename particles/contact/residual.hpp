@@ -98,15 +98,17 @@ void set_squared_errors(const Problem& problem, std::size_t first, std::span<con
       errors[k] = squared_error(problem, static_cast<int>(first + k), r, u);
 }
 
-/// What the residual adds up over contacts `begin` to `end`.
-template <class Problem>
+/// What the residual adds up over contacts `begin` to `end`; first set(begin, end) sets the velocities u of
+/// some of them after the other.
+template <class Problem, class Set>
 ResidualSums residual_sums(const Problem& problem, std::size_t begin, std::size_t end,
-                           std::span<const double> r, std::span<const double> u) {
+                           std::span<const double> r, std::span<const double> u, Set set) {
   constexpr std::size_t dim = Problem::dim, some = 128;
   ResidualSums sums;
   std::array<double, some> errors;
   for (; begin < end; begin += some) {
     const std::size_t count = std::min(some, end - begin);
+    set(begin, begin + count);
     set_squared_errors(problem, begin, r, u, std::span(errors).first(count));
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t n = dim * (begin + k);
@@ -116,21 +118,36 @@ ResidualSums residual_sums(const Problem& problem, std::size_t begin, std::size_
   return sums;
 }
 
-/// u = W r + q; `velocities` receives it, and what the bodies do.
 template <class Problem>
-void set_velocities(const Problem& problem, std::span<const double> r,
-                    Velocities<typename Problem::Delassus>& velocities, TeamLoops& loops) {
-  auto& u = velocities.contacts;
-  if constexpr (requires { problem.W.velocities_of(0, 0, problem.q, velocities.bodies, u); }) {
-    problem.W.load(velocities.bodies, r);
+ResidualSums residual_sums(const Problem& problem, std::size_t begin, std::size_t end,
+                           std::span<const double> r, std::span<const double> u) {
+  return residual_sums(problem, begin, end, r, u, [](std::size_t, std::size_t) {});
+}
+
+/// u = W r + q; `velocities` receives it, and what the bodies do. Returns what the residual adds up.
+template <class Problem>
+ResidualSums set_velocities(const Problem& problem, std::span<const double> r,
+                            Velocities<typename Problem::Delassus>& velocities, TeamLoops& loops) {
+  const auto& W = problem.W;
+  auto& [bodies, u] = velocities;
+  constexpr bool in_parts = requires { W.velocities_of(0, 0, problem.q, bodies, u); };
+  if constexpr (in_parts) {
+    if constexpr (requires { W.load(bodies, r, loops); })
+      W.load(bodies, r, loops);
+    else
+      W.load(bodies, r);
     resize_closely(u, problem.q.size());
-    loops.each(problem.contacts(), [&](std::size_t begin, std::size_t end) {
-      problem.W.velocities_of(static_cast<int>(begin), static_cast<int>(end), problem.q, velocities.bodies,
-                              u);
-    });
   } else {
-    problem.W.velocities(r, problem.q, velocities.bodies, u);
+    W.velocities(r, problem.q, bodies, u);
   }
+  // Part by part, so that a near cache holds the velocities that it has set.
+  const auto set = [&](std::size_t begin, std::size_t end) {
+    if constexpr (in_parts)
+      W.velocities_of(static_cast<int>(begin), static_cast<int>(end), problem.q, bodies, u);
+  };
+  return loops.template combined<ResidualSums>(problem.contacts(), [&](std::size_t begin, std::size_t end) {
+    return residual_sums(problem, begin, end, r, u, set);
+  });
 }
 
 /// Residual of impulses r (dim * contacts entries); `velocities` receives those that they cause. A problem
@@ -141,11 +158,8 @@ ContactResidual residual_of(const Problem& problem, std::span<const double> r,
                             Velocities<typename Problem::Delassus>& velocities, TeamLoops& loops) {
   const int count = problem.contacts();
   ContactResidual residual;
-  set_velocities(problem, r, velocities, loops);
+  const ResidualSums sums = set_velocities(problem, r, velocities, loops);
   if (count == 0) return residual;
-  const std::span<const double> u = velocities.contacts;
-  const auto sums = loops.template combined<ResidualSums>(
-      count, [&](std::size_t begin, std::size_t end) { return residual_sums(problem, begin, end, r, u); });
   const double q_squares = loops.sum(problem.q.size(), [&](std::size_t begin, std::size_t end) {
     return squared_norm(std::span(problem.q).subspan(begin, end - begin));
   });

@@ -149,10 +149,11 @@ void TileBlocks<T, dim, spin>::load(std::size_t tile) {
 }
 
 template <class T, int dim, bool spin>
-double TileBlocks<T, dim, spin>::sweep(std::size_t tile, T beta, bool accelerated, const MemoryAhead& ahead) {
+double TileBlocks<T, dim, spin>::sweep(std::size_t tile, T beta, SweepExtrapolation how,
+                                       const MemoryAhead& ahead) {
   const auto groups =
       std::span(groups_).subspan(tiles_[tile].group, tiles_[tile + 1].group - tiles_[tile].group);
-  return Kernels::sweep(of_tile(tile).data(), groups, bodies_.data(), beta, accelerated, ahead);
+  return Kernels::sweep(of_tile(tile).data(), groups, bodies_.data(), beta, how, ahead);
 }
 
 template <class T, int dim, bool spin>

@@ -33,7 +33,7 @@ class TileBlocks {
   /// Bodies receive the impulses to start from.
   void load(std::size_t tile);
   /// One Gauss-Seidel sweep; returns the sum of squares of its steps.
-  double sweep(std::size_t tile, T beta, bool accelerated, const MemoryAhead& ahead = {});
+  double sweep(std::size_t tile, T beta, SweepExtrapolation, const MemoryAhead& ahead = {});
   /// As StripProblem::let_rest().
   void let_rest(std::size_t tile, bool rest);
   /// The residual as impulses and bodies stand.

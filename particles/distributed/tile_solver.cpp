@@ -173,14 +173,14 @@ void TileSolver<Problem>::sweep_part(const TileOrder& order, const Wave<T>& wave
     return blocks.memory(order.strips[ahead->strip], piece, ahead->parts * tiles);
   };
   for (std::int32_t t = begin; t < end; ++t)
-    squares_[s][t] = blocks.sweep(t, wave.betas[s], wave.accelerated, memory_ahead(t));
+    squares_[s][t] = blocks.sweep(t, wave.betas[s], wave.how, memory_ahead(t));
 }
 
 /// What a sweep does to a strip before its contacts.
 template <class Problem>
 template <class T>
 void TileSolver<Problem>::begin_sweep(const TileStrip& strip, const Wave<T>& wave, int s, Blocks<T>& blocks) {
-  if (!wave.accelerated) return;
+  if (wave.how == SweepExtrapolation::none) return;
   const int since_whole = (wave.first + s) % sweeps_of_rest;
   if (since_whole <= 1)
     for (const auto [begin, end] : strip.phases)
@@ -216,7 +216,7 @@ void TileSolver<Problem>::take_wave(const TiledContacts& contacts, Halo& halo, c
     loops_.each_of(static_cast<int>(strips.size()),
                    [&](int k) { begin_sweep(order.strips[strips[k]], wave, s, blocks); });
     work_on(rounds, halo, blocks,
-            [&](std::size_t t) { squares_[s][t] = blocks.sweep(t, wave.betas[s], wave.accelerated); });
+            [&](std::size_t t) { squares_[s][t] = blocks.sweep(t, wave.betas[s], wave.how); });
   }
 }
 
@@ -239,7 +239,6 @@ SolveReport TileSolver<Problem>::sweep_until_done(const Problem& problem, const 
                                                   Halo& halo, const StoppingRule& rule,
                                                   std::int64_t contacts_of_all, Blocks<T>& blocks,
                                                   bool accelerated, Solution<Problem>& solution) {
-  constexpr int patience = 100;   // sweeps without a tenth of progress
   constexpr double hope = 2;      // times the tolerance: a residual that is looked for
   constexpr int most_unseen = 3;  // looks left out in turn
   constexpr bool single = sizeof(T) < sizeof(double);
@@ -254,6 +253,7 @@ SolveReport TileSolver<Problem>::sweep_until_done(const Problem& problem, const 
   const double scale = scale_of(problem, contacts);
   Momentum momentum(rule.tolerance, static_cast<std::size_t>(contacts_of_all));
   const int most_at_once = accelerated && contacts_of_all >= least_contacts_of_waves ? longest_wave : 1;
+  const SweepExtrapolation how = extrapolation_of(accelerated, contacts_of_all);
   T beta = 0;
   double worth = std::numeric_limits<double>::infinity(), best = worth, least = worth;
   const bool coarse = accelerated && contacts_of_all >= least_corrected_ && ranks_.any(!contacts.x.empty());
@@ -270,7 +270,7 @@ SolveReport TileSolver<Problem>::sweep_until_done(const Problem& problem, const 
     while (sweeps < until && finite) {
       Wave<T> wave;
       wave.first = sweeps, wave.sweeps = std::min(most_at_once, until - sweeps);
-      wave.accelerated = accelerated;
+      wave.how = how;
       Momentum expected = momentum;
       for (int s = 0; s < wave.sweeps; ++s)
         wave.betas[s] = s == 0 ? beta : static_cast<T>(expected.next_of_falling());
@@ -296,7 +296,7 @@ SolveReport TileSolver<Problem>::sweep_until_done(const Problem& problem, const 
     worth = steps * fall * fall;
     if (seen < 0.9 * least) least = seen, progress_at = sweeps;
     // Rounding of single precision hides the progress.
-    const bool stuck = single && sweeps - progress_at >= patience;
+    const bool stuck = single && sweeps - progress_at >= patience_of(how);
     if (seen < best) {
       best = seen;
       loops_.each_of(tiles, [&](int t) { blocks.keep(t); });

@@ -74,7 +74,7 @@ class TileSolver {
   struct Wave {
     int first = 0, sweeps = 1;
     std::array<T, longest_wave> betas{};
-    bool accelerated = true;
+    SweepExtrapolation how = SweepExtrapolation::none;
   };
   template <class T>
   void take_wave(const TiledContacts&, Halo&, const Wave<T>&, Blocks<T>&);

@@ -3,9 +3,31 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 
 namespace drumlin::particles {
+
+/// How sweeps start from where the last one has led.
+enum class SweepExtrapolation {
+  none,
+  rounded,  ///< impulses and velocities go further on, each rounded by itself
+  /// Velocities receive what the impulses round off, too. Momentum would carry it on, and impulses under a
+  /// deep bed are large beside what is left of them at a disc (docs/decisions/contact-solver.md).
+  exact
+};
+
+/// Smaller problems sink no deeper than rounding lets them.
+inline constexpr std::int64_t least_contacts_of_exact_sweeps = 50'000;
+
+inline SweepExtrapolation extrapolation_of(bool accelerated, std::int64_t contacts) {
+  if (!accelerated) return SweepExtrapolation::none;
+  return contacts < least_contacts_of_exact_sweeps ? SweepExtrapolation::rounded : SweepExtrapolation::exact;
+}
+
+/// After so many sweeps in single precision without a tenth of progress rounding is held to hide it. A flow
+/// takes 10 sweeps for that; where coarse corrections make the progress it comes with them.
+inline int patience_of(SweepExtrapolation how) { return how == SweepExtrapolation::exact ? 200 : 100; }
 
 /// Nesterov's extrapolation y = x + beta (x - x_before) between the sweeps of NLGS, x = sweep(y). beta is at
 /// least 0.8, and (k - 1)/(k + 2) at age k (Nesterov 1983; Beck and Teboulle 2009), which gives a chain of n

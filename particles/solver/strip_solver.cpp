@@ -189,7 +189,7 @@ void StripProblem<T, dim, spin>::pack(const Problem& problem, const SweepPlan& p
   const int strip_count = plan.strips();
   strips_.assign(strip_count, Strip{});
   for (auto& squares : step_squares_) squares.assign(2 * static_cast<std::size_t>(strip_count) + 1, 0.0);
-  seen_.assign(strip_count, {});
+  seen_.assign(2 * static_cast<std::size_t>(strip_count), {});
   pack_bodies(problem, plan);
   lay_out(problem, plan, order, r);
   const auto pack_one = [&](int strip) { pack_strip(problem, plan, order, r, strip); };
@@ -249,15 +249,15 @@ void StripProblem<T, dim, spin>::start(int strip) {
 }
 
 template <class T, int dim, bool spin>
-void StripProblem<T, dim, spin>::sweep(int strip, int phase, int slot, T beta, bool accelerated,
+void StripProblem<T, dim, spin>::sweep(int strip, int phase, int slot, T beta, SweepExtrapolation how,
                                        const MemoryAhead& ahead) {
   const Strip& l = strips_[strip];
-  if (accelerated && phase == 0)
+  if (how != SweepExtrapolation::none && phase == 0)
     Kernels::go_on(&bodies_[l.bodies], &before_[l.bodies], l.bodies_end - l.bodies, beta);
   step_squares_[slot][2 * strip + phase] =
       Kernels::sweep(blocks_.data() + l.block[phase],
                      std::span(groups_).subspan(l.group[phase], l.group[phase + 1] - l.group[phase]),
-                     bodies_.data(), beta, accelerated, ahead);
+                     bodies_.data(), beta, how, ahead);
 }
 
 template <class T, int dim, bool spin>
@@ -308,15 +308,16 @@ void StripProblem<T, dim, spin>::sweep_driven(int slot, T beta, bool accelerated
 }
 
 template <class T, int dim, bool spin>
-void StripProblem<T, dim, spin>::look_at(int strip) {
+void StripProblem<T, dim, spin>::look_at(int strip, int phase) {
   const Strip& l = strips_[strip];
-  seen_[strip] = Kernels::residual(blocks_.data() + l.block[0], l.block[2] - l.block[0], bodies_.data());
+  seen_[2 * strip + phase] =
+      Kernels::residual(blocks_.data() + l.block[phase], l.block[phase + 1] - l.block[phase], bodies_.data());
 }
 
 template <class T, int dim, bool spin>
 SeenResidual StripProblem<T, dim, spin>::seen_residual() const {
   SeenResidual all = residual<spin>(std::span<const DrivenContact<dim>>(driven_), bodies_.data());
-  for (const SeenResidual& of_strip : seen_) all.add(of_strip);
+  for (const SeenResidual& of_slice : seen_) all.add(of_slice);
   return all;
 }
 

@@ -50,9 +50,9 @@ class StripProblem {
   void load(int strip, int phase);
   /// Remembers the bodies as the beginning of the first sweep.
   void start(int strip);
-  /// With `accelerated`, by beta further on; bodies go on in phase 0, before any contact of theirs. `slot`,
+  /// Extrapolated by beta; bodies go on in phase 0, before any contact of theirs. `slot`,
   /// of sum_slots: where the sums of the sweep stand, apart from those that others may be adding up.
-  void sweep(int strip, int phase, int slot, T beta, bool accelerated, const MemoryAhead& ahead = {});
+  void sweep(int strip, int phase, int slot, T beta, SweepExtrapolation, const MemoryAhead& ahead = {});
   /// One of a number of parts of what sweeps over a strip need.
   MemoryAhead memory(int strip, int part, int parts) const;
   /// With `rest`, blocks at the end of a group of which all contacts were open in the last two sweeps are
@@ -68,8 +68,9 @@ class StripProblem {
   void start_driven();
   void sweep_driven(int slot, T beta, bool accelerated);
 
-  /// Looks at the residuals of the contacts of a strip; what it saw of all strips, and of driven walls.
-  void look_at(int strip);
+  /// Looks at the residuals of the contacts of a phase of a strip; what it saw of all of them, and of driven
+  /// walls.
+  void look_at(int strip, int phase);
   SeenResidual seen_residual() const;
   /// Sum of the impulses of the bodies as they stand.
   double summed_impulses(TeamLoops& loops) const;
@@ -120,7 +121,7 @@ class StripProblem {
   WorkArray<BodyRecord<T>> bodies_, before_;
   WorkArray<std::int32_t> place_;         // of each body in bodies_
   std::vector<double> step_squares_[20];  // of each slice, of the sweeps of two waves
-  std::vector<SeenResidual> seen_;        // of each strip
+  std::vector<SeenResidual> seen_;        // of each slice
   WorkArray<Impulses> kept_;              // of each block
   std::vector<DrivenContact<dim>> driven_;
   std::size_t driven_bodies_ = 0;  // first of them in bodies_

@@ -43,42 +43,66 @@ MemoryAhead ahead_of_wave(const Strips& strips, const StripShare& share, int swe
   return ahead ? strips.memory(ahead->strip, ahead->part, ahead->parts) : MemoryAhead{};
 }
 
-/// Sweeps on to `until` and, where it is due, computes the residuals of the strips; one thread's share, which
-/// meets the others by calling meet().
-template <class T, class Strips, class Meet>
-void sweep_share(Strips& strips, int thread, int threads, int until, bool last, bool accelerated,
-                 SweepState<T>& state, Meet meet) {
-  const StripShare share = share_of(strips, thread, threads);
-  const int first = share.first, end = share.end;
-  SweepState<T> own = state;
-  if (!own.loaded) {
-    for (const int phase : {0, 1}) {
-      for (int strip = first; strip < end; ++strip) strips.load(strip, phase);
-      meet();
-    }
-    if (strips.has_driven()) {
-      if (thread == 0) strips.load_driven(), strips.start_driven();
-      meet();
-    }
-    for (int strip = first; strip < end; ++strip) strips.start(strip);
+/// Whether the residual is worth a look once the sweeps that end with these steps are over.
+template <class T>
+bool worth_a_look(const SweepState<T>& state, bool last, double steps) {
+  constexpr int most_unseen = 3;
+  return last || !state.finite || steps <= state.worth || state.unseen >= most_unseen;
+}
+
+/// Lets the bodies receive the impulses to start from, before a sweep that is not part of a wave.
+template <class Strips, class Meet>
+void load_share(Strips& strips, const StripShare& share, bool first_thread, Meet meet) {
+  for (const int phase : {0, 1}) {
+    for (int strip = share.first; strip < share.end; ++strip) strips.load(strip, phase);
     meet();
+  }
+  if (strips.has_driven()) {
+    if (first_thread) strips.load_driven(), strips.start_driven();
+    meet();
+  }
+  for (int strip = share.first; strip < share.end; ++strip) strips.start(strip);
+  meet();
+}
+
+/// Sweeps on to `until` and, where it is due, computes the residuals of the strips; one thread's share, which
+/// meets the others by calling meet(). In a wave, what comes before the first sweep and after the last one
+/// goes through the strips with them.
+template <class T, class Strips, class Meet>
+void sweep_share(Strips& strips, int thread, int threads, int until, bool last, SweepExtrapolation how,
+                 SweepState<T>& state, Meet meet) {
+  const bool accelerated = how != SweepExtrapolation::none;
+  const StripShare share = share_of(strips, thread, threads);
+  SweepState<T> own = state;
+  const bool waves = own.wave > 1;
+  if (!own.loaded && !waves) {
+    load_share(strips, share, thread == 0, meet);
     own.loaded = true;
   }
-  if (own.keep)
-    for (int strip = first; strip < end; ++strip) strips.keep(strip);
-  own.keep = false;
+  bool looked = false;
   while (own.sweeps < until && own.finite) {
     const int sweeps = std::min(own.wave, until - own.sweeps), slots = own.waves++ % 2 * longest_wave;
     std::array<T, longest_wave> betas{own.beta};
     Momentum expected = own.momentum;
     for (int s = 1; s < sweeps; ++s) betas[s] = static_cast<T>(expected.next_of_falling());
-    const auto part = [&](int s, int strip, int phase) {
+    const int loads = own.loaded ? 0 : 1;
+    constexpr double expects = 1.2;  // steps fall
+    looked = waves && own.sweeps + sweeps >= until && worth_a_look(own, last, own.steps / expects);
+    const auto part = [&](int k, int strip, int phase) {
+      const int s = k - loads;
+      if (s < 0) return strips.load(strip, phase);
+      if (s == sweeps) return strips.look_at(strip, phase);
+      if (s == 0 && phase == 0) {
+        if (loads > 0) strips.start(strip);
+        if (own.keep) strips.keep(strip);
+      }
       const int since_whole = (own.sweeps + s) % sweeps_of_rest;
       if (accelerated && phase == 0 && since_whole <= 1) strips.let_rest(strip, since_whole == 1);
-      strips.sweep(strip, phase, slots + s, betas[s], accelerated,
-                   ahead_of_wave(strips, share, sweeps, s, strip, phase));
+      strips.sweep(strip, phase, slots + s, betas[s], how,
+                   ahead_of_wave(strips, share, loads + sweeps, k, strip, phase));
     };
-    sweep_wave(share, sweeps, part, meet);
+    sweep_wave(share, loads + sweeps + (looked ? 1 : 0), part, meet);
+    own.keep = false, own.loaded = true;
     if (strips.has_driven()) {
       if (thread == 0) strips.sweep_driven(slots, own.beta, accelerated);
       meet();
@@ -90,11 +114,11 @@ void sweep_share(Strips& strips, int thread, int threads, int until, bool last, 
       own.beta = static_cast<T>(own.momentum.next(own.steps));
     }
   }
-  constexpr int most_unseen = 3;
-  own.looked = last || !own.finite || own.steps <= own.worth || own.unseen >= most_unseen;
+  own.looked = worth_a_look(own, last, own.steps);
   own.unseen = own.looked ? 0 : own.unseen + 1;
-  if (own.looked)
-    for (int strip = first; strip < end; ++strip) strips.look_at(strip);
+  if (own.looked && !looked)
+    for (int strip = share.first; strip < share.end; ++strip)
+      for (const int phase : {0, 1}) strips.look_at(strip, phase);
   // All threads have taken their copies: they have met since.
   if (thread == 0) state = own;
 }
@@ -161,8 +185,7 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
   const double residual_scale = pack_in_strips(problem, work, strips, solution, loops);
   // Below four strips a second thread costs more than it saves.
   ThreadTeam* team = strips.strips() >= 4 ? work.team : nullptr;
-  constexpr int patience = 100;  // sweeps without a tenth of progress; a flow takes 10 for that
-  constexpr double hope = 2;     // times the tolerance: a residual that is looked for
+  constexpr double hope = 2;  // times the tolerance: a residual that is looked for
   constexpr bool single = sizeof(T) < sizeof(double);
   const bool always = std::isfinite(rule.max_seconds);
   SweepState<T> state;
@@ -174,6 +197,7 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
   // Driven walls take impulses too, which the records do not tell.
   const bool limits_sinking = std::isfinite(rule.sinking) && !strips.has_driven();
   const bool coarse = accelerated && wants_coarse_loads(problem, work);
+  const SweepExtrapolation how = extrapolation_of(accelerated, problem.contacts());
   int corrected_at = 0;
   const auto go_on = [&] {
     if (coarse && state.sweeps >= corrected_at + sweeps_between_coarse_loads) {
@@ -187,10 +211,10 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
     const bool look = always || until >= rule.max_sweeps;
     if (team)
       team->run([&](int t, int threads) {
-        sweep_share(strips, t, threads, until, look, accelerated, state, [=] { team->meet(t); });
+        sweep_share(strips, t, threads, until, look, how, state, [=] { team->meet(t); });
       });
     else
-      sweep_share(strips, 0, 1, until, look, accelerated, state, [] {});
+      sweep_share(strips, 0, 1, until, look, how, state, [] {});
     if (!state.looked) continue;
     const SeenResidual sums = strips.seen_residual();
     const double seen = std::sqrt(sums.squares * residual_scale);
@@ -199,7 +223,7 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
     state.worth = state.steps * fall * fall;
     if (seen < 0.9 * least) least = seen, progress_at = state.sweeps;
     // Rounding of single precision hides the progress.
-    const bool stuck = single && state.sweeps - progress_at >= patience;
+    const bool stuck = single && state.sweeps - progress_at >= patience_of(how);
     const bool last = state.sweeps >= rule.max_sweeps || !state.finite;
     if (seen < best) best = seen, state.keep = true, strips.keep_driven();
     const bool far =

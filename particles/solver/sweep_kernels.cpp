@@ -84,15 +84,30 @@ HWY_INLINE double total(const std::array<T, 8>& sums) {
   return sum;
 }
 
-/// Impulses that a sweep starts from. With momentum further on, and `before` becomes what they are.
-template <bool accelerated, class T, class V>
-HWY_INLINE V started_from(const std::array<T, 8>& r, std::array<T, 8>& before, std::size_t k, V beta) {
+/// Impulses that a sweep starts from, and what is rounded off of them.
+template <class V>
+struct Started {
+  V r, rounded_off;
+};
+
+/// Extrapolated, `before` becomes what the impulses are.
+template <SweepExtrapolation how, class T, class V>
+HWY_INLINE Started<V> started_from(const std::array<T, 8>& r, std::array<T, 8>& before, std::size_t k,
+                                   V beta) {
   const Lanes<T> d;
-  const V now = hn::Load(d, &r[k]);
-  if constexpr (!accelerated) return now;
+  const V now = hn::Load(d, &r[k]), zero = hn::Zero(d);
+  if constexpr (how == SweepExtrapolation::none) return {now, zero};
   const V then = hn::Load(d, &before[k]);
   hn::Store(now, d, &before[k]);
-  return hn::Add(now, hn::Mul(beta, hn::Sub(now, then)));
+  const V way = hn::Mul(beta, hn::Sub(now, then)), start = hn::Add(now, way);
+  if constexpr (how == SweepExtrapolation::rounded) return {start, zero};
+  return {start, hn::Sub(hn::Sub(start, now), way)};  // to the last bit where |way| <= |now| (Dekker 1971)
+}
+
+/// What a contact gives its bodies, who have gone on by themselves: its step, and what its start rounded off.
+template <SweepExtrapolation how, class V>
+HWY_INLINE V given(V step, const Started<V>& start) {
+  return how == SweepExtrapolation::exact ? hn::Add(step, start.rounded_off) : step;
 }
 
 /// A vector of contacts: those of a block from k on.
@@ -109,31 +124,32 @@ struct SweptContacts {
   hn::Vec<Lanes<T>> dv_x, dv_z, new_n, dr_n, dr_t, squares;
 };
 
-template <class T, int dim, bool accelerated, class V>
+template <class T, int dim, SweepExtrapolation how, class V>
 HWY_INLINE void solve_normals(const Place<T, dim>& at, V beta, SweptContacts<T>& c) {
   const Lanes<T> d;
   auto& [block, k] = at;
   c.dv_x = hn::Sub(c.I.x, c.J.x), c.dv_z = hn::Sub(c.I.z, c.J.z);
   const V n_x = hn::Load(d, &block->n_x[k]), n_z = hn::Load(d, &block->n_z[k]);
-  const V r_n = started_from<accelerated>(block->r[0], block->before[0], k, beta);
+  const auto start = started_from<how>(block->r[0], block->before[0], k, beta);
   const V approach = hn::Add(hn::Mul(n_x, c.dv_x), hn::Mul(n_z, c.dv_z));
   const V u_n = hn::Add(hn::Load(d, &block->q[0][k]), approach);
   // Max(a, NaN) is NaN, Max(NaN, a) is not.
-  c.new_n = hn::Max(hn::Zero(d), hn::Sub(r_n, hn::Mul(u_n, hn::Load(d, &block->inverse_W_nn[k]))));
-  c.dr_n = hn::Sub(c.new_n, r_n);
+  c.new_n = hn::Max(hn::Zero(d), hn::Sub(start.r, hn::Mul(u_n, hn::Load(d, &block->inverse_W_nn[k]))));
+  const V step = hn::Sub(c.new_n, start.r);
+  c.dr_n = given<how>(step, start);
   hn::Store(c.new_n, d, &block->r[0][k]);
-  c.squares = hn::Mul(c.dr_n, c.dr_n);
+  c.squares = hn::Mul(step, step);
   c.dr_t = hn::Zero(d);
 }
 
 /// Friction r_t and rolling of contacts with tangential velocities u_t: the minimum over a box, exactly.
 /// Friction as if rolling were free, clamped; rolling for that; friction for that. Returns the new r_t.
-template <class T, bool accelerated, class V>
+template <class T, SweepExtrapolation how, class V>
 HWY_INLINE V solve_rolling(const Place<T, 3>& at, V beta, V r_t, V u_t, V bound, V inverse_W_tt,
                            SweptContacts<T>& c) {
   const Lanes<T> d;
   auto& [block, k] = at;
-  const V r_r = started_from<accelerated>(block->r[2], block->before[2], k, beta);
+  const auto start = started_from<how>(block->r[2], block->before[2], k, beta);
   const V lever = hn::Load(d, &block->lever[k]), inverse_W_rr = hn::Load(d, &block->inverse_W_rr[k]);
   const auto turns = turns_of<T>(lever, c.I, c.J);
   const V W_tr = hn::Sub(turns.j, turns.i);
@@ -141,20 +157,20 @@ HWY_INLINE V solve_rolling(const Place<T, 3>& at, V beta, V r_t, V u_t, V bound,
   const V pulled = hn::Sub(u_t, hn::Mul(W_tr, hn::Mul(inverse_W_rr, u_r)));
   const V first = clamped(hn::Sub(r_t, hn::Mul(pulled, hn::Load(d, &block->inverse_W_tt[k]))), bound);
   const V rolled = hn::Mul(inverse_W_rr, hn::Add(u_r, hn::Mul(W_tr, hn::Sub(first, r_t))));
-  const V new_r = clamped(hn::Sub(r_r, rolled), hn::Mul(hn::Load(d, &block->mu_r[k]), c.new_n));
-  const V dr_r = hn::Sub(new_r, r_r);
+  const V new_r = clamped(hn::Sub(start.r, rolled), hn::Mul(hn::Load(d, &block->mu_r[k]), c.new_n));
+  const V step = hn::Sub(new_r, start.r), dr_r = given<how>(step, start);
   hn::Store(new_r, d, &block->r[2][k]);
-  c.squares = hn::Add(c.squares, hn::Mul(dr_r, dr_r));
+  c.squares = hn::Add(c.squares, hn::Mul(step, step));
   roll<T>(lever, dr_r, c.I, c.J);
   return clamped(hn::Sub(r_t, hn::Mul(inverse_W_tt, hn::Add(u_t, hn::Mul(W_tr, dr_r)))), bound);
 }
 
-template <class T, int dim, bool spin, bool accelerated, class V>
+template <class T, int dim, bool spin, SweepExtrapolation how, class V>
 HWY_INLINE void solve_tangents(const Place<T, dim>& at, V beta, SweptContacts<T>& c) {
   const Lanes<T> d;
   auto& [block, k] = at;
   const V ratio = hn::Set(d, spin ? T(1) / T(3) : T(1));  // W_nn / W_tt
-  const V r_t = started_from<accelerated>(block->r[1], block->before[1], k, beta);
+  const auto start = started_from<how>(block->r[1], block->before[1], k, beta);
   V slip =
       hn::Sub(hn::Mul(hn::Load(d, &block->n_z[k]), c.dv_x), hn::Mul(hn::Load(d, &block->n_x[k]), c.dv_z));
   if constexpr (spin) slip = hn::Sub(slip, hn::Add(c.I.s, c.J.s));
@@ -163,12 +179,13 @@ HWY_INLINE void solve_tangents(const Place<T, dim>& at, V beta, SweptContacts<T>
   const V inverse_W_tt = hn::Mul(hn::Load(d, &block->inverse_W_nn[k]), ratio);
   V new_t;
   if constexpr (dim == 2)
-    new_t = clamped(hn::Sub(r_t, hn::Mul(u_t, inverse_W_tt)), bound);
+    new_t = clamped(hn::Sub(start.r, hn::Mul(u_t, inverse_W_tt)), bound);
   else
-    new_t = solve_rolling<T, accelerated>(at, beta, r_t, u_t, bound, inverse_W_tt, c);
-  c.dr_t = hn::Sub(new_t, r_t);
+    new_t = solve_rolling<T, how>(at, beta, start.r, u_t, bound, inverse_W_tt, c);
+  const V step = hn::Sub(new_t, start.r);
+  c.dr_t = given<how>(step, start);
   hn::Store(new_t, d, &block->r[1][k]);
-  c.squares = hn::Add(c.squares, hn::Mul(c.dr_t, c.dr_t));
+  c.squares = hn::Add(c.squares, hn::Mul(step, step));
 }
 
 template <class T, int dim>
@@ -205,7 +222,7 @@ class LinesAhead {
   std::size_t next_ = 1;
 };
 
-template <class T, int dim, bool spin, bool accelerated>
+template <class T, int dim, bool spin, SweepExtrapolation how>
 double sweep(ContactBlock<T, dim>* blocks, std::span<const BlockGroup> groups, BodyRecord<T>* bodies, T beta_,
              const MemoryAhead& memory) {
   const Lanes<T> d;
@@ -216,8 +233,8 @@ double sweep(ContactBlock<T, dim>* blocks, std::span<const BlockGroup> groups, B
   // Eight sums whatever the length of a vector.
   HWY_ALIGN std::array<T, width> squares{};
   const auto solve = [&](const Place<T, dim>& at, SweptContacts<T>& c) HWY_ATTR {
-    solve_normals<T, dim, accelerated>(at, beta, c);
-    if constexpr (dim >= 2) solve_tangents<T, dim, spin, accelerated>(at, beta, c);
+    solve_normals<T, dim, how>(at, beta, c);
+    if constexpr (dim >= 2) solve_tangents<T, dim, spin, how>(at, beta, c);
     hn::Store(hn::Add(hn::Load(d, &squares[at.k]), c.squares), d, &squares[at.k]);
   };
   for (const auto& [count, swept] : groups) {
@@ -244,6 +261,16 @@ double sweep(ContactBlock<T, dim>* blocks, std::span<const BlockGroup> groups, B
     push_bodies<T, dim, spin>(at, c, bodies);
   }
   return total(squares);
+}
+
+template <class T, int dim, bool spin>
+double sweep(ContactBlock<T, dim>* blocks, std::span<const BlockGroup> groups, BodyRecord<T>* bodies, T beta,
+             SweepExtrapolation how, const MemoryAhead& ahead) {
+  using enum SweepExtrapolation;
+  if (how == none) return sweep<T, dim, spin, none>(blocks, groups, bodies, beta, ahead);
+  if constexpr (sizeof(T) < sizeof(double))
+    if (how == exact) return sweep<T, dim, spin, exact>(blocks, groups, bodies, beta, ahead);
+  return sweep<T, dim, spin, rounded>(blocks, groups, bodies, beta, ahead);
 }
 
 /// 1 / lambda_max(W_aa) with rolling resistance: the larger eigenvalue of friction and rolling, W_nn being
@@ -338,9 +365,8 @@ void go_on(BodyRecord<T>* bodies, BodyRecord<T>* before, std::size_t count, T be
     load<T, dim, spin>(b, n, v);                                                                             \
   }                                                                                                          \
   double sweep_##name(ContactBlock<T, dim>* b, std::span<const BlockGroup> groups, BodyRecord<T>* v, T beta, \
-                      bool fast, const MemoryAhead& ahead) {                                                 \
-    return fast ? sweep<T, dim, spin, true>(b, groups, v, beta, ahead)                                       \
-                : sweep<T, dim, spin, false>(b, groups, v, beta, ahead);                                     \
+                      SweepExtrapolation how, const MemoryAhead& ahead) {                                    \
+    return sweep<T, dim, spin>(b, groups, v, beta, how, ahead);                                              \
   }                                                                                                          \
   SeenResidual residual_##name(const ContactBlock<T, dim>* b, std::size_t n, const BodyRecord<T>* v) {       \
     return residual<T, dim, spin>(b, n, v);                                                                  \
@@ -381,9 +407,9 @@ HWY_EXPORT(go_on_float);
   }                                                                                                       \
   template <>                                                                                             \
   double SweepKernels<T, dim, spin>::sweep(Block* blocks, std::span<const BlockGroup> groups,             \
-                                           BodyRecord<T>* bodies, T beta, bool accelerated,               \
+                                           BodyRecord<T>* bodies, T beta, SweepExtrapolation how,         \
                                            const MemoryAhead& ahead) {                                    \
-    return HWY_DYNAMIC_DISPATCH(sweep_##name)(blocks, groups, bodies, beta, accelerated, ahead);          \
+    return HWY_DYNAMIC_DISPATCH(sweep_##name)(blocks, groups, bodies, beta, how, ahead);                  \
   }                                                                                                       \
   template <>                                                                                             \
   SeenResidual SweepKernels<T, dim, spin>::residual(const Block* blocks, std::size_t count,               \

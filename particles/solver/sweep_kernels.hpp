@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 
+#include "particles/solver/momentum.hpp"
 #include "particles/solver/seen_residual.hpp"
 
 namespace drumlin::particles {
@@ -78,11 +79,11 @@ struct SweepKernels {
   /// Adds the impulses of the blocks to the bodies.
   static void load(const Block* blocks, std::size_t count, BodyRecord<T>* bodies);
   /// One Gauss-Seidel sweep over the blocks in their order. Blocks of a group share no body,
-  /// so that the bodies of the next one are loaded before those of this one are stored. With
-  /// `accelerated` it starts further on, from r + beta (r - before), and `before` becomes r. Returns the sum
-  /// of squares of the steps of the impulses.
+  /// so that the bodies of the next one are loaded before those of this one are stored. Extrapolated, it
+  /// starts from r + beta (r - before), and `before` becomes r. Returns the sum of squares of the steps of
+  /// the impulses. Double precision rounds what it extrapolates.
   static double sweep(Block* blocks, std::span<const BlockGroup> groups, BodyRecord<T>* bodies, T beta,
-                      bool accelerated, const MemoryAhead& ahead = {});
+                      SweepExtrapolation, const MemoryAhead& ahead = {});
   /// The residual of the blocks as they stand.
   static SeenResidual residual(const Block* blocks, std::size_t count, const BodyRecord<T>* bodies);
   /// The same going on for bodies.

@@ -45,7 +45,8 @@ void expect_seen(double precision) {
   strips.pack(problem, plan, order, r, loops);
   for (const int phase : {0, 1})
     for (int strip = 0; strip < strips.strips(); ++strip) strips.load(strip, phase);
-  for (int strip = 0; strip < strips.strips(); ++strip) strips.look_at(strip);
+  for (const int phase : {0, 1})
+    for (int strip = 0; strip < strips.strips(); ++strip) strips.look_at(strip, phase);
   const SeenResidual seen = strips.seen_residual();
   const double impulses = strips.summed_impulses(loops), h = problem.time_step;
   const ContactResidual exact = residual_of(problem, std::span<const double>(r));
@@ -77,7 +78,8 @@ TEST(SeenResidual, OfAContactThatOpensWithoutFrictionIsNothing) {
   const SweepPlan plan = sweep_plan(problem.W.fixed(), problem.W.i, problem.W.j, order);
   StripProblem<float, 2, true> strips;
   strips.pack(problem, plan, order, r, TeamLoops());
-  for (int strip = 0; strip < strips.strips(); ++strip) strips.look_at(strip);
+  for (const int phase : {0, 1})
+    for (int strip = 0; strip < strips.strips(); ++strip) strips.look_at(strip, phase);
   EXPECT_EQ(strips.seen_residual().squares, 0);
 }
 
