@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace drumlin::particles {
 namespace {
@@ -35,10 +36,10 @@ struct Axes {
 /// A packing that is wider than high is cut into columns.
 Axes axes_for(const TileGrid& grid, std::span<const std::int64_t> weights) {
   const std::int64_t empty = *std::min_element(weights.begin(), weights.end());
-  std::array<std::int32_t, 2> low{grid.per_side(), grid.per_side()}, high{0, 0};
+  std::array<std::int32_t, 2> low{grid.rows(), grid.rows()}, high{0, 0};
   for (std::int32_t tile = 0; tile < grid.count(); ++tile) {
     if (weights[tile] == empty) continue;
-    const std::array<std::int32_t, 2> at{grid.column(tile), grid.row(tile)};
+    const std::array<std::int32_t, 2> at{grid.column(tile) / grid.cut, grid.row(tile)};
     for (const int axis : {0, 1})
       low[axis] = std::min(low[axis], at[axis]), high[axis] = std::max(high[axis], at[axis]);
   }
@@ -65,7 +66,7 @@ struct Forest::Library {
   }
 
   Point middle(const Cell& cell) const { return axes.outside(cell->center()); }
-  std::int32_t tile_of(const Cell& cell) const { return grid.tile_at(middle(cell)); }
+  std::int32_t square_of(const Cell& cell) const { return grid.first_of_square(middle(cell)); }
   /// Number of the cell of a point.
   std::int64_t cell_at(Point p) const {
     const auto along = [&](double d) {
@@ -89,7 +90,9 @@ Forest::Forest(const Ranks& ranks, const TileGrid& grid, std::span<const std::in
   {
     const auto weighed = lib.triangulation.signals.weight.connect(
         [&](const Triangulation::cell_iterator& cell, const Triangulation::CellStatus) {
-          const std::int64_t weight = weights[grid.tile_at(lib.axes.outside(cell->center()))];
+          const std::int32_t first = grid.first_of_square(lib.axes.outside(cell->center()));
+          const std::int64_t weight =
+              std::accumulate(weights.begin() + first, weights.begin() + first + grid.cut, std::int64_t{0});
           return static_cast<unsigned int>(std::min<std::int64_t>(weight, 1 << 20));
         });
     if (ranks.count() > 1) lib.triangulation.repartition();
@@ -100,13 +103,14 @@ Forest::Forest(const Ranks& ranks, const TileGrid& grid, std::span<const std::in
   std::vector<std::int32_t> own;
   std::vector<int> cells(grid.count(), 0);
   for (const Cell& cell : lib.triangulation.active_cell_iterators())
-    if (cell->is_locally_owned() && ++cells[lib.tile_of(cell)] == 1) own.push_back(lib.tile_of(cell));
+    if (cell->is_locally_owned() && ++cells[lib.square_of(cell)] == 1) own.push_back(lib.square_of(cell));
   for (const std::int32_t tile : own)
-    if (cells[tile] != 4) throw std::logic_error("a tile is cut between two ranks");
+    if (cells[tile] != 4) throw std::logic_error("a square of cells is cut between two ranks");
   std::vector<std::vector<std::int32_t>> to_all(ranks.count(), own);
   const auto of_ranks = ranks.exchange(to_all);
   for (std::size_t r = 0; r < of_ranks.size(); ++r)
-    for (const std::int32_t tile : of_ranks[r]) tiles_.owner[tile] = static_cast<std::int32_t>(r);
+    for (const std::int32_t first : of_ranks[r])
+      std::fill_n(tiles_.owner.begin() + first, grid.cut, static_cast<std::int32_t>(r));
   lib.handler.initialize(lib.triangulation, lib.mapping, properties);
   lib.handler.signals.particle_lost.connect([&lib](const auto& particle, const auto&) {
     const auto id = static_cast<std::int64_t>(particle->get_id());

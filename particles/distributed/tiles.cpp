@@ -35,6 +35,10 @@ TileGrid tile_grid(Point low, double edge, const Reach& reach) {
   for (int steps = 1; grid.cell < least; ++steps)
     grid.cell = smallest * (steps % 2 == 0 ? 1 : std::numbers::sqrt2) * std::exp2(steps / 2);
   while (grid.edge() < edge) ++grid.levels;
+  for (int factor = 2; factor <= 4 && grid.cells_per_side() >= least_cells_of_high_tiles; factor *= 2) {
+    grid.cell *= 2, --grid.levels;
+    grid.cut = factor;
+  }
   return grid;
 }
 

@@ -87,6 +87,14 @@ TEST(Forest, OwnsEachGrainOnceAndSeesALayerOfCells) {
     EXPECT_EQ(forest.place(share_of(all, ranks)).id, -1);
     expect_everybody(forest, forest.take_owned(), all);
   }
+  TileGrid narrow = grid;
+  narrow.cut = 4;
+  Forest forest(ranks, narrow, std::vector<std::int64_t>(narrow.count(), 1));
+  EXPECT_EQ(forest.place(share_of(all, ranks)).id, -1);
+  expect_everybody(forest, forest.take_owned(), all);
+  // One rank has the tiles of a square.
+  for (std::int32_t tile = 0; tile < narrow.count(); ++tile)
+    EXPECT_EQ(forest.tiles().owner[tile], forest.tiles().owner[tile - narrow.column(tile) % 4]);
 }
 
 TEST(Forest, CutsPackingsAcrossTheirLongerSide) {
@@ -94,10 +102,10 @@ TEST(Forest, CutsPackingsAcrossTheirLongerSide) {
   for (const bool wide : {false, true}) {
     const Forest forest(ranks, grid, weights_of(wide));
     int cut = 0;  // lines of heavy tiles across the longer side that several ranks share
-    for (int line = 0; line < grid.per_side(); ++line) {
+    for (int line = 0; line < grid.rows(); ++line) {
       std::set<std::int32_t> owners;
       for (int k = 0; k < 3; ++k)
-        owners.insert(forest.tiles().owner[wide ? k * grid.per_side() + line : line * grid.per_side() + k]);
+        owners.insert(forest.tiles().owner[wide ? k * grid.columns() + line : line * grid.columns() + k]);
       cut += owners.size() > 1;
     }
     EXPECT_LE(cut, 2 * (ranks.count() - 1)) << wide;
@@ -157,7 +165,7 @@ TEST(Forest, GivesEachRankItsShareOfTheWeight) {
   // All the weight in the last rows.
   std::vector<std::int64_t> weights(grid.count(), 1);
   for (std::int32_t tile = 0; tile < grid.count(); ++tile)
-    if (tile / grid.per_side() >= 6) weights[tile] = 100;
+    if (grid.row(tile) >= 6) weights[tile] = 100;
   const Forest forest(ranks, grid, weights);
   std::int64_t own = 0, all = 0;
   for (std::int32_t tile = 0; tile < grid.count(); ++tile) {
@@ -175,20 +183,24 @@ TEST(Tiles, OfOneColourAreATileApart) {
   for (std::int32_t a = 0; a < grid.count(); ++a)
     for (std::int32_t b = 0; b < a; ++b) {
       if (grid.colour(a) != grid.colour(b)) continue;
-      const int side = grid.per_side();
+      const int side = grid.columns();
       EXPECT_TRUE(std::abs(a % side - b % side) >= 2 || std::abs(a / side - b / side) >= 2);
     }
 }
 
 TEST(Tiles, OfEvenColumnsTouchBodiesOfTheirStripAlone) {
-  const double tile = 2 * grid.cell, reach = tile / 4;  // tiles are wider than four times what contacts reach
-  for (std::int32_t column = 0; column < grid.per_side(); ++column)
-    for (const double along : {-reach, 0.0, tile / 2, tile, tile + reach}) {
-      const double x = grid.origin.x + column * tile + along * 0.999;
-      if (x < grid.origin.x || x > grid.origin.x + grid.edge()) continue;
-      const std::int32_t strip = grid.strip_of_tile(column), of_body = grid.strip_of_body(x);
-      EXPECT_TRUE(of_body == strip || (column % 2 == 1 && of_body == strip + 1)) << column << " " << along;
-    }
+  for (const std::int32_t cut : {1, 2, 4}) {
+    TileGrid narrow = grid;
+    narrow.cut = cut;
+    const double tile = narrow.tile_width(), reach = tile / 4;  // tiles are wider than four times that
+    for (std::int32_t column = 0; column < narrow.columns(); ++column)
+      for (const double along : {-reach, 0.0, tile / 2, tile, tile + reach}) {
+        const double x = grid.origin.x + column * tile + along * 0.999;
+        if (x < grid.origin.x || x > grid.origin.x + grid.edge()) continue;
+        const std::int32_t strip = narrow.strip_of_tile(column), of_body = narrow.strip_of_body(x);
+        EXPECT_TRUE(of_body == strip || (column % 2 == 1 && of_body == strip + 1)) << column << " " << along;
+      }
+  }
 }
 
 TEST(Tiles, AreLargeEnoughForTheReachAndNoLargerThanTheyMustBe) {
@@ -198,6 +210,23 @@ TEST(Tiles, AreLargeEnoughForTheReachAndNoLargerThanTheyMustBe) {
     EXPECT_GE(chosen.cell, least_cell(reach));
     EXPECT_LE(chosen.cell, std::max(3.0 * reach.largest, 1.5 * least_cell(reach)));
     EXPECT_GE(chosen.edge(), 100);
+    EXPECT_EQ(chosen.cut, 1);
+  }
+}
+
+TEST(Tiles, OfLargeGridsAreHigh) {
+  for (const double approach : {0.0, 0.1, 3.0, 50.0}) {
+    const Reach reach{1.1, 0.02, approach, 0.05};
+    std::set<std::int32_t> cuts;
+    for (double edge = 100; edge < 1e5; edge *= 1.3) {
+      const TileGrid chosen = tile_grid({0, 0}, edge, reach);
+      cuts.insert(chosen.cut);
+      EXPECT_GE(chosen.edge(), edge);
+      EXPECT_GE(chosen.cell, least_cell(reach));
+      EXPECT_GE(chosen.tile_width(), 2 * least_cell(reach));
+      EXPECT_LE(chosen.tile_width(), 2 * std::max(3.0 * reach.largest, 1.5 * least_cell(reach)));
+    }
+    EXPECT_EQ(cuts, (std::set<std::int32_t>{1, 2, 4}));
   }
 }
 
