@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "coupling/common/errors.hpp"
+#include "particles/parallel/work_memory.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -140,9 +141,9 @@ void RankGrains::see(const RankState& state) {
   const std::int32_t rank = ranks_.rank();
   Bodies& bodies = seen_.bodies;
   for (auto* values : {&bodies.x, &bodies.z, &bodies.v_x, &bodies.v_z, &bodies.radius, &bodies.inverse_mass})
-    values->resize(count);
-  if (with_spin_) bodies.spin.resize(count);
-  bodies.id.resize(count), seen_.owner.resize(count), seen_.place.resize(count);
+    resize_closely(*values, count);
+  if (with_spin_) resize_closely(bodies.spin, count);
+  resize_closely(bodies.id, count), resize_closely(seen_.owner, count), resize_closely(seen_.place, count);
   std::int32_t b = 0;
   for (std::int32_t& place_of_id : place_of_) {
     const std::int32_t place = place_of_id;  // among the own and then the ghosts

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "coupling/common/free_memory.hpp"
 #include "particles/distributed/tile_solver.hpp"
 #include "particles/stepping/overlap.hpp"
 #include "particles/stepping/position_projection.hpp"
@@ -29,6 +30,8 @@ class RankOverlap {
   Overlap find(const MovedTiles& contacts, const Bodies& bodies, const WallStep& walls, double margin,
                std::optional<LostGrain>& lost);
   std::span<const ClosePair> close() const { return pairs_; }
+  /// Gives back what it holds of the pairs.
+  void release() { free_memory_of(pairs_); }
   std::span<const TileRange> tiles() const { return tiles_; }
   /// Whether pairs overlap, on any rank.
   bool any() const { return any_; }

@@ -16,15 +16,15 @@ constexpr int most_searches = 5;
 }  // namespace
 
 RankSearch::RankSearch(const StepLaws& laws, const Ranks& ranks, std::int64_t grains_of_all, int unknowns,
-                       RankGrains& grains, ThreadTeam* team)
+                       RankGrains& grains, ThreadTeam* team, WorkMemory* memory)
     : laws_(laws),
       ranks_(ranks),
       grains_of_all_(grains_of_all),
       unknowns_(unknowns),
       grains_(grains),
       impacts_(ranks) {
-  detection_.use(team);
-  recollection_.use(team);
+  const auto share = [&](auto&... users) { (users.use(team), ...), (users.use(memory), ...); };
+  share(detection_, recollection_);
 }
 
 int RankSearch::find(RankState& state, const WallStep& walls, double time_step, Point gain) {
@@ -121,7 +121,7 @@ bool RankSearch::is_local(std::span<const ThrownRecord> thrown) const {
 }
 
 void RankSearch::take_mine() {
-  mine_.pairs.resize(homed_.mine.size());
+  resize_closely(mine_.pairs, homed_.mine.size());
   for (std::size_t m = 0; m < homed_.mine.size(); ++m)
     mine_.pairs[m] = detection_.candidates()[homed_.mine[m]];
 }

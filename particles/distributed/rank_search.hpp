@@ -10,6 +10,7 @@
 #include "particles/distributed/rank_grains.hpp"
 #include "particles/distributed/ranks.hpp"
 #include "particles/distributed/step_pairs.hpp"
+#include "particles/parallel/work_memory.hpp"
 #include "particles/stepping/contact_memory.hpp"
 #include "particles/stepping/impacts.hpp"
 #include "particles/stepping/step_contacts.hpp"
@@ -20,9 +21,10 @@ namespace drumlin::particles {
 /// Finds them, and resolves the impacts, for one rank; all ranks call it together.
 class RankSearch {
  public:
-  /// `grains_of_all`: number of grains of the run; `unknowns`: per contact.
+  /// `grains_of_all`: number of grains of the run; `unknowns`: per contact. What a search finds stands in the
+  /// frame of the memory that is open then.
   RankSearch(const StepLaws& laws, const Ranks& ranks, std::int64_t grains_of_all, int unknowns,
-             RankGrains& grains, ThreadTeam* team);
+             RankGrains& grains, ThreadTeam* team, WorkMemory* memory);
 
   /// A step of the grains that have been settled. The state of those that impacts strike changes, and grains
   /// may be settled again. Returns how many impacts there were.
@@ -36,7 +38,10 @@ class RankSearch {
   /// Velocities without contacts, of all grains that this rank sees.
   const FreeMotion& free() const { return free_; }
   /// Gives back what the step no longer needs.
-  void release() { mine_.pairs = {}, searched_ = {}; }
+  void release() {
+    free_memory_of(mine_.pairs), free_memory_of(homed_.homes), free_memory_of(homed_.mine);
+    searched_ = {};
+  }
 
  private:
   /// A grain that impacts have thrown, as ranks tell each other.

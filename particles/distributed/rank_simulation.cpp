@@ -91,6 +91,7 @@ void RankSimulation::take_own(const Bodies& all) {
 /// Of the first rank, which has it brought to the owners of the tiles.
 void RankSimulation::take_memory(const ContactMemory& memory, const Bodies& all) {
   const int dim = scene_.effects.friction ? 2 : 1;
+  own_.memory.reserve(memory.i.size());
   for (std::size_t m = 0; m < memory.i.size(); ++m) {
     RememberedContact contact;
     contact.i = memory.i[m], contact.j = memory.j[m];
@@ -155,8 +156,9 @@ Bodies RankSimulation::gathered_bodies() const {
 
 Snapshot RankSimulation::take_snapshot() {
   ++state_.snapshots;
-  state_.bodies = gathered_bodies();
   auto contacts = stepper_->loaded_contacts();
+  stepper_->release_memory();
+  state_.bodies = gathered_bodies();
   const StepLaws laws = laws_of(scene_, scales_);
   Snapshot snapshot =
       snapshot_of({scene_, scales_, plan_, walls_, laws.period, laws.gravity.value_or(Point{})}, state_);
@@ -166,6 +168,7 @@ Snapshot RankSimulation::take_snapshot() {
 }
 
 SimulationState RankSimulation::gathered_state() const {
+  stepper_->release_memory();
   SimulationState all = state_;
   all.bodies = gathered_bodies();
   auto memory = ranks_.gather<RememberedContact>(own_.memory);
@@ -174,6 +177,8 @@ SimulationState RankSimulation::gathered_state() const {
   });
   const int dim = scene_.effects.friction ? 2 : 1;
   all.memory.time_step = own_.memory_time_step;
+  all.memory.i.reserve(memory.size()), all.memory.j.reserve(memory.size());
+  all.memory.impulse.reserve(dim * memory.size());
   for (const RememberedContact& contact : memory) {
     all.memory.i.push_back(static_cast<std::int32_t>(contact.i));
     all.memory.j.push_back(static_cast<std::int32_t>(contact.j));

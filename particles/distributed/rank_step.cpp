@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "particles/distributed/processor_time.hpp"
 #include "particles/distributed/rank_grains.hpp"
 #include "particles/distributed/rank_projection.hpp"
 #include "particles/distributed/rank_search.hpp"
+#include "particles/parallel/work_memory.hpp"
 #include "particles/solver/coarse_loads.hpp"
 #include "particles/stepping/assembly.hpp"
 #include "particles/stepping/snapshot_of_state.hpp"
@@ -53,7 +55,7 @@ class RankMoreauJean final : public RankStepper {
         ranks_(ranks),
         team_(solver.threads),
         grains_(ranks, domain, with_spin, dim, laws.detection_margin),
-        search_(laws_, ranks, domain.grains, dim, grains_, &team_),
+        search_(laws_, ranks, domain.grains, dim, grains_, &team_, &memory_),
         solver_(ranks, &team_, least_contacts_of_coarse_loads),
         overlaps_(ranks),
         projection_(ranks, &team_) {
@@ -68,6 +70,7 @@ class RankMoreauJean final : public RankStepper {
     const double begin = processor_seconds(), waited = waiting_seconds();
     const Point gain{time_step * gravity_.x, time_step * gravity_.z};
     grains_.settle(state, walls, time_step, gain);
+    std::optional<WorkMemory::Frame> of_search(&memory_);
     report.impacts = search_.find(state, walls, time_step, gain);
     find_rank_pairs(grains_.seen(), search_.candidates(), search_.homed(), grains_.tiles(), ranks_.rank(),
                     own_);
@@ -77,9 +80,10 @@ class RankMoreauJean final : public RankStepper {
     const StepInput step{laws_, bodies_, walls, {}, free_, time_step};
     std::swap(contacts_.pairs, own_.pairs);
     const bool large = contacts_.pairs.size() > many_contacts;
-    if (large) search_.release(), own_.pairs = {};
     sweep_normals(step, contacts_.pairs);
     search_.recollection().warm_start(grains_.memory(), dim, time_step, own_.order, solution_.impulses);
+    of_search.reset();
+    if (large) search_.release(), memory_.release(), free_memory_of(own_.pairs);
     assemble<Problem, with_spin>(step, contacts_, TeamLoops(&team_), problem_);
     report.setup_seconds = watch.lap();
     const TiledContacts tiled{own_.tiles, own_.tile_order, counts_here_, bodies_.x, bodies_.z};
@@ -92,7 +96,7 @@ class RankMoreauJean final : public RankStepper {
     crossings_.begin(bodies_, walls.before, domain_.largest / 2);
     move(time_step);
     const int projected = project(walls, report);
-    if (large) projection_.release();
+    if (large) projection_.release(), overlaps_.release();
     remember(state, time_step);
     give_back(state);
     report.projection_seconds = watch.lap();
@@ -120,6 +124,11 @@ class RankMoreauJean final : public RankStepper {
     return one_for_each_pair(std::move(all));
   }
 
+  void release_memory() override {
+    if (contacts_.pairs.size() <= many_contacts) return;
+    contacts_ = {}, problem_ = {}, solution_ = {}, own_ = {}, bodies_ = {}, free_ = {};
+    free_memory_of(counts_here_), free_memory_of(place_in_order_);
+  }
   const RankCounts& counts() const override { return counts_; }
 
  private:
@@ -131,7 +140,7 @@ class RankMoreauJean final : public RankStepper {
     take_used_bodies(seen, own_.used, bodies_);
     counts_here_.assign(own_.used.size(), 0);
     const FreeMotion& free = search_.free();
-    free_.x.resize(own_.used.size()), free_.z.resize(own_.used.size());
+    resize_closely(free_.x, own_.used.size()), resize_closely(free_.z, own_.used.size());
     for (std::size_t b = 0; b < own_.used.size(); ++b) {
       const std::int32_t s = own_.used[b];
       free_.x[b] = free.x[s], free_.z[b] = free.z[s];
@@ -186,15 +195,17 @@ class RankMoreauJean final : public RankStepper {
   }
 
   void remember(RankState& state, double time_step) {
-    state.memory.clear();
-    state.memory_time_step = time_step;
     const auto& r = solution_.impulses;
     std::size_t loaded = 0;
-    place_in_order_.resize(own_.order.size());
+    resize_closely(place_in_order_, own_.order.size());
     for (std::size_t a = 0; a < own_.order.size(); ++a) {
       loaded += r[dim * a] != 0;
       place_in_order_[own_.order[a]] = static_cast<std::int32_t>(a);
     }
+    state.memory.clear();
+    state.memory_time_step = time_step;
+    // At first one rank has had those of all.
+    if (state.memory.capacity() > 2 * loaded) free_memory_of(state.memory);
     state.memory.reserve(loaded + loaded / 16);
     // By identities, so that the next step need not sort what stays on this rank.
     for (const std::int32_t a : place_in_order_) {
@@ -241,6 +252,7 @@ class RankMoreauJean final : public RankStepper {
   Domain domain_;
   Ranks ranks_;
   ThreadTeam team_;
+  WorkMemory memory_;  // of the search
   Point gravity_;
   TileMethod method_ = TileMethod::accelerated;
   RankGrains grains_;

@@ -58,6 +58,9 @@ class RankStepper {
   virtual StepReport advance(RankState& state, WallStep& walls, double time_step) = 0;
   /// On the first rank, called by all: loaded contacts of the last step.
   virtual std::vector<SnapshotContact> loaded_contacts() = 0;
+  /// Between steps: gives back what the next step makes anew, if that is much. The contacts of the last step
+  /// are gone then.
+  virtual void release_memory() = 0;
   virtual const RankCounts& counts() const = 0;
 };
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "particles/detection/open_gaps.hpp"
+#include "particles/parallel/work_memory.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -69,7 +70,7 @@ Home home_of(const Candidate& pair, const SeenGrains& seen, const TileMap& tiles
 
 void find_homes(const SeenGrains& seen, std::span<const Candidate> candidates, const TileMap& tiles,
                 std::int32_t rank, HomedPairs& found) {
-  found.homes.resize(candidates.size()), found.mine.resize(candidates.size());
+  resize_closely(found.homes, candidates.size()), resize_closely(found.mine, candidates.size());
   std::size_t own = 0;
   for (std::size_t a = 0; a < candidates.size(); ++a) {
     found.homes[a] = home_of(candidates[a], seen, tiles);
@@ -135,7 +136,7 @@ void sort_into_tiles(std::span<const Candidate> candidates, const HomedPairs& ho
     count[range.tile] = range.begin = place;
     place = range.end += place;
   }
-  own.pairs.resize(mine.size()), own.order.resize(mine.size());
+  resize_closely(own.pairs, mine.size()), resize_closely(own.order, mine.size());
   for (std::size_t m = 0; m < mine.size(); ++m) {
     const std::int32_t a = mine[m], to = count[homes[a].tile]++;
     own.order[to] = static_cast<std::int32_t>(m);
@@ -176,7 +177,7 @@ void number_bodies(std::span<const std::int32_t> strip_of, RankPairs& own) {
   own.in_used.assign(strip_of.size(), -1);
   std::vector<std::int32_t> next;
   for (const TileStrip& strip : own.tile_order.strips) next.push_back(strip.bodies.begin);
-  own.used.resize(own.tile_order.strips.back().bodies.end);
+  resize_closely(own.used, own.tile_order.strips.back().bodies.end);
   const auto use = [&](std::int32_t b) {
     std::int32_t& place = own.in_used[b];
     if (place < 0) {
@@ -217,7 +218,7 @@ void find_rank_pairs(const SeenGrains& seen, std::span<const Candidate> candidat
 void take_used_bodies(const SeenGrains& seen, std::span<const std::int32_t> used, Bodies& taken) {
   const auto take = [&](const auto& from, auto& to) {
     if (from.empty()) return;
-    to.resize(used.size());
+    resize_closely(to, used.size());
     for (std::size_t b = 0; b < used.size(); ++b) to[b] = from[used[b]];
   };
   const Bodies& all = seen.bodies;

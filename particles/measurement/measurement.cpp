@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "coupling/common/errors.hpp"
+#include "coupling/common/free_memory.hpp"
 #include "particles/measurement/frame/intervals.hpp"
 #include "particles/measurement/grains/cell_profiles.hpp"
 #include "particles/measurement/layers/bulk_scalars.hpp"
@@ -39,9 +40,9 @@ double mean_of(const std::vector<double>& values) {
 void forget_grains(Snapshot& snapshot) {
   for (auto* values : {&snapshot.x, &snapshot.z, &snapshot.v_x, &snapshot.v_z, &snapshot.radius,
                        &snapshot.spin, &snapshot.displacement_x, &snapshot.displacement_z, &snapshot.mass})
-    *values = {};
-  snapshot.contacts = {};
-  snapshot.id = {};
+    free_memory_of(*values);
+  free_memory_of(snapshot.contacts);
+  free_memory_of(snapshot.id);
 }
 
 /// The frame, and the scalars that the first reading gives.

@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "coupling/common/free_memory.hpp"
+
 namespace drumlin::particles {
 
 /// A stack of frames. What is taken within a frame ends with it; its bytes go to the next one. Of one thread.
@@ -150,7 +152,7 @@ std::size_t bytes_of(const std::vector<T>& values) {
 template <class T>
 void resize_closely(std::vector<T>& values, std::size_t count) {
   if (count > values.capacity()) {
-    values = {};
+    free_memory_of(values);
     values.reserve(count + count / 16);
   }
   values.resize(count);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "coupling/common/errors.hpp"
+#include "coupling/common/free_memory.hpp"
 #include "particles/contact/problems.hpp"
 #include "particles/solver/momentum.hpp"
 #include "particles/solver/strip_sweeps.hpp"
@@ -185,7 +186,7 @@ SolveReport solve_accelerated(const Problem& problem, const StoppingRule& rule,
       solution.impulses = work.best;
       both.residual = residual_of(problem, solution);
     }
-    if (work.memory != nullptr) work.best = {};
+    if (work.memory != nullptr) free_memory_of(work.best);
     return both;
   }
 }

@@ -1,7 +1,8 @@
 """How sweeps grow with the packing: drums of 2,000 to 100,000 discs at the fill of the 6 rpm drum, settled and flowing, to a residual of 1e-2.
 
 usage: python3 tests/benchmarks/sweeps_over_size.py BUILD RECORD.json [--keep FOLDER] [DISCS...]   (2000, 7183, 30000, 100000 unless told)
---keep: the scenes and runs stay there, in a folder for each size, for benchmarks that need a flow to begin with.
+--keep: the scenes and runs stay there, in a folder for each size, for benchmarks that need a flow to begin with; those of this build that are there already
+are taken as they are.
 
 Each drum falls and turns by 0.17 of a turn at the Froude number of 6 rpm, roughly solved (3e-2, 150 sweeps at most). From there a run takes 300 steps of
 1e-3 s at rest and another 300 of the flow to 1e-2, with the bounds on penetration and sinking that scenes have. The first 100 steps of each, in which what
@@ -39,6 +40,13 @@ def scenes(discs):
     return made
 
 
+def is_there(folder, revision):
+    if not (folder / "run.json").exists():
+        return False
+    run = json.loads((folder / "run.json").read_text(encoding="utf-8"))
+    return run["status"] == "finished" and run["revision"] == revision
+
+
 def counted(folder):
     run = json.loads((folder / "run.json").read_text(encoding="utf-8"))
     with (folder / "log.csv").open(encoding="utf-8") as log:
@@ -64,6 +72,7 @@ def main():
         keep = pathlib.Path(words.pop(words.index("--keep") + 1))
         words.remove("--keep")
     build, record, sizes = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]), [int(word) for word in words] or list(SIZES)
+    revision = subprocess.run([build / "drumlin", "--version"], check=True, capture_output=True, text=True).stdout.split("revision ")[1].split(",")[0]
     cases, run = [], {}
     for discs in sizes:
         with tempfile.TemporaryDirectory() as name:
@@ -72,7 +81,12 @@ def main():
             case = {"discs": discs}
             for what, text in scenes(discs).items():
                 (folder / f"{what}.toml").write_text(text, encoding="utf-8")
-                subprocess.run([build / "drumlin", "run", folder / f"{what}.toml", "-o", folder / what], check=True, stdout=subprocess.DEVNULL)
+                if not is_there(folder / what, revision):
+                    ended = subprocess.run([build / "drumlin", "run", folder / f"{what}.toml", "-o", folder / what, "--overwrite"], stdout=subprocess.DEVNULL)
+                    if ended.returncode == 2 and what == "settled":  # what the rough solution leaves overlaps too much to start from
+                        case[what] = {"refused": True}
+                        continue
+                    ended.check_returncode()
                 run, found = counted(folder / what)
                 if what != "preparation":
                     case[what] = found

@@ -104,29 +104,57 @@ TEST(Residual, OnVectorsIsThatOfTheContactsOneByOne) {
   }
 }
 
-TEST(Residual, IsTheSameBytesForAnyTeam) {
-  // A chain long enough that threads share it.
-  constexpr int discs = 20000;
+/// A chain of discs, in an order that strips of it can be swept in if it is `planned`.
+CoulombSpinProblem chain(int discs, bool planned, std::vector<double>& r) {
   CoulombSpinProblem problem;
   problem.W.inverse_mass.assign(discs, 1.0);
   problem.W.inverse_mass.push_back(0);
-  std::vector<double> r;
-  for (int k = 0; k < discs; ++k) {
-    problem.W.add(k, k == 0 ? discs : k - 1, std::sin(k), std::cos(k));
+  std::vector<std::int32_t> i, j, order;
+  for (int k = 0; k < discs; ++k) i.push_back(k), j.push_back(k == 0 ? discs : k - 1), order.push_back(k);
+  if (planned) problem.W.plan = sweep_plan(discs, i, j, order);
+  for (const std::int32_t k : order) {
+    problem.W.add(i[k], j[k], std::sin(k), std::cos(k));
     problem.q.insert(problem.q.end(), {-1e-3 * std::sin(7 * k), 1e-3 * std::cos(3 * k)});
     problem.mu.push_back(0.4);
     r.insert(r.end(), {std::abs(std::sin(5 * k)), 0.3 * std::sin(11 * k)});
   }
-  const auto alone = residual_of(problem, std::span<const double>(r));
-  ThreadTeam team(3);
-  TeamLoops loops(&team);
-  Velocities<CoulombSpinProblem::Delassus> velocities;
-  const auto shared = residual_of(problem, std::span<const double>(r), velocities, loops);
-  EXPECT_EQ(alone.rms, shared.rms);
-  EXPECT_EQ(alone.max, shared.max);
-  EXPECT_EQ(alone.penetration, shared.penetration);
-  EXPECT_EQ(alone.sinking, shared.sinking);
-  EXPECT_GT(alone.rms, 0);
+  return problem;
+}
+
+TEST(Residual, IsTheSameBytesForAnyTeam) {
+  // Chains long enough that threads share them; where many contacts are planned, bodies too.
+  for (const bool planned : {false, true}) {
+    std::vector<double> r;
+    const CoulombSpinProblem problem = chain(planned ? 60000 : 20000, planned, r);
+    Velocities<CoulombSpinProblem::Delassus> velocities, alone_too;
+    TeamLoops no_team;
+    const auto alone = residual_of(problem, std::span<const double>(r), alone_too, no_team);
+    ThreadTeam team(3);
+    TeamLoops loops(&team);
+    const auto shared = residual_of(problem, std::span<const double>(r), velocities, loops);
+    EXPECT_EQ(alone.rms, shared.rms);
+    EXPECT_EQ(alone.max, shared.max);
+    EXPECT_EQ(alone.penetration, shared.penetration);
+    EXPECT_EQ(alone.sinking, shared.sinking);
+    EXPECT_EQ(alone_too.contacts, velocities.contacts);
+    EXPECT_GT(alone.rms, 0);
+  }
+}
+
+TEST(Residual, OfManyContactsAddsUpTheSameVelocitiesInAnotherOrder) {
+  std::vector<double> r;
+  const CoulombSpinProblem problem = chain(60000, true, r);
+  CoulombSpinProblem::Delassus::State in_turn, by_slices;
+  problem.W.load(in_turn, r);
+  problem.W.load(by_slices, r, TeamLoops());
+  ASSERT_EQ(by_slices.size(), in_turn.size());
+  for (std::size_t b = 0; b + 1 < in_turn.size(); ++b) {
+    EXPECT_NEAR(by_slices[b].x, in_turn[b].x, 1e-15);
+    EXPECT_NEAR(by_slices[b].z, in_turn[b].z, 1e-15);
+    EXPECT_NEAR(by_slices[b].s, in_turn[b].s, 1e-15);
+    EXPECT_EQ(by_slices[b].inverse_mass, in_turn[b].inverse_mass);
+  }
+  EXPECT_EQ(by_slices.back().x, 0);
 }
 
 TEST(Residual, BlocksOfEqualEigenvaluesThatRoundingMadeUnsymmetric) {
