@@ -18,7 +18,7 @@ enum class SweepExtrapolation {
 };
 
 /// Smaller problems sink no deeper than rounding lets them.
-inline constexpr std::int64_t least_contacts_of_exact_sweeps = 50'000;
+inline constexpr std::int64_t least_contacts_of_exact_sweeps = 150'000;
 
 inline SweepExtrapolation extrapolation_of(bool accelerated, std::int64_t contacts) {
   if (!accelerated) return SweepExtrapolation::none;
