@@ -239,6 +239,7 @@ SolveReport TileSolver<Problem>::sweep_until_done(const Problem& problem, const 
                                                   Halo& halo, const StoppingRule& rule,
                                                   std::int64_t contacts_of_all, Blocks<T>& blocks,
                                                   bool accelerated, Solution<Problem>& solution) {
+  constexpr int patience = 100;   // sweeps without a tenth of progress
   constexpr double hope = 2;      // times the tolerance: a residual that is looked for
   constexpr int most_unseen = 3;  // looks left out in turn
   constexpr bool single = sizeof(T) < sizeof(double);
@@ -296,7 +297,7 @@ SolveReport TileSolver<Problem>::sweep_until_done(const Problem& problem, const 
     worth = steps * fall * fall;
     if (seen < 0.9 * least) least = seen, progress_at = sweeps;
     // Rounding of single precision hides the progress.
-    const bool stuck = single && sweeps - progress_at >= patience_of(how);
+    const bool stuck = single && sweeps - progress_at >= patience;
     if (seen < best) {
       best = seen;
       loops_.each_of(tiles, [&](int t) { blocks.keep(t); });

@@ -25,10 +25,6 @@ inline SweepExtrapolation extrapolation_of(bool accelerated, std::int64_t contac
   return contacts < least_contacts_of_exact_sweeps ? SweepExtrapolation::rounded : SweepExtrapolation::exact;
 }
 
-/// After so many sweeps in single precision without a tenth of progress rounding is held to hide it. A flow
-/// takes 10 sweeps for that; where coarse corrections make the progress it comes with them.
-inline int patience_of(SweepExtrapolation how) { return how == SweepExtrapolation::exact ? 200 : 100; }
-
 /// Nesterov's extrapolation y = x + beta (x - x_before) between the sweeps of NLGS, x = sweep(y). beta is at
 /// least 0.8, and (k - 1)/(k + 2) at age k (Nesterov 1983; Beck and Teboulle 2009), which gives a chain of n
 /// discs its some n instead of n^2 sweeps. Where the steps of a sweep exceed the least since then, the age is

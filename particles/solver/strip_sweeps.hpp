@@ -185,7 +185,8 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
   const double residual_scale = pack_in_strips(problem, work, strips, solution, loops);
   // Below four strips a second thread costs more than it saves.
   ThreadTeam* team = strips.strips() >= 4 ? work.team : nullptr;
-  constexpr double hope = 2;  // times the tolerance: a residual that is looked for
+  constexpr int patience = 100;  // sweeps without a tenth of progress; a flow takes 10 for that
+  constexpr double hope = 2;     // times the tolerance: a residual that is looked for
   constexpr bool single = sizeof(T) < sizeof(double);
   const bool always = std::isfinite(rule.max_seconds);
   SweepState<T> state;
@@ -223,7 +224,7 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
     state.worth = state.steps * fall * fall;
     if (seen < 0.9 * least) least = seen, progress_at = state.sweeps;
     // Rounding of single precision hides the progress.
-    const bool stuck = single && state.sweeps - progress_at >= patience_of(how);
+    const bool stuck = single && state.sweeps - progress_at >= patience;
     const bool last = state.sweeps >= rule.max_sweeps || !state.finite;
     if (seen < best) best = seen, state.keep = true, strips.keep_driven();
     const bool far =
