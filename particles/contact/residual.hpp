@@ -98,8 +98,8 @@ void set_squared_errors(const Problem& problem, std::size_t first, std::span<con
       errors[k] = squared_error(problem, static_cast<int>(first + k), r, u);
 }
 
-/// What the residual adds up over contacts `begin` to `end`; first set(begin, end) sets the velocities u of
-/// some of them after the other.
+/// What the residual adds up over contacts `begin` to `end`. set(begin, end) is called for one part of them
+/// after the other, and sets its velocities u before they are read.
 template <class Problem, class Set>
 ResidualSums residual_sums(const Problem& problem, std::size_t begin, std::size_t end,
                            std::span<const double> r, std::span<const double> u, Set set) {

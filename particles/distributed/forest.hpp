@@ -35,8 +35,8 @@ struct GrainOutside {
 
 class Forest {
  public:
-  /// Cuts the grid among the ranks along a space-filling curve, tiles whole, by the weights of the tiles (one
-  /// for each, at least 1).
+  /// Cuts the grid among the ranks along a space-filling curve, squares of 2 x 2 cells whole, by the weights
+  /// of the tiles (one for each, at least 1).
   Forest(const Ranks& ranks, const TileGrid& grid, std::span<const std::int64_t> weights);
   ~Forest();
   Forest(const Forest&) = delete;

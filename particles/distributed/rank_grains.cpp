@@ -109,7 +109,7 @@ void RankGrains::settle(RankState& state, const WallStep& walls, double time_ste
 bool RankGrains::settle_again(RankState& state, const WallStep& walls, double time_step, Point gain) {
   const Need need = need_of(state, walls, time_step, gain);
   reach_ = need.reach;
-  const bool fits = least_cell(need.reach) <= forest_->tiles().grid.cell;
+  const bool fits = least_cell(need.reach) <= forest_->tiles().grid.needed_cell();
   if (fits && still_sorted(need)) return false;
   if (fits)
     sort(state);

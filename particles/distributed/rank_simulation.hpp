@@ -20,7 +20,8 @@ class RankSimulation {
   bool finished() const { return state_.step >= plan_.steps; }
   StepReport step();
   bool snapshot_due() const;
-  /// The state after the last step; what the first rank gets counts, others get parts of it.
+  /// The state after the last step; what the first rank gets counts, others get parts of it. Once in a step,
+  /// and before gathered_state(): large runs give back the contacts of the step with either.
   Snapshot take_snapshot();
   /// Everything that the next step depends on, gathered on the first rank; elsewhere without grains.
   SimulationState gathered_state() const;

@@ -1,5 +1,5 @@
 #pragma once
-// Tiles: the squares that order the contacts of a run, whatever the number of ranks.
+// Tiles: what orders the contacts of a run, whatever the number of ranks.
 #include <algorithm>
 #include <cstdint>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace drumlin::particles {
 
-/// A square of 2^levels x 2^levels cells. A tile is two cells high and two cells wide, or part of that.
+/// A square of 2^levels x 2^levels cells. A tile is two cells high and 2 / cut cells wide.
 struct TileGrid {
   Point origin;          ///< its lower left corner
   double cell = 1;       ///< edge of a cell
@@ -21,6 +21,8 @@ struct TileGrid {
   std::int32_t count() const { return columns() * rows(); }
   double edge() const { return cell * cells_per_side(); }
   double tile_width() const { return 2 * cell / cut; }
+  /// What a cell must be at least, if tiles are to be two of them wide (docs/decisions/ranks.md).
+  double needed_cell() const { return cell / cut; }
   bool contains(Point p) const {
     return p.x >= origin.x && p.z >= origin.z && p.x < origin.x + edge() && p.z < origin.z + edge();
   }
@@ -84,9 +86,9 @@ double most_drift(const Reach&, double cell);
 /// contacts stand in a tile, so that vectors are fuller and wait less for each other, and there are fewer
 /// cells to manage; more grains are ghosts for it.
 inline constexpr int least_cells_of_high_tiles = 128;
-/// The smallest grid whose cells are large enough and which covers the square from `low` of edge `edge`.
-/// Cells grow by steps of sqrt(2), so that most steps have that of the step before; nothing but the arguments
-/// decides, so that a run that is continued has the same tiles.
+/// The smallest grid whose needed cells are large enough and which covers the square from `low` of edge
+/// `edge`. Needed cells grow by steps of sqrt(2), so that most steps have that of the step before; nothing
+/// but the arguments decides, so that a run that is continued has the same tiles.
 TileGrid tile_grid(Point low, double edge, const Reach&);
 
 }  // namespace drumlin::particles

@@ -17,8 +17,8 @@ enum class SweepExtrapolation {
   exact
 };
 
-/// Smaller problems sink no deeper than rounding lets them.
-inline constexpr std::int64_t least_contacts_of_exact_sweeps = 150'000;
+/// From so many contacts on sweeps extrapolate exactly; smaller problems meet their tolerances without.
+inline constexpr std::int64_t least_contacts_of_exact_sweeps = 400'000;
 
 inline SweepExtrapolation extrapolation_of(bool accelerated, std::int64_t contacts) {
   if (!accelerated) return SweepExtrapolation::none;

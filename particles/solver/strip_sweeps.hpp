@@ -75,7 +75,7 @@ void sweep_share(Strips& strips, int thread, int threads, int until, bool last, 
   const StripShare share = share_of(strips, thread, threads);
   SweepState<T> own = state;
   const bool waves = own.wave > 1;
-  if (!own.loaded && !waves) {
+  if (!own.loaded && !(waves && share.takes_wave(1 + own.wave))) {
     load_share(strips, share, thread == 0, meet);
     own.loaded = true;
   }
@@ -86,8 +86,9 @@ void sweep_share(Strips& strips, int thread, int threads, int until, bool last, 
     Momentum expected = own.momentum;
     for (int s = 1; s < sweeps; ++s) betas[s] = static_cast<T>(expected.next_of_falling());
     const int loads = own.loaded ? 0 : 1;
-    constexpr double expects = 1.2;  // steps fall
-    looked = waves && own.sweeps + sweeps >= until && worth_a_look(own, last, own.steps / expects);
+    constexpr double expects = 1.2;  // steps fall by about that; a look in vain is forgotten
+    looked = waves && share.takes_wave(loads + sweeps + 1) && own.sweeps + sweeps >= until &&
+             worth_a_look(own, last, own.steps / expects);
     const auto part = [&](int k, int strip, int phase) {
       const int s = k - loads;
       if (s < 0) return strips.load(strip, phase);

@@ -104,7 +104,8 @@ HWY_INLINE Started<V> started_from(const std::array<T, 8>& r, std::array<T, 8>& 
   return {start, hn::Sub(hn::Sub(start, now), way)};  // to the last bit where |way| <= |now| (Dekker 1971)
 }
 
-/// What a contact gives its bodies, who have gone on by themselves: its step, and what its start rounded off.
+/// What a contact gives its bodies, which have gone on by themselves: its step, and what its start rounded
+/// off.
 template <SweepExtrapolation how, class V>
 HWY_INLINE V given(V step, const Started<V>& start) {
   return how == SweepExtrapolation::exact ? hn::Add(step, start.rounded_off) : step;
@@ -204,7 +205,7 @@ HWY_INLINE void push_bodies(const Place<T, dim>& at, SweptContacts<T>& c, BodyRe
 }
 
 /// Asks for memory ahead, two lines at a time: about as many as a block and its bodies take, shared by the
-/// four sweeps of a wave that have their own memory near.
+/// four or more sweeps of a wave that have their own memory near.
 class LinesAhead {
  public:
   explicit LinesAhead(const MemoryAhead& ahead) : pieces_(ahead.pieces), now_(pieces_[0]) {}

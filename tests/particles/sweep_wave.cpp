@@ -51,7 +51,7 @@ TEST(SweepWave, GivesWhatSweepsInTurnGive) {
   for (const int size : {1, 2, 3, 5}) {
     ThreadTeam team(size);
     for (const int strips : {1, 2, 3, 7, 12, 20, 21, 33, 64})
-      for (int sweeps = 1; sweeps <= longest_wave; ++sweeps) {
+      for (int sweeps = 1; sweeps <= longest_wave_with_ends; ++sweeps) {
         Slices slices(strips);
         team.run([&](int t, int threads) {
           sweep_wave(
@@ -76,7 +76,7 @@ struct AskedStrips : Strips {
 
 TEST(SweepWave, AsksForAStripOnceBeforeItComes) {
   constexpr int count = 20;
-  for (int sweeps = 2; sweeps <= longest_wave; ++sweeps) {
+  for (int sweeps = 2; sweeps <= longest_wave_with_ends; ++sweeps) {
     AskedStrips strips{{count}, std::vector<std::vector<int>>(count)};
     const StripShare share = share_of(strips, 0, 1);
     const auto part = [&](int s, int strip, int phase) {

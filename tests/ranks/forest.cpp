@@ -223,7 +223,8 @@ TEST(Tiles, OfLargeGridsAreHigh) {
       cuts.insert(chosen.cut);
       EXPECT_GE(chosen.edge(), edge);
       EXPECT_GE(chosen.cell, least_cell(reach));
-      EXPECT_GE(chosen.tile_width(), 2 * least_cell(reach));
+      EXPECT_EQ(chosen.tile_width(), 2 * chosen.needed_cell());
+      EXPECT_GE(chosen.needed_cell(), least_cell(reach));
       EXPECT_LE(chosen.tile_width(), 2 * std::max(3.0 * reach.largest, 1.5 * least_cell(reach)));
     }
     EXPECT_EQ(cuts, (std::set<std::int32_t>{1, 2, 4}));
