@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "coupling/common/free_memory.hpp"
 #include "particles/distributed/tile_solver.hpp"
+#include "particles/parallel/work_memory.hpp"
 #include "particles/stepping/overlap.hpp"
 #include "particles/stepping/position_projection.hpp"
 #include "particles/stepping/projection_rule.hpp"

@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "coupling/common/errors.hpp"
-#include "coupling/common/free_memory.hpp"
 #include "particles/measurement/frame/intervals.hpp"
 #include "particles/measurement/grains/cell_profiles.hpp"
 #include "particles/measurement/layers/bulk_scalars.hpp"
@@ -36,13 +35,19 @@ double mean_of(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
+/// Gives back what a vector holds; to assign {} to it would keep that for later.
+template <class T>
+void forget_all(std::vector<T>& values) {
+  std::vector<T>().swap(values);
+}
+
 /// Leaves what a snapshot says of the whole.
 void forget_grains(Snapshot& snapshot) {
   for (auto* values : {&snapshot.x, &snapshot.z, &snapshot.v_x, &snapshot.v_z, &snapshot.radius,
                        &snapshot.spin, &snapshot.displacement_x, &snapshot.displacement_z, &snapshot.mass})
-    free_memory_of(*values);
-  free_memory_of(snapshot.contacts);
-  free_memory_of(snapshot.id);
+    forget_all(*values);
+  forget_all(snapshot.contacts);
+  forget_all(snapshot.id);
 }
 
 /// The frame, and the scalars that the first reading gives.

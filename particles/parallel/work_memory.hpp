@@ -11,8 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "coupling/common/free_memory.hpp"
-
 namespace drumlin::particles {
 
 /// A stack of frames. What is taken within a frame ends with it; its bytes go to the next one. Of one thread.
@@ -145,6 +143,12 @@ class WorkArray {
 template <class T>
 std::size_t bytes_of(const std::vector<T>& values) {
   return values.capacity() * sizeof(T);
+}
+
+/// Gives back what a vector holds. To assign {} to it would keep that for later.
+template <class T>
+void free_memory_of(std::vector<T>& values) {
+  std::vector<T>().swap(values);
 }
 
 /// Makes a vector `count` long, which holds little more than that: one that grows by itself may hold twice as

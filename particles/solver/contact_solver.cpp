@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "coupling/common/errors.hpp"
-#include "coupling/common/free_memory.hpp"
 #include "particles/contact/problems.hpp"
+#include "particles/parallel/work_memory.hpp"
 #include "particles/solver/momentum.hpp"
 #include "particles/solver/strip_sweeps.hpp"
 
