@@ -1,8 +1,8 @@
 """How sweeps grow with the packing: drums of 2,000 to 100,000 discs at the fill of the 6 rpm drum, settled and flowing, to a residual of 1e-2.
 
 usage: python3 tests/benchmarks/sweeps_over_size.py BUILD RECORD.json [--keep FOLDER] [DISCS...]   (2000, 7183, 30000, 100000 unless told)
---keep: the scenes and runs stay there, in a folder for each size, for benchmarks that need a flow to begin with; those of this build that are there already
-are taken as they are.
+--keep: the scenes and runs stay there, in a folder for each size, for benchmarks that need a flow to begin with; those of this build and of
+the same scene that are there already are taken as they are.
 
 Each drum falls and turns by 0.17 of a turn at the Froude number of 6 rpm, roughly solved (3e-2, 150 sweeps at most). From there a run takes 300 steps of
 1e-3 s at rest and another 300 of the flow to 1e-2, with the bounds on penetration and sinking that scenes have. The first 100 steps of each, in which what
@@ -40,8 +40,9 @@ def scenes(discs):
     return made
 
 
-def is_there(folder, revision):
-    if not (folder / "run.json").exists():
+def is_there(folder, revision, text):
+    scene_file = folder.with_suffix(".toml")
+    if not (folder / "run.json").exists() or not scene_file.exists() or scene_file.read_text(encoding="utf-8") != text:
         return False
     run = json.loads((folder / "run.json").read_text(encoding="utf-8"))
     return run["status"] == "finished" and run["revision"] == revision
@@ -80,8 +81,9 @@ def main():
             folder.mkdir(parents=True, exist_ok=True)
             case = {"discs": discs}
             for what, text in scenes(discs).items():
+                there = is_there(folder / what, revision, text)
                 (folder / f"{what}.toml").write_text(text, encoding="utf-8")
-                if not is_there(folder / what, revision):
+                if not there:
                     ended = subprocess.run([build / "drumlin", "run", folder / f"{what}.toml", "-o", folder / what, "--overwrite"], stdout=subprocess.DEVNULL)
                     if ended.returncode == 2 and what == "settled":  # what the rough solution leaves overlaps too much to start from
                         case[what] = {"refused": True}
