@@ -35,19 +35,13 @@ double mean_of(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-/// Gives back what a vector holds; to assign {} to it would keep that for later.
-template <class T>
-void forget_all(std::vector<T>& values) {
-  std::vector<T>().swap(values);
-}
-
-/// Leaves what a snapshot says of the whole.
+/// Leaves what a snapshot says of the whole. To assign {} to a vector would keep its memory.
 void forget_grains(Snapshot& snapshot) {
   for (auto* values : {&snapshot.x, &snapshot.z, &snapshot.v_x, &snapshot.v_z, &snapshot.radius,
                        &snapshot.spin, &snapshot.displacement_x, &snapshot.displacement_z, &snapshot.mass})
-    forget_all(*values);
-  forget_all(snapshot.contacts);
-  forget_all(snapshot.id);
+    *values = std::vector<double>();
+  snapshot.contacts = decltype(snapshot.contacts)();
+  snapshot.id = decltype(snapshot.id)();
 }
 
 /// The frame, and the scalars that the first reading gives.
