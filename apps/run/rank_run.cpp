@@ -150,6 +150,7 @@ class RankRun {
   void save_checkpoint() {
     const auto begin = Clock::now();
     particles::Checkpoint checkpoint;
+    simulation_.release_memory();
     checkpoint.state = simulation_.gathered_state();
     ranks_.on_first([&] {
       checkpoint.scene = resolved_;

@@ -168,7 +168,6 @@ Snapshot RankSimulation::take_snapshot() {
 }
 
 SimulationState RankSimulation::gathered_state() const {
-  stepper_->release_memory();
   SimulationState all = state_;
   all.bodies = gathered_bodies();
   auto memory = ranks_.gather<RememberedContact>(own_.memory);

@@ -21,11 +21,13 @@ class RankSimulation {
   StepReport step();
   bool snapshot_due() const;
   /// The state after the last step; what the first rank gets counts, others get parts of it. Once in a step,
-  /// and before gathered_state(): large runs give back the contacts of the step with either.
+  /// and before release_memory(), which it calls.
   Snapshot take_snapshot();
   /// Everything that the next step depends on, gathered on the first rank; elsewhere without grains.
   SimulationState gathered_state() const;
   double kinetic_energy() const;
+  /// Gives back what the next step makes anew, before much is gathered.
+  void release_memory() { stepper_->release_memory(); }
 
   /// Grains, their memory and marks aside.
   const SimulationState& progress() const { return state_; }
