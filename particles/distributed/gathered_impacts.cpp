@@ -10,10 +10,10 @@
 namespace drumlin::particles {
 namespace {
 
-// How many pairs around what closes, or around bodies that were missing, are sent at once. Passes of a
+// How far around the discs that close, or that were missing, pairs are sent at once, in d. Passes of a
 // flowing drum go on by 2.4 pairs on average, the furthest of a large one by a dozen: one that goes on
 // further than was sent costs more than some pairs too many. After that many times all pairs are sent.
-constexpr std::array<int, 2> reach{5, 15};
+constexpr std::array<double, 2> reach{4, 15};
 
 /// Sorts what consists of a few runs in order: the first `sorted` records and what each rank has sent.
 template <class Record, class Less>
@@ -32,23 +32,42 @@ StruckRecord record_of(const StruckGrain& grain, const Bodies& bodies) {
 
 }  // namespace
 
+std::vector<Strike> GatheredImpacts::strikes() const {
+  auto records = ranks_.gather<StrikeRecord>(strikes_);
+  std::stable_sort(records.begin(), records.end(),
+                   [](const StrikeRecord& a, const StrikeRecord& b) { return a.call < b.call; });
+  std::vector<Strike> strikes;
+  for (const StrikeRecord& record : records) strikes.push_back(record.strike);
+  return strikes;
+}
+
+bool GatheredImpacts::choose_resolver(const RankImpacts& mine) {
+  std::vector<std::int64_t> closings(ranks_.count(), 0);
+  if (looked_.any(mine.step, mine.loads, mine.contacts))
+    closings[ranks_.rank()] = static_cast<std::int64_t>(looked_.closings().size());
+  ranks_.add(closings);
+  const auto most = std::max_element(closings.begin(), closings.end());
+  resolver_ = static_cast<int>(most - closings.begin());
+  return *most > 0;
+}
+
 std::vector<StruckRecord> GatheredImpacts::resolve(const RankImpacts& mine) {
   count_ = 0;
+  ++calls_;
   if (ranks_.count() == 1) return resolve_alone(mine);
-  const bool close = looked_.any(mine.step, mine.loads, mine.contacts);
-  if (!ranks_.any(close)) return {};
+  if (!choose_resolver(mine)) return {};
   ++counts_.times;
   const std::size_t seen = mine.step.bodies.count();
-  seed_.assign(seen, 0), wanted_.assign(seen, 0), sent_.assign(seen, 0);
+  wanted_.assign(seen, 0), sent_.assign(seen, 0);
   pair_sent_.assign(mine.contacts.pairs.size(), 0);
   pairs_.clear(), bodies_.clear();
-  const std::size_t identities = ranks_.rank() == 0 ? mine.place_of.size() : 0;
-  whole_.assign(identities, 0), place_of_.resize(identities);
-  find_neighbours(mine);
+  if (resolves()) place_of_.resize(mine.place_of.size());
+  near_.clear(mine.low, mine.edge, mine.place_of.size());
+  seeds_.clear();
   for (const std::int32_t a : looked_.closings()) {
     const Candidate& pair = mine.contacts.pairs[a];
-    seed_[pair.i] = 1;
-    if (pair.j >= 0) seed_[pair.j] = 1;
+    seeds_.push_back(pair.i);
+    if (pair.j >= 0) seeds_.push_back(pair.j);
   }
   std::vector<StruckRecord> struck;
   for (std::size_t times = 0;; ++times) {
@@ -57,20 +76,20 @@ std::vector<StruckRecord> GatheredImpacts::resolve(const RankImpacts& mine) {
     if (all)
       std::fill(wanted_.begin(), wanted_.end(), 1);
     else
-      want(mine, ranks_.gather_everywhere<std::int32_t>(around(mine, reach[times])));
+      want_around(mine.step.bodies, reach[times]);
     send(mine);
     missing_.clear();
-    if (ranks_.rank() == 0) resolve_gathered(mine.step, all, struck);
-    ranks_.broadcast(missing_);
+    if (resolves()) resolve_gathered(mine.step, all, struck);
+    ranks_.broadcast(missing_, resolver_);
     if (missing_.empty()) break;
     if (all) throw std::logic_error("a pair of an impact is on no rank");
-    seed_.assign(seen, 0);
+    seeds_.clear();
     for (const std::int32_t id : missing_)
-      if (const std::int32_t b = mine.place_of[id]; b >= 0) seed_[b] = 1;
+      if (const std::int32_t b = mine.place_of[id]; b >= 0) seeds_.push_back(b);
   }
-  ranks_.broadcast(struck);
+  ranks_.broadcast(struck, resolver_);
   std::array<std::int64_t, 1> count{count_};
-  ranks_.add(count);  // of the first, who alone knows it
+  ranks_.add(count);  // of the one that alone knows it
   count_ = static_cast<int>(count[0]);
   return struck;
 }
@@ -85,92 +104,70 @@ std::vector<StruckRecord> GatheredImpacts::resolve_alone(const RankImpacts& mine
   for (Strike strike : mine.contacts.strikes) {
     strike.i = static_cast<std::int32_t>(id[strike.i]);
     if (strike.j >= 0) strike.j = static_cast<std::int32_t>(id[strike.j]);
-    strikes_.push_back(strike);
+    strikes_.push_back({calls_, strike});
   }
   std::vector<StruckRecord> struck;
   for (const StruckGrain& grain : impacts_.struck()) struck.push_back(record_of(grain, mine.bodies));
   return struck;
 }
 
-void GatheredImpacts::find_neighbours(const RankImpacts& mine) {
-  first_.assign(mine.step.bodies.count() + 1, 0);
-  for (const Candidate& pair : mine.candidates)
-    if (pair.j >= 0) ++first_[pair.i], ++first_[pair.j];
-  std::exclusive_scan(first_.begin(), first_.end(), first_.begin(), 0);
-  neighbour_.resize(first_.back());
-  // Each body's first place moves on as it fills, to that of the next one.
-  for (const Candidate& pair : mine.candidates)
-    if (pair.j >= 0) neighbour_[first_[pair.i]++] = pair.j, neighbour_[first_[pair.j]++] = pair.i;
-  std::shift_right(first_.begin(), first_.end(), 1);
-  first_.front() = 0;
+void GatheredImpacts::want_around(const Bodies& seen, double reach) {
+  std::vector<Surroundings> places;
+  for (const std::int32_t b : seeds_) places.push_back({{seen.x[b], seen.z[b]}, seen.radius[b] + reach});
+  near_.mark(ranks_.gather_everywhere<Surroundings>(places));
+  for (std::size_t b = 0; b < wanted_.size(); ++b)
+    wanted_[b] = static_cast<char>(near_.marked({seen.x[b], seen.z[b]}));
 }
 
-std::vector<std::int32_t> GatheredImpacts::around(const RankImpacts& mine, int pairs) {
-  ring_.clear();
-  for (std::size_t b = 0; b < seed_.size(); ++b)
-    if (seed_[b]) ring_.push_back(static_cast<std::int32_t>(b));
-  std::vector<std::int32_t> marked;
-  const auto& id = mine.step.bodies.id;
-  const auto mark = [&](std::int32_t b) {
-    if (!wanted_[b]) marked.push_back(static_cast<std::int32_t>(id[b]));
-  };
-  for (const std::int32_t b : ring_) mark(b);
-  std::size_t begin = 0;
-  for (int k = 0; k < pairs; ++k) {
-    const std::size_t end = ring_.size();
-    for (; begin < end; ++begin) {
-      const std::int32_t b = ring_[begin];
-      for (std::int32_t n = first_[b]; n < first_[b + 1]; ++n)
-        if (!std::exchange(seed_[neighbour_[n]], 1)) ring_.push_back(neighbour_[n]), mark(neighbour_[n]);
-    }
-  }
-  return marked;
-}
-
-void GatheredImpacts::want(const RankImpacts& mine, std::span<const std::int32_t> identities) {
-  for (const std::int32_t id : identities)
-    if (const std::int32_t b = mine.place_of[id]; b >= 0) wanted_[b] = 1;
-  if (ranks_.rank() == 0)
-    for (const std::int32_t id : identities) whole_[id] = 1;
-}
-
-void GatheredImpacts::send(const RankImpacts& mine) {
+void GatheredImpacts::list_wanted(const RankImpacts& mine) {
   const Bodies& bodies = mine.step.bodies;
   const auto& id = bodies.id;
-  const auto comes_before = [](const BodyRecord& a, const BodyRecord& b) { return a.id < b.id; };
   constexpr char sent_now = 2;
-  std::vector<PairRecord> pairs;
   const auto name = [&](std::int32_t b) {
     if (!sent_[b]) sent_[b] = sent_now;
     return static_cast<std::int32_t>(id[b]);
   };
+  listed_pairs_.clear();
   for (std::size_t a = 0; a < mine.contacts.pairs.size(); ++a) {
     const Candidate& pair = mine.contacts.pairs[a];
-    if (pair_sent_[a] || !(wanted_[pair.i] | (pair.j >= 0 ? wanted_[pair.j] : 0))) continue;
-    pair_sent_[a] = 1;
+    if (!(wanted_[pair.i] | (pair.j >= 0 ? wanted_[pair.j] : 0)) || std::exchange(pair_sent_[a], 1)) continue;
     const std::int32_t i = name(pair.i), j = pair.j < 0 ? pair.j : name(pair.j);
-    pairs.push_back({i, j, pair.gap, pair.n_x, pair.n_z, pair.wall_v_x, pair.wall_v_z,
-                     mine.loads.of(static_cast<std::int32_t>(a))});
+    listed_pairs_.push_back({i, j, pair.gap, pair.n_x, pair.n_z, pair.wall_v_x, pair.wall_v_z,
+                             mine.loads.of(static_cast<std::int32_t>(a))});
   }
-  std::vector<BodyRecord> grains;  // by identity, as the rank sees them
+  listed_bodies_.clear();
   for (std::size_t b = 0; b < sent_.size(); ++b) {
     if (sent_[b] != sent_now) continue;
     sent_[b] = 1;
-    grains.push_back({static_cast<std::int32_t>(id[b]), bodies.v_x[b], bodies.v_z[b],
-                      bodies.spin.empty() ? 0 : bodies.spin[b], bodies.radius[b], bodies.inverse_mass[b]});
+    BodyRecord body{static_cast<std::int32_t>(id[b]), {bodies.x[b], bodies.z[b]}};
+    body.v_x = bodies.v_x[b], body.v_z = bodies.v_z[b];
+    if (!bodies.spin.empty()) body.spin = bodies.spin[b];
+    body.radius = bodies.radius[b], body.inverse_mass = bodies.inverse_mass[b];
+    listed_bodies_.push_back(body);
   }
-  counts_.pairs += static_cast<std::int64_t>(pairs.size());
-  counts_.bytes +=
-      static_cast<std::int64_t>(pairs.size() * sizeof(PairRecord) + grains.size() * sizeof(BodyRecord));
-  const auto more = ranks_.gather<PairRecord>(pairs);
+}
+
+void GatheredImpacts::send(const RankImpacts& mine) {
+  list_wanted(mine);
   const std::size_t held = pairs_.size(), known = bodies_.size();
+  // What the resolving rank has itself it does not send.
+  const auto take = [](auto& all, auto& listed) {
+    if (all.empty()) return all.swap(listed);
+    all.insert(all.end(), listed.begin(), listed.end());
+    listed.clear();
+  };
+  if (resolves()) take(pairs_, listed_pairs_), take(bodies_, listed_bodies_);
+  counts_.pairs += static_cast<std::int64_t>(listed_pairs_.size());
+  counts_.bytes += static_cast<std::int64_t>(listed_pairs_.size() * sizeof(PairRecord) +
+                                             listed_bodies_.size() * sizeof(BodyRecord));
+  const auto more = ranks_.gather<PairRecord>(listed_pairs_, resolver_);
   pairs_.insert(pairs_.end(), more.begin(), more.end());
   merge_runs(pairs_, held, [](const PairRecord& a, const PairRecord& b) {
     return std::tie(a.i, a.j) < std::tie(b.i, b.j);
   });
-  const auto named = ranks_.gather<BodyRecord>(grains);
+  const auto named = ranks_.gather<BodyRecord>(listed_bodies_, resolver_);
   bodies_.insert(bodies_.end(), named.begin(), named.end());
-  merge_runs(bodies_, known, comes_before);
+  merge_runs(bodies_, known, [](const BodyRecord& a, const BodyRecord& b) { return a.id < b.id; });
 }
 
 void GatheredImpacts::resolve_gathered(const StepInput& step, bool all, std::vector<StruckRecord>& struck) {
@@ -190,7 +187,7 @@ void GatheredImpacts::resolve_gathered(const StepInput& step, bool all, std::vec
     bodies.radius[b] = body.radius, bodies.inverse_mass[b] = body.inverse_mass;
     if (step.laws.spin) bodies.spin[b] = body.spin;
     bodies.id[b] = body.id;
-    whole[b] = static_cast<char>(all || whole_[body.id]);
+    whole[b] = static_cast<char>(all || near_.marked(body.place));
     place_of_[body.id] = static_cast<std::int32_t>(b);
   }
   StepContacts contacts;
@@ -213,7 +210,7 @@ void GatheredImpacts::resolve_gathered(const StepInput& step, bool all, std::vec
   for (Strike strike : contacts.strikes) {
     strike.i = bodies_[strike.i].id;
     if (strike.j >= 0) strike.j = bodies_[strike.j].id;
-    strikes_.push_back(strike);
+    strikes_.push_back({calls_, strike});
   }
   for (const StruckGrain& grain : impacts_.struck()) struck.push_back(record_of(grain, bodies));
 }

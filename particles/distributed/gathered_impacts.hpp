@@ -1,11 +1,12 @@
 #pragma once
-// Impacts of a step on ranks. The first rank resolves them for all, since passes of all impacts are one
-// computation; it gets the pairs that passes may reach and no others. A step in which no pair closes fast
-// enough gathers nothing.
+// Impacts of a step on ranks. One rank resolves them for all, since passes of all impacts are one
+// computation: the one on which most pairs close. It gets the pairs that passes may reach and no others. A
+// step in which no pair closes fast enough gathers nothing.
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "particles/distributed/near_places.hpp"
 #include "particles/distributed/ranks.hpp"
 #include "particles/stepping/impacts.hpp"
 #include "particles/stepping/step_contacts.hpp"
@@ -25,11 +26,12 @@ struct RankImpacts {
   const RememberedLoads& loads;
   Bodies& bodies;                          ///< those of the step: one rank alone sets their velocities
   StepContacts& contacts;                  ///< pairs of the rank's tiles, in the order of (i, j)
-  std::span<const Candidate> candidates;   ///< all pairs of the grains that it sees
   std::span<const std::int32_t> place_of;  ///< of each identity among the bodies; -1: not seen
+  Point low;                               ///< the square that holds all grains: its lower left corner
+  double edge = 0;
 };
 
-/// What impacts have sent to the first rank since the program began, from this rank.
+/// What impacts have sent to the rank that resolved them since the program began, from this rank.
 struct GatheredCounts {
   std::int64_t times = 0;  ///< that anything was gathered
   std::int64_t rounds = 0;
@@ -45,9 +47,10 @@ class GatheredImpacts {
   std::vector<StruckRecord> resolve(const RankImpacts& mine);
   /// Pairs that met in the last call, counted once per pass.
   int count() const { return count_; }
-  /// On the first rank: impulses since the last clear(), with identities in place of indices.
-  const std::vector<Strike>& strikes() const { return strikes_; }
-  void clear() { strikes_.clear(); }
+  /// On the first rank: impulses since the last clear(), with identities in place of indices, in the order in
+  /// which they came about; empty on the others. All ranks call it together.
+  std::vector<Strike> strikes() const;
+  void clear() { strikes_.clear(), calls_ = 0; }
   const GatheredCounts& counts() const { return counts_; }
 
  private:
@@ -59,33 +62,47 @@ class GatheredImpacts {
   /// What impacts ask of a grain.
   struct BodyRecord {
     std::int32_t id = 0;
+    Point place;
     double v_x = 0, v_z = 0, spin = 0, radius = 0, inverse_mass = 0;
   };
 
+  /// An impulse as ranks gather it.
+  struct StrikeRecord {
+    std::int32_t call = 0;  // of resolve(), since the last clear()
+    Strike strike;
+  };
+
   std::vector<StruckRecord> resolve_alone(const RankImpacts& mine);
-  /// Finds which candidates join each seen body to which others.
-  void find_neighbours(const RankImpacts& mine);
-  /// Marks the seeds and all bodies within so many pairs of them; returns the identities of the marked.
-  std::vector<std::int32_t> around(const RankImpacts& mine, int pairs);
-  /// Adds the pairs of wanted bodies to what the first rank holds.
+  /// Whether any pair closes; the rank that has most of these is to resolve the impacts.
+  bool choose_resolver(const RankImpacts& mine);
+  bool resolves() const { return ranks_.rank() == resolver_; }
+  /// Adds the bodies around the seeds of all ranks to those wanted, of which the resolving rank needs all
+  /// pairs.
+  void want_around(const Bodies& seen, double reach);
+  /// Lists the pairs of wanted bodies that were not listed before, and the bodies that these name, by
+  /// identity.
+  void list_wanted(const RankImpacts& mine);
+  /// Adds the pairs of wanted bodies to what the resolving rank holds.
   void send(const RankImpacts& mine);
-  /// Adds to the bodies whose pairs the first rank needs, and marks those that this rank sees.
-  void want(const RankImpacts& mine, std::span<const std::int32_t> identities);
-  /// On the first rank; nothing changes where missing_ bodies came in. `all`: it holds all pairs.
+  /// On that rank; nothing changes where missing_ bodies came in. `all`: it holds all pairs.
   void resolve_gathered(const StepInput& step, bool all, std::vector<StruckRecord>& struck);
 
   Ranks ranks_;
   Impacts looked_, impacts_;
-  std::vector<char> seed_;                              // of each seen body
-  std::vector<std::int32_t> first_, neighbour_, ring_;  // neighbours of b from first_[b] on
-  std::vector<char> wanted_;                            // of each seen body: all pairs of it are to be sent
-  std::vector<char> pair_sent_, sent_;                  // of each pair of this rank; of each seen body
-  std::vector<char> whole_;                             // on the first rank, of each identity: wanted
-  std::vector<PairRecord> pairs_;       // those that the first rank holds, in the order of (i, j)
+  int resolver_ = 0;                    // rank
+  std::vector<std::int32_t> seeds_;     // seen bodies that close, or that were missing
+  NearPlaces near_;                     // those in it are wanted, on any rank
+  std::vector<char> wanted_;            // of each seen body: all pairs of it are to be sent
+  std::vector<char> pair_sent_, sent_;  // of each pair of this rank; of each seen body
+  std::vector<PairRecord> listed_pairs_;
+  std::vector<BodyRecord> listed_bodies_;
+  // On the resolving rank.
+  std::vector<PairRecord> pairs_;       // those that it holds, in the order of (i, j)
   std::vector<BodyRecord> bodies_;      // by identity
   std::vector<std::int32_t> place_of_;  // of each identity among them; others are not set
   std::vector<std::int32_t> missing_;   // identities
-  std::vector<Strike> strikes_;
+  std::vector<StrikeRecord> strikes_;   // of the calls in which this rank resolved
+  std::int32_t calls_ = 0;
   GatheredCounts counts_;
   int count_ = 0;
 };

@@ -19,6 +19,10 @@ constexpr double most_share = 1.1;
 // Of that work: sweeps are that of contacts, most else that of grains.
 constexpr std::int64_t of_a_grain = 10, of_a_loaded_contact = 10;
 
+bool comes_before(const RememberedContact& a, const RememberedContact& b) {
+  return a.i != b.i ? a.i < b.i : a.j < b.j;
+}
+
 }  // namespace
 
 RankGrains::Need RankGrains::need_of(const RankState& state, const WallStep& walls, double time_step,
@@ -199,31 +203,44 @@ void RankGrains::follow(const RankState& state) {
     for (std::size_t k = 0; k < shown[r].size(); ++k) set(ghosts_of_[r][k], shown[r][k]);
 }
 
-/// The place of a remembered pair is where the pair stands now: its tile's owner looks for it.
-void RankGrains::bring_memory(RankState& state) {
+/// The place of a remembered pair is where the pair stands now: its tile's owner looks for it. Returns how many
+/// contacts stay here; those that come stand behind them, in order.
+std::size_t RankGrains::pass_memory_on(std::vector<RememberedContact>& memory) const {
+  if (ranks_.count() == 1) return memory.size();
   const auto rank = static_cast<std::size_t>(ranks_.rank());
-  if (ranks_.count() > 1) {
-    std::vector<std::vector<RememberedContact>> to_rank(ranks_.count());
-    std::erase_if(state.memory, [&](const RememberedContact& contact) {
-      const auto owner = static_cast<std::size_t>(forest_->tiles().owner_at({contact.x, contact.z}));
-      if (owner != rank) to_rank[owner].push_back(contact);
-      return owner != rank;
-    });
-    for (const auto& of_rank : ranks_.exchange(to_rank))
-      state.memory.insert(state.memory.end(), of_rank.begin(), of_rank.end());
-  }
-  const std::size_t most = state.memory.size();
+  std::vector<std::vector<RememberedContact>> to_rank(ranks_.count());
+  std::erase_if(memory, [&](const RememberedContact& contact) {
+    const auto owner = static_cast<std::size_t>(forest_->tiles().owner_at({contact.x, contact.z}));
+    if (owner != rank) to_rank[owner].push_back(contact);
+    return owner != rank;
+  });
+  const std::size_t stay = memory.size();
+  for (const auto& of_rank : ranks_.exchange(to_rank))
+    memory.insert(memory.end(), of_rank.begin(), of_rank.end());
+  std::sort(memory.begin() + static_cast<std::ptrdiff_t>(stay), memory.end(), comes_before);
+  return stay;
+}
+
+void RankGrains::bring_memory(RankState& state) {
+  const std::size_t stay = pass_memory_on(state.memory), most = state.memory.size();
   memory_.i.clear(), memory_.j.clear(), memory_.impulse.clear();
   memory_.i.reserve(most), memory_.j.reserve(most), memory_.impulse.reserve(unknowns_ * most);
   memory_.time_step = state.memory_time_step;
-  for (const RememberedContact& contact : state.memory) {
+  const auto keep = [this](const RememberedContact& contact) {
     const std::int32_t i = place_of_[contact.i];
     const std::int32_t j = contact.j < 0 ? static_cast<std::int32_t>(contact.j) : place_of_[contact.j];
-    if (i < 0 || (contact.j >= 0 && j < 0)) continue;  // they are too far apart to meet
+    if (i < 0 || (contact.j >= 0 && j < 0)) return;  // they are too far apart to meet
     memory_.i.push_back(i), memory_.j.push_back(j);
     memory_.impulse.insert(memory_.impulse.end(), contact.impulse.begin(),
                            contact.impulse.begin() + unknowns_);
+  };
+  // Both parts are in order, but for what a run begins with.
+  std::size_t come = stay;
+  for (std::size_t k = 0; k < stay; ++k) {
+    while (come < most && comes_before(state.memory[come], state.memory[k])) keep(state.memory[come++]);
+    keep(state.memory[k]);
   }
+  while (come < most) keep(state.memory[come++]);
   put_in_order(memory_);
 }
 

@@ -64,6 +64,8 @@ class RankGrains {
   void see(const RankState&);
   void agree_on_ghosts();
   void follow(const RankState&);
+  std::size_t pass_memory_on(std::vector<RememberedContact>&) const;
+  /// Remembered impulses of pairs that this rank sees, with its numbers of grains, in order.
   void bring_memory(RankState&);
   void refuse(const GrainOutside&) const;
 

@@ -131,7 +131,8 @@ std::vector<StruckRecord> RankSearch::strike(const Step& step) {
   const StepInput all{laws_, seen, step.walls, {}, free_, step.time_step};
   sweep_normals(all, mine_.pairs);
   const auto loads = recollection_.loads(grains_.memory(), unknowns_, step.time_step);
-  return impacts_.resolve({all, loads, seen, mine_, detection_.candidates(), grains_.places()});
+  const TileGrid& grid = grains_.tiles().grid;
+  return impacts_.resolve({all, loads, seen, mine_, grains_.places(), grid.origin, grid.edge()});
 }
 
 bool RankSearch::strikes_again(std::span<const StruckRecord> struck, const Step& step) {

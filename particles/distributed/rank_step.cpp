@@ -10,6 +10,7 @@
 #include "particles/distributed/rank_grains.hpp"
 #include "particles/distributed/rank_projection.hpp"
 #include "particles/distributed/rank_search.hpp"
+#include "particles/parallel/ask_ahead.hpp"
 #include "particles/parallel/work_memory.hpp"
 #include "particles/solver/coarse_loads.hpp"
 #include "particles/stepping/assembly.hpp"
@@ -118,7 +119,7 @@ class RankMoreauJean final : public RankStepper {
                         dim >= 2 ? r[dim * a + 1 % dim] : 0});
     }
     std::vector<SnapshotContact> all = ranks_.gather<SnapshotContact>(loaded);
-    for (const Strike& strike : search_.impacts().strikes())
+    for (const Strike& strike : search_.impacts().strikes())  // of all ranks, on the first
       all.push_back({strike.i, strike.j, static_cast<float>(strike.n_x), static_cast<float>(strike.n_z),
                      strike.normal, strike.tangential});
     return one_for_each_pair(std::move(all));
@@ -208,7 +209,13 @@ class RankMoreauJean final : public RankStepper {
     if (state.memory.capacity() > 2 * loaded) free_memory_of(state.memory);
     state.memory.reserve(loaded + loaded / 16);
     // By identities, so that the next step need not sort what stays on this rank.
-    for (const std::int32_t a : place_in_order_) {
+    for (std::size_t k = 0; k < place_in_order_.size(); ++k) {
+      if (k + turns_ahead < place_in_order_.size()) {
+        const std::int32_t later = place_in_order_[k + turns_ahead];
+        ask_for(&contacts_.pairs[later]);
+        ask_for(r.data() + dim * later);
+      }
+      const std::int32_t a = place_in_order_[k];
       const Candidate& pair = contacts_.pairs[a];
       RememberedContact contact;
       for (int c = 0; c < dim; ++c) contact.impulse[c] = r[dim * a + c];

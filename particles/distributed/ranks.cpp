@@ -84,31 +84,31 @@ std::vector<std::vector<std::byte>> Ranks::exchange_bytes(
   return received;
 }
 
-std::vector<std::byte> Ranks::gather_bytes(std::span<const std::byte> own) const {
+std::vector<std::byte> Ranks::gather_bytes(std::span<const std::byte> own, int on) const {
   if (count() == 1) return {own.begin(), own.end()};
   const WaitingTime waiting(waited);
   const int mine = as_count(own.size());
   std::vector<int> counts(count()), first(count() + 1, 0);
-  MPI_Gather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, MPI_COMM_WORLD);
+  MPI_Gather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, on, MPI_COMM_WORLD);
   std::size_t total = 0;
   std::vector<std::byte> all;
-  if (rank() == 0) {
+  if (rank() == on) {
     for (std::size_t r = 0; r < counts.size(); ++r) total += counts[r], first[r + 1] = as_count(total);
     all.resize(total);
   }
-  MPI_Gatherv(own.data(), mine, MPI_BYTE, all.data(), counts.data(), first.data(), MPI_BYTE, 0,
+  MPI_Gatherv(own.data(), mine, MPI_BYTE, all.data(), counts.data(), first.data(), MPI_BYTE, on,
               MPI_COMM_WORLD);
   rounds_so_far += 2;
   return all;
 }
 
-void Ranks::broadcast_bytes(std::vector<std::byte>& bytes) const {
+void Ranks::broadcast_bytes(std::vector<std::byte>& bytes, int from) const {
   if (count() == 1) return;
   const WaitingTime waiting(waited);
   std::int64_t size = static_cast<std::int64_t>(bytes.size());
-  MPI_Bcast(&size, 1, MPI_INT64_T, 0, MPI_COMM_WORLD);
+  MPI_Bcast(&size, 1, MPI_INT64_T, from, MPI_COMM_WORLD);
   bytes.resize(size);
-  MPI_Bcast(bytes.data(), as_count(bytes.size()), MPI_BYTE, 0, MPI_COMM_WORLD);
+  MPI_Bcast(bytes.data(), as_count(bytes.size()), MPI_BYTE, from, MPI_COMM_WORLD);
   rounds_so_far += 2;
 }
 

@@ -48,11 +48,11 @@ class Ranks {
     for (std::size_t r = 0; r < arrived.size(); ++r) received[r] = as<T>(arrived[r]);
     return received;
   }
-  /// What all ranks give, in the order of the ranks: on the first; empty on the others.
+  /// What all ranks give, in the order of the ranks: on one of them; empty on the others.
   template <class T>
-  std::vector<T> gather(std::span<const T> own) const {
+  std::vector<T> gather(std::span<const T> own, int on = 0) const {
     static_assert(std::is_trivially_copyable_v<T>);
-    return as<T>(gather_bytes(std::as_bytes(own)));
+    return as<T>(gather_bytes(std::as_bytes(own), on));
   }
   /// The same, on all ranks.
   template <class T>
@@ -61,17 +61,17 @@ class Ranks {
     broadcast(all);
     return all;
   }
-  /// Replaces the values of all ranks by those of the first.
+  /// Replaces the values of all ranks by those of one.
   template <class T>
-  void broadcast(std::vector<T>& values) const {
+  void broadcast(std::vector<T>& values, int from = 0) const {
     static_assert(std::is_trivially_copyable_v<T>);
     std::vector<std::byte> bytes;
-    if (rank() == 0) {
+    if (rank() == from) {
       const auto own = std::as_bytes(std::span(values));
       bytes.assign(own.begin(), own.end());
     }
-    broadcast_bytes(bytes);
-    if (rank() != 0) values = as<T>(bytes);
+    broadcast_bytes(bytes, from);
+    if (rank() != from) values = as<T>(bytes);
   }
 
   /// Each value becomes the largest of all ranks. No NaN.
@@ -104,8 +104,8 @@ class Ranks {
     return values;
   }
   std::vector<std::vector<std::byte>> exchange_bytes(const std::vector<std::vector<std::byte>>&) const;
-  std::vector<std::byte> gather_bytes(std::span<const std::byte>) const;
-  void broadcast_bytes(std::vector<std::byte>&) const;
+  std::vector<std::byte> gather_bytes(std::span<const std::byte>, int on) const;
+  void broadcast_bytes(std::vector<std::byte>&, int from) const;
 };
 
 }  // namespace drumlin::particles

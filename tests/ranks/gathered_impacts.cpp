@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <map>
+#include <cmath>
 #include <numeric>
 
 namespace drumlin::particles {
@@ -63,18 +63,16 @@ TEST(GatheredImpacts, AreThoseOfOneProcessToTheLastBit) {
     seen.spin.push_back(row.bodies.spin[b]), seen.radius.push_back(row.bodies.radius[b]);
     seen.inverse_mass.push_back(row.bodies.inverse_mass[b]), seen.id.push_back(b);
   }
-  std::vector<Candidate> candidates;
   StepContacts mine;
-  for (int a = low; a + 1 < high; ++a) {
+  for (int a = first; a < last; ++a) {
     Candidate pair = row.pairs[a];
     pair.i -= low, pair.j -= low;
-    candidates.push_back(pair);
-    if (a >= first && a < last) mine.pairs.push_back(pair);
+    mine.pairs.push_back(pair);
   }
   GatheredImpacts gathered(ranks);
   const StepInput step{row.laws, seen, row.walls, {}, unused, time_step};
   const RememberedLoads loads(place, none, 1, 1);
-  const auto struck = gathered.resolve({step, loads, seen, mine, candidates, place_of});
+  const auto struck = gathered.resolve({step, loads, seen, mine, place_of, {-1, -discs / 2.0}, discs + 1.0});
   ASSERT_EQ(struck.size(), impacts.struck().size());
   for (std::size_t k = 0; k < struck.size(); ++k) {
     const std::int32_t b = impacts.struck()[k].grain;
@@ -89,44 +87,68 @@ TEST(GatheredImpacts, AreThoseOfOneProcessToTheLastBit) {
   EXPECT_EQ(gathered.counts().times, 1);
   // They reach further than what is sent first.
   EXPECT_TRUE(ranks.count() == 1 || gathered.counts().rounds > 1);
-  if (ranks.rank() != 0) return;
-  ASSERT_EQ(gathered.strikes().size(), contacts.strikes.size());
+  const auto strikes = gathered.strikes();
+  if (ranks.rank() != 0) {
+    EXPECT_TRUE(strikes.empty());
+    return;
+  }
+  ASSERT_EQ(strikes.size(), contacts.strikes.size());
   for (std::size_t k = 0; k < contacts.strikes.size(); ++k) {
-    EXPECT_EQ(gathered.strikes()[k].i, contacts.strikes[k].i);
-    EXPECT_EQ(gathered.strikes()[k].j, contacts.strikes[k].j);
-    EXPECT_EQ(gathered.strikes()[k].normal, contacts.strikes[k].normal);
+    EXPECT_EQ(strikes[k].i, contacts.strikes[k].i);
+    EXPECT_EQ(strikes[k].j, contacts.strikes[k].j);
+    EXPECT_EQ(strikes[k].normal, contacts.strikes[k].normal);
   }
 }
 
-/// Two discs that meet in the middle of a row at rest: what is far from them is not sent.
+/// Two discs meet at each end of a row at rest, and the first ones push on a third: what is far from them is
+/// not sent, nor what the rank that resolves them has itself.
 TEST(GatheredImpacts, SendThePairsNearTheImpactsAlone) {
   const Ranks ranks;
   if (ranks.count() == 1) return;
-  constexpr int discs = 400;
+  constexpr int discs = 400, half = discs / 2;
   Row row(discs);
   std::fill(row.bodies.v_x.begin(), row.bodies.v_x.end(), 0.0);
-  row.bodies.v_x[0] = 1;
-  for (Candidate& pair : row.pairs) pair.gap = pair.i < 2 ? 0 : 0.1;
+  row.bodies.v_x[0] = 1, row.bodies.v_x[1] = 0.5, row.bodies.v_x[discs - 1] = -1;
+  for (Candidate& pair : row.pairs) pair.gap = pair.i < 2 || pair.i == discs - 2 ? 0 : 0.1;
   const FreeMotion unused;
+  // The second rank has the first half of the row, in which more pairs close; the first rank has the others.
   StepContacts mine;
-  if (ranks.rank() == 1) mine.pairs = row.pairs;  // all of them; others see nothing
+  for (const Candidate& pair : row.pairs)
+    if (ranks.rank() == (pair.i < half ? 1 : 0)) mine.pairs.push_back(pair);
   Bodies nothing;
-  std::vector<std::int32_t> place(row.pairs.size()), places(discs, -1);
+  std::vector<std::int32_t> place(mine.pairs.size()), places(discs, -1);
   std::iota(place.begin(), place.end(), 0);
-  if (ranks.rank() == 1) std::iota(places.begin(), places.end(), 0);
-  const std::vector<double> none(row.pairs.size(), 0.0);
-  Bodies& seen = ranks.rank() == 1 ? row.bodies : nothing;
+  if (ranks.rank() < 2) std::iota(places.begin(), places.end(), 0);
+  const std::vector<double> none(mine.pairs.size(), 0.0);
+  Bodies& seen = ranks.rank() < 2 ? row.bodies : nothing;
   const StepInput step{row.laws, seen, row.walls, {}, unused, 1e-3};
   GatheredImpacts gathered(ranks);
   const RememberedLoads loads(place, none, 1, 1);
-  const auto struck = gathered.resolve({step, loads, seen, mine, mine.pairs, places});
-  EXPECT_EQ(struck.size(), 3U);
-  if (ranks.rank() == 1) {
-    EXPECT_GE(gathered.counts().pairs, 2);
+  const auto struck = gathered.resolve({step, loads, seen, mine, places, {-1, -half}, discs + 1.0});
+  EXPECT_EQ(struck.size(), 5U);
+  if (ranks.rank() == 0) {
+    EXPECT_GE(gathered.counts().pairs, 1);
     EXPECT_LE(gathered.counts().pairs, 8);
   } else {
     EXPECT_EQ(gathered.counts().pairs, 0);
   }
+  EXPECT_EQ(gathered.strikes().size(), ranks.rank() == 0 ? static_cast<std::size_t>(gathered.count()) : 0U);
+}
+
+TEST(NearPlaces, AreThoseAroundSomeDiscsAndHardlyMore) {
+  NearPlaces near;
+  near.clear({-20, -20}, 40, 1000);
+  near.mark(std::vector<Surroundings>{{{3.3, -4.7}, 5}, {{19.5, 0}, 4}, {{-30, -30}, 2}});
+  int marked = 0, within = 0;
+  for (double x = -19.9; x < 20; x += 0.2)
+    for (double z = -19.9; z < 20; z += 0.2) {
+      const bool inside = std::hypot(x - 3.3, z + 4.7) <= 5 || std::hypot(x - 19.5, z) <= 4;
+      EXPECT_TRUE(near.marked({x, z}) || !inside) << x << ' ' << z;
+      marked += near.marked({x, z}), within += inside;
+    }
+  EXPECT_LT(marked, 1.5 * within);
+  EXPECT_TRUE(near.marked({25, 0}));  // outside of the square: as the nearest place in it
+  EXPECT_FALSE(near.marked({-25, 0}));
 }
 
 }  // namespace
