@@ -2,6 +2,7 @@
 
 #include <petscksp.h>
 
+#include "continuum/fem/detail/dissected_factors.hpp"
 #include "continuum/fem/detail/field_view.hpp"
 
 namespace drumlin::continuum::fem {
@@ -25,10 +26,12 @@ void multiply(const SystemMatrix& matrix, const FieldVector& x, FieldVector& y) 
 struct DirectSolver::Petsc {
   KSP solver = nullptr;
   const SystemMatrix* matrix = nullptr;
+  DissectedFactors dissected;
+  bool is_dissected = false;  // the factors of `matrix`
 
   ~Petsc() { KSPDestroy(&solver); }
   void create(MPI_Comm ranks);
-  void apply_inverse(const FieldVector& rhs, FieldVector& solution) const;
+  void apply_inverse(const FieldVector& rhs, FieldVector& solution);
 };
 
 void DirectSolver::Petsc::create(MPI_Comm ranks) {
@@ -45,9 +48,11 @@ DirectSolver::~DirectSolver() = default;
 
 void DirectSolver::factorise(const SystemMatrix& matrix) {
   auto& p = *petsc_;
-  if (!p.solver) p.create(matrix.get_mpi_communicator());
   p.matrix = &matrix;
   const Mat petsc = const_cast<SystemMatrix&>(matrix).petsc_matrix();
+  p.is_dissected = p.dissected.suits(petsc) && p.dissected.factorise(petsc);
+  if (p.is_dissected) return;
+  if (!p.solver) p.create(matrix.get_mpi_communicator());
   check(KSPSetOperators(p.solver, petsc, petsc), "take the matrix");
   check(KSPSetUp(p.solver), "factorise the matrix");
   PC factors = nullptr;
@@ -58,8 +63,9 @@ void DirectSolver::factorise(const SystemMatrix& matrix) {
     throw NotConvergedError("MUMPS could not factorise the tangent matrix (singular, or out of memory)");
 }
 
-void DirectSolver::Petsc::apply_inverse(const FieldVector& rhs, FieldVector& solution) const {
+void DirectSolver::Petsc::apply_inverse(const FieldVector& rhs, FieldVector& solution) {
   const FieldView b(rhs), x(solution);
+  if (is_dissected) return dissected.solve(b.get(), x.get());
   check(KSPSolve(solver, b.get(), x.get()), "solve with the factors");
 }
 

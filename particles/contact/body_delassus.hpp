@@ -114,11 +114,18 @@ class BodyDelassus {
     for (int a = 0; a < contacts(); ++a) push(state, a, r[dim * a], dim == 2 ? r[dim * a + 1] : 0);
   }
 
-  /// The same on a team. Many contacts that are planned are added slice by slice, first those of even
-  /// slices, whatever the number of threads.
+  /// The same on a team. Many contacts that are planned are added slice by slice, whatever the number of
+  /// threads.
   void load(State& state, std::span<const double> r, const TeamLoops& loops) const {
     constexpr int many = 50'000;
-    if (plan.empty() || contacts() < many) return load(state, r);
+    if (plan.empty() || contacts() < many)
+      load(state, r);
+    else
+      load_by_slices(state, r, loops);
+  }
+
+  /// The same of contacts that are planned: first those of even slices, then the others.
+  void load_by_slices(State& state, std::span<const double> r, const TeamLoops& loops) const {
     resize_closely(state, inverse_mass.size());
     loops.each(state.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t b = begin; b < end; ++b) {

@@ -124,9 +124,9 @@ ResidualSums residual_sums(const Problem& problem, std::size_t begin, std::size_
   return residual_sums(problem, begin, end, r, u, [](std::size_t, std::size_t) {});
 }
 
-/// u = W r + q; `velocities` receives it, and what the bodies do. Returns what the residual adds up.
+/// What the residual of impulses r adds up; `velocities` receives u = W r + q, and what the bodies do.
 template <class Problem>
-ResidualSums set_velocities(const Problem& problem, std::span<const double> r,
+ResidualSums residual_sums_of(const Problem& problem, std::span<const double> r,
                             Velocities<typename Problem::Delassus>& velocities, TeamLoops& loops) {
   const auto& W = problem.W;
   auto& [bodies, u] = velocities;
@@ -158,7 +158,7 @@ ContactResidual residual_of(const Problem& problem, std::span<const double> r,
                             Velocities<typename Problem::Delassus>& velocities, TeamLoops& loops) {
   const int count = problem.contacts();
   ContactResidual residual;
-  const ResidualSums sums = set_velocities(problem, r, velocities, loops);
+  const ResidualSums sums = residual_sums_of(problem, r, velocities, loops);
   if (count == 0) return residual;
   const double q_squares = loops.sum(problem.q.size(), [&](std::size_t begin, std::size_t end) {
     return squared_norm(std::span(problem.q).subspan(begin, end - begin));

@@ -57,16 +57,12 @@ SeenResidual TileSolver<Problem>::seen_of_tiles() {
 
 template <class Problem>
 template <class T>
-bool TileSolver<Problem>::surely_misses(const SeenResidual& seen, double time_step,
-                                        const TiledContacts& contacts, const Blocks<T>& blocks,
-                                        const StoppingRule& rule) {
-  if (closes_too_far(seen, time_step, rule)) return true;
-  if (!std::isfinite(rule.sinking)) return false;
+double TileSolver<Problem>::summed_impulses(const TiledContacts& contacts, const Blocks<T>& blocks) {
   ExactSum impulses;
   for (std::size_t b = 0; b < contacts.counts_here.size(); ++b)
     if (contacts.counts_here[b]) impulses.add(blocks.impulse(static_cast<std::int32_t>(b)));
   ranks_.add(impulses.numbers());
-  return sinks_too_fast(seen, impulses.value(), time_step, rule);
+  return impulses.value();
 }
 
 /// What turns the summed squares of the residuals into the square of the relative one.
@@ -239,7 +235,6 @@ SolveReport TileSolver<Problem>::sweep_until_done(const Problem& problem, const 
                                                   Halo& halo, const StoppingRule& rule,
                                                   std::int64_t contacts_of_all, Blocks<T>& blocks,
                                                   bool accelerated, Solution<Problem>& solution) {
-  constexpr int patience = 100;   // sweeps without a tenth of progress
   constexpr double hope = 2;      // times the tolerance: a residual that is looked for
   constexpr int most_unseen = 3;  // looks left out in turn
   constexpr bool single = sizeof(T) < sizeof(double);
@@ -256,9 +251,10 @@ SolveReport TileSolver<Problem>::sweep_until_done(const Problem& problem, const 
   const int most_at_once = accelerated && contacts_of_all >= least_contacts_of_waves ? longest_wave : 1;
   const SweepExtrapolation how = extrapolation_of(accelerated, contacts_of_all);
   T beta = 0;
-  double worth = std::numeric_limits<double>::infinity(), best = worth, least = worth;
+  double worth = std::numeric_limits<double>::infinity(), best = worth;
+  SeenProgress progress(how);
   const bool coarse = accelerated && contacts_of_all >= least_corrected_ && ranks_.any(!contacts.x.empty());
-  for (int sweeps = 0, unseen = 0, progress_at = 0, corrected_at = 0;;) {
+  for (int sweeps = 0, unseen = 0, corrected_at = 0;;) {
     if (coarse && sweeps >= corrected_at + sweeps_between_coarse_loads) {
       correct_loads(problem, contacts, halo, corrected_at == 0, contacts_of_all, blocks);
       corrected_at = sweeps;
@@ -295,20 +291,24 @@ SolveReport TileSolver<Problem>::sweep_until_done(const Problem& problem, const 
     const double seen = std::sqrt(sums.squares * scale);
     const double fall = hope * rule.tolerance / seen;  // residuals fall about as steps do
     worth = steps * fall * fall;
-    if (seen < 0.9 * least) least = seen, progress_at = sweeps;
+    SeenMisses misses = misses_of(sums, seen, problem.time_step, rule);
+    if (std::isfinite(rule.sinking) && (progress.exact() || !progress.surely_misses(misses)))
+      misses.sinking = sinking_of(sums, summed_impulses(contacts, blocks), problem.time_step, rule);
+    progress.see(misses, sweeps);
     // Rounding of single precision hides the progress.
-    const bool stuck = single && sweeps - progress_at >= patience;
+    const bool stuck = single && progress.stuck(sweeps);
     if (seen < best) {
       best = seen;
       loops_.each_of(tiles, [&](int t) { blocks.keep(t); });
     }
-    if (!last && !stuck &&
-        (seen > rule.tolerance || surely_misses(sums, problem.time_step, contacts, blocks, rule)))
-      continue;
+    if (!last && !stuck && progress.surely_misses(misses)) continue;
     blocks.unpack(problem, false, r, loops_);
     const bool ended = test.ends(sweeps, residual(problem, contacts, halo, solution), finite);
     const bool hidden = single && test.report().residual.rms > 3 * seen;
-    if (!ended && !stuck && !hidden) continue;
+    if (!ended && !stuck && !hidden) {
+      progress.compare(misses, test.report().residual.sinking / rule.sinking);
+      continue;
+    }
     if (best < seen && test.report().status != Status::converged) {
       blocks.unpack(problem, true, r, loops_);
       test.replace(residual(problem, contacts, halo, solution));

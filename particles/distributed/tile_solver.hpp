@@ -90,10 +90,9 @@ class TileSolver {
                                Solution<Problem>&);
   /// What all ranks have seen of tiles; they call it together.
   SeenResidual seen_of_tiles();
-  /// Whether the solve misses the rule, and not by rounding, although the residual seems to be small enough.
+  /// Those of all bodies; all ranks call it together.
   template <class T>
-  bool surely_misses(const SeenResidual&, double time_step, const TiledContacts&, const Blocks<T>&,
-                     const StoppingRule&);
+  double summed_impulses(const TiledContacts&, const Blocks<T>&);
   double scale_of(const Problem&, const TiledContacts&);
 
   Ranks ranks_;

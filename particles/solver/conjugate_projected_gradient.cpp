@@ -35,22 +35,10 @@ void multiply(const Problem& problem, const TeamLoops& loops, std::span<const do
   if constexpr (requires { problem.W.plan; }) {
     const auto& W = problem.W;
     if (!W.plan.empty()) {
-      constexpr int dim = Problem::dim;
-      const auto fixed = static_cast<std::int32_t>(W.inverse_mass.size()) - 1;
-      W.rest(state);
-      for (const int phase : {0, 1})
-        loops.each_of(W.plan.strips(), [&](int strip) {
-          const std::int32_t* slice = &W.plan.slice_start[2 * strip + phase];
-          for (std::int32_t a = W.plan.group_start[slice[0]]; a < W.plan.group_start[slice[1]]; ++a)
-            W.push(state, a, r[dim * a], dim == 2 ? r[dim * a + dim - 1] : 0, W.j[a] != fixed);
-        });
+      W.load_by_slices(state, r, loops);
       u.resize(q.size());
       loops.each(static_cast<std::size_t>(W.contacts()), [&](std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k) {
-          const int a = static_cast<int>(k);
-          u[dim * k] = q[dim * k] + W.normal_velocity(state, a);
-          if constexpr (dim == 2) u[dim * k + 1] = q[dim * k + 1] + W.tangential_velocity(state, a);
-        }
+        W.velocities_of(static_cast<int>(begin), static_cast<int>(end), q, state, u);
       });
       return;
     }

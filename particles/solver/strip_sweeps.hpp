@@ -186,8 +186,7 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
   const double residual_scale = pack_in_strips(problem, work, strips, solution, loops);
   // Below four strips a second thread costs more than it saves.
   ThreadTeam* team = strips.strips() >= 4 ? work.team : nullptr;
-  constexpr int patience = 100;  // sweeps without a tenth of progress; a flow takes 10 for that
-  constexpr double hope = 2;     // times the tolerance: a residual that is looked for
+  constexpr double hope = 2;  // times the tolerance: a residual that is looked for
   constexpr bool single = sizeof(T) < sizeof(double);
   const bool always = std::isfinite(rule.max_seconds);
   SweepState<T> state;
@@ -195,11 +194,12 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
   if (accelerated && !strips.has_driven() && problem.contacts() >= least_contacts_of_waves)
     state.wave = longest_wave;
   state.worth = std::numeric_limits<double>::infinity();
-  double least = std::numeric_limits<double>::infinity(), best = least;
+  double best = std::numeric_limits<double>::infinity();
   // Driven walls take impulses too, which the records do not tell.
   const bool limits_sinking = std::isfinite(rule.sinking) && !strips.has_driven();
   const bool coarse = accelerated && wants_coarse_loads(problem, work);
   const SweepExtrapolation how = extrapolation_of(accelerated, problem.contacts());
+  SeenProgress progress(how);
   int corrected_at = 0;
   const auto go_on = [&] {
     if (coarse && state.sweeps >= corrected_at + sweeps_between_coarse_loads) {
@@ -207,7 +207,7 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
       corrected_at = state.sweeps;
     }
   };
-  for (int progress_at = 0;; go_on()) {
+  for (;; go_on()) {
     int until = state.sweeps + 1;
     while (!test.due(until)) ++until;
     const bool look = always || until >= rule.max_sweeps;
@@ -223,19 +223,22 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
     // Residuals fall about as steps do.
     const double fall = hope * rule.tolerance / seen;
     state.worth = state.steps * fall * fall;
-    if (seen < 0.9 * least) least = seen, progress_at = state.sweeps;
+    SeenMisses misses = misses_of(sums, seen, problem.time_step, rule);
+    if (limits_sinking && (progress.exact() || !progress.surely_misses(misses)))
+      misses.sinking = sinking_of(sums, strips.summed_impulses(loops), problem.time_step, rule);
+    progress.see(misses, state.sweeps);
     // Rounding of single precision hides the progress.
-    const bool stuck = single && state.sweeps - progress_at >= patience;
+    const bool stuck = single && progress.stuck(state.sweeps);
     const bool last = state.sweeps >= rule.max_sweeps || !state.finite;
     if (seen < best) best = seen, state.keep = true, strips.keep_driven();
-    const bool far =
-        seen > rule.tolerance || closes_too_far(sums, problem.time_step, rule) ||
-        (limits_sinking && sinks_too_fast(sums, strips.summed_impulses(loops), problem.time_step, rule));
-    if (!last && !stuck && far && !always) continue;
+    if (!last && !stuck && progress.surely_misses(misses) && !always) continue;
     strips.unpack(problem, false, solution.impulses, loops);
     const bool ended = test.ends(state.sweeps, residual_of(problem, solution, loops), state.finite);
     const bool hidden = single && test.report().residual.rms > 3 * seen;
-    if (!ended && !stuck && !hidden) continue;
+    if (!ended && !stuck && !hidden) {
+      progress.compare(misses, test.report().residual.sinking / rule.sinking);
+      continue;
+    }
     if (best < seen && test.report().status != Status::converged) {
       strips.unpack(problem, true, solution.impulses, loops);
       test.replace(residual_of(problem, solution, loops));

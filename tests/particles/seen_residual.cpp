@@ -56,14 +56,45 @@ void expect_seen(double precision) {
   EXPECT_NEAR(-seen.lowest_u_n * h / exact.penetration, 1, precision);
   EXPECT_GT(exact.sinking, 0);
   EXPECT_NEAR(h * seen.let_through / impulses / exact.sinking, 1, precision);
-  // A limit is surely missed from two hundredths beyond it on.
-  StoppingRule rule;
-  EXPECT_FALSE(closes_too_far(seen, h, rule) || sinks_too_fast(seen, impulses, h, rule));
-  rule.penetration = exact.penetration / 1.01, rule.sinking = exact.sinking / 1.01;
-  EXPECT_FALSE(closes_too_far(seen, h, rule) || sinks_too_fast(seen, impulses, h, rule));
-  rule.penetration = exact.penetration / 1.03, rule.sinking = exact.sinking / 1.03;
-  EXPECT_TRUE(closes_too_far(seen, h, rule));
-  EXPECT_TRUE(sinks_too_fast(seen, impulses, h, rule));
+  // A limit is surely missed from two hundredths beyond it on, in sweeps that extrapolate exactly from less.
+  const double relative = std::sqrt(seen.squares * 2 / q_squares);
+  const auto surely_misses = [&](SweepExtrapolation how, double penetration, double sinking) {
+    StoppingRule rule;
+    rule.tolerance = 2 * exact.rms, rule.penetration = penetration, rule.sinking = sinking;
+    SeenMisses misses = misses_of(seen, relative, h, rule);
+    misses.sinking = sinking_of(seen, impulses, h, rule);
+    return SeenProgress(how).surely_misses(misses);
+  };
+  const auto none = std::numeric_limits<double>::infinity();
+  for (const auto how : {SweepExtrapolation::rounded, SweepExtrapolation::exact}) {
+    const bool exactly = how == SweepExtrapolation::exact;
+    EXPECT_FALSE(surely_misses(how, none, none));
+    EXPECT_EQ(surely_misses(how, exact.penetration / 1.01, none), exactly);
+    EXPECT_EQ(surely_misses(how, none, exact.sinking / 1.01), exactly);
+    EXPECT_TRUE(surely_misses(how, exact.penetration / 1.03, none));
+    EXPECT_TRUE(surely_misses(how, none, exact.sinking / 1.03));
+  }
+}
+
+/// Residuals that are small enough and bodies that sink too fast, by less and less.
+TEST(SeenProgress, SlowlyOfWhatIsMissedCountsWhereSweepsExtrapolateExactly) {
+  SeenProgress rounded(SweepExtrapolation::rounded), exact(SweepExtrapolation::exact);
+  for (int sweeps = 10; sweeps <= 400; sweeps += 10)
+    for (SeenProgress* progress : {&rounded, &exact}) {
+      const SeenMisses misses{0.6, 0.5, 1.2 - 1e-4 * sweeps};
+      progress->see(misses, sweeps);
+      EXPECT_EQ(progress->stuck(sweeps), progress == &rounded && sweeps >= 110) << sweeps;
+    }
+  for (int sweeps = 410; sweeps < 600; sweeps += 10) exact.see({0.6, 0.5, 1.16}, sweeps);
+  EXPECT_TRUE(exact.stuck(600));
+  // What is seen is a little less than what there is.
+  const SeenMisses misses{0.6, 0.5, 0.999};
+  for (SeenProgress* progress : {&rounded, &exact}) {
+    EXPECT_FALSE(progress->surely_misses(misses));
+    progress->compare(misses, 1.005);
+    EXPECT_EQ(progress->surely_misses(misses), progress == &exact);
+    EXPECT_FALSE(progress->surely_misses({0.6, 0.5, 0.993}));
+  }
 }
 
 TEST(SeenResidual, IsTheResidualInDoublePrecision) { expect_seen<double>(1e-12); }

@@ -1,0 +1,290 @@
+#include "continuum/fem/detail/dissected_factors.hpp"
+
+#include <mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "continuum/fem/detail/petsc_check.hpp"
+
+namespace drumlin::continuum::fem {
+namespace {
+
+// Operations of MUMPS on n unknowns of these meshes are about 117 n^1.5 (docs/decisions/linear-solver.md).
+// The dense part may take this share of what a rank has of them.
+constexpr double operations = 117, most_dense = 0.25;
+
+/// The entries of a vector of this process.
+class Entries {
+ public:
+  explicit Entries(Vec vec) : vec_(vec) {
+    PetscInt size = 0;
+    check(VecGetLocalSize(vec, &size), "read a vector");
+    check(VecGetArray(vec, &first_), "read a vector");
+    entries_ = {first_, static_cast<std::size_t>(size)};
+  }
+  ~Entries() { VecRestoreArray(vec_, &first_); }
+  Entries(const Entries&) = delete;
+  Entries& operator=(const Entries&) = delete;
+  double& operator[](std::size_t k) const { return entries_[k]; }
+  auto begin() const { return entries_.begin(); }
+  auto end() const { return entries_.end(); }
+
+ private:
+  Vec vec_;
+  PetscScalar* first_ = nullptr;
+  std::span<double> entries_;
+};
+
+/// Which matrix, and with which pattern.
+struct Pattern {
+  PetscObjectId matrix = 0;
+  PetscObjectState entries = 0;
+  bool operator==(const Pattern&) const = default;
+};
+
+Pattern pattern_of(Mat matrix) {
+  Pattern pattern;
+  check(PetscObjectGetId(reinterpret_cast<PetscObject>(matrix), &pattern.matrix), "read a matrix");
+  check(MatGetNonzeroState(matrix, &pattern.entries), "read a matrix");
+  return pattern;
+}
+
+}  // namespace
+
+struct DissectedFactors::Objects {
+  MPI_Comm ranks = MPI_COMM_NULL;
+  Pattern pattern;
+  bool suited = false;
+  std::vector<PetscInt> between;  // unknowns of all ranks, in order
+  PetscInt begin = 0, end = 0;    // own unknowns
+  std::vector<std::size_t>
+      own;  // places among the own and those between, in order, of the own ones that are not
+  std::vector<PetscInt> own_number;  // and their places among all own ones
+  std::vector<std::size_t> shared;   // places of those between
+  IS part = nullptr;                 // own unknowns and those between
+  Mat* sub = nullptr;                // the matrix of these
+  std::vector<std::size_t> twice;    // entries of it between unknowns between, which one rank alone keeps
+  Mat factors = nullptr, dense = nullptr;
+  Vec right = nullptr, left = nullptr, few_right = nullptr, few_left = nullptr;
+
+  ~Objects() { clear(); }
+  void clear();
+  void find_between(Mat matrix);
+  void lay_out(Mat matrix);
+  void find_twice();
+  void make_factors();
+  bool add_complements();
+  void eliminate();
+  void add(std::vector<double>& numbers) const {
+    check(MPI_Allreduce(MPI_IN_PLACE, numbers.data(), static_cast<int>(numbers.size()), MPI_DOUBLE, MPI_SUM,
+                        ranks),
+          "add up over ranks");
+  }
+};
+
+void DissectedFactors::Objects::clear() {
+  if (sub) MatDestroySubMatrices(1, &sub);
+  sub = nullptr;
+  MatDestroy(&factors), MatDestroy(&dense);
+  ISDestroy(&part);
+  VecDestroy(&right), VecDestroy(&left), VecDestroy(&few_right), VecDestroy(&few_left);
+}
+
+void DissectedFactors::Objects::find_between(Mat matrix) {
+  check(MatGetOwnershipRange(matrix, &begin, &end), "read a matrix");
+  std::vector<PetscInt> found;
+  for (PetscInt row = begin; row < end; ++row) {
+    PetscInt count = 0;
+    const PetscInt* columns = nullptr;
+    check(MatGetRow(matrix, row, &count, &columns, nullptr), "read a matrix");
+    bool higher = false;
+    for (PetscInt k = 0; k < count; ++k) {
+      higher |= columns[k] >= end;
+      if (columns[k] < begin) found.push_back(columns[k]);
+    }
+    if (higher) found.push_back(row);
+    check(MatRestoreRow(matrix, row, &count, &columns, nullptr), "read a matrix");
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  int size = 0, own_count = static_cast<int>(found.size());
+  MPI_Comm_size(ranks, &size);
+  std::vector<int> counts(size), first(size + 1, 0);
+  MPI_Allgather(&own_count, 1, MPI_INT, counts.data(), 1, MPI_INT, ranks);
+  for (int r = 0; r < size; ++r) first[r + 1] = first[r] + counts[r];
+  between.resize(first.back());
+  MPI_Allgatherv(found.data(), own_count, MPIU_INT, between.data(), counts.data(), first.data(), MPIU_INT,
+                 ranks);
+  std::sort(between.begin(), between.end());
+  between.erase(std::unique(between.begin(), between.end()), between.end());
+}
+
+void DissectedFactors::Objects::lay_out(Mat matrix) {
+  std::vector<PetscInt> all(between);
+  for (PetscInt d = begin; d < end; ++d)
+    if (!std::binary_search(between.begin(), between.end(), d)) all.push_back(d);
+  std::sort(all.begin(), all.end());
+  own.clear(), own_number.clear(), shared.clear();
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (std::binary_search(between.begin(), between.end(), all[k]))
+      shared.push_back(k);
+    else
+      own.push_back(k), own_number.push_back(all[k] - begin);
+  const auto size = static_cast<PetscInt>(all.size()), few = static_cast<PetscInt>(between.size());
+  check(ISCreateGeneral(PETSC_COMM_SELF, size, all.data(), PETSC_COPY_VALUES, &part), "cut a matrix");
+  check(MatCreateSubMatrices(matrix, 1, &part, &part, MAT_INITIAL_MATRIX, &sub), "cut a matrix");
+  check(MatCreateSeqDense(PETSC_COMM_SELF, few, few, nullptr, &dense), "lay out a dense matrix");
+  for (Vec* vec : {&right, &left}) check(VecCreateSeq(PETSC_COMM_SELF, size, vec), "lay out a vector");
+  for (Vec* vec : {&few_right, &few_left}) check(VecCreateSeq(PETSC_COMM_SELF, few, vec), "lay out a vector");
+  find_twice();
+}
+
+void DissectedFactors::Objects::find_twice() {
+  int rank = 0;
+  MPI_Comm_rank(ranks, &rank);
+  twice.clear();
+  if (rank == 0) return;
+  std::vector<char> is_shared(own.size() + shared.size(), 0);
+  for (const std::size_t k : shared) is_shared[k] = 1;
+  PetscInt rows = 0;
+  const PetscInt *start = nullptr, *columns = nullptr;
+  PetscBool done = PETSC_FALSE;
+  check(MatGetRowIJ(sub[0], 0, PETSC_FALSE, PETSC_FALSE, &rows, &start, &columns, &done), "read a matrix");
+  for (const std::size_t k : shared)
+    for (PetscInt e = start[k]; e < start[k + 1]; ++e)
+      if (is_shared[columns[e]]) twice.push_back(static_cast<std::size_t>(e));
+  check(MatRestoreRowIJ(sub[0], 0, PETSC_FALSE, PETSC_FALSE, &rows, &start, &columns, &done),
+        "read a matrix");
+}
+
+void DissectedFactors::Objects::make_factors() {
+  check(MatGetFactor(sub[0], MATSOLVERMUMPS, MAT_FACTOR_LU, &factors), "find MUMPS");
+  std::vector<PetscInt> places(shared.begin(), shared.end());
+  IS few = nullptr;
+  check(ISCreateGeneral(PETSC_COMM_SELF, static_cast<PetscInt>(places.size()), places.data(),
+                        PETSC_COPY_VALUES, &few),
+        "cut a matrix");
+  const PetscErrorCode set = MatFactorSetSchurIS(factors, few);
+  ISDestroy(&few);
+  check(set, "cut a matrix");
+  check(MatLUFactorSymbolic(factors, sub[0], nullptr, nullptr, nullptr), "order a matrix");
+}
+
+/// The Schur complement of all ranks, factored.
+bool DissectedFactors::Objects::add_complements() {
+  Mat own_part = nullptr;
+  MatFactorSchurStatus status;
+  check(MatFactorGetSchurComplement(factors, &own_part, &status), "read a Schur complement");
+  const double* numbers = nullptr;
+  check(MatDenseGetArrayRead(own_part, &numbers), "read a Schur complement");
+  std::vector<double> sum(numbers, numbers + between.size() * between.size());
+  check(MatDenseRestoreArrayRead(own_part, &numbers), "read a Schur complement");
+  check(MatFactorRestoreSchurComplement(factors, &own_part, status), "read a Schur complement");
+  add(sum);
+  double* to = nullptr;
+  check(MatSetUnfactored(dense), "factorise a dense matrix");
+  check(MatDenseGetArrayWrite(dense, &to), "factorise a dense matrix");
+  std::copy(sum.begin(), sum.end(), to);
+  check(MatDenseRestoreArrayWrite(dense, &to), "factorise a dense matrix");
+  check(MatLUFactor(dense, nullptr, nullptr, nullptr), "factorise a dense matrix");
+  MatFactorError failed = MAT_FACTOR_NOERROR;
+  check(MatFactorGetError(dense, &failed), "factorise a dense matrix");
+  return failed == MAT_FACTOR_NOERROR;
+}
+
+/// left = what own unknowns are for `right`, those between at zero.
+void DissectedFactors::Objects::eliminate() {
+  check(MatMumpsSetIcntl(factors, 26, 0), "solve with the factors");  // those of the own unknowns alone
+  check(MatSolve(factors, right, left), "solve with the factors");
+  const Entries entries(left);
+  for (const std::size_t k : shared) entries[k] = 0;
+}
+
+DissectedFactors::DissectedFactors() : petsc_(std::make_unique<Objects>()) {}
+DissectedFactors::~DissectedFactors() = default;
+
+bool DissectedFactors::suits(Mat matrix) {
+  Objects& p = *petsc_;
+  const Pattern pattern = pattern_of(matrix);
+  if (pattern == p.pattern) return p.suited;
+  p.clear();
+  p.pattern = pattern;
+  check(PetscObjectGetComm(reinterpret_cast<PetscObject>(matrix), &p.ranks), "read a matrix");
+  int size = 1;
+  MPI_Comm_size(p.ranks, &size);
+  p.suited = false;
+  if (size == 1) return false;
+  PetscInt unknowns = 0;
+  check(MatGetSize(matrix, &unknowns, nullptr), "read a matrix");
+  p.find_between(matrix);
+  const auto few = static_cast<double>(p.between.size());
+  p.suited = few > 0 && 2.0 / 3 * few * few * few < most_dense * operations * std::pow(unknowns, 1.5) / size;
+  if (p.suited) p.lay_out(matrix);
+  return p.suited;
+}
+
+bool DissectedFactors::factorise(Mat matrix) {
+  Objects& p = *petsc_;
+  check(MatCreateSubMatrices(matrix, 1, &p.part, &p.part, MAT_REUSE_MATRIX, &p.sub), "cut a matrix");
+  if (!p.twice.empty()) {
+    double* entries = nullptr;
+    check(MatSeqAIJGetArray(p.sub[0], &entries), "cut a matrix");
+    for (const std::size_t e : p.twice) entries[e] = 0;
+    check(MatSeqAIJRestoreArray(p.sub[0], &entries), "cut a matrix");
+  }
+  if (!p.factors) p.make_factors();
+  check(MatLUFactorNumeric(p.factors, p.sub[0], nullptr), "factorise the matrix");
+  MatFactorError failed = MAT_FACTOR_NOERROR;
+  check(MatFactorGetError(p.factors, &failed), "factorise the matrix");
+  int worst = failed;
+  MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_INT, MPI_MAX, p.ranks);
+  return worst == MAT_FACTOR_NOERROR && p.add_complements();
+}
+
+void DissectedFactors::solve(Vec b, Vec x) {
+  Objects& p = *petsc_;
+  const Entries from(b), to(x);
+  std::vector<double> few(p.between.size(), 0.0);
+  {
+    const Entries right(p.right);
+    std::fill(right.begin(), right.end(), 0.0);
+    for (std::size_t k = 0; k < p.own.size(); ++k) right[p.own[k]] = from[p.own_number[k]];
+  }
+  p.eliminate();
+  check(MatMult(p.sub[0], p.left, p.right), "multiply");
+  {
+    const Entries product(p.right);
+    for (std::size_t k = 0; k < few.size(); ++k) {
+      few[k] = -product[p.shared[k]];
+      if (p.between[k] >= p.begin && p.between[k] < p.end) few[k] += from[p.between[k] - p.begin];
+    }
+    const Entries alone(p.left);
+    for (std::size_t k = 0; k < p.own.size(); ++k) to[p.own_number[k]] = alone[p.own[k]];
+  }
+  p.add(few);
+  {
+    const Entries right(p.few_right);
+    std::copy(few.begin(), few.end(), right.begin());
+  }
+  check(MatSolve(p.dense, p.few_right, p.few_left), "solve between ranks");
+  {
+    const Entries solved(p.few_left), left(p.left);
+    std::fill(left.begin(), left.end(), 0.0);
+    for (std::size_t k = 0; k < few.size(); ++k) {
+      left[p.shared[k]] = solved[k];
+      if (p.between[k] >= p.begin && p.between[k] < p.end) to[p.between[k] - p.begin] = solved[k];
+    }
+  }
+  check(MatMult(p.sub[0], p.left, p.right), "multiply");
+  {
+    const Entries right(p.right);
+    for (const std::size_t k : p.shared) right[k] = 0;
+  }
+  p.eliminate();
+  const Entries change(p.left);
+  for (std::size_t k = 0; k < p.own.size(); ++k) to[p.own_number[k]] -= change[p.own[k]];
+}
+
+}  // namespace drumlin::continuum::fem
