@@ -19,7 +19,7 @@ import whole_file
 NETWORK = {"latency_s": 2e-6, "bytes_per_s": 1e10}  # assumed: a message between nodes
 ROUNDS_PER_SWEEP, ROUNDS_PER_STEP = 4, 50  # messages to each neighbour; sums over all ranks besides one per sweep (docs/scaling.md)
 SHARE_OF_LARGEST = 1.1  # contacts of the rank that has most over the mean: the shares are made anew beyond (docs/decisions/ranks.md)
-# Candidates and grains near impacts pass through the first rank: bytes there and back (docs/decisions/ranks.md), and its work (first look). Their share is
+# Candidates and grains near impacts pass through one rank: bytes there and back (docs/decisions/ranks.md), and its work (first look). Their share is
 # that of 7183 discs at 6 rpm, assumed for all sizes.
 BYTES_PER_CANDIDATE, BYTES_PER_GRAIN, SERIAL_S_PER_CONTACT = 56, 48 + 32, 16e-9
 NEAR_IMPACTS = 0.1
@@ -96,7 +96,7 @@ def sweeps_of(model, discs, stay):
     return model["sweeps_of_100000"] if stay else model["sweeps"]["at_7183"] * (discs / 7183) ** model["sweeps"]["power"]
 
 
-# Whether sweeps stay those of 100,000 discs, and the share of grains that impacts send to the first rank. How sweeps grow beyond that size is not measured.
+# Whether sweeps stay those of 100,000 discs, and the share of grains that impacts send to one rank. How sweeps grow beyond that size is not measured.
 STATES = {"as it is, sweeps that grow on as measured": (False, NEAR_IMPACTS), "as it is, sweeps as of 100,000": (True, NEAR_IMPACTS),
           "no impacts, sweeps as of 100,000": (True, 0)}
 

@@ -2,6 +2,9 @@
 
 #include <petscksp.h>
 
+#include <algorithm>
+#include <limits>
+
 #include "continuum/fem/detail/dissected_factors.hpp"
 #include "continuum/fem/detail/field_view.hpp"
 
@@ -24,14 +27,17 @@ void multiply(const SystemMatrix& matrix, const FieldVector& x, FieldVector& y) 
 }
 
 struct DirectSolver::Petsc {
-  KSP solver = nullptr;
+  KSP solver = nullptr;  // of the whole matrix, on all ranks
   const SystemMatrix* matrix = nullptr;
   DissectedFactors dissected;
-  bool is_dissected = false;  // the factors of `matrix`
+  bool is_dissected = false;  // what holds the factors of `matrix`
 
   ~Petsc() { KSPDestroy(&solver); }
+  Mat get() const { return const_cast<SystemMatrix*>(matrix)->petsc_matrix(); }
   void create(MPI_Comm ranks);
-  void apply_inverse(const FieldVector& rhs, FieldVector& solution);
+  void factorise_whole();
+  bool apply_inverse(const FieldVector& rhs, FieldVector& solution);
+  double solve(const FieldVector& rhs, FieldVector& solution, double enough);
 };
 
 void DirectSolver::Petsc::create(MPI_Comm ranks) {
@@ -43,49 +49,68 @@ void DirectSolver::Petsc::create(MPI_Comm ranks) {
   check(PCFactorSetMatSolverType(factors, MATSOLVERMUMPS), "find MUMPS");
 }
 
-DirectSolver::DirectSolver() : petsc_(std::make_unique<Petsc>()) {}
-DirectSolver::~DirectSolver() = default;
-
-void DirectSolver::factorise(const SystemMatrix& matrix) {
-  auto& p = *petsc_;
-  p.matrix = &matrix;
-  const Mat petsc = const_cast<SystemMatrix&>(matrix).petsc_matrix();
-  p.is_dissected = p.dissected.suits(petsc) && p.dissected.factorise(petsc);
-  if (p.is_dissected) return;
-  if (!p.solver) p.create(matrix.get_mpi_communicator());
-  check(KSPSetOperators(p.solver, petsc, petsc), "take the matrix");
-  check(KSPSetUp(p.solver), "factorise the matrix");
+void DirectSolver::Petsc::factorise_whole() {
+  is_dissected = false;
+  if (!solver) create(matrix->get_mpi_communicator());
+  check(KSPSetOperators(solver, get(), get()), "take the matrix");
+  check(KSPSetUp(solver), "factorise the matrix");
   PC factors = nullptr;
-  check(KSPGetPC(p.solver, &factors), "factorise the matrix");
+  check(KSPGetPC(solver, &factors), "factorise the matrix");
   PCFailedReason reason = PC_NOERROR;
   check(PCGetFailedReason(factors, &reason), "factorise the matrix");
   if (reason != PC_NOERROR)
     throw NotConvergedError("MUMPS could not factorise the tangent matrix (singular, or out of memory)");
 }
 
-void DirectSolver::Petsc::apply_inverse(const FieldVector& rhs, FieldVector& solution) {
+DirectSolver::DirectSolver() : petsc_(std::make_unique<Petsc>()) {}
+DirectSolver::~DirectSolver() = default;
+
+void DirectSolver::factorise(const SystemMatrix& matrix) {
+  auto& p = *petsc_;
+  p.matrix = &matrix;
+  p.is_dissected = p.dissected.suits(p.get()) && p.dissected.factorise(p.get());
+  if (p.is_dissected)
+    KSPDestroy(&p.solver);  // with the factors that it has
+  else
+    p.factorise_whole();
+}
+
+bool DirectSolver::Petsc::apply_inverse(const FieldVector& rhs, FieldVector& solution) {
   const FieldView b(rhs), x(solution);
   if (is_dissected) return dissected.solve(b.get(), x.get());
   check(KSPSolve(solver, b.get(), x.get()), "solve with the factors");
+  return true;
 }
 
-double DirectSolver::solve(const FieldVector& rhs, FieldVector& solution, double enough) const {
+double DirectSolver::Petsc::solve(const FieldVector& rhs, FieldVector& solution, double enough) {
+  constexpr double none = std::numeric_limits<double>::infinity();
   const double size = rhs.l2_norm();
   solution = 0;
   if (size == 0) return 0;
-  petsc_->apply_inverse(rhs, solution);
+  if (!apply_inverse(rhs, solution)) return none;
   FieldVector remainder(rhs), correction(rhs);
-  double residual = remainder_of(*petsc_->matrix, solution, rhs, remainder) / size;
+  double residual = remainder_of(*matrix, solution, rhs, remainder) / size;
   for (int step = 0; step < 3 && residual > enough; ++step) {
-    petsc_->apply_inverse(remainder, correction);
+    if (!apply_inverse(remainder, correction)) return none;
     FieldVector candidate = solution;
     candidate += correction;
-    const double improved = remainder_of(*petsc_->matrix, candidate, rhs, remainder) / size;
+    const double improved = remainder_of(*matrix, candidate, rhs, remainder) / size;
     if (!(improved < residual)) break;
     residual = improved;
     solution = candidate;
   }
   return residual;
+}
+
+double DirectSolver::solve(const FieldVector& rhs, FieldVector& solution, double enough) const {
+  auto& p = *petsc_;
+  constexpr double poor = 1e-9;  // beyond which flows and other fields might notice
+  const double residual = p.solve(rhs, solution, enough);
+  if (residual <= std::max(enough, poor) || !p.is_dissected) return residual;
+  // A rank's own unknowns may be worse conditioned than all of them.
+  p.dissected.forsake();
+  p.factorise_whole();
+  return p.solve(rhs, solution, enough);
 }
 
 }  // namespace drumlin::continuum::fem

@@ -59,30 +59,40 @@ struct DissectedFactors::Objects {
   bool suited = false;
   std::vector<PetscInt> between;  // unknowns of all ranks, in order
   PetscInt begin = 0, end = 0;    // own unknowns
-  std::vector<std::size_t>
-      own;  // places among the own and those between, in order, of the own ones that are not
-  std::vector<PetscInt> own_number;  // and their places among all own ones
-  std::vector<std::size_t> shared;   // places of those between
-  IS part = nullptr;                 // own unknowns and those between
-  Mat* sub = nullptr;                // the matrix of these
-  std::vector<std::size_t> twice;    // entries of it between unknowns between, which one rank alone keeps
+  // A rank's part: its own unknowns and all those between, in order. Places in it of its own ones that are
+  // not between, and their places among all own ones; places of those between.
+  std::vector<std::size_t> own, shared;
+  std::vector<PetscInt> own_number;
+  IS part = nullptr;
+  Mat* sub = nullptr;              // the matrix of the part
+  std::vector<std::size_t> twice;  // entries of it between unknowns between, which one rank alone keeps
   Mat factors = nullptr, dense = nullptr;
   Vec right = nullptr, left = nullptr, few_right = nullptr, few_left = nullptr;
 
   ~Objects() { clear(); }
   void clear();
+  bool all(bool own_success) const;
   void find_between(Mat matrix);
+  void cut_out(Mat matrix);
   void lay_out(Mat matrix);
   void find_twice();
-  void make_factors();
+  bool make_factors();
+  bool factorise_own();
   bool add_complements();
-  void eliminate();
+  bool eliminate();
   void add(std::vector<double>& numbers) const {
     check(MPI_Allreduce(MPI_IN_PLACE, numbers.data(), static_cast<int>(numbers.size()), MPI_DOUBLE, MPI_SUM,
                         ranks),
           "add up over ranks");
   }
 };
+
+/// Whether all ranks have succeeded: what one rank meets alone must not be thrown there alone.
+bool DissectedFactors::Objects::all(bool own_success) const {
+  int failed = own_success ? 0 : 1;
+  check(MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, ranks), "ask all ranks");
+  return failed == 0;
+}
 
 void DissectedFactors::Objects::clear() {
   if (sub) MatDestroySubMatrices(1, &sub);
@@ -121,19 +131,27 @@ void DissectedFactors::Objects::find_between(Mat matrix) {
   between.erase(std::unique(between.begin(), between.end()), between.end());
 }
 
-void DissectedFactors::Objects::lay_out(Mat matrix) {
-  std::vector<PetscInt> all(between);
+/// Own unknowns, and which of them are between ranks.
+void DissectedFactors::Objects::cut_out(Mat matrix) {
+  find_between(matrix);
+  std::vector<PetscInt> numbers(between);
   for (PetscInt d = begin; d < end; ++d)
-    if (!std::binary_search(between.begin(), between.end(), d)) all.push_back(d);
-  std::sort(all.begin(), all.end());
+    if (!std::binary_search(between.begin(), between.end(), d)) numbers.push_back(d);
+  std::sort(numbers.begin(), numbers.end());
   own.clear(), own_number.clear(), shared.clear();
-  for (std::size_t k = 0; k < all.size(); ++k)
-    if (std::binary_search(between.begin(), between.end(), all[k]))
+  for (std::size_t k = 0; k < numbers.size(); ++k)
+    if (std::binary_search(between.begin(), between.end(), numbers[k]))
       shared.push_back(k);
     else
-      own.push_back(k), own_number.push_back(all[k] - begin);
-  const auto size = static_cast<PetscInt>(all.size()), few = static_cast<PetscInt>(between.size());
-  check(ISCreateGeneral(PETSC_COMM_SELF, size, all.data(), PETSC_COPY_VALUES, &part), "cut a matrix");
+      own.push_back(k), own_number.push_back(numbers[k] - begin);
+  check(ISCreateGeneral(PETSC_COMM_SELF, static_cast<PetscInt>(numbers.size()), numbers.data(),
+                        PETSC_COPY_VALUES, &part),
+        "cut a matrix");
+}
+
+void DissectedFactors::Objects::lay_out(Mat matrix) {
+  const auto size = static_cast<PetscInt>(own.size() + shared.size()),
+             few = static_cast<PetscInt>(between.size());
   check(MatCreateSubMatrices(matrix, 1, &part, &part, MAT_INITIAL_MATRIX, &sub), "cut a matrix");
   check(MatCreateSeqDense(PETSC_COMM_SELF, few, few, nullptr, &dense), "lay out a dense matrix");
   for (Vec* vec : {&right, &left}) check(VecCreateSeq(PETSC_COMM_SELF, size, vec), "lay out a vector");
@@ -159,20 +177,26 @@ void DissectedFactors::Objects::find_twice() {
         "read a matrix");
 }
 
-void DissectedFactors::Objects::make_factors() {
-  check(MatGetFactor(sub[0], MATSOLVERMUMPS, MAT_FACTOR_LU, &factors), "find MUMPS");
+bool DissectedFactors::Objects::make_factors() {
+  if (MatGetFactor(sub[0], MATSOLVERMUMPS, MAT_FACTOR_LU, &factors)) return false;
   std::vector<PetscInt> places(shared.begin(), shared.end());
   IS few = nullptr;
-  check(ISCreateGeneral(PETSC_COMM_SELF, static_cast<PetscInt>(places.size()), places.data(),
-                        PETSC_COPY_VALUES, &few),
-        "cut a matrix");
+  if (ISCreateGeneral(PETSC_COMM_SELF, static_cast<PetscInt>(places.size()), places.data(), PETSC_COPY_VALUES,
+                      &few))
+    return false;
   const PetscErrorCode set = MatFactorSetSchurIS(factors, few);
   ISDestroy(&few);
-  check(set, "cut a matrix");
-  check(MatLUFactorSymbolic(factors, sub[0], nullptr, nullptr, nullptr), "order a matrix");
+  return !set && !MatLUFactorSymbolic(factors, sub[0], nullptr, nullptr, nullptr);
 }
 
-/// The Schur complement of all ranks, factored.
+bool DissectedFactors::Objects::factorise_own() {
+  if (!factors && !make_factors()) return false;
+  MatFactorError failed = MAT_FACTOR_OTHER;
+  return !MatLUFactorNumeric(factors, sub[0], nullptr) && !MatFactorGetError(factors, &failed) &&
+         failed == MAT_FACTOR_NOERROR;
+}
+
+/// The Schur complement of all ranks, factored. Returns false if it is singular, for this rank.
 bool DissectedFactors::Objects::add_complements() {
   Mat own_part = nullptr;
   MatFactorSchurStatus status;
@@ -188,18 +212,20 @@ bool DissectedFactors::Objects::add_complements() {
   check(MatDenseGetArrayWrite(dense, &to), "factorise a dense matrix");
   std::copy(sum.begin(), sum.end(), to);
   check(MatDenseRestoreArrayWrite(dense, &to), "factorise a dense matrix");
-  check(MatLUFactor(dense, nullptr, nullptr, nullptr), "factorise a dense matrix");
-  MatFactorError failed = MAT_FACTOR_NOERROR;
-  check(MatFactorGetError(dense, &failed), "factorise a dense matrix");
-  return failed == MAT_FACTOR_NOERROR;
+  // A singular matrix is an error to PETSc, and would be told of.
+  check(PetscPushErrorHandler(PetscIgnoreErrorHandler, nullptr), "factorise a dense matrix");
+  const PetscErrorCode code = MatLUFactor(dense, nullptr, nullptr, nullptr);
+  check(PetscPopErrorHandler(), "factorise a dense matrix");
+  return !code;
 }
 
-/// left = what own unknowns are for `right`, those between at zero.
-void DissectedFactors::Objects::eliminate() {
-  check(MatMumpsSetIcntl(factors, 26, 0), "solve with the factors");  // those of the own unknowns alone
-  check(MatSolve(factors, right, left), "solve with the factors");
+/// left = what own unknowns are for `right`, those between at zero. Returns false if MUMPS fails here.
+bool DissectedFactors::Objects::eliminate() {
+  // Those of the own unknowns alone.
+  if (MatMumpsSetIcntl(factors, 26, 0) || MatSolve(factors, right, left)) return false;
   const Entries entries(left);
   for (const std::size_t k : shared) entries[k] = 0;
+  return true;
 }
 
 DissectedFactors::DissectedFactors() : petsc_(std::make_unique<Objects>()) {}
@@ -210,19 +236,23 @@ bool DissectedFactors::suits(Mat matrix) {
   const Pattern pattern = pattern_of(matrix);
   if (pattern == p.pattern) return p.suited;
   p.clear();
-  p.pattern = pattern;
+  p.pattern = {}, p.suited = false;
   check(PetscObjectGetComm(reinterpret_cast<PetscObject>(matrix), &p.ranks), "read a matrix");
   int size = 1;
   MPI_Comm_size(p.ranks, &size);
-  p.suited = false;
-  if (size == 1) return false;
   PetscInt unknowns = 0;
   check(MatGetSize(matrix, &unknowns, nullptr), "read a matrix");
-  p.find_between(matrix);
-  const auto few = static_cast<double>(p.between.size());
-  p.suited = few > 0 && 2.0 / 3 * few * few * few < most_dense * operations * std::pow(unknowns, 1.5) / size;
-  if (p.suited) p.lay_out(matrix);
-  return p.suited;
+  bool suited = size > 1;
+  if (suited) {
+    p.cut_out(matrix);
+    const auto few = static_cast<double>(p.between.size());
+    const double dense = 2.0 / 3 * few * few * few;
+    suited =
+        few > 0 && dense < most_dense * operations * std::pow(unknowns, 1.5) / size && p.all(!p.own.empty());
+  }
+  if (suited) p.lay_out(matrix);
+  p.pattern = pattern, p.suited = suited;
+  return suited;
 }
 
 bool DissectedFactors::factorise(Mat matrix) {
@@ -234,33 +264,33 @@ bool DissectedFactors::factorise(Mat matrix) {
     for (const std::size_t e : p.twice) entries[e] = 0;
     check(MatSeqAIJRestoreArray(p.sub[0], &entries), "cut a matrix");
   }
-  if (!p.factors) p.make_factors();
-  check(MatLUFactorNumeric(p.factors, p.sub[0], nullptr), "factorise the matrix");
-  MatFactorError failed = MAT_FACTOR_NOERROR;
-  check(MatFactorGetError(p.factors, &failed), "factorise the matrix");
-  int worst = failed;
-  MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_INT, MPI_MAX, p.ranks);
-  return worst == MAT_FACTOR_NOERROR && p.add_complements();
+  if (p.all(p.factorise_own()) && p.all(p.add_complements())) return true;
+  forsake();
+  return false;
 }
 
-void DissectedFactors::solve(Vec b, Vec x) {
+void DissectedFactors::forsake() {
+  petsc_->suited = false;
+  petsc_->clear();
+}
+
+bool DissectedFactors::solve(Vec b, Vec x) {
   Objects& p = *petsc_;
   const Entries from(b), to(x);
-  std::vector<double> few(p.between.size(), 0.0);
   {
     const Entries right(p.right);
     std::fill(right.begin(), right.end(), 0.0);
     for (std::size_t k = 0; k < p.own.size(); ++k) right[p.own[k]] = from[p.own_number[k]];
   }
-  p.eliminate();
+  bool solved = p.eliminate();
   check(MatMult(p.sub[0], p.left, p.right), "multiply");
+  std::vector<double> few(p.between.size(), 0.0);
   {
-    const Entries product(p.right);
+    const Entries product(p.right), alone(p.left);
     for (std::size_t k = 0; k < few.size(); ++k) {
       few[k] = -product[p.shared[k]];
       if (p.between[k] >= p.begin && p.between[k] < p.end) few[k] += from[p.between[k] - p.begin];
     }
-    const Entries alone(p.left);
     for (std::size_t k = 0; k < p.own.size(); ++k) to[p.own_number[k]] = alone[p.own[k]];
   }
   p.add(few);
@@ -268,13 +298,13 @@ void DissectedFactors::solve(Vec b, Vec x) {
     const Entries right(p.few_right);
     std::copy(few.begin(), few.end(), right.begin());
   }
-  check(MatSolve(p.dense, p.few_right, p.few_left), "solve between ranks");
+  solved = !MatSolve(p.dense, p.few_right, p.few_left) && solved;
   {
-    const Entries solved(p.few_left), left(p.left);
+    const Entries between(p.few_left), left(p.left);
     std::fill(left.begin(), left.end(), 0.0);
     for (std::size_t k = 0; k < few.size(); ++k) {
-      left[p.shared[k]] = solved[k];
-      if (p.between[k] >= p.begin && p.between[k] < p.end) to[p.between[k] - p.begin] = solved[k];
+      left[p.shared[k]] = between[k];
+      if (p.between[k] >= p.begin && p.between[k] < p.end) to[p.between[k] - p.begin] = between[k];
     }
   }
   check(MatMult(p.sub[0], p.left, p.right), "multiply");
@@ -282,9 +312,10 @@ void DissectedFactors::solve(Vec b, Vec x) {
     const Entries right(p.right);
     for (const std::size_t k : p.shared) right[k] = 0;
   }
-  p.eliminate();
+  solved = p.eliminate() && solved;
   const Entries change(p.left);
   for (std::size_t k = 0; k < p.own.size(); ++k) to[p.own_number[k]] -= change[p.own[k]];
+  return p.all(solved);
 }
 
 }  // namespace drumlin::continuum::fem

@@ -127,7 +127,7 @@ ResidualSums residual_sums(const Problem& problem, std::size_t begin, std::size_
 /// What the residual of impulses r adds up; `velocities` receives u = W r + q, and what the bodies do.
 template <class Problem>
 ResidualSums residual_sums_of(const Problem& problem, std::span<const double> r,
-                            Velocities<typename Problem::Delassus>& velocities, TeamLoops& loops) {
+                              Velocities<typename Problem::Delassus>& velocities, TeamLoops& loops) {
   const auto& W = problem.W;
   auto& [bodies, u] = velocities;
   constexpr bool in_parts = requires { W.velocities_of(0, 0, problem.q, bodies, u); };

@@ -62,13 +62,15 @@ std::vector<StruckRecord> GatheredImpacts::resolve(const RankImpacts& mine) {
   pair_sent_.assign(mine.contacts.pairs.size(), 0);
   pairs_.clear(), bodies_.clear();
   if (resolves()) place_of_.resize(mine.place_of.size());
-  near_.clear(mine.low, mine.edge, mine.place_of.size());
+  near_.clear(mine.all, mine.step.bodies);
   seeds_.clear();
   for (const std::int32_t a : looked_.closings()) {
     const Candidate& pair = mine.contacts.pairs[a];
     seeds_.push_back(pair.i);
     if (pair.j >= 0) seeds_.push_back(pair.j);
   }
+  std::sort(seeds_.begin(), seeds_.end());
+  seeds_.erase(std::unique(seeds_.begin(), seeds_.end()), seeds_.end());
   std::vector<StruckRecord> struck;
   for (std::size_t times = 0;; ++times) {
     ++counts_.rounds;
@@ -79,7 +81,7 @@ std::vector<StruckRecord> GatheredImpacts::resolve(const RankImpacts& mine) {
       want_around(mine.step.bodies, reach[times]);
     send(mine);
     missing_.clear();
-    if (resolves()) resolve_gathered(mine.step, all, struck);
+    if (resolves()) resolve_gathered(mine.step, struck);
     ranks_.broadcast(missing_, resolver_);
     if (missing_.empty()) break;
     if (all) throw std::logic_error("a pair of an impact is on no rank");
@@ -122,24 +124,25 @@ void GatheredImpacts::want_around(const Bodies& seen, double reach) {
 void GatheredImpacts::list_wanted(const RankImpacts& mine) {
   const Bodies& bodies = mine.step.bodies;
   const auto& id = bodies.id;
-  constexpr char sent_now = 2;
+  enum : char { no, as_part, as_whole, now };
   const auto name = [&](std::int32_t b) {
-    if (!sent_[b]) sent_[b] = sent_now;
+    if (sent_[b] == no || (sent_[b] == as_part && wanted_[b])) sent_[b] = now;
     return static_cast<std::int32_t>(id[b]);
   };
   listed_pairs_.clear();
   for (std::size_t a = 0; a < mine.contacts.pairs.size(); ++a) {
     const Candidate& pair = mine.contacts.pairs[a];
-    if (!(wanted_[pair.i] | (pair.j >= 0 ? wanted_[pair.j] : 0)) || std::exchange(pair_sent_[a], 1)) continue;
+    if (!(wanted_[pair.i] | (pair.j >= 0 ? wanted_[pair.j] : 0))) continue;
     const std::int32_t i = name(pair.i), j = pair.j < 0 ? pair.j : name(pair.j);
+    if (std::exchange(pair_sent_[a], 1)) continue;
     listed_pairs_.push_back({i, j, pair.gap, pair.n_x, pair.n_z, pair.wall_v_x, pair.wall_v_z,
                              mine.loads.of(static_cast<std::int32_t>(a))});
   }
   listed_bodies_.clear();
   for (std::size_t b = 0; b < sent_.size(); ++b) {
-    if (sent_[b] != sent_now) continue;
-    sent_[b] = 1;
-    BodyRecord body{static_cast<std::int32_t>(id[b]), {bodies.x[b], bodies.z[b]}};
+    if (sent_[b] != now) continue;
+    sent_[b] = wanted_[b] ? as_whole : as_part;
+    BodyRecord body{static_cast<std::int32_t>(id[b]), wanted_[b]};
     body.v_x = bodies.v_x[b], body.v_z = bodies.v_z[b];
     if (!bodies.spin.empty()) body.spin = bodies.spin[b];
     body.radius = bodies.radius[b], body.inverse_mass = bodies.inverse_mass[b];
@@ -170,12 +173,15 @@ void GatheredImpacts::send(const RankImpacts& mine) {
   merge_runs(bodies_, known, [](const BodyRecord& a, const BodyRecord& b) { return a.id < b.id; });
 }
 
-void GatheredImpacts::resolve_gathered(const StepInput& step, bool all, std::vector<StruckRecord>& struck) {
-  // Several ranks may have told of one grain, all the same.
-  bodies_.erase(std::unique(bodies_.begin(), bodies_.end(),
-                            [](const BodyRecord& a, const BodyRecord& b) { return a.id == b.id; }),
-                bodies_.end());
-  const std::size_t count = bodies_.size();
+void GatheredImpacts::resolve_gathered(const StepInput& step, std::vector<StruckRecord>& struck) {
+  // Several ranks may have told of one grain, all the same, or first that a part of its pairs is sent.
+  std::size_t count = 0;
+  for (const BodyRecord& body : bodies_)
+    if (count > 0 && bodies_[count - 1].id == body.id)
+      bodies_[count - 1].whole |= body.whole;
+    else
+      bodies_[count++] = body;
+  bodies_.resize(count);
   Bodies bodies;
   for (auto* entries : {&bodies.x, &bodies.z, &bodies.v_x, &bodies.v_z, &bodies.radius, &bodies.inverse_mass})
     entries->resize(count);  // impacts ask for no places
@@ -187,7 +193,7 @@ void GatheredImpacts::resolve_gathered(const StepInput& step, bool all, std::vec
     bodies.radius[b] = body.radius, bodies.inverse_mass[b] = body.inverse_mass;
     if (step.laws.spin) bodies.spin[b] = body.spin;
     bodies.id[b] = body.id;
-    whole[b] = static_cast<char>(all || near_.marked(body.place));
+    whole[b] = static_cast<char>(body.whole);
     place_of_[body.id] = static_cast<std::int32_t>(b);
   }
   StepContacts contacts;

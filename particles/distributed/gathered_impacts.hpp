@@ -27,8 +27,7 @@ struct RankImpacts {
   Bodies& bodies;                          ///< those of the step: one rank alone sets their velocities
   StepContacts& contacts;                  ///< pairs of the rank's tiles, in the order of (i, j)
   std::span<const std::int32_t> place_of;  ///< of each identity among the bodies; -1: not seen
-  Point low;                               ///< the square that holds all grains: its lower left corner
-  double edge = 0;
+  GrainSquare all;                         ///< where all grains of the run are
 };
 
 /// What impacts have sent to the rank that resolved them since the program began, from this rank.
@@ -61,8 +60,7 @@ class GatheredImpacts {
   };
   /// What impacts ask of a grain.
   struct BodyRecord {
-    std::int32_t id = 0;
-    Point place;
+    std::int32_t id = 0, whole = 0;  // whole: 1 if all ranks send all pairs of it
     double v_x = 0, v_z = 0, spin = 0, radius = 0, inverse_mass = 0;
   };
 
@@ -85,7 +83,7 @@ class GatheredImpacts {
   /// Adds the pairs of wanted bodies to what the resolving rank holds.
   void send(const RankImpacts& mine);
   /// On that rank; nothing changes where missing_ bodies came in. `all`: it holds all pairs.
-  void resolve_gathered(const StepInput& step, bool all, std::vector<StruckRecord>& struck);
+  void resolve_gathered(const StepInput& step, std::vector<StruckRecord>& struck);
 
   Ranks ranks_;
   Impacts looked_, impacts_;

@@ -234,7 +234,7 @@ void RankGrains::bring_memory(RankState& state) {
     memory_.impulse.insert(memory_.impulse.end(), contact.impulse.begin(),
                            contact.impulse.begin() + unknowns_);
   };
-  // Both parts are in order, but for what a run begins with.
+  // Both parts are in order, but for what a run begins with, and where grains are settled again.
   std::size_t come = stay;
   for (std::size_t k = 0; k < stay; ++k) {
     while (come < most && comes_before(state.memory[come], state.memory[k])) keep(state.memory[come++]);

@@ -132,7 +132,8 @@ std::vector<StruckRecord> RankSearch::strike(const Step& step) {
   sweep_normals(all, mine_.pairs);
   const auto loads = recollection_.loads(grains_.memory(), unknowns_, step.time_step);
   const TileGrid& grid = grains_.tiles().grid;
-  return impacts_.resolve({all, loads, seen, mine_, grains_.places(), grid.origin, grid.edge()});
+  const GrainSquare square{grid.origin, grid.edge(), grains_.places().size()};
+  return impacts_.resolve({all, loads, seen, mine_, grains_.places(), square});
 }
 
 bool RankSearch::strikes_again(std::span<const StruckRecord> struck, const Step& step) {

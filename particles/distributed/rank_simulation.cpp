@@ -157,7 +157,6 @@ Bodies RankSimulation::gathered_bodies() const {
 Snapshot RankSimulation::take_snapshot() {
   ++state_.snapshots;
   auto contacts = stepper_->loaded_contacts();
-  stepper_->release_memory();
   state_.bodies = gathered_bodies();
   const StepLaws laws = laws_of(scene_, scales_);
   Snapshot snapshot =

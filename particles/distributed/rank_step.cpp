@@ -110,6 +110,9 @@ class RankMoreauJean final : public RankStepper {
   std::vector<SnapshotContact> loaded_contacts() override {
     std::vector<SnapshotContact> loaded;
     const auto& r = solution_.impulses;
+    std::size_t count = 0;
+    for (std::size_t a = 0; a < contacts_.pairs.size(); ++a) count += r[dim * a] != 0;
+    loaded.reserve(count);
     for (std::size_t a = 0; a < contacts_.pairs.size(); ++a) {
       const Candidate& pair = contacts_.pairs[a];
       if (r[dim * a] == 0) continue;
@@ -118,8 +121,11 @@ class RankMoreauJean final : public RankStepper {
                         static_cast<float>(pair.n_x), static_cast<float>(pair.n_z), r[dim * a],
                         dim >= 2 ? r[dim * a + 1 % dim] : 0});
     }
+    release_memory();  // the first rank gets as much
     std::vector<SnapshotContact> all = ranks_.gather<SnapshotContact>(loaded);
-    for (const Strike& strike : search_.impacts().strikes())  // of all ranks, on the first
+    const std::vector<Strike> strikes = search_.impacts().strikes();  // of all ranks, on the first
+    all.reserve(all.size() + strikes.size());
+    for (const Strike& strike : strikes)
       all.push_back({strike.i, strike.j, static_cast<float>(strike.n_x), static_cast<float>(strike.n_z),
                      strike.normal, strike.tangential});
     return one_for_each_pair(std::move(all));

@@ -56,7 +56,7 @@ class RankStepper {
   /// The report is the same on all ranks, its times aside; a lost grain is named by its identity. Throws
   /// NotConvergedError on all ranks when a grain leaves the domain, or jumps over cells, and names it.
   virtual StepReport advance(RankState& state, WallStep& walls, double time_step) = 0;
-  /// On the first rank, called by all: loaded contacts of the last step.
+  /// On the first rank, called by all: loaded contacts of the last step. Gives memory back, as below.
   virtual std::vector<SnapshotContact> loaded_contacts() = 0;
   /// Between steps: gives back what the next step makes anew, if that is much. The contacts of the last step
   /// are gone then.

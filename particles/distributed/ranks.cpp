@@ -2,6 +2,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <limits>
 #include <numeric>
@@ -84,22 +85,24 @@ std::vector<std::vector<std::byte>> Ranks::exchange_bytes(
   return received;
 }
 
-std::vector<std::byte> Ranks::gather_bytes(std::span<const std::byte> own, int on) const {
-  if (count() == 1) return {own.begin(), own.end()};
+void Ranks::gather_bytes(std::span<const std::byte> own, int on,
+                         const std::function<std::byte*(std::size_t)>& place_for) const {
+  if (count() == 1) {
+    std::copy(own.begin(), own.end(), place_for(own.size()));
+    return;
+  }
   const WaitingTime waiting(waited);
   const int mine = as_count(own.size());
   std::vector<int> counts(count()), first(count() + 1, 0);
   MPI_Gather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, on, MPI_COMM_WORLD);
-  std::size_t total = 0;
-  std::vector<std::byte> all;
+  std::byte* all = nullptr;
   if (rank() == on) {
+    std::size_t total = 0;
     for (std::size_t r = 0; r < counts.size(); ++r) total += counts[r], first[r + 1] = as_count(total);
-    all.resize(total);
+    all = place_for(total);
   }
-  MPI_Gatherv(own.data(), mine, MPI_BYTE, all.data(), counts.data(), first.data(), MPI_BYTE, on,
-              MPI_COMM_WORLD);
+  MPI_Gatherv(own.data(), mine, MPI_BYTE, all, counts.data(), first.data(), MPI_BYTE, on, MPI_COMM_WORLD);
   rounds_so_far += 2;
-  return all;
 }
 
 void Ranks::broadcast_bytes(std::vector<std::byte>& bytes, int from) const {

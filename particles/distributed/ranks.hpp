@@ -52,7 +52,12 @@ class Ranks {
   template <class T>
   std::vector<T> gather(std::span<const T> own, int on = 0) const {
     static_assert(std::is_trivially_copyable_v<T>);
-    return as<T>(gather_bytes(std::as_bytes(own), on));
+    std::vector<T> all;  // may be large: no copy of it
+    gather_bytes(std::as_bytes(own), on, [&all](std::size_t bytes) {
+      all.resize(bytes / sizeof(T));
+      return std::as_writable_bytes(std::span(all)).data();
+    });
+    return all;
   }
   /// The same, on all ranks.
   template <class T>
@@ -104,7 +109,9 @@ class Ranks {
     return values;
   }
   std::vector<std::vector<std::byte>> exchange_bytes(const std::vector<std::vector<std::byte>>&) const;
-  std::vector<std::byte> gather_bytes(std::span<const std::byte>, int on) const;
+  /// `place_for` so many bytes is asked for there alone.
+  void gather_bytes(std::span<const std::byte>, int on,
+                    const std::function<std::byte*(std::size_t)>& place_for) const;
   void broadcast_bytes(std::vector<std::byte>&, int from) const;
 };
 

@@ -7,6 +7,7 @@
 #include "particles/contact/residual.hpp"
 #include "particles/solver/coarse_loads.hpp"
 #include "particles/solver/momentum.hpp"
+#include "particles/solver/seen_residual.hpp"
 #include "particles/solver/strip_sweeps.hpp"
 
 namespace drumlin::particles {
@@ -297,8 +298,9 @@ SolveReport TileSolver<Problem>::sweep_until_done(const Problem& problem, const 
     progress.see(misses, sweeps);
     // Rounding of single precision hides the progress.
     const bool stuck = single && progress.stuck(sweeps);
-    if (seen < best) {
-      best = seen;
+    const double judged = progress.exact() ? progress.missed(misses) : seen;
+    if (judged < best) {
+      best = judged;
       loops_.each_of(tiles, [&](int t) { blocks.keep(t); });
     }
     if (!last && !stuck && progress.surely_misses(misses)) continue;
@@ -309,7 +311,7 @@ SolveReport TileSolver<Problem>::sweep_until_done(const Problem& problem, const 
       progress.compare(misses, test.report().residual.sinking / rule.sinking);
       continue;
     }
-    if (best < seen && test.report().status != Status::converged) {
+    if (best < judged && test.report().status != Status::converged) {
       blocks.unpack(problem, true, r, loops_);
       test.replace(residual(problem, contacts, halo, solution));
     }

@@ -52,16 +52,19 @@ class SeenProgress {
     return misses.residual > 1 ||
            std::max(misses.penetration, sinking_ * misses.sinking) > (exact_ ? 1.0005 : 1.02);
   }
+  /// What counts of that.
+  double missed(const SeenMisses& misses) const {
+    return exact_ ? std::max({misses.residual, misses.penetration, misses.sinking}) : misses.residual;
+  }
   void see(const SeenMisses& misses, int sweeps) {
-    const double missed =
-        exact_ ? std::max({misses.residual, misses.penetration, misses.sinking}) : misses.residual;
+    const double missed = this->missed(misses);
     if (missed < (exact_ ? 0.99 : 0.9) * least_) least_ = missed, at_ = sweeps;
   }
   /// After a look at the residual in double precision, which had another sinking than was seen.
   void compare(const SeenMisses& misses, double sinking) {
     if (exact_ && misses.sinking > 0) sinking_ = std::clamp(sinking / misses.sinking, 0.98, 1.02);
   }
-  /// Sweeps without progress; a flow takes 10 for a tenth of its residual.
+  /// Whether too many sweeps have gone without progress; a flow takes 10 for a tenth of its residual.
   bool stuck(int sweeps) const { return sweeps - at_ >= (exact_ ? 200 : 100); }
 
  private:

@@ -8,6 +8,7 @@
 
 #include "particles/solver/contact_solver.hpp"
 #include "particles/solver/momentum.hpp"
+#include "particles/solver/seen_residual.hpp"
 #include "particles/solver/sweep_wave.hpp"
 
 namespace drumlin::particles {
@@ -174,8 +175,8 @@ void correct_loads(const Problem& problem, SolverWorkspace<Problem>& work, Strip
 /// five; the residual counts them always. Every few sweeps (while the steps say that it is far, every
 /// fourth time of these) the solver estimates its residual, on vectors and threads; when that is small enough
 /// the residual itself decides. In single precision it also ends, out of sweeps before they are, when the
-/// estimate stands still or the residual is more than three times of it. Impulses that miss the rule are the
-/// best by the estimate.
+/// estimate (of large problems, of all that the rule asks for) stands still or the residual is more than
+/// three times of it. Impulses that miss the rule are the best by the estimate.
 template <class T, class Problem, class Strips>
 SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, SolverWorkspace<Problem>& work,
                             Strips& strips, Solution<Problem>& solution, bool accelerated) {
@@ -230,7 +231,8 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
     // Rounding of single precision hides the progress.
     const bool stuck = single && progress.stuck(state.sweeps);
     const bool last = state.sweeps >= rule.max_sweeps || !state.finite;
-    if (seen < best) best = seen, state.keep = true, strips.keep_driven();
+    const double judged = progress.exact() ? progress.missed(misses) : seen;
+    if (judged < best) best = judged, state.keep = true, strips.keep_driven();
     if (!last && !stuck && progress.surely_misses(misses) && !always) continue;
     strips.unpack(problem, false, solution.impulses, loops);
     const bool ended = test.ends(state.sweeps, residual_of(problem, solution, loops), state.finite);
@@ -239,7 +241,7 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
       progress.compare(misses, test.report().residual.sinking / rule.sinking);
       continue;
     }
-    if (best < seen && test.report().status != Status::converged) {
+    if (best < judged && test.report().status != Status::converged) {
       strips.unpack(problem, true, solution.impulses, loops);
       test.replace(residual_of(problem, solution, loops));
     }

@@ -72,7 +72,8 @@ TEST(GatheredImpacts, AreThoseOfOneProcessToTheLastBit) {
   GatheredImpacts gathered(ranks);
   const StepInput step{row.laws, seen, row.walls, {}, unused, time_step};
   const RememberedLoads loads(place, none, 1, 1);
-  const auto struck = gathered.resolve({step, loads, seen, mine, place_of, {-1, -discs / 2.0}, discs + 1.0});
+  const auto struck =
+      gathered.resolve({step, loads, seen, mine, place_of, {{-1, -discs / 2.0}, discs + 1.0, discs}});
   ASSERT_EQ(struck.size(), impacts.struck().size());
   for (std::size_t k = 0; k < struck.size(); ++k) {
     const std::int32_t b = impacts.struck()[k].grain;
@@ -124,7 +125,7 @@ TEST(GatheredImpacts, SendThePairsNearTheImpactsAlone) {
   const StepInput step{row.laws, seen, row.walls, {}, unused, 1e-3};
   GatheredImpacts gathered(ranks);
   const RememberedLoads loads(place, none, 1, 1);
-  const auto struck = gathered.resolve({step, loads, seen, mine, places, {-1, -half}, discs + 1.0});
+  const auto struck = gathered.resolve({step, loads, seen, mine, places, {{-1, -half}, discs + 1.0, discs}});
   EXPECT_EQ(struck.size(), 5U);
   if (ranks.rank() == 0) {
     EXPECT_GE(gathered.counts().pairs, 1);
@@ -132,23 +133,53 @@ TEST(GatheredImpacts, SendThePairsNearTheImpactsAlone) {
   } else {
     EXPECT_EQ(gathered.counts().pairs, 0);
   }
-  EXPECT_EQ(gathered.strikes().size(), ranks.rank() == 0 ? static_cast<std::size_t>(gathered.count()) : 0U);
+  const auto first = static_cast<std::size_t>(gathered.count());
+  EXPECT_EQ(gathered.strikes().size(), ranks.rank() == 0 ? first : 0U);
+  // Then the other end alone: another rank resolves it, and strikes stand in the order of the calls.
+  if (ranks.rank() < 2) row.bodies.v_x[0] = row.bodies.v_x[1] = row.bodies.v_x[2] = 0;
+  row.bodies.v_x[discs - 1] = -1, row.bodies.v_x[discs - 2] = 0;
+  const auto again = gathered.resolve({step, loads, seen, mine, places, {{-1, -half}, discs + 1.0, discs}});
+  EXPECT_EQ(again.size(), 2U);
+  const auto strikes = gathered.strikes();
+  ASSERT_EQ(strikes.size(), ranks.rank() == 0 ? first + 1 : 0U);
+  if (ranks.rank() == 0) {
+    EXPECT_EQ(strikes.back().j, discs - 1);
+  }
 }
 
 TEST(NearPlaces, AreThoseAroundSomeDiscsAndHardlyMore) {
-  NearPlaces near;
-  near.clear({-20, -20}, 40, 1000);
-  near.mark(std::vector<Surroundings>{{{3.3, -4.7}, 5}, {{19.5, 0}, 4}, {{-30, -30}, 2}});
+  Bodies whole, part;
+  whole.x = {-20, 19.9}, whole.z = {-20, 19.9};
+  part.x = {1.2, 15}, part.z = {-7, 3.6};  // what another rank sees
+  NearPlaces near, of_part;
+  near.clear({{-20, -20}, 40, 1000}, whole), of_part.clear({{-20, -20}, 40, 1000}, part);
+  const std::vector<Surroundings> places{{{3.3, -4.7}, 5}, {{19.5, 0}, 4}, {{-30, -30}, 2}, {{8, 3}, 0.1}};
+  near.mark(places), of_part.mark(places);
   int marked = 0, within = 0;
-  for (double x = -19.9; x < 20; x += 0.2)
-    for (double z = -19.9; z < 20; z += 0.2) {
+  for (double x = -19.9; x < 19.9; x += 0.2)
+    for (double z = -19.9; z < 19.9; z += 0.2) {
       const bool inside = std::hypot(x - 3.3, z + 4.7) <= 5 || std::hypot(x - 19.5, z) <= 4;
       EXPECT_TRUE(near.marked({x, z}) || !inside) << x << ' ' << z;
       marked += near.marked({x, z}), within += inside;
+      if (x > 1.2 && x < 15 && z > -7 && z < 3.6) {
+        EXPECT_EQ(of_part.marked({x, z}), near.marked({x, z})) << x << ' ' << z;
+      }
     }
   EXPECT_LT(marked, 1.5 * within);
-  EXPECT_TRUE(near.marked({25, 0}));  // outside of the square: as the nearest place in it
-  EXPECT_FALSE(near.marked({-25, 0}));
+  EXPECT_FALSE(near.marked({-19.9, -19.9}));
+  near.clear({{-20, -20}, 40, 1000}, {});
+  near.mark(places);  // a rank without bodies
+}
+
+/// A few grains far apart do not make a raster of all that lies between them.
+TEST(NearPlaces, TakeWiderSquaresWhereGrainsAreFew) {
+  Bodies two;
+  two.x = {0, 1e6}, two.z = {0, 1e6};
+  NearPlaces near;
+  near.clear({{0, 0}, 1.1e6, 2}, two);
+  near.mark(std::vector<Surroundings>{{{1e6, 1e6}, 5}});
+  EXPECT_TRUE(near.marked({1e6, 1e6}));
+  EXPECT_FALSE(near.marked({0, 0}));
 }
 
 }  // namespace

@@ -18,13 +18,16 @@ class DissectedFactors {
   DissectedFactors();
   ~DissectedFactors();
 
-  /// Whether there are several ranks, and so few unknowns between them that the dense part costs little
-  /// beside the rest. Lays out what follows for the pattern of the matrix.
+  /// Whether there are several ranks, each with unknowns of its own, and so few between them that the dense
+  /// part costs little beside the rest. Lays out what follows for the pattern of the matrix.
   bool suits(Mat matrix);
-  /// After suits() for the same pattern. Returns false if MUMPS fails on any rank.
+  /// After suits() for the same pattern. Returns false if MUMPS fails on any rank, or the dense matrix is
+  /// singular; then the pattern suits no more.
   bool factorise(Mat matrix);
-  /// x = A^-1 b, without refinement.
-  void solve(Vec b, Vec x);
+  /// x = A^-1 b, without refinement; false if MUMPS fails on any rank.
+  bool solve(Vec b, Vec x);
+  /// Gives the memory back; the pattern suits no more.
+  void forsake();
 
  private:
   struct Objects;
