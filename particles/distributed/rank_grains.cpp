@@ -16,6 +16,9 @@ namespace {
 // A forest is weighed again after so many steps, if a rank has so much more than its share.
 constexpr std::int64_t steps_between = 200;
 constexpr double most_share = 1.1;
+// One that was made before any contact was known, as at the start from another run, is weighed again soon.
+constexpr std::int64_t steps_without_contacts = 3;
+constexpr double most_share_without_contacts = 1.01;
 // Of that work: sweeps are that of contacts, most else that of grains.
 constexpr std::int64_t of_a_grain = 10, of_a_loaded_contact = 10;
 
@@ -72,6 +75,7 @@ void RankGrains::build(RankState& state, const TileGrid& grid) {
   for (const RankGrain& g : state.grains) weights[grid.tile_at({g.x, g.z})] += of_a_grain;
   for (const RememberedContact& c : state.memory) weights[grid.tile_at({c.x, c.z})] += of_a_loaded_contact;
   ranks_.add(weights);
+  knows_contacts_ = ranks_.any(!state.memory.empty());
   for (std::int64_t& weight : weights) ++weight;
   forest_.reset();
   forest_ = std::make_unique<Forest>(ranks_, grid, weights);
@@ -81,13 +85,16 @@ void RankGrains::build(RankState& state, const TileGrid& grid) {
 }
 
 bool RankGrains::unbalanced(const RankState& state) const {
-  if (ranks_.count() == 1 || steps_ < steps_between || steps_ % steps_between != 0) return false;
+  const bool soon = !knows_contacts_ && steps_ == steps_without_contacts;
+  if (ranks_.count() == 1 || (!soon && (steps_ < steps_between || steps_ % steps_between != 0))) return false;
+  if (soon && !ranks_.any(!state.memory.empty())) return false;
   std::array<std::int64_t, 1> all{of_a_grain * static_cast<std::int64_t>(state.grains.size()) +
                                   of_a_loaded_contact * static_cast<std::int64_t>(state.memory.size())};
   std::array<double, 1> most{static_cast<double>(all[0])};
   ranks_.largest(most);
   ranks_.add(all);
-  return most[0] * ranks_.count() > most_share * static_cast<double>(all[0]);
+  return most[0] * ranks_.count() >
+         (soon ? most_share_without_contacts : most_share) * static_cast<double>(all[0]);
 }
 
 void RankGrains::sort(RankState& state) { refuse(forest_->move(state.grains)); }
@@ -203,8 +210,8 @@ void RankGrains::follow(const RankState& state) {
     for (std::size_t k = 0; k < shown[r].size(); ++k) set(ghosts_of_[r][k], shown[r][k]);
 }
 
-/// The place of a remembered pair is where the pair stands now: its tile's owner looks for it. Returns how many
-/// contacts stay here; those that come stand behind them, in order.
+/// The place of a remembered pair is where the pair stands now: its tile's owner looks for it. Returns how
+/// many contacts stay here; those that come stand behind them, in order.
 std::size_t RankGrains::pass_memory_on(std::vector<RememberedContact>& memory) const {
   if (ranks_.count() == 1) return memory.size();
   const auto rank = static_cast<std::size_t>(ranks_.rank());

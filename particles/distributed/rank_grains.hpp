@@ -83,6 +83,7 @@ class RankGrains {
   std::vector<std::vector<Shown>> to_show_;
   std::vector<std::int32_t> place_of_;
   ContactMemory memory_;
+  bool knows_contacts_ = false;                       // the weights of the forest
   std::int64_t forests_ = 0, sorts_ = 0, steps_ = 0;  // steps since the forest was made
 };
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "particles/detection/open_gaps.hpp"
+#include "particles/parallel/ask_ahead.hpp"
 #include "particles/parallel/work_memory.hpp"
 
 namespace drumlin::particles {
@@ -137,10 +138,11 @@ void sort_into_tiles(std::span<const Candidate> candidates, const HomedPairs& ho
     place = range.end += place;
   }
   resize_closely(own.pairs, mine.size()), resize_closely(own.order, mine.size());
-  for (std::size_t m = 0; m < mine.size(); ++m) {
-    const std::int32_t a = mine[m], to = count[homes[a].tile]++;
-    own.order[to] = static_cast<std::int32_t>(m);
-    own.pairs[to] = candidates[a];
+  for (std::size_t m = 0; m < mine.size(); ++m)
+    own.order[count[homes[mine[m]].tile]++] = static_cast<std::int32_t>(m);
+  for (std::size_t a = 0; a < mine.size(); ++a) {
+    if (a + turns_ahead < mine.size()) ask_for(&candidates[mine[own.order[a + turns_ahead]]]);
+    own.pairs[a] = candidates[mine[own.order[a]]];
   }
 }
 
