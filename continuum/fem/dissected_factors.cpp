@@ -1,6 +1,6 @@
 #include "continuum/fem/detail/dissected_factors.hpp"
 
-#include <mpi.h>
+#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
@@ -80,18 +80,12 @@ struct DissectedFactors::Objects {
   bool factorise_own();
   bool add_complements();
   bool eliminate();
-  void add(std::vector<double>& numbers) const {
-    check(MPI_Allreduce(MPI_IN_PLACE, numbers.data(), static_cast<int>(numbers.size()), MPI_DOUBLE, MPI_SUM,
-                        ranks),
-          "add up over ranks");
-  }
+  void add(std::vector<double>& numbers) const { dealii::Utilities::MPI::sum(numbers, ranks, numbers); }
 };
 
 /// Whether all ranks have succeeded: what one rank meets alone must not be thrown there alone.
 bool DissectedFactors::Objects::all(bool own_success) const {
-  int failed = own_success ? 0 : 1;
-  check(MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, ranks), "ask all ranks");
-  return failed == 0;
+  return dealii::Utilities::MPI::min(own_success ? 1 : 0, ranks) == 1;
 }
 
 void DissectedFactors::Objects::clear() {
@@ -119,14 +113,9 @@ void DissectedFactors::Objects::find_between(Mat matrix) {
   }
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
-  int size = 0, own_count = static_cast<int>(found.size());
-  MPI_Comm_size(ranks, &size);
-  std::vector<int> counts(size), first(size + 1, 0);
-  MPI_Allgather(&own_count, 1, MPI_INT, counts.data(), 1, MPI_INT, ranks);
-  for (int r = 0; r < size; ++r) first[r + 1] = first[r] + counts[r];
-  between.resize(first.back());
-  MPI_Allgatherv(found.data(), own_count, MPIU_INT, between.data(), counts.data(), first.data(), MPIU_INT,
-                 ranks);
+  between.clear();
+  for (const auto& of_rank : dealii::Utilities::MPI::all_gather(ranks, found))
+    between.insert(between.end(), of_rank.begin(), of_rank.end());
   std::sort(between.begin(), between.end());
   between.erase(std::unique(between.begin(), between.end()), between.end());
 }
@@ -160,10 +149,8 @@ void DissectedFactors::Objects::lay_out(Mat matrix) {
 }
 
 void DissectedFactors::Objects::find_twice() {
-  int rank = 0;
-  MPI_Comm_rank(ranks, &rank);
   twice.clear();
-  if (rank == 0) return;
+  if (dealii::Utilities::MPI::this_mpi_process(ranks) == 0) return;
   std::vector<char> is_shared(own.size() + shared.size(), 0);
   for (const std::size_t k : shared) is_shared[k] = 1;
   PetscInt rows = 0;
@@ -238,8 +225,7 @@ bool DissectedFactors::suits(Mat matrix) {
   p.clear();
   p.pattern = {}, p.suited = false;
   check(PetscObjectGetComm(reinterpret_cast<PetscObject>(matrix), &p.ranks), "read a matrix");
-  int size = 1;
-  MPI_Comm_size(p.ranks, &size);
+  const unsigned int size = dealii::Utilities::MPI::n_mpi_processes(p.ranks);
   PetscInt unknowns = 0;
   check(MatGetSize(matrix, &unknowns, nullptr), "read a matrix");
   bool suited = size > 1;

@@ -22,10 +22,6 @@ constexpr double most_share_without_contacts = 1.01;
 // Of that work: sweeps are that of contacts, most else that of grains.
 constexpr std::int64_t of_a_grain = 10, of_a_loaded_contact = 10;
 
-bool comes_before(const RememberedContact& a, const RememberedContact& b) {
-  return a.i != b.i ? a.i < b.i : a.j < b.j;
-}
-
 }  // namespace
 
 RankGrains::Need RankGrains::need_of(const RankState& state, const WallStep& walls, double time_step,

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "particles/distributed/exact_sum.hpp"
 #include "particles/distributed/step_pairs.hpp"
@@ -170,9 +169,7 @@ SimulationState RankSimulation::gathered_state() const {
   SimulationState all = state_;
   all.bodies = gathered_bodies();
   auto memory = ranks_.gather<RememberedContact>(own_.memory);
-  std::sort(memory.begin(), memory.end(), [](const RememberedContact& a, const RememberedContact& b) {
-    return std::tie(a.i, a.j) < std::tie(b.i, b.j);
-  });
+  std::sort(memory.begin(), memory.end(), comes_before);
   const int dim = scene_.effects.friction ? 2 : 1;
   all.memory.time_step = own_.memory_time_step;
   all.memory.i.reserve(memory.size()), all.memory.j.reserve(memory.size());

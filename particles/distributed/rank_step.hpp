@@ -22,6 +22,11 @@ struct RememberedContact {
   std::array<double, 2> impulse{};
 };
 
+/// The order of (i, j).
+inline bool comes_before(const RememberedContact& a, const RememberedContact& b) {
+  return a.i != b.i ? a.i < b.i : a.j < b.j;
+}
+
 /// What a rank keeps from step to step.
 struct RankState {
   std::vector<RankGrain> grains;          ///< its own

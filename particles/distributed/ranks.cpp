@@ -105,14 +105,20 @@ void Ranks::gather_bytes(std::span<const std::byte> own, int on,
   rounds_so_far += 2;
 }
 
-void Ranks::broadcast_bytes(std::vector<std::byte>& bytes, int from) const {
+std::size_t Ranks::broadcast_count(std::size_t own, int from) const {
+  if (count() == 1) return own;
+  const WaitingTime waiting(waited);
+  auto of_one = static_cast<std::int64_t>(own);
+  MPI_Bcast(&of_one, 1, MPI_INT64_T, from, MPI_COMM_WORLD);
+  ++rounds_so_far;
+  return static_cast<std::size_t>(of_one);
+}
+
+void Ranks::broadcast_bytes(std::span<std::byte> bytes, int from) const {
   if (count() == 1) return;
   const WaitingTime waiting(waited);
-  std::int64_t size = static_cast<std::int64_t>(bytes.size());
-  MPI_Bcast(&size, 1, MPI_INT64_T, from, MPI_COMM_WORLD);
-  bytes.resize(size);
   MPI_Bcast(bytes.data(), as_count(bytes.size()), MPI_BYTE, from, MPI_COMM_WORLD);
-  rounds_so_far += 2;
+  ++rounds_so_far;
 }
 
 void Ranks::largest(std::span<double> values) const {

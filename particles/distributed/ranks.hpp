@@ -70,13 +70,8 @@ class Ranks {
   template <class T>
   void broadcast(std::vector<T>& values, int from = 0) const {
     static_assert(std::is_trivially_copyable_v<T>);
-    std::vector<std::byte> bytes;
-    if (rank() == from) {
-      const auto own = std::as_bytes(std::span(values));
-      bytes.assign(own.begin(), own.end());
-    }
-    broadcast_bytes(bytes, from);
-    if (rank() != from) values = as<T>(bytes);
+    values.resize(broadcast_count(values.size(), from));
+    broadcast_bytes(std::as_writable_bytes(std::span(values)), from);
   }
 
   /// Each value becomes the largest of all ranks. No NaN.
@@ -112,7 +107,8 @@ class Ranks {
   /// `place_for` so many bytes is asked for there alone.
   void gather_bytes(std::span<const std::byte>, int on,
                     const std::function<std::byte*(std::size_t)>& place_for) const;
-  void broadcast_bytes(std::vector<std::byte>&, int from) const;
+  std::size_t broadcast_count(std::size_t count, int from) const;
+  void broadcast_bytes(std::span<std::byte>, int from) const;
 };
 
 }  // namespace drumlin::particles
