@@ -24,31 +24,46 @@ std::array<double, properties> properties_of(const RankGrain& g) {
   return {g.v_x, g.v_z, g.spin, g.radius, g.inverse_mass};
 }
 
-/// The curve of p4est goes first along x. Where it is to go first along z, the forest has x and z exchanged.
-struct Axes {
+/// How the grid stands in the forest. The curve of p4est goes first along x; where it is to go first along z,
+/// the forest has x and z exchanged. Its first cut is across the middle of the forest, which has twice the
+/// grid's edge, so that any line of squares can lie there.
+struct Placing {
   bool exchanged = false;
+  std::int32_t middle = 0;  ///< columns of squares before the first cut; rows, unless exchanged
   dealii::Point<2> in_forest(Point p) const {
     return exchanged ? dealii::Point<2>(p.z, p.x) : dealii::Point<2>(p.x, p.z);
   }
   Point outside(const dealii::Point<2>& p) const { return exchanged ? Point{p[1], p[0]} : Point{p[0], p[1]}; }
 };
 
-/// A packing that is wider than high is cut into columns.
-Axes axes_for(const TileGrid& grid, std::span<const std::int64_t> weights) {
+/// A packing that is wider than high is cut into columns: the first cut halves its weight, or leaves up to a
+/// column more for what comes after, whose squares next to the cut are then the first that the curve gives to
+/// those before it.
+Placing placing_for(const TileGrid& grid, std::span<const std::int64_t> weights) {
   const std::int64_t empty = *std::min_element(weights.begin(), weights.end());
-  std::array<std::int32_t, 2> low{grid.rows(), grid.rows()}, high{0, 0};
+  std::array<std::vector<std::int64_t>, 2> of_line;  // of each column of squares, and of each row
+  of_line.fill(std::vector<std::int64_t>(grid.rows(), 0));
   for (std::int32_t tile = 0; tile < grid.count(); ++tile) {
-    if (weights[tile] == empty) continue;
-    const std::array<std::int32_t, 2> at{grid.column(tile) / grid.cut, grid.row(tile)};
-    for (const int axis : {0, 1})
-      low[axis] = std::min(low[axis], at[axis]), high[axis] = std::max(high[axis], at[axis]);
+    of_line[0][grid.column(tile) / grid.cut] += weights[tile] - empty;
+    of_line[1][grid.row(tile)] += weights[tile] - empty;
   }
-  return {high[0] - low[0] >= high[1] - low[1]};
+  const auto extent = [](const std::vector<std::int64_t>& lines) {
+    const auto holds = [](std::int64_t weight) { return weight > 0; };
+    const auto last = std::find_if(lines.rbegin(), lines.rend(), holds).base();
+    return last - std::find_if(lines.begin(), last, holds);
+  };
+  const bool wide = extent(of_line[0]) >= extent(of_line[1]);
+  const std::vector<std::int64_t>& lines = of_line[wide ? 0 : 1];
+  const std::int64_t all = std::accumulate(lines.begin(), lines.end(), std::int64_t{0});
+  std::int32_t middle = 0;
+  for (std::int64_t before = lines[0]; 2 * before <= all && middle + 1 < grid.rows();)
+    before += lines[++middle];
+  return {wide, middle};
 }
 
 template <class Particle>
-RankGrain record_of(const Particle& particle, const Axes& axes) {
-  const Point place = axes.outside(particle.get_location());
+RankGrain record_of(const Particle& particle, const Placing& placing) {
+  const Point place = placing.outside(particle.get_location());
   const auto own = particle.get_properties();
   return {
       static_cast<std::int64_t>(particle.get_id()), place.x, place.z, own[0], own[1], own[2], own[3], own[4]};
@@ -57,15 +72,32 @@ RankGrain record_of(const Particle& particle, const Axes& axes) {
 }  // namespace
 
 struct Forest::Library {
-  Library(const TileGrid& grid_, const Axes& axes_)
-      : grid(grid_), axes(axes_), triangulation(MPI_COMM_WORLD), mapping(1) {
-    const dealii::Point<2> low = axes.in_forest(grid.origin);
+  /// Cells of the grid's size are in the grid alone: around it they are as large as p4est lets them be.
+  Library(const TileGrid& grid_, const Placing& placing_)
+      : grid(grid_), placing(placing_), triangulation(MPI_COMM_WORLD), mapping(1) {
+    Point corner = grid.origin;
+    (placing.exchanged ? corner.x : corner.z) += 2 * grid.cell * (placing.middle - grid.rows());
+    const dealii::Point<2> low = placing.in_forest(corner);
+    const double edge = 2 * grid.edge();
     dealii::GridGenerator::hyper_rectangle(triangulation, low,
-                                           dealii::Point<2>(low[0] + grid.edge(), low[1] + grid.edge()));
-    triangulation.refine_global(grid.levels);
+                                           dealii::Point<2>(low[0] + edge, low[1] + edge));
+    for (int level = 0; level <= grid.levels; ++level) {
+      for (const Cell& cell : triangulation.active_cell_iterators())
+        if (cell->is_locally_owned() && overlaps_grid(cell)) cell->set_refine_flag();
+      triangulation.execute_coarsening_and_refinement();
+    }
   }
 
-  Point middle(const Cell& cell) const { return axes.outside(cell->center()); }
+  bool overlaps_grid(const Cell& cell) const {
+    const Point p = middle(cell);
+    const double reach = cell->extent_in_direction(0) / 2 - grid.cell / 4;  // more than rounding inside
+    const auto overlap = [&](double along) { return along > -reach && along < grid.edge() + reach; };
+    return overlap(p.x - grid.origin.x) && overlap(p.z - grid.origin.z);
+  }
+  Point middle(const Cell& cell) const { return placing.outside(cell->center()); }
+  bool owns_in_grid(const Cell& cell) const {
+    return cell->is_locally_owned() && grid.contains(middle(cell));
+  }
   std::int32_t square_of(const Cell& cell) const { return grid.first_of_square(middle(cell)); }
   /// Number of the cell of a point.
   std::int64_t cell_at(Point p) const {
@@ -76,8 +108,12 @@ struct Forest::Library {
     return along(p.z - grid.origin.z) * grid.cells_per_side() + along(p.x - grid.origin.x);
   }
 
+  void find_outside(std::int64_t id, Point place) {
+    if (outside.id < 0 || id < outside.id) outside = {id, place.x, place.z};
+  }
+
   TileGrid grid;
-  Axes axes;
+  Placing placing;
   Triangulation triangulation;
   dealii::MappingQ<2> mapping;
   Handler handler;
@@ -85,12 +121,14 @@ struct Forest::Library {
 };
 
 Forest::Forest(const Ranks& ranks, const TileGrid& grid, std::span<const std::int64_t> weights)
-    : ranks_(ranks), library_(std::make_unique<Library>(grid, axes_for(grid, weights))) {
+    : ranks_(ranks), library_(std::make_unique<Library>(grid, placing_for(grid, weights))) {
   Library& lib = *library_;
   {
     const auto weighed = lib.triangulation.signals.weight.connect(
         [&](const Triangulation::cell_iterator& cell, const Triangulation::CellStatus) {
-          const std::int32_t first = grid.first_of_square(lib.axes.outside(cell->center()));
+          const Point middle = lib.placing.outside(cell->center());
+          if (!grid.contains(middle)) return 1U;
+          const std::int32_t first = grid.first_of_square(middle);
           const std::int64_t weight =
               std::accumulate(weights.begin() + first, weights.begin() + first + grid.cut, std::int64_t{0});
           return static_cast<unsigned int>(std::min<std::int64_t>(weight, 1 << 20));
@@ -103,7 +141,7 @@ Forest::Forest(const Ranks& ranks, const TileGrid& grid, std::span<const std::in
   std::vector<std::int32_t> own;
   std::vector<int> cells(grid.count(), 0);
   for (const Cell& cell : lib.triangulation.active_cell_iterators())
-    if (cell->is_locally_owned() && ++cells[lib.square_of(cell)] == 1) own.push_back(lib.square_of(cell));
+    if (lib.owns_in_grid(cell) && ++cells[lib.square_of(cell)] == 1) own.push_back(lib.square_of(cell));
   for (const std::int32_t tile : own)
     if (cells[tile] != 4) throw std::logic_error("a square of cells is cut between two ranks");
   std::vector<std::vector<std::int32_t>> to_all(ranks.count(), own);
@@ -113,10 +151,8 @@ Forest::Forest(const Ranks& ranks, const TileGrid& grid, std::span<const std::in
       std::fill_n(tiles_.owner.begin() + first, grid.cut, static_cast<std::int32_t>(r));
   lib.handler.initialize(lib.triangulation, lib.mapping, properties);
   lib.handler.signals.particle_lost.connect([&lib](const auto& particle, const auto&) {
-    const auto id = static_cast<std::int64_t>(particle->get_id());
-    if (lib.outside.id >= 0 && lib.outside.id <= id) return;
-    const Point place = lib.axes.outside(particle->get_location());
-    lib.outside = {id, place.x, place.z};
+    lib.find_outside(static_cast<std::int64_t>(particle->get_id()),
+                     lib.placing.outside(particle->get_location()));
   });
 }
 
@@ -148,13 +184,13 @@ GrainOutside Forest::place(std::span<const RankGrain> grains) {
   std::vector<Cell> cells(static_cast<std::size_t>(tiles_.grid.cells_per_side()) *
                           tiles_.grid.cells_per_side());
   for (const Cell& cell : lib.triangulation.active_cell_iterators())
-    if (cell->is_locally_owned()) cells[lib.cell_at(lib.middle(cell))] = cell;
+    if (lib.owns_in_grid(cell)) cells[lib.cell_at(lib.middle(cell))] = cell;
   lib.handler.clear_particles();
   const double edge = tiles_.grid.cell;
   for (const auto& of_rank : ranks_.exchange(to_rank))
     for (const RankGrain& grain : of_rank) {
       const Cell& cell = cells[lib.cell_at({grain.x, grain.z})];
-      const dealii::Point<2> place = lib.axes.in_forest({grain.x, grain.z});
+      const dealii::Point<2> place = lib.placing.in_forest({grain.x, grain.z});
       const auto& corner = cell->vertex(0);
       const auto own = properties_of(grain);
       lib.handler.insert_particle(
@@ -174,7 +210,8 @@ GrainOutside Forest::move(std::span<const RankGrain> grains) {
   std::size_t k = 0;
   for (auto& particle : lib.handler) {
     const RankGrain& grain = grains[k++];
-    particle.set_location(lib.axes.in_forest({grain.x, grain.z}));
+    if (!lib.grid.contains({grain.x, grain.z})) lib.find_outside(grain.id, {grain.x, grain.z});
+    particle.set_location(lib.placing.in_forest({grain.x, grain.z}));
     const auto own = properties_of(grain);
     particle.set_properties(dealii::ArrayView<const double>(own.data(), own.size()));
   }
@@ -189,9 +226,9 @@ GrainOutside Forest::move(std::span<const RankGrain> grains) {
 void Forest::read_back() {
   Library& lib = *library_;
   owned_.clear(), ghosts_.clear();
-  for (const auto& particle : lib.handler) owned_.push_back(record_of(particle, lib.axes));
+  for (const auto& particle : lib.handler) owned_.push_back(record_of(particle, lib.placing));
   for (auto particle = lib.handler.begin_ghost(); particle != lib.handler.end_ghost(); ++particle)
-    ghosts_.push_back({record_of(*particle, lib.axes),
+    ghosts_.push_back({record_of(*particle, lib.placing),
                        static_cast<std::int32_t>(particle->get_surrounding_cell()->subdomain_id())});
 }
 

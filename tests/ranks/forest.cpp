@@ -109,6 +109,27 @@ TEST(Forest, CutsPackingsAcrossTheirLongerSide) {
       cut += owners.size() > 1;
     }
     EXPECT_LE(cut, 2 * (ranks.count() - 1)) << wide;
+    if (ranks.count() == 2) {
+      EXPECT_EQ(cut, 0) << wide;  // the line that halves the weight
+    }
+  }
+}
+
+TEST(Forest, CutsAtTheLineThatHalvesTheWeight) {
+  const Ranks ranks;
+  if (ranks.count() != 2) GTEST_SKIP() << "of the first cut";
+  for (const int heavy : {1, 2, 3}) {  // columns, which hold about half of the weight
+    std::vector<std::int64_t> weights(grid.count(), 1);
+    for (std::int32_t tile = 0; tile < grid.count(); ++tile)
+      if (grid.row(tile) < 4) weights[tile] = grid.column(tile) < heavy ? 100 * (8 - heavy) / heavy : 100;
+    const Forest forest(ranks, grid, weights);
+    int cut = 0;
+    for (int column = 0; column < grid.columns(); ++column) {
+      std::set<std::int32_t> owners;
+      for (int row = 0; row < 4; ++row) owners.insert(forest.tiles().owner[row * grid.columns() + column]);
+      cut += owners.size() > 1;
+    }
+    EXPECT_LE(cut, 2) << heavy;
   }
 }
 
@@ -136,18 +157,20 @@ TEST(Forest, FollowsGrainsThatMove) {
 
 TEST(Forest, NamesTheFirstGrainThatLeaves) {
   const Ranks ranks;
-  auto all = scattered(100);
-  Forest forest(ranks, grid, std::vector<std::int64_t>(grid.count(), 1));
-  ASSERT_EQ(forest.place(share_of(all, ranks)).id, -1);
-  all[77].x = grid.origin.x - 50;
-  all[31].z = grid.origin.z + 90;
-  std::vector<RankGrain> own = forest.take_owned();
-  for (RankGrain& grain : own) grain = all[grain.id];
-  const GrainOutside outside = forest.move(own);
-  EXPECT_EQ(outside.id, 31);
-  EXPECT_EQ(outside.z, all[31].z);
-  Forest other(ranks, grid, std::vector<std::int64_t>(grid.count(), 1));
-  EXPECT_EQ(other.place(share_of(all, ranks)).id, 31);
+  for (const double beyond : {0.1, 90.0}) {  // cells around the grid do not count, nor does what has no cell
+    auto all = scattered(100);
+    Forest forest(ranks, grid, std::vector<std::int64_t>(grid.count(), 1));
+    ASSERT_EQ(forest.place(share_of(all, ranks)).id, -1);
+    all[77].x = grid.origin.x - beyond;
+    all[31].z = grid.origin.z + grid.edge() + beyond;
+    std::vector<RankGrain> own = forest.take_owned();
+    for (RankGrain& grain : own) grain = all[grain.id];
+    const GrainOutside outside = forest.move(own);
+    EXPECT_EQ(outside.id, 31) << beyond;
+    EXPECT_EQ(outside.z, all[31].z) << beyond;
+    Forest other(ranks, grid, std::vector<std::int64_t>(grid.count(), 1));
+    EXPECT_EQ(other.place(share_of(all, ranks)).id, 31) << beyond;
+  }
 }
 
 TEST(Tiles, LeaveRoomForGrainsThatDrift) {
