@@ -53,15 +53,6 @@ std::vector<SharedTouch> shared_touches(const SeenGrains& seen, std::span<const 
   return touches;
 }
 
-}  // namespace
-
-Point middle_of(const Candidate& pair, const Bodies& bodies) {
-  if (pair.j < 0) return {bodies.x[pair.i], bodies.z[pair.i]};
-  return {(bodies.x[pair.i] + bodies.x[pair.j]) / 2, (bodies.z[pair.i] + bodies.z[pair.j]) / 2};
-}
-
-namespace {
-
 Home home_of(const Candidate& pair, const SeenGrains& seen, const TileMap& tiles) {
   const std::int32_t tile = tiles.grid.tile_at(middle_of(pair, seen.bodies));
   return {tile, tiles.owner[tile]};

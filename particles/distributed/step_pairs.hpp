@@ -42,7 +42,10 @@ struct RankPairs {
 };
 
 /// Where a pair is: between the centres of two grains, or at the centre of a grain at a wall.
-Point middle_of(const Candidate& pair, const Bodies& bodies);
+inline Point middle_of(const Candidate& pair, const Bodies& bodies) {
+  if (pair.j < 0) return {bodies.x[pair.i], bodies.z[pair.i]};
+  return {(bodies.x[pair.i] + bodies.x[pair.j]) / 2, (bodies.z[pair.i] + bodies.z[pair.j]) / 2};
+}
 
 void find_homes(const SeenGrains& seen, std::span<const Candidate> candidates, const TileMap& tiles,
                 std::int32_t rank, HomedPairs& found);
