@@ -44,11 +44,12 @@ Placing placing_for(const TileGrid& grid, std::span<const std::int64_t> weights)
   std::array<std::vector<std::int64_t>, 2> of_line;  // of each column of squares, and of each row
   of_line.fill(std::vector<std::int64_t>(grid.rows(), 0));
   for (std::int32_t tile = 0; tile < grid.count(); ++tile) {
-    of_line[0][grid.column(tile) / grid.cut] += weights[tile] - empty;
-    of_line[1][grid.row(tile)] += weights[tile] - empty;
+    of_line[0][grid.column(tile) / grid.cut] += weights[tile];
+    of_line[1][grid.row(tile)] += weights[tile];
   }
-  const auto extent = [](const std::vector<std::int64_t>& lines) {
-    const auto holds = [](std::int64_t weight) { return weight > 0; };
+  const std::int64_t of_empty_line = empty * grid.columns();  // a line of either kind has so many tiles
+  const auto extent = [&](const std::vector<std::int64_t>& lines) {
+    const auto holds = [&](std::int64_t weight) { return weight > of_empty_line; };
     const auto last = std::find_if(lines.rbegin(), lines.rend(), holds).base();
     return last - std::find_if(lines.begin(), last, holds);
   };
@@ -210,8 +211,11 @@ GrainOutside Forest::move(std::span<const RankGrain> grains) {
   std::size_t k = 0;
   for (auto& particle : lib.handler) {
     const RankGrain& grain = grains[k++];
-    if (!lib.grid.contains({grain.x, grain.z})) lib.find_outside(grain.id, {grain.x, grain.z});
-    particle.set_location(lib.placing.in_forest({grain.x, grain.z}));
+    const Point place{grain.x, grain.z};
+    if (lib.grid.contains(place))
+      particle.set_location(lib.placing.in_forest(place));
+    else
+      lib.find_outside(grain.id, place);  // the library shall not look for its cell
     const auto own = properties_of(grain);
     particle.set_properties(dealii::ArrayView<const double>(own.data(), own.size()));
   }

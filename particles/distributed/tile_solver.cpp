@@ -298,9 +298,9 @@ SolveReport TileSolver<Problem>::sweep_until_done(const Problem& problem, const 
     progress.see(misses, sweeps);
     // Rounding of single precision hides the progress.
     const bool stuck = single && progress.stuck(sweeps);
-    const double judged = progress.exact() ? progress.missed(misses) : seen;
-    if (judged < best) {
-      best = judged;
+    const double missed = progress.missed(misses);
+    if (missed < best) {
+      best = missed;
       loops_.each_of(tiles, [&](int t) { blocks.keep(t); });
     }
     if (!last && !stuck && progress.surely_misses(misses)) continue;
@@ -311,7 +311,7 @@ SolveReport TileSolver<Problem>::sweep_until_done(const Problem& problem, const 
       progress.compare(misses, test.report().residual.sinking / rule.sinking);
       continue;
     }
-    if (best < judged && test.report().status != Status::converged) {
+    if (best < missed && test.report().status != Status::converged) {
       blocks.unpack(problem, true, r, loops_);
       test.replace(residual(problem, contacts, halo, solution));
     }

@@ -26,10 +26,11 @@ struct SeenMisses {
   double residual = 0, penetration = 0;
   double sinking = 0;  ///< to be set, where the rule limits it
 };
-/// `relative`: the residual that was seen.
+/// `relative`: the residual that was seen. A rule that tolerates none is missed by numbers that still
+/// compare.
 inline SeenMisses misses_of(const SeenResidual& seen, double relative, double time_step,
                             const StoppingRule& rule) {
-  return {relative / rule.tolerance, -seen.lowest_u_n * time_step / rule.penetration, 0};
+  return {relative / std::max(rule.tolerance, 1e-100), -seen.lowest_u_n * time_step / rule.penetration, 0};
 }
 /// `impulses`: the sum of those of bodies.
 inline double sinking_of(const SeenResidual& seen, double impulses, double time_step,

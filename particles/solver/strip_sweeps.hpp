@@ -231,8 +231,8 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
     // Rounding of single precision hides the progress.
     const bool stuck = single && progress.stuck(state.sweeps);
     const bool last = state.sweeps >= rule.max_sweeps || !state.finite;
-    const double judged = progress.exact() ? progress.missed(misses) : seen;
-    if (judged < best) best = judged, state.keep = true, strips.keep_driven();
+    const double missed = progress.missed(misses);
+    if (missed < best) best = missed, state.keep = true, strips.keep_driven();
     if (!last && !stuck && progress.surely_misses(misses) && !always) continue;
     strips.unpack(problem, false, solution.impulses, loops);
     const bool ended = test.ends(state.sweeps, residual_of(problem, solution, loops), state.finite);
@@ -241,7 +241,7 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
       progress.compare(misses, test.report().residual.sinking / rule.sinking);
       continue;
     }
-    if (best < judged && test.report().status != Status::converged) {
+    if (best < missed && test.report().status != Status::converged) {
       strips.unpack(problem, true, solution.impulses, loops);
       test.replace(residual_of(problem, solution, loops));
     }

@@ -118,10 +118,11 @@ TEST(Forest, CutsPackingsAcrossTheirLongerSide) {
 TEST(Forest, CutsAtTheLineThatHalvesTheWeight) {
   const Ranks ranks;
   if (ranks.count() != 2) GTEST_SKIP() << "of the first cut";
-  for (const int heavy : {1, 2, 3}) {  // columns, which hold about half of the weight
+  for (const int heavy : {1, 2, 3, 8}) {  // columns, which hold about half of the weight, or all of it
     std::vector<std::int64_t> weights(grid.count(), 1);
     for (std::int32_t tile = 0; tile < grid.count(); ++tile)
-      if (grid.row(tile) < 4) weights[tile] = grid.column(tile) < heavy ? 100 * (8 - heavy) / heavy : 100;
+      if (grid.row(tile) < 4)
+        weights[tile] = grid.column(tile) < heavy && heavy < 8 ? 100 * (8 - heavy) / heavy : 100;
     const Forest forest(ranks, grid, weights);
     int cut = 0;
     for (int column = 0; column < grid.columns(); ++column) {
@@ -131,6 +132,10 @@ TEST(Forest, CutsAtTheLineThatHalvesTheWeight) {
     }
     EXPECT_LE(cut, 2) << heavy;
   }
+  // Everywhere the same.
+  const Forest forest(ranks, grid, std::vector<std::int64_t>(grid.count(), 1));
+  for (std::int32_t tile = 0; tile < grid.count(); ++tile)
+    EXPECT_EQ(forest.tiles().owner[tile], grid.column(tile) < grid.columns() / 2 ? 0 : 1) << tile;
 }
 
 TEST(Forest, FollowsGrainsThatMove) {
@@ -157,7 +162,8 @@ TEST(Forest, FollowsGrainsThatMove) {
 
 TEST(Forest, NamesTheFirstGrainThatLeaves) {
   const Ranks ranks;
-  for (const double beyond : {0.1, 90.0}) {  // cells around the grid do not count, nor does what has no cell
+  for (const double beyond :
+       {0.1, 10.0, 90.0}) {  // cells around the grid do not count, nor does what has no cell
     auto all = scattered(100);
     Forest forest(ranks, grid, std::vector<std::int64_t>(grid.count(), 1));
     ASSERT_EQ(forest.place(share_of(all, ranks)).id, -1);
