@@ -41,6 +41,8 @@ class RankGrains {
   std::span<const std::int32_t> places() const { return place_of_; }
   /// What is remembered of pairs of seen grains, with their places.
   const ContactMemory& memory() const { return memory_; }
+  /// Forgets that, and gives its memory back.
+  void release_memory() { memory_ = {}; }
 
  private:
   /// What a step asks of the forest.

@@ -117,9 +117,18 @@ void RankSimulation::mark_positions() {
   const auto steps = std::max<std::int64_t>(1, std::llround(window / plan_.stages[state_.stage].time_step));
   if (!std::binary_search(plan_.snapshot_steps.begin(), plan_.snapshot_steps.end(), state_.step + steps))
     return;
-  Bodies bodies = gathered_bodies();
-  if (ranks_.rank() == 0)
-    state_.marks.push_back({state_.step + steps, state_.time(), std::move(bodies.x), std::move(bodies.z)});
+  struct Place {
+    std::int64_t id;
+    double x, z;
+  };
+  std::vector<Place> own;
+  own.reserve(own_.grains.size());
+  for (const RankGrain& g : own_.grains) own.push_back({g.id, g.x, g.z});
+  const auto places = ranks_.gather<Place>(own);
+  if (ranks_.rank() != 0) return;
+  std::vector<double> x(places.size()), z(places.size());
+  for (const Place& place : places) x[place.id] = place.x, z[place.id] = place.z;
+  state_.marks.push_back({state_.step + steps, state_.time(), std::move(x), std::move(z)});
 }
 
 StepReport RankSimulation::step() {

@@ -34,7 +34,7 @@ class Stopwatch {
 };
 
 // From so many contacts of a rank on a phase of the step gives back what the next one does not need: to ask
-// for it again takes less than a hundredth of the step.
+// for it again takes some hundredths of the step.
 constexpr std::size_t many_contacts = 400'000;
 
 /// A lost grain as ranks tell each other.
@@ -84,7 +84,10 @@ class RankMoreauJean final : public RankStepper {
     sweep_normals(step, contacts_.pairs);
     search_.recollection().warm_start(grains_.memory(), dim, time_step, own_.order, solution_.impulses);
     of_search.reset();
-    if (large) search_.release(), memory_.release(), free_memory_of(own_.pairs);
+    if (large) {
+      search_.release(), memory_.release(), free_memory_of(own_.pairs);
+      grains_.release_memory(), free_memory_of(state.memory);  // the step ends with others
+    }
     assemble<Problem, with_spin>(step, contacts_, TeamLoops(&team_), problem_);
     report.setup_seconds = watch.lap();
     const TiledContacts tiled{own_.tiles, own_.tile_order, counts_here_, bodies_.x, bodies_.z};
@@ -97,7 +100,6 @@ class RankMoreauJean final : public RankStepper {
     crossings_.begin(bodies_, walls.before, domain_.largest / 2);
     move(time_step);
     const int projected = project(walls, report);
-    if (large) projection_.release(), overlaps_.release();
     remember(state, time_step);
     give_back(state);
     report.projection_seconds = watch.lap();
@@ -135,6 +137,7 @@ class RankMoreauJean final : public RankStepper {
     if (contacts_.pairs.size() <= many_contacts) return;
     contacts_ = {}, problem_ = {}, solution_ = {}, own_ = {}, bodies_ = {}, free_ = {};
     free_memory_of(counts_here_), free_memory_of(place_in_order_);
+    projection_.release(), overlaps_.release();
   }
   const RankCounts& counts() const override { return counts_; }
 

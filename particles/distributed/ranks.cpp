@@ -1,6 +1,7 @@
 #include "particles/distributed/ranks.hpp"
 
 #include <deal.II/base/mpi.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -16,6 +17,18 @@ namespace {
 // Of this process, which is one rank.
 std::int64_t rounds_so_far = 0;
 double waited = 0;
+
+/// Lets each large array have pages of its own, which go back to the system with it. Open MPI has set the C
+/// library so that what a program frees stays in the heap, where holes add up; it follows pages that are
+/// given back all the same, where a network needs to know. Of smaller arrays new pages cost more than holes.
+void give_large_arrays_back() {
+#ifdef M_MMAP_THRESHOLD
+  constexpr int large = 1 << 22, most_arrays = 1 << 16;
+  (void)::mallopt(M_MMAP_MAX, most_arrays);
+  (void)::mallopt(M_MMAP_THRESHOLD, large);
+  (void)::mallopt(M_TRIM_THRESHOLD, 2 * large);
+#endif
+}
 
 /// Counts of bytes are ints in MPI 3.
 int as_count(std::size_t bytes) {
@@ -36,6 +49,7 @@ struct RankRuntime::Libraries {
 RankRuntime::RankRuntime(int&, char**& argv) {
   setenv("OMP_NUM_THREADS", "1", /*overwrite=*/0);
   libraries_ = std::make_unique<Libraries>(argv);
+  give_large_arrays_back();
 }
 
 RankRuntime::~RankRuntime() = default;
