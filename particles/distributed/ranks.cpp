@@ -18,9 +18,9 @@ namespace {
 std::int64_t rounds_so_far = 0;
 double waited = 0;
 
-/// Lets each large array have pages of its own, which go back to the system with it. Open MPI has set the C
-/// library so that what a program frees stays in the heap, where holes add up; it follows pages that are
-/// given back all the same, where a network needs to know. Of smaller arrays new pages cost more than holes.
+/// Lets each large array have pages of its own, which go back to the system with it. SuperLU_DIST, which
+/// comes with PETSc, has set the C library when it was loaded so that what a program frees stays in the heap,
+/// where holes add up. Of smaller arrays new pages cost more than holes.
 void give_large_arrays_back() {
 #ifdef M_MMAP_THRESHOLD
   constexpr int large = 1 << 22, most_arrays = 1 << 16;
