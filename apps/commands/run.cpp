@@ -1,7 +1,6 @@
 // drumlin run: a particle run from a scene to snapshots, log and run.json; interruptible, and continued bit
 // for bit.
 #include <fmt/format.h>
-#include <malloc.h>
 
 #include <chrono>
 #include <cstdio>
@@ -31,6 +30,7 @@
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/io/contact_problem_file.hpp"
 #include "particles/io/snapshot_file.hpp"
+#include "particles/parallel/large_arrays.hpp"
 #include "particles/scene/scene_file.hpp"
 #include "particles/stepping/run_through.hpp"
 
@@ -304,18 +304,10 @@ void read_lists_from(const fs::path& folder, particles::Scene& scene) {
     if (lists[k]->text) lists[k]->file = folder / names[k], lists[k]->text.reset();
 }
 
-/// Lets each large array have pages of its own, which go back to the system with it. Else the C library
-/// learns from the arrays of the start to cut later ones from its heap, where holes between them stay.
-void give_large_arrays_back() {
-#ifdef M_MMAP_THRESHOLD
-  (void)::mallopt(M_MMAP_THRESHOLD, 1 << 18);
-#endif
-}
-
 }  // namespace
 
 int run(const RunOptions& options) {
-  give_large_arrays_back();
+  particles::give_large_arrays_back(1 << 18);
   particles::Scene scene = particles::read_scene(options.scene, options.overrides);
   const nlohmann::ordered_json started_from = take_over_grains(scene);
   // What only shows when grains are placed must show before anything is written or removed.

@@ -1,7 +1,6 @@
 #include "particles/distributed/ranks.hpp"
 
 #include <deal.II/base/mpi.h>
-#include <malloc.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -10,6 +9,7 @@
 
 #include "coupling/common/first_rank.hpp"
 #include "particles/distributed/processor_time.hpp"
+#include "particles/parallel/large_arrays.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -18,17 +18,8 @@ namespace {
 std::int64_t rounds_so_far = 0;
 double waited = 0;
 
-/// Lets each large array have pages of its own, which go back to the system with it. SuperLU_DIST, which
-/// comes with PETSc, has set the C library when it was loaded so that what a program frees stays in the heap,
-/// where holes add up. Of smaller arrays new pages cost more than holes.
-void give_large_arrays_back() {
-#ifdef M_MMAP_THRESHOLD
-  constexpr int large = 1 << 22, most_arrays = 1 << 16;
-  (void)::mallopt(M_MMAP_MAX, most_arrays);
-  (void)::mallopt(M_MMAP_THRESHOLD, large);
-  (void)::mallopt(M_TRIM_THRESHOLD, 2 * large);
-#endif
-}
+// Arrays of so many bytes go back to the system: of smaller ones new pages cost more than holes.
+constexpr int large_array = 1 << 22;
 
 /// Counts of bytes are ints in MPI 3.
 int as_count(std::size_t bytes) {
@@ -49,7 +40,7 @@ struct RankRuntime::Libraries {
 RankRuntime::RankRuntime(int&, char**& argv) {
   setenv("OMP_NUM_THREADS", "1", /*overwrite=*/0);
   libraries_ = std::make_unique<Libraries>(argv);
-  give_large_arrays_back();
+  give_large_arrays_back(large_array);
 }
 
 RankRuntime::~RankRuntime() = default;

@@ -1,0 +1,16 @@
+#include "particles/parallel/large_arrays.hpp"
+
+#include <malloc.h>
+
+namespace drumlin::particles {
+
+void give_large_arrays_back([[maybe_unused]] int bytes) {
+#ifdef M_MMAP_THRESHOLD
+  constexpr int most_arrays = 1 << 16;  // the default of the C library
+  (void)::mallopt(M_MMAP_MAX, most_arrays);
+  (void)::mallopt(M_MMAP_THRESHOLD, bytes);
+  (void)::mallopt(M_TRIM_THRESHOLD, 2 * bytes);
+#endif
+}
+
+}  // namespace drumlin::particles

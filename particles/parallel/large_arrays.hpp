@@ -1,0 +1,12 @@
+#pragma once
+// Where large arrays have their memory from.
+
+namespace drumlin::particles {
+
+/// Lets each array of so many bytes or more have pages of its own, which go back to the system with it. Else
+/// the C library learns from the arrays of the start to cut later ones from its heap, where holes between
+/// them stay; and SuperLU_DIST, which comes with PETSc, sets it when it is loaded so that nothing leaves the
+/// heap.
+void give_large_arrays_back(int bytes);
+
+}  // namespace drumlin::particles
