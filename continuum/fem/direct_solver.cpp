@@ -7,6 +7,7 @@
 
 #include "continuum/fem/detail/dissected_factors.hpp"
 #include "continuum/fem/detail/field_view.hpp"
+#include "continuum/fem/detail/mumps_scaling.hpp"
 
 namespace drumlin::continuum::fem {
 namespace {
@@ -53,9 +54,13 @@ void DirectSolver::Petsc::factorise_whole() {
   is_dissected = false;
   if (!solver) create(matrix->get_mpi_communicator());
   check(KSPSetOperators(solver, get(), get()), "take the matrix");
-  check(KSPSetUp(solver), "factorise the matrix");
   PC factors = nullptr;
   check(KSPGetPC(solver, &factors), "factorise the matrix");
+  Mat of_mumps = nullptr;
+  check(PCFactorSetUpMatSolverType(factors), "set up the solver");
+  check(PCFactorGetMatrix(factors, &of_mumps), "set up the solver");
+  scale_cheaply(of_mumps);
+  check(KSPSetUp(solver), "factorise the matrix");
   PCFailedReason reason = PC_NOERROR;
   check(PCGetFailedReason(factors, &reason), "factorise the matrix");
   if (reason != PC_NOERROR)

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 
+#include "continuum/fem/detail/mumps_scaling.hpp"
 #include "continuum/fem/detail/petsc_check.hpp"
 
 namespace drumlin::continuum::fem {
@@ -173,6 +174,7 @@ bool DissectedFactors::Objects::make_factors() {
     return false;
   const PetscErrorCode set = MatFactorSetSchurIS(factors, few);
   ISDestroy(&few);
+  scale_cheaply(factors);
   return !set && !MatLUFactorSymbolic(factors, sub[0], nullptr, nullptr, nullptr);
 }
 

@@ -24,6 +24,10 @@ std::string unsettled(const Phase& phase) {
   return fmt::format("the fluidity of a flow could not be found, in phase '{}'", phase.name);
 }
 
+bool well_below(double slope, double start) {
+  return std::isfinite(slope) && std::abs(slope) <= 0.5 * std::abs(start);
+}
+
 State moved(const State& state, const FieldVector& step, double theta_step, double alpha) {
   State next = state;
   next.solution.add(alpha, step);
@@ -72,26 +76,30 @@ State Newton::corrected(const Setting& setting, const State& state) {
   return moved(state, step.solution, step.theta, 1);
 }
 
-double Newton::slope(const Phase& phase, const State& state, const Step& step, double alpha) {
-  State there = moved(state, step.solution, step.theta, alpha);
-  if (alpha > 0 && !settle(phase, nearly_settled, there)) return NAN;
-  assemble_residual(problem_, d_, phase.setting, there, system_);
+// R.du over the velocities, of the residual that has been assembled last.
+double Newton::slope_along(const Step& step) const {
   double sum = 0;
   for (std::size_t i = 0; i < d_.is_velocity.size(); ++i)
     if (d_.is_velocity[i]) sum += system_.residual.local_element(i) * step.solution.local_element(i);
   return d_.sum(sum);
 }
 
+double Newton::slope(const Phase& phase, const State& state, const Step& step, double alpha) {
+  State there = moved(state, step.solution, step.theta, alpha);
+  if (!settle(phase, nearly_settled, there)) return NAN;
+  assemble_residual(problem_, d_, phase.setting, there, system_);
+  return slope_along(step);
+}
+
 // Where the slope R(u + alpha du).du has fallen well below its start: the residual norm would ask for
 // needlessly short steps, since stiff, nearly rigid parts dominate it.
-double Newton::step_length(const Phase& phase, const State& state, const Step& step) {
-  const double start = slope(phase, state, step, 0);
+double Newton::step_length(const Phase& phase, const State& state, const Step& step, double start) {
   double low = 0, at_low = start, alpha = 1, best = 1, best_slope = INFINITY;
   double high = 0, at_high = 0;
   for (int trial = 0; trial < 8; ++trial) {
     const double here = slope(phase, state, step, alpha);
     if (std::isfinite(here) && std::abs(here) < best_slope) best_slope = std::abs(here), best = alpha;
-    if (std::isfinite(here) && std::abs(here) <= 0.5 * std::abs(start)) break;
+    if (well_below(here, start)) break;
     if (!std::isfinite(here) || here * start < 0)
       high = alpha, at_high = here;
     else
@@ -119,16 +127,37 @@ std::optional<Newton::Step> Newton::newton_step(const Phase& phase, const State&
   return std::nullopt;
 }
 
+// The state after the whole step, assembled. Empty where the slope asks for a shorter one.
+std::optional<State> Newton::whole_step(const Phase& phase, const State& state, const Step& step,
+                                        double start) {
+  State there = moved(state, step.solution, step.theta, 1);
+  there.dual = advanced_dual(d_, phase.setting.regularisation, state, step.solution);
+  assemble_tangent(problem_, d_, phase.setting, there, system_);
+  const double here = slope_along(step);
+  if (well_below(here, start) || here * start >= 0) return there;
+  return std::nullopt;
+}
+
 // Moves the state, assembles there, and fills in what the step did. False where the fluidity does not settle.
 bool Newton::take(const Phase& phase, const Step& step, State& state, IterationReport& line) {
-  const double alpha = clock_(Work::step_length, [&] { return step_length(phase, state, step); });
+  const double start = slope_along(step);
+  double alpha = 1;
   FieldVector taken = step.solution;
-  taken *= alpha;
-  taken.update_ghost_values();
-  state.dual = advanced_dual(d_, phase.setting.regularisation, state, taken);
-  state = moved(state, step.solution, step.theta, alpha);
-  if (!clock_(Work::assembly, [&] { return settle(phase, settled, state); })) return false;
-  clock_(Work::assembly, [&] { assemble_tangent(problem_, d_, phase.setting, state, system_); });
+  std::optional<State> whole;
+  // After a whole step the next one is nearly always whole: no trial before it is assembled.
+  if (line.step_length == 1 && !fluidity_)
+    whole = clock_(Work::assembly, [&] { return whole_step(phase, state, step, start); });
+  if (whole) {
+    state = *std::move(whole);
+  } else {
+    alpha = clock_(Work::step_length, [&] { return step_length(phase, state, step, start); });
+    taken *= alpha;
+    taken.update_ghost_values();
+    state.dual = advanced_dual(d_, phase.setting.regularisation, state, taken);
+    state = moved(state, step.solution, step.theta, alpha);
+    if (!clock_(Work::assembly, [&] { return settle(phase, settled, state); })) return false;
+    clock_(Work::assembly, [&] { assemble_tangent(problem_, d_, phase.setting, state, system_); });
+  }
   line.residual = relative_residual();
   line.step_length = alpha;
   line.step_size = taken.l2_norm() / state.solution.l2_norm();

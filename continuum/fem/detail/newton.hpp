@@ -68,8 +68,10 @@ class Newton {
     return !fluidity_ || fluidity_->settle(phase.setting, tolerance, state);
   }
   void record(const IterationReport& line);
+  double slope_along(const Step& step) const;
   double slope(const Phase& phase, const State& state, const Step& step, double alpha);
-  double step_length(const Phase& phase, const State& state, const Step& step);
+  double step_length(const Phase& phase, const State& state, const Step& step, double start);
+  std::optional<State> whole_step(const Phase& phase, const State& state, const Step& step, double start);
   double relative_residual() const { return system_.residual.l2_norm() / reference_; }
 
   const FlowProblem& problem_;
