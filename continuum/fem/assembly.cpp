@@ -161,60 +161,104 @@ void add_inertia(const FlowProblem& problem, const InertiaSetting& inertia, cons
   if (matrix) add_inertia_tangent(s, q, at, density, per_time, JxW, *matrix);
 }
 
+/// What one cell after the other adds to the residual and to the tangent, in its own numbering.
+template <class PointLaw>
+class CellSystem {
+ public:
+  CellSystem(const FlowProblem& problem, const Discretisation& d, const PointLaw& law, const Setting& setting,
+             const State& state, bool with_tangent, bool forces_of_walls)
+      : problem_(problem),
+        d_(d),
+        law_(law),
+        setting_(setting),
+        state_(state),
+        with_tangent_(with_tangent),
+        forces_of_walls_(forces_of_walls),
+        fe_(d.mapping, d.elements, d.quadrature,
+            dealii::update_values | dealii::update_gradients | dealii::update_JxW_values |
+                dealii::update_quadrature_points),
+        face_(d.mapping, d.elements, d.side_quadrature,
+              dealii::update_values | dealii::update_JxW_values | dealii::update_normal_vectors |
+                  dealii::update_quadrature_points),
+        shapes_(d),
+        local_(shapes_.n) {
+    if (setting.inertia && setting.inertia->before) before_.reinit(shapes_.n);
+    contribution.indices.resize(shapes_.n);
+    contribution.residual.reinit(shapes_.n);
+    contribution.tangent.reinit(shapes_.n, shapes_.n);
+  }
+
+  /// Fills in the contribution of a cell of this rank, whose quadrature points are counted from `point` on.
+  void reinit(const CellOfUnknowns& cell, std::size_t point) {
+    fe_.reinit(cell);
+    shapes_.reinit(fe_);
+    cell->get_dof_indices(contribution.indices);
+    cell->get_dof_values(state_.solution, local_);
+    if (before_.size() > 0) cell->get_dof_values(*setting_.inertia->before, before_);
+    contribution.residual = 0;
+    contribution.tangent = 0;
+    for (const unsigned int q : fe_.quadrature_point_indices()) add_point(q, point + q);
+    for (const unsigned int f : cell->face_indices())
+      if (cell->face(f)->at_boundary()) add_face(cell, f);
+  }
+
+  CellContribution contribution;
+
+ private:
+  void add_point(unsigned int q, std::size_t point) {
+    dealii::FullMatrix<double>* tangent = with_tangent_ ? &contribution.tangent : nullptr;
+    const PointValues at = point_values(shapes_, q, local_);
+    const auto response = law_(setting_.regularisation, at, state_.dual[point], point);
+    Vec2 force = body_force(problem_, state_.theta, fe_.quadrature_point(q));
+    if (setting_.inertia)
+      add_inertia(problem_, *setting_.inertia, shapes_, q, fe_.quadrature_point(q), fe_.JxW(q), local_,
+                  before_, force, tangent);
+    add_point_residual(shapes_, q, at, response.stress, force, fe_.JxW(q), contribution.residual);
+    if (tangent) add_point_tangent(shapes_, q, response, fe_.JxW(q), *tangent);
+    if constexpr (requires { response.balance; }) {
+      const double amplitude = problem_.threshold_fluidity->amplitude;
+      add_fluidity_residual(shapes_, q, at, amplitude, response.balance, fe_.JxW(q), contribution.residual);
+      if (tangent) add_fluidity_tangent(shapes_, q, at, amplitude, response, fe_.JxW(q), *tangent);
+    }
+  }
+
+  void add_face(const CellOfUnknowns& cell, unsigned int f) {
+    const auto* condition = condition_on(problem_, cell->face(f)->boundary_id());
+    if (!condition || (forces_of_walls_ && std::holds_alternative<FrictionWall>(*condition))) return;
+    face_.reinit(cell, f);
+    add_side(d_, *condition, problem_, setting_.regularisation, face_, shapes_, local_, contribution.residual,
+             with_tangent_ ? &contribution.tangent : nullptr);
+  }
+
+  const FlowProblem& problem_;
+  const Discretisation& d_;
+  const PointLaw& law_;
+  const Setting& setting_;
+  const State& state_;
+  bool with_tangent_;
+  bool forces_of_walls_;
+  FEValues<2> fe_;
+  dealii::FEFaceValues<2> face_;
+  CellShapes shapes_;
+  Vector<double> local_, before_;
+};
+
 template <class PointLaw>
 void assemble(const FlowProblem& problem, const Discretisation& d, const PointLaw& law,
               const Setting& setting, const State& state,
               const dealii::AffineConstraints<double>& constraints, FieldVector& residual,
               dealii::PETScWrappers::MPI::SparseMatrix* matrix, bool forces_of_walls = false) {
-  FEValues<2> fe(d.mapping, d.elements, d.quadrature,
-                 dealii::update_values | dealii::update_gradients | dealii::update_JxW_values |
-                     dealii::update_quadrature_points);
-  dealii::FEFaceValues<2> face(d.mapping, d.elements, d.side_quadrature,
-                               dealii::update_values | dealii::update_JxW_values |
-                                   dealii::update_normal_vectors | dealii::update_quadrature_points);
-  CellShapes shapes(d);
-  Indices indices(shapes.n);
-  Vector<double> local(shapes.n), local_residual(shapes.n), local_before;
-  if (setting.inertia && setting.inertia->before) local_before.reinit(shapes.n);
-  dealii::FullMatrix<double> local_matrix(shapes.n, shapes.n);
+  CellSystem system(problem, d, law, setting, state, matrix != nullptr, forces_of_walls);
+  const CellContribution& of_cell = system.contribution;
   residual = 0;
   if (matrix) *matrix = 0;
   std::size_t point = 0;
   for (const auto& cell : d.unknowns.active_cell_iterators()) {
     if (!cell->is_locally_owned()) continue;
-    fe.reinit(cell);
-    shapes.reinit(fe);
-    cell->get_dof_indices(indices);
-    cell->get_dof_values(state.solution, local);
-    if (local_before.size() > 0) cell->get_dof_values(*setting.inertia->before, local_before);
-    local_residual = 0;
-    local_matrix = 0;
-    for (const unsigned int q : fe.quadrature_point_indices()) {
-      const PointValues at = point_values(shapes, q, local);
-      const auto response = law(setting.regularisation, at, state.dual[point], point);
-      ++point;
-      Vec2 force = body_force(problem, state.theta, fe.quadrature_point(q));
-      if (setting.inertia)
-        add_inertia(problem, *setting.inertia, shapes, q, fe.quadrature_point(q), fe.JxW(q), local,
-                    local_before, force, matrix ? &local_matrix : nullptr);
-      add_point_residual(shapes, q, at, response.stress, force, fe.JxW(q), local_residual);
-      if (matrix) add_point_tangent(shapes, q, response, fe.JxW(q), local_matrix);
-      if constexpr (requires { response.balance; }) {
-        const double amplitude = problem.threshold_fluidity->amplitude;
-        add_fluidity_residual(shapes, q, at, amplitude, response.balance, fe.JxW(q), local_residual);
-        if (matrix) add_fluidity_tangent(shapes, q, at, amplitude, response, fe.JxW(q), local_matrix);
-      }
-    }
-    for (const unsigned int f : cell->face_indices())
-      if (cell->face(f)->at_boundary())
-        if (const auto* condition = condition_on(problem, cell->face(f)->boundary_id());
-            condition && !(forces_of_walls && std::holds_alternative<FrictionWall>(*condition))) {
-          face.reinit(cell, f);
-          add_side(d, *condition, problem, setting.regularisation, face, shapes, local, local_residual,
-                   matrix ? &local_matrix : nullptr);
-        }
-    constraints.distribute_local_to_global(local_residual, indices, residual);
-    if (matrix) constraints.distribute_local_to_global(local_matrix, indices, *matrix);
+    system.reinit(cell, point);
+    point += d.quadrature.size();
+    constraints.distribute_local_to_global(of_cell.residual, of_cell.indices, residual);
+    if (matrix) constraints.distribute_local_to_global(of_cell.tangent, of_cell.indices, *matrix);
   }
   residual.compress(dealii::VectorOperation::add);
   if (matrix) matrix->compress(dealii::VectorOperation::add);
@@ -234,6 +278,18 @@ void assemble_tangent(const FlowProblem& problem, const Discretisation& d, const
   if (system.matrix.m() == 0) system.matrix.reinit(d.owned, d.owned, d.pattern, d.mesh.get_communicator());
   with_point_law(problem, setting.law, state.held_values(), [&](const auto& law) {
     assemble(problem, d, law, setting, state, d.homogeneous, system.residual, &system.matrix);
+  });
+}
+
+void assemble_cells(const FlowProblem& problem, const Discretisation& d, const Setting& setting,
+                    const State& state, std::span<const OwnCell> cells, bool with_tangent,
+                    const std::function<void(std::size_t, const CellContribution&)>& add) {
+  with_point_law(problem, setting.law, state.held_values(), [&](const auto& law) {
+    CellSystem system(problem, d, law, setting, state, with_tangent, false);
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      system.reinit(cells[k].cell, cells[k].number * d.quadrature.size());
+      add(k, system.contribution);
+    }
   });
 }
 

@@ -71,7 +71,7 @@ bool solve_cold(Newton& newton, const FlowSolverOptions& options, fem::SolvedLev
 bool solve_from(const std::string& name, Newton& newton, const FlowSolverOptions& options,
                 fem::SolvedLevel& level) {
   const State before = level.state;
-  Phase phase{name, final_setting(level.problem), options.tolerance};
+  Phase phase{name, final_setting(level.problem), options.tolerance, true};
   if (level.problem.inertia) phase.setting.inertia = fem::InertiaSetting{};
   if (run(newton, phase, level)) return true;
   if (newton.was_interrupted() || !(phase.setting.regularisation.shear_rate < options.careful_shear_rate))
@@ -79,6 +79,7 @@ bool solve_from(const std::string& name, Newton& newton, const FlowSolverOptions
   level.state = before;
   phase.setting.regularisation.shear_rate = options.careful_shear_rate;
   phase.tolerance = options.phase_tolerance;
+  phase.starts_nearby = false;
   return run(newton, phase, level) && lower_shear_rate(newton, options, options.tolerance, level);
 }
 

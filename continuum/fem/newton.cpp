@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "continuum/fem/detail/local_steps.hpp"
+#include "continuum/fem/detail/step_length.hpp"
 #include "coupling/common/errors.hpp"
 
 namespace drumlin::continuum::fem {
@@ -22,10 +24,6 @@ constexpr double largest_fluidity_step = 2;
 
 std::string unsettled(const Phase& phase) {
   return fmt::format("the fluidity of a flow could not be found, in phase '{}'", phase.name);
-}
-
-bool well_below(double slope, double start) {
-  return std::isfinite(slope) && std::abs(slope) <= 0.5 * std::abs(start);
 }
 
 State moved(const State& state, const FieldVector& step, double theta_step, double alpha) {
@@ -91,25 +89,28 @@ double Newton::slope(const Phase& phase, const State& state, const Step& step, d
   return slope_along(step);
 }
 
-// Where the slope R(u + alpha du).du has fallen well below its start: the residual norm would ask for
-// needlessly short steps, since stiff, nearly rigid parts dominate it.
-double Newton::step_length(const Phase& phase, const State& state, const Step& step, double start) {
-  double low = 0, at_low = start, alpha = 1, best = 1, best_slope = INFINITY;
-  double high = 0, at_high = 0;
-  for (int trial = 0; trial < 8; ++trial) {
-    const double here = slope(phase, state, step, alpha);
-    if (std::isfinite(here) && std::abs(here) < best_slope) best_slope = std::abs(here), best = alpha;
-    if (well_below(here, start)) break;
-    if (!std::isfinite(here) || here * start < 0)
-      high = alpha, at_high = here;
-    else
-      low = alpha, at_low = here;
-    if (high == 0) break;  // the slope has not changed sign by alpha = 1: take the whole step
-    const double secant =
-        std::isfinite(at_high) ? low + (high - low) * at_low / (at_low - at_high) : 0.5 * high;
-    alpha = std::clamp(secant, low + 0.1 * (high - low), low + 0.7 * (high - low));
-  }
-  return best;
+// The residual that has been assembled last is that after this step.
+double Newton::step_length(const Phase& phase, const State& state, const Step& step) {
+  return fem::step_length(slope_along(step), [&](double alpha) { return slope(phase, state, step, alpha); });
+}
+
+// From a state whose residual is assembled: the tangent, at a state that may have moved where few unknowns held
+// most of the residual. What makes the rest worse than it makes them better is not taken.
+void Newton::settle_locally(const Phase& phase, State& state) {
+  const auto assemble = [&] {
+    clock_(Work::assembly, [&] { assemble_tangent(problem_, d_, phase.setting, state, system_); });
+  };
+  const double before = relative_residual();
+  std::optional<State> settled_state;
+  if (before > phase.tolerance)
+    settled_state = clock_(Work::local_steps, [&] {
+      return locally_settled(problem_, d_, phase.setting, state, system_.residual);
+    });
+  if (settled_state) std::swap(state, *settled_state);
+  assemble();
+  if (!settled_state || relative_residual() <= before) return;
+  std::swap(state, *settled_state);
+  assemble();
 }
 
 // Empty where the linear solve fails; the report says why.
@@ -127,37 +128,20 @@ std::optional<Newton::Step> Newton::newton_step(const Phase& phase, const State&
   return std::nullopt;
 }
 
-// The state after the whole step, assembled. Empty where the slope asks for a shorter one.
-std::optional<State> Newton::whole_step(const Phase& phase, const State& state, const Step& step,
-                                        double start) {
-  State there = moved(state, step.solution, step.theta, 1);
-  there.dual = advanced_dual(d_, phase.setting.regularisation, state, step.solution);
-  assemble_tangent(problem_, d_, phase.setting, there, system_);
-  const double here = slope_along(step);
-  if (well_below(here, start) || here * start >= 0) return there;
-  return std::nullopt;
-}
-
-// Moves the state, assembles there, and fills in what the step did. False where the fluidity does not settle.
+// Moves the state, lets it settle where few unknowns are far off, assembles, and fills in what the step did.
+// False where the fluidity does not settle.
 bool Newton::take(const Phase& phase, const Step& step, State& state, IterationReport& line) {
-  const double start = slope_along(step);
-  double alpha = 1;
+  const double alpha = clock_(Work::step_length, [&] { return step_length(phase, state, step); });
   FieldVector taken = step.solution;
-  std::optional<State> whole;
-  // After a whole step the next one is nearly always whole: no trial before it is assembled.
-  if (line.step_length == 1 && !fluidity_)
-    whole = clock_(Work::assembly, [&] { return whole_step(phase, state, step, start); });
-  if (whole) {
-    state = *std::move(whole);
-  } else {
-    alpha = clock_(Work::step_length, [&] { return step_length(phase, state, step, start); });
-    taken *= alpha;
-    taken.update_ghost_values();
-    state.dual = advanced_dual(d_, phase.setting.regularisation, state, taken);
-    state = moved(state, step.solution, step.theta, alpha);
-    if (!clock_(Work::assembly, [&] { return settle(phase, settled, state); })) return false;
+  taken *= alpha;
+  taken.update_ghost_values();
+  state.dual = advanced_dual(d_, phase.setting.regularisation, state, taken);
+  state = moved(state, step.solution, step.theta, alpha);
+  if (!clock_(Work::assembly, [&] { return settle(phase, settled, state); })) return false;
+  if (fluidity_)
     clock_(Work::assembly, [&] { assemble_tangent(problem_, d_, phase.setting, state, system_); });
-  }
+  else
+    settle_locally(phase, state);
   line.residual = relative_residual();
   line.step_length = alpha;
   line.step_size = taken.l2_norm() / state.solution.l2_norm();
@@ -175,17 +159,24 @@ void Newton::record(const IterationReport& line) {
 }
 
 bool Newton::solve(const Phase& phase, State& state) {
+  const bool settles_first = phase.starts_nearby && !fluidity_;
   IterationReport line{
       .level = level_, .phase = phase.name, .shear_rate = phase.setting.regularisation.shear_rate};
   if (!clock_(Work::assembly, [&] { return settle(phase, settled, state); })) {
     report_.failure = unsettled(phase);
     return false;
   }
-  clock_(Work::assembly, [&] { assemble_tangent(problem_, d_, phase.setting, state, system_); });
   if (weight_norm_ > 0)
     reference_ = weight_norm_;
   else
     reference_ = std::max(1e-300, nodal_forces(problem_, d_, phase.setting, state).l2_norm());
+  clock_(Work::assembly, [&] {
+    if (settles_first)
+      assemble_residual(problem_, d_, phase.setting, state, system_);
+    else
+      assemble_tangent(problem_, d_, phase.setting, state, system_);
+  });
+  if (settles_first) settle_locally(phase, state);
   for (line.iteration = 1; line.iteration <= options_.max_iterations; ++line.iteration) {
     if (was_interrupted()) {
       report_.failure = "interrupted";

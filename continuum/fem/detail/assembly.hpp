@@ -1,6 +1,10 @@
 #pragma once
 // Residual and tangent of the discrete problem. Private to fem/.
+#include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/petsc_sparse_matrix.h>
+
+#include <functional>
+#include <span>
 
 #include "continuum/fem/detail/discretisation.hpp"
 #include "continuum/fem/detail/held_fields.hpp"
@@ -53,6 +57,25 @@ struct System {
 
 void assemble_residual(const FlowProblem&, const Discretisation&, const Setting&, const State&, System&);
 void assemble_tangent(const FlowProblem&, const Discretisation&, const Setting&, const State&, System&);
+
+using CellOfUnknowns = dealii::DoFHandler<2>::active_cell_iterator;
+
+/// A cell of this rank.
+struct OwnCell {
+  CellOfUnknowns cell;
+  std::size_t number = 0;  ///< among the cells of this rank, in the order of the mesh
+};
+/// What it adds to the system, in its own numbering.
+struct CellContribution {
+  std::vector<dealii::types::global_dof_index> indices;
+  dealii::Vector<double> residual;
+  dealii::FullMatrix<double> tangent;
+};
+/// Calls add(k, contribution of cells[k]) for cells of this rank, one after the other; without tangents these
+/// are zero. Concerns this rank alone.
+void assemble_cells(const FlowProblem&, const Discretisation&, const Setting&, const State&,
+                    std::span<const OwnCell> cells, bool with_tangent,
+                    const std::function<void(std::size_t k, const CellContribution&)>& add);
 
 /// The residual without the given velocities and without the friction of walls: its entries on a side that
 /// moves as it is told are the forces of that side on the material.

@@ -16,6 +16,7 @@ struct Phase {
   std::string name;
   Setting setting;
   double tolerance = 0;
+  bool starts_nearby = false;  ///< from a flow of another mesh or of a problem that differs a little
 };
 
 /// Primal-dual Newton with a line search on the slope; the slope of the surface is one more unknown.
@@ -70,8 +71,8 @@ class Newton {
   void record(const IterationReport& line);
   double slope_along(const Step& step) const;
   double slope(const Phase& phase, const State& state, const Step& step, double alpha);
-  double step_length(const Phase& phase, const State& state, const Step& step, double start);
-  std::optional<State> whole_step(const Phase& phase, const State& state, const Step& step, double start);
+  double step_length(const Phase& phase, const State& state, const Step& step);
+  void settle_locally(const Phase& phase, State& state);
   double relative_residual() const { return system_.residual.l2_norm() / reference_; }
 
   const FlowProblem& problem_;

@@ -6,9 +6,17 @@
 
 namespace drumlin::continuum::fem {
 
-enum class Work : std::size_t { assembly, factorisation, linear_solves, step_length, refinement, evaluation };
-constexpr std::array<const char*, 6> work_names = {"assembly",    "factorisation", "linear solves",
-                                                   "step length", "refinement",    "evaluation"};
+enum class Work : std::size_t {
+  assembly,
+  factorisation,
+  linear_solves,
+  step_length,
+  local_steps,
+  refinement,
+  evaluation
+};
+constexpr std::array<const char*, 7> work_names = {
+    "assembly", "factorisation", "linear solves", "step length", "local steps", "refinement", "evaluation"};
 
 /// Seconds since an arbitrary moment.
 inline double now() {
