@@ -67,11 +67,14 @@ bool solve_cold(Newton& newton, const FlowSolverOptions& options, fem::SolvedLev
          (!level.problem.inertia || raise_inertia(newton, options, level));
 }
 
-// From a solution nearby: that of a coarser mesh ("refined") or of another problem ("neighbour").
+const std::string moved_surface = "surface";
+
+// From a solution nearby: that of a coarser mesh ("refined"), of another problem ("neighbour"), or with the
+// surface in another place.
 bool solve_from(const std::string& name, Newton& newton, const FlowSolverOptions& options,
                 fem::SolvedLevel& level) {
   const State before = level.state;
-  Phase phase{name, final_setting(level.problem), options.tolerance, true};
+  Phase phase{name, final_setting(level.problem), options.tolerance, name != moved_surface};
   if (level.problem.inertia) phase.setting.inertia = fem::InertiaSetting{};
   if (run(newton, phase, level)) return true;
   if (newton.was_interrupted() || !(phase.setting.regularisation.shear_rate < options.careful_shear_rate))
@@ -223,7 +226,7 @@ class Continuation {
             [&](Newton& again, fem::Settling settling) {
               FlowSolverOptions how = settling == fem::Settling::loose ? loose : here;
               if (settling == fem::Settling::fine) how.picard_tolerance *= options_.fine_picard_share;
-              return solve_from("surface", again, how, *level_) &&
+              return solve_from(moved_surface, again, how, *level_) &&
                      (!fem::holds_fields(problem_) || solve_held_fields(again, how, *level_, report_));
             },
         .first = problem_.memory && is_last(mesh) ? fem::Settling::loose : fem::Settling::whole,

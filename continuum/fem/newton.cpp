@@ -22,6 +22,10 @@ constexpr double settled = 1e-9, nearly_settled = 1e-4;
 // On the step of ln g from which it settles; g changes by seven at most.
 constexpr double largest_fluidity_step = 2;
 
+// Share of the solution that a step moves, below which what stands out settles locally: it is the flow around
+// it to which it settles, and that has to be there.
+constexpr double small_step = 0.05;
+
 std::string unsettled(const Phase& phase) {
   return fmt::format("the fluidity of a flow could not be found, in phase '{}'", phase.name);
 }
@@ -108,7 +112,11 @@ void Newton::settle_locally(const Phase& phase, State& state) {
     });
   if (settled_state) std::swap(state, *settled_state);
   assemble();
-  if (!settled_state || relative_residual() <= before) return;
+  if (!settled_state) return;
+  if (relative_residual() <= before) {
+    has_settled_locally_ = true;
+    return;
+  }
   std::swap(state, *settled_state);
   assemble();
 }
@@ -138,13 +146,13 @@ bool Newton::take(const Phase& phase, const Step& step, State& state, IterationR
   state.dual = advanced_dual(d_, phase.setting.regularisation, state, taken);
   state = moved(state, step.solution, step.theta, alpha);
   if (!clock_(Work::assembly, [&] { return settle(phase, settled, state); })) return false;
-  if (fluidity_)
-    clock_(Work::assembly, [&] { assemble_tangent(problem_, d_, phase.setting, state, system_); });
-  else
+  line.step_size = taken.l2_norm() / state.solution.l2_norm();
+  if (phase.locally && line.step_size < small_step && !fluidity_)
     settle_locally(phase, state);
+  else
+    clock_(Work::assembly, [&] { assemble_tangent(problem_, d_, phase.setting, state, system_); });
   line.residual = relative_residual();
   line.step_length = alpha;
-  line.step_size = taken.l2_norm() / state.solution.l2_norm();
   line.linear_residual = step.linear_residual;
   line.theta = state.theta;
   line.seconds = now() - start_;
@@ -159,7 +167,8 @@ void Newton::record(const IterationReport& line) {
 }
 
 bool Newton::solve(const Phase& phase, State& state) {
-  const bool settles_first = phase.starts_nearby && !fluidity_;
+  const bool settles_first = phase.starts_nearby && phase.locally && !fluidity_;
+  has_settled_locally_ = false;
   IterationReport line{
       .level = level_, .phase = phase.name, .shear_rate = phase.setting.regularisation.shear_rate};
   if (!clock_(Work::assembly, [&] { return settle(phase, settled, state); })) {
@@ -207,7 +216,13 @@ Setting final_setting(const FlowProblem& problem) {
 bool run(Newton& newton, const Phase& phase, SolvedLevel& level) {
   level.setting = phase.setting;
   level.state.dual = dual_of(*level.discretisation, phase.setting.regularisation, level.state.solution);
-  return newton.solve(phase, level.state);
+  const State before = level.state;
+  if (newton.solve(phase, level.state)) return true;
+  if (!newton.has_settled_locally() || newton.was_interrupted()) return false;
+  level.state = before;
+  Phase plain = phase;
+  plain.locally = false;
+  return newton.solve(plain, level.state);
 }
 
 FlowField field_of(const std::shared_ptr<SolvedLevel>& level) {

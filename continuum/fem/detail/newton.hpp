@@ -17,6 +17,7 @@ struct Phase {
   Setting setting;
   double tolerance = 0;
   bool starts_nearby = false;  ///< from a flow of another mesh or of a problem that differs a little
+  bool locally = true;         ///< what few unknowns hold of the residual may settle by itself
 };
 
 /// Primal-dual Newton with a line search on the slope; the slope of the surface is one more unknown.
@@ -49,6 +50,8 @@ class Newton {
   }
   /// After one more step with these factors; the residual is of the mesh as it stands now.
   State corrected(const Setting& setting, const State& state);
+  /// Whether anything settled by itself in the last phase.
+  bool has_settled_locally() const { return has_settled_locally_; }
   /// On any rank.
   bool was_interrupted() const {
     return d_.sum(observer_.interrupted && observer_.interrupted() ? 1 : 0) > 0;
@@ -89,6 +92,7 @@ class Newton {
   LinearSolver linear_;
   std::optional<FieldVector> response_;  // of the flow to the slope, of the last step
   double frame_moment_ = 0;              // of the velocity that the unknown lacks in a rotating frame
+  bool has_settled_locally_ = false;
   double weight_norm_ = 0;
   double reference_ = 1;
 };
@@ -96,7 +100,8 @@ class Newton {
 /// The problem's own law and regularisation, steady and slow.
 Setting final_setting(const FlowProblem& problem);
 
-/// Solves one phase from the level's state.
+/// Solves one phase from the level's state; once more by steps of all unknowns alone, where it fails after
+/// others.
 bool run(Newton& newton, const Phase& phase, SolvedLevel& level);
 
 /// Another problem on the mesh of a flow, in the frame of the laboratory: its state, with the problem's
