@@ -32,8 +32,8 @@ bool has(const FieldVector& field, Index i) {
   return field.in_local_range(i) || field.get_partitioner()->is_ghost_entry(i);
 }
 
-/// Counts at each unknown the cells of this and other ranks that have it, of those that are `chosen` or of all
-/// others.
+/// Counts at each unknown the cells of this and other ranks that have it, of those that are `chosen` or of
+/// all others.
 FieldVector cells_with_unknowns(const Discretisation& d, const std::vector<OwnCell>& cells,
                                 const std::vector<char>& chosen, bool of_others) {
   FieldVector count = d.field();
@@ -55,8 +55,8 @@ FieldVector cells_with_unknowns(const Discretisation& d, const std::vector<OwnCe
   return count;
 }
 
-/// The unknowns of some cells, on any rank, numbered among themselves, and Newton steps of those that belong to
-/// none but these cells. All calls are collective.
+/// The unknowns of some cells, on any rank, numbered among themselves, and Newton steps of those that belong
+/// to none but these cells. All calls are collective.
 class Patch {
  public:
   /// Around the unknowns whose residuals are beyond the bound.
@@ -79,10 +79,10 @@ class Patch {
   const FlowProblem& problem_;
   const Discretisation& d_;
   const Setting& setting_;
-  std::vector<OwnCell> cells_;  // of this rank: all of them, then those of the patch
-  std::vector<char> chosen_;    // of all of them
-  dealii::IndexSet owned_;      // numbers of this rank
-  FieldVector numbers_;         // 1 + the number in the patch; 0: not of it
+  std::vector<OwnCell> cells_;                // of this rank: all of them, then those of the patch
+  std::vector<char> chosen_;                  // of all of them
+  dealii::IndexSet owned_;                    // numbers of this rank
+  FieldVector numbers_;                       // 1 + the number in the patch; 0: not of it
   std::vector<std::vector<Index>> of_cells_;  // numbers of the unknowns of the patch's cells
   dealii::AffineConstraints<double> constraints_;
   SystemMatrix tangent_;
@@ -148,7 +148,12 @@ void Patch::lay_out() {
   std::vector<Index> indices(d_.elements.n_dofs_per_cell());
   for (const OwnCell& at : cells_) {
     at.cell->get_dof_indices(indices);
-    for (Index& i : indices) i = *number_of(i);
+    for (Index& i : indices) {
+      if (const auto* entries = d_.homogeneous.get_constraint_entries(i))
+        for (const auto& [master, weight] : *entries)  // maybe of no cell of this rank
+          if (const auto number = number_of(master)) relevant.add_index(*number);
+      i = *number_of(i);
+    }
     relevant.add_indices(indices.begin(), indices.end());
     of_cells_.push_back(indices);
   }
@@ -273,7 +278,8 @@ bool Patch::settle(State& state) {
 }  // namespace
 
 std::optional<State> locally_settled(const FlowProblem& problem, const Discretisation& d,
-                                     const Setting& setting, const State& state, const FieldVector& residual) {
+                                     const Setting& setting, const State& state,
+                                     const FieldVector& residual) {
   const double size = residual.l2_norm();
   const double bound = size * std::sqrt(stands_out / static_cast<double>(d.unknowns.n_dofs()));
   double held = 0;

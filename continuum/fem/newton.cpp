@@ -98,8 +98,8 @@ double Newton::step_length(const Phase& phase, const State& state, const Step& s
   return fem::step_length(slope_along(step), [&](double alpha) { return slope(phase, state, step, alpha); });
 }
 
-// From a state whose residual is assembled: the tangent, at a state that may have moved where few unknowns held
-// most of the residual. What makes the rest worse than it makes them better is not taken.
+// From a state whose residual is assembled: the tangent, at a state that may have moved where few unknowns
+// held most of the residual. What makes the rest worse than it makes them better is not taken.
 void Newton::settle_locally(const Phase& phase, State& state) {
   const auto assemble = [&] {
     clock_(Work::assembly, [&] { assemble_tangent(problem_, d_, phase.setting, state, system_); });

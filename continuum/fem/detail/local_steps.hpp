@@ -7,14 +7,14 @@
 namespace drumlin::continuum::fem {
 
 /// The state after Newton steps of those unknowns alone whose residuals stand out, and of what lies around
-/// them; all others are kept. Empty where few unknowns do not hold most of the residual, or where nothing came
-/// of it.
+/// them; all others are kept. Empty where few unknowns do not hold most of the residual, or where nothing
+/// came of it.
 ///
 /// Where the material is about to stop, |D| changes by decades from step to step, in a few cells at a time.
 /// Each such place would make the whole flow take its many steps; here it takes them by itself, and Newton's
 /// method for all unknowns goes on from there: nonlinear elimination (Lanzkron, Rose and Wilkes, SIAM J. Sci.
-/// Comput. 17 (1996), who eliminate given unknowns; Cai and Li, SIAM J. Sci. Comput. 33 (2011), those of large
-/// residuals). On several ranks such a place ends where the rank's part does.
+/// Comput. 17 (1996), who eliminate given unknowns; Cai and Li, SIAM J. Sci. Comput. 33 (2011), those of
+/// large residuals). On several ranks such a place ends where the rank's part does.
 ///
 /// `residual` is that of `state`. Without ln g among the unknowns. Collective.
 std::optional<State> locally_settled(const FlowProblem& problem, const Discretisation& d,

@@ -5,10 +5,10 @@
 
 namespace drumlin::continuum::fem {
 
-/// Share alpha of a step du, at most 1, where the slope R(u + alpha du).du has fallen well below `start`, that
-/// at alpha = 0. The residual norm would ask for needlessly short steps, since stiff, nearly rigid parts
-/// dominate it. `slope_at(alpha)` may return what is not finite where there is no such state; it is asked last
-/// for the share that is returned.
+/// Share alpha of a step du, at most 1, where the slope R(u + alpha du).du has fallen well below `start`,
+/// that at alpha = 0. The residual norm would ask for needlessly short steps, since stiff, nearly rigid parts
+/// dominate it. `slope_at(alpha)` may return what is not finite where there is no such state; it is asked
+/// last for the share that is returned.
 template <class SlopeAt>
 double step_length(double start, SlopeAt slope_at) {
   double low = 0, at_low = start, alpha = 1, best = 1, best_slope = INFINITY;
