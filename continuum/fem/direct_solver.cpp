@@ -59,7 +59,7 @@ void DirectSolver::Petsc::factorise_whole() {
   Mat of_mumps = nullptr;
   check(PCFactorSetUpMatSolverType(factors), "set up the solver");
   check(PCFactorGetMatrix(factors, &of_mumps), "set up the solver");
-  scale_cheaply(of_mumps);
+  check(scale_cheaply(of_mumps), "set up the solver");
   check(KSPSetUp(solver), "factorise the matrix");
   PCFailedReason reason = PC_NOERROR;
   check(PCGetFailedReason(factors, &reason), "factorise the matrix");

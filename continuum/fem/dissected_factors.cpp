@@ -174,8 +174,7 @@ bool DissectedFactors::Objects::make_factors() {
     return false;
   const PetscErrorCode set = MatFactorSetSchurIS(factors, few);
   ISDestroy(&few);
-  scale_cheaply(factors);
-  return !set && !MatLUFactorSymbolic(factors, sub[0], nullptr, nullptr, nullptr);
+  return !set && !scale_cheaply(factors) && !MatLUFactorSymbolic(factors, sub[0], nullptr, nullptr, nullptr);
 }
 
 bool DissectedFactors::Objects::factorise_own() {

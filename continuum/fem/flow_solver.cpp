@@ -67,14 +67,12 @@ bool solve_cold(Newton& newton, const FlowSolverOptions& options, fem::SolvedLev
          (!level.problem.inertia || raise_inertia(newton, options, level));
 }
 
-const std::string moved_surface = "surface";
-
 // From a solution nearby: that of a coarser mesh ("refined"), of another problem ("neighbour"), or with the
 // surface in another place.
 bool solve_from(const std::string& name, Newton& newton, const FlowSolverOptions& options,
-                fem::SolvedLevel& level) {
+                fem::SolvedLevel& level, bool starts_nearby = false) {
   const State before = level.state;
-  Phase phase{name, final_setting(level.problem), options.tolerance, name != moved_surface};
+  Phase phase{name, final_setting(level.problem), options.tolerance, starts_nearby};
   if (level.problem.inertia) phase.setting.inertia = fem::InertiaSetting{};
   if (run(newton, phase, level)) return true;
   if (newton.was_interrupted() || !(phase.setting.regularisation.shear_rate < options.careful_shear_rate))
@@ -179,7 +177,8 @@ class Continuation {
     level_->state.held = nullptr;
     if (problem_.memory && start != "cold" && solve_remembering(newton, start, here))
       return !problem_.moving_surface || move_surface(mesh, here);
-    if (!(start == "cold" ? solve_cold(newton, here, *level_) : solve_from(start, newton, here, *level_)))
+    if (!(start == "cold" ? solve_cold(newton, here, *level_)
+                          : solve_from(start, newton, here, *level_, /*starts_nearby=*/true)))
       return false;
     if (fem::holds_fields(problem_)) {
       if (observer_.solved_plain && is_last(mesh) && !problem_.memory)
@@ -198,7 +197,8 @@ class Continuation {
     try {
       level_->state.held =
           fem::held_from(problem_, discretisation(), before, {.linear_tolerance = here.linear_tolerance});
-      if (solve_from(start, newton, here, *level_) && solve_held_fields(newton, here, *level_, report_))
+      if (solve_from(start, newton, here, *level_, /*starts_nearby=*/true) &&
+          solve_held_fields(newton, here, *level_, report_))
         return true;
     } catch (const NotConvergedError& error) {
       report_.failure = error.what();
@@ -226,7 +226,7 @@ class Continuation {
             [&](Newton& again, fem::Settling settling) {
               FlowSolverOptions how = settling == fem::Settling::loose ? loose : here;
               if (settling == fem::Settling::fine) how.picard_tolerance *= options_.fine_picard_share;
-              return solve_from(moved_surface, again, how, *level_) &&
+              return solve_from("surface", again, how, *level_) &&
                      (!fem::holds_fields(problem_) || solve_held_fields(again, how, *level_, report_));
             },
         .first = problem_.memory && is_last(mesh) ? fem::Settling::loose : fem::Settling::whole,

@@ -75,8 +75,8 @@ struct SurfaceStepReport {
 
 /// Wall time of one kind of work, summed over all meshes and phases.
 struct PhaseSeconds {
-  std::string
-      name;  ///< "assembly", "factorisation", "linear solves", "step length", "local steps", "refinement", "evaluation"
+  std::string name;  ///< "assembly", "factorisation", "linear solves", "step length", "local steps",
+                     ///< "refinement", "evaluation"
   double seconds = 0;
   int times = 0;
 };

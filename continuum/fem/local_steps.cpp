@@ -23,9 +23,12 @@ constexpr double stands_out = 20;
 constexpr double most_of_it = 0.5;
 // Cells around them that take part.
 constexpr int layers = 2;
-// Where to end: what the cells around have got to do is left to the steps of all unknowns.
+// Where to end: the rest depends on the cells around, which move with the steps of all unknowns.
 constexpr double enough = 0.1;
 constexpr int most_steps = 10;
+// Unknowns that take part, of all of them; and how many cost nothing.
+constexpr double largest_share = 0.2;
+constexpr Index always_small = 5000;
 constexpr double linear_tolerance = 1e-6;
 
 bool has(const FieldVector& field, Index i) {
@@ -64,6 +67,11 @@ class Patch {
         const FieldVector& residual, double bound);
   /// Steps until the residual of the patch has fallen. False where none was taken.
   bool settle(State& state);
+  /// Not where it is much of a flow that costs something.
+  bool is_worth_it() const {
+    return owned_.size() <= always_small ||
+           static_cast<double>(owned_.size()) <= largest_share * static_cast<double>(d_.unknowns.n_dofs());
+  }
 
  private:
   void choose_cells(const FieldVector& residual, double bound);
@@ -96,7 +104,6 @@ Patch::Patch(const FlowProblem& problem, const Discretisation& d, const Setting&
     : problem_(problem), d_(d), setting_(setting), step_(d.field()) {
   choose_cells(residual, bound);
   number_unknowns();
-  lay_out();
 }
 
 void Patch::choose_cells(const FieldVector& residual, double bound) {
@@ -252,11 +259,10 @@ bool Patch::step(State& state) {
     return there;
   };
   const double alpha = step_length(slope(), [&](double share) {
-    assemble(moved(share), false);
-    return slope();
-  });
+                         assemble(moved(share), false);
+                         return slope();
+                       }).share;
   State next = moved(alpha);
-  next.dual = state.dual;
   advance_dual(alpha, state);
   next.dual.swap(state.dual);
   state = std::move(next);
@@ -264,6 +270,7 @@ bool Patch::step(State& state) {
 }
 
 bool Patch::settle(State& state) {
+  lay_out();
   double size = assemble(state, true);
   const double first = size;
   bool has_moved = false;
@@ -286,8 +293,9 @@ std::optional<State> locally_settled(const FlowProblem& problem, const Discretis
   for (std::size_t k = 0; k < residual.locally_owned_size(); ++k)
     if (const double r = residual.local_element(k); std::abs(r) > bound) held += r * r;
   if (!(d.sum(held) >= most_of_it * size * size)) return std::nullopt;
+  Patch patch(problem, d, setting, residual, bound);
   State settled = state;
-  if (!Patch(problem, d, setting, residual, bound).settle(settled)) return std::nullopt;
+  if (!patch.is_worth_it() || !patch.settle(settled)) return std::nullopt;
   return settled;
 }
 

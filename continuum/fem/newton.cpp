@@ -22,9 +22,14 @@ constexpr double settled = 1e-9, nearly_settled = 1e-4;
 // On the step of ln g from which it settles; g changes by seven at most.
 constexpr double largest_fluidity_step = 2;
 
-// Share of the solution that a step moves, below which what stands out settles locally: it is the flow around
-// it to which it settles, and that has to be there.
+// Share of the velocities that a step moves, below which what stands out settles locally: a place settles to
+// the flow around it, which a large step has not found yet.
 constexpr double small_step = 0.05;
+
+// Local steps can keep Newton's method where it makes no progress: it makes none after so many steps in a row
+// of which so little was taken.
+constexpr int most_short_steps = 6;
+constexpr double short_step = 0.3;
 
 std::string unsettled(const Phase& phase) {
   return fmt::format("the fluidity of a flow could not be found, in phase '{}'", phase.name);
@@ -44,6 +49,13 @@ double Newton::solved(const FieldVector& rhs, FieldVector& solution) {
   return clock_(Work::linear_solves, [&] {
     return linear_.solve(rhs, solution, report_.linear[static_cast<std::size_t>(level_)]);
   });
+}
+
+// By how much the slope (rad) differs from that which leaves the surface without moment. As a load it is so
+// much of the weight, like a residual. A whole step leaves none; shorter and local ones do.
+double Newton::slope_misfit(const State& state) const {
+  if (!std::holds_alternative<SlopeFromMoment>(problem_.slope) || !response_) return 0;
+  return std::abs((moment_ * state.solution + frame_moment_) / (moment_ * *response_));
 }
 
 // The slope is one more unknown, its equation (the moment) linear in the solution: two solves with one
@@ -86,6 +98,7 @@ double Newton::slope_along(const Step& step) const {
   return d_.sum(sum);
 }
 
+// Leaves the residual there in the system.
 double Newton::slope(const Phase& phase, const State& state, const Step& step, double alpha) {
   State there = moved(state, step.solution, step.theta, alpha);
   if (!settle(phase, nearly_settled, there)) return NAN;
@@ -93,13 +106,15 @@ double Newton::slope(const Phase& phase, const State& state, const Step& step, d
   return slope_along(step);
 }
 
-// The residual that has been assembled last is that after this step.
-double Newton::step_length(const Phase& phase, const State& state, const Step& step) {
-  return fem::step_length(slope_along(step), [&](double alpha) { return slope(phase, state, step, alpha); });
+double Newton::velocity_size(const FieldVector& field) const {
+  double sum = 0;
+  for (std::size_t i = 0; i < d_.is_velocity.size(); ++i)
+    if (d_.is_velocity[i]) sum += field.local_element(i) * field.local_element(i);
+  return std::sqrt(d_.sum(sum));
 }
 
 // From a state whose residual is assembled: the tangent, at a state that may have moved where few unknowns
-// held most of the residual. What makes the rest worse than it makes them better is not taken.
+// held most of the residual. A state with a larger residual of all unknowns is not taken.
 void Newton::settle_locally(const Phase& phase, State& state) {
   const auto assemble = [&] {
     clock_(Work::assembly, [&] { assemble_tangent(problem_, d_, phase.setting, state, system_); });
@@ -139,7 +154,10 @@ std::optional<Newton::Step> Newton::newton_step(const Phase& phase, const State&
 // Moves the state, lets it settle where few unknowns are far off, assembles, and fills in what the step did.
 // False where the fluidity does not settle.
 bool Newton::take(const Phase& phase, const Step& step, State& state, IterationReport& line) {
-  const double alpha = clock_(Work::step_length, [&] { return step_length(phase, state, step); });
+  const StepLength length = clock_(Work::step_length, [&] {
+    return step_length(slope_along(step), [&](double share) { return slope(phase, state, step, share); });
+  });
+  const double alpha = length.share;
   FieldVector taken = step.solution;
   taken *= alpha;
   taken.update_ghost_values();
@@ -147,11 +165,14 @@ bool Newton::take(const Phase& phase, const Step& step, State& state, IterationR
   state = moved(state, step.solution, step.theta, alpha);
   if (!clock_(Work::assembly, [&] { return settle(phase, settled, state); })) return false;
   line.step_size = taken.l2_norm() / state.solution.l2_norm();
-  if (phase.locally && line.step_size < small_step && !fluidity_)
+  const bool is_small = velocity_size(taken) < small_step * velocity_size(state.solution);
+  if (phase.locally && is_small && !fluidity_) {
+    if (!length.asked_last) assemble_residual(problem_, d_, phase.setting, state, system_);
     settle_locally(phase, state);
-  else
+  } else {
     clock_(Work::assembly, [&] { assemble_tangent(problem_, d_, phase.setting, state, system_); });
-  line.residual = relative_residual();
+  }
+  line.residual = std::max(relative_residual(), slope_misfit(state));
   line.step_length = alpha;
   line.linear_residual = step.linear_residual;
   line.theta = state.theta;
@@ -169,6 +190,7 @@ void Newton::record(const IterationReport& line) {
 bool Newton::solve(const Phase& phase, State& state) {
   const bool settles_first = phase.starts_nearby && phase.locally && !fluidity_;
   has_settled_locally_ = false;
+  report_.failure.clear();
   IterationReport line{
       .level = level_, .phase = phase.name, .shear_rate = phase.setting.regularisation.shear_rate};
   if (!clock_(Work::assembly, [&] { return settle(phase, settled, state); })) {
@@ -186,6 +208,7 @@ bool Newton::solve(const Phase& phase, State& state) {
       assemble_tangent(problem_, d_, phase.setting, state, system_);
   });
   if (settles_first) settle_locally(phase, state);
+  int short_steps = 0;
   for (line.iteration = 1; line.iteration <= options_.max_iterations; ++line.iteration) {
     if (was_interrupted()) {
       report_.failure = "interrupted";
@@ -200,6 +223,8 @@ bool Newton::solve(const Phase& phase, State& state) {
     record(line);
     if (!(line.residual < hopeless_residual)) break;
     if (line.residual <= phase.tolerance) return true;
+    short_steps = line.step_length < short_step ? short_steps + 1 : 0;
+    if (has_settled_locally_ && short_steps == most_short_steps) break;
   }
   report_.failure = fmt::format(
       "mesh {}, phase '{}' (eps = {:.3g}): residual {:.3e} after {} iterations, "
@@ -222,6 +247,7 @@ bool run(Newton& newton, const Phase& phase, SolvedLevel& level) {
   level.state = before;
   Phase plain = phase;
   plain.locally = false;
+  plain.name += ", plain";
   return newton.solve(plain, level.state);
 }
 

@@ -106,7 +106,7 @@ class Iteration {
     return true;
   }
 
-  // There are shapes on which nothing presses that they resolve, but a lot that they do not.
+  // Some shapes take away all that they can resolve, while much presses on them that they cannot.
   bool lessens(const SurfaceMisfit& next) const {
     constexpr double most_growth = 1.5;  // of what presses in all, per step
     return next.resolved < now_.resolved && next.rms <= most_growth * now_.rms;

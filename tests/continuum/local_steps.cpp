@@ -118,7 +118,7 @@ TEST(LocalSteps, LeaveAloneWhatIsFarOffEverywhere) {
                                     system.residual));
 }
 
-// Without them the last mesh took seven and ten steps of all unknowns.
+// Without them the last mesh takes nine steps of all unknowns.
 TEST(LocalSteps, SaveStepsOfAllUnknowns) {
   const FlowSolution flow = solve_flow(small_drum_problem(paper_law, 1e-5), meshes(4));
   ASSERT_TRUE(flow.report.converged) << flow.report.failure;
@@ -131,20 +131,47 @@ TEST(LocalSteps, SaveStepsOfAllUnknowns) {
   EXPECT_GT(local->times, 0);
 }
 
-TEST(StepLength, IsWholeWhereTheSlopeFalls) {
-  EXPECT_EQ(fem::step_length(-1, [](double alpha) { return alpha - 1; }), 1);
-  EXPECT_EQ(fem::step_length(-1, [](double) { return -2; }), 1);  // no change of sign
+// Where the wall has jumped, what stands out is a thin layer there, and settling it leads nowhere: 51 steps
+// and more, forty of them in vain, before that was noticed; 11 to 16 without local steps.
+TEST(LocalSteps, EndSoonWhereTheyLeadNowhere) {
+  for (const double eps : {1e-3, 1e-5}) {
+    const FlowField start = converged(small_drum_problem(paper_law, eps), meshes(3));
+    for (const double share : {0.95, 1.3}) {
+      DrumGeometry drum = small_drum();
+      drum.rotation *= share;
+      const FlowSolution again = solve_flow_again(start, small_drum_problem(paper_law, eps, drum));
+      ASSERT_TRUE(again.report.converged) << eps << " " << share << " " << again.report.failure;
+      EXPECT_TRUE(again.report.failure.empty()) << again.report.failure;
+      EXPECT_LE(again.report.iterations, 30) << eps << " " << share;
+    }
+  }
 }
 
-TEST(StepLength, AsksLastForWhatItReturns) {
-  std::vector<double> asked;
-  const double alpha = fem::step_length(-1, [&](double share) {
-    asked.push_back(share);
-    return share < 0.2 ? -0.8 : 5 * share;  // never well below the start
+// The slope's equation is none of the residual's: local steps move the surface, too.
+TEST(LocalSteps, LeaveNoMomentOnTheSurface) {
+  FlowSolverOptions options = meshes(3);
+  const FlowProblem problem = small_drum_problem(paper_law, 1e-4);
+  const double exact = converged(problem, options).theta();
+  options.tolerance = 1e-6;
+  EXPECT_NEAR(converged(problem, options).theta(), exact, 1e-6);
+}
+
+TEST(StepLength, IsWholeWhereTheSlopeFalls) {
+  EXPECT_EQ(fem::step_length(-1, [](double alpha) { return alpha - 1; }).share, 1);
+  EXPECT_EQ(fem::step_length(-1, [](double) { return -2; }).share, 1);  // no change of sign
+}
+
+TEST(StepLength, SaysWhetherItAskedLastForWhatItReturns) {
+  double asked = 0;
+  const fem::StepLength never_well_below = fem::step_length(-1, [&](double share) {
+    asked = share;
+    return share < 0.2 ? -0.8 : 5 * share;
   });
-  EXPECT_LT(alpha, 1);
-  EXPECT_EQ(asked.back(), alpha);
-  EXPECT_EQ(fem::step_length(-1, [&](double share) { return share > 0.5 ? NAN : 0.1; }), 0.5);
+  EXPECT_LT(never_well_below.share, 1);
+  EXPECT_EQ(never_well_below.asked_last, asked == never_well_below.share);
+  const fem::StepLength halved = fem::step_length(-1, [](double share) { return share > 0.5 ? NAN : 0.1; });
+  EXPECT_EQ(halved.share, 0.5);
+  EXPECT_TRUE(halved.asked_last);
 }
 
 }  // namespace

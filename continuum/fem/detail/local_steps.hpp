@@ -14,7 +14,7 @@ namespace drumlin::continuum::fem {
 /// Each such place would make the whole flow take its many steps; here it takes them by itself, and Newton's
 /// method for all unknowns goes on from there: nonlinear elimination (Lanzkron, Rose and Wilkes, SIAM J. Sci.
 /// Comput. 17 (1996), who eliminate given unknowns; Cai and Li, SIAM J. Sci. Comput. 33 (2011), those of
-/// large residuals). On several ranks such a place ends where the rank's part does.
+/// large residuals). On several ranks its cells may be of any of them.
 ///
 /// `residual` is that of `state`. Without ln g among the unknowns. Collective.
 std::optional<State> locally_settled(const FlowProblem& problem, const Discretisation& d,

@@ -50,7 +50,7 @@ class Newton {
   }
   /// After one more step with these factors; the residual is of the mesh as it stands now.
   State corrected(const Setting& setting, const State& state);
-  /// Whether anything settled by itself in the last phase.
+  /// Whether anything settled by itself in the last solve().
   bool has_settled_locally() const { return has_settled_locally_; }
   /// On any rank.
   bool was_interrupted() const {
@@ -64,6 +64,7 @@ class Newton {
     double linear_residual = 0;
   };
   Step step_with_factors(const State& state);
+  double slope_misfit(const State& state) const;
   double solved(const FieldVector& rhs, FieldVector& solution);
   std::optional<Step> newton_step(const Phase& phase, const State& state);
   bool take(const Phase& phase, const Step& step, State& state, IterationReport& line);
@@ -74,7 +75,7 @@ class Newton {
   void record(const IterationReport& line);
   double slope_along(const Step& step) const;
   double slope(const Phase& phase, const State& state, const Step& step, double alpha);
-  double step_length(const Phase& phase, const State& state, const Step& step);
+  double velocity_size(const FieldVector& field) const;
   void settle_locally(const Phase& phase, State& state);
   double relative_residual() const { return system_.residual.l2_norm() / reference_; }
 
@@ -100,8 +101,7 @@ class Newton {
 /// The problem's own law and regularisation, steady and slow.
 Setting final_setting(const FlowProblem& problem);
 
-/// Solves one phase from the level's state; once more by steps of all unknowns alone, where it fails after
-/// others.
+/// Solves one phase from the level's state. Where that fails after local steps, once more without them.
 bool run(Newton& newton, const Phase& phase, SolvedLevel& level);
 
 /// Another problem on the mesh of a flow, in the frame of the laboratory: its state, with the problem's

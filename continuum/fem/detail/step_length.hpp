@@ -5,12 +5,16 @@
 
 namespace drumlin::continuum::fem {
 
+struct StepLength {
+  double share = 1;
+  bool asked_last = true;  ///< whether the slope was asked for last there
+};
+
 /// Share alpha of a step du, at most 1, where the slope R(u + alpha du).du has fallen well below `start`,
 /// that at alpha = 0. The residual norm would ask for needlessly short steps, since stiff, nearly rigid parts
-/// dominate it. `slope_at(alpha)` may return what is not finite where there is no such state; it is asked
-/// last for the share that is returned.
+/// dominate it. `slope_at(alpha)` may return what is not finite where there is no such state.
 template <class SlopeAt>
-double step_length(double start, SlopeAt slope_at) {
+StepLength step_length(double start, SlopeAt slope_at) {
   double low = 0, at_low = start, alpha = 1, best = 1, best_slope = INFINITY;
   double high = 0, at_high = 0, last = 1;
   for (int trial = 0; trial < 8; ++trial) {
@@ -27,8 +31,7 @@ double step_length(double start, SlopeAt slope_at) {
         std::isfinite(at_high) ? low + (high - low) * at_low / (at_low - at_high) : 0.5 * high;
     alpha = std::clamp(secant, low + 0.1 * (high - low), low + 0.7 * (high - low));
   }
-  if (last != best) (void)slope_at(best);
-  return best;
+  return {best, last == best};
 }
 
 }  // namespace drumlin::continuum::fem
