@@ -53,7 +53,7 @@ struct IterationReport {
   std::string phase;  ///< "newtonian", "law", "shear rate", "refined", "neighbour", "k", "nonlocal", "memory"
   double shear_rate = 0;  ///< eps of the phase
   int iteration = 0;      ///< within the phase
-  double residual = 0;    ///< ||R||/||weight|| after the step and what follows locally, or the slope's error
+  double residual = 0;    ///< ||R||/||weight|| after the step and what follows locally
   double step_length = 0;
   double step_size = 0;        ///< ||du||/||u||
   double linear_residual = 0;  ///< true relative residual of the linear solves, the larger

@@ -51,11 +51,12 @@ double Newton::solved(const FieldVector& rhs, FieldVector& solution) {
   });
 }
 
-// By how much the slope (rad) differs from that which leaves the surface without moment. As a load it is so
-// much of the weight, like a residual. A whole step leaves none; shorter and local ones do.
-double Newton::slope_misfit(const State& state) const {
-  if (!std::holds_alternative<SlopeFromMoment>(problem_.slope) || !response_) return 0;
-  return std::abs((moment_ * state.solution + frame_moment_) / (moment_ * *response_));
+// A state that has settled at a given slope, at that without moment, by the response to the slope of the last
+// step.
+State Newton::without_moment(const State& state) const {
+  if (!std::holds_alternative<SlopeFromMoment>(problem_.slope)) return state;
+  const FieldVector& response = *response_;
+  return moved(state, response, 1, -(moment_ * state.solution + frame_moment_) / (moment_ * response));
 }
 
 // The slope is one more unknown, its equation (the moment) linear in the solution: two solves with one
@@ -128,11 +129,15 @@ void Newton::settle_locally(const Phase& phase, State& state) {
   if (settled_state) std::swap(state, *settled_state);
   assemble();
   if (!settled_state) return;
-  if (relative_residual() <= before) {
-    has_settled_locally_ = true;
+  if (!(relative_residual() <= before)) {
+    std::swap(state, *settled_state);
+    assemble();
     return;
   }
-  std::swap(state, *settled_state);
+  has_settled_locally_ = true;
+  if (relative_residual() > phase.tolerance || !response_) return;
+  // No step follows that would see to the moment.
+  state = without_moment(state);
   assemble();
 }
 
@@ -172,7 +177,7 @@ bool Newton::take(const Phase& phase, const Step& step, State& state, IterationR
   } else {
     clock_(Work::assembly, [&] { assemble_tangent(problem_, d_, phase.setting, state, system_); });
   }
-  line.residual = std::max(relative_residual(), slope_misfit(state));
+  line.residual = relative_residual();
   line.step_length = alpha;
   line.linear_residual = step.linear_residual;
   line.theta = state.theta;

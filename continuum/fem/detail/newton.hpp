@@ -64,7 +64,7 @@ class Newton {
     double linear_residual = 0;
   };
   Step step_with_factors(const State& state);
-  double slope_misfit(const State& state) const;
+  State without_moment(const State& state) const;
   double solved(const FieldVector& rhs, FieldVector& solution);
   std::optional<Step> newton_step(const Phase& phase, const State& state);
   bool take(const Phase& phase, const Step& step, State& state, IterationReport& line);
