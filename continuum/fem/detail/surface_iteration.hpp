@@ -24,8 +24,8 @@ struct SurfaceSolver {
 
 /// Newton's method on the shape: its free coefficients against those of what presses on it, with the response
 /// of the flow from differences. From step to step, and from mesh to mesh, the response is corrected by what
-/// was seen (Broyden); where a step with it does not lessen the misfit, or makes that which no shape resolves
-/// grow by more than half, it is formed anew, and where that does not help steps are halved. The level has to
+/// was seen (Broyden); where a step with it does not lessen the misfit, or makes all that presses grow by
+/// more than half, it is formed anew, and where that does not help steps are halved. The level has to
 /// be solved with the surface as it is; `response` is empty, or that of a coarser mesh, and is kept for a
 /// finer one.
 bool solve_surface(const SurfaceSolver&, SolvedLevel&, int mesh, dealii::FullMatrix<double>& response,
