@@ -236,7 +236,7 @@ void Patch::advance_dual(double alpha, State& state) const {
   }
 }
 
-// From a state whose system is assembled to another. False where there is no step.
+// From a state whose system is assembled to another whose residual is. False where there is no step.
 bool Patch::step(State& state) {
   FieldVector rhs = residual_;
   rhs *= -1;
@@ -252,34 +252,25 @@ bool Patch::step(State& state) {
       step_.local_element(k) = correction_(static_cast<Index>(number) - 1);
   d_.homogeneous.distribute(step_);
   step_.update_ghost_values();
-  const auto moved = [&](double alpha) {
-    State there = state;
-    there.solution.add(alpha, step_);
-    there.solution.update_ghost_values();
-    return there;
-  };
-  const double alpha = step_length(slope(), [&](double share) {
-                         assemble(moved(share), false);
-                         return slope();
-                       }).share;
-  State next = moved(alpha);
-  advance_dual(alpha, state);
-  next.dual.swap(state.dual);
-  state = std::move(next);
+  const StepLength length = step_length(slope(), [&](double share) {
+    assemble(moved(state, step_, 0, share), false);
+    return slope();
+  });
+  advance_dual(length.share, state);
+  state = moved(state, step_, 0, length.share);
+  if (!length.asked_last) assemble(state, false);
   return true;
 }
 
 bool Patch::settle(State& state) {
   lay_out();
-  double size = assemble(state, true);
-  const double first = size;
-  bool has_moved = false;
-  for (int taken = 0; taken < most_steps && size > enough * first; ++taken) {
+  const double first = assemble(state, true);
+  if (!step(state)) return false;
+  for (int taken = 1; taken < most_steps && residual_.l2_norm() > enough * first; ++taken) {
+    assemble(state, true);
     if (!step(state)) break;
-    has_moved = true;
-    size = assemble(state, true);
   }
-  return has_moved;
+  return true;
 }
 
 }  // namespace

@@ -35,14 +35,6 @@ std::string unsettled(const Phase& phase) {
   return fmt::format("the fluidity of a flow could not be found, in phase '{}'", phase.name);
 }
 
-State moved(const State& state, const FieldVector& step, double theta_step, double alpha) {
-  State next = state;
-  next.solution.add(alpha, step);
-  next.solution.update_ghost_values();
-  next.theta += alpha * theta_step;
-  return next;
-}
-
 }  // namespace
 
 double Newton::solved(const FieldVector& rhs, FieldVector& solution) {
@@ -91,11 +83,11 @@ State Newton::corrected(const Setting& setting, const State& state) {
   return moved(state, step.solution, step.theta, 1);
 }
 
-// R.du over the velocities, of the residual that has been assembled last.
-double Newton::slope_along(const Step& step) const {
+// Over the velocities alone.
+double Newton::product(const FieldVector& a, const FieldVector& b) const {
   double sum = 0;
   for (std::size_t i = 0; i < d_.is_velocity.size(); ++i)
-    if (d_.is_velocity[i]) sum += system_.residual.local_element(i) * step.solution.local_element(i);
+    if (d_.is_velocity[i]) sum += a.local_element(i) * b.local_element(i);
   return d_.sum(sum);
 }
 
@@ -104,14 +96,7 @@ double Newton::slope(const Phase& phase, const State& state, const Step& step, d
   State there = moved(state, step.solution, step.theta, alpha);
   if (!settle(phase, nearly_settled, there)) return NAN;
   assemble_residual(problem_, d_, phase.setting, there, system_);
-  return slope_along(step);
-}
-
-double Newton::velocity_size(const FieldVector& field) const {
-  double sum = 0;
-  for (std::size_t i = 0; i < d_.is_velocity.size(); ++i)
-    if (d_.is_velocity[i]) sum += field.local_element(i) * field.local_element(i);
-  return std::sqrt(d_.sum(sum));
+  return product(system_.residual, step.solution);
 }
 
 // From a state whose residual is assembled: the tangent, at a state that may have moved where few unknowns
@@ -160,7 +145,8 @@ std::optional<Newton::Step> Newton::newton_step(const Phase& phase, const State&
 // False where the fluidity does not settle.
 bool Newton::take(const Phase& phase, const Step& step, State& state, IterationReport& line) {
   const StepLength length = clock_(Work::step_length, [&] {
-    return step_length(slope_along(step), [&](double share) { return slope(phase, state, step, share); });
+    return step_length(product(system_.residual, step.solution),
+                       [&](double share) { return slope(phase, state, step, share); });
   });
   const double alpha = length.share;
   FieldVector taken = step.solution;
@@ -170,7 +156,8 @@ bool Newton::take(const Phase& phase, const Step& step, State& state, IterationR
   state = moved(state, step.solution, step.theta, alpha);
   if (!clock_(Work::assembly, [&] { return settle(phase, settled, state); })) return false;
   line.step_size = taken.l2_norm() / state.solution.l2_norm();
-  const bool is_small = velocity_size(taken) < small_step * velocity_size(state.solution);
+  const bool is_small =
+      product(taken, taken) < small_step * small_step * product(state.solution, state.solution);
   if (phase.locally && is_small && !fluidity_) {
     if (!length.asked_last) assemble_residual(problem_, d_, phase.setting, state, system_);
     settle_locally(phase, state);

@@ -34,6 +34,15 @@ struct State {
   }
 };
 
+/// After the share `alpha` of a step of solution and slope, with the dual as it was.
+inline State moved(const State& state, const FieldVector& step, double theta_step, double alpha) {
+  State next = state;
+  next.solution.add(alpha, step);
+  next.solution.update_ghost_values();
+  next.theta += alpha * theta_step;
+  return next;
+}
+
 /// How inertia enters one system.
 struct InertiaSetting {
   double share = 1;                                     ///< of nu u.grad u

@@ -73,9 +73,8 @@ class Newton {
     return !fluidity_ || fluidity_->settle(phase.setting, tolerance, state);
   }
   void record(const IterationReport& line);
-  double slope_along(const Step& step) const;
+  double product(const FieldVector& a, const FieldVector& b) const;
   double slope(const Phase& phase, const State& state, const Step& step, double alpha);
-  double velocity_size(const FieldVector& field) const;
   void settle_locally(const Phase& phase, State& state);
   double relative_residual() const { return system_.residual.l2_norm() / reference_; }
 
