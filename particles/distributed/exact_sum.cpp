@@ -17,6 +17,12 @@ void ExactSum::add(const ExactSum& more) {
   for (std::size_t k = 0; k < numbers_.size(); ++k) numbers_[k] += other.numbers_[k];
 }
 
+void ExactSum::add_from(int limb, Wide number) {
+  for (; number != 0; number >>= 32, ++limb)
+    numbers_[limb] += static_cast<std::int64_t>(static_cast<std::uint32_t>(number));
+  if (++terms_ >= most_terms) carry();
+}
+
 /// All limbs but the highest come to lie in [0, 2^32).
 void ExactSum::carry() {
   for (int k = 0; k + 1 < limbs; ++k) {

@@ -122,7 +122,13 @@ struct Forest::Library {
 };
 
 Forest::Forest(const Ranks& ranks, const TileGrid& grid, std::span<const std::int64_t> weights)
-    : ranks_(ranks), library_(std::make_unique<Library>(grid, placing_for(grid, weights))) {
+    : ranks_(ranks) {
+  tiles_.grid = grid;
+  if (ranks.count() == 1) {
+    tiles_.owner.assign(grid.count(), 0);
+    return;
+  }
+  library_ = std::make_unique<Library>(grid, placing_for(grid, weights));
   Library& lib = *library_;
   {
     const auto weighed = lib.triangulation.signals.weight.connect(
@@ -134,10 +140,9 @@ Forest::Forest(const Ranks& ranks, const TileGrid& grid, std::span<const std::in
               std::accumulate(weights.begin() + first, weights.begin() + first + grid.cut, std::int64_t{0});
           return static_cast<unsigned int>(std::min<std::int64_t>(weight, 1 << 20));
         });
-    if (ranks.count() > 1) lib.triangulation.repartition();
+    lib.triangulation.repartition();
     weighed.disconnect();
   }
-  tiles_.grid = grid;
   tiles_.owner.assign(grid.count(), -1);
   std::vector<std::int32_t> own;
   std::vector<int> cells(grid.count(), 0);
@@ -169,7 +174,25 @@ GrainOutside Forest::first_outside(const GrainOutside& own) const {
   return ranks_.gather_everywhere<GrainOutside>(mine).front();
 }
 
+/// On one rank: grains in the order of their tiles, so that neighbours stand together in memory.
+GrainOutside Forest::keep_all(std::span<const RankGrain> grains) {
+  GrainOutside outside;
+  std::vector<std::int32_t> tile(grains.size()), next(tiles_.grid.count() + 1, 0);
+  for (std::size_t k = 0; k < grains.size(); ++k) {
+    const auto& [id, x, z, v_x, v_z, spin, radius, inverse_mass] = grains[k];
+    if (!tiles_.grid.contains({x, z}) && (outside.id < 0 || id < outside.id)) outside = {id, x, z};
+    tile[k] = tiles_.grid.tile_at({x, z});
+    ++next[tile[k] + 1];
+  }
+  if (outside.id >= 0) return outside;
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  owned_.resize(grains.size());
+  for (std::size_t k = 0; k < grains.size(); ++k) owned_[next[tile[k]]++] = grains[k];
+  return outside;
+}
+
 GrainOutside Forest::place(std::span<const RankGrain> grains) {
+  if (!library_) return keep_all(grains);
   Library& lib = *library_;
   GrainOutside outside;
   std::vector<std::vector<RankGrain>> to_rank(ranks_.count());
@@ -206,6 +229,7 @@ GrainOutside Forest::place(std::span<const RankGrain> grains) {
 }
 
 GrainOutside Forest::move(std::span<const RankGrain> grains) {
+  if (!library_) return keep_all(grains);
   Library& lib = *library_;
   lib.outside = {};
   std::size_t k = 0;

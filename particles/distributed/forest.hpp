@@ -33,6 +33,7 @@ struct GrainOutside {
   double x = 0, z = 0;
 };
 
+/// One rank has all tiles and all grains, without that library.
 class Forest {
  public:
   /// Cuts the grid among the ranks along a space-filling curve, squares of 2 x 2 cells whole, by the weights
@@ -58,12 +59,13 @@ class Forest {
 
  private:
   struct Library;
+  GrainOutside keep_all(std::span<const RankGrain> grains);
   void read_back();
   GrainOutside first_outside(const GrainOutside& own) const;
 
   Ranks ranks_;
   TileMap tiles_;
-  std::unique_ptr<Library> library_;
+  std::unique_ptr<Library> library_;  // none: one rank
   std::vector<RankGrain> owned_;
   std::vector<GhostRecord> ghosts_;
 };

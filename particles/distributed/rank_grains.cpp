@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "coupling/common/errors.hpp"
+#include "particles/parallel/ask_ahead.hpp"
 #include "particles/parallel/work_memory.hpp"
 
 namespace drumlin::particles {
@@ -26,36 +27,46 @@ constexpr std::int64_t of_a_grain = 10, of_a_loaded_contact = 10;
 
 RankGrains::Need RankGrains::need_of(const RankState& state, const WallStep& walls, double time_step,
                                      Point gain) const {
-  constexpr double none = -1e300;
-  // Of v_x, -v_x, v_z, -v_z, the squares of speed and drift; 1 if a grain is outside.
-  std::array<double, 7> extremes{none, none, none, none, 0, 0, 0};
+  Extremes extremes;
+  double drift = 0, outside = 0;
   const bool sorted = forest_ != nullptr;  // since then the grains stand as they were sorted
   for (std::size_t k = 0; k < state.grains.size(); ++k) {
     const RankGrain& g = state.grains[k];
-    const double v_x = g.v_x + gain.x, v_z = g.v_z + gain.z;
-    extremes[0] = std::max(extremes[0], v_x), extremes[1] = std::max(extremes[1], -v_x);
-    extremes[2] = std::max(extremes[2], v_z), extremes[3] = std::max(extremes[3], -v_z);
-    extremes[4] = std::max(extremes[4], v_x * v_x + v_z * v_z);
+    extremes.add(g.v_x + gain.x, g.v_z + gain.z);
     if (!sorted) continue;
     const double x = g.x - sorted_at_[k].x, z = g.z - sorted_at_[k].z;
-    extremes[5] = std::max(extremes[5], x * x + z * z);
-    if (!forest_->tiles().grid.contains({g.x, g.z})) extremes[6] = 1;
+    drift = std::max(drift, x * x + z * z);
+    if (!forest_->tiles().grid.contains({g.x, g.z})) outside = 1;
   }
-  ranks_.largest(extremes);
-  const double speed = std::sqrt(extremes[4]);
+  std::array<double, 7> all{extremes.right,   extremes.left, extremes.up, extremes.down,
+                            extremes.squares, drift,         outside};
+  ranks_.largest(all);
+  return {reach_of({all[0], all[1], all[2], all[3], all[4]}, walls, time_step), std::sqrt(all[5]),
+          all[6] > 0};
+}
+
+/// Of the velocities that the seen grains have now.
+Reach RankGrains::reach_again(const WallStep& walls, double time_step, Point gain) const {
+  Extremes extremes;
+  const Bodies& bodies = seen_.bodies;
+  for (std::size_t b = 0; b < bodies.count(); ++b)
+    extremes.add(bodies.v_x[b] + gain.x, bodies.v_z[b] + gain.z);
+  std::array<double, 5> all{extremes.right, extremes.left, extremes.up, extremes.down, extremes.squares};
+  ranks_.largest(all);
+  return reach_of({all[0], all[1], all[2], all[3], all[4]}, walls, time_step);
+}
+
+Reach RankGrains::reach_of(const Extremes& extremes, const WallStep& walls, double time_step) const {
+  const double speed = std::sqrt(extremes.squares);
   double wall = 0;
   for (std::size_t s = 0; s < walls.before.size(); ++s)
     wall = std::max(wall, largest_move(walls.before[s], walls.displacement[s]) / time_step);
-  const double among = std::hypot(extremes[0] + extremes[1], extremes[2] + extremes[3]);
+  const double among = std::hypot(extremes.right + extremes.left, extremes.up + extremes.down);
   const double approach = std::max(among, speed + wall);
-  return {{domain_.largest, margin_, 2 * time_step * approach, time_step * (speed + wall)},
-          std::sqrt(extremes[5]),
-          extremes[6] > 0};
+  return {domain_.largest, margin_, 2 * time_step * approach, time_step * (speed + wall)};
 }
 
-bool RankGrains::still_sorted(const Need& need) const {
-  return !need.outside && need.drift <= most_drift(need.reach, forest_->tiles().grid.cell);
-}
+bool RankGrains::still_sorted() const { return drift_ <= most_drift(reach_, forest_->tiles().grid.cell); }
 
 void RankGrains::refuse(const GrainOutside& outside) const {
   if (outside.id < 0) return;
@@ -68,9 +79,11 @@ void RankGrains::refuse(const GrainOutside& outside) const {
 
 void RankGrains::build(RankState& state, const TileGrid& grid) {
   std::vector<std::int64_t> weights(grid.count(), 0);
-  for (const RankGrain& g : state.grains) weights[grid.tile_at({g.x, g.z})] += of_a_grain;
-  for (const RememberedContact& c : state.memory) weights[grid.tile_at({c.x, c.z})] += of_a_loaded_contact;
-  ranks_.add(weights);
+  if (ranks_.count() > 1) {
+    for (const RankGrain& g : state.grains) weights[grid.tile_at({g.x, g.z})] += of_a_grain;
+    for (const RememberedContact& c : state.memory) weights[grid.tile_at({c.x, c.z})] += of_a_loaded_contact;
+    ranks_.add(weights);
+  }
   knows_contacts_ = ranks_.any(!state.memory.empty());
   for (std::int64_t& weight : weights) ++weight;
   forest_.reset();
@@ -97,11 +110,12 @@ void RankGrains::sort(RankState& state) { refuse(forest_->move(state.grains)); }
 
 void RankGrains::settle(RankState& state, const WallStep& walls, double time_step, Point gain) {
   const Need need = need_of(state, walls, time_step, gain);
+  drift_ = need.drift;
   reach_ = need.reach;
   const TileGrid grid = tile_grid(domain_.low, domain_.edge, need.reach);
   const bool anew = !forest_ || !(forest_->tiles().grid == grid) || unbalanced(state);
   ++steps_;
-  if (!anew && still_sorted(need)) {
+  if (!anew && !need.outside && still_sorted()) {
     follow(state);
     bring_memory(state);
     return;
@@ -114,20 +128,20 @@ void RankGrains::settle(RankState& state, const WallStep& walls, double time_ste
 }
 
 bool RankGrains::settle_again(RankState& state, const WallStep& walls, double time_step, Point gain) {
-  const Need need = need_of(state, walls, time_step, gain);
-  reach_ = need.reach;
-  const bool fits = least_cell(need.reach) <= forest_->tiles().grid.needed_cell();
-  if (fits && still_sorted(need)) return false;
+  reach_ = reach_again(walls, time_step, gain);
+  const bool fits = least_cell(reach_) <= forest_->tiles().grid.needed_cell();
+  if (fits && still_sorted()) return false;
   if (fits)
     sort(state);
   else
-    build(state, tile_grid(domain_.low, domain_.edge, need.reach));
+    build(state, tile_grid(domain_.low, domain_.edge, reach_));
   take_sorted(state);
   return true;
 }
 
 void RankGrains::take_sorted(RankState& state) {
   ++sorts_;
+  drift_ = 0;
   state.grains = forest_->take_owned();
   sorted_at_.clear();
   for (const RankGrain& grain : state.grains) sorted_at_.push_back({grain.x, grain.z});
@@ -191,8 +205,13 @@ void RankGrains::follow(const RankState& state) {
     bodies.v_x[b] = grain.v_x, bodies.v_z[b] = grain.v_z;
     if (with_spin_) bodies.spin[b] = grain.spin;
   };
-  for (std::size_t b = 0; b < seen_.place.size(); ++b)
+  for (std::size_t b = 0; b < seen_.place.size(); ++b) {
+    if (b + turns_ahead < seen_.place.size()) {
+      const RankGrain* const later = state.grains.data() + std::max(seen_.place[b + turns_ahead], 0);
+      ask_for(later), ask_for(&later->inverse_mass);
+    }
     if (seen_.place[b] >= 0) set(b, state.grains[seen_.place[b]]);
+  }
   if (ranks_.count() == 1) return;
   for (std::size_t r = 0; r < shown_to_.size(); ++r) {
     to_show_[r].clear();
@@ -226,16 +245,17 @@ std::size_t RankGrains::pass_memory_on(std::vector<RememberedContact>& memory) c
 
 void RankGrains::bring_memory(RankState& state) {
   const std::size_t stay = pass_memory_on(state.memory), most = state.memory.size();
-  memory_.i.clear(), memory_.j.clear(), memory_.impulse.clear();
-  memory_.i.reserve(most), memory_.j.reserve(most), memory_.impulse.reserve(unknowns_ * most);
+  resize_closely(memory_.i, most), resize_closely(memory_.j, most);
+  resize_closely(memory_.impulse, unknowns_ * most);
   memory_.time_step = state.memory_time_step;
-  const auto keep = [this](const RememberedContact& contact) {
+  std::size_t kept = 0;
+  const auto keep = [&](const RememberedContact& contact) {
     const std::int32_t i = place_of_[contact.i];
     const std::int32_t j = contact.j < 0 ? static_cast<std::int32_t>(contact.j) : place_of_[contact.j];
     if (i < 0 || (contact.j >= 0 && j < 0)) return;  // they are too far apart to meet
-    memory_.i.push_back(i), memory_.j.push_back(j);
-    memory_.impulse.insert(memory_.impulse.end(), contact.impulse.begin(),
-                           contact.impulse.begin() + unknowns_);
+    memory_.i[kept] = i, memory_.j[kept] = j;
+    for (int c = 0; c < unknowns_; ++c) memory_.impulse[unknowns_ * kept + c] = contact.impulse[c];
+    ++kept;
   };
   // Both parts are in order, but for what a run begins with, and where grains are settled again.
   std::size_t come = stay;
@@ -244,6 +264,7 @@ void RankGrains::bring_memory(RankState& state) {
     keep(state.memory[k]);
   }
   while (come < most) keep(state.memory[come++]);
+  memory_.i.resize(kept), memory_.j.resize(kept), memory_.impulse.resize(unknowns_ * kept);
   put_in_order(memory_);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // The grains that a rank sees in a step, and the impulses that it remembers for them: the forest suited to
 // the step, and what it took to bring everything to the rank that needs it.
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -27,6 +28,7 @@ class RankGrains {
   bool settle_again(RankState& state, const WallStep& walls, double time_step, Point gain);
 
   SeenGrains& seen() { return seen_; }
+  const SeenGrains& seen() const { return seen_; }
   const TileMap& tiles() const { return forest_->tiles(); }
   /// What the last call of settle() or settle_again() asked for: the same on all ranks, however often grains
   /// were sorted.
@@ -48,8 +50,18 @@ class RankGrains {
   /// What a step asks of the forest.
   struct Need {
     Reach reach;
-    double drift = 0;      ///< the furthest way of a grain since it was sorted
+    double drift = 0;      ///< the furthest way of a grain since they were sorted
     bool outside = false;  ///< a grain has left the grid
+  };
+  /// Velocities with what forces add to them, along x, -x, z and -z, and the square of the largest speed.
+  struct Extremes {
+    static constexpr double none = -1e300;
+    double right = none, left = none, up = none, down = none, squares = 0;
+    void add(double v_x, double v_z) {
+      right = std::max(right, v_x), left = std::max(left, -v_x);
+      up = std::max(up, v_z), down = std::max(down, -v_z);
+      squares = std::max(squares, v_x * v_x + v_z * v_z);
+    }
   };
   /// A grain that other ranks see, as it is now.
   struct Shown {
@@ -57,8 +69,11 @@ class RankGrains {
   };
 
   Need need_of(const RankState&, const WallStep&, double time_step, Point gain) const;
+  /// The same of the velocities that seen grains have by now; nobody has moved since.
+  Reach reach_again(const WallStep&, double time_step, Point gain) const;
+  Reach reach_of(const Extremes& of_all, const WallStep&, double time_step) const;
   /// Whether the cells still hold what a rank must see.
-  bool still_sorted(const Need&) const;
+  bool still_sorted() const;
   void build(RankState&, const TileGrid&);
   void sort(RankState&);
   bool unbalanced(const RankState&) const;
@@ -78,6 +93,7 @@ class RankGrains {
   double margin_;
   std::unique_ptr<Forest> forest_;
   Reach reach_;
+  double drift_ = 0;  // the furthest way of a grain of any rank since they were sorted
   SeenGrains seen_;
   std::vector<Point> sorted_at_;                      // own grains
   std::vector<std::vector<std::int32_t>> shown_to_;   // by rank: own grains that it sees, in its order

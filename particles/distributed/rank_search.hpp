@@ -35,8 +35,6 @@ class RankSearch {
   const HomedPairs& homed() const { return homed_; }
   const Recollection& recollection() const { return recollection_; }
   const GatheredImpacts& impacts() const { return impacts_; }
-  /// Velocities without contacts, of all grains that this rank sees.
-  const FreeMotion& free() const { return free_; }
   /// Gives back what the step no longer needs.
   void release() {
     free_memory_of(mine_.pairs), free_memory_of(homed_.homes), free_memory_of(homed_.mine);
@@ -71,7 +69,9 @@ class RankSearch {
   void search_as_before(const Step&);
   /// Whether to look around the thrown grains alone: the same answer on all ranks.
   bool is_local(std::span<const ThrownRecord>) const;
-  /// The pairs of this rank in the order in which they are found.
+  /// A pair of this rank, by its place in the order in which they are found.
+  const Candidate& mine(std::size_t m) const;
+  /// Copies them.
   void take_mine();
   /// The impacts among all pairs; those of this rank's tiles are its part.
   std::vector<StruckRecord> strike(const Step&);
@@ -101,7 +101,8 @@ class RankSearch {
   StruckPairs struck_pairs_;
   StepContacts struck_contacts_;  // pairs of struck grains
   HomedPairs homed_;              // of the candidates
-  StepContacts mine_;             // those of this rank
+  StepContacts mine_;             // those of this rank, with normals as impacts see them
+  bool took_mine_ = false;        // since they were found
 };
 
 }  // namespace drumlin::particles

@@ -10,6 +10,7 @@
 #include "particles/distributed/rank_grains.hpp"
 #include "particles/distributed/rank_projection.hpp"
 #include "particles/distributed/rank_search.hpp"
+#include "particles/effects/gravity.hpp"
 #include "particles/parallel/ask_ahead.hpp"
 #include "particles/parallel/work_memory.hpp"
 #include "particles/solver/coarse_loads.hpp"
@@ -44,6 +45,12 @@ struct LostRecord {
   int how = 0;
 };
 
+RankGrain record_of(const Bodies& bodies, std::int32_t b) {
+  const double spin = bodies.spin.empty() ? 0 : bodies.spin[b];
+  return {bodies.id[b],  bodies.x[b], bodies.z[b],      bodies.v_x[b],
+          bodies.v_z[b], spin,        bodies.radius[b], bodies.inverse_mass[b]};
+}
+
 template <class Problem, bool with_spin>
 class RankMoreauJean final : public RankStepper {
   static constexpr int dim = Problem::dim;
@@ -76,7 +83,7 @@ class RankMoreauJean final : public RankStepper {
     find_rank_pairs(grains_.seen(), search_.candidates(), search_.homed(), grains_.tiles(), ranks_.rank(),
                     own_);
     halo_.follow(own_.halo);
-    take_used();
+    take_used(state, time_step);
     report.detection_seconds = watch.lap();
     const StepInput step{laws_, bodies_, walls, {}, free_, time_step};
     std::swap(contacts_.pairs, own_.pairs);
@@ -144,18 +151,38 @@ class RankMoreauJean final : public RankStepper {
  private:
   double waiting_seconds() const { return halo_.waiting_seconds() + Ranks::waiting_seconds(); }
 
+  /// Asks for what the loop over used bodies needs some turns after body b.
+  void ask_for_grain(const std::vector<RankGrain>& grains, std::size_t b) const {
+    const std::vector<std::int32_t>& place = grains_.seen().place;
+    if (b + 2 * turns_ahead >= own_.used.size()) return;
+    ask_for(&place[own_.used[b + 2 * turns_ahead]]);
+    const std::int32_t later = std::max(place[own_.used[b + turns_ahead]], 0);
+    ask_for(grains.data() + later), ask_for(&(grains.data() + later)->inverse_mass);
+  }
+
   /// From here on the bodies are those that this rank's contacts touch, and its own.
-  void take_used() {
+  void take_used(const RankState& state, double time_step) {
     const SeenGrains& seen = grains_.seen();
-    take_used_bodies(seen, own_.used, bodies_);
-    counts_here_.assign(own_.used.size(), 0);
-    const FreeMotion& free = search_.free();
-    resize_closely(free_.x, own_.used.size()), resize_closely(free_.z, own_.used.size());
-    for (std::size_t b = 0; b < own_.used.size(); ++b) {
-      const std::int32_t s = own_.used[b];
-      free_.x[b] = free.x[s], free_.z[b] = free.z[s];
-      counts_here_[b] = seen.place[s] >= 0;
+    const std::size_t count = own_.used.size();
+    for (auto* values :
+         {&bodies_.x, &bodies_.z, &bodies_.v_x, &bodies_.v_z, &bodies_.radius, &bodies_.inverse_mass})
+      resize_closely(*values, count);
+    if constexpr (with_spin) resize_closely(bodies_.spin, count);
+    resize_closely(bodies_.id, count), resize_closely(counts_here_, count);
+    for (std::size_t b = 0; b < count; ++b) {
+      ask_for_grain(state.grains, b);
+      const std::int32_t s = own_.used[b], place = seen.place[s];
+      counts_here_[b] = place >= 0;
+      // Own grains have all in one place.
+      const RankGrain grain = place >= 0 ? state.grains[place] : record_of(seen.bodies, s);
+      bodies_.x[b] = grain.x, bodies_.z[b] = grain.z;
+      bodies_.v_x[b] = grain.v_x, bodies_.v_z[b] = grain.v_z;
+      if constexpr (with_spin) bodies_.spin[b] = grain.spin;
+      bodies_.radius[b] = grain.radius, bodies_.inverse_mass[b] = grain.inverse_mass;
+      bodies_.id[b] = grain.id;
     }
+    free_.x = bodies_.v_x, free_.z = bodies_.v_z;
+    if (laws_.gravity) add_gravity(*laws_.gravity, time_step, free_);
   }
 
   /// New velocities from the solution, then new positions.
@@ -217,19 +244,22 @@ class RankMoreauJean final : public RankStepper {
     // At first one rank has had those of all.
     if (state.memory.capacity() > 2 * loaded) free_memory_of(state.memory);
     state.memory.reserve(loaded + loaded / 16);
+    const bool alone = ranks_.count() == 1;  // then nobody asks where a pair is
     // By identities, so that the next step need not sort what stays on this rank.
     for (std::size_t k = 0; k < place_in_order_.size(); ++k) {
-      if (k + turns_ahead < place_in_order_.size()) {
-        const std::int32_t later = place_in_order_[k + turns_ahead];
+      if (k + 2 * turns_ahead < place_in_order_.size()) {
+        const std::int32_t later = place_in_order_[k + 2 * turns_ahead];
         ask_for(&contacts_.pairs[later]);
         ask_for(r.data() + dim * later);
+        const Candidate& pair = contacts_.pairs[place_in_order_[k + turns_ahead]];
+        for (const std::int32_t b : {pair.i, std::max(pair.j, 0)}) ask_for(&bodies_.id[b]);
       }
       const std::int32_t a = place_in_order_[k];
       const Candidate& pair = contacts_.pairs[a];
       RememberedContact contact;
       for (int c = 0; c < dim; ++c) contact.impulse[c] = r[dim * a + c];
       if (contact.impulse == std::array<double, 2>{}) continue;
-      const Point place = middle_of(pair, bodies_);
+      const Point place = alone ? Point{} : middle_of(pair, bodies_);
       contact.i = bodies_.id[pair.i], contact.j = pair.j < 0 ? pair.j : bodies_.id[pair.j];
       contact.x = place.x, contact.z = place.z;
       state.memory.push_back(contact);
@@ -239,6 +269,7 @@ class RankMoreauJean final : public RankStepper {
   void give_back(RankState& state) {
     const SeenGrains& seen = grains_.seen();
     for (std::size_t b = 0; b < own_.used.size(); ++b) {
+      ask_for_grain(state.grains, b);
       const std::int32_t place = seen.place[own_.used[b]];
       if (place < 0) continue;
       RankGrain& grain = state.grains[place];

@@ -18,7 +18,7 @@ namespace drumlin::particles {
 /// Impulses that a contact remembers: what the next step of its pair starts from.
 struct RememberedContact {
   std::int64_t i = 0, j = 0;  ///< identities; j < 0: wall shape -1 - j
-  double x = 0, z = 0;        ///< where the pair is
+  double x = 0, z = 0;        ///< where the pair is; not set on one rank
   std::array<double, 2> impulse{};
 };
 

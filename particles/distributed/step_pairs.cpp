@@ -53,6 +53,10 @@ std::vector<SharedTouch> shared_touches(const SeenGrains& seen, std::span<const 
   return touches;
 }
 
+void ask_for_place(const Bodies& bodies, std::int32_t b) {
+  if (b >= 0) ask_for_entry(b, bodies.x, bodies.z);
+}
+
 Home home_of(const Candidate& pair, const SeenGrains& seen, const TileMap& tiles) {
   const std::int32_t tile = tiles.grid.tile_at(middle_of(pair, seen.bodies));
   return {tile, tiles.owner[tile]};
@@ -65,6 +69,7 @@ void find_homes(const SeenGrains& seen, std::span<const Candidate> candidates, c
   resize_closely(found.homes, candidates.size()), resize_closely(found.mine, candidates.size());
   std::size_t own = 0;
   for (std::size_t a = 0; a < candidates.size(); ++a) {
+    if (a + turns_ahead < candidates.size()) ask_for_place(seen.bodies, candidates[a + turns_ahead].j);
     found.homes[a] = home_of(candidates[a], seen, tiles);
     found.mine[own] = static_cast<std::int32_t>(a);
     own += found.homes[a].owner == rank;
@@ -179,7 +184,13 @@ void number_bodies(std::span<const std::int32_t> strip_of, RankPairs& own) {
     }
     return place;
   };
-  for (Candidate& pair : own.pairs) {
+  for (std::size_t a = 0; a < own.pairs.size(); ++a) {
+    if (a + turns_ahead < own.pairs.size()) {
+      const Candidate& later = own.pairs[a + turns_ahead];
+      ask_for_entry(later.i, own.in_used, strip_of),
+          ask_for_entry(std::max(later.j, 0), own.in_used, strip_of);
+    }
+    Candidate& pair = own.pairs[a];
     pair.i = use(pair.i);
     if (pair.j >= 0) pair.j = use(pair.j);
   }
@@ -206,18 +217,6 @@ void find_rank_pairs(const SeenGrains& seen, std::span<const Candidate> candidat
   number_bodies(strip_of, own);
   for (SharedTouch& touch : touches) touch.body = own.in_used[touch.body];
   own.halo = halo_plan(touches, rank);
-}
-
-void take_used_bodies(const SeenGrains& seen, std::span<const std::int32_t> used, Bodies& taken) {
-  const auto take = [&](const auto& from, auto& to) {
-    if (from.empty()) return;
-    resize_closely(to, used.size());
-    for (std::size_t b = 0; b < used.size(); ++b) to[b] = from[used[b]];
-  };
-  const Bodies& all = seen.bodies;
-  take(all.x, taken.x), take(all.z, taken.z), take(all.v_x, taken.v_x), take(all.v_z, taken.v_z);
-  take(all.spin, taken.spin), take(all.radius, taken.radius), take(all.inverse_mass, taken.inverse_mass);
-  take(all.material, taken.material), take(all.id, taken.id);
 }
 
 }  // namespace drumlin::particles

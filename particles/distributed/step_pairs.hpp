@@ -59,7 +59,4 @@ std::vector<std::int32_t> find_homes_of_added(const SeenGrains& seen, std::span<
 void find_rank_pairs(const SeenGrains& seen, std::span<const Candidate> candidates, const HomedPairs& homed,
                      const TileMap& tiles, std::int32_t rank, RankPairs& own);
 
-/// The entries of the used grains, in their order. `taken` is empty or of an earlier call.
-void take_used_bodies(const SeenGrains& seen, std::span<const std::int32_t> used, Bodies& taken);
-
 }  // namespace drumlin::particles

@@ -25,11 +25,29 @@ class FixedPoint {
     constexpr double integers = 0x1.8p52;  // and all within 2^51 of it
     return std::bit_cast<std::int64_t>(term * units_ + integers) - std::bit_cast<std::int64_t>(integers);
   }
+  /// The same of several, of which a compiler makes vectors.
+  template <class T, std::size_t rows, std::size_t width>
+  auto rounded(const std::array<std::array<T, width>, rows>& terms) const {
+    std::array<std::array<std::int64_t, width>, rows> whole;
+    for (std::size_t p = 0; p < rows; ++p)
+      for (std::size_t b = 0; b < width; ++b) whole[p][b] = rounded(static_cast<double>(terms[p][b]));
+    return whole;
+  }
   double value(std::int64_t sum) const { return static_cast<double>(sum) * unit_; }
 
  private:
   double unit_, units_;  // powers of two
 };
+
+/// Calls work(first, count) for the bodies begin to end - 1 in a row that are all counted on this rank.
+template <class Work>
+void each_run(const TiledContacts& contacts, std::size_t begin, std::size_t end, Work work) {
+  for (std::size_t last = begin; begin < end; begin = last) {
+    last = begin + 1;
+    while (last < end && !contacts.counts_here[last] == !contacts.counts_here[begin]) ++last;
+    if (contacts.counts_here[begin]) work(begin, last - begin);
+  }
+}
 
 }  // namespace
 
@@ -44,10 +62,13 @@ void TileCoarseLoads<Problem>::lay_out(const Problem& problem, const TiledContac
     extremes[0] = std::max(extremes[0], contacts.x[b]), extremes[1] = std::max(extremes[1], -contacts.x[b]);
     extremes[2] = std::max(extremes[2], contacts.z[b]), extremes[3] = std::max(extremes[3], -contacts.z[b]);
   }
-  for (int a = 0; a < problem.contacts(); ++a)
-    if (W.j[a] != W.fixed())
-      extremes[4] = std::max({extremes[4], std::abs(contacts.x[W.i[a]] - contacts.x[W.j[a]]),
-                              std::abs(contacts.z[W.i[a]] - contacts.z[W.j[a]])});
+  double along_x = 0, along_z = 0;
+  for (int a = 0; a < problem.contacts(); ++a) {
+    const std::int32_t i = W.i[a], j = W.j[a] == W.fixed() ? i : W.j[a];
+    along_x = std::max(along_x, std::abs(contacts.x[i] - contacts.x[j]));
+    along_z = std::max(along_z, std::abs(contacts.z[i] - contacts.z[j]));
+  }
+  extremes[4] = std::max(along_x, along_z);
   ranks_.largest(extremes);
   grid_ = field_grid({-extremes[1], extremes[0], -extremes[3], extremes[2]}, contacts_of_all, extremes[4]);
   terms_ = 2 * contacts_of_all;
@@ -88,20 +109,12 @@ template <class Problem>
 template <class T>
 std::array<double, 2> TileCoarseLoads<Problem>::bounds(const TiledContacts& contacts,
                                                        const TileBlocks<T, dim, spin>& blocks) {
-  constexpr double rounding = 1.001;  // of terms in single precision
   std::array<double, 2> bounds{0, 0};
-  const auto& own = records_.template of<T>();
-  const auto size_of = [](const BodyRecord<T>& v) {
-    return static_cast<double>(v.x) * v.x + static_cast<double>(v.z) * v.z + 0.5 * v.s * v.s;
-  };
-  for (std::size_t b = 0; b < contacts.counts_here.size(); ++b) {
-    const BodyRecord<T>& body = blocks.bodies()[b];
-    if (!contacts.counts_here[b] || !(body.inverse_mass > 0)) continue;
-    bounds[0] = std::max(bounds[0], std::abs(static_cast<double>(own.at[b].s)));
-    // Hats are at most 1 and their slopes, too: m |V + S_x + S_z|^2 is below three times the sum of squares.
-    const double squares = size_of(body) + size_of(own.along_x[b]) + size_of(own.along_z[b]);
-    bounds[1] = std::max(bounds[1], rounding * 3 * squares / static_cast<double>(body.inverse_mass));
-  }
+  each_run(contacts, 0, contacts.counts_here.size(), [&](std::size_t begin, std::size_t count) {
+    const CoarseBounds of_run =
+        coarse_bounds(blocks.bodies().data(), records_.template of<T>().bodies(), begin, count);
+    bounds = {std::max(bounds[0], of_run.power), std::max(bounds[1], of_run.energy)};
+  });
   ranks_.largest(bounds);
   return bounds;
 }
@@ -121,21 +134,20 @@ std::vector<double> TileCoarseLoads<Problem>::add_up(const TiledContacts& contac
     auto& sum = sums[part];
     sum.assign(length, 0);
     const auto add = [&](const CoarseTerms<T>& terms, std::span<const int> cells) {
-      for (std::size_t b = 0; b < cells.size(); ++b)
-        each_coarse_term(
-            grid_, terms, b, cells[b],
-            [&](int node, int entry, T energy) { sum[numbers * node + entry] += energies.rounded(energy); },
-            [&](int node, T power) { sum[numbers * node + entries_of_node] += powers.rounded(power); });
+      const auto whole_energies = energies.rounded(terms.energies);
+      const auto whole_powers = powers.rounded(terms.powers);
+      for (std::size_t b = 0; b < cells.size(); ++b) {
+        for (std::size_t p = 0; p < terms.pairs.size(); ++p)
+          sum[numbers * grid_.corner(cells[b], terms.pairs[p].k) + terms.pairs[p].entry] +=
+              whole_energies[p][b];
+        for (int k = 0; k < 4; ++k)
+          sum[numbers * grid_.corner(cells[b], k) + entries_of_node] += whole_powers[k][b];
+      }
     };
     const std::size_t all = contacts.counts_here.size();
-    for (std::size_t begin = share(all, part), end = share(all, part + 1), last = begin; begin < end;
-         begin = last) {
-      last = begin + 1;  // bodies in a row that are all counted here, or all not
-      while (last < end && !contacts.counts_here[last] == !contacts.counts_here[begin]) ++last;
-      if (!contacts.counts_here[begin]) continue;
-      each_coarse_terms(grid_, blocks.bodies().data(), records_.template of<T>().bodies(), begin,
-                        last - begin, add);
-    }
+    each_run(contacts, share(all, part), share(all, part + 1), [&](std::size_t begin, std::size_t count) {
+      each_coarse_terms(grid_, blocks.bodies().data(), records_.template of<T>().bodies(), begin, count, add);
+    });
   });
   for (int part = 1; part < parts; ++part)
     for (std::size_t k = 0; k < length; ++k) sums[0][k] += sums[part][k];

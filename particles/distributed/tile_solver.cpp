@@ -60,8 +60,9 @@ template <class Problem>
 template <class T>
 double TileSolver<Problem>::summed_impulses(const TiledContacts& contacts, const Blocks<T>& blocks) {
   ExactSum impulses;
-  for (std::size_t b = 0; b < contacts.counts_here.size(); ++b)
-    if (contacts.counts_here[b]) impulses.add(blocks.impulse(static_cast<std::int32_t>(b)));
+  impulses.add_terms(contacts.counts_here.size(), [&](std::size_t b) {
+    return contacts.counts_here[b] ? blocks.impulse(static_cast<std::int32_t>(b)) : 0;
+  });
   ranks_.add(impulses.numbers());
   return impulses.value();
 }
@@ -119,8 +120,8 @@ ContactResidual TileSolver<Problem>::residual(const Problem& problem, const Tile
     sums[0].add(of_tile[t].squares), sums[1].add(q_squares[t]), sums[2].add(of_tile[t].let_through);
     all.add(of_tile[t]);
   }
-  for (std::size_t b = 0; b + 1 < state.size(); ++b)
-    if (contacts.counts_here[b]) sums[3].add(impulse_of(state[b]));
+  sums[3].add_terms(contacts.counts_here.size(),
+                    [&](std::size_t b) { return contacts.counts_here[b] ? impulse_of(state[b]) : 0; });
   const std::int64_t contacts_of_all = ranks_.add(sums, problem.contacts());
   ContactResidual residual;
   if (contacts_of_all == 0) return residual;

@@ -9,7 +9,11 @@ namespace drumlin::particles {
 inline constexpr int turns_ahead = 16;
 
 /// Asks for what stands at an address, without waiting for it. Changes nothing.
-inline void ask_for(const void* address) { __builtin_prefetch(address); }
+inline void ask_for(const void* address) {
+  __builtin_prefetch(address);
+  // Else g++ 12 sees no effect in a function that does nothing but ask, and leaves out its calls.
+  asm volatile("");
+}
 
 /// Asks for one entry of several lists.
 template <class... Lists>

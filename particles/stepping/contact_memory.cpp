@@ -87,10 +87,10 @@ void Recollection::find(const ContactMemory& memory, std::span<const Candidate> 
   });
 }
 
-void Recollection::find_added(const ContactMemory& memory, std::span<const Candidate> pairs,
-                              std::span<const std::int32_t> added) {
+void Recollection::find_added(const ContactMemory& memory, std::span<const std::int32_t> added,
+                              std::span<const Candidate> pairs_added) {
   open_gaps(place_, added.size(), [&](std::size_t k, std::size_t) { return added[k]; });
-  for (const std::int32_t a : added) place_[a] = place_of(memory, pairs[a]);
+  for (std::size_t k = 0; k < added.size(); ++k) place_[added[k]] = place_of(memory, pairs_added[k]);
 }
 
 RememberedLoads Recollection::loads(const ContactMemory& memory, int dim, double time_step) const {

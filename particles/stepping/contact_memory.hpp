@@ -46,8 +46,8 @@ class Recollection {
   /// Finds pairs; those that follow one another in the order of (i, j) without a search.
   void find(const ContactMemory&, std::span<const Candidate> pairs);
   /// The same for the pairs of the last call and more of them, at the places `added`, ascending.
-  void find_added(const ContactMemory&, std::span<const Candidate> pairs,
-                  std::span<const std::int32_t> added);
+  void find_added(const ContactMemory&, std::span<const std::int32_t> added,
+                  std::span<const Candidate> pairs_added);
   /// Normal impulses of the pairs that were looked for, for a step of length `time_step`.
   RememberedLoads loads(const ContactMemory&, int dim, double time_step) const;
   /// The same of some pairs alone, whether they were looked for or not.

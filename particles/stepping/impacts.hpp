@@ -31,10 +31,11 @@ struct StruckGrain {
 /// Picks out the pairs of struck grains; keeps workspace only.
 class StruckPairs {
  public:
-  /// Sets `selected` to the pairs, in their order, of which place_of(struck) gives one side; -1: none.
-  template <class Struck, class Place>
-  void select(std::size_t bodies, std::span<const Candidate> pairs, std::span<const Struck> struck,
-              Place place_of, std::vector<Candidate>& selected) {
+  /// Sets `selected` to the pairs pair(0), pair(1), ..., of `count`, in their order, of which
+  /// place_of(struck) gives one side; -1: none.
+  template <class Struck, class Place, class Pair>
+  void select(std::size_t bodies, std::span<const Struck> struck, Place place_of, std::size_t count,
+              Pair pair, std::vector<Candidate>& selected) {
     is_struck_.resize(bodies, 0);
     const auto mark = [&](char value) {
       for (const Struck& grain : struck)
@@ -42,8 +43,10 @@ class StruckPairs {
     };
     mark(1);
     selected.clear();
-    for (const Candidate& pair : pairs)
-      if (is_struck_[pair.i] | (pair.j >= 0 ? is_struck_[pair.j] : 0)) selected.push_back(pair);
+    for (std::size_t k = 0; k < count; ++k) {
+      const Candidate& found = pair(k);
+      if (is_struck_[found.i] | (found.j >= 0 ? is_struck_[found.j] : 0)) selected.push_back(found);
+    }
     mark(0);
   }
 

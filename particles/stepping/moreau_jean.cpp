@@ -216,18 +216,20 @@ class MoreauJean final : public Stepper {
 
   /// Finds the pairs in the memory that a search around grains has added.
   void recollect_more(const ContactMemory& memory) {
-    if (detection_.added().empty())
-      recollection_.find(memory, detection_.candidates());
-    else
-      recollection_.find_added(memory, detection_.candidates(), detection_.added());
+    const auto found = detection_.candidates();
+    if (detection_.added().empty()) return recollection_.find(memory, found);
+    std::vector<Candidate> added;
+    for (const std::int32_t a : detection_.added()) added.push_back(found[a]);
+    recollection_.find_added(memory, detection_.added(), added);
   }
 
   /// Whether any pair meets now, after impacts and another search: only one of a grain that they struck can.
   bool strikes_again(const StepInput& step, const MovingState& state) {
     if (!step.driven.empty()) return true;  // walls have been struck too
+    const auto found = detection_.candidates();
     struck_pairs_.select(
-        step.bodies.count(), detection_.candidates(), impacts_.struck(),
-        [](const StruckGrain& struck) { return struck.grain; }, struck_contacts_.pairs);
+        step.bodies.count(), impacts_.struck(), [](const StruckGrain& struck) { return struck.grain; },
+        found.size(), [&](std::size_t a) -> const Candidate& { return found[a]; }, struck_contacts_.pairs);
     sweep_normals(step, struck_contacts_.pairs);
     const auto loads = recollection_.loads_of(struck_contacts_.pairs, state.memory, dim, step.time_step);
     return impacts_.any(step, loads, struck_contacts_);

@@ -72,14 +72,15 @@ TEST(ContactMemory, FindsPairsThatAreAdded) {
   const ContactMemory memory = remembered(before, 0.5);
   std::vector<Candidate> first;
   std::vector<std::int32_t> added;
+  std::vector<Candidate> pairs_added;
   for (std::size_t a = 0; a < now.size(); ++a)
     if (a % 7 == 3 || a + 1 == now.size())
-      added.push_back(static_cast<std::int32_t>(a));
+      added.push_back(static_cast<std::int32_t>(a)), pairs_added.push_back(now[a]);
     else
       first.push_back(now[a]);
   Recollection recollection;
   recollection.find(memory, first);
-  recollection.find_added(memory, now, added);
+  recollection.find_added(memory, added, pairs_added);
   expect_loads(now, before, recollection.loads(memory, 2, 1));
 }
 

@@ -46,6 +46,34 @@ TEST(ExactSum, KeepsWhatLargeTermsWouldSwallow) {
   EXPECT_EQ(sum_of({1.5, 2.25, -0.75}), 3);
 }
 
+double sum_of_many(const std::vector<double>& terms) {
+  ExactSum sum;
+  sum.add_terms(terms.size(), [&](std::size_t k) { return terms[k]; });
+  return sum.value();
+}
+
+TEST(ExactSum, OfManyTermsIsThatOfEach) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::vector<double> terms = terms_of_all_sizes();
+  for (double& term : terms) term = std::abs(term);
+  std::mt19937_64 random(3);
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_EQ(sum_of_many(terms), sum_of(terms));
+    for (const double more : {0.0, 0x1p127, 0x1.fffffffffffffp127, 0x1p-287, 0x1p-300, 0x1p-1070})
+      terms.insert(terms.end(), 2, more);
+    std::shuffle(terms.begin(), terms.end(), random);
+  }
+  // The largest digits at each place, more of them than one sum of integers takes.
+  for (int place = -60; place < 10; ++place) {
+    const std::vector<double> alike(5000, std::ldexp(0x1.fffffffffffffp0, place));
+    EXPECT_EQ(sum_of_many(alike), std::ldexp(0x1.fffffffffffffp0 * 5000, place)) << place;
+    EXPECT_EQ(sum_of_many(alike), sum_of(alike)) << place;
+  }
+  EXPECT_EQ(sum_of_many({}), 0);
+  EXPECT_TRUE(std::isnan(sum_of_many({1, infinity, 2})));
+  EXPECT_TRUE(std::isnan(sum_of_many({0x1p128})));
+}
+
 // One part in 2^52 of what is added: the sum itself is exact, only its value is rounded.
 TEST(ExactSum, IsTheSumOfLongDoubles) {
   const std::vector<double> terms = terms_of_all_sizes();
