@@ -228,6 +228,11 @@ GrainOutside Forest::place(std::span<const RankGrain> grains) {
   return {};
 }
 
+void Forest::clear() {
+  if (library_) library_->handler.clear_particles();
+  owned_ = {}, ghosts_ = {};
+}
+
 GrainOutside Forest::move(std::span<const RankGrain> grains) {
   if (!library_) return keep_all(grains);
   Library& lib = *library_;

@@ -48,6 +48,8 @@ class Forest {
   /// Sends each grain to the rank that owns its tile. Returns the first of all that lies outside of the grid;
   /// the forest must then not be used.
   GrainOutside place(std::span<const RankGrain> grains);
+  /// Holds no grains any more, until place().
+  void clear();
   /// Gives the grains of take_owned(), in that order, new places and velocities, and sends those that have
   /// left the rank to their new owners. Returns as place().
   GrainOutside move(std::span<const RankGrain> grains);

@@ -20,6 +20,8 @@ constexpr double most_share = 1.1;
 // One that was made before any contact was known, as at the start from another run, is weighed again soon.
 constexpr std::int64_t steps_without_contacts = 3;
 constexpr double most_share_without_contacts = 1.01;
+// Cells change back and forth with the fastest grain: so many forests of other cells wait for that.
+constexpr std::size_t most_earlier = 2;
 // Of that work: sweeps are that of contacts, most else that of grains.
 constexpr std::int64_t of_a_grain = 10, of_a_loaded_contact = 10;
 
@@ -29,14 +31,14 @@ RankGrains::Need RankGrains::need_of(const RankState& state, const WallStep& wal
                                      Point gain) const {
   Extremes extremes;
   double drift = 0, outside = 0;
-  const bool sorted = forest_ != nullptr;  // since then the grains stand as they were sorted
+  const bool sorted = now_.forest != nullptr;  // since then the grains stand as they were sorted
   for (std::size_t k = 0; k < state.grains.size(); ++k) {
     const RankGrain& g = state.grains[k];
     extremes.add(g.v_x + gain.x, g.v_z + gain.z);
     if (!sorted) continue;
     const double x = g.x - sorted_at_[k].x, z = g.z - sorted_at_[k].z;
     drift = std::max(drift, x * x + z * z);
-    if (!forest_->tiles().grid.contains({g.x, g.z})) outside = 1;
+    if (!now_.forest->tiles().grid.contains({g.x, g.z})) outside = 1;
   }
   std::array<double, 7> all{extremes.right,   extremes.left, extremes.up, extremes.down,
                             extremes.squares, drift,         outside};
@@ -66,17 +68,19 @@ Reach RankGrains::reach_of(const Extremes& extremes, const WallStep& walls, doub
   return {domain_.largest, margin_, 2 * time_step * approach, time_step * (speed + wall)};
 }
 
-bool RankGrains::still_sorted() const { return drift_ <= most_drift(reach_, forest_->tiles().grid.cell); }
+bool RankGrains::still_sorted() const { return drift_ <= most_drift(reach_, now_.forest->tiles().grid.cell); }
 
 void RankGrains::refuse(const GrainOutside& outside) const {
   if (outside.id < 0) return;
   throw NotConvergedError(fmt::format(
       "grain {} is lost: it left the domain of the ranks (x from {:.6g} d to {:.6g} d, z from {:.6g} d to "
       "{:.6g} d), or jumped over a whole cell of {:.3g} d within a step; it is at x = {:.6g} d, z = {:.6g} d",
-      outside.id, domain_.low.x, domain_.low.x + forest_->tiles().grid.edge(), domain_.low.z,
-      domain_.low.z + forest_->tiles().grid.edge(), forest_->tiles().grid.cell, outside.x, outside.z));
+      outside.id, domain_.low.x, domain_.low.x + now_.forest->tiles().grid.edge(), domain_.low.z,
+      domain_.low.z + now_.forest->tiles().grid.edge(), now_.forest->tiles().grid.cell, outside.x,
+      outside.z));
 }
 
+/// Makes a forest for a grid, by the weights of now.
 void RankGrains::build(RankState& state, const TileGrid& grid) {
   std::vector<std::int64_t> weights(grid.count(), 0);
   if (ranks_.count() > 1) {
@@ -84,18 +88,36 @@ void RankGrains::build(RankState& state, const TileGrid& grid) {
     for (const RememberedContact& c : state.memory) weights[grid.tile_at({c.x, c.z})] += of_a_loaded_contact;
     ranks_.add(weights);
   }
-  knows_contacts_ = ranks_.any(!state.memory.empty());
   for (std::int64_t& weight : weights) ++weight;
-  forest_.reset();
-  forest_ = std::make_unique<Forest>(ranks_, grid, weights);
+  now_ = {};
+  now_ = {std::make_unique<Forest>(ranks_, grid, weights), ranks_.any(!state.memory.empty()), 0};
   ++forests_;
-  steps_ = 0;
-  refuse(forest_->place(state.grains));
+  refuse(now_.forest->place(state.grains));
+}
+
+/// The same with a forest that was made for this grid before, if there is one.
+void RankGrains::change_forest(RankState& state, const TileGrid& grid) {
+  const auto found = std::find_if(earlier_.begin(), earlier_.end(),
+                                  [&](const Made& made) { return made.forest->tiles().grid == grid; });
+  Made next;
+  if (found != earlier_.end()) {
+    next = std::move(*found);
+    earlier_.erase(found);
+  }
+  if (now_.forest) {
+    now_.forest->clear();
+    earlier_.insert(earlier_.begin(), std::move(now_));
+    if (earlier_.size() > most_earlier) earlier_.pop_back();
+  }
+  if (!next.forest) return build(state, grid);
+  now_ = std::move(next);
+  refuse(now_.forest->place(state.grains));
 }
 
 bool RankGrains::unbalanced(const RankState& state) const {
-  const bool soon = !knows_contacts_ && steps_ == steps_without_contacts;
-  if (ranks_.count() == 1 || (!soon && (steps_ < steps_between || steps_ % steps_between != 0))) return false;
+  const bool soon = !now_.knows_contacts && now_.steps == steps_without_contacts;
+  if (ranks_.count() == 1 || (!soon && (now_.steps < steps_between || now_.steps % steps_between != 0)))
+    return false;
   if (soon && !ranks_.any(!state.memory.empty())) return false;
   std::array<std::int64_t, 1> all{of_a_grain * static_cast<std::int64_t>(state.grains.size()) +
                                   of_a_loaded_contact * static_cast<std::int64_t>(state.memory.size())};
@@ -106,35 +128,40 @@ bool RankGrains::unbalanced(const RankState& state) const {
          (soon ? most_share_without_contacts : most_share) * static_cast<double>(all[0]);
 }
 
-void RankGrains::sort(RankState& state) { refuse(forest_->move(state.grains)); }
+void RankGrains::sort(RankState& state) { refuse(now_.forest->move(state.grains)); }
 
 void RankGrains::settle(RankState& state, const WallStep& walls, double time_step, Point gain) {
   const Need need = need_of(state, walls, time_step, gain);
   drift_ = need.drift;
   reach_ = need.reach;
   const TileGrid grid = tile_grid(domain_.low, domain_.edge, need.reach);
-  const bool anew = !forest_ || !(forest_->tiles().grid == grid) || unbalanced(state);
-  ++steps_;
-  if (!anew && !need.outside && still_sorted()) {
+  const bool other_grid = !now_.forest || !(now_.forest->tiles().grid == grid);
+  const bool uneven = !other_grid && unbalanced(state);
+  ++now_.steps;
+  if (!other_grid && !uneven && !need.outside && still_sorted()) {
     follow(state);
     bring_memory(state);
     return;
   }
-  if (anew)
+  if (other_grid) {
+    change_forest(state, grid);
+  } else if (uneven) {
+    earlier_.clear();  // their shares are no more even
     build(state, grid);
-  else
+  } else {
     sort(state);
+  }
   take_sorted(state);
 }
 
 bool RankGrains::settle_again(RankState& state, const WallStep& walls, double time_step, Point gain) {
   reach_ = reach_again(walls, time_step, gain);
-  const bool fits = least_cell(reach_) <= forest_->tiles().grid.needed_cell();
+  const bool fits = least_cell(reach_) <= now_.forest->tiles().grid.needed_cell();
   if (fits && still_sorted()) return false;
   if (fits)
     sort(state);
   else
-    build(state, tile_grid(domain_.low, domain_.edge, reach_));
+    change_forest(state, tile_grid(domain_.low, domain_.edge, reach_));
   take_sorted(state);
   return true;
 }
@@ -142,7 +169,7 @@ bool RankGrains::settle_again(RankState& state, const WallStep& walls, double ti
 void RankGrains::take_sorted(RankState& state) {
   ++sorts_;
   drift_ = 0;
-  state.grains = forest_->take_owned();
+  state.grains = now_.forest->take_owned();
   sorted_at_.clear();
   for (const RankGrain& grain : state.grains) sorted_at_.push_back({grain.x, grain.z});
   see(state);
@@ -153,7 +180,7 @@ void RankGrains::take_sorted(RankState& state) {
 /// Seen grains stand in the order of their identities.
 void RankGrains::see(const RankState& state) {
   const auto own = static_cast<std::int32_t>(state.grains.size());
-  const auto& ghosts = forest_->ghosts();
+  const auto& ghosts = now_.forest->ghosts();
   const std::size_t count = own + ghosts.size();
   place_of_.assign(domain_.grains, -1);
   for (std::int32_t k = 0; k < own; ++k) place_of_[state.grains[k].id] = k;
@@ -232,7 +259,7 @@ std::size_t RankGrains::pass_memory_on(std::vector<RememberedContact>& memory) c
   const auto rank = static_cast<std::size_t>(ranks_.rank());
   std::vector<std::vector<RememberedContact>> to_rank(ranks_.count());
   std::erase_if(memory, [&](const RememberedContact& contact) {
-    const auto owner = static_cast<std::size_t>(forest_->tiles().owner_at({contact.x, contact.z}));
+    const auto owner = static_cast<std::size_t>(now_.forest->tiles().owner_at({contact.x, contact.z}));
     if (owner != rank) to_rank[owner].push_back(contact);
     return owner != rank;
   });

@@ -29,11 +29,12 @@ class RankGrains {
 
   SeenGrains& seen() { return seen_; }
   const SeenGrains& seen() const { return seen_; }
-  const TileMap& tiles() const { return forest_->tiles(); }
+  const TileMap& tiles() const { return now_.forest->tiles(); }
   /// What the last call of settle() or settle_again() asked for: the same on all ranks, however often grains
   /// were sorted.
   const Reach& reach() const { return reach_; }
-  std::size_t ghosts() const { return forest_->ghosts().size(); }
+  std::size_t ghosts() const { return now_.forest->ghosts().size(); }
+  /// Made so far.
   std::int64_t forests() const { return forests_; }
   /// Steps in which grains were sorted into the cells.
   std::int64_t sorts() const { return sorts_; }
@@ -47,6 +48,12 @@ class RankGrains {
   void release_memory() { memory_ = {}; }
 
  private:
+  /// A forest and how it was made.
+  struct Made {
+    std::unique_ptr<Forest> forest;
+    bool knows_contacts = false;  ///< by its weights
+    std::int64_t steps = 0;       ///< in which it was used
+  };
   /// What a step asks of the forest.
   struct Need {
     Reach reach;
@@ -75,6 +82,7 @@ class RankGrains {
   /// Whether the cells still hold what a rank must see.
   bool still_sorted() const;
   void build(RankState&, const TileGrid&);
+  void change_forest(RankState&, const TileGrid&);
   void sort(RankState&);
   bool unbalanced(const RankState&) const;
   void take_sorted(RankState&);
@@ -91,7 +99,8 @@ class RankGrains {
   bool with_spin_;
   int unknowns_;  // per contact
   double margin_;
-  std::unique_ptr<Forest> forest_;
+  Made now_;
+  std::vector<Made> earlier_;  // for other grids, the last ones first; they hold no grains
   Reach reach_;
   double drift_ = 0;  // the furthest way of a grain of any rank since they were sorted
   SeenGrains seen_;
@@ -101,8 +110,7 @@ class RankGrains {
   std::vector<std::vector<Shown>> to_show_;
   std::vector<std::int32_t> place_of_;
   ContactMemory memory_;
-  bool knows_contacts_ = false;                       // the weights of the forest
-  std::int64_t forests_ = 0, sorts_ = 0, steps_ = 0;  // steps since the forest was made
+  std::int64_t forests_ = 0, sorts_ = 0;
 };
 
 }  // namespace drumlin::particles

@@ -164,6 +164,20 @@ TEST(Forest, FollowsGrainsThatMove) {
   }
 }
 
+TEST(Forest, TakesGrainsAgainAfterItHadNone) {
+  const Ranks ranks;
+  auto all = scattered(300);
+  Forest forest(ranks, grid, weights_of(true));
+  ASSERT_EQ(forest.place(share_of(all, ranks)).id, -1);
+  const std::vector<RankGrain> own = forest.take_owned();
+  forest.clear();
+  EXPECT_TRUE(forest.ghosts().empty());
+  for (RankGrain& grain : all)
+    std::swap(grain.v_x, grain.v_z), grain.x = 2 * grid.origin.x + grid.edge() - grain.x;
+  ASSERT_EQ(forest.place(share_of(all, ranks)).id, -1);
+  expect_everybody(forest, forest.take_owned(), all);
+}
+
 TEST(Forest, NamesTheFirstGrainThatLeaves) {
   const Ranks ranks;
   // Cells around the grid do not count, nor does what has no cell.
