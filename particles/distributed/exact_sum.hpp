@@ -16,7 +16,8 @@ namespace drumlin::particles {
 class ExactSum {
  public:
   void add(double term);
-  /// Terms that are not negative: term(0), ..., term(count - 1), much faster where they are of like size.
+  /// Adds term(0), ..., term(count - 1), none of them negative: faster than one by one where they are of like
+  /// size. A negative one counts as no number.
   template <class Term>
   void add_terms(std::size_t count, Term term);
   void add(const ExactSum& more);
@@ -37,7 +38,7 @@ class ExactSum {
     std::uint64_t digits = 0;
     int place = 0;
   };
-  /// Of a positive term below 2^128; no digits where all are below the lowest place.
+  /// Of a term from 0 to below 2^128; no digits where all are below the lowest place.
   static Digits digits_of(double term);
   /// Adds a number from a limb on, as one term.
   void add_from(int limb, Wide number);
@@ -81,14 +82,14 @@ void ExactSum::add_terms(std::size_t count, Term term) {
   for (std::size_t begin = 0; begin < count; begin += most_at_once) {
     const std::size_t end = std::min(count, begin + most_at_once);
     Wide sum = 0;
-    int limb = 0;  // where it begins
+    int limb = 0;  // where `sum` begins
     for (std::size_t k = begin; k < end; ++k) {
       const double t = term(k);
-      if (!(t < 0x1p128)) {
+      if (!(t >= 0 && t < 0x1p128)) {
         ++numbers_[limbs];
         continue;
       }
-      const auto [digits, place] = digits_of(t);
+      const auto [digits, place] = digits_of(std::abs(t));  // of -0, too
       if (const int shift = place - 32 * limb; shift < 0 || shift > most_shift) {
         if (digits == 0) continue;
         add_from(limb, std::exchange(sum, 0));

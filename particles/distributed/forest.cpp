@@ -179,9 +179,13 @@ GrainOutside Forest::keep_all(std::span<const RankGrain> grains) {
   GrainOutside outside;
   std::vector<std::int32_t> tile(grains.size()), next(tiles_.grid.count() + 1, 0);
   for (std::size_t k = 0; k < grains.size(); ++k) {
-    const auto& [id, x, z, v_x, v_z, spin, radius, inverse_mass] = grains[k];
-    if (!tiles_.grid.contains({x, z}) && (outside.id < 0 || id < outside.id)) outside = {id, x, z};
-    tile[k] = tiles_.grid.tile_at({x, z});
+    const RankGrain& grain = grains[k];
+    const Point place{grain.x, grain.z};
+    if (!tiles_.grid.contains(place)) {
+      if (outside.id < 0 || grain.id < outside.id) outside = {grain.id, grain.x, grain.z};
+      continue;
+    }
+    tile[k] = tiles_.grid.tile_at(place);
     ++next[tile[k] + 1];
   }
   if (outside.id >= 0) return outside;

@@ -12,6 +12,7 @@
 
 #include "particles/distributed/ranks.hpp"
 #include "particles/distributed/tiles.hpp"
+#include "particles/parallel/ask_ahead.hpp"
 
 namespace drumlin::particles {
 
@@ -21,19 +22,26 @@ struct RankGrain {
   double x = 0, z = 0, v_x = 0, v_z = 0, spin = 0, radius = 0, inverse_mass = 0;
 };
 
+/// Asks for all of a grain, if it is one of them (particles/parallel/ask_ahead.hpp).
+inline void ask_for_grain(std::span<const RankGrain> grains, std::int32_t place) {
+  if (place < 0) return;
+  ask_for(&grains[place]), ask_for(&grains[place].inverse_mass);
+}
+
 /// A grain that another rank owns.
 struct GhostRecord {
   RankGrain grain;
   std::int32_t owner = 0;
 };
 
-/// A grain that was found in no cell near the one that it left.
+/// A grain outside of the grid or, with more ranks than one, in no cell near the one that it left.
 struct GrainOutside {
   std::int64_t id = -1;  ///< -1: none
   double x = 0, z = 0;
 };
 
-/// One rank has all tiles and all grains, without that library.
+/// The cells of all ranks, who owns which tile, and the grains in them. On one rank all are its own, and
+/// deal.II is not used.
 class Forest {
  public:
   /// Cuts the grid among the ranks along a space-filling curve, squares of 2 x 2 cells whole, by the weights

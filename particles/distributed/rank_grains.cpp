@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "coupling/common/errors.hpp"
@@ -47,7 +48,6 @@ RankGrains::Need RankGrains::need_of(const RankState& state, const WallStep& wal
           all[6] > 0};
 }
 
-/// Of the velocities that the seen grains have now.
 Reach RankGrains::reach_again(const WallStep& walls, double time_step, Point gain) const {
   Extremes extremes;
   const Bodies& bodies = seen_.bodies;
@@ -72,12 +72,15 @@ bool RankGrains::still_sorted() const { return drift_ <= most_drift(reach_, now_
 
 void RankGrains::refuse(const GrainOutside& outside) const {
   if (outside.id < 0) return;
+  const TileGrid& grid = now_.forest->tiles().grid;
+  const std::string jumped =
+      ranks_.count() == 1 ? ""
+                          : fmt::format(", or jumped over a whole cell of {:.3g} d within a step", grid.cell);
   throw NotConvergedError(fmt::format(
       "grain {} is lost: it left the domain of the ranks (x from {:.6g} d to {:.6g} d, z from {:.6g} d to "
-      "{:.6g} d), or jumped over a whole cell of {:.3g} d within a step; it is at x = {:.6g} d, z = {:.6g} d",
-      outside.id, domain_.low.x, domain_.low.x + now_.forest->tiles().grid.edge(), domain_.low.z,
-      domain_.low.z + now_.forest->tiles().grid.edge(), now_.forest->tiles().grid.cell, outside.x,
-      outside.z));
+      "{:.6g} d){}; it is at x = {:.6g} d, z = {:.6g} d",
+      outside.id, domain_.low.x, domain_.low.x + grid.edge(), domain_.low.z, domain_.low.z + grid.edge(),
+      jumped, outside.x, outside.z));
 }
 
 /// Makes a forest for a grid, by the weights of now.
@@ -233,10 +236,7 @@ void RankGrains::follow(const RankState& state) {
     if (with_spin_) bodies.spin[b] = grain.spin;
   };
   for (std::size_t b = 0; b < seen_.place.size(); ++b) {
-    if (b + turns_ahead < seen_.place.size()) {
-      const RankGrain* const later = state.grains.data() + std::max(seen_.place[b + turns_ahead], 0);
-      ask_for(later), ask_for(&later->inverse_mass);
-    }
+    if (b + turns_ahead < seen_.place.size()) ask_for_grain(state.grains, seen_.place[b + turns_ahead]);
     if (seen_.place[b] >= 0) set(b, state.grains[seen_.place[b]]);
   }
   if (ranks_.count() == 1) return;

@@ -60,7 +60,8 @@ class RankGrains {
     double drift = 0;      ///< the furthest way of a grain since they were sorted
     bool outside = false;  ///< a grain has left the grid
   };
-  /// Velocities with what forces add to them, along x, -x, z and -z, and the square of the largest speed.
+  /// The largest velocities, with what forces add to them, along x, -x, z and -z, and the square of the
+  /// largest speed.
   struct Extremes {
     static constexpr double none = -1e300;
     double right = none, left = none, up = none, down = none, squares = 0;
@@ -76,7 +77,7 @@ class RankGrains {
   };
 
   Need need_of(const RankState&, const WallStep&, double time_step, Point gain) const;
-  /// The same of the velocities that seen grains have by now; nobody has moved since.
+  /// The reach of the velocities that seen grains have by now; nobody has moved since settle().
   Reach reach_again(const WallStep&, double time_step, Point gain) const;
   Reach reach_of(const Extremes& of_all, const WallStep&, double time_step) const;
   /// Whether the cells still hold what a rank must see.

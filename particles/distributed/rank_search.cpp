@@ -75,7 +75,7 @@ void RankSearch::search(const Step& step) {
   find_homes(grains_.seen(), detection_.candidates(), grains_.tiles(), ranks_.rank(), homed_);
   take_mine();
   recollection_.find(grains_.memory(), mine_.pairs);
-  took_mine_ = true;
+  mine_is_fresh_ = true;
 }
 
 void RankSearch::search_around(const Round& round, const Step& step) {
@@ -91,9 +91,9 @@ void RankSearch::search_around(const Round& round, const Step& step) {
   if (detection_.add_around(thrown_, seen.bodies, free_.x, free_.z, input(step)))
     added = find_homes_of_added(seen, detection_.candidates(), detection_.added(), grains_.tiles(),
                                 ranks_.rank(), homed_);
-  took_mine_ = false;
+  mine_is_fresh_ = false;
   std::vector<Candidate> pairs_added;
-  for (const std::int32_t m : added) pairs_added.push_back(mine(m));
+  for (const std::int32_t m : added) pairs_added.push_back(detection_.candidates()[homed_.mine[m]]);
   recollection_.find_added(grains_.memory(), added, pairs_added);
 }
 
@@ -125,15 +125,14 @@ bool RankSearch::is_local(std::span<const ThrownRecord> thrown) const {
 
 void RankSearch::take_mine() {
   resize_closely(mine_.pairs, homed_.mine.size());
-  for (std::size_t m = 0; m < homed_.mine.size(); ++m) mine_.pairs[m] = mine(m);
+  const auto found = detection_.candidates();
+  for (std::size_t m = 0; m < homed_.mine.size(); ++m) mine_.pairs[m] = found[homed_.mine[m]];
 }
-
-const Candidate& RankSearch::mine(std::size_t m) const { return detection_.candidates()[homed_.mine[m]]; }
 
 std::vector<StruckRecord> RankSearch::strike(const Step& step) {
   Bodies& seen = grains_.seen().bodies;
   const StepInput all{laws_, seen, step.walls, {}, free_, step.time_step};
-  if (!std::exchange(took_mine_, false)) take_mine();
+  if (!std::exchange(mine_is_fresh_, false)) take_mine();
   sweep_normals(all, mine_.pairs);
   const auto loads = recollection_.loads(grains_.memory(), unknowns_, step.time_step);
   const TileGrid& grid = grains_.tiles().grid;
@@ -143,9 +142,11 @@ std::vector<StruckRecord> RankSearch::strike(const Step& step) {
 
 bool RankSearch::strikes_again(std::span<const StruckRecord> struck, const Step& step) {
   const Bodies& seen = grains_.seen().bodies;
+  const auto found = detection_.candidates();
   struck_pairs_.select(
       seen.count(), struck, [&](const StruckRecord& grain) { return grains_.place_of(grain.id); },
-      homed_.mine.size(), [&](std::size_t m) -> const Candidate& { return mine(m); }, struck_contacts_.pairs);
+      homed_.mine.size(), [&](std::size_t m) -> const Candidate& { return found[homed_.mine[m]]; },
+      struck_contacts_.pairs);
   const StepInput all{laws_, seen, step.walls, {}, free_, step.time_step};
   sweep_normals(all, struck_contacts_.pairs);
   const auto loads =

@@ -69,9 +69,7 @@ class RankSearch {
   void search_as_before(const Step&);
   /// Whether to look around the thrown grains alone: the same answer on all ranks.
   bool is_local(std::span<const ThrownRecord>) const;
-  /// A pair of this rank, by its place in the order in which they are found.
-  const Candidate& mine(std::size_t m) const;
-  /// Copies them.
+  /// Copies the pairs of this rank to mine_, in the order in which they are found.
   void take_mine();
   /// The impacts among all pairs; those of this rank's tiles are its part.
   std::vector<StruckRecord> strike(const Step&);
@@ -102,7 +100,7 @@ class RankSearch {
   StepContacts struck_contacts_;  // pairs of struck grains
   HomedPairs homed_;              // of the candidates
   StepContacts mine_;             // those of this rank, with normals as impacts see them
-  bool took_mine_ = false;        // since they were found
+  bool mine_is_fresh_ = false;    // they are as the last search has left the candidates
 };
 
 }  // namespace drumlin::particles

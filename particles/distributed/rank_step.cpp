@@ -152,12 +152,11 @@ class RankMoreauJean final : public RankStepper {
   double waiting_seconds() const { return halo_.waiting_seconds() + Ranks::waiting_seconds(); }
 
   /// Asks for what the loop over used bodies needs some turns after body b.
-  void ask_for_grain(const std::vector<RankGrain>& grains, std::size_t b) const {
+  void ask_for_used(const std::vector<RankGrain>& grains, std::size_t b) const {
     const std::vector<std::int32_t>& place = grains_.seen().place;
     if (b + 2 * turns_ahead >= own_.used.size()) return;
     ask_for(&place[own_.used[b + 2 * turns_ahead]]);
-    const std::int32_t later = std::max(place[own_.used[b + turns_ahead]], 0);
-    ask_for(grains.data() + later), ask_for(&(grains.data() + later)->inverse_mass);
+    ask_for_grain(grains, place[own_.used[b + turns_ahead]]);
   }
 
   /// From here on the bodies are those that this rank's contacts touch, and its own.
@@ -170,10 +169,10 @@ class RankMoreauJean final : public RankStepper {
     if constexpr (with_spin) resize_closely(bodies_.spin, count);
     resize_closely(bodies_.id, count), resize_closely(counts_here_, count);
     for (std::size_t b = 0; b < count; ++b) {
-      ask_for_grain(state.grains, b);
+      ask_for_used(state.grains, b);
       const std::int32_t s = own_.used[b], place = seen.place[s];
       counts_here_[b] = place >= 0;
-      // Own grains have all in one place.
+      // Of an own grain the state has all numbers in one record.
       const RankGrain grain = place >= 0 ? state.grains[place] : record_of(seen.bodies, s);
       bodies_.x[b] = grain.x, bodies_.z[b] = grain.z;
       bodies_.v_x[b] = grain.v_x, bodies_.v_z[b] = grain.v_z;
@@ -269,7 +268,7 @@ class RankMoreauJean final : public RankStepper {
   void give_back(RankState& state) {
     const SeenGrains& seen = grains_.seen();
     for (std::size_t b = 0; b < own_.used.size(); ++b) {
-      ask_for_grain(state.grains, b);
+      ask_for_used(state.grains, b);
       const std::int32_t place = seen.place[own_.used[b]];
       if (place < 0) continue;
       RankGrain& grain = state.grains[place];

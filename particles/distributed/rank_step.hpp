@@ -18,7 +18,7 @@ namespace drumlin::particles {
 /// Impulses that a contact remembers: what the next step of its pair starts from.
 struct RememberedContact {
   std::int64_t i = 0, j = 0;  ///< identities; j < 0: wall shape -1 - j
-  double x = 0, z = 0;        ///< where the pair is; not set on one rank
+  double x = 0, z = 0;        ///< where the pair is; one rank alone does not use it
   std::array<double, 2> impulse{};
 };
 
@@ -59,7 +59,8 @@ class RankStepper {
  public:
   virtual ~RankStepper() = default;
   /// The report is the same on all ranks, its times aside; a lost grain is named by its identity. Throws
-  /// NotConvergedError on all ranks when a grain leaves the domain, or jumps over cells, and names it.
+  /// NotConvergedError on all ranks when a grain leaves the domain or, with more ranks than one, jumps over
+  /// cells, and names it.
   virtual StepReport advance(RankState& state, WallStep& walls, double time_step) = 0;
   /// On the first rank, called by all: loaded contacts of the last step. Gives memory back, as below.
   virtual std::vector<SnapshotContact> loaded_contacts() = 0;

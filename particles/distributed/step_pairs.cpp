@@ -187,8 +187,8 @@ void number_bodies(std::span<const std::int32_t> strip_of, RankPairs& own) {
   for (std::size_t a = 0; a < own.pairs.size(); ++a) {
     if (a + turns_ahead < own.pairs.size()) {
       const Candidate& later = own.pairs[a + turns_ahead];
-      ask_for_entry(later.i, own.in_used, strip_of),
-          ask_for_entry(std::max(later.j, 0), own.in_used, strip_of);
+      ask_for_entry(later.i, own.in_used, strip_of);
+      ask_for_entry(std::max(later.j, 0), own.in_used, strip_of);
     }
     Candidate& pair = own.pairs[a];
     pair.i = use(pair.i);

@@ -137,7 +137,8 @@ void terms(const BodyRecord<T>* bodies, const CoarseBodies<T>& coarse, const std
   }
 }
 
-/// Hats are at most 1 and their slopes, too: m |V + S_x + S_z|^2 is below three times the sum of squares.
+/// Bounds of what bodies add to a sum. Hats are at most 1 and their slopes, too: m |V + S_x + S_z|^2 is below
+/// three times the sum of squares.
 template <class T>
 CoarseBounds bounds(const BodyRecord<T>* bodies, const CoarseBodies<T>& coarse, std::size_t first,
                     std::size_t count) {
@@ -147,6 +148,8 @@ CoarseBounds bounds(const BodyRecord<T>* bodies, const CoarseBodies<T>& coarse, 
   const auto squares = [&](const BodyVectors<T>& v) HWY_ATTR {
     return hn::Add(hn::Add(hn::Mul(v.x, v.x), hn::Mul(v.z, v.z)), hn::Mul(half, hn::Mul(v.s, v.s)));
   };
+  // Where one is no number: the second.
+  const auto larger = [](V a, V b) HWY_ATTR { return hn::IfThenElse(hn::Gt(a, b), a, b); };
   V power = hn::Zero(d), energy = power;
   std::array<std::uint32_t, CoarseTerms<T>::width> places;
   for (std::size_t begin = 0; begin < count; begin += hn::Lanes(d)) {
@@ -159,8 +162,8 @@ CoarseBounds bounds(const BodyRecord<T>* bodies, const CoarseBodies<T>& coarse, 
     const V all = hn::Add(hn::Add(squares(v), squares(load_bodies(coarse.along_x, places.data()))),
                           squares(load_bodies(coarse.along_z, places.data())));
     const V of_power = hn::Abs(load_bodies(coarse.at, places.data()).s);
-    power = hn::Max(power, hn::IfThenElseZero(moves, of_power));
-    energy = hn::Max(energy, hn::Mul(mass, all));
+    power = larger(hn::IfThenElseZero(moves, of_power), power);
+    energy = larger(hn::Mul(mass, all), energy);
   }
   constexpr double rounding = 1.001;  // of terms in single precision
   const auto largest = [&](V of_lanes)

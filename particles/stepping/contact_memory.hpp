@@ -45,7 +45,8 @@ class Recollection {
   void use(WorkMemory* memory) { place_.use(memory); }
   /// Finds pairs; those that follow one another in the order of (i, j) without a search.
   void find(const ContactMemory&, std::span<const Candidate> pairs);
-  /// The same for the pairs of the last call and more of them, at the places `added`, ascending.
+  /// The same for the pairs of the last call and more of them, `pairs_added` at the places `added`,
+  /// ascending.
   void find_added(const ContactMemory&, std::span<const std::int32_t> added,
                   std::span<const Candidate> pairs_added);
   /// Normal impulses of the pairs that were looked for, for a step of length `time_step`.

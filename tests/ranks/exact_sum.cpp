@@ -70,6 +70,8 @@ TEST(ExactSum, OfManyTermsIsThatOfEach) {
     EXPECT_EQ(sum_of_many(alike), sum_of(alike)) << place;
   }
   EXPECT_EQ(sum_of_many({}), 0);
+  EXPECT_EQ(sum_of_many({-0.0, 3, -0.0}), 3);
+  EXPECT_TRUE(std::isnan(sum_of_many({3, -1})));
   EXPECT_TRUE(std::isnan(sum_of_many({1, infinity, 2})));
   EXPECT_TRUE(std::isnan(sum_of_many({0x1p128})));
 }
