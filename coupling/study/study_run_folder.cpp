@@ -1,7 +1,10 @@
 #include "coupling/study/study_run_folder.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <utility>
 
 #include "coupling/common/errors.hpp"
 #include "coupling/documents/document.hpp"
@@ -24,16 +27,26 @@ constexpr const char* compared_settings[] = {
     "linear_share",          "decay_window_below_H",   "bulk_margin",     "mu_fit_I",
     "mu_fit_surface_margin", "mu_fit_wall_margin"};
 
-/// A table without its empty lists: of a key that the run's program did not know yet, and of one that the
-/// scene does not use, the same is said.
-Node without_empty_lists(const Node& table) {
+/// Values that keys have where a scene does not name them: earlier programs did so, and did not know the
+/// keys.
+constexpr std::pair<const char*, const char*> later_defaults[] = {{"placement", "\"apart\""}};
+
+/// Whether an entry says no more than its absence.
+bool says_nothing(const Node::Entry& entry) {
+  if (const auto* list = std::get_if<Node::Array>(&entry.node.value)) return list->empty();
+  if (std::holds_alternative<Node::Table>(entry.node.value)) return false;
+  return std::any_of(std::begin(later_defaults), std::end(later_defaults), [&](const auto& later) {
+    return entry.key == later.first && toml_value(entry.node) == later.second;
+  });
+}
+
+/// A table without the keys that the run's program did not know yet, and those that the scene does not use.
+Node without_unused_keys(const Node& table) {
   const auto* entries = std::get_if<Node::Table>(&table.value);
   if (!entries) return table;
   Node::Table kept;
-  for (const Node::Entry& entry : *entries) {
-    const auto* list = std::get_if<Node::Array>(&entry.node.value);
-    if (!list || !list->empty()) kept.push_back({entry.key, without_empty_lists(entry.node)});
-  }
+  for (const Node::Entry& entry : *entries)
+    if (!says_nothing(entry)) kept.push_back({entry.key, without_unused_keys(entry.node)});
   return {kept, table.line, table.column};
 }
 
@@ -43,7 +56,7 @@ void add_scene(StudyRun& run, const fs::path& file) {
   if (!fs::exists(file)) return;
   const Document scene = read_toml(file);
   for (const char* part : {"grains", "effects"})
-    if (const Node* node = scene.root.find(part)) run.identity[part] = toml_text(without_empty_lists(*node));
+    if (const Node* node = scene.root.find(part)) run.identity[part] = toml_text(without_unused_keys(*node));
   if (const Node* solver = scene.root.find("solver"))
     if (const Node* tolerance = solver->find("tolerance"))
       run.numerics["solver.tolerance"] = toml_value(*tolerance);

@@ -6,8 +6,11 @@
 #include "apps/support/commands.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/common/text_file.hpp"
+#include "coupling/study/study_run_folder.hpp"
+#include "particles/scene/scene_file.hpp"
 #include "tests/exchange_files/folder.hpp"
 #include "tests/study/run_folders.hpp"
+#include "tests/support/data_folder.hpp"
 
 namespace drumlin::apps {
 using namespace coupling;
@@ -47,6 +50,23 @@ TEST(StudyCommand, LeavesStudyTablePageAndFiguresAndNamesAnUnsteadyRun) {
   EXPECT_FALSE(fs::exists(folder / "study/figures.pending"));
   EXPECT_THROW(study(options_for(folder, runs)), InputError) << "nothing is overwritten unasked";
   EXPECT_EQ(study(options_for(folder, runs, ExistingOutput::resume)), 0);
+}
+
+// Those of data/profiles stand beside a run of today in ./reproduce: a key that scenes have learnt since must
+// not part them.
+TEST(StudyCommand, TakesRunsOfEarlierProgramsBesideThoseOfNow) {
+  const TemporaryFolder folder;
+  int runs = 0;
+  for (const auto& entry : fs::directory_iterator(test::data_folder() / "profiles")) {
+    const fs::path now = folder / (entry.path().filename().string() + "-now");
+    fs::copy(entry.path(), now, fs::copy_options::recursive);
+    const std::string text = file_text(now / "scene.toml");
+    replace_file(now / "scene.toml", particles::scene_text(particles::parse_scene(text, "scene.toml")));
+    const StudyRun earlier = read_study_run(entry.path()), today = read_study_run(now);
+    EXPECT_NO_THROW(require_one_study({earlier, today})) << entry.path();
+    ++runs;
+  }
+  EXPECT_EQ(runs, 8);
 }
 
 TEST(StudyCommand, RefusesWhatIsNoMeasuredFinishedRun) {
