@@ -22,6 +22,7 @@
 #include "coupling/common/last_whole.hpp"
 #include "coupling/common/own_costs.hpp"
 #include "coupling/common/text_file.hpp"
+#include "particles/distributed/files_in_parts.hpp"
 #include "particles/distributed/rank_simulation.hpp"
 #include "particles/distributed/runs_on_ranks.hpp"
 #include "particles/io/checkpoint_file.hpp"
@@ -136,12 +137,15 @@ class RankRun {
     if (simulation_.snapshot_due()) save_snapshot();
   }
 
+  bool writes_in_parts() const { return ranks_.count() > 1 && simulation_.all_have_parts(); }
+
   void save_snapshot() {
     const auto begin = Clock::now();
-    const particles::Snapshot snapshot = simulation_.take_snapshot();
+    const particles::Snapshot part = simulation_.take_part_of_snapshot();
+    const std::string name = snapshot_name(simulation_.progress().snapshots);
+    if (writes_in_parts()) particles::write_snapshot_in_parts(ranks_, options_.output / name, part);
     ranks_.on_first([&] {
-      const std::string name = snapshot_name(simulation_.progress().snapshots);
-      particles::write_snapshot(options_.output / name, snapshot);
+      if (!writes_in_parts()) particles::write_snapshot(options_.output / name, part);
       output_->list(name);
     });
     totals_.output_seconds += seconds_between(begin, Clock::now());
@@ -151,15 +155,16 @@ class RankRun {
     const auto begin = Clock::now();
     particles::Checkpoint checkpoint;
     simulation_.release_memory();
-    checkpoint.state = simulation_.gathered_state();
+    checkpoint.state = simulation_.part_of_state();
     ranks_.on_first([&] {
       checkpoint.scene = resolved_;
       checkpoint.log_bytes = first_->log.flush();
       checkpoint.totals = totals_now();
       output_->manifest().files[log_name] = first_->log.entry();
       output_->save();
-      particles::keep_checkpoint(options_.output, checkpoint);
+      if (!writes_in_parts()) particles::keep_checkpoint(options_.output, checkpoint);
     });
+    if (writes_in_parts()) particles::keep_checkpoint_in_parts(ranks_, options_.output, checkpoint);
     next_checkpoint_s_ = simulated_seconds() + scene_.output.checkpoint_every_s;
     totals_.output_seconds += seconds_between(begin, Clock::now());
   }

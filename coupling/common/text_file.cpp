@@ -102,6 +102,11 @@ class FileAside {
     if (::fsync(descriptor_.number()) != 0) give_up(file_, "forced to the disk");
   }
 
+  /// Gives the older file another name, if there is one.
+  void keep(const fs::path& previous) const {
+    if (!rename(file_.filename(), previous.filename()) && errno != ENOENT) give_up(file_, "renamed");
+  }
+
   /// Renames within the folder.
   bool rename(const fs::path& from, const fs::path& to) const {
     return ::renameat(descriptor_.number(), from.c_str(), descriptor_.number(), to.c_str()) == 0;
@@ -125,7 +130,7 @@ void replace_file(const fs::path& file, std::string_view content) {
 void replace_file_keeping(const fs::path& file, const fs::path& previous, std::string_view content) {
   FileAside aside(file);
   aside.write(content);
-  if (!aside.rename(file.filename(), previous.filename()) && errno != ENOENT) give_up(file, "renamed");
+  aside.keep(previous);
   aside.take_the_place();
 }
 
@@ -142,6 +147,12 @@ const fs::path& FileInTheMaking::path() const { return aside_->place.path(); }
 
 void FileInTheMaking::take_the_place() {
   aside_->place.settle(aside_->content);
+  aside_->place.take_the_place();
+}
+
+void FileInTheMaking::take_the_place_keeping(const fs::path& previous) {
+  aside_->place.settle(aside_->content);
+  aside_->place.keep(previous);
   aside_->place.take_the_place();
 }
 

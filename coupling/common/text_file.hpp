@@ -35,6 +35,8 @@ class FileInTheMaking {
   const std::filesystem::path& path() const;
   /// Forces it to the disk and renames it. Throws IoError, the old file then being intact.
   void take_the_place();
+  /// The same, the older file staying under the name `previous`, in the same folder.
+  void take_the_place_keeping(const std::filesystem::path& previous);
 
  private:
   struct Aside;

@@ -4,6 +4,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -11,6 +12,7 @@
 #include <iterator>
 #include <limits>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "coupling/common/errors.hpp"
@@ -136,9 +138,9 @@ void write_rows(hid_t set, hid_t memory_type, const void* data, hsize_t first, h
         "write rows of a dataset");
 }
 
-/// `rows`: of a table, that `data` holds; all of them unless told.
-void put(hid_t file, const std::string& name, hid_t memory_type, hid_t file_type, const void* data,
-         std::initializer_list<hsize_t> shape, bool packed = false, hsize_t rows = all_rows) {
+/// A dataset of a type and shape, and the groups on the way to it.
+Id create_set(hid_t file, const std::string& name, hid_t file_type, std::initializer_list<hsize_t> shape,
+              bool packed) {
   const Id links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
   check(H5Pset_create_intermediate_group(links.get(), 1) >= 0, "create a group");
   const Id space(H5Screate_simple(static_cast<int>(shape.size()), std::data(shape), nullptr), H5Sclose);
@@ -146,10 +148,16 @@ void put(hid_t file, const std::string& name, hid_t memory_type, hid_t file_type
   const Id creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   check(H5Pset_obj_track_times(creation.get(), false) >= 0, "leave out times");
   if (packed) pack(creation.get(), shape);
-  const Id set(
-      H5Dcreate2(file, name.c_str(), file_type, space.get(), links.get(), creation.get(), H5P_DEFAULT),
-      H5Dclose);
-  check(set.valid(), "create a dataset");
+  const hid_t set =
+      H5Dcreate2(file, name.c_str(), file_type, space.get(), links.get(), creation.get(), H5P_DEFAULT);
+  check(set >= 0, "create a dataset");
+  return {set, H5Dclose};
+}
+
+/// `rows`: of a table, that `data` holds; all of them unless told.
+void put(hid_t file, const std::string& name, hid_t memory_type, hid_t file_type, const void* data,
+         std::initializer_list<hsize_t> shape, bool packed = false, hsize_t rows = all_rows) {
+  const Id set = create_set(file, name, file_type, shape, packed);
   if (std::find(shape.begin(), shape.end(), hsize_t{0}) != shape.end()) return;
   if (rows != all_rows)
     write_rows(set.get(), memory_type, data, 0, rows);
@@ -243,10 +251,61 @@ void H5FileWriter::add_rows(const std::string& name, std::size_t first_row, std:
   write_rows(set.get(), H5T_NATIVE_DOUBLE, values.data(), first_row, values.size() / shape[1]);
 }
 
-void H5FileWriter::save() {
-  check(handles_->file->end(), "write a file");
+namespace {
+
+template <class T>
+hid_t file_type_of() {
+  if constexpr (std::is_same_v<T, double>)
+    return H5T_IEEE_F64LE;
+  else if constexpr (std::is_same_v<T, float>)
+    return H5T_IEEE_F32LE;
+  else if constexpr (std::is_same_v<T, std::int32_t>)
+    return H5T_STD_I32LE;
+  else
+    return H5T_STD_I64LE;
+}
+
+}  // namespace
+
+template <class T>
+void H5FileWriter::begin_array(const std::string& name, std::size_t count) {
+  static_assert(std::endian::native == std::endian::little);
+  const Id set = create_set(handles_->file->get(), name, file_type_of<T>(), {count}, false);
+  places_.push_back(0);
+  if (count == 0) return;
+  // HDF5 finds room for an array when its first number is written.
+  const Id space(H5Dget_space(set.get()), H5Sclose);
+  const hsize_t start[] = {0}, one[] = {1};
+  const Id memory(H5Screate_simple(1, one, nullptr), H5Sclose);
+  const T zero{};
+  check(H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start, nullptr, one, nullptr) >= 0 &&
+            H5Dwrite(set.get(), file_type_of<T>(), memory.get(), space.get(), H5P_DEFAULT, &zero) >= 0,
+        "begin an array");
+  const haddr_t place = H5Dget_offset(set.get());
+  check(place != HADDR_UNDEF, "find room for an array");
+  places_.back() = place;
+}
+template void H5FileWriter::begin_array<double>(const std::string&, std::size_t);
+template void H5FileWriter::begin_array<float>(const std::string&, std::size_t);
+template void H5FileWriter::begin_array<std::int32_t>(const std::string&, std::size_t);
+template void H5FileWriter::begin_array<std::int64_t>(const std::string&, std::size_t);
+
+std::vector<std::uint64_t> H5FileWriter::end_content() {
+  if (!handles_->file->end()) throw IoError(aside_.path().string() + ": HDF5 could not write it");
+  return std::exchange(places_, {});
+}
+
+void H5FileWriter::close() {
+  if (handles_->file->valid()) (void)end_content();
   append_checksum(aside_.path());
+}
+void H5FileWriter::save() {
+  close();
   aside_.take_the_place();
+}
+void H5FileWriter::save_keeping(const std::filesystem::path& previous) {
+  close();
+  aside_.take_the_place_keeping(previous);
 }
 
 namespace {

@@ -64,11 +64,25 @@ class H5FileWriter : public H5Content {
   void begin_table(const std::string& name, std::span<const double> values, std::size_t rows,
                    std::size_t columns);
   void add_rows(const std::string& name, std::size_t first_row, std::span<const double> values);
+  /// An array of `count` numbers that others write into the file once end_content() has told them where. T:
+  /// double, float, std::int32_t or std::int64_t, low bytes first.
+  template <class T>
+  void begin_array(const std::string& name, std::size_t count);
+  /// Ends what HDF5 has to do. Returns where the arrays stand that were begun, in bytes from the beginning of
+  /// the file, in their order; 0 of an empty one.
+  std::vector<std::uint64_t> end_content();
+  /// The file as long as it is in the making.
+  const std::filesystem::path& aside() const { return aside_.path(); }
   /// Closes it by its checksum and puts it in its place. Nothing is added after it.
   void save();
+  /// The same, the older file staying under the name `previous`.
+  void save_keeping(const std::filesystem::path& previous);
 
  private:
+  void close();
+
   FileInTheMaking aside_;
+  std::vector<std::uint64_t> places_;  // of the arrays begun
 };
 
 /// An HDF5 file opened for reading. Every member throws InputError naming the file when something is missing

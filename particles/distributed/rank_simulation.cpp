@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "particles/distributed/exact_sum.hpp"
 #include "particles/distributed/step_pairs.hpp"
@@ -72,6 +73,7 @@ RankSimulation::RankSimulation(const Scene& scene, SimulationState state, const 
 }
 
 void RankSimulation::make_stepper(int threads, const Bodies& all) {
+  grains_ = static_cast<std::int64_t>(all.count());
   // The walls of the scene where it begins: a run that is continued has the same domain.
   const Walls first = walls_of(scene_, scales_);
   const Domain domain =
@@ -147,31 +149,119 @@ bool RankSimulation::snapshot_due() const {
   return std::binary_search(plan_.snapshot_steps.begin(), plan_.snapshot_steps.end(), state_.step);
 }
 
-Bodies RankSimulation::gathered_bodies() const {
-  const auto grains = ranks_.gather<RankGrain>(own_.grains);
+/// Room for so many grains, whose spins count.
+Bodies RankSimulation::empty_bodies(std::size_t grains) const {
   Bodies bodies;
   for (auto* values : {&bodies.x, &bodies.z, &bodies.v_x, &bodies.v_z, &bodies.radius, &bodies.inverse_mass})
-    values->resize(grains.size());
-  if (scene_.effects.spin) bodies.spin.resize(grains.size());
-  for (const RankGrain& g : grains) {
-    const auto b = static_cast<std::size_t>(g.id);
-    bodies.x[b] = g.x, bodies.z[b] = g.z, bodies.v_x[b] = g.v_x, bodies.v_z[b] = g.v_z;
-    bodies.radius[b] = g.radius, bodies.inverse_mass[b] = g.inverse_mass;
-    if (scene_.effects.spin) bodies.spin[b] = g.spin;
-  }
+    values->resize(grains);
+  if (scene_.effects.spin) bodies.spin.resize(grains);
   return bodies;
 }
 
-Snapshot RankSimulation::take_snapshot() {
+/// Identities begin with `first`.
+void RankSimulation::put(const RankGrain& g, std::int64_t first, Bodies& bodies) const {
+  const auto b = static_cast<std::size_t>(g.id - first);
+  bodies.x[b] = g.x, bodies.z[b] = g.z, bodies.v_x[b] = g.v_x, bodies.v_z[b] = g.v_z;
+  bodies.radius[b] = g.radius, bodies.inverse_mass[b] = g.inverse_mass;
+  if (scene_.effects.spin) bodies.spin[b] = g.spin;
+}
+
+Bodies RankSimulation::gathered_bodies() const {
+  const auto grains = ranks_.gather<RankGrain>(own_.grains);
+  Bodies bodies = empty_bodies(grains.size());
+  for (const RankGrain& g : grains) put(g, 0, bodies);
+  return bodies;
+}
+
+std::int64_t RankSimulation::first_of_part(int rank) const {
+  if (!all_have_parts()) return rank == 0 ? 0 : grains_;
+  return grains_ * rank / ranks_.count();
+}
+
+std::size_t RankSimulation::part_of(std::int64_t id) const {
+  if (!all_have_parts()) return 0;
+  return static_cast<std::size_t>(((id + 1) * ranks_.count() - 1) / grains_);
+}
+
+/// What each rank has sent to this one's part.
+template <class Item, class Id>
+std::vector<std::vector<Item>> RankSimulation::to_parts(std::span<const Item> items, Id id_of) const {
+  std::vector<std::vector<Item>> to_rank(ranks_.count());
+  for (const Item& item : items) to_rank[part_of(id_of(item))].push_back(item);
+  return ranks_.exchange(to_rank);
+}
+
+Bodies RankSimulation::bodies_of_part() const {
+  const std::int64_t first = first_of_part(ranks_.rank());
+  Bodies bodies = empty_bodies(static_cast<std::size_t>(first_of_part(ranks_.rank() + 1) - first));
+  for (const auto& of_rank : to_parts<RankGrain>(own_.grains, [](const RankGrain& g) { return g.id; }))
+    for (const RankGrain& grain : of_rank) put(grain, first, bodies);
+  return bodies;
+}
+
+std::vector<SnapshotContact> RankSimulation::contacts_of_part() {
+  std::vector<SnapshotContact> all;
+  const auto take = [&](const std::vector<SnapshotContact>& contacts) {
+    for (const auto& of_rank : to_parts<SnapshotContact>(
+             contacts, [](const SnapshotContact& contact) { return std::int64_t{contact.i}; }))
+      all.insert(all.end(), of_rank.begin(), of_rank.end());
+  };
+  take(stepper_->loaded_contacts());
+  take(stepper_->strikes());  // after all contacts: impulses of a pair are added in this order
+  return one_for_each_pair(std::move(all));
+}
+
+std::deque<SimulationState::Mark> RankSimulation::marks_of_part() {
+  auto& marks = state_.marks;
+  while (!marks.empty() && marks.front().snapshot_step < state_.step) marks.pop_front();
+  std::vector<double> time;
+  std::vector<std::vector<double>> x(ranks_.count()), z(ranks_.count());
+  if (!marks.empty() && marks.front().snapshot_step == state_.step) {
+    const SimulationState::Mark mark = std::move(marks.front());
+    marks.pop_front();
+    time.push_back(mark.time);
+    for (int r = 0; r < ranks_.count(); ++r) {
+      const std::int64_t begin = first_of_part(r), end = first_of_part(r + 1);
+      x[r].assign(mark.x.begin() + begin, mark.x.begin() + end);
+      z[r].assign(mark.z.begin() + begin, mark.z.begin() + end);
+    }
+  }
+  ranks_.broadcast(time);
+  if (time.empty()) return {};
+  x = ranks_.exchange(x), z = ranks_.exchange(z);  // all from the first rank
+  return {{state_.step, time[0], std::move(x[0]), std::move(z[0])}};
+}
+
+Snapshot RankSimulation::take_part_of_snapshot() {
   ++state_.snapshots;
-  auto contacts = stepper_->loaded_contacts();
-  state_.bodies = gathered_bodies();
+  auto contacts = contacts_of_part();
+  auto marks = std::exchange(state_.marks, {});
+  SimulationState part = state_;
+  state_.marks = std::move(marks);
+  part.bodies = bodies_of_part();
+  part.marks = marks_of_part();
+  const bool own_masses = ranks_.any(has_own_masses(part.bodies));  // of another part perhaps
   const StepLaws laws = laws_of(scene_, scales_);
   Snapshot snapshot =
-      snapshot_of({scene_, scales_, plan_, walls_, laws.period, laws.gravity.value_or(Point{})}, state_);
+      snapshot_of({scene_, scales_, plan_, walls_, laws.period, laws.gravity.value_or(Point{})}, part);
+  if (own_masses && snapshot.mass.empty())
+    for (const double inverse : part.bodies.inverse_mass) snapshot.mass.push_back(1 / inverse);
   snapshot.contacts = std::move(contacts);
-  state_.bodies = {};
   return snapshot;
+}
+
+ContactMemory RankSimulation::memory_of(const std::vector<RememberedContact>& in_order) const {
+  const int dim = scene_.effects.friction ? 2 : 1;
+  ContactMemory memory;
+  memory.time_step = own_.memory_time_step;
+  memory.i.reserve(in_order.size()), memory.j.reserve(in_order.size());
+  memory.impulse.reserve(dim * in_order.size());
+  for (const RememberedContact& contact : in_order) {
+    memory.i.push_back(static_cast<std::int32_t>(contact.i));
+    memory.j.push_back(static_cast<std::int32_t>(contact.j));
+    for (int c = 0; c < dim; ++c) memory.impulse.push_back(contact.impulse[c]);
+  }
+  return memory;
 }
 
 SimulationState RankSimulation::gathered_state() const {
@@ -179,16 +269,19 @@ SimulationState RankSimulation::gathered_state() const {
   all.bodies = gathered_bodies();
   auto memory = ranks_.gather<RememberedContact>(own_.memory);
   std::sort(memory.begin(), memory.end(), comes_before);
-  const int dim = scene_.effects.friction ? 2 : 1;
-  all.memory.time_step = own_.memory_time_step;
-  all.memory.i.reserve(memory.size()), all.memory.j.reserve(memory.size());
-  all.memory.impulse.reserve(dim * memory.size());
-  for (const RememberedContact& contact : memory) {
-    all.memory.i.push_back(static_cast<std::int32_t>(contact.i));
-    all.memory.j.push_back(static_cast<std::int32_t>(contact.j));
-    for (int c = 0; c < dim; ++c) all.memory.impulse.push_back(contact.impulse[c]);
-  }
+  all.memory = memory_of(memory);
   return all;
+}
+
+SimulationState RankSimulation::part_of_state() const {
+  SimulationState part = state_;
+  part.bodies = bodies_of_part();
+  std::vector<RememberedContact> memory;
+  for (const auto& of_rank : to_parts<RememberedContact>(own_.memory, [](const auto& c) { return c.i; }))
+    memory.insert(memory.end(), of_rank.begin(), of_rank.end());
+  std::sort(memory.begin(), memory.end(), comes_before);
+  part.memory = memory_of(memory);
+  return part;
 }
 
 double RankSimulation::kinetic_energy() const {

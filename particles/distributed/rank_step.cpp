@@ -130,14 +130,16 @@ class RankMoreauJean final : public RankStepper {
                         static_cast<float>(pair.n_x), static_cast<float>(pair.n_z), r[dim * a],
                         dim >= 2 ? r[dim * a + 1 % dim] : 0});
     }
-    release_memory();  // the first rank gets as much
-    std::vector<SnapshotContact> all = ranks_.gather<SnapshotContact>(loaded);
-    const std::vector<Strike> strikes = search_.impacts().strikes();  // of all ranks, on the first
-    all.reserve(all.size() + strikes.size());
-    for (const Strike& strike : strikes)
+    release_memory();  // as much goes to the ranks that write it
+    return loaded;
+  }
+
+  std::vector<SnapshotContact> strikes() const override {
+    std::vector<SnapshotContact> all;
+    for (const Strike& strike : search_.impacts().strikes())
       all.push_back({strike.i, strike.j, static_cast<float>(strike.n_x), static_cast<float>(strike.n_z),
                      strike.normal, strike.tangential});
-    return one_for_each_pair(std::move(all));
+    return all;
   }
 
   void release_memory() override {

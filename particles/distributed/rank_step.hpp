@@ -62,8 +62,10 @@ class RankStepper {
   /// NotConvergedError on all ranks when a grain leaves the domain or, with more ranks than one, jumps over
   /// cells, and names it.
   virtual StepReport advance(RankState& state, WallStep& walls, double time_step) = 0;
-  /// On the first rank, called by all: loaded contacts of the last step. Gives memory back, as below.
+  /// Contacts of this rank that the last step has loaded, with identities. Gives memory back, as below.
   virtual std::vector<SnapshotContact> loaded_contacts() = 0;
+  /// On the first rank, called by all: what impacts of that step have added, in their order.
+  virtual std::vector<SnapshotContact> strikes() const = 0;
   /// Between steps: gives back what the next step makes anew, if that is much. The contacts of the last step
   /// are gone then.
   virtual void release_memory() = 0;

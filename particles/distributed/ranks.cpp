@@ -169,6 +169,32 @@ void Ranks::on_first(const std::function<void()>& action) const {
   });
 }
 
+bool Ranks::write_pieces(const std::filesystem::path& file, std::span<const FilePiece> pieces) const {
+  constexpr std::size_t most_at_once = std::size_t{1} << 30;  // MPI counts in int
+  MPI_File out = MPI_FILE_NULL;
+  // Another rank may see the name of a new file only a moment later; then all write nothing.
+  bool good =
+      MPI_File_open(MPI_COMM_WORLD, file.c_str(), MPI_MODE_WRONLY, MPI_INFO_NULL, &out) == MPI_SUCCESS;
+  ++rounds_so_far;
+  if (any(!good)) {
+    if (good) MPI_File_close(&out);
+    return false;
+  }
+  for (const FilePiece& piece : pieces)
+    for (std::size_t done = 0; good && done < piece.bytes.size();) {
+      const std::size_t some = std::min(most_at_once, piece.bytes.size() - done);
+      MPI_Status status;
+      int written = 0;
+      good = MPI_File_write_at(out, static_cast<MPI_Offset>(piece.place + done), piece.bytes.data() + done,
+                               static_cast<int>(some), MPI_BYTE, &status) == MPI_SUCCESS &&
+             MPI_Get_count(&status, MPI_BYTE, &written) == MPI_SUCCESS && written > 0;
+      done += static_cast<std::size_t>(written);
+    }
+  good = MPI_File_sync(out) == MPI_SUCCESS && good;
+  good = MPI_File_close(&out) == MPI_SUCCESS && good;
+  return !any(!good);
+}
+
 void Ranks::end_all(int exit_code) {
   MPI_Abort(MPI_COMM_WORLD, exit_code);
   std::abort();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <span>
@@ -31,6 +32,12 @@ class RankRuntime {
 /// independent of their number: maxima, and sums of integers.
 class Ranks {
  public:
+  /// Bytes of a file, from a place on.
+  struct FilePiece {
+    std::uint64_t place = 0;
+    std::span<const std::byte> bytes;
+  };
+
   int rank() const;
   int count() const;
 
@@ -87,6 +94,9 @@ class Ranks {
   /// What one rank has to do for all: files and messages. What `action` throws there is thrown there, and
   /// FailedOnFirstRank on the others.
   void on_first(const std::function<void()>& action) const;
+  /// Writes pieces into a file that stands, each rank its own (MPI-IO). False on all ranks where one could
+  /// not.
+  bool write_pieces(const std::filesystem::path& file, std::span<const FilePiece> pieces) const;
   /// Ends all ranks at once with an exit code: for an error that one rank meets alone.
   [[noreturn]] static void end_all(int exit_code);
 

@@ -41,7 +41,7 @@ std::vector<double> rows_of(const H5Reader& in, const std::string& name, std::si
   return values;
 }
 
-void put_stage_changes(const Checkpoint& checkpoint, H5Writer& out) {
+void put_stage_changes(const Checkpoint& checkpoint, H5Content& out) {
   const SimulationState& state = checkpoint.state;
   if (!state.ends.empty() || state.rest_steps > 0) {
     out.add_number("stages/rest_steps", state.rest_steps);

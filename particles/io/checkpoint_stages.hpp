@@ -10,7 +10,7 @@
 namespace drumlin::particles {
 
 /// Adds nothing for other scenes.
-void put_stage_changes(const Checkpoint&, H5Writer&);
+void put_stage_changes(const Checkpoint&, H5Content&);
 /// Throws InputError when what is there is damaged.
 void get_stage_changes(const H5Reader&, Checkpoint&);
 

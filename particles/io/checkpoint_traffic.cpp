@@ -15,7 +15,7 @@ constexpr auto most = std::numeric_limits<std::int64_t>::max();
 constexpr std::size_t columns_of_waiting = 3;
 constexpr double most_materials = 255;
 
-void put_left(const LeftGrains& left, H5Writer& out) {
+void put_left(const LeftGrains& left, H5Content& out) {
   out.add("left/grains", std::span<const std::int32_t>(
                              std::vector<std::int32_t>(left.has_left.begin(), left.has_left.end())));
   out.add("left/per_stage", std::span<const std::int64_t>(left.per_stage));
@@ -46,7 +46,7 @@ LeftGrains left_in(const H5Reader& in) {
 
 }  // namespace
 
-void put_traffic(const Checkpoint& checkpoint, H5Writer& out) {
+void put_traffic(const Checkpoint& checkpoint, H5Content& out) {
   const SimulationState& state = checkpoint.state;
   if (state.left) put_left(*state.left, out);
   if (!state.traffic) return;

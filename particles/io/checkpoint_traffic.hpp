@@ -7,7 +7,7 @@
 namespace drumlin::particles {
 
 /// Adds nothing for other scenes.
-void put_traffic(const Checkpoint&, H5Writer&);
+void put_traffic(const Checkpoint&, H5Content&);
 /// Throws InputError when what is there is damaged.
 void get_traffic(const H5Reader&, Checkpoint&);
 

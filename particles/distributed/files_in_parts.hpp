@@ -1,0 +1,21 @@
+#pragma once
+// Files whose arrays are spread over all ranks, which write them together (MPI-IO): the bytes of the files of
+// one process. The first rank never holds a whole array.
+#include <filesystem>
+
+#include "particles/distributed/ranks.hpp"
+#include "particles/io/checkpoint_file.hpp"
+#include "particles/io/snapshot_file.hpp"
+
+namespace drumlin::particles {
+
+/// Writes the snapshot whose grains and contacts are those of the parts one after the other; all else is that
+/// of the first part. The file is that of write_snapshot(). No part may be without grains. All ranks call it
+/// together. Throws IoError on the first rank, FailedOnFirstRank on the others; an older file of that name is
+/// then untouched.
+void write_snapshot_in_parts(const Ranks& ranks, const std::filesystem::path& file, const Snapshot& part);
+
+/// The same of the bodies and the memory of a checkpoint: keep_checkpoint() of one process.
+void keep_checkpoint_in_parts(const Ranks& ranks, const std::filesystem::path& run, const Checkpoint& part);
+
+}  // namespace drumlin::particles
