@@ -35,7 +35,8 @@ class FileInTheMaking {
   const std::filesystem::path& path() const;
   /// Forces it to the disk and renames it. Throws IoError, the old file then being intact.
   void take_the_place();
-  /// The same, the older file staying under the name `previous`, in the same folder.
+  /// The same, the older file staying under the name `previous`, in the same folder; where it throws, under
+  /// one of both.
   void take_the_place_keeping(const std::filesystem::path& previous);
 
  private:

@@ -292,11 +292,12 @@ template void H5FileWriter::begin_array<std::int64_t>(const std::string&, std::s
 
 std::vector<std::uint64_t> H5FileWriter::end_content() {
   if (!handles_->file->end()) throw IoError(aside_.path().string() + ": HDF5 could not write it");
+  ended_ = true;
   return std::exchange(places_, {});
 }
 
 void H5FileWriter::close() {
-  if (handles_->file->valid()) (void)end_content();
+  if (!ended_) (void)end_content();
   append_checksum(aside_.path());
 }
 void H5FileWriter::save() {

@@ -53,10 +53,12 @@ class H5Writer : public H5Content {
   void save_keeping(const std::filesystem::path& file, const std::filesystem::path& previous) const;
 };
 
-/// The same file, byte for byte, made on the disk: for tables that are never in memory as a whole.
+/// The same file, byte for byte, made on the disk: for tables that are never in memory as a whole, and arrays
+/// that others write.
 class H5FileWriter : public H5Content {
  public:
-  /// Throws IoError; so do all members. The older file of that name is untouched until save().
+  /// Throws IoError; so do all members. The older file of that name is untouched until save() or
+  /// save_keeping().
   explicit H5FileWriter(const std::filesystem::path& file);
   ~H5FileWriter();
   /// A table of `rows` rows whose first ones are `values`, a whole number of rows; the others follow by
@@ -83,6 +85,7 @@ class H5FileWriter : public H5Content {
 
   FileInTheMaking aside_;
   std::vector<std::uint64_t> places_;  // of the arrays begun
+  bool ended_ = false;                 // end_content()
 };
 
 /// An HDF5 file opened for reading. Every member throws InputError naming the file when something is missing

@@ -27,26 +27,29 @@ constexpr const char* compared_settings[] = {
     "linear_share",          "decay_window_below_H",   "bulk_margin",     "mu_fit_I",
     "mu_fit_surface_margin", "mu_fit_wall_margin"};
 
-/// Values that keys have where a scene does not name them: earlier programs did so, and did not know the
-/// keys.
-constexpr std::pair<const char*, const char*> later_defaults[] = {{"placement", "\"apart\""}};
+/// Defaults of keys that earlier programs did not know: a scene that names such a value says the same as one
+/// without the key.
+constexpr std::pair<const char*, const char*> later_defaults[] = {
+    {"grains.generated.placement", "\"apart\""}};
 
-/// Whether an entry says no more than its absence.
-bool says_nothing(const Node::Entry& entry) {
-  if (const auto* list = std::get_if<Node::Array>(&entry.node.value)) return list->empty();
-  if (std::holds_alternative<Node::Table>(entry.node.value)) return false;
+/// Whether an entry says no more than its absence. `name`: of the key, with those of its tables.
+bool says_nothing(const std::string& name, const Node& node) {
+  if (const auto* list = std::get_if<Node::Array>(&node.value)) return list->empty();
+  if (std::holds_alternative<Node::Table>(node.value)) return false;
   return std::any_of(std::begin(later_defaults), std::end(later_defaults), [&](const auto& later) {
-    return entry.key == later.first && toml_value(entry.node) == later.second;
+    return name == later.first && toml_value(node) == later.second;
   });
 }
 
 /// A table without the keys that the run's program did not know yet, and those that the scene does not use.
-Node without_unused_keys(const Node& table) {
+Node without_unused_keys(const std::string& name, const Node& table) {
   const auto* entries = std::get_if<Node::Table>(&table.value);
   if (!entries) return table;
   Node::Table kept;
-  for (const Node::Entry& entry : *entries)
-    if (!says_nothing(entry)) kept.push_back({entry.key, without_unused_keys(entry.node)});
+  for (const Node::Entry& entry : *entries) {
+    const std::string own = name + "." + entry.key;
+    if (!says_nothing(own, entry.node)) kept.push_back({entry.key, without_unused_keys(own, entry.node)});
+  }
   return {kept, table.line, table.column};
 }
 
@@ -56,7 +59,8 @@ void add_scene(StudyRun& run, const fs::path& file) {
   if (!fs::exists(file)) return;
   const Document scene = read_toml(file);
   for (const char* part : {"grains", "effects"})
-    if (const Node* node = scene.root.find(part)) run.identity[part] = toml_text(without_unused_keys(*node));
+    if (const Node* node = scene.root.find(part))
+      run.identity[part] = toml_text(without_unused_keys(part, *node));
   if (const Node* solver = scene.root.find("solver"))
     if (const Node* tolerance = solver->find("tolerance"))
       run.numerics["solver.tolerance"] = toml_value(*tolerance);

@@ -24,7 +24,7 @@ class FileInParts {
  public:
   /// Arrays whose names begin with one of `spread` are cut into parts.
   FileInParts(const Ranks& ranks, const std::filesystem::path& file, std::vector<std::string> spread)
-      : ranks_(ranks), spread_(std::move(spread)) {
+      : ranks_(ranks), name_(file), spread_(std::move(spread)) {
     make([&] { file_.emplace(file); });
   }
 
@@ -70,9 +70,9 @@ class FileInParts {
     std::vector<Ranks::FilePiece> pieces;
     for (std::size_t k = 0; k < arrays_.size(); ++k)
       pieces.push_back({places[k] + arrays_[k].before, arrays_[k].bytes});
-    const bool written = ranks_.write_pieces(aside, pieces);
+    const std::string wrong = ranks_.write_pieces(aside, pieces);
     ranks_.on_first([&] {
-      if (!written) throw IoError(aside + ": not all ranks could write their parts");
+      if (!wrong.empty()) throw IoError(name_.string() + ": " + wrong + " (all ranks must see its folder)");
       settle(*file_);
     });
   }
@@ -83,6 +83,8 @@ class FileInParts {
     if (ranks_.rank() != 0 || failed_) return;
     try {
       action();
+    } catch (const IoError& error) {
+      failed_ = std::make_exception_ptr(IoError(name_.string() + ": " + error.what()));
     } catch (...) {
       failed_ = std::current_exception();
     }
@@ -94,6 +96,7 @@ class FileInParts {
   };
 
   const Ranks& ranks_;
+  std::filesystem::path name_;
   std::vector<std::string> spread_;
   std::optional<H5FileWriter> file_;  // of the first rank alone, as the next one
   std::exception_ptr failed_;

@@ -1,6 +1,6 @@
 #pragma once
 // Files whose arrays are spread over all ranks, which write them together (MPI-IO): the bytes of the files of
-// one process. The first rank never holds a whole array.
+// one process. No rank holds what others have of them.
 #include <filesystem>
 
 #include "particles/distributed/ranks.hpp"
@@ -15,7 +15,9 @@ namespace drumlin::particles {
 /// then untouched.
 void write_snapshot_in_parts(const Ranks& ranks, const std::filesystem::path& file, const Snapshot& part);
 
-/// The same of the bodies and the memory of a checkpoint: keep_checkpoint() of one process.
+/// Writes the checkpoint whose bodies and memory are those of the parts one after the other, all else of the
+/// first part, and keeps the one before: the files of keep_checkpoint(). Called, and throws, as above; the
+/// older file then stands under its name or as the previous one.
 void keep_checkpoint_in_parts(const Ranks& ranks, const std::filesystem::path& run, const Checkpoint& part);
 
 }  // namespace drumlin::particles

@@ -64,7 +64,8 @@ class RankStepper {
   virtual StepReport advance(RankState& state, WallStep& walls, double time_step) = 0;
   /// Contacts of this rank that the last step has loaded, with identities. Gives memory back, as below.
   virtual std::vector<SnapshotContact> loaded_contacts() = 0;
-  /// On the first rank, called by all: what impacts of that step have added, in their order.
+  /// Impulses that impacts of the last step have added, in their order: on the first rank, none on the
+  /// others. All ranks call it together; also after release_memory().
   virtual std::vector<SnapshotContact> strikes() const = 0;
   /// Between steps: gives back what the next step makes anew, if that is much. The contacts of the last step
   /// are gone then.

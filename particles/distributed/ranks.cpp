@@ -3,9 +3,12 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <limits>
 #include <numeric>
+#include <string>
+#include <thread>
 
 #include "coupling/common/first_rank.hpp"
 #include "particles/distributed/processor_time.hpp"
@@ -169,30 +172,55 @@ void Ranks::on_first(const std::function<void()>& action) const {
   });
 }
 
-bool Ranks::write_pieces(const std::filesystem::path& file, std::span<const FilePiece> pieces) const {
+namespace {
+
+std::string text_of(int mpi_error) {
+  char text[MPI_MAX_ERROR_STRING];
+  int length = 0;
+  MPI_Error_string(mpi_error, text, &length);
+  return {text, text + length};
+}
+
+/// What went wrong; empty: nothing. Of one rank for itself: were the file opened by all together, Open MPI
+/// would wait for ever for those that cannot.
+std::string write_own_pieces(const std::filesystem::path& file, std::span<const Ranks::FilePiece> pieces) {
   constexpr std::size_t most_at_once = std::size_t{1} << 30;  // MPI counts in int
+  constexpr int tries = 20;  // the name of a new file may come a moment later to another machine
   MPI_File out = MPI_FILE_NULL;
-  // Another rank may see the name of a new file only a moment later; then all write nothing.
-  bool good =
-      MPI_File_open(MPI_COMM_WORLD, file.c_str(), MPI_MODE_WRONLY, MPI_INFO_NULL, &out) == MPI_SUCCESS;
-  ++rounds_so_far;
-  if (any(!good)) {
-    if (good) MPI_File_close(&out);
-    return false;
+  int error = MPI_SUCCESS;
+  for (int k = 0; k < tries; ++k) {
+    if (k > 0) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    error = MPI_File_open(MPI_COMM_SELF, file.c_str(), MPI_MODE_WRONLY, MPI_INFO_NULL, &out);
+    if (error == MPI_SUCCESS) break;
   }
-  for (const FilePiece& piece : pieces)
-    for (std::size_t done = 0; good && done < piece.bytes.size();) {
-      const std::size_t some = std::min(most_at_once, piece.bytes.size() - done);
+  if (error != MPI_SUCCESS) return text_of(error);
+  std::string wrong;
+  for (const Ranks::FilePiece& piece : pieces)
+    for (std::size_t done = 0; wrong.empty() && done < piece.bytes.size(); done += most_at_once) {
+      const auto some = static_cast<int>(std::min(most_at_once, piece.bytes.size() - done));
       MPI_Status status;
       int written = 0;
-      good = MPI_File_write_at(out, static_cast<MPI_Offset>(piece.place + done), piece.bytes.data() + done,
-                               static_cast<int>(some), MPI_BYTE, &status) == MPI_SUCCESS &&
-             MPI_Get_count(&status, MPI_BYTE, &written) == MPI_SUCCESS && written > 0;
-      done += static_cast<std::size_t>(written);
+      error = MPI_File_write_at(out, static_cast<MPI_Offset>(piece.place + done), piece.bytes.data() + done,
+                                some, MPI_BYTE, &status);
+      if (error == MPI_SUCCESS) error = MPI_Get_count(&status, MPI_BYTE, &written);
+      if (error != MPI_SUCCESS) wrong = text_of(error);
+      if (wrong.empty() && written != some) wrong = "not all could be written";
     }
-  good = MPI_File_sync(out) == MPI_SUCCESS && good;
-  good = MPI_File_close(&out) == MPI_SUCCESS && good;
-  return !any(!good);
+  if (error = MPI_File_sync(out); error != MPI_SUCCESS && wrong.empty()) wrong = text_of(error);
+  if (error = MPI_File_close(&out); error != MPI_SUCCESS && wrong.empty()) wrong = text_of(error);
+  return wrong;
+}
+
+}  // namespace
+
+std::string Ranks::write_pieces(const std::filesystem::path& file, std::span<const FilePiece> pieces) const {
+  const std::string wrong = write_own_pieces(file, pieces);
+  const std::int64_t first = least(wrong.empty() ? count() : rank());
+  if (first == count()) return {};
+  const std::string own = "rank " + std::to_string(rank()) + " could not write its part: " + wrong;
+  std::vector<char> letters(own.begin(), own.end());
+  broadcast(letters, static_cast<int>(first));
+  return {letters.begin(), letters.end()};
 }
 
 void Ranks::end_all(int exit_code) {

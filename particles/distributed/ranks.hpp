@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -94,9 +95,9 @@ class Ranks {
   /// What one rank has to do for all: files and messages. What `action` throws there is thrown there, and
   /// FailedOnFirstRank on the others.
   void on_first(const std::function<void()>& action) const;
-  /// Writes pieces into a file that stands, each rank its own (MPI-IO). False on all ranks where one could
-  /// not.
-  bool write_pieces(const std::filesystem::path& file, std::span<const FilePiece> pieces) const;
+  /// Writes pieces into a file that stands, each rank its own (MPI-IO), and forces them to the disk. Returns,
+  /// on all ranks, which one could not and why; empty where all could.
+  std::string write_pieces(const std::filesystem::path& file, std::span<const FilePiece> pieces) const;
   /// Ends all ranks at once with an exit code: for an error that one rank meets alone.
   [[noreturn]] static void end_all(int exit_code);
 

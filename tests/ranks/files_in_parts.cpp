@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -126,6 +128,27 @@ TEST(CheckpointInParts, IsTheFileOfOneProcessAndLeavesTheOneBefore) {
     EXPECT_TRUE(bytes_of_file(folder / "checkpoint.h5") == checkpoint_image(all));
     EXPECT_TRUE(bytes_of_file(folder / "checkpoint-previous.h5") == before);
   }
+  (void)ranks.any(true);
+}
+
+TEST(Ranks, SayWhichOneCouldNotWriteItsPieces) {
+  const Ranks ranks;
+  const testing::TemporaryFolder own;
+  const auto folder = folder_of_all(ranks, own);
+  if (ranks.rank() == 0) std::ofstream(folder / "all") << "0123456789";
+  (void)ranks.any(true);
+  const std::string letter(1, static_cast<char>('a' + ranks.rank()));
+  const std::array<Ranks::FilePiece, 1> pieces{
+      {{static_cast<std::uint64_t>(2 * ranks.rank()), std::as_bytes(std::span(letter))}}};
+  EXPECT_EQ(ranks.write_pieces(folder / "all", pieces), "");
+  if (ranks.rank() == 0) {
+    EXPECT_EQ(bytes_of_file(folder / "all"), std::string("a1b3c5d7e9").substr(0, 2 * ranks.count()) +
+                                                 std::string("0123456789").substr(2 * ranks.count()));
+  }
+  // The last one alone has no such file.
+  const bool last = ranks.rank() + 1 == ranks.count();
+  const std::string said = ranks.write_pieces(folder / (last ? "missing" : "all"), pieces);
+  EXPECT_TRUE(said.starts_with("rank " + std::to_string(ranks.count() - 1) + " could not")) << said;
   (void)ranks.any(true);
 }
 
