@@ -13,6 +13,7 @@
 #include "apps/commands/run_resume.hpp"
 #include "apps/commands/start_grains.hpp"
 #include "apps/commands/wall_table.hpp"
+#include "apps/run/files_in_parts.hpp"
 #include "apps/support/interruption.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/output_folder.hpp"
@@ -22,7 +23,6 @@
 #include "coupling/common/last_whole.hpp"
 #include "coupling/common/own_costs.hpp"
 #include "coupling/common/text_file.hpp"
-#include "particles/distributed/files_in_parts.hpp"
 #include "particles/distributed/rank_simulation.hpp"
 #include "particles/distributed/runs_on_ranks.hpp"
 #include "particles/io/checkpoint_file.hpp"
@@ -143,7 +143,7 @@ class RankRun {
     const auto begin = Clock::now();
     const particles::Snapshot part = simulation_.take_part_of_snapshot();
     const std::string name = snapshot_name(simulation_.progress().snapshots);
-    if (writes_in_parts()) particles::write_snapshot_in_parts(ranks_, options_.output / name, part);
+    if (writes_in_parts()) write_snapshot_in_parts(ranks_, options_.output / name, part);
     ranks_.on_first([&] {
       if (!writes_in_parts()) particles::write_snapshot(options_.output / name, part);
       output_->list(name);
@@ -164,7 +164,7 @@ class RankRun {
       output_->save();
       if (!writes_in_parts()) particles::keep_checkpoint(options_.output, checkpoint);
     });
-    if (writes_in_parts()) particles::keep_checkpoint_in_parts(ranks_, options_.output, checkpoint);
+    if (writes_in_parts()) keep_checkpoint_in_parts(ranks_, options_.output, checkpoint);
     next_checkpoint_s_ = simulated_seconds() + scene_.output.checkpoint_every_s;
     totals_.output_seconds += seconds_between(begin, Clock::now());
   }

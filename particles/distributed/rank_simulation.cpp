@@ -211,7 +211,7 @@ std::vector<SnapshotContact> RankSimulation::contacts_of_part() {
   return one_for_each_pair(std::move(all));
 }
 
-std::deque<SimulationState::Mark> RankSimulation::marks_of_part() {
+decltype(SimulationState::marks) RankSimulation::marks_of_part() {
   auto& marks = state_.marks;
   while (!marks.empty() && marks.front().snapshot_step < state_.step) marks.pop_front();
   std::vector<double> time;

@@ -1,7 +1,6 @@
 #pragma once
 // A scene in time, on ranks. Knows no files.
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <span>
 #include <vector>
@@ -62,7 +61,7 @@ class RankSimulation {
   Bodies bodies_of_part() const;
   std::vector<SnapshotContact> contacts_of_part();
   /// The marks for this snapshot, taken from those of the first rank.
-  std::deque<SimulationState::Mark> marks_of_part();
+  decltype(SimulationState::marks) marks_of_part();
   ContactMemory memory_of(const std::vector<RememberedContact>& in_order) const;
 
   Scene scene_;

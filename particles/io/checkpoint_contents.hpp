@@ -1,6 +1,5 @@
 #pragma once
 // What a checkpoint file holds, item by item.
-#include <concepts>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -113,10 +112,10 @@ void add_checkpoint(const Checkpoint& checkpoint, Out& out) {
     put_stage_changes(checkpoint, content);
     put_traffic(checkpoint, content);
   };
-  if constexpr (std::derived_from<Out, H5Content>)
-    add_rest(out);
-  else
+  if constexpr (requires { out.add_by_first(add_rest); })
     out.add_by_first(add_rest);
+  else
+    add_rest(out);
   out.add_number("marks/count", static_cast<std::int64_t>(state.marks.size()));
   for (std::size_t m = 0; m < state.marks.size(); ++m) {
     const std::string name = "marks/" + std::to_string(m) + "/";

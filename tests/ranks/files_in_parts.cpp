@@ -1,5 +1,5 @@
 // Snapshots and checkpoints that all ranks write together, against those of one process: the same bytes.
-#include "particles/distributed/files_in_parts.hpp"
+#include "apps/run/files_in_parts.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,8 @@
 #include "coupling/common/first_rank.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace drumlin::particles {
+namespace drumlin::apps {
+using namespace particles;
 namespace {
 
 /// The same on all ranks.
@@ -167,4 +168,4 @@ TEST(SnapshotInParts, SaysOnAllRanksWhereItCannotBeWritten) {
 }
 
 }  // namespace
-}  // namespace drumlin::particles
+}  // namespace drumlin::apps

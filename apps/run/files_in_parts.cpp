@@ -1,4 +1,4 @@
-#include "particles/distributed/files_in_parts.hpp"
+#include "apps/run/files_in_parts.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -15,7 +15,8 @@
 #include "particles/io/checkpoint_contents.hpp"
 #include "particles/io/snapshot_contents.hpp"
 
-namespace drumlin::particles {
+namespace drumlin::apps {
+using namespace particles;
 namespace {
 
 /// What takes the content of a file on each rank: the first one makes the file, all keep their parts of the
@@ -117,4 +118,4 @@ void keep_checkpoint_in_parts(const Ranks& ranks, const std::filesystem::path& r
   parts.write([&](H5FileWriter& whole) { whole.save_keeping(run / previous_checkpoint_name); });
 }
 
-}  // namespace drumlin::particles
+}  // namespace drumlin::apps
