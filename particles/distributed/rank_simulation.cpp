@@ -186,6 +186,7 @@ std::size_t RankSimulation::part_of(std::int64_t id) const {
 /// What each rank has sent to this one's part.
 template <class Item, class Id>
 std::vector<std::vector<Item>> RankSimulation::to_parts(std::span<const Item> items, Id id_of) const {
+  if (ranks_.count() == 1) return {{items.begin(), items.end()}};
   std::vector<std::vector<Item>> to_rank(ranks_.count());
   for (const Item& item : items) to_rank[part_of(id_of(item))].push_back(item);
   return ranks_.exchange(to_rank);
