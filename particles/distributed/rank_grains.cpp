@@ -31,21 +31,17 @@ constexpr std::int64_t of_a_grain = 10, of_a_loaded_contact = 10;
 RankGrains::Need RankGrains::need_of(const RankState& state, const WallStep& walls, double time_step,
                                      Point gain) const {
   Extremes extremes;
-  double drift = 0, outside = 0;
   const bool sorted = now_.forest != nullptr;  // since then the grains stand as they were sorted
   for (std::size_t k = 0; k < state.grains.size(); ++k) {
     const RankGrain& g = state.grains[k];
     extremes.add(g.v_x + gain.x, g.v_z + gain.z);
     if (!sorted) continue;
     const double x = g.x - sorted_at_[k].x, z = g.z - sorted_at_[k].z;
-    drift = std::max(drift, x * x + z * z);
-    if (!now_.forest->tiles().grid.contains({g.x, g.z})) outside = 1;
+    extremes.raise(5, x * x + z * z);
+    if (!now_.forest->tiles().grid.contains({g.x, g.z})) extremes.raise(6, 1);
   }
-  std::array<double, 7> all{extremes.right,   extremes.left, extremes.up, extremes.down,
-                            extremes.squares, drift,         outside};
-  ranks_.largest(all);
-  return {reach_of({all[0], all[1], all[2], all[3], all[4]}, walls, time_step), std::sqrt(all[5]),
-          all[6] > 0};
+  ranks_.largest(extremes.numbers);
+  return {reach_of(extremes, walls, time_step), std::sqrt(extremes.numbers[5]), extremes.numbers[6] > 0};
 }
 
 Reach RankGrains::reach_again(const WallStep& walls, double time_step, Point gain) const {
@@ -53,17 +49,17 @@ Reach RankGrains::reach_again(const WallStep& walls, double time_step, Point gai
   const Bodies& bodies = seen_.bodies;
   for (std::size_t b = 0; b < bodies.count(); ++b)
     extremes.add(bodies.v_x[b] + gain.x, bodies.v_z[b] + gain.z);
-  std::array<double, 5> all{extremes.right, extremes.left, extremes.up, extremes.down, extremes.squares};
-  ranks_.largest(all);
-  return reach_of({all[0], all[1], all[2], all[3], all[4]}, walls, time_step);
+  ranks_.largest(extremes.numbers);
+  return reach_of(extremes, walls, time_step);
 }
 
 Reach RankGrains::reach_of(const Extremes& extremes, const WallStep& walls, double time_step) const {
-  const double speed = std::sqrt(extremes.squares);
+  const double speed = std::sqrt(extremes.numbers[4]);
   double wall = 0;
   for (std::size_t s = 0; s < walls.before.size(); ++s)
     wall = std::max(wall, largest_move(walls.before[s], walls.displacement[s]) / time_step);
-  const double among = std::hypot(extremes.right + extremes.left, extremes.up + extremes.down);
+  const auto& n = extremes.numbers;
+  const double among = std::hypot(n[0] + n[1], n[2] + n[3]);
   const double approach = std::max(among, speed + wall);
   return {domain_.largest, margin_, 2 * time_step * approach, time_step * (speed + wall)};
 }

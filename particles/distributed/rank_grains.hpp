@@ -2,6 +2,7 @@
 // The grains that a rank sees in a step, and the impulses that it remembers for them: the forest suited to
 // the step, and what it took to bring everything to the rank that needs it.
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -60,15 +61,16 @@ class RankGrains {
     double drift = 0;      ///< the furthest way of a grain since they were sorted
     bool outside = false;  ///< a grain has left the grid
   };
-  /// The largest velocities, with what forces add to them, along x, -x, z and -z, and the square of the
-  /// largest speed.
+  /// The largest of several numbers of grains, which ranks compare in one round.
   struct Extremes {
     static constexpr double none = -1e300;
-    double right = none, left = none, up = none, down = none, squares = 0;
+    /// Of velocities, with what forces add to them, along x, -x, z, -z; of the squares of speed and drift; 1
+    /// if a grain is outside.
+    std::array<double, 7> numbers{none, none, none, none, 0, 0, 0};
+    void raise(std::size_t k, double number) { numbers[k] = std::max(numbers[k], number); }
     void add(double v_x, double v_z) {
-      right = std::max(right, v_x), left = std::max(left, -v_x);
-      up = std::max(up, v_z), down = std::max(down, -v_z);
-      squares = std::max(squares, v_x * v_x + v_z * v_z);
+      raise(0, v_x), raise(1, -v_x), raise(2, v_z), raise(3, -v_z);
+      raise(4, v_x * v_x + v_z * v_z);
     }
   };
   /// A grain that other ranks see, as it is now.

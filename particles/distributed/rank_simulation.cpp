@@ -243,10 +243,8 @@ Snapshot RankSimulation::take_part_of_snapshot() {
   part.marks = marks_of_part();
   const bool own_masses = ranks_.any(has_own_masses(part.bodies));  // of another part perhaps
   const StepLaws laws = laws_of(scene_, scales_);
-  Snapshot snapshot =
-      snapshot_of({scene_, scales_, plan_, walls_, laws.period, laws.gravity.value_or(Point{})}, part);
-  if (own_masses && snapshot.mass.empty())
-    for (const double inverse : part.bodies.inverse_mass) snapshot.mass.push_back(1 / inverse);
+  Snapshot snapshot = snapshot_of(
+      {scene_, scales_, plan_, walls_, laws.period, laws.gravity.value_or(Point{}), own_masses}, part);
   snapshot.contacts = std::move(contacts);
   return snapshot;
 }

@@ -56,7 +56,7 @@ Snapshot snapshot_of(const StateInScene& in, SimulationState& state) {
               period.rate_x, period.rate_z,   period.shear};
   s.x = bodies.x, s.z = bodies.z, s.v_x = bodies.v_x, s.v_z = bodies.v_z, s.radius = bodies.radius,
   s.spin = bodies.spin, s.id = bodies.id;
-  if (has_own_masses(bodies))
+  if (in.own_masses || has_own_masses(bodies))
     for (const double inverse : bodies.inverse_mass) s.mass.push_back(1 / inverse);
   while (!state.marks.empty() && state.marks.front().snapshot_step < state.step) state.marks.pop_front();
   if (!state.marks.empty() && state.marks.front().snapshot_step == state.step) {

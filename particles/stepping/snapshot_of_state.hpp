@@ -13,7 +13,8 @@ struct StateInScene {
   const TimePlan& plan;
   const Walls& walls;
   Period period;
-  Point gravity;  ///< of the moment, as the scene tells directions
+  Point gravity;            ///< of the moment, as the scene tells directions
+  bool own_masses = false;  ///< masses are stored even if no grain of the state has one of its own
 };
 
 /// Takes away the marks of the state that are used up.
