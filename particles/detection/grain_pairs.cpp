@@ -283,6 +283,19 @@ void GrainPairs::look_after_jolts(const PairRule& rule, std::span<const double> 
   looked_at_ += looked_far_;
 }
 
+namespace {
+
+/// Whether two grains, `d` from each other, are certainly further apart than all that could let them meet, and
+/// `more`. Without a root: most pairs of a search end here.
+bool too_far(const NearGrain& a, const NearGrain& b, const Point& d, const PairRule& rule, double more) {
+  if (rule.period.moves()) return false;
+  const double speed = std::abs(a.v_x - b.v_x) + std::abs(a.v_z - b.v_z);  // at least
+  const double within = (a.radius + b.radius + rule.margin + 2 * rule.time_step * speed + more) * rounding;
+  return d.x * d.x + d.z * d.z > within * within;
+}
+
+}  // namespace
+
 void GrainPairs::look_far(const PairRule& rule, std::span<const double> jolts, bool after_jolts) {
   const double most_jolt = after_jolts ? *std::max_element(jolts.begin(), jolts.end()) : 0;
   const double ways = 2 * std::sqrt(2.0) * grids_->drift();
@@ -297,23 +310,32 @@ void GrainPairs::look_far(const PairRule& rule, std::span<const double> jolts, b
     a.x = a.sorted_x, a.z = a.sorted_z, b.x = b.sorted_x, b.z = b.sorted_z;
     return near_pair(a, b, rule.period, rule.time_step).gap < range_;
   };
-  const auto look_at = [&](const NearGrain& a, const NearGrain& b, const Point& shift) {
+  const auto look_at = [&](const NearGrain& a, const NearGrain& b, const Point& shift, FarPart& part) {
     const Point d = rule.period.nearest(Point{a.x - b.x, a.z - b.z});
     if (!rule.period.open() && std::abs(a.x - b.x - shift.x - d.x) > rule.period.length / 2) return;
     if (!rule.period.open_z() && std::abs(a.z - b.z - shift.z - d.z) > rule.period.length_z / 2) return;
-    ++looked_far_;
+    ++part.looked_at;
+    if (too_far(a, b, d, rule, after_jolts ? (jolts[a.body] + jolts[b.body]) / 2 : 0)) return;
     const NearPair pair = near_pair(a, b, rule.period, rule.time_step);
     const bool close = pair.gap < rule.margin + pair.reach;
     if (close == after_jolts) return;
     if (!close && pair.gap >= rule.margin + pair.reach + (jolts[pair.i] + jolts[pair.j]) / 2) return;
-    if (!listed(a, b)) far_.push_back(pair);
+    if (!listed(a, b)) part.pairs.push_back(pair);
   };
-  tree_.far_pairs(
-      {rule.time_step, rule.margin, range_, after_jolts},
-      [&](std::span<const NearGrain> a, std::span<const NearGrain> b, bool same, const Image& image) {
-        for (std::size_t p = 0; p < a.size(); ++p)
-          for (std::size_t q = same ? p + 1 : 0; q < b.size(); ++q) look_at(a[p], b[q], image.shift);
-      });
+  const FarSearch search{rule.time_step, rule.margin, range_, after_jolts};
+  far_parts_.resize(std::max<std::size_t>(far_parts_.size(), tree_.cut(search)));
+  for (FarPart& part : far_parts_) part.pairs.clear(), part.looked_at = 0;
+  const auto meet = [&](int p, std::span<const NearGrain> a, std::span<const NearGrain> b, bool same,
+                        const Image& image) {
+    for (std::size_t k = 0; k < a.size(); ++k)
+      for (std::size_t l = same ? k + 1 : 0; l < b.size(); ++l)
+        look_at(a[k], b[l], image.shift, far_parts_[p]);
+  };
+  tree_.far_pairs(search, loops_, meet);
+  for (const FarPart& part : far_parts_) {
+    far_.insert(far_.end(), part.pairs.begin(), part.pairs.end());
+    looked_far_ += part.looked_at;
+  }
 }
 
 namespace {

@@ -116,6 +116,12 @@ class GrainPairs {
   MotionTree tree_;
   bool planted_ = false, follows_ = false;  // the tree is that of the list; it bounds what is now
   const GrainGrids* grids_ = nullptr;       // of the list
+  /// What a part of the tree's search finds.
+  struct FarPart {
+    std::vector<NearPair> pairs;
+    std::int64_t looked_at = 0;
+  };
+  std::vector<FarPart> far_parts_;
   std::vector<NearPair> far_;
   std::vector<Candidate> extras_;  // kept pairs that are not listed, in the order of (i, j)
   std::int64_t looked_at_ = 0, looked_far_ = 0;

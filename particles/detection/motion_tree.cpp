@@ -119,16 +119,69 @@ void MotionTree::set_jolts(std::span<const double> jolts, const TeamLoops& loops
       if (c >= 0) node.bounds.jolt = std::max(node.bounds.jolt, nodes_[c].bounds.jolt);
 }
 
-void MotionTree::open_both(const Node& node) {
-  for (std::size_t p = 0; p < node.child.size() && node.child[p] >= 0; ++p)
-    for (std::size_t q = p; q < node.child.size() && node.child[q] >= 0; ++q)
-      stack_.push_back({node.child[p], node.child[q]});
+void MotionTree::add_roots() {
+  parts_.clear();
+  const auto add = [&](std::size_t a, std::size_t b, const Image& image) {
+    parts_.push_back({{roots_[a], roots_[b]}, image});
+  };
+  for (std::size_t a = 0; a < roots_.size(); ++a)
+    for (std::size_t b = a; b < roots_.size(); ++b) {
+      add(a, b, {});
+      if (period_.open()) continue;
+      add(a, b, image(1, 0));
+      if (a != b) add(a, b, image(-1, 0));
+      if (period_.open_z()) continue;
+      for (const int across : {-1, 0, 1}) {
+        add(a, b, image(across, 1));
+        if (a != b) add(a, b, image(across, -1));
+      }
+    }
 }
 
-void MotionTree::open_one(const Two& two, bool first) {
+std::size_t MotionTree::cut(const FarSearch& search) {
+  constexpr std::size_t enough = 32;
+  stacks_.resize(std::max<std::size_t>(stacks_.size(), 1));
+  std::vector<Two>& below = stacks_[0];
+  add_roots();
+  for (bool opens = true; opens && parts_.size() < enough;) {
+    opens = false;
+    next_parts_.clear();
+    for (const Part& part : parts_) {
+      const Node &a = nodes_[part.two.a], &b = nodes_[part.two.b];
+      if (apart(search, a, b, part.image)) continue;
+      if (a.leaf() && b.leaf()) {
+        next_parts_.push_back(part);
+        continue;
+      }
+      opens = true;
+      below.clear();
+      open(part, part.two, below);
+      for (const Two& two : below) next_parts_.push_back({two, part.image});
+    }
+    parts_.swap(next_parts_);
+  }
+  stacks_.resize(std::max(stacks_.size(), parts_.size()));
+  return parts_.size();
+}
+
+void MotionTree::open(const Part& part, const Two& two, std::vector<Two>& stack) const {
+  const Node &a = nodes_[two.a], &b = nodes_[two.b];
+  if (is_one(part, two))
+    open_both(a, stack);
+  else
+    open_one(two, b.leaf() || (!a.leaf() && a.size() > b.size()), stack);
+}
+
+void MotionTree::open_both(const Node& node, std::vector<Two>& stack) const {
+  for (std::size_t p = 0; p < node.child.size() && node.child[p] >= 0; ++p)
+    for (std::size_t q = p; q < node.child.size() && node.child[q] >= 0; ++q)
+      stack.push_back({node.child[p], node.child[q]});
+}
+
+void MotionTree::open_one(const Two& two, bool first, std::vector<Two>& stack) const {
   const Node& opened = nodes_[first ? two.a : two.b];
   for (const std::int32_t c : opened.child)
-    if (c >= 0) stack_.push_back(first ? Two{c, two.b} : Two{two.a, c});
+    if (c >= 0) stack.push_back(first ? Two{c, two.b} : Two{two.a, c});
 }
 
 }  // namespace drumlin::particles

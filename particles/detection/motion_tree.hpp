@@ -47,19 +47,17 @@ inline double distance(const MotionBounds& a, const MotionBounds& b, const Image
   return std::sqrt(dx * dx + dz * dz);
 }
 
-/// Bound on the relative speed of a grain of a and one of an image of b.
-inline double relative_speed(const MotionBounds& a, const MotionBounds& b, const Image& image) {
+/// Bounds on the components of the relative velocity of a grain of a and one of an image of b.
+inline Point relative_velocity(const MotionBounds& a, const MotionBounds& b, const Image& image) {
   const auto& [x, z] = image.velocity;
-  const double u_x = std::max(difference(a.v_x_high, b.v_x_low) - x, difference(b.v_x_high, a.v_x_low) + x),
-               u_z = std::max(difference(a.v_z_high, b.v_z_low) - z, difference(b.v_z_high, a.v_z_low) + z);
-  return std::sqrt(u_x * u_x + u_z * u_z);
+  return {std::max(difference(a.v_x_high, b.v_x_low) - x, difference(b.v_x_high, a.v_x_low) + x),
+          std::max(difference(a.v_z_high, b.v_z_low) - z, difference(b.v_z_high, a.v_z_low) + z)};
 }
 
-/// Bound on how far a grain of a and one of b have moved against each other since they were sorted.
-inline double relative_way(const MotionBounds& a, const MotionBounds& b) {
-  const double x = std::max(difference(a.way_x_high, b.way_x_low), difference(b.way_x_high, a.way_x_low)),
-               z = std::max(difference(a.way_z_high, b.way_z_low), difference(b.way_z_high, a.way_z_low));
-  return std::sqrt(x * x + z * z);
+/// Bounds on how far a grain of a and one of b have moved against each other since they were sorted.
+inline Point relative_way(const MotionBounds& a, const MotionBounds& b) {
+  return {std::max(difference(a.way_x_high, b.way_x_low), difference(b.way_x_high, a.way_x_low)),
+          std::max(difference(a.way_z_high, b.way_z_low), difference(b.way_z_high, a.way_z_low))};
 }
 
 inline MotionBounds united(const MotionBounds& a, const MotionBounds& b) {
@@ -92,24 +90,17 @@ class MotionTree {
   /// Sets what each body may be pushed beyond its own motion; one entry per body.
   void set_jolts(std::span<const double> jolts, const TeamLoops& loops);
 
-  /// Calls `meet(a, b, same, image)` with the grains of two cells, which are one and the same if `same`, for
-  /// all that can hold pairs with
+  /// Cuts a search into parts, enough for some threads to share them about evenly; returns their number.
+  std::size_t cut(const FarSearch& search);
+  /// Of a search that has been cut. Calls `meet(p, a, b, same, image)` with the grains of two cells, which
+  /// are one and the same if `same`, for all that can hold pairs with
   ///   gap < margin + 2 h |v_i - v_j|,  after jolts + (jolt_i + jolt_j) / 2,
-  /// but for those that are known, b in an image of the domain.
+  /// but for those that are known, b in an image of the domain. Each part p has one thread.
   template <class Meet>
-  void far_pairs(const FarSearch& search, Meet meet) {
-    for (std::size_t a = 0; a < roots_.size(); ++a)
-      for (std::size_t b = a; b < roots_.size(); ++b) {
-        far_pairs(search, roots_[a], roots_[b], {}, meet);
-        if (period_.open()) continue;
-        far_pairs(search, roots_[a], roots_[b], image(1, 0), meet);
-        if (a != b) far_pairs(search, roots_[a], roots_[b], image(-1, 0), meet);
-        if (period_.open_z()) continue;
-        for (const int across : {-1, 0, 1}) {
-          far_pairs(search, roots_[a], roots_[b], image(across, 1), meet);
-          if (a != b) far_pairs(search, roots_[a], roots_[b], image(across, -1), meet);
-        }
-      }
+  void far_pairs(const FarSearch& search, const TeamLoops& loops, Meet meet) {
+    loops.each_of(static_cast<int>(parts_.size()), [&](int p) {
+      look_at(search, parts_[p], stacks_[p], [&, p](const auto&... found) { meet(p, found...); });
+    });
   }
 
  private:
@@ -130,6 +121,11 @@ class MotionTree {
   struct Two {
     std::int32_t a, b;
   };
+  /// Two nodes, the second in an image, below which one thread searches.
+  struct Part {
+    Two two;
+    Image image;
+  };
 
   Image image(int right, int up) const {
     const Point shift{right * period_.length + up * period_.offset, up * period_.length_z};
@@ -141,34 +137,37 @@ class MotionTree {
                              ? (static_cast<double>(a.bounds.jolt) + static_cast<double>(b.bounds.jolt)) / 2
                              : 0;
     if (search.after_jolts && jolts == 0) return true;
-    const double reach =
-        search.margin + 2 * search.time_step * relative_speed(a.bounds, b.bounds, image) + jolts;
-    return reach + relative_way(a.bounds, b.bounds) <= search.seen ||
+    const Point u = relative_velocity(a.bounds, b.bounds, image), way = relative_way(a.bounds, b.bounds);
+    const double twice = 2 * search.time_step, known = search.seen - search.margin - jolts;
+    // Of most nodes this already tells, without a root: no component is negative.
+    if (twice * (u.x + u.z) + (way.x + way.z) <= known) return true;
+    const double closes = twice * std::sqrt(u.x * u.x + u.z * u.z);
+    return closes + std::sqrt(way.x * way.x + way.z * way.z) <= known ||
            distance(a.bounds, b.bounds, image) - static_cast<double>(a.bounds.radius) -
                    static_cast<double>(b.bounds.radius) >
-               reach;
+               search.margin + closes + jolts;
   }
 
+  /// `stack`: pairs of nodes that are still to do.
   template <class Meet>
-  void far_pairs(const FarSearch& search, std::int32_t first, std::int32_t second, const Image& image,
-                 Meet& meet) {
-    stack_.assign(1, {first, second});
-    while (!stack_.empty()) {
-      const Two two = stack_.back();
-      stack_.pop_back();
+  void look_at(const FarSearch& search, const Part& part, std::vector<Two>& stack, Meet meet) const {
+    stack.assign(1, part.two);
+    while (!stack.empty()) {
+      const Two two = stack.back();
+      stack.pop_back();
       const Node &a = nodes_[two.a], &b = nodes_[two.b];
-      if (apart(search, a, b, image)) continue;
-      const bool same = two.a == two.b && image.original();
+      if (apart(search, a, b, part.image)) continue;
       if (a.leaf() && b.leaf())
-        meet(a.grains(), b.grains(), same, image);
-      else if (same)
-        open_both(a);
+        meet(a.grains(), b.grains(), is_one(part, two), part.image);
       else
-        open_one(two, b.leaf() || (!a.leaf() && a.size() > b.size()));
+        open(part, two, stack);
     }
   }
-  void open_both(const Node& node);
-  void open_one(const Two& two, bool first);
+  static bool is_one(const Part& part, const Two& two) { return two.a == two.b && part.image.original(); }
+  void add_roots();
+  void open(const Part& part, const Two& two, std::vector<Two>& stack) const;
+  void open_both(const Node& node, std::vector<Two>& stack) const;
+  void open_one(const Two& two, bool first, std::vector<Two>& stack) const;
 
   std::int32_t tree_of(const CellGrid& grid, const TeamLoops& loops);
   void raise(std::span<const Block> blocks, std::vector<Block>& above);
@@ -176,7 +175,8 @@ class MotionTree {
   Period period_;
   std::vector<Node> nodes_;  // children before their parents
   std::vector<std::int32_t> roots_;
-  std::vector<Two> stack_;
+  std::vector<Part> parts_, next_parts_;
+  std::vector<std::vector<Two>> stacks_;  // of each part
   std::vector<Block> blocks_, above_;
 };
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "particles/contact/impulse_sizes.hpp"
 #include "particles/distributed/halo.hpp"
 #include "particles/distributed/tile_order.hpp"
 #include "particles/parallel/team_loops.hpp"
@@ -38,8 +39,10 @@ class TileBlocks {
   void let_rest(std::size_t tile, bool rest);
   /// The residual as impulses and bodies stand.
   SeenResidual residual(std::size_t tile) const;
-  /// Size of the impulse of a body as it stands.
-  double impulse(std::int32_t body) const { return impulse_of(bodies_[body]); }
+  /// Sizes of the impulses of the bodies as they stand.
+  ImpulseSizes<BodyRecord<T>> impulses() const {
+    return ImpulseSizes<BodyRecord<T>>({bodies_.data(), bodies_.size()});
+  }
   void keep(std::size_t tile);
 
   /// Lets the bodies rest: load() and start() have to follow.

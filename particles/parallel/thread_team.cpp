@@ -17,9 +17,12 @@ constexpr double longest_spin = 30e-6;  // seconds; to fall asleep and to be wok
 // Seconds between two jobs before a helper sleeps: a step's serial parts are shorter, and each job would else
 // begin with a thread to wake. It leaves its processor to anybody who wants it meanwhile.
 constexpr double longest_pause = 1e-3;
-constexpr double stretch = 20e-3;       // seconds of jobs that tell whether the threads wait too much
-constexpr double least_share = 0.5;     // of the time, that threads must work
-constexpr double fewer_for_times = 20;  // as long as a bad stretch, so that to try again costs 5 % at most
+constexpr double stretch = 20e-3;    // seconds of jobs that tell whether the threads wait too much
+constexpr double least_share = 0.5;  // of the time, that threads must work
+// To ask for processor times takes most of a microsecond, as long as a short job: one job in so many does,
+// and one that begins so many seconds after the last that did.
+constexpr int jobs_per_look = 8;
+constexpr double longest_without_look = 1e-3;
 
 // Of what is told to threads that may sleep. notify_one() and notify_all() ask whether anybody sleeps,
 // without a barrier of their own: were the value stored with less, that could be answered before the store is
@@ -101,6 +104,8 @@ void ThreadTeam::end() {
 void ThreadTeam::run(const std::function<void(int, int)>& job) {
   if (helpers_.empty()) return job(0, 1);
   const double start = now();
+  looks_ = ++unseen_ == jobs_per_look || start > looked_at_ + longest_without_look;
+  if (looks_) unseen_ = 0, looked_at_ = start;
   job_ = &job;
   const int helping = threads() - 1;
   running_.store(helping, std::memory_order_relaxed);
@@ -121,6 +126,7 @@ void ThreadTeam::run(const std::function<void(int, int)>& job) {
 }
 
 void ThreadTeam::work(int t) {
+  if (!looks_) return (*job_)(t, threads());
   Member& self = members_[static_cast<std::size_t>(t)];
   self.spun = 0;
   const double start = processor_time();
@@ -140,21 +146,26 @@ void ThreadTeam::help(int t) {
 
 /// After a job that took `passed` seconds. No thread but the calling one is at work.
 void ThreadTeam::choose_threads(double passed) {
-  if (until_ > 0 && (until_ -= passed) <= 0) {
-    barrier_.threads_ = size();
-    worked_ = passed_ = 0;
+  if (until_ > 0) {
+    until_ -= passed;
+    if (until_ <= 0) barrier_.threads_ = size();
     return;
   }
   const int count = threads();
   if (count == 1) return;
-  for (int t = 0; t < count; ++t) worked_ += std::max(0.0, members_[static_cast<std::size_t>(t)].worked);
   passed_ += passed;
-  if (passed_ < stretch) return;
-  if (worked_ < least_share * count * passed_) {
-    barrier_.threads_ = std::max(1, count / 2);
-    until_ = fewer_for_times * passed_;
+  if (looks_) {
+    looked_ += passed;
+    for (int t = 0; t < count; ++t) worked_ += std::max(0.0, members_[static_cast<std::size_t>(t)].worked);
   }
-  worked_ = passed_ = 0;
+  if (passed_ < stretch || looked_ == 0) return;
+  const bool waited = worked_ < least_share * count * looked_;
+  if (waited) {
+    barrier_.threads_ = std::max(1, count / 2);
+    until_ = fewer_for_ * passed_;
+  }
+  fewer_for_ = std::clamp(waited ? 2 * fewer_for_ : fewer_for_ / 2, fewer_at_first, fewer_at_last);
+  worked_ = looked_ = passed_ = 0;
 }
 
 }  // namespace drumlin::particles

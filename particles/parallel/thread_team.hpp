@@ -27,9 +27,10 @@ class Barrier {
 /// The calling thread and up to size() - 1 helpers, which sleep between two jobs.
 ///
 /// Where other processes want the processors too, threads wait for one that is not running. The team compares
-/// the processor time that its threads worked with the time that passed: when they worked less than half of
-/// it it goes on with half as many, for twenty times as long as it took to see that, and then tries again. So
-/// shares of a job must not decide its result: any number of threads from 1 to size() may be given any job.
+/// the processor time that its threads worked with the time that passed, in some of its jobs: when they
+/// worked less than half of it it goes on with half as many, for four times as long as it took to see that,
+/// up to twenty times where they wait again and again, and then tries again. So shares of a job must not
+/// decide its result: any number of threads from 1 to size() may be given any job.
 class ThreadTeam {
  public:
   /// Throws std::system_error if the system gives no more threads, and std::bad_alloc.
@@ -49,6 +50,10 @@ class ThreadTeam {
   void meet(int t) { members_[static_cast<std::size_t>(t)].spun += barrier_.meet(); }
 
  private:
+  // So many times as long as a bad stretch took are fewer threads given: at first, since it may be over soon,
+  // and once that has doubled stretch by stretch, so that to try again costs 5 % at most.
+  static constexpr double fewer_at_first = 4, fewer_at_last = 20;
+
   struct alignas(64) Member {
     double worked = 0, spun = 0;  // processor seconds of the job
     std::atomic<std::uint32_t> jobs{0};
@@ -63,8 +68,14 @@ class ThreadTeam {
   const std::function<void(int, int)>* job_ = nullptr;
   std::atomic<int> running_{0};
   std::atomic<bool> over_{false};
-  double worked_ = 0, passed_ = 0;  // seconds, summed over jobs since the number of threads was chosen
-  double until_ = 0;                // seconds of jobs that fewer threads than all are still given
+  bool looks_ = false;  // the job is one of those whose processor time is measured
+  int unseen_ = 0;      // jobs since the last of those
+  double looked_at_ = 0;
+  // Seconds since the number of threads was chosen: of all jobs, of those looked at, and what threads worked
+  // in these.
+  double passed_ = 0, looked_ = 0, worked_ = 0;
+  double until_ = 0;  // seconds of jobs that fewer threads than all are still given
+  double fewer_for_ = fewer_at_first;
   std::vector<std::thread> helpers_;
 };
 

@@ -6,40 +6,67 @@
 #include "particles/stepping/lost_at_wall.hpp"
 
 namespace drumlin::particles {
+
 Overlap OverlapSearch::find(const MovedContacts& contacts, const Bodies& bodies, const WallStep& walls,
                             const Period& period, double margin, std::optional<LostGrain>& lost) {
+  constexpr std::size_t piece = ClosePairs::piece;
   const auto& pairs = contacts.pairs;
-  const SweepPlan& plan = contacts.plan;
+  const std::size_t pieces = (pairs.size() + piece - 1) / piece;
+  plan_ = contacts.plan;
   pairs_.renew(pairs.size());
-  loops_.each(pairs.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t a = begin; a < end; ++a) {
-      pairs_[a] = {pairs[a].i, pairs[a].j, 0, 0, 0};
-      pairs_[a].gap = gap_now(pairs[a], bodies, walls.after, period, pairs_[a].n_x, pairs_[a].n_z);
-    }
+  sums_.assign(pieces, {});
+  loops_.each_of(static_cast<int>(pieces), [&](int p) {
+    const std::size_t begin = p * piece, end = std::min(pairs.size(), begin + piece);
+    sums_[p] = look_at(begin, end, contacts, bodies, walls, period, margin);
   });
   Overlap overlap;
   double sum = 0;
-  plan_ = plan;
-  std::size_t close = 0;
-  std::size_t group = 0;
-  for (std::size_t a = 0; a < pairs.size(); ++a) {
-    for (; plan.group_start[group] == static_cast<std::int32_t>(a); ++group)
-      plan_.group_start[group] = static_cast<std::int32_t>(close);
-    const ClosePair now = pairs_[a];
-    const bool loaded = contacts.impulses[contacts.dim * a] > 0;
-    if (now.j < 0 && !lost) lost = lost_at_wall(now, loaded, bodies, walls, period);
-    if (loaded) {
-      const double depth = std::max(0.0, -now.gap);
-      sum += depth;
-      overlap.max = std::max(overlap.max, depth);
-      ++overlap.loaded;
-    }
-    if (now.gap < margin) pairs_[close++] = now;
+  overlap_ = false;
+  earlier_.assign(1, 0);
+  for (const OverlapSums& more : sums_) {
+    sum += more.depths;
+    overlap.max = std::max(overlap.max, more.deepest);
+    overlap.loaded += more.loaded;
+    overlap_ |= more.overlap;
+    earlier_.push_back(earlier_.back() + more.close);
+    if (!lost) lost = more.lost;
   }
-  pairs_.resize(close);
-  if (!pairs.empty()) plan_.group_start.back() = static_cast<std::int32_t>(close);
+  if (!pairs.empty())
+    for (std::size_t g = 0; g < plan_.group_start.size(); ++g) {
+      const std::size_t first = contacts.plan.group_start[g];
+      plan_.group_start[g] =
+          first < pairs.size() ? plan_.group_start[g] + earlier_[first / piece] : earlier_.back();
+    }
   if (overlap.loaded > 0) overlap.mean = sum / overlap.loaded;
   return overlap;
+}
+
+OverlapSums OverlapSearch::look_at(std::size_t begin, std::size_t end, const MovedContacts& contacts,
+                                   const Bodies& bodies, const WallStep& walls, const Period& period,
+                                   double margin) {
+  OverlapSums sums;
+  const std::vector<std::int32_t>& starts = contacts.plan.group_start;
+  std::size_t group =
+      std::lower_bound(starts.begin(), starts.end(), static_cast<std::int32_t>(begin)) - starts.begin();
+  ClosePair* const close = &pairs_[begin];
+  for (std::size_t a = begin; a < end; ++a) {
+    for (; starts[group] == static_cast<std::int32_t>(a); ++group) plan_.group_start[group] = sums.close;
+    const Candidate& pair = contacts.pairs[a];
+    ClosePair now{pair.i, pair.j, 0, 0, 0};
+    now.gap = gap_now(pair, bodies, walls.after, period, now.n_x, now.n_z);
+    const bool loaded = contacts.impulses[contacts.dim * a] > 0;
+    if (now.j < 0 && !sums.lost) sums.lost = lost_at_wall(now, loaded, bodies, walls, period);
+    if (loaded) {
+      const double depth = std::max(0.0, -now.gap);
+      sums.depths += depth;
+      sums.deepest = std::max(sums.deepest, depth);
+      ++sums.loaded;
+    }
+    close[sums.close] = now;
+    sums.close += now.gap < margin;
+    sums.overlap |= now.gap < 0;
+  }
+  return sums;
 }
 
 }  // namespace drumlin::particles

@@ -23,6 +23,15 @@ struct Overlap {
   int loaded = 0;
 };
 
+/// What pieces of the pairs add to it.
+struct OverlapSums {
+  double depths = 0, deepest = 0;
+  int loaded = 0;
+  std::int32_t close = 0;  ///< pairs closer than the margin
+  bool overlap = false;    ///< one of those has a negative gap
+  std::optional<LostGrain> lost;
+};
+
 /// Contacts of a step that has been solved and whose bodies have been moved.
 struct MovedContacts {
   std::span<const Candidate> pairs;
@@ -44,12 +53,19 @@ class OverlapSearch {
                const Period& period, double margin, std::optional<LostGrain>& lost);
 
   /// Pairs closer than `margin` in the last search, and their plan.
-  std::span<const ClosePair> close() const { return {pairs_.data(), pairs_.size()}; }
+  ClosePairs close() const { return {{pairs_.data(), pairs_.size()}, earlier_, overlap_}; }
   const SweepPlan& plan() const { return plan_; }
 
  private:
+  /// Pairs `begin` to `end`, those of one piece.
+  OverlapSums look_at(std::size_t begin, std::size_t end, const MovedContacts& contacts, const Bodies& bodies,
+                      const WallStep& walls, const Period& period, double margin);
+
   TeamLoops loops_;
-  WorkArray<ClosePair> pairs_;  // all of them at the end of the step, then those that are close
+  WorkArray<ClosePair> pairs_;         // ClosePairs::places
+  std::vector<std::int32_t> earlier_;  // ClosePairs::earlier
+  std::vector<OverlapSums> sums_;      // of each piece
+  bool overlap_ = false;
   SweepPlan plan_;
 };
 

@@ -37,10 +37,11 @@ void add_cell(const MovingCell* cell, DrivenFrictionlessProblem::Delassus& W) {
 }  // namespace
 
 template <bool with_driven>
-void PositionProjection<with_driven>::apply(const Movable& movable, std::span<const ClosePair> pairs,
+void PositionProjection<with_driven>::apply(const Movable& movable, const ClosePairs& pairs,
                                             const SweepPlan& plan, const ProjectionRule& projection) {
   auto& [bodies, walls, driven, cell] = movable;
-  if (std::none_of(pairs.begin(), pairs.end(), [](const ClosePair& pair) { return pair.gap < 0; })) return;
+  if (!pairs.overlap) return;
+  const TeamLoops loops(work_.team);
   auto& W = problem_.W;
   W.inverse_mass.assign(bodies.inverse_mass.begin(), bodies.inverse_mass.end());
   W.inverse_mass.push_back(0);
@@ -48,12 +49,12 @@ void PositionProjection<with_driven>::apply(const Movable& movable, std::span<co
   if constexpr (with_driven) add_driven_walls(bodies, walls, W);
   const bool gives_way = with_driven && movable.cell != nullptr && movable.cell->response.pressed();
   if constexpr (with_driven) add_cell(gives_way ? movable.cell : nullptr, W);
-  W.renew(pairs.size());
-  resize_closely(problem_.q, pairs.size());
+  W.renew(pairs.count());
+  resize_closely(problem_.q, pairs.count());
   // Named anew: clang 14 captures no structured binding.
-  TeamLoops(work_.team).each(pairs.size(), [&, &walls = walls](std::size_t begin, std::size_t end) {
-    for (std::size_t a = begin; a < end; ++a) {
-      const ClosePair& pair = pairs[a];
+  loops.each_of(pairs.pieces(), [&, &walls = walls](int p) {
+    std::int32_t a = pairs.earlier[p];
+    for (const ClosePair& pair : pairs.of(p)) {
       std::int32_t second = pair.j < 0 ? fixed : pair.j;
       if constexpr (with_driven)
         if (pair.j < 0 && !walls.driven_of_shape.empty()) second += 1 + walls.driven_of_shape[-1 - pair.j];
@@ -62,23 +63,25 @@ void PositionProjection<with_driven>::apply(const Movable& movable, std::span<co
           const Point arm = arm_of(movable.bodies, pair.i, pair.j, pair.gap, {pair.n_x, pair.n_z});
           W.arm_x[a] = arm.x, W.arm_z[a] = arm.z;
         }
-      W.set(static_cast<int>(a), pair.i, second, pair.n_x, pair.n_z);
-      problem_.q[a] = projection.wanted_gap(pair.gap);
+      W.set(a, pair.i, second, pair.n_x, pair.n_z);
+      problem_.q[a++] = projection.wanted_gap(pair.gap);
     }
   });
   W.plan = plan;
   solution_.impulses.clear();
-  resize_closely(solution_.impulses, pairs.size());
+  resize_closely(solution_.impulses, pairs.count());
   StoppingRule rule;
   rule.tolerance = projection_tolerance;
   rule.max_sweeps = projection.sweeps;
   // What is left is seen, and reported, as the overlap of the next step.
   (void)solve_accelerated(problem_, rule, work_, solution_);
   const auto& moved = solution_.velocities.bodies;
-  for (std::size_t b = 0; b < bodies.count(); ++b) {
-    bodies.x[b] += moved[b].x;
-    bodies.z[b] += moved[b].z;
-  }
+  loops.each(bodies.count(), [&, &bodies = bodies](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      bodies.x[b] += moved[b].x;
+      bodies.z[b] += moved[b].z;
+    }
+  });
   if constexpr (with_driven)
     for (std::size_t k = 0; k < walls.driven.size(); ++k) {
       const auto& wall = moved[fixed + 1 + k];

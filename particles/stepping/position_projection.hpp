@@ -21,6 +21,22 @@ struct ClosePair {
   double gap = 0, n_x = 0, n_z = 0;
 };
 
+/// The pairs that are close at the end of a step, among the places of all: those of a piece stand at its
+/// begin.
+struct ClosePairs {
+  static constexpr std::size_t piece = 1024;
+  std::span<const ClosePair> places;      ///< as many as there are pairs, close or not
+  std::span<const std::int32_t> earlier;  ///< close pairs of the pieces before each piece, and of all
+  bool overlap = false;                   ///< the gap of one of them is negative
+
+  std::size_t count() const { return earlier.empty() ? 0 : earlier.back(); }
+  int pieces() const { return earlier.empty() ? 0 : static_cast<int>(earlier.size()) - 1; }
+  /// Those of a piece.
+  std::span<const ClosePair> of(int p) const {
+    return places.subspan(p * piece, earlier[p + 1] - earlier[p]);
+  }
+};
+
 /// What the projection moves.
 struct Movable {
   Bodies& bodies;
@@ -46,7 +62,7 @@ class PositionProjection {
            bytes_of(solution_.velocities.contacts);
   }
   /// `pairs` in the order of `plan`.
-  void apply(const Movable&, std::span<const ClosePair> pairs, const SweepPlan& plan, const ProjectionRule&);
+  void apply(const Movable&, const ClosePairs& pairs, const SweepPlan& plan, const ProjectionRule&);
 
  private:
   using Problem = std::conditional_t<with_driven, DrivenFrictionlessProblem, FrictionlessProblem>;

@@ -99,6 +99,13 @@ TEST(ThreadTeam, ThreadsThatWaitAreLeftAloneForAWhileAndTriedAgain) {
   for (; team.threads() == 1; ++jobs) team.run(sleep);
   EXPECT_GT(jobs, 1);
   EXPECT_EQ(team.threads(), 2);
+  // What lasts is tried less often: up to five times as much, with room for jobs that take longer than asked.
+  int next_jobs = 0;
+  for (int stretch = 0; stretch < 4; ++stretch) {
+    while (team.threads() == 2) team.run(sleep);
+    for (next_jobs = 0; team.threads() == 1; ++next_jobs) team.run(sleep);
+  }
+  EXPECT_GT(next_jobs, 2 * jobs);
 }
 
 }  // namespace
