@@ -53,17 +53,30 @@ void CellGrid::sort(const SearchedState& state, std::span<const std::int32_t> me
   cells_.push_back({rows, 0, static_cast<std::int32_t>(count)});
 }
 
-bool CellGrid::follow(const SearchedState& state) {
+namespace {
+
+/// What has become of some grains since they were sorted.
+struct Followed {
   double farthest = 0;
   bool same = true;
-  for (NearGrain& g : grains_) {
-    same &= g.radius == state.bodies.radius[g.body];
-    g.x = state.bodies.x[g.body], g.z = state.bodies.z[g.body];
-    g.v_x = state.v_x[g.body], g.v_z = state.v_z[g.body];
-    farthest = std::max({farthest, std::abs(g.x - g.sorted_x), std::abs(g.z - g.sorted_z)});
-  }
-  drift_ = farthest;
-  return same;
+  void add(const Followed& more) { farthest = std::max(farthest, more.farthest), same &= more.same; }
+};
+
+}  // namespace
+
+bool CellGrid::follow(const SearchedState& state, const TeamLoops& loops) {
+  const auto all = loops.combined<Followed>(grains_.size(), [&](std::size_t begin, std::size_t end) {
+    Followed some;
+    for (NearGrain& g : std::span(grains_).subspan(begin, end - begin)) {
+      some.same &= g.radius == state.bodies.radius[g.body];
+      g.x = state.bodies.x[g.body], g.z = state.bodies.z[g.body];
+      g.v_x = state.v_x[g.body], g.v_z = state.v_z[g.body];
+      some.farthest = std::max({some.farthest, std::abs(g.x - g.sorted_x), std::abs(g.z - g.sorted_z)});
+    }
+    return some;
+  });
+  drift_ = all.farthest;
+  return all.same;
 }
 
 /// By as many counting sorts as the keys have digits of at most 12 bits, the last digit first.
@@ -150,11 +163,11 @@ std::size_t GrainGrids::bytes() const {
   return sum;
 }
 
-bool GrainGrids::follow(const SearchedState& state, double farthest) {
+bool GrainGrids::follow(const SearchedState& state, double farthest, const TeamLoops& loops) {
   if (!period_.open() || !state.period.open() || count_ != state.bodies.count()) return false;
   drift_ = 0;
   for (CellGrid& grid : std::span(grids_).first(used_)) {
-    if (!grid.follow(state)) return false;
+    if (!grid.follow(state, loops)) return false;
     drift_ = std::max(drift_, grid.drift());
   }
   return drift_ <= farthest;

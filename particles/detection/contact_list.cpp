@@ -61,24 +61,40 @@ struct GrainMotion {
   double smallest = 0;
 };
 
-GrainMotion motion_of(const Bodies& bodies, std::span<const double> v_x, std::span<const double> v_z,
-                      const DetectionInput& input) {
-  double fastest = 0, largest = 0, smallest = bodies.radius[0];
-  double x_low = v_x[0], x_high = x_low, z_low = v_z[0], z_high = z_low;
-  for (std::size_t b = 0; b < bodies.count(); ++b) {
-    fastest = std::max(fastest, v_x[b] * v_x[b] + v_z[b] * v_z[b]);
-    x_low = std::min(x_low, v_x[b]), x_high = std::max(x_high, v_x[b]);
-    z_low = std::min(z_low, v_z[b]), z_high = std::max(z_high, v_z[b]);
-    largest = std::max(largest, bodies.radius[b]);
-    smallest = std::min(smallest, bodies.radius[b]);
+/// Extremes of some grains.
+struct MotionExtremes {
+  static constexpr double most = std::numeric_limits<double>::infinity();
+  double fastest = 0, largest = 0, smallest = most;  // squared speed, radii
+  double x_low = most, x_high = -most, z_low = most, z_high = -most;
+
+  void add(double v_x, double v_z, double radius) {
+    fastest = std::max(fastest, v_x * v_x + v_z * v_z);
+    x_low = std::min(x_low, v_x), x_high = std::max(x_high, v_x);
+    z_low = std::min(z_low, v_z), z_high = std::max(z_high, v_z);
+    largest = std::max(largest, radius), smallest = std::min(smallest, radius);
   }
+  void add(const MotionExtremes& more) {
+    fastest = std::max(fastest, more.fastest);
+    x_low = std::min(x_low, more.x_low), x_high = std::max(x_high, more.x_high);
+    z_low = std::min(z_low, more.z_low), z_high = std::max(z_high, more.z_high);
+    largest = std::max(largest, more.largest), smallest = std::min(smallest, more.smallest);
+  }
+};
+
+GrainMotion motion_of(const Bodies& bodies, std::span<const double> v_x, std::span<const double> v_z,
+                      const DetectionInput& input, const TeamLoops& loops) {
+  const auto all = loops.combined<MotionExtremes>(bodies.count(), [&](std::size_t begin, std::size_t end) {
+    MotionExtremes some;
+    for (std::size_t b = begin; b < end; ++b) some.add(v_x[b], v_z[b], bodies.radius[b]);
+    return some;
+  });
   const Period& cell = input.period;
   double images = 0;  // and one that images add
   if (cell.moves())
     images = std::abs(cell.rate_x) * 2 * cell.length +
              (std::abs(cell.rate_z) + std::abs(cell.shear)) * cell.length_z;
-  return {input.time_step * std::sqrt(fastest), length(x_high - x_low, z_high - z_low) + images, 2 * largest,
-          2 * smallest};
+  return {input.time_step * std::sqrt(all.fastest),
+          length(all.x_high - all.x_low, all.z_high - all.z_low) + images, 2 * all.largest, 2 * all.smallest};
 }
 
 // Of the smallest diameter: pairs within are listed, and within as much more if the list is to be used again.
@@ -191,7 +207,7 @@ void ContactDetection::find_near_walls(double fastest, double largest, const Det
 /// Makes the list of near pairs fit the state: the old one if it is good, else a new one.
 void ContactDetection::list_pairs(const SearchedState& state, const PairRule& rule, double range,
                                   double smallest) {
-  if (lists_.good && grids_.follow(state, farthest_drift * smallest)) {
+  if (lists_.good && grids_.follow(state, farthest_drift * smallest, loops_)) {
     pairs_.look_again(state, rule);
     ++lists_.used_again;
     return;
@@ -212,7 +228,7 @@ std::span<const Candidate> ContactDetection::find(const Bodies& bodies, std::spa
   }
   weighed_.clear();
   jolt_.assign(bodies.count(), 0.0);
-  const GrainMotion motion = motion_of(bodies, v_x, v_z, input);
+  const GrainMotion motion = motion_of(bodies, v_x, v_z, input, loops_);
   const PairRule rule{input.time_step, input.margin, motion.speeds, input.period};
   const double range = listed_range(motion, input);
   cell_ = finest_cell(motion, range);
@@ -235,7 +251,7 @@ bool ContactDetection::is_local(std::span<const ThrownGrain> thrown, double reac
 bool ContactDetection::find_around(std::span<const ThrownGrain> thrown, const Bodies& bodies,
                                    std::span<const double> v_x, std::span<const double> v_z,
                                    const DetectionInput& input) {
-  const GrainMotion motion = motion_of(bodies, v_x, v_z, input);
+  const GrainMotion motion = motion_of(bodies, v_x, v_z, input, loops_);
   const double range = range_of(thrown, motion.speeds, input);
   if (is_local(thrown, range + motion.largest)) return add_around(thrown, range, bodies, v_x, v_z, input);
   added_.clear();
@@ -248,7 +264,7 @@ bool ContactDetection::add_around(std::span<const ThrownGrain> thrown, const Bod
                                   const DetectionInput& input) {
   added_.clear();
   if (thrown.empty()) return false;
-  const double range = range_of(thrown, motion_of(bodies, v_x, v_z, input).speeds, input);
+  const double range = range_of(thrown, motion_of(bodies, v_x, v_z, input, loops_).speeds, input);
   return add_around(thrown, range, bodies, v_x, v_z, input);
 }
 

@@ -9,6 +9,7 @@
 #include "particles/detection/candidate.hpp"
 #include "particles/detection/cell_grid.hpp"
 #include "particles/detection/grain_pairs.hpp"
+#include "particles/parallel/team_loops.hpp"
 
 namespace drumlin::particles {
 
@@ -37,7 +38,7 @@ struct ThrownGrain {
 class ContactDetection {
  public:
   /// Lets a team share the work; the result does not depend on it.
-  void use(ThreadTeam* team) { pairs_.use(team); }
+  void use(ThreadTeam* team) { loops_ = TeamLoops(team), pairs_.use(team); }
   /// Takes the candidates, and what finds them, from a memory: they end with the frame in which they were
   /// found.
   void use(WorkMemory* memory) { grids_.use(memory), pairs_.use(memory), candidates_.use(memory); }
@@ -96,6 +97,7 @@ class ContactDetection {
   };
   void list_pairs(const SearchedState& state, const PairRule& rule, double range, double smallest);
 
+  TeamLoops loops_;
   GrainGrids grids_;
   GrainPairs pairs_;
   Lists lists_;

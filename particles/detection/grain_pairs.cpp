@@ -285,8 +285,8 @@ void GrainPairs::look_after_jolts(const PairRule& rule, std::span<const double> 
 
 namespace {
 
-/// Whether two grains, `d` from each other, are certainly further apart than all that could let them meet, and
-/// `more`. Without a root: most pairs of a search end here.
+/// Whether two grains, `d` from each other, are certainly further apart than all that could let them meet,
+/// and `more`. Without a root: most pairs of a search end here.
 bool too_far(const NearGrain& a, const NearGrain& b, const Point& d, const PairRule& rule, double more) {
   if (rule.period.moves()) return false;
   const double speed = std::abs(a.v_x - b.v_x) + std::abs(a.v_z - b.v_z);  // at least

@@ -22,7 +22,8 @@ RankSearch::RankSearch(const StepLaws& laws, const Ranks& ranks, std::int64_t gr
       grains_of_all_(grains_of_all),
       unknowns_(unknowns),
       grains_(grains),
-      impacts_(ranks) {
+      impacts_(ranks),
+      loops_(team) {
   const auto share = [&](auto&... users) { (users.use(team), ...), (users.use(memory), ...); };
   share(detection_, recollection_);
 }
@@ -63,9 +64,7 @@ DetectionInput RankSearch::input(const Step& step) const {
 }
 
 void RankSearch::move_freely(const Step& step) {
-  free_.x = grains_.seen().bodies.v_x;
-  free_.z = grains_.seen().bodies.v_z;
-  if (laws_.gravity) add_gravity(*laws_.gravity, step.time_step, free_);
+  set_free_motion(grains_.seen().bodies, laws_.gravity, step.time_step, loops_, free_);
 }
 
 void RankSearch::search(const Step& step) {

@@ -101,6 +101,7 @@ class RankSearch {
   HomedPairs homed_;              // of the candidates
   StepContacts mine_;             // those of this rank, with normals as impacts see them
   bool mine_is_fresh_ = false;    // they are as the last search has left the candidates
+  TeamLoops loops_;
 };
 
 }  // namespace drumlin::particles

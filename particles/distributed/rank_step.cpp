@@ -182,8 +182,7 @@ class RankMoreauJean final : public RankStepper {
       bodies_.radius[b] = grain.radius, bodies_.inverse_mass[b] = grain.inverse_mass;
       bodies_.id[b] = grain.id;
     }
-    free_.x = bodies_.v_x, free_.z = bodies_.v_z;
-    if (laws_.gravity) add_gravity(*laws_.gravity, time_step, free_);
+    set_free_motion(bodies_, laws_.gravity, time_step, TeamLoops(&team_), free_);
   }
 
   /// New velocities from the solution, then new positions.

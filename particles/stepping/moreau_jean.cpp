@@ -52,6 +52,7 @@ class MoreauJean final : public Stepper {
       (users.use(&memory_), ...);
     };
     share(detection_, recollection_, impacts_, order_, overlaps_, projection_);
+    crossings_.use(&team_);
     if (laws.energy_ledger) books_.emplace(laws.gravity);
   }
 
@@ -152,9 +153,7 @@ class MoreauJean final : public Stepper {
  private:
   /// Velocities without contacts, cohesion aside: its pairs are not known yet.
   void move_freely(const StepInput& step) {
-    free_.x = step.bodies.v_x;
-    free_.z = step.bodies.v_z;
-    if (laws_.gravity) add_gravity(*laws_.gravity, step.time_step, free_);
+    set_free_motion(step.bodies, laws_.gravity, step.time_step, TeamLoops(&team_), free_);
     if constexpr (drives) {
       free_.driven.clear();
       for (std::size_t k = 0; k < step.driven.size(); ++k)

@@ -160,6 +160,12 @@ void lay_into(const Container& was, const Container& is, const Period& period, P
   bodies.x[b] += change * x, bodies.z[b] += change * z;
 }
 
+/// Some discs, of several pieces one after the other.
+struct Discs {
+  std::vector<std::size_t> list;
+  void add(const Discs& more) { list.insert(list.end(), more.list.begin(), more.list.end()); }
+};
+
 }  // namespace
 
 void WallCrossings::begin(const Bodies& bodies, std::span<const Shape> shapes,
@@ -171,7 +177,12 @@ void WallCrossings::begin(const Bodies& bodies, std::span<const Shape> shapes,
       thin_.push_back(s);
     if (std::holds_alternative<Container>(shapes[s])) containers_.push_back(s);
   }
-  if (!thin_.empty() || !containers_.empty()) x_ = bodies.x, z_ = bodies.z;
+  if (thin_.empty() && containers_.empty()) return;
+  x_.resize(bodies.count()), z_.resize(bodies.count());
+  loops_.each(bodies.count(), [&](std::size_t first, std::size_t end) {
+    std::copy(bodies.x.begin() + first, bodies.x.begin() + end, x_.begin() + first);
+    std::copy(bodies.z.begin() + first, bodies.z.begin() + end, z_.begin() + first);
+  });
 }
 
 Crossings WallCrossings::undo(const WallStep& walls, const Period& period, Bodies& bodies) {
@@ -188,13 +199,18 @@ void WallCrossings::undo_at_containers(const WallStep& walls, const Period& peri
   for (const std::size_t shape : containers_) {
     const auto& was = std::get<Container>(walls.before[shape]);
     const auto& is = std::get<Container>(walls.after[shape]);
-    for (std::size_t b = 0; b < bodies.count(); ++b) {
-      const double x = period.nearest(bodies.x[b] - is.center.x), z = bodies.z[b] - is.center.z;
-      if (x * x + z * z > is.radius * is.radius)
-        lay_into(was, is, period, {x_[b], z_[b]}, b,
-                 largest_.value_or(*std::max_element(bodies.radius.begin(), bodies.radius.end())), bodies,
-                 crossings);
-    }
+    const auto outside = loops_.combined<Discs>(bodies.count(), [&](std::size_t begin, std::size_t end) {
+      Discs some;
+      for (std::size_t b = begin; b < end; ++b) {
+        const double x = period.nearest(bodies.x[b] - is.center.x), z = bodies.z[b] - is.center.z;
+        if (x * x + z * z > is.radius * is.radius) some.list.push_back(b);
+      }
+      return some;
+    });
+    if (outside.list.empty()) continue;
+    const double largest = largest_.value_or(*std::max_element(bodies.radius.begin(), bodies.radius.end()));
+    for (const std::size_t b : outside.list)
+      lay_into(was, is, period, {x_[b], z_[b]}, b, largest, bodies, crossings);
   }
 }
 

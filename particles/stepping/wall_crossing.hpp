@@ -12,6 +12,7 @@
 #include "particles/bodies/bodies.hpp"
 #include "particles/detection/cell_grid.hpp"
 #include "particles/effects/wall_step.hpp"
+#include "particles/parallel/team_loops.hpp"
 #include "particles/stepping/lost_grain.hpp"
 
 namespace drumlin::particles {
@@ -25,6 +26,8 @@ struct Crossings {
 /// Remembers where discs stand when a step begins.
 class WallCrossings {
  public:
+  /// Lets a team share the work; the result does not depend on it.
+  void use(ThreadTeam* team) { loops_ = TeamLoops(team); }
   /// The beginning of a step, before any disc is moved. `largest`: radius of the largest disc of all, where
   /// the bodies are a part of them; without, of the bodies.
   void begin(const Bodies&, std::span<const Shape> shapes, std::optional<double> largest = {});
@@ -38,6 +41,7 @@ class WallCrossings {
   void undo_at_containers(const WallStep&, const Period&, Bodies&, Crossings&) const;
   void undo_at_thin_walls(const WallStep&, const Period&, Bodies&, Crossings&);
 
+  TeamLoops loops_;
   std::optional<double> largest_;
   std::vector<double> x_, z_;                   // centres at the beginning of the step
   std::vector<std::size_t> thin_, containers_;  // shapes; thin: segments and arcs
