@@ -118,7 +118,8 @@ void GrainPairs::use(WorkMemory* memory) {
 std::size_t GrainPairs::bytes() const {
   std::size_t sum = list_.capacity() * sizeof(ListedPair) + shares_.capacity() * sizeof(Share);
   for (const Piece& piece : pieces_) sum += sizeof(Piece) + piece.near.capacity() * sizeof(ListedPair);
-  return sum + tree_.bytes();
+  for (const FarPart& part : far_parts_) sum += sizeof(FarPart) + part.pairs.capacity() * sizeof(NearPair);
+  return sum + far_.capacity() * sizeof(NearPair) + tree_.bytes();
 }
 
 void GrainPairs::cut(const GrainGrids& grids) {
@@ -283,19 +284,6 @@ void GrainPairs::look_after_jolts(const PairRule& rule, std::span<const double> 
   looked_at_ += looked_far_;
 }
 
-namespace {
-
-/// Whether two grains, `d` from each other, are certainly further apart than all that could let them meet,
-/// and `more`. Without a root: most pairs of a search end here.
-bool too_far(const NearGrain& a, const NearGrain& b, const Point& d, const PairRule& rule, double more) {
-  if (rule.period.moves()) return false;
-  const double speed = std::abs(a.v_x - b.v_x) + std::abs(a.v_z - b.v_z);  // at least
-  const double within = (a.radius + b.radius + rule.margin + 2 * rule.time_step * speed + more) * rounding;
-  return d.x * d.x + d.z * d.z > within * within;
-}
-
-}  // namespace
-
 void GrainPairs::look_far(const PairRule& rule, std::span<const double> jolts, bool after_jolts) {
   const double most_jolt = after_jolts ? *std::max_element(jolts.begin(), jolts.end()) : 0;
   const double ways = 2 * std::sqrt(2.0) * grids_->drift();
@@ -315,7 +303,6 @@ void GrainPairs::look_far(const PairRule& rule, std::span<const double> jolts, b
     if (!rule.period.open() && std::abs(a.x - b.x - shift.x - d.x) > rule.period.length / 2) return;
     if (!rule.period.open_z() && std::abs(a.z - b.z - shift.z - d.z) > rule.period.length_z / 2) return;
     ++part.looked_at;
-    if (too_far(a, b, d, rule, after_jolts ? (jolts[a.body] + jolts[b.body]) / 2 : 0)) return;
     const NearPair pair = near_pair(a, b, rule.period, rule.time_step);
     const bool close = pair.gap < rule.margin + pair.reach;
     if (close == after_jolts) return;

@@ -47,17 +47,19 @@ inline double distance(const MotionBounds& a, const MotionBounds& b, const Image
   return std::sqrt(dx * dx + dz * dz);
 }
 
-/// Bounds on the components of the relative velocity of a grain of a and one of an image of b.
-inline Point relative_velocity(const MotionBounds& a, const MotionBounds& b, const Image& image) {
+/// Bound on the relative speed of a grain of a and one of an image of b.
+inline double relative_speed(const MotionBounds& a, const MotionBounds& b, const Image& image) {
   const auto& [x, z] = image.velocity;
-  return {std::max(difference(a.v_x_high, b.v_x_low) - x, difference(b.v_x_high, a.v_x_low) + x),
-          std::max(difference(a.v_z_high, b.v_z_low) - z, difference(b.v_z_high, a.v_z_low) + z)};
+  const double u_x = std::max(difference(a.v_x_high, b.v_x_low) - x, difference(b.v_x_high, a.v_x_low) + x),
+               u_z = std::max(difference(a.v_z_high, b.v_z_low) - z, difference(b.v_z_high, a.v_z_low) + z);
+  return std::sqrt(u_x * u_x + u_z * u_z);
 }
 
-/// Bounds on how far a grain of a and one of b have moved against each other since they were sorted.
-inline Point relative_way(const MotionBounds& a, const MotionBounds& b) {
-  return {std::max(difference(a.way_x_high, b.way_x_low), difference(b.way_x_high, a.way_x_low)),
-          std::max(difference(a.way_z_high, b.way_z_low), difference(b.way_z_high, a.way_z_low))};
+/// Bound on how far a grain of a and one of b have moved against each other since they were sorted.
+inline double relative_way(const MotionBounds& a, const MotionBounds& b) {
+  const double x = std::max(difference(a.way_x_high, b.way_x_low), difference(b.way_x_high, a.way_x_low)),
+               z = std::max(difference(a.way_z_high, b.way_z_low), difference(b.way_z_high, a.way_z_low));
+  return std::sqrt(x * x + z * z);
 }
 
 inline MotionBounds united(const MotionBounds& a, const MotionBounds& b) {
@@ -85,14 +87,19 @@ class MotionTree {
   /// Bounds the grains as they are now that the grids have followed them.
   void follow(const TeamLoops& loops);
   std::size_t bytes() const {
-    return nodes_.capacity() * sizeof(Node) + (blocks_.capacity() + above_.capacity()) * sizeof(Block);
+    std::size_t sum =
+        nodes_.capacity() * sizeof(Node) + (blocks_.capacity() + above_.capacity()) * sizeof(Block);
+    sum +=
+        (parts_.capacity() + next_parts_.capacity()) * sizeof(Part) + stacks_.capacity() * sizeof(stacks_[0]);
+    for (const auto& stack : stacks_) sum += stack.capacity() * sizeof(Two);
+    return sum;
   }
   /// Sets what each body may be pushed beyond its own motion; one entry per body.
   void set_jolts(std::span<const double> jolts, const TeamLoops& loops);
 
   /// Cuts a search into parts, enough for some threads to share them about evenly; returns their number.
   std::size_t cut(const FarSearch& search);
-  /// Of a search that has been cut. Calls `meet(p, a, b, same, image)` with the grains of two cells, which
+  /// Of the search that was cut last. Calls `meet(p, a, b, same, image)` with the grains of two cells, which
   /// are one and the same if `same`, for all that can hold pairs with
   ///   gap < margin + 2 h |v_i - v_j|,  after jolts + (jolt_i + jolt_j) / 2,
   /// but for those that are known, b in an image of the domain. Each part p has one thread.
@@ -137,15 +144,12 @@ class MotionTree {
                              ? (static_cast<double>(a.bounds.jolt) + static_cast<double>(b.bounds.jolt)) / 2
                              : 0;
     if (search.after_jolts && jolts == 0) return true;
-    const Point u = relative_velocity(a.bounds, b.bounds, image), way = relative_way(a.bounds, b.bounds);
-    const double twice = 2 * search.time_step, known = search.seen - search.margin - jolts;
-    // Of most nodes this already tells, without a root: no component is negative.
-    if (twice * (u.x + u.z) + (way.x + way.z) <= known) return true;
-    const double closes = twice * std::sqrt(u.x * u.x + u.z * u.z);
-    return closes + std::sqrt(way.x * way.x + way.z * way.z) <= known ||
+    const double reach =
+        search.margin + 2 * search.time_step * relative_speed(a.bounds, b.bounds, image) + jolts;
+    return reach + relative_way(a.bounds, b.bounds) <= search.seen ||
            distance(a.bounds, b.bounds, image) - static_cast<double>(a.bounds.radius) -
                    static_cast<double>(b.bounds.radius) >
-               search.margin + closes + jolts;
+               reach;
   }
 
   /// `stack`: pairs of nodes that are still to do.

@@ -67,6 +67,7 @@ class RankMoreauJean final : public RankStepper {
         solver_(ranks, &team_, least_contacts_of_coarse_loads),
         overlaps_(ranks),
         projection_(ranks, &team_) {
+    crossings_.use(&team_);
     if (laws.gravity) gravity_ = *laws.gravity;
     if (solver.name == "accelerated-double") method_ = TileMethod::accelerated_double;
     if (solver.name == "nlgs") method_ = TileMethod::nlgs;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
-#include <limits>
 #include <numeric>
 #include <string>
 #include <thread>
@@ -24,11 +23,14 @@ double waited = 0;
 // Arrays of so many bytes go back to the system: of smaller ones new pages cost more than holes.
 constexpr int large_array = 1 << 22;
 
-/// Counts of bytes are ints in MPI 3.
-int as_count(std::size_t bytes) {
-  if (bytes > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-    throw IoError("a message of more than 2 GB between two ranks: use more of them");
-  return static_cast<int>(bytes);
+// MPI 3 counts the bytes of a message in int: longer ones go in parts.
+std::size_t most_at_once = std::size_t{1} << 30;
+
+/// Calls work(first, count) for the parts of so many bytes.
+template <class Work>
+void in_parts(std::size_t bytes, Work work) {
+  for (std::size_t first = 0; first < bytes; first += most_at_once)
+    work(first, static_cast<int>(std::min(most_at_once, bytes - first)));
 }
 
 }  // namespace
@@ -63,29 +65,58 @@ int Ranks::count() const {
 std::int64_t Ranks::rounds() { return rounds_so_far; }
 double Ranks::waiting_seconds() { return waited; }
 
+void Ranks::cut_messages(std::size_t bytes) { most_at_once = bytes; }
+
+namespace {
+
+/// Each rank sends its bytes to rank `on`, one rank after the other, so that none waits in a buffer there.
+void gather_in_parts(std::span<const std::byte> own, std::span<const std::int64_t> counts, int on,
+                     std::byte* all) {
+  constexpr int tag = 2;
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (rank != on)
+    return in_parts(own.size(), [&](std::size_t first, int some) {
+      MPI_Send(own.data() + first, some, MPI_BYTE, on, tag, MPI_COMM_WORLD);
+    });
+  for (int r = 0; r < static_cast<int>(counts.size()); all += counts[r++])
+    if (r == on)
+      std::copy(own.begin(), own.end(), all);
+    else
+      in_parts(counts[r], [&](std::size_t first, int some) {
+        MPI_Recv(all + first, some, MPI_BYTE, r, tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+      });
+}
+
+}  // namespace
+
 std::vector<std::vector<std::byte>> Ranks::exchange_bytes(
     const std::vector<std::vector<std::byte>>& to_rank) const {
   if (count() == 1) return to_rank;
   const WaitingTime waiting(waited);
   const auto ranks = static_cast<std::size_t>(count()), own = static_cast<std::size_t>(rank());
-  std::vector<int> sent(ranks), arriving(ranks);
-  for (std::size_t r = 0; r < ranks; ++r) sent[r] = as_count(to_rank[r].size());
-  MPI_Alltoall(sent.data(), 1, MPI_INT, arriving.data(), 1, MPI_INT, MPI_COMM_WORLD);
+  std::vector<std::int64_t> sent(ranks), arriving(ranks);
+  for (std::size_t r = 0; r < ranks; ++r) sent[r] = static_cast<std::int64_t>(to_rank[r].size());
+  MPI_Alltoall(sent.data(), 1, MPI_INT64_T, arriving.data(), 1, MPI_INT64_T, MPI_COMM_WORLD);
   std::vector<std::vector<std::byte>> received(ranks);
   std::vector<MPI_Request> requests;
   constexpr int tag = 1;
   for (std::size_t r = 0; r < ranks; ++r) {
     received[r].resize(arriving[r]);
-    if (r == own || arriving[r] == 0) continue;
-    requests.emplace_back();
-    MPI_Irecv(received[r].data(), arriving[r], MPI_BYTE, static_cast<int>(r), tag, MPI_COMM_WORLD,
-              &requests.back());
+    if (r == own) continue;
+    in_parts(received[r].size(), [&](std::size_t first, int some) {
+      requests.emplace_back();
+      MPI_Irecv(received[r].data() + first, some, MPI_BYTE, static_cast<int>(r), tag, MPI_COMM_WORLD,
+                &requests.back());
+    });
   }
   for (std::size_t r = 0; r < ranks; ++r) {
-    if (r == own || sent[r] == 0) continue;
-    requests.emplace_back();
-    MPI_Isend(to_rank[r].data(), sent[r], MPI_BYTE, static_cast<int>(r), tag, MPI_COMM_WORLD,
-              &requests.back());
+    if (r == own) continue;
+    in_parts(to_rank[r].size(), [&](std::size_t first, int some) {
+      requests.emplace_back();
+      MPI_Isend(to_rank[r].data() + first, some, MPI_BYTE, static_cast<int>(r), tag, MPI_COMM_WORLD,
+                &requests.back());
+    });
   }
   received[own] = to_rank[own];
   MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
@@ -100,16 +131,20 @@ void Ranks::gather_bytes(std::span<const std::byte> own, int on,
     return;
   }
   const WaitingTime waiting(waited);
-  const int mine = as_count(own.size());
-  std::vector<int> counts(count()), first(count() + 1, 0);
-  MPI_Gather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, on, MPI_COMM_WORLD);
-  std::byte* all = nullptr;
-  if (rank() == on) {
-    std::size_t total = 0;
-    for (std::size_t r = 0; r < counts.size(); ++r) total += counts[r], first[r + 1] = as_count(total);
-    all = place_for(total);
+  const auto mine = static_cast<std::int64_t>(own.size());
+  std::vector<std::int64_t> counts(count());
+  MPI_Allgather(&mine, 1, MPI_INT64_T, counts.data(), 1, MPI_INT64_T, MPI_COMM_WORLD);
+  const std::size_t total = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
+  std::byte* const all = rank() == on ? place_for(total) : nullptr;
+  if (total <= most_at_once) {
+    const std::vector<int> at_once(counts.begin(), counts.end());
+    std::vector<int> first(counts.size(), 0);
+    std::partial_sum(at_once.begin(), at_once.end() - 1, first.begin() + 1);
+    MPI_Gatherv(own.data(), at_once[rank()], MPI_BYTE, all, at_once.data(), first.data(), MPI_BYTE, on,
+                MPI_COMM_WORLD);
+  } else {
+    gather_in_parts(own, counts, on, all);
   }
-  MPI_Gatherv(own.data(), mine, MPI_BYTE, all, counts.data(), first.data(), MPI_BYTE, on, MPI_COMM_WORLD);
   rounds_so_far += 2;
 }
 
@@ -125,7 +160,9 @@ std::size_t Ranks::broadcast_count(std::size_t own, int from) const {
 void Ranks::broadcast_bytes(std::span<std::byte> bytes, int from) const {
   if (count() == 1) return;
   const WaitingTime waiting(waited);
-  MPI_Bcast(bytes.data(), as_count(bytes.size()), MPI_BYTE, from, MPI_COMM_WORLD);
+  in_parts(bytes.size(), [&](std::size_t first, int some) {
+    MPI_Bcast(bytes.data() + first, some, MPI_BYTE, from, MPI_COMM_WORLD);
+  });
   ++rounds_so_far;
 }
 
@@ -184,7 +221,6 @@ std::string text_of(int mpi_error) {
 /// What went wrong; empty: nothing. Of one rank for itself: were the file opened by all together, Open MPI
 /// would wait for ever for those that cannot.
 std::string write_own_pieces(const std::filesystem::path& file, std::span<const Ranks::FilePiece> pieces) {
-  constexpr std::size_t most_at_once = std::size_t{1} << 30;  // MPI counts in int
   constexpr int tries = 20;  // the name of a new file may come a moment later to another machine
   MPI_File out = MPI_FILE_NULL;
   int error = MPI_SUCCESS;
@@ -196,8 +232,8 @@ std::string write_own_pieces(const std::filesystem::path& file, std::span<const 
   if (error != MPI_SUCCESS) return text_of(error);
   std::string wrong;
   for (const Ranks::FilePiece& piece : pieces)
-    for (std::size_t done = 0; wrong.empty() && done < piece.bytes.size(); done += most_at_once) {
-      const auto some = static_cast<int>(std::min(most_at_once, piece.bytes.size() - done));
+    in_parts(piece.bytes.size(), [&](std::size_t done, int some) {
+      if (!wrong.empty()) return;
       MPI_Status status;
       int written = 0;
       error = MPI_File_write_at(out, static_cast<MPI_Offset>(piece.place + done), piece.bytes.data() + done,
@@ -205,7 +241,7 @@ std::string write_own_pieces(const std::filesystem::path& file, std::span<const 
       if (error == MPI_SUCCESS) error = MPI_Get_count(&status, MPI_BYTE, &written);
       if (error != MPI_SUCCESS) wrong = text_of(error);
       if (wrong.empty() && written != some) wrong = "not all could be written";
-    }
+    });
   if (error = MPI_File_sync(out); error != MPI_SUCCESS && wrong.empty()) wrong = text_of(error);
   if (error = MPI_File_close(&out); error != MPI_SUCCESS && wrong.empty()) wrong = text_of(error);
   return wrong;

@@ -98,6 +98,9 @@ class Ranks {
   /// Writes pieces into a file that stands, each rank its own (MPI-IO), and forces them to the disk. Returns,
   /// on all ranks, which one could not and why; empty where all could.
   std::string write_pieces(const std::filesystem::path& file, std::span<const FilePiece> pieces) const;
+  /// Messages and pieces of files go in parts of so many bytes, 2^30 unless told, which no result shows. All
+  /// ranks have to say the same.
+  static void cut_messages(std::size_t bytes);
   /// Ends all ranks at once with an exit code: for an error that one rank meets alone.
   [[noreturn]] static void end_all(int exit_code);
 

@@ -19,10 +19,11 @@ constexpr double longest_spin = 30e-6;  // seconds; to fall asleep and to be wok
 constexpr double longest_pause = 1e-3;
 constexpr double stretch = 20e-3;    // seconds of jobs that tell whether the threads wait too much
 constexpr double least_share = 0.5;  // of the time, that threads must work
-// To ask for processor times takes most of a microsecond, as long as a short job: one job in so many does,
-// and one that begins so many seconds after the last that did.
-constexpr int jobs_per_look = 8;
-constexpr double longest_without_look = 1e-3;
+// To ask for processor times takes most of a microsecond, as long as a short job: one job in so many does, a
+// prime, since steps repeat.
+constexpr int jobs_per_look = 7;
+// A stretch is judged by at least this part of its time.
+constexpr double least_seen = 0.5 / jobs_per_look;
 
 // Of what is told to threads that may sleep. notify_one() and notify_all() ask whether anybody sleeps,
 // without a barrier of their own: were the value stored with less, that could be answered before the store is
@@ -104,8 +105,7 @@ void ThreadTeam::end() {
 void ThreadTeam::run(const std::function<void(int, int)>& job) {
   if (helpers_.empty()) return job(0, 1);
   const double start = now();
-  looks_ = ++unseen_ == jobs_per_look || start > looked_at_ + longest_without_look;
-  if (looks_) unseen_ = 0, looked_at_ = start;
+  looks_ = jobs_run_++ % jobs_per_look == 0;
   job_ = &job;
   const int helping = threads() - 1;
   running_.store(helping, std::memory_order_relaxed);
@@ -146,9 +146,9 @@ void ThreadTeam::help(int t) {
 
 /// After a job that took `passed` seconds. No thread but the calling one is at work.
 void ThreadTeam::choose_threads(double passed) {
-  if (until_ > 0) {
-    until_ -= passed;
-    if (until_ <= 0) barrier_.threads_ = size();
+  if (until_ > 0 && (until_ -= passed) <= 0) {
+    barrier_.threads_ = size();
+    worked_ = looked_ = passed_ = 0;
     return;
   }
   const int count = threads();
@@ -158,7 +158,7 @@ void ThreadTeam::choose_threads(double passed) {
     looked_ += passed;
     for (int t = 0; t < count; ++t) worked_ += std::max(0.0, members_[static_cast<std::size_t>(t)].worked);
   }
-  if (passed_ < stretch || looked_ == 0) return;
+  if (passed_ < stretch || looked_ < least_seen * passed_) return;
   const bool waited = worked_ < least_share * count * looked_;
   if (waited) {
     barrier_.threads_ = std::max(1, count / 2);

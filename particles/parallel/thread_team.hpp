@@ -27,7 +27,7 @@ class Barrier {
 /// The calling thread and up to size() - 1 helpers, which sleep between two jobs.
 ///
 /// Where other processes want the processors too, threads wait for one that is not running. The team compares
-/// the processor time that its threads worked with the time that passed, in some of its jobs: when they
+/// the processor time that its threads worked with the time that passed, in one job of seven: when they
 /// worked less than half of it it goes on with half as many, for four times as long as it took to see that,
 /// up to twenty times where they wait again and again, and then tries again. So shares of a job must not
 /// decide its result: any number of threads from 1 to size() may be given any job.
@@ -69,8 +69,7 @@ class ThreadTeam {
   std::atomic<int> running_{0};
   std::atomic<bool> over_{false};
   bool looks_ = false;  // the job is one of those whose processor time is measured
-  int unseen_ = 0;      // jobs since the last of those
-  double looked_at_ = 0;
+  std::uint64_t jobs_run_ = 0;
   // Seconds since the number of threads was chosen: of all jobs, of those looked at, and what threads worked
   // in these.
   double passed_ = 0, looked_ = 0, worked_ = 0;

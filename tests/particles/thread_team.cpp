@@ -84,28 +84,43 @@ TEST(ThreadTeam, ThreadsThatCannotBeStartedAreAnErrorThatTellsHowMany) {
   EXPECT_EXIT(start_too_many(), ::testing::ExitedWithCode(7), "");
 }
 
-TEST(ThreadTeam, ThreadsThatWaitAreLeftAloneForAWhileAndTriedAgain) {
-  // Nobody works: each job sleeps longer than the stretch over which a team looks at itself, as if its
-  // processor had been taken away.
-  ThreadTeam team(2);
-  const auto sleep = [&](int t, int) {
-    if (t == 0) std::this_thread::sleep_for(std::chrono::milliseconds(30));
+/// Runs a job in which nobody works, as if its processor had been taken away; returns how long that took.
+double run_sleeping(ThreadTeam& team) {
+  using namespace std::chrono;
+  const auto start = steady_clock::now();
+  team.run([&team](int t, int) {
+    if (t == 0) std::this_thread::sleep_for(milliseconds(4));
     team.meet(t);
-  };
+  });
+  return duration<double>(steady_clock::now() - start).count();
+}
+
+/// Seconds of jobs on fewer threads than all over those that it took to choose them.
+double share_of_fewer(ThreadTeam& team) {
+  double all = 0, fewer = 0;
+  while (team.threads() == team.size()) all += run_sleeping(team);
+  while (team.threads() < team.size()) fewer += run_sleeping(team);
+  return fewer / all;
+}
+
+TEST(ThreadTeam, ThreadsThatWaitAreLeftAloneForAWhileAndTriedAgain) {
+  ThreadTeam team(2);
   EXPECT_EQ(team.threads(), 2);
-  team.run(sleep);
-  EXPECT_EQ(team.threads(), 1);
-  int jobs = 0;
-  for (; team.threads() == 1; ++jobs) team.run(sleep);
-  EXPECT_GT(jobs, 1);
+  EXPECT_GT(share_of_fewer(team), 3);  // 4
   EXPECT_EQ(team.threads(), 2);
-  // What lasts is tried less often: up to five times as much, with room for jobs that take longer than asked.
-  int next_jobs = 0;
-  for (int stretch = 0; stretch < 4; ++stretch) {
-    while (team.threads() == 2) team.run(sleep);
-    for (next_jobs = 0; team.threads() == 1; ++next_jobs) team.run(sleep);
+  // What lasts is tried less often.
+  for (int stretch = 0; stretch < 3; ++stretch) (void)share_of_fewer(team);
+  EXPECT_GT(share_of_fewer(team), 15);  // 20
+}
+
+TEST(ThreadTeam, ThreadsThatWaitBecomeFewerUntilNoneWaits) {
+  ThreadTeam team(4);
+  std::vector<int> threads{4};
+  for (int job = 0; job < 1000 && threads.back() > 1; ++job) {
+    (void)run_sleeping(team);
+    if (team.threads() != threads.back()) threads.push_back(team.threads());
   }
-  EXPECT_GT(next_jobs, 2 * jobs);
+  EXPECT_EQ(threads, (std::vector<int>{4, 2, 1}));
 }
 
 }  // namespace
