@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "particles/effects/gravity.hpp"
+#include "particles/stepping/set_free_motion.hpp"
 #include "particles/stepping/swept_normals.hpp"
 
 namespace drumlin::particles {

@@ -1,13 +1,8 @@
 #pragma once
 // Uniform gravity: one acceleration of all grains, explicit in time. Sets the unit of time, sqrt(d/g).
-#include <optional>
-
 #include "coupling/common/scales.hpp"
 #include "coupling/documents/key_spec.hpp"
-#include "particles/bodies/bodies.hpp"
-#include "particles/bodies/free_motion.hpp"
 #include "particles/bodies/walls.hpp"
-#include "particles/parallel/team_loops.hpp"
 
 namespace drumlin::particles {
 
@@ -26,11 +21,5 @@ void describe(Visitor& v, Gravity& g) {
 
 /// The law: the acceleration in the units of the simulation.
 Point gravity_law(const Gravity&, const Scales&);
-
-// Terms in a step.
-
-/// Velocities of the grains without contacts: their own, and what an acceleration gives within a step.
-void set_free_motion(const Bodies&, const std::optional<Point>& acceleration, double time_step,
-                     const TeamLoops&, FreeMotion&);
 
 }  // namespace drumlin::particles

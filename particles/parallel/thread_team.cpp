@@ -164,7 +164,7 @@ void ThreadTeam::choose_threads(double passed) {
     barrier_.threads_ = std::max(1, count / 2);
     until_ = fewer_for_ * passed_;
   }
-  fewer_for_ = std::clamp(waited ? 2 * fewer_for_ : fewer_for_ / 2, fewer_at_first, fewer_at_last);
+  fewer_for_ = std::clamp(fewer_for_ * (waited ? 2 : 0.9), fewer_at_first, fewer_at_last);
   worked_ = looked_ = passed_ = 0;
 }
 

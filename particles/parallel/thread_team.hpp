@@ -51,7 +51,8 @@ class ThreadTeam {
 
  private:
   // So many times as long as a bad stretch took are fewer threads given: at first, since it may be over soon,
-  // and once that has doubled stretch by stretch, so that to try again costs 5 % at most.
+  // and once that has doubled with each bad stretch, so that to try again costs 5 % at most. A good stretch
+  // takes a tenth off: where good and bad ones alternate, it grows all the same.
   static constexpr double fewer_at_first = 4, fewer_at_last = 20;
 
   struct alignas(64) Member {

@@ -16,6 +16,7 @@
 #include "particles/stepping/cell_step.hpp"
 #include "particles/stepping/impacts.hpp"
 #include "particles/stepping/position_projection.hpp"
+#include "particles/stepping/set_free_motion.hpp"
 #include "particles/stepping/snapshot_of_state.hpp"
 #include "particles/stepping/swept_normals.hpp"
 #include "particles/stepping/wall_crossing.hpp"
