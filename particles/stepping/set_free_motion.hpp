@@ -5,6 +5,7 @@
 
 #include "particles/bodies/bodies.hpp"
 #include "particles/bodies/free_motion.hpp"
+#include "particles/bodies/walls.hpp"
 #include "particles/parallel/team_loops.hpp"
 
 namespace drumlin::particles {
