@@ -20,39 +20,40 @@ HWY_INLINE V size_of(V x, V z, V inverse_mass) {
   return hn::IfThenElseZero(hn::Gt(inverse_mass, hn::Zero(Doubles())), hn::Div(speed, inverse_mass));
 }
 
-std::size_t sizes_of_four_floats(const float* records, std::size_t count, double* sizes) {
-  const Doubles d;
-  const hn::Rebind<float, Doubles> f;
-  std::size_t b = 0;
-  for (; b + hn::Lanes(d) <= count; b += hn::Lanes(d)) {
-    hn::Vec<decltype(f)> x, z, s, inverse_mass;
-    hn::LoadInterleaved4(f, records + 4 * b, x, z, s, inverse_mass);
-    hn::StoreU(size_of(hn::PromoteTo(d, x), hn::PromoteTo(d, z), hn::PromoteTo(d, inverse_mass)), d,
-               sizes + b);
-  }
-  return b;
-}
-
-std::size_t sizes_of_four_doubles(const double* records, std::size_t count, double* sizes) {
-  const Doubles d;
-  std::size_t b = 0;
-  for (; b + hn::Lanes(d) <= count; b += hn::Lanes(d)) {
-    V x, z, s, inverse_mass;
-    hn::LoadInterleaved4(d, records + 4 * b, x, z, s, inverse_mass);
-    hn::StoreU(size_of(x, z, inverse_mass), d, sizes + b);
-  }
-  return b;
-}
-
-std::size_t sizes_of_three_doubles(const double* records, std::size_t count, double* sizes) {
+/// Of the bodies that fill vectors; load(b, x, z, inverse_mass) reads those from b on. Returns how many.
+template <class Load>
+HWY_INLINE std::size_t sizes_of(std::size_t count, double* sizes, Load load) {
   const Doubles d;
   std::size_t b = 0;
   for (; b + hn::Lanes(d) <= count; b += hn::Lanes(d)) {
     V x, z, inverse_mass;
-    hn::LoadInterleaved3(d, records + 3 * b, x, z, inverse_mass);
+    load(b, x, z, inverse_mass);
     hn::StoreU(size_of(x, z, inverse_mass), d, sizes + b);
   }
   return b;
+}
+
+std::size_t sizes_of_four_floats(const float* records, std::size_t count, double* sizes) {
+  const Doubles d;
+  return sizes_of(count, sizes, [&](std::size_t b, V& x, V& z, V& inverse_mass) HWY_ATTR {
+    const hn::Rebind<float, Doubles> f;
+    hn::Vec<decltype(f)> in_x, in_z, s, in_mass;
+    hn::LoadInterleaved4(f, records + 4 * b, in_x, in_z, s, in_mass);
+    x = hn::PromoteTo(d, in_x), z = hn::PromoteTo(d, in_z), inverse_mass = hn::PromoteTo(d, in_mass);
+  });
+}
+
+std::size_t sizes_of_four_doubles(const double* records, std::size_t count, double* sizes) {
+  return sizes_of(count, sizes, [&](std::size_t b, V& x, V& z, V& inverse_mass) HWY_ATTR {
+    V s;
+    hn::LoadInterleaved4(Doubles(), records + 4 * b, x, z, s, inverse_mass);
+  });
+}
+
+std::size_t sizes_of_three_doubles(const double* records, std::size_t count, double* sizes) {
+  return sizes_of(count, sizes, [&](std::size_t b, V& x, V& z, V& inverse_mass) HWY_ATTR {
+    hn::LoadInterleaved3(Doubles(), records + 3 * b, x, z, inverse_mass);
+  });
 }
 
 }  // namespace drumlin::particles::HWY_NAMESPACE
