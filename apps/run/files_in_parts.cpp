@@ -11,7 +11,7 @@
 
 #include "coupling/common/errors.hpp"
 #include "coupling/common/last_whole.hpp"
-#include "coupling/files/h5_image.hpp"
+#include "coupling/files/h5_writer.hpp"
 #include "particles/io/checkpoint_contents.hpp"
 #include "particles/io/snapshot_contents.hpp"
 

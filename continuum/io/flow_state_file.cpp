@@ -6,7 +6,8 @@
 
 #include "coupling/common/errors.hpp"
 #include "coupling/common/last_whole.hpp"
-#include "coupling/files/h5_image.hpp"
+#include "coupling/files/h5_reader.hpp"
+#include "coupling/files/h5_writer.hpp"
 
 namespace drumlin::continuum {
 namespace {

@@ -6,7 +6,8 @@
 #include <utility>
 
 #include "coupling/common/errors.hpp"
-#include "coupling/files/h5_image.hpp"
+#include "coupling/files/h5_reader.hpp"
+#include "coupling/files/h5_writer.hpp"
 
 namespace drumlin {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "coupling/exchange/field_map.hpp"
-#include "coupling/files/h5_image.hpp"
+#include "coupling/files/h5_writer.hpp"
 
 namespace drumlin {
 

@@ -73,7 +73,7 @@ def about_csv(path, found):
 def about_toml(path, _):
     content = drumlin.read(path)
     if content.get("format") == "drumlin-rheology-1":
-        return "law: mu = {a:.3f} {b:+.4f} ln I, I = {I_min:.1e} ... {I_max:.1e}".format(**content["mu"])
+        return f"law: {drumlin.Law(path).words}"
     stages = f", {len(content['stages'])} stages, effects {', '.join(content['effects'])}" if "stages" in content else ""
     return f"{content.get('format', 'TOML')}: {content.get('title', '')}{stages}"
 
@@ -109,7 +109,7 @@ def main():
     parser.add_argument("places", nargs="+", type=pathlib.Path)
     parser.add_argument("-o", "--output", type=pathlib.Path)
     options = parser.parse_args()
-    found = {}
+    found, printed = {}, False
     for place in options.places:
         files = sorted(place.rglob("*")) if place.is_dir() else [place]
         series = [[file for file in files if file.parent.name == folder][:-1] for folder in ("snapshots", "grains")]
@@ -118,9 +118,10 @@ def main():
             if file.suffix not in READERS or file.name.startswith("checkpoint") or any(file in earlier for earlier in series):
                 continue
             print(f"{file}: {READERS[file.suffix](file, found)}")
-    if not found:
+            printed = True
+    if not printed:
         sys.exit("nothing of Drumlin's was found")
-    if options.output:
+    if options.output and found:
         draw(found, options.output)
         print(f"{options.output}: drawn")
 

@@ -8,7 +8,8 @@
 
 #include "coupling/common/last_whole.hpp"
 #include "coupling/common/text_file.hpp"
-#include "coupling/files/h5_image.hpp"
+#include "coupling/files/h5_reader.hpp"
+#include "coupling/files/h5_writer.hpp"
 #include "particles/io/checkpoint_contents.hpp"
 #include "particles/io/checkpoint_stages.hpp"
 #include "particles/io/checkpoint_traffic.hpp"

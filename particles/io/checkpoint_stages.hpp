@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "coupling/files/h5_image.hpp"
+#include "coupling/files/h5_reader.hpp"
+#include "coupling/files/h5_writer.hpp"
 #include "particles/io/checkpoint_file.hpp"
 
 namespace drumlin::particles {

@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <utility>
 
-#include "coupling/files/h5_image.hpp"
+#include "coupling/files/h5_reader.hpp"
+#include "coupling/files/h5_writer.hpp"
 #include "particles/contact/matrix_problem.hpp"
 
 namespace drumlin::particles {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "coupling/files/h5_image.hpp"
+#include "coupling/files/h5_writer.hpp"
 
 namespace drumlin::particles {
 namespace {

@@ -5,7 +5,8 @@
 
 #include "coupling/common/errors.hpp"
 #include "coupling/common/text_file.hpp"
-#include "coupling/files/h5_image.hpp"
+#include "coupling/files/h5_reader.hpp"
+#include "coupling/files/h5_writer.hpp"
 #include "particles/io/snapshot_contents.hpp"
 
 namespace drumlin::particles {

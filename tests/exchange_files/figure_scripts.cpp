@@ -5,7 +5,7 @@
 #include "apps/support/pending_figures.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/common/text_file.hpp"
-#include "coupling/files/h5_image.hpp"
+#include "coupling/files/h5_writer.hpp"
 #include "tests/exchange_files/folder.hpp"
 #include "tests/support/data_folder.hpp"
 #include "tests/support/signed_folder.hpp"

@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "coupling/common/errors.hpp"
-#include "coupling/files/h5_image.hpp"
+#include "coupling/files/h5_reader.hpp"
 #include "tests/exchange_files/folder.hpp"
 
 namespace drumlin {

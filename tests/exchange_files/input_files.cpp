@@ -9,7 +9,7 @@
 #include "coupling/documents/document.hpp"
 #include "coupling/documents/json_document.hpp"
 #include "coupling/exchange/profile_set.hpp"
-#include "coupling/files/h5_image.hpp"
+#include "coupling/files/h5_reader.hpp"
 #include "tests/exchange_files/folder.hpp"
 
 namespace drumlin {

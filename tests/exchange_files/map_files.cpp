@@ -7,7 +7,8 @@
 #include "coupling/common/errors.hpp"
 #include "coupling/common/text_file.hpp"
 #include "coupling/files/field_map_file.hpp"
-#include "coupling/files/h5_image.hpp"
+#include "coupling/files/h5_reader.hpp"
+#include "coupling/files/h5_writer.hpp"
 #include "tests/exchange_files/folder.hpp"
 
 namespace drumlin {

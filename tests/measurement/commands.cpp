@@ -11,7 +11,7 @@
 #include "coupling/common/text_file.hpp"
 #include "coupling/exchange/scalar_set.hpp"
 #include "coupling/files/field_map_file.hpp"
-#include "coupling/files/h5_image.hpp"
+#include "coupling/files/h5_reader.hpp"
 #include "coupling/law/rheology_file.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "tests/comparison/run_folders.hpp"

@@ -4,7 +4,8 @@
 #include <fstream>
 
 #include "coupling/common/errors.hpp"
-#include "coupling/files/h5_image.hpp"
+#include "coupling/files/h5_reader.hpp"
+#include "coupling/files/h5_writer.hpp"
 #include "particles/io/contact_problem_file.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/scene/random.hpp"

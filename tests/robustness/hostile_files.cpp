@@ -9,7 +9,7 @@
 #include "coupling/common/errors.hpp"
 #include "coupling/common/text_file.hpp"
 #include "coupling/files/field_map_file.hpp"
-#include "coupling/files/h5_image.hpp"
+#include "coupling/files/h5_writer.hpp"
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/io/contact_problem_file.hpp"
 #include "particles/io/snapshot_file.hpp"

@@ -1,7 +1,5 @@
 #pragma once
-// Small HDF5 files that survive: built in memory, closed by a checksum, written aside, synced and renamed. A
-// reader checks the checksum before HDF5 sees a byte (random bit flips otherwise crash or hang it, or pass
-// unnoticed).
+// Small HDF5 files that survive: built in memory or aside, closed by a checksum, synced and renamed.
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -86,38 +84,6 @@ class H5FileWriter : public H5Content {
   FileInTheMaking aside_;
   std::vector<std::uint64_t> places_;  // of the arrays begun
   bool ended_ = false;                 // end_content()
-};
-
-/// An HDF5 file opened for reading. Every member throws InputError naming the file when something is missing
-/// or has another type or size.
-class H5Reader {
- public:
-  /// `checked`: the file must end in the checksum that H5Writer leaves; otherwise any HDF5 file is taken.
-  explicit H5Reader(const std::filesystem::path& file, bool checked = true);
-  ~H5Reader();
-  H5Reader(const H5Reader&) = delete;
-  H5Reader& operator=(const H5Reader&) = delete;
-
-  bool has(const std::string& name) const;
-  /// Lengths of a dataset, slowest index first.
-  std::vector<std::size_t> shape(const std::string& name) const;
-  std::vector<double> doubles(const std::string& name) const;
-  std::vector<float> floats(const std::string& name) const;
-  std::vector<std::int32_t> ints(const std::string& name) const;
-  std::vector<std::int64_t> longs(const std::string& name) const;
-  double number(const std::string& name) const;
-  std::int64_t integer(const std::string& name) const;
-  /// Whole numbers within bounds, both included; refuses any other, before it is cut to another type.
-  std::int64_t integer(const std::string& name, std::int64_t low, std::int64_t high) const;
-  std::vector<std::int32_t> ints(const std::string& name, std::int32_t low, std::int32_t high) const;
-  std::string text(const std::string& name) const;
-  [[noreturn]] void refuse(const std::string& name, const std::string& what,
-                           const std::string& allowed = "") const;
-
- private:
-  struct Handles;
-  std::unique_ptr<Handles> handles_;
-  std::filesystem::path file_;
 };
 
 }  // namespace drumlin
