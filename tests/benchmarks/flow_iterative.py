@@ -14,6 +14,10 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+
+from machine import machine  # noqa: E402
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCALARS = ("theta_deg", "H", "lambda")
 
@@ -63,7 +67,7 @@ def main():
         if case in content["cases"]:
             continue
         levels, cell, method, ranks, *rest = case.split(":")
-        found = solved(build, int(levels), float(cell), method, int(ranks), rest[0] if rest else "1e-8")
+        found = solved(build, int(levels), float(cell), method, int(ranks), rest[0] if rest else "1e-8") | machine()
         content["cases"][case] = found
         compare(content["cases"])
         record.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")

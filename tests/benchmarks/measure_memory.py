@@ -21,6 +21,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "apps/figures"))
 import result_files  # noqa: E402
 from drums import drum, rotation, solved_to, stage  # noqa: E402
+from machine import machine  # noqa: E402
 from million import taken  # noqa: E402
 
 CASES = ("7183x10", "7183x24", "7183x200", "100000x10", "100000x24")
@@ -68,7 +69,7 @@ def main():
             cases.append(found)
             measured = json.loads((run / "measured/measured.json").read_text(encoding="utf-8"))
     whole = {"format": "drumlin-measure-memory-1", "revision": measured["provenance"]["measurement"]["revision"],
-             "command": "python3 tests/benchmarks/measure_memory.py BUILD RECORD.json", "cases": cases}
+             "command": "python3 tests/benchmarks/measure_memory.py BUILD RECORD.json", **machine(), "cases": cases}
     given.record.parent.mkdir(parents=True, exist_ok=True)
     given.record.write_text(json.dumps(whole, indent=1) + "\n", encoding="utf-8")
 

@@ -24,6 +24,7 @@ import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from drums import drum, rotation, solved_to, speed_rpm, stage  # noqa: E402
+from machine import machine  # noqa: E402
 
 SIZES = (7183, 100000, 1000000)
 SETTLE, START, TURN = 0.1, 0.2, 0.1  # seconds, in steps of 1e-3
@@ -100,7 +101,7 @@ def main():
             print(f"{discs} discs: {sweeps} sweeps in {len(rows)} steps, {case['run']['wall_seconds']:.0f} s", flush=True)
             cases.append(case)
     whole = {"format": "drumlin-million-1", "revision": run["revision"], "command": "python3 tests/benchmarks/million.py BUILD RECORD.json" + (f" --ranks {given.ranks}" if given.ranks else ""),
-             "processors": os.cpu_count(), **({"ranks": given.ranks} if given.ranks else {"threads": given.threads}), "tolerance": 1e-2, "time_step_s": 1e-3, "cases": cases}
+             **machine(), **({"ranks": given.ranks} if given.ranks else {"threads": given.threads}), "tolerance": 1e-2, "time_step_s": 1e-3, "cases": cases}
     given.record.parent.mkdir(parents=True, exist_ok=True)
     given.record.write_text(json.dumps(whole, indent=1) + "\n", encoding="utf-8")
 

@@ -16,6 +16,7 @@ import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from drums import drum, rotation, solved_to, stage, started_from  # noqa: E402
+from machine import machine  # noqa: E402
 
 # Tolerance and share: the scene's; rougher, with the usual share and with larger ones.
 CASES = ((3e-3, 0.2), (5.5e-3, 0.2), (5.5e-3, 0.6), (5.5e-3, 1))
@@ -52,7 +53,7 @@ def main():
             case |= {key: mean_and_interval([float(row[key]) for row in rows]) for key in ("overlap_mean", "kinetic_energy", "contacts")}
             print(json.dumps(case), flush=True)
             cases.append(case)
-    content = {"format": "drumlin-projection-share-1", "command": "python3 tests/benchmarks/projection_share.py BUILD RUN RECORD.json", "revision": report["revision"], "processors": os.cpu_count(),
+    content = {"format": "drumlin-projection-share-1", "command": "python3 tests/benchmarks/projection_share.py BUILD RUN RECORD.json", "revision": report["revision"], **machine(),
                "load_before": load, "load_after": os.getloadavg()[0], "cases": cases}
     record.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
 

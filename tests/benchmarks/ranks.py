@@ -20,6 +20,7 @@ import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from drums import drum, solved_to, stage  # noqa: E402
+from machine import machine  # noqa: E402
 
 STEPS = {7183: 1000, 30000: 200}
 CALLS = 2
@@ -96,7 +97,7 @@ def main():
         case["two_ranks_over_one_in_steps"] = best("1 rank", "step_seconds") / best("2 ranks", "step_seconds")
         case["one_rank_over_one_process"] = best("1 rank") / best("one process")
         cases = [*(other for other in cases if kind(other) != kind(case)), case]
-    content = {"format": "drumlin-ranks-cost-1", "command": "python3 tests/benchmarks/ranks.py BUILD RECORD.json", "processors": os.cpu_count(),
+    content = {"format": "drumlin-ranks-cost-1", "command": "python3 tests/benchmarks/ranks.py BUILD RECORD.json", **machine(),
                "load_before": load, "load_after": os.getloadavg()[0], "cases": cases}
     record.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
 

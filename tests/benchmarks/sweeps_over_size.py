@@ -11,7 +11,6 @@ the rough solution left dies out, are told apart. Counts depend on no machine; s
 
 import csv
 import json
-import os
 import pathlib
 import re
 import statistics
@@ -21,6 +20,7 @@ import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from drums import drum, rotation, solved_to, speed_rpm, stage, started_from  # noqa: E402
+from machine import machine  # noqa: E402
 
 SIZES = (2000, 7183, 30000, 100000)
 STEPS, TRANSIENT = 300, 100
@@ -95,7 +95,7 @@ def main():
                     print(f"{discs} discs, {what}: {found['sweeps_last_200_steps']['mean']:.0f} sweeps a step", flush=True)
             cases.append(case)
     whole = {"format": "drumlin-sweeps-over-size-1", "revision": run["revision"], "command": "python3 tests/benchmarks/sweeps_over_size.py BUILD RECORD.json",
-             "processors": os.cpu_count(), "tolerance": 1e-2, "steps": STEPS, "cases": cases}
+             **machine(), "tolerance": 1e-2, "steps": STEPS, "cases": cases}
     record.parent.mkdir(parents=True, exist_ok=True)
     record.write_text(json.dumps(whole, indent=1) + "\n", encoding="utf-8")
 

@@ -14,6 +14,7 @@ import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from machine import machine  # noqa: E402
 from ranks import scene  # noqa: E402
 
 SIZES = (30000, 100000, 1000000)
@@ -67,7 +68,7 @@ def main():
             print({key: value for key, value in case.items() if key.startswith("old_over_new")})
             cases.append(case)
     content = {"format": "drumlin-two-builds-1", "command": "python3 tests/benchmarks/two_builds.py OLD_BUILD NEW_BUILD RECORD.json --flow FOLDER [DISCS...]", "revisions": revisions,
-               "processors": os.cpu_count(), "load_before": load, "load_after": os.getloadavg()[0], "cases": cases}
+               **machine(), "load_before": load, "load_after": os.getloadavg()[0], "cases": cases}
     record.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
 
 
