@@ -110,7 +110,11 @@ class ParticleRun {
   double simulated_seconds() const { return simulation_.state().time() * simulation_.scales().time_s; }
 
   void advance() {
-    last_ = simulation_.step();
+    try {
+      last_ = simulation_.step();
+    } catch (const NotConvergedError& error) {  // met before the step could be taken
+      fail("not converged", error.what(), simulation_.state().step + 1);
+    }
     const auto& state = simulation_.state();
     const bool converged = particles::is_converged(last_);
     add_up(last_, state.step, converged, totals_);
@@ -121,7 +125,8 @@ class ParticleRun {
     if (!converged && (totals_.unconverged_steps <= scene_.solver.capture_unconverged ||
                        (fatal && scene_.solver.capture_unconverged > 0)))
       capture_problem();
-    if (const auto fault = particles::fault_of(last_, scene_.solver)) fail(fault->kind, fault->why);
+    if (const auto fault = particles::fault_of(last_, scene_.solver))
+      fail(fault->kind, fault->why, state.step);
     if (simulation_.wall_loads_due()) write_wall_loads();
     if (simulation_.snapshot_due()) save_snapshot();
   }
@@ -261,7 +266,7 @@ class ParticleRun {
   }
 
   /// The last step must not be built upon: no checkpoint of it is written.
-  [[noreturn]] void fail(const std::string& status, const std::string& why) {
+  [[noreturn]] void fail(const std::string& status, const std::string& why, std::int64_t step) {
     writer_.wait();
     log_.flush();
     if (energy_) energy_->flush();
@@ -269,7 +274,7 @@ class ParticleRun {
     if (regions_) regions_->flush();
     write_report(status);
     progress_.finish();
-    throw NotConvergedError(fmt::format("step {}: {}", simulation_.state().step, why));
+    throw NotConvergedError(fmt::format("step {}: {}", step, why));
   }
 
   RunOptions options_;

@@ -51,7 +51,7 @@ RunTable::RunTable(const fs::path& file, const std::string& header, std::int64_t
     if (!fs::exists(file) || fs::file_size(file) < static_cast<std::uintmax_t>(keep_bytes))
       throw InputError(file.string() +
                        ": is missing or shorter than the checkpoint says; start over with --overwrite");
-    sum_.add(std::string_view(file_text(file)).substr(0, static_cast<std::size_t>(keep_bytes)));
+    sum_ = checksum_of(file, static_cast<std::uint64_t>(keep_bytes));
   }
   descriptor_ = ::open(file.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (descriptor_ < 0) fail("opened");

@@ -59,11 +59,18 @@ void cut_back(GrowingOutput& output, const std::optional<particles::Checkpoint>&
 }
 
 std::optional<particles::Checkpoint> checkpoint_in(const fs::path& output, const std::string& resolved) {
-  auto last = last_whole_checkpoint(output, particles::read_checkpoint);
+  // An interrupted --extend may leave a checkpoint of the longer scene beside one of the shorter.
+  const auto read = [&](const fs::path& file) {
+    particles::Checkpoint checkpoint = particles::read_checkpoint(file);
+    same_scene_or_refuse(file, checkpoint.scene, resolved);
+    return checkpoint;
+  };
+  auto last = last_whole_checkpoint(output, read);
   if (!last) return std::nullopt;
-  if (!last->passed_over.empty())
+  if (!last->passed_over.empty()) {
     print_error(fmt::format("{}\ngoes on from {} instead\n", last->passed_over, previous_checkpoint_name));
-  same_scene_or_refuse(output, last->content.scene, resolved);
+    remove_passed_over_checkpoint(output);
+  }
   return std::move(last->content);
 }
 

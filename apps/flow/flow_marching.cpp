@@ -110,8 +110,10 @@ continuum::FlowSolution march_scene(const FlowMarching& marching, GrowingOutput*
   const bool speaks = output != nullptr;
   const int steps = marching.march.time.steps;
   std::string lines;
-  if (speaks && !marching.passed_over.empty())
+  if (speaks && !marching.passed_over.empty()) {
     print_error(fmt::format("{}\ngoes on from {} instead\n", marching.passed_over, previous_checkpoint_name));
+    remove_passed_over_checkpoint(output->folder());
+  }
   if (marching.march.start.steps > 0 && speaks)
     lines = lines_up_to(output->folder() / series_name, marching.march.start.steps);
   continuum::MarchObserver observer;

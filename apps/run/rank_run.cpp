@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
@@ -20,6 +21,7 @@
 #include "apps/support/progress.hpp"
 #include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
+#include "coupling/common/first_rank.hpp"
 #include "coupling/common/last_whole.hpp"
 #include "coupling/common/own_costs.hpp"
 #include "coupling/common/text_file.hpp"
@@ -27,6 +29,7 @@
 #include "particles/distributed/runs_on_ranks.hpp"
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/io/snapshot_file.hpp"
+#include "particles/scene/placement.hpp"
 #include "particles/scene/scene_file.hpp"
 #include "particles/stepping/run_through.hpp"
 #include "particles/stepping/simulation.hpp"
@@ -123,7 +126,11 @@ class RankRun {
   double simulated_seconds() const { return simulation_.progress().time() * simulation_.scales().time_s; }
 
   void advance() {
-    last_ = simulation_.step();
+    try {
+      last_ = simulation_.step();
+    } catch (const NotConvergedError& error) {  // on all ranks, while grains travel
+      fail("grain lost", error.what(), simulation_.progress().step + 1, false);
+    }
     const auto& state = simulation_.progress();
     const bool converged = particles::is_converged(last_);
     add_up(last_, state.step, converged, totals_);
@@ -133,7 +140,10 @@ class RankRun {
         first_->log.write(log_line(last_, state.step, simulated_seconds(), scene_.stages[state.stage].name,
                                    energy, converged));
     }
-    if (const auto fault = particles::fault_of(last_, scene_.solver)) fail(fault->kind, fault->why);
+    if (const auto fault = particles::fault_of(last_, scene_.solver)) {
+      const bool numbers = !last_.lost || last_.lost->how != particles::LostGrain::How::not_finite;
+      fail(fault->kind, fault->why, state.step, numbers);
+    }
     if (simulation_.snapshot_due()) save_snapshot();
   }
 
@@ -177,9 +187,11 @@ class RankRun {
   }
 
   /// run.json and, at the end, the summary; the report is that of a run on one process, made of the gathered
-  /// state.
-  void write_report(const std::string& status) {
-    particles::SimulationState state = simulation_.gathered_state();
+  /// state, or, where grains are not whole, of those that the scene begins with.
+  void write_report(const std::string& status, bool grains_are_whole = true) {
+    particles::SimulationState state =
+        grains_are_whole ? simulation_.gathered_state() : simulation_.progress();
+    if (!grains_are_whole) state.bodies = particles::place_grains(scene_, simulation_.scales());
     const RankShare own{simulation_.counts(), own_cpu_seconds(), own_peak_memory_mb()};
     const auto shares = ranks_.gather<RankShare>(std::span(&own, 1));
     ranks_.on_first([&] {
@@ -222,11 +234,12 @@ class RankRun {
   }
 
   /// The last step must not be built upon: no checkpoint of it is written. All ranks come here together.
-  [[noreturn]] void fail(const std::string& status, const std::string& why) {
+  /// `grains_are_whole`: a state that is no numbers, or is on its way, makes no simulation to report on.
+  [[noreturn]] void fail(const std::string& status, const std::string& why, std::int64_t step,
+                         bool grains_are_whole) {
     ranks_.on_first([&] { first_->log.flush(); });
-    // A state that is no numbers makes no simulation to report on.
-    if (!last_.lost || last_.lost->how != particles::LostGrain::How::not_finite) write_report(status);
-    throw NotConvergedError(fmt::format("step {}: {}", simulation_.progress().step, why));
+    write_report(status, grains_are_whole);
+    throw NotConvergedError(fmt::format("step {}: {}", step, why));
   }
 
   RunOptions options_;
@@ -296,9 +309,19 @@ std::optional<bool> goes_on(const RunOptions& options, const particles::Scene& s
 }  // namespace
 
 int run_on_ranks(const RunOptions& options, const particles::Ranks& ranks) {
-  particles::Scene scene = particles::read_scene(options.scene, options.overrides);
-  const nlohmann::ordered_json started_from = take_over_grains(scene);
-  require_known(options, scene);
+  // One of several machines may not see a file.
+  const auto on_all = [&](const std::function<void()>& action) {
+    do_on_all_ranks(
+        ranks.rank(), action, [&](std::int64_t number) { return ranks.least(number); },
+        [](const std::string& what) { print_error(what + "\n"); });
+  };
+  particles::Scene scene;
+  nlohmann::ordered_json started_from;
+  on_all([&] {
+    scene = particles::read_scene(options.scene, options.overrides);
+    started_from = take_over_grains(scene);
+    require_known(options, scene);
+  });
   // What only shows when grains are placed must show before anything is written or removed.
   ranks.on_first([&] { (void)particles::Simulation(scene); });
   const std::string resolved = particles::scene_text(as_recorded(scene));
@@ -311,7 +334,19 @@ int run_on_ranks(const RunOptions& options, const particles::Ranks& ranks) {
   ranks.broadcast(how);
   if (how[0] == 0) return static_cast<int>(ExitCode::done);
   std::optional<particles::Checkpoint> from;
-  if (how[0] == 2) from = last_whole_checkpoint(options.output, particles::read_checkpoint)->content;
+  if (how[0] == 2) {
+    on_all([&] {
+      auto last = last_whole_checkpoint(options.output, particles::read_checkpoint);
+      if (!last) throw IoError(options.output.string() + ": no checkpoint is to be seen there");
+      from = std::move(last->content);
+    });
+    const std::int64_t step = from->state.step, least = ranks.least(step), most = -ranks.least(-step);
+    ranks.on_first([&] {
+      if (least != most)
+        throw IoError(fmt::format("{}: ranks see checkpoints of different steps, {} and {}",
+                                  options.output.string(), least, most));
+    });
+  }
   return RankRun(options, ranks, output ? &*output : nullptr, scene, resolved, std::move(from), started_from)
       .execute();
 }

@@ -44,13 +44,15 @@ std::string Checksum::text() const {
   return text;
 }
 
-FileSum file_sum(const std::filesystem::path& file, std::optional<std::uint64_t> first_bytes) {
+namespace {
+
+/// Adds the first bytes of a file; returns how many there were.
+std::uint64_t add_file(const std::filesystem::path& file, std::uint64_t first_bytes, Checksum& sum) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(file, error)))
     throw InputError(file.string() + ": is missing, or no regular file");
   std::ifstream stream(file, std::ios::binary);
-  Checksum sum;
-  std::uint64_t left = first_bytes.value_or(std::numeric_limits<std::uint64_t>::max()), count = 0;
+  std::uint64_t left = first_bytes, count = 0;
   std::string piece(1 << 18, '\0');
   while (left > 0 && stream) {
     stream.read(piece.data(), static_cast<std::streamsize>(std::min<std::uint64_t>(left, piece.size())));
@@ -59,7 +61,22 @@ FileSum file_sum(const std::filesystem::path& file, std::optional<std::uint64_t>
     count += read, left -= read;
   }
   if (!stream.is_open() || stream.bad()) throw IoError(file.string() + ": cannot be read");
-  return {count, sum.text()};
+  return count;
+}
+
+}  // namespace
+
+Checksum checksum_of(const std::filesystem::path& file, std::uint64_t first_bytes) {
+  Checksum sum;
+  add_file(file, first_bytes, sum);
+  return sum;
+}
+
+FileSum file_sum(const std::filesystem::path& file, std::optional<std::uint64_t> first_bytes) {
+  Checksum sum;
+  const std::uint64_t bytes =
+      add_file(file, first_bytes.value_or(std::numeric_limits<std::uint64_t>::max()), sum);
+  return {bytes, sum.text()};
 }
 
 }  // namespace drumlin

@@ -85,6 +85,13 @@ std::filesystem::file_status input_status(const std::filesystem::path& file) {
   say_why_not_open(file);
 }
 
+std::uint64_t largest_binary_file() {
+  const long pages = ::sysconf(_SC_PHYS_PAGES), page = ::sysconf(_SC_PAGE_SIZE);
+  const auto memory =
+      pages > 0 && page > 0 ? static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page) : 0;
+  return std::max(std::uint64_t{4} << 30, memory / 2);
+}
+
 std::string input_bytes(const std::filesystem::path& file, std::uint64_t largest) {
   InputFile input(file, largest);
   // As large as it was when it was opened: what another program adds meanwhile is not waited for.

@@ -11,7 +11,8 @@ namespace drumlin {
 /// Largest sizes, in bytes (docs/robustness.md). A drum of 100,000 grains leaves snapshots of 20 MB and logs
 /// of 100 MB.
 inline constexpr std::uint64_t largest_text_file = std::uint64_t{1} << 30;
-inline constexpr std::uint64_t largest_binary_file = std::uint64_t{4} << 30;
+/// 4 GiB, or half of the memory of the machine where that is more: our own files are read as a whole.
+std::uint64_t largest_binary_file();
 
 /// A regular file open for reading. A FIFO, a socket or a device is never waited for.
 class InputFile {

@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -23,13 +24,15 @@ struct LastWhole {
   std::string passed_over;  ///< why the newest was not taken; empty: it was
 };
 
-/// The first of the two checkpoints in `folder` that `read(file)` does not refuse; absent where there is
-/// none. Throws InputError, with the faults of both, if none that is there can be read.
+/// The first of the two checkpoints in `folder` that `read(file)` does not refuse, nor the disk; absent where
+/// there is none. Throws InputError, with the faults of both, if none that is there can be read, IoError if
+/// that was the disk's fault.
 template <class Read>
 auto last_whole_checkpoint(const std::filesystem::path& folder, Read read) {
   using Content = std::invoke_result_t<Read, std::filesystem::path>;
   std::optional<LastWhole<Content>> found;
   std::vector<InputProblem> problems;
+  bool disk_failed = false;
   for (const char* name : {checkpoint_name, previous_checkpoint_name}) {
     if (!std::filesystem::exists(folder / name)) continue;
     try {
@@ -38,11 +41,23 @@ auto last_whole_checkpoint(const std::filesystem::path& folder, Read read) {
       return found;
     } catch (const InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    } catch (const IoError& error) {
+      problems.push_back({"", 0, 0, "", error.what(), ""});
+      disk_failed = true;
     }
   }
   if (problems.empty()) return found;
+  if (disk_failed) throw IoError(InputError(problems).what());
   problems.push_back({folder.string(), 0, 0, "", "no checkpoint can be read; --overwrite starts over", ""});
   throw InputError(std::move(problems));
+}
+
+/// To be called before one goes on from the previous checkpoint: the newest, which was passed over, would
+/// else take the place of the previous one when the next is written, and no whole one would be left
+/// meanwhile.
+inline void remove_passed_over_checkpoint(const std::filesystem::path& folder) {
+  std::error_code nothing_there;
+  std::filesystem::remove(folder / checkpoint_name, nothing_there);
 }
 
 }  // namespace drumlin

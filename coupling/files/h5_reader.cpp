@@ -36,7 +36,7 @@ struct H5Reader::Handles {
 
 H5Reader::H5Reader(const std::filesystem::path& file, bool checked)
     : handles_(std::make_unique<Handles>()), file_(file) {
-  std::string& bytes = handles_->bytes = input_bytes(file, largest_binary_file);
+  std::string& bytes = handles_->bytes = input_bytes(file, largest_binary_file());
   if (bytes.empty()) throw InputError(file.string() + ": is empty");
   const bool has_trailer =
       bytes.size() > h5_trailer_size && std::memcmp(bytes.data() + bytes.size() - h5_trailer_size,

@@ -133,7 +133,7 @@ void RankGrains::settle(RankState& state, const WallStep& walls, double time_ste
   const Need need = need_of(state, walls, time_step, gain);
   drift_ = need.drift;
   reach_ = need.reach;
-  const TileGrid grid = tile_grid(domain_.low, domain_.edge, need.reach);
+  const TileGrid grid = tile_grid(domain_.low, domain_.edge, need.reach, domain_.grains);
   const bool other_grid = !now_.forest || !(now_.forest->tiles().grid == grid);
   const bool uneven = !other_grid && unbalanced(state);
   ++now_.steps;
@@ -160,7 +160,7 @@ bool RankGrains::settle_again(RankState& state, const WallStep& walls, double ti
   if (fits)
     sort(state);
   else
-    change_forest(state, tile_grid(domain_.low, domain_.edge, reach_));
+    change_forest(state, tile_grid(domain_.low, domain_.edge, reach_, domain_.grains));
   take_sorted(state);
   return true;
 }

@@ -36,9 +36,9 @@ Overlap RankOverlap::find(const MovedTiles& contacts, const Bodies& bodies, cons
   loaded_pairs = ranks_.add(sum, loaded_pairs);
   ranks_.largest(extremes);
   Overlap overlap;
-  overlap.loaded = static_cast<int>(loaded_pairs);
+  overlap.loaded = loaded_pairs;
   overlap.max = extremes[0];
-  if (overlap.loaded > 0) overlap.mean = sum[0].value() / overlap.loaded;
+  if (overlap.loaded > 0) overlap.mean = sum[0].value() / static_cast<double>(overlap.loaded);
   any_ = extremes[1] > 0;
   return overlap;
 }

@@ -103,7 +103,7 @@ class RankMoreauJean final : public RankStepper {
     if (large) solver_.release();
     std::vector<std::int64_t> count{problem_.contacts()};
     ranks_.add(count);
-    report.contacts = static_cast<int>(count[0]);
+    report.contacts = count[0];
     (void)watch.lap();
     crossings_.begin(bodies_, walls.before, domain_.largest / 2);
     move(time_step);

@@ -14,6 +14,7 @@ template <class Problem>
 void TileBlocks<T, dim, spin>::pack_bodies(const Problem& problem, std::size_t tiles) {
   const auto& W = problem.W;
   moving_ = W.fixed();
+  require_offsets<T>(moving_ + Block::width * tiles);
   bodies_.assign(moving_ + Block::width * tiles, {});
   for (std::int32_t b = 0; b < W.fixed(); ++b) bodies_[b].inverse_mass = static_cast<T>(W.inverse_mass[b]);
   before_.resize(moving_);

@@ -345,7 +345,8 @@ SolveReport TileSolver<Problem>::solve(const Problem& problem, const TiledContac
   const SolveReport first =
       sweep_until_done(problem, contacts, halo, coarse, count[0], in_single_, true, solution);
   const bool done = first.status == Status::converged && rule.tolerance == coarse.tolerance;
-  if (done || first.status == Status::not_finite || first.sweeps >= rule.max_sweeps) return first;
+  if (done || first.status == Status::not_finite || first.sweeps >= rule.max_sweeps)
+    return judged(rule, first);
   best_ = solution.impulses;
   in_single_ = {};  // few solves need both: none holds both
   SolveReport both = together(first, in_double(remaining(rule, first)));

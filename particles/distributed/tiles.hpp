@@ -18,7 +18,7 @@ struct TileGrid {
   int cells_per_side() const { return 1 << levels; }
   std::int32_t rows() const { return 1 << (levels - 1); }
   std::int32_t columns() const { return cut * rows(); }
-  std::int32_t count() const { return columns() * rows(); }
+  std::int32_t count() const { return columns() * rows(); }  ///< see tile_grid()
   double edge() const { return cell * cells_per_side(); }
   double tile_width() const { return 2 * cell / cut; }
   /// What a cell must be at least, if tiles are to be two of them wide (docs/decisions/ranks.md).
@@ -88,7 +88,8 @@ double most_drift(const Reach&, double cell);
 inline constexpr int least_cells_of_high_tiles = 128;
 /// The smallest grid whose needed cells are large enough and which covers the square from `low` of edge
 /// `edge`. Needed cells grow by steps of sqrt(2), so that most steps have that of the step before; nothing
-/// but the arguments decides, so that a run that is continued has the same tiles.
-TileGrid tile_grid(Point low, double edge, const Reach&);
+/// but the arguments decides, so that a run that is continued has the same tiles. Cells are larger than that
+/// where there would be many more tiles than grains: few grains in a wide place.
+TileGrid tile_grid(Point low, double edge, const Reach&, std::int64_t grains);
 
 }  // namespace drumlin::particles

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <utility>
 
+#include "coupling/common/errors.hpp"
 #include "coupling/files/h5_reader.hpp"
 #include "coupling/files/h5_writer.hpp"
 #include "particles/contact/matrix_problem.hpp"
@@ -103,6 +105,9 @@ void write_contact_solution(const std::filesystem::path& file, std::span<const d
 
 void write_contact_problem(const std::filesystem::path& file, const BlockProblem& problem,
                            const ContactPlaces& places, const std::string& description) {
+  constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
+  if (4 * static_cast<std::int64_t>(problem.W.block.size()) > most)
+    throw IoError(file.string() + ": cannot be written: its layout counts the entries of W in 32 bits");
   const auto size = static_cast<std::int32_t>(problem.q.size());
   std::vector<std::int32_t> p{0}, i;
   std::vector<double> x;

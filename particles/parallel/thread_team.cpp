@@ -5,6 +5,7 @@
 #include <ctime>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -114,18 +115,34 @@ void ThreadTeam::run(const std::function<void(int, int)>& job) {
     jobs.fetch_add(1, whole_order);
     jobs.notify_one();
   }
-  if (helping == 0) {
-    job(0, 1);
-  } else {
-    work(0);
-    for (int left = running_.load(std::memory_order_acquire); left > 0;
-         left = running_.load(std::memory_order_acquire))
-      (void)wait_for_change(running_, left);
-  }
+  work(0);
+  for (int left = running_.load(std::memory_order_acquire); left > 0;
+       left = running_.load(std::memory_order_acquire))
+    (void)wait_for_change(running_, left);
   choose_threads(now() - start);
+  rethrow();
 }
 
-void ThreadTeam::work(int t) {
+/// Throws what a thread has thrown in the job that is over.
+void ThreadTeam::rethrow() {
+  for (auto& member : members_)
+    if (member.thrown) {
+      const std::exception_ptr first = std::exchange(member.thrown, nullptr);
+      for (auto& other : members_) other.thrown = nullptr;
+      std::rethrow_exception(first);
+    }
+}
+
+void ThreadTeam::work(int t) noexcept {
+  try {
+    do_share(t);
+  } catch (...) {
+    // The others may still work on what the caller of run() would give up.
+    members_[static_cast<std::size_t>(t)].thrown = std::current_exception();
+  }
+}
+
+void ThreadTeam::do_share(int t) {
   if (!looks_) return (*job_)(t, threads());
   Member& self = members_[static_cast<std::size_t>(t)];
   self.spun = 0;

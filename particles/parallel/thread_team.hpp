@@ -2,6 +2,7 @@
 // Thread team: threads that work on one solve together and meet many thousand times a second.
 #include <atomic>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <thread>
@@ -44,7 +45,8 @@ class ThreadTeam {
   /// Number of threads that the next job is given.
   int threads() const { return barrier_.threads_; }
   /// Calls job(t, threads) for t in [0, threads), each on a thread of its own, and returns when all have
-  /// returned. Jobs must not throw.
+  /// returned. What a job throws is thrown here then, of the first of the threads on which it was; jobs that
+  /// meet must not throw, or others wait for ever.
   void run(const std::function<void(int, int)>& job);
   /// Where the threads of a job meet; called by thread t of it.
   void meet(int t) { members_[static_cast<std::size_t>(t)].spun += barrier_.meet(); }
@@ -58,9 +60,12 @@ class ThreadTeam {
   struct alignas(64) Member {
     double worked = 0, spun = 0;  // processor seconds of the job
     std::atomic<std::uint32_t> jobs{0};
+    std::exception_ptr thrown;
   };
   void help(int t);
-  void work(int t);
+  void work(int t) noexcept;
+  void do_share(int t);
+  void rethrow();
   void choose_threads(double passed);
   void end();
 

@@ -67,6 +67,19 @@ void check_clear(const Scene& scene, const Region& region, const std::string& ke
                         {key, fmt::format("outlets.{}.region", o)}});
 }
 
+/// A grain must not meet the same neighbour on both sides.
+void check_periods(const Scene& scene, const Source& source, const std::string& key, Faults& faults) {
+  const auto check = [&](const std::string& period, double length_mm) {
+    if (length_mm > 3 * source.diameter_max_mm) return;
+    faults.push_back({key,
+                      fmt::format("is {}", source.diameter_max_mm),
+                      fmt::format("number in mm, less than a third of the {} mm of {}", length_mm, period),
+                      {key, period}});
+  };
+  if (scene.periodic_x) check("periodic_x", scene.periodic_x->x_max_mm - scene.periodic_x->x_min_mm);
+  if (scene.periodic_z) check("periodic_z", scene.periodic_z->z_max_mm - scene.periodic_z->z_min_mm);
+}
+
 void check_source(const Scene& scene, std::size_t s, Faults& faults) {
   const Source& source = scene.sources[s];
   const std::string key = fmt::format("sources.{}", s);
@@ -86,6 +99,7 @@ void check_source(const Scene& scene, std::size_t s, Faults& faults) {
                           {key}});
   if (check_region(source.region, source.diameter_max_mm, key + ".region", faults))
     check_clear(scene, source.region, key + ".region", faults);
+  check_periods(scene, source, key + ".diameter_max_mm", faults);
   const auto& materials = scene.grains.materials;
   const auto known = [&](const GrainMaterial& m) { return source.material && m.name == *source.material; };
   if (source.material ? std::none_of(materials.begin(), materials.end(), known)

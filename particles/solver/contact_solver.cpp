@@ -178,7 +178,7 @@ SolveReport solve_accelerated(const Problem& problem, const StoppingRule& rule,
     const bool done = first.status == Status::converged && rule.tolerance == coarse.tolerance;
     if (done || first.status == Status::not_finite || first.status == Status::out_of_time ||
         first.sweeps >= rule.max_sweeps)
-      return first;
+      return judged(rule, first);
     work.best = solution.impulses;
     SolveReport both =
         together(first, solve_accelerated_double(problem, remaining(rule, first), work, solution));

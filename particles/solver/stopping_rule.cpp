@@ -25,6 +25,12 @@ StoppingRule remaining(const StoppingRule& rule, const SolveReport& spent) {
   return left;
 }
 
+SolveReport judged(const StoppingRule& rule, SolveReport report) {
+  if (report.status == Status::converged && report.residual.rms > rule.tolerance)
+    report.status = Status::out_of_sweeps;
+  return report;
+}
+
 SolveReport together(const SolveReport& first, const SolveReport& second) {
   SolveReport both = second;
   both.sweeps += first.sweeps;

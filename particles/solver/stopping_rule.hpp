@@ -34,6 +34,9 @@ struct [[nodiscard]] SolveReport {
 
 /// What a rule leaves to a second method after a first one has spent its sweeps and seconds.
 StoppingRule remaining(const StoppingRule&, const SolveReport& spent);
+/// Report of a first method that worked to a tolerance of its own and after which nothing else follows: what
+/// misses the tolerance of the rule ran out of sweeps.
+SolveReport judged(const StoppingRule&, SolveReport);
 /// Report of the second method, with the sweeps and seconds of the first added.
 SolveReport together(const SolveReport& first, const SolveReport& second);
 

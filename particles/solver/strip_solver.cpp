@@ -50,6 +50,7 @@ void StripProblem<T, dim, spin>::pack_bodies(const Problem& problem, const Sweep
   std::size_t all = driven_bodies_;
   if constexpr (drives<std::remove_cvref_t<decltype(W)>>)
     all += W.driven.size() + W.driven.size() % 2 + 2 * W.cell.has_value();
+  require_offsets<T>(all);
   place_.renew(plan.body_order.size());
   bodies_.renew(all);
   before_.renew(all);

@@ -5,7 +5,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
+#include <stdexcept>
 
 #include "particles/solver/momentum.hpp"
 #include "particles/solver/seen_residual.hpp"
@@ -50,6 +52,13 @@ template <class T>
 struct alignas(4 * sizeof(T)) BodyRecord {
   T x = 0, z = 0, s = 0, inverse_mass = 0;
 };
+
+/// Blocks count the bytes before a record in 32 bits. Throws std::length_error where that is not enough.
+template <class T>
+void require_offsets(std::size_t records) {
+  if (records > std::numeric_limits<std::uint32_t>::max() / sizeof(BodyRecord<T>))
+    throw std::length_error("more bodies than one process can sweep; start it on MPI ranks");
+}
 
 /// Successive blocks that share no body. The first `swept` of the `count` take part in a sweep.
 struct BlockGroup {

@@ -41,7 +41,7 @@ struct StepReport {
   SolveReport solve;
   Overlap overlap;
   std::optional<LostGrain> lost;  ///< the step went wrong: its state must not be built upon
-  int contacts = 0;
+  std::int64_t contacts = 0;
   int impacts = 0;  ///< pairs that met faster than 2 g h and rebounded; 0 without restitution
   double detection_seconds = 0, setup_seconds = 0, projection_seconds = 0;
 };

@@ -37,7 +37,7 @@ Overlap OverlapSearch::find(const MovedContacts& contacts, const Bodies& bodies,
       plan_.group_start[g] =
           first < pairs.size() ? plan_.group_start[g] + earlier_[first / piece] : earlier_.back();
     }
-  if (overlap.loaded > 0) overlap.mean = sum / overlap.loaded;
+  if (overlap.loaded > 0) overlap.mean = sum / static_cast<double>(overlap.loaded);
   return overlap;
 }
 

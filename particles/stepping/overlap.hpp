@@ -20,13 +20,13 @@ namespace drumlin::particles {
 /// Overlap of loaded contacts before the position projection, in d.
 struct Overlap {
   double mean = 0, max = 0;
-  int loaded = 0;
+  std::int64_t loaded = 0;
 };
 
 /// What pieces of the pairs add to it.
 struct OverlapSums {
   double depths = 0, deepest = 0;
-  int loaded = 0;
+  std::int64_t loaded = 0;
   std::int32_t close = 0;  ///< pairs closer than the margin
   bool overlap = false;    ///< one of those has a negative gap
   std::optional<LostGrain> lost;

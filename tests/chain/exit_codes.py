@@ -7,7 +7,19 @@ import pathlib
 import sys
 import tempfile
 
-from command import Drumlin, bytes_below, require
+from command import Drumlin, bytes_below, read_json, require
+
+
+def cell_too_short(drumlin, data, folder):
+    """A run that ends before a step keeps its log, and its run.json says how it ended."""
+    text = (data / "scenes" / "biaxial-cell.toml").read_text(encoding="utf-8").replace("count = 300", "count = 9").replace(
+        "{ xx = { pressure_n_m2 = 1000 }, zz = { pressure_n_m2 = 1000 } }", "{ xx = { rate_per_s = -20 }, zz = { rate_per_s = -20 } }")
+    scene, run = folder / "short-cell.toml", folder / "short-cell"
+    scene.write_text(text.replace("log_every_steps = 10", "log_every_steps = 1"), encoding="utf-8")
+    _, said = drumlin("run", scene, "-o", run, code=3)
+    report, steps = read_json(run / "run.json"), len((run / "log.csv").read_text(encoding="utf-8").splitlines()) - 1
+    require(f"step {steps + 1}: the cell has become shorter" in said, f"a short cell, after {steps} steps:\n{said}")
+    require(report["status"] == "not converged" and report["steps"] == steps > 100, f"a short cell: {report['status']}, {report['steps']} steps")
 
 
 def main():
@@ -72,6 +84,7 @@ def main():
             require(len(text) > 100, f"{words} --help says too little")
             shown += 1
         print(f"{shown} helps shown")
+        cell_too_short(drumlin, data, folder)
 
 
 if __name__ == "__main__":

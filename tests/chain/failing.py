@@ -81,6 +81,38 @@ class Trials:
         require(not [file for file in bytes_below(run) if file.startswith(".")], f"{what}: files are left")
         return code != 0
 
+    def fail_extended(self, kind):
+        """The calls of one kind, one after the other, of a run that is prolonged: what is left goes on to the same bytes."""
+        finished, longer, run = self.run.with_name("finished"), self.run.with_name("longer"), self.run.with_name("extended")
+        require(self.started(finished)[0] == 0, "a run to prolong")
+
+        def extended(folder, *words, **failing):
+            environment = self.environment | failing if failing else os.environ
+            result = subprocess.run([self.words[0], "run", folder / "scene.toml", "-o", folder, *words], capture_output=True, text=True, check=False,
+                                    timeout=PATIENCE, env=environment)
+            return result.returncode, result.stdout + result.stderr
+
+        counts = self.run.with_name("counts-extended")
+        shutil.copytree(finished, longer)
+        code, said = extended(longer, "--extend", "0.01", FAILING_COUNTS_TO=str(counts))
+        require(code == 0, f"nothing fails: exit code {code}\n{said}")
+        expected = results_of_run(longer)
+        calls = int(next(line.split()[1] for line in counts.read_text(encoding="utf-8").splitlines() if line.split()[0] == kind))
+        for number in range(1, calls + 1):
+            what = f"--extend, {kind} {number} of {calls}"
+            shutil.rmtree(run, ignore_errors=True)
+            shutil.copytree(finished, run)
+            code, said = extended(run, "--extend", "0.01", FAILING_CALL=kind, FAILING_FROM=str(number), FAILING_COUNT="1")
+            require(code in (0, 74), f"{what}: exit code {code}\n{said}")
+            again, said_again = extended(run, "--resume")
+            require(again == 0, f"{what}: {said}\nresumed: exit code {again}\n{said_again}")
+            if results_of_run(run) != expected:
+                again, said_again = extended(run, "--extend", "0.01")
+                require(again == 0, f"{what}: {said}\nprolonged again: exit code {again}\n{said_again}")
+            require(results_of_run(run) == expected, f"{what}: {said}\nthe run left other bytes than one that was prolonged at once")
+            require_whole_files(run)
+        print(f"--extend, {kind}: {calls} failures tried", flush=True)
+
     def fail_each(self, kind, wanted, crashes=()):
         """About so many of the calls of this kind, spread evenly; all of them where 0 is wanted."""
         self.fail_numbers(kind, range(1, self.calls[kind] + 1, max(1, self.calls[kind] // wanted) if wanted else 1), crashes)
@@ -117,6 +149,7 @@ def main():
             return
         for kind in FILE_CALLS:
             trials.fail_each(kind, given.calls)
+        trials.fail_extended("rename")
         for kind, crashes in (("malloc", MISTAKEN), ("malloc-in-hdf5", CRASHES_OF_HDF5)):
             trials.fail_each(kind, given.allocations, crashes)
         # Memory that stays short: what tells of it and cleans up needs none.

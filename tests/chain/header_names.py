@@ -8,11 +8,11 @@ import re
 STANDARD = {
     "algorithm": "any_of clamp copy_n fill fill_n max min minmax_element move_backward", "array": "array tuple_size_v", "atomic": "atomic", "bit": "bit_cast bit_ceil", "charconv": "from_chars", "chrono": "chrono",
     "cmath": "abs ceil copysign exp floor hypot ilogb isfinite ldexp log log10 nan round sqrt", "complex": "complex abs",
-    "cstddef": "byte ptrdiff_t size_t", "cstring": "memcpy", "cstdint": "int8_t int16_t int32_t int64_t uint8_t uint16_t uint32_t uint64_t", "deque": "deque",
+    "cstddef": "byte ptrdiff_t size_t", "cstring": "memcpy", "exception": "exception_ptr", "cstdint": "int8_t int16_t int32_t int64_t uint8_t uint16_t uint32_t uint64_t", "deque": "deque",
     "filesystem": "filesystem", "functional": "function", "future": "async future launch", "initializer_list": "initializer_list",
     "limits": "numeric_limits", "map": "map", "memory": "make_shared shared_ptr unique_ptr", "new": "align_val_t", "optional": "optional nullopt", "random": "mt19937_64",
-    "set": "set", "span": "span as_bytes as_writable_bytes", "stdexcept": "runtime_error", "string": "string to_string",
-    "string_view": "string_view", "system_error": "errc", "thread": "thread",
+    "set": "set", "span": "span as_bytes as_writable_bytes", "stdexcept": "length_error runtime_error", "string": "string to_string",
+    "string_view": "string_view", "system_error": "errc error_code", "thread": "thread",
     "type_traits": "conditional_t invoke_result_t is_integral_v is_same_v is_trivially_copyable_v", "unordered_map": "unordered_map",
     "utility": "exchange move pair", "variant": "get get_if holds_alternative monostate variant", "vector": "vector",
 }

@@ -163,6 +163,25 @@ TEST(LastWhole, IsThePreviousCheckpointWhereTheNewestIsDamaged) {
   EXPECT_THROW(last_whole_checkpoint(folder.path(), read), InputError);
 }
 
+TEST(LastWhole, IsThePreviousCheckpointWhereTheDiskDoesNotGiveTheNewest) {
+  const TemporaryFolder folder;
+  const auto read = [](const fs::path& file) {
+    const std::string text = file_text(file);
+    if (text == "bad sector") throw IoError(file.string() + ": cannot be read");
+    return text;
+  };
+  folder.with(checkpoint_name, "bad sector");
+  folder.with(previous_checkpoint_name, "old");
+  const auto last = last_whole_checkpoint(folder.path(), read);
+  EXPECT_EQ(last->content, "old");
+  EXPECT_NE(last->passed_over.find("checkpoint.h5: cannot be read"), std::string::npos);
+  remove_passed_over_checkpoint(folder.path());  // or the next one would take the place of the old
+  EXPECT_FALSE(fs::exists(folder / checkpoint_name));
+  EXPECT_EQ(last_whole_checkpoint(folder.path(), read)->content, "old");
+  folder.with(previous_checkpoint_name, "bad sector");
+  EXPECT_THROW(last_whole_checkpoint(folder.path(), read), IoError);
+}
+
 TEST(ResultFolder, ResultsBelongToTheStateThatTheyWereComputedFrom) {
   const TemporaryFolder folder;
   const fs::path run = folder / "run", measured = run / "measured";

@@ -54,8 +54,8 @@ TEST(InputFile, NamesWhatCannotBeOpened) {
 TEST(InputFile, LargerThanAllowedIsRefusedBeforeItIsRead) {
   const TemporaryFolder folder;
   const auto file = folder.with("large", "");
-  std::filesystem::resize_file(file, largest_binary_file + 1);
-  EXPECT_TRUE(holds(message_of<InputError>([&] { const H5Reader in(file); }), "at most 4 GiB"));
+  std::filesystem::resize_file(file, largest_binary_file() + 1);
+  EXPECT_TRUE(holds(message_of<InputError>([&] { const H5Reader in(file); }), "at most "));
   EXPECT_TRUE(holds(message_of<InputError>([&] { (void)file_text(file); }), "at most 1 GiB"));
   EXPECT_TRUE(holds(message_of<InputError>([&] { (void)read_toml(file); }), "at most 1 MiB"));
   EXPECT_TRUE(holds(message_of<InputError>([&] { (void)read_json(file, "x"); }), "at most 64 MiB"));

@@ -171,6 +171,11 @@ TEST(Sources, AreRefusedWhereAnOutletTakesGrainsOrDiscsHaveNoRoom) {
   EXPECT_NE(validate(scene)[0].allowed.find("2 mm"), std::string::npos);
   scene.sources[0].region = CircleRegion{{0, 8}, 5};
   EXPECT_TRUE(validate(scene).empty());
+  scene.periodic_x = PeriodicX{-3, 3};  // a disc of 2 mm could touch another one on both sides
+  const auto faults = validate(scene);
+  EXPECT_TRUE(std::any_of(faults.begin(), faults.end(), [](const auto& fault) {
+    return fault.key == "sources.0.diameter_max_mm" && fault.allowed.find("periodic_x") != std::string::npos;
+  }));
 }
 
 TEST(FlowRate, IsThatOfTheMiddleOfTheOutflow) {

@@ -6,6 +6,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <new>
 #include <string>
@@ -42,6 +43,33 @@ TEST(ThreadTeam, EveryShareOfAJobIsDoneOnceAndThreadsMeet) {
         ASSERT_EQ(first[thread], 0);
       }
     }
+  }
+}
+
+/// What the calling thread would destroy on its way out is not destroyed before the others have done their
+/// shares.
+TEST(ThreadTeam, ThrowsWhatAJobThrowsOnceAllAreDone) {
+  for (const int size : {1, 2, 4}) {
+    ThreadTeam team(size);
+    for (int thrower = 0; thrower < size; ++thrower) {
+      std::atomic<int> done = 0;
+      int threads_of_job = 0;
+      try {
+        team.run([&](int t, int threads) {
+          if (t == 0) threads_of_job = threads;
+          if (t == thrower || t + 1 == threads) throw std::bad_alloc();
+          std::this_thread::sleep_for(std::chrono::milliseconds(5));
+          ++done;
+        });
+        FAIL() << size << " threads, " << thrower << " throws";
+      } catch (const std::bad_alloc&) {
+        const int throwers = thrower + 1 >= threads_of_job ? 1 : 2;
+        EXPECT_EQ(done, threads_of_job - throwers);
+      }
+    }
+    int shares = 0;
+    team.run([&](int t, int) { shares += t == 0; });
+    EXPECT_EQ(shares, 1);
   }
 }
 

@@ -108,7 +108,7 @@ TEST(WorkMemory, AStepTakesSoMuchPerContact) {
   turn.motions = {{"drum", Rotation{6, {0, 0}}}};
   scene.stages = {turn};
   Simulation simulation(scene);
-  int contacts = 0;
+  std::int64_t contacts = 0;
   while (!simulation.finished()) contacts = std::max(contacts, simulation.step().contacts);
   const StepMemory memory = simulation.stepper().memory();
   EXPECT_GT(contacts, 1.9 * grains);

@@ -253,7 +253,7 @@ TEST(Tiles, OfEvenColumnsTouchBodiesOfTheirStripAlone) {
 TEST(Tiles, AreLargeEnoughForTheReachAndNoLargerThanTheyMustBe) {
   const Reach slow{1.1, 0.02, 0.1, 0.05}, fast{1.1, 0.02, 3, 1};
   for (const Reach& reach : {slow, fast}) {
-    const TileGrid chosen = tile_grid({0, 0}, 100, reach);
+    const TileGrid chosen = tile_grid({0, 0}, 100, reach, 1000);
     EXPECT_GE(chosen.cell, least_cell(reach));
     EXPECT_LE(chosen.cell, std::max(3.0 * reach.largest, 1.5 * least_cell(reach)));
     EXPECT_GE(chosen.edge(), 100);
@@ -266,7 +266,7 @@ TEST(Tiles, OfLargeGridsAreHigh) {
     const Reach reach{1.1, 0.02, approach, 0.05};
     std::set<std::int32_t> cuts;
     for (double edge = 100; edge < 1e5; edge *= 1.3) {
-      const TileGrid chosen = tile_grid({0, 0}, edge, reach);
+      const TileGrid chosen = tile_grid({0, 0}, edge, reach, 1'000'000'000);
       cuts.insert(chosen.cut);
       EXPECT_GE(chosen.edge(), edge);
       EXPECT_GE(chosen.cell, least_cell(reach));
@@ -275,6 +275,17 @@ TEST(Tiles, OfLargeGridsAreHigh) {
       EXPECT_LE(chosen.tile_width(), 2 * std::max(3.0 * reach.largest, 1.5 * least_cell(reach)));
     }
     EXPECT_EQ(cuts, (std::set<std::int32_t>{1, 2, 4}));
+  }
+}
+
+/// Two grains on a floor of two kilometres, and of as many as a scene can name.
+TEST(Tiles, AreFewWhereGrainsAre) {
+  for (const double edge : {1e4, 1e6, 1e12}) {
+    const TileGrid chosen = tile_grid({-edge / 2, -edge / 2}, edge, {1, 0.02, 0.1, 0.05}, 2);
+    EXPECT_LE(chosen.count(), 4200);
+    EXPECT_GE(chosen.count(), 1000);
+    EXPECT_GE(chosen.edge(), edge);
+    EXPECT_GE(chosen.needed_cell(), least_cell({1, 0.02, 0.1, 0.05}));
   }
 }
 

@@ -201,6 +201,33 @@ def refusals(run_on, folder):
     require("output.energy_ledger" in said and said.count("not on ranks") == 1, f"a ledger on ranks, said once:\n{said}")
 
 
+def grain_lost(run_on, folder):
+    """Grains fall off a floor without sides: the run says so, its log holds every step before, and its run.json tells how it ended."""
+    scene = folder / "no-sides.toml"
+    scene.write_text(BOX.replace(BOX_SHAPE, 'shape = "segment"\nfrom_mm = [0, 0]\nto_mm = [120, 0]\n').replace(
+        "duration_s = 0.08", "duration_s = 2"), encoding="utf-8")
+    for ranks in (1, 2):
+        run = folder / f"no-sides-{ranks}"
+        said = run_on(ranks, scene, "-o", run, code=3)
+        report = json.loads((run / "run.json").read_text(encoding="utf-8"))
+        steps = len((run / "log.csv").read_text(encoding="utf-8").splitlines()) - 1
+        require(f"step {steps + 1}: grain " in said and said.count("is lost") == 1, f"a lost grain on {ranks} ranks, after {steps} steps:\n{said}")
+        require(report["status"] == "grain lost" and report["steps"] == steps > 20 and report["grains"] == 300,
+                f"a lost grain on {ranks} ranks: {report['status']}, {report['steps']} steps, {steps} of them in the log")
+
+
+def unseen_by_one(run_on, folder, scene):
+    """Where a rank does not see the scene, it says so, and all end."""
+    there, elsewhere = folder / "there", folder / "elsewhere"
+    there.mkdir(), elsewhere.mkdir()
+    (there / "scene.toml").write_bytes(scene.read_bytes())
+    command = [run_on.mpirun, "-n", "1", "-wdir", str(there), run_on.program, "scene.toml", "-o", "run", ":",
+               "-n", "1", "-wdir", str(elsewhere), run_on.program, "scene.toml", "-o", "run"]
+    result = subprocess.run(command, capture_output=True, text=True, timeout=1200, check=False)
+    require(result.returncode == 2 and "rank 1: scene.toml" in result.stderr and not (there / "run").exists(),
+            f"a scene that one rank does not see: exit code {result.returncode}\n{result.stdout}{result.stderr}")
+
+
 def started_by_drumlin(run_on, drumlin, folder, scene, right):
     """`drumlin run --ranks` leaves the bytes of mpirun's call, and ends as the job ends."""
     def start(*words, code):
@@ -251,6 +278,8 @@ def main():
         same_on_all(run_on, folder, "box-frictionless", BOX.replace("[effects.friction]\ngrain_grain = 0.5\ngrain_wall = 0.5\n", ""),
                     ((1, 1), (3, 2)))
         refusals(run_on, folder)
+        grain_lost(run_on, folder)
+        unseen_by_one(run_on, folder, scene)
         # The files are those of other runs.
         listed = subprocess.run([drumlin, "export", folder / "drum-4x1", "--vtu", "-o", folder / "grids"], capture_output=True,
                                 text=True, check=False)
