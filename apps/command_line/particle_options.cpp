@@ -54,7 +54,9 @@ void add_measure_options(CLI::App& command, MeasureOptions& options, StudyOption
       ->type_name("LIST");
   add_number(command, "--gradient-step", options.gradient_step, "d", above(0),
              "Derivatives along x from slices this far to either side");
-  command.add_option("--slices", options.slices, "Places of the narrow slices along the surface, d")
+  command
+      .add_option("--slices", options.slices,
+                  "Places of the narrow slices along the surface, d, at least 0.1 apart")
       ->delimiter(',')
       ->type_name("X,X,...");
   add_number(command, "--map-spacing", options.map_spacing, "d", above(0),

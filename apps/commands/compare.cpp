@@ -1,8 +1,11 @@
 // drumlin compare: two runs of one geometry side by side, particles and continuum as a rule.
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "apps/commands/compare_inputs.hpp"
 #include "apps/commands/compare_record.hpp"
+#include "apps/support/asked.hpp"
 #include "apps/support/commands.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/output_folder.hpp"
@@ -36,7 +39,11 @@ ComparedRuns read_runs(const CompareOptions& options) {
 
 int compare(const CompareOptions& options) {
   const fs::path finished = options.output / "comparison.json";
+  const std::string asked =
+      asked_sum({measured_run_sum(options.run), measured_run_sum(options.flow_run),
+                 options.floor ? measured_run_sum(*options.floor) : "", options.registration});
   if (options.existing == ExistingOutput::resume && is_complete(finished)) {
+    refuse_other(options.output, asked);
     print_out(fmt::format("{}: done already\n", options.output.string()));
     return static_cast<int>(ExitCode::done);
   }
@@ -46,7 +53,7 @@ int compare(const CompareOptions& options) {
 
   std::vector<fs::path> read{options.run, options.flow_run};
   if (options.floor) read.push_back(*options.floor);
-  StagedOutput output({options.output, options.existing, "compare", read});
+  StagedOutput output({options.output, options.existing, "compare", read, {}, asked});
   const fs::path& folder = output.folder();
   report.write_overlays(folder);
   note_pending_figures(folder);

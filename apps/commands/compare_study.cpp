@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/support/asked.hpp"
 #include "apps/support/commands.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/limits_json.hpp"
@@ -77,7 +78,11 @@ coupling::JudgedLimits judged(const coupling::Limits& limits, const Sides& sides
 
 int compare_study(const CompareStudyOptions& options) {
   const fs::path finished = options.output / "study.json";
+  Json inputs = Json::array({options.limits ? input_sum(*options.limits) : ""});
+  for (const fs::path& folder : options.folders) inputs.push_back(measured_run_sum(folder));
+  const std::string asked = asked_sum(inputs);
   if (options.existing == ExistingOutput::resume && is_complete(finished)) {
+    refuse_other(options.output, asked);
     print_out(fmt::format("{}: done already\n", options.output.string()));
     return static_cast<int>(ExitCode::done);
   }
@@ -86,7 +91,7 @@ int compare_study(const CompareStudyOptions& options) {
   const Sides sides = read_sides(options.folders, limits.has_value());
   const coupling::SpeedComparison comparison =
       coupling::compared_speeds(sides.particles, sides.flows, paper_data_folder());
-  StagedOutput output({options.output, options.existing, "compare --study", options.folders});
+  StagedOutput output({options.output, options.existing, "compare --study", options.folders, {}, asked});
   const fs::path& folder = output.folder();
 
   const bool reduced = sides.flows.front().side.profiles.header.reduced.value();

@@ -1,6 +1,9 @@
 // drumlin export: a run as files that ParaView reads, in SI (docs/formats/vtu.md).
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
+#include "apps/support/asked.hpp"
 #include "apps/support/commands.hpp"
 #include "apps/support/output_folder.hpp"
 #include "apps/support/progress.hpp"
@@ -20,14 +23,16 @@ int export_run(const ExportOptions& options) {
   if (!options.vtu) throw InputError("export: says no format (allowed: --vtu or --measurements)");
   const particles::RunFolder run = particles::read_run_folder(options.run);
   const fs::path folder = options.output.value_or(options.run / "vtu");
+  const std::string asked = asked_sum({input_sum(options.run), options.snapshots});
   if (options.existing == ExistingOutput::resume && holds_results(folder, "grains.pvd")) {
+    refuse_other(folder, asked);
     print_out(fmt::format("{}: done already\n", folder.string()));
     return static_cast<int>(ExitCode::done);
   }
   const std::vector<fs::path> files = particles::chosen_snapshots(run, options.snapshots);
   // What does not fit shows before anything is written.
   (void)particles::shapes_at(run, particles::checked_snapshot(run, files.front()));
-  StagedOutput output({folder, options.existing, "export", {options.run / "run.json"}});
+  StagedOutput output({folder, options.existing, "export", {options.run / "run.json"}, {}, asked});
 
   const std::pair<const char*,
                   particles::VtuGrid (*)(const particles::RunFolder&, const particles::Snapshot&)>

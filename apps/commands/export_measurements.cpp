@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <nlohmann/json.hpp>
 
+#include "apps/support/asked.hpp"
 #include "apps/support/commands.hpp"
 #include "apps/support/output_folder.hpp"
 #include "apps/support/standard_streams.hpp"
@@ -46,12 +48,14 @@ std::uintmax_t bytes_below(const fs::path& folder) {
 int export_measurements(const ExportOptions& options) {
   if (!options.output) throw InputError("export --measurements: wants a folder of its own for them: -o DIR");
   const fs::path& folder = *options.output;
+  const std::string asked = asked_sum({measured_run_sum(options.run)});
   if (options.existing == ExistingOutput::resume && holds_results(folder, "run.json")) {
+    refuse_other(folder, asked);
     print_out(fmt::format("{}: done already\n", folder.string()));
     return static_cast<int>(ExitCode::done);
   }
   const MeasuredRun run = read_measured_run(options.run, Unsteady::accept);
-  StagedOutput output({folder, options.existing, "export", {options.run / "run.json"}});
+  StagedOutput output({folder, options.existing, "export", {options.run / "run.json"}, {}, asked});
   const fs::path staged = output.folder();
   for (const char* name : {"run.json", "scene.toml"})
     if (fs::exists(options.run / name)) copy_to(checked_file(run.files, name), staged / name);

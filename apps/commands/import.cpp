@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/support/asked.hpp"
 #include "apps/support/commands.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/output_folder.hpp"
@@ -69,14 +70,16 @@ int import_foreign(const ImportOptions& options) {
   if (!options.description || !options.output)
     throw InputError("import: needs a description and an output: drumlin import DESCRIPTION.toml -o RUN");
   const fs::path run = *options.output;
+  const particles::ImportDescription description =
+      particles::read_import_description(*options.description, options.overrides);
+  const std::string asked = asked_sum({particles::import_description_text(description)});
   if (options.existing == ExistingOutput::resume && holds_results(run, "run.json")) {
+    refuse_other(run, asked);
     print_out(fmt::format("{}: done already\n", run.string()));
     return static_cast<int>(ExitCode::done);
   }
-  const particles::ImportDescription description =
-      particles::read_import_description(*options.description, options.overrides);
   const fs::path folder = fs::absolute(*options.description).parent_path();
-  StagedOutput output({run, options.existing, "import", {folder}});
+  StagedOutput output({run, options.existing, "import", {folder}, {}, asked});
   make_folders(output.folder() / "snapshots");
   replace_file(output.folder() / "import.toml", particles::import_description_text(description));
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/commands/plot_drawing.hpp"
+#include "apps/support/asked.hpp"
 #include "apps/support/commands.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/output_folder.hpp"
@@ -37,13 +38,16 @@ int plot(const PlotOptions& options) {
   check_window(options.window);
   const particles::RunFolder run = particles::read_run_folder(options.run);
   const fs::path folder = options.output.value_or(options.run / "plots");
+  const std::string asked = asked_sum({input_sum(options.run), options.snapshot, options.animation,
+                                       options.player, options.window, options.color, options.every});
   if (options.existing == ExistingOutput::resume && holds_results(folder, "plots.json")) {
+    refuse_other(folder, asked);
     print_out(fmt::format("{}: done already\n", folder.string()));
     return static_cast<int>(ExitCode::done);
   }
   const Json report = read_json(options.run / "run.json", "drumlin-run-1");
   const Json drawing = drawing_of(run, report, options);
-  StagedOutput output({folder, options.existing, "plot", {options.run / "run.json"}});
+  StagedOutput output({folder, options.existing, "plot", {options.run / "run.json"}, {}, asked});
   if (options.player)
     print_out(fmt::format("player.html: {} of {} snapshots, about {:.1f} MB\n",
                           drawing["player"]["frames"].size(), run.snapshots.size(),

@@ -5,6 +5,7 @@
 
 #include "apps/commands/effects_text.hpp"
 #include "apps/commands/plot_drawing.hpp"
+#include "apps/support/asked.hpp"
 #include "apps/support/commands.hpp"
 #include "apps/support/figures.hpp"
 #include "apps/support/json_file.hpp"
@@ -86,7 +87,9 @@ Json content_of(const particles::RunFolder& run, const Json& report, const Json&
 int report(const ReportOptions& options) {
   const particles::RunFolder run = particles::read_run_folder(options.run);
   const fs::path folder = options.output.value_or(options.run / "report");
+  const std::string asked = asked_sum({measured_run_sum(options.run)});
   if (options.existing == ExistingOutput::resume && holds_results(folder, "report.json")) {
+    refuse_other(folder, asked);
     print_out(fmt::format("{}: done already\n", folder.string()));
     return static_cast<int>(ExitCode::done);
   }
@@ -95,7 +98,7 @@ int report(const ReportOptions& options) {
   pictures.run = options.run;
   pictures.player = !run.snapshots.empty();
   const Json drawing = drawing_of(run, record, pictures);
-  StagedOutput output({folder, options.existing, "report", {options.run / "run.json"}});
+  StagedOutput output({folder, options.existing, "report", {options.run / "run.json"}, {}, asked});
   if (pictures.player) {
     print_out(fmt::format("player.html: about {:.1f} MB\n", bytes_of_player(drawing["player"]) / 1e6));
     flush_out();

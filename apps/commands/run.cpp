@@ -332,6 +332,7 @@ int run(const RunOptions& options) {
     for (const auto& [name, text] : list_texts(scene))
       if (fs::exists(options.output / name))
         same_scene_or_refuse(options.output, file_text(options.output / name), text);
+    same_engine_or_refuse(options.output, false);
     if (output.manifest().complete && !longer) {
       print_out(fmt::format("{}: already finished, nothing to do\n", options.output.string()));
       return static_cast<int>(ExitCode::done);

@@ -28,6 +28,10 @@ int run_by_mpirun(const RunOptions& options) {
   if (options.accuracy_seconds > 0 || options.accuracy) throw InputError("--accuracy: not with --ranks");
   ProcessRequest request{.program = "mpirun", .words = words_of(options)};
   request.environment = {"OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"};
+  if (*options.ranks > processors_at_hand()) {  // who waits leaves its processor to others
+    request.environment.push_back("OMPI_MCA_rmaps_base_oversubscribe=1");
+    request.environment.push_back("OMPI_MCA_mpi_yield_when_idle=1");
+  }
   request.pass_signals_on = true;
   request.end_signal = SIGTERM;      // it ends its ranks
   const CaughtInterruptions caught;  // the job ends by them, and we with it

@@ -10,6 +10,7 @@
 #include "coupling/common/errors.hpp"
 #include "coupling/common/last_whole.hpp"
 #include "coupling/common/text_file.hpp"
+#include "coupling/documents/json_document.hpp"
 #include "particles/scene/scene_file.hpp"
 #include "particles/stepping/prolong.hpp"
 
@@ -24,6 +25,16 @@ void same_scene_or_refuse(const fs::path& output, const std::string& theirs, con
     throw InputError(output.string() +
                      ": was made from another scene (compare its scene.toml with `drumlin scene show`); "
                      "use --overwrite to start over");
+}
+
+void same_engine_or_refuse(const fs::path& output, bool on_ranks) {
+  if (!fs::exists(output / "run.json")) return;
+  const bool were = read_json(output / "run.json", "drumlin-run-1").contains("ranks");
+  if (were == on_ranks) return;
+  throw InputError(
+      fmt::format("{}: was begun {}: go on {}, or start over with --overwrite", output.string(),
+                  were ? "on MPI ranks" : "in one process",
+                  were ? "with drumlin run --ranks N or mpirun -n N drumlin-run" : "with drumlin run"));
 }
 
 std::map<std::string, std::string> list_texts(particles::Scene scene) {

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/support/asked.hpp"
 #include "apps/support/commands.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/output_folder.hpp"
@@ -48,7 +49,11 @@ void print_study(const coupling::Study& study, const Json& content) {
 
 int study(const StudyOptions& options) {
   const fs::path finished = options.output / "study.json";
+  Json inputs = Json::array();
+  for (const fs::path& run : options.runs) inputs.push_back(measured_run_sum(run));
+  const std::string asked = asked_sum(inputs);
   if (options.existing == ExistingOutput::resume && is_complete(finished)) {
+    refuse_other(options.output, asked);
     print_out(fmt::format("{}: done already\n", options.output.string()));
     return static_cast<int>(ExitCode::done);
   }
@@ -59,7 +64,7 @@ int study(const StudyOptions& options) {
     folders.push_back(run.string());
   }
   const coupling::Study result = coupling::study_of(std::move(runs), paper_data_folder());
-  StagedOutput output({options.output, options.existing, "study", options.runs});
+  StagedOutput output({options.output, options.existing, "study", options.runs, {}, asked});
   const fs::path& folder = output.folder();
 
   const bool reduced = result.runs.front().identity.at("reduced") == "true";

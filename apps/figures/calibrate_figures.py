@@ -35,7 +35,7 @@ def draw_points(axes, record, quantity, colors, less_law=False):
         if less_law:
             values = values - np.array(run["law"])
         speed = round(run["rotation_rpm"], 2)
-        label = None if (speed, run["held_out"]) in labelled else f"{speed:g} rpm" + (", held out" if run["held_out"] else "")
+        label = None if (speed, run["held_out"]) in labelled else (f"{speed:g} rpm" if speed else "without rotation") + (", held out" if run["held_out"] else "")
         labelled.add((speed, run["held_out"]))
         axes.plot(inertial, values, "o" if not run["held_out"] else "x", color=colors[speed], alpha=0.35,
                   markersize=3, linestyle="none", label=label)

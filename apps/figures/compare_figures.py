@@ -16,6 +16,8 @@ LABELS = dict(style.LABELS, **{
     "log10_shear_rate": r"$\log_{10}\dot\gamma$", "log10_I": r"$\log_{10} I$", "p": r"$p$  [$\rho_0 g d$]",
     "axis_angle_deg": "axis angle  [deg]"})
 
+DEEPEST = -60  # d, of the slices
+
 
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__)
@@ -115,6 +117,12 @@ def friction(columns, names):
     return figure
 
 
+def lowest_shown(overlays, names):
+    """Where the axis over depth begins, in tens of d: below all that is known, at the depth of the paper's drum at most."""
+    depths = [z for columns in overlays for name in names for z, value in zip(columns["z"], columns.get(name, [])) if math.isfinite(value)]
+    return max(DEEPEST, 10 * math.floor((min(depths, default=DEEPEST) - 0.5) / 10))
+
+
 def slices(comparison, folder):
     """A column of panels per slice, upstream to downstream."""
     if not comparison["slices"]:
@@ -122,13 +130,14 @@ def slices(comparison, folder):
     rows = [("v_x", False), ("log10_shear_rate", False), ("sigma_zz", False), ("sigma_xz", False), ("mu", False)]
     figure, grid = plt.subplots(len(rows), len(comparison["slices"]), figsize=(3.1 * len(comparison["slices"]), 12.5),
                                 squeeze=False, sharey="row", sharex=True)
-    for column, entry in enumerate(comparison["slices"]):
-        _, columns = style.read_profiles(folder / "overlay_slices" / f"x{entry['position']:+.1f}.csv")
+    overlays = [style.read_profiles(folder / "overlay_slices" / f"x{entry['position']:+.1f}.csv")[1] for entry in comparison["slices"]]
+    lowest = lowest_shown(overlays, [f"{name}_{side}" for name, _ in rows for side in ("particles", "continuum")])
+    for column, (entry, columns) in enumerate(zip(comparison["slices"], overlays)):
         for row, (name, logarithmic) in enumerate(rows):
             axes = grid[row][column]
             draw(axes, columns, name, names_of(comparison), logarithmic)
             mark_depths(axes, entry["H"])
-            axes.set_xlim(-60, 2)
+            axes.set_xlim(lowest, 2)
             if column > 0:
                 axes.set_ylabel("")
             if row + 1 < len(rows):

@@ -8,7 +8,7 @@ import matplotlib.pyplot as plt
 import script
 import style
 
-LONGEST = 50  # per cent
+LONGEST, LONGER = 50, 100  # per cent; the latter where a change exceeds the former: nothing is less than 100 % less
 
 PANELS = [
     ("cpu_seconds", "processor time"),
@@ -33,22 +33,26 @@ def label(row):
 
 
 def draw_panel(axes, key, title, base, rows):
-    """Changes in per cent; bars that would dwarf the others are cut, their numbers stand beside them."""
+    """Changes in per cent; bars that would dwarf the others are cut and end in a point, their numbers stand beside them."""
     changes = [100 * (row[key] / base[key] - 1) if base[key] else math.nan for row in rows]
     colors = [style.PAPER if row["change"] == "none"
               else style.CONTINUUM if row["change"] == "removed" else style.PARTICLES for row in rows]
-    cut = [max(-LONGEST, min(LONGEST, change)) for change in changes]
+    longest = LONGER if any(abs(change) > LONGEST for change in changes) else LONGEST
+    cut = [max(-longest, min(longest, change)) for change in changes]
     axes.barh(range(len(rows)), cut, color=colors)
     for place, (change, length) in enumerate(zip(changes, cut)):
         if math.isnan(change):
             continue
         side = 1 if length >= 0 else -1
+        beyond = abs(change) > longest * (1 + 1e-9)
+        if beyond:
+            axes.plot([length + 0.04 * side * longest], [place], marker=">" if side > 0 else "<", color=colors[place], markersize=8, clip_on=False)
         axes.annotate(f"{change:+.3g}" if abs(change) < 1000 else f"{change:+.0e}", (length, place),
-                      xytext=(4 * side, 0), textcoords="offset points", va="center",
+                      xytext=((12 if beyond else 4) * side, 0), textcoords="offset points", va="center",
                       ha="left" if side > 0 else "right", fontsize=9)
     axes.axvline(0, color="0.3", linewidth=1)
-    axes.set_xlim(-1.7 * LONGEST, 1.7 * LONGEST)
-    axes.set_xticks([-LONGEST, 0, LONGEST])
+    axes.set_xlim(-1.7 * longest, 1.7 * longest)
+    axes.set_xticks([-longest, 0, longest])
     axes.set_xlabel("change [%]")
     axes.set_title(title)
     axes.grid(axis="y", visible=False)

@@ -32,6 +32,9 @@ class Forces:
         shown = [zone for zone in ZONES if zone in self.zones]
         return shown if any(zone != "wall" for zone in shown) else ["bulk"] * ("bulk" in self.zones) + shown
 
+    def name(self, zone):
+        return "at the wall" if zone == "wall" and not float(self.header.get("drum_radius", 0)) > 0 else NAMES[zone]
+
     def scalar(self, zone, name):
         value = self.zones[zone].get(name, {}).get("value")
         return math.nan if value is None else value
@@ -47,7 +50,7 @@ def densities(axes, forces, quantity, xlabel):
     for zone in forces.shown_zones():
         x, y, half = forces.curve(zone, quantity)
         color = ZONES.get(zone, style.PARTICLES)
-        axes.plot(x, y, "o-", markersize=3, color=color, label=NAMES[zone])
+        axes.plot(x, y, "o-", markersize=3, color=color, label=forces.name(zone))
         axes.fill_between(x, [max(a - b, 0.1 * a) for a, b in zip(y, half)], [a + b for a, b in zip(y, half)],
                           color=color, alpha=0.25, linewidth=0)
     style.log_scale(axes, "y")

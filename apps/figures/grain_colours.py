@@ -19,6 +19,8 @@ class Colour:
         self.edges, self.extend = "white", "both"
         values = np.concatenate([self.of(grains) for grains in snapshots])
         values = values[np.isfinite(values)]
+        if not len(values):  # no grain in any of them: any scale will do
+            values = np.ones(1)
         getattr(self, "scale_" + name)(values, drawing)
         self.words = self.words_of(snapshots[0])
 

@@ -86,7 +86,7 @@ def draw(fields, number, reduced):
             cmap=plt.get_cmap("viridis").copy(), norm=matplotlib.colors.Normalize(0.6, 0.9))
     if known:
         add_pressure(figure, panels[1], fields, inches)
-    panels[-1].set_xlabel(r"$x$, downslope  [$d$]")
+    panels[-1].set_xlabel(r"$x$, downslope  [$d$]" if fields.radius > 0 else r"$x$  [$d$]")
     figure.suptitle(style.title_of(f"snapshot {number}, t = {fields.time_s:.2f} s", reduced), fontsize=13)
     return figure
 

@@ -29,15 +29,23 @@ FAR = 1.0  # spans of the packing: what flies further out is left out of the pic
 FEW = 10  # grains that touch something are no packing
 
 
+def has_place(wall):
+    """Whether all its numbers are finite: what is not stands as null in the file."""
+    numbers = (value for name in ("x", "z", "radius") for value in (wall[name] if isinstance(wall.get(name), list) else [wall.get(name, 0)]))
+    return all(value is not None and math.isfinite(value) for value in numbers)
+
+
 class Grains:
     """One snapshot. Lengths in d, velocities in sqrt(g d), forces in rho0 g d^2; x and z as the arrays of the file."""
 
     def __init__(self, frame, period):
-        self.frame = frame
+        self.frame = frame | {"walls": [wall for wall in frame["walls"] if has_place(wall)]}
         with h5py.File(frame["file"]) as snapshot:
             self.x, self.z, v_x, v_z, self.radius = (snapshot["grains/" + name][:]
                                                      for name in ("x", "z", "v_x", "v_z", "radius"))
             self.spin = snapshot["grains/spin"][:] if "grains/spin" in snapshot else None
+            if not len(self.x):  # the snapshot does not say whether grains would spin
+                self.spin = np.zeros(0)
             self.drum_spin = snapshot["wall/spin"][0] if snapshot["container/radius"][0] > 0 else 0.0
             self.center = center = snapshot["container/x"][0], snapshot["container/z"][0]
             self.container_radius, self.wall_angle = snapshot["container/radius"][0], snapshot["wall/angle"][0]
@@ -91,7 +99,11 @@ class Grains:
 
 def extent_of(snapshots):
     """Box around the discs of all snapshots, but for what has flown away: further from the middle 96 % of the grains that touch
-    something (of all grains, where hardly one does) than these are wide."""
+    something (of all grains, where hardly one does) than these are wide. Where there is no grain at all, the walls."""
+    shown = [s for s in snapshots if len(s.x)]
+    if not shown:
+        return extent_of_walls(snapshots)
+    snapshots = shown
     low = np.min([[(s.x - s.radius).min(), (s.z - s.radius).min()] for s in snapshots], axis=0)
     high = np.max([[(s.x + s.radius).max(), (s.z + s.radius).max()] for s in snapshots], axis=0)
     touching = np.concatenate([np.column_stack([s.x, s.z])[s.touching()] for s in snapshots])
@@ -99,6 +111,16 @@ def extent_of(snapshots):
     core = np.quantile(places, [0.02, 0.98], axis=0)
     reach = FAR * (core[1] - core[0]).max() + 2
     return np.maximum(low, core[0] - reach), np.minimum(high, core[1] + reach)
+
+
+def extent_of_walls(snapshots):
+    """Box around all walls; of none, a unit about the origin."""
+    corners = [[np.atleast_1d(wall[axis]) + sign * wall.get("radius", 0) for axis in ("x", "z")]
+               for s in snapshots for wall in s.frame["walls"] for sign in (-1, 1)]
+    if not corners:
+        return np.array([-1.0, -1.0]), np.array([1.0, 1.0])
+    places = np.concatenate([np.column_stack(one) for one in corners])
+    return places.min(axis=0), places.max(axis=0)
 
 
 class View:
@@ -120,8 +142,8 @@ class View:
         if snapshots[0].period is not None:
             low[0], high[0] = snapshots[0].period
         if snapshots[0].cell is not None:  # it may grow and shrink
-            low = np.min([s.cell[0] - s.radius.max() for s in snapshots], axis=0)
-            high = np.max([s.cell[1] + s.radius.max() for s in snapshots], axis=0)
+            low = np.min([s.cell[0] - s.radius.max(initial=0) for s in snapshots], axis=0)
+            high = np.max([s.cell[1] + s.radius.max(initial=0) for s in snapshots], axis=0)
         margin = 0.01 * (high - low).max() + 0.2
         self.low, self.high = low - margin, high + margin
         if window is not None:
@@ -147,11 +169,15 @@ class View:
         return figure, axes
 
     @staticmethod
-    def set_title(figure, drawing, what, frame, outside=0):
-        what += f" ({outside} grains outside of the picture)" if outside else ""
+    def set_title(figure, drawing, what, frame, outside=0, empty=False):
+        what += f" ({outside} grains outside of the picture)" if outside else ": no grains" if empty else ""
         state = "" if drawing["status"] == "finished" else f" (run {style.plain(drawing['status'])})"
         figure.suptitle(style.title_of(f"{style.plain(drawing['title'])}\n{what}, t = {frame['time_s']:.2f} s{state}",
                                        drawing["reduced"]), fontsize=13)
+
+    def set_title_of(self, figure, drawing, what, grains):
+        """With the number of grains that the picture does not hold, unless a window was asked for."""
+        self.set_title(figure, drawing, what, grains.frame, self.outside(grains) if drawing["window"] is None else 0, not len(grains.x))
 
     def add_walls(self, axes, grains):
         """Walls, and the borders of a periodic domain. Returns what was drawn, to be taken away before the next frame."""
@@ -212,7 +238,7 @@ def images(low, high, period):
 
 def draw_colours(drawing, view, grains, colour):
     figure, axes = view.axes(drawing, colour.words, grains.frame)
-    view.set_title(figure, drawing, colour.words, grains.frame, view.outside(grains) if drawing["window"] is None else 0)
+    view.set_title_of(figure, drawing, colour.words, grains)
     discs = view.add_grains(axes, grains, cmap=colour.cmap, norm=colour.norm, edgecolors=colour.edges)
     discs.set_array(colour.of(grains))
     walls = view.add_walls(axes, grains)
@@ -257,7 +283,7 @@ def draw_snapshot(drawing, folder):
     view = View([grains], drawing["window"])
     number = f"snapshot {drawing['snapshot']['number']}"
     plt.rcParams.update({"savefig.dpi": DPI, "savefig.bbox": "tight"})
-    names = [drawing["color"]] if drawing["color"] else ["speed"] + ([] if grains.spin is None else ["spin"])
+    names = [drawing["color"]] if drawing["color"] else ["speed"] + ([] if grains.spin is None or not len(grains.x) else ["spin"])
     figures = {}
     for name in names:
         colour = grain_colours.Colour(name, [grains], drawing)
@@ -302,8 +328,7 @@ def draw_animation(drawing, folder):
             for artist in walls:
                 artist.remove()
             walls = view.add_walls(axes, grains)
-            view.set_title(figure, drawing, colour.words, grains.frame,
-                           view.outside(grains) if drawing["window"] is None else 0)
+            view.set_title_of(figure, drawing, colour.words, grains)
             writer.grab_frame()
             discs.remove()
     plt.close(figure)

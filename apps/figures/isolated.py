@@ -1,5 +1,6 @@
 """Runs a script as `python3 -I` does, with the script's own folder, and nothing else, added to what it may import from.
 SIGINT, SIGTERM and SIGHUP stop it once, as Ctrl-C does, so that it leaves no part of a file.
+A file that the system does not give or take ends it with one line, "FILE: why", and exit code 74.
 
 usage: python3 -I -B isolated.py SCRIPT [WORD...]
 """
@@ -11,6 +12,7 @@ import signal
 import sys
 
 STOPPING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+NO_FILE = 74  # exit code of the commands for files that cannot be read or written
 
 
 def stop(*_):
@@ -27,4 +29,10 @@ if __name__ == "__main__":
     script = pathlib.Path(sys.argv[1]).resolve()
     sys.path.insert(0, str(script.parent))
     sys.argv = sys.argv[1:]
-    runpy.run_path(str(script), run_name="__main__")
+    try:
+        runpy.run_path(str(script), run_name="__main__")
+    except OSError as error:
+        if error.filename is None or error.strerror is None:
+            raise
+        print(f"{error.filename}: {error.strerror}", file=sys.stderr)
+        sys.exit(NO_FILE)

@@ -38,6 +38,13 @@ class Measured:
     def half_width(self, name):
         return self.columns.get(name + "_ci99")
 
+    def in_drum(self):
+        return float(self.header.get("drum_radius", 0)) > 0
+
+    def along(self):
+        """What its profiles of v_x are called."""
+        return "Velocity along the surface" if self.in_drum() else "Velocity along $x$"
+
     def range(self):
         """Range of z that is shown."""
         return (min(self.z) - 1, max(self.z) + 1) if self.z else (-1, 1)
@@ -88,7 +95,7 @@ def velocity(run):
     if math.isfinite(H):
         left.plot(*line_of(run, lambda z: rate * (z + H)), color=FIT, zorder=5,
                   label=rf"$\dot\gamma$ = {rate:.3f},  $H$ = {H:.1f} $d$")
-    left.set_title("Velocity along the surface, frame of the drum")
+    left.set_title(run.along() + (", frame of the drum" if run.in_drum() else ""))
     left.legend(loc="upper left")
 
     depth_panel(right, run, "shear_rate")
@@ -258,7 +265,7 @@ def slices(run):
     figure, (left, right) = plt.subplots(1, 2, figsize=(12, 4.6))
     colors = plt.get_cmap("viridis")
     entries = run.content["slices"]
-    for i, entry in enumerate(entries):
+    for i, (entry, place) in enumerate(zip(entries, style.place_labels([entry["position"] for entry in entries]))):
         columns = style.read_profiles(run.folder / entry["file"])[1]
         shown = [l for l, nu in enumerate(columns["nu"]) if nu > LEAST_SHOWN_NU]
         z = [columns["z"][l] for l in shown]
@@ -270,14 +277,14 @@ def slices(run):
                 axes.plot(z, positive(values), "o-", color=color)
             else:
                 style.band(axes, z, values, [half[l] for l in shown] if half else None, color,
-                           f"x = {entry['position']:+.0f} d")
+                           f"x = {place} d")
     for axes, name in ((left, "v_x"), (right, "shear_rate")):
         axes.set_xlabel(style.LABELS["z"] + ", each from its own surface")
         axes.set_ylabel(style.LABELS[name])
         axes.axvline(0, color="0.4", linestyle="--", linewidth=1)
     style.log_scale(right, "y")
     left.legend(loc="upper left")
-    left.set_title("Velocity along the surface at five places")
+    left.set_title(f"{run.along()} {style.at_places(len(entries))}")
     right.set_title("Shear rate")
     return figure
 
@@ -291,7 +298,7 @@ def steadiness(run):
     turns = [float(row["turns"]) for row in rows]
     rotates = len(set(turns)) > 1
     at = turns if rotates else [float(row["time"]) for row in rows]
-    shown = [("kinetic_energy", "kinetic energy" + ("\nin the drum's frame" if has_slope else "") + "  [$\\rho_0 g d^3$]", style.PARTICLES)]
+    shown = [("kinetic_energy", "kinetic energy" + ("\nin the drum's frame" if has_slope and run.in_drum() else "") + "  [$\\rho_0 g d^3$]", style.PARTICLES)]
     if has_slope:
         shown.append(("theta_com_deg", "angle of the\ncentre of mass  [deg]", style.OTHERS[0]))
     for name, label in (("pressure", "pressure over\nthe discs  [$\\rho_0 g d$]"), ("shear_stress", "shear stress over\nthe discs  [$\\rho_0 g d$]"),

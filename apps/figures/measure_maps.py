@@ -1,4 +1,4 @@
-"""maps.png of `drumlin measure`: fields over the whole drum, from maps.h5."""
+"""maps.png of `drumlin measure`: fields over the whole drum, or over what else holds the grains, from maps.h5."""
 
 import math
 
@@ -127,10 +127,13 @@ def main():
     folder, content = script.measured_folder(__doc__)
     maps = Maps(folder / "maps.h5")
     style.use_style()
+    if not maps.number("drum_radius") > 0:  # panels may be narrower than their titles
+        plt.rcParams["savefig.bbox"] = "tight"
     figure, axes = plt.subplots(3, 3, figsize=(16, 10.5), sharex=True, sharey=True)
     draw_fields(axes, maps)
+    sloping = maps.number("drum_radius") > 0 or abs(maps.number("theta_deg")) > 0
     for one in axes[-1]:
-        one.set_xlabel(r"$x$  [$d$], downslope")
+        one.set_xlabel(r"$x$  [$d$]" + (", downslope" if sloping else ""))
     for one in axes[:, 0]:
         one.set_ylabel(style.LABELS["z"])
     style.save(figure, folder / "maps.png", content["reduced"])

@@ -23,12 +23,17 @@ class Field:
         self.words, self.unit, self.si_unit, self.si, self.source = words, unit, si_unit, si, source
 
 
+def have_spin(frames):
+    """An empty frame does not say; all of them together do, unless there never was a grain."""
+    return all(grains.spin is not None for grains in frames) and any(len(grains.spin) for grains in frames)
+
+
 def known_fields(frames, scales):
     """By name, those that the frames hold. `si` is what one unit is in the SI unit beside it."""
     length, time = scales["length_m"], scales["time_s"]
     in_drum = any(grains.drum_spin != 0 for grains in frames)
     fields = {"speed": Field("speed in the frame of the drum" if in_drum else "speed", "√(gd)", "m/s", length / time, "speed")}
-    if frames[0].spin is not None:
+    if have_spin(frames):
         fields["spin"] = Field("spin, positive clockwise", "√(g/d)", "rad/s", 1 / time, "spin")
     fields["size"] = Field("diameter", "d", "mm", 1e3 * length, "radius")
     if any(len(grains.force) for grains in frames):
@@ -54,7 +59,7 @@ def described(name, field, frames, drawing):
 
 def content_of(drawing, frames):
     """(everything that the page says in words and numbers, the zlib stream)"""
-    head, stream, grounds = player_pack.packed(frames, frames[0].spin is not None)
+    head, stream, grounds = player_pack.packed(frames, have_spin(frames))
     view = grain_maps.View(frames, drawing["window"])
     scales = drawing["run"]["scales"]
     fields = [described(name, field, frames, drawing) for name, field in known_fields(frames, scales).items()]

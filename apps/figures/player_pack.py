@@ -212,11 +212,12 @@ def packed(frames, has_spin):
     """(what a reader has to know of the planes, the zlib stream)"""
     grounds, planes = Grounds(frames), Planes()
     mark_fresh(frames, grounds)
-    quantum = min(QUANTUM, SMALLEST * float(grounds.radius.min()))
+    quantum = min(QUANTUM, SMALLEST * float(grounds.radius.min(initial=QUANTUM / SMALLEST)))
     origin = [float(v) for v in frames[0].center] if frames[0].container_radius > 0 else [0.0, 0.0]
     forces = np.concatenate([np.abs(grains.force) for grains in frames])
     mean = float(forces.mean()) if len(forces) and forces.mean() > 0 else 1.0
-    fast = max(float(np.quantile(np.concatenate([grains.speed for grains in frames]), 0.998)), grain_colours.STILL)
+    speeds = np.concatenate([grains.speed for grains in frames])
+    fast = max(float(np.quantile(speeds, 0.998)) if len(speeds) else 1.0, grain_colours.STILL)
     head = {"quantum": quantum, "origin": origin, "count": len(grounds.ids), "mean_force": mean, "force_steps": FORCE_STEPS,
             "turn_bits": TURN, "flows": FLOWS / quantum, "angles": ANGLES, "speed": {"low": SPEED_RANGE * fast, "step": SPEED_STEP}}
     planes.add("radius", grounds.radius.astype("<f4").tobytes())

@@ -8,6 +8,8 @@ import traceback
 
 import matplotlib.pyplot as plt
 
+import whole_file
+
 
 def content_of(path):
     return json.loads(pathlib.Path(path).read_text(encoding="utf-8"))
@@ -24,11 +26,13 @@ def measured_folder(description):
 
 def draw_each(drawings):
     """Calls each function of {name of a figure: function}. A figure that fails does not keep the others from being drawn; the
-    program then ends with the names of all that failed, and why."""
+    program then ends with the names of all that failed, and why. A file that cannot be written ends it at once: the others could not, either."""
     failed = []
     for name, draw in drawings.items():
         try:
             draw()
+        except whole_file.CannotWrite:
+            raise
         except (Exception, SystemExit) as error:  # pylint: disable=broad-except
             place = traceback.extract_tb(error.__traceback__)[-1]
             failed.append(f"{name}: {type(error).__name__}: {error} ({pathlib.Path(place.filename).name}, line {place.lineno})")

@@ -7,7 +7,7 @@ import matplotlib.pyplot as plt
 
 import style
 from drum_maps import read_grains
-from study_panels import (depth_panel, draw, draw_logarithmic, limits_of, none_if_nan, over_flow_rate, speed_legend)
+from study_panels import (depth_panel, draw, draw_logarithmic, limits_of, lowest_shown, none_if_nan, over_flow_rate, speed_legend)
 from study_runs import FIT, WALL_MARGIN, color_of, label_of, marker_of, shown
 
 PAPER = {"color": style.PAPER, "marker": "x", "markersize": 7, "markeredgewidth": 1.6, "linestyle": "none"}
@@ -72,9 +72,9 @@ def velocity(study):
     run = study.main_run()
     figure, (left, right) = plt.subplots(1, 2, figsize=(13, 5))
     H, rate, decay = (run.scalar(name) for name in ("H", "shear_rate", "lambda"))
-    depth_panel(left, run, style.LABELS["v_x"], -45)
+    depth_panel(left, run, style.LABELS["v_x"], lowest_shown([run], -45))
     draw(left, run, "v_x")
-    depth_panel(right, run, style.LABELS["shear_rate"], -45)
+    depth_panel(right, run, style.LABELS["shear_rate"], lowest_shown([run], -45))
     draw(right, run, "shear_rate")
     if math.isfinite(H):
         left.plot([-H, 0], [0, rate * H], color=FIT, zorder=5, label=rf"$\dot\gamma$ = {rate:.3f},  $H$ = {H:.1f} $d$")
@@ -117,9 +117,9 @@ def velocity_along_x(study):
     figure, (left, right) = plt.subplots(1, 2, figsize=(13, 5))
     colors = plt.get_cmap("coolwarm")
     entries = {entry["position"]: entry for entry in run.content.get("slices", [])}
-    for n, (position, columns) in enumerate(run.slices.items()):
+    for n, (columns, place) in enumerate(zip(run.slices.values(), style.place_labels(list(run.slices)))):
         color = colors(n / (len(run.slices) - 1)) if n != (len(run.slices) - 1) / 2 else "0.2"
-        label = f"$x$ = {position:+.0f} $d$"
+        label = f"$x$ = {place} $d$"
         style.band(left, columns["z"], columns["v_x"], columns["v_x_ci99"], color, label, marker="o")
         positive = [v if v > 0 else math.nan for v in columns["v_x"]]
         right.plot(columns["z"], positive, "o-", color=color, label=label)
@@ -127,15 +127,16 @@ def velocity_along_x(study):
         axes.axvline(0, linestyle="-.", color="0.4", linewidth=1)
         axes.set_xlabel(r"$z$ from the surface at $x$  [$d$]")
         axes.set_ylabel(style.LABELS["v_x"])
-    left.set_xlim(-40, 4)
-    right.set_xlim(-50, 4)
+    deepest = min((z for columns in run.slices.values() for z in columns["z"]), default=-50)
+    left.set_xlim(max(-40, deepest - 1), 4)
+    right.set_xlim(max(-50, deepest - 1), 4)
     right.set_yscale("log")
     left.legend(loc="upper left")
     rates = [entry["shear_rate"] for entry in entries.values() if entry.get("shear_rate")]
     decays = [entry["lambda"] for entry in entries.values() if entry.get("lambda")]
     found = "not measured" if not rates or not decays else (
         f"shear rate {min(rates):.3f} to {max(rates):.3f}, lambda {min(decays):.2f} to {max(decays):.2f} in slices 2 d wide.")
-    return (figure, f"Fig. 4: velocity at five places, {label_of(run)}",
+    return (figure, f"Fig. 4: velocity {style.at_places(len(run.slices))}, {label_of(run)}",
             "the shape stays the same; shear rate and lambda depend weakly on the place.", found)
 
 
@@ -144,7 +145,7 @@ def velocity_over_speed(study):
     for run in study.first_runs():
         draw(left, run, "v_x", color_of(study, run.rpm), label_of(run), marker=marker_of(run.rpm))
     left.axvline(0, linestyle="-.", color="0.4", linewidth=1)
-    left.set_xlim(-45, 4)
+    left.set_xlim(lowest_shown(study.first_runs(), -45), 4)
     left.set_xlabel(style.LABELS["z"])
     left.set_ylabel(style.LABELS["v_x"])
     left.legend(loc="upper left")
@@ -259,7 +260,7 @@ def spin(study):
     if not run.has("omega"):
         return None
     figure, axes = plt.subplots(figsize=(8, 5.2))
-    depth_panel(axes, run, style.LABELS["omega"], -50)
+    depth_panel(axes, run, style.LABELS["omega"], lowest_shown([run], -50))
     draw(axes, run, "omega", label="mean spin")
     axes.plot(run.z, [rate / 2 for rate in run.columns["shear_rate"]], color=FIT, label=r"$\frac{1}{2}\,dv_x/dz$")
     below = [i for i, z in enumerate(run.z) if z < 0]

@@ -19,6 +19,11 @@ def depth_panel(axes, run, label, lowest=None):
     axes.set_xlim(lowest if lowest is not None else min(run.z) - 1, 4)
 
 
+def lowest_shown(runs, standard):
+    """Where an axis over depth begins: where the paper's does, or a d below the deepest layer of a bed that does not reach it."""
+    return max(standard, min((min(run.z) for run in runs if run.z), default=standard) - 1)
+
+
 def draw(axes, run, name, color=style.PARTICLES, label=None, rows=None, marker="o"):
     """A column over depth with its band; of all layers unless `rows` names some."""
     rows = range(len(run.z)) if rows is None else rows

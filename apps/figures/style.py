@@ -1,5 +1,6 @@
 """What the figures of all commands share: sizes, colours, the word "reduced", bands, profile files."""
 
+import math
 import os
 import pathlib
 import sys
@@ -7,6 +8,7 @@ import textwrap
 
 import matplotlib
 import matplotlib.pyplot as plt
+import matplotlib.ticker
 
 import result_files
 import whole_file
@@ -77,6 +79,23 @@ def plain(text, width=80, lines=3):
     return textwrap.fill(seen, width, max_lines=lines, placeholder=" ...").replace("$", r"\$")
 
 
+NUMBERS = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine"]
+
+
+def at_places(count):
+    """"at five places": how many they are, in words where they are few."""
+    return f"at {NUMBERS[count] if count < len(NUMBERS) else count} place{'s' * (count != 1)}"
+
+
+def place_labels(places):
+    """Places with a sign, with as many digits behind the point, none at least, as tell them apart."""
+    for digits in range(7):
+        labels = [f"{place:+.{digits}f}" for place in places]
+        if len(set(labels)) == len(set(places)):
+            break
+    return labels
+
+
 def title_of(text, reduced):
     """Title of a figure; a reduced run says so wherever it is shown."""
     return f"{text} - reduced" if reduced else text
@@ -102,6 +121,22 @@ def log_scale(axes, which):
     drawn += [points.get_offsets()[:, "xy".index(which)] for points in axes.collections if len(points.get_offsets())]
     if any(value > 0 for values in drawn for value in values):
         getattr(axes, f"set_{which}scale")("log")
+        if which == "x":
+            axes.xaxis.set_minor_formatter(FewNumbers())
+
+
+class FewNumbers(matplotlib.ticker.LogFormatterSciNotation):
+    """Numbers at a logarithmic axis of less than a decade along x: as many as stand beside one another."""
+
+    def __init__(self):
+        super().__init__(labelOnlyBase=False)
+
+    def set_locs(self, locs=None):
+        super().set_locs(locs)
+        low, high = self.axis.get_view_interval()
+        decades = abs(math.log10(high / low)) if low > 0 else 2
+        if 0.2 < decades <= 1:
+            self._sublabels = {1, 2, 5} if decades > 0.6 else {1, 2, 3, 5} if decades > 0.4 else {1, 2, 3, 4, 5, 6, 8}
 
 
 def band(axes, x, y, half_width, color, label=None, marker="o"):

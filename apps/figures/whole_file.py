@@ -7,6 +7,16 @@ import pathlib
 import secrets
 
 
+class CannotWrite(OSError):
+    """What the system refuses when a file is written: its text is one line that names the file."""
+
+    def __init__(self, path, error):
+        super().__init__(error.errno, f"cannot be written: {error.strerror or error}", str(path))
+
+    def __str__(self):
+        return f"{self.filename}: {self.strerror}"
+
+
 def name_aside():
     """As the commands know it: what a kill leaves under such a name, the next call removes."""
     return f".drumlin-{secrets.token_hex(16)}.part"
@@ -14,8 +24,21 @@ def name_aside():
 
 @contextlib.contextmanager
 def aside(path):
-    """Gives a binary stream. When all is written, its file takes the place of `path`; an error leaves neither a part nor a change."""
+    """Gives a binary stream. When all is written, its file takes the place of `path`; an error leaves neither a part nor a change.
+    CannotWrite where the system does not take it; errors of files that are read meanwhile stay what they are."""
     path = pathlib.Path(path)
+    try:
+        with _aside(path) as stream:
+            yield stream
+    except OSError as error:
+        # Those of a stream name no file, those of our own calls the name aside or the folder.
+        if error.filename is None or str(error.filename) in (str(path), str(path.parent)) or ".drumlin-" in str(error.filename):
+            raise CannotWrite(path, error) from error
+        raise
+
+
+@contextlib.contextmanager
+def _aside(path):
     folder, unfinished = os.open(path.parent, os.O_RDONLY | os.O_DIRECTORY), name_aside()
 
     def opener(*_):

@@ -9,7 +9,7 @@ import pathlib
 import sys
 
 import matplotlib.pyplot as plt
-from matplotlib.ticker import LogLocator, NullFormatter
+from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 
 import script
 import style
@@ -19,6 +19,7 @@ NAMES = {"field": "velocity field", "displacement": "velocity of each grain,\nme
          "lambda": r"$\lambda$", "shear_rate": r"$\dot\gamma$", "I_th": r"$I_{th}$", "v_x": r"$v_x(z)$, rms", "v_x_mesh": r"$v_x(z)$, mesh and solver alone",
          "theta_com_deg": r"$\theta$ (centre of mass)  [deg]", "overlap_mean": "mean overlap  [d]"}
 STATISTICS = ["theta_com_deg", "H", "shear_rate", "lambda", "I_th", "overlap_mean"]
+NARROW = 3  # greatest over smallest time, up to which numbers of powers of ten would stand over one another, or be none
 ROUNDING = 1e-9  # what is exact up to it is no panel
 COLORS = [style.PARTICLES, style.CONTINUUM] + style.OTHERS
 
@@ -47,6 +48,21 @@ def error_of(point, quantity):
     return error if error else math.nan
 
 
+def mark_seconds(axes, seconds):
+    """Numbers at a logarithmic axis of processor seconds, three where the times hardly differ."""
+    axes.set_xscale("log")
+    axes.xaxis.set_major_locator(MaxNLocator(2) if max(seconds, default=1) < NARROW * min(seconds, default=1) else LogLocator(subs=(1, 2, 5)))
+    axes.xaxis.set_minor_formatter(NullFormatter())
+    axes.xaxis.set_major_formatter("{x:g}")
+
+
+def limit_errors(axes, errors):
+    """Whole powers of ten about errors of nearly one size: by itself such an axis may lose its limits."""
+    errors = [error for error in errors if error > 0]
+    if errors and max(errors) < 10 * min(errors):
+        axes.set_ylim(10 ** math.floor(math.log10(0.9 * min(errors))), 10 ** math.ceil(math.log10(1.1 * max(errors))))
+
+
 def draw_panel(axes, cost, quantity):
     for (label, points), color in zip(curves_of(cost), COLORS * 3):
         axes.plot([point["cpu_seconds"] for point in points], [error_of(point, quantity) for point in points], marker="o", linewidth=1, alpha=0.85,
@@ -63,11 +79,10 @@ def draw_panel(axes, cost, quantity):
     floor = (cost.get("floor") or {}).get(quantity)
     if floor and quantity != "solver":
         axes.axhline(floor, color="grey", linewidth=1, linestyle=":", label="the finest point")
-    axes.set_xscale("log")
     axes.set_yscale("log")
-    axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
-    axes.xaxis.set_minor_formatter(NullFormatter())
-    axes.xaxis.set_major_formatter("{x:g}")
+    shown = [point for point in cost["points"] if "failure" not in point]
+    limit_errors(axes, [error_of(point, quantity) for point in shown])
+    mark_seconds(axes, [point["cpu_seconds"] for point in shown])
     axes.tick_params(axis="both", which="both", labelsize=9)
     axes.set_title(name_of(quantity))
     axes.set_xlabel("processor seconds per second" if cost["kind"] == "particles" else "processor time  [s]")
@@ -122,10 +137,7 @@ def draw_statistics(cost, path):
             if point["default"] and entry.get("value") is not None:
                 axes.plot([point["statistics"]["cpu_seconds"]], [entry["value"]], marker="*", markersize=15, color="black", zorder=5, linestyle="none",
                           label="the scene as it is")
-        axes.set_xscale("log")
-        axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
-        axes.xaxis.set_minor_formatter(NullFormatter())
-        axes.xaxis.set_major_formatter("{x:g}")
+        mark_seconds(axes, [point["statistics"]["cpu_seconds"] for point in points])
         axes.set_title(name_of(name))
         axes.set_xlabel("processor time  [s]")
     for axes in panels.flat[len(known):]:

@@ -4,12 +4,14 @@
 
 #include <cstdio>
 #include <ctime>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
 
 #include "apps/flow/flow_files.hpp"
 #include "apps/flow/flow_marching.hpp"
 #include "apps/flow/flow_text.hpp"
+#include "apps/support/asked.hpp"
 #include "apps/support/interruption.hpp"
 #include "apps/support/output_folder.hpp"
 #include "apps/support/standard_streams.hpp"
@@ -138,7 +140,8 @@ std::vector<std::string> flow_file_names() {
 void begin_folder(FlowOutput& output, const FlowOptions& options, const FlowRequest& asked, int ranks) {
   std::vector<fs::path> inputs = {options.scene, options.rheology};
   if (options.from) inputs.push_back(*options.from / "state.h5");
-  output.emplace(OutputRequest{options.output, options.existing, "flow", inputs}, flow_file_names());
+  output.emplace(OutputRequest{options.output, options.existing, "flow", inputs, {}, asked.sum},
+                 flow_file_names());
   output->forget("*");  // all is written anew
   replace_file(options.output / "flow_scene.toml", continuum::flow_scene_text(asked.scene));
   replace_file(options.output / "rheology.toml", file_text(options.rheology));
@@ -250,11 +253,14 @@ FinishedFlow finished_flow(const FlowOptions& options, const FlowRequest& asked,
 
 int solve_flow_scene(const FlowOptions& options, const continuum::FemRuntime& runtime) {
   const bool speaks = runtime.rank() == 0;
+  FlowRequest asked = read_request(options);
+  asked.sum = asked_sum({continuum::flow_scene_text(asked.scene), input_sum(options.rheology),
+                         options.from ? input_sum(*options.from) : "", options.law_draws});
   if (options.existing == ExistingOutput::resume && holds_results(options.output, "flow.json")) {
+    refuse_other(options.output, asked.sum);
     if (speaks) print_out(fmt::format("{}: done already\n", options.output.string()));
     return static_cast<int>(ExitCode::done);
   }
-  const FlowRequest asked = read_request(options);
   const FlowStart start = read_start(options, asked);
   FlowOutput output;
   runtime.on_first_rank([&] { begin_folder(output, options, asked, runtime.ranks()); });

@@ -90,6 +90,8 @@ def main():
         figures = Figures(folder, bool(failures))
         text = environment(figures).get_template(template).render(content=content, failures=failures)
         whole_file.write_text(folder / "index.html", text)
+    except whole_file.CannotWrite:
+        raise
     except (jinja2.TemplateError, LookupError, OSError, TypeError, ValueError) as error:
         sys.exit(f"{source}: {type(error).__name__}: {error}{place_of(error)}")
 

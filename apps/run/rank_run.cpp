@@ -287,6 +287,7 @@ std::optional<bool> goes_on(const RunOptions& options, const particles::Scene& s
     for (const auto& [name, text] : list_texts(scene))
       if (fs::exists(options.output / name))
         same_scene_or_refuse(options.output, file_text(options.output / name), text);
+    same_engine_or_refuse(options.output, true);
     if (output->manifest().complete) {
       print_out(fmt::format("{}: already finished, nothing to do\n", options.output.string()));
       return std::nullopt;

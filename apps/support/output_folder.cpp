@@ -196,6 +196,7 @@ auto with_io_errors(Action action) {
 FolderLock claim(const OutputRequest& request) {
   return with_io_errors([&] {
     const fs::path& folder = request.folder;
+    if (folder.empty()) throw InputError("the output folder has no name");
     refuse_foreign(folder);
     make_folders(folder);
     FolderLock lock(folder / folder_lock_name, "drumlin " + request.command);
@@ -237,6 +238,7 @@ void StagedOutput::publish() {
     manifest.command = request_.command;
     manifest.complete = true;
     manifest.source = request_.source;
+    manifest.asked = request_.asked;
     manifest.files = entries_of(staging_, files_below(staging_));
     const Manifest old = has_manifest(request_.folder) ? read_manifest(request_.folder) : Manifest{};
     for (const auto& [name, entry] : manifest.files) {
@@ -259,10 +261,12 @@ GrowingOutput::GrowingOutput(OutputRequest request, std::vector<std::string> kno
       const ResultFolder there = open_result_folder(request_.folder);
       check_all_files(there);
       manifest_ = *there.manifest;
+      manifest_.asked = request_.asked;
       return;
     }
     if (is_there) set_aside(request_.folder, known_);
     manifest_.command = request_.command;
+    manifest_.asked = request_.asked;
     save();
   });
 }
@@ -309,7 +313,10 @@ bool holds_results(const fs::path& folder, const std::string& finished) {
 
 FolderLock prepare_output_file(const fs::path& file, ExistingOutput existing) {
   return with_io_errors([&] {
+    if (file.empty()) throw InputError("the output file has no name");
     const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+    if (has_manifest(folder) && read_manifest(folder).files.contains(file.filename().string()))
+      throw InputError(file.string() + ": is one of the results in its folder; name another file");
     if (fs::is_directory(file)) throw InputError(file.string() + ": is a folder, a file is needed");
     if (fs::exists(file) && existing == ExistingOutput::refuse)
       throw InputError(file.string() + ": exists already; give --overwrite, or name another file");

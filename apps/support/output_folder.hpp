@@ -17,6 +17,7 @@ struct OutputRequest {
   std::string command;                        ///< "run", "measure", ...
   std::vector<std::filesystem::path> inputs;  ///< what the command reads: never in a folder to be overwritten
   std::string source = {};                    ///< manifest_sum() of the folder that all is computed from
+  std::string asked = {};                     ///< asked_sum() of what the command was given
 };
 
 /// Claims a folder: makes it, locks it, clears what a killed command left aside. Throws InputError if it is a

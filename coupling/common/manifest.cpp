@@ -50,6 +50,8 @@ class LineReader {
     if (const auto value = after(line, "# accepted = ")) return manifest_.accepted.push_back(*value), true;
     if (const auto value = after(line, "# source = "))
       return manifest_.source = *value, is_sum(manifest_.source);
+    if (const auto value = after(line, "# asked = "))
+      return manifest_.asked = *value, is_sum(manifest_.asked);
     if (const auto value = after(line, "# bytes = ")) return read_size(*value);
     if (line.size() <= sum_letters + 2 || line.compare(sum_letters, 2, "  ") != 0) return false;
     const std::string name = line.substr(sum_letters + 2);
@@ -77,6 +79,7 @@ std::string summed_text(const Manifest& manifest) {
   std::string text = fmt::format("{}# command = {}\n# state = {}\n", first_line, manifest.command,
                                  manifest.complete ? "complete" : "unfinished");
   if (!manifest.source.empty()) text += "# source = " + manifest.source + "\n";
+  if (!manifest.asked.empty()) text += "# asked = " + manifest.asked + "\n";
   for (const std::string& reason : manifest.accepted) text += "# accepted = " + reason + "\n";
   for (const auto& [name, entry] : manifest.files)
     fmt::format_to(std::back_inserter(text), "# bytes = {}{}\n{}  {}\n", entry.sum.bytes,

@@ -79,6 +79,8 @@ struct WallMotion {
 /// Whether the motion is moved by a force or a pressure: one body more, its place a result.
 bool is_driven(const WallMotion&);
 
+inline constexpr int most_snapshots = 1'000'000;  ///< of a stage
+
 /// A stretch of time with its own step, wall motions and number of snapshots (evenly spread, the last at its
 /// end).
 struct Stage {

@@ -96,7 +96,8 @@ void describe(Visitor& v, Stage& s) {
   v.value("turns", s.turns, when_given("turns", above(0), "Of the first rotation among its motions."));
   v.value("time_step_s", s.time_step_s,
           required("s", above(0), "Adapted so that whole steps fill the stage."));
-  v.value("snapshots", s.snapshots, defaulted("", at_least(0, 1e6), "Evenly spread, last at the end."));
+  v.value("snapshots", s.snapshots,
+          defaulted("", at_least(0, most_snapshots), "Evenly spread, last at the end."));
   v.tables("motions", s.motions, 0, "At most one per wall.");
   v.value("opens", s.opens, when_given("", not_empty(), "Walls gone from its start on."));
   v.optional_table("gravity", s.gravity, "Stays until another stage changes it.");

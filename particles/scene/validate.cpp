@@ -77,7 +77,15 @@ void check_roughness(const Wall& wall, const std::string& key, Faults& faults) {
                       {key}});
 }
 
+/// Names are fields of CSV files.
+void check_fits_table(const std::string& name, const std::string& key, Faults& faults) {
+  if (name.find_first_of(",\"\n\r") != std::string::npos)
+    faults.push_back({key, "holds a comma, a quote or a line end", "a name without them", {key}});
+}
+
 void check_walls(const Scene& scene, Faults& faults) {
+  for (std::size_t w = 0; w < scene.walls.size(); ++w)
+    check_fits_table(scene.walls[w].name, wall_key(w) + ".name", faults);
   for (std::size_t w = 0; w < scene.walls.size(); ++w) check_roughness(scene.walls[w], wall_key(w), faults);
   for (std::size_t w = 0; w < scene.walls.size(); ++w)
     if (const auto* s = std::get_if<SegmentShape>(&scene.walls[w].shape); s && s->from_mm == s->to_mm)
@@ -224,6 +232,41 @@ void check_fall(const Scene& scene, std::size_t s, Faults& faults) {
                     {key, "grains.generated.diameter_min_mm", "effects.gravity"}});
 }
 
+/// Nor fly past one at the speed of a gas.
+void check_flight(const Scene& scene, std::size_t s, Faults& faults) {
+  const auto* made = std::get_if<GeneratedGrains>(&scene.grains.source);
+  if (!scene.grains.thermal_speed_mm_s || made == nullptr) return;
+  const double h = scene.stages[s].time_step_s;
+  const double longest = made->diameter_min_mm / *scene.grains.thermal_speed_mm_s;
+  if (!(h > longest) || !(h <= duration_s(scene.stages[s]))) return;
+  const std::string key = stage_key(s) + ".time_step_s";
+  faults.push_back(
+      {key,
+       fmt::format("is {}, in which a grain flies by {:.3g} of the smallest diameters", h, h / longest),
+       fmt::format("up to {:.3g} s, for at most one", longest),
+       {key, "grains.generated.diameter_min_mm", "grains.thermal_speed_mm_s"}});
+}
+
+/// A wall that goes to and fro faster than steps follow looks slower, or at rest.
+void check_frequencies(const Scene& scene, std::size_t s, Faults& faults) {
+  constexpr double steps_per_period = 4;
+  const Stage& stage = scene.stages[s];
+  for (std::size_t m = 0; m < stage.motions.size(); ++m) {
+    const auto& how = stage.motions[m].motion;
+    const auto* shaking = std::get_if<Oscillation>(&how);
+    const auto* rocking = std::get_if<Rocking>(&how);
+    const double frequency = shaking ? shaking->frequency_hz : rocking ? rocking->frequency_hz : 0;
+    const double most = 1 / (steps_per_period * stage.time_step_s);
+    if (!(frequency > most)) continue;
+    const std::string key = fmt::format("{}.motions.{}.frequency_hz", stage_key(s), m);
+    faults.push_back(
+        {key,
+         fmt::format("is {}, a period of {:.3g} steps", frequency, 1 / (frequency * stage.time_step_s)),
+         fmt::format("up to {:.6g} Hz, {} steps a period", most, steps_per_period),
+         {key, stage_key(s) + ".time_step_s"}});
+  }
+}
+
 void check_stages(const Scene& scene, Faults& faults) {
   std::set<std::string> names;
   for (std::size_t s = 0; s < scene.stages.size(); ++s) {
@@ -233,16 +276,13 @@ void check_stages(const Scene& scene, Faults& faults) {
                         fmt::format("\"{}\" stands twice", stage.name),
                         "a name of its own",
                         {stage_key(s) + ".name"}});
-    // It is a field of log.csv.
-    if (stage.name.find_first_of(",\"\n\r") != std::string::npos)
-      faults.push_back({stage_key(s) + ".name",
-                        "holds a comma, a quote or a line end",
-                        "a name without them",
-                        {stage_key(s) + ".name"}});
+    check_fits_table(stage.name, stage_key(s) + ".name", faults);
     check_motions(scene, s, faults);
     check_length(stage, stage_key(s), faults);
     check_steps(scene, s, faults);
     check_fall(scene, s, faults);
+    check_flight(scene, s, faults);
+    check_frequencies(scene, s, faults);
   }
 }
 

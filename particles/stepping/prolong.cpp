@@ -13,6 +13,7 @@ namespace drumlin::particles {
 namespace {
 
 constexpr int most_tries = 100;  // lengths; about every second one can be written down
+constexpr double most_more_steps = 1e12;
 
 [[noreturn]] void refuse(const std::string& what, const std::string& allowed) {
   throw InputError({InputProblem{"", 0, 0, "--extend", what, allowed}});
@@ -48,6 +49,9 @@ Scene prolonged(const Scene& scene, double seconds, SimulationState& state) {
   const double step = duration_s(stage) / static_cast<double>(steps);
   // The snapshots up to now stay where they are if their number grows in proportion.
   const std::int64_t unit = stage.snapshots > 0 ? steps / std::gcd(steps, std::int64_t{stage.snapshots}) : 1;
+  if (!(seconds / step < most_more_steps))
+    refuse(fmt::format("is {} s, {:.3g} steps", seconds, seconds / step),
+           fmt::format("fewer than {:g} steps", most_more_steps));
   const std::int64_t units =
       std::max<std::int64_t>(1, std::llround(seconds / step / static_cast<double>(unit)));
   std::optional<double> duration;
@@ -60,7 +64,11 @@ Scene prolonged(const Scene& scene, double seconds, SimulationState& state) {
   all = std::llround(*duration / step);
   stage.turns.reset();
   stage.time_step_s = step;
-  stage.snapshots = static_cast<int>(stage.snapshots * all / steps);
+  const std::int64_t snapshots = stage.snapshots * all / steps;
+  if (snapshots > most_snapshots)
+    refuse(fmt::format("is {} s, which makes {} snapshots of the last stage", seconds, snapshots),
+           fmt::format("at most {}", most_snapshots));
+  stage.snapshots = static_cast<int>(snapshots);
   if (!state.ends.empty() && state.ends.size() == scene.stages.size()) state.ends.pop_back();
   const TimePlan now = time_plan(longer, scales, state.ends);
   const auto window =

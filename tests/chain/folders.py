@@ -90,7 +90,7 @@ def edits_are_told(drumlin, run, folder):
     drumlin("export", edited, "--vtu", code=2)
     drumlin("accept", edited, "--reason", "older than manifests")
     drumlin("export", edited, "--vtu", "--snapshots", "last")
-    drumlin("measure", edited, "--resume")
+    drumlin("measure", edited, "--parts", "none", "--resume")
 
 
 def measured_belongs_to_its_run(drumlin, scene, run, folder):
@@ -98,7 +98,7 @@ def measured_belongs_to_its_run(drumlin, scene, run, folder):
     def refused(changed):
         for words in (["compare", changed, changed, "-o", folder / "report", "--accept-unsteady"],
                       ["calibrate", changed, "-o", folder / "law.toml", "--accept-unsteady"],
-                      ["measure", "--study", changed, "-o", folder / "study"], ["measure", changed, "--resume"]):
+                      ["measure", "--study", changed, "-o", folder / "study"], ["measure", changed, "--parts", "maps", "--resume"]):
             _, said = drumlin(*words, code=2)
             require("as it was before" in said and f"drumlin measure {changed} --overwrite" in said and f"drumlin accept {changed / 'measured'}" in said,
                     f"{words}: {said}")
@@ -106,14 +106,14 @@ def measured_belongs_to_its_run(drumlin, scene, run, folder):
 
     changed = folder / "changed"
     shutil.copytree(run, changed)
-    drumlin("measure", changed, "--resume")
+    drumlin("measure", changed, "--parts", "maps", "--resume")
     log = changed / "log.csv"
     log.write_text(log.read_text(encoding="utf-8").replace("sampled", "stirred"), encoding="utf-8")
     drumlin("accept", changed, "--reason", "another name of the stage")
     refused(changed)
     text, _ = drumlin("accept", changed / "measured", "--reason", "names do not matter")
     require("of another state of the run" in text, text)
-    drumlin("measure", changed, "--resume")
+    drumlin("measure", changed, "--parts", "maps", "--resume")
     manifest = (changed / "measured" / "manifest.txt").read_text(encoding="utf-8")
     require("names do not matter (of another state of the run)" in manifest, manifest)
 

@@ -8,6 +8,7 @@ import base64
 import json
 import math
 import pathlib
+import resource
 import struct
 import sys
 import tempfile
@@ -19,6 +20,7 @@ import matplotlib.image
 import numpy
 
 from command import Drumlin, read_json, require
+from player_file import Player
 
 GRAINS = """
 [grains]
@@ -108,6 +110,29 @@ snapshots = 2
 motions = [{ wall = "bowl", kind = "translation", velocity_mm_s = [100, 0] }]
 """
 
+# Grains that leave through a bottom that opens: the last snapshots hold none.
+EMPTIED = 'format = "drumlin-scene-1"\ntitle = "Emptied"\n' + GRAINS.format(count=20) + """
+[[walls]]
+name = "gate"
+shape = "segment"
+from_mm = [-10, 0]
+to_mm = [40, 0]
+[[outlets]]
+name = "below"
+region = { shape = "rectangle", min_mm = [-90, -60], max_mm = [120, -20] }
+[effects.gravity]
+[effects.friction]
+grain_grain = 0.4
+grain_wall = 0.4
+[effects.spin]
+[[stages]]
+name = "fall"
+duration_s = 0.3
+time_step_s = 1e-3
+snapshots = 6
+opens = ["gate"]
+"""
+
 # Nothing to look at but the log.
 NO_SNAPSHOTS = ONE_DISC.replace("snapshots = 2", "snapshots = 0")
 
@@ -152,8 +177,10 @@ def plots(drumlin, one_disc, periodic, none, folder):
     require(drawn["reduced"] is True and drawn["snapshot"] == 3, f"{drawn}: not what was asked for")
     frames = frames_of_gif(periodic / "plots" / "animation.gif")
     require(frames == 5, f"{frames} frames of 5 snapshots")
-    text, _ = drumlin("plot", periodic, "--resume")
+    text, _ = drumlin("plot", periodic, "--animation", "--snapshot", "3", "--resume")
     require("done already" in text, f"drawn again: {text}")
+    _, said = drumlin("plot", periodic, "--snapshot", "3", "--resume", code=2)
+    require("other inputs or options" in said, f"another picture: {said}")
 
     # A run without spin has no picture of it; one that goes on is drawn as far as it went, its last line cut.
     report = json.loads((one_disc / "run.json").read_text(encoding="utf-8"))
@@ -216,6 +243,51 @@ def arcs(drumlin, folder):
         require(numpy.isclose(points[:, 1].min(), -0.010, atol=1e-5) and (points[:, 1] < 0.0227).all(), "another piece of the circle")
         inside = numpy.hypot(*(grains["Points"][:, :2] - (x, 0.020)).T) + grains["radius_m"]
         require(len(inside) == 50 and (inside < 0.0302).all(), f"grains outside: {inside.max()}")
+
+
+def emptied(drumlin, folder):
+    """Snapshots without grains are pictures of the walls, or of nothing, and frames of animation and player like others."""
+    run = made_run(drumlin, folder, "emptied", EMPTIED)
+    counts = []
+    for file in sorted((run / "snapshots").iterdir()):
+        with h5py.File(file) as snapshot:
+            counts.append(len(snapshot["grains/x"]))
+    require(counts[0] == 20 and counts[-1] == 0, f"{counts} grains")
+    drumlin("plot", run, "--animation", "--player")
+    names = ["speed.png", "forces.png", "log.png", "time.png", "animation.gif", "player.html"]
+    require(sorted(read_json(run / "plots/plots.json")["figures"]) == sorted(names), "other figures of a run that ends empty")
+    require(frames_of_gif(run / "plots/animation.gif") == 6, "frames without grains are left out")
+    found = [len(frame["grains"]) for frame in Player(run / "plots/player.html").frames]
+    require(found == counts, f"the player shows {found} grains of {counts}")
+    for colour in ("spin", "size", "pressure", "coordination", "id"):
+        drumlin("plot", run, "--color", colour, "--snapshot", "6", "-o", folder / f"emptied-{colour}")
+    drumlin("report", run)
+    require((run / "report/index.html").exists(), "no report of a run that ends empty")
+
+
+def full_disk(drumlin, periodic, folder):
+    """One line that names the file, no trace of the program that drew, and nothing left."""
+    size = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (20000, size[1]))
+    try:
+        _, said = drumlin("plot", periodic, "-o", folder / "full", code=74)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, size)
+    require("speed.png: cannot be written: File too large" in said and "Traceback" not in said, said)
+    require(not (folder / "full").exists(), "a part of the figures was left")
+
+
+def words_of_figures(figures):
+    """Labels tell places apart; a wall without a place is not drawn."""
+    sys.path.insert(0, str(figures))
+    import grain_maps  # noqa: E402
+    import style  # noqa: E402
+    require(style.place_labels([-3.2, 1.21, 1.24]) == ["-3.20", "+1.21", "+1.24"], style.place_labels([-3.2, 1.21, 1.24]))
+    require(style.place_labels([-13.6, 0.0, 13.6]) == ["-14", "+0", "+14"], style.place_labels([-13.6, 0.0, 13.6]))
+    require([style.at_places(n) for n in (1, 2, 5, 12)] == ["at one place", "at two places", "at five places", "at 12 places"], "places")
+    placed = {"shape": "segment", "x": [0.0, 1.0], "z": [0.0, 0.0], "angle": 0.0}
+    for wall in (placed | {"x": [None, 1.0]}, placed | {"z": [0.0, math.inf]}, {"shape": "disc", "x": 0.0, "z": None, "radius": 1.0}):
+        require(grain_maps.has_place(placed) and not grain_maps.has_place(wall), f"{wall}")
 
 
 def stretches(drumlin, folder):
@@ -315,7 +387,8 @@ def exports(drumlin, one_disc, periodic, folder):
     drumlin("export", one_disc, "--vtu", "-o", folder / "export", "--snapshots", "1")
     require("spin_clockwise_rad_s" not in arrays_of(folder / "export" / "grains" / "000001.vtu"), "a spin that is not there")
     arrays_of(folder / "export" / "contacts" / "000001.vtu")
-    text, _ = drumlin("export", one_disc, "--vtu", "-o", folder / "export", "--resume")
+    drumlin("export", one_disc, "--vtu", "-o", folder / "export", "--resume", code=2)  # of all snapshots
+    text, _ = drumlin("export", one_disc, "--vtu", "-o", folder / "export", "--snapshots", "1", "--resume")
     require("done already" in text, f"exported again: {text}")
 
 
@@ -422,6 +495,9 @@ def main():
             sliding_wall(drumlin, folder)
             arcs(drumlin, folder)
         stretches(drumlin, folder)
+        emptied(drumlin, folder)
+        full_disk(drumlin, periodic, folder)
+        words_of_figures(pathlib.Path(sys.argv[2]).parents[1] / "apps/figures")
     print("figures drawn, not blank; exported numbers are those of the snapshots; what cannot be done refused")
 
 

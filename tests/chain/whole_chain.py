@@ -234,6 +234,23 @@ def main():
                 drumlin(*words, "--resume")
             require(bytes_below(folder) == before, f"repeating {words[0]} changed files")
             print(f"{words[0]}: done, checked, repeated")
+        # What was made of other inputs, or by other options, is not what was asked for.
+        others = [["measure", run, "--slice-width", "5"], ["calibrate", run, "-o", law, "--accept-unsteady", "--law", "log-linear"],
+                  ["flow", here / "tiny-drum-flow.toml", "--rheology", law, "--law-draws", "2", "-o", flow],
+                  ["flow", folder / "nowhere.toml", "--rheology", law, "--law-draws", "3", "-o", flow],
+                  ["compare", run, flow, "-o", report, "--accept-unsteady", "--register", "surface"]]
+        for words in others:
+            _, said = drumlin(*words, "--resume", code=2)
+            require("other" in said or "nowhere.toml" in said, f"{words}: {said}")
+        for words in (["calibrate", run, run], ["calibrate", run, "--validate", run]):
+            _, said = drumlin(*words, "-o", folder / "twice.toml", "--accept-unsteady", code=2)
+            require("named twice" in said, f"{words}: {said}")
+        (folder / "mine.json").write_text("years of work", encoding="utf-8")
+        drumlin("calibrate", run, "-o", folder / "mine.toml", "--accept-unsteady", code=2)
+        drumlin("calibrate", run, "-o", run / "run.json", "--accept-unsteady", "--overwrite", code=2)
+        require((folder / "mine.json").read_text(encoding="utf-8") == "years of work" and not (folder / "mine.toml").exists(), "calibrate took a file of somebody else")
+        require(bytes_below(folder / "run") == {name[4:]: content for name, content in before.items() if name.startswith("run/")}, "a refused command changed the run")
+        (folder / "mine.json").unlink()
         # A drum of 350 grains has no bed that could remember.
         drumlin("calibrate", run, "-o", folder / "memory.toml", "--memory", "--accept-unsteady", code=2)
         require(not list(folder.glob("memory.*")), "a calibration that was refused left files")

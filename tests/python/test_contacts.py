@@ -54,6 +54,10 @@ def test_what_is_no_problem_is_refused():
         drumlin.solve_contacts(W, Q, [0.3, 0.3, 0.3])
     with pytest.raises(drumlin.InputError, match="none"):
         drumlin.solve_contacts(W, Q, 0.3, solver="none")
+    for words, text in [({"tolerance": -1}, "tolerance: is -1"), ({"tolerance": np.nan}, "tolerance: is nan"), ({"tolerance": 11}, "tolerance: is 11"),
+                        ({"max_seconds": np.nan}, "max_seconds"), ({"threads": 0}, "threads: is 0"), ({"threads": 257}, "threads: is 257")]:
+        with pytest.raises(drumlin.InputError, match=text):
+            drumlin.solve_contacts(W, Q, 0.3, **words)
 
 
 def test_a_missed_tolerance_is_reported_not_raised(data):

@@ -50,6 +50,8 @@ def test_measurements_are_read(data):
     theta, half_width = drumlin.value_of(folder["measured.json"], "theta_deg")
     assert 15 < theta < 25 and 0 < half_width < 2
     assert np.isnan(drumlin.value_of({"theta_deg": None}, "theta_deg")[0])
+    with pytest.raises(KeyError, match="thetadeg: is no number .*allowed: theta_deg, "):
+        drumlin.value_of(folder["measured.json"], "thetadeg")
 
 
 def test_every_file_of_the_data_is_read(data):

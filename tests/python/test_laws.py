@@ -44,6 +44,12 @@ def test_wrong_points_are_refused(tmp_path):
         drumlin.calibrate(I, measured(1), nu=81)
     with pytest.raises(drumlin.InputError, match="not of one length"):
         drumlin.calibrate(I, measured(1)[1:], nu=0.81)
+    for wrong in (0, -ERROR, np.nan, np.inf):
+        with pytest.raises(drumlin.InputError, match="mu_error: is .* at point 7"):
+            drumlin.calibrate(I, measured(1), mu_error=np.where(np.arange(I.size) == 7, wrong, ERROR), nu=0.81)
+    for names in ([], ["a"], ["a", "b", "c"]):
+        with pytest.raises(drumlin.InputError, match=f"names: are {len(names)} of 2 runs"):
+            drumlin.calibrate([I, I], [measured(1), measured(2)], nu=0.81, names=names)
     with pytest.raises(drumlin.InputError, match="above 0"):
         drumlin.Law(drumlin.calibrate(I, measured(1), nu=0.81, form="log").text).mu([-1.0])
     with pytest.raises(drumlin.InputError, match="law.toml:1"):

@@ -3,11 +3,13 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <utility>
 
 #include "apps/commands/calibrate/calibration_json.hpp"
 #include "apps/commands/calibrate/evidence.hpp"
 #include "apps/commands/calibrate/nonlocal_json.hpp"
+#include "apps/support/asked.hpp"
 #include "apps/support/commands.hpp"
 #include "apps/support/figures.hpp"
 #include "apps/support/json_file.hpp"
@@ -157,10 +159,39 @@ coupling::CalibrationOptions settings_of(const CalibrateOptions& options, coupli
   return settings;
 }
 
+/// A run that counts twice makes intervals too small; one that is fitted predicts nothing.
+void refuse_twice(const CalibrateOptions& options) {
+  std::set<fs::path> seen;
+  for (const auto* runs : {&options.runs, &options.validate})
+    for (const fs::path& run : *runs)
+      if (!seen.insert(fs::weakly_canonical(run)).second)
+        throw InputError(run.string() + ": is named twice (allowed: each run once, to fit or to validate)");
+}
+
+std::string asked_for(const CalibrateOptions& options) {
+  nlohmann::ordered_json inputs = nlohmann::ordered_json::array(), held_out = inputs;
+  for (const fs::path& run : options.runs) inputs.push_back(measured_run_sum(run));
+  for (const fs::path& run : options.validate) held_out.push_back(measured_run_sum(run));
+  return asked_sum({inputs, held_out, options.from, options.law, options.I_min.value_or(0),
+                    options.I_max.value_or(0), options.draws, options.k, options.misalignment, options.memory,
+                    options.nonlocal, options.amount});
+}
+
+/// A law stands in no folder with a manifest: its record says what was asked for.
+void refuse_other_law(const fs::path& record, const std::string& asked) {
+  if (!fs::is_regular_file(record)) return;
+  const std::string before = read_json(record, "drumlin-calibration-1").value("asked", asked);
+  if (before != asked)
+    throw InputError(record.string() + ": its law is of other runs or options; --overwrite makes it anew");
+}
+
 }  // namespace
 
 int calibrate(const CalibrateOptions& options) {
+  const fs::path record = beside(options.output, ".json");
+  const std::string asked = asked_for(options);
   if (options.existing == ExistingOutput::resume && fs::is_regular_file(options.output)) {
+    refuse_other_law(record, asked);
     print_out(fmt::format("{}: done already\n", options.output.string()));
     return static_cast<int>(ExitCode::done);
   }
@@ -168,6 +199,7 @@ int calibrate(const CalibrateOptions& options) {
   if (options.I_min && options.I_max && !(*options.I_min < *options.I_max))
     throw InputError(fmt::format("the range of I is {} to {} (allowed: 0 < I_min < I_max)", *options.I_min,
                                  *options.I_max));
+  refuse_twice(options);
   const coupling::EvidenceSource source = source_of(options);
   MeasuredEvidence fitted = evidence_of(options.runs, source, options);
   require_bulk_fraction(fitted);
@@ -177,9 +209,18 @@ int calibrate(const CalibrateOptions& options) {
   require_same_units(all);
   const coupling::Calibration calibration = coupling::calibration_of(
       std::move(fitted.evidence), std::move(held_out.evidence), settings_of(options, source));
+  for (const char* extension : {".json", ".png"}) {
+    const fs::path other = beside(options.output, extension);
+    if (other == options.output)
+      throw InputError(options.output.string() + ": the record of the law has this name; name it .toml");
+    if (options.existing == ExistingOutput::refuse && fs::exists(fs::symlink_status(other)))
+      throw InputError(other.string() +
+                       ": exists already, and belongs to the law; give --overwrite, or name another file");
+  }
   const FolderLock lock = prepare_output_file(options.output, options.existing);
-  const fs::path record = beside(options.output, ".json");
-  write_json(record, calibration_json(calibration, all));
+  nlohmann::ordered_json content = calibration_json(calibration, all);
+  content["asked"] = asked;
+  write_json(record, content);
   draw_figures("calibrate_figures.py",
                {record.string(), "--output", beside(options.output, ".png").string()});
   // Last: its presence says that all is there.

@@ -12,6 +12,7 @@
 #include "apps/commands/measure/content.hpp"
 #include "apps/commands/measure/part.hpp"
 #include "apps/commands/run_accuracy.hpp"
+#include "apps/support/asked.hpp"
 #include "apps/support/commands.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/output_folder.hpp"
@@ -59,6 +60,14 @@ bool is_measured(const fs::path& run, const fs::path& finished) {
   return true;
 }
 
+/// The run itself is told by the source of the results.
+std::string asked_for(const MeasureOptions& options) {
+  return asked_sum({options.slice_width, options.layer_thickness, options.position, options.parts,
+                    options.gradient_step, options.slices, options.map_spacing, options.map_width,
+                    options.radial, options.height, options.width, options.grains,
+                    options.accuracy ? input_sum(*options.accuracy) : ""});
+}
+
 Json finished_run(const ResultFolder& folder) {
   const fs::path& run = folder.path;
   const Json json = read_json(run / "run.json", "drumlin-run-1");
@@ -84,6 +93,22 @@ particles::MeasurementOptions settings_for(const MeasureOptions& options) {
   return settings;
 }
 
+std::string slice_name(double position) { return fmt::format("slices/x{:+.1f}.csv", position); }
+
+void check_slices(const std::vector<double>& positions) {
+  constexpr double farthest = 1e6;  // d
+  std::map<std::string, double> names;
+  for (const double position : positions) {
+    if (!(std::abs(position) <= farthest))
+      throw InputError({InputProblem{"", 0, 0, "--slices", fmt::format("is {:g}", position),
+                                     fmt::format("numbers in d, -{0:g} to {0:g}", farthest)}});
+    if (const auto [other, is_new] = names.emplace(slice_name(position), position); !is_new)
+      throw InputError({InputProblem{"", 0, 0, "--slices",
+                                     fmt::format("has {:g} and {:g} in one place", other->second, position),
+                                     "places at least 0.1 d apart"}});
+  }
+}
+
 /// slices/NAME.csv for each slice, and what was read off it.
 void write_slices(const fs::path& folder, const particles::Measurement& measured,
                   const particles::MeasurementOptions& settings, const RunHeader& header, Json& content) {
@@ -93,7 +118,7 @@ void write_slices(const fs::path& folder, const particles::Measurement& measured
   for (const particles::MeasuredSlice& slice : measured.slices) {
     ProfileSet profiles = slice.profiles;
     profiles.header = particles::slice_header(header, slice);
-    const std::string file = fmt::format("slices/x{:+.1f}.csv", slice.position);
+    const std::string file = slice_name(slice.position);
     write_profiles(folder / file, profiles);
     const ProfileScalars fits = profile_scalars(profiles, settings.scalars);
     Json entry{{"position", slice.position}, {"width", slice.width}, {"file", file}};
@@ -323,8 +348,11 @@ std::vector<FigureScript> figures_of(const Request& request, const fs::path& fol
 int measure(const MeasureOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   check_parts(options.parts);
+  check_slices(options.slices);
   const fs::path results = options.run / "measured", finished = results / "measured.json";
+  const std::string asked = asked_for(options);
   if (options.existing == ExistingOutput::resume && is_measured(options.run, finished)) {
+    refuse_other(results, asked);
     print_out(fmt::format("{}: done already\n", results.string()));
     return static_cast<int>(ExitCode::done);
   }
@@ -338,7 +366,7 @@ int measure(const MeasureOptions& options) {
   if (files.empty())
     throw InputError(options.run.string() + ": holds no snapshots: there is nothing to measure");
   request.parts = reading_parts(options);
-  StagedOutput output({results, options.existing, "measure", {}, manifest_sum(*run_folder.manifest)});
+  StagedOutput output({results, options.existing, "measure", {}, manifest_sum(*run_folder.manifest), asked});
   const fs::path& folder = output.folder();
 
   particles::Measurement measured = measured_run(request, files);

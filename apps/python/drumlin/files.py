@@ -54,9 +54,17 @@ class Folder:
         return f"<results in {self.path}: {len(self.files)} files>"
 
 
+def _is_number(entry):
+    value = entry.get("value", "") if isinstance(entry, dict) else entry
+    return value is None or (isinstance(value, (int, float)) and not isinstance(value, bool))
+
+
 def value_of(content, name):
-    """(value, half width of its 99 % interval) of a number of a JSON file; NaN for what was not measured."""
-    entry = content.get(name)
+    """(value, half width of its 99 % interval) of a number of a JSON file; NaN for what was not measured. KeyError for what it does not know."""
+    if name not in content:
+        known = [key for key, entry in content.items() if _is_number(entry)]
+        raise KeyError(f"{name}: is no number of this file (allowed: {', '.join(known)})")
+    entry = content[name]
     value, half = (entry.get("value"), entry.get("ci99")) if isinstance(entry, dict) else (entry, None)
     return tuple(np.nan if number is None else number for number in (value, half))
 

@@ -5,6 +5,7 @@ import pathlib
 import numpy as np
 
 from . import _drumlin
+from .errors import InputError, IoError
 
 
 class Law(_drumlin.Law):
@@ -23,7 +24,6 @@ class Law(_drumlin.Law):
 
 
 def _text_of_file(path):
-    from .errors import IoError
     try:
         return pathlib.Path(path).read_text(encoding="utf-8")
     except OSError as error:
@@ -48,6 +48,13 @@ class CalibratedLaw(Law):
         return self._found.band(I, share)
 
 
+def _checked_errors(what, errors):
+    wrong = np.flatnonzero(~(np.isfinite(errors) & (errors > 0)))
+    if wrong.size:
+        place = int(wrong[0])
+        raise InputError(f"{what}: is {errors[place]} at point {place} (allowed: finite and above 0; None where it is not known)")
+
+
 def calibrate(I, mu, I_error=None, mu_error=None, *, nu, form="auto", draws=200, names=None):  # noqa: E741
     """Fits mu(I) robustly to points, as `drumlin calibrate` does to measured layers.
 
@@ -59,8 +66,12 @@ def calibrate(I, mu, I_error=None, mu_error=None, *, nu, form="auto", draws=200,
         I_error, mu_error = [I_error], [mu_error]
     unknown = [None] * len(I)
     runs = []
-    for columns in zip(I, mu, I_error or unknown, mu_error or unknown, strict=True):
+    for columns in zip(I, mu, unknown if I_error is None else I_error, unknown if mu_error is None else mu_error, strict=True):
         length = np.size(columns[0])
         runs.append([np.full(length, np.nan) if column is None else np.asarray(column, float).reshape(-1) for column in columns])
-    names = names or [f"run {k + 1}" for k in range(len(runs))]
+        if columns[3] is not None:
+            _checked_errors("mu_error", runs[-1][3])
+    names = [f"run {k + 1}" for k in range(len(runs))] if names is None else list(names)
+    if len(names) != len(runs):
+        raise InputError(f"names: are {len(names)} of {len(runs)} runs (allowed: one for each)")
     return CalibratedLaw(_drumlin.calibrate(runs, names, float(nu), form, int(draws)))
