@@ -42,7 +42,8 @@ void add_measure_options(CLI::App& command, MeasureOptions& options, StudyOption
       ->type_name("STUDY");
   add_number(command, "--slice-width", options.slice_width, "d", above(0),
              "Width of the slice, across its middle");
-  add_number(command, "--layer-thickness", options.layer_thickness, "d", above(0), "Thickness of the layers");
+  add_number(command, "--layer-thickness", options.layer_thickness, "d", at_least(1e-3),
+             "Thickness of the layers");
   add_number(command, "--position", options.position, "d", anything(),
              "Place of the slice along the surface, from the middle of the drum, positive downslope");
   command
@@ -204,6 +205,9 @@ void add_solve_contacts_options(CLI::App& command, SolveContactsOptions& options
           "--output", [&options](const std::string& file) { options.output = file; },
           "File for the solution, r, u, state and error under /solution; none is written without")
       ->type_name("SOL.h5");
+  command.add_flag_callback(
+      "--overwrite", [&options] { options.existing = ExistingOutput::overwrite; },
+      "Replaces a file of that name");
   command.add_flag("--backward-error", options.backward_error,
                    "Says how far the problem that the solution solves exactly is from this one");
   command

@@ -106,7 +106,12 @@ int hardcases(const HardcasesOptions& options) {
   const auto cases = chosen(all, options);
   if (cases.empty()) throw InputError("hardcases: none of the cases named is a fast one");
   std::optional<StagedOutput> output;
-  if (options.output) output.emplace(OutputRequest{*options.output, options.existing, "hardcases", {}});
+  if (options.output)
+    output.emplace(OutputRequest{.folder = *options.output,
+                                 .existing = options.existing,
+                                 .command = "hardcases",
+                                 .inputs = {},
+                                 .goes_on = false});
   print_out(fmt::format(row, "case", "what (d, sqrt(d/g), rho0 g d)", "expected", "got", "tolerance",
                         "seconds", "verdict"));
   Json results = Json::array();

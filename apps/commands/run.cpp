@@ -90,7 +90,7 @@ class ParticleRun {
     progress_.show(line_of_progress());
     progress_.finish();
     print_out(fmt::format("{}{}", run_summary(progress_now()), accuracy_text()));
-    return static_cast<int>(ExitCode::done);
+    return static_cast<int>(exit_code_of_missed(totals_.unconverged_steps, simulation_.state().step));
   }
 
  private:
@@ -309,6 +309,16 @@ void read_lists_from(const fs::path& folder, particles::Scene& scene) {
     if (lists[k]->text) lists[k]->file = folder / names[k], lists[k]->text.reset();
 }
 
+/// Stretches are cut into blocks of whole steps, and must come to an end.
+void check_stretches(double seconds, const particles::Scene& scene) {
+  constexpr double most_steps = 1e9;
+  const double h = scene.stages.back().time_step_s, steps = seconds / h;
+  if (seconds == 0 || (steps >= particles::stretch_blocks && steps <= most_steps)) return;
+  throw InputError(
+      {InputProblem{"", 0, 0, "--accuracy-seconds", fmt::format("is {:g} s, {:.3g} steps", seconds, steps),
+                    fmt::format("{:g} to {:g} s", particles::stretch_blocks * h, most_steps * h)}});
+}
+
 }  // namespace
 
 int run(const RunOptions& options) {
@@ -318,6 +328,7 @@ int run(const RunOptions& options) {
   // What only shows when grains are placed must show before anything is written or removed.
   const std::size_t grains = particles::Simulation(scene).state().bodies.count();
   if (options.accuracy) (void)accuracy_record(*options.accuracy, scene);
+  check_stretches(options.accuracy_seconds, scene);
   std::vector<fs::path> inputs{options.scene};
   for (const auto* list : lists_of(scene)) inputs.push_back(list->file);
   const CaughtInterruptions caught;

@@ -166,6 +166,10 @@ std::string progress_line(const std::string& who, const RunPosition& at, const p
       last.solve.sweeps, last.solve.residual.rms, last.overlap.mean, at.missed, duration_text(left));
 }
 
+ExitCode exit_code_of_missed(std::int64_t missed, std::int64_t steps) {
+  return 2 * missed > steps ? ExitCode::not_converged : ExitCode::done;
+}
+
 nlohmann::ordered_json run_report(const RunProgress& run, const std::string& status) {
   const auto& state = run.simulation.state();
   const double steps = std::max<double>(1, static_cast<double>(state.step));

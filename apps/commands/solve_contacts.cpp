@@ -147,7 +147,7 @@ int solve_contacts(const SolveContactsOptions& options) {
   keep_freed_memory();
   const particles::ContactProblemFile file = particles::read_contact_problem_file(options.problem);
   std::optional<FolderLock> lock;
-  if (options.output) lock.emplace(prepare_output_file(*options.output, ExistingOutput::refuse));
+  if (options.output) lock.emplace(prepare_output_file(*options.output, options.existing));
   const Solved solved = solve(file.problem, options);
   if (options.output)
     particles::write_contact_solution(*options.output, solved.solution.impulses,

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "apps/support/asked.hpp"
@@ -35,7 +36,9 @@ void print_study(const coupling::Study& study, const Json& content) {
   for (const coupling::Collapse& collapse : study.collapses)
     print_out(fmt::format("  {:28} spread between speeds / intervals = {:.2f} (limit {:.2f}): {}\n",
                           collapse.column + "(I)", collapse.ratio, collapse.limit,
-                          collapse.collapse ? "one curve" : "not one curve"));
+                          !std::isfinite(collapse.ratio) ? "not told, which takes runs of two speeds"
+                          : collapse.collapse            ? "one curve"
+                                                         : "not one curve"));
   print_out(fmt::format("\n{}\n", paper_table_markdown(study)));
   if (!study.paper.empty())
     print_out(fmt::format("{} agree, {} open, {} near, {} differ, {} imposed, {} not measured\n",

@@ -30,6 +30,8 @@ def aside(path):
     try:
         with _aside(path) as stream:
             yield stream
+    except FileExistsError:  # somebody guessed the name aside, which is no fault of the disk
+        raise
     except OSError as error:
         # Those of a stream name no file, those of our own calls the name aside or the folder.
         if error.filename is None or str(error.filename) in (str(path), str(path.parent)) or ".drumlin-" in str(error.filename):

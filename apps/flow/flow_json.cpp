@@ -265,6 +265,7 @@ Json flow_json(const FinishedFlow& flow) {
   add_scalars(content, result.scalars);
   add_scalars(content, flow.asked.flow_case.given);
   content["ill_posed_share"] = flow.findings.ill_posed_share();
+  content["beyond_law_share"] = flow.findings.beyond_law_share();
   content["ill_posed_I"] = ill_posed_json(flow.asked.flow_case.problem);
   if (flow.plain) content[flow.asked.law.k ? "without_k" : "without_nonlocal"] = plain_json(flow);
   content["unknowns"] = result.unknowns;

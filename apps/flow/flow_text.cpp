@@ -94,6 +94,11 @@ std::string summary_text(const fs::path& folder, const FinishedFlow& flow) {
       folder.string(), flow.asked.reduced() ? " (reduced)" : "", report.iterations, report.start,
       report.seconds, report.residual, 100 * share,
       share > 0 ? ": the flow there depends on the mesh (docs/formats/flow.md)" : "");
+  if (const double beyond = flow.findings.beyond_law_share(); beyond > 0.01)
+    text += fmt::format(
+        "the law was measured up to I = {:.3g}; in {:.1f} % of the area I is larger, and mu there is "
+        "extrapolated\n",
+        flow.asked.flow_case.law_I_max, 100 * beyond);
   return text + neglected_text(flow);
 }
 

@@ -119,7 +119,7 @@ class RankRun {
       first_->progress.finish();
       print_out(summary_);
     });
-    return static_cast<int>(ExitCode::done);
+    return static_cast<int>(exit_code_of_missed(totals_.unconverged_steps, simulation_.progress().step));
   }
 
  private:

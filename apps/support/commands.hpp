@@ -186,6 +186,7 @@ struct SolveContactsOptions {
   bool backward_error = false;  ///< which problem the solution solves exactly
   std::optional<int> watch;     ///< further plain sweeps in which changes of state are counted
   std::optional<std::filesystem::path> output;
+  ExistingOutput existing = ExistingOutput::refuse;
   bool json = false;
 };
 int solve_contacts(const SolveContactsOptions&);

@@ -208,7 +208,9 @@ FolderLock claim(const OutputRequest& request) {
     remove_left_aside(folder);
     if (!holds_nothing(folder) && request.existing == ExistingOutput::refuse)
       throw InputError(folder.string() +
-                       ": exists already; give --resume or --overwrite, or name another folder");
+                       (request.goes_on
+                            ? ": exists already; give --resume or --overwrite, or name another folder"
+                            : ": exists already; give --overwrite, or name another folder"));
     refuse_other_command(folder, request.command);
     if (request.existing == ExistingOutput::overwrite) refuse_inside(folder, request.inputs);
     return lock;

@@ -18,6 +18,7 @@ struct OutputRequest {
   std::vector<std::filesystem::path> inputs;  ///< what the command reads: never in a folder to be overwritten
   std::string source = {};                    ///< manifest_sum() of the folder that all is computed from
   std::string asked = {};                     ///< asked_sum() of what the command was given
+  bool goes_on = true;                        ///< the command knows --resume
 };
 
 /// Claims a folder: makes it, locks it, clears what a killed command left aside. Throws InputError if it is a

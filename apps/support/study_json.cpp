@@ -40,9 +40,12 @@ Json json_of(const coupling::Collapse& collapse) {
                       {"spread", point.spread},
                       {"chi2", point.chi2},
                       {"speeds", point.speeds}});
-  return {{"ratio", number(collapse.ratio)}, {"limit", number(collapse.limit)},
-          {"collapse", collapse.collapse},   {"spread", number(collapse.spread)},
-          {"range", number(collapse.range)}, {"points", points}};
+  return {{"ratio", number(collapse.ratio)},
+          {"limit", number(collapse.limit)},
+          {"collapse", std::isfinite(collapse.ratio) ? Json(collapse.collapse) : Json()},
+          {"spread", number(collapse.spread)},
+          {"range", number(collapse.range)},
+          {"points", points}};
 }
 
 Json curve_of(const LogFriction& law, double I_min, double I_max) {

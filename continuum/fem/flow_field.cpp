@@ -189,7 +189,7 @@ std::vector<PointState> FlowField::at(std::span<const Vec2> points) const {
   return states;
 }
 
-FlowIntegrals FlowField::integrals(Vec2 centre) const {
+FlowIntegrals FlowField::integrals(Vec2 centre, double law_I_max) const {
   const auto& d = *level_->discretisation;
   const auto& problem = level_->problem;
   FlowIntegrals sums;
@@ -209,6 +209,9 @@ FlowIntegrals FlowField::integrals(Vec2 centre) const {
       const auto x = fe.quadrature_point(q);
       sums.area += fe.JxW(q);
       if (s.margin < 0) sums.ill_posed_area += fe.JxW(q);
+      // I^2 p = 2 D:D, the shear rate squared.
+      if (2 * contraction(D, D) > law_I_max * law_I_max * std::max(0.0, s.normal))
+        sums.beyond_law_area += fe.JxW(q);
       sums.dissipation += contraction(s.stress, D) * fe.JxW(q);
       sums.weight_power += (weight.x * values.velocity[q][0] + weight.z * values.velocity[q][1]) * fe.JxW(q);
       sums.weight_torque += (weight.x * (x[1] - centre.z) - weight.z * (x[0] - centre.x)) * fe.JxW(q);

@@ -1,6 +1,7 @@
 #pragma once
 // A solved flow: values at points, integrals, files. Free of deal.II, which stays behind the pointer.
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -40,6 +41,7 @@ struct PointState {
 struct FlowIntegrals {
   double area = 0;
   double ill_posed_area = 0;      ///< where the symbol of the linearised equations is negative
+  double beyond_law_area = 0;     ///< where I is larger than the law was measured at
   double dissipation = 0;         ///< integral of tau:D
   double weight_power = 0;        ///< integral of f.u
   double given_side_power = 0;    ///< of the sides with a given velocity, from their nodal forces
@@ -69,7 +71,8 @@ class FlowField {
   /// For another solve to start from (solve_flow_from).
   FlowState state() const;
   /// Torques are taken about `centre`.
-  FlowIntegrals integrals(Vec2 centre = {}) const;
+  /// `law_I_max`: the largest I that the law was measured at.
+  FlowIntegrals integrals(Vec2 centre = {}, double law_I_max = std::numeric_limits<double>::infinity()) const;
   /// Velocity (laboratory frame), pressure, stresses, |D|, I, mu, viscosity, well_posedness_margin, each cell
   /// cut in four. On several ranks `file` (.vtu) is replaced by one with the ending .pvtu, which names one
   /// .vtu per rank. Throws IoError.

@@ -51,9 +51,9 @@ void describe(Visitor& v, FlowGravity& g) {
 }
 template <class Visitor>
 void describe(Visitor& v, FlowMesh& m) {
-  v.value(
-      "surface_cell", m.surface_cell,
-      defaulted("d", above(0, 100), "Largest cell near surface, driven wall or chute wall, finest mesh."));
+  v.value("surface_cell", m.surface_cell,
+          defaulted("d", at_least(0.005, 100),
+                    "Largest cell near surface, driven wall or chute wall, finest mesh."));
   v.value("surface_zone", m.surface_zone,
           defaulted("d", at_least(0, 1e4), "Up to this distance from there."));
   v.value("growth", m.growth,
@@ -138,7 +138,7 @@ void describe(Visitor& v, FlowOutput& o) {
   v.value("slice_width", o.slice_width,
           when_given("d", above(0, 1e4),
                      "Of a drum's profiles; absent: 20, at most a quarter of the chord. Elsewhere refused."));
-  v.value("layer_thickness", o.layer_thickness, defaulted("d", above(0, 100), "Thickness."));
+  v.value("layer_thickness", o.layer_thickness, defaulted("d", at_least(1e-3, 100), "Thickness."));
   v.value("map_spacing", o.map_spacing, defaulted("d", above(0, 100), "Of maps.h5."));
   v.value("figures", o.figures, defaulted("", anything(), "Draws figures."));
 }

@@ -96,7 +96,10 @@ FlowCase gap_case(const FlowScene& scene, const RheologyFit& law) {
 }  // namespace
 
 FlowCase flow_case(const FlowScene& scene, const RheologyFit& law) {
-  return std::holds_alternative<FlowDrum>(scene.geometry) ? drum_case(scene, law) : gap_case(scene, law);
+  FlowCase made =
+      std::holds_alternative<FlowDrum>(scene.geometry) ? drum_case(scene, law) : gap_case(scene, law);
+  made.law_I_max = largest_measured_I(law.mu);
+  return made;
 }
 
 }  // namespace drumlin::continuum

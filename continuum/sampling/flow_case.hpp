@@ -1,6 +1,7 @@
 #pragma once
 // The complete problem of a scene and a law, and how its solution is read: chosen once by geometry.
 #include <functional>
+#include <limits>
 #include <string>
 
 #include "continuum/fem/flow_field.hpp"
@@ -14,11 +15,12 @@
 namespace drumlin::continuum {
 
 struct FlowCase {
-  std::string geometry;  ///< name of the table of the scene
-  std::string summary;   ///< one line: the geometry in d and sqrt(d/g)
-  FlowProblem problem;   ///< complete: nothing is added to it
-  ScalarSet given;       ///< numbers that stand beside the results: nu, the height of the axis
-  ScalarSet settings;    ///< of the geometry
+  std::string geometry;                                        ///< name of the table of the scene
+  std::string summary;                                         ///< one line: the geometry in d and sqrt(d/g)
+  FlowProblem problem;                                         ///< complete: nothing is added to it
+  double law_I_max = std::numeric_limits<double>::infinity();  ///< largest I that its law was measured at
+  ScalarSet given;     ///< numbers that stand beside the results: nu, the height of the axis
+  ScalarSet settings;  ///< of the geometry
   std::function<RunHeader(const FlowField&)> profile_header;  ///< frame and geometry alone
   std::function<ProfileSet(const FlowField&)> profiles;
   std::function<ScalarSet(const FlowField&)> scalars;

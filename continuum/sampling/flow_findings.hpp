@@ -34,6 +34,7 @@ struct FlowFindings {
   std::optional<GapComparison> closed_form = {};  ///< across a gap
   std::optional<NeglectedTerms> neglected = {};   ///< of a drum
   double ill_posed_share() const { return sums.ill_posed_area / sums.area; }
+  double beyond_law_share() const { return sums.beyond_law_area / sums.area; }
 };
 /// Collective.
 FlowFindings findings_of(const FlowCase& flow_case, const FlowField& field);

@@ -1,5 +1,6 @@
 #include "coupling/law/rheology_fit.hpp"
 
+#include <limits>
 #include <sstream>
 
 namespace drumlin {
@@ -28,6 +29,19 @@ std::string in_words(const FrictionTable& mu) {
 }
 
 }  // namespace
+
+double largest_measured_I(const MeasuredFriction& mu) {
+  return std::visit(
+      [](const auto& chosen) {
+        if constexpr (requires { chosen.I_max; })
+          return chosen.I_max > 0 ? chosen.I_max : std::numeric_limits<double>::infinity();
+        else if constexpr (requires { chosen.I.back(); })
+          return chosen.I.back();
+        else
+          return std::numeric_limits<double>::infinity();
+      },
+      mu);
+}
 
 std::string described(const MeasuredFriction& mu) {
   return std::visit([](const auto& chosen) { return in_words(chosen); }, mu);

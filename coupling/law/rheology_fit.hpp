@@ -99,6 +99,9 @@ struct RheologyFit {
   bool reduced = false;                 ///< fitted on a reduced (smoke) run
 };
 
+/// Largest I that the friction was measured at; infinite for a form that is given, not fitted.
+double largest_measured_I(const MeasuredFriction& mu);
+
 /// The friction in words, for messages: "mu = 0.35 + 0.013 ln I".
 std::string described(const MeasuredFriction& mu);
 

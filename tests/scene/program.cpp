@@ -111,7 +111,7 @@ TEST_F(Program, LeavesTheProblemsThatItCouldNotSolveToSolveContacts) {
   const std::string hopeless =
       " --set solver.tolerance=1e-12 --set solver.max_sweeps=1 --set solver.check_every=1"
       " --set solver.capture_unconverged=2";
-  ASSERT_EQ(drumlin(run_to("r") + hopeless).code, 0);
+  ASSERT_EQ(drumlin(run_to("r") + hopeless).code, 3);  // it goes to its end
   std::vector<std::filesystem::path> problems;
   for (const auto& file : std::filesystem::directory_iterator(folder.path() / "r" / "problems"))
     problems.push_back(file.path());
@@ -169,7 +169,7 @@ TEST_F(Program, RefusesGrainsThatStandInOneAnotherOrInAWall) {
 TEST_F(Program, EndsWithAWarningWhereManyStepsMissTheirTolerance) {
   const Outcome missed = drumlin(
       run_to("r") + " --set solver.tolerance=1e-12 --set solver.max_sweeps=1 --set solver.check_every=1");
-  EXPECT_EQ(missed.code, 0);
+  EXPECT_EQ(missed.code, 3);  // most of them
   EXPECT_NE(missed.out.find("missed a tolerance: forces and positions of these steps do not hold"),
             std::string::npos);
   EXPECT_NE(content(folder.path() / "r" / "run.json").find("do not hold"), std::string::npos);

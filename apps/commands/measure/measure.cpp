@@ -216,6 +216,18 @@ void print_scattered(const particles::Measurement& measured) {
                   measured.scattered->most, measured.scattered->last));
 }
 
+/// Steps that missed a tolerance, where they are more than leave no trace in averages.
+void note_missed_steps(const Json& run, particles::Steadiness& steadiness) {
+  constexpr double unseen_share = 0.01;
+  const double missed = run.value("unconverged_steps", 0.0), steps = run.value("steps", 0.0);
+  if (!(missed > unseen_share * steps)) return;
+  steadiness.steady = false;
+  steadiness.reasons.push_back(
+      fmt::format("{:.0f} of {:.0f} steps ({:.0f} %) of the run missed a tolerance: their forces and "
+                  "positions do not hold",
+                  missed, steps, 100 * missed / steps));
+}
+
 /// A run with what was asked of it.
 struct Request {
   const MeasureOptions& options;
@@ -370,6 +382,7 @@ int measure(const MeasureOptions& options) {
   const fs::path& folder = output.folder();
 
   particles::Measurement measured = measured_run(request, files);
+  note_missed_steps(request.run, measured.steadiness);
   const coupling::CentreFriction friction = friction_of(request, measured);
   const ScalarSet scalars = all_scalars(request, measured, friction.scalars);
   if (request.settings.sensitivity) add_friction_variants(measured, request.selection, measured.variants);
