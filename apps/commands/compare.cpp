@@ -39,9 +39,9 @@ ComparedRuns read_runs(const CompareOptions& options) {
 
 int compare(const CompareOptions& options) {
   const fs::path finished = options.output / "comparison.json";
-  const std::string asked =
-      asked_sum({measured_run_sum(options.run), measured_run_sum(options.flow_run),
-                 options.floor ? measured_run_sum(*options.floor) : "", options.registration});
+  const std::string asked = asked_sum({measured_run_sum(options.run), measured_run_sum(options.flow_run),
+                                       options.floor ? measured_run_sum(*options.floor) : "",
+                                       options.registration, options.accept_unsteady});
   if (options.existing == ExistingOutput::resume && is_complete(finished)) {
     refuse_other(options.output, asked);
     print_out(fmt::format("{}: done already\n", options.output.string()));

@@ -72,13 +72,18 @@ int import_foreign(const ImportOptions& options) {
   const fs::path run = *options.output;
   const particles::ImportDescription description =
       particles::read_import_description(*options.description, options.overrides);
-  const std::string asked = asked_sum({particles::import_description_text(description)});
+  const fs::path folder = fs::absolute(*options.description).parent_path();
+  Json inputs = Json::array({particles::import_description_text(description)});
+  for (const fs::path& file : particles::import_files(description, folder)) {
+    inputs.push_back(fs::relative(file, folder).string());
+    inputs.push_back(input_sum(file));
+  }
+  const std::string asked = asked_sum(inputs);
   if (options.existing == ExistingOutput::resume && holds_results(run, "run.json")) {
     refuse_other(run, asked);
     print_out(fmt::format("{}: done already\n", run.string()));
     return static_cast<int>(ExitCode::done);
   }
-  const fs::path folder = fs::absolute(*options.description).parent_path();
   StagedOutput output({run, options.existing, "import", {folder}, {}, asked});
   make_folders(output.folder() / "snapshots");
   replace_file(output.folder() / "import.toml", particles::import_description_text(description));

@@ -25,6 +25,7 @@
 #include "apps/support/progress.hpp"
 #include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
+#include "coupling/common/last_whole.hpp"
 #include "coupling/common/own_costs.hpp"
 #include "coupling/common/text_file.hpp"
 #include "particles/io/checkpoint_file.hpp"
@@ -86,6 +87,7 @@ class ParticleRun {
       }
     }
     write_report("finished");
+    fs::remove(options_.output / passed_over_checkpoint_name);
     output_.finish();
     progress_.show(line_of_progress());
     progress_.finish();
@@ -112,7 +114,7 @@ class ParticleRun {
   void advance() {
     try {
       last_ = simulation_.step();
-    } catch (const NotConvergedError& error) {  // met before the step could be taken
+    } catch (const NotConvergedError& error) {  // the step could not be taken, or leaves no state
       fail("not converged", error.what(), simulation_.state().step + 1);
     }
     const auto& state = simulation_.state();
@@ -343,11 +345,11 @@ int run(const RunOptions& options) {
     for (const auto& [name, text] : list_texts(scene))
       if (fs::exists(options.output / name))
         same_scene_or_refuse(options.output, file_text(options.output / name), text);
-    same_engine_or_refuse(options.output, false);
     if (output.manifest().complete && !longer) {
       print_out(fmt::format("{}: already finished, nothing to do\n", options.output.string()));
       return static_cast<int>(ExitCode::done);
     }
+    if (!longer) same_engine_or_refuse(options.output, false);  // what is prolonged is whole
     from = checkpoint_in(options.output, resolved);
   }
   if (longer) {

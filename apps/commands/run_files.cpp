@@ -37,9 +37,19 @@ std::vector<std::string> grain_list_names(particles::Scene scene) {
 }
 
 std::vector<std::string> run_file_names() {
-  return {"scene.toml",     grain_list,     "grains-*.csv", "run.json",      "log.csv",
-          "energy.csv",     "walls.csv",    "regions.csv",  checkpoint_name, previous_checkpoint_name,
-          "snapshots/*.h5", "problems/*.h5"};
+  return {"scene.toml",
+          grain_list,
+          "grains-*.csv",
+          "run.json",
+          "log.csv",
+          "energy.csv",
+          "walls.csv",
+          "regions.csv",
+          checkpoint_name,
+          previous_checkpoint_name,
+          passed_over_checkpoint_name,
+          "snapshots/*.h5",
+          "problems/*.h5"};
 }
 
 void RunTable::fail(const std::string& what) const {

@@ -31,10 +31,10 @@ struct RunPosition {
 /// Its line of progress. `who` is "run", or "run on 3 ranks".
 std::string progress_line(const std::string& who, const RunPosition&, const particles::StepReport& last);
 
-/// The content of run.json (docs/formats/run.md).
 /// Of a run that has come to its end: not_converged where most of its steps missed a tolerance.
 ExitCode exit_code_of_missed(std::int64_t missed, std::int64_t steps);
 
+/// The content of run.json (docs/formats/run.md).
 nlohmann::ordered_json run_report(const RunProgress&, const std::string& status);
 
 /// What a user must know before the results are used: steps that missed a tolerance, overlap that discs

@@ -80,7 +80,7 @@ std::optional<particles::Checkpoint> checkpoint_in(const fs::path& output, const
   if (!last) return std::nullopt;
   if (!last->passed_over.empty()) {
     print_error(fmt::format("{}\ngoes on from {} instead\n", last->passed_over, previous_checkpoint_name));
-    remove_passed_over_checkpoint(output);
+    set_aside_passed_over_checkpoint(output);
   }
   return std::move(last->content);
 }

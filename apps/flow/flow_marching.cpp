@@ -112,7 +112,7 @@ continuum::FlowSolution march_scene(const FlowMarching& marching, GrowingOutput*
   std::string lines;
   if (speaks && !marching.passed_over.empty()) {
     print_error(fmt::format("{}\ngoes on from {} instead\n", marching.passed_over, previous_checkpoint_name));
-    remove_passed_over_checkpoint(output->folder());
+    set_aside_passed_over_checkpoint(output->folder());
   }
   if (marching.march.start.steps > 0 && speaks)
     lines = lines_up_to(output->folder() / series_name, marching.march.start.steps);

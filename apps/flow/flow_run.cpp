@@ -129,12 +129,25 @@ FlowStart read_start(const FlowOptions& options, const FlowRequest& asked) {
 using FlowOutput = std::optional<GrowingOutput>;
 
 std::vector<std::string> flow_file_names() {
-  return {"flow_scene.toml",    "rheology.toml",   "iterations.csv",
-          "profiles.csv",       "maps.h5",         "flow.vtu",
-          "state.h5",           "flow.json",       "flow.json.part",
-          "maps.png",           "profiles.png",    "newton.png",
-          "well_posedness.png", "sensitivity.png", "series.png",
-          "series.csv",         checkpoint_name,   previous_checkpoint_name};
+  return {"flow_scene.toml",
+          "rheology.toml",
+          "iterations.csv",
+          "profiles.csv",
+          "maps.h5",
+          "flow.vtu",
+          "state.h5",
+          "flow.json",
+          "flow.json.part",
+          "maps.png",
+          "profiles.png",
+          "newton.png",
+          "well_posedness.png",
+          "sensitivity.png",
+          "series.png",
+          "series.csv",
+          checkpoint_name,
+          previous_checkpoint_name,
+          passed_over_checkpoint_name};
 }
 
 void begin_folder(FlowOutput& output, const FlowOptions& options, const FlowRequest& asked, int ranks) {
@@ -271,7 +284,8 @@ int solve_flow_scene(const FlowOptions& options, const continuum::FemRuntime& ru
   const FinishedFlow flow = finished_flow(options, asked, std::move(solved), runtime.ranks());
   write_flow(options.output, flow);
   runtime.on_first_rank([&] {
-    for (const char* name : {checkpoint_name, previous_checkpoint_name}) fs::remove(options.output / name);
+    for (const char* name : {checkpoint_name, previous_checkpoint_name, passed_over_checkpoint_name})
+      fs::remove(options.output / name);
     output->finish();
   });
   if (speaks) print_out(finished_text(options.output, flow));

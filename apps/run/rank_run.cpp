@@ -114,6 +114,7 @@ class RankRun {
     save_checkpoint();
     write_report("finished");
     ranks_.on_first([&] {
+      fs::remove(options_.output / passed_over_checkpoint_name);
       output_->finish();
       first_->progress.show(line_of_progress());
       first_->progress.finish();
@@ -287,11 +288,11 @@ std::optional<bool> goes_on(const RunOptions& options, const particles::Scene& s
     for (const auto& [name, text] : list_texts(scene))
       if (fs::exists(options.output / name))
         same_scene_or_refuse(options.output, file_text(options.output / name), text);
-    same_engine_or_refuse(options.output, true);
     if (output->manifest().complete) {
       print_out(fmt::format("{}: already finished, nothing to do\n", options.output.string()));
       return std::nullopt;
     }
+    same_engine_or_refuse(options.output, true);
     from = checkpoint_in(options.output, resolved);
     if (from) (void)particles::Simulation(scene, from->state);  // refuses what does not fit
   }

@@ -1,6 +1,7 @@
 #include "apps/support/asked.hpp"
 
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "coupling/common/checksum.hpp"
 #include "coupling/common/errors.hpp"
@@ -20,9 +21,14 @@ std::string input_sum(const fs::path& input) {
   if (fs::is_regular_file(input)) return file_sum(fs::canonical(input)).checksum;
   if (!fs::is_directory(input)) return "";
   if (has_manifest(input)) return manifest_sum(read_manifest(input));
+  // Measurements that were cut out of a run, and nothing else: a mistyped folder is not read.
+  const bool ours = fs::exists(input / "run.json") || fs::exists(input / "measured.json") ||
+                    fs::exists(input / "flow.json");
+  if (!ours) return "";
   Checksum sum;
-  for (const auto& [name, entry] : entries_of(input, files_below(input)))
-    sum.add(name + " " + entry.sum.checksum + "\n");
+  std::vector<std::string> names = files_below(input);
+  std::erase_if(names, [](const std::string& name) { return name.starts_with("snapshots/"); });
+  for (const auto& [name, entry] : entries_of(input, names)) sum.add(name + " " + entry.sum.checksum + "\n");
   return sum.text();
 }
 

@@ -16,7 +16,8 @@ namespace drumlin {
 
 /// Names of the last two checkpoints, of a run and of a march.
 inline constexpr const char *checkpoint_name = "checkpoint.h5",
-                            *previous_checkpoint_name = "checkpoint-previous.h5";
+                            *previous_checkpoint_name = "checkpoint-previous.h5",
+                            *passed_over_checkpoint_name = "checkpoint-passed-over.h5";
 
 template <class Content>
 struct LastWhole {
@@ -52,12 +53,14 @@ auto last_whole_checkpoint(const std::filesystem::path& folder, Read read) {
   throw InputError(std::move(problems));
 }
 
-/// To be called before one goes on from the previous checkpoint: the newest, which was passed over, would
-/// else take the place of the previous one when the next is written, and no whole one would be left
-/// meanwhile.
-inline void remove_passed_over_checkpoint(const std::filesystem::path& folder) {
-  std::error_code nothing_there;
-  std::filesystem::remove(folder / checkpoint_name, nothing_there);
+/// To be called before one goes on from the previous checkpoint: the newest, which was passed over, gets a
+/// name of its own. It would else take the place of the previous one when the next is written, and no whole
+/// one would be left meanwhile. Throws IoError.
+inline void set_aside_passed_over_checkpoint(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::rename(folder / checkpoint_name, folder / passed_over_checkpoint_name, error);
+  if (error && std::filesystem::exists(folder / checkpoint_name))
+    throw IoError((folder / checkpoint_name).string() + ": cannot be renamed: " + error.message());
 }
 
 }  // namespace drumlin

@@ -48,6 +48,21 @@ Sources sources_of(const ImportDescription& description, const fs::path& folder,
   return sources;
 }
 
+}  // namespace
+
+std::vector<fs::path> import_files(const ImportDescription& description, const fs::path& folder) {
+  std::vector<fs::path> files;
+  const auto add = [&](const std::vector<std::string>& patterns) {
+    if (patterns.empty()) return;
+    const auto found = files_of(folder, patterns);
+    files.insert(files.end(), found.begin(), found.end());
+  };
+  std::visit([&](const auto& source) { add(source.grains), add(source.contacts); }, description.source);
+  return files;
+}
+
+namespace {
+
 /// Rows that are grains, in the order of their ids; the rest are atoms of walls.
 struct Rows {
   std::vector<std::size_t> grains, wall_atoms;

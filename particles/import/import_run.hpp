@@ -21,6 +21,10 @@ struct ImportReport {
   std::vector<std::string> unused_columns;
 };
 
+/// The files that a description names, below `folder`. Throws InputError where there is none.
+std::vector<std::filesystem::path> import_files(const ImportDescription& description,
+                                                const std::filesystem::path& folder);
+
 /// Hands the snapshots to `sink` one by one, numbered from 1 in `step`. Grains are in the order of their ids.
 /// Files count from `folder`. Throws InputError (file, line) at the first fault: numbers that are none, ids
 /// that stand twice, grains that come or go unannounced or lie outside of the drum, radii that are not above

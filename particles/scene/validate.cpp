@@ -232,8 +232,9 @@ void check_fall(const Scene& scene, std::size_t s, Faults& faults) {
                     {key, "grains.generated.diameter_min_mm", "effects.gravity"}});
 }
 
-/// Nor fly past one at the speed of a gas.
+/// Nor fly past one at the speed of a gas, in the first stage: later it may have cooled.
 void check_flight(const Scene& scene, std::size_t s, Faults& faults) {
+  if (s > 0) return;
   const auto* made = std::get_if<GeneratedGrains>(&scene.grains.source);
   if (!scene.grains.thermal_speed_mm_s || made == nullptr) return;
   const double h = scene.stages[s].time_step_s;

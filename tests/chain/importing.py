@@ -192,6 +192,8 @@ def main():
         text, _ = drumlin("import", folder / "csv" / "import.toml", "-o", csv_run, "--resume")
         require("done already" in text, text)
         (folder / "csv" / "grains-5.csv").write_text("time_s,x_m,z_m,v_x_m_s,v_z_m_s,radius_m\n1,0,0,0,nan,1e-3\n")
+        _, error = drumlin("import", folder / "csv" / "import.toml", "-o", csv_run, "--resume", code=2)
+        require("other inputs" in error, f"frames that have changed since: {error}")
         _, error = drumlin("import", folder / "csv" / "import.toml", "-o", folder / "broken", code=2)
         require("grains-5.csv:2: v_z_m_s: \"nan\" is no number" in error, error)
         require(not (folder / "broken" / "run.json").exists(), "half an import passes for a run")

@@ -245,6 +245,15 @@ def main():
         for words in (["calibrate", run, run], ["calibrate", run, "--validate", run]):
             _, said = drumlin(*words, "-o", folder / "twice.toml", "--accept-unsteady", code=2)
             require("named twice" in said, f"{words}: {said}")
+        # What an interrupted calibration has left is written anew.
+        once, again = folder / "once.toml", ["calibrate", run, "-o", folder / "once.toml", "--accept-unsteady"]
+        drumlin(*again)
+        content = once.read_bytes()
+        once.unlink()
+        drumlin(*again)
+        require(once.read_bytes() == content, "the law of a call that was interrupted differs")
+        for file in folder.glob("once.*"):
+            file.unlink()
         (folder / "mine.json").write_text("years of work", encoding="utf-8")
         drumlin("calibrate", run, "-o", folder / "mine.toml", "--accept-unsteady", code=2)
         drumlin("calibrate", run, "-o", run / "run.json", "--accept-unsteady", "--overwrite", code=2)

@@ -175,8 +175,9 @@ TEST(LastWhole, IsThePreviousCheckpointWhereTheDiskDoesNotGiveTheNewest) {
   const auto last = last_whole_checkpoint(folder.path(), read);
   EXPECT_EQ(last->content, "old");
   EXPECT_NE(last->passed_over.find("checkpoint.h5: cannot be read"), std::string::npos);
-  remove_passed_over_checkpoint(folder.path());  // or the next one would take the place of the old
+  set_aside_passed_over_checkpoint(folder.path());  // or the next one would take the place of the old
   EXPECT_FALSE(fs::exists(folder / checkpoint_name));
+  EXPECT_EQ(file_text(folder / passed_over_checkpoint_name), "bad sector");
   EXPECT_EQ(last_whole_checkpoint(folder.path(), read)->content, "old");
   folder.with(previous_checkpoint_name, "bad sector");
   EXPECT_THROW(last_whole_checkpoint(folder.path(), read), IoError);

@@ -238,12 +238,22 @@ def started_by_drumlin(run_on, drumlin, folder, scene, right):
 
     start(scene, "-o", folder / "started", "--ranks", 2, code=0)
     require_same(right, folder / "started", "drumlin run --ranks 2")
+    said = start(scene, "-o", folder / "started", "--resume", code=0)
+    require("already finished" in said, f"a finished run of ranks, resumed in one process, said\n{said}")
     said = start(scene, "-o", folder / "started", "--ranks", 2, code=2)
     require(str(folder / "started") in said, f"a folder that is taken, said\n{said}")
     said = start(scene, "-o", folder / "longer", "--ranks", 2, "--extend", 1, code=2)
     require("--extend" in said and not (folder / "longer").exists(), f"--extend on ranks, said\n{said}")
     said = run_on(1, scene, "-o", folder / "twice", "--ranks", 2, code=2)
     require("--ranks" in said and not (folder / "twice").exists(), f"--ranks on ranks, said\n{said}")
+    alone = folder / "alone"
+    with subprocess.Popen([drumlin, "run", scene, "-o", alone], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as job:
+        while not (alone / "checkpoint.h5").exists():
+            require(job.poll() is None, "a run ended before its first checkpoint")
+            time.sleep(0.005)
+        job.send_signal(signal.SIGKILL)
+    said = start(scene, "-o", alone, "--ranks", 2, "--resume", code=2)
+    require("was begun in one process" in said, f"a run of one process, resumed on ranks, said\n{said}")
     run = folder / "told-to-end"
     with subprocess.Popen([drumlin, "run", scene, "-o", run, "--ranks", "2"], stdout=subprocess.DEVNULL,
                           stderr=subprocess.PIPE, text=True) as job:

@@ -168,13 +168,40 @@ void refuse_twice(const CalibrateOptions& options) {
         throw InputError(run.string() + ": is named twice (allowed: each run once, to fit or to validate)");
 }
 
+/// Whether a file is the record of a law.
+bool is_record(const fs::path& file) {
+  try {
+    (void)read_json(file, "drumlin-calibration-1");
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+/// Record and figure get the name of the law. What an interrupted call has left of them is written anew.
+void refuse_files_of_others(const CalibrateOptions& options) {
+  const fs::path record = beside(options.output, ".json"), figure = beside(options.output, ".png");
+  if (record == options.output || figure == options.output)
+    throw InputError(options.output.string() +
+                     ": the record or the figure of the law has this name; name it .toml");
+  if (options.existing != ExistingOutput::refuse) return;
+  const auto refuse = [](const fs::path& file) {
+    throw InputError(
+        file.string() +
+        ": exists already, and the law's own would take its place; give --overwrite, or name another law");
+  };
+  const bool has_record = fs::exists(fs::symlink_status(record));
+  if (has_record && !is_record(record)) refuse(record);
+  if (!has_record && fs::exists(fs::symlink_status(figure))) refuse(figure);
+}
+
 std::string asked_for(const CalibrateOptions& options) {
   nlohmann::ordered_json inputs = nlohmann::ordered_json::array(), held_out = inputs;
   for (const fs::path& run : options.runs) inputs.push_back(measured_run_sum(run));
   for (const fs::path& run : options.validate) held_out.push_back(measured_run_sum(run));
   return asked_sum({inputs, held_out, options.from, options.law, options.I_min.value_or(0),
                     options.I_max.value_or(0), options.draws, options.k, options.misalignment, options.memory,
-                    options.nonlocal, options.amount});
+                    options.nonlocal, options.amount, options.accept_unsteady});
 }
 
 /// A law stands in no folder with a manifest: its record says what was asked for.
@@ -189,9 +216,8 @@ void refuse_other_law(const fs::path& record, const std::string& asked) {
 
 int calibrate(const CalibrateOptions& options) {
   const fs::path record = beside(options.output, ".json");
-  const std::string asked = asked_for(options);
   if (options.existing == ExistingOutput::resume && fs::is_regular_file(options.output)) {
-    refuse_other_law(record, asked);
+    refuse_other_law(record, asked_for(options));
     print_out(fmt::format("{}: done already\n", options.output.string()));
     return static_cast<int>(ExitCode::done);
   }
@@ -200,6 +226,7 @@ int calibrate(const CalibrateOptions& options) {
     throw InputError(fmt::format("the range of I is {} to {} (allowed: 0 < I_min < I_max)", *options.I_min,
                                  *options.I_max));
   refuse_twice(options);
+  refuse_files_of_others(options);
   const coupling::EvidenceSource source = source_of(options);
   MeasuredEvidence fitted = evidence_of(options.runs, source, options);
   require_bulk_fraction(fitted);
@@ -209,17 +236,9 @@ int calibrate(const CalibrateOptions& options) {
   require_same_units(all);
   const coupling::Calibration calibration = coupling::calibration_of(
       std::move(fitted.evidence), std::move(held_out.evidence), settings_of(options, source));
-  for (const char* extension : {".json", ".png"}) {
-    const fs::path other = beside(options.output, extension);
-    if (other == options.output)
-      throw InputError(options.output.string() + ": the record of the law has this name; name it .toml");
-    if (options.existing == ExistingOutput::refuse && fs::exists(fs::symlink_status(other)))
-      throw InputError(other.string() +
-                       ": exists already, and belongs to the law; give --overwrite, or name another file");
-  }
   const FolderLock lock = prepare_output_file(options.output, options.existing);
   nlohmann::ordered_json content = calibration_json(calibration, all);
-  content["asked"] = asked;
+  content["asked"] = asked_for(options);
   write_json(record, content);
   draw_figures("calibrate_figures.py",
                {record.string(), "--output", beside(options.output, ".png").string()});

@@ -223,7 +223,7 @@ void note_missed_steps(const Json& run, particles::Steadiness& steadiness) {
   if (!(missed > unseen_share * steps)) return;
   steadiness.steady = false;
   steadiness.reasons.push_back(
-      fmt::format("{:.0f} of {:.0f} steps ({:.0f} %) of the run missed a tolerance: their forces and "
+      fmt::format("{:.0f} of {:.0f} steps ({:.0f} %) of the whole run missed a tolerance: their forces and "
                   "positions do not hold",
                   missed, steps, 100 * missed / steps));
 }
