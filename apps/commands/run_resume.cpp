@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "apps/commands/region_table.hpp"
 #include "apps/commands/run_files.hpp"
 #include "apps/commands/start_grains.hpp"
@@ -89,7 +91,11 @@ void extend(GrowingOutput& output, double seconds, particles::Scene& scene,
             std::optional<particles::Checkpoint>& from) {
   if (!output.manifest().complete || !from)
     throw InputError(output.folder().string() + ": --extend takes a finished run; go on with --resume first");
+  const double before = particles::duration_s(scene.stages.back());
   scene = particles::prolonged(scene, seconds, from->state);
+  const double longer = particles::duration_s(scene.stages.back()) - before;
+  if (std::abs(longer - seconds) > 1e-6 * seconds)
+    print_out(fmt::format("--extend: by {:.6g} s, whole intervals between snapshots\n", longer));
   from->scene = particles::scene_text(as_recorded(scene));
   // What an interruption leaves is a run of the longer scene or of the shorter one, never a mixture.
   output.forget(checkpoint_name);
