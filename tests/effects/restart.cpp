@@ -233,6 +233,9 @@ TEST(Prolong, RefusesWhatWouldHaveGoneAnotherWay) {
   EXPECT_THROW((void)prolonged(scene, 0.1, state), InputError);
   scene.stages[0].snapshots = 0;
   EXPECT_NO_THROW((void)prolonged(scene, 0.1, state));
+  EXPECT_THROW((void)prolonged(scene, 1e30, state), InputError);
+  scene.stages[0].snapshots = 1;
+  EXPECT_THROW((void)prolonged(scene, 1e8, state), InputError);  // more than a scene can ask for
 }
 
 INSTANTIATE_TEST_SUITE_P(Effects, Restart, ::testing::ValuesIn(cases),

@@ -134,6 +134,17 @@ TEST(MeasureCommand, MeasuresForcesWhereContactsCarryAny) {
   EXPECT_FALSE(fs::exists(run / "measured" / "forces.csv"));
 }
 
+TEST(MeasureCommand, RefusesSlicesInOnePlaceOrNowhere) {
+  const TemporaryFolder folder;
+  const Snapshot drum = with_scales(drumlin::testing::filled_drum(30, 2, 0.35, 0.02));
+  MeasureOptions options = options_for(run_folder(folder, "finished", {drum, drum, drum}));
+  for (const std::vector<double>& slices : {std::vector{1.21, 1.24}, {std::nan("")}, {1e300}}) {
+    options.slices = slices;
+    EXPECT_THROW((void)measure(options), InputError);
+    EXPECT_FALSE(fs::exists(options.run / "measured"));
+  }
+}
+
 TEST(MeasureCommand, KeepsWhatIsThereUnlessToldOtherwise) {
   const TemporaryFolder folder;
   const fs::path run =

@@ -38,6 +38,23 @@ TEST(StageContradiction, EffectsThatTheSceneDoesNotName) {
                  "without output.energy_ledger");
 }
 
+TEST(StageContradiction, StepsMustFollowWallsThatGoToAndFroAndGrainsThatFly) {
+  const auto moved = [](const std::string& keys) {
+    return "stages.1={name=\"shake\", duration_s=0.1, time_step_s=1e-3, motions=[{wall=\"drum\", " + keys +
+           "}]}";
+  };
+  expect_problem({moved("kind=\"oscillation\", amplitude_mm=[0, 1], frequency_hz=251")},
+                 "stages.1.motions.0.frequency_hz", "a period of 3.98 steps");
+  expect_problem({moved("kind=\"rocking\", amplitude_deg=1, center_mm=[0, 0], frequency_hz=1000")},
+                 "stages.1.motions.0.frequency_hz", "up to 250 Hz");
+  expect_problem({"grains.thermal_speed_mm_s=1e6"}, "stages.0.time_step_s", "flies by");
+}
+
+TEST(StageContradiction, NamesAreFieldsOfTables) {
+  expect_problem({"walls.0.name=\"a,b\"", "stages.1={name=\"still\", duration_s=0.1, time_step_s=1e-3}"},
+                 "walls.0.name", "a comma");
+}
+
 TEST(StageContradiction, StrongerGravityNeedsAShorterStep) {
   expect_problem({"stages.1.gravity={acceleration_m_s2=9e5}"}, "stages.1.time_step_s", "falls by");
 }
