@@ -42,11 +42,8 @@ int compare(const CompareOptions& options) {
   const std::string asked = asked_sum({measured_run_sum(options.run), measured_run_sum(options.flow_run),
                                        options.floor ? measured_run_sum(*options.floor) : "",
                                        options.registration, options.accept_unsteady});
-  if (options.existing == ExistingOutput::resume && is_complete(finished)) {
-    refuse_other(options.output, asked);
-    print_out(fmt::format("{}: done already\n", options.output.string()));
-    return static_cast<int>(ExitCode::done);
-  }
+  if (options.existing == ExistingOutput::resume && is_complete(finished))
+    return done_already(options.output, asked);
   const ComparedRuns runs = read_runs(options);
   const bool drums = coupling::geometry_of(runs.first.compared.profiles) == "drum";
   const ComparisonReport report = drums ? drum_report(runs, options) : layer_report(runs, options);

@@ -81,11 +81,8 @@ int compare_study(const CompareStudyOptions& options) {
   Json inputs = Json::array({options.limits ? input_sum(*options.limits) : ""});
   for (const fs::path& folder : options.folders) inputs.push_back(measured_run_sum(folder));
   const std::string asked = asked_sum(inputs);
-  if (options.existing == ExistingOutput::resume && is_complete(finished)) {
-    refuse_other(options.output, asked);
-    print_out(fmt::format("{}: done already\n", options.output.string()));
-    return static_cast<int>(ExitCode::done);
-  }
+  if (options.existing == ExistingOutput::resume && is_complete(finished))
+    return done_already(options.output, asked);
   std::optional<coupling::Limits> limits;
   if (options.limits) limits = coupling::read_limits(*options.limits);
   const Sides sides = read_sides(options.folders, limits.has_value());

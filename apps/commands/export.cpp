@@ -24,11 +24,8 @@ int export_run(const ExportOptions& options) {
   const particles::RunFolder run = particles::read_run_folder(options.run);
   const fs::path folder = options.output.value_or(options.run / "vtu");
   const std::string asked = asked_sum({input_sum(options.run), options.snapshots});
-  if (options.existing == ExistingOutput::resume && holds_results(folder, "grains.pvd")) {
-    refuse_other(folder, asked);
-    print_out(fmt::format("{}: done already\n", folder.string()));
-    return static_cast<int>(ExitCode::done);
-  }
+  if (options.existing == ExistingOutput::resume && holds_results(folder, "grains.pvd"))
+    return done_already(folder, asked);
   const std::vector<fs::path> files = particles::chosen_snapshots(run, options.snapshots);
   // What does not fit shows before anything is written.
   (void)particles::shapes_at(run, particles::checked_snapshot(run, files.front()));

@@ -49,11 +49,8 @@ int export_measurements(const ExportOptions& options) {
   if (!options.output) throw InputError("export --measurements: wants a folder of its own for them: -o DIR");
   const fs::path& folder = *options.output;
   const std::string asked = asked_sum({measured_run_sum(options.run)});
-  if (options.existing == ExistingOutput::resume && holds_results(folder, "run.json")) {
-    refuse_other(folder, asked);
-    print_out(fmt::format("{}: done already\n", folder.string()));
-    return static_cast<int>(ExitCode::done);
-  }
+  if (options.existing == ExistingOutput::resume && holds_results(folder, "run.json"))
+    return done_already(folder, asked);
   const MeasuredRun run = read_measured_run(options.run, Unsteady::accept);
   StagedOutput output({folder, options.existing, "export", {options.run / "run.json"}, {}, asked});
   const fs::path staged = output.folder();

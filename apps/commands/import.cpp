@@ -79,11 +79,8 @@ int import_foreign(const ImportOptions& options) {
     inputs.push_back(input_sum(file));
   }
   const std::string asked = asked_sum(inputs);
-  if (options.existing == ExistingOutput::resume && holds_results(run, "run.json")) {
-    refuse_other(run, asked);
-    print_out(fmt::format("{}: done already\n", run.string()));
-    return static_cast<int>(ExitCode::done);
-  }
+  if (options.existing == ExistingOutput::resume && holds_results(run, "run.json"))
+    return done_already(run, asked);
   StagedOutput output({run, options.existing, "import", {folder}, {}, asked});
   make_folders(output.folder() / "snapshots");
   replace_file(output.folder() / "import.toml", particles::import_description_text(description));

@@ -40,11 +40,8 @@ int plot(const PlotOptions& options) {
   const fs::path folder = options.output.value_or(options.run / "plots");
   const std::string asked = asked_sum({input_sum(options.run), options.snapshot, options.animation,
                                        options.player, options.window, options.color, options.every});
-  if (options.existing == ExistingOutput::resume && holds_results(folder, "plots.json")) {
-    refuse_other(folder, asked);
-    print_out(fmt::format("{}: done already\n", folder.string()));
-    return static_cast<int>(ExitCode::done);
-  }
+  if (options.existing == ExistingOutput::resume && holds_results(folder, "plots.json"))
+    return done_already(folder, asked);
   const Json report = read_json(options.run / "run.json", "drumlin-run-1");
   const Json drawing = drawing_of(run, report, options);
   StagedOutput output({folder, options.existing, "plot", {options.run / "run.json"}, {}, asked});

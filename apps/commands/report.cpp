@@ -88,11 +88,8 @@ int report(const ReportOptions& options) {
   const particles::RunFolder run = particles::read_run_folder(options.run);
   const fs::path folder = options.output.value_or(options.run / "report");
   const std::string asked = asked_sum({measured_run_sum(options.run)});
-  if (options.existing == ExistingOutput::resume && holds_results(folder, "report.json")) {
-    refuse_other(folder, asked);
-    print_out(fmt::format("{}: done already\n", folder.string()));
-    return static_cast<int>(ExitCode::done);
-  }
+  if (options.existing == ExistingOutput::resume && holds_results(folder, "report.json"))
+    return done_already(folder, asked);
   const Json record = read_json(options.run / "run.json", "drumlin-run-1");
   PlotOptions pictures;
   pictures.run = options.run;

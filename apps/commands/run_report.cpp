@@ -68,8 +68,6 @@ nlohmann::ordered_json energy(const particles::EnergyLedger& ledger) {
   return content;
 }
 
-// Of the steps: fewer that miss a tolerance leave no trace in averages.
-constexpr double missed_share = 0.01;
 // d, mean over steps and loaded contacts: ten times that of the shipped drums, and what a penetration
 // tolerance of 1e-3 d stands for.
 constexpr double much_overlap = 1e-3;
@@ -127,7 +125,7 @@ std::vector<std::string> run_warnings(const RunProgress& run) {
   const double steps = std::max<double>(1, static_cast<double>(run.simulation.state().step));
   const auto& solver = run.scene.solver;
   std::vector<std::string> warnings;
-  if (const auto missed = static_cast<double>(t.unconverged_steps); missed > missed_share * steps)
+  if (const auto missed = static_cast<double>(t.unconverged_steps); missed > unseen_missed_share * steps)
     warnings.push_back(fmt::format(
         "{} of {:.0f} steps ({:.0f} %) missed a tolerance: forces and positions of these steps do "
         "not hold. Raise solver.max_sweeps (now {}), shorten time_step_s, or allow larger errors by "

@@ -31,6 +31,8 @@ struct RunPosition {
 /// Its line of progress. `who` is "run", or "run on 3 ranks".
 std::string progress_line(const std::string& who, const RunPosition&, const particles::StepReport& last);
 
+/// Of the steps of a run: fewer that miss a tolerance leave no trace in averages.
+inline constexpr double unseen_missed_share = 0.01;
 /// Of a run that has come to its end: not_converged where most of its steps missed a tolerance.
 ExitCode exit_code_of_missed(std::int64_t missed, std::int64_t steps);
 

@@ -55,11 +55,8 @@ int study(const StudyOptions& options) {
   Json inputs = Json::array();
   for (const fs::path& run : options.runs) inputs.push_back(measured_run_sum(run));
   const std::string asked = asked_sum(inputs);
-  if (options.existing == ExistingOutput::resume && is_complete(finished)) {
-    refuse_other(options.output, asked);
-    print_out(fmt::format("{}: done already\n", options.output.string()));
-    return static_cast<int>(ExitCode::done);
-  }
+  if (options.existing == ExistingOutput::resume && is_complete(finished))
+    return done_already(options.output, asked);
   std::vector<coupling::StudyRun> runs;
   std::vector<std::string> folders;
   for (const fs::path& run : options.runs) {

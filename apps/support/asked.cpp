@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "apps/support/standard_streams.hpp"
 #include "coupling/common/checksum.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/common/manifest.hpp"
@@ -11,11 +12,7 @@ namespace drumlin::apps {
 
 namespace fs = std::filesystem;
 
-std::string asked_sum(const nlohmann::ordered_json& asked) {
-  Checksum sum;
-  sum.add(asked.dump());
-  return sum.text();
-}
+std::string asked_sum(const nlohmann::ordered_json& asked) { return text_sum(asked.dump()); }
 
 std::string input_sum(const fs::path& input) {
   if (fs::is_regular_file(input)) return file_sum(fs::canonical(input)).checksum;
@@ -33,6 +30,12 @@ std::string input_sum(const fs::path& input) {
 }
 
 std::string measured_run_sum(const fs::path& run) { return input_sum(run) + input_sum(run / "measured"); }
+
+int done_already(const fs::path& folder, const std::string& asked) {
+  refuse_other(folder, asked);
+  print_out(folder.string() + ": done already\n");
+  return static_cast<int>(ExitCode::done);
+}
 
 void refuse_other(const fs::path& folder, const std::string& asked) {
   if (!has_manifest(folder)) return;

@@ -10,11 +10,16 @@ namespace drumlin::apps {
 /// Of the options that decide the results, and of input_sum() of what they are computed from.
 std::string asked_sum(const nlohmann::ordered_json& asked);
 
-/// What an input holds now: the bytes of a file; of a result folder what its manifest says, of another folder
-/// all files. Empty where there is nothing. Throws InputError and IoError.
+/// What an input holds now: the bytes of a file; of a result folder what its manifest says; of measurements
+/// or a flow that were cut out of one all files but snapshots. Empty of anything else. Throws InputError and
+/// IoError.
 std::string input_sum(const std::filesystem::path& input);
 /// The same of a run and what was measured on it.
 std::string measured_run_sum(const std::filesystem::path& run);
+
+/// Says that the results in a folder are done already; returns the exit code of that. Throws as
+/// refuse_other().
+int done_already(const std::filesystem::path& folder, const std::string& asked);
 
 /// Throws InputError where the results in a folder were made for something else. Folders of earlier programs
 /// do not say what they were made for.

@@ -72,6 +72,12 @@ Checksum checksum_of(const std::filesystem::path& file, std::uint64_t first_byte
   return sum;
 }
 
+std::string text_sum(std::string_view text) {
+  Checksum sum;
+  sum.add(text);
+  return sum.text();
+}
+
 FileSum file_sum(const std::filesystem::path& file, std::optional<std::uint64_t> first_bytes) {
   Checksum sum;
   const std::uint64_t bytes =

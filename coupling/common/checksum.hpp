@@ -26,7 +26,9 @@ class Checksum {
   std::unique_ptr<Context> context_;
 };
 
-/// The same of the first bytes of a file, to be gone on with; of all, if it has fewer. Throws as file_sum().
+/// The same of a text.
+std::string text_sum(std::string_view text);
+/// Of the first bytes of a file, to be gone on with; of all, if it has fewer. Throws as file_sum().
 Checksum checksum_of(const std::filesystem::path& file, std::uint64_t first_bytes);
 
 /// What a file is known by.

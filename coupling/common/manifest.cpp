@@ -32,12 +32,6 @@ bool stays_inside(const fs::path& name) {
                       [](const fs::path& part) { return part == ".." || part == "."; });
 }
 
-std::string checksum_of(std::string_view text) {
-  Checksum sum;
-  sum.add(text);
-  return sum.text();
-}
-
 /// Fills the manifest line by line; false where a line is none.
 class LineReader {
  public:
@@ -101,8 +95,7 @@ Manifest read_manifest(const fs::path& folder) {
     throw InputError(file.string() + ": does not begin with '# drumlin-manifest-1'");
   const std::size_t last = text.rfind(last_key);
   if (last == std::string::npos ||
-      text.substr(last) !=
-          fmt::format("{}{}\n", last_key, checksum_of(std::string_view(text).substr(0, last))))
+      text.substr(last) != fmt::format("{}{}\n", last_key, text_sum(std::string_view(text).substr(0, last))))
     throw InputError(
         fmt::format("{}: damaged or changed by hand; drumlin accept {} --reason TEXT takes the "
                     "folder as it is",
@@ -118,11 +111,11 @@ Manifest read_manifest(const fs::path& folder) {
   return manifest;
 }
 
-std::string manifest_sum(const Manifest& manifest) { return checksum_of(summed_text(manifest)); }
+std::string manifest_sum(const Manifest& manifest) { return text_sum(summed_text(manifest)); }
 
 void write_manifest(const fs::path& folder, const Manifest& manifest) {
   std::string text = summed_text(manifest);
-  text += fmt::format("{}{}\n", last_key, checksum_of(text));
+  text += fmt::format("{}{}\n", last_key, text_sum(text));
   replace_file(folder / manifest_name, text);
 }
 

@@ -12,6 +12,7 @@
 #include "particles/scene/validate_cell.hpp"
 #include "particles/scene/validate_grains.hpp"
 #include "particles/scene/validate_materials.hpp"
+#include "particles/scene/validate_names.hpp"
 #include "particles/scene/validate_stages.hpp"
 #include "particles/scene/validate_traffic.hpp"
 
@@ -77,15 +78,9 @@ void check_roughness(const Wall& wall, const std::string& key, Faults& faults) {
                       {key}});
 }
 
-/// Names are fields of CSV files.
-void check_fits_table(const std::string& name, const std::string& key, Faults& faults) {
-  if (name.find_first_of(",\"\n\r") != std::string::npos)
-    faults.push_back({key, "holds a comma, a quote or a line end", "a name without them", {key}});
-}
-
 void check_walls(const Scene& scene, Faults& faults) {
   for (std::size_t w = 0; w < scene.walls.size(); ++w)
-    check_fits_table(scene.walls[w].name, wall_key(w) + ".name", faults);
+    check_field(scene.walls[w].name, wall_key(w) + ".name", faults);
   for (std::size_t w = 0; w < scene.walls.size(); ++w) check_roughness(scene.walls[w], wall_key(w), faults);
   for (std::size_t w = 0; w < scene.walls.size(); ++w)
     if (const auto* s = std::get_if<SegmentShape>(&scene.walls[w].shape); s && s->from_mm == s->to_mm)
@@ -272,12 +267,7 @@ void check_stages(const Scene& scene, Faults& faults) {
   std::set<std::string> names;
   for (std::size_t s = 0; s < scene.stages.size(); ++s) {
     const auto& stage = scene.stages[s];
-    if (!names.insert(stage.name).second)
-      faults.push_back({stage_key(s) + ".name",
-                        fmt::format("\"{}\" stands twice", stage.name),
-                        "a name of its own",
-                        {stage_key(s) + ".name"}});
-    check_fits_table(stage.name, stage_key(s) + ".name", faults);
+    check_name(stage.name, stage_key(s) + ".name", names, faults);
     check_motions(scene, s, faults);
     check_length(stage, stage_key(s), faults);
     check_steps(scene, s, faults);

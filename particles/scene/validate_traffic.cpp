@@ -8,20 +8,12 @@
 
 #include "particles/scene/materials.hpp"
 #include "particles/scene/region.hpp"
+#include "particles/scene/validate_names.hpp"
 
 namespace drumlin::particles {
 namespace {
 
 using Faults = std::vector<SceneFault>;
-
-/// Name of its own that regions.csv can hold.
-void check_name(const std::string& name, const std::string& key, std::set<std::string>& names,
-                Faults& faults) {
-  if (!names.insert(name).second)
-    faults.push_back({key, fmt::format("\"{}\" stands twice", name), "a name of its own", {key}});
-  if (name.find_first_of(",\"\n\r") != std::string::npos)
-    faults.push_back({key, "holds a comma, a quote or a line end", "a name without them", {key}});
-}
 
 /// Whether a disc of that diameter fits into the region; 0: whether the region is one.
 bool check_region(const Region& region, double diameter_mm, const std::string& key, Faults& faults) {

@@ -142,13 +142,19 @@ TEST(FolderLock, KeepsOthersOutAndTellsWhoHoldsIt) {
   EXPECT_EQ(file_text(file).find("killed"), std::string::npos);
 }
 
-TEST(LastWhole, IsThePreviousCheckpointWhereTheNewestIsDamaged) {
-  const TemporaryFolder folder;
-  const auto read = [](const fs::path& file) {
+/// Reads a file, unless it holds this.
+template <class Error>
+auto all_but(const std::string& wrong) {
+  return [wrong](const fs::path& file) {
     const std::string text = file_text(file);
-    if (text == "damaged") throw InputError(file.string() + ": damaged");
+    if (text == wrong) throw Error(file.string() + ": " + wrong);
     return text;
   };
+}
+
+TEST(LastWhole, IsThePreviousCheckpointWhereTheNewestIsDamaged) {
+  const TemporaryFolder folder;
+  const auto read = all_but<InputError>("damaged");
   EXPECT_FALSE(last_whole_checkpoint(folder.path(), read));
   folder.with(checkpoint_name, "new");
   folder.with(previous_checkpoint_name, "old");
@@ -165,16 +171,12 @@ TEST(LastWhole, IsThePreviousCheckpointWhereTheNewestIsDamaged) {
 
 TEST(LastWhole, IsThePreviousCheckpointWhereTheDiskDoesNotGiveTheNewest) {
   const TemporaryFolder folder;
-  const auto read = [](const fs::path& file) {
-    const std::string text = file_text(file);
-    if (text == "bad sector") throw IoError(file.string() + ": cannot be read");
-    return text;
-  };
+  const auto read = all_but<IoError>("bad sector");
   folder.with(checkpoint_name, "bad sector");
   folder.with(previous_checkpoint_name, "old");
   const auto last = last_whole_checkpoint(folder.path(), read);
   EXPECT_EQ(last->content, "old");
-  EXPECT_NE(last->passed_over.find("checkpoint.h5: cannot be read"), std::string::npos);
+  EXPECT_NE(last->passed_over.find("checkpoint.h5: bad sector"), std::string::npos);
   set_aside_passed_over_checkpoint(folder.path());  // or the next one would take the place of the old
   EXPECT_FALSE(fs::exists(folder / checkpoint_name));
   EXPECT_EQ(file_text(folder / passed_over_checkpoint_name), "bad sector");

@@ -81,6 +81,7 @@ RunSummary summary_of_run(const std::string& scene, const std::vector<std::strin
   for (const auto& file : snapshot_files(options.output)) run.snapshots.push_back(read_snapshot(file));
   run.log = fields_of_file(options.output / "log.csv");
   const auto report = read_json(options.output / "run.json", "drumlin-run-1");
+  run.status = report.at("status");
   run.title = report.at("title");
   run.reduced = report.at("reduced");
   run.seed = report.at("seed");
@@ -99,6 +100,7 @@ RunSummary summary_of_run(const std::string& scene, const std::vector<std::strin
 std::string exit_code(const RunSummary& run) { return std::to_string(run.exit_code); }
 std::string title(const RunSummary& run) { return run.title; }
 std::string reduced(const RunSummary& run) { return run.reduced ? "reduced" : "full"; }
+std::string status(const RunSummary& run) { return run.status; }
 std::string steps(const RunSummary& run) { return std::to_string(run.steps); }
 std::string checkpoint(const RunSummary& run) { return run.has_checkpoint ? "there" : "none"; }
 

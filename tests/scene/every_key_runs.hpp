@@ -12,7 +12,7 @@ struct RunSummary {
   int exit_code = 0;
   std::vector<particles::Snapshot> snapshots;
   std::vector<std::vector<std::string>> log;  ///< fields of each line, names first
-  std::string title;
+  std::string title, status;  ///< status: as run.json tells it, "finished" or how the run ended
   bool reduced = false;
   long long seed = 0, steps = 0;
   bool has_checkpoint = false;
@@ -27,6 +27,7 @@ RunSummary summary_of_run(const std::string& scene, const std::vector<std::strin
 using Observable = std::string (*)(const RunSummary&);
 
 std::string exit_code(const RunSummary&);
+std::string status(const RunSummary&);
 std::string title(const RunSummary&);
 std::string reduced(const RunSummary&);
 std::string steps(const RunSummary&);

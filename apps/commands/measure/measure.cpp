@@ -12,6 +12,7 @@
 #include "apps/commands/measure/content.hpp"
 #include "apps/commands/measure/part.hpp"
 #include "apps/commands/run_accuracy.hpp"
+#include "apps/commands/run_report.hpp"
 #include "apps/support/asked.hpp"
 #include "apps/support/commands.hpp"
 #include "apps/support/json_file.hpp"
@@ -218,9 +219,8 @@ void print_scattered(const particles::Measurement& measured) {
 
 /// Steps that missed a tolerance, where they are more than leave no trace in averages.
 void note_missed_steps(const Json& run, particles::Steadiness& steadiness) {
-  constexpr double unseen_share = 0.01;
   const double missed = run.value("unconverged_steps", 0.0), steps = run.value("steps", 0.0);
-  if (!(missed > unseen_share * steps)) return;
+  if (!(missed > unseen_missed_share * steps)) return;
   steadiness.steady = false;
   steadiness.reasons.push_back(
       fmt::format("{:.0f} of {:.0f} steps ({:.0f} %) of the whole run missed a tolerance: their forces and "
@@ -363,11 +363,8 @@ int measure(const MeasureOptions& options) {
   check_slices(options.slices);
   const fs::path results = options.run / "measured", finished = results / "measured.json";
   const std::string asked = asked_for(options);
-  if (options.existing == ExistingOutput::resume && is_measured(options.run, finished)) {
-    refuse_other(results, asked);
-    print_out(fmt::format("{}: done already\n", results.string()));
-    return static_cast<int>(ExitCode::done);
-  }
+  if (options.existing == ExistingOutput::resume && is_measured(options.run, finished))
+    return done_already(results, asked);
   (void)run_in(options.run);  // a lock is left in no folder of somebody else
   const FolderLock run_lock(options.run / folder_lock_name, "drumlin measure");
   const ResultFolder run_folder = run_in(options.run);
