@@ -32,11 +32,21 @@ double angle_from_joint(const Arc& arc, Point p) {
   return std::atan2(arc.joint.x * z - arc.joint.z * x, arc.joint.x * x + arc.joint.z * z);
 }
 
+bool nearest_is_end(const Arc& arc, Point p) {
+  const double share = share_of(arc, p);
+  return share < -shared || share > 1;
+}
+
+Point tangent_at_end(const Arc& arc) {
+  const Point end = at(arc, arc.turn);
+  const double stretch = std::copysign(1 / arc.radius, arc.turn);
+  return {stretch * (end.z - arc.center.z), -stretch * (end.x - arc.center.x)};
+}
+
 Point nearest_on(const Arc& arc, Point p) {
   const double x = p.x - arc.center.x, z = p.z - arc.center.z, distance = std::sqrt(x * x + z * z);
   if (!(distance > 0)) return at(arc, 0);
-  const double share = share_of(arc, p);
-  if (share < -shared || share > 1) return at(arc, arc.turn);
+  if (nearest_is_end(arc, p)) return at(arc, arc.turn);
   // By the direction itself: the angle would cost digits.
   const double stretch = arc.radius / distance;
   return {arc.center.x + stretch * x, arc.center.z + stretch * z};

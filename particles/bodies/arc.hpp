@@ -9,6 +9,8 @@ namespace drumlin::particles {
 
 /// The point at an angle from the joint, anticlockwise.
 Point at(const Arc&, double angle);
+/// Unit direction from the end along the half.
+Point tangent_at_end(const Arc&);
 /// Points from the joint to the end that cut the half into equal pieces.
 std::vector<Point> points_of(const Arc&, int pieces);
 /// Angle of a point about the centre, from the joint, anticlockwise, -pi to pi.
@@ -16,6 +18,8 @@ double angle_from_joint(const Arc&, Point);
 /// The point of the half that a disc with its centre there can touch: on the circle beside the half, else its
 /// end. Near the joint both halves have the same point.
 Point nearest_on(const Arc&, Point);
+/// Whether that point is the end.
+bool nearest_is_end(const Arc&, Point);
 
 /// Least and greatest coordinates.
 struct Reaches {

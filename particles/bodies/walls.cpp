@@ -54,12 +54,50 @@ Pose displacement(const Motion& motion, double time, std::span<const DrivenState
 
 Shape moved(const Rigid& pose, const Shape& shape) {
   if (const auto* c = std::get_if<Container>(&shape)) return Container{pose.moved(c->center), c->radius};
-  if (const auto* s = std::get_if<Segment>(&shape)) return Segment{pose.moved(s->from), pose.moved(s->to)};
+  if (const auto* s = std::get_if<Segment>(&shape))
+    return Segment{pose.moved(s->from), pose.moved(s->to), pose.turned(s->beyond_from),
+                   pose.turned(s->beyond_to)};
   if (is_open(shape)) return shape;
   if (const auto* a = std::get_if<Arc>(&shape))
-    return Arc{pose.moved(a->center), a->radius, pose.turned(a->joint), a->turn};
+    return Arc{pose.moved(a->center), a->radius, pose.turned(a->joint), a->turn, pose.turned(a->beyond)};
   const auto& d = std::get<FixedDisc>(shape);
   return FixedDisc{pose.moved(d.center), d.radius};
+}
+
+namespace {
+
+/// An end of a thin wall: where it is, the direction from there along the wall, and what is to learn of
+/// another end that meets it.
+struct ThinEnd {
+  Point place, along;
+  int together;
+  Point* beyond;
+};
+
+std::vector<ThinEnd> thin_ends(std::span<Shape> shapes, std::span<const int> together) {
+  std::vector<ThinEnd> ends;
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    if (auto* s = std::get_if<Segment>(&shapes[k])) {
+      const double x = s->to.x - s->from.x, z = s->to.z - s->from.z, length = std::hypot(x, z);
+      ends.push_back({s->from, {x / length, z / length}, together[k], &s->beyond_from});
+      ends.push_back({s->to, {-x / length, -z / length}, together[k], &s->beyond_to});
+    }
+    if (auto* a = std::get_if<Arc>(&shapes[k]))
+      ends.push_back({at(*a, a->turn), tangent_at_end(*a), together[k], &a->beyond});
+  }
+  return ends;
+}
+
+}  // namespace
+
+void join_ends(std::span<Shape> shapes, std::span<const int> together) {
+  constexpr double near = 1e-6;  // d
+  std::vector<ThinEnd> ends = thin_ends(shapes, together);
+  std::sort(ends.begin(), ends.end(), [](const auto& a, const auto& b) { return a.place.x < b.place.x; });
+  for (std::size_t a = 0; a < ends.size(); ++a)
+    for (std::size_t b = a + 1; b < ends.size() && ends[b].place.x - ends[a].place.x < near; ++b)
+      if (std::abs(ends[b].place.z - ends[a].place.z) < near && ends[a].together == ends[b].together)
+        *ends[a].beyond = ends[b].along, *ends[b].beyond = ends[a].along;
 }
 
 Point middle_of(const Shape& shape) {

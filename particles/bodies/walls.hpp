@@ -37,6 +37,9 @@ struct Container {
 };
 struct Segment {
   Point from, to;
+  /// Unit directions in which another thin wall goes on from each end, where one does (join_ends); zero: a
+  /// true end.
+  Point beyond_from = {}, beyond_to = {};
 };
 struct FixedDisc {
   Point center;
@@ -47,8 +50,9 @@ struct FixedDisc {
 struct Arc {
   Point center;
   double radius = 0;
-  Point joint;      ///< unit vector from the centre to the joint
-  double turn = 0;  ///< angle from there to the end, positive anticlockwise
+  Point joint;        ///< unit vector from the centre to the joint
+  double turn = 0;    ///< angle from there to the end, positive anticlockwise
+  Point beyond = {};  ///< as of a segment, at the end
 };
 /// What is left of the shapes of a wall that a stage has opened: nothing that grains could touch. They keep
 /// their places in lists, so that indices keep their meaning.
@@ -124,6 +128,9 @@ struct Walls {
 };
 
 Shape moved(const Rigid&, const Shape&);
+/// Tells segments and arcs whose ends meet of each other, so that discs pass the joint as if the wall were
+/// one. `together`: shapes with the same number never move against each other.
+void join_ends(std::span<Shape> shapes, std::span<const int> together);
 /// The index of a wall's first shape.
 int first_shape(const Walls&, int wall);
 

@@ -21,11 +21,39 @@ double normal_of(double dx, double dz, double& n_x, double& n_z) {
   return distance;
 }
 
-Point nearest_on_segment(const Segment& s, double x, double z) {
-  const double ex = s.to.x - s.from.x, ez = s.to.z - s.from.z;
-  const double along =
-      std::clamp(((x - s.from.x) * ex + (z - s.from.z) * ez) / (ex * ex + ez * ez), 0.0, 1.0);
-  return {s.from.x + along * ex, s.from.z + along * ez};
+/// An end of a thin wall, the unit direction from there along the wall, and that in which another goes on.
+struct ThinEnd {
+  Point place, along, beyond;
+};
+
+/// Gap and normal of a disc whose centre is nearest to an end. Where its centre is beside the wall that goes
+/// on, the end is no corner: this wall counts as its line where the joint is concave, and not at all where it
+/// is flat or convex, since there the other wall is nearer.
+double gap_to_end(const ThinEnd& end, double x, double z, double radius, double& n_x, double& n_z) {
+  const double dx = x - end.place.x, dz = z - end.place.z;
+  const double gap = normal_of(dx, dz, n_x, n_z) - radius;
+  if (!(dx * end.beyond.x + dz * end.beyond.z > 0)) return gap;
+  constexpr double flat = 1e-9;
+  const double across = end.along.x * dz - end.along.z * dx, side = std::copysign(1.0, across);
+  if (side * (end.along.x * end.beyond.z - end.along.z * end.beyond.x) <= flat)
+    return std::numeric_limits<double>::infinity();
+  n_x = -side * end.along.z, n_z = side * end.along.x;
+  return std::abs(across) - radius;
+}
+
+double gap_to_segment(const Segment& s, double x, double z, double radius, double& n_x, double& n_z,
+                      Point& point) {
+  const double ex = s.to.x - s.from.x, ez = s.to.z - s.from.z, squared = ex * ex + ez * ez;
+  const double along = ((x - s.from.x) * ex + (z - s.from.z) * ez) / squared;
+  if (along < 0 || along > 1) {
+    const bool first = along < 0;
+    point = first ? s.from : s.to;
+    const double unit = (first ? 1 : -1) / std::sqrt(squared);
+    return gap_to_end({point, {unit * ex, unit * ez}, first ? s.beyond_from : s.beyond_to}, x, z, radius, n_x,
+                      n_z);
+  }
+  point = {s.from.x + along * ex, s.from.z + along * ez};
+  return normal_of(x - point.x, z - point.z, n_x, n_z) - radius;
 }
 
 /// Where the centres of discs near a shape can be, `reach` away from its surface; a container has discs
@@ -129,12 +157,11 @@ double gap_to_shape(const Shape& shape, double x, double z, double radius, doubl
     point = {c->center.x - c->radius * n_x, c->center.z - c->radius * n_z};
     return c->radius - radius - distance;
   }
-  if (const auto* s = std::get_if<Segment>(&shape)) {
-    point = nearest_on_segment(*s, x, z);
-    return normal_of(x - point.x, z - point.z, n_x, n_z) - radius;
-  }
+  if (const auto* s = std::get_if<Segment>(&shape)) return gap_to_segment(*s, x, z, radius, n_x, n_z, point);
   if (const auto* a = std::get_if<Arc>(&shape)) {
     point = nearest_on(*a, {x, z});
+    if (nearest_is_end(*a, {x, z}))
+      return gap_to_end({point, tangent_at_end(*a), a->beyond}, x, z, radius, n_x, n_z);
     return normal_of(x - point.x, z - point.z, n_x, n_z) - radius;
   }
   const auto& disc = std::get<FixedDisc>(shape);

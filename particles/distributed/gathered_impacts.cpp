@@ -25,9 +25,10 @@ void merge_runs(std::vector<Record>& records, std::size_t sorted, Less less) {
   }
 }
 
-StruckRecord record_of(const StruckGrain& grain, const Bodies& bodies) {
+StruckRecord record_of(const StruckGrain& grain, const Bodies& bodies, std::span<const Point> shift) {
   const std::int32_t b = grain.grain;
-  return {bodies.id[b], bodies.v_x[b], bodies.v_z[b], bodies.spin.empty() ? 0 : bodies.spin[b], grain.before};
+  return {bodies.id[b], bodies.v_x[b], bodies.v_z[b], bodies.spin.empty() ? 0 : bodies.spin[b],
+          grain.before, shift[b]};
 }
 
 }  // namespace
@@ -43,7 +44,7 @@ std::vector<Strike> GatheredImpacts::strikes() const {
 
 bool GatheredImpacts::choose_resolver(const RankImpacts& mine) {
   std::vector<std::int64_t> closings(ranks_.count(), 0);
-  if (looked_.any(mine.step, mine.loads, mine.contacts))
+  if (looked_.any({mine.step, mine.contacts.pairs, mine.loads, {}}))
     closings[ranks_.rank()] = static_cast<std::int64_t>(looked_.closings().size());
   ranks_.add(closings);
   const auto most = std::max_element(closings.begin(), closings.end());
@@ -52,7 +53,7 @@ bool GatheredImpacts::choose_resolver(const RankImpacts& mine) {
 }
 
 std::vector<StruckRecord> GatheredImpacts::resolve(const RankImpacts& mine) {
-  count_ = 0;
+  count_ = unresolved_ = 0;
   ++calls_;
   if (ranks_.count() == 1) return resolve_alone(mine);
   if (!choose_resolver(mine)) return {};
@@ -90,17 +91,18 @@ std::vector<StruckRecord> GatheredImpacts::resolve(const RankImpacts& mine) {
       if (const std::int32_t b = mine.place_of[id]; b >= 0) seeds_.push_back(b);
   }
   ranks_.broadcast(struck, resolver_);
-  std::array<std::int64_t, 1> count{count_};
-  ranks_.add(count);  // of the one that alone knows it
-  count_ = static_cast<int>(count[0]);
+  std::array<std::int64_t, 2> counts{count_, unresolved_};
+  ranks_.add(counts);  // of the one that alone knows them
+  count_ = static_cast<int>(counts[0]), unresolved_ = static_cast<int>(counts[1]);
   return struck;
 }
 
 /// On one rank nothing has to be sent.
 std::vector<StruckRecord> GatheredImpacts::resolve_alone(const RankImpacts& mine) {
   mine.contacts.strikes.clear();
-  impacts_.resolve(mine.step, mine.loads, mine.bodies, mine.contacts);
-  count_ = impacts_.count();
+  impacts_.resolve({mine.step, mine.contacts.pairs, mine.loads, {}},
+                   {mine.bodies, mine.shift, mine.contacts});
+  count_ = impacts_.count(), unresolved_ = impacts_.unresolved();
   counts_.times += count_ > 0;
   const auto& id = mine.bodies.id;
   for (Strike strike : mine.contacts.strikes) {
@@ -109,7 +111,8 @@ std::vector<StruckRecord> GatheredImpacts::resolve_alone(const RankImpacts& mine
     strikes_.push_back({calls_, strike});
   }
   std::vector<StruckRecord> struck;
-  for (const StruckGrain& grain : impacts_.struck()) struck.push_back(record_of(grain, mine.bodies));
+  for (const StruckGrain& grain : impacts_.struck())
+    struck.push_back(record_of(grain, mine.bodies, mine.shift));
   return struck;
 }
 
@@ -143,7 +146,8 @@ void GatheredImpacts::list_wanted(const RankImpacts& mine) {
     if (sent_[b] != now) continue;
     sent_[b] = wanted_[b] ? as_whole : as_part;
     BodyRecord body{static_cast<std::int32_t>(id[b]), wanted_[b]};
-    body.v_x = bodies.v_x[b], body.v_z = bodies.v_z[b];
+    body.x = bodies.x[b], body.z = bodies.z[b], body.v_x = bodies.v_x[b], body.v_z = bodies.v_z[b];
+    if (!mine.shift.empty()) body.shift = mine.shift[b];
     if (!bodies.spin.empty()) body.spin = bodies.spin[b];
     body.radius = bodies.radius[b], body.inverse_mass = bodies.inverse_mass[b];
     listed_bodies_.push_back(body);
@@ -184,11 +188,14 @@ void GatheredImpacts::resolve_gathered(const StepInput& step, std::vector<Struck
   bodies_.resize(count);
   Bodies bodies;
   for (auto* entries : {&bodies.x, &bodies.z, &bodies.v_x, &bodies.v_z, &bodies.radius, &bodies.inverse_mass})
-    entries->resize(count);  // impacts ask for no places
+    entries->resize(count);
+  FreeMotion free;
+  free.shift.resize(count);
   bodies.id.resize(count), bodies.spin.resize(step.laws.spin ? count : 0);
   std::vector<char> whole(count);
   for (std::size_t b = 0; b < count; ++b) {
     const BodyRecord& body = bodies_[b];
+    bodies.x[b] = body.x, bodies.z[b] = body.z, free.shift[b] = body.shift;
     bodies.v_x[b] = body.v_x, bodies.v_z[b] = body.v_z;
     bodies.radius[b] = body.radius, bodies.inverse_mass[b] = body.inverse_mass;
     if (step.laws.spin) bodies.spin[b] = body.spin;
@@ -206,19 +213,19 @@ void GatheredImpacts::resolve_gathered(const StepInput& step, std::vector<Struck
   }
   std::vector<std::int32_t> as_they_stand(pairs_.size());
   std::iota(as_they_stand.begin(), as_they_stand.end(), 0);
-  const FreeMotion unused;
-  const StepInput known{step.laws, bodies, step.walls, {}, unused, step.time_step};
-  if (!impacts_.resolve_part(known, {as_they_stand, load, 1, 1}, whole, bodies, contacts)) {
+  const StepInput known{step.laws, bodies, step.walls, {}, free, step.time_step};
+  const RememberedLoads loads(as_they_stand, load, 1, 1);
+  if (!impacts_.resolve_part({known, contacts.pairs, loads, {}}, whole, {bodies, free.shift, contacts})) {
     for (const std::int32_t b : impacts_.missing()) missing_.push_back(bodies_[b].id);
     return;
   }
-  count_ = impacts_.count();
+  count_ = impacts_.count(), unresolved_ = impacts_.unresolved();
   for (Strike strike : contacts.strikes) {
     strike.i = bodies_[strike.i].id;
     if (strike.j >= 0) strike.j = bodies_[strike.j].id;
     strikes_.push_back({calls_, strike});
   }
-  for (const StruckGrain& grain : impacts_.struck()) struck.push_back(record_of(grain, bodies));
+  for (const StruckGrain& grain : impacts_.struck()) struck.push_back(record_of(grain, bodies, free.shift));
 }
 
 }  // namespace drumlin::particles

@@ -13,11 +13,11 @@
 
 namespace drumlin::particles {
 
-/// New velocities of a grain that impacts have struck, and what they were before.
+/// New velocities and shift (FreeMotion) of a grain that impacts have struck, and its velocity before.
 struct StruckRecord {
   std::int64_t id = 0;
   double v_x = 0, v_z = 0, spin = 0;
-  Point before;
+  Point before, shift;
 };
 
 /// The part of one rank in the impacts of a step.
@@ -25,6 +25,7 @@ struct RankImpacts {
   const StepInput& step;  ///< its bodies are the grains that the rank sees, by ascending identity
   const RememberedLoads& loads;
   Bodies& bodies;                          ///< those of the step: one rank alone sets their velocities
+  std::vector<Point>& shift;               ///< that of the step
   StepContacts& contacts;                  ///< pairs of the rank's tiles, in the order of (i, j)
   std::span<const std::int32_t> place_of;  ///< of each identity among the bodies; -1: not seen
   GrainSquare all;                         ///< where all grains of the run are
@@ -46,6 +47,8 @@ class GatheredImpacts {
   std::vector<StruckRecord> resolve(const RankImpacts& mine);
   /// Pairs that met in the last call, counted once per pass.
   int count() const { return count_; }
+  /// Pairs of the last call that met more often than is followed.
+  int unresolved() const { return unresolved_; }
   /// On the first rank: impulses since the last clear(), with identities in place of indices, in the order in
   /// which they came about; empty on the others. All ranks call it together.
   std::vector<Strike> strikes() const;
@@ -61,7 +64,8 @@ class GatheredImpacts {
   /// What impacts ask of a grain.
   struct BodyRecord {
     std::int32_t id = 0, whole = 0;  // whole: 1 if all ranks send all pairs of it
-    double v_x = 0, v_z = 0, spin = 0, radius = 0, inverse_mass = 0;
+    double x = 0, z = 0, v_x = 0, v_z = 0, spin = 0, radius = 0, inverse_mass = 0;
+    Point shift;
   };
 
   /// An impulse as ranks gather it.
@@ -102,7 +106,7 @@ class GatheredImpacts {
   std::vector<StrikeRecord> strikes_;   // of the calls in which this rank resolved
   std::int32_t calls_ = 0;
   GatheredCounts counts_;
-  int count_ = 0;
+  int count_ = 0, unresolved_ = 0;
 };
 
 }  // namespace drumlin::particles

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "particles/stepping/set_free_motion.hpp"
-#include "particles/stepping/swept_normals.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -28,20 +27,23 @@ RankSearch::RankSearch(const StepLaws& laws, const Ranks& ranks, std::int64_t gr
   share(detection_, recollection_);
 }
 
-int RankSearch::find(RankState& state, const WallStep& walls, double time_step, Point gain) {
+ImpactCounts RankSearch::find(RankState& state, const WallStep& walls, double time_step, Point gain) {
   const Step step{walls, time_step};
   impacts_.clear();
+  free_.shift.clear(), shifted_.clear();
   move_freely(step);
   search(step);
-  if (!laws_.restitution) return 0;
-  int count = 0;
+  ImpactCounts count;
+  if (!laws_.restitution) return count;
   std::vector<StruckRecord> struck;
   for (int searches = 1;; ++searches) {
     if (searches > 1 && !ranks_.any(strikes_again(struck, step))) return count;
     struck = strike(step);
-    count += impacts_.count();
+    count.met += impacts_.count(), count.unresolved += impacts_.unresolved();
     if (impacts_.count() == 0) return count;
     set_velocities(struck);
+    shifted_.insert(shifted_.end(), struck.begin(), struck.end());
+    set_shifts();
     take_over(struck, state);
     move_freely(step);
     if (searches == most_searches) return count;
@@ -49,7 +51,7 @@ int RankSearch::find(RankState& state, const WallStep& walls, double time_step, 
     if (thrown.empty()) return count;
     rounds_.push_back({struck, std::move(thrown)});
     const bool sorted = grains_.settle_again(state, walls, time_step, gain);
-    if (sorted) move_freely(step);
+    if (sorted) set_shifts(), move_freely(step);
     if (!is_local(rounds_.back().thrown))
       search(step);
     else if (sorted)
@@ -132,11 +134,10 @@ std::vector<StruckRecord> RankSearch::strike(const Step& step) {
   Bodies& seen = grains_.seen().bodies;
   const StepInput all{laws_, seen, step.walls, {}, free_, step.time_step};
   if (!std::exchange(mine_is_fresh_, false)) take_mine();
-  sweep_normals(all, mine_.pairs);
   const auto loads = recollection_.loads(grains_.memory(), unknowns_, step.time_step);
   const TileGrid& grid = grains_.tiles().grid;
   const GrainSquare square{grid.origin, grid.edge(), grains_.places().size()};
-  return impacts_.resolve({all, loads, seen, mine_, grains_.places(), square});
+  return impacts_.resolve({all, loads, seen, free_.shift, mine_, grains_.places(), square});
 }
 
 bool RankSearch::strikes_again(std::span<const StruckRecord> struck, const Step& step) {
@@ -145,12 +146,10 @@ bool RankSearch::strikes_again(std::span<const StruckRecord> struck, const Step&
   struck_pairs_.select(
       seen.count(), struck, [&](const StruckRecord& grain) { return grains_.place_of(grain.id); },
       homed_.mine.size(), [&](std::size_t m) -> const Candidate& { return found[homed_.mine[m]]; },
-      struck_contacts_.pairs);
+      pairs_of_struck_);
   const StepInput all{laws_, seen, step.walls, {}, free_, step.time_step};
-  sweep_normals(all, struck_contacts_.pairs);
-  const auto loads =
-      recollection_.loads_of(struck_contacts_.pairs, grains_.memory(), unknowns_, step.time_step);
-  return looking_.any(all, loads, struck_contacts_);
+  const auto loads = recollection_.loads_of(pairs_of_struck_, grains_.memory(), unknowns_, step.time_step);
+  return looking_.any({all, pairs_of_struck_, loads, {}});
 }
 
 void RankSearch::set_velocities(std::span<const StruckRecord> struck) {
@@ -160,6 +159,12 @@ void RankSearch::set_velocities(std::span<const StruckRecord> struck) {
       bodies.v_x[b] = grain.v_x, bodies.v_z[b] = grain.v_z;
       if (!bodies.spin.empty()) bodies.spin[b] = grain.spin;
     }
+}
+
+void RankSearch::set_shifts() {
+  free_.shift.assign(grains_.seen().bodies.count(), {});
+  for (const StruckRecord& grain : shifted_)
+    if (const std::int32_t b = grains_.place_of(grain.id); b >= 0) free_.shift[b] = grain.shift;
 }
 
 void RankSearch::take_over(std::span<const StruckRecord> struck, RankState& state) const {

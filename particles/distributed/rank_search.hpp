@@ -18,6 +18,11 @@
 
 namespace drumlin::particles {
 
+/// Impacts of a step: pairs that met, and those of them that met more often than is followed.
+struct ImpactCounts {
+  int met = 0, unresolved = 0;
+};
+
 /// Finds them, and resolves the impacts, for one rank; all ranks call it together.
 class RankSearch {
  public:
@@ -28,13 +33,15 @@ class RankSearch {
 
   /// A step of the grains that have been settled. The state of those that impacts strike changes, and grains
   /// may be settled again. Returns how many impacts there were.
-  int find(RankState& state, const WallStep& walls, double time_step, Point gain);
+  ImpactCounts find(RankState& state, const WallStep& walls, double time_step, Point gain);
 
   // Of the last search.
   std::span<const Candidate> candidates() const { return detection_.candidates(); }
   const HomedPairs& homed() const { return homed_; }
   const Recollection& recollection() const { return recollection_; }
   const GatheredImpacts& impacts() const { return impacts_; }
+  /// Shifts of the grains that the rank sees (FreeMotion).
+  const std::vector<Point>& shift() const { return free_.shift; }
   /// Gives back what the step no longer needs.
   void release() {
     free_memory_of(mine_.pairs), free_memory_of(homed_.homes), free_memory_of(homed_.mine);
@@ -78,6 +85,8 @@ class RankSearch {
   bool strikes_again(std::span<const StruckRecord>, const Step&);
   /// Of the grains that the rank sees.
   void set_velocities(std::span<const StruckRecord>);
+  /// Shifts of the grains that all rounds have struck, as the rank sees them now.
+  void set_shifts();
   /// The state of own grains that impacts have struck.
   void take_over(std::span<const StruckRecord>, RankState&) const;
   /// The own grains that impacts have thrown further than the search for pairs allowed for.
@@ -93,14 +102,15 @@ class RankSearch {
   GatheredImpacts impacts_;
   Impacts looking_;
   FreeMotion free_;
-  FreeMotion searched_;              // velocities by which pairs were last looked for, grain by grain
-  std::vector<Round> rounds_;        // since all pairs were last looked for
-  std::vector<ThrownGrain> thrown_;  // of a round
+  FreeMotion searched_;                // velocities by which pairs were last looked for, grain by grain
+  std::vector<StruckRecord> shifted_;  // by all rounds of the step, in their order
+  std::vector<Round> rounds_;          // since all pairs were last looked for
+  std::vector<ThrownGrain> thrown_;    // of a round
   StruckPairs struck_pairs_;
-  StepContacts struck_contacts_;  // pairs of struck grains
-  HomedPairs homed_;              // of the candidates
-  StepContacts mine_;             // those of this rank, with normals as impacts see them
-  bool mine_is_fresh_ = false;    // they are as the last search has left the candidates
+  std::vector<Candidate> pairs_of_struck_;
+  HomedPairs homed_;            // of the candidates
+  StepContacts mine_;           // those of this rank, with normals as impacts see them
+  bool mine_is_fresh_ = false;  // they are as the last search has left the candidates
   TeamLoops loops_;
 };
 

@@ -14,9 +14,9 @@
 #include "particles/parallel/work_memory.hpp"
 #include "particles/solver/coarse_loads.hpp"
 #include "particles/stepping/assembly.hpp"
+#include "particles/stepping/meeting.hpp"
 #include "particles/stepping/set_free_motion.hpp"
 #include "particles/stepping/snapshot_of_state.hpp"
-#include "particles/stepping/swept_normals.hpp"
 #include "particles/stepping/wall_crossing.hpp"
 
 namespace drumlin::particles {
@@ -80,7 +80,8 @@ class RankMoreauJean final : public RankStepper {
     const Point gain{time_step * gravity_.x, time_step * gravity_.z};
     grains_.settle(state, walls, time_step, gain);
     std::optional<WorkMemory::Frame> of_search(&memory_);
-    report.impacts = search_.find(state, walls, time_step, gain);
+    const ImpactCounts impacts = search_.find(state, walls, time_step, gain);
+    report.impacts = impacts.met, report.impacts_unresolved = impacts.unresolved;
     find_rank_pairs(grains_.seen(), search_.candidates(), search_.homed(), grains_.tiles(), ranks_.rank(),
                     own_);
     halo_.follow(own_.halo);
@@ -89,7 +90,7 @@ class RankMoreauJean final : public RankStepper {
     const StepInput step{laws_, bodies_, walls, {}, free_, time_step};
     std::swap(contacts_.pairs, own_.pairs);
     const bool large = contacts_.pairs.size() > many_contacts;
-    sweep_normals(step, contacts_.pairs);
+    place_pairs(step, contacts_.pairs);
     search_.recollection().warm_start(grains_.memory(), dim, time_step, own_.order, solution_.impulses);
     of_search.reset();
     if (large) {
@@ -184,17 +185,24 @@ class RankMoreauJean final : public RankStepper {
       bodies_.id[b] = grain.id;
     }
     set_free_motion(bodies_, laws_.gravity, time_step, TeamLoops(&team_), free_);
+    free_.shift.clear();
+    if (search_.shift().empty()) return;
+    for (const std::int32_t s : own_.used) free_.shift.push_back(search_.shift()[s]);
   }
 
-  /// New velocities from the solution, then new positions.
+  /// New velocities from the solution, then new positions, as in one process but for grains alone on a wall.
   void move(double time_step) {
     const auto& changes = solution_.velocities.bodies;
     for (std::size_t b = 0; b < bodies_.count(); ++b) {
+      const Point before{bodies_.v_x[b], bodies_.v_z[b]};
       bodies_.v_x[b] = free_.x[b] + changes[b].x;
       bodies_.v_z[b] = free_.z[b] + changes[b].z;
       if constexpr (with_spin) spin_up(bodies_, b, changes[b].s);
-      bodies_.x[b] += time_step * bodies_.v_x[b];
-      bodies_.z[b] += time_step * bodies_.v_z[b];
+      Point path{bodies_.v_x[b], bodies_.v_z[b]};
+      if (changes[b].x == 0 && changes[b].z == 0) path = {(before.x + path.x) / 2, (before.z + path.z) / 2};
+      if (!free_.shift.empty()) bodies_.x[b] += free_.shift[b].x, bodies_.z[b] += free_.shift[b].z;
+      bodies_.x[b] += time_step * path.x;
+      bodies_.z[b] += time_step * path.z;
     }
   }
 

@@ -95,6 +95,27 @@ std::vector<Point_mm> glued_centers_mm(const Wall& wall) {
   return centers;
 }
 
+namespace {
+
+/// Joins the ends of shapes of one wall, and those of all walls that no stage moves or opens.
+void join_ends(const Scene& scene, Walls& walls) {
+  std::vector<int> together(walls.names.size(), -1);
+  const auto apart = [&](const std::string& name) {
+    for (std::size_t w = 0; w < walls.names.size(); ++w)
+      if (walls.names[w] == name) together[w] = static_cast<int>(w);
+  };
+  for (const Stage& stage : scene.stages) {
+    for (const WallMotion& motion : stage.motions) apart(motion.wall);
+    if (stage.opens)
+      for (const std::string& name : *stage.opens) apart(name);
+  }
+  std::vector<int> of_shape;
+  for (const int wall : walls.wall_of_shape) of_shape.push_back(together[wall]);
+  join_ends(walls.reference, of_shape);
+}
+
+}  // namespace
+
 Walls walls_of(const Scene& scene, const Scales& scales) {
   Walls walls;
   const auto materials = material_names(scene);
@@ -111,6 +132,7 @@ Walls walls_of(const Scene& scene, const Scales& scales) {
       walls.material_of_shape.resize(walls.reference.size(),
                                      static_cast<std::uint8_t>(material_number(materials, wall.material)));
   }
+  join_ends(scene, walls);
   walls.motion.resize(walls.names.size());
   walls.pose_at_start.resize(walls.names.size());
   if (scene.periodic_x)

@@ -71,9 +71,6 @@ std::int32_t second_body(const StepInput& step, const Candidate& pair) {
   return fixed;
 }
 
-/// Added to u_n: a contact may act before it touches, u_n >= -gap/h.
-inline double predicted_gap(double gap, double time_step) { return gap > 0 ? gap / time_step : 0; }
-
 /// Writes contact a of the problem.
 template <class Problem, bool with_spin>
 void assemble_contact(const StepInput& step, const Candidate& pair, int a, Problem& problem) {
@@ -81,7 +78,7 @@ void assemble_contact(const StepInput& step, const Candidate& pair, int a, Probl
   const StepLaws& laws = step.laws;
   const Bodies& bodies = step.bodies;
   const Point u = relative_velocity(pair, step.free.x, step.free.z, wall_velocity<Problem>(step, pair));
-  problem.q[dim * a] = normal_part(pair, u) + predicted_gap(pair.gap, step.time_step);
+  problem.q[dim * a] = normal_part(pair, u) + pair.gap / step.time_step;  // it may act before it touches
   const std::int32_t second = second_body<Problem>(step, pair);
   if constexpr (drives_walls<Problem>)
     if (problem.W.cell) {

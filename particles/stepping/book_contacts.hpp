@@ -61,7 +61,7 @@ void book_contacts(const StepInput& step, const StepContacts& contacts, const Pr
     if (laws.cohesion) contact.attraction = contacts.attraction[a];
     contact.wall_velocity = pair.j < 0 ? mean_wall_velocity<Problem>(step, contacts, pair)
                                        : image_velocity(problem, change, pair, a);
-    books.add(contact, step.bodies, step.time_step, ledger);
+    books.add(contact, step.bodies, ledger);
   }
 }
 

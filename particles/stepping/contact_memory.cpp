@@ -55,6 +55,13 @@ std::vector<std::int32_t> sorted_by(std::span<const std::int32_t> keys,
 
 }  // namespace
 
+bool was_loaded(const ContactMemory& memory, const Candidate& pair) {
+  const auto [first, last] = std::equal_range(memory.i.begin(), memory.i.end(), pair.i);
+  const auto begin = memory.j.begin() + (first - memory.i.begin()),
+             end = memory.j.begin() + (last - memory.i.begin());
+  return std::binary_search(begin, end, pair.j);
+}
+
 void put_in_order(ContactMemory& memory) {
   const std::size_t contacts = memory.i.size();
   if (in_order(memory)) return;

@@ -20,6 +20,9 @@ struct ContactMemory {
 /// Puts contacts that come from elsewhere in that order.
 void put_in_order(ContactMemory&);
 
+/// Whether a pair carried a load.
+bool was_loaded(const ContactMemory&, const Candidate& pair);
+
 /// Normal impulses that the pairs of a step carried in the last one; 0 of a new pair. Refers to a memory and
 /// to a recollection of it.
 class RememberedLoads {

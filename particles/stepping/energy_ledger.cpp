@@ -59,11 +59,12 @@ void EnergyBooks::strike(std::span<const StruckGrain> struck, const ImpactWork& 
   book(work.walls, mover(ledger), ledger);
   for (const StruckGrain& grain : struck) {
     v_x_[grain.grain] += grain.v_x, v_z_[grain.grain] += grain.v_z;
+    x_[grain.grain] += grain.shift.x, z_[grain.grain] += grain.shift.z;
     if (!spin_.empty()) spin_[grain.grain] += grain.spin;
   }
 }
 
-void EnergyBooks::add(const WorkingContact& c, const Bodies& now, double h, EnergyLedger& ledger) const {
+void EnergyBooks::add(const WorkingContact& c, const Bodies& now, EnergyLedger& ledger) const {
   const auto mean = [](const std::vector<double>& before, const std::vector<double>& after, std::int32_t b) {
     return (before[b] + after[b]) / 2;
   };
@@ -84,11 +85,7 @@ void EnergyBooks::add(const WorkingContact& c, const Bodies& now, double h, Ener
       book(c.rolling * of_wall, ledger.walls, ledger);
     }
   }
-  const double before_x = v_x_[c.i] - (wall ? 0 : v_x_[c.j]) - of_j.x;
-  const double before_z = v_z_[c.i] - (wall ? 0 : v_z_[c.j]) - of_j.z;
-  const double slowest = gravity_ ? 2 * h * std::hypot(gravity_->x, gravity_->z) : 0;
-  const bool impact = c.n_x * before_x + c.n_z * before_z < -slowest;
-  book(c.normal * u_n, impact ? ledger.impacts : ledger.time_integration, ledger);
+  book(c.normal * u_n, ledger.impacts, ledger);
   book(c.tangential * u_t, ledger.friction, ledger);
   if (ledger.cohesion) book(-c.attraction * u_n, *ledger.cohesion, ledger);
   if (!wall && of_j.x == 0 && of_j.z == 0) return;
@@ -97,19 +94,24 @@ void EnergyBooks::add(const WorkingContact& c, const Bodies& now, double h, Ener
   book(p_x * of_j.x + p_z * of_j.z, mover(ledger), ledger);
 }
 
-void EnergyBooks::close(const Bodies& now, double h, EnergyLedger& ledger) const {
-  ledger.kinetic = kinetic_energy(now);
-  if (!gravity_) return;
-  double fall = 0, late = 0, corrected = 0;
-  for (std::size_t b = 0; b < now.count(); ++b) {
+void EnergyBooks::move(const Bodies& now, double h, EnergyLedger& ledger) {
+  double fall = 0, late = 0;
+  for (std::size_t b = 0; gravity_ && b < now.count(); ++b) {
     const double m = 1 / now.inverse_mass[b], w_x = m * gravity_->x, w_z = m * gravity_->z;
-    fall += h * (w_x * now.v_x[b] + w_z * now.v_z[b]);
-    late -= h / 2 * (w_x * (now.v_x[b] - v_x_[b]) + w_z * (now.v_z[b] - v_z_[b]));
-    // The same expression as where the grains were moved: what is left is the projection alone.
-    corrected -= w_x * (now.x[b] - (x_[b] + h * now.v_x[b])) + w_z * (now.z[b] - (z_[b] + h * now.v_z[b]));
+    const double moved = w_x * (now.x[b] - x_[b]) + w_z * (now.z[b] - z_[b]);
+    fall += moved;
+    late += h / 2 * (w_x * (v_x_[b] + now.v_x[b]) + w_z * (v_z_[b] + now.v_z[b])) - moved;
   }
   ledger.turnover += std::abs(fall);  // between potential and kinetic energy
   book(late, ledger.time_integration, ledger);
+  x_ = now.x, z_ = now.z;
+}
+
+void EnergyBooks::close(const Bodies& now, EnergyLedger& ledger) const {
+  ledger.kinetic = kinetic_energy(now);
+  double corrected = 0;
+  for (std::size_t b = 0; gravity_ && b < now.count(); ++b)
+    corrected -= (gravity_->x * (now.x[b] - x_[b]) + gravity_->z * (now.z[b] - z_[b])) / now.inverse_mass[b];
   book(corrected, ledger.projection, ledger);
   ledger.potential = potential(now);
 }

@@ -22,8 +22,8 @@ struct EnergyLedger {
   double kinetic_at_start = 0, potential_at_start = 0;
   double walls = 0;                ///< work of the walls
   double friction = 0;             ///< work of tangential impulses on sliding
-  double impacts = 0;              ///< work of normal impulses in impacts, faster than 2 g h
-  double time_integration = 0;     ///< what vanishes with the step: gravity's part, normal impulses at rest
+  double impacts = 0;              ///< work of normal impulses
+  double time_integration = 0;     ///< gravity's work less the fall: what vanishes with the step
   double projection = 0;           ///< potential energy of position corrections
   std::optional<double> rolling;   ///< work of rolling couples; only with rolling resistance
   std::optional<double> cohesion;  ///< work of attraction; only with cohesion
@@ -63,9 +63,11 @@ class EnergyBooks {
   /// Books the impacts of the step, which come before its contacts.
   void strike(std::span<const StruckGrain>, const ImpactWork&, EnergyLedger&);
   /// Adds the work of a contact, from the velocities then and now.
-  void add(const WorkingContact&, const Bodies& now, double time_step, EnergyLedger&) const;
+  void add(const WorkingContact&, const Bodies& now, EnergyLedger&) const;
+  /// Books gravity once the grains have been moved, before the position projection.
+  void move(const Bodies& now, double time_step, EnergyLedger&);
   /// Ends the step, after the position projection.
-  void close(const Bodies& now, double time_step, EnergyLedger&) const;
+  void close(const Bodies& now, EnergyLedger&) const;
 
  private:
   double potential(const Bodies&) const;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace drumlin::particles {
 namespace {
@@ -10,9 +9,9 @@ namespace {
 // Of the largest speed: changes that count no more, and those that do not yet count.
 constexpr double tolerance = 1e-13, rough_tolerance = 3e-2;
 constexpr int rough_sweeps = 10;
-// A cluster is swept at least so often, and until so many contacts have been solved. Small ones, which a gas
-// has, are then compressed exactly; of large ones, in a packing that falls, each pass leaves some of the
-// closing speed to the next.
+// An impact is swept at least so often, and until so many contacts have been solved. Small ones, which a gas
+// has, are then compressed exactly; large ones, in a packing that falls, leave some of the closing speed to
+// the next.
 constexpr int fewest_sweeps = 20, solved_contacts = 4000;
 
 /// Gives a body an impulse; `tangential` is its part that turns a grain.
@@ -29,22 +28,16 @@ void move(ImpactBody& body, double p_x, double p_z, double tangential) {
 
 }  // namespace
 
-void ImpactPass::begin() {
-  contacts.clear();
-  for (ImpactBody& body : bodies)
-    body.before_x = body.v_x, body.before_z = body.v_z, body.before_rim = body.rim;
-}
-
 Point ImpactPass::velocity(const ImpactContact& c) const {
   const ImpactBody& I = bodies[c.i];
-  double x = I.v_x - c.wall.x, z = I.v_z - c.wall.z, rims = I.rim;
+  double x = I.v_x - c.wall.x + c.gain.x, z = I.v_z - c.wall.z + c.gain.z, rims = I.rim;
   if (c.j >= 0) x -= bodies[c.j].v_x, z -= bodies[c.j].v_z, rims += bodies[c.j].rim;
   return {c.n_x * x + c.n_z * z, c.n_z * x - c.n_x * z - rims};
 }
 
 void ImpactPass::add(ImpactContact c) {
   const ImpactBody& I = bodies[c.i];
-  double x = I.before_x - c.wall.x, z = I.before_z - c.wall.z, rims = I.before_rim;
+  double x = I.before_x - c.wall.x + c.gain.x, z = I.before_z - c.wall.z + c.gain.z, rims = I.before_rim;
   c.W_nn = c.W_tt = I.inverse_mass;
   bool spins = I.spins;
   if (c.j >= 0) {
@@ -73,9 +66,9 @@ void ImpactPass::push(const ImpactContact& c, double normal, double tangential) 
 }
 
 /// Returns the largest change of a velocity by the impulse of its own contact.
-double ImpactPass::sweep(std::span<ImpactContact> cluster) {
+double ImpactPass::sweep() {
   double largest = 0;
-  for (ImpactContact& c : cluster) {
+  for (ImpactContact& c : contacts) {
     Point u = velocity(c);
     const double normal = std::max(0.0, c.normal - u.x / c.W_nn), d_n = normal - c.normal;
     double d_t = 0;
@@ -91,59 +84,40 @@ double ImpactPass::sweep(std::span<ImpactContact> cluster) {
   return largest;
 }
 
-double ImpactPass::fastest(std::span<const ImpactContact> cluster) {
+double ImpactPass::fastest() const {
   double speed = 0;
-  for (const ImpactContact& c : cluster) speed = std::max(speed, -c.u_n);
+  for (const ImpactContact& c : contacts) speed = std::max(speed, -c.u_n);
   return speed;
 }
 
 void ImpactPass::compress_roughly() {
-  const double enough = rough_tolerance * fastest(contacts);
+  const double enough = rough_tolerance * fastest();
   for (int k = 0; k < rough_sweeps; ++k)
-    if (sweep(contacts) <= enough) return;
+    if (sweep() <= enough) return;
 }
 
 void ImpactPass::compress() {
-  sort_into_clusters();
-  complete_.assign(bodies.size(), 0);
-  for (std::size_t begin = 0, end = 0; begin < contacts.size(); begin = end) {
-    const std::int32_t name = cluster_of_[contacts[begin].i];
-    while (end < contacts.size() && cluster_of_[contacts[end].i] == name) ++end;
-    const std::span cluster(&contacts[begin], end - begin);
-    const double enough = tolerance * fastest(cluster);
-    const int sweeps = std::max(fewest_sweeps, solved_contacts / static_cast<int>(cluster.size()));
-    for (int k = 0; k < sweeps && !complete_[name]; ++k) complete_[name] = sweep(cluster) <= enough;
-  }
-}
-
-void ImpactPass::sort_into_clusters() {
-  cluster_of_.resize(bodies.size());
-  std::iota(cluster_of_.begin(), cluster_of_.end(), 0);
-  const auto root = [this](std::int32_t b) {
-    while (cluster_of_[b] != b) b = cluster_of_[b] = cluster_of_[cluster_of_[b]];
-    return b;
-  };
-  for (const ImpactContact& c : contacts)
-    if (c.j >= 0) cluster_of_[root(c.i)] = root(c.j);
-  for (std::size_t b = 0; b < bodies.size(); ++b) cluster_of_[b] = root(static_cast<std::int32_t>(b));
-  std::stable_sort(contacts.begin(), contacts.end(),
-                   [this](const auto& a, const auto& b) { return cluster_of_[a.i] < cluster_of_[b.i]; });
+  const double enough = tolerance * fastest();
+  const int sweeps = std::max(fewest_sweeps, solved_contacts / static_cast<int>(contacts.size()));
+  complete_ = false;
+  for (int k = 0; k < sweeps && !complete_; ++k) complete_ = sweep() <= enough;
 }
 
 /// With e of its own at each contact, or a compression that is not complete, the expansion can give back more
-/// than the compression took; the energy of a cluster after a share s of it is E_1 + s B + s^2 A / 2.
-void ImpactPass::limit_expansion() {
-  share_.assign(bodies.size(), 1.0);
-  if (std::all_of(contacts.begin(), contacts.end(),
-                  [&](const auto& c) { return c.e == contacts[0].e && complete_[cluster_of_[c.i]]; }))
-    return;
-  std::vector<double> lost(bodies.size(), 0.0), linear(bodies.size(), 0.0), square(bodies.size(), 0.0);
+/// than the compression took, or less; the energy after a share s of it is E + s B + s^2 A / 2. Without
+/// friction one e gives back e^2 of E, else no more than E.
+double ImpactPass::share_of_expansion() {
+  const double e = contacts[0].e;
+  const auto all = [this](auto is) { return std::all_of(contacts.begin(), contacts.end(), is); };
+  const bool one_e = all([e](const auto& c) { return c.e == e; });
+  if (complete_ && one_e) return 1;
+  const bool smooth = one_e && all([](const auto& c) { return c.mu <= 0; });
+  double E = 0, B = 0, A = 0;
   std::vector<Point> compressed;
   for (const ImpactContact& c : contacts) {
     const Point u = velocity(c);
-    const std::int32_t k = cluster_of_[c.i];
-    lost[k] += (c.normal * (c.u_n + u.x) + c.tangential * (c.u_t + u.z)) / 2;
-    linear[k] += c.e * (c.normal * u.x + c.tangential * u.z);
+    E += (c.normal * (c.u_n + u.x) + c.tangential * (c.u_t + u.z)) / 2;
+    B += c.e * (c.normal * u.x + c.tangential * u.z);
     compressed.push_back(u);
   }
   const std::vector<ImpactBody> kept = bodies;
@@ -151,19 +125,17 @@ void ImpactPass::limit_expansion() {
   for (std::size_t a = 0; a < contacts.size(); ++a) {
     const ImpactContact& c = contacts[a];
     const Point u = velocity(c);
-    square[cluster_of_[c.i]] +=
-        c.e * (c.normal * (u.x - compressed[a].x) + c.tangential * (u.z - compressed[a].z));
+    A += c.e * (c.normal * (u.x - compressed[a].x) + c.tangential * (u.z - compressed[a].z));
   }
   bodies = kept;
-  for (std::size_t k = 0; k < bodies.size(); ++k) {
-    const double A = square[k], B = linear[k], E = std::min(0.0, lost[k]);
-    if (A > 0 && E + B + A / 2 > 0) share_[k] = std::clamp((-B + std::sqrt(B * B - 2 * A * E)) / A, 0.0, 1.0);
-  }
+  E = std::min(0.0, E);
+  if (smooth && A > 0) return (-B + std::sqrt(B * B - 2 * A * e * e * E)) / A;
+  return A > 0 && E + B + A / 2 > 0 ? std::clamp((-B + std::sqrt(B * B - 2 * A * E)) / A, 0.0, 1.0) : 1;
 }
 
-/// Coulomb's bound of the expansion alone: mu times the normal impulse that it gives, which stands. Each move
+/// Coulomb's bound of the expansion alone: mu times the normal impulse that it gives, which stays. Each move
 /// takes energy.
-void ImpactPass::let_friction_act() {
+void ImpactPass::let_friction_act(double share) {
   double speed = 0;
   for (const ImpactContact& c : contacts) speed = std::max({speed, -c.u_n, std::abs(c.u_t)});
   const int sweeps = std::max(fewest_sweeps, solved_contacts / static_cast<int>(contacts.size()));
@@ -171,7 +143,7 @@ void ImpactPass::let_friction_act() {
     double largest = 0;
     for (std::size_t a = 0; a < contacts.size(); ++a) {
       const ImpactContact& c = contacts[a];
-      const double bound = c.mu * share_[cluster_of_[c.i]] * c.e * c.normal;
+      const double bound = c.mu * share * c.e * c.normal;
       if (bound <= 0) continue;
       const double now = friction_[a];
       friction_[a] = std::clamp(now - velocity(c).z / c.W_tt, -bound, bound);
@@ -183,18 +155,17 @@ void ImpactPass::let_friction_act() {
 }
 
 void ImpactPass::expand(ImpactWork& work) {
-  limit_expansion();
+  const double share = share_of_expansion();
   friction_.clear();
   for (ImpactContact& c : contacts) {
-    const double share = share_[cluster_of_[c.i]] * c.e;
     c.compression = c.normal;
-    friction_.push_back(share * c.tangential);
-    push(c, share * c.normal, share * c.tangential);
+    friction_.push_back(share * c.e * c.tangential);
+    push(c, share * c.e * c.normal, share * c.e * c.tangential);
   }
-  let_friction_act();
+  let_friction_act(share);
   for (std::size_t a = 0; a < contacts.size(); ++a) {
     ImpactContact& c = contacts[a];
-    c.normal += share_[cluster_of_[c.i]] * c.e * c.compression;
+    c.normal += share * c.e * c.compression;
     c.tangential += friction_[a];
   }
   book(work);

@@ -1,6 +1,6 @@
 #pragma once
-// One pass of impacts: a few pairs that close at once, compressed and then expanded. Knows neither grains nor
-// steps, only the bodies that it is given.
+// One impact: a pair, and those that touch it and close at once, compressed and then expanded. Knows neither
+// grains nor steps, only the bodies that it is given.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -18,14 +18,18 @@ struct ImpactBody {
   bool spins = false;  ///< turned by friction, with J = m r^2 / 2
   Point along;         ///< unit direction in which alone a wall moves; zero: a grain
   double before_x = 0, before_z = 0, before_rim = 0;  ///< velocities at the beginning of the pass
+  Point shift;                                        ///< of a grain, as in FreeMotion
+  int passes = 0;                                     ///< in which it took part
+  std::int32_t place = -1;                            ///< in the pass in hand; -1: not there
 };
 
 /// A pair in a pass. Normal and tangent as in Candidate.
 struct ImpactContact {
   std::int32_t pair = 0;      ///< its number in the step
-  std::int32_t i = 0, j = 0;  ///< places of the bodies; j < 0: a wall that is not pushed
+  std::int32_t i = 0, j = 0;  ///< positions of the bodies in the pass; j < 0: a wall that is not pushed
   double n_x = 0, n_z = 0;
   Point wall;  ///< prescribed velocity of the wall, or of the image of j against j
+  Point gain;  ///< relative velocity that forces have added since the beginning of the step
   double e = 0, mu = 0;
   double W_nn = 0, W_nt = 0, W_tt = 0;
   double normal = 0, tangential = 0;  ///< impulses of the pass
@@ -44,36 +48,30 @@ class ImpactPass {
   std::vector<ImpactBody> bodies;
   std::vector<ImpactContact> contacts;  ///< of the pass in hand
 
-  /// Forgets the contacts and begins a pass.
-  void begin();
+  /// Forgets bodies and contacts.
+  void begin() { bodies.clear(), contacts.clear(); }
   /// Adds a contact, with W and its velocities before the pass.
   void add(ImpactContact contact);
   /// Velocity of a contact as it stands: normal, tangential.
   Point velocity(const ImpactContact&) const;
   /// A few Gauss-Seidel sweeps, which show the bodies that the impacts move.
   void compress_roughly();
-  /// Sweeps until no contact closes, cluster by cluster. A large cluster may keep part of its closing speeds:
-  /// they are those of the next pass.
+  /// Sweeps until no contact closes. Many contacts may keep part of their closing speeds: they meet again.
   void compress();
   /// Gives the normal impulses back times e; adds up the work of the pass.
   void expand(ImpactWork& work);
 
  private:
   void push(const ImpactContact&, double normal, double tangential);
-  double sweep(std::span<ImpactContact>);
-  static double fastest(std::span<const ImpactContact>);
-  /// Puts contacts that bodies join side by side: clusters.
-  void sort_into_clusters();
-  /// Share of the expansion of each cluster that its energy allows: 1 where e is one number and the
-  /// compression complete.
-  void limit_expansion();
-  void let_friction_act();
+  double sweep();
+  double fastest() const;
+  /// Share of the expansion that the energy allows: 1 where e is one number and the compression complete.
+  double share_of_expansion();
+  void let_friction_act(double share);
   void book(ImpactWork&) const;
 
-  std::vector<std::int32_t> cluster_of_;  // body -> body that stands for its cluster
-  std::vector<char> complete_;            // compression, by cluster
-  std::vector<double> share_;             // of the expansion, by cluster
-  std::vector<double> friction_;          // impulses of the expansion
+  bool complete_ = false;         // the compression
+  std::vector<double> friction_;  // impulses of the expansion
 };
 
 }  // namespace drumlin::particles

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "particles/effects/driven_walls.hpp"
 #include "particles/effects/friction.hpp"
@@ -14,28 +15,13 @@ namespace {
 constexpr double touching = 1e-4;
 // Of the largest closing speed: no impact but rounding.
 constexpr double rounding = 1e-9;
-// More impacts of one pair within a step are a collapse, in which each takes part of the speed: what is left
-// of it is lost in the contact problem.
-constexpr int most_passes = 200;
-
-std::int32_t grains_of(const StepInput& step) { return static_cast<std::int32_t>(step.bodies.count()); }
-
-/// The body of the second side of a pair: a grain, a wall moved by a force (after the grains), or -1.
-std::int32_t second_body_of(const StepInput& step, const Candidate& pair) {
-  if (pair.j >= 0) return pair.j;
-  const std::int32_t wall = driven_wall_of(step.walls, pair);
-  return wall < 0 ? -1 : grains_of(step) + wall;
-}
-
-/// What forces add to the velocity of a body within the step.
-Point gain_of(const StepInput& step, std::int32_t body) {
-  Point a = step.laws.gravity.value_or(Point{});
-  if (body >= grains_of(step)) {
-    const Driven& wall = step.walls.driven[body - grains_of(step)];
-    a = along({}, wall, wall.force * wall.inverse_mass);
-  }
-  return {a.x * step.time_step, a.z * step.time_step};
-}
+// A pair that meets more often within a step collapses: what is left of its speed is lost in the contact
+// problem.
+constexpr int most_impacts = 200;
+// Closing speeds up to this many times what gravity gives a pair along its normal within a step are at rest:
+// a grain that lies, and neighbours that carry it, arrive with as much. A grain that meets nothing but one
+// wall is followed exactly, and rests only when its bounces are shorter than a hundredth of a step.
+constexpr double at_rest = 2, at_rest_alone = 0.02;
 
 /// Pairs that pieces of a loop found, in the order of the pieces.
 struct PairList {
@@ -43,8 +29,47 @@ struct PairList {
   void add(const PairList& more) { pairs.insert(pairs.end(), more.pairs.begin(), more.pairs.end()); }
 };
 
-/// Velocity of the wall of a pair, or of the image of j, but for what its own body has.
-Point prescribed_velocity(const StepInput& step, const Candidate& pair) {
+}  // namespace
+
+std::int32_t Impacts::grains() const { return static_cast<std::int32_t>(in_->step.bodies.count()); }
+
+/// A grain, a wall moved by a force (after the grains), or -1.
+std::int32_t Impacts::second_body_of(const Candidate& pair) const {
+  if (pair.j >= 0) return pair.j;
+  const std::int32_t wall = driven_wall_of(in_->step.walls, pair);
+  return wall < 0 ? -1 : grains() + wall;
+}
+
+Point Impacts::acceleration_of(std::int32_t body) const {
+  const StepInput& step = in_->step;
+  if (body < grains()) return step.laws.gravity.value_or(Point{});
+  const Driven& wall = step.walls.driven[body - grains()];
+  return along({}, wall, wall.force * wall.inverse_mass);
+}
+
+Point Impacts::velocity_before(std::int32_t body) const {
+  const StepInput& step = in_->step;
+  if (body < grains()) return {step.bodies.v_x[body], step.bodies.v_z[body]};
+  const std::int32_t wall = body - grains();
+  return along({}, step.walls.driven[wall], step.driven[wall].velocity + in_->wall_jumps[wall]);
+}
+
+Point Impacts::velocity(std::int32_t body) const {
+  if (place_[body] < 0) return velocity_before(body);
+  const ImpactBody& taken = taken_[place_[body]];
+  const ImpactBody& now = taken.place < 0 ? taken : pass_.bodies[taken.place];
+  return {now.v_x, now.v_z};
+}
+
+int Impacts::passes_of(const Candidate& pair) const {
+  const auto of = [this](std::int32_t body) {
+    return body < 0 || place_[body] < 0 ? 0 : taken_[place_[body]].passes;
+  };
+  return of(pair.i) + of(second_body_of(pair));
+}
+
+Point Impacts::prescribed_velocity(const Candidate& pair) const {
+  const StepInput& step = in_->step;
   const Point seen{pair.wall_v_x, pair.wall_v_z};
   const std::int32_t k = driven_wall_of(step.walls, pair);
   if (k < 0) return seen;
@@ -52,186 +77,238 @@ Point prescribed_velocity(const StepInput& step, const Candidate& pair) {
                -free_velocity(step.walls.driven[k], step.driven[k], step.time_step));
 }
 
-/// Whether a pair whose surfaces close at u_n, and in the end of the step with `gain` more, meets within it.
-bool meets(const Candidate& pair, double u_n, double gain, double slowest, double time_step) {
-  return u_n < -slowest && (pair.gap <= 0 || pair.gap + time_step * (u_n + gain) < 0);
-}
-
-/// The part of it that is not common to both sides.
-double gain_on_wall(const StepInput& step, const Candidate& pair) {
-  Point gain = gain_of(step, pair.i);
-  if (const std::int32_t wall = second_body_of(step, pair); wall >= 0) {
-    const Point other = gain_of(step, wall);
-    gain.x -= other.x, gain.z -= other.z;
+/// A wall that a force moves goes its way with the velocity that it has in the middle of the step.
+PairPath Impacts::path_of(const Candidate& pair) const {
+  Candidate seen = pair;
+  const std::int32_t second = second_body_of(pair);
+  Point of_j;
+  if (second >= grains()) {
+    const Point wall = velocity(second), gain = acceleration_of(second), given = prescribed_velocity(pair);
+    const double half = in_->step.time_step / 2;
+    seen.wall_v_x = given.x + wall.x + half * gain.x, seen.wall_v_z = given.z + wall.z + half * gain.z;
+  } else if (second >= 0) {
+    of_j = velocity(second);
   }
-  return normal_part(pair, gain);
+  PairPath path(in_->step, seen, velocity(pair.i), of_j);
+  const auto shift = [this](std::int32_t body) {
+    if (body < 0 || body >= grains() || place_[body] < 0) return Point{};
+    const Point now = taken_[place_[body]].shift;
+    const auto& before = in_->step.free.shift;
+    return before.empty() ? now : Point{now.x - before[body].x, now.z - before[body].z};
+  };
+  const Point of_i = shift(pair.i), of_second = shift(second);
+  path.move({of_i.x - of_second.x, of_i.z - of_second.z});
+  return path;
 }
 
-}  // namespace
-
-Point Impacts::velocity_before(const StepInput& step, std::int32_t body) const {
-  if (body < grains_of(step)) return {step.bodies.v_x[body], step.bodies.v_z[body]};
-  const std::int32_t wall = body - grains_of(step);
-  return along({}, step.walls.driven[wall], step.driven[wall].velocity + wall_jumps_[wall]);
+Point Impacts::relative_velocity(const Candidate& pair, double time) const {
+  const std::int32_t second = second_body_of(pair);
+  Point u = velocity(pair.i), a = acceleration_of(pair.i);
+  if (second >= 0) {
+    const Point v = velocity(second), b = acceleration_of(second);
+    u.x -= v.x, u.z -= v.z, a.x -= b.x, a.z -= b.z;
+  }
+  const Point wall = prescribed_velocity(pair);
+  return {u.x - wall.x + time * a.x, u.z - wall.z + time * a.z};
 }
 
-bool Impacts::find_closings(const StepInput& step, const StepContacts& contacts) {
-  slowest_ = slowest_impact(*step.laws.restitution, step.time_step);
+void Impacts::begin(const ImpactInput& input) {
+  in_ = &input;
+  slowest_ = 0;
+  taken_.clear();
+  place_.resize(input.step.bodies.count() + input.step.walls.driven.size(), -1);
+}
+
+bool Impacts::find_closings() {
+  const StepInput& step = in_->step;
+  const double h = step.time_step;
   const auto& v_x = step.bodies.v_x;
   const auto& v_z = step.bodies.v_z;
+  const Point rest = step.laws.gravity.value_or(Point{});
+  const bool shifted = !step.free.shift.empty();
   const auto among = [&](std::size_t begin, std::size_t end) {
     PairList list;
     for (auto a = static_cast<std::int32_t>(begin); a < static_cast<std::int32_t>(end); ++a) {
-      const Candidate& pair = contacts.pairs[a];
-      if (pair.j >= 0) {  // nearly all of them: no more than the velocities
+      const Candidate& pair = in_->pairs[a];
+      if (pair.j >= 0 && !shifted) {  // nearly all of them: no more than the velocities
         const double u_n = pair.n_x * (v_x[pair.i] - v_x[pair.j] - pair.wall_v_x) +
                            pair.n_z * (v_z[pair.i] - v_z[pair.j] - pair.wall_v_z);
-        if (meets(pair, u_n, 0, slowest_, step.time_step) && !rests(step, pair, a, u_n))
-          list.pairs.push_back(a);
-      } else if (closes(step, contacts, a)) {
-        list.pairs.push_back(a);
+        const double slowest = at_rest * h * std::abs(pair.n_x * rest.x + pair.n_z * rest.z);
+        if (u_n >= -slowest || (pair.gap > 0 && pair.gap + h * u_n >= 0)) continue;
       }
+      const PairPath path = path_of(pair);
+      const auto time = path.meeting(0, h);
+      if (time && strikes(a, path.at(*time), *time, true)) list.pairs.push_back(a);
     }
     return list;
   };
-  closings_ = loops_.combined<PairList>(contacts.pairs.size(), among).pairs;
+  closings_ = loops_.combined<PairList>(in_->pairs.size(), among).pairs;
   return !closings_.empty();
 }
 
-void Impacts::link(const StepInput& step, const StepContacts& contacts) {
-  const std::size_t bodies = place_.size();
-  in_pass_.assign(contacts.pairs.size(), -1);
-  first_.assign(bodies, -1);
-  next_.renew(2 * contacts.pairs.size());
+bool Impacts::strikes(std::int32_t a, const Surfaces& now, double time, bool may_be_alone) {
+  const StepInput& step = in_->step;
+  const Candidate& pair = in_->pairs[a];
+  const Point u = relative_velocity(pair, time), g = step.laws.gravity.value_or(Point{});
+  const double u_n = now.n_x * u.x + now.n_z * u.z;
+  if (!(u_n < -slowest_)) return false;
+  if (const double load = in_->loads.of(a); load > 0) {
+    // It rests: the load of the last step would do as much within two.
+    double W_nn = step.bodies.inverse_mass[pair.i];
+    if (pair.j >= 0) W_nn += step.bodies.inverse_mass[pair.j];
+    if (-u_n <= 2 * load * W_nn) return false;
+  }
+  const double gain = step.time_step * std::abs(now.n_x * g.x + now.n_z * g.z);
+  if (-u_n > at_rest * gain) return true;
+  return pair.j < 0 && -u_n > at_rest_alone * gain && (may_be_alone || is_alone(pair.i));
+}
+
+bool Impacts::is_alone(std::int32_t body) {
+  if (!whole_.empty() && !whole_[body]) missing_.push_back(body);
+  return first_[body] >= 0 && next_[first_[body]] < 0;
+}
+
+void Impacts::link() {
+  const std::span<const Candidate> pairs = in_->pairs;
+  met_.assign(pairs.size(), 0);
+  in_pass_.assign(pairs.size(), 0);
+  first_.assign(place_.size(), -1);
+  next_.renew(2 * pairs.size());
   const auto enter = [this](std::int32_t body, std::int32_t entry) {
     next_[entry] = first_[body];
     first_[body] = entry;
   };
-  for (auto a = static_cast<std::int32_t>(contacts.pairs.size()) - 1; a >= 0; --a) {
-    enter(contacts.pairs[a].i, 2 * a);
-    if (const std::int32_t j = second_body_of(step, contacts.pairs[a]); j >= 0) enter(j, 2 * a + 1);
+  for (auto a = static_cast<std::int32_t>(pairs.size()) - 1; a >= 0; --a) {
+    enter(pairs[a].i, 2 * a);
+    if (const std::int32_t j = second_body_of(pairs[a]); j >= 0) enter(j, 2 * a + 1);
   }
 }
 
-std::int32_t Impacts::take_up(const StepInput& step, std::int32_t body) {
-  if (place_[body] >= 0) return place_[body];
-  if (!whole_.empty() && !whole_[body]) missing_.push_back(body);
-  ImpactBody taken;
-  taken.body = body;
-  const Point v = velocity_before(step, body);
-  taken.v_x = taken.before_x = v.x, taken.v_z = taken.before_z = v.z;
-  if (body < grains_of(step)) {
-    taken.inverse_mass = step.bodies.inverse_mass[body];
-    taken.spins = step.laws.friction && step.laws.spin;
-    if (taken.spins) taken.rim = taken.before_rim = step.bodies.radius[body] * step.bodies.spin[body];
-  } else {
-    const Driven& wall = step.walls.driven[body - grains_of(step)];
-    taken.along = wall.direction;
-    taken.inverse_mass = wall.inverse_mass;
+void Impacts::schedule(std::int32_t a, double from) {
+  const Candidate& pair = in_->pairs[a];
+  const PairPath path = path_of(pair);
+  const auto time = path.meeting(from, in_->step.time_step);
+  if (!time || !strikes(a, path.at(*time), *time, false)) return;
+  if (met_[a] >= most_impacts) {
+    unresolved_ += met_[a]++ == most_impacts;
+    return;
   }
-  place_[body] = static_cast<std::int32_t>(pass_.bodies.size());
-  pass_.bodies.push_back(taken);
-  return place_[body];
+  events_.push_back({*time, a, passes_of(pair)});
+  std::push_heap(events_.begin(), events_.end(), std::greater<>());
 }
 
-void Impacts::add(const StepInput& step, const Candidate& pair, std::int32_t index) {
+std::int32_t Impacts::take_up(std::int32_t body) {
+  if (place_[body] < 0) {
+    if (!whole_.empty() && !whole_[body]) missing_.push_back(body);
+    const StepInput& step = in_->step;
+    ImpactBody taken;
+    taken.body = body;
+    const Point v = velocity_before(body);
+    taken.v_x = v.x, taken.v_z = v.z;
+    if (body < grains()) {
+      taken.inverse_mass = step.bodies.inverse_mass[body];
+      taken.spins = !step.bodies.spin.empty();
+      if (taken.spins) taken.rim = step.bodies.radius[body] * step.bodies.spin[body];
+      if (!step.free.shift.empty()) taken.shift = step.free.shift[body];
+    } else {
+      const Driven& wall = step.walls.driven[body - grains()];
+      taken.inverse_mass = wall.inverse_mass;
+      taken.along = wall.direction;
+    }
+    place_[body] = static_cast<std::int32_t>(taken_.size());
+    taken_.push_back(taken);
+  }
+  ImpactBody& taken = taken_[place_[body]];
+  if (taken.place < 0) {
+    pass_.bodies.push_back(taken);
+    ImpactBody& now = pass_.bodies.back();
+    now.before_x = now.v_x, now.before_z = now.v_z, now.before_rim = now.rim;
+    taken.place = static_cast<std::int32_t>(pass_.bodies.size()) - 1;
+  }
+  return taken.place;
+}
+
+void Impacts::add(std::int32_t a, const Surfaces& now, double time) {
+  const StepInput& step = in_->step;
+  const Candidate& pair = in_->pairs[a];
   ImpactContact contact;
-  contact.pair = index;
-  contact.i = take_up(step, pair.i);
-  const std::int32_t second = second_body_of(step, pair);
-  contact.j = second < 0 ? -1 : take_up(step, second);
-  contact.n_x = pair.n_x, contact.n_z = pair.n_z;
-  contact.wall = prescribed_velocity(step, pair);
+  contact.pair = a;
+  contact.i = take_up(pair.i);
+  const std::int32_t second = second_body_of(pair);
+  contact.j = second < 0 ? -1 : take_up(second);
+  contact.n_x = now.n_x, contact.n_z = now.n_z;
+  contact.wall = prescribed_velocity(pair);
+  const Point of_i = acceleration_of(pair.i), of_j = second < 0 ? Point{} : acceleration_of(second);
+  contact.gain = {time * (of_i.x - of_j.x), time * (of_i.z - of_j.z)};
   contact.e = value_of(step.laws.restitution->e, pair.i, pair.j, step.materials());
   if (step.laws.friction) contact.mu = friction_bound(*step.laws.friction, pair, step.materials());
   pass_.add(contact);
-  in_pass_[index] = pass_number_;
+  in_pass_[a] = passes_;
+  ++met_[a];
 }
 
-Point Impacts::velocity(const StepInput& step, std::int32_t body) const {
-  if (place_[body] < 0) return velocity_before(step, body);
-  const ImpactBody& taken = pass_.bodies[place_[body]];
-  return {taken.v_x, taken.v_z};
-}
-
-bool Impacts::rests(const StepInput& step, const Candidate& pair, std::int32_t a, double u_n) const {
-  const double load = loads_.of(static_cast<std::size_t>(a));
-  if (load <= 0) return false;
-  double W_nn = step.bodies.inverse_mass[pair.i];
-  if (pair.j >= 0) W_nn += step.bodies.inverse_mass[pair.j];
-  return -u_n <= 2 * load * W_nn;
-}
-
-bool Impacts::closes(const StepInput& step, const StepContacts& contacts, std::int32_t a) const {
-  const Candidate& pair = contacts.pairs[a];
-  Point u = velocity(step, pair.i);
-  if (const std::int32_t second = second_body_of(step, pair); second >= 0) {
-    const Point v = velocity(step, second);
-    u.x -= v.x, u.z -= v.z;
-  }
-  const Point wall = prescribed_velocity(step, pair);
-  u.x -= wall.x, u.z -= wall.z;
-  const double gain = pair.j < 0 ? gain_on_wall(step, pair) : 0;
-  const double u_n = normal_part(pair, u);
-  return meets(pair, u_n, gain, slowest_, step.time_step) && !rests(step, pair, a, u_n);
-}
-
-bool Impacts::take_in_neighbours(const StepInput& step, const StepContacts& contacts) {
+bool Impacts::take_in_neighbours(double time) {
   const std::size_t before = pass_.contacts.size();
   for (std::size_t c = 0; c < before; ++c)
     for (const std::int32_t place : {pass_.contacts[c].i, pass_.contacts[c].j}) {
       if (place < 0) continue;
       each_pair_of(pass_.bodies[place].body, [&](std::int32_t a) {
-        const Candidate& pair = contacts.pairs[a];
-        if (in_pass_[a] != pass_number_ && pair.gap <= touching && closes(step, contacts, a))
-          add(step, pair, a);
+        if (in_pass_[a] == passes_ || met_[a] >= most_impacts) return;
+        const Surfaces now = path_of(in_->pairs[a]).at(time);
+        if (now.gap <= touching && strikes(a, now, time, false)) add(a, now, time);
       });
     }
   return pass_.contacts.size() > before;
-}
-
-void Impacts::compress(const StepInput& step, const StepContacts& contacts) {
-  do {
-    do pass_.compress_roughly();
-    while (take_in_neighbours(step, contacts));
-    pass_.compress();
-  } while (take_in_neighbours(step, contacts));
-}
-
-void Impacts::find_next_closings(const StepInput& step, const StepContacts& contacts) {
-  closings_.clear();
-  ++pass_number_;
-  for (const ImpactContact& c : pass_.contacts)
-    for (const std::int32_t place : {c.i, c.j}) {
-      if (place < 0) continue;
-      each_pair_of(pass_.bodies[place].body, [&](std::int32_t a) {
-        if (in_pass_[a] == pass_number_ || !closes(step, contacts, a)) return;
-        in_pass_[a] = pass_number_;
-        closings_.push_back(a);
-      });
-    }
 }
 
 void Impacts::list_strikes(StepContacts& contacts) {
   for (const ImpactContact& c : pass_.contacts) {
     if (c.normal == 0) continue;
     ++count_;
-    const Candidate& pair = contacts.pairs[c.pair];
-    contacts.strikes.push_back({pair.i, pair.j, pair.n_x, pair.n_z, c.normal, c.tangential});
+    const Candidate& pair = in_->pairs[c.pair];
+    contacts.strikes.push_back({pair.i, pair.j, c.n_x, c.n_z, c.normal, c.tangential});
   }
 }
 
-void Impacts::give_back(const StepInput& step, Bodies& bodies, StepContacts& contacts) {
-  for (const ImpactBody& body : pass_.bodies) {
+void Impacts::strike(const Event& event, StepContacts& contacts) {
+  pass_.begin();
+  ++passes_;
+  add(event.pair, path_of(in_->pairs[event.pair]).at(event.time), event.time);
+  do {
+    do pass_.compress_roughly();
+    while (take_in_neighbours(event.time));
+    pass_.compress();
+  } while (take_in_neighbours(event.time));
+  pass_.expand(work_);
+  list_strikes(contacts);
+  closings_.clear();
+  for (ImpactBody& body : pass_.bodies) {
+    body.shift.x += event.time * (body.before_x - body.v_x);
+    body.shift.z += event.time * (body.before_z - body.v_z);
+    ++body.passes;
+    taken_[place_[body.body]] = body;  // in no pass
+    each_pair_of(body.body, [&](std::int32_t a) { closings_.push_back(a); });
+  }
+  std::sort(closings_.begin(), closings_.end());
+  closings_.erase(std::unique(closings_.begin(), closings_.end()), closings_.end());
+  for (const std::int32_t a : closings_) schedule(a, event.time);
+}
+
+void Impacts::give_back(const ImpactOutput& output) {
+  Bodies& bodies = output.bodies;
+  if (output.shift.empty()) output.shift.assign(bodies.count(), {});
+  for (const ImpactBody& body : taken_) {
     place_[body.body] = -1;
-    const Point before = velocity_before(step, body.body);
+    const Point before = velocity_before(body.body);
     const Point change{body.v_x - before.x, body.v_z - before.z};
-    if (const std::int32_t k = body.body - grains_of(step); k >= 0) {
-      contacts.wall_jumps[k] += change.x * body.along.x + change.z * body.along.z;
+    if (const std::int32_t k = body.body - grains(); k >= 0) {
+      output.contacts.wall_jumps[k] += change.x * body.along.x + change.z * body.along.z;
       continue;
     }
     const std::int32_t b = body.body;
-    StruckGrain struck{b, change.x, change.z, 0, before};
+    Point& shift = output.shift[b];
+    StruckGrain struck{b, change.x, change.z, 0, before, {body.shift.x - shift.x, body.shift.z - shift.z}};
+    shift = body.shift;
     bodies.v_x[b] = body.v_x, bodies.v_z[b] = body.v_z;
     if (body.spins) {
       const double spin = body.rim / bodies.radius[b];
@@ -242,53 +319,45 @@ void Impacts::give_back(const StepInput& step, Bodies& bodies, StepContacts& con
   }
 }
 
-bool Impacts::any(const StepInput& step, const RememberedLoads& loads, const StepContacts& contacts) {
-  loads_ = loads;
-  wall_jumps_ = contacts.wall_jumps;
-  place_.resize(step.bodies.count() + step.walls.driven.size(), -1);
-  return find_closings(step, contacts);
+bool Impacts::any(const ImpactInput& input) {
+  begin(input);
+  return find_closings();
 }
 
-void Impacts::give_up(StepContacts& contacts, std::size_t strikes) {
-  for (const ImpactBody& body : pass_.bodies) place_[body.body] = -1;
-  contacts.strikes.resize(strikes);
-  count_ = 0;
+void Impacts::resolve(const ImpactInput& input, const ImpactOutput& output) {
+  (void)resolve_part(input, {}, output);
 }
 
-void Impacts::resolve(const StepInput& step, const RememberedLoads& loads, Bodies& bodies,
-                      StepContacts& contacts) {
-  (void)resolve_part(step, loads, {}, bodies, contacts);
-}
-
-bool Impacts::resolve_part(const StepInput& step, const RememberedLoads& loads, std::span<const char> whole,
-                           Bodies& bodies, StepContacts& contacts) {
-  loads_ = loads;
+bool Impacts::resolve_part(const ImpactInput& input, std::span<const char> whole,
+                           const ImpactOutput& output) {
+  begin(input);
   whole_ = whole;
-  struck_.clear(), missing_.clear();
+  struck_.clear(), missing_.clear(), events_.clear();
   work_ = {};
-  count_ = pass_number_ = 0;
-  wall_jumps_ = contacts.wall_jumps;
-  place_.resize(step.bodies.count() + step.walls.driven.size(), -1);
-  if (!find_closings(step, contacts)) return true;
-  link(step, contacts);
-  pass_.bodies.clear();
-  const std::size_t strikes_before = contacts.strikes.size();
-  for (int passes = 0; !closings_.empty() && passes < most_passes; ++passes) {
-    pass_.begin();
-    for (const std::int32_t a : closings_) add(step, contacts.pairs[a], a);
-    if (passes == 0)
-      for (const ImpactContact& c : pass_.contacts) slowest_ = std::max(slowest_, -rounding * c.u_n);
-    compress(step, contacts);
-    if (!missing_.empty()) {
-      give_up(contacts, strikes_before);
-      return false;
-    }
-    pass_.expand(work_);
-    list_strikes(contacts);
-    find_next_closings(step, contacts);
+  count_ = unresolved_ = passes_ = 0;
+  if (!find_closings()) return true;
+  link();
+  const std::size_t strikes_before = output.contacts.strikes.size();
+  for (const std::int32_t a : closings_) {
+    const Candidate& pair = in_->pairs[a];
+    const Point u = relative_velocity(pair, 0);
+    slowest_ = std::max(slowest_, -rounding * (pair.n_x * u.x + pair.n_z * u.z));
   }
-  give_back(step, bodies, contacts);
-  return true;
+  for (const std::int32_t a : closings_) schedule(a, 0);
+  while (!events_.empty() && missing_.empty()) {
+    std::pop_heap(events_.begin(), events_.end(), std::greater<>());
+    const Event event = events_.back();
+    events_.pop_back();
+    if (event.passes == passes_of(in_->pairs[event.pair])) strike(event, output.contacts);
+  }
+  if (missing_.empty()) {
+    give_back(output);
+    return true;
+  }
+  for (const ImpactBody& body : taken_) place_[body.body] = -1;
+  output.contacts.strikes.resize(strikes_before);
+  count_ = unresolved_ = 0;
+  return false;
 }
 
 }  // namespace drumlin::particles

@@ -1,13 +1,12 @@
 #pragma once
-// Impacts within a step: pairs that meet, or touch, and close faster than 2 g h, or than twice what their
-// load of the last step gives them, rebound before the contact problem of the step is assembled
-// (docs/theory/impacts.md).
+// Impacts within a step: pairs that meet, faster than what a force does within a step, rebound at the time at
+// which they meet, before the contact problem of the step is assembled (docs/theory/impacts.md).
 //
-// A pass takes the velocities v at the beginning of the step to P(v), P the projection on u_n >= 0 of the
-// closing pairs with Coulomb friction (compression), and gives each normal impulse p back e times, with
-// friction up to mu e p (expansion). Without friction and for one e that is v -> (1 + e) P(v) - e v: Newton's
-// law for impacts at once. Passes follow one another until no pair closes. No pass raises the energy: proof
-// in the same place.
+// Impacts follow one another in time. Each is one pass: it takes the velocities v to P(v), P the projection
+// on u_n >= 0 of the pair and of those that touch then and would close, with Coulomb friction (compression),
+// and gives each normal impulse p back e times, with friction up to mu e p (expansion). Without friction and
+// for one e that is v -> (1 + e) P(v) - e v: Newton's law for impacts at once. No pass raises the energy:
+// proof in the same place.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -17,15 +16,18 @@
 #include "particles/parallel/work_memory.hpp"
 #include "particles/stepping/contact_memory.hpp"
 #include "particles/stepping/impact_pass.hpp"
+#include "particles/stepping/meeting.hpp"
 #include "particles/stepping/step_contacts.hpp"
 
 namespace drumlin::particles {
 
-/// A grain that impacts have struck: the changes of its velocities, and what they were before.
+/// A grain that impacts have struck: the changes of its velocities and of its shift (FreeMotion), and its
+/// velocity before.
 struct StruckGrain {
   std::int32_t grain = 0;
   double v_x = 0, v_z = 0, spin = 0;
   Point before;
+  Point shift;
 };
 
 /// Picks out the pairs of struck grains; keeps workspace only.
@@ -54,80 +56,118 @@ class StruckPairs {
   std::vector<char> is_struck_;  // of each body, within select() alone
 };
 
+/// What impacts of a step depend on: pairs as they were found, in the order of (i, j), and the loads that
+/// they carried in the last step.
+struct ImpactInput {
+  const StepInput& step;
+  std::span<const Candidate> pairs;
+  const RememberedLoads& loads;
+  std::span<const double> wall_jumps;  ///< what impacts have added to the velocity of each driven wall
+};
+
+/// What they change: velocities and spins of the bodies, those of the step, the shifts of its free motion,
+/// the velocities of driven walls; strikes are added to.
+struct ImpactOutput {
+  Bodies& bodies;
+  std::vector<Point>& shift;
+  StepContacts& contacts;
+};
+
 /// Resolves the impacts of steps; keeps workspace only, and does nothing in a step without impacts.
 class Impacts {
  public:
   /// Lets a team share the work; the result does not depend on it.
   void use(ThreadTeam* team) { loops_ = TeamLoops(team); }
   /// Takes the pairs of each body from a memory, in the frame that is open in resolve().
-  void use(WorkMemory* memory) { first_.use(memory), next_.use(memory), in_pass_.use(memory); }
-  /// Adds what impacts change to the velocities and spins of `bodies`, those of `step`, and lists their
-  /// impulses in `contacts.strikes`. Velocities of walls moved by a force change too: `contacts.wall_jumps`
-  /// adds up by how much.
-  void resolve(const StepInput& step, const RememberedLoads& loads, Bodies& bodies, StepContacts& contacts);
+  void use(WorkMemory* memory) {
+    first_.use(memory), next_.use(memory), met_.use(memory), in_pass_.use(memory);
+  }
+  void resolve(const ImpactInput& input, const ImpactOutput& output);
 
   /// The same of a part of the pairs: all that meet at first, and all pairs of the bodies b with whole[b].
-  /// Returns false, and changes nothing, where a pass takes up other bodies, which missing() lists; else the
-  /// result is that of all pairs, to the last bit.
-  bool resolve_part(const StepInput& step, const RememberedLoads& loads, std::span<const char> whole,
-                    Bodies& bodies, StepContacts& contacts);
+  /// Returns false, and changes nothing, where an impact takes up other bodies, which missing() lists; else
+  /// the result is that of all pairs, to the last bit.
+  bool resolve_part(const ImpactInput& input, std::span<const char> whole, const ImpactOutput& output);
 
-  /// Whether resolve() would have anything to do; of a part of the pairs, whether these alone give it.
-  bool any(const StepInput& step, const RememberedLoads& loads, const StepContacts& contacts);
+  /// Whether resolve() would have anything to do; of a part of the pairs, whether these alone may give it.
+  bool any(const ImpactInput& input);
 
-  // Of the last call, which was any(): the pairs that meet.
+  // Of the last call, which was any(): the pairs that may meet.
   std::span<const std::int32_t> closings() const { return closings_; }
   // Of the last call of resolve_part() alone.
   std::span<const std::int32_t> missing() const { return missing_; }
   // Of the last call of resolve().
   std::span<const StruckGrain> struck() const { return struck_; }
   const ImpactWork& work() const { return work_; }
-  /// Pairs that met, counted once per pass.
+  /// Pairs that met, counted once per impact.
   int count() const { return count_; }
+  /// Pairs that met more often than is resolved: the contact problem stops them.
+  int unresolved() const { return unresolved_; }
 
  private:
-  /// The pairs that meet within the step.
-  bool find_closings(const StepInput&, const StepContacts&);
+  /// A pair that meets at a time, if neither side has been struck since that was found.
+  struct Event {
+    double time = 0;
+    std::int32_t pair = 0;
+    int passes = 0;  // of both sides
+    bool operator>(const Event& other) const {
+      return time != other.time ? time > other.time : pair > other.pair;
+    }
+  };
+
+  void begin(const ImpactInput&);
+  /// The pairs that may meet within the step.
+  bool find_closings();
   /// Lists the pairs of each body.
-  void link(const StepInput&, const StepContacts&);
-  /// Place of a body in the pass, where it is taken up if it is new there.
-  std::int32_t take_up(const StepInput&, std::int32_t body);
-  void add(const StepInput&, const Candidate& pair, std::int32_t index);
-  /// Velocity of a body before the first pass, and after the passes so far.
-  Point velocity_before(const StepInput&, std::int32_t body) const;
-  Point velocity(const StepInput&, std::int32_t body) const;
-  /// Whether pair a meets within the step fast enough, with the velocities as they stand.
-  bool closes(const StepInput&, const StepContacts&, std::int32_t a) const;
-  /// Whether pair a, which closes at u_n < 0, rests: its load would do as much within two steps.
-  bool rests(const StepInput&, const Candidate& pair, std::int32_t a, double u_n) const;
-  /// Ends passes that took up bodies without their pairs.
-  void give_up(StepContacts&, std::size_t strikes);
+  void link();
+  std::int32_t grains() const;
+  std::int32_t second_body_of(const Candidate& pair) const;
+  /// Position of a body in the impact in hand, where it is taken up if it is new there.
+  std::int32_t take_up(std::int32_t body);
+  /// Velocity of a body before the first impact, and after those so far.
+  Point velocity_before(std::int32_t body) const;
+  Point velocity(std::int32_t body) const;
+  int passes_of(const Candidate& pair) const;
+  /// Velocity that forces give a body in a unit of time.
+  Point acceleration_of(std::int32_t body) const;
+  /// Of the wall of a pair, or of the image of j, but for what its own body has, with the normal as it is
+  /// now.
+  Point prescribed_velocity(const Candidate& pair) const;
+  PairPath path_of(const Candidate& pair) const;
+  /// Velocity of i against j at a time.
+  Point relative_velocity(const Candidate& pair, double time) const;
+  /// Whether pair a, with these surfaces at a time, closes there fast enough for an impact.
+  bool strikes(std::int32_t a, const Surfaces& now, double time, bool may_be_alone);
+  /// Whether a grain has no other pair than one.
+  bool is_alone(std::int32_t body);
+  /// When pair a meets next, from a time on.
+  void schedule(std::int32_t a, double from);
+  void add(std::int32_t a, const Surfaces& now, double time);
+  /// One impact, with the pairs that it makes close at the same time.
+  void strike(const Event& event, StepContacts&);
   /// Takes in the touching pairs that the pass has made close; false if there are none.
-  bool take_in_neighbours(const StepInput&, const StepContacts&);
-  /// Compresses with all touching pairs that this closes.
-  void compress(const StepInput&, const StepContacts&);
-  void find_next_closings(const StepInput&, const StepContacts&);
-  /// Lists the impulses of a pass.
+  bool take_in_neighbours(double time);
   void list_strikes(StepContacts&);
-  void give_back(const StepInput&, Bodies&, StepContacts&);
+  void give_back(const ImpactOutput&);
   template <class Visit>
   void each_pair_of(std::int32_t body, Visit visit) const {
     for (std::int32_t k = first_[body]; k >= 0; k = next_[k]) visit(k / 2);
   }
 
+  const ImpactInput* in_ = nullptr;  // within a call
   ImpactPass pass_;
-  std::vector<std::int32_t> closings_;    // pairs
-  std::span<const char> whole_;           // of each body, whether its pairs are all there; empty: of all
-  std::vector<std::int32_t> missing_;     // bodies taken up without that
-  std::vector<std::int32_t> place_;       // of each body in the pass; -1: not there
-  WorkArray<std::int32_t> first_, next_;  // pairs of each body, linked
-  WorkArray<std::int32_t> in_pass_;       // number of the last pass in which a pair took part
-  std::span<const double> wall_jumps_;    // those of the step so far
+  std::vector<Event> events_;              // a heap, the first one in time on top
+  std::vector<std::int32_t> closings_;     // pairs
+  std::span<const char> whole_;            // of each body, whether its pairs are all there; empty: of all
+  std::vector<std::int32_t> missing_;      // bodies taken up without that
+  std::vector<ImpactBody> taken_;          // bodies that impacts have taken up
+  std::vector<std::int32_t> place_;        // of each body among them; -1: not there
+  WorkArray<std::int32_t> first_, next_;   // pairs of each body, linked
+  WorkArray<std::int32_t> met_, in_pass_;  // how often each pair has met; the last impact that it was in
   std::vector<StruckGrain> struck_;
   ImpactWork work_;
-  int count_ = 0, pass_number_ = 0;
+  int count_ = 0, unresolved_ = 0, passes_ = 0;
   double slowest_ = 0;
-  RememberedLoads loads_;
   TeamLoops loops_;
 };
 

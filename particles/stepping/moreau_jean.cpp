@@ -15,10 +15,11 @@
 #include "particles/stepping/book_contacts.hpp"
 #include "particles/stepping/cell_step.hpp"
 #include "particles/stepping/impacts.hpp"
+#include "particles/stepping/lone_contact.hpp"
+#include "particles/stepping/meeting.hpp"
 #include "particles/stepping/position_projection.hpp"
 #include "particles/stepping/set_free_motion.hpp"
 #include "particles/stepping/snapshot_of_state.hpp"
-#include "particles/stepping/swept_normals.hpp"
 #include "particles/stepping/wall_crossing.hpp"
 
 namespace drumlin::particles {
@@ -38,6 +39,8 @@ class Stopwatch {
 
 // Rounds of impacts within a step, which may throw grains into pairs that no search has found.
 constexpr int most_searches = 5;
+// Of the impulse on a grain: what may come from other contacts if it counts as the only one.
+constexpr double alone = 1e-9;
 
 template <class Problem, bool with_spin>
 class MoreauJean final : public Stepper {
@@ -77,15 +80,17 @@ class MoreauJean final : public Stepper {
     const bool open = laws_.period.open() && laws_.period.open_z();  // else places are those of images
     work_.places = open ? BodyPlaces{bodies.x, bodies.z} : BodyPlaces{};
     report.solve = solve_(problem_, solver_.rule, work_, solution_);
+    find_lone_steps(step, state.memory);
     remember(contacts_.pairs, order_.order(), solution_.impulses, time_step, TeamLoops(&team_), state.memory);
     move(bodies, time_step);
+    if (books_) books_->move(bodies, time_step, *state.energy);
     if (books_) book_contacts(step, contacts_, problem_, solution_, *books_, *state.energy);
     if (state.cell) deform(step, state);
     if constexpr (drives) move_driven_walls(free_, time_step, walls, state.driven);
     (void)watch.lap();
     report.overlap = project(state, walls, report.lost);
     report.projection_seconds = watch.lap();
-    if (books_) books_->close(bodies, time_step, *state.energy);
+    if (books_) books_->close(bodies, *state.energy);
     return report;
   }
 
@@ -167,6 +172,7 @@ class MoreauJean final : public Stepper {
   void detect(const StepInput& step, const MovingState& state, Stopwatch& watch, StepReport& report) {
     const WorkMemory::Frame frame(&memory_);
     contacts_.strikes.clear();
+    free_.shift.clear();
     contacts_.wall_jumps.assign(step.driven.size(), 0.0);
     move_freely(step);
     detection_.find(step.bodies, free_.x, free_.z, detection_input(step));
@@ -175,23 +181,21 @@ class MoreauJean final : public Stepper {
     if (laws_.restitution) strike(step, state, watch, report);
     // In solve order only now: impacts may have brought more pairs together.
     order_.find(detection_.candidates(), step.bodies, laws_.period, problem_.W.plan);
-    take_candidates(step, [order = order_.order()](std::size_t a) { return order[a]; });
+    take_candidates(step, order_.order());
     recollection_.warm_start(state.memory, dim, step.time_step, order_.order(), solution_.impulses);
     report.detection_seconds += watch.lap();
   }
 
-  /// The pairs found, in the order of place(0), place(1), ..., with the normals of the time at which they
-  /// meet.
-  template <class Place>
-  void take_candidates(const StepInput& step, Place place) {
+  /// The pairs found, in the order of the solve, with the normals of the time at which they meet.
+  void take_candidates(const StepInput& step, std::span<const std::int32_t> order) {
     const auto found = detection_.candidates();
     resize_closely(contacts_.pairs, found.size());
     TeamLoops(&team_).each(found.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t a = begin; a < end; ++a) {
-        if (a + turns_ahead < end) ask_for(&found[place(a + turns_ahead)]);
-        contacts_.pairs[a] = found[place(a)];
+        if (a + turns_ahead < end) ask_for(&found[order[a + turns_ahead]]);
+        contacts_.pairs[a] = found[order[a]];
       }
-      sweep_normals(step, std::span(contacts_.pairs).subspan(begin, end - begin));
+      place_pairs(step, std::span(contacts_.pairs).subspan(begin, end - begin));
     });
   }
 
@@ -200,10 +204,12 @@ class MoreauJean final : public Stepper {
     searched_.x = free_.x, searched_.z = free_.z;
     for (int searches = 1;; ++searches) {
       if (searches > 1 && !strikes_again(step, state)) return;
-      take_candidates(step, [](std::size_t a) { return a; });
-      impacts_.resolve(step, recollection_.loads(state.memory, dim, step.time_step), state.bodies, contacts_);
+      const auto loads = recollection_.loads(state.memory, dim, step.time_step);
+      impacts_.resolve({step, detection_.candidates(), loads, contacts_.wall_jumps},
+                       {state.bodies, free_.shift, contacts_});
       if (books_) books_->strike(impacts_.struck(), impacts_.work(), *state.energy);
       report.impacts += impacts_.count();
+      report.impacts_unresolved += impacts_.unresolved();
       report.setup_seconds += watch.lap();
       if (impacts_.count() == 0) return;
       move_freely(step);
@@ -229,10 +235,9 @@ class MoreauJean final : public Stepper {
     const auto found = detection_.candidates();
     struck_pairs_.select(
         step.bodies.count(), impacts_.struck(), [](const StruckGrain& struck) { return struck.grain; },
-        found.size(), [&](std::size_t a) -> const Candidate& { return found[a]; }, struck_contacts_.pairs);
-    sweep_normals(step, struck_contacts_.pairs);
-    const auto loads = recollection_.loads_of(struck_contacts_.pairs, state.memory, dim, step.time_step);
-    return impacts_.any(step, loads, struck_contacts_);
+        found.size(), [&](std::size_t a) -> const Candidate& { return found[a]; }, pairs_of_struck_);
+    const auto loads = recollection_.loads_of(pairs_of_struck_, state.memory, dim, step.time_step);
+    return impacts_.any({step, pairs_of_struck_, loads, contacts_.wall_jumps});
   }
 
   /// The grains that impacts have thrown further than the search for pairs allowed for; false if none.
@@ -253,23 +258,55 @@ class MoreauJean final : public Stepper {
     return {step.walls.before, step.walls.displacement, step.time_step, laws_.detection_margin, laws_.period};
   }
 
-  /// New velocities from the solution, then new positions; of driven walls the velocities alone.
+  /// Replaces the impulses on grains that touch nothing but a wall, and did in the last step, by those of the
+  /// midpoint rule (lone_contact.hpp). Cohesion and rolling resistance do not know it.
+  void find_lone_steps(const StepInput& step, const ContactMemory& memory) {
+    lone_.clear();
+    if (dim == 3 || laws_.cohesion) return;
+    for (std::size_t a = 0; a < contacts_.pairs.size(); ++a) {
+      Candidate& pair = contacts_.pairs[a];
+      if (pair.j >= 0 || solution_.impulses[dim * a] == 0 || driven_wall_of(step.walls, pair) >= 0) continue;
+      const double w = step.bodies.inverse_mass[pair.i];
+      double r_n = solution_.impulses[dim * a], r_t = dim == 2 ? solution_.impulses[dim * a + dim - 1] : 0;
+      auto& change = solution_.velocities.bodies[pair.i];
+      const Point other{change.x - w * (pair.n_x * r_n + pair.n_z * r_t),
+                        change.z - w * (pair.n_z * r_n - pair.n_x * r_t)};
+      if (std::hypot(other.x, other.z) > alone * w * r_n || !was_loaded(memory, pair)) continue;
+      const double mu = laws_.friction ? friction_bound(*laws_.friction, pair, step.materials()) : 0;
+      const auto lone = lone_step(step, pair, mu);
+      if (!lone) continue;
+      r_n = lone->normal / w, r_t = lone->tangential / w;
+      solution_.impulses[dim * a] = r_n;
+      if (dim == 2) solution_.impulses[dim * a + dim - 1] = r_t;
+      pair.n_x = lone->n_x, pair.n_z = lone->n_z;
+      pair.wall_v_x = lone->wall_velocity.x, pair.wall_v_z = lone->wall_velocity.z;
+      change.x = w * (pair.n_x * r_n + pair.n_z * r_t), change.z = w * (pair.n_z * r_n - pair.n_x * r_t);
+      if constexpr (with_spin) change.s = -2 * w * r_t;
+      lone_.push_back({pair.i, lone->end});
+    }
+  }
+
+  /// New velocities from the solution, then new positions: with the velocity at the end where contacts act,
+  /// which leaves no overlap, with the mean where none does, which is exact. Of driven walls the velocities
+  /// alone.
   void move(Bodies& bodies, double time_step) {
     const bool loaded = problem_.contacts() > 0;
     const auto& changes = solution_.velocities.bodies;
     TeamLoops(&team_).each(bodies.count(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t b = begin; b < end; ++b) {
-        bodies.v_x[b] = free_.x[b];
-        bodies.v_z[b] = free_.z[b];
-        if (loaded) {
-          bodies.v_x[b] += changes[b].x;
-          bodies.v_z[b] += changes[b].z;
+        Point v{free_.x[b], free_.z[b]}, path = v;
+        if (loaded && !(changes[b].x == 0 && changes[b].z == 0)) {
+          path = v = {v.x + changes[b].x, v.z + changes[b].z};
           if constexpr (with_spin) spin_up(bodies, b, changes[b].s);
+        } else {
+          path = {(bodies.v_x[b] + v.x) / 2, (bodies.v_z[b] + v.z) / 2};
         }
-        bodies.x[b] += time_step * bodies.v_x[b];
-        bodies.z[b] += time_step * bodies.v_z[b];
+        if (!free_.shift.empty()) bodies.x[b] += free_.shift[b].x, bodies.z[b] += free_.shift[b].z;
+        bodies.v_x[b] = v.x, bodies.v_z[b] = v.z;
+        bodies.x[b] += time_step * path.x, bodies.z[b] += time_step * path.z;
       }
     });
+    for (const auto& [grain, place] : lone_) bodies.x[grain] = place.x, bodies.z[grain] = place.z;
     if constexpr (drives)
       for (std::size_t k = 0; loaded && k < free_.driven.size(); ++k) {
         const auto& wall = problem_.W.driven[k];
@@ -317,6 +354,7 @@ class MoreauJean final : public Stepper {
   ThreadTeam team_;
   WorkMemory memory_;  // of one phase of a step after the other
   FreeMotion free_;
+  std::vector<std::pair<std::int32_t, Point>> lone_;  // grains on one wall, and where their step ends
   FreeMotion searched_;              // velocities by which pairs were last looked for, grain by grain
   std::vector<ThrownGrain> thrown_;  // since then
   ContactDetection detection_;
@@ -324,7 +362,7 @@ class MoreauJean final : public Stepper {
   StepContacts contacts_;
   Impacts impacts_;
   StruckPairs struck_pairs_;
-  StepContacts struck_contacts_;  // pairs of struck grains
+  std::vector<Candidate> pairs_of_struck_;
   Recollection recollection_;
   Problem problem_;
   SolverWorkspace<Problem> work_;

@@ -42,7 +42,8 @@ struct StepReport {
   Overlap overlap;
   std::optional<LostGrain> lost;  ///< the step went wrong: its state must not be built upon
   std::int64_t contacts = 0;
-  int impacts = 0;  ///< pairs that met faster than 2 g h and rebounded; 0 without restitution
+  int impacts = 0;             ///< pairs that met fast enough and rebounded; 0 without restitution
+  int impacts_unresolved = 0;  ///< pairs that met more often within the step than is followed
   double detection_seconds = 0, setup_seconds = 0, projection_seconds = 0;
 };
 

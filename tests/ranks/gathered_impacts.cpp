@@ -38,7 +38,7 @@ TEST(GatheredImpacts, AreThoseOfOneProcessToTheLastBit) {
   constexpr int discs = 90;
   const Row row(discs);
   const double time_step = 1e-3;
-  const FreeMotion unused;
+  FreeMotion free;
   // One process.
   Bodies bodies = row.bodies;
   StepContacts contacts;
@@ -47,8 +47,9 @@ TEST(GatheredImpacts, AreThoseOfOneProcessToTheLastBit) {
   std::iota(place.begin(), place.end(), 0);
   const std::vector<double> none(row.pairs.size(), 0.0);
   Impacts impacts;
-  impacts.resolve({row.laws, bodies, row.walls, {}, unused, time_step}, {place, none, 1, 1}, bodies,
-                  contacts);
+  const RememberedLoads unloaded(place, none, 1, 1);
+  const StepInput alone{row.laws, bodies, row.walls, {}, free, time_step};
+  impacts.resolve({alone, contacts.pairs, unloaded, {}}, {bodies, free.shift, contacts});
   ASSERT_GT(impacts.struck().size(), 60U);  // they go through most of the row
   // A rank has a stretch of pairs, and sees three discs on each side of them.
   const int stretch = ranks.count() - 1 - ranks.rank();  // against the order of the ranks
@@ -70,10 +71,11 @@ TEST(GatheredImpacts, AreThoseOfOneProcessToTheLastBit) {
     mine.pairs.push_back(pair);
   }
   GatheredImpacts gathered(ranks);
-  const StepInput step{row.laws, seen, row.walls, {}, unused, time_step};
+  FreeMotion free_here;
+  const StepInput step{row.laws, seen, row.walls, {}, free_here, time_step};
   const RememberedLoads loads(place, none, 1, 1);
-  const auto struck =
-      gathered.resolve({step, loads, seen, mine, place_of, {{-1, -discs / 2.0}, discs + 1.0, discs}});
+  const auto struck = gathered.resolve(
+      {step, loads, seen, free_here.shift, mine, place_of, {{-1, -discs / 2.0}, discs + 1.0, discs}});
   ASSERT_EQ(struck.size(), impacts.struck().size());
   for (std::size_t k = 0; k < struck.size(); ++k) {
     const std::int32_t b = impacts.struck()[k].grain;
@@ -81,6 +83,8 @@ TEST(GatheredImpacts, AreThoseOfOneProcessToTheLastBit) {
     EXPECT_EQ(struck[k].v_x, bodies.v_x[b]);
     EXPECT_EQ(struck[k].v_z, bodies.v_z[b]);
     EXPECT_EQ(struck[k].spin, bodies.spin[b]);
+    EXPECT_EQ(struck[k].shift.x, free.shift[b].x);
+    EXPECT_EQ(struck[k].shift.z, free.shift[b].z);
     EXPECT_EQ(struck[k].before.x, row.bodies.v_x[b]);
     EXPECT_EQ(struck[k].before.z, row.bodies.v_z[b]);
   }
@@ -111,7 +115,7 @@ TEST(GatheredImpacts, SendThePairsNearTheImpactsAlone) {
   std::fill(row.bodies.v_x.begin(), row.bodies.v_x.end(), 0.0);
   row.bodies.v_x[0] = 1, row.bodies.v_x[1] = 0.5, row.bodies.v_x[discs - 1] = -1;
   for (Candidate& pair : row.pairs) pair.gap = pair.i < 2 || pair.i == discs - 2 ? 0 : 0.1;
-  const FreeMotion unused;
+  FreeMotion unused;
   // The second rank has the first half of the row, in which more pairs close; the first rank has the others.
   StepContacts mine;
   for (const Candidate& pair : row.pairs)
@@ -125,7 +129,8 @@ TEST(GatheredImpacts, SendThePairsNearTheImpactsAlone) {
   const StepInput step{row.laws, seen, row.walls, {}, unused, 1e-3};
   GatheredImpacts gathered(ranks);
   const RememberedLoads loads(place, none, 1, 1);
-  const auto struck = gathered.resolve({step, loads, seen, mine, places, {{-1, -half}, discs + 1.0, discs}});
+  const auto struck =
+      gathered.resolve({step, loads, seen, unused.shift, mine, places, {{-1, -half}, discs + 1.0, discs}});
   EXPECT_EQ(struck.size(), 5U);
   if (ranks.rank() == 0) {
     EXPECT_GE(gathered.counts().pairs, 1);
@@ -138,7 +143,8 @@ TEST(GatheredImpacts, SendThePairsNearTheImpactsAlone) {
   // Then the other end alone: another rank resolves it, and strikes stand in the order of the calls.
   if (ranks.rank() < 2) row.bodies.v_x[0] = row.bodies.v_x[1] = row.bodies.v_x[2] = 0;
   row.bodies.v_x[discs - 1] = -1, row.bodies.v_x[discs - 2] = 0;
-  const auto again = gathered.resolve({step, loads, seen, mine, places, {{-1, -half}, discs + 1.0, discs}});
+  const auto again =
+      gathered.resolve({step, loads, seen, unused.shift, mine, places, {{-1, -half}, discs + 1.0, discs}});
   EXPECT_EQ(again.size(), 2U);
   const auto strikes = gathered.strikes();
   ASSERT_EQ(strikes.size(), ranks.rank() == 0 ? first + 1 : 0U);

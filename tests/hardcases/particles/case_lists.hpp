@@ -14,5 +14,6 @@ std::vector<HardCase> overlap_cases();
 std::vector<HardCase> drum_cases();
 std::vector<HardCase> invariance_cases();
 std::vector<HardCase> wall_cases();
+std::vector<HardCase> smooth_cases();
 
 }  // namespace drumlin

@@ -7,7 +7,7 @@ namespace drumlin {
 const std::vector<HardCase>& particle_hard_cases() {
   static const std::vector<HardCase> all =
       joined({impact_cases(), energy_cases(), sliding_cases(), static_cases(), overlap_cases(), drum_cases(),
-              invariance_cases(), wall_cases()});
+              invariance_cases(), wall_cases(), smooth_cases()});
   return all;
 }
 

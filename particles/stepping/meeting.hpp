@@ -1,0 +1,66 @@
+#pragma once
+// Where and when the surfaces of a pair meet within a step, on the paths that its bodies take without
+// contacts.
+#include <optional>
+#include <span>
+
+#include "particles/detection/candidate.hpp"
+#include "particles/stepping/step_contacts.hpp"
+
+namespace drumlin::particles {
+
+/// Surfaces of a pair against each other: gap, and unit normal from j to i.
+struct Surfaces {
+  double gap = 0, n_x = 0, n_z = 0;
+};
+
+/// The path of one side of a pair against the other, start + velocity t + acceleration t^2 / 2, from the
+/// beginning of a step. Walls that are not discs move with the velocity of the point of them that was
+/// nearest.
+class PairPath {
+ public:
+  /// Of a pair as it was found. Grains start their paths at `step.free.shift` from their positions, with the
+  /// velocities given; a wall that contacts push counts as one that moves with the velocity of the pair.
+  PairPath(const StepInput& step, const Candidate& pair, const Point& v_i, const Point& v_j);
+
+  /// Another beginning: i has been moved by `shift` against j.
+  void move(const Point& shift) { start_.x += shift.x, start_.z += shift.z; }
+
+  Surfaces at(double time) const { return at_way(way(time)); }
+  /// Somewhere else than on the path: so far from its beginning.
+  Surfaces at_way(const Point& way) const;
+  /// Velocity at a time.
+  Point velocity(double time) const {
+    return {velocity_.x + time * acceleration_.x, velocity_.z + time * acceleration_.z};
+  }
+  /// Way up to a time.
+  Point way(double time) const {
+    return {time * (velocity_.x + time / 2 * acceleration_.x),
+            time * (velocity_.z + time / 2 * acceleration_.z)};
+  }
+  /// First time from `from` to `end` at which the surfaces meet and close; that itself where they touch then.
+  std::optional<double> meeting(double from, double end) const;
+  /// The time up to `end` at which bodies that meet do so, and others are nearest, on a straight path.
+  double nearest(double end) const;
+
+ private:
+  double closing(const Surfaces& s, double time) const;
+  std::optional<double> disc_meeting(double from, double end) const;
+
+  const Shape* shape_ = nullptr;  // none: discs, or a point, at `reach_` from the origin
+  double reach_ = 0;              // sum of the radii; of a shape, the grain's radius
+  Point start_, velocity_, acceleration_;
+};
+
+/// The velocity of the surface of a container turns with the normal, from that of the pair to `now`; the pair
+/// takes both over.
+void turn_wall_velocity(const Surfaces& now, Candidate& pair);
+
+/// Gives pairs the gaps and normals with which the contact problem of a step takes them: of pairs that meet
+/// within the step those of the place where they meet, of discs that pass each other those of where they are
+/// nearest, since a plane through the surfaces as they are now would stop them. The gap is that along the
+/// normal, so that gap + (way within the step) . normal is the gap of the plane at the end. A wall that a
+/// grain does not reach on its path stops nothing.
+void place_pairs(const StepInput& step, std::span<Candidate> pairs);
+
+}  // namespace drumlin::particles
