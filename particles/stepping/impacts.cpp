@@ -77,27 +77,32 @@ Point Impacts::prescribed_velocity(const Candidate& pair) const {
                -free_velocity(step.walls.driven[k], step.driven[k], step.time_step));
 }
 
-/// A wall that a force moves goes its way with the velocity that it has in the middle of the step.
+Point Impacts::shift(std::int32_t body) const {
+  if (place_[body] >= 0) return taken_[place_[body]].shift;
+  const auto& shift = in_->step.free.shift;
+  return shift.empty() ? Point{} : shift[body];
+}
+
+/// A wall that a force moves has the velocity of the middle of the step.
 PairPath Impacts::path_of(const Candidate& pair) const {
-  Candidate seen = pair;
-  const std::int32_t second = second_body_of(pair);
-  Point of_j;
-  if (second >= grains()) {
-    const Point wall = velocity(second), gain = acceleration_of(second), given = prescribed_velocity(pair);
-    const double half = in_->step.time_step / 2;
-    seen.wall_v_x = given.x + wall.x + half * gain.x, seen.wall_v_z = given.z + wall.z + half * gain.z;
-  } else if (second >= 0) {
-    of_j = velocity(second);
+  const Bodies& bodies = in_->step.bodies;
+  const Point v_i = velocity(pair.i), of_i = shift(pair.i);
+  if (pair.j >= 0) {
+    const Point v_j = velocity(pair.j), of_j = shift(pair.j);
+    const double reach = bodies.radius[pair.i] + bodies.radius[pair.j], distance = reach + pair.gap;
+    return {{pair.n_x * distance + of_i.x - of_j.x, pair.n_z * distance + of_i.z - of_j.z},
+            {v_i.x - v_j.x - pair.wall_v_x, v_i.z - v_j.z - pair.wall_v_z},
+            reach};
   }
-  PairPath path(in_->step, seen, velocity(pair.i), of_j);
-  const auto shift = [this](std::int32_t body) {
-    if (body < 0 || body >= grains() || place_[body] < 0) return Point{};
-    const Point now = taken_[place_[body]].shift;
-    const auto& before = in_->step.free.shift;
-    return before.empty() ? now : Point{now.x - before[body].x, now.z - before[body].z};
-  };
-  const Point of_i = shift(pair.i), of_second = shift(second);
-  path.move({of_i.x - of_second.x, of_i.z - of_second.z});
+  Candidate seen = pair;
+  if (const std::int32_t wall = second_body_of(pair); wall >= 0) {
+    const Point v = velocity(wall), gain = acceleration_of(wall), given = prescribed_velocity(pair);
+    const double half = in_->step.time_step / 2;
+    seen.wall_v_x = given.x + v.x + half * gain.x, seen.wall_v_z = given.z + v.z + half * gain.z;
+  }
+  PairPath path(in_->step, seen, v_i, {});
+  const auto& before = in_->step.free.shift;
+  path.move(before.empty() ? of_i : Point{of_i.x - before[pair.i].x, of_i.z - before[pair.i].z});
   return path;
 }
 
@@ -134,7 +139,11 @@ bool Impacts::find_closings() {
         const double u_n = pair.n_x * (v_x[pair.i] - v_x[pair.j] - pair.wall_v_x) +
                            pair.n_z * (v_z[pair.i] - v_z[pair.j] - pair.wall_v_z);
         const double slowest = at_rest * h * std::abs(pair.n_x * rest.x + pair.n_z * rest.z);
-        if (u_n >= -slowest || (pair.gap > 0 && pair.gap + h * u_n >= 0)) continue;
+        if (u_n >= -slowest || (pair.gap > 0 && pair.gap + h * u_n >= 0) || rests(a, u_n)) continue;
+      } else if (pair.j < 0 && pair.gap <= 0) {
+        const Point u = relative_velocity(pair, 0), then = relative_velocity(pair, h);
+        if (rests(a, std::min(pair.n_x * u.x + pair.n_z * u.z, pair.n_x * then.x + pair.n_z * then.z)))
+          continue;
       }
       const PairPath path = path_of(pair);
       const auto time = path.meeting(0, h);
@@ -146,18 +155,23 @@ bool Impacts::find_closings() {
   return !closings_.empty();
 }
 
+/// Whether pair a, which closes at u_n, carries what the load of the last step would do within two.
+bool Impacts::rests(std::int32_t a, double u_n) const {
+  const double load = in_->loads.of(a);
+  if (load <= 0) return false;
+  const Candidate& pair = in_->pairs[a];
+  double W_nn = in_->step.bodies.inverse_mass[pair.i];
+  if (pair.j >= 0) W_nn += in_->step.bodies.inverse_mass[pair.j];
+  return -u_n <= 2 * load * W_nn;
+}
+
 bool Impacts::strikes(std::int32_t a, const Surfaces& now, double time, bool may_be_alone) {
   const StepInput& step = in_->step;
   const Candidate& pair = in_->pairs[a];
   const Point u = relative_velocity(pair, time), g = step.laws.gravity.value_or(Point{});
   const double u_n = now.n_x * u.x + now.n_z * u.z;
   if (!(u_n < -slowest_)) return false;
-  if (const double load = in_->loads.of(a); load > 0) {
-    // It rests: the load of the last step would do as much within two.
-    double W_nn = step.bodies.inverse_mass[pair.i];
-    if (pair.j >= 0) W_nn += step.bodies.inverse_mass[pair.j];
-    if (-u_n <= 2 * load * W_nn) return false;
-  }
+  if (rests(a, u_n)) return false;
   const double gain = step.time_step * std::abs(now.n_x * g.x + now.n_z * g.z);
   if (-u_n > at_rest * gain) return true;
   return pair.j < 0 && -u_n > at_rest_alone * gain && (may_be_alone || is_alone(pair.i));
@@ -187,6 +201,7 @@ void Impacts::link() {
 void Impacts::schedule(std::int32_t a, double from) {
   const Candidate& pair = in_->pairs[a];
   const PairPath path = path_of(pair);
+  if (pair.j >= 0 && path.parts(from)) return;
   const auto time = path.meeting(from, in_->step.time_step);
   if (!time || !strikes(a, path.at(*time), *time, false)) return;
   if (met_[a] >= most_impacts) {
@@ -254,7 +269,9 @@ bool Impacts::take_in_neighbours(double time) {
       if (place < 0) continue;
       each_pair_of(pass_.bodies[place].body, [&](std::int32_t a) {
         if (in_pass_[a] == passes_ || met_[a] >= most_impacts) return;
-        const Surfaces now = path_of(in_->pairs[a]).at(time);
+        const PairPath path = path_of(in_->pairs[a]);
+        if (in_->pairs[a].j >= 0 && path.parts(time)) return;
+        const Surfaces now = path.at(time);
         if (now.gap <= touching && strikes(a, now, time, false)) add(a, now, time);
       });
     }

@@ -127,6 +127,7 @@ class Impacts {
   /// Velocity of a body before the first impact, and after those so far.
   Point velocity_before(std::int32_t body) const;
   Point velocity(std::int32_t body) const;
+  Point shift(std::int32_t body) const;
   int passes_of(const Candidate& pair) const;
   /// Velocity that forces give a body in a unit of time.
   Point acceleration_of(std::int32_t body) const;
@@ -138,6 +139,7 @@ class Impacts {
   Point relative_velocity(const Candidate& pair, double time) const;
   /// Whether pair a, with these surfaces at a time, closes there fast enough for an impact.
   bool strikes(std::int32_t a, const Surfaces& now, double time, bool may_be_alone);
+  bool rests(std::int32_t a, double u_n) const;
   /// Whether a grain has no other pair than one.
   bool is_alone(std::int32_t body);
   /// When pair a meets next, from a time on.

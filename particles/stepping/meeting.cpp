@@ -155,12 +155,25 @@ void keep_parting(const PairPath& path, double gap_before, double h, Candidate& 
   pair.gap = std::min(0.0, std::max(pair.gap - std::min(0.0, gap_before), -parts));
 }
 
+/// Whether a grain touches a wall and goes on into it: nearly all grains at walls.
+bool lies(const StepInput& step, const Candidate& pair) {
+  if (pair.gap > 0) return false;
+  const double x = (step.bodies.v_x[pair.i] + step.free.x[pair.i]) / 2 - pair.wall_v_x;
+  const double z = (step.bodies.v_z[pair.i] + step.free.z[pair.i]) / 2 - pair.wall_v_z;
+  return pair.n_x * x + pair.n_z * z < 0;
+}
+
 void place_at_wall(const StepInput& step, Candidate& pair) {
   const double h = step.time_step, gap_before = pair.gap;
+  const Point shift = shift_of(step, pair.i);
+  const bool shifted = shift.x != 0 || shift.z != 0;
+  if (!shifted && lies(step, pair)) {
+    pair.gap = 0;
+    return;
+  }
   const PairPath path(step, pair, {step.bodies.v_x[pair.i], step.bodies.v_z[pair.i]}, {});
   const bool container = std::holds_alternative<Container>(step.walls.before[-1 - pair.j]);
-  const Point shift = shift_of(step, pair.i), u = path.velocity(h);
-  const bool shifted = shift.x != 0 || shift.z != 0;
+  const Point u = path.velocity(h);
   const Surfaces end = path.at(h);
   const bool passes = end.gap >= 0 && driven_wall_of(step.walls, pair) < 0;
   if (shifted || pair.gap > 0 || pair.n_x * u.x + pair.n_z * u.z >= 0)

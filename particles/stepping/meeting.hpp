@@ -23,8 +23,16 @@ class PairPath {
   /// velocities given; a wall that contacts push counts as one that moves with the velocity of the pair.
   PairPath(const StepInput& step, const Candidate& pair, const Point& v_i, const Point& v_j);
 
+  /// Of two discs whose centres are `start` apart, their surfaces in touch at the distance `reach`.
+  PairPath(const Point& start, const Point& velocity, double reach)
+      : reach_(reach), start_(start), velocity_(velocity) {}
   /// Another beginning: i has been moved by `shift` against j.
   void move(const Point& shift) { start_.x += shift.x, start_.z += shift.z; }
+  /// Whether the surfaces of two discs part at a time.
+  bool parts(double time) const {
+    const Point u = velocity(time), d = way(time);
+    return (start_.x + d.x) * u.x + (start_.z + d.z) * u.z >= 0;
+  }
 
   Surfaces at(double time) const { return at_way(way(time)); }
   /// Somewhere else than on the path: so far from its beginning.
