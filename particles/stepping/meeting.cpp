@@ -36,6 +36,12 @@ double zero_between(double above, double f_above, double below, double f_below, 
   return below;
 }
 
+/// Of the surface of a container: turning about its centre moves none of it.
+Point container_velocity(const StepInput& step, const Container& was, std::size_t shape) {
+  const auto& is = std::get<Container>(step.walls.after[shape]);
+  return {(is.center.x - was.center.x) / step.time_step, (is.center.z - was.center.z) / step.time_step};
+}
+
 }  // namespace
 
 PairPath::PairPath(const StepInput& step, const Candidate& pair, const Point& v_i, const Point& v_j) {
@@ -63,11 +69,24 @@ PairPath::PairPath(const StepInput& step, const Candidate& pair, const Point& v_
   double x = step.bodies.x[pair.i];
   if (!period.open()) x = middle_of(shape).x + period.nearest(x - middle_of(shape).x);
   start_ = {x + of_i.x, step.bodies.z[pair.i] + of_i.z};
-  if (const auto* was = std::get_if<Container>(&shape)) {  // turning about its centre moves no surface
-    const Point then = moved(step.walls.displacement[s], was->center);
-    velocity_ = {v_i.x - (then.x - was->center.x) / step.time_step,
-                 v_i.z - (then.z - was->center.z) / step.time_step};
+  if (const auto* was = std::get_if<Container>(&shape)) {
+    const Point w = container_velocity(step, *was, s);
+    velocity_ = {v_i.x - w.x, v_i.z - w.z};
   }
+}
+
+bool stays_clear(const StepInput& step, const Candidate& pair) {
+  if (!(pair.gap > 0) || driven_wall_of(step.walls, pair) >= 0) return false;
+  const double h = step.time_step;
+  const std::size_t s = -1 - pair.j;
+  const Shape& shape = step.walls.before[s];
+  if (std::holds_alternative<Arc>(shape)) return false;
+  const auto* container = std::get_if<Container>(&shape);
+  const Point w = container ? container_velocity(step, *container, s) : Point{pair.wall_v_x, pair.wall_v_z};
+  const double x = h * ((step.bodies.v_x[pair.i] + step.free.x[pair.i]) / 2 - w.x);
+  const double z = h * ((step.bodies.v_z[pair.i] + step.free.z[pair.i]) / 2 - w.z);
+  const double curvature = container ? 0.5 / (container->radius - step.bodies.radius[pair.i] - pair.gap) : 0;
+  return curvature >= 0 && pair.gap + pair.n_x * x + pair.n_z * z - curvature * (x * x + z * z) >= 0;
 }
 
 Surfaces PairPath::at_way(const Point& d) const {
@@ -169,6 +188,12 @@ void place_at_wall(const StepInput& step, Candidate& pair) {
   const bool shifted = shift.x != 0 || shift.z != 0;
   if (!shifted && lies(step, pair)) {
     pair.gap = 0;
+    return;
+  }
+  if (!shifted && stays_clear(step, pair)) {
+    // The velocity at the end may be greater than that of the path.
+    const Point g = step.laws.gravity.value_or(Point{});
+    pair.gap -= std::min(0.0, h * h / 2 * (pair.n_x * g.x + pair.n_z * g.z));
     return;
   }
   const PairPath path(step, pair, {step.bodies.v_x[pair.i], step.bodies.v_z[pair.i]}, {});

@@ -60,6 +60,10 @@ class PairPath {
   Point start_, velocity_, acceleration_;
 };
 
+/// Whether a grain that no impact has struck stays clear of a wall of which it is not far, told by its normal
+/// and the curvature of containers alone. False of some that do.
+bool stays_clear(const StepInput& step, const Candidate& pair);
+
 /// The velocity of the surface of a container turns with the normal, from that of the pair to `now`; the pair
 /// takes both over.
 void turn_wall_velocity(const Surfaces& now, Candidate& pair);
