@@ -33,6 +33,7 @@ Json report_of(const particles::ImportDescription& description, const fs::path& 
             {"kind", std::holds_alternative<particles::LammpsSource>(description.source) ? "lammps" : "csv"},
             {"files", report.files},
             {"unused_columns", report.unused_columns},
+            {"left_out", report.left_out},
             {"with_spin", report.with_spin},
             {"with_contacts", report.with_contacts}}},
           {"grains", report.grains},
@@ -47,14 +48,16 @@ void print_summary(const fs::path& run, const particles::ImportDescription& desc
   print_out(fmt::format("{}{}: {} snapshots of {} grains, {:.6g} s to {:.6g} s\n", run.string(),
                         description.reduced ? " (reduced)" : "", report.snapshots, report.grains,
                         report.first_time_s, report.last_time_s));
-  print_out(fmt::format(
-      "  d = {:.6g} mm, sqrt(d/g) = {:.6g} s; velocities are those at the instant of the snapshot\n",
-      report.scales.length_m * 1e3, report.scales.time_s));
+  print_out(fmt::format("  d = {:.6g} mm, sqrt(d/g) = {:.6g} s; velocities are those {}\n",
+                        report.scales.length_m * 1e3, report.scales.time_s,
+                        description.grains.velocities == "given" ? "at the instant of the snapshot"
+                                                                 : "since the snapshot before"));
   if (report.with_contacts)
     print_out(fmt::format("  {} contacts that carry a force\n", report.contacts));
   else
     print_out("  without contacts: no stress will be measured\n");
   if (!report.with_spin) print_out("  without spin\n");
+  for (const std::string& snapshot : report.left_out) print_out(fmt::format("  left out: {}\n", snapshot));
   if (!report.unused_columns.empty())
     print_out(fmt::format("  columns that were not used: {}\n", fmt::join(report.unused_columns, ", ")));
 }

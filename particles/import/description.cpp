@@ -23,6 +23,14 @@ void check_together(const ImportDescription& description, const Document& docume
   const auto* lammps = std::get_if<LammpsSource>(&description.source);
   const auto& grains = lammps ? lammps->grains : std::get<CsvSource>(description.source).grains;
   if (grains.empty()) refuse(lammps ? "lammps.grains" : "csv.grains", "names no file", "at least one");
+  if (description.grains.may_change && description.grains.velocities != "given")
+    refuse("grains.velocities", "is displacements of grains that come and go",
+           "given, or may_change = false");
+  if (const auto* csv = std::get_if<CsvSource>(&description.source); csv && !csv->heading.empty()) {
+    if (csv->columns.empty()) refuse("csv.heading", "stands without columns", "csv.columns beside it");
+    if (std::count(csv->heading.begin(), csv->heading.end(), "count") != 1)
+      refuse("csv.heading", "does not say how many grains follow", "\"count\" once among its names");
+  }
   if (!lammps || lammps->contacts.empty()) return;
   if (lammps->contact_ids.size() != 2)
     refuse("lammps.contact_ids", "is needed by the contacts", "two names of columns");

@@ -12,10 +12,12 @@
 
 namespace drumlin::particles {
 
-/// Comma-separated files with a line of column names. Files count from the folder of the description; "*" in
-/// a name stands for any text.
+/// Tables with a line of column names, fields between commas, or with names given here, fields between spaces
+/// or commas. Files count from the folder of the description; "*" in a name stands for any text.
 struct CsvSource {
   std::vector<std::string> grains;
+  std::vector<std::string> columns;  ///< the names, of files of grains that have no line of them
+  std::vector<std::string> heading;  ///< names of the numbers above each snapshot, one of them "count"
   std::vector<std::string> contacts;
   std::optional<double> interval_s;
 };
@@ -24,8 +26,8 @@ struct CsvSource {
 struct LammpsSource {
   std::vector<std::string> grains;
   std::string plane = "xy";
-  double step_s = 0;
-  double length_unit_m = 1, time_unit_s = 1, mass_unit_kg = 1;
+  std::optional<double> step_s;
+  std::optional<double> length_unit_m, time_unit_s, mass_unit_kg;
   std::vector<double> wall_types;
   std::vector<std::string> contacts;
   std::vector<std::string> contact_ids;
@@ -38,6 +40,7 @@ struct ImportedGrains {
   double density_kg_m3 = 0;
   std::optional<double> mean_diameter_m;
   bool may_change = false;
+  std::string velocities = "given";
 };
 
 struct ImportedDrum {

@@ -13,7 +13,11 @@ inline Allowed some_texts() { return Allowed{}; }
 template <class Visitor>
 void describe(Visitor& v, CsvSource& s) {
   v.value("grains", s.grains, required("", some_texts(), "Files; * stands for any text."));
-  v.value("contacts", s.contacts, defaulted("", anything(), "Likewise."));
+  v.value("columns", s.columns,
+          defaulted("", anything(), "Names of the columns of files of grains without a line of names."));
+  v.value("heading", s.heading,
+          defaulted("", anything(), "Names in the line above each snapshot: count, time_s, others."));
+  v.value("contacts", s.contacts, defaulted("", anything(), "As grains."));
   v.value("interval_s", s.interval_s,
           when_given("s", above(0, 1e9), "From file to file, where no column is time."));
 }
@@ -22,10 +26,13 @@ template <class Visitor>
 void describe(Visitor& v, LammpsSource& s) {
   v.value("grains", s.grains, required("", some_texts(), "Dumps of the style custom."));
   v.value("plane", s.plane, defaulted("", one_of({"xy", "xz"}), "Its second axis becomes z."));
-  v.value("step_s", s.step_s, required("s", above(0, 1e6), "One time step of the dump."));
-  v.value("length_unit_m", s.length_unit_m, defaulted("m", above(0, 1e6), "Of the dump."));
-  v.value("time_unit_s", s.time_unit_s, defaulted("s", above(0, 1e6), "Likewise, in velocities and forces."));
-  v.value("mass_unit_kg", s.mass_unit_kg, defaulted("kg", above(0, 1e12), "Likewise, in forces."));
+  v.value("step_s", s.step_s,
+          when_given("s", above(0, 1e6), "One time step of the dump, where it has no ITEM: TIME."));
+  v.value("length_unit_m", s.length_unit_m,
+          when_given("m", above(0, 1e6), "Of the dump; without: that of its ITEM: UNITS, else 1."));
+  v.value("time_unit_s", s.time_unit_s,
+          when_given("s", above(0, 1e6), "Likewise, in velocities, forces and ITEM: TIME."));
+  v.value("mass_unit_kg", s.mass_unit_kg, when_given("kg", above(0, 1e12), "Likewise, in forces."));
   v.value("wall_types", s.wall_types, defaulted("", anything(), "Types that are walls."));
   v.value("contacts", s.contacts, defaulted("", anything(), "Dumps of the style local."));
   v.value("contact_ids", s.contact_ids, defaulted("", anything(), "Columns with both grains' ids."));
@@ -43,6 +50,9 @@ void describe(Visitor& v, ImportedGrains& g) {
   v.value("mean_diameter_m", g.mean_diameter_m,
           when_given("m", above(0, 1e6), "d; without: the first snapshot's. Dimensionless files need it."));
   v.value("may_change", g.may_change, defaulted("", anything(), "Grains may come and go."));
+  v.value("velocities", g.velocities,
+          defaulted("", one_of({"given", "displacements"}),
+                    "displacements: since the snapshot before; the first one is left out."));
 }
 
 template <class Visitor>

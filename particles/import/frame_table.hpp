@@ -33,12 +33,18 @@ struct FrameTable {
   std::optional<double> time;
   bool time_in_si = true;
   std::map<std::string, FrameColumn> columns;
+  /// What the file calls them, also those that it lacks: errors use its own words.
+  std::map<std::string, std::string> words;
 
+  std::string word(const std::string& name) const { return words.contains(name) ? words.at(name) : name; }
   bool has(const std::string& name) const { return columns.contains(name); }
   std::size_t rows() const { return line.size(); }
-  /// Dimensionless values. Throws InputError (file, line) when the column is missing.
+  /// Dimensionless values. Throws InputError (file, line) when the column is missing, or a value is beyond
+  /// largest_imported.
   std::vector<double> values(const std::string& name, const Scales& scales) const;
   double time_in(const Scales& scales) const;
+  /// The numbers of both are the same, but for their places in files.
+  bool repeats(const FrameTable& other) const;
   [[noreturn]] void refuse(std::size_t row, const std::string& key, const std::string& what,
                            const std::string& allowed = "") const;
 };
@@ -46,7 +52,14 @@ struct FrameTable {
 /// Frames in order; none after the last.
 using FrameTableSource = std::function<std::optional<FrameTable>()>;
 
-/// Names of columns that were there and told nothing.
-using UnusedColumns = std::set<std::string>;
+/// Largest place, speed, force or time in units of d, sqrt(d/g) and rho0 g d: beyond, a unit is wrong or the
+/// other program has lost its grains.
+inline constexpr double largest_imported = 1e9;
+
+/// What a source has to say beside its frames.
+struct SourceNotes {
+  std::set<std::string> unused_columns;  ///< that were there and told nothing
+  std::string cut_off;                   ///< where the last frame ends too early and was left out; else empty
+};
 
 }  // namespace drumlin::particles

@@ -19,6 +19,7 @@ struct ImportReport {
   Scales scales;
   std::vector<std::string> files;
   std::vector<std::string> unused_columns;
+  std::vector<std::string> left_out;  ///< snapshots that were not taken over, and why
 };
 
 /// The files that a description names, below `folder`. Throws InputError where there is none.
@@ -27,8 +28,9 @@ std::vector<std::filesystem::path> import_files(const ImportDescription& descrip
 
 /// Hands the snapshots to `sink` one by one, numbered from 1 in `step`. Grains are in the order of their ids.
 /// Files count from `folder`. Throws InputError (file, line) at the first fault: numbers that are none, ids
-/// that stand twice, grains that come or go unannounced or lie outside of the drum, radii that are not above
-/// 0, times that do not ascend, contacts of grains that there are not.
+/// that stand twice, grains that come or go unannounced, lie outside of the drum or in one place, radii that
+/// are not above 0, times that do not ascend, contacts of grains that there are not. A snapshot that is
+/// written twice and a last one that is cut off are left out, and told.
 ImportReport import_run(const ImportDescription& description, const std::filesystem::path& folder,
                         const std::function<void(const Snapshot&)>& sink);
 

@@ -5,13 +5,17 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <memory>
 #include <utility>
 
+#include "coupling/common/errors.hpp"
 #include "particles/import/line_reader.hpp"
 
 namespace drumlin::particles {
 namespace {
+
+constexpr double same_unit = 1e-6;  // relative: of the digits that a user writes
 
 /// A column of the dump: where it goes, what one of its units is in SI, what is added to it.
 struct Target {
@@ -22,58 +26,133 @@ struct Target {
 };
 
 /// Lower and upper bound of the box along x, y, z.
-using Box = std::array<std::array<double, 2>, 3>;
+struct Box {
+  std::array<std::array<double, 2>, 3> bounds{};
+  bool tilted = false;  ///< then the bounds are those around it
+};
 
-/// What a column of this name means, given the box of its frame.
-using Meaning = std::function<Target(std::string_view name, const Box& box)>;
+/// What one unit of the dump is in SI.
+struct Units {
+  double metre = 1, second = 1, kilogram = 1;
+};
+
+/// What a style of ITEM: UNITS stands for; nothing for one that grains do not have.
+std::optional<Units> units_of_style(std::string_view style) {
+  if (style == "si") return Units{};
+  if (style == "cgs") return Units{1e-2, 1, 1e-3};
+  if (style == "micro") return Units{1e-6, 1e-6, 1e-15};
+  if (style == "nano") return Units{1e-9, 1e-9, 1e-21};
+  return std::nullopt;
+}
+
+/// What a column of this name means, given the box and the units of its frame.
+using Meaning = std::function<Target(std::string_view name, const Box& box, const Units& units)>;
+
+/// What both kinds of dump have to be told.
+struct DumpKind {
+  std::string rows_item;  ///< "ITEM: ATOMS" or "ITEM: ENTRIES"
+  Meaning meaning;
+  std::map<std::string, std::string> words;  ///< what the columns are called in dumps
+  bool weighs = false;                       ///< the unit of mass matters
+};
 
 class LammpsFrames {
  public:
-  LammpsFrames(std::vector<std::filesystem::path> files, double step_s, std::string rows_item,
-               Meaning meaning, UnusedColumns& unused)
-      : files_(std::move(files)),
-        step_s_(step_s),
-        rows_item_(std::move(rows_item)),
-        meaning_(std::move(meaning)),
-        unused_(unused) {}
+  LammpsFrames(std::vector<std::filesystem::path> files, const LammpsSource& source, DumpKind kind,
+               SourceNotes& notes)
+      : files_(std::move(files)), source_(source), kind_(std::move(kind)), notes_(notes) {}
 
   std::optional<FrameTable> next() {
     while (!reader_ || !next_line()) {
       if (file_ == files_.size()) return std::nullopt;
+      reader_.reset();  // a file that cannot be opened is no end of this one
       reader_ = std::make_unique<LineReader>(files_[file_++]);
+      style_.clear();
     }
+    const int first_line = reader_->number();
+    try {
+      FrameTable frame = read_frame();
+      ++frames_;
+      return frame;
+    } catch (const InputError&) {
+      // A killed program leaves half a frame behind.
+      if (frames_ == 0 || file_ != files_.size() || !(missing_ || reader_->unended())) throw;
+      notes_.cut_off = fmt::format("{}:{}", reader_->file(), first_line);
+      return std::nullopt;
+    }
+  }
+
+ private:
+  FrameTable read_frame() {
     FrameTable frame;
     frame.file = reader_->file();
     frame.first_line = reader_->number();
-    std::optional<double> count;
+    frame.words = kind_.words;
+    std::optional<double> step, time, count;
     std::optional<Box> box;
     for (;;) {
       const std::string item = reader_->line();
       if (item == "ITEM: TIMESTEP") {
-        require_first(!frame.time, "TIMESTEP");
-        frame.time = whole_number_below("TIMESTEP") * step_s_;
+        require_first(!step, "TIMESTEP");
+        step = whole_number_below("TIMESTEP");
+      } else if (item == "ITEM: TIME") {
+        require_first(!time, "TIME");
+        time = reader_->number_from(line_below("TIME"), "TIME");
+      } else if (item == "ITEM: UNITS") {
+        style_ = line_below("UNITS");
+        if (style_ != "lj" && !units_of_style(style_))
+          reader_->refuse("UNITS", "is \"" + style_ + "\"", "si, cgs, micro, nano, lj");
       } else if (item.starts_with("ITEM: NUMBER OF ")) {
         require_first(!count, "NUMBER OF ...");
         count = whole_number_below("NUMBER OF ...");
       } else if (item.starts_with("ITEM: BOX BOUNDS")) {
         require_first(!box, "BOX BOUNDS");
-        read_box(item, box.emplace());
-      } else if (item.starts_with(rows_item_)) {
-        if (!frame.time) reader_->refuse(rows_item_, "comes before ITEM: TIMESTEP", "");
-        if (!count) reader_->refuse(rows_item_, "comes before ITEM: NUMBER OF ...", "");
-        read_rows(item, static_cast<std::size_t>(*count), box, frame);
+        read_box(box.emplace());
+      } else if (item.starts_with(kind_.rows_item)) {
+        if (!step) reader_->refuse(kind_.rows_item, "comes before ITEM: TIMESTEP", "");
+        if (!count) reader_->refuse(kind_.rows_item, "comes before ITEM: NUMBER OF ...", "");
+        const Units units = own_units();
+        frame.time = time_of(step, time, units);
+        if (time) frame.words["time"] = "TIME";
+        read_rows(item, static_cast<std::size_t>(*count), box, units, frame);
         return frame;
-      } else if (item == "ITEM: UNITS" || item == "ITEM: TIME") {
-        next_line();
       } else {
         reader_->refuse("", "\"" + item.substr(0, 60) + "\" is not expected here",
-                        "ITEM: TIMESTEP, NUMBER OF ..., BOX BOUNDS, " + rows_item_.substr(6));
+                        "ITEM: TIMESTEP, NUMBER OF ..., BOX BOUNDS, " + kind_.rows_item.substr(6));
       }
-      if (!next_line()) reader_->refuse("", "ends within a frame", "");
+      if (!next_line()) refuse_end("", "ends within a frame");
     }
   }
 
- private:
+  double time_of(const std::optional<double>& step, const std::optional<double>& time,
+                 const Units& units) const {
+    if (time) return *time * units.second;
+    if (!source_.step_s)
+      reader_->refuse("TIMESTEP", "counts steps whose length is not known",
+                      "ITEM: TIME in each frame, or lammps.step_s in the description");
+    return *step * *source_.step_s;
+  }
+
+  /// Of the description and of the file, which must not contradict each other.
+  Units own_units() const {
+    const std::optional<Units> of_style = units_of_style(style_);
+    const auto unit = [&](const char* key, const std::optional<double>& told, double Units::*own,
+                          bool needed) {
+      if (!told && style_ == "lj" && needed)
+        reader_->refuse("UNITS", "is \"lj\", which has no dimensions",
+                        fmt::format("lammps.{} in the description", key));
+      if (told && of_style && std::abs(*told / ((*of_style).*own) - 1) > same_unit)
+        reader_->refuse(
+            "UNITS",
+            fmt::format("is \"{}\", a unit of {:g}; lammps.{} is {:g}", style_, (*of_style).*own, key, *told),
+            "a description without the key, or with the same unit");
+      return told ? *told : of_style ? (*of_style).*own : 1;
+    };
+    return {unit("length_unit_m", source_.length_unit_m, &Units::metre, true),
+            unit("time_unit_s", source_.time_unit_s, &Units::second, true),
+            unit("mass_unit_kg", source_.mass_unit_kg, &Units::kilogram, kind_.weighs)};
+  }
+
   bool next_line() {
     while (reader_->next())
       if (!reader_->line().empty()) return true;
@@ -84,51 +163,74 @@ class LammpsFrames {
     if (!first) reader_->refuse(item, "stands a second time in this frame", "once in each frame");
   }
 
+  [[noreturn]] void refuse_end(const std::string& item, const std::string& what,
+                               const std::string& allowed = "") {
+    missing_ = true;
+    reader_->refuse(item, what, allowed);
+  }
+
+  const std::string& line_below(const std::string& item) {
+    if (!next_line()) refuse_end(item, "ends within a frame");
+    return reader_->line();
+  }
+
   double whole_number_below(const std::string& item) {
-    if (!next_line()) reader_->refuse(item, "ends within a frame", "");
-    const double value = reader_->number_from(reader_->line(), item);
+    const double value = reader_->number_from(line_below(item), item);
     if (value < 0 || value > 1e15) reader_->refuse(item, "is out of range", "0 to 1e15");
     if (value != std::floor(value)) reader_->refuse(item, "is " + reader_->line(), "a whole number");
     return value;
   }
 
-  void read_box(const std::string& item, Box& box) {
-    if (item.find("xy") != std::string::npos || item.find("abc") != std::string::npos)
-      reader_->refuse("BOX BOUNDS", "is triclinic", "a box with right angles");
-    for (auto& bounds : box) {
-      if (!next_line()) reader_->refuse("BOX BOUNDS", "ends within a frame", "");
-      const auto words = words_of(reader_->line());
-      if (words.size() != 2)
-        reader_->refuse("BOX BOUNDS", fmt::format("holds {} numbers", words.size()),
-                        "two: a box with right angles");
+  /// Lines of two numbers, of three where it is tilted along an axis, of four where it lies anyhow.
+  void read_box(Box& box) {
+    for (auto& bounds : box.bounds) {
+      const auto words = words_of(line_below("BOX BOUNDS"));
+      if (words.size() < 2 || words.size() > 4)
+        reader_->refuse("BOX BOUNDS", fmt::format("holds {} numbers", words.size()), "2 to 4");
+      if (words.size() == 4) {
+        box.tilted = true;
+        continue;
+      }
+      if (words.size() == 3) box.tilted |= reader_->number_from(words[2], "BOX BOUNDS") != 0;
       bounds = {reader_->number_from(words[0], "BOX BOUNDS"), reader_->number_from(words[1], "BOX BOUNDS")};
       if (!(bounds[0] <= bounds[1]))
         reader_->refuse("BOX BOUNDS", "are not in their order", "lower, then upper");
     }
   }
 
-  void read_rows(const std::string& item, std::size_t count, const std::optional<Box>& box,
-                 FrameTable& frame) {
+  /// What the named columns give; of those that give the same the first.
+  std::vector<Target> targets_of(const std::vector<std::string_view>& names, const std::optional<Box>& box,
+                                 const Units& units, FrameTable& frame) {
     std::vector<Target> targets;
-    for (const std::string_view name : words_of(std::string_view(item).substr(rows_item_.size()))) {
-      Target target = meaning_(name, box.value_or(Box{}));
+    for (const std::string_view name : names) {
+      Target target = kind_.meaning(name, box.value_or(Box{}), units);
+      if (target.name.empty() || frame.has(target.name)) {
+        notes_.unused_columns.insert(std::string(name));
+        targets.emplace_back();
+        continue;
+      }
       if (target.is_scaled && !box)
         reader_->refuse(std::string(name), "is scaled by a box that this frame does not give",
                         "ITEM: BOX BOUNDS before it");
-      if (target.name.empty()) {
-        unused_.insert(std::string(name));
-      } else if (!frame.columns.emplace(target.name, FrameColumn{{}, target.quantity, true}).second) {
-        reader_->refuse(std::string(name), "gives " + target.name + " a second time",
-                        "one column for each quantity");
-      }
+      if (target.is_scaled && box->tilted)
+        reader_->refuse(std::string(name), "is scaled by a tilted box", "coordinates that are not");
+      frame.columns[target.name] = {{}, target.quantity, true};
+      frame.words[target.name] = name;
       targets.push_back(std::move(target));
     }
+    return targets;
+  }
+
+  void read_rows(const std::string& item, std::size_t count, const std::optional<Box>& box,
+                 const Units& units, FrameTable& frame) {
+    const auto names = words_of(std::string_view(item).substr(kind_.rows_item.size()));
+    const std::vector<Target> targets = targets_of(names, box, units, frame);
     std::vector<FrameColumn*> columns;
     for (const Target& target : targets)
       columns.push_back(target.name.empty() ? nullptr : &frame.columns.at(target.name));
     for (std::size_t row = 0; row < count; ++row) {
       if (!next_line())
-        reader_->refuse("", fmt::format("ends after {} rows of a frame", row), fmt::format("{} rows", count));
+        refuse_end("", fmt::format("ends after {} rows of a frame", row), fmt::format("{} rows", count));
       const auto words = words_of(reader_->line());
       if (words.size() != targets.size())
         reader_->refuse("", fmt::format("holds {} fields", words.size()),
@@ -136,18 +238,21 @@ class LammpsFrames {
       frame.line.push_back(reader_->number());
       for (std::size_t c = 0; c < targets.size(); ++c)
         if (columns[c])
-          columns[c]->values.push_back(reader_->number_from(words[c], targets[c].name) * targets[c].factor +
-                                       targets[c].offset);
+          columns[c]->values.push_back(
+              reader_->number_from(words[c], std::string(names[c])) * targets[c].factor + targets[c].offset);
     }
+    // The last number of a line without an end may lack digits.
+    if (reader_->unended() && frames_ > 0) refuse_end("", "ends within a line");
   }
 
   std::vector<std::filesystem::path> files_;
-  double step_s_;
-  std::string rows_item_;  ///< "ITEM: ATOMS" or "ITEM: ENTRIES"
-  Meaning meaning_;
-  UnusedColumns& unused_;
-  std::size_t file_ = 0;
+  LammpsSource source_;
+  DumpKind kind_;
+  SourceNotes& notes_;
+  std::size_t file_ = 0, frames_ = 0;
   std::unique_ptr<LineReader> reader_;
+  std::string style_;     ///< of the units, which a file names once; empty: it does not
+  bool missing_ = false;  ///< a frame ended with its file
 };
 
 FrameTableSource source_of(std::shared_ptr<LammpsFrames> frames) {
@@ -157,50 +262,61 @@ FrameTableSource source_of(std::shared_ptr<LammpsFrames> frames) {
 }  // namespace
 
 FrameTableSource lammps_grains(std::vector<std::filesystem::path> files, const LammpsSource& source,
-                               UnusedColumns& unused) {
-  const double metre = source.length_unit_m, second = source.time_unit_s;
-  const bool upright = source.plane == "xz";
+                               SourceNotes& notes) {
+  const bool upright = source.plane == "xz", with_types = !source.wall_types.empty();
   // The axes of the plane, the one across it, and the component of the angular velocity that turns in it.
   // With x to the right and y up it points at the onlooker and anticlockwise is positive; with z up it points
   // away.
   const char second_axis = upright ? 'z' : 'y', across = upright ? 'y' : 'z';
   const double clockwise = upright ? 1 : -1;
-  const Meaning meaning = [=](std::string_view name, const Box& box) -> Target {
-    if (name == "id" || name == "type") return {std::string(name)};
-    if (name == "radius") return {"radius", Quantity::length, metre};
-    if (name == "diameter") return {"radius", Quantity::length, metre / 2};
-    if (name == std::string("omega") + across) return {"spin_clockwise", Quantity::rate, clockwise / second};
-    if (name == "vx") return {"v_x", Quantity::velocity, metre / second};
-    if (name == std::string("v") + second_axis) return {"v_z", Quantity::velocity, metre / second};
+  const std::string v_z = std::string("v") + second_axis, spin = std::string("omega") + across;
+  DumpKind kind{"ITEM: ATOMS",
+                {},
+                {{"time", "TIMESTEP"},
+                 {"z", std::string(1, second_axis)},
+                 {"v_x", "vx"},
+                 {"v_z", v_z},
+                 {"radius", "radius or diameter"}}};
+  kind.meaning = [=](std::string_view name, const Box& box, const Units& units) -> Target {
+    if (name == "id" || (name == "type" && with_types)) return {std::string(name)};
+    if (name == "radius") return {"radius", Quantity::length, units.metre};
+    if (name == "diameter") return {"radius", Quantity::length, units.metre / 2};
+    if (name == spin) return {"spin_clockwise", Quantity::rate, clockwise / units.second};
+    if (name == "vx") return {"v_x", Quantity::velocity, units.metre / units.second};
+    if (name == v_z) return {"v_z", Quantity::velocity, units.metre / units.second};
     const char axis = name.empty() ? ' ' : name.front();
-    const std::string kind(name.substr(std::min<std::size_t>(1, name.size())));
+    const std::string letters(name.substr(std::min<std::size_t>(1, name.size())));
     const std::string target = axis == 'x' ? "x" : axis == second_axis ? "z" : axis == across ? "third" : "";
     if (target.empty()) return {};
-    if (kind.empty() || kind == "u") return {target, Quantity::length, metre};
-    if (kind != "s" && kind != "su") return {};
-    const auto& bounds = box[static_cast<std::size_t>(axis - 'x')];
-    return {target, Quantity::length, (bounds[1] - bounds[0]) * metre, bounds[0] * metre, true};
+    if (letters.empty() || letters == "u") return {target, Quantity::length, units.metre};
+    if (letters != "s" && letters != "su") return {};
+    const auto& [lower, upper] = box.bounds[static_cast<std::size_t>(axis - 'x')];
+    return {target, Quantity::length, (upper - lower) * units.metre, lower * units.metre, true};
   };
-  return source_of(
-      std::make_shared<LammpsFrames>(std::move(files), source.step_s, "ITEM: ATOMS", meaning, unused));
+  return source_of(std::make_shared<LammpsFrames>(std::move(files), source, std::move(kind), notes));
 }
 
 FrameTableSource lammps_contacts(std::vector<std::filesystem::path> files, const LammpsSource& source,
-                                 UnusedColumns& unused) {
-  const double newton =
-      source.mass_unit_kg * source.length_unit_m / (source.time_unit_s * source.time_unit_s);
-  const double sign = source.force_on == "first" ? 1 : -1;
-  const double force = sign * newton / source.depth_m.value_or(1);
-  const Meaning meaning = [=, ids = source.contact_ids, forces = source.contact_forces](
-                              std::string_view name, const Box&) -> Target {
-    if (name == ids.at(0)) return {"i"};
-    if (name == ids.at(1)) return {"j"};
-    if (name == forces.at(0)) return {"f_x", Quantity::force, force};
-    if (name == forces.at(1)) return {"f_z", Quantity::force, force};
+                                 SourceNotes& notes) {
+  const auto &ids = source.contact_ids, &forces = source.contact_forces;
+  const double sign = source.force_on == "first" ? 1 : -1, depth = source.depth_m.value_or(1);
+  DumpKind kind{"ITEM: ENTRIES",
+                {},
+                {{"time", "TIMESTEP"},
+                 {"i", ids.at(0)},
+                 {"j", ids.at(1)},
+                 {"f_x", forces.at(0)},
+                 {"f_z", forces.at(1)}},
+                true};
+  kind.meaning = [=](std::string_view name, const Box&, const Units& units) -> Target {
+    const double force = sign * units.kilogram * units.metre / (units.second * units.second) / depth;
+    if (name == ids[0]) return {"i"};
+    if (name == ids[1]) return {"j"};
+    if (name == forces[0]) return {"f_x", Quantity::force, force};
+    if (name == forces[1]) return {"f_z", Quantity::force, force};
     return {};
   };
-  return source_of(
-      std::make_shared<LammpsFrames>(std::move(files), source.step_s, "ITEM: ENTRIES", meaning, unused));
+  return source_of(std::make_shared<LammpsFrames>(std::move(files), source, std::move(kind), notes));
 }
 
 }  // namespace drumlin::particles

@@ -18,6 +18,10 @@ constexpr std::size_t piece = 1 << 16, longest_line = 1 << 20;  // bytes
 LineReader::LineReader(const std::filesystem::path& file)
     : file_(file), input_(file, std::numeric_limits<std::uint64_t>::max()) {
   fill();
+  const std::string_view start(buffer_);
+  if (start.starts_with("\x1f\x8b") || start.starts_with("\x28\xb5\x2f\xfd"))
+    throw InputError(
+        {{file_.string(), 0, 0, "", "is compressed (gzip or zstd)", "text: gunzip or unzstd it first"}});
   cut_byte_order_mark(buffer_, file_);
 }
 
@@ -43,6 +47,7 @@ bool LineReader::next() {
     end = buffer_.find('\n', seen);
   }
   if (end == std::string::npos && taken_ == buffer_.size()) return false;
+  unended_ = end == std::string::npos;
   end = std::min(end, buffer_.size());
   ++number_;
   line_ = trimmed(std::string_view(buffer_).substr(taken_, end - taken_));

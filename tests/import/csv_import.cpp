@@ -71,7 +71,7 @@ TEST(CsvImport, DrumTurnsWithTheTime) {
   EXPECT_NEAR(result.snapshots[0].container_x, 1, 1e-12);
   folder.with("grains.csv", std::string(names) + "2,0,0.2,0,0,0,0.005\n");
   EXPECT_NE(refusal(folder, std::string(head) + one_file + drum)
-                .find("grains.csv:2: x, z: the grain lies outside of the drum"),
+                .find("grains.csv:2: x_m, z_m: the grain lies outside of the drum"),
             std::string::npos);
 }
 
@@ -144,14 +144,21 @@ TEST(CsvImport, RefusesWithFileAndLine) {
            {good + "1,2,0,0,inf,0,1\n", "grains.csv:4: v_x_m_s: \"inf\" is no number"},
            {good + "1,1,0,0,0,0,0.5\n", "grains.csv:4: id: 1 stands twice"},
            {good + "1,2.5,0,0,0,0,0.5\n", "grains.csv:4: id: 2.5 is no id"},
-           {good + "1,2,0,0,0,0,-0.1\n", "grains.csv:4: radius: is not above 0"},
+           {good + "1,2,0,0,0,0,-0.1\n", "grains.csv:4: radius_m: is not above 0"},
            {good + "0.5,1,0,0,0,0,0.5\n",
             "grains.csv:4: time_s: 0.5 s does not go on from 1 s (allowed: times that ascend)"},
            {good + "2,2,0,0,0,0,0.5\n", "grains.csv:4: id: grain 1 is gone"},
-           {good + "2,1,0,0,0,0,0.5\n2,2,0,0,0,0,0.5\n", "grain 2 was not there before"},
-           {"x_m,z_m,v_x_m_s,v_z_m_s\n0,0,0,0\n", "radius: no such column"},
+           {good + "2,1,0,0,0,0,0.5\n2,2,1,0,0,0,0.5\n", "grain 2 was not there before"},
+           {"x_m,z_m,v_x_m_s,v_z_m_s\n0,0,0,0\n", "radius_m: no such column"},
            {"time_s,x_m,x,z_m\n", "grains.csv:1: x: stands twice"},
            {"x_m,z_m,v_x_m_s,v_z_m_s,radius_m\n0,0,0,0,1\n", "the time is not known"},
+           {good + "1,2,1,0,1e308,0,0.5\n", "grains.csv:4: v_x_m_s: is 3.19e+307 of the unit"},
+           {"time_s,x_m,z_m,v_x_m_s,v_z_m_s,radius_m\n1e200,0,0,0,0,0.5\n", "time_s: is 3.13e+200 sqrt(d/g)"},
+           {good + "1,2,0,0,0,0,0.5\n", "grains.csv:4: x_m, z_m: grains 1 and 2 are in one place"},
+           {"x_m,z_m,radius_m\n0,0,1\n", "the time is not known"},
+           {"time_s,x_m,z_m,radius_m\n0,0,0,1\n",
+            "v_x_m_s: no such column (allowed: one, or grains.velocities"},
+           {"\x1f\x8b\x08", "grains.csv: is compressed"},
            {"# nothing\n", "holds no line of column names"},
            {names, "there are no grains"}}) {
     const std::string said = refused(rows);
@@ -170,6 +177,81 @@ TEST(CsvImport, RefusesWithFileAndLine) {
             std::string::npos);
   folder.with("grains.csv", good + "2,2,0,0,0,0,0.5\n");
   EXPECT_EQ(imported(folder, std::string(head) + "may_change = true\n" + one_file).snapshots.size(), 2u);
+}
+
+// Two snapshots of MercuryDPM: number and time above each, then x y z, v, radius, angles, omega, species.
+TEST(CsvImport, TakesPlainColumnsWithAHeadingAboveEachSnapshot) {
+  const TemporaryFolder folder;
+  const std::string description = std::string(head) +
+                                  "[csv]\ngrains = [\"drum.data\"]\nheading = [\"count\", \"time_s\"]\n"
+                                  "columns = [\"x_m\", \"y\", \"z_m\", \"v_x_m_s\", \"v_y\", \"v_z_m_s\", "
+                                  "\"radius_m\", \"a\", \"b\", \"c\", "
+                                  "\"omega_x\", \"spin_clockwise_rad_s\"]\n";
+  const std::string
+      first =
+          "2 0.5 0 0 0 1 1 1 \n0.1 0 0.2 3 0 4 0.005 0 0 0 nan 7 0 1\n0.3 0 0.2 0 0 0 0.005 0 0 0 0 0 0 1\n",
+      second =
+          "2 0.75 0 0 0 1 1 1 \n0.1 0 0.2 3 0 4 0.005 0 0 0 0 7 0 1\n0.3 0 0.2 0 0 0 0.005 0 0 0 0 0 0 1\n";
+  folder.with("drum.data", first + second);
+  const auto result = imported(folder, description);
+  ASSERT_EQ(result.snapshots.size(), 2u);
+  const double d = 0.01, t = std::sqrt(d / 9.81);
+  EXPECT_NEAR(result.snapshots[1].time, 0.75 / t, 1e-12);
+  EXPECT_NEAR(result.snapshots[0].x[0], 10, 1e-12);
+  EXPECT_NEAR(result.snapshots[0].z[0], 20, 1e-12);
+  EXPECT_NEAR(result.snapshots[0].v_z[0], 4 * t / d, 1e-9);
+  EXPECT_NEAR(result.snapshots[0].spin[0], 7 * t, 1e-12);
+  // Cut off anywhere, by a line or within one: the first is there, and what happened is said.
+  for (std::size_t kept = 1; kept + 1 < second.size(); ++kept) {
+    folder.with("drum.data", first + second.substr(0, kept));
+    const auto cut = imported(folder, description);
+    EXPECT_EQ(cut.snapshots.size(), 1u) << kept;
+    ASSERT_EQ(cut.report.left_out.size(), 1u) << kept;
+    EXPECT_NE(cut.report.left_out[0].find("is cut off"), std::string::npos);
+  }
+  folder.with("drum.data", first.substr(0, 30));
+  EXPECT_NE(refusal(folder, description).find("drum.data:2: holds 4 fields (allowed: 12"), std::string::npos);
+  EXPECT_NE(refusal(folder, std::string(head) + "[csv]\ngrains = [\"drum.data\"]\nheading = [\"time_s\"]\n")
+                .find("csv.heading"),
+            std::string::npos);
+}
+
+TEST(CsvImport, LeavesOutALastSnapshotThatEndsWithinALine) {
+  const TemporaryFolder folder;
+  const std::string whole = std::string(names) + "1,1,0,0,0,0,0.5\n1,2,1,0,0,0,0.5\n2,1,0,0,0,0,0.5\n";
+  folder.with("grains.csv", whole + "2,2,1,0,");
+  const auto result = imported(folder, std::string(head) + one_file);
+  EXPECT_EQ(result.snapshots.size(), 1u);
+  ASSERT_EQ(result.report.left_out.size(), 1u);
+  EXPECT_NE(result.report.left_out[0].find("grains.csv:5: is cut off"), std::string::npos);
+  folder.with("grains.csv", whole + "2,2,1,0,\n");  // a line with its end is whole, and wrong
+  EXPECT_NE(refusal(folder, std::string(head) + one_file).find("grains.csv:5: holds 5 fields"),
+            std::string::npos);
+}
+
+TEST(CsvImport, TakesVelocitiesFromDisplacements) {
+  const TemporaryFolder folder;
+  folder.with(
+      "grains.csv",
+      "time_s,id,x_m,z_m,radius_m\n1,1,0.9,0,0.05\n1,2,0.5,0,0.05\n3,1,0.1,0.2,0.05\n3,2,0.5,0,0.05\n");
+  const auto result = imported(folder, std::string(head) + "velocities = \"displacements\"\n" + one_file +
+                                           "[periodic_x]\nlength_m = 1\n");
+  ASSERT_EQ(result.snapshots.size(), 1u);
+  const double d = 0.1, t = std::sqrt(d / 9.81);
+  const Snapshot& s = result.snapshots[0];
+  EXPECT_EQ(s.step, 1);
+  EXPECT_NEAR(s.time, 3 / t, 1e-12);
+  EXPECT_NEAR(s.velocity_window, 2 / t, 1e-12);
+  EXPECT_NEAR(s.displacement_x[0], 2, 1e-12);  // across the seam: 0.2 m
+  EXPECT_NEAR(s.v_x[0], 0.1 * t / d, 1e-12);
+  EXPECT_NEAR(s.v_z[0], 0.1 * t / d, 1e-12);
+  EXPECT_EQ(s.v_x[1], 0);
+  EXPECT_NE(result.report.left_out.at(0).find("no snapshot before"), std::string::npos);
+  EXPECT_NEAR(result.report.first_time_s, 3, 1e-12);
+  EXPECT_NE(
+      refusal(folder, std::string(head) + "velocities = \"displacements\"\nmay_change = true\n" + one_file)
+          .find("grains.velocities"),
+      std::string::npos);
 }
 
 TEST(ImportDescriptions, AreRefusedWithLineKeyAndRange) {

@@ -1,6 +1,8 @@
 // Text dumps of LAMMPS: axes, units, boxes, walls made of atoms, contacts, and what is refused.
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "tests/import/imported.hpp"
 
 namespace drumlin {
@@ -27,6 +29,13 @@ std::string frame(int step, const std::string& columns, const std::vector<std::s
   return text;
 }
 
+std::string tilted(const std::string& columns, const std::string& row) {
+  return "ITEM: TIMESTEP\n1\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS xy xz yz pp pp pp\n0 3 1\n0 2 0\n0 1 "
+         "0\n"
+         "ITEM: ATOMS " +
+         columns + "\n" + row + "\n";
+}
+
 TEST(LammpsImport, SecondAxisOfThePlaneIsUpAndSpinClockwise) {
   const TemporaryFolder folder;
   folder.with("dump.a", frame(4, "id type x y z vx vy vz radius omegaz",
@@ -41,7 +50,7 @@ TEST(LammpsImport, SecondAxisOfThePlaneIsUpAndSpinClockwise) {
   EXPECT_NEAR(s.v_z[1], 4 / 9.81, 1e-12);
   EXPECT_NEAR(s.spin[1], -0.7, 1e-12);  // omegaz is anticlockwise
   EXPECT_TRUE(result.snapshots[1].spin.empty());
-  EXPECT_EQ(result.report.unused_columns, (std::vector<std::string>{"vz"}));
+  EXPECT_EQ(result.report.unused_columns, (std::vector<std::string>{"type", "vz"}));
 }
 
 TEST(LammpsImport, UprightPlaneTurnsTheOtherWay) {
@@ -100,19 +109,19 @@ TEST(LammpsImport, RefusesWithFileAndLine) {
   const TemporaryFolder folder;
   const std::string columns = "id x y radius vx vy";
   for (const auto& [text, message] : std::vector<std::pair<std::string, std::string>>{
-           {"ITEM: TIMESTEP\n1\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS xy xz yz pp pp pp\n0 1 0\n0 1 "
-            "0\n0 1 0\n",
-            "dump.a:5: BOX BOUNDS: is triclinic"},
            {frame(1, columns, {"1 0 0 1 0 0", "2 0 0 1 0"}), "dump.a:11: holds 5 fields (allowed: 6"},
-           {frame(1, columns, {"1 0 0 1 nan 0"}), "dump.a:10: v_x: \"nan\" is no number"},
+           {frame(1, columns, {"1 0 0 1 nan 0"}), "dump.a:10: vx: \"nan\" is no number"},
            {frame(1, columns, {"1 0 0 0 0 0"}), "dump.a:10: radius: is not above 0"},
            {frame(1, columns, {"1 0 0 1 0 0", "1 2 0 1 0 0"}), "dump.a:11: id: 1 stands twice"},
-           {frame(1, "id x y vx vy", {"1 0 0 0 0"}), "radius: no such column"},
-           {frame(1, "id x xu y radius vx vy", {"1 0 0 0 1 0 0"}), "xu: gives x a second time"},
+           {frame(1, "id x y vx vy", {"1 0 0 0 0"}), "radius or diameter: no such column"},
+           {frame(1, "id x y radius vx", {"1 0 0 1 0"}), "vy: no such column"},
+           {frame(1, "id x y diameter vx vy", {"1 0 0 0 0 0"}), "dump.a:10: diameter: is not above 0"},
+           {frame(1, columns, {"1 0 0 1 0 0", "2 0 0 1 1 0"}),
+            "dump.a:11: x, y: grains 1 and 2 are in one place"},
+           {tilted("id xs ys radius vx vy", "1 0 0 1 0 0"), "dump.a:9: xs: is scaled by a tilted box"},
            {frame(2, columns, {"1 0 0 1 0 0"}) + frame(1, columns, {"1 0 0 1 0 0"}), "times that ascend"},
            {frame(1, "id x y z radius vx vy", {"1 0 0 0 0.1 0 0", "2 0 0 5 0.1 0 0"}), "lie in space"},
            {frame(1, columns, {"1 0 0 1 0 0"}).substr(0, 60), "ends within a frame"},
-           {frame(1, columns, {"1 0 0 1 0 0"}) + "ITEM: TIMESTEP\n2\n", "dump.a:12: ends within a frame"},
            {"ITEM: TIMESTEP\n1\nITEM: NUMBER OF ATOMS\n1\nITEM: ATOMS id xs ys radius vx vy\n1 0.5 0.5 1 0 "
             "0\n",
             "dump.a:5: xs: is scaled by a box that this frame does not give"},
@@ -129,6 +138,104 @@ TEST(LammpsImport, RefusesWithFileAndLine) {
     const std::string said = refusal(folder, description());
     EXPECT_NE(said.find(message), std::string::npos) << said;
   }
+}
+
+TEST(LammpsImport, ReadsTheUnitsAndTimesThatTheDumpNames) {
+  const TemporaryFolder folder;
+  const std::string head =
+      "format = \"drumlin-import-1\"\n[grains]\ndensity_kg_m3 = 2000\n[lammps]\ngrains = [\"dump.*\"]\n";
+  const auto dump = [](const std::string& units, const std::string& rows, double time) {
+    return "ITEM: UNITS\n" + units + "\nITEM: TIME\n" + std::to_string(time) + "\n" +
+           frame(1000, "id x y radius vx vy", {rows}) + "ITEM: TIME\n" + std::to_string(1.2 * time) + "\n" +
+           frame(2000, "id x y radius vx vy", {rows});
+  };
+  // A disc of 2 mm at 20 mm, 0.1 m/s, at 0.025 s.
+  for (const auto& [units, rows, time] :
+       std::vector<std::tuple<std::string, std::string, double>>{{"si", "1 0.02 0 0.001 0.1 0", 0.025},
+                                                                 {"cgs", "1 2 0 0.1 10 0", 0.025},
+                                                                 {"micro", "1 2e4 0 1e3 0.1 0", 2.5e4},
+                                                                 {"nano", "1 2e7 0 1e6 0.1 0", 2.5e7}}) {
+    folder.with("dump.a", dump(units, rows, time));
+    const auto result = imported(folder, head + "step_s = 1\n");
+    ASSERT_EQ(result.snapshots.size(), 2u) << units;
+    EXPECT_NEAR(result.report.scales.length_m, 0.002, 1e-15) << units;
+    EXPECT_NEAR(result.report.first_time_s, 0.025, 1e-12) << units;
+    EXPECT_NEAR(result.report.last_time_s, 0.03, 1e-12) << units;
+    EXPECT_NEAR(result.snapshots[1].x[0], 10, 1e-9) << units;
+    EXPECT_NEAR(result.snapshots[1].v_x[0] * result.report.scales.velocity_m_s(), 0.1, 1e-12) << units;
+  }
+  const auto refused = [&](const std::string& units, const std::string& more) {
+    folder.with("dump.a", dump(units, "1 2 0 0.1 10 0", 1));
+    return refusal(folder, head + more);
+  };
+  EXPECT_NE(refused("cgs", "length_unit_m = 1\n")
+                .find("UNITS: is \"cgs\", a unit of 0.01; lammps.length_unit_m is 1"),
+            std::string::npos);
+  EXPECT_NE(refused("real", "").find("dump.a:2: UNITS: is \"real\" (allowed: si, cgs, micro, nano, lj)"),
+            std::string::npos);
+  EXPECT_NE(refused("lj", "length_unit_m = 0.01\n").find("lammps.time_unit_s in the description"),
+            std::string::npos);
+  EXPECT_NEAR(imported(folder, head + "length_unit_m = 0.01\ntime_unit_s = 0.5\n").report.last_time_s, 0.6,
+              1e-12);
+  folder.with("dump.a", frame(1, "id x y radius vx vy", {"1 0 0 1 0 0"}));
+  EXPECT_NE(refusal(folder, head).find("TIMESTEP: counts steps whose length is not known"),
+            std::string::npos);
+}
+
+TEST(LammpsImport, ReadsOnlyWhatItNeeds) {
+  const TemporaryFolder folder;
+  folder.with("dump.a",
+              frame(4, "id type x xu y x radius diameter vx vy mol", {"1 sand 9.81 7 0 8 4.9 3 0 0 water"}));
+  const auto result = imported(folder, description());
+  EXPECT_NEAR(result.snapshots.at(0).x.at(0), 1, 1e-12);  // the first that gives x
+  EXPECT_NEAR(result.snapshots[0].radius[0] * 9.81, 4.9, 1e-12);
+  EXPECT_EQ(result.report.unused_columns, (std::vector<std::string>{"diameter", "mol", "type", "x", "xu"}));
+  EXPECT_NE(refusal(folder, description("wall_types = [2]\n")).find("dump.a:10: type: \"sand\" is no number"),
+            std::string::npos);
+  folder.with("dump.a", tilted("id x y radius vx vy", "1 2.5 1.5 4.9 0 0"));
+  EXPECT_NEAR(imported(folder, description()).snapshots.at(0).x.at(0) * 9.81, 2.5, 1e-12);
+}
+
+TEST(LammpsImport, LeavesOutWhatIsWrittenTwiceOrCutOff) {
+  const TemporaryFolder folder;
+  const std::string columns = "id x y radius vx vy";
+  const auto at = [&](int step) { return frame(step, columns, {"1 0 0 5 0 0", "2 9 0 5 0 1"}); };
+  const std::string swapped = frame(2, columns, {"2 9 0 5 0 1", "1 0 0 5 0 0"});
+  const auto contacts = [](int step) { return frame(step, "a b fx fy", {"1 2 -3 0"}, "ENTRIES"); };
+  const std::string both = description(
+      "contacts = [\"contacts\"]\ncontact_ids = [\"a\", \"b\"]\ncontact_forces = [\"fx\", \"fy\"]\ndepth_m = "
+      "1\n");
+  // A run that was started again writes the frame at which it starts once more, in any order.
+  folder.with("dump.a", at(1) + at(2) + swapped + at(3));
+  folder.with("contacts", contacts(1) + contacts(2) + contacts(2) + contacts(3));
+  const auto again = imported(folder, both);
+  ASSERT_EQ(again.snapshots.size(), 3u);
+  EXPECT_EQ(again.report.contacts, 3u);
+  ASSERT_EQ(again.report.left_out.size(), 1u);
+  EXPECT_NE(again.report.left_out[0].find("dump.a:23: is the snapshot before once more"), std::string::npos)
+      << again.report.left_out[0];
+  folder.with("dump.a", at(1) + at(2) + frame(2, columns, {"1 0 0 5 0 0", "2 8 0 5 0 1"}));
+  EXPECT_NE(refusal(folder, description()).find("dump.a:23: TIMESTEP: 1 s does not go on from 1 s"),
+            std::string::npos);
+  // Cut off after any letter; the others are there, and what happened is said.
+  const std::string last = at(3);
+  for (std::size_t kept = 1; kept < last.size(); ++kept) {
+    folder.with("dump.a", at(1) + at(2) + last.substr(0, kept));
+    const auto cut = imported(folder, description());
+    EXPECT_EQ(cut.snapshots.size(), 2u) << kept;
+    ASSERT_EQ(cut.report.left_out.size(), 1u) << kept;
+    EXPECT_NE(cut.report.left_out[0].find("dump.a:23: is cut off"), std::string::npos);
+  }
+  // Grains whose contacts are cut off have no stress, and are left out too; contacts of such grains likewise.
+  folder.with("dump.a", at(1) + at(2) + at(3));
+  folder.with("contacts", contacts(1) + contacts(2) + contacts(3).substr(0, 70));
+  EXPECT_EQ(imported(folder, both).snapshots.size(), 2u);
+  folder.with("dump.a", at(1) + at(2) + at(3).substr(0, 70));
+  folder.with("contacts", contacts(1) + contacts(2) + contacts(3));
+  EXPECT_EQ(imported(folder, both).report.left_out.size(), 1u);
+  // Anywhere else it is a fault.
+  folder.with("dump.b", at(4));
+  EXPECT_NE(refusal(folder, description()).find("dump.a"), std::string::npos);
 }
 
 TEST(LammpsImport, ReadsLinesAcrossThePiecesOfItsFileAndWithoutALastEnd) {
