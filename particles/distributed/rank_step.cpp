@@ -108,7 +108,7 @@ class RankMoreauJean final : public RankStepper {
     (void)watch.lap();
     crossings_.begin(bodies_, walls.before, domain_.largest / 2);
     move(time_step);
-    const int projected = project(walls, report);
+    const int projected = project(walls, time_step, report);
     remember(state, time_step);
     give_back(state);
     report.projection_seconds = watch.lap();
@@ -207,7 +207,7 @@ class RankMoreauJean final : public RankStepper {
   }
 
   /// The overlap that is left, which is then removed on positions alone. Returns the sweeps of that.
-  int project(WallStep& walls, StepReport& report) {
+  int project(WallStep& walls, double time_step, StepReport& report) {
     const Period open;
     const Crossings moved = crossings_.undo(walls, open, bodies_);
     std::optional<LostGrain> lost;
@@ -225,6 +225,7 @@ class RankMoreauJean final : public RankStepper {
     report.overlap.max = deepest[0];
     if (!lost) lost = moved.lost ? moved.lost : pushed.lost;
     if (!lost) lost = grain_that_is_not_finite(bodies_);
+    if (!lost) lost = grain_too_fast(bodies_, time_step);
     report.lost = first_lost(lost);
     return sweeps;
   }

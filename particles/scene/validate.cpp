@@ -7,6 +7,7 @@
 #include <numbers>
 #include <set>
 
+#include "particles/scene/longest_step.hpp"
 #include "particles/scene/region.hpp"
 #include "particles/scene/scene_walls.hpp"
 #include "particles/scene/validate_cell.hpp"
@@ -25,6 +26,8 @@ using Faults = std::vector<SceneFault>;
 constexpr double rounding = 1e-9;    // relative; for comparisons of numbers that a user wrote to agree
 constexpr double most_steps = 1e12;  // some 10,000 years of computing
 constexpr double most_glued = 1e5;   // discs on one rough wall
+// By which share a window may differ from whole steps, as adjusting the step of a stage of 50 can have it.
+constexpr double most_adjusted = 1e-2;
 
 std::string wall_key(std::size_t w) { return fmt::format("walls.{}", w); }
 std::string stage_key(std::size_t s) { return fmt::format("stages.{}", s); }
@@ -199,8 +202,11 @@ void check_steps(const Scene& scene, std::size_t s, Faults& faults) {
                       fmt::format("at most one per step, <= {:.0f}", steps), with({key + ".snapshots"})});
     return;
   }
-  const double window = scene.output.velocity_window_s / stage.time_step_s;
-  if (std::abs(window - std::round(window)) > 1e-6)
+  // The step is so adjusted that whole steps fill the stage, and a prolonged stage names the adjusted one.
+  const double window = scene.output.velocity_window_s / stage.time_step_s,
+               adjusted = scene.output.velocity_window_s / (length / steps);
+  if (std::abs(window - std::round(window)) > 1e-6 &&
+      std::abs(adjusted - std::round(adjusted)) > most_adjusted * adjusted)
     faults.push_back({"output.velocity_window_s",
                       fmt::format("is {:.6g} steps of stage \"{}\"", window, stage.name),
                       fmt::format("a whole number of its steps of {} s", stage.time_step_s),
@@ -210,37 +216,6 @@ void check_steps(const Scene& scene, std::size_t s, Faults& faults) {
                       fmt::format("is longer than the {:.6g} s between two snapshots of stage \"{}\"",
                                   length / stage.snapshots, stage.name),
                       "at most that", with({"output.velocity_window_s", key + ".snapshots"})});
-}
-
-/// Within a step a grain must not fall past another one, from rest: g h^2 below the smallest diameter.
-void check_fall(const Scene& scene, std::size_t s, Faults& faults) {
-  const auto* made = std::get_if<GeneratedGrains>(&scene.grains.source);
-  if (!scene.effects.gravity || made == nullptr) return;
-  const double g = strongest_gravity(scene, s), h = scene.stages[s].time_step_s;
-  const double longest = std::sqrt(1e-3 * made->diameter_min_mm / g);
-  if (!(h > longest) || !(h <= duration_s(scene.stages[s]))) return;
-  const std::string key = stage_key(s) + ".time_step_s";
-  faults.push_back({key,
-                    fmt::format("is {}, in which a grain falls by {:.3g} of the smallest diameters", h,
-                                h * h / (longest * longest)),
-                    fmt::format("up to {:.3g} s, for at most one", longest),
-                    {key, "grains.generated.diameter_min_mm", "effects.gravity"}});
-}
-
-/// Nor fly past one at the speed of a gas, in the first stage: later it may have cooled.
-void check_flight(const Scene& scene, std::size_t s, Faults& faults) {
-  if (s > 0) return;
-  const auto* made = std::get_if<GeneratedGrains>(&scene.grains.source);
-  if (!scene.grains.thermal_speed_mm_s || made == nullptr) return;
-  const double h = scene.stages[s].time_step_s;
-  const double longest = made->diameter_min_mm / *scene.grains.thermal_speed_mm_s;
-  if (!(h > longest) || !(h <= duration_s(scene.stages[s]))) return;
-  const std::string key = stage_key(s) + ".time_step_s";
-  faults.push_back(
-      {key,
-       fmt::format("is {}, in which a grain flies by {:.3g} of the smallest diameters", h, h / longest),
-       fmt::format("up to {:.3g} s, for at most one", longest),
-       {key, "grains.generated.diameter_min_mm", "grains.thermal_speed_mm_s"}});
 }
 
 /// A wall that goes to and fro faster than steps follow looks slower, or at rest.
@@ -271,10 +246,10 @@ void check_stages(const Scene& scene, Faults& faults) {
     check_motions(scene, s, faults);
     check_length(stage, stage_key(s), faults);
     check_steps(scene, s, faults);
-    check_fall(scene, s, faults);
-    check_flight(scene, s, faults);
     check_frequencies(scene, s, faults);
   }
+  const std::vector<SceneFault> too_long = steps_too_long(scene, smallest_made_mm(scene));
+  faults.insert(faults.end(), too_long.begin(), too_long.end());
 }
 
 /// Files of contact problems hold two unknowns per contact, and grains and walls that only grains push.

@@ -1,7 +1,11 @@
 // The moving cell of a simulation between its steps.
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 
 #include "coupling/common/errors.hpp"
+#include "particles/scene/longest_step.hpp"
 #include "particles/stepping/simulation.hpp"
 
 namespace drumlin::particles {
@@ -14,6 +18,16 @@ void refuse_short_cell(const CellState& cell, const Bodies& bodies) {
   throw NotConvergedError("the cell has become shorter than 3 of the largest grains");
 }
 
+/// Pressures may drive rates that no key names.
+void refuse_long_strain(const CellState& cell, double h) {
+  const double strain = h * std::max({std::abs(cell.rate_x), std::abs(cell.rate_z), std::abs(cell.shear)});
+  // Given rates of that size are refused before: rounding must not stop a run.
+  if (strain <= longest_strain * (1 + 1e-3)) return;
+  throw NotConvergedError(
+      fmt::format("the cell is strained by {:.3g} in a step, more than {}: time_step_s is too large", strain,
+                  longest_strain));
+}
+
 }  // namespace
 
 MovingCell Simulation::begin_cell_step(double h) {
@@ -23,6 +37,7 @@ MovingCell Simulation::begin_cell_step(double h) {
   const CellResponse response = response_of(law, cell, state_.bodies);
   const double before = state_.energy ? kinetic_energy(state_.bodies) : 0;
   drive_cell(law, response, h, cell, state_.bodies);
+  refuse_long_strain(cell, h);
   if (state_.energy) book_cell(kinetic_energy(state_.bodies) - before, *state_.energy);
   return {cell, response};
 }

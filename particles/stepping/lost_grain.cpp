@@ -1,6 +1,11 @@
 #include "particles/stepping/lost_grain.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
+
+#include "particles/scene/longest_step.hpp"
 
 namespace drumlin::particles {
 
@@ -14,6 +19,8 @@ std::string to_string(LostGrain::How how) {
       return "went through a wall";
     case LostGrain::How::not_finite:
       return "has a place or speed that is no finite number";
+    case LostGrain::How::too_fast:
+      return fmt::format("flies by more than {:g} d in a step (time_step_s is too large)", longest_flight);
   }
   return "is lost";
 }
@@ -46,6 +53,19 @@ std::optional<LostGrain> grain_that_is_not_finite(const Bodies& bodies) {
     if (!std::isfinite(measure(b))) break;
   }
   return LostGrain{static_cast<int>(worst), bodies.x[worst], bodies.z[worst], LostGrain::How::not_finite};
+}
+
+std::optional<LostGrain> grain_too_fast(const Bodies& bodies, double time_step) {
+  const double speed = longest_flight / time_step, most = speed * speed;
+  const auto square = [&](std::size_t b) {
+    return bodies.v_x[b] * bodies.v_x[b] + bodies.v_z[b] * bodies.v_z[b];
+  };
+  double fastest = 0;
+  for (std::size_t b = 0; b < bodies.count(); ++b) fastest = std::max(fastest, square(b));
+  if (!(fastest > most)) return std::nullopt;
+  std::size_t b = 0;
+  while (!(square(b) > most)) ++b;
+  return LostGrain{static_cast<int>(b), bodies.x[b], bodies.z[b], LostGrain::How::too_fast};
 }
 
 }  // namespace drumlin::particles

@@ -9,7 +9,7 @@
 namespace drumlin::particles {
 
 struct LostGrain {
-  enum class How { left_container, pushed_too_far, went_through_wall, not_finite };
+  enum class How { left_container, pushed_too_far, went_through_wall, not_finite, too_fast };
   int grain = 0;
   double x = 0, z = 0;  ///< of its centre, d; not finite where that is what is wrong
   How how = How::not_finite;
@@ -26,5 +26,8 @@ bool pushed_too_far(const Shape& wall, const Pose& step, Point grain, Point norm
 
 /// The first grain whose place or kinetic energy is not finite.
 std::optional<LostGrain> grain_that_is_not_finite(const Bodies&);
+
+/// The first grain that flies further than longest_flight within a step.
+std::optional<LostGrain> grain_too_fast(const Bodies&, double time_step);
 
 }  // namespace drumlin::particles

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "coupling/common/errors.hpp"
+#include "particles/scene/validate.hpp"
 #include "particles/stepping/time_plan.hpp"
 
 namespace drumlin::particles {
@@ -35,6 +36,12 @@ void refuse_what_cannot_go_on(const Scene& scene, const TimePlan& plan, const Si
     refuse("asks for more of a stage that ends when something has happened", "one without until");
   if (last.gravity && last.gravity->ramp)
     refuse("asks for more of a stage whose gravity follows a ramp", "one without a ramp");
+}
+
+/// What stays in the folder must be a scene: every later command reads it.
+void refuse_what_nothing_reads(const Scene& longer) {
+  for (const SceneFault& fault : validate(longer))
+    refuse(fmt::format("would leave a scene whose {} {}", fault.key, fault.what), fault.allowed);
 }
 
 }  // namespace
@@ -82,6 +89,7 @@ Scene prolonged(const Scene& scene, double seconds, SimulationState& state) {
       now.snapshot_steps[plan.snapshot_steps.size()] < plan.steps + window)
     refuse("asks for a snapshot whose velocity window began before the end of the run",
            "intervals between snapshots longer than output.velocity_window_s");
+  refuse_what_nothing_reads(longer);
   return longer;
 }
 

@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "coupling/common/errors.hpp"
+#include "particles/scene/longest_step.hpp"
 #include "particles/scene/materials.hpp"
 #include "particles/scene/placement.hpp"
 #include "particles/scene/scene_walls.hpp"
@@ -101,6 +102,24 @@ void refuse_deep_overlap(const Scene& scene, const Walls& walls, const StartOver
       fmt::format("at most {} of the smaller diameter; grains are counted from 1", most_at_start)}});
 }
 
+/// Listed grains only show here; what a scene makes of them is told with its keys.
+void refuse_steps_too_long(const Scene& scene, const Scales& scales, const TimePlan& plan,
+                           const Bodies& bodies) {
+  const double smallest = 2 * *std::min_element(bodies.radius.begin(), bodies.radius.end());
+  const double smallest_mm = std::min(smallest * scales.length_m * 1e3, smallest_made_mm(scene));
+  std::vector<InputProblem> problems;
+  for (const SceneFault& fault : steps_too_long(scene, smallest_mm))
+    problems.push_back({"", 0, 0, fault.key, fault.what, fault.allowed});
+  const double h = plan.stages[0].time_step;
+  if (const auto fast = grain_too_fast(bodies, h); fast && problems.empty())
+    problems.push_back(
+        {"", 0, 0, "stages.0.time_step_s",
+         fmt::format("is {}, in which grain {} flies by {:.3g} mean diameters", scene.stages[0].time_step_s,
+                     fast->grain + 1, h * std::hypot(bodies.v_x[fast->grain], bodies.v_z[fast->grain])),
+         fmt::format("one in which none flies further than {:g}", longest_flight)});
+  if (!problems.empty()) throw InputError(problems);
+}
+
 }  // namespace
 
 Scales scales_of(const Scene& scene) {
@@ -138,6 +157,7 @@ Simulation::Simulation(const Scene& scene, int threads)
     const auto shapes = walls_.shapes_at(0, state_.driven);
     start_overlaps_ = overlaps_at_start(state_.bodies, shapes, laws_of(scene, scales_).period);
     refuse_deep_overlap(scene, walls_, start_overlaps_);
+    refuse_steps_too_long(scene, scales_, plan_, state_.bodies);
   }
 }
 
@@ -199,6 +219,7 @@ StepReport Simulation::step() {
   if (state_.loads && state_.loads->time == 0) book_walls(0);
   StepReport report = frame_ ? advance_in_laboratory(h) : advance_here(h);
   if (!report.lost) report.lost = grain_that_is_not_finite(state_.bodies);
+  if (!report.lost) report.lost = grain_too_fast(state_.bodies, h);
   for (const DrivenState& wall : state_.driven)
     if (!report.lost && (!std::isfinite(wall.position) || !std::isfinite(wall.velocity)))
       throw NotConvergedError("a wall that a force moves has no finite place or speed any more");

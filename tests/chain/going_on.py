@@ -27,6 +27,18 @@ def check_prolonged(drumlin, scene, there):
     drumlin("run", there / "none" / "scene.toml", "-o", there / "none", "--extend", "0.08", code=2)
 
 
+def check_prolonged_where_the_step_was_adjusted(drumlin, scene, there):
+    """At 7 rpm 0.01 turns are 85.7 steps of 1 ms: 86 shorter ones, and twice as many are read again by what measures them."""
+    turn = ["--set", "stages.2.motions.0.speed_rpm=7", "--set", "stages.2.turns=0.01", "--set", "stages.2.snapshots=4"]
+    drumlin("run", scene, "-o", there / "adjusted", *SHORT_RUN[:2], *turn)
+    before = snapshots(there / "adjusted")
+    drumlin("run", there / "adjusted" / "scene.toml", "-o", there / "adjusted", "--extend", "0.0857")
+    require(len(snapshots(there / "adjusted")) == 2 * len(before) > 0, "snapshots of a prolonged run")
+    said, _ = drumlin("scene", "check", there / "adjusted" / "scene.toml")
+    require("172 steps" in said, f"a prolonged scene: {said}")
+    drumlin("measure", there / "adjusted", "--parts", "none")
+
+
 def scene_of(run, text, there):
     """The scene of a run with another run's grains in place of its own."""
     begin, end = text.index("[grains.generated]"), text.index("[[walls]]")
@@ -54,6 +66,7 @@ def main():
     with tempfile.TemporaryDirectory(prefix="drumlin-going-on-") as name:
         there = pathlib.Path(name)
         check_prolonged(drumlin, scene, there)
+        check_prolonged_where_the_step_was_adjusted(drumlin, scene, there)
         check_started(drumlin, scene, there)
     print("prolonged as if longer; started from another run, and repeated without it")
 

@@ -1,6 +1,7 @@
 // A run that is stopped and read back from its checkpoint goes on as if nothing had been, with every effect.
 #include "coupling/common/errors.hpp"
 #include "particles/io/checkpoint_file.hpp"
+#include "particles/scene/validate.hpp"
 #include "particles/stepping/prolong.hpp"
 #include "tests/effects/drums.hpp"
 
@@ -220,6 +221,28 @@ TEST(Prolong, GivesWhatTheLongerSceneGives) {
   EXPECT_EQ(whole.state().memory.impulse, second.state().memory.impulse);
   EXPECT_EQ(whole.state().snapshots, second.state().snapshots);
   EXPECT_EQ(whole.take_snapshot().displacement_x, second.take_snapshot().displacement_x);
+}
+
+// 7 rpm: 0.1 turns are 857.14 steps of 1 ms, so that 857 are 1.00017 ms long each and the window is 5.999.
+TEST(Prolong, LeavesASceneThatIsReadAgainWhereTheStepWasAdjusted) {
+  Scene scene = test::turning_drum();
+  scene.stages[0].duration_s = 0.85714285714285714;
+  scene.stages[0].time_step_s = 1e-3;
+  scene.stages[0].snapshots = 100;
+  scene.output.velocity_window_s = 6e-3;
+  SimulationState state = Simulation(scene).state();
+  for (int k = 1; k <= 3; ++k) {
+    state.step = state.step_in_stage = time_plan(scene, scales_of(scene)).steps;
+    scene = prolonged(scene, 0.857, state);
+    EXPECT_EQ(scene.stages[0].snapshots, 100 * (1 + k));
+    EXPECT_EQ(time_plan(scene, scales_of(scene)).steps, 857 * (1 + k));
+    EXPECT_TRUE(validate(scene).empty()) << validate(scene)[0].what;
+  }
+  // 10.4 steps, as 10 of 1.04 ms: a window of six would be 4 % longer.
+  scene.stages[0].duration_s = 0.0104, scene.stages[0].time_step_s = 1e-3, scene.stages[0].snapshots = 1;
+  ASSERT_TRUE(validate(scene).empty());
+  state.step = state.step_in_stage = 10;
+  EXPECT_THROW((void)prolonged(scene, 0.01, state), InputError);
 }
 
 TEST(Prolong, RefusesWhatWouldHaveGoneAnotherWay) {

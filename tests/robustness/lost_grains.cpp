@@ -1,9 +1,11 @@
 // No grain leaves and nothing becomes NaN without the step saying so. Each case is provoked.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "coupling/common/errors.hpp"
+#include "tests/exchange_files/folder.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace drumlin {
@@ -97,6 +99,70 @@ TEST(LostGrain, WithoutAFiniteEnergyIsNamed) {
     state.bodies.v_x[1] = wrong;
     EXPECT_THROW(Simulation(scene, state), InputError) << wrong;
   }
+}
+
+/// What a listed start is refused with; empty for one that is accepted.
+std::string start_refused(const std::vector<Grain>& grains, double time_step, bool falls = true) {
+  const TemporaryFolder folder;
+  Scene scene = scene_of(grains, folder);
+  if (falls) scene.effects.gravity = Gravity{};
+  add_stage(scene, 100 * time_step, time_step);
+  try {
+    Simulation{scene};
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+// A listed disc falls by g h^2, 10 d where h = sqrt(10); one of 1e-9 d by as many of its own diameters.
+TEST(LongSteps, ListedGrainsFallByADiameterAtMost) {
+  EXPECT_EQ(start_refused({{0, 0}}, 0.99), "");
+  const std::string ten = start_refused({{0, 0}}, std::sqrt(10.0));
+  for (const char* part : {"stages.0.time_step_s: is ", "falls by 10 of the smallest", "allowed: up to "})
+    EXPECT_NE(ten.find(part), std::string::npos) << ten;
+  EXPECT_EQ(start_refused({{0, 0}, {2, 0}}, 0.1), "");
+  EXPECT_NE(start_refused({{0, 0}, {2, 0, 1e-9}}, 0.1).find("falls by"), std::string::npos);
+  EXPECT_EQ(start_refused({{0, 0}, {2, 0, 1e-9}}, 0.1, false), "");
+}
+
+// Straight ways are swept, however fast: 5 d in a step are none too many, 1100 d are an error.
+TEST(LongSteps, ListedGrainsFlyByThousandDiametersAtMost) {
+  EXPECT_EQ(start_refused({{0, 0, 1, 50}}, 0.1), "");
+  const std::string said = start_refused({{5, 5}, {0, 0, 1, 1.1e4}}, 0.1, false);
+  EXPECT_NE(said.find("in which grain 2 flies by 1.1e+03 mean diameters"), std::string::npos) << said;
+}
+
+TEST(LongSteps, AGrainThatFliesTooFarInARunIsNamed) {
+  const TemporaryFolder folder;
+  Scene scene = scene_of({{5, 5}, {0, 0}}, folder);
+  add_stage(scene, 1, 0.1);
+  SimulationState state = Simulation(scene).state();
+  state.bodies.v_x[1] = -9000;  // 900 d in a step
+  Simulation fast(scene, state);
+  EXPECT_FALSE(lost_within(fast, 1));
+  state.bodies.v_x[1] = -11000;
+  Simulation too_fast(scene, state);
+  const auto lost = lost_within(too_fast, 1);
+  ASSERT_TRUE(lost);
+  EXPECT_EQ(lost->grain, 1);
+  EXPECT_EQ(lost->how, LostGrain::How::too_fast);
+}
+
+// A pressure of 1e4 rho0 g d on some discs far from one another: in ten steps of 0.1 they would pass each
+// other.
+TEST(LongSteps, APressureThatStrainsACellTooFastEndsTheRun) {
+  const TemporaryFolder folder;
+  Scene scene = scene_of({{2, 2}, {7, 2}, {2, 7}, {7, 7}}, folder);
+  const double unit = 1e3 * scales_of(scene).length_m;
+  scene.periodic_x = PeriodicX{0, 10 * unit}, scene.periodic_z = PeriodicZ{0, 10 * unit};
+  add_stage(scene, 1, 0.1);
+  StageCell cell;
+  cell.zz = CellAxis{1e4 * scales_of(scene).stress_Pa()};
+  scene.stages[0].cell = cell;
+  Simulation simulation(scene);
+  const std::string said = testing::message_of<NotConvergedError>([&] { (void)lost_within(simulation, 10); });
+  EXPECT_NE(said.find("the cell is strained by"), std::string::npos) << said;
 }
 
 TEST(LostGrain, FirstWithoutAFiniteNumberIsNamed) {

@@ -38,6 +38,17 @@ TEST(CellContradiction, WhatNothingHoldsOrNothingMoves) {
                  "solver.capture_unconverged", "under pressure");
 }
 
+// 0.2 of strain in a step of 1 ms, whatever strains the cell.
+TEST(CellContradiction, StrainsOfAStepHaveALimit) {
+  const std::string key = "stages.0.cell";
+  expect_problem({key + ".shear_rate_per_s=500"}, key + ".shear_rate_per_s",
+                 "is 500, a strain of 0.5 in a step of 0.001 s (allowed: up to 200");
+  expect_problem({key + ".shear_rate_per_s=-12000"}, key + ".shear_rate_per_s", "a strain of 12 in a step");
+  expect_problem({key + ".xx={rate_per_s=201}"}, key + ".xx.rate_per_s", "up to 200");
+  expect_problem({key + ".zz={rate_per_s=-201}"}, key + ".zz.rate_per_s", "up to 200");
+  EXPECT_TRUE(scene_problems(cell, {key + ".shear_rate_per_s=200"}).empty());
+}
+
 TEST(CellContradiction, CellsThatAreNone) {
   const std::string open = testing::replaced(cell, "periodic_z = { z_min_mm = 0, z_max_mm = 20 }\n", "");
   const auto problem = only_scene_problem(open);

@@ -43,11 +43,57 @@ TEST(StageContradiction, StepsMustFollowWallsThatGoToAndFroAndGrainsThatFly) {
     return "stages.1={name=\"shake\", duration_s=0.1, time_step_s=1e-3, motions=[{wall=\"drum\", " + keys +
            "}]}";
   };
-  expect_problem({moved("kind=\"oscillation\", amplitude_mm=[0, 1], frequency_hz=251")},
+  expect_problem({moved("kind=\"oscillation\", amplitude_mm=[0, 0.5], frequency_hz=251")},
                  "stages.1.motions.0.frequency_hz", "a period of 3.98 steps");
   expect_problem({moved("kind=\"rocking\", amplitude_deg=1, center_mm=[0, 0], frequency_hz=1000")},
                  "stages.1.motions.0.frequency_hz", "up to 250 Hz");
   expect_problem({"grains.thermal_speed_mm_s=1e6"}, "stages.0.time_step_s", "flies by");
+}
+
+// The smallest radius is 1.5 mm, a step 1 ms.
+TEST(StageContradiction, WallsMoveByARadiusInAStepAtMost) {
+  const auto moved = [](const std::string& keys) {
+    return "stages.1={name=\"move\", duration_s=0.1, time_step_s=1e-3, motions=[{wall=\"drum\", " + keys +
+           "}]}";
+  };
+  const std::string motion = "stages.1.motions.0.";
+  const auto accepted = [&](const std::string& keys, const std::string& wall = "walls.0.name=\"drum\"") {
+    const auto problems = testing::scene_problems(example_scene, {moved(keys), wall});
+    EXPECT_TRUE(problems.empty()) << keys << ": " << problems.front().text();
+  };
+  expect_problem({moved("kind=\"translation\", velocity_mm_s=[1600, 0]")}, motion + "velocity_mm_s",
+                 "moves wall \"drum\" by 1.6 mm in a step of 0.001 s (allowed: up to 1.5 mm");
+  accepted("kind=\"translation\", velocity_mm_s=[1500, 0]");
+  expect_problem({moved("kind=\"oscillation\", amplitude_mm=[0, 10], frequency_hz=25")},
+                 motion + "amplitude_mm", "by 1.57 mm");
+  // A drum turns within itself, about its own centre; about another point it moves.
+  accepted("kind=\"rotation\", speed_rpm=6000");
+  expect_problem({moved("kind=\"rotation\", speed_rpm=6000, center_mm=[2.5, 0]")}, motion + "speed_rpm",
+                 "by 1.57 mm");
+  expect_problem({moved("kind=\"rocking\", amplitude_deg=90, frequency_hz=100, center_mm=[1.6, 0]")},
+                 motion + "amplitude_deg", "by 1.58 mm");
+  expect_problem({moved("kind=\"strain_rate\", direction=[2, 0], reference_mm=[-100, 0], rate_per_s=16")},
+                 motion + "rate_per_s", "by 1.6 mm");
+  // A gate may be drawn along itself as fast as one likes, not across.
+  const std::string gate = "walls.0={name=\"drum\", shape=\"segment\", from_mm=[-20, -20], to_mm=[20, -20]}";
+  accepted("kind=\"translation\", velocity_mm_s=[90000, 1500]", gate);
+  expect_problem({moved("kind=\"rotation\", speed_rpm=750, center_mm=[0, -20]"), gate}, motion + "speed_rpm",
+                 "by 1.57 mm");
+  expect_problem({moved("kind=\"translation\", velocity_mm_s=[1600, 0]"),
+                  gate.substr(0, gate.size() - 1) + ", rough={diameter_mm=3, spacing_mm=3}}"},
+                 motion + "velocity_mm_s", "by 1.6 mm");
+}
+
+TEST(StageContradiction, StepsAreAsShortAsTheSmallestGrainsOfGroupsAndSourcesNeed) {
+  const std::string region = "region={shape=\"rectangle\", min_mm=[-2, 10], max_mm=[2, 12]}";
+  // 1e-5 m falls by g h^2 = 9.81e-6 m, 1e-6 m by ten diameters.
+  const auto source = [&](const std::string& diameter) {
+    return "sources=[{name=\"rain\", " + region + ", grains_per_s=1, diameter_min_mm=" + diameter +
+           ", diameter_max_mm=1}]";
+  };
+  const std::string first = "stages=[{name=\"settle\", duration_s=0.1, time_step_s=1e-3}]";
+  expect_problem({source("1e-3"), first}, "stages.0.time_step_s", "falls by 9.81 of the smallest diameters");
+  EXPECT_TRUE(testing::scene_problems(example_scene, {source("1e-2"), first}).empty());
 }
 
 TEST(StageContradiction, NamesAreFieldsOfTables) {
