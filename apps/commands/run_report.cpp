@@ -71,7 +71,9 @@ nlohmann::ordered_json energy(const particles::EnergyLedger& ledger) {
 // d, mean over steps and loaded contacts: ten times that of the shipped drums, and what a penetration
 // tolerance of 1e-3 d stands for.
 constexpr double much_overlap = 1e-3;
-// d, the same mean: the packing holds more than its volume allows.
+// d, at the worst contact of a step: twice what grains have that fall in when a drum begins to turn.
+constexpr double deep_overlap = 0.25;
+// d, the mean again: the packing holds more than its volume allows.
 constexpr double crushing = 1e-2;
 
 /// What ended each stage that is over, and when.
@@ -138,6 +140,11 @@ std::vector<std::string> run_warnings(const RunProgress& run) {
         "here{}",
         overlap, t.overlap_max,
         overlap > crushing ? "; the load crushes them, or the time step is too long for it" : ""));
+  else if (t.overlap_max > deep_overlap)
+    warnings.push_back(fmt::format(
+        "two discs overlapped by {:.2g} d in a step, more than {} d: they were crushed, or thrown into one "
+        "another, as heavy discs do to light ones; what follows from it does not hold. Shorten time_step_s",
+        t.overlap_max, deep_overlap));
   if (const auto& left = run.simulation.state().left) warnings.push_back(left_warning(*left));
   if (const std::string text = start_warning(run.simulation.start_overlaps()); !text.empty())
     warnings.push_back(text);
