@@ -51,6 +51,7 @@ MeasurementFrame found_frame(const Survey& found, const Snapshot& last, const Me
   place.frame = found.upright;
   place.container_radius = last.container_radius;
   place.period = place.container_radius > 0 ? 0 : last.period_x;
+  place.closed = found.closed;
   place.rotation = last.wall_spin;
   place.snapshots = found.series.time.size();
   place.batches = std::min(options.batches, place.snapshots);
@@ -139,14 +140,15 @@ void measure_centre(const Slices& slices, const MeasurementOptions& options, dou
   if (slices.cells) add_cell_columns(slices.centre, *slices.cells, centre);
   add_intervals(centre);
   result.surface_z = centre.surface_z;
+  result.layer_thickness = slices.centre.grid.thickness;
   result.axis_depth = -centre.surface_z;
   result.wall_z = wall_height - centre.surface_z;
   result.fits = profile_scalars(centre.profiles, options.scalars);
 
   const auto scalars_of = [&](const ProfileSet& profiles, double wall_z) {
-    ScalarSet scalars = packing_scalars(profiles, {wall_z, frame_angle}, options);
+    ScalarSet scalars = packing_scalars(profiles, {wall_z, frame_angle, result.place.closed}, options);
     if (!(result.place.container_radius > 0))
-      for (Scalar& scalar : bulk_scalars(profiles, wall_z, options.bulk_margin).scalars)
+      for (Scalar& scalar : bulk_scalars(profiles, wall_z, options.bulk_margin, result.place.closed).scalars)
         scalars.scalars.push_back(std::move(scalar));
     return scalars;
   };

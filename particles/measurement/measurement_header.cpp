@@ -20,7 +20,7 @@ RunHeader measurement_header(const Measurement& m, const MeasurementOptions& opt
   header.diameter_m = m.scales.length_m;
   header.position = options.position;
   header.slice_width = m.place.slice_width;
-  header.layer_thickness = options.layer_thickness;
+  header.layer_thickness = m.layer_thickness;
   header.snapshots = m.place.snapshots;
   header.batches = m.place.batches;
   header.interval_factor = m.place.batches > 1 ? interval_factor(m.place.batches) : std::nan("");

@@ -34,7 +34,7 @@ Json settings_of(const particles::Measurement& m, const particles::MeasurementOp
       {"position", options.position},
       {"slice_width", m.place.slice_width},
       {"slice_width_asked", options.slice_width},
-      {"layer_thickness", options.layer_thickness},
+      {"layer_thickness", m.layer_thickness},
       {"velocity_window", m.velocity_window},
       {"surface_speed_depth", options.scalars.surface_speed_depth},
       {"linear_share", options.scalars.linear_share},
@@ -57,6 +57,8 @@ Json settings_of(const particles::Measurement& m, const particles::MeasurementOp
       {"drum_radius", m.place.container_radius},
       {"scales", to_json(m.scales)}};
   settings["geometry"] = m.place.container_radius > 0 ? "drum" : m.place.period > 0 ? "layers" : "open";
+  if (m.layer_thickness != options.layer_thickness)
+    settings["layer_thickness_asked"] = options.layer_thickness;
   if (m.scattered)
     settings["window"] = {{"x", {m.place.x_min, m.place.x_max}},
                           {"z", {m.place.z_min, m.place.z_max}},

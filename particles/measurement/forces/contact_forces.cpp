@@ -7,13 +7,18 @@ namespace drumlin::particles {
 
 void add_contact_forces(const LayerGrid& grid, const Snapshot& snapshot, ContactForces& forces) {
   const FlowFrame& frame = grid.frame;
-  const double top = grid.z_min + static_cast<double>(grid.layers()) * grid.thickness;
+  const double top = grid.z_max();
   for (const SnapshotContact& contact : snapshot.contacts) {
     const auto i = static_cast<std::size_t>(contact.i);
     const double reach = snapshot.radius[i];
     const double point_x = snapshot.x[i] - reach * contact.normal_x;
     const double point_z = snapshot.z[i] - reach * contact.normal_z;
-    const double x = frame.x_of(point_x, point_z), z = frame.z_of(point_x, point_z);
+    const double x = frame.x_of(point_x, point_z);
+    double z = frame.z_of(point_x, point_z);
+    if (grid.closed) {  // the same share of the height in every cell
+      const double share = (z - snapshot.cell->z) / snapshot.cell->height;
+      z = grid.z_min + (share - std::floor(share)) * (top - grid.z_min);
+    }
     if (x < grid.x_min || x > grid.x_max || z < grid.z_min || z >= top) continue;
     double direction = std::atan2(frame.normal(contact.normal_x, contact.normal_z),
                                   frame.along(contact.normal_x, contact.normal_z));

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "particles/bodies/bodies.hpp"
+#include "particles/bodies/cell_path.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -64,14 +65,21 @@ void to_flow_frame(const Snapshot& snapshot, const FlowFrame& frame, VelocityKin
   result.z.resize(count);
   result.radius = snapshot.radius;
   result.density = snapshot.mass;
+  const Period period = period_of(snapshot);
+  result.cell.reset();
+  if (snapshot.cell)  // the frame has the axes of the cell
+    result.cell = {frame.z_of(0, period.origin_z), period.length_z, period.offset,
+                   period.image_velocity({period.offset, period.length_z}).x,
+                   period.image_velocity({period.offset, period.length_z}).z};
   for (std::size_t i = 0; i < result.density.size(); ++i)
     result.density[i] /= mass_of_disc(snapshot.radius[i]);
   for (std::size_t i = 0; i < count; ++i) {
-    result.x[i] = frame.x_of(snapshot.x[i], snapshot.z[i]);
-    result.z[i] = frame.z_of(snapshot.x[i], snapshot.z[i]);
-    const double v_x = velocity.x[i], v_z = velocity.z[i];
-    velocity.x[i] = frame.along(v_x, v_z);
-    velocity.z[i] = frame.normal(v_x, v_z);
+    MovingPoint grain{{snapshot.x[i], snapshot.z[i]}, {velocity.x[i], velocity.z[i]}};
+    if (snapshot.cell) grain = first_image(period, grain);
+    result.x[i] = frame.x_of(grain.at.x, grain.at.z);
+    result.z[i] = frame.z_of(grain.at.x, grain.at.z);
+    velocity.x[i] = frame.along(grain.velocity.x, grain.velocity.z);
+    velocity.z[i] = frame.normal(grain.velocity.x, grain.velocity.z);
   }
   result.v_x = std::move(velocity.x);
   result.v_z = std::move(velocity.z);

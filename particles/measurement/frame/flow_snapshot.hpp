@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "particles/bodies/snapshot.hpp"
@@ -29,6 +30,13 @@ struct FlowContact {
 
 class HalfBranches;
 
+/// A cell that is periodic in z too at one instant, in the flow frame: its grains stand in z_min ... z_min +
+/// height, and the image above is displaced by (offset, height) and faster by (v_x, v_z).
+struct FlowCell {
+  double z_min = 0, height = 0, offset = 0;
+  double v_x = 0, v_z = 0;
+};
+
 /// Components in the flow frame, one entry per grain. Velocities and spins are relative to the drum.
 struct FlowSnapshot {
   std::vector<double> x, z, radius, v_x, v_z;
@@ -37,6 +45,7 @@ struct FlowSnapshot {
   std::vector<std::uint16_t> coordination;  ///< loaded contacts, those with walls included
   std::vector<FlowContact> contacts;
   bool contacts_known = true;  ///< false: contacts and coordination say nothing
+  std::optional<FlowCell> cell;
 
   /// Both sides of each contact in turn, that of i first; a wall has none.
   HalfBranches half_branches() const;
@@ -90,8 +99,8 @@ inline HalfBranches FlowSnapshot::half_branches() const { return HalfBranches(*t
 enum class VelocityKind { window, instantaneous };
 
 /// `window`: displacement over the stored window / window, the drum's own turn taken out exactly; a snapshot
-/// without displacements has only the instantaneous velocity. Overwrites `result`, whose memory is used
-/// again.
+/// without displacements has only the instantaneous velocity. Grains that have left a cell which is periodic
+/// in z are put back into it. Overwrites `result`, whose memory is used again.
 void to_flow_frame(const Snapshot& snapshot, const FlowFrame& frame, VelocityKind kind, FlowSnapshot& result);
 
 /// Velocities of the grains relative to a frame that turns with the container (the laboratory without one),

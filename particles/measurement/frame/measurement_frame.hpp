@@ -46,6 +46,7 @@ struct MeasurementFrame {
   FrameSource source = FrameSource::gravity;
   double container_radius = 0;  ///< 0 without a drum
   double period = 0;            ///< 0: open
+  bool closed = false;          ///< periodic in z too, from z_min to z_max in the mean
   double z_min = 0, z_max = 0;  ///< what the layers cover
   double x_min = 0, x_max = 0;  ///< what the grains reach along x; -+ the radius in a drum
   double rotation = 0;          ///< of the drum, clockwise

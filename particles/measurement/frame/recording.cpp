@@ -14,19 +14,33 @@ Snapshot Recording::read(std::size_t index) const {
   return in_mirror ? mirrored(std::move(snapshot)) : snapshot;
 }
 
+namespace {
+
+/// What drives the flow as long as a stage lasts.
+struct Drive {
+  double wall_spin = 0, shear = 0;
+  bool operator==(const Drive&) const = default;
+};
+
+Drive drive_of(const Snapshot& snapshot) {
+  return {snapshot.wall_spin, snapshot.cell ? snapshot.cell->shear : 0};
+}
+
+}  // namespace
+
 Recording steady_recording(const SnapshotSource& source) {
   if (source.count == 0) throw InputError("the run holds no snapshots: there is nothing to measure");
-  const double spin = source.read(source.count - 1).wall_spin;
+  const Drive drive = drive_of(source.read(source.count - 1));
   std::size_t other = 0, same = source.count - 1;  // the border between two motions lies between them
-  if (source.read(0).wall_spin == spin) {
+  if (drive_of(source.read(0)) == drive) {
     same = 0;
   } else {
     while (same - other > 1) {
       const std::size_t middle = (other + same) / 2;
-      (source.read(middle).wall_spin == spin ? same : other) = middle;
+      (drive_of(source.read(middle)) == drive ? same : other) = middle;
     }
   }
-  return Recording{&source, same, spin < 0};
+  return Recording{&source, same, drive.wall_spin < 0};
 }
 
 }  // namespace drumlin::particles

@@ -23,8 +23,8 @@ struct Recording {
   Snapshot read(std::size_t index) const;
 };
 
-/// The last snapshots with one and the same motion of the wall: pictures of the settling are not steady flow.
-/// Throws InputError when there is none.
+/// The last snapshots with one and the same motion of the wall, and shear of the cell: pictures of the
+/// settling are not steady flow. Throws InputError when there is none.
 Recording steady_recording(const SnapshotSource& source);
 
 }  // namespace drumlin::particles

@@ -85,7 +85,7 @@ Survey survey(const Recording& recording, std::size_t batches, std::shared_ptr<S
   RelativeVelocities velocity;
   Occupancy occupancy;
   std::size_t most_grains = 0;
-  double period = 0;
+  double period = 0, bottom = 0, top = 0;
   for (std::size_t s = 0; s < recording.count(); ++s) {
     const Snapshot snapshot = recording.read(s);
     const double radius = snapshot.container_radius;
@@ -95,6 +95,11 @@ Survey survey(const Recording& recording, std::size_t batches, std::shared_ptr<S
     }
     if (s > 0 && radius <= 0) refuse_changed_period(period, snapshot.period_x);
     widen_extent(snapshot, s == 0, found);
+    if (snapshot.cell) {
+      found.closed = true;
+      bottom += snapshot.cell->z / static_cast<double>(recording.count());
+      top += (snapshot.cell->z + snapshot.cell->height) / static_cast<double>(recording.count());
+    }
     found.series.time.push_back(snapshot.time);
     found.series.wall_angle.push_back(snapshot.wall_angle);
     found.series.kinetic_energy.push_back(kinetic_energy(snapshot, velocity));
@@ -112,7 +117,10 @@ Survey survey(const Recording& recording, std::size_t batches, std::shared_ptr<S
     }
     tick();
   }
-  if (most_grains > 0) cut_to_window(occupancy, most_grains, period, found);
+  if (found.closed)
+    found.z_min = bottom, found.z_max = top;  // beyond it are images
+  else if (most_grains > 0)
+    cut_to_window(occupancy, most_grains, period, found);
   return found;
 }
 

@@ -47,22 +47,20 @@ CellSlice empty_cell_slice(const Slice& slice, const VoronoiOptions& options) {
 
 void add_snapshot(const Slice& slice, const Snapshot& snapshot, const FlowSnapshot& in_frame,
                   std::size_t batch, CellSlice& cells) {
-  const LayerGrid& grid = slice.grid;
+  const LayerGrid grid = slice.grid.closed ? slice.grid.in_cell(*in_frame.cell) : slice.grid;
   std::vector<CellLayerSum>& sums = cells.batches[batch];
   VoronoiTessellation tessellation(snapshot, cells.options);
   cells.area.assign(in_frame.x.size(), none);
   cells.layer.assign(in_frame.x.size(), -1);
   for (std::size_t i = 0; i < in_frame.x.size(); ++i) {
-    const double place = std::floor((in_frame.z[i] - grid.z_min) / grid.thickness);
-    if (in_frame.x[i] < grid.x_min || in_frame.x[i] > grid.x_max || place < 0 ||
-        place >= static_cast<double>(sums.size()))
-      continue;
+    const std::size_t layer = grid.layer_at(in_frame.z[i]);
+    if (in_frame.x[i] < grid.x_min || in_frame.x[i] > grid.x_max || layer >= sums.size()) continue;
     const double area = tessellation.cell(i).area;
     if (!(area > 0)) continue;
     const double disc = std::numbers::pi * in_frame.radius[i] * in_frame.radius[i];
     cells.area[i] = area;
-    cells.layer[i] = static_cast<std::int32_t>(place);
-    CellLayerSum& sum = sums[static_cast<std::size_t>(place)];
+    cells.layer[i] = static_cast<std::int32_t>(layer);
+    CellLayerSum& sum = sums[layer];
     sum.grains += 1;
     sum.discs += disc;
     sum.cells += area;

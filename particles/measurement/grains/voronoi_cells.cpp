@@ -7,6 +7,8 @@
 #include <tuple>
 #include <utility>
 
+#include "particles/bodies/cell_path.hpp"
+
 namespace drumlin::particles {
 namespace {
 
@@ -26,6 +28,13 @@ std::pair<double, double> middle_part(const std::vector<Site>& sites, double Sit
   return {places[rim], places[places.size() - 1 - rim] - places[rim]};
 }
 
+/// The period of a snapshot; of one that is open in z it may begin anywhere.
+Period domain_of(const Snapshot& snapshot) {
+  Period period = period_of(snapshot);
+  if (period.open()) period.length = snapshot.period_x;
+  return period;
+}
+
 int cell_at(double x, double x_min, double size) {
   return static_cast<int>(std::clamp(std::floor((x - x_min) / size), -1e9, 1e9));
 }
@@ -34,16 +43,19 @@ int cell_at(double x, double x_min, double size) {
 
 VoronoiTessellation::VoronoiTessellation(const Snapshot& snapshot, const VoronoiOptions& options)
     // What is inside a circle knows no period.
-    : period_(snapshot.container_radius > 0 ? 0 : snapshot.period_x),
+    : period_(snapshot.container_radius > 0 ? Period{} : domain_of(snapshot)),
       container_radius_(snapshot.container_radius),
       tangent_squared_(options.reach * options.reach - mean_weight) {
+  // No place of a cell that is periodic in both directions is half as far from an image of a grain.
+  if (!period_.open_z())
+    tangent_squared_ = period_.length * period_.length + period_.length_z * period_.length_z;
   double smallest = std::numeric_limits<double>::infinity(), largest = 0;
   grains_.reserve(snapshot.x.size());
   for (std::size_t i = 0; i < snapshot.x.size(); ++i) {
     const double r = snapshot.radius[i];
-    double x = snapshot.x[i] - (container_radius_ > 0 ? snapshot.container_x : 0);
-    const double z = snapshot.z[i] - (container_radius_ > 0 ? snapshot.container_z : 0);
-    if (period_ > 0) x -= period_ * std::floor(x / period_);
+    Point at{snapshot.x[i], snapshot.z[i]};
+    if (container_radius_ > 0) at.x -= snapshot.container_x, at.z -= snapshot.container_z;
+    const auto [x, z] = period_.first(at);
     const bool inside = !(container_radius_ > 0) || x * x + z * z <= container_radius_ * container_radius_;
     const bool takes_part = inside && std::isfinite(x + z) && std::isfinite(r) && r > 0;
     const double weight = options.tessellation == Tessellation::radical ? r * r : mean_weight;
@@ -65,20 +77,22 @@ VoronoiTessellation::VoronoiTessellation(const Snapshot& snapshot, const Voronoi
   }
   for (std::size_t level = 0; level < members.size(); ++level)
     if (!members[level].empty())
-      levels_.push_back(sorted_level(std::move(members[level]),
-                                     2 * largest / std::exp2(static_cast<double>(level)), period_));
+      levels_.push_back(
+          sorted_level(std::move(members[level]), 2 * largest / std::exp2(static_cast<double>(level))));
 }
 
-VoronoiTessellation::Level VoronoiTessellation::sorted_level(std::vector<Site> sites, double largest_diameter,
-                                                             double period) {
+VoronoiTessellation::Level VoronoiTessellation::sorted_level(std::vector<Site> sites,
+                                                             double largest_diameter) const {
   Level level;
   const auto [west, east] =
       std::minmax_element(sites.begin(), sites.end(), [](auto& a, auto& b) { return a.x < b.x; });
   const auto [low, high] =
       std::minmax_element(sites.begin(), sites.end(), [](auto& a, auto& b) { return a.z < b.z; });
-  level.x_min = period > 0 ? 0 : west->x;
-  level.z_min = low->z;
-  double width = period > 0 ? period : east->x - west->x, height = high->z - low->z;
+  const bool round_x = !period_.open(), round_z = !period_.open_z();
+  level.x_min = round_x ? period_.origin : west->x;
+  level.z_min = round_z ? period_.origin_z : low->z;
+  double width = round_x ? period_.length : east->x - west->x;
+  double height = round_z ? period_.length_z : high->z - low->z;
   // A stray grain far away must not cost memory...
   const auto cell_for = [&] {
     double size = largest_diameter;
@@ -89,14 +103,14 @@ VoronoiTessellation::Level VoronoiTessellation::sorted_level(std::vector<Site> s
   if (size > 4 * largest_diameter) {
     // ... nor time, by cells that hold hundreds of grains: cells cover the middle 98 %, those at the rim hold
     // what is further out.
-    if (!(period > 0)) std::tie(level.x_min, width) = middle_part(sites, &Site::x);
-    std::tie(level.z_min, height) = middle_part(sites, &Site::z);
+    if (!round_x) std::tie(level.x_min, width) = middle_part(sites, &Site::x);
+    if (!round_z) std::tie(level.z_min, height) = middle_part(sites, &Site::z);
     size = cell_for();
   }
-  level.columns = std::max(1, static_cast<int>(width / size) + (period > 0 ? 0 : 1));
-  level.rows = static_cast<int>(height / size) + 1;
-  level.cell_x = period > 0 ? period / level.columns : size;
-  level.cell_z = size;
+  level.columns = std::max(1, static_cast<int>(width / size) + (round_x ? 0 : 1));
+  level.rows = std::max(1, static_cast<int>(height / size) + (round_z ? 0 : 1));
+  level.cell_x = round_x ? width / level.columns : size;
+  level.cell_z = round_z ? height / level.rows : size;
   // In a dense packing corners lie within 0.7 diameters, so that neighbours within 1.5 settle nearly every
   // cell.
   level.first_reach = 1.5 * largest_diameter;
@@ -120,40 +134,54 @@ VoronoiTessellation::Level VoronoiTessellation::sorted_level(std::vector<Site> s
 
 bool VoronoiTessellation::gather(const Site& site, const Level& level, double reach, double most_squared) {
   neighbours_.clear();
-  const int first_row = std::clamp(cell_at(site.z - reach, level.z_min, level.cell_z), 0, level.rows - 1);
-  const int last_row = std::clamp(cell_at(site.z + reach, level.z_min, level.cell_z), 0, level.rows - 1);
-  int first_column = cell_at(site.x - reach, level.x_min, level.cell_x);
-  int last_column = cell_at(site.x + reach, level.x_min, level.cell_x);
-  if (!(period_ > 0)) {
+  // Beyond the ends of a period stand its images, the grain's own among them.
+  int first_row = cell_at(site.z - reach, level.z_min, level.cell_z);
+  int last_row = cell_at(site.z + reach, level.z_min, level.cell_z);
+  if (period_.open_z()) {
+    first_row = std::clamp(first_row, 0, level.rows - 1);
+    last_row = std::clamp(last_row, 0, level.rows - 1);
+  }
+  for (int row = first_row; row <= last_row; ++row) {
+    const int above = period_.open_z() ? 0 : floor_divided(row, level.rows);
+    const int row_start = (row - above * level.rows) * level.columns;
+    const Point shift{above * period_.offset, above * period_.length_z};
+    if (!gather_row(site, level, row_start, shift, reach, most_squared)) return false;
+  }
+  return true;
+}
+
+bool VoronoiTessellation::gather_row(const Site& site, const Level& level, int row_start, Point shift,
+                                     double reach, double most_squared) {
+  int first_column = cell_at(site.x - shift.x - reach, level.x_min, level.cell_x);
+  int last_column = cell_at(site.x - shift.x + reach, level.x_min, level.cell_x);
+  if (period_.open()) {
     first_column = std::clamp(first_column, 0, level.columns - 1);
     last_column = std::clamp(last_column, 0, level.columns - 1);
   }
-  // Beyond the ends of a period stand its images, the grain's own among them.
-  const int first_image = period_ > 0 ? floor_divided(first_column, level.columns) : 0;
-  const int last_image = period_ > 0 ? floor_divided(last_column, level.columns) : 0;
-  for (int row = first_row; row <= last_row; ++row)
-    for (int image = first_image; image <= last_image; ++image) {
-      // Cells side by side are one stretch of sites.
-      const int row_start = row * level.columns, image_start = image * level.columns;
-      const int begin = std::max(first_column - image_start, 0);
-      const int end = std::min(last_column - image_start + 1, level.columns);
-      if (begin >= end) continue;
-      const double shift = image * period_ - site.x;
-      for (std::int32_t s = level.start[row_start + begin]; s < level.start[row_start + end]; ++s) {
-        const Site& other = level.sites[s];
-        const double x = other.x + shift, z = other.z - site.z;
-        const double distance_squared = x * x + z * z;
-        if (distance_squared == 0) {
-          if (other.grain == site.grain) continue;
-          if (other.weight > site.weight || (other.weight == site.weight && other.grain < site.grain))
-            return false;
-          continue;
-        }
-        const double offset = (distance_squared + site.weight - other.weight) / 2;
-        if (offset > 0 && offset * offset >= distance_squared * most_squared) continue;  // passes by
-        neighbours_.push_back({x, z, distance_squared, offset});
+  const int first_image = period_.open() ? 0 : floor_divided(first_column, level.columns);
+  const int last_image = period_.open() ? 0 : floor_divided(last_column, level.columns);
+  for (int image = first_image; image <= last_image; ++image) {
+    // Cells side by side are one stretch of sites.
+    const int image_start = image * level.columns;
+    const int begin = std::max(first_column - image_start, 0);
+    const int end = std::min(last_column - image_start + 1, level.columns);
+    if (begin >= end) continue;
+    const double shift_x = image * period_.length + shift.x - site.x;
+    for (std::int32_t s = level.start[row_start + begin]; s < level.start[row_start + end]; ++s) {
+      const Site& other = level.sites[s];
+      const double x = other.x + shift_x, z = other.z + shift.z - site.z;
+      const double distance_squared = x * x + z * z;
+      if (distance_squared == 0) {
+        if (other.grain == site.grain) continue;
+        if (other.weight > site.weight || (other.weight == site.weight && other.grain < site.grain))
+          return false;
+        continue;
       }
+      const double offset = (distance_squared + site.weight - other.weight) / 2;
+      if (offset > 0 && offset * offset >= distance_squared * most_squared) continue;  // passes by
+      neighbours_.push_back({x, z, distance_squared, offset});
     }
+  }
   return true;
 }
 

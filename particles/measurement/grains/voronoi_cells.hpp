@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "particles/bodies/period.hpp"
 #include "particles/bodies/snapshot.hpp"
 #include "particles/measurement/grains/convex_polygon.hpp"
 
@@ -21,7 +22,7 @@ struct VoronoiOptions {
   Tessellation tessellation = Tessellation::radical;
   /// d. A cell reaches no farther than this from the centre of a grain of diameter 1; from others to where a
   /// tangent to the grain is as long as there. It closes cells at a free surface and must leave those within
-  /// a packing alone.
+  /// a packing alone. Of a cell that is periodic in x and z, where nothing is free, no cell ends so.
   double reach = 1.5;
 };
 
@@ -43,7 +44,7 @@ class VoronoiTessellation {
 
  private:
   struct Site {
-    double x, z, weight;  ///< from the container's axis; in a periodic domain 0 <= x < period
+    double x, z, weight;  ///< from the container's axis; in a periodic domain in the first period
     std::int32_t grain;
   };
   /// Sites of similar size in a grid of cells, by rows: those of cell c are start[c] ... start[c + 1].
@@ -58,12 +59,16 @@ class VoronoiTessellation {
     double x, z, distance_squared, offset;  ///< the cell keeps {(x, z) . p <= offset}
   };
 
-  static Level sorted_level(std::vector<Site> sites, double largest_diameter, double period);
+  Level sorted_level(std::vector<Site> sites, double largest_diameter) const;
   void cut_by_level(const Site& site, const Level& level);
   /// False when a neighbour leaves the site no room at all.
   bool gather(const Site& site, const Level& level, double reach, double most_squared);
+  /// The part of it among the sites of one row, displaced by `shift`.
+  bool gather_row(const Site& site, const Level& level, int row_start, Point shift, double reach,
+                  double most_squared);
 
-  double period_ = 0, container_radius_ = 0;
+  Period period_;  ///< none within a container
+  double container_radius_ = 0;
   double tangent_squared_ = 0;  ///< length of the tangents at which cells end, squared
   std::vector<Site> grains_;    ///< in their own order; grain < 0: takes no part
   std::vector<Level> levels_;

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "coupling/common/errors.hpp"
+#include "particles/bodies/cell_path.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -16,19 +17,26 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 double disc_area(double radius) { return std::numbers::pi * radius * radius; }
 
-/// Of the images of a grain in a periodic domain the one next to the middle of the box.
-double image_x(const Box& box, const Snapshot& snapshot, double x) {
-  if (!(snapshot.period_x > 0)) return x;
-  const double from = 0.5 * (box.x_min + box.x_max - snapshot.period_x);
-  return x - snapshot.period_x * std::floor((x - from) / snapshot.period_x);
+/// The period with its first one about the middle of the box: of the images of a grain that one is nearest.
+Period about(const Box& box, Period period) {
+  period.origin = 0.5 * (box.x_min + box.x_max - period.length);
+  period.origin_z = 0.5 * (box.z_min + box.z_max - period.length_z);
+  return period;
 }
 
-/// A box as wide as the period has no sides.
-Box without_sides(Box box, const Snapshot& snapshot) {
-  if (snapshot.period_x > 0 && box.x_max - box.x_min > (1 - 1e-9) * snapshot.period_x) {
-    box.x_min = -std::numeric_limits<double>::infinity();
-    box.x_max = std::numeric_limits<double>::infinity();
-  }
+Period about(const Box& box, const Snapshot& snapshot) {
+  Period period = period_of(snapshot);
+  period.length = snapshot.period_x;
+  return about(box, period);
+}
+
+/// A box as wide as the period has no sides, one as high as the cell neither floor nor top.
+Box without_sides(Box box, const Period& period) {
+  constexpr double infinity = std::numeric_limits<double>::infinity(), nearly = 1 - 1e-9;
+  if (!period.open() && box.x_max - box.x_min > nearly * period.length)
+    box.x_min = -infinity, box.x_max = infinity;
+  if (!period.open_z() && box.z_max - box.z_min > nearly * period.length_z)
+    box.z_min = -infinity, box.z_max = infinity;
   return box;
 }
 
@@ -47,34 +55,37 @@ PlaneMatrix scaled(double factor, const PlaneMatrix& m) {
 /// velocity while that is not known).
 void add_grains(const Box& box, const Snapshot& s, RegionState& state) {
   double mass = 0, all_area = 0, momentum_x = 0, momentum_z = 0, first_x = 0, first_z = 0;
-  std::vector<std::size_t> inside;
+  const Period period = about(box, s);
+  const Box open = without_sides(box, period);
+  std::vector<std::pair<MovingPoint, double>> inside;  // with its mass
   for (std::size_t i = 0; i < s.x.size(); ++i) {
-    const double x = image_x(box, s, s.x[i]);
-    if (!box.holds(x, s.z[i])) continue;
-    inside.push_back(i);
+    const MovingPoint grain = first_image(period, grain_of(s, i));
+    if (!open.holds(grain.at.x, grain.at.z)) continue;
     const double m = mass_of(s, i);
+    inside.emplace_back(grain, m);
     all_area += disc_area(s.radius[i]);
     mass += m;
-    momentum_x += m * s.v_x[i];
-    momentum_z += m * s.v_z[i];
-    first_x += m * x;
-    first_z += m * s.z[i];
+    momentum_x += m * grain.velocity.x;
+    momentum_z += m * grain.velocity.z;
+    first_x += m * grain.at.x;
+    first_z += m * grain.at.z;
   }
   state.grains = inside.size();
   state.nu = all_area / box.area();
   if (inside.empty()) return;
   const PlaneMatrix G = std::isnan(state.gradient.xx) ? PlaneMatrix{} : state.gradient;
-  for (const std::size_t i : inside) {
-    const double x = image_x(box, s, s.x[i]) - first_x / mass, z = s.z[i] - first_z / mass;
-    const double c_x = s.v_x[i] - momentum_x / mass - G.xx * x - G.xz * z;
-    const double c_z = s.v_z[i] - momentum_z / mass - G.zx * x - G.zz * z;
-    add_dyad(c_x, c_z, c_x, c_z, mass_of(s, i) / box.area(), state.kinetic);
+  for (const auto& [grain, m] : inside) {
+    const double x = grain.at.x - first_x / mass, z = grain.at.z - first_z / mass;
+    const double c_x = grain.velocity.x - momentum_x / mass - G.xx * x - G.xz * z;
+    const double c_z = grain.velocity.z - momentum_z / mass - G.zx * x - G.zz * z;
+    add_dyad(c_x, c_z, c_x, c_z, m / box.area(), state.kinetic);
   }
 }
 
 /// Contacts: each half branch counts with the share of it that lies in the box.
 void add_contacts(const Box& box, const Snapshot& s, RegionState& state) {
-  const Box open = without_sides(box, s);
+  const Period period = about(box, s);
+  const Box open = without_sides(box, period);
   double ends = 0, fabric = 0;
   for (const SnapshotContact& contact : s.contacts) {
     const double n_x = contact.normal_x, n_z = contact.normal_z;
@@ -82,10 +93,11 @@ void add_contacts(const Box& box, const Snapshot& s, RegionState& state) {
     const double f_x = f_n * n_x + f_t * n_z, f_z = f_n * n_z - f_t * n_x;
     const auto half_branch = [&](std::int32_t grain, double side) {
       const auto g = static_cast<std::size_t>(grain);
-      const double x = image_x(box, s, s.x[g]), z = s.z[g], r = side * s.radius[g];
+      const auto [x, z] = period.first({s.x[g], s.z[g]});
+      const double r = side * s.radius[g];
       add_dyad(side * f_x, side * f_z, r * n_x, r * n_z,
                share_inside(open, x, z, -r * n_x, -r * n_z) / box.area(), state.pressure);
-      if (!box.holds(x, z)) return;
+      if (!open.holds(x, z)) return;
       ends += 1;
       if (contact.j < 0) return;
       fabric += 1;
@@ -145,11 +157,19 @@ double share_inside(const Box& box, double x, double z, double dx, double dz) {
 
 std::optional<PlaneMatrix> mean_gradient(const Box& box, const Snapshot& before, const Snapshot& now) {
   if (!(now.time > before.time)) return std::nullopt;
+  std::optional<CellPath> path;
+  if (before.cell && now.cell) path.emplace(*cell_instant(before), *cell_instant(now));
+  const Period period = path ? about(box, path->half_way()) : about(box, now);
+  const Box open = without_sides(box, period);
   AffineFit fit;
   for (const auto& [then, i] : same_grains(before, now)) {
-    const double by_x = now.x[i] - before.x[then], by_z = now.z[i] - before.z[then];
-    const double x = image_x(box, now, now.x[i] - 0.5 * by_x), z = now.z[i] - 0.5 * by_z;
-    if (box.holds(x, z)) fit.add(x, z, by_x, by_z);
+    Point by{now.x[i] - before.x[then], now.z[i] - before.z[then]};
+    if (path) by = path->displacement(grain_of(before, then), grain_of(now, i));
+    const Point half_way{now.x[i] - 0.5 * by.x, now.z[i] - 0.5 * by.z};
+    const Point at = period.first(half_way);
+    if (!open.holds(at.x, at.z)) continue;
+    const Point more = path ? path->change({at.x - half_way.x, at.z - half_way.z}) : Point{};
+    fit.add(at.x, at.z, by.x + more.x, by.z + more.z);
   }
   const auto matrix = fit.matrix();
   if (!matrix) return std::nullopt;
@@ -161,6 +181,10 @@ const RegionState& RegionHistory::add(const Snapshot& snapshot) {
     throw InputError(
         fmt::format("a box {} d wide in a domain with a period of {} d (allowed: up to the period)",
                     box_.x_max - box_.x_min, snapshot.period_x));
+  if (snapshot.cell && box_.z_max - box_.z_min > (1 + 1e-9) * snapshot.cell->height)
+    throw InputError(
+        fmt::format("a box {} d high in a cell {} d high (allowed: up to the height of the cell)",
+                    box_.z_max - box_.z_min, snapshot.cell->height));
   RegionState next;
   next.time = snapshot.time;
   next.strain = state_.strain;

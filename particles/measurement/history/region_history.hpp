@@ -43,7 +43,7 @@ std::optional<PlaneMatrix> mean_gradient(const Box& box, const Snapshot& before,
 class RegionHistory {
  public:
   explicit RegionHistory(const Box& box) : box_(box) {}
-  /// Throws InputError where the box is wider than the period.
+  /// Throws InputError where the box is wider than the period, or higher than the cell.
   const RegionState& add(const Snapshot& snapshot);
 
  private:

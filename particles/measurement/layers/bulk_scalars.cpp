@@ -38,8 +38,8 @@ double top_of(const ProfileSet& profiles) {
 
 }  // namespace
 
-ScalarSet bulk_scalars(const ProfileSet& profiles, double wall_z, double margin) {
-  const double bottom = wall_z + margin, top = top_of(profiles) - margin;
+ScalarSet bulk_scalars(const ProfileSet& profiles, double wall_z, double margin, bool closed) {
+  const double bottom = wall_z + (closed ? 0 : margin), top = closed ? 0 : top_of(profiles) - margin;
   const auto mean = [&](const char* name) { return mean_over(profiles, name, bottom, top); };
   const double rate = mean("shear_rate"), normal = mean("sigma_zz"), shear = mean("sigma_xz");
   const double pressed = normal > 0 ? normal : none;

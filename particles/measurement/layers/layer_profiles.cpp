@@ -12,18 +12,32 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
+/// Of a layer, summed over the snapshots.
+double area_of(const LayerGrid& grid, const LayerSums& sums, std::size_t layer) {
+  return grid.closed
+             ? grid.area[layer] / grid.thickness * sums.cell_height / static_cast<double>(grid.layers())
+             : grid.area[layer] * static_cast<double>(sums.snapshots);
+}
+
 double volume_fraction(const LayerGrid& grid, const LayerSums& sums, std::size_t layer) {
-  const double area = grid.area[layer] * static_cast<double>(sums.snapshots);
+  const double area = area_of(grid, sums, layer);
   return area > 0 ? sums.layers[layer].covered / area : none;
 }
 
 double mean(double sum, double count) { return count > 0 ? sum / count : none; }
 
-/// (v[l + 1] - v[l - 1]) / (2 thickness); NaN at the ends and beside an empty layer.
-std::vector<double> central_difference(const std::vector<double>& value, double thickness) {
-  std::vector<double> slope(value.size(), none);
-  for (std::size_t l = 1; l + 1 < value.size(); ++l)
-    slope[l] = (value[l + 1] - value[l - 1]) / (2 * thickness);
+/// (v[l + 1] - v[l - 1]) / (2 thickness); NaN beside an empty layer, and at the ends of an open grid. Beyond
+/// those of a cell follow images, which move with it.
+std::vector<double> shear_rates(const std::vector<double>& v_x, const LayerGrid& grid,
+                                const LayerSums& sums) {
+  std::vector<double> slope(v_x.size(), none);
+  for (std::size_t l = 1; l + 1 < v_x.size(); ++l)
+    slope[l] = (v_x[l + 1] - v_x[l - 1]) / (2 * grid.thickness);
+  if (grid.closed && v_x.size() > 1) {
+    const double jump = sums.cell_jump / static_cast<double>(sums.snapshots);
+    slope.front() = (v_x[1] - (v_x.back() - jump)) / (2 * grid.thickness);
+    slope.back() = (v_x.front() + jump - v_x[v_x.size() - 2]) / (2 * grid.thickness);
+  }
   return slope;
 }
 
@@ -53,7 +67,7 @@ struct Columns {
 void add_kinematics(Columns& columns) {
   columns.add("v_x", [](std::size_t, const LayerSum& sum) { return mean(sum.v_x, sum.grains); });
   columns.add("v_z", [](std::size_t, const LayerSum& sum) { return mean(sum.v_z, sum.grains); });
-  const auto rate = central_difference(columns.of("v_x"), columns.grid.thickness);
+  const auto rate = shear_rates(columns.of("v_x"), columns.grid, columns.sums);
   columns.add("shear_rate", [&](std::size_t l, const LayerSum&) { return rate[l]; });
   columns.add("half_vorticity",
               [&](std::size_t l, const LayerSum& sum) { return (rate[l] - normal_velocity_slope(sum)) / 2; });
@@ -64,7 +78,7 @@ void add_kinematics(Columns& columns) {
   });
   if (!columns.sums.with_densities) return;
   columns.add("density", [&](std::size_t l, const LayerSum& sum) {
-    const double area = columns.grid.area[columns.first + l] * static_cast<double>(columns.sums.snapshots);
+    const double area = area_of(columns.grid, columns.sums, columns.first + l);
     return area > 0 ? sum.covered_mass / area : none;
   });
 }
@@ -87,14 +101,13 @@ void add_stresses(Columns& columns) {
   const auto total = [&](const std::string& name, double sign, double LayerSum::*contact) {
     const auto kinetic_part = columns.of(name + "_kinetic");
     columns.add(name, [&](std::size_t l, const LayerSum& sum) {
-      const double area = columns.grid.area[columns.first + l] * static_cast<double>(columns.sums.snapshots);
+      const double area = area_of(columns.grid, columns.sums, columns.first + l);
       return columns.sums.with_contacts ? sign * sum.*contact / area + kinetic_part[l] : none;
     });
   };
   if (columns.sums.with_spin)
     columns.add("sigma_rotational", [&](std::size_t l, const LayerSum& sum) {
-      return sum.rotation /
-             (columns.grid.area[columns.first + l] * static_cast<double>(columns.sums.snapshots));
+      return sum.rotation / area_of(columns.grid, columns.sums, columns.first + l);
     });
   total("sigma_xx", 1, &LayerSum::force_x_branch_x);
   total("sigma_zz", 1, &LayerSum::force_z_branch_z);
@@ -127,6 +140,7 @@ void add_fluctuations(Columns& columns) {
 }  // namespace
 
 double surface_height(const LayerGrid& grid, const LayerSums& sums, double surface_nu) {
+  if (grid.closed) return grid.z_max();
   double above = 0;
   for (std::size_t l = grid.layers(); l-- > 0;) {
     const double here = volume_fraction(grid, sums, l);
@@ -139,7 +153,7 @@ double surface_height(const LayerGrid& grid, const LayerSums& sums, double surfa
 ProfileSet layer_profiles(const LayerGrid& grid, const LayerSums& sums, double surface_z) {
   std::size_t first = 0, end = grid.layers();
   while (first < end && !(grid.area[first] > 0)) ++first;
-  while (end > first && !(sums.layers[end - 1].covered > 0)) --end;
+  while (!grid.closed && end > first && !(sums.layers[end - 1].covered > 0)) --end;
   Columns columns{grid, sums, first, end - first, {}};
   for (std::size_t l = first; l < end; ++l) columns.profiles.z.push_back(grid.z_of(l) - surface_z);
   add_kinematics(columns);

@@ -6,7 +6,8 @@
 namespace drumlin::particles {
 
 /// z in the frame of the grid at which the volume fraction crosses `surface_nu`: the highest such place,
-/// linear between the middles of layers. NaN when it never does.
+/// linear between the middles of layers. NaN when it never does. Of a cell that is periodic in z its upper
+/// end.
 double surface_height(const LayerGrid& grid, const LayerSums& sums, double surface_nu);
 
 /// Profiles with z counted from `surface_z` (frame of the grid): v_x, v_z, shear_rate, half_vorticity, omega

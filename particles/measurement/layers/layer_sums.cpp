@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 namespace drumlin::particles {
 namespace {
@@ -45,13 +46,19 @@ void for_each_sum(LayerSum& a, const LayerSum& b, Action action) {
     action(a.*member, b.*member);
 }
 
+/// Of a layer that a grid has, or in a closed one that is an image of it.
+std::size_t index_in(const LayerGrid& grid, double layer) {
+  const auto count = static_cast<double>(grid.layers());
+  return static_cast<std::size_t>(grid.closed ? layer - count * std::floor(layer / count) : layer);
+}
+
 /// Adds the area of a disc that reaches into the slice to its layers, and its mass where it has a density.
 template <class Add>
 void share_covered_area(const LayerGrid& grid, double x, double z, double radius,
                         std::vector<LayerSum>& layers, Add add) {
-  const auto layer_count = static_cast<double>(layers.size());
-  const double first = std::max(0.0, std::floor((z - radius - grid.z_min) / grid.thickness));
-  const double end = std::min(layer_count, std::ceil((z + radius - grid.z_min) / grid.thickness));
+  double first = std::floor((z - radius - grid.z_min) / grid.thickness);
+  double end = std::ceil((z + radius - grid.z_min) / grid.thickness);
+  if (!grid.closed) first = std::max(0.0, first), end = std::min(static_cast<double>(layers.size()), end);
   if (x - radius < grid.x_min || x + radius > grid.x_max) {
     for (double layer = first; layer < end; ++layer) {
       const auto index = static_cast<std::size_t>(layer);
@@ -63,7 +70,7 @@ void share_covered_area(const LayerGrid& grid, double x, double z, double radius
   double below = disc_area_left_of(radius, grid.z_min + first * grid.thickness - z);
   for (double layer = first; layer < end; ++layer) {
     const double up_to = disc_area_left_of(radius, grid.z_min + (layer + 1) * grid.thickness - z);
-    add(layers[static_cast<std::size_t>(layer)], up_to - below);
+    add(layers[index_in(grid, layer)], up_to - below);
     below = up_to;
   }
 }
@@ -94,10 +101,9 @@ void add_grain(const LayerGrid& grid, const FlowSnapshot& snapshot, std::size_t 
     });
   else
     share_covered_area(grid, x, z, radius, layers, [](LayerSum& sum, double area) { sum.covered += area; });
-  const double place = std::floor((z - grid.z_min) / grid.thickness);
-  if (x < grid.x_min || x > grid.x_max || place < 0 || place >= static_cast<double>(layers.size())) return;
+  const std::size_t index = grid.layer_at(z);
+  if (x < grid.x_min || x > grid.x_max || index >= layers.size()) return;
 
-  const auto index = static_cast<std::size_t>(place);
   add_centre({x, z - grid.z_of(index), snapshot.v_x[i], snapshot.v_z[i]}, snapshot, i, layers[index]);
 }
 
@@ -120,9 +126,10 @@ void add_half_branch(const LayerGrid& grid, const HalfBranch& branch, std::vecto
 
   const double low = branch.z + (branch.toward_z > 0 ? begin : end) * branch.toward_z;
   const double high = branch.z + (branch.toward_z > 0 ? end : begin) * branch.toward_z;
-  const double first = std::max(0.0, std::floor((low - grid.z_min) / grid.thickness));
-  const double last =
-      std::min(static_cast<double>(layers.size()) - 1, std::floor((high - grid.z_min) / grid.thickness));
+  double first = std::floor((low - grid.z_min) / grid.thickness);
+  double last = std::floor((high - grid.z_min) / grid.thickness);
+  if (!grid.closed)
+    first = std::max(0.0, first), last = std::min(static_cast<double>(layers.size()) - 1, last);
   for (double layer = first; layer <= last; ++layer) {
     double share = end - begin;
     if (first < last || low < grid.z_min + first * grid.thickness ||
@@ -131,7 +138,7 @@ void add_half_branch(const LayerGrid& grid, const HalfBranch& branch, std::vecto
       const double inside = std::min(high, bottom + grid.thickness) - std::max(low, bottom);
       share = std::max(0.0, inside) / std::abs(branch.toward_z);
     }
-    LayerSum& sum = layers[static_cast<std::size_t>(layer)];
+    LayerSum& sum = layers[index_in(grid, layer)];
     // b points from the contact to the centre: against `toward`.
     sum.force_x_branch_x -= branch.force_x * branch.toward_x * share;
     sum.force_x_branch_z -= branch.force_x * branch.toward_z * share;
@@ -181,12 +188,16 @@ LayerSum& LayerSum::operator-=(const LayerSum& other) {
 LayerSums& LayerSums::operator+=(const LayerSums& other) {
   for (std::size_t l = 0; l < layers.size(); ++l) layers[l] += other.layers[l];
   snapshots += other.snapshots;
+  cell_height += other.cell_height;
+  cell_jump += other.cell_jump;
   return *this;
 }
 
 LayerSums& LayerSums::operator-=(const LayerSums& other) {
   for (std::size_t l = 0; l < layers.size(); ++l) layers[l] -= other.layers[l];
   snapshots -= other.snapshots;
+  cell_height -= other.cell_height;
+  cell_jump -= other.cell_jump;
   return *this;
 }
 
@@ -195,10 +206,31 @@ Rectangle LayerGrid::rectangle(std::size_t layer) const {
   return Rectangle{x_min, x_max, bottom, bottom + thickness};
 }
 
+std::size_t LayerGrid::layer_at(double z) const {
+  const double place = std::floor((z - z_min) / thickness), count = static_cast<double>(layers());
+  if (closed) return static_cast<std::size_t>(std::clamp(place, 0.0, count - 1));
+  return place >= 0 && place < count ? static_cast<std::size_t>(place) : layers();
+}
+
+LayerGrid LayerGrid::in_cell(const FlowCell& cell) const {
+  LayerGrid grid = *this;
+  grid.z_min = cell.z_min;
+  grid.thickness = cell.height / static_cast<double>(layers());
+  return grid;
+}
+
+LayerGrid closed_grid(const FlowFrame& frame, double thickness, double z_from, double z_to, double period) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const double layers = std::max(1.0, std::round((z_to - z_from) / thickness));
+  LayerGrid grid{frame, -infinity, infinity, z_from, (z_to - z_from) / layers, {}, true};
+  grid.area.assign(static_cast<std::size_t>(layers), period * grid.thickness);
+  return grid;
+}
+
 LayerGrid layer_grid(const FlowFrame& frame, double position, double slice_width, double thickness,
                      double z_from, double z_to, double container_radius, double period) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  LayerGrid grid{frame, position - slice_width / 2, position + slice_width / 2, 0, thickness, {}};
+  LayerGrid grid{frame, position - slice_width / 2, position + slice_width / 2, 0, thickness, {}, false};
   if (period > 0) {
     grid.x_min = -infinity;
     grid.x_max = infinity;
@@ -213,7 +245,14 @@ LayerGrid layer_grid(const FlowFrame& frame, double position, double slice_width
   return grid;
 }
 
-void add_snapshot(const LayerGrid& grid, const FlowSnapshot& snapshot, LayerSums& sums) {
+void add_snapshot(const LayerGrid& of_all, const FlowSnapshot& snapshot, LayerSums& sums) {
+  std::optional<LayerGrid> of_cell;
+  if (of_all.closed) {
+    of_cell = of_all.in_cell(*snapshot.cell);
+    sums.cell_height += snapshot.cell->height;
+    sums.cell_jump += snapshot.cell->v_x;
+  }
+  const LayerGrid& grid = of_cell ? *of_cell : of_all;
   for (std::size_t i = 0; i < snapshot.x.size(); ++i) add_grain(grid, snapshot, i, sums.layers);
   for (const HalfBranch& branch : snapshot.half_branches()) add_half_branch(grid, branch, sums.layers);
   sums.with_spin = sums.with_spin && !snapshot.spin.empty();

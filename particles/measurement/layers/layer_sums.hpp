@@ -15,7 +15,13 @@ struct LayerGrid {
   double z_min = 0;
   double thickness = 1;
   std::vector<double> area;  ///< of each layer, inside the container
+  bool closed = false;       ///< of a cell that is periodic in z: above the top layer follows the lowest
   std::size_t layers() const { return area.size(); }
+  double z_max() const { return z_min + static_cast<double>(layers()) * thickness; }
+  /// The layer that holds a height; layers() and more outside. Every grain of a closed cell is in one.
+  std::size_t layer_at(double z) const;
+  /// The same layers as the cell of a snapshot has them: equal shares of its height.
+  LayerGrid in_cell(const FlowCell& cell) const;
   double z_of(std::size_t layer) const { return z_min + (static_cast<double>(layer) + 0.5) * thickness; }
   Rectangle rectangle(std::size_t layer) const;
 };
@@ -25,6 +31,10 @@ struct LayerGrid {
 /// the slice is the period.
 LayerGrid layer_grid(const FlowFrame& frame, double position, double slice_width, double thickness,
                      double z_from, double z_to, double container_radius, double period);
+
+/// Equal layers, as thick as asked for to rounding to a whole number of them, over a cell that is periodic in
+/// x and z.
+LayerGrid closed_grid(const FlowFrame& frame, double thickness, double z_from, double z_to, double period);
 
 /// Sums over one layer. Velocities and spins relative to the drum, components in the flow frame; zeta =
 /// height of a grain's centre above the middle of its layer.
@@ -63,6 +73,8 @@ struct LayerSums {
   bool with_spin = true;        ///< false: the scene has no spin
   bool with_contacts = true;    ///< false: the snapshots do not know them
   bool with_densities = false;  ///< grains have densities of their own
+  /// Of a closed grid, summed over the snapshots: height of the cell, speed of the image above.
+  double cell_height = 0, cell_jump = 0;
 
   LayerSums& operator+=(const LayerSums& other);
   LayerSums& operator-=(const LayerSums& other);

@@ -139,7 +139,8 @@ ScalarSet packing_scalars(const ProfileSet& profiles, const ProfilePlace& place,
   const double wall = place.wall_z + options.wall_margin;
   const Zone still{wall, -fits.H - options.scalars.decay_to};
   const Zone decay{-fits.H - options.scalars.decay_from, -fits.H - options.scalars.decay_to};
-  const Zone bulk{place.wall_z + options.bulk_margin, -options.bulk_margin};
+  const double margin = place.closed ? 0 : options.bulk_margin;
+  const Zone bulk{place.wall_z + margin, -margin};
   const Zone whole{wall, -2};
   const auto& nu = profiles.column("nu").value;
   const double nu_bulk = zone_mean(profiles, bulk, "nu");

@@ -11,6 +11,7 @@ struct MeasurementOptions;
 struct ProfilePlace {
   double wall_z = 0;       ///< z of the wall under the slice
   double frame_angle = 0;  ///< rad, of x below the horizontal
+  bool closed = false;     ///< periodic in z: the bulk is all there is
 };
 
 /// Without intervals; NaN where the profile does not hold what a definition needs. The scalars of derivatives

@@ -23,7 +23,8 @@ ScalarVariant variant_of(const std::string& change, const Slice& slice, double w
                          double frame_angle, const MeasurementOptions& options) {
   const SliceProfiles measured = slice_profiles(Slice{slice.grid, {total_of(slice)}}, options.surface_nu);
   return {change,
-          packing_scalars(measured.profiles, {wall_height - measured.surface_z, frame_angle}, options),
+          packing_scalars(measured.profiles,
+                          {wall_height - measured.surface_z, frame_angle, slice.grid.closed}, options),
           measured.profiles};
 }
 
@@ -36,7 +37,7 @@ void add_gradient_variants(const VariantSlices& variants, const Slice& centre, d
     SliceProfiles measured = plain;
     add_gradients(measured, slice_profiles(pair.west, plain), slice_profiles(pair.east, plain), pair.step);
     ScalarSet scalars =
-        packing_scalars(measured.profiles, {wall_height - measured.surface_z, frame_angle}, options);
+        packing_scalars(measured.profiles, {wall_height - measured.surface_z, frame_angle, false}, options);
     std::erase_if(scalars.scalars, [](const Scalar& s) { return s.name.find("_dx") == std::string::npos; });
     result.push_back({fmt::format("derivatives from slices {} d to either side", pair.step), scalars, {}});
   }
@@ -102,6 +103,7 @@ LayerGrid slice_grid(const MeasurementFrame& place, double position, double widt
         "the slice at {} d leaves the drum of radius {} d: none {} d wide may lie further out than "
         "{} d",
         position, radius, width, radius - width / 2));
+  if (place.closed) return closed_grid(place.frame, thickness, place.z_min, place.z_max, place.period);
   return layer_grid(place.frame, position, width, thickness, place.z_min, place.z_max, radius, place.period);
 }
 

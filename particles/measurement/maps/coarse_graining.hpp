@@ -20,9 +20,9 @@ constexpr double most_spacings_per_width = 15;
 
 /// Nodes over the ranges (frame coordinates): columns at whole multiples of the spacing, rows halfway between
 /// them, at the middles of layers as thick as the spacing. period > 0: the columns share it out evenly, from
-/// x_from on. Throws InputError unless 1 <= width/spacing <= most_spacings_per_width: a wider spacing would
-/// lose grains between nodes.
+/// x_from on. `closed`: so do the rows, of a cell that is periodic in z. Throws InputError unless 1 <=
+/// width/spacing <= most_spacings_per_width: a wider spacing would lose grains between nodes.
 CoarseGraining coarse_graining(const FlowFrame& frame, double x_from, double x_to, double z_from, double z_to,
-                               double spacing, double width, double period);
+                               double spacing, double width, double period, bool closed = false);
 
 }  // namespace drumlin::particles

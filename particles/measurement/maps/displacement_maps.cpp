@@ -9,31 +9,31 @@ namespace drumlin::particles {
 
 namespace {
 
-using Motion = DisplacementMotion;
-constexpr double none = Motion::none;
+using NodeMotion = DisplacementMotion;
+constexpr double none = NodeMotion::none;
 
 struct NamedField {
   const char* name;
-  double (*value)(const Motion&);
+  double (*value)(const NodeMotion&);
 };
 constexpr NamedField named_fields[] = {
-    {"displacement_v_x", [](const Motion& m) { return m.v_x; }},
-    {"displacement_v_z", [](const Motion& m) { return m.v_z; }},
-    {"displacement_d_v_x_dx", [](const Motion& m) { return m.gradient.xx; }},
-    {"displacement_d_v_x_dz", [](const Motion& m) { return m.gradient.xz; }},
-    {"displacement_d_v_z_dx", [](const Motion& m) { return m.gradient.zx; }},
-    {"displacement_d_v_z_dz", [](const Motion& m) { return m.gradient.zz; }},
-    {"displacement_D_xx", [](const Motion& m) { return m.gradient.xx; }},
-    {"displacement_D_zz", [](const Motion& m) { return m.gradient.zz; }},
-    {"displacement_D_xz", [](const Motion& m) { return m.D_xz; }},
-    {"displacement_dilation", [](const Motion& m) { return m.dilation; }},
-    {"displacement_strain_rate", [](const Motion& m) { return m.invariants.strain_rate; }},
-    {"displacement_half_vorticity", [](const Motion& m) { return m.invariants.half_vorticity; }},
-    {"displacement_I", [](const Motion& m) { return m.invariants.I; }},
-    {"displacement_axis_angle_deg", [](const Motion& m) { return m.invariants.axis_angle_deg; }}};
+    {"displacement_v_x", [](const NodeMotion& m) { return m.v_x; }},
+    {"displacement_v_z", [](const NodeMotion& m) { return m.v_z; }},
+    {"displacement_d_v_x_dx", [](const NodeMotion& m) { return m.gradient.xx; }},
+    {"displacement_d_v_x_dz", [](const NodeMotion& m) { return m.gradient.xz; }},
+    {"displacement_d_v_z_dx", [](const NodeMotion& m) { return m.gradient.zx; }},
+    {"displacement_d_v_z_dz", [](const NodeMotion& m) { return m.gradient.zz; }},
+    {"displacement_D_xx", [](const NodeMotion& m) { return m.gradient.xx; }},
+    {"displacement_D_zz", [](const NodeMotion& m) { return m.gradient.zz; }},
+    {"displacement_D_xz", [](const NodeMotion& m) { return m.D_xz; }},
+    {"displacement_dilation", [](const NodeMotion& m) { return m.dilation; }},
+    {"displacement_strain_rate", [](const NodeMotion& m) { return m.invariants.strain_rate; }},
+    {"displacement_half_vorticity", [](const NodeMotion& m) { return m.invariants.half_vorticity; }},
+    {"displacement_I", [](const NodeMotion& m) { return m.invariants.I; }},
+    {"displacement_axis_angle_deg", [](const NodeMotion& m) { return m.invariants.axis_angle_deg; }}};
 
-Motion motion_at(const DisplacementNode& node, const PlaneMatrix& pressure) {
-  Motion m;
+NodeMotion motion_at(const DisplacementNode& node, const PlaneMatrix& pressure) {
+  NodeMotion m;
   const double weight = node.sum[0];
   if (!(weight > 0)) return m;
   m.v_x = node.sum[1] / weight;
@@ -71,7 +71,7 @@ void DisplacementFields::set_node(const TileOfBatches& tile, std::size_t place, 
   const PlaneMatrix pressure{known.sigma_xx, -known.sigma_xz, -known.sigma_zx, known.sigma_zz};
   DisplacementNode total = tile.displacement(0, place);
   for (std::size_t b = 1; b < tile.batches.size(); ++b) total += tile.displacement(b, place);
-  const Motion whole = motion_at(total, pressure);
+  const NodeMotion whole = motion_at(total, pressure);
   if (!(std::hypot(whole.v_x, whole.v_z) <= longest_)) return;
   for (std::size_t f = 0; f < std::size(named_fields); ++f)
     fields[f].value[at] = named_fields[f].value(whole);

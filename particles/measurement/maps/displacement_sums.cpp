@@ -45,6 +45,8 @@ void DisplacementDepositor::find_ends(const Snapshot& snapshot, Ends& ends) {
   ends.id = snapshot.id;
   ends.v_x.clear();
   if (snapshot.period_x > 0) ends.v_x = snapshot.v_x;
+  ends.cell = cell_instant(snapshot);
+  if (ends.cell) ends.v_z = snapshot.v_z;
   ends.x.resize(count);
   ends.z.resize(count);
   const double cosine = std::cos(ends.angle), sine = std::sin(ends.angle);
@@ -61,10 +63,20 @@ void DisplacementDepositor::add_pair(const Ends& from, const Ends& to, const Sna
   const FlowFrame& frame = graining_.frame;
   const double time = to.time - from.time, angle = (from.angle + to.angle) / 2;
   const double cosine = std::cos(angle), sine = std::sin(angle);
+  std::optional<CellPath> path;
+  std::optional<FlowCell> images;
+  if (from.cell && to.cell) {
+    path.emplace(*from.cell, *to.cell);
+    images = FlowCell{0, path->half_way().length_z, path->half_way().offset, 0, 0};
+  }
   for (const auto& [before, i] : same_grains(from.id, from.x.size(), to.id, to.x.size())) {
-    double d_x = to.x[i] - from.x[before];
-    const double d_z = to.z[i] - from.z[before];
-    if (const double period = snapshot.period_x; period > 0)
+    double d_x = to.x[i] - from.x[before], d_z = to.z[i] - from.z[before];
+    if (path) {
+      const Point d =
+          path->displacement({{from.x[before], from.z[before]}, {from.v_x[before], from.v_z[before]}},
+                             {{to.x[i], to.z[i]}, {to.v_x[i], to.v_z[i]}});
+      d_x = d.x, d_z = d.z;
+    } else if (const double period = snapshot.period_x; period > 0)
       d_x -= period * std::round((d_x - time * (from.v_x[before] + to.v_x[i]) / 2) / period);
     const double x = to.x[i] - d_x / 2, z = to.z[i] - d_z / 2;
     const double lab_x = x * cosine + z * sine, lab_z = z * cosine - x * sine;
@@ -72,13 +84,21 @@ void DisplacementDepositor::add_pair(const Ends& from, const Ends& to, const Sna
     const double mass = mass_of(snapshot, i);
     const std::array<double, 3> moments{mass * time, mass * frame.along(moved_x, moved_z),
                                         mass * frame.normal(moved_x, moved_z)};
-    canvas.each_node_with_slope(frame.x_of(snapshot.container_x + lab_x, snapshot.container_z + lab_z),
-                                frame.z_of(snapshot.container_x + lab_x, snapshot.container_z + lab_z),
-                                [&](DisplacementNode& node, double phi, double phi_x, double phi_z) {
-                                  add_times(phi, moments, node.sum);
-                                  add_times(phi_x, moments, node.slope_x);
-                                  add_times(phi_z, moments, node.slope_z);
-                                });
+    const auto add_image = [&](double k, double at_x, double at_z) {
+      std::array<double, 3> of_image = moments;
+      if (k != 0) {  // the cell moves its images
+        const Point more = path->change({k * images->offset, k * images->height});
+        of_image[1] += mass * more.x, of_image[2] += mass * more.z;
+      }
+      canvas.each_node_with_slope(at_x, at_z,
+                                  [&](DisplacementNode& node, double phi, double phi_x, double phi_z) {
+                                    add_times(phi, of_image, node.sum);
+                                    add_times(phi_x, of_image, node.slope_x);
+                                    add_times(phi_z, of_image, node.slope_z);
+                                  });
+    };
+    canvas.each_image(images, frame.x_of(snapshot.container_x + lab_x, snapshot.container_z + lab_z),
+                      frame.z_of(snapshot.container_x + lab_x, snapshot.container_z + lab_z), add_image);
   }
   ++sums.pairs;
   sums.time += time;

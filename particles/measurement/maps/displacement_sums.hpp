@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "particles/bodies/cell_path.hpp"
 #include "particles/measurement/frame/flow_snapshot.hpp"
 #include "particles/measurement/maps/coarse_graining.hpp"
 #include "particles/measurement/maps/node_tiles.hpp"
@@ -49,6 +50,8 @@ class DisplacementDepositor {
     double time = 0, angle = 0;  ///< clockwise; 0 without a drum
     std::vector<double> x, z;    ///< in the drum's axes, from the drum's middle
     std::vector<double> v_x;     ///< laboratory; of a periodic domain alone
+    std::vector<double> v_z;     ///< of a cell that is periodic in z alone
+    std::optional<CellInstant> cell;
     std::vector<double> radius;
     std::vector<std::int64_t> id;  ///< empty where the number of grains cannot change
   };

@@ -88,12 +88,12 @@ std::size_t MapReading::bytes_in_memory() const {
 
 MapReading begun_maps(const MeasurementFrame& place, double spacing, double width,
                       std::shared_ptr<ScratchFile> file) {
-  const double rim = place.container_radius > 0 ? 0 : beyond_the_floor;
+  const double rim = place.container_radius > 0 || place.closed ? 0 : beyond_the_floor;
   const bool periodic = place.period > 0;
   MapReading reading;
   reading.graining = coarse_graining(place.frame, periodic ? 0 : place.x_min - rim,
                                      periodic ? place.period : place.x_max + rim, place.z_min - rim,
-                                     place.z_max + rim, spacing, width, place.period);
+                                     place.z_max + rim, spacing, width, place.period, place.closed);
   reading.depositor.emplace(reading.graining);
   reading.follower.emplace(reading.graining);
   reading.sums = empty_sums(reading.graining);

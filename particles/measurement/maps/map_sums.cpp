@@ -5,6 +5,7 @@
 #include <string>
 
 #include "coupling/common/errors.hpp"
+#include "particles/bodies/cell_path.hpp"
 #include "particles/measurement/maps/node_canvas.hpp"
 
 namespace drumlin::particles {
@@ -22,7 +23,8 @@ void add_times(double factor, const std::array<double, n>& values, std::array<do
 constexpr double longest_piece = 0.6;
 constexpr double gauss_offset = 0.28867513459481288;  // sqrt(3)/6 from the middle of a piece of length 1
 
-void add_half_branch(const HalfBranch& branch, double width, Canvas& canvas) {
+void add_half_branch(const HalfBranch& branch, double width, const std::optional<FlowCell>& cell,
+                     Canvas& canvas) {
   const double length = std::hypot(branch.toward_x, branch.toward_z);
   const double pieces = std::max(1.0, std::ceil(length / (longest_piece * width)));
   const double share = -1 / (2 * pieces);  // b points from the contact to the centre
@@ -32,16 +34,21 @@ void add_half_branch(const HalfBranch& branch, double width, Canvas& canvas) {
   for (double piece = 0; piece < pieces; ++piece)
     for (double offset : {-gauss_offset, gauss_offset}) {
       const double t = (piece + 0.5 + offset) / pieces;
-      canvas.each_node(branch.x + t * branch.toward_x, branch.z + t * branch.toward_z,
-                       [&](MapNode& node, double phi) { add_times(phi, dyad, node.branch); });
+      canvas.each_image(cell, branch.x + t * branch.toward_x, branch.z + t * branch.toward_z,
+                        [&](double, double x, double z) {
+                          canvas.each_node(
+                              x, z, [&](MapNode& node, double phi) { add_times(phi, dyad, node.branch); });
+                        });
     }
   const double n_x = branch.toward_x / length, n_z = branch.toward_z / length;
   const double wall = branch.at_wall ? 1 : 0;
   const std::array<double, 7> end{branch.force_x,        branch.force_z, wall * branch.force_x,
                                   wall * branch.force_z, n_x * n_x / 2,  n_x * n_z / 2,
                                   n_z * n_z / 2};
-  canvas.each_node(branch.x + branch.toward_x, branch.z + branch.toward_z,
-                   [&](MapNode& node, double phi) { add_times(phi, end, node.contact); });
+  canvas.each_image(
+      cell, branch.x + branch.toward_x, branch.z + branch.toward_z, [&](double, double x, double z) {
+        canvas.each_node(x, z, [&](MapNode& node, double phi) { add_times(phi, end, node.contact); });
+      });
 }
 
 struct GrainState {
@@ -51,7 +58,7 @@ struct GrainState {
   double force_x, force_z;
 };
 
-void add_grain(const GrainState& g, Canvas& canvas) {
+void add_image(const GrainState& g, Canvas& canvas) {
   const std::array<double, 5> moments{g.mass, g.mass * g.v_x, g.mass * g.v_z, g.mass * g.u_x, g.mass * g.u_z};
   const double flux_xx = moments[3] * g.u_x, flux_xz = moments[3] * g.u_z, flux_zz = moments[4] * g.u_z;
   const std::array<double, 13> values{1,          g.contacts, g.spin,     moments[0], moments[1],
@@ -63,6 +70,19 @@ void add_grain(const GrainState& g, Canvas& canvas) {
     add_times(phi_z, moments, node.slope_z);
     node.flux_divergence[0] += phi_x * flux_xx + phi_z * flux_xz;
     node.flux_divergence[1] += phi_x * flux_xz + phi_z * flux_zz;
+  });
+}
+
+/// A grain and its images, which a moving cell makes faster.
+void add_grain(const GrainState& g, const std::optional<FlowCell>& cell, Canvas& canvas) {
+  canvas.each_image(cell, g.x, g.z, [&](double k, double x, double z) {
+    GrainState image = g;
+    image.x = x, image.z = z;
+    if (k != 0) {
+      image.v_x += k * cell->v_x, image.v_z += k * cell->v_z;
+      image.u_x += k * cell->v_x, image.u_z += k * cell->v_z;
+    }
+    add_image(image, canvas);
   });
 }
 
@@ -84,7 +104,7 @@ void for_each_array(MapNode& a, const MapNode& b, Action action) {
 }  // namespace
 
 CoarseGraining coarse_graining(const FlowFrame& frame, double x_from, double x_to, double z_from, double z_to,
-                               double spacing, double width, double period) {
+                               double spacing, double width, double period, bool closed) {
   if (!(spacing > 0) || !(width >= spacing) || width > most_spacings_per_width * spacing)
     throw InputError("a map of spacing " + std::to_string(spacing) + " d with a kernel of width " +
                      std::to_string(width) + " d: the width must be 1 to " +
@@ -95,6 +115,11 @@ CoarseGraining coarse_graining(const FlowFrame& frame, double x_from, double x_t
   const double first_row = std::floor(z_from / spacing), end_row = std::ceil(z_to / spacing);
   grid.z_first = (first_row + 0.5) * spacing;
   grid.rows = static_cast<std::size_t>(std::max(1.0, end_row - first_row));
+  if (closed) {
+    grid.rows = static_cast<std::size_t>(std::max(1.0, std::ceil((z_to - z_from) / spacing)));
+    grid.spacing_z = (z_to - z_from) / static_cast<double>(grid.rows);
+    grid.z_first = z_from + grid.spacing_z / 2;
+  }
   if (period > 0) {
     grid.columns = static_cast<std::size_t>(std::max(1.0, std::ceil(period / spacing)));
     grid.spacing_x = period / static_cast<double>(grid.columns);
@@ -128,23 +153,29 @@ void MapDepositor::add(const Snapshot& snapshot, const FlowSnapshot& in_frame, M
   if (dense) tell_areas_apart(sums);
   Canvas canvas(graining_, sums.nodes);
   const FlowFrame& frame = graining_.frame;
+  const Period period = period_of(snapshot);
   force_x_.assign(in_frame.x.size(), 0.0);
   force_z_.assign(in_frame.x.size(), 0.0);
   for (const HalfBranch& branch : in_frame.half_branches()) {
     force_x_[branch.grain] += branch.force_x;
     force_z_[branch.grain] += branch.force_z;
-    add_half_branch(branch, graining_.width, canvas);
+    add_half_branch(branch, graining_.width, in_frame.cell, canvas);
   }
   for (std::size_t i = 0; i < in_frame.x.size(); ++i) {
     const double radius = in_frame.radius[i], area = std::numbers::pi * radius * radius;
-    if (sums.area)
-      NodeCanvas<double>(graining_, *sums.area)
-          .each_node(in_frame.x[i], in_frame.z[i], [&](double& node, double phi) { node += phi * area; });
+    Point velocity{snapshot.v_x[i], snapshot.v_z[i]};
+    if (snapshot.cell) velocity = first_image(period, grain_of(snapshot, i)).velocity;
+    if (sums.area) {
+      NodeCanvas<double> areas(graining_, *sums.area);
+      areas.each_image(in_frame.cell, in_frame.x[i], in_frame.z[i], [&](double, double x, double z) {
+        areas.each_node(x, z, [&](double& node, double phi) { node += phi * area; });
+      });
+    }
     add_grain({in_frame.x[i], in_frame.z[i], dense ? in_frame.density[i] * area : area,
                static_cast<double>(in_frame.coordination[i]), in_frame.spin.empty() ? 0 : in_frame.spin[i],
-               in_frame.v_x[i], in_frame.v_z[i], frame.along(snapshot.v_x[i], snapshot.v_z[i]),
-               frame.normal(snapshot.v_x[i], snapshot.v_z[i]), force_x_[i], force_z_[i]},
-              canvas);
+               in_frame.v_x[i], in_frame.v_z[i], frame.along(velocity.x, velocity.z),
+               frame.normal(velocity.x, velocity.z), force_x_[i], force_z_[i]},
+              in_frame.cell, canvas);
   }
   ++sums.snapshots;
   sums.gravity_x += frame.along(snapshot.gravity_x, snapshot.gravity_z);

@@ -3,7 +3,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
+#include "particles/measurement/frame/flow_snapshot.hpp"
 #include "particles/measurement/maps/coarse_graining.hpp"
 #include "particles/measurement/maps/node_tiles.hpp"
 #include "particles/measurement/maps/spline_kernel.hpp"
@@ -58,6 +60,21 @@ class NodeCanvas {
       action(node, x_.weight[column] * z_.weight[row], x_.slope[column] * z_.weight[row],
              x_.weight[column] * z_.slope[row]);
     });
+  }
+
+  /// Calls action(k, x, z) for each place k (offset, height) away from a point, k a whole number, from which
+  /// nodes can be reached: the point's images in a cell that is periodic in z, itself alone without one.
+  template <class Action>
+  void each_image(const std::optional<FlowCell>& cell, double x, double z, Action action) const {
+    if (!cell) {
+      action(0.0, x, z);
+      return;
+    }
+    const double reach = 2 * graining_.width;
+    const double lowest = grid_.z_first - reach, highest = grid_.z_of(grid_.rows - 1) + reach;
+    const double last = std::floor((highest - z) / cell->height);
+    for (double k = std::ceil((lowest - z) / cell->height); k <= last; ++k)
+      action(k, x + k * cell->offset, z + k * cell->height);
   }
 
  private:

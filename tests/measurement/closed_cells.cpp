@@ -1,0 +1,279 @@
+// Cells that are periodic in x and z, at rest and moving: whatever is measured knows no border. The right
+// values are those of lattices and of affine motion.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include "coupling/common/errors.hpp"
+#include "particles/measurement/grains/voronoi_cells.hpp"
+#include "particles/measurement/history/region_history.hpp"
+#include "particles/measurement/maps/map_measurement.hpp"
+#include "tests/measurement/packings.hpp"
+
+namespace drumlin {
+using namespace particles;
+namespace {
+
+using std::numbers::pi;
+constexpr double side = 15, row_height = 1.5, bottom = -4, left = 2;
+
+/// The cell of 15 d x 15 d with its lower left corner in (2, -4).
+Snapshot empty_cell() {
+  Snapshot s;
+  s.time_step = 0.01;
+  s.gravity_z = 0;
+  s.period_x = side;
+  s.cell = SnapshotCell{left, bottom, side, 0, 0, 0, 0};
+  return s;
+}
+
+/// 150 discs of 1 d in it, in 10 rows a quarter of their distance above the bottom.
+Snapshot rows() {
+  Snapshot s = empty_cell();
+  for (int row = 0; row < 10; ++row)
+    for (int column = 0; column < 15; ++column)
+      testing::add_grain(s, left + column + 0.3 * (row % 3), bottom + (row + 0.25) * row_height, 0.5);
+  return s;
+}
+
+/// Grains that have left the cell, as one at rest lets them.
+Snapshot scattered(Snapshot s) {
+  for (std::size_t i = 0; i < s.x.size(); ++i) {
+    s.x[i] += side * (static_cast<int>(i % 5) - 2);
+    s.z[i] += side * (static_cast<int>(i % 7) - 3);
+  }
+  return s;
+}
+
+/// The same after a time in the flow of the cell, v = (shear z, rate_z z) about its middle at the
+/// beginning, with every grain in the cell.
+Snapshot after(const Snapshot& s, double time, double rate_z, double shear) {
+  Snapshot now = s;
+  const SnapshotCell& from = *s.cell;
+  SnapshotCell& to = *now.cell;
+  const double z_c = from.z + from.height / 2, stretch = 1 + rate_z * time;
+  now.time += time;
+  to.height = stretch * from.height;
+  to.z = z_c - to.height / 2;
+  to.offset = from.offset + shear * time * from.height;
+  to.offset -= s.period_x * std::round(to.offset / s.period_x);
+  to.rate_z = rate_z / stretch, to.shear = shear / stretch;
+  for (std::size_t i = 0; i < s.x.size(); ++i) {
+    const double x = s.x[i] + shear * time * (s.z[i] - z_c), z = z_c + stretch * (s.z[i] - z_c);
+    const Point first = period_of(now).first({x, z});
+    now.x[i] = first.x, now.z[i] = first.z;
+    now.v_x[i] = to.shear * (first.z - z_c), now.v_z[i] = to.rate_z * (first.z - z_c);
+  }
+  return now;
+}
+
+void expect_all_near(const std::vector<double>& values, double right, double tolerance) {
+  for (std::size_t l = 0; l < values.size(); ++l) EXPECT_NEAR(values[l], right, tolerance) << l;
+}
+
+double mean_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+TEST(ClosedCell, AtRestTheProfileSpansTheCellWithOneVolumeFraction) {
+  MeasurementOptions options;
+  options.layer_thickness = row_height;
+  const Measurement measured = testing::measurement_of(scattered(rows()), options);
+  ASSERT_EQ(measured.profiles.z.size(), 10u);
+  EXPECT_NEAR(measured.profiles.z.front(), -side + row_height / 2, 1e-12);
+  EXPECT_NEAR(measured.profiles.z.back(), -row_height / 2, 1e-12);
+  EXPECT_NEAR(measured.surface_z, bottom + side, 1e-12);
+  EXPECT_NEAR(measured.wall_z, -side, 1e-12);
+  expect_all_near(measured.profiles.column("nu").value, 150 * pi / 4 / 225, 1e-12);
+  expect_all_near(measured.profiles.column("count").value, 15, 0);
+  expect_all_near(measured.profiles.column("shear_rate").value, 0, 1e-12);
+}
+
+TEST(ClosedCell, MeansOverItsLayersAreThoseOfTheCell) {
+  Snapshot s = rows();
+  testing::add_grain(s, left, bottom + 0.2, 1.7);   // larger than a layer, across the border
+  for (const double thickness : {1.0, 0.4, 2.2}) {  // the last one fits 6.8 times: 7 layers
+    MeasurementOptions options;
+    options.layer_thickness = thickness;
+    const Measurement measured = testing::measurement_of(scattered(s), options);
+    const double nu = (150 * 0.25 + 1.7 * 1.7) * pi / 225;
+    EXPECT_EQ(measured.profiles.z.size(), static_cast<std::size_t>(std::round(side / thickness)));
+    EXPECT_NEAR(mean_of(measured.profiles.column("nu").value), nu, 1e-12);
+    EXPECT_NEAR(measured.scalars.value("bulk_nu"), nu, 1e-12);
+    EXPECT_NEAR(measured.scalars.value("nu_bulk"), nu, 1e-12);
+    EXPECT_NEAR(measured.layer_thickness * static_cast<double>(measured.profiles.z.size()), side, 1e-12);
+  }
+}
+
+TEST(ClosedCell, ASmallPartOfTheCellIsMeasuredWhereItIs) {
+  // A dilute cell, larger than the window that open scenes are cut to.
+  Snapshot s = empty_cell();
+  s.period_x = 400;
+  s.cell = SnapshotCell{0, 0, 400, 0, 0, 0, 0};
+  testing::add_grain(s, 1, 399.9, 0.5);
+  testing::add_grain(s, 200, 3, 0.5);
+  const Measurement measured = testing::measurement_of(s);
+  EXPECT_EQ(measured.profiles.z.size(), 400u);
+  EXPECT_NEAR(measured.scalars.value("bulk_nu"), 2 * pi / 4 / 160000, 1e-15);
+}
+
+TEST(ClosedCell, MovingItKeepsItsVolumeFractionAndHasItsShearRateUpToTheEnds) {
+  const double shear = 0.3, rate = -0.01;
+  const Snapshot first = after(rows(), 0, rate, shear), later = after(rows(), 6, rate, shear);
+  const Measurement measured = [&] {
+    MeasurementOptions options;
+    options.layer_thickness = row_height;
+    return testing::measurement_of(first, options);
+  }();
+  expect_all_near(measured.profiles.column("shear_rate").value, shear, 1e-12);
+  // Two heights: rows stand at the same shares of both.
+  Snapshot same_rate = first;
+  same_rate.cell->shear = later.cell->shear;
+  MeasurementOptions options;
+  options.layer_thickness = row_height;
+  const Measurement both = measurement(testing::source_of({same_rate, later}), options);
+  const double height = side + later.cell->height;
+  expect_all_near(both.profiles.column("nu").value, 2 * 150 * pi / 4 / (side * height), 1e-12);
+  EXPECT_NEAR(both.layer_thickness, height / 20, 1e-12);
+}
+
+TEST(ClosedCell, SnapshotsOfAnotherShearAreLeftOut) {
+  const Snapshot still = rows(), sheared = after(rows(), 1, 0, 0.3);
+  const Measurement measured = measurement(testing::source_of({still, still, sheared}), {});
+  EXPECT_EQ(measured.first_snapshot, 2u);
+}
+
+TEST(ClosedCell, ForcesAcrossItsBorderCountInFull) {
+  // A chain right through the cell carries the force 3 in every layer, whichever image its grains are.
+  Snapshot s = empty_cell();
+  for (int i = 0; i < 15; ++i) testing::add_grain(s, left + 1, bottom + i + 0.2, 0.5);
+  for (std::int32_t i = 0; i < 15; ++i)
+    s.contacts.push_back({(i + 1) % 15, i, 0, 1, 3 * s.time_step, s.time_step});
+  const Measurement measured = testing::measurement_of(scattered(s));
+  expect_all_near(measured.profiles.column("sigma_zz").value, 3 / side, 1e-12);
+  expect_all_near(measured.profiles.column("sigma_xz").value, -1 / side, 1e-12);
+  const RegionState state = RegionHistory({left, left + side, bottom, bottom + side}).add(scattered(s));
+  EXPECT_NEAR(state.pressure.zz, 3 / side, 1e-12);
+  EXPECT_EQ(state.grains, 15u);
+  EXPECT_NEAR(RegionHistory({left, left + side, bottom + 2.3, bottom + 8.1}).add(scattered(s)).pressure.zz,
+              3 / side, 1e-12);
+}
+
+TEST(ClosedCell, ABoxOfItsSizeHoldsEveryGrainWhereverItBegins) {
+  for (const double from_x : {0.0, 2.0, 7.3})
+    for (const double from_z : {0.0, -4.0, 0.7}) {
+      const Box box{from_x, from_x + side, from_z, from_z + side};
+      const RegionState state = RegionHistory(box).add(scattered(rows()));
+      EXPECT_EQ(state.grains, 150u);
+      EXPECT_NEAR(state.nu, 150 * pi / 4 / 225, 1e-12);
+    }
+  EXPECT_THROW(RegionHistory({0, 15, 0, 16}).add(rows()), InputError);
+}
+
+TEST(ClosedCell, HistoriesKnowTheGradientOfAMovingCell) {
+  const double shear = 0.3, rate = -0.02, time = 2;
+  Snapshot s = after(rows(), 0, rate, shear);
+  for (int step = 0; step < 6; ++step) {  // the image above passes more than two lengths
+    const Snapshot next = after(s, time, s.cell->rate_z, s.cell->shear);
+    const double half = 1 + s.cell->rate_z * time / 2;  // displacements are over the place half-way
+    for (const Box& box : {Box{2, 17, -2, 8}, Box{4, 11, 3, 7}}) {
+      const auto G = mean_gradient(box, s, next);
+      ASSERT_TRUE(G);
+      EXPECT_NEAR(G->xz, s.cell->shear / half, 1e-12) << step;
+      EXPECT_NEAR(G->zz, s.cell->rate_z / half, 1e-12) << step;
+      EXPECT_NEAR(G->xx, 0, 1e-12) << step;
+      EXPECT_NEAR(G->zx, 0, 1e-12) << step;
+    }
+    s = next;
+  }
+}
+
+TEST(ClosedCell, HistoriesFollowGrainsThatLeaveACellAtRest) {
+  Snapshot before = rows();
+  Snapshot now = before;
+  now.time = 10;
+  for (std::size_t i = 0; i < now.x.size(); ++i) now.x[i] += 40, now.z[i] -= 23;  // no velocity tells of it
+  const auto G = mean_gradient({0, 15, 0, 15}, before, now);
+  ASSERT_TRUE(G);
+  for (const double value : {G->xx, G->xz, G->zx, G->zz}) EXPECT_NEAR(value, 0, 1e-13);
+}
+
+TEST(ClosedCell, VoronoiCellsFillIt) {
+  std::mt19937 engine(3);
+  const auto uniform = [&] { return static_cast<double>(engine()) / 4294967296.0; };
+  for (const double offset : {0.0, 4.3, -7.5})
+    for (const int grains : {1, 2, 17, 150, 700}) {
+      Snapshot s = empty_cell();
+      s.cell->offset = offset;
+      for (int i = 0; i < grains; ++i)
+        testing::add_grain(s, 60 * uniform() - 30, 60 * uniform() - 30,
+                           i % 9 == 0 ? 0.5 : 0.06 + 0.1 * uniform());
+      for (const Tessellation kind : {Tessellation::radical, Tessellation::ordinary}) {
+        double sum = 0;
+        for (const VoronoiCell& cell : voronoi_cells(s, {kind, 1.5})) {
+          EXPECT_FALSE(cell.open);
+          sum += cell.area;
+        }
+        EXPECT_NEAR(sum, 225, 1e-9) << grains;
+      }
+    }
+}
+
+TEST(ClosedCell, VoronoiCellsOfALatticeAreOneAndTheSame) {
+  // Rows of 15 that a sheared cell shifts by 0.5 from its top to its bottom: the lattice of the rows goes on.
+  Snapshot s = empty_cell();
+  s.cell->offset = 0.5 * 15;
+  for (int row = 0; row < 15; ++row)
+    for (int column = 0; column < 15; ++column)
+      testing::add_grain(s, left + column + 0.5 * row, bottom + row + 0.1, 0.5);
+  for (const VoronoiCell& cell : voronoi_cells(s)) EXPECT_NEAR(cell.area, 1, 1e-12);
+  MeasurementOptions options;
+  options.voronoi = true;
+  expect_all_near(testing::measurement_of(s, options).profiles.column("nu_voronoi").value, pi / 4, 1e-12);
+}
+
+TEST(ClosedCell, MapsHaveNoBorder) {
+  // Kernels that are half a width apart add up to a constant, and with their places to a straight line.
+  Snapshot lattice = empty_cell();
+  for (int row = 0; row < 30; ++row)
+    for (int column = 0; column < 30; ++column)
+      testing::add_grain(lattice, left + column / 2.0, bottom + (row + 0.3) / 2, 0.2);
+  const Snapshot s = after(lattice, 2, 0, 0.3);
+  FieldMap map;
+  const Measurement measured = [&] {
+    MapReading reading;
+    MeasurementPart part;
+    MeasurementFrame place;
+    part.begin = [&](const MeasurementFrame& at) {
+      place = at;
+      reading = begun_maps(at, 1, 1, std::make_shared<ScratchFile>(std::filesystem::temp_directory_path()));
+    };
+    part.add = [&](const Snapshot& snapshot, const FlowSnapshot& in_frame, std::size_t batch) {
+      add_snapshot(snapshot, in_frame, batch, reading);
+    };
+    const std::vector<MeasurementPart> parts{part};
+    const Measurement result = measurement(testing::source_of({s, after(s, 0.2, 0, 0.3)}), {}, parts);
+    measured_maps(std::move(reading), place, result.surface_z, {},
+                  [&](const MapGrid& grid, const MapRows& rows) {
+                    map.grid = grid;
+                    map.fields.resize(rows.fields.size());
+                    for (std::size_t f = 0; f < rows.fields.size(); ++f) {
+                      map.fields[f].name = rows.fields[f].name;
+                      auto& values = map.fields[f].value;
+                      values.insert(values.end(), rows.fields[f].value.begin(), rows.fields[f].value.end());
+                    }
+                  });
+    return result;
+  }();
+  ASSERT_EQ(map.grid.rows, 15u);
+  ASSERT_EQ(map.grid.columns, 15u);
+  EXPECT_NEAR(map.grid.z_first, -14.5, 1e-12);
+  expect_all_near(map.field("nu").value, 900 * 0.04 * pi / 225, 1e-12);
+  expect_all_near(map.field("d_v_x_dz").value, 0.3, 1e-12);
+  expect_all_near(map.field("displacement_d_v_x_dz").value, 0.3, 1e-12);
+}
+
+}  // namespace
+}  // namespace drumlin
