@@ -8,6 +8,7 @@
 #include "apps/support/comparison_json.hpp"
 #include "apps/support/paper_data.hpp"
 #include "coupling/comparison/paper_table.hpp"
+#include "coupling/comparison/targets.hpp"
 
 namespace drumlin::apps {
 
@@ -63,15 +64,18 @@ std::string short_number(const Json& value) {
 
 std::string summary_of(const Json& content) {
   const Json& counts = content["verdict"];
-  std::string text =
-      fmt::format("{}\ntargets: {} met, {} missed, {} not measured\n", content["title"].get<std::string>(),
-                  counts["met"].get<int>(), counts["missed"].get<int>(), counts["not_measured"].get<int>());
+  std::string text = fmt::format(
+      "{}\ntargets: {} met, {} missed, {} not measured; {} judged by the noise floor, the "
+      "others by their limits\n",
+      content["title"].get<std::string>(), counts["met"].get<int>(), counts["missed"].get<int>(),
+      counts["not_measured"].get<int>(), counts["by_noise_floor"].get<int>());
   for (const auto& target : content["targets"])
     if (target["outcome"] == "missed")
-      text += fmt::format("  missed: {} {}: {} (limit {} {}) {}\n", target["quantity"].get<std::string>(),
+      text += fmt::format("  missed: {} {}: {} ({} {} {}) {}\n", target["quantity"].get<std::string>(),
                           target.value("zone", std::string()), short_number(target["value"]),
-                          short_number(target["limit"]), target["measure"].get<std::string>(),
-                          target.value("remark", std::string()));
+                          target["judged_by"].get<std::string>(),
+                          short_number(target.value("noise_floor", target["limit"])),
+                          target["measure"].get<std::string>(), target.value("remark", std::string()));
   return text + unsteady_text(content);
 }
 
@@ -80,9 +84,12 @@ std::string summary_of(const Json& content) {
 ComparisonReport drum_report(const ComparedRuns& runs, const CompareOptions& options) {
   const coupling::ComparisonOptions how{
       options.registration == "surface" ? coupling::Registration::surface : coupling::Registration::axis, {}};
-  const coupling::Comparison comparison = compare(runs.first.compared, runs.second.compared, how);
+  coupling::Comparison comparison = compare(runs.first.compared, runs.second.compared, how);
   std::optional<coupling::Comparison> floor;
-  if (runs.floor) floor = compare(runs.first.compared, runs.floor->compared, how);
+  if (runs.floor) {
+    floor = compare(runs.first.compared, runs.floor->compared, how);
+    judge_by_floor(comparison.targets, floor->targets);
+  }
   ComparisonReport report{
       std::make_shared<Json>(content_of(runs, comparison, floor ? &*floor : nullptr, how)),
       "comparison",

@@ -47,9 +47,14 @@ def covers(measurement, value):
     return is_known(interval) and abs(value_of(measurement) - value) <= interval
 
 
+def bound(target):
+    """What a target is judged by: its limit, or the noise floor of the particles."""
+    return target["noise_floor"] if target.get("judged_by") == "noise floor" else target["limit"]
+
+
 def over_limit(target):
-    """How many times its limit a target's error is; NaN when it was not measured."""
-    return value_of(target["value"]) / target["limit"]
+    """How many times what it is judged by a target's error is; NaN when it was not measured."""
+    return value_of(target["value"]) / bound(target)
 
 
 def largest_miss(targets):
@@ -77,5 +82,5 @@ def as_json(value, indent=2):
 
 
 FILTERS = {function.__name__: function for function in (
-    is_known, value_of, number, measured, percent, difference, covers, over_limit, largest_miss, above_by_noise, known_items,
+    is_known, value_of, number, measured, percent, difference, covers, bound, over_limit, largest_miss, above_by_noise, known_items,
     coefficients, as_json)}

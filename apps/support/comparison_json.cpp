@@ -129,14 +129,20 @@ Json to_json(const coupling::Target& target) {
   json["limit"] = target.limit;
   json["value"] = number(target.value);
   json["outcome"] = name_of(target.outcome);
+  const bool noisy = target.judged_by == coupling::Target::JudgedBy::noise_floor;
+  json["judged_by"] = noisy ? "noise floor" : "limit";
+  if (noisy) json["noise_floor"] = number(target.noise_floor);
   if (!target.remark.empty()) json["remark"] = target.remark;
   return json;
 }
 
 Json counts_of(const std::vector<coupling::Target>& targets) {
-  Json counts{{"met", 0}, {"missed", 0}, {"not_measured", 0}};
-  for (const coupling::Target& target : targets)
-    counts[name_of(target.outcome)] = counts[name_of(target.outcome)].get<int>() + 1;
+  Json counts{{"met", 0}, {"missed", 0}, {"not_measured", 0}, {"by_noise_floor", 0}};
+  const auto count = [&](const std::string& what) { counts[what] = counts[what].get<int>() + 1; };
+  for (const coupling::Target& target : targets) {
+    count(name_of(target.outcome));
+    if (target.judged_by == coupling::Target::JudgedBy::noise_floor) count("by_noise_floor");
+  }
   return counts;
 }
 

@@ -39,6 +39,7 @@ struct ScalarPair {
 /// What is asked of the continuum, and what it reached.
 struct Target {
   enum class Outcome { met, missed, not_measured };
+  enum class JudgedBy { limit, noise_floor };
   std::string quantity;  ///< "sigma_zz", "theta_deg", ...
   std::string zone;      ///< empty for a scalar
   std::string measure;  ///< how the difference is taken: "rel_l2", "rms in decades", "difference in deg", ...
@@ -46,6 +47,10 @@ struct Target {
   double value = 0;  ///< NaN when not measured
   Outcome outcome = Outcome::not_measured;
   std::string remark;  ///< why it was not measured, which layers are missing, what the particles leave open
+  /// A limit narrower than the particles' own interval asks for more than they know: their noise judges.
+  JudgedBy judged_by = JudgedBy::limit;
+  bool undefined = false;  ///< the continuum leaves layers of the zone undefined: missed, whatever the value
+  double noise_floor = std::numeric_limits<double>::quiet_NaN();  ///< where it judges
 };
 
 struct Comparison {

@@ -60,6 +60,15 @@ double interval_of(const FieldComparison& field, const std::string& name, bool r
   return nan;
 }
 
+/// Judges a target whose value is known, by its limit or by what the particles leave open.
+void judge(Target& target, double open) {
+  const bool noisy = open > target.limit;
+  target.judged_by = noisy ? Target::JudgedBy::noise_floor : Target::JudgedBy::limit;
+  target.noise_floor = noisy ? open : nan;
+  target.outcome = outcome_of(target.value, noisy ? open : target.limit);
+  if (noisy) add_remark(target, fmt::format("the particles' own interval amounts to {:.2g}", open));
+}
+
 Target assessed(const FieldTarget& asked, const std::vector<FieldComparison>& fields) {
   Target target{asked.field, asked.zone, asked.words, asked.limit, nan, Outcome::not_measured, ""};
   const auto field = std::find_if(fields.begin(), fields.end(), [&](const FieldComparison& candidate) {
@@ -70,17 +79,16 @@ Target assessed(const FieldTarget& asked, const std::vector<FieldComparison>& fi
   for (const auto& [zone, errors] : field->zones) {
     if (zone.name != asked.zone) continue;
     target.value = errors.*asked.measure;
-    target.outcome = outcome_of(target.value, target.limit);
+    judge(target, interval_of(*field, zone.name, asked.measure == &FieldErrors::rel_l2));
     if (errors.undefined > 0) {
+      target.undefined = true;
       target.outcome = Outcome::missed;
-      target.remark = std::to_string(errors.undefined) + " of " +
-                      std::to_string(errors.undefined + errors.layers) + " layers undefined in the continuum";
+      add_remark(target, std::to_string(errors.undefined) + " of " +
+                             std::to_string(errors.undefined + errors.layers) +
+                             " layers undefined in the continuum");
     } else if (errors.layers == 0 && target.remark.empty()) {
       target.remark = "no layer in this zone";
     }
-    const double open = interval_of(*field, zone.name, asked.measure == &FieldErrors::rel_l2);
-    if (open > asked.limit)
-      add_remark(target, fmt::format("the particles' own interval amounts to {:.2g}", open));
   }
   return target;
 }
@@ -91,10 +99,7 @@ Target assessed(const ScalarTarget& asked, const std::vector<ScalarPair>& scalar
     if (pair.name != asked.name) continue;
     const double difference = std::abs(pair.continuum - pair.particles);
     target.value = asked.relative ? difference / std::abs(pair.particles) : difference;
-    target.outcome = outcome_of(target.value, target.limit);
-    const double open = pair.ci99.value_or(nan) / (asked.relative ? std::abs(pair.particles) : 1);
-    if (open > asked.limit)
-      add_remark(target, fmt::format("the particles' own interval is +-{:.2g}", *pair.ci99));
+    judge(target, pair.ci99.value_or(nan) / (asked.relative ? std::abs(pair.particles) : 1));
     if (std::isnan(pair.particles)) target.remark = "not measured on the particles";
     if (std::isnan(pair.continuum)) target.remark = "not computed by the continuum";
   }
@@ -109,6 +114,15 @@ std::vector<Target> judged_targets(const std::vector<FieldComparison>& fields,
   for (const auto& asked : field_targets) targets.push_back(assessed(asked, fields));
   for (const auto& asked : scalar_targets) targets.push_back(assessed(asked, scalars));
   return targets;
+}
+
+void judge_by_floor(std::vector<Target>& targets, const std::vector<Target>& floor) {
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    Target& target = targets[i];
+    if (target.judged_by == Target::JudgedBy::limit || !(floor[i].value > target.noise_floor)) continue;
+    target.noise_floor = floor[i].value;
+    if (target.value <= target.noise_floor && !target.undefined) target.outcome = Outcome::met;
+  }
 }
 
 }  // namespace drumlin::coupling

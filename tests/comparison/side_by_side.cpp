@@ -4,6 +4,7 @@
 
 #include "coupling/common/errors.hpp"
 #include "coupling/comparison/comparison.hpp"
+#include "coupling/comparison/targets.hpp"
 #include "tests/comparison/example.hpp"
 
 namespace drumlin {
@@ -71,6 +72,50 @@ TEST(Comparison, FieldTargetsTurnAtTheirLimits) {
   turns_at("v_x", "flowing", 0.20);
   EXPECT_EQ(outcome("log10_shear_rate", "static", "shear_rate", std::pow(10, 0.29)), Outcome::met);
   EXPECT_EQ(outcome("log10_shear_rate", "static", "shear_rate", std::pow(10, -0.31)), Outcome::missed);
+}
+
+TEST(Comparison, ALimitNarrowerThanTheParticlesIntervalIsJudgedByTheNoiseFloor) {
+  const auto judged = [](double ci99, double by) {
+    ComparedSide particles = example_side();
+    auto continuum = continuum_side();
+    for (auto& entry : particles.scalars.scalars)
+      if (entry.name == "Q") entry.ci99 = ci99 * entry.value;
+    for (auto& entry : continuum.scalars.scalars)
+      if (entry.name == "Q") entry.value *= 1 + by;
+    return target(compare(particles, continuum), "Q", "");
+  };
+  const Target within = judged(0.04, 0.03), beyond = judged(0.04, -0.05), known = judged(0.009, 0.03);
+  EXPECT_EQ(within.outcome, Outcome::met);
+  EXPECT_EQ(within.judged_by, Target::JudgedBy::noise_floor);
+  EXPECT_NEAR(within.noise_floor, 0.04, 1e-12);
+  EXPECT_EQ(within.limit, 0.01);
+  EXPECT_EQ(beyond.outcome, Outcome::missed);
+  EXPECT_EQ(beyond.judged_by, Target::JudgedBy::noise_floor);
+  EXPECT_EQ(known.outcome, Outcome::missed);
+  EXPECT_EQ(known.judged_by, Target::JudgedBy::limit);
+  // Another run that lies farther off widens the floor, one that lies nearer does not narrow it.
+  std::vector<Target> targets{beyond}, other{beyond};
+  other[0].value = 0.02;
+  judge_by_floor(targets, other);
+  EXPECT_EQ(targets[0].outcome, Outcome::missed);
+  other[0].value = 0.06;
+  judge_by_floor(targets, other);
+  EXPECT_EQ(targets[0].outcome, Outcome::met);
+  EXPECT_NEAR(targets[0].noise_floor, 0.06, 1e-12);
+}
+
+TEST(Comparison, FieldsOfNoisyParticlesAreJudgedByTheirNoiseFloor) {
+  ComparedSide particles = example_side();
+  auto continuum = continuum_side();
+  auto& noisy = column_of(particles.profiles, "sigma_zz");
+  for (std::size_t l = 0; l < noisy.ci99.size(); ++l) noisy.ci99[l] = 0.12 * std::abs(noisy.value[l]);
+  for (double& value : column_of(continuum.profiles, "sigma_zz").value) value *= 1.08;
+  const Target found = target(compare(particles, continuum), "sigma_zz", "all");
+  EXPECT_EQ(found.outcome, Outcome::met);
+  EXPECT_EQ(found.judged_by, Target::JudgedBy::noise_floor);
+  EXPECT_NEAR(found.noise_floor, 0.12, 1e-12);
+  for (double& value : column_of(continuum.profiles, "sigma_zz").value) value *= 1.13 / 1.08;
+  EXPECT_EQ(target(compare(particles, continuum), "sigma_zz", "all").outcome, Outcome::missed);
 }
 
 TEST(Comparison, LayersThatTheContinuumLeavesUndefinedMissTheTarget) {
