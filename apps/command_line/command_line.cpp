@@ -46,8 +46,10 @@ class CommandLine {
     add_report_options(add_command("report", "Puts a run on one page, with a player", report_), report_);
     add_export_options(add_command("export", "Writes a run in a format of other programs", export_), export_);
     add_history_options(
-        add_command("history", "Stress and strain of a region and forces on walls, snapshot by snapshot",
-                    history_),
+        add_command(
+            "history",
+            "Stress and strain of a region, forces on walls, angle of the surface, snapshot by snapshot",
+            history_),
         history_);
     add_calibrate_options(
         add_command("calibrate", "Fits mu(I), and k(I) on request, to measured runs", calibrate_),

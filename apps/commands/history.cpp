@@ -1,4 +1,5 @@
-// drumlin history: mean stress, fabric and strain of a region and the forces on walls, snapshot by snapshot
+// drumlin history: mean stress, fabric and strain of a region, the forces on walls and the angle of the
+// surface, snapshot by snapshot
 // (docs/formats/history.md).
 #include <fmt/format.h>
 
@@ -17,6 +18,7 @@
 #include "particles/io/run_folder.hpp"
 #include "particles/io/snapshot_list.hpp"
 #include "particles/measurement/history/region_history.hpp"
+#include "particles/measurement/history/surface_history.hpp"
 #include "particles/measurement/history/wall_history.hpp"
 #include "particles/scene/scene_walls.hpp"
 
@@ -65,7 +67,7 @@ bool is_done(const fs::path& folder, const particles::RunFolder& run, const Hist
   return true;
 }
 
-/// The three tables, line by line.
+/// The tables, line by line.
 class Tables {
  public:
   Tables(const particles::RunFolder& run, const HistoryOptions& options)
@@ -81,6 +83,8 @@ class Tables {
         "# drumlin-history-walls-1\n" + lines + "snapshot,time,wall,x,z,angle_deg,force_x,force_z,torque\n";
     tractions =
         "# drumlin-history-tractions-1\n" + lines + "snapshot,time,wall,from_deg,to_deg,normal,shear\n";
+    surface = "# drumlin-history-surface-1\n" + lines +
+              "snapshot,time,angle_deg,mass_angle_deg,left_deg,right_deg,repose_deg\n";
     if (options.box.empty()) return;
     history_.emplace(Box{options.box[0], options.box[1], options.box[2], options.box[3]});
     region =
@@ -95,6 +99,9 @@ class Tables {
     const std::vector<std::string> stamp{std::to_string(particles::snapshot_number(file)),
                                          csv_number(snapshot.time)};
     add_walls(run, snapshot, stamp);
+    const particles::SurfaceState u = particles::surface_state(snapshot);
+    surface += line_of(stamp, numbers({u.angle * degrees, u.mass_angle * degrees, u.left * degrees,
+                                       u.right * degrees, u.repose * degrees}));
     if (!history_) return;
     const particles::RegionState& s = history_->add(snapshot);
     region += line_of(stamp, numbers({static_cast<double>(s.grains), s.nu, s.coordination, s.pressure.xx,
@@ -103,7 +110,7 @@ class Tables {
                                       s.gradient.xx, s.gradient.xz, s.gradient.zx, s.gradient.zz, s.strain}));
   }
 
-  std::string walls, tractions, region;
+  std::string walls, tractions, surface, region;
 
  private:
   void add_walls(const particles::RunFolder& run, const particles::Snapshot& snapshot,
@@ -167,6 +174,7 @@ int history(const HistoryOptions& options) {
   }
   progress.finish();
   if (!options.box.empty()) replace_file(output.folder() / "region.csv", tables.region);
+  replace_file(output.folder() / "surface.csv", tables.surface);
   replace_file(output.folder() / "tractions.csv", tables.tractions);
   replace_file(output.folder() / "walls.csv", tables.walls);
   output.publish();

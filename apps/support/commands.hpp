@@ -103,7 +103,7 @@ struct HistoryOptions {
   int sectors = 36;         ///< of a circular container
   ExistingOutput existing = ExistingOutput::refuse;
 };
-/// Stress, fabric and strain of a region and forces on walls, snapshot by snapshot.
+/// Stress, fabric and strain of a region, forces on walls and angle of the surface, snapshot by snapshot.
 int history(const HistoryOptions&);
 
 struct CalibrateOptions {

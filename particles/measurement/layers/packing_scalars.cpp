@@ -192,6 +192,10 @@ ScalarSet packing_scalars(const ProfileSet& profiles, const ProfilePlace& place,
                     {"coordination_flowing", zone_mean(profiles, flowing, "coordination"), {}},
                     {"coordination_static", zone_mean(profiles, still, "coordination"), {}}}};
   add_gradient_scalars(profiles, flowing, still, whole, result);
+  if (place.closed)  // there is neither surface nor wall
+    for (Scalar& scalar : result.scalars)
+      if (scalar.name == "nu_surface_width" || scalar.name == "nu_wall_width" || scalar.name == "k_boundary")
+        scalar.value = none;
   return result;
 }
 
