@@ -225,6 +225,7 @@ std::int32_t Impacts::take_up(std::int32_t body) {
       taken.spins = !step.bodies.spin.empty();
       if (taken.spins) taken.rim = step.bodies.radius[body] * step.bodies.spin[body];
       if (!step.free.shift.empty()) taken.shift = step.free.shift[body];
+      each_pair_of(body, [&](std::int32_t a) { taken.carries |= in_->loads.of(a) > 0; });
     } else {
       const Driven& wall = step.walls.driven[body - grains()];
       taken.inverse_mass = wall.inverse_mass;
@@ -300,8 +301,10 @@ void Impacts::strike(const Event& event, StepContacts& contacts) {
   list_strikes(contacts);
   closings_.clear();
   for (ImpactBody& body : pass_.bodies) {
-    body.shift.x += event.time * (body.before_x - body.v_x);
-    body.shift.z += event.time * (body.before_z - body.v_z);
+    if (!body.carries) {  // the others stay in contact: their positions follow the velocity at the end
+      body.shift.x += event.time * (body.before_x - body.v_x);
+      body.shift.z += event.time * (body.before_z - body.v_z);
+    }
     ++body.passes;
     taken_[place_[body.body]] = body;  // in no pass
     each_pair_of(body.body, [&](std::int32_t a) { closings_.push_back(a); });
