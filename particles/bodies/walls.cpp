@@ -131,8 +131,15 @@ int first_shape(const Walls& walls, int wall) {
                           walls.wall_of_shape.begin());
 }
 
+const Driven* driven_motion(const Walls& walls, std::size_t wall) {
+  const auto& motions = walls.motions[wall];
+  return motions.empty() ? nullptr : std::get_if<Driven>(&motions.back());
+}
+
 Pose Walls::pose(int wall, double time_in_stage, std::span<const DrivenState> driven) const {
-  return after(displacement(motion[wall], time_in_stage, driven), pose_at_start[wall]);
+  Pose pose = pose_at_start[wall];
+  for (const Motion& motion : motions[wall]) pose = after(displacement(motion, time_in_stage, driven), pose);
+  return pose;
 }
 
 std::vector<Shape> Walls::shapes_at(double time_in_stage, std::span<const DrivenState> driven) const {

@@ -2,6 +2,7 @@
 // Walls: rigid shapes that move as told. Their poses are functions of time, never integrated, so that a drum
 // turned a thousand times is still where its angle says; only walls that contacts push have a state.
 #include <array>
+#include <bitset>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -106,9 +107,17 @@ struct DrivenState {
   double position = 0;  ///< since the stage began
   double velocity = 0;
 };
-using Motion = std::variant<std::monostate, Turning, Gliding, Shaking, Swinging, Driven, Straining>;
+/// The shape rests, its surface runs along itself, as that of a belt: on both sides of a segment from its
+/// first end to the other, clockwise round other shapes.
+struct Running {
+  double speed = 0;
+};
+using Motion = std::variant<Turning, Gliding, Shaking, Swinging, Driven, Straining, Running>;
 /// Displacement after `time` of a motion. `driven`: the states of all driven walls of the stage.
 Pose displacement(const Motion&, double time, std::span<const DrivenState> driven = {});
+
+/// Numbers of materials.
+using MaterialSet = std::bitset<256>;
 
 /// All walls of a scene. A shape's index is its place in `reference`; shapes of one name belong to one wall.
 struct Walls {
@@ -116,10 +125,12 @@ struct Walls {
   std::vector<Shape> reference;    ///< as in the scene, each followed by the discs glued to it
   std::vector<int> wall_of_shape;
   std::vector<std::uint8_t> material_of_shape;  ///< empty when no law asks for it
-  std::vector<Motion> motion;                   ///< one per wall, of the current stage
-  std::vector<Pose> pose_at_start;              ///< one per wall, when the current stage began
-  std::vector<bool> open;  ///< one per wall, as far as the stages up to now opened any; else empty
-  double period = 0;       ///< length of a periodic domain; 0: open
+  std::vector<MaterialSet> acts_on;  ///< one per shape: of the grains that it meets; empty: each meets all
+  /// One list per wall, of the current stage: each motion acts on what those before it leave.
+  std::vector<std::vector<Motion>> motions;
+  std::vector<Pose> pose_at_start;  ///< one per wall, when the current stage began
+  std::vector<bool> open;           ///< one per wall, as far as the stages up to now opened any; else empty
+  double period = 0;                ///< length of a periodic domain; 0: open
 
   // `driven`: the state of each wall that the current stage drives, in the order of the walls.
   Pose pose(int wall, double time_in_stage, std::span<const DrivenState> driven = {}) const;
@@ -133,5 +144,7 @@ Shape moved(const Rigid&, const Shape&);
 void join_ends(std::span<Shape> shapes, std::span<const int> together);
 /// The index of a wall's first shape.
 int first_shape(const Walls&, int wall);
+/// How contacts move a wall, if they do: always the last of its motions.
+const Driven* driven_motion(const Walls&, std::size_t wall);
 
 }  // namespace drumlin::particles

@@ -202,8 +202,8 @@ void ContactDetection::look_at_wall(const NearGrain& grain, std::int32_t shape, 
   Point point;
   pair.gap = gap_to_shape(input.shapes[shape], image_near(input.shapes[shape], grain.x, input.period),
                           grain.z, grain.radius, pair.n_x, pair.n_z, point);
-  if (pair.gap > farthest) return;
-  const Point then = moved(input.shape_steps[shape], point);
+  if (pair.gap > farthest || !input.shape_steps[shape].meets(grain.body)) return;
+  const Point then = moved(input.shape_steps[shape], input.shapes[shape], point, {pair.n_x, pair.n_z});
   pair.wall_v_x = (then.x - point.x) / input.time_step;
   pair.wall_v_z = (then.z - point.z) / input.time_step;
   const double approach = -(pair.n_x * (grain.v_x - pair.wall_v_x) + pair.n_z * (grain.v_z - pair.wall_v_z));

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "particles/bodies/bodies.hpp"
-#include "particles/bodies/walls.hpp"
+#include "particles/bodies/shape_step.hpp"
 #include "particles/detection/candidate.hpp"
 #include "particles/detection/cell_grid.hpp"
 #include "particles/detection/grain_pairs.hpp"
@@ -14,8 +14,8 @@
 namespace drumlin::particles {
 
 struct DetectionInput {
-  std::span<const Shape> shapes;      ///< at the beginning of the step
-  std::span<const Pose> shape_steps;  ///< displacement of each shape over the step
+  std::span<const Shape> shapes;           ///< at the beginning of the step
+  std::span<const ShapeStep> shape_steps;  ///< of each shape
   double time_step = 0;
   double margin = 0;  ///< pairs closer than this are always kept
   Period period;

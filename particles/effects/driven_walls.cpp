@@ -42,7 +42,7 @@ void add_driven_walls(const Walls& walls, std::span<const DrivenState> states, d
                       double time_step, WallStep& step) {
   std::vector<std::int32_t> driven_of_wall(walls.names.size(), -1);
   for (std::size_t w = 0; w < walls.names.size(); ++w)
-    if (const auto* driven = std::get_if<Driven>(&walls.motion[w])) {
+    if (const Driven* driven = driven_motion(walls, w)) {
       driven_of_wall[w] = static_cast<std::int32_t>(step.driven.size());
       step.driven.push_back(*driven);
       step.driven.back().force = force_in_step(*driven, step.before, time_in_stage, time_step);
@@ -56,7 +56,7 @@ void add_driven_walls(const Walls& walls, std::span<const DrivenState> states, d
     const double way = time_step * free_velocity(wall, states[k], time_step);
     const Pose free{0, way * wall.direction.x, way * wall.direction.z};
     step.after[s] = moved(Rigid(free), step.after[s]);
-    step.displacement[s] = after(free, step.displacement[s]);
+    step.displacement[s].set_displacement(after(free, step.displacement[s]));
   }
 }
 

@@ -54,8 +54,9 @@ WallStep in_laboratory(const TurningFrame& frame, double time, double time_step,
   WallStep seen;
   for (const Shape& shape : walls.before) seen.before.push_back(moved(first, shape));
   for (const Shape& shape : walls.after) seen.after.push_back(moved(last, shape));
-  for (const Pose& step : walls.displacement)
-    seen.displacement.push_back(after(after_step, after(step, inverse(before))));
+  seen.displacement = walls.displacement;
+  for (ShapeStep& step : seen.displacement)
+    step.set_displacement(after(after_step, after(step, inverse(before))));
   return seen;
 }
 

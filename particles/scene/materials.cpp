@@ -20,9 +20,15 @@ int material_number(const std::vector<std::string>& names, const std::optional<s
   return static_cast<int>(std::find(names.begin(), names.end(), *name) - names.begin());
 }
 
+bool walls_choose_materials(const Scene& scene) {
+  return std::any_of(scene.walls.begin(), scene.walls.end(),
+                     [](const Wall& wall) { return wall.acts_on.has_value(); });
+}
+
 bool materials_matter(const Scene& scene) {
   const Effects& e = scene.effects;
-  return (e.friction && !e.friction->pairs.empty()) || (e.restitution && !e.restitution->pairs.empty()) ||
+  return walls_choose_materials(scene) || (e.friction && !e.friction->pairs.empty()) ||
+         (e.restitution && !e.restitution->pairs.empty()) ||
          (e.rolling_resistance && !e.rolling_resistance->pairs.empty()) ||
          (e.cohesion && !e.cohesion->pairs.empty());
 }

@@ -15,7 +15,9 @@ constexpr int most_materials = 200;
 std::vector<std::string> material_names(const Scene& scene);
 /// The number of a name, or of none.
 int material_number(const std::vector<std::string>& names, const std::optional<std::string>& name);
-/// Whether a law of the scene differs from pair to pair: only then materials are stored.
+/// Whether a wall acts on some materials alone.
+bool walls_choose_materials(const Scene& scene);
+/// Whether a law of the scene differs from pair to pair, or walls choose: only then materials are stored.
 bool materials_matter(const Scene& scene);
 
 }  // namespace drumlin::particles

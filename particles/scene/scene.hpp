@@ -103,7 +103,7 @@ struct ArcShape {
   double from_deg = 0, to_deg = 0;  ///< counter-clockwise from x
 };
 
-/// Discs glued along a container or a segment, their centres on it.
+/// Discs glued along a container, a segment or a disc, their centres on it.
 struct Roughness {
   double diameter_mm = 0;
   double spacing_mm = 0;  ///< of the centres along the wall; shortened so that a whole number of discs fits
@@ -115,6 +115,7 @@ struct Wall {
   std::variant<ContainerShape, SegmentShape, DiscShape, PolylineShape, ArcShape> shape;
   std::optional<std::string> material = {};  ///< for laws that differ from pair to pair
   std::optional<Roughness> rough = {};
+  std::optional<std::vector<std::string>> acts_on = {};  ///< materials of the grains that it meets
 };
 
 /// What is absent is neither stored nor computed. Each effect is described in its file in particles/effects.

@@ -168,7 +168,9 @@ void describe(Visitor& v, Wall& w) {
             alternative<PolylineShape>("polyline", "joined lines."),
             alternative<ArcShape>("arc", "part of a circle."));
   v.value("material", w.material, when_given("", not_empty(), "Material."));
-  v.optional_table("rough", w.rough, "Discs glued along a container or a segment.");
+  v.value("acts_on", w.acts_on,
+          when_given("", not_empty(), "Materials of the grains that it meets; others pass. Without: all."));
+  v.optional_table("rough", w.rough, "Discs glued along a container, a segment or a disc.");
 }
 
 template <class Visitor>

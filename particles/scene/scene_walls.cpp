@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "particles/bodies/arc.hpp"
 #include "particles/scene/materials.hpp"
@@ -51,8 +52,25 @@ Motion motion_of(const WallMotion& asked, const Walls& walls, int wall, const Sc
     return pressed_law(*p, walls, wall, scales, driven);
   if (const auto* e = std::get_if<StrainRate>(&asked.motion)) return straining_law(*e, walls, wall, scales);
   const double unit = 1e-3 / scales.velocity_m_s();
+  if (const auto* b = std::get_if<Belt>(&asked.motion)) return Running{b->speed_mm_s * unit};
   const auto& t = std::get<Translation>(asked.motion);
   return Gliding{t.velocity_mm_s[0] * unit, t.velocity_mm_s[1] * unit};
+}
+
+/// The circle of a container or a disc.
+std::optional<CircleRegion> circle_of(const Wall& wall) {
+  if (const auto* c = std::get_if<ContainerShape>(&wall.shape))
+    return CircleRegion{c->center_mm, c->radius_mm};
+  if (const auto* d = std::get_if<DiscShape>(&wall.shape))
+    return CircleRegion{d->center_mm, d->diameter_mm / 2};
+  return std::nullopt;
+}
+
+MaterialSet materials_met(const Wall& wall, const std::vector<std::string>& materials) {
+  MaterialSet met;
+  if (!wall.acts_on) return met.set();
+  for (const std::string& name : *wall.acts_on) met.set(material_number(materials, name));
+  return met;
 }
 
 }  // namespace
@@ -67,7 +85,7 @@ std::vector<SegmentShape> segments_of(const PolylineShape& line) {
 }
 
 double wall_length_mm(const Wall& wall) {
-  if (const auto* c = std::get_if<ContainerShape>(&wall.shape)) return 2 * std::numbers::pi * c->radius_mm;
+  if (const auto circle = circle_of(wall)) return 2 * std::numbers::pi * circle->radius_mm;
   if (const auto* s = std::get_if<SegmentShape>(&wall.shape))
     return std::hypot(s->to_mm[0] - s->from_mm[0], s->to_mm[1] - s->from_mm[1]);
   return 0;
@@ -79,7 +97,7 @@ std::vector<Point_mm> glued_centers_mm(const Wall& wall) {
   // A length that is a whole number of spacings but for rounding has just as many.
   const int discs =
       static_cast<int>(std::ceil(std::min(wall_length_mm(wall) / wall.rough->spacing_mm, 1e7) * (1 - 1e-12)));
-  if (const auto* c = std::get_if<ContainerShape>(&wall.shape)) {
+  if (const auto c = circle_of(wall)) {
     for (int k = 0; k < discs; ++k) {
       const double angle = 2 * std::numbers::pi * k / discs;
       centers.push_back({c->center_mm[0] + c->radius_mm * std::cos(angle),
@@ -119,7 +137,7 @@ void join_ends(const Scene& scene, Walls& walls) {
 Walls walls_of(const Scene& scene, const Scales& scales) {
   Walls walls;
   const auto materials = material_names(scene);
-  const bool stored = materials_matter(scene);
+  const bool stored = materials_matter(scene), chosen = walls_choose_materials(scene);
   for (const Wall& wall : scene.walls) {
     auto known = std::find(walls.names.begin(), walls.names.end(), wall.name);
     if (known == walls.names.end()) known = walls.names.insert(walls.names.end(), wall.name);
@@ -131,9 +149,10 @@ Walls walls_of(const Scene& scene, const Scales& scales) {
     if (stored)
       walls.material_of_shape.resize(walls.reference.size(),
                                      static_cast<std::uint8_t>(material_number(materials, wall.material)));
+    if (chosen) walls.acts_on.resize(walls.reference.size(), materials_met(wall, materials));
   }
   join_ends(scene, walls);
-  walls.motion.resize(walls.names.size());
+  walls.motions.resize(walls.names.size());
   walls.pose_at_start.resize(walls.names.size());
   if (scene.periodic_x)
     walls.period = (scene.periodic_x->x_max_mm - scene.periodic_x->x_min_mm) * 1e-3 / scales.length_m;
@@ -152,6 +171,18 @@ Point straight_velocity(const Motion& motion, std::span<const DrivenState> state
   return {};
 }
 
+/// What motions in a line leave of a wall's velocity after the time; rotations that follow turn it.
+Point straight_velocity(const std::vector<Motion>& motions, double time,
+                        std::span<const DrivenState> states) {
+  Point sum;
+  for (const Motion& motion : motions) {
+    const Point turned = Rigid(displacement(motion, time, states)).turned(sum);
+    const Point own = straight_velocity(motion, states);
+    sum = {turned.x + own.x, turned.z + own.z};
+  }
+  return sum;
+}
+
 }  // namespace
 
 void open_walls(Walls& walls, const Stage& stage) {
@@ -168,13 +199,13 @@ std::vector<DrivenState> begin_stage(Walls& walls, const Stage& stage, const Sca
   std::vector<DrivenState> states;
   for (std::size_t w = 0; w < walls.names.size(); ++w) {
     walls.pose_at_start[w] = walls.pose(static_cast<int>(w), time_in_old_stage, driven);
-    const Point had = straight_velocity(walls.motion[w], driven);
-    walls.motion[w] = std::monostate{};
+    const Point had = straight_velocity(walls.motions[w], time_in_old_stage, driven);
+    walls.motions[w].clear();
     for (const WallMotion& asked : stage.motions)
       if (asked.wall == walls.names[w])
-        walls.motion[w] =
-            motion_of(asked, walls, static_cast<int>(w), scales, static_cast<int>(states.size()));
-    if (const auto* now = std::get_if<Driven>(&walls.motion[w]))
+        walls.motions[w].push_back(
+            motion_of(asked, walls, static_cast<int>(w), scales, static_cast<int>(states.size())));
+    if (const Driven* now = driven_motion(walls, w))
       states.push_back({0, had.x * now->direction.x + had.z * now->direction.z});
   }
   return states;

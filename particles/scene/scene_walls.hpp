@@ -10,10 +10,11 @@ namespace drumlin::particles {
 
 /// The lines of a polyline, the one that closes it last.
 std::vector<SegmentShape> segments_of(const PolylineShape&);
-/// Length of the line on which discs can be glued; 0 for a disc, a polyline or an arc.
+/// Length of the line on which discs can be glued; 0 for a polyline or an arc.
 double wall_length_mm(const Wall& wall);
-/// Centres of the discs glued to a wall, in mm: evenly along a container, or a segment with half a spacing
-/// free at either end, so that a segment as long as the period closes on itself. Empty for a smooth wall.
+/// Centres of the discs glued to a wall, in mm: evenly round a container or a disc, or along a segment with
+/// half a spacing free at either end, so that a segment as long as the period closes on itself. Empty for a
+/// smooth wall.
 std::vector<Point_mm> glued_centers_mm(const Wall& wall);
 
 /// Dimensionless walls of a scene, at rest.

@@ -71,9 +71,16 @@ struct Rocking {
   double phase_deg = 0;
   Point_mm center_mm{0, 0};
 };
+/// The wall rests, its surface runs along itself, as a belt: segments from their first end to the other,
+/// clockwise round other shapes.
+struct Belt {
+  double speed_mm_s = 0;
+};
+/// Several of one wall act one after the other, each on what those before it leave.
 struct WallMotion {
   std::string wall;
-  std::variant<Rotation, Translation, Oscillation, Rocking, ForceControl, PressureControl, StrainRate> motion;
+  std::variant<Rotation, Translation, Oscillation, Rocking, ForceControl, PressureControl, StrainRate, Belt>
+      motion;
 };
 
 /// Whether the motion is moved by a force or a pressure: one body more, its place a result.

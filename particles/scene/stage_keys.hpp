@@ -38,6 +38,13 @@ void describe(Visitor& v, Rocking& r) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, Belt& b) {
+  v.value("speed_mm_s", b.speed_mm_s,
+          required("mm/s", at_least(-1e9, 1e9),
+                   "From a segment's first end to the other; clockwise round other shapes."));
+}
+
+template <class Visitor>
 void describe(Visitor& v, WallMotion& m) {
   v.value("wall", m.wall, required("", not_empty(), "Its name."));
   v.variant("kind", m.motion, "Kind.", alternative<Rotation>("rotation", "about a point."),
@@ -46,7 +53,8 @@ void describe(Visitor& v, WallMotion& m) {
             alternative<Rocking>("rocking", "about a point, to and fro."),
             alternative<ForceControl>("force", "along a line, as force and grains push."),
             alternative<PressureControl>("pressure", "the same."),
-            alternative<StrainRate>("strain_rate", "distance changes at a constant rate."));
+            alternative<StrainRate>("strain_rate", "distance changes at a constant rate."),
+            alternative<Belt>("belt", "the surface runs, the shape rests."));
 }
 
 template <class Visitor>
@@ -98,7 +106,8 @@ void describe(Visitor& v, Stage& s) {
           required("s", above(0), "Adapted so that whole steps fill the stage."));
   v.value("snapshots", s.snapshots,
           defaulted("", at_least(0, most_snapshots), "Evenly spread, last at the end."));
-  v.tables("motions", s.motions, 0, "At most one per wall.");
+  v.tables("motions", s.motions, 0,
+           "Those of one wall act in their order, each on what those before it leave.");
   v.value("opens", s.opens, when_given("", not_empty(), "Walls gone from its start on."));
   v.optional_table("gravity", s.gravity, "Stays until another stage changes it.");
   v.optional_table("friction", s.friction, "In place of effects.friction.");

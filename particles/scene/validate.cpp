@@ -68,11 +68,6 @@ void check_period(const Scene& scene, Faults& faults) {
 
 void check_roughness(const Wall& wall, const std::string& key, Faults& faults) {
   if (!wall.rough) return;
-  if (std::holds_alternative<DiscShape>(wall.shape))
-    faults.push_back({key + ".rough",
-                      "is glued to a disc",
-                      "on containers and segments",
-                      {key + ".rough", key + ".shape"}});
   const double length = wall_length_mm(wall);
   if (!(length / wall.rough->spacing_mm <= most_glued))
     faults.push_back({key + ".rough.spacing_mm",
@@ -131,8 +126,41 @@ void check_drive(const Scene& scene, const Drive& force, const std::string& key,
                       {key, "effects.rotating_frame"}});
 }
 
+/// What pushes a wall comes last, along a line of the laboratory; a pressure knows the length that it acts on
+/// at the start of the stage.
+void check_order(const Stage& stage, std::size_t m, const std::string& key, Faults& faults) {
+  const auto& motions = stage.motions;
+  const auto same = [&](const WallMotion& other) { return other.wall == motions[m].wall; };
+  if (!is_driven(motions[m])) return;
+  if (std::any_of(motions.begin() + m + 1, motions.end(), same))
+    faults.push_back({key + ".kind",
+                      fmt::format("pushes \"{}\" before another motion", motions[m].wall),
+                      "force or pressure as the last motion of a wall",
+                      {key}});
+  const auto* pressure = std::get_if<PressureControl>(&motions[m].motion);
+  const auto turns = [&](const WallMotion& other) {
+    return same(other) &&
+           (std::holds_alternative<Rotation>(other.motion) || std::holds_alternative<Rocking>(other.motion));
+  };
+  if (pressure && !pressure->between && std::any_of(motions.begin(), motions.begin() + m, turns))
+    faults.push_back({key + ".between",
+                      "is missing: the length of a wall that turns changes",
+                      "two walls whose distance is pressed",
+                      {key}});
+}
+
+void check_belt(const Scene& scene, const WallMotion& asked, const std::string& key, Faults& faults) {
+  if (!std::holds_alternative<Belt>(asked.motion)) return;
+  for (std::size_t w = 0; w < scene.walls.size(); ++w)
+    if (scene.walls[w].name == asked.wall && scene.walls[w].rough)
+      faults.push_back({key + ".kind",
+                        fmt::format("runs along \"{}\", whose glued discs would not follow", asked.wall),
+                        "a wall without rough",
+                        {key, wall_key(w) + ".rough"}});
+}
+
 void check_motions(const Scene& scene, std::size_t s, Faults& faults) {
-  std::set<std::string> walls, moving;
+  std::set<std::string> walls;
   std::string known;
   for (const auto& wall : scene.walls)
     if (walls.insert(wall.name).second) known += (known.empty() ? "" : ", ") + wall.name;
@@ -149,8 +177,8 @@ void check_motions(const Scene& scene, std::size_t s, Faults& faults) {
       check_drive(scene, *force, drive, faults);
     if (const auto* pressure = std::get_if<PressureControl>(&scene.stages[s].motions[m].motion))
       check_drive(scene, *pressure, drive, faults);
-    if (!moving.insert(name).second)
-      faults.push_back({key, fmt::format("moves \"{}\" a second time", name), "one motion per wall", {key}});
+    check_order(scene.stages[s], m, drive, faults);
+    check_belt(scene, scene.stages[s].motions[m], drive, faults);
   }
 }
 

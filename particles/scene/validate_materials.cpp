@@ -60,6 +60,13 @@ void check_materials(const Scene& scene, std::vector<SceneFault>& faults) {
                       "are too many with those of the walls",
                       fmt::format("at most {}", most_materials),
                       {key, "walls"}});
+  for (std::size_t w = 0; w < scene.walls.size(); ++w)
+    for (const std::string& name : scene.walls[w].acts_on.value_or(std::vector<std::string>{}))
+      if (!names.contains(name))
+        faults.push_back({fmt::format("walls.{}.acts_on", w),
+                          fmt::format("names no material of grains: \"{}\"", name),
+                          "names from grains.materials",
+                          {fmt::format("walls.{}.acts_on", w), key}});
   const Effects& effects = scene.effects;
   if (effects.friction) check_pairs(scene, effects.friction->pairs, "friction", faults);
   if (effects.restitution) check_pairs(scene, effects.restitution->pairs, "restitution", faults);

@@ -132,7 +132,7 @@ void check_polyline(const PolylineShape& line, bool rough, const std::string& ke
     faults.push_back(
         {key + ".x_mm", "holds a point twice in a row", "points that differ from the one before", about});
   if (rough)
-    faults.push_back({key + ".rough", "is glued to a polyline", "on containers and segments", about});
+    faults.push_back({key + ".rough", "is glued to a polyline", "on containers, segments and discs", about});
 }
 
 void check_arc(const ArcShape& arc, bool rough, const std::string& key, Faults& faults) {
@@ -140,7 +140,8 @@ void check_arc(const ArcShape& arc, bool rough, const std::string& key, Faults& 
   if (!(arc.from_deg < arc.to_deg && arc.to_deg - arc.from_deg < 360))
     faults.push_back({key + ".to_deg", fmt::format("is {}, from_deg {}", arc.to_deg, arc.from_deg),
                       "above from_deg, by less than 360", about});
-  if (rough) faults.push_back({key + ".rough", "is glued to an arc", "on containers and segments", about});
+  if (rough)
+    faults.push_back({key + ".rough", "is glued to an arc", "on containers, segments and discs", about});
 }
 
 }  // namespace

@@ -28,13 +28,14 @@ class MovingArc {
   /// Bound on how far one of its points moves.
   double furthest() const { return largest_move(was_, step_); }
   double turns_by() const { return step_.angle; }
+  bool meets(std::size_t grain) const { return step_.meets(static_cast<std::int32_t>(grain)); }
 
  private:
   std::optional<Way> crossing_of(Point start, Point end, double image) const;
   Place place_of(Point p) const;
 
   Arc was_, is_;
-  Pose step_;
+  ShapeStep step_;
   Rigid there_, back_;
   double middle_;
 };

@@ -155,7 +155,8 @@ Simulation::Simulation(const Scene& scene, int threads)
   }
   if (Scene asked = scene; !lists_of(asked).empty()) {
     const auto shapes = walls_.shapes_at(0, state_.driven);
-    start_overlaps_ = overlaps_at_start(state_.bodies, shapes, laws_of(scene, scales_).period);
+    start_overlaps_ = overlaps_at_start(state_.bodies, shapes, resting_steps(walls_, state_.bodies.material),
+                                        laws_of(scene, scales_).period);
     refuse_deep_overlap(scene, walls_, start_overlaps_);
     refuse_steps_too_long(scene, scales_, plan_, state_.bodies);
   }
@@ -233,7 +234,7 @@ StepReport Simulation::step() {
 }
 
 StepReport Simulation::advance_here(double h) {
-  WallStep walls = wall_step(walls_, state_.time_in_stage, h, state_.driven);
+  WallStep walls = wall_step(walls_, state_.time_in_stage, h, state_.driven, state_.bodies.material);
   MovingState moving{state_.bodies, state_.memory, state_.driven, state_.energy};
   if (!state_.cell) return stepper_->advance(moving, walls, h);
   moving.cell.emplace(begin_cell_step(h));
@@ -245,7 +246,8 @@ StepReport Simulation::advance_here(double h) {
 StepReport Simulation::advance_in_laboratory(double h) {
   const double time = state_.time();
   to_laboratory(*frame_, time, state_.bodies);
-  WallStep walls = in_laboratory(*frame_, time, h, wall_step(walls_, state_.time_in_stage, h));
+  WallStep walls =
+      in_laboratory(*frame_, time, h, wall_step(walls_, state_.time_in_stage, h, {}, state_.bodies.material));
   const StepReport report = stepper_->advance({state_.bodies, state_.memory, {}, state_.energy}, walls, h);
   from_laboratory(*frame_, time + h, state_.bodies);
   return report;

@@ -1,6 +1,7 @@
 #include "particles/stepping/snapshot_of_state.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <variant>
 
 namespace drumlin::particles {
@@ -21,6 +22,18 @@ std::vector<SnapshotContact> one_for_each_pair(std::vector<SnapshotContact> cont
   return sums;
 }
 
+namespace {
+
+/// Of the rotations among a wall's motions; nothing if there are none.
+std::optional<double> spin_of(const std::vector<Motion>& motions) {
+  std::optional<double> spin;
+  for (const Motion& motion : motions)
+    if (const auto* turning = std::get_if<Turning>(&motion)) spin = spin.value_or(0) + turning->spin;
+  return spin;
+}
+
+}  // namespace
+
 Snapshot snapshot_of(const StateInScene& in, SimulationState& state) {
   Snapshot s;
   const Bodies& bodies = state.bodies;
@@ -29,9 +42,9 @@ Snapshot snapshot_of(const StateInScene& in, SimulationState& state) {
   s.time_step = in.plan.stages[state.stage].time_step;
   s.scales = in.scales;
   for (std::size_t w = 0; w < in.walls.names.size(); ++w)
-    if (const auto* turning = std::get_if<Turning>(&in.walls.motion[w])) {
+    if (const auto spin = spin_of(in.walls.motions[w])) {
       s.wall_angle = in.walls.pose(static_cast<int>(w), state.time_in_stage, state.driven).angle;
-      s.wall_spin = turning->spin;
+      s.wall_spin = *spin;
       break;
     }
   for (const Shape& shape : in.walls.shapes_at(state.time_in_stage, state.driven))

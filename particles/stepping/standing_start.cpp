@@ -78,7 +78,7 @@ ContactMemory impulses_under_weight(const Bodies& bodies, std::span<const Shape>
                                     const Point& gravity, double time_step, int unknowns) {
   const std::size_t grains = bodies.count();
   const std::vector<double> rest(grains, 0.0);
-  const std::vector<Pose> still(shapes.size());
+  const std::vector<ShapeStep> still(shapes.size());
   ContactDetection detection;
   const auto& pairs = detection.find(bodies, rest, rest, {shapes, still, 1, touching, period});
   // Mean stress sum r_n l / (2 A) of contacts of length l, in an area A: r_n = 2 p A / (contacts l).

@@ -7,10 +7,10 @@
 
 namespace drumlin::particles {
 
-StartOverlaps overlaps_at_start(const Bodies& bodies, std::span<const Shape> shapes, const Period& period) {
+StartOverlaps overlaps_at_start(const Bodies& bodies, std::span<const Shape> shapes,
+                                std::span<const ShapeStep> still, const Period& period) {
   // At rest, so that nothing but places decides.
   const std::vector<double> rest(bodies.count(), 0.0);
-  const std::vector<Pose> still(shapes.size());
   ContactDetection detection;
   StartOverlaps overlaps;
   for (const Candidate& pair : detection.find(bodies, rest, rest, {shapes, still, 1, 0, period})) {

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "particles/bodies/bodies.hpp"
-#include "particles/bodies/walls.hpp"
+#include "particles/bodies/shape_step.hpp"
 #include "particles/detection/cell_grid.hpp"
 
 namespace drumlin::particles {
@@ -22,7 +22,8 @@ constexpr double noticed_at_start = 1e-3;
 /// contact forces that press them apart mean nothing.
 constexpr double most_at_start = 0.1;
 
-/// Looks at all pairs of a start.
-StartOverlaps overlaps_at_start(const Bodies& bodies, std::span<const Shape> shapes, const Period& period);
+/// Looks at all pairs of a start. `still`: of the shapes, at rest.
+StartOverlaps overlaps_at_start(const Bodies& bodies, std::span<const Shape> shapes,
+                                std::span<const ShapeStep> still, const Period& period);
 
 }  // namespace drumlin::particles

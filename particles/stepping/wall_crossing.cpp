@@ -61,6 +61,7 @@ class MovingSegment {
   /// Bound on how far one of its points moves.
   double furthest() const { return largest_move(was_, step_); }
   double turns_by() const { return step_.angle; }
+  bool meets(std::size_t grain) const { return step_.meets(static_cast<std::int32_t>(grain)); }
 
  private:
   std::optional<Way> crossing_of(Point start, Point end, double image) const {
@@ -77,7 +78,7 @@ class MovingSegment {
   }
 
   Segment was_, is_;
-  Pose step_;
+  ShapeStep step_;
   Rigid there_, back_;
   double e_x_, e_z_, length_, middle_;
 };
@@ -85,8 +86,11 @@ class MovingSegment {
 /// A thin wall over a step.
 using MovingWall = std::variant<MovingSegment, MovingArc>;
 
-std::optional<Way> crossing(const MovingWall& wall, Point start, Point end, const Period& period) {
-  return std::visit([&](const auto& w) { return w.crossing(start, end, period); }, wall);
+/// Of a disc that the wall meets.
+std::optional<Way> crossing(const MovingWall& wall, std::size_t b, Point start, Point end,
+                            const Period& period) {
+  return std::visit([&](const auto& w) { return w.meets(b) ? w.crossing(start, end, period) : std::nullopt; },
+                    wall);
 }
 
 /// Calls `visit(b)` for every disc that can have crossed the wall if none has moved further than `furthest`
@@ -113,11 +117,11 @@ struct FirstCrossing {
   const MovingWall* wall = nullptr;
   Way way;
 };
-FirstCrossing first_crossing(std::span<const MovingWall> walls, Point start, Point end,
+FirstCrossing first_crossing(std::span<const MovingWall> walls, std::size_t b, Point start, Point end,
                              const Period& period) {
   FirstCrossing first;
   for (const MovingWall& wall : walls)
-    if (const auto way = crossing(wall, start, end, period))
+    if (const auto way = crossing(wall, b, start, end, period))
       if (!first.wall || way->share < first.way.share) first = {&wall, *way};
   return first;
 }
@@ -130,7 +134,7 @@ void lay_back(std::span<const MovingWall> walls, const Period& period, Point sta
   };
   const double radius = bodies.radius[b];
   for (int attempt = 0;; ++attempt) {
-    const auto [wall, way] = first_crossing(walls, start, {bodies.x[b], bodies.z[b]}, period);
+    const auto [wall, way] = first_crossing(walls, b, start, {bodies.x[b], bodies.z[b]}, period);
     if (!wall) return;
     crossings.deepest = std::max(crossings.deepest, radius + std::abs(way.to.across));
     const auto of_wall = [wall = wall](auto act) { return std::visit(act, *wall); };
@@ -210,7 +214,8 @@ void WallCrossings::undo_at_containers(const WallStep& walls, const Period& peri
     if (outside.list.empty()) continue;
     const double largest = largest_.value_or(*std::max_element(bodies.radius.begin(), bodies.radius.end()));
     for (const std::size_t b : outside.list)
-      lay_into(was, is, period, {x_[b], z_[b]}, b, largest, bodies, crossings);
+      if (walls.displacement[shape].meets(static_cast<std::int32_t>(b)))
+        lay_into(was, is, period, {x_[b], z_[b]}, b, largest, bodies, crossings);
   }
 }
 
@@ -228,7 +233,7 @@ void WallCrossings::undo_at_thin_walls(const WallStep& walls, const Period& peri
   crossed_.clear();
   for (const MovingWall& wall : moving)
     each_near(wall, bodies, period, furthest, [&](std::size_t b) {
-      if (crossing(wall, {x_[b], z_[b]}, {bodies.x[b], bodies.z[b]}, period)) crossed_.push_back(b);
+      if (crossing(wall, b, {x_[b], z_[b]}, {bodies.x[b], bodies.z[b]}, period)) crossed_.push_back(b);
     });
   std::sort(crossed_.begin(), crossed_.end());
   crossed_.erase(std::unique(crossed_.begin(), crossed_.end()), crossed_.end());

@@ -6,7 +6,7 @@ import re
 
 # Where each name of the standard library that a header may use is declared. A name that is missing here is a fault too: it is added.
 STANDARD = {
-    "algorithm": "any_of clamp copy_n fill fill_n max min minmax_element move_backward", "array": "array tuple_size_v", "atomic": "atomic", "bit": "bit_cast bit_ceil", "charconv": "from_chars", "chrono": "chrono",
+    "algorithm": "any_of clamp copy_n fill fill_n max min minmax_element move_backward", "array": "array tuple_size_v", "atomic": "atomic", "bitset": "bitset", "bit": "bit_cast bit_ceil", "charconv": "from_chars", "chrono": "chrono",
     "cmath": "abs ceil copysign exp floor hypot ilogb isfinite ldexp log log10 nan round sqrt", "complex": "complex abs",
     "cstddef": "byte ptrdiff_t size_t", "cstring": "memcpy", "exception": "exception_ptr", "cstdint": "int8_t int16_t int32_t int64_t uint8_t uint16_t uint32_t uint64_t", "deque": "deque",
     "filesystem": "filesystem", "functional": "function", "future": "async future launch", "initializer_list": "initializer_list",

@@ -102,6 +102,37 @@ TEST(MaterialPairs, SharesAreDrawnByNumber) {
   EXPECT_NEAR(steel / 4000, 0.25, 4 * std::sqrt(0.25 * 0.75 / 4000));  // 4 standard deviations
 }
 
+TEST(WallsThatActOnAMaterial, LetOthersPass) {
+  // Through a floor, from above and while lying in it, through a drum, and through a line that is jumped
+  // over.
+  const TemporaryFolder folder;
+  const double t = 4;
+  const auto end_of = [&](const Wall& wall, const std::vector<Made>& grains, double h, bool falls = false) {
+    Scene scene = scene_of_materials(grains, folder);
+    scene.walls = {wall};
+    scene.walls[0].acts_on = {"steel"};
+    if (falls) scene.effects.gravity = Gravity{};
+    add_stage(scene, t, h);
+    Simulation simulation(scene);
+    while (!simulation.finished()) EXPECT_FALSE(simulation.step().lost);
+    EXPECT_EQ(simulation.start_overlaps().pairs, 0);
+    return simulation.state().bodies;
+  };
+  const Bodies fallen =
+      end_of(floor_wall(), {{0, 2, 0, "glass"}, {5, 0, 0, "glass"}, {-5, 2, 0, "steel"}}, 1e-2, true);
+  EXPECT_NEAR(fallen.z[0], 2 - t * t / 2, 1e-2 * t);  // to first order in the step
+  EXPECT_NEAR(fallen.z[1], -t * t / 2, 1e-2 * t);
+  EXPECT_NEAR(fallen.z[2], 0.5, 1e-6);
+  const std::vector<Made> flying{{0, 2, 1, "glass"}, {0, -2, 1, "steel"}},
+      jumping{{0, 2, 8, "glass"}, {0, -2, 1, "steel"}};
+  const Bodies flown = end_of({"drum", ContainerShape{{0, 0}, 3}}, flying, 1e-2);
+  EXPECT_NEAR(flown.x[0], t, 1e-9);
+  EXPECT_LT(std::hypot(flown.x[1], flown.z[1]), 2.5 + 1e-3);
+  const Bodies jumped = end_of({"line", SegmentShape{{3, -5}, {3, 5}}}, jumping, 0.25);
+  EXPECT_NEAR(jumped.x[0], 8 * t, 1e-9);
+  EXPECT_NEAR(jumped.x[1], 2.5, 1e-3);
+}
+
 TEST(MaterialPairs, AListThatNamesAnUnknownMaterialIsRefused) {
   const TemporaryFolder folder;
   Scene scene = scene_of_materials({{0, 0.5, 1, "cork"}}, folder);

@@ -128,6 +128,28 @@ const Case cases[] = {
        put_into_cell(s);
        s.stages[0].cell = StageCell{{}, CellAxis{200, {}}, 5, 1};
      }},
+    {"TwoMotionsOfOneWall",
+     [](Scene& s) {
+       cut(s, 0.1);
+       s.walls.push_back({"lid", DiscShape{{0, 22}, 6}});
+       for (Stage& stage : s.stages) {
+         stage.motions.push_back({"drum", Oscillation{{1, 2}, 8, 20}});
+         stage.motions.push_back({"lid", Rotation{50, {0, 22}}});
+         stage.motions.push_back({"lid", ForceControl{{0.2, -1}, 20, 0.05, {}}});
+       }
+     }},
+    {"Belt",
+     [](Scene& s) {
+       s.walls.push_back({"belt", SegmentShape{{-20, -15}, {20, -15}}});
+       std::get<GeneratedGrains>(s.grains.source).region = CircleRegion{{0, 6}, 20};
+       s.stages[0].motions.push_back({"belt", Belt{300}});
+     }},
+    {"WallThatActsOnAMaterial",
+     [](Scene& s) {
+       s.grains.materials = {{"glass"}, {"steel"}};
+       s.walls.push_back({"sieve", SegmentShape{{-28, -12}, {28, -12}}, {}, {}, {{"steel"}}});
+       std::get<GeneratedGrains>(s.grains.source).region = CircleRegion{{0, 9}, 19};
+     }},
     {"OutletsAndSources",
      [](Scene& s) {
        s.outlets = {{"hole", RectangleRegion{{-12, -32}, {12, -20}}, RectangleRegion{{-8, 5}, {8, 15}}}};

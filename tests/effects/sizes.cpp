@@ -119,7 +119,7 @@ TEST(WallCrossing, IsUndoneOntoTheSideItCameFrom) {
   const auto after = [&](double x, double z, double v_x, double v_z, const Segment& to, double& depth) {
     Bodies bodies;
     add_body(bodies, x - v_x, z - v_z, 0.5);
-    const WallStep step{{floor}, {to}, {{0, to.from.x - floor.from.x, to.from.z - floor.from.z}}};
+    const WallStep step{{floor}, {to}, {Pose{0, to.from.x - floor.from.x, to.from.z - floor.from.z}}};
     WallCrossings crossings;
     crossings.begin(bodies, step.before);
     bodies.x[0] = x, bodies.z[0] = z;

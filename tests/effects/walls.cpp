@@ -57,7 +57,7 @@ TEST(Rocking, ReachesItsAmplitudeAndComesBackExactly) {
   walls.reference = {Segment{{0, 0}, {1, 0}}};
   walls.wall_of_shape = {0};
   walls.pose_at_start = {Pose{}};
-  walls.motion = {Swinging{0.3, 2 * std::numbers::pi, 0, {0.5, 0}}};
+  walls.motions = {{Swinging{0.3, 2 * std::numbers::pi, 0, {0.5, 0}}}};
   const auto end_at = [&](double time) { return std::get<Segment>(walls.shapes_at(time)[0]).to; };
   EXPECT_NEAR(end_at(0.25).x, 0.5 + 0.5 * std::cos(0.3), 1e-14);
   EXPECT_NEAR(end_at(0.25).z, -0.5 * std::sin(0.3), 1e-14);  // clockwise
@@ -105,6 +105,24 @@ TEST(RoughWall, ANumberOfDiscsFitsWholeAroundAContainer) {
     EXPECT_NEAR(disc.radius, unit, 1e-12);
     EXPECT_NEAR(std::hypot(next.center.x - disc.center.x, next.center.z - disc.center.z),
                 2 * 30 * unit * std::sin(std::numbers::pi / 63), 1e-12);
+  }
+}
+
+TEST(RoughWall, AlsoRoundADisc) {
+  Scene scene = test::turning_drum();
+  scene.walls.push_back({"wheel", DiscShape{{2, 3}, 10}, {}, Roughness{2, 3.1}});
+  const Scales scales = scales_of(scene);
+  const Walls walls = walls_of(scene, scales);
+  // 10 pi / 3.1 = 10.1: 11 of them, their centres on the rim.
+  ASSERT_EQ(walls.reference.size(), 2u + 11u);
+  const double unit = 1e-3 / scales.length_m, chord = 2 * 5 * unit * std::sin(std::numbers::pi / 11);
+  for (std::size_t s = 2; s < 13; ++s) {
+    const auto& disc = std::get<FixedDisc>(walls.reference[s]);
+    const auto& next = std::get<FixedDisc>(walls.reference[s == 12 ? 2 : s + 1]);
+    EXPECT_NEAR(std::hypot(disc.center.x - 2 * unit, disc.center.z - 3 * unit), 5 * unit, 1e-12);
+    EXPECT_NEAR(disc.radius, unit, 1e-12);
+    EXPECT_NEAR(std::hypot(next.center.x - disc.center.x, next.center.z - disc.center.z), chord, 1e-12);
+    EXPECT_EQ(walls.wall_of_shape[s], 1);
   }
 }
 

@@ -66,7 +66,7 @@ std::vector<Case> cases() {
 
 TEST(KeptLists, FindWhatASearchFromNothingFinds) {
   const std::vector<Shape> walls = {Segment{{-2, -1}, {60, -1}}, FixedDisc{{5, 40}, 4}};
-  const std::vector<Pose> still(walls.size());
+  const std::vector<ShapeStep> still(walls.size());
   ThreadTeam team(2);
   for (Case& c : cases()) {
     SCOPED_TRACE(c.name);

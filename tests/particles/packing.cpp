@@ -280,7 +280,7 @@ TEST(Detection, FindsWhatBruteForceFinds) {
       v_z.push_back(random.uniform(-speed, speed));
     }
     const std::vector<Shape> shapes{Segment{{-7, -7}, {7, -6}}, FixedDisc{{1, 1}, 2}, Container{{0, 0}, 12}};
-    const std::vector<Pose> still(3);
+    const std::vector<ShapeStep> still(3);
     DetectionInput input{shapes, still, 0.05, 0.02, {}};
     if (periodic) input.period = {-8, 16};
     ContactDetection detection;

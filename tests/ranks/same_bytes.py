@@ -71,7 +71,8 @@ name = "box"
 grain_grain = 0.5
 grain_wall = 0.5
 """ + STAGES.format(settle=0.08, moving=0.04,
-                    motion='{ wall = "box", kind = "oscillation", amplitude_mm = [1, 0], frequency_hz = 20 }')
+                    motion='{ wall = "box", kind = "oscillation", amplitude_mm = [1, 0], frequency_hz = 20 }, '
+                    '{ wall = "box", kind = "translation", velocity_mm_s = [0, 50] }, { wall = "box", kind = "belt", speed_mm_s = 200 }')
 
 
 def require(condition, message):

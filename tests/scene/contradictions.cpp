@@ -49,9 +49,12 @@ TEST(Contradiction, PairsOfMaterialsThatCannotMeet) {
 TEST(Contradiction, RoughnessThatDoesNotFit) {
   expect_problem(example_scene, {"walls.0.rough={diameter_mm=2, spacing_mm=3}"}, "grains.generated.region",
                  "inside its radius of 14 mm");
-  expect_problem(replaced(example_scene, "shape = \"container\"\nradius_mm = 15",
-                          "shape = \"disc\"\ncenter_mm = [40, 0]\ndiameter_mm = 1"),
-                 {"walls.0.rough={diameter_mm=2, spacing_mm=3}"}, "walls.0.rough", "glued to a disc");
+  // Round a disc: clear of the region, then with its glued discs not.
+  const std::string disc = replaced(example_scene, "shape = \"container\"\nradius_mm = 15",
+                                    "shape = \"disc\"\ncenter_mm = [20.5, 0]\ndiameter_mm = 10");
+  EXPECT_TRUE(testing::scene_problems(disc, {"walls.0.rough={diameter_mm=0.9, spacing_mm=3}"}).empty());
+  expect_problem(disc, {"walls.0.rough={diameter_mm=2, spacing_mm=3}"}, "grains.generated.region",
+                 "crossed by wall");
   expect_problem(example_scene, {"walls.0.rough={diameter_mm=2, spacing_mm=1e-6}", "walls.0.radius_mm=16"},
                  "walls.0.rough.spacing_mm", "discs");
 }
@@ -125,9 +128,30 @@ TEST(Contradiction, TurnsOfNothing) {
 
 TEST(Contradiction, MotionOfNoWallOrOfOneTwice) {
   expect_problem(example_scene, {"stages.1.motions.0.wall=x"}, "stages.1.motions.0.wall", "(allowed: drum)");
+}
+
+TEST(Contradiction, MotionsThatCannotFollowEachOther) {
   const std::string rotation = "{wall=\"drum\", kind=\"rotation\", speed_rpm=60}";
-  expect_problem(example_scene, {"stages.1.motions=[" + rotation + "," + rotation + "]"},
-                 "stages.1.motions.1.wall", "a second time");
+  const std::string push = "direction=[0, 1], mass_kg_m=1}";
+  const std::string force = "{wall=\"drum\", kind=\"force\", force_n_m=1, " + push;
+  const auto motions = [](const std::string& list) { return "stages.1.motions=[" + list + "]"; };
+  EXPECT_TRUE(testing::scene_problems(example_scene, {motions(rotation + "," + rotation)}).empty());
+  EXPECT_TRUE(testing::scene_problems(example_scene, {motions(rotation + "," + force)}).empty());
+  expect_problem(example_scene, {motions(force + "," + rotation)}, "stages.1.motions.0.kind",
+                 "the last motion");
+  expect_problem(replaced(example_scene, "shape = \"container\"\nradius_mm = 15",
+                          "shape = \"segment\"\nfrom_mm = [-30, -15]\nto_mm = [30, -15]"),
+                 {motions(rotation + ", {wall=\"drum\", kind=\"pressure\", pressure_n_m2=1, " + push)},
+                 "stages.1.motions.1.between", "turns");
+  expect_problem(example_scene,
+                 {"walls.0.rough={diameter_mm=1, spacing_mm=1}", "grains.generated.region.radius_mm=14",
+                  motions(rotation + ", {wall=\"drum\", kind=\"belt\", speed_mm_s=1}")},
+                 "stages.1.motions.1.kind", "glued discs");
+}
+
+TEST(Contradiction, WallsThatActOnNoMaterial) {
+  expect_problem(example_scene, {"walls.0.acts_on=[\"cork\"]", "grains.materials=[{name=\"glass\"}]"},
+                 "walls.0.acts_on", "\"cork\"");
 }
 
 TEST(Contradiction, StagesOfOneName) {

@@ -136,6 +136,12 @@ std::vector<Case> cases_of_stages() {
        "stages.0.motions.0.velocity_mm_s=[20, 5]",
        positions_mm},
 
+      {"stages[].motions[].speed_mm_s",
+       "kind = \"belt\"",
+       F,
+       {rubbing, "stages.0.motions=[{wall=\"floor\", kind=\"belt\", speed_mm_s=100}]"},
+       "stages.0.motions.0.speed_mm_s=-100",
+       positions_mm},
       {"stages[].motions[].amplitude_mm",
        oscillation,
        F,
