@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "particles/effects/key_ranges.hpp"
 
@@ -20,17 +21,26 @@ struct RectangleRegion {
 
 /// Diameters that are either the smallest or the largest.
 struct TwoSizes {
-  double small_share = 0;  ///< by number
+  double small_share = 0;
+  std::optional<std::string> by = {};  ///< what shares count: "number" (where absent) or "mass"
 };
-/// Numbers per diameter as D^-exponent, from the smallest to the largest.
+/// Numbers, or mass, per diameter as D^-exponent, from the smallest to the largest.
 struct PowerLawSizes {
   double exponent = 0;
+  std::optional<std::string> by = {};
 };
-/// Normal in ln D, cut at the smallest and the largest.
+/// Normal in ln D, by number or by mass, cut at the smallest and the largest.
 struct LognormalSizes {
   double median_mm = 0;
   double sigma = 0;  ///< of ln D
+  std::optional<std::string> by = {};
 };
+/// A sieve analysis: the share of the mass that passes each opening, none the smallest diameter and all the
+/// largest. Between two openings the mass is spread evenly over ln D, the straight line of grading curves.
+struct SieveSizes {
+  std::vector<double> openings_mm, passing_share;
+};
+using Sizes = std::variant<TwoSizes, PowerLawSizes, LognormalSizes, SieveSizes>;
 
 /// Grains made from a distribution, placed without overlap in the region, from below.
 struct GeneratedGrains {
@@ -40,10 +50,12 @@ struct GeneratedGrains {
   std::variant<CircleRegion, RectangleRegion> region;
   /// Without: uniform between the two, on a lattice of the largest. With: placed at random, the largest
   /// first.
-  std::optional<std::variant<TwoSizes, PowerLawSizes, LognormalSizes>> sizes = {};
+  std::optional<Sizes> sizes = {};
   /// "apart": none touches another. "deposited": in hollows, nearly at rest (deposited_placement.hpp).
   std::string placement = "apart";
   bool deposited() const { return placement == "deposited"; }
+  /// Walls that may reach into the region: no grain is placed in them (obstacles.hpp).
+  std::optional<std::vector<std::string>> around = {};
 };
 
 }  // namespace drumlin::particles

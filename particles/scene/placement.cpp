@@ -12,6 +12,7 @@
 #include "particles/scene/deposited_placement.hpp"
 #include "particles/scene/grain_list.hpp"
 #include "particles/scene/materials.hpp"
+#include "particles/scene/obstacles.hpp"
 #include "particles/scene/random.hpp"
 #include "particles/scene/sequential_placement.hpp"
 #include "particles/scene/sizes.hpp"
@@ -25,9 +26,9 @@ struct Site {
   double x = 0, z = 0;
 };
 
-/// Lattice sites, in mm, whose discs of the largest diameter lie inside the region; from below, left to
-/// right.
-std::vector<Site> lattice_sites(const GeneratedGrains& grains) {
+/// Lattice sites, in mm, whose discs of the largest diameter lie inside the region and in no obstacle; from
+/// below, left to right.
+std::vector<Site> lattice_sites(const GeneratedGrains& grains, const Obstacles& obstacles) {
   const double spacing = spacing_over_largest * grains.diameter_max_mm,
                row_height = spacing * std::sqrt(3.0) / 2;
   // Room for a disc of the largest diameter and its shaking: half a lattice spacing.
@@ -46,8 +47,9 @@ std::vector<Site> lattice_sites(const GeneratedGrains& grains) {
     const double z = z_low + room + row * row_height;
     if (z + room > z_high + 1e-12) break;
     for (double x = x_low + room + (row % 2 ? spacing / 2 : 0); x + room <= x_high + 1e-12; x += spacing)
-      if (!circle ||
-          std::hypot(x - circle->center_mm[0], z - circle->center_mm[1]) + room <= circle->radius_mm)
+      if ((!circle ||
+           std::hypot(x - circle->center_mm[0], z - circle->center_mm[1]) + room <= circle->radius_mm) &&
+          obstacles.clear({x, z}, room))
         sites.push_back({x, z});
   }
   return sites;
@@ -70,8 +72,8 @@ std::vector<std::uint8_t> drawn_materials(const Scene& scene, std::uint64_t seed
   return drawn;
 }
 
-Bodies generated(const GeneratedGrains& grains, std::uint64_t seed, double unit) {
-  const auto sites = lattice_sites(grains);
+Bodies generated(const GeneratedGrains& grains, const Obstacles& obstacles, std::uint64_t seed, double unit) {
+  const auto sites = lattice_sites(grains, obstacles);
   if (static_cast<int>(sites.size()) < grains.count)
     throw InputError({InputProblem{"", 0, 0, "grains.generated.count",
                                    std::to_string(grains.count) + " grains do not fit into the region",
@@ -89,11 +91,12 @@ Bodies generated(const GeneratedGrains& grains, std::uint64_t seed, double unit)
 }
 
 /// Grains of a distribution of sizes, or in a packing nearly at rest.
-Bodies one_by_one(const GeneratedGrains& grains, std::uint64_t seed, double unit) {
+Bodies one_by_one(const GeneratedGrains& grains, const Obstacles& obstacles, std::uint64_t seed,
+                  double unit) {
   RandomStream sizes(seed, "grains/diameter");
   const std::vector<double> diameters = diameters_mm(grains, sizes);
   const auto centers = grains.deposited() ? deposited_centers_mm(diameters, grains.region, seed)
-                                          : sequential_centers_mm(diameters, grains.region, seed);
+                                          : sequential_centers_mm(diameters, grains.region, obstacles, seed);
   Bodies bodies;
   for (std::size_t g = 0; g < centers.size(); ++g)
     add_body(bodies, centers[g][0] * unit, centers[g][1] * unit, diameters[g] / 2 * unit);
@@ -160,8 +163,9 @@ void append(const Scene& scene, const GroupPlan& group, const Scales& scales, Bo
   if (group.list) return append_listed(scene, group, scales, bodies, spins);
   const double unit = 1e-3 / scales.length_m;
   const bool on_lattice = !group.made->sizes && !group.made->deposited();
-  Bodies made =
-      on_lattice ? generated(*group.made, group.seed, unit) : one_by_one(*group.made, group.seed, unit);
+  const Obstacles obstacles(*group.made, scene);
+  Bodies made = on_lattice ? generated(*group.made, obstacles, group.seed, unit)
+                           : one_by_one(*group.made, obstacles, group.seed, unit);
   if (materials_matter(scene)) {
     const auto numbers =
         group.material
@@ -280,6 +284,8 @@ std::vector<Point_mm> listed_places_mm(const Grains& grains) {
   return places;
 }
 
-int capacity(const GeneratedGrains& grains) { return static_cast<int>(lattice_sites(grains).size()); }
+int capacity(const GeneratedGrains& grains, const Scene& scene) {
+  return static_cast<int>(lattice_sites(grains, Obstacles(grains, scene)).size());
+}
 
 }  // namespace drumlin::particles

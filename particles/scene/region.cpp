@@ -111,6 +111,19 @@ bool inside(const Region& region, const Point_mm& center, double radius) {
          center[1] - radius >= box.min_mm[1] && center[1] + radius <= box.max_mm[1];
 }
 
+double distance_mm(const WallShape& shape, const Point_mm& point) {
+  if (const auto* s = std::get_if<SegmentShape>(&shape)) return distance_to_segment(point, *s);
+  if (const auto* a = std::get_if<ArcShape>(&shape)) return distance_to_arc(point, *a);
+  if (const auto* d = std::get_if<DiscShape>(&shape))
+    return distance(point, d->center_mm) - d->diameter_mm / 2;
+  if (const auto* c = std::get_if<ContainerShape>(&shape))
+    return c->radius_mm - distance(point, c->center_mm);
+  double least = std::numeric_limits<double>::infinity();
+  for (const SegmentShape& s : segments_of(std::get<PolylineShape>(shape)))
+    least = std::min(least, distance_to_segment(point, s));
+  return least;
+}
+
 bool crosses(const Region& region, const WallShape& shape, double tolerance) {
   if (const auto* line = std::get_if<PolylineShape>(&shape)) {
     const auto segments = segments_of(*line);

@@ -19,5 +19,7 @@ bool inside(const Region& region, const Point_mm& center, double radius);
 /// Whether a segment, an arc or a disc reaches into the region, its border not counted: a region may lie
 /// against a wall. `tolerance` is relative to the size of the region. A container crosses nothing.
 bool crosses(const Region& region, const WallShape& shape, double tolerance);
+/// Distance of a point from the nearest one of a shape; negative inside a disc or outside of a container.
+double distance_mm(const WallShape& shape, const Point_mm& point);
 
 }  // namespace drumlin::particles

@@ -42,27 +42,45 @@ void describe(Visitor& v, std::variant<CircleRegion, RectangleRegion>& region) {
             alternative<RectangleRegion>("rectangle", "sides along x and z."));
 }
 
+inline KeySpec counted_by() {
+  return when_given("", one_of({"number", "mass"}), "What the distribution counts; without: number.");
+}
+
 template <class Visitor>
 void describe(Visitor& v, TwoSizes& s) {
-  v.value("small_share", s.small_share, required("", at_least(0, 1), "Share of the small, by number."));
+  v.value("small_share", s.small_share, required("", at_least(0, 1), "Share of the small."));
+  v.value("by", s.by, counted_by());
 }
 
 template <class Visitor>
 void describe(Visitor& v, PowerLawSizes& s) {
-  v.value("exponent", s.exponent, required("", at_least(-20, 20), "a: number per diameter ~ D^-a."));
+  v.value("exponent", s.exponent,
+          required("", at_least(-20, 20), "a: number, or mass, per diameter ~ D^-a."));
+  v.value("by", s.by, counted_by());
 }
 
 template <class Visitor>
 void describe(Visitor& v, LognormalSizes& s) {
   v.value("median_mm", s.median_mm, required("mm", length_mm(), "Median, before the cut."));
   v.value("sigma", s.sigma, required("", above(0, 3), "Standard deviation of ln D, before the cut."));
+  v.value("by", s.by, counted_by());
 }
 
 template <class Visitor>
-void describe(Visitor& v, std::variant<TwoSizes, PowerLawSizes, LognormalSizes>& sizes) {
+void describe(Visitor& v, SieveSizes& s) {
+  v.value("openings_mm", s.openings_mm, required("mm", length_mm(), "Openings of the sieves, ascending."));
+  v.value("passing_share", s.passing_share,
+          required("", at_least(0, 1),
+                   "Share of the mass that passes each; even over ln D in between, from 0 at the smallest "
+                   "diameter to 1 at the largest."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, Sizes& sizes) {
   v.variant("kind", sizes, "From smallest to largest.", alternative<TwoSizes>("two", "one or the other."),
             alternative<PowerLawSizes>("power_law", "a power of the diameter."),
-            alternative<LognormalSizes>("lognormal", "normal in ln D, cut at both."));
+            alternative<LognormalSizes>("lognormal", "normal in ln D, cut at both."),
+            alternative<SieveSizes>("sieve", "a sieve analysis."));
 }
 
 template <class Visitor>
@@ -75,6 +93,8 @@ void describe(Visitor& v, GeneratedGrains& g) {
   v.value("placement", g.placement,
           defaulted("", one_of({"apart", "deposited"}),
                     "apart: no contacts. deposited: each rolls into a hollow."));
+  v.value("around", g.around,
+          when_given("", not_empty(), "Walls that may reach into the region: grains keep clear of them."));
 }
 
 template <class Visitor>

@@ -46,7 +46,7 @@ double height_of(const Region& region, double area) {
 double area_mm2(const Region& region) { return area_below(region, extent_mm(region, 1).second); }
 
 std::vector<Point_mm> sequential_centers_mm(std::span<const double> diameters_mm, const Region& region,
-                                            std::uint64_t seed) {
+                                            const Obstacles& obstacles, std::uint64_t seed) {
   std::vector<std::size_t> order(diameters_mm.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
@@ -65,7 +65,8 @@ std::vector<Point_mm> sequential_centers_mm(std::span<const double> diameters_mm
     const double radius = radii[g];
     for (int tries = 1;; ++tries) {
       const Point_mm center{places.uniform(left, right), places.uniform(bottom, height)};
-      if (center[1] + radius <= height && inside(region, center, radius) && placed.free(center, radius)) {
+      if (center[1] + radius <= height && inside(region, center, radius) && placed.free(center, radius) &&
+          obstacles.clear(center, radius)) {
         placed.add(center, radius);
         centers[g] = center;
         break;

@@ -26,7 +26,7 @@ struct Source {
   std::optional<int> count = {};  ///< in all; without, as long as the run goes
   double diameter_min_mm = 0;
   double diameter_max_mm = 0;
-  std::optional<std::variant<TwoSizes, PowerLawSizes, LognormalSizes>> sizes = {};
+  std::optional<Sizes> sizes = {};
   std::optional<std::string> material = {};
   std::optional<double> density_kg_m3 = {};  ///< without, that of the scene
   std::array<double, 2> velocity_mm_s{0, 0};

@@ -12,6 +12,7 @@
 
 #include "particles/scene/deposited_placement.hpp"
 #include "particles/scene/materials.hpp"
+#include "particles/scene/obstacles.hpp"
 #include "particles/scene/placement.hpp"
 #include "particles/scene/region.hpp"
 #include "particles/scene/scene_walls.hpp"
@@ -43,16 +44,38 @@ bool check_corners(const Region& region, const std::string& key, Faults& faults)
   return true;
 }
 
+/// The table of a sieve analysis: openings ascend, shares never fall, and both end where diameters do.
+bool check_sieves(const SieveSizes& sieves, double smallest, double largest, const std::string& key,
+                  Faults& faults) {
+  const auto& openings = sieves.openings_mm;
+  const auto& shares = sieves.passing_share;
+  const auto fault = [&](const char* name, const std::string& what, const std::string& allowed) {
+    faults.push_back({key + name, what, allowed, {key + "openings_mm", key + "passing_share"}});
+    return false;
+  };
+  if (openings.size() != shares.size())
+    return fault("passing_share",
+                 fmt::format("has {} shares, openings_mm {}", shares.size(), openings.size()), "as many");
+  for (std::size_t k = 0; k < openings.size(); ++k) {
+    if (openings[k] < smallest || openings[k] > largest || (k > 0 && !(openings[k] > openings[k - 1])))
+      return fault(
+          "openings_mm", fmt::format("holds {}", openings[k]),
+          fmt::format("ascending, from diameter_min_mm = {} to diameter_max_mm = {}", smallest, largest));
+    if (k > 0 && shares[k] < shares[k - 1])
+      return fault("passing_share", fmt::format("falls from {} to {}", shares[k - 1], shares[k]),
+                   "never less");
+    if (openings[k] == smallest && shares[k] > 0)
+      return fault("passing_share", fmt::format("is {} at the smallest diameter", shares[k]), "0 there");
+    if (openings[k] == largest && shares[k] < 1)
+      return fault("passing_share", fmt::format("is {} at the largest diameter", shares[k]), "1 there");
+  }
+  return true;
+}
+
 /// The same for grains that are placed at random or deposited.
 void check_share(const GeneratedGrains& grains, const std::string& key, Faults& faults) {
-  if (const auto* cut = grains.sizes ? std::get_if<LognormalSizes>(&*grains.sizes) : nullptr)
-    if (cut->median_mm < grains.diameter_min_mm || cut->median_mm > grains.diameter_max_mm) {
-      faults.push_back({key + "sizes.median_mm",
-                        fmt::format("is {}", cut->median_mm),
-                        "between diameter_min_mm and diameter_max_mm",
-                        {key}});
-      return;
-    }
+  if (!check_sizes(grains.sizes, grains.diameter_min_mm, grains.diameter_max_mm, key + "sizes.", faults))
+    return;
   const auto [left, right] = extent_mm(grains.region, 0);
   if (const double width = (right - left) / grains.diameter_max_mm;
       grains.deposited() && !(width <= widest)) {
@@ -73,7 +96,7 @@ void check_share(const GeneratedGrains& grains, const std::string& key, Faults& 
 }
 
 /// Whether the region has room for the grains, and a lattice that fits into memory.
-void check_room(const GeneratedGrains& grains, const std::string& key, Faults& faults) {
+void check_room(const Scene& scene, const GeneratedGrains& grains, const std::string& key, Faults& faults) {
   if (grains.diameter_min_mm > grains.diameter_max_mm) {
     faults.push_back({key + "diameter_max_mm",
                       fmt::format("is {}", grains.diameter_max_mm),
@@ -95,7 +118,7 @@ void check_room(const GeneratedGrains& grains, const std::string& key, Faults& f
                       fmt::format("at most {:.0f}", most_sites), about});
     return;
   }
-  if (const int most = capacity(grains); grains.count > most)
+  if (const int most = capacity(grains, scene); grains.count > most)
     faults.push_back({key + "count", fmt::format("is {}", grains.count),
                       fmt::format("at most {} fit into the region", most), about});
 }
@@ -107,7 +130,25 @@ bool crossed_by_glued(const Region& region, const Wall& wall) {
   });
 }
 
-/// Grains are placed anywhere in the region: it must lie inside the containers and clear of all other walls.
+/// Grains know the walls that they are placed around, where they are not deposited.
+void check_around(const Scene& scene, const GeneratedGrains& grains, const std::string& key, Faults& faults) {
+  if (!grains.around) return;
+  if (grains.deposited())
+    faults.push_back(
+        {key + "around",
+         "names walls, where deposited grains know only one another and the border of the region",
+         "placement = \"apart\"",
+         {key + "around", key + "placement"}});
+  for (const std::string& name : *grains.around)
+    if (std::none_of(scene.walls.begin(), scene.walls.end(), [&](const Wall& w) { return w.name == name; }))
+      faults.push_back({key + "around",
+                        fmt::format("names no wall: \"{}\"", name),
+                        "names of walls",
+                        {key + "around", "walls"}});
+}
+
+/// Grains are placed anywhere in the region: it must lie inside the containers, and clear of all other walls
+/// that grains are not placed around.
 void check_region_clear(const Scene& scene, const GeneratedGrains& grains, const std::string& key,
                         Faults& faults) {
   for (std::size_t w = 0; w < scene.walls.size(); ++w) {
@@ -120,9 +161,10 @@ void check_region_clear(const Scene& scene, const GeneratedGrains& grains, const
         faults.push_back({key,
                           fmt::format("reaches {} mm from the centre of container \"{}\"", reach, wall.name),
                           fmt::format("inside its radius of {} mm", room), about});
-    } else if (crosses(grains.region, wall.shape, rounding) || crossed_by_glued(grains.region, wall)) {
+    } else if (!placed_around(grains, wall) &&
+               (crosses(grains.region, wall.shape, rounding) || crossed_by_glued(grains.region, wall))) {
       faults.push_back({key, fmt::format("is crossed by wall \"{}\" ({})", wall.name, wall_key(w)),
-                        "clear of all walls but containers", about});
+                        "clear of all walls but containers and those of around", about});
     }
   }
 }
@@ -131,7 +173,8 @@ void check_region_clear(const Scene& scene, const GeneratedGrains& grains, const
 void check_generated(const Scene& scene, const GeneratedGrains& grains, const std::string& key,
                      Faults& faults) {
   if (!check_corners(grains.region, key + "region", faults)) return;
-  check_room(grains, key, faults);
+  check_around(scene, grains, key, faults);
+  check_room(scene, grains, key, faults);
   check_region_clear(scene, grains, key + "region", faults);
 }
 
@@ -167,6 +210,19 @@ void check_group(const Scene& scene, std::size_t g, std::set<std::string>& names
 }
 
 }  // namespace
+
+bool check_sizes(const std::optional<Sizes>& sizes, double smallest_mm, double largest_mm,
+                 const std::string& key, Faults& faults) {
+  if (const auto* sieves = sizes ? std::get_if<SieveSizes>(&*sizes) : nullptr)
+    return check_sieves(*sieves, smallest_mm, largest_mm, key, faults);
+  const auto* cut = sizes ? std::get_if<LognormalSizes>(&*sizes) : nullptr;
+  if (!cut || (cut->median_mm >= smallest_mm && cut->median_mm <= largest_mm)) return true;
+  faults.push_back({key + "median_mm",
+                    fmt::format("is {}", cut->median_mm),
+                    "between diameter_min_mm and diameter_max_mm",
+                    {key}});
+  return false;
+}
 
 void check_grains(const Scene& scene, Faults& faults) {
   if (const auto* made = std::get_if<GeneratedGrains>(&scene.grains.source))

@@ -8,6 +8,7 @@
 
 #include "particles/scene/materials.hpp"
 #include "particles/scene/region.hpp"
+#include "particles/scene/validate_grains.hpp"
 #include "particles/scene/validate_names.hpp"
 
 namespace drumlin::particles {
@@ -82,13 +83,7 @@ void check_source(const Scene& scene, std::size_t s, Faults& faults) {
                       {key + ".diameter_min_mm", key + ".diameter_max_mm"}});
     return;
   }
-  if (source.sizes)
-    if (const auto* cut = std::get_if<LognormalSizes>(&*source.sizes))
-      if (cut->median_mm < source.diameter_min_mm || cut->median_mm > source.diameter_max_mm)
-        faults.push_back({key + ".sizes.median_mm",
-                          fmt::format("is {}", cut->median_mm),
-                          "between diameter_min_mm and diameter_max_mm",
-                          {key}});
+  check_sizes(source.sizes, source.diameter_min_mm, source.diameter_max_mm, key + ".sizes.", faults);
   if (check_region(source.region, source.diameter_max_mm, key + ".region", faults))
     check_clear(scene, source.region, key + ".region", faults);
   check_periods(scene, source, key + ".diameter_max_mm", faults);

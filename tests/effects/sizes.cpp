@@ -14,15 +14,63 @@ namespace drumlin {
 using namespace particles;
 namespace {
 
-using Sizes = std::variant<TwoSizes, PowerLawSizes, LognormalSizes>;
-
 GeneratedGrains one_to_fifty(int count, const Sizes& sizes) {
   return {count, 1, 50, RectangleRegion{{0, 0}, {400, 2000}}, sizes};
 }
 
+/// A tenth of the mass below 2 mm, half of it below 10 mm, a fifth above 30 mm.
+const SieveSizes sieves{{2, 10, 30}, {0.1, 0.5, 0.8}};
+
+double mass_below(const std::vector<double>& diameters, double opening) {
+  double below = 0, all = 0;
+  for (const double d : diameters) all += d * d, below += d < opening ? d * d : 0;
+  return below / all;
+}
+
+std::vector<double> diameters_of(const Sizes& sizes, int count, std::uint64_t seed = 7) {
+  RandomStream random(seed, "sizes");
+  return diameters_mm(one_to_fifty(count, sizes), random);
+}
+
+TEST(Sizes, OfASieveAnalysisPassAsMuchMassAsItSays) {
+  const int count = 200000;
+  const auto diameters = diameters_of(sieves, count);
+  const double bounds[] = {1, 2, 10, 30, 50}, masses[] = {0.1, 0.4, 0.3, 0.2};
+  // Mass dm ~ dD/D between two openings a < b, so numbers dm/D^2: m (1/a^2 - 1/b^2) / (2 ln(b/a)).
+  double numbers[4], all = 0;
+  for (int k = 0; k < 4; ++k) {
+    const double a = bounds[k], b = bounds[k + 1];
+    all += numbers[k] = masses[k] * (1 / (a * a) - 1 / (b * b)) / (2 * std::log(b / a));
+  }
+  double passed = 0;
+  for (int k = 0; k < 4; ++k) {
+    const auto dealt = std::count_if(diameters.begin(), diameters.end(),
+                                     [&](double d) { return d >= bounds[k] && d < bounds[k + 1]; });
+    EXPECT_NEAR(dealt, count * numbers[k] / all, 1) << k;
+    // Of the mass, as drawn: 326 above 30 mm, each D^2 within a third of their mean: 2 % of the fifth.
+    EXPECT_NEAR(mass_below(diameters, bounds[k + 1]), passed += masses[k], 0.015) << k;
+  }
+  EXPECT_EQ(diameters, diameters_of(sieves, count));
+  EXPECT_NE(diameters, diameters_of(sieves, count, 8));
+}
+
+TEST(Sizes, ByMassAreThoseByNumberTimesTheSquare) {
+  // Of 1 and 3 mm nine small ones weigh as much as a large one.
+  RandomStream random(7, "sizes");
+  const auto two = diameters_mm({1000, 1, 3, RectangleRegion{}, TwoSizes{0.5, "mass"}}, random);
+  EXPECT_EQ(std::count(two.begin(), two.end(), 1.0), 900);
+  EXPECT_NEAR(mass_below(two, 2), 0.5, 1e-12);
+  EXPECT_EQ(diameters_of(PowerLawSizes{1, "mass"}, 1000), diameters_of(PowerLawSizes{3}, 1000));
+  EXPECT_EQ(diameters_of(TwoSizes{0.9}, 1000), diameters_of(TwoSizes{0.9, "number"}, 1000));
+  // Half of the mass below the median: a bit less than half of what is left between 1 and 50 mm.
+  EXPECT_NEAR(mass_below(diameters_of(LognormalSizes{7, 0.4, "mass"}, 100000), 7), 0.5, 0.01);
+}
+
 TEST(Sizes, DrawnDiametersHaveTheMeansOfTheirDistribution) {
-  for (const Sizes& sizes : {Sizes{TwoSizes{0.8}}, Sizes{PowerLawSizes{2.5}}, Sizes{PowerLawSizes{1}},
-                             Sizes{PowerLawSizes{0}}, Sizes{LognormalSizes{5, 0.7}}}) {
+  for (const Sizes& sizes :
+       {Sizes{TwoSizes{0.8}}, Sizes{PowerLawSizes{2.5}}, Sizes{PowerLawSizes{1}}, Sizes{PowerLawSizes{0}},
+        Sizes{LognormalSizes{5, 0.7}}, Sizes{TwoSizes{0.3, "mass"}}, Sizes{PowerLawSizes{0.5, "mass"}},
+        Sizes{LognormalSizes{5, 0.7, "mass"}}, Sizes{LognormalSizes{5, 3, "mass"}}, Sizes{sieves}}) {
     const GeneratedGrains grains = one_to_fifty(1, sizes);
     RandomStream random(7, "sizes");
     const int draws = 100000;

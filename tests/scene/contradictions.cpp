@@ -69,10 +69,31 @@ TEST(Contradiction, RotatingFrameOfAPeriodicDomain) {
 TEST(Contradiction, SizesThatDoNotFit) {
   expect_problem(example_scene, {"grains.generated.sizes={kind=\"lognormal\", median_mm=5, sigma=0.1}"},
                  "grains.generated.sizes.median_mm", "is 5");
+  const auto sieves = [](const std::string& openings, const std::string& shares) {
+    return "grains.generated.sizes={kind=\"sieve\", openings_mm=[" + openings + "], passing_share=[" +
+           shares + "]}";
+  };
+  const std::string sizes = "grains.generated.sizes.";
+  EXPECT_TRUE(testing::scene_problems(example_scene, {sieves("3, 3.2, 3.6", "0, 0.4, 1")}).empty());
+  EXPECT_TRUE(testing::scene_problems(example_scene, {sieves("3.2, 3.4", "0.4, 0.4")}).empty());
+  expect_problem(example_scene, {sieves("3.1, 3.2", "0.4")}, sizes + "passing_share", "has 1 shares");
+  expect_problem(example_scene, {sieves("2, 3.2", "0.4, 0.5")}, sizes + "openings_mm", "holds 2");
+  expect_problem(example_scene, {sieves("3.2, 3.2", "0.4, 0.5")}, sizes + "openings_mm", "ascending");
+  expect_problem(example_scene, {sieves("3.2, 3.4", "0.5, 0.4")}, sizes + "passing_share", "falls");
+  expect_problem(example_scene, {sieves("3, 3.4", "0.1, 0.4")}, sizes + "passing_share", "smallest");
+  expect_problem(example_scene, {sieves("3.4, 3.6", "0.1, 0.4")}, sizes + "passing_share", "largest");
   // Half of 707 mm2 holds 41 grains of 8.55 mm2.
   expect_problem(example_scene,
                  {"grains.generated.count=50", "grains.generated.sizes={kind=\"power_law\", exponent=0}"},
                  "grains.generated.count", "at most 41");
+}
+
+TEST(Contradiction, GrainsAroundWhatTheyDoNotKnow) {
+  expect_problem(example_scene, {"grains.generated.around=[\"pin\"]"}, "grains.generated.around",
+                 "names no wall");
+  expect_problem(example_scene,
+                 {"grains.generated.around=[\"drum\"]", "grains.generated.placement=\"deposited\""},
+                 "grains.generated.around", "deposited");
 }
 
 TEST(Contradiction, RollingResistanceWithoutSpin) {

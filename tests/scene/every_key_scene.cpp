@@ -18,6 +18,8 @@ const std::string segment = "shape = \"segment\"";
 const std::string disc = "shape = \"disc\"";
 const std::string rough = "walls.0.rough={diameter_mm=1, spacing_mm=2}";
 const std::string power_law = "grains.generated.sizes={kind=\"power_law\", exponent=3}";
+const std::string sieve =
+    "grains.generated.sizes={kind=\"sieve\", openings_mm=[3.1, 3.5], passing_share=[0.2, 0.5]}";
 const std::string lognormal = "grains.generated.sizes={kind=\"lognormal\", median_mm=3.3, sigma=0.5}";
 
 }  // namespace
@@ -118,6 +120,43 @@ std::vector<Case> cases_of_grains() {
        {lognormal},
        "grains.generated.sizes.sigma=0.05",
        positions_mm},
+      {"grains.generated.sizes.by",
+       "kind = \"two\"",
+       D,
+       {"grains.generated.sizes={kind=\"two\", small_share=0.5}"},
+       "grains.generated.sizes.by=\"mass\"",
+       positions_mm},
+      {"grains.generated.sizes.by",
+       "kind = \"power_law\"",
+       D,
+       {power_law},
+       "grains.generated.sizes.by=\"mass\"",
+       positions_mm},
+      {"grains.generated.sizes.by",
+       "kind = \"lognormal\"",
+       D,
+       {lognormal},
+       "grains.generated.sizes.by=\"mass\"",
+       positions_mm},
+      {"grains.generated.sizes.openings_mm",
+       "kind = \"sieve\"",
+       D,
+       {sieve},
+       "grains.generated.sizes.openings_mm=[3.2, 3.5]",
+       positions_mm},
+      {"grains.generated.sizes.passing_share",
+       "kind = \"sieve\"",
+       D,
+       {sieve},
+       "grains.generated.sizes.passing_share=[0.9, 0.95]",
+       positions_mm},
+      // The knob then stands in the region, and is known.
+      {"grains.generated.around",
+       "",
+       F,
+       {"walls.1.center_mm=[-4, 4]"},
+       "grains.generated.around=[\"left\"]",
+       exit_code},
       {"grains.generated.region",
        "",
        D,

@@ -46,7 +46,7 @@ void add_region(std::vector<Case>& all, const std::string& key, const std::strin
 void add_sizes(std::vector<Case>& all, const std::string& key, const std::string& name,
                std::string (*made)(const std::string&)) {
   const std::string* F = &floor_scene();
-  const std::string two = made(", sizes={kind=\"two\", small_share=0.5}");
+  const std::string two = made(", sizes={kind=\"two\", small_share=0.6}");
   const std::string power = made(", sizes={kind=\"power_law\", exponent=3}");
   const std::string lognormal = made(", sizes={kind=\"lognormal\", median_mm=1, sigma=0.2}");
   all.push_back({key, "", F, {made("")}, two, positions_mm});
@@ -56,6 +56,24 @@ void add_sizes(std::vector<Case>& all, const std::string& key, const std::string
   all.push_back(
       {key + ".median_mm", "kind = \"lognormal\"", F, {lognormal}, name + ".median_mm=0.9", positions_mm});
   all.push_back({key + ".sigma", "kind = \"lognormal\"", F, {lognormal}, name + ".sigma=0.01", positions_mm});
+  for (const auto& [kind, sized] :
+       {std::pair("two", two), std::pair("power_law", power), std::pair("lognormal", lognormal)})
+    all.push_back({key + ".by",
+                   "kind = \"" + std::string(kind) + "\"",
+                   F,
+                   {sized},
+                   name + ".by=\"mass\"",
+                   kinetic_energy});
+  const std::string sieve =
+      made(", sizes={kind=\"sieve\", openings_mm=[0.9, 1.1], passing_share=[0.2, 0.5]}");
+  all.push_back(
+      {key + ".openings_mm", "kind = \"sieve\"", F, {sieve}, name + ".openings_mm=[1, 1.1]", kinetic_energy});
+  all.push_back({key + ".passing_share",
+                 "kind = \"sieve\"",
+                 F,
+                 {sieve},
+                 name + ".passing_share=[0.8, 0.9]",
+                 kinetic_energy});
 }
 
 std::string plain_outlet(const std::string& region) { return outlet(region); }
@@ -142,6 +160,12 @@ std::vector<Case> cases_of_traffic() {
        {group(box_high)},
        "grains.groups.0.generated.region=" + disc_high,
        positions_mm},
+      {"grains.groups[].generated.around",
+       "",
+       F,
+       {group(box_high), "walls.1.center_mm=[0, 25]"},
+       "grains.groups.0.generated.around=[\"left\"]",
+       exit_code},
       {"grains.groups[].listed", "", F, {far_up, group(box_middle)}, listed_group, positions_mm},
       {"grains.groups[].listed.file",
        "",
