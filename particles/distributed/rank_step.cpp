@@ -199,10 +199,8 @@ class RankMoreauJean final : public RankStepper {
       bodies_.v_z[b] = free_.z[b] + changes[b].z;
       if constexpr (with_spin) spin_up(bodies_, b, changes[b].s);
       Point path{bodies_.v_x[b], bodies_.v_z[b]};
-      if (changes[b].x == 0 && changes[b].z == 0) {
-        path = {(before.x + path.x) / 2, (before.z + path.z) / 2};
-        if (!free_.shift.empty()) bodies_.x[b] += free_.shift[b].x, bodies_.z[b] += free_.shift[b].z;
-      }
+      if (changes[b].x == 0 && changes[b].z == 0) path = {(before.x + path.x) / 2, (before.z + path.z) / 2};
+      if (!free_.shift.empty()) bodies_.x[b] += free_.shift[b].x, bodies_.z[b] += free_.shift[b].z;
       bodies_.x[b] += time_step * path.x;
       bodies_.z[b] += time_step * path.z;
     }

@@ -115,15 +115,19 @@ std::vector<Point_mm> glued_centers_mm(const Wall& wall) {
 
 namespace {
 
-/// Joins the ends of shapes of one wall, and those of all walls that no stage moves or opens.
+/// Joins the ends of shapes of one wall, and those of all walls that no stage moves or opens and that meet
+/// all grains.
 void join_ends(const Scene& scene, Walls& walls) {
   std::vector<int> together(walls.names.size(), -1);
   const auto apart = [&](const std::string& name) {
     for (std::size_t w = 0; w < walls.names.size(); ++w)
       if (walls.names[w] == name) together[w] = static_cast<int>(w);
   };
+  for (const Wall& wall : scene.walls)
+    if (wall.acts_on) apart(wall.name);
   for (const Stage& stage : scene.stages) {
-    for (const WallMotion& motion : stage.motions) apart(motion.wall);
+    for (const WallMotion& motion : stage.motions)
+      if (!std::holds_alternative<Belt>(motion.motion)) apart(motion.wall);
     if (stage.opens)
       for (const std::string& name : *stage.opens) apart(name);
   }

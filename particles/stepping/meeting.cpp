@@ -165,6 +165,15 @@ void place_at(const PairPath& path, double time, bool container, Candidate& pair
   pair.gap = then.gap - (then.n_x * way.x + then.n_z * way.z);
 }
 
+/// A pair that impacts have struck: its surfaces part from within each other, so that none is left at the
+/// end. What overlap there was before, and what the path does not undo by itself, is no matter of velocities.
+void keep_parting(const PairPath& path, double gap_before, double h, Candidate& pair) {
+  if (pair.gap >= 0) return;
+  const Point way = path.way(h);
+  const double parts = std::max(0.0, pair.n_x * way.x + pair.n_z * way.z);
+  pair.gap = std::min(0.0, std::max(pair.gap - std::min(0.0, gap_before), -parts));
+}
+
 /// Whether a grain touches a wall and goes on into it: nearly all grains at walls.
 bool lies(const StepInput& step, const Candidate& pair) {
   if (pair.gap > 0) return false;
@@ -173,13 +182,9 @@ bool lies(const StepInput& step, const Candidate& pair) {
   return pair.n_x * x + pair.n_z * z < 0;
 }
 
-/// Leaves a pair alone whose surfaces are apart at the end of its path, as far as it keeps to that.
-void let_pass(const Surfaces& end, const Point& u, double h, Candidate& pair) {
-  pair.gap = std::max({0.0, pair.gap, end.gap - h * (pair.n_x * u.x + pair.n_z * u.z)});
-}
-
-void place_at_wall(const StepInput& step, const Point& shift, Candidate& pair) {
-  const double h = step.time_step;
+void place_at_wall(const StepInput& step, Candidate& pair) {
+  const double h = step.time_step, gap_before = pair.gap;
+  const Point shift = shift_of(step, pair.i);
   const bool shifted = shift.x != 0 || shift.z != 0;
   if (!shifted && lies(step, pair)) {
     pair.gap = 0;
@@ -191,46 +196,51 @@ void place_at_wall(const StepInput& step, const Point& shift, Candidate& pair) {
     pair.gap -= std::min(0.0, h * h / 2 * (pair.n_x * g.x + pair.n_z * g.z));
     return;
   }
-  PairPath path(step, pair, {step.bodies.v_x[pair.i], step.bodies.v_z[pair.i]}, {});
+  const PairPath path(step, pair, {step.bodies.v_x[pair.i], step.bodies.v_z[pair.i]}, {});
+  const bool container = std::holds_alternative<Container>(step.walls.before[-1 - pair.j]);
   const Point u = path.velocity(h);
   const Surfaces end = path.at(h);
-  if (end.gap >= 0 && driven_wall_of(step.walls, pair) < 0) return let_pass(end, u, h, pair);
-  path.move({-shift.x, -shift.z});
-  if (pair.gap > 0 || pair.n_x * u.x + pair.n_z * u.z >= 0)
-    place_at(path, path.meeting(0, h).value_or(h),
-             std::holds_alternative<Container>(step.walls.before[-1 - pair.j]), pair);
-  pair.gap = std::max(0.0, pair.gap);
+  const bool passes = end.gap >= 0 && driven_wall_of(step.walls, pair) < 0;
+  if (shifted || pair.gap > 0 || pair.n_x * u.x + pair.n_z * u.z >= 0)
+    place_at(path, passes ? h : path.meeting(0, h).value_or(h), container, pair);
+  if (passes) {
+    pair.gap = std::max(pair.gap, end.gap - h * (pair.n_x * u.x + pair.n_z * u.z));
+  } else if (shifted) {
+    keep_parting(path, gap_before, h, pair);
+  } else {
+    pair.gap = std::max(0.0, pair.gap);
+  }
 }
 
-void place_discs(const StepInput& step, const Point& shift, Candidate& pair) {
-  const double h = step.time_step;
+void place_struck(const StepInput& step, Candidate& pair) {
   const auto& v_x = step.bodies.v_x;
   const auto& v_z = step.bodies.v_z;
-  const Point u{v_x[pair.i] - v_x[pair.j] - pair.wall_v_x, v_z[pair.i] - v_z[pair.j] - pair.wall_v_z};
-  const bool shifted = shift.x != 0 || shift.z != 0;
-  const bool near = pair.gap > 0 && pair.gap + h * (pair.n_x * u.x + pair.n_z * u.z) < 0;
-  if (shifted || near) {
-    PairPath path(step, pair, {v_x[pair.i], v_z[pair.i]}, {v_x[pair.j], v_z[pair.j]});
-    if (shifted)
-      if (const Surfaces end = path.at(h); end.gap >= 0) return let_pass(end, u, h, pair);
-    path.move({-shift.x, -shift.z});
-    if (near) place_at(path, path.nearest(h), false, pair);
-  }
-  pair.gap = std::max(0.0, pair.gap);
+  const double gap_before = pair.gap;
+  const PairPath path(step, pair, {v_x[pair.i], v_z[pair.i]}, {v_x[pair.j], v_z[pair.j]});
+  place_at(path, step.time_step, false, pair);
+  keep_parting(path, gap_before, step.time_step, pair);
 }
 
 }  // namespace
 
 void place_pairs(const StepInput& step, std::span<Candidate> pairs) {
+  const double h = step.time_step;
+  const auto& v_x = step.bodies.v_x;
+  const auto& v_z = step.bodies.v_z;
+  const auto& shift = step.free.shift;
   for (Candidate& pair : pairs) {
-    Point shift = shift_of(step, pair.i);
     if (pair.j < 0) {
-      place_at_wall(step, shift, pair);
-      continue;
+      place_at_wall(step, pair);
+    } else if (!shift.empty() && (shift[pair.i].x != shift[pair.j].x || shift[pair.i].z != shift[pair.j].z)) {
+      place_struck(step, pair);
+    } else if (pair.gap <= 0) {
+      pair.gap = 0;
+    } else if (const double u_n = pair.n_x * (v_x[pair.i] - v_x[pair.j] - pair.wall_v_x) +
+                                  pair.n_z * (v_z[pair.i] - v_z[pair.j] - pair.wall_v_z);
+               pair.gap + h * u_n < 0) {
+      const PairPath path(step, pair, {v_x[pair.i], v_z[pair.i]}, {v_x[pair.j], v_z[pair.j]});
+      place_at(path, path.nearest(h), false, pair);
     }
-    const Point of_j = shift_of(step, pair.j);
-    shift.x -= of_j.x, shift.z -= of_j.z;
-    place_discs(step, shift, pair);
   }
 }
 

@@ -300,8 +300,8 @@ class MoreauJean final : public Stepper {
           if constexpr (with_spin) spin_up(bodies, b, changes[b].s);
         } else {
           path = {(bodies.v_x[b] + v.x) / 2, (bodies.v_z[b] + v.z) / 2};
-          if (!free_.shift.empty()) bodies.x[b] += free_.shift[b].x, bodies.z[b] += free_.shift[b].z;
         }
+        if (!free_.shift.empty()) bodies.x[b] += free_.shift[b].x, bodies.z[b] += free_.shift[b].z;
         bodies.v_x[b] = v.x, bodies.v_z[b] = v.z;
         bodies.x[b] += time_step * path.x, bodies.z[b] += time_step * path.z;
       }
