@@ -27,6 +27,7 @@ struct FinishedFlow {
   std::vector<double> rank_cpu_seconds,
       rank_peak_memory_mb;  ///< of the whole process, up to the end of the solve
   continuum::FlowFindings findings;
+  std::vector<std::string> missed;                    ///< limits (missed_limits); empty: met
   std::vector<continuum::Sensitivity> sensitivities;  ///< empty: not asked for
   continuum::LawBand law_band;                        ///< without draws: not asked for
   continuum::FlowAccuracy accuracy;                   ///< empty of a march

@@ -50,6 +50,11 @@ FieldMap maps_with_header(const FinishedFlow& flow, const ProfileSet& profiles) 
   return maps;
 }
 
+std::string slope_text(const continuum::IterationReport& line) {
+  const auto slope = continuum::slope_of(line);
+  return slope ? fmt::format("{:.6f}", *slope * 180 / std::numbers::pi) : "";
+}
+
 }  // namespace
 
 void write_iterations(const fs::path& file, const continuum::FlowReport& report) {
@@ -59,9 +64,9 @@ void write_iterations(const fs::path& file, const continuum::FlowReport& report)
       "mesh,phase,shear_rate,iteration,residual,step_length,step_size,linear_residual,theta_"
       "deg,seconds\n";
   for (const continuum::IterationReport& line : report.history)
-    fmt::format_to(std::back_inserter(text), "{},{},{:.4g},{},{:.4e},{:.4g},{:.4e},{:.2e},{:.6f},{:.2f}\n",
+    fmt::format_to(std::back_inserter(text), "{},{},{:.4g},{},{:.4e},{:.4g},{:.4e},{:.2e},{},{:.2f}\n",
                    line.level, line.phase, line.shear_rate, line.iteration, line.residual, line.step_length,
-                   line.step_size, line.linear_residual, line.theta * 180 / std::numbers::pi, line.seconds);
+                   line.step_size, line.linear_residual, slope_text(line), line.seconds);
   replace_file(file, text);
 }
 

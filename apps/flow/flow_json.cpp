@@ -271,6 +271,8 @@ Json flow_json(const FinishedFlow& flow) {
   content["unknowns"] = result.unknowns;
   content["iterations"] = report.iterations;
   content["start"] = report.start;
+  content["added_meshes"] = result.level + 1 - flow.asked.scene.mesh.levels;
+  content["missed"] = flow.missed;
   if (flow.asked.scene.time)
     content["time"] = {{"step_s", flow.asked.scene.time->step_s},
                        {"steps", flow.asked.scene.time->steps},

@@ -1,7 +1,9 @@
 #include "apps/flow/flow_run.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <ctime>
 #include <nlohmann/json.hpp>
@@ -15,6 +17,7 @@
 #include "apps/support/interruption.hpp"
 #include "apps/support/output_folder.hpp"
 #include "apps/support/standard_streams.hpp"
+#include "continuum/accuracy/flow_limits.hpp"
 #include "continuum/fem/scene_options.hpp"
 #include "continuum/rheology/ill_posed_ranges.hpp"
 #include "coupling/common/errors.hpp"
@@ -32,11 +35,18 @@ namespace fs = std::filesystem;
 constexpr double degrees = 180 / std::numbers::pi;
 
 void print_iteration(const continuum::IterationReport& line) {
+  const auto slope = continuum::slope_of(line);
   print_out(
       fmt::format("mesh {} {:<11} eps {:8.2e}  it {:2}  residual {:8.2e}  step {:8.2e} x {:4.2f}  theta "
-                  "{:7.3f} deg {:7.1f} s\n",
+                  "{:>7} deg {:7.1f} s\n",
                   line.level, line.phase, line.shear_rate, line.iteration, line.residual, line.step_size,
-                  line.step_length, line.theta * degrees, line.seconds));
+                  line.step_length, slope ? fmt::format("{:.3f}", *slope * degrees) : "-", line.seconds));
+  flush_out();
+}
+
+void print_rejected(const continuum::IterationReport& line) {
+  print_out(fmt::format("mesh {} {:<11} eps {:8.2e}  not found, back to the flow before\n", line.level,
+                        line.phase, line.shear_rate));
   flush_out();
 }
 
@@ -54,6 +64,12 @@ void print_mesh(int level, const continuum::MeshResult& mesh) {
   for (const Scalar& scalar : mesh.scalars.scalars)
     print_out(fmt::format(", {} {:.4g}", scalar.name, scalar.value));
   print_out("\n");
+  flush_out();
+}
+
+void print_added_mesh(double imbalance) {
+  print_out(fmt::format("flux_imbalance {:.2g}, at most {:g} may be: cells half as large\n", imbalance,
+                        continuum::largest_flux_imbalance));
   flush_out();
 }
 
@@ -170,6 +186,7 @@ void begin_folder(FlowOutput& output, const FlowOptions& options, const FlowRequ
 struct SolvedFlow {
   continuum::FlowSolution solution;
   std::vector<continuum::MeshResult> meshes;
+  continuum::FlowOnFinerMeshes finer;
   std::optional<continuum::PlainFlow> plain;
   double cpu_seconds = 0;
   std::vector<double> rank_cpu_seconds, rank_peak_memory_mb;
@@ -194,6 +211,7 @@ SolvedFlow solved_flow(FlowOutput& output, const FlowRequest& asked, const FlowS
   std::optional<continuum::PlainFlow> plain;
   continuum::FlowObserver observer;
   if (speaks) observer.iteration = print_iteration;
+  if (speaks) observer.rejected = print_rejected;
   if (speaks) observer.surface_step = print_surface_step;
   observer.interrupted = [] { return interruption() != 0; };
   observer.level_finished = [&](int level, const continuum::FlowField& field) {
@@ -207,6 +225,11 @@ SolvedFlow solved_flow(FlowOutput& output, const FlowRequest& asked, const FlowS
   };
   const std::clock_t begun = std::clock();
   continuum::FlowSolution solution = solution_of(output, asked, start, runtime, observer);
+  continuum::FlowOnFinerMeshes finer;
+  if (solution.report.converged)
+    finer = continuum::add_meshes(asked.scene, chosen, solution, observer, [&](double imbalance) {
+      if (speaks) print_added_mesh(imbalance);
+    });
   const double cpu_seconds = static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;
   if (start.marching && solution.report.converged)
     observer.level_finished(asked.scene.mesh.levels - 1, solution.field);
@@ -214,6 +237,7 @@ SolvedFlow solved_flow(FlowOutput& output, const FlowRequest& asked, const FlowS
     plain->v_x_change = continuum::v_x_change(plain->profiles, chosen.profiles(solution.field));
   return {std::move(solution),
           std::move(meshes),
+          std::move(finer),
           std::move(plain),
           cpu_seconds,
           continuum::FemRuntime::of_ranks(own_cpu_seconds()),
@@ -247,6 +271,7 @@ FinishedFlow finished_flow(const FlowOptions& options, const FlowRequest& asked,
                     .rank_cpu_seconds = std::move(solved.rank_cpu_seconds),
                     .rank_peak_memory_mb = std::move(solved.rank_peak_memory_mb),
                     .findings = {},
+                    .missed = {},
                     .sensitivities = {},
                     .law_band = {},
                     .accuracy = {}};
@@ -256,10 +281,18 @@ FinishedFlow finished_flow(const FlowOptions& options, const FlowRequest& asked,
   if (options.law_draws > 0 && !asked.law.draws.empty() && !scene.time && !scene.effects.memory)
     flow.law_band = continuum::law_band_of(asked.flow_case, flow.solution, asked.law, options.law_draws,
                                            scene.output.map_spacing, continuum::solver_options(scene));
-  flow.findings = continuum::findings_of(asked.flow_case, flow.solution.field);
+  flow.findings = continuum::findings_of(asked.flow_case, flow.solution.field, solved.finer.checks);
+  flow.missed = continuum::missed_limits(scene, asked.flow_case, flow.meshes, flow.findings, solved.finer);
   flow.accuracy = continuum::accuracy_of(
       scene, {flow.solution.report, flow.meshes, flow.sensitivities, flow.law_band, flow.cpu_seconds});
   return flow;
+}
+
+// Results that are there, but of no flow of these equations.
+void require_met(const fs::path& folder, const std::vector<std::string>& missed) {
+  if (missed.empty()) return;
+  throw NotConvergedError(fmt::format("{}: the results stand, but are no flow of these equations:\n  {}",
+                                      folder.string(), fmt::join(missed, "\n  ")));
 }
 
 }  // namespace
@@ -272,6 +305,7 @@ int solve_flow_scene(const FlowOptions& options, const continuum::FemRuntime& ru
   if (options.existing == ExistingOutput::resume && holds_results(options.output, "flow.json")) {
     refuse_other(options.output, asked.sum);
     if (speaks) print_out(fmt::format("{}: done already\n", options.output.string()));
+    require_met(options.output, limits_missed_by(options.output));
     return static_cast<int>(ExitCode::done);
   }
   const FlowStart start = read_start(options, asked);
@@ -289,6 +323,7 @@ int solve_flow_scene(const FlowOptions& options, const continuum::FemRuntime& ru
     output->finish();
   });
   if (speaks) print_out(finished_text(options.output, flow));
+  require_met(options.output, flow.missed);
   return static_cast<int>(ExitCode::done);
 }
 

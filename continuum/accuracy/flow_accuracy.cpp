@@ -70,9 +70,7 @@ std::vector<Halving> halvings_of(const FlowScene& scene, const AccuracyEvidence&
   if (evidence.meshes.size() > 1) {
     const double growth = static_cast<double>(evidence.meshes.back().unknowns) /
                           evidence.meshes[evidence.meshes.size() - 2].unknowns;
-    list.push_back({"mesh",
-                    {fmt::format("mesh.levels={}", scene.mesh.levels + 1),
-                     fmt::format("mesh.surface_cell={:g}", scene.mesh.surface_cell / 2)},
+    list.push_back({"mesh", finer_mesh(scene, evidence.meshes.back().level + 1),
                     evidence.cpu_seconds * (1 + growth * share_of_last_mesh(evidence))});
   }
   if (const Sensitivity* s = found(evidence, finer_shear_rate))
@@ -85,6 +83,12 @@ std::vector<Halving> halvings_of(const FlowScene& scene, const AccuracyEvidence&
 }
 
 }  // namespace
+
+std::vector<std::string> finer_mesh(const FlowScene& scene, int levels) {
+  return {fmt::format("mesh.levels={}", levels + 1),
+          fmt::format("mesh.surface_cell={:g}",
+                      scene.mesh.surface_cell * std::pow(0.5, levels + 1 - scene.mesh.levels))};
+}
 
 std::optional<double> ScalarAccuracy::error() const {
   std::optional<double> sum;

@@ -35,6 +35,9 @@ struct Halving {
   double cpu_seconds = 0;            ///< of the whole solve with them, estimated
 };
 
+/// Changes of the scene, as for --set, that give one mesh more than `levels`, of cells half as large.
+std::vector<std::string> finer_mesh(const FlowScene& scene, int levels);
+
 /// What the errors are estimated from: results that exist, no further solve.
 struct AccuracyEvidence {
   const FlowReport& report;

@@ -212,7 +212,10 @@ FlowIntegrals FlowField::integrals(Vec2 centre, double law_I_max) const {
       // I^2 p = 2 D:D, the shear rate squared.
       if (2 * contraction(D, D) > law_I_max * law_I_max * std::max(0.0, s.normal))
         sums.beyond_law_area += fe.JxW(q);
-      sums.dissipation += contraction(s.stress, D) * fe.JxW(q);
+      const double work = contraction(s.stress, D) * fe.JxW(q);
+      sums.dissipation += work;
+      if (const double rate = magnitude(D); rate > 0)
+        sums.law_dissipation += work * regularised_rate(D, level_->setting.regularisation) / rate;
       sums.weight_power += (weight.x * values.velocity[q][0] + weight.z * values.velocity[q][1]) * fe.JxW(q);
       sums.weight_torque += (weight.x * (x[1] - centre.z) - weight.z * (x[0] - centre.x)) * fe.JxW(q);
     }

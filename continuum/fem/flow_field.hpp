@@ -43,6 +43,7 @@ struct FlowIntegrals {
   double ill_posed_area = 0;      ///< where the symbol of the linearised equations is negative
   double beyond_law_area = 0;     ///< where I is larger than the law was measured at
   double dissipation = 0;         ///< integral of tau:D
+  double law_dissipation = 0;     ///< of tau:D with |D| in place of the regularised one: 2 |D| mu p
   double weight_power = 0;        ///< integral of f.u
   double given_side_power = 0;    ///< of the sides with a given velocity, from their nodal forces
   double weight_torque = 0;       ///< about the origin of the moments, in the sense of dv_x/dz

@@ -112,10 +112,7 @@ FlowSolution march_flow(const FlowField& start, const FlowProblem& problem, cons
 FlowField flow_of_state(const FlowState& kept, const FlowProblem& problem, const FlowSolverOptions& options) {
   auto level = coarsest_level(problem);
   auto& d = *level->discretisation;
-  for (int mesh = 0; !fem::fits(d, kept); ++mesh) {
-    if (mesh + 1 >= options.levels) throw InputError(fem::no_mesh_fits);
-    d.refine(level->problem, level->state.solution);
-  }
+  fem::refine_to(kept, options, *level);
   if (!kept.surface.empty() && !d.move_surface(level->problem, {problem.domain, kept.surface}))
     throw InputError("the surface of the kept flow does not fit into this mesh");
   fem::lay_down(kept, *level);

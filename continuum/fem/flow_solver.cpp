@@ -1,6 +1,8 @@
 #include "continuum/fem/flow_solver.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "continuum/fem/detail/kept_state.hpp"
 #include "continuum/fem/detail/newton.hpp"
@@ -121,12 +123,16 @@ FlowSolverOptions loosely_settled(FlowSolverOptions options) {
 // One solve from mesh to mesh: cold, or from the state of another flow.
 class Continuation {
  public:
+  // `first`: from the neighbour's mesh on, or from the next one.
+  enum class First { same, finer };
+
   Continuation(const FlowProblem& problem, const FlowSolverOptions& options, const FlowObserver& observer,
-               const FlowState* neighbour)
+               const FlowState* neighbour, First first = First::same)
       : problem_(problem),
         options_(options),
         observer_(observer),
         neighbour_(neighbour),
+        first_(first),
         level_(coarsest_level(problem, neighbour)) {
     const double growth = 1 + 3 * options.refined_share;
     discretisation().keeps_nesting =
@@ -136,10 +142,10 @@ class Continuation {
   }
 
   FlowSolution solution() {
-    const int first = neighbour_ ? take_over_neighbour() : 0;
-    for (int mesh = first; mesh < options_.levels; ++mesh) {
-      if (mesh > first) refine();
-      if (!solve_mesh(mesh, mesh > first ? "refined" : report_.start)) return finished(false);
+    const int start = neighbour_ ? take_over_neighbour() : 0;
+    for (int mesh = first_ == First::finer ? start + 1 : start; mesh < options_.levels; ++mesh) {
+      if (mesh > start) refine();
+      if (!solve_mesh(mesh, mesh > start ? "refined" : report_.start)) return finished(false);
       report_.failure.clear();
       if (observer_.level_finished)
         clock_(Work::evaluation, [&] { observer_.level_finished(mesh, field_of(level_)); });
@@ -148,14 +154,11 @@ class Continuation {
   }
 
  private:
-  // Refines up to the mesh that the neighbour fits, and returns its number.
+  // Onto the mesh that the neighbour fits, the first or one beyond the last; its number.
   int take_over_neighbour() {
-    int mesh = 0;
-    for (; !fem::fits(discretisation(), *neighbour_); ++mesh) {
-      if (mesh + 1 >= options_.levels) throw InputError(fem::no_mesh_fits);
-      clock_(Work::refinement, [&] { discretisation().refine(problem_, level_->state.solution); });
-    }
+    const int mesh = clock_(Work::refinement, [&] { return fem::refine_to(*neighbour_, options_, *level_); });
     fem::take_over(*neighbour_, *level_);
+    options_.levels = first_ == First::finer ? mesh + 2 : std::max(options_.levels, mesh + 1);
     return mesh;
   }
 
@@ -251,9 +254,10 @@ class Continuation {
 
   const double begun_ = now();
   const FlowProblem& problem_;
-  const FlowSolverOptions& options_;
+  FlowSolverOptions options_;
   const FlowObserver& observer_;
   const FlowState* neighbour_;
+  const First first_;
   std::shared_ptr<fem::SolvedLevel> level_;
   FlowReport report_;
   WorkClock clock_;
@@ -267,6 +271,11 @@ FlowSolution solve(const FlowProblem& problem, const FlowSolverOptions& options,
 }
 
 }  // namespace
+
+std::optional<double> slope_of(const IterationReport& line) {
+  if (line.rejected || !(std::abs(line.theta) < 0.5 * std::numbers::pi)) return std::nullopt;
+  return line.theta;
+}
 
 FlowSolution solve_flow(const FlowProblem& problem, const FlowSolverOptions& options,
                         const FlowObserver& observer) {
@@ -289,6 +298,35 @@ FlowSolution solve_flow_from(const FlowState& neighbour, const FlowProblem& prob
     report.phases[i].times += from.report.phases[i].times;
   }
   return cold;
+}
+
+FlowSolution solve_flow_finer(const FlowSolution& coarser, const FlowProblem& problem,
+                              const FlowSolverOptions& options, const FlowObserver& observer) {
+  const FlowState state = coarser.field.state();
+  FlowSolution finer =
+      Continuation(problem, options, observer, &state, Continuation::First::finer).solution();
+  const FlowReport &before = coarser.report, after = std::move(finer.report);
+  FlowReport& whole = finer.report = before;
+  whole.converged = after.converged;
+  whole.failure = after.failure;
+  whole.residual = after.residual;
+  whole.iterations += after.iterations;
+  whole.picard_updates = after.picard_updates;
+  whole.picard_change = after.picard_change;
+  whole.seconds += after.seconds;
+  for (IterationReport line : after.history) {
+    line.seconds += before.seconds;
+    whole.history.push_back(line);
+  }
+  for (std::size_t i = 0; i < whole.phases.size(); ++i) {
+    whole.phases[i].seconds += after.phases[i].seconds;
+    whole.phases[i].times += after.phases[i].times;
+  }
+  whole.linear.insert(whole.linear.end(), after.linear.begin() + static_cast<long>(whole.linear.size()),
+                      after.linear.end());
+  whole.surface_steps.insert(whole.surface_steps.end(), after.surface_steps.begin(),
+                             after.surface_steps.end());
+  return finer;
 }
 
 FlowSolution solve_flow_again(const FlowField& start, const FlowProblem& problem,

@@ -1,6 +1,7 @@
 #pragma once
 // Solves a flow problem by continuation and Newton's method; steps in time.
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,8 @@ enum class LinearMethod {
 };
 
 struct FlowSolverOptions {
-  int levels = 2;  ///< meshes, each with cells half as large; the last one carries the result
+  int levels = 2;          ///< meshes, each with cells half as large; the last one carries the result
+  int further_levels = 3;  ///< meshes beyond these that a kept flow may lie on, or be refined to
   /// Share of the cells that the step to a finer mesh halves, those with the largest jumps of the velocity
   /// gradient; 1: all.
   double refined_share = 1;
@@ -59,7 +61,12 @@ struct IterationReport {
   double linear_residual = 0;  ///< true relative residual of the linear solves, the larger
   double theta = 0;            ///< rad
   double seconds = 0;          ///< since the start
+  bool rejected = false;       ///< of a phase that failed: the solve went back to the flow before it
 };
+
+/// The slope after the iteration (rad), where its state is one: absent of a phase that failed, and of a
+/// surface that would hang over.
+std::optional<double> slope_of(const IterationReport& line);
 
 /// One step of a surface that moves.
 struct SurfaceStepReport {
@@ -107,7 +114,8 @@ struct FlowReport {
 };
 
 struct FlowObserver {
-  std::function<void(const IterationReport&)> iteration;            ///< empty: not observed
+  std::function<void(const IterationReport&)> iteration;  ///< empty: not observed
+  std::function<void(const IterationReport&)> rejected;   ///< the last iteration of a phase that failed
   std::function<void(int level, const FlowField&)> level_finished;  ///< also for the last level
   std::function<void(const SurfaceStepReport&)> surface_step;       ///< of a surface that moves
   std::function<bool()> interrupted;                                ///< asked between iterations
@@ -137,6 +145,13 @@ struct FlowSolution {
 [[nodiscard]] FlowSolution solve_flow_from(const FlowState& neighbour, const FlowProblem& problem,
                                            const FlowSolverOptions& options = {},
                                            const FlowObserver& observer = {});
+
+/// The flow of `problem` on cells half as large as those of `coarser`, its flow, and from it: the report is
+/// that of both. No cold start follows where that fails; `coarser` stays as it is. Throws InputError when
+/// `coarser` lies on none of the meshes (refined_share).
+[[nodiscard]] FlowSolution solve_flow_finer(const FlowSolution& coarser, const FlowProblem& problem,
+                                            const FlowSolverOptions& options = {},
+                                            const FlowObserver& observer = {});
 
 /// The flow of `problem` on the mesh of `start` and from it, for settings that differ a little: law,
 /// regularisation, velocities of the sides. `start` must not be used to solve meanwhile, for it shares the

@@ -8,6 +8,7 @@
 
 #include "continuum/fem/detail/kept_state.hpp"
 #include "continuum/fem/flow_field.hpp"
+#include "coupling/common/errors.hpp"
 
 namespace drumlin::continuum {
 namespace fem {
@@ -98,6 +99,18 @@ bool fits(const Discretisation& d, const FlowState& kept) {
                 0.1 * cell->diameter();
     }
   return d.sum(all ? 0 : 1) == 0;
+}
+
+int refine_to(const FlowState& kept, const FlowSolverOptions& options, SolvedLevel& level) {
+  auto& d = *level.discretisation;
+  int mesh = 0;
+  for (; !fits(d, kept); ++mesh) {
+    if (mesh + 1 >= options.levels + options.further_levels ||
+        d.mesh.n_global_active_cells() >= kept.cells.size())
+      throw InputError(no_mesh_fits);
+    d.refine(level.problem, level.state.solution);
+  }
+  return mesh;
 }
 
 void lay_down(const FlowState& kept, SolvedLevel& level) {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <span>
 
 #include "continuum/fem/detail/local_steps.hpp"
 #include "continuum/fem/detail/step_length.hpp"
@@ -180,6 +182,20 @@ void Newton::record(const IterationReport& line) {
 }
 
 bool Newton::solve(const Phase& phase, State& state) {
+  const auto before = static_cast<std::ptrdiff_t>(report_.history.size());
+  if (iterate(phase, state)) {
+    // A whole turn more is the same slope.
+    if (std::abs(state.theta) > std::numbers::pi)
+      state.theta = std::remainder(state.theta, 2 * std::numbers::pi);
+    return true;
+  }
+  const std::span in_vain(report_.history.begin() + before, report_.history.end());
+  for (IterationReport& line : in_vain) line.rejected = true;
+  if (observer_.rejected && !in_vain.empty()) observer_.rejected(in_vain.back());
+  return false;
+}
+
+bool Newton::iterate(const Phase& phase, State& state) {
   const bool settles_first = phase.starts_nearby && phase.locally && !fluidity_;
   has_settled_locally_ = false;
   report_.failure.clear();

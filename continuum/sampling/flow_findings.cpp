@@ -1,6 +1,7 @@
 #include "continuum/sampling/flow_findings.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace drumlin::continuum {
 
@@ -14,10 +15,22 @@ std::vector<ScalarLimit> limits_of(const std::vector<MeshResult>& meshes) {
   return list;
 }
 
-FlowFindings findings_of(const FlowCase& flow_case, const FlowField& field) {
-  FlowFindings findings{.sums = field.integrals({}, flow_case.law_I_max), .checks = flow_case.checks(field)};
+namespace {
+
+double share_of_eps(const FlowFindings& findings, const FlowProblem& problem) {
+  const auto& gap = findings.closed_form;
+  if (gap && problem.density > 0) return 1 - gap->speed_without_eps / gap->speed;
+  return 1 - findings.sums.dissipation / findings.sums.law_dissipation;
+}
+
+}  // namespace
+
+FlowFindings findings_of(const FlowCase& flow_case, const FlowField& field, ScalarSet checks) {
+  FlowFindings findings{.sums = field.integrals({}, flow_case.law_I_max), .checks = std::move(checks)};
   if (flow_case.closed_form) findings.closed_form = flow_case.closed_form(field);
   if (flow_case.geometry == "drum") findings.neglected = neglected_terms(field);
+  findings.eps_share = share_of_eps(findings, flow_case.problem);
+  findings.checks.scalars.push_back({"eps_share", findings.eps_share, {}});
   return findings;
 }
 

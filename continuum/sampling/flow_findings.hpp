@@ -33,11 +33,14 @@ struct FlowFindings {
   ScalarSet checks;
   std::optional<GapComparison> closed_form = {};  ///< across a gap
   std::optional<NeglectedTerms> neglected = {};   ///< of a drum
+  /// How much of the answer is eps's: of a flow that its weight drives across a gap the share of its speed
+  /// that goes with eps, of one that a wall drives the share of the law's strength that its shear rates lack.
+  double eps_share = 0;
   double ill_posed_share() const { return sums.ill_posed_area / sums.area; }
   double beyond_law_share() const { return sums.beyond_law_area / sums.area; }
 };
-/// Collective.
-FlowFindings findings_of(const FlowCase& flow_case, const FlowField& field);
+/// `checks`: those of this field (FlowCase::checks). Collective.
+FlowFindings findings_of(const FlowCase& flow_case, const FlowField& field, ScalarSet checks);
 
 /// The same flow on the last mesh without the fields that the law takes from the flow: k, nonlocal fluidity.
 struct PlainFlow {

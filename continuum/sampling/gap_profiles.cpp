@@ -238,11 +238,14 @@ GapComparison gap_comparison(const FlowField& field, const Gap& gap, const Stres
                              const Regularisation& regularisation) {
   // Vanishing: the root of p at a free surface and the slowest shear lie far above.
   constexpr Regularisation unregularised{1e-14, 1e-9};
+  const Regularisation without_eps{unregularised.shear_rate, regularisation.pressure};
   const Points points = across(gap);
   const auto states = local_states(field, gap, points.y);
   const GapSolution same = gap_solution(gap, law, regularisation, points.y),
                     closed = gap_solution(gap, law, unregularised, points.y);
   GapComparison result;
+  result.speed = same.top_speed;
+  result.speed_without_eps = gap_solution(gap, law, without_eps, {}).top_speed;
   const auto along = static_cast<std::size_t>(sections(gap));
   const auto errors = [&](const GapSolution& exact, double& rms, double& largest) {
     double sum = 0, of = 0, top = 0;

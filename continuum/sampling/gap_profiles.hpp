@@ -32,6 +32,9 @@ struct GapComparison {
   /// The same against the law without regularisation, its closed form: what eps and p_min add is in this one.
   double closed_form_error = 0;
   double closed_form_error_max = 0;
+  /// Speed at the top for the regularised law, exact, and for the same with eps -> 0: of a layer that its
+  /// weight cannot move the first is that of eps alone.
+  double speed = 0, speed_without_eps = 0;
   ScalarSet closed_form;  ///< scalars of the closed form, under the names of gap_scalars
   std::vector<double> z, v_x, v_x_closed_form;  ///< at points across the gap
 };

@@ -87,7 +87,9 @@ constexpr Rule of_flows[] = {{"geometry", Kind::text},
                              {"law_band", Kind::table_or_null},
                              {"law_band.scalars", Kind::table},
                              {"phases", Kind::table_or_null},
-                             {"phases.*", Kind::table}};
+                             {"phases.*", Kind::table},
+                             {"missed", Kind::list},
+                             {"missed.*", Kind::text}};
 
 constexpr Rule of_records[] = {{"kind", Kind::text},
                                {"scene", Kind::text},

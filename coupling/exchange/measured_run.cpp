@@ -152,6 +152,14 @@ std::string name_of_folder(const fs::path& folder) {
   return whole.has_filename() ? whole.filename().string() : whole.parent_path().filename().string();
 }
 
+std::vector<std::string> limits_missed_by(const fs::path& flow_run) {
+  std::vector<std::string> missed;
+  for (const Json& sentence :
+       read_json(flow_run / "flow.json", "drumlin-flow-run-2").value("missed", Json::array()))
+    missed.push_back(plain_text(sentence));
+  return missed;
+}
+
 bool is_flow_run(const fs::path& folder) {
   return fs::exists(folder / "flow.json") || fs::exists(folder / "flow_scene.toml");
 }
@@ -213,6 +221,8 @@ FlowRun read_flow_run(const fs::path& folder, FlowGeometry asked) {
   const Json geometry = flow.value("geometry", Json("drum"));
   if (asked == FlowGeometry::drum && geometry != "drum")
     problems.push_back({file.string(), 0, 0, "geometry", "is " + plain_text(geometry), "\"drum\""});
+  for (const std::string& sentence : limits_missed_by(folder))
+    problems.push_back({file.string(), 0, 0, "missed", sentence, "a flow that misses nothing (exit code 0)"});
   throw_if_any(problems);
   FlowRun run{name_of_folder(folder), folder, read_profiles(profile_file), {}, {}, false};
   run.accepted = accepted_edits(files);

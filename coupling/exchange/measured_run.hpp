@@ -56,10 +56,13 @@ struct FlowRun {
 /// 0.
 enum class FlowGeometry { drum, any };
 
-/// As above, of a FLOWRUN: also refused are a flow that was not finished (no flow.json), profiles of another
-/// side than "continuum", and unless `any` is asked for a flow that is no drum. A folder without state.h5 (as
-/// cut out of a FLOWRUN) needs no manifest.
+/// As above, of a FLOWRUN: also refused are a flow that was not finished (no flow.json) or misses limits,
+/// profiles of another side than "continuum", and unless `any` is asked for a flow that is no drum. A folder
+/// without state.h5 (as cut out of a FLOWRUN) needs no manifest.
 FlowRun read_flow_run(const std::filesystem::path& folder, FlowGeometry geometry = FlowGeometry::drum);
+
+/// What a flow misses of what its equations ask (key "missed" of its flow.json), a sentence each.
+std::vector<std::string> limits_missed_by(const std::filesystem::path& flow_run);
 
 /// The files of a FLOWRUN, to be read by checked_file(). Throws InputError if it is not finished or not as
 /// its manifest says.

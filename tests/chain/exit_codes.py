@@ -22,6 +22,22 @@ def cell_too_short(drumlin, data, folder):
     require(report["status"] == "not converged" and report["steps"] == steps > 100, f"a short cell: {report['status']}, {report['steps']} steps")
 
 
+def layer_at_rest(drumlin, data, folder):
+    """A layer below the yield slope creeps at the speed of eps alone: its results are there, and nobody takes them for a flow."""
+    law, output = folder / "jop.toml", folder / "layer"
+    law.write_text('format = "drumlin-rheology-1"\nreduced = false\n[mu]\nlaw = "jop"\nmu_s = 0.383\nmu_2 = 0.643\nI_0 = 0.279\n'
+                   "[packing]\nnu = 0.82\n[fitted_on]\nruns = []\n", encoding="utf-8")
+    words = ["flow", data / "scenes" / "incline-flow.toml", "--rheology", law, "--set", "incline.slope_deg=20.9", "--set", "output.figures=false", "-o", output]
+    _, said = drumlin(*words, code=3)
+    flow = read_json(output / "flow.json")
+    require("does not flow" in said and len(flow["missed"]) == 1 and flow["missed"][0] in said, f"a layer at rest:\n{said}")
+    require(abs(flow["checks"]["eps_share"] - 1) < 1e-6 and (output / "profiles.csv").exists(), f"a layer at rest: {flow['checks']}")
+    _, said = drumlin(*words, "--resume", code=3)
+    require("does not flow" in said, f"a layer at rest, done already:\n{said}")
+    _, said = drumlin("compare", output, output, "-o", folder / "comparison", code=2)
+    require("does not flow" in said, f"a layer at rest, compared:\n{said}")
+
+
 def main():
     drumlin, here, data = Drumlin(sys.argv[1]), pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
     scene, flow_scene = here / "tiny-drum.toml", here / "tiny-drum-flow.toml"
@@ -85,6 +101,7 @@ def main():
             shown += 1
         print(f"{shown} helps shown")
         cell_too_short(drumlin, data, folder)
+        layer_at_rest(drumlin, data, folder)
 
 
 if __name__ == "__main__":

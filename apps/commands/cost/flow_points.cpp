@@ -17,6 +17,7 @@
 #include "coupling/documents/document.hpp"
 #include "coupling/documents/json_numbers.hpp"
 #include "coupling/documents/toml_text.hpp"
+#include "coupling/exchange/measured_run.hpp"
 #include "coupling/exchange/profile_set.hpp"
 
 namespace drumlin::apps {
@@ -129,8 +130,11 @@ Json solved_into(const fs::path& folder, const FlowToSolve& flow) {
       results["peak_memory_mb"] = end.peak_memory_mb;
       return results;
     }
-    case static_cast<int>(ExitCode::not_converged):
-      return failure("the flow did not converge");
+    case static_cast<int>(ExitCode::not_converged): {
+      const auto missed =
+          fs::exists(folder / "flow.json") ? limits_missed_by(folder) : std::vector<std::string>();
+      return failure(missed.empty() ? "the flow did not converge" : missed.front());
+    }
     case static_cast<int>(ExitCode::wrong_input):
       throw InputError(flow.name + ": drumlin-flow refused the scene or the law");
     case exit_code_of(SIGINT):

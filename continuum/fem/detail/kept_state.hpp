@@ -1,6 +1,7 @@
 #pragma once
 // Conversion between a stored FlowState and a state on a mesh. Private to fem/.
 #include "continuum/fem/detail/solved_level.hpp"
+#include "continuum/fem/flow_solver.hpp"
 #include "continuum/fem/flow_state.hpp"
 
 namespace drumlin::continuum::fem {
@@ -16,6 +17,10 @@ inline constexpr const char* no_mesh_fits =
 /// Whether the mesh has exactly the cells of `kept`, each within a tenth of its size of where it was: then
 /// their values are values on this mesh.
 bool fits(const Discretisation& d, const FlowState& kept);
+
+/// Refines up to the mesh that fits, and returns its number. Throws InputError when none of options.levels +
+/// options.further_levels meshes does.
+int refine_to(const FlowState& kept, const FlowSolverOptions& options, SolvedLevel& level);
 
 /// The values of what fits as they are, theta too.
 void lay_down(const FlowState& kept, SolvedLevel& level);

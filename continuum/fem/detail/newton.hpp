@@ -43,6 +43,7 @@ class Newton {
     weight_norm_ = problem.density > 0 ? load(d_, {0, problem.density}).l2_norm() : 0;
   }
 
+  /// Where it fails, the report says which iterations were in vain.
   bool solve(const Phase& phase, State& state);
   /// Readies the tangent of the last iterate for solves.
   void factorise() {
@@ -63,6 +64,7 @@ class Newton {
     double theta = 0;
     double linear_residual = 0;
   };
+  bool iterate(const Phase& phase, State& state);
   Step step_with_factors(const State& state);
   State without_moment(const State& state) const;
   double solved(const FieldVector& rhs, FieldVector& solution);
