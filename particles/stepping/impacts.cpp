@@ -300,8 +300,10 @@ void Impacts::strike(const Event& event, StepContacts& contacts) {
   pass_.expand(work_);
   list_strikes(contacts);
   closings_.clear();
+  const bool in_flight = std::none_of(pass_.bodies.begin(), pass_.bodies.end(),
+                                      [](const ImpactBody& body) { return body.carries; });
   for (ImpactBody& body : pass_.bodies) {
-    if (!body.carries) {  // the others stay in contact: their positions follow the velocity at the end
+    if (in_flight) {  // else positions follow the velocity at the end of the step, as in all lasting contacts
       body.shift.x += event.time * (body.before_x - body.v_x);
       body.shift.z += event.time * (body.before_z - body.v_z);
     }
