@@ -119,6 +119,7 @@ void add_ratios(Columns& columns) {
              xz = columns.of("sigma_xz");
   const auto under_load = [&](std::size_t l, double value) { return zz[l] > 0 ? value : none; };
   columns.add("I", [&](std::size_t l, const LayerSum&) { return under_load(l, rate[l] / std::sqrt(zz[l])); });
+  // Not tau:D/(2 |D| p), the mu of a law: in a creeping bed their axes differ (docs/theory/measurement.md).
   columns.add("mu", [&](std::size_t l, const LayerSum&) { return under_load(l, xz[l] / zz[l]); });
   columns.add("k", [&](std::size_t l, const LayerSum&) { return under_load(l, xx[l] / zz[l]); });
 }
