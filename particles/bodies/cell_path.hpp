@@ -34,7 +34,8 @@ std::optional<CellInstant> cell_instant(const Snapshot&);
 class CellPath {
  public:
   CellPath(const CellInstant& before, const CellInstant& now);
-  /// How a grain moved, by `now` as the image that its velocities at both ends come nearest to.
+  /// How a grain moved from `before` on, by `now` to the image that its velocities at both ends come nearest
+  /// to.
   Point displacement(const MovingPoint& before, const MovingPoint& now) const;
   /// The cell half-way, with the origin of `now`.
   const Period& half_way() const { return half_way_; }

@@ -52,6 +52,7 @@ MeasurementFrame found_frame(const Survey& found, const Snapshot& last, const Me
   place.container_radius = last.container_radius;
   place.period = place.container_radius > 0 ? 0 : last.period_x;
   place.closed = found.closed;
+  if (place.closed) place.period = found.cell_length;
   place.rotation = last.wall_spin;
   place.snapshots = found.series.time.size();
   place.batches = std::min(options.batches, place.snapshots);

@@ -67,10 +67,16 @@ void to_flow_frame(const Snapshot& snapshot, const FlowFrame& frame, VelocityKin
   result.density = snapshot.mass;
   const Period period = period_of(snapshot);
   result.cell.reset();
-  if (snapshot.cell)  // the frame has the axes of the cell
-    result.cell = {frame.z_of(0, period.origin_z), period.length_z, period.offset,
-                   period.image_velocity({period.offset, period.length_z}).x,
-                   period.image_velocity({period.offset, period.length_z}).z};
+  if (snapshot.cell) {  // the frame has the axes of the cell
+    const Point up = period.image_velocity({period.offset, period.length_z});
+    result.cell = {frame.z_of(0, period.origin_z),
+                   period.length_z,
+                   period.offset,
+                   period.length,
+                   up.x,
+                   up.z,
+                   period.image_velocity({period.length, 0}).x};
+  }
   for (std::size_t i = 0; i < result.density.size(); ++i)
     result.density[i] /= mass_of_disc(snapshot.radius[i]);
   for (std::size_t i = 0; i < count; ++i) {

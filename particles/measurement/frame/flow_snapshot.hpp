@@ -31,10 +31,11 @@ struct FlowContact {
 class HalfBranches;
 
 /// A cell that is periodic in z too at one instant, in the flow frame: its grains stand in z_min ... z_min +
-/// height, and the image above is displaced by (offset, height) and faster by (v_x, v_z).
+/// height; the image above is displaced by (offset, height) and faster by (v_x, v_z), the one to the right by
+/// (length, 0) and faster by (right_v_x, 0).
 struct FlowCell {
-  double z_min = 0, height = 0, offset = 0;
-  double v_x = 0, v_z = 0;
+  double z_min = 0, height = 0, offset = 0, length = 0;
+  double v_x = 0, v_z = 0, right_v_x = 0;
 };
 
 /// Components in the flow frame, one entry per grain. Velocities and spins are relative to the drum.

@@ -72,9 +72,8 @@ void cut_to_window(const Occupancy& occupancy, std::size_t grains, double period
 void refuse_changed_period(double before, double now) {
   if (std::abs(now - before) > 1e-9 * before)
     throw InputError(
-        "the cell of this run changes its length along x: layers and maps take one for all snapshots "
-        "(allowed: "
-        "a cell of one length; drumlin history, or stress and volume from the snapshots)");
+        "the period of this run changes its length along x: layers and maps take one for all snapshots "
+        "(allowed: one length, or a cell that is periodic in z too)");
 }
 
 }  // namespace
@@ -93,10 +92,11 @@ Survey survey(const Recording& recording, std::size_t batches, std::shared_ptr<S
       found.upright = upright_frame(snapshot);
       if (radius > 0) found.coverage.emplace(CoverageMap(-radius, radius, -radius, radius), std::move(file));
     }
-    if (s > 0 && radius <= 0) refuse_changed_period(period, snapshot.period_x);
+    if (s > 0 && radius <= 0 && !snapshot.cell) refuse_changed_period(period, snapshot.period_x);
     widen_extent(snapshot, s == 0, found);
     if (snapshot.cell) {
       found.closed = true;
+      found.cell_length += snapshot.period_x / static_cast<double>(recording.count());
       bottom += snapshot.cell->z / static_cast<double>(recording.count());
       top += (snapshot.cell->z + snapshot.cell->height) / static_cast<double>(recording.count());
     }

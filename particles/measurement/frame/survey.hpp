@@ -35,6 +35,7 @@ struct Survey {
   TimeSeries series;
   double x_min = 0, x_max = 0, z_min = 0, z_max = 0;  ///< what the grains reach in `upright`, or the window
   bool closed = false;         ///< periodic in z too: z_min and z_max are the mean ends of the cell
+  double cell_length = 0;      ///< of such a cell, in the mean
   bool cut_to_window = false;  ///< some grains lie outside of it (dense_window.hpp)
 };
 

@@ -164,8 +164,11 @@ std::optional<PlaneMatrix> mean_gradient(const Box& box, const Snapshot& before,
   AffineFit fit;
   for (const auto& [then, i] : same_grains(before, now)) {
     Point by{now.x[i] - before.x[then], now.z[i] - before.z[then]};
-    if (path) by = path->displacement(grain_of(before, then), grain_of(now, i));
-    const Point half_way{now.x[i] - 0.5 * by.x, now.z[i] - 0.5 * by.z};
+    Point half_way{now.x[i] - 0.5 * by.x, now.z[i] - 0.5 * by.z};
+    if (path) {  // of the image that it was before
+      by = path->displacement(grain_of(before, then), grain_of(now, i));
+      half_way = {before.x[then] + 0.5 * by.x, before.z[then] + 0.5 * by.z};
+    }
     const Point at = period.first(half_way);
     if (!open.holds(at.x, at.z)) continue;
     const Point more = path ? path->change({at.x - half_way.x, at.z - half_way.z}) : Point{};

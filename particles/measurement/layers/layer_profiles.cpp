@@ -14,9 +14,8 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// Of a layer, summed over the snapshots.
 double area_of(const LayerGrid& grid, const LayerSums& sums, std::size_t layer) {
-  return grid.closed
-             ? grid.area[layer] / grid.thickness * sums.cell_height / static_cast<double>(grid.layers())
-             : grid.area[layer] * static_cast<double>(sums.snapshots);
+  return grid.closed ? sums.cell_area / static_cast<double>(grid.layers())
+                     : grid.area[layer] * static_cast<double>(sums.snapshots);
 }
 
 double volume_fraction(const LayerGrid& grid, const LayerSums& sums, std::size_t layer) {

@@ -188,7 +188,7 @@ LayerSum& LayerSum::operator-=(const LayerSum& other) {
 LayerSums& LayerSums::operator+=(const LayerSums& other) {
   for (std::size_t l = 0; l < layers.size(); ++l) layers[l] += other.layers[l];
   snapshots += other.snapshots;
-  cell_height += other.cell_height;
+  cell_area += other.cell_area;
   cell_jump += other.cell_jump;
   return *this;
 }
@@ -196,7 +196,7 @@ LayerSums& LayerSums::operator+=(const LayerSums& other) {
 LayerSums& LayerSums::operator-=(const LayerSums& other) {
   for (std::size_t l = 0; l < layers.size(); ++l) layers[l] -= other.layers[l];
   snapshots -= other.snapshots;
-  cell_height -= other.cell_height;
+  cell_area -= other.cell_area;
   cell_jump -= other.cell_jump;
   return *this;
 }
@@ -249,7 +249,7 @@ void add_snapshot(const LayerGrid& of_all, const FlowSnapshot& snapshot, LayerSu
   std::optional<LayerGrid> of_cell;
   if (of_all.closed) {
     of_cell = of_all.in_cell(*snapshot.cell);
-    sums.cell_height += snapshot.cell->height;
+    sums.cell_area += snapshot.cell->length * snapshot.cell->height;
     sums.cell_jump += snapshot.cell->v_x;
   }
   const LayerGrid& grid = of_cell ? *of_cell : of_all;

@@ -73,8 +73,8 @@ struct LayerSums {
   bool with_spin = true;        ///< false: the scene has no spin
   bool with_contacts = true;    ///< false: the snapshots do not know them
   bool with_densities = false;  ///< grains have densities of their own
-  /// Of a closed grid, summed over the snapshots: height of the cell, speed of the image above.
-  double cell_height = 0, cell_jump = 0;
+  /// Of a closed grid, summed over the snapshots: area of the cell, speed of the image above.
+  double cell_area = 0, cell_jump = 0;
 
   LayerSums& operator+=(const LayerSums& other);
   LayerSums& operator-=(const LayerSums& other);

@@ -9,10 +9,12 @@ namespace drumlin::particles {
 
 /// How grains become fields. Lengths in d.
 struct CoarseGraining {
-  FlowFrame frame;    ///< its origin is that of the grid
-  MapGrid grid;       ///< z counted from the frame's origin
-  double width = 1;   ///< distance of the knots of the kernel: it reaches 2 width to each side
-  double period = 0;  ///< > 0: columns wrap around after this length, which the grid spans once
+  FlowFrame frame;   ///< its origin is that of the grid
+  MapGrid grid;      ///< z counted from the frame's origin
+  double width = 1;  ///< distance of the knots of the kernel: it reaches 2 width to each side
+  /// > 0: columns wrap around after this length, which the grid spans once. 0 in a cell that is periodic in z
+  /// too: its images are put on the grid themselves, since its lengths may change.
+  double period = 0;
 };
 
 /// Most spacings that a width may hold: the footprint of a point has a fixed size.

@@ -67,7 +67,8 @@ void DisplacementDepositor::add_pair(const Ends& from, const Ends& to, const Sna
   std::optional<FlowCell> images;
   if (from.cell && to.cell) {
     path.emplace(*from.cell, *to.cell);
-    images = FlowCell{0, path->half_way().length_z, path->half_way().offset, 0, 0};
+    const Period& half_way = path->half_way();
+    images = FlowCell{0, half_way.length_z, half_way.offset, half_way.length, 0, 0, 0};
   }
   for (const auto& [before, i] : same_grains(from.id, from.x.size(), to.id, to.x.size())) {
     double d_x = to.x[i] - from.x[before], d_z = to.z[i] - from.z[before];
@@ -78,16 +79,18 @@ void DisplacementDepositor::add_pair(const Ends& from, const Ends& to, const Sna
       d_x = d.x, d_z = d.z;
     } else if (const double period = snapshot.period_x; period > 0)
       d_x -= period * std::round((d_x - time * (from.v_x[before] + to.v_x[i]) / 2) / period);
-    const double x = to.x[i] - d_x / 2, z = to.z[i] - d_z / 2;
+    double x = to.x[i] - d_x / 2, z = to.z[i] - d_z / 2;
+    if (path) x = from.x[before] + d_x / 2, z = from.z[before] + d_z / 2;
     const double lab_x = x * cosine + z * sine, lab_z = z * cosine - x * sine;
     const double moved_x = d_x * cosine + d_z * sine, moved_z = d_z * cosine - d_x * sine;
     const double mass = mass_of(snapshot, i);
     const std::array<double, 3> moments{mass * time, mass * frame.along(moved_x, moved_z),
                                         mass * frame.normal(moved_x, moved_z)};
-    const auto add_image = [&](double k, double at_x, double at_z) {
+    const auto add_image = [&](double columns, double rows, double at_x, double at_z) {
       std::array<double, 3> of_image = moments;
-      if (k != 0) {  // the cell moves its images
-        const Point more = path->change({k * images->offset, k * images->height});
+      if (path) {  // the cell moves its images
+        const Point more =
+            path->change({columns * images->length + rows * images->offset, rows * images->height});
         of_image[1] += mass * more.x, of_image[2] += mass * more.z;
       }
       canvas.each_node_with_slope(at_x, at_z,

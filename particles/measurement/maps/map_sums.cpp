@@ -35,7 +35,7 @@ void add_half_branch(const HalfBranch& branch, double width, const std::optional
     for (double offset : {-gauss_offset, gauss_offset}) {
       const double t = (piece + 0.5 + offset) / pieces;
       canvas.each_image(cell, branch.x + t * branch.toward_x, branch.z + t * branch.toward_z,
-                        [&](double, double x, double z) {
+                        [&](double, double, double x, double z) {
                           canvas.each_node(
                               x, z, [&](MapNode& node, double phi) { add_times(phi, dyad, node.branch); });
                         });
@@ -46,7 +46,7 @@ void add_half_branch(const HalfBranch& branch, double width, const std::optional
                                   wall * branch.force_z, n_x * n_x / 2,  n_x * n_z / 2,
                                   n_z * n_z / 2};
   canvas.each_image(
-      cell, branch.x + branch.toward_x, branch.z + branch.toward_z, [&](double, double x, double z) {
+      cell, branch.x + branch.toward_x, branch.z + branch.toward_z, [&](double, double, double x, double z) {
         canvas.each_node(x, z, [&](MapNode& node, double phi) { add_times(phi, end, node.contact); });
       });
 }
@@ -75,12 +75,12 @@ void add_image(const GrainState& g, Canvas& canvas) {
 
 /// A grain and its images, which a moving cell makes faster.
 void add_grain(const GrainState& g, const std::optional<FlowCell>& cell, Canvas& canvas) {
-  canvas.each_image(cell, g.x, g.z, [&](double k, double x, double z) {
+  canvas.each_image(cell, g.x, g.z, [&](double columns, double rows, double x, double z) {
     GrainState image = g;
     image.x = x, image.z = z;
-    if (k != 0) {
-      image.v_x += k * cell->v_x, image.v_z += k * cell->v_z;
-      image.u_x += k * cell->v_x, image.u_z += k * cell->v_z;
+    if (cell) {
+      const double v_x = rows * cell->v_x + columns * cell->right_v_x, v_z = rows * cell->v_z;
+      image.v_x += v_x, image.u_x += v_x, image.v_z += v_z, image.u_z += v_z;
     }
     add_image(image, canvas);
   });
@@ -124,6 +124,7 @@ CoarseGraining coarse_graining(const FlowFrame& frame, double x_from, double x_t
     grid.columns = static_cast<std::size_t>(std::max(1.0, std::ceil(period / spacing)));
     grid.spacing_x = period / static_cast<double>(grid.columns);
     grid.x_first = x_from;
+    if (closed) graining.period = 0;
   } else {
     const double first = std::floor(x_from / spacing), last = std::ceil(x_to / spacing);
     grid.x_first = first * spacing;
@@ -167,7 +168,7 @@ void MapDepositor::add(const Snapshot& snapshot, const FlowSnapshot& in_frame, M
     if (snapshot.cell) velocity = first_image(period, grain_of(snapshot, i)).velocity;
     if (sums.area) {
       NodeCanvas<double> areas(graining_, *sums.area);
-      areas.each_image(in_frame.cell, in_frame.x[i], in_frame.z[i], [&](double, double x, double z) {
+      areas.each_image(in_frame.cell, in_frame.x[i], in_frame.z[i], [&](double, double, double x, double z) {
         areas.each_node(x, z, [&](double& node, double phi) { node += phi * area; });
       });
     }

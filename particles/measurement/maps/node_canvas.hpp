@@ -62,19 +62,24 @@ class NodeCanvas {
     });
   }
 
-  /// Calls action(k, x, z) for each place k (offset, height) away from a point, k a whole number, from which
-  /// nodes can be reached: the point's images in a cell that is periodic in z, itself alone without one.
+  /// Calls action(columns, rows, x, z) for each image of a point that reaches nodes, so many lengths and
+  /// heights of the cell away; for the point itself alone without a cell.
   template <class Action>
   void each_image(const std::optional<FlowCell>& cell, double x, double z, Action action) const {
     if (!cell) {
-      action(0.0, x, z);
+      action(0.0, 0.0, x, z);
       return;
     }
     const double reach = 2 * graining_.width;
     const double lowest = grid_.z_first - reach, highest = grid_.z_of(grid_.rows - 1) + reach;
-    const double last = std::floor((highest - z) / cell->height);
-    for (double k = std::ceil((lowest - z) / cell->height); k <= last; ++k)
-      action(k, x + k * cell->offset, z + k * cell->height);
+    const double left = grid_.x_first - reach, right = grid_.x_of(grid_.columns - 1) + reach;
+    const double last_row = std::floor((highest - z) / cell->height);
+    for (double row = std::ceil((lowest - z) / cell->height); row <= last_row; ++row) {
+      const double row_x = x + row * cell->offset;
+      const double last_column = std::floor((right - row_x) / cell->length);
+      for (double column = std::ceil((left - row_x) / cell->length); column <= last_column; ++column)
+        action(column, row, row_x + column * cell->length, z + row * cell->height);
+    }
   }
 
  private:
