@@ -410,6 +410,8 @@ def histories(drumlin, one_disc, periodic, folder):
     require(len(rows) == 5 and float(rows[-1]["sigma_zz"]) > 0 and rows[0]["d_v_x_dz"] == "", f"region: {rows}")
     drumlin("history", one_disc, "-o", folder / "history")
     require(not (folder / "history" / "region.csv").exists(), "a region that nobody asked for")
+    head, rows = table_of(periodic / "history" / "surface.csv")
+    require(head[0] == "# drumlin-history-surface-1" and len(rows) == 5 and rows[-1]["repose_deg"] == "", f"surface: {head[0]}, {rows}")
     text, _ = drumlin("history", one_disc, "-o", folder / "history", "--resume")
     require("done already" in text, f"made again: {text}")
     for words in (["--sectors", "5"], ["--box", "0,1,0,1"]):  # another question is not answered by what is there
