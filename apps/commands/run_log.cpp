@@ -20,6 +20,7 @@ void add_up(const particles::StepReport& report, std::int64_t step, bool converg
   const particles::ContactResidual& residual = report.solve.residual;
   totals.unconverged_steps += !converged;
   if (!converged && totals.unconverged_steps == 1) totals.first_unconverged_step = step;
+  totals.unresolved_impacts += report.impacts_unresolved;
   totals.sweeps += report.solve.sweeps;
   totals.contacts += report.contacts;
   totals.contact_sweeps += static_cast<double>(report.contacts) * report.solve.sweeps;

@@ -44,7 +44,8 @@ nlohmann::ordered_json accuracy(const RunProgress& run, double steps) {
           {"sinking_mean", t.sinking_sum / steps},
           {"sinking_max", t.sinking_max},
           {"overlap_mean", t.overlap_sum / steps},
-          {"overlap_max", t.overlap_max}};
+          {"overlap_max", t.overlap_max},
+          {"unresolved_impacts", t.unresolved_impacts}};
 }
 
 nlohmann::ordered_json cost(const RunProgress& run, double steps) {
@@ -145,6 +146,11 @@ std::vector<std::string> run_warnings(const RunProgress& run) {
         "two discs overlapped by {:.2g} d in a step, more than {} d: they were crushed, or thrown into one "
         "another, as heavy discs do to light ones; what follows from it does not hold. Shorten time_step_s",
         t.overlap_max, deep_overlap));
+  if (t.unresolved_impacts > 0)
+    warnings.push_back(fmt::format(
+        "{} times two discs met more often within a step than is followed: the rest of their speed was lost "
+        "in the contact problem, also where restitution is 1. Shorten time_step_s",
+        t.unresolved_impacts));
   if (const auto& left = run.simulation.state().left) warnings.push_back(left_warning(*left));
   if (const std::string text = start_warning(run.simulation.start_overlaps()); !text.empty())
     warnings.push_back(text);

@@ -145,7 +145,8 @@ void GatheredImpacts::list_wanted(const RankImpacts& mine) {
   for (std::size_t b = 0; b < sent_.size(); ++b) {
     if (sent_[b] != now) continue;
     sent_[b] = wanted_[b] ? as_whole : as_part;
-    BodyRecord body{static_cast<std::int32_t>(id[b]), wanted_[b]};
+    BodyRecord body;
+    body.id = static_cast<std::int32_t>(id[b]), body.whole = wanted_[b];
     body.x = bodies.x[b], body.z = bodies.z[b], body.v_x = bodies.v_x[b], body.v_z = bodies.v_z[b];
     if (!mine.shift.empty()) body.shift = mine.shift[b];
     if (!bodies.spin.empty()) body.spin = bodies.spin[b];

@@ -22,6 +22,7 @@ void each_number_of_checkpoint(C& c, Visit visit) {
   auto& t = c.totals;
   visit("totals/unconverged_steps", t.unconverged_steps);
   visit("totals/first_unconverged_step", t.first_unconverged_step);
+  visit("totals/unresolved_impacts", t.unresolved_impacts);
   visit("totals/sweeps", t.sweeps);
   visit("totals/contacts", t.contacts);
   visit("totals/contact_sweeps", t.contact_sweeps);

@@ -12,6 +12,7 @@ namespace drumlin::particles {
 struct RunTotals {
   std::int64_t unconverged_steps = 0;
   std::int64_t first_unconverged_step = 0;  ///< 0: none
+  std::int64_t unresolved_impacts = 0;      ///< StepReport::impacts_unresolved, summed
   std::int64_t sweeps = 0;
   std::int64_t contacts = 0;  ///< summed over the steps
   double contact_sweeps = 0;  ///< contacts times sweeps, summed
