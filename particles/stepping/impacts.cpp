@@ -295,8 +295,8 @@ void Impacts::strike(const Event& event, StepContacts& contacts) {
   do {
     do pass_.compress_roughly();
     while (take_in_neighbours(event.time));
-    pass_.compress();
-  } while (take_in_neighbours(event.time));
+    pass_.compress();  // of one contact that changes nothing
+  } while (pass_.contacts.size() > 1 && take_in_neighbours(event.time));
   pass_.expand(work_);
   list_strikes(contacts);
   closings_.clear();
