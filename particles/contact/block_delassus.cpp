@@ -1,5 +1,6 @@
 #include "particles/contact/block_delassus.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace drumlin::particles {
@@ -29,6 +30,20 @@ Eigen::Vector2d solve_planar_contact(const Eigen::Matrix2d& W, const Eigen::Vect
   }
   return best;
 }
+
+namespace {
+
+/// Where a sweep lets a contact of steep friction go that would go from `old` to `whole`.
+Eigen::Vector2d part_of_way(const Eigen::Matrix2d& W, const Eigen::Vector2d& q, double mu,
+                            const Eigen::Vector2d& old, const Eigen::Vector2d& whole) {
+  const double share = share_of_way(mu, old[0], old[1], whole[0], whole[1]);
+  if (share == 1) return whole;
+  const double u_n = W.row(0).dot(old) + q[0];
+  const double r_n = std::max(0.0, old[0] - u_n * (share / W(0, 0)));
+  return {r_n, std::clamp(-(W(1, 0) * r_n + q[1]) / W(1, 1), -mu * r_n, mu * r_n)};
+}
+
+}  // namespace
 
 Eigen::Vector2d BlockDelassus::row_times(int a, std::span<const double> r) const {
   Eigen::Vector2d u = Eigen::Vector2d::Zero();
@@ -62,7 +77,8 @@ double BlockDelassus::sweep(std::span<const double> q, std::span<const double> m
     const Eigen::Vector2d old(state[2 * a], state[2 * a + 1]);
     const Eigen::Vector2d free =
         row_times(a, state) - diagonal[a] * old + Eigen::Vector2d(q[2 * a], q[2 * a + 1]);
-    const Eigen::Vector2d fresh = solve_planar_contact(diagonal[a], free, mu[a]);
+    Eigen::Vector2d fresh = solve_planar_contact(diagonal[a], free, mu[a]);
+    if (mu[a] > steep_friction) fresh = part_of_way(diagonal[a], free, mu[a], old, fresh);
     for (int c = 0; c < 2; ++c) {
       state[2 * a + c] = r[2 * a + c] = fresh[c];
       step[2 * a + c] = fresh[c] - old[c];

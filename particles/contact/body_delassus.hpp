@@ -181,9 +181,13 @@ class BodyDelassus {
         constexpr double ratio = with_spin ? 1.0 / 3 : 1.0;  // W_nn / W_tt
         const double u_n = q[2 * a] + normal_velocity(state, a);
         const double u_t = q[2 * a + 1] + tangential_velocity(state, a);
-        const double r_n = std::max(0.0, r[2 * a] - u_n * inverse_W_nn[a]);
+        const double free = r[2 * a + 1] - u_t * (inverse_W_nn[a] * ratio);
+        double r_n = std::max(0.0, r[2 * a] - u_n * inverse_W_nn[a]);
+        if (mu[a] > steep_friction)
+          r_n = std::max(0.0, r[2 * a] - u_n * (inverse_W_nn[a] *
+                                                share_of_way(mu[a], r[2 * a], r[2 * a + 1], r_n, free)));
         const double bound = mu[a] * r_n;
-        const double r_t = std::clamp(r[2 * a + 1] - u_t * (inverse_W_nn[a] * ratio), -bound, bound);
+        const double r_t = std::clamp(free, -bound, bound);
         const double dr_n = r_n - r[2 * a], dr_t = r_t - r[2 * a + 1];
         push(state, a, dr_n, dr_t);
         r[2 * a] = r_n, r[2 * a + 1] = r_t;

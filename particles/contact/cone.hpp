@@ -25,6 +25,19 @@ struct CoulombRolling {
   static constexpr int dim = 3;
 };
 
+/// Friction above this is steep: what a step of the normal impulse does to friction outweighs the step
+/// itself.
+inline constexpr double steep_friction = 1;
+
+/// Part of its way that a sweep lets the normal impulse of a contact go, steep or not, from impulses (n, t);
+/// the whole way would lead to n = `whole` and, without a bound, t = `free`. Friction of a contact that
+/// slides follows n mu-fold, and neighbours answer to friction: steep contacts that slide would swing for
+/// ever.
+inline double share_of_way(double mu, double n, double t, double whole, double free) {
+  const bool slides = (n > 0 && std::abs(t) >= 0.999 * (mu * n)) || std::abs(free) >= mu * whole;
+  return mu > steep_friction && slides ? 1 / mu : 1;
+}
+
 /// Euclidean projection of (n, t) on K = {|t| <= mu n}, in place. Without branches, which nobody could
 /// foretell: contacts open, slide and stick at random. A NaN stays one.
 inline void project_on_cone(double mu, double& n, double& t) {

@@ -2,6 +2,8 @@
 // who include this do so once for each instruction set.
 #include <hwy/highway.h>
 
+#include "particles/contact/cone.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace drumlin::particles::HWY_NAMESPACE {
 
@@ -17,6 +19,33 @@ template <class V>
 HWY_INLINE V positive_part(V value) {
   const V zero = hn::Zero(hn::DFromV<V>());
   return hn::IfThenElse(hn::Lt(value, zero), zero, value);
+}
+
+/// Whether any of these coefficients is above steep_friction.
+template <class V>
+HWY_INLINE bool any_steep(V mu) {
+  const hn::DFromV<V> d;
+  return !hn::AllFalse(d, hn::Gt(mu, hn::Set(d, steep_friction)));
+}
+
+/// share_of_way() of contacts.
+template <class V>
+HWY_INLINE V share_of_way(V mu, V n, V t, V whole, V free) {
+  const hn::DFromV<V> d;
+  const V one = hn::Set(d, 1), zero = hn::Zero(d);
+  const V on_bound = hn::Mul(hn::Set(d, 0.999), hn::Mul(mu, n));
+  const auto slides = hn::And(hn::Gt(n, zero), hn::Ge(hn::Abs(t), on_bound));
+  const auto will_slide = hn::Ge(hn::Abs(free), hn::Mul(mu, whole));
+  const auto slow = hn::And(hn::Gt(mu, hn::Set(d, steep_friction)), hn::Or(slides, will_slide));
+  return hn::IfThenElse(slow, hn::Div(one, mu), one);
+}
+
+/// Squared distance of (r_n, r_t) from n, at least 0, and t, clamped to mu n.
+template <class V>
+HWY_INLINE V missed_in_turn(V mu, V n, V t, V r_n, V r_t) {
+  const V above = positive_part(n);
+  const V missed_n = hn::Sub(above, r_n), missed_t = hn::Sub(clamped(t, hn::Mul(mu, above)), r_t);
+  return hn::Add(hn::Mul(missed_n, missed_n), hn::Mul(missed_t, missed_t));
 }
 
 /// Squared distance of r = (r_n, r_t) from the projection of (n, t) on the cone.

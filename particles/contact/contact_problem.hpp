@@ -2,7 +2,10 @@
 // One contact problem: find r with u = W r + q, u_n and r_n complementary, r_t in Coulomb's law.
 // The paper, Eq. (3): W r - u = b with b = -q; q is the free relative velocity with the shifts of the impact
 // law.
+#include <algorithm>
 #include <vector>
+
+#include "particles/contact/cone.hpp"
 
 namespace drumlin::particles {
 
@@ -22,5 +25,11 @@ struct ContactProblem {
 
   int contacts() const { return static_cast<int>(q.size()) / dim; }
 };
+
+/// Whether friction or rolling resistance of a contact is steep.
+template <class Problem>
+bool is_steep(const Problem& problem) {
+  return std::any_of(problem.mu.begin(), problem.mu.end(), [](double mu) { return mu > steep_friction; });
+}
 
 }  // namespace drumlin::particles

@@ -25,6 +25,7 @@ struct DrivenBody {
 /// A periodic cell whose rates of strain answer contacts: it gives each the rate times its arm.
 struct CellBody {
   double inverse_inertia_x = 0, inverse_inertia_z = 0;
+  double length_x = 1, length_z = 1;
 };
 
 /// W_aa, symmetric: W_nr = 0 always, W_nt = 0 but at driven walls that are pushed askew and in a cell.
@@ -61,6 +62,14 @@ std::array<double, dim> solved_contact(const LocalBlock& W, const double* mu, st
                                        const std::array<double, dim>& r) {
   std::array<double, dim> fresh = r;
   fresh[0] = std::max(0.0, r[0] - u[0] * W.inverse_nn);
+  if constexpr (dim >= 2)
+    if (std::max(mu[0], mu[dim - 2]) > steep_friction) {
+      const double free_t = r[1] - (u[1] + W.nt * (fresh[0] - r[0])) * W.inverse_tt;
+      double share = share_of_way(mu[0], r[0], r[1], fresh[0], free_t);
+      if constexpr (dim == 3)
+        share = std::min(share, share_of_way(mu[1], r[0], r[2], fresh[0], r[2] - u[2] / W.rr));
+      fresh[0] = std::max(0.0, r[0] - u[0] * (W.inverse_nn * share));
+    }
   if constexpr (dim >= 2) u[1] += W.nt * (fresh[0] - r[0]);
   if constexpr (dim == 2) {
     const double bound = mu[0] * fresh[0];
@@ -174,6 +183,22 @@ class GeneralDelassus {
     if constexpr (with_spin && dim >= 2) u[1] -= I.s + J.s;
     if constexpr (dim == 3) u[2] = lever[a] * I.s - (1 - lever[a]) * J.s;
     return u;
+  }
+
+  /// Sum of the sizes of what contacts give to driven walls, or of what crosses the cell under pressure.
+  double driven_impulses(const State& state) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < driven.size(); ++k) {
+      const Velocity& wall = state[fixed() + 1 + k];
+      sum += std::abs(wall.x * driven[k].e_x + wall.z * driven[k].e_z) / driven[k].inverse_mass;
+    }
+    if (!cell) return sum;
+    const auto across = [](double rate, double inverse_inertia, double length) {
+      return inverse_inertia > 0 ? std::abs(rate) / (inverse_inertia * length) : 0;
+    };
+    const Velocity& rates = state[cell_body()];
+    return sum + across(rates.x, cell->inverse_inertia_x, cell->length_x) +
+           across(rates.z, cell->inverse_inertia_z, cell->length_z);
   }
 
   /// lambda_max(W_aa), the scale of the residual.

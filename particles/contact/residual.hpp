@@ -18,14 +18,18 @@
 namespace drumlin::particles {
 
 /// With e_a = |r_a - P_K(r_a - rho_a (u_a + mu_a |u_t,a| n))| / rho_a and rho_a = 1 / lambda_max(W_aa), a
-/// velocity. With rolling resistance the shift of u_n is mu |u_t| + mu_r |u_r|.
+/// velocity. With rolling resistance the shift of u_n is mu |u_t| + mu_r |u_r|. Where one of mu and mu_r is
+/// above 1 the shift would count an error of u_t so many times: there the parts are projected in turn, r_n on
+/// r_n >= 0, then the others on the bounds that this gives.
 struct ContactResidual {
   double rms = 0;          ///< rms of e_a over the contacts / rms of all entries of q: "residual" in files
   double max = 0;          ///< largest e_a / rms of all entries of q: "residual_max" in files
   double penetration = 0;  ///< max(-u_n) h, at least 0; in d inside the project
   /// h sum r_n max(-u_n, 0) / sum |p_b| over the bodies, with their impulses p = H^T r: the mean way, in d
-  /// inside the project, by which a step lets bodies sink against what carries them. In a chain of n contacts
-  /// that all miss by the same, n/2 times what one of them misses. NaN of a problem without bodies.
+  /// inside the project, by which a step lets bodies sink against what carries them. Walls that contacts push
+  /// and the sides of a cell under pressure are bodies, too: grains between them carry a load without one of
+  /// their own. In a chain of n contacts that all miss by the same, n/2 times what one of them misses. NaN of
+  /// a problem without bodies.
   double sinking = 0;
 };
 
@@ -164,9 +168,11 @@ ContactResidual residual_of(const Problem& problem, std::span<const double> r,
   residual.rms = relative(std::sqrt(sums.squares / count));
   residual.max = relative(std::sqrt(sums.largest));
   residual.penetration = -sums.lowest_u_n * problem.time_step;
-  residual.sinking = sums.let_through == 0
-                         ? 0
-                         : problem.time_step * sums.let_through / summed_impulses(velocities.bodies, loops);
+  if (sums.let_through == 0) return residual;
+  double carried = summed_impulses(velocities.bodies, loops);
+  if constexpr (requires { problem.W.driven_impulses(velocities.bodies); })
+    carried += problem.W.driven_impulses(velocities.bodies);
+  residual.sinking = problem.time_step * sums.let_through / carried;
   return residual;
 }
 

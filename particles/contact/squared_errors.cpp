@@ -35,7 +35,12 @@ std::size_t errors_on_vectors(double largest, const double* inverse_W_nn, const 
       hn::LoadInterleaved2(d, r + 2 * k, r_n, r_t);
       hn::LoadInterleaved2(d, u + 2 * k, u_n, u_t);
       const V n = hn::Sub(r_n, hn::Mul(rho, hn::Add(u_n, hn::Mul(friction, hn::Abs(u_t)))));
-      squares = missed_by_projection(friction, n, hn::Sub(r_t, hn::Mul(rho, u_t)), r_n, r_t);
+      const V t = hn::Sub(r_t, hn::Mul(rho, u_t));
+      squares = missed_by_projection(friction, n, t, r_n, r_t);
+      if (any_steep(friction)) {
+        const V in_turn = missed_in_turn(friction, hn::Sub(r_n, hn::Mul(rho, u_n)), t, r_n, r_t);
+        squares = hn::IfThenElse(hn::Gt(friction, hn::Set(d, steep_friction)), in_turn, squares);
+      }
     }
     hn::StoreU(hn::Mul(squares, hn::Mul(lambda, lambda)), d, errors.data() + k);
   }

@@ -17,6 +17,13 @@ double squared_error(double lambda, const double* mu, const double* r, const dou
   if constexpr (dim == 1) {
     const double n = r[0] - std::max(r[0] - rho * u[0], 0.0);  // NaN stays
     squares = n * n;
+  } else if (std::max(mu[0], mu[dim - 2]) > steep_friction) {
+    const double n = std::max(r[0] - rho * u[0], 0.0);
+    squares = (n - r[0]) * (n - r[0]);
+    for (int e = 1; e < dim; ++e) {
+      const double t = std::clamp(r[e] - rho * u[e], -mu[e - 1] * n, mu[e - 1] * n) - r[e];
+      squares += t * t;
+    }
   } else if constexpr (dim == 3) {
     double n = r[0] - rho * (u[0] + mu[0] * std::abs(u[1]) + mu[1] * std::abs(u[2]));
     double t = r[1] - rho * u[1], roll = r[2] - rho * u[2];

@@ -8,6 +8,7 @@
 #include "particles/solver/coarse_loads.hpp"
 #include "particles/solver/momentum.hpp"
 #include "particles/solver/seen_residual.hpp"
+#include "particles/solver/steep_starts.hpp"
 #include "particles/solver/strip_sweeps.hpp"
 
 namespace drumlin::particles {
@@ -256,6 +257,7 @@ SolveReport TileSolver<Problem>::sweep_until_done(const Problem& problem, const 
   T beta = 0;
   double worth = std::numeric_limits<double>::infinity(), best = worth;
   SeenProgress progress(how);
+  const bool leaves = single || (accelerated && steep_);  // where it gets stuck
   const bool coarse = accelerated && contacts_of_all >= least_corrected_ && ranks_.any(!contacts.x.empty());
   for (int sweeps = 0, unseen = 0, corrected_at = 0;;) {
     if (coarse && sweeps >= corrected_at + sweeps_between_coarse_loads) {
@@ -298,8 +300,8 @@ SolveReport TileSolver<Problem>::sweep_until_done(const Problem& problem, const 
     if (std::isfinite(rule.sinking) && (progress.exact() || !progress.surely_misses(misses)))
       misses.sinking = sinking_of(sums, summed_impulses(contacts, blocks), problem.time_step, rule);
     progress.see(misses, sweeps);
-    // Rounding of single precision hides the progress.
-    const bool stuck = single && progress.stuck(sweeps);
+    // Rounding of single precision hides the progress, or momentum keeps steep contacts swinging.
+    const bool stuck = leaves && progress.stuck(sweeps);
     const double missed = progress.missed(misses);
     if (missed < best) {
       best = missed;
@@ -328,28 +330,38 @@ SolveReport TileSolver<Problem>::solve(const Problem& problem, const TiledContac
   constexpr double single_precision_reaches = 1e-4;
   solution.impulses.resize(problem.q.size());
   seen_.assign(contacts.tiles.size(), {});
-  std::array<std::int64_t, 1> count{problem.contacts()};
+  std::array<std::int64_t, 2> count{problem.contacts(), is_steep(problem)};
   ranks_.add(count);
   if (count[0] == 0) {
     StoppingTest test(rule);
     (void)test.ends(0, residual(problem, contacts, halo, solution));
     return test.report();
   }
-  const auto in_double = [&](const StoppingRule& own) {
-    return sweep_until_done(problem, contacts, halo, own, count[0], in_double_, method != TileMethod::nlgs,
-                            solution);
+  steep_ = count[1] > 0;
+  const auto in_double = [&](const StoppingRule& own, bool accelerated) {
+    return sweep_until_done(problem, contacts, halo, own, count[0], in_double_, accelerated, solution);
   };
-  if (method != TileMethod::accelerated) return in_double(rule);
+  const auto plainly = [&](const StoppingRule& whole) {
+    const auto sweep = [&](const StoppingRule& own) { return in_double(own, false); };
+    if (!steep_) return sweep(whole);
+    return from_two_starts(whole, solution.impulses, sweep,
+                           [&] { return residual(problem, contacts, halo, solution); });
+  };
+  if (method == TileMethod::nlgs) return plainly(rule);
+  const bool twice_in_double = method == TileMethod::accelerated_double;
+  if (twice_in_double && !steep_) return in_double(rule, true);
   StoppingRule coarse = rule;
-  coarse.tolerance = std::max(rule.tolerance, single_precision_reaches);
-  const SolveReport first =
-      sweep_until_done(problem, contacts, halo, coarse, count[0], in_single_, true, solution);
+  if (!twice_in_double) coarse.tolerance = std::max(rule.tolerance, single_precision_reaches);
+  const SolveReport first = twice_in_double ? in_double(rule, true)
+                                            : sweep_until_done(problem, contacts, halo, coarse, count[0],
+                                                               in_single_, true, solution);
   const bool done = first.status == Status::converged && rule.tolerance == coarse.tolerance;
   if (done || first.status == Status::not_finite || first.sweeps >= rule.max_sweeps)
     return judged(rule, first);
   best_ = solution.impulses;
   in_single_ = {};  // few solves need both: none holds both
-  SolveReport both = together(first, in_double(remaining(rule, first)));
+  SolveReport both =
+      together(first, steep_ ? plainly(remaining(rule, first)) : in_double(remaining(rule, first), true));
   in_double_ = {};
   if (both.status != Status::converged && !(both.residual.rms <= first.residual.rms)) {
     solution.impulses = best_;

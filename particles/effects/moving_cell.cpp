@@ -67,6 +67,7 @@ CellResponse response_of(const CellLaw& law, const CellState& cell, const Bodies
   CellResponse response;
   if (!law.pressure_x && !law.pressure_z) return response;
   const double mass = whole_of(bodies).mass;
+  response.length_x = cell.length_x, response.length_z = cell.length_z;
   if (law.pressure_x) response.inverse_inertia_x = inverse_inertia(law, mass, cell.length_x);
   if (law.pressure_z) response.inverse_inertia_z = inverse_inertia(law, mass, cell.length_z);
   return response;

@@ -69,6 +69,7 @@ CellLaw cell_law(const std::optional<StageCell>&, const Scales&);
 /// How the rates answer impulses of contacts within a step: 0 where they are given.
 struct CellResponse {
   double inverse_inertia_x = 0, inverse_inertia_z = 0;
+  double length_x = 1, length_z = 1;
   bool pressed() const { return inverse_inertia_x > 0 || inverse_inertia_z > 0; }
 };
 /// A cell that moves, with the rates that it has without contacts, and how these answer them.

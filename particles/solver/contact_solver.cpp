@@ -11,6 +11,7 @@
 #include "particles/contact/problems.hpp"
 #include "particles/parallel/work_memory.hpp"
 #include "particles/solver/momentum.hpp"
+#include "particles/solver/steep_starts.hpp"
 #include "particles/solver/strip_sweeps.hpp"
 
 namespace drumlin::particles {
@@ -148,17 +149,43 @@ SolveReport solve_nncg(const Problem& problem, const StoppingRule& rule, SolverW
 template <class Problem>
 SolveReport solve_nlgs(const Problem& problem, const StoppingRule& rule, SolverWorkspace<Problem>& work,
                        Solution<Problem>& solution) {
-  if constexpr (has_strips<Problem>)
-    return sweep_in_strips<double>(problem, rule, work, work.strips.in_double, solution, false);
-  else
-    return solve_nlgs_scalar(problem, rule, work, solution);
+  const auto sweep = [&](const StoppingRule& own) {
+    if constexpr (has_strips<Problem>)
+      return sweep_in_strips<double>(problem, own, work, work.strips.in_double, solution, false);
+    else
+      return solve_nlgs_scalar(problem, own, work, solution);
+  };
+  if (!is_steep(problem)) return sweep(rule);
+  return from_two_starts(rule, solution.impulses, sweep, [&] { return residual_of(problem, solution); });
+}
+
+/// Goes on with a second method where a first one was given up, and keeps the better impulses.
+template <class Problem>
+SolveReport go_on(const Problem& problem, const StoppingRule& rule, SolverWorkspace<Problem>& work,
+                  Solution<Problem>& solution, const SolveReport& first, ContactSolver<Problem> second) {
+  if (first.status == Status::not_finite || first.status == Status::out_of_time ||
+      first.sweeps >= rule.max_sweeps)
+    return judged(rule, first);
+  work.best = solution.impulses;
+  SolveReport both = together(first, second(problem, remaining(rule, first), work, solution));
+  if (both.status != Status::converged && !(both.residual.rms <= first.residual.rms)) {
+    solution.impulses = work.best;
+    both.residual = residual_of(problem, solution);
+  }
+  if (work.memory != nullptr) free_memory_of(work.best);
+  return both;
 }
 
 template <class Problem>
 SolveReport solve_accelerated_double(const Problem& problem, const StoppingRule& rule,
                                      SolverWorkspace<Problem>& work, Solution<Problem>& solution) {
-  if constexpr (has_strips<Problem>)
-    return sweep_in_strips<double>(problem, rule, work, work.strips.in_double, solution, true);
+  if constexpr (has_strips<Problem>) {
+    const SolveReport first =
+        sweep_in_strips<double>(problem, rule, work, work.strips.in_double, solution, true);
+    if (first.status == Status::converged || !is_steep(problem)) return first;
+    return go_on(problem, rule, work, solution, first, &solve_nlgs<Problem>);
+  } else if (is_steep(problem))
+    return solve_nlgs(problem, rule, work, solution);
   else
     return sweep_until_done(
         problem, rule, work, solution,
@@ -175,19 +202,9 @@ SolveReport solve_accelerated(const Problem& problem, const StoppingRule& rule,
     coarse.tolerance = std::max(rule.tolerance, single_precision_reaches);
     const SolveReport first =
         sweep_in_strips<float>(problem, coarse, work, work.strips.in_single, solution, true);
-    const bool done = first.status == Status::converged && rule.tolerance == coarse.tolerance;
-    if (done || first.status == Status::not_finite || first.status == Status::out_of_time ||
-        first.sweeps >= rule.max_sweeps)
-      return judged(rule, first);
-    work.best = solution.impulses;
-    SolveReport both =
-        together(first, solve_accelerated_double(problem, remaining(rule, first), work, solution));
-    if (both.status != Status::converged && !(both.residual.rms <= first.residual.rms)) {
-      solution.impulses = work.best;
-      both.residual = residual_of(problem, solution);
-    }
-    if (work.memory != nullptr) free_memory_of(work.best);
-    return both;
+    if (first.status == Status::converged && rule.tolerance == coarse.tolerance) return first;
+    return go_on(problem, rule, work, solution, first,
+                 is_steep(problem) ? &solve_nlgs<Problem> : &solve_accelerated_double<Problem>);
   }
 }
 

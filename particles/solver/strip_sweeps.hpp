@@ -189,6 +189,7 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
   ThreadTeam* team = strips.strips() >= 4 ? work.team : nullptr;
   constexpr double hope = 2;  // times the tolerance: a residual that is looked for
   constexpr bool single = sizeof(T) < sizeof(double);
+  const bool leaves = single || (accelerated && is_steep(problem));  // where it gets stuck
   const bool always = std::isfinite(rule.max_seconds);
   SweepState<T> state;
   state.momentum = Momentum(rule.tolerance, static_cast<std::size_t>(problem.contacts()));
@@ -228,8 +229,8 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
     if (limits_sinking && (progress.exact() || !progress.surely_misses(misses)))
       misses.sinking = sinking_of(sums, strips.summed_impulses(loops), problem.time_step, rule);
     progress.see(misses, state.sweeps);
-    // Rounding of single precision hides the progress.
-    const bool stuck = single && progress.stuck(state.sweeps);
+    // Rounding of single precision hides the progress, or momentum keeps steep contacts swinging.
+    const bool stuck = leaves && progress.stuck(state.sweeps);
     const bool last = state.sweeps >= rule.max_sweeps || !state.finite;
     const double missed = progress.missed(misses);
     if (missed < best) best = missed, state.keep = true, strips.keep_driven();

@@ -125,7 +125,47 @@ struct SweptContacts {
   hn::Vec<Lanes<T>> dv_x, dv_z, new_n, dr_n, dr_t, squares;
 };
 
-template <class T, int dim, SweepExtrapolation how, class V>
+/// What sweeps start from in this direction, with nothing stored.
+template <SweepExtrapolation how, class T, int dim, class V>
+HWY_INLINE V start_of(const Place<T, dim>& at, int e, V beta) {
+  const Lanes<T> d;
+  const V now = hn::Load(d, &at.block->r[e][at.k]);
+  if constexpr (how == SweepExtrapolation::none) return now;
+  return hn::Add(now, hn::Mul(beta, hn::Sub(now, hn::Load(d, &at.block->before[e][at.k]))));
+}
+
+/// Relative velocities of the rims of contacts.
+template <class T, int dim, bool spin>
+HWY_INLINE auto slip_of(const Place<T, dim>& at, const SweptContacts<T>& c) {
+  const Lanes<T> d;
+  auto& [block, k] = at;
+  auto slip =
+      hn::Sub(hn::Mul(hn::Load(d, &block->n_z[k]), c.dv_x), hn::Mul(hn::Load(d, &block->n_x[k]), c.dv_z));
+  if constexpr (spin) slip = hn::Sub(slip, hn::Add(c.I.s, c.J.s));
+  return slip;
+}
+
+/// W_nn of contacts some of which are steep, inverse, times the part of the way that their normal impulses go
+/// from `n` with a velocity u_n.
+template <class T, int dim, bool spin, SweepExtrapolation how, class V>
+HWY_INLINE V steep_inverse_W_nn(const Place<T, dim>& at, V n, V u_n, V beta, const SweptContacts<T>& c) {
+  const Lanes<T> d;
+  auto& [block, k] = at;
+  const V inverse = hn::Load(d, &block->inverse_W_nn[k]), third = hn::Set(d, spin ? T(1) / T(3) : T(1));
+  const V whole = hn::Max(hn::Zero(d), hn::Sub(n, hn::Mul(u_n, inverse)));
+  const V u_t = hn::Add(hn::Load(d, &block->q[1][k]), slip_of<T, dim, spin>(at, c));
+  const V t = start_of<how>(at, 1, beta), free = hn::Sub(t, hn::Mul(u_t, hn::Mul(inverse, third)));
+  V share = share_of_way(hn::Load(d, &block->mu[k]), n, t, whole, free);
+  if constexpr (dim == 3) {
+    const V u_r =
+        hn::Add(hn::Load(d, &block->q[2][k]), rolling_velocity<T>(hn::Load(d, &block->lever[k]), c.I, c.J));
+    const V r = start_of<how>(at, 2, beta), rolled = hn::Mul(u_r, hn::Load(d, &block->inverse_W_rr[k]));
+    share = hn::Min(share, share_of_way(hn::Load(d, &block->mu_r[k]), n, r, whole, hn::Sub(r, rolled)));
+  }
+  return hn::Mul(inverse, share);
+}
+
+template <class T, int dim, bool spin, SweepExtrapolation how, class V>
 HWY_INLINE void solve_normals(const Place<T, dim>& at, V beta, SweptContacts<T>& c) {
   const Lanes<T> d;
   auto& [block, k] = at;
@@ -134,8 +174,14 @@ HWY_INLINE void solve_normals(const Place<T, dim>& at, V beta, SweptContacts<T>&
   const auto start = started_from<how>(block->r[0], block->before[0], k, beta);
   const V approach = hn::Add(hn::Mul(n_x, c.dv_x), hn::Mul(n_z, c.dv_z));
   const V u_n = hn::Add(hn::Load(d, &block->q[0][k]), approach);
+  V inverse = hn::Load(d, &block->inverse_W_nn[k]);
+  if constexpr (dim >= 2) {
+    V mu = hn::Load(d, &block->mu[k]);
+    if constexpr (dim == 3) mu = hn::Max(mu, hn::Load(d, &block->mu_r[k]));
+    if (any_steep(mu)) inverse = steep_inverse_W_nn<T, dim, spin, how>(at, start.r, u_n, beta, c);
+  }
   // Max(a, NaN) is NaN, Max(NaN, a) is not.
-  c.new_n = hn::Max(hn::Zero(d), hn::Sub(start.r, hn::Mul(u_n, hn::Load(d, &block->inverse_W_nn[k]))));
+  c.new_n = hn::Max(hn::Zero(d), hn::Sub(start.r, hn::Mul(u_n, inverse)));
   const V step = hn::Sub(c.new_n, start.r);
   c.dr_n = given<how>(step, start);
   hn::Store(c.new_n, d, &block->r[0][k]);
@@ -172,10 +218,7 @@ HWY_INLINE void solve_tangents(const Place<T, dim>& at, V beta, SweptContacts<T>
   auto& [block, k] = at;
   const V ratio = hn::Set(d, spin ? T(1) / T(3) : T(1));  // W_nn / W_tt
   const auto start = started_from<how>(block->r[1], block->before[1], k, beta);
-  V slip =
-      hn::Sub(hn::Mul(hn::Load(d, &block->n_z[k]), c.dv_x), hn::Mul(hn::Load(d, &block->n_x[k]), c.dv_z));
-  if constexpr (spin) slip = hn::Sub(slip, hn::Add(c.I.s, c.J.s));
-  const V u_t = hn::Add(hn::Load(d, &block->q[1][k]), slip);
+  const V u_t = hn::Add(hn::Load(d, &block->q[1][k]), slip_of<T, dim, spin>(at, c));
   const V bound = hn::Mul(hn::Load(d, &block->mu[k]), c.new_n);
   const V inverse_W_tt = hn::Mul(hn::Load(d, &block->inverse_W_nn[k]), ratio);
   V new_t;
@@ -234,7 +277,7 @@ double sweep(ContactBlock<T, dim>* blocks, std::span<const BlockGroup> groups, B
   // Eight sums whatever the length of a vector.
   HWY_ALIGN std::array<T, width> squares{};
   const auto solve = [&](const Place<T, dim>& at, SweptContacts<T>& c) HWY_ATTR {
-    solve_normals<T, dim, how>(at, beta, c);
+    solve_normals<T, dim, spin, how>(at, beta, c);
     if constexpr (dim >= 2) solve_tangents<T, dim, spin, how>(at, beta, c);
     hn::Store(hn::Add(hn::Load(d, &squares[at.k]), c.squares), d, &squares[at.k]);
   };
@@ -307,7 +350,7 @@ SeenResidual residual(const ContactBlock<T, dim>* blocks, std::size_t count, con
       V rho = hn::Mul(hn::Load(d, &block.inverse_W_nn[k]), ratio);
       const V dv_x = hn::Sub(I.x, J.x), dv_z = hn::Sub(I.z, J.z);
       const V r_n = hn::Load(d, &block.r[0][k]);
-      V u_n = hn::Add(hn::Load(d, &block.q[0][k]), hn::Add(hn::Mul(n_x, dv_x), hn::Mul(n_z, dv_z)));
+      const V u_n = hn::Add(hn::Load(d, &block.q[0][k]), hn::Add(hn::Mul(n_x, dv_x), hn::Mul(n_z, dv_z)));
       const V closing = hn::Min(zero, u_n);
       hn::Store(hn::Sub(hn::Load(d, &let_through[k]), hn::Mul(r_n, closing)), d, &let_through[k]);
       hn::Store(hn::Min(hn::Load(d, &lowest_u_n[k]), closing), d, &lowest_u_n[k]);
@@ -320,18 +363,28 @@ SeenResidual residual(const ContactBlock<T, dim>* blocks, std::size_t count, con
         if constexpr (spin) slip = hn::Sub(slip, hn::Add(I.s, J.s));
         const V u_t = hn::Add(hn::Load(d, &block.q[dim >= 2][k]), slip);
         const V mu = hn::Load(d, &block.mu[k]), r_t = hn::Load(d, &block.r[dim >= 2][k]);
-        u_n = hn::Add(u_n, hn::Mul(mu, hn::Abs(u_t)));  // De Saxce
+        const V shifted = hn::Add(u_n, hn::Mul(mu, hn::Abs(u_t)));  // De Saxce
         if constexpr (dim == 2) {
-          const V n = hn::Sub(r_n, hn::Mul(rho, u_n)), t = hn::Sub(r_t, hn::Mul(rho, u_t));
+          const V n = hn::Sub(r_n, hn::Mul(rho, shifted)), t = hn::Sub(r_t, hn::Mul(rho, u_t));
           sum = missed_by_projection(mu, n, t, r_n, r_t);
+          if (any_steep(mu)) {
+            const V in_turn = missed_in_turn(mu, hn::Sub(r_n, hn::Mul(rho, u_n)), t, r_n, r_t);
+            sum = hn::IfThenElse(hn::Gt(mu, hn::Set(d, steep_friction)), in_turn, sum);
+          }
         } else {
           const V lever = hn::Load(d, &block.lever[k]), mu_r = hn::Load(d, &block.mu_r[k]);
           const V r_r = hn::Load(d, &block.r[2][k]);
           const V u_r = hn::Add(hn::Load(d, &block.q[2][k]), rolling_velocity<T>(lever, I, J));
-          u_n = hn::Add(u_n, hn::Mul(mu_r, hn::Abs(u_r)));
           rho = inverse_eigenvalue<T>(lever, I, J);
-          const V n = hn::Sub(r_n, hn::Mul(rho, u_n)), t = hn::Sub(r_t, hn::Mul(rho, u_t));
-          sum = missed_by_projection(mu, mu_r, n, t, hn::Sub(r_r, hn::Mul(rho, u_r)), r_n, r_t, r_r);
+          const V n = hn::Sub(r_n, hn::Mul(rho, hn::Add(shifted, hn::Mul(mu_r, hn::Abs(u_r)))));
+          const V t = hn::Sub(r_t, hn::Mul(rho, u_t)), roll = hn::Sub(r_r, hn::Mul(rho, u_r));
+          sum = missed_by_projection(mu, mu_r, n, t, roll, r_n, r_t, r_r);
+          if (const V larger = hn::Max(mu, mu_r); any_steep(larger)) {
+            const V alone = hn::Sub(r_n, hn::Mul(rho, u_n));
+            const V missed_r = hn::Sub(clamped(roll, hn::Mul(mu_r, positive_part(alone))), r_r);
+            const V in_turn = hn::Add(missed_in_turn(mu, alone, t, r_n, r_t), hn::Mul(missed_r, missed_r));
+            sum = hn::IfThenElse(hn::Gt(larger, hn::Set(d, steep_friction)), in_turn, sum);
+          }
         }
       }
       sum = hn::Div(sum, hn::Mul(rho, rho));

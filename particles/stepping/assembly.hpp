@@ -56,7 +56,8 @@ void assemble_bodies(const StepInput& step, Problem& problem) {
     W.inverse_mass.resize(W.inverse_mass.size() + step.walls.driven.size(), 0.0);
     W.cell.reset();
     if (step.cell.pressed()) {
-      W.cell = CellBody{step.cell.inverse_inertia_x, step.cell.inverse_inertia_z};
+      W.cell = CellBody{step.cell.inverse_inertia_x, step.cell.inverse_inertia_z, step.cell.length_x,
+                        step.cell.length_z};
       W.inverse_mass.push_back(0);
     }
   }

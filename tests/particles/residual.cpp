@@ -88,7 +88,7 @@ TEST(Residual, OnVectorsIsThatOfTheContactsOneByOne) {
   for (std::size_t k = 0; k < contacts; ++k) {
     const double s = static_cast<double>(k);
     inverse_W_nn.push_back(0.5 + 0.01 * s);
-    mu.push_back(k % 3 == 0 ? 0 : 0.1 * static_cast<double>(k % 5));
+    mu.push_back(k % 3 == 0 ? 0 : k % 7 == 0 ? 30 : 0.1 * static_cast<double>(k % 5));
     r.insert(r.end(), {k % 4 == 0 ? 0 : std::abs(std::sin(5 * s)), k % 4 == 0 ? 0 : 0.3 * std::sin(11 * s)});
     u.insert(u.end(), {std::sin(7 * s), k % 6 == 0 ? 0 : std::cos(3 * s)});
   }
@@ -248,6 +248,45 @@ TEST(Residual, SinkingAddsUpAlongAChain) {
   EXPECT_NEAR(v.sinking, 0.1 * 0.46 / 2.4, 1e-15);
   const std::vector<double> exact = {3, 2, 1};
   EXPECT_NEAR(residual_of(problem, std::span<const double>(exact)).sinking, 0, 1e-15);
+}
+
+TEST(Residual, OfSteepFrictionCountsATangentialVelocityOnce) {
+  // Well inside of its cone, with a sliding velocity of 0.3 that friction should have stopped.
+  for (const double mu : {1.5, 10.0, 100.0})
+    EXPECT_NEAR(residual(disc_on_floor(-1, 0.3, mu), {2, 0}).rms, 0.3 / std::sqrt(1.09 / 2), 1e-14);
+  // At the bound, r_n too small by 0.1: u_n = -0.1, and r_t by mu as much. W_nn = 1/2, W_tt = 3/2.
+  const ContactResidual sliding = residual(disc_on_floor(-1, 100, 10), {1.8, -18});
+  const double rise = 0.1 / 1.5;
+  EXPECT_NEAR(sliding.rms, 1.5 * std::hypot(rise, 10 * rise) / std::sqrt((1 + 1e4) / 2), 1e-14);
+}
+
+TEST(Residual, SinkingCountsWallsThatContactsPush) {
+  // A disc without weight between a floor and a wall of mass 1 that comes down at 1 and is let through by
+  // 0.1: 0.9 * 0.1 over what the wall takes, 0.9.
+  DrivenFrictionlessProblem problem;
+  problem.W.inverse_mass = {1, 0, 0};
+  problem.W.driven = {{0, 1, 1}};
+  problem.W.add(0, 1, 0, 1);
+  problem.W.add(0, 2, 0, -1);
+  problem.q = {0, -1};
+  problem.time_step = 0.1;
+  const std::vector<double> r = {0.9, 0.9};
+  EXPECT_NEAR(residual_of(problem, std::span<const double>(r)).sinking, 0.01, 1e-15);
+}
+
+TEST(Residual, SinkingCountsTheSidesOfACellUnderPressure) {
+  // A disc that touches its own image across a cell of length 2, whose rate answers with 1/4 to an arm of 2:
+  // W_nn = 1, and the side takes 0.9.
+  DrivenFrictionlessProblem problem;
+  problem.W.inverse_mass = {1, 0, 0};
+  problem.W.cell = CellBody{0.25, 0, 2, 1};
+  problem.W.renew(1);
+  problem.W.arm_x[0] = 2, problem.W.arm_z[0] = 0;
+  problem.W.set(0, 0, 0, 1, 0);
+  problem.q = {-1};
+  problem.time_step = 0.1;
+  const std::vector<double> r = {0.9};
+  EXPECT_NEAR(residual_of(problem, std::span<const double>(r)).sinking, 0.01, 1e-15);
 }
 
 TEST(Residual, TakesTheRmsOverContacts) {

@@ -20,7 +20,7 @@ struct Column {
   std::vector<double> r;
 };
 
-Column column(int discs) {
+Column column(int discs, double mu = 0.4) {
   Column column;
   auto& [problem, r] = column;
   problem.W.inverse_mass.assign(discs + 1, 0.5);
@@ -29,15 +29,15 @@ Column column(int discs) {
   for (int b = 0; b < discs; ++b) {
     problem.W.add(b, b == 0 ? discs : b - 1, 0, 1);
     problem.q.push_back(b == 0 ? -0.05 : 0.01 * (b % 3)), problem.q.push_back(0.02 * (b % 5 - 2));
-    problem.mu.push_back(0.4);
+    problem.mu.push_back(mu);
     r.push_back(0.1 + 0.05 * (b % 4)), r.push_back(0.02 * (b % 3 - 1));
   }
   return column;
 }
 
 template <class T>
-void expect_seen(double precision) {
-  const auto [problem, r] = column(200);
+void expect_seen(double precision, double mu = 0.4) {
+  const auto [problem, r] = column(200, mu);
   std::vector<std::int32_t> order;
   const SweepPlan plan = sweep_plan(problem.W.fixed(), problem.W.i, problem.W.j, order);
   TeamLoops loops;
@@ -99,6 +99,10 @@ TEST(SeenProgress, SlowlyOfWhatIsMissedCountsWhereSweepsExtrapolateExactly) {
 
 TEST(SeenResidual, IsTheResidualInDoublePrecision) { expect_seen<double>(1e-12); }
 TEST(SeenResidual, IsNearlyTheResidualInSinglePrecision) { expect_seen<float>(1e-4); }
+TEST(SeenResidual, OfSteepFrictionIsTheResidual) {
+  expect_seen<double>(1e-12, 30);
+  expect_seen<float>(1e-4, 30);
+}
 
 /// How far, in parts of it, single precision sees another residual than impulses have after sweeps with
 /// momentum, under a load of thousand discs.

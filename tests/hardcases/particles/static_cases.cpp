@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <string>
 
 #include "tests/hardcases/particles/case_lists.hpp"
@@ -131,6 +132,50 @@ std::vector<HardCheck> crystal() {
           at_most("overlap", 1e-5, watch.largest_overlap, "discs that touch do not sink")};
 }
 
+/// Mean number of loaded contacts of a disc, without discs that fewer than two hold.
+double coordination(const particles::Snapshot& snapshot, std::size_t count) {
+  double mean = 0;
+  for (const particles::SnapshotContact& c : snapshot.contacts)
+    mean += c.impulse_n / static_cast<double>(snapshot.contacts.size());
+  std::vector<bool> held(count, true);
+  for (bool changed = true; changed;) {
+    std::vector<int> contacts(count);
+    for (const particles::SnapshotContact& c : snapshot.contacts)
+      if (c.impulse_n > 1e-3 * mean && held[c.i] && held[c.j]) ++contacts[c.i], ++contacts[c.j];
+    changed = false;
+    for (std::size_t k = 0; k < count; ++k)
+      if (held[k] && contacts[k] < 2) held[k] = false, changed = true;
+    const auto loaded = static_cast<double>(std::accumulate(contacts.begin(), contacts.end(), 0));
+    if (!changed) return loaded / static_cast<double>(std::count(held.begin(), held.end(), true));
+  }
+  return 0;
+}
+
+/// Discs that a cell presses from all sides, with all defaults of the solver.
+std::vector<HardCheck> pressed_with_friction(double mu) {
+  particles::Scene scene = Trial().scene;
+  constexpr int count = 200;
+  constexpr double side = 20, time_s = 0.0101;
+  scene.grains.source =
+      particles::GeneratedGrains{count, 0.8, 1.2, particles::RectangleRegion{{0, 0}, {side, side}}};
+  scene.periodic_x = particles::PeriodicX{0, side};
+  scene.periodic_z = particles::PeriodicZ{0, side};
+  scene.effects.friction = particles::Friction{mu, mu};
+  scene.effects.spin = particles::Spin{};
+  scene.solver = {};
+  particles::Stage stage;
+  stage.name = "press", stage.duration_s = 30 * time_s, stage.time_step_s = 0.02 * time_s;
+  const particles::CellAxis pressed{scene.grains.density_kg_m3 * 9.81e-3, {}};
+  stage.cell = particles::StageCell{pressed, pressed, {}, 1};
+  scene.stages = {stage};
+  particles::Simulation simulation(scene);
+  const Watch watch = run_watched(simulation);
+  const double Z = coordination(simulation.take_snapshot(), count);
+  return {at_most("steps that miss a tolerance", 0, watch.steps_missed, "each has a solution"),
+          at_least("contacts of a disc", 2.9, Z, "isostatic: 3, less what the threshold of loads leaves out"),
+          at_most("contacts of a disc", 3.4, Z, "3 for infinite friction; hardly a contact slides")};
+}
+
 }  // namespace
 
 std::vector<HardCase> static_cases() {
@@ -148,6 +193,9 @@ std::vector<HardCase> static_cases() {
       {"wedge", "a disc in a wedge of half angle alpha, mu >= tan alpha: at rest, forces bounded", true,
        wedge},
       {"crystal", "a monodisperse crystal at rest (hyperstatic): the walls carry its weight", true, crystal},
+      {"pressed-friction-10", "200 discs of friction 10 in a cell under pressure: close to isostatic", true,
+       [] { return pressed_with_friction(10); }},
+      {"pressed-friction-100", "the same with friction 100", true, [] { return pressed_with_friction(100); }},
   };
 }
 
