@@ -84,6 +84,7 @@ Fastest fastest_of(const WallMotion& asked, const Wall& wall) {
             {turn * o->frequency_hz * o->amplitude_mm[0], turn * o->frequency_hz * o->amplitude_mm[1]}};
   if (const auto* f = std::get_if<ForceControl>(&asked.motion)) return {"velocity_mm_s", f->velocity_mm_s};
   if (const auto* p = std::get_if<PressureControl>(&asked.motion)) return {"velocity_mm_s", p->velocity_mm_s};
+  if (std::holds_alternative<Belt>(asked.motion)) return {"speed_mm_s", {}};  // its shape rests
   const auto& strain = std::get<StrainRate>(asked.motion);
   const auto& e = strain.direction;
   const Point_mm middle = middle_mm(wall);

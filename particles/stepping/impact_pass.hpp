@@ -20,7 +20,6 @@ struct ImpactBody {
   double before_x = 0, before_z = 0, before_rim = 0;  ///< velocities at the beginning of the pass
   Point shift;                                        ///< of a grain, as in FreeMotion
   int passes = 0;                                     ///< in which it took part
-  bool carries = false;                               ///< carried a load in the last step
   std::int32_t place = -1;                            ///< in the pass in hand; -1: not there
 };
 

@@ -17,7 +17,7 @@ constexpr double touching = 1e-4;
 constexpr double rounding = 1e-9;
 // A pair that meets more often within a step collapses: what is left of its speed is lost in the contact
 // problem.
-constexpr int most_impacts = 200;
+constexpr int most_impacts = 1000;
 // Closing speeds up to this many times what gravity gives a pair along its normal within a step are at rest:
 // a grain that lies, and neighbours that carry it, arrive with as much. A grain that meets nothing but one
 // wall is followed exactly, and rests only when its bounces are shorter than a hundredth of a step.
@@ -140,10 +140,11 @@ bool Impacts::find_closings() {
                            pair.n_z * (v_z[pair.i] - v_z[pair.j] - pair.wall_v_z);
         const double slowest = at_rest * h * std::abs(pair.n_x * rest.x + pair.n_z * rest.z);
         if (u_n >= -slowest || (pair.gap > 0 && pair.gap + h * u_n >= 0) || rests(a, u_n)) continue;
-      } else if (pair.j < 0 && pair.gap <= 0) {
-        const Point u = relative_velocity(pair, 0), then = relative_velocity(pair, h);
-        if (rests(a, std::min(pair.n_x * u.x + pair.n_z * u.z, pair.n_x * then.x + pair.n_z * then.z)))
-          continue;
+      } else if (pair.j < 0 && !shifted && driven_wall_of(step.walls, pair) < 0) {
+        const double u_n =
+            pair.n_x * (v_x[pair.i] - pair.wall_v_x) + pair.n_z * (v_z[pair.i] - pair.wall_v_z);
+        const double gain = std::min(0.0, h * (pair.n_x * rest.x + pair.n_z * rest.z));
+        if (stays_clear(step, pair) || (pair.gap <= 0 && rests(a, u_n + gain))) continue;
       }
       const PairPath path = path_of(pair);
       const auto time = path.meeting(0, h);
@@ -225,7 +226,6 @@ std::int32_t Impacts::take_up(std::int32_t body) {
       taken.spins = !step.bodies.spin.empty();
       if (taken.spins) taken.rim = step.bodies.radius[body] * step.bodies.spin[body];
       if (!step.free.shift.empty()) taken.shift = step.free.shift[body];
-      each_pair_of(body, [&](std::int32_t a) { taken.carries |= in_->loads.of(a) > 0; });
     } else {
       const Driven& wall = step.walls.driven[body - grains()];
       taken.inverse_mass = wall.inverse_mass;
@@ -300,13 +300,9 @@ void Impacts::strike(const Event& event, StepContacts& contacts) {
   pass_.expand(work_);
   list_strikes(contacts);
   closings_.clear();
-  const bool in_flight = std::none_of(pass_.bodies.begin(), pass_.bodies.end(),
-                                      [](const ImpactBody& body) { return body.carries; });
   for (ImpactBody& body : pass_.bodies) {
-    if (in_flight) {  // else positions follow the velocity at the end of the step, as in all lasting contacts
-      body.shift.x += event.time * (body.before_x - body.v_x);
-      body.shift.z += event.time * (body.before_z - body.v_z);
-    }
+    body.shift.x += event.time * (body.before_x - body.v_x);
+    body.shift.z += event.time * (body.before_z - body.v_z);
     ++body.passes;
     taken_[place_[body.body]] = body;  // in no pass
     each_pair_of(body.body, [&](std::int32_t a) { closings_.push_back(a); });

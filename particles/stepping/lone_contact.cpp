@@ -51,7 +51,7 @@ std::optional<LoneStep> lone_step(const StepInput& step, const Candidate& pair, 
     if (!(there.n_x * start.n_x + there.n_z * start.n_z > sharpest) || !std::isfinite(there.gap) ||
         !std::isfinite(halfway.gap))
       return std::nullopt;
-    if (container) turn_wall_velocity(there, surface);
+    if (container) turn_wall_velocity(there, carried, surface);
     const Point wall{surface.wall_v_x, surface.wall_v_z};
     const double u_n = there.n_x * (free.x - carried.x) + there.n_z * (free.z - carried.z);
     const double u_t = there.n_z * (free.x - wall.x) - there.n_x * (free.z - wall.z) - rim;
@@ -64,7 +64,7 @@ std::optional<LoneStep> lone_step(const StepInput& step, const Candidate& pair, 
     if (!(std::abs(reached.gap) < near)) return std::nullopt;
     end.x -= reached.gap * reached.n_x, end.z -= reached.gap * reached.n_z;  // of third order in h
   }
-  if (container) turn_wall_velocity({0, lone.n_x, lone.n_z}, surface);
+  if (container) turn_wall_velocity({0, lone.n_x, lone.n_z}, carried, surface);
   lone.wall_velocity = {surface.wall_v_x, surface.wall_v_z};
   const Point shift = step.free.shift.empty() ? Point{} : step.free.shift[i];
   lone.end = {bodies.x[i] + shift.x + end.x + h * carried.x, bodies.z[i] + shift.z + end.z + h * carried.z};

@@ -146,21 +146,22 @@ double PairPath::nearest(double end) const {
   return speed > 0 ? std::clamp(-dot(start_, velocity_) / speed, 0.0, end) : 0;
 }
 
-void turn_wall_velocity(const Surfaces& now, Candidate& pair) {
-  const double normal = pair.n_x * pair.wall_v_x + pair.n_z * pair.wall_v_z;
-  const double tangential = pair.n_z * pair.wall_v_x - pair.n_x * pair.wall_v_z;
-  pair.wall_v_x = normal * now.n_x + tangential * now.n_z;
-  pair.wall_v_z = normal * now.n_z - tangential * now.n_x;
+void turn_wall_velocity(const Surfaces& now, const Point& centre, Candidate& pair) {
+  const double x = pair.wall_v_x - centre.x, z = pair.wall_v_z - centre.z;
+  const double normal = pair.n_x * x + pair.n_z * z, tangential = pair.n_z * x - pair.n_x * z;
+  pair.wall_v_x = centre.x + normal * now.n_x + tangential * now.n_z;
+  pair.wall_v_z = centre.z + normal * now.n_z - tangential * now.n_x;
   pair.n_x = now.n_x, pair.n_z = now.n_z;
 }
 
 namespace {
 
-/// Takes the surfaces of a time on the path, and the gap of their plane at the beginning of the step.
-void place_at(const PairPath& path, double time, bool container, Candidate& pair) {
+/// `centre`: velocity of a container. Takes the surfaces of a time on the path, and the gap of their plane at
+/// the beginning of the step.
+void place_at(const PairPath& path, double time, const Point* centre, Candidate& pair) {
   const Surfaces then = path.at(time);
   const Point way = path.way(time);
-  if (container) turn_wall_velocity(then, pair);
+  if (centre) turn_wall_velocity(then, *centre, pair);
   pair.n_x = then.n_x, pair.n_z = then.n_z;
   pair.gap = then.gap - (then.n_x * way.x + then.n_z * way.z);
 }
@@ -176,10 +177,10 @@ void keep_parting(const PairPath& path, double gap_before, double h, Candidate& 
 
 /// Whether a grain touches a wall and goes on into it: nearly all grains at walls.
 bool lies(const StepInput& step, const Candidate& pair) {
-  if (pair.gap > 0) return false;
-  const double x = (step.bodies.v_x[pair.i] + step.free.x[pair.i]) / 2 - pair.wall_v_x;
-  const double z = (step.bodies.v_z[pair.i] + step.free.z[pair.i]) / 2 - pair.wall_v_z;
-  return pair.n_x * x + pair.n_z * z < 0;
+  constexpr double rounding = 1e-10;
+  if (pair.gap > rounding) return false;
+  return pair.n_x * (step.free.x[pair.i] - pair.wall_v_x) + pair.n_z * (step.free.z[pair.i] - pair.wall_v_z) <
+         0;
 }
 
 void place_at_wall(const StepInput& step, Candidate& pair) {
@@ -197,14 +198,17 @@ void place_at_wall(const StepInput& step, Candidate& pair) {
     return;
   }
   const PairPath path(step, pair, {step.bodies.v_x[pair.i], step.bodies.v_z[pair.i]}, {});
-  const bool container = std::holds_alternative<Container>(step.walls.before[-1 - pair.j]);
+  const std::size_t s = -1 - pair.j;
+  const auto* container = std::get_if<Container>(&step.walls.before[s]);
+  const Point centre = container ? container_velocity(step, *container, s) : Point{};
   const Point u = path.velocity(h);
   const Surfaces end = path.at(h);
   const bool passes = end.gap >= 0 && driven_wall_of(step.walls, pair) < 0;
   if (shifted || pair.gap > 0 || pair.n_x * u.x + pair.n_z * u.z >= 0)
-    place_at(path, passes ? h : path.meeting(0, h).value_or(h), container, pair);
+    place_at(path, passes ? h : path.meeting(0, h).value_or(h), container ? &centre : nullptr, pair);
   if (passes) {
-    pair.gap = std::max(pair.gap, end.gap - h * (pair.n_x * u.x + pair.n_z * u.z));
+    const double most = end.gap - h * (pair.n_x * u.x + pair.n_z * u.z);
+    pair.gap = std::max({pair.gap, most, shifted ? pair.gap : 0.0});
   } else if (shifted) {
     keep_parting(path, gap_before, h, pair);
   } else {
@@ -217,7 +221,7 @@ void place_struck(const StepInput& step, Candidate& pair) {
   const auto& v_z = step.bodies.v_z;
   const double gap_before = pair.gap;
   const PairPath path(step, pair, {v_x[pair.i], v_z[pair.i]}, {v_x[pair.j], v_z[pair.j]});
-  place_at(path, step.time_step, false, pair);
+  place_at(path, step.time_step, nullptr, pair);
   keep_parting(path, gap_before, step.time_step, pair);
 }
 
@@ -239,7 +243,7 @@ void place_pairs(const StepInput& step, std::span<Candidate> pairs) {
                                   pair.n_z * (v_z[pair.i] - v_z[pair.j] - pair.wall_v_z);
                pair.gap + h * u_n < 0) {
       const PairPath path(step, pair, {v_x[pair.i], v_z[pair.i]}, {v_x[pair.j], v_z[pair.j]});
-      place_at(path, path.nearest(h), false, pair);
+      place_at(path, path.nearest(h), nullptr, pair);
     }
   }
 }

@@ -64,9 +64,9 @@ class PairPath {
 /// and the curvature of containers alone. False of some that do.
 bool stays_clear(const StepInput& step, const Candidate& pair);
 
-/// The velocity of the surface of a container turns with the normal, from that of the pair to `now`; the pair
-/// takes both over.
-void turn_wall_velocity(const Surfaces& now, Candidate& pair);
+/// The velocity of the surface of a container, whose centre has a velocity, turns with the normal, from that
+/// of the pair to `now`; the pair takes both over.
+void turn_wall_velocity(const Surfaces& now, const Point& centre, Candidate& pair);
 
 /// Gives pairs the gaps and normals with which the contact problem of a step takes them: of pairs that meet
 /// within the step those of the place where they meet, of discs that pass each other those of where they are

@@ -259,15 +259,17 @@ class MoreauJean final : public Stepper {
   }
 
   /// Replaces the impulses on grains that touch nothing but a wall, and did in the last step, by those of the
-  /// midpoint rule (lone_contact.hpp). Cohesion and rolling resistance do not know it.
+  /// midpoint rule (lone_contact.hpp), where neither cohesion nor rolling resistance acts there.
   void find_lone_steps(const StepInput& step, const ContactMemory& memory) {
     lone_.clear();
-    if (dim == 3 || laws_.cohesion) return;
     for (std::size_t a = 0; a < contacts_.pairs.size(); ++a) {
       Candidate& pair = contacts_.pairs[a];
       if (pair.j >= 0 || solution_.impulses[dim * a] == 0 || driven_wall_of(step.walls, pair) >= 0) continue;
+      if constexpr (dim == 3)
+        if (problem_.mu[2 * a + 1] > 0) continue;
+      if (laws_.cohesion && contacts_.attraction[a] > 0) continue;
       const double w = step.bodies.inverse_mass[pair.i];
-      double r_n = solution_.impulses[dim * a], r_t = dim == 2 ? solution_.impulses[dim * a + dim - 1] : 0;
+      double r_n = solution_.impulses[dim * a], r_t = dim >= 2 ? solution_.impulses[dim * a + 1 % dim] : 0;
       auto& change = solution_.velocities.bodies[pair.i];
       const Point other{change.x - w * (pair.n_x * r_n + pair.n_z * r_t),
                         change.z - w * (pair.n_z * r_n - pair.n_x * r_t)};
@@ -277,7 +279,7 @@ class MoreauJean final : public Stepper {
       if (!lone) continue;
       r_n = lone->normal / w, r_t = lone->tangential / w;
       solution_.impulses[dim * a] = r_n;
-      if (dim == 2) solution_.impulses[dim * a + dim - 1] = r_t;
+      if (dim >= 2) solution_.impulses[dim * a + 1 % dim] = r_t;
       pair.n_x = lone->n_x, pair.n_z = lone->n_z;
       pair.wall_v_x = lone->wall_velocity.x, pair.wall_v_z = lone->wall_velocity.z;
       change.x = w * (pair.n_x * r_n + pair.n_z * r_t), change.z = w * (pair.n_z * r_n - pair.n_x * r_t);
