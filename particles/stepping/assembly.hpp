@@ -83,7 +83,9 @@ void assemble_contact(const StepInput& step, const Candidate& pair, int a, Probl
   const std::int32_t second = second_body<Problem>(step, pair);
   if constexpr (drives_walls<Problem>)
     if (problem.W.cell) {
-      const Point arm = arm_of(bodies, pair.i, pair.j, pair.gap, {pair.n_x, pair.n_z});
+      // As they are now: the normal is that of the place where they meet.
+      const Point arm = laws.period.nearest(
+          Point{bodies.x[pair.i] - bodies.x[pair.j], bodies.z[pair.i] - bodies.z[pair.j]});
       problem.W.arm_x[a] = arm.x, problem.W.arm_z[a] = arm.z;
     }
   if constexpr (dim == 3) {

@@ -124,6 +124,11 @@ void Impacts::begin(const ImpactInput& input) {
   place_.resize(input.step.bodies.count() + input.step.walls.driven.size(), -1);
 }
 
+/// A cell that pressures move answers to impacts in the next step alone: between its images discs would
+/// bounce as between walls without mass to move them. What meets again is left to the contact problem, which
+/// moves the cell.
+int Impacts::most() const { return in_->step.cell.pressed() ? 1 : most_impacts; }
+
 bool Impacts::find_closings() {
   const StepInput& step = in_->step;
   const double h = step.time_step;
@@ -205,7 +210,7 @@ void Impacts::schedule(std::int32_t a, double from) {
   if (pair.j >= 0 && path.parts(from)) return;
   const auto time = path.meeting(from, in_->step.time_step);
   if (!time || !strikes(a, path.at(*time), *time, false)) return;
-  if (met_[a] >= most_impacts) {
+  if (met_[a] >= most()) {
     unresolved_ += met_[a]++ == most_impacts;
     return;
   }
@@ -269,7 +274,7 @@ bool Impacts::take_in_neighbours(double time) {
     for (const std::int32_t place : {pass_.contacts[c].i, pass_.contacts[c].j}) {
       if (place < 0) continue;
       each_pair_of(pass_.bodies[place].body, [&](std::int32_t a) {
-        if (in_pass_[a] == passes_ || met_[a] >= most_impacts) return;
+        if (in_pass_[a] == passes_ || met_[a] >= most()) return;
         const PairPath path = path_of(in_->pairs[a]);
         if (in_->pairs[a].j >= 0 && path.parts(time)) return;
         const Surfaces now = path.at(time);

@@ -142,6 +142,8 @@ class Impacts {
   bool rests(std::int32_t a, double u_n) const;
   /// Whether a grain has no other pair than one.
   bool is_alone(std::int32_t body);
+  /// How often a pair may meet within the step.
+  int most() const;
   /// When pair a meets next, from a time on.
   void schedule(std::int32_t a, double from);
   void add(std::int32_t a, const Surfaces& now, double time);

@@ -56,7 +56,7 @@ std::optional<LoneStep> lone_step(const StepInput& step, const Candidate& pair, 
     const double u_n = there.n_x * (free.x - carried.x) + there.n_z * (free.z - carried.z);
     const double u_t = there.n_z * (free.x - wall.x) - there.n_x * (free.z - wall.z) - rim;
     const Point p = impulses(halfway, there, u_n, u_t, mu, spins ? 2 : 0);
-    if (!(p.x > 0)) return std::nullopt;
+    if (!(p.x > 0)) return LoneStep{};
     lone.n_x = halfway.n_x, lone.n_z = halfway.n_z, lone.normal = p.x, lone.tangential = p.z;
     const Point after{free.x + lone.n_x * p.x + lone.n_z * p.z, free.z + lone.n_z * p.x - lone.n_x * p.z};
     end = {h * ((v.x + after.x) / 2 - carried.x), h * ((v.z + after.z) / 2 - carried.z)};

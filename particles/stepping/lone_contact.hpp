@@ -18,7 +18,8 @@ struct LoneStep {
 };
 
 /// The step of grain pair.i, which carried a load of this wall, which no force moves, in the last step. With
-/// Coulomb friction mu. None where the wall bends sharply within the step, or where the grain leaves it.
+/// Coulomb friction mu. Without impulses where the grain leaves the wall; none where the wall bends sharply
+/// within the step.
 std::optional<LoneStep> lone_step(const StepInput& step, const Candidate& pair, double mu);
 
 }  // namespace drumlin::particles

@@ -179,6 +179,12 @@ void keep_parting(const PairPath& path, double gap_before, double h, Candidate& 
 bool lies(const StepInput& step, const Candidate& pair) {
   constexpr double rounding = 1e-10;
   if (pair.gap > rounding) return false;
+  const Shape& shape = step.walls.before[-1 - pair.j];
+  if (std::holds_alternative<FixedDisc>(shape)) return false;  // convex: it may fall away below the grain
+  if (const auto* arc = std::get_if<Arc>(&shape))
+    if (std::hypot(step.bodies.x[pair.i] - arc->center.x, step.bodies.z[pair.i] - arc->center.z) >
+        arc->radius)
+      return false;
   return pair.n_x * (step.free.x[pair.i] - pair.wall_v_x) + pair.n_z * (step.free.z[pair.i] - pair.wall_v_z) <
          0;
 }

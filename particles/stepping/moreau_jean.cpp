@@ -280,11 +280,13 @@ class MoreauJean final : public Stepper {
       r_n = lone->normal / w, r_t = lone->tangential / w;
       solution_.impulses[dim * a] = r_n;
       if (dim >= 2) solution_.impulses[dim * a + 1 % dim] = r_t;
-      pair.n_x = lone->n_x, pair.n_z = lone->n_z;
-      pair.wall_v_x = lone->wall_velocity.x, pair.wall_v_z = lone->wall_velocity.z;
+      if (r_n > 0) {
+        pair.n_x = lone->n_x, pair.n_z = lone->n_z;
+        pair.wall_v_x = lone->wall_velocity.x, pair.wall_v_z = lone->wall_velocity.z;
+      }
       change.x = w * (pair.n_x * r_n + pair.n_z * r_t), change.z = w * (pair.n_z * r_n - pair.n_x * r_t);
       if constexpr (with_spin) change.s = -2 * w * r_t;
-      lone_.push_back({pair.i, lone->end});
+      if (r_n > 0) lone_.push_back({pair.i, lone->end});
     }
   }
 
