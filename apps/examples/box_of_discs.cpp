@@ -2,6 +2,7 @@
 // are at rest.
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "coupling/common/errors.hpp"
 #include "particles/scene/scene_file.hpp"
@@ -24,14 +25,15 @@ solver.tolerance = 1e-4
 int main() {
   try {
     Simulation simulation(parse_scene(box, "box"));
-    double wall_force = 0, residual = 0;
+    double wall_force = 0, residual = 0, moved = 1;
     run_through(simulation, [&](const StepReport& report) {
       residual = std::fmax(residual, report.solve.residual.rms);
       double impulse = 0;  // upwards, of the walls: along the normal, and by friction along (n_z, -n_x)
       for (const SnapshotContact& c : simulation.last_contacts())
         if (c.j < 0) impulse += c.impulse_n * c.normal_z - c.impulse_t * c.normal_x;
       wall_force = impulse / simulation.last_time_step();
-      return kinetic_energy(simulation.state().bodies) > 1e-8;  // false ends it
+      const double before = std::exchange(moved, kinetic_energy(simulation.state().bodies));
+      return std::fmax(before, moved) > 1e-8;  // at rest before and after a step: false ends it
     });
     double weight = 0;
     for (const double inverse_mass : simulation.state().bodies.inverse_mass) weight += 1 / inverse_mass;

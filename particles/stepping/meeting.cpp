@@ -58,6 +58,13 @@ PairPath::PairPath(const StepInput& step, const Candidate& pair, const Point& v_
   acceleration_ = step.laws.gravity.value_or(Point{});
   const std::size_t s = -1 - pair.j;
   const Shape& shape = step.walls.before[s];
+  if (const ShapeStep& moves = step.walls.displacement[s]; moves.surface != 0) {  // which moves no shape
+    const double off = radius + pair.gap;
+    const Point touched{step.bodies.x[pair.i] - off * pair.n_x, step.bodies.z[pair.i] - off * pair.n_z};
+    const Point then = moved(static_cast<const Pose&>(moves), touched);
+    velocity_ = {v_i.x - (then.x - touched.x) / step.time_step,
+                 v_i.z - (then.z - touched.z) / step.time_step};
+  }
   if (const auto* disc = std::get_if<FixedDisc>(&shape)) {
     reach_ = radius + disc->radius;
     start_ = {pair.n_x * (reach_ + pair.gap) + of_i.x, pair.n_z * (reach_ + pair.gap) + of_i.z};
