@@ -45,7 +45,7 @@ class GatheredImpacts {
   /// Resolves the impacts among the pairs of all ranks; the result is that of one process, to the last bit.
   /// All ranks call it together and get the grains that were struck. `mine.step.laws` asks for restitution.
   std::vector<StruckRecord> resolve(const RankImpacts& mine);
-  /// Pairs that met in the last call, counted once per pass.
+  /// Pairs that met in the last call, counted once per impact.
   int count() const { return count_; }
   /// Pairs of the last call that met more often than is followed.
   int unresolved() const { return unresolved_; }

@@ -221,7 +221,7 @@ void place_at_wall(const StepInput& step, Candidate& pair) {
     place_at(path, passes ? h : path.meeting(0, h).value_or(h), container ? &centre : nullptr, pair);
   if (passes) {
     const double most = end.gap - h * (pair.n_x * u.x + pair.n_z * u.z);
-    pair.gap = std::max({pair.gap, most, shifted ? pair.gap : 0.0});
+    pair.gap = std::max(pair.gap, shifted ? most : std::max(0.0, most));
   } else if (shifted) {
     keep_parting(path, gap_before, h, pair);
   } else {

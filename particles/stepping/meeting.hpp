@@ -71,8 +71,8 @@ void turn_wall_velocity(const Surfaces& now, const Point& centre, Candidate& pai
 /// Gives pairs the gaps and normals with which the contact problem of a step takes them: of pairs that meet
 /// within the step those of the place where they meet, of discs that pass each other those of where they are
 /// nearest, since a plane through the surfaces as they are now would stop them. The gap is that along the
-/// normal, so that gap + (way within the step) . normal is the gap of the plane at the end. A wall that a
-/// grain does not reach on its path stops nothing.
+/// normal, so that gap + (way within the step) . normal is the gap of the plane at the end; it is negative of
+/// struck pairs alone. A wall that a grain does not reach on its path stops nothing.
 void place_pairs(const StepInput& step, std::span<Candidate> pairs);
 
 }  // namespace drumlin::particles
