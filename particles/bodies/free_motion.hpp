@@ -6,14 +6,18 @@
 
 namespace drumlin::particles {
 
+/// Of a grain that impacts have struck: from its position to where its path begins, and the time of the last
+/// impact. An impact replaces the path by the one that the grain would have come on with the velocity after
+/// it.
+struct PathShift : Point {
+  double time = 0;
+};
+
 /// Workspace of a step: effects that act as forces add to it before the contacts are solved.
 struct FreeMotion {
   std::vector<double> x, z;    ///< one per grain
   std::vector<double> driven;  ///< one per driven wall, along its direction; after the solve, with contacts
-  /// Of each grain, from its position to where its path begins: an impact at a time t within the step
-  /// replaces the path by the one that the grain would have come on with the velocity after it. Empty: no
-  /// impacts.
-  std::vector<Point> shift;
+  std::vector<PathShift> shift;  ///< one per grain; empty: no impacts
 };
 
 }  // namespace drumlin::particles

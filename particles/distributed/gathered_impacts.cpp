@@ -25,7 +25,7 @@ void merge_runs(std::vector<Record>& records, std::size_t sorted, Less less) {
   }
 }
 
-StruckRecord record_of(const StruckGrain& grain, const Bodies& bodies, std::span<const Point> shift) {
+StruckRecord record_of(const StruckGrain& grain, const Bodies& bodies, std::span<const PathShift> shift) {
   const std::int32_t b = grain.grain;
   return {bodies.id[b], bodies.v_x[b], bodies.v_z[b], bodies.spin.empty() ? 0 : bodies.spin[b],
           grain.before, shift[b]};

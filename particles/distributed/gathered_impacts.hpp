@@ -17,7 +17,8 @@ namespace drumlin::particles {
 struct StruckRecord {
   std::int64_t id = 0;
   double v_x = 0, v_z = 0, spin = 0;
-  Point before, shift;
+  Point before;
+  PathShift shift;
 };
 
 /// The part of one rank in the impacts of a step.
@@ -25,7 +26,7 @@ struct RankImpacts {
   const StepInput& step;  ///< its bodies are the grains that the rank sees, by ascending identity
   const RememberedLoads& loads;
   Bodies& bodies;                          ///< those of the step: one rank alone sets their velocities
-  std::vector<Point>& shift;               ///< that of the step
+  std::vector<PathShift>& shift;           ///< that of the step
   StepContacts& contacts;                  ///< pairs of the rank's tiles, in the order of (i, j)
   std::span<const std::int32_t> place_of;  ///< of each identity among the bodies; -1: not seen
   GrainSquare all;                         ///< where all grains of the run are
@@ -65,7 +66,7 @@ class GatheredImpacts {
   struct BodyRecord {
     std::int32_t id = 0, whole = 0;  // whole: 1 if all ranks send all pairs of it
     double x = 0, z = 0, v_x = 0, v_z = 0, spin = 0, radius = 0, inverse_mass = 0;
-    Point shift;
+    PathShift shift;
   };
 
   /// An impulse as ranks gather it.

@@ -41,7 +41,7 @@ class RankSearch {
   const Recollection& recollection() const { return recollection_; }
   const GatheredImpacts& impacts() const { return impacts_; }
   /// Shifts of the grains that the rank sees (FreeMotion).
-  const std::vector<Point>& shift() const { return free_.shift; }
+  const std::vector<PathShift>& shift() const { return free_.shift; }
   /// Gives back what the step no longer needs.
   void release() {
     free_memory_of(mine_.pairs), free_memory_of(homed_.homes), free_memory_of(homed_.mine);

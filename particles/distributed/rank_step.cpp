@@ -194,15 +194,12 @@ class RankMoreauJean final : public RankStepper {
   void move(double time_step) {
     const auto& changes = solution_.velocities.bodies;
     for (std::size_t b = 0; b < bodies_.count(); ++b) {
-      const Point before{bodies_.v_x[b], bodies_.v_z[b]};
-      bodies_.v_x[b] = free_.x[b] + changes[b].x;
-      bodies_.v_z[b] = free_.z[b] + changes[b].z;
+      const Point v{free_.x[b] + changes[b].x, free_.z[b] + changes[b].z};
       if constexpr (with_spin) spin_up(bodies_, b, changes[b].s);
-      Point path{bodies_.v_x[b], bodies_.v_z[b]};
-      if (changes[b].x == 0 && changes[b].z == 0) path = {(before.x + path.x) / 2, (before.z + path.z) / 2};
-      if (!free_.shift.empty()) bodies_.x[b] += free_.shift[b].x, bodies_.z[b] += free_.shift[b].z;
-      bodies_.x[b] += time_step * path.x;
-      bodies_.z[b] += time_step * path.z;
+      const bool pushed = !(changes[b].x == 0 && changes[b].z == 0);
+      const Point way = way_within_step(free_, b, {bodies_.v_x[b], bodies_.v_z[b]}, v, pushed, time_step);
+      bodies_.v_x[b] = v.x, bodies_.v_z[b] = v.z;
+      bodies_.x[b] += way.x, bodies_.z[b] += way.z;
     }
   }
 

@@ -90,13 +90,19 @@ double ImpactPass::fastest() const {
   return speed;
 }
 
+/// Of one contact a sweep is exact.
+bool ImpactPass::is_exact() const { return contacts.size() == 1 && contacts[0].W_nt == 0; }
+
 void ImpactPass::compress_roughly() {
+  complete_ = is_exact();
+  if (complete_) return void(sweep());
   const double enough = rough_tolerance * fastest();
   for (int k = 0; k < rough_sweeps; ++k)
     if (sweep() <= enough) return;
 }
 
 void ImpactPass::compress() {
+  if (complete_ && is_exact()) return;
   const double enough = tolerance * fastest();
   const int sweeps = std::max(fewest_sweeps, solved_contacts / static_cast<int>(contacts.size()));
   complete_ = false;
@@ -150,7 +156,7 @@ void ImpactPass::let_friction_act(double share) {
       push(c, 0, friction_[a] - now);
       largest = std::max(largest, std::abs(friction_[a] - now) * c.W_tt);
     }
-    if (largest <= tolerance * speed) return;
+    if (largest <= tolerance * speed || is_exact()) return;
   }
 }
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "particles/bodies/walls.hpp"
+#include "particles/bodies/free_motion.hpp"
 
 namespace drumlin::particles {
 
@@ -18,7 +18,7 @@ struct ImpactBody {
   bool spins = false;  ///< turned by friction, with J = m r^2 / 2
   Point along;         ///< unit direction in which alone a wall moves; zero: a grain
   double before_x = 0, before_z = 0, before_rim = 0;  ///< velocities at the beginning of the pass
-  Point shift;                                        ///< of a grain, as in FreeMotion
+  PathShift shift;                                    ///< of a grain
   int passes = 0;                                     ///< in which it took part
   std::int32_t place = -1;                            ///< in the pass in hand; -1: not there
 };
@@ -66,6 +66,7 @@ class ImpactPass {
   double sweep();
   double fastest() const;
   /// Share of the expansion that the energy allows: 1 where e is one number and the compression complete.
+  bool is_exact() const;
   double share_of_expansion();
   void let_friction_act(double share);
   void book(ImpactWork&) const;

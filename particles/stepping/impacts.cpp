@@ -77,10 +77,15 @@ Point Impacts::prescribed_velocity(const Candidate& pair) const {
                -free_velocity(step.walls.driven[k], step.driven[k], step.time_step));
 }
 
-Point Impacts::shift(std::int32_t body) const {
+PathShift Impacts::shift(std::int32_t body) const {
   if (place_[body] >= 0) return taken_[place_[body]].shift;
   const auto& shift = in_->step.free.shift;
-  return shift.empty() ? Point{} : shift[body];
+  return shift.empty() || body >= grains() ? PathShift{} : shift[body];
+}
+
+double Impacts::struck_at(const Candidate& pair) const {
+  const std::int32_t second = second_body_of(pair);
+  return std::max(shift(pair.i).time, second < 0 ? 0 : shift(second).time);
 }
 
 /// A wall that a force moves has the velocity of the middle of the step.
@@ -104,17 +109,6 @@ PairPath Impacts::path_of(const Candidate& pair) const {
   const auto& before = in_->step.free.shift;
   path.move(before.empty() ? of_i : Point{of_i.x - before[pair.i].x, of_i.z - before[pair.i].z});
   return path;
-}
-
-Point Impacts::relative_velocity(const Candidate& pair, double time) const {
-  const std::int32_t second = second_body_of(pair);
-  Point u = velocity(pair.i), a = acceleration_of(pair.i);
-  if (second >= 0) {
-    const Point v = velocity(second), b = acceleration_of(second);
-    u.x -= v.x, u.z -= v.z, a.x -= b.x, a.z -= b.z;
-  }
-  const Point wall = prescribed_velocity(pair);
-  return {u.x - wall.x + time * a.x, u.z - wall.z + time * a.z};
 }
 
 void Impacts::begin(const ImpactInput& input) {
@@ -152,8 +146,8 @@ bool Impacts::find_closings() {
         if (stays_clear(step, pair) || (pair.gap <= 0 && rests(a, u_n + gain))) continue;
       }
       const PairPath path = path_of(pair);
-      const auto time = path.meeting(0, h);
-      if (time && strikes(a, path.at(*time), *time, true)) list.pairs.push_back(a);
+      const auto time = path.meeting(struck_at(pair), h);
+      if (time && strikes(a, path, path.at(*time), *time, true)) list.pairs.push_back(a);
     }
     return list;
   };
@@ -171,10 +165,11 @@ bool Impacts::rests(std::int32_t a, double u_n) const {
   return -u_n <= 2 * load * W_nn;
 }
 
-bool Impacts::strikes(std::int32_t a, const Surfaces& now, double time, bool may_be_alone) {
+bool Impacts::strikes(std::int32_t a, const PairPath& path, const Surfaces& now, double time,
+                      bool may_be_alone) {
   const StepInput& step = in_->step;
   const Candidate& pair = in_->pairs[a];
-  const Point u = relative_velocity(pair, time), g = step.laws.gravity.value_or(Point{});
+  const Point u = path.velocity(time), g = step.laws.gravity.value_or(Point{});
   const double u_n = now.n_x * u.x + now.n_z * u.z;
   if (!(u_n < -slowest_)) return false;
   if (rests(a, u_n)) return false;
@@ -209,7 +204,7 @@ void Impacts::schedule(std::int32_t a, double from) {
   const PairPath path = path_of(pair);
   if (pair.j >= 0 && path.parts(from)) return;
   const auto time = path.meeting(from, in_->step.time_step);
-  if (!time || !strikes(a, path.at(*time), *time, false)) return;
+  if (!time || !strikes(a, path, path.at(*time), *time, false)) return;
   if (met_[a] >= most()) {
     unresolved_ += met_[a]++ == most_impacts;
     return;
@@ -278,7 +273,7 @@ bool Impacts::take_in_neighbours(double time) {
         const PairPath path = path_of(in_->pairs[a]);
         if (in_->pairs[a].j >= 0 && path.parts(time)) return;
         const Surfaces now = path.at(time);
-        if (now.gap <= touching && strikes(a, now, time, false)) add(a, now, time);
+        if (now.gap <= touching && strikes(a, path, now, time, false)) add(a, now, time);
       });
     }
   return pass_.contacts.size() > before;
@@ -300,7 +295,7 @@ void Impacts::strike(const Event& event, StepContacts& contacts) {
   do {
     do pass_.compress_roughly();
     while (take_in_neighbours(event.time));
-    pass_.compress();  // of one contact that changes nothing
+    pass_.compress();
   } while (pass_.contacts.size() > 1 && take_in_neighbours(event.time));
   pass_.expand(work_);
   list_strikes(contacts);
@@ -308,6 +303,7 @@ void Impacts::strike(const Event& event, StepContacts& contacts) {
   for (ImpactBody& body : pass_.bodies) {
     body.shift.x += event.time * (body.before_x - body.v_x);
     body.shift.z += event.time * (body.before_z - body.v_z);
+    body.shift.time = event.time;
     ++body.passes;
     taken_[place_[body.body]] = body;  // in no pass
     each_pair_of(body.body, [&](std::int32_t a) { closings_.push_back(a); });
@@ -329,7 +325,7 @@ void Impacts::give_back(const ImpactOutput& output) {
       continue;
     }
     const std::int32_t b = body.body;
-    Point& shift = output.shift[b];
+    PathShift& shift = output.shift[b];
     StruckGrain struck{b, change.x, change.z, 0, before, {body.shift.x - shift.x, body.shift.z - shift.z}};
     shift = body.shift;
     bodies.v_x[b] = body.v_x, bodies.v_z[b] = body.v_z;
@@ -363,10 +359,10 @@ bool Impacts::resolve_part(const ImpactInput& input, std::span<const char> whole
   const std::size_t strikes_before = output.contacts.strikes.size();
   for (const std::int32_t a : closings_) {
     const Candidate& pair = in_->pairs[a];
-    const Point u = relative_velocity(pair, 0);
+    const Point u = path_of(pair).velocity(0);
     slowest_ = std::max(slowest_, -rounding * (pair.n_x * u.x + pair.n_z * u.z));
   }
-  for (const std::int32_t a : closings_) schedule(a, 0);
+  for (const std::int32_t a : closings_) schedule(a, struck_at(in_->pairs[a]));
   while (!events_.empty() && missing_.empty()) {
     std::pop_heap(events_.begin(), events_.end(), std::greater<>());
     const Event event = events_.back();

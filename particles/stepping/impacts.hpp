@@ -69,7 +69,7 @@ struct ImpactInput {
 /// the velocities of driven walls; strikes are added to.
 struct ImpactOutput {
   Bodies& bodies;
-  std::vector<Point>& shift;
+  std::vector<PathShift>& shift;
   StepContacts& contacts;
 };
 
@@ -127,7 +127,9 @@ class Impacts {
   /// Velocity of a body before the first impact, and after those so far.
   Point velocity_before(std::int32_t body) const;
   Point velocity(std::int32_t body) const;
-  Point shift(std::int32_t body) const;
+  PathShift shift(std::int32_t body) const;
+  /// When a side of a pair was struck last within the step.
+  double struck_at(const Candidate& pair) const;
   int passes_of(const Candidate& pair) const;
   /// Velocity that forces give a body in a unit of time.
   Point acceleration_of(std::int32_t body) const;
@@ -135,10 +137,8 @@ class Impacts {
   /// now.
   Point prescribed_velocity(const Candidate& pair) const;
   PairPath path_of(const Candidate& pair) const;
-  /// Velocity of i against j at a time.
-  Point relative_velocity(const Candidate& pair, double time) const;
-  /// Whether pair a, with these surfaces at a time, closes there fast enough for an impact.
-  bool strikes(std::int32_t a, const Surfaces& now, double time, bool may_be_alone);
+  /// Whether pair a, with these surfaces at a time on its path, closes there fast enough for an impact.
+  bool strikes(std::int32_t a, const PairPath& path, const Surfaces& now, double time, bool may_be_alone);
   bool rests(std::int32_t a, double u_n) const;
   /// Whether a grain has no other pair than one.
   bool is_alone(std::int32_t body);

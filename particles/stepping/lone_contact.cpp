@@ -66,7 +66,7 @@ std::optional<LoneStep> lone_step(const StepInput& step, const Candidate& pair, 
   }
   if (container) turn_wall_velocity({0, lone.n_x, lone.n_z}, carried, surface);
   lone.wall_velocity = {surface.wall_v_x, surface.wall_v_z};
-  const Point shift = step.free.shift.empty() ? Point{} : step.free.shift[i];
+  const PathShift shift = step.free.shift.empty() ? PathShift{} : step.free.shift[i];
   lone.end = {bodies.x[i] + shift.x + end.x + h * carried.x, bodies.z[i] + shift.z + end.z + h * carried.z};
   return lone;
 }

@@ -11,8 +11,8 @@ namespace {
 
 double dot(const Point& a, const Point& b) { return a.x * b.x + a.z * b.z; }
 
-Point shift_of(const StepInput& step, std::int32_t body) {
-  return step.free.shift.empty() ? Point{} : step.free.shift[body];
+PathShift shift_of(const StepInput& step, std::int32_t body) {
+  return step.free.shift.empty() ? PathShift{} : step.free.shift[body];
 }
 
 /// The zero of a function between a time at which it is positive and one at which it is not (Illinois).

@@ -290,24 +290,21 @@ class MoreauJean final : public Stepper {
     }
   }
 
-  /// New velocities from the solution, then new positions: with the velocity at the end where contacts act,
-  /// which leaves no overlap, with the mean where none does, which is exact. Of driven walls the velocities
-  /// alone.
+  /// New velocities from the solution, then new positions. Of driven walls the velocities alone.
   void move(Bodies& bodies, double time_step) {
     const bool loaded = problem_.contacts() > 0;
     const auto& changes = solution_.velocities.bodies;
     TeamLoops(&team_).each(bodies.count(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t b = begin; b < end; ++b) {
-        Point v{free_.x[b], free_.z[b]}, path = v;
-        if (loaded && !(changes[b].x == 0 && changes[b].z == 0)) {
-          path = v = {v.x + changes[b].x, v.z + changes[b].z};
+        const bool pushed = loaded && !(changes[b].x == 0 && changes[b].z == 0);
+        Point v{free_.x[b], free_.z[b]};
+        if (pushed) {
+          v = {v.x + changes[b].x, v.z + changes[b].z};
           if constexpr (with_spin) spin_up(bodies, b, changes[b].s);
-        } else {
-          path = {(bodies.v_x[b] + v.x) / 2, (bodies.v_z[b] + v.z) / 2};
         }
-        if (!free_.shift.empty()) bodies.x[b] += free_.shift[b].x, bodies.z[b] += free_.shift[b].z;
+        const Point way = way_within_step(free_, b, {bodies.v_x[b], bodies.v_z[b]}, v, pushed, time_step);
         bodies.v_x[b] = v.x, bodies.v_z[b] = v.z;
-        bodies.x[b] += time_step * path.x, bodies.z[b] += time_step * path.z;
+        bodies.x[b] += way.x, bodies.z[b] += way.z;
       }
     });
     for (const auto& [grain, place] : lone_) bodies.x[grain] = place.x, bodies.z[grain] = place.z;

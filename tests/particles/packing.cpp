@@ -50,8 +50,8 @@ TEST(Drum, NothingLeavesAndOverlapStaysSmall) {
   const double radius = 30 / 3.3;
   while (!simulation.finished()) {
     const StepReport report = simulation.step();
-    // Known to be too much in steps in which discs land after an impact (1.3e-3): 1e-3 held before.
-    ASSERT_LT(report.overlap.mean, 2e-3);
+    // Before positions are corrected. In one step in which discs land after an impact: 1.33e-3.
+    ASSERT_LT(report.overlap.mean, 1.4e-3);
     const Bodies& b = simulation.state().bodies;
     for (std::size_t k = 0; k < b.count(); ++k)
       ASSERT_LT(std::hypot(b.x[k], b.z[k]) + b.radius[k], radius + 0.02);
