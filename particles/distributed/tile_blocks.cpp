@@ -47,8 +47,7 @@ void TileBlocks<T, dim, spin>::colour(const Problem& problem, const TileRange& t
       place[c] = first;
       first += count[c];
       group_end_.push_back(first);
-      const std::int32_t blocks = (count[c] + Block::width - 1) / Block::width;
-      groups_.push_back({blocks, blocks});
+      groups_.push_back((count[c] + Block::width - 1) / Block::width);
     }
     for (std::int32_t a = tile.begin; a < tile.end; ++a)
       if (const std::int8_t own = std::exchange(colour_[a], colour_[a] == none ? none : placed); own >= 0)
@@ -86,20 +85,9 @@ void TileBlocks<T, dim, spin>::pack_tile(const Problem& problem, std::span<const
   constexpr int width = Block::width;
   const auto fixed = static_cast<std::int32_t>(moving_ + width * tile);
   std::size_t place = width * tiles_[tile].block;
-  std::vector<std::pair<double, std::int32_t>> open;
   for (std::size_t g = tiles_[tile].group; g < tiles_[tile + 1].group; ++g) {
-    open.clear();
-    const std::size_t first = place;
-    for (std::int32_t a = g == 0 ? 0 : group_end_[g - 1]; a < group_end_[g]; ++a) {
-      const std::int32_t c = order_[a];
-      if (r[dim * c] == 0)
-        open.push_back({problem.q[dim * c], c});
-      else
-        pack_place(problem, c, fixed, r, place++);
-    }
-    // As in strips: those that start open stand last, the surest at the end, so that blocks of them can rest.
-    if (place > first) std::sort(open.begin(), open.end());
-    for (const auto& [q_n, c] : open) pack_place(problem, c, fixed, r, place++);
+    for (std::int32_t a = g == 0 ? 0 : group_end_[g - 1]; a < group_end_[g]; ++a)
+      pack_place(problem, order_[a], fixed, r, place++);
     while (place % width != 0) pack_place(problem, -1, fixed, r, place++);
   }
 }
@@ -117,7 +105,7 @@ void TileBlocks<T, dim, spin>::pack(const Problem& problem, std::span<const Tile
     const std::size_t first = groups_.size();
     tiles_.push_back({blocks, first});
     colour(problem, tile);
-    for (std::size_t g = first; g < groups_.size(); ++g) blocks += groups_[g].count;
+    for (std::size_t g = first; g < groups_.size(); ++g) blocks += groups_[g];
   }
   tiles_.push_back({blocks, groups_.size()});
   blocks_.resize(blocks), kept_.resize(blocks), contact_.resize(blocks * Block::width);
@@ -155,17 +143,6 @@ double TileBlocks<T, dim, spin>::sweep(std::size_t tile, T beta, SweepExtrapolat
   const auto groups =
       std::span(groups_).subspan(tiles_[tile].group, tiles_[tile + 1].group - tiles_[tile].group);
   return Kernels::sweep(of_tile(tile).data(), groups, bodies_.data(), beta, how, ahead);
-}
-
-template <class T, int dim, bool spin>
-void TileBlocks<T, dim, spin>::let_rest(std::size_t tile, bool rest) {
-  const Block* first = of_tile(tile).data();
-  for (std::size_t g = tiles_[tile].group; g < tiles_[tile + 1].group; ++g) {
-    BlockGroup& group = groups_[g];
-    group.swept = group.count;
-    while (rest && group.swept > 0 && stays_open(first[group.swept - 1])) --group.swept;
-    first += group.count;
-  }
 }
 
 template <class T, int dim, bool spin>

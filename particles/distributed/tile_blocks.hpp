@@ -35,8 +35,6 @@ class TileBlocks {
   void load(std::size_t tile);
   /// One Gauss-Seidel sweep; returns the sum of squares of its steps.
   double sweep(std::size_t tile, T beta, SweepExtrapolation, const MemoryAhead& ahead = {});
-  /// As StripProblem::let_rest().
-  void let_rest(std::size_t tile, bool rest);
   /// The residual as impulses and bodies stand.
   SeenResidual residual(std::size_t tile) const;
   /// Sizes of the impulses of the bodies as they stand.
@@ -93,7 +91,7 @@ class TileBlocks {
 
   std::vector<Tile> tiles_;
   std::vector<Block> blocks_;
-  std::vector<BlockGroup> groups_;
+  std::vector<std::int32_t> groups_;             // blocks that share no body: how many follow one another
   std::vector<std::int32_t> order_, group_end_;  // contacts of all groups; where each group ends there
   std::vector<std::int8_t> colour_;              // of each contact, while a tile is coloured
   std::vector<std::int32_t> contact_;            // of each place in the blocks; -1: filled up

@@ -180,12 +180,7 @@ void TileSolver<Problem>::sweep_part(const TileOrder& order, const Wave<T>& wave
 template <class Problem>
 template <class T>
 void TileSolver<Problem>::begin_sweep(const TileStrip& strip, const Wave<T>& wave, int s, Blocks<T>& blocks) {
-  if (wave.how == SweepExtrapolation::none) return;
-  const int since_whole = (wave.first + s) % sweeps_of_rest;
-  if (since_whole <= 1)
-    for (const auto [begin, end] : strip.phases)
-      for (std::int32_t t = begin; t < end; ++t) blocks.let_rest(t, since_whole == 1);
-  blocks.go_on(strip, wave.betas[s]);
+  if (wave.how != SweepExtrapolation::none) blocks.go_on(strip, wave.betas[s]);
 }
 
 /// Takes several sweeps. Where a strip's neighbours allow it they go through the strips together
@@ -271,7 +266,7 @@ SolveReport TileSolver<Problem>::sweep_until_done(const Problem& problem, const 
     double steps = 0;
     while (sweeps < until && finite) {
       Wave<T> wave;
-      wave.first = sweeps, wave.sweeps = std::min(most_at_once, until - sweeps);
+      wave.sweeps = std::min(most_at_once, until - sweeps);
       wave.how = how;
       Momentum expected = momentum;
       for (int s = 0; s < wave.sweeps; ++s)

@@ -69,10 +69,10 @@ class TileSolver {
   template <class T>
   void correct_loads(const Problem&, const TiledContacts&, Halo&, bool first, std::int64_t contacts_of_all,
                      Blocks<T>&);
-  /// Sweeps that are taken together: their factors of momentum, and the number of the first.
+  /// Sweeps that are taken together, and their factors of momentum.
   template <class T>
   struct Wave {
-    int first = 0, sweeps = 1;
+    int sweeps = 1;
     std::array<T, longest_wave> betas{};
     SweepExtrapolation how = SweepExtrapolation::none;
   };

@@ -142,7 +142,7 @@ void StripProblem<T, dim, spin>::lay_out(const Problem& problem, const SweepPlan
           if (const std::int32_t c = order.empty() ? a : order[a]; is_driven(problem.W, c))
             pack_driven(problem, c, r), --count;
       const std::int32_t own = (count + width - 1) / width;
-      groups_.push_back({own, own});
+      groups_.push_back(own);
       blocks += own;
     }
     strip.block[slice % 2 + 1] = blocks;
@@ -162,22 +162,11 @@ void StripProblem<T, dim, spin>::pack_strip(const Problem& problem, const SweepP
   const auto fixed = static_cast<std::int32_t>(strips_[strip].bodies_end) - width;
   std::size_t place = width * strips_[strip].block[0];
   const std::int32_t end = plan.slice_start[2 * strip + 2];
-  std::vector<std::pair<double, std::int32_t>> open;
   for (std::int32_t g = plan.slice_start[2 * strip]; g < end; ++g) {
-    open.clear();
-    const std::size_t first = place;
     for (std::int32_t a = plan.group_start[g]; a < plan.group_start[g + 1]; ++a) {
       const std::int32_t c = order.empty() ? a : order[a];
-      if (is_driven(problem.W, c)) continue;
-      if (r[dim * c] == 0)
-        open.push_back({problem.q[dim * c], c});
-      else
-        pack_place(problem, c, fixed, r, place++);
+      if (!is_driven(problem.W, c)) pack_place(problem, c, fixed, r, place++);
     }
-    // Those that start open stand last, the surest at the end, so that blocks of them can rest. Where all do,
-    // nothing is known yet.
-    if (place > first) std::sort(open.begin(), open.end());
-    for (const auto& [q_n, c] : open) pack_place(problem, c, fixed, r, place++);
     while (place % width != 0) pack_place(problem, -1, fixed, r, place++);
   }
 }
@@ -270,18 +259,6 @@ MemoryAhead StripProblem<T, dim, spin>::memory(int strip, int part, int parts) c
   const std::span<const BodyRecord<T>> before(before_.data() + l.bodies, bodies);
   return {MemoryAhead::piece_of(blocks, part, parts), MemoryAhead::piece_of(now, part, parts),
           MemoryAhead::piece_of(before, part, parts)};
-}
-
-template <class T, int dim, bool spin>
-void StripProblem<T, dim, spin>::let_rest(int strip, bool rest) {
-  const Strip& l = strips_[strip];
-  const Block* first = blocks_.data() + l.block[0];
-  for (std::size_t g = l.group[0]; g < l.group[2]; ++g) {
-    BlockGroup& group = groups_[g];
-    group.swept = group.count;
-    while (rest && group.swept > 0 && stays_open(first[group.swept - 1])) --group.swept;
-    first += group.count;
-  }
 }
 
 template <class T, int dim, bool spin>

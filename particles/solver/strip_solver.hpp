@@ -55,9 +55,6 @@ class StripProblem {
   void sweep(int strip, int phase, int slot, T beta, SweepExtrapolation, const MemoryAhead& ahead = {});
   /// One of a number of parts of what sweeps over a strip need.
   MemoryAhead memory(int strip, int part, int parts) const;
-  /// With `rest`, blocks at the end of a group of which all contacts were open in the last two sweeps are
-  /// left out of the next ones; else none is.
-  void let_rest(int strip, bool rest);
   /// Sum of squares of the steps of a sweep over all strips, in the order of the slices; all threads must
   /// have met after it.
   double step_squares(int slot) const;
@@ -116,8 +113,8 @@ class StripProblem {
   void pack_driven(const Problem& problem, std::int32_t c, std::span<const double> r);
   std::vector<Strip> strips_;
   WorkArray<Block> blocks_;
-  std::vector<BlockGroup> groups_;
-  WorkArray<std::int32_t> contact_;  // of each place in the blocks; -1: filled up
+  std::vector<std::int32_t> groups_;  // blocks that share no body: how many follow one another
+  WorkArray<std::int32_t> contact_;   // of each place in the blocks; -1: filled up
   WorkArray<BodyRecord<T>> bodies_, before_;
   WorkArray<std::int32_t> place_;         // of each body in bodies_
   std::vector<double> step_squares_[20];  // of each slice, of the sweeps of two waves

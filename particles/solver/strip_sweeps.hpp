@@ -13,9 +13,6 @@
 
 namespace drumlin::particles {
 
-/// Contacts that stay open take part in one sweep of so many (docs/decisions/contact-solver.md).
-inline constexpr int sweeps_of_rest = 5;
-
 /// Problems of fewer contacts, which the caches hold, take one sweep at a time; larger ones `longest_wave`.
 inline constexpr int least_contacts_of_waves = 30000;
 
@@ -98,8 +95,6 @@ void sweep_share(Strips& strips, int thread, int threads, int until, bool last, 
         if (loads > 0) strips.start(strip);
         if (own.keep) strips.keep(strip);
       }
-      const int since_whole = (own.sweeps + s) % sweeps_of_rest;
-      if (accelerated && phase == 0 && since_whole <= 1) strips.let_rest(strip, since_whole == 1);
       strips.sweep(strip, phase, slots + s, betas[s], how,
                    ahead_of_wave(strips, share, loads + sweeps, k, strip, phase));
     };
@@ -171,8 +166,7 @@ void correct_loads(const Problem& problem, SolverWorkspace<Problem>& work, Strip
   }
 }
 
-/// NLGS, plain or accelerated, in precision T. Accelerated, contacts that are open may rest in four sweeps of
-/// five; the residual counts them always. Every few sweeps (while the steps say that it is far, every
+/// NLGS, plain or accelerated, in precision T. Every few sweeps (while the steps say that it is far, every
 /// fourth time of these) the solver estimates its residual, on vectors and threads; when that is small enough
 /// the residual itself decides. In single precision it also ends, out of sweeps before they are, when the
 /// estimate (of large problems, of all that the rule asks for) stands still or the residual is more than

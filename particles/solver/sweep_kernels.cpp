@@ -5,6 +5,8 @@
 // Must come after foreach_target.h.
 #include <hwy/highway.h>
 
+#include <utility>
+
 #include "particles/contact/cone_vectors-inl.h"
 #include "particles/solver/body_vectors-inl.h"
 #include "particles/solver/sweep_kernels.hpp"
@@ -267,8 +269,8 @@ class LinesAhead {
 };
 
 template <class T, int dim, bool spin, SweepExtrapolation how>
-double sweep(ContactBlock<T, dim>* blocks, std::span<const BlockGroup> groups, BodyRecord<T>* bodies, T beta_,
-             const MemoryAhead& memory) {
+double sweep(ContactBlock<T, dim>* blocks, std::span<const std::int32_t> groups, BodyRecord<T>* bodies,
+             T beta_, const MemoryAhead& memory) {
   const Lanes<T> d;
   constexpr std::size_t width = ContactBlock<T, dim>::width;
   const std::size_t lanes = hn::Lanes(d);
@@ -281,16 +283,15 @@ double sweep(ContactBlock<T, dim>* blocks, std::span<const BlockGroup> groups, B
     if constexpr (dim >= 2) solve_tangents<T, dim, spin, how>(at, beta, c);
     hn::Store(hn::Add(hn::Load(d, &squares[at.k]), c.squares), d, &squares[at.k]);
   };
-  for (const auto& [count, swept] : groups) {
-    ContactBlock<T, dim>* const first = blocks;
-    blocks += count;
-    if (swept == 0) continue;
+  for (const std::int32_t count : groups) {
+    if (count == 0) continue;
+    ContactBlock<T, dim>* const first = std::exchange(blocks, blocks + count);
     // The chain of operations of one vector is longer than what a processor looks ahead: the bodies of the
     // next one come while this one's are pushed.
     Place<T, dim> at{first, 0};
     SweptContacts<T> c, next;
     bring_bodies(at, bodies, c);
-    for (std::size_t left = swept * (width / lanes) - 1; left > 0; --left) {
+    for (std::size_t left = count * (width / lanes) - 1; left > 0; --left) {
       solve(at, c);
       const bool whole = at.k + lanes == width;
       if (whole) ahead.ask();
@@ -308,8 +309,8 @@ double sweep(ContactBlock<T, dim>* blocks, std::span<const BlockGroup> groups, B
 }
 
 template <class T, int dim, bool spin>
-double sweep(ContactBlock<T, dim>* blocks, std::span<const BlockGroup> groups, BodyRecord<T>* bodies, T beta,
-             SweepExtrapolation how, const MemoryAhead& ahead) {
+double sweep(ContactBlock<T, dim>* blocks, std::span<const std::int32_t> groups, BodyRecord<T>* bodies,
+             T beta, SweepExtrapolation how, const MemoryAhead& ahead) {
   using enum SweepExtrapolation;
   if (how == none) return sweep<T, dim, spin, none>(blocks, groups, bodies, beta, ahead);
   if constexpr (sizeof(T) < sizeof(double))
@@ -415,16 +416,16 @@ void go_on(BodyRecord<T>* bodies, BodyRecord<T>* before, std::size_t count, T be
   go_on(of_a_record, &bodies->x, &before->x, most, 4 * count, beta);
 }
 
-#define DRUMLIN_KERNELS(T, name, dim, spin)                                                                  \
-  void load_##name(const ContactBlock<T, dim>* b, std::size_t n, BodyRecord<T>* v) {                         \
-    load<T, dim, spin>(b, n, v);                                                                             \
-  }                                                                                                          \
-  double sweep_##name(ContactBlock<T, dim>* b, std::span<const BlockGroup> groups, BodyRecord<T>* v, T beta, \
-                      SweepExtrapolation how, const MemoryAhead& ahead) {                                    \
-    return sweep<T, dim, spin>(b, groups, v, beta, how, ahead);                                              \
-  }                                                                                                          \
-  SeenResidual residual_##name(const ContactBlock<T, dim>* b, std::size_t n, const BodyRecord<T>* v) {       \
-    return residual<T, dim, spin>(b, n, v);                                                                  \
+#define DRUMLIN_KERNELS(T, name, dim, spin)                                                            \
+  void load_##name(const ContactBlock<T, dim>* b, std::size_t n, BodyRecord<T>* v) {                   \
+    load<T, dim, spin>(b, n, v);                                                                       \
+  }                                                                                                    \
+  double sweep_##name(ContactBlock<T, dim>* b, std::span<const std::int32_t> groups, BodyRecord<T>* v, \
+                      T beta, SweepExtrapolation how, const MemoryAhead& ahead) {                      \
+    return sweep<T, dim, spin>(b, groups, v, beta, how, ahead);                                        \
+  }                                                                                                    \
+  SeenResidual residual_##name(const ContactBlock<T, dim>* b, std::size_t n, const BodyRecord<T>* v) { \
+    return residual<T, dim, spin>(b, n, v);                                                            \
   }
 DRUMLIN_KERNELS(double, double_smooth, 1, false)
 DRUMLIN_KERNELS(double, double_friction, 2, false)
@@ -461,7 +462,7 @@ HWY_EXPORT(go_on_float);
     HWY_DYNAMIC_DISPATCH(load_##name)(blocks, count, bodies);                                             \
   }                                                                                                       \
   template <>                                                                                             \
-  double SweepKernels<T, dim, spin>::sweep(Block* blocks, std::span<const BlockGroup> groups,             \
+  double SweepKernels<T, dim, spin>::sweep(Block* blocks, std::span<const std::int32_t> groups,           \
                                            BodyRecord<T>* bodies, T beta, SweepExtrapolation how,         \
                                            const MemoryAhead& ahead) {                                    \
     return HWY_DYNAMIC_DISPATCH(sweep_##name)(blocks, groups, bodies, beta, how, ahead);                  \

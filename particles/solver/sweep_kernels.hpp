@@ -38,14 +38,6 @@ struct alignas(64) ContactBlock : FrictionOfBlock<T, dim> {
       before;  ///< r after the sweep before the last, where momentum needs it
 };
 
-/// Whether all contacts of a block were open in the last two sweeps.
-template <class T, int dim>
-bool stays_open(const ContactBlock<T, dim>& block) {
-  bool loaded = false;
-  for (int k = 0; k < block.width; ++k) loaded |= (block.r[0][k] > 0) | (block.before[0][k] > 0);
-  return !loaded;
-}
-
 /// Velocity change of a body: x, z, the tangential velocity of its rim, and the inverse mass that turns
 /// impulses into these. One record is one load.
 template <class T>
@@ -59,11 +51,6 @@ void require_offsets(std::size_t records) {
   if (records > std::numeric_limits<std::uint32_t>::max() / sizeof(BodyRecord<T>))
     throw std::length_error("more bodies than one process can sweep; start it on MPI ranks");
 }
-
-/// Successive blocks that share no body. The first `swept` of the `count` take part in a sweep.
-struct BlockGroup {
-  std::int32_t count = 0, swept = 0;
-};
 
 /// Pieces of memory that a later call needs: a sweep asks for them, a few lines with every block, so that
 /// they come into the second cache while it works. Changes no number.
@@ -87,11 +74,12 @@ struct SweepKernels {
   using Block = ContactBlock<T, dim>;
   /// Adds the impulses of the blocks to the bodies.
   static void load(const Block* blocks, std::size_t count, BodyRecord<T>* bodies);
-  /// One Gauss-Seidel sweep over the blocks in their order. Blocks of a group share no body,
-  /// so that the bodies of the next one are loaded before those of this one are stored. Extrapolated, it
+  /// One Gauss-Seidel sweep over the blocks in their order. Each of the `groups` is a number of successive
+  /// blocks that share no body, so that the bodies of the next one are loaded before those of this one are
+  /// stored. Extrapolated, it
   /// starts from r + beta (r - before), and `before` becomes r. Returns the sum of squares of the steps of
   /// the impulses. Double precision rounds what it extrapolates.
-  static double sweep(Block* blocks, std::span<const BlockGroup> groups, BodyRecord<T>* bodies, T beta,
+  static double sweep(Block* blocks, std::span<const std::int32_t> groups, BodyRecord<T>* bodies, T beta,
                       SweepExtrapolation, const MemoryAhead& ahead = {});
   /// The residual of the blocks as they stand.
   static SeenResidual residual(const Block* blocks, std::size_t count, const BodyRecord<T>* bodies);
