@@ -10,7 +10,6 @@
 
 #include "particles/contact/cone.hpp"
 #include "particles/contact/sweep_plan.hpp"
-#include "particles/parallel/ask_ahead.hpp"
 #include "particles/parallel/work_memory.hpp"
 
 namespace drumlin::particles {
@@ -138,10 +137,8 @@ class BodyDelassus {
       loops.each_of(plan.strips(), [&](int strip) {
         const int slice = 2 * strip + parity;
         const int end = first(slice + 1);
-        for (int a = first(slice); a < end; ++a) {
-          ask_for_bodies(state, a + turns_ahead, end);
+        for (int a = first(slice); a < end; ++a)
           push(state, a, r[dim * a], dim == 2 ? r[dim * a + 1] : 0, j[a] != fixed());
-        }
       });
   }
 
@@ -156,7 +153,6 @@ class BodyDelassus {
   void velocities_of(int begin, int end, std::span<const double> q, const State& state,
                      std::vector<double>& u) const {
     for (int a = begin; a < end; ++a) {
-      ask_for_bodies(state, a + turns_ahead, contacts());
       u[dim * a] = q[dim * a] + normal_velocity(state, a);
       if constexpr (dim == 2) u[dim * a + 1] = q[dim * a + 1] + tangential_velocity(state, a);
     }
@@ -196,11 +192,6 @@ class BodyDelassus {
       }
     }
     return sum;
-  }
-
-  /// Asks for the bodies of a contact that comes soon, if it is one of those before `end`.
-  void ask_for_bodies(const State& state, int a, int end) const {
-    if (a < end) ask_for(&state[i[a]]), ask_for(&state[j[a]]);
   }
 
   /// The velocities of a state as one array of doubles; the inverse masses in it must not be changed.

@@ -12,7 +12,6 @@
 
 #include "particles/distributed/ranks.hpp"
 #include "particles/distributed/tiles.hpp"
-#include "particles/parallel/ask_ahead.hpp"
 
 namespace drumlin::particles {
 
@@ -21,12 +20,6 @@ struct RankGrain {
   std::int64_t id = 0;
   double x = 0, z = 0, v_x = 0, v_z = 0, spin = 0, radius = 0, inverse_mass = 0;
 };
-
-/// Asks for all of a grain, if it is one of them (particles/parallel/ask_ahead.hpp).
-inline void ask_for_grain(std::span<const RankGrain> grains, std::int32_t place) {
-  if (place < 0) return;
-  ask_for(&grains[place]), ask_for(&grains[place].inverse_mass);
-}
 
 /// A grain that another rank owns.
 struct GhostRecord {

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "coupling/common/errors.hpp"
-#include "particles/parallel/ask_ahead.hpp"
 #include "particles/parallel/work_memory.hpp"
 
 namespace drumlin::particles {
@@ -231,10 +230,8 @@ void RankGrains::follow(const RankState& state) {
     bodies.v_x[b] = grain.v_x, bodies.v_z[b] = grain.v_z;
     if (with_spin_) bodies.spin[b] = grain.spin;
   };
-  for (std::size_t b = 0; b < seen_.place.size(); ++b) {
-    if (b + turns_ahead < seen_.place.size()) ask_for_grain(state.grains, seen_.place[b + turns_ahead]);
+  for (std::size_t b = 0; b < seen_.place.size(); ++b)
     if (seen_.place[b] >= 0) set(b, state.grains[seen_.place[b]]);
-  }
   if (ranks_.count() == 1) return;
   for (std::size_t r = 0; r < shown_to_.size(); ++r) {
     to_show_[r].clear();

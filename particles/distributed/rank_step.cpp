@@ -10,7 +10,6 @@
 #include "particles/distributed/rank_grains.hpp"
 #include "particles/distributed/rank_projection.hpp"
 #include "particles/distributed/rank_search.hpp"
-#include "particles/parallel/ask_ahead.hpp"
 #include "particles/parallel/work_memory.hpp"
 #include "particles/solver/coarse_loads.hpp"
 #include "particles/stepping/assembly.hpp"
@@ -155,14 +154,6 @@ class RankMoreauJean final : public RankStepper {
  private:
   double waiting_seconds() const { return halo_.waiting_seconds() + Ranks::waiting_seconds(); }
 
-  /// Asks for what the loop over used bodies needs some turns after body b.
-  void ask_for_used(const std::vector<RankGrain>& grains, std::size_t b) const {
-    const std::vector<std::int32_t>& place = grains_.seen().place;
-    if (b + 2 * turns_ahead >= own_.used.size()) return;
-    ask_for(&place[own_.used[b + 2 * turns_ahead]]);
-    ask_for_grain(grains, place[own_.used[b + turns_ahead]]);
-  }
-
   /// From here on the bodies are those that this rank's contacts touch, and its own.
   void take_used(const RankState& state, double time_step) {
     const SeenGrains& seen = grains_.seen();
@@ -173,7 +164,6 @@ class RankMoreauJean final : public RankStepper {
     if constexpr (with_spin) resize_closely(bodies_.spin, count);
     resize_closely(bodies_.id, count), resize_closely(counts_here_, count);
     for (std::size_t b = 0; b < count; ++b) {
-      ask_for_used(state.grains, b);
       const std::int32_t s = own_.used[b], place = seen.place[s];
       counts_here_[b] = place >= 0;
       // Of an own grain the state has all numbers in one record.
@@ -253,15 +243,7 @@ class RankMoreauJean final : public RankStepper {
     state.memory.reserve(loaded + loaded / 16);
     const bool alone = ranks_.count() == 1;  // then nobody asks where a pair is
     // By identities, so that the next step need not sort what stays on this rank.
-    for (std::size_t k = 0; k < place_in_order_.size(); ++k) {
-      if (k + 2 * turns_ahead < place_in_order_.size()) {
-        const std::int32_t later = place_in_order_[k + 2 * turns_ahead];
-        ask_for(&contacts_.pairs[later]);
-        ask_for(r.data() + dim * later);
-        const Candidate& pair = contacts_.pairs[place_in_order_[k + turns_ahead]];
-        for (const std::int32_t b : {pair.i, std::max(pair.j, 0)}) ask_for(&bodies_.id[b]);
-      }
-      const std::int32_t a = place_in_order_[k];
+    for (const std::int32_t a : place_in_order_) {
       const Candidate& pair = contacts_.pairs[a];
       RememberedContact contact;
       for (int c = 0; c < dim; ++c) contact.impulse[c] = r[dim * a + c];
@@ -276,7 +258,6 @@ class RankMoreauJean final : public RankStepper {
   void give_back(RankState& state) {
     const SeenGrains& seen = grains_.seen();
     for (std::size_t b = 0; b < own_.used.size(); ++b) {
-      ask_for_used(state.grains, b);
       const std::int32_t place = seen.place[own_.used[b]];
       if (place < 0) continue;
       RankGrain& grain = state.grains[place];

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "particles/detection/open_gaps.hpp"
-#include "particles/parallel/ask_ahead.hpp"
 #include "particles/parallel/work_memory.hpp"
 
 namespace drumlin::particles {
@@ -53,10 +52,6 @@ std::vector<SharedTouch> shared_touches(const SeenGrains& seen, std::span<const 
   return touches;
 }
 
-void ask_for_place(const Bodies& bodies, std::int32_t b) {
-  if (b >= 0) ask_for_entry(b, bodies.x, bodies.z);
-}
-
 Home home_of(const Candidate& pair, const SeenGrains& seen, const TileMap& tiles) {
   const std::int32_t tile = tiles.grid.tile_at(middle_of(pair, seen.bodies));
   return {tile, tiles.owner[tile]};
@@ -69,7 +64,6 @@ void find_homes(const SeenGrains& seen, std::span<const Candidate> candidates, c
   resize_closely(found.homes, candidates.size()), resize_closely(found.mine, candidates.size());
   std::size_t own = 0;
   for (std::size_t a = 0; a < candidates.size(); ++a) {
-    if (a + turns_ahead < candidates.size()) ask_for_place(seen.bodies, candidates[a + turns_ahead].j);
     found.homes[a] = home_of(candidates[a], seen, tiles);
     found.mine[own] = static_cast<std::int32_t>(a);
     own += found.homes[a].owner == rank;
@@ -136,10 +130,7 @@ void sort_into_tiles(std::span<const Candidate> candidates, const HomedPairs& ho
   resize_closely(own.pairs, mine.size()), resize_closely(own.order, mine.size());
   for (std::size_t m = 0; m < mine.size(); ++m)
     own.order[count[homes[mine[m]].tile]++] = static_cast<std::int32_t>(m);
-  for (std::size_t a = 0; a < mine.size(); ++a) {
-    if (a + turns_ahead < mine.size()) ask_for(&candidates[mine[own.order[a + turns_ahead]]]);
-    own.pairs[a] = candidates[mine[own.order[a]]];
-  }
+  for (std::size_t a = 0; a < mine.size(); ++a) own.pairs[a] = candidates[mine[own.order[a]]];
 }
 
 /// `strip_of` each seen grain as above; `at_border` of those that other ranks use, too.
@@ -184,13 +175,7 @@ void number_bodies(std::span<const std::int32_t> strip_of, RankPairs& own) {
     }
     return place;
   };
-  for (std::size_t a = 0; a < own.pairs.size(); ++a) {
-    if (a + turns_ahead < own.pairs.size()) {
-      const Candidate& later = own.pairs[a + turns_ahead];
-      ask_for_entry(later.i, own.in_used, strip_of);
-      ask_for_entry(std::max(later.j, 0), own.in_used, strip_of);
-    }
-    Candidate& pair = own.pairs[a];
+  for (Candidate& pair : own.pairs) {
     pair.i = use(pair.i);
     if (pair.j >= 0) pair.j = use(pair.j);
   }

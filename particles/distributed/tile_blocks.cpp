@@ -138,11 +138,10 @@ void TileBlocks<T, dim, spin>::load(std::size_t tile) {
 }
 
 template <class T, int dim, bool spin>
-double TileBlocks<T, dim, spin>::sweep(std::size_t tile, T beta, SweepExtrapolation how,
-                                       const MemoryAhead& ahead) {
+double TileBlocks<T, dim, spin>::sweep(std::size_t tile, T beta, SweepExtrapolation how) {
   const auto groups =
       std::span(groups_).subspan(tiles_[tile].group, tiles_[tile + 1].group - tiles_[tile].group);
-  return Kernels::sweep(of_tile(tile).data(), groups, bodies_.data(), beta, how, ahead);
+  return Kernels::sweep(of_tile(tile).data(), groups, bodies_.data(), beta, how);
 }
 
 template <class T, int dim, bool spin>
@@ -172,17 +171,6 @@ template <class T, int dim, bool spin>
 void TileBlocks<T, dim, spin>::go_on(const TileStrip& strip, T beta) {
   const auto [begin, end] = strip.bodies;
   Kernels::go_on(bodies_.data() + begin, before_.data() + begin, end - begin, beta);
-}
-
-template <class T, int dim, bool spin>
-MemoryAhead TileBlocks<T, dim, spin>::memory(const TileStrip& strip, int part, int parts) const {
-  const auto [begin, end] = strip.bodies;
-  const std::size_t first = tiles_[strip.phases[0].begin].block, last = tiles_[strip.phases[1].end].block;
-  const std::span<const Block> blocks(blocks_.data() + first, last - first);
-  const std::span<const BodyRecord<T>> now(bodies_.data() + begin, end - begin);
-  const std::span<const BodyRecord<T>> before(before_.data() + begin, end - begin);
-  return {MemoryAhead::piece_of(blocks, part, parts), MemoryAhead::piece_of(now, part, parts),
-          MemoryAhead::piece_of(before, part, parts)};
 }
 
 #define DRUMLIN_INSTANTIATE(T, dim, spin, Problem)                                           \

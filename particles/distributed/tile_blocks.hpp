@@ -34,7 +34,7 @@ class TileBlocks {
   /// Bodies receive the impulses to start from.
   void load(std::size_t tile);
   /// One Gauss-Seidel sweep; returns the sum of squares of its steps.
-  double sweep(std::size_t tile, T beta, SweepExtrapolation, const MemoryAhead& ahead = {});
+  double sweep(std::size_t tile, T beta, SweepExtrapolation);
   /// The residual as impulses and bodies stand.
   SeenResidual residual(std::size_t tile) const;
   /// Sizes of the impulses of the bodies as they stand.
@@ -49,8 +49,6 @@ class TileBlocks {
   void start();
   /// Bodies of a strip go on by beta, before a sweep.
   void go_on(const TileStrip& strip, T beta);
-  /// What a sweep over a strip uses, one of so many pieces of it.
-  MemoryAhead memory(const TileStrip& strip, int part, int parts) const;
 
   std::array<double, Halo::numbers> numbers(std::int32_t body) const {
     const BodyRecord<T>& record = bodies_[body];

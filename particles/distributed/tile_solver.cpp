@@ -161,19 +161,11 @@ void TileSolver<Problem>::correct_loads(const Problem& problem, const TiledConta
 /// One part of a wave: a phase of sweep s on a strip. A thread does it alone.
 template <class Problem>
 template <class T>
-void TileSolver<Problem>::sweep_part(const TileOrder& order, const Wave<T>& wave, const StripShare& share,
-                                     int s, int strip, int phase, Blocks<T>& blocks) {
+void TileSolver<Problem>::sweep_part(const TileOrder& order, const Wave<T>& wave, int s, int strip, int phase,
+                                     Blocks<T>& blocks) {
   const auto [begin, end] = order.strips[strip].phases[phase];
   if (phase == 0) begin_sweep(order.strips[strip], wave, s, blocks);
-  // In the first sweep what a strip needs comes from memory: the tiles of the others ask for it.
-  const auto ahead = ahead_of_part(share, wave.sweeps, s, strip, phase);
-  const auto memory_ahead = [&](std::int32_t tile) {
-    if (!ahead) return MemoryAhead{};
-    const int tiles = end - begin, piece = ahead->part * tiles + tile - begin;
-    return blocks.memory(order.strips[ahead->strip], piece, ahead->parts * tiles);
-  };
-  for (std::int32_t t = begin; t < end; ++t)
-    squares_[s][t] = blocks.sweep(t, wave.betas[s], wave.how, memory_ahead(t));
+  for (std::int32_t t = begin; t < end; ++t) squares_[s][t] = blocks.sweep(t, wave.betas[s], wave.how);
 }
 
 /// What a sweep does to a strip before its contacts.
@@ -201,9 +193,8 @@ void TileSolver<Problem>::take_wave(const TiledContacts& contacts, Halo& halo, c
   }
   loops_.each_of(static_cast<int>(plan->shares.size()), [&](int k) {
     const StripShare& share = plan->shares[k];
-    sweep_alone(share, wave.sweeps, [&](int s, int strip, int phase) {
-      sweep_part(order, wave, share, s, strip, phase, blocks);
-    });
+    sweep_alone(share, wave.sweeps,
+                [&](int s, int strip, int phase) { sweep_part(order, wave, s, strip, phase, blocks); });
   });
   for (int s = 0; s < wave.sweeps; ++s) {
     const auto& [strips, rounds] = plan->left[s];

@@ -79,8 +79,7 @@ class TileSolver {
   template <class T>
   void take_wave(const TiledContacts&, Halo&, const Wave<T>&, Blocks<T>&);
   template <class T>
-  void sweep_part(const TileOrder&, const Wave<T>&, const StripShare&, int s, int strip, int phase,
-                  Blocks<T>&);
+  void sweep_part(const TileOrder&, const Wave<T>&, int s, int strip, int phase, Blocks<T>&);
   template <class T>
   void begin_sweep(const TileStrip&, const Wave<T>&, int s, Blocks<T>&);
   std::array<double, longest_wave> steps_of_wave(int sweeps);

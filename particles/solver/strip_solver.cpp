@@ -239,26 +239,14 @@ void StripProblem<T, dim, spin>::start(int strip) {
 }
 
 template <class T, int dim, bool spin>
-void StripProblem<T, dim, spin>::sweep(int strip, int phase, int slot, T beta, SweepExtrapolation how,
-                                       const MemoryAhead& ahead) {
+void StripProblem<T, dim, spin>::sweep(int strip, int phase, int slot, T beta, SweepExtrapolation how) {
   const Strip& l = strips_[strip];
   if (how != SweepExtrapolation::none && phase == 0)
     Kernels::go_on(&bodies_[l.bodies], &before_[l.bodies], l.bodies_end - l.bodies, beta);
   step_squares_[slot][2 * strip + phase] =
       Kernels::sweep(blocks_.data() + l.block[phase],
                      std::span(groups_).subspan(l.group[phase], l.group[phase + 1] - l.group[phase]),
-                     bodies_.data(), beta, how, ahead);
-}
-
-template <class T, int dim, bool spin>
-MemoryAhead StripProblem<T, dim, spin>::memory(int strip, int part, int parts) const {
-  const Strip& l = strips_[strip];
-  const std::span<const Block> blocks(blocks_.data() + l.block[0], l.block[2] - l.block[0]);
-  const std::size_t bodies = l.bodies_end - l.bodies;
-  const std::span<const BodyRecord<T>> now(bodies_.data() + l.bodies, bodies);
-  const std::span<const BodyRecord<T>> before(before_.data() + l.bodies, bodies);
-  return {MemoryAhead::piece_of(blocks, part, parts), MemoryAhead::piece_of(now, part, parts),
-          MemoryAhead::piece_of(before, part, parts)};
+                     bodies_.data(), beta, how);
 }
 
 template <class T, int dim, bool spin>

@@ -52,9 +52,7 @@ class StripProblem {
   void start(int strip);
   /// Extrapolated by beta; bodies go on in phase 0, before any contact of theirs. `slot`,
   /// of sum_slots: where the sums of the sweep stand, apart from those that others may be adding up.
-  void sweep(int strip, int phase, int slot, T beta, SweepExtrapolation, const MemoryAhead& ahead = {});
-  /// One of a number of parts of what sweeps over a strip need.
-  MemoryAhead memory(int strip, int part, int parts) const;
+  void sweep(int strip, int phase, int slot, T beta, SweepExtrapolation);
   /// Sum of squares of the steps of a sweep over all strips, in the order of the slices; all threads must
   /// have met after it.
   double step_squares(int slot) const;

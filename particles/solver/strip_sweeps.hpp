@@ -33,14 +33,6 @@ struct SweepState {
   bool keep = false;    ///< the impulses that it left are the best so far
 };
 
-/// The memory that a part of a wave asks for.
-template <class Strips>
-MemoryAhead ahead_of_wave(const Strips& strips, const StripShare& share, int sweeps, int s, int strip,
-                          int phase) {
-  const auto ahead = ahead_of_part(share, sweeps, s, strip, phase);
-  return ahead ? strips.memory(ahead->strip, ahead->part, ahead->parts) : MemoryAhead{};
-}
-
 /// Whether the residual is worth a look once the sweeps that end with these steps are over.
 template <class T>
 bool worth_a_look(const SweepState<T>& state, bool last, double steps) {
@@ -95,8 +87,7 @@ void sweep_share(Strips& strips, int thread, int threads, int until, bool last, 
         if (loads > 0) strips.start(strip);
         if (own.keep) strips.keep(strip);
       }
-      strips.sweep(strip, phase, slots + s, betas[s], how,
-                   ahead_of_wave(strips, share, loads + sweeps, k, strip, phase));
+      strips.sweep(strip, phase, slots + s, betas[s], how);
     };
     sweep_wave(share, loads + sweeps + (looked ? 1 : 0), part, meet);
     own.keep = false, own.loaded = true;

@@ -249,33 +249,13 @@ HWY_INLINE void push_bodies(const Place<T, dim>& at, SweptContacts<T>& c, BodyRe
   store_bodies(c.J, bodies, &block->j[k]);
 }
 
-/// Asks for memory ahead, two lines at a time: about as many as a block and its bodies take, shared by the
-/// four or more sweeps of a wave that have their own memory near.
-class LinesAhead {
- public:
-  explicit LinesAhead(const MemoryAhead& ahead) : pieces_(ahead.pieces), now_(pieces_[0]) {}
-  HWY_INLINE void ask() {
-    if (now_.begin >= now_.end) return;
-    for (int k = 0; k < lines; ++k) __builtin_prefetch(now_.begin + k * bytes, 0, second_cache);
-    now_.begin += lines * bytes;
-    if (now_.begin >= now_.end && next_ < pieces_.size()) now_ = pieces_[next_++];
-  }
-
- private:
-  static constexpr int lines = 2, bytes = 64, second_cache = 2;
-  std::array<MemoryAhead::Piece, 3> pieces_;
-  MemoryAhead::Piece now_;
-  std::size_t next_ = 1;
-};
-
 template <class T, int dim, bool spin, SweepExtrapolation how>
 double sweep(ContactBlock<T, dim>* blocks, std::span<const std::int32_t> groups, BodyRecord<T>* bodies,
-             T beta_, const MemoryAhead& memory) {
+             T beta_) {
   const Lanes<T> d;
   constexpr std::size_t width = ContactBlock<T, dim>::width;
   const std::size_t lanes = hn::Lanes(d);
   const auto beta = hn::Set(d, beta_);
-  LinesAhead ahead(memory);
   // Eight sums whatever the length of a vector.
   HWY_ALIGN std::array<T, width> squares{};
   const auto solve = [&](const Place<T, dim>& at, SweptContacts<T>& c) HWY_ATTR {
@@ -294,14 +274,12 @@ double sweep(ContactBlock<T, dim>* blocks, std::span<const std::int32_t> groups,
     for (std::size_t left = count * (width / lanes) - 1; left > 0; --left) {
       solve(at, c);
       const bool whole = at.k + lanes == width;
-      if (whole) ahead.ask();
       const Place<T, dim> after{whole ? at.block + 1 : at.block, whole ? 0 : at.k + lanes};
       bring_bodies(after, bodies, next);
       push_bodies<T, dim, spin>(at, c, bodies);
       at = after;
       c.I = next.I, c.J = next.J;
     }
-    ahead.ask();
     solve(at, c);
     push_bodies<T, dim, spin>(at, c, bodies);
   }
@@ -310,12 +288,12 @@ double sweep(ContactBlock<T, dim>* blocks, std::span<const std::int32_t> groups,
 
 template <class T, int dim, bool spin>
 double sweep(ContactBlock<T, dim>* blocks, std::span<const std::int32_t> groups, BodyRecord<T>* bodies,
-             T beta, SweepExtrapolation how, const MemoryAhead& ahead) {
+             T beta, SweepExtrapolation how) {
   using enum SweepExtrapolation;
-  if (how == none) return sweep<T, dim, spin, none>(blocks, groups, bodies, beta, ahead);
+  if (how == none) return sweep<T, dim, spin, none>(blocks, groups, bodies, beta);
   if constexpr (sizeof(T) < sizeof(double))
-    if (how == exact) return sweep<T, dim, spin, exact>(blocks, groups, bodies, beta, ahead);
-  return sweep<T, dim, spin, rounded>(blocks, groups, bodies, beta, ahead);
+    if (how == exact) return sweep<T, dim, spin, exact>(blocks, groups, bodies, beta);
+  return sweep<T, dim, spin, rounded>(blocks, groups, bodies, beta);
 }
 
 /// 1 / lambda_max(W_aa) with rolling resistance: the larger eigenvalue of friction and rolling, W_nn being
@@ -421,8 +399,8 @@ void go_on(BodyRecord<T>* bodies, BodyRecord<T>* before, std::size_t count, T be
     load<T, dim, spin>(b, n, v);                                                                       \
   }                                                                                                    \
   double sweep_##name(ContactBlock<T, dim>* b, std::span<const std::int32_t> groups, BodyRecord<T>* v, \
-                      T beta, SweepExtrapolation how, const MemoryAhead& ahead) {                      \
-    return sweep<T, dim, spin>(b, groups, v, beta, how, ahead);                                        \
+                      T beta, SweepExtrapolation how) {                                                \
+    return sweep<T, dim, spin>(b, groups, v, beta, how);                                               \
   }                                                                                                    \
   SeenResidual residual_##name(const ContactBlock<T, dim>* b, std::size_t n, const BodyRecord<T>* v) { \
     return residual<T, dim, spin>(b, n, v);                                                            \
@@ -463,9 +441,8 @@ HWY_EXPORT(go_on_float);
   }                                                                                                       \
   template <>                                                                                             \
   double SweepKernels<T, dim, spin>::sweep(Block* blocks, std::span<const std::int32_t> groups,           \
-                                           BodyRecord<T>* bodies, T beta, SweepExtrapolation how,         \
-                                           const MemoryAhead& ahead) {                                    \
-    return HWY_DYNAMIC_DISPATCH(sweep_##name)(blocks, groups, bodies, beta, how, ahead);                  \
+                                           BodyRecord<T>* bodies, T beta, SweepExtrapolation how) {       \
+    return HWY_DYNAMIC_DISPATCH(sweep_##name)(blocks, groups, bodies, beta, how);                         \
   }                                                                                                       \
   template <>                                                                                             \
   SeenResidual SweepKernels<T, dim, spin>::residual(const Block* blocks, std::size_t count,               \

@@ -52,22 +52,6 @@ void require_offsets(std::size_t records) {
     throw std::length_error("more bodies than one process can sweep; start it on MPI ranks");
 }
 
-/// Pieces of memory that a later call needs: a sweep asks for them, a few lines with every block, so that
-/// they come into the second cache while it works. Changes no number.
-struct MemoryAhead {
-  struct Piece {
-    const std::byte *begin = nullptr, *end = nullptr;
-  };
-  std::array<Piece, 3> pieces;
-
-  /// Part number `part` of `parts` about equal ones.
-  template <class T>
-  static Piece piece_of(std::span<const T> whole, std::size_t part, std::size_t parts) {
-    const auto bytes = std::as_bytes(whole);
-    return {bytes.data() + bytes.size() * part / parts, bytes.data() + bytes.size() * (part + 1) / parts};
-  }
-};
-
 /// Kernels of one kind of problem; `spin`: bodies turn.
 template <class T, int dim, bool spin>
 struct SweepKernels {
@@ -80,7 +64,7 @@ struct SweepKernels {
   /// starts from r + beta (r - before), and `before` becomes r. Returns the sum of squares of the steps of
   /// the impulses. Double precision rounds what it extrapolates.
   static double sweep(Block* blocks, std::span<const std::int32_t> groups, BodyRecord<T>* bodies, T beta,
-                      SweepExtrapolation, const MemoryAhead& ahead = {});
+                      SweepExtrapolation);
   /// The residual of the blocks as they stand.
   static SeenResidual residual(const Block* blocks, std::size_t count, const BodyRecord<T>* bodies);
   /// The same going on for bodies.

@@ -2,7 +2,6 @@
 // Several sweeps over strips at once: the order in which their phases are done, so that strips stay in the
 // caches from one sweep to the next.
 #include <algorithm>
-#include <optional>
 
 namespace drumlin::particles {
 
@@ -39,20 +38,6 @@ void sweep_alone(const StripShare& share, int sweeps, Part part) {
     for (int s = 0; s < sweeps; ++s)
       for (const int phase : {0, 1})
         if (const int strip = front - s - phase; alone(share, s, phase).holds(strip)) part(s, strip, phase);
-}
-
-/// One of so many parts of the memory of a strip.
-struct StripAhead {
-  int strip = 0, part = 0, parts = 1;
-};
-
-/// What a part of sweep s > 0 of a wave asks for: of the strip that the wave comes to next one of as many
-/// shares as such parts there are between one strip of it and the next.
-inline std::optional<StripAhead> ahead_of_part(const StripShare& share, int sweeps, int s, int strip,
-                                               int phase) {
-  const int next = strip + s + phase + 1;
-  if (s == 0 || next >= share.end || !share.takes_wave(sweeps)) return std::nullopt;
-  return StripAhead{next, 2 * (s - 1) + phase, 2 * (sweeps - 1)};
 }
 
 /// strips: tells first_strip(thread, threads), as StripProblem does.

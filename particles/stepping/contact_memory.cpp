@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "particles/detection/open_gaps.hpp"
-#include "particles/parallel/ask_ahead.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -118,15 +117,9 @@ void Recollection::warm_start(const ContactMemory& memory, int dim, double time_
   const double scale = scale_of(memory, time_step);
   const std::int32_t* const place = place_.data();
   loops_.each(place_.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t a = begin; a < end; ++a) {
-      if (a + 2 * turns_ahead < end) ask_for(&place[order[a + 2 * turns_ahead]]);
-      if (a + turns_ahead < end) {
-        const std::int32_t later = place[order[a + turns_ahead]];
-        ask_for(memory.impulse.data() + dim * std::max(later, 0));
-      }
+    for (std::size_t a = begin; a < end; ++a)
       if (const std::int32_t m = place[order[a]]; m >= 0)
         for (int c = 0; c < dim; ++c) impulses[dim * a + c] = scale * memory.impulse[dim * m + c];
-    }
   });
 }
 
@@ -140,11 +133,6 @@ void remember(std::span<const Candidate> pairs, std::span<const std::int32_t> or
   const std::size_t dim = pairs.empty() ? 0 : impulses.size() / pairs.size();
   loops.each(pairs.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t a = begin; a < end; ++a) {
-      if (a + turns_ahead < end) {
-        const std::size_t later = order[a + turns_ahead];
-        ask_for_entry(later, memory.i, memory.j);
-        ask_for(memory.impulse.data() + dim * later);
-      }
       const std::size_t m = order[a];
       memory.i[m] = pairs[a].i, memory.j[m] = pairs[a].j;
       for (std::size_t c = 0; c < dim; ++c) memory.impulse[dim * m + c] = impulses[dim * a + c];

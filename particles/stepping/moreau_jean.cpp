@@ -8,7 +8,6 @@
 #include "particles/contact/block_problem.hpp"
 #include "particles/detection/contact_list.hpp"
 #include "particles/detection/contact_order.hpp"
-#include "particles/parallel/ask_ahead.hpp"
 #include "particles/parallel/work_memory.hpp"
 #include "particles/solver/contact_solver.hpp"
 #include "particles/stepping/assembly.hpp"
@@ -191,10 +190,7 @@ class MoreauJean final : public Stepper {
     const auto found = detection_.candidates();
     resize_closely(contacts_.pairs, found.size());
     TeamLoops(&team_).each(found.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t a = begin; a < end; ++a) {
-        if (a + turns_ahead < end) ask_for(&found[order[a + turns_ahead]]);
-        contacts_.pairs[a] = found[order[a]];
-      }
+      for (std::size_t a = begin; a < end; ++a) contacts_.pairs[a] = found[order[a]];
       place_pairs(step, std::span(contacts_.pairs).subspan(begin, end - begin));
     });
   }

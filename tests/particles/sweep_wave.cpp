@@ -3,13 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "particles/parallel/thread_team.hpp"
-#include "particles/solver/strip_sweeps.hpp"
 
 namespace drumlin {
 using namespace particles;
@@ -62,44 +59,6 @@ TEST(SweepWave, GivesWhatSweepsInTurnGive) {
             << size << " threads, " << strips << " strips, " << sweeps << " sweeps";
       }
   }
-}
-
-/// Remembers what is asked for.
-struct AskedStrips : Strips {
-  mutable std::vector<std::vector<int>> parts;
-  MemoryAhead memory(int strip, int part, int of) const {
-    parts[static_cast<std::size_t>(strip)].resize(static_cast<std::size_t>(of), 0);
-    ++parts[static_cast<std::size_t>(strip)][static_cast<std::size_t>(part)];
-    return {};
-  }
-};
-
-TEST(SweepWave, AsksForAStripOnceBeforeItComes) {
-  constexpr int count = 20;
-  for (int sweeps = 2; sweeps <= longest_wave_with_ends; ++sweeps) {
-    AskedStrips strips{{count}, std::vector<std::vector<int>>(count)};
-    const StripShare share = share_of(strips, 0, 1);
-    const auto part = [&](int s, int strip, int phase) {
-      if (s == 0 && phase == 0 && strip > sweeps) {
-        EXPECT_EQ(strips.parts[static_cast<std::size_t>(strip)],
-                  std::vector<int>(2 * static_cast<std::size_t>(sweeps - 1), 1))
-            << "strip " << strip << " of waves of " << sweeps;
-      }
-      ahead_of_wave(strips, share, sweeps, s, strip, phase);
-    };
-    sweep_wave(share, sweeps, part, [] {});
-  }
-}
-
-TEST(SweepWave, PartsOfAMemoryAreAllOfIt) {
-  const std::vector<double> numbers(37);
-  const std::byte* place = std::as_bytes(std::span(numbers)).data();
-  for (std::size_t part = 0; part < 8; ++part) {
-    const auto piece = MemoryAhead::piece_of(std::span(numbers), part, 8);
-    EXPECT_EQ(piece.begin, place);
-    place = piece.end;
-  }
-  EXPECT_EQ(place, std::as_bytes(std::span(numbers)).data() + sizeof(double) * numbers.size());
 }
 
 }  // namespace
