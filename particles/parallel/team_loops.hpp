@@ -60,8 +60,7 @@ class TeamLoops {
   }
 
   ThreadTeam* team() const { return team_; }
-  /// That the next loop is given.
-  int threads() const { return team_ ? team_->threads() : 1; }
+  int threads() const { return team_ ? team_->size() : 1; }
 
  private:
   static constexpr std::size_t piece = 1024;

@@ -200,7 +200,7 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
     const bool look = always || until >= rule.max_sweeps;
     if (team)
       team->run([&](int t, int threads) {
-        sweep_share(strips, t, threads, until, look, how, state, [=] { team->meet(t); });
+        sweep_share(strips, t, threads, until, look, how, state, [=] { team->meet(); });
       });
     else
       sweep_share(strips, 0, 1, until, look, how, state, [] {});

@@ -53,7 +53,7 @@ TEST(SweepWave, GivesWhatSweepsInTurnGive) {
         team.run([&](int t, int threads) {
           sweep_wave(
               share_of(Strips{strips}, t, threads), sweeps,
-              [&](int s, int strip, int phase) { slices.touch(s, strip, phase); }, [&] { team.meet(t); });
+              [&](int s, int strip, int phase) { slices.touch(s, strip, phase); }, [&] { team.meet(); });
         });
         EXPECT_EQ(slices.numbers(), in_turn(strips, sweeps))
             << size << " threads, " << strips << " strips, " << sweeps << " sweeps";
