@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "particles/contact/impulse_sizes.hpp"
 #include "particles/distributed/halo.hpp"
 #include "particles/distributed/tile_order.hpp"
 #include "particles/parallel/team_loops.hpp"
@@ -37,10 +36,6 @@ class TileBlocks {
   double sweep(std::size_t tile, T beta, SweepExtrapolation);
   /// The residual as impulses and bodies stand.
   SeenResidual residual(std::size_t tile) const;
-  /// Sizes of the impulses of the bodies as they stand.
-  ImpulseSizes<BodyRecord<T>> impulses() const {
-    return ImpulseSizes<BodyRecord<T>>({bodies_.data(), bodies_.size()});
-  }
   void keep(std::size_t tile);
 
   /// Lets the bodies rest: load() and start() have to follow.

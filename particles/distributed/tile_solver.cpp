@@ -61,8 +61,8 @@ template <class Problem>
 template <class T>
 double TileSolver<Problem>::summed_impulses(const TiledContacts& contacts, const Blocks<T>& blocks) {
   ExactSum impulses;
-  impulses.add_terms(contacts.counts_here.size(), [&, sizes = blocks.impulses()](std::size_t b) mutable {
-    return contacts.counts_here[b] ? sizes[b] : 0;
+  impulses.add_terms(contacts.counts_here.size(), [&, bodies = blocks.bodies()](std::size_t b) {
+    return contacts.counts_here[b] ? impulse_of(bodies[b]) : 0;
   });
   ranks_.add(impulses.numbers());
   return impulses.value();
@@ -121,9 +121,8 @@ ContactResidual TileSolver<Problem>::residual(const Problem& problem, const Tile
     sums[0].add(of_tile[t].squares), sums[1].add(q_squares[t]), sums[2].add(of_tile[t].let_through);
     all.add(of_tile[t]);
   }
-  ImpulseSizes sizes{std::span(state)};
   sums[3].add_terms(contacts.counts_here.size(),
-                    [&](std::size_t b) { return contacts.counts_here[b] ? sizes[b] : 0; });
+                    [&](std::size_t b) { return contacts.counts_here[b] ? impulse_of(state[b]) : 0; });
   const std::int64_t contacts_of_all = ranks_.add(sums, problem.contacts());
   ContactResidual residual;
   if (contacts_of_all == 0) return residual;

@@ -7,9 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "particles/contact/impulse_sizes.hpp"
 #include "particles/contact/problems.hpp"
-#include "particles/solver/sweep_kernels.hpp"
 
 namespace drumlin {
 using namespace particles;
@@ -105,45 +103,6 @@ TEST(Residual, OnVectorsIsThatOfTheContactsOneByOne) {
     EXPECT_TRUE(errors[k] == one || (std::isnan(errors[k]) && std::isnan(one))) << k;
     EXPECT_TRUE(smooth[k] == one_smooth || (std::isnan(smooth[k]) && std::isnan(one_smooth))) << k;
   }
-}
-
-/// Bodies of which some do not move, and one moves at no number.
-template <class Body>
-std::vector<Body> moving_bodies(std::size_t count) {
-  using T = decltype(Body::x);
-  std::vector<Body> bodies(count);
-  for (std::size_t b = 0; b < count; ++b) {
-    bodies[b].x = static_cast<T>(std::sin(3 * b)), bodies[b].z = static_cast<T>(std::cos(7 * b));
-    bodies[b].inverse_mass = b % 5 == 0 ? T(0) : static_cast<T>(1 + std::sin(b) / 2);
-  }
-  if (count > 21) bodies[21].z = std::numeric_limits<T>::quiet_NaN();
-  return bodies;
-}
-
-template <class Body>
-void expect_sizes_one_by_one() {
-  for (const std::size_t count : {1, 7, 8, 31, 128, 300}) {
-    const auto bodies = moving_bodies<Body>(count);
-    ImpulseSizes<Body> sizes{std::span<const Body>(bodies)};
-    for (std::size_t b = 0; b < count; ++b) {
-      const double one = impulse_of(bodies[b]), size = sizes[b];
-      EXPECT_TRUE(size == one || (std::isnan(size) && std::isnan(one))) << b << " of " << count;
-      EXPECT_EQ(std::isnan(size), b == 21);
-    }
-  }
-}
-
-TEST(ImpulseSizes, AreThoseOfTheBodiesOneByOneOnAnyInstructionSet) {
-  for (const auto target : hwy::SupportedAndGeneratedTargets()) {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().DeInit();
-    expect_sizes_one_by_one<BodyRecord<float>>();
-    expect_sizes_one_by_one<BodyRecord<double>>();
-    expect_sizes_one_by_one<BodyVelocity<true>>();
-    expect_sizes_one_by_one<BodyVelocity<false>>();
-  }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().DeInit();
 }
 
 /// A chain of discs, in an order that strips of it can be swept in if it is `planned`.
