@@ -33,14 +33,7 @@ struct SweepState {
   bool keep = false;    ///< the impulses that it left are the best so far
 };
 
-/// Whether the residual is worth a look once the sweeps that end with these steps are over.
-template <class T>
-bool worth_a_look(const SweepState<T>& state, bool last, double steps) {
-  constexpr int most_unseen = 3;
-  return last || !state.finite || steps <= state.worth || state.unseen >= most_unseen;
-}
-
-/// Lets the bodies receive the impulses to start from, before a sweep that is not part of a wave.
+/// Lets the bodies receive the impulses to start from.
 template <class Strips, class Meet>
 void load_share(Strips& strips, const StripShare& share, bool first_thread, Meet meet) {
   for (const int phase : {0, 1}) {
@@ -56,41 +49,26 @@ void load_share(Strips& strips, const StripShare& share, bool first_thread, Meet
 }
 
 /// Sweeps on to `until` and, where it is due, computes the residuals of the strips; one thread's share, which
-/// meets the others by calling meet(). In a wave, what comes before the first sweep and after the last one
-/// goes through the strips with them.
+/// meets the others by calling meet().
 template <class T, class Strips, class Meet>
 void sweep_share(Strips& strips, int thread, int threads, int until, bool last, SweepExtrapolation how,
                  SweepState<T>& state, Meet meet) {
   const bool accelerated = how != SweepExtrapolation::none;
   const StripShare share = share_of(strips, thread, threads);
   SweepState<T> own = state;
-  const bool waves = own.wave > 1;
-  if (!own.loaded && !(waves && share.takes_wave(1 + own.wave))) {
-    load_share(strips, share, thread == 0, meet);
-    own.loaded = true;
-  }
-  bool looked = false;
+  if (!std::exchange(own.loaded, true)) load_share(strips, share, thread == 0, meet);
   while (own.sweeps < until && own.finite) {
     const int sweeps = std::min(own.wave, until - own.sweeps), slots = own.waves++ % 2 * longest_wave;
     std::array<T, longest_wave> betas{own.beta};
     Momentum expected = own.momentum;
     for (int s = 1; s < sweeps; ++s) betas[s] = static_cast<T>(expected.next_of_falling());
-    const int loads = own.loaded ? 0 : 1;
-    constexpr double expects = 1.2;  // steps fall by about that; a look in vain is forgotten
-    looked = waves && share.takes_wave(loads + sweeps + 1) && own.sweeps + sweeps >= until &&
-             worth_a_look(own, last, own.steps / expects);
-    const auto part = [&](int k, int strip, int phase) {
-      const int s = k - loads;
-      if (s < 0) return strips.load(strip, phase);
-      if (s == sweeps) return strips.look_at(strip, phase);
-      if (s == 0 && phase == 0) {
-        if (loads > 0) strips.start(strip);
-        if (own.keep) strips.keep(strip);
-      }
+    const auto part = [&](int s, int strip, int phase) {
+      if (s == 0 && phase == 0 && own.keep) strips.keep(strip);
       strips.sweep(strip, phase, slots + s, betas[s], how);
     };
-    sweep_wave(share, loads + sweeps + (looked ? 1 : 0), part, meet);
-    own.keep = false, own.loaded = true;
+    sweep_wave(share, sweeps, part, meet);
+    own.keep = false;
+
     if (strips.has_driven()) {
       if (thread == 0) strips.sweep_driven(slots, own.beta, accelerated);
       meet();
@@ -102,9 +80,10 @@ void sweep_share(Strips& strips, int thread, int threads, int until, bool last, 
       own.beta = static_cast<T>(own.momentum.next(own.steps));
     }
   }
-  own.looked = worth_a_look(own, last, own.steps);
+  constexpr int most_unseen = 3;
+  own.looked = last || !own.finite || own.steps <= own.worth || own.unseen >= most_unseen;
   own.unseen = own.looked ? 0 : own.unseen + 1;
-  if (own.looked && !looked)
+  if (own.looked)
     for (int strip = share.first; strip < share.end; ++strip)
       for (const int phase : {0, 1}) strips.look_at(strip, phase);
   // All threads have taken their copies: they have met since.

@@ -7,8 +7,6 @@ namespace drumlin::particles {
 
 /// Most sweeps of a wave.
 inline constexpr int longest_wave = 5;
-/// With what may go before the first and after the last of them.
-inline constexpr int longest_wave_with_ends = longest_wave + 2;
 
 /// The strips of one thread of a team, and how many the thread with the fewest has.
 struct StripShare {

@@ -48,7 +48,7 @@ TEST(SweepWave, GivesWhatSweepsInTurnGive) {
   for (const int size : {1, 2, 3, 5}) {
     ThreadTeam team(size);
     for (const int strips : {1, 2, 3, 7, 12, 20, 21, 33, 64})
-      for (int sweeps = 1; sweeps <= longest_wave_with_ends; ++sweeps) {
+      for (int sweeps = 1; sweeps <= longest_wave; ++sweeps) {
         Slices slices(strips);
         team.run([&](int t, int threads) {
           sweep_wave(
