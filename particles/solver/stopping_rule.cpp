@@ -38,10 +38,14 @@ SolveReport together(const SolveReport& first, const SolveReport& second) {
   return both;
 }
 
+bool StoppingTest::out_of_time() const {
+  return seconds() > rule_.max_seconds || (rule_.interrupted && rule_.interrupted());
+}
+
 bool StoppingTest::ends(int sweeps, const ContactResidual& residual, bool finite) {
   report_.sweeps = sweeps;
   report_.residual = residual;
-  report_.seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+  report_.seconds = seconds();
   if (!finite || std::isnan(residual.rms))
     report_.status = Status::not_finite;
   else if (residual.rms <= rule_.tolerance && residual.penetration <= rule_.penetration &&
@@ -49,7 +53,7 @@ bool StoppingTest::ends(int sweeps, const ContactResidual& residual, bool finite
     report_.status = Status::converged;
   else if (sweeps >= rule_.max_sweeps)
     report_.status = Status::out_of_sweeps;
-  else if (report_.seconds > rule_.max_seconds || (rule_.interrupted && rule_.interrupted()))
+  else if (out_of_time())
     report_.status = Status::out_of_time;
   else
     return false;

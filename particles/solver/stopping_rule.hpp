@@ -22,7 +22,8 @@ struct StoppingRule {
            ///< solves in strips leave out those that their steps call idle, at most three in turn
   double max_seconds =
       std::numeric_limits<double>::infinity();  ///< wall time; finite limits make a run irreproducible
-  bool (*interrupted)() = nullptr;  ///< asked with each residual; its true ends the solve as out of time
+  /// Asked every check_every sweeps; once true, it stays so and ends the solve as out of time.
+  bool (*interrupted)() = nullptr;
 };
 
 struct [[nodiscard]] SolveReport {
@@ -50,6 +51,8 @@ class StoppingTest {
   /// Whether the solve ends with this residual after so many sweeps. `finite`: no sweep has made an infinity
   /// or a NaN.
   bool ends(int sweeps, const ContactResidual& residual, bool finite = true);
+  /// Whether the time of the rule is over, or somebody interrupts the solve: the next residual ends it.
+  bool out_of_time() const;
   /// The solve returns other impulses than the last ones, with this residual.
   void replace(const ContactResidual& residual) { report_.residual = residual; }
   /// As of the last call of ends(); its status means something only if the solve ended.
@@ -59,6 +62,7 @@ class StoppingTest {
   using Clock = std::chrono::steady_clock;
   StoppingRule rule_;
   Clock::time_point start_ = Clock::now();
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
   SolveReport report_;
 };
 

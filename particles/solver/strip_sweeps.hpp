@@ -154,7 +154,7 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
   constexpr double hope = 2;  // times the tolerance: a residual that is looked for
   constexpr bool single = sizeof(T) < sizeof(double);
   const bool leaves = single || (accelerated && is_steep(problem));  // where it gets stuck
-  const bool always = std::isfinite(rule.max_seconds);
+
   SweepState<T> state;
   state.momentum = Momentum(rule.tolerance, static_cast<std::size_t>(problem.contacts()));
   if (accelerated && !strips.has_driven() && problem.contacts() >= least_contacts_of_waves)
@@ -176,7 +176,7 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
   for (;; go_on()) {
     int until = state.sweeps + 1;
     while (!test.due(until)) ++until;
-    const bool look = always || until >= rule.max_sweeps;
+    const bool look = until >= rule.max_sweeps || test.out_of_time();
     if (team)
       team->run([&](int t, int threads) {
         sweep_share(strips, t, threads, until, look, how, state, [=] { team->meet(); });
@@ -195,10 +195,10 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
     progress.see(misses, state.sweeps);
     // Rounding of single precision hides the progress, or momentum keeps steep contacts swinging.
     const bool stuck = leaves && progress.stuck(state.sweeps);
-    const bool last = state.sweeps >= rule.max_sweeps || !state.finite;
+    const bool last = look || !state.finite;
     const double missed = progress.missed(misses);
     if (missed < best) best = missed, state.keep = true, strips.keep_driven();
-    if (!last && !stuck && progress.surely_misses(misses) && !always) continue;
+    if (!last && !stuck && progress.surely_misses(misses)) continue;
     strips.unpack(problem, false, solution.impulses, loops);
     const bool ended = test.ends(state.sweeps, residual_of(problem, solution, loops), state.finite);
     const bool hidden = single && test.report().residual.rms > 3 * seen;
