@@ -21,7 +21,7 @@ install(TARGETS drumlin drumlin-flow drumlin-run RUNTIME DESTINATION ${CMAKE_INS
 
 # As in the sources: #include "particles/stepping/simulation.hpp". Headers in `detail` are private to their room. Discs on ranks are a program only.
 install(DIRECTORY coupling particles continuum DESTINATION ${DRUMLIN_INSTALLED_INCLUDES}
-        FILES_MATCHING PATTERN "*.hpp" PATTERN detail EXCLUDE PATTERN distributed EXCLUDE)
+        FILES_MATCHING PATTERN "*.hpp" PATTERN "*-inl.h" PATTERN detail EXCLUDE PATTERN distributed EXCLUDE)
 
 install(DIRECTORY data/scenes data/rheology data/paper data/cost data/limits DESTINATION ${DRUMLIN_INSTALLED_DATA})
 install(FILES data/problems/drum-300-mu-0.4-flow.h5 DESTINATION ${DRUMLIN_INSTALLED_DATA}/problems)

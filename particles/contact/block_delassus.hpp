@@ -5,14 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "particles/contact/cone.hpp"
+#include "particles/contact_law/coulomb_coupled.hpp"
 
 namespace drumlin::particles {
-
-/// Exact solution of one planar frictional contact u = W r + q with a full 2x2 block: no contact, sticking,
-/// or sliding forwards or backwards, whichever satisfies its own inequalities. W must be positive definite on
-/// its diagonal.
-Eigen::Vector2d solve_planar_contact(const Eigen::Matrix2d& W, const Eigen::Vector2d& q, double mu);
 
 /// Rows of blocks (compressed); `diagonal[a]` repeats W_aa, which the sweeps need at once.
 class BlockDelassus {

@@ -1,15 +1,15 @@
 #pragma once
 // W = H M^-1 H^T of discs, never assembled: a contact reads and writes the velocities of its two bodies.
-// For discs W_nt = 0 and W_tt = 3 W_nn with spin (J = m r^2 / 2), W_tt = W_nn without, so a contact is solved
-// exactly by one max and one clamp.
+// For discs W_nt = 0 and W_tt = 3 W_nn with spin (J = m r^2 / 2), W_tt = W_nn without.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "particles/contact/cone.hpp"
 #include "particles/contact/sweep_plan.hpp"
+#include "particles/contact_law/laws.hpp"
 #include "particles/parallel/work_memory.hpp"
 
 namespace drumlin::particles {
@@ -162,34 +162,25 @@ class BodyDelassus {
   /// stand. r and state are updated, `step` receives r_new - r_old; returns the sum of squares of `step`.
   double sweep(std::span<const double> q, std::span<const double> mu, std::span<double> r, State& state,
                std::span<double> step) const {
+    using namespace contact_law;
     double sum = 0;
     const int count = contacts();
     for (int a = 0; a < count; ++a) {
-      if constexpr (dim == 1) {
-        const double u_n = q[a] + normal_velocity(state, a);
-        const double r_n = std::max(0.0, r[a] - u_n * inverse_W_nn[a]);
-        const double dr_n = r_n - r[a];
-        push(state, a, dr_n, 0);
-        r[a] = r_n;
-        step[a] = dr_n;
-        sum += dr_n * dr_n;
-      } else {
-        constexpr double ratio = with_spin ? 1.0 / 3 : 1.0;  // W_nn / W_tt
-        const double u_n = q[2 * a] + normal_velocity(state, a);
-        const double u_t = q[2 * a + 1] + tangential_velocity(state, a);
-        const double free = r[2 * a + 1] - u_t * (inverse_W_nn[a] * ratio);
-        double r_n = std::max(0.0, r[2 * a] - u_n * inverse_W_nn[a]);
-        if (mu[a] > steep_friction)
-          r_n = std::max(0.0, r[2 * a] - u_n * (inverse_W_nn[a] *
-                                                share_of_way(mu[a], r[2 * a], r[2 * a + 1], r_n, free)));
-        const double bound = mu[a] * r_n;
-        const double r_t = std::clamp(free, -bound, bound);
-        const double dr_n = r_n - r[2 * a], dr_t = r_t - r[2 * a + 1];
-        push(state, a, dr_n, dr_t);
-        r[2 * a] = r_n, r[2 * a + 1] = r_t;
-        step[2 * a] = dr_n, step[2 * a + 1] = dr_t;
-        sum += dr_n * dr_n + dr_t * dr_t;
+      InverseBlock<double, dim> W;
+      std::array<double, dim> u;
+      W.nn = inverse_W_nn[a], u[0] = q[dim * a] + normal_velocity(state, a);
+      if constexpr (dim == 2) {
+        W.tt = inverse_W_nn[a] * (1 / largest_in_W_nn);
+        u[1] = q[2 * a + 1] + tangential_velocity(state, a);
       }
+      const auto old = numbers_at<dim>(&r[dim * a]);
+      const auto fresh = solved(W, numbers_at<dim - 1>(mu.data() + (dim - 1) * a), u, old);
+      for (int c = 0; c < dim; ++c) {
+        step[dim * a + c] = fresh[c] - old[c];
+        r[dim * a + c] = fresh[c];
+        sum += step[dim * a + c] * step[dim * a + c];
+      }
+      push(state, a, step[dim * a], dim == 2 ? step[dim * a + 1] : 0);
     }
     return sum;
   }

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "particles/contact/cone.hpp"
+#include "particles/contact_law/laws.hpp"
 
 namespace drumlin::particles {
 
@@ -29,7 +29,7 @@ struct ContactProblem {
 /// Whether friction or rolling resistance of a contact is steep.
 template <class Problem>
 bool is_steep(const Problem& problem) {
-  return std::any_of(problem.mu.begin(), problem.mu.end(), [](double mu) { return mu > steep_friction; });
+  return std::any_of(problem.mu.begin(), problem.mu.end(), [](double mu) { return contact_law::steep(mu); });
 }
 
 }  // namespace drumlin::particles

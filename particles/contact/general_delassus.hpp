@@ -2,7 +2,6 @@
 // W = H M^-1 H^T of discs with rolling resistance, of walls that contacts push, and of a cell under pressure.
 // Scenes without these effects use BodyDelassus and pay nothing for them. Contact after contact, in the order
 // of the problem.
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,7 +11,7 @@
 #include <vector>
 
 #include "particles/contact/body_delassus.hpp"
-#include "particles/contact/cone.hpp"
+#include "particles/contact_law/local_block.hpp"
 
 namespace drumlin::particles {
 
@@ -27,57 +26,6 @@ struct CellBody {
   double inverse_inertia_x = 0, inverse_inertia_z = 0;
   double length_x = 1, length_z = 1;
 };
-
-/// W_aa, symmetric: W_nr = 0 always, W_nt = 0 but at driven walls that are pushed askew and in a cell.
-struct LocalBlock {
-  double nn = 0, nt = 0, tt = 0, tr = 0, rr = 0;
-  double inverse_nn = 0, inverse_tt = 0;
-  double inverse_determinant = 0;  ///< of the part of friction and rolling; 0 without rolling
-};
-/// The block with its inverses.
-inline LocalBlock with_inverses(LocalBlock W) {
-  W.inverse_nn = 1 / W.nn, W.inverse_tt = 1 / W.tt;
-  if (W.rr > 0) W.inverse_determinant = 1 / (W.tt * W.rr - W.tr * W.tr);
-  return W;
-}
-
-/// The (r_t, r_r) within |r_t| <= bound_t, |r_r| <= bound_r that oppose sliding and rolling: the minimum of a
-/// strictly convex quadratic over a box, exactly. In: the impulses and the velocities that belong to them.
-inline void solve_in_box(const LocalBlock& W, double u_t, double u_r, double bound_t, double bound_r,
-                         double& r_t, double& r_r) {
-  // One after the other from the free minimum, each clamped: where friction leaves the box first, rolling
-  // along that edge is right, or friction along the edge of rolling is.
-  const double before_t = r_t, before_r = r_r;
-  const double free_t = before_t + (W.tr * u_r - W.rr * u_t) * W.inverse_determinant;
-  const double first = std::clamp(free_t, -bound_t, bound_t);
-  r_r = std::clamp(before_r - (u_r + W.tr * (first - before_t)) / W.rr, -bound_r, bound_r);
-  r_t = std::clamp(before_t - (u_t + W.tr * (r_r - before_r)) * W.inverse_tt, -bound_t, bound_t);
-}
-
-/// One contact solved with the others as they stand: first the normal, then friction and rolling together,
-/// exactly where W_nt = 0. `u` are the velocities that belong to the impulses r, `mu` the dim - 1
-/// coefficients.
-template <int dim>
-std::array<double, dim> solved_contact(const LocalBlock& W, const double* mu, std::array<double, dim> u,
-                                       const std::array<double, dim>& r) {
-  std::array<double, dim> fresh = r;
-  fresh[0] = std::max(0.0, r[0] - u[0] * W.inverse_nn);
-  if constexpr (dim >= 2)
-    if (std::max(mu[0], mu[dim - 2]) > steep_friction) {
-      const double free_t = r[1] - (u[1] + W.nt * (fresh[0] - r[0])) * W.inverse_tt;
-      double share = share_of_way(mu[0], r[0], r[1], fresh[0], free_t);
-      if constexpr (dim == 3)
-        share = std::min(share, share_of_way(mu[1], r[0], r[2], fresh[0], r[2] - u[2] / W.rr));
-      fresh[0] = std::max(0.0, r[0] - u[0] * (W.inverse_nn * share));
-    }
-  if constexpr (dim >= 2) u[1] += W.nt * (fresh[0] - r[0]);
-  if constexpr (dim == 2) {
-    const double bound = mu[0] * fresh[0];
-    fresh[1] = std::clamp(r[1] - u[1] * W.inverse_tt, -bound, bound);
-  }
-  if constexpr (dim == 3) solve_in_box(W, u[1], u[2], mu[0] * fresh[0], mu[1] * fresh[0], fresh[1], fresh[2]);
-  return fresh;
-}
 
 /// Contacts in solve order. Bodies: the grains, the fixed one, then the driven walls or the cell if
 /// `with_driven`.
@@ -133,7 +81,7 @@ class GeneralDelassus {
     blocks_[a] = block_of(a);
   }
 
-  const LocalBlock& block(int a) const { return blocks_[a]; }
+  const LocalBlock<dim>& block(int a) const { return blocks_[a]; }
 
   void rest(State& state) const {
     state.assign(inverse_mass.size(), Velocity{});
@@ -202,27 +150,12 @@ class GeneralDelassus {
   }
 
   /// lambda_max(W_aa), the scale of the residual.
-  double largest_eigenvalue(int a) const {
-    const LocalBlock& W = blocks_[a];
-    if constexpr (dim == 1) {
-      return W.nn;
-    } else {
-      if (W.nt != 0) {
-        Eigen::Matrix<double, dim, dim> whole = Eigen::Matrix<double, dim, dim>::Zero();
-        whole(0, 0) = W.nn, whole(1, 1) = W.tt, whole(0, 1) = whole(1, 0) = W.nt;
-        if constexpr (dim == 3) whole(2, 2) = W.rr, whole(1, 2) = whole(2, 1) = W.tr;
-        return Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, dim, dim>>(whole, Eigen::EigenvaluesOnly)
-            .eigenvalues()[dim - 1];
-      }
-      const double mean = (W.tt + W.rr) / 2, half = (W.tt - W.rr) / 2;
-      return std::max(W.nn, dim == 3 ? mean + std::sqrt(half * half + W.tr * W.tr) : W.tt);
-    }
-  }
+  double largest_eigenvalue(int a) const { return particles::largest_eigenvalue<dim>(blocks_[a].matrix); }
 
   /// State of given impulses, from scratch.
   void load(State& state, std::span<const double> r) const {
     rest(state);
-    for (int a = 0; a < contacts(); ++a) push(state, a, impulse(r, a));
+    for (int a = 0; a < contacts(); ++a) push(state, a, contact_law::numbers_at<dim>(&r[dim * a]));
   }
 
   /// u = W r + q. `scratch` is overwritten.
@@ -246,10 +179,11 @@ class GeneralDelassus {
                std::span<double> step) const {
     double sum = 0;
     for (int a = 0; a < contacts(); ++a) {
-      const Impulse old = impulse(r, a);
+      const Impulse old = contact_law::numbers_at<dim>(&r[dim * a]);
       Impulse u = relative_velocity(state, a), change;
       for (int c = 0; c < dim; ++c) u[c] += q[dim * a + c];
-      const Impulse fresh = solved_contact<dim>(blocks_[a], mu.data() + (dim - 1) * a, u, old);
+      const auto coefficients = contact_law::numbers_at<dim - 1>(mu.data() + (dim - 1) * a);
+      const Impulse fresh = solved(blocks_[a], coefficients, u, old);
       for (int c = 0; c < dim; ++c) {
         change[c] = fresh[c] - old[c];
         r[dim * a + c] = fresh[c];
@@ -267,9 +201,9 @@ class GeneralDelassus {
   }
 
  private:
-  LocalBlock block_of(int a) const {
+  LocalBlock<dim> block_of(int a) const {
     const double w_i = inverse_mass[i[a]], w_j = inverse_mass[j[a]], w = w_i + w_j;
-    LocalBlock W;
+    LocalMatrix W;
     W.nn = w, W.tt = with_spin ? 3 * w : w;
     if constexpr (dim == 3) {
       const double l_i = lever[a], l_j = 1 - l_i;
@@ -291,15 +225,10 @@ class GeneralDelassus {
         W.nt += n_x[a] * n_z[a] * (x - z);
         W.tt += n_z[a] * n_z[a] * x + n_x[a] * n_x[a] * z;
       }
-    return with_inverses(W);
-  }
-  static Impulse impulse(std::span<const double> r, int a) {
-    Impulse own;
-    for (int c = 0; c < dim; ++c) own[c] = r[dim * a + c];
-    return own;
+    return LocalBlock<dim>(W);
   }
 
-  std::vector<LocalBlock> blocks_;
+  std::vector<LocalBlock<dim>> blocks_;
 };
 
 }  // namespace drumlin::particles

@@ -2,9 +2,9 @@
 // Names of the contact problems in use: one type for each combination of effects.
 #include "particles/contact/block_delassus.hpp"
 #include "particles/contact/body_delassus.hpp"
-#include "particles/contact/cone.hpp"
 #include "particles/contact/contact_problem.hpp"
 #include "particles/contact/general_delassus.hpp"
+#include "particles/contact_law/laws.hpp"
 
 namespace drumlin::particles {
 

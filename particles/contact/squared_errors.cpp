@@ -5,8 +5,8 @@
 // Must come after foreach_target.h.
 #include <hwy/highway.h>
 
-#include "particles/contact/cone_vectors-inl.h"
 #include "particles/contact/squared_errors.hpp"
+#include "particles/contact_law/laws-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace drumlin::particles::HWY_NAMESPACE {
@@ -26,21 +26,13 @@ std::size_t errors_on_vectors(double largest, const double* inverse_W_nn, const 
     const V rho = hn::Div(one, lambda);
     V squares;
     if constexpr (dim == 1) {
-      const V r_n = hn::LoadU(d, r + k), stays = hn::Sub(r_n, hn::Mul(rho, hn::LoadU(d, u + k)));
-      const V missed = hn::Sub(r_n, positive_part(stays));
-      squares = hn::Mul(missed, missed);
+      const std::array<V, 1> r_k{hn::LoadU(d, r + k)}, u_k{hn::LoadU(d, u + k)};
+      squares = contact_law::squared_natural_residual(rho, {}, r_k, u_k);
     } else {
-      const V friction = hn::LoadU(d, mu + k);
-      V r_n, r_t, u_n, u_t;
-      hn::LoadInterleaved2(d, r + 2 * k, r_n, r_t);
-      hn::LoadInterleaved2(d, u + 2 * k, u_n, u_t);
-      const V n = hn::Sub(r_n, hn::Mul(rho, hn::Add(u_n, hn::Mul(friction, hn::Abs(u_t)))));
-      const V t = hn::Sub(r_t, hn::Mul(rho, u_t));
-      squares = missed_by_projection(friction, n, t, r_n, r_t);
-      if (any_steep(friction)) {
-        const V in_turn = missed_in_turn(friction, hn::Sub(r_n, hn::Mul(rho, u_n)), t, r_n, r_t);
-        squares = hn::IfThenElse(hn::Gt(friction, hn::Set(d, steep_friction)), in_turn, squares);
-      }
+      std::array<V, 2> r_k, u_k;
+      hn::LoadInterleaved2(d, r + 2 * k, r_k[0], r_k[1]);
+      hn::LoadInterleaved2(d, u + 2 * k, u_k[0], u_k[1]);
+      squares = contact_law::squared_natural_residual(rho, {hn::LoadU(d, mu + k)}, r_k, u_k);
     }
     hn::StoreU(hn::Mul(squares, hn::Mul(lambda, lambda)), d, errors.data() + k);
   }

@@ -122,11 +122,11 @@ void TileBlocks<T, dim, spin>::unpack(const Problem& problem, bool kept, std::ve
       const std::int32_t c = contact_[p];
       if (c < 0) continue;
       const Impulses& block = kept ? kept_[p / width] : blocks_[p / width].r;
-      r[dim * c] = static_cast<double>(block[0][p % width]);
-      if constexpr (dim == 2) {
-        const double bound = problem.mu[c] * r[2 * c];
-        r[2 * c + 1] = std::clamp(static_cast<double>(block[1][p % width]), -bound, bound);
-      }
+      std::array<double, dim> own{};
+      for (int e = 0; e < dim; ++e) own[e] = static_cast<double>(block[e][p % width]);
+      using namespace contact_law;
+      const auto held = bounded(numbers_at<dim - 1>(problem.mu.data() + (dim - 1) * c), own);
+      std::copy(held.begin(), held.end(), r.begin() + dim * c);
     }
   });
 }

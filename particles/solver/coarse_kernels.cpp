@@ -5,6 +5,7 @@
 // Must come after foreach_target.h.
 #include <hwy/highway.h>
 
+#include "particles/contact_law/laws-inl.h"
 #include "particles/solver/body_vectors-inl.h"
 #include "particles/solver/coarse_kernels.hpp"
 
@@ -29,7 +30,7 @@ void add_contacts(const ContactBlock<T, dim>* blocks, std::size_t count, const B
   const Lanes<T> d;
   using V = hn::Vec<Lanes<T>>;
   constexpr std::size_t width = ContactBlock<T, dim>::width;
-  const V nearly = hn::Set(d, T(1) - T(1e-6));  // so near to its bound a tangential impulse slides
+
   const V zero = hn::Zero(d);
   for (std::size_t b = 0; b < count; ++b) {
     const auto& block = blocks[b];
@@ -47,9 +48,7 @@ void add_contacts(const ContactBlock<T, dim>* blocks, std::size_t count, const B
         V slip = hn::Sub(hn::Mul(n_z, dv_x), hn::Mul(n_x, dv_z));
         if constexpr (spin) slip = hn::Sub(slip, hn::Add(I.s, J.s)), couple = hn::Add(r_t, r_t);
         const V u_t = hn::Add(hn::Load(d, &block.q[1][k]), slip);
-        const V bound = hn::Mul(hn::Load(d, &block.mu[k]), r_n);
-        const auto slides = hn::Ge(hn::Abs(r_t), hn::Mul(bound, nearly));
-        const V taken = hn::IfThenElseZero(slides, hn::Mul(bound, hn::Abs(u_t)));
+        const V taken = contact_law::sliding_power<V>({hn::Load(d, &block.mu[k])}, {r_n, r_t}, {u_n, u_t});
         power = hn::Add(power, hn::Add(hn::Mul(r_t, u_t), taken));
         p_x = hn::Add(p_x, hn::Mul(n_z, r_t)), p_z = hn::Sub(p_z, hn::Mul(n_x, r_t));
       }

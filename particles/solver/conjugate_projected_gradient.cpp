@@ -83,10 +83,9 @@ class ProjectedGradient {
   const std::vector<double>& impulses_in_cone() {
     work_.in_cone = r_;
     if constexpr (dim == 2)
-      for (int a = 0; a < problem_.contacts(); ++a) {
-        const double bound = problem_.mu[a] * r_[2 * a];
-        work_.in_cone[2 * a + 1] = std::clamp(r_[2 * a + 1], -bound, bound);
-      }
+      for (int a = 0; a < problem_.contacts(); ++a)
+        work_.in_cone[2 * a + 1] =
+            contact_law::bounded({problem_.mu[a]}, std::array{r_[2 * a], r_[2 * a + 1]})[1];
     return work_.in_cone;
   }
 

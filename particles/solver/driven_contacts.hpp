@@ -20,12 +20,12 @@ struct DrivenContact {
   int contact = 0;            ///< of the problem
   std::int32_t i = 0, j = 0;  ///< records of the grain and of the wall; in a cell, of two grains
   std::int32_t cell = -1;     ///< record of the cell's rates; -1: none
-  double n_x = 0, n_z = 0, lever = 1, largest_eigenvalue = 0;
+  double n_x = 0, n_z = 0, lever = 1;
   DrivenBody driven;
   double arm_x = 0, arm_z = 0, answer_x = 0, answer_z = 0;  ///< of the cell: arm, and times inverse inertia
-  LocalBlock W;
+  LocalBlock<dim> W;
   Impulse q{}, r{}, before{}, kept{};
-  std::array<double, 2> mu{};  ///< friction, rolling
+  contact_law::Coefficients<double, dim> mu{};
 };
 
 /// Adds impulses of a contact to the records of its grain and of its wall, which holds the wall's change of
@@ -75,7 +75,7 @@ double sweep(std::span<DrivenContact<dim>> contacts, BodyRecord<T>* bodies, T be
     if (accelerated)
       for (int e = 0; e < dim; ++e) start[e] += static_cast<double>(beta) * (c.r[e] - c.before[e]);
     c.before = c.r;
-    c.r = solved_contact<dim>(c.W, c.mu.data(), velocity<spin>(c, bodies), start);
+    c.r = solved(c.W, c.mu, velocity<spin>(c, bodies), start);
     auto step = c.r;
     for (int e = 0; e < dim; ++e) {
       step[e] -= start[e];
@@ -92,7 +92,8 @@ SeenResidual residual(std::span<const DrivenContact<dim>> contacts, const BodyRe
   SeenResidual seen;
   for (const auto& c : contacts) {
     const auto u = velocity<spin>(c, bodies);
-    seen.squares += squared_error<dim>(c.largest_eigenvalue, c.mu.data(), c.r.data(), u.data());
+    const double lambda = largest_eigenvalue<dim>(c.W.matrix);
+    seen.squares += squared_error<dim>(lambda, c.mu.data(), c.r.data(), u.data());
     seen.let_through += c.r[0] * std::max(0.0, -u[0]);
     seen.lowest_u_n = std::min(seen.lowest_u_n, u[0]);
   }

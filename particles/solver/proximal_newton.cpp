@@ -66,11 +66,11 @@ void ProximalNewton<Problem>::answer(int a) {
   answer_[dim * a] = std::max(0.0, r_n);
   if constexpr (dim == 2) {
     const double k_t = kappa_ / diagonal_entry(problem_.W, a, 1);
-    const double r_t = (*centre_)[2 * a + 1] - k_t * u_[2 * a + 1], bound = problem_.mu[a] * answer_[2 * a];
-    const bool sticks = std::abs(r_t) < bound;
+    const double r_t = (*centre_)[2 * a + 1] - k_t * u_[2 * a + 1];
+    const bool sticks = std::abs(r_t) < problem_.mu[a] * answer_[2 * a];
     D.tt = sticks ? k_t : 0;
     D.tn = sticks ? 0 : std::copysign(problem_.mu[a] * D.nn, r_t);
-    answer_[2 * a + 1] = std::clamp(r_t, -bound, bound);
+    answer_[2 * a + 1] = contact_law::bounded({problem_.mu[a]}, std::array{r_n, r_t})[1];
   }
 }
 

@@ -30,7 +30,7 @@ double inverse_W_nn(const W& w, std::int32_t c) {
   if constexpr (requires { w.inverse_W_nn; })
     return w.inverse_W_nn[c];
   else
-    return w.block(c).inverse_nn;
+    return w.block(c).inverse.nn;
 }
 
 }  // namespace
@@ -90,8 +90,8 @@ void StripProblem<T, dim, spin>::pack_place(const Problem& problem, std::int32_t
   if constexpr (dim == 3) {
     block.mu_r[k] = c >= 0 ? static_cast<T>(problem.mu[2 * c + 1]) : T(0);
     block.lever[k] = c >= 0 ? static_cast<T>(W.lever[c]) : T(0);
-    block.inverse_W_rr[k] = c >= 0 ? static_cast<T>(1 / W.block(c).rr) : T(0);
-    block.inverse_W_tt[k] = c >= 0 ? static_cast<T>(W.block(c).rr * W.block(c).inverse_determinant) : T(0);
+    block.inverse_W_rr[k] = c >= 0 ? static_cast<T>(W.block(c).inverse.rr) : T(0);
+    block.inverse_W_tt[k] = c >= 0 ? static_cast<T>(W.block(c).inverse.tt_rolling) : T(0);
   }
 }
 
@@ -115,7 +115,7 @@ void StripProblem<T, dim, spin>::pack_driven(const Problem& problem, std::int32_
   contact.n_x = W.n_x[c], contact.n_z = W.n_z[c];
   if constexpr (dim == 3) contact.lever = W.lever[c];
   contact.W = W.block(c);
-  contact.largest_eigenvalue = W.largest_eigenvalue(c);
+
   for (int e = 0; e < dim; ++e) {
     contact.q[e] = problem.q[dim * c + e];
     contact.r[e] = contact.before[e] = r[dim * c + e];
@@ -192,10 +192,9 @@ void StripProblem<T, dim, spin>::unpack(const Problem& problem, bool kept, std::
                                         const TeamLoops& loops) const {
   constexpr int width = Block::width;
   const auto set = [&](std::int32_t c, const std::array<double, dim>& own) {
-    for (int e = 0; e < dim; ++e) {
-      const double bound = e == 0 ? own[0] : problem.mu[(dim - 1) * c + e - 1] * own[0];
-      r[dim * c + e] = std::clamp(own[e], -bound, bound);
-    }
+    using namespace contact_law;
+    const auto held = bounded(numbers_at<dim - 1>(problem.mu.data() + (dim - 1) * c), own);
+    std::copy(held.begin(), held.end(), r.begin() + dim * c);
   };
   loops.each(contact_.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {

@@ -7,7 +7,7 @@
 
 #include <utility>
 
-#include "particles/contact/cone_vectors-inl.h"
+#include "particles/contact_law/laws-inl.h"
 #include "particles/solver/body_vectors-inl.h"
 #include "particles/solver/sweep_kernels.hpp"
 
@@ -16,7 +16,7 @@ namespace drumlin::particles::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// What a couple R_eff r_r changes of the rims of i and j, per r_r; their difference is W_tr.
+/// What a couple R_eff r_r changes of the rims of i and j, per r_r.
 template <class V>
 struct Turns {
   V i, j;
@@ -62,23 +62,6 @@ HWY_INLINE void roll(V lever, V r, BodyVectors<T>& I, BodyVectors<T>& J) {
   J.s = hn::Sub(J.s, hn::Mul(turns.j, r));
 }
 
-template <class T, int dim, bool spin>
-void load(const ContactBlock<T, dim>* blocks, std::size_t count, BodyRecord<T>* bodies) {
-  const Lanes<T> d;
-  constexpr int width = ContactBlock<T, dim>::width;
-  for (std::size_t b = 0; b < count; ++b) {
-    const auto& block = blocks[b];
-    for (std::size_t k = 0; k < width; k += hn::Lanes(d)) {
-      auto I = load_bodies(bodies, &block.i[k]), J = load_bodies(bodies, &block.j[k]);
-      const auto n = hn::Load(d, &block.r[0][k]), t = dim >= 2 ? hn::Load(d, &block.r[dim >= 2][k]) : n;
-      push<dim, spin, T>(hn::Load(d, &block.n_x[k]), hn::Load(d, &block.n_z[k]), n, t, I, J);
-      if constexpr (dim == 3) roll<T>(hn::Load(d, &block.lever[k]), hn::Load(d, &block.r[2][k]), I, J);
-      store_bodies(I, bodies, &block.i[k]);
-      store_bodies(J, bodies, &block.j[k]);
-    }
-  }
-}
-
 template <class T>
 HWY_INLINE double total(const std::array<T, 8>& sums) {
   double sum = 0;
@@ -106,13 +89,6 @@ HWY_INLINE Started<V> started_from(const std::array<T, 8>& r, std::array<T, 8>& 
   return {start, hn::Sub(hn::Sub(start, now), way)};  // to the last bit where |way| <= |now| (Dekker 1971)
 }
 
-/// What a contact gives its bodies, which have gone on by themselves: its step, and what its start rounded
-/// off.
-template <SweepExtrapolation how, class V>
-HWY_INLINE V given(V step, const Started<V>& start) {
-  return how == SweepExtrapolation::exact ? hn::Add(step, start.rounded_off) : step;
-}
-
 /// A vector of contacts: those of a block from k on.
 template <class T, int dim>
 struct Place {
@@ -120,133 +96,114 @@ struct Place {
   std::size_t k;
 };
 
-/// What a sweep knows of a vector of contacts.
-template <class T>
+template <class T, int dim>
+using Impulses = std::array<hn::Vec<Lanes<T>>, static_cast<std::size_t>(dim)>;
+
+/// The dim numbers of contacts that stand in arrays of them.
+template <std::size_t dim, class T, std::size_t all>
+HWY_INLINE Impulses<T, dim> load_numbers(const std::array<std::array<T, 8>, all>& arrays, std::size_t k) {
+  Impulses<T, dim> numbers;
+  for (std::size_t e = 0; e < dim; ++e) numbers[e] = hn::Load(Lanes<T>(), &arrays[e][k]);
+  return numbers;
+}
+
+/// Friction and rolling of contacts.
+template <class T, int dim>
+HWY_INLINE contact_law::Coefficients<hn::Vec<Lanes<T>>, dim> coefficients(const ContactBlock<T, dim>& block,
+                                                                          std::size_t k) {
+  const Lanes<T> d;
+  if constexpr (dim == 1) return {};
+  if constexpr (dim == 2) return {hn::Load(d, &block.mu[k])};
+  if constexpr (dim == 3) return {hn::Load(d, &block.mu[k]), hn::Load(d, &block.mu_r[k])};
+}
+
+/// u = W r + q of contacts, from the velocities of their bodies.
+template <bool spin, class T, int dim>
+HWY_INLINE Impulses<T, dim> velocities(const ContactBlock<T, dim>& block, std::size_t k,
+                                       const BodyVectors<T>& I, const BodyVectors<T>& J) {
+  const Lanes<T> d;
+  const auto n_x = hn::Load(d, &block.n_x[k]), n_z = hn::Load(d, &block.n_z[k]);
+  const auto dv_x = I.x - J.x, dv_z = I.z - J.z;
+  auto u = load_numbers<dim>(block.q, k);
+  u[0] = u[0] + (n_x * dv_x + n_z * dv_z);
+  if constexpr (dim >= 2) {
+    auto slip = n_z * dv_x - n_x * dv_z;
+    if constexpr (spin) slip = slip - (I.s + J.s);
+    u[1] = u[1] + slip;
+  }
+  if constexpr (dim == 3) u[2] = u[2] + rolling_velocity<T>(hn::Load(d, &block.lever[k]), I, J);
+  return u;
+}
+
+template <bool spin, class T, int dim>
+HWY_INLINE auto inverse_block(const ContactBlock<T, dim>& block, std::size_t k, const BodyVectors<T>& I,
+                              const BodyVectors<T>& J) {
+  const Lanes<T> d;
+  contact_law::InverseBlock<hn::Vec<Lanes<T>>, dim> W;
+  W.nn = hn::Load(d, &block.inverse_W_nn[k]);
+  if constexpr (dim >= 2) W.tt = W.nn * hn::Set(d, spin ? T(1) / T(3) : T(1));
+  if constexpr (dim == 3) {
+    const auto turns = turns_of<T>(hn::Load(d, &block.lever[k]), I, J);
+    W.rr = hn::Load(d, &block.inverse_W_rr[k]), W.tr = turns.j - turns.i;
+    W.tt_rolling = hn::Load(d, &block.inverse_W_tt[k]);
+  }
+  return W;
+}
+
+/// What a sweep knows of a vector of contacts: their bodies, their steps, and the sum of squares of these.
+template <class T, int dim>
 struct SweptContacts {
   BodyVectors<T> I, J;
-  hn::Vec<Lanes<T>> dv_x, dv_z, new_n, dr_n, dr_t, squares;
+  Impulses<T, dim> step;
+  hn::Vec<Lanes<T>> squares;
 };
 
-/// What sweeps start from in this direction, with nothing stored.
-template <SweepExtrapolation how, class T, int dim, class V>
-HWY_INLINE V start_of(const Place<T, dim>& at, int e, V beta) {
-  const Lanes<T> d;
-  const V now = hn::Load(d, &at.block->r[e][at.k]);
-  if constexpr (how == SweepExtrapolation::none) return now;
-  return hn::Add(now, hn::Mul(beta, hn::Sub(now, hn::Load(d, &at.block->before[e][at.k]))));
-}
-
-/// Relative velocities of the rims of contacts.
-template <class T, int dim, bool spin>
-HWY_INLINE auto slip_of(const Place<T, dim>& at, const SweptContacts<T>& c) {
-  const Lanes<T> d;
-  auto& [block, k] = at;
-  auto slip =
-      hn::Sub(hn::Mul(hn::Load(d, &block->n_z[k]), c.dv_x), hn::Mul(hn::Load(d, &block->n_x[k]), c.dv_z));
-  if constexpr (spin) slip = hn::Sub(slip, hn::Add(c.I.s, c.J.s));
-  return slip;
-}
-
-/// W_nn of contacts some of which are steep, inverse, times the part of the way that their normal impulses go
-/// from `n` with a velocity u_n.
 template <class T, int dim, bool spin, SweepExtrapolation how, class V>
-HWY_INLINE V steep_inverse_W_nn(const Place<T, dim>& at, V n, V u_n, V beta, const SweptContacts<T>& c) {
+HWY_INLINE void solve(const Place<T, dim>& at, V beta, SweptContacts<T, dim>& c) {
   const Lanes<T> d;
   auto& [block, k] = at;
-  const V inverse = hn::Load(d, &block->inverse_W_nn[k]), third = hn::Set(d, spin ? T(1) / T(3) : T(1));
-  const V whole = hn::Max(hn::Zero(d), hn::Sub(n, hn::Mul(u_n, inverse)));
-  const V u_t = hn::Add(hn::Load(d, &block->q[1][k]), slip_of<T, dim, spin>(at, c));
-  const V t = start_of<how>(at, 1, beta), free = hn::Sub(t, hn::Mul(u_t, hn::Mul(inverse, third)));
-  V share = share_of_way(hn::Load(d, &block->mu[k]), n, t, whole, free);
-  if constexpr (dim == 3) {
-    const V u_r =
-        hn::Add(hn::Load(d, &block->q[2][k]), rolling_velocity<T>(hn::Load(d, &block->lever[k]), c.I, c.J));
-    const V r = start_of<how>(at, 2, beta), rolled = hn::Mul(u_r, hn::Load(d, &block->inverse_W_rr[k]));
-    share = hn::Min(share, share_of_way(hn::Load(d, &block->mu_r[k]), n, r, whole, hn::Sub(r, rolled)));
+  Impulses<T, dim> start, rounded_off;
+  for (std::size_t e = 0; e < dim; ++e) {
+    const auto from = started_from<how>(block->r[e], block->before[e], k, beta);
+    start[e] = from.r, rounded_off[e] = from.rounded_off;
   }
-  return hn::Mul(inverse, share);
-}
-
-template <class T, int dim, bool spin, SweepExtrapolation how, class V>
-HWY_INLINE void solve_normals(const Place<T, dim>& at, V beta, SweptContacts<T>& c) {
-  const Lanes<T> d;
-  auto& [block, k] = at;
-  c.dv_x = hn::Sub(c.I.x, c.J.x), c.dv_z = hn::Sub(c.I.z, c.J.z);
-  const V n_x = hn::Load(d, &block->n_x[k]), n_z = hn::Load(d, &block->n_z[k]);
-  const auto start = started_from<how>(block->r[0], block->before[0], k, beta);
-  const V approach = hn::Add(hn::Mul(n_x, c.dv_x), hn::Mul(n_z, c.dv_z));
-  const V u_n = hn::Add(hn::Load(d, &block->q[0][k]), approach);
-  V inverse = hn::Load(d, &block->inverse_W_nn[k]);
-  if constexpr (dim >= 2) {
-    V mu = hn::Load(d, &block->mu[k]);
-    if constexpr (dim == 3) mu = hn::Max(mu, hn::Load(d, &block->mu_r[k]));
-    if (any_steep(mu)) inverse = steep_inverse_W_nn<T, dim, spin, how>(at, start.r, u_n, beta, c);
+  const auto fresh = contact_law::solved(inverse_block<spin>(*block, k, c.I, c.J), coefficients(*block, k),
+                                         velocities<spin>(*block, k, c.I, c.J), start);
+  for (std::size_t e = 0; e < dim; ++e) {
+    const V step = fresh[e] - start[e];
+    c.squares = e == 0 ? step * step : c.squares + step * step;
+    c.step[e] = how == SweepExtrapolation::exact ? step + rounded_off[e] : step;
+    hn::Store(fresh[e], d, &block->r[e][k]);
   }
-  // Max(a, NaN) is NaN, Max(NaN, a) is not.
-  c.new_n = hn::Max(hn::Zero(d), hn::Sub(start.r, hn::Mul(u_n, inverse)));
-  const V step = hn::Sub(c.new_n, start.r);
-  c.dr_n = given<how>(step, start);
-  hn::Store(c.new_n, d, &block->r[0][k]);
-  c.squares = hn::Mul(step, step);
-  c.dr_t = hn::Zero(d);
-}
-
-/// Friction r_t and rolling of contacts with tangential velocities u_t: the minimum over a box, exactly.
-/// Friction as if rolling were free, clamped; rolling for that; friction for that. Returns the new r_t.
-template <class T, SweepExtrapolation how, class V>
-HWY_INLINE V solve_rolling(const Place<T, 3>& at, V beta, V r_t, V u_t, V bound, V inverse_W_tt,
-                           SweptContacts<T>& c) {
-  const Lanes<T> d;
-  auto& [block, k] = at;
-  const auto start = started_from<how>(block->r[2], block->before[2], k, beta);
-  const V lever = hn::Load(d, &block->lever[k]), inverse_W_rr = hn::Load(d, &block->inverse_W_rr[k]);
-  const auto turns = turns_of<T>(lever, c.I, c.J);
-  const V W_tr = hn::Sub(turns.j, turns.i);
-  const V u_r = hn::Add(hn::Load(d, &block->q[2][k]), rolling_velocity<T>(lever, c.I, c.J));
-  const V pulled = hn::Sub(u_t, hn::Mul(W_tr, hn::Mul(inverse_W_rr, u_r)));
-  const V first = clamped(hn::Sub(r_t, hn::Mul(pulled, hn::Load(d, &block->inverse_W_tt[k]))), bound);
-  const V rolled = hn::Mul(inverse_W_rr, hn::Add(u_r, hn::Mul(W_tr, hn::Sub(first, r_t))));
-  const V new_r = clamped(hn::Sub(start.r, rolled), hn::Mul(hn::Load(d, &block->mu_r[k]), c.new_n));
-  const V step = hn::Sub(new_r, start.r), dr_r = given<how>(step, start);
-  hn::Store(new_r, d, &block->r[2][k]);
-  c.squares = hn::Add(c.squares, hn::Mul(step, step));
-  roll<T>(lever, dr_r, c.I, c.J);
-  return clamped(hn::Sub(r_t, hn::Mul(inverse_W_tt, hn::Add(u_t, hn::Mul(W_tr, dr_r)))), bound);
-}
-
-template <class T, int dim, bool spin, SweepExtrapolation how, class V>
-HWY_INLINE void solve_tangents(const Place<T, dim>& at, V beta, SweptContacts<T>& c) {
-  const Lanes<T> d;
-  auto& [block, k] = at;
-  const V ratio = hn::Set(d, spin ? T(1) / T(3) : T(1));  // W_nn / W_tt
-  const auto start = started_from<how>(block->r[1], block->before[1], k, beta);
-  const V u_t = hn::Add(hn::Load(d, &block->q[1][k]), slip_of<T, dim, spin>(at, c));
-  const V bound = hn::Mul(hn::Load(d, &block->mu[k]), c.new_n);
-  const V inverse_W_tt = hn::Mul(hn::Load(d, &block->inverse_W_nn[k]), ratio);
-  V new_t;
-  if constexpr (dim == 2)
-    new_t = clamped(hn::Sub(start.r, hn::Mul(u_t, inverse_W_tt)), bound);
-  else
-    new_t = solve_rolling<T, how>(at, beta, start.r, u_t, bound, inverse_W_tt, c);
-  const V step = hn::Sub(new_t, start.r);
-  c.dr_t = given<how>(step, start);
-  hn::Store(new_t, d, &block->r[1][k]);
-  c.squares = hn::Add(c.squares, hn::Mul(step, step));
 }
 
 template <class T, int dim>
-HWY_INLINE void bring_bodies(const Place<T, dim>& at, const BodyRecord<T>* bodies, SweptContacts<T>& c) {
+HWY_INLINE void bring_bodies(const Place<T, dim>& at, const BodyRecord<T>* bodies, SweptContacts<T, dim>& c) {
   c.I = load_bodies(bodies, &at.block->i[at.k]);
   c.J = load_bodies(bodies, &at.block->j[at.k]);
 }
 
-template <class T, int dim, bool spin>
-HWY_INLINE void push_bodies(const Place<T, dim>& at, SweptContacts<T>& c, BodyRecord<T>* bodies) {
+/// Gives impulses of contacts to their bodies.
+template <bool spin, class T, int dim>
+HWY_INLINE void push_bodies(const ContactBlock<T, dim>& block, std::size_t k, const Impulses<T, dim>& p,
+                            BodyVectors<T>& I, BodyVectors<T>& J, BodyRecord<T>* bodies) {
   const Lanes<T> d;
-  auto& [block, k] = at;
-  push<dim, spin, T>(hn::Load(d, &block->n_x[k]), hn::Load(d, &block->n_z[k]), c.dr_n, c.dr_t, c.I, c.J);
-  store_bodies(c.I, bodies, &block->i[k]);
-  store_bodies(c.J, bodies, &block->j[k]);
+  push<dim, spin, T>(hn::Load(d, &block.n_x[k]), hn::Load(d, &block.n_z[k]), p[0], p[dim >= 2], I, J);
+  if constexpr (dim == 3) roll<T>(hn::Load(d, &block.lever[k]), p[2], I, J);
+  store_bodies(I, bodies, &block.i[k]);
+  store_bodies(J, bodies, &block.j[k]);
+}
+
+template <class T, int dim, bool spin>
+void load(const ContactBlock<T, dim>* blocks, std::size_t count, BodyRecord<T>* bodies) {
+  constexpr int width = ContactBlock<T, dim>::width;
+  for (std::size_t b = 0; b < count; ++b) {
+    const auto& block = blocks[b];
+    for (std::size_t k = 0; k < width; k += hn::Lanes(Lanes<T>())) {
+      auto I = load_bodies(bodies, &block.i[k]), J = load_bodies(bodies, &block.j[k]);
+      push_bodies<spin>(block, k, load_numbers<dim>(block.r, k), I, J, bodies);
+    }
+  }
 }
 
 template <class T, int dim, bool spin, SweepExtrapolation how>
@@ -258,9 +215,8 @@ double sweep(ContactBlock<T, dim>* blocks, std::span<const std::int32_t> groups,
   const auto beta = hn::Set(d, beta_);
   // Eight sums whatever the length of a vector.
   HWY_ALIGN std::array<T, width> squares{};
-  const auto solve = [&](const Place<T, dim>& at, SweptContacts<T>& c) HWY_ATTR {
-    solve_normals<T, dim, spin, how>(at, beta, c);
-    if constexpr (dim >= 2) solve_tangents<T, dim, spin, how>(at, beta, c);
+  const auto solve_and_add = [&](const Place<T, dim>& at, SweptContacts<T, dim>& c) HWY_ATTR {
+    solve<T, dim, spin, how>(at, beta, c);
     hn::Store(hn::Add(hn::Load(d, &squares[at.k]), c.squares), d, &squares[at.k]);
   };
   for (const std::int32_t count : groups) {
@@ -269,19 +225,21 @@ double sweep(ContactBlock<T, dim>* blocks, std::span<const std::int32_t> groups,
     // The chain of operations of one vector is longer than what a processor looks ahead: the bodies of the
     // next one come while this one's are pushed.
     Place<T, dim> at{first, 0};
-    SweptContacts<T> c, next;
+    SweptContacts<T, dim> c, next;
     bring_bodies(at, bodies, c);
     for (std::size_t left = count * (width / lanes) - 1; left > 0; --left) {
-      solve(at, c);
+      solve_and_add(at, c);
+
       const bool whole = at.k + lanes == width;
       const Place<T, dim> after{whole ? at.block + 1 : at.block, whole ? 0 : at.k + lanes};
       bring_bodies(after, bodies, next);
-      push_bodies<T, dim, spin>(at, c, bodies);
+      push_bodies<spin>(*at.block, at.k, c.step, c.I, c.J, bodies);
       at = after;
       c.I = next.I, c.J = next.J;
     }
-    solve(at, c);
-    push_bodies<T, dim, spin>(at, c, bodies);
+    solve_and_add(at, c);
+
+    push_bodies<spin>(*at.block, at.k, c.step, c.I, c.J, bodies);
   }
   return total(squares);
 }
@@ -296,28 +254,27 @@ double sweep(ContactBlock<T, dim>* blocks, std::span<const std::int32_t> groups,
   return sweep<T, dim, spin, rounded>(blocks, groups, bodies, beta);
 }
 
-/// 1 / lambda_max(W_aa) with rolling resistance: the larger eigenvalue of friction and rolling, W_nn being
-/// below W_tt = 3 W_nn.
-template <class T, class V>
-HWY_INLINE V inverse_eigenvalue(V lever, const BodyVectors<T>& I, const BodyVectors<T>& J) {
+/// 1 / lambda_max(W_aa) of contacts: of discs that turn W_nn is below W_tt = 3 W_nn.
+template <class T, int dim, bool spin>
+HWY_INLINE auto inverse_eigenvalue(const ContactBlock<T, dim>& block, std::size_t k, const BodyVectors<T>& I,
+                                   const BodyVectors<T>& J) {
   const Lanes<T> d;
-  const V w = hn::Add(I.inverse_mass, J.inverse_mass), half = hn::Set(d, T(0.5)), one = hn::Set(d, T(1));
-  const auto turns = turns_of<T>(lever, I, J);
-  const V W_tt = hn::Add(w, hn::Add(w, w)), W_tr = hn::Sub(turns.j, turns.i);
-  const V W_rr = hn::Add(hn::Mul(lever, turns.i), hn::Mul(hn::Sub(one, lever), turns.j));
-  const V mean = hn::Mul(half, hn::Add(W_tt, W_rr)), off = hn::Mul(half, hn::Sub(W_tt, W_rr));
-  const V largest = hn::Add(mean, hn::Sqrt(hn::Add(hn::Mul(off, off), hn::Mul(W_tr, W_tr))));
-  // Places that are filled up have none.
-  return hn::Div(one, hn::Max(largest, hn::Set(d, T(1e-15))));
+  if constexpr (dim < 3) {
+    return hn::Load(d, &block.inverse_W_nn[k]) * hn::Set(d, dim == 2 && spin ? T(1) / T(3) : T(1));
+  } else {
+    const auto w = I.inverse_mass + J.inverse_mass, lever = hn::Load(d, &block.lever[k]);
+    const auto turns = turns_of<T>(lever, I, J);
+    const auto largest = contact_law::larger_eigenvalue(
+        w + (w + w), turns.j - turns.i, lever * turns.i + (hn::Set(d, T(1)) - lever) * turns.j);
+    // Places that are filled up have none.
+    return hn::Set(d, T(1)) / hn::Max(largest, hn::Set(d, T(1e-15)));
+  }
 }
 
 template <class T, int dim, bool spin>
 SeenResidual residual(const ContactBlock<T, dim>* blocks, std::size_t count, const BodyRecord<T>* bodies) {
   const Lanes<T> d;
-  using V = hn::Vec<Lanes<T>>;
   constexpr int width = ContactBlock<T, dim>::width;
-  const V zero = hn::Zero(d);
-  const V ratio = hn::Set(d, dim == 2 && spin ? T(1) / T(3) : T(1));  // W_nn / lambda_max
   HWY_ALIGN std::array<T, width> squares{};
   HWY_ALIGN std::array<T, width> let_through{};
   HWY_ALIGN std::array<T, width> lowest_u_n{};
@@ -325,49 +282,13 @@ SeenResidual residual(const ContactBlock<T, dim>* blocks, std::size_t count, con
     const auto& block = blocks[b];
     for (std::size_t k = 0; k < width; k += hn::Lanes(d)) {
       const auto I = load_bodies(bodies, &block.i[k]), J = load_bodies(bodies, &block.j[k]);
-      const V n_x = hn::Load(d, &block.n_x[k]), n_z = hn::Load(d, &block.n_z[k]);
-      V rho = hn::Mul(hn::Load(d, &block.inverse_W_nn[k]), ratio);
-      const V dv_x = hn::Sub(I.x, J.x), dv_z = hn::Sub(I.z, J.z);
-      const V r_n = hn::Load(d, &block.r[0][k]);
-      const V u_n = hn::Add(hn::Load(d, &block.q[0][k]), hn::Add(hn::Mul(n_x, dv_x), hn::Mul(n_z, dv_z)));
-      const V closing = hn::Min(zero, u_n);
-      hn::Store(hn::Sub(hn::Load(d, &let_through[k]), hn::Mul(r_n, closing)), d, &let_through[k]);
+      const auto rho = inverse_eigenvalue<T, dim, spin>(block, k, I, J);
+      const auto r = load_numbers<dim>(block.r, k), u = velocities<spin>(block, k, I, J);
+      const auto closing = hn::Min(hn::Zero(d), u[0]);
+      hn::Store(hn::Load(d, &let_through[k]) - r[0] * closing, d, &let_through[k]);
       hn::Store(hn::Min(hn::Load(d, &lowest_u_n[k]), closing), d, &lowest_u_n[k]);
-      V sum;
-      if constexpr (dim == 1) {
-        const V missed = hn::Sub(hn::Max(zero, hn::Sub(r_n, hn::Mul(rho, u_n))), r_n);
-        sum = hn::Mul(missed, missed);
-      } else {
-        V slip = hn::Sub(hn::Mul(n_z, dv_x), hn::Mul(n_x, dv_z));
-        if constexpr (spin) slip = hn::Sub(slip, hn::Add(I.s, J.s));
-        const V u_t = hn::Add(hn::Load(d, &block.q[dim >= 2][k]), slip);
-        const V mu = hn::Load(d, &block.mu[k]), r_t = hn::Load(d, &block.r[dim >= 2][k]);
-        const V shifted = hn::Add(u_n, hn::Mul(mu, hn::Abs(u_t)));  // De Saxce
-        if constexpr (dim == 2) {
-          const V n = hn::Sub(r_n, hn::Mul(rho, shifted)), t = hn::Sub(r_t, hn::Mul(rho, u_t));
-          sum = missed_by_projection(mu, n, t, r_n, r_t);
-          if (any_steep(mu)) {
-            const V in_turn = missed_in_turn(mu, hn::Sub(r_n, hn::Mul(rho, u_n)), t, r_n, r_t);
-            sum = hn::IfThenElse(hn::Gt(mu, hn::Set(d, steep_friction)), in_turn, sum);
-          }
-        } else {
-          const V lever = hn::Load(d, &block.lever[k]), mu_r = hn::Load(d, &block.mu_r[k]);
-          const V r_r = hn::Load(d, &block.r[2][k]);
-          const V u_r = hn::Add(hn::Load(d, &block.q[2][k]), rolling_velocity<T>(lever, I, J));
-          rho = inverse_eigenvalue<T>(lever, I, J);
-          const V n = hn::Sub(r_n, hn::Mul(rho, hn::Add(shifted, hn::Mul(mu_r, hn::Abs(u_r)))));
-          const V t = hn::Sub(r_t, hn::Mul(rho, u_t)), roll = hn::Sub(r_r, hn::Mul(rho, u_r));
-          sum = missed_by_projection(mu, mu_r, n, t, roll, r_n, r_t, r_r);
-          if (const V larger = hn::Max(mu, mu_r); any_steep(larger)) {
-            const V alone = hn::Sub(r_n, hn::Mul(rho, u_n));
-            const V missed_r = hn::Sub(clamped(roll, hn::Mul(mu_r, positive_part(alone))), r_r);
-            const V in_turn = hn::Add(missed_in_turn(mu, alone, t, r_n, r_t), hn::Mul(missed_r, missed_r));
-            sum = hn::IfThenElse(hn::Gt(larger, hn::Set(d, steep_friction)), in_turn, sum);
-          }
-        }
-      }
-      sum = hn::Div(sum, hn::Mul(rho, rho));
-      hn::Store(hn::Add(hn::Load(d, &squares[k]), sum), d, &squares[k]);
+      const auto square = contact_law::squared_natural_residual(rho, coefficients(block, k), r, u);
+      hn::Store(hn::Load(d, &squares[k]) + square / (rho * rho), d, &squares[k]);
     }
   }
   return {total(squares), total(let_through), *std::min_element(lowest_u_n.begin(), lowest_u_n.end())};
