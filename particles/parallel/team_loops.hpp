@@ -60,7 +60,8 @@ class TeamLoops {
   }
 
   ThreadTeam* team() const { return team_; }
-  int threads() const { return team_ ? team_->size() : 1; }
+  /// That the next loop is given.
+  int threads() const { return team_ ? team_->threads() : 1; }
 
  private:
   static constexpr std::size_t piece = 1024;

@@ -1,5 +1,7 @@
 #include "particles/parallel/thread_team.hpp"
 
+#include <sys/resource.h>
+
 #include <chrono>
 #include <string>
 #include <system_error>
@@ -84,6 +86,8 @@ void ThreadTeam::end() {
 
 void ThreadTeam::run(const std::function<void(int, int)>& job) {
   if (helpers_.empty()) return job(0, 1);
+  choose_threads();
+  if (threads() == 1) return job(0, 1);
   job_ = &job;
   running_.store(size() - 1, std::memory_order_relaxed);
   for (std::size_t t = 1; t < members_.size(); ++t) {
@@ -100,9 +104,24 @@ void ThreadTeam::run(const std::function<void(int, int)>& job) {
   if (first) std::rethrow_exception(first);
 }
 
+void ThreadTeam::choose_threads() {
+  // On an idle machine a processor is taken away less than once in a while, beside another process every few
+  // milliseconds. To try all threads again costs up to one part of some twenty.
+  constexpr std::chrono::milliseconds with_all{25}, alone{500};
+  constexpr long often = 4;
+  const auto now = Clock::now();
+  if (now < next_choice_) return;
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const long taken = usage.ru_nivcsw - std::exchange(taken_away_, usage.ru_nivcsw);
+  const bool busy = next_choice_ != Clock::time_point{} && threads() > 1 && taken >= often;
+  barrier_.threads_ = busy ? 1 : size();
+  next_choice_ = now + (busy ? Clock::duration(alone) : with_all);
+}
+
 void ThreadTeam::work(int t) noexcept {
   try {
-    (*job_)(t, size());
+    (*job_)(t, threads());
   } catch (...) {
     // The others may still work on what the caller of run() would give up.
     members_[static_cast<std::size_t>(t)].thrown = std::current_exception();

@@ -1,6 +1,7 @@
 #pragma once
 // Thread team: threads that work on one solve together and meet many thousand times a second.
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <exception>
 #include <functional>
@@ -17,13 +18,18 @@ class Barrier {
   void meet();
 
  private:
+  friend class ThreadTeam;
   int threads_;
   alignas(64) std::atomic<int> arrived_{0};
   alignas(64) std::atomic<std::uint32_t> round_{0};
 };
 
-/// The calling thread and size() - 1 helpers, which sleep between two jobs. Shares of a job must not decide
-/// its result.
+/// The calling thread and size() - 1 helpers, which sleep between two jobs.
+///
+/// Where other processes take the processors, threads wait for one that does not run. So the team looks now
+/// and then how often the system has taken a processor away from this process, and leaves the next jobs to
+/// the calling thread where that was often. Shares of a job must not decide its result: it may be given 1 or
+/// size() threads.
 class ThreadTeam {
  public:
   /// Throws std::system_error if the system gives no more threads, and std::bad_alloc.
@@ -33,7 +39,9 @@ class ThreadTeam {
   ThreadTeam& operator=(const ThreadTeam&) = delete;
 
   int size() const { return static_cast<int>(members_.size()); }
-  /// Calls job(t, size()) for t in [0, size()), each on a thread of its own, and returns when all have
+  /// Number of threads that the next job is given.
+  int threads() const { return barrier_.threads_; }
+  /// Calls job(t, threads) for t in [0, threads), each on a thread of its own, and returns when all have
   /// returned. An exception of a job is thrown here then, that of the lowest t; jobs that meet must not
   /// throw, or others wait for ever.
   void run(const std::function<void(int, int)>& job);
@@ -47,6 +55,7 @@ class ThreadTeam {
   };
   void help(int t);
   void work(int t) noexcept;
+  void choose_threads();
   void end();
 
   Barrier barrier_;
@@ -54,6 +63,8 @@ class ThreadTeam {
   const std::function<void(int, int)>* job_ = nullptr;
   std::atomic<int> running_{0};
   std::atomic<bool> over_{false};
+  std::chrono::steady_clock::time_point next_choice_{};
+  long taken_away_ = 0;  // processors, so far
   std::vector<std::thread> helpers_;
 };
 
