@@ -65,8 +65,10 @@ class SeenProgress {
   void compare(const SeenMisses& misses, double sinking) {
     if (exact_ && misses.sinking > 0) sinking_ = std::clamp(sinking / misses.sinking, 0.98, 1.02);
   }
-  /// Whether too many sweeps have gone without progress; a flow takes 10 for a tenth of its residual.
-  bool stuck(int sweeps) const { return sweeps - at_ >= (exact_ ? 200 : 100); }
+  /// Whether too many sweeps have gone without progress: a flow takes 10 for a tenth of its residual, a solve
+  /// that starts from no impulses rests for hundreds and then goes on, so that as many are too many as it
+  /// took to get there.
+  bool stuck(int sweeps) const { return sweeps - at_ >= std::max(at_, exact_ ? 200 : 100); }
 
  private:
   bool exact_;
