@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "particles/contact/problems.hpp"
+#include "particles/solver/contact_blocks.hpp"
 
 namespace drumlin::particles {
 
@@ -60,22 +61,11 @@ template <class Problem>
 void TileBlocks<T, dim, spin>::pack_place(const Problem& problem, std::int32_t c, std::int32_t fixed,
                                           std::span<const double> r, std::size_t place) {
   const auto& W = problem.W;
-  Block& block = blocks_[place / Block::width];
   const auto k = static_cast<std::int32_t>(place % Block::width);
   contact_[place] = c;
   const std::int32_t i = c >= 0 ? W.i[c] : fixed + k;
   const std::int32_t j = c >= 0 && W.j[c] != W.fixed() ? W.j[c] : fixed + k;
-  block.i[k] = static_cast<std::uint32_t>(i * sizeof(BodyRecord<T>));
-  block.j[k] = static_cast<std::uint32_t>(j * sizeof(BodyRecord<T>));
-  block.n_x[k] = c >= 0 ? static_cast<T>(W.n_x[c]) : T(0);
-  block.n_z[k] = c >= 0 ? static_cast<T>(W.n_z[c]) : T(0);
-  block.inverse_W_nn[k] = c >= 0 ? static_cast<T>(W.inverse_W_nn[c]) : T(1);
-  for (int e = 0; e < dim; ++e) {
-    block.q[e][k] = c >= 0 ? static_cast<T>(problem.q[dim * c + e]) : T(0);
-    block.r[e][k] = c >= 0 ? static_cast<T>(r[dim * c + e]) : T(0);
-    block.before[e][k] = block.r[e][k];
-  }
-  if constexpr (dim >= 2) block.mu[k] = c >= 0 ? static_cast<T>(problem.mu[c]) : T(0);
+  set_place(problem, c, i, j, r, blocks_[place / Block::width], k);
 }
 
 template <class T, int dim, bool spin>
@@ -119,14 +109,9 @@ void TileBlocks<T, dim, spin>::unpack(const Problem& problem, bool kept, std::ve
   constexpr int width = Block::width;
   loops.each(contact_.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
-      const std::int32_t c = contact_[p];
-      if (c < 0) continue;
+      if (contact_[p] < 0) continue;
       const Impulses& block = kept ? kept_[p / width] : blocks_[p / width].r;
-      std::array<double, dim> own{};
-      for (int e = 0; e < dim; ++e) own[e] = static_cast<double>(block[e][p % width]);
-      using namespace contact_law;
-      const auto held = bounded(numbers_at<dim - 1>(problem.mu.data() + (dim - 1) * c), own);
-      std::copy(held.begin(), held.end(), r.begin() + dim * c);
+      hold_to_cone(problem, contact_[p], impulses_at(block, p % width), r);
     }
   });
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "particles/contact/problems.hpp"
+#include "particles/solver/contact_blocks.hpp"
 
 namespace drumlin::particles {
 
@@ -23,14 +24,6 @@ bool is_driven(const W& w, std::int32_t c) {
     return w.pushes_more(c);
   else
     return false;
-}
-
-template <class W>
-double inverse_W_nn(const W& w, std::int32_t c) {
-  if constexpr (requires { w.inverse_W_nn; })
-    return w.inverse_W_nn[c];
-  else
-    return w.block(c).inverse.nn;
 }
 
 }  // namespace
@@ -71,28 +64,11 @@ template <class Problem>
 void StripProblem<T, dim, spin>::pack_place(const Problem& problem, std::int32_t c, std::int32_t fixed,
                                             std::span<const double> r, std::size_t place) {
   const auto& W = problem.W;
-  Block& block = blocks_[place / Block::width];
   const auto k = static_cast<std::int32_t>(place % Block::width);
   contact_[place] = c;
   const std::int32_t i = c >= 0 ? place_[W.i[c]] : fixed + k;
   const std::int32_t j = c >= 0 && W.j[c] < W.fixed() ? place_[W.j[c]] : fixed + k;
-  block.i[k] = static_cast<std::uint32_t>(i * sizeof(BodyRecord<T>));
-  block.j[k] = static_cast<std::uint32_t>(j * sizeof(BodyRecord<T>));
-  block.n_x[k] = c >= 0 ? static_cast<T>(W.n_x[c]) : T(0);
-  block.n_z[k] = c >= 0 ? static_cast<T>(W.n_z[c]) : T(0);
-  block.inverse_W_nn[k] = c >= 0 ? static_cast<T>(inverse_W_nn(W, c)) : T(1);
-  for (int e = 0; e < dim; ++e) {
-    block.q[e][k] = c >= 0 ? static_cast<T>(problem.q[dim * c + e]) : T(0);
-    block.r[e][k] = c >= 0 ? static_cast<T>(r[dim * c + e]) : T(0);
-    block.before[e][k] = block.r[e][k];
-  }
-  if constexpr (dim >= 2) block.mu[k] = c >= 0 ? static_cast<T>(problem.mu[(dim - 1) * c]) : T(0);
-  if constexpr (dim == 3) {
-    block.mu_r[k] = c >= 0 ? static_cast<T>(problem.mu[2 * c + 1]) : T(0);
-    block.lever[k] = c >= 0 ? static_cast<T>(W.lever[c]) : T(0);
-    block.inverse_W_rr[k] = c >= 0 ? static_cast<T>(W.block(c).inverse.rr) : T(0);
-    block.inverse_W_tt[k] = c >= 0 ? static_cast<T>(W.block(c).inverse.tt_rolling) : T(0);
-  }
+  set_place(problem, c, i, j, r, blocks_[place / Block::width], k);
 }
 
 template <class T, int dim, bool spin>
@@ -191,21 +167,15 @@ template <class Problem>
 void StripProblem<T, dim, spin>::unpack(const Problem& problem, bool kept, std::vector<double>& r,
                                         const TeamLoops& loops) const {
   constexpr int width = Block::width;
-  const auto set = [&](std::int32_t c, const std::array<double, dim>& own) {
-    using namespace contact_law;
-    const auto held = bounded(numbers_at<dim - 1>(problem.mu.data() + (dim - 1) * c), own);
-    std::copy(held.begin(), held.end(), r.begin() + dim * c);
-  };
   loops.each(contact_.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
       if (contact_[p] < 0) continue;
       const Impulses& block = kept ? kept_[p / width] : blocks_[p / width].r;
-      std::array<double, dim> own{};
-      for (int e = 0; e < dim; ++e) own[e] = static_cast<double>(block[e][p % width]);
-      set(contact_[p], own);
+      hold_to_cone(problem, contact_[p], impulses_at(block, p % width), r);
     }
   });
-  for (const auto& contact : driven_) set(contact.contact, kept ? contact.kept : contact.r);
+  for (const auto& contact : driven_)
+    hold_to_cone(problem, contact.contact, kept ? contact.kept : contact.r, r);
 }
 
 template <class T, int dim, bool spin>
