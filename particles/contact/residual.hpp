@@ -71,20 +71,20 @@ double summed_impulses(const State& bodies, TeamLoops& loops) {
 
 /// What the residual adds up over some contacts.
 struct ResidualSums {
-  double squares = 0, largest = 0, lowest_u_n = 0, let_through = 0;
+  double squares = 0, largest = 0, lowest_u_n = 0, complementarity_violation = 0;
 
   void add(double squared_error, double r_n, double u_n) {
     squares += squared_error;
     // A comparison that a NaN fails would hide it.
     if (!(squared_error <= largest)) largest = squared_error;
     lowest_u_n = std::min(lowest_u_n, u_n);
-    let_through += r_n * ((std::abs(u_n) - u_n) / 2);  // max(0, -u_n), without a branch
+    complementarity_violation += r_n * ((std::abs(u_n) - u_n) / 2);  // max(0, -u_n), without a branch
   }
   void add(const ResidualSums& more) {
     squares += more.squares;
     if (!(more.largest <= largest)) largest = more.largest;
     lowest_u_n = std::min(lowest_u_n, more.lowest_u_n);
-    let_through += more.let_through;
+    complementarity_violation += more.complementarity_violation;
   }
 };
 
@@ -174,11 +174,11 @@ ContactResidual residual_of(const Problem& problem, std::span<const double> r,
   residual.rms = relative(std::sqrt(sums.squares / count));
   residual.max = relative(std::sqrt(sums.largest));
   residual.penetration = -sums.lowest_u_n * problem.time_step;
-  if (sums.let_through == 0) return residual;
+  if (sums.complementarity_violation == 0) return residual;
   double carried = summed_impulses(velocities.bodies, loops);
   if constexpr (requires { problem.W.driven_impulses(velocities.bodies); })
     carried += problem.W.driven_impulses(velocities.bodies);
-  residual.sinking = problem.time_step * sums.let_through / carried;
+  residual.sinking = problem.time_step * sums.complementarity_violation / carried;
   return residual;
 }
 

@@ -130,7 +130,7 @@ double TileBlocks<T, dim, spin>::sweep(std::size_t tile, T beta, SweepExtrapolat
 }
 
 template <class T, int dim, bool spin>
-SeenResidual TileBlocks<T, dim, spin>::residual(std::size_t tile) const {
+ResidualEstimate TileBlocks<T, dim, spin>::residual(std::size_t tile) const {
   return Kernels::residual(blocks_.data() + tiles_[tile].block, tiles_[tile + 1].block - tiles_[tile].block,
                            bodies_.data());
 }

@@ -35,7 +35,7 @@ class TileBlocks {
   /// One Gauss-Seidel sweep; returns the sum of squares of its steps.
   double sweep(std::size_t tile, T beta, SweepExtrapolation);
   /// The residual as impulses and bodies stand.
-  SeenResidual residual(std::size_t tile) const;
+  ResidualEstimate residual(std::size_t tile) const;
   void keep(std::size_t tile);
 
   /// Lets the bodies rest: load() and start() have to follow.

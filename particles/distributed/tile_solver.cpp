@@ -7,7 +7,7 @@
 #include "particles/contact/residual.hpp"
 #include "particles/solver/coarse_loads.hpp"
 #include "particles/solver/momentum.hpp"
-#include "particles/solver/seen_residual.hpp"
+#include "particles/solver/residual_estimate.hpp"
 #include "particles/solver/steep_starts.hpp"
 #include "particles/solver/strip_sweeps.hpp"
 
@@ -47,12 +47,13 @@ void TileSolver<Problem>::work_on(const TileRounds& rounds, Halo& halo, Blocks<T
 }
 
 template <class Problem>
-SeenResidual TileSolver<Problem>::seen_of_tiles() {
+ResidualEstimate TileSolver<Problem>::estimate_of_tiles() {
   std::array<ExactSum, 2> sums;
-  for (const SeenResidual& of_tile : seen_) sums[0].add(of_tile.squares), sums[1].add(of_tile.let_through);
+  for (const ResidualEstimate& of_tile : estimates_)
+    sums[0].add(of_tile.squares), sums[1].add(of_tile.complementarity_violation);
   ranks_.add(sums);
   std::array<double, 1> closing{0};
-  for (const SeenResidual& of_tile : seen_) closing[0] = std::max(closing[0], -of_tile.lowest_u_n);
+  for (const ResidualEstimate& of_tile : estimates_) closing[0] = std::max(closing[0], -of_tile.lowest_u_n);
   ranks_.largest(closing);
   return {sums[0].value(), sums[1].value(), -closing[0]};
 }
@@ -118,7 +119,8 @@ ContactResidual TileSolver<Problem>::residual(const Problem& problem, const Tile
   std::array<ExactSum, 4> sums;
   ResidualSums all;
   for (std::size_t t = 0; t < of_tile.size(); ++t) {
-    sums[0].add(of_tile[t].squares), sums[1].add(q_squares[t]), sums[2].add(of_tile[t].let_through);
+    sums[0].add(of_tile[t].squares), sums[1].add(q_squares[t]),
+        sums[2].add(of_tile[t].complementarity_violation);
     all.add(of_tile[t]);
   }
   sums[3].add_terms(contacts.counts_here.size(),
@@ -126,8 +128,8 @@ ContactResidual TileSolver<Problem>::residual(const Problem& problem, const Tile
   const std::int64_t contacts_of_all = ranks_.add(sums, problem.contacts());
   ContactResidual residual;
   if (contacts_of_all == 0) return residual;
-  const double squares = sums[0].value(), q = sums[1].value(), let_through = sums[2].value();
-  if (!std::isfinite(squares) || !std::isfinite(let_through)) {
+  const double squares = sums[0].value(), q = sums[1].value(), complementarity_violation = sums[2].value();
+  if (!std::isfinite(squares) || !std::isfinite(complementarity_violation)) {
     residual.rms = residual.max = std::numeric_limits<double>::quiet_NaN();
     return residual;
   }
@@ -141,7 +143,8 @@ ContactResidual TileSolver<Problem>::residual(const Problem& problem, const Tile
   residual.rms = relative(std::sqrt(squares / count));
   residual.max = relative(std::sqrt(extremes[0]));
   residual.penetration = extremes[1] * problem.time_step;
-  residual.sinking = let_through == 0 ? 0 : problem.time_step * let_through / sums[3].value();
+  residual.sinking =
+      complementarity_violation == 0 ? 0 : problem.time_step * complementarity_violation / sums[3].value();
   return residual;
 }
 
@@ -224,8 +227,8 @@ SolveReport TileSolver<Problem>::sweep_until_done(const Problem& problem, const 
                                                   Halo& halo, const StoppingRule& rule,
                                                   std::int64_t contacts_of_all, Blocks<T>& blocks,
                                                   bool accelerated, Solution<Problem>& solution) {
-  constexpr double hope = 2;      // times the tolerance: a residual that is looked for
-  constexpr int most_unseen = 3;  // looks left out in turn
+  constexpr double tolerance_factor = 2;  // an estimate is due where this many tolerances are expected
+  constexpr int most_unchecked = 3;       // estimates left out in turn
   constexpr bool single = sizeof(T) < sizeof(double);
   StoppingTest test(rule);
   std::vector<double>& r = solution.impulses;
@@ -240,11 +243,11 @@ SolveReport TileSolver<Problem>::sweep_until_done(const Problem& problem, const 
   const int most_at_once = accelerated && contacts_of_all >= least_contacts_of_waves ? longest_wave : 1;
   const SweepExtrapolation how = extrapolation_of(accelerated, contacts_of_all);
   T beta = 0;
-  double worth = std::numeric_limits<double>::infinity(), best = worth;
-  SeenProgress progress(how);
+  double check_threshold = std::numeric_limits<double>::infinity(), best = check_threshold;
+  SolveProgress progress(how);
   const bool leaves = single || (accelerated && steep_);  // where it gets stuck
   const bool coarse = accelerated && contacts_of_all >= least_corrected_ && ranks_.any(!contacts.x.empty());
-  for (int sweeps = 0, unseen = 0, corrected_at = 0;;) {
+  for (int sweeps = 0, unchecked = 0, corrected_at = 0;;) {
     if (coarse && sweeps >= corrected_at + sweeps_between_coarse_loads) {
       correct_loads(problem, contacts, halo, corrected_at == 0, contacts_of_all, blocks);
       corrected_at = sweeps;
@@ -271,33 +274,33 @@ SolveReport TileSolver<Problem>::sweep_until_done(const Problem& problem, const 
       sweeps += wave.sweeps;
     }
     const bool last = sweeps >= rule.max_sweeps || !finite;
-    if (!last && steps > worth && unseen < most_unseen) {
-      ++unseen;
+    if (!last && steps > check_threshold && unchecked < most_unchecked) {
+      ++unchecked;
       continue;
     }
-    unseen = 0;
-    loops_.each_of(tiles, [&](int t) { seen_[t] = blocks.residual(t); });
-    const SeenResidual sums = seen_of_tiles();
-    const double seen = std::sqrt(sums.squares * scale);
-    const double fall = hope * rule.tolerance / seen;  // residuals fall about as steps do
-    worth = steps * fall * fall;
-    SeenMisses misses = misses_of(sums, seen, problem.time_step, rule);
-    if (std::isfinite(rule.sinking) && (progress.exact() || !progress.surely_misses(misses)))
-      misses.sinking = sinking_of(sums, summed_impulses(contacts, blocks), problem.time_step, rule);
-    progress.see(misses, sweeps);
+    unchecked = 0;
+    loops_.each_of(tiles, [&](int t) { estimates_[t] = blocks.residual(t); });
+    const ResidualEstimate sums = estimate_of_tiles();
+    const double estimate = std::sqrt(sums.squares * scale);
+    const double fall = tolerance_factor * rule.tolerance / estimate;  // residuals fall about as steps do
+    check_threshold = steps * fall * fall;
+    LimitRatios ratios = limit_ratios(sums, estimate, problem.time_step, rule);
+    if (std::isfinite(rule.sinking) && (progress.exact() || !progress.surely_missed(ratios)))
+      ratios.sinking = sinking_of(sums, summed_impulses(contacts, blocks), problem.time_step, rule);
+    progress.record(ratios, sweeps);
     // Rounding of single precision hides the progress, or momentum keeps steep contacts swinging.
     const bool stuck = leaves && progress.stuck(sweeps);
-    const double missed = progress.missed(misses);
+    const double missed = progress.counted(ratios);
     if (missed < best) {
       best = missed;
       loops_.each_of(tiles, [&](int t) { blocks.keep(t); });
     }
-    if (!last && !stuck && progress.surely_misses(misses)) continue;
+    if (!last && !stuck && progress.surely_missed(ratios)) continue;
     blocks.unpack(problem, false, r, loops_);
     const bool ended = test.ends(sweeps, residual(problem, contacts, halo, solution), finite);
-    const bool hidden = single && test.report().residual.rms > 3 * seen;
+    const bool hidden = single && test.report().residual.rms > 3 * estimate;
     if (!ended && !stuck && !hidden) {
-      progress.compare(misses, test.report().residual.sinking / rule.sinking);
+      progress.compare(ratios, test.report().residual.sinking / rule.sinking);
       continue;
     }
     if (best < missed && test.report().status != Status::converged) {
@@ -314,7 +317,7 @@ SolveReport TileSolver<Problem>::solve(const Problem& problem, const TiledContac
                                        Solution<Problem>& solution) {
   constexpr double single_precision_reaches = 1e-4;
   solution.impulses.resize(problem.q.size());
-  seen_.assign(contacts.tiles.size(), {});
+  estimates_.assign(contacts.tiles.size(), {});
   std::array<std::int64_t, 2> count{problem.contacts(), is_steep(problem)};
   ranks_.add(count);
   if (count[0] == 0) {

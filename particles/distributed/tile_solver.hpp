@@ -87,8 +87,8 @@ class TileSolver {
   SolveReport sweep_until_done(const Problem&, const TiledContacts&, Halo&, const StoppingRule&,
                                std::int64_t contacts_of_all, Blocks<T>&, bool accelerated,
                                Solution<Problem>&);
-  /// What all ranks have seen of tiles; they call it together.
-  SeenResidual seen_of_tiles();
+  /// The estimate over the tiles of all ranks; they call it together.
+  ResidualEstimate estimate_of_tiles();
   /// Those of all bodies; all ranks call it together.
   template <class T>
   double summed_impulses(const TiledContacts&, const Blocks<T>&);
@@ -104,7 +104,7 @@ class TileSolver {
   std::vector<double> best_;
   std::array<std::vector<double>, longest_wave> squares_;    // of the steps of each tile, by sweep of a wave
   std::array<std::optional<WavePlan>, longest_wave> plans_;  // of a solve, by the sweeps of a wave
-  std::vector<SeenResidual> seen_;                           // of each tile
+  std::vector<ResidualEstimate> estimates_;                  // of each tile
 };
 
 }  // namespace drumlin::particles

@@ -129,7 +129,7 @@ constexpr bool only_swept = false;
 template <class Cone, bool with_spin, bool with_driven>
 constexpr bool only_swept<ContactProblem<Cone, GeneralDelassus<Cone, with_spin, with_driven>>> = true;
 
-// Residual down to which sweeps in single precision are worth while.
+// Residual down to which sweeps in single precision pay.
 constexpr double single_precision_reaches = 1e-4;
 
 }  // namespace

@@ -55,7 +55,7 @@ using ContactSolver = SolveReport (*)(const Problem&, const StoppingRule&, Solve
 /// there. The residual is always that in double precision. Where places of the bodies are known, large
 /// problems are corrected on a coarse grid every few sweeps (particles/solver/coarse_loads.hpp).
 /// Ends on a sweep, so that the impulses lie in their cones. Where they miss the rule they are the best that
-/// the solver has looked at.
+/// the solver has checked at.
 template <class Problem>
 SolveReport solve_accelerated(const Problem&, const StoppingRule&, SolverWorkspace<Problem>&,
                               Solution<Problem>&);

@@ -88,16 +88,16 @@ double sweep(std::span<DrivenContact<dim>> contacts, BodyRecord<T>* bodies, T be
 
 /// Their residual as they stand.
 template <bool spin, class T, int dim>
-SeenResidual residual(std::span<const DrivenContact<dim>> contacts, const BodyRecord<T>* bodies) {
-  SeenResidual seen;
+ResidualEstimate residual(std::span<const DrivenContact<dim>> contacts, const BodyRecord<T>* bodies) {
+  ResidualEstimate estimate;
   for (const auto& c : contacts) {
     const auto u = velocity<spin>(c, bodies);
     const double lambda = largest_eigenvalue<dim>(c.W.matrix);
-    seen.squares += squared_error<dim>(lambda, c.mu.data(), c.r.data(), u.data());
-    seen.let_through += c.r[0] * std::max(0.0, -u[0]);
-    seen.lowest_u_n = std::min(seen.lowest_u_n, u[0]);
+    estimate.squares += squared_error<dim>(lambda, c.mu.data(), c.r.data(), u.data());
+    estimate.complementarity_violation += c.r[0] * std::max(0.0, -u[0]);
+    estimate.lowest_u_n = std::min(estimate.lowest_u_n, u[0]);
   }
-  return seen;
+  return estimate;
 }
 
 }  // namespace drumlin::particles

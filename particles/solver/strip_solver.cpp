@@ -155,7 +155,7 @@ void StripProblem<T, dim, spin>::pack(const Problem& problem, const SweepPlan& p
   const int strip_count = plan.strips();
   strips_.assign(strip_count, Strip{});
   for (auto& squares : step_squares_) squares.assign(2 * static_cast<std::size_t>(strip_count) + 1, 0.0);
-  seen_.assign(2 * static_cast<std::size_t>(strip_count), {});
+  estimates_.assign(2 * static_cast<std::size_t>(strip_count), {});
   pack_bodies(problem, plan);
   lay_out(problem, plan, order, r);
   const auto pack_one = [&](int strip) { pack_strip(problem, plan, order, r, strip); };
@@ -243,16 +243,16 @@ void StripProblem<T, dim, spin>::sweep_driven(int slot, T beta, bool accelerated
 }
 
 template <class T, int dim, bool spin>
-void StripProblem<T, dim, spin>::look_at(int strip, int phase) {
+void StripProblem<T, dim, spin>::estimate_residual(int strip, int phase) {
   const Strip& l = strips_[strip];
-  seen_[2 * strip + phase] =
+  estimates_[2 * strip + phase] =
       Kernels::residual(blocks_.data() + l.block[phase], l.block[phase + 1] - l.block[phase], bodies_.data());
 }
 
 template <class T, int dim, bool spin>
-SeenResidual StripProblem<T, dim, spin>::seen_residual() const {
-  SeenResidual all = residual<spin>(std::span<const DrivenContact<dim>>(driven_), bodies_.data());
-  for (const SeenResidual& of_slice : seen_) all.add(of_slice);
+ResidualEstimate StripProblem<T, dim, spin>::residual_estimate() const {
+  ResidualEstimate all = residual<spin>(std::span<const DrivenContact<dim>>(driven_), bodies_.data());
+  for (const ResidualEstimate& of_slice : estimates_) all.add(of_slice);
   return all;
 }
 

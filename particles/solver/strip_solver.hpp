@@ -65,8 +65,8 @@ class StripProblem {
 
   /// Looks at the residuals of the contacts of a phase of a strip; what it saw of all of them, and of driven
   /// walls.
-  void look_at(int strip, int phase);
-  SeenResidual seen_residual() const;
+  void estimate_residual(int strip, int phase);
+  ResidualEstimate residual_estimate() const;
   /// Sum of the impulses of the bodies as they stand.
   double summed_impulses(TeamLoops& loops) const;
   /// Keeps the impulses of a strip, and those of driven walls.
@@ -114,10 +114,10 @@ class StripProblem {
   std::vector<std::int32_t> groups_;  // blocks that share no body: how many follow one another
   WorkArray<std::int32_t> contact_;   // of each place in the blocks; -1: filled up
   WorkArray<BodyRecord<T>> bodies_, before_;
-  WorkArray<std::int32_t> place_;         // of each body in bodies_
-  std::vector<double> step_squares_[20];  // of each slice, of the sweeps of two waves
-  std::vector<SeenResidual> seen_;        // of each slice
-  WorkArray<Impulses> kept_;              // of each block
+  WorkArray<std::int32_t> place_;            // of each body in bodies_
+  std::vector<double> step_squares_[20];     // of each slice, of the sweeps of two waves
+  std::vector<ResidualEstimate> estimates_;  // of each slice
+  WorkArray<Impulses> kept_;                 // of each block
   std::vector<DrivenContact<dim>> driven_;
   std::size_t driven_bodies_ = 0;  // first of them in bodies_
 };

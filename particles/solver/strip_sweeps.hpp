@@ -8,7 +8,7 @@
 
 #include "particles/solver/contact_solver.hpp"
 #include "particles/solver/momentum.hpp"
-#include "particles/solver/seen_residual.hpp"
+#include "particles/solver/residual_estimate.hpp"
 #include "particles/solver/sweep_wave.hpp"
 
 namespace drumlin::particles {
@@ -25,12 +25,13 @@ struct SweepState {
   Momentum momentum;
   T beta = 0;
   bool finite = true;
-  double steps = 0;     ///< sum of squares of the steps of the last sweep
-  double worth = 0;     ///< of `steps`: above it the residual, which costs about a sweep, is not looked at
-  bool loaded = false;  ///< bodies have the impulses that they start from
-  int unseen = 0;       ///< rounds without a look at the residual
-  bool looked = false;  ///< in the last round
-  bool keep = false;    ///< the impulses that it left are the best so far
+  double steps = 0;  ///< sum of squares of the steps of the last sweep
+  /// Of `steps`: above it the residual is not estimated, which costs about a sweep.
+  double check_threshold = 0;
+  bool loaded = false;   ///< bodies have the impulses that they start from
+  int unchecked = 0;     ///< rounds without an estimate of the residual
+  bool checked = false;  ///< the residual was estimated in the last round
+  bool keep = false;     ///< the impulses that it left are the best so far
 };
 
 /// Lets the bodies receive the impulses to start from.
@@ -80,12 +81,12 @@ void sweep_share(Strips& strips, int thread, int threads, int until, bool last, 
       own.beta = static_cast<T>(own.momentum.next(own.steps));
     }
   }
-  constexpr int most_unseen = 3;
-  own.looked = last || !own.finite || own.steps <= own.worth || own.unseen >= most_unseen;
-  own.unseen = own.looked ? 0 : own.unseen + 1;
-  if (own.looked)
+  constexpr int most_unchecked = 3;
+  own.checked = last || !own.finite || own.steps <= own.check_threshold || own.unchecked >= most_unchecked;
+  own.unchecked = own.checked ? 0 : own.unchecked + 1;
+  if (own.checked)
     for (int strip = share.first; strip < share.end; ++strip)
-      for (const int phase : {0, 1}) strips.look_at(strip, phase);
+      for (const int phase : {0, 1}) strips.estimate_residual(strip, phase);
   // All threads have taken their copies: they have met since.
   if (thread == 0) state = own;
 }
@@ -151,7 +152,7 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
   const double residual_scale = pack_in_strips(problem, work, strips, solution, loops);
   // Below four strips a second thread costs more than it saves.
   ThreadTeam* team = strips.strips() >= 4 ? work.team : nullptr;
-  constexpr double hope = 2;  // times the tolerance: a residual that is looked for
+  constexpr double tolerance_factor = 2;  // an estimate is due where this many tolerances are expected
   constexpr bool single = sizeof(T) < sizeof(double);
   const bool leaves = single || (accelerated && is_steep(problem));  // where it gets stuck
 
@@ -159,13 +160,13 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
   state.momentum = Momentum(rule.tolerance, static_cast<std::size_t>(problem.contacts()));
   if (accelerated && !strips.has_driven() && problem.contacts() >= least_contacts_of_waves)
     state.wave = longest_wave;
-  state.worth = std::numeric_limits<double>::infinity();
+  state.check_threshold = std::numeric_limits<double>::infinity();
   double best = std::numeric_limits<double>::infinity();
   // Driven walls take impulses too, which the records do not tell.
   const bool limits_sinking = std::isfinite(rule.sinking) && !strips.has_driven();
   const bool coarse = accelerated && wants_coarse_loads(problem, work);
   const SweepExtrapolation how = extrapolation_of(accelerated, problem.contacts());
-  SeenProgress progress(how);
+  SolveProgress progress(how);
   int corrected_at = 0;
   const auto go_on = [&] {
     if (coarse && state.sweeps >= corrected_at + sweeps_between_coarse_loads) {
@@ -176,34 +177,34 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
   for (;; go_on()) {
     int until = state.sweeps + 1;
     while (!test.due(until)) ++until;
-    const bool look = until >= rule.max_sweeps || test.out_of_time();
+    const bool check = until >= rule.max_sweeps || test.out_of_time();
     if (team)
       team->run([&](int t, int threads) {
-        sweep_share(strips, t, threads, until, look, how, state, [=] { team->meet(); });
+        sweep_share(strips, t, threads, until, check, how, state, [=] { team->meet(); });
       });
     else
-      sweep_share(strips, 0, 1, until, look, how, state, [] {});
-    if (!state.looked) continue;
-    const SeenResidual sums = strips.seen_residual();
-    const double seen = std::sqrt(sums.squares * residual_scale);
+      sweep_share(strips, 0, 1, until, check, how, state, [] {});
+    if (!state.checked) continue;
+    const ResidualEstimate sums = strips.residual_estimate();
+    const double estimate = std::sqrt(sums.squares * residual_scale);
     // Residuals fall about as steps do.
-    const double fall = hope * rule.tolerance / seen;
-    state.worth = state.steps * fall * fall;
-    SeenMisses misses = misses_of(sums, seen, problem.time_step, rule);
-    if (limits_sinking && (progress.exact() || !progress.surely_misses(misses)))
-      misses.sinking = sinking_of(sums, strips.summed_impulses(loops), problem.time_step, rule);
-    progress.see(misses, state.sweeps);
+    const double fall = tolerance_factor * rule.tolerance / estimate;
+    state.check_threshold = state.steps * fall * fall;
+    LimitRatios ratios = limit_ratios(sums, estimate, problem.time_step, rule);
+    if (limits_sinking && (progress.exact() || !progress.surely_missed(ratios)))
+      ratios.sinking = sinking_of(sums, strips.summed_impulses(loops), problem.time_step, rule);
+    progress.record(ratios, state.sweeps);
     // Rounding of single precision hides the progress, or momentum keeps steep contacts swinging.
     const bool stuck = leaves && progress.stuck(state.sweeps);
-    const bool last = look || !state.finite;
-    const double missed = progress.missed(misses);
+    const bool last = check || !state.finite;
+    const double missed = progress.counted(ratios);
     if (missed < best) best = missed, state.keep = true, strips.keep_driven();
-    if (!last && !stuck && progress.surely_misses(misses)) continue;
+    if (!last && !stuck && progress.surely_missed(ratios)) continue;
     strips.unpack(problem, false, solution.impulses, loops);
     const bool ended = test.ends(state.sweeps, residual_of(problem, solution, loops), state.finite);
-    const bool hidden = single && test.report().residual.rms > 3 * seen;
+    const bool hidden = single && test.report().residual.rms > 3 * estimate;
     if (!ended && !stuck && !hidden) {
-      progress.compare(misses, test.report().residual.sinking / rule.sinking);
+      progress.compare(ratios, test.report().residual.sinking / rule.sinking);
       continue;
     }
     if (best < missed && test.report().status != Status::converged) {

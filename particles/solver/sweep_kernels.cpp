@@ -272,11 +272,12 @@ HWY_INLINE auto inverse_eigenvalue(const ContactBlock<T, dim>& block, std::size_
 }
 
 template <class T, int dim, bool spin>
-SeenResidual residual(const ContactBlock<T, dim>* blocks, std::size_t count, const BodyRecord<T>* bodies) {
+ResidualEstimate residual(const ContactBlock<T, dim>* blocks, std::size_t count,
+                          const BodyRecord<T>* bodies) {
   const Lanes<T> d;
   constexpr int width = ContactBlock<T, dim>::width;
   HWY_ALIGN std::array<T, width> squares{};
-  HWY_ALIGN std::array<T, width> let_through{};
+  HWY_ALIGN std::array<T, width> complementarity_violation{};
   HWY_ALIGN std::array<T, width> lowest_u_n{};
   for (std::size_t b = 0; b < count; ++b) {
     const auto& block = blocks[b];
@@ -285,13 +286,15 @@ SeenResidual residual(const ContactBlock<T, dim>* blocks, std::size_t count, con
       const auto rho = inverse_eigenvalue<T, dim, spin>(block, k, I, J);
       const auto r = load_numbers<dim>(block.r, k), u = velocities<spin>(block, k, I, J);
       const auto closing = hn::Min(hn::Zero(d), u[0]);
-      hn::Store(hn::Load(d, &let_through[k]) - r[0] * closing, d, &let_through[k]);
+      hn::Store(hn::Load(d, &complementarity_violation[k]) - r[0] * closing, d,
+                &complementarity_violation[k]);
       hn::Store(hn::Min(hn::Load(d, &lowest_u_n[k]), closing), d, &lowest_u_n[k]);
       const auto square = contact_law::squared_natural_residual(rho, coefficients(block, k), r, u);
       hn::Store(hn::Load(d, &squares[k]) + square / (rho * rho), d, &squares[k]);
     }
   }
-  return {total(squares), total(let_through), *std::min_element(lowest_u_n.begin(), lowest_u_n.end())};
+  return {total(squares), total(complementarity_violation),
+          *std::min_element(lowest_u_n.begin(), lowest_u_n.end())};
 }
 
 /// x becomes x + beta (x - before), and `before` what x was; returns the first number that is left over.
@@ -315,16 +318,16 @@ void go_on(BodyRecord<T>* bodies, BodyRecord<T>* before, std::size_t count, T be
   go_on(of_a_record, &bodies->x, &before->x, most, 4 * count, beta);
 }
 
-#define DRUMLIN_KERNELS(T, name, dim, spin)                                                            \
-  void load_##name(const ContactBlock<T, dim>* b, std::size_t n, BodyRecord<T>* v) {                   \
-    load<T, dim, spin>(b, n, v);                                                                       \
-  }                                                                                                    \
-  double sweep_##name(ContactBlock<T, dim>* b, std::span<const std::int32_t> groups, BodyRecord<T>* v, \
-                      T beta, SweepExtrapolation how) {                                                \
-    return sweep<T, dim, spin>(b, groups, v, beta, how);                                               \
-  }                                                                                                    \
-  SeenResidual residual_##name(const ContactBlock<T, dim>* b, std::size_t n, const BodyRecord<T>* v) { \
-    return residual<T, dim, spin>(b, n, v);                                                            \
+#define DRUMLIN_KERNELS(T, name, dim, spin)                                                                \
+  void load_##name(const ContactBlock<T, dim>* b, std::size_t n, BodyRecord<T>* v) {                       \
+    load<T, dim, spin>(b, n, v);                                                                           \
+  }                                                                                                        \
+  double sweep_##name(ContactBlock<T, dim>* b, std::span<const std::int32_t> groups, BodyRecord<T>* v,     \
+                      T beta, SweepExtrapolation how) {                                                    \
+    return sweep<T, dim, spin>(b, groups, v, beta, how);                                                   \
+  }                                                                                                        \
+  ResidualEstimate residual_##name(const ContactBlock<T, dim>* b, std::size_t n, const BodyRecord<T>* v) { \
+    return residual<T, dim, spin>(b, n, v);                                                                \
   }
 DRUMLIN_KERNELS(double, double_smooth, 1, false)
 DRUMLIN_KERNELS(double, double_friction, 2, false)
@@ -366,8 +369,8 @@ HWY_EXPORT(go_on_float);
     return HWY_DYNAMIC_DISPATCH(sweep_##name)(blocks, groups, bodies, beta, how);                         \
   }                                                                                                       \
   template <>                                                                                             \
-  SeenResidual SweepKernels<T, dim, spin>::residual(const Block* blocks, std::size_t count,               \
-                                                    const BodyRecord<T>* bodies) {                        \
+  ResidualEstimate SweepKernels<T, dim, spin>::residual(const Block* blocks, std::size_t count,           \
+                                                        const BodyRecord<T>* bodies) {                    \
     return HWY_DYNAMIC_DISPATCH(residual_##name)(blocks, count, bodies);                                  \
   }                                                                                                       \
   template <>                                                                                             \

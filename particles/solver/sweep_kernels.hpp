@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "particles/solver/momentum.hpp"
-#include "particles/solver/seen_residual.hpp"
+#include "particles/solver/residual_estimate.hpp"
 
 namespace drumlin::particles {
 
@@ -66,7 +66,7 @@ struct SweepKernels {
   static double sweep(Block* blocks, std::span<const std::int32_t> groups, BodyRecord<T>* bodies, T beta,
                       SweepExtrapolation);
   /// The residual of the blocks as they stand.
-  static SeenResidual residual(const Block* blocks, std::size_t count, const BodyRecord<T>* bodies);
+  static ResidualEstimate residual(const Block* blocks, std::size_t count, const BodyRecord<T>* bodies);
   /// The same going on for bodies.
   static void go_on(BodyRecord<T>* bodies, BodyRecord<T>* before, std::size_t count, T beta);
 };

@@ -1,5 +1,5 @@
-// What solvers in strips see of their residual on the way is the residual.
-#include "particles/solver/seen_residual.hpp"
+// What solvers in strips estimate of their residual on the way is the residual.
+#include "particles/solver/residual_estimate.hpp"
 
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ Column column(int discs, double mu = 0.4) {
 }
 
 template <class T>
-void expect_seen(double precision, double mu = 0.4) {
+void expect_estimate(double precision, double mu = 0.4) {
   const auto [problem, r] = column(200, mu);
   std::vector<std::int32_t> order;
   const SweepPlan plan = sweep_plan(problem.W.fixed(), problem.W.i, problem.W.j, order);
@@ -46,71 +46,71 @@ void expect_seen(double precision, double mu = 0.4) {
   for (const int phase : {0, 1})
     for (int strip = 0; strip < strips.strips(); ++strip) strips.load(strip, phase);
   for (const int phase : {0, 1})
-    for (int strip = 0; strip < strips.strips(); ++strip) strips.look_at(strip, phase);
-  const SeenResidual seen = strips.seen_residual();
+    for (int strip = 0; strip < strips.strips(); ++strip) strips.estimate_residual(strip, phase);
+  const ResidualEstimate estimate = strips.residual_estimate();
   const double impulses = strips.summed_impulses(loops), h = problem.time_step;
   const ContactResidual exact = residual_of(problem, std::span<const double>(r));
   const double q_squares = squared_norm(problem.q);
-  EXPECT_NEAR(std::sqrt(seen.squares * 2 / q_squares) / exact.rms, 1, precision);
+  EXPECT_NEAR(std::sqrt(estimate.squares * 2 / q_squares) / exact.rms, 1, precision);
   EXPECT_GT(exact.penetration, 0);
-  EXPECT_NEAR(-seen.lowest_u_n * h / exact.penetration, 1, precision);
+  EXPECT_NEAR(-estimate.lowest_u_n * h / exact.penetration, 1, precision);
   EXPECT_GT(exact.sinking, 0);
-  EXPECT_NEAR(h * seen.let_through / impulses / exact.sinking, 1, precision);
+  EXPECT_NEAR(h * estimate.complementarity_violation / impulses / exact.sinking, 1, precision);
   // A limit is surely missed from two hundredths beyond it on, in sweeps that extrapolate exactly from less.
-  const double relative = std::sqrt(seen.squares * 2 / q_squares);
-  const auto surely_misses = [&](SweepExtrapolation how, double penetration, double sinking) {
+  const double relative = std::sqrt(estimate.squares * 2 / q_squares);
+  const auto surely_missed = [&](SweepExtrapolation how, double penetration, double sinking) {
     StoppingRule rule;
     rule.tolerance = 2 * exact.rms, rule.penetration = penetration, rule.sinking = sinking;
-    SeenMisses misses = misses_of(seen, relative, h, rule);
-    misses.sinking = sinking_of(seen, impulses, h, rule);
-    return SeenProgress(how).surely_misses(misses);
+    LimitRatios ratios = limit_ratios(estimate, relative, h, rule);
+    ratios.sinking = sinking_of(estimate, impulses, h, rule);
+    return SolveProgress(how).surely_missed(ratios);
   };
   const auto none = std::numeric_limits<double>::infinity();
   for (const auto how : {SweepExtrapolation::rounded, SweepExtrapolation::exact}) {
     const bool exactly = how == SweepExtrapolation::exact;
-    EXPECT_FALSE(surely_misses(how, none, none));
-    EXPECT_EQ(surely_misses(how, exact.penetration / 1.01, none), exactly);
-    EXPECT_EQ(surely_misses(how, none, exact.sinking / 1.01), exactly);
-    EXPECT_TRUE(surely_misses(how, exact.penetration / 1.03, none));
-    EXPECT_TRUE(surely_misses(how, none, exact.sinking / 1.03));
+    EXPECT_FALSE(surely_missed(how, none, none));
+    EXPECT_EQ(surely_missed(how, exact.penetration / 1.01, none), exactly);
+    EXPECT_EQ(surely_missed(how, none, exact.sinking / 1.01), exactly);
+    EXPECT_TRUE(surely_missed(how, exact.penetration / 1.03, none));
+    EXPECT_TRUE(surely_missed(how, none, exact.sinking / 1.03));
   }
 }
 
 /// Residuals that are small enough and bodies that sink too fast, by less and less.
-TEST(SeenProgress, SlowlyOfWhatIsMissedCountsWhereSweepsExtrapolateExactly) {
-  SeenProgress rounded(SweepExtrapolation::rounded), exact(SweepExtrapolation::exact);
+TEST(SolveProgress, SlowlyOfWhatIsMissedCountsWhereSweepsExtrapolateExactly) {
+  SolveProgress rounded(SweepExtrapolation::rounded), exact(SweepExtrapolation::exact);
   for (int sweeps = 10; sweeps <= 400; sweeps += 10)
-    for (SeenProgress* progress : {&rounded, &exact}) {
-      const SeenMisses misses{0.6, 0.5, 1.2 - 1e-4 * sweeps};
-      progress->see(misses, sweeps);
+    for (SolveProgress* progress : {&rounded, &exact}) {
+      const LimitRatios ratios{0.6, 0.5, 1.2 - 1e-4 * sweeps};
+      progress->record(ratios, sweeps);
       EXPECT_EQ(progress->stuck(sweeps), progress == &rounded && sweeps >= 110) << sweeps;
     }
   // The last progress was after 370 sweeps: as many more are allowed.
   for (int sweeps = 410; sweeps < 740; sweeps += 10) {
-    exact.see({0.6, 0.5, 1.16}, sweeps);
+    exact.record({0.6, 0.5, 1.16}, sweeps);
     EXPECT_FALSE(exact.stuck(sweeps)) << sweeps;
   }
   EXPECT_TRUE(exact.stuck(740));
-  // What is seen is a little less than what there is.
-  const SeenMisses misses{0.6, 0.5, 0.999};
-  for (SeenProgress* progress : {&rounded, &exact}) {
-    EXPECT_FALSE(progress->surely_misses(misses));
-    progress->compare(misses, 1.005);
-    EXPECT_EQ(progress->surely_misses(misses), progress == &exact);
-    EXPECT_FALSE(progress->surely_misses({0.6, 0.5, 0.993}));
+  // The estimate is a little less than the residual.
+  const LimitRatios ratios{0.6, 0.5, 0.999};
+  for (SolveProgress* progress : {&rounded, &exact}) {
+    EXPECT_FALSE(progress->surely_missed(ratios));
+    progress->compare(ratios, 1.005);
+    EXPECT_EQ(progress->surely_missed(ratios), progress == &exact);
+    EXPECT_FALSE(progress->surely_missed({0.6, 0.5, 0.993}));
   }
 }
 
-TEST(SeenResidual, IsTheResidualInDoublePrecision) { expect_seen<double>(1e-12); }
-TEST(SeenResidual, IsNearlyTheResidualInSinglePrecision) { expect_seen<float>(1e-4); }
-TEST(SeenResidual, OfSteepFrictionIsTheResidual) {
-  expect_seen<double>(1e-12, 30);
-  expect_seen<float>(1e-4, 30);
+TEST(ResidualEstimate, IsTheResidualInDoublePrecision) { expect_estimate<double>(1e-12); }
+TEST(ResidualEstimate, IsNearlyTheResidualInSinglePrecision) { expect_estimate<float>(1e-4); }
+TEST(ResidualEstimate, OfSteepFrictionIsTheResidual) {
+  expect_estimate<double>(1e-12, 30);
+  expect_estimate<float>(1e-4, 30);
 }
 
 /// How far, in parts of it, single precision sees another residual than impulses have after sweeps with
 /// momentum, under a load of thousand discs.
-double seen_beside_the_residual(SweepExtrapolation how) {
+double error_of_the_estimate(SweepExtrapolation how) {
   constexpr int discs = 1000, sweeps = 100;
   const auto [problem, unused] = column(discs);
   std::vector<double> r;  // each disc carries those above it, and swings
@@ -129,20 +129,20 @@ double seen_beside_the_residual(SweepExtrapolation how) {
   for (int strip = 0; strip < strips.strips(); ++strip) strips.start(strip);
   for (int k = 0; k < sweeps; ++k)
     each([&](int strip, int phase) { strips.sweep(strip, phase, 0, k == 0 ? 0.0F : 0.95F, how); });
-  each([&](int strip, int phase) { strips.look_at(strip, phase); });
+  each([&](int strip, int phase) { strips.estimate_residual(strip, phase); });
   strips.unpack(problem, false, r, loops);
-  const double seen = std::sqrt(strips.seen_residual().squares * 2 / squared_norm(problem.q));
-  return std::abs(seen / residual_of(problem, std::span<const double>(r)).rms - 1);
+  const double estimate = std::sqrt(strips.residual_estimate().squares * 2 / squared_norm(problem.q));
+  return std::abs(estimate / residual_of(problem, std::span<const double>(r)).rms - 1);
 }
 
-TEST(SeenResidual, StaysTrueUnderMomentumWhereBodiesReceiveWhatImpulsesRoundOff) {
-  const double rounded = seen_beside_the_residual(SweepExtrapolation::rounded);
-  const double exact = seen_beside_the_residual(SweepExtrapolation::exact);
+TEST(ResidualEstimate, StaysTrueUnderMomentumWhereBodiesReceiveWhatImpulsesRoundOff) {
+  const double rounded = error_of_the_estimate(SweepExtrapolation::rounded);
+  const double exact = error_of_the_estimate(SweepExtrapolation::exact);
   EXPECT_LT(exact, 1e-3);
   EXPECT_GT(rounded, 10 * exact) << exact;
 }
 
-TEST(SeenResidual, OfAContactThatOpensWithoutFrictionIsNothing) {
+TEST(ResidualEstimate, OfAContactThatOpensWithoutFrictionIsNothing) {
   auto [problem, r] = column(200);
   std::fill(r.begin(), r.end(), 0.0);
   std::fill(problem.mu.begin(), problem.mu.end(), 0.0);
@@ -152,8 +152,8 @@ TEST(SeenResidual, OfAContactThatOpensWithoutFrictionIsNothing) {
   StripProblem<float, 2, true> strips;
   strips.pack(problem, plan, order, r, TeamLoops());
   for (const int phase : {0, 1})
-    for (int strip = 0; strip < strips.strips(); ++strip) strips.look_at(strip, phase);
-  EXPECT_EQ(strips.seen_residual().squares, 0);
+    for (int strip = 0; strip < strips.strips(); ++strip) strips.estimate_residual(strip, phase);
+  EXPECT_EQ(strips.residual_estimate().squares, 0);
 }
 
 }  // namespace
