@@ -7,9 +7,9 @@
 #include "particles/contact/residual.hpp"
 #include "particles/solver/coarse_loads.hpp"
 #include "particles/solver/momentum.hpp"
-#include "particles/solver/residual_estimate.hpp"
-#include "particles/solver/steep_starts.hpp"
+#include "particles/solver/solve_end.hpp"
 #include "particles/solver/strip_sweeps.hpp"
+#include "particles/solver/two_methods.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -227,10 +227,6 @@ SolveReport TileSolver<Problem>::sweep_until_done(const Problem& problem, const 
                                                   Halo& halo, const StoppingRule& rule,
                                                   std::int64_t contacts_of_all, Blocks<T>& blocks,
                                                   bool accelerated, Solution<Problem>& solution) {
-  constexpr double tolerance_factor = 2;  // an estimate is due where this many tolerances are expected
-  constexpr int most_unchecked = 3;       // estimates left out in turn
-  constexpr bool single = sizeof(T) < sizeof(double);
-  StoppingTest test(rule);
   std::vector<double>& r = solution.impulses;
   const auto tiles = static_cast<int>(contacts.tiles.size());
   plans_ = {};
@@ -238,29 +234,41 @@ SolveReport TileSolver<Problem>::sweep_until_done(const Problem& problem, const 
   blocks.pack(problem, contacts.tiles, r, loops_);
   work_on(contacts.order.rounds, halo, blocks, [&](std::size_t t) { blocks.load(t); });
   blocks.start();
-  const double scale = scale_of(problem, contacts);
+  SolveEnd::Kind kind;
+  kind.time_step = problem.time_step, kind.residual_scale = scale_of(problem, contacts);
+  kind.how = extrapolation_of(accelerated, contacts_of_all);
+  kind.single = sizeof(T) < sizeof(double);
+  kind.leaves = kind.single || (accelerated && steep_);
+  kind.limits_sinking = std::isfinite(rule.sinking);
+  SolveEnd end(rule, kind);
+  const SweptBlocks swept{[&] {
+                            loops_.each_of(tiles, [&](int t) { estimates_[t] = blocks.residual(t); });
+                            return estimate_of_tiles();
+                          },
+                          [&] { return summed_impulses(contacts, blocks); },
+                          [&] { loops_.each_of(tiles, [&](int t) { blocks.keep(t); }); },
+                          [&](bool kept) {
+                            blocks.unpack(problem, kept, r, loops_);
+                            return residual(problem, contacts, halo, solution);
+                          }};
   Momentum momentum(rule.tolerance, static_cast<std::size_t>(contacts_of_all));
   const int most_at_once = accelerated && contacts_of_all >= least_contacts_of_waves ? longest_wave : 1;
-  const SweepExtrapolation how = extrapolation_of(accelerated, contacts_of_all);
   T beta = 0;
-  double check_threshold = std::numeric_limits<double>::infinity(), best = check_threshold;
-  SolveProgress progress(how);
-  const bool leaves = single || (accelerated && steep_);  // where it gets stuck
+
   const bool coarse = accelerated && contacts_of_all >= least_corrected_ && ranks_.any(!contacts.x.empty());
-  for (int sweeps = 0, unchecked = 0, corrected_at = 0;;) {
+  for (int sweeps = 0, corrected_at = 0;;) {
     if (coarse && sweeps >= corrected_at + sweeps_between_coarse_loads) {
       correct_loads(problem, contacts, halo, corrected_at == 0, contacts_of_all, blocks);
       corrected_at = sweeps;
       beta = 0;
     }
-    int until = sweeps + 1;
-    while (!test.due(until)) ++until;
+    const int until = end.next_round(sweeps);
     bool finite = true;
     double steps = 0;
     while (sweeps < until && finite) {
       Wave<T> wave;
       wave.sweeps = std::min(most_at_once, until - sweeps);
-      wave.how = how;
+      wave.how = kind.how;
       Momentum expected = momentum;
       for (int s = 0; s < wave.sweeps; ++s)
         wave.betas[s] = s == 0 ? beta : static_cast<T>(expected.next_of_falling());
@@ -274,40 +282,10 @@ SolveReport TileSolver<Problem>::sweep_until_done(const Problem& problem, const 
       sweeps += wave.sweeps;
     }
     const bool last = sweeps >= rule.max_sweeps || !finite;
-    if (!last && steps > check_threshold && unchecked < most_unchecked) {
-      ++unchecked;
-      continue;
-    }
-    unchecked = 0;
-    loops_.each_of(tiles, [&](int t) { estimates_[t] = blocks.residual(t); });
-    const ResidualEstimate sums = estimate_of_tiles();
-    const double estimate = std::sqrt(sums.squares * scale);
-    const double fall = tolerance_factor * rule.tolerance / estimate;  // residuals fall about as steps do
-    check_threshold = steps * fall * fall;
-    LimitRatios ratios = limit_ratios(sums, estimate, problem.time_step, rule);
-    if (std::isfinite(rule.sinking) && (progress.exact() || !progress.surely_missed(ratios)))
-      ratios.sinking = sinking_of(sums, summed_impulses(contacts, blocks), problem.time_step, rule);
-    progress.record(ratios, sweeps);
-    // Rounding of single precision hides the progress, or momentum keeps steep contacts swinging.
-    const bool stuck = leaves && progress.stuck(sweeps);
-    const double missed = progress.counted(ratios);
-    if (missed < best) {
-      best = missed;
-      loops_.each_of(tiles, [&](int t) { blocks.keep(t); });
-    }
-    if (!last && !stuck && progress.surely_missed(ratios)) continue;
-    blocks.unpack(problem, false, r, loops_);
-    const bool ended = test.ends(sweeps, residual(problem, contacts, halo, solution), finite);
-    const bool hidden = single && test.report().residual.rms > 3 * estimate;
-    if (!ended && !stuck && !hidden) {
-      progress.compare(ratios, test.report().residual.sinking / rule.sinking);
-      continue;
-    }
-    if (best < missed && test.report().status != Status::converged) {
-      blocks.unpack(problem, true, r, loops_);
-      test.replace(residual(problem, contacts, halo, solution));
-    }
-    return test.report();
+    if (!end.estimate_due(steps, last))
+      end.leave_out();
+    else if (end.ends(swept, sweeps, steps, finite, last))
+      return end.report();
   }
 }
 
@@ -344,18 +322,16 @@ SolveReport TileSolver<Problem>::solve(const Problem& problem, const TiledContac
                                             : sweep_until_done(problem, contacts, halo, coarse, count[0],
                                                                in_single_, true, solution);
   const bool done = first.status == Status::converged && rule.tolerance == coarse.tolerance;
-  if (done || first.status == Status::not_finite || first.sweeps >= rule.max_sweeps)
-    return judged(rule, first);
-  best_ = solution.impulses;
-  in_single_ = {};  // few solves need both: none holds both
-  SolveReport both =
-      together(first, steep_ ? plainly(remaining(rule, first)) : in_double(remaining(rule, first), true));
-  in_double_ = {};
-  if (both.status != Status::converged && !(both.residual.rms <= first.residual.rms)) {
-    solution.impulses = best_;
-    both.residual = residual(problem, contacts, halo, solution);
-  }
-  return both;
+  if (done) return first;
+  return go_on(
+      rule, first, solution.impulses,
+      [&](const StoppingRule& left) {
+        in_single_ = {};  // few solves need both: none holds both
+        const SolveReport second = steep_ ? plainly(left) : in_double(left, true);
+        in_double_ = {};
+        return second;
+      },
+      [&] { return residual(problem, contacts, halo, solution); });
 }
 
 template class TileSolver<FrictionlessProblem>;

@@ -100,8 +100,7 @@ class TileSolver {
   Blocks<double> in_double_;
   TileCoarseLoads<Problem> coarse_;
   std::int64_t least_corrected_, corrections_ = 0;
-  bool steep_ = false;  ///< a contact of any rank is
-  std::vector<double> best_;
+  bool steep_ = false;                                       ///< a contact of any rank is
   std::array<std::vector<double>, longest_wave> squares_;    // of the steps of each tile, by sweep of a wave
   std::array<std::optional<WavePlan>, longest_wave> plans_;  // of a solve, by the sweeps of a wave
   std::vector<ResidualEstimate> estimates_;                  // of each tile

@@ -11,8 +11,8 @@
 #include "particles/contact/problems.hpp"
 #include "particles/parallel/work_memory.hpp"
 #include "particles/solver/momentum.hpp"
-#include "particles/solver/steep_starts.hpp"
 #include "particles/solver/strip_sweeps.hpp"
+#include "particles/solver/two_methods.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -159,23 +159,6 @@ SolveReport solve_nlgs(const Problem& problem, const StoppingRule& rule, SolverW
   return from_two_starts(rule, solution.impulses, sweep, [&] { return residual_of(problem, solution); });
 }
 
-/// Goes on with a second method where a first one was given up, and keeps the better impulses.
-template <class Problem>
-SolveReport go_on(const Problem& problem, const StoppingRule& rule, SolverWorkspace<Problem>& work,
-                  Solution<Problem>& solution, const SolveReport& first, ContactSolver<Problem> second) {
-  if (first.status == Status::not_finite || first.status == Status::out_of_time ||
-      first.sweeps >= rule.max_sweeps)
-    return judged(rule, first);
-  work.best = solution.impulses;
-  SolveReport both = together(first, second(problem, remaining(rule, first), work, solution));
-  if (both.status != Status::converged && !(both.residual.rms <= first.residual.rms)) {
-    solution.impulses = work.best;
-    both.residual = residual_of(problem, solution);
-  }
-  if (work.memory != nullptr) free_memory_of(work.best);
-  return both;
-}
-
 template <class Problem>
 SolveReport solve_accelerated_double(const Problem& problem, const StoppingRule& rule,
                                      SolverWorkspace<Problem>& work, Solution<Problem>& solution) {
@@ -183,7 +166,10 @@ SolveReport solve_accelerated_double(const Problem& problem, const StoppingRule&
     const SolveReport first =
         sweep_in_strips<double>(problem, rule, work, work.strips.in_double, solution, true);
     if (first.status == Status::converged || !is_steep(problem)) return first;
-    return go_on(problem, rule, work, solution, first, &solve_nlgs<Problem>);
+    return go_on(
+        rule, first, solution.impulses,
+        [&](const StoppingRule& own) { return solve_nlgs(problem, own, work, solution); },
+        [&] { return residual_of(problem, solution); });
   } else if (is_steep(problem))
     return solve_nlgs(problem, rule, work, solution);
   else
@@ -203,8 +189,11 @@ SolveReport solve_accelerated(const Problem& problem, const StoppingRule& rule,
     const SolveReport first =
         sweep_in_strips<float>(problem, coarse, work, work.strips.in_single, solution, true);
     if (first.status == Status::converged && rule.tolerance == coarse.tolerance) return first;
-    return go_on(problem, rule, work, solution, first,
-                 is_steep(problem) ? &solve_nlgs<Problem> : &solve_accelerated_double<Problem>);
+    const auto second = is_steep(problem) ? &solve_nlgs<Problem> : &solve_accelerated_double<Problem>;
+    return go_on(
+        rule, first, solution.impulses,
+        [&](const StoppingRule& own) { return second(problem, own, work, solution); },
+        [&] { return residual_of(problem, solution); });
   }
 }
 

@@ -8,7 +8,7 @@
 
 #include "particles/solver/contact_solver.hpp"
 #include "particles/solver/momentum.hpp"
-#include "particles/solver/residual_estimate.hpp"
+#include "particles/solver/solve_end.hpp"
 #include "particles/solver/sweep_wave.hpp"
 
 namespace drumlin::particles {
@@ -26,12 +26,10 @@ struct SweepState {
   T beta = 0;
   bool finite = true;
   double steps = 0;  ///< sum of squares of the steps of the last sweep
-  /// Of `steps`: above it the residual is not estimated, which costs about a sweep.
-  double check_threshold = 0;
-  bool loaded = false;   ///< bodies have the impulses that they start from
-  int unchecked = 0;     ///< rounds without an estimate of the residual
-  bool checked = false;  ///< the residual was estimated in the last round
-  bool keep = false;     ///< the impulses that it left are the best so far
+
+  bool loaded = false;     ///< bodies have the impulses that they start from
+  bool estimated = false;  ///< the residual, in the last round
+  bool keep = false;       ///< the impulses that it left are the best so far
 };
 
 /// Lets the bodies receive the impulses to start from.
@@ -53,7 +51,7 @@ void load_share(Strips& strips, const StripShare& share, bool first_thread, Meet
 /// meets the others by calling meet().
 template <class T, class Strips, class Meet>
 void sweep_share(Strips& strips, int thread, int threads, int until, bool last, SweepExtrapolation how,
-                 SweepState<T>& state, Meet meet) {
+                 const SolveEnd& end, SweepState<T>& state, Meet meet) {
   const bool accelerated = how != SweepExtrapolation::none;
   const StripShare share = share_of(strips, thread, threads);
   SweepState<T> own = state;
@@ -81,10 +79,8 @@ void sweep_share(Strips& strips, int thread, int threads, int until, bool last, 
       own.beta = static_cast<T>(own.momentum.next(own.steps));
     }
   }
-  constexpr int most_unchecked = 3;
-  own.checked = last || !own.finite || own.steps <= own.check_threshold || own.unchecked >= most_unchecked;
-  own.unchecked = own.checked ? 0 : own.unchecked + 1;
-  if (own.checked)
+  own.estimated = end.estimate_due(own.steps, last || !own.finite);
+  if (own.estimated)
     for (int strip = share.first; strip < share.end; ++strip)
       for (const int phase : {0, 1}) strips.estimate_residual(strip, phase);
   // All threads have taken their copies: they have met since.
@@ -137,81 +133,54 @@ void correct_loads(const Problem& problem, SolverWorkspace<Problem>& work, Strip
   }
 }
 
-/// NLGS, plain or accelerated, in precision T. Every few sweeps (while the steps say that it is far, every
-/// fourth time of these) the solver estimates its residual, on vectors and threads; when that is small enough
-/// the residual itself decides. In single precision it also ends, out of sweeps before they are, when the
-/// estimate (of large problems, of all that the rule asks for) stands still or the residual is more than
-/// three times of it. Impulses that miss the rule are the best by the estimate.
+/// NLGS, plain or accelerated, in precision T, with the residual estimated on vectors and threads.
 template <class T, class Problem, class Strips>
 SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, SolverWorkspace<Problem>& work,
                             Strips& strips, Solution<Problem>& solution, bool accelerated) {
-  StoppingTest test(rule);
   TeamLoops loops(work.team);
   const WorkMemory::Frame frame(work.memory);
   strips.use(work.memory);
-  const double residual_scale = pack_in_strips(problem, work, strips, solution, loops);
+  SolveEnd::Kind kind;
+  kind.time_step = problem.time_step;
+  kind.residual_scale = pack_in_strips(problem, work, strips, solution, loops);
+  kind.how = extrapolation_of(accelerated, problem.contacts());
+  kind.single = sizeof(T) < sizeof(double);
+  kind.leaves = kind.single || (accelerated && is_steep(problem));
+  // Driven walls take impulses too, which the records do not tell.
+  kind.limits_sinking = std::isfinite(rule.sinking) && !strips.has_driven();
+  SolveEnd end(rule, kind);
   // Below four strips a second thread costs more than it saves.
   ThreadTeam* team = strips.strips() >= 4 ? work.team : nullptr;
-  constexpr double tolerance_factor = 2;  // an estimate is due where this many tolerances are expected
-  constexpr bool single = sizeof(T) < sizeof(double);
-  const bool leaves = single || (accelerated && is_steep(problem));  // where it gets stuck
-
   SweepState<T> state;
   state.momentum = Momentum(rule.tolerance, static_cast<std::size_t>(problem.contacts()));
   if (accelerated && !strips.has_driven() && problem.contacts() >= least_contacts_of_waves)
     state.wave = longest_wave;
-  state.check_threshold = std::numeric_limits<double>::infinity();
-  double best = std::numeric_limits<double>::infinity();
-  // Driven walls take impulses too, which the records do not tell.
-  const bool limits_sinking = std::isfinite(rule.sinking) && !strips.has_driven();
+  const SweptBlocks blocks{[&] { return strips.residual_estimate(); },
+                           [&] { return strips.summed_impulses(loops); },
+                           [&] { state.keep = true, strips.keep_driven(); },
+                           [&](bool kept) {
+                             strips.unpack(problem, kept, solution.impulses, loops);
+                             return residual_of(problem, solution, loops);
+                           }};
   const bool coarse = accelerated && wants_coarse_loads(problem, work);
-  const SweepExtrapolation how = extrapolation_of(accelerated, problem.contacts());
-  SolveProgress progress(how);
   int corrected_at = 0;
-  const auto go_on = [&] {
+  for (;;) {
     if (coarse && state.sweeps >= corrected_at + sweeps_between_coarse_loads) {
       correct_loads(problem, work, strips, corrected_at == 0, loops, state);
       corrected_at = state.sweeps;
     }
-  };
-  for (;; go_on()) {
-    int until = state.sweeps + 1;
-    while (!test.due(until)) ++until;
-    const bool check = until >= rule.max_sweeps || test.out_of_time();
+    const int until = end.next_round(state.sweeps);
+    const bool last = end.last(until);
     if (team)
       team->run([&](int t, int threads) {
-        sweep_share(strips, t, threads, until, check, how, state, [=] { team->meet(); });
+        sweep_share(strips, t, threads, until, last, kind.how, end, state, [=] { team->meet(); });
       });
     else
-      sweep_share(strips, 0, 1, until, check, how, state, [] {});
-    if (!state.checked) continue;
-    const ResidualEstimate sums = strips.residual_estimate();
-    const double estimate = std::sqrt(sums.squares * residual_scale);
-    // Residuals fall about as steps do.
-    const double fall = tolerance_factor * rule.tolerance / estimate;
-    state.check_threshold = state.steps * fall * fall;
-    LimitRatios ratios = limit_ratios(sums, estimate, problem.time_step, rule);
-    if (limits_sinking && (progress.exact() || !progress.surely_missed(ratios)))
-      ratios.sinking = sinking_of(sums, strips.summed_impulses(loops), problem.time_step, rule);
-    progress.record(ratios, state.sweeps);
-    // Rounding of single precision hides the progress, or momentum keeps steep contacts swinging.
-    const bool stuck = leaves && progress.stuck(state.sweeps);
-    const bool last = check || !state.finite;
-    const double missed = progress.counted(ratios);
-    if (missed < best) best = missed, state.keep = true, strips.keep_driven();
-    if (!last && !stuck && progress.surely_missed(ratios)) continue;
-    strips.unpack(problem, false, solution.impulses, loops);
-    const bool ended = test.ends(state.sweeps, residual_of(problem, solution, loops), state.finite);
-    const bool hidden = single && test.report().residual.rms > 3 * estimate;
-    if (!ended && !stuck && !hidden) {
-      progress.compare(ratios, test.report().residual.sinking / rule.sinking);
-      continue;
-    }
-    if (best < missed && test.report().status != Status::converged) {
-      strips.unpack(problem, true, solution.impulses, loops);
-      test.replace(residual_of(problem, solution, loops));
-    }
-    return test.report();
+      sweep_share(strips, 0, 1, until, last, kind.how, end, state, [] {});
+    if (!state.estimated)
+      end.leave_out();
+    else if (end.ends(blocks, state.sweeps, state.steps, state.finite, last || !state.finite))
+      return end.report();
   }
 }
 
