@@ -113,52 +113,6 @@ TEST(RollingResistance, CostsOneUnknownPerContact) {
   EXPECT_EQ(simulation.state().memory.impulse.size(), 3 * simulation.state().memory.i.size());
 }
 
-TEST(RollingCone, ProjectionIsTheNearestPoint) {
-  RandomStream random(1, "cone");
-  for (int k = 0; k < 2000; ++k) {
-    const double mu = random.uniform(0, 2), mu_r = k % 5 == 0 ? 0 : random.uniform(0, 1);
-    const double n0 = random.uniform(-2, 2), t0 = random.uniform(-2, 2), r0 = random.uniform(-2, 2);
-    const auto [n, t, r] = contact_law::projected({mu, mu_r}, std::array{n0, t0, r0});
-    ASSERT_LE(std::abs(t), mu * n + 1e-14);
-    ASSERT_LE(std::abs(r), mu_r * n + 1e-14);
-    // What is cut off is normal to the point and points away from every edge of the cone.
-    const double d_n = n0 - n, d_t = t0 - t, d_r = r0 - r;
-    ASSERT_NEAR(n * d_n + t * d_t + r * d_r, 0, 1e-13);
-    for (const double s : {-1.0, 1.0})
-      for (const double p : {-1.0, 1.0}) ASSERT_LE(d_n + s * mu * d_t + p * mu_r * d_r, 1e-13);
-  }
-}
-
-TEST(RollingContact, BoxSolutionMeetsItsConditions) {
-  RandomStream random(2, "box");
-  for (int k = 0; k < 5000; ++k) {
-    const double w_i = random.uniform(0.1, 10), w_j = k % 3 == 0 ? 0 : random.uniform(0.1, 10);
-    const double l = k % 3 == 0 ? 1 : random.uniform(0.05, 0.95);
-    const LocalMatrix W{w_i + w_j, 0, 3 * (w_i + w_j), 2 * ((1 - l) * w_j - l * w_i),
-                        2 * (l * l * w_i + (1 - l) * (1 - l) * w_j)};
-    const double q_t = random.uniform(-1, 1), q_r = random.uniform(-1, 1);
-    const double bound_t = k % 7 == 0 ? 0 : random.uniform(0, 0.3),
-                 bound_r = k % 11 == 0 ? 0 : random.uniform(0, 0.3);
-    // A unit normal impulse that stays, so that the coefficients are the bounds.
-    const double t_0 = random.uniform(-0.3, 0.3), r_0 = random.uniform(-0.3, 0.3);
-    const auto [n, t, r] =
-        solved(LocalBlock<3>(W), {bound_t, bound_r},
-               {0, q_t + W.tt * t_0 + W.tr * r_0, q_r + W.tr * t_0 + W.rr * r_0}, {1, t_0, r_0});
-    ASSERT_EQ(n, 1);
-    const double u_t = q_t + W.tt * t + W.tr * r, u_r = q_r + W.tr * t + W.rr * r;
-    const auto expect_law = [](double u, double x, double bound) {
-      ASSERT_LE(std::abs(x), bound + 1e-14);
-      if (std::abs(x) < bound - 1e-12) {
-        ASSERT_NEAR(u, 0, 1e-10);  // sticks
-      } else {
-        ASSERT_LE(u * x, 1e-10);  // slides against it
-      }
-    };
-    expect_law(u_t, t, bound_t);
-    expect_law(u_r, r, bound_r);
-  }
-}
-
 /// W_aa by unit impulses, against the block that the sweep uses.
 template <class Delassus>
 void expect_block_is_the_response(const Delassus& W) {

@@ -13,11 +13,6 @@ namespace drumlin {
 using namespace particles;
 namespace {
 
-void project(double mu, double& n, double& t) {
-  const auto nearest = contact_law::projected({mu}, std::array{n, t});
-  n = nearest[0], t = nearest[1];
-}
-
 /// One disc of mass m on a fixed floor, approaching with q.
 CoulombSpinProblem disc_on_floor(double q_n, double q_t, double mu, double mass = 2) {
   CoulombSpinProblem problem;
@@ -31,56 +26,6 @@ CoulombSpinProblem disc_on_floor(double q_n, double q_t, double mu, double mass 
 
 ContactResidual residual(const CoulombSpinProblem& problem, std::vector<double> r) {
   return residual_of(problem, std::span<const double>(r));
-}
-
-TEST(Cone, ProjectionOfPointsInsideBesideAndBelow) {
-  double n = 2, t = -0.5;
-  project(0.5, n, t);
-  EXPECT_EQ(n, 2);
-  EXPECT_EQ(t, -0.5);
-  n = -1, t = 0.3;  // in the polar cone: mu |t| <= -n
-  project(0.5, n, t);
-  EXPECT_EQ(n, 0);
-  EXPECT_EQ(t, 0);
-  n = 0, t = 1;  // nearest point of the ray (1, mu)
-  project(0.5, n, t);
-  EXPECT_NEAR(n, 0.4, 1e-15);
-  EXPECT_NEAR(t, 0.2, 1e-15);
-}
-
-TEST(Cone, WithoutFrictionIsTheRayOfPressure) {
-  double n = -1, t = 0;  // pulls, exactly along the normal
-  project(0, n, t);
-  EXPECT_EQ(n, 0);
-  n = 2, t = 0.5;
-  project(0, n, t);
-  EXPECT_EQ(n, 2);
-  EXPECT_EQ(t, 0);
-}
-
-TEST(Cone, ProjectionIsTheNearestPoint) {
-  // p - P(p) stands upright on P(p), and lies in the polar cone mu |t| <= -n.
-  for (const double mu : {0.0, 0.4, 2.0})
-    for (int a = -8; a <= 8; ++a)
-      for (int b = -8; b <= 8; ++b) {
-        double n = 0.25 * a, t = 0.25 * b;
-        project(mu, n, t);
-        const double left_n = 0.25 * a - n, left_t = 0.25 * b - t;
-        EXPECT_GE(n, 0);
-        EXPECT_LE(std::abs(t), mu * n + 1e-15);
-        EXPECT_NEAR(left_n * n + left_t * t, 0, 1e-14) << mu << ", " << a << ", " << b;
-        EXPECT_LE(mu * std::abs(left_t), -left_n + 1e-14) << mu << ", " << a << ", " << b;
-      }
-}
-
-TEST(Cone, ANotANumberStaysOne) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  double n = nan, t = 0.1;
-  project(0.4, n, t);
-  EXPECT_TRUE(std::isnan(n));
-  n = 1, t = nan;
-  project(0.4, n, t);
-  EXPECT_TRUE(std::isnan(n) && std::isnan(t));
 }
 
 TEST(Residual, OnVectorsIsThatOfTheContactsOneByOne) {
