@@ -105,16 +105,17 @@ void ThreadTeam::run(const std::function<void(int, int)>& job) {
 }
 
 void ThreadTeam::choose_threads() {
-  // On an idle machine a processor is taken away less than once in a while, beside another process every few
-  // milliseconds. To try all threads again costs up to one part of some twenty.
-  constexpr std::chrono::milliseconds with_all{25}, alone{500};
-  constexpr long often = 4;
+  // On an idle machine a processor is taken away some ten times a second, beside another process every few
+  // milliseconds. To try all threads again may cost a tenth of the time.
+  constexpr std::chrono::milliseconds with_all{50}, alone{500};
+  constexpr double often = 100;  // a second
   const auto now = Clock::now();
   if (now < next_choice_) return;
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  const long taken = usage.ru_nivcsw - std::exchange(taken_away_, usage.ru_nivcsw);
-  const bool busy = next_choice_ != Clock::time_point{} && threads() > 1 && taken >= often;
+  const auto taken = static_cast<double>(usage.ru_nivcsw - std::exchange(taken_away_, usage.ru_nivcsw));
+  const std::chrono::duration<double> since = now - next_choice_ + with_all;
+  const bool busy = threads() > 1 && taken >= often * since.count();
   barrier_.threads_ = busy ? 1 : size();
   next_choice_ = now + (busy ? Clock::duration(alone) : with_all);
 }
