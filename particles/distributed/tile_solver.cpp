@@ -154,7 +154,12 @@ void TileSolver<Problem>::correct_loads(const Problem& problem, const TiledConta
                                         bool first, std::int64_t contacts_of_all, Blocks<T>& blocks) {
   ++corrections_;
   if (first) coarse_.lay_out(problem, contacts, contacts_of_all, blocks);
-  if (!coarse_.scale(contacts, halo, blocks)) return;
+  if (coarse_.scale(contacts, halo, blocks)) load_bodies(contacts, halo, blocks);
+}
+
+template <class Problem>
+template <class T>
+void TileSolver<Problem>::load_bodies(const TiledContacts& contacts, Halo& halo, Blocks<T>& blocks) {
   blocks.rest(loops_);
   work_on(contacts.order.rounds, halo, blocks, [&](std::size_t t) { blocks.load(t); });
   blocks.start();
@@ -232,8 +237,7 @@ SolveReport TileSolver<Problem>::sweep_until_done(const Problem& problem, const 
   plans_ = {};
   for (auto& squares : squares_) squares.assign(contacts.tiles.size(), 0.0);
   blocks.pack(problem, contacts.tiles, r, loops_);
-  work_on(contacts.order.rounds, halo, blocks, [&](std::size_t t) { blocks.load(t); });
-  blocks.start();
+  load_bodies(contacts, halo, blocks);
   SolveEnd::Kind kind;
   kind.time_step = problem.time_step, kind.residual_scale = scale_of(problem, contacts);
   kind.how = extrapolation_of(accelerated, contacts_of_all);
@@ -286,6 +290,8 @@ SolveReport TileSolver<Problem>::sweep_until_done(const Problem& problem, const 
       end.leave_out();
     else if (end.ends(swept, sweeps, steps, finite, last))
       return end.report();
+    else if (end.reload_due())
+      load_bodies(contacts, halo, blocks), beta = 0;
   }
 }
 

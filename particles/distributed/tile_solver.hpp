@@ -69,6 +69,9 @@ class TileSolver {
   template <class T>
   void correct_loads(const Problem&, const TiledContacts&, Halo&, bool first, std::int64_t contacts_of_all,
                      Blocks<T>&);
+  /// Lets the bodies receive the velocities of the impulses.
+  template <class T>
+  void load_bodies(const TiledContacts&, Halo&, Blocks<T>&);
   /// Sweeps that are taken together, and their factors of momentum.
   template <class T>
   struct Wave {
