@@ -8,6 +8,7 @@
 
 #include "particles/contact/problems.hpp"
 #include "particles/contact/residual.hpp"
+#include "particles/solver/solve_end.hpp"
 #include "particles/solver/strip_solver.hpp"
 
 namespace drumlin {
@@ -140,6 +141,35 @@ TEST(ResidualEstimate, StaysTrueUnderMomentumWhereBodiesReceiveWhatImpulsesRound
   const double exact = error_of_the_estimate(SweepExtrapolation::exact);
   EXPECT_LT(exact, 1e-3);
   EXPECT_GT(rounded, 10 * exact) << exact;
+}
+
+/// Residuals that fall for 300 sweeps and then stand still, in single precision.
+TEST(SolveEnd, LoadsBodiesAnewWhileEstimatesStandStillAndThenEnds) {
+  StoppingRule rule;
+  rule.tolerance = 1e-9;
+  rule.max_sweeps = 10000;
+  SolveEnd::Kind kind;
+  kind.single = kind.leaves = true;
+  double squares = 1;
+  const SweptBlocks blocks{[&] {
+                             return ResidualEstimate{squares, 0, 0};
+                           },
+                           [] { return 1.0; }, [] {},
+                           [&](bool) {
+                             ContactResidual residual;
+                             residual.rms = std::sqrt(squares);
+                             return residual;
+                           }};
+  SolveEnd end(rule, kind);
+  std::vector<int> reloads;
+  int sweeps = 10;
+  for (; sweeps < rule.max_sweeps && !end.ends(blocks, sweeps, 1, true, false); sweeps += 10) {
+    if (end.reload_due()) reloads.push_back(sweeps);
+    if (sweeps < 300) squares /= 2;
+  }
+  EXPECT_EQ(reloads, (std::vector<int>{400, 500}));
+  EXPECT_EQ(sweeps, 600);  // as long again as it took to get there
+  EXPECT_EQ(end.report().status, Status::out_of_sweeps);
 }
 
 TEST(ResidualEstimate, OfAContactThatOpensWithoutFrictionIsNothing) {
