@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "apps/command_line/checked_options.hpp"
@@ -13,6 +14,23 @@
 namespace drumlin::apps {
 
 namespace {
+
+/// A link to a folder that a user names for results stands for that folder; no other link is followed.
+std::string linked_folder(const std::string& name) {
+  const std::filesystem::path given = name, link = given.has_filename() ? given : given.parent_path();
+  std::error_code error;
+  const bool is_link = is_symlink(symlink_status(link, error)) && is_directory(link, error);
+  return is_link ? std::filesystem::canonical(link).string() : name;
+}
+
+/// Names stand in results, whose text is UTF-8.
+void refuse_unless_utf8(const std::string& word) {
+  try {
+    (void)nlohmann::json(word).dump();
+  } catch (const nlohmann::json::type_error&) {
+    throw InputError(word + ": is no UTF-8; name files and folders in it");
+  }
+}
 
 /// All commands with the options that they fill in; `request` receives those of the chosen one.
 class CommandLine {
@@ -69,6 +87,8 @@ class CommandLine {
         add_command("hardcases", "Runs cases with known outcomes through the engine (docs/hard-cases.md)",
                     hardcases_),
         hardcases_);
+    for (CLI::App* command : app_.get_subcommands({}))
+      if (CLI::Option* output = command->get_option_no_throw("--output")) output->transform(linked_folder);
   }
 
   Request parse(int argc, const char* const* argv) {
@@ -175,6 +195,7 @@ class CommandLine {
 }  // namespace
 
 Request parse_command_line(int argc, const char* const* argv, const std::vector<std::string>& solvers) {
+  for (int k = 1; k < argc; ++k) refuse_unless_utf8(argv[k]);
   return CommandLine(solvers).parse(argc, argv);
 }
 

@@ -73,7 +73,8 @@ Manifest as_it_is(const fs::path& folder, const Manifest& before) {
   for (const std::string& name : files_below(folder)) {
     const auto old = before.files.find(name);
     const bool is_listed = old != before.files.end();
-    if (!is_listed && !kinds.contains({fs::path(name).parent_path(), fs::path(name).extension()})) continue;
+    const bool is_of_kind = kinds.contains({fs::path(name).parent_path(), fs::path(name).extension()});
+    if (!can_be_listed(name) || (!is_listed && !is_of_kind)) continue;
     const bool grows = is_listed && old->second.grows;
     // Of what grows, the part that was summed; all of it, where nothing was.
     const bool in_part = grows && !old->second.sum.checksum.empty();

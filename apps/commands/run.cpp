@@ -336,19 +336,13 @@ int run(const RunOptions& options) {
   const CaughtInterruptions caught;
   const bool longer = options.extend_seconds > 0;
   const ExistingOutput existing = longer ? ExistingOutput::resume : options.existing;
-  GrowingOutput output({options.output, existing, "run", inputs}, run_file_names());
   std::string resolved = particles::scene_text(as_recorded(scene));
+  if (options.existing == ExistingOutput::resume && !longer && is_finished(options.output, scene, resolved))
+    return static_cast<int>(ExitCode::done);
+  GrowingOutput output({options.output, existing, "run", inputs}, run_file_names());
   std::optional<particles::Checkpoint> from;
   if (existing == ExistingOutput::resume) {
-    if (fs::exists(options.output / "scene.toml"))
-      same_scene_or_refuse(options.output, file_text(options.output / "scene.toml"), resolved);
-    for (const auto& [name, text] : list_texts(scene))
-      if (fs::exists(options.output / name))
-        same_scene_or_refuse(options.output, file_text(options.output / name), text);
-    if (output.manifest().complete && !longer) {
-      print_out(fmt::format("{}: already finished, nothing to do\n", options.output.string()));
-      return static_cast<int>(ExitCode::done);
-    }
+    same_run_or_refuse(options.output, scene, resolved);
     if (!longer) same_engine_or_refuse(options.output, false);  // what is prolonged is whole
     from = checkpoint_in(options.output, resolved);
   }

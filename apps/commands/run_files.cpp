@@ -9,7 +9,9 @@
 #include <string_view>
 
 #include "coupling/common/errors.hpp"
+#include "coupling/common/input_file.hpp"
 #include "coupling/common/last_whole.hpp"
+#include "coupling/common/own_folder.hpp"
 #include "coupling/common/text_file.hpp"
 
 namespace drumlin::apps {
@@ -63,7 +65,11 @@ RunTable::RunTable(const fs::path& file, const std::string& header, std::int64_t
                        ": is missing or shorter than the checkpoint says; start over with --overwrite");
     sum_ = checksum_of(file, static_cast<std::uint64_t>(keep_bytes));
   }
-  descriptor_ = ::open(file.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
+  refuse_special(file);
+  const Descriptor folder = open_folder(file.parent_path());
+  if (folder.number() >= 0)
+    descriptor_ = ::openat(folder.number(), file.filename().c_str(),
+                           O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
   if (descriptor_ < 0) fail("opened");
   if (::ftruncate(descriptor_, keep_bytes) != 0 || ::lseek(descriptor_, 0, SEEK_END) != keep_bytes)
     fail("cut back");

@@ -48,6 +48,23 @@ std::map<std::string, std::string> list_texts(particles::Scene scene) {
   return texts;
 }
 
+void same_run_or_refuse(const fs::path& output, const particles::Scene& scene, const std::string& resolved) {
+  std::map<std::string, std::string> texts = list_texts(scene);
+  texts["scene.toml"] = resolved;
+  for (const auto& [name, text] : texts)
+    if (fs::exists(output / name)) same_scene_or_refuse(output, file_text(output / name), text);
+}
+
+bool is_finished(const fs::path& output, const particles::Scene& scene, const std::string& resolved) {
+  if (!has_manifest(output) || read_manifest(output).command != "run" || !holds_results(output, "run.json"))
+    return false;
+  same_run_or_refuse(output, scene, resolved);
+  // A lock is in use, or left by a killed call: then it goes.
+  if (fs::exists(output / folder_lock_name)) FolderLock(output / folder_lock_name, "drumlin run");
+  print_out(fmt::format("{}: already finished, nothing to do\n", output.string()));
+  return true;
+}
+
 void cut_back(GrowingOutput& output, const std::optional<particles::Checkpoint>& from) {
   auto& files = output.manifest().files;
   std::map<std::string, ManifestEntry> kept;

@@ -22,6 +22,14 @@ void same_engine_or_refuse(const std::filesystem::path& output, bool on_ranks);
 void same_scene_or_refuse(const std::filesystem::path& output, const std::string& theirs,
                           const std::string& ours);
 
+/// The same of the scene and of the lists of grains that stand in the folder.
+void same_run_or_refuse(const std::filesystem::path& output, const particles::Scene& scene,
+                        const std::string& resolved);
+/// Whether the folder holds this run, finished and whole, which is then told. Nothing is written, but for a
+/// lock that a killed call has left.
+bool is_finished(const std::filesystem::path& output, const particles::Scene& scene,
+                 const std::string& resolved);
+
 /// The lists of grains of a scene as they stand in the run folder, by the names of their files there.
 std::map<std::string, std::string> list_texts(particles::Scene scene);
 

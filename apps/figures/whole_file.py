@@ -2,6 +2,7 @@
 forced to the disk and renamed. Symbolic links are replaced, never followed."""
 
 import contextlib
+import errno
 import os
 import pathlib
 import secrets
@@ -27,6 +28,8 @@ def aside(path):
     """Gives a binary stream. When all is written, its file takes the place of `path`; an error leaves neither a part nor a change.
     CannotWrite where the system does not take it; errors of files that are read meanwhile stay what they are."""
     path = pathlib.Path(path)
+    if path.exists() and not (path.is_file() or path.is_dir()):
+        raise CannotWrite(path, OSError(errno.EINVAL, "is a device, a FIFO or a socket, not a file"))
     try:
         with _aside(path) as stream:
             yield stream

@@ -280,18 +280,12 @@ std::optional<bool> goes_on(const RunOptions& options, const particles::Scene& s
   std::vector<fs::path> inputs{options.scene};
   particles::Scene lists = scene;
   for (const auto* list : lists_of(lists)) inputs.push_back(list->file);
+  if (options.existing == ExistingOutput::resume && is_finished(options.output, scene, resolved))
+    return std::nullopt;
   output.emplace(OutputRequest{options.output, options.existing, "run", inputs}, run_file_names());
   std::optional<particles::Checkpoint> from;
   if (options.existing == ExistingOutput::resume) {
-    if (fs::exists(options.output / "scene.toml"))
-      same_scene_or_refuse(options.output, file_text(options.output / "scene.toml"), resolved);
-    for (const auto& [name, text] : list_texts(scene))
-      if (fs::exists(options.output / name))
-        same_scene_or_refuse(options.output, file_text(options.output / name), text);
-    if (output->manifest().complete) {
-      print_out(fmt::format("{}: already finished, nothing to do\n", options.output.string()));
-      return std::nullopt;
-    }
+    same_run_or_refuse(options.output, scene, resolved);
     same_engine_or_refuse(options.output, true);
     from = checkpoint_in(options.output, resolved);
     if (from) (void)particles::Simulation(scene, from->state);  // refuses what does not fit

@@ -1,8 +1,10 @@
 #include "apps/support/output_folder.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <fnmatch.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -12,6 +14,7 @@
 
 #include "coupling/common/errors.hpp"
 #include "coupling/common/input_file.hpp"
+#include "coupling/common/own_folder.hpp"
 #include "coupling/common/result_folder.hpp"
 #include "coupling/common/text_file.hpp"
 
@@ -22,6 +25,26 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char *staging_name = ".drumlin-new", *replaced_name = "replaced";
+constexpr const char* publication_name = ".drumlin-publication";
+
+/// What the system alone says of a folder of this user, so that nobody can plant another one in its place:
+/// its number and when it was made. Empty: it is a link or of somebody else.
+std::string identity_of(const fs::path& folder) {
+  struct statx found {};
+  if (::statx(AT_FDCWD, folder.c_str(), AT_SYMLINK_NOFOLLOW, STATX_BASIC_STATS | STATX_BTIME, &found) != 0 ||
+      !S_ISDIR(found.stx_mode) || found.stx_uid != ::geteuid())
+    return "";
+  return fmt::format("{} {}.{:09}\n", found.stx_ino, found.stx_btime.tv_sec, found.stx_btime.tv_nsec);
+}
+
+/// Whether publish() of this user had all new results there, and was ended while it put them in their places.
+bool is_being_published(const fs::path& folder) {
+  const fs::path staging = folder / staging_name;
+  const std::string identity = identity_of(staging);
+  return !identity.empty() && has_manifest(staging) &&
+         fs::is_regular_file(fs::symlink_status(staging / publication_name)) &&
+         file_text(staging / publication_name) == identity;
+}
 
 /// Nothing but what a command leaves that was killed: empty folders, files aside.
 bool holds_nothing(const fs::path& folder) {
@@ -76,7 +99,7 @@ void remove_left_aside(const fs::path& folder) {
     else if (is_left_aside(path) && entry->is_regular_file())
       left.push_back(path);
   }
-  for (const fs::path& file : left) fs::remove(file);
+  for (const fs::path& file : left) remove_from_folder(file);
 }
 
 /// Removes folders of these files that hold nothing any more.
@@ -85,13 +108,12 @@ void remove_empty_folders(const fs::path& folder, const std::vector<std::string>
   for (const std::string& name : names)
     for (fs::path parent = fs::path(name).parent_path(); !parent.empty(); parent = parent.parent_path())
       parents.insert(parent);
-  std::error_code still_in_use;
-  for (const fs::path& parent : parents) fs::remove(folder / parent, still_in_use);
-}
-
-void move_file(const fs::path& from, const fs::path& to) {
-  make_folders(to.parent_path());
-  fs::rename(from, to);
+  for (const fs::path& parent : parents) {
+    try {
+      remove_from_folder(folder / parent);
+    } catch (const IoError&) {  // still in use
+    }
+  }
 }
 
 /// Puts what is published in the place of the old results; goes on where it was interrupted.
@@ -102,7 +124,7 @@ void take_over(const fs::path& folder) {
   std::vector<std::string> gone;
   for (const auto& [name, entry] : old.files)
     if (!fresh.files.contains(name)) gone.push_back(name);
-  for (const std::string& name : gone) fs::remove(folder / name);
+  for (const std::string& name : gone) remove_from_folder(folder / name);
   std::set<fs::path> touched;
   for (const auto& [name, entry] : fresh.files) {
     if (fs::exists(staging / name)) move_file(staging / name, folder / name);
@@ -110,7 +132,7 @@ void take_over(const fs::path& folder) {
   }
   remove_empty_folders(folder, gone);
   for (const fs::path& parent : touched) force_to_disk(parent);
-  fs::rename(staging / manifest_name, folder / manifest_name);
+  move_file(staging / manifest_name, folder / manifest_name);
   force_to_disk(folder);
   fs::remove_all(staging);
 }
@@ -162,12 +184,12 @@ void set_aside(const fs::path& folder, const std::vector<std::string>& known) {
   }
   const bool is_theirs = read_manifest(aside).files == old.files;  // or an interrupted call has moved some
   const std::vector<std::string> names = our_files(folder, known);
+  refuse_links(folder, names);
   for (const std::string& name : names) {
-    if (!fs::exists(fs::symlink_status(folder / name))) continue;
-    if (is_theirs)
+    if (is_theirs && fs::exists(fs::symlink_status(folder / name)))
       move_file(folder / name, aside / name);
     else
-      fs::remove(folder / name);
+      remove_from_folder(folder / name);
   }
   remove_empty_folders(folder, names);
 }
@@ -198,21 +220,23 @@ FolderLock claim(const OutputRequest& request) {
     const fs::path& folder = request.folder;
     if (folder.empty()) throw InputError("the output folder has no name");
     refuse_foreign(folder);
+    if (fs::is_symlink(fs::symlink_status(folder)))
+      throw InputError(folder.string() + ": is a symbolic link; name the folder that it leads to");
     make_folders(folder);
     FolderLock lock(folder / folder_lock_name, "drumlin " + request.command);
     refuse_foreign(folder);
-    const fs::path staging = folder / staging_name;
-    // Whatever a link in its place leads to is not ours.
-    if (fs::is_directory(fs::symlink_status(staging)) && has_manifest(staging)) take_over(folder);
-    fs::remove_all(staging);
-    remove_left_aside(folder);
-    if (!holds_nothing(folder) && request.existing == ExistingOutput::refuse)
+    const bool half_published = is_being_published(folder);
+    if ((half_published || !holds_nothing(folder)) && request.existing == ExistingOutput::refuse)
       throw InputError(folder.string() +
                        (request.goes_on
                             ? ": exists already; give --resume or --overwrite, or name another folder"
                             : ": exists already; give --overwrite, or name another folder"));
     refuse_other_command(folder, request.command);
     if (request.existing == ExistingOutput::overwrite) refuse_inside(folder, request.inputs);
+    if (has_manifest(folder)) refuse_links(folder, names_in(read_manifest(folder)));
+    if (half_published) take_over(folder);
+    fs::remove_all(folder / staging_name);
+    remove_left_aside(folder);
     return lock;
   });
 }
@@ -223,7 +247,7 @@ StagedOutput::StagedOutput(OutputRequest request)
       lock_(claim(request_)),
       staging_(request_.folder / staging_name) {
   // New, and of this user alone: nobody plants a link where results and figures are about to be written.
-  if (::mkdir(staging_.c_str(), S_IRWXU) != 0)
+  if (::mkdirat(open_folder(request_.folder).number(), staging_name, S_IRWXU) != 0)
     throw IoError(fmt::format("{}: cannot be made: {}", staging_.string(), std::strerror(errno)));
 }
 
@@ -243,6 +267,7 @@ void StagedOutput::publish() {
     manifest.asked = request_.asked;
     manifest.files = entries_of(staging_, files_below(staging_));
     const Manifest old = has_manifest(request_.folder) ? read_manifest(request_.folder) : Manifest{};
+    refuse_links(request_.folder, names_in(manifest));
     for (const auto& [name, entry] : manifest.files) {
       const fs::path there = request_.folder / name;
       if (fs::exists(fs::symlink_status(there)) && !old.files.contains(name))
@@ -250,6 +275,7 @@ void StagedOutput::publish() {
                          ": is not of this program and stands where a result is to go; move it");
       force_to_disk(staging_ / name);
     }
+    replace_file(staging_ / publication_name, identity_of(staging_));
     write_manifest(staging_, manifest);
     take_over(request_.folder);
   });
@@ -259,6 +285,8 @@ GrowingOutput::GrowingOutput(OutputRequest request, std::vector<std::string> kno
     : request_(std::move(request)), known_(std::move(known)), lock_(claim(request_)) {
   with_io_errors([&] {
     const bool is_there = has_manifest(request_.folder);
+    refuse_links(request_.folder, known_);
+    refuse_links(request_.folder, {std::string(replaced_name) + "/" + manifest_name});
     if (is_there && request_.existing == ExistingOutput::resume && !is_half_aside(request_.folder)) {
       const ResultFolder there = open_result_folder(request_.folder);
       check_all_files(there);
@@ -306,7 +334,7 @@ void GrowingOutput::finish() {
 }
 
 bool holds_results(const fs::path& folder, const std::string& finished) {
-  if (!fs::exists(folder / finished) || !has_manifest(folder)) return false;
+  if (!fs::exists(folder / finished) || !has_manifest(folder) || is_half_aside(folder)) return false;
   const ResultFolder there = open_result_folder(folder);
   if (!there.manifest->complete) return false;
   check_all_files(there);
@@ -316,6 +344,7 @@ bool holds_results(const fs::path& folder, const std::string& finished) {
 FolderLock prepare_output_file(const fs::path& file, ExistingOutput existing) {
   return with_io_errors([&] {
     if (file.empty()) throw InputError("the output file has no name");
+    refuse_special(file);
     const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
     if (has_manifest(folder) && read_manifest(folder).files.contains(file.filename().string()))
       throw InputError(file.string() + ": is one of the results in its folder; name another file");

@@ -46,6 +46,7 @@ std::string time_text() {
 }
 
 FolderLock::FolderLock(fs::path file, const std::string& command) : file_(std::move(file)) {
+  if (file_.filename() == folder_lock_name) own_.emplace(file_.parent_path());
   while (!take(command)) {
   }
 }
@@ -57,7 +58,10 @@ bool FolderLock::take(const std::string& command) {
     if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
     throw IoError(fmt::format("{}: cannot be {}: {}", file_.string(), what, reason));
   };
-  descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
+  const Descriptor above = open_folder(file_.parent_path());
+  if (above.number() >= 0)
+    descriptor_ = ::openat(above.number(), file_.filename().c_str(),
+                           O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
   if (descriptor_ < 0) fail("made");
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
     if (errno != EWOULDBLOCK) fail("locked");
@@ -85,6 +89,7 @@ bool FolderLock::take(const std::string& command) {
 
 FolderLock::FolderLock(FolderLock&& other) noexcept
     : file_(std::move(other.file_)),
+      own_(std::move(other.own_)),
       descriptor_(std::exchange(other.descriptor_, -1)),
       named_(std::move(other.named_)) {}
 

@@ -2,8 +2,10 @@
 // A lock that one process at a time holds on what it writes; it ends with the process, however that ends.
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "coupling/common/own_folder.hpp"
 #include "coupling/common/unfinished_file.hpp"
 
 namespace drumlin {
@@ -12,7 +14,7 @@ namespace drumlin {
 inline constexpr const char* folder_lock_name = ".lock";
 
 /// flock(2) on a file that exists only as long as the lock is held; signals that end the process remove it
-/// too. A file that a killed process left is no obstacle.
+/// too. A file that a killed process left is no obstacle. The folder of a lock of this name is an OwnFolder.
 class FolderLock {
  public:
   /// `command`: who holds it, for whom it keeps out. Throws InputError that names the holder (process,
@@ -26,6 +28,7 @@ class FolderLock {
  private:
   bool take(const std::string& command);
   std::filesystem::path file_;
+  std::optional<OwnFolder> own_;
   int descriptor_ = -1;
   std::unique_ptr<UnfinishedFile> named_;  // while it is held
 };

@@ -27,6 +27,7 @@ namespace {
 const char* kind_of(mode_t mode) {
   if (S_ISFIFO(mode)) return "is a FIFO, not a file";
   if (S_ISCHR(mode) || S_ISBLK(mode)) return "is a device, not a file";
+  if (S_ISSOCK(mode)) return "is a socket, not a file";
   return "is no file";
 }
 
@@ -83,6 +84,12 @@ std::filesystem::file_status input_status(const std::filesystem::path& file) {
   if (status.type() != std::filesystem::file_type::none) return status;
   errno = error.value();
   say_why_not_open(file);
+}
+
+void refuse_special(const std::filesystem::path& file) {
+  struct stat status {};
+  if (::stat(file.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode))
+    refuse(file, kind_of(status.st_mode), "a regular file, or none");
 }
 
 std::uint64_t largest_binary_file() {

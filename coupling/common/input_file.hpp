@@ -38,6 +38,10 @@ class InputFile {
 /// nothing can have (too long, links that lead back to themselves), and IoError.
 std::filesystem::file_status input_status(const std::filesystem::path& file);
 
+/// Throws InputError where the name, or a link of this name, is one of a device, a FIFO or a socket: no file
+/// takes its place.
+void refuse_special(const std::filesystem::path& file);
+
 /// All bytes of a file. Throws as InputFile.
 std::string input_bytes(const std::filesystem::path& file, std::uint64_t largest);
 

@@ -20,16 +20,10 @@ namespace {
 
 constexpr std::string_view first_line = "# drumlin-manifest-1\n", last_key = "# sum = ";
 constexpr std::size_t sum_letters = 64;
+constexpr std::ptrdiff_t most_names = 3;  // of a path: two folders and a file
 
 bool is_sum(std::string_view text) {
   return text.size() == sum_letters && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
-}
-
-/// Below the folder, by plain names.
-bool stays_inside(const fs::path& name) {
-  return !name.empty() && name.is_relative() &&
-         std::none_of(name.begin(), name.end(),
-                      [](const fs::path& part) { return part == ".." || part == "."; });
 }
 
 /// Fills the manifest line by line; false where a line is none.
@@ -50,7 +44,7 @@ class LineReader {
     if (line.size() <= sum_letters + 2 || line.compare(sum_letters, 2, "  ") != 0) return false;
     const std::string name = line.substr(sum_letters + 2);
     entry_.sum.checksum = line.substr(0, sum_letters);
-    return is_sum(entry_.sum.checksum) && stays_inside(name) && manifest_.files.emplace(name, entry_).second;
+    return is_sum(entry_.sum.checksum) && can_be_listed(name) && manifest_.files.emplace(name, entry_).second;
   }
 
  private:
@@ -109,6 +103,20 @@ Manifest read_manifest(const fs::path& folder) {
       throw InputError(
           {InputProblem{file.string(), number, 0, "", "'" + line + "' is no line of a manifest", ""}});
   return manifest;
+}
+
+std::vector<std::string> names_in(const Manifest& manifest) {
+  std::vector<std::string> names;
+  for (const auto& [name, entry] : manifest.files) names.push_back(name);
+  return names;
+}
+
+bool can_be_listed(const fs::path& name) {
+  return !name.empty() && std::distance(name.begin(), name.end()) <= most_names &&
+         std::none_of(name.begin(), name.end(), [](const fs::path& part) {
+           const std::string& text = part.native();  // of an absolute path the first is "/"
+           return text.empty() || text.front() == '.' || text.front() == '/';
+         });
 }
 
 std::string manifest_sum(const Manifest& manifest) { return text_sum(summed_text(manifest)); }

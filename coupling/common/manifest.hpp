@@ -30,6 +30,13 @@ struct Manifest {
 /// Whether the folder carries our marker.
 bool has_manifest(const std::filesystem::path& folder);
 
+/// The paths of its files.
+std::vector<std::string> names_in(const Manifest& manifest);
+
+/// Whether a manifest may list a file by this path in its folder: plain names, none hidden, as deep as any
+/// command writes (measured/slices/1.csv).
+bool can_be_listed(const std::filesystem::path& name);
+
 /// Throws InputError if it is missing, damaged or of another version.
 Manifest read_manifest(const std::filesystem::path& folder);
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "coupling/common/errors.hpp"
+#include "coupling/common/own_folder.hpp"
 
 namespace drumlin {
 
@@ -72,6 +73,7 @@ ResultFolder open_result_folder(const fs::path& path, WithoutManifest without) {
                     path.string(), manifest_name, way_out(path)));
   }
   folder.manifest = read_manifest(path);
+  refuse_links(path, names_in(*folder.manifest));
   Problems problems;
   for (const auto& [name, entry] : folder.manifest->files) check_size(path / name, entry, problems);
   if (folder.manifest->complete) check_extra(folder, problems);

@@ -8,10 +8,10 @@
 #include <cerrno>
 #include <cstring>
 #include <optional>
-#include <utility>
 
 #include "coupling/common/errors.hpp"
 #include "coupling/common/input_file.hpp"
+#include "coupling/common/own_folder.hpp"
 #include "coupling/common/unfinished_file.hpp"
 
 namespace drumlin {
@@ -29,24 +29,6 @@ constexpr std::size_t aside_letters = 32;
   throw IoError(file.string() + ": cannot be " + what + ": " + std::strerror(errno));
 }
 
-/// A descriptor that closes itself.
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() {
-    if (number_ >= 0) ::close(number_);
-  }
-  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int number() const { return number_; }
-  /// Whether the system had nothing to say of what was written.
-  bool close() { return ::close(std::exchange(number_, -1)) == 0; }
-
- private:
-  int number_;
-};
-
 std::string unguessable_name(const fs::path& file) {
   std::array<unsigned char, aside_letters / 2> bytes{};
   if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
@@ -63,8 +45,9 @@ class FileAside {
   explicit FileAside(const fs::path& file)
       : file_(file),
         folder_(file.has_parent_path() ? file.parent_path() : "."),
-        descriptor_(::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+        descriptor_(open_folder(file.parent_path())) {
     if (descriptor_.number() < 0) give_up(file_, "written");
+    refuse_special(file_);
   }
   FileAside(const FileAside&) = delete;
   FileAside& operator=(const FileAside&) = delete;
@@ -168,7 +151,9 @@ void force_to_disk(const fs::path& path) {
 }
 
 void make_folders(const fs::path& folder) {
-  if (folder.empty() || fs::is_directory(folder)) return;
+  if (folder.empty()) return;
+  const Descriptor there = open_folder(folder);  // refuses links
+  if (there.number() >= 0 || fs::is_directory(folder)) return;
   const fs::path above = folder.parent_path();
   make_folders(above);
   std::error_code error;
@@ -176,7 +161,7 @@ void make_folders(const fs::path& folder) {
     if (error) throw IoError(folder.string() + ": cannot be made: " + error.message());
     return;
   }
-  const Descriptor opened(::open(above.empty() ? "." : above.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  const Descriptor opened = open_folder(above);
   // A folder that may be written but not read cannot be opened, and so not be forced.
   if (opened.number() < 0 && errno == EACCES) return;
   if (opened.number() < 0 || ::fsync(opened.number()) != 0) give_up(folder, "forced to the disk");

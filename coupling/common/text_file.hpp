@@ -13,7 +13,8 @@ std::string file_text(const std::filesystem::path& file);
 /// Writes `content`, text or not, aside, forces it to the disk, renames it to `file` and forces the folder to
 /// the disk: a kill or a power cut leaves the old file or the new one. The place aside is new and has a name
 /// that nobody can guess; a symbolic link in the place of `file` is replaced, not followed. Throws IoError,
-/// the old file then being intact.
+/// and InputError where a device, a FIFO or a socket has the name, or the way leads over a link below an
+/// OwnFolder; what was there is then intact.
 void replace_file(const std::filesystem::path& file, std::string_view content);
 
 /// The same, and the old file stays under the name `previous`, of the same folder: one of both is whole at
@@ -25,7 +26,7 @@ void replace_file_keeping(const std::filesystem::path& file, const std::filesyst
 /// whole, or vanishes with this object.
 class FileInTheMaking {
  public:
-  /// Makes it, empty. Throws IoError.
+  /// Makes it, empty. Throws as replace_file().
   explicit FileInTheMaking(const std::filesystem::path& file);
   ~FileInTheMaking();
   FileInTheMaking(const FileInTheMaking&) = delete;
@@ -51,7 +52,8 @@ bool is_left_aside(const std::filesystem::path& file);
 void force_to_disk(const std::filesystem::path& path);
 
 /// Makes a folder and those above it that are missing, and forces the name of each new one to the disk: what
-/// is forced to the disk within it outlives a power cut only if its name does. Throws IoError.
+/// is forced to the disk within it outlives a power cut only if its name does. Throws IoError, and InputError
+/// as open_folder().
 void make_folders(const std::filesystem::path& folder);
 
 }  // namespace drumlin

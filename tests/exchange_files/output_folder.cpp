@@ -146,15 +146,118 @@ TEST(OutputFolder, WhatAKilledCommandLeftIsNotSeen) {
   EXPECT_EQ(content_of(folder.path()), Names{"b.csv"});
 }
 
+/// New results that are all there, of a call that was ended while it put them in their places.
+void end_while_publishing(const fs::path& folder) {
+  leave(folder, "a.csv", "old");
+  leave(folder, "c.csv", "old", ExistingOutput::overwrite);
+  killed([&] {
+    StagedOutput output(request_for(folder, ExistingOutput::overwrite));
+    replace_file(output.folder() / "b.csv", "new");
+    replace_file(output.folder() / "c.csv", "new");
+    fs::remove(folder / "c.csv");
+    fs::create_directories(folder / "c.csv/in the way");
+    EXPECT_THROW(output.publish(), IoError);
+  });
+  fs::remove_all(folder / "c.csv");
+}
+
 TEST(OutputFolder, AnInterruptedReplacementIsFinishedByTheNextClaim) {
   const TemporaryFolder folder;
-  leave(folder.path(), "a.csv", "old");
-  leave(folder / "other", "b.csv", "new");
-  leave(folder / "other", "c.csv", "new too", ExistingOutput::overwrite);
-  fs::rename(folder / "other", folder / ".drumlin-new");  // as it stands when all is written
+  end_while_publishing(folder.path());
+  EXPECT_THROW((void)claim(request_for(folder.path())), InputError);
+  EXPECT_EQ(content_of(folder / ".drumlin-new"), (Names{".drumlin-publication", "c.csv"}));
   (void)claim(request_for(folder.path(), ExistingOutput::resume));
   check_all_files(open_result_folder(folder.path()));
-  EXPECT_EQ(content_of(folder.path()), Names{"c.csv"});
+  EXPECT_EQ(content_of(folder.path()), (Names{"b.csv", "c.csv"}));
+  EXPECT_EQ(file_text(folder / "c.csv"), "new");
+}
+
+// Its sums need no secret: whoever packs a folder can make new results that look whole.
+TEST(OutputFolder, NewResultsOfAnotherPlaceOrOfNobodyAreNoneOfOurs) {
+  const TemporaryFolder folder;
+  end_while_publishing(folder / "theirs");
+  leave(folder / "ours", "a.csv", "ours");
+  fs::copy(folder / "theirs/.drumlin-new", folder / "ours/.drumlin-new");
+  for (const auto existing : {ExistingOutput::refuse, ExistingOutput::resume}) {
+    try {
+      (void)claim(request_for(folder / "ours", existing));
+    } catch (const InputError&) {
+    }
+    fs::remove_all(folder / "ours/.drumlin-new");
+    check_all_files(open_result_folder(folder / "ours"));
+    EXPECT_EQ(content_of(folder / "ours"), Names{"a.csv"});
+    leave(folder / "other", "c.csv", "planted", ExistingOutput::overwrite);
+    fs::copy(folder / "other", folder / "ours/.drumlin-new");
+  }
+}
+
+/// A folder elsewhere, with the results `name` and a file that no program made.
+Names elsewhere(const fs::path& folder, const std::string& name) {
+  leave(folder, name, "theirs");
+  replace_file(folder / "notes.txt", "years of work");
+  return content_of(folder);
+}
+
+TEST(OutputFolder, ALinkWithinIsNoWayToFilesElsewhere) {
+  const TemporaryFolder folder;
+  const Names before = elsewhere(folder / "theirs", "1.csv");
+  leave(folder / "ours", "y/1.csv", "ours");
+  fs::remove_all(folder / "ours/y");
+  fs::create_directory_symlink(folder / "theirs", folder / "ours/y");
+  EXPECT_THROW((void)open_result_folder(folder / "ours"), InputError);
+  for (const char* name : {"y/1.csv", "z.csv"})  // replaced, and removed
+    EXPECT_THROW(leave(folder / "ours", name, "new", ExistingOutput::overwrite), InputError) << name;
+  EXPECT_EQ(content_of(folder / "theirs"), before);
+  EXPECT_EQ(file_text(folder / "theirs/1.csv"), "theirs");
+}
+
+TEST(OutputFolder, ThatIsALinkIsRefused) {
+  const TemporaryFolder folder;
+  const Names before = elsewhere(folder / "theirs", "measured.json");
+  fs::create_directory_symlink(folder / "theirs", folder / "measured");
+  for (const auto existing : {ExistingOutput::refuse, ExistingOutput::resume, ExistingOutput::overwrite})
+    EXPECT_THROW(StagedOutput{request_for(folder / "measured", existing)}, InputError);
+  EXPECT_EQ(content_of(folder / "theirs"), before);
+}
+
+TEST(GrowingOutput, DoesNotFollowLinks) {
+  const Names known{"*.csv", "points/*.h5"};
+  for (const bool listed : {true, false})
+    for (const char* name : {"points", "replaced"}) {
+      const TemporaryFolder folder;
+      const fs::path ours = folder / "ours";
+      const Names before = elsewhere(folder / "theirs", "1.h5");
+      {
+        GrowingOutput output(request_for(ours, ExistingOutput::refuse, "run"), known);
+        fs::create_directory(ours / "points");
+        replace_file(ours / "a.csv", "1");
+        if (listed) replace_file(ours / "points/1.h5", "ours");
+        output.finish();
+      }
+      if (fs::exists(ours / name)) fs::rename(ours / name, folder / "kept");
+      fs::create_directory_symlink(folder / "theirs", ours / name);
+      for (const auto existing : {ExistingOutput::resume, ExistingOutput::overwrite})
+        EXPECT_THROW(GrowingOutput(request_for(ours, existing, "run"), known), InputError) << name;
+      EXPECT_EQ(content_of(folder / "theirs"), before);
+      EXPECT_EQ(file_text(ours / "a.csv"), "1");
+    }
+}
+
+// Somebody who may write there exchanges a folder while a run is at work.
+TEST(GrowingOutput, DoesNotFollowLinksThatComeLater) {
+  const TemporaryFolder folder;
+  const GrowingOutput output(request_for(folder / "ours", ExistingOutput::refuse, "run"), {"points/*.h5"});
+  fs::create_directory(folder / "theirs");
+  fs::create_directory_symlink(folder / "theirs", folder / "ours/points");
+  EXPECT_THROW(make_folders(folder / "ours/points"), InputError);
+  EXPECT_THROW(make_folders(folder / "ours/points/inner"), InputError);
+  EXPECT_THROW(replace_file(folder / "ours/points/1.h5", "new"), InputError);
+  EXPECT_THROW(FolderLock(folder / "ours/points/.lock", "test"), InputError);
+  fs::rename(folder / "ours", folder / "moved");
+  fs::create_directory_symlink(folder / "theirs", folder / "ours");
+  replace_file(folder / "ours/a.csv", "new");
+  EXPECT_TRUE(fs::is_empty(folder / "theirs"));
+  EXPECT_TRUE(fs::exists(folder / "moved/a.csv"));
 }
 
 // A link in the place of our folder for new results would have its target moved or written into.

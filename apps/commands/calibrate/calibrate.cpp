@@ -16,6 +16,7 @@
 #include "apps/support/output_folder.hpp"
 #include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
+#include "coupling/common/input_file.hpp"
 #include "coupling/law/rheology_file.hpp"
 
 namespace drumlin::apps {
@@ -184,6 +185,7 @@ void refuse_files_of_others(const CalibrateOptions& options) {
   if (record == options.output || figure == options.output)
     throw InputError(options.output.string() +
                      ": the record or the figure of the law has this name; name it .toml");
+  for (const fs::path& file : {record, figure}) refuse_special(file);
   if (options.existing != ExistingOutput::refuse) return;
   const auto refuse = [](const fs::path& file) {
     throw InputError(

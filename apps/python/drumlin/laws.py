@@ -6,6 +6,7 @@ import numpy as np
 
 from . import _drumlin
 from .errors import InputError, IoError
+from .figures import whole_file
 
 
 class Law(_drumlin.Law):
@@ -20,7 +21,7 @@ class Law(_drumlin.Law):
         self.text = text
 
     def write(self, path):
-        pathlib.Path(path).write_text(self.text, encoding="utf-8")
+        whole_file.write_text(path, self.text)
 
 
 def _text_of_file(path):
