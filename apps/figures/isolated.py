@@ -21,6 +21,16 @@ def stop(*_):
     raise KeyboardInterrupt
 
 
+def load_matplotlib(folder):
+    """Matplotlib reads a matplotlibrc of the folder it is loaded in, else the one that this variable names, else one of the user: it finds none."""
+    os.environ["MATPLOTLIBRC"] = os.devnull
+    here = os.open(".", os.O_RDONLY)
+    os.chdir(folder)
+    import matplotlib  # pylint: disable=import-outside-toplevel,unused-import
+    os.fchdir(here)
+    os.close(here)
+
+
 if __name__ == "__main__":
     for each in STOPPING:
         if signal.getsignal(each) != signal.SIG_IGN:  # nohup
@@ -30,6 +40,8 @@ if __name__ == "__main__":
     sys.path.insert(0, str(script.parent))
     sys.argv = sys.argv[1:]
     try:
+        if script.parent == pathlib.Path(__file__).resolve().parent:  # pages draw nothing
+            load_matplotlib(script.parent)
         runpy.run_path(str(script), run_name="__main__")
     except OSError as error:
         if error.filename is None or error.strerror is None:

@@ -17,6 +17,7 @@
 #include <thread>
 
 #include "coupling/common/errors.hpp"
+#include "coupling/common/input_file.hpp"
 
 extern char** environ;
 
@@ -317,6 +318,7 @@ ProcessEnd run_in_copy(const std::function<void()>& work) {
 fs::path program_beside(const std::string& name) {
   const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / name;
   if (!fs::exists(program)) throw IoError(program.string() + ": is missing; it is built beside drumlin");
+  refuse_special(".adolcrc");  // ADOL-C, within deal.II, reads it as it is loaded, and would wait for a FIFO
   return program;
 }
 
