@@ -55,9 +55,12 @@ Json frame_of(const particles::RunFolder& run, const fs::path& file) {
     shapes.push_back(std::visit(ShapeJson{}, placed.shape));
     shapes.back()["angle"] = placed.angle;
   }
-  return {{"file", fs::absolute(file).string()},         {"number", particles::snapshot_number(file)},
-          {"time_s", snapshot.time * run.scales.time_s}, {"grains", snapshot.x.size()},
-          {"contacts", snapshot.contacts.size()},        {"walls", shapes}};
+  return {{"file", file.string()},
+          {"number", particles::snapshot_number(file)},
+          {"time_s", snapshot.time * run.scales.time_s},
+          {"grains", snapshot.x.size()},
+          {"contacts", snapshot.contacts.size()},
+          {"walls", shapes}};
 }
 
 /// Every `every`-th snapshot, the last among them; 0: as many as `most` leaves.
@@ -132,7 +135,7 @@ Json drawing_of(const particles::RunFolder& run, const Json& report, const PlotO
                {"reduced", run.scene.reduced},
                {"status", run.status},
                {"run", report},
-               {"log", fs::absolute(checked_file(run.files, "log.csv")).string()},
+               {"log", checked_file(run.files, "log.csv").string()},
                {"energy", nullptr},
                {"tolerance", run.scene.solver.tolerance},
                {"penetration_tolerance", run.scene.solver.penetration_tolerance},
@@ -146,7 +149,7 @@ Json drawing_of(const particles::RunFolder& run, const Json& report, const PlotO
                {"materials", Json::array()},
                {"frames", Json::array()}};
   if (fs::exists(run.folder / "energy.csv"))
-    drawing["energy"] = fs::absolute(checked_file(run.files, "energy.csv")).string();
+    drawing["energy"] = checked_file(run.files, "energy.csv").string();
   if (const auto& period = run.scene.periodic_x)
     drawing["period"] = {period->x_min_mm * 1e-3 / run.scales.length_m,
                          period->x_max_mm * 1e-3 / run.scales.length_m};

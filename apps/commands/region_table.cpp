@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "coupling/documents/csv.hpp"
 #include "particles/measurement/flow_rate.hpp"
 
 namespace drumlin::apps {
@@ -39,7 +40,7 @@ std::string region_lines(const particles::Scene& scene, const particles::Simulat
   const auto& state = simulation.state();
   for (const Counts& count : counts_of(scene, simulation))
     lines += fmt::format("{},{:.9g},{},{},{},{}\n", state.step, state.time() * simulation.scales().time_s,
-                         count.name, count.out, count.in, count.waiting);
+                         csv_text(count.name), count.out, count.in, count.waiting);
   return lines;
 }
 

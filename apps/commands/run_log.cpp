@@ -4,13 +4,15 @@
 
 #include <algorithm>
 
+#include "coupling/documents/csv.hpp"
+
 namespace drumlin::apps {
 
 std::string log_line(const particles::StepReport& report, std::int64_t step, double time_s,
                      const std::string& stage, double kinetic_energy, bool converged) {
   const auto& residual = report.solve.residual;
   return fmt::format("{},{:.9g},{},{},{},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.9g},{}\n", step, time_s,
-                     stage, report.contacts, report.solve.sweeps, residual.rms, residual.max,
+                     csv_text(stage), report.contacts, report.solve.sweeps, residual.rms, residual.max,
                      residual.penetration, residual.sinking, report.overlap.mean, report.overlap.max,
                      kinetic_energy, converged ? 1 : 0);
 }

@@ -4,6 +4,8 @@
 
 #include <numbers>
 
+#include "coupling/documents/csv.hpp"
+
 namespace drumlin::apps {
 
 std::string wall_lines(particles::Simulation& simulation) {
@@ -19,7 +21,7 @@ std::string wall_lines(particles::Simulation& simulation) {
     const double t = load.time;
     lines += fmt::format(
         "{:.9g},{:.9g},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n",
-        simulation.state().time() * second, loads.time * second, simulation.walls().names[w],
+        simulation.state().time() * second, loads.time * second, csv_text(simulation.walls().names[w]),
         load.impulse_x * force, load.impulse_z * force, load.moment * force * scales.length_m,
         load.place.x / t * mm, load.place.z / t * mm, load.place.angle / t * 180 / std::numbers::pi,
         (load.last.x - load.first.x) / t * mm / second, (load.last.z - load.first.z) / t * mm / second,

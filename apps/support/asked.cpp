@@ -12,7 +12,9 @@ namespace drumlin::apps {
 
 namespace fs = std::filesystem;
 
-std::string asked_sum(const nlohmann::ordered_json& asked) { return text_sum(asked.dump()); }
+std::string asked_sum(const nlohmann::ordered_json& asked) {
+  return text_sum(asked.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
 
 std::string input_sum(const fs::path& input) {
   if (fs::is_regular_file(input)) return file_sum(fs::canonical(input)).checksum;

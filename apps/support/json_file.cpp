@@ -11,8 +11,9 @@ namespace drumlin::apps {
 using Json = nlohmann::ordered_json;
 
 void write_json(const std::filesystem::path& file, const Json& content) {
-  // The library writes NaN and infinity as null, which is what the formats ask for.
-  replace_file(file, content.dump(2) + "\n");
+  // The library writes NaN and infinity as null, which is what the formats ask for. A name of others may be
+  // no UTF-8: it stands there with the sign for an unknown letter.
+  replace_file(file, content.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 void add_accepted_edits(Json& provenance, const std::vector<std::string>& edits) {

@@ -19,7 +19,7 @@ void Progress::show(const std::string& line) {
   last_ = std::chrono::steady_clock::now();
   open_ = on_terminal();
   if (open_)
-    print_error(fmt::format("\r{:<{}}", line, width_));
+    print_over_line(fmt::format("{:<{}}", line, width_));
   else
     print_error(fmt::format("{}\n", line));
   width_ = line.size();

@@ -12,12 +12,16 @@ std::string csv_number(double value);
 /// At most so many significant digits, for tables whose numbers carry no more; empty for what is not finite.
 std::string csv_number(double value, int digits);
 
-/// The fields with commas between them, and the end of the line.
+/// A text as a field: in quotes where it begins with =, + or @, which spreadsheets would compute, holds
+/// commas or quotes (then written twice), or has blanks at an end.
+std::string csv_text(std::string_view text);
+/// The fields, each as a text, with commas between them, and the end of the line.
 std::string csv_line(const std::vector<std::string>& fields);
 
 /// Without spaces, tabs and carriage returns at both ends.
 std::string_view trimmed(std::string_view text);
-/// The fields of a line, trimmed; of an empty line one empty field. They live as long as the line.
+/// The fields of a line, trimmed or what stands between their quotes, as it stands there; of an empty line
+/// one empty field. They live as long as the line.
 std::vector<std::string_view> csv_fields(std::string_view line);
 /// The same into a list that keeps its memory from line to line.
 void csv_fields(std::string_view line, std::vector<std::string_view>& fields);

@@ -24,6 +24,20 @@ TEST(Csv, SplitsALineIntoTrimmedFields) {
   EXPECT_EQ(csv_line({"a", "", "1"}), "a,,1\n");
 }
 
+TEST(Csv, QuotesTextsThatASpreadsheetWouldCompute) {
+  for (const char* formula : {"=1+1", "+1", "@SUM(A1)"}) {
+    EXPECT_EQ(csv_text(formula), "\"" + std::string(formula) + "\"");
+    const std::string line = csv_line({"1", formula, "2"});
+    EXPECT_EQ(csv_fields(std::string_view(line).substr(0, line.size() - 1)),
+              (std::vector<std::string_view>{"1", formula, "2"}));
+  }
+  EXPECT_EQ(csv_text("a, \"b\" "), "\"a, \"\"b\"\" \"");
+  EXPECT_EQ(csv_fields("\"a, \"\"b\"\" \",1"), (std::vector<std::string_view>{"a, \"\"b\"\" ", "1"}));
+  for (const char* plain : {"", "drum", "-1e-3", "a=b", "a+b"}) EXPECT_EQ(csv_text(plain), plain);
+  EXPECT_EQ(csv_fields("\"open,1"), (std::vector<std::string_view>{"\"open", "1"}));
+  EXPECT_EQ(csv_fields("\"a\"b,1"), (std::vector<std::string_view>{"\"a\"b", "1"}));
+}
+
 TEST(Csv, ReadsWholeFiniteNumbersAlone) {
   EXPECT_TRUE(std::isnan(csv_value("").value()));
   EXPECT_EQ(csv_value("-1e3"), -1000);
