@@ -160,8 +160,9 @@ MatrixProblem matrix_problem(std::span<const MatrixEntry> W, std::vector<double>
   if (q.size() != 2 * contacts) refuse("q", fmt::format("not of length {}", 2 * contacts));
   check_finite(q, "q", refuse);
   check_finite(mu, "mu", refuse);
-  if (std::any_of(mu.begin(), mu.end(), [](double value) { return value < 0; }))
-    refuse("mu", "negative friction");
+  for (const double value : mu)
+    if (!(value >= 0 && value <= largest_friction))
+      refuse("mu", fmt::format("friction {:g} (allowed: 0 to {:g})", value, largest_friction));
   check_entries(W, q.size(), refuse);
   MatrixProblem result;
   BlockRows rows = rows_of_W(W, contacts, refuse, result.asymmetry);

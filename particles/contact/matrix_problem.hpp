@@ -10,6 +10,8 @@
 
 namespace drumlin::particles {
 
+inline constexpr double largest_friction = 100;  ///< as in a scene
+
 struct MatrixEntry {
   std::int32_t row = 0, column = 0;
   double value = 0;
@@ -26,8 +28,8 @@ struct MatrixProblem {
 
 /// u = W r + q with two rows per contact, normal first; entries may repeat and are then added. Refused are
 /// numbers of other lengths (2 per contact in q, 1 in mu), an index outside of the matrix, numbers that are
-/// not finite, negative friction, a contact without a positive definite diagonal block, and a W that is
-/// asymmetric by more than 1e-5.
+/// not finite, friction below 0 or above 100, a contact without a positive definite diagonal block, and a W
+/// that is asymmetric by more than 1e-5.
 MatrixProblem matrix_problem(std::span<const MatrixEntry> W, std::vector<double> q, std::vector<double> mu,
                              const Refusal& refuse);
 

@@ -20,7 +20,8 @@ const std::string root = "fclib_local/", time_step_name = "drumlin/time_step";
 std::vector<MatrixEntry> compressed(const H5Reader& in, bool rows_are_major, std::int64_t size) {
   const auto p = in.ints(root + "W/p"), i = in.ints(root + "W/i");
   const auto x = in.doubles(root + "W/x");
-  if (static_cast<std::int64_t>(p.size()) < size + 1) in.refuse(root + "W/p", "fewer entries than rows + 1");
+  if (static_cast<std::int64_t>(p.size()) != size + 1 || p.front() != 0)
+    in.refuse(root + "W/p", "not of rows + 1 entries, from 0 on");
   std::vector<MatrixEntry> entries;
   entries.reserve(std::min(i.size(), x.size()));
   for (std::int64_t major = 0; major < size; ++major) {
@@ -55,9 +56,8 @@ std::vector<MatrixEntry> entries_of_W(const H5Reader& in, std::int64_t size) {
 }
 
 std::vector<double> vector_of(const H5Reader& in, const std::string& name, std::int64_t size) {
-  std::size_t count = 1;
-  for (const std::size_t length : in.shape(root + "vectors/" + name)) count *= length;
-  if (static_cast<std::int64_t>(count) != size)
+  const std::vector<std::size_t> shape = in.shape(root + "vectors/" + name);
+  if (shape.size() != 1 || static_cast<std::int64_t>(shape[0]) != size)
     in.refuse(root + "vectors/" + name, "not of length " + std::to_string(size));
   return in.doubles(root + "vectors/" + name);
 }

@@ -21,6 +21,12 @@ struct StageCoefficients {
   double grain_wall = 0;
 };
 
+/// Those of restitution.
+struct StageRestitution {
+  double grain_grain = 0;
+  double grain_wall = 0;
+};
+
 /// Those of cohesion, in weights of a disc of the mean diameter; its range stays.
 struct StageCohesion {
   double grain_grain = 0;
@@ -100,7 +106,8 @@ struct Stage {
   std::optional<std::vector<std::string>> opens = {};  ///< walls that are gone from its start on
   std::optional<StageGravity> gravity = {};            ///< stays until another stage changes it
   // Coefficients of this stage alone, in place of those of the effects.
-  std::optional<StageCoefficients> friction = {}, restitution = {}, rolling_resistance = {};
+  std::optional<StageCoefficients> friction = {}, rolling_resistance = {};
+  std::optional<StageRestitution> restitution = {};
   std::optional<StageCohesion> cohesion = {};
   std::optional<Until> until = {};
   std::optional<StageCell> cell = {};  ///< how a cell that is periodic in x and z moves

@@ -64,6 +64,12 @@ void describe(Visitor& v, StageCoefficients& c) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, StageRestitution& c) {
+  v.value("grain_grain", c.grain_grain, required("", at_least(0, 1), "Between grains."));
+  v.value("grain_wall", c.grain_wall, required("", at_least(0, 1), "With a wall."));
+}
+
+template <class Visitor>
 void describe(Visitor& v, StageCohesion& c) {
   v.value("grain_grain", c.grain_grain,
           required("", at_least(0, 1e6), "Between grains, in weights of the mean disc."));

@@ -76,10 +76,6 @@ void check_coefficients(const Scene& scene, std::size_t s, Faults& faults) {
   check("restitution", stage.restitution.has_value(), effects.restitution.has_value());
   check("rolling_resistance", stage.rolling_resistance.has_value(), effects.rolling_resistance.has_value());
   check("cohesion", stage.cohesion.has_value(), effects.cohesion.has_value());
-  if (const auto& e = stage.restitution; e && std::max(e->grain_grain, e->grain_wall) > 1) {
-    const std::string key = fmt::format("stages.{}.restitution", s);
-    faults.push_back({key, "gives back more than the approach speed", "values of at most 1", {key}});
-  }
   if (stage.gravity && scene.output.energy_ledger) {
     const std::string key = fmt::format("stages.{}.gravity", s);
     faults.push_back({key,

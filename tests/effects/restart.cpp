@@ -84,7 +84,7 @@ const Case cases[] = {
      [](Scene& s) {
        cut(s, 0.1);
        s.stages[0].friction = StageCoefficients{0, 0};
-       s.stages[1].restitution = StageCoefficients{0.9, 0.9};
+       s.stages[1].restitution = StageRestitution{0.9, 0.9};
        s.effects.cohesion = Cohesion{1, 1};
        s.stages[1].cohesion = StageCohesion{3, 0};
      }},

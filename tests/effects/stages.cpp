@@ -121,7 +121,7 @@ TEST(StageCoefficients, OfRestitutionDecideHowADiscRebounds) {
     scene.walls = {test::floor_wall()};
     scene.effects.restitution = Restitution{0.5, 0.5};
     add_stage(scene, 1, 0.01);
-    scene.stages[0].restitution = StageCoefficients{0, e};
+    scene.stages[0].restitution = StageRestitution{0, e};
     EXPECT_NEAR(test::bodies_at_end(scene).v_z[0], 2 * e, 1e-9);
   }
 }

@@ -238,6 +238,12 @@ TEST(ContactProblemFile, FaultsAreRefused) {
   negative.mu[1] = -0.1;
   write_fclib(file, negative, -2);
   EXPECT_THROW(read_contact_problem(file), InputError);
+  for (const double mu : {100.5, 1e308}) {
+    SmallProblem steep;
+    steep.mu[1] = mu;
+    write_fclib(file, steep, -2);
+    EXPECT_THROW(read_contact_problem(file), InputError) << mu;
+  }
   SmallProblem infinite;
   infinite.q[0] = std::numeric_limits<double>::infinity();
   write_fclib(file, infinite, -2);

@@ -32,8 +32,8 @@ TEST(StageContradiction, EffectsThatTheSceneDoesNotName) {
   expect_problem({"stages.0.rolling_resistance" + values}, "stages.0.rolling_resistance",
                  "together with effects.rolling_resistance");
   expect_problem({"stages.0.cohesion" + values}, "stages.0.cohesion", "together with effects.cohesion");
-  expect_problem({"effects.restitution" + values, "stages.0.restitution={grain_grain=2, grain_wall=0}"},
-                 "stages.0.restitution", "more than the approach speed");
+  expect_problem({"effects.restitution" + values, "stages.0.restitution={grain_grain=1.5, grain_wall=0}"},
+                 "stages.0.restitution.grain_grain", "0 to 1");
   expect_problem({"stages.0.gravity={direction_deg=-60}", "output.energy_ledger=true"}, "stages.0.gravity",
                  "without output.energy_ledger");
 }
