@@ -1,0 +1,275 @@
+"""What others have made or planted: folders of results, names, files of settings. Nothing outside is touched, nothing is executed or waited for.
+
+usage: strangers.py DRUMLIN FOLDER_OF_THIS_TEST DATA
+"""
+
+import hashlib
+import os
+import pathlib
+import resource
+import shutil
+import socket
+import stat
+import subprocess
+import sys
+import tempfile
+
+import h5py
+
+from command import SHORT_RUN, Drumlin, bytes_below, require
+
+PATIENCE = 300  # seconds for what takes less than one
+EXISTING = ([], ["--resume"], ["--overwrite"])
+SUBFOLDERS = {"plots": ["plot"], "report": ["report"], "history": ["history"], "vtu": ["export", "--vtu"],
+              "measured": ["measure", "--parts", "none"]}
+
+
+def called(executable, *words, cwd=None, limit=None, environment=None):
+    """Exit code, and all that was printed as bytes."""
+    done = subprocess.run([executable, *words], cwd=cwd, preexec_fn=limit, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          env=environment, timeout=PATIENCE, check=False)
+    return done.returncode, done.stdout
+
+
+def sign(folder, command, contents, state="complete"):
+    """A manifest as anybody can write it, and those of its files that are given."""
+    text = f"# drumlin-manifest-1\n# command = {command}\n# state = {state}\n"
+    for name, content in sorted(contents.items()):
+        text += f"# bytes = {len(content)}\n{hashlib.sha256(content).hexdigest()}  {name}\n"
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "manifest.txt").write_text(f"{text}# sum = {hashlib.sha256(text.encode()).hexdigest()}\n", encoding="utf-8")
+
+
+def somewhere_else(folder):
+    """Work of years, that no call below may change."""
+    if not folder.exists():
+        folder.mkdir()
+        for name in ("replaced.txt", "removed.txt", "000001.h5"):
+            (folder / name).write_text("years of work\n", encoding="utf-8")
+    return bytes_below(folder)
+
+
+def plant_new_results(target, command, elsewhere):
+    """New results that seem to be whole, to be put in their places, one of them through a link."""
+    sign(target, command, {"y/removed.txt": b"years of work\n"})
+    (target / "y").symlink_to(elsewhere)
+    sign(target / ".drumlin-new", command, {"y/replaced.txt": b"planted\n"})
+    (target / ".drumlin-new" / "y").mkdir()
+    (target / ".drumlin-new" / "y" / "replaced.txt").write_text("planted\n", encoding="utf-8")
+
+
+def planted_results_stay_where_they_are(executable, scene, run, csv, folder):
+    trials = 0
+    elsewhere = folder / "elsewhere"
+    before = somewhere_else(elsewhere)
+    for sub, (command, *more) in SUBFOLDERS.items():
+        for existing in EXISTING:
+            for kind in ("new results", "link"):
+                stranger = folder / "stranger"
+                shutil.copytree(run, stranger)
+                if kind == "link":
+                    sign(elsewhere, command, {"removed.txt": b"years of work\n"})
+                    (stranger / sub).symlink_to(elsewhere)
+                else:
+                    plant_new_results(stranger / sub, command, elsewhere)
+                code, said = called(executable, command, stranger, *more, *existing)
+                (elsewhere / "manifest.txt").unlink(missing_ok=True)
+                require(bytes_below(elsewhere) == before, f"{command} {existing}, {kind}: changed files elsewhere\n{said}")
+                require(code in (0, 2), f"{command} {existing}, {kind}: {code}\n{said}")
+                shutil.rmtree(stranger)
+                trials += 1
+    for command, words in (("run", ["run", scene, *SHORT_RUN]), ("import", ["import", csv / "import.toml"])):
+        for existing in EXISTING:
+            stranger = folder / "stranger"
+            plant_new_results(stranger, command, elsewhere)
+            code, said = called(executable, *words, "-o", stranger, *existing)
+            require(bytes_below(elsewhere) == before and code == 2, f"{command} {existing}: {code}, or changed files elsewhere\n{said}")
+            shutil.rmtree(stranger)
+            trials += 1
+    return trials
+
+
+def linked_folders_are_not_followed(executable, scene, run, folder):
+    trials = 0
+    words = ["run", scene, *SHORT_RUN, "-o"]
+    for sub in ("snapshots", "problems", "replaced"):
+        for existing in EXISTING:
+            ours, elsewhere = folder / "ours", folder / "other"
+            shutil.copytree(run, ours)
+            if sub == "snapshots":
+                shutil.move(ours / sub, elsewhere)
+            else:
+                shutil.copytree(run, elsewhere)
+            (ours / sub).symlink_to(elsewhere)
+            before, here = bytes_below(elsewhere), bytes_below(ours)
+            code, said = called(executable, *words, ours, *existing)
+            require(bytes_below(elsewhere) == before and bytes_below(ours) == here, f"run {existing}, linked {sub}: changed files\n{said}")
+            require(code == (2 if existing != ["--resume"] or sub == "snapshots" else 0), f"run {existing}, linked {sub}: {code}\n{said}")
+            shutil.rmtree(ours)
+            shutil.rmtree(elsewhere)
+            trials += 1
+    # A link that a user names stands for its folder.
+    (folder / "real").mkdir()
+    (folder / "named").symlink_to(folder / "real")
+    for name in ("named/", "named"):
+        code, said = called(executable, *words, f"{folder}/{name}", "--overwrite")
+        require(code == 0 and (folder / "real" / "run.json").exists(), f"-o {name}: {code}\n{said}")
+    return trials + 2
+
+
+def only_regular_files_are_replaced(executable, run, problem, folder):
+    trials = 0
+    special = folder / "special"
+    special.mkdir()
+    os.mkfifo(special / "fifo")
+    with socket.socket(socket.AF_UNIX) as listening:
+        here = os.getcwd()
+        os.chdir(special)  # the names of sockets are short
+        listening.bind("socket")
+        os.chdir(here)
+    if os.geteuid() == 0:
+        os.mknod(special / "null", stat.S_IFCHR | 0o666, os.makedev(1, 3))
+    (special / "link").symlink_to("/dev/null")
+    kinds = {path.name: path.stat().st_mode for path in special.iterdir()}
+    for name in kinds:
+        for words in (["new", "drum", "-o"], ["solve-contacts", problem, "--output"], ["plot", run, "-o"]):
+            for overwrite in ([], ["--overwrite"]):
+                code, said = called(executable, *words, special / name, *overwrite)
+                require(code == 2 and b"file" in said, f"{words[0]} -o {name} {overwrite}: {code}\n{said}")
+                trials += 1
+    require({path.name: path.stat().st_mode for path in special.iterdir()} == kinds, "a device, FIFO or socket is gone")
+    return trials
+
+
+def text_is_printed_without_orders(executable, run, csv, folder):
+    """Names of files and folders, keys, columns, reasons: whatever stands in them, a terminal gets no control character."""
+    trials = 0
+    for order in ("\x1b]0;title\x07", "\x1b[2J", "\r", "\x9b2J", "\u202e", "\x7f"):
+        strange = folder / f"strange{order}"
+        shutil.copytree(run, strange)
+        manifest = (strange / "manifest.txt").read_text(encoding="utf-8")
+        scene, description = folder / f"scene{order}.toml", folder / "description.toml"
+        scene.write_text('format = "drumlin-scene-1"\n', encoding="utf-8")
+        description.write_text((csv / "import.toml").read_text(encoding="utf-8").replace("csv]", f'csv]\n"a{order}" = 1', 1), encoding="utf-8")
+        table = folder / "table"
+        shutil.copytree(csv, table)
+        (table / "grains-0.csv").write_text(f"time_s,x_m,{order}\n0,0\n", encoding="utf-8")
+        calls = [["history", strange], ["history", strange], ["scene", "check", scene], ["new", "drum", "-o", scene],
+                 ["import", description, "-o", folder / "imported"], ["import", table / "import.toml", "-o", folder / "imported"],
+                 ["run", scene, "-o", strange, f"--set={order}=1"], ["measure", folder / f"missing{order}"]]
+        for words in calls + [["broken"], ["lost"]]:
+            if words == ["broken"]:
+                (strange / "manifest.txt").write_text(manifest.replace("# command", f"{order}command"), encoding="utf-8")
+                words = ["history", strange]
+            elif words == ["lost"]:
+                sign(strange, "run", {f"snapshots/{order}.h5": b"lost"})
+                words = ["history", strange]
+            _, said = called(executable, *words)
+            text = said.decode("utf-8")  # nothing but UTF-8
+            require(text.isprintable() or all(letter.isprintable() or letter in "\n\t" for letter in text), f"{words}: {said}")
+            trials += 1
+        for path in (strange, table):
+            shutil.rmtree(path)
+    return trials
+
+
+def names_need_not_be_utf8(executable, scene, folder):
+    """In a folder whose name is no text all commands work by the names below it; as a word such a name is refused, for results are UTF-8."""
+    here = os.fsencode(folder) + b"/h\xe4r"
+    os.mkdir(here)
+    calls = [["run", scene, "-o", "run", *SHORT_RUN], ["measure", "run", "--parts", "none"], ["plot", "run", "--player"], ["history", "run"],
+             ["export", "run", "--vtu"], ["run", scene, "-o", "run", *SHORT_RUN, "--resume"], ["compare", "run", "run", "--accept-unsteady", "-o", "compared"]]
+    for words in calls:
+        code, said = called(executable, *words, cwd=here)
+        require(code == 0, f"{words}: {code}\n{said}")
+        said.decode("utf-8")
+    for words in ([*calls[0][:3], here + b"/run"], ["plot", here + b"/run"], ["plot", "run", "-o", b"\xe4"]):
+        code, said = called(executable, *words, cwd=here)
+        require(code == 2 and b"\\xe4" in said and b"no UTF-8" in said, f"{words}: {code}\n{said}")
+    return len(calls) + 3
+
+
+def settings_of_the_current_folder(executable, run, here, data, folder):
+    """Files that a library looks for in the current folder: nothing of them is executed, refused or waited for."""
+    names = (".petscrc", "petscrc", "matplotlibrc")
+    trials = 0
+    for kind in ("code", "options", "bytes", "fifo"):
+        current = folder / f"current-{kind}"
+        current.mkdir()
+        mark = current / "executed"
+        if kind == "code":
+            (current / "e.c").write_text(f'#include <stdio.h>\nvoid __attribute__((constructor)) e(void) {{ fopen("{mark}", "w"); }}\n', encoding="utf-8")
+            subprocess.run(["cc", "-shared", "-fPIC", "-o", current / "e.so", current / "e.c"], check=True)
+        content = {"code": b"-dll_prepend ./e.so\n", "options": b"-help\n-ksp_type nonsense\n-options_left\n", "bytes": b"\xff\xfe\x00: \x80\n"}.get(kind)
+        for name in names:
+            if kind == "fifo":
+                os.mkfifo(current / name)
+            else:
+                (current / name).write_bytes(content)
+        environment = os.environ | {"HOME": str(current)}
+        if content and kind != "bytes":
+            environment["PETSC_OPTIONS"] = content.decode().replace("\n", " ")
+        plot, flow = ["plot", run, "--overwrite"], ["flow", here / "tiny-drum-flow.toml", "--rheology", data / "rheology" / "drum-6rpm.toml",
+                                                    "-o", folder / f"flow-{kind}"]
+        for words in {"code": [flow], "options": [flow], "bytes": [plot], "fifo": [plot, flow]}[kind]:
+            code, said = called(executable, *words, cwd=current, environment=environment)
+            require(code == 0 and not mark.exists(), f"{words[0]}, {kind}: {code}, executed: {mark.exists()}\n{said}")
+            trials += 1
+    os.mkfifo(folder / ".adolcrc")
+    code, said = called(executable, *flow, cwd=folder)
+    os.unlink(folder / ".adolcrc")
+    require(code == 2 and b".adolcrc" in said, f"flow beside a FIFO .adolcrc: {code}\n{said}")
+    return trials + 1
+
+
+def contact_problems_of_others(executable, problem, folder):
+    mu, q, p = ("fclib_local/vectors/mu", "fclib_local/vectors/q", "fclib_local/W/p")
+    faults = [(mu, lambda values: values * 0 + 1e308), (mu, lambda values: -values), (mu, lambda values: values.reshape(-1, 1)),
+              (mu, lambda values: values.reshape(2, -1)), (q, lambda values: values.reshape(-1, 2)), (mu, lambda values: values[1:]),
+              (p, lambda values: list(values) + [values[-1]]), (p, lambda values: values[:-1]), (p, lambda values: values + 1)]
+    for number, (name, of) in enumerate(faults):
+        file = folder / f"problem-{number}.h5"
+        shutil.copy(problem, file)
+        with h5py.File(file, "r+") as content:
+            values = content[name][:]
+            del content[name]
+            content[name] = of(values)
+        code, said = called(executable, "solve-contacts", file)
+        require(code == 2 and name.encode() in said, f"fault {number} of {name}: {code}\n{said}")
+    return len(faults)
+
+
+def nothing_to_do_needs_no_disk(executable, scene, run):
+    """On a disk that takes nothing a finished run is finished."""
+    before = bytes_below(run)
+    code, said = called(executable, "run", scene, *SHORT_RUN, "-o", run, "--resume",
+                        limit=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0)))
+    require(code == 0 and b"nothing to do" in said and bytes_below(run) == before, f"a finished run: {code}\n{said}")
+
+
+def main():
+    executable, here, data = str(pathlib.Path(sys.argv[1]).resolve()), pathlib.Path(sys.argv[2]).resolve(), pathlib.Path(sys.argv[3]).resolve()
+    drumlin = Drumlin(executable)
+    scene, problem = here / "tiny-drum.toml", data / "problems" / "drum-300-mu-0.4-flow.h5"
+    with tempfile.TemporaryDirectory(prefix="drumlin-strangers-") as name:
+        folder = pathlib.Path(name)
+        run = folder / "run"
+        drumlin("run", scene, "-o", run, *SHORT_RUN)
+        csv = folder / "csv"
+        csv.mkdir()
+        (csv / "grains-0.csv").write_text("time_s,x_m,z_m,v_x_m_s,v_z_m_s,radius_m\n0,0,0,0,0,1e-3\n", encoding="utf-8")
+        (csv / "import.toml").write_text(
+            'format = "drumlin-import-1"\ntitle = "A disc"\n[grains]\ndensity_kg_m3 = 2700\n[csv]\ngrains = ["grains-*.csv"]\n', encoding="utf-8")
+        counts = {"planted": planted_results_stay_where_they_are(executable, scene, run, csv, folder),
+                  "links": linked_folders_are_not_followed(executable, scene, run, folder),
+                  "contact problems": contact_problems_of_others(executable, problem, folder),
+                  "devices": only_regular_files_are_replaced(executable, run, problem, folder)}
+        nothing_to_do_needs_no_disk(executable, scene, run)
+        counts["no UTF-8"] = names_need_not_be_utf8(executable, scene, folder)
+        counts["printed"] = text_is_printed_without_orders(executable, run, csv, folder)
+        counts["settings"] = settings_of_the_current_folder(executable, run, here, data, folder)
+    print(counts)
+
+
+if __name__ == "__main__":
+    main()
