@@ -1,39 +1,19 @@
 #include "continuum/fem/runtime.hpp"
 
 #include <deal.II/base/mpi.h>
-#include <petscsys.h>
-
-#include <cstdlib>
 
 #include "coupling/common/first_rank.hpp"
+#include "coupling/common/library_words.hpp"
 
 namespace drumlin::continuum {
 
 struct FemRuntime::Libraries {
-  explicit Libraries(char** argv) : words(argv), mpi(count, words, 1) {}
-  int count = 1;  // the name alone: PETSc would tell of words that it does not know
-  char** words;
+  explicit Libraries(char** argv) : words(argv[0]), mpi(words.count, words.first, 1) {}
+  LibraryWords words;                            // not ours: PETSc would tell of those that it does not know
   dealii::Utilities::MPI::MPI_InitFinalize mpi;  // starts PETSc as well, with one thread
 };
 
-namespace {
-
-/// Options of PETSc can load code. Only those count that a user asks for by a variable of ours: none of files
-/// in the current folder or at home.
-void keep_out_options() {
-  const char* wanted = std::getenv("DRUMLIN_PETSC_OPTIONS");
-  setenv("PETSC_OPTIONS", wanted != nullptr ? wanted : "", /*overwrite=*/1);
-  unsetenv("PETSC_OPTIONS_YAML");
-  PetscOptionsSetValue(nullptr, "-skip_petscrc", "1");
-}
-
-}  // namespace
-
-FemRuntime::FemRuntime(int&, char**& argv) {
-  keep_out_options();
-  setenv("OMP_NUM_THREADS", "1", /*overwrite=*/0);  // read by the BLAS when it is first called
-  libraries_ = std::make_unique<Libraries>(argv);
-}
+FemRuntime::FemRuntime(int&, char**& argv) { libraries_ = std::make_unique<Libraries>(argv); }
 
 FemRuntime::~FemRuntime() = default;
 

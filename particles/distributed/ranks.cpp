@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <numeric>
 #include <string>
 #include <thread>
 
 #include "coupling/common/first_rank.hpp"
+#include "coupling/common/library_words.hpp"
 #include "particles/distributed/processor_time.hpp"
 #include "particles/parallel/large_arrays.hpp"
 
@@ -36,14 +36,12 @@ void in_parts(std::size_t bytes, Work work) {
 }  // namespace
 
 struct RankRuntime::Libraries {
-  explicit Libraries(char** argv) : words(argv), mpi(count, words, 1) {}
-  int count = 1;  // the name alone: PETSc would tell of words that it does not know
-  char** words;
+  explicit Libraries(char** argv) : words(argv[0]), mpi(words.count, words.first, 1) {}
+  LibraryWords words;                            // not ours: PETSc would tell of those that it does not know
   dealii::Utilities::MPI::MPI_InitFinalize mpi;  // starts p4est as well
 };
 
 RankRuntime::RankRuntime(int&, char**& argv) {
-  setenv("OMP_NUM_THREADS", "1", /*overwrite=*/0);
   libraries_ = std::make_unique<Libraries>(argv);
   give_large_arrays_back(large_array);
 }

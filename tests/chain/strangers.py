@@ -189,7 +189,7 @@ def names_need_not_be_utf8(executable, scene, folder):
     return len(calls) + 3
 
 
-def settings_of_the_current_folder(executable, run, here, data, folder):
+def settings_of_the_current_folder(executable, scene, run, data, folder):
     """Files that a library looks for in the current folder: nothing of them is executed, refused or waited for."""
     names = (".petscrc", "petscrc", "matplotlibrc")
     trials = 0
@@ -209,10 +209,12 @@ def settings_of_the_current_folder(executable, run, here, data, folder):
         environment = os.environ | {"HOME": str(current)}
         if content and kind != "bytes":
             environment["PETSC_OPTIONS"] = content.decode().replace("\n", " ")
-        plot, flow = ["plot", run, "--overwrite"], ["flow", here / "tiny-drum-flow.toml", "--rheology", data / "rheology" / "drum-6rpm.toml",
+        plot, flow = ["plot", run, "--overwrite"], ["flow", scene.parent / "tiny-drum-flow.toml", "--rheology", data / "rheology" / "drum-6rpm.toml",
                                                     "-o", folder / f"flow-{kind}"]
-        for words in {"code": [flow], "options": [flow], "bytes": [plot], "fifo": [plot, flow]}[kind]:
-            code, said = called(executable, *words, cwd=current, environment=environment)
+        ranks = [scene, *SHORT_RUN, "-o", folder / f"ranks-{kind}"]
+        for words in {"code": [flow, ranks], "options": [flow], "bytes": [plot], "fifo": [plot, flow, ranks]}[kind]:
+            program = str(pathlib.Path(executable).parent / "drumlin-run") if words is ranks else executable
+            code, said = called(program, *words, cwd=current, environment=environment)
             require(code == 0 and not mark.exists(), f"{words[0]}, {kind}: {code}, executed: {mark.exists()}\n{said}")
             trials += 1
     os.mkfifo(folder / ".adolcrc")
@@ -267,7 +269,7 @@ def main():
         nothing_to_do_needs_no_disk(executable, scene, run)
         counts["no UTF-8"] = names_need_not_be_utf8(executable, scene, folder)
         counts["printed"] = text_is_printed_without_orders(executable, run, csv, folder)
-        counts["settings"] = settings_of_the_current_folder(executable, run, here, data, folder)
+        counts["settings"] = settings_of_the_current_folder(executable, scene, run, data, folder)
     print(counts)
 
 
