@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "apps/python/bindings.hpp"
+#include "apps/python/others_run.hpp"
 #include "coupling/common/errors.hpp"
 #include "particles/contact/matrix_problem.hpp"
-#include "particles/io/contact_problem_file.hpp"
 #include "particles/solver/solve_contacts.hpp"
 
 namespace py = pybind11;
@@ -28,16 +28,24 @@ py::array_t<double> array_of(const std::vector<double>& values) {
 
 particles::MatrixProblem problem_of(const Indices& rows, const Indices& columns, const Numbers& entries,
                                     const Numbers& q, const Numbers& mu) {
+  const particles::Refusal refuse = [](const std::string& name, const std::string& what) {
+    throw InputError({InputProblem{"", 0, 0, name, what, ""}});
+  };
+  if (rows.size() != entries.size() || columns.size() != entries.size())
+    refuse("W", "not as many rows and columns as numbers");
   std::vector<particles::MatrixEntry> W;
   for (py::ssize_t k = 0; k < entries.size(); ++k)
     W.push_back({rows.data()[k], columns.data()[k], entries.data()[k]});
-  return particles::matrix_problem(W, values_of(q), values_of(mu),
-                                   [](const std::string& name, const std::string& what) {
-                                     throw InputError({InputProblem{"", 0, 0, name, what, ""}});
-                                   });
+  return particles::matrix_problem(W, values_of(q), values_of(mu), refuse);
+}
+
+bool in_main_thread() {
+  const auto threading = py::module_::import("threading");
+  return threading.attr("current_thread")().is(threading.attr("main_thread")());
 }
 
 // Ctrl-C during a solve: seen where the solver looks at its residual, and raised once it has returned.
+// Signals belong to the main thread: others neither see them nor touch this.
 bool signalled = false;
 bool look_for_signals() {
   if (signalled) return true;
@@ -52,14 +60,17 @@ py::dict solved(const particles::MatrixProblem& of, double tolerance, double max
   rule.tolerance = tolerance;
   rule.max_seconds = max_seconds;
   rule.max_sweeps = std::numeric_limits<int>::max();
-  rule.interrupted = &look_for_signals;
-  signalled = false;
+  const bool sees_signals = in_main_thread();
+  if (sees_signals) {
+    rule.interrupted = &look_for_signals;
+    signalled = false;
+  }
   particles::SolvedContacts result;
   {
-    const py::gil_scoped_release others_may_run;
+    const OthersRun others_run;
     result = particles::solve_contacts(of.problem, rule, solver, threads);
   }
-  if (signalled) throw py::error_already_set();
+  if (sees_signals && signalled) throw py::error_already_set();
   const auto& report = result.report;
   return py::dict(py::arg("r") = array_of(result.solution.impulses),
                   py::arg("u") = array_of(result.solution.velocities.contacts),

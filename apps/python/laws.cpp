@@ -1,4 +1,5 @@
 // Laws for Python: files evaluated over arrays, and calibration from arrays.
+#include <fmt/format.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -7,6 +8,7 @@
 #include <memory>
 
 #include "apps/python/bindings.hpp"
+#include "apps/python/others_run.hpp"
 #include "coupling/calibration/calibration.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/law/friction_law.hpp"
@@ -52,20 +54,24 @@ coupling::RunEvidence evidence_of(const std::string& name, const Run& arrays, do
   return run;
 }
 
+constexpr int most_draws = 10000;  // as `drumlin calibrate` takes them
+
 coupling::Calibration calibrated(const std::vector<Run>& arrays, const std::vector<std::string>& names,
                                  double nu, const std::string& form, int draws) {
   if (!(nu > 0 && nu < 1)) throw InputError("nu: the volume fraction of the bulk (allowed: between 0 and 1)");
-  if (draws < 20) throw InputError("draws: " + std::to_string(draws) + " (allowed: 20 or more)");
+  if (draws < 20 || draws > most_draws)
+    throw InputError(fmt::format("draws: {} (allowed: 20 to {})", draws, most_draws));
   std::vector<coupling::RunEvidence> runs;
   for (std::size_t k = 0; k < arrays.size(); ++k) runs.push_back(evidence_of(names.at(k), arrays[k], nu));
   if (runs.empty()) throw InputError("no points");
   coupling::CalibrationOptions options{.source = coupling::EvidenceSource::profiles, .draws = draws};
   if (form != "auto") options.form = coupling::form_named(form);
-  const py::gil_scoped_release others_may_run;
+  const OthersRun others_run;
   return coupling::calibration_of(std::move(runs), {}, options);
 }
 
 py::tuple band_of(const coupling::Calibration& calibration, const Numbers& I, double share) {
+  if (!(share > 0 && share < 1)) throw InputError("share: of the draws (allowed: between 0 and 1)");
   const auto band = calibration.law().band();
   return py::make_tuple(over(I, [&](double i) { return band.at(i, share).low; }),
                         over(I, [&](double i) { return band.at(i, share).high; }));
@@ -75,10 +81,11 @@ py::tuple band_of(const coupling::Calibration& calibration, const Numbers& I, do
 
 void add_laws(py::module_& module) {
   py::class_<Law> law(module, "Law");
-  law.def(py::init([](const std::string& text, const std::string& name) {
+  refuse_new(law);
+  module.def("law", [](const std::string& text, const std::string& name) {
     const RheologyFit fit = parse_rheology(text, name);
     return Law{fit, friction_law(fit.mu)};
-  }));
+  });
   law.def("mu", [](const Law& of, const Numbers& I) {
     return over(I, [&](double i) { return friction_at(of.friction, i).mu; });
   });
@@ -90,6 +97,7 @@ void add_laws(py::module_& module) {
 
   using coupling::Calibration;
   py::class_<Calibration> calibration(module, "Calibration");
+  refuse_new(calibration);
   module.def("calibrate", &calibrated);
   calibration.def_property_readonly("text", [](const Calibration& c) { return rheology_text(c.rheology); });
   calibration.def_property_readonly("form", [](const Calibration& c) { return name_of(c.law().form.kind); });

@@ -9,15 +9,21 @@ namespace py = pybind11;
 
 namespace {
 
+/// A text that may hold a name that is no UTF-8.
+py::str shown(const std::string& text) {
+  return py::reinterpret_steal<py::str>(
+      PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "backslashreplace"));
+}
+
 /// Raises drumlin.errors.NAME(text), with the faults of an input one by one.
 void raise(const char* name, const char* text, const std::vector<drumlin::InputProblem>& problems = {}) {
   const py::object kind = py::module_::import("drumlin.errors").attr(name);
-  const py::object error = kind(text);
+  const py::object error = kind(shown(text));
   py::list listed;
   for (const auto& problem : problems)
-    listed.append(py::dict(py::arg("file") = problem.file, py::arg("line") = problem.line,
-                           py::arg("key") = problem.key, py::arg("what") = problem.what,
-                           py::arg("allowed") = problem.allowed));
+    listed.append(py::dict(py::arg("file") = shown(problem.file), py::arg("line") = problem.line,
+                           py::arg("key") = shown(problem.key), py::arg("what") = shown(problem.what),
+                           py::arg("allowed") = shown(problem.allowed)));
   error.attr("problems") = listed;
   PyErr_SetObject(kind.ptr(), error.ptr());
 }
@@ -34,7 +40,16 @@ void translate(std::exception_ptr thrown) {
   }
 }
 
+PyObject* refused(PyTypeObject* type, PyObject*, PyObject*) {
+  PyErr_Format(PyExc_TypeError, "%s: is not made by its name", type->tp_name);
+  return nullptr;
+}
+
 }  // namespace
+
+void drumlin::python::refuse_new(pybind11::handle cls) {
+  reinterpret_cast<PyTypeObject*>(cls.ptr())->tp_new = refused;
+}
 
 PYBIND11_MODULE(_drumlin, module) {
   module.doc() = "Grains, contact problems and laws of Drumlin; use the package drumlin.";
@@ -43,4 +58,5 @@ PYBIND11_MODULE(_drumlin, module) {
   drumlin::python::add_simulation(module);
   drumlin::python::add_contacts(module);
   drumlin::python::add_laws(module);
+  drumlin::python::add_files(module);
 }

@@ -5,9 +5,11 @@
 
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <optional>
 
 #include "apps/python/bindings.hpp"
+#include "apps/python/others_run.hpp"
 #include "coupling/common/errors.hpp"
 #include "particles/io/grains_of_run.hpp"
 #include "particles/io/snapshot_file.hpp"
@@ -42,6 +44,11 @@ py::array owned(std::vector<T>&& values) {
   return read_only(py::array_t<T>(static_cast<py::ssize_t>(numbers->size()), numbers->data(), owner));
 }
 
+constexpr int most_threads = 256;  // as the commands take them
+
+/// A simulation that one thread of Python at a time steps or looks at; the others wait for it. The lock of
+/// the interpreter is given away before that is asked for, so that nobody who has one of them waits for the
+/// other.
 class SteppedScene {
  public:
   SteppedScene(const std::optional<std::string>& text, const std::string& name,
@@ -49,21 +56,14 @@ class SteppedScene {
     Scene scene = scene_of(text, name, overrides);
     if (const auto* asked = std::get_if<particles::GrainsOfRun>(&scene.grains.source))
       scene.grains.source = particles::grains_of_run(*asked).grains;
-    if (threads < 1) throw InputError("threads: " + std::to_string(threads) + " (allowed: 1 or more)");
+    if (threads < 1 || threads > most_threads)
+      throw InputError("threads: " + std::to_string(threads) + " (allowed: 1 to " +
+                       std::to_string(most_threads) + ")");
     simulation_ = std::make_unique<Simulation>(scene, threads);
   }
 
   py::dict step() {
-    if (!fault_.empty()) throw NotConvergedError(fault_);
-    if (simulation_->finished()) throw InputError("the scene is finished: there is no further step");
-    particles::StepReport report;
-    try {
-      const py::gil_scoped_release others_may_run;
-      report = particles::checked_step(*simulation_);
-    } catch (const NotConvergedError& error) {
-      fault_ = error.what();
-      throw;
-    }
+    const particles::StepReport report = stepped();
     const auto& solve = report.solve;
     return py::dict(py::arg("contacts") = report.contacts, py::arg("impacts") = report.impacts,
                     py::arg("converged") = particles::is_converged(report), py::arg("sweeps") = solve.sweeps,
@@ -73,34 +73,62 @@ class SteppedScene {
                     py::arg("overlap_max") = report.overlap.max);
   }
 
-  const Simulation& simulation() const { return *simulation_; }
+  /// What `of` copies out of the simulation while no step is at work on it.
+  template <class Of>
+  auto look(const Of& of) const {
+    const OthersRun others_run;
+    const std::lock_guard turn(turn_);
+    return of(*simulation_);
+  }
 
   /// A view of an array of the grains; a copy where grains come and go, for these arrays move.
-  py::array view(const std::vector<double>& values) const {
-    if (particles::changes_grains(simulation_->scene())) return owned(std::vector<double>(values));
+  py::array view(std::vector<double> particles::Bodies::*member) const {
+    if (particles::changes_grains(simulation_->scene()))
+      return owned(look([&](const Simulation& s) { return s.state().bodies.*member; }));
+    const std::vector<double>& values = simulation_->state().bodies.*member;
     return read_only(py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data(),
                                          py::cast(this, py::return_value_policy::reference)));
   }
 
   void save_snapshot(const std::string& file) {
-    particles::write_snapshot(file, simulation_->take_snapshot());
+    particles::write_snapshot(file, snapshot());  // HDF5 serves one thread: behind the interpreter's lock
   }
 
  private:
+  particles::StepReport stepped() {
+    const OthersRun others_run;
+    const std::lock_guard turn(turn_);
+    if (!fault_.empty()) throw NotConvergedError(fault_);
+    if (simulation_->finished()) throw InputError("the scene is finished: there is no further step");
+    try {
+      return particles::checked_step(*simulation_);
+    } catch (const std::exception& error) {
+      fault_ = error.what();
+      throw;
+    }
+  }
+
+  particles::Snapshot snapshot() {
+    const OthersRun others_run;
+    const std::lock_guard turn(turn_);
+    return simulation_->take_snapshot();
+  }
+
+  mutable std::mutex turn_;
   std::unique_ptr<Simulation> simulation_;
   std::string fault_;  // of a step that must not be built upon
 };
 
 py::dict scales_of(const SteppedScene& scene) {
-  const Scales& scales = scene.simulation().scales();
+  const Scales scales = scene.look([](const Simulation& s) { return s.scales(); });
   return py::dict(py::arg("length_m") = scales.length_m, py::arg("time_s") = scales.time_s,
                   py::arg("density_kg_m3") = scales.density_kg_m3,
                   py::arg("velocity_m_s") = scales.velocity_m_s(), py::arg("stress_Pa") = scales.stress_Pa());
 }
 
-std::vector<double> masses(const SteppedScene& scene) {
+std::vector<double> masses(const Simulation& simulation) {
   std::vector<double> mass;
-  for (const double inverse : scene.simulation().state().bodies.inverse_mass) mass.push_back(1 / inverse);
+  for (const double inverse : simulation.state().bodies.inverse_mass) mass.push_back(1 / inverse);
   return mass;
 }
 
@@ -118,13 +146,15 @@ void add_simulation(py::module_& module) {
       py::arg("text"), py::arg("name"), py::arg("overrides"));
 
   py::class_<SteppedScene> scene(module, "SteppedScene");
-  scene.def(py::init<const Text&, const std::string&, const std::vector<std::string>&, int>(),
-            py::arg("text"), py::arg("name"), py::arg("overrides"), py::arg("threads"));
+  refuse_new(scene);
+  module.def("stepped_scene",
+             [](const Text& text, const std::string& name, const std::vector<std::string>& overrides,
+                int threads) { return std::make_unique<SteppedScene>(text, name, overrides, threads); });
   scene.def("step", &SteppedScene::step);
   scene.def("save_snapshot", &SteppedScene::save_snapshot);
   scene.def_property_readonly("scales", &scales_of);
   const auto number = [&](const char* name, auto of) {
-    scene.def_property_readonly(name, [of](const SteppedScene& s) { return of(s.simulation()); });
+    scene.def_property_readonly(name, [of](const SteppedScene& s) { return s.look(of); });
   };
   number("finished", [](const Simulation& s) { return s.finished(); });
   number("steps", [](const Simulation& s) { return s.state().step; });
@@ -135,17 +165,18 @@ void add_simulation(py::module_& module) {
   number("kinetic_energy", [](const Simulation& s) { return particles::kinetic_energy(s.state().bodies); });
   number("walls", [](const Simulation& s) { return s.walls().names; });
   number("wall_of_shape", [](const Simulation& s) { return s.walls().wall_of_shape; });
-  number("id", [](const Simulation& s) { return owned(std::vector(s.state().bodies.id)); });
   const auto array = [&](const char* name, std::vector<double> particles::Bodies::*member) {
-    scene.def_property_readonly(
-        name, [member](const SteppedScene& s) { return s.view(s.simulation().state().bodies.*member); });
+    scene.def_property_readonly(name, [member](const SteppedScene& s) { return s.view(member); });
   };
   using particles::Bodies;
   array("x", &Bodies::x), array("z", &Bodies::z), array("v_x", &Bodies::v_x), array("v_z", &Bodies::v_z);
   array("spin", &Bodies::spin), array("radius", &Bodies::radius);
-  scene.def_property_readonly("mass", [](const SteppedScene& s) { return owned(masses(s)); });
-  scene.def_property_readonly("contacts",
-                              [](const SteppedScene& s) { return owned(s.simulation().last_contacts()); });
+  const auto copied = [&](const char* name, auto of) {
+    scene.def_property_readonly(name, [of](const SteppedScene& s) { return owned(s.look(of)); });
+  };
+  copied("id", [](const Simulation& s) { return s.state().bodies.id; });
+  copied("mass", &masses);
+  copied("contacts", [](const Simulation& s) { return s.last_contacts(); });
 }
 
 }  // namespace drumlin::python

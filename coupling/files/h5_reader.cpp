@@ -13,6 +13,8 @@
 namespace drumlin {
 namespace {
 
+constexpr const char* elsewhere = "a soft or external link (allowed: data that stand at this place)";
+
 /// Hands HDF5 an image that the reader keeps: HDF5 would copy it twice. Nothing is ever written to it.
 H5FD_file_image_callbacks_t callbacks_for(std::string& bytes) {
   H5FD_file_image_callbacks_t calls{};
@@ -31,6 +33,7 @@ H5FD_file_image_callbacks_t callbacks_for(std::string& bytes) {
 
 struct H5Reader::Handles {
   std::string bytes;  // outlives the file
+  bool has_trailer = false;
   std::unique_ptr<H5Id> file;
 };
 
@@ -38,7 +41,7 @@ H5Reader::H5Reader(const std::filesystem::path& file, bool checked)
     : handles_(std::make_unique<Handles>()), file_(file) {
   std::string& bytes = handles_->bytes = input_bytes(file, largest_binary_file());
   if (bytes.empty()) throw InputError(file.string() + ": is empty");
-  const bool has_trailer =
+  const bool has_trailer = handles_->has_trailer =
       bytes.size() > h5_trailer_size && std::memcmp(bytes.data() + bytes.size() - h5_trailer_size,
                                                     h5_trailer_word.data(), h5_trailer_word.size()) == 0;
   if (checked && !has_trailer)
@@ -66,14 +69,15 @@ void H5Reader::refuse(const std::string& name, const std::string& what, const st
   throw InputError({InputProblem{file_.string(), 0, 0, name, what, allowed}});
 }
 
+bool H5Reader::ends_in_checksum() const { return handles_->has_trailer; }
+
 bool H5Reader::has(const std::string& name) const {
   // H5Lexists wants every group on the way to exist.
   for (std::size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {
     const std::string part = name.substr(0, end);
     if (H5Lexists(handles_->file->get(), part.c_str(), H5P_DEFAULT) <= 0) return false;
     // Links lead anywhere: to other files, to other data, round in circles.
-    if (is_soft_or_external_link(handles_->file->get(), part.c_str()))
-      refuse(part, "a soft or external link (allowed: data that stand at this place)");
+    if (is_soft_or_external_link(handles_->file->get(), part.c_str())) refuse(part, elsewhere);
     if (end == std::string::npos) return true;
   }
 }
@@ -157,6 +161,49 @@ std::string H5Reader::text(const std::string& name) const {
   const auto bytes =
       read_set<unsigned char>(*this, handles_->file->get(), name, H5T_NATIVE_UINT8, H5T_INTEGER);
   return {bytes.begin(), bytes.end()};
+}
+
+namespace {
+
+struct Link {
+  std::string name;
+  bool leads_elsewhere;
+};
+
+/// Why a group or dataset is not read; null: nothing speaks against it.
+const char* fault_of_object(hid_t file, const std::string& name) {
+  const H5Id set(H5Oopen(file, name.c_str(), H5P_DEFAULT), H5Oclose);
+  const H5I_type_t object = set.valid() ? H5Iget_type(set.get()) : H5I_BADID;
+  if (object == H5I_GROUP) return nullptr;
+  if (object != H5I_DATASET) return "not a dataset";
+  const H5Id type(H5Dget_type(set.get()), H5Tclose), space(H5Dget_space(set.get()), H5Sclose);
+  const H5T_class_t kind = H5Tget_class(type.get());
+  const bool words = kind == H5T_STRING && H5Tis_variable_str(type.get()) == 0;
+  if (kind != H5T_INTEGER && kind != H5T_FLOAT && !words) return "of an unexpected type";
+  return storage_fault(set.get(), type.get(), H5Sget_simple_extent_npoints(space.get()));
+}
+
+}  // namespace
+
+void H5Reader::require_readable() const {
+  std::vector<Link> links;
+  const auto note = [](hid_t, const char* name, const H5L_info_t* link, void* to) -> herr_t {
+    static_cast<std::vector<Link>*>(to)->push_back({name, link->type != H5L_TYPE_HARD});
+    return 0;
+  };
+  const hid_t file = handles_->file->get();
+  if (H5Lvisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, note, &links) < 0) refuse("/", "unreadable");
+  for (const Link& link : links) {
+    if (link.leads_elsewhere) refuse(link.name, elsewhere);
+    if (const char* fault = fault_of_object(file, link.name)) refuse(link.name, fault);
+  }
+}
+
+void require_readable(const std::filesystem::path& file) {
+  const H5Reader in(file, false);
+  in.require_readable();
+  if (in.has("format") && !in.ends_in_checksum())
+    throw InputError(file.string() + ": not a Drumlin file, or cut short (no checksum at its end)");
 }
 
 }  // namespace drumlin

@@ -20,6 +20,7 @@ class H5Reader {
   H5Reader(const H5Reader&) = delete;
   H5Reader& operator=(const H5Reader&) = delete;
 
+  bool ends_in_checksum() const;
   bool has(const std::string& name) const;
   /// Lengths of a dataset, slowest index first.
   std::vector<std::size_t> shape(const std::string& name) const;
@@ -33,6 +34,8 @@ class H5Reader {
   std::int64_t integer(const std::string& name, std::int64_t low, std::int64_t high) const;
   std::vector<std::int32_t> ints(const std::string& name, std::int32_t low, std::int32_t high) const;
   std::string text(const std::string& name) const;
+  /// Throws where a link leads elsewhere, or a dataset cannot be read: for all of the file.
+  void require_readable() const;
   [[noreturn]] void refuse(const std::string& name, const std::string& what,
                            const std::string& allowed = "") const;
 
@@ -41,5 +44,9 @@ class H5Reader {
   std::unique_ptr<Handles> handles_;
   std::filesystem::path file_;
 };
+
+/// For readers that are not ours (h5py): throws as the members above where a file is not whole, leads
+/// elsewhere or says more than it holds. A file with a format of ours must end in the checksum.
+void require_readable(const std::filesystem::path& file);
 
 }  // namespace drumlin

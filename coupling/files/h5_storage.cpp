@@ -60,7 +60,8 @@ bool is_soft_or_external_link(std::int64_t file, const char* name) {
 const char* storage_fault(std::int64_t set, std::int64_t type, std::int64_t count) {
   const std::size_t number = H5Tget_size(type);
   if (count < 0 || count > largest_set) return "of an impossible size";
-  if (number == 0 || number > largest_number) return "of numbers of an impossible size";
+  const bool words = H5Tget_class(type) == H5T_STRING;
+  if (number == 0 || (number > largest_number && !words)) return "of numbers of an impossible size";
   if (count == 0) return nullptr;
   const hid_t creation = H5Dget_create_plist(set);
   if (creation < 0) return "unreadable";

@@ -82,7 +82,7 @@ def test_what_is_no_file_of_the_project_is_refused(tmp_path):
     with pytest.raises(drumlin.InputError, match="a.json: "):
         drumlin.read(tmp_path / "a.json")
     (tmp_path / "a.h5").write_bytes(b"no HDF5")
-    with pytest.raises(drumlin.IoError, match="a.h5"):
+    with pytest.raises(drumlin.InputError, match="a.h5: not an HDF5 file"):
         drumlin.read(tmp_path / "a.h5")
 
 

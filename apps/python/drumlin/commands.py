@@ -8,6 +8,7 @@ import subprocess
 
 from .errors import DrumlinError, InputError, IoError, NotConvergedError
 from .files import read
+from .inputs import file_name
 from .scenes import overrides_of
 
 _KINDS = {2: InputError, 3: NotConvergedError, 74: IoError}
@@ -28,7 +29,7 @@ def program(name="drumlin"):
 def command(*words):
     """Runs `drumlin WORDS...` and returns what it printed. Raises the error that its exit code stands for, with its text; Ctrl-C ends it and is a
     KeyboardInterrupt here."""
-    with subprocess.Popen([program(), *map(os.fspath, map(_text, words))], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+    with subprocess.Popen([program(), *map(_text, words)], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                           stderr=subprocess.PIPE, text=True) as process:
         try:
             printed, said = process.communicate()
@@ -45,7 +46,7 @@ def command(*words):
 
 
 def _text(word):
-    return word if isinstance(word, os.PathLike) else str(word)
+    return file_name(word if isinstance(word, os.PathLike) else str(word))
 
 
 def _existing(overwrite):

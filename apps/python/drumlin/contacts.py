@@ -7,6 +7,8 @@ import numpy as np
 import scipy.sparse
 
 from . import _drumlin
+from .errors import InputError
+from .inputs import real
 
 
 @dataclasses.dataclass(frozen=True)
@@ -25,20 +27,31 @@ class ContactSolution:
     asymmetry: float
 
 
+def _entries(W):
+    """Rows, columns and values of a matrix, whose indices scipy follows wherever they lead."""
+    try:
+        if hasattr(W, "check_format"):  # compressed
+            W.check_format()
+        if not scipy.sparse.isspmatrix_coo(W):
+            W = scipy.sparse.coo_matrix(W)
+        for index, size in zip((W.row, W.col), W.shape, strict=True):
+            if index.shape != W.data.shape or (index.size and not (0 <= index.min() and index.max() < size)):
+                raise InputError("W: an index lies outside the matrix, or is missing")
+    except ValueError as error:
+        raise InputError(f"W: {error}".replace("W: W: ", "W: ")) from None
+    return W.row.astype(np.int32), W.col.astype(np.int32), real("W", W.data)
+
+
 def _arrays(W, q, mu):
-    W = scipy.sparse.coo_matrix(W)
-    q = np.asarray(q, float).reshape(-1)
-    if W.shape != (q.size, q.size):
-        raise _input_error(f"W: {W.shape[0]} rows and {W.shape[1]} columns (allowed: as many as q has numbers, {q.size})")
-    mu = np.asarray(mu, float)
+    rows, columns, values = _entries(W)
+    q = real("q", q).reshape(-1)
+    shape = np.shape(W)
+    if shape != (q.size, q.size):
+        raise InputError(f"W: {shape[0]} rows and {shape[1]} columns (allowed: as many as q has numbers, {q.size})")
+    mu = real("mu", mu)
     if mu.ndim == 0:
         mu = np.full(q.size // 2, float(mu))
-    return W.row.astype(np.int32), W.col.astype(np.int32), W.data.astype(float), q, mu.reshape(-1)
-
-
-def _input_error(text):
-    from .errors import InputError
-    return InputError(text)
+    return rows, columns, values, q, mu.reshape(-1)
 
 
 MOST_TOLERANCE, MOST_THREADS = 10, 256  # as `drumlin solve-contacts` takes them
@@ -47,11 +60,11 @@ MOST_TOLERANCE, MOST_THREADS = 10, 256  # as `drumlin solve-contacts` takes them
 def _checked_limits(tolerance, max_seconds, threads):
     """As the command refuses them; comparisons are false for NaN."""
     if not 0 < tolerance <= MOST_TOLERANCE:
-        raise _input_error(f"tolerance: is {tolerance} (allowed: above 0 to {MOST_TOLERANCE})")
+        raise InputError(f"tolerance: is {tolerance} (allowed: above 0 to {MOST_TOLERANCE})")
     if not max_seconds > 0:
-        raise _input_error(f"max_seconds: is {max_seconds} (allowed: above 0)")
+        raise InputError(f"max_seconds: is {max_seconds} (allowed: above 0)")
     if not 1 <= operator.index(threads) <= MOST_THREADS:
-        raise _input_error(f"threads: is {threads} (allowed: 1 to {MOST_THREADS})")
+        raise InputError(f"threads: is {threads} (allowed: 1 to {MOST_THREADS})")
 
 
 def solve_contacts(W, q, mu, tolerance=1e-8, solver="accelerated", max_seconds=60.0, threads=1):
@@ -66,7 +79,7 @@ def solve_contacts(W, q, mu, tolerance=1e-8, solver="accelerated", max_seconds=6
 
 def contact_residual(W, q, mu, r):
     """The residual of any impulses r, by whatever they were found: 0 where they solve the problem."""
-    return _drumlin.contact_residual(*_arrays(W, q, mu), np.asarray(r, float).reshape(-1))
+    return _drumlin.contact_residual(*_arrays(W, q, mu), real("r", r).reshape(-1))
 
 
 def contact_solvers():

@@ -1,14 +1,17 @@
 """Every file of the project into numpy: runs, snapshots, profiles, maps, laws, flows, comparisons."""
 
 import json
+import os
 import pathlib
 import tomllib
 
 import numpy as np
 import scipy.sparse
 
-from .errors import InputError, IoError
+from . import _drumlin
+from .errors import DrumlinError, InputError, IoError
 from .figures import result_files
+from .inputs import file_name
 
 
 class Arrays(dict):
@@ -83,6 +86,7 @@ def _read_toml(path):
 
 
 def _contact_problem(arrays, path):
+    _drumlin.check_contact_problem(file_name(path))  # scipy follows indices wherever they lead
     size = int(arrays["fclib_local/W/m"].reshape(-1)[0])
     p, i, x = (arrays["fclib_local/W/" + name].reshape(-1) for name in "pix")
     count = int(arrays["fclib_local/W/nz"].reshape(-1)[0])
@@ -98,6 +102,7 @@ def _contact_problem(arrays, path):
 
 
 def _read_hdf5(path):
+    _drumlin.check_hdf5(file_name(path))
     form, arrays = result_files.read_arrays(path)
     if form == "drumlin-snapshot-1":
         return Arrays(result_files.read_snapshot(path), path, form)
@@ -114,7 +119,7 @@ READERS = {".csv": _read_csv, ".json": _read_json, ".toml": _read_toml, ".h5": _
 
 def read(path):
     """A folder of results, or one file of it: tables, maps, snapshots and contact problems as arrays by name, JSON and TOML as dicts."""
-    path = pathlib.Path(path)
+    path = pathlib.Path(os.fsdecode(file_name(path)))
     if path.is_dir():
         return Folder(path)
     if not path.is_file():
@@ -123,8 +128,12 @@ def read(path):
         raise InputError(f"{path}: no file of Drumlin's (allowed: a folder, {', '.join(READERS)})")
     try:
         return READERS[path.suffix](path)
+    except DrumlinError:
+        raise
+    except MemoryError as error:
+        raise IoError(f"{path}: not enough memory") from error
     except OSError as error:
         raise IoError(f"{path}: {error}") from error
-    except (ValueError, KeyError) as error:
+    except Exception as error:  # what a file holds shows in whatever a reader trips over
         text = str(error)
         raise InputError(text if str(path) in text else f"{path}: {text}") from error

@@ -1,5 +1,6 @@
 """Laws mu(I): files evaluated over arrays, and calibration from arrays."""
 
+import os
 import pathlib
 
 import numpy as np
@@ -7,26 +8,42 @@ import numpy as np
 from . import _drumlin
 from .errors import InputError, IoError
 from .figures import whole_file
+from .inputs import file_name, real
 
 
-class Law(_drumlin.Law):
-    """A law of a file rheology.toml, or of its text: mu(I) and slope(I) = I dmu/dI over arrays, as a flow computes with it."""
+class Law:
+    """A law of a file rheology.toml, or of its text: mu(I) and slope(I) = I dmu/dI over arrays, as a flow computes with it; `nu`, and the law in
+    `words`."""
 
     def __init__(self, source):
         if isinstance(source, str) and "\n" in source:
             text, name = source, "law"
         else:
             text, name = _text_of_file(source), str(source)
-        super().__init__(text, name)
+        self._law = _drumlin.law(text, name)
         self.text = text
 
+    def mu(self, I):  # noqa: E741
+        return self._law.mu(real("I", I))
+
+    def slope(self, I):  # noqa: E741
+        return self._law.slope(real("I", I))
+
+    @property
+    def nu(self):
+        return self._law.nu
+
+    @property
+    def words(self):
+        return self._law.words
+
     def write(self, path):
-        whole_file.write_text(path, self.text)
+        whole_file.write_text(os.fsdecode(file_name(path)), self.text)
 
 
 def _text_of_file(path):
     try:
-        return pathlib.Path(path).read_text(encoding="utf-8")
+        return pathlib.Path(os.fsdecode(file_name(path))).read_text(encoding="utf-8")
     except OSError as error:
         raise IoError(f"{path}: {error.strerror}") from error
 
@@ -46,7 +63,7 @@ class CalibratedLaw(Law):
 
     def band(self, I, share=0.99):  # noqa: E741
         """(low, high) of mu at I."""
-        return self._found.band(I, share)
+        return self._found.band(real("I", I), share)
 
 
 def _checked_errors(what, errors):
@@ -69,7 +86,7 @@ def calibrate(I, mu, I_error=None, mu_error=None, *, nu, form="auto", draws=200,
     runs = []
     for columns in zip(I, mu, unknown if I_error is None else I_error, unknown if mu_error is None else mu_error, strict=True):
         length = np.size(columns[0])
-        runs.append([np.full(length, np.nan) if column is None else np.asarray(column, float).reshape(-1) for column in columns])
+        runs.append([np.full(length, np.nan) if column is None else real("I, mu or an error", column).reshape(-1) for column in columns])
         if columns[3] is not None:
             _checked_errors("mu_error", runs[-1][3])
     names = [f"run {k + 1}" for k in range(len(runs))] if names is None else list(names)

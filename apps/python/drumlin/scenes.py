@@ -1,12 +1,14 @@
 """Scenes as files, texts or dicts, and their simulation step by step."""
 
 import json
+import operator
 import os
 
 import numpy as np
 
 from . import _drumlin
 from .errors import InputError
+from .inputs import file_name
 
 
 def _toml_value(value, key):
@@ -49,7 +51,7 @@ def _text_and_name(scene, default_format="drumlin-scene-1"):
         return toml_of({"format": default_format} | scene), "scene"
     if isinstance(scene, str) and "\n" in scene:
         return scene, "scene"
-    return None, os.fspath(scene)
+    return None, file_name(scene)
 
 
 def resolved(scene, changes=()):
@@ -57,7 +59,7 @@ def resolved(scene, changes=()):
     return _drumlin.resolved_scene(*_text_and_name(scene), overrides_of(changes))
 
 
-class Simulation(_drumlin.SteppedScene):
+class Simulation:
     """A scene of grains in time, step by step.
 
     scene: a path, a text of TOML or a dict with the same keys (`drumlin scene keys` lists them); changes: {"solver.tolerance": 1e-3}.
@@ -65,10 +67,19 @@ class Simulation(_drumlin.SteppedScene):
 
     x, z, v_x, v_z, spin, radius are read-only views of what the simulation computes with: they change with each step, copy what you keep.
     Of a scene with outlets or sources they are copies, for there the arrays move. Units: d, sqrt(d/g), rho0 d^2; `scales` says what these are.
+
+    Threads may share a simulation: each call waits for the step that is at work.
     """
 
     def __init__(self, scene, changes=(), threads=1):
-        super().__init__(*_text_and_name(scene), overrides_of(changes), threads)
+        self._scene = _drumlin.stepped_scene(*_text_and_name(scene), overrides_of(changes), threads)
+
+    def step(self):
+        """One step; returns its report."""
+        return self._scene.step()
+
+    def save_snapshot(self, path):
+        self._scene.save_snapshot(file_name(path))
 
     @property
     def forces(self):
@@ -88,3 +99,8 @@ class Simulation(_drumlin.SteppedScene):
             if stepped is not None and stepped(self, report) is False:
                 break
         return done
+
+
+for _name in ("x", "z", "v_x", "v_z", "spin", "radius", "mass", "id", "contacts", "walls", "wall_of_shape", "scales", "finished", "steps",
+              "steps_planned", "time", "time_step", "stage", "kinetic_energy"):
+    setattr(Simulation, _name, property(operator.attrgetter("_scene." + _name)))

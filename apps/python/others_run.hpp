@@ -1,0 +1,29 @@
+#pragma once
+// The interpreter's lock, given away while this thread computes.
+#include <cxxabi.h>
+#include <pybind11/pybind11.h>
+#include <unistd.h>
+
+namespace drumlin::python {
+
+/// Lets other threads of Python run while it lives. A daemon thread that comes back when the interpreter has
+/// begun to end would be unwound by CPython, through destructors that need the lock: it waits for the end of
+/// the process instead, as Python 3.14 does by itself.
+class OthersRun {
+ public:
+  OthersRun() : state_(PyEval_SaveThread()) {}
+  ~OthersRun() {
+    try {
+      PyEval_RestoreThread(state_);
+    } catch (const abi::__forced_unwind&) {
+      for (;;) ::pause();
+    }
+  }
+  OthersRun(const OthersRun&) = delete;
+  OthersRun& operator=(const OthersRun&) = delete;
+
+ private:
+  PyThreadState* state_;
+};
+
+}  // namespace drumlin::python
