@@ -1,8 +1,7 @@
 #pragma once
 // The interpreter's lock, given away while this thread computes.
-#include <cxxabi.h>
-#include <pybind11/pybind11.h>
-#include <unistd.h>
+
+struct _ts;  // CPython's PyThreadState
 
 namespace drumlin::python {
 
@@ -11,19 +10,13 @@ namespace drumlin::python {
 /// the process instead, as Python 3.14 does by itself.
 class OthersRun {
  public:
-  OthersRun() : state_(PyEval_SaveThread()) {}
-  ~OthersRun() {
-    try {
-      PyEval_RestoreThread(state_);
-    } catch (const abi::__forced_unwind&) {
-      for (;;) ::pause();
-    }
-  }
+  OthersRun();
+  ~OthersRun();
   OthersRun(const OthersRun&) = delete;
   OthersRun& operator=(const OthersRun&) = delete;
 
  private:
-  PyThreadState* state_;
+  _ts* state_;
 };
 
 }  // namespace drumlin::python
