@@ -23,7 +23,9 @@ int flow(const FlowOptions& options) {
   ProcessRequest request{.program = program_beside("drumlin-flow"), .words = words_of(options)};
   request.pass_signals_on = true;
   const CaughtInterruptions caught;  // the child ends by them, and we with it
-  return run_process(request).shell_code();
+  const ProcessEnd end = run_process(request);
+  require_loaded(end, "drumlin-flow");
+  return end.shell_code();
 }
 
 }  // namespace drumlin::apps

@@ -1,11 +1,13 @@
 // drumlin run --ranks: starts drumlin-run, which stands beside this executable, by mpirun, and ends as it
 // ends.
 #include <algorithm>
+#include <cstdlib>
 
 #include "apps/support/commands.hpp"
 #include "apps/support/interruption.hpp"
 #include "coupling/common/child_process.hpp"
 #include "coupling/common/errors.hpp"
+#include "coupling/common/system_limits.hpp"
 
 namespace drumlin::apps {
 namespace {
@@ -21,21 +23,27 @@ std::vector<std::string> words_of(const RunOptions& options) {
   return words;
 }
 
+constexpr int files_of_mpirun = 32, files_of_rank = 16;
+
 }  // namespace
 
 int run_by_mpirun(const RunOptions& options) {
   if (options.extend_seconds > 0) throw InputError("--extend: not with --ranks");
   if (options.accuracy_seconds > 0 || options.accuracy) throw InputError("--accuracy: not with --ranks");
   ProcessRequest request{.program = "mpirun", .words = words_of(options)};
+  require_open_files(files_of_mpirun + files_of_rank * *options.ranks);
   request.environment = {"OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"};
   if (*options.ranks > processors_at_hand()) {  // who waits leaves its processor to others
     request.environment.push_back("OMPI_MCA_rmaps_base_oversubscribe=1");
     request.environment.push_back("OMPI_MCA_mpi_yield_when_idle=1");
   }
+  if (std::getenv("PATH") == nullptr)  // mpirun, which is then looked for there, does not do without
+    request.environment.push_back("PATH=/usr/bin:/bin");
   request.pass_signals_on = true;
   request.end_signal = SIGTERM;      // it ends its ranks
   const CaughtInterruptions caught;  // the job ends by them, and we with it
   const ProcessEnd end = run_process(request);
+  require_loaded(end, "drumlin-run");
   // mpirun ends with 1 when it is told to end.
   return interruption() != 0 && !end.succeeded() ? exit_code_of(interruption()) : end.shell_code();
 }

@@ -1,10 +1,11 @@
 """Runs a script as `python3 -I` does, with the script's own folder, and nothing else, added to what it may import from.
 SIGINT, SIGTERM and SIGHUP stop it once, as Ctrl-C does, so that it leaves no part of a file.
-A file that the system does not give or take ends it with one line, "FILE: why", and exit code 74.
+A file that the system does not give or take ends it with one line, "FILE: why", and exit code 74; missing memory or a missing module likewise.
 
 usage: python3 -I -B isolated.py SCRIPT [WORD...]
 """
 
+import mmap
 import os
 import pathlib
 import runpy
@@ -13,6 +14,7 @@ import sys
 
 STOPPING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 NO_FILE = 74  # exit code of the commands for files that cannot be read or written
+NEEDED = 320  # MiB: numpy, matplotlib and the buffer of OpenBLAS, which asks for ever where it gets none (style.py)
 
 
 def stop(*_):
@@ -40,9 +42,20 @@ if __name__ == "__main__":
     sys.path.insert(0, str(script.parent))
     sys.argv = sys.argv[1:]
     try:
+        mmap.mmap(-1, NEEDED << 20).close()
+    except OSError:
+        print(f"not enough memory: {NEEDED} MiB are needed to draw", file=sys.stderr)
+        sys.exit(NO_FILE)
+    try:
         if script.parent == pathlib.Path(__file__).resolve().parent:  # pages draw nothing
             load_matplotlib(script.parent)
         runpy.run_path(str(script), run_name="__main__")
+    except MemoryError:
+        print("not enough memory", file=sys.stderr)
+        sys.exit(NO_FILE)
+    except ImportError as error:
+        print(f"Python could not load a module: {error}", file=sys.stderr)
+        sys.exit(NO_FILE)
     except OSError as error:
         if error.filename is None or error.strerror is None:
             raise

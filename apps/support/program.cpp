@@ -20,6 +20,7 @@
 #include "apps/support/memory_reserve.hpp"
 #include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
+#include "coupling/common/system_limits.hpp"
 #include "coupling/common/unfinished_file.hpp"
 
 namespace drumlin::apps {
@@ -115,6 +116,7 @@ int run_program(const std::function<int()>& work, const std::function<bool()>& s
   at_work = true;
   int code = 0;
   try {
+    require_stack();
     code = work();
   } catch (...) {
     flush_out();

@@ -299,6 +299,10 @@ ProcessEnd run_process(const ProcessRequest& request) {
   return end_of(process, request.program, limit);
 }
 
+void require_loaded(const ProcessEnd& end, const std::string& name) {
+  if (end.exit_code == 127) throw IoError(name + ": could not be loaded, for lack of memory or of a library");
+}
+
 ProcessEnd run_in_copy(const std::function<void()>& work) {
   const pid_t process = ::fork();
   if (process < 0) fail("a copy of this process", errno);

@@ -48,6 +48,10 @@ struct ProcessEnd {
 /// process at a time passes signals on. To be called from a thread that lives on: the program ends with it.
 ProcessEnd run_process(const ProcessRequest& request);
 
+/// Throws IoError where the system could not load a program of ours (exit code 127, after words of the
+/// loader).
+void require_loaded(const ProcessEnd& end, const std::string& name);
+
 /// Does `work` in a copy of this process, whose memory can then be told from this one's, and waits for it.
 /// Throws IoError if there can be no copy.
 ProcessEnd run_in_copy(const std::function<void()>& work);

@@ -9,6 +9,7 @@
 #include <new>
 
 #include "coupling/common/errors.hpp"
+#include "coupling/common/system_limits.hpp"
 
 #define DRUMLIN_TEXT_OF(number) #number
 #define DRUMLIN_VERSIONED(name, number) name "." DRUMLIN_TEXT_OF(number)
@@ -39,6 +40,7 @@ class Umfpack {
   Umfpack() : handle_(dlopen(name, RTLD_NOW | RTLD_LOCAL)) {
     if (handle_ == nullptr)
       throw IoError(fmt::format("UMFPACK, which the exact solvers need, cannot be loaded: {}", dlerror()));
+    start_blas(handle_, 0);
     find(defaults, "umfpack_di_defaults"), find(symbolic, "umfpack_di_symbolic");
     find(numeric, "umfpack_di_numeric"), find(solve, "umfpack_di_solve");
     find(determinant, "umfpack_di_get_determinant");

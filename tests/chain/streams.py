@@ -105,6 +105,32 @@ def check_limits(executable, scene, problem, run, folder):
     print("limits: said")
 
 
+def check_limits_of_libraries(executable, data, scene, run, folder):
+    """What MPI, OpenBLAS, Python and threads need and do not get is said, in a few lines; each of them alone hangs, crashes or says it in forty."""
+    mebibyte = 1 << 20
+    here, paper, taken = scene.parent, data / "rheology" / "paper.toml", folder / "taken"
+    taken.mkdir()
+    (taken / "theirs").touch()
+    flow = ["flow", here / "tiny-drum-flow.toml", "--rheology", paper, "-o", folder / "flow"]
+    ranks = ["run", scene, "-o", folder / "ranks", "--ranks", "2"]
+    solve = ["solve-contacts", data / "problems" / "drum-300-mu-0.95-flow.h5", "--solver", "reference", "--tolerance", "1e-12"]
+    memory, stack, files = resource.RLIMIT_AS, resource.RLIMIT_STACK, resource.RLIMIT_NOFILE
+    cases = [(words, stack, 64 << 10, "stack") for words in (flow, ranks, ["run", scene, "-o", folder / "small"], ["plot", run])]
+    cases += [(flow, memory, 600 * mebibyte, "not enough memory"), (flow, memory, 200 * mebibyte, "lack of memory"),
+              (["plot", run], memory, 200 * mebibyte, "not enough memory"), (solve, memory, 200 * mebibyte, "not enough memory"),
+              (flow, files, 12, "12 files"), (ranks, files, 12, "12 files"), (["plot", run], files, 12, "Too many open files")]
+    for words, kind, value, said in cases:
+        result = subprocess.run(list(map(str, [executable, *words])), preexec_fn=limited(kind, value), capture_output=True, text=True, check=False,
+                                timeout=PATIENCE)
+        require(result.returncode == 74 and said in result.stderr and result.stderr.count("\n") < 5,
+                f"{words}, {kind} {value}: {result.returncode}\n{result.stderr}")
+    for path in ({}, {"PATH": ""}):  # MPI began, and found the folder taken
+        environment = {name: value for name, value in os.environ.items() if name != "PATH"} | path
+        result = subprocess.run(list(map(str, [executable, *flow[:-1], taken])), env=environment, capture_output=True, text=True, check=False)
+        require(result.returncode == 2 and "taken" in result.stderr, f"flow without PATH: {result.returncode}\n{result.stderr}")
+    print(f"{len(cases)} limits of libraries: said")
+
+
 def measured_among_strangers(executable, run, folder):
     """Figures are drawn by our modules alone: none of the current folder, none of PYTHONPATH."""
     strange, executed = folder / "strange", folder / "executed"
@@ -149,6 +175,8 @@ def main():
         shutil.rmtree(run / "measured")
         check_run_without_streams(executable, scene, folder, expected)
         check_limits(executable, scene, problem, run, folder)
+        if not has_address_sanitizer(executable):
+            check_limits_of_libraries(executable, data, scene, run, folder)
 
 
 if __name__ == "__main__":
