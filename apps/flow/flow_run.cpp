@@ -23,6 +23,7 @@
 #include "coupling/common/errors.hpp"
 #include "coupling/common/last_whole.hpp"
 #include "coupling/common/own_costs.hpp"
+#include "coupling/common/provenance.hpp"
 #include "coupling/common/text_file.hpp"
 #include "coupling/exchange/measured_run.hpp"
 #include "coupling/law/rheology_file.hpp"
@@ -299,16 +300,22 @@ void require_met(const fs::path& folder, const std::vector<std::string>& missed)
 
 int solve_flow_scene(const FlowOptions& options, const continuum::FemRuntime& runtime) {
   const bool speaks = runtime.rank() == 0;
-  FlowRequest asked = read_request(options);
+  FlowRequest asked;
+  // One of several machines may not see a file, or see another one.
+  const auto say = [](const std::string& what) { print_error(what + "\n"); };
+  runtime.on_all_ranks([&] { asked = read_request(options); }, say);
   asked.sum = asked_sum({continuum::flow_scene_text(asked.scene), input_sum(options.rheology),
                          options.from ? input_sum(*options.from) : "", options.law_draws});
+  runtime.require_same(asked.sum + options.output.string() + version_text(),
+                       "scene, law, options or revision are");
   if (options.existing == ExistingOutput::resume && holds_results(options.output, "flow.json")) {
     refuse_other(options.output, asked.sum);
     if (speaks) print_out(fmt::format("{}: done already\n", options.output.string()));
     require_met(options.output, limits_missed_by(options.output));
     return static_cast<int>(ExitCode::done);
   }
-  const FlowStart start = read_start(options, asked);
+  FlowStart start;
+  runtime.on_all_ranks([&] { start = read_start(options, asked); }, say);
   FlowOutput output;
   runtime.on_first_rank([&] { begin_folder(output, options, asked, runtime.ranks()); });
   SolvedFlow solved = solved_until_interrupted(output, asked, start, runtime);

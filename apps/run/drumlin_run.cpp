@@ -1,6 +1,7 @@
 // drumlin-run: `drumlin run` on the ranks that mpirun starts, `mpirun -n N drumlin-run SCENE -o RUN`. It
 // takes the words of `drumlin run`, whose command line it shares; the results do not depend on N.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cstring>
 #include <exception>
@@ -74,6 +75,11 @@ int run(int argc, char** argv, bool& speaks) {
   if (argc > 1 && std::strcmp(argv[1], "--version") == 0) {
     if (speaks) apps::print_out("drumlin-run " + version_text() + "\n");
     return static_cast<int>(ExitCode::done);
+  }
+  try {
+    ranks.require_same(fmt::format("{}", fmt::join(words, "\n")), "words of the call are");
+  } catch (const FailedOnFirstRank& failure) {
+    return static_cast<int>(failure.code);
   }
   const auto request = apps::parse_command_line(static_cast<int>(words.size()), words.data(), {});
   if (const auto* shown = std::get_if<apps::TextToShow>(&request)) {

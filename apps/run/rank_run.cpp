@@ -15,6 +15,7 @@
 #include "apps/commands/start_grains.hpp"
 #include "apps/commands/wall_table.hpp"
 #include "apps/run/files_in_parts.hpp"
+#include "apps/support/asked.hpp"
 #include "apps/support/interruption.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/output_folder.hpp"
@@ -24,6 +25,7 @@
 #include "coupling/common/first_rank.hpp"
 #include "coupling/common/last_whole.hpp"
 #include "coupling/common/own_costs.hpp"
+#include "coupling/common/provenance.hpp"
 #include "coupling/common/text_file.hpp"
 #include "particles/distributed/rank_simulation.hpp"
 #include "particles/distributed/runs_on_ranks.hpp"
@@ -318,9 +320,11 @@ int run_on_ranks(const RunOptions& options, const particles::Ranks& ranks) {
     started_from = take_over_grains(scene);
     require_known(options, scene);
   });
+  const std::string resolved = particles::scene_text(as_recorded(scene));
+  ranks.require_same(asked_sum({version_text(), resolved, list_texts(scene), started_from}),
+                     "scene, grains or revision are");
   // What only shows when grains are placed must show before anything is written or removed.
   ranks.on_first([&] { (void)particles::Simulation(scene); });
-  const std::string resolved = particles::scene_text(as_recorded(scene));
   const CaughtInterruptions caught;
   std::optional<GrowingOutput> output;
   std::vector<int> how(1, 0);  // 0: finished already, 1: from the start, 2: from a checkpoint

@@ -45,4 +45,15 @@ void FemRuntime::on_first_rank(const std::function<void()>& action) const {
                    [](int code) { return dealii::Utilities::MPI::broadcast(MPI_COMM_WORLD, code, 0); });
 }
 
+void FemRuntime::on_all_ranks(const std::function<void()>& action,
+                              const std::function<void(const std::string&)>& say) {
+  do_on_all_ranks(
+      rank(), action, [](std::int64_t number) { return dealii::Utilities::MPI::min(number, MPI_COMM_WORLD); },
+      say);
+}
+
+void FemRuntime::require_same(const std::string& text, const std::string& what) {
+  require_same_on_ranks(rank(), dealii::Utilities::MPI::all_gather(MPI_COMM_WORLD, text), what);
+}
+
 }  // namespace drumlin::continuum

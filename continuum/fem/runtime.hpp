@@ -2,6 +2,7 @@
 // Starts and ends MPI and PETSc, once per program; runs actions on the first rank.
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace drumlin::continuum {
@@ -21,6 +22,11 @@ class FemRuntime {
   /// What one rank has to do for all: files and messages. All ranks call it and wait for the first. What
   /// `action` throws there is thrown there, and FailedOnFirstRank on the others.
   void on_first_rank(const std::function<void()>& action) const;
+  /// Does `action` on all ranks, which may see other files; throws on all where one throws (do_on_all_ranks).
+  static void on_all_ranks(const std::function<void()>& action,
+                           const std::function<void(const std::string&)>& say);
+  /// Throws on all ranks where `text` is not the same on all (require_same_on_ranks).
+  static void require_same(const std::string& text, const std::string& what);
 
  private:
   struct Libraries;

@@ -71,4 +71,12 @@ void do_on_all_ranks(int rank, const std::function<void()>& action,
   throw FailedOnFirstRank{static_cast<ExitCode>(first % codes)};
 }
 
+void require_same_on_ranks(int rank, const std::vector<std::string>& texts, const std::string& what) {
+  for (std::size_t other = 1; other < texts.size(); ++other) {
+    if (texts[other] == texts[0]) continue;
+    if (rank != 0) throw FailedOnFirstRank{ExitCode::wrong_input};
+    throw InputError("rank " + std::to_string(other) + ": " + what + " not those of rank 0");
+  }
+}
+
 }  // namespace drumlin

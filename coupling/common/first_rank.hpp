@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "coupling/common/errors.hpp"
 
@@ -25,5 +26,9 @@ void do_on_first_rank(bool is_first, const std::function<void()>& action,
 void do_on_all_ranks(int rank, const std::function<void()>& action,
                      const std::function<std::int64_t(std::int64_t)>& least,
                      const std::function<void(const std::string&)>& say);
+
+/// Throws where a rank was given something else than rank 0, whose text is the first: InputError there, which
+/// names the rank and `what`, FailedOnFirstRank on the others. Such ranks would wait for each other for ever.
+void require_same_on_ranks(int rank, const std::vector<std::string>& texts, const std::string& what);
 
 }  // namespace drumlin

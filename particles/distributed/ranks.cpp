@@ -208,6 +208,10 @@ std::int64_t Ranks::least(std::int64_t value) const {
 
 bool Ranks::any(bool value) const { return least(value ? 0 : 1) == 0; }
 
+void Ranks::require_same(const std::string& text, const std::string& what) const {
+  require_same_on_ranks(rank(), dealii::Utilities::MPI::all_gather(MPI_COMM_WORLD, text), what);
+}
+
 void Ranks::on_first(const std::function<void()>& action) const {
   do_on_first_rank(rank() == 0, action, [](int code) {
     MPI_Bcast(&code, 1, MPI_INT, 0, MPI_COMM_WORLD);

@@ -95,6 +95,8 @@ class Ranks {
   /// What one rank has to do for all: files and messages. What `action` throws there is thrown there, and
   /// FailedOnFirstRank on the others.
   void on_first(const std::function<void()>& action) const;
+  /// Throws on all ranks where `text` is not the same on all (require_same_on_ranks).
+  void require_same(const std::string& text, const std::string& what) const;
   /// Writes pieces into a file that stands, each rank its own (MPI-IO), and forces them to the disk. Returns,
   /// on all ranks, which one could not and why; empty where all could.
   std::string write_pieces(const std::filesystem::path& file, std::span<const FilePiece> pieces) const;

@@ -229,6 +229,38 @@ def unseen_by_one(run_on, folder, scene):
             f"a scene that one rank does not see: exit code {result.returncode}\n{result.stdout}{result.stderr}")
 
 
+def other_on_one(run_on, folder, scene):
+    """A rank that was given something else than rank 0 is named before anything is computed, exit code 2; nothing is written."""
+    there, elsewhere = folder / "theirs", folder / "ours"
+    there.mkdir(), elsewhere.mkdir()
+    text = scene.read_text(encoding="utf-8")
+    (there / "scene.toml").write_text(text, encoding="utf-8")
+    (there / "box.toml").write_text(BOX, encoding="utf-8")
+    law = pathlib.Path(__file__).parents[2] / "data" / "rheology" / "paper.toml"
+    flow = (pathlib.Path(__file__).parents[1] / "chain" / "tiny-drum-flow.toml").read_text(encoding="utf-8")
+    for place, words in ((there, flow), (elsewhere, flow.replace("reduced = true", "reduced = false"))):
+        (place / "flow.toml").write_text(words, encoding="utf-8")
+        (place / "law.toml").write_bytes(law.read_bytes())
+    solver = [str(pathlib.Path(run_on.program).with_name("drumlin-flow")), "flow.toml", "--rheology", "law.toml", "-o", "out"]
+    run = [run_on.program, "scene.toml", "-o", "out"]
+    words, content = "rank 1: words of the call are", "are not those of rank 0"
+    cases = [(run, [run_on.program, "box.toml", "-o", "out"], there, words), (run, [*run, "--set", "seed=7"], there, words),
+             (run, [*run, "--no-such-option"], there, words), (run, [*run, "--version"], there, words),
+             (run, [run_on.program, "scene.toml", "-o", "other"], there, words)]
+    for changed in (BOX, text.replace("reduced = true", "reduced = true\nseed = 7"), text.replace("duration_s = 0", "duration_s = 1")):
+        require(changed != text, f"nothing to change in\n{text}")
+        cases.append((run, run, changed, content))
+    cases.append((solver, solver, elsewhere, content))
+    for first, second, where, said in cases:
+        if isinstance(where, str):
+            (elsewhere / "scene.toml").write_text(where, encoding="utf-8")
+            where = elsewhere
+        command = [run_on.mpirun, "-n", "1", "-wdir", str(there), *first, ":", "-n", "1", "-wdir", str(where), *second]
+        result = subprocess.run(command, capture_output=True, text=True, timeout=1200, check=False)
+        require(result.returncode == 2 and said in result.stderr, f"{second} on rank 1: exit code {result.returncode}\n{result.stdout}{result.stderr}")
+        require(not (there / "out").exists() and not (where / "out").exists(), f"{second} on rank 1: results were begun")
+
+
 def started_by_drumlin(run_on, drumlin, folder, scene, right):
     """`drumlin run --ranks` leaves the bytes of mpirun's call, and ends as the job ends."""
     def start(*words, code):
@@ -291,6 +323,7 @@ def main():
         refusals(run_on, folder)
         grain_lost(run_on, folder)
         unseen_by_one(run_on, folder, scene)
+        other_on_one(run_on, folder, scene)
         # The files are those of other runs.
         listed = subprocess.run([drumlin, "export", folder / "drum-4x1", "--vtu", "-o", folder / "grids"], capture_output=True,
                                 text=True, check=False)
