@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <system_error>
 #include <thread>
 
@@ -54,6 +55,10 @@ void report_error(const Report& report) {
   } catch (const nlohmann::json::exception& error) {
     report(ExitCode::wrong_input,
            fmt::format("a JSON file holds what it should not: {}", error.what()).c_str());
+  } catch (const std::runtime_error& error) {  // TBB's, of threads that cannot be started
+    const bool of_threads = std::strstr(error.what(), "pthread_create") != nullptr;
+    report(of_threads ? ExitCode::input_output : ExitCode::fault,
+           fmt::format("{}{}", of_threads ? "" : "a fault of this program: ", error.what()).c_str());
   } catch (const std::exception& error) {
     report(ExitCode::fault, fmt::format("a fault of this program: {}", error.what()).c_str());
   } catch (...) {

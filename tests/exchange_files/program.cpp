@@ -40,6 +40,9 @@ TEST(Program, EndsWithTheCodeOfItsWorkOrOfItsError) {
   ends_with(74, "not enough memory", [] { return std::string().reserve(std::string().max_size() + 1), 0; });
   ends_with(74, "9 threads.*unavailable",
             [] { return failing(std::system_error(EAGAIN, std::generic_category(), "9 threads")); });
+  ends_with(74, "^pthread_create has failed",
+            [] { return failing(std::runtime_error("pthread_create has failed: unavailable")); });
+  ends_with(70, "a fault of this program: odd", [] { return failing(std::runtime_error("odd")); });
   ends_with(2, "JSON", [] { return nlohmann::json("text").get<int>(); });
   ends_with(70, "a fault of this program: odd", [] { return failing(std::logic_error("odd")); });
   ends_with(70, "a fault of this program", [] { return failing(7); });
