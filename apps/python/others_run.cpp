@@ -1,7 +1,6 @@
 #include "apps/python/others_run.hpp"
 
 #include <Python.h>
-#include <cxxabi.h>
 #include <unistd.h>
 
 namespace drumlin::python {
@@ -11,7 +10,7 @@ OthersRun::OthersRun() : state_(PyEval_SaveThread()) {}
 OthersRun::~OthersRun() {
   try {
     PyEval_RestoreThread(state_);
-  } catch (const abi::__forced_unwind&) {
+  } catch (...) {  // abi::__forced_unwind, of which there is no object to refer to
     for (;;) ::pause();
   }
 }
