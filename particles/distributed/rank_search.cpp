@@ -66,7 +66,7 @@ DetectionInput RankSearch::input(const Step& step) const {
 }
 
 void RankSearch::move_freely(const Step& step) {
-  set_free_motion(grains_.seen().bodies, laws_.gravity, step.time_step, loops_, free_);
+  set_free_motion(grains_.seen().bodies, laws_, step.time_step, loops_, free_);
 }
 
 void RankSearch::search(const Step& step) {

@@ -174,7 +174,7 @@ class RankMoreauJean final : public RankStepper {
       bodies_.radius[b] = grain.radius, bodies_.inverse_mass[b] = grain.inverse_mass;
       bodies_.id[b] = grain.id;
     }
-    set_free_motion(bodies_, laws_.gravity, time_step, TeamLoops(&team_), free_);
+    set_free_motion(bodies_, laws_, time_step, TeamLoops(&team_), free_);
     free_.shift.clear();
     if (search_.shift().empty()) return;
     for (const std::int32_t s : own_.used) free_.shift.push_back(search_.shift()[s]);

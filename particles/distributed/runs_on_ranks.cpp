@@ -8,25 +8,26 @@ namespace drumlin::particles {
 
 std::vector<InputProblem> not_on_ranks(const Scene& scene) {
   std::vector<InputProblem> problems;
-  const auto refuse = [&](bool here, const char* key, const char* why) {
+  const auto refuse = [&](bool here, const std::string& key, const char* why) {
     if (here)
       problems.push_back({"", 0, 0, key, std::string("not on ranks: ") + why, "drumlin run, on one process"});
   };
   const auto any_stage = [&](auto has) { return std::any_of(scene.stages.begin(), scene.stages.end(), has); };
   refuse(scene.periodic_x.has_value(), "periodic_x", "deal.II 9.4 knows no ghosts across periodic sides");
   refuse(scene.periodic_z.has_value(), "periodic_z", "deal.II 9.4 knows no ghosts across periodic sides");
-  refuse(scene.effects.rolling_resistance.has_value(), "effects.rolling_resistance",
-         "their sweeps know normal and tangential impulses alone");
-  refuse(scene.effects.cohesion.has_value(), "effects.cohesion", "their steps do not know it yet");
-  refuse(scene.effects.rotating_frame.has_value(), "effects.rotating_frame",
-         "their steps do not know it yet");
+  each_effect(
+      [&]<class E>(const std::optional<E>& effect) {
+        if constexpr (requires { E::not_on_ranks; })
+          refuse(effect.has_value(), std::string("effects.") + E::name, E::not_on_ranks);
+      },
+      scene.effects);
   refuse(materials_matter(scene), "grains.materials", "materials do not travel with the grains yet");
   refuse(moves_walls_by_force(scene), "stages.motions",
          "a wall moved by a force is one body of contacts on all ranks");
   refuse(ends_stages_early(scene), "stages.until", "they do not look for what ends a stage");
   refuse(changes_gravity(scene), "stages.gravity", "their steps know one gravity");
-  refuse(any_stage([](const Stage& s) { return s.friction || s.restitution || s.rolling_resistance; }),
-         "stages.friction, stages.restitution", "their steps know one value of each coefficient");
+  refuse(any_stage(changes_coefficients), "stages.friction, stages.restitution",
+         "their steps know one value of each coefficient");
   refuse(changes_grains(scene), "outlets, sources", "the number of grains is fixed there");
   refuse(scene.output.energy_ledger, "output.energy_ledger", "no ledger is kept there");
   refuse(scene.output.walls_every_s.has_value(), "output.walls_every_s",

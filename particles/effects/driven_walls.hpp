@@ -40,15 +40,20 @@ struct ForceControl {
   std::optional<ForceOscillation> oscillation = {};
 };
 
+/// The keys of a wall that is moved along a direction by a force or a pressure, `push`.
+template <class Visitor, class Drive>
+void describe_drive(Visitor& v, Drive& keys, const std::string& name, double& push, const std::string& unit) {
+  v.value("direction", keys.direction,
+          required("", at_least(-1e6, 1e6), "Direction [x, z]; its length does not matter."));
+  v.value(name, push, required(unit, at_least(-1e12, 1e12), "All beside the grains, weight included."));
+  v.value("mass_kg_m", keys.mass_kg_m, required("kg/m", above(0, 1e12), "Inertia, per metre of depth."));
+  v.value("velocity_mm_s", keys.velocity_mm_s,
+          defaulted("mm/s", at_least(-1e9, 1e9), "Velocity [v_x, v_z] across the direction."));
+}
+
 template <class Visitor>
 void describe(Visitor& v, ForceControl& f) {
-  v.value("direction", f.direction,
-          required("", at_least(-1e6, 1e6), "Direction [x, z]; its length does not matter."));
-  v.value("force_n_m", f.force_n_m,
-          required("N/m", at_least(-1e12, 1e12), "All beside the grains, weight included."));
-  v.value("mass_kg_m", f.mass_kg_m, required("kg/m", above(0, 1e12), "Inertia, per metre of depth."));
-  v.value("velocity_mm_s", f.velocity_mm_s,
-          defaulted("mm/s", at_least(-1e9, 1e9), "Velocity [v_x, v_z] across the direction."));
+  describe_drive(v, f, "force_n_m", f.force_n_m, "N/m");
   v.optional_table("oscillation", f.oscillation, "Added to force_n_m.");
 }
 

@@ -2,29 +2,26 @@
 // Coulomb friction: a tangential impulse |r_t| <= mu r_n that opposes sliding. One unknown more per contact.
 #include "coupling/documents/key_spec.hpp"
 #include "particles/detection/candidate.hpp"
+#include "particles/effects/law_input.hpp"
 #include "particles/effects/pair_law.hpp"
 
 namespace drumlin::particles {
 
-struct Friction {
-  double grain_grain = 0;
-  double grain_wall = 0;
-  std::vector<MaterialPair<Friction>> pairs = {};
+struct Friction : PairKeys<Friction> {
+  static constexpr const char *name = "friction", *sentence = "Coulomb friction.";
+  static constexpr const char* modest_text = "0.3";
+  static constexpr int unknowns = 2;
+  static Allowed allowed() { return at_least(0, 100); }
+  static Friction modest() { return {{0.3, 0.3}}; }
 };
 
-inline Allowed value_between(const Friction*) { return at_least(0, 100); }
-
 template <class Visitor>
-void describe(Visitor& v, Friction& f) {
-  v.value("grain_grain", f.grain_grain, required("", at_least(0, 100), "Between grains."));
-  v.value("grain_wall", f.grain_wall, required("", at_least(0, 100), "With a wall."));
-  v.tables("pairs", f.pairs, 0, pairs_sentence);
+void describe(Visitor& v, Friction& keys) {
+  describe_pairs(v, keys, "Between grains.");
 }
 
 /// The law: mu of each pair.
-inline PairLaw friction_law(const Friction& key, const std::vector<std::string>& materials) {
-  return pair_law(key, materials);
-}
+inline PairLaw law_of(const Friction& key, const LawInput& in) { return pair_law(key, in.materials); }
 
 // Terms in a step: the tangential row of a contact of types Coulomb and CoulombRolling (contact/cone.hpp).
 

@@ -1,12 +1,18 @@
 #pragma once
 // Uniform gravity: one acceleration of all grains, explicit in time. Sets the unit of time, sqrt(d/g).
-#include "coupling/common/scales.hpp"
 #include "coupling/documents/key_spec.hpp"
+#include "particles/bodies/bodies.hpp"
+#include "particles/bodies/free_motion.hpp"
 #include "particles/bodies/walls.hpp"
+#include "particles/effects/law_input.hpp"
 
 namespace drumlin::particles {
 
 struct Gravity {
+  static constexpr const char *name = "gravity", *sentence = "Uniform gravity.";
+  static constexpr const char* modest_text = "9.81 m/s2 down";
+  static Gravity modest() { return {}; }
+
   double acceleration_m_s2 = 9.81;
   double direction_deg = -90;  ///< angle from +x, anticlockwise as drawn; -90 points down
 };
@@ -20,6 +26,15 @@ void describe(Visitor& v, Gravity& g) {
 }
 
 /// The law: the acceleration in the units of the simulation.
-Point gravity_law(const Gravity&, const Scales&);
+struct GravityLaw : Point {
+  GravityLaw(const Point& acceleration) : Point(acceleration) {}
+
+  void move_freely(const Bodies&, std::size_t begin, std::size_t end, double time_step,
+                   FreeMotion& free) const {
+    const Point gain{time_step * x, time_step * z};
+    for (std::size_t b = begin; b < end; ++b) free.x[b] += gain.x, free.z[b] += gain.z;
+  }
+};
+GravityLaw law_of(const Gravity&, const LawInput&);
 
 }  // namespace drumlin::particles

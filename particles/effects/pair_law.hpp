@@ -1,63 +1,81 @@
 #pragma once
 // Coefficient of a contact law (friction, restitution, ...) for each pair of materials: keys and values.
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "coupling/documents/key_spec.hpp"
 
 namespace drumlin::particles {
 
-/// The value of a law between two materials, in place of grain_grain or grain_wall. `Law` tells the values
-/// that are allowed: value_between(const Law*).
-template <class Law>
+/// The value of a law between two materials, in place of grain_grain or grain_wall.
+template <class Effect>
 struct MaterialPair {
   std::vector<std::string> between;  ///< two names; the same one twice is a material with itself
   double value = 0;
 };
 
-inline constexpr const char* pairs_sentence = "In place of the two above, by materials.";
-
-template <class Visitor, class Law>
-void describe(Visitor& v, MaterialPair<Law>& p) {
+template <class Visitor, class Effect>
+void describe(Visitor& v, MaterialPair<Effect>& p) {
   v.value("between", p.between, required("", not_empty(), "Two names, or one twice."));
-  v.value("value", p.value, required("", value_between(static_cast<const Law*>(nullptr)), "Value."));
+  v.value("value", p.value, required("", Effect::allowed(), "Value."));
 }
 
-/// One value between grains, one between a grain and a wall.
-struct PerPair {
-  double grain_grain = 0, grain_wall = 0;
+/// Values within one stage, in place of those of the effect and of its pairs.
+template <class Effect>
+struct StageValues {
+  double grain_grain = 0;
+  double grain_wall = 0;
 };
 
-/// One value for each pair of materials: `materials` squared entries, row and column the materials' numbers.
-struct PerMaterials {
-  int materials = 0;
+template <class Visitor, class Effect>
+void describe(Visitor& v, StageValues<Effect>& s) {
+  v.value("grain_grain", s.grain_grain, required("", Effect::allowed(), "Between grains."));
+  v.value("grain_wall", s.grain_wall, required("", Effect::allowed(), "With a wall."));
+}
+
+/// The keys of an effect that has a value for each pair of materials, within Effect::allowed(): its base.
+template <class Effect>
+struct PairKeys {
+  double grain_grain = 0;
+  double grain_wall = 0;
+  std::vector<MaterialPair<Effect>> pairs = {};
+};
+
+template <class Visitor, class Effect>
+void describe_pairs(Visitor& v, PairKeys<Effect>& keys, const std::string& of_grains,
+                    const std::string& of_wall = "With a wall.") {
+  v.value("grain_grain", keys.grain_grain, required("", Effect::allowed(), of_grains));
+  v.value("grain_wall", keys.grain_wall, required("", Effect::allowed(), of_wall));
+  v.tables("pairs", keys.pairs, 0, "In place of the two above, by materials.");
+}
+
+/// The values of a law: between grains, and between a grain and a wall, for each pair of the materials that
+/// it tells apart. `materials` squared entries, row and column the materials' numbers.
+struct PairLaw {
+  std::size_t materials = 1;
   std::vector<double> grain_grain, grain_wall;
 };
 
-using PairLaw = std::variant<PerPair, PerMaterials>;
-
-/// Place of a material's name among those of the scene; past the end for a name that is none of them.
-std::size_t material_place(const std::vector<std::string>& materials, const std::string& name);
-
-/// The law of keys grain_grain, grain_wall and pairs, between materials in the order of their names; grains
-/// and walls without a material have the number after the last. `unit` turns values of the scene into those
-/// of the simulation.
+/// The law of keys, between materials in the order of their names; grains and walls without a material have
+/// the number after the last. `unit` turns values of the scene into those of the simulation.
 template <class Effect>
-PairLaw pair_law(const Effect& effect, const std::vector<std::string>& materials, double unit = 1) {
-  if (effect.pairs.empty()) return PerPair{effect.grain_grain * unit, effect.grain_wall * unit};
-  const std::size_t count = materials.size() + 1;
-  PerMaterials table{static_cast<int>(count), std::vector<double>(count * count, effect.grain_grain * unit),
-                     std::vector<double>(count * count, effect.grain_wall * unit)};
-  for (const auto& pair : effect.pairs) {
-    const std::size_t a = material_place(materials, pair.between[0]),
-                      b = material_place(materials, pair.between[1]);
+PairLaw pair_law(const PairKeys<Effect>& keys, const std::vector<std::string>& materials, double unit = 1) {
+  const std::size_t count = keys.pairs.empty() ? 1 : materials.size() + 1;
+  PairLaw law{count, std::vector<double>(count * count, keys.grain_grain * unit),
+              std::vector<double>(count * count, keys.grain_wall * unit)};
+  const auto number = [&materials](const std::string& name) {
+    return static_cast<std::size_t>(std::find(materials.begin(), materials.end(), name) - materials.begin());
+  };
+  for (const auto& pair : keys.pairs) {
+    const std::size_t a = number(pair.between[0]), b = number(pair.between[1]);
     for (const std::size_t entry : {a * count + b, b * count + a})
-      table.grain_grain[entry] = table.grain_wall[entry] = pair.value * unit;
+      law.grain_grain[entry] = law.grain_wall[entry] = pair.value * unit;
   }
-  return table;
+  return law;
 }
 
 /// Materials of grains and wall shapes as numbers; both empty in a scene in which no law asks for them.
@@ -67,11 +85,9 @@ struct MaterialsOf {
 
 /// The value between grain i and grain j, or wall shape -1 - j. Asked once per contact and step.
 inline double value_of(const PairLaw& law, std::int32_t i, std::int32_t j, const MaterialsOf& materials) {
-  if (const auto* both = std::get_if<PerPair>(&law)) return j < 0 ? both->grain_wall : both->grain_grain;
-  const auto& table = std::get<PerMaterials>(law);
-  const auto row = static_cast<std::size_t>(materials.grain[i]) * table.materials;
-  return j < 0 ? table.grain_wall[row + materials.shape[-1 - j]]
-               : table.grain_grain[row + materials.grain[j]];
+  const auto& values = j < 0 ? law.grain_wall : law.grain_grain;
+  if (law.materials == 1) return values[0];
+  return values[materials.grain[i] * law.materials + (j < 0 ? materials.shape[-1 - j] : materials.grain[j])];
 }
 
 }  // namespace drumlin::particles

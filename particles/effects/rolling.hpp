@@ -4,57 +4,61 @@
 #include "coupling/documents/key_spec.hpp"
 #include "particles/bodies/bodies.hpp"
 #include "particles/detection/candidate.hpp"
+#include "particles/effects/law_input.hpp"
 #include "particles/effects/pair_law.hpp"
 #include "particles/effects/wall_step.hpp"
 
 namespace drumlin::particles {
 
-struct RollingResistance {
-  double grain_grain = 0;
-  double grain_wall = 0;
-  std::vector<MaterialPair<RollingResistance>> pairs = {};
+struct RollingResistance : PairKeys<RollingResistance> {
+  static constexpr const char *name = "rolling_resistance",
+                              *sentence = "A couple that opposes rolling; needs spin.";
+  static constexpr const char *modest_text = "0.1", *account = "rolling";
+  static constexpr const char* not_on_ranks = "their sweeps know normal and tangential impulses alone";
+  static constexpr int unknowns = 3;
+  static Allowed allowed() { return at_least(0, 100); }
+  static RollingResistance modest() { return {{0.1, 0.1}}; }
+  void check(const auto& scene, auto refuse) const {
+    if (!scene.effects.spin)
+      refuse("acts without spin", "together with effects.spin, or not at all", "effects.spin");
+    if (scene.solver.capture_unconverged > 0)
+      refuse("gives contacts a third unknown, which files of contact problems cannot hold",
+             "with solver.capture_unconverged = 0", "solver.capture_unconverged");
+  }
 };
 
-inline Allowed value_between(const RollingResistance*) { return at_least(0, 100); }
-
 template <class Visitor>
-void describe(Visitor& v, RollingResistance& r) {
-  v.value(
-      "grain_grain", r.grain_grain,
-      required("", at_least(0, 100), "mu_r between grains: a couple up to mu_r R r_n, 1/R = 1/r_i + 1/r_j."));
-  v.value("grain_wall", r.grain_wall, required("", at_least(0, 100), "With a wall; R the grain's radius."));
-  v.tables("pairs", r.pairs, 0, pairs_sentence);
+void describe(Visitor& v, RollingResistance& keys) {
+  describe_pairs(v, keys, "mu_r between grains: a couple up to mu_r R r_n, 1/R = 1/r_i + 1/r_j.",
+                 "With a wall; R the grain's radius.");
 }
 
-/// The law: mu_r of each pair.
-inline PairLaw rolling_law(const RollingResistance& key, const std::vector<std::string>& materials) {
-  return pair_law(key, materials);
-}
+/// The law: mu_r of each pair. Its couple is the third unknown of a contact.
+struct RollingLaw {
+  PairLaw mu_r;
 
-// Terms in a step: the rolling row of a contact of type CoulombRolling (contact/cone.hpp).
-
-/// R_eff / r_i of a pair; a wall counts as flat.
-inline double lever_of(const Candidate& pair, const Bodies& bodies) {
-  return pair.j < 0 ? 1 : bodies.radius[pair.j] / (bodies.radius[pair.i] + bodies.radius[pair.j]);
-}
-
-/// Angular velocity of a wall's shape over the step.
-inline double wall_spin(const Candidate& pair, const WallStep& walls, double time_step) {
-  return walls.displacement[-1 - pair.j].angle / time_step;
-}
-
-/// Free rolling velocity of a pair with that lever.
-inline double rolling_velocity(const Candidate& pair, const Bodies& bodies, const WallStep& walls,
-                               double lever, double time_step) {
-  const double r_i = bodies.radius[pair.i], r_j = pair.j < 0 ? 0 : bodies.radius[pair.j];
-  const double rim_j = pair.j < 0 ? r_i * walls.displacement[-1 - pair.j].angle / time_step
-                                  : (1 - lever) * r_j * bodies.spin[pair.j];
-  return lever * r_i * bodies.spin[pair.i] - rim_j;
-}
-
-/// mu_r of a contact.
-inline double rolling_bound(const PairLaw& law, const Candidate& pair, const MaterialsOf& materials) {
-  return value_of(law, pair.i, pair.j, materials);
+  /// R_eff / r_i of a pair; a wall counts as flat.
+  static double lever(const Candidate& pair, const Bodies& bodies) {
+    return pair.j < 0 ? 1 : bodies.radius[pair.j] / (bodies.radius[pair.i] + bodies.radius[pair.j]);
+  }
+  /// Part of a turning wall in the rolling velocity.
+  static double wall_part(const Candidate& pair, const Bodies& bodies, const WallStep& walls,
+                          double time_step) {
+    return pair.j < 0 ? bodies.radius[pair.i] * walls.displacement[-1 - pair.j].angle / time_step : 0;
+  }
+  /// Rolling velocity of a pair with that lever.
+  static double couple_velocity(const Candidate& pair, const Bodies& bodies, const WallStep& walls,
+                                double lever, double time_step) {
+    const double rim_j = pair.j < 0 ? wall_part(pair, bodies, walls, time_step)
+                                    : (1 - lever) * bodies.radius[pair.j] * bodies.spin[pair.j];
+    return lever * bodies.radius[pair.i] * bodies.spin[pair.i] - rim_j;
+  }
+  double couple_bound(const Candidate& pair, const MaterialsOf& materials) const {
+    return value_of(mu_r, pair.i, pair.j, materials);
+  }
+};
+inline RollingLaw law_of(const RollingResistance& key, const LawInput& in) {
+  return {pair_law(key, in.materials)};
 }
 
 }  // namespace drumlin::particles

@@ -32,7 +32,8 @@ void add_rotation(double spin, const Point& center, Bodies& bodies) {
 
 }  // namespace
 
-TurningFrame frame_law(const RotatingFrame& key, const Scales& scales) {
+TurningFrame law_of(const RotatingFrame& key, const LawInput& in) {
+  const Scales& scales = in.scales;
   const double unit = 1e-3 / scales.length_m;
   return TurningFrame{key.speed_rpm * 2 * std::numbers::pi / 60 * scales.time_s,
                       {key.center_mm[0] * unit, key.center_mm[1] * unit}};

@@ -3,10 +3,10 @@
 // is turned there, and back after the step. Centrifugal and Coriolis forces so act exactly, without a
 // time-step error of their own (as body forces explicit in time they would raise the speed of a free disc by
 // a factor of sqrt(1 + (2 h Omega)^2) in each step). Costs two passes over the bodies per step.
-#include "coupling/common/scales.hpp"
 #include "particles/bodies/bodies.hpp"
 #include "particles/bodies/walls.hpp"
 #include "particles/effects/key_ranges.hpp"
+#include "particles/effects/law_input.hpp"
 #include "particles/effects/wall_step.hpp"
 
 namespace drumlin::particles {
@@ -14,6 +14,16 @@ namespace drumlin::particles {
 /// The keys. Walls, motions, positions and velocities of the scene are those of the frame; gravity keeps its
 /// direction in the laboratory, with which the frame coincides at time 0.
 struct RotatingFrame {
+  static constexpr const char* name = "rotating_frame";
+  static constexpr const char* sentence =
+      "Scene told in a turning frame; gravity keeps its laboratory direction.";
+  static constexpr const char *modest_text = "1 rpm", *not_on_ranks = "their steps do not know it yet";
+  static RotatingFrame modest() { return {1, {0, 0}}; }
+  void check(const auto& scene, auto refuse) const {
+    if (scene.periodic_x)
+      refuse("turns a domain that is periodic in x", "in a scene without periodic_x", "periodic_x");
+  }
+
   double speed_rpm = 0;  ///< positive clockwise as drawn
   Point_mm center_mm{0, 0};
 };
@@ -29,7 +39,7 @@ struct TurningFrame {
   double spin = 0;  ///< positive clockwise
   Point center;
 };
-TurningFrame frame_law(const RotatingFrame&, const Scales&);
+TurningFrame law_of(const RotatingFrame&, const LawInput&);
 
 // Terms: before and after a step.
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "particles/effects/driven_walls.hpp"
-
 namespace drumlin::particles {
 namespace {
 

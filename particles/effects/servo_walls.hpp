@@ -9,6 +9,7 @@
 #include "coupling/common/scales.hpp"
 #include "coupling/documents/key_spec.hpp"
 #include "particles/bodies/walls.hpp"
+#include "particles/effects/driven_walls.hpp"
 
 namespace drumlin::particles {
 
@@ -25,13 +26,7 @@ struct PressureControl {
 
 template <class Visitor>
 void describe(Visitor& v, PressureControl& p) {
-  v.value("direction", p.direction,
-          required("", at_least(-1e6, 1e6), "Direction [x, z]; its length does not matter."));
-  v.value("pressure_n_m2", p.pressure_n_m2,
-          required("N/m2", at_least(-1e12, 1e12), "All beside the grains, weight included."));
-  v.value("mass_kg_m", p.mass_kg_m, required("kg/m", above(0, 1e12), "Inertia, per metre of depth."));
-  v.value("velocity_mm_s", p.velocity_mm_s,
-          defaulted("mm/s", at_least(-1e9, 1e9), "Velocity [v_x, v_z] across the direction."));
+  describe_drive(v, p, "pressure_n_m2", p.pressure_n_m2, "N/m2");
   v.value(
       "between", p.between,
       when_given("", not_empty(), "Two walls: pressed length, between the middles of their first shapes."));

@@ -2,11 +2,21 @@
 // Spin of the grains: their angular velocity, which friction alone can change. One number more per grain.
 #include "particles/bodies/bodies.hpp"
 #include "particles/detection/candidate.hpp"
+#include "particles/effects/law_input.hpp"
 
 namespace drumlin::particles {
 
 /// The key: a table without entries.
-struct Spin {};
+struct Spin {
+  static constexpr const char *name = "spin", *sentence = "Angular velocity of the grains; needs friction.";
+  static constexpr const char* modest_text = "";
+  static Spin modest() { return {}; }
+  void check(const auto& scene, auto refuse) const {
+    if (!scene.effects.friction)
+      refuse("acts without friction", "together with effects.friction, or not at all", "effects.friction");
+  }
+};
+inline Spin law_of(const Spin& spin, const LawInput&) { return spin; }
 
 template <class Visitor>
 void describe(Visitor&, Spin&) {}

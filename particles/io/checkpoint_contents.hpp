@@ -50,7 +50,7 @@ void each_number_of_checkpoint(C& c, Visit visit) {
   visit("memory/time_step", s.memory.time_step);
 }
 
-/// The energy ledger; rolling and cohesion only where the scene has them.
+/// The accounts of the energy ledger that each scene has.
 template <class L, class Visit>
 void each_account_of_ledger(L& ledger, Visit visit) {
   visit("energy/kinetic", ledger.kinetic);
@@ -99,8 +99,9 @@ void add_checkpoint(const Checkpoint& checkpoint, Out& out) {
   if (state.energy) {
     each_account_of_ledger(*state.energy,
                            [&out](const char* name, double value) { out.add_number(name, value); });
-    if (state.energy->rolling) out.add_number("energy/rolling", *state.energy->rolling);
-    if (state.energy->cohesion) out.add_number("energy/cohesion", *state.energy->cohesion);
+    each_account(state.energy->effects, [&out](const std::string& name, const std::optional<double>& work) {
+      if (work) out.add_number("energy/" + name, *work);
+    });
     if (state.energy->cell) out.add_number("energy/cell", *state.energy->cell);
   }
   std::vector<double> poses;

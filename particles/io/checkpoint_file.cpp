@@ -50,7 +50,8 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
   Checkpoint checkpoint;
   checkpoint.scene = in.text("scene");
   each_number_of_checkpoint(checkpoint, [&in](const char* name, auto& value) {
-    if (std::string_view(name) == "totals/unresolved_impacts" && !in.has(name)) return;  // of an older version
+    if (std::string_view(name) == "totals/unresolved_impacts" && !in.has(name))
+      return;  // of an older version
     if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>) {
       value = in.number(name);
       // Totals of steps that missed their tolerance may hold others.
@@ -72,8 +73,9 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
   if (in.has("energy")) {
     auto& energy = state.energy.emplace();
     each_account_of_ledger(energy, [&in](const char* name, double& value) { value = in.number(name); });
-    if (in.has("energy/rolling")) energy.rolling = in.number("energy/rolling");
-    if (in.has("energy/cohesion")) energy.cohesion = in.number("energy/cohesion");
+    each_account(energy.effects, [&in](const std::string& name, std::optional<double>& work) {
+      if (in.has("energy/" + name)) work = in.number("energy/" + name);
+    });
     if (in.has("energy/cell")) energy.cell = in.number("energy/cell");
   }
   const auto poses = rows_of(in, "walls/pose_at_start", 3);

@@ -26,16 +26,6 @@ class Variants {
       variant.refused = faults.front().key + " " + faults.front().what;
     all_.push_back(std::move(variant));
   }
-  /// Removes an optional member of the effects, or adds it with this value.
-  template <class Effect>
-  void toggle(const std::string& effect, std::optional<Effect> Effects::*member, const Effect& strength,
-              const std::string& with_it) {
-    if (scene_.effects.*member)
-      add(effect, EffectChange::removed, "", [&](Scene& s) { (s.effects.*member).reset(); });
-    else
-      add(effect, EffectChange::added, with_it, [&](Scene& s) { s.effects.*member = strength; });
-  }
-
   std::vector<EffectVariant> take() {
     std::stable_sort(all_.begin(), all_.end(), [](const EffectVariant& a, const EffectVariant& b) {
       return static_cast<int>(a.change) < static_cast<int>(b.change);
@@ -48,24 +38,44 @@ class Variants {
   std::vector<EffectVariant> all_;
 };
 
-/// Friction carries spin and rolling resistance, spin carries rolling resistance.
-void toggle_friction_and_spin(const Scene& scene, Variants& variants) {
-  const Effects& has = scene.effects;
-  if (has.friction)
-    variants.add("friction", EffectChange::removed, has.spin ? "and spin, which needs it" : "", [](Scene& s) {
-      s.effects.friction.reset(), s.effects.spin.reset(), s.effects.rolling_resistance.reset();
-    });
-  else
-    variants.add("friction", EffectChange::added, "0.3", [](Scene& s) {
-      s.effects.friction = Friction{0.3, 0.3};
-    });
-  if (has.spin)
-    variants.add("spin", EffectChange::removed,
-                 has.rolling_resistance ? "and rolling resistance, which needs it" : "",
-                 [](Scene& s) { s.effects.spin.reset(), s.effects.rolling_resistance.reset(); });
-  else if (has.friction)
-    variants.add("spin", EffectChange::added, "", [](Scene& s) { s.effects.spin = Spin{}; });
-  if (has.spin) variants.toggle("rolling_resistance", &Effects::rolling_resistance, {0.1, 0.1}, "0.1");
+/// Takes away the effects that lack one that they need, and those that need these in turn; returns their
+/// names.
+std::string remove_needy(Scene& scene) {
+  std::string names;
+  for (bool again = true; again;) {
+    again = false;
+    each_effect(
+        [&]<class E>(std::optional<E>& effect) {
+          if (!effect || faults_of(*effect, scene).empty()) return;
+          effect.reset();
+          names += (names.empty() ? "" : ", ") + std::string(E::name);
+          again = true;
+        },
+        scene.effects);
+  }
+  return names;
+}
+
+/// Each effect removed, or added where it can act.
+void toggle_effects(const Scene& scene, Variants& variants) {
+  Scene changed = scene;
+  each_effect(
+      [&]<class E>(const std::optional<E>& effect, std::optional<E>& now) {
+        std::string words = E::modest_text;
+        if (effect) {
+          now.reset();
+          words = remove_needy(changed);
+          if (!words.empty()) words = "and what needs it: " + words;
+        } else if (faults_of(E::modest(), scene).empty()) {
+          now = E::modest();
+        } else {
+          return;
+        }
+        variants.add(E::name, effect ? EffectChange::removed : EffectChange::added, words,
+                     [&](Scene& s) { s.effects = changed.effects; });
+        changed.effects = scene.effects;
+      },
+      scene.effects, changed.effects);
 }
 
 /// Half of the grains of another material, which slides three quarters as well on the first.
@@ -137,13 +147,8 @@ void toggle_walls(const Scene& scene, Variants& variants) {
 
 std::vector<EffectVariant> effect_variants(const Scene& scene) {
   Variants variants(scene);
-  variants.toggle("gravity", &Effects::gravity, Gravity{}, "9.81 m/s2 down");
-  toggle_friction_and_spin(scene, variants);
-  variants.toggle("restitution", &Effects::restitution, {0.5, 0.5}, "0.5");
+  toggle_effects(scene, variants);
   toggle_pairs(scene, variants);
-  variants.toggle("cohesion", &Effects::cohesion, {1, 1}, "one mean weight");
-  if (scene.effects.rotating_frame || !scene.periodic_x)
-    variants.toggle("rotating_frame", &Effects::rotating_frame, RotatingFrame{1, {0, 0}}, "1 rpm");
   toggle_sizes(scene, variants);
   toggle_walls(scene, variants);
   return variants.take();

@@ -26,11 +26,13 @@ bool walls_choose_materials(const Scene& scene) {
 }
 
 bool materials_matter(const Scene& scene) {
-  const Effects& e = scene.effects;
-  return walls_choose_materials(scene) || (e.friction && !e.friction->pairs.empty()) ||
-         (e.restitution && !e.restitution->pairs.empty()) ||
-         (e.rolling_resistance && !e.rolling_resistance->pairs.empty()) ||
-         (e.cohesion && !e.cohesion->pairs.empty());
+  bool differ = walls_choose_materials(scene);
+  each_effect(
+      [&differ]<class E>(const std::optional<E>& effect) {
+        if constexpr (HasPairs<E>) differ = differ || (effect && !effect->pairs.empty());
+      },
+      scene.effects);
+  return differ;
 }
 
 }  // namespace drumlin::particles

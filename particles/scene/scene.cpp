@@ -5,6 +5,14 @@
 #include <limits>
 
 namespace drumlin::particles {
+namespace {
+
+template <class Has>
+bool any_stage(const Scene& scene, Has has) {
+  return std::any_of(scene.stages.begin(), scene.stages.end(), has);
+}
+
+}  // namespace
 
 double duration_s(const Stage& stage) {
   if (stage.duration_s) return *stage.duration_s;
@@ -15,10 +23,9 @@ double duration_s(const Stage& stage) {
 }
 
 bool moves_walls_by_force(const Scene& scene) {
-  for (const Stage& stage : scene.stages)
-    for (const WallMotion& asked : stage.motions)
-      if (is_driven(asked)) return true;
-  return false;
+  return any_stage(scene, [](const Stage& stage) {
+    return std::any_of(stage.motions.begin(), stage.motions.end(), is_driven);
+  });
 }
 
 bool is_driven(const WallMotion& asked) {
@@ -27,28 +34,34 @@ bool is_driven(const WallMotion& asked) {
 }
 
 bool ends_stages_early(const Scene& scene) {
-  return std::any_of(scene.stages.begin(), scene.stages.end(),
-                     [](const Stage& stage) { return stage.until.has_value(); });
+  return any_stage(scene, [](const Stage& stage) { return stage.until.has_value(); });
 }
 
 bool opens_walls(const Scene& scene) {
-  return std::any_of(scene.stages.begin(), scene.stages.end(),
-                     [](const Stage& stage) { return stage.opens.has_value(); });
+  return any_stage(scene, [](const Stage& stage) { return stage.opens.has_value(); });
 }
 
 bool changes_gravity(const Scene& scene) {
-  return std::any_of(scene.stages.begin(), scene.stages.end(),
-                     [](const Stage& stage) { return stage.gravity.has_value(); });
+  return any_stage(scene, [](const Stage& stage) { return stage.gravity.has_value(); });
+}
+
+bool changes_coefficients(const Stage& stage) {
+  bool any = false;
+  each_effect(
+      [&any](const auto& values) {
+        if constexpr (requires { values.has_value(); }) any = any || values.has_value();
+      },
+      stage.effects);
+  return any;
 }
 
 bool moves_cell(const Scene& scene) {
-  return std::any_of(scene.stages.begin(), scene.stages.end(),
-                     [](const Stage& stage) { return stage.cell.has_value(); });
+  return any_stage(scene, [](const Stage& stage) { return stage.cell.has_value(); });
 }
 
 bool presses_cell(const Scene& scene) {
   const auto pressed = [](const std::optional<CellAxis>& axis) { return axis && axis->pressure_n_m2; };
-  return std::any_of(scene.stages.begin(), scene.stages.end(), [&](const Stage& stage) {
+  return any_stage(scene, [&](const Stage& stage) {
     return stage.cell && (pressed(stage.cell->xx) || pressed(stage.cell->zz));
   });
 }

@@ -10,14 +10,8 @@
 #include <vector>
 
 #include "coupling/common/scales.hpp"
-#include "particles/effects/cohesion.hpp"
 #include "particles/effects/driven_walls.hpp"
-#include "particles/effects/friction.hpp"
-#include "particles/effects/gravity.hpp"
-#include "particles/effects/restitution.hpp"
-#include "particles/effects/rolling.hpp"
-#include "particles/effects/rotating_frame.hpp"
-#include "particles/effects/spin.hpp"
+#include "particles/effects/effects.hpp"
 #include "particles/scene/generated_grains.hpp"
 #include "particles/scene/stage.hpp"
 #include "particles/scene/traffic.hpp"
@@ -118,17 +112,6 @@ struct Wall {
   std::optional<std::vector<std::string>> acts_on = {};  ///< materials of the grains that it meets
 };
 
-/// What is absent is neither stored nor computed. Each effect is described in its file in particles/effects.
-struct Effects {
-  std::optional<Gravity> gravity = {};
-  std::optional<Friction> friction = {};
-  std::optional<Restitution> restitution = {};
-  std::optional<Spin> spin = {};
-  std::optional<RollingResistance> rolling_resistance = {};
-  std::optional<Cohesion> cohesion = {};
-  std::optional<RotatingFrame> rotating_frame = {};
-};
-
 /// Contact solver and when it may stop. Tolerances in the project's one definition (docs/conventions.md).
 struct SolverSettings {
   std::string name = "accelerated";
@@ -175,6 +158,8 @@ bool ends_stages_early(const Scene& scene);
 bool opens_walls(const Scene& scene);
 /// Whether some stage has a gravity of its own.
 bool changes_gravity(const Scene& scene);
+/// Whether a stage has values of its own for an effect.
+bool changes_coefficients(const Stage& stage);
 /// Whether the cell moves in some stage, and whether a pressure moves it there.
 bool moves_cell(const Scene& scene);
 bool presses_cell(const Scene& scene);

@@ -195,15 +195,7 @@ void describe(Visitor& v, Wall& w) {
 
 template <class Visitor>
 void describe(Visitor& v, Effects& e) {
-  v.optional_table("gravity", e.gravity, "Uniform gravity.");
-  v.optional_table("friction", e.friction, "Coulomb friction.");
-  v.optional_table("restitution", e.restitution, "Newton restitution of the normal velocity.");
-  v.optional_table("spin", e.spin, "Angular velocity of the grains; needs friction.");
-  v.optional_table("rolling_resistance", e.rolling_resistance, "A couple that opposes rolling; needs spin.");
-  v.optional_table("cohesion", e.cohesion,
-                   "Constant attraction of surfaces that touch; counts as load in Coulomb's law.");
-  v.optional_table("rotating_frame", e.rotating_frame,
-                   "Scene told in a turning frame; gravity keeps its laboratory direction.");
+  each_effect([&v]<class E>(std::optional<E>& effect) { v.optional_table(E::name, effect, E::sentence); }, e);
 }
 
 template <class Visitor>

@@ -8,30 +8,12 @@
 
 #include "coupling/common/scales.hpp"
 #include "particles/effects/driven_walls.hpp"
+#include "particles/effects/effects.hpp"
 #include "particles/effects/moving_cell.hpp"
-#include "particles/effects/rotating_frame.hpp"
 #include "particles/effects/servo_walls.hpp"
 #include "particles/effects/stage_gravity.hpp"
 
 namespace drumlin::particles {
-
-/// Values of a law within one stage, in place of those of the effect and of its pairs.
-struct StageCoefficients {
-  double grain_grain = 0;
-  double grain_wall = 0;
-};
-
-/// Those of restitution.
-struct StageRestitution {
-  double grain_grain = 0;
-  double grain_wall = 0;
-};
-
-/// Those of cohesion, in weights of a disc of the mean diameter; its range stays.
-struct StageCohesion {
-  double grain_grain = 0;
-  double grain_wall = 0;
-};
 
 /// The grains are at rest: their kinetic energy stays below a bound.
 struct UntilRest {
@@ -105,10 +87,7 @@ struct Stage {
   int snapshots = 0;
   std::optional<std::vector<std::string>> opens = {};  ///< walls that are gone from its start on
   std::optional<StageGravity> gravity = {};            ///< stays until another stage changes it
-  // Coefficients of this stage alone, in place of those of the effects.
-  std::optional<StageCoefficients> friction = {}, rolling_resistance = {};
-  std::optional<StageRestitution> restitution = {};
-  std::optional<StageCohesion> cohesion = {};
+  StageEffects effects = {};                           ///< in this stage alone
   std::optional<Until> until = {};
   std::optional<StageCell> cell = {};  ///< how a cell that is periodic in x and z moves
 };

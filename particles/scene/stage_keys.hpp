@@ -58,25 +58,6 @@ void describe(Visitor& v, WallMotion& m) {
 }
 
 template <class Visitor>
-void describe(Visitor& v, StageCoefficients& c) {
-  v.value("grain_grain", c.grain_grain, required("", at_least(0, 100), "Between grains."));
-  v.value("grain_wall", c.grain_wall, required("", at_least(0, 100), "With a wall."));
-}
-
-template <class Visitor>
-void describe(Visitor& v, StageRestitution& c) {
-  v.value("grain_grain", c.grain_grain, required("", at_least(0, 1), "Between grains."));
-  v.value("grain_wall", c.grain_wall, required("", at_least(0, 1), "With a wall."));
-}
-
-template <class Visitor>
-void describe(Visitor& v, StageCohesion& c) {
-  v.value("grain_grain", c.grain_grain,
-          required("", at_least(0, 1e6), "Between grains, in weights of the mean disc."));
-  v.value("grain_wall", c.grain_wall, required("", at_least(0, 1e6), "With a wall."));
-}
-
-template <class Visitor>
 void describe(Visitor& v, UntilRest& u) {
   v.value("energy", u.energy,
           defaulted("", above(0, 1e6), "Kinetic energy per grain, in weights of the mean disc times d."));
@@ -116,10 +97,12 @@ void describe(Visitor& v, Stage& s) {
            "Those of one wall act in their order, each on what those before it leave.");
   v.value("opens", s.opens, when_given("", not_empty(), "Walls gone from its start on."));
   v.optional_table("gravity", s.gravity, "Stays until another stage changes it.");
-  v.optional_table("friction", s.friction, "In place of effects.friction.");
-  v.optional_table("restitution", s.restitution, "In place of effects.restitution.");
-  v.optional_table("rolling_resistance", s.rolling_resistance, "In place of effects.rolling_resistance.");
-  v.optional_table("cohesion", s.cohesion, "In place of effects.cohesion, whose range stays.");
+  each_effect(
+      [&v]<class E>(auto& values, const std::optional<E>&) {
+        if constexpr (HasPairs<E>)
+          v.optional_table(E::name, values, std::string("In place of effects.") + E::name + ".");
+      },
+      s.effects, Effects{});
   v.optional_table("until", s.until, "Ends the stage when the first is met.");
   v.optional_table("cell", s.cell, "How the cell of periodic_z moves.");
 }

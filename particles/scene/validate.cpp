@@ -89,22 +89,13 @@ void check_walls(const Scene& scene, Faults& faults) {
 }
 
 void check_effects(const Scene& scene, Faults& faults) {
-  const Effects& effects = scene.effects;
-  if (effects.rotating_frame && scene.periodic_x)
-    faults.push_back({"effects.rotating_frame",
-                      "turns a domain that is periodic in x",
-                      "in a scene without periodic_x",
-                      {"effects.rotating_frame", "periodic_x"}});
-  if (effects.rolling_resistance && !effects.spin)
-    faults.push_back({"effects.rolling_resistance",
-                      "acts without spin",
-                      "together with effects.spin, or not at all",
-                      {"effects.rolling_resistance", "effects.spin"}});
-  if (effects.spin && !effects.friction)
-    faults.push_back({"effects.spin",
-                      "acts without friction",
-                      "together with effects.friction, or not at all",
-                      {"effects.spin", "effects.friction"}});
+  each_effect(
+      [&]<class E>(const std::optional<E>& effect) {
+        if (!effect) return;
+        const std::vector<SceneFault> of_effect = faults_of(*effect, scene);
+        faults.insert(faults.end(), of_effect.begin(), of_effect.end());
+      },
+      scene.effects);
 }
 
 /// Of a motion of kind force or pressure.
@@ -280,23 +271,14 @@ void check_stages(const Scene& scene, Faults& faults) {
   faults.insert(faults.end(), too_long.begin(), too_long.end());
 }
 
-/// Files of contact problems hold two unknowns per contact, and grains and walls that only grains push.
+/// Files of contact problems hold grains and walls that only grains push.
 void check_capture(const Scene& scene, Faults& faults) {
   const std::string key = "solver.capture_unconverged";
-  if (scene.solver.capture_unconverged == 0) return;
-  if (scene.effects.rolling_resistance)
+  if (scene.solver.capture_unconverged > 0 && moves_walls_by_force(scene))
     faults.push_back({key,
-                      "asks for contact problems with rolling resistance, which their files cannot hold",
-                      "0, or no effects.rolling_resistance",
-                      {key, "effects.rolling_resistance"}});
-  for (std::size_t s = 0; s < scene.stages.size(); ++s)
-    for (std::size_t m = 0; m < scene.stages[s].motions.size(); ++m)
-      if (is_driven(scene.stages[s].motions[m]))
-        faults.push_back(
-            {key,
-             "asks for contact problems with walls moved by a force, which their files cannot hold",
-             "0, or no motion of kind force",
-             {key, fmt::format("{}.motions.{}.kind", stage_key(s), m)}});
+                      "asks for contact problems with walls moved by a force, which their files cannot hold",
+                      "0, or no motion of kind force",
+                      {key, "stages"}});
 }
 
 }  // namespace

@@ -16,6 +16,18 @@ struct SceneFault {
   std::vector<std::string> about;
 };
 
+/// What an effect needs of the rest of a scene and does not find.
+template <class E>
+std::vector<SceneFault> faults_of(const E& effect, const Scene& scene) {
+  std::vector<SceneFault> faults;
+  const std::string key = std::string("effects.") + E::name;
+  const auto refuse = [&](const std::string& what, const std::string& allowed, const std::string& with) {
+    faults.push_back({key, what, allowed, {key, with}});
+  };
+  if constexpr (requires { effect.check(scene, refuse); }) effect.check(scene, refuse);
+  return faults;
+}
+
 /// All contradictions of a scene; empty for one that can be run. Reads the list of grains if there is one:
 /// problems inside it carry their own place and are thrown as InputError by place_grains, not told here.
 std::vector<SceneFault> validate(const Scene& scene);

@@ -67,12 +67,12 @@ void check_materials(const Scene& scene, std::vector<SceneFault>& faults) {
                           fmt::format("names no material of grains: \"{}\"", name),
                           "names from grains.materials",
                           {fmt::format("walls.{}.acts_on", w), key}});
-  const Effects& effects = scene.effects;
-  if (effects.friction) check_pairs(scene, effects.friction->pairs, "friction", faults);
-  if (effects.restitution) check_pairs(scene, effects.restitution->pairs, "restitution", faults);
-  if (effects.rolling_resistance)
-    check_pairs(scene, effects.rolling_resistance->pairs, "rolling_resistance", faults);
-  if (effects.cohesion) check_pairs(scene, effects.cohesion->pairs, "cohesion", faults);
+  each_effect(
+      [&]<class E>(const std::optional<E>& effect) {
+        if constexpr (HasPairs<E>)
+          if (effect) check_pairs(scene, effect->pairs, E::name, faults);
+      },
+      scene.effects);
 }
 
 }  // namespace drumlin::particles

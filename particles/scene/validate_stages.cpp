@@ -72,10 +72,11 @@ void check_coefficients(const Scene& scene, std::size_t s, Faults& faults) {
                         {key, "effects"}});
   };
   check("gravity", stage.gravity.has_value(), effects.gravity.has_value());
-  check("friction", stage.friction.has_value(), effects.friction.has_value());
-  check("restitution", stage.restitution.has_value(), effects.restitution.has_value());
-  check("rolling_resistance", stage.rolling_resistance.has_value(), effects.rolling_resistance.has_value());
-  check("cohesion", stage.cohesion.has_value(), effects.cohesion.has_value());
+  each_effect(
+      [&]<class E>(const auto& values, const std::optional<E>& effect) {
+        if constexpr (HasPairs<E>) check(E::name, values.has_value(), effect.has_value());
+      },
+      stage.effects, effects);
   if (stage.gravity && scene.output.energy_ledger) {
     const std::string key = fmt::format("stages.{}.gravity", s);
     faults.push_back({key,

@@ -6,7 +6,6 @@
 #include "particles/contact/problems.hpp"
 #include "particles/effects/driven_walls.hpp"
 #include "particles/effects/friction.hpp"
-#include "particles/effects/rolling.hpp"
 #include "particles/effects/spin.hpp"
 #include "particles/parallel/team_loops.hpp"
 #include "particles/parallel/work_memory.hpp"
@@ -21,17 +20,16 @@ constexpr bool drives_walls = requires {
   requires Problem::Delassus::has_driven;
 };
 
-/// Velocity of the wall of a pair without contacts.
-template <class Problem>
-Point wall_velocity(const StepInput& step, const Candidate& pair) {
+/// Velocity of the wall of a pair, or of the image of j against j; `of_driven(k)`: that along the direction
+/// of driven wall k.
+template <class Problem, class OfDriven>
+Point wall_velocity(const StepInput& step, const Candidate& pair, OfDriven of_driven) {
   const Point prescribed{pair.wall_v_x, pair.wall_v_z};
   if constexpr (drives_walls<Problem>)
     if (const std::int32_t k = driven_wall_of(step.walls, pair); k >= 0) {
       const Driven& wall = step.walls.driven[k];
-      // The pair has the wall's velocity by its force alone; impacts and cohesion may have changed that
-      // since.
-      return along(prescribed, wall,
-                   step.free.driven[k] - free_velocity(wall, step.driven[k], step.time_step));
+      // The pair has the wall's velocity by its force alone.
+      return along(prescribed, wall, of_driven(k) - free_velocity(wall, step.driven[k], step.time_step));
     }
   return prescribed;
 }
@@ -78,7 +76,9 @@ void assemble_contact(const StepInput& step, const Candidate& pair, int a, Probl
   constexpr int dim = Problem::dim;
   const StepLaws& laws = step.laws;
   const Bodies& bodies = step.bodies;
-  const Point u = relative_velocity(pair, step.free.x, step.free.z, wall_velocity<Problem>(step, pair));
+  const auto of_driven = [&step](std::int32_t k) { return step.free.driven[k]; };
+  const Point wall = wall_velocity<Problem>(step, pair, of_driven);
+  const Point u = relative_velocity(pair, step.free.x, step.free.z, wall);
   problem.q[dim * a] = normal_part(pair, u) + pair.gap / step.time_step;  // it may act before it touches
   const std::int32_t second = second_body<Problem>(step, pair);
   if constexpr (drives_walls<Problem>)
@@ -89,10 +89,14 @@ void assemble_contact(const StepInput& step, const Candidate& pair, int a, Probl
       problem.W.arm_x[a] = arm.x, problem.W.arm_z[a] = arm.z;
     }
   if constexpr (dim == 3) {
-    const double lever = lever_of(pair, bodies);
-    problem.W.set(a, pair.i, second, pair.n_x, pair.n_z, lever);
-    problem.q[dim * a + 2] = rolling_velocity(pair, bodies, step.walls, lever, step.time_step);
-    problem.mu[2 * a + 1] = rolling_bound(*laws.rolling, pair, step.materials());
+    each_law(laws, [&](const auto& law) {
+      if constexpr (requires { law.couple_bound(pair, step.materials()); }) {
+        const double lever = law.lever(pair, bodies);
+        problem.W.set(a, pair.i, second, pair.n_x, pair.n_z, lever);
+        problem.q[dim * a + 2] = law.couple_velocity(pair, bodies, step.walls, lever, step.time_step);
+        problem.mu[2 * a + 1] = law.couple_bound(pair, step.materials());
+      }
+    });
   } else {
     problem.W.set(a, pair.i, second, pair.n_x, pair.n_z);
   }

@@ -8,20 +8,6 @@
 
 namespace drumlin::particles {
 
-/// Mean velocity over the step, impacts aside, of the wall of a pair, once `step.free.driven` holds the
-/// velocities that contacts left to driven walls.
-template <class Problem>
-Point mean_wall_velocity(const StepInput& step, const StepContacts& contacts, const Candidate& pair) {
-  const Point prescribed{pair.wall_v_x, pair.wall_v_z};
-  if constexpr (drives_walls<Problem>)
-    if (const std::int32_t k = driven_wall_of(step.walls, pair); k >= 0) {
-      const Driven& wall = step.walls.driven[k];
-      const double mean = (step.driven[k].velocity + contacts.wall_jumps[k] + step.free.driven[k]) / 2;
-      return along(prescribed, wall, mean - free_velocity(wall, step.driven[k], step.time_step));
-    }
-  return prescribed;
-}
-
 /// What the mean velocity of contact a over the step lacks if the rates of a cell are those without contacts
 /// and the grains do not follow their change: the part of the cell.
 template <class Problem>
@@ -35,33 +21,73 @@ Point image_velocity(const Problem& problem, Point change, const Candidate& pair
   return image;
 }
 
+/// The grains with the mean of their velocities before and after a step.
+inline Bodies mean_motion(const Bodies& before, const Bodies& now) {
+  Bodies mean = before;
+  const auto half_way = [](const std::vector<double>& from, const std::vector<double>& to,
+                           std::vector<double>& at) {
+    for (std::size_t b = 0; b < at.size(); ++b) at[b] = (from[b] + to[b]) / 2;
+  };
+  half_way(before.v_x, now.v_x, mean.v_x), half_way(before.v_z, now.v_z, mean.v_z);
+  half_way(before.spin, now.spin, mean.spin);
+  return mean;
+}
+
+/// Opens the accounts of the effects of the scene, and books what the law of each knows of its work.
+inline void book_effects(const StepInput& step, const Bodies& before, EnergyLedger& ledger) {
+  each_effect(
+      [&]<class E>(const auto& law, std::optional<double>& work, const std::optional<E>&) {
+        if constexpr (requires { E::account; })
+          if (law && !work) work = 0;
+        if constexpr (requires { law->work(before, step.bodies, step.time_step); })
+          if (law) book(law->work(before, step.bodies, step.time_step), *work, ledger);
+      },
+      step.laws, ledger.effects, Effects{});
+}
+
 /// Books the contacts of a step whose bodies have been moved (step.bodies) but not its driven walls,
 /// nor its cell.
 template <class Problem>
 void book_contacts(const StepInput& step, const StepContacts& contacts, const Problem& problem,
                    const Solution<Problem>& solution, const EnergyBooks& books, EnergyLedger& ledger) {
   constexpr int dim = Problem::dim;
-  const StepLaws& laws = step.laws;
   const auto& impulses = solution.impulses;
+  const Bodies mean = mean_motion(books.before(), step.bodies);
   Point change;
   if constexpr (drives_walls<Problem>) change = cell_answer(problem, solution.velocities.bodies);
-  if (dim == 3 && !ledger.rolling) ledger.rolling = 0;
-  if (laws.cohesion && !ledger.cohesion) ledger.cohesion = 0;
+  // Mean velocity over the step, impacts aside; step.free.driven holds what contacts left to driven walls.
+  const auto of_driven = [&](std::int32_t k) {
+    return (step.driven[k].velocity + contacts.wall_jumps[k] + step.free.driven[k]) / 2;
+  };
+  book_effects(step, books.before(), ledger);
   for (std::size_t a = 0; a < contacts.pairs.size(); ++a) {
-    const Candidate& pair = contacts.pairs[a];
-    WorkingContact contact;
-    contact.i = pair.i, contact.j = pair.j, contact.n_x = pair.n_x, contact.n_z = pair.n_z;
-    contact.normal = impulses[dim * a];
-    if constexpr (dim >= 2) contact.tangential = impulses[dim * a + 1];
-    if constexpr (dim == 3) {
-      contact.rolling = impulses[dim * a + 2];
-      contact.lever = problem.W.lever[a];
-      if (pair.j < 0) contact.wall_spin = wall_spin(pair, step.walls, step.time_step);
+    Candidate pair = contacts.pairs[a];
+    const Point of_j = pair.j < 0 ? wall_velocity<Problem>(step, pair, of_driven)
+                                  : image_velocity(problem, change, pair, a);  // beyond that of j itself
+    pair.wall_v_x = of_j.x, pair.wall_v_z = of_j.z;
+    const Point u = relative_velocity(pair, mean.v_x, mean.v_z, of_j);
+    const double u_n = normal_part(pair, u), r_n = impulses[dim * a];
+    double r_t = 0;
+    book(r_n * u_n, ledger.impacts, ledger);
+    if constexpr (dim >= 2) {
+      const double u_t = tangential_part(pair, u);
+      r_t = impulses[dim * a + 1];
+      book(r_t * (mean.spin.empty() ? u_t : sliding_of_rims(u_t, pair, mean)), ledger.friction, ledger);
     }
-    if (laws.cohesion) contact.attraction = contacts.attraction[a];
-    contact.wall_velocity = pair.j < 0 ? mean_wall_velocity<Problem>(step, contacts, pair)
-                                       : image_velocity(problem, change, pair, a);
-    books.add(contact, step.bodies, ledger);
+    const auto book_law = [&](const auto& law, std::optional<double>& work) {
+      if constexpr (requires { law->attraction(pair, step.materials()); })
+        if (law) book(-step.time_step * law->attraction(pair, step.materials()) * u_n, *work, ledger);
+      if constexpr (dim == 3 && requires { law->couple_bound(pair, step.materials()); }) {
+        const double r_c = impulses[dim * a + 2], lever = law->lever(pair, mean);
+        book(r_c * law->couple_velocity(pair, mean, step.walls, lever, step.time_step), *work, ledger);
+        book(r_c * law->wall_part(pair, mean, step.walls, step.time_step), ledger.walls, ledger);
+      }
+    };
+    each_effect(book_law, step.laws, ledger.effects);
+    if (pair.j >= 0 && of_j.x == 0 && of_j.z == 0) continue;
+    const double p_n = r_n - contacts.attraction_of(a);
+    const double p_x = pair.n_x * p_n + pair.n_z * r_t, p_z = pair.n_z * p_n - pair.n_x * r_t;
+    book(p_x * of_j.x + p_z * of_j.z, mover(ledger), ledger);
   }
 }
 

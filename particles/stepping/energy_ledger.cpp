@@ -3,17 +3,13 @@
 #include <cmath>
 
 namespace drumlin::particles {
-namespace {
 
 void book(double work, double& account, EnergyLedger& ledger) {
   account += work;
   ledger.turnover += std::abs(work);
 }
 
-/// What moves the other side of a contact: walls, or the cell.
 double& mover(EnergyLedger& ledger) { return ledger.cell ? *ledger.cell : ledger.walls; }
-
-}  // namespace
 
 void book_cell(double work, EnergyLedger& ledger) {
   if (!ledger.cell) ledger.cell = 0;
@@ -23,8 +19,9 @@ void book_cell(double work, EnergyLedger& ledger) {
 std::vector<std::pair<std::string, double>> exchanges(const EnergyLedger& ledger) {
   std::vector<std::pair<std::string, double>> all = {
       {"walls", ledger.walls}, {"friction", ledger.friction}, {"impacts", ledger.impacts}};
-  if (ledger.rolling) all.emplace_back("rolling", *ledger.rolling);
-  if (ledger.cohesion) all.emplace_back("cohesion", *ledger.cohesion);
+  each_account(ledger.effects, [&all](const std::string& name, const std::optional<double>& work) {
+    if (work) all.emplace_back(name, *work);
+  });
   if (ledger.cell) all.emplace_back("cell", *ledger.cell);
   all.emplace_back("time_integration", ledger.time_integration);
   all.emplace_back("projection", ledger.projection);
@@ -46,7 +43,7 @@ double EnergyBooks::potential(const Bodies& bodies) const {
 }
 
 void EnergyBooks::open(const Bodies& bodies, std::optional<EnergyLedger>& ledger) {
-  x_ = bodies.x, z_ = bodies.z, v_x_ = bodies.v_x, v_z_ = bodies.v_z, spin_ = bodies.spin;
+  before_ = bodies;
   if (ledger) return;
   ledger.emplace();
   ledger->kinetic = ledger->kinetic_at_start = kinetic_energy(bodies);
@@ -58,60 +55,31 @@ void EnergyBooks::strike(std::span<const StruckGrain> struck, const ImpactWork& 
   book(work.tangential, ledger.friction, ledger);
   book(work.walls, mover(ledger), ledger);
   for (const StruckGrain& grain : struck) {
-    v_x_[grain.grain] += grain.v_x, v_z_[grain.grain] += grain.v_z;
-    x_[grain.grain] += grain.shift.x, z_[grain.grain] += grain.shift.z;
-    if (!spin_.empty()) spin_[grain.grain] += grain.spin;
+    before_.v_x[grain.grain] += grain.v_x, before_.v_z[grain.grain] += grain.v_z;
+    before_.x[grain.grain] += grain.shift.x, before_.z[grain.grain] += grain.shift.z;
+    if (!before_.spin.empty()) before_.spin[grain.grain] += grain.spin;
   }
-}
-
-void EnergyBooks::add(const WorkingContact& c, const Bodies& now, EnergyLedger& ledger) const {
-  const auto mean = [](const std::vector<double>& before, const std::vector<double>& after, std::int32_t b) {
-    return (before[b] + after[b]) / 2;
-  };
-  const bool wall = c.j < 0;
-  const Point of_j = c.wall_velocity;  // beyond that of j itself
-  const double d_x = mean(v_x_, now.v_x, c.i) - (wall ? 0 : mean(v_x_, now.v_x, c.j)) - of_j.x;
-  const double d_z = mean(v_z_, now.v_z, c.i) - (wall ? 0 : mean(v_z_, now.v_z, c.j)) - of_j.z;
-  const double u_n = c.n_x * d_x + c.n_z * d_z;
-  double u_t = c.n_z * d_x - c.n_x * d_z;
-  if (!spin_.empty()) {
-    const double rim_i = now.radius[c.i] * mean(spin_, now.spin, c.i);
-    const double rim_j = wall ? 0 : now.radius[c.j] * mean(spin_, now.spin, c.j);
-    u_t -= rim_i + rim_j;
-    if (ledger.rolling) {
-      const double of_wall = wall ? now.radius[c.i] * c.wall_spin : 0;
-      const double u_r = c.lever * rim_i - (1 - c.lever) * rim_j - of_wall;
-      book(c.rolling * u_r, *ledger.rolling, ledger);
-      book(c.rolling * of_wall, ledger.walls, ledger);
-    }
-  }
-  book(c.normal * u_n, ledger.impacts, ledger);
-  book(c.tangential * u_t, ledger.friction, ledger);
-  if (ledger.cohesion) book(-c.attraction * u_n, *ledger.cohesion, ledger);
-  if (!wall && of_j.x == 0 && of_j.z == 0) return;
-  const double p_n = c.normal - c.attraction;
-  const double p_x = c.n_x * p_n + c.n_z * c.tangential, p_z = c.n_z * p_n - c.n_x * c.tangential;
-  book(p_x * of_j.x + p_z * of_j.z, mover(ledger), ledger);
 }
 
 void EnergyBooks::move(const Bodies& now, double h, EnergyLedger& ledger) {
   double fall = 0, late = 0;
   for (std::size_t b = 0; gravity_ && b < now.count(); ++b) {
     const double m = 1 / now.inverse_mass[b], w_x = m * gravity_->x, w_z = m * gravity_->z;
-    const double moved = w_x * (now.x[b] - x_[b]) + w_z * (now.z[b] - z_[b]);
+    const double moved = w_x * (now.x[b] - before_.x[b]) + w_z * (now.z[b] - before_.z[b]);
     fall += moved;
-    late += h / 2 * (w_x * (v_x_[b] + now.v_x[b]) + w_z * (v_z_[b] + now.v_z[b])) - moved;
+    late += h / 2 * (w_x * (before_.v_x[b] + now.v_x[b]) + w_z * (before_.v_z[b] + now.v_z[b])) - moved;
   }
   ledger.turnover += std::abs(fall);  // between potential and kinetic energy
   book(late, ledger.time_integration, ledger);
-  x_ = now.x, z_ = now.z;
+  before_.x = now.x, before_.z = now.z;
 }
 
 void EnergyBooks::close(const Bodies& now, EnergyLedger& ledger) const {
   ledger.kinetic = kinetic_energy(now);
   double corrected = 0;
   for (std::size_t b = 0; gravity_ && b < now.count(); ++b)
-    corrected -= (gravity_->x * (now.x[b] - x_[b]) + gravity_->z * (now.z[b] - z_[b])) / now.inverse_mass[b];
+    corrected -= (gravity_->x * (now.x[b] - before_.x[b]) + gravity_->z * (now.z[b] - before_.z[b])) /
+                 now.inverse_mass[b];
   book(corrected, ledger.projection, ledger);
   ledger.potential = potential(now);
 }

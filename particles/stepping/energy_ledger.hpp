@@ -10,6 +10,7 @@
 
 #include "particles/bodies/bodies.hpp"
 #include "particles/bodies/walls.hpp"
+#include "particles/effects/effects.hpp"
 #include "particles/stepping/impacts.hpp"
 
 namespace drumlin::particles {
@@ -20,15 +21,14 @@ struct EnergyLedger {
   double kinetic = 0;    ///< of translation and spin, in the laboratory
   double potential = 0;  ///< in gravity, 0 at the origin
   double kinetic_at_start = 0, potential_at_start = 0;
-  double walls = 0;                ///< work of the walls
-  double friction = 0;             ///< work of tangential impulses on sliding
-  double impacts = 0;              ///< work of normal impulses
-  double time_integration = 0;     ///< gravity's work less the fall: what vanishes with the step
-  double projection = 0;           ///< potential energy of position corrections
-  std::optional<double> rolling;   ///< work of rolling couples; only with rolling resistance
-  std::optional<double> cohesion;  ///< work of attraction; only with cohesion
-  std::optional<double> cell;      ///< work of a moving cell; only in a scene with one
-  double turnover = 0;             ///< sum of the sizes of all these exchanges, step by step
+  double walls = 0;             ///< work of the walls
+  double friction = 0;          ///< work of tangential impulses on sliding
+  double impacts = 0;           ///< work of normal impulses
+  double time_integration = 0;  ///< gravity's work less the fall: what vanishes with the step
+  double projection = 0;        ///< potential energy of position corrections
+  EffectsOf<WorkOf> effects;    ///< work of those that the scene has
+  std::optional<double> cell;   ///< work of a moving cell; only in a scene with one
+  double turnover = 0;          ///< sum of the sizes of all these exchanges, step by step
 };
 
 /// The exchanges by name, those that the scene has, in the order of the columns of energy.csv.
@@ -36,22 +36,13 @@ std::vector<std::pair<std::string, double>> exchanges(const EnergyLedger&);
 /// Energy now less that at the start less all exchanges: 0 but for rounding.
 double closing_error(const EnergyLedger&);
 
+/// Books work that `account` gives to the grains.
+void book(double work, double& account, EnergyLedger& ledger);
+/// What moves the other side of a contact: walls, or the cell.
+double& mover(EnergyLedger& ledger);
 /// Books the work of a cell that moves, between contacts or where grains cross its border: the kinetic energy
 /// that it adds.
 void book_cell(double work, EnergyLedger&);
-
-/// One contact of a step, as it acted.
-struct WorkingContact {
-  std::int32_t i = 0, j = 0;  ///< grains; j < 0: a wall
-  double n_x = 0, n_z = 0;    ///< unit normal from j to i; the tangent is (n_z, -n_x)
-  double normal = 0;          ///< impulses: of the contact law, without cohesion
-  double tangential = 0;
-  double rolling = 0;  ///< and lever of i and j (GeneralDelassus)
-  double lever = 0;
-  double attraction = 0;  ///< cohesive impulse
-  Point wall_velocity;    ///< mean of before and after the step; between grains that of the image
-  double wall_spin = 0;
-};
 
 /// A step that has been done: what the grains were at its beginning and before the position projection.
 class EnergyBooks {
@@ -62,8 +53,8 @@ class EnergyBooks {
   void open(const Bodies&, std::optional<EnergyLedger>& ledger);
   /// Books the impacts of the step, which come before its contacts.
   void strike(std::span<const StruckGrain>, const ImpactWork&, EnergyLedger&);
-  /// Adds the work of a contact, from the velocities then and now.
-  void add(const WorkingContact&, const Bodies& now, EnergyLedger&) const;
+  /// The grains at the beginning of the step, with what impacts have changed.
+  const Bodies& before() const { return before_; }
   /// Books gravity once the grains have been moved, before the position projection.
   void move(const Bodies& now, double time_step, EnergyLedger&);
   /// Ends the step, after the position projection.
@@ -73,7 +64,7 @@ class EnergyBooks {
   double potential(const Bodies&) const;
 
   std::optional<Point> gravity_;
-  std::vector<double> x_, z_, v_x_, v_z_, spin_;
+  Bodies before_;
 };
 
 }  // namespace drumlin::particles

@@ -11,6 +11,7 @@
 #include "particles/parallel/work_memory.hpp"
 #include "particles/solver/contact_solver.hpp"
 #include "particles/stepping/assembly.hpp"
+#include "particles/stepping/attract.hpp"
 #include "particles/stepping/book_contacts.hpp"
 #include "particles/stepping/cell_step.hpp"
 #include "particles/stepping/impacts.hpp"
@@ -70,9 +71,7 @@ class MoreauJean final : public Stepper {
     if (books_) books_->open(bodies, state.energy);
     if (books_ && state.cell && !state.energy->cell) state.energy->cell = 0;
     detect(step, state, watch, report);
-    if (laws_.cohesion)
-      attract(*laws_.cohesion, contacts_.pairs, bodies, walls, step.materials(), time_step, free_,
-              contacts_.attraction);
+    attract(step, free_, contacts_);
     assemble<Problem, with_spin>(step, contacts_, TeamLoops(&team_), problem_);
     report.setup_seconds += watch.lap();
     report.contacts = problem_.contacts();
@@ -101,8 +100,7 @@ class MoreauJean final : public Stepper {
     for (std::size_t a = 0; a < contacts_.pairs.size(); ++a) {
       const Candidate& pair = contacts_.pairs[a];
       if (pair.j >= 0) continue;
-      const double pull = laws_.cohesion ? contacts_.attraction[a] : 0;
-      at_walls.push_back({pair.i, -1 - pair.j, pair.n_x, pair.n_z, r[dim * a] - pull,
+      at_walls.push_back({pair.i, -1 - pair.j, pair.n_x, pair.n_z, r[dim * a] - contacts_.attraction_of(a),
                           dim >= 2 ? r[dim * a + 1 % dim] : 0, dim == 3 ? r[dim * a + 2 % dim] : 0});
     }
     for (const Strike& strike : contacts_.strikes)
@@ -117,8 +115,7 @@ class MoreauJean final : public Stepper {
     for (std::size_t a = 0; a < contacts_.pairs.size(); ++a) {
       const Candidate& pair = contacts_.pairs[a];
       const auto& r = solution_.impulses;
-      const double pull = laws_.cohesion ? contacts_.attraction[a] : 0;
-      const double r_n = r[dim * a] - pull, r_t = dim >= 2 ? r[dim * a + 1 % dim] : 0;
+      const double r_n = r[dim * a] - contacts_.attraction_of(a), r_t = dim >= 2 ? r[dim * a + 1 % dim] : 0;
       if (r_n != 0)
         loaded.push_back(
             {pair.i, pair.j, static_cast<float>(pair.n_x), static_cast<float>(pair.n_z), r_n, r_t});
@@ -156,9 +153,9 @@ class MoreauJean final : public Stepper {
   int velocities_per_body() const override { return with_spin ? 3 : 2; }
 
  private:
-  /// Velocities without contacts, cohesion aside: its pairs are not known yet.
+  /// Velocities without contacts, attractions aside: their pairs are not known yet.
   void move_freely(const StepInput& step) {
-    set_free_motion(step.bodies, laws_.gravity, step.time_step, TeamLoops(&team_), free_);
+    set_free_motion(step.bodies, laws_, step.time_step, TeamLoops(&team_), free_);
     if constexpr (drives) {
       free_.driven.clear();
       for (std::size_t k = 0; k < step.driven.size(); ++k)
@@ -255,7 +252,7 @@ class MoreauJean final : public Stepper {
   }
 
   /// Replaces the impulses on grains that touch nothing but a wall, and did in the last step, by those of the
-  /// midpoint rule (lone_contact.hpp), where neither cohesion nor rolling resistance acts there.
+  /// midpoint rule (lone_contact.hpp), where neither an attraction nor a couple acts there.
   void find_lone_steps(const StepInput& step, const ContactMemory& memory) {
     lone_.clear();
     for (std::size_t a = 0; a < contacts_.pairs.size(); ++a) {
@@ -263,14 +260,15 @@ class MoreauJean final : public Stepper {
       if (pair.j >= 0 || solution_.impulses[dim * a] == 0 || driven_wall_of(step.walls, pair) >= 0) continue;
       if constexpr (dim == 3)
         if (problem_.mu[2 * a + 1] > 0) continue;
-      if (laws_.cohesion && contacts_.attraction[a] > 0) continue;
+      if (contacts_.attraction_of(a) > 0) continue;
       const double w = step.bodies.inverse_mass[pair.i];
       double r_n = solution_.impulses[dim * a], r_t = dim >= 2 ? solution_.impulses[dim * a + 1 % dim] : 0;
       auto& change = solution_.velocities.bodies[pair.i];
       const Point other{change.x - w * (pair.n_x * r_n + pair.n_z * r_t),
                         change.z - w * (pair.n_z * r_n - pair.n_x * r_t)};
       if (std::hypot(other.x, other.z) > alone * w * r_n || !was_loaded(memory, pair)) continue;
-      const double mu = laws_.friction ? friction_bound(*laws_.friction, pair, step.materials()) : 0;
+      double mu = 0;
+      if constexpr (dim >= 2) mu = problem_.mu[(dim - 1) * a];
       const auto lone = lone_step(step, pair, mu);
       if (!lone) continue;
       r_n = lone->normal / w, r_t = lone->tangential / w;
@@ -374,13 +372,14 @@ class MoreauJean final : public Stepper {
 
 std::unique_ptr<Stepper> make_stepper(const StepLaws& laws, const StepSolver& solver) {
   if (laws.driven_walls) {
-    if (laws.rolling) return std::make_unique<MoreauJean<DrivenRollingProblem, true>>(laws, solver);
-    if (!laws.friction) return std::make_unique<MoreauJean<DrivenFrictionlessProblem, false>>(laws, solver);
+    if (laws.unknowns == 3) return std::make_unique<MoreauJean<DrivenRollingProblem, true>>(laws, solver);
+    if (laws.unknowns == 1)
+      return std::make_unique<MoreauJean<DrivenFrictionlessProblem, false>>(laws, solver);
     if (!laws.spin) return std::make_unique<MoreauJean<DrivenCoulombProblem, false>>(laws, solver);
     return std::make_unique<MoreauJean<DrivenCoulombSpinProblem, true>>(laws, solver);
   }
-  if (laws.rolling) return std::make_unique<MoreauJean<CoulombRollingProblem, true>>(laws, solver);
-  if (!laws.friction) return std::make_unique<MoreauJean<FrictionlessProblem, false>>(laws, solver);
+  if (laws.unknowns == 3) return std::make_unique<MoreauJean<CoulombRollingProblem, true>>(laws, solver);
+  if (laws.unknowns == 1) return std::make_unique<MoreauJean<FrictionlessProblem, false>>(laws, solver);
   if (!laws.spin) return std::make_unique<MoreauJean<CoulombProblem, false>>(laws, solver);
   return std::make_unique<MoreauJean<CoulombSpinProblem, true>>(laws, solver);
 }

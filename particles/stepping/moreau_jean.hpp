@@ -77,7 +77,7 @@ class Stepper {
   /// Loaded contacts of the last step, with the normals that it used.
   virtual std::vector<SnapshotContact> loaded_contacts() const = 0;
   /// The contact problem of the last step, as it travels in files; none where a contact has more unknowns or
-  /// couples than a file can hold (rolling resistance, walls moved by a force).
+  /// couples than a file can hold (a couple, walls moved by a force).
   virtual std::optional<BlockProblem> last_problem() const = 0;
   /// Its pairs, in the order of its contacts.
   virtual std::span<const Candidate> last_pairs() const = 0;

@@ -1,24 +1,26 @@
 #pragma once
 // Velocities of the grains without contacts, and their ways with them.
+#include <algorithm>
 #include <cstddef>
-#include <optional>
 
 #include "particles/bodies/bodies.hpp"
 #include "particles/bodies/free_motion.hpp"
-#include "particles/bodies/walls.hpp"
+#include "particles/effects/effects.hpp"
 #include "particles/parallel/team_loops.hpp"
 
 namespace drumlin::particles {
 
-/// Their own velocities, and what an acceleration gives within a step.
-inline void set_free_motion(const Bodies& bodies, const std::optional<Point>& acceleration, double time_step,
+/// Their own velocities, and what the effects make of them within a step.
+inline void set_free_motion(const Bodies& bodies, const EffectsOf<LawOf>& laws, double time_step,
                             const TeamLoops& loops, FreeMotion& free) {
   free.x.resize(bodies.count()), free.z.resize(bodies.count());
-  const Point none{-0.0, -0.0};  // leaves a velocity of -0 alone, too
-  const Point gain = acceleration ? Point{time_step * acceleration->x, time_step * acceleration->z} : none;
   loops.each(bodies.count(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t b = begin; b < end; ++b)
-      free.x[b] = bodies.v_x[b] + gain.x, free.z[b] = bodies.v_z[b] + gain.z;
+    std::copy(bodies.v_x.begin() + begin, bodies.v_x.begin() + end, free.x.begin() + begin);
+    std::copy(bodies.v_z.begin() + begin, bodies.v_z.begin() + end, free.z.begin() + begin);
+    each_law(laws, [&](const auto& law) {
+      if constexpr (requires { law.move_freely(bodies, begin, end, time_step, free); })
+        law.move_freely(bodies, begin, end, time_step, free);
+    });
   });
 }
 

@@ -19,11 +19,6 @@
 namespace drumlin::particles {
 namespace {
 
-std::optional<TurningFrame> frame_of(const Scene& scene, const Scales& scales) {
-  if (!scene.effects.rotating_frame) return std::nullopt;
-  return frame_law(*scene.effects.rotating_frame, scales);
-}
-
 bool fits(const Traffic& traffic, const Scene& scene, const Bodies& bodies) {
   const bool ascending =
       std::adjacent_find(bodies.id.begin(), bodies.id.end(), std::greater_equal<>()) == bodies.id.end();
@@ -49,8 +44,7 @@ void check_state(const SimulationState& s, const Scene& scene, const TimePlan& p
   const auto require = [](bool good, const char* what) {
     if (!good) throw InputError(std::string("checkpoint: ") + what + " do not fit the scene");
   };
-  const Effects& effects = scene.effects;
-  const std::size_t unknowns = effects.rolling_resistance ? 3 : effects.friction ? 2 : 1;
+  const auto unknowns = static_cast<std::size_t>(unknowns_of(scene.effects));
   const std::size_t n = s.bodies.count(), contacts = s.memory.i.size();
   for (const auto* values :
        {&s.bodies.z, &s.bodies.v_x, &s.bodies.v_z, &s.bodies.radius, &s.bodies.inverse_mass})
@@ -133,8 +127,9 @@ Simulation::Simulation(const Scene& scene, int threads)
       plan_(time_plan(scene, scales_)),
       walls_(walls_of(scene, scales_)),
       extent_(extent_of(scene, scales_, walls_)),
-      frame_(frame_of(scene, scales_)),
+      frame_(laws_of(scene, scales_).rotating_frame),
       stepper_(make_stepper(laws_of(scene, scales_), solver_of(scene, threads))) {
+  const StepLaws laws = laws_of(scene, scales_);
   state_.bodies = place_grains(scene, scales_);
   if (scene.grains.thermal_speed_mm_s)
     add_thermal_motion(*scene.grains.thermal_speed_mm_s * 1e-3 / scales_.velocity_m_s(), scene.seed,
@@ -143,20 +138,17 @@ Simulation::Simulation(const Scene& scene, int threads)
   if (scene.output.walls_every_s) state_.loads.emplace();
   if (changes_grains(scene)) state_.traffic = first_traffic(scene, state_.bodies);
   if (moves_cell(scene)) {
-    state_.cell = cell_at_rest(laws_of(scene, scales_).period);
+    state_.cell = cell_at_rest(laws.period);
     wrap_grains(*state_.cell, state_.bodies);
   }
   enter_stage(0);
-  if (starts_deposited(scene)) {
-    if (const StepLaws laws = laws_of(scene, scales_); laws.gravity)
-      state_.memory =
-          impulses_under_weight(state_.bodies, walls_.shapes_at(0, state_.driven), laws.period, *laws.gravity,
-                                plan_.stages[0].time_step, stepper_->unknowns_per_contact());
-  }
+  if (starts_deposited(scene) && laws.gravity)
+    state_.memory = impulses_under_weight(state_.bodies, walls_.shapes_at(0, state_.driven), laws.period,
+                                          *laws.gravity, plan_.stages[0].time_step, laws.unknowns);
   if (Scene asked = scene; !lists_of(asked).empty()) {
     const auto shapes = walls_.shapes_at(0, state_.driven);
-    start_overlaps_ = overlaps_at_start(state_.bodies, shapes, resting_steps(walls_, state_.bodies.material),
-                                        laws_of(scene, scales_).period);
+    start_overlaps_ =
+        overlaps_at_start(state_.bodies, shapes, resting_steps(walls_, state_.bodies.material), laws.period);
     refuse_deep_overlap(scene, walls_, start_overlaps_);
     refuse_steps_too_long(scene, scales_, plan_, state_.bodies);
   }
@@ -168,7 +160,7 @@ Simulation::Simulation(const Scene& scene, SimulationState state, int threads)
       plan_(time_plan(scene, scales_, state.ends)),
       walls_(walls_of(scene, scales_)),
       extent_(extent_of(scene, scales_, walls_)),
-      frame_(frame_of(scene, scales_)),
+      frame_(laws_of(scene, scales_).rotating_frame),
       state_(std::move(state)),
       stepper_(make_stepper(laws_of(scene, scales_), solver_of(scene, threads))) {
   check_state(state_, scene_, plan_, walls_);

@@ -9,9 +9,8 @@ namespace drumlin::particles {
 namespace {
 
 bool changes_laws(const Scene& scene) {
-  return changes_gravity(scene) || std::any_of(scene.stages.begin(), scene.stages.end(), [](const Stage& s) {
-           return s.friction || s.restitution || s.rolling_resistance || s.cohesion;
-         });
+  return changes_gravity(scene) ||
+         std::any_of(scene.stages.begin(), scene.stages.end(), changes_coefficients);
 }
 
 /// Whether the middle of a wall's first shape has gone so far since the stage began.

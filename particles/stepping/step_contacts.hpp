@@ -23,9 +23,11 @@ struct Strike {
 /// Pairs in solve order and, beside each, what effects keep for it. Kept from step to step: memory alone.
 struct StepContacts {
   std::vector<Candidate> pairs;
-  std::vector<double> attraction;  ///< cohesive force times h; empty without cohesion
+  std::vector<double> attraction;  ///< of its surfaces, times h; empty where nothing attracts
   std::vector<Strike> strikes;     ///< impacts of the step; empty without restitution
   std::vector<double> wall_jumps;  ///< what they add to the velocity of each driven wall
+
+  double attraction_of(std::size_t a) const { return attraction.empty() ? 0 : attraction[a]; }
 };
 
 /// A step from its beginning up to the solve.

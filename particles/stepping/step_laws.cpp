@@ -1,7 +1,6 @@
 #include "particles/stepping/step_laws.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "particles/scene/materials.hpp"
 #include "particles/scene/scene_walls.hpp"
@@ -10,17 +9,17 @@ namespace drumlin::particles {
 
 StepLaws laws_of(const Scene& scene, const Scales& scales) {
   StepLaws laws;
-  const Effects& effects = scene.effects;
   const auto materials = material_names(scene);
-  if (effects.gravity) laws.gravity = gravity_law(*effects.gravity, scales);
-  if (effects.friction) laws.friction = friction_law(*effects.friction, materials);
-  if (effects.restitution)
-    laws.restitution = restitution_law(*effects.restitution, materials,
-                                       laws.gravity ? std::hypot(laws.gravity->x, laws.gravity->z) : 0);
-  laws.spin = effects.spin;
-  if (effects.rolling_resistance) laws.rolling = rolling_law(*effects.rolling_resistance, materials);
-  if (effects.cohesion) laws.cohesion = cohesion_law(*effects.cohesion, materials);
-  if (laws.cohesion) laws.detection_margin = std::max(laws.detection_margin, laws.cohesion->range);
+  const LawInput in{scales, materials};
+  each_effect(
+      [&in](const auto& effect, auto& law) {
+        if (effect) law = law_of(*effect, in);
+      },
+      scene.effects, laws);
+  each_law(laws, [&laws](const auto& law) {
+    if constexpr (requires { law.range; }) laws.detection_margin = std::max(laws.detection_margin, law.range);
+  });
+  laws.unknowns = unknowns_of(scene.effects);
   laws.energy_ledger = scene.output.energy_ledger;
   laws.driven_walls = moves_walls_by_force(scene) || presses_cell(scene);
   laws.material_of_shape = walls_of(scene, scales).material_of_shape;
@@ -38,21 +37,20 @@ StepLaws laws_of(const Scene& scene, const Scales& scales) {
 
 StepLaws laws_in(const Scene& scene, const Scales& scales, const Stage& stage) {
   Scene now = scene;
-  const auto replace = [](auto& effect, const auto& asked) {
-    if (!asked) return;
-    effect->grain_grain = asked->grain_grain, effect->grain_wall = asked->grain_wall;
-    effect->pairs.clear();
-  };
-  replace(now.effects.friction, stage.friction);
-  replace(now.effects.restitution, stage.restitution);
-  replace(now.effects.rolling_resistance, stage.rolling_resistance);
-  replace(now.effects.cohesion, stage.cohesion);
+  each_effect(
+      []<class E>(std::optional<E>& effect, const auto& values) {
+        if constexpr (HasPairs<E>) {
+          if (!values) return;
+          effect->grain_grain = values->grain_grain, effect->grain_wall = values->grain_wall;
+          effect->pairs.clear();
+        }
+      },
+      now.effects, stage.effects);
   return laws_of(now, scales);
 }
 
 void set_gravity(const Gravity& gravity, const Scales& scales, StepLaws& laws) {
-  laws.gravity = gravity_law(gravity, scales);
-  if (laws.restitution) laws.restitution->gravity = std::hypot(laws.gravity->x, laws.gravity->z);
+  laws.gravity = law_of(gravity, {scales, {}});
 }
 
 }  // namespace drumlin::particles

@@ -1,25 +1,17 @@
 #pragma once
 // Laws of a step, dimensionless: those of the effects that a scene names, and where they act.
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "particles/detection/cell_grid.hpp"
-#include "particles/effects/cohesion.hpp"
-#include "particles/effects/pair_law.hpp"
-#include "particles/effects/restitution.hpp"
+#include "particles/effects/effects.hpp"
 #include "particles/scene/scene.hpp"
 
 namespace drumlin::particles {
 
-/// An effect that the scene does not name is an empty optional.
-struct StepLaws {
-  std::optional<Point> gravity;  ///< an acceleration
-  std::optional<PairLaw> friction;
-  std::optional<RestitutionLaw> restitution;
-  std::optional<CohesionLaw> cohesion;
-  std::optional<Spin> spin;
-  std::optional<PairLaw> rolling;
+/// Those that the scene does not name are empty optionals.
+struct StepLaws : EffectsOf<LawOf> {
+  int unknowns = 1;  ///< of a contact
   bool energy_ledger = false;
   bool driven_walls = false;  ///< whether contacts move a wall, or the cell, in some stage
   Period period;

@@ -19,7 +19,7 @@ void add_contact(const WallContact& contact, const Bodies& bodies, const Period&
   const double z = bodies.z[contact.i] - radius * contact.n_z - load.last.z;
   load.impulse_x += f_x;
   load.impulse_z += f_z;
-  load.moment += f_x * z - f_z * x - radius * contact.rolling;
+  load.moment += f_x * z - f_z * x - radius * contact.couple;
 }
 
 }  // namespace

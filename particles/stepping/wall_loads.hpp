@@ -15,7 +15,7 @@ struct WallContact {
   std::int32_t i = 0;  ///< grain
   std::int32_t shape = 0;
   double n_x = 0, n_z = 0;  ///< unit normal towards the grain; the tangent is (n_z, -n_x)
-  double normal = 0, tangential = 0, rolling = 0;  ///< impulses on the grain
+  double normal = 0, tangential = 0, couple = 0;  ///< impulses on the grain
 };
 
 /// Place of a wall: the middle of its first shape, and the angle turned since the start.

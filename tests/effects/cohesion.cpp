@@ -44,13 +44,13 @@ TEST(Cohesion, LetsADiscFallThatIsHeavier) {
 TEST(Cohesion, OfAStageHoldsADiscUntilTheNextStageTakesItAway) {
   const TemporaryFolder folder;
   Scene scene = below_a_ceiling(1.01, folder);
-  scene.stages[0].cohesion = StageCohesion{0, 0};
+  scene.stages[0].effects.cohesion = {0, 0};
   EXPECT_LT(test::bodies_at_end(scene).z[0], -0.5 - 1.8);  // the effect alone would hold it
 
   scene.effects.cohesion = Cohesion{0, 0.5};  // too little
-  scene.stages[0].cohesion = StageCohesion{0, 1.01};
+  scene.stages[0].effects.cohesion = {0, 1.01};
   add_stage(scene, 2, 1e-2);
-  scene.stages[1].cohesion = StageCohesion{0, 0};
+  scene.stages[1].effects.cohesion = {0, 0};
   Simulation simulation(scene);
   const auto go_on_to = [&](double time) {
     while (simulation.state().time() < time - 1e-9) (void)simulation.step();
@@ -68,7 +68,7 @@ TEST(Cohesion, OfAStageWithTheValuesOfTheEffectChangesNoBit) {
   Scene scene = test::turning_drum();
   scene.effects.cohesion = Cohesion{1, 2};
   Scene told = scene;
-  for (Stage& stage : told.stages) stage.cohesion = StageCohesion{1, 2};
+  for (Stage& stage : told.stages) stage.effects.cohesion = {1, 2};
   test::expect_same(test::bodies_at_end(scene), test::bodies_at_end(told));
 }
 

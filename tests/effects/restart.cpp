@@ -49,7 +49,7 @@ const Case cases[] = {
      }},
     {"Cohesion",
      [](Scene& s) {
-       s.effects.cohesion = Cohesion{3, 1, 0.01};
+       s.effects.cohesion = Cohesion{{3, 1}, 0.01};
      }},
     {"RotatingFrame",
      [](Scene& s) {
@@ -83,10 +83,10 @@ const Case cases[] = {
     {"StageCoefficients",
      [](Scene& s) {
        cut(s, 0.1);
-       s.stages[0].friction = StageCoefficients{0, 0};
-       s.stages[1].restitution = StageRestitution{0.9, 0.9};
+       s.stages[0].effects.friction = {0, 0};
+       s.stages[1].effects.restitution = {0.9, 0.9};
        s.effects.cohesion = Cohesion{1, 1};
-       s.stages[1].cohesion = StageCohesion{3, 0};
+       s.stages[1].effects.cohesion = {3, 0};
      }},
     {"StageThatEndsEarly",
      [](Scene& s) {

@@ -105,7 +105,7 @@ TEST(StageCoefficients, HoldInTheirStageAlone) {
   Scene scene = sliding_disc(0.4, folder);
   add_stage(scene, 1, 0.01);
   add_stage(scene, 1, 0.01);
-  scene.stages[0].friction = StageCoefficients{0, 0};
+  scene.stages[0].effects.friction = {0, 0};
   Simulation simulation(scene);
   while (simulation.state().step < 100) (void)simulation.step();
   EXPECT_NEAR(simulation.state().bodies.v_x[0], 1, 1e-9);
@@ -121,7 +121,7 @@ TEST(StageCoefficients, OfRestitutionDecideHowADiscRebounds) {
     scene.walls = {test::floor_wall()};
     scene.effects.restitution = Restitution{0.5, 0.5};
     add_stage(scene, 1, 0.01);
-    scene.stages[0].restitution = StageRestitution{0, e};
+    scene.stages[0].effects.restitution = {0, e};
     EXPECT_NEAR(test::bodies_at_end(scene).v_z[0], 2 * e, 1e-9);
   }
 }

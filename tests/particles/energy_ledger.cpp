@@ -140,7 +140,7 @@ TEST(EnergyLedger, ClosesForADrumAndItsTermsHaveTheirSigns) {
   EXPECT_LT(ledger.friction, 0);
   EXPECT_LT(ledger.impacts, 0);
   EXPECT_GE(ledger.projection, 0);
-  EXPECT_FALSE(ledger.rolling || ledger.cohesion);
+  EXPECT_FALSE(ledger.effects.rolling_resistance || ledger.effects.cohesion);
 }
 
 TEST(EnergyLedger, ClosesForEveryEffect) {
@@ -149,13 +149,13 @@ TEST(EnergyLedger, ClosesForEveryEffect) {
   scenes[0].effects = {};
   scenes[0].effects.gravity = Gravity{};
   scenes[1].effects.spin.reset();
-  scenes[2].effects.cohesion = Cohesion{2, 2, 0.01};
+  scenes[2].effects.cohesion = Cohesion{{2, 2}, 0.01};
   scenes[3].effects.rolling_resistance = RollingResistance{0.1, 0.1};
   scenes[4].effects.rotating_frame = RotatingFrame{50, {1, 2}};
   for (const Scene& scene : scenes) {
     const EnergyLedger ledger = ledger_of(scene);
-    EXPECT_EQ(ledger.cohesion.has_value(), scene.effects.cohesion.has_value());
-    EXPECT_EQ(ledger.rolling.has_value(), scene.effects.rolling_resistance.has_value());
+    EXPECT_EQ(ledger.effects.cohesion.has_value(), scene.effects.cohesion.has_value());
+    EXPECT_EQ(ledger.effects.rolling_resistance.has_value(), scene.effects.rolling_resistance.has_value());
     EXPECT_GT(ledger.turnover, 1);
   }
 }

@@ -23,8 +23,8 @@ struct Row {
       if (b > 0) pairs.push_back({b - 1, b, 0, -1, 0, 0, 0});
     }
     laws.gravity = Point{0, -1};
-    laws.friction = PerPair{0.3, 0.3};
-    laws.restitution = RestitutionLaw{PerPair{0.8, 0.8}, 1};
+    laws.friction = PairLaw{1, {0.3}, {0.3}};
+    laws.restitution = RestitutionLaw{PairLaw{1, {0.8}, {0.8}}};
     laws.spin.emplace();
   }
   Bodies bodies;

@@ -116,7 +116,7 @@ TEST(Contradiction, ForceThatHasNoDirectionOrMeetsAGivenVelocity) {
 TEST(Contradiction, CapturingWhatNoFileHolds) {
   const std::string key = "solver.capture_unconverged";
   expect_problem(example_scene, {key + "=1", "effects.rolling_resistance={grain_grain=0.1, grain_wall=0.1}"},
-                 key, "rolling resistance");
+                 "effects.rolling_resistance", "third unknown");
   expect_problem(
       example_scene,
       {key + "=1",

@@ -42,7 +42,7 @@ std::optional<std::size_t> ForceBins::bin_of(double force) {
 
 void DistributionSums::add(const ContactForce& contact, double scale, std::optional<double> friction) {
   const double f_n = contact.normal * scale, f_t = std::abs(contact.tangential) * scale;
-  if (!(f_n > 0)) return;  // held together by cohesion: neither ratio nor tail means anything
+  if (!(f_n > 0)) return;  // held together by an attraction: neither ratio nor tail means anything
   contacts += 1;
   if (const auto bin = ForceBins::bin_of(f_n)) normal[*bin] += 1;
   if (const auto bin = ForceBins::bin_of(f_t)) tangential[*bin] += 1;
