@@ -15,7 +15,9 @@ struct PathShift : Point {
 
 /// Workspace of a step: effects that act as forces add to it before the contacts are solved.
 struct FreeMotion {
-  std::vector<double> x, z;    ///< one per grain
+  std::vector<double> x, z;  ///< one per grain
+  /// How grains answer impulses in the step; empty: with their inverse masses.
+  std::vector<double> inverse_mass;
   std::vector<double> driven;  ///< one per driven wall, along its direction; after the solve, with contacts
   std::vector<PathShift> shift;  ///< one per grain; empty: no impacts
 };

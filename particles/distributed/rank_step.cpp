@@ -1,7 +1,6 @@
 #include "particles/distributed/rank_step.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -16,22 +15,11 @@
 #include "particles/stepping/meeting.hpp"
 #include "particles/stepping/set_free_motion.hpp"
 #include "particles/stepping/snapshot_of_state.hpp"
+#include "particles/stepping/stopwatch.hpp"
 #include "particles/stepping/wall_crossing.hpp"
 
 namespace drumlin::particles {
 namespace {
-
-class Stopwatch {
- public:
-  /// Seconds since the last call.
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 // From so many contacts of a rank on a phase of the step gives back what the next one does not need: to ask
 // for it again takes some hundredths of the step.

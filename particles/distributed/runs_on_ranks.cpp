@@ -1,7 +1,5 @@
 #include "particles/distributed/runs_on_ranks.hpp"
 
-#include <algorithm>
-
 #include "particles/scene/materials.hpp"
 
 namespace drumlin::particles {
@@ -12,7 +10,6 @@ std::vector<InputProblem> not_on_ranks(const Scene& scene) {
     if (here)
       problems.push_back({"", 0, 0, key, std::string("not on ranks: ") + why, "drumlin run, on one process"});
   };
-  const auto any_stage = [&](auto has) { return std::any_of(scene.stages.begin(), scene.stages.end(), has); };
   refuse(scene.periodic_x.has_value(), "periodic_x", "deal.II 9.4 knows no ghosts across periodic sides");
   refuse(scene.periodic_z.has_value(), "periodic_z", "deal.II 9.4 knows no ghosts across periodic sides");
   each_effect(
@@ -26,7 +23,7 @@ std::vector<InputProblem> not_on_ranks(const Scene& scene) {
          "a wall moved by a force is one body of contacts on all ranks");
   refuse(ends_stages_early(scene), "stages.until", "they do not look for what ends a stage");
   refuse(changes_gravity(scene), "stages.gravity", "their steps know one gravity");
-  refuse(any_stage(changes_coefficients), "stages.friction, stages.restitution",
+  refuse(any_stage(scene, changes_coefficients), "stages.friction, stages.restitution",
          "their steps know one value of each coefficient");
   refuse(changes_grains(scene), "outlets, sources", "the number of grains is fixed there");
   refuse(scene.output.energy_ledger, "output.energy_ledger", "no ledger is kept there");

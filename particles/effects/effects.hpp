@@ -12,8 +12,11 @@
 //   not_on_ranks: why MPI ranks cannot have it
 //
 // A step goes through the laws of a scene, and calls those of these members that a law has:
-//   move_freely(bodies, begin, end, h, free): velocities of some grains after a step without contacts
+//   move_freely(bodies, begin, end, h, free): velocities of some grains after a step without contacts;
+//     with changes_inertia it scales free.inverse_mass, with which they answer impulses
+//   turn_freely(bodies, h): spins after a step without contacts
 //   attraction(pair, materials): a force that pulls two surfaces together, up to a gap of `range`
+//   friction(mu, sliding velocity, pair, materials): what becomes of the coefficient of friction
 //   lever(), couple_velocity(), couple_bound(), wall_part(): a couple, the third unknown of a contact
 //   work(before, now, h): what a step gave the grains, beside the work of attraction and couple
 // A member that a law lacks costs nothing, nor does a law that the scene does not name: the compiler knows

@@ -24,32 +24,30 @@ void describe(Visitor& v, MaterialPair<Effect>& p) {
   v.value("value", p.value, required("", Effect::allowed(), "Value."));
 }
 
-/// Values within one stage, in place of those of the effect and of its pairs.
+/// Two values of a law; within one stage those in place of the effect's and of its pairs.
 template <class Effect>
 struct StageValues {
   double grain_grain = 0;
   double grain_wall = 0;
 };
 
+/// The values lie within Effect::allowed().
 template <class Visitor, class Effect>
-void describe(Visitor& v, StageValues<Effect>& s) {
-  v.value("grain_grain", s.grain_grain, required("", Effect::allowed(), "Between grains."));
-  v.value("grain_wall", s.grain_wall, required("", Effect::allowed(), "With a wall."));
+void describe(Visitor& v, StageValues<Effect>& values, const std::string& of_grains = "Between grains.",
+              const std::string& of_wall = "With a wall.") {
+  v.value("grain_grain", values.grain_grain, required("", Effect::allowed(), of_grains));
+  v.value("grain_wall", values.grain_wall, required("", Effect::allowed(), of_wall));
 }
 
-/// The keys of an effect that has a value for each pair of materials, within Effect::allowed(): its base.
+/// The keys of an effect that has a value for each pair of materials: its base.
 template <class Effect>
-struct PairKeys {
-  double grain_grain = 0;
-  double grain_wall = 0;
+struct PairKeys : StageValues<Effect> {
   std::vector<MaterialPair<Effect>> pairs = {};
 };
 
-template <class Visitor, class Effect>
-void describe_pairs(Visitor& v, PairKeys<Effect>& keys, const std::string& of_grains,
-                    const std::string& of_wall = "With a wall.") {
-  v.value("grain_grain", keys.grain_grain, required("", Effect::allowed(), of_grains));
-  v.value("grain_wall", keys.grain_wall, required("", Effect::allowed(), of_wall));
+template <class Visitor, class Effect, class... Sentences>
+void describe_pairs(Visitor& v, PairKeys<Effect>& keys, const Sentences&... sentences) {
+  describe(v, static_cast<StageValues<Effect>&>(keys), sentences...);
   v.tables("pairs", keys.pairs, 0, "In place of the two above, by materials.");
 }
 

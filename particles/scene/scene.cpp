@@ -5,15 +5,6 @@
 #include <limits>
 
 namespace drumlin::particles {
-namespace {
-
-template <class Has>
-bool any_stage(const Scene& scene, Has has) {
-  return std::any_of(scene.stages.begin(), scene.stages.end(), has);
-}
-
-}  // namespace
-
 double duration_s(const Stage& stage) {
   if (stage.duration_s) return *stage.duration_s;
   for (const auto& motion : stage.motions)

@@ -1,5 +1,6 @@
 #pragma once
 // Scene: what a user asks for, in SI as the keys say. Nothing here knows how it is solved.
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -150,6 +151,11 @@ struct Scene {
   std::optional<PeriodicZ> periodic_z = {};
 };
 
+/// Whether has(stage) is true of some stage.
+template <class Has>
+bool any_stage(const Scene& scene, Has has) {
+  return std::any_of(scene.stages.begin(), scene.stages.end(), has);
+}
 /// Whether a force or a pressure moves a wall in some stage.
 bool moves_walls_by_force(const Scene& scene);
 /// Whether some stage ends when something has happened, so that the times of the stages are results.

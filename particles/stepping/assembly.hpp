@@ -45,7 +45,8 @@ inline Point relative_velocity(const Candidate& pair, std::span<const double> v_
 template <class Problem>
 void assemble_bodies(const StepInput& step, Problem& problem) {
   auto& W = problem.W;
-  W.inverse_mass.assign(step.bodies.inverse_mass.begin(), step.bodies.inverse_mass.end());
+  const auto inverse_mass = step.inverse_mass();
+  W.inverse_mass.assign(inverse_mass.begin(), inverse_mass.end());
   W.inverse_mass.push_back(0);
   if constexpr (drives_walls<Problem>) {
     W.driven.clear();
@@ -101,9 +102,13 @@ void assemble_contact(const StepInput& step, const Candidate& pair, int a, Probl
     problem.W.set(a, pair.i, second, pair.n_x, pair.n_z);
   }
   if constexpr (dim >= 2) {
-    const double u_t = tangential_part(pair, u);
-    problem.q[dim * a + 1] = with_spin ? sliding_of_rims(u_t, pair, bodies) : u_t;
-    problem.mu[(dim - 1) * a] = friction_bound(*laws.friction, pair, step.materials());
+    const auto sliding = [&](const Point& velocity) {
+      const double u_t = tangential_part(pair, velocity);
+      return with_spin ? sliding_of_rims(u_t, pair, bodies) : u_t;
+    };
+    problem.q[dim * a + 1] = sliding(u);
+    problem.mu[(dim - 1) * a] =
+        step.friction(pair, [&] { return sliding(relative_velocity(pair, bodies.v_x, bodies.v_z, wall)); });
   }
 }
 

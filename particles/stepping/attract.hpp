@@ -16,7 +16,7 @@ inline void attract(const StepInput& step, FreeMotion& free, StepContacts& conta
         const Candidate& pair = contacts.pairs[a];
         const double pull = step.time_step * law.attraction(pair, step.materials());
         contacts.attraction[a] += pull;
-        const double change = pull * step.bodies.inverse_mass[pair.i];
+        const double change = pull * step.inverse_mass()[pair.i];
         free.x[pair.i] -= change * pair.n_x, free.z[pair.i] -= change * pair.n_z;
         if (const std::int32_t k = driven_wall_of(step.walls, pair); k >= 0) {
           const Driven& wall = step.walls.driven[k];
@@ -24,7 +24,7 @@ inline void attract(const StepInput& step, FreeMotion& free, StepContacts& conta
               pull * wall.inverse_mass * (pair.n_x * wall.direction.x + pair.n_z * wall.direction.z);
         }
         if (pair.j < 0) continue;
-        const double back = pull * step.bodies.inverse_mass[pair.j];
+        const double back = pull * step.inverse_mass()[pair.j];
         free.x[pair.j] += back * pair.n_x, free.z[pair.j] += back * pair.n_z;
       }
     }

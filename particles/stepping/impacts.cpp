@@ -257,7 +257,12 @@ void Impacts::add(std::int32_t a, const Surfaces& now, double time) {
   const Point of_i = acceleration_of(pair.i), of_j = second < 0 ? Point{} : acceleration_of(second);
   contact.gain = {time * (of_i.x - of_j.x), time * (of_i.z - of_j.z)};
   contact.e = value_of(step.laws.restitution->e, pair.i, pair.j, step.materials());
-  if (step.laws.friction) contact.mu = friction_bound(*step.laws.friction, pair, step.materials());
+  if (step.laws.friction)
+    contact.mu = step.friction(pair, [&] {
+      const Point u = relative_velocity(pair, time);
+      const double rim_j = contact.j < 0 ? 0 : pass_.bodies[contact.j].rim;
+      return now.n_z * u.x - now.n_x * u.z - pass_.bodies[contact.i].rim - rim_j;
+    });
   pass_.add(contact);
   in_pass_[a] = passes_;
   ++met_[a];

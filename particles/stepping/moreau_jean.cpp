@@ -1,7 +1,6 @@
 #include "particles/stepping/moreau_jean.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -20,22 +19,11 @@
 #include "particles/stepping/position_projection.hpp"
 #include "particles/stepping/set_free_motion.hpp"
 #include "particles/stepping/snapshot_of_state.hpp"
+#include "particles/stepping/stopwatch.hpp"
 #include "particles/stepping/wall_crossing.hpp"
 
 namespace drumlin::particles {
 namespace {
-
-class Stopwatch {
- public:
-  /// Seconds since the last call.
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 // Rounds of impacts within a step, which may throw grains into pairs that no search has found.
 constexpr int most_searches = 5;
@@ -72,6 +60,7 @@ class MoreauJean final : public Stepper {
     if (books_ && state.cell && !state.energy->cell) state.energy->cell = 0;
     detect(step, state, watch, report);
     attract(step, free_, contacts_);
+    turn_freely(laws_, time_step, bodies);
     assemble<Problem, with_spin>(step, contacts_, TeamLoops(&team_), problem_);
     report.setup_seconds += watch.lap();
     report.contacts = problem_.contacts();
@@ -261,7 +250,7 @@ class MoreauJean final : public Stepper {
       if constexpr (dim == 3)
         if (problem_.mu[2 * a + 1] > 0) continue;
       if (contacts_.attraction_of(a) > 0) continue;
-      const double w = step.bodies.inverse_mass[pair.i];
+      const double w = step.inverse_mass()[pair.i];
       double r_n = solution_.impulses[dim * a], r_t = dim >= 2 ? solution_.impulses[dim * a + 1 % dim] : 0;
       auto& change = solution_.velocities.bodies[pair.i];
       const Point other{change.x - w * (pair.n_x * r_n + pair.n_z * r_t),

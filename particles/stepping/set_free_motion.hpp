@@ -14,6 +14,9 @@ namespace drumlin::particles {
 inline void set_free_motion(const Bodies& bodies, const EffectsOf<LawOf>& laws, double time_step,
                             const TeamLoops& loops, FreeMotion& free) {
   free.x.resize(bodies.count()), free.z.resize(bodies.count());
+  each_law(laws, [&](const auto& law) {
+    if constexpr (requires { law.changes_inertia; }) free.inverse_mass = bodies.inverse_mass;
+  });
   loops.each(bodies.count(), [&](std::size_t begin, std::size_t end) {
     std::copy(bodies.v_x.begin() + begin, bodies.v_x.begin() + end, free.x.begin() + begin);
     std::copy(bodies.v_z.begin() + begin, bodies.v_z.begin() + end, free.z.begin() + begin);
@@ -31,6 +34,13 @@ inline Point way_within_step(const FreeMotion& free, std::size_t b, Point before
   const Point v = loaded ? after : Point{(before.x + after.x) / 2, (before.z + after.z) / 2};
   if (free.shift.empty()) return {h * v.x, h * v.z};
   return {free.shift[b].x + h * v.x, free.shift[b].z + h * v.z};
+}
+
+/// What the effects make of spins within a step without contacts.
+inline void turn_freely(const EffectsOf<LawOf>& laws, double time_step, Bodies& bodies) {
+  each_law(laws, [&](const auto& law) {
+    if constexpr (requires { law.turn_freely(bodies, time_step); }) law.turn_freely(bodies, time_step);
+  });
 }
 
 }  // namespace drumlin::particles

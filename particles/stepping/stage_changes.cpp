@@ -8,11 +8,6 @@
 namespace drumlin::particles {
 namespace {
 
-bool changes_laws(const Scene& scene) {
-  return changes_gravity(scene) ||
-         std::any_of(scene.stages.begin(), scene.stages.end(), changes_coefficients);
-}
-
 /// Whether the middle of a wall's first shape has gone so far since the stage began.
 bool has_moved(const UntilMoved& asked, const Walls& walls, double time_in_stage,
                std::span<const DrivenState> driven, const Scales& scales) {
@@ -73,7 +68,7 @@ Gravity Simulation::gravity_at(double time_in_stage) const {
 }
 
 void Simulation::follow_stage(double time_step) {
-  if (laws_of_stage_ < 0 && !changes_laws(scene_)) return;
+  if (laws_of_stage_ < 0 && !changes_gravity(scene_) && !any_stage(scene_, changes_coefficients)) return;
   const Stage& stage = scene_.stages[state_.stage];
   const bool entered = laws_of_stage_ != state_.stage;
   if (!entered && !(stage.gravity && stage.gravity->ramp)) return;

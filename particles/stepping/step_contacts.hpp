@@ -40,7 +40,21 @@ struct StepInput {
   double time_step = 0;
   CellResponse cell = {};  ///< of a cell that pressures move
 
+  /// How grains answer impulses.
+  std::span<const double> inverse_mass() const {
+    return free.inverse_mass.empty() ? bodies.inverse_mass : free.inverse_mass;
+  }
   MaterialsOf materials() const { return {bodies.material, laws.material_of_shape}; }
+  /// Coefficient of friction of a pair; sliding() is its sliding velocity, for laws that ask for it.
+  template <class Sliding>
+  double friction(const Candidate& pair, Sliding sliding) const {
+    double mu = friction_bound(*laws.friction, pair, materials());
+    each_law(laws, [&](const auto& law) {
+      if constexpr (requires { law.friction(mu, 0.0, pair, materials()); })
+        mu = law.friction(mu, sliding(), pair, materials());
+    });
+    return mu;
+  }
 };
 
 }  // namespace drumlin::particles

@@ -41,7 +41,7 @@ StepLaws laws_in(const Scene& scene, const Scales& scales, const Stage& stage) {
       []<class E>(std::optional<E>& effect, const auto& values) {
         if constexpr (HasPairs<E>) {
           if (!values) return;
-          effect->grain_grain = values->grain_grain, effect->grain_wall = values->grain_wall;
+          static_cast<StageValues<E>&>(*effect) = *values;
           effect->pairs.clear();
         }
       },
