@@ -26,6 +26,7 @@
 #include <type_traits>
 
 #include "particles/effects/cohesion.hpp"
+#include "particles/effects/drag.hpp"
 #include "particles/effects/friction.hpp"
 #include "particles/effects/gravity.hpp"
 #include "particles/effects/restitution.hpp"
@@ -45,6 +46,7 @@ struct EffectsOf {
   Of<RollingResistance> rolling_resistance = {};
   Of<Cohesion> cohesion = {};
   Of<RotatingFrame> rotating_frame = {};
+  Of<Drag> drag = {};
 };
 
 /// Calls visit(what each of the lists has for it) for one effect after the other.
@@ -57,6 +59,7 @@ void each_effect(Visit visit, Lists&&... lists) {
   visit(lists.rolling_resistance...);
   visit(lists.cohesion...);
   visit(lists.rotating_frame...);
+  visit(lists.drag...);
 }
 
 /// What an effect does not have.

@@ -18,6 +18,7 @@ const std::string rocked =
     "stages.0.motions=[{wall=\"left\", kind=\"rocking\", amplitude_deg=20, frequency_hz=5}]";
 const std::string pushed =
     "stages.0.motions=[{wall=\"left\", kind=\"force\", direction=[1, 1], force_n_m=1, mass_kg_m=0.1}]";
+const std::string slow = "effects.drag={rate_per_s=2}";
 const std::string rolling = "effects.rolling_resistance={grain_grain=0.1, grain_wall=0.2}";
 
 }  // namespace
@@ -100,6 +101,10 @@ std::vector<Case> cases_of_effects() {
        {"effects.rotating_frame={speed_rpm=10}"},
        "effects.rotating_frame.center_mm=[50, 0]",
        positions_mm},
+      {"effects.drag", "", D, {}, slow, positions_mm},
+      {"effects.drag.rate_per_s", "", D, {slow}, "effects.drag.rate_per_s=8", positions_mm},
+      {"effects.drag.spin_rate_per_s", "", D, {slow}, "effects.drag.spin_rate_per_s=40", spins_rad_s},
+      {"effects.drag.grows_with", "", D, {slow}, "effects.drag.grows_with=diameter", positions_mm},
       {"effects.spin", "", F, {sliding, rubbing}, "effects.spin={}", spins_rad_s},
   };
 }
