@@ -27,6 +27,7 @@
 
 #include "particles/effects/cohesion.hpp"
 #include "particles/effects/drag.hpp"
+#include "particles/effects/dynamic_friction.hpp"
 #include "particles/effects/friction.hpp"
 #include "particles/effects/gravity.hpp"
 #include "particles/effects/restitution.hpp"
@@ -47,6 +48,7 @@ struct EffectsOf {
   Of<Cohesion> cohesion = {};
   Of<RotatingFrame> rotating_frame = {};
   Of<Drag> drag = {};
+  Of<DynamicFriction> dynamic_friction = {};
 };
 
 /// Calls visit(what each of the lists has for it) for one effect after the other.
@@ -60,6 +62,7 @@ void each_effect(Visit visit, Lists&&... lists) {
   visit(lists.cohesion...);
   visit(lists.rotating_frame...);
   visit(lists.drag...);
+  visit(lists.dynamic_friction...);
 }
 
 /// What an effect does not have.

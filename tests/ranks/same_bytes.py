@@ -320,6 +320,8 @@ def main():
         impacts_near_each_other(run_on, folder)
         same_on_all(run_on, folder, "box-frictionless", BOX.replace("[effects.friction]\ngrain_grain = 0.5\ngrain_wall = 0.5\n", ""),
                     ((1, 1), (3, 2)))
+        same_on_all(run_on, folder, "box-dynamic", BOX.replace("[effects.friction]", "[effects.dynamic_friction]\ngrain_grain = 0.1\ngrain_wall = 0.1\n"
+                    "speed_mm_s = 20\n[effects.friction]"), ((1, 1), (3, 2)))
         refusals(run_on, folder)
         grain_lost(run_on, folder)
         unseen_by_one(run_on, folder, scene)

@@ -19,6 +19,7 @@ const std::string rocked =
 const std::string pushed =
     "stages.0.motions=[{wall=\"left\", kind=\"force\", direction=[1, 1], force_n_m=1, mass_kg_m=0.1}]";
 const std::string slow = "effects.drag={rate_per_s=2}";
+const std::string slippery = "effects.dynamic_friction={grain_grain=0.01, grain_wall=0.02, speed_mm_s=5}";
 const std::string rolling = "effects.rolling_resistance={grain_grain=0.1, grain_wall=0.2}";
 
 }  // namespace
@@ -105,6 +106,33 @@ std::vector<Case> cases_of_effects() {
       {"effects.drag.rate_per_s", "", D, {slow}, "effects.drag.rate_per_s=8", positions_mm},
       {"effects.drag.spin_rate_per_s", "", D, {slow}, "effects.drag.spin_rate_per_s=40", spins_rad_s},
       {"effects.drag.grows_with", "", D, {slow}, "effects.drag.grows_with=diameter", positions_mm},
+      {"effects.dynamic_friction", "", D, {}, slippery, positions_mm},
+      {"effects.dynamic_friction.grain_grain",
+       "",
+       D,
+       {slippery},
+       "effects.dynamic_friction.grain_grain=0.3",
+       positions_mm},
+      {"effects.dynamic_friction.grain_wall",
+       "",
+       D,
+       {slippery},
+       "effects.dynamic_friction.grain_wall=0.3",
+       positions_mm},
+      {"effects.dynamic_friction.speed_mm_s",
+       "",
+       D,
+       {slippery},
+       "effects.dynamic_friction.speed_mm_s=500",
+       positions_mm},
+      {"effects.dynamic_friction.pairs[]", "", D, with(materials, slippery),
+       "effects.dynamic_friction" + pairs, positions_mm},
+      {"effects.dynamic_friction.pairs[].between", "", D,
+       with(with(materials, slippery), "effects.dynamic_friction" + pairs),
+       "effects.dynamic_friction.pairs.0.between=[\"a\", \"a\"]", positions_mm},
+      {"effects.dynamic_friction.pairs[].value", "", D,
+       with(with(materials, slippery), "effects.dynamic_friction" + pairs),
+       "effects.dynamic_friction.pairs.0.value=0.9", positions_mm},
       {"effects.spin", "", F, {sliding, rubbing}, "effects.spin={}", spins_rad_s},
   };
 }

@@ -31,6 +31,8 @@ const std::string smooth = "stages.1.friction={grain_grain=0, grain_wall=0}";
 const std::string lively = "stages.0.restitution={grain_grain=0.9, grain_wall=0.9}";
 const std::string rolling = "effects.rolling_resistance={grain_grain=0.1, grain_wall=0.2}";
 const std::string stiff = "stages.1.rolling_resistance={grain_grain=1, grain_wall=1}";
+const std::string slippery = "effects.dynamic_friction={grain_grain=0.01, grain_wall=0.02, speed_mm_s=5}";
+const std::string rubbing_later = "stages.1.dynamic_friction={grain_grain=0.8, grain_wall=0.9}";
 const std::string sticky = "effects.cohesion={grain_grain=1, grain_wall=1}";
 const std::string stickier = "stages.0.cohesion={grain_grain=5, grain_wall=5}";
 const std::string moved = "stages.0.until={moved={wall=\"left\", distance_mm=1}}";
@@ -139,6 +141,19 @@ std::vector<Case> cases_of_stage_changes() {
        D,
        {sticky, stickier},
        "stages.0.cohesion.grain_wall=0",
+       positions_mm},
+      {"stages[].dynamic_friction", "", D, {slippery}, rubbing_later, positions_mm},
+      {"stages[].dynamic_friction.grain_grain",
+       "",
+       D,
+       {slippery, rubbing_later},
+       "stages.1.dynamic_friction.grain_grain=0",
+       positions_mm},
+      {"stages[].dynamic_friction.grain_wall",
+       "",
+       D,
+       {slippery, rubbing_later},
+       "stages.1.dynamic_friction.grain_wall=0",
        positions_mm},
       {"stages[].until", "", F, {}, moved, steps},
       {"stages[].until.moved",

@@ -33,7 +33,8 @@ struct Reading {
 std::optional<particles::Friction> one_friction(const fs::path& scene_file) {
   if (!fs::exists(scene_file)) return std::nullopt;
   const particles::Effects effects = particles::read_scene(scene_file).effects;
-  if (!effects.friction || !effects.friction->pairs.empty() || effects.cohesion) return std::nullopt;
+  if (!effects.friction || !effects.friction->pairs.empty() || effects.cohesion || effects.dynamic_friction)
+    return std::nullopt;
   return effects.friction;
 }
 

@@ -1,0 +1,99 @@
+// Dynamic friction: closed forms of discs that slide, with the error that the sliding speed of a step's
+// beginning makes.
+#include "tests/effects/drums.hpp"
+
+namespace drumlin {
+using namespace particles;
+namespace {
+
+using test::add_stage;
+using test::scene_of;
+using test::TemporaryFolder;
+
+const double time_s = std::sqrt(1e-3 / 9.81);  // of scene_of()
+constexpr double mu_s = 0.6, mu_d = 0.2, speed = 0.5;
+
+/// A disc that cannot turn, at v on a floor in gravity tilted by some degrees.
+Scene block(double v, double slope_deg, double duration, double h, const TemporaryFolder& folder) {
+  Scene scene = scene_of({{0, 0.5, 1, v}}, folder);
+  scene.walls = {test::floor_wall()};
+  scene.effects.gravity = Gravity{9.81, -90 + slope_deg};
+  scene.effects.friction = Friction{mu_s, mu_s};
+  scene.effects.dynamic_friction = DynamicFriction{{mu_d, mu_d}, speed / time_s};
+  add_stage(scene, duration, h);
+  return scene;
+}
+
+/// dv/dt = -mu(v), from v0: y = exp(v / speed) obeys dy/dt = -(mu_d y + mu_s - mu_d) / speed.
+double sliding(double v0, double t) {
+  const double more = (mu_s - mu_d) / mu_d;
+  return speed * std::log((std::exp(v0 / speed) + more) * std::exp(-mu_d * t / speed) - more);
+}
+
+TEST(DynamicFriction, LetsADiscSlideToRestWithAnErrorOfFirstOrder) {
+  const auto missed = [](double h) {
+    const TemporaryFolder folder;
+    return test::bodies_at_end(block(2, 0, 4, h, folder)).v_x[0] - sliding(2, 4);
+  };
+  EXPECT_GT(sliding(2, 4), 0.3);
+  EXPECT_LT(std::abs(missed(0.02)), 0.02);
+  EXPECT_NEAR(missed(0.04) / missed(0.02), 2, 0.1);
+  EXPECT_NEAR(missed(0.02) / missed(0.01), 2, 0.05);
+}
+
+TEST(DynamicFriction, StopsADiscWhereItMust) {
+  const TemporaryFolder folder;
+  const double stops = speed / mu_d * std::log((mu_d * std::exp(4) + mu_s - mu_d) / mu_s), h = 5e-3;
+  Simulation simulation(block(2, 0, 1.1 * stops, h, folder));
+  double rests_at = 0;
+  while (!simulation.finished()) {
+    (void)simulation.step();
+    if (rests_at == 0 && simulation.state().bodies.v_x[0] < 1e-9) rests_at = simulation.state().time();
+  }
+  EXPECT_NEAR(rests_at, stops, 4 * h);
+  EXPECT_NEAR(simulation.state().bodies.v_x[0], 0, 1e-9);
+}
+
+TEST(DynamicFriction, TakesTheSpeedAgainstABelt) {
+  const TemporaryFolder folder;
+  Scene scene = block(0, 0, 3, 1e-2, folder);
+  scene.stages[0].motions = {{"floor", Belt{2 / time_s}}};
+  add_stage(scene, 5, 1e-2);  // the speeds are the same after 7.34
+  scene.stages[1].motions = scene.stages[0].motions;
+  Simulation simulation(scene);
+  while (simulation.state().time() < 3 - 1e-9) (void)simulation.step();
+  EXPECT_NEAR(simulation.state().bodies.v_x[0], 2 - sliding(2, 3), 1e-2);
+  while (!simulation.finished()) (void)simulation.step();
+  EXPECT_NEAR(simulation.state().bodies.v_x[0], 2, 1e-8);  // it rides
+}
+
+TEST(DynamicFriction, LetsADiscOnASlopeRestOrSlideAsItBegins) {
+  // tan 20 = 0.364 lies between the coefficients: mu is as much at v = speed ln(0.4 / 0.164) = 0.45.
+  const TemporaryFolder folder;
+  EXPECT_NEAR(test::bodies_at_end(block(0, 20, 2, 1e-2, folder)).v_x[0], 0, 1e-9);
+  EXPECT_NEAR(test::bodies_at_end(block(0.40, 20, 20, 1e-2, folder)).v_x[0], 0, 1e-9);
+  EXPECT_GT(test::bodies_at_end(block(0.50, 20, 20, 1e-2, folder)).v_x[0], 1);
+}
+
+TEST(DynamicFriction, OfAnImpactIsThatOfItsSpeed) {
+  const TemporaryFolder folder;
+  const double e = 0.5, v_t = 1, v_n = 0.3;
+  Scene scene = scene_of({{0, 0.55, 1, v_t, -v_n}}, folder);
+  scene.walls = {test::floor_wall()};
+  scene.effects.friction = Friction{mu_s, mu_s};
+  scene.effects.restitution = Restitution{e, e};
+  scene.effects.dynamic_friction = DynamicFriction{{mu_d, mu_d}, speed / time_s};
+  add_stage(scene, 0.5, 1e-2);
+  const double mu = mu_d + (mu_s - mu_d) * std::exp(-v_t / speed);
+  EXPECT_NEAR(test::bodies_at_end(scene).v_x[0], v_t - mu * (1 + e) * v_n, 1e-8);
+}
+
+TEST(DynamicFriction, ThatIsTheStaticOneChangesNoBit) {
+  const Scene plain = test::turning_drum();
+  Scene same = plain;
+  same.effects.dynamic_friction = DynamicFriction{{0.4, 0.95}, 10};
+  test::expect_same(test::bodies_at_end(plain), test::bodies_at_end(same));
+}
+
+}  // namespace
+}  // namespace drumlin
