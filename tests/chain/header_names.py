@@ -6,15 +6,15 @@ import re
 
 # Where each name of the standard library that a header may use is declared. A name that is missing here is a fault too: it is added.
 STANDARD = {
-    "algorithm": "any_of clamp copy_n fill fill_n max min minmax_element move_backward", "array": "array tuple_size_v", "atomic": "atomic", "bitset": "bitset", "bit": "bit_cast bit_ceil", "charconv": "from_chars", "chrono": "chrono",
+    "algorithm": "any_of clamp copy copy_n fill fill_n find max min minmax_element move_backward", "array": "array tuple_size_v", "atomic": "atomic", "bitset": "bitset", "bit": "bit_cast bit_ceil", "charconv": "from_chars", "chrono": "chrono",
     "cmath": "abs ceil copysign exp floor hypot ilogb isfinite ldexp log log10 nan round sqrt", "complex": "complex abs",
     "cstddef": "byte ptrdiff_t size_t", "cstring": "memcpy", "exception": "exception_ptr", "cstdint": "int8_t int16_t int32_t int64_t uint8_t uint16_t uint32_t uint64_t", "deque": "deque",
     "filesystem": "filesystem", "functional": "function", "future": "async future launch", "initializer_list": "initializer_list",
-    "limits": "numeric_limits", "map": "map", "memory": "make_shared shared_ptr unique_ptr", "new": "align_val_t", "optional": "optional nullopt", "random": "mt19937_64",
+    "limits": "numeric_limits", "map": "map", "memory": "make_shared shared_ptr unique_ptr", "new": "align_val_t", "numbers": "numbers", "optional": "optional nullopt", "random": "mt19937_64",
     "set": "set", "span": "span as_bytes as_writable_bytes", "stdexcept": "length_error runtime_error", "string": "string to_string",
     "string_view": "string_view", "system_error": "errc error_code", "thread": "thread",
     "type_traits": "conditional_t invoke_result_t is_integral_v is_same_v is_trivially_copyable_v", "unordered_map": "unordered_map",
-    "utility": "exchange move pair", "variant": "get get_if holds_alternative monostate variant", "vector": "vector",
+    "utility": "declval exchange move pair", "variant": "get get_if holds_alternative monostate variant", "vector": "vector",
 }
 # Headers that declare what others are for, by the words of the standard.
 ALSO = {"cstddef": ["array", "cstdio", "cstring", "functional", "span", "string", "string_view", "vector"], "utility": ["map", "unordered_map"], "system_error": ["charconv"]}
