@@ -48,7 +48,7 @@ std::string remove_needy(Scene& scene) {
         [&]<class E>(std::optional<E>& effect) {
           if (!effect || faults_of(*effect, scene).empty()) return;
           effect.reset();
-          names += (names.empty() ? "" : ", ") + std::string(E::name);
+          names += (names.empty() ? "" : " and ") + std::string(E::name);
           again = true;
         },
         scene.effects);
@@ -65,7 +65,7 @@ void toggle_effects(const Scene& scene, Variants& variants) {
         if (effect) {
           now.reset();
           words = remove_needy(changed);
-          if (!words.empty()) words = "and what needs it: " + words;
+          if (!words.empty()) words = "and " + words + ", which needs it";
         } else if (faults_of(E::modest(), scene).empty()) {
           now = E::modest();
         } else {

@@ -36,6 +36,7 @@ TEST(CellContradiction, WhatNothingHoldsOrNothingMoves) {
   expect_problem({"stages.0.cell={zz={pressure_n_m2=1, rate_per_s=1}}"}, "stages.0.cell.zz", "both");
   expect_problem({"stages.0.cell={zz={pressure_n_m2=1}}", "solver.capture_unconverged=1"},
                  "solver.capture_unconverged", "under pressure");
+  expect_problem({"effects.drag={rate_per_s=1}"}, "effects.drag", "a moving cell flows");
 }
 
 // 0.2 of strain in a step of 1 ms, whatever strains the cell.

@@ -27,6 +27,13 @@ TEST(Contradiction, SpinWithoutFriction) {
   expect_problem(text, {}, "s.toml:15:1: effects.spin", "without friction");
 }
 
+TEST(Contradiction, DynamicFrictionWithoutTheStaticOne) {
+  std::string text = replaced(example_scene, "[effects.friction]\ngrain_grain = 0.4\ngrain_wall = 0.9\n", "");
+  text = replaced(text, "[effects.spin]\n", "");
+  expect_problem(text, {"effects.dynamic_friction={grain_grain=0.1, grain_wall=0.1, speed_mm_s=1}"},
+                 "effects.dynamic_friction", "without friction");
+}
+
 TEST(Contradiction, PairsOfMaterialsThatCannotMeet) {
   const std::string key = "effects.friction.pairs.0.between";
   const auto pair = [](const std::string& names) {
