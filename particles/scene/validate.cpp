@@ -151,18 +151,7 @@ void check_belt(const Scene& scene, const WallMotion& asked, const std::string& 
 }
 
 void check_motions(const Scene& scene, std::size_t s, Faults& faults) {
-  std::set<std::string> walls;
-  std::string known;
-  for (const auto& wall : scene.walls)
-    if (walls.insert(wall.name).second) known += (known.empty() ? "" : ", ") + wall.name;
   for (std::size_t m = 0; m < scene.stages[s].motions.size(); ++m) {
-    const auto& name = scene.stages[s].motions[m].wall;
-    const std::string key = fmt::format("{}.motions.{}.wall", stage_key(s), m);
-    if (!walls.contains(name))
-      faults.push_back({key,
-                        fmt::format("names no wall: \"{}\"", name),
-                        known.empty() ? "none, the scene has no walls" : known,
-                        {key, "walls"}});
     const std::string drive = fmt::format("{}.motions.{}", stage_key(s), m);
     if (const auto* force = std::get_if<ForceControl>(&scene.stages[s].motions[m].motion))
       check_drive(scene, *force, drive, faults);

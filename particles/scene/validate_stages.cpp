@@ -38,7 +38,7 @@ void require_wall(const Scene& scene, const std::string& name, const std::set<st
         {key, fmt::format("names \"{}\", which has been opened", name), "walls that are still there", {key}});
 }
 
-/// Opened walls are named once, and nothing is asked of them afterwards.
+/// Walls that stages name are there: opened ones are named once, and nothing is asked of them afterwards.
 void check_opened(const Scene& scene, Faults& faults) {
   std::set<std::string> open;
   for (std::size_t s = 0; s < scene.stages.size(); ++s) {
@@ -49,8 +49,7 @@ void check_opened(const Scene& scene, Faults& faults) {
       open.insert(name);
     }
     for (std::size_t m = 0; m < stage.motions.size(); ++m)
-      if (open.contains(stage.motions[m].wall))
-        require_wall(scene, stage.motions[m].wall, open, fmt::format("{}.motions.{}.wall", key, m), faults);
+      require_wall(scene, stage.motions[m].wall, open, fmt::format("{}.motions.{}.wall", key, m), faults);
     if (stage.until && stage.until->moved)
       require_wall(scene, stage.until->moved->wall, open, key + ".until.moved.wall", faults);
     if (stage.until && !stage.until->moved && !stage.until->at_rest && !stage.until->out)

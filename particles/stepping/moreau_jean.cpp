@@ -357,20 +357,22 @@ class MoreauJean final : public Stepper {
   std::optional<EnergyBooks> books_;  // only with an energy ledger
 };
 
+template <class Frictionless, class Coulomb, class CoulombSpin, class CoulombRolling>
+std::unique_ptr<Stepper> stepper_of(const StepLaws& laws, const StepSolver& solver) {
+  if (laws.unknowns == 3) return std::make_unique<MoreauJean<CoulombRolling, true>>(laws, solver);
+  if (laws.unknowns == 1) return std::make_unique<MoreauJean<Frictionless, false>>(laws, solver);
+  if (!laws.spin) return std::make_unique<MoreauJean<Coulomb, false>>(laws, solver);
+  return std::make_unique<MoreauJean<CoulombSpin, true>>(laws, solver);
+}
+
 }  // namespace
 
 std::unique_ptr<Stepper> make_stepper(const StepLaws& laws, const StepSolver& solver) {
-  if (laws.driven_walls) {
-    if (laws.unknowns == 3) return std::make_unique<MoreauJean<DrivenRollingProblem, true>>(laws, solver);
-    if (laws.unknowns == 1)
-      return std::make_unique<MoreauJean<DrivenFrictionlessProblem, false>>(laws, solver);
-    if (!laws.spin) return std::make_unique<MoreauJean<DrivenCoulombProblem, false>>(laws, solver);
-    return std::make_unique<MoreauJean<DrivenCoulombSpinProblem, true>>(laws, solver);
-  }
-  if (laws.unknowns == 3) return std::make_unique<MoreauJean<CoulombRollingProblem, true>>(laws, solver);
-  if (laws.unknowns == 1) return std::make_unique<MoreauJean<FrictionlessProblem, false>>(laws, solver);
-  if (!laws.spin) return std::make_unique<MoreauJean<CoulombProblem, false>>(laws, solver);
-  return std::make_unique<MoreauJean<CoulombSpinProblem, true>>(laws, solver);
+  if (laws.driven_walls)
+    return stepper_of<DrivenFrictionlessProblem, DrivenCoulombProblem, DrivenCoulombSpinProblem,
+                      DrivenRollingProblem>(laws, solver);
+  return stepper_of<FrictionlessProblem, CoulombProblem, CoulombSpinProblem, CoulombRollingProblem>(laws,
+                                                                                                    solver);
 }
 
 }  // namespace drumlin::particles
