@@ -259,7 +259,8 @@ void Impacts::add(std::int32_t a, const Surfaces& now, double time) {
   contact.e = value_of(step.laws.restitution->e, pair.i, pair.j, step.materials());
   if (step.laws.friction)
     contact.mu = step.friction(pair, [&] {
-      const Point u = relative_velocity(pair, time);
+      const Point v = velocity(pair.i), w = second < 0 ? Point{} : velocity(second);
+      const Point u{v.x - w.x - contact.wall.x + contact.gain.x, v.z - w.z - contact.wall.z + contact.gain.z};
       const double rim_j = contact.j < 0 ? 0 : pass_.bodies[contact.j].rim;
       return now.n_z * u.x - now.n_x * u.z - pass_.bodies[contact.i].rim - rim_j;
     });
