@@ -38,6 +38,12 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]', re.MULTILINE)
 ROW = re.compile(r"^\| `([\w/]+)` \|.*\| ([^|]*) \|$", re.MULTILINE)
 
 
+def text_of(root, name):
+    """A header with the text files (*-inl.h) that are a part of it."""
+    text = (root / name).read_text(encoding="utf-8")
+    return re.sub(r'^#include "([\w/]+-inl\.h)"$', lambda part: text_of(root, part[1]), text, flags=re.MULTILINE)
+
+
 def below(name, folders):
     return any(name == folder or name.startswith(folder + "/") for folder in folders)
 
@@ -140,7 +146,7 @@ def main():
     if circle := circle_of(root, files):
         faults.append("folders include each other in a circle: " + " -> ".join(circle))
     headers = [name for name in files if name.endswith(".hpp") and not below(name, PRIVATE_FOLDERS)]
-    texts = {name: (root / name).read_text(encoding="utf-8") for name in headers}
+    texts = {name: text_of(root, name) for name in headers}
     faults += header_names.unreached(headers, texts.get, lambda name: INCLUDE.findall(texts[name]))
     units = [(headers, "all public headers do not compile together"), (headers[::-1], "all public headers do not compile in the opposite order")]
     if each:
