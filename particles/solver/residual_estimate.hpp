@@ -69,12 +69,8 @@ class SolveProgress {
   void compare(const LimitRatios& ratios, double sinking) {
     if (exact_ && ratios.sinking > 0) sinking_ = std::clamp(sinking / ratios.sinking, 0.98, 1.02);
   }
-  /// Sweeps without progress.
+  /// Sweeps without progress; a flow takes 10 for a tenth of its residual.
   int idle(int sweeps) const { return sweeps - at_; }
-  /// Whether too many sweeps have gone without progress: a flow takes 10 for a tenth of its residual, a solve
-  /// that starts from no impulses rests for hundreds and then goes on, so that as many are too many as it
-  /// took to get there.
-  bool stuck(int sweeps) const { return sweeps - at_ >= std::max(at_, exact_ ? 200 : 100); }
 
  private:
   bool exact_;

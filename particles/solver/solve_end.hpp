@@ -26,12 +26,14 @@ struct SweptBlocks {
 /// are the best by the estimate.
 class SolveEnd {
  public:
+  /// Kind::patience of single precision, long enough for bodies to be loaded anew, and of steep friction.
+  static constexpr int usual_patience = 200, patience_of_steep = 100;
   struct Kind {
     double time_step = 1;
     double residual_scale = 1;  ///< turns squares of an estimate into the square of the relative residual
     SweepExtrapolation how = SweepExtrapolation::none;
     bool single = false;          ///< sweeps are in single precision
-    bool leaves = false;          ///< the solve ends where it gets stuck
+    int patience = 0;             ///< so many sweeps without progress end the solve; 0: none do
     bool limits_sinking = false;  ///< the rule limits it, and the blocks know it
   };
   SolveEnd(const StoppingRule& rule, const Kind& kind)
@@ -90,7 +92,7 @@ bool SolveEnd::ends(const Blocks& blocks, int sweeps, double steps, bool finite,
       kind_.single && std::min(progress_.idle(sweeps), sweeps - reloaded_at_) >= sweeps_between_reloads;
   if (reload_due_) reloaded_at_ = sweeps;
   // Rounding of single precision hides the progress, or momentum keeps steep contacts swinging.
-  const bool stuck = kind_.leaves && progress_.stuck(sweeps);
+  const bool stuck = kind_.patience > 0 && progress_.idle(sweeps) >= kind_.patience;
   const double missed = progress_.counted(ratios);
   if (missed < best_) best_ = missed, blocks.keep();
   if (!last && !stuck && progress_.surely_missed(ratios)) return false;

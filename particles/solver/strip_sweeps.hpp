@@ -150,7 +150,10 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
   kind.residual_scale = pack_in_strips(problem, work, strips, solution, loops);
   kind.how = extrapolation_of(accelerated, problem.contacts());
   kind.single = sizeof(T) < sizeof(double);
-  kind.leaves = kind.single || (accelerated && is_steep(problem));
+  if (accelerated && is_steep(problem))
+    kind.patience = SolveEnd::patience_of_steep;
+  else if (kind.single)
+    kind.patience = SolveEnd::usual_patience;
   // Driven walls take impulses too, which the records do not tell.
   kind.limits_sinking = std::isfinite(rule.sinking) && !strips.has_driven();
   SolveEnd end(rule, kind);
