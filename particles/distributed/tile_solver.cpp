@@ -293,8 +293,6 @@ SolveReport TileSolver<Problem>::sweep_until_done(const Problem& problem, const 
       end.leave_out();
     else if (end.ends(swept, sweeps, steps, finite, last))
       return end.report();
-    else if (end.reload_due())
-      load_bodies(contacts, halo, blocks), beta = 0;
   }
 }
 

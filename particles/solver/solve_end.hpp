@@ -1,6 +1,5 @@
 #pragma once
 // When a solve in blocks ends: by estimates of its residual on the way, and by the residual itself.
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -26,7 +25,7 @@ struct SweptBlocks {
 /// are the best by the estimate.
 class SolveEnd {
  public:
-  /// Kind::patience of single precision, long enough for bodies to be loaded anew, and of steep friction.
+  /// Kind::patience of single precision and of steep friction.
   static constexpr int usual_patience = 200, patience_of_steep = 100;
   struct Kind {
     double time_step = 1;
@@ -56,11 +55,6 @@ class SolveEnd {
   /// After so many sweeps, where an estimate is due: whether the solve ends, with report().
   template <class Blocks>
   bool ends(const Blocks& blocks, int sweeps, double steps, bool finite, bool last);
-  /// After it, where the solve goes on: whether the bodies are to receive the velocities of the impulses
-  /// anew.
-  /// Single precision rounds both apart, and momentum keeps that: estimates then stand still above residuals
-  /// that fall.
-  bool reload_due() const { return reload_due_; }
   const SolveReport& report() const { return test_.report(); }
 
  private:
@@ -71,8 +65,6 @@ class SolveEnd {
   double threshold_ = std::numeric_limits<double>::infinity();  // of steps: above it the residual is far
   double best_ = std::numeric_limits<double>::infinity();
   int left_out_ = 0;  // estimates, in turn
-  bool reload_due_ = false;
-  int reloaded_at_ = 0;
 };
 
 template <class Blocks>
@@ -87,10 +79,6 @@ bool SolveEnd::ends(const Blocks& blocks, int sweeps, double steps, bool finite,
   if (kind_.limits_sinking && (progress_.exact() || !progress_.surely_missed(ratios)))
     ratios.sinking = sinking_of(sums, blocks.summed_impulses(), kind_.time_step, rule_);
   progress_.record(ratios, sweeps);
-  constexpr int sweeps_between_reloads = 100;
-  reload_due_ =
-      kind_.single && std::min(progress_.idle(sweeps), sweeps - reloaded_at_) >= sweeps_between_reloads;
-  if (reload_due_) reloaded_at_ = sweeps;
   // Rounding of single precision hides the progress, or momentum keeps steep contacts swinging.
   const bool stuck = kind_.patience > 0 && progress_.idle(sweeps) >= kind_.patience;
   const double missed = progress_.counted(ratios);

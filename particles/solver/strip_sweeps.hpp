@@ -114,14 +114,6 @@ bool wants_coarse_loads(const Problem& problem, const SolverWorkspace<Problem>& 
     return false;
 }
 
-/// Lets the bodies receive the velocities of the impulses anew, before the next sweep.
-template <class T, class Strips>
-void reload(Strips& strips, const TeamLoops& loops, SweepState<T>& state) {
-  strips.rest(loops);
-  state.loaded = false;
-  state.beta = 0;
-}
-
 /// Corrects the impulses of the strips on a coarse grid, laid out anew if this is the `first` time.
 template <class T, class Problem, class Strips>
 void correct_loads(const Problem& problem, SolverWorkspace<Problem>& work, Strips& strips, bool first,
@@ -134,7 +126,10 @@ void correct_loads(const Problem& problem, SolverWorkspace<Problem>& work, Strip
       work.coarse.use(work.memory);
       work.coarse.lay_out(W.i, W.j, work.places, strips, loops);
     }
-    if (work.coarse.scale(strips, loops)) reload(strips, loops, state);
+    if (!work.coarse.scale(strips, loops)) return;
+    strips.rest(loops);
+    state.loaded = false;
+    state.beta = 0;
   }
 }
 
@@ -189,8 +184,6 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
       end.leave_out();
     else if (end.ends(blocks, state.sweeps, state.steps, state.finite, last || !state.finite))
       return end.report();
-    else if (end.reload_due())
-      reload(strips, loops, state);
   }
 }
 
