@@ -84,7 +84,7 @@ TEST(SolveProgress, SlowlyOfWhatIsMissedCountsWhereSweepsExtrapolateExactly) {
     for (SolveProgress* progress : {&rounded, &exact}) {
       const LimitRatios ratios{0.6, 0.5, 1.2 - 1e-4 * sweeps};
       progress->record(ratios, sweeps);
-      EXPECT_EQ(progress->idle(sweeps) >= 100, progress == &rounded && sweeps >= 110) << sweeps;
+      EXPECT_EQ(progress->idle(sweeps) >= 200, progress == &rounded && sweeps >= 210) << sweeps;
     }
   for (int sweeps = 410; sweeps < 600; sweeps += 10) exact.record({0.6, 0.5, 1.16}, sweeps);
   EXPECT_EQ(exact.idle(600), 230);
