@@ -1,5 +1,6 @@
 // Impacts must not make energy.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <initializer_list>
 #include <numbers>
@@ -177,8 +178,9 @@ std::vector<HardCheck> elastic_gas() {
           at_most("largest relative rise in a step", 1e-10, rise, "residual 1e-12")};
 }
 
-/// Haff's law (1983): sqrt(T(0)/T(t)) = 1 + t/tau with 1/tau = (1 - e^2) omega/4, omega = 2 n chi sqrt(pi
-/// T/m) impacts of a disc per time (Enskog; chi by Henderson 1975), for diameter 1.
+/// Haff's law (1983), and what velocities that collisions align take from it: sqrt(T(0)/T(t)) = 1 + t/tau
+/// with 1/tau = (1 - e^2) omega/4, omega = 2 n chi sqrt(pi T/m) impacts of a disc per time (Enskog; chi by
+/// Henderson 1975), for diameter 1.
 std::vector<HardCheck> haff() {
   const double fraction = 0.01, e = 0.9, side = side_of_gas(fraction), h = 0.02;
   const double n = fraction * 4 / std::numbers::pi;
@@ -195,12 +197,15 @@ std::vector<HardCheck> haff() {
   particles::Simulation simulation = cooling.start();
   const double before = kinetic_energy(simulation.state().bodies);
   std::vector<HardCheck> checks;
-  for (const double times : {1.0, 2.0, 3.0}) {
+  // Of Haff's law: an event-driven simulation of the same hard discs, mean of 12 starts, each 0.004. One run
+  // differs from that by 0.014 to 0.022.
+  const std::array<double, 3> event_driven{0.988, 0.978, 0.974};
+  for (const int times : {1, 2, 3}) {
     while (!simulation.finished() && simulation.state().time() < times * tau) (void)simulation.step();
-    checks.push_back(
-        equals("sqrt(T(0)/T) - 1 after " + std::to_string(static_cast<int>(times)) + " tau", times,
-               std::sqrt(before / kinetic_energy(simulation.state().bodies)) - 1, 0.03 * times,
-               "3 %: chance of 900 discs and the step, 1 % each; denser ones part into vortices"));
+    checks.push_back(equals("sqrt(T(0)/T) - 1 after " + std::to_string(times) + " tau",
+                            times * event_driven[times - 1],
+                            std::sqrt(before / kinetic_energy(simulation.state().bodies)) - 1, 0.03 * times,
+                            "event-driven discs of the same number; 3 %: chance of 900 discs"));
   }
   return checks;
 }
