@@ -2,18 +2,11 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <cstdlib>
-
 #include "coupling/common/first_rank.hpp"
 #include "coupling/common/library_words.hpp"
 #include "coupling/common/system_limits.hpp"
 
 namespace drumlin::continuum {
-namespace {
-
-constexpr int mpi_files = 32, mpi_mebibytes = 64;  // what MPI begins with
-
-}  // namespace
 
 struct FemRuntime::Libraries {
   explicit Libraries(char** argv) : words(argv[0]), mpi(words.count, words.first, 1) {}
@@ -22,10 +15,7 @@ struct FemRuntime::Libraries {
 };
 
 FemRuntime::FemRuntime(int&, char**& argv) {
-  setenv("OMP_NUM_THREADS", "1", /*overwrite=*/0);  // read by the BLAS when it is first called
-  // Alone it is no job whose processes a daemon of MPI, found along PATH, would have to look after.
-  setenv("OMPI_MCA_ess_singleton_isolated", "1", /*overwrite=*/0);
-  require_open_files(mpi_files);
+  prepare_libraries();
   start_blas(nullptr, mpi_mebibytes);
   libraries_ = std::make_unique<Libraries>(argv);
 }

@@ -4,9 +4,15 @@
 
 namespace drumlin {
 
+/// MiB that MPI begins with.
+inline constexpr int mpi_mebibytes = 64;
+
+/// What MPI and BLAS are to find in the environment, and the open files that MPI needs: first of all. Throws
+/// IoError.
+void prepare_libraries();
+
 /// The words that they get: the program's name, and that PETSc reads no file of options, in the current
-/// folder or at home, for options can load code. Of its variables only DRUMLIN_PETSC_OPTIONS counts, and what
-/// OMP_NUM_THREADS says of threads, one unless it does.
+/// folder or at home, for options can load code. Of its variables only DRUMLIN_PETSC_OPTIONS counts.
 struct LibraryWords {
   explicit LibraryWords(char* program);
   LibraryWords(const LibraryWords&) = delete;

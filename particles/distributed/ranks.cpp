@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <numeric>
 #include <string>
 #include <thread>
@@ -25,8 +24,6 @@ double waited = 0;
 // Arrays of so many bytes go back to the system: of smaller ones new pages cost more than holes.
 constexpr int large_array = 1 << 22;
 
-constexpr int mpi_files = 32, mpi_mebibytes = 64;  // what MPI begins with
-
 // MPI 3 counts the bytes of a message in int: longer ones go in parts.
 std::size_t most_at_once = std::size_t{1} << 30;
 
@@ -46,10 +43,7 @@ struct RankRuntime::Libraries {
 };
 
 RankRuntime::RankRuntime(int&, char**& argv) {
-  setenv("OMP_NUM_THREADS", "1", /*overwrite=*/0);
-  // Alone it is no job whose processes a daemon of MPI, found along PATH, would have to look after.
-  setenv("OMPI_MCA_ess_singleton_isolated", "1", /*overwrite=*/0);
-  require_open_files(mpi_files);
+  prepare_libraries();
   require_memory(mpi_mebibytes);
   libraries_ = std::make_unique<Libraries>(argv);
   give_large_arrays_back(large_array);

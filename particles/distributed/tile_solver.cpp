@@ -242,10 +242,7 @@ SolveReport TileSolver<Problem>::sweep_until_done(const Problem& problem, const 
   kind.time_step = problem.time_step, kind.residual_scale = scale_of(problem, contacts);
   kind.how = extrapolation_of(accelerated, contacts_of_all);
   kind.single = sizeof(T) < sizeof(double);
-  if (accelerated && steep_)
-    kind.patience = SolveEnd::patience_of_steep;
-  else if (kind.single)
-    kind.patience = SolveEnd::usual_patience;
+  kind.steep = accelerated && steep_;
   kind.limits_sinking = std::isfinite(rule.sinking);
   SolveEnd end(rule, kind);
   const SweptBlocks swept{[&] {

@@ -25,14 +25,12 @@ struct SweptBlocks {
 /// are the best by the estimate.
 class SolveEnd {
  public:
-  /// Kind::patience of single precision and of steep friction.
-  static constexpr int usual_patience = 200, patience_of_steep = 100;
   struct Kind {
     double time_step = 1;
     double residual_scale = 1;  ///< turns squares of an estimate into the square of the relative residual
     SweepExtrapolation how = SweepExtrapolation::none;
     bool single = false;          ///< sweeps are in single precision
-    int patience = 0;             ///< so many sweeps without progress end the solve; 0: none do
+    bool steep = false;           ///< they are accelerated, and friction is steep
     bool limits_sinking = false;  ///< the rule limits it, and the blocks know it
   };
   SolveEnd(const StoppingRule& rule, const Kind& kind)
@@ -80,7 +78,9 @@ bool SolveEnd::ends(const Blocks& blocks, int sweeps, double steps, bool finite,
     ratios.sinking = sinking_of(sums, blocks.summed_impulses(), kind_.time_step, rule_);
   progress_.record(ratios, sweeps);
   // Rounding of single precision hides the progress, or momentum keeps steep contacts swinging.
-  const bool stuck = kind_.patience > 0 && progress_.idle(sweeps) >= kind_.patience;
+  constexpr int patience = 200, patience_of_steep = 100;  // sweeps
+  const bool stuck =
+      (kind_.single || kind_.steep) && progress_.idle(sweeps) >= (kind_.steep ? patience_of_steep : patience);
   const double missed = progress_.counted(ratios);
   if (missed < best_) best_ = missed, blocks.keep();
   if (!last && !stuck && progress_.surely_missed(ratios)) return false;

@@ -145,10 +145,7 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
   kind.residual_scale = pack_in_strips(problem, work, strips, solution, loops);
   kind.how = extrapolation_of(accelerated, problem.contacts());
   kind.single = sizeof(T) < sizeof(double);
-  if (accelerated && is_steep(problem))
-    kind.patience = SolveEnd::patience_of_steep;
-  else if (kind.single)
-    kind.patience = SolveEnd::usual_patience;
+  kind.steep = accelerated && is_steep(problem);
   // Driven walls take impulses too, which the records do not tell.
   kind.limits_sinking = std::isfinite(rule.sinking) && !strips.has_driven();
   SolveEnd end(rule, kind);

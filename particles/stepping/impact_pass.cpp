@@ -102,7 +102,7 @@ void ImpactPass::compress_roughly() {
 }
 
 void ImpactPass::compress() {
-  if (complete_ && is_exact()) return;
+  if (is_exact()) return;  // compress_roughly() has done it
   const double enough = tolerance * fastest();
   const int sweeps = std::max(fewest_sweeps, solved_contacts / static_cast<int>(contacts.size()));
   complete_ = false;

@@ -145,7 +145,7 @@ TEST(SolveEnd, EndsWhereEstimatesStandStill) {
   rule.tolerance = 1e-9;
   rule.max_sweeps = 10000;
   SolveEnd::Kind kind;
-  kind.single = true, kind.patience = 200;
+  kind.single = true;
   double squares = 1;
   const SweptBlocks blocks{[&] {
                              return ResidualEstimate{squares, 0, 0};
