@@ -9,6 +9,7 @@
 
 #include "apps/commands/accuracy_statement.hpp"
 #include "apps/commands/expected_output.hpp"
+#include "apps/commands/followers.hpp"
 #include "apps/commands/region_table.hpp"
 #include "apps/commands/run_accuracy.hpp"
 #include "apps/commands/run_files.hpp"
@@ -49,15 +50,18 @@ class ParticleRun {
  public:
   ParticleRun(const RunOptions& options, GrowingOutput& output, const particles::Scene& scene,
               std::string resolved, std::optional<particles::Checkpoint> from,
-              nlohmann::ordered_json started_from)
+              nlohmann::ordered_json started_from, const Followers& followers)
       : options_(options),
         output_(output),
+        followers_(followers),
+        goes_on_(from.has_value()),
         scene_(scene),
         resolved_(std::move(resolved)),
         started_from_(std::move(started_from)),
         totals_(from ? from->totals : particles::RunTotals{}),
-        simulation_(from ? particles::Simulation(scene, std::move(from->state), options.threads)
-                         : particles::Simulation(scene, options.threads)),
+        simulation_(
+            from ? particles::Simulation(scene, std::move(from->state), options.threads, followers.world())
+                 : particles::Simulation(scene, options.threads, followers.world())),
         log_(options.output / log_name, log_header, from ? from->log_bytes : 0),
         energy_bytes_(from ? from->energy_bytes : 0),
         walls_bytes_(from ? from->walls_bytes : 0),
@@ -69,6 +73,7 @@ class ParticleRun {
     next_checkpoint_s_ = simulated_seconds() + scene_.output.checkpoint_every_s;
     cpu_before_ = own_cpu_seconds();
     steps_before_ = simulation_.state().step;
+    followers_.begin(options_.output, goes_on_, options_.threads, simulation_);
     write_report("running");
     while (!simulation_.finished()) {
       advance();
@@ -113,7 +118,7 @@ class ParticleRun {
 
   void advance() {
     try {
-      last_ = simulation_.step();
+      last_ = followers_.step(simulation_);
     } catch (const NotConvergedError& error) {  // the step could not be taken, or leaves no state
       fail("not converged", error.what(), simulation_.state().step + 1);
     }
@@ -200,6 +205,7 @@ class ParticleRun {
     checkpoint.energy_bytes = energy_ ? energy_->flush() : energy_bytes_;
     checkpoint.walls_bytes = walls_ ? walls_->flush() : walls_bytes_;
     checkpoint.regions_bytes = regions_ ? regions_->flush() : regions_bytes_;
+    costs_ = followers_.costs();
     checkpoint.totals = totals_now();
     checkpoint.state = simulation_.state();
     std::map<std::string, ManifestEntry> tables{{log_name, log_.entry()}};
@@ -221,15 +227,18 @@ class ParticleRun {
     particles::RunTotals totals = totals_;
     totals.wall_seconds += seconds_between(start_, Clock::now());
     totals.cpu_seconds += own_cpu_seconds() - cpu_before_;
+    for (std::size_t rank = 1; rank < costs_.size(); ++rank) totals.cpu_seconds += costs_[rank].cpu_seconds;
     return totals;
   }
 
   RunProgress progress_now() const { return {scene_, simulation_, totals_now(), options_.threads}; }
 
-  void write_report(const std::string& status) const {
+  void write_report(const std::string& status) {
+    costs_ = followers_.costs();
     nlohmann::ordered_json report = run_report(progress_now(), status);
     if (!stretches_.is_null()) report["accuracy"]["stretches"] = stretches_;
     if (!started_from_.is_null()) report["started_from"] = started_from_;
+    if (!costs_.empty()) report["ranks"] = to_json(costs_);
     write_json(options_.output / "run.json", report);
   }
 
@@ -243,7 +252,9 @@ class ParticleRun {
                          simulated_seconds(),
                          seconds_between(start_, Clock::now()),
                          totals_.unconverged_steps};
-    return progress_line("run", at, last_);
+    const std::string run =
+        followers_.world() ? fmt::format("run on {} ranks", followers_.world()->ranks()) : "run";
+    return progress_line(run, at, last_);
   }
 
   int stop_for(int signal) {
@@ -281,6 +292,8 @@ class ParticleRun {
 
   RunOptions options_;
   GrowingOutput& output_;
+  Followers followers_;
+  bool goes_on_;  // from a checkpoint
   particles::Scene scene_;
   std::string resolved_;
   nlohmann::ordered_json started_from_;  // null where the grains are those of the scene alone
@@ -294,6 +307,7 @@ class ParticleRun {
   std::optional<RunTable> regions_;  // opened with the first line of the log
   std::int64_t regions_bytes_ = 0;
   BackgroundWriter writer_;
+  std::vector<RankCosts> costs_;  // of all ranks, when they were last asked
   Progress progress_;
   particles::StepReport last_;
   Clock::time_point start_;
@@ -323,7 +337,10 @@ void check_stretches(double seconds, const particles::Scene& scene) {
 
 }  // namespace
 
-int run(const RunOptions& options) {
+int run(const RunOptions& options, particles::World* world) {
+  if (world != nullptr && options.ranks)
+    throw InputError({InputProblem{"", 0, 0, "--ranks", "not here: mpirun says how many ranks there are",
+                                   "mpirun -n N drumlin-run"}});
   particles::give_large_arrays_back(1 << 18);
   particles::Scene scene = particles::read_scene(options.scene, options.overrides);
   const nlohmann::ordered_json started_from = take_over_grains(scene);
@@ -343,7 +360,6 @@ int run(const RunOptions& options) {
   std::optional<particles::Checkpoint> from;
   if (existing == ExistingOutput::resume) {
     same_run_or_refuse(options.output, scene, resolved);
-    if (!longer) same_engine_or_refuse(options.output, false);  // what is prolonged is whole
     from = checkpoint_in(options.output, resolved);
   }
   if (longer) {
@@ -366,7 +382,8 @@ int run(const RunOptions& options) {
       print_error(fmt::format("warning: {}\n", warning));
   }
   read_lists_from(options.output, scene);
-  return ParticleRun(options, output, scene, resolved, std::move(from), started_from).execute();
+  return ParticleRun(options, output, scene, resolved, std::move(from), started_from, Followers(world))
+      .execute();
 }
 
 }  // namespace drumlin::apps

@@ -1,5 +1,7 @@
 // drumlin run --ranks: starts drumlin-run, which stands beside this executable, by mpirun, and ends as it
 // ends.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdlib>
 
@@ -15,9 +17,16 @@ namespace {
 std::vector<std::string> words_of(const RunOptions& options) {
   const int ranks = *options.ranks;
   std::vector<std::string> words = {"-n", std::to_string(ranks), program_beside("drumlin-run").string()};
-  words.insert(words.end(), {options.scene.string(), "-o", options.output.string()});
+  if (!options.scene.empty()) words.push_back(options.scene.string());
+  words.insert(words.end(), {"-o", options.output.string()});
   words.insert(words.end(), {"--threads", std::to_string(std::max(1, options.threads / ranks))});
   for (const std::string& change : options.overrides) words.insert(words.end(), {"--set", change});
+  if (options.accuracy) words.insert(words.end(), {"--accuracy", options.accuracy->string()});
+  const auto seconds = [&](const char* option, double number) {
+    if (number > 0) words.insert(words.end(), {option, fmt::format("{}", number)});
+  };
+  seconds("--accuracy-seconds", options.accuracy_seconds);
+  seconds("--extend", options.extend_seconds);
   if (options.existing == ExistingOutput::resume) words.push_back("--resume");
   if (options.existing == ExistingOutput::overwrite) words.push_back("--overwrite");
   return words;
@@ -28,8 +37,6 @@ constexpr int files_of_mpirun = 32, files_of_rank = 16;
 }  // namespace
 
 int run_by_mpirun(const RunOptions& options) {
-  if (options.extend_seconds > 0) throw InputError("--extend: not with --ranks");
-  if (options.accuracy_seconds > 0 || options.accuracy) throw InputError("--accuracy: not with --ranks");
   ProcessRequest request{.program = "mpirun", .words = words_of(options)};
   require_open_files(files_of_mpirun + files_of_rank * *options.ranks);
   request.environment = {"OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"};

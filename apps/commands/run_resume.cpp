@@ -29,16 +29,6 @@ void same_scene_or_refuse(const fs::path& output, const std::string& theirs, con
                      "use --overwrite to start over");
 }
 
-void same_engine_or_refuse(const fs::path& output, bool on_ranks) {
-  if (!fs::exists(output / "run.json")) return;
-  const bool were = read_json(output / "run.json", "drumlin-run-1").contains("ranks");
-  if (were == on_ranks) return;
-  throw InputError(
-      fmt::format("{}: was begun {}: go on {}, or start over with --overwrite", output.string(),
-                  were ? "on MPI ranks" : "in one process",
-                  were ? "with drumlin run --ranks N or mpirun -n N drumlin-run" : "with drumlin run"));
-}
-
 std::map<std::string, std::string> list_texts(particles::Scene scene) {
   const auto names = grain_list_names(scene);
   std::map<std::string, std::string> texts;

@@ -15,9 +15,6 @@ inline constexpr const char *log_name = "log.csv", *energy_name = "energy.csv";
 /// Of the number-th snapshot, from 1.
 std::string snapshot_name(std::int64_t number);
 
-/// Throws InputError where a run was begun on ranks and is to go on without, or the other way: their steps
-/// differ within the tolerance, and a mixture would be neither.
-void same_engine_or_refuse(const std::filesystem::path& output, bool on_ranks);
 /// A folder continues only the scene that it was made from: throws InputError where the texts differ.
 void same_scene_or_refuse(const std::filesystem::path& output, const std::string& theirs,
                           const std::string& ours);

@@ -10,6 +10,10 @@
 #include "apps/support/existing_output.hpp"
 #include "apps/support/plot_options.hpp"
 
+namespace drumlin::particles {
+class World;
+}
+
 namespace drumlin::apps {
 
 /// Of --threads: more than any machine that this program was made for, and few enough that all can be
@@ -28,9 +32,10 @@ struct RunOptions {
   ExistingOutput existing = ExistingOutput::refuse;
   double accuracy_seconds = 0;  ///< simulated, of the stretches that tell errors at the end; 0: none
   double extend_seconds = 0;    ///< simulated, by which the finished run in `output` goes on; 0: none
-  std::optional<int> ranks;     ///< MPI ranks on which drumlin-run runs the scene; absent: this process alone
+  std::optional<int> ranks;     ///< MPI ranks that take the steps; absent: this process alone
 };
-int run(const RunOptions&);
+/// `world`: ranks that follow this one; none: this process alone.
+int run(const RunOptions&, particles::World* world = nullptr);
 /// Starts `drumlin-run`, which stands beside the running executable, by mpirun with the same words; returns
 /// the exit code of the job.
 int run_by_mpirun(const RunOptions&);

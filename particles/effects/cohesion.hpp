@@ -15,7 +15,6 @@ struct Cohesion : PairKeys<Cohesion> {
   static constexpr const char* sentence =
       "Constant attraction of surfaces that touch; counts as load in Coulomb's law.";
   static constexpr const char *modest_text = "one mean weight", *account = "cohesion";
-  static constexpr const char* not_on_ranks = "their steps do not know it yet";
   static Allowed allowed() { return at_least(0, 1e6); }
   static Cohesion modest() { return {{1, 1}}; }
 

@@ -13,7 +13,6 @@ namespace drumlin::particles {
 struct Drag {
   static constexpr const char *name = "drag", *sentence = "Force against velocity, couple against spin.";
   static constexpr const char *modest_text = "1 / s", *account = "drag";
-  static constexpr const char* not_on_ranks = "their search for pairs does not know it yet";
   static Drag modest() { return {1}; }
   void check(const auto& scene, auto refuse) const {
     if (moves_cell(scene))

@@ -9,7 +9,6 @@
 //   check(scene, refuse): what it asks of the rest of the scene
 //   unknowns: of a contact, where these are more than one
 //   account: its column of energy.csv
-//   not_on_ranks: why MPI ranks cannot have it
 //
 // A step goes through the laws of a scene, and calls those of these members that a law has:
 //   move_freely(bodies, begin, end, h, free): velocities of some grains after a step without contacts;

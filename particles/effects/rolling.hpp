@@ -14,7 +14,6 @@ struct RollingResistance : PairKeys<RollingResistance> {
   static constexpr const char *name = "rolling_resistance",
                               *sentence = "A couple that opposes rolling; needs spin.";
   static constexpr const char *modest_text = "0.1", *account = "rolling";
-  static constexpr const char* not_on_ranks = "their sweeps know normal and tangential impulses alone";
   static constexpr int unknowns = 3;
   static Allowed allowed() { return at_least(0, 100); }
   static RollingResistance modest() { return {{0.1, 0.1}}; }

@@ -17,7 +17,7 @@ struct RotatingFrame {
   static constexpr const char* name = "rotating_frame";
   static constexpr const char* sentence =
       "Scene told in a turning frame; gravity keeps its laboratory direction.";
-  static constexpr const char *modest_text = "1 rpm", *not_on_ranks = "their steps do not know it yet";
+  static constexpr const char* modest_text = "1 rpm";
   static RotatingFrame modest() { return {1, {0, 0}}; }
   void check(const auto& scene, auto refuse) const {
     if (scene.periodic_x)

@@ -62,7 +62,8 @@ void CoarseLoads::add_contacts(StripProblem<T, dim, spin>& strips, int strip, in
 template <class T, int dim, bool spin>
 void CoarseLoads::add_bodies(const StripProblem<T, dim, spin>& strips, int strip, int part) {
   const auto [begin, end] = strips.records(strip);
-  auto &rows = rows_[part], &work = work_[part];
+  double *const rows = &rows_[part * this->rows()],
+                *const work = &work_[part * static_cast<std::size_t>(grid_.nodes())];
   const auto to_nodes = [&](const CoarseTerms<T>& terms, std::size_t b, int cell) {
     each_coarse_term(
         grid_, terms, b, cell,
@@ -94,17 +95,26 @@ void CoarseLoads::add_bodies(const StripProblem<T, dim, spin>& strips, int strip
   end_sums();
 }
 
+template <class T, int dim, bool spin>
+void CoarseLoads::exchange(StripProblem<T, dim, spin>& strips, int phase) {
+  auto& own = records_.of<T>();
+  for (auto* records : {&own.at, &own.along_x, &own.along_z}) strips.exchange(phase, *records);
+}
+
 /// Strip by strip, as long as what a strip moves is in the caches. The second slice of a part's last strip
 /// touches the first one of the next part, and waits until the parts are done.
 template <class T, int dim, bool spin>
 void CoarseLoads::add_up(StripProblem<T, dim, spin>& strips, const TeamLoops& loops) {
+  const auto [first_part, end_part] = strips.own_parts();
   const auto rest = [&](int strip) {
     const auto [begin, end] = strips.records(strip);
     records_.of<T>().rest(begin, end);
   };
-  const auto first_of = [&](int part) { return strips.strips() * part / parts; };
-  loops.each_of(parts, [&](int part) {
-    const int begin = first_of(part), end = first_of(part + 1);
+  const auto each_part = [&, first = first_part, parts = end_part - first_part](auto work) {
+    loops.each_of(parts, [&](int k) { work(first + k); });
+  };
+  each_part([&](int part) {
+    const int begin = strips.first_of(part), end = strips.first_of(part + 1);
     if (begin < end) rest(begin);
     for (int k = begin; k < end; ++k) {
       add_contacts(strips, k, 0);
@@ -114,40 +124,46 @@ void CoarseLoads::add_up(StripProblem<T, dim, spin>& strips, const TeamLoops& lo
       if (k > begin) add_bodies(strips, k, part);
     }
   });
-  for (int part = 0; part < parts; ++part)
-    if (const int last = first_of(part + 1) - 1; last >= first_of(part)) add_contacts(strips, last, 1);
-  loops.each_of(parts, [&](int part) {
-    const int begin = first_of(part), last = first_of(part + 1) - 1;
+  exchange(strips, 0);
+  for (int part = first_part; part < end_part; ++part)
+    if (const int last = strips.first_of(part + 1) - 1; last >= strips.first_of(part))
+      add_contacts(strips, last, 1);
+  exchange(strips, 1);
+  each_part([&](int part) {
+    const int begin = strips.first_of(part), last = strips.first_of(part + 1) - 1;
     if (last >= begin) add_bodies(strips, begin, part);
     if (last > begin) add_bodies(strips, last, part);
   });
+  strips.gather_parts(work_, grid_.nodes());
+  strips.gather_parts(rows_, rows());
 }
 
 /// Solves for the field; empty where the matrix or the result is no good.
 std::vector<double> CoarseLoads::solve() const {
-  std::vector<double> right(grid_.nodes(), 0.0), rows = rows_[0];
-  for (const auto& work : work_)
-    for (std::size_t k = 0; k < right.size(); ++k) right[k] -= work[k];
-  for (int part = 1; part < parts; ++part)
-    for (std::size_t e = 0; e < rows.size(); ++e) rows[e] += rows_[part][e];
+  std::vector<double> right(grid_.nodes(), 0.0), rows(this->rows(), 0.0);
+  for (std::size_t k = 0; k < work_.size(); ++k) right[k % right.size()] -= work_[k];
+  for (std::size_t e = 0; e < rows_.size(); ++e) rows[e % rows.size()] += rows_[e];
   return solve_field(grid_, rows, right);
 }
 
 template <class T, int dim, bool spin>
 bool CoarseLoads::scale(StripProblem<T, dim, spin>& strips, const TeamLoops& loops) {
-  for (auto& work : work_) work.assign(grid_.nodes(), 0.0);
-  for (auto& rows : rows_) rows.assign(static_cast<std::size_t>(entries_of_node) * grid_.nodes(), 0.0);
+  constexpr std::size_t parts = StripProblem<T, dim, spin>::parts;
+  work_.assign(parts * grid_.nodes(), 0.0);
+  rows_.assign(parts * rows(), 0.0);
   add_up(strips, loops);
   const std::vector<double> field = solve();
   if (field.empty()) return false;
   auto& own = records_.of<T>();
-  loops.each_of(strips.strips(), [&](int strip) {
-    const auto [begin, end] = strips.records(strip);
+  const auto [first, last] = strips.own();
+  // The last strip's contacts touch bodies of the next one.
+  loops.each_of(std::min(last + 1, strips.strips()) - first, [&, first = first](int k) {
+    const auto [begin, end] = strips.records(first + k);
     own.set_factors(begin, end, grid_, field);
   });
-  loops.each_of(strips.strips(), [&](int strip) {
+  loops.each_of(last - first, [&, first = first](int k) {
     for (const int phase : {0, 1}) {
-      const auto blocks = strips.blocks(strip, phase);
+      const auto blocks = strips.blocks(first + k, phase);
       CoarseKernels<T, dim, spin>::scale(blocks.data(), blocks.size(), own.at.data());
     }
   });

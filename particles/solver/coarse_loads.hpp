@@ -54,6 +54,8 @@ class CoarseLoads {
   void add_contacts(StripProblem<T, dim, spin>&, int strip, int phase);
   template <class T, int dim, bool spin>
   void add_bodies(const StripProblem<T, dim, spin>&, int strip, int part);
+  template <class T, int dim, bool spin>
+  void exchange(StripProblem<T, dim, spin>&, int phase);
   /// The sums of work_ and rows_.
   template <class T, int dim, bool spin>
   void add_up(StripProblem<T, dim, spin>&, const TeamLoops&);
@@ -61,10 +63,10 @@ class CoarseLoads {
 
   FieldGrid grid_;
   CoarseRecords<WorkArray> records_;
-  // Strips are shared in so many parts, whatever the number of threads: sums are those of parts, in order.
-  static constexpr int parts = 16;
-  std::array<std::vector<double>, parts> work_;  // sums of phi_k g_a
-  std::array<std::vector<double>, parts> rows_;  // of A, as solve_field() takes them
+  std::size_t rows() const { return static_cast<std::size_t>(entries_of_node) * grid_.nodes(); }
+  // Of each part of the strips, whatever the number of threads and ranks: sums are those of parts, in order.
+  std::vector<double> work_;  // sums of phi_k g_a
+  std::vector<double> rows_;  // of A, as solve_field() takes them
 };
 
 }  // namespace drumlin::particles

@@ -41,6 +41,7 @@ struct SolverWorkspace {
   BodyPlaces places;  ///< of the bodies of the problem, for `coarse`; none: large problems do without
   WorkMemory* memory = nullptr;  ///< for what a solve needs until it ends; none: it is kept
   ThreadTeam* team = nullptr;    ///< none: the calling thread alone; results do not depend on it
+  World* world = nullptr;        ///< none: this process alone; results do not depend on it
 };
 
 /// Solves a problem from the warm start in solution.impulses and leaves there the impulses found, in their

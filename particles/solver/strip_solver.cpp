@@ -151,24 +151,107 @@ template <class T, int dim, bool spin>
 template <class Problem>
 void StripProblem<T, dim, spin>::pack(const Problem& problem, const SweepPlan& plan,
                                       std::span<const std::int32_t> order, std::span<const double> r,
-                                      const TeamLoops& loops) {
+                                      const TeamLoops& loops, World* world) {
   const int strip_count = plan.strips();
   strips_.assign(strip_count, Strip{});
   for (auto& squares : step_squares_) squares.assign(2 * static_cast<std::size_t>(strip_count) + 1, 0.0);
   estimates_.assign(2 * static_cast<std::size_t>(strip_count), {});
   pack_bodies(problem, plan);
   lay_out(problem, plan, order, r);
-  const auto pack_one = [&](int strip) { pack_strip(problem, plan, order, r, strip); };
-  (strip_count < 4 ? TeamLoops() : loops).each_of(strip_count, pack_one);
+  share(order.empty() && driven_.empty() ? world : nullptr);
+  const auto [first, end] = own();
+  const auto pack_one = [&, first = first](int k) { pack_strip(problem, plan, order, r, first + k); };
+  (strip_count < 4 ? TeamLoops() : loops).each_of(end - first, pack_one);
+  if (world_ == nullptr) return;
+  border_[0] = border_of(problem, plan, first);
+  border_[1] = border_of(problem, plan, end);
+  contacts_of_ranks_.clear();
+  for (int rank = 0; rank <= world_->ranks(); ++rank)
+    contacts_of_ranks_.push_back(plan.group_start[plan.slice_start[2 * first_of(first_part(rank))]] *
+                                 static_cast<std::size_t>(dim));
+}
+
+template <class T, int dim, bool spin>
+void StripProblem<T, dim, spin>::share(World* world) {
+  constexpr int least_strips = 2;
+  rank_ = world != nullptr ? world->rank() : 0;
+  const auto have_some = [&] {
+    for (int rank = 0; rank < ranks_; ++rank)
+      if (first_of(first_part(rank + 1)) - first_of(first_part(rank)) < least_strips) return false;
+    return true;
+  };
+  ranks_ = world != nullptr ? std::min(world->ranks(), parts) : 1;
+  while (ranks_ > 1 && !have_some()) --ranks_;
+  world_ = ranks_ > 1 ? world : nullptr;
+  if (ranks_ == 1) rank_ = 0;
+}
+
+template <class T, int dim, bool spin>
+template <class Problem>
+std::vector<std::int32_t> StripProblem<T, dim, spin>::border_of(const Problem& problem, const SweepPlan& plan,
+                                                                int strip) const {
+  std::vector<std::int32_t> border;
+  if (strip == 0 || strip == strips()) return border;
+  const auto& W = problem.W;
+  const auto first = static_cast<std::int32_t>(strips_[strip].bodies);
+  const std::int32_t slice = 2 * strip - 1;
+  for (std::int32_t a = plan.group_start[plan.slice_start[slice]];
+       a < plan.group_start[plan.slice_start[slice + 1]]; ++a)
+    for (const std::int32_t b : {W.i[a], W.j[a]})
+      if (b < W.fixed() && place_[b] >= first) border.push_back(place_[b]);
+  std::sort(border.begin(), border.end());
+  border.erase(std::unique(border.begin(), border.end()), border.end());
+  return border;
+}
+
+template <class T, int dim, bool spin>
+void StripProblem<T, dim, spin>::exchange(int phase, WorkArray<BodyRecord<T>>& records) {
+  if (world_ == nullptr) return;
+  const int before = rank_ < ranks_ ? rank_ - 1 : -1, after = rank_ + 1 < ranks_ ? rank_ + 1 : -1;
+  const auto &out = border_[phase], &in = border_[1 - phase];
+  sent_.resize(out.size()), received_.resize(in.size());
+  for (std::size_t k = 0; k < out.size(); ++k) sent_[k] = records[out[k]];
+  world_->pass(std::span<const BodyRecord<T>>(sent_), phase == 0 ? before : after, std::span(received_),
+               phase == 0 ? after : before);
+  for (std::size_t k = 0; k < in.size(); ++k) records[in[k]] = received_[k];
+}
+
+template <class T, int dim, bool spin>
+template <class Entry>
+void StripProblem<T, dim, spin>::gather(std::span<Entry> all, std::size_t of_strip) const {
+  if (world_ == nullptr) return;
+  std::vector<std::size_t> first;
+  for (int rank = 0; rank <= world_->ranks(); ++rank) first.push_back(of_strip * first_of(first_part(rank)));
+  world_->gather(all, first);
+}
+
+template <class T, int dim, bool spin>
+void StripProblem<T, dim, spin>::gather_steps(int slot) {
+  gather(std::span(step_squares_[slot]), 2);
+}
+
+template <class T, int dim, bool spin>
+void StripProblem<T, dim, spin>::gather_estimates() {
+  gather(std::span(estimates_), 2);
+}
+
+template <class T, int dim, bool spin>
+void StripProblem<T, dim, spin>::gather_parts(std::span<double> all, std::size_t of_part) const {
+  if (world_ == nullptr) return;
+  std::vector<std::size_t> first;
+  for (int rank = 0; rank <= world_->ranks(); ++rank) first.push_back(of_part * first_part(rank));
+  world_->gather(all, first);
 }
 
 template <class T, int dim, bool spin>
 template <class Problem>
 void StripProblem<T, dim, spin>::unpack(const Problem& problem, bool kept, std::vector<double>& r,
                                         const TeamLoops& loops) const {
-  constexpr int width = Block::width;
-  loops.each(contact_.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) {
+  constexpr std::size_t width = Block::width;
+  const auto [first_strip, end_strip] = own();
+  loops.each_of(end_strip - first_strip, [&, first_strip = first_strip](int k) {
+    const Strip& strip = strips_[first_strip + k];
+    for (std::size_t p = width * strip.block[0]; p < width * strip.block[2]; ++p) {
       if (contact_[p] < 0) continue;
       const Impulses& block = kept ? kept_[p / width] : blocks_[p / width].r;
       hold_to_cone(problem, contact_[p], impulses_at(block, p % width), r);
@@ -176,6 +259,7 @@ void StripProblem<T, dim, spin>::unpack(const Problem& problem, bool kept, std::
   });
   for (const auto& contact : driven_)
     hold_to_cone(problem, contact.contact, kept ? contact.kept : contact.r, r);
+  if (world_ != nullptr) world_->gather(std::span(r), contacts_of_ranks_);
 }
 
 template <class T, int dim, bool spin>
@@ -186,12 +270,24 @@ void StripProblem<T, dim, spin>::rest(const TeamLoops& loops) {
 }
 
 template <class T, int dim, bool spin>
-int StripProblem<T, dim, spin>::first_strip(int thread, int threads) const {
-  if (thread == threads) return strips();
-  const std::size_t wanted = blocks_.size() * thread / threads;
-  int strip = 0;
-  // The strip that holds the wanted block in its first half belongs to the later thread.
-  while (strip < strips() && (strips_[strip].block[0] + strips_[strip].block[2]) / 2 < wanted) ++strip;
+int StripProblem<T, dim, spin>::first_of(int part) const {
+  if (part == parts) return strips();
+  return strip_at(blocks_.size() * part / parts, 0, strips());
+}
+
+template <class T, int dim, bool spin>
+int StripProblem<T, dim, spin>::first_strip(int rank, int thread, int threads) const {
+  const int begin = first_of(first_part(rank)), end = first_of(first_part(rank + 1));
+  if (thread == threads || begin == end) return end;
+  const std::size_t first = strips_[begin].block[0], blocks = strips_[end - 1].block[2] - first;
+  return strip_at(first + blocks * thread / threads, begin, end);
+}
+
+/// The strip of [begin, end) that holds a block in its second half, or the next one.
+template <class T, int dim, bool spin>
+int StripProblem<T, dim, spin>::strip_at(std::size_t block, int begin, int end) const {
+  int strip = begin;
+  while (strip < end && (strips_[strip].block[0] + strips_[strip].block[2]) / 2 < block) ++strip;
   return strip;
 }
 
@@ -257,9 +353,16 @@ ResidualEstimate StripProblem<T, dim, spin>::residual_estimate() const {
 }
 
 template <class T, int dim, bool spin>
-double StripProblem<T, dim, spin>::summed_impulses(TeamLoops& loops) const {
-  return drumlin::particles::summed_impulses(std::span<const BodyRecord<T>>(bodies_.data(), bodies_.size()),
-                                             loops);
+double StripProblem<T, dim, spin>::summed_impulses(const TeamLoops& loops) {
+  impulses_of_strips_.assign(strips(), 0.0);
+  const auto [first, end] = own();
+  loops.each_of(end - first, [&, first = first](int k) {
+    const Strip& strip = strips_[first + k];
+    for (std::size_t b = strip.bodies; b < strip.bodies_end; ++b)
+      impulses_of_strips_[first + k] += impulse_of(bodies_[b]);
+  });
+  gather(std::span(impulses_of_strips_), 1);
+  return std::accumulate(impulses_of_strips_.begin(), impulses_of_strips_.end(), 0.0);
 }
 
 template <class T, int dim, bool spin>
@@ -275,7 +378,7 @@ void StripProblem<T, dim, spin>::keep_driven() {
 #define DRUMLIN_INSTANTIATE(T, dim, spin, Problem)                                                       \
   template void StripProblem<T, dim, spin>::pack(const Problem&, const SweepPlan&,                       \
                                                  std::span<const std::int32_t>, std::span<const double>, \
-                                                 const TeamLoops&);                                      \
+                                                 const TeamLoops&, World*);                              \
   template void StripProblem<T, dim, spin>::unpack(const Problem&, bool, std::vector<double>&,           \
                                                    const TeamLoops&) const;
 #define DRUMLIN_INSTANTIATE_BOTH(dim, spin, Problem, DrivenProblem) \

@@ -1,6 +1,6 @@
 #pragma once
 // NLGS, plain and accelerated, on the bodies, in strips (particles/contact/sweep_plan.hpp): vectorised and
-// threaded, with the same result for any number of threads.
+// threaded and shared among ranks, with the same result for any number of them.
 #include <array>
 #include <cstdint>
 #include <span>
@@ -9,6 +9,7 @@
 #include "particles/contact/sweep_plan.hpp"
 #include "particles/parallel/team_loops.hpp"
 #include "particles/parallel/work_memory.hpp"
+#include "particles/parallel/world.hpp"
 #include "particles/solver/driven_contacts.hpp"
 #include "particles/solver/sweep_kernels.hpp"
 #include "particles/solver/sweep_wave.hpp"
@@ -22,6 +23,8 @@ class StripProblem {
   using Kernels = SweepKernels<T, dim, spin>;
   using Block = ContactBlock<T, dim>;
   static constexpr int sum_slots = 2 * longest_wave;
+  /// Parts of about as many blocks each, whatever the number of threads and ranks; ranks have whole parts.
+  static constexpr int parts = 16;
 
   /// Takes its blocks and bodies from a memory: they end with the frame of pack().
   void use(WorkMemory* memory) {
@@ -29,10 +32,11 @@ class StripProblem {
     place_.use(memory), kept_.use(memory);
   }
   /// Copies a problem in body form and the impulses to start from. `order`: contacts of the problem in the
-  /// order of the plan; empty if they stand in it.
+  /// order of the plan; empty if they stand in it. With a world, ranks share the strips; but contacts in
+  /// another order, those of driven walls and small problems are left to each of them.
   template <class Problem>
   void pack(const Problem& problem, const SweepPlan& plan, std::span<const std::int32_t> order,
-            std::span<const double> r, const TeamLoops& loops);
+            std::span<const double> r, const TeamLoops& loops, World* world = nullptr);
   /// Impulses in the order of the problem, held to their cones, which single precision oversteps by a
   /// rounding. `kept`: those of the last keep().
   template <class Problem>
@@ -42,8 +46,25 @@ class StripProblem {
   void rest(const TeamLoops& loops);
 
   int strips() const { return static_cast<int>(strips_.size()); }
-  /// First strip of a thread's share: strips are shared by numbers of blocks.
-  int first_strip(int thread, int threads) const;
+  int rank() const { return rank_; }
+  int ranks() const { return ranks_; }  ///< that share the strips; 1: this one has all
+  /// First strip of a part, or of the end.
+  int first_of(int part) const;
+  /// Parts of this rank: the first, and the end.
+  std::pair<int, int> own_parts() const { return {first_part(rank_), first_part(rank_ + 1)}; }
+  /// Strips of this rank: the first, and the end.
+  std::pair<int, int> own() const { return {first_of(first_part(rank_)), first_of(first_part(rank_ + 1))}; }
+  /// First strip of a thread's share of those of a rank: strips are shared by numbers of blocks.
+  int first_strip(int rank, int thread, int threads) const;
+
+  // What ranks tell each other; without others nothing.
+  /// After a phase: records of bodies that contacts of two ranks touch go to the rank that touches them next.
+  void exchange(int phase) { exchange(phase, bodies_); }
+  void exchange(int phase, WorkArray<BodyRecord<T>>& records);
+  void gather_steps(int slot);
+  void gather_estimates();
+  /// Of an array with so many entries for each part, those of all ranks.
+  void gather_parts(std::span<double> all, std::size_t of_part) const;
 
   // Work on one strip; threads meet between phases.
   /// Bodies receive the impulses to start from.
@@ -68,7 +89,7 @@ class StripProblem {
   void estimate_residual(int strip, int phase);
   ResidualEstimate residual_estimate() const;
   /// Sum of the impulses of the bodies as they stand.
-  double summed_impulses(TeamLoops& loops) const;
+  double summed_impulses(const TeamLoops& loops);
   /// Keeps the impulses of a strip, and those of driven walls.
   void keep(int strip);
   void keep_driven();
@@ -109,7 +130,24 @@ class StripProblem {
                   std::size_t place);
   template <class Problem>
   void pack_driven(const Problem& problem, std::int32_t c, std::span<const double> r);
+  /// Shares the strips among as many ranks of a world as have some each.
+  void share(World* world);
+  int strip_at(std::size_t block, int begin, int end) const;
+  int first_part(int rank) const { return parts * std::min(rank, ranks_) / ranks_; }
+  /// Records of the first bodies of a strip that contacts of the strip before touch.
+  template <class Problem>
+  std::vector<std::int32_t> border_of(const Problem& problem, const SweepPlan& plan, int strip) const;
+  /// Of an array with so many entries for each strip, those of all ranks.
+  template <class Entry>
+  void gather(std::span<Entry> all, std::size_t of_strip) const;
+
   std::vector<Strip> strips_;
+  World* world_ = nullptr;  // none where this rank has all strips
+  int rank_ = 0, ranks_ = 1;
+  std::vector<std::int32_t> border_[2];         // records that the rank before, and the one after, touch too
+  std::vector<std::size_t> contacts_of_ranks_;  // first contact of each rank of the world, and the end
+  std::vector<BodyRecord<T>> sent_, received_;  // of the borders
+  std::vector<double> impulses_of_strips_;      // summed
   WorkArray<Block> blocks_;
   std::vector<std::int32_t> groups_;  // blocks that share no body: how many follow one another
   WorkArray<std::int32_t> contact_;   // of each place in the blocks; -1: filled up

@@ -1,5 +1,5 @@
 #pragma once
-// Sweeps a StripProblem, on vectors and threads, until the stopping rule ends it.
+// Sweeps a StripProblem, on vectors, threads and ranks, until the stopping rule ends it.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -32,30 +32,41 @@ struct SweepState {
   bool keep = false;       ///< the impulses that it left are the best so far
 };
 
-/// Lets the bodies receive the impulses to start from.
+/// A thread of a team, of which so many work and so many are.
+struct TeamPlace {
+  int thread = 0, threads = 1, size = 1;
+};
+
+/// Lets the bodies receive the impulses to start from. meet(phase) is called after a phase.
 template <class Strips, class Meet>
 void load_share(Strips& strips, const StripShare& share, bool first_thread, Meet meet) {
   for (const int phase : {0, 1}) {
     for (int strip = share.first; strip < share.end; ++strip) strips.load(strip, phase);
-    meet();
+    meet(phase);
   }
   if (strips.has_driven()) {
     if (first_thread) strips.load_driven(), strips.start_driven();
-    meet();
+    meet(1);
   }
   for (int strip = share.first; strip < share.end; ++strip) strips.start(strip);
-  meet();
 }
 
-/// Sweeps on to `until` and, where it is due, computes the residuals of the strips; one thread's share, which
-/// meets the others by calling meet().
-template <class T, class Strips, class Meet>
-void sweep_share(Strips& strips, int thread, int threads, int until, bool last, SweepExtrapolation how,
-                 const SolveEnd& end, SweepState<T>& state, Meet meet) {
-  const bool accelerated = how != SweepExtrapolation::none;
-  const StripShare share = share_of(strips, thread, threads);
+/// Sweeps on to `until` and, where it is due, computes the residuals of the strips; one thread's share of a
+/// team, which meets the others by calling join().
+template <class T, class Strips, class Join>
+void sweep_share(Strips& strips, const TeamPlace& at, int until, bool last, SweepExtrapolation how,
+                 const SolveEnd& end, SweepState<T>& state, Join join) {
+  const bool accelerated = how != SweepExtrapolation::none, first_thread = at.thread == 0;
+  const StripShare share = share_of(strips, at.thread, at.threads, at.size);
+  const auto together = [&](auto messages) {  // of all ranks
+    join();
+    if (strips.ranks() == 1) return;
+    if (first_thread) messages();
+    join();
+  };
+  const auto meet = [&](int phase) { together([&, phase] { strips.exchange(phase); }); };
   SweepState<T> own = state;
-  if (!std::exchange(own.loaded, true)) load_share(strips, share, thread == 0, meet);
+  if (!std::exchange(own.loaded, true)) load_share(strips, share, first_thread, meet);
   while (own.sweeps < until && own.finite) {
     const int sweeps = std::min(own.wave, until - own.sweeps), slots = own.waves++ % 2 * longest_wave;
     std::array<T, longest_wave> betas{own.beta};
@@ -69,9 +80,13 @@ void sweep_share(Strips& strips, int thread, int threads, int until, bool last, 
     own.keep = false;
 
     if (strips.has_driven()) {
-      if (thread == 0) strips.sweep_driven(slots, own.beta, accelerated);
-      meet();
+      if (first_thread) strips.sweep_driven(slots, own.beta, accelerated);
+      join();
     }
+    if (strips.ranks() > 1)
+      together([&] {
+        for (int s = 0; s < sweeps; ++s) strips.gather_steps(slots + s);
+      });
     own.sweeps += sweeps;
     for (int s = 0; s < sweeps; ++s) {
       own.steps = strips.step_squares(slots + s);
@@ -84,7 +99,7 @@ void sweep_share(Strips& strips, int thread, int threads, int until, bool last, 
     for (int strip = share.first; strip < share.end; ++strip)
       for (const int phase : {0, 1}) strips.estimate_residual(strip, phase);
   // All threads have taken their copies: they have met since.
-  if (thread == 0) state = own;
+  if (first_thread) state = own;
 }
 
 /// Packs a problem and the impulses to start from; returns what turns the squared residuals of its contacts
@@ -97,7 +112,7 @@ double pack_in_strips(const Problem& problem, SolverWorkspace<Problem>& work, St
   own.order.clear();
   const bool planned = !problem.W.plan.empty();
   if (!planned) own.plan = sweep_plan(problem.W.fixed(), problem.W.i, problem.W.j, own.order);
-  strips.pack(problem, planned ? problem.W.plan : own.plan, own.order, solution.impulses, loops);
+  strips.pack(problem, planned ? problem.W.plan : own.plan, own.order, solution.impulses, loops, work.world);
   const double q_squares = loops.sum(problem.q.size(), [&](std::size_t begin, std::size_t end) {
     return squared_norm(std::span(problem.q).subspan(begin, end - begin));
   });
@@ -119,8 +134,9 @@ template <class T, class Problem, class Strips>
 void correct_loads(const Problem& problem, SolverWorkspace<Problem>& work, Strips& strips, bool first,
                    const TeamLoops& loops, SweepState<T>& state) {
   if constexpr (requires { problem.W.inverse_W_nn; }) {
+    const auto [first_strip, end_strip] = strips.own();
     if (std::exchange(state.keep, false))
-      for (int strip = 0; strip < strips.strips(); ++strip) strips.keep(strip);
+      for (int strip = first_strip; strip < end_strip; ++strip) strips.keep(strip);
     const auto& W = problem.W;
     if (first) {
       work.coarse.use(work.memory);
@@ -150,12 +166,15 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
   kind.limits_sinking = std::isfinite(rule.sinking) && !strips.has_driven();
   SolveEnd end(rule, kind);
   // Below four strips a second thread costs more than it saves.
-  ThreadTeam* team = strips.strips() >= 4 ? work.team : nullptr;
+  ThreadTeam* team = strips.strips() >= 4 * strips.ranks() ? work.team : nullptr;
   SweepState<T> state;
   state.momentum = Momentum(rule.tolerance, static_cast<std::size_t>(problem.contacts()));
   if (accelerated && !strips.has_driven() && problem.contacts() >= least_contacts_of_waves)
     state.wave = longest_wave;
-  const SweptBlocks blocks{[&] { return strips.residual_estimate(); },
+  const SweptBlocks blocks{[&] {
+                             strips.gather_estimates();
+                             return strips.residual_estimate();
+                           },
                            [&] { return strips.summed_impulses(loops); },
                            [&] { state.keep = true, strips.keep_driven(); },
                            [&](bool kept) {
@@ -173,10 +192,11 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
     const bool last = end.last(until);
     if (team)
       team->run([&](int t, int threads) {
-        sweep_share(strips, t, threads, until, last, kind.how, end, state, [=] { team->meet(); });
+        sweep_share(strips, {t, threads, team->size()}, until, last, kind.how, end, state,
+                    [=] { team->meet(); });
       });
     else
-      sweep_share(strips, 0, 1, until, last, kind.how, end, state, [] {});
+      sweep_share(strips, {}, until, last, kind.how, end, state, [] {});
     if (!state.estimated)
       end.leave_out();
     else if (end.ends(blocks, state.sweeps, state.steps, state.finite, last || !state.finite))

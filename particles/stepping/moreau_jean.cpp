@@ -38,7 +38,8 @@ class MoreauJean final : public Stepper {
  public:
   MoreauJean(const StepLaws& laws, const StepSolver& solver)
       : laws_(laws), solver_(solver), solve_(contact_solver<Problem>(solver.name)), team_(solver.threads) {
-    work_.team = &team_, work_.memory = &memory_;
+    work_.team = &team_, work_.memory = &memory_, work_.world = solver.world;
+    projection_.use(solver.world);
     const auto share = [this](auto&... users) {
       (users.use(&team_), ...);
       (users.use(&memory_), ...);

@@ -21,6 +21,7 @@
 #include "particles/detection/candidate.hpp"
 #include "particles/effects/moving_cell.hpp"
 #include "particles/effects/wall_step.hpp"
+#include "particles/parallel/world.hpp"
 #include "particles/solver/stopping_rule.hpp"
 #include "particles/stepping/contact_memory.hpp"
 #include "particles/stepping/energy_ledger.hpp"
@@ -37,6 +38,7 @@ struct StepSolver {
   StoppingRule rule;
   ProjectionRule projection;
   int threads = 1;
+  World* world = nullptr;  ///< of the ranks that take the steps together; none: this process alone
 };
 
 struct StepReport {

@@ -52,6 +52,7 @@ template <bool with_driven>
 class PositionProjection {
  public:
   void use(ThreadTeam* team) { work_.team = team; }
+  void use(World* world) { work_.world = world; }
   /// Takes work space from a memory.
   void use(WorkMemory* memory) { work_.memory = memory; }
   /// What it holds between two calls.

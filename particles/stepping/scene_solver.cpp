@@ -2,7 +2,7 @@
 
 namespace drumlin::particles {
 
-StepSolver solver_of(const Scene& scene, int threads) {
+StepSolver solver_of(const Scene& scene, int threads, World* world) {
   const SolverSettings& asked = scene.solver;
   StepSolver solver;
   solver.name = asked.name;
@@ -13,6 +13,7 @@ StepSolver solver_of(const Scene& scene, int threads) {
   solver.rule.check_every = asked.check_every;
   solver.projection = {asked.projection_sweeps, asked.projection_share.value_or(usual_correction_share)};
   solver.threads = threads;
+  solver.world = world;
   return solver;
 }
 

@@ -5,6 +5,6 @@
 
 namespace drumlin::particles {
 
-StepSolver solver_of(const Scene& scene, int threads);
+StepSolver solver_of(const Scene& scene, int threads, World* world = nullptr);
 
 }  // namespace drumlin::particles

@@ -121,14 +121,14 @@ Scales scales_of(const Scene& scene) {
   return drumlin::scales_of(mean_diameter_m(scene.grains), g > 0 ? g : 9.81, scene.grains.density_kg_m3);
 }
 
-Simulation::Simulation(const Scene& scene, int threads)
+Simulation::Simulation(const Scene& scene, int threads, World* world)
     : scene_(scene),
       scales_(scales_of(scene)),
       plan_(time_plan(scene, scales_)),
       walls_(walls_of(scene, scales_)),
       extent_(extent_of(scene, scales_, walls_)),
       frame_(laws_of(scene, scales_).rotating_frame),
-      stepper_(make_stepper(laws_of(scene, scales_), solver_of(scene, threads))) {
+      stepper_(make_stepper(laws_of(scene, scales_), solver_of(scene, threads, world))) {
   const StepLaws laws = laws_of(scene, scales_);
   state_.bodies = place_grains(scene, scales_);
   if (scene.grains.thermal_speed_mm_s)
@@ -154,7 +154,7 @@ Simulation::Simulation(const Scene& scene, int threads)
   }
 }
 
-Simulation::Simulation(const Scene& scene, SimulationState state, int threads)
+Simulation::Simulation(const Scene& scene, SimulationState state, int threads, World* world)
     : scene_(scene),
       scales_(scales_of(scene)),
       plan_(time_plan(scene, scales_, state.ends)),
@@ -162,7 +162,7 @@ Simulation::Simulation(const Scene& scene, SimulationState state, int threads)
       extent_(extent_of(scene, scales_, walls_)),
       frame_(laws_of(scene, scales_).rotating_frame),
       state_(std::move(state)),
-      stepper_(make_stepper(laws_of(scene, scales_), solver_of(scene, threads))) {
+      stepper_(make_stepper(laws_of(scene, scales_), solver_of(scene, threads, world))) {
   check_state(state_, scene_, plan_, walls_);
   put_in_order(state_.memory);  // older checkpoints have it in the order of the solve
   for (int before = 0; before < state_.stage; ++before) open_walls(walls_, scene_.stages[before]);

@@ -66,10 +66,10 @@ class Simulation {
  public:
   /// Validates nothing but what only shows when grains are placed (InputError): listed grains that overlap by
   /// more than most_at_start are among it.
-  /// The results do not depend on the number of threads.
-  explicit Simulation(const Scene& scene, int threads = 1);
+  /// The results do not depend on the number of threads, nor on that of ranks, which all take the same steps.
+  explicit Simulation(const Scene& scene, int threads = 1, World* world = nullptr);
   /// Continues from a state. Throws InputError when it does not fit the scene.
-  Simulation(const Scene& scene, SimulationState state, int threads = 1);
+  Simulation(const Scene& scene, SimulationState state, int threads = 1, World* world = nullptr);
   ~Simulation();
 
   bool finished() const { return state_.step >= plan_.steps; }

@@ -3,8 +3,6 @@
 usage: results.py SOURCE_DIR
 """
 
-import json
-import math
 import pathlib
 import re
 import subprocess
@@ -37,24 +35,6 @@ def check_that_a_changed_number_is_found():
         assert call(page).returncode == 0 and page.read_text() == PAGES[0].read_text()
 
 
-def check_the_model_of_scaling():
-    with tempfile.TemporaryDirectory() as folder:
-        made = pathlib.Path(folder) / "model.json"
-        script = SOURCE / "apps" / "figures" / "scaling_model.py"
-        subprocess.run([*ISOLATED[:-1], script, SOURCE / "data", made, made.with_suffix(".png")], check=True)
-        kept, found = (json.loads(file.read_text()) for file in (SOURCE / "data/cost/scaling-model.json", made))
-        assert agree(kept, found), "data/cost/scaling-model.json is not what its records say"
-
-
-def agree(a, b):
-    """The same but for rounding."""
-    if isinstance(a, dict):
-        return a.keys() == b.keys() and all(agree(value, b[key]) for key, value in a.items())
-    if isinstance(a, list):
-        return len(a) == len(b) and all(map(agree, a, b))
-    return math.isclose(a, b, rel_tol=1e-9) if isinstance(a, float) else a == b
-
-
 def check_links():
     """Of every page of the documentation: the file that a link names is there."""
     missing = []
@@ -81,5 +61,4 @@ def anchors(page):
 
 check_the_tables()
 check_that_a_changed_number_is_found()
-check_the_model_of_scaling()
 check_links()

@@ -15,7 +15,14 @@ namespace {
 /// Strips of two slices each, shared by numbers.
 struct Strips {
   int count = 0;
-  int first_strip(int thread, int threads) const { return count * thread / threads; }
+  int own_rank = 0, all_ranks = 1;
+  int strips() const { return count; }
+  int rank() const { return own_rank; }
+  int ranks() const { return all_ranks; }
+  int first_strip(int rank, int thread, int threads) const {
+    const int begin = count * rank / all_ranks, end = count * (rank + 1) / all_ranks;
+    return begin + (end - begin) * thread / threads;
+  }
 };
 
 /// What phases make of the slices; whoever comes too early or too late makes something else.
@@ -52,12 +59,27 @@ TEST(SweepWave, GivesWhatSweepsInTurnGive) {
         Slices slices(strips);
         team.run([&](int t, int threads) {
           sweep_wave(
-              share_of(Strips{strips}, t, threads), sweeps,
-              [&](int s, int strip, int phase) { slices.touch(s, strip, phase); }, [&] { team.meet(); });
+              share_of(Strips{strips}, t, threads, size), sweeps,
+              [&](int s, int strip, int phase) { slices.touch(s, strip, phase); }, [&](int) { team.meet(); });
         });
         EXPECT_EQ(slices.numbers(), in_turn(strips, sweeps))
             << size << " threads, " << strips << " strips, " << sweeps << " sweeps";
       }
+  }
+}
+
+/// Threads stand for ranks here.
+TEST(SweepWave, OfSeveralRanksIsTheSame) {
+  constexpr int ranks = 3, threads = 2, strips = 64;
+  for (int sweeps = 1; sweeps <= longest_wave; ++sweeps) {
+    ThreadTeam team(ranks * threads);
+    Slices slices(strips);
+    team.run([&](int t, int) {
+      sweep_wave(
+          share_of(Strips{strips, t / threads, ranks}, t % threads, threads, threads), sweeps,
+          [&](int s, int strip, int phase) { slices.touch(s, strip, phase); }, [&](int) { team.meet(); });
+    });
+    EXPECT_EQ(slices.numbers(), in_turn(strips, sweeps)) << sweeps << " sweeps";
   }
 }
 

@@ -1,0 +1,172 @@
+#include "apps/commands/followers.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "apps/support/interruption.hpp"
+#include "apps/support/standard_streams.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/common/last_whole.hpp"
+#include "coupling/common/own_costs.hpp"
+#include "coupling/common/provenance.hpp"
+#include "particles/io/checkpoint_file.hpp"
+#include "particles/scene/scene_file.hpp"
+
+namespace drumlin::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+enum class Order { begin, step, tell_costs, end };
+
+/// An order of the first rank to all others, with a number.
+struct Message {
+  Order order = Order::end;
+  int number = 0;  ///< begin: threads; end: exit code
+};
+
+/// Numbers that two states share only if they are the same.
+struct Mark {
+  std::uint64_t numbers = 0, revision = 0;
+  bool operator==(const Mark&) const = default;
+};
+
+std::uint64_t mixed(std::uint64_t sum, std::uint64_t number) {
+  return std::rotl((sum ^ number) * 0x9E3779B97F4A7C15U, 29);
+}
+
+Mark mark_of(const particles::Bodies& bodies) {
+  Mark mark;
+  for (const auto* numbers : {&bodies.x, &bodies.z, &bodies.v_x, &bodies.v_z, &bodies.spin})
+    for (const double number : *numbers)
+      mark.numbers = mixed(mark.numbers, std::bit_cast<std::uint64_t>(number));
+  for (const char letter : version_text())
+    mark.revision = mixed(mark.revision, static_cast<unsigned char>(letter));
+  return mark;
+}
+
+/// The rank whose state is not that of the first one; 0: none.
+int other_than_first(particles::World& world, const Mark& own) {
+  const std::vector<Mark> marks = world.of_each(own);
+  for (int r = 1; r < world.ranks(); ++r)
+    if (!(marks[r] == marks[0])) return r;
+  return 0;
+}
+
+std::string from_first(particles::World& world, std::string text) {
+  text.resize(world.of_first(text.size()));
+  world.bytes_of_first(std::as_writable_bytes(std::span(text)));
+  return text;
+}
+
+RankCosts own_costs(const particles::World& world) {
+  return {own_cpu_seconds(), world.waiting_seconds(), own_peak_memory_mb()};
+}
+
+/// What the first rank has begun; none, after a message, where this rank cannot.
+std::unique_ptr<particles::Simulation> simulation_in(const fs::path& run, bool goes_on, int threads,
+                                                     particles::World& world) {
+  try {
+    const particles::Scene scene = particles::read_scene(run / "scene.toml");
+    if (!goes_on) return std::make_unique<particles::Simulation>(scene, threads, &world);
+    auto last = last_whole_checkpoint(run, particles::read_checkpoint);
+    if (!last) throw IoError(run.string() + ": no checkpoint is to be seen there");
+    return std::make_unique<particles::Simulation>(scene, std::move(last->content.state), threads, &world);
+  } catch (const std::exception& error) {
+    print_error(fmt::format("rank {}: {}\n", world.rank(), error.what()));
+    return nullptr;
+  }
+}
+
+}  // namespace
+
+nlohmann::ordered_json to_json(const std::vector<RankCosts>& ranks) {
+  auto all = nlohmann::ordered_json::array();
+  for (const RankCosts& rank : ranks)
+    all.push_back({{"cpu_seconds", rank.cpu_seconds},
+                   {"waiting_seconds", rank.waiting_seconds},
+                   {"peak_memory_mb", rank.peak_memory_mb}});
+  return all;
+}
+
+void Followers::begin(const fs::path& run, bool goes_on, int threads,
+                      const particles::Simulation& simulation) const {
+  if (world_ == nullptr) return;
+  world_->of_first(Message{Order::begin, threads});
+  world_->of_first(goes_on);
+  (void)from_first(*world_, fs::absolute(run).string());
+  compare(simulation);
+}
+
+particles::StepReport Followers::step(particles::Simulation& simulation) const {
+  if (world_ == nullptr) return simulation.step();
+  world_->of_first(Message{Order::step});
+  world_->in_step = true;
+  particles::StepReport report;
+  try {
+    report = simulation.step();
+  } catch (const NotConvergedError&) {  // on all ranks
+    world_->in_step = false;
+    throw;
+  }
+  world_->in_step = false;
+  compare(simulation);
+  return report;
+}
+
+void Followers::compare(const particles::Simulation& simulation) const {
+  if (const int rank = other_than_first(*world_, mark_of(simulation.state().bodies)))
+    throw IoError(
+        fmt::format("rank {} has another state than rank 0 after step {}: ranks need the same program, "
+                    "the same files and processors of one kind",
+                    rank, simulation.state().step));
+}
+
+std::vector<RankCosts> Followers::costs() const {
+  if (world_ == nullptr) return {};
+  world_->of_first(Message{Order::tell_costs});
+  return world_->of_each(own_costs(*world_));
+}
+
+void Followers::end(int exit_code) const {
+  if (world_ == nullptr) return;
+  if (world_->in_step) world_->end_all(exit_code);
+  world_->of_first(Message{Order::end, exit_code});
+}
+
+int follow(particles::World& world) {
+  const CaughtInterruptions caught;  // the first rank says when a signal ends the run
+  std::unique_ptr<particles::Simulation> simulation;
+  for (;;) {
+    const Message message = world.of_first(Message{});
+    switch (message.order) {
+      case Order::begin: {
+        const bool goes_on = world.of_first(false);
+        simulation = simulation_in(from_first(world, ""), goes_on, message.number, world);
+        (void)other_than_first(world, simulation ? mark_of(simulation->state().bodies) : Mark{});
+        break;
+      }
+      case Order::step:
+        try {
+          (void)simulation->step();
+        } catch (const NotConvergedError&) {  // on all ranks, and the first one says so
+          break;
+        }
+        (void)other_than_first(world, mark_of(simulation->state().bodies));
+        break;
+      case Order::tell_costs:
+        (void)world.of_each(own_costs(world));
+        break;
+      case Order::end:
+        return message.number;
+    }
+  }
+}
+
+}  // namespace drumlin::apps
