@@ -4,7 +4,7 @@
 #include "apps/support/interruption.hpp"
 #include "apps/support/program.hpp"
 #include "apps/support/standard_streams.hpp"
-#include "particles/solver/contact_solver.hpp"
+#include "particles/lab/any_solver.hpp"
 
 namespace {
 
@@ -52,7 +52,7 @@ struct LeavesFiles {
 };
 
 int done_as_asked(int argc, char** argv) {
-  const apps::Request request = apps::parse_command_line(argc, argv, particles::contact_solver_names());
+  const apps::Request request = apps::parse_command_line(argc, argv, particles::any_solver_names());
   if (std::visit(LeavesFiles{}, request)) apps::outlive_readers();
   return std::visit(Execute{}, request);
 }

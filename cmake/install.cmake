@@ -3,7 +3,7 @@ include(CMakePackageConfigHelpers)
 
 # The libraries that users name hold the small ones, which are exported too for they are static.
 add_library(drumlin_user_particles INTERFACE)
-target_link_libraries(drumlin_user_particles INTERFACE drumlin_particles drumlin_files)
+target_link_libraries(drumlin_user_particles INTERFACE drumlin_particles_lab drumlin_particles drumlin_files)
 add_library(drumlin_user_coupling INTERFACE)
 target_link_libraries(drumlin_user_coupling INTERFACE drumlin_coupling drumlin_law drumlin_exchange drumlin_statistics)
 add_library(drumlin_user_continuum INTERFACE)
@@ -13,7 +13,7 @@ foreach(name particles coupling continuum)
 endforeach()
 
 install(TARGETS drumlin_flags drumlin_includes drumlin_common drumlin_documents drumlin_statistics drumlin_law drumlin_exchange drumlin_files
-                drumlin_particles drumlin_coupling drumlin_continuum_model drumlin_user_particles drumlin_user_coupling
+                drumlin_particles drumlin_particles_lab drumlin_coupling drumlin_continuum_model drumlin_user_particles drumlin_user_coupling
         EXPORT DrumlinTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS drumlin_continuum drumlin_continuum_io drumlin_user_continuum
         EXPORT DrumlinContinuumTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})

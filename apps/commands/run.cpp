@@ -30,8 +30,9 @@
 #include "coupling/common/own_costs.hpp"
 #include "coupling/common/text_file.hpp"
 #include "particles/io/checkpoint_file.hpp"
-#include "particles/io/contact_problem_file.hpp"
 #include "particles/io/snapshot_file.hpp"
+#include "particles/lab/block_problem.hpp"
+#include "particles/lab/contact_problem_file.hpp"
 #include "particles/parallel/large_arrays.hpp"
 #include "particles/scene/scene_file.hpp"
 #include "particles/stepping/run_through.hpp"
@@ -171,7 +172,7 @@ class ParticleRun {
   /// The problem of the last step, for `drumlin solve-contacts`.
   void capture_problem() {
     const auto begin = Clock::now();
-    const auto problem = simulation_.stepper().last_problem();
+    const auto problem = particles::block_problem(simulation_.stepper().last_problem());
     const auto step = simulation_.state().step;
     const std::string name = fmt::format("problems/step-{:06}.h5", step);
     const fs::path file = options_.output / name;

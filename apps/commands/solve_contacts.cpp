@@ -1,5 +1,5 @@
 // drumlin solve-contacts: one contact problem from a file, measured by the project's residual.
-#include "particles/solver/solve_contacts.hpp"
+#include "particles/lab/solve_contacts.hpp"
 
 #include <fmt/format.h>
 #include <malloc.h>
@@ -13,10 +13,10 @@
 #include "apps/support/output_folder.hpp"
 #include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
-#include "particles/accuracy/backward_error.hpp"
-#include "particles/accuracy/state_changes.hpp"
-#include "particles/contact/disc_problem.hpp"
-#include "particles/io/contact_problem_file.hpp"
+#include "particles/lab/backward_error.hpp"
+#include "particles/lab/contact_problem_file.hpp"
+#include "particles/lab/disc_problem.hpp"
+#include "particles/lab/state_changes.hpp"
 
 namespace drumlin::apps {
 namespace {

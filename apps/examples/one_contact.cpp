@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <vector>
 
-#include "particles/contact/matrix_problem.hpp"
-#include "particles/solver/solve_contacts.hpp"
+#include "particles/lab/matrix_problem.hpp"
+#include "particles/lab/solve_contacts.hpp"
 
 using namespace drumlin::particles;
 

@@ -8,8 +8,8 @@
 #include "apps/python/bindings.hpp"
 #include "apps/python/others_run.hpp"
 #include "coupling/common/errors.hpp"
-#include "particles/contact/matrix_problem.hpp"
-#include "particles/solver/solve_contacts.hpp"
+#include "particles/lab/matrix_problem.hpp"
+#include "particles/lab/solve_contacts.hpp"
 
 namespace py = pybind11;
 
@@ -84,7 +84,7 @@ py::dict solved(const particles::MatrixProblem& of, double tolerance, double max
 }  // namespace
 
 void add_contacts(py::module_& module) {
-  module.def("contact_solvers", &particles::contact_solver_names);
+  module.def("contact_solvers", &particles::any_solver_names);
   module.def("solve_contacts", [](const Indices& rows, const Indices& columns, const Numbers& entries,
                                   const Numbers& q, const Numbers& mu, double tolerance, double max_seconds,
                                   const std::string& solver, int threads) {

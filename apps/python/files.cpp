@@ -4,7 +4,7 @@
 
 #include "apps/python/bindings.hpp"
 #include "coupling/files/h5_reader.hpp"
-#include "particles/io/contact_problem_file.hpp"
+#include "particles/lab/contact_problem_file.hpp"
 
 namespace drumlin::python {
 

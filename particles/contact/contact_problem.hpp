@@ -9,21 +9,23 @@
 
 namespace drumlin::particles {
 
-/// `Cone` says how many unknowns a contact has, `Delassus` how W is stored: through the bodies (BodyDelassus,
-/// in time stepping) or as sparse blocks (BlockDelassus, from a file). Entries of contact a stand at dim * a,
+/// `Delassus` says how many unknowns a contact has, and how W is stored: through the bodies (DiscDelassus, in
+/// time stepping) or as sparse blocks (BlockDelassus, from a file). Entries of contact a stand at dim * a,
 /// normal first.
-template <class Cone_, class Delassus_>
+template <class Delassus_>
 struct ContactProblem {
-  using Cone = Cone_;
   using Delassus = Delassus_;
-  static constexpr int dim = Cone::dim;
+  static constexpr int dim = Delassus::dim;
 
   Delassus W;
   std::vector<double> q;
-  std::vector<double> mu;  ///< dim - 1 per contact: friction, rolling; empty for Frictionless
+  std::vector<double> mu;  ///< dim - 1 per contact: friction, rolling; empty without friction
   double time_step = 1;    ///< turns -u_n into a predicted penetration
 
   int contacts() const { return static_cast<int>(q.size()) / dim; }
+  contact_law::Coefficients<double, dim> coefficients(int a) const {
+    return contact_law::numbers_at<dim - 1>(mu.data() + (dim - 1) * a);
+  }
 };
 
 /// Whether friction or rolling resistance of a contact is steep.

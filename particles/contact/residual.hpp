@@ -88,18 +88,25 @@ struct ResidualSums {
   }
 };
 
-/// e_a^2 of contacts from `first` on; of discs on vectors.
+/// Whether W is that of discs.
+template <class Problem>
+constexpr bool of_discs = requires(const Problem& problem) {
+  problem.W.inverse_mass;
+};
+
+/// e_a^2 of contacts from `first` on; on vectors where contacts push nothing but discs, which do not resist
+/// rolling.
 template <class Problem>
 void set_squared_errors(const Problem& problem, std::size_t first, std::span<const double> r,
                         std::span<const double> u, std::span<double> errors) {
   constexpr std::size_t dim = Problem::dim;
-  if constexpr (requires { Problem::Delassus::largest_in_W_nn; })
-    set_squared_errors<dim>(Problem::Delassus::largest_in_W_nn, problem.W.inverse_W_nn.data() + first,
-                            problem.mu.data() + (dim - 1) * first, r.data() + dim * first,
-                            u.data() + dim * first, errors);
-  else
-    for (std::size_t k = 0; k < errors.size(); ++k)
-      errors[k] = squared_error(problem, static_cast<int>(first + k), r, u);
+  if constexpr (of_discs<Problem> && dim < 3)
+    if (!problem.W.coupled())
+      return set_squared_errors<dim>(
+          Problem::Delassus::largest_in_W_nn, problem.W.inverse_W_nn.data() + first,
+          problem.mu.data() + (dim - 1) * first, r.data() + dim * first, u.data() + dim * first, errors);
+  for (std::size_t k = 0; k < errors.size(); ++k)
+    errors[k] = squared_error(problem, static_cast<int>(first + k), r, u);
 }
 
 /// What the residual adds up over contacts `begin` to `end`. set(begin, end) is called for one part of them
@@ -134,19 +141,15 @@ ResidualSums residual_sums_of(const Problem& problem, std::span<const double> r,
                               Velocities<typename Problem::Delassus>& velocities, TeamLoops& loops) {
   const auto& W = problem.W;
   auto& [bodies, u] = velocities;
-  constexpr bool in_parts = requires { W.velocities_of(0, 0, problem.q, bodies, u); };
-  if constexpr (in_parts) {
-    if constexpr (requires { W.load(bodies, r, loops); })
-      W.load(bodies, r, loops);
-    else
-      W.load(bodies, r);
+  if constexpr (of_discs<Problem>) {
+    W.load(bodies, r, loops);
     resize_closely(u, problem.q.size());
   } else {
     W.velocities(r, problem.q, bodies, u);
   }
   // Part by part, so that a near cache holds the velocities that it has set.
   const auto set = [&](std::size_t begin, std::size_t end) {
-    if constexpr (in_parts)
+    if constexpr (of_discs<Problem>)
       W.velocities_of(static_cast<int>(begin), static_cast<int>(end), problem.q, bodies, u);
   };
   return loops.template combined<ResidualSums>(problem.contacts(), [&](std::size_t begin, std::size_t end) {
@@ -176,8 +179,7 @@ ContactResidual residual_of(const Problem& problem, std::span<const double> r,
   residual.penetration = -sums.lowest_u_n * problem.time_step;
   if (sums.complementarity_violation == 0) return residual;
   double carried = summed_impulses(velocities.bodies, loops);
-  if constexpr (requires { problem.W.driven_impulses(velocities.bodies); })
-    carried += problem.W.driven_impulses(velocities.bodies);
+  if constexpr (of_discs<Problem>) carried += problem.W.driven_impulses(velocities.bodies);
   residual.sinking = problem.time_step * sums.complementarity_violation / carried;
   return residual;
 }

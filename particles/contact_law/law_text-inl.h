@@ -27,4 +27,5 @@ CONTACT_LAW N squared_distance(const std::array<N, dim>& a, const std::array<N, 
 
 #include "particles/contact_law/coulomb-inl.h"
 #include "particles/contact_law/coulomb_rolling-inl.h"
+#include "particles/contact_law/disc_pair-inl.h"
 #include "particles/contact_law/frictionless-inl.h"

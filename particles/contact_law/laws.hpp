@@ -1,23 +1,13 @@
 #pragma once
-// The laws of one contact on numbers. The number of unknowns of a contact is a property of the type, chosen
-// once per solve: a scene without friction has one unknown per contact and never meets a branch about
-// friction.
+// The laws of one contact on numbers. The number of unknowns of a contact (1 without friction, 2 with it, 3
+// with rolling resistance) is a property of the type, chosen once per solve: a scene without friction never
+// meets a branch about it.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 
 namespace drumlin::particles {
-
-struct Frictionless {
-  static constexpr int dim = 1;
-};
-struct Coulomb {
-  static constexpr int dim = 2;
-};
-struct CoulombRolling {
-  static constexpr int dim = 3;
-};
 
 namespace contact_law {
 

@@ -6,7 +6,6 @@
 #include "particles/scene/scene.hpp"
 #include "particles/scene/stage_keys.hpp"
 #include "particles/scene/traffic_keys.hpp"
-#include "particles/solver/contact_solver.hpp"
 
 namespace drumlin::particles {
 
@@ -200,7 +199,7 @@ void describe(Visitor& v, Effects& e) {
 
 template <class Visitor>
 void describe(Visitor& v, SolverSettings& s) {
-  v.value("name", s.name, defaulted("", one_of(contact_solver_names()), "Contact solver."));
+  v.value("name", s.name, defaulted("", not_empty(), "Contact solver, \"accelerated\" or \"nlgs\"."));
   v.value("tolerance", s.tolerance, defaulted("", above(0, 10), "On the residual (docs/conventions.md)."));
   v.value("penetration_tolerance", s.penetration_tolerance,
           defaulted("d", above(0, 1e3), "On predicted penetration and sinking per step."));

@@ -16,6 +16,7 @@
 #include "particles/scene/validate_names.hpp"
 #include "particles/scene/validate_stages.hpp"
 #include "particles/scene/validate_traffic.hpp"
+#include "particles/solver/solver_names.hpp"
 
 namespace drumlin::particles {
 
@@ -260,6 +261,16 @@ void check_stages(const Scene& scene, Faults& faults) {
   faults.insert(faults.end(), too_long.begin(), too_long.end());
 }
 
+void check_solver(const Scene& scene, Faults& faults) {
+  const auto names = contact_solver_names();
+  if (std::find(names.begin(), names.end(), scene.solver.name) == names.end())
+    faults.push_back({"solver.name",
+                      fmt::format("is \"{}\"", scene.solver.name),
+                      fmt::format("\"{}\"; `drumlin solve-contacts --solver` has those for study",
+                                  fmt::join(names, "\", \"")),
+                      {"solver.name"}});
+}
+
 /// Files of contact problems hold grains and walls that only grains push.
 void check_capture(const Scene& scene, Faults& faults) {
   const std::string key = "solver.capture_unconverged";
@@ -288,6 +299,7 @@ std::vector<SceneFault> validate(const Scene& scene) {
                       fmt::format("is {}", scene.solver.check_every),
                       fmt::format("<= max_sweeps = {}", scene.solver.max_sweeps),
                       {"solver.check_every", "solver.max_sweeps"}});
+  check_solver(scene, faults);
   check_capture(scene, faults);
   return faults;
 }

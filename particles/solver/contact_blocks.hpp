@@ -22,17 +22,14 @@ void set_place(const Problem& problem, std::int32_t c, std::int32_t i, std::int3
   block.i[k] = static_cast<std::uint32_t>(i * sizeof(BodyRecord<T>));
   block.j[k] = static_cast<std::uint32_t>(j * sizeof(BodyRecord<T>));
   block.n_x[k] = number(W.n_x[a]), block.n_z[k] = number(W.n_z[a]);
-  if constexpr (requires { W.inverse_W_nn; })
-    block.inverse_W_nn[k] = c >= 0 ? static_cast<T>(W.inverse_W_nn[a]) : T(1);
-  else
-    block.inverse_W_nn[k] = c >= 0 ? static_cast<T>(W.block(a).inverse.nn) : T(1);
+  block.inverse_W_nn[k] = c >= 0 ? static_cast<T>(W.inverse_W_nn[a]) : T(1);
   for (int e = 0; e < dim; ++e) {
     block.q[e][k] = number(problem.q[dim * a + e]);
     block.r[e][k] = block.before[e][k] = number(r[dim * a + e]);
   }
   if constexpr (dim >= 2) block.mu[k] = number(problem.mu[(dim - 1) * a]);
   if constexpr (dim == 3) {
-    const auto& inverse = W.block(a).inverse;
+    const auto inverse = W.block(a).inverse;
     block.mu_r[k] = number(problem.mu[2 * a + 1]), block.lever[k] = number(W.lever[a]);
     block.inverse_W_rr[k] = number(inverse.rr), block.inverse_W_tt[k] = number(inverse.tt_rolling);
   }

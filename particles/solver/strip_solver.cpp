@@ -2,31 +2,12 @@
 
 #include <algorithm>
 #include <numeric>
-#include <type_traits>
 #include <utility>
 
 #include "particles/contact/problems.hpp"
 #include "particles/solver/contact_blocks.hpp"
 
 namespace drumlin::particles {
-
-namespace {
-
-/// A problem with walls that contacts push.
-template <class W>
-constexpr bool drives = requires(const W& w) {
-  w.driven_wall(0);
-};
-
-template <class W>
-bool is_driven(const W& w, std::int32_t c) {
-  if constexpr (drives<W>)
-    return w.pushes_more(c);
-  else
-    return false;
-}
-
-}  // namespace
 
 template <class T, int dim, bool spin>
 template <class Problem>
@@ -40,9 +21,7 @@ void StripProblem<T, dim, spin>::pack_bodies(const Problem& problem, const Sweep
     // vector: contacts of a vector share no body.
     strips_[k].bodies_end = driven_bodies_ += own + own % 2 + Block::width;
   }
-  std::size_t all = driven_bodies_;
-  if constexpr (drives<std::remove_cvref_t<decltype(W)>>)
-    all += W.driven.size() + W.driven.size() % 2 + 2 * W.cell.has_value();
+  const std::size_t all = driven_bodies_ + W.driven.size() + W.driven.size() % 2 + 2 * W.cell.has_value();
   require_offsets<T>(all);
   place_.renew(plan.body_order.size());
   bodies_.renew(all);
@@ -79,24 +58,14 @@ void StripProblem<T, dim, spin>::pack_driven(const Problem& problem, std::int32_
   auto& contact = driven_.emplace_back();
   contact.contact = c;
   contact.i = place_[W.i[c]];
-  if (const DrivenBody* wall = W.driven_wall(c)) {
-    contact.driven = *wall;
-    contact.j = static_cast<std::int32_t>(driven_bodies_) + W.j[c] - W.fixed() - 1;
-  } else {
-    contact.j = place_[W.j[c]];
-    contact.cell = static_cast<std::int32_t>(driven_bodies_);
-    contact.arm_x = W.arm_x[c], contact.answer_x = W.arm_x[c] * W.cell->inverse_inertia_x;
-    contact.arm_z = W.arm_z[c], contact.answer_z = W.arm_z[c] * W.cell->inverse_inertia_z;
-  }
-  contact.n_x = W.n_x[c], contact.n_z = W.n_z[c];
-  if constexpr (dim == 3) contact.lever = W.lever[c];
+  contact.rates = static_cast<std::int32_t>(driven_bodies_);
+  contact.j = W.cell ? place_[W.j[c]] : contact.rates + W.j[c] - W.fixed() - 1;
   contact.W = W.block(c);
-
+  contact.mu = problem.coefficients(c);
   for (int e = 0; e < dim; ++e) {
     contact.q[e] = problem.q[dim * c + e];
     contact.r[e] = contact.before[e] = r[dim * c + e];
   }
-  for (int e = 0; e + 1 < dim; ++e) contact.mu[e] = problem.mu[(dim - 1) * c + e];
 }
 
 template <class T, int dim, bool spin>
@@ -113,9 +82,9 @@ void StripProblem<T, dim, spin>::lay_out(const Problem& problem, const SweepPlan
     strip.group[slice % 2] = groups_.size();
     for (std::int32_t g = plan.slice_start[slice]; g < plan.slice_start[slice + 1]; ++g) {
       std::int32_t count = plan.group_start[g + 1] - plan.group_start[g];
-      if constexpr (drives<typename Problem::Delassus>)
+      if (problem.W.coupled())
         for (std::int32_t a = plan.group_start[g]; a < plan.group_start[g + 1]; ++a)
-          if (const std::int32_t c = order.empty() ? a : order[a]; is_driven(problem.W, c))
+          if (const std::int32_t c = order.empty() ? a : order[a]; problem.W.pushes_more(c))
             pack_driven(problem, c, r), --count;
       const std::int32_t own = (count + width - 1) / width;
       groups_.push_back(own);
@@ -137,11 +106,12 @@ void StripProblem<T, dim, spin>::pack_strip(const Problem& problem, const SweepP
   constexpr int width = Block::width;
   const auto fixed = static_cast<std::int32_t>(strips_[strip].bodies_end) - width;
   std::size_t place = width * strips_[strip].block[0];
+  const bool coupled = problem.W.coupled();
   const std::int32_t end = plan.slice_start[2 * strip + 2];
   for (std::int32_t g = plan.slice_start[2 * strip]; g < end; ++g) {
     for (std::int32_t a = plan.group_start[g]; a < plan.group_start[g + 1]; ++a) {
       const std::int32_t c = order.empty() ? a : order[a];
-      if (!is_driven(problem.W, c)) pack_place(problem, c, fixed, r, place++);
+      if (!coupled || !problem.W.pushes_more(c)) pack_place(problem, c, fixed, r, place++);
     }
     while (place % width != 0) pack_place(problem, -1, fixed, r, place++);
   }
@@ -153,6 +123,7 @@ void StripProblem<T, dim, spin>::pack(const Problem& problem, const SweepPlan& p
                                       std::span<const std::int32_t> order, std::span<const double> r,
                                       const TeamLoops& loops, World* world) {
   const int strip_count = plan.strips();
+  W_ = &problem.W;
   strips_.assign(strip_count, Strip{});
   for (auto& squares : step_squares_) squares.assign(2 * static_cast<std::size_t>(strip_count) + 1, 0.0);
   estimates_.assign(2 * static_cast<std::size_t>(strip_count), {});
@@ -321,7 +292,7 @@ double StripProblem<T, dim, spin>::step_squares(int slot) const {
 
 template <class T, int dim, bool spin>
 void StripProblem<T, dim, spin>::load_driven() {
-  for (const auto& contact : driven_) push<spin>(contact, contact.r, bodies_.data());
+  drumlin::particles::load(*W_, std::span<const DrivenContact<dim>>(driven_), bodies_.data());
 }
 
 template <class T, int dim, bool spin>
@@ -335,7 +306,7 @@ void StripProblem<T, dim, spin>::sweep_driven(int slot, T beta, bool accelerated
   if (accelerated)
     Kernels::go_on(&bodies_[driven_bodies_], &before_[driven_bodies_], bodies_.size() - driven_bodies_, beta);
   step_squares_[slot].back() =
-      drumlin::particles::sweep<spin>(std::span(driven_), bodies_.data(), beta, accelerated);
+      drumlin::particles::sweep(*W_, std::span(driven_), bodies_.data(), beta, accelerated);
 }
 
 template <class T, int dim, bool spin>
@@ -347,7 +318,7 @@ void StripProblem<T, dim, spin>::estimate_residual(int strip, int phase) {
 
 template <class T, int dim, bool spin>
 ResidualEstimate StripProblem<T, dim, spin>::residual_estimate() const {
-  ResidualEstimate all = residual<spin>(std::span<const DrivenContact<dim>>(driven_), bodies_.data());
+  ResidualEstimate all = residual(*W_, std::span<const DrivenContact<dim>>(driven_), bodies_.data());
   for (const ResidualEstimate& of_slice : estimates_) all.add(of_slice);
   return all;
 }
@@ -381,17 +352,15 @@ void StripProblem<T, dim, spin>::keep_driven() {
                                                  const TeamLoops&, World*);                              \
   template void StripProblem<T, dim, spin>::unpack(const Problem&, bool, std::vector<double>&,           \
                                                    const TeamLoops&) const;
-#define DRUMLIN_INSTANTIATE_BOTH(dim, spin, Problem, DrivenProblem) \
-  template class StripProblem<double, dim, spin>;                   \
-  template class StripProblem<float, dim, spin>;                    \
-  DRUMLIN_INSTANTIATE(double, dim, spin, Problem)                   \
-  DRUMLIN_INSTANTIATE(double, dim, spin, DrivenProblem)             \
-  DRUMLIN_INSTANTIATE(float, dim, spin, Problem)                    \
-  DRUMLIN_INSTANTIATE(float, dim, spin, DrivenProblem)
-DRUMLIN_INSTANTIATE_BOTH(1, false, FrictionlessProblem, DrivenFrictionlessProblem)
-DRUMLIN_INSTANTIATE_BOTH(2, false, CoulombProblem, DrivenCoulombProblem)
-DRUMLIN_INSTANTIATE_BOTH(2, true, CoulombSpinProblem, DrivenCoulombSpinProblem)
-DRUMLIN_INSTANTIATE_BOTH(3, true, CoulombRollingProblem, DrivenRollingProblem)
+#define DRUMLIN_INSTANTIATE_BOTH(dim, spin, Problem) \
+  template class StripProblem<double, dim, spin>;    \
+  template class StripProblem<float, dim, spin>;     \
+  DRUMLIN_INSTANTIATE(double, dim, spin, Problem)    \
+  DRUMLIN_INSTANTIATE(float, dim, spin, Problem)
+DRUMLIN_INSTANTIATE_BOTH(1, false, FrictionlessProblem)
+DRUMLIN_INSTANTIATE_BOTH(2, false, CoulombProblem)
+DRUMLIN_INSTANTIATE_BOTH(2, true, CoulombSpinProblem)
+DRUMLIN_INSTANTIATE_BOTH(3, true, RollingProblem)
 #undef DRUMLIN_INSTANTIATE_BOTH
 #undef DRUMLIN_INSTANTIATE
 

@@ -141,6 +141,7 @@ class StripProblem {
   template <class Entry>
   void gather(std::span<Entry> all, std::size_t of_strip) const;
 
+  const DiscDelassus<dim, spin>* W_ = nullptr;  // of the problem that was packed
   std::vector<Strip> strips_;
   World* world_ = nullptr;  // none where this rank has all strips
   int rank_ = 0, ranks_ = 1;

@@ -16,52 +16,6 @@ namespace drumlin::particles::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// What a couple R_eff r_r changes of the rims of i and j, per r_r.
-template <class V>
-struct Turns {
-  V i, j;
-};
-template <class T, class V>
-HWY_INLINE Turns<V> turns_of(V lever, const BodyVectors<T>& I, const BodyVectors<T>& J) {
-  const V other = hn::Sub(hn::Set(Lanes<T>(), T(1)), lever);
-  return {hn::Mul(hn::Add(I.inverse_mass, I.inverse_mass), lever),
-          hn::Mul(hn::Add(J.inverse_mass, J.inverse_mass), other)};
-}
-
-/// lever s_i - (1 - lever) s_j.
-template <class T, class V>
-HWY_INLINE V rolling_velocity(V lever, const BodyVectors<T>& I, const BodyVectors<T>& J) {
-  const V other = hn::Sub(hn::Set(Lanes<T>(), T(1)), lever);
-  return hn::Sub(hn::Mul(lever, I.s), hn::Mul(other, J.s));
-}
-
-/// Adds impulses (n, t) of contacts to their bodies.
-template <int dim, bool spin, class T, class V>
-HWY_INLINE void push(V n_x, V n_z, V n, V t, BodyVectors<T>& I, BodyVectors<T>& J) {
-  V p_x = hn::Mul(n_x, n), p_z = hn::Mul(n_z, n);
-  if constexpr (dim >= 2) {
-    p_x = hn::Add(p_x, hn::Mul(n_z, t));
-    p_z = hn::Sub(p_z, hn::Mul(n_x, t));
-  }
-  I.x = hn::Add(I.x, hn::Mul(I.inverse_mass, p_x));
-  I.z = hn::Add(I.z, hn::Mul(I.inverse_mass, p_z));
-  J.x = hn::Sub(J.x, hn::Mul(J.inverse_mass, p_x));
-  J.z = hn::Sub(J.z, hn::Mul(J.inverse_mass, p_z));
-  if constexpr (spin) {  // r J^-1 (-r r_t) = -2 r_t / m, for both bodies
-    const V twice = hn::Add(t, t);
-    I.s = hn::Sub(I.s, hn::Mul(I.inverse_mass, twice));
-    J.s = hn::Sub(J.s, hn::Mul(J.inverse_mass, twice));
-  }
-}
-
-/// Adds the couples of rolling resistance: R_eff r_r on i and its opposite on j.
-template <class T, class V>
-HWY_INLINE void roll(V lever, V r, BodyVectors<T>& I, BodyVectors<T>& J) {
-  const auto turns = turns_of<T>(lever, I, J);
-  I.s = hn::Add(I.s, hn::Mul(turns.i, r));
-  J.s = hn::Sub(J.s, hn::Mul(turns.j, r));
-}
-
 template <class T>
 HWY_INLINE double total(const std::array<T, 8>& sums) {
   double sum = 0;
@@ -117,21 +71,23 @@ HWY_INLINE contact_law::Coefficients<hn::Vec<Lanes<T>>, dim> coefficients(const 
   if constexpr (dim == 3) return {hn::Load(d, &block.mu[k]), hn::Load(d, &block.mu_r[k])};
 }
 
+/// Normals and levers of contacts.
+template <class T, int dim>
+HWY_INLINE contact_law::ContactFrame<hn::Vec<Lanes<T>>> frame_of(const ContactBlock<T, dim>& block,
+                                                                 std::size_t k) {
+  const Lanes<T> d;
+  const auto n_x = hn::Load(d, &block.n_x[k]), n_z = hn::Load(d, &block.n_z[k]);
+  if constexpr (dim == 3) return {n_x, n_z, hn::Load(d, &block.lever[k])};
+  return {n_x, n_z, hn::Zero(d)};
+}
+
 /// u = W r + q of contacts, from the velocities of their bodies.
 template <bool spin, class T, int dim>
 HWY_INLINE Impulses<T, dim> velocities(const ContactBlock<T, dim>& block, std::size_t k,
                                        const BodyVectors<T>& I, const BodyVectors<T>& J) {
-  const Lanes<T> d;
-  const auto n_x = hn::Load(d, &block.n_x[k]), n_z = hn::Load(d, &block.n_z[k]);
-  const auto dv_x = I.x - J.x, dv_z = I.z - J.z;
+  const auto own = contact_law::relative_velocity<spin, dim>(frame_of(block, k), I.x - J.x, I.z - J.z, I, J);
   auto u = load_numbers<dim>(block.q, k);
-  u[0] = u[0] + (n_x * dv_x + n_z * dv_z);
-  if constexpr (dim >= 2) {
-    auto slip = n_z * dv_x - n_x * dv_z;
-    if constexpr (spin) slip = slip - (I.s + J.s);
-    u[1] = u[1] + slip;
-  }
-  if constexpr (dim == 3) u[2] = u[2] + rolling_velocity<T>(hn::Load(d, &block.lever[k]), I, J);
+  for (std::size_t e = 0; e < dim; ++e) u[e] = u[e] + own[e];
   return u;
 }
 
@@ -143,8 +99,8 @@ HWY_INLINE auto inverse_block(const ContactBlock<T, dim>& block, std::size_t k, 
   W.nn = hn::Load(d, &block.inverse_W_nn[k]);
   if constexpr (dim >= 2) W.tt = W.nn * hn::Set(d, spin ? T(1) / T(3) : T(1));
   if constexpr (dim == 3) {
-    const auto turns = turns_of<T>(hn::Load(d, &block.lever[k]), I, J);
-    W.rr = hn::Load(d, &block.inverse_W_rr[k]), W.tr = turns.j - turns.i;
+    const auto turns = contact_law::turns_of(hn::Load(d, &block.lever[k]), I, J);
+    W.rr = hn::Load(d, &block.inverse_W_rr[k]), W.tr = turns[1] - turns[0];
     W.tt_rolling = hn::Load(d, &block.inverse_W_tt[k]);
   }
   return W;
@@ -187,9 +143,7 @@ HWY_INLINE void bring_bodies(const Place<T, dim>& at, const BodyRecord<T>* bodie
 template <bool spin, class T, int dim>
 HWY_INLINE void push_bodies(const ContactBlock<T, dim>& block, std::size_t k, const Impulses<T, dim>& p,
                             BodyVectors<T>& I, BodyVectors<T>& J, BodyRecord<T>* bodies) {
-  const Lanes<T> d;
-  push<dim, spin, T>(hn::Load(d, &block.n_x[k]), hn::Load(d, &block.n_z[k]), p[0], p[dim >= 2], I, J);
-  if constexpr (dim == 3) roll<T>(hn::Load(d, &block.lever[k]), p[2], I, J);
+  contact_law::push<spin>(frame_of(block, k), p, I, J);
   store_bodies(I, bodies, &block.i[k]);
   store_bodies(J, bodies, &block.j[k]);
 }
@@ -263,9 +217,9 @@ HWY_INLINE auto inverse_eigenvalue(const ContactBlock<T, dim>& block, std::size_
     return hn::Load(d, &block.inverse_W_nn[k]) * hn::Set(d, dim == 2 && spin ? T(1) / T(3) : T(1));
   } else {
     const auto w = I.inverse_mass + J.inverse_mass, lever = hn::Load(d, &block.lever[k]);
-    const auto turns = turns_of<T>(lever, I, J);
+    const auto turns = contact_law::turns_of(lever, I, J);
     const auto largest = contact_law::larger_eigenvalue(
-        w + (w + w), turns.j - turns.i, lever * turns.i + (hn::Set(d, T(1)) - lever) * turns.j);
+        w + (w + w), turns[1] - turns[0], lever * turns[0] + (hn::Set(d, T(1)) - lever) * turns[1]);
     // Places that are filled up have none.
     return hn::Set(d, T(1)) / hn::Max(largest, hn::Set(d, T(1e-15)));
   }

@@ -14,24 +14,16 @@
 
 namespace drumlin::particles {
 
-/// Whether contacts of these problems push walls.
-template <class Problem>
-constexpr bool drives_walls = requires {
-  requires Problem::Delassus::has_driven;
-};
-
 /// Velocity of the wall of a pair, or of the image of j against j; `of_driven(k)`: that along the direction
 /// of driven wall k.
-template <class Problem, class OfDriven>
+template <class OfDriven>
 Point wall_velocity(const StepInput& step, const Candidate& pair, OfDriven of_driven) {
   const Point prescribed{pair.wall_v_x, pair.wall_v_z};
-  if constexpr (drives_walls<Problem>)
-    if (const std::int32_t k = driven_wall_of(step.walls, pair); k >= 0) {
-      const Driven& wall = step.walls.driven[k];
-      // The pair has the wall's velocity by its force alone.
-      return along(prescribed, wall, of_driven(k) - free_velocity(wall, step.driven[k], step.time_step));
-    }
-  return prescribed;
+  const std::int32_t k = driven_wall_of(step.walls, pair);
+  if (k < 0) return prescribed;
+  const Driven& wall = step.walls.driven[k];
+  // The pair has the wall's velocity by its force alone.
+  return along(prescribed, wall, of_driven(k) - free_velocity(wall, step.driven[k], step.time_step));
 }
 
 /// Free velocity of i relative to j, or to the image of j that is nearest.
@@ -48,47 +40,41 @@ void assemble_bodies(const StepInput& step, Problem& problem) {
   const auto inverse_mass = step.inverse_mass();
   W.inverse_mass.assign(inverse_mass.begin(), inverse_mass.end());
   W.inverse_mass.push_back(0);
-  if constexpr (drives_walls<Problem>) {
-    W.driven.clear();
-    for (const Driven& wall : step.walls.driven)
-      W.driven.push_back({wall.direction.x, wall.direction.z, wall.inverse_mass});
-    W.inverse_mass.resize(W.inverse_mass.size() + step.walls.driven.size(), 0.0);
-    W.cell.reset();
-    if (step.cell.pressed()) {
-      W.cell = CellBody{step.cell.inverse_inertia_x, step.cell.inverse_inertia_z, step.cell.length_x,
-                        step.cell.length_z};
-      W.inverse_mass.push_back(0);
-    }
+  W.driven.clear();
+  for (const Driven& wall : step.walls.driven)
+    W.driven.push_back({wall.direction.x, wall.direction.z, wall.inverse_mass});
+  W.inverse_mass.resize(W.inverse_mass.size() + step.walls.driven.size(), 0.0);
+  W.cell.reset();
+  if (step.cell.pressed()) {
+    W.cell = CellBody{step.cell.inverse_inertia_x, step.cell.inverse_inertia_z, step.cell.length_x,
+                      step.cell.length_z};
+    W.inverse_mass.push_back(0);
   }
 }
 
 /// Place of j among the bodies of the problem.
-template <class Problem>
-std::int32_t second_body(const StepInput& step, const Candidate& pair) {
+inline std::int32_t second_body(const StepInput& step, const Candidate& pair) {
   if (pair.j >= 0) return pair.j;
-  const auto fixed = static_cast<std::int32_t>(step.bodies.count());
-  if constexpr (drives_walls<Problem>) return fixed + 1 + driven_wall_of(step.walls, pair);
-  return fixed;
+  return static_cast<std::int32_t>(step.bodies.count()) + 1 + driven_wall_of(step.walls, pair);
 }
 
 /// Writes contact a of the problem.
-template <class Problem, bool with_spin>
+template <class Problem>
 void assemble_contact(const StepInput& step, const Candidate& pair, int a, Problem& problem) {
   constexpr int dim = Problem::dim;
   const StepLaws& laws = step.laws;
   const Bodies& bodies = step.bodies;
   const auto of_driven = [&step](std::int32_t k) { return step.free.driven[k]; };
-  const Point wall = wall_velocity<Problem>(step, pair, of_driven);
+  const Point wall = wall_velocity(step, pair, of_driven);
   const Point u = relative_velocity(pair, step.free.x, step.free.z, wall);
   problem.q[dim * a] = normal_part(pair, u) + pair.gap / step.time_step;  // it may act before it touches
-  const std::int32_t second = second_body<Problem>(step, pair);
-  if constexpr (drives_walls<Problem>)
-    if (problem.W.cell) {
-      // As they are now: the normal is that of the place where they meet.
-      const Point arm = laws.period.nearest(
-          Point{bodies.x[pair.i] - bodies.x[pair.j], bodies.z[pair.i] - bodies.z[pair.j]});
-      problem.W.arm_x[a] = arm.x, problem.W.arm_z[a] = arm.z;
-    }
+  const std::int32_t second = second_body(step, pair);
+  if (problem.W.cell) {
+    // As they are now: the normal is that of the place where they meet.
+    const Point arm =
+        laws.period.nearest(Point{bodies.x[pair.i] - bodies.x[pair.j], bodies.z[pair.i] - bodies.z[pair.j]});
+    problem.W.arm_x[a] = arm.x, problem.W.arm_z[a] = arm.z;
+  }
   if constexpr (dim == 3) {
     each_law(laws, [&](const auto& law) {
       if constexpr (requires { law.couple_bound(pair, step.materials()); }) {
@@ -104,7 +90,7 @@ void assemble_contact(const StepInput& step, const Candidate& pair, int a, Probl
   if constexpr (dim >= 2) {
     const auto sliding = [&](const Point& velocity) {
       const double u_t = tangential_part(pair, velocity);
-      return with_spin ? sliding_of_rims(u_t, pair, bodies) : u_t;
+      return Problem::Delassus::spin ? sliding_of_rims(u_t, pair, bodies) : u_t;
     };
     problem.q[dim * a + 1] = sliding(u);
     problem.mu[(dim - 1) * a] =
@@ -113,7 +99,7 @@ void assemble_contact(const StepInput& step, const Candidate& pair, int a, Probl
 }
 
 /// Writes the problem in the order of the contacts.
-template <class Problem, bool with_spin>
+template <class Problem>
 void assemble(const StepInput& step, const StepContacts& contacts, const TeamLoops& loops, Problem& problem) {
   constexpr int dim = Problem::dim;
   const std::size_t count = contacts.pairs.size();
@@ -124,7 +110,7 @@ void assemble(const StepInput& step, const StepContacts& contacts, const TeamLoo
   problem.time_step = step.time_step;
   loops.each(count, [&](std::size_t begin, std::size_t end) {
     for (std::size_t a = begin; a < end; ++a)
-      assemble_contact<Problem, with_spin>(step, contacts.pairs[a], static_cast<int>(a), problem);
+      assemble_contact(step, contacts.pairs[a], static_cast<int>(a), problem);
   });
 }
 

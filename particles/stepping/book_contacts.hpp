@@ -13,11 +13,10 @@ namespace drumlin::particles {
 template <class Problem>
 Point image_velocity(const Problem& problem, Point change, const Candidate& pair, std::size_t a) {
   Point image{pair.wall_v_x, pair.wall_v_z};
-  if constexpr (drives_walls<Problem>)
-    if (problem.W.cell) {
-      image.x -= change.x * problem.W.arm_x[a] / 2;
-      image.z -= change.z * problem.W.arm_z[a] / 2;
-    }
+  if (problem.W.cell) {
+    image.x -= change.x * problem.W.arm_x[a] / 2;
+    image.z -= change.z * problem.W.arm_z[a] / 2;
+  }
   return image;
 }
 
@@ -53,8 +52,7 @@ void book_contacts(const StepInput& step, const StepContacts& contacts, const Pr
   constexpr int dim = Problem::dim;
   const auto& impulses = solution.impulses;
   const Bodies mean = mean_motion(books.before(), step.bodies);
-  Point change;
-  if constexpr (drives_walls<Problem>) change = cell_answer(problem, solution.velocities.bodies);
+  const Point change = cell_answer(problem, solution.velocities.bodies);
   // Mean velocity over the step, impacts aside; step.free.driven holds what contacts left to driven walls.
   const auto of_driven = [&](std::int32_t k) {
     return (step.driven[k].velocity + contacts.wall_jumps[k] + step.free.driven[k]) / 2;
@@ -62,7 +60,7 @@ void book_contacts(const StepInput& step, const StepContacts& contacts, const Pr
   book_effects(step, books.before(), ledger);
   for (std::size_t a = 0; a < contacts.pairs.size(); ++a) {
     Candidate pair = contacts.pairs[a];
-    const Point of_j = pair.j < 0 ? wall_velocity<Problem>(step, pair, of_driven)
+    const Point of_j = pair.j < 0 ? wall_velocity(step, pair, of_driven)
                                   : image_velocity(problem, change, pair, a);  // beyond that of j itself
     pair.wall_v_x = of_j.x, pair.wall_v_z = of_j.z;
     const Point u = relative_velocity(pair, mean.v_x, mean.v_z, of_j);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "particles/contact_law/laws.hpp"
+
 namespace drumlin::particles {
 namespace {
 
@@ -69,14 +71,11 @@ void ImpactPass::push(const ImpactContact& c, double normal, double tangential) 
 double ImpactPass::sweep() {
   double largest = 0;
   for (ImpactContact& c : contacts) {
-    Point u = velocity(c);
-    const double normal = std::max(0.0, c.normal - u.x / c.W_nn), d_n = normal - c.normal;
-    double d_t = 0;
-    if (c.mu > 0) {
-      u.z += c.W_nt * d_n;
-      const double bound = c.mu * normal;
-      d_t = std::clamp(c.tangential - u.z / c.W_tt, -bound, bound) - c.tangential;
-    }
+    const Point u = velocity(c);
+    const double normal = contact_law::positive_part(c.normal - u.x / c.W_nn), d_n = normal - c.normal;
+    const double free = c.tangential - (u.z + c.W_nt * d_n) / c.W_tt;
+    const double d_t =
+        c.mu > 0 ? contact_law::bounded({c.mu}, std::array{normal, free})[1] - c.tangential : 0;
     push(c, d_n, d_t);
     c.normal = normal, c.tangential += d_t;
     largest = std::max({largest, std::abs(d_n) * c.W_nn, std::abs(d_t) * c.W_tt});
@@ -149,10 +148,10 @@ void ImpactPass::let_friction_act(double share) {
     double largest = 0;
     for (std::size_t a = 0; a < contacts.size(); ++a) {
       const ImpactContact& c = contacts[a];
-      const double bound = c.mu * share * c.e * c.normal;
-      if (bound <= 0) continue;
-      const double now = friction_[a];
-      friction_[a] = std::clamp(now - velocity(c).z / c.W_tt, -bound, bound);
+      const double mu = c.mu * share * c.e;  // of the normal impulse of the compression
+      if (mu * c.normal <= 0) continue;
+      const double now = friction_[a], free = now - velocity(c).z / c.W_tt;
+      friction_[a] = contact_law::bounded({mu}, std::array{c.normal, free})[1];
       push(c, 0, friction_[a] - now);
       largest = std::max(largest, std::abs(friction_[a] - now) * c.W_tt);
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "particles/contact_law/coulomb_coupled.hpp"
 #include "particles/stepping/meeting.hpp"
 
 namespace drumlin::particles {
@@ -20,13 +21,10 @@ Point impulses(const Surfaces& halfway, const Surfaces& end, double u_n, double 
   const double c = halfway.n_x * end.n_x + halfway.n_z * end.n_z;  // n . n = t . t
   const double s =
       halfway.n_z * end.n_x - halfway.n_x * end.n_z;  // t halfway . n at the end = - n halfway . t
-  if (mu <= 0) return {-u_n / c, 0};
-  const double determinant = c * (c + spin) + s * s;
-  Point p{(-u_n * (c + spin) + s * u_t) / determinant, (-c * u_t - s * u_n) / determinant};
-  if (std::abs(p.z) <= mu * p.x) return p;
-  const double sense = p.z > 0 ? mu : -mu;
-  p.x = -u_n / (c + sense * s);
-  return {p.x, sense * p.x};
+  Eigen::Matrix2d W;
+  W << c, s, -s, c + spin;
+  const Eigen::Vector2d p = solve_planar_contact(W, {u_n, u_t}, mu);
+  return {p[0], p[1]};
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "particles/contact/block_problem.hpp"
 #include "particles/detection/contact_list.hpp"
 #include "particles/detection/contact_order.hpp"
 #include "particles/parallel/work_memory.hpp"
@@ -30,14 +29,17 @@ constexpr int most_searches = 5;
 // Of the impulse on a grain: what may come from other contacts if it counts as the only one.
 constexpr double alone = 1e-9;
 
-template <class Problem, bool with_spin>
+template <class Problem>
 class MoreauJean final : public Stepper {
   static constexpr int dim = Problem::dim;
-  static constexpr bool drives = drives_walls<Problem>;
+  static constexpr bool with_spin = Problem::Delassus::spin;
 
  public:
-  MoreauJean(const StepLaws& laws, const StepSolver& solver)
-      : laws_(laws), solver_(solver), solve_(contact_solver<Problem>(solver.name)), team_(solver.threads) {
+  MoreauJean(const StepLaws& laws, const StepSolver& solver, const ContactSolvers& solvers)
+      : laws_(laws),
+        solver_(solver),
+        solve_(std::get<ContactSolver<Problem>>(solvers)),
+        team_(solver.threads) {
     work_.team = &team_, work_.memory = &memory_, work_.world = solver.world;
     projection_.use(solver.world);
     const auto share = [this](auto&... users) {
@@ -62,7 +64,7 @@ class MoreauJean final : public Stepper {
     detect(step, state, watch, report);
     attract(step, free_, contacts_);
     turn_freely(laws_, time_step, bodies);
-    assemble<Problem, with_spin>(step, contacts_, TeamLoops(&team_), problem_);
+    assemble(step, contacts_, TeamLoops(&team_), problem_);
     report.setup_seconds += watch.lap();
     report.contacts = problem_.contacts();
     const bool open = laws_.period.open() && laws_.period.open_z();  // else places are those of images
@@ -74,7 +76,7 @@ class MoreauJean final : public Stepper {
     if (books_) books_->move(bodies, time_step, *state.energy);
     if (books_) book_contacts(step, contacts_, problem_, solution_, *books_, *state.energy);
     if (state.cell) deform(step, state);
-    if constexpr (drives) move_driven_walls(free_, time_step, walls, state.driven);
+    move_driven_walls(free_, time_step, walls, state.driven);
     (void)watch.lap();
     report.overlap = project(state, walls, report.lost);
     report.projection_seconds = watch.lap();
@@ -116,12 +118,7 @@ class MoreauJean final : public Stepper {
     return one_for_each_pair(std::move(loaded));
   }
 
-  std::optional<BlockProblem> last_problem() const override {
-    if constexpr (requires(const Problem& p) { block_problem(p); })
-      return block_problem(problem_);
-    else
-      return std::nullopt;
-  }
+  DiscProblem last_problem() const override { return &problem_; }
 
   std::span<const Candidate> last_pairs() const override { return contacts_.pairs; }
 
@@ -146,12 +143,10 @@ class MoreauJean final : public Stepper {
   /// Velocities without contacts, attractions aside: their pairs are not known yet.
   void move_freely(const StepInput& step) {
     set_free_motion(step.bodies, laws_, step.time_step, TeamLoops(&team_), free_);
-    if constexpr (drives) {
-      free_.driven.clear();
-      for (std::size_t k = 0; k < step.driven.size(); ++k)
-        free_.driven.push_back(free_velocity(step.walls.driven[k], step.driven[k], step.time_step) +
-                               contacts_.wall_jumps[k]);
-    }
+    free_.driven.clear();
+    for (std::size_t k = 0; k < step.driven.size(); ++k)
+      free_.driven.push_back(free_velocity(step.walls.driven[k], step.driven[k], step.time_step) +
+                             contacts_.wall_jumps[k]);
   }
 
   /// The pairs that may touch once the impacts of the step are over.
@@ -292,25 +287,23 @@ class MoreauJean final : public Stepper {
       }
     });
     for (const auto& [grain, place] : lone_) bodies.x[grain] = place.x, bodies.z[grain] = place.z;
-    if constexpr (drives)
-      for (std::size_t k = 0; loaded && k < free_.driven.size(); ++k) {
-        const auto& wall = problem_.W.driven[k];
-        const auto& change = changes[problem_.W.fixed() + 1 + k];
-        free_.driven[k] += change.x * wall.e_x + change.z * wall.e_z;
-      }
+    for (std::size_t k = 0; loaded && k < free_.driven.size(); ++k) {
+      const auto& wall = problem_.W.driven[k];
+      const auto& change = changes[problem_.W.fixed() + 1 + k];
+      free_.driven[k] += change.x * wall.e_x + change.z * wall.e_z;
+    }
   }
 
   /// Ends the step of a cell: its rates as contacts leave them, which the grains follow, and its new lengths.
   void deform(const StepInput& step, const MovingState& state) {
     CellState& cell = state.cell->state;
-    if constexpr (drives)
-      if (step.cell.pressed()) {
-        set_struck(contacts_.strikes, state.bodies, cell);
-        const Point change = cell_answer(problem_, solution_.velocities.bodies);
-        const double before = books_ ? kinetic_energy(state.bodies) : 0;
-        change_rates_in_step(change, step.time_step, cell, state.bodies);
-        if (books_) book_cell(kinetic_energy(state.bodies) - before, *state.energy);
-      }
+    if (step.cell.pressed()) {
+      set_struck(contacts_.strikes, state.bodies, cell);
+      const Point change = cell_answer(problem_, solution_.velocities.bodies);
+      const double before = books_ ? kinetic_energy(state.bodies) : 0;
+      change_rates_in_step(change, step.time_step, cell, state.bodies);
+      if (books_) book_cell(kinetic_energy(state.bodies) - before, *state.energy);
+    }
     move_cell(step.time_step, cell);
     laws_.period = period_of(cell);
   }
@@ -353,27 +346,23 @@ class MoreauJean final : public Stepper {
   SolverWorkspace<Problem> work_;
   Solution<Problem> solution_;
   OverlapSearch overlaps_;
-  PositionProjection<drives> projection_;
+  PositionProjection projection_;
   WallCrossings crossings_;
   std::optional<EnergyBooks> books_;  // only with an energy ledger
 };
 
-template <class Frictionless, class Coulomb, class CoulombSpin, class CoulombRolling>
-std::unique_ptr<Stepper> stepper_of(const StepLaws& laws, const StepSolver& solver) {
-  if (laws.unknowns == 3) return std::make_unique<MoreauJean<CoulombRolling, true>>(laws, solver);
-  if (laws.unknowns == 1) return std::make_unique<MoreauJean<Frictionless, false>>(laws, solver);
-  if (!laws.spin) return std::make_unique<MoreauJean<Coulomb, false>>(laws, solver);
-  return std::make_unique<MoreauJean<CoulombSpin, true>>(laws, solver);
-}
-
 }  // namespace
 
+std::unique_ptr<Stepper> make_stepper(const StepLaws& laws, const StepSolver& solver,
+                                      const ContactSolvers& solvers) {
+  if (laws.unknowns == 3) return std::make_unique<MoreauJean<RollingProblem>>(laws, solver, solvers);
+  if (laws.unknowns == 1) return std::make_unique<MoreauJean<FrictionlessProblem>>(laws, solver, solvers);
+  if (!laws.spin) return std::make_unique<MoreauJean<CoulombProblem>>(laws, solver, solvers);
+  return std::make_unique<MoreauJean<CoulombSpinProblem>>(laws, solver, solvers);
+}
+
 std::unique_ptr<Stepper> make_stepper(const StepLaws& laws, const StepSolver& solver) {
-  if (laws.driven_walls)
-    return stepper_of<DrivenFrictionlessProblem, DrivenCoulombProblem, DrivenCoulombSpinProblem,
-                      DrivenRollingProblem>(laws, solver);
-  return stepper_of<FrictionlessProblem, CoulombProblem, CoulombSpinProblem, CoulombRollingProblem>(laws,
-                                                                                                    solver);
+  return make_stepper(laws, solver, contact_solvers(solver.name));
 }
 
 }  // namespace drumlin::particles

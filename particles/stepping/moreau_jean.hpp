@@ -17,11 +17,12 @@
 
 #include "particles/bodies/bodies.hpp"
 #include "particles/bodies/snapshot.hpp"
-#include "particles/contact/problems.hpp"
+#include "particles/contact/problem_kinds.hpp"
 #include "particles/detection/candidate.hpp"
 #include "particles/effects/moving_cell.hpp"
 #include "particles/effects/wall_step.hpp"
 #include "particles/parallel/world.hpp"
+#include "particles/solver/solver_names.hpp"
 #include "particles/solver/stopping_rule.hpp"
 #include "particles/stepping/contact_memory.hpp"
 #include "particles/stepping/energy_ledger.hpp"
@@ -78,9 +79,8 @@ class Stepper {
   virtual std::vector<WallContact> wall_contacts() const = 0;
   /// Loaded contacts of the last step, with the normals that it used.
   virtual std::vector<SnapshotContact> loaded_contacts() const = 0;
-  /// The contact problem of the last step, as it travels in files; none where a contact has more unknowns or
-  /// couples than a file can hold (a couple, walls moved by a force).
-  virtual std::optional<BlockProblem> last_problem() const = 0;
+  /// The contact problem of the last step, until the next one.
+  virtual DiscProblem last_problem() const = 0;
   /// Its pairs, in the order of its contacts.
   virtual std::span<const Candidate> last_pairs() const = 0;
   /// Gives back what no other step needs to have kept, until the next one.
@@ -93,5 +93,8 @@ class Stepper {
 
 /// The stepper for the effects that are named in `laws`: the one place where they become types.
 std::unique_ptr<Stepper> make_stepper(const StepLaws& laws, const StepSolver& solver);
+/// The same with solvers that the caller brings, whatever the name.
+std::unique_ptr<Stepper> make_stepper(const StepLaws& laws, const StepSolver& solver,
+                                      const ContactSolvers& solvers);
 
 }  // namespace drumlin::particles

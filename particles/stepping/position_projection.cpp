@@ -13,11 +13,12 @@ namespace {
 /// that: a few sweeps would not lift it off the grains, its force would push it further in each step, and
 /// overlap would grow without end (docs/decisions/position-projection.md). Inertia is no matter of positions.
 /// A wall without force keeps its mass: one of huge mass is a fixed wall.
-void add_driven_walls(const Bodies& bodies, const WallStep& walls, DrivenFrictionlessProblem::Delassus& W) {
+void add_driven_walls(const Bodies& bodies, const WallStep& walls, FrictionlessProblem::Delassus& W) {
+  W.driven.clear();
+  if (walls.driven.empty()) return;
   double of_a_grain = 0;
   for (const double w : bodies.inverse_mass) of_a_grain += w;
   of_a_grain /= static_cast<double>(bodies.count());
-  W.driven.clear();
   for (const Driven& wall : walls.driven) {
     const bool presses = wall.force != 0;
     W.driven.push_back({wall.direction.x, wall.direction.z,
@@ -27,7 +28,7 @@ void add_driven_walls(const Bodies& bodies, const WallStep& walls, DrivenFrictio
 }
 
 /// Adds a cell under pressure, with its inertia: it takes up what all contacts ask for together.
-void add_cell(const MovingCell* cell, DrivenFrictionlessProblem::Delassus& W) {
+void add_cell(const MovingCell* cell, FrictionlessProblem::Delassus& W) {
   W.cell.reset();
   if (cell == nullptr) return;
   W.cell = CellBody{cell->response.inverse_inertia_x, cell->response.inverse_inertia_z};
@@ -36,9 +37,8 @@ void add_cell(const MovingCell* cell, DrivenFrictionlessProblem::Delassus& W) {
 
 }  // namespace
 
-template <bool with_driven>
-void PositionProjection<with_driven>::apply(const Movable& movable, const ClosePairs& pairs,
-                                            const SweepPlan& plan, const ProjectionRule& projection) {
+void PositionProjection::apply(const Movable& movable, const ClosePairs& pairs, const SweepPlan& plan,
+                               const ProjectionRule& projection) {
   auto& [bodies, walls, driven, cell] = movable;
   if (!pairs.overlap) return;
   const TeamLoops loops(work_.team);
@@ -46,9 +46,9 @@ void PositionProjection<with_driven>::apply(const Movable& movable, const CloseP
   W.inverse_mass.assign(bodies.inverse_mass.begin(), bodies.inverse_mass.end());
   W.inverse_mass.push_back(0);
   const auto fixed = static_cast<std::int32_t>(bodies.count());
-  if constexpr (with_driven) add_driven_walls(bodies, walls, W);
-  const bool gives_way = with_driven && movable.cell != nullptr && movable.cell->response.pressed();
-  if constexpr (with_driven) add_cell(gives_way ? movable.cell : nullptr, W);
+  add_driven_walls(bodies, walls, W);
+  const bool gives_way = movable.cell != nullptr && movable.cell->response.pressed();
+  add_cell(gives_way ? movable.cell : nullptr, W);
   W.renew(pairs.count());
   resize_closely(problem_.q, pairs.count());
   // Named anew: clang 14 captures no structured binding.
@@ -56,13 +56,11 @@ void PositionProjection<with_driven>::apply(const Movable& movable, const CloseP
     std::int32_t a = pairs.earlier[p];
     for (const ClosePair& pair : pairs.of(p)) {
       std::int32_t second = pair.j < 0 ? fixed : pair.j;
-      if constexpr (with_driven)
-        if (pair.j < 0 && !walls.driven_of_shape.empty()) second += 1 + walls.driven_of_shape[-1 - pair.j];
-      if constexpr (with_driven)
-        if (gives_way) {
-          const Point arm = arm_of(movable.bodies, pair.i, pair.j, pair.gap, {pair.n_x, pair.n_z});
-          W.arm_x[a] = arm.x, W.arm_z[a] = arm.z;
-        }
+      if (pair.j < 0 && !walls.driven_of_shape.empty()) second += 1 + walls.driven_of_shape[-1 - pair.j];
+      if (gives_way) {
+        const Point arm = arm_of(movable.bodies, pair.i, pair.j, pair.gap, {pair.n_x, pair.n_z});
+        W.arm_x[a] = arm.x, W.arm_z[a] = arm.z;
+      }
       W.set(a, pair.i, second, pair.n_x, pair.n_z);
       problem_.q[a++] = projection.wanted_gap(pair.gap);
     }
@@ -82,16 +80,11 @@ void PositionProjection<with_driven>::apply(const Movable& movable, const CloseP
       bodies.z[b] += moved[b].z;
     }
   });
-  if constexpr (with_driven)
-    for (std::size_t k = 0; k < walls.driven.size(); ++k) {
-      const auto& wall = moved[fixed + 1 + k];
-      shift_driven_wall(k, wall.x * W.driven[k].e_x + wall.z * W.driven[k].e_z, walls, driven[k]);
-    }
-  if constexpr (with_driven)
-    if (gives_way) stretch_cell(cell_answer(problem_, moved), cell->state, bodies);
+  for (std::size_t k = 0; k < walls.driven.size(); ++k) {
+    const auto& wall = moved[fixed + 1 + k];
+    shift_driven_wall(k, wall.x * W.driven[k].e_x + wall.z * W.driven[k].e_z, walls, driven[k]);
+  }
+  if (gives_way) stretch_cell(cell_answer(problem_, moved), cell->state, bodies);
 }
-
-template class PositionProjection<false>;
-template class PositionProjection<true>;
 
 }  // namespace drumlin::particles

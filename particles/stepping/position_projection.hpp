@@ -3,7 +3,6 @@
 // velocities stay.
 #include <cstdint>
 #include <span>
-#include <type_traits>
 #include <vector>
 
 #include "particles/bodies/bodies.hpp"
@@ -47,8 +46,7 @@ struct Movable {
 
 /// Solves 0 <= gap + n.(d_i - d_j), lambda >= 0 in the metric of the masses (the least displacement): a
 /// contact problem without friction, on positions. Overlaps ask for a share of themselves only. Walls that a
-/// force moves give way along their direction (`with_driven`); all others stay.
-template <bool with_driven>
+/// force moves give way along their direction; all others stay.
 class PositionProjection {
  public:
   void use(ThreadTeam* team) { work_.team = team; }
@@ -66,11 +64,9 @@ class PositionProjection {
   void apply(const Movable&, const ClosePairs& pairs, const SweepPlan& plan, const ProjectionRule&);
 
  private:
-  using Problem = std::conditional_t<with_driven, DrivenFrictionlessProblem, FrictionlessProblem>;
-
-  Problem problem_;
-  SolverWorkspace<Problem> work_;
-  Solution<Problem> solution_;
+  FrictionlessProblem problem_;
+  SolverWorkspace<FrictionlessProblem> work_;
+  Solution<FrictionlessProblem> solution_;
 };
 
 }  // namespace drumlin::particles

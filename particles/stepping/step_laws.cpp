@@ -21,7 +21,6 @@ StepLaws laws_of(const Scene& scene, const Scales& scales) {
   });
   laws.unknowns = unknowns_of(scene.effects);
   laws.energy_ledger = scene.output.energy_ledger;
-  laws.driven_walls = moves_walls_by_force(scene) || presses_cell(scene);
   laws.material_of_shape = walls_of(scene, scales).material_of_shape;
   if (scene.periodic_x) {
     const double unit = 1e-3 / scales.length_m;

@@ -13,7 +13,6 @@ namespace drumlin::particles {
 struct StepLaws : EffectsOf<LawOf> {
   int unknowns = 1;  ///< of a contact
   bool energy_ledger = false;
-  bool driven_walls = false;  ///< whether contacts move a wall, or the cell, in some stage
   Period period;
   std::vector<std::uint8_t> material_of_shape;  ///< empty when no law asks for it
   double detection_margin = 0.02;               ///< d; pairs closer than this are always candidates

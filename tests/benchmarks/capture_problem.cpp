@@ -9,8 +9,9 @@
 #include "apps/support/program.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/documents/number_text.hpp"
-#include "particles/io/contact_problem_file.hpp"
 #include "particles/io/snapshot_file.hpp"
+#include "particles/lab/block_problem.hpp"
+#include "particles/lab/contact_problem_file.hpp"
 #include "particles/scene/scene_file.hpp"
 #include "tests/benchmarks/flow_from_snapshot.hpp"
 
@@ -25,7 +26,7 @@ void capture(const std::vector<std::string>& words) {
   const int steps = checked_count(words[2], {"command line", 0, "STEPS"});
   if (steps == 0) throw InputError("STEPS: at least 1");
   for (int k = 0; k < steps && !simulation.finished(); ++k) (void)simulation.step();
-  const auto problem = simulation.stepper().last_problem();
+  const auto problem = block_problem(simulation.stepper().last_problem());
   if (!problem) throw InputError("a file cannot hold the contact problems of this scene");
   write_contact_problem(words[3], *problem, simulation.last_places(),
                         fmt::format("{}: step {} of its flow", scene.title, steps));

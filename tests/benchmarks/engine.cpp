@@ -105,8 +105,8 @@ Json times_to_residual(const Flow& flow, double tolerance, int repetitions) {
   rule.max_sweeps = 20000;
   rule.max_seconds = 1;  // per solve; what takes longer counts as missed
   std::vector<Contestant> contestants;
-  contestants.reserve(contact_solver_names().size());
-  for (const auto& solver : contact_solver_names()) contestants.emplace_back(flow, solver, 1, rule);
+  contestants.reserve(any_solver_names().size());
+  for (const auto& solver : any_solver_names()) contestants.emplace_back(flow, solver, 1, rule);
   race(flow, contestants, repetitions);
   const auto plain = std::find_if(contestants.begin(), contestants.end(),
                                   [](const Contestant& c) { return c.solver == "nlgs-scalar"; });
@@ -204,7 +204,7 @@ void measure(Json& result, const Scene& scene, const std::filesystem::path& cach
   result["memory"] = {{"discs", standard}, {"peak_mb", peak_memory_mb(scene, standard, cache)}};
   const Flow flow = flow_of(scene, standard, steps, cache);
   result["flow"] = {{"discs", standard}, {"steps", flow.steps.size()}, {"repetitions", repetitions}};
-  std::vector<std::string> sweeping = contact_solver_names();
+  std::vector<std::string> sweeping = any_solver_names();
   std::erase(sweeping, "reference");  // a sweep of it is a factorisation
   result["ns_per_contact_and_sweep"] = sweep_costs(flow, sweeping, repetitions);
   keep("sweeps");

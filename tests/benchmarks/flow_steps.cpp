@@ -8,6 +8,7 @@
 #include "coupling/common/child_process.hpp"
 #include "coupling/common/errors.hpp"
 #include "particles/io/checkpoint_file.hpp"
+#include "particles/lab/any_solver.hpp"
 #include "particles/scene/scene_file.hpp"
 
 namespace drumlin::benchmark {
@@ -83,7 +84,8 @@ Flow flow_of(const Scene& like, int discs, int steps, const std::filesystem::pat
 }
 
 Replay::Replay(const Flow& flow, const std::string& solver, int threads, const StoppingRule& rule)
-    : time_step_(flow.time_step), stepper_(make_stepper(flow.laws, {solver, rule, {}, threads})) {}
+    : time_step_(flow.time_step),
+      stepper_(make_stepper(flow.laws, {solver, rule, {}, threads}, any_solvers(solver))) {}
 
 StepReport Replay::operator()(const FlowStep& step) {
   work_ = step;

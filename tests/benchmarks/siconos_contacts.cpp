@@ -22,7 +22,7 @@
 #include "coupling/common/machine_load.hpp"
 #include "coupling/documents/number_text.hpp"
 #include "particles/contact/residual.hpp"
-#include "particles/io/contact_problem_file.hpp"
+#include "particles/lab/contact_problem_file.hpp"
 
 namespace {
 

@@ -196,12 +196,5 @@ TEST(DrivenWall, AddsOneBodyAndNoUnknown) {
   EXPECT_EQ(simulation.state().driven.size(), 1u);
 }
 
-TEST(DrivenWall, IsRefusedByASolverThatDoesNotKnowIt) {
-  const TemporaryFolder folder;
-  Scene scene = column(3, 1, 1, 0.05, folder);
-  scene.solver.name = "cpg";
-  EXPECT_THROW(Simulation{scene}, InputError);
-}
-
 }  // namespace
 }  // namespace drumlin

@@ -1,6 +1,6 @@
 // Fuzz target: a contact problem, described by lines (h5_recipe.hpp), and some sweeps over what was accepted.
-#include "particles/io/contact_problem_file.hpp"
-#include "particles/solver/contact_solver.hpp"
+#include "particles/lab/any_solver.hpp"
+#include "particles/lab/contact_problem_file.hpp"
 #include "tests/fuzz/h5_recipe.hpp"
 #include "tests/fuzz/one_input.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -18,6 +18,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     particles::SolverWorkspace<particles::BlockProblem> work;
     particles::StoppingRule rule;
     rule.max_sweeps = 5;
-    (void)particles::solve_nlgs(read.problem, rule, work, solution);
+    (void)particles::any_solver<particles::BlockProblem>("nlgs")(read.problem, rule, work, solution);
   });
 }

@@ -1,16 +1,16 @@
 // The backward error of impulses, and contacts that change their state.
-#include "particles/accuracy/backward_error.hpp"
+#include "particles/lab/backward_error.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "particles/accuracy/state_changes.hpp"
-#include "particles/contact/disc_problem.hpp"
 #include "particles/contact/residual.hpp"
-#include "particles/io/contact_problem_file.hpp"
-#include "particles/solver/contact_solver.hpp"
+#include "particles/lab/any_solver.hpp"
+#include "particles/lab/contact_problem_file.hpp"
+#include "particles/lab/disc_problem.hpp"
+#include "particles/lab/state_changes.hpp"
 #include "tests/support/data_folder.hpp"
 
 namespace drumlin {
@@ -48,7 +48,7 @@ std::vector<double> solved(const BlockProblem& problem, const char* solver, doub
   SolverWorkspace<CoulombSpinProblem> work;
   work.team = &team;
   Solution<CoulombSpinProblem> solution;
-  (void)contact_solver<CoulombSpinProblem>(solver)(discs, rule, work, solution);
+  (void)any_solver<CoulombSpinProblem>(solver)(discs, rule, work, solution);
   return solution.impulses;
 }
 

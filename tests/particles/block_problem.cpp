@@ -1,5 +1,5 @@
 // Bodies and blocks are two forms of one problem.
-#include "particles/contact/block_problem.hpp"
+#include "particles/lab/block_problem.hpp"
 
 #include <gtest/gtest.h>
 
@@ -93,10 +93,14 @@ TYPED_TEST(BlockForm, IsSymmetricWithDiagonalsThatRepeatTheRows) {
     }
 }
 
-TEST(BlockProblem, OfBlocksIsItself) {
+TEST(BlockProblem, OfAStepIsNoneWhereAFileCannotHoldIt) {
   std::vector<double> r;
-  const BlockProblem blocks = block_problem(random_problem<CoulombProblem>(2, r));
-  EXPECT_EQ(block_problem(blocks).W.block, blocks.W.block);
+  auto problem = random_problem<CoulombProblem>(2, r);
+  EXPECT_EQ(block_problem(DiscProblem(&problem)).value().W.block, block_problem(problem).W.block);
+  problem.W.cell = CellBody{};
+  EXPECT_FALSE(block_problem(DiscProblem(&problem)));
+  const RollingProblem rolling;
+  EXPECT_FALSE(block_problem(DiscProblem(&rolling)));
 }
 
 TEST(BlockProblem, ContactsThatShareOnlyAWallAreNotCoupled) {

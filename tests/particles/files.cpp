@@ -6,10 +6,10 @@
 #include "coupling/common/errors.hpp"
 #include "coupling/files/h5_reader.hpp"
 #include "coupling/files/h5_writer.hpp"
-#include "particles/io/contact_problem_file.hpp"
 #include "particles/io/snapshot_file.hpp"
+#include "particles/lab/any_solver.hpp"
+#include "particles/lab/contact_problem_file.hpp"
 #include "particles/scene/random.hpp"
-#include "particles/solver/contact_solver.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace drumlin {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "particles/io/contact_problem_file.hpp"
-#include "particles/solver/contact_solver.hpp"
+#include "particles/lab/any_solver.hpp"
+#include "particles/lab/contact_problem_file.hpp"
 #include "tests/support/data_folder.hpp"
 
 namespace drumlin {
@@ -32,7 +32,7 @@ class ProblemSet : public testing::TestWithParam<std::string> {
   SolveReport solve(const std::string& solver, const StoppingRule& rule, std::vector<double>& r) const {
     SolverWorkspace<BlockProblem> work;
     Solution<BlockProblem> solution;
-    const SolveReport report = contact_solver<BlockProblem>(solver)(problem, rule, work, solution);
+    const SolveReport report = any_solver<BlockProblem>(solver)(problem, rule, work, solution);
     r = solution.impulses;
     return report;
   }
@@ -43,7 +43,7 @@ TEST_P(ProblemSet, IsSmall) { EXPECT_LT(fs::file_size(file), 1'000'000u); }
 TEST_P(ProblemSet, EverySolverEndsInTheConesBetterThanItBegan) {
   const std::vector<double> nothing(problem.q.size(), 0.0);
   const double before = residual_of(problem, std::span<const double>(nothing)).rms;
-  for (const std::string& solver : contact_solver_names()) {
+  for (const std::string& solver : any_solver_names()) {
     StoppingRule rule;
     rule.tolerance = 1e-3;
     rule.max_sweeps = 500;

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <random>
 
-#include "particles/contact/block_problem.hpp"
-#include "particles/contact/disc_problem.hpp"
-#include "particles/solver/contact_solver.hpp"
-#include "particles/solver/proximal_newton.hpp"
-#include "particles/solver/reference_linear.hpp"
-#include "particles/solver/sparse_lu.hpp"
+#include "particles/lab/any_solver.hpp"
+#include "particles/lab/block_problem.hpp"
+#include "particles/lab/disc_problem.hpp"
+#include "particles/lab/proximal_newton.hpp"
+#include "particles/lab/reference_linear.hpp"
+#include "particles/lab/sparse_lu.hpp"
 
 namespace drumlin {
 using namespace particles;
@@ -108,7 +108,7 @@ SolveReport solved(const Problem& problem, int max_sweeps, double tolerance, std
   rule.max_sweeps = max_sweeps;
   SolverWorkspace<Problem> work;
   Solution<Problem> solution;
-  const SolveReport report = contact_solver<Problem>("reference")(problem, rule, work, solution);
+  const SolveReport report = any_solver<Problem>("reference")(problem, rule, work, solution);
   r = solution.impulses;
   return report;
 }
@@ -140,7 +140,7 @@ template <class Problem>
 SolveReport accelerated(const Problem& problem, const StoppingRule& rule) {
   SolverWorkspace<Problem> work;
   Solution<Problem> solution;
-  return contact_solver<Problem>("accelerated")(problem, rule, work, solution);
+  return any_solver<Problem>("accelerated")(problem, rule, work, solution);
 }
 
 TEST(Reference, IsNeverWorseThanItsStart) {
@@ -174,7 +174,7 @@ TEST(Reference, FactorisesNothingWhenItsTimeIsUp) {
   rule.max_seconds = 0;
   SolverWorkspace<CoulombSpinProblem> work;
   Solution<CoulombSpinProblem> solution;
-  const auto report = contact_solver<CoulombSpinProblem>("reference")(problem, rule, work, solution);
+  const auto report = any_solver<CoulombSpinProblem>("reference")(problem, rule, work, solution);
   EXPECT_EQ(report.status, Status::out_of_time);
   EXPECT_EQ(report.sweeps, accelerated(problem, rule).sweeps);  // a factorisation counts as a sweep
 }

@@ -6,8 +6,8 @@
 #include <random>
 
 #include "coupling/common/errors.hpp"
-#include "particles/contact/problems.hpp"
-#include "particles/solver/contact_solver.hpp"
+#include "particles/contact_law/coulomb_coupled.hpp"
+#include "particles/lab/any_solver.hpp"
 
 namespace drumlin {
 using namespace particles;
@@ -24,7 +24,7 @@ class Solver : public testing::TestWithParam<std::string> {
     rule.max_sweeps = 200000;
     SolverWorkspace<Problem> work;
     Solution<Problem> solution;
-    const SolveReport report = contact_solver<Problem>(GetParam())(problem, rule, work, solution);
+    const SolveReport report = any_solver<Problem>(GetParam())(problem, rule, work, solution);
     const std::vector<double>& r = solution.impulses;
     EXPECT_EQ(report.status, Status::converged) << report.residual.rms << " after " << report.sweeps;
     EXPECT_LE(residual_of(problem, std::span<const double>(r)).rms, tolerance);
@@ -100,8 +100,8 @@ CoulombSpinProblem random_problem(int bodies, int contacts, double mu, unsigned 
     const int j = a % 4 == 0 ? bodies : static_cast<int>((i + 1 + bits() % (bodies - 1)) % bodies);
     const double angle = 6.283185307179586 * uniform();
     problem.W.add(i, j, std::cos(angle), std::sin(angle));
-    problem.q.push_back(problem.W.normal_velocity(velocity, a));
-    problem.q.push_back(problem.W.tangential_velocity(velocity, a));
+    const auto u = problem.W.relative_velocity(velocity, a);
+    problem.q.insert(problem.q.end(), u.begin(), u.end());
     problem.mu.push_back(mu);
   }
   return problem;
@@ -158,7 +158,7 @@ TEST_P(Solver, SweepsRunOutAndSaySo) {
   rule.max_sweeps = 3;
   SolverWorkspace<CoulombSpinProblem> work;
   Solution<CoulombSpinProblem> solution;
-  const auto report = contact_solver<CoulombSpinProblem>(GetParam())(problem, rule, work, solution);
+  const auto report = any_solver<CoulombSpinProblem>(GetParam())(problem, rule, work, solution);
   const std::vector<double>& r = solution.impulses;
   EXPECT_EQ(report.status, Status::out_of_sweeps);
   EXPECT_EQ(report.sweeps, 3);
@@ -172,7 +172,7 @@ TEST_P(Solver, ImpulsesLieInTheCone) {
   rule.tolerance = 0;
   SolverWorkspace<CoulombSpinProblem> work;
   Solution<CoulombSpinProblem> solution;
-  (void)contact_solver<CoulombSpinProblem>(GetParam())(problem, rule, work, solution);
+  (void)any_solver<CoulombSpinProblem>(GetParam())(problem, rule, work, solution);
   const std::vector<double>& r = solution.impulses;
   for (int a = 0; a < problem.contacts(); ++a) {
     EXPECT_GE(r[2 * a], 0);
@@ -186,7 +186,7 @@ TEST_P(Solver, NotANumberIsReported) {
   StoppingRule rule;
   SolverWorkspace<CoulombSpinProblem> work;
   Solution<CoulombSpinProblem> solution;
-  EXPECT_EQ(contact_solver<CoulombSpinProblem>(GetParam())(problem, rule, work, solution).status,
+  EXPECT_EQ(any_solver<CoulombSpinProblem>(GetParam())(problem, rule, work, solution).status,
             Status::not_finite);
 }
 
@@ -197,7 +197,7 @@ TEST_P(Solver, ReturnsTheVelocitiesOfItsImpulses) {
   rule.tolerance = 0;
   SolverWorkspace<CoulombSpinProblem> work;
   Solution<CoulombSpinProblem> solution;
-  (void)contact_solver<CoulombSpinProblem>(GetParam())(problem, rule, work, solution);
+  (void)any_solver<CoulombSpinProblem>(GetParam())(problem, rule, work, solution);
   Velocities<CoulombSpinProblem::Delassus> expected;
   problem.W.velocities(solution.impulses, problem.q, expected.bodies, expected.contacts);
   EXPECT_EQ(solution.velocities.contacts, expected.contacts);
@@ -214,7 +214,7 @@ TEST_P(Solver, AWorkspaceCarriesNothingFromOneProblemToTheNext) {
   StoppingRule rule;
   rule.max_sweeps = 25;
   rule.tolerance = 0;
-  const auto solve = contact_solver<CoulombSpinProblem>(GetParam());
+  const auto solve = any_solver<CoulombSpinProblem>(GetParam());
   SolverWorkspace<CoulombSpinProblem> used, fresh;
   Solution<CoulombSpinProblem> before, with_used, with_fresh;
   (void)solve(first, rule, used, before);
@@ -224,7 +224,7 @@ TEST_P(Solver, AWorkspaceCarriesNothingFromOneProblemToTheNext) {
   EXPECT_EQ(with_used.velocities.contacts, with_fresh.velocities.contacts);
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, Solver, testing::ValuesIn(contact_solver_names()), [](const auto& test) {
+INSTANTIATE_TEST_SUITE_P(Every, Solver, testing::ValuesIn(any_solver_names()), [](const auto& test) {
   std::string name = test.param;  // letters and underscores only
   std::replace(name.begin(), name.end(), '-', '_');
   return name;
@@ -239,7 +239,7 @@ TEST(ContactSolver, AccelerationSavesMostSweepsOnATallColumn) {
     rule.max_sweeps = 100000;
     SolverWorkspace<CoulombSpinProblem> work;
     Solution<CoulombSpinProblem> solution;
-    const auto report = contact_solver<CoulombSpinProblem>(name)(problem, rule, work, solution);
+    const auto report = any_solver<CoulombSpinProblem>(name)(problem, rule, work, solution);
     EXPECT_EQ(report.status, Status::converged);
     return report.sweeps;
   };
@@ -248,7 +248,7 @@ TEST(ContactSolver, AccelerationSavesMostSweepsOnATallColumn) {
 }
 
 TEST(ContactSolver, UnknownNameIsRefusedWithTheKnownOnes) {
-  EXPECT_THROW(contact_solver<CoulombSpinProblem>("magic"), InputError);
+  EXPECT_THROW(any_solver<CoulombSpinProblem>("magic"), InputError);
 }
 
 TEST(PlanarContact, EveryCaseSatisfiesItsLaws) {

@@ -4,9 +4,9 @@
 #include <stdexcept>
 
 #include "coupling/common/errors.hpp"
-#include "particles/contact/matrix_problem.hpp"
+#include "particles/lab/matrix_problem.hpp"
+#include "particles/lab/solve_contacts.hpp"
 #include "particles/scene/scene_file.hpp"
-#include "particles/solver/solve_contacts.hpp"
 #include "particles/stepping/run_through.hpp"
 
 namespace drumlin::particles {

@@ -10,7 +10,7 @@
 #include <set>
 
 #include "particles/contact/problems.hpp"
-#include "particles/solver/contact_solver.hpp"
+#include "particles/lab/any_solver.hpp"
 
 namespace drumlin {
 using namespace particles;
@@ -119,7 +119,7 @@ std::vector<double> solved(const std::string& solver, ThreadTeam* team, int swee
   rule.tolerance = 0;
   rule.max_sweeps = sweeps;
   Solution<CoulombSpinProblem> solution;
-  (void)contact_solver<CoulombSpinProblem>(solver)(problem, rule, work, solution);
+  (void)any_solver<CoulombSpinProblem>(solver)(problem, rule, work, solution);
   return solution.impulses;
 }
 
@@ -180,7 +180,7 @@ TEST(Strips, SweepsAgreeWithThoseOfOneContactAfterTheOther) {
   SolverWorkspace<CoulombSpinProblem> work;
   Solution<CoulombSpinProblem> in_strips, scalar;
   (void)solve_nlgs(sorted, rule, work, in_strips);
-  (void)contact_solver<CoulombSpinProblem>("nlgs-scalar")(sorted, rule, work, scalar);
+  (void)any_solver<CoulombSpinProblem>("nlgs-scalar")(sorted, rule, work, scalar);
   double worst = 0;
   for (std::size_t k = 0; k < scalar.impulses.size(); ++k)
     worst = std::max(worst, std::abs(in_strips.impulses[k] - scalar.impulses[k]));
@@ -188,11 +188,11 @@ TEST(Strips, SweepsAgreeWithThoseOfOneContactAfterTheOther) {
 }
 
 /// The lattice with rolling resistance, its walls moved by forces, in the order of its plan.
-DrivenRollingProblem rolling_lattice(int columns, int rows, bool driven) {
+RollingProblem rolling_lattice(int columns, int rows, bool driven) {
   const auto source = lattice(columns, rows, 4);
   std::vector<std::int32_t> order;
   const SweepPlan plan = sweep_plan(columns * rows, source.W.i, source.W.j, order);
-  DrivenRollingProblem problem;
+  RollingProblem problem;
   auto& W = problem.W;
   W.inverse_mass = source.W.inverse_mass;
   if (driven) {
@@ -210,15 +210,14 @@ DrivenRollingProblem rolling_lattice(int columns, int rows, bool driven) {
   return problem;
 }
 
-std::vector<double> solved(const DrivenRollingProblem& problem, const char* solver, ThreadTeam* team,
-                           int sweeps) {
-  SolverWorkspace<DrivenRollingProblem> work;
+std::vector<double> solved(const RollingProblem& problem, const char* solver, ThreadTeam* team, int sweeps) {
+  SolverWorkspace<RollingProblem> work;
   work.team = team;
   StoppingRule rule;
   rule.tolerance = 0;
   rule.max_sweeps = sweeps;
-  Solution<DrivenRollingProblem> solution;
-  (void)contact_solver<DrivenRollingProblem>(solver)(problem, rule, work, solution);
+  Solution<RollingProblem> solution;
+  (void)any_solver<RollingProblem>(solver)(problem, rule, work, solution);
   return solution.impulses;
 }
 
@@ -258,9 +257,9 @@ TEST(Strips, DrivenWallsAndRollingConvergeAsOneContactAfterTheOtherDoes) {
   rule.max_sweeps = 100000;
   std::vector<std::vector<double>> velocities;
   for (const char* solver : {"accelerated", "nlgs-scalar"}) {
-    SolverWorkspace<DrivenRollingProblem> work;
-    Solution<DrivenRollingProblem> solution;
-    const auto report = contact_solver<DrivenRollingProblem>(solver)(problem, rule, work, solution);
+    SolverWorkspace<RollingProblem> work;
+    Solution<RollingProblem> solution;
+    const auto report = any_solver<RollingProblem>(solver)(problem, rule, work, solution);
     EXPECT_EQ(report.status, Status::converged) << solver;
     velocities.push_back(solution.velocities.contacts);
   }
@@ -281,7 +280,7 @@ TEST(Strips, ASolveThatRunsOutReturnsTheBestThatItLookedAt) {
       rule.max_sweeps = sweeps;
       SolverWorkspace<CoulombSpinProblem> work;
       Solution<CoulombSpinProblem> solution;
-      const auto report = contact_solver<CoulombSpinProblem>(solver)(problem, rule, work, solution);
+      const auto report = any_solver<CoulombSpinProblem>(solver)(problem, rule, work, solution);
       EXPECT_EQ(report.status, Status::out_of_sweeps);
       EXPECT_EQ(report.residual.rms, residual_of(problem, solution).rms);
       EXPECT_LE(report.residual.rms, best * 1.001)
@@ -307,8 +306,7 @@ TEST(Strips, AColumnOfNDiscsTakesSomeNSweeps) {
     rule.max_sweeps = 20 * discs;
     SolverWorkspace<CoulombSpinProblem> work;
     Solution<CoulombSpinProblem> solution;
-    const auto report =
-        contact_solver<CoulombSpinProblem>("accelerated-double")(problem, rule, work, solution);
+    const auto report = any_solver<CoulombSpinProblem>("accelerated-double")(problem, rule, work, solution);
     EXPECT_EQ(report.status, Status::converged) << discs << ", " << report.residual.rms;
   }
 }

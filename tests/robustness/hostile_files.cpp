@@ -11,11 +11,11 @@
 #include "coupling/files/field_map_file.hpp"
 #include "coupling/files/h5_writer.hpp"
 #include "particles/io/checkpoint_file.hpp"
-#include "particles/io/contact_problem_file.hpp"
 #include "particles/io/snapshot_file.hpp"
+#include "particles/lab/any_solver.hpp"
+#include "particles/lab/contact_problem_file.hpp"
 #include "particles/scene/random.hpp"
 #include "particles/scene/scene_file.hpp"
-#include "particles/solver/contact_solver.hpp"
 #include "tests/support/data_folder.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -261,7 +261,7 @@ TEST(HostileFile, NoContactProblemBreaksReaderOrSolver) {
       SolverWorkspace<BlockProblem> work;
       StoppingRule rule;
       rule.max_sweeps = 20;
-      (void)solve_nlgs(problem, rule, work, solution);
+      (void)any_solver<BlockProblem>("nlgs")(problem, rule, work, solution);
     });
   }
   EXPECT_GT(read, 0);

@@ -36,7 +36,7 @@ time_step_s = 1e-3
 snapshots = 4
 motions = [{ wall = "drum", kind = "rotation", speed_rpm = 60, center_mm = [0, 0] }]
 [solver]
-name = "nncg"
+name = "nlgs"
 tolerance = 1e-6
 penetration_tolerance = 1e3
 max_sweeps = 200

@@ -23,7 +23,7 @@
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/measurement/motion_difference.hpp"
 #include "particles/scene/scene_file.hpp"
-#include "particles/solver/contact_solver.hpp"
+#include "particles/solver/solver_names.hpp"
 
 namespace drumlin::apps {
 namespace {

@@ -42,11 +42,10 @@ double load_error(particles::Simulation& simulation) {
   return worst / weight;
 }
 
-std::vector<HardCheck> column(int count, const std::string& solver) {
+std::vector<HardCheck> column(int count) {
   std::vector<TrialDisc> discs;
   for (int k = 0; k < count; ++k) discs.push_back({0, 0.5 + k});
   Trial trial = resting(discs, 0.4);
-  trial.scene.solver.name = solver;
   particles::Simulation simulation = trial.start();
   const double error = load_error(simulation);
   return {at_most("error of a force / weight", 1e-5, error,
@@ -58,7 +57,7 @@ std::vector<HardCheck> column(int count, const std::string& solver) {
                   "at rest; as above")};
 }
 
-std::vector<HardCheck> mass_ratios(const std::string& solver) {
+std::vector<HardCheck> mass_ratios() {
   std::vector<HardCheck> checks;
   const double light = particles::mass_of_disc(0.5);
   for (const double ratio : {1e3, 1e6})
@@ -67,7 +66,6 @@ std::vector<HardCheck> mass_ratios(const std::string& solver) {
       for (int k = 0; k < 4; ++k)
         discs.push_back({0, 0.5 + k, 1, 0, 0, 0, (k % 2 == 0) == heavy_first ? light * ratio : light});
       Trial trial = resting(discs, 0.4);
-      trial.scene.solver.name = solver;
       particles::Simulation simulation = trial.start();
       checks.push_back(at_most("error of a force / weight, 1:" + std::to_string(static_cast<int>(ratio)) +
                                    (heavy_first ? ", heavy below" : ", light below"),
@@ -180,16 +178,10 @@ std::vector<HardCheck> pressed_with_friction(double mu) {
 
 std::vector<HardCase> static_cases() {
   return {
-      {"column-100", "contact k of a column carries the weight above; solver nncg", true,
-       [] { return column(100, "nncg"); }},
-      {"column-1000", "the same with 1000 discs", false, [] { return column(1000, "nncg"); }},
-      {"column-1000-default", "the same with the default solver", false,
-       [] { return column(1000, particles::SolverSettings{}.name); }},
-      {"mass-ratio",
-       "columns of heavy and light discs in turn, 1:1e3 and 1:1e6, solver nncg: the weight above", true,
-       [] { return mass_ratios("nncg"); }},
-      {"mass-ratio-default", "the same with the default solver", true,
-       [] { return mass_ratios(particles::SolverSettings{}.name); }},
+      {"column-100", "contact k of a column carries the weight above", true, [] { return column(100); }},
+      {"column-1000", "the same with 1000 discs", false, [] { return column(1000); }},
+      {"mass-ratio", "columns of heavy and light discs in turn, 1:1e3 and 1:1e6: the weight above", true,
+       mass_ratios},
       {"wedge", "a disc in a wedge of half angle alpha, mu >= tan alpha: at rest, forces bounded", true,
        wedge},
       {"crystal", "a monodisperse crystal at rest (hyperstatic): the walls carry its weight", true, crystal},

@@ -17,7 +17,6 @@ const double unit_s = std::sqrt(unit_mm * 1e-3 / 9.81);
 Trial::Trial() {
   scene.title = "hard case";
   scene.grains.density_kg_m3 = 1000;
-  scene.solver.name = "nncg";
   scene.solver.tolerance = 1e-9;
   scene.solver.penetration_tolerance = 1e-9;
   scene.solver.max_sweeps = 5000;

@@ -13,7 +13,7 @@ struct TrialDisc {
   double mass = 0;  ///< 0: that of its diameter
 };
 
-/// A scene whose unit d is 1 mm and g = 9.81 m/s2. Its solver is strict: nncg, to a residual of 1e-9.
+/// A scene whose unit d is 1 mm and g = 9.81 m/s2. Its solver is strict: to a residual of 1e-9.
 struct Trial {
   Trial();
   particles::Scene scene;
