@@ -19,7 +19,7 @@ struct ContactProblem {
 
   Delassus W;
   std::vector<double> q;
-  std::vector<double> mu;  ///< dim - 1 per contact: friction, rolling; empty without friction
+  std::vector<double> mu;  ///< the coefficients of the law, dim - 1 per contact
   double time_step = 1;    ///< turns -u_n into a predicted penetration
 
   int contacts() const { return static_cast<int>(q.size()) / dim; }
@@ -28,7 +28,7 @@ struct ContactProblem {
   }
 };
 
-/// Whether friction or rolling resistance of a contact is steep.
+/// Whether a contact has a steep coefficient.
 template <class Problem>
 bool is_steep(const Problem& problem) {
   return std::any_of(problem.mu.begin(), problem.mu.end(), [](double mu) { return contact_law::steep(mu); });

@@ -31,7 +31,7 @@ class DiscDelassus {
  public:
   static constexpr int dim = dim_;
   static constexpr bool spin = with_spin;
-  static_assert(dim < 3 || spin, "rolling is a matter of spin");
+  static_assert(dim < 3 || spin, "a couple turns discs");
   using Velocity = BodyVelocity;
   /// Impulses seen through the bodies: velocity changes M^-1 H^T r.
   using State = std::vector<Velocity>;
@@ -39,7 +39,7 @@ class DiscDelassus {
 
   std::vector<std::int32_t> i, j;    ///< bodies; the normal points from j to i
   std::vector<double> n_x, n_z;      ///< unit normal; the tangent is (n_z, -n_x)
-  std::vector<double> lever;         ///< R_eff / r_i = r_j / (r_i + r_j), 1 at a wall; empty without rolling
+  std::vector<double> lever;         ///< R_eff / r_i = r_j / (r_i + r_j), 1 at a wall; empty if dim < 3
   std::vector<double> inverse_W_nn;  ///< 1 / (1/m_i + 1/m_j), driven walls and the cell aside
   std::vector<double> inverse_mass;  ///< of each body; 0 for the fixed one and the driven ones
   std::vector<DrivenBody> driven;
@@ -63,7 +63,7 @@ class DiscDelassus {
   /// Whether contact a pushes more than its grains.
   bool pushes_more(int a) const { return cell || driven_wall(a) != nullptr; }
 
-  /// Masses must be there. `lever_i` without rolling: of no effect.
+  /// Masses must be there. `lever_i` if dim < 3: of no effect.
   void add(std::int32_t body_i, std::int32_t body_j, double normal_x, double normal_z, double lever_i = 1) {
     resize(i.size() + 1);
     set(contacts() - 1, body_i, body_j, normal_x, normal_z, lever_i);
@@ -138,7 +138,7 @@ class DiscDelassus {
     return LocalBlock<dim>(W);
   }
 
-  /// lambda_max(W_aa), the scale of the residual; of contacts without rolling that push grains alone in parts
+  /// lambda_max(W_aa), the scale of the residual; of contacts without couples that push grains alone in parts
   /// of W_nn.
   static constexpr double largest_in_W_nn = dim == 2 && spin ? 3 : 1;
   double largest_eigenvalue(int a) const {

@@ -15,8 +15,19 @@ using CoulombProblem = ContactProblem<DiscDelassus<2, false>>;  ///< bodies that
 using CoulombSpinProblem = ContactProblem<DiscDelassus<2, true>>;
 using RollingProblem = ContactProblem<DiscDelassus<3, true>>;
 
+// For each of them, with its numbers of unknowns and whether bodies turn.
+#define DRUMLIN_EACH_DISC_PROBLEM(X) \
+  X(FrictionlessProblem, 1, false)   \
+  X(CoulombProblem, 2, false) X(CoulombSpinProblem, 2, true) X(RollingProblem, 3, true)
+
+/// For<Problem>... of all kinds in one type.
+template <template <class...> class Together, template <class> class For>
+using OfEachKind =
+    Together<For<FrictionlessProblem>, For<CoulombProblem>, For<CoulombSpinProblem>, For<RollingProblem>>;
+
+template <class Problem>
+using PointerTo = const Problem*;
 /// A problem of any of these kinds.
-using DiscProblem = std::variant<const FrictionlessProblem*, const CoulombProblem*, const CoulombSpinProblem*,
-                                 const RollingProblem*>;
+using DiscProblem = OfEachKind<std::variant, PointerTo>;
 
 }  // namespace drumlin::particles

@@ -17,9 +17,9 @@
 namespace drumlin::particles {
 
 /// With e_a = |r_a - P_K(r_a - rho_a (u_a + mu_a |u_t,a| n))| / rho_a and rho_a = 1 / lambda_max(W_aa), a
-/// velocity. With rolling resistance the shift of u_n is mu |u_t| + mu_r |u_r|. Where one of mu and mu_r is
-/// above 1 the shift would count an error of u_t so many times: there the parts are projected in turn, r_n on
-/// r_n >= 0, then the others on the bounds that this gives.
+/// velocity; with a couple the shift of u_n is mu |u_t| + mu_r |u_r|. Where one of mu and mu_r is above 1 the
+/// shift would count an error of u_t so many times: there the parts are projected in turn, r_n on r_n >= 0,
+/// then the others on the bounds that this gives.
 struct ContactResidual {
   double rms = 0;          ///< rms of e_a over the contacts / rms of all entries of q: "residual" in files
   double max = 0;          ///< largest e_a / rms of all entries of q: "residual_max" in files
@@ -94,8 +94,8 @@ constexpr bool of_discs = requires(const Problem& problem) {
   problem.W.inverse_mass;
 };
 
-/// e_a^2 of contacts from `first` on; on vectors where contacts push nothing but discs, which do not resist
-/// rolling.
+/// e_a^2 of contacts from `first` on; on vectors where contacts of one or two unknowns push nothing but
+/// discs.
 template <class Problem>
 void set_squared_errors(const Problem& problem, std::size_t first, std::span<const double> r,
                         std::span<const double> u, std::span<double> errors) {

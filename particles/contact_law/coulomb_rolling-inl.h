@@ -7,7 +7,7 @@ template <class N>
 struct InverseBlock<N, 3> {
   N nn, tt, rr;  ///< 1 / W_nn, 1 / W_tt, 1 / W_rr; W_nt = W_nr = 0
   N tr;          ///< W_tr itself
-  N tt_rolling;  ///< 1 / (W_tt - W_tr^2 / W_rr): friction with free rolling
+  N tt_reduced;  ///< 1 / (W_tt - W_tr^2 / W_rr): friction with free rolling
 };
 
 /// The impulse that solves the contact with the others as they stand: first the normal, then friction and
@@ -24,7 +24,7 @@ CONTACT_LAW std::array<N, 3> solved(const InverseBlock<N, 3>& W, const Coefficie
     n = positive_part(r[0] - u[0] * (W.nn * smaller(slide, roll)));
   }
   const N bound = mu[0] * n;
-  const N first = clamped(r[1] - (u[1] - W.tr * (W.rr * u[2])) * W.tt_rolling, bound);
+  const N first = clamped(r[1] - (u[1] - W.tr * (W.rr * u[2])) * W.tt_reduced, bound);
   const N roll = clamped(r[2] - W.rr * (u[2] + W.tr * (first - r[1])), mu[1] * n);
   return {n, clamped(r[1] - W.tt * (u[1] + W.tr * (roll - r[2])), bound), roll};
 }

@@ -2,7 +2,7 @@
 // disc has members x, z, the velocity of its centre, s = r omega, that of its rim, and inverse_mass.
 
 /// The normal points from j to i; the tangent is (n_z, -n_x). `lever` is R_eff / r_i = r_j / (r_i + r_j), 1
-/// at a wall, and read with rolling resistance alone.
+/// at a wall, and read with a couple alone.
 template <class N>
 struct ContactFrame {
   N n_x, n_z, lever;

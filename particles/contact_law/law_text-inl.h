@@ -5,7 +5,7 @@
 /// itself.
 inline constexpr double steep_friction = 1;
 
-/// Coefficients of a law of dim unknowns: friction, rolling.
+/// Coefficients of a law of dim unknowns, one for each but the normal one.
 template <class N, std::size_t dim>
 using Coefficients = std::array<N, dim - 1>;
 

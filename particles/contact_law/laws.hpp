@@ -1,6 +1,6 @@
 #pragma once
 // The laws of one contact on numbers. The number of unknowns of a contact (1 without friction, 2 with it, 3
-// with rolling resistance) is a property of the type, chosen once per solve: a scene without friction never
+// with a couple) is a property of the type, chosen once per solve: a scene without friction never
 // meets a branch about it.
 #include <algorithm>
 #include <array>

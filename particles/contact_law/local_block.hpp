@@ -47,7 +47,7 @@ struct LocalBlock {
     if constexpr (dim >= 2) inverse.tt = 1 / W.tt;
     if constexpr (dim == 3) {
       inverse.rr = 1 / W.rr, inverse.tr = W.tr;
-      inverse.tt_rolling = W.rr / (W.tt * W.rr - W.tr * W.tr);
+      inverse.tt_reduced = W.rr / (W.tt * W.rr - W.tr * W.tr);
     }
   }
 };

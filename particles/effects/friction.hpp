@@ -23,7 +23,7 @@ void describe(Visitor& v, Friction& keys) {
 /// The law: mu of each pair.
 inline PairLaw law_of(const Friction& key, const LawInput& in) { return pair_law(key, in.materials); }
 
-// Terms in a step: the tangential row of a contact of types Coulomb and CoulombRolling (contact/cone.hpp).
+// Terms in a step: the tangential row of a contact (contact_law/coulomb-inl.h).
 
 /// mu of a contact; its row of q is tangential_part() of the free relative velocity, and that of the rims
 /// where the grains spin (spin.hpp).

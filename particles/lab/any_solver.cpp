@@ -158,19 +158,19 @@ std::vector<std::string> any_solver_names() {
 template <class Problem>
 ContactSolver<Problem> any_solver(const std::string& name) {
   if (const auto solver = found<Problem>(name)) return solver;
-  throw InputError({InputProblem{"", 0, 0, "solver", "'" + name + "' does not know rolling resistance",
+  throw InputError({InputProblem{"", 0, 0, "solver", "'" + name + "' knows no couples at contacts",
                                  "accelerated, accelerated-double, nlgs, nncg, nlgs-scalar"}});
 }
 
 ContactSolvers any_solvers(const std::string& name) {
-  return {found<FrictionlessProblem>(name), found<CoulombProblem>(name), found<CoulombSpinProblem>(name),
-          found<RollingProblem>(name)};
+  return std::apply([&]<class... P>(ContactSolver<P>...) { return ContactSolvers{found<P>(name)...}; },
+                    ContactSolvers{});
 }
 
-template ContactSolver<FrictionlessProblem> any_solver(const std::string&);
-template ContactSolver<CoulombProblem> any_solver(const std::string&);
-template ContactSolver<CoulombSpinProblem> any_solver(const std::string&);
-template ContactSolver<RollingProblem> any_solver(const std::string&);
-template ContactSolver<BlockProblem> any_solver(const std::string&);
+#define DRUMLIN_INSTANTIATE(Problem, dim, spin) \
+  template ContactSolver<Problem> any_solver(const std::string&);
+DRUMLIN_EACH_DISC_PROBLEM(DRUMLIN_INSTANTIATE)
+DRUMLIN_INSTANTIATE(BlockProblem, 2, )
+#undef DRUMLIN_INSTANTIATE
 
 }  // namespace drumlin::particles

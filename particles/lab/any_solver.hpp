@@ -33,14 +33,14 @@ SolveReport solve_nncg(const Problem&, const StoppingRule&, SolverWorkspace<Prob
 /// Conjugate projected gradient (Renouf and Alart 2005; the paper, Sec. II) with a diagonal preconditioner:
 /// the quadratic problem of given friction bounds |r_t| <= b. Theirs moves the bounds b = mu r_n after every
 /// step, which stalls near 1e-2 on drums; here they move when the problem of the old ones is solved as well
-/// as its successor is known. A "sweep" is one product with W. Without rolling resistance.
+/// as its successor is known. A "sweep" is one product with W. At most two unknowns per contact.
 template <class Problem>
 SolveReport solve_cpg(const Problem&, const StoppingRule&, SolverWorkspace<Problem>&, Solution<Problem>&);
 
 /// As accurate as can be had: accelerated sweeps, plain ones, then proximal steps by a semismooth Newton
 /// method on the bodies (or blocks), until a tolerance or a limit ends it; both are asked before each Newton
-/// step. A Newton step, one sparse LU, counts as a "sweep". Returns the best impulses found. Without rolling
-/// resistance, driven walls and cells.
+/// step. A Newton step, one sparse LU, counts as a "sweep". Returns the best impulses found. At most two
+/// unknowns per contact, and neither driven walls nor cells.
 template <class Problem>
 SolveReport solve_reference(const Problem&, const StoppingRule&, SolverWorkspace<Problem>&,
                             Solution<Problem>&);

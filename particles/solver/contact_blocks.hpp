@@ -31,7 +31,7 @@ void set_place(const Problem& problem, std::int32_t c, std::int32_t i, std::int3
   if constexpr (dim == 3) {
     const auto inverse = W.block(a).inverse;
     block.mu_r[k] = number(problem.mu[2 * a + 1]), block.lever[k] = number(W.lever[a]);
-    block.inverse_W_rr[k] = number(inverse.rr), block.inverse_W_tt[k] = number(inverse.tt_rolling);
+    block.inverse_W_rr[k] = number(inverse.rr), block.inverse_W_tt[k] = number(inverse.tt_reduced);
   }
 }
 

@@ -64,11 +64,12 @@ ContactSolver<Problem> contact_solver(const std::string& name) {
 }
 
 ContactSolvers contact_solvers(const std::string& name) {
-  return {contact_solver<FrictionlessProblem>(name), contact_solver<CoulombProblem>(name),
-          contact_solver<CoulombSpinProblem>(name), contact_solver<RollingProblem>(name)};
+  return std::apply(
+      [&]<class... P>(ContactSolver<P>...) { return ContactSolvers{contact_solver<P>(name)...}; },
+      ContactSolvers{});
 }
 
-#define DRUMLIN_INSTANTIATE(Problem)                                                                     \
+#define DRUMLIN_INSTANTIATE(Problem, dim, spin)                                                          \
   template SolveReport solve_accelerated(const Problem&, const StoppingRule&, SolverWorkspace<Problem>&, \
                                          Solution<Problem>&);                                            \
   template SolveReport solve_accelerated_double(const Problem&, const StoppingRule&,                     \
@@ -76,10 +77,7 @@ ContactSolvers contact_solvers(const std::string& name) {
   template SolveReport solve_nlgs(const Problem&, const StoppingRule&, SolverWorkspace<Problem>&,        \
                                   Solution<Problem>&);                                                   \
   template ContactSolver<Problem> contact_solver<Problem>(const std::string&);
-DRUMLIN_INSTANTIATE(FrictionlessProblem)
-DRUMLIN_INSTANTIATE(CoulombProblem)
-DRUMLIN_INSTANTIATE(CoulombSpinProblem)
-DRUMLIN_INSTANTIATE(RollingProblem)
+DRUMLIN_EACH_DISC_PROBLEM(DRUMLIN_INSTANTIATE)
 #undef DRUMLIN_INSTANTIATE
 
 }  // namespace drumlin::particles

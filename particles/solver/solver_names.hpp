@@ -21,8 +21,7 @@ template <class Problem>
 using ContactSolver = SolveReport (*)(const Problem&, const StoppingRule&, SolverWorkspace<Problem>&,
                                       Solution<Problem>&);
 /// A solver for each kind of problem.
-using ContactSolvers = std::tuple<ContactSolver<FrictionlessProblem>, ContactSolver<CoulombProblem>,
-                                  ContactSolver<CoulombSpinProblem>, ContactSolver<RollingProblem>>;
+using ContactSolvers = OfEachKind<std::tuple, ContactSolver>;
 
 /// "accelerated", the default, and "nlgs". Those for study: particles/lab/any_solver.hpp.
 std::vector<std::string> contact_solver_names();

@@ -347,20 +347,16 @@ void StripProblem<T, dim, spin>::keep_driven() {
 }
 
 #define DRUMLIN_INSTANTIATE(T, dim, spin, Problem)                                                       \
+  template class StripProblem<T, dim, spin>;                                                             \
   template void StripProblem<T, dim, spin>::pack(const Problem&, const SweepPlan&,                       \
                                                  std::span<const std::int32_t>, std::span<const double>, \
                                                  const TeamLoops&, World*);                              \
   template void StripProblem<T, dim, spin>::unpack(const Problem&, bool, std::vector<double>&,           \
                                                    const TeamLoops&) const;
-#define DRUMLIN_INSTANTIATE_BOTH(dim, spin, Problem) \
-  template class StripProblem<double, dim, spin>;    \
-  template class StripProblem<float, dim, spin>;     \
+#define DRUMLIN_INSTANTIATE_BOTH(Problem, dim, spin) \
   DRUMLIN_INSTANTIATE(double, dim, spin, Problem)    \
   DRUMLIN_INSTANTIATE(float, dim, spin, Problem)
-DRUMLIN_INSTANTIATE_BOTH(1, false, FrictionlessProblem)
-DRUMLIN_INSTANTIATE_BOTH(2, false, CoulombProblem)
-DRUMLIN_INSTANTIATE_BOTH(2, true, CoulombSpinProblem)
-DRUMLIN_INSTANTIATE_BOTH(3, true, RollingProblem)
+DRUMLIN_EACH_DISC_PROBLEM(DRUMLIN_INSTANTIATE_BOTH)
 #undef DRUMLIN_INSTANTIATE_BOTH
 #undef DRUMLIN_INSTANTIATE
 

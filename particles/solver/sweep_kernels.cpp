@@ -61,7 +61,7 @@ HWY_INLINE Impulses<T, dim> load_numbers(const std::array<std::array<T, 8>, all>
   return numbers;
 }
 
-/// Friction and rolling of contacts.
+/// Coefficients of the law of contacts.
 template <class T, int dim>
 HWY_INLINE contact_law::Coefficients<hn::Vec<Lanes<T>>, dim> coefficients(const ContactBlock<T, dim>& block,
                                                                           std::size_t k) {
@@ -101,7 +101,7 @@ HWY_INLINE auto inverse_block(const ContactBlock<T, dim>& block, std::size_t k, 
   if constexpr (dim == 3) {
     const auto turns = contact_law::turns_of(hn::Load(d, &block.lever[k]), I, J);
     W.rr = hn::Load(d, &block.inverse_W_rr[k]), W.tr = turns[1] - turns[0];
-    W.tt_rolling = hn::Load(d, &block.inverse_W_tt[k]);
+    W.tt_reduced = hn::Load(d, &block.inverse_W_tt[k]);
   }
   return W;
 }
@@ -286,11 +286,11 @@ void go_on(BodyRecord<T>* bodies, BodyRecord<T>* before, std::size_t count, T be
 DRUMLIN_KERNELS(double, double_smooth, 1, false)
 DRUMLIN_KERNELS(double, double_friction, 2, false)
 DRUMLIN_KERNELS(double, double_spin, 2, true)
-DRUMLIN_KERNELS(double, double_rolling, 3, true)
+DRUMLIN_KERNELS(double, double_couple, 3, true)
 DRUMLIN_KERNELS(float, float_smooth, 1, false)
 DRUMLIN_KERNELS(float, float_friction, 2, false)
 DRUMLIN_KERNELS(float, float_spin, 2, true)
-DRUMLIN_KERNELS(float, float_rolling, 3, true)
+DRUMLIN_KERNELS(float, float_couple, 3, true)
 #undef DRUMLIN_KERNELS
 
 void go_on_double(BodyRecord<double>* bodies, BodyRecord<double>* before, std::size_t n, double beta) {
@@ -335,11 +335,11 @@ HWY_EXPORT(go_on_float);
 DRUMLIN_DISPATCH(double, double, double_smooth, 1, false)
 DRUMLIN_DISPATCH(double, double, double_friction, 2, false)
 DRUMLIN_DISPATCH(double, double, double_spin, 2, true)
-DRUMLIN_DISPATCH(double, double, double_rolling, 3, true)
+DRUMLIN_DISPATCH(double, double, double_couple, 3, true)
 DRUMLIN_DISPATCH(float, float, float_smooth, 1, false)
 DRUMLIN_DISPATCH(float, float, float_friction, 2, false)
 DRUMLIN_DISPATCH(float, float, float_spin, 2, true)
-DRUMLIN_DISPATCH(float, float, float_rolling, 3, true)
+DRUMLIN_DISPATCH(float, float, float_couple, 3, true)
 #undef DRUMLIN_DISPATCH
 
 }  // namespace drumlin::particles

@@ -20,8 +20,8 @@ struct FrictionOfBlock {
 };
 template <class T>
 struct FrictionOfBlock<T, 1> {};
-/// `lever` as in GeneralDelassus; with W = (W_tt W_tr; W_tr W_rr), `inverse_W_rr` is 1 / W_rr and
-/// `inverse_W_tt` that of W_tt - W_tr^2 / W_rr, friction with rolling eliminated.
+/// `lever` as in DiscDelassus; with W = (W_tt W_tr; W_tr W_rr), `inverse_W_rr` is 1 / W_rr and
+/// `inverse_W_tt` that of W_tt - W_tr^2 / W_rr, friction with the couple eliminated.
 template <class T>
 struct FrictionOfBlock<T, 3> {
   std::array<T, 8> mu, mu_r, lever, inverse_W_rr, inverse_W_tt;

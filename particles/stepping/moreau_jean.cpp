@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "particles/detection/contact_list.hpp"
@@ -355,10 +356,13 @@ class MoreauJean final : public Stepper {
 
 std::unique_ptr<Stepper> make_stepper(const StepLaws& laws, const StepSolver& solver,
                                       const ContactSolvers& solvers) {
-  if (laws.unknowns == 3) return std::make_unique<MoreauJean<RollingProblem>>(laws, solver, solvers);
-  if (laws.unknowns == 1) return std::make_unique<MoreauJean<FrictionlessProblem>>(laws, solver, solvers);
-  if (!laws.spin) return std::make_unique<MoreauJean<CoulombProblem>>(laws, solver, solvers);
-  return std::make_unique<MoreauJean<CoulombSpinProblem>>(laws, solver, solvers);
+  const bool spin = laws.unknowns > 1 && laws.spin;
+#define DRUMLIN_MAKE(Problem, dim, with_spin)        \
+  if (laws.unknowns == (dim) && spin == (with_spin)) \
+    return std::make_unique<MoreauJean<Problem>>(laws, solver, solvers);
+  DRUMLIN_EACH_DISC_PROBLEM(DRUMLIN_MAKE)
+#undef DRUMLIN_MAKE
+  throw std::logic_error("no contact problem for these effects");
 }
 
 std::unique_ptr<Stepper> make_stepper(const StepLaws& laws, const StepSolver& solver) {
