@@ -21,7 +21,7 @@ inline Spin law_of(const Spin& spin, const LawInput&) { return spin; }
 template <class Visitor>
 void describe(Visitor&, Spin&) {}
 
-// Terms in a step; the inertia is in W (contact/body_delassus.hpp, with_spin).
+// Terms in a step; the inertia is in W (contact/disc_delassus.hpp).
 
 /// Sliding velocity of a contact from that of the centres: the rims of discs that spin slide against it.
 inline double sliding_of_rims(double u_t, const Candidate& pair, const Bodies& bodies) {

@@ -12,7 +12,7 @@ STANDARD = {
     "filesystem": "filesystem", "functional": "function", "future": "async future launch", "initializer_list": "initializer_list",
     "limits": "numeric_limits", "map": "map", "memory": "make_shared shared_ptr unique_ptr", "new": "align_val_t", "numbers": "numbers", "optional": "optional nullopt", "random": "mt19937_64",
     "set": "set", "span": "span as_bytes as_writable_bytes", "stdexcept": "length_error runtime_error", "string": "string to_string",
-    "string_view": "string_view", "system_error": "errc error_code", "thread": "thread",
+    "string_view": "string_view", "system_error": "errc error_code", "thread": "thread", "tuple": "tuple",
     "type_traits": "conditional_t invoke_result_t is_integral_v is_same_v is_trivially_copyable_v", "unordered_map": "unordered_map",
     "utility": "declval exchange move pair", "variant": "get get_if holds_alternative monostate variant", "vector": "vector",
 }

@@ -284,6 +284,12 @@ TEST(Contradiction, JudgingLessOftenThanSweepingAtAll) {
   expect_problem(example_scene, {"solver.check_every=9000"}, "solver.check_every", "max_sweeps = 5000");
 }
 
+TEST(Contradiction, SolversForStudyAreRefusedWithTheCommandThatHasThem) {
+  for (const char* name : {"nncg", "cpg", "reference", "nlgs-scalar", "accelerated-double", "none"})
+    expect_problem(example_scene, {std::string("solver.name=") + name}, "solver.name",
+                   "drumlin solve-contacts --solver");
+}
+
 TEST(Contradiction, NoStageAtAll) { expect_problem(example_scene, {"stages=[]"}, "stages", "has 0 entries"); }
 
 TEST(Contradiction, AbsurdNumbersEndInAMessage) {
