@@ -1,6 +1,6 @@
 #pragma once
 // The smooth field that scales the impulses of a large packing (particles/solver/coarse_loads.hpp): its
-// nodes, where bodies stand among them, and the solve for it. In one process and on ranks alike.
+// nodes, where bodies stand among them, and the solve for it.
 #include <algorithm>
 #include <cstdint>
 #include <span>

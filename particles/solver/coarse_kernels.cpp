@@ -136,40 +136,6 @@ void terms(const BodyRecord<T>* bodies, const CoarseBodies<T>& coarse, const std
   }
 }
 
-/// Bounds of what bodies add to a sum. Hats are at most 1 and their slopes, too: m |V + S_x + S_z|^2 is below
-/// three times the sum of squares.
-template <class T>
-CoarseBounds bounds(const BodyRecord<T>* bodies, const CoarseBodies<T>& coarse, std::size_t first,
-                    std::size_t count) {
-  const Lanes<T> d;
-  using V = hn::Vec<Lanes<T>>;
-  const V half = hn::Set(d, T(0.5)), one = hn::Set(d, T(1));
-  const auto squares = [&](const BodyVectors<T>& v) HWY_ATTR {
-    return hn::Add(hn::Add(hn::Mul(v.x, v.x), hn::Mul(v.z, v.z)), hn::Mul(half, hn::Mul(v.s, v.s)));
-  };
-  // Where one is no number: the second.
-  const auto larger = [](V a, V b) HWY_ATTR { return hn::IfThenElse(hn::Gt(a, b), a, b); };
-  V power = hn::Zero(d), energy = power;
-  std::array<std::uint32_t, CoarseTerms<T>::width> places;
-  for (std::size_t begin = 0; begin < count; begin += hn::Lanes(d)) {
-    for (std::size_t k = 0; k < hn::Lanes(d); ++k)
-      places[k] =
-          static_cast<std::uint32_t>((first + std::min(begin + k, count - 1)) * sizeof(BodyRecord<T>));
-    const auto v = load_bodies(bodies, places.data());
-    const auto moves = hn::Gt(v.inverse_mass, hn::Zero(d));
-    const V mass = hn::IfThenElseZero(moves, hn::Div(one, hn::IfThenElse(moves, v.inverse_mass, one)));
-    const V all = hn::Add(hn::Add(squares(v), squares(load_bodies(coarse.along_x, places.data()))),
-                          squares(load_bodies(coarse.along_z, places.data())));
-    const V of_power = hn::Abs(load_bodies(coarse.at, places.data()).s);
-    power = larger(hn::IfThenElseZero(moves, of_power), power);
-    energy = larger(hn::Mul(mass, all), energy);
-  }
-  constexpr double rounding = 1.001;  // of terms in single precision
-  const auto largest = [&](V of_lanes)
-                           HWY_ATTR { return static_cast<double>(hn::GetLane(hn::MaxOfLanes(d, of_lanes))); };
-  return {largest(power), rounding * 3 * largest(energy)};
-}
-
 #define DRUMLIN_KERNELS(T, name, dim, spin)                                             \
   void add_##name(const ContactBlock<T, dim>* b, std::size_t n, const BodyRecord<T>* v, \
                   const CoarseBodies<T>& c) {                                           \
@@ -190,15 +156,6 @@ void terms_float(const BodyRecord<float>* v, const CoarseBodies<float>& c, const
   terms<float>(v, c, places, last_column, last_row, found);
 }
 
-CoarseBounds bounds_double(const BodyRecord<double>* v, const CoarseBodies<double>& c, std::size_t first,
-                           std::size_t count) {
-  return bounds<double>(v, c, first, count);
-}
-CoarseBounds bounds_float(const BodyRecord<float>* v, const CoarseBodies<float>& c, std::size_t first,
-                          std::size_t count) {
-  return bounds<float>(v, c, first, count);
-}
-
 }  // namespace drumlin::particles::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -207,8 +164,6 @@ namespace drumlin::particles {
 
 HWY_EXPORT(terms_double);
 HWY_EXPORT(terms_float);
-HWY_EXPORT(bounds_double);
-HWY_EXPORT(bounds_float);
 
 #define DRUMLIN_DISPATCH(T)                                                                                  \
   template <>                                                                                                \
@@ -221,11 +176,6 @@ HWY_EXPORT(bounds_float);
     HWY_DYNAMIC_DISPATCH(terms_##T)                                                                          \
     (bodies, coarse, places.data(), static_cast<T>(grid.columns - 2), static_cast<T>(grid.rows - 2), terms); \
     return terms;                                                                                            \
-  }                                                                                                          \
-  template <>                                                                                                \
-  CoarseBounds coarse_bounds(const BodyRecord<T>* bodies, const CoarseBodies<T>& coarse, std::size_t first,  \
-                             std::size_t count) {                                                            \
-    return HWY_DYNAMIC_DISPATCH(bounds_##T)(bodies, coarse, first, count);                                   \
   }
 DRUMLIN_DISPATCH(double)
 DRUMLIN_DISPATCH(float)

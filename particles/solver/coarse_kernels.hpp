@@ -105,15 +105,6 @@ template <class T>
 CoarseTerms<T> coarse_terms(const FieldGrid&, const BodyRecord<T>* bodies, const CoarseBodies<T>&,
                             std::size_t first, std::size_t count);
 
-/// Largest numbers that bodies may add to a sum, or more.
-struct CoarseBounds {
-  double power = 0, energy = 0;
-};
-/// Of `count` bodies from `first` on.
-template <class T>
-CoarseBounds coarse_bounds(const BodyRecord<T>* bodies, const CoarseBodies<T>&, std::size_t first,
-                           std::size_t count);
-
 /// Calls visit(terms, cells) for what `count` bodies from `first` on add to the matrix and to the right side,
 /// up to eight at a time; `cells` of the bodies of the terms.
 template <class T, class Visit>

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <random>
 
 #include "particles/contact/problems.hpp"
 #include "particles/solver/coarse_kernels.hpp"
@@ -164,50 +162,6 @@ TEST(CoarseLoads, LeaveSmallPackingsToTheSweeps) {
   Solution<CoulombSpinProblem> with, without;
   (void)solved(small, true, with), (void)solved(small, false, without);
   EXPECT_EQ(with.impulses, without.impulses);
-}
-
-template <class T>
-void expect_terms_within_bounds() {
-  std::mt19937_64 random(4);
-  std::uniform_real_distribution<T> along(0, 4), numbers(-1, 1);
-  const FieldGrid grid{.x = 0, .z = 0, .edge = 1, .columns = 5, .rows = 5};
-  std::vector<BodyRecord<T>> bodies(101), at(101), along_x(101), along_z(101);
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    for (auto* of_bodies : {&bodies, &along_x, &along_z})
-      (*of_bodies)[b] = {numbers(random), numbers(random), numbers(random), 0};
-    bodies[b].inverse_mass = b % 10 == 7 ? 0 : std::exp(3 * numbers(random));
-    at[b] = {along(random), along(random), numbers(random), 0};
-  }
-  const CoarseBodies<T> coarse{at.data(), along_x.data(), along_z.data()};
-  const CoarseBounds all = coarse_bounds(bodies.data(), coarse, 0, bodies.size());
-  double power = 0, energy = 0;
-  each_coarse_terms(grid, bodies.data(), coarse, 0, bodies.size(),
-                    [&](const CoarseTerms<T>& terms, std::span<const int> cells) {
-                      for (std::size_t b = 0; b < cells.size(); ++b)
-                        each_coarse_term(
-                            grid, terms, b, cells[b],
-                            [&](int, int, T e) { energy = std::max(energy, std::abs(double{e})); },
-                            [&](int, T p) { power = std::max(power, std::abs(double{p})); });
-                    });
-  EXPECT_GE(all.power, power);
-  EXPECT_GE(all.energy, energy);
-  EXPECT_LT(all.energy, 1e3 * energy);
-  // Of parts, whatever their length, and without what is no number.
-  const CoarseBounds first = coarse_bounds(bodies.data(), coarse, 0, 37);
-  const CoarseBounds rest = coarse_bounds(bodies.data(), coarse, 37, bodies.size() - 37);
-  EXPECT_EQ(std::max(first.power, rest.power), all.power);
-  EXPECT_EQ(std::max(first.energy, rest.energy), all.energy);
-  at[20].s = along_x[21].x = bodies[22].z = std::numeric_limits<T>::quiet_NaN();
-  const CoarseBounds with_none = coarse_bounds(bodies.data(), coarse, 0, bodies.size());
-  EXPECT_GT(with_none.power, 0);
-  EXPECT_GT(with_none.energy, 0);
-  EXPECT_LE(with_none.power, all.power);
-  EXPECT_LE(with_none.energy, all.energy);
-}
-
-TEST(CoarseBounds, AreNoLessThanAnyTerm) {
-  expect_terms_within_bounds<float>();
-  expect_terms_within_bounds<double>();
 }
 
 }  // namespace
