@@ -17,6 +17,7 @@
 #include "apps/support/json_file.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/common/machine_load.hpp"
+#include "particles/lab/any_solver.hpp"
 #include "particles/scene/scene_file.hpp"
 #include "tests/benchmarks/flow_steps.hpp"
 
