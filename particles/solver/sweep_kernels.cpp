@@ -265,7 +265,6 @@ HWY_INLINE std::size_t go_on(D d, T* now, T* before, std::size_t first, std::siz
 
 template <class T>
 void go_on(BodyRecord<T>* bodies, BodyRecord<T>* before, std::size_t count, T beta) {
-  if (count == 0) return;  // a rank without bodies has no records either
   // Inverse masses stand still: their difference is zero.
   const std::size_t most = go_on(Lanes<T>(), &bodies->x, &before->x, 0, 4 * count, beta);
   const hn::CappedTag<T, 4> of_a_record;

@@ -49,7 +49,7 @@ struct alignas(4 * sizeof(T)) BodyRecord {
 template <class T>
 void require_offsets(std::size_t records) {
   if (records > std::numeric_limits<std::uint32_t>::max() / sizeof(BodyRecord<T>))
-    throw std::length_error("more bodies than one process can sweep; start it on MPI ranks");
+    throw std::length_error("more bodies than a sweep can count");
 }
 
 /// Kernels of one kind of problem; `spin`: bodies turn.
