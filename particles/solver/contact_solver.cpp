@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "coupling/common/errors.hpp"
+#include "particles/solver/pivoting.hpp"
 #include "particles/solver/strip_sweeps.hpp"
 #include "particles/solver/two_methods.hpp"
 
@@ -23,7 +24,13 @@ SolveReport solve_nlgs(const Problem& problem, const StoppingRule& rule, SolverW
     return sweep_in_strips<double>(problem, own, work, work.strips.in_double, solution, false);
   };
   if (!is_steep(problem)) return sweep(rule);
-  return from_two_starts(rule, solution.impulses, sweep, [&] { return residual_of(problem, solution); });
+  const auto residual = [&] { return residual_of(problem, solution); };
+  if constexpr (has_pivots<Problem>)
+    return settle_in_turn(
+        rule, solution.impulses, sweep,
+        [&](const StoppingRule& own) { return settle_clusters(problem, own, solution); }, residual);
+  else
+    return from_two_starts(rule, solution.impulses, sweep, residual);
 }
 
 template <class Problem>

@@ -18,6 +18,27 @@ SolveReport better(const SolveReport& first, const std::vector<double>& reached,
   return both;
 }
 
+/// Sweeps of steep contacts may swing for ever: after every hundred of them settle(rule) goes on from the
+/// impulses r. Keeps the best ones.
+template <class Sweep, class Settle, class Residual>
+SolveReport settle_in_turn(const StoppingRule& rule, std::vector<double>& r, Sweep sweep, Settle settle,
+                           Residual residual) {
+  constexpr int sweeps_in_turn = 100;
+  const auto some = [&](StoppingRule own) {
+    own.max_sweeps = std::min(own.max_sweeps, sweeps_in_turn);
+    return sweep(own);
+  };
+  SolveReport now = some(rule), best = now;
+  std::vector<double> reached = r;
+  for (bool settled = false; now.status == Status::out_of_sweeps && now.sweeps < rule.max_sweeps;) {
+    settled = !settled;
+    const StoppingRule left = remaining(rule, now);
+    now = together(now, settled ? settle(left) : some(left));
+    if (now.residual.rms < best.residual.rms) best = now, reached = r;
+  }
+  return better(best, reached, now, r, residual);
+}
+
 /// Sweeps of steep contacts may swing for ever from one start and not from another: a quarter of the rule's
 /// sweeps goes on from the impulses r as they stand, the rest begins from none. sweep(rule) moves r and
 /// reports; residual() is of r. Keeps the better impulses.
