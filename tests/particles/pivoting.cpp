@@ -9,6 +9,7 @@
 
 #include "particles/contact/block_problem.hpp"
 #include "particles/contact/problems.hpp"
+#include "particles/solver/contact_solver.hpp"
 
 namespace drumlin {
 using namespace particles;
@@ -97,10 +98,13 @@ TEST(Pivoting, PackingsOfSteepFrictionAreSolved) {
 }
 
 TEST(Pivoting, ASpoiltContactOfAPackingIsSettled) {
-  const CoulombSpinProblem problem = packing(8, 10, 1);
+  const CoulombSpinProblem problem = packing(10, 0.9, 1);
   Solution<CoulombSpinProblem> solution;
-  solution.impulses = solved(block_problem(problem));
-  solution.impulses[2 * 40] += 1;
+  SolverWorkspace<CoulombSpinProblem> work;
+  StoppingRule close;
+  close.tolerance = 1e-4, close.max_sweeps = 20000;
+  EXPECT_EQ(solve_nlgs(problem, close, work, solution).status, Status::converged);
+  solution.impulses[2 * 70] += 1;
   StoppingRule rule;
   EXPECT_GT(residual_of(problem, solution).rms, rule.tolerance);
   const SolveReport report = settle_clusters(problem, rule, solution);
