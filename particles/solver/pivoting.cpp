@@ -227,10 +227,7 @@ class Neighbourhood {
 
   void push(typename Problem::Delassus::State& bodies, int a, int component, double size) const {
     const double n = component == 0 ? size : 0, t = size - n;
-    if constexpr (requires { problem_.W.push(bodies, a, n, t); })
-      problem_.W.push(bodies, a, n, t);
-    else
-      problem_.W.push(bodies, a, {n, t});
+    problem_.W.push(bodies, a, {n, t});
   }
 
   const Problem& problem_;
@@ -266,8 +263,6 @@ SolveReport settle_clusters(const Problem& problem, const StoppingRule& rule, So
   template SolveReport settle_clusters(const Problem&, const StoppingRule&, Solution<Problem>&);
 DRUMLIN_INSTANTIATE(CoulombProblem)
 DRUMLIN_INSTANTIATE(CoulombSpinProblem)
-DRUMLIN_INSTANTIATE(DrivenCoulombProblem)
-DRUMLIN_INSTANTIATE(DrivenCoulombSpinProblem)
 #undef DRUMLIN_INSTANTIATE
 
 }  // namespace drumlin::particles

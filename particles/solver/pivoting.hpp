@@ -21,11 +21,9 @@ namespace drumlin::particles {
 std::optional<Eigen::VectorXd> solve_by_pivots(Eigen::MatrixXd W, Eigen::VectorXd q,
                                                std::span<const double> mu, int most_pivots);
 
-/// Problems whose contacts settle_clusters() takes: of bodies, with friction, without rolling resistance.
+/// Problems whose contacts settle_clusters() takes: with friction, without rolling resistance.
 template <class Problem>
-constexpr bool has_pivots = Problem::dim == 2 && requires(const typename Problem::Delassus& W) {
-  W.inverse_mass;
-};
+constexpr bool has_pivots = Problem::dim == 2;
 
 /// Solves contacts that miss the rule's tolerance, with those around them, in clusters of some ten contacts,
 /// the others as they stand, again and again while that helps. Takes and leaves a solution with its

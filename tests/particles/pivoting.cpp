@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "particles/contact/block_problem.hpp"
 #include "particles/contact/problems.hpp"
+#include "particles/lab/block_problem.hpp"
 #include "particles/solver/contact_solver.hpp"
 
 namespace drumlin {
