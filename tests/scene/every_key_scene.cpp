@@ -33,7 +33,7 @@ std::vector<Case> cases_of_the_run() {
       {"seed", "", D, {}, "seed=2", positions_mm},
 
       {"solver", "", D, {}, "solver={}", logged_sweeps},
-      {"solver.name", "", D, {}, "solver.name=nlgs", logged_sweeps},
+      {"solver.name", "", D, {}, "solver.name=accelerated", logged_sweeps},
       {"solver.tolerance", "", D, {}, "solver.tolerance=1e-2", logged_sweeps},
       {"solver.penetration_tolerance",
        "",
