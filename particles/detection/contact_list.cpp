@@ -13,14 +13,6 @@ namespace {
 
 double length(double x, double z) { return std::sqrt(x * x + z * z); }
 
-/// Unit vector of (dx, dz), upwards for coincident points; returns the length.
-double normal_of(double dx, double dz, double& n_x, double& n_z) {
-  const double distance = length(dx, dz);
-  n_x = distance > 0 ? dx / distance : 0;
-  n_z = distance > 0 ? dz / distance : 1;
-  return distance;
-}
-
 /// An end of a thin wall, the unit direction from there along the wall, and that in which another goes on.
 struct ThinEnd {
   Point place, along, beyond;
@@ -140,14 +132,6 @@ double listed_range(const GrainMotion& motion, const DetectionInput& input) {
   return input.margin + std::min(2 * input.time_step * motion.speeds, widest * motion.smallest);
 }
 
-/// Edge of the cells of the finest of the grids that list pairs up to a range.
-double finest_cell(const GrainMotion& motion, double range) {
-  const bool alike = 2 * motion.smallest > motion.largest;
-  const double size = std::max(motion.smallest, std::min(range, motion.largest));
-  const int level = alike ? 0 : std::ilogb(motion.largest / size);
-  return motion.largest / std::exp2(level) + range;
-}
-
 }  // namespace
 
 double gap_to_shape(const Shape& shape, double x, double z, double radius, double& n_x, double& n_z,
@@ -196,8 +180,8 @@ bool deep_inside(const Shape& shape, const NearGrain& grain, double farthest) {
 
 }  // namespace
 
-void ContactDetection::look_at_wall(const NearGrain& grain, std::int32_t shape, double farthest,
-                                    const DetectionInput& input) {
+void ContactDetection::weigh_at_wall(const NearGrain& grain, std::int32_t shape, double farthest,
+                                     const DetectionInput& input) {
   Candidate pair{grain.body, -1 - shape, 0, 0, 0, 0, 0};
   Point point;
   pair.gap = gap_to_shape(input.shapes[shape], image_near(input.shapes[shape], grain.x, input.period),
@@ -208,7 +192,7 @@ void ContactDetection::look_at_wall(const NearGrain& grain, std::int32_t shape, 
   pair.wall_v_z = (then.z - point.z) / input.time_step;
   const double approach = -(pair.n_x * (grain.v_x - pair.wall_v_x) + pair.n_z * (grain.v_z - pair.wall_v_z));
   const double reach = 2 * input.time_step * std::max(0.0, approach);
-  if (pair.gap < input.margin + reach) jolt_[pair.i] = std::max(jolt_[pair.i], reach);
+  if (pair.gap < input.margin + reach) bounds_[pair.i] = std::max(bounds_[pair.i], reach);
   weighed_.push_back({pair, reach});
 }
 
@@ -220,7 +204,7 @@ void ContactDetection::find_near_walls(double fastest, double largest, const Det
     const bool open = input.period.open();
     const auto near_shape = [&](const NearGrain& grain) {
       if (open && deep_inside(input.shapes[s], grain, farthest)) return;
-      look_at_wall(grain, static_cast<std::int32_t>(s), farthest, input);
+      weigh_at_wall(grain, static_cast<std::int32_t>(s), farthest, input);
     };
     if (const auto box = surroundings(input.shapes[s], largest / 2 + farthest)) {
       grids_.near(box->x_low, box->x_high, box->z_low, box->z_high, near_shape);
@@ -235,7 +219,7 @@ void ContactDetection::find_near_walls(double fastest, double largest, const Det
 void ContactDetection::list_pairs(const SearchedState& state, const PairRule& rule, double range,
                                   double smallest) {
   if (lists_.good && grids_.follow(state, farthest_drift * smallest, loops_)) {
-    pairs_.look_again(state, rule);
+    pairs_.weigh_again(state, rule);
     ++lists_.used_again;
     return;
   }
@@ -254,63 +238,34 @@ std::span<const Candidate> ContactDetection::find(const Bodies& bodies, std::spa
     return candidates();
   }
   weighed_.clear();
-  jolt_.assign(bodies.count(), 0.0);
+  bounds_.assign(bodies.count(), 0.0);
   const GrainMotion motion = motion_of(bodies, v_x, v_z, input, loops_);
   const PairRule rule{input.time_step, input.margin, motion.speeds, input.period};
   const double range = listed_range(motion, input);
-  cell_ = finest_cell(motion, range);
   list_pairs({bodies, v_x, v_z, input.period}, rule, range, motion.smallest);
-  pairs_.look(rule, jolt_);
+  pairs_.find_closing(rule, bounds_);
   find_near_walls(motion.fastest, motion.largest, input);
-  pairs_.look_after_jolts(rule, jolt_);
-  pairs_.keep(rule, jolt_, weighed_, candidates_);
+  pairs_.find_by_bounds(rule, bounds_);
+  pairs_.keep(rule, bounds_, weighed_, candidates_);
   lists_.good = lists_.skin > 0 &&
-                static_cast<double>(pairs_.looked_far()) < most_far * static_cast<double>(bodies.count());
+                static_cast<double>(pairs_.far_distances()) < most_far * static_cast<double>(bodies.count());
   if (input.period.moves()) add_image_velocities(bodies, input.period, candidates_);
   return candidates();
 }
 
-bool ContactDetection::is_local(std::span<const ThrownGrain> thrown, double reach) const {
-  const double cells = 2 * reach / cell_ + 2;  // that a grain's search reads, along x and z
-  return static_cast<double>(thrown.size()) * cells * cells < static_cast<double>(jolt_.size());
-}
-
-bool ContactDetection::find_around(std::span<const ThrownGrain> thrown, const Bodies& bodies,
-                                   std::span<const double> v_x, std::span<const double> v_z,
-                                   const DetectionInput& input) {
-  const GrainMotion motion = motion_of(bodies, v_x, v_z, input, loops_);
-  const double range = range_of(thrown, motion.speeds, input);
-  if (is_local(thrown, range + motion.largest)) return add_around(thrown, range, bodies, v_x, v_z, input);
-  added_.clear();
-  find(bodies, v_x, v_z, input);
-  return true;
-}
-
-bool ContactDetection::add_around(std::span<const ThrownGrain> thrown, const Bodies& bodies,
+bool ContactDetection::add_around(std::span<const StruckDisc> struck, const Bodies& bodies,
                                   std::span<const double> v_x, std::span<const double> v_z,
                                   const DetectionInput& input) {
-  added_.clear();
-  if (thrown.empty()) return false;
-  const double range = range_of(thrown, motion_of(bodies, v_x, v_z, input, loops_).speeds, input);
-  return add_around(thrown, range, bodies, v_x, v_z, input);
-}
-
-double ContactDetection::range_of(std::span<const ThrownGrain> thrown, double speeds,
-                                  const DetectionInput& input) {
-  for (const ThrownGrain& t : thrown) jolt_[t.grain] = std::max(jolt_[t.grain], t.push);
-  const double most_jolt = *std::max_element(jolt_.begin(), jolt_.end());
-  return 2 * input.margin + 2 * input.time_step * speeds + 1.5 * most_jolt;
-}
-
-bool ContactDetection::add_around(std::span<const ThrownGrain> thrown, double range, const Bodies& bodies,
-                                  std::span<const double> v_x, std::span<const double> v_z,
-                                  const DetectionInput& input) {
-  added_.clear();
-  found_.clear();
-  weighed_.clear();
-  for (const ThrownGrain& t : thrown) find_around(t, range, bodies, v_x, v_z, input);
+  added_.clear(), found_.clear(), weighed_.clear();
+  if (struck.empty()) return false;
+  for (const StruckDisc& disc : struck)
+    bounds_[disc.grain] = std::max(bounds_[disc.grain], disc.displacement);
+  const double range = 2 * input.margin +
+                       2 * input.time_step * motion_of(bodies, v_x, v_z, input, loops_).speeds +
+                       1.5 * *std::max_element(bounds_.begin(), bounds_.end());
+  for (const StruckDisc& disc : struck) add_around(disc, range, bodies, v_x, v_z, input);
   for (const WeighedPair& wall : weighed_)
-    if (wall.pair.gap < input.margin + wall.reach + jolt_[wall.pair.i] / 2) found_.push_back(wall.pair);
+    if (wall.pair.gap < input.margin + wall.reach + bounds_[wall.pair.i] / 2) found_.push_back(wall.pair);
   if (input.period.moves()) add_image_velocities(bodies, input.period, found_);
   return insert_found();
 }
@@ -326,10 +281,10 @@ void ContactDetection::add_image_velocities(const Bodies& bodies, const Period& 
   }
 }
 
-void ContactDetection::find_around(const ThrownGrain& thrown, double range, const Bodies& bodies,
-                                   std::span<const double> v_x, std::span<const double> v_z,
-                                   const DetectionInput& input) {
-  const std::int32_t i = thrown.grain;
+void ContactDetection::add_around(const StruckDisc& disc, double range, const Bodies& bodies,
+                                  std::span<const double> v_x, std::span<const double> v_z,
+                                  const DetectionInput& input) {
+  const std::int32_t i = disc.grain;
   const NearGrain a{bodies.x[i], bodies.z[i], bodies.radius[i], v_x[i], v_z[i], i};
   const double reach = range + a.radius + grids_.largest() / 2;
   grids_.near({a.x, a.z}, reach, [&](const NearGrain& other) {
@@ -337,12 +292,12 @@ void ContactDetection::find_around(const ThrownGrain& thrown, double range, cons
     NearGrain b = other;
     b.v_x = v_x[b.body], b.v_z = v_z[b.body];
     const NearPair pair = near_pair(a, b, input.period, input.time_step);
-    if (pair.gap < 2 * input.margin + pair.reach + thrown.push / 2 + jolt_[b.body])
+    if (pair.gap < 2 * input.margin + pair.reach + disc.displacement / 2 + bounds_[b.body])
       found_.push_back({pair.i, pair.j, pair.gap, pair.n_x, pair.n_z, 0, 0});
   });
   const auto shapes = static_cast<std::int32_t>(input.shapes.size());
   for (std::int32_t s = 0; s < shapes; ++s)
-    if (!is_open(input.shapes[s])) look_at_wall(a, s, std::numeric_limits<double>::infinity(), input);
+    if (!is_open(input.shapes[s])) weigh_at_wall(a, s, std::numeric_limits<double>::infinity(), input);
 }
 
 /// Puts the pairs found in the order of (i, j) among the candidates, once each; returns whether any is new.

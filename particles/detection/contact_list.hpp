@@ -1,5 +1,6 @@
 #pragma once
 // Contact detection: pairs of grains and walls that touch or may touch within the next step.
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -21,10 +22,10 @@ struct DetectionInput {
   Period period;
 };
 
-/// A grain that impacts have pushed beyond what a search allowed for: by 2 h |change of velocity|.
-struct ThrownGrain {
+/// A grain that impacts have struck harder than a search allowed for: 2 h |change of velocity|.
+struct StruckDisc {
   std::int32_t grain = 0;
-  double push = 0;
+  double displacement = 0;
 };
 
 /// All pairs with gap < margin + 2 h a + h (a_i + a_j), where a is the approach speed of the pair (0 if it
@@ -46,45 +47,35 @@ class ContactDetection {
   std::span<const Candidate> find(const Bodies& bodies, std::span<const double> v_x,
                                   std::span<const double> v_z, const DetectionInput& input);
 
-  /// Adds the pairs that grains thrown by impacts may meet, now that v_x and v_z are the velocities: with a
-  /// wall those with gap < margin + 2 h a + J_i / 2, with another grain k
-  ///   gap < 2 margin + 2 h a + J_i / 2 + jolt(k),
-  /// J_i the push 2 h |change of velocity| of the thrown grain i, which becomes its jolt. So all pairs are
-  /// found that close within the step, if no grain is thrown further than (jolt + margin) / (2 h) again.
-  /// Looks around these grains only, at the places of the last search; anew at all grains where that would be
-  /// most of them. Returns whether the candidates are others than before.
-  bool find_around(std::span<const ThrownGrain> thrown, const Bodies& bodies, std::span<const double> v_x,
-                   std::span<const double> v_z, const DetectionInput& input);
-  /// The same, but never anew at all grains.
-  bool add_around(std::span<const ThrownGrain> thrown, const Bodies& bodies, std::span<const double> v_x,
+  /// Adds the pairs that struck grains may meet, now that v_x and v_z are the velocities: with a wall those
+  /// with gap < margin + 2 h a + J_i / 2, with another grain k
+  ///   gap < 2 margin + 2 h a + J_i / 2 + displacement_bound(k),
+  /// J_i the displacement of the struck grain i, which becomes its bound. So all pairs are found that close
+  /// within the step, if no grain is struck harder than (bound + margin) / (2 h) again. Looks around these
+  /// grains only, at the places of the last search. Returns whether it has added any.
+  bool add_around(std::span<const StruckDisc> struck, const Bodies& bodies, std::span<const double> v_x,
                   std::span<const double> v_z, const DetectionInput& input);
   std::span<const Candidate> candidates() const { return {candidates_.data(), candidates_.size()}; }
-  /// Places among the candidates, ascending, of the pairs that the last search around grains has added; empty
-  /// where it had to begin anew.
+  /// Places among the candidates, ascending, of the pairs that the last search around struck grains has
+  /// added.
   std::span<const std::int32_t> added() const { return added_; }
 
   /// The next search begins anew, as the first one.
   void forget() { lists_ = {}; }
-  /// Pairs of grains whose distance the last search measured: what it cost.
-  std::int64_t looked_at() const { return pairs_.looked_at(); }
+  /// Distances between grains that the last search of all measured: what it cost.
+  std::int64_t distances() const { return pairs_.distances(); }
   /// Pairs that the list holds from one search to the next, and what that takes.
   std::size_t listed() const { return pairs_.listed(); }
   std::size_t bytes() const { return pairs_.bytes() + grids_.bytes(); }
-  /// Twice the way, in the last search, by which the approach of its pairs may push a grain: 2 h a_i.
-  double jolt(std::int32_t body) const { return jolt_[body]; }
+  /// Twice the displacement, in the last search, that the approach of its pairs may give a grain: 2 h a_i.
+  double displacement_bound(std::int32_t body) const { return bounds_[body]; }
 
  private:
-  void look_at_wall(const NearGrain& grain, std::int32_t shape, double farthest, const DetectionInput&);
+  void weigh_at_wall(const NearGrain& grain, std::int32_t shape, double farthest, const DetectionInput&);
   void find_near_walls(double fastest, double largest, const DetectionInput& input);
 
-  /// Whether searches around the thrown grains alone, as far as `reach`, look at fewer grains than there are.
-  bool is_local(std::span<const ThrownGrain> thrown, double reach) const;
-  /// How far pairs of thrown grains, which get their jolts, may be apart; `speeds` bounds relative ones.
-  double range_of(std::span<const ThrownGrain> thrown, double speeds, const DetectionInput& input);
-  bool add_around(std::span<const ThrownGrain> thrown, double range, const Bodies& bodies,
-                  std::span<const double> v_x, std::span<const double> v_z, const DetectionInput& input);
-  void find_around(const ThrownGrain& thrown, double range, const Bodies& bodies, std::span<const double> v_x,
-                   std::span<const double> v_z, const DetectionInput& input);
+  void add_around(const StruckDisc&, double range, const Bodies& bodies, std::span<const double> v_x,
+                  std::span<const double> v_z, const DetectionInput& input);
   bool insert_found();
   static void add_image_velocities(const Bodies& bodies, const Period& period, std::span<Candidate>);
 
@@ -101,13 +92,20 @@ class ContactDetection {
   GrainGrids grids_;
   GrainPairs pairs_;
   Lists lists_;
-  double cell_ = 0;                   // edge of the cells of the finest grid of a list that is used once
   std::vector<WeighedPair> weighed_;  // of grains and walls
-  std::vector<double> jolt_;          // 2 h a_i of each body
+  std::vector<double> bounds_;        // 2 h a_i of each body
   WorkArray<Candidate> candidates_;
-  std::vector<Candidate> found_;     // around thrown grains
+  std::vector<Candidate> found_;     // around struck grains
   std::vector<std::int32_t> added_;  // places of those of them that were new
 };
+
+/// Unit vector of (dx, dz), upwards for coincident points; returns the length.
+inline double normal_of(double dx, double dz, double& n_x, double& n_z) {
+  const double distance = std::sqrt(dx * dx + dz * dz);
+  n_x = distance > 0 ? dx / distance : 0;
+  n_z = distance > 0 ? dz / distance : 1;
+  return distance;
+}
 
 /// Gap and normal of a disc and a shape; `point` receives the point of the shape that is nearest.
 double gap_to_shape(const Shape& shape, double x, double z, double radius, double& n_x, double& n_z,

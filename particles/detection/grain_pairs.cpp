@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t cells_per_piece = 256;
 constexpr std::size_t pairs_per_share = 1024;
-constexpr double rounding = 1 + 1e-12;  // two ways to compute a distance differ by less
+constexpr double rounding = 1 + 1e-12;  // two moved to compute a distance differ by less
 
 /// Pairs weighed side by side: one loop over arrays, which a compiler makes of vectors.
 template <std::size_t most>
@@ -80,7 +80,7 @@ class GrainPairs::Collecting {
       : piece_(piece), range_(range), period_(period) {}
 
   void meet(const NearGrain& a, std::span<const NearGrain> others) {
-    piece_.looked_at += static_cast<std::int64_t>(others.size());
+    piece_.distances += static_cast<std::int64_t>(others.size());
     const std::size_t most = piece_.count + others.size();
     if (piece_.near.size() < most) piece_.near.resize(std::max(most, most + most / 8));
     if (!period_.open_z())
@@ -111,7 +111,7 @@ class GrainPairs::Collecting {
 };
 
 void GrainPairs::use(WorkMemory* memory) {
-  row_.use(memory), weights_.use(memory), jolts_.use(memory), kept_.use(memory);
+  row_.use(memory), weights_.use(memory), closing_.use(memory), kept_.use(memory);
   discs_.use(memory);
 }
 
@@ -130,7 +130,7 @@ void GrainPairs::cut(const GrainGrids& grids) {
       if (++used_ > pieces_.size()) pieces_.resize(used_);
       Piece& piece = pieces_[used_ - 1];
       piece.level = level, piece.first = first, piece.last = std::min(cells, first + cells_per_piece);
-      piece.count = 0, piece.looked_at = 0;
+      piece.count = 0, piece.distances = 0;
     }
   }
 }
@@ -154,12 +154,12 @@ void GrainPairs::list(const GrainGrids& grids, const SearchedState& state, doubl
         [&](const NearGrain& a, std::span<const NearGrain> others) { collecting.meet(a, others); });
   });
   put_in_order(state.bodies.count());
-  looked_at_ = 0;
-  for (std::size_t p = 0; p < used_; ++p) looked_at_ += pieces_[p].looked_at;
+  distances_ = 0;
+  for (std::size_t p = 0; p < used_; ++p) distances_ += pieces_[p].distances;
   cut_list();
   weigh_list(state, rule);
   drop_those_beyond();
-  each_share([&](Share& share) { find_jolts(rule, share); });
+  each_share([&](Share& share) { find_closing_listed(rule, share); });
 }
 
 /// Sorts the pairs of the pieces into the list.
@@ -219,7 +219,7 @@ void GrainPairs::weigh_rest(std::span<const ListedPair> pairs, std::size_t done,
 
 void GrainPairs::weigh_list(const SearchedState& state, const PairRule& rule) {
   collect_discs(state);
-  weights_.renew(list_.size()), jolts_.renew(list_.size());
+  weights_.renew(list_.size()), closing_.renew(list_.size());
   each_share([&](Share& share) {
     const auto pairs = std::span(list_).subspan(share.first, share.last - share.first);
     PairWeight* const weights = weights_.data() + share.first;
@@ -246,8 +246,8 @@ void GrainPairs::drop_those_beyond() {
   cut_list();
 }
 
-void GrainPairs::find_jolts(const PairRule& rule, Share& share) {
-  std::int32_t* const begin = jolts_.data() + share.first;
+void GrainPairs::find_closing_listed(const PairRule& rule, Share& share) {
+  std::int32_t* const begin = closing_.data() + share.first;
   std::int32_t* end = begin;
   for (std::size_t p = share.first; p < share.last; ++p) {
     const PairWeight& pair = weights_[p];
@@ -255,45 +255,46 @@ void GrainPairs::find_jolts(const PairRule& rule, Share& share) {
     end += static_cast<std::size_t>(pair.reach > 0) &
            static_cast<std::size_t>(pair.gap < rule.margin + pair.reach);
   }
-  share.jolts = end - begin;
+  share.closing = end - begin;
 }
 
-void GrainPairs::look_again(const SearchedState& state, const PairRule& rule) {
+void GrainPairs::weigh_again(const SearchedState& state, const PairRule& rule) {
   follows_ = false;
-  looked_at_ = static_cast<std::int64_t>(list_.size());
+  distances_ = static_cast<std::int64_t>(list_.size());
   weigh_list(state, rule);
-  each_share([&](Share& share) { find_jolts(rule, share); });
+  each_share([&](Share& share) { find_closing_listed(rule, share); });
 }
 
-void GrainPairs::look(const PairRule& rule, std::span<double> jolts) {
+void GrainPairs::find_closing(const PairRule& rule, std::span<double> bounds) {
   far_.clear();
-  looked_far_ = 0;
+  far_distances_ = 0;
   const auto add = [&](std::int32_t i, std::int32_t j, double reach) {
-    jolts[i] = std::max(jolts[i], reach);
-    jolts[j] = std::max(jolts[j], reach);
+    bounds[i] = std::max(bounds[i], reach);
+    bounds[j] = std::max(bounds[j], reach);
   };
-  look_far(rule, jolts, false);
+  look_far(rule, bounds, false);
   for (const NearPair& pair : far_) add(pair.i, pair.j, pair.reach);
   for (const Share& share : shares_)
-    for (const std::int32_t p : std::span(jolts_.data() + share.first, share.jolts))
+    for (const std::int32_t p : std::span(closing_.data() + share.first, share.closing))
       add(list_[p].i, list_[p].j, weights_[p].reach);
 }
 
-void GrainPairs::look_after_jolts(const PairRule& rule, std::span<const double> jolts) {
-  look_far(rule, jolts, true);
-  looked_at_ += looked_far_;
+void GrainPairs::find_by_bounds(const PairRule& rule, std::span<const double> bounds) {
+  look_far(rule, bounds, true);
+  distances_ += far_distances_;
 }
 
-void GrainPairs::look_far(const PairRule& rule, std::span<const double> jolts, bool after_jolts) {
-  const double most_jolt = after_jolts ? *std::max_element(jolts.begin(), jolts.end()) : 0;
-  const double ways = 2 * std::sqrt(2.0) * grids_->drift();
-  if (rule.margin + 2 * rule.time_step * rule.speeds + most_jolt + ways <= range_) return;  // nothing is far
+void GrainPairs::look_far(const PairRule& rule, std::span<const double> bounds, bool by_bounds) {
+  const double largest_bound = by_bounds ? *std::max_element(bounds.begin(), bounds.end()) : 0;
+  const double moved = 2 * std::sqrt(2.0) * grids_->drift();
+  if (rule.margin + 2 * rule.time_step * rule.speeds + largest_bound + moved <= range_)
+    return;  // nothing is far
   if (!planted_)
     tree_.build(*grids_, rule.period, loops_);
   else if (!follows_)
     tree_.follow(loops_);
   planted_ = follows_ = true;
-  if (after_jolts) tree_.set_jolts(jolts, loops_);
+  if (by_bounds) tree_.set_bounds(bounds, loops_);
   const auto listed = [&](NearGrain a, NearGrain b) {
     a.x = a.sorted_x, a.z = a.sorted_z, b.x = b.sorted_x, b.z = b.sorted_z;
     return near_pair(a, b, rule.period, rule.time_step).gap < range_;
@@ -302,16 +303,16 @@ void GrainPairs::look_far(const PairRule& rule, std::span<const double> jolts, b
     const Point d = rule.period.nearest(Point{a.x - b.x, a.z - b.z});
     if (!rule.period.open() && std::abs(a.x - b.x - shift.x - d.x) > rule.period.length / 2) return;
     if (!rule.period.open_z() && std::abs(a.z - b.z - shift.z - d.z) > rule.period.length_z / 2) return;
-    ++part.looked_at;
+    ++part.distances;
     const NearPair pair = near_pair(a, b, rule.period, rule.time_step);
     const bool close = pair.gap < rule.margin + pair.reach;
-    if (close == after_jolts) return;
-    if (!close && pair.gap >= rule.margin + pair.reach + (jolts[pair.i] + jolts[pair.j]) / 2) return;
+    if (close == by_bounds) return;
+    if (!close && pair.gap >= rule.margin + pair.reach + (bounds[pair.i] + bounds[pair.j]) / 2) return;
     if (!listed(a, b)) part.pairs.push_back(pair);
   };
-  const FarSearch search{rule.time_step, rule.margin, range_, after_jolts};
+  const FarSearch search{rule.time_step, rule.margin, range_, by_bounds};
   far_parts_.resize(std::max<std::size_t>(far_parts_.size(), tree_.cut(search)));
-  for (FarPart& part : far_parts_) part.pairs.clear(), part.looked_at = 0;
+  for (FarPart& part : far_parts_) part.pairs.clear(), part.distances = 0;
   const auto meet = [&](int p, std::span<const NearGrain> a, std::span<const NearGrain> b, bool same,
                         const Image& image) {
     for (std::size_t k = 0; k < a.size(); ++k)
@@ -321,7 +322,7 @@ void GrainPairs::look_far(const PairRule& rule, std::span<const double> jolts, b
   tree_.far_pairs(search, loops_, meet);
   for (const FarPart& part : far_parts_) {
     far_.insert(far_.end(), part.pairs.begin(), part.pairs.end());
-    looked_far_ += part.looked_at;
+    far_distances_ += part.distances;
   }
 }
 
@@ -335,19 +336,19 @@ bool comes_before(const Candidate& extra, const Pair& pair) {
 }  // namespace
 
 /// The kept pairs of walls, and of grains that are not listed.
-void GrainPairs::find_extras(const PairRule& rule, std::span<const double> jolts,
+void GrainPairs::find_extras(const PairRule& rule, std::span<const double> bounds,
                              std::span<const WeighedPair> walls) {
   extras_.clear();
   for (const NearPair& far : far_) extras_.push_back({far.i, far.j, far.gap, far.n_x, far.n_z, 0, 0});
   for (const auto& [pair, reach] : walls)
-    if (pair.gap < rule.margin + reach + jolts[pair.i] / 2) extras_.push_back(pair);
+    if (pair.gap < rule.margin + reach + bounds[pair.i] / 2) extras_.push_back(pair);
   std::sort(extras_.begin(), extras_.end(),
             [](const Candidate& a, const Candidate& b) { return a.i != b.i ? a.i < b.i : a.j < b.j; });
 }
 
-void GrainPairs::keep(const PairRule& rule, std::span<const double> jolts, std::span<const WeighedPair> walls,
-                      WorkArray<Candidate>& candidates) {
-  find_extras(rule, jolts, walls);
+void GrainPairs::keep(const PairRule& rule, std::span<const double> bounds,
+                      std::span<const WeighedPair> walls, WorkArray<Candidate>& candidates) {
+  find_extras(rule, bounds, walls);
   kept_.renew(list_.size());
   each_share([&](Share& share) {
     std::int32_t* const begin = kept_.data() + share.first;
@@ -355,7 +356,7 @@ void GrainPairs::keep(const PairRule& rule, std::span<const double> jolts, std::
     for (std::size_t p = share.first; p < share.last; ++p) {
       const PairWeight& pair = weights_[p];
       *end = static_cast<std::int32_t>(p);
-      end += pair.gap < rule.margin + pair.reach + (jolts[list_[p].i] + jolts[list_[p].j]) / 2;
+      end += pair.gap < rule.margin + pair.reach + (bounds[list_[p].i] + bounds[list_[p].j]) / 2;
     }
     share.kept = end - begin;
   });
@@ -370,7 +371,7 @@ void GrainPairs::keep(const PairRule& rule, std::span<const double> jolts, std::
     listed += share.kept;
   }
   const std::size_t all = listed + extras_.size();
-  candidates.renew(all + all / 16);  // thrown grains may add some
+  candidates.renew(all + all / 16);  // struck grains may add some
   candidates.renew(all);
   each_share([&](const Share& share) {
     const bool last = &share == &shares_.back();

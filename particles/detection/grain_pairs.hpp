@@ -30,7 +30,7 @@ struct NearPair {
 /// The pair of a and b, or of the images that are nearest.
 NearPair near_pair(const NearGrain& a, const NearGrain& b, const Period& period, double time_step);
 
-/// What decides which pairs are kept: those with gap < margin + 2 h a + (jolt_i + jolt_j) / 2.
+/// What decides which pairs are kept: those with gap < margin + 2 h a + (bound_i + bound_j) / 2.
 struct PairRule {
   double time_step = 0;
   double margin = 0;
@@ -51,21 +51,21 @@ class GrainPairs {
   /// to live as long as the list is used.
   void list(const GrainGrids& grids, const SearchedState& state, double range, const PairRule& rule);
   /// Looks at the listed pairs as they are now; the grids have followed the state.
-  void look_again(const SearchedState& state, const PairRule& rule);
+  void weigh_again(const SearchedState& state, const PairRule& rule);
 
-  /// Looks for pairs that are not listed and that only their speed brings together. jolts[i] becomes the
+  /// Looks for pairs that are not listed and that only their speed brings together. bounds[i] becomes the
   /// largest 2 h a of body i with a partner closer than margin + 2 h a.
-  void look(const PairRule& rule, std::span<double> jolts);
-  /// Looks further around bodies with jolts: an impact pushes them on to grains that they did not approach.
-  void look_after_jolts(const PairRule& rule, std::span<const double> jolts);
+  void find_closing(const PairRule& rule, std::span<double> bounds);
+  /// Looks further around bodies with bounds: an impact pushes them on to grains that they did not approach.
+  void find_by_bounds(const PairRule& rule, std::span<const double> bounds);
   /// Writes the pairs that are kept, and those of walls, in the order of (i, j).
-  void keep(const PairRule& rule, std::span<const double> jolts, std::span<const WeighedPair> walls,
+  void keep(const PairRule& rule, std::span<const double> bounds, std::span<const WeighedPair> walls,
             WorkArray<Candidate>& kept);
 
   /// Pairs of grains whose distance the last search measured: what it cost.
-  std::int64_t looked_at() const { return looked_at_; }
+  std::int64_t distances() const { return distances_; }
   /// Those of them that are not in the list.
-  std::int64_t looked_far() const { return looked_far_; }
+  std::int64_t far_distances() const { return far_distances_; }
   /// What the list holds from one search to the next.
   std::size_t listed() const { return list_.size(); }
   std::size_t bytes() const;
@@ -76,12 +76,12 @@ class GrainPairs {
     std::size_t level = 0, first = 0, last = 0;
     std::vector<ListedPair> near;  // the first `count` of them
     std::size_t count = 0;
-    std::int64_t looked_at = 0;
+    std::int64_t distances = 0;
   };
   /// Some pairs of the list.
   struct Share {
     std::size_t first = 0, last = 0;
-    std::size_t jolts = 0, kept = 0;    // entries of jolts_ and kept_ from `first` on
+    std::size_t closing = 0, kept = 0;  // entries of closing_ and kept_ from `first` on
     std::size_t extras = 0, place = 0;  // the first pair that is not listed, and where the share's pairs go
     bool beyond = false;                // has pairs that are no closer than the range, by rounding
   };
@@ -97,9 +97,9 @@ class GrainPairs {
   void drop_those_beyond();
   template <class Work>
   void each_share(Work work);
-  void find_jolts(const PairRule& rule, Share& share);
-  void look_far(const PairRule& rule, std::span<const double> jolts, bool after_jolts);
-  void find_extras(const PairRule& rule, std::span<const double> jolts, std::span<const WeighedPair> walls);
+  void find_closing_listed(const PairRule& rule, Share& share);
+  void look_far(const PairRule& rule, std::span<const double> bounds, bool by_bounds);
+  void find_extras(const PairRule& rule, std::span<const double> bounds, std::span<const WeighedPair> walls);
 
   TeamLoops loops_;
   std::vector<Piece> pieces_;
@@ -110,7 +110,7 @@ class GrainPairs {
   // Of one search.
   WorkArray<std::int32_t> row_;    // first listed pair of each body
   WorkArray<PairWeight> weights_;  // of each listed pair
-  WorkArray<std::int32_t> jolts_,
+  WorkArray<std::int32_t> closing_,
       kept_;                     // listed pairs, share by share: those that close, those that are kept
   WorkArray<MovingDisc> discs_;  // the bodies, in the first period
   MotionTree tree_;
@@ -119,12 +119,12 @@ class GrainPairs {
   /// What a part of the tree's search finds.
   struct FarPart {
     std::vector<NearPair> pairs;
-    std::int64_t looked_at = 0;
+    std::int64_t distances = 0;
   };
   std::vector<FarPart> far_parts_;
   std::vector<NearPair> far_;
   std::vector<Candidate> extras_;  // kept pairs that are not listed, in the order of (i, j)
-  std::int64_t looked_at_ = 0, looked_far_ = 0;
+  std::int64_t distances_ = 0, far_distances_ = 0;
 };
 
 }  // namespace drumlin::particles

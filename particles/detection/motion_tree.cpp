@@ -16,18 +16,18 @@ struct Range {
 MotionBounds bounds_of(std::span<const NearGrain> grains) {
   const NearGrain& one = grains[0];
   Range x(one.x), z(one.z), v_x(one.v_x), v_z(one.v_z);
-  Range way_x(one.x - one.sorted_x), way_z(one.z - one.sorted_z), radius(one.radius);
+  Range moved_x(one.x - one.sorted_x), moved_z(one.z - one.sorted_z), radius(one.radius);
   for (const NearGrain& g : grains.subspan(1)) {
     x.add(g.x), z.add(g.z), v_x.add(g.v_x), v_z.add(g.v_z);
-    way_x.add(g.x - g.sorted_x), way_z.add(g.z - g.sorted_z), radius.add(g.radius);
+    moved_x.add(g.x - g.sorted_x), moved_z.add(g.z - g.sorted_z), radius.add(g.radius);
   }
   return {bound_below(x.low),       bound_above(x.high),
           bound_below(z.low),       bound_above(z.high),
           bound_below(v_x.low),     bound_above(v_x.high),
           bound_below(v_z.low),     bound_above(v_z.high),
           bound_above(radius.high), 0,
-          bound_below(way_x.low),   bound_above(way_x.high),
-          bound_below(way_z.low),   bound_above(way_z.high)};
+          bound_below(moved_x.low), bound_above(moved_x.high),
+          bound_below(moved_z.low), bound_above(moved_z.high)};
 }
 
 }  // namespace
@@ -106,17 +106,17 @@ void MotionTree::raise(std::span<const Block> blocks, std::vector<Block>& above)
   }
 }
 
-void MotionTree::set_jolts(std::span<const double> jolts, const TeamLoops& loops) {
+void MotionTree::set_bounds(std::span<const double> bounds, const TeamLoops& loops) {
   loops.each(nodes_.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) {
       double largest = 0;
-      for (const NearGrain& g : nodes_[n].grains()) largest = std::max(largest, jolts[g.body]);
-      nodes_[n].bounds.jolt = largest > 0 ? bound_above(largest) : 0;
+      for (const NearGrain& g : nodes_[n].grains()) largest = std::max(largest, bounds[g.body]);
+      nodes_[n].bounds.bound = largest > 0 ? bound_above(largest) : 0;
     }
   });
   for (Node& node : nodes_)
     for (const std::int32_t c : node.child)
-      if (c >= 0) node.bounds.jolt = std::max(node.bounds.jolt, nodes_[c].bounds.jolt);
+      if (c >= 0) node.bounds.bound = std::max(node.bounds.bound, nodes_[c].bounds.bound);
 }
 
 void MotionTree::add_roots() {

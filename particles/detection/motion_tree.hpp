@@ -18,9 +18,10 @@ namespace drumlin::particles {
 struct MotionBounds {
   float x_low = 0, x_high = 0, z_low = 0, z_high = 0;
   float v_x_low = 0, v_x_high = 0, v_z_low = 0, v_z_high = 0;
-  float radius = 0;                                                    ///< largest
-  float jolt = 0;                                                      ///< largest, of MotionTree::set_jolts
-  float way_x_low = 0, way_x_high = 0, way_z_low = 0, way_z_high = 0;  ///< since the grains were sorted
+  float radius = 0;  ///< largest
+  float bound = 0;   ///< largest, of MotionTree::set_bounds
+  float moved_x_low = 0, moved_x_high = 0, moved_z_low = 0,
+        moved_z_high = 0;  ///< since the grains were sorted
 };
 
 /// Bounds of a number in single precision. Beyond the range of that, and of no number, they are infinite.
@@ -56,28 +57,37 @@ inline double relative_speed(const MotionBounds& a, const MotionBounds& b, const
 }
 
 /// Bound on how far a grain of a and one of b have moved against each other since they were sorted.
-inline double relative_way(const MotionBounds& a, const MotionBounds& b) {
-  const double x = std::max(difference(a.way_x_high, b.way_x_low), difference(b.way_x_high, a.way_x_low)),
-               z = std::max(difference(a.way_z_high, b.way_z_low), difference(b.way_z_high, a.way_z_low));
+inline double relative_displacement(const MotionBounds& a, const MotionBounds& b) {
+  const double x = std::max(difference(a.moved_x_high, b.moved_x_low),
+                            difference(b.moved_x_high, a.moved_x_low)),
+               z = std::max(difference(a.moved_z_high, b.moved_z_low),
+                            difference(b.moved_z_high, a.moved_z_low));
   return std::sqrt(x * x + z * z);
 }
 
 inline MotionBounds united(const MotionBounds& a, const MotionBounds& b) {
-  return {std::min(a.x_low, b.x_low),         std::max(a.x_high, b.x_high),
-          std::min(a.z_low, b.z_low),         std::max(a.z_high, b.z_high),
-          std::min(a.v_x_low, b.v_x_low),     std::max(a.v_x_high, b.v_x_high),
-          std::min(a.v_z_low, b.v_z_low),     std::max(a.v_z_high, b.v_z_high),
-          std::max(a.radius, b.radius),       std::max(a.jolt, b.jolt),
-          std::min(a.way_x_low, b.way_x_low), std::max(a.way_x_high, b.way_x_high),
-          std::min(a.way_z_low, b.way_z_low), std::max(a.way_z_high, b.way_z_high)};
+  return {std::min(a.x_low, b.x_low),
+          std::max(a.x_high, b.x_high),
+          std::min(a.z_low, b.z_low),
+          std::max(a.z_high, b.z_high),
+          std::min(a.v_x_low, b.v_x_low),
+          std::max(a.v_x_high, b.v_x_high),
+          std::min(a.v_z_low, b.v_z_low),
+          std::max(a.v_z_high, b.v_z_high),
+          std::max(a.radius, b.radius),
+          std::max(a.bound, b.bound),
+          std::min(a.moved_x_low, b.moved_x_low),
+          std::max(a.moved_x_high, b.moved_x_high),
+          std::min(a.moved_z_low, b.moved_z_low),
+          std::max(a.moved_z_high, b.moved_z_high)};
 }
 
 /// Which pairs to look for.
 struct FarSearch {
   double time_step = 0;
   double margin = 0;
-  double seen = 0;           ///< pairs that were closer than this when they were sorted are known
-  bool after_jolts = false;  ///< look for what jolts add; otherwise for what speeds bring together
+  double seen = 0;         ///< pairs that were closer than this when they were sorted are known
+  bool by_bounds = false;  ///< look for what bounds add; otherwise for what speeds bring together
 };
 
 /// A tree over each of the grids of a search, and what it bounds. Keeps pointers into the grids.
@@ -95,13 +105,13 @@ class MotionTree {
     return sum;
   }
   /// Sets what each body may be pushed beyond its own motion; one entry per body.
-  void set_jolts(std::span<const double> jolts, const TeamLoops& loops);
+  void set_bounds(std::span<const double> bounds, const TeamLoops& loops);
 
   /// Cuts a search into parts, enough for some threads to share them about evenly; returns their number.
   std::size_t cut(const FarSearch& search);
   /// Of the search that was cut last. Calls `meet(p, a, b, same, image)` with the grains of two cells, which
   /// are one and the same if `same`, for all that can hold pairs with
-  ///   gap < margin + 2 h |v_i - v_j|,  after jolts + (jolt_i + jolt_j) / 2,
+  ///   gap < margin + 2 h |v_i - v_j|,  after bounds + (bound_i + bound_j) / 2,
   /// but for those that are known, b in an image of the domain. Each part p has one thread.
   template <class Meet>
   void far_pairs(const FarSearch& search, const TeamLoops& loops, Meet meet) {
@@ -140,13 +150,13 @@ class MotionTree {
   }
 
   bool apart(const FarSearch& search, const Node& a, const Node& b, const Image& image) const {
-    const double jolts = search.after_jolts
-                             ? (static_cast<double>(a.bounds.jolt) + static_cast<double>(b.bounds.jolt)) / 2
-                             : 0;
-    if (search.after_jolts && jolts == 0) return true;
+    const double bounds =
+        search.by_bounds ? (static_cast<double>(a.bounds.bound) + static_cast<double>(b.bounds.bound)) / 2
+                         : 0;
+    if (search.by_bounds && bounds == 0) return true;
     const double reach =
-        search.margin + 2 * search.time_step * relative_speed(a.bounds, b.bounds, image) + jolts;
-    return reach + relative_way(a.bounds, b.bounds) <= search.seen ||
+        search.margin + 2 * search.time_step * relative_speed(a.bounds, b.bounds, image) + bounds;
+    return reach + relative_displacement(a.bounds, b.bounds) <= search.seen ||
            distance(a.bounds, b.bounds, image) - static_cast<double>(a.bounds.radius) -
                    static_cast<double>(b.bounds.radius) >
                reach;

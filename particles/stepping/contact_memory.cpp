@@ -112,14 +112,15 @@ RememberedLoads Recollection::loads_of(std::span<const Candidate> pairs, const C
 
 void Recollection::warm_start(const ContactMemory& memory, int dim, double time_step,
                               std::span<const std::int32_t> order, std::vector<double>& impulses) const {
-  impulses.clear();
   resize_closely(impulses, dim * place_.size());
   const double scale = scale_of(memory, time_step);
   const std::int32_t* const place = place_.data();
   loops_.each(place_.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t a = begin; a < end; ++a)
-      if (const std::int32_t m = place[order[a]]; m >= 0)
-        for (int c = 0; c < dim; ++c) impulses[dim * a + c] = scale * memory.impulse[dim * m + c];
+    double* to = impulses.data() + dim * begin;
+    for (std::size_t a = begin; a < end; ++a) {
+      const std::int32_t m = place[order[a]];
+      for (int c = 0; c < dim; ++c) *to++ = m < 0 ? 0 : scale * memory.impulse[dim * m + c];
+    }
   });
 }
 

@@ -9,7 +9,6 @@
 
 #include "particles/bodies/bodies.hpp"
 #include "particles/bodies/walls.hpp"
-#include "particles/detection/cell_grid.hpp"
 #include "particles/scene/scene.hpp"
 #include "particles/stepping/contact_memory.hpp"
 

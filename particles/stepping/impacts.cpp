@@ -189,13 +189,16 @@ void Impacts::link() {
   in_pass_.assign(pairs.size(), 0);
   first_.assign(place_.size(), -1);
   next_.renew(2 * pairs.size());
-  const auto enter = [this](std::int32_t body, std::int32_t entry) {
-    next_[entry] = first_[body];
-    first_[body] = entry;
+  std::int32_t *const first = first_.data(), *const next = next_.data();
+  const auto enter = [=](std::int32_t body, std::int32_t entry) {
+    next[entry] = first[body];
+    first[body] = entry;
   };
+  const bool driven = !in_->step.walls.driven.empty();
   for (auto a = static_cast<std::int32_t>(pairs.size()) - 1; a >= 0; --a) {
     enter(pairs[a].i, 2 * a);
-    if (const std::int32_t j = second_body_of(pairs[a]); j >= 0) enter(j, 2 * a + 1);
+    const std::int32_t j = driven ? second_body_of(pairs[a]) : pairs[a].j;
+    if (j >= 0) enter(j, 2 * a + 1);
   }
 }
 

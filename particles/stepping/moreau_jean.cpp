@@ -192,8 +192,8 @@ class MoreauJean final : public Stepper {
       report.setup_seconds += watch.lap();
       if (impacts_.count() == 0) return;
       move_freely(step);
-      if (searches == most_searches || !find_thrown(step)) return;
-      if (detection_.find_around(thrown_, step.bodies, free_.x, free_.z, detection_input(step)))
+      if (searches == most_searches || !find_struck(step)) return;
+      if (detection_.add_around(struck_, step.bodies, free_.x, free_.z, detection_input(step)))
         recollect_more(state.memory);
       report.detection_seconds += watch.lap();
     }
@@ -202,7 +202,6 @@ class MoreauJean final : public Stepper {
   /// Finds the pairs in the memory that a search around grains has added.
   void recollect_more(const ContactMemory& memory) {
     const auto found = detection_.candidates();
-    if (detection_.added().empty()) return recollection_.find(memory, found);
     std::vector<Candidate> added;
     for (const std::int32_t a : detection_.added()) added.push_back(found[a]);
     recollection_.find_added(memory, detection_.added(), added);
@@ -219,18 +218,18 @@ class MoreauJean final : public Stepper {
     return impacts_.any({step, pairs_of_struck_, loads, contacts_.wall_jumps});
   }
 
-  /// The grains that impacts have thrown further than the search for pairs allowed for; false if none.
-  bool find_thrown(const StepInput& step) {
-    thrown_.clear();
+  /// The grains that impacts have struck harder than the search for pairs allowed for; false if none.
+  bool find_struck(const StepInput& step) {
+    struck_.clear();
     for (const StruckGrain& struck : impacts_.struck()) {
       const std::int32_t b = struck.grain;
-      const double push =
+      const double displacement =
           2 * step.time_step * std::hypot(free_.x[b] - searched_.x[b], free_.z[b] - searched_.z[b]);
-      if (push <= detection_.jolt(b) + laws_.detection_margin) continue;
-      thrown_.push_back({b, push});
+      if (displacement <= detection_.displacement_bound(b) + laws_.detection_margin) continue;
+      struck_.push_back({b, displacement});
       searched_.x[b] = free_.x[b], searched_.z[b] = free_.z[b];
     }
-    return !thrown_.empty();
+    return !struck_.empty();
   }
 
   DetectionInput detection_input(const StepInput& step) const {
@@ -334,8 +333,8 @@ class MoreauJean final : public Stepper {
   WorkMemory memory_;  // of one phase of a step after the other
   FreeMotion free_;
   std::vector<std::pair<std::int32_t, Point>> lone_;  // grains on one wall, and where their step ends
-  FreeMotion searched_;              // velocities by which pairs were last looked for, grain by grain
-  std::vector<ThrownGrain> thrown_;  // since then
+  FreeMotion searched_;             // velocities by which pairs were last looked for, grain by grain
+  std::vector<StruckDisc> struck_;  // since then
   ContactDetection detection_;
   ContactOrder order_;
   StepContacts contacts_;

@@ -48,24 +48,33 @@ OverlapSums OverlapSearch::look_at(std::size_t begin, std::size_t end, const Mov
   const std::vector<std::int32_t>& starts = contacts.plan.group_start;
   std::size_t group =
       std::lower_bound(starts.begin(), starts.end(), static_cast<std::int32_t>(begin)) - starts.begin();
-  ClosePair* const close = &pairs_[begin];
+  ClosePair* close = &pairs_[begin];
+  const double *const x = bodies.x.data(), *const z = bodies.z.data(), *const radius = bodies.radius.data();
+  const Candidate* const pairs = contacts.pairs.data();
+  const double* const impulses = contacts.impulses.data();
+  const Period domain = period;
   for (std::size_t a = begin; a < end; ++a) {
-    for (; starts[group] == static_cast<std::int32_t>(a); ++group) plan_.group_start[group] = sums.close;
-    const Candidate& pair = contacts.pairs[a];
+    for (; starts[group] == static_cast<std::int32_t>(a); ++group)
+      plan_.group_start[group] = static_cast<std::int32_t>(close - &pairs_[begin]);
+    const Candidate& pair = pairs[a];
     ClosePair now{pair.i, pair.j, 0, 0, 0};
-    now.gap = gap_now(pair, bodies, walls.after, period, now.n_x, now.n_z);
-    const bool loaded = contacts.impulses[contacts.dim * a] > 0;
-    if (now.j < 0 && !sums.lost) sums.lost = lost_at_wall(now, loaded, bodies, walls, period);
-    if (loaded) {
-      const double depth = std::max(0.0, -now.gap);
-      sums.depths += depth;
-      sums.deepest = std::max(sums.deepest, depth);
-      ++sums.loaded;
+    const bool loaded = impulses[contacts.dim * a] > 0;
+    if (now.j < 0) {
+      now.gap = gap_now(pair, bodies, walls.after, period, now.n_x, now.n_z);
+      if (!sums.lost) sums.lost = lost_at_wall(now, loaded, bodies, walls, period);
+    } else {
+      const Point d = domain.nearest(Point{x[now.i] - x[now.j], z[now.i] - z[now.j]});
+      now.gap = normal_of(d.x, d.z, now.n_x, now.n_z) - radius[now.i] - radius[now.j];
     }
-    close[sums.close] = now;
-    sums.close += now.gap < margin;
+    const double depth = loaded ? std::max(0.0, -now.gap) : 0;
+    sums.depths += depth;
+    sums.deepest = std::max(sums.deepest, depth);
+    sums.loaded += loaded;
+    *close = now;
+    close += now.gap < margin;
     sums.overlap |= now.gap < 0;
   }
+  sums.close = static_cast<std::int32_t>(close - &pairs_[begin]);
   return sums;
 }
 

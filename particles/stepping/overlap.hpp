@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "particles/bodies/bodies.hpp"
+#include "particles/bodies/period.hpp"
 #include "particles/contact/sweep_plan.hpp"
 #include "particles/detection/candidate.hpp"
-#include "particles/detection/cell_grid.hpp"
 #include "particles/effects/wall_step.hpp"
 #include "particles/parallel/team_loops.hpp"
 #include "particles/parallel/work_memory.hpp"

@@ -205,9 +205,11 @@ void WallCrossings::undo_at_containers(const WallStep& walls, const Period& peri
     const auto& is = std::get<Container>(walls.after[shape]);
     const auto outside = loops_.combined<Discs>(bodies.count(), [&](std::size_t begin, std::size_t end) {
       Discs some;
+      const double *x = bodies.x.data(), *z = bodies.z.data();
+      const double squared = is.radius * is.radius;
       for (std::size_t b = begin; b < end; ++b) {
-        const double x = period.nearest(bodies.x[b] - is.center.x), z = bodies.z[b] - is.center.z;
-        if (x * x + z * z > is.radius * is.radius) some.list.push_back(b);
+        const double d_x = period.nearest(x[b] - is.center.x), d_z = z[b] - is.center.z;
+        if (d_x * d_x + d_z * d_z > squared) some.list.push_back(b);
       }
       return some;
     });

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "particles/bodies/bodies.hpp"
-#include "particles/detection/cell_grid.hpp"
+#include "particles/bodies/period.hpp"
 #include "particles/effects/wall_step.hpp"
 #include "particles/parallel/team_loops.hpp"
 #include "particles/stepping/lost_grain.hpp"

@@ -1,6 +1,6 @@
 #include "particles/stepping/wall_loads.hpp"
 
-#include "particles/detection/cell_grid.hpp"
+#include "particles/bodies/period.hpp"
 
 namespace drumlin::particles {
 namespace {

@@ -38,7 +38,7 @@ Grains shuffled(const Grains& grains, RandomStream& random) {
 }
 
 struct Price {
-  double ns = 0, looked_at = 0, pairs = 0;  // per grain
+  double ns = 0, distances = 0, pairs = 0;  // per grain
 };
 
 Price price(const Grains& grains) {
@@ -58,7 +58,7 @@ Price price(const Grains& grains) {
     spent += seconds;
     const double ns = 1e9 * seconds / count;
     if (k == 1 || ns < best.ns)
-      best = {ns, static_cast<double>(detection.looked_at()) / count,
+      best = {ns, static_cast<double>(detection.distances()) / count,
               static_cast<double>(found.size()) / count};
   }
   return best;
@@ -72,7 +72,7 @@ Json prices(const Make& make, const std::vector<int>& counts) {
     const Price in_place = price(grains), at_random = price(shuffled(grains, random));
     rows.push_back({{"grains", grains.count()},
                     {"pairs_per_grain", in_place.pairs},
-                    {"looked_at_per_grain", in_place.looked_at},
+                    {"distances_per_grain", in_place.distances},
                     {"ns_per_grain", in_place.ns},
                     {"ns_per_grain_numbered_at_random", at_random.ns}});
   }

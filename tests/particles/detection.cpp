@@ -38,7 +38,7 @@ std::map<std::pair<int, int>, double> defined(const Grains& g, const Period& per
     double gap, reach;
   };
   std::vector<Weighed> all;
-  std::vector<double> jolt(g.count(), 0.0);
+  std::vector<double> bound(g.count(), 0.0);
   for (int i = 0; i < count; ++i)
     for (int j = i + 1; j < count; ++j) {
       double n_x = 0, n_z = 0;
@@ -46,11 +46,11 @@ std::map<std::pair<int, int>, double> defined(const Grains& g, const Period& per
       const double approach = -(n_x * (g.v_x[i] - g.v_x[j]) + n_z * (g.v_z[i] - g.v_z[j]));
       const double reach = 2 * time_step * std::max(0.0, approach);
       all.push_back({i, j, gap, reach});
-      if (gap < margin + reach) jolt[i] = std::max(jolt[i], reach), jolt[j] = std::max(jolt[j], reach);
+      if (gap < margin + reach) bound[i] = std::max(bound[i], reach), bound[j] = std::max(bound[j], reach);
     }
   std::map<std::pair<int, int>, double> pairs;
   for (const Weighed& w : all)
-    if (w.gap < margin + w.reach + (jolt[w.i] + jolt[w.j]) / 2) pairs[{w.i, w.j}] = w.gap;
+    if (w.gap < margin + w.reach + (bound[w.i] + bound[w.j]) / 2) pairs[{w.i, w.j}] = w.gap;
   return pairs;
 }
 
@@ -106,23 +106,24 @@ TEST(Detection, GivesTheSameBytesForAnyNumberOfThreads) {
   }
 }
 
-/// The pairs that a search around one thrown grain adds, from all pairs: jolts as before it.
-std::set<std::pair<int, int>> around(int thrown, double push, const Grains& g, const Period& period,
+/// The pairs that a search around one struck grain adds, from all pairs: bounds as before it.
+std::set<std::pair<int, int>> around(int struck, double displacement, const Grains& g, const Period& period,
                                      const ContactDetection& before) {
   std::set<std::pair<int, int>> pairs;
   for (int k = 0; k < static_cast<int>(g.count()); ++k) {
-    if (k == thrown) continue;
-    const int i = std::min(k, thrown), j = std::max(k, thrown);
+    if (k == struck) continue;
+    const int i = std::min(k, struck), j = std::max(k, struck);
     double n_x = 0, n_z = 0;
     const double gap = gap_now({i, j, 0, 0, 0, 0, 0}, g.bodies, {}, period, n_x, n_z);
     const double approach = -(n_x * (g.v_x[i] - g.v_x[j]) + n_z * (g.v_z[i] - g.v_z[j]));
-    if (gap < 2 * margin + 2 * time_step * std::max(0.0, approach) + push / 2 + before.jolt(k))
+    if (gap < 2 * margin + 2 * time_step * std::max(0.0, approach) + displacement / 2 +
+                  before.displacement_bound(k))
       pairs.insert({i, j});
   }
   return pairs;
 }
 
-TEST(Detection, AddsThePairsThatAThrownGrainMayMeet) {
+TEST(Detection, AddsThePairsThatAStruckGrainMayMeet) {
   RandomStream random(14, "test");
   for (const Period& period : {Period{}, Period{-1, 40}})
     for (const double speed : {2.0, 30.0}) {
@@ -131,34 +132,19 @@ TEST(Detection, AddsThePairsThatAThrownGrainMayMeet) {
       std::set<std::pair<int, int>> expected;
       for (const Candidate& pair : found(detection, g, period)) expected.insert({pair.i, pair.j});
       const std::size_t known = expected.size();
-      const int thrown = 700;
-      g.v_x[thrown] += speed, g.v_z[thrown] -= speed;
-      const double push = 2 * time_step * speed * std::sqrt(2.0);
-      expected.merge(around(thrown, push, g, period, detection));
+      const int struck = 700;
+      g.v_x[struck] += speed, g.v_z[struck] -= speed;
+      const double displacement = 2 * time_step * speed * std::sqrt(2.0);
+      expected.merge(around(struck, displacement, g, period, detection));
       const DetectionInput input{{}, {}, time_step, margin, period};
-      const ThrownGrain one[] = {{thrown, push}};
-      EXPECT_TRUE(detection.find_around(one, g.bodies, g.v_x, g.v_z, input));
+      const StruckDisc one[] = {{struck, displacement}};
+      EXPECT_TRUE(detection.add_around(one, g.bodies, g.v_x, g.v_z, input));
       EXPECT_GT(expected.size(), known);
       auto next = expected.begin();
       ASSERT_EQ(detection.candidates().size(), expected.size());
       for (const Candidate& pair : detection.candidates()) ASSERT_EQ(std::pair(pair.i, pair.j), *next++);
-      EXPECT_FALSE(detection.find_around(one, g.bodies, g.v_x, g.v_z, input));  // all are known by now
+      EXPECT_FALSE(detection.add_around(one, g.bodies, g.v_x, g.v_z, input));  // all are known by now
     }
-}
-
-TEST(Detection, LooksAtAllGrainsAgainWhereMostAreThrown) {
-  RandomStream random(15, "test");
-  Grains g = packed(900, 1, 1, random);
-  ContactDetection detection;
-  (void)found(detection, g);
-  std::vector<ThrownGrain> thrown;
-  for (int i = 0; i < 900; ++i) {
-    g.v_x[i] += random.uniform(-20, 20);
-    thrown.push_back({i, 2.0});
-  }
-  const DetectionInput input{{}, {}, time_step, margin, {}};
-  EXPECT_TRUE(detection.find_around(thrown, g.bodies, g.v_x, g.v_z, input));
-  EXPECT_EQ(detection.candidates().size(), defined(g, {}).size());
 }
 
 /// Distances measured per grain.
@@ -168,10 +154,10 @@ double price(Make make, int count) {
   const Grains g = make(count, random);
   ContactDetection detection;
   (void)found(detection, g);
-  return static_cast<double>(detection.looked_at()) / static_cast<double>(g.count());
+  return static_cast<double>(detection.distances()) / static_cast<double>(g.count());
 }
 
-TEST(Detection, LooksAtAsManyPairsPerGrainWhateverTheirNumber) {
+TEST(Detection, MeasuresAsManyDistancesPerGrainWhateverTheirNumber) {
   // Cells of 1.3 d hold 1.7 grains, and half of nine are looked at: some 8 per grain.
   EXPECT_LT(price(flowing, 8000), 12);
   EXPECT_LT(price(test::all_fall, 8000), 12);

@@ -33,7 +33,8 @@ void expect_same(const ContactDetection& kept, const ContactDetection& anew, std
     ASSERT_EQ(std::pair(a.wall_v_x, a.wall_v_z), std::pair(b.wall_v_x, b.wall_v_z));
   }
   for (std::size_t b = 0; b < bodies; ++b)
-    ASSERT_EQ(kept.jolt(static_cast<std::int32_t>(b)), anew.jolt(static_cast<std::int32_t>(b)));
+    ASSERT_EQ(kept.displacement_bound(static_cast<std::int32_t>(b)),
+              anew.displacement_bound(static_cast<std::int32_t>(b)));
 }
 
 struct Case {
@@ -80,18 +81,18 @@ TEST(KeptLists, FindWhatASearchFromNothingFinds) {
       anew.find(c.grains.bodies, c.grains.v_x, c.grains.v_z, input);
       kept.find(c.grains.bodies, c.grains.v_x, c.grains.v_z, input);
       expect_same(kept, anew, c.grains.count());
-      cheap = cheap || kept.looked_at() < anew.looked_at();
-      if (step % 3 == 0) {  // an impact throws two grains
+      cheap = cheap || kept.distances() < anew.distances();
+      if (step % 3 == 0) {  // an impact strikes two grains
         const auto i =
             static_cast<std::int32_t>(random.uniform() * static_cast<double>(c.grains.count() - 1));
-        std::vector<ThrownGrain> thrown;
+        std::vector<StruckDisc> struck;
         for (const std::int32_t b : {i, i + 1}) {
           const double v = random.uniform(-3, 3);
           c.grains.v_x[b] += v, c.grains.v_z[b] -= v;
-          thrown.push_back({b, 2 * c.time_step * std::sqrt(2.0) * std::abs(v)});
+          struck.push_back({b, 2 * c.time_step * std::sqrt(2.0) * std::abs(v)});
         }
-        const bool more = anew.find_around(thrown, c.grains.bodies, c.grains.v_x, c.grains.v_z, input);
-        EXPECT_EQ(kept.find_around(thrown, c.grains.bodies, c.grains.v_x, c.grains.v_z, input), more);
+        const bool more = anew.add_around(struck, c.grains.bodies, c.grains.v_x, c.grains.v_z, input);
+        EXPECT_EQ(kept.add_around(struck, c.grains.bodies, c.grains.v_x, c.grains.v_z, input), more);
         expect_same(kept, anew, c.grains.count());
       }
       move(c.grains, c.time_step);
