@@ -178,10 +178,7 @@ bool Impacts::strikes(std::int32_t a, const PairPath& path, const Surfaces& now,
   return pair.j < 0 && -u_n > at_rest_alone * gain && (may_be_alone || is_alone(pair.i));
 }
 
-bool Impacts::is_alone(std::int32_t body) {
-  if (!whole_.empty() && !whole_[body]) missing_.push_back(body);
-  return first_[body] >= 0 && next_[first_[body]] < 0;
-}
+bool Impacts::is_alone(std::int32_t body) const { return first_[body] >= 0 && next_[first_[body]] < 0; }
 
 void Impacts::link() {
   const std::span<const Candidate> pairs = in_->pairs;
@@ -218,7 +215,6 @@ void Impacts::schedule(std::int32_t a, double from) {
 
 std::int32_t Impacts::take_up(std::int32_t body) {
   if (place_[body] < 0) {
-    if (!whole_.empty() && !whole_[body]) missing_.push_back(body);
     const StepInput& step = in_->step;
     ImpactBody taken;
     taken.body = body;
@@ -353,39 +349,25 @@ bool Impacts::any(const ImpactInput& input) {
 }
 
 void Impacts::resolve(const ImpactInput& input, const ImpactOutput& output) {
-  (void)resolve_part(input, {}, output);
-}
-
-bool Impacts::resolve_part(const ImpactInput& input, std::span<const char> whole,
-                           const ImpactOutput& output) {
   begin(input);
-  whole_ = whole;
-  struck_.clear(), missing_.clear(), events_.clear();
+  struck_.clear(), events_.clear();
   work_ = {};
   count_ = unresolved_ = passes_ = 0;
-  if (!find_closings()) return true;
+  if (!find_closings()) return;
   link();
-  const std::size_t strikes_before = output.contacts.strikes.size();
   for (const std::int32_t a : closings_) {
     const Candidate& pair = in_->pairs[a];
     const Point u = path_of(pair).velocity(0);
     slowest_ = std::max(slowest_, -rounding * (pair.n_x * u.x + pair.n_z * u.z));
   }
   for (const std::int32_t a : closings_) schedule(a, struck_at(in_->pairs[a]));
-  while (!events_.empty() && missing_.empty()) {
+  while (!events_.empty()) {
     std::pop_heap(events_.begin(), events_.end(), std::greater<>());
     const Event event = events_.back();
     events_.pop_back();
     if (event.passes == passes_of(in_->pairs[event.pair])) strike(event, output.contacts);
   }
-  if (missing_.empty()) {
-    give_back(output);
-    return true;
-  }
-  for (const ImpactBody& body : taken_) place_[body.body] = -1;
-  output.contacts.strikes.resize(strikes_before);
-  count_ = unresolved_ = 0;
-  return false;
+  give_back(output);
 }
 
 }  // namespace drumlin::particles

@@ -30,32 +30,6 @@ struct StruckGrain {
   Point shift;
 };
 
-/// Picks out the pairs of struck grains; keeps workspace only.
-class StruckPairs {
- public:
-  /// Sets `selected` to the pairs pair(0), pair(1), ..., of `count`, in their order, of which
-  /// place_of(struck) gives one side; -1: none.
-  template <class Struck, class Place, class Pair>
-  void select(std::size_t bodies, std::span<const Struck> struck, Place place_of, std::size_t count,
-              Pair pair, std::vector<Candidate>& selected) {
-    is_struck_.resize(bodies, 0);
-    const auto mark = [&](char value) {
-      for (const Struck& grain : struck)
-        if (const std::int32_t b = place_of(grain); b >= 0) is_struck_[b] = value;
-    };
-    mark(1);
-    selected.clear();
-    for (std::size_t k = 0; k < count; ++k) {
-      const Candidate& found = pair(k);
-      if (is_struck_[found.i] | (found.j >= 0 ? is_struck_[found.j] : 0)) selected.push_back(found);
-    }
-    mark(0);
-  }
-
- private:
-  std::vector<char> is_struck_;  // of each body, within select() alone
-};
-
 /// What impacts of a step depend on: pairs as they were found, in the order of (i, j), and the loads that
 /// they carried in the last step.
 struct ImpactInput {
@@ -84,18 +58,9 @@ class Impacts {
   }
   void resolve(const ImpactInput& input, const ImpactOutput& output);
 
-  /// The same of a part of the pairs: all that meet at first, and all pairs of the bodies b with whole[b].
-  /// Returns false, and changes nothing, where an impact takes up other bodies, which missing() lists; else
-  /// the result is that of all pairs, to the last bit.
-  bool resolve_part(const ImpactInput& input, std::span<const char> whole, const ImpactOutput& output);
-
-  /// Whether resolve() would have anything to do; of a part of the pairs, whether these alone may give it.
+  /// Whether resolve() would have anything to do.
   bool any(const ImpactInput& input);
 
-  // Of the last call, which was any(): the pairs that may meet.
-  std::span<const std::int32_t> closings() const { return closings_; }
-  // Of the last call of resolve_part() alone.
-  std::span<const std::int32_t> missing() const { return missing_; }
   // Of the last call of resolve().
   std::span<const StruckGrain> struck() const { return struck_; }
   const ImpactWork& work() const { return work_; }
@@ -141,7 +106,7 @@ class Impacts {
   bool strikes(std::int32_t a, const PairPath& path, const Surfaces& now, double time, bool may_be_alone);
   bool rests(std::int32_t a, double u_n) const;
   /// Whether a grain has no other pair than one.
-  bool is_alone(std::int32_t body);
+  bool is_alone(std::int32_t body) const;
   /// How often a pair may meet within the step.
   int most() const;
   /// When pair a meets next, from a time on.
@@ -162,8 +127,6 @@ class Impacts {
   ImpactPass pass_;
   std::vector<Event> events_;              // a heap, the first one in time on top
   std::vector<std::int32_t> closings_;     // pairs
-  std::span<const char> whole_;            // of each body, whether its pairs are all there; empty: of all
-  std::vector<std::int32_t> missing_;      // bodies taken up without that
   std::vector<ImpactBody> taken_;          // bodies that impacts have taken up
   std::vector<std::int32_t> place_;        // of each body among them; -1: not there
   WorkArray<std::int32_t> first_, next_;   // pairs of each body, linked

@@ -210,10 +210,11 @@ class MoreauJean final : public Stepper {
   /// Whether any pair meets now, after impacts and another search: only one of a grain that they struck can.
   bool strikes_again(const StepInput& step, const MovingState& state) {
     if (!step.driven.empty()) return true;  // walls have been struck too
-    const auto found = detection_.candidates();
-    struck_pairs_.select(
-        step.bodies.count(), impacts_.struck(), [](const StruckGrain& struck) { return struck.grain; },
-        found.size(), [&](std::size_t a) -> const Candidate& { return found[a]; }, pairs_of_struck_);
+    is_struck_.assign(step.bodies.count(), 0);
+    for (const StruckGrain& struck : impacts_.struck()) is_struck_[struck.grain] = 1;
+    pairs_of_struck_.clear();
+    for (const Candidate& pair : detection_.candidates())
+      if (is_struck_[pair.i] | (pair.j >= 0 ? is_struck_[pair.j] : 0)) pairs_of_struck_.push_back(pair);
     const auto loads = recollection_.loads_of(pairs_of_struck_, state.memory, dim, step.time_step);
     return impacts_.any({step, pairs_of_struck_, loads, contacts_.wall_jumps});
   }
@@ -339,7 +340,7 @@ class MoreauJean final : public Stepper {
   ContactOrder order_;
   StepContacts contacts_;
   Impacts impacts_;
-  StruckPairs struck_pairs_;
+  std::vector<char> is_struck_;  // of each grain, within strikes_again() alone
   std::vector<Candidate> pairs_of_struck_;
   Recollection recollection_;
   Problem problem_;
