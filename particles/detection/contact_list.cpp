@@ -132,6 +132,14 @@ double listed_range(const GrainMotion& motion, const DetectionInput& input) {
   return input.margin + std::min(2 * input.time_step * motion.speeds, widest * motion.smallest);
 }
 
+/// Edge of the cells of the finest of the grids that list pairs up to a range.
+double finest_cell(const GrainMotion& motion, double range) {
+  const bool alike = 2 * motion.smallest > motion.largest;
+  const double size = std::max(motion.smallest, std::min(range, motion.largest));
+  const int level = alike ? 0 : std::ilogb(motion.largest / size);
+  return motion.largest / std::exp2(level) + range;
+}
+
 }  // namespace
 
 double gap_to_shape(const Shape& shape, double x, double z, double radius, double& n_x, double& n_z,
@@ -242,6 +250,7 @@ std::span<const Candidate> ContactDetection::find(const Bodies& bodies, std::spa
   const GrainMotion motion = motion_of(bodies, v_x, v_z, input, loops_);
   const PairRule rule{input.time_step, input.margin, motion.speeds, input.period};
   const double range = listed_range(motion, input);
+  cell_ = finest_cell(motion, range);
   list_pairs({bodies, v_x, v_z, input.period}, rule, range, motion.smallest);
   pairs_.find_closing(rule, bounds_);
   find_near_walls(motion.fastest, motion.largest, input);
@@ -253,16 +262,25 @@ std::span<const Candidate> ContactDetection::find(const Bodies& bodies, std::spa
   return candidates();
 }
 
-bool ContactDetection::add_around(std::span<const StruckDisc> struck, const Bodies& bodies,
-                                  std::span<const double> v_x, std::span<const double> v_z,
-                                  const DetectionInput& input) {
+bool ContactDetection::is_local(std::span<const StruckDisc> struck, double reach) const {
+  const double cells = 2 * reach / cell_ + 2;  // that a disc's search reads, along x and z
+  return static_cast<double>(struck.size()) * cells * cells < static_cast<double>(bounds_.size());
+}
+
+bool ContactDetection::find_around(std::span<const StruckDisc> struck, const Bodies& bodies,
+                                   std::span<const double> v_x, std::span<const double> v_z,
+                                   const DetectionInput& input) {
   added_.clear(), found_.clear(), weighed_.clear();
   if (struck.empty()) return false;
   for (const StruckDisc& disc : struck)
     bounds_[disc.grain] = std::max(bounds_[disc.grain], disc.displacement);
-  const double range = 2 * input.margin +
-                       2 * input.time_step * motion_of(bodies, v_x, v_z, input, loops_).speeds +
+  const GrainMotion motion = motion_of(bodies, v_x, v_z, input, loops_);
+  const double range = 2 * input.margin + 2 * input.time_step * motion.speeds +
                        1.5 * *std::max_element(bounds_.begin(), bounds_.end());
+  if (!is_local(struck, range + motion.largest)) {
+    find(bodies, v_x, v_z, input);
+    return true;
+  }
   for (const StruckDisc& disc : struck) add_around(disc, range, bodies, v_x, v_z, input);
   for (const WeighedPair& wall : weighed_)
     if (wall.pair.gap < input.margin + wall.reach + bounds_[wall.pair.i] / 2) found_.push_back(wall.pair);

@@ -52,12 +52,13 @@ class ContactDetection {
   ///   gap < 2 margin + 2 h a + J_i / 2 + displacement_bound(k),
   /// J_i the displacement of the struck grain i, which becomes its bound. So all pairs are found that close
   /// within the step, if no grain is struck harder than (bound + margin) / (2 h) again. Looks around these
-  /// grains only, at the places of the last search. Returns whether it has added any.
-  bool add_around(std::span<const StruckDisc> struck, const Bodies& bodies, std::span<const double> v_x,
-                  std::span<const double> v_z, const DetectionInput& input);
+  /// grains only, at the places of the last search; anew at all grains where that would be most of them.
+  /// Returns whether the candidates are others than before.
+  bool find_around(std::span<const StruckDisc> struck, const Bodies& bodies, std::span<const double> v_x,
+                   std::span<const double> v_z, const DetectionInput& input);
   std::span<const Candidate> candidates() const { return {candidates_.data(), candidates_.size()}; }
   /// Places among the candidates, ascending, of the pairs that the last search around struck grains has
-  /// added.
+  /// added; empty where it had to begin anew.
   std::span<const std::int32_t> added() const { return added_; }
 
   /// The next search begins anew, as the first one.
@@ -74,6 +75,8 @@ class ContactDetection {
   void weigh_at_wall(const NearGrain& grain, std::int32_t shape, double farthest, const DetectionInput&);
   void find_near_walls(double fastest, double largest, const DetectionInput& input);
 
+  /// Whether searches around the struck grains alone, as far as `reach`, look at fewer grains than there are.
+  bool is_local(std::span<const StruckDisc> struck, double reach) const;
   void add_around(const StruckDisc&, double range, const Bodies& bodies, std::span<const double> v_x,
                   std::span<const double> v_z, const DetectionInput& input);
   bool insert_found();
@@ -92,6 +95,7 @@ class ContactDetection {
   GrainGrids grids_;
   GrainPairs pairs_;
   Lists lists_;
+  double cell_ = 0;                   // edge of the cells of the finest grid of a list that is used once
   std::vector<WeighedPair> weighed_;  // of grains and walls
   std::vector<double> bounds_;        // 2 h a_i of each body
   WorkArray<Candidate> candidates_;

@@ -193,7 +193,7 @@ class MoreauJean final : public Stepper {
       if (impacts_.count() == 0) return;
       move_freely(step);
       if (searches == most_searches || !find_struck(step)) return;
-      if (detection_.add_around(struck_, step.bodies, free_.x, free_.z, detection_input(step)))
+      if (detection_.find_around(struck_, step.bodies, free_.x, free_.z, detection_input(step)))
         recollect_more(state.memory);
       report.detection_seconds += watch.lap();
     }
@@ -202,6 +202,7 @@ class MoreauJean final : public Stepper {
   /// Finds the pairs in the memory that a search around grains has added.
   void recollect_more(const ContactMemory& memory) {
     const auto found = detection_.candidates();
+    if (detection_.added().empty()) return recollection_.find(memory, found);
     std::vector<Candidate> added;
     for (const std::int32_t a : detection_.added()) added.push_back(found[a]);
     recollection_.find_added(memory, detection_.added(), added);

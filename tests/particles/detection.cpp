@@ -138,13 +138,28 @@ TEST(Detection, AddsThePairsThatAStruckGrainMayMeet) {
       expected.merge(around(struck, displacement, g, period, detection));
       const DetectionInput input{{}, {}, time_step, margin, period};
       const StruckDisc one[] = {{struck, displacement}};
-      EXPECT_TRUE(detection.add_around(one, g.bodies, g.v_x, g.v_z, input));
+      EXPECT_TRUE(detection.find_around(one, g.bodies, g.v_x, g.v_z, input));
       EXPECT_GT(expected.size(), known);
       auto next = expected.begin();
       ASSERT_EQ(detection.candidates().size(), expected.size());
       for (const Candidate& pair : detection.candidates()) ASSERT_EQ(std::pair(pair.i, pair.j), *next++);
-      EXPECT_FALSE(detection.add_around(one, g.bodies, g.v_x, g.v_z, input));  // all are known by now
+      EXPECT_FALSE(detection.find_around(one, g.bodies, g.v_x, g.v_z, input));  // all are known by now
     }
+}
+
+TEST(Detection, BeginsAnewWhereMostAreStruck) {
+  RandomStream random(15, "test");
+  Grains g = packed(900, 1, 1, random);
+  ContactDetection detection;
+  (void)found(detection, g);
+  std::vector<StruckDisc> struck;
+  for (int i = 0; i < 900; ++i) {
+    g.v_x[i] += random.uniform(-20, 20);
+    struck.push_back({i, 2.0});
+  }
+  const DetectionInput input{{}, {}, time_step, margin, {}};
+  EXPECT_TRUE(detection.find_around(struck, g.bodies, g.v_x, g.v_z, input));
+  EXPECT_EQ(detection.candidates().size(), defined(g, {}).size());
 }
 
 /// Distances measured per grain.

@@ -91,8 +91,8 @@ TEST(KeptLists, FindWhatASearchFromNothingFinds) {
           c.grains.v_x[b] += v, c.grains.v_z[b] -= v;
           struck.push_back({b, 2 * c.time_step * std::sqrt(2.0) * std::abs(v)});
         }
-        const bool more = anew.add_around(struck, c.grains.bodies, c.grains.v_x, c.grains.v_z, input);
-        EXPECT_EQ(kept.add_around(struck, c.grains.bodies, c.grains.v_x, c.grains.v_z, input), more);
+        const bool more = anew.find_around(struck, c.grains.bodies, c.grains.v_x, c.grains.v_z, input);
+        EXPECT_EQ(kept.find_around(struck, c.grains.bodies, c.grains.v_x, c.grains.v_z, input), more);
         expect_same(kept, anew, c.grains.count());
       }
       move(c.grains, c.time_step);
