@@ -1,4 +1,4 @@
-"""Runs a script as `python3 -I` does, with the script's own folder, and nothing else, added to what it may import from.
+"""Runs a script as `python3 -I` does, with the script's own folder and that of the figures, and nothing else, added to what it may import from.
 SIGINT, SIGTERM and SIGHUP stop it once, as Ctrl-C does, so that it leaves no part of a file.
 A file that the system does not give or take ends it with one line, "FILE: why", and exit code 74; missing memory or a missing module likewise.
 
@@ -38,8 +38,8 @@ if __name__ == "__main__":
         if signal.getsignal(each) != signal.SIG_IGN:  # nohup
             signal.signal(each, stop)
     os.environ.setdefault("MPLBACKEND", "Agg")  # pictures are files: no display is asked for
-    script = pathlib.Path(sys.argv[1]).resolve()
-    sys.path.insert(0, str(script.parent))
+    script, figures = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(__file__).resolve().parent
+    sys.path[:0] = [str(script.parent), str(figures)]
     sys.argv = sys.argv[1:]
     try:
         mmap.mmap(-1, NEEDED << 20).close()
@@ -47,7 +47,7 @@ if __name__ == "__main__":
         print(f"not enough memory: {NEEDED} MiB are needed to draw", file=sys.stderr)
         sys.exit(NO_FILE)
     try:
-        if script.parent == pathlib.Path(__file__).resolve().parent:  # pages draw nothing
+        if script.parent == figures:  # pages draw nothing
             load_matplotlib(script.parent)
         runpy.run_path(str(script), run_name="__main__")
     except MemoryError:

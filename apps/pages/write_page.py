@@ -14,12 +14,10 @@ import sys
 import jinja2
 
 import formats
+import whole_file
 import words
 
 TEMPLATES = pathlib.Path(__file__).resolve().parent
-sys.path.append(str(TEMPLATES.parent / "figures"))
-
-import whole_file  # noqa: E402  (it lies there)
 
 
 class Figures:

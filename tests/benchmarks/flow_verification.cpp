@@ -2,7 +2,7 @@
 //
 // usage: benchmark_flow_verification RESULT.json
 //
-// The problems are those of tests/continuum, on one mesh more. apps/figures/verification_figures.py draws
+// The problems are those of tests/continuum, on one mesh more. docs/figures/verification_figures.py draws
 // them.
 #include <fmt/format.h>
 

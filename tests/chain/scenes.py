@@ -1,7 +1,7 @@
 """The shipped scenes at small size, judged by balances, closed forms and the literature (docs/scenes.md says where each number is from).
 
-usage: scenes.py DRUMLIN DATA_FOLDER NUMBERS [NAME...]
-NUMBERS: apps/figures/scene_numbers.py. Tolerances are those of runs of a second: they are about three times what seeds differ by.
+usage: scenes.py DRUMLIN SOURCE_DIR [NAME...]
+Tolerances are those of runs of a second: they are about three times what seeds differ by.
 """
 
 import pathlib
@@ -10,6 +10,8 @@ import sys
 import tempfile
 
 from command import Drumlin, read_json, require
+
+SOURCE = pathlib.Path(sys.argv[2])
 
 
 def within(value, low, high, what):
@@ -180,12 +182,16 @@ FRAMES = {"silo-recycled": (["--height", "14,26", "--width", "4,8"], "silo-frame
 PAIRS = {"plane-shear": 0.15, "chute": 0.15}
 
 
-def pair(drumlin, data, figures, folder, name):
+def script(name, *words):
+    subprocess.run([sys.executable, "-I", "-B", SOURCE / "apps/figures/isolated.py", SOURCE / "docs" / name, *words], check=True)
+
+
+def pair(drumlin, folder, name):
     """A small run beside the continuum of the same size, pressure, slope and speed; another geometry is refused."""
-    run, law = folder / name, data / "rheology" / "da-cruz-pooled.toml"
+    run, law = folder / name, SOURCE / "data/rheology/da-cruz-pooled.toml"
     drumlin("measure", run, "--parts", "none")
     flow = folder / f"{name}-flow.toml"
-    subprocess.run([sys.executable, "-I", "-B", figures / "isolated.py", figures / "flow_of_run.py", run, "--rheology", law, "-o", flow], check=True)
+    script("cookbook/flow_of_run.py", run, "--rheology", law, "-o", flow)
     drumlin("flow", flow, "--rheology", law, "--set", "solver.sensitivity=false", "--law-draws", "0", "-o", folder / f"{name}-flow")
     drumlin("compare", run, folder / f"{name}-flow", "--accept-unsteady", "-o", folder / f"{name}-report")
     report = read_json(folder / f"{name}-report" / "comparison.json")
@@ -204,25 +210,25 @@ def mean_of(runs):
 
 
 def main():
-    drumlin, data, numbers = Drumlin(sys.argv[1]), pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
+    drumlin = Drumlin(sys.argv[1])
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        for scene in sys.argv[4:] or SCENES:
+        for scene in sys.argv[3:] or SCENES:
             file, kind, check, changes = SCENES[scene]
             words = [word for change in changes for word in ("--set", change)]
             runs = [folder / scene, *(folder / f"{scene}-{seed}" for seed in range(2, SAMPLES.get(scene, 1) + 1))]
             for seed, run in enumerate(runs, 1):
-                drumlin("run", data / "scenes" / f"{file}.toml", "-o", run, *words, *(["--set", f"seed={seed}"] if len(runs) > 1 else []))
+                drumlin("run", SOURCE / f"data/scenes/{file}.toml", "-o", run, *words, *(["--set", f"seed={seed}"] if len(runs) > 1 else []))
             result = folder / f"{scene}.json"
-            subprocess.run([sys.executable, "-I", "-B", numbers.parent / "isolated.py", numbers, kind, *runs, "-o", result], check=True)
+            script("figures/scene_numbers.py", kind, *runs, "-o", result)
             check(mean_of(read_json(result)["runs"]))
             if scene in FRAMES:
                 words, kind, check = FRAMES[scene]
                 drumlin("measure", folder / scene, "--parts", "none", *words)
-                subprocess.run([sys.executable, "-I", "-B", numbers.parent / "isolated.py", numbers, kind, folder / scene, "-o", result], check=True)
+                script("figures/scene_numbers.py", kind, folder / scene, "-o", result)
                 check(read_json(result)["runs"][0])
             if scene in PAIRS:
-                pair(drumlin, data, numbers.parent, folder, scene)
+                pair(drumlin, folder, scene)
             print(f"{scene}: as the literature and closed forms say")
 
 

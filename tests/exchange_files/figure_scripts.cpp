@@ -84,11 +84,12 @@ TEST(FigureScript, DrawsTheContactsThatFoldWhereTheirChangesAreKnown) {
   const auto problem = folder.path() / "p.h5", solution = folder.path() / "s.h5",
              drawn = folder.path() / "f.png";
   const std::vector<std::string> words{problem.string(), solution.string(), drawn.string()};
+  const std::string script = drumlin::test::docs_folder() / "figures/folding_contacts.py";
   write_contacts(problem, solution, true);
-  draw_figures("folding_contacts.py", words);
+  draw_figures(script, words);
   EXPECT_EQ(file_text(drawn).substr(1, 3), "PNG");
   write_contacts(problem, solution, false);
-  const auto message = message_of<IoError>([&] { draw_figures("folding_contacts.py", words); });
+  const auto message = message_of<IoError>([&] { draw_figures(script, words); });
   EXPECT_NE(message.find("s.h5: holds no changes of states"), std::string::npos) << message;
 }
 
