@@ -4,12 +4,13 @@ the axes, where it was asked for.
 The law is drawn and subtracted as the record holds it: the command evaluates it, with the function that the flow uses."""
 
 import argparse
-import json
+import itertools
 import math
 
 import matplotlib.pyplot as plt
 import numpy as np
 
+import script
 import style
 
 
@@ -23,8 +24,7 @@ def arguments():
 def colors_of(record):
     """One colour per speed."""
     speeds = sorted({round(run["rotation_rpm"], 2) for run in record["points"]})
-    cycle = [style.PARTICLES, style.CONTINUUM] + style.OTHERS
-    return {speed: cycle[i % len(cycle)] for i, speed in enumerate(speeds)}
+    return dict(zip(speeds, itertools.cycle(style.COLORS)))
 
 
 def draw_points(axes, record, quantity, colors, less_law=False):
@@ -167,8 +167,7 @@ def over_inertial_number(axes, record):
 
 def main():
     options = arguments()
-    with open(options.record, encoding="utf-8") as stream:
-        record = json.load(stream)
+    record = script.content_of(options.record)
     style.use_style()
     with_axes = record["turn"] is not None and "axis_angle_deg" in record["points"][0]
     further = [(draw, record[key]) for draw, key in ((draw_memory, "memory"), (draw_nonlocal, "nonlocal")) if key in record]

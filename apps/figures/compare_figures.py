@@ -49,26 +49,12 @@ def mark_depths(axes, depth, zones=None):
     axes.set_xlabel(style.LABELS["z"])
 
 
-def positive(values):
-    """What a logarithmic axis can show."""
-    return [value if value > 0 else math.nan for value in values]
-
-
 def curve(axes, columns, name, side, color, label, logarithmic):
     """One side's quantity over depth with its band."""
     key = f"{name}_{side}"
     if key not in columns:
         return
-    z, values = columns["z"], (positive if logarithmic else list)(columns[key])
-    half_width = columns.get(key + "_ci99")
-    marker = "o" if side == "particles" else None
-    if half_width is not None and logarithmic:
-        # A band that reaches zero ends at the foot of the axis instead of taking the axis with it.
-        low = [max(value - width, 1e-2 * value) for value, width in zip(values, half_width)]
-        high = [value + width for value, width in zip(values, half_width)]
-        axes.fill_between(z, low, high, color=color, alpha=0.25, linewidth=0)
-        half_width = None
-    style.band(axes, z, values, half_width, color, label, marker)
+    style.band(axes, columns["z"], columns[key], columns.get(key + "_ci99"), color, label, "o" if side == "particles" else None, 1e-2 if logarithmic else None)
 
 
 def limit_to_the_packing(axes, name, columns):
@@ -109,7 +95,7 @@ def friction(columns, names):
         return None
     figure, axes = plt.subplots()
     for side, color, marker, label in zip(("particles", "continuum"), (style.PARTICLES, style.CONTINUUM), "ox", names):
-        axes.plot(positive(columns["I_" + side]), columns["mu_" + side], marker, color=color, label=label)
+        axes.plot(style.positive(columns["I_" + side]), columns["mu_" + side], marker, color=color, label=label)
     axes.set_xscale("log")
     axes.set_xlabel(style.LABELS["I"])
     axes.set_ylabel(style.LABELS["mu"])
@@ -174,13 +160,7 @@ def main():
         drawings |= {name: functools.partial(compare_maps.sheet_of, name, maps, names, reduced) for name in compare_maps.SHEETS}
     if options.snapshot and options.maps:
         drawings["drums"] = lambda: compare_maps.drums(comparison, options.snapshot, options.maps)
-
-    def save(name, draw):
-        figure = draw()
-        if figure is not None:
-            style.save(figure, options.output / f"{name}.png", reduced)
-
-    script.draw_each({name: functools.partial(save, name, draw) for name, draw in drawings.items()})
+    script.save_each(drawings, options.output, reduced)
 
 
 if __name__ == "__main__":

@@ -2,7 +2,6 @@
 
 import math
 
-import matplotlib.collections
 import matplotlib.colors
 import matplotlib.pyplot as plt
 import numpy as np
@@ -46,11 +45,7 @@ def drums(comparison, snapshot, maps):
     top = max(float(speed.max()), float(np.quantile(grains["speed"], 0.999)))
     norm = matplotlib.colors.LogNorm(1e-3 * top, top)
     figure, (left, right) = plt.subplots(1, 2, figsize=(14, 4.9))
-    discs = matplotlib.collections.EllipseCollection(
-        2 * grains["radius"], 2 * grains["radius"], np.zeros_like(grains["radius"]), units="x",
-        offsets=np.column_stack((grains["x"], grains["z"])), transOffset=left.transData, cmap="viridis", norm=norm)
-    discs.set_array(np.maximum(grains["speed"], 1e-3 * top))
-    left.add_collection(discs)
+    style.discs(left, grains["x"], grains["z"], grains["radius"], np.maximum(grains["speed"], 1e-3 * top), cmap="viridis", norm=norm)
     outline(left, radius, axis_depth)
     left.set_title(style.title_of("particles, one instant", reduced))
     image = right.pcolormesh(grids["x"], grids["z"] + lift, np.ma.maximum(speed, 1e-3 * top), norm=norm, cmap="viridis",

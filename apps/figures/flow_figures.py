@@ -5,13 +5,13 @@ usage: flow_figures.py FLOWRUN [--flow FLOW_JSON]
 """
 
 import argparse
-import csv
 import math
 import pathlib
 
 import matplotlib.colors
 import matplotlib.pyplot as plt
 import numpy as np
+import result_files
 import script
 import style
 from drum_maps import read_maps
@@ -106,7 +106,7 @@ def draw_profiles(folder, flow):
     axes[0].set_xlabel(style.LABELS["v_x"])
     axes[0].set_ylabel(style.LABELS["z"])
 
-    rate = [value if value > 0 else math.nan for value in columns["shear_rate"]]
+    rate = style.positive(columns["shear_rate"])
     axes[1].semilogx(rate, z, color=style.CONTINUUM)
     known = [value for value in rate if math.isfinite(value)]
     if known and max(known) < 10 * min(known):  # a uniform shear is no occasion to magnify its rounding
@@ -136,18 +136,16 @@ def draw_profiles(folder, flow):
 
 def draw_series(folder, flow):
     """What a march in time leaves beside its last state."""
-    with open(folder / "series.csv", newline="", encoding="utf-8") as stream:
-        rows = list(csv.DictReader(line for line in stream if not line.startswith("#")))
-    time = [float(row["time_s"]) for row in rows]
+    _, _, columns = result_files.read_table(folder / "series.csv")
     shown = [("rotation_rpm", "speed [rpm]"), ("theta_deg", r"slope $\theta$ [deg]"), ("H", "$H$  [$d$]"),
              ("shear_rate", style.LABELS["shear_rate"])]
     figure, axes = plt.subplots(len(shown), 1, figsize=(8, 2 + 1.8 * len(shown)), sharex=True)
     for place, (name, label) in zip(axes, shown):
-        place.plot(time, [float(row[name]) if row[name] else math.nan for row in rows], color=style.CONTINUUM)
+        place.plot(columns["time_s"], columns[name], color=style.CONTINUUM)
         place.set_ylabel(label)
     figure.align_ylabels(axes)
     axes[-1].set_xlabel("time [s]")
-    figure.suptitle(style.title_of(f"March in time, {len(rows)} steps", flow["reduced"]))
+    figure.suptitle(style.title_of(f"March in time, {len(columns['time_s'])} steps", flow["reduced"]))
     style.save(figure, folder / "series.png", flow["reduced"])
 
 

@@ -1,11 +1,11 @@
 """What speaks for a continuum flow: where its equations are well-posed, how Newton's method went, what settings move."""
 
-import csv
 import math
 
 import matplotlib.colors
 import matplotlib.pyplot as plt
 import matplotlib.ticker
+import result_files
 import style
 
 # Names of the scalars in the figure of the sensitivities.
@@ -38,18 +38,12 @@ def draw_well_posedness(folder, flow, header, grids, draw_map):
     style.save(figure, folder / "well_posedness.png", flow["reduced"])
 
 
-def read_iterations(path):
-    with open(path, newline="", encoding="utf-8") as stream:
-        rows = list(csv.DictReader(line for line in stream if not line.startswith("#")))
-    return rows
-
-
 def runs_of(rows):
     """Stretches of one mesh, phase and eps without a new start, as lists of indices."""
     stretches = []
     for i, row in enumerate(rows):
         key = (row["mesh"], row["phase"], row["shear_rate"])
-        if not stretches or stretches[-1][0] != key or row["iteration"] == "1":
+        if not stretches or stretches[-1][0] != key or row["iteration"] == 1:
             stretches.append((key, []))
         stretches[-1][1].append(i)
     return stretches
@@ -59,21 +53,21 @@ def draw_residuals(axes, rows, along, colors):
     """Residuals over the iterations or over time; each stretch a line of its own, named by its phase once."""
     named = set()
     for (_, phase, _), places in runs_of(rows):
-        axes.semilogy([along[i] for i in places], [float(rows[i]["residual"]) for i in places], marker="o",
+        axes.semilogy([along[i] for i in places], [rows[i]["residual"] for i in places], marker="o",
                       color=colors[phase], label=None if phase in named else phase)
         named.add(phase)
     for before, after in zip(range(len(rows) - 1), range(1, len(rows))):
         if rows[before]["mesh"] != rows[after]["mesh"]:
             axes.axvline(0.5 * (along[before] + along[after]), color="grey", linewidth=0.8, linestyle=":")
-            axes.annotate(f" mesh {rows[after]['mesh']}", (0.5 * (along[before] + along[after]), 1),
+            axes.annotate(f" mesh {rows[after]['mesh']:g}", (0.5 * (along[before] + along[after]), 1),
                           xycoords=("data", "axes fraction"), va="top", fontsize=10, color="grey")
 
 
 def draw_convergence(axes, rows, tolerance, over_time=False):
     """How Newton's method went, from the rows of iterations.csv: residuals over the iterations, or over the seconds; a colour for each phase."""
     phases = list(dict.fromkeys(row["phase"] for row in rows))
-    colors = dict(zip(phases, ([style.PARTICLES, style.CONTINUUM] + style.OTHERS + [style.PAPER]) * 3))
-    draw_residuals(axes, rows, [float(row["seconds"]) for row in rows] if over_time else list(range(1, len(rows) + 1)), colors)
+    colors = dict(zip(phases, (style.COLORS + [style.PAPER]) * 3))
+    draw_residuals(axes, rows, [row["seconds"] for row in rows] if over_time else list(range(1, len(rows) + 1)), colors)
     axes.axhline(tolerance, color="grey", linewidth=0.8, linestyle="--")
     axes.set_xlabel("seconds since the start" if over_time else "iteration")
     if not over_time:
@@ -81,7 +75,7 @@ def draw_convergence(axes, rows, tolerance, over_time=False):
 
 
 def draw_newton(folder, flow):
-    rows = read_iterations(folder / "iterations.csv")
+    rows = result_files.read_rows(folder / "iterations.csv")
     if not rows:
         return
     figure, axes = plt.subplots(1, 3, figsize=(14.5, 4.8), gridspec_kw={"width_ratios": [3, 3, 2]})
@@ -127,7 +121,7 @@ def draw_sensitivity(folder, flow):
     figure, axes = plt.subplots(figsize=(9, 1.4 + 0.62 * len(names)))
     height = 0.8 / len(settings)
     known = []
-    for s, (setting, color) in enumerate(zip(settings, [style.PARTICLES, style.CONTINUUM] + style.OTHERS)):
+    for s, (setting, color) in enumerate(zip(settings, style.COLORS)):
         changes = changes_of(flow, setting)
         for row, name in enumerate(names):
             change = changes.get(name, math.nan)

@@ -1,10 +1,10 @@
 """Figure of the part `forces` of `drumlin measure`: how contact forces are distributed and where they point."""
 
-import csv
 import math
 
 import matplotlib.pyplot as plt
 
+import result_files
 import script
 import style
 
@@ -20,12 +20,8 @@ class Forces:
         self.header, self.layers = style.read_profiles(folder / "forces.csv")
         self.zones = content["forces"]["zones"] or {}
         self.rows = {}
-        with open(folder / "force_distributions.csv", newline="", encoding="utf-8") as stream:
-            stream.readline()
-            for row in csv.DictReader(stream):
-                numbers = {key: float(row[key]) if row[key] else math.nan
-                           for key in ("from", "to", "value", "ci99", "contacts")}
-                self.rows.setdefault((row["zone"], row["quantity"]), []).append(numbers)
+        for row in result_files.read_rows(folder / "force_distributions.csv"):
+            self.rows.setdefault((row["zone"], row["quantity"]), []).append(row)
 
     def shown_zones(self):
         """Flowing and static where the run has them, else the bulk."""
@@ -36,8 +32,7 @@ class Forces:
         return "at the wall" if zone == "wall" and not float(self.header.get("drum_radius", 0)) > 0 else NAMES[zone]
 
     def scalar(self, zone, name):
-        value = self.zones[zone].get(name, {}).get("value")
-        return math.nan if value is None else value
+        return style.value_of(self.zones[zone].get(name))
 
     def curve(self, zone, quantity, least=LEAST_COUNT):
         """Middles of the bins with enough contacts, values, half widths."""
@@ -50,9 +45,7 @@ def densities(axes, forces, quantity, xlabel):
     for zone in forces.shown_zones():
         x, y, half = forces.curve(zone, quantity)
         color = ZONES.get(zone, style.PARTICLES)
-        axes.plot(x, y, "o-", markersize=3, color=color, label=forces.name(zone))
-        axes.fill_between(x, [max(a - b, 0.1 * a) for a, b in zip(y, half)], [a + b for a, b in zip(y, half)],
-                          color=color, alpha=0.25, linewidth=0)
+        style.band(axes, x, y, half, color, forces.name(zone), foot=0.1, markersize=3)
     style.log_scale(axes, "y")
     axes.set_xlabel(xlabel)
     axes.set_ylabel("probability density")

@@ -31,7 +31,6 @@ PANELS = {
               (r"$\nu$", False, {"nu": "volume fraction", "density": r"density / $\rho_0$"}),
               (STRESS, False, {"sigma_zz": r"$\sigma_{zz}$", "sigma_xx": r"$\sigma_{xx}$", "sigma_xz": r"$\sigma_{xz}$"})],
 }
-COLORS = [style.PARTICLES, style.CONTINUUM, style.OTHERS[0]]
 
 
 class Frame:
@@ -76,7 +75,7 @@ def curve(axes, frame, name, color, label, logarithmic):
 def panel(axes, frame, label, logarithmic, columns):
     upright = frame.name == "height"
     which, other = ("x", "y") if upright else ("y", "x")
-    values = [value for color, (name, words) in zip(COLORS, columns.items()) for value in curve(axes, frame, name, color, words, logarithmic)]
+    values = [value for color, (name, words) in zip(style.COLORS, columns.items()) for value in curve(axes, frame, name, color, words, logarithmic)]
     if logarithmic:
         style.log_scale(axes, which)
         if values:
@@ -94,7 +93,8 @@ def panel(axes, frame, label, logarithmic, columns):
     axes.legend()
 
 
-def figure_of(frame):
+def figure_of(file):
+    frame = Frame(file)
     known = [(label, logarithmic, {name: words for name, words in columns.items() if name in frame.columns})
              for label, logarithmic, columns in PANELS[frame.name]]
     known = [entry for entry in known if entry[2]]
@@ -113,11 +113,7 @@ def main():
     folder, content = script.measured_folder(__doc__)
     style.use_style()
 
-    def save(file):
-        frame = Frame(folder / file)
-        style.save(figure_of(frame), folder / f"{frame.name}.png", content["reduced"])
-
-    script.draw_each({entry["frame"]: functools.partial(save, entry["file"]) for entry in content.get("frames", [])})
+    script.save_each({entry["frame"]: functools.partial(figure_of, folder / entry["file"]) for entry in content.get("frames", [])}, folder, content["reduced"])
 
 
 if __name__ == "__main__":

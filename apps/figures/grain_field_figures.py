@@ -3,7 +3,6 @@
 import math
 
 import h5py
-import matplotlib.collections
 import matplotlib.colors
 import matplotlib.patches
 import matplotlib.pyplot as plt
@@ -43,13 +42,9 @@ class Fields:
 
 
 def add_map(figure, axes, fields, values, inches, label, **colours):
-    discs = matplotlib.collections.EllipseCollection(
-        2 * fields.of["radius"], 2 * fields.of["radius"], np.zeros(len(fields.x)), units="x",
-        offsets=np.column_stack([fields.x, fields.z]), transOffset=axes.transData,
-        linewidths=min(0.05 * inches * 72, 0.8), edgecolors="white", **colours)
+    discs = style.discs(axes, fields.x, fields.z, fields.of["radius"], np.ma.masked_invalid(values), linewidths=min(0.05 * inches * 72, 0.8),
+                        edgecolors="white", **colours)
     discs.get_cmap().set_bad(NO_CELL)
-    discs.set_array(np.ma.masked_invalid(values))
-    axes.add_collection(discs, autolim=False)
     if fields.radius > 0:
         axes.add_patch(matplotlib.patches.Circle((0, fields.axis_z), fields.radius, fill=False, edgecolor="0.15",
                                                  linewidth=1.6))

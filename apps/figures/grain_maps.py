@@ -218,12 +218,8 @@ class View:
                                             transform=axes.transData)
 
     def add_grains(self, axes, grains, **colours):
-        discs = matplotlib.collections.EllipseCollection(
-            2 * grains.radius, 2 * grains.radius, np.zeros(len(grains.x)), units="x",
-            offsets=np.column_stack([grains.x, grains.z]), transOffset=axes.transData,
-            # A rim of a twentieth of a grain parts neighbours of one colour.
-            linewidths=min(0.05 * self.inches * 72, 0.8), **colours)
-        return axes.add_collection(discs, autolim=False)
+        # A rim of a twentieth of a grain parts neighbours of one colour.
+        return style.discs(axes, grains.x, grains.z, grains.radius, linewidths=min(0.05 * self.inches * 72, 0.8), **colours)
 
 
 def images(low, high, period):

@@ -4,13 +4,12 @@ import argparse
 import pathlib
 
 import h5py
-import matplotlib.collections
-import matplotlib.patches
 import matplotlib.pyplot as plt
 import numpy as np
 
 import script
 import style
+from compare_figures import names_of
 
 COLOURS = {"particles": style.PARTICLES, "continuum": style.CONTINUUM}
 WIDE = 1.2  # of a picture, over the height of its layer
@@ -22,13 +21,6 @@ def arguments():
     parser.add_argument("--output", required=True, type=pathlib.Path, help="folder of the overlay, and for the figures")
     parser.add_argument("--snapshot", help="snapshot of the first side to draw")
     return parser.parse_args()
-
-
-def names_of(comparison):
-    """What the two sides are called in legends."""
-    sides = {key: comparison[key] for key in COLOURS}
-    kinds = [side["kind"] for side in sides.values()]
-    return {key: side["kind"] if kinds[0] != kinds[1] else style.plain(f"{side['kind']}: {side['name']}", 40) for key, side in sides.items()}
 
 
 def between(comparison, z):
@@ -46,7 +38,7 @@ def over_height(columns, comparison, fields):
     whole, bulk = between(comparison, z)
     figure, row = plt.subplots(1, len(fields), figsize=(3.2 * len(fields), 5.2), squeeze=False, sharey=True)
     for axes, field in zip(row[0], fields):
-        for side, name in names_of(comparison).items():
+        for side, name in zip(COLOURS, names_of(comparison)):
             values = np.asarray(columns[f"{field}_{side}"])
             half_width = np.asarray(columns.get(f"{field}_{side}_ci99", np.full(len(z), np.nan)))
             axes.plot(values[whole], z[whole], "o-" if comparison[side]["kind"] == "particles" else "-", color=COLOURS[side], label=name)
@@ -64,7 +56,7 @@ def law(columns, comparison):
     """mu over I of the layers: full symbols in the bulk."""
     _, bulk = between(comparison, np.asarray(columns["z"]))
     figure, axes = plt.subplots()
-    for (side, name), marker in zip(names_of(comparison).items(), "os"):
+    for side, name, marker in zip(COLOURS, names_of(comparison), "os"):
         inertial, mu = (np.asarray(columns[f"{field}_{side}"]) for field in ("I", "mu"))
         shears = inertial > 0
         axes.plot(inertial[shears & bulk], mu[shears & bulk], marker, color=COLOURS[side], label=name)
@@ -96,13 +88,9 @@ def picture(columns, comparison, snapshot):
     shown = grains["x"] < width
     scale = plt.Normalize(0, np.nanmax([np.quantile(grains["speed"], 0.99), speed[known].max()]))
     figure, row = plt.subplots(1, 2, figsize=(11, 5.6), sharey=True)
-    discs = [matplotlib.patches.Circle(place, radius) for *place, radius in
-             zip(grains["x"][shown], grains["z"][shown], grains["radius"][shown])]
-    image = matplotlib.collections.PatchCollection(discs, cmap="viridis", norm=scale, linewidths=0)
-    image.set_array(grains["speed"][shown])
-    row[0].add_collection(image)
+    image = style.discs(row[0], *(grains[name][shown] for name in ("x", "z", "radius", "speed")), cmap="viridis", norm=scale, linewidths=0)
     row[1].pcolormesh([0, width], np.append(z[known] - 0.5, z[known][-1] + 0.5), speed[known][:, None], cmap="viridis", norm=scale)
-    for axes, name in zip(row, names_of(comparison).values()):
+    for axes, name in zip(row, names_of(comparison)):
         for end in ("from", "to"):
             axes.axhline(zones["bulk"][end], color="0.3", linestyle="--", linewidth=1)
         axes.set(xlim=(0, width), ylim=(zones["all"]["from"] - 1, zones["all"]["to"] + 2), aspect="equal", title=name, xlabel=r"$x$  [$d$]")
@@ -122,13 +110,7 @@ def main():
                 "law": lambda: law(columns, comparison)}
     if options.snapshot:
         drawings["picture"] = lambda: picture(columns, comparison, options.snapshot)
-
-    def save(name):
-        figure = drawings[name]()
-        if figure is not None:
-            style.save(figure, options.output / f"{name}.png", comparison["reduced"])
-
-    script.draw_each({name: lambda name=name: save(name) for name in drawings})
+    script.save_each(drawings, options.output, comparison["reduced"])
 
 
 if __name__ == "__main__":

@@ -1,17 +1,17 @@
 """Figures of `drumlin measure`: the profiles at the centre with 99 % bands, and what was fitted to them."""
 
-import csv
 import functools
 import math
 
 import matplotlib.pyplot as plt
+import numpy as np
 
+import result_files
 import script
 import style
+from style import FIT, LEAST_SHOWN_NU, positive
 
-LEAST_SHOWN_NU = 0.05  # volume fraction of the loosest layer that is drawn
 WIDEST_SHARE = 0.6  # of a value, up to which the figure of the sensitivities reaches
-FIT = style.CONTINUUM  # the colour of lines that are fitted or expected, not measured
 
 
 class Measured:
@@ -19,21 +19,15 @@ class Measured:
 
     def __init__(self, folder, content):
         self.folder = folder
-        self.header, self.columns = style.read_profiles(folder / "profiles.csv")
+        self.header, self.columns = style.shown_layers(style.read_profiles(folder / "profiles.csv"))
         self.content, self.reduced = content, content["reduced"]
-        # A handful of grains in the air would stretch every axis with their error bars.
-        shown = [i for i, nu in enumerate(self.columns["nu"]) if nu > LEAST_SHOWN_NU]
-        self.columns = {name: [values[i] for i in shown] for name, values in self.columns.items()}
         self.z = self.columns["z"]
 
     def scalar(self, name):
-        entry = self.content.get(name)
-        value = entry.get("value") if isinstance(entry, dict) else entry
-        return math.nan if value is None else value
+        return style.value_of(self.content.get(name))
 
     def fit(self, name):
-        value = self.content["fits"][name]
-        return math.nan if value is None else value
+        return style.value_of(self.content["fits"][name])
 
     def half_width(self, name):
         return self.columns.get(name + "_ci99")
@@ -65,20 +59,10 @@ def draw(axes, run, name, color=style.PARTICLES, label=None):
         style.band(axes, run.z, run.columns[name], run.half_width(name), color, label)
 
 
-def positive(values):
-    return [value if value > 0 else math.nan for value in values]
-
-
-def draw_logarithmic(axes, run, name, color=style.PARTICLES, label=None, marker="o"):
-    """Positive values only; a band that reaches zero ends at the foot of the axis."""
-    if name not in run.columns:
-        return
-    values, half = positive(run.columns[name]), run.half_width(name)
-    axes.plot(run.z, values, marker, linestyle="-", color=color, label=label)
-    if half is not None:
-        axes.fill_between(run.z, [max(v - h, 1e-2 * v) for v, h in zip(values, half)],
-                          [v + h for v, h in zip(values, half)], color=color, alpha=0.25, linewidth=0)
-    style.log_scale(axes, "y")
+def draw_logarithmic(axes, run, name):
+    if name in run.columns:
+        style.band(axes, run.z, run.columns[name], run.half_width(name), style.PARTICLES, foot=1e-2)
+        style.log_scale(axes, "y")
 
 
 def line_of(run, value):
@@ -291,24 +275,20 @@ def slices(run):
 
 def steadiness(run):
     """Energy and slope over the turns that were measured."""
-    with open(run.folder / "series.csv", encoding="utf-8") as stream:
-        stream.readline()
-        rows = list(csv.DictReader(stream))
-    has_slope = bool(rows) and rows[0]["theta_com_deg"] != ""
-    turns = [float(row["turns"]) for row in rows]
-    rotates = len(set(turns)) > 1
-    at = turns if rotates else [float(row["time"]) for row in rows]
+    _, _, columns = result_files.read_table(run.folder / "series.csv")
+    has_slope = np.isfinite(columns["theta_com_deg"][:1]).any()
+    rotates = len(set(columns["turns"])) > 1
     shown = [("kinetic_energy", "kinetic energy" + ("\nin the drum's frame" if has_slope and run.in_drum() else "") + "  [$\\rho_0 g d^3$]", style.PARTICLES)]
     if has_slope:
         shown.append(("theta_com_deg", "angle of the\ncentre of mass  [deg]", style.OTHERS[0]))
     for name, label in (("pressure", "pressure over\nthe discs  [$\\rho_0 g d$]"), ("shear_stress", "shear stress over\nthe discs  [$\\rho_0 g d$]"),
                         ("shear_rate", "mean shear rate\n[$\\sqrt{g/d}$]")):
-        if any(row.get(name) for row in rows):
+        if np.isfinite(columns.get(name, np.nan)).any():
             shown.append((name, label, style.OTHERS[0]))
     figure, panels = plt.subplots(len(shown), 1, figsize=(10, 0.8 + 2.6 * len(shown)), sharex=True, squeeze=False)
     panels = list(panels.flat)
     for axes, (name, label, colour) in zip(panels, shown):
-        axes.plot(at, [float(row[name] or "nan") for row in rows], ".-", linewidth=0.8, color=colour)
+        axes.plot(columns["turns" if rotates else "time"], columns[name], ".-", linewidth=0.8, color=colour)
         axes.set_ylabel(label)
     panels[0].set_ylim(bottom=0)
     panels[-1].set_xlabel("turns of the drum" if rotates else r"time  [$\sqrt{d/g}$]")
@@ -363,13 +343,13 @@ def main():
     run = Measured(folder, content)
     style.use_style()
 
-    def save(draw_figure):
-        figure = draw_figure(run)
+    def drawn(one):
+        figure = one(run)
         if run.reduced and len(figure.axes) > 1:
             figure.suptitle("reduced run", fontsize=13)
-        style.save(figure, folder / f"{draw_figure.__name__}.png", run.reduced)
+        return figure
 
-    script.draw_each({one.__name__: functools.partial(save, one) for one in figures_of(run)})
+    script.save_each({one.__name__: functools.partial(drawn, one) for one in figures_of(run)}, folder, run.reduced)
 
 
 if __name__ == "__main__":

@@ -10,7 +10,6 @@ import result_files
 import script
 import style
 
-LEAST_SHOWN_NU = 0.05  # as in the profiles
 UNKNOWN = "0.85"  # where an interval is wider than what is shown
 WIDEST_ANGLE = 15  # deg, half width of the interval from which on an angle is not shown
 SHOWN = ("nu", "v_x", "v_z", "coordination", "I", "p", "mu", "k", "axis_angle_deg", "residual_x", "residual_z")
@@ -27,7 +26,7 @@ class Maps:
         except ValueError as error:
             raise SystemExit(str(error)) from error
         with np.errstate(invalid="ignore"):
-            self.empty = ~(self.fields["nu"] > LEAST_SHOWN_NU)
+            self.empty = ~(self.fields["nu"] > style.LEAST_SHOWN_NU)
 
     def number(self, key):
         return float(self.header[key])

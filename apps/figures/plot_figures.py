@@ -8,6 +8,7 @@ import sys
 import grain_maps
 import player
 import run_curves
+import script
 import style
 import whole_file
 
@@ -16,8 +17,7 @@ def main():
     if len(sys.argv) != 2:
         sys.exit("usage: plot_figures.py DRAWING.json")
     folder = pathlib.Path(sys.argv[1]).parent
-    with open(sys.argv[1], encoding="utf-8") as stream:
-        drawing = json.load(stream)
+    drawing = script.content_of(sys.argv[1])
     style.use_style()
     figures = {}
     if drawing["snapshot"] is not None:

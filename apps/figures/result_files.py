@@ -41,6 +41,12 @@ def read_table(path, kind=None):
     return found, {key.strip(): value.strip() for key, _, value in entries}, columns
 
 
+def read_rows(path):
+    """The rows of a table as {name of the column: number or text}."""
+    columns = read_table(path)[2]
+    return [dict(zip(columns, row)) for row in zip(*(column.tolist() for column in columns.values()))]
+
+
 def read_maps(path, names=None, most_columns=None):
     """(header, x, z, fields, half widths of 99 % intervals): each field over (z, x), NaN where it was not computed. `names`: fields to read, all unless
     told; `most_columns`: of a wider map every second (third, ...) node along x and z is read, so that no more columns are left."""

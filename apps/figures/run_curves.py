@@ -10,11 +10,6 @@ import result_files
 import style
 
 
-def read_table(path):
-    """Columns by name, as arrays where they are numbers."""
-    return result_files.read_table(path)[2]
-
-
 def mark_stages(axes, stages, end):
     """A line where a stage ends; its name above."""
     begin = 0
@@ -63,7 +58,7 @@ def title(drawing, what):
 
 
 def draw_log(drawing, path):
-    log = read_table(drawing["log"])
+    log = result_files.read_table(drawing["log"])[2]
     if not log or not len(log["time_s"]):
         return False
     time, blue, orange = log["time_s"], style.PARTICLES, style.CONTINUUM
@@ -93,14 +88,14 @@ def draw_log(drawing, path):
 
 def draw_energy(drawing, path):
     """Every column of the ledger but those that say when; what the books do not explain is a number in the title."""
-    table = read_table(drawing["energy"])
+    table = result_files.read_table(drawing["energy"])[2]
     time, error = table.pop("time_s", None), table.pop("closing_error", None)
     curves = {name: values for name, values in table.items()
               if name not in ("step", "stage") and isinstance(values, np.ndarray)}
     if time is None or not len(time) or not curves:
         return False
     figure, axes = plt.subplots(figsize=(10, 6))
-    colours = [style.PARTICLES, style.CONTINUUM] + style.OTHERS + ["0.4", style.PAPER]
+    colours = style.COLORS + ["0.4", style.PAPER]
     for k, (name, values) in enumerate(curves.items()):
         axes.plot(time, values, label=name.replace("_", " "), color=colours[k % len(colours)], linewidth=1.3,
                   linestyle=["-", "--", ":"][k // len(colours) % 3])

@@ -1,6 +1,7 @@
 """What the scripts of figures share as programs: the JSON file of a command, and drawing one figure after the other."""
 
 import argparse
+import functools
 import json
 import pathlib
 import sys
@@ -8,6 +9,7 @@ import traceback
 
 import matplotlib.pyplot as plt
 
+import style
 import whole_file
 
 
@@ -22,6 +24,16 @@ def measured_folder(description):
     parser.add_argument("--measured", help="the scalars; standard: measured.json in the folder")
     options = parser.parse_args()
     return options.folder, content_of(options.measured or options.folder / "measured.json")
+
+
+def save_each(drawings, folder, reduced):
+    """draw_each of {name: function that gives a figure, or None where there is nothing to draw}: NAME.png in the folder."""
+    def save(name, draw):
+        figure = draw()
+        if figure is not None:
+            style.save(figure, folder / f"{name}.png", reduced)
+
+    draw_each({name: functools.partial(save, name, draw) for name, draw in drawings.items()})
 
 
 def draw_each(drawings):

@@ -7,19 +7,12 @@ import pathlib
 
 import script
 import style
+from style import half_width_of, value_of
 
 plt = style.plt
 
 WORDS = {"theta_deg": r"$\theta$  [deg]", "H": r"$H$  [$d$]", "lambda": r"$\lambda$  [$d$]",
          "shear_rate": r"$\dot\gamma$ of the flowing layer  [$\sqrt{g/d}$]", "I_th": r"$I$ at the interface"}
-
-
-def number(value):
-    """(value, half width) of a number or a measurement; NaN where there is none."""
-    if isinstance(value, dict):
-        half = value.get("ci99", value.get("half_width"))
-        return number(value.get("value"))[0], math.nan if half is None else half
-    return (math.nan if value is None else float(value)), math.nan
 
 
 class Study:
@@ -30,13 +23,13 @@ class Study:
     def points(self, name, side, over):
         """Per speed (x, y, half width of y, role); x is the speed or a quantity, that of the paper for the paper's points."""
         for speed in self.speeds:
-            y, half = number(speed["scalars"][name][side])
-            x = speed["rotation_rpm"] if over == "rotation_rpm" else number(speed["scalars"][over][side])[0]
-            if math.isfinite(x) and math.isfinite(y):
-                yield x, y, half, speed["role"]
+            entry = speed["scalars"][name][side]
+            x = speed["rotation_rpm"] if over == "rotation_rpm" else value_of(speed["scalars"][over][side])
+            if math.isfinite(x) and math.isfinite(value_of(entry)):
+                yield x, value_of(entry), half_width_of(entry), speed["role"]
 
     def coefficients(self, law, side):
-        return {key: number(value)[0] for key, value in self.laws.get(law, {}).get(side, {}).items()}
+        return {key: value_of(value) for key, value in self.laws.get(law, {}).get(side, {}).items()}
 
 
 def draw_sides(axes, study, name, over):
@@ -80,7 +73,7 @@ def draw_depth_laws(axes, study):
 
 def draw_slope_laws(axes, study):
     """tan(theta) = c0 + c1 Q of each side, at the Q that goes with a speed in proportion."""
-    pairs = [(speed["rotation_rpm"], number(speed["scalars"]["Q"]["continuum"])[0]) for speed in study.speeds]
+    pairs = [(speed["rotation_rpm"], value_of(speed["scalars"]["Q"]["continuum"])) for speed in study.speeds]
     pairs = [(rpm, Q) for rpm, Q in pairs if math.isfinite(Q)]
     if not pairs:
         return

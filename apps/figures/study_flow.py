@@ -2,13 +2,13 @@
 
 import math
 
-import matplotlib.collections
 import matplotlib.pyplot as plt
 
 import style
 from drum_maps import read_grains
+from style import FIT
 from study_panels import (depth_panel, draw, draw_logarithmic, limits_of, lowest_shown, none_if_nan, over_flow_rate, speed_legend)
-from study_runs import FIT, WALL_MARGIN, color_of, label_of, marker_of, shown
+from study_runs import WALL_MARGIN, color_of, label_of, marker_of, shown
 
 PAPER = {"color": style.PAPER, "marker": "x", "markersize": 7, "markeredgewidth": 1.6, "linestyle": "none"}
 
@@ -21,11 +21,7 @@ def snapshot(study):
     R = float(run.header["drum_radius"])
     grains = read_grains(files[-1], float(run.header["theta_deg"]), float(run.header["axis_depth"]))
     figure, axes = plt.subplots(figsize=(9, 5.4))
-    discs = matplotlib.collections.EllipseCollection(
-        2 * grains["radius"], 2 * grains["radius"], 0, units="xy", offsets=list(zip(grains["x"], grains["z"])),
-        transOffset=axes.transData, cmap="viridis", linewidths=0)
-    discs.set_array(grains["speed"])
-    axes.add_collection(discs)
+    discs = style.discs(axes, *(grains[name] for name in ("x", "z", "radius", "speed")), cmap="viridis", linewidths=0)
     center = float(run.header["axis_depth"])
     axes.add_patch(plt.Circle((0, center), R, fill=False, color="0.2", linewidth=1.5))
     half = float(run.header["slice_width"]) / 2
@@ -121,8 +117,7 @@ def velocity_along_x(study):
         color = colors(n / (len(run.slices) - 1)) if n != (len(run.slices) - 1) / 2 else "0.2"
         label = f"$x$ = {place} $d$"
         style.band(left, columns["z"], columns["v_x"], columns["v_x_ci99"], color, label, marker="o")
-        positive = [v if v > 0 else math.nan for v in columns["v_x"]]
-        right.plot(columns["z"], positive, "o-", color=color, label=label)
+        right.plot(columns["z"], style.positive(columns["v_x"]), "o-", color=color, label=label)
     for axes in (left, right):
         axes.axvline(0, linestyle="-.", color="0.4", linewidth=1)
         axes.set_xlabel(r"$z$ from the surface at $x$  [$d$]")

@@ -32,14 +32,9 @@ def draw(axes, run, name, color=style.PARTICLES, label=None, rows=None, marker="
                [half[i] for i in rows] if half else None, color, label, marker)
 
 
-def draw_logarithmic(axes, run, name, color=style.PARTICLES, label=None, marker="o", size=3):
+def draw_logarithmic(axes, run, name, size=3):
     """Positive values only; a band that reaches zero ends at the foot of the axis."""
-    values = [value if value > 0 else math.nan for value in run.columns[name]]
-    half = run.half_width(name)
-    axes.plot(run.z, values, marker=marker, markersize=size, linewidth=1, color=color, label=label)
-    if half:
-        axes.fill_between(run.z, [max(v - h, 1e-2 * v) for v, h in zip(values, half)],
-                          [v + h for v, h in zip(values, half)], color=color, alpha=0.2, linewidth=0)
+    style.band(axes, run.z, run.columns[name], run.half_width(name), style.PARTICLES, foot=1e-2, markersize=size, linewidth=1)
     axes.set_yscale("log")
 
 

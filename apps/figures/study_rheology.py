@@ -6,7 +6,8 @@ import matplotlib.pyplot as plt
 
 import style
 from study_panels import depth_panel, draw_logarithmic, over_flow_rate, over_inertia, speed_legend
-from study_runs import FIT, color_of, label_of, marker_of, shown
+from style import FIT
+from study_runs import color_of, label_of, shown
 
 
 def inertial_number(study):

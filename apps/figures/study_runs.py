@@ -7,13 +7,13 @@ import tomllib
 
 import matplotlib.pyplot as plt
 
+import script
 import style
+from style import half_width_of, shown_layers, value_of
 
 # The paper's own marks, where its legends give them; colours from slow to fast.
 MARKERS = {2: "o", 4: "*", 5: "s", 6: "^", 10: "D", 15: ">"}
-LEAST_SHOWN_NU = 0.05
 SURFACE_MARGIN, WALL_MARGIN = 2, 3  # d: layers beyond belong to the surface or to the wall
-FIT = style.CONTINUUM
 
 
 class Run:
@@ -24,8 +24,7 @@ class Run:
         measured = self.folder / "measured"
         self.name, self.rpm = entry["name"], entry["rotation_rpm"]
         self.header, self.columns = shown_layers(style.read_profiles(measured / "profiles.csv"))
-        with open(measured / "measured.json", encoding="utf-8") as stream:
-            self.content = json.load(stream)
+        self.content = script.content_of(measured / "measured.json")
         self.scalars = entry["scalars"]
         slices = [shown_layers(style.read_profiles(file)) for file in (measured / "slices").glob("*.csv")]
         slices.sort(key=lambda one: float(one[0]["position"]))
@@ -47,23 +46,6 @@ class Run:
         rate, half = self.columns["shear_rate"], self.half_width("shear_rate")
         return [i for i, z in enumerate(self.z)
                 if self.wall + WALL_MARGIN <= z <= -SURFACE_MARGIN and rate[i] > (half[i] if half else 0)]
-
-
-def shown_layers(profile):
-    """A handful of grains in the air would stretch every axis with their error bars."""
-    header, columns = profile
-    shown = [i for i, nu in enumerate(columns["nu"]) if nu > LEAST_SHOWN_NU]
-    return header, {name: [values[i] for i in shown] for name, values in columns.items()}
-
-
-def value_of(entry):
-    value = entry.get("value") if isinstance(entry, dict) else entry
-    return math.nan if value is None else value
-
-
-def half_width_of(entry):
-    half = entry.get("ci99") if isinstance(entry, dict) else None
-    return math.nan if half is None else half
 
 
 NOT_MEASURED = {"value": math.nan, "ci99": math.nan}

@@ -6,7 +6,8 @@ import matplotlib.pyplot as plt
 
 import style
 from study_panels import depth_panel, draw, limits_of
-from study_runs import FIT, SURFACE_MARGIN, WALL_MARGIN, label_of, shown
+from style import FIT
+from study_runs import SURFACE_MARGIN, WALL_MARGIN, label_of, shown
 
 
 def weight_of(study, run):

@@ -7,6 +7,7 @@ import sys
 import textwrap
 
 import matplotlib
+import matplotlib.collections
 import matplotlib.pyplot as plt
 import matplotlib.ticker
 import numpy as np
@@ -22,6 +23,10 @@ PARTICLES = "#0072B2"
 CONTINUUM = "#D55E00"
 PAPER = "#000000"
 OTHERS = ["#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#F0E442"]
+COLORS = [PARTICLES, CONTINUUM] + OTHERS
+FIT = CONTINUUM  # lines that are fitted or expected, not measured
+
+LEAST_SHOWN_NU = 0.05  # volume fraction of the loosest layer that is drawn
 
 LABELS = {
     "v_x": r"$v_x$  [$\sqrt{gd}$]",
@@ -70,7 +75,7 @@ def use_style():
         "grid.alpha": 0.3,
         "axes.spines.top": False,
         "axes.spines.right": False,
-        "axes.prop_cycle": plt.cycler(color=[PARTICLES, CONTINUUM] + OTHERS),
+        "axes.prop_cycle": plt.cycler(color=COLORS),
         # The same data give the same bytes on every machine.
         "svg.hashsalt": "drumlin",
     })
@@ -143,12 +148,40 @@ class FewNumbers(matplotlib.ticker.LogFormatterSciNotation):
             self._sublabels = {1, 2, 5} if decades > 0.6 else {1, 2, 3, 5} if decades > 0.4 else {1, 2, 3, 4, 5, 6, 8}
 
 
-def band(axes, x, y, half_width, color, label=None, marker="o"):
-    """A curve with its 99 % interval as a band around it. x horizontal, y vertical."""
-    axes.plot(x, y, marker=marker, color=color, label=label)
+def positive(values):
+    """What a logarithmic axis can show; NaN in the place of all else."""
+    return [value if value > 0 else math.nan for value in values]
+
+
+def band(axes, x, y, half_width, color, label=None, marker="o", foot=None, **line):
+    """A curve with its 99 % interval as a band around it. x horizontal, y vertical. For a logarithmic axis `foot`, a share of the value, is where a
+    band ends that reaches zero, instead of taking the axis with it; values are positive then."""
+    if foot is not None:
+        y = positive(y)
+    axes.plot(x, y, marker=marker, color=color, label=label, **line)
     if half_width is not None:
-        axes.fill_between(x, [a - b for a, b in zip(y, half_width)], [a + b for a, b in zip(y, half_width)],
-                          color=color, alpha=0.25, linewidth=0)
+        low = [a - b if foot is None else max(a - b, foot * a) for a, b in zip(y, half_width)]
+        axes.fill_between(x, low, [a + b for a, b in zip(y, half_width)], color=color, alpha=0.25, linewidth=0)
+
+
+def discs(axes, x, z, radius, values=None, **colours):
+    """Grains as they lie, to scale. Returns the collection."""
+    drawn = matplotlib.collections.EllipseCollection(2 * radius, 2 * radius, np.zeros(len(radius)), units="x", offsets=np.column_stack([x, z]),
+                                                     transOffset=axes.transData, **colours)
+    if values is not None:
+        drawn.set_array(values)
+    return axes.add_collection(drawn, autolim=False)
+
+
+def value_of(entry, key="value"):
+    """A number, or that of a measurement; NaN where there is none."""
+    value = entry.get(key) if isinstance(entry, dict) else entry if key == "value" else None
+    return math.nan if value is None else value
+
+
+def half_width_of(entry):
+    """Of the 99 % interval of a measurement, or what the paper gives."""
+    return value_of(entry, "half_width" if isinstance(entry, dict) and "half_width" in entry else "ci99")
 
 
 def read_profiles(path):
@@ -158,3 +191,10 @@ def read_profiles(path):
     except ValueError as error:
         sys.exit(str(error))
     return header, {name: [float(value) for value in column] for name, column in columns.items()}
+
+
+def shown_layers(profile):
+    """(header, columns) without the loosest layers: a handful of grains in the air would stretch every axis with their error bars."""
+    header, columns = profile
+    shown = [i for i, nu in enumerate(columns["nu"]) if nu > LEAST_SHOWN_NU]
+    return header, {name: [values[i] for i in shown] for name, values in columns.items()}

@@ -21,7 +21,6 @@ NAMES = {"field": "velocity field", "displacement": "velocity of each grain,\nme
 STATISTICS = ["theta_com_deg", "H", "shear_rate", "lambda", "I_th", "overlap_mean"]
 NARROW = 3  # greatest over smallest time, up to which numbers of powers of ten would stand over one another, or be none
 ROUNDING = 1e-9  # what is exact up to it is no panel
-COLORS = [style.PARTICLES, style.CONTINUUM] + style.OTHERS
 
 
 def name_of(quantity):
@@ -64,7 +63,7 @@ def limit_errors(axes, errors):
 
 
 def draw_panel(axes, cost, quantity):
-    for (label, points), color in zip(curves_of(cost), COLORS * 3):
+    for (label, points), color in zip(curves_of(cost), style.COLORS * 3):
         axes.plot([point["cpu_seconds"] for point in points], [error_of(point, quantity) for point in points], marker="o", linewidth=1, alpha=0.85,
                   color=color, label=label)
     front = sorted((point for point in cost["points"] if quantity in point["pareto"]), key=lambda point: point["cpu_seconds"])
@@ -126,7 +125,7 @@ def draw_statistics(cost, path):
     figure, panels = plt.subplots(rows, columns, figsize=(4.6 * columns, 3.6 * rows), squeeze=False)
     steps = sorted({point["step_s"] for point in points})
     for axes, name in zip(panels.flat, known):
-        for step, color in zip(steps, COLORS):
+        for step, color in zip(steps, style.COLORS):
             here = sorted((point for point in points if point["step_s"] == step), key=lambda point: point["tolerance"])
             found = [(point["statistics"]["cpu_seconds"], point["statistics"]["scalars"].get(name, {})) for point in here]
             found = [(seconds, entry["value"], entry["ci99"] or 0) for seconds, entry in found if entry.get("value") is not None]

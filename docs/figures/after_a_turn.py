@@ -8,12 +8,12 @@ axes) is integrated through the same turn. --table writes the means as numbers.
 
 import argparse
 import cmath
-import csv
 import math
 import pathlib
 import tomllib
 
 import numpy
+import result_files
 import style
 import whole_file
 
@@ -21,12 +21,6 @@ plt = style.plt
 EDGES = [0.0, 0.01, 0.02, 0.03, 0.04, 0.06, 0.08, 0.1, 0.13, 0.16, 0.2, 0.25, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0]
 FORGOTTEN = 0.2  # shear strain after which a turn no longer shows
 COLUMNS = ("shear", "difference", "amount", "fabric_shear", "fabric_difference", "nu", "p")
-
-
-def rows_of(history):
-    with open(history / "region.csv", encoding="utf-8") as stream:
-        lines = [line for line in stream if not line.startswith("#")]
-    return [{key: float(value) if value else math.nan for key, value in row.items()} for row in csv.DictReader(lines)]
 
 
 def stages_of(run, time_unit):
@@ -63,7 +57,7 @@ def sheared(rows, times_before, sense):
 
 def turns_of(history):
     """One {bin: values} per turn, and the values of steady shear before."""
-    rows = rows_of(history)
+    rows = result_files.read_rows(history / "region.csv")
     unit = math.sqrt(float(head_of(history)["diameter_m"]) / 9.81)
     turns, steady = [], []
     for name, start, end, sense in stages_of(history.parent, unit):
@@ -140,9 +134,7 @@ def law_after_turn(c, m, chi, strains, keeps_amount=True, steps_per_unit=4000):
 
 
 def head_of(history):
-    """Lines "# key = value" of a history."""
-    with open(history / "region.csv", encoding="utf-8") as stream:
-        return dict(line[2:].strip().split(" = ", 1) for line in stream if line.startswith("# ") and " = " in line)
+    return result_files.read_table(history / "region.csv")[1]
 
 
 def write_table(path, table, steady, histories):

@@ -16,7 +16,7 @@ import pathlib
 import numpy
 import style
 import whole_file
-from drum_maps import read_maps
+from result_files import read_maps
 
 plt = style.plt
 BED_I, LEAST_I = 1e-3, 3.8e-6
@@ -26,9 +26,8 @@ LEAST_NODES = 10
 
 def bed_of(run):
     """x, z, ln I and |s|/p of the nodes in the bed."""
-    header, grids = read_maps(run / "measured" / "maps.h5")
-    fields = {name: grids[name].filled(numpy.nan) for name in ("nu", "mu", "displacement_I")}
-    x, z = numpy.meshgrid(grids["x"], grids["z"])
+    header, x, z, fields, _ = read_maps(run / "measured" / "maps.h5")
+    x, z = numpy.meshgrid(x, z)
     inside = numpy.hypot(x, z - float(header["axis_depth"])) < float(header["drum_radius"]) - 4
     inertial = fields["displacement_I"]
     bed = inside & (z < -3) & (fields["nu"] >= 0.6) & (inertial > LEAST_I) & (inertial < BED_I) & numpy.isfinite(fields["mu"])
@@ -48,9 +47,8 @@ SETS = [[], ["psi"], ["abs(F)"], ["nu"], ["cosine"], ["ln p"], ["psi", "abs(F)"]
 
 def block_means(run, zone):
     """Means over blocks of |s|/p, ln I and every variable, by place."""
-    header, grids = read_maps(run / "measured" / "maps.h5")
-    f = {name: grids[name].filled(numpy.nan) if hasattr(grids[name], "filled") else grids[name] for name in grids}
-    x, z = numpy.meshgrid(f["x"], f["z"])
+    header, x, z, f, _ = read_maps(run / "measured" / "maps.h5")
+    x, z = numpy.meshgrid(x, z)
     inertial = f["displacement_I"]
     with numpy.errstate(invalid="ignore", divide="ignore"):
         columns = [f["mu"], numpy.log(inertial), *(read(f) for read in VARIABLES.values())]

@@ -15,6 +15,7 @@ import tomllib
 import matplotlib.pyplot as plt
 from matplotlib.ticker import LogLocator, NullFormatter, ScalarFormatter
 
+import script
 import style
 import whole_file
 
@@ -31,8 +32,7 @@ def runs_of(standard, convergence):
         groups.setdefault("tolerance-3e-3, the standard", []).append(folder)
     for folder in sorted(convergence.glob("6rpm-*-seed*")):
         groups.setdefault(re.sub(r"^6rpm-|-seed\d+$", "", folder.name), []).append(folder)
-    read = lambda path: json.loads(path.read_text(encoding="utf-8"))
-    return {name: [(read(folder / "run.json"), read(folder / "measured" / "measured.json"), folder) for folder in folders
+    return {name: [(script.content_of(folder / "run.json"), script.content_of(folder / "measured" / "measured.json"), folder) for folder in folders
                    if (folder / "measured" / "measured.json").exists()] for name, folders in groups.items()}
 
 

@@ -3,7 +3,6 @@
 usage: names_of_the_drum.py PICTURE RUN   (RUN: a measured run with maps, such as data/bed/6rpm-5turns-seed2)
 """
 
-import json
 import math
 import pathlib
 import sys
@@ -11,6 +10,7 @@ import sys
 import numpy as np
 
 import drum_maps
+import script
 import style
 
 plt = style.plt
@@ -66,7 +66,7 @@ def main():
     picture, run = map(pathlib.Path, sys.argv[1:])
     style.use_style()
     header, grids = drum_maps.read_maps(run / "measured/maps.h5")
-    scalars = json.loads((run / "measured/measured.json").read_text(encoding="utf-8"))
+    scalars = script.content_of(run / "measured/measured.json")
     figure, axes = plt.subplots(figsize=(7.6, 6.2))
     axes.grid(False)
     colours = draw(axes, header, grids, scalars)

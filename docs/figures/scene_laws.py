@@ -10,14 +10,11 @@ import math
 import pathlib
 
 import numpy
+import script
 import style
 import whole_file
 
 plt = style.plt
-
-
-def runs_of(file):
-    return json.loads(pathlib.Path(file).read_text(encoding="utf-8"))["runs"]
 
 
 def law_of(points):
@@ -91,12 +88,11 @@ def main():
     parser.add_argument("chute")
     parser.add_argument("-o", "--output", required=True, type=pathlib.Path)
     options = parser.parse_args()
-    chute_runs = runs_of(options.chute)
-    shear, chute = points_of_shear(runs_of(options.shear)), points_of_chute(chute_runs)
+    chute_runs = script.content_of(options.chute)["runs"]
+    shear, chute = points_of_shear(script.content_of(options.shear)["runs"]), points_of_chute(chute_runs)
     options.output.mkdir(parents=True, exist_ok=True)
     text = json.dumps(transfers(shear, chute, chute_runs), indent=1) + "\n"
-    with whole_file.aside(options.output / "laws.json") as stream:
-        stream.write(text.encode())
+    whole_file.write_text(options.output / "laws.json", text)
     drawn(shear, chute, options.output / "laws.png")
 
 

@@ -14,6 +14,7 @@ import numpy
 import scene_cells
 import scene_events
 import scene_frames
+import whole_file
 from scene_runs import inertial_number, layer_state, line, mean, read_run, velocities, wall_forces
 
 
@@ -196,8 +197,7 @@ def main():
                         "cpu_seconds": report["cpu_seconds"], "overlap_max": report["accuracy"]["overlap_max"]} | KINDS[options.kind](run))
     text = json.dumps({"format": "drumlin-scene-numbers-1", "kind": options.kind, "runs": results}, indent=1) + "\n"
     if options.output:
-        with open(options.output, "w", encoding="utf-8") as stream:
-            stream.write(text)
+        whole_file.write_text(options.output, text)
     else:
         sys.stdout.write(text)
 

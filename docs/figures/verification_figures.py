@@ -4,12 +4,12 @@ usage: verification_figures.py RESULT.json OUTPUT_FOLDER
 Writes verification-orders.png, verification-gaps.png and verification-checks.png, and prints the observed orders.
 """
 
-import json
 import math
 import pathlib
 import sys
 
 import matplotlib.pyplot as plt
+import script
 import style
 
 NAMES = {"velocity": (r"velocity, $L_2$", 3), "gradient": (r"velocity gradient, $L_2$", 2),
@@ -106,7 +106,7 @@ def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
     source, folder = map(pathlib.Path, sys.argv[1:])
-    data = json.loads(source.read_text(encoding="utf-8"))
+    data = script.content_of(source)
     if data.get("format") != "drumlin-flow-verification-1":
         sys.exit(f"{source}: is not a verification of this version")
     folder.mkdir(parents=True, exist_ok=True)

@@ -9,7 +9,7 @@ import collections
 import math
 import pathlib
 
-import h5py
+import result_files
 import style
 
 plt = style.plt
@@ -50,10 +50,8 @@ def of_run(run):
 
 
 def of_flow(flow, angles):
-    with h5py.File(flow / "maps.h5") as maps:
-        header = dict(line.split(" = ", 1) for line in maps["header"][()].tobytes().decode().splitlines() if " = " in line)
-        x, z = maps["x"][:], maps["z"][:]
-        fields = [maps["fields/" + name][:] for name in ("sigma_xx", "sigma_zz", "sigma_xz")]
+    names = ("sigma_xx", "sigma_zz", "sigma_xz")
+    header, x, z, fields, _ = result_files.read_maps(flow / "maps.h5", names)
     radius, axis = float(header["drum_radius"]) - ABOVE_WALL, float(header["axis_depth"])
     ratios = []
     for angle in angles:
@@ -62,7 +60,7 @@ def of_flow(flow, angles):
             at_x, below = r * math.sin(math.radians(angle)), r * math.cos(math.radians(angle))
             i, j = round((at_x - x[0]) / (x[1] - x[0])), round((axis - below - z[0]) / (z[1] - z[0]))
             inside = 0 <= i < len(x) and 0 <= j < len(z)
-            several.append(traction(*(field[j, i] for field in fields), at_x, below)[1] if inside else math.nan)
+            several.append(traction(*(field[j, i] for field in map(fields.get, names)), at_x, below)[1] if inside else math.nan)
         ratios.append(sum(several) / len(several))
     return ratios
 

@@ -80,7 +80,7 @@ def law(axes, record, rest=False):
 def newton(axes, flow, over_time=False):
     """Draws the residuals of a flow over its iterations or seconds, a colour for each phase: flow is the folder that `flow` left."""
     trust = figure_module("flow_trust")
-    trust.draw_convergence(axes, trust.read_iterations(flow.path / "iterations.csv"), flow["flow.json"]["settings"]["tolerance"], over_time)
+    trust.draw_convergence(axes, figure_module("result_files").read_rows(flow.path / "iterations.csv"), flow["flow.json"]["settings"]["tolerance"], over_time)
     axes.set_ylabel("residual / norm of the loads")
 
 
