@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -232,21 +231,6 @@ Json accuracy_json(const FinishedFlow& flow) {
   return {{"scalars", scalars}, {"halving", halvings}, {"cpu_seconds", flow.cpu_seconds}};
 }
 
-// Per mesh.
-Json linear_json(const continuum::FlowReport& report) {
-  Json meshes = Json::array();
-  for (const continuum::LinearReport& mesh : report.linear) {
-    Json entry{{"method", mesh.iterative ? "iterative" : "direct"}, {"solves", mesh.solves}};
-    if (mesh.iterative) {
-      entry["iterations_mean"] = static_cast<double>(mesh.iterations) / std::max(1, mesh.solves);
-      entry["iterations_max"] = mesh.most_iterations;
-      entry["direct_instead"] = mesh.direct_instead;
-    }
-    meshes.push_back(entry);
-  }
-  return meshes;
-}
-
 Json rank_costs_json(const FinishedFlow& flow) {
   Json list = Json::array();
   for (std::size_t rank = 0; rank < flow.rank_cpu_seconds.size(); ++rank)
@@ -284,7 +268,6 @@ Json flow_json(const FinishedFlow& flow) {
   content["ranks"] = flow.ranks;
   content["rank_costs"] = rank_costs_json(flow);
   content["phases"] = phases_json(report);
-  content["linear"] = linear_json(report);
   content["checks"] = scalars_json(flow.findings.checks);
   if (flow.findings.neglected) content["neglected"] = neglected_json(flow);
   content["closed_form"] = closed_form_json(flow);

@@ -69,18 +69,6 @@ std::string neglected_text(const FinishedFlow& flow) {
   return text + "\n";
 }
 
-// How the linear systems of the last mesh were solved.
-std::string linear_text(const continuum::FlowReport& report) {
-  if (report.linear.empty()) return "";
-  const continuum::LinearReport& last = report.linear.back();
-  if (!last.iterative) return fmt::format("linear systems of the last mesh: {} by MUMPS", last.solves);
-  return fmt::format(
-      "linear systems of the last mesh: {} by GMRES with multigrid, {:.1f} iterations each, at most {}{}",
-      last.solves, static_cast<double>(last.iterations) / std::max(1, last.solves), last.most_iterations,
-      last.direct_instead > 0 ? fmt::format("; {} of them failed and went to MUMPS", last.direct_instead)
-                              : "");
-}
-
 std::string summary_text(const fs::path& folder, const FinishedFlow& flow) {
   const double share = flow.findings.ill_posed_share();
   const continuum::FlowReport& report = flow.solution.report;
@@ -88,7 +76,6 @@ std::string summary_text(const fs::path& folder, const FinishedFlow& flow) {
   for (const continuum::PhaseSeconds& phase : report.phases)
     text += fmt::format("{} {} {:.1f} ({} times)", phase.name == report.phases.front().name ? "" : ",",
                         phase.name, phase.seconds, phase.times);
-  text += "\n" + linear_text(report);
   text += fmt::format(
       "\n{}{}: {} iterations ({}), {:.1f} s, residual {:.1e}, ill-posed in {:.2f} % of the area{}\n",
       folder.string(), flow.asked.reduced() ? " (reduced)" : "", report.iterations, report.start,

@@ -63,9 +63,6 @@ std::string eps_text(const FlowScene& scene, const FlowFindings& findings, bool 
                      100 * findings.eps_share, eps, 100 * largest_eps_share, help);
 }
 
-// From the coarsest one on, also those that a neighbour made superfluous.
-int meshes_of(const FlowSolution& solution) { return static_cast<int>(solution.report.linear.size()); }
-
 }  // namespace
 
 FlowOnFinerMeshes add_meshes(const FlowScene& scene, const FlowCase& flow_case, FlowSolution& solution,
@@ -77,7 +74,7 @@ FlowOnFinerMeshes add_meshes(const FlowScene& scene, const FlowCase& flow_case, 
   for (;;) {
     finer.imbalance.push_back(finer.checks.value("flux_imbalance"));
     const bool may_add = !scene.time && scene.mesh.refined_share == 1 &&
-                         meshes_of(solution) < options.levels + options.further_levels &&
+                         solution.report.meshes < options.levels + options.further_levels &&
                          4 * solution.field.unknowns() <= most_added_unknowns;
     if (finer.imbalance.back() < largest_flux_imbalance || !may_add || leaks(flow_case, finer.checks))
       return finer;

@@ -15,8 +15,6 @@
 #include <map>
 #include <set>
 
-#include "continuum/fem/detail/nested_spaces.hpp"
-
 namespace drumlin::continuum::fem {
 namespace {
 
@@ -235,15 +233,9 @@ void Discretisation::execute_refinement(const FlowProblem& problem, FieldVector&
   mesh.prepare_coarsening_and_refinement();
   solution.update_ghost_values();
   transfer.prepare_for_coarsening_and_refinement(solution);
-  std::optional<NestingRecord> record;
-  if (keeps_nesting) record.emplace(*this);
   mesh.execute_coarsening_and_refinement();
   undisturbed_.reset();
   distribute_unknowns(problem);
-  if (record) {
-    if (!nesting.empty()) nesting.back().interpolation = record->free_rows(nesting.back().interpolation);
-    nesting.push_back(record->nesting(*this));
-  }
   solution = field();
   transfer.interpolate(solution);
   constraints.distribute(solution);

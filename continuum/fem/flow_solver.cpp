@@ -134,10 +134,6 @@ class Continuation {
         neighbour_(neighbour),
         first_(first),
         level_(coarsest_level(problem, neighbour)) {
-    const double growth = 1 + 3 * options.refined_share;
-    discretisation().keeps_nesting =
-        fem::iterates(options, static_cast<double>(discretisation().unknowns.n_dofs()) *
-                                   std::pow(growth, options.levels - 1));
     report_.start = neighbour ? "neighbour" : "cold";
   }
 
@@ -311,6 +307,7 @@ FlowSolution solve_flow_finer(const FlowSolution& coarser, const FlowProblem& pr
   whole.failure = after.failure;
   whole.residual = after.residual;
   whole.iterations += after.iterations;
+  whole.meshes = after.meshes;
   whole.picard_updates = after.picard_updates;
   whole.picard_change = after.picard_change;
   whole.seconds += after.seconds;
@@ -322,8 +319,6 @@ FlowSolution solve_flow_finer(const FlowSolution& coarser, const FlowProblem& pr
     whole.phases[i].seconds += after.phases[i].seconds;
     whole.phases[i].times += after.phases[i].times;
   }
-  whole.linear.insert(whole.linear.end(), after.linear.begin() + static_cast<long>(whole.linear.size()),
-                      after.linear.end());
   whole.surface_steps.insert(whole.surface_steps.end(), after.surface_steps.begin(),
                              after.surface_steps.end());
   return finer;

@@ -10,13 +10,6 @@
 
 namespace drumlin::continuum {
 
-/// How the linear systems are solved. The coarsest mesh is always MUMPS's.
-enum class LinearMethod {
-  automatic,  ///< by iterations from FlowSolverOptions::iterative_from unknowns on; MUMPS where these fail
-  direct,     ///< MUMPS
-  iterative   ///< GMRES with multigrid over the meshes
-};
-
 struct FlowSolverOptions {
   int levels = 2;          ///< meshes, each with cells half as large; the last one carries the result
   int further_levels = 3;  ///< meshes beyond these that a kept flow may lie on, or be refined to
@@ -33,11 +26,8 @@ struct FlowSolverOptions {
   double coarse_surface_tolerance = 0.05;  ///< d, of a surface that moves, on all meshes but the last one
   double tolerance = 1e-8;                 ///< on the residual in the last phase of the last mesh
   double linear_tolerance = 1e-6;          ///< on the true relative residual of every linear solve
-  LinearMethod linear_method = LinearMethod::automatic;
-  double iterative_from = 1e7;       ///< unknowns of a mesh
-  int most_linear_iterations = 150;  ///< of a solve by iterations
-  int max_iterations = 40;           ///< per phase
-  int max_picard_updates = 40;       ///< of the fields that the law takes from the flow
+  int max_iterations = 40;                 ///< per phase
+  int max_picard_updates = 40;             ///< of the fields that the law takes from the flow
   /// On what a whole Picard update moves, velocity (mean square) and slope, relative. Where the material
   /// hardly shears the axes of its strain rate are noise: the drum at 6 rpm on cells of 2 d came to rest at
   /// 6e-4.
@@ -88,27 +78,18 @@ struct PhaseSeconds {
   int times = 0;
 };
 
-/// The linear solves of one mesh.
-struct LinearReport {
-  bool iterative = false;  ///< else MUMPS
-  int solves = 0;
-  int iterations = 0;       ///< over all solves
-  int most_iterations = 0;  ///< of one solve
-  int direct_instead = 0;   ///< solves that went to MUMPS since the iterations failed
-};
-
 struct FlowReport {
   bool converged = false;
   std::string failure;  ///< which phase, residual and last step; empty when converged
   std::string start;    ///< "cold", "neighbour", or why the neighbour did not serve
   double residual = 0;
   int iterations = 0;  ///< over all phases and meshes
+  int meshes = 0;      ///< from the coarsest one on, also those that a neighbour made superfluous
   /// Picard updates of the fields that the law takes from the flow, on the last mesh; 0: it takes none.
   int picard_updates = 0;
   double picard_change = 0;  ///< what the last of them moved, relative, as if it had been taken whole
   double seconds = 0;
   std::vector<PhaseSeconds> phases;
-  std::vector<LinearReport> linear;  ///< per mesh, the coarsest first
   std::vector<IterationReport> history;
   std::vector<SurfaceStepReport> surface_steps;  ///< empty where the surface stays
 };

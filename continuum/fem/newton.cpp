@@ -18,6 +18,9 @@ namespace {
 // only waste the iterations that are left.
 constexpr double hopeless_residual = 1e5;
 
+// True relative residual of a solve that asks for no refinement: below every tolerance on the flow.
+constexpr double enough = 1e-9;
+
 // Of the fluidity, relative: far below what the residual of the momentum can tell, and what suffices to
 // compare step lengths.
 constexpr double settled = 1e-9, nearly_settled = 1e-4;
@@ -40,9 +43,7 @@ std::string unsettled(const Phase& phase) {
 }  // namespace
 
 double Newton::solved(const FieldVector& rhs, FieldVector& solution) {
-  return clock_(Work::linear_solves, [&] {
-    return linear_.solve(rhs, solution, report_.linear[static_cast<std::size_t>(level_)]);
-  });
+  return clock_(Work::linear_solves, [&] { return factors_.solve(rhs, solution, enough); });
 }
 
 // A state that has settled at a given slope, at that without moment, by the response to the slope of the last
@@ -54,7 +55,7 @@ State Newton::without_moment(const State& state) const {
 }
 
 // The slope is one more unknown, its equation (the moment) linear in the solution: two solves with one
-// matrix. The second starts from the response of the step before, where it iterates.
+// matrix.
 Newton::Step Newton::step_with_factors(const State& state) {
   Step step{.solution = d_.field()};
   FieldVector rhs = system_.residual;

@@ -9,8 +9,6 @@ FlowSolverOptions solver_options(const FlowScene& scene) {
   options.tolerance = scene.solver.tolerance;
   if (options.levels > 2) options.coarse_tolerance = options.tolerance;
   options.linear_tolerance = scene.solver.linear_tolerance;
-  if (scene.solver.linear == "direct") options.linear_method = LinearMethod::direct;
-  if (scene.solver.linear == "iterative") options.linear_method = LinearMethod::iterative;
   options.max_iterations = scene.solver.max_iterations;
   return options;
 }

@@ -82,10 +82,6 @@ void describe(Visitor& v, FlowSolverKeys& s) {
   v.value("tolerance", s.tolerance, defaulted("", above(0, 1), "Nonlinear residual over the weight's norm."));
   v.value("linear_tolerance", s.linear_tolerance,
           defaulted("", above(0, 1), "True relative residual of linear solves."));
-  v.value(
-      "linear", s.linear,
-      defaulted("", one_of({"automatic", "direct", "iterative"}),
-                "MUMPS (direct), or GMRES with multigrid; automatic: that from 1e7 unknowns of a mesh on."));
   v.value("max_iterations", s.max_iterations, defaulted("", at_least(1, 10000), "Newton, per phase."));
   v.value("sensitivity", s.sensitivity,
           defaulted("", anything(), "Solves again with eps / 4, p_min - 20 %, one more iteration."));

@@ -70,7 +70,6 @@ struct FlowRegularisation {
 struct FlowSolverKeys {
   double tolerance = 1e-8;
   double linear_tolerance = 1e-6;
-  std::string linear = "automatic";
   int max_iterations = 40;
   bool sensitivity = true;
 };

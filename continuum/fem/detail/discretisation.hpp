@@ -18,7 +18,6 @@
 #include <span>
 #include <vector>
 
-#include "continuum/fem/detail/nesting.hpp"
 #include "continuum/model/surface_shape.hpp"
 
 namespace drumlin::continuum::fem {
@@ -79,9 +78,6 @@ struct Discretisation {
   dealii::IndexSet given;
 
   std::optional<SurfaceShape> surface;  ///< absent: it has not moved
-
-  bool keeps_nesting = false;    ///< whether refinements are taken down
-  std::vector<Nesting> nesting;  ///< those that were, the first one first
 
  private:
   void distribute_unknowns(const FlowProblem& problem);

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "continuum/fem/detail/linear_solver.hpp"
+#include "continuum/fem/detail/direct_solver.hpp"
 #include "continuum/fem/detail/settled_fluidity.hpp"
 #include "continuum/fem/detail/solved_level.hpp"
 #include "continuum/fem/detail/work_clock.hpp"
@@ -34,10 +34,8 @@ class Newton {
         report_(report),
         observer_(observer),
         moment_(surface_moment(problem, d_)),
-        system_(d_),
-        linear_(options, d_) {
-    const auto meshes = static_cast<std::size_t>(level) + 1;
-    if (report.linear.size() < meshes) report.linear.resize(meshes);
+        system_(d_) {
+    report.meshes = level + 1;
     if (problem.frame) frame_moment_ = moment_ * frame_velocity(problem, d_);
     if (d_.has_fluidity()) fluidity_.emplace(problem, d_);
     weight_norm_ = problem.density > 0 ? load(d_, {0, problem.density}).l2_norm() : 0;
@@ -47,7 +45,7 @@ class Newton {
   bool solve(const Phase& phase, State& state);
   /// Readies the tangent of the last iterate for solves.
   void factorise() {
-    clock_(Work::factorisation, [&] { linear_.prepare(system_.matrix); });
+    clock_(Work::factorisation, [&] { factors_.factorise(system_.matrix); });
   }
   /// After one more step with these factors; the residual is of the mesh as it stands now.
   State corrected(const Setting& setting, const State& state);
@@ -91,7 +89,7 @@ class Newton {
   const FlowObserver& observer_;
   FieldVector moment_;
   System system_;
-  LinearSolver linear_;
+  DirectSolver factors_;
   std::optional<FieldVector> response_;  // of the flow to the slope, of the last step
   double frame_moment_ = 0;              // of the velocity that the unknown lacks in a rotating frame
   bool has_settled_locally_ = false;

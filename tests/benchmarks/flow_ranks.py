@@ -1,8 +1,8 @@
-"""What the linear systems of a flow cost by MUMPS and by iterations: the 6 rpm drum on finer and finer meshes, on 1 and 2 ranks.
+"""What a flow costs on finer and finer meshes, on 1 and 2 ranks: the 6 rpm drum, cold.
 
-usage: python3 tests/benchmarks/flow_iterative.py BUILD RECORD.json [CASE...]   (CASE: LEVELS:SURFACE_CELL:METHOD:RANKS[:TOLERANCE])
+usage: python3 tests/benchmarks/flow_ranks.py BUILD RECORD.json [CASE...]   (CASE: LEVELS:SURFACE_CELL:RANKS)
 
-Each mesh halves the cells of the last one, from cells of 2 d. Without CASE: 2 to 4 meshes, both methods, 1 and 2 ranks. A case that stands in RECORD.json
+Each mesh halves the cells of the last one, from cells of 2 d. Without CASE: 2 to 4 meshes, 1 and 2 ranks. A case that stands in RECORD.json
 already is kept, so that the largest ones can be added by themselves. Processor seconds are those of each whole process; wall seconds mean something on an
 idle machine only: the load stands beside them.
 """
@@ -22,10 +22,10 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCALARS = ("theta_deg", "H", "lambda")
 
 
-def solved(build, levels, cell, method, ranks, tolerance):
+def solved(build, levels, cell, ranks):
     environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMP_NUM_THREADS": "1",
                    "OMPI_MCA_mpi_yield_when_idle": str(int(ranks > (os.cpu_count() or 1)))}  # else a rank that waits gives its processor to others
-    keys = {"mesh.levels": levels, "mesh.surface_cell": cell, "solver.linear": method, "solver.tolerance": tolerance, "solver.sensitivity": "false", "output.figures": "false"}
+    keys = {"mesh.levels": levels, "mesh.surface_cell": cell, "solver.sensitivity": "false", "output.figures": "false"}
     with tempfile.TemporaryDirectory() as name:
         words = ["mpirun", "-n", ranks, build / "drumlin-flow", ROOT / "data/scenes/drum-6rpm-flow.toml", "--rheology", ROOT / "data/rheology/drum-6rpm.toml", "--law-draws", "0", "-o", f"{name}/flow"]
         for key, value in keys.items():
@@ -40,7 +40,6 @@ def solved(build, levels, cell, method, ranks, tolerance):
         "unknowns": flow["unknowns"],
         "newton_iterations": flow["iterations"],
         "newton_iterations_last_mesh": len(last),
-        "linear": flow["linear"],
         "largest_linear_residual": max(float(row[7]) for row in table[1:]),
         "residual": flow["residual"],
         "wall_seconds": flow["seconds"],
@@ -51,27 +50,17 @@ def solved(build, levels, cell, method, ranks, tolerance):
     }
 
 
-def compare(cases):
-    """Each iterative case beside the direct one of the same mesh, ranks and tolerance."""
-    for case, found in cases.items():
-        twin = cases.get(case.replace("iterative", "direct"))
-        if twin and twin is not found:
-            found["relative_difference_from_direct"] = {name: abs(found[name] / twin[name] - 1) for name in SCALARS}
-
-
 def main():
     build, record = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
-    cases = sys.argv[3:] or [f"{levels}:{2 / 2 ** (levels - 1):g}:{method}:{ranks}" for levels in (2, 3, 4) for method in ("direct", "iterative") for ranks in (1, 2)]
-    content = json.loads(record.read_text(encoding="utf-8")) if record.exists() else {"format": "drumlin-flow-iterative-1", "command": "python3 tests/benchmarks/flow_iterative.py build RECORD.json", "cases": {}}
+    cases = sys.argv[3:] or [f"{levels}:{2 / 2 ** (levels - 1):g}:{ranks}" for levels in (2, 3, 4) for ranks in (1, 2)]
+    content = json.loads(record.read_text(encoding="utf-8")) if record.exists() else {"format": "drumlin-flow-ranks-1", "command": "python3 tests/benchmarks/flow_ranks.py build RECORD.json", "cases": {}}
     for case in cases:
         if case in content["cases"]:
             continue
-        levels, cell, method, ranks, *rest = case.split(":")
-        found = solved(build, int(levels), float(cell), method, int(ranks), rest[0] if rest else "1e-8") | machine()
-        content["cases"][case] = found
-        compare(content["cases"])
+        levels, cell, ranks = case.split(":")
+        content["cases"][case] = found = solved(build, int(levels), float(cell), int(ranks)) | machine()
         record.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
-        print(case, found["unknowns"], found["newton_iterations"], found["linear"][-1], found["rank_costs"], f"{found['wall_seconds']:.1f} s", flush=True)
+        print(case, found["unknowns"], found["newton_iterations"], found["rank_costs"], f"{found['wall_seconds']:.1f} s", flush=True)
 
 
 if __name__ == "__main__":
