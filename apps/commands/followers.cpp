@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <bit>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -28,34 +28,33 @@ enum class Order { begin, step, tell_costs, end };
 /// An order of the first rank to all others, with a number.
 struct Message {
   Order order = Order::end;
-  int number = 0;  ///< begin: threads; end: exit code
+  int number = 0;        ///< begin: threads; end: exit code
+  bool goes_on = false;  ///< begin: from a checkpoint
 };
 
-/// Numbers that two states share only if they are the same.
-struct Mark {
-  std::uint64_t numbers = 0, revision = 0;
-  bool operator==(const Mark&) const = default;
-};
+/// A number that two states share only if they are the same.
+using Mark = std::uint64_t;
 
-std::uint64_t mixed(std::uint64_t sum, std::uint64_t number) {
-  return std::rotl((sum ^ number) * 0x9E3779B97F4A7C15U, 29);
-}
+Mark mixed(Mark sum, std::uint64_t number) { return std::rotl((sum ^ number) * 0x9E3779B97F4A7C15U, 29); }
 
-Mark mark_of(const particles::Bodies& bodies) {
-  Mark mark;
+Mark mark_of(const particles::Simulation& simulation) {
+  const particles::Bodies& bodies = simulation.state().bodies;
+  Mark mark = 1;
   for (const auto* numbers : {&bodies.x, &bodies.z, &bodies.v_x, &bodies.v_z, &bodies.spin})
-    for (const double number : *numbers)
-      mark.numbers = mixed(mark.numbers, std::bit_cast<std::uint64_t>(number));
-  for (const char letter : version_text())
-    mark.revision = mixed(mark.revision, static_cast<unsigned char>(letter));
+    for (const double number : *numbers) mark = mixed(mark, std::bit_cast<std::uint64_t>(number));
   return mark;
 }
 
+/// The same of a simulation that is begun, and of the program.
+Mark mark_at_start(const particles::Simulation& simulation) {
+  return mixed(mark_of(simulation), std::hash<std::string>()(version_text()));
+}
+
 /// The rank whose state is not that of the first one; 0: none.
-int other_than_first(particles::World& world, const Mark& own) {
+int other_than_first(particles::World& world, Mark own) {
   const std::vector<Mark> marks = world.of_each(own);
   for (int r = 1; r < world.ranks(); ++r)
-    if (!(marks[r] == marks[0])) return r;
+    if (marks[r] != marks[0]) return r;
   return 0;
 }
 
@@ -98,10 +97,9 @@ nlohmann::ordered_json to_json(const std::vector<RankCosts>& ranks) {
 void Followers::begin(const fs::path& run, bool goes_on, int threads,
                       const particles::Simulation& simulation) const {
   if (world_ == nullptr) return;
-  world_->of_first(Message{Order::begin, threads});
-  world_->of_first(goes_on);
+  world_->of_first(Message{Order::begin, threads, goes_on});
   (void)from_first(*world_, fs::absolute(run).string());
-  compare(simulation);
+  compare(mark_at_start(simulation), simulation);
 }
 
 particles::StepReport Followers::step(particles::Simulation& simulation) const {
@@ -116,12 +114,12 @@ particles::StepReport Followers::step(particles::Simulation& simulation) const {
     throw;
   }
   world_->in_step = false;
-  compare(simulation);
+  compare(mark_of(simulation), simulation);
   return report;
 }
 
-void Followers::compare(const particles::Simulation& simulation) const {
-  if (const int rank = other_than_first(*world_, mark_of(simulation.state().bodies)))
+void Followers::compare(std::uint64_t own, const particles::Simulation& simulation) const {
+  if (const int rank = other_than_first(*world_, own))
     throw IoError(
         fmt::format("rank {} has another state than rank 0 after step {}: ranks need the same program, "
                     "the same files and processors of one kind",
@@ -146,19 +144,17 @@ int follow(particles::World& world) {
   for (;;) {
     const Message message = world.of_first(Message{});
     switch (message.order) {
-      case Order::begin: {
-        const bool goes_on = world.of_first(false);
-        simulation = simulation_in(from_first(world, ""), goes_on, message.number, world);
-        (void)other_than_first(world, simulation ? mark_of(simulation->state().bodies) : Mark{});
+      case Order::begin:
+        simulation = simulation_in(from_first(world, ""), message.goes_on, message.number, world);
+        (void)other_than_first(world, simulation ? mark_at_start(*simulation) : Mark{0});
         break;
-      }
       case Order::step:
         try {
           (void)simulation->step();
         } catch (const NotConvergedError&) {  // on all ranks, and the first one says so
           break;
         }
-        (void)other_than_first(world, mark_of(simulation->state().bodies));
+        (void)other_than_first(world, mark_of(*simulation));
         break;
       case Order::tell_costs:
         (void)world.of_each(own_costs(world));

@@ -1,6 +1,7 @@
 #pragma once
 // A run on several ranks: the first one reads and writes all files and says what is done; the others follow
 // it and do their shares of its steps (docs/decisions/ranks.md).
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
@@ -34,8 +35,8 @@ class Followers {
   void end(int exit_code) const;
 
  private:
-  /// Throws IoError where one of them has another state.
-  void compare(const particles::Simulation& simulation) const;
+  /// Throws IoError where one of them has another mark of its state than `own`.
+  void compare(std::uint64_t own, const particles::Simulation& simulation) const;
   particles::World* world_;
 };
 

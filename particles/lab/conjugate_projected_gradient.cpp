@@ -254,10 +254,7 @@ SolveReport solve_cpg(const Problem& problem, const StoppingRule& rule, SolverWo
 #define DRUMLIN_INSTANTIATE(Problem)                                                             \
   template SolveReport solve_cpg(const Problem&, const StoppingRule&, SolverWorkspace<Problem>&, \
                                  Solution<Problem>&);
-DRUMLIN_INSTANTIATE(FrictionlessProblem)
-DRUMLIN_INSTANTIATE(CoulombProblem)
-DRUMLIN_INSTANTIATE(CoulombSpinProblem)
-DRUMLIN_INSTANTIATE(BlockProblem)
+DRUMLIN_EACH_PROBLEM_WITHOUT_COUPLES(DRUMLIN_INSTANTIATE)
 #undef DRUMLIN_INSTANTIATE
 
 }  // namespace drumlin::particles

@@ -162,10 +162,7 @@ SolveReport solve_reference(const Problem& problem, const StoppingRule& rule, So
 #define DRUMLIN_INSTANTIATE(Problem)                                                                   \
   template SolveReport solve_reference(const Problem&, const StoppingRule&, SolverWorkspace<Problem>&, \
                                        Solution<Problem>&);
-DRUMLIN_INSTANTIATE(FrictionlessProblem)
-DRUMLIN_INSTANTIATE(CoulombProblem)
-DRUMLIN_INSTANTIATE(CoulombSpinProblem)
-DRUMLIN_INSTANTIATE(BlockProblem)
+DRUMLIN_EACH_PROBLEM_WITHOUT_COUPLES(DRUMLIN_INSTANTIATE)
 #undef DRUMLIN_INSTANTIATE
 
 }  // namespace drumlin::particles

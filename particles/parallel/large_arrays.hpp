@@ -5,8 +5,7 @@ namespace drumlin::particles {
 
 /// Lets each array of so many bytes or more have pages of its own, which go back to the system with it. Else
 /// the C library learns from the arrays of the start to cut later ones from its heap, where holes between
-/// them stay; and SuperLU_DIST, which comes with PETSc, sets it when it is loaded so that nothing leaves the
-/// heap.
+/// them stay.
 void give_large_arrays_back(int bytes);
 
 }  // namespace drumlin::particles

@@ -137,8 +137,8 @@ void StripProblem<T, dim, spin>::pack(const Problem& problem, const SweepPlan& p
   border_[0] = border_of(problem, plan, first);
   border_[1] = border_of(problem, plan, end);
   contacts_of_ranks_.clear();
-  for (int rank = 0; rank <= world_->ranks(); ++rank)
-    contacts_of_ranks_.push_back(plan.group_start[plan.slice_start[2 * first_of(first_part(rank))]] *
+  for (const int strip : strips_of_ranks_)
+    contacts_of_ranks_.push_back(plan.group_start[plan.slice_start[2 * strip]] *
                                  static_cast<std::size_t>(dim));
 }
 
@@ -155,6 +155,9 @@ void StripProblem<T, dim, spin>::share(World* world) {
   while (ranks_ > 1 && !have_some()) --ranks_;
   world_ = ranks_ > 1 ? world : nullptr;
   if (ranks_ == 1) rank_ = 0;
+  strips_of_ranks_.clear();
+  for (int rank = 0; rank <= (world_ != nullptr ? world_->ranks() : 1); ++rank)
+    strips_of_ranks_.push_back(first_of(first_part(rank)));
 }
 
 template <class T, int dim, bool spin>
@@ -192,7 +195,7 @@ template <class Entry>
 void StripProblem<T, dim, spin>::gather(std::span<Entry> all, std::size_t of_strip) const {
   if (world_ == nullptr) return;
   std::vector<std::size_t> first;
-  for (int rank = 0; rank <= world_->ranks(); ++rank) first.push_back(of_strip * first_of(first_part(rank)));
+  for (const int strip : strips_of_ranks_) first.push_back(of_strip * strip);
   world_->gather(all, first);
 }
 
@@ -248,7 +251,7 @@ int StripProblem<T, dim, spin>::first_of(int part) const {
 
 template <class T, int dim, bool spin>
 int StripProblem<T, dim, spin>::first_strip(int rank, int thread, int threads) const {
-  const int begin = first_of(first_part(rank)), end = first_of(first_part(rank + 1));
+  const int begin = strips_of_ranks_[rank], end = strips_of_ranks_[rank + 1];
   if (thread == threads || begin == end) return end;
   const std::size_t first = strips_[begin].block[0], blocks = strips_[end - 1].block[2] - first;
   return strip_at(first + blocks * thread / threads, begin, end);

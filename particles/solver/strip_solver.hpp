@@ -53,7 +53,7 @@ class StripProblem {
   /// Parts of this rank: the first, and the end.
   std::pair<int, int> own_parts() const { return {first_part(rank_), first_part(rank_ + 1)}; }
   /// Strips of this rank: the first, and the end.
-  std::pair<int, int> own() const { return {first_of(first_part(rank_)), first_of(first_part(rank_ + 1))}; }
+  std::pair<int, int> own() const { return {strips_of_ranks_[rank_], strips_of_ranks_[rank_ + 1]}; }
   /// First strip of a thread's share of those of a rank: strips are shared by numbers of blocks.
   int first_strip(int rank, int thread, int threads) const;
 
@@ -145,6 +145,7 @@ class StripProblem {
   std::vector<Strip> strips_;
   World* world_ = nullptr;  // none where this rank has all strips
   int rank_ = 0, ranks_ = 1;
+  std::vector<int> strips_of_ranks_;            // first strip of each rank of the world, and the end
   std::vector<std::int32_t> border_[2];         // records that the rank before, and the one after, touch too
   std::vector<std::size_t> contacts_of_ranks_;  // first contact of each rank of the world, and the end
   std::vector<BodyRecord<T>> sent_, received_;  // of the borders
@@ -153,10 +154,10 @@ class StripProblem {
   std::vector<std::int32_t> groups_;  // blocks that share no body: how many follow one another
   WorkArray<std::int32_t> contact_;   // of each place in the blocks; -1: filled up
   WorkArray<BodyRecord<T>> bodies_, before_;
-  WorkArray<std::int32_t> place_;            // of each body in bodies_
-  std::vector<double> step_squares_[20];     // of each slice, of the sweeps of two waves
-  std::vector<ResidualEstimate> estimates_;  // of each slice
-  WorkArray<Impulses> kept_;                 // of each block
+  WorkArray<std::int32_t> place_;                // of each body in bodies_
+  std::vector<double> step_squares_[sum_slots];  // of each slice, of the sweeps of two waves
+  std::vector<ResidualEstimate> estimates_;      // of each slice
+  WorkArray<Impulses> kept_;                     // of each block
   std::vector<DrivenContact<dim>> driven_;
   std::size_t driven_bodies_ = 0;  // first of them in bodies_
 };

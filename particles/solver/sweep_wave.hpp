@@ -13,8 +13,10 @@ struct StripShare {
   int first = 0, end = 0, fewest = 0;
   bool left = false, right = false;  ///< whether strips of others come before and after
 
-  /// Whether so many sweeps go through it together; else they are taken in turn.
-  bool takes_wave(int sweeps) const { return sweeps > 1 && ((!left && !right) || fewest >= 2 * sweeps); }
+  /// Whether so many sweeps go through it together; else, and where it is empty, they are taken in turn.
+  bool takes_wave(int sweeps) const {
+    return first < end && sweeps > 1 && ((!left && !right) || fewest >= 2 * sweeps);
+  }
 };
 
 /// Strips first to end - 1.

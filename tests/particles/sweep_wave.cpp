@@ -83,5 +83,14 @@ TEST(SweepWave, OfSeveralRanksIsTheSame) {
   }
 }
 
+/// As of a rank beyond those that share the strips.
+TEST(SweepWave, OfNoStripsOnlyMeets) {
+  int meetings = 0;
+  const StripShare none{64, 64, 20, true, false};
+  sweep_wave(
+      none, 5, [](int, int strip, int) { FAIL() << strip; }, [&](int) { ++meetings; });
+  EXPECT_EQ(meetings, 10);
+}
+
 }  // namespace
 }  // namespace drumlin
