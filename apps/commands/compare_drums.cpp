@@ -62,7 +62,7 @@ std::string short_number(const Json& value) {
   return value.is_number() ? fmt::format("{:.3g}", value.get<double>()) : value.dump();
 }
 
-std::string summary_of(const Json& content) {
+std::string target_summary(const Json& content) {
   const Json& counts = content["verdict"];
   std::string text = fmt::format(
       "{}\ntargets: {} met, {} missed, {} not measured; {} judged by the noise floor, the "
@@ -96,7 +96,7 @@ ComparisonReport drum_report(const ComparedRuns& runs, const CompareOptions& opt
       "",
       {},
       {}};
-  report.summary = summary_of(*report.content);
+  report.summary = target_summary(*report.content);
   report.write_overlays = [&runs, comparison](const fs::path& folder) {
     write_overlays(folder, runs.first.compared, runs.second.compared, comparison);
   };

@@ -17,7 +17,7 @@ std::string percent(const Json& value) {
   return value.is_number() ? fmt::format("{:.1f} %", 100 * value.get<double>()) : "-";
 }
 
-std::string summary_of(const Json& content) {
+std::string layer_summary(const Json& content) {
   std::string text = fmt::format("{}\nrelative errors, rms over the layers (bulk; from base to top)\n",
                                  content["title"].get<std::string>());
   for (const auto& [field, zones] : content["errors"].items())
@@ -51,7 +51,7 @@ ComparisonReport layer_report(const ComparedRuns& runs, const CompareOptions& op
   content["settings"] = {{"wall_margin", how.wall_margin}, {"top_margin", how.top_margin}};
   add_origins(content, runs);
   report.page = "layer_comparison";
-  report.summary = summary_of(content);
+  report.summary = layer_summary(content);
   report.content = std::make_shared<Json>(std::move(content));
   report.write_overlays = [overlay = coupling::layer_overlay(comparison, profiles)](const fs::path& folder) {
     write_profiles(folder / "overlay.csv", overlay);

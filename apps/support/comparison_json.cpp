@@ -15,8 +15,6 @@ using Outcome = coupling::Target::Outcome;
 
 namespace {
 
-Json number(double value) { return number_or_null(value); }
-
 /// The particles' numbers are measurements: {"value", "ci99"}; the continuum's are plain numbers.
 Json particles_of(const coupling::ScalarPair& pair) {
   return to_json(
@@ -24,24 +22,24 @@ Json particles_of(const coupling::ScalarPair& pair) {
 }
 
 Json to_json(const coupling::FieldErrors& errors, const coupling::FieldErrors* floor) {
-  Json json{{"rel_l2", number(errors.rel_l2)},
-            {"rms", number(errors.rms)},
-            {"max", number(errors.max)},
-            {"max_at", {{"x", number(errors.max_x)}, {"z", number(errors.max_z)}}},
-            {"inside_band", number(errors.inside_band)},
-            {"inside_both_bands", number(errors.inside_both)},
+  Json json{{"rel_l2", number_or_null(errors.rel_l2)},
+            {"rms", number_or_null(errors.rms)},
+            {"max", number_or_null(errors.max)},
+            {"max_at", {{"x", number_or_null(errors.max_x)}, {"z", number_or_null(errors.max_z)}}},
+            {"inside_band", number_or_null(errors.inside_band)},
+            {"inside_both_bands", number_or_null(errors.inside_both)},
             {"explained",
-             {{"calibration", number(errors.explained_by_calibration)},
-              {"particles", number(errors.explained_by_particles)},
-              {"both", number(errors.explained_by_both)}}},
-            {"interval_rms", number(errors.interval_rms)},
-            {"particles_rms", number(errors.particles_rms)},
+             {{"calibration", number_or_null(errors.explained_by_calibration)},
+              {"particles", number_or_null(errors.explained_by_particles)},
+              {"both", number_or_null(errors.explained_by_both)}}},
+            {"interval_rms", number_or_null(errors.interval_rms)},
+            {"particles_rms", number_or_null(errors.particles_rms)},
             {"layers", errors.layers},
             {"undefined", errors.undefined},
             {"noise", errors.noise}};
   if (floor != nullptr) {
-    json["floor_rel_l2"] = number(floor->rel_l2);
-    json["floor_rms"] = number(floor->rms);
+    json["floor_rel_l2"] = number_or_null(floor->rel_l2);
+    json["floor_rms"] = number_or_null(floor->rms);
   }
   return json;
 }
@@ -68,7 +66,7 @@ Json zones_of(const std::vector<coupling::FieldComparison>& fields) {
   Json zones = Json::object();
   if (!fields.empty())
     for (const auto& [zone, found] : fields.front().zones)
-      zones[zone.name] = {{"from", number(zone.from)}, {"to", number(zone.to)}};
+      zones[zone.name] = {{"from", number_or_null(zone.from)}, {"to", number_or_null(zone.to)}};
   return zones;
 }
 
@@ -81,8 +79,8 @@ void add_slices(Json& content, const coupling::Comparison& comparison, const cou
     const bool with_floor = floor != nullptr && floor->slices.part.size() == slices.part.size();
     content["slices"].push_back(
         {{"position", slice.position},
-         {"H", number(slice.H)},
-         {"offset", number(slice.offset)},
+         {"H", number_or_null(slice.H)},
+         {"offset", number_or_null(slice.offset)},
          {"zones", zones_of(slice.fields)},
          {"errors", errors_of(slice.fields, with_floor ? &floor->slices.part[i].fields : nullptr)}});
   }
@@ -97,16 +95,16 @@ void add_maps(Json& content, const coupling::Comparison& comparison, const coupl
   for (const coupling::MapZone& zone : maps.part.zones) zones[zone.name] = {{"nodes", zone.nodes.size()}};
   const bool with_floor = floor != nullptr && floor->maps.missing.empty();
   content["maps"] = {
-      {"offset", number(maps.part.offset)},
+      {"offset", number_or_null(maps.part.offset)},
       {"zones", zones},
       {"errors", errors_of(maps.part.fields, with_floor ? &floor->maps.part.fields : nullptr)}};
 }
 
 Json to_json(const coupling::ScalarPair& pair) {
   Json continuum = pair.continuum_ci99 ? apps::to_json(Scalar{"", pair.continuum, pair.continuum_ci99})
-                                       : number(pair.continuum);
+                                       : number_or_null(pair.continuum);
   Json json{{"particles", particles_of(pair)}, {"continuum", continuum}};
-  if (std::isfinite(pair.continuum_own)) json["continuum_own"] = number(pair.continuum_own);
+  if (std::isfinite(pair.continuum_own)) json["continuum_own"] = number_or_null(pair.continuum_own);
   return json;
 }
 
@@ -127,11 +125,11 @@ Json to_json(const coupling::Target& target) {
   if (!target.zone.empty()) json["zone"] = target.zone;
   json["measure"] = target.measure;
   json["limit"] = target.limit;
-  json["value"] = number(target.value);
+  json["value"] = number_or_null(target.value);
   json["outcome"] = name_of(target.outcome);
   const bool noisy = target.judged_by == coupling::Target::JudgedBy::noise_floor;
   json["judged_by"] = noisy ? "noise floor" : "limit";
-  if (noisy) json["noise_floor"] = number(target.noise_floor);
+  if (noisy) json["noise_floor"] = number_or_null(target.noise_floor);
   if (!target.remark.empty()) json["remark"] = target.remark;
   return json;
 }
@@ -151,12 +149,13 @@ void add_comparison(Json& content, const coupling::Comparison& comparison,
   Json targets = Json::array();
   for (std::size_t i = 0; i < comparison.targets.size(); ++i) {
     targets.push_back(to_json(comparison.targets[i]));
-    if (floor != nullptr) targets.back()["floor"] = number(floor->targets[i].value);
+    if (floor != nullptr) targets.back()["floor"] = number_or_null(floor->targets[i].value);
   }
   Json scalars;
   for (const auto& pair : comparison.scalars) scalars[pair.name] = to_json(pair);
   content["verdict"] = counts_of(comparison.targets);
-  content["registration"] = {{"by", name_of(comparison.registration)}, {"offset", number(comparison.offset)}};
+  content["registration"] = {{"by", name_of(comparison.registration)},
+                             {"offset", number_or_null(comparison.offset)}};
   content["zones"] = zones_of(comparison.fields);
   content["errors"] = errors_of(comparison.fields, floor == nullptr ? nullptr : &floor->fields);
   content["scalars"] = scalars;
@@ -168,14 +167,16 @@ void add_comparison(Json& content, const coupling::Comparison& comparison,
 void add_layer_comparison(Json& content, const coupling::LayerComparison& comparison,
                           const coupling::LayerComparison* floor) {
   const auto extent = [](const coupling::LayerExtent& side) {
-    return Json{{"base", number(side.base)}, {"top", number(side.top)}, {"height", number(side.height())}};
+    return Json{{"base", number_or_null(side.base)},
+                {"top", number_or_null(side.top)},
+                {"height", number_or_null(side.height())}};
   };
   Json scalars;
   for (const auto& pair : comparison.scalars) scalars[pair.name] = to_json(pair);
   content["geometry"] = comparison.geometry;
   content["registration"] = {
       {"by", comparison.registration == coupling::Registration::axis ? "base" : "surface"},
-      {"offset", number(comparison.offset)},
+      {"offset", number_or_null(comparison.offset)},
       {"particles", extent(comparison.first)},
       {"continuum", extent(comparison.second)}};
   content["zones"] = zones_of(comparison.fields);
@@ -196,8 +197,8 @@ void add_paper(Json& content, std::optional<double> rotation_rpm,
     json["source"] = row.paper.source;
     if (!row.paper.remark.empty()) json["remark"] = row.paper.remark;
     json["particles"] = particles_of(row.ours);
-    json["continuum"] = number(row.ours.continuum);
-    json["accepted_difference"] = number(row.accepted);
+    json["continuum"] = number_or_null(row.ours.continuum);
+    json["accepted_difference"] = number_or_null(row.accepted);
     json["particles_outcome"] = name_of(row.particles);
     json["continuum_outcome"] = name_of(row.continuum);
     table.push_back(json);

@@ -17,7 +17,6 @@ namespace drumlin::continuum::fem {
 namespace {
 
 using dealii::FEValues;
-using dealii::Vector;
 using Indices = std::vector<dealii::types::global_dof_index>;
 
 Vec2 body_force(const FlowProblem& problem, double theta, const dealii::Point<2>& x) {
@@ -31,7 +30,7 @@ Vec2 body_force(const FlowProblem& problem, double theta, const dealii::Point<2>
 }
 
 void add_point_residual(const CellShapes& s, unsigned int q, const PointValues& at, const PlaneTensor& stress,
-                        Vec2 force, double JxW, Vector<double>& residual) {
+                        Vec2 force, double JxW, dealii::Vector<double>& residual) {
   for (unsigned int i = 0; i < s.n; ++i) {
     const auto k = q * s.n + i;
     if (s.component[i] == pressure_component)
@@ -73,7 +72,7 @@ Vec2 frame_velocity_at(const FlowProblem& problem, const dealii::Point<2>& x) {
 
 void add_friction_wall(const FrictionWall& wall, const FlowProblem& problem, const Regularisation& r,
                        const dealii::FEFaceValues<2>& face, unsigned int q, const CellShapes& s,
-                       const Vector<double>& local, Vector<double>& residual,
+                       const dealii::Vector<double>& local, dealii::Vector<double>& residual,
                        dealii::FullMatrix<double>* matrix) {
   const auto x = face.quadrature_point(q);
   const std::array<double, 2> t = {-face.normal_vector(q)[1], face.normal_vector(q)[0]};
@@ -101,7 +100,8 @@ void add_friction_wall(const FrictionWall& wall, const FlowProblem& problem, con
 
 void add_side(const Discretisation& d, const BoundaryCondition& condition, const FlowProblem& problem,
               const Regularisation& regularisation, const dealii::FEFaceValues<2>& face, const CellShapes& s,
-              const Vector<double>& local, Vector<double>& residual, dealii::FullMatrix<double>* matrix) {
+              const dealii::Vector<double>& local, dealii::Vector<double>& residual,
+              dealii::FullMatrix<double>* matrix) {
   for (const unsigned int q : face.quadrature_point_indices()) {
     const auto normal = std::holds_alternative<NormalSpring>(condition)
                             ? d.surface_normal(face.quadrature_point(q), face.normal_vector(q))
@@ -138,8 +138,8 @@ void add_side(const Discretisation& d, const BoundaryCondition& condition, const
 
 // Takes nu times the acceleration of the material off the force; the unknown's frame does not matter.
 void add_inertia(const FlowProblem& problem, const InertiaSetting& inertia, const CellShapes& s,
-                 unsigned int q, const dealii::Point<2>& x, double JxW, const Vector<double>& local,
-                 const Vector<double>& before, Vec2& force, dealii::FullMatrix<double>* matrix) {
+                 unsigned int q, const dealii::Point<2>& x, double JxW, const dealii::Vector<double>& local,
+                 const dealii::Vector<double>& before, Vec2& force, dealii::FullMatrix<double>* matrix) {
   PointMotion at = point_motion(s, q, local);
   const double per_time = inertia.time_step > 0 ? problem.density / inertia.time_step : 0;
   if (per_time > 0) {
@@ -240,7 +240,7 @@ class CellSystem {
   FEValues<2> fe_;
   dealii::FEFaceValues<2> face_;
   CellShapes shapes_;
-  Vector<double> local_, before_;
+  dealii::Vector<double> local_, before_;
 };
 
 template <class PointLaw>
@@ -306,7 +306,7 @@ FieldVector load(const Discretisation& d, Vec2 force_density) {
   FieldVector result = d.field();
   FEValues<2> fe(d.mapping, d.elements, d.quadrature, dealii::update_values | dealii::update_JxW_values);
   Indices indices(d.elements.n_dofs_per_cell());
-  Vector<double> local(indices.size());
+  dealii::Vector<double> local(indices.size());
   for (const auto& cell : d.unknowns.active_cell_iterators()) {
     if (!cell->is_locally_owned()) continue;
     fe.reinit(cell);

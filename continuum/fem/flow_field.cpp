@@ -6,20 +6,18 @@
 
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <map>
 
 #include "continuum/fem/detail/point_law.hpp"
 #include "continuum/fem/detail/solved_level.hpp"
 #include "continuum/fem/detail/spring_faces.hpp"
+#include "coupling/common/no_value.hpp"
 
 namespace drumlin::continuum {
 namespace {
 
 using dealii::FEValuesExtractors::Scalar;
 using dealii::FEValuesExtractors::Vector;
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // Values at the points of one FEValues, in the order of its points.
 struct Values {
@@ -69,16 +67,35 @@ PointState point_state(const fem::PointReport& s, const dealii::Tensor<1, 2>& u,
           .axis_angle = s.angle,
           .fluidity_factor = s.fluidity,
           .viscosity = s.viscosity,
-          .memory_xx = s.memory ? s.memory->xx : nan,
-          .memory_xz = s.memory ? s.memory->xz : nan,
-          .memory_rho = s.memory ? s.memory->rho : nan,
+          .memory_xx = s.memory ? s.memory->xx : no_value,
+          .memory_xz = s.memory ? s.memory->xz : no_value,
+          .memory_rho = s.memory ? s.memory->rho : no_value,
           .well_posedness = s.margin,
-          .fluidity = nan};
+          .fluidity = no_value};
 }
 
 PointState outside() {
-  return {{nan, nan}, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan,
-          nan,        nan, nan, nan, nan, nan, nan, nan, nan, nan};
+  return {{no_value, no_value},
+          no_value,
+          no_value,
+          no_value,
+          no_value,
+          no_value,
+          no_value,
+          no_value,
+          no_value,
+          no_value,
+          no_value,
+          no_value,
+          no_value,
+          no_value,
+          no_value,
+          no_value,
+          no_value,
+          no_value,
+          no_value,
+          no_value,
+          no_value};
 }
 
 // Force, power and torque of the sides with a given velocity, from the residual in their unknowns.

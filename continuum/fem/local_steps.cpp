@@ -24,7 +24,7 @@ constexpr double most_of_it = 0.5;
 // Cells around them that take part.
 constexpr int layers = 2;
 // Where to end: the rest depends on the cells around, which move with the steps of all unknowns.
-constexpr double enough = 0.1;
+constexpr double enough_of_first = 0.1;
 constexpr int most_steps = 10;
 // Unknowns that take part, of all of them; and how many cost nothing.
 constexpr double largest_share = 0.2;
@@ -266,7 +266,7 @@ bool Patch::settle(State& state) {
   lay_out();
   const double first = assemble(state, true);
   if (!step(state)) return false;
-  for (int taken = 1; taken < most_steps && residual_.l2_norm() > enough * first; ++taken) {
+  for (int taken = 1; taken < most_steps && residual_.l2_norm() > enough_of_first * first; ++taken) {
     assemble(state, true);
     if (!step(state)) break;
   }

@@ -18,7 +18,7 @@ namespace {
 constexpr int max_steps = 15;     // from one start
 constexpr double near = 0.3;      // a step as small as this is followed by one with the exact derivative
 constexpr double hopeless = 1e6;  // a step as large as this leads nowhere
-constexpr double linear_tolerance = 1e-6;
+constexpr double fluidity_tolerance = 1e-6;
 constexpr double least_share = 0.1;  // of g that a step leaves: g stays positive
 
 }  // namespace
@@ -106,7 +106,7 @@ void SettledFluidity::assemble(const std::vector<Source>& at_points, bool exact)
 bool SettledFluidity::step() {
   try {
     factors_.factorise(matrix_);
-    return factors_.solve(residual_, change_) <= linear_tolerance;
+    return factors_.solve(residual_, change_) <= fluidity_tolerance;
   } catch (const NotConvergedError&) {
     return false;
   }
@@ -129,7 +129,7 @@ bool SettledFluidity::start_anew(const std::vector<Source>& at_points) {
   mu = d_.sum(mu) / d_.sum(static_cast<double>(at_points.size()));
   try {
     y_.values = spread_fluidity(problem_, d_, problem_.threshold_fluidity->amplitude / std::sqrt(mu), local,
-                                linear_tolerance)
+                                fluidity_tolerance)
                     ->values;
   } catch (const NotConvergedError&) {
     return false;

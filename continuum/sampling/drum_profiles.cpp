@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "continuum/sampling/gauss_points.hpp"
+#include "coupling/common/no_value.hpp"
 #include "coupling/exchange/profile_scalars.hpp"
 
 namespace drumlin::continuum {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 Vec2 in_drum_frame(const DrumGeometry& drum, Vec2 point, Vec2 velocity) {
   const Vec2 rigid = rigid_rotation(drum.rotation, drum.axis_offset, point);
@@ -68,10 +66,10 @@ ProfileSet drum_profiles(const FlowField& field, const DrumGeometry& drum, const
   }
   const auto column = [&](const std::string& name, auto&& value) {
     ProfileColumn result{name, {}, {}};
-    for (const LayerMeans& m : means) result.value.push_back(m.weight > 0 ? value(m) : none);
+    for (const LayerMeans& m : means) result.value.push_back(m.weight > 0 ? value(m) : no_value);
     set.columns.push_back(std::move(result));
   };
-  const auto positive = [](double stress) { return stress > 0 ? stress : none; };
+  const auto positive = [](double stress) { return stress > 0 ? stress : no_value; };
   column("v_x", [](const LayerMeans& m) { return m.v_x / m.weight; });
   column("v_z", [](const LayerMeans& m) { return m.v_z / m.weight; });
   column("shear_rate", [](const LayerMeans& m) { return m.shear_rate / m.weight; });

@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
+#include "coupling/common/no_value.hpp"
 #include "coupling/exchange/plane_invariants.hpp"
 
 namespace drumlin::continuum {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 constexpr std::array names = {"nu",
                               "v_x",
@@ -103,13 +101,13 @@ FieldMap flow_map(const FlowField& field, const MapArea& area, double spacing) {
   map.grid = grid_of(area, spacing);
   map.header = area.header;
   for (const char* name : names)
-    map.fields.push_back({name, std::vector<double>(map.grid.nodes(), none), {}});
+    map.fields.push_back({name, std::vector<double>(map.grid.nodes(), no_value), {}});
   constexpr std::array of_memory = {"memory_xx", "memory_xz", "memory_rho"};
   if (field.remembers())
     for (const char* name : of_memory)
-      map.fields.push_back({name, std::vector<double>(map.grid.nodes(), none), {}});
+      map.fields.push_back({name, std::vector<double>(map.grid.nodes(), no_value), {}});
   if (field.has_fluidity())
-    map.fields.push_back({"fluidity", std::vector<double>(map.grid.nodes(), none), {}});
+    map.fields.push_back({"fluidity", std::vector<double>(map.grid.nodes(), no_value), {}});
   std::vector<std::size_t> nodes;
   std::vector<Vec2> points, places;  // in the map, in the domain
   for (std::size_t node = 0; node < map.grid.nodes(); ++node) {

@@ -3,17 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "continuum/reference/gap_solution.hpp"
 #include "continuum/sampling/gauss_points.hpp"
+#include "coupling/common/no_value.hpp"
 
 namespace drumlin::continuum {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-constexpr double degrees = 180 / std::numbers::pi;
+constexpr double degrees_of_turn = 180 / std::numbers::pi;
 
 // A field in the axes of the flow at its place.
 struct LocalState {
@@ -131,7 +130,7 @@ struct Reading {
 
 // All that may be said; the gap names what means something in it.
 ScalarSet scalars_of(const Gap& gap, const Reading& reading) {
-  ScalarSet all{{{"theta_deg", gap.slope * degrees, {}},
+  ScalarSet all{{{"theta_deg", gap.slope * degrees_of_turn, {}},
                  {"Q", reading.Q, {}},
                  {"surface_speed", reading.top_speed, {}},
                  {"mean_speed", reading.Q / gap.nu / gap.depth, {}},
@@ -175,7 +174,7 @@ ProfileSet gap_profiles(const FlowField& field, const Gap& gap, double layer_thi
   };
   const auto pressure = [&](int row) {
     const double p = mean(row, &LocalState::sigma_zz);
-    return p > 0 ? p : none;
+    return p > 0 ? p : no_value;
   };
   column("v_x", [&](int row) { return mean(row, &LocalState::v_x); });
   column("v_z", [&](int row) { return mean(row, &LocalState::v_z); });

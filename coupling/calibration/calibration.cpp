@@ -17,9 +17,9 @@ constexpr std::size_t points_of_a_table = 24;        // fewer hold no knots
 constexpr std::size_t points_of_a_good_table = 100;  // fewer follow their noise: a formula says more
 constexpr std::size_t kept_draws = 16;               // in the law's file: the continuum solves each
 
-using Points = std::vector<std::vector<FrictionPoint>>;
+using PointsOfRuns = std::vector<std::vector<FrictionPoint>>;
 
-std::vector<double> inertial_numbers(const Points& runs) {
+std::vector<double> inertial_numbers(const PointsOfRuns& runs) {
   std::vector<double> I;
   for (const auto& run : runs)
     for (const FrictionPoint& point : run) I.push_back(point.I);
@@ -27,7 +27,7 @@ std::vector<double> inertial_numbers(const Points& runs) {
 }
 
 // A table with the knots of all points, or nothing where they are too few.
-std::optional<FrictionForm> table_of(const Points& runs, FormKind kind) {
+std::optional<FrictionForm> table_of(const PointsOfRuns& runs, FormKind kind) {
   const std::vector<double> I = inertial_numbers(runs);
   if (I.size() < points_of_a_table) return std::nullopt;
   return FrictionForm{kind, table_knots(I)};
@@ -35,7 +35,7 @@ std::optional<FrictionForm> table_of(const Points& runs, FormKind kind) {
 
 CalibratedLaw fitted_turn(const Calibration& calibration) {
   const bool maps = calibration.options.source == EvidenceSource::maps;
-  Points points;
+  PointsOfRuns points;
   for (const RunEvidence& run : calibration.runs) points.push_back(maps ? turns(run.blocks) : run.ratios);
   const auto form = table_of(points, maps ? FormKind::turn : FormKind::stress_ratio);
   if (!form)
@@ -45,7 +45,7 @@ CalibratedLaw fitted_turn(const Calibration& calibration) {
 }
 
 void fit_forms(Calibration& calibration) {
-  Points points;
+  PointsOfRuns points;
   for (const RunEvidence& run : calibration.runs) points.push_back(friction_of(run, calibration));
   const std::size_t count = inertial_numbers(points).size();
   std::vector<FrictionForm> forms{{.kind = FormKind::log}, {.kind = FormKind::log_linear}};

@@ -5,12 +5,6 @@
 #include "coupling/statistics/quantiles.hpp"
 
 namespace drumlin::coupling {
-namespace {
-
-double known(double error) { return std::isfinite(error) ? error : 0; }
-
-}  // namespace
-
 LawScore score_of(const std::string& run, const std::vector<FrictionPoint>& points,
                   const CalibratedLaw& law) {
   LawScore score{.run = run};

@@ -18,8 +18,6 @@ double interval_factor(const ProfileSet& profiles) { return profiles.header.inte
 
 constexpr double least_variance = 1e-100;  // of points exactly on a line: their weights must stay finite
 
-double known(double error) { return std::isfinite(error) ? error : 0; }
-
 using Line = statistics::StraightLine;  // mu over ln I
 
 /// Weighted straight line through (ln I, mu); `variance` of each point's mu.

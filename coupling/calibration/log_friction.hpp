@@ -1,5 +1,6 @@
 #pragma once
 // mu(I) = a + b ln I fitted to the layers of particle profiles.
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -16,6 +17,9 @@ struct FrictionPoint {
   double I_error = 0;
   double mu_error = 0;
 };
+
+/// An error in a sum: one that is not known adds nothing.
+inline double known(double error) { return std::isfinite(error) ? error : 0; }
 
 /// Which layers of a profile speak about the law; lengths in d.
 struct LayerSelection {

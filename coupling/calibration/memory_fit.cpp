@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "coupling/common/no_value.hpp"
 #include "coupling/law/memory_law.hpp"
 #include "coupling/statistics/quantiles.hpp"
 #include "coupling/statistics/resampling.hpp"
@@ -17,7 +18,6 @@ namespace {
 
 constexpr double soft = 0.05;  // of s/p, beyond which a misfit counts less than its square
 constexpr double degrees = 180 / std::numbers::pi;
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 using Vector = Eigen::Vector3d;  // ln c, m, chi
 using Matrix = Eigen::Matrix3d;
@@ -224,9 +224,9 @@ MemoryFit fit_memory(std::span<const PathsOfRun> runs, const AxisMemory& start,
                      const std::array<bool, 3>& free) {
   MemoryFit fit;
   fit.free = free;
-  fit.ci99_sectors.fill(none);
-  fit.ci99_runs.fill(none);
-  fit.correlation.fill(none);
+  fit.ci99_sectors.fill(no_value);
+  fit.ci99_runs.fill(no_value);
+  fit.correlation.fill(no_value);
   const Minimum at = minimum_of(runs, start, free);
   fit.law = law_at(at.x, start);
   fit.converged = at.found;

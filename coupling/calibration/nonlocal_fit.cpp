@@ -54,12 +54,13 @@ std::optional<double> curvature_at(const PathFields& fields, const std::vector<d
   return 2 * (fit[3] + fit[5]) + fit[1] * fit[1] + fit[2] * fit[2];
 }
 
-using Points = std::vector<const FluidityPoint*>;
+using FluidityPoints = std::vector<const FluidityPoint*>;
 
 double local_friction(const FormCurve& amount, const FluidityPoint& at) { return amount.at(at.I).value; }
 
 /// Amplitude at a given threshold, and the sum of squares that is left.
-std::pair<double, double> amplitude_at(const Points& points, const std::vector<double>& local, double mu_s) {
+std::pair<double, double> amplitude_at(const FluidityPoints& points, const std::vector<double>& local,
+                                       double mu_s) {
   double product = 0, square = 0, sum = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double missing = std::max(local[i], mu_s) - points[i]->mu, q = points[i]->curvature;
@@ -71,13 +72,13 @@ std::pair<double, double> amplitude_at(const Points& points, const std::vector<d
   return {std::sqrt(A2), sum - 2 * A2 * product + A2 * A2 * square};
 }
 
-std::vector<double> locals(const Points& points, const FormCurve& amount) {
+std::vector<double> locals(const FluidityPoints& points, const FormCurve& amount) {
   std::vector<double> local;
   for (const FluidityPoint* point : points) local.push_back(local_friction(amount, *point));
   return local;
 }
 
-NonlocalLength best_threshold(const Points& points, const FormCurve& amount) {
+NonlocalLength best_threshold(const FluidityPoints& points, const FormCurve& amount) {
   const std::vector<double> local = locals(points, amount);
   const auto [low, high] = std::minmax_element(local.begin(), local.end());
   NonlocalLength best;
@@ -90,7 +91,8 @@ NonlocalLength best_threshold(const Points& points, const FormCurve& amount) {
 }
 
 /// Of mu_loc(I) without a threshold where `law` is null.
-double rms_of(const Points& points, const FormCurve& amount, const NonlocalLength* law, double I_below) {
+double rms_of(const FluidityPoints& points, const FormCurve& amount, const NonlocalLength* law,
+              double I_below) {
   double sum = 0, count = 0;
   for (const FluidityPoint* point : points) {
     if (point->I >= I_below) continue;
@@ -102,13 +104,13 @@ double rms_of(const Points& points, const FormCurve& amount, const NonlocalLengt
   return std::sqrt(sum / count);
 }
 
-void add_intervals(const Points& points, const FormCurve& amount, NonlocalLength& law) {
+void add_intervals(const FluidityPoints& points, const FormCurve& amount, NonlocalLength& law) {
   std::set<long> sectors;
   for (const FluidityPoint* point : points) sectors.insert(point->sector);
   if (sectors.size() < 3) return;
   std::vector<double> amplitudes, thresholds;
   for (const long left_out : sectors) {
-    Points others;
+    FluidityPoints others;
     for (const FluidityPoint* point : points)
       if (point->sector != left_out) others.push_back(point);
     const NonlocalLength without = best_threshold(others, amount);
@@ -120,7 +122,7 @@ void add_intervals(const Points& points, const FormCurve& amount, NonlocalLength
   law.mu_s_ci99 = t * std::sqrt(statistics::jackknife_variance(thresholds));
 }
 
-std::vector<LengthOverFriction> lengths_of(const Points& points) {
+std::vector<LengthOverFriction> lengths_of(const FluidityPoints& points) {
   std::vector<LengthOverFriction> all;
   for (int bin = 0; bin < static_cast<int>(std::lround(1 / friction_bin)); ++bin) {
     LengthOverFriction length{bin * friction_bin, (bin + 1) * friction_bin, 0, 0, 0};
@@ -141,7 +143,7 @@ std::vector<LengthOverFriction> lengths_of(const Points& points) {
 }
 
 /// Of mu and lap g/g where I < bed_I.
-double correlation_in_bed(const Points& points) {
+double correlation_in_bed(const FluidityPoints& points) {
   double n = 0, mu = 0, q = 0, mu2 = 0, q2 = 0, both = 0;
   for (const FluidityPoint* point : points) {
     if (point->I >= bed_I) continue;
@@ -203,7 +205,7 @@ std::vector<FluidityPoint> fluidity_points(const PathFields& fields, const Fluid
 }
 
 NonlocalFit fit_nonlocal(std::span<const FluidityOfRun> runs, const FormCurve& amount) {
-  Points points;
+  FluidityPoints points;
   std::size_t bed = 0;
   for (const FluidityOfRun& run : runs)
     for (const FluidityPoint& point : run.points) {

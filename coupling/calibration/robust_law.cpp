@@ -20,8 +20,6 @@ constexpr int block_length = 4;
 // Points exactly on a law have no scatter, yet their weights must stay finite.
 constexpr double least_scatter_squared = 1e-24;
 
-double known(double error) { return std::isfinite(error) ? error : 0; }
-
 using Points = std::vector<FrictionPoint>;
 using Weights = std::vector<double>;
 

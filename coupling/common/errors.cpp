@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <cstring>
 #include <utility>
 
 namespace drumlin {
@@ -33,5 +35,9 @@ InputError::InputError(std::vector<InputProblem> problems)
 
 InputError::InputError(const std::string& message)
     : InputError(std::vector<InputProblem>{{"", 0, 0, "", message, ""}}) {}
+
+void throw_io_error(const std::filesystem::path& file, const std::string& what) {
+  throw IoError(fmt::format("{}: cannot be {}: {}", file.string(), what, std::strerror(errno)));
+}
 
 }  // namespace drumlin

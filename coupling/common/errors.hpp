@@ -1,5 +1,6 @@
 #pragma once
 // The kinds of failure that a user can meet. Libraries throw them, only apps/ turns them into an exit code.
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -49,6 +50,9 @@ class IoError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// Throws the IoError "FILE: cannot be WHAT: why", why from errno.
+[[noreturn]] void throw_io_error(const std::filesystem::path& file, const std::string& what);
 
 /// Exit codes of every program (docs/conventions.md).
 enum class ExitCode : int {

@@ -20,10 +20,6 @@ namespace {
   throw InputError({InputProblem{file.string(), 0, 0, "", what, allowed}});
 }
 
-[[noreturn]] void fail(const std::filesystem::path& file, const char* what) {
-  throw IoError(fmt::format("{}: {}: {}", file.string(), what, std::strerror(errno)));
-}
-
 const char* kind_of(mode_t mode) {
   if (S_ISFIFO(mode)) return "is a FIFO, not a file";
   if (S_ISCHR(mode) || S_ISBLK(mode)) return "is a device, not a file";
@@ -37,7 +33,7 @@ const char* kind_of(mode_t mode) {
   if (errno == ELOOP) refuse(file, "is a link that leads back to itself");
   if (errno == ENAMETOOLONG) refuse(file, "has too long a name");
   if (errno == ENXIO || errno == ENODEV) refuse(file, "is no file", "a regular file");
-  fail(file, "cannot be read");
+  throw_io_error(file, "read");
 }
 
 std::string size_text(std::uint64_t bytes) {
@@ -56,7 +52,7 @@ InputFile::InputFile(const std::filesystem::path& file, std::uint64_t largest) :
   size_ = static_cast<std::uint64_t>(std::max<off_t>(0, status.st_size));
   if (known && S_ISREG(status.st_mode) && size_ <= largest) return;
   ::close(std::exchange(descriptor_, -1));
-  if (!known) fail(file, "cannot be read");
+  if (!known) throw_io_error(file, "read");
   if (S_ISDIR(status.st_mode)) refuse(file, "is a folder, not a file");
   if (!S_ISREG(status.st_mode)) refuse(file, kind_of(status.st_mode), "a regular file");
   refuse(file, "is too large", "at most " + size_text(largest));
@@ -71,7 +67,7 @@ std::size_t InputFile::read(std::span<char> bytes) {
   while (filled < bytes.size()) {
     const ssize_t got = ::read(descriptor_, bytes.data() + filled, bytes.size() - filled);
     if (got < 0 && errno == EINTR) continue;
-    if (got < 0) fail(file_, "cannot be read");
+    if (got < 0) throw_io_error(file_, "read");
     if (got == 0) break;
     filled += static_cast<std::size_t>(got);
   }

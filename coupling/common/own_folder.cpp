@@ -30,10 +30,6 @@ constexpr int as_folder = O_RDONLY | O_DIRECTORY | O_CLOEXEC;
 std::vector<const OwnFolder::Root*> roots;
 std::mutex roots_in_use;
 
-[[noreturn]] void fail(const fs::path& path, const char* what) {
-  throw IoError(path.string() + ": cannot be " + what + ": " + std::strerror(errno));
-}
-
 [[noreturn]] void refuse(const fs::path& link) {
   throw InputError(link.string() +
                    ": is a symbolic link, and none is followed below a folder of results; remove it");
@@ -71,7 +67,7 @@ bool Descriptor::close() { return number_ < 0 || ::close(std::exchange(number_, 
 OwnFolder::OwnFolder(const fs::path& folder)
     : root_(std::make_unique<Root>(folder.has_filename() ? folder : folder.parent_path(),
                                    open_folder(folder))) {
-  if (root_->folder.number() < 0) fail(folder, "opened");
+  if (root_->folder.number() < 0) throw_io_error(folder, "opened");
   const std::lock_guard held(roots_in_use);
   roots.push_back(root_.get());
 }
@@ -106,14 +102,15 @@ void remove_from_folder(const fs::path& path) {
   if (folder.number() < 0) return;
   const std::string name = path.filename().string();
   if (::unlinkat(folder.number(), name.c_str(), 0) == 0 || errno == ENOENT) return;
-  if (errno != EISDIR || ::unlinkat(folder.number(), name.c_str(), AT_REMOVEDIR) != 0) fail(path, "removed");
+  if (errno != EISDIR || ::unlinkat(folder.number(), name.c_str(), AT_REMOVEDIR) != 0)
+    throw_io_error(path, "removed");
 }
 
 void move_file(const fs::path& from, const fs::path& to) {
   make_folders(to.parent_path());
   const Descriptor here = open_folder(from.parent_path()), there = open_folder(to.parent_path());
   if (::renameat(here.number(), from.filename().c_str(), there.number(), to.filename().c_str()) != 0)
-    fail(from, "moved");
+    throw_io_error(from, "moved");
 }
 
 }  // namespace drumlin

@@ -25,14 +25,10 @@ namespace fs = std::filesystem;
 constexpr std::string_view aside_begin = ".drumlin-", aside_end = ".part";
 constexpr std::size_t aside_letters = 32;
 
-[[noreturn]] void give_up(const fs::path& file, const std::string& what) {
-  throw IoError(file.string() + ": cannot be " + what + ": " + std::strerror(errno));
-}
-
 std::string unguessable_name(const fs::path& file) {
   std::array<unsigned char, aside_letters / 2> bytes{};
   if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
-    give_up(file, "written");
+    throw_io_error(file, "written");
   std::string name(aside_begin);
   for (const unsigned char byte : bytes)
     name += {"0123456789abcdef"[byte / 16], "0123456789abcdef"[byte % 16]};
@@ -46,7 +42,7 @@ class FileAside {
       : file_(file),
         folder_(file.has_parent_path() ? file.parent_path() : "."),
         descriptor_(open_folder(file.parent_path())) {
-    if (descriptor_.number() < 0) give_up(file_, "written");
+    if (descriptor_.number() < 0) throw_io_error(file_, "written");
     refuse_special(file_);
   }
   FileAside(const FileAside&) = delete;
@@ -58,7 +54,7 @@ class FileAside {
     unfinished_.emplace(folder_ / name_);
     Descriptor aside(::openat(descriptor_.number(), name_.c_str(),
                               O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
-    if (aside.number() < 0) give_up(file_, "written");
+    if (aside.number() < 0) throw_io_error(file_, "written");
     return aside;
   }
 
@@ -67,7 +63,7 @@ class FileAside {
     while (!content.empty()) {
       const ssize_t bytes = ::write(aside.number(), content.data(), content.size());
       if (bytes < 0 && errno == EINTR) continue;
-      if (bytes < 0) give_up(file_, "written");
+      if (bytes < 0) throw_io_error(file_, "written");
       content.remove_prefix(static_cast<std::size_t>(bytes));
     }
     settle(aside);
@@ -75,19 +71,19 @@ class FileAside {
 
   /// Forces it to the disk. Some file systems report a full disk only here.
   void settle(Descriptor& aside) const {
-    if (::fsync(aside.number()) != 0 || !aside.close()) give_up(file_, "written");
+    if (::fsync(aside.number()) != 0 || !aside.close()) throw_io_error(file_, "written");
   }
 
   const fs::path& path() const { return unfinished_->path(); }
 
   void take_the_place() {
-    if (!rename(name_, file_.filename())) give_up(file_, "written");
-    if (::fsync(descriptor_.number()) != 0) give_up(file_, "forced to the disk");
+    if (!rename(name_, file_.filename())) throw_io_error(file_, "written");
+    if (::fsync(descriptor_.number()) != 0) throw_io_error(file_, "forced to the disk");
   }
 
   /// Gives the older file another name, if there is one.
   void keep(const fs::path& previous) const {
-    if (!rename(file_.filename(), previous.filename()) && errno != ENOENT) give_up(file_, "renamed");
+    if (!rename(file_.filename(), previous.filename()) && errno != ENOENT) throw_io_error(file_, "renamed");
   }
 
   /// Renames within the folder.
@@ -147,7 +143,7 @@ bool is_left_aside(const fs::path& file) {
 
 void force_to_disk(const fs::path& path) {
   Descriptor opened(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (opened.number() < 0 || ::fsync(opened.number()) != 0) give_up(path, "forced to the disk");
+  if (opened.number() < 0 || ::fsync(opened.number()) != 0) throw_io_error(path, "forced to the disk");
 }
 
 void make_folders(const fs::path& folder) {
@@ -164,7 +160,7 @@ void make_folders(const fs::path& folder) {
   const Descriptor opened = open_folder(above);
   // A folder that may be written but not read cannot be opened, and so not be forced.
   if (opened.number() < 0 && errno == EACCES) return;
-  if (opened.number() < 0 || ::fsync(opened.number()) != 0) give_up(folder, "forced to the disk");
+  if (opened.number() < 0 || ::fsync(opened.number()) != 0) throw_io_error(folder, "forced to the disk");
 }
 
 }  // namespace drumlin

@@ -1,27 +1,27 @@
 #include "coupling/comparison/compared_fields.hpp"
 
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
 
+#include "coupling/common/no_value.hpp"
 #include "coupling/exchange/plane_invariants.hpp"
 
 namespace drumlin::coupling {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* angle = "axis_angle_deg";
 
 FieldValues plain(std::vector<double> value, std::vector<double> ci99) {
   const std::size_t size = value.size();
-  if (ci99.empty()) ci99.assign(size, nan);
+  if (ci99.empty()) ci99.assign(size, no_value);
   return {std::move(value), std::move(ci99), std::vector<char>(size, 0), true};
 }
 
 FieldValues absent(std::size_t size) {
-  return {std::vector<double>(size, nan), std::vector<double>(size, nan), std::vector<char>(size, 0), false};
+  return {std::vector<double>(size, no_value), std::vector<double>(size, no_value),
+          std::vector<char>(size, 0), false};
 }
 
 /// A measurement whose interval reaches zero has no known sign; a computed number is what it is.
@@ -34,7 +34,7 @@ std::vector<char> lost_in_noise(const FieldValues& rate, bool measured) {
 
 void leave_out(FieldValues& field, const std::vector<char>& noise) {
   for (std::size_t i = 0; i < noise.size(); ++i)
-    if (noise[i] != 0) field.value[i] = field.ci99[i] = nan;
+    if (noise[i] != 0) field.value[i] = field.ci99[i] = no_value;
   field.noise = noise;
 }
 
@@ -42,8 +42,8 @@ FieldValues logarithm(FieldValues field, const std::vector<char>& noise) {
   leave_out(field, noise);
   for (std::size_t i = 0; i < field.value.size(); ++i) {
     const double value = field.value[i];
-    field.value[i] = value > 0 ? std::log10(value) : nan;
-    field.ci99[i] = value > 0 ? field.ci99[i] / (value * std::numbers::ln10) : nan;
+    field.value[i] = value > 0 ? std::log10(value) : no_value;
+    field.ci99[i] = value > 0 ? field.ci99[i] / (value * std::numbers::ln10) : no_value;
   }
   return field;
 }

@@ -1,6 +1,6 @@
 #include <cmath>
-#include <limits>
 
+#include "coupling/common/no_value.hpp"
 #include "coupling/comparison/map_sampling.hpp"
 #include "coupling/comparison/parts.hpp"
 
@@ -8,7 +8,6 @@ namespace drumlin::coupling {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double surface_nu = 0.7, flowing_I = 0.01;
 
 /// Height at which nu of a column of nodes crosses 0.7, sought from above; the highest node where it is
@@ -18,11 +17,11 @@ double surface_z(const FieldMap& map, const std::vector<double>& nu, std::size_t
   for (std::size_t row = grid.rows; row-- > 0;) {
     const double here = nu[row * grid.columns + column];
     if (!(here >= surface_nu)) continue;
-    const double above = row + 1 < grid.rows ? nu[(row + 1) * grid.columns + column] : nan;
+    const double above = row + 1 < grid.rows ? nu[(row + 1) * grid.columns + column] : no_value;
     if (!std::isfinite(above)) return grid.z_of(row);
     return grid.z_of(row) + grid.spacing_z * (here - surface_nu) / (here - above);
   }
-  return nan;
+  return no_value;
 }
 
 /// One field of both sides at the nodes of the first.
@@ -107,7 +106,7 @@ PartOrReason<MapComparison> compared_maps(const SideFields& first, const SideFie
   for (const std::string& field : compared_fields()) {
     FieldComparison comparison{map_overlay(field, *first.maps, theirs), {}};
     for (const MapZone& zone : maps.zones) {
-      const Zone named{zone.name, nan, nan};
+      const Zone named{zone.name, no_value, no_value};
       comparison.zones.push_back({named, errors_at(comparison.overlay, zone.nodes)});
     }
     maps.fields.push_back(std::move(comparison));

@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
+#include "coupling/common/no_value.hpp"
 #include "coupling/exchange/profile_scalars.hpp"
 
 namespace drumlin::coupling {
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 constexpr std::array scalar_names{"theta_deg",
                                   "Q",
@@ -38,12 +36,7 @@ double read_off(const ProfileScalars& reading, const std::string& name) {
   if (name == "lambda") return reading.lambda;
   if (name == "shear_rate") return reading.shear_rate;
   if (name == "I_th") return reading.I_th;
-  return nan;
-}
-
-Scalar said(const ComparedSide& side, const std::string& name) {
-  const Scalar* found = side.scalars.find(name);
-  return found != nullptr ? *found : Scalar{name, nan, std::nullopt};
+  return no_value;
 }
 
 /// What a side says of a scalar; the profile's own reading where it says nothing.
@@ -54,6 +47,11 @@ Scalar scalar_of(const ComparedSide& side, const ProfileScalars& reading, const 
 }
 
 }  // namespace
+
+Scalar said(const ComparedSide& side, const std::string& name) {
+  const Scalar* found = side.scalars.find(name);
+  return found != nullptr ? *found : Scalar{name, no_value, std::nullopt};
+}
 
 std::vector<ScalarPair> scalar_pairs(const ComparedSide& particles, const ComparedSide& continuum,
                                      const ProfileSet& registered, double offset) {
@@ -73,14 +71,14 @@ std::vector<ScalarPair> scalar_pairs(const ComparedSide& particles, const Compar
   };
   const ScalarPair linear{"linear_layer_share", share(&ScalarPair::particles),
                           std::nullopt,         share(&ScalarPair::continuum),
-                          std::nullopt,         nan};
+                          std::nullopt,         no_value};
   const ScalarPair& lambda = pair("lambda");
   const ProfileScalarOptions window;
   const double H = pair("H").particles;
   const ScalarPair same{
       "lambda_same_window", lambda.particles,
       lambda.ci99,          decay_length(registered, -H - window.decay_from, -H - window.decay_to),
-      std::nullopt,         nan};
+      std::nullopt,         no_value};
   pairs.push_back(linear);
   pairs.push_back(same);
   return pairs;

@@ -1,6 +1,6 @@
 #include <cmath>
-#include <limits>
 
+#include "coupling/common/no_value.hpp"
 #include "coupling/comparison/map_sampling.hpp"
 #include "coupling/comparison/parts.hpp"
 #include "coupling/exchange/profile_scalars.hpp"
@@ -9,7 +9,6 @@ namespace drumlin::coupling {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double slice_width = 2, same_place = 0.5;  // d
 
 /// Half the chord of the surface, from the header of a map.
@@ -72,7 +71,7 @@ PartOrReason<std::vector<SliceComparison>> compared_slices(const SideFields& fir
   const auto slices = slices_of(first);
   if (slices.empty()) result.missing = "the first side has neither slices nor maps";
   for (const auto& [position, ours] : slices) {
-    SliceComparison slice{position, profile_scalars(ours).H, nan, {}};
+    SliceComparison slice{position, profile_scalars(ours).H, no_value, {}};
     const auto theirs = counterpart(second, ours, position, by, slice.offset);
     if (!theirs) {
       result.missing = "the second side has neither slices there nor maps";

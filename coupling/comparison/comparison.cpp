@@ -1,20 +1,14 @@
 #include "coupling/comparison/comparison.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include "coupling/common/errors.hpp"
+#include "coupling/common/no_value.hpp"
 #include "coupling/comparison/compared_scalars.hpp"
 #include "coupling/comparison/map_sampling.hpp"
 #include "coupling/comparison/targets.hpp"
 
 namespace drumlin::coupling {
-
-namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
 
 void require_same_drum(const ProfileSet& particles, const ProfileSet& continuum) {
   std::vector<InputProblem> problems;
@@ -69,7 +63,7 @@ Comparison compare(const ComparedSide& particles, const ComparedSide& continuum,
     throw InputError("axis_depth: is missing in a header, and the sides are registered by the axis");
   const ProfileSet registered = registered_centre(particles, continuum, options.registration);
   result.scalars = scalar_pairs(particles, continuum, registered, result.offset);
-  double H = nan;
+  double H = no_value;
   for (const auto& pair : result.scalars)
     if (pair.name == "H") H = pair.particles;
   // A first side without gradients of its own (a continuum) gets them from its maps as well.

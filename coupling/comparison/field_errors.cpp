@@ -4,14 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "coupling/common/no_value.hpp"
 #include "coupling/comparison/registration.hpp"
 #include "coupling/exchange/plane_invariants.hpp"
 
 namespace drumlin::coupling {
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Half widths that are not known count as none.
 double band(double half_width) { return std::isfinite(half_width) ? half_width : 0; }
@@ -31,7 +30,7 @@ double explained(const std::vector<Difference>& differences, double Difference::
     outside += std::pow(std::max(0.0, d.value - d.*half_width), 2);
     all += d.value * d.value;
   }
-  return any_band && all > 0 ? 1 - outside / all : nan;
+  return any_band && all > 0 ? 1 - outside / all : no_value;
 }
 
 /// Share of the places inside a band, among those that have one.
@@ -42,13 +41,13 @@ double share_inside(const std::vector<Difference>& differences, double Differenc
     ++with_band;
     if (d.value <= d.*half_width) ++inside;
   }
-  return with_band > 0 ? static_cast<double>(inside) / with_band : nan;
+  return with_band > 0 ? static_cast<double>(inside) / with_band : no_value;
 }
 
 }  // namespace
 
 std::vector<Zone> zones_of(const ProfileSet& particles, double H, const ZoneOptions& options) {
-  const double bottom = particles.z.empty() ? nan : particles.z.front() + options.wall_margin;
+  const double bottom = particles.z.empty() ? no_value : particles.z.front() + options.wall_margin;
   // The interface itself belongs to the flowing layer.
   return {{"flowing", -H, -options.surface_margin},
           {"static", bottom, std::nextafter(-H, -std::numeric_limits<double>::infinity())},
@@ -57,10 +56,10 @@ std::vector<Zone> zones_of(const ProfileSet& particles, double H, const ZoneOpti
 
 double interpolated(const std::vector<double>& z, const std::vector<double>& value, double at) {
   const auto upper = std::lower_bound(z.begin(), z.end(), at);
-  if (upper == z.end()) return nan;
+  if (upper == z.end()) return no_value;
   const auto i = static_cast<std::size_t>(upper - z.begin());
   if (*upper == at) return value[i];
-  if (i == 0) return nan;
+  if (i == 0) return no_value;
   const double share = (at - z[i - 1]) / (z[i] - z[i - 1]);
   return (1 - share) * value[i - 1] + share * value[i];
 }
@@ -88,7 +87,7 @@ FieldOverlay overlay(const std::string& field, const ProfileSet& particles, cons
 
 FieldErrors errors_at(const FieldOverlay& field, const std::vector<std::size_t>& places) {
   FieldErrors errors;
-  errors.max_x = errors.max_z = nan;
+  errors.max_x = errors.max_z = no_value;
   const double period = period_of(field.field);
   double sum = 0, norm = 0, largest = 0, intervals = 0;
   std::vector<Difference> differences;
@@ -115,13 +114,13 @@ FieldErrors errors_at(const FieldOverlay& field, const std::vector<std::size_t>&
     differences.push_back({difference, ours, theirs, std::hypot(band(ours), theirs)});
   }
   const bool any = errors.layers > 0;
-  errors.rms = any ? std::sqrt(sum / errors.layers) : nan;
-  errors.max = any ? largest : nan;
-  errors.particles_rms = any ? std::sqrt(norm / errors.layers) : nan;
-  errors.rel_l2 = norm > 0 ? std::sqrt(sum / norm) : (any && sum == 0 ? 0 : nan);
+  errors.rms = any ? std::sqrt(sum / errors.layers) : no_value;
+  errors.max = any ? largest : no_value;
+  errors.particles_rms = any ? std::sqrt(norm / errors.layers) : no_value;
+  errors.rel_l2 = norm > 0 ? std::sqrt(sum / norm) : (any && sum == 0 ? 0 : no_value);
   errors.inside_band = share_inside(differences, &Difference::ours);
   errors.inside_both = share_inside(differences, &Difference::both);
-  errors.interval_rms = std::isnan(errors.inside_band) ? nan : std::sqrt(intervals / errors.layers);
+  errors.interval_rms = std::isnan(errors.inside_band) ? no_value : std::sqrt(intervals / errors.layers);
   errors.explained_by_calibration = explained(differences, &Difference::theirs);
   for (Difference& d : differences) d.ours = band(d.ours);
   errors.explained_by_particles = explained(differences, &Difference::ours);

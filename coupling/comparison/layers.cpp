@@ -7,13 +7,14 @@
 #include <limits>
 
 #include "coupling/common/errors.hpp"
+#include "coupling/common/no_value.hpp"
+#include "coupling/comparison/compared_scalars.hpp"
 #include "coupling/comparison/overlay_profiles.hpp"
 
 namespace drumlin::coupling {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double surface_speed_depth = 1;  // as profile_scalars() reads it
 
 bool is_continuum(const ProfileSet& profiles) { return profiles.header.side == RunSide::continuum; }
@@ -21,7 +22,7 @@ bool is_continuum(const ProfileSet& profiles) { return profiles.header.side == R
 /// The highest layer that is half as dense as the densest.
 double dense_top(const ProfileSet& profiles) {
   const std::vector<double>& nu = profiles.column("nu").value;
-  double densest = 0, top = nan;
+  double densest = 0, top = no_value;
   for (const double value : nu)
     if (value > densest) densest = value;
   for (std::size_t l = 0; l < nu.size(); ++l)
@@ -50,7 +51,7 @@ std::vector<std::size_t> layers_in(const std::vector<double>& z, const Zone& zon
 double mean_of(const std::vector<double>& values, const std::vector<std::size_t>& layers) {
   double sum = 0;
   for (const std::size_t l : layers) sum += values[l];
-  return layers.empty() ? nan : sum / static_cast<double>(layers.size());
+  return layers.empty() ? no_value : sum / static_cast<double>(layers.size());
 }
 
 /// Between Gibbs' dividing planes.
@@ -102,11 +103,6 @@ void require_same_height(const LayerExtent& first, const LayerExtent& second) {
       "the same to a tenth"}});
 }
 
-Scalar said(const ComparedSide& side, const std::string& name) {
-  const Scalar* found = side.scalars.find(name);
-  return found != nullptr ? *found : Scalar{name, nan, std::nullopt};
-}
-
 /// Means over the layers of the bulk, of one side of the overlays.
 std::vector<Scalar> bulk_means(const std::vector<FieldComparison>& fields,
                                const std::vector<double> FieldOverlay::*side, const Zone& bulk) {
@@ -128,14 +124,14 @@ std::vector<Scalar> bulk_means(const std::vector<FieldComparison>& fields,
 std::vector<ScalarPair> layer_scalars(const ComparedSide& first, const ComparedSide& second,
                                       const ProfileSet& registered, const LayerComparison& comparison,
                                       const Zone& bulk) {
-  const auto angle = [](const ComparedSide& side) {
+  const auto angle_of = [](const ComparedSide& side) {
     return number_or_nan(side.profiles.header, &RunHeader::theta_deg);
   };
   const auto speed = [](const ProfileSet& profiles) {
     return interpolated(profiles.z, profiles.column("v_x").value, -surface_speed_depth);
   };
   std::vector<ScalarPair> pairs{
-      {"theta_deg", angle(first), std::nullopt, angle(second)},
+      {"theta_deg", angle_of(first), std::nullopt, angle_of(second)},
       {"height", comparison.first.height(), std::nullopt, comparison.second.height()},
       {"surface_speed", speed(first.profiles), said(first, "surface_speed").ci99, speed(registered),
        std::nullopt, said(second, "surface_speed").value}};

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <string>
+
+#include "coupling/common/no_value.hpp"
 
 namespace drumlin::coupling {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double rounding = 1e-9;  // of a spacing: a place this near to a node is the node
 
 /// Lower node and share of the upper one; false outside of the axis.
@@ -60,7 +60,7 @@ ProfileColumn ratio(const char* name, const ProfileColumn& numerator, const Prof
                     double power) {
   ProfileColumn result{name, {}, {}};
   for (std::size_t i = 0; i < numerator.value.size(); ++i) {
-    const double below = denominator.value[i] > 0 ? denominator.value[i] : nan;
+    const double below = denominator.value[i] > 0 ? denominator.value[i] : no_value;
     result.value.push_back(numerator.value[i] / std::pow(below, power));
     if (numerator.ci99.empty() || denominator.ci99.empty()) continue;
     result.ci99.push_back(std::abs(result.value.back()) * std::hypot(numerator.ci99[i] / numerator.value[i],
@@ -76,7 +76,7 @@ double bilinear(const MapGrid& grid, const std::vector<double>& values, double x
   double along_x = 0, along_z = 0;
   if (!bracket((x - grid.x_first) / grid.spacing_x, grid.columns, column, along_x) ||
       !bracket((z - grid.z_first) / grid.spacing_z, grid.rows, row, along_z))
-    return nan;
+    return no_value;
   double sum = 0;
   for (const std::size_t up : {0u, 1u})
     for (const std::size_t right : {0u, 1u}) {

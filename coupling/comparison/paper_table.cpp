@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
+#include "coupling/common/no_value.hpp"
 #include "coupling/comparison/paper_file.hpp"
 
 namespace drumlin::coupling {
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 bool close(double a, double b) { return std::abs(a - b) <= 0.01 * std::abs(b); }
 
@@ -41,7 +39,7 @@ constexpr Accepted accepted_differences[] = {
 double value_of(const std::vector<PaperNumber>& numbers, const std::string& name) {
   for (const auto& number : numbers)
     if (number.name == name) return number.value;
-  return nan;
+  return no_value;
 }
 
 double accepted_difference(const PaperNumber& number) {
@@ -49,7 +47,7 @@ double accepted_difference(const PaperNumber& number) {
   for (const auto& accepted : accepted_differences)
     if (number.name == accepted.name)
       return accepted.relative ? accepted.difference * std::abs(number.value) : accepted.difference;
-  return nan;
+  return no_value;
 }
 
 Target::Outcome outcome_of(double value, const PaperRow& row) {

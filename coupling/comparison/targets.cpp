@@ -4,14 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "coupling/common/no_value.hpp"
 
 namespace drumlin::coupling {
 
 namespace {
 
 using Outcome = Target::Outcome;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 struct FieldTarget {
   const char* field;
@@ -57,20 +57,20 @@ void add_remark(Target& target, const std::string& text) {
 double interval_of(const FieldComparison& field, const std::string& name, bool relative) {
   for (const auto& [zone, errors] : field.zones)
     if (zone.name == name) return relative ? errors.interval_rms / errors.particles_rms : errors.interval_rms;
-  return nan;
+  return no_value;
 }
 
 /// Judges a target whose value is known, by its limit or by what the particles leave open.
 void judge(Target& target, double open) {
   const bool noisy = open > target.limit;
   target.judged_by = noisy ? Target::JudgedBy::noise_floor : Target::JudgedBy::limit;
-  target.noise_floor = noisy ? open : nan;
+  target.noise_floor = noisy ? open : no_value;
   target.outcome = outcome_of(target.value, noisy ? open : target.limit);
   if (noisy) add_remark(target, fmt::format("the particles' own interval amounts to {:.2g}", open));
 }
 
 Target assessed(const FieldTarget& asked, const std::vector<FieldComparison>& fields) {
-  Target target{asked.field, asked.zone, asked.words, asked.limit, nan, Outcome::not_measured, ""};
+  Target target{asked.field, asked.zone, asked.words, asked.limit, no_value, Outcome::not_measured, ""};
   const auto field = std::find_if(fields.begin(), fields.end(), [&](const FieldComparison& candidate) {
     return candidate.overlay.field == asked.field;
   });
@@ -94,12 +94,12 @@ Target assessed(const FieldTarget& asked, const std::vector<FieldComparison>& fi
 }
 
 Target assessed(const ScalarTarget& asked, const std::vector<ScalarPair>& scalars) {
-  Target target{asked.name, "", asked.words, asked.limit, nan, Outcome::not_measured, ""};
+  Target target{asked.name, "", asked.words, asked.limit, no_value, Outcome::not_measured, ""};
   for (const auto& pair : scalars) {
     if (pair.name != asked.name) continue;
     const double difference = std::abs(pair.continuum - pair.particles);
     target.value = asked.relative ? difference / std::abs(pair.particles) : difference;
-    judge(target, pair.ci99.value_or(nan) / (asked.relative ? std::abs(pair.particles) : 1));
+    judge(target, pair.ci99.value_or(no_value) / (asked.relative ? std::abs(pair.particles) : 1));
     if (std::isnan(pair.particles)) target.remark = "not measured on the particles";
     if (std::isnan(pair.continuum)) target.remark = "not computed by the continuum";
   }

@@ -36,7 +36,7 @@ namespace drumlin {
 
 namespace {
 
-constexpr std::size_t largest_file = 1 << 20;  // bytes; a scene of 10 kB is a long one
+constexpr std::size_t largest_toml = 1 << 20;  // bytes; a scene of 10 kB is a long one
 constexpr std::size_t longest_key = 200;       // bytes of one part of a key
 
 /// An InputError with one problem.
@@ -214,7 +214,7 @@ const Node* Node::find(const std::string& key) const {
 
 Document parse_toml(const std::string& text, const std::string& name,
                     const std::vector<std::string>& overrides) {
-  if (text.size() > largest_file) throw fault(name, 0, 0, "", "is too large", "at most 1 MiB");
+  if (text.size() > largest_toml) throw fault(name, 0, 0, "", "is too large", "at most 1 MiB");
   if (text.find_first_not_of(" \t\r\n") == std::string::npos)
     throw fault(name, 1, 1, "", "is empty", "a TOML file");
   if (const auto zero = text.find('\0'); zero != std::string::npos) {
@@ -230,7 +230,7 @@ Document parse_toml(const std::string& text, const std::string& name,
 }
 
 Document read_toml(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  return parse_toml(input_text(file, largest_file), file.string(), overrides);
+  return parse_toml(input_text(file, largest_toml), file.string(), overrides);
 }
 
 }  // namespace drumlin

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "coupling/common/errors.hpp"
+#include "coupling/documents/csv.hpp"
 #include "coupling/documents/number_text.hpp"
 
 namespace drumlin {
@@ -69,12 +70,6 @@ std::string read_value(std::string_view text, std::optional<double>& value) {
 std::string read_value(std::string_view text, std::optional<std::size_t>& value) {
   value = parsed_number<std::size_t>(text);
   return value ? "" : "a whole number from 0 up";
-}
-
-std::string_view trimmed(std::string_view text) {
-  const auto from = text.find_first_not_of(" \t\r");
-  if (from == std::string_view::npos) return {};
-  return text.substr(from, text.find_last_not_of(" \t\r") - from + 1);
 }
 
 /// Puts the value into the member of that key; what would be allowed where it is none.

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -31,7 +32,8 @@ class H5Reader {
   double number(const std::string& name) const;
   std::int64_t integer(const std::string& name) const;
   /// Whole numbers within bounds, both included; refuses any other, before it is cut to another type.
-  std::int64_t integer(const std::string& name, std::int64_t low, std::int64_t high) const;
+  std::int64_t integer(const std::string& name, std::int64_t low,
+                       std::int64_t high = std::numeric_limits<std::int64_t>::max()) const;
   std::vector<std::int32_t> ints(const std::string& name, std::int32_t low, std::int32_t high) const;
   std::string text(const std::string& name) const;
   /// Throws where a link leads elsewhere, or a dataset cannot be read: for all of the file.

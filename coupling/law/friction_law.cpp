@@ -12,11 +12,6 @@ namespace {
 
 constexpr double least_mu = 1e-3;  // m of kept_positive()
 
-std::vector<double> logarithms(std::vector<double> values) {
-  for (double& value : values) value = std::log(value);
-  return values;
-}
-
 }  // namespace
 
 FrictionValue kept_positive(double mu, double slope) {

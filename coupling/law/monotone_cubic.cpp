@@ -41,4 +41,9 @@ CurvePoint MonotoneCubic::at(double x) const {
   return {y_[i] + t * h * (m0 + t * (q + t * c)), m0 + t * (2 * q + 3 * t * c)};
 }
 
+std::vector<double> logarithms(std::vector<double> values) {
+  for (double& value : values) value = std::log(value);
+  return values;
+}
+
 }  // namespace drumlin

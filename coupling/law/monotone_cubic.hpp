@@ -28,4 +28,7 @@ class MonotoneCubic {
   std::vector<double> x_, y_, slope_;  // never empty, equally long
 };
 
+/// Their natural logarithms: laws are curves over ln I.
+std::vector<double> logarithms(std::vector<double> values);
+
 }  // namespace drumlin

@@ -5,15 +5,6 @@
 #include <cmath>
 
 namespace drumlin {
-namespace {
-
-std::vector<double> logarithms(std::vector<double> values) {
-  for (double& value : values) value = std::log(value);
-  return values;
-}
-
-}  // namespace
-
 StressRatioLaw::StressRatioLaw(const std::vector<double>& I, std::vector<double> k)
     : k_(logarithms(I), k, MonotoneCubic::Outside::level),
       // Between its points the curve is monotone.

@@ -1,17 +1,12 @@
 #include "coupling/statistics/samples.hpp"
 
 #include <cassert>
-#include <limits>
+
+#include "coupling/common/no_value.hpp"
 
 namespace drumlin::statistics {
-namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
-
 double mean(std::span<const double> values) {
-  if (values.empty()) return nan;
+  if (values.empty()) return no_value;
   const auto count = static_cast<double>(values.size());
   double result = 0;
   for (const double value : values) result += value / count;
@@ -19,7 +14,7 @@ double mean(std::span<const double> values) {
 }
 
 double variance(std::span<const double> values) {
-  if (values.size() < 2) return nan;
+  if (values.size() < 2) return no_value;
   const double middle = mean(values);
   double squares = 0;
   for (const double value : values) squares += (value - middle) * (value - middle);
@@ -49,7 +44,7 @@ void PooledVariance::add(double sum_of_squares, std::size_t count) {
 }
 
 double PooledVariance::value() const {
-  return degrees_of_freedom_ > 0 ? sum_of_squares_ / degrees_of_freedom_ : nan;
+  return degrees_of_freedom_ > 0 ? sum_of_squares_ / degrees_of_freedom_ : no_value;
 }
 
 }  // namespace drumlin::statistics

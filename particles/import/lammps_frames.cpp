@@ -18,7 +18,7 @@ namespace {
 constexpr double same_unit = 1e-6;  // relative: of the digits that a user writes
 
 /// A column of the dump: where it goes, what one of its units is in SI, what is added to it.
-struct Target {
+struct DumpColumn {
   std::string name;  ///< empty: not used
   Quantity quantity = Quantity::number;
   double factor = 1, offset = 0;
@@ -46,7 +46,7 @@ std::optional<Units> units_of_style(std::string_view style) {
 }
 
 /// What a column of this name means, given the box and the units of its frame.
-using Meaning = std::function<Target(std::string_view name, const Box& box, const Units& units)>;
+using Meaning = std::function<DumpColumn(std::string_view name, const Box& box, const Units& units)>;
 
 /// What both kinds of dump have to be told.
 struct DumpKind {
@@ -199,11 +199,11 @@ class LammpsFrames {
   }
 
   /// What the named columns give; of those that give the same the first.
-  std::vector<Target> targets_of(const std::vector<std::string_view>& names, const std::optional<Box>& box,
-                                 const Units& units, FrameTable& frame) {
-    std::vector<Target> targets;
+  std::vector<DumpColumn> targets_of(const std::vector<std::string_view>& names,
+                                     const std::optional<Box>& box, const Units& units, FrameTable& frame) {
+    std::vector<DumpColumn> targets;
     for (const std::string_view name : names) {
-      Target target = kind_.meaning(name, box.value_or(Box{}), units);
+      DumpColumn target = kind_.meaning(name, box.value_or(Box{}), units);
       if (target.name.empty() || frame.has(target.name)) {
         notes_.unused_columns.insert(std::string(name));
         targets.emplace_back();
@@ -224,9 +224,9 @@ class LammpsFrames {
   void read_rows(const std::string& item, std::size_t count, const std::optional<Box>& box,
                  const Units& units, FrameTable& frame) {
     const auto names = words_of(std::string_view(item).substr(kind_.rows_item.size()));
-    const std::vector<Target> targets = targets_of(names, box, units, frame);
+    const std::vector<DumpColumn> targets = targets_of(names, box, units, frame);
     std::vector<FrameColumn*> columns;
-    for (const Target& target : targets)
+    for (const DumpColumn& target : targets)
       columns.push_back(target.name.empty() ? nullptr : &frame.columns.at(target.name));
     for (std::size_t row = 0; row < count; ++row) {
       if (!next_line())
@@ -277,7 +277,7 @@ FrameTableSource lammps_grains(std::vector<std::filesystem::path> files, const L
                  {"v_x", "vx"},
                  {"v_z", v_z},
                  {"radius", "radius or diameter"}}};
-  kind.meaning = [=](std::string_view name, const Box& box, const Units& units) -> Target {
+  kind.meaning = [=](std::string_view name, const Box& box, const Units& units) -> DumpColumn {
     if (name == "id" || (name == "type" && with_types)) return {std::string(name)};
     if (name == "radius") return {"radius", Quantity::length, units.metre};
     if (name == "diameter") return {"radius", Quantity::length, units.metre / 2};
@@ -308,7 +308,7 @@ FrameTableSource lammps_contacts(std::vector<std::filesystem::path> files, const
                  {"f_x", forces.at(0)},
                  {"f_z", forces.at(1)}},
                 true};
-  kind.meaning = [=](std::string_view name, const Box&, const Units& units) -> Target {
+  kind.meaning = [=](std::string_view name, const Box&, const Units& units) -> DumpColumn {
     const double force = sign * units.kilogram * units.metre / (units.second * units.second) / depth;
     if (name == ids[0]) return {"i"};
     if (name == ids[1]) return {"j"};

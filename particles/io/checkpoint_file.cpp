@@ -15,11 +15,7 @@
 #include "particles/io/checkpoint_traffic.hpp"
 
 namespace drumlin::particles {
-namespace {
-
-constexpr auto most = std::numeric_limits<std::int64_t>::max();
-
-}  // namespace
+namespace {}  // namespace
 
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint) {
   H5Writer out;
@@ -58,7 +54,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
       if (!std::isfinite(value) && !std::string_view(name).starts_with("totals/"))
         in.refuse(name, fmt::format("is {}", value), "a finite number");
     } else {
-      value = in.integer(name, 0, most);  // counters
+      value = in.integer(name, 0);  // counters
     }
   });
   each_array_of_checkpoint(
@@ -87,7 +83,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
   }
   get_stage_changes(in, checkpoint);
   get_traffic(in, checkpoint);
-  const auto marks = in.integer("marks/count", 0, most);
+  const auto marks = in.integer("marks/count", 0);
   for (std::int64_t m = 0; m < marks; ++m) {
     const std::string name = "marks/" + std::to_string(m) + "/";
     state.marks.push_back({in.integer(name + "snapshot_step"), in.number(name + "time"),

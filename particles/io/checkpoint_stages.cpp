@@ -9,8 +9,6 @@
 namespace drumlin::particles {
 namespace {
 
-constexpr auto most = std::numeric_limits<std::int64_t>::max();
-
 /// Calls visit(number) for all numbers of a wall's load.
 template <class Load, class Visit>
 void each_number(Load& load, Visit visit) {
@@ -69,10 +67,10 @@ void put_stage_changes(const Checkpoint& checkpoint, H5Content& out) {
 void get_stage_changes(const H5Reader& in, Checkpoint& checkpoint) {
   SimulationState& state = checkpoint.state;
   if (in.has("stages")) {
-    state.rest_steps = in.integer("stages/rest_steps", 0, most);
-    const auto ended = in.integer("stages/ended", 0, most);
+    state.rest_steps = in.integer("stages/rest_steps", 0);
+    const auto ended = in.integer("stages/ended", 0);
     for (std::int64_t e = 0; e < ended; ++e)
-      state.ends.push_back({in.integer(fmt::format("stages/{}/steps", e), 1, most),
+      state.ends.push_back({in.integer(fmt::format("stages/{}/steps", e), 1),
                             static_cast<EndedBy>(in.integer(fmt::format("stages/{}/by", e), 0,
                                                             static_cast<std::int64_t>(EndedBy::outlet)))});
   }
@@ -82,7 +80,7 @@ void get_stage_changes(const H5Reader& in, Checkpoint& checkpoint) {
     each_number_of(state.cell.emplace(),
                    [&in](const char* name, double& number) { number = in.number(name); });
   if (!in.has("loads")) return;
-  checkpoint.walls_bytes = in.integer("loads/bytes", 0, most);
+  checkpoint.walls_bytes = in.integer("loads/bytes", 0);
   state.loads.emplace().time = in.number("loads/time");
   const auto rows = rows_of(in, "loads/walls", numbers_of_load);
   for (std::size_t at = 0; at < rows.size();)

@@ -11,7 +11,6 @@
 namespace drumlin::particles {
 namespace {
 
-constexpr auto most = std::numeric_limits<std::int64_t>::max();
 constexpr std::size_t columns_of_waiting = 3;
 constexpr double most_materials = 255;
 
@@ -37,7 +36,7 @@ LeftGrains left_in(const H5Reader& in) {
   const auto stages = static_cast<std::int64_t>(left.per_stage.size());
   for (std::int64_t f = 0; f < named; ++f) {
     const std::string name = fmt::format("left/{}/", f);
-    left.first.push_back({in.integer(name + "grain", 0, most),
+    left.first.push_back({in.integer(name + "grain", 0),
                           static_cast<std::int32_t>(in.integer(name + "stage", 0, stages - 1)),
                           in.number(name + "time")});
   }
@@ -75,12 +74,12 @@ void get_traffic(const H5Reader& in, Checkpoint& checkpoint) {
   if (!in.has("traffic")) return;
   Traffic& traffic = state.traffic.emplace();
   state.bodies.id = in.longs("bodies/id");
-  traffic.next_id = in.integer("traffic/next_id", 0, most);
-  checkpoint.regions_bytes = in.integer("traffic/regions_bytes", 0, most);
+  traffic.next_id = in.integer("traffic/next_id", 0);
+  checkpoint.regions_bytes = in.integer("traffic/regions_bytes", 0);
   traffic.poured = in.longs("traffic/poured");
   if (std::any_of(traffic.poured.begin(), traffic.poured.end(), [](std::int64_t n) { return n < 0; }))
     in.refuse("traffic/poured", "counts below 0");
-  const auto outlets = in.integer("traffic/outlets", 0, most);
+  const auto outlets = in.integer("traffic/outlets", 0);
   for (std::int64_t o = 0; o < outlets; ++o) {
     const std::string name = fmt::format("traffic/{}/", o);
     OutletState& outlet = traffic.outlets.emplace_back();

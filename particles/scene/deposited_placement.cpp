@@ -16,7 +16,7 @@ namespace drumlin::particles {
 namespace {
 
 constexpr double room_around = 1 + 4e-7;  // radii are so much larger while discs are placed
-constexpr double rounding = 1e-9;         // relative to a radius
+constexpr double nearly_touching = 1e-9;  // relative to a radius
 constexpr double bin_width = 8;           // in mean diameters: grains fall where a bin's surface is lowest
 constexpr int attempts = 5;               // to find a place in a bin that is then called full
 
@@ -50,7 +50,7 @@ class Landscape {
   std::optional<Point_mm> rest(const Point_mm& start, double radius) const {
     Point_mm at = start;
     for (Support support = fall(at, radius, nullptr);;) {
-      if (!inside(region_, at, radius * (1 - rounding))) return std::nullopt;
+      if (!inside(region_, at, radius * (1 - nearly_touching))) return std::nullopt;
       if (support.kind == Support::hollow || support.kind == Support::floor) break;
       support = support.kind == Support::arc ? roll_down_arc(at, radius) : roll(at, radius, support.on);
     }
@@ -68,7 +68,8 @@ class Landscape {
         const double reach = disc.radius + radius, dx = at[0] - disc.center[0];
         if (std::abs(dx) >= reach || (left && disc.center == left->center)) return false;
         const double z = disc.center[1] + std::sqrt(reach * reach - dx * dx);
-        if (z <= at[1] + rounding * radius && (!highest || z > highest->first)) highest.emplace(z, disc);
+        if (z <= at[1] + nearly_touching * radius && (!highest || z > highest->first))
+          highest.emplace(z, disc);
         return false;
       });
       if (!highest || highest->first < std::max(floor, top - height)) continue;
@@ -99,8 +100,8 @@ class Landscape {
     Support support{Support::disc};
     bool falls = true;
     const auto stops = [&](const Point_mm& place, const Support& what) {
-      if (place[1] > at[1] + rounding * radius || place[1] < next[1] ||
-          way * (place[0] - on.center[0]) < -rounding * radius)
+      if (place[1] > at[1] + nearly_touching * radius || place[1] < next[1] ||
+          way * (place[0] - on.center[0]) < -nearly_touching * radius)
         return;
       next = place, support = what, falls = false;
     };
@@ -148,7 +149,7 @@ class Landscape {
                        {std::max(at[0], end[0]) + radius, at[1] + radius}, [&](const Disc& disc) {
                          const auto place = crossing(center, reach, disc.center, disc.radius + radius, -way);
                          if (place && way * (disc.center[0] - at[0]) > 0 &&
-                             (*place)[1] <= at[1] + rounding * radius && (*place)[1] >= end[1] &&
+                             (*place)[1] <= at[1] + nearly_touching * radius && (*place)[1] >= end[1] &&
                              !lowest(*place) && (!first || (*place)[1] > (*first)[1]))
                            first = place;
                          return false;

@@ -16,8 +16,6 @@ namespace {
 using Faults = std::vector<SceneFault>;
 using Vector = std::array<double, 2>;
 
-constexpr double rounding = 1e-9;  // relative
-
 std::string stage_key(std::size_t s) { return fmt::format("stages.{}", s); }
 
 /// g h^2 of a grain that gravity lets fall from rest.
@@ -153,7 +151,7 @@ void check_walls(const Scene& scene, std::size_t s, double smallest_mm, Faults& 
       if (wall.name != asked.wall) continue;
       const Fastest motion = fastest_of(asked, wall);
       const double way = speed_across(motion, wall) * h;
-      if (!(way > longest * (1 + rounding))) continue;
+      if (!(way > longest * (1 + relative_rounding))) continue;
       const std::string key = fmt::format("{}.motions.{}", stage_key(s), m);
       faults.push_back({key + "." + motion.key,
                         fmt::format("moves wall \"{}\" by {:.3g} mm in a step of {} s", wall.name, way, h),
@@ -169,7 +167,7 @@ void check_cell(const Scene& scene, std::size_t s, Faults& faults) {
   if (!cell) return;
   const double h = scene.stages[s].time_step_s;
   const auto check = [&](const std::string& key, std::optional<double> rate_per_s) {
-    if (!rate_per_s || !(std::abs(*rate_per_s) * h > longest_strain * (1 + rounding))) return;
+    if (!rate_per_s || !(std::abs(*rate_per_s) * h > longest_strain * (1 + relative_rounding))) return;
     faults.push_back(
         {stage_key(s) + ".cell." + key,
          fmt::format("is {}, a strain of {:.3g} in a step of {} s", *rate_per_s, std::abs(*rate_per_s) * h,

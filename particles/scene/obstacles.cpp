@@ -6,7 +6,7 @@
 
 namespace drumlin::particles {
 
-constexpr double rounding = 1e-9;  // of a radius: a disc may touch
+constexpr double touching = 1e-9;  // of a radius: a disc may touch
 
 bool placed_around(const GeneratedGrains& grains, const Wall& wall) {
   return grains.around &&
@@ -28,7 +28,7 @@ Obstacles::Obstacles(const GeneratedGrains& grains, const Scene& scene) {
 bool Obstacles::clear(const Point_mm& center, double radius) const {
   return std::none_of(shapes_.begin(), shapes_.end(), [&](const WallShape& shape) {
     return std::any_of(images_.begin(), images_.end(), [&](double shift) {
-      return distance_mm(shape, {center[0] + shift, center[1]}) < radius * (1 - rounding);
+      return distance_mm(shape, {center[0] + shift, center[1]}) < radius * (1 - touching);
     });
   });
 }

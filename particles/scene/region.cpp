@@ -38,8 +38,6 @@ bool segment_enters(const SegmentShape& s, const RectangleRegion& box) {
   return from < to;
 }
 
-constexpr double radian = std::numbers::pi / 180;
-
 /// Whether the point of an arc's circle at an angle from +x lies on the arc.
 bool holds(const ArcShape& arc, double angle) {
   const double turn = std::fmod(std::fmod(angle / radian - arc.from_deg, 360) + 360, 360);

@@ -7,6 +7,8 @@
 
 namespace drumlin::particles {
 
+inline constexpr double radian = std::numbers::pi / 180;  ///< a degree in rad
+
 using Region = std::variant<CircleRegion, RectangleRegion>;
 using WallShape = std::variant<ContainerShape, SegmentShape, DiscShape, PolylineShape, ArcShape>;
 

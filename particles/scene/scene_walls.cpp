@@ -40,7 +40,6 @@ void add_shapes(const Wall& wall, const Scales& scales, std::vector<Shape>& shap
 Motion motion_of(const WallMotion& asked, const Walls& walls, int wall, const Scales& scales, int driven) {
   if (const auto* r = std::get_if<Rotation>(&asked.motion))
     return Turning{r->speed_rpm * 2 * std::numbers::pi / 60 * scales.time_s, point_of(r->center_mm, scales)};
-  const double radian = std::numbers::pi / 180;
   if (const auto* o = std::get_if<Oscillation>(&asked.motion))
     return Shaking{point_of(o->amplitude_mm, scales), 2 * std::numbers::pi * o->frequency_hz * scales.time_s,
                    o->phase_deg * radian};

@@ -24,13 +24,11 @@ namespace {
 
 using Faults = std::vector<SceneFault>;
 
-constexpr double rounding = 1e-9;    // relative; for comparisons of numbers that a user wrote to agree
 constexpr double most_steps = 1e12;  // some 10,000 years of computing
 constexpr double most_glued = 1e5;   // discs on one rough wall
 // By which share a window may differ from whole steps, as adjusting the step of a stage of 50 can have it.
 constexpr double most_adjusted = 1e-2;
 
-std::string wall_key(std::size_t w) { return fmt::format("walls.{}", w); }
 std::string stage_key(std::size_t s) { return fmt::format("stages.{}", s); }
 
 double largest_diameter_mm(const Grains& grains) {
@@ -106,7 +104,7 @@ void check_drive(const Scene& scene, const Drive& force, const std::string& key,
   const auto& v = force.velocity_mm_s;
   const double length = std::hypot(e[0], e[1]), speed = std::hypot(v[0], v[1]);
   if (!(length > 0)) faults.push_back({key + ".direction", "has no length", "any other vector", {key}});
-  if (std::abs(e[0] * v[0] + e[1] * v[1]) > rounding * length * speed)
+  if (std::abs(e[0] * v[0] + e[1] * v[1]) > relative_rounding * length * speed)
     faults.push_back({key + ".velocity_mm_s",
                       "has a part along the direction, which the force decides",
                       "at right angles to it",
@@ -282,6 +280,8 @@ void check_capture(const Scene& scene, Faults& faults) {
 }
 
 }  // namespace
+
+std::string wall_key(std::size_t w) { return fmt::format("walls.{}", w); }
 
 std::vector<SceneFault> validate(const Scene& scene) {
   Faults faults;

@@ -16,6 +16,12 @@ struct SceneFault {
   std::vector<std::string> about;
 };
 
+/// Relative; for comparisons of numbers that a user wrote to agree, and of lengths that may touch.
+inline constexpr double relative_rounding = 1e-9;
+
+/// Path of the table of wall w.
+std::string wall_key(std::size_t w);
+
 /// What an effect needs of the rest of a scene and does not find.
 template <class E>
 std::vector<SceneFault> faults_of(const E& effect, const Scene& scene) {

@@ -24,11 +24,8 @@ namespace {
 
 using Faults = std::vector<SceneFault>;
 
-constexpr double rounding = 1e-9;   // relative; for comparisons of numbers that a user wrote to agree
 constexpr double most_sites = 1e7;  // of the lattice on which grains are placed: 160 MB
 constexpr double widest = 1e5;      // region of deposited grains, in diameters: they roll that far
-
-std::string wall_key(std::size_t w) { return fmt::format("walls.{}", w); }
 
 /// Whether a rectangle has its corners the right way round; a circle always has.
 bool check_corners(const Region& region, const std::string& key, Faults& faults) {
@@ -126,7 +123,7 @@ void check_room(const Scene& scene, const GeneratedGrains& grains, const std::st
 bool crossed_by_glued(const Region& region, const Wall& wall) {
   const auto centers = glued_centers_mm(wall);
   return std::any_of(centers.begin(), centers.end(), [&](const Point_mm& center) {
-    return crosses(region, DiscShape{center, wall.rough->diameter_mm}, rounding);
+    return crosses(region, DiscShape{center, wall.rough->diameter_mm}, relative_rounding);
   });
 }
 
@@ -157,12 +154,12 @@ void check_region_clear(const Scene& scene, const GeneratedGrains& grains, const
     if (const auto* container = std::get_if<ContainerShape>(&wall.shape)) {
       const double reach = farthest_mm(grains.region, container->center_mm);
       const double room = container->radius_mm - (wall.rough ? wall.rough->diameter_mm / 2 : 0);
-      if (reach > room * (1 + rounding))
+      if (reach > room * (1 + relative_rounding))
         faults.push_back({key,
                           fmt::format("reaches {} mm from the centre of container \"{}\"", reach, wall.name),
                           fmt::format("inside its radius of {} mm", room), about});
-    } else if (!placed_around(grains, wall) &&
-               (crosses(grains.region, wall.shape, rounding) || crossed_by_glued(grains.region, wall))) {
+    } else if (!placed_around(grains, wall) && (crosses(grains.region, wall.shape, relative_rounding) ||
+                                                crossed_by_glued(grains.region, wall))) {
       faults.push_back({key, fmt::format("is crossed by wall \"{}\" ({})", wall.name, wall_key(w)),
                         "clear of all walls but containers and those of around", about});
     }

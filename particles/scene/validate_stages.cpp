@@ -13,8 +13,6 @@ namespace {
 
 using Faults = std::vector<SceneFault>;
 
-constexpr double rounding = 1e-9;  // relative; for comparisons of numbers that a user wrote to agree
-
 std::set<std::string> wall_names(const Scene& scene) {
   std::set<std::string> names;
   for (const Wall& wall : scene.walls) names.insert(wall.name);

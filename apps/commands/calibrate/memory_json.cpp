@@ -9,14 +9,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double value) { return number_or_null(value); }
-
 Json fit_json(const coupling::MemoryFit& fit) {
   const auto coefficient = [&](double value, std::size_t j) {
     return Json{{"value", value},
                 {"held", !fit.free[j]},
-                {"ci99_sectors", number(fit.ci99_sectors[j])},
-                {"ci99_runs", number(fit.ci99_runs[j])}};
+                {"ci99_sectors", number_or_null(fit.ci99_sectors[j])},
+                {"ci99_runs", number_or_null(fit.ci99_runs[j])}};
   };
   return {{"c", coefficient(fit.law.c, coupling::memory_c)},
           {"m", coefficient(fit.law.m, coupling::memory_m)},
@@ -27,17 +25,17 @@ Json fit_json(const coupling::MemoryFit& fit) {
           {"rms", fit.rms},
           {"cost", fit.cost},
           {"correlation",
-           {{"c_m", number(fit.correlation[0])},
-            {"c_chi", number(fit.correlation[1])},
-            {"m_chi", number(fit.correlation[2])}}}};
+           {{"c_m", number_or_null(fit.correlation[0])},
+            {"c_chi", number_or_null(fit.correlation[1])},
+            {"m_chi", number_or_null(fit.correlation[2])}}}};
 }
 
 Json zone_json(const coupling::MemoryScore::Zone& zone) {
   return {{"paths", zone.paths},
-          {"rms", number(zone.rms)},
-          {"axes_deg", number(zone.axes_deg)},
-          {"rms_without_memory", number(zone.coaxial_rms)},
-          {"axes_deg_without_memory", number(zone.coaxial_axes_deg)}};
+          {"rms", number_or_null(zone.rms)},
+          {"axes_deg", number_or_null(zone.axes_deg)},
+          {"rms_without_memory", number_or_null(zone.coaxial_rms)},
+          {"axes_deg_without_memory", number_or_null(zone.coaxial_axes_deg)}};
 }
 
 Json scores_json(const std::vector<coupling::MemoryScore>& scores) {
@@ -101,23 +99,26 @@ Json arcs_json(const coupling::MemoryCalibration& found) {
 
 Json dilation_json(const coupling::MemoryCalibration& found) {
   const auto side = [](const coupling::DilationShare::Half& half) {
-    return Json{{"points", half.points}, {"mu", number(half.mu)}, {"dilatancy", number(half.dilatancy)}};
+    return Json{{"points", half.points},
+                {"mu", number_or_null(half.mu)},
+                {"dilatancy", number_or_null(half.dilatancy)}};
   };
   Json json = Json::array();
   for (const coupling::DilationShare& share : found.dilation)
     json.push_back({{"I", {share.I_from, share.I_to}},
                     {"upstream", side(share.upstream)},
                     {"downstream", side(share.downstream)},
-                    {"slope", number(share.slope())}});
+                    {"slope", number_or_null(share.slope())}});
   return json;
 }
 
 Json amount_scores_json(const std::vector<coupling::AmountScore>& scores) {
   Json json = Json::array();
   for (const coupling::AmountScore& score : scores)
-    json.push_back({{"run", score.run},
-                    {"bed", {{"rms", number(score.bed)}, {"rms_alone", number(score.bed_alone)}}},
-                    {"flow", {{"rms", number(score.flow)}, {"rms_alone", number(score.flow_alone)}}}});
+    json.push_back(
+        {{"run", score.run},
+         {"bed", {{"rms", number_or_null(score.bed)}, {"rms_alone", number_or_null(score.bed_alone)}}},
+         {"flow", {{"rms", number_or_null(score.flow)}, {"rms_alone", number_or_null(score.flow_alone)}}}});
   return json;
 }
 

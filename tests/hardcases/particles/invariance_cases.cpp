@@ -12,7 +12,7 @@ namespace {
 
 /// Angle after `time` of a disc that rolls inside a circle of radius R from rest: phi'' = -(2/3) g sin(phi) /
 /// (R - r). Runge-Kutta of fourth order in steps of 1e-4, exact to 1e-12 here.
-double rolling_pendulum(double phi, double swing, double time) {
+double pendulum_angle(double phi, double swing, double time) {
   const auto acceleration = [swing](double angle) { return -2.0 / 3 * std::sin(angle) / swing; };
   const int steps = static_cast<int>(std::lround(time / 1e-4));
   const double h = time / steps;
@@ -35,7 +35,7 @@ double pendulum_error(double h) {
   trial.scene.effects = {particles::Gravity{}, particles::Friction{1, 1}, std::nullopt, particles::Spin{}};
   trial.add_stage(time, h);
   const particles::Bodies end = end_of(trial);
-  return std::atan2(end.x[0], -end.z[0]) - rolling_pendulum(start, swing, time);
+  return std::atan2(end.x[0], -end.z[0]) - pendulum_angle(start, swing, time);
 }
 
 double fall_error(double h) {

@@ -11,7 +11,7 @@
 namespace drumlin {
 namespace {
 
-constexpr double h = 0.05;
+constexpr double time_step = 0.05;
 
 Trial resting(std::vector<TrialDisc> discs, double mu) {
   Trial trial;
@@ -19,7 +19,7 @@ Trial resting(std::vector<TrialDisc> discs, double mu) {
   trial.scene.walls = {trial_floor()};
   trial.scene.effects = {particles::Gravity{}, particles::Friction{mu, mu}, std::nullopt, particles::Spin{}};
   trial.scene.solver.max_sweeps = 20000;
-  trial.add_stage(20 * h, h);
+  trial.add_stage(20 * time_step, time_step);
   return trial;
 }
 
@@ -37,7 +37,8 @@ double load_error(particles::Simulation& simulation) {
   double worst = 0;
   for (const particles::SnapshotContact& c : snapshot.contacts) {
     const double load = above[std::max(c.i, std::max(c.j, 0))];
-    worst = larger(worst, larger(std::abs(c.impulse_n / h - load), std::abs(c.impulse_t / h)));
+    worst =
+        larger(worst, larger(std::abs(c.impulse_n / time_step - load), std::abs(c.impulse_t / time_step)));
   }
   return worst / weight;
 }
@@ -53,7 +54,7 @@ std::vector<HardCheck> column(int count) {
           at_most("speed / (g h)", 1e-5,
                   std::sqrt(2 * kinetic_energy(simulation.state().bodies) /
                             total_mass(simulation.state().bodies)) /
-                      h,
+                      time_step,
                   "at rest; as above")};
 }
 
@@ -87,11 +88,12 @@ std::vector<HardCheck> wedge() {
                          trial_segment("right", 0, 0, far * std::sin(alpha), far * std::cos(alpha))};
     trial.scene.effects = {particles::Gravity{}, particles::Friction{mu, mu}, std::nullopt,
                            particles::Spin{}};
-    trial.add_stage(50 * h, h);
+    trial.add_stage(50 * time_step, time_step);
     particles::Simulation simulation = trial.start();
     run_watched(simulation);
     double normal = 0;
-    for (const particles::SnapshotContact& c : simulation.take_snapshot().contacts) normal += c.impulse_n / h;
+    for (const particles::SnapshotContact& c : simulation.take_snapshot().contacts)
+      normal += c.impulse_n / time_step;
     const particles::Bodies& b = simulation.state().bodies;
     const std::string suffix = ", half angle " + std::to_string(static_cast<int>(half_deg)) + " deg";
     checks.push_back(
@@ -119,13 +121,14 @@ std::vector<HardCheck> crystal() {
   double push_x = 0, push_z = 0;
   for (const particles::SnapshotContact& c : simulation.take_snapshot().contacts) {
     if (c.j >= 0) continue;
-    push_x += (c.normal_x * c.impulse_n + c.normal_z * c.impulse_t) / h;
-    push_z += (c.normal_z * c.impulse_n - c.normal_x * c.impulse_t) / h;
+    push_x += (c.normal_x * c.impulse_n + c.normal_z * c.impulse_t) / time_step;
+    push_z += (c.normal_z * c.impulse_n - c.normal_x * c.impulse_t) / time_step;
   }
   const double weight = total_mass(bodies);
   return {equals("lift of the walls / weight", 1, push_z / weight, 1e-3, "residual of a hyperstatic packing"),
           equals("sideways push of the walls / weight", 0, push_x / weight, 1e-3, "as above"),
-          at_most("rms speed / (g h)", 1e-3, std::sqrt(2 * particles::kinetic_energy(bodies) / weight) / h,
+          at_most("rms speed / (g h)", 1e-3,
+                  std::sqrt(2 * particles::kinetic_energy(bodies) / weight) / time_step,
                   "at rest; forces are not unique and not compared"),
           at_most("overlap", 1e-5, watch.largest_overlap, "discs that touch do not sink")};
 }

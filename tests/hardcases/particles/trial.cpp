@@ -10,7 +10,7 @@ namespace drumlin {
 namespace {
 
 constexpr double unit_mm = 1;
-const double unit_s = std::sqrt(unit_mm * 1e-3 / 9.81);
+const double time_unit_s = std::sqrt(unit_mm * 1e-3 / 9.81);
 
 }  // namespace
 
@@ -26,14 +26,14 @@ Trial::Trial() {
 void Trial::add_stage(double duration, double time_step) {
   particles::Stage stage;
   stage.name = "stage" + std::to_string(scene.stages.size() + 1);
-  stage.duration_s = duration * unit_s;
-  stage.time_step_s = time_step * unit_s;
+  stage.duration_s = duration * time_unit_s;
+  stage.time_step_s = time_step * time_unit_s;
   scene.stages.push_back(stage);
 }
 
 void Trial::turn(const std::string& wall, double spin) {
   scene.stages.back().motions.push_back(
-      {wall, particles::Rotation{spin / unit_s * 60 / (2 * std::numbers::pi), {0, 0}}});
+      {wall, particles::Rotation{spin / time_unit_s * 60 / (2 * std::numbers::pi), {0, 0}}});
 }
 
 particles::Simulation Trial::start(int threads) const {
