@@ -342,7 +342,7 @@ int run(const RunOptions& options, particles::World* world) {
   if (world != nullptr && options.ranks)
     throw InputError({InputProblem{"", 0, 0, "--ranks", "not here: mpirun says how many ranks there are",
                                    "mpirun -n N drumlin-run"}});
-  particles::give_large_arrays_back(1 << 18);
+  particles::release_large_arrays(1 << 18);
   particles::Scene scene = particles::read_scene(options.scene, options.overrides);
   const nlohmann::ordered_json started_from = take_over_grains(scene);
   // What only shows when grains are placed must show before anything is written or removed.

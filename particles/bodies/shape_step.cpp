@@ -17,8 +17,8 @@ double sense(const Shape& shape, Point touched, Point normal) {
 Point moved(const ShapeStep& step, const Shape& shape, Point touched, Point normal) {
   const Point then = moved(static_cast<const Pose&>(step), touched);
   if (step.surface == 0) return then;
-  const double way = sense(shape, touched, normal) * step.surface;
-  return {then.x + way * normal.z, then.z - way * normal.x};
+  const double along = sense(shape, touched, normal) * step.surface;
+  return {then.x + along * normal.z, then.z - along * normal.x};
 }
 
 }  // namespace drumlin::particles

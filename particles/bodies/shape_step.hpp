@@ -7,7 +7,7 @@
 
 namespace drumlin::particles {
 
-/// The displacement of a shape over a step, the way of its surface, and the grains that it meets.
+/// The displacement of a shape over a step, the displacement of its surface, and the grains that it meets.
 struct ShapeStep : Pose {
   ShapeStep() = default;
   ShapeStep(const Pose& displacement) : Pose(displacement) {}
@@ -16,7 +16,7 @@ struct ShapeStep : Pose {
 
   bool meets(std::int32_t grain) const { return !materials || materials->test(material_of_grain[grain]); }
 
-  double surface = 0;                      ///< way of the surface along the shape (Running)
+  double surface = 0;                      ///< displacement of the surface along the shape (Running)
   const MaterialSet* materials = nullptr;  ///< of the grains that it meets; none: it meets all
   std::span<const std::uint8_t> material_of_grain;
 };

@@ -46,8 +46,8 @@ Pose displacement(const Motion& motion, double time, std::span<const DrivenState
             position * driven->direction.z + driven->glide_z * time};
   }
   if (const auto* straining = std::get_if<Straining>(&motion)) {
-    const double way = straining->distance * std::expm1(straining->rate * time);
-    return {0, way * straining->direction.x, way * straining->direction.z};
+    const double displacement = straining->distance * std::expm1(straining->rate * time);
+    return {0, displacement * straining->direction.x, displacement * straining->direction.z};
   }
   return {};
 }

@@ -56,7 +56,7 @@ struct Arc {
   Point beyond = {};  ///< as of a segment, at the end
 };
 /// What is left of the shapes of a wall that a stage has opened: nothing that grains could touch. They keep
-/// their places in lists, so that indices keep their meaning.
+/// their positions in lists, so that indices keep their meaning.
 struct Opened {};
 using Shape = std::variant<Container, Segment, FixedDisc, Opened, Arc>;
 inline bool is_open(const Shape& shape) { return std::holds_alternative<Opened>(shape); }
@@ -97,7 +97,7 @@ struct Driven {
   Point direction;  ///< unit vector
   double force = 0, inverse_mass = 0;
   double glide_x = 0, glide_z = 0;  ///< velocity across
-  int state = 0;                    ///< its place among the states
+  int state = 0;                    ///< its position among the states
   Swell swell = {};                 ///< added to the force
   /// Shapes: the force is per length of the distance of their middles across the direction; -1: it is whole.
   std::array<int, 2> between = {-1, -1};
@@ -119,7 +119,8 @@ Pose displacement(const Motion&, double time, std::span<const DrivenState> drive
 /// Numbers of materials.
 using MaterialSet = std::bitset<256>;
 
-/// All walls of a scene. A shape's index is its place in `reference`; shapes of one name belong to one wall.
+/// All walls of a scene. A shape's index is its position in `reference`; shapes of one name belong to one
+/// wall.
 struct Walls {
   std::vector<std::string> names;  ///< one per wall
   std::vector<Shape> reference;    ///< as in the scene, each followed by the discs glued to it

@@ -58,7 +58,7 @@ class DiscDelassus {
     const std::int32_t k = j[a] - fixed() - 1;
     return k < 0 ? nullptr : &driven[k];
   }
-  /// The cell's place among the bodies.
+  /// The cell's position among the bodies.
   std::int32_t cell_body() const { return fixed() + 1; }
   /// Whether contact a pushes more than its grains.
   bool pushes_more(int a) const { return cell || driven_wall(a) != nullptr; }

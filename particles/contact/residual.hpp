@@ -24,11 +24,11 @@ struct ContactResidual {
   double rms = 0;          ///< rms of e_a over the contacts / rms of all entries of q: "residual" in files
   double max = 0;          ///< largest e_a / rms of all entries of q: "residual_max" in files
   double penetration = 0;  ///< max(-u_n) h, at least 0; in d inside the project
-  /// h sum r_n max(-u_n, 0) / sum |p_b| over the bodies, with their impulses p = H^T r: the mean way, in d
-  /// inside the project, by which a step lets bodies sink against what carries them. Walls that contacts push
-  /// and the sides of a cell under pressure are bodies, too: grains between them carry a load without one of
-  /// their own. In a chain of n contacts that all miss by the same, n/2 times what one of them misses. NaN of
-  /// a problem without bodies.
+  /// h sum r_n max(-u_n, 0) / sum |p_b| over the bodies, with their impulses p = H^T r: the mean
+  /// displacement, in d inside the project, by which a step lets bodies sink against what carries them. Walls
+  /// that contacts push and the sides of a cell under pressure are bodies, too: grains between them carry a
+  /// load without one of their own. In a chain of n contacts that all miss by the same, n/2 times what one of
+  /// them misses. NaN of a problem without bodies.
   double sinking = 0;
 };
 

@@ -25,7 +25,7 @@ struct SweepPlan {
   std::vector<std::int32_t> slice_start;   ///< first group of each slice, and the number of groups; slices
                                            ///< 2k and 2k + 1 are strip k
   std::vector<std::int32_t> body_order;    ///< bodies strip after strip; empty: not planned
-  std::vector<std::int32_t> strip_bodies;  ///< first place in body_order of each strip, and the end
+  std::vector<std::int32_t> strip_bodies;  ///< first position in body_order of each strip, and the end
 
   bool empty() const { return strip_bodies.empty(); }
   int strips() const { return empty() ? 0 : static_cast<int>(strip_bodies.size()) - 1; }
@@ -60,7 +60,8 @@ class SweepPlanner {
   /// Groups of a slice, and the order of its contacts.
   void colour(int slice, std::span<const std::int32_t> i, std::span<const std::int32_t> j,
               std::span<std::int32_t> order);
-  /// The same of contacts that are served at once, to places from `first` on; returns the place after them.
+  /// The same of contacts that are served at once, to positions from `first` on; returns the position after
+  /// them.
   std::int32_t colour_round(std::span<const std::int32_t> served, std::int32_t first,
                             std::span<const std::int32_t> i, std::span<const std::int32_t> j,
                             std::vector<std::int32_t>& groups, std::span<std::int32_t> order,
@@ -74,7 +75,7 @@ class SweepPlanner {
   WorkArray<std::uint64_t> used_;  // colours of the contacts of each body, one bit each
 };
 
-/// Both at once, for a single problem that comes without places.
+/// Both at once, for a single problem that comes without positions.
 SweepPlan sweep_plan(std::int32_t bodies, std::span<const std::int32_t> i, std::span<const std::int32_t> j,
                      std::vector<std::int32_t>& order);
 

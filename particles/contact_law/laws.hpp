@@ -71,7 +71,7 @@ N clamped(N a, N bound) {
 #include "particles/contact_law/law_text-inl.h"
 #undef CONTACT_LAW
 
-/// The dim numbers at a place of an array.
+/// The dim numbers at a position of an array.
 template <std::size_t dim>
 std::array<double, dim> numbers_at(const double* place) {
   std::array<double, dim> numbers;

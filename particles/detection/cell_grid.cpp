@@ -17,7 +17,7 @@ void CellGrid::sort(const SearchedState& state, std::span<const std::int32_t> me
   origin_x_ = period_.open() ? left : period_.origin;
   origin_z_ = low;
   const double width = period_.open() ? right - left : period_.length;
-  cell_size = std::max(cell_size, std::max(width, high - low) / (1 << 30));  // so that places are integers
+  cell_size = std::max(cell_size, std::max(width, high - low) / (1 << 30));  // so that positions are integers
   columns_ = period_.open() ? static_cast<int>(width / cell_size) + 1
                             : std::max(1, static_cast<int>(width / cell_size));
   const int rows = static_cast<int>((high - low) / cell_size) + 1;

@@ -21,7 +21,7 @@ struct NearGrain {
   double sorted_x = 0, sorted_z = 0;  ///< where it was when it was sorted into its cell
 };
 
-/// The state that a search sees: places and radii of the bodies, and velocities of its own.
+/// The state that a search sees: positions and radii of the bodies, and velocities of its own.
 struct SearchedState {
   const Bodies& bodies;
   std::span<const double> v_x, v_z;
@@ -41,8 +41,8 @@ class CellGrid {
   void use(WorkMemory* memory) { places_.use(memory), sorted_.use(memory); }
   /// Takes the grains listed in `members`, in linear time.
   void sort(const SearchedState& state, std::span<const std::int32_t> members, double cell_size);
-  /// Gives the grains their places and velocities of now; they stay in their cells. Of an open domain. False
-  /// if one has another radius than it had.
+  /// Gives the grains their positions and velocities of now; they stay in their cells. Of an open domain.
+  /// False if one has another radius than it had.
   bool follow(const SearchedState& state, const TeamLoops& loops);
   /// Bound on how far any grain has moved along x or z since it was sorted.
   double drift() const { return drift_; }
@@ -81,8 +81,8 @@ class CellGrid {
     }
   }
 
-  /// Calls `meet(a, begin, end)` for the places of grains such that, over all cells, every two grains in the
-  /// same or in touching cells meet once: those of the cells [first, last) meet others.
+  /// Calls `meet(a, begin, end)` for the positions of grains such that, over all cells, every two grains in
+  /// the same or in touching cells meet once: those of the cells [first, last) meet others.
   template <class Meet>
   void each_pair(std::size_t first, std::size_t last, Meet meet) const {
     if (first >= last) return;
@@ -173,7 +173,7 @@ class GrainGrids {
   /// Prepares searches for pairs of grains whose surfaces are at most `range` apart.
   void sort(const SearchedState& state, double range);
   /// Whether the grains are those that were sorted, in an open domain, and none has moved further than
-  /// `farthest` along x or z: they then have their places and velocities of now, in the same cells.
+  /// `farthest` along x or z: they then have their positions and velocities of now, in the same cells.
   bool follow(const SearchedState& state, double farthest, const TeamLoops& loops);
 
   /// Calls `visit(grain)` for every grain whose centre is in the rectangle, and for some around it.
@@ -181,7 +181,8 @@ class GrainGrids {
   void near(double x_low, double x_high, double z_low, double z_high, Visit visit) const {
     for (const CellGrid& grid : grids()) grid.near(x_low, x_high, z_low, z_high, visit);
   }
-  /// The same for a square of half edge `reach` about a place, which may reach across borders of the domain.
+  /// The same for a square of half edge `reach` about a position, which may reach across borders of the
+  /// domain.
   template <class Visit>
   void near(Point place, double reach, Visit visit) const {
     const Point first = period_.first(place);
@@ -224,11 +225,12 @@ class GrainGrids {
   }
 
  private:
-  /// Whether b is nearest to a place at z where that is moved by so many cells along z.
+  /// Whether b is nearest to a position at z where that is moved by so many cells along z.
   bool in_image(double z, const NearGrain& b, int cells) const {
     return std::abs(z + cells * period_.length_z - b.z) <= period_.length_z / 2;
   }
-  /// Grains of a grid about a place that is moved by so many cells along z, if they are nearest to it there.
+  /// Grains of a grid about a position that is moved by so many cells along z, if they are nearest to it
+  /// there.
   template <class Visit>
   void near_in_image(const CellGrid& grid, double x, double z, double reach, int cells, Visit visit) const {
     const double there = z + cells * period_.length_z;
@@ -238,7 +240,7 @@ class GrainGrids {
       if (in_image(z, b, cells)) visit(b);
     });
   }
-  /// Grains of a grid in the square of half edge `reach` about a place, each once.
+  /// Grains of a grid in the square of half edge `reach` about a position, each once.
   template <class Visit>
   void near_on(const CellGrid& grid, double x, double z, double reach, Visit visit) const {
     if (period_.open_z()) {

@@ -52,12 +52,12 @@ class ContactDetection {
   ///   gap < 2 margin + 2 h a + J_i / 2 + displacement_bound(k),
   /// J_i the displacement of the struck grain i, which becomes its bound. So all pairs are found that close
   /// within the step, if no grain is struck harder than (bound + margin) / (2 h) again. Looks around these
-  /// grains only, at the places of the last search; anew at all grains where that would be most of them.
+  /// grains only, at the positions of the last search; anew at all grains where that would be most of them.
   /// Returns whether the candidates are others than before.
   bool find_around(std::span<const StruckDisc> struck, const Bodies& bodies, std::span<const double> v_x,
                    std::span<const double> v_z, const DetectionInput& input);
   std::span<const Candidate> candidates() const { return {candidates_.data(), candidates_.size()}; }
-  /// Places among the candidates, ascending, of the pairs that the last search around struck grains has
+  /// Positions among the candidates, ascending, of the pairs that the last search around struck grains has
   /// added; empty where it had to begin anew.
   std::span<const std::int32_t> added() const { return added_; }
 
@@ -100,7 +100,7 @@ class ContactDetection {
   std::vector<double> bounds_;        // 2 h a_i of each body
   WorkArray<Candidate> candidates_;
   std::vector<Candidate> found_;     // around struck grains
-  std::vector<std::int32_t> added_;  // places of those of them that were new
+  std::vector<std::int32_t> added_;  // positions of those of them that were new
 };
 
 /// Unit vector of (dx, dz), upwards for coincident points; returns the length.

@@ -23,7 +23,7 @@ class ContactOrder {
   /// periodic domain; in a cell, folded there).
   void find(std::span<const Candidate> pairs, const Bodies& bodies, const Period& period, SweepPlan& plan);
   std::size_t bytes() const { return bytes_of(order_); }
-  /// Place among the pairs given of each pair in solve order.
+  /// Position among the pairs given of each pair in solve order.
   std::span<const std::int32_t> order() const { return order_; }
 
  private:

@@ -23,10 +23,10 @@ class PairBatch {
       const Point image = period.image_velocity({whole.x - d.x, whole.z - d.z});
       u.x -= image.x, u.z -= image.z;
     }
-    const double way = 2.0 * static_cast<int>(a.body < b.body) - 1;  // bodies stand in no order: no branch
+    const double sign = 2.0 * static_cast<int>(a.body < b.body) - 1;  // bodies stand in no order: no branch
     i_[k] = std::min(a.body, b.body), j_[k] = std::max(a.body, b.body);
-    d_x_[k] = way * d.x, d_z_[k] = way * d.z;
-    u_x_[k] = way * u.x, u_z_[k] = way * u.z;
+    d_x_[k] = sign * d.x, d_z_[k] = sign * d.z;
+    u_x_[k] = sign * u.x, u_z_[k] = sign * u.z;
     radii_[k] = a.radius + b.radius;
   }
   /// The pair of two bodies, the one of the lesser index first.
@@ -272,7 +272,7 @@ void GrainPairs::find_closing(const PairRule& rule, std::span<double> bounds) {
     bounds[i] = std::max(bounds[i], reach);
     bounds[j] = std::max(bounds[j], reach);
   };
-  look_far(rule, bounds, false);
+  find_far(rule, bounds, false);
   for (const NearPair& pair : far_) add(pair.i, pair.j, pair.reach);
   for (const Share& share : shares_)
     for (const std::int32_t p : std::span(closing_.data() + share.first, share.closing))
@@ -280,11 +280,11 @@ void GrainPairs::find_closing(const PairRule& rule, std::span<double> bounds) {
 }
 
 void GrainPairs::find_by_bounds(const PairRule& rule, std::span<const double> bounds) {
-  look_far(rule, bounds, true);
+  find_far(rule, bounds, true);
   distances_ += far_distances_;
 }
 
-void GrainPairs::look_far(const PairRule& rule, std::span<const double> bounds, bool by_bounds) {
+void GrainPairs::find_far(const PairRule& rule, std::span<const double> bounds, bool by_bounds) {
   const double largest_bound = by_bounds ? *std::max_element(bounds.begin(), bounds.end()) : 0;
   const double moved = 2 * std::sqrt(2.0) * grids_->drift();
   if (rule.margin + 2 * rule.time_step * rule.speeds + largest_bound + moved <= range_)
@@ -299,7 +299,7 @@ void GrainPairs::look_far(const PairRule& rule, std::span<const double> bounds, 
     a.x = a.sorted_x, a.z = a.sorted_z, b.x = b.sorted_x, b.z = b.sorted_z;
     return near_pair(a, b, rule.period, rule.time_step).gap < range_;
   };
-  const auto look_at = [&](const NearGrain& a, const NearGrain& b, const Point& shift, FarPart& part) {
+  const auto measure = [&](const NearGrain& a, const NearGrain& b, const Point& shift, FarPart& part) {
     const Point d = rule.period.nearest(Point{a.x - b.x, a.z - b.z});
     if (!rule.period.open() && std::abs(a.x - b.x - shift.x - d.x) > rule.period.length / 2) return;
     if (!rule.period.open_z() && std::abs(a.z - b.z - shift.z - d.z) > rule.period.length_z / 2) return;
@@ -317,7 +317,7 @@ void GrainPairs::look_far(const PairRule& rule, std::span<const double> bounds, 
                         const Image& image) {
     for (std::size_t k = 0; k < a.size(); ++k)
       for (std::size_t l = same ? k + 1 : 0; l < b.size(); ++l)
-        look_at(a[k], b[l], image.shift, far_parts_[p]);
+        measure(a[k], b[l], image.shift, far_parts_[p]);
   };
   tree_.far_pairs(search, loops_, meet);
   for (const FarPart& part : far_parts_) {

@@ -98,7 +98,7 @@ class GrainPairs {
   template <class Work>
   void each_share(Work work);
   void find_closing_listed(const PairRule& rule, Share& share);
-  void look_far(const PairRule& rule, std::span<const double> bounds, bool by_bounds);
+  void find_far(const PairRule& rule, std::span<const double> bounds, bool by_bounds);
   void find_extras(const PairRule& rule, std::span<const double> bounds, std::span<const WeighedPair> walls);
 
   TeamLoops loops_;

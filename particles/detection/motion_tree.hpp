@@ -1,6 +1,6 @@
 #pragma once
 // Search for pairs that only their speed brings together within a step: a tree over cells of grains that
-// bounds places and velocities. A motion that neighbours have in common costs nothing.
+// bounds positions and velocities. A motion that neighbours have in common costs nothing.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -40,7 +40,7 @@ struct Image {
 
 inline double difference(float a, float b) { return static_cast<double>(a) - static_cast<double>(b); }
 
-/// Distance of the nearest places of a and of an image of b.
+/// Distance of the nearest positions of a and of an image of b.
 inline double distance(const MotionBounds& a, const MotionBounds& b, const Image& image) {
   const auto& [x, z] = image.shift;
   const double dx = std::max({0.0, difference(a.x_low, b.x_high) - x, difference(b.x_low, a.x_high) + x});
@@ -86,7 +86,7 @@ inline MotionBounds united(const MotionBounds& a, const MotionBounds& b) {
 struct FarSearch {
   double time_step = 0;
   double margin = 0;
-  double seen = 0;         ///< pairs that were closer than this when they were sorted are known
+  double listed = 0;       ///< pairs that were closer than this when they were sorted are listed
   bool by_bounds = false;  ///< look for what bounds add; otherwise for what speeds bring together
 };
 
@@ -116,7 +116,7 @@ class MotionTree {
   template <class Meet>
   void far_pairs(const FarSearch& search, const TeamLoops& loops, Meet meet) {
     loops.each_of(static_cast<int>(parts_.size()), [&](int p) {
-      look_at(search, parts_[p], stacks_[p], [&, p](const auto&... found) { meet(p, found...); });
+      search_below(search, parts_[p], stacks_[p], [&, p](const auto&... found) { meet(p, found...); });
     });
   }
 
@@ -131,7 +131,7 @@ class MotionTree {
     std::span<const NearGrain> grains() const { return {first, static_cast<std::size_t>(count)}; }
     float size() const { return bounds.x_high - bounds.x_low + bounds.z_high - bounds.z_low; }
   };
-  /// A node and its place among the blocks of a level.
+  /// A node and its position among the blocks of a level.
   struct Block {
     std::int32_t row, column, node;
   };
@@ -156,7 +156,7 @@ class MotionTree {
     if (search.by_bounds && bounds == 0) return true;
     const double reach =
         search.margin + 2 * search.time_step * relative_speed(a.bounds, b.bounds, image) + bounds;
-    return reach + relative_displacement(a.bounds, b.bounds) <= search.seen ||
+    return reach + relative_displacement(a.bounds, b.bounds) <= search.listed ||
            distance(a.bounds, b.bounds, image) - static_cast<double>(a.bounds.radius) -
                    static_cast<double>(b.bounds.radius) >
                reach;
@@ -164,7 +164,7 @@ class MotionTree {
 
   /// `stack`: pairs of nodes that are still to do.
   template <class Meet>
-  void look_at(const FarSearch& search, const Part& part, std::vector<Two>& stack, Meet meet) const {
+  void search_below(const FarSearch& search, const Part& part, std::vector<Two>& stack, Meet meet) const {
     stack.assign(1, part.two);
     while (!stack.empty()) {
       const Two two = stack.back();

@@ -5,7 +5,7 @@
 
 namespace drumlin::particles {
 
-/// Makes a list longer by `count` entries, so that new ones stand at the places it[k] of the longer list,
+/// Makes a list longer by `count` entries, so that new ones stand at the positions it[k] of the longer list,
 /// ascending. place(k, end) gives it[k]: it is called from the last to the first, when the first `end`
 /// entries still stand where they were. Each old entry moves once, and only as far as there are new ones
 /// before it.

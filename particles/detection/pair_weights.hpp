@@ -11,7 +11,7 @@ struct ListedPair {
   std::int32_t i, j;
 };
 
-/// Place and velocity of a body side by side, since pairs come in no order: one load.
+/// Position and velocity of a body side by side, since pairs come in no order: one load.
 struct alignas(32) MovingDisc {
   double x, z, v_x, v_z;
 };

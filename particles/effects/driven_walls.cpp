@@ -28,8 +28,8 @@ double force_in_step(const Driven& wall, std::span<const Shape> shapes, double t
   if (wall.swell.amplitude != 0) {
     // The mean over the step: momentum is exact for any time step.
     const double from = wall.swell.rate * time_in_stage + wall.swell.phase;
-    const double way = wall.swell.rate * time_step;
-    force += wall.swell.amplitude * (std::cos(from) - std::cos(from + way)) / way;
+    const double displacement = wall.swell.rate * time_step;
+    force += wall.swell.amplitude * (std::cos(from) - std::cos(from + displacement)) / displacement;
   }
   if (wall.between[0] >= 0) {
     const Point a = middle_of(shapes[wall.between[0]]), b = middle_of(shapes[wall.between[1]]);
@@ -53,8 +53,8 @@ void add_driven_walls(const Walls& walls, std::span<const DrivenState> states, d
     step.driven_of_shape.push_back(k);
     if (k < 0) continue;
     const Driven& wall = step.driven[k];
-    const double way = time_step * free_velocity(wall, states[k], time_step);
-    const Pose free{0, way * wall.direction.x, way * wall.direction.z};
+    const double displacement = time_step * free_velocity(wall, states[k], time_step);
+    const Pose free{0, displacement * wall.direction.x, displacement * wall.direction.z};
     step.after[s] = moved(Rigid(free), step.after[s]);
     step.displacement[s].set_displacement(after(free, step.displacement[s]));
   }
@@ -62,9 +62,9 @@ void add_driven_walls(const Walls& walls, std::span<const DrivenState> states, d
 
 namespace {
 
-/// Moves the shapes of driven wall k at the end of a step by `way` along its direction.
-void move_shapes(std::size_t k, double way, WallStep& walls) {
-  const Point shift = along({}, walls.driven[k], way);
+/// Moves the shapes of driven wall k at the end of a step by `displacement` along its direction.
+void move_shapes(std::size_t k, double displacement, WallStep& walls) {
+  const Point shift = along({}, walls.driven[k], displacement);
   for (std::size_t s = 0; s < walls.after.size(); ++s) {
     if (walls.driven_of_shape[s] != static_cast<std::int32_t>(k)) continue;
     walls.after[s] = moved(Rigid({0, shift.x, shift.z}), walls.after[s]);
@@ -74,9 +74,9 @@ void move_shapes(std::size_t k, double way, WallStep& walls) {
 
 }  // namespace
 
-void shift_driven_wall(std::size_t k, double way, WallStep& walls, DrivenState& state) {
-  move_shapes(k, way, walls);
-  state.position += way;
+void shift_driven_wall(std::size_t k, double displacement, WallStep& walls, DrivenState& state) {
+  move_shapes(k, displacement, walls);
+  state.position += displacement;
 }
 
 void move_driven_walls(const FreeMotion& motion, double time_step, WallStep& walls,

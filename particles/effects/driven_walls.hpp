@@ -57,7 +57,7 @@ void describe(Visitor& v, ForceControl& f) {
   v.optional_table("oscillation", f.oscillation, "Added to force_n_m.");
 }
 
-/// The law: direction, force and mass in the units of the simulation. `state`: its place among the states.
+/// The law: direction, force and mass in the units of the simulation. `state`: its position among the states.
 Driven driven_law(const ForceControl&, const Scales&, int state);
 
 // Terms in a step.
@@ -73,7 +73,7 @@ double force_in_step(const Driven&, std::span<const Shape> shapes, double time_i
 void add_driven_walls(const Walls&, std::span<const DrivenState>, double time_in_stage, double time_step,
                       WallStep&);
 
-/// The driven wall of a pair, as its place in WallStep::driven; -1: none.
+/// The driven wall of a pair, as its position in WallStep::driven; -1: none.
 inline std::int32_t driven_wall_of(const WallStep& walls, const Candidate& pair) {
   return pair.j >= 0 || walls.driven_of_shape.empty() ? -1 : walls.driven_of_shape[-1 - pair.j];
 }
@@ -85,7 +85,8 @@ inline Point along(const Point& v, const Driven& wall, double change) {
 /// Moves walls with the velocities that contacts left them (`motion.driven`): their states, and their shapes
 /// and displacements at the end of the step.
 void move_driven_walls(const FreeMotion& motion, double time_step, WallStep&, std::span<DrivenState>);
-/// Moves driven wall k by `way` along its direction at the end of a step: position and shapes, not velocity.
-void shift_driven_wall(std::size_t k, double way, WallStep&, DrivenState&);
+/// Moves driven wall k by `displacement` along its direction at the end of a step: position and shapes, not
+/// velocity.
+void shift_driven_wall(std::size_t k, double displacement, WallStep&, DrivenState&);
 
 }  // namespace drumlin::particles

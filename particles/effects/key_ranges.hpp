@@ -1,5 +1,5 @@
 #pragma once
-// Places and lengths in the keys of a scene, and their ranges.
+// Positions and lengths in the keys of a scene, and their ranges.
 #include <array>
 
 #include "coupling/documents/key_spec.hpp"

@@ -88,10 +88,10 @@ void change_rates(double rate_x, double rate_z, double shear, CellState&, Bodies
 void change_rates_in_step(Point change, double time_step, CellState&, Bodies&);
 /// Moves lengths and offset by a step.
 void move_cell(double time_step, CellState&);
-/// Stretches lengths, with the places of the grains, by shares of themselves.
+/// Stretches lengths, with the positions of the grains, by shares of themselves.
 void stretch_cell(Point strain, CellState&, Bodies&);
-/// Brings grains back into the cell, with places and velocities of the images; returns what was added to
-/// places, one entry per grain, or nothing if all were inside.
+/// Brings grains back into the cell, with positions and velocities of the images; returns what was added to
+/// positions, one entry per grain, or nothing if all were inside.
 std::vector<Point> wrap_grains(const CellState&, Bodies&);
 
 }  // namespace drumlin::particles

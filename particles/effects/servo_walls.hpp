@@ -35,7 +35,7 @@ void describe(Visitor& v, PressureControl& p) {
 /// The keys of a motion of kind "strain_rate".
 struct StrainRate {
   std::array<double, 2> direction{0, 0};     ///< of the motion; its length does not matter
-  std::array<double, 2> reference_mm{0, 0};  ///< a point that the strain leaves in place
+  std::array<double, 2> reference_mm{0, 0};  ///< a point that the strain leaves where it is
   double rate_per_s = 0;                     ///< of the distance from it; negative: compression
 };
 
@@ -50,8 +50,8 @@ void describe(Visitor& v, StrainRate& s) {
           required("1/s", at_least(-1e6, 1e6), "L grows as exp(rate t); negative: compression."));
 }
 
-/// The laws, in the units of the simulation, of wall `wall` at the start of a stage. `state`: the place of a
-/// pressed wall among the states of driven walls.
+/// The laws, in the units of the simulation, of wall `wall` at the start of a stage. `state`: the position of
+/// a pressed wall among the states of driven walls.
 Driven pressed_law(const PressureControl&, const Walls&, int wall, const Scales&, int state);
 Straining straining_law(const StrainRate&, const Walls&, int wall, const Scales&);
 

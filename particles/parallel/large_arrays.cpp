@@ -4,7 +4,7 @@
 
 namespace drumlin::particles {
 
-void give_large_arrays_back([[maybe_unused]] int bytes) {
+void release_large_arrays([[maybe_unused]] int bytes) {
 #ifdef M_MMAP_THRESHOLD
   constexpr int most_arrays = 1 << 16;  // the default of the C library
   (void)::mallopt(M_MMAP_MAX, most_arrays);

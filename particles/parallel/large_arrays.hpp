@@ -6,6 +6,6 @@ namespace drumlin::particles {
 /// Lets each array of so many bytes or more have pages of its own, which go back to the system with it. Else
 /// the C library learns from the arrays of the start to cut later ones from its heap, where holes between
 /// them stay.
-void give_large_arrays_back(int bytes);
+void release_large_arrays(int bytes);
 
 }  // namespace drumlin::particles

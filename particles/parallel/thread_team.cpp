@@ -100,7 +100,7 @@ void ThreadTeam::run(const std::function<void(int, int)>& job) {
     wait_for_change(running_, left);
   std::exception_ptr first;
   for (auto& member : members_)
-    if (const auto thrown = std::exchange(member.thrown, nullptr); thrown && !first) first = thrown;
+    if (const auto error = std::exchange(member.error, nullptr); error && !first) first = error;
   if (first) std::rethrow_exception(first);
 }
 
@@ -125,7 +125,7 @@ void ThreadTeam::work(int t) noexcept {
     (*job_)(t, threads());
   } catch (...) {
     // The others may still work on what the caller of run() would give up.
-    members_[static_cast<std::size_t>(t)].thrown = std::current_exception();
+    members_[static_cast<std::size_t>(t)].error = std::current_exception();
   }
 }
 

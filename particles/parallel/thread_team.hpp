@@ -51,7 +51,7 @@ class ThreadTeam {
  private:
   struct alignas(64) Member {
     std::atomic<std::uint32_t> jobs{0};
-    std::exception_ptr thrown;
+    std::exception_ptr error;
   };
   void help(int t);
   void work(int t) noexcept;

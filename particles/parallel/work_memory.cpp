@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t boundary = 64;
 // Pieces of at least two huge pages ask for these: a sweep goes through more small ones than a processor
-// keeps the places of.
+// keeps the positions of.
 constexpr std::size_t huge_page = std::size_t{1} << 21;
 constexpr std::size_t least_piece = std::size_t{1} << 16;
 

@@ -7,6 +7,7 @@
 
 #include "particles/bodies/arc.hpp"
 #include "particles/scene/materials.hpp"
+#include "particles/scene/region.hpp"
 
 namespace drumlin::particles {
 namespace {

@@ -15,8 +15,8 @@ struct FieldGrid {
 
   int nodes() const { return columns * rows; }
   int index(int column, int row) const { return row * columns + column; }
-  /// Column and row of the cell of a place in edges from the first node, which is not outside; the cell goes
-  /// by its lower left node.
+  /// Column and row of the cell of a position in edges from the first node, which is not outside; the cell
+  /// goes by its lower left node.
   int column_at(double from_left) const { return std::min(static_cast<int>(from_left), columns - 2); }
   int row_at(double from_below) const { return std::min(static_cast<int>(from_below), rows - 2); }
   int cell_at(double from_left, double from_below) const {
@@ -26,7 +26,7 @@ struct FieldGrid {
   int corner(int cell, int k) const { return cell + k % 2 + columns * (k / 2); }
 };
 
-/// Least and largest places of bodies.
+/// Least and largest positions of bodies.
 struct FieldExtent {
   double x_low = 0, x_high = 0, z_low = 0, z_high = 0;
 };

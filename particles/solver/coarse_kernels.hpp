@@ -20,7 +20,8 @@ namespace drumlin::particles {
 /// counts as linear between the two.
 template <class T>
 struct CoarseBodies {
-  BodyRecord<T>* at;  ///< x, z: place in edges of the field; s: power of the contacts it is the first body of
+  BodyRecord<T>*
+      at;  ///< x, z: position in edges of the field; s: power of the contacts it is the first body of
   BodyRecord<T>* along_x;  ///< S_x
   BodyRecord<T>* along_z;  ///< S_z
 };

@@ -39,7 +39,7 @@ class CoarseLoads {
   /// Takes what it keeps of the bodies from a memory: it ends with the frame of lay_out().
   void use(WorkMemory* memory) { records_.use(memory); }
   /// Lays the nodes of the field over the bodies of the contacts (i, j), which have been packed in strips;
-  /// body places.x.size() is the fixed one.
+  /// body positions.x.size() is the fixed one.
   template <class T, int dim, bool spin>
   void lay_out(std::span<const std::int32_t> i, std::span<const std::int32_t> j, const BodyPlaces& places,
                const StripProblem<T, dim, spin>&, const TeamLoops&);

@@ -11,8 +11,8 @@
 
 namespace drumlin::particles {
 
-/// Place k of a block becomes contact c of a problem, between the records i and j, with the impulses r of the
-/// problem; with c = -1 a contact between these records that does nothing.
+/// Position k of a block becomes contact c of a problem, between the records i and j, with the impulses r of
+/// the problem; with c = -1 a contact between these records that does nothing.
 template <class T, int dim, class Problem>
 void set_place(const Problem& problem, std::int32_t c, std::int32_t i, std::int32_t j,
                std::span<const double> r, ContactBlock<T, dim>& block, std::size_t k) {
@@ -45,7 +45,7 @@ void hold_to_cone(const Problem& problem, std::int32_t c, const std::array<doubl
   std::copy(held.begin(), held.end(), r.begin() + dim * c);
 }
 
-/// The impulses at place k of a block.
+/// The impulses at position k of a block.
 template <class T, std::size_t dim>
 std::array<double, dim> impulses_at(const std::array<std::array<T, 8>, dim>& block, std::size_t k) {
   std::array<double, dim> own;

@@ -38,7 +38,7 @@ struct SolverWorkspace {
 /// The default: nonlinear Gauss-Seidel sweeps with Nesterov's extrapolation between them
 /// (particles/solver/momentum.hpp). Problems are swept in strips, on vectors and threads: in single
 /// precision as long as that helps, which is down to residuals of some 1e-4, and in double precision from
-/// there. The residual is always that in double precision. Where places of the bodies are known, large
+/// there. The residual is always that in double precision. Where positions of the bodies are known, large
 /// problems are corrected on a coarse grid every few sweeps (particles/solver/coarse_loads.hpp).
 /// Ends on a sweep, so that the impulses lie in their cones. Where they miss the rule they are the best that
 /// the solver has checked at.

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double compliance = 1e-6;  // of W_aa
 
-/// The path of solutions: a basis of two rays a contact, but for one of which z has taken a place.
+/// The path of solutions: a basis of two rays a contact, but for one of which z has taken a position.
 class PivotPath {
  public:
   PivotPath(Eigen::MatrixXd W, Eigen::VectorXd q, std::span<const double> mu)
@@ -82,7 +82,7 @@ class PivotPath {
     return {1 / length, (ray == forward ? mu : -mu) / length};
   }
 
-  /// The place whose value is first to reach 0 as values change at minus these rates; -1: none does.
+  /// The position whose value is first to reach 0 as values change at minus these rates; -1: none does.
   int first_to_leave(const Eigen::VectorXd& rates) const {
     const double rounding = 1e-11 * rates.cwiseAbs().maxCoeff();
     int found = -1;
@@ -91,7 +91,8 @@ class PivotPath {
     return found;
   }
 
-  /// A variable takes a place of the basis; returns the one that leaves. `rates`: of the others, by its own.
+  /// A variable takes a position of the basis; returns the one that leaves. `rates`: of the others, by its
+  /// own.
   int enter(int variable, int place, const Eigen::VectorXd& rates) {
     const double value = x_[place] / rates[place];
     x_ = (x_ - value * rates).cwiseMax(0);  // below 0 by rounding alone

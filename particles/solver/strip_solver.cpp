@@ -17,8 +17,8 @@ void StripProblem<T, dim, spin>::pack_bodies(const Problem& problem, const Sweep
   for (int k = 0; k < plan.strips(); ++k) {
     strips_[k].bodies = driven_bodies_;
     const std::size_t own = plan.strip_bodies[k + 1] - plan.strip_bodies[k];
-    // Records go in pairs (a vector of eight floats). The fixed body of walls stands once for each place of a
-    // vector: contacts of a vector share no body.
+    // Records go in pairs (a vector of eight floats). The fixed body of walls stands once for each position
+    // of a vector: contacts of a vector share no body.
     strips_[k].bodies_end = driven_bodies_ += own + own % 2 + Block::width;
   }
   const std::size_t all = driven_bodies_ + W.driven.size() + W.driven.size() % 2 + 2 * W.cell.has_value();

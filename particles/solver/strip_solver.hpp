@@ -152,7 +152,7 @@ class StripProblem {
   std::vector<double> impulses_of_strips_;      // summed
   WorkArray<Block> blocks_;
   std::vector<std::int32_t> groups_;  // blocks that share no body: how many follow one another
-  WorkArray<std::int32_t> contact_;   // of each place in the blocks; -1: filled up
+  WorkArray<std::int32_t> contact_;   // of each position in the blocks; -1: filled up
   WorkArray<BodyRecord<T>> bodies_, before_;
   WorkArray<std::int32_t> place_;                // of each body in bodies_
   std::vector<double> step_squares_[sum_slots];  // of each slice, of the sweeps of two waves

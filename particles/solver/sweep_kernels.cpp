@@ -220,7 +220,7 @@ HWY_INLINE auto inverse_eigenvalue(const ContactBlock<T, dim>& block, std::size_
     const auto turns = contact_law::turns_of(lever, I, J);
     const auto largest = contact_law::larger_eigenvalue(
         w + (w + w), turns[1] - turns[0], lever * turns[0] + (hn::Set(d, T(1)) - lever) * turns[1]);
-    // Places that are filled up have none.
+    // Positions that are filled up have none.
     return hn::Set(d, T(1)) / hn::Max(largest, hn::Set(d, T(1e-15)));
   }
 }

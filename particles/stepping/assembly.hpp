@@ -52,7 +52,7 @@ void assemble_bodies(const StepInput& step, Problem& problem) {
   }
 }
 
-/// Place of j among the bodies of the problem.
+/// Position of j among the bodies of the problem.
 inline std::int32_t second_body(const StepInput& step, const Candidate& pair) {
   if (pair.j >= 0) return pair.j;
   return static_cast<std::int32_t>(step.bodies.count()) + 1 + driven_wall_of(step.walls, pair);
@@ -70,7 +70,7 @@ void assemble_contact(const StepInput& step, const Candidate& pair, int a, Probl
   problem.q[dim * a] = normal_part(pair, u) + pair.gap / step.time_step;  // it may act before it touches
   const std::int32_t second = second_body(step, pair);
   if (problem.W.cell) {
-    // As they are now: the normal is that of the place where they meet.
+    // As they are now: the normal is that of the position where they meet.
     const Point arm =
         laws.period.nearest(Point{bodies.x[pair.i] - bodies.x[pair.j], bodies.z[pair.i] - bodies.z[pair.j]});
     problem.W.arm_x[a] = arm.x, problem.W.arm_z[a] = arm.z;

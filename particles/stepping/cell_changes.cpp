@@ -38,7 +38,7 @@ MovingCell Simulation::begin_cell_step(double h) {
   const double before = state_.energy ? kinetic_energy(state_.bodies) : 0;
   drive_cell(law, response, h, cell, state_.bodies);
   refuse_long_strain(cell, h);
-  if (state_.energy) book_cell(kinetic_energy(state_.bodies) - before, *state_.energy);
+  if (state_.energy) add_cell_work(kinetic_energy(state_.bodies) - before, *state_.energy);
   return {cell, response};
 }
 
@@ -49,7 +49,7 @@ void Simulation::end_cell_step(double h) {
   const std::vector<Point> shifts = wrap_grains(cell, state_.bodies);
   if (state_.energy) {
     state_.energy->kinetic = kinetic_energy(state_.bodies);
-    book_cell(state_.energy->kinetic - before, *state_.energy);
+    add_cell_work(state_.energy->kinetic - before, *state_.energy);
   }
   if (shifts.empty()) return;
   const Period period = period_of(cell);

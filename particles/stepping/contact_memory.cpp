@@ -28,7 +28,7 @@ std::size_t first_from(const ContactMemory& memory, std::int64_t key) {
   return first;
 }
 
-/// Place of a pair in the memory; -1: none.
+/// Position of a pair in the memory; -1: none.
 std::int32_t place_of(const ContactMemory& memory, const Candidate& pair) {
   const std::size_t m = first_from(memory, key_of(pair.i, pair.j));
   return m < memory.i.size() && memory.i[m] == pair.i && memory.j[m] == pair.j ? static_cast<std::int32_t>(m)
@@ -41,7 +41,7 @@ bool in_order(const ContactMemory& memory) {
   return true;
 }
 
-/// Places in the order of their keys, and of `places` among equal ones: a counting sort.
+/// Positions in the order of their keys, and of `positions` among equal ones: a counting sort.
 std::vector<std::int32_t> sorted_by(std::span<const std::int32_t> keys,
                                     std::span<const std::int32_t> places) {
   const auto [least, largest] = std::minmax_element(keys.begin(), keys.end());

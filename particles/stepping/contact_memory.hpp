@@ -48,7 +48,7 @@ class Recollection {
   void use(WorkMemory* memory) { place_.use(memory); }
   /// Finds pairs; those that follow one another in the order of (i, j) without a search.
   void find(const ContactMemory&, std::span<const Candidate> pairs);
-  /// The same for the pairs of the last call and more of them, `pairs_added` at the places `added`,
+  /// The same for the pairs of the last call and more of them, `pairs_added` at the positions `added`,
   /// ascending.
   void find_added(const ContactMemory&, std::span<const std::int32_t> added,
                   std::span<const Candidate> pairs_added);
@@ -57,7 +57,7 @@ class Recollection {
   /// The same of some pairs alone, whether they were looked for or not.
   RememberedLoads loads_of(std::span<const Candidate> pairs, const ContactMemory&, int dim, double time_step);
   /// Impulses that a step of length `time_step` starts from: those remembered, 0 for new contacts. `order`:
-  /// place of each among the pairs that were looked for.
+  /// position of each among the pairs that were looked for.
   void warm_start(const ContactMemory&, int dim, double time_step, std::span<const std::int32_t> order,
                   std::vector<double>& impulses) const;
 
@@ -67,7 +67,7 @@ class Recollection {
   std::vector<std::int32_t> place_of_some_;  // of the pairs of loads_of()
 };
 
-/// Keeps contacts and impulses of a step. `order`: place of each contact in the order of (i, j).
+/// Keeps contacts and impulses of a step. `order`: position of each contact in the order of (i, j).
 void remember(std::span<const Candidate> pairs, std::span<const std::int32_t> order,
               const std::vector<double>& impulses, double time_step, const TeamLoops&, ContactMemory&);
 

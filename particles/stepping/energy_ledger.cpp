@@ -4,16 +4,16 @@
 
 namespace drumlin::particles {
 
-void book(double work, double& account, EnergyLedger& ledger) {
+void add_work(double work, double& account, EnergyLedger& ledger) {
   account += work;
   ledger.turnover += std::abs(work);
 }
 
 double& mover(EnergyLedger& ledger) { return ledger.cell ? *ledger.cell : ledger.walls; }
 
-void book_cell(double work, EnergyLedger& ledger) {
+void add_cell_work(double work, EnergyLedger& ledger) {
   if (!ledger.cell) ledger.cell = 0;
-  book(work, *ledger.cell, ledger);
+  add_work(work, *ledger.cell, ledger);
 }
 
 std::vector<std::pair<std::string, double>> exchanges(const EnergyLedger& ledger) {
@@ -34,7 +34,7 @@ double closing_error(const EnergyLedger& ledger) {
   return (ledger.kinetic - ledger.kinetic_at_start) + (ledger.potential - ledger.potential_at_start) - sum;
 }
 
-double EnergyBooks::potential(const Bodies& bodies) const {
+double StepEnergy::potential(const Bodies& bodies) const {
   if (!gravity_) return 0;
   double sum = 0;
   for (std::size_t b = 0; b < bodies.count(); ++b)
@@ -42,7 +42,7 @@ double EnergyBooks::potential(const Bodies& bodies) const {
   return sum;
 }
 
-void EnergyBooks::open(const Bodies& bodies, std::optional<EnergyLedger>& ledger) {
+void StepEnergy::open(const Bodies& bodies, std::optional<EnergyLedger>& ledger) {
   before_ = bodies;
   if (ledger) return;
   ledger.emplace();
@@ -50,10 +50,10 @@ void EnergyBooks::open(const Bodies& bodies, std::optional<EnergyLedger>& ledger
   ledger->potential = ledger->potential_at_start = potential(bodies);
 }
 
-void EnergyBooks::strike(std::span<const StruckGrain> struck, const ImpactWork& work, EnergyLedger& ledger) {
-  book(work.normal, ledger.impacts, ledger);
-  book(work.tangential, ledger.friction, ledger);
-  book(work.walls, mover(ledger), ledger);
+void StepEnergy::strike(std::span<const StruckGrain> struck, const ImpactWork& work, EnergyLedger& ledger) {
+  add_work(work.normal, ledger.impacts, ledger);
+  add_work(work.tangential, ledger.friction, ledger);
+  add_work(work.walls, mover(ledger), ledger);
   for (const StruckGrain& grain : struck) {
     before_.v_x[grain.grain] += grain.v_x, before_.v_z[grain.grain] += grain.v_z;
     before_.x[grain.grain] += grain.shift.x, before_.z[grain.grain] += grain.shift.z;
@@ -61,7 +61,7 @@ void EnergyBooks::strike(std::span<const StruckGrain> struck, const ImpactWork& 
   }
 }
 
-void EnergyBooks::move(const Bodies& now, double h, EnergyLedger& ledger) {
+void StepEnergy::move(const Bodies& now, double h, EnergyLedger& ledger) {
   double fall = 0, late = 0;
   for (std::size_t b = 0; gravity_ && b < now.count(); ++b) {
     const double m = 1 / now.inverse_mass[b], w_x = m * gravity_->x, w_z = m * gravity_->z;
@@ -70,17 +70,17 @@ void EnergyBooks::move(const Bodies& now, double h, EnergyLedger& ledger) {
     late += h / 2 * (w_x * (before_.v_x[b] + now.v_x[b]) + w_z * (before_.v_z[b] + now.v_z[b])) - moved;
   }
   ledger.turnover += std::abs(fall);  // between potential and kinetic energy
-  book(late, ledger.time_integration, ledger);
+  add_work(late, ledger.time_integration, ledger);
   before_.x = now.x, before_.z = now.z;
 }
 
-void EnergyBooks::close(const Bodies& now, EnergyLedger& ledger) const {
+void StepEnergy::close(const Bodies& now, EnergyLedger& ledger) const {
   ledger.kinetic = kinetic_energy(now);
   double corrected = 0;
   for (std::size_t b = 0; gravity_ && b < now.count(); ++b)
     corrected -= (gravity_->x * (now.x[b] - before_.x[b]) + gravity_->z * (now.z[b] - before_.z[b])) /
                  now.inverse_mass[b];
-  book(corrected, ledger.projection, ledger);
+  add_work(corrected, ledger.projection, ledger);
   ledger.potential = potential(now);
 }
 

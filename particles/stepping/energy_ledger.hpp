@@ -36,26 +36,26 @@ std::vector<std::pair<std::string, double>> exchanges(const EnergyLedger&);
 /// Energy now less that at the start less all exchanges: 0 but for rounding.
 double closing_error(const EnergyLedger&);
 
-/// Books work that `account` gives to the grains.
-void book(double work, double& account, EnergyLedger& ledger);
+/// Adds work that `account` gives to the grains.
+void add_work(double work, double& account, EnergyLedger& ledger);
 /// What moves the other side of a contact: walls, or the cell.
 double& mover(EnergyLedger& ledger);
-/// Books the work of a cell that moves, between contacts or where grains cross its border: the kinetic energy
+/// Adds the work of a cell that moves, between contacts or where grains cross its border: the kinetic energy
 /// that it adds.
-void book_cell(double work, EnergyLedger&);
+void add_cell_work(double work, EnergyLedger&);
 
 /// A step that has been done: what the grains were at its beginning and before the position projection.
-class EnergyBooks {
+class StepEnergy {
  public:
-  explicit EnergyBooks(std::optional<Point> gravity) : gravity_(gravity) {}
+  explicit StepEnergy(std::optional<Point> gravity) : gravity_(gravity) {}
 
   /// Remembers the grains at the beginning of a step; the first time also where the ledger starts.
   void open(const Bodies&, std::optional<EnergyLedger>& ledger);
-  /// Books the impacts of the step, which come before its contacts.
+  /// Adds the impacts of the step, which come before its contacts.
   void strike(std::span<const StruckGrain>, const ImpactWork&, EnergyLedger&);
   /// The grains at the beginning of the step, with what impacts have changed.
   const Bodies& before() const { return before_; }
-  /// Books gravity once the grains have been moved, before the position projection.
+  /// Adds that of gravity once the grains have been moved, before the position projection.
   void move(const Bodies& now, double time_step, EnergyLedger&);
   /// Ends the step, after the position projection.
   void close(const Bodies& now, EnergyLedger&) const;

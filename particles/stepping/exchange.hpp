@@ -57,7 +57,7 @@ struct ExchangeState {
   Bodies& bodies;
   ContactMemory& memory;
   Traffic& traffic;
-  std::vector<EarlierPlaces> marks;  ///< a new grain came to its place at its velocity
+  std::vector<EarlierPlaces> marks;  ///< a new grain came to its position at its velocity
 };
 
 /// The traffic of a scene before its first step; the grains get their identities.

@@ -140,7 +140,7 @@ double ImpactPass::share_of_expansion() {
 
 /// Coulomb's bound of the expansion alone: mu times the normal impulse that it gives, which stays. Each move
 /// takes energy.
-void ImpactPass::let_friction_act(double share) {
+void ImpactPass::apply_friction(double share) {
   double speed = 0;
   for (const ImpactContact& c : contacts) speed = std::max({speed, -c.u_n, std::abs(c.u_t)});
   const int sweeps = std::max(fewest_sweeps, solved_contacts / static_cast<int>(contacts.size()));
@@ -167,16 +167,16 @@ void ImpactPass::expand(ImpactWork& work) {
     friction_.push_back(share * c.e * c.tangential);
     push(c, share * c.e * c.normal, share * c.e * c.tangential);
   }
-  let_friction_act(share);
+  apply_friction(share);
   for (std::size_t a = 0; a < contacts.size(); ++a) {
     ImpactContact& c = contacts[a];
     c.normal += share * c.e * c.compression;
     c.tangential += friction_[a];
   }
-  book(work);
+  add_work(work);
 }
 
-void ImpactPass::book(ImpactWork& work) const {
+void ImpactPass::add_work(ImpactWork& work) const {
   for (const ImpactContact& c : contacts) {
     const Point u = velocity(c);
     work.normal += c.normal * (c.u_n + u.x) / 2;

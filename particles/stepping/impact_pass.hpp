@@ -68,8 +68,8 @@ class ImpactPass {
   /// Share of the expansion that the energy allows: 1 where e is one number and the compression complete.
   bool is_exact() const;
   double share_of_expansion();
-  void let_friction_act(double share);
-  void book(ImpactWork&) const;
+  void apply_friction(double share);
+  void add_work(ImpactWork&) const;
 
   bool complete_ = false;         // the compression
   std::vector<double> friction_;  // impulses of the expansion

@@ -143,7 +143,7 @@ bool Impacts::find_closings() {
         const double u_n =
             pair.n_x * (v_x[pair.i] - pair.wall_v_x) + pair.n_z * (v_z[pair.i] - pair.wall_v_z);
         const double gain = std::min(0.0, h * (pair.n_x * rest.x + pair.n_z * rest.z));
-        if (stays_clear(step, pair) || (pair.gap <= 0 && rests(a, u_n + gain))) continue;
+        if (stays_apart(step, pair) || (pair.gap <= 0 && rests(a, u_n + gain))) continue;
       }
       const PairPath path = path_of(pair);
       const auto time = path.meeting(struck_at(pair), h);
@@ -213,7 +213,7 @@ void Impacts::schedule(std::int32_t a, double from) {
   std::push_heap(events_.begin(), events_.end(), std::greater<>());
 }
 
-std::int32_t Impacts::take_up(std::int32_t body) {
+std::int32_t Impacts::enter(std::int32_t body) {
   if (place_[body] < 0) {
     const StepInput& step = in_->step;
     ImpactBody taken;
@@ -248,9 +248,9 @@ void Impacts::add(std::int32_t a, const Surfaces& now, double time) {
   const Candidate& pair = in_->pairs[a];
   ImpactContact contact;
   contact.pair = a;
-  contact.i = take_up(pair.i);
+  contact.i = enter(pair.i);
   const std::int32_t second = second_body_of(pair);
-  contact.j = second < 0 ? -1 : take_up(second);
+  contact.j = second < 0 ? -1 : enter(second);
   contact.n_x = now.n_x, contact.n_z = now.n_z;
   contact.wall = prescribed_velocity(pair);
   const Point of_i = acceleration_of(pair.i), of_j = second < 0 ? Point{} : acceleration_of(second);

@@ -6,7 +6,7 @@
 // on u_n >= 0 of the pair and of those that touch then and would close, with Coulomb friction (compression),
 // and gives each normal impulse p back e times, with friction up to mu e p (expansion). Without friction and
 // for one e that is v -> (1 + e) P(v) - e v: Newton's law for impacts at once. No pass raises the energy:
-// proof in the same place.
+// the proof is there too.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -88,7 +88,7 @@ class Impacts {
   std::int32_t grains() const;
   std::int32_t second_body_of(const Candidate& pair) const;
   /// Position of a body in the impact in hand, where it is taken up if it is new there.
-  std::int32_t take_up(std::int32_t body);
+  std::int32_t enter(std::int32_t body);
   /// Velocity of a body before the first impact, and after those so far.
   Point velocity_before(std::int32_t body) const;
   Point velocity(std::int32_t body) const;

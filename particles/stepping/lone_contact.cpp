@@ -42,10 +42,10 @@ std::optional<LoneStep> lone_step(const StepInput& step, const Candidate& pair, 
   const Point u = path.velocity(0), carried{v.x - u.x, v.z - u.z};  // of the wall's shape
   Candidate surface = pair;
   const bool container = std::holds_alternative<Container>(step.walls.before[-1 - pair.j]);
-  Point end = path.way(h);  // against the wall
+  Point end = path.displacement(h);  // against the wall
   LoneStep lone;
   for (int k = 0; k < iterations; ++k) {
-    const Surfaces there = path.at_way(end), halfway = path.at_way({end.x / 2, end.z / 2});
+    const Surfaces there = path.at_displacement(end), halfway = path.at_displacement({end.x / 2, end.z / 2});
     if (!(there.n_x * start.n_x + there.n_z * start.n_z > sharpest) || !std::isfinite(there.gap) ||
         !std::isfinite(halfway.gap))
       return std::nullopt;
@@ -58,7 +58,7 @@ std::optional<LoneStep> lone_step(const StepInput& step, const Candidate& pair, 
     lone.n_x = halfway.n_x, lone.n_z = halfway.n_z, lone.normal = p.x, lone.tangential = p.z;
     const Point after{free.x + lone.n_x * p.x + lone.n_z * p.z, free.z + lone.n_z * p.x - lone.n_x * p.z};
     end = {h * ((v.x + after.x) / 2 - carried.x), h * ((v.z + after.z) / 2 - carried.z)};
-    const Surfaces reached = path.at_way(end);
+    const Surfaces reached = path.at_displacement(end);
     if (!(std::abs(reached.gap) < near)) return std::nullopt;
     end.x -= reached.gap * reached.n_x, end.z -= reached.gap * reached.n_z;  // of third order in h
   }

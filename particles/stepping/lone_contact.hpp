@@ -1,8 +1,8 @@
 #pragma once
 // A grain that slides or rolls on one wall and touches nothing else: its step by the midpoint rule, which is
 // of second order and keeps the energy of a motion without losses. The implicit step of contacts between many
-// grains turns a velocity into the tangent at the step's end and loses what is across: a share of (way /
-// radius)^2 / 2 a step.
+// grains turns a velocity into the tangent at the step's end and loses what is across: a share of
+// (displacement / radius)^2 / 2 a step.
 #include <optional>
 
 #include "particles/stepping/step_contacts.hpp"

@@ -24,7 +24,7 @@ bool has_left(const Shape& wall, double radius, double gap);
 /// step: then the side on which the grain stands is no longer sure.
 bool pushed_too_far(const Shape& wall, const Pose& step, Point grain, Point normal, double radius);
 
-/// The first grain whose place or kinetic energy is not finite.
+/// The first grain whose position or kinetic energy is not finite.
 std::optional<LostGrain> grain_that_is_not_finite(const Bodies&);
 
 /// The first grain that flies further than longest_flight within a step.

@@ -82,7 +82,7 @@ PairPath::PairPath(const StepInput& step, const Candidate& pair, const Point& v_
   }
 }
 
-bool stays_clear(const StepInput& step, const Candidate& pair) {
+bool stays_apart(const StepInput& step, const Candidate& pair) {
   if (!(pair.gap > 0) || driven_wall_of(step.walls, pair) >= 0) return false;
   const double h = step.time_step;
   const std::size_t s = -1 - pair.j;
@@ -96,7 +96,7 @@ bool stays_clear(const StepInput& step, const Candidate& pair) {
   return curvature >= 0 && pair.gap + pair.n_x * x + pair.n_z * z - curvature * (x * x + z * z) >= 0;
 }
 
-Surfaces PairPath::at_way(const Point& d) const {
+Surfaces PairPath::at_displacement(const Point& d) const {
   const double x = start_.x + d.x, z = start_.z + d.z;
   Surfaces s;
   Point point;
@@ -167,23 +167,23 @@ namespace {
 /// the beginning of the step.
 void place_at(const PairPath& path, double time, const Point* centre, Candidate& pair) {
   const Surfaces then = path.at(time);
-  const Point way = path.way(time);
+  const Point d = path.displacement(time);
   if (centre) turn_wall_velocity(then, *centre, pair);
   pair.n_x = then.n_x, pair.n_z = then.n_z;
-  pair.gap = then.gap - (then.n_x * way.x + then.n_z * way.z);
+  pair.gap = then.gap - (then.n_x * d.x + then.n_z * d.z);
 }
 
 /// A pair that impacts have struck: its surfaces part from within each other, so that none is left at the
 /// end. What overlap there was before, and what the path does not undo by itself, is no matter of velocities.
 void keep_parting(const PairPath& path, double gap_before, double h, Candidate& pair) {
   if (pair.gap >= 0) return;
-  const Point way = path.way(h);
-  const double parts = std::max(0.0, pair.n_x * way.x + pair.n_z * way.z);
+  const Point d = path.displacement(h);
+  const double parts = std::max(0.0, pair.n_x * d.x + pair.n_z * d.z);
   pair.gap = std::min(0.0, std::max(pair.gap - std::min(0.0, gap_before), -parts));
 }
 
 /// Whether a grain touches a wall and goes on into it: nearly all grains at walls.
-bool lies(const StepInput& step, const Candidate& pair) {
+bool stays_in_contact(const StepInput& step, const Candidate& pair) {
   constexpr double rounding = 1e-10;
   if (pair.gap > rounding) return false;
   const Shape& shape = step.walls.before[-1 - pair.j];
@@ -200,11 +200,11 @@ void place_at_wall(const StepInput& step, Candidate& pair) {
   const double h = step.time_step, gap_before = pair.gap;
   const Point shift = shift_of(step, pair.i);
   const bool shifted = shift.x != 0 || shift.z != 0;
-  if (!shifted && lies(step, pair)) {
+  if (!shifted && stays_in_contact(step, pair)) {
     pair.gap = 0;
     return;
   }
-  if (!shifted && stays_clear(step, pair)) {
+  if (!shifted && stays_apart(step, pair)) {
     // The velocity at the end may be greater than that of the path.
     const Point g = step.laws.gravity.value_or(Point{});
     pair.gap -= std::min(0.0, h * h / 2 * (pair.n_x * g.x + pair.n_z * g.z));

@@ -30,19 +30,19 @@ class PairPath {
   void move(const Point& shift) { start_.x += shift.x, start_.z += shift.z; }
   /// Whether the surfaces of two discs part at a time.
   bool parts(double time) const {
-    const Point u = velocity(time), d = way(time);
+    const Point u = velocity(time), d = displacement(time);
     return (start_.x + d.x) * u.x + (start_.z + d.z) * u.z >= 0;
   }
 
-  Surfaces at(double time) const { return at_way(way(time)); }
+  Surfaces at(double time) const { return at_displacement(displacement(time)); }
   /// Somewhere else than on the path: so far from its beginning.
-  Surfaces at_way(const Point& way) const;
+  Surfaces at_displacement(const Point& displacement) const;
   /// Velocity at a time.
   Point velocity(double time) const {
     return {velocity_.x + time * acceleration_.x, velocity_.z + time * acceleration_.z};
   }
-  /// Way up to a time.
-  Point way(double time) const {
+  /// Displacement up to a time.
+  Point displacement(double time) const {
     return {time * (velocity_.x + time / 2 * acceleration_.x),
             time * (velocity_.z + time / 2 * acceleration_.z)};
   }
@@ -62,17 +62,17 @@ class PairPath {
 
 /// Whether a grain that no impact has struck stays clear of a wall of which it is not far, told by its normal
 /// and the curvature of containers alone. False of some that do.
-bool stays_clear(const StepInput& step, const Candidate& pair);
+bool stays_apart(const StepInput& step, const Candidate& pair);
 
 /// The velocity of the surface of a container, whose centre has a velocity, turns with the normal, from that
 /// of the pair to `now`; the pair takes both over.
 void turn_wall_velocity(const Surfaces& now, const Point& centre, Candidate& pair);
 
 /// Gives pairs the gaps and normals with which the contact problem of a step takes them: of pairs that meet
-/// within the step those of the place where they meet, of discs that pass each other those of where they are
-/// nearest, since a plane through the surfaces as they are now would stop them. The gap is that along the
-/// normal, so that gap + (way within the step) . normal is the gap of the plane at the end; it is negative of
-/// struck pairs alone. A wall that a grain does not reach on its path stops nothing.
+/// within the step those of the position where they meet, of discs that pass each other those of where they
+/// are nearest, since a plane through the surfaces as they are now would stop them. The gap is that along the
+/// normal, so that gap + (displacement within the step) . normal is the gap of the plane at the end; it is
+/// negative of struck pairs alone. A wall that a grain does not reach on its path stops nothing.
 void place_pairs(const StepInput& step, std::span<Candidate> pairs);
 
 }  // namespace drumlin::particles

@@ -11,8 +11,8 @@
 #include "particles/solver/contact_solver.hpp"
 #include "particles/stepping/assembly.hpp"
 #include "particles/stepping/attract.hpp"
-#include "particles/stepping/book_contacts.hpp"
 #include "particles/stepping/cell_step.hpp"
+#include "particles/stepping/contact_work.hpp"
 #include "particles/stepping/impacts.hpp"
 #include "particles/stepping/lone_contact.hpp"
 #include "particles/stepping/meeting.hpp"
@@ -49,7 +49,7 @@ class MoreauJean final : public Stepper {
     };
     share(detection_, recollection_, impacts_, order_, overlaps_, projection_);
     crossings_.use(&team_);
-    if (laws.energy_ledger) books_.emplace(laws.gravity);
+    if (laws.energy_ledger) step_energy_.emplace(laws.gravity);
   }
 
   StepReport advance(const MovingState& state, WallStep& walls, double time_step) override {
@@ -60,28 +60,28 @@ class MoreauJean final : public Stepper {
     const StepInput step{laws_, bodies, walls, state.driven, free_, time_step, cell};
     StepReport report;
     Stopwatch watch;
-    if (books_) books_->open(bodies, state.energy);
-    if (books_ && state.cell && !state.energy->cell) state.energy->cell = 0;
+    if (step_energy_) step_energy_->open(bodies, state.energy);
+    if (step_energy_ && state.cell && !state.energy->cell) state.energy->cell = 0;
     detect(step, state, watch, report);
     attract(step, free_, contacts_);
     turn_freely(laws_, time_step, bodies);
     assemble(step, contacts_, TeamLoops(&team_), problem_);
     report.setup_seconds += watch.lap();
     report.contacts = problem_.contacts();
-    const bool open = laws_.period.open() && laws_.period.open_z();  // else places are those of images
+    const bool open = laws_.period.open() && laws_.period.open_z();  // else positions are those of images
     work_.places = open ? BodyPlaces{bodies.x, bodies.z} : BodyPlaces{};
     report.solve = solve_(problem_, solver_.rule, work_, solution_);
     find_lone_steps(step, state.memory);
     remember(contacts_.pairs, order_.order(), solution_.impulses, time_step, TeamLoops(&team_), state.memory);
     move(bodies, time_step);
-    if (books_) books_->move(bodies, time_step, *state.energy);
-    if (books_) book_contacts(step, contacts_, problem_, solution_, *books_, *state.energy);
+    if (step_energy_) step_energy_->move(bodies, time_step, *state.energy);
+    if (step_energy_) add_contact_work(step, contacts_, problem_, solution_, *step_energy_, *state.energy);
     if (state.cell) deform(step, state);
     move_driven_walls(free_, time_step, walls, state.driven);
     (void)watch.lap();
     report.overlap = project(state, walls, report.lost);
     report.projection_seconds = watch.lap();
-    if (books_) books_->close(bodies, *state.energy);
+    if (step_energy_) step_energy_->close(bodies, *state.energy);
     return report;
   }
 
@@ -186,7 +186,7 @@ class MoreauJean final : public Stepper {
       const auto loads = recollection_.loads(state.memory, dim, step.time_step);
       impacts_.resolve({step, detection_.candidates(), loads, contacts_.wall_jumps},
                        {state.bodies, free_.shift, contacts_});
-      if (books_) books_->strike(impacts_.struck(), impacts_.work(), *state.energy);
+      if (step_energy_) step_energy_->strike(impacts_.struck(), impacts_.work(), *state.energy);
       report.impacts += impacts_.count();
       report.impacts_unresolved += impacts_.unresolved();
       report.setup_seconds += watch.lap();
@@ -283,9 +283,10 @@ class MoreauJean final : public Stepper {
           v = {v.x + changes[b].x, v.z + changes[b].z};
           if constexpr (with_spin) spin_up(bodies, b, changes[b].s);
         }
-        const Point way = way_within_step(free_, b, {bodies.v_x[b], bodies.v_z[b]}, v, pushed, time_step);
+        const Point d =
+            displacement_within_step(free_, b, {bodies.v_x[b], bodies.v_z[b]}, v, pushed, time_step);
         bodies.v_x[b] = v.x, bodies.v_z[b] = v.z;
-        bodies.x[b] += way.x, bodies.z[b] += way.z;
+        bodies.x[b] += d.x, bodies.z[b] += d.z;
       }
     });
     for (const auto& [grain, place] : lone_) bodies.x[grain] = place.x, bodies.z[grain] = place.z;
@@ -302,9 +303,9 @@ class MoreauJean final : public Stepper {
     if (step.cell.pressed()) {
       set_struck(contacts_.strikes, state.bodies, cell);
       const Point change = cell_answer(problem_, solution_.velocities.bodies);
-      const double before = books_ ? kinetic_energy(state.bodies) : 0;
+      const double before = step_energy_ ? kinetic_energy(state.bodies) : 0;
       change_rates_in_step(change, step.time_step, cell, state.bodies);
-      if (books_) book_cell(kinetic_energy(state.bodies) - before, *state.energy);
+      if (step_energy_) add_cell_work(kinetic_energy(state.bodies) - before, *state.energy);
     }
     move_cell(step.time_step, cell);
     laws_.period = period_of(cell);
@@ -350,7 +351,7 @@ class MoreauJean final : public Stepper {
   OverlapSearch overlaps_;
   PositionProjection projection_;
   WallCrossings crossings_;
-  std::optional<EnergyBooks> books_;  // only with an energy ledger
+  std::optional<StepEnergy> step_energy_;  // only with an energy ledger
 };
 
 }  // namespace

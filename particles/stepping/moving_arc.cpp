@@ -13,20 +13,20 @@ MovingArc::MovingArc(const WallStep& walls, std::size_t shape)
       back_(inverse(step_)),
       middle_(middle_of(was_).x) {}
 
-Place MovingArc::place_of(Point p) const {
+WallPosition MovingArc::place_of(Point p) const {
   return {angle_from_joint(was_, p), std::hypot(p.x - was_.center.x, p.z - was_.center.z) - was_.radius};
 }
 
-std::optional<Way> MovingArc::crossing_of(Point start, Point end, double image) const {
+std::optional<WallPath> MovingArc::crossing_of(Point start, Point end, double image) const {
   const Point from{start.x + image, start.z}, to = back_.moved({end.x + image, end.z});
   const Point c{from.x - was_.center.x, from.z - was_.center.z}, m{to.x - from.x, to.z - from.z};
-  const double along = c.x * m.x + c.z * m.z, way = m.x * m.x + m.z * m.z;
-  const double under = along * along - way * (c.x * c.x + c.z * c.z - was_.radius * was_.radius);
-  if (!(under > 0) || !(way > 0)) return std::nullopt;
+  const double along = c.x * m.x + c.z * m.z, squared = m.x * m.x + m.z * m.z;
+  const double under = along * along - squared * (c.x * c.x + c.z * c.z - was_.radius * was_.radius);
+  if (!(under > 0) || !(squared > 0)) return std::nullopt;
   int crossings = 0;
   double first = 0;
   for (const double root : {-std::sqrt(under), std::sqrt(under)}) {
-    const double share = (root - along) / way;
+    const double share = (root - along) / squared;
     if (share < 0 || share > 1) continue;
     const Point there{from.x + share * m.x, from.z + share * m.z};
     const double angle = std::copysign(1, was_.turn) * angle_from_joint(was_, there);
@@ -34,23 +34,23 @@ std::optional<Way> MovingArc::crossing_of(Point start, Point end, double image) 
     if (crossings++ == 0) first = share;
   }
   if (crossings % 2 == 0) return std::nullopt;
-  return Way{place_of(from), place_of(to), image, first};
+  return WallPath{place_of(from), place_of(to), image, first};
 }
 
-std::optional<Way> MovingArc::crossing(Point start, Point end, const Period& period) const {
+std::optional<WallPath> MovingArc::crossing(Point start, Point end, const Period& period) const {
   return crossing_of_images(middle_, start, end, period,
                             [&](double image) { return crossing_of(start, end, image); });
 }
 
-Point MovingArc::laid_back(const Way& way, double radius) const {
+Point MovingArc::put_back(const WallPath& path, double radius) const {
   Arc beside = was_;
-  beside.radius = std::max(0.0, was_.radius + std::copysign(radius, way.from.across));
-  const Point place = there_.moved(at(beside, way.to.along));
-  return {place.x - way.image, place.z};
+  beside.radius = std::max(0.0, was_.radius + std::copysign(radius, path.from.across));
+  const Point place = there_.moved(at(beside, path.to.along));
+  return {place.x - path.image, place.z};
 }
 
-double MovingArc::move_across(const Way& way) const {
-  const Point p = at(was_, way.from.along), then = there_.moved(p);
+double MovingArc::move_across(const WallPath& path) const {
+  const Point p = at(was_, path.from.along), then = there_.moved(p);
   return std::abs((then.x - p.x) * (p.x - was_.center.x) + (then.z - p.z) * (p.z - was_.center.z)) /
          was_.radius;
 }

@@ -17,7 +17,7 @@ Overlap OverlapSearch::find(const MovedContacts& contacts, const Bodies& bodies,
   sums_.assign(pieces, {});
   loops_.each_of(static_cast<int>(pieces), [&](int p) {
     const std::size_t begin = p * piece, end = std::min(pairs.size(), begin + piece);
-    sums_[p] = look_at(begin, end, contacts, bodies, walls, period, margin);
+    sums_[p] = overlaps_among(begin, end, contacts, bodies, walls, period, margin);
   });
   Overlap overlap;
   double sum = 0;
@@ -41,9 +41,9 @@ Overlap OverlapSearch::find(const MovedContacts& contacts, const Bodies& bodies,
   return overlap;
 }
 
-OverlapSums OverlapSearch::look_at(std::size_t begin, std::size_t end, const MovedContacts& contacts,
-                                   const Bodies& bodies, const WallStep& walls, const Period& period,
-                                   double margin) {
+OverlapSums OverlapSearch::overlaps_among(std::size_t begin, std::size_t end, const MovedContacts& contacts,
+                                          const Bodies& bodies, const WallStep& walls, const Period& period,
+                                          double margin) {
   OverlapSums sums;
   const std::vector<std::int32_t>& starts = contacts.plan.group_start;
   std::size_t group =

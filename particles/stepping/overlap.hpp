@@ -58,8 +58,9 @@ class OverlapSearch {
 
  private:
   /// Pairs `begin` to `end`, those of one piece.
-  OverlapSums look_at(std::size_t begin, std::size_t end, const MovedContacts& contacts, const Bodies& bodies,
-                      const WallStep& walls, const Period& period, double margin);
+  OverlapSums overlaps_among(std::size_t begin, std::size_t end, const MovedContacts& contacts,
+                             const Bodies& bodies, const WallStep& walls, const Period& period,
+                             double margin);
 
   TeamLoops loops_;
   WorkArray<ClosePair> pairs_;         // ClosePairs::places

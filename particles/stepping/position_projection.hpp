@@ -20,7 +20,7 @@ struct ClosePair {
   double gap = 0, n_x = 0, n_z = 0;
 };
 
-/// The pairs that are close at the end of a step, among the places of all: those of a piece stand at its
+/// The pairs that are close at the end of a step, among the positions of all: those of a piece stand at its
 /// begin.
 struct ClosePairs {
   static constexpr std::size_t piece = 1024;

@@ -209,7 +209,7 @@ StepReport Simulation::step() {
   mark_positions();
   const double h = plan_.stages[state_.stage].time_step;
   follow_stage(h);
-  if (state_.loads && state_.loads->time == 0) book_walls(0);
+  if (state_.loads && state_.loads->time == 0) add_wall_loads(0);
   StepReport report = frame_ ? advance_in_laboratory(h) : advance_here(h);
   if (!report.lost) report.lost = grain_that_is_not_finite(state_.bodies);
   if (!report.lost) report.lost = grain_too_fast(state_.bodies, h);
@@ -219,7 +219,7 @@ StepReport Simulation::step() {
   ++state_.step;
   ++state_.step_in_stage;
   state_.time_in_stage = static_cast<double>(state_.step_in_stage) * h;
-  if (state_.loads) book_walls(h);
+  if (state_.loads) add_wall_loads(h);
   count_left();
   end_stage_if_due();
   return report;

@@ -112,7 +112,7 @@ class Simulation {
   void count_left();
   void follow_stage(double time_step);
   Gravity gravity_at(double time_in_stage) const;
-  void book_walls(double time_step);
+  void add_wall_loads(double time_step);
   void end_stage_if_due();
   /// A normal of the last step, as the scene tells it.
   Point normal_in_scene(double n_x, double n_z) const;

@@ -103,7 +103,7 @@ void Simulation::end_stage_if_due() {
 }
 
 /// A step of length 0 begins an interval.
-void Simulation::book_walls(double time_step) {
+void Simulation::add_wall_loads(double time_step) {
   const auto shapes = walls_.shapes_at(state_.time_in_stage, state_.driven);
   std::vector<double> angles;
   for (std::size_t w = 0; w < walls_.names.size(); ++w)

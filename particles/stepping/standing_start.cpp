@@ -44,7 +44,7 @@ class Overburden {
       }
     }
   }
-  /// Mass per width above a place.
+  /// Mass per width above a position.
   double above(double x, double z) const {
     const auto& in_column = columns_[column(across_of(x, z))];
     const auto next = std::lower_bound(in_column.begin(), in_column.end(), std::pair(depth_of(x, z), 0.0));

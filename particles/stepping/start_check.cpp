@@ -9,7 +9,7 @@ namespace drumlin::particles {
 
 StartOverlaps overlaps_at_start(const Bodies& bodies, std::span<const Shape> shapes,
                                 std::span<const ShapeStep> still, const Period& period) {
-  // At rest, so that nothing but places decides.
+  // At rest, so that nothing but positions decides.
   const std::vector<double> rest(bodies.count(), 0.0);
   ContactDetection detection;
   StartOverlaps overlaps;

@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "particles/stepping/moving_arc.hpp"
-#include "particles/stepping/wall_way.hpp"
+#include "particles/stepping/wall_path.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -27,27 +27,27 @@ class MovingSegment {
         length_(std::hypot(e_x_, e_z_)),
         middle_(middle_of(was_).x) {}
 
-  /// The way from `start` to `end` if it crosses the segment.
-  std::optional<Way> crossing(Point start, Point end, const Period& period) const {
+  /// The path from `start` to `end` if it crosses the segment.
+  std::optional<WallPath> crossing(Point start, Point end, const Period& period) const {
     return crossing_of_images(middle_, start, end, period,
                               [&](double image) { return crossing_of(start, end, image); });
   }
 
-  /// The disc of a way laid onto the side that it came from.
-  Point laid_back(const Way& way, double radius) const {
-    const double across = std::copysign(radius, way.from.across) / length_;
-    const Point place = there_.moved({was_.from.x + way.to.along * e_x_ - across * e_z_,
-                                      was_.from.z + way.to.along * e_z_ + across * e_x_});
-    return {place.x - way.image, place.z};
+  /// The disc of a path laid onto the side that it came from.
+  Point put_back(const WallPath& path, double radius) const {
+    const double across = std::copysign(radius, path.from.across) / length_;
+    const Point place = there_.moved({was_.from.x + path.to.along * e_x_ - across * e_z_,
+                                      was_.from.z + path.to.along * e_z_ + across * e_x_});
+    return {place.x - path.image, place.z};
   }
 
   /// A point that moves with the segment.
   Point carried(Point p) const { return there_.moved(p); }
 
-  /// How far the segment moves across itself where a way begins.
-  double move_across(const Way& way) const {
-    const Point p{was_.from.x + way.from.along * e_x_ - way.from.across / length_ * e_z_,
-                  was_.from.z + way.from.along * e_z_ + way.from.across / length_ * e_x_};
+  /// How far the segment moves across itself where a path begins.
+  double move_across(const WallPath& path) const {
+    const Point p{was_.from.x + path.from.along * e_x_ - path.from.across / length_ * e_z_,
+                  was_.from.z + path.from.along * e_z_ + path.from.across / length_ * e_x_};
     const Point then = there_.moved(p);
     return std::abs(e_x_ * (then.z - p.z) - e_z_ * (then.x - p.x)) / length_;
   }
@@ -64,15 +64,16 @@ class MovingSegment {
   bool meets(std::size_t grain) const { return step_.meets(static_cast<std::int32_t>(grain)); }
 
  private:
-  std::optional<Way> crossing_of(Point start, Point end, double image) const {
-    Way way{place_of({start.x + image, start.z}), place_of(back_.moved({end.x + image, end.z})), image, 0};
-    if (!(way.from.across * way.to.across < 0)) return std::nullopt;
-    way.share = way.from.across / (way.from.across - way.to.across);
-    const double along = way.from.along + (way.to.along - way.from.along) * way.share;
+  std::optional<WallPath> crossing_of(Point start, Point end, double image) const {
+    WallPath path{place_of({start.x + image, start.z}), place_of(back_.moved({end.x + image, end.z})), image,
+                  0};
+    if (!(path.from.across * path.to.across < 0)) return std::nullopt;
+    path.share = path.from.across / (path.from.across - path.to.across);
+    const double along = path.from.along + (path.to.along - path.from.along) * path.share;
     if (along < -end_margin || along > 1 + end_margin) return std::nullopt;
-    return way;
+    return path;
   }
-  Place place_of(Point p) const {
+  WallPosition place_of(Point p) const {
     const double d_x = p.x - was_.from.x, d_z = p.z - was_.from.z;
     return {(d_x * e_x_ + d_z * e_z_) / (length_ * length_), (e_x_ * d_z - e_z_ * d_x) / length_};
   }
@@ -87,8 +88,8 @@ class MovingSegment {
 using MovingWall = std::variant<MovingSegment, MovingArc>;
 
 /// Of a disc that the wall meets.
-std::optional<Way> crossing(const MovingWall& wall, std::size_t b, Point start, Point end,
-                            const Period& period) {
+std::optional<WallPath> crossing(const MovingWall& wall, std::size_t b, Point start, Point end,
+                                 const Period& period) {
   return std::visit([&](const auto& w) { return w.meets(b) ? w.crossing(start, end, period) : std::nullopt; },
                     wall);
 }
@@ -100,7 +101,8 @@ void each_near(const MovingWall& moving, const Bodies& bodies, const Period& per
                Visit visit) {
   const auto [box, reach] = std::visit(
       [furthest](const auto& wall) {
-        // Straight seen from a wall that turns is bent by at most a quarter of its angle on the relative way.
+        // Straight seen from a wall that turns is bent by at most a quarter of its angle on the relative
+        // path.
         const double bend = std::abs(wall.turns_by()) / 4 * (2 * furthest + wall.furthest());
         return std::pair(wall.reaches(), furthest + bend);
       },
@@ -112,38 +114,38 @@ void each_near(const MovingWall& moving, const Bodies& bodies, const Period& per
       visit(b);
 }
 
-/// The wall that a disc meets first on its way, with that way.
+/// The wall that a disc meets first on its path, with that path.
 struct FirstCrossing {
   const MovingWall* wall = nullptr;
-  Way way;
+  WallPath path;
 };
 FirstCrossing first_crossing(std::span<const MovingWall> walls, std::size_t b, Point start, Point end,
                              const Period& period) {
   FirstCrossing first;
   for (const MovingWall& wall : walls)
-    if (const auto way = crossing(wall, b, start, end, period))
-      if (!first.wall || way->share < first.way.share) first = {&wall, *way};
+    if (const auto path = crossing(wall, b, start, end, period))
+      if (!first.wall || path->share < first.path.share) first = {&wall, *path};
   return first;
 }
 
 /// Lays disc b back from every thin wall that it crossed since it stood at `start`.
-void lay_back(std::span<const MovingWall> walls, const Period& period, Point start, std::size_t b,
+void put_back(std::span<const MovingWall> walls, const Period& period, Point start, std::size_t b,
               Bodies& bodies, Crossings& crossings) {
   const auto lose = [&](LostGrain::How how) {
     if (!crossings.lost) crossings.lost = LostGrain{static_cast<int>(b), bodies.x[b], bodies.z[b], how};
   };
   const double radius = bodies.radius[b];
   for (int attempt = 0;; ++attempt) {
-    const auto [wall, way] = first_crossing(walls, b, start, {bodies.x[b], bodies.z[b]}, period);
+    const auto [wall, path] = first_crossing(walls, b, start, {bodies.x[b], bodies.z[b]}, period);
     if (!wall) return;
-    crossings.deepest = std::max(crossings.deepest, radius + std::abs(way.to.across));
+    crossings.deepest = std::max(crossings.deepest, radius + std::abs(path.to.across));
     const auto of_wall = [wall = wall](auto act) { return std::visit(act, *wall); };
-    if (of_wall([way = way](const auto& w) { return w.move_across(way); }) > radius)
+    if (of_wall([path = path](const auto& w) { return w.move_across(path); }) > radius)
       return lose(LostGrain::How::pushed_too_far);
     if (attempt > most_walls) return lose(LostGrain::How::went_through_wall);
-    // Where walls leave no room for it, it keeps its place beside one of them.
-    const Point place = of_wall([&, way = way](const auto& w) {
-      return attempt < most_walls ? w.laid_back(way, radius) : w.carried(start);
+    // Where walls leave no room for it, it keeps its position beside one of them.
+    const Point place = of_wall([&, path = path](const auto& w) {
+      return attempt < most_walls ? w.put_back(path, radius) : w.carried(start);
     });
     bodies.x[b] = place.x, bodies.z[b] = place.z;
   }
@@ -152,8 +154,8 @@ void lay_back(std::span<const MovingWall> walls, const Period& period, Point sta
 /// Lays disc b, whose centre stands outside of a container, back into it if it began the step inside and has
 /// not moved further than the largest disc's radius: pressed out by a larger one, not flown out of a solve
 /// that is worth nothing.
-void lay_into(const Container& was, const Container& is, const Period& period, Point start, std::size_t b,
-              double largest, Bodies& bodies, Crossings& crossings) {
+void put_inside(const Container& was, const Container& is, const Period& period, Point start, std::size_t b,
+                double largest, Bodies& bodies, Crossings& crossings) {
   if (std::hypot(bodies.x[b] - start.x, bodies.z[b] - start.z) > largest ||
       std::hypot(period.nearest(start.x - was.center.x), start.z - was.center.z) > was.radius)
     return;
@@ -217,7 +219,7 @@ void WallCrossings::undo_at_containers(const WallStep& walls, const Period& peri
     const double largest = largest_.value_or(*std::max_element(bodies.radius.begin(), bodies.radius.end()));
     for (const std::size_t b : outside.list)
       if (walls.displacement[shape].meets(static_cast<std::int32_t>(b)))
-        lay_into(was, is, period, {x_[b], z_[b]}, b, largest, bodies, crossings);
+        put_inside(was, is, period, {x_[b], z_[b]}, b, largest, bodies, crossings);
   }
 }
 
@@ -239,7 +241,7 @@ void WallCrossings::undo_at_thin_walls(const WallStep& walls, const Period& peri
     });
   std::sort(crossed_.begin(), crossed_.end());
   crossed_.erase(std::unique(crossed_.begin(), crossed_.end()), crossed_.end());
-  for (const std::size_t b : crossed_) lay_back(moving, period, {x_[b], z_[b]}, b, bodies, crossings);
+  for (const std::size_t b : crossed_) put_back(moving, period, {x_[b], z_[b]}, b, bodies, crossings);
 }
 
 }  // namespace drumlin::particles

@@ -33,7 +33,7 @@ class WallCrossings {
   void begin(const Bodies&, std::span<const Shape> shapes, std::optional<double> largest = {});
   /// Lays each disc whose centre has crossed a segment or an arc since, between its ends, or a container,
   /// back onto the side that it came from; velocities stay. Lost is one that met such a wall which moves
-  /// further than the disc's radius within the step, or for which there is no place. A disc that has moved
+  /// further than the disc's radius within the step, or for which there is no room. A disc that has moved
   /// further than the radius of the largest is left outside of a container (has_left()).
   Crossings undo(const WallStep&, const Period&, Bodies&);
 

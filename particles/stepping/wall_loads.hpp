@@ -18,7 +18,7 @@ struct WallContact {
   double normal = 0, tangential = 0, couple = 0;  ///< impulses on the grain
 };
 
-/// Place of a wall: the middle of its first shape, and the angle turned since the start.
+/// Position of a wall: the middle of its first shape, and the angle turned since the start.
 struct WallPlace {
   double x = 0, z = 0, angle = 0;
 };
@@ -26,7 +26,7 @@ struct WallPlace {
 /// Sums over the steps of an interval, of one wall.
 struct WallLoad {
   double impulse_x = 0, impulse_z = 0;  ///< of the grains on the wall
-  double moment = 0;                    ///< the same about the wall's place, clockwise as drawn
+  double moment = 0;                    ///< the same about the wall's position, clockwise as drawn
   double time = 0;                      ///< for which it has been there
   WallPlace place;                      ///< times the steps
   WallPlace first, last;                ///< at the beginning and the end

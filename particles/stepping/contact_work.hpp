@@ -32,32 +32,33 @@ inline Bodies mean_motion(const Bodies& before, const Bodies& now) {
   return mean;
 }
 
-/// Opens the accounts of the effects of the scene, and books what the law of each knows of its work.
-inline void book_effects(const StepInput& step, const Bodies& before, EnergyLedger& ledger) {
+/// Opens the accounts of the effects of the scene, and adds what the law of each knows of its work.
+inline void add_effect_work(const StepInput& step, const Bodies& before, EnergyLedger& ledger) {
   each_effect(
       [&]<class E>(const auto& law, std::optional<double>& work, const std::optional<E>&) {
         if constexpr (requires { E::account; })
           if (law && !work) work = 0;
         if constexpr (requires { law->work(before, step.bodies, step.time_step); })
-          if (law) book(law->work(before, step.bodies, step.time_step), *work, ledger);
+          if (law) add_work(law->work(before, step.bodies, step.time_step), *work, ledger);
       },
       step.laws, ledger.effects, Effects{});
 }
 
-/// Books the contacts of a step whose bodies have been moved (step.bodies) but not its driven walls,
-/// nor its cell.
+/// Adds the work of the contacts of a step whose bodies have been moved (step.bodies) but not its driven
+/// walls, nor its cell.
 template <class Problem>
-void book_contacts(const StepInput& step, const StepContacts& contacts, const Problem& problem,
-                   const Solution<Problem>& solution, const EnergyBooks& books, EnergyLedger& ledger) {
+void add_contact_work(const StepInput& step, const StepContacts& contacts, const Problem& problem,
+                      const Solution<Problem>& solution, const StepEnergy& step_energy,
+                      EnergyLedger& ledger) {
   constexpr int dim = Problem::dim;
   const auto& impulses = solution.impulses;
-  const Bodies mean = mean_motion(books.before(), step.bodies);
+  const Bodies mean = mean_motion(step_energy.before(), step.bodies);
   const Point change = cell_answer(problem, solution.velocities.bodies);
   // Mean velocity over the step, impacts aside; step.free.driven holds what contacts left to driven walls.
   const auto of_driven = [&](std::int32_t k) {
     return (step.driven[k].velocity + contacts.wall_jumps[k] + step.free.driven[k]) / 2;
   };
-  book_effects(step, books.before(), ledger);
+  add_effect_work(step, step_energy.before(), ledger);
   for (std::size_t a = 0; a < contacts.pairs.size(); ++a) {
     Candidate pair = contacts.pairs[a];
     const Point of_j = pair.j < 0 ? wall_velocity(step, pair, of_driven)
@@ -66,26 +67,26 @@ void book_contacts(const StepInput& step, const StepContacts& contacts, const Pr
     const Point u = relative_velocity(pair, mean.v_x, mean.v_z, of_j);
     const double u_n = normal_part(pair, u), r_n = impulses[dim * a];
     double r_t = 0;
-    book(r_n * u_n, ledger.impacts, ledger);
+    add_work(r_n * u_n, ledger.impacts, ledger);
     if constexpr (dim >= 2) {
       const double u_t = tangential_part(pair, u);
       r_t = impulses[dim * a + 1];
-      book(r_t * (mean.spin.empty() ? u_t : sliding_of_rims(u_t, pair, mean)), ledger.friction, ledger);
+      add_work(r_t * (mean.spin.empty() ? u_t : sliding_of_rims(u_t, pair, mean)), ledger.friction, ledger);
     }
-    const auto book_law = [&](const auto& law, std::optional<double>& work) {
+    const auto add_law_work = [&](const auto& law, std::optional<double>& work) {
       if constexpr (requires { law->attraction(pair, step.materials()); })
-        if (law) book(-step.time_step * law->attraction(pair, step.materials()) * u_n, *work, ledger);
+        if (law) add_work(-step.time_step * law->attraction(pair, step.materials()) * u_n, *work, ledger);
       if constexpr (dim == 3 && requires { law->couple_bound(pair, step.materials()); }) {
         const double r_c = impulses[dim * a + 2], lever = law->lever(pair, mean);
-        book(r_c * law->couple_velocity(pair, mean, step.walls, lever, step.time_step), *work, ledger);
-        book(r_c * law->wall_part(pair, mean, step.walls, step.time_step), ledger.walls, ledger);
+        add_work(r_c * law->couple_velocity(pair, mean, step.walls, lever, step.time_step), *work, ledger);
+        add_work(r_c * law->wall_part(pair, mean, step.walls, step.time_step), ledger.walls, ledger);
       }
     };
-    each_effect(book_law, step.laws, ledger.effects);
+    each_effect(add_law_work, step.laws, ledger.effects);
     if (pair.j >= 0 && of_j.x == 0 && of_j.z == 0) continue;
     const double p_n = r_n - contacts.attraction_of(a);
     const double p_x = pair.n_x * p_n + pair.n_z * r_t, p_z = pair.n_z * p_n - pair.n_x * r_t;
-    book(p_x * of_j.x + p_z * of_j.z, mover(ledger), ledger);
+    add_work(p_x * of_j.x + p_z * of_j.z, mover(ledger), ledger);
   }
 }
 
