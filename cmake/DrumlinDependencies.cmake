@@ -18,6 +18,11 @@ function(drumlin_library target library)
   endif()
 endfunction()
 
-# deal.II loads the OpenMPI flavour of HDF5: that flavour everywhere. CMake's own search would ask the projects of users for C and for MPI.
-find_library(DRUMLIN_HDF5_LIBRARY NAMES hdf5_openmpi hdf5 PATH_SUFFIXES hdf5/openmpi REQUIRED)
+# deal.II loads the OpenMPI flavour of HDF5: that flavour everywhere, and the serial one where the continuum is not built. CMake's own search would
+# ask the projects of users for C and for MPI.
+if(DRUMLIN_CONTINUUM)
+  find_library(DRUMLIN_HDF5_LIBRARY NAMES hdf5_openmpi hdf5 PATH_SUFFIXES hdf5/openmpi REQUIRED)
+else()
+  find_library(DRUMLIN_HDF5_LIBRARY NAMES hdf5_serial hdf5 PATH_SUFFIXES hdf5/serial REQUIRED)
+endif()
 drumlin_library(drumlin::hdf5 ${DRUMLIN_HDF5_LIBRARY})

@@ -15,17 +15,23 @@ endforeach()
 install(TARGETS drumlin_flags drumlin_includes drumlin_common drumlin_documents drumlin_statistics drumlin_law drumlin_exchange drumlin_files
                 drumlin_particles drumlin_particles_lab drumlin_coupling drumlin_continuum_model drumlin_user_particles drumlin_user_coupling
         EXPORT DrumlinTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(TARGETS drumlin_continuum drumlin_continuum_io drumlin_user_continuum
-        EXPORT DrumlinContinuumTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(TARGETS drumlin drumlin-flow drumlin-run RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+set(export_sets Drumlin)
+if(DRUMLIN_CONTINUUM)
+  list(APPEND export_sets DrumlinContinuum)
+  install(TARGETS drumlin_continuum drumlin_continuum_io drumlin_user_continuum
+          EXPORT DrumlinContinuumTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(TARGETS drumlin-flow drumlin-run RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+# The component `commands` is what a Python wheel holds (setup.py).
+install(TARGETS drumlin RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT commands)
 
 # As in the sources: #include "particles/stepping/simulation.hpp". Headers in `detail` are private to their room. Discs on ranks are a program only.
 install(DIRECTORY coupling particles continuum DESTINATION ${DRUMLIN_INSTALLED_INCLUDES}
         FILES_MATCHING PATTERN "*.hpp" PATTERN "*-inl.h" PATTERN detail EXCLUDE PATTERN distributed EXCLUDE)
 
-install(DIRECTORY data/scenes data/rheology data/paper data/cost data/limits DESTINATION ${DRUMLIN_INSTALLED_DATA})
-install(FILES data/problems/drum-300-mu-0.4-flow.h5 DESTINATION ${DRUMLIN_INSTALLED_DATA}/problems)
-install(DIRECTORY apps/figures apps/pages DESTINATION ${DRUMLIN_INSTALLED_PACKAGE} PATTERN __pycache__ EXCLUDE)
+install(DIRECTORY data/scenes data/rheology data/paper data/cost data/limits DESTINATION ${DRUMLIN_INSTALLED_DATA} COMPONENT commands)
+install(FILES data/problems/drum-300-mu-0.4-flow.h5 DESTINATION ${DRUMLIN_INSTALLED_DATA}/problems COMPONENT commands)
+install(DIRECTORY apps/figures apps/pages DESTINATION ${DRUMLIN_INSTALLED_PACKAGE} COMPONENT commands PATTERN __pycache__ EXCLUDE)
 install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Drumlin)
@@ -34,6 +40,6 @@ configure_package_config_file(cmake/DrumlinConfig.cmake.in ${CMAKE_BINARY_DIR}/c
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/cmake/DrumlinConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/cmake/DrumlinConfig.cmake ${CMAKE_BINARY_DIR}/cmake/DrumlinConfigVersion.cmake
               cmake/DrumlinDependencies.cmake cmake/DrumlinDealII.cmake DESTINATION ${config_folder})
-foreach(set Drumlin DrumlinContinuum)
+foreach(set ${export_sets})
   install(EXPORT ${set}Targets NAMESPACE Drumlin:: DESTINATION ${config_folder})
 endforeach()

@@ -4,6 +4,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "apps/support/program_files.hpp"
+
 namespace drumlin::apps {
 namespace {
 
@@ -63,6 +65,13 @@ void add_optional_number(CLI::App& command, const std::string& name, std::option
 void add_folder_or_file(CLI::App& command, const std::string& name, std::filesystem::path& target,
                         const std::string& kind, const std::string& sentence) {
   command.add_option(name, target, sentence)->required()->type_name(kind);
+}
+
+void add_scene_file(CLI::App& command, std::filesystem::path& target, const std::string& sentence) {
+  command.add_option("scene", target, sentence + ", or the name of one that drumlin scene list names")
+      ->required()
+      ->type_name("SCENE.toml")
+      ->transform(shipped_scene);
 }
 
 void add_optional_path(CLI::App& command, const std::string& name,

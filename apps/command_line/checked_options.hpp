@@ -32,6 +32,8 @@ void add_optional_number(CLI::App& command, const std::string& name, std::option
 void add_folder_or_file(CLI::App& command, const std::string& name, std::filesystem::path& target,
                         const std::string& kind, const std::string& sentence);
 /// A path that may be absent.
+/// The scene that a command reads: a file, or a shipped scene by its name (shipped_scene).
+void add_scene_file(CLI::App& command, std::filesystem::path& target, const std::string& sentence);
 void add_optional_path(CLI::App& command, const std::string& name,
                        std::optional<std::filesystem::path>& target, const std::string& kind,
                        const std::string& sentence);

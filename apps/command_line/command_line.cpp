@@ -1,9 +1,12 @@
 #include "apps/command_line/command_line.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <sstream>
+#include <utility>
 
 #include "apps/command_line/checked_options.hpp"
 #include "apps/command_line/command_options.hpp"
@@ -30,6 +33,20 @@ void refuse_unless_utf8(const std::string& word) {
   } catch (const nlohmann::json::type_error&) {
     throw InputError(word + ": is no UTF-8; name files and folders in it");
   }
+}
+
+/// Letters to add, leave out or replace that make one word of the other (Levenshtein).
+std::size_t edits(const std::string& from, const std::string& to) {
+  std::vector<std::size_t> row(to.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t k = 1; k <= from.size(); ++k) {
+    std::size_t diagonal = std::exchange(row[0], k);
+    for (std::size_t m = 1; m <= to.size(); ++m) {
+      const std::size_t replaced = diagonal + (from[k - 1] != to[m - 1]);
+      diagonal = std::exchange(row[m], std::min({row[m] + 1, row[m - 1] + 1, replaced}));
+    }
+  }
+  return row.back();
 }
 
 /// All commands with the options that they fill in; `request` receives those of the chosen one.
@@ -92,6 +109,7 @@ class CommandLine {
   }
 
   Request parse(int argc, const char* const* argv) {
+    if (argc > 1) refuse_unknown_command(argv[1]);
     try {
       app_.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -105,6 +123,19 @@ class CommandLine {
   }
 
  private:
+  void refuse_unknown_command(const std::string& word) const {
+    if (word.starts_with("-")) return;
+    std::string nearest;
+    for (const CLI::App* command : app_.get_subcommands([](const CLI::App*) { return true; })) {
+      if (command->get_name() == word) return;
+      if (nearest.empty() || edits(word, command->get_name()) < edits(word, nearest))
+        nearest = command->get_name();
+    }
+    const bool near = edits(word, nearest) <= 1 + word.size() / 3;
+    throw InputError("no command is called \"" + word + "\"" +
+                     (near ? "; did you mean drumlin " + nearest + "?" : "; drumlin --help lists them"));
+  }
+
   template <class Options>
   CLI::App& add_command(const std::string& name, const std::string& sentence, const Options& options) {
     CLI::App* command = app_.add_subcommand(name, sentence);
@@ -162,9 +193,11 @@ class CommandLine {
          {std::tuple("check", SceneAction::check, "Validates a scene and says what it amounts to"),
           std::tuple("show", SceneAction::show, "Prints a scene with all its defaults")}) {
       CLI::App* command = add_action(name, action, sentence);
-      add_folder_or_file(*command, "scene", scene_.scene, "SCENE.toml", "Scene file");
+      add_scene_file(*command, scene_.scene, "Scene file");
       add_overrides(*command, scene_.overrides);
     }
+    add_action("list", SceneAction::list,
+               "Lists the shipped scenes, which every command finds by their names");
     CLI::App* keys =
         add_action("keys", SceneAction::keys, "Lists every key with unit, range, default and meaning");
     keys->add_flag("--markdown", scene_.markdown, "As the table of docs/formats/scene.md");

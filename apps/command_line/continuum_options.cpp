@@ -48,7 +48,7 @@ void add_calibrate_options(CLI::App& command, CalibrateOptions& options) {
 }
 
 void add_flow_options(CLI::App& command, FlowOptions& options) {
-  add_folder_or_file(command, "scene", options.scene, "FLOW.toml", "Flow scene (docs/formats)");
+  add_scene_file(command, options.scene, "Flow scene");
   add_folder_or_file(command, "--rheology", options.rheology, "RHEOLOGY.toml",
                      "Law, from calibrate or data/rheology");
   add_folder_or_file(command, "-o,--output", options.output, "FLOWRUN", "Folder for the results");

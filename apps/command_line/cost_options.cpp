@@ -7,7 +7,7 @@
 namespace drumlin::apps {
 
 void add_cost_options(CLI::App& command, CostOptions& options) {
-  add_folder_or_file(command, "scene", options.scene, "SCENE.toml", "Scene of particles or of a flow");
+  add_scene_file(command, options.scene, "Scene of particles or of a flow");
   command
       .add_option("--sweep", options.sweep,
                   "What is varied, each with its values or standard ones, e.g. tolerance=1e-2:1e-3,step; "

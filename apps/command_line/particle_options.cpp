@@ -7,7 +7,7 @@
 namespace drumlin::apps {
 
 void add_run_options(CLI::App& command, RunOptions& options) {
-  add_folder_or_file(command, "scene", options.scene, "SCENE.toml", "Scene file (docs/formats/scene.md)");
+  add_scene_file(command, options.scene, "Scene file");
   add_folder_or_file(command, "-o,--output", options.output, "RUN", "Folder for the results");
   add_overrides(command, options.overrides);
   add_number(command, "--threads", options.threads, "", at_least(1, most_threads),

@@ -1,6 +1,8 @@
-// drumlin scene check | show | keys
+// drumlin scene check | show | keys | list
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "apps/commands/effects_text.hpp"
@@ -8,7 +10,9 @@
 #include "apps/commands/run_report.hpp"
 #include "apps/commands/start_grains.hpp"
 #include "apps/support/commands.hpp"
+#include "apps/support/program_files.hpp"
 #include "apps/support/standard_streams.hpp"
+#include "coupling/documents/document.hpp"
 #include "particles/scene/placement.hpp"
 #include "particles/scene/scene_file.hpp"
 #include "particles/stepping/simulation.hpp"
@@ -56,6 +60,20 @@ void check(const SceneOptions& options) {
     print_out(fmt::format("warning: {}\n", warning));
 }
 
+/// Names and titles, in the order of the names.
+void list() {
+  std::vector<std::filesystem::path> scenes;
+  for (const auto& file : std::filesystem::directory_iterator(data_folder() / "scenes"))
+    if (file.path().extension() == ".toml") scenes.push_back(file.path());
+  std::sort(scenes.begin(), scenes.end());
+  for (const auto& file : scenes) {
+    const Document document = read_toml(file);
+    const Node* title = document.root.find("title");
+    const auto* text = title != nullptr ? std::get_if<std::string>(&title->value) : nullptr;
+    print_out(fmt::format("{:<22} {}\n", file.stem().string(), text != nullptr ? *text : ""));
+  }
+}
+
 }  // namespace
 
 int scene(const SceneOptions& options) {
@@ -65,6 +83,9 @@ int scene(const SceneOptions& options) {
       break;
     case SceneAction::show:
       print_out(particles::scene_text(particles::read_scene(options.scene, options.overrides)));
+      break;
+    case SceneAction::list:
+      list();
       break;
     case SceneAction::keys:
       print_out(options.markdown ? keys_as_markdown(particles::scene_keys())

@@ -163,10 +163,10 @@ struct CompareStudyOptions {
 /// `drumlin compare --study`: both sides over the speed of rotation.
 int compare_study(const CompareStudyOptions&);
 
-enum class SceneAction { check, show, keys };
+enum class SceneAction { check, show, keys, list };
 struct SceneOptions {
   SceneAction action = SceneAction::check;
-  std::filesystem::path scene;  ///< unused for keys
+  std::filesystem::path scene;  ///< unused for keys and list
   bool markdown = false;        ///< keys as a Markdown table
   std::vector<std::string> overrides;
 };

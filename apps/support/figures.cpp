@@ -13,7 +13,7 @@ namespace drumlin::apps {
 
 void draw_figures(const std::string& script, const std::vector<std::string>& arguments) {
   ProcessRequest request;
-  request.program = DRUMLIN_PYTHON;
+  request.program = interpreter();
   const std::filesystem::path figures = figures_folder();
   // Nothing is imported from the current folder, from PYTHONPATH or from the user's own packages.
   request.words = {"-I", "-B", (figures / "isolated.py").string(), (figures / script).string()};

@@ -23,9 +23,27 @@ fs::path beside_program(const char* what, const char* built, const char* install
 
 fs::path data_folder() { return beside_program("scenes and records", "data", DRUMLIN_DATA_FROM_PROGRAM); }
 
+std::string shipped_scene(const std::string& name) {
+  std::error_code none;
+  if (fs::exists(name, none) || fs::path(name).has_parent_path()) return name;
+  const fs::path scene = (data_folder() / "scenes" / name).replace_extension(".toml");
+  return fs::exists(scene, none) ? scene.string() : name;
+}
+
 fs::path figures_folder() {
+  // A wheel is installed beside the interpreter, whose version its folder names.
+  const fs::path libraries = fs::read_symlink("/proc/self/exe").parent_path() / "../lib";
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(libraries, none))
+    if (const fs::path found = entry.path() / "site-packages/drumlin/figures"; fs::is_directory(found, none))
+      return found.lexically_normal();
   return beside_program("the scripts that draw figures", "python/drumlin/figures",
                         DRUMLIN_FIGURES_FROM_PROGRAM);
+}
+
+fs::path interpreter() {
+  const fs::path beside = fs::read_symlink("/proc/self/exe").parent_path() / "python3";
+  return fs::exists(beside) ? beside : fs::path(DRUMLIN_PYTHON);
 }
 
 }  // namespace drumlin::apps

@@ -7,7 +7,11 @@ namespace drumlin::apps {
 
 /// Scenes, laws, records and the paper's numbers. Throws IoError where there are none.
 std::filesystem::path data_folder();
+/// The shipped scene of that name, with or without ".toml", where no file has it; else the name itself.
+std::string shipped_scene(const std::string& name);
 /// The Python scripts that draw; the templates of pages stand beside it. Throws IoError likewise.
 std::filesystem::path figures_folder();
+/// The Python that draws: that beside the program (of a virtual environment), else the one of the build.
+std::filesystem::path interpreter();
 
 }  // namespace drumlin::apps

@@ -321,7 +321,7 @@ ProcessEnd run_in_copy(const std::function<void()>& work) {
 
 fs::path program_beside(const std::string& name) {
   const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / name;
-  if (!fs::exists(program)) throw IoError(program.string() + ": is missing; it is built beside drumlin");
+  if (!fs::exists(program)) throw IoError(program.string() + ": is missing; the target programs builds it, unless DRUMLIN_CONTINUUM is OFF");
   refuse_special(".adolcrc");  // ADOL-C, within deal.II, reads it as it is loaded, and would wait for a FIFO
   return program;
 }

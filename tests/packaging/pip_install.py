@@ -1,12 +1,11 @@
-"""The Python package of the build tree by pip, without a network, into a virtual environment: imported elsewhere, it reads, steps and finds its commands.
+"""Commands and Python package of the build tree by pip, without a network, into a virtual environment: imported elsewhere, it reads, steps and finds its commands.
 Ends with 77 where this Python has no venv or no pip (Debian: python3-venv).
 
-usage: pip_install.py BUILD_FOLDER
+usage: pip_install.py BUILD_FOLDER SOURCES
 """
 
 import os
 import pathlib
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -31,19 +30,17 @@ def run(*words, **keywords):
 
 
 def main():
-    build = pathlib.Path(sys.argv[1]).resolve()
+    build, sources = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
     with tempfile.TemporaryDirectory(prefix="drumlin-pip-") as name:
         folder = pathlib.Path(name)
         made = subprocess.run([sys.executable, "-m", "venv", "--system-site-packages", folder / "venv"], capture_output=True, text=True, check=False)
         if made.returncode != 0:
             print(f"no virtual environment, nothing tried:\n{made.stdout}{made.stderr}")
             sys.exit(77)
-        # pip builds in the folder that it is given: a copy of it.
-        shutil.copytree(build / "python", folder / "python", ignore=shutil.ignore_patterns("build", "*.egg-info", "__pycache__"))
         python = folder / "venv" / "bin" / "python"
-        run(python, "-m", "pip", "install", "--no-index", "--no-build-isolation", folder / "python", cwd=folder)
-        said = run(python, "-c", PROGRAM, cwd=folder, env=os.environ | {"PATH": f"{build}:/usr/bin:/bin"}).strip().split("|")
-        if not said[0].startswith(str(folder / "venv")) or pathlib.Path(said[1]).parent != build or said[2] != "drumlin":
+        run(python, "-m", "pip", "install", "--no-index", "--no-build-isolation", sources, cwd=folder, env=os.environ | {"DRUMLIN_BUILD": str(build)})
+        said = run(python, "-c", PROGRAM, cwd=folder, env=os.environ | {"PATH": "/usr/bin:/bin"}).strip().split("|")
+        if not said[0].startswith(str(folder / "venv")) or pathlib.Path(said[1]).parent != folder / "venv" / "bin" or said[2] != "drumlin":
             sys.exit(f"another package or other commands: {said}")
     print("installed by pip without a network")
 

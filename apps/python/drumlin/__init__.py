@@ -1,7 +1,12 @@
 """Drumlin in Python: read its files into numpy, step scenes, solve contact problems, calibrate laws, start its commands."""
 
+try:
+    from ._drumlin import version
+except ModuleNotFoundError as missing:
+    if missing.name != f"{__name__}._drumlin":
+        raise
+    raise ModuleNotFoundError("drumlin: its compiled part is missing; `cmake --build build --target programs` makes it", name=missing.name) from missing
 from . import errors, plot
-from ._drumlin import version
 from .commands import command, compare, measure, program, run, solve_flow
 from .contacts import ContactSolution, contact_residual, contact_solvers, solve_contacts
 from .errors import DrumlinError, InputError, IoError, NotConvergedError
