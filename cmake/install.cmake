@@ -33,6 +33,21 @@ install(DIRECTORY data/scenes data/rheology data/paper data/cost data/limits DES
 install(FILES data/problems/drum-300-mu-0.4-flow.h5 DESTINATION ${DRUMLIN_INSTALLED_DATA}/problems COMPONENT commands)
 install(DIRECTORY apps/figures apps/pages DESTINATION ${DRUMLIN_INSTALLED_PACKAGE} COMPONENT commands PATTERN __pycache__ EXCLUDE)
 install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} FILES_MATCHING PATTERN "*.md")  # that help cites
+
+# Made by the program that is installed.
+install(CODE [[
+  set(program $ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}/bin/drumlin)
+  foreach(page IN ITEMS "--man|man/man1/drumlin.1" "--completion;bash|bash-completion/completions/drumlin" "--completion;zsh|zsh/site-functions/_drumlin"
+                        "--completion;fish|fish/vendor_completions.d/drumlin.fish")
+    string(REPLACE "|" ";" parts "${page}")
+    list(POP_BACK parts file)
+    set(file $ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}/share/${file})
+    get_filename_component(folder ${file} DIRECTORY)
+    file(MAKE_DIRECTORY ${folder})
+    execute_process(COMMAND ${program} ${parts} OUTPUT_FILE ${file} COMMAND_ERROR_IS_FATAL ANY)
+  endforeach()
+]] COMPONENT commands)
 
 set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Drumlin)
 configure_package_config_file(cmake/DrumlinConfig.cmake.in ${CMAKE_BINARY_DIR}/cmake/DrumlinConfig.cmake

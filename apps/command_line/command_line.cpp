@@ -58,10 +58,18 @@ class CommandLine {
     app_.set_version_flag("--version", "drumlin " + version_text());
     app_.add_option_function<std::string>(
             "--completion",
-            [this](const std::string&) { throw CLI::CallForVersion(bash_completion(app_), 0); },
+            [this](const std::string& shell) {
+              throw CLI::CallForVersion(shell == "bash"  ? bash_completion(app_)
+                                        : shell == "zsh" ? zsh_completion(app_)
+                                                         : fish_completion(app_),
+                                        0);
+            },
             "Prints a script that completes commands and options: source <(drumlin --completion bash)")
-        ->check(CLI::IsMember({"bash"}))
+        ->check(CLI::IsMember({"bash", "zsh", "fish"}))
         ->type_name("SHELL");
+    app_.add_flag_callback(
+        "--man", [this] { throw CLI::CallForVersion(man_page(app_), 0); },
+        "Prints a page for man: man -l <(drumlin --man)");
     app_.require_subcommand(1);
     app_.footer(
         "New here: drumlin new drum -o scene.toml, and docs/tutorial.md.\n"

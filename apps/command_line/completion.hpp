@@ -12,4 +12,11 @@ namespace drumlin::apps {
 /// elsewhere.
 std::string bash_completion(const CLI::App& program);
 
+/// The same for zsh, by way of bash's, and for fish.
+std::string zsh_completion(const CLI::App& program);
+std::string fish_completion(const CLI::App& program);
+
+/// A page for man, of all commands and their options.
+std::string man_page(const CLI::App& program);
+
 }  // namespace drumlin::apps

@@ -131,6 +131,8 @@ void add_report_options(CLI::App& command, ReportOptions& options) {
   add_folder_or_file(command, "run", options.run, "RUN", "Folder of a run, finished or not, measured or not");
   add_optional_path(command, "-o,--output", options.output, "DIR",
                     "Folder for the page, open its index.html; standard: RUN/report");
+  add_optional_path(command, "--bundle", options.bundle, "FILE.tar.gz",
+                    "In place of a page: scene, log and versions in one small file, for a report of a fault");
   add_existing(command, options.existing, keep_what_is_done);
 }
 

@@ -85,6 +85,13 @@ Json content_of(const particles::RunFolder& run, const Json& report, const Json&
 }  // namespace
 
 int report(const ReportOptions& options) {
+  if (options.bundle) {
+    if (!fs::exists(options.run / "scene.toml"))
+      throw InputError(options.run.string() + ": is no folder of a run");
+    draw_figures("bundle.py", {options.run.string(), options.bundle->string(), "drumlin " + version_text()});
+    print_out(fmt::format("bundle: {}\n", fs::absolute(*options.bundle).string()));
+    return static_cast<int>(ExitCode::done);
+  }
   const particles::RunFolder run = particles::read_run_folder(options.run);
   const fs::path folder = options.output.value_or(options.run / "report");
   const std::string asked = asked_sum({measured_run_sum(options.run)});

@@ -83,6 +83,7 @@ int plot(const PlotOptions&);
 struct ReportOptions {
   std::filesystem::path run;
   std::optional<std::filesystem::path> output;  ///< standard: RUN/report
+  std::optional<std::filesystem::path> bundle;  ///< in place of a page: what a report of a fault needs
   ExistingOutput existing = ExistingOutput::refuse;
 };
 /// One page of a run: what was simulated, how exactly, what was measured, pictures, a player, costs.

@@ -8,6 +8,7 @@ import pathlib
 import re
 import subprocess
 import sys
+import tarfile
 import tempfile
 
 TINY = ["--set", "stages.0.duration_s=0.02", "--set", "stages.1.turns=0.002", "--set", "stages.2.turns=0.002", "--set", "stages.2.snapshots=1"]
@@ -30,7 +31,8 @@ def run(*words, **keywords):
 def places_of(prefix):
     """What the rest of the test needs of an installed tree, each there once."""
     names = ["bin/drumlin", "bin/drumlin-flow", "include/drumlin/particles/stepping/run_through.hpp", "share/drumlin/scenes/drum-smoke.toml",
-             "share/drumlin/rheology/paper.toml", "share/drumlin/paper/observables.toml", "lib/python3/dist-packages/drumlin/__init__.py",
+             "share/drumlin/rheology/paper.toml", "share/drumlin/paper/observables.toml", "share/man/man1/drumlin.1", "share/fish/vendor_completions.d/drumlin.fish",
+             "share/zsh/site-functions/_drumlin", "share/bash-completion/completions/drumlin", "share/doc/drumlin/docs/tutorial.md", "lib/python3/dist-packages/drumlin/__init__.py",
              "lib/python3/dist-packages/drumlin/figures/style.py", "lib/python3/dist-packages/drumlin/pages/comparison.html"]
     for name in names:
         require((prefix / name).exists(), f"{name} is not installed")
@@ -55,6 +57,12 @@ def require_commands(prefix, folder, sources):
     run(prefix / "bin/drumlin", "run", scene, "-o", folder / "RUN", *TINY, cwd=folder)
     run(prefix / "bin/drumlin", "plot", folder / "RUN", cwd=folder)  # the figure scripts are found
     require(list((folder / "RUN").rglob("*.png")), "no picture was drawn")
+    run(prefix / "bin/drumlin", "report", folder / "RUN", "--bundle", folder / "fault.tar.gz")
+    with tarfile.open(folder / "fault.tar.gz") as bundle:
+        names = {name.removeprefix("fault/") for name in bundle.getnames()}
+    require(names >= {"scene.toml", "run.json", "log.csv", "manifest.txt", "versions.txt"}, f"the bundle holds {names}")
+    require("drum-6rpm " in run(prefix / "bin/drumlin", "scene", "list"), "no list of scenes")
+    run(prefix / "bin/drumlin", "scene", "check", "drum-smoke")
     package = {"PYTHONPATH": str(prefix / "lib/python3/dist-packages")}
     program = "import drumlin, sys; print(drumlin.version(), drumlin.read('RUN').snapshots[0].name, drumlin.program(), sep='|')"
     said = run("/usr/bin/python3", "-B", "-c", program, cwd=folder, environment=package).strip().split("|")
