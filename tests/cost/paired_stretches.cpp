@@ -28,7 +28,7 @@ const StretchComparison* found(const PairedStretches& stretches, StretchQuantity
 
 TEST(PairedStretches, FreeFallChangesBySamplingAloneAndByNoSolver) {
   const test::TemporaryFolder folder;
-  Scene scene = test::scene_of({{0, 0}, {10, 5}, {-10, 3}}, folder);
+  Scene scene = test::scene_of({{0, 0}, {10, 5}, {-10, 3}});
   scene.effects.gravity.emplace();
   test::add_stage(scene, 1, 0.02);
   const double unit_s = std::sqrt(1e-3 / 9.81), h = 0.02, T = 2, mass = 3 * std::numbers::pi / 4;
@@ -48,7 +48,7 @@ TEST(PairedStretches, FreeFallChangesBySamplingAloneAndByNoSolver) {
 
 TEST(PairedStretches, GrainAtRestHasItsWeightWhateverTheSettings) {
   const test::TemporaryFolder folder;
-  Scene scene = test::scene_of({{0, 0.5}}, folder);
+  Scene scene = test::scene_of({{0, 0.5}});
   scene.effects.gravity.emplace();
   scene.walls.push_back(test::floor_wall());
   test::add_stage(scene, 1, 0.05);

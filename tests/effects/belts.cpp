@@ -6,18 +6,12 @@
 
 namespace drumlin {
 using namespace particles;
+using namespace test;
 namespace {
 
-using test::add_stage;
-using test::floor_wall;
-using test::scene_of;
-using test::TemporaryFolder;
-
-const double time_s = std::sqrt(1e-3 / 9.81);  // of scene_of with d = 1 mm
-
 /// A disc at rest on a belt.
-Scene disc_on_belt(double speed, double mu, bool rolls, const TemporaryFolder& folder) {
-  Scene scene = scene_of({{0, 0.5}}, folder);
+Scene disc_on_belt(double speed, double mu, bool rolls) {
+  Scene scene = scene_of({{0, 0.5}});
   scene.walls = {floor_wall()};
   scene.effects.gravity = Gravity{};
   scene.effects.friction = Friction{mu, mu};
@@ -29,10 +23,9 @@ Scene disc_on_belt(double speed, double mu, bool rolls, const TemporaryFolder& f
 }
 
 TEST(Belt, TakesADiscAlongAfterItsSpeedOverMuG) {
-  const TemporaryFolder folder;
   const double mu = 0.25, mass = mass_of_disc(0.5);
   for (const double speed : {0.5, -0.5}) {
-    Simulation simulation(disc_on_belt(speed, mu, false, folder));
+    Simulation simulation(disc_on_belt(speed, mu, false));
     while (!simulation.finished()) {
       (void)simulation.step();
       const double v = std::min(mu * simulation.state().time(), std::abs(speed));  // the belt's after 2
@@ -49,9 +42,8 @@ TEST(Belt, TakesADiscAlongAfterItsSpeedOverMuG) {
 
 TEST(Belt, RollsADiscThatEndsWithAThirdOfItsSpeed) {
   // Force and couple of sliding friction: v = mu g t and a rim of -2 mu g t, until v - rim is the belt's.
-  const TemporaryFolder folder;
   const double speed = 0.6, mu = 0.25;
-  Simulation simulation(disc_on_belt(speed, mu, true, folder));
+  Simulation simulation(disc_on_belt(speed, mu, true));
   while (!simulation.finished()) {
     (void)simulation.step();
     const Bodies& b = simulation.state().bodies;
@@ -63,14 +55,13 @@ TEST(Belt, RollsADiscThatEndsWithAThirdOfItsSpeed) {
 
 TEST(Belt, IsNotFeltWithoutFriction) {
   // Over a crest, off the end of the line, onto a round: nothing pushes along a normal.
-  const TemporaryFolder folder;
-  Scene resting = scene_of({{-4, 0.5, 1, 1.5}}, folder);
+  Scene resting = scene_of({{-4, 0.5, 1, 1.5}});
   resting.walls = {{"belt", PolylineShape{{-10, 0, 10}, {0, 0, -2}}}, {"belt", DiscShape{{14, -12}, 6}}};
   resting.effects.gravity = Gravity{};
   add_stage(resting, 14, 2e-3);
   Scene running = resting;
   running.stages[0].motions = {{"belt", Belt{5 / time_s}}};
-  const Bodies still = test::bodies_at_end(resting), carried = test::bodies_at_end(running);
+  const Bodies still = bodies_at_end(resting), carried = bodies_at_end(running);
   EXPECT_LT(still.z[0], -9);  // past both
   EXPECT_NEAR(still.x[0], carried.x[0], 1e-6);
   EXPECT_NEAR(still.z[0], carried.z[0], 1e-6);

@@ -5,17 +5,14 @@
 
 namespace drumlin {
 using namespace particles;
+using namespace test;
 namespace {
-
-using test::add_stage;
-using test::scene_of;
-using test::TemporaryFolder;
 
 const double weight = std::numbers::pi / 4;  // of a disc of diameter 1
 
 /// A disc below a ceiling at z = 0.
-Scene below_a_ceiling(double cohesion, const TemporaryFolder& folder) {
-  Scene scene = scene_of({{0, -0.5}}, folder);
+Scene below_a_ceiling(double cohesion) {
+  Scene scene = scene_of({{0, -0.5}});
   scene.walls = {{"ceiling", SegmentShape{{-10, 0}, {10, 0}}}};
   scene.effects.gravity = Gravity{};
   scene.effects.cohesion = Cohesion{0, cohesion};
@@ -24,9 +21,7 @@ Scene below_a_ceiling(double cohesion, const TemporaryFolder& folder) {
 }
 
 TEST(Cohesion, HoldsADiscBelowACeilingIfItExceedsTheWeight) {
-  const TemporaryFolder folder;
-  Simulation simulation(below_a_ceiling(1.01, folder));
-  while (!simulation.finished()) (void)simulation.step();
+  EndedSimulation simulation(below_a_ceiling(1.01));
   EXPECT_NEAR(simulation.state().bodies.z[0], -0.5, 1e-9);
   const Snapshot snapshot = simulation.take_snapshot();
   ASSERT_EQ(snapshot.contacts.size(), 1u);
@@ -35,17 +30,15 @@ TEST(Cohesion, HoldsADiscBelowACeilingIfItExceedsTheWeight) {
 }
 
 TEST(Cohesion, LetsADiscFallThatIsHeavier) {
-  const TemporaryFolder folder;
   // Out of the range of 1e-3 d the fall is free: nearly g t^2 / 2 = 2 after t = 2.
-  const Bodies end = test::bodies_at_end(below_a_ceiling(0.5, folder));
+  const Bodies end = bodies_at_end(below_a_ceiling(0.5));
   EXPECT_LT(end.z[0], -0.5 - 1.8);
 }
 
 TEST(Cohesion, OfAStageHoldsADiscUntilTheNextStageTakesItAway) {
-  const TemporaryFolder folder;
-  Scene scene = below_a_ceiling(1.01, folder);
+  Scene scene = below_a_ceiling(1.01);
   scene.stages[0].effects.cohesion = {0, 0};
-  EXPECT_LT(test::bodies_at_end(scene).z[0], -0.5 - 1.8);  // the effect alone would hold it
+  EXPECT_LT(bodies_at_end(scene).z[0], -0.5 - 1.8);  // the effect alone would hold it
 
   scene.effects.cohesion = Cohesion{0, 0.5};  // too little
   scene.stages[0].effects.cohesion = {0, 1.01};
@@ -64,24 +57,15 @@ TEST(Cohesion, OfAStageHoldsADiscUntilTheNextStageTakesItAway) {
   EXPECT_LT(simulation.state().bodies.z[0], -0.5 - 1.8);
 }
 
-TEST(Cohesion, OfAStageWithTheValuesOfTheEffectChangesNoBit) {
-  Scene scene = test::turning_drum();
-  scene.effects.cohesion = Cohesion{1, 2};
-  Scene told = scene;
-  for (Stage& stage : told.stages) stage.effects.cohesion = {1, 2};
-  test::expect_same(test::bodies_at_end(scene), test::bodies_at_end(told));
-}
-
 /// Speed after a time of 1 of a disc that cannot turn, on a floor in gravity tilted by 30 degrees.
 double speed_on_a_slope(double mu, double cohesion) {
-  const TemporaryFolder folder;
-  Scene scene = scene_of({{0, 0.5}}, folder);
-  scene.walls = {test::floor_wall()};
+  Scene scene = scene_of({{0, 0.5}});
+  scene.walls = {floor_wall()};
   scene.effects.gravity = Gravity{9.81, -60};
   scene.effects.friction = Friction{mu, mu};
   scene.effects.cohesion = Cohesion{0, cohesion};
   add_stage(scene, 1, 1e-2);
-  return test::bodies_at_end(scene).v_x[0];
+  return bodies_at_end(scene).v_x[0];
 }
 
 TEST(Cohesion, AddsToTheLoadInCoulombsLaw) {
@@ -96,33 +80,17 @@ TEST(Cohesion, PullsTwoDiscsApartOnlyByMoreThanItsForce) {
   // Two discs hang one below the other from the ceiling: the upper contact carries two weights, the lower
   // one.
   const auto lowest = [](double grain_grain, double grain_wall) {
-    const TemporaryFolder folder;
-    Scene scene = scene_of({{0, -0.5}, {0, -1.5}}, folder);
+    Scene scene = scene_of({{0, -0.5}, {0, -1.5}});
     scene.walls = {{"ceiling", SegmentShape{{-10, 0}, {10, 0}}}};
     scene.effects.gravity = Gravity{};
     scene.effects.cohesion = Cohesion{grain_grain, grain_wall};
     add_stage(scene, 2, 1e-2);
-    return test::bodies_at_end(scene).z;
+    return bodies_at_end(scene).z;
   };
   EXPECT_NEAR(lowest(1.05, 2.05)[1], -1.5, 1e-6);
   EXPECT_LT(lowest(0.95, 2.05)[1], -1.5 - 0.1);    // the lower one falls ...
   EXPECT_NEAR(lowest(0.95, 2.05)[0], -0.5, 1e-6);  // ... alone
   EXPECT_LT(lowest(1.05, 1.95)[0], -0.5 - 0.01);   // both fall
-}
-
-TEST(Cohesion, OfZeroStrengthChangesNoBit) {
-  const Scene plain = test::turning_drum();
-  Scene weak = plain;
-  weak.effects.cohesion = Cohesion{0, 0};
-  test::expect_same(test::bodies_at_end(plain), test::bodies_at_end(weak));
-}
-
-TEST(Cohesion, CostsNoUnknown) {
-  Scene scene = test::turning_drum();
-  scene.effects.cohesion = Cohesion{1, 1};
-  const Simulation simulation(scene);
-  EXPECT_EQ(simulation.stepper().unknowns_per_contact(), 2);
-  EXPECT_EQ(simulation.stepper().velocities_per_body(), 3);
 }
 
 }  // namespace

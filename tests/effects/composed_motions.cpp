@@ -6,23 +6,14 @@
 
 namespace drumlin {
 using namespace particles;
+using namespace test;
 namespace {
 
-using test::add_stage;
-using test::Grain;
-using test::scene_of;
-using test::TemporaryFolder;
-
-const double time_s = std::sqrt(1e-3 / 9.81);  // of scene_of with d = 1 mm
-
-double rpm_of(double spin) { return spin / time_s * 60 / (2 * std::numbers::pi); }
-
 TEST(ComposedMotions, ActInTheirOrder) {
-  const TemporaryFolder folder;
   const double spin = 0.7, v = 0.3, t = 2, angle = spin * t;
   const WallMotion turn{"vane", Rotation{rpm_of(spin), {1, 0}}}, glide{"vane", Translation{{v / time_s, 0}}};
   for (const bool turns_first : {true, false}) {
-    Scene scene = scene_of({{50, 50}}, folder);
+    Scene scene = scene_of({{50, 50}});
     scene.walls = {{"vane", SegmentShape{{1, 0}, {4, 0}}}};
     add_stage(scene, 5, 1e-2);
     scene.stages[0].motions = turns_first ? std::vector{turn, glide} : std::vector{glide, turn};
@@ -48,16 +39,15 @@ TEST(ComposedMotions, ActInTheirOrder) {
 
 TEST(ComposedMotions, ADrumThatTurnsAndGlidesIsADrumThatTurns) {
   // Seen by who glides with it. Gliding grains in a gliding drum, in powers of two so that little is rounded.
-  const TemporaryFolder folder;
   const double v = 0.25;
   const auto end_of = [&](double glide) {
-    Scene scene = scene_of({{-1, -3, 1, glide}, {0.125, -3, 1, glide}, {1.25, -3, 1, glide}}, folder);
+    Scene scene = scene_of({{-1, -3, 1, glide}, {0.125, -3, 1, glide}, {1.25, -3, 1, glide}});
     scene.walls = {{"drum", ContainerShape{{0, 0}, 4}}};
     scene.effects = {Gravity{}, Friction{0.3, 0.5}, std::nullopt, Spin{}};
     add_stage(scene, 4, 0x1p-8);
     scene.stages[0].motions = {{"drum", Rotation{rpm_of(0.5), {0, 0}}}};
     if (glide != 0) scene.stages[0].motions.push_back({"drum", Translation{{glide / time_s, 0}}});
-    return test::bodies_at_end(scene);
+    return bodies_at_end(scene);
   };
   const Bodies turned = end_of(0), carried = end_of(v);
   EXPECT_GT(std::abs(turned.spin[0]), 0.1);
@@ -70,15 +60,13 @@ TEST(ComposedMotions, ADrumThatTurnsAndGlidesIsADrumThatTurns) {
 
 TEST(ComposedMotions, ARollerTurnsWhileAForcePressesIt) {
   // It falls by F t^2 / (2 m), to first order in the step, and turns about its own centre.
-  const TemporaryFolder folder;
-  Scene scene = scene_of({{0, 0.5}}, folder);
+  Scene scene = scene_of({{0, 0.5}});
   const double h = 0.01, spin = 0.5, force = 2, mass = 4, unit = 2700e-6, newton = 2700e-6 * 9.81;
-  scene.walls = {test::floor_wall(), {"roller", DiscShape{{0, 3}, 2}}};
+  scene.walls = {floor_wall(), {"roller", DiscShape{{0, 3}, 2}}};
   add_stage(scene, 1, h);
   scene.stages[0].motions = {{"roller", Rotation{rpm_of(spin), {0, 3}}},
                              {"roller", ForceControl{{0, -1}, force * newton, mass * unit}}};
-  Simulation simulation(scene);
-  while (!simulation.finished()) (void)simulation.step();
+  EndedSimulation simulation(scene);
   const Walls& walls = simulation.walls();
   const Pose pose = walls.pose(1, 1, simulation.state().driven);
   EXPECT_NEAR(pose.angle, spin, 1e-12);

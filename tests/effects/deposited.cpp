@@ -9,6 +9,7 @@
 #include "particles/scene/deposited_placement.hpp"
 #include "particles/scene/random.hpp"
 #include "particles/scene/sizes.hpp"
+#include "tests/support/says.hpp"
 
 namespace drumlin {
 using namespace particles;
@@ -106,7 +107,7 @@ TEST(Deposited, AFullRegionSaysHowManyFound) {
       deposited_centers_mm(diameters, region, 1);
       ADD_FAILURE() << "2000 discs of 17,000 mm2 found a place";
     } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find("found a place"), std::string::npos) << error.what();
+      expect_has(error.what(), "found a place");
     }
   }
   // All but full: what fits is put there.

@@ -5,13 +5,8 @@
 
 namespace drumlin {
 using namespace particles;
+using namespace test;
 namespace {
-
-using test::add_stage;
-using test::scene_of;
-using test::TemporaryFolder;
-
-const double time_s = std::sqrt(1e-3 / 9.81);  // of scene_of()
 
 /// Rates in the units of the simulation.
 Drag drag(double rate, std::optional<double> spin_rate = {}, const std::string& grows_with = "mass") {
@@ -19,12 +14,12 @@ Drag drag(double rate, std::optional<double> spin_rate = {}, const std::string& 
   return {rate / time_s, spin_rate, grows_with};
 }
 
-TEST(Drag, LetsVelocityAndSpinDecayExponentially) {
-  const TemporaryFolder folder;
-  Scene scene = scene_of({{0, 0, 1, 2, 1, 3}}, folder);
+TEST(Drag, LetsVelocityAndSpinDecayExponentiallyAndBooksWhatItTakes) {
+  Scene scene = scene_of({{0, 0, 1, 2, 1, 3}});
   scene.effects.friction = Friction{0.3, 0.3};
   scene.effects.spin = Spin{};
   scene.effects.drag = drag(0.7, 1.3);
+  scene.output.energy_ledger = true;
   add_stage(scene, 4, 0.1);
   Simulation simulation(scene);
   while (!simulation.finished()) {
@@ -33,26 +28,27 @@ TEST(Drag, LetsVelocityAndSpinDecayExponentially) {
     ASSERT_NEAR(simulation.state().bodies.v_x[0], 2 * std::exp(-0.7 * t), 1e-13);
     ASSERT_NEAR(simulation.state().bodies.v_z[0], std::exp(-0.7 * t), 1e-13);
     ASSERT_NEAR(simulation.state().bodies.spin[0], 3 * std::exp(-1.3 * t), 1e-13);
+    const double m = std::numbers::pi / 4, turning = m * 0.25 * 9 / 4;  // J omega^2 / 2
+    ASSERT_NEAR(*simulation.state().energy->effects.drag,
+                m * 5 / 2 * std::expm1(-1.4 * t) + turning * std::expm1(-2.6 * t), 1e-12);
   }
 }
 
 TEST(Drag, StopsADiscAfterItsSpeedOverTheRate) {
   // The mean of the velocities of a step is the trapezoidal rule: of second order.
   const auto missed = [](double h) {
-    const TemporaryFolder folder;
-    Scene scene = scene_of({{0, 0, 1, 2}}, folder);
+    Scene scene = scene_of({{0, 0, 1, 2}});
     scene.effects.drag = drag(0.7);
     add_stage(scene, 4, h);
-    return test::bodies_at_end(scene).x[0] - 2 / 0.7 * (1 - std::exp(-0.7 * 4));
+    return bodies_at_end(scene).x[0] - 2 / 0.7 * (1 - std::exp(-0.7 * 4));
   };
   EXPECT_NEAR(missed(0.2) / missed(0.1), 4, 0.02);
   EXPECT_NEAR(missed(0.1), 2 / 0.7 * (1 - std::exp(-0.7 * 4)) * 0.07 * 0.07 / 12, 1e-6);
 }
 
 TEST(Drag, LetsADiscFallAtItsTerminalVelocity) {
-  const TemporaryFolder folder;
   for (const double rate : {0.1, 10.0, 1000.0}) {  // rate h = 0.01, 1 and 100
-    Scene scene = scene_of({{0, 0}}, folder);
+    Scene scene = scene_of({{0, 0}});
     scene.effects.gravity = Gravity{};
     scene.effects.drag = drag(rate);
     add_stage(scene, 3, 0.1);
@@ -67,13 +63,12 @@ TEST(Drag, LetsADiscFallAtItsTerminalVelocity) {
 
 TEST(Drag, OfAFluidSlowsSmallDiscsFaster) {
   // Force ~ D, mass ~ D^2, and couple ~ D^3, inertia ~ D^4: rates ~ 1 / D.
-  const TemporaryFolder folder;
-  Scene scene = scene_of({{0, 0, 0.5, 1, 0, 2}, {0, 5, 1.5, 1, 0, 2}}, folder);
+  Scene scene = scene_of({{0, 0, 0.5, 1, 0, 2}, {0, 5, 1.5, 1, 0, 2}});
   scene.effects.friction = Friction{0.3, 0.3};
   scene.effects.spin = Spin{};
   scene.effects.drag = drag(0.6, 0.9, "diameter");
   add_stage(scene, 1, 0.1);
-  const Bodies end = test::bodies_at_end(scene);
+  const Bodies end = bodies_at_end(scene);
   EXPECT_NEAR(end.v_x[0], std::exp(-0.6 / 0.5), 1e-13);
   EXPECT_NEAR(end.v_x[1], std::exp(-0.6 / 1.5), 1e-13);
   EXPECT_NEAR(end.spin[0], 2 * std::exp(-0.9 / 0.5), 1e-13);
@@ -81,15 +76,13 @@ TEST(Drag, OfAFluidSlowsSmallDiscsFaster) {
 }
 
 TEST(Drag, LeavesADiscAtRestItsWeight) {
-  const TemporaryFolder folder;
   for (const double rate : {0.1, 100.0}) {
-    Scene scene = scene_of({{0, 0.5}, {0, 1.5}}, folder);
-    scene.walls = {test::floor_wall()};
+    Scene scene = scene_of({{0, 0.5}, {0, 1.5}});
+    scene.walls = {floor_wall()};
     scene.effects.gravity = Gravity{};
     scene.effects.drag = drag(rate);
     add_stage(scene, 1, 0.05);
-    Simulation simulation(scene);
-    while (!simulation.finished()) (void)simulation.step();
+    EndedSimulation simulation(scene);
     const Snapshot snapshot = simulation.take_snapshot();
     ASSERT_EQ(snapshot.contacts.size(), 2u);
     for (const SnapshotContact& contact : snapshot.contacts)
@@ -100,25 +93,23 @@ TEST(Drag, LeavesADiscAtRestItsWeight) {
 
 TEST(Drag, LetsCohesionHoldWhatItHoldsWithout) {
   // With 0.99 weights a disc leaves the ceiling, and falls at 0.01 / rate at first.
-  const TemporaryFolder folder;
   for (const double cohesion : {0.99, 1.01}) {
-    Scene scene = scene_of({{0, -0.5}}, folder);
+    Scene scene = scene_of({{0, -0.5}});
     scene.walls = {{"ceiling", SegmentShape{{-10, 0}, {10, 0}}}};
     scene.effects.gravity = Gravity{};
     scene.effects.cohesion = Cohesion{0, cohesion};
     scene.effects.drag = drag(50);
     add_stage(scene, 2, 0.05);
-    EXPECT_NEAR(test::bodies_at_end(scene).z[0], -0.5 - (cohesion < 1 ? 4e-4 : 0), 5e-5);
+    EXPECT_NEAR(bodies_at_end(scene).z[0], -0.5 - (cohesion < 1 ? 4e-4 : 0), 5e-5);
   }
 }
 
 TEST(Drag, HoldsADiscBackOnABelt) {
   // Friction mu g against rate v: v = mu g / rate (1 - exp(-rate t)), and never more than the belt's speed.
-  const TemporaryFolder folder;
   const double mu = 0.3;
   for (const double rate : {0.5, 5.0, 0.2}) {
-    Scene scene = scene_of({{0, 0.5}}, folder);
-    scene.walls = {test::floor_wall()};
+    Scene scene = scene_of({{0, 0.5}});
+    scene.walls = {floor_wall()};
     scene.effects.gravity = Gravity{};
     scene.effects.friction = Friction{mu, mu};
     scene.effects.drag = drag(rate);
@@ -131,29 +122,6 @@ TEST(Drag, HoldsADiscBackOnABelt) {
       ASSERT_NEAR(simulation.state().bodies.v_x[0], std::min(1.0, -mu / rate * std::expm1(-rate * t)), 1e-8);
     }
   }
-}
-
-TEST(Drag, BooksWhatItTakes) {
-  const TemporaryFolder folder;
-  Scene scene = scene_of({{0, 0, 1, 2, 1, 3}}, folder);
-  scene.effects.friction = Friction{0.3, 0.3};
-  scene.effects.spin = Spin{};
-  scene.effects.drag = drag(0.7, 1.3);
-  scene.output.energy_ledger = true;
-  add_stage(scene, 1, 0.1);
-  Simulation simulation(scene);
-  while (!simulation.finished()) (void)simulation.step();
-  const double m = std::numbers::pi / 4, turning = m * 0.25 * 9 / 4;  // J omega^2 / 2
-  EXPECT_NEAR(*simulation.state().energy->effects.drag,
-              m * 5 / 2 * std::expm1(-1.4) + turning * std::expm1(-2.6), 1e-12);
-}
-
-TEST(Drag, CostsNoUnknown) {
-  Scene scene = test::turning_drum();
-  scene.effects.drag = Drag{1};
-  const Simulation simulation(scene);
-  EXPECT_EQ(simulation.stepper().unknowns_per_contact(), 2);
-  EXPECT_EQ(simulation.stepper().velocities_per_body(), 3);
 }
 
 }  // namespace

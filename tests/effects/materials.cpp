@@ -8,21 +8,18 @@
 
 namespace drumlin {
 using namespace particles;
+using namespace test;
 namespace {
-
-using test::add_stage;
-using test::floor_wall;
-using test::TemporaryFolder;
 
 /// Grains of diameter 1 (d), each with the name of its material.
 struct Made {
   double x, z, v_x;
   std::string material;
 };
-Scene scene_of_materials(const std::vector<Made>& grains, const TemporaryFolder& folder) {
-  Scene scene = test::scene_of({}, folder);
-  const double speed = 1 / std::sqrt(1e-3 / 9.81);
-  std::ofstream out(folder.path() / "grains.csv");
+Scene scene_of_materials(const std::vector<Made>& grains) {
+  Scene scene = scene_of({});
+  const double speed = 1 / time_s;
+  std::ofstream out(std::get<ListedGrains>(scene.grains.source).file);
   out.precision(17);
   out << "x_mm,z_mm,diameter_mm,v_x_mm_s,material\n";
   for (const Made& g : grains)
@@ -33,55 +30,43 @@ Scene scene_of_materials(const std::vector<Made>& grains, const TemporaryFolder&
 
 TEST(MaterialPairs, EachGrainSlidesWithTheFrictionOfItsOwnMaterial) {
   // Without spin a disc slides like a block: v = v0 - mu g t.
-  const TemporaryFolder folder;
-  Scene scene = scene_of_materials({{0, 0.5, 1, "glass"}, {-10, 0.5, 1, "steel"}}, folder);
+  Scene scene = scene_of_materials({{0, 0.5, 1, "glass"}, {-10, 0.5, 1, "steel"}});
   scene.walls = {floor_wall()};
   scene.walls[0].material = "wood";
   scene.effects.gravity = Gravity{};
   scene.effects.friction = Friction{0.4, 0.5, {{{"glass", "wood"}, 0.1}, {{"wood", "steel"}, 0.3}}};
   add_stage(scene, 1, 1e-2);
-  const Bodies end = test::bodies_at_end(scene);
+  const Bodies end = bodies_at_end(scene);
   EXPECT_NEAR(end.v_x[0], 1 - 0.1, 1e-9);
   EXPECT_NEAR(end.v_x[1], 1 - 0.3, 1e-9);
 }
 
 TEST(MaterialPairs, APairThatIsNotNamedKeepsTheCommonValue) {
-  const TemporaryFolder folder;
-  Scene scene = scene_of_materials({{0, 0.5, 1, "glass"}, {-10, 0.5, 1, "steel"}}, folder);
+  Scene scene = scene_of_materials({{0, 0.5, 1, "glass"}, {-10, 0.5, 1, "steel"}});
   scene.walls = {floor_wall()};  // of no material
   scene.effects.gravity = Gravity{};
   scene.effects.friction = Friction{0.4, 0.5, {{{"glass", "steel"}, 0.1}}};
   add_stage(scene, 1, 1e-2);
-  const Bodies end = test::bodies_at_end(scene);
+  const Bodies end = bodies_at_end(scene);
   EXPECT_NEAR(end.v_x[0], 1 - 0.5, 1e-9);
   EXPECT_NEAR(end.v_x[1], 1 - 0.5, 1e-9);
 }
 
 TEST(MaterialPairs, HeadOnImpactsPartWithTheRestitutionOfThePair) {
   // Equal masses: after the impact the first moves with (1 - e)/2, the second with (1 + e)/2 of the speed.
-  const TemporaryFolder folder;
   Scene scene = scene_of_materials(
-      {{0, 0, 1, "glass"}, {1.05, 0, 0, "glass"}, {0, 10, 1, "glass"}, {1.05, 10, 0, "steel"}}, folder);
+      {{0, 0, 1, "glass"}, {1.05, 0, 0, "glass"}, {0, 10, 1, "glass"}, {1.05, 10, 0, "steel"}});
   scene.effects.restitution = Restitution{0, 0, {{{"glass", "glass"}, 0.8}, {{"steel", "glass"}, 0.3}}};
   add_stage(scene, 0.2, 1e-2);
-  const Bodies end = test::bodies_at_end(scene);
+  const Bodies end = bodies_at_end(scene);
   EXPECT_NEAR(end.v_x[0], (1 - 0.8) / 2, 1e-9);
   EXPECT_NEAR(end.v_x[1], (1 + 0.8) / 2, 1e-9);
   EXPECT_NEAR(end.v_x[2], (1 - 0.3) / 2, 1e-9);
   EXPECT_NEAR(end.v_x[3], (1 + 0.3) / 2, 1e-9);
 }
 
-TEST(MaterialPairs, EqualToTheCommonValuesChangeNoBit) {
-  const Scene plain = test::turning_drum();
-  Scene paired = plain;
-  paired.grains.materials = {{"glass", 2}, {"steel", 1}};
-  paired.effects.friction->pairs = {{{"glass", "steel"}, 0.4}, {{"glass", "glass"}, 0.4}};
-  paired.effects.restitution->pairs = {{{"glass", "steel"}, 0.46}};
-  test::expect_same(test::bodies_at_end(plain), test::bodies_at_end(paired));
-}
-
 TEST(MaterialPairs, MaterialsAreStoredOnlyIfALawAsksForThem) {
-  Scene scene = test::turning_drum();
+  Scene scene = turning_drum();
   scene.grains.materials = {{"glass"}, {"steel"}};
   scene.walls[0].material = "steel";
   EXPECT_TRUE(Simulation(scene).state().bodies.material.empty());
@@ -92,7 +77,7 @@ TEST(MaterialPairs, MaterialsAreStoredOnlyIfALawAsksForThem) {
 }
 
 TEST(MaterialPairs, SharesAreDrawnByNumber) {
-  Scene scene = test::turning_drum();
+  Scene scene = turning_drum();
   scene.grains.source = GeneratedGrains{4000, 3, 3.6, RectangleRegion{{0, 0}, {1000, 1000}}};
   scene.walls.clear();
   scene.grains.materials = {{"glass", 3}, {"steel", 1}};
@@ -105,10 +90,9 @@ TEST(MaterialPairs, SharesAreDrawnByNumber) {
 TEST(WallsThatActOnAMaterial, LetOthersPass) {
   // Through a floor, from above and while lying in it, through a drum, and through a line that is jumped
   // over.
-  const TemporaryFolder folder;
   const double t = 4;
   const auto end_of = [&](const Wall& wall, const std::vector<Made>& grains, double h, bool falls = false) {
-    Scene scene = scene_of_materials(grains, folder);
+    Scene scene = scene_of_materials(grains);
     scene.walls = {wall};
     scene.walls[0].acts_on = {"steel"};
     if (falls) scene.effects.gravity = Gravity{};
@@ -134,8 +118,7 @@ TEST(WallsThatActOnAMaterial, LetOthersPass) {
 }
 
 TEST(MaterialPairs, AListThatNamesAnUnknownMaterialIsRefused) {
-  const TemporaryFolder folder;
-  Scene scene = scene_of_materials({{0, 0.5, 1, "cork"}}, folder);
+  Scene scene = scene_of_materials({{0, 0.5, 1, "cork"}});
   scene.effects.friction = Friction{0.4, 0.5, {{{"glass", "steel"}, 0.1}}};
   EXPECT_THROW(place_grains(scene, scales_of(scene)), InputError);
 }

@@ -8,11 +8,12 @@
 
 namespace drumlin {
 using namespace particles;
+using namespace test;
 namespace {
 
 /// Shapes of all kinds in a box of 60 mm that is periodic in x; a pin reaches over the seam.
 Scene pins(const GeneratedGrains& grains) {
-  Scene scene = test::open_box(grains, 60, 200);
+  Scene scene = open_box(grains, 60, 200);
   scene.walls = {{"floor", SegmentShape{{0, 0}, {60, 0}}},
                  {"pins", DiscShape{{59, 10}, 8}},
                  {"pins", SegmentShape{{10, 5}, {20, 25}}},
@@ -50,11 +51,11 @@ TEST(GeneratedAround, NoGrainOverlapsAShape) {
 }
 
 TEST(GeneratedAround, WallsOutsideOfTheRegionChangeNothing) {
-  Scene scene = test::turning_drum();
+  Scene scene = turning_drum();
   scene.walls.push_back({"far", DiscShape{{100, 0}, 5}});
   const Bodies before = place_grains(scene, scales_of(scene));
   std::get<GeneratedGrains>(scene.grains.source).around = {"far"};
-  test::expect_same(before, place_grains(scene, scales_of(scene)));
+  expect_same(before, place_grains(scene, scales_of(scene)));
 }
 
 }  // namespace

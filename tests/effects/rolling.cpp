@@ -3,21 +3,18 @@
 
 #include "particles/contact/problems.hpp"
 #include "particles/contact/residual.hpp"
-#include "particles/lab/any_solver.hpp"
 #include "particles/scene/random.hpp"
 #include "tests/effects/drums.hpp"
+#include "tests/particles/solving.hpp"
 
 namespace drumlin {
 using namespace particles;
+using namespace test;
 namespace {
 
-using test::add_stage;
-using test::scene_of;
-using test::TemporaryFolder;
-
-Scene on_a_floor(double v, double slope_deg, double mu, double mu_r, const TemporaryFolder& folder) {
-  Scene scene = scene_of({{0, 0.5, 1, v, 0, 2 * v}}, folder);
-  scene.walls = {test::floor_wall()};
+Scene on_a_floor(double v, double slope_deg, double mu, double mu_r) {
+  Scene scene = scene_of({{0, 0.5, 1, v, 0, 2 * v}});
+  scene.walls = {floor_wall()};
   scene.effects.gravity = Gravity{9.81, -90 + slope_deg};
   scene.effects.friction = Friction{mu, mu};
   scene.effects.spin = Spin{};
@@ -27,9 +24,8 @@ Scene on_a_floor(double v, double slope_deg, double mu, double mu_r, const Tempo
 
 TEST(RollingResistance, SlowsARollingDiscByTwoThirdsOfItsShareOfGravity) {
   // m a = -F, J alpha = F r - mu_r m g r with J = m r^2 / 2 and a = r alpha: a = -2/3 mu_r g.
-  const TemporaryFolder folder;
   const double v0 = 1, mu_r = 0.3;
-  Scene scene = on_a_floor(v0, 0, 0.8, mu_r, folder);
+  Scene scene = on_a_floor(v0, 0, 0.8, mu_r);
   add_stage(scene, 6, 1e-2);  // it stops at 5
   Simulation simulation(scene);
   while (!simulation.finished()) {
@@ -42,75 +38,58 @@ TEST(RollingResistance, SlowsARollingDiscByTwoThirdsOfItsShareOfGravity) {
 
 TEST(RollingResistance, HoldsADiscOnASlopeBelowItsCoefficient) {
   // About the contact: m g sin r against at most mu_r m g cos r.
-  const TemporaryFolder folder;
-  Scene scene = on_a_floor(0, 20, 1, std::tan(std::numbers::pi / 9) + 1e-3, folder);
+  Scene scene = on_a_floor(0, 20, 1, std::tan(std::numbers::pi / 9) + 1e-3);
   add_stage(scene, 2, 1e-2);
-  EXPECT_NEAR(test::bodies_at_end(scene).v_x[0], 0, 1e-9);
+  EXPECT_NEAR(bodies_at_end(scene).v_x[0], 0, 1e-9);
 }
 
 TEST(RollingResistance, LetsADiscRollOnASteeperSlope) {
   // a = 2/3 g (sin - mu_r cos); friction (tan - mu_r)/3 + mu_r = 0.19 of the load is there.
-  const TemporaryFolder folder;
   const double slope = std::numbers::pi / 9, mu_r = 0.1;
-  Scene scene = on_a_floor(0, 20, 0.8, mu_r, folder);
+  Scene scene = on_a_floor(0, 20, 0.8, mu_r);
   add_stage(scene, 2, 1e-2);
-  EXPECT_NEAR(test::bodies_at_end(scene).v_x[0] / 2, 2.0 / 3 * (std::sin(slope) - mu_r * std::cos(slope)),
-              1e-8);
+  EXPECT_NEAR(bodies_at_end(scene).v_x[0] / 2, 2.0 / 3 * (std::sin(slope) - mu_r * std::cos(slope)), 1e-8);
 }
 
 TEST(RollingResistance, HoldsASpinningDiscBetweenTurningWalls) {
   // Without gravity nothing presses, without load nothing resists: the spin stays.
-  const TemporaryFolder folder;
-  Scene scene = scene_of({{0, 0.5, 1, 0, 0, 3}}, folder);
-  scene.walls = {test::floor_wall()};
+  Scene scene = scene_of({{0, 0.5, 1, 0, 0, 3}});
+  scene.walls = {floor_wall()};
   scene.effects.friction = Friction{0.5, 0.5};
   scene.effects.spin = Spin{};
   scene.effects.rolling_resistance = RollingResistance{0.5, 0.5};
   add_stage(scene, 1, 1e-2);
-  EXPECT_EQ(test::bodies_at_end(scene).spin[0], 3);
+  EXPECT_EQ(bodies_at_end(scene).spin[0], 3);
 }
 
 TEST(RollingResistance, ReckonsTheTurningOfAWallIn) {
   // A disc that lies on a turning drum, at the drum's velocity, stays where it is on the wall, neither
   // sliding nor rolling, until the slope there reaches mu_r.
-  const TemporaryFolder folder;
   const double spin = 0.05, duration = 5;
-  Scene scene = scene_of({{0, -9.5, 1, -9.5 * spin, 0, spin}}, folder);
+  Scene scene = scene_of({{0, -9.5, 1, -9.5 * spin, 0, spin}});
   scene.walls = {{"drum", ContainerShape{{0, 0}, 10}}};
   scene.effects = {Gravity{}, Friction{2, 2}, std::nullopt, Spin{}, RollingResistance{1, 1}};
-  const double time_s = std::sqrt(1e-3 / 9.81);
   add_stage(scene, duration, 1e-2);
   scene.stages[0].motions = {{"drum", Rotation{spin / time_s * 60 / (2 * std::numbers::pi), {0, 0}}}};
-  const Bodies end = test::bodies_at_end(scene);
+  const Bodies end = bodies_at_end(scene);
   // An angle of 0.25 rad, where tan = 0.255 < 1; first order in the step.
   EXPECT_NEAR(end.spin[0], spin, 1e-6);
   EXPECT_NEAR(end.x[0], -9.5 * std::sin(spin * duration), 1e-2);
 }
 
 TEST(RollingResistance, OfZeroStrengthIsNone) {
-  Scene plain = test::turning_drum(30), weak = plain;
+  Scene plain = turning_drum(30), weak = plain;
   plain.solver.tolerance = weak.solver.tolerance = 1e-10;
   plain.solver.max_sweeps = weak.solver.max_sweeps = 5000;
   plain.stages[0].duration_s = weak.stages[0].duration_s = 0.05;
   weak.effects.rolling_resistance = RollingResistance{0, 0};
-  const Bodies a = test::bodies_at_end(plain), b = test::bodies_at_end(weak);
+  const Bodies a = bodies_at_end(plain), b = bodies_at_end(weak);
   // Contacts are solved in another order: alike up to the tolerance and what impacts make of it.
   for (std::size_t k = 0; k < a.count(); ++k) {
     EXPECT_NEAR(a.x[k], b.x[k], 1e-6);
     EXPECT_NEAR(a.z[k], b.z[k], 1e-6);
     EXPECT_NEAR(a.spin[k], b.spin[k], 1e-5);
   }
-}
-
-TEST(RollingResistance, CostsOneUnknownPerContact) {
-  Scene scene = test::turning_drum();
-  EXPECT_EQ(Simulation(scene).stepper().unknowns_per_contact(), 2);
-  scene.effects.rolling_resistance = RollingResistance{0.1, 0.1};
-  Simulation simulation(scene);
-  EXPECT_EQ(simulation.stepper().unknowns_per_contact(), 3);
-  EXPECT_EQ(simulation.stepper().velocities_per_body(), 3);
-  while (simulation.state().memory.i.empty()) (void)simulation.step();
-  EXPECT_EQ(simulation.state().memory.impulse.size(), 3 * simulation.state().memory.i.size());
 }
 
 /// W_aa by unit impulses, against the block that the sweep uses.
@@ -163,12 +142,8 @@ TEST(RollingContact, SolversReachTheJudgeOfTheThreefoldLaw) {
   for (int b = 0; b < 8; ++b) add(b, 8, 0, 1, 1);
   for (int b = 0; b < 7; ++b) add(b + 1, b, 1, 0, random.uniform(0.2, 0.8));
   for (const char* name : {"nlgs", "nncg"}) {
-    SolverWorkspace<RollingProblem> work;
-    Solution<RollingProblem> solution;
-    StoppingRule rule;
-    rule.tolerance = 1e-10, rule.max_sweeps = 5000;
-    const auto report = any_solver<RollingProblem>(name)(problem, rule, work, solution);
-    EXPECT_EQ(report.status, Status::converged) << name;
+    auto solution = solved_by(name, problem, 1e-10, 5000);
+    EXPECT_EQ(solution.report.status, Status::converged) << name;
     // A wrong impulse is seen: the residual is no rubber stamp.
     solution.impulses[2] += 0.1;
     EXPECT_GT(residual_of(problem, solution).rms, 1e-3);

@@ -5,12 +5,8 @@
 
 namespace drumlin {
 using namespace particles;
+using namespace test;
 namespace {
-
-using test::add_stage;
-using test::Grain;
-using test::scene_of;
-using test::TemporaryFolder;
 
 // Of scene_of with d = 1 mm and 2700 kg/m3.
 const double length_m = 1e-3, time_s = std::sqrt(1e-3 / 9.81);
@@ -19,11 +15,11 @@ const double pressure_unit = force_unit / length_m;
 const double weight = std::numbers::pi / 4;  // of a disc of diameter 1
 
 /// Eight discs below a lid of length 4 between two sides, at rest.
-Scene column(const PressureControl& lid, const TemporaryFolder& folder) {
+Scene column(const PressureControl& lid) {
   std::vector<Grain> grains;
   for (int k = 0; k < 8; ++k) grains.push_back({0, 0.5 + k});
-  Scene scene = scene_of(grains, folder);
-  scene.walls = {test::floor_wall(),
+  Scene scene = scene_of(grains);
+  scene.walls = {floor_wall(),
                  {"lid", SegmentShape{{-2, 8}, {2, 8}}},
                  {"left", SegmentShape{{-3, 0}, {-3, 8}}},
                  {"right", SegmentShape{{3, 0}, {3, 8}}}};
@@ -39,63 +35,54 @@ double load_on(int wall, const Simulation& simulation) {
 }
 
 TEST(Pressure, ActsOnTheLengthOfTheWall) {
-  const TemporaryFolder folder;
   const double p = 2.5;
-  Scene scene = column({{0, -1}, p * pressure_unit, 5 * mass_unit}, folder);
+  Scene scene = column({{0, -1}, p * pressure_unit, 5 * mass_unit});
   scene.output.walls_every_s = 1;  // one interval
-  Simulation simulation(scene);
-  while (!simulation.finished()) (void)simulation.step();
+  EndedSimulation simulation(scene);
   EXPECT_NEAR(load_on(0, simulation), -(4 * p + 8 * weight), 1e-5);
   EXPECT_NEAR(load_on(1, simulation), 4 * p, 1e-5);
 }
 
 TEST(Pressure, ActsOnTheLengthBetweenTwoWallsAsItChanges) {
   // The sides part at speed 1 each: after a time t the length is 6 + 2 t; its mean at the starts of 20 steps.
-  const TemporaryFolder folder;
   const double p = 2.5, mm_s = length_m * 1e3 / time_s;
   PressureControl lid{{0, -1}, p * pressure_unit, 5 * mass_unit};
   lid.between = {"left", "right"};
-  Scene scene = column(lid, folder);
+  Scene scene = column(lid);
   scene.output.walls_every_s = 1;
   scene.stages[0].motions.push_back({"left", Translation{{-mm_s, 0}}});
   scene.stages[0].motions.push_back({"right", Translation{{mm_s, 0}}});
-  Simulation simulation(scene);
-  while (!simulation.finished()) (void)simulation.step();
+  EndedSimulation simulation(scene);
   EXPECT_NEAR(load_on(1, simulation), p * (6 + 2 * 0.05 * 9.5), 1e-5);
 }
 
 TEST(Pressure, OfAPeriodicSceneActsOnThePeriod) {
-  const TemporaryFolder folder;
-  Scene scene = column({{0, -1}, pressure_unit, mass_unit}, folder);
+  Scene scene = column({{0, -1}, pressure_unit, mass_unit});
   scene.periodic_x = PeriodicX{-10, 10};
   scene.walls[1].shape = SegmentShape{{-10.5, 8}, {10.5, 8}};
   EXPECT_NEAR(length_across(walls_of(scene, scales_of(scene)), 1, {0, -1}), 20, 1e-12);
 }
 
 TEST(OscillatingForce, GivesAFreeWallItsIntegral) {
-  const TemporaryFolder folder;
   const double M = 2, A = 3, omega = 5, T = 1.3;
-  Scene scene = scene_of({{0, 0.5}}, folder);
+  Scene scene = scene_of({{0, 0.5}});
   scene.walls = {{"piston", SegmentShape{{-2, 10}, {2, 10}}}};
   add_stage(scene, T, 0.02);
   ForceControl force{{0, -1}, 0, M * mass_unit};
   force.oscillation = ForceOscillation{A * force_unit, omega / (2 * std::numbers::pi * time_s), 0};
   scene.stages[0].motions = {{"piston", force}};
-  Simulation simulation(scene);
-  while (!simulation.finished()) (void)simulation.step();
+  EndedSimulation simulation(scene);
   EXPECT_NEAR(simulation.state().driven[0].velocity, A / (M * omega) * (1 - std::cos(omega * T)), 1e-9);
 }
 
 TEST(StrainRate, KeepsVelocityOverDistanceAlsoInTheNextStage) {
-  const TemporaryFolder folder;
   const double rate = -0.3;
-  Scene scene = scene_of({{50, 50}}, folder);
+  Scene scene = scene_of({{50, 50}});
   scene.walls = {{"lid", SegmentShape{{-2, 9}, {2, 9}}}};
   add_stage(scene, 1, 0.01);
   add_stage(scene, 1, 0.01);
   for (Stage& stage : scene.stages) stage.motions = {{"lid", StrainRate{{0, 3}, {7, -1}, rate / time_s}}};
-  Simulation simulation(scene);
-  while (!simulation.finished()) (void)simulation.step();
+  EndedSimulation simulation(scene);
   const Pose pose = simulation.walls().pose(0, simulation.state().time_in_stage);
   EXPECT_NEAR(9 + pose.z, -1 + 10 * std::exp(2 * rate), 1e-9);
   EXPECT_EQ(pose.x, 0);
@@ -103,16 +90,14 @@ TEST(StrainRate, KeepsVelocityOverDistanceAlsoInTheNextStage) {
 
 TEST(WallLoads, HoldMomentumThroughImpactsAndTheTorqueOfAWeight) {
   // A disc dropped to the right of the middle of a floor: in all its impulse is m (g T + v), at its place.
-  const TemporaryFolder folder;
   const double T = 12;
-  Scene scene = scene_of({{2, 1.5}}, folder);
-  scene.walls = {test::floor_wall()};
+  Scene scene = scene_of({{2, 1.5}});
+  scene.walls = {floor_wall()};
   scene.effects.gravity = Gravity{};
   scene.effects.restitution = Restitution{0.6, 0.6};
   add_stage(scene, T, 0.01);
   scene.output.walls_every_s = 100;
-  Simulation simulation(scene);
-  while (!simulation.finished()) (void)simulation.step();
+  EndedSimulation simulation(scene);
   const WallLoads loads = simulation.state().loads.value();
   EXPECT_NEAR(loads.time, T, 1e-9);
   const double impulse = weight * (T + simulation.state().bodies.v_z[0]);
@@ -123,9 +108,8 @@ TEST(WallLoads, HoldMomentumThroughImpactsAndTheTorqueOfAWeight) {
 }
 
 TEST(WallLoads, HoldPlaceAndVelocityOfAWall) {
-  const TemporaryFolder folder;
   const double mm_s = length_m * 1e3 / time_s, h = 0.1;
-  Scene scene = scene_of({{50, 50}}, folder);
+  Scene scene = scene_of({{50, 50}});
   scene.walls = {{"lid", SegmentShape{{-2, 9}, {4, 9}}}};
   add_stage(scene, 2, h);
   scene.stages[0].motions = {{"lid", Translation{{0, -mm_s}}}};
@@ -146,34 +130,8 @@ TEST(WallLoads, HoldPlaceAndVelocityOfAWall) {
   }
 }
 
-TEST(Polyline, KeepsAGasInsideAtItsCornersAndLosesNoEnergy) {
-  Scene scene;
-  scene.grains.density_kg_m3 = 2700;
-  scene.grains.source = GeneratedGrains{40, 0.8, 1.2, RectangleRegion{{-4.5, -4.5}, {4.5, 4.5}}};
-  scene.grains.thermal_speed_mm_s = 500;
-  // A star with reentrant corners.
-  PolylineShape star;
-  for (int k = 0; k < 10; ++k) {
-    const double r = k % 2 == 0 ? 16 : 9, angle = std::numbers::pi * k / 5 + 0.1;
-    star.x_mm.push_back(r * std::cos(angle)), star.z_mm.push_back(r * std::sin(angle));
-  }
-  star.closed = true;
-  scene.walls = {{"star", star}};
-  scene.effects.restitution = Restitution{1, 1};
-  Stage stage;
-  stage.name = "gas", stage.duration_s = 0.5, stage.time_step_s = 2e-4;
-  scene.stages = {stage};
-  Simulation simulation(scene);
-  EXPECT_EQ(simulation.walls().reference.size(), 10u);
-  const double before = kinetic_energy(simulation.state().bodies);
-  while (!simulation.finished()) ASSERT_FALSE(simulation.step().lost);
-  const Bodies& bodies = simulation.state().bodies;
-  for (std::size_t b = 0; b < bodies.count(); ++b) ASSERT_LT(std::hypot(bodies.x[b], bodies.z[b]), 16);
-  EXPECT_NEAR(kinetic_energy(bodies), before, 0.02 * before);
-}
-
 TEST(ThermalMotion, HasNoMomentumAndExactlyItsEnergy) {
-  Scene scene = test::turning_drum();
+  Scene scene = turning_drum();
   scene.grains.thermal_speed_mm_s = 70;
   const Simulation simulation(scene);
   const Bodies& bodies = simulation.state().bodies;
@@ -186,7 +144,7 @@ TEST(ThermalMotion, HasNoMomentumAndExactlyItsEnergy) {
   EXPECT_NEAR(x, 0, 1e-12 * mass * speed);
   EXPECT_NEAR(z, 0, 1e-12 * mass * speed);
   EXPECT_NEAR(kinetic_energy(bodies), mass * speed * speed / 2, 1e-12 * mass * speed * speed);
-  test::expect_same(bodies, Simulation(scene).state().bodies);
+  expect_same(bodies, Simulation(scene).state().bodies);
   scene.seed = 2;
   EXPECT_NE(bodies.v_x, Simulation(scene).state().bodies.v_x);
 }

@@ -12,6 +12,7 @@
 
 namespace drumlin {
 using namespace particles;
+using namespace test;
 namespace {
 
 GeneratedGrains one_to_fifty(int count, const Sizes& sizes) {
@@ -110,7 +111,7 @@ TEST(Sizes, AFlatPowerLawIsUniform) {
   for (int k = 0; k < 100; ++k) EXPECT_NEAR(drawn_diameter_mm(flat, a), drawn_diameter_mm(uniform, b), 1e-12);
 }
 
-Scene box(const GeneratedGrains& grains) { return test::open_box(grains, 400, 4000); }
+Scene box(const GeneratedGrains& grains) { return open_box(grains, 400, 4000); }
 
 TEST(Sizes, PlacedGrainsLieInTheRegionAndNotInEachOther) {
   const Scene scene = box(one_to_fifty(3000, PowerLawSizes{2.5}));
@@ -133,33 +134,6 @@ TEST(Sizes, PlacedGrainsLieInTheRegionAndNotInEachOther) {
   EXPECT_GT(largest / smallest, 30);
   // From below, and dense: not scattered over the whole region.
   EXPECT_GT(area / (400 * unit * top), 0.35);
-}
-
-TEST(Sizes, DetectionMissesNoPairOfOneToFifty) {
-  const Scene scene = box(one_to_fifty(600, PowerLawSizes{2}));
-  const Scales scales = scales_of(scene);
-  Simulation simulation(scene);
-  while (!simulation.finished()) (void)simulation.step();
-  const Bodies& bodies = simulation.state().bodies;
-  Walls walls = walls_of(scene, scales);
-  begin_stage(walls, scene.stages[0], scales, 0);
-  const double h = 0.01;
-  const WallStep step = wall_step(walls, 0, h);
-  const DetectionInput input{step.before, step.displacement, h, 0.02, {}};
-  ContactDetection detection;
-  const auto& found = detection.find(bodies, bodies.v_x, bodies.v_z, input);
-  std::size_t needed = 0;
-  for (int i = 0; i < 600; ++i)
-    for (int j = -3; j < i; ++j) {
-      Candidate pair{j < 0 ? i : j, j < 0 ? j : i, 0, 0, 0, 0, 0};
-      double n_x = 0, n_z = 0;
-      if (gap_now(pair, bodies, step.before, {}, n_x, n_z) >= 0.02) continue;
-      ++needed;
-      EXPECT_EQ(std::count_if(found.begin(), found.end(),
-                              [&](const Candidate& c) { return c.i == pair.i && c.j == pair.j; }),
-                1);
-    }
-  EXPECT_GT(needed, 300u);
 }
 
 TEST(WallCrossing, IsUndoneOntoTheSideItCameFrom) {
@@ -269,7 +243,7 @@ TEST(Sizes, NoSmallGrainIsPressedThroughAWallByLargeOnes) {
 
 TEST(Sizes, AreAbsentUnlessNamed) {
   // The lattice and the streams of uniform diameters are those of before there were distributions.
-  Scene scene = test::turning_drum(3);
+  Scene scene = turning_drum(3);
   const Bodies bodies = place_grains(scene, scales_of(scene));
   RandomStream sizes(scene.seed, "grains/diameter");
   for (const double radius : bodies.radius) EXPECT_NEAR(2 * radius * 3.3, sizes.uniform(3, 3.6), 1e-12);

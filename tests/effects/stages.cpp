@@ -5,11 +5,8 @@
 
 namespace drumlin {
 using namespace particles;
+using namespace test;
 namespace {
-
-using test::add_stage;
-using test::scene_of;
-using test::TemporaryFolder;
 
 // Of scene_of with d = 1 mm and 2700 kg/m3.
 const double length_m = 1e-3, time_s = std::sqrt(1e-3 / 9.81);
@@ -19,17 +16,16 @@ void run_to_end(Simulation& simulation) {
 }
 
 /// A disc that slides on a floor at speed 1, without spin: it stops after 1/mu.
-Scene sliding_disc(double mu, const TemporaryFolder& folder) {
-  Scene scene = scene_of({{0, 0.5, 1, 1}}, folder);
-  scene.walls = {test::floor_wall()};
+Scene sliding_disc(double mu) {
+  Scene scene = scene_of({{0, 0.5, 1, 1}});
+  scene.walls = {floor_wall()};
   scene.effects = {Gravity{}, Friction{mu, mu}};
   return scene;
 }
 
 TEST(OpenedWall, LetsADiscFallAndKeepsTheNumbersOfTheOthers) {
-  const TemporaryFolder folder;
   const double h = 0.01;
-  Scene scene = scene_of({{0, 0.5}}, folder);
+  Scene scene = scene_of({{0, 0.5}});
   scene.walls = {{"gate", SegmentShape{{-2, 0}, {2, 0}}}, {"floor", SegmentShape{{-9, -3}, {9, -3}}}};
   scene.effects.gravity = Gravity{};
   add_stage(scene, 0.5, h);
@@ -56,9 +52,8 @@ TEST(OpenedWall, LetsADiscFallAndKeepsTheNumbersOfTheOthers) {
 }
 
 TEST(StageGravity, TurnsAndGrowsAtEvenRatesAndStaysAsItIs) {
-  const TemporaryFolder folder;
   const double pi = std::numbers::pi, h = 0.01, T = 4;
-  Scene scene = scene_of({{0, 0}}, folder);
+  Scene scene = scene_of({{0, 0}});
   scene.effects.gravity = Gravity{};
   add_stage(scene, T, h);
   add_stage(scene, 1, h);
@@ -85,10 +80,9 @@ TEST(StageGravity, TurnsAndGrowsAtEvenRatesAndStaysAsItIs) {
 }
 
 TEST(StageGravity, TiltedFloorHoldsADiscUpToTheAngleOfFriction) {
-  const TemporaryFolder folder;
   const double mu = 0.5, critical = std::atan(mu) * 180 / std::numbers::pi;
-  Scene scene = sliding_disc(mu, folder);
-  scene.grains.source = std::get<ListedGrains>(scene_of({{0, 0.5}}, folder).grains.source);
+  Scene scene = sliding_disc(mu);
+  scene.grains.source = std::get<ListedGrains>(scene_of({{0, 0.5}}).grains.source);
   add_stage(scene, 40, 0.05);  // a degree per unit of time
   scene.stages[0].gravity = StageGravity{{}, -50, true};
   Simulation simulation(scene);
@@ -101,8 +95,7 @@ TEST(StageGravity, TiltedFloorHoldsADiscUpToTheAngleOfFriction) {
 }
 
 TEST(StageCoefficients, HoldInTheirStageAlone) {
-  const TemporaryFolder folder;
-  Scene scene = sliding_disc(0.4, folder);
+  Scene scene = sliding_disc(0.4);
   add_stage(scene, 1, 0.01);
   add_stage(scene, 1, 0.01);
   scene.stages[0].effects.friction = {0, 0};
@@ -116,19 +109,18 @@ TEST(StageCoefficients, HoldInTheirStageAlone) {
 
 TEST(StageCoefficients, OfRestitutionDecideHowADiscRebounds) {
   for (const double e : {0.25, 1.0}) {
-    const TemporaryFolder folder;
-    Scene scene = scene_of({{0, 1, 1, 0, -2}}, folder);
-    scene.walls = {test::floor_wall()};
+    Scene scene = scene_of({{0, 1, 1, 0, -2}});
+    scene.walls = {floor_wall()};
     scene.effects.restitution = Restitution{0.5, 0.5};
     add_stage(scene, 1, 0.01);
     scene.stages[0].effects.restitution = {0, e};
-    EXPECT_NEAR(test::bodies_at_end(scene).v_z[0], 2 * e, 1e-9);
+    EXPECT_NEAR(bodies_at_end(scene).v_z[0], 2 * e, 1e-9);
   }
 }
 
 /// Slides, stops after 2.5 and has been at rest for 0.5 at 3; then a plain stage.
-Scene until_rest(const TemporaryFolder& folder) {
-  Scene scene = sliding_disc(0.4, folder);
+Scene until_rest() {
+  Scene scene = sliding_disc(0.4);
   add_stage(scene, 10, 0.01);
   add_stage(scene, 1, 0.01);
   scene.stages[0].snapshots = 10, scene.stages[1].snapshots = 2;
@@ -139,8 +131,7 @@ Scene until_rest(const TemporaryFolder& folder) {
 }
 
 TEST(Until, RestEndsAStageAndMovesWhatFollows) {
-  const TemporaryFolder folder;
-  Simulation simulation(until_rest(folder));
+  Simulation simulation(until_rest());
   std::vector<std::int64_t> taken;
   while (!simulation.finished()) {
     (void)simulation.step();
@@ -165,8 +156,7 @@ TEST(Until, RestEndsAStageAndMovesWhatFollows) {
 }
 
 TEST(Until, AWallHasMovedEndsAStage) {
-  const TemporaryFolder folder;
-  Scene scene = scene_of({{0, 5}}, folder);
+  Scene scene = scene_of({{0, 5}});
   scene.walls = {{"lid", SegmentShape{{-2, 20}, {2, 20}}}};
   add_stage(scene, 10, 0.01);
   const double speed = 2 * length_m * 1e3 / time_s;
@@ -179,7 +169,7 @@ TEST(Until, AWallHasMovedEndsAStage) {
 }
 
 TEST(Stages, AbsentChangesLeaveNoState) {
-  const Scene plain = test::turning_drum();
+  const Scene plain = turning_drum();
   Simulation simulation(plain);
   (void)simulation.step();
   const SimulationState& state = simulation.state();

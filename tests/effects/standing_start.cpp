@@ -10,13 +10,14 @@
 
 namespace drumlin {
 using namespace particles;
+using namespace test;
 namespace {
 
 /// Ten steps.
 Scene box(const std::string& placement) {
   GeneratedGrains grains{2000, 3.0, 3.6, RectangleRegion{{0, 0}, {100, 400}}};
   grains.placement = placement;
-  Scene scene = test::open_box(grains, 100, 400);
+  Scene scene = open_box(grains, 100, 400);
   scene.stages[0].duration_s = 0.01;
   return scene;
 }

@@ -3,9 +3,11 @@
 
 #include "particles/scene/effect_variants.hpp"
 #include "tests/effects/drums.hpp"
+#include "tests/support/says.hpp"
 
 namespace drumlin {
 using namespace particles;
+using namespace test;
 namespace {
 
 const EffectVariant* find(const std::vector<EffectVariant>& variants, const std::string& effect,
@@ -21,7 +23,7 @@ int unknowns(const EffectVariant& variant) {
 }
 
 TEST(EffectVariants, TakeAwayWhatIsNamedAndAddWhatIsNot) {
-  const auto variants = effect_variants(test::turning_drum(12));
+  const auto variants = effect_variants(turning_drum(12));
   ASSERT_EQ(variants.front().change, EffectChange::none);
   for (const char* effect : {"gravity", "friction", "spin", "restitution", "sizes"}) {
     EXPECT_NE(find(variants, effect, EffectChange::removed), nullptr) << effect;
@@ -34,7 +36,7 @@ TEST(EffectVariants, TakeAwayWhatIsNamedAndAddWhatIsNot) {
 }
 
 TEST(EffectVariants, CostWhatTheirTypesSay) {
-  const auto variants = effect_variants(test::turning_drum(12));
+  const auto variants = effect_variants(turning_drum(12));
   EXPECT_EQ(unknowns(variants.front()), 2);
   EXPECT_EQ(unknowns(*find(variants, "friction", EffectChange::removed)), 1);
   EXPECT_EQ(unknowns(*find(variants, "spin", EffectChange::removed)), 2);
@@ -45,24 +47,24 @@ TEST(EffectVariants, CostWhatTheirTypesSay) {
 }
 
 TEST(EffectVariants, RunOrSayWhyNot) {
-  for (const auto& variant : effect_variants(test::turning_drum(12))) {
+  for (const auto& variant : effect_variants(turning_drum(12))) {
     EXPECT_EQ(variant.refused, "") << variant.effect;
     Simulation simulation(variant.scene);
     for (int k = 0; k < 5; ++k) (void)simulation.step();
   }
   // Grains that fill a box to its walls leave no room for glued discs.
-  Scene full = test::turning_drum(12);
+  Scene full = turning_drum(12);
   full.grains.source = GeneratedGrains{4, 3, 3.6, RectangleRegion{{-20, -20}, {20, 20}}};
   full.walls = {{"floor", SegmentShape{{-20, -20}, {20, -20}}}};
   full.stages[0].motions.clear();
   const auto variants = effect_variants(full);
   const auto* rough = find(variants, "rough walls", EffectChange::added);
   ASSERT_NE(rough, nullptr);
-  EXPECT_NE(rough->refused.find("crossed by wall"), std::string::npos) << rough->refused;
+  expect_has(rough->refused, "crossed by wall");
 }
 
 TEST(EffectVariants, StopWallsThatShakeOrArePushed) {
-  Scene scene = test::turning_drum(12);
+  Scene scene = turning_drum(12);
   scene.walls.push_back({"lid", SegmentShape{{-15, 15}, {15, 15}}});
   scene.stages[0].motions = {{"drum", Rocking{20, 4, 10, {0, 0}}},
                              {"lid", ForceControl{{0, -1}, 20, 0.05, {}}}};

@@ -5,18 +5,12 @@
 
 namespace drumlin {
 using namespace particles;
+using namespace test;
 namespace {
 
-using test::add_stage;
-using test::floor_wall;
-using test::scene_of;
-using test::TemporaryFolder;
-
-const double time_s = std::sqrt(1e-3 / 9.81);  // of scene_of with d = 1 mm
-
 /// A disc on a plate that shakes vertically, z = A sin(rate t), A rate^2 = `acceleration` g.
-Scene shaken_plate(double acceleration, double rate, const TemporaryFolder& folder) {
-  Scene scene = scene_of({{0, 0.5}}, folder);
+Scene shaken_plate(double acceleration, double rate) {
+  Scene scene = scene_of({{0, 0.5}});
   scene.walls = {floor_wall()};
   scene.effects.gravity = Gravity{};
   add_stage(scene, 2 * 2 * std::numbers::pi / rate, 1e-3);
@@ -26,9 +20,8 @@ Scene shaken_plate(double acceleration, double rate, const TemporaryFolder& fold
 }
 
 TEST(ShakenPlate, CarriesADiscAlongBelowGravity) {
-  const TemporaryFolder folder;
   const double rate = 2, A = 0.9 / (rate * rate);
-  Simulation simulation(shaken_plate(0.9, rate, folder));
+  Simulation simulation(shaken_plate(0.9, rate));
   while (!simulation.finished()) {
     (void)simulation.step();
     // On the exact place of the plate, at every time, without drift.
@@ -39,9 +32,8 @@ TEST(ShakenPlate, CarriesADiscAlongBelowGravity) {
 TEST(ShakenPlate, ThrowsADiscUpWhereItFallsFasterThanGravity) {
   // Lift-off where A rate^2 sin(rate t) = g. Then the gap grows as A rate^3 cos(rate t) tau^3 / 6 = 0.37
   // tau^3 and is seen, above 1e-8, after 3e-3 and up to two steps.
-  const TemporaryFolder folder;
   const double rate = 2, acceleration = 1.5, A = acceleration / (rate * rate);
-  Simulation simulation(shaken_plate(acceleration, rate, folder));
+  Simulation simulation(shaken_plate(acceleration, rate));
   double lifts_at = 0;
   while (lifts_at == 0 && !simulation.finished()) {
     (void)simulation.step();
@@ -65,75 +57,54 @@ TEST(Rocking, ReachesItsAmplitudeAndComesBackExactly) {
   EXPECT_NEAR(end_at(1000).z, 0, 1e-10);
 }
 
-TEST(Oscillation, OfNoAmplitudeChangesNoBit) {
-  Scene plain = test::turning_drum();
-  plain.stages[0].motions.clear();
-  Scene still = plain, rocking = plain;
-  still.stages[0].motions = {{"drum", Oscillation{{0, 0}, 5, 0}}};
-  rocking.stages[0].motions = {{"drum", Rocking{0, 5, 0, {0, 0}}}};
-  test::expect_same(test::bodies_at_end(plain), test::bodies_at_end(still));
-  test::expect_same(test::bodies_at_end(plain), test::bodies_at_end(rocking));
-}
-
 TEST(RoughWall, ADiscRestsBetweenTwoGluedOnes) {
   // Glued discs of diameter 1 at distance 1.2: the centre of a disc of diameter 1 lies at sqrt(1 - 0.6^2) =
   // 0.8.
-  const TemporaryFolder folder;
-  Scene scene = scene_of({{0.02, 0.9}}, folder);
+  Scene scene = scene_of({{0.02, 0.9}});
   scene.walls = {{"floor", SegmentShape{{-6, 0}, {6, 0}}}};
   scene.walls[0].rough = Roughness{1, 1.2};
   scene.effects.gravity = Gravity{};
   add_stage(scene, 20, 1e-2);
-  const Bodies end = test::bodies_at_end(scene);
+  const Bodies end = bodies_at_end(scene);
   EXPECT_NEAR(end.x[0], 0, 1e-3);
   EXPECT_NEAR(end.z[0], 0.8, 1e-3);
 }
 
-TEST(RoughWall, ANumberOfDiscsFitsWholeAroundAContainer) {
-  Scene scene = test::turning_drum();
+TEST(RoughWall, ANumberOfDiscsFitsWholeAroundAContainerAndADisc) {
+  // 2 pi 30 / 3 = 62.8: 63 of them; 10 pi / 3.1 = 10.1: 11, their centres on the rim.
+  Scene scene = turning_drum();
   scene.walls[0].rough = Roughness{2, 3};
-  const Scales scales = scales_of(scene);
-  const Walls walls = walls_of(scene, scales);
-  // 2 pi 30 / 3 = 62.8: 63 of them, behind the smooth container.
-  ASSERT_EQ(walls.reference.size(), 64u);
-  EXPECT_EQ(walls.wall_of_shape, std::vector<int>(64, 0));
-  const double unit = 1e-3 / scales.length_m;
-  for (std::size_t s = 1; s < 64; ++s) {
-    const auto& disc = std::get<FixedDisc>(walls.reference[s]);
-    const auto& next = std::get<FixedDisc>(walls.reference[s == 63 ? 1 : s + 1]);
-    EXPECT_NEAR(std::hypot(disc.center.x, disc.center.z), 30 * unit, 1e-12);
-    EXPECT_NEAR(disc.radius, unit, 1e-12);
-    EXPECT_NEAR(std::hypot(next.center.x - disc.center.x, next.center.z - disc.center.z),
-                2 * 30 * unit * std::sin(std::numbers::pi / 63), 1e-12);
-  }
-}
-
-TEST(RoughWall, AlsoRoundADisc) {
-  Scene scene = test::turning_drum();
   scene.walls.push_back({"wheel", DiscShape{{2, 3}, 10}, {}, Roughness{2, 3.1}});
   const Scales scales = scales_of(scene);
   const Walls walls = walls_of(scene, scales);
-  // 10 pi / 3.1 = 10.1: 11 of them, their centres on the rim.
-  ASSERT_EQ(walls.reference.size(), 2u + 11u);
-  const double unit = 1e-3 / scales.length_m, chord = 2 * 5 * unit * std::sin(std::numbers::pi / 11);
-  for (std::size_t s = 2; s < 13; ++s) {
-    const auto& disc = std::get<FixedDisc>(walls.reference[s]);
-    const auto& next = std::get<FixedDisc>(walls.reference[s == 12 ? 2 : s + 1]);
-    EXPECT_NEAR(std::hypot(disc.center.x - 2 * unit, disc.center.z - 3 * unit), 5 * unit, 1e-12);
-    EXPECT_NEAR(disc.radius, unit, 1e-12);
-    EXPECT_NEAR(std::hypot(next.center.x - disc.center.x, next.center.z - disc.center.z), chord, 1e-12);
-    EXPECT_EQ(walls.wall_of_shape[s], 1);
-  }
+  const double unit = 1e-3 / scales.length_m;
+  std::size_t s = 0;
+  const auto expect_discs = [&](std::size_t count, const Point& center, double radius, int wall) {
+    const std::size_t first = ++s;  // behind the smooth shape
+    for (; s < first + count; ++s) {
+      const auto& disc = std::get<FixedDisc>(walls.reference.at(s));
+      const auto& next = std::get<FixedDisc>(walls.reference.at(s + 1 == first + count ? first : s + 1));
+      EXPECT_NEAR(std::hypot(disc.center.x - center.x * unit, disc.center.z - center.z * unit), radius * unit,
+                  1e-12);
+      EXPECT_NEAR(disc.radius, unit, 1e-12);
+      EXPECT_NEAR(std::hypot(next.center.x - disc.center.x, next.center.z - disc.center.z),
+                  2 * radius * unit * std::sin(std::numbers::pi / static_cast<double>(count)), 1e-12);
+      EXPECT_EQ(walls.wall_of_shape[s], wall);
+    }
+  };
+  expect_discs(63, {0, 0}, 30, 0);
+  expect_discs(11, {2, 3}, 5, 1);
+  EXPECT_EQ(walls.reference.size(), s);
 }
 
 TEST(RoughWall, TurnsGrainsWithoutFriction) {
   // What a smooth frictionless drum cannot do.
-  Scene scene = test::turning_drum();
+  Scene scene = turning_drum();
   scene.effects = {Gravity{}};
   scene.solver.tolerance = 1e-6;  // a smooth drum leaves grains where they are; an inexact solve moves them
   scene.solver.max_sweeps = 10000;
   const auto mean_x = [](const Scene& asked) {
-    const Bodies end = test::bodies_at_end(asked);
+    const Bodies end = bodies_at_end(asked);
     double sum = 0;
     for (const double x : end.x) sum += x;
     return sum / static_cast<double>(end.count());
@@ -149,14 +120,13 @@ TEST(RoughWall, TurnsGrainsWithoutFriction) {
 TEST(RoughWall, ClosesOnItselfInAPeriodicDomain) {
   // A floor of the period's length has its discs at one spacing across the seam too: a disc rests there as
   // anywhere.
-  const TemporaryFolder folder;
-  Scene scene = scene_of({{0.01, 0.9}, {6, 0.9}, {-2.41, 0.9}}, folder);
+  Scene scene = scene_of({{0.01, 0.9}, {6, 0.9}, {-2.41, 0.9}});
   scene.periodic_x = PeriodicX{-6, 6};
   scene.walls = {{"floor", SegmentShape{{-6, 0}, {6, 0}}}};
   scene.walls[0].rough = Roughness{1, 1.2};
   scene.effects.gravity = Gravity{};
   add_stage(scene, 10, 1e-2);
-  const Bodies end = test::bodies_at_end(scene);
+  const Bodies end = bodies_at_end(scene);
   for (const double z : end.z) EXPECT_NEAR(z, 0.8, 1e-3);
 }
 

@@ -1,26 +1,16 @@
 #pragma once
-// What tests of files share: a folder for each, gone with it; what an error says; equal values.
+// What tests of files share.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "tests/support/says.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace drumlin::testing {
-
-/// The message of the error that `action` throws.
-template <class Error, class Action>
-std::string message_of(Action action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "nothing was refused";
-  return {};
-}
+using drumlin::message_of;
 
 /// The same values, NaN where NaN is.
 inline void expect_same(const std::vector<double>& a, const std::vector<double>& b) {

@@ -165,7 +165,7 @@ Snapshot settled_grains() {
       grains.push_back(
           {(column + (row % 2 == 0 ? 0.25 : 0.75)) * 1.1, 0.6 + 0.96 * row, 0.9 + 0.2 * chance, 0, 0, 0});
     }
-  Scene scene = test::scene_of(grains, folder);
+  Scene scene = test::scene_of(grains);
   scene.periodic_x = PeriodicX{0, columns * 1.1};
   scene.walls = {test::floor_wall()};
   scene.effects.gravity = Gravity{};

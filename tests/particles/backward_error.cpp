@@ -7,14 +7,15 @@
 #include <random>
 
 #include "particles/contact/residual.hpp"
-#include "particles/lab/any_solver.hpp"
 #include "particles/lab/contact_problem_file.hpp"
 #include "particles/lab/disc_problem.hpp"
 #include "particles/lab/state_changes.hpp"
+#include "tests/particles/solving.hpp"
 #include "tests/support/data_folder.hpp"
 
 namespace drumlin {
 using namespace particles;
+using namespace test;
 namespace {
 
 constexpr std::array changes_of_friction{0.0, 1e-3, 1e-2, 2.6e-2, 5e-2, 1.0};
@@ -35,21 +36,13 @@ BlockProblem apart(const std::vector<double>& q) {
 }
 
 BlockProblem flowing() {
-  return read_contact_problem(drumlin::test::data_folder() / "problems" / "drum-300-mu-0.4-flow.h5");
+  return read_contact_problem(data_folder() / "problems" / "drum-300-mu-0.4-flow.h5");
 }
 
 std::vector<double> solved(const BlockProblem& problem, const char* solver, double tolerance,
                            int threads = 1) {
-  const CoulombSpinProblem discs = disc_problem(problem).value();
-  StoppingRule rule;
-  rule.tolerance = tolerance;
-  rule.max_sweeps = 60000;
   ThreadTeam team(threads);
-  SolverWorkspace<CoulombSpinProblem> work;
-  work.team = &team;
-  Solution<CoulombSpinProblem> solution;
-  (void)any_solver<CoulombSpinProblem>(solver)(discs, rule, work, solution);
-  return solution.impulses;
+  return solved_by(solver, disc_problem(problem).value(), tolerance, 60000, &team).impulses;
 }
 
 BackwardError at(const BlockProblem& problem, const std::vector<double>& r, double friction) {
@@ -138,7 +131,7 @@ TEST(BackwardError, IsOfTheSizeOfTheResidual) {
   for (const char* solver : {"accelerated", "nlgs", "nncg", "cpg"})  // in single and in double precision
     for (const double tolerance : {1e-2, 1e-3}) {
       const std::vector<double> r = solved(problem, solver, tolerance);
-      const double residual = residual_of(problem, std::span<const double>(r)).rms;
+      const double residual = residual_at(problem, r).rms;
       EXPECT_LE(at(problem, r, 0).dq, 14 * residual) << solver;
       EXPECT_GE(at(problem, r, 0).dq, 0.1 * residual) << solver;
     }
@@ -155,10 +148,10 @@ TEST(BackwardError, TheChangedProblemIsSolvedExactly) {
   const auto dq = velocity_changes(problem, r, u, friction, states);
   for (int a = 0; a < problem.contacts(); ++a)
     if (states[a] == ContactState::sliding) problem.mu[a] = std::abs(r[2 * a + 1]) / r[2 * a];
-  const auto before = residual_of(problem, std::span<const double>(r)).rms;
+  const auto before = residual_at(problem, r).rms;
   for (std::size_t k = 0; k < dq.size(); ++k) problem.q[k] += dq[k];
   EXPECT_GE(before, 1e-3);
-  EXPECT_LE(residual_of(problem, std::span<const double>(r)).rms, 1e-12);
+  EXPECT_LE(residual_at(problem, r).rms, 1e-12);
 }
 
 TEST(BackwardError, DoesNotDependOnTheNumberOfThreads) {

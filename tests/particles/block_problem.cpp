@@ -7,9 +7,11 @@
 #include <random>
 
 #include "particles/contact/residual.hpp"
+#include "tests/particles/solving.hpp"
 
 namespace drumlin {
 using namespace particles;
+using namespace test;
 namespace {
 
 class Random {
@@ -63,8 +65,8 @@ TYPED_TEST(BlockForm, HasTheSameVelocitiesAndTheSameResidual) {
     for (int a = 0; a < problem.contacts(); ++a)
       for (int c = 0; c < TypeParam::dim; ++c)
         EXPECT_NEAR(u[TypeParam::dim * a + c], u_blocks[2 * a + c], 1e-13) << a;
-    const ContactResidual one = residual_of(problem, std::span<const double>(r));
-    const ContactResidual other = residual_of(blocks, std::span<const double>(r_blocks));
+    const ContactResidual one = residual_at(problem, r);
+    const ContactResidual other = residual_at(blocks, r_blocks);
     // A frictionless contact carries a second, empty entry of q.
     const double entries = TypeParam::dim == 1 ? std::sqrt(2.0) : 1;
     EXPECT_NEAR(other.rms, entries * one.rms, 1e-13);

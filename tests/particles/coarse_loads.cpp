@@ -1,7 +1,6 @@
 // The coarse correction of large packings: it finds what all impulses lack in common, stays in the cones, and
 // saves sweeps.
 #include <gtest/gtest.h>
-#include <hwy/highway.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,9 +9,11 @@
 #include "particles/solver/coarse_kernels.hpp"
 #include "particles/solver/contact_solver.hpp"
 #include "particles/solver/strip_solver.hpp"
+#include "tests/particles/solving.hpp"
 
 namespace drumlin {
 using namespace particles;
+using namespace test;
 namespace {
 
 /// Discs of diameter 1 in a triangular lattice on a floor between two walls, under their weight, in the order
@@ -86,11 +87,8 @@ std::vector<double> corrected(const Heap& heap, std::vector<double> r, ThreadTea
 
 /// The impulses of a heap without friction (with it those of other loads are no multiples).
 std::vector<double> impulses_of(const Heap& heap) {
-  SolverWorkspace<CoulombSpinProblem> work;
-  Solution<CoulombSpinProblem> solution;
-  StoppingRule rule;
-  rule.tolerance = 1e-6, rule.max_sweeps = 20000;
-  EXPECT_EQ(solve_accelerated_double(heap.problem, rule, work, solution).status, Status::converged);
+  const auto solution = solved_by("accelerated-double", heap.problem, 1e-6, 20000);
+  EXPECT_EQ(solution.report.status, Status::converged);
   return solution.impulses;
 }
 
@@ -121,13 +119,8 @@ TEST(CoarseLoads, FindWhatAllImpulsesLack) {
 TEST(CoarseLoads, AreTheSameOnAnyInstructionSet) {
   const Heap small = heap(60, 40, 0);
   const auto solved = impulses_of(small), best = corrected(small, solved, nullptr);
-  for (const auto target : hwy::SupportedAndGeneratedTargets()) {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().DeInit();
-    EXPECT_EQ(best, corrected(small, solved, nullptr)) << hwy::TargetName(target);
-  }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().DeInit();
+  on_each_instruction_set(
+      [&](const char* target) { EXPECT_EQ(best, corrected(small, solved, nullptr)) << target; });
 }
 
 TEST(CoarseLoads, SeeContactsOfBodiesThatAreFarApart) {

@@ -101,27 +101,5 @@ TEST(ContactMemory, WarmStartsInTheOrderOfTheSolve) {
   }
 }
 
-TEST(ContactMemory, OfOthersIsPutInOrder) {
-  const auto pairs = some_pairs(30, 0.4, 8);
-  const ContactMemory sorted = remembered(pairs, 0.25);
-  ContactMemory memory;
-  memory.time_step = 0.25;
-  std::vector<std::size_t> places(pairs.size());
-  for (std::size_t m = 0; m < places.size(); ++m) places[m] = m;
-  std::shuffle(places.begin(), places.end(), std::mt19937(9));
-  for (const std::size_t m : places) {
-    memory.i.push_back(sorted.i[m]), memory.j.push_back(sorted.j[m]);
-    memory.impulse.insert(memory.impulse.end(), {sorted.impulse[2 * m], sorted.impulse[2 * m + 1]});
-  }
-  put_in_order(memory);
-  EXPECT_EQ(memory.i, sorted.i);
-  EXPECT_EQ(memory.j, sorted.j);
-  EXPECT_EQ(memory.impulse, sorted.impulse);
-  EXPECT_EQ(memory.time_step, 0.25);
-  ContactMemory nothing;
-  put_in_order(nothing);
-  EXPECT_TRUE(nothing.i.empty());
-}
-
 }  // namespace
 }  // namespace drumlin

@@ -14,15 +14,9 @@ namespace drumlin {
 namespace {
 
 using namespace particles;
+using namespace test;
 
-using test::falling;
-using test::flowing;
-using test::Grains;
-using test::packed;
-using test::scattered;
-using test::unlike;
-
-constexpr double time_step = test::grains_time_step, margin = 0.02;
+constexpr double time_step = grains_time_step, margin = 0.02;
 
 std::vector<Candidate> found(ContactDetection& detection, const Grains& g, const Period& period = {}) {
   const DetectionInput input{{}, {}, time_step, margin, period};
@@ -74,6 +68,7 @@ TEST(Detection, FindsThePairsOfItsDefinitionAndNoOthers) {
     expect_defined(falling(700, random), period, "falling");
     expect_defined(scattered(500, random), period, "scattered");
     expect_defined(unlike(700, random), period, "unlike");
+    expect_defined(packed(700, 0.02, 0, random), period, "one to fifty");
     Grains bullets = packed(700, 0.2, 1, random);
     for (const std::size_t b : {3, 350, 699}) bullets.v_x[b] = 400, bullets.v_z[b] = -300;
     expect_defined(bullets, period, "bullets");
@@ -87,6 +82,31 @@ TEST(Detection, FindsThePairsOfItsDefinitionAndNoOthers) {
     for (int k = 0; k < 60; ++k)
       narrow.add(random.uniform(-9, 9), k * 0.5, 0.3, random.uniform(-40, 40), random.uniform(-40, 40));
     expect_defined(narrow, {-1, length}, "narrow");
+  }
+}
+
+TEST(Detection, FindsTheWallsThatGrainsMayMeet) {
+  RandomStream random(7, "test");
+  const std::vector<Shape> walls{Segment{{3, 3}, {17, 4}}, FixedDisc{{9, 9}, 2}, Container{{9, 9}, 12}};
+  const std::vector<ShapeStep> still(walls.size());
+  for (const Period& period : {Period{}, Period{1, 16}}) {
+    Grains g = packed(300, 0.2, 1, random);
+    for (std::size_t b = 0; b < g.count(); b += 50) g.v_x[b] = 60, g.v_z[b] = -60;
+    ContactDetection detection;
+    const auto& pairs = detection.find(g.bodies, g.v_x, g.v_z, {walls, still, time_step, margin, period});
+    int needed = 0;
+    for (int i = 0; i < 300; ++i)
+      for (int j = -3; j < 0; ++j) {
+        double n_x = 0, n_z = 0;
+        const double gap = gap_now({i, j, 0, 0, 0, 0, 0}, g.bodies, walls, period, n_x, n_z);
+        if (gap >= margin + 2 * time_step * std::max(0.0, -(n_x * g.v_x[i] + n_z * g.v_z[i]))) continue;
+        ++needed;
+        EXPECT_EQ(std::count_if(pairs.begin(), pairs.end(),
+                                [&](const Candidate& c) { return c.i == i && c.j == j; }),
+                  1)
+            << i << ' ' << j << " gap " << gap;
+      }
+    EXPECT_GT(needed, 30);
   }
 }
 
@@ -175,14 +195,14 @@ double price(Make make, int count) {
 TEST(Detection, MeasuresAsManyDistancesPerGrainWhateverTheirNumber) {
   // Cells of 1.3 d hold 1.7 grains, and half of nine are looked at: some 8 per grain.
   EXPECT_LT(price(flowing, 8000), 12);
-  EXPECT_LT(price(test::all_fall, 8000), 12);
-  EXPECT_LT(price(test::with_stray, 8000), 12);
+  EXPECT_LT(price(all_fall, 8000), 12);
+  EXPECT_LT(price(with_stray, 8000), 12);
   EXPECT_LT(price(scattered, 8000), 6);
   EXPECT_LT(price(unlike, 8000), 30);
   for (const auto& [small, large] : {std::pair(price(flowing, 2000), price(flowing, 8000)),
-                                     std::pair(price(test::all_fall, 2000), price(test::all_fall, 8000)),
+                                     std::pair(price(all_fall, 2000), price(all_fall, 8000)),
                                      std::pair(price(falling, 2000), price(falling, 8000)),
-                                     std::pair(price(test::with_stray, 2000), price(test::with_stray, 8000)),
+                                     std::pair(price(with_stray, 2000), price(with_stray, 8000)),
                                      std::pair(price(scattered, 2000), price(scattered, 8000)),
                                      std::pair(price(unlike, 2000), price(unlike, 8000))})
     EXPECT_LT(large, 1.2 * small);

@@ -10,22 +10,19 @@
 #include "particles/measurement/flow_rate.hpp"
 #include "particles/measurement/frame/flow_snapshot.hpp"
 #include "particles/scene/validate.hpp"
+#include "tests/support/says.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace drumlin {
 using namespace particles;
+using namespace test;
 namespace {
 
-using test::add_stage;
-using test::Grain;
-using test::scene_of;
-using test::TemporaryFolder;
-
 /// Grains that fall freely, one above the other, into an outlet whose upper edge is at z = 0.
-Scene falling(int count, const TemporaryFolder& folder) {
+Scene falling(int count) {
   std::vector<Grain> grains;
   for (int k = 0; k < count; ++k) grains.push_back({0, 2 + 3.0 * k});
-  Scene scene = scene_of(grains, folder);
+  Scene scene = scene_of(grains);
   scene.effects.gravity = Gravity{};
   scene.outlets = {{"below", RectangleRegion{{-50, -50}, {50, 0}}}};
   return scene;
@@ -41,12 +38,10 @@ double largest_overlap(const Bodies& bodies) {
 }
 
 TEST(Outlets, TakeEachGrainWhenItFallsIn) {
-  const TemporaryFolder folder;
   const double h = 1e-3;
-  Scene scene = falling(4, folder);
+  Scene scene = falling(4);
   add_stage(scene, 5, h);
-  Simulation simulation(scene);
-  while (!simulation.finished()) (void)simulation.step();
+  EndedSimulation simulation(scene);
   const OutletState& outlet = simulation.state().traffic->outlets[0];
   ASSERT_EQ(outlet.taken(), 4);
   // Free fall; one step more until it is taken, and the scheme's own error of h t / 2 in the place.
@@ -56,13 +51,11 @@ TEST(Outlets, TakeEachGrainWhenItFallsIn) {
 }
 
 TEST(Outlets, EndAStageAfterSoManyGrains) {
-  const TemporaryFolder folder;
-  Scene scene = falling(4, folder);
+  Scene scene = falling(4);
   add_stage(scene, 5, 1e-3);
   scene.stages[0].until.emplace().out = UntilOut{"below", 2};
   EXPECT_TRUE(validate(scene).empty());
-  Simulation simulation(scene);
-  while (!simulation.finished()) (void)simulation.step();
+  EndedSimulation simulation(scene);
   ASSERT_EQ(simulation.state().ends.size(), 1u);
   EXPECT_EQ(simulation.state().ends[0].by, EndedBy::outlet);
   EXPECT_EQ(simulation.state().bodies.id, (std::vector<std::int64_t>{2, 3}));
@@ -73,15 +66,14 @@ TEST(Outlets, EndAStageAfterSoManyGrains) {
 TEST(Outlets, LeaveImpulsesAndDisplacementsWithTheirGrains) {
   // Grain 0 glides into the outlet; 1 and 2 press on each other and a floor; 3 glides on.
   const TemporaryFolder folder;
-  Scene scene = scene_of({{-8, 20, 1, -1, 0}, {0, 0.5}, {0, 1.5}, {8, 20, 1, 1, 0}}, folder);
-  scene.walls = {test::floor_wall()};
+  Scene scene = scene_of({{-8, 20, 1, -1, 0}, {0, 0.5}, {0, 1.5}, {8, 20, 1, 1, 0}});
+  scene.walls = {floor_wall()};
   scene.effects.gravity = Gravity{};
   scene.outlets = {{"left", RectangleRegion{{-20, 10}, {-9, 30}}}};
   add_stage(scene, 2, 0.01);
   scene.stages[0].snapshots = 1;
   scene.output.velocity_window_s = 1.5 * std::sqrt(1e-3 / 9.81);
-  Simulation simulation(scene);
-  while (!simulation.finished()) (void)simulation.step();
+  EndedSimulation simulation(scene);
   const Snapshot snapshot = simulation.take_snapshot();
   EXPECT_EQ(snapshot.id, (std::vector<std::int64_t>{1, 2, 3}));
   ASSERT_EQ(snapshot.displacement_x.size(), 3u);
@@ -94,8 +86,7 @@ TEST(Outlets, LeaveImpulsesAndDisplacementsWithTheirGrains) {
 }
 
 TEST(Outlets, ReturnWhatTheyTakeAsNewGrains) {
-  const TemporaryFolder folder;
-  Scene scene = falling(3, folder);
+  Scene scene = falling(3);
   scene.outlets[0].returns_to = RectangleRegion{{-2, 20}, {2, 24}};
   scene.outlets[0].return_velocity_mm_s = {0, -100};
   add_stage(scene, 30, 1e-2);
@@ -112,9 +103,8 @@ TEST(Outlets, ReturnWhatTheyTakeAsNewGrains) {
 }
 
 TEST(Sources, PourAtTheirRateUpToTheirCountWithoutOverlap) {
-  const TemporaryFolder folder;
-  Scene scene = scene_of({{0, 0.5}}, folder);
-  scene.walls = {test::floor_wall()};
+  Scene scene = scene_of({{0, 0.5}});
+  scene.walls = {floor_wall()};
   scene.effects.gravity = Gravity{};
   const double second = std::sqrt(1e-3 / 9.81);
   Source source{"rain", RectangleRegion{{-20, 30}, {20, 36}}};
@@ -141,16 +131,14 @@ TEST(Sources, PourAtTheirRateUpToTheirCountWithoutOverlap) {
 }
 
 TEST(Sources, WaitForRoomAndCountWhatWaits) {
-  const TemporaryFolder folder;
   // A disc of diameter 1 lies in the middle of a box of 2 x 2: there is no room for another of diameter 1.2.
-  Scene scene = scene_of({{0, 0, 1}}, folder);
+  Scene scene = scene_of({{0, 0, 1}});
   Source source{"full", RectangleRegion{{-1, -1}, {1, 1}}};
   source.grains_per_s = 1 / std::sqrt(1e-3 / 9.81);
   source.diameter_min_mm = source.diameter_max_mm = 1.2;
   scene.sources = {source};
   add_stage(scene, 5.5, 0.1);
-  Simulation simulation(scene);
-  while (!simulation.finished()) (void)simulation.step();
+  EndedSimulation simulation(scene);
   const auto& state = simulation.state();
   EXPECT_EQ(state.bodies.count(), 1u);
   EXPECT_EQ(waiting(scene.sources[0], state.traffic->poured[0], state.time() * simulation.scales().time_s),
@@ -158,8 +146,7 @@ TEST(Sources, WaitForRoomAndCountWhatWaits) {
 }
 
 TEST(Sources, AreRefusedWhereAnOutletTakesGrainsOrDiscsHaveNoRoom) {
-  const TemporaryFolder folder;
-  Scene scene = falling(1, folder);
+  Scene scene = falling(1);
   add_stage(scene, 1, 0.01);
   Source source{"rain", RectangleRegion{{-5, -5}, {5, 5}}};
   source.grains_per_s = 1, source.diameter_min_mm = 1, source.diameter_max_mm = 2;
@@ -168,7 +155,7 @@ TEST(Sources, AreRefusedWhereAnOutletTakesGrainsOrDiscsHaveNoRoom) {
   EXPECT_EQ(validate(scene)[0].key, "sources.0.region");
   scene.sources[0].region = CircleRegion{{0, 8}, 0.9};
   ASSERT_EQ(validate(scene).size(), 1u);
-  EXPECT_NE(validate(scene)[0].allowed.find("2 mm"), std::string::npos);
+  expect_has(validate(scene)[0].allowed, "2 mm");
   scene.sources[0].region = CircleRegion{{0, 8}, 5};
   EXPECT_TRUE(validate(scene).empty());
   scene.periodic_x = PeriodicX{-3, 3};  // a disc of 2 mm could touch another one on both sides
@@ -205,8 +192,8 @@ TEST(SameGrains, AreMatchedByIdentity) {
 
 TEST(LeftGrains, AreCountedOnceInTheirStage) {
   const TemporaryFolder folder;
-  Scene scene = scene_of({{0, 1}, {10, 1, 1, 100, 0}}, folder);
-  scene.walls = {test::floor_wall(20)};
+  Scene scene = scene_of({{0, 1}, {10, 1, 1, 100, 0}});
+  scene.walls = {floor_wall(20)};
   add_stage(scene, 1, 0.01);
   add_stage(scene, 1, 0.01);
   scene.stages[1].name = "later";
@@ -231,9 +218,8 @@ TEST(LeftGrains, AreCountedOnceInTheirStage) {
 
 /// A disc of the scene's density meets one of a group four times as dense, head on, and loses no energy.
 TEST(Groups, OfTheirOwnDensityCollideByTheirMasses) {
-  const TemporaryFolder folder, other;
-  Scene scene = scene_of({{0, 0, 1, 1, 0}}, folder);
-  const Scene heavy = scene_of({{2, 0, 1}}, other);
+  Scene scene = scene_of({{0, 0, 1, 1, 0}});
+  const Scene heavy = scene_of({{2, 0, 1}});
   GrainGroup group;
   group.name = "intruder", group.density_kg_m3 = 4 * 2700;
   group.source = std::get<ListedGrains>(heavy.grains.source);
@@ -243,8 +229,7 @@ TEST(Groups, OfTheirOwnDensityCollideByTheirMasses) {
   scene.stages[0].snapshots = 1;
   scene.output.velocity_window_s = 0;
   for (const SceneFault& fault : validate(scene)) ADD_FAILURE() << fault.key << ' ' << fault.what;
-  Simulation simulation(scene);
-  while (!simulation.finished()) (void)simulation.step();
+  EndedSimulation simulation(scene);
   EXPECT_NEAR(simulation.state().bodies.v_x[0], -0.6, 1e-6);
   EXPECT_NEAR(simulation.state().bodies.v_x[1], 0.4, 1e-6);
   const Snapshot snapshot = simulation.take_snapshot();
@@ -276,7 +261,7 @@ TEST(Groups, LeaveTheMainSourceAsItIsAndMustNotOverlapIt) {
     (void)Simulation(scene);
     FAIL() << "overlapping groups were placed";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("\"rain\""), std::string::npos) << error.what();
+    expect_has(error.what(), "\"rain\"");
   }
 }
 

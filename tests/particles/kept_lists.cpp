@@ -12,7 +12,7 @@ namespace drumlin {
 namespace {
 
 using namespace particles;
-using test::Grains;
+using namespace test;
 
 constexpr double margin = 0.02;
 
@@ -48,20 +48,20 @@ struct Case {
 std::vector<Case> cases() {
   RandomStream random(21, "test");
   std::vector<Case> all;
-  all.push_back({"at rest", test::packed(900, 1, 0, random), 0.05, {}, true});
-  all.push_back({"flowing", test::flowing(900, random), 0.01, {}, true});
-  all.push_back({"turning", test::packed(900, 0.8, 0.05, random), 0.05, {}, true});
+  all.push_back({"at rest", packed(900, 1, 0, random), 0.05, {}, true});
+  all.push_back({"flowing", flowing(900, random), 0.01, {}, true});
+  all.push_back({"turning", packed(900, 0.8, 0.05, random), 0.05, {}, true});
   Grains& turning = all.back().grains;
   for (std::size_t b = 0; b < turning.count(); ++b) {
     turning.v_x[b] += 0.05 * turning.bodies.z[b];
     turning.v_z[b] -= 0.05 * turning.bodies.x[b];
   }
-  all.push_back({"one fast grain", test::packed(900, 1, 0.1, random), 0.02, {}, false});
+  all.push_back({"one fast grain", packed(900, 1, 0.1, random), 0.02, {}, false});
   all.back().grains.v_x[450] = 60, all.back().grains.v_z[450] = 45;
-  all.push_back({"unlike", test::unlike(700, random), 0.05, {}, false});
-  all.push_back({"falling", test::falling(700, random), 0.05, {}, false});
-  all.push_back({"gas", test::scattered(500, random), 0.05, {}, false});
-  all.push_back({"periodic", test::flowing(700, random), 0.01, Period{-1, 40}, false});
+  all.push_back({"unlike", unlike(700, random), 0.05, {}, false});
+  all.push_back({"falling", falling(700, random), 0.05, {}, false});
+  all.push_back({"gas", scattered(500, random), 0.05, {}, false});
+  all.push_back({"periodic", flowing(700, random), 0.01, Period{-1, 40}, false});
   return all;
 }
 
@@ -106,14 +106,14 @@ TEST(KeptLists, AreMadeAnewForOtherGrains) {
   RandomStream random(23, "test");
   const DetectionInput input{{}, {}, 0.05, margin, {}};
   ContactDetection kept;
-  Grains g = test::packed(400, 0.7, 0.01, random);
+  Grains g = packed(400, 0.7, 0.01, random);
   for (int step = 0; step < 5; ++step) kept.find(g.bodies, g.v_x, g.v_z, input);
-  const Grains other = test::packed(400, 0.5, 0.3, random);
+  const Grains other = packed(400, 0.5, 0.3, random);
   ContactDetection anew;
   anew.find(other.bodies, other.v_x, other.v_z, input);
   kept.find(other.bodies, other.v_x, other.v_z, input);
   expect_same(kept, anew, other.count());
-  const Grains fewer = test::packed(100, 1, 0.3, random);
+  const Grains fewer = packed(100, 1, 0.3, random);
   ContactDetection again;
   again.find(fewer.bodies, fewer.v_x, fewer.v_z, input);
   kept.find(fewer.bodies, fewer.v_x, fewer.v_z, input);

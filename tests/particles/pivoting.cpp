@@ -10,9 +10,11 @@
 #include "particles/contact/problems.hpp"
 #include "particles/lab/block_problem.hpp"
 #include "particles/solver/contact_solver.hpp"
+#include "tests/particles/solving.hpp"
 
 namespace drumlin {
 using namespace particles;
+using namespace test;
 namespace {
 
 /// Of as many pivots as it takes.
@@ -99,11 +101,8 @@ TEST(Pivoting, PackingsOfSteepFrictionAreSolved) {
 
 TEST(Pivoting, ASpoiltContactOfAPackingIsSettled) {
   const CoulombSpinProblem problem = packing(10, 0.9, 1);
-  Solution<CoulombSpinProblem> solution;
-  SolverWorkspace<CoulombSpinProblem> work;
-  StoppingRule close;
-  close.tolerance = 1e-4, close.max_sweeps = 20000;
-  EXPECT_EQ(solve_nlgs(problem, close, work, solution).status, Status::converged);
+  auto solution = solved_by("nlgs", problem, 1e-4, 20000);
+  EXPECT_EQ(solution.report.status, Status::converged);
   solution.impulses[2 * 70] += 1;
   StoppingRule rule;
   EXPECT_GT(residual_of(problem, solution).rms, rule.tolerance);

@@ -4,15 +4,16 @@
 #include <cmath>
 #include <random>
 
-#include "particles/lab/any_solver.hpp"
 #include "particles/lab/block_problem.hpp"
 #include "particles/lab/disc_problem.hpp"
 #include "particles/lab/proximal_newton.hpp"
 #include "particles/lab/reference_linear.hpp"
 #include "particles/lab/sparse_lu.hpp"
+#include "tests/particles/solving.hpp"
 
 namespace drumlin {
 using namespace particles;
+using namespace test;
 namespace {
 
 class Random {
@@ -103,14 +104,9 @@ TYPED_TEST(Response, BodiesAndBlocksSolveTheirSystems) {
 
 template <class Problem>
 SolveReport solved(const Problem& problem, int max_sweeps, double tolerance, std::vector<double>& r) {
-  StoppingRule rule;
-  rule.tolerance = tolerance;
-  rule.max_sweeps = max_sweeps;
-  SolverWorkspace<Problem> work;
-  Solution<Problem> solution;
-  const SolveReport report = any_solver<Problem>("reference")(problem, rule, work, solution);
+  const auto solution = solved_by("reference", problem, tolerance, max_sweeps);
   r = solution.impulses;
-  return report;
+  return solution.report;
 }
 
 TEST(Reference, SolvesAHyperstaticCrystalInFewNewtonSteps) {
@@ -160,7 +156,7 @@ TEST(Reference, ReturnsTheBestIterateThatItHasSeen) {
   std::vector<double> best, first;
   const auto to_the_end = solved(problem, 200, 0, best);
   EXPECT_EQ(to_the_end.sweeps, 200);
-  EXPECT_EQ(to_the_end.residual.rms, residual_of(problem, std::span<const double>(best)).rms);
+  EXPECT_EQ(to_the_end.residual.rms, residual_at(problem, best).rms);
   // Stopped where it first sees this residual, it is where the other run was best, to the last byte.
   const auto stopped = solved(problem, 200, to_the_end.residual.rms, first);
   EXPECT_EQ(stopped.status, Status::converged);

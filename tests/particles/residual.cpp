@@ -224,13 +224,9 @@ TEST(Residual, DoesNotDependOnUnitsOfMassOrVelocity) {
 }
 
 TEST(Residual, SeesNotANumber) {
-  const auto v = residual(disc_on_floor(-1, 0, 0.5), {std::numeric_limits<double>::quiet_NaN(), 0});
-  EXPECT_TRUE(std::isnan(v.rms));
-}
-
-TEST(Residual, SeesNotANumberInTheProblem) {
-  EXPECT_TRUE(
-      std::isnan(residual(disc_on_floor(std::numeric_limits<double>::quiet_NaN(), 0, 0.5), {1, 0}).rms));
+  const double nan = std::nan("");
+  EXPECT_TRUE(std::isnan(residual(disc_on_floor(-1, 0, 0.5), {nan, 0}).rms));
+  EXPECT_TRUE(std::isnan(residual(disc_on_floor(nan, 0, 0.5), {1, 0}).rms));
 }
 
 TEST(Residual, EmptyProblemIsSolved) {

@@ -10,9 +10,11 @@
 #include "particles/contact/residual.hpp"
 #include "particles/solver/solve_end.hpp"
 #include "particles/solver/strip_solver.hpp"
+#include "tests/particles/solving.hpp"
 
 namespace drumlin {
 using namespace particles;
+using namespace test;
 namespace {
 
 /// A column of discs on a floor whose impulses solve nothing.
@@ -50,7 +52,7 @@ void expect_estimate(double precision, double mu = 0.4) {
     for (int strip = 0; strip < strips.strips(); ++strip) strips.estimate_residual(strip, phase);
   const ResidualEstimate estimate = strips.residual_estimate();
   const double impulses = strips.summed_impulses(loops), h = problem.time_step;
-  const ContactResidual exact = residual_of(problem, std::span<const double>(r));
+  const ContactResidual exact = residual_at(problem, r);
   const double q_squares = squared_norm(problem.q);
   EXPECT_NEAR(std::sqrt(estimate.squares * 2 / q_squares) / exact.rms, 1, precision);
   EXPECT_GT(exact.penetration, 0);
@@ -129,7 +131,7 @@ double error_of_the_estimate(SweepExtrapolation how) {
   each([&](int strip, int phase) { strips.estimate_residual(strip, phase); });
   strips.unpack(problem, false, r, loops);
   const double estimate = std::sqrt(strips.residual_estimate().squares * 2 / squared_norm(problem.q));
-  return std::abs(estimate / residual_of(problem, std::span<const double>(r)).rms - 1);
+  return std::abs(estimate / residual_at(problem, r).rms - 1);
 }
 
 TEST(ResidualEstimate, StaysTrueUnderMomentumWhereBodiesReceiveWhatImpulsesRoundOff) {

@@ -7,10 +7,12 @@
 
 #include "coupling/common/errors.hpp"
 #include "particles/contact_law/coulomb_coupled.hpp"
-#include "particles/lab/any_solver.hpp"
+#include "particles/lab/block_problem.hpp"
+#include "tests/particles/solving.hpp"
 
 namespace drumlin {
 using namespace particles;
+using namespace test;
 namespace {
 
 constexpr double g_h = 0.05;  // velocity that gravity gives in a step
@@ -19,16 +21,11 @@ class Solver : public testing::TestWithParam<std::string> {
  protected:
   template <class Problem>
   std::vector<double> solved(const Problem& problem, double tolerance = 1e-10) const {
-    StoppingRule rule;
-    rule.tolerance = tolerance;
-    rule.max_sweeps = 200000;
-    SolverWorkspace<Problem> work;
-    Solution<Problem> solution;
-    const SolveReport report = any_solver<Problem>(GetParam())(problem, rule, work, solution);
-    const std::vector<double>& r = solution.impulses;
+    const Solved<Problem> solution = solved_by(GetParam(), problem, tolerance, 200000);
+    const SolveReport& report = solution.report;
     EXPECT_EQ(report.status, Status::converged) << report.residual.rms << " after " << report.sweeps;
-    EXPECT_LE(residual_of(problem, std::span<const double>(r)).rms, tolerance);
-    return r;
+    EXPECT_LE(residual_at(problem, solution.impulses).rms, tolerance);
+    return solution.impulses;
   }
 };
 
@@ -111,102 +108,43 @@ TEST_P(Solver, RandomProblemsReachTheirTolerance) {
   for (unsigned seed = 1; seed <= 5; ++seed) solved(random_problem(30, 40, 0.3, seed), 1e-8);
 }
 
-/// The same W as blocks, from products with unit impulses.
-BlockProblem as_blocks(const CoulombSpinProblem& problem) {
-  const int n = problem.contacts();
-  BlockProblem blocks;
-  blocks.q = problem.q;
-  blocks.mu = problem.mu;
-  blocks.W.row_start = {0};
-  std::vector<std::vector<double>> columns;
-  const std::vector<double> zero(2 * n, 0.0);
-  for (int c = 0; c < 2 * n; ++c) {
-    std::vector<double> unit(2 * n, 0.0), u;
-    unit[c] = 1;
-    CoulombSpinProblem::Delassus::State scratch;
-    problem.W.velocities(unit, zero, scratch, u);
-    columns.push_back(u);
-  }
-  for (int a = 0; a < n; ++a) {
-    for (int b = 0; b < n; ++b) {
-      Eigen::Matrix2d block;
-      for (int r = 0; r < 2; ++r)
-        for (int c = 0; c < 2; ++c) block(r, c) = columns[2 * b + c][2 * a + r];
-      if (block.cwiseAbs().maxCoeff() == 0) continue;
-      blocks.W.column.push_back(b);
-      blocks.W.block.push_back(block);
-      if (a == b) blocks.W.diagonal.push_back(block);
-    }
-    blocks.W.row_start.push_back(static_cast<int>(blocks.W.column.size()));
-  }
-  return blocks;
-}
-
 TEST_P(Solver, BodiesAndBlocksAreTheSameProblem) {
   const auto problem = random_problem(20, 25, 0.3, 7);
-  const auto blocks = as_blocks(problem);
+  const auto blocks = block_problem(problem);
   const auto r = solved(problem);
-  EXPECT_LE(residual_of(blocks, std::span<const double>(r)).rms, 1e-9);
+  EXPECT_LE(residual_at(blocks, r).rms, 1e-9);
   const auto s = solved(blocks);
-  EXPECT_LE(residual_of(problem, std::span<const double>(s)).rms, 1e-9);
+  EXPECT_LE(residual_at(problem, s).rms, 1e-9);
 }
 
-TEST_P(Solver, SweepsRunOutAndSaySo) {
+TEST_P(Solver, WhatRunsOutOfSweepsSaysSoLiesInTheConeAndHasItsVelocities) {
   const auto problem = random_problem(30, 60, 0.3, 3);
-  StoppingRule rule;
-  rule.tolerance = 1e-14;
-  rule.max_sweeps = 3;
-  SolverWorkspace<CoulombSpinProblem> work;
-  Solution<CoulombSpinProblem> solution;
-  const auto report = any_solver<CoulombSpinProblem>(GetParam())(problem, rule, work, solution);
-  const std::vector<double>& r = solution.impulses;
-  EXPECT_EQ(report.status, Status::out_of_sweeps);
-  EXPECT_EQ(report.sweeps, 3);
-  EXPECT_EQ(report.residual.rms, residual_of(problem, std::span<const double>(r)).rms);
-}
-
-TEST_P(Solver, ImpulsesLieInTheCone) {
-  const auto problem = random_problem(30, 60, 0.3, 4);
-  StoppingRule rule;
-  rule.max_sweeps = 17;
-  rule.tolerance = 0;
-  SolverWorkspace<CoulombSpinProblem> work;
-  Solution<CoulombSpinProblem> solution;
-  (void)any_solver<CoulombSpinProblem>(GetParam())(problem, rule, work, solution);
-  const std::vector<double>& r = solution.impulses;
-  for (int a = 0; a < problem.contacts(); ++a) {
-    EXPECT_GE(r[2 * a], 0);
-    EXPECT_LE(std::abs(r[2 * a + 1]), 0.3 * r[2 * a] * (1 + 1e-15));
+  for (const int sweeps : {3, 17, 40}) {
+    const auto solution = solved_by(GetParam(), problem, 0, sweeps);
+    const std::vector<double>& r = solution.impulses;
+    EXPECT_EQ(solution.report.status, Status::out_of_sweeps);
+    EXPECT_EQ(solution.report.sweeps, sweeps);
+    EXPECT_EQ(solution.report.residual.rms, residual_at(problem, r).rms);
+    for (int a = 0; a < problem.contacts(); ++a) {
+      EXPECT_GE(r[2 * a], 0);
+      EXPECT_LE(std::abs(r[2 * a + 1]), 0.3 * r[2 * a] * (1 + 1e-15));
+    }
+    Velocities<CoulombSpinProblem::Delassus> expected;
+    problem.W.velocities(r, problem.q, expected.bodies, expected.contacts);
+    EXPECT_EQ(solution.velocities.contacts, expected.contacts);
+    ASSERT_EQ(solution.velocities.bodies.size(), expected.bodies.size());
+    for (std::size_t b = 0; b < expected.bodies.size(); ++b) {
+      EXPECT_EQ(solution.velocities.bodies[b].x, expected.bodies[b].x);
+      EXPECT_EQ(solution.velocities.bodies[b].z, expected.bodies[b].z);
+      EXPECT_EQ(solution.velocities.bodies[b].s, expected.bodies[b].s);
+    }
   }
 }
 
 TEST_P(Solver, NotANumberIsReported) {
   auto problem = random_problem(5, 6, 0.3, 5);
   problem.q[3] = std::nan("");
-  StoppingRule rule;
-  SolverWorkspace<CoulombSpinProblem> work;
-  Solution<CoulombSpinProblem> solution;
-  EXPECT_EQ(any_solver<CoulombSpinProblem>(GetParam())(problem, rule, work, solution).status,
-            Status::not_finite);
-}
-
-TEST_P(Solver, ReturnsTheVelocitiesOfItsImpulses) {
-  const auto problem = random_problem(30, 60, 0.3, 8);
-  StoppingRule rule;
-  rule.max_sweeps = 40;
-  rule.tolerance = 0;
-  SolverWorkspace<CoulombSpinProblem> work;
-  Solution<CoulombSpinProblem> solution;
-  (void)any_solver<CoulombSpinProblem>(GetParam())(problem, rule, work, solution);
-  Velocities<CoulombSpinProblem::Delassus> expected;
-  problem.W.velocities(solution.impulses, problem.q, expected.bodies, expected.contacts);
-  EXPECT_EQ(solution.velocities.contacts, expected.contacts);
-  ASSERT_EQ(solution.velocities.bodies.size(), expected.bodies.size());
-  for (std::size_t b = 0; b < expected.bodies.size(); ++b) {
-    EXPECT_EQ(solution.velocities.bodies[b].x, expected.bodies[b].x);
-    EXPECT_EQ(solution.velocities.bodies[b].z, expected.bodies[b].z);
-    EXPECT_EQ(solution.velocities.bodies[b].s, expected.bodies[b].s);
-  }
+  EXPECT_EQ(solved_by(GetParam(), problem, 1e-2, 100).report.status, Status::not_finite);
 }
 
 TEST_P(Solver, AWorkspaceCarriesNothingFromOneProblemToTheNext) {
@@ -232,19 +170,15 @@ INSTANTIATE_TEST_SUITE_P(Every, Solver, testing::ValuesIn(any_solver_names()), [
 
 TEST(ContactSolver, AccelerationSavesMostSweepsOnATallColumn) {
   // Information travels one contact per sweep of NLGS: some N^2 sweeps; accelerated methods need some N.
-  const auto problem = column<CoulombSpinProblem>(100, 0.4);
-  const auto sweeps = [&problem](const std::string& name) {
-    StoppingRule rule;
-    rule.tolerance = 1e-6;
-    rule.max_sweeps = 100000;
-    SolverWorkspace<CoulombSpinProblem> work;
-    Solution<CoulombSpinProblem> solution;
-    const auto report = any_solver<CoulombSpinProblem>(name)(problem, rule, work, solution);
+  const auto sweeps = [](const char* solver, int discs) {
+    const auto report = solved_by(solver, column<CoulombSpinProblem>(discs, 0.4), 1e-6, 100000).report;
     EXPECT_EQ(report.status, Status::converged);
     return report.sweeps;
   };
   for (const char* accelerated : {"accelerated", "nncg"})
-    EXPECT_LT(5 * sweeps(accelerated), sweeps("nlgs")) << accelerated;
+    EXPECT_LT(5 * sweeps(accelerated, 100), sweeps("nlgs", 100)) << accelerated;
+  for (const int discs : {100, 300})
+    EXPECT_LE(sweeps("accelerated-double", discs), 20 * discs);  // measured: 10
 }
 
 TEST(ContactSolver, UnknownNameIsRefusedWithTheKnownOnes) {

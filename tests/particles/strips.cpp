@@ -1,7 +1,6 @@
 // Sweeps in strips: the plan keeps its promises, and neither threads nor the processor's vectors change a
 // bit.
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,10 +9,11 @@
 #include <set>
 
 #include "particles/contact/problems.hpp"
-#include "particles/lab/any_solver.hpp"
+#include "tests/particles/solving.hpp"
 
 namespace drumlin {
 using namespace particles;
+using namespace test;
 namespace {
 
 /// Discs of a square lattice on a floor, each in contact with its right and upper neighbour, at random
@@ -113,14 +113,7 @@ std::vector<double> solved(const std::string& solver, ThreadTeam* team, int swee
     const SweepPlan plan = sweep_plan(150 * 100, unsorted.W.i, unsorted.W.j, order);
     return in_order_of(unsorted, plan, order);
   }();
-  SolverWorkspace<CoulombSpinProblem> work;
-  work.team = team;
-  StoppingRule rule;
-  rule.tolerance = 0;
-  rule.max_sweeps = sweeps;
-  Solution<CoulombSpinProblem> solution;
-  (void)any_solver<CoulombSpinProblem>(solver)(problem, rule, work, solution);
-  return solution.impulses;
+  return solved_by(solver, problem, 0, sweeps, team).impulses;
 }
 
 /// Single precision reaches 1e-4: where sweeps end with it, a tighter tolerance is not met.
@@ -132,15 +125,9 @@ TEST(Strips, SinglePrecisionThatRunsOutOfSweepsHasNotConverged) {
   const auto problem = in_order_of(unsorted, plan, order);
   int missed = 0;
   for (const int sweeps : {50, 100, 200}) {
-    StoppingRule rule;
-    rule.tolerance = 1e-9;
-    rule.max_sweeps = rule.check_every = sweeps;
-    SolverWorkspace<CoulombSpinProblem> work;
-    Solution<CoulombSpinProblem> solution;
-    solution.impulses.assign(problem.q.size(), 0);
-    const SolveReport report = solve_accelerated(problem, rule, work, solution);
-    EXPECT_EQ(report.status == Status::converged, report.residual.rms <= rule.tolerance) << sweeps;
-    missed += report.residual.rms > rule.tolerance && report.residual.rms < 1e-4;
+    const SolveReport report = solved_by("accelerated", problem, 1e-9, sweeps, nullptr, sweeps).report;
+    EXPECT_EQ(report.status == Status::converged, report.residual.rms <= 1e-9) << sweeps;
+    missed += report.residual.rms > 1e-9 && report.residual.rms < 1e-4;
   }
   EXPECT_GT(missed, 0);  // the case was met
 }
@@ -158,14 +145,18 @@ TEST(Strips, AnyNumberOfThreadsGivesTheSameBytes) {
 TEST(Strips, AnyInstructionSetGivesTheSameBytes) {
   for (const char* solver : {"nlgs", "accelerated", "accelerated-double"}) {
     const auto best = solved(solver, nullptr, 30);
-    for (const auto target : hwy::SupportedAndGeneratedTargets()) {
-      hwy::SetSupportedTargetsForTest(target);
-      hwy::GetChosenTarget().DeInit();
-      EXPECT_EQ(best, solved(solver, nullptr, 30)) << solver << " on " << hwy::TargetName(target);
-    }
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().DeInit();
+    on_each_instruction_set([&](const char* target) {
+      EXPECT_EQ(best, solved(solver, nullptr, 30)) << solver << " on " << target;
+    });
   }
+}
+
+template <class Problem>
+void expect_as_in_turn(const Problem& problem) {
+  const auto in_strips = solved_by("nlgs", problem, 0, 20).impulses;
+  const auto scalar = solved_by("nlgs-scalar", problem, 0, 20).impulses;
+  for (std::size_t k = 0; k < scalar.size(); ++k)
+    ASSERT_NEAR(in_strips[k], scalar[k], 1e-12);  // rounding of 20 sweeps
 }
 
 TEST(Strips, SweepsAgreeWithThoseOfOneContactAfterTheOther) {
@@ -174,17 +165,7 @@ TEST(Strips, SweepsAgreeWithThoseOfOneContactAfterTheOther) {
   std::vector<std::int32_t> order;
   const SweepPlan plan = sweep_plan(40 * 30, problem.W.i, problem.W.j, order);
   const CoulombSpinProblem sorted = in_order_of(problem, plan, order);
-  StoppingRule rule;
-  rule.tolerance = 0;
-  rule.max_sweeps = 20;
-  SolverWorkspace<CoulombSpinProblem> work;
-  Solution<CoulombSpinProblem> in_strips, scalar;
-  (void)solve_nlgs(sorted, rule, work, in_strips);
-  (void)any_solver<CoulombSpinProblem>("nlgs-scalar")(sorted, rule, work, scalar);
-  double worst = 0;
-  for (std::size_t k = 0; k < scalar.impulses.size(); ++k)
-    worst = std::max(worst, std::abs(in_strips.impulses[k] - scalar.impulses[k]));
-  EXPECT_LT(worst, 1e-12);  // rounding of 20 sweeps
+  expect_as_in_turn(sorted);
 }
 
 /// The lattice with rolling resistance, its walls moved by forces, in the order of its plan.
@@ -210,57 +191,33 @@ RollingProblem rolling_lattice(int columns, int rows, bool driven) {
   return problem;
 }
 
-std::vector<double> solved(const RollingProblem& problem, const char* solver, ThreadTeam* team, int sweeps) {
-  SolverWorkspace<RollingProblem> work;
-  work.team = team;
-  StoppingRule rule;
-  rule.tolerance = 0;
-  rule.max_sweeps = sweeps;
-  Solution<RollingProblem> solution;
-  (void)any_solver<RollingProblem>(solver)(problem, rule, work, solution);
-  return solution.impulses;
-}
-
 TEST(Strips, RollingAndDrivenWallsGiveTheSameBytesOnAnyThreadsAndInstructionSet) {
   const auto problem = rolling_lattice(100, 60, true);
   for (const char* solver : {"nlgs", "accelerated"}) {
-    const auto alone = solved(problem, solver, nullptr, 30);
+    const auto alone = solved_by(solver, problem, 0, 30).impulses;
     for (const int threads : {2, 3, 8}) {
       ThreadTeam team(threads);
-      EXPECT_EQ(alone, solved(problem, solver, &team, 30)) << solver << ", " << threads;
+      EXPECT_EQ(alone, solved_by(solver, problem, 0, 30, &team).impulses) << solver << ", " << threads;
     }
-    for (const auto target : hwy::SupportedAndGeneratedTargets()) {
-      hwy::SetSupportedTargetsForTest(target);
-      hwy::GetChosenTarget().DeInit();
-      EXPECT_EQ(alone, solved(problem, solver, nullptr, 30)) << solver << " on " << hwy::TargetName(target);
-    }
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().DeInit();
+    on_each_instruction_set([&](const char* target) {
+      EXPECT_EQ(alone, solved_by(solver, problem, 0, 30).impulses) << solver << " on " << target;
+    });
   }
 }
 
 TEST(Strips, RollingSweepsAgreeWithThoseOfOneContactAfterTheOther) {
   const auto problem = rolling_lattice(40, 30, false);
-  const auto in_strips = solved(problem, "nlgs", nullptr, 20);
-  const auto scalar = solved(problem, "nlgs-scalar", nullptr, 20);
-  double worst = 0;
-  for (std::size_t k = 0; k < scalar.size(); ++k) worst = std::max(worst, std::abs(in_strips[k] - scalar[k]));
-  EXPECT_LT(worst, 1e-12);  // rounding of 20 sweeps
+  expect_as_in_turn(problem);
 }
 
 TEST(Strips, DrivenWallsAndRollingConvergeAsOneContactAfterTheOtherDoes) {
   // Contacts of walls come last in strips: other sweeps, the same solution.
   auto problem = rolling_lattice(14, 10, true);
   std::fill(problem.mu.begin(), problem.mu.end(), 0.05);  // so that both converge
-  StoppingRule rule;
-  rule.tolerance = 1e-7;
-  rule.max_sweeps = 100000;
   std::vector<std::vector<double>> velocities;
   for (const char* solver : {"accelerated", "nlgs-scalar"}) {
-    SolverWorkspace<RollingProblem> work;
-    Solution<RollingProblem> solution;
-    const auto report = any_solver<RollingProblem>(solver)(problem, rule, work, solution);
-    EXPECT_EQ(report.status, Status::converged) << solver;
+    const auto solution = solved_by(solver, problem, 1e-7, 100000);
+    EXPECT_EQ(solution.report.status, Status::converged) << solver;
     velocities.push_back(solution.velocities.contacts);
   }
   double worst = 0;
@@ -271,43 +228,17 @@ TEST(Strips, DrivenWallsAndRollingConvergeAsOneContactAfterTheOtherDoes) {
 
 TEST(Strips, ASolveThatRunsOutReturnsTheBestThatItLookedAt) {
   const auto problem = lattice(60, 40, 5);
-  StoppingRule rule;
-  rule.tolerance = 0;
-  rule.check_every = 1;
   for (const char* solver : {"accelerated", "accelerated-double", "nncg"}) {
     double best = std::numeric_limits<double>::infinity();
     for (int sweeps = 1; sweeps <= 81; sweeps += 4) {  // far away, each fourth residual is looked at
-      rule.max_sweeps = sweeps;
-      SolverWorkspace<CoulombSpinProblem> work;
-      Solution<CoulombSpinProblem> solution;
-      const auto report = any_solver<CoulombSpinProblem>(solver)(problem, rule, work, solution);
+      const auto solution = solved_by(solver, problem, 0, sweeps, nullptr, 1);
+      const SolveReport& report = solution.report;
       EXPECT_EQ(report.status, Status::out_of_sweeps);
-      EXPECT_EQ(report.residual.rms, residual_of(problem, solution).rms);
+      EXPECT_EQ(report.residual.rms, residual_at(problem, solution.impulses).rms);
       EXPECT_LE(report.residual.rms, best * 1.001)
           << solver << ", " << sweeps;  // estimates in single precision
       best = std::min(best, report.residual.rms);
     }
-  }
-}
-
-TEST(Strips, AColumnOfNDiscsTakesSomeNSweeps) {
-  // 9 to 10 n were measured for 100 and for 1000 discs; plain sweeps take n^2.
-  for (const int discs : {100, 300}) {
-    CoulombSpinProblem problem;
-    problem.W.inverse_mass.assign(discs, 1.0);
-    problem.W.inverse_mass.push_back(0);
-    for (int k = 0; k < discs; ++k) {
-      problem.W.add(k, k == 0 ? discs : k - 1, 0, 1);
-      problem.q.insert(problem.q.end(), {k == 0 ? -1e-3 : 0.0, 0.0});
-      problem.mu.push_back(0.4);
-    }
-    StoppingRule rule;
-    rule.tolerance = 1e-6;
-    rule.max_sweeps = 20 * discs;
-    SolverWorkspace<CoulombSpinProblem> work;
-    Solution<CoulombSpinProblem> solution;
-    const auto report = any_solver<CoulombSpinProblem>("accelerated-double")(problem, rule, work, solution);
-    EXPECT_EQ(report.status, Status::converged) << discs << ", " << report.residual.rms;
   }
 }
 

@@ -21,9 +21,8 @@
 
 namespace drumlin {
 using namespace particles;
+using namespace test;
 namespace {
-
-using test::TemporaryFolder;
 
 /// What a reader may do with a file.
 template <class Read>
@@ -70,7 +69,7 @@ std::string mutated(std::string text, RandomStream& random) {
 TEST(HostileFile, NoSceneTextBreaksTheReader) {
   RandomStream random(11, "scenes");
   std::vector<std::string> seeds;
-  for (const auto& file : std::filesystem::directory_iterator(drumlin::test::data_folder() / "scenes"))
+  for (const auto& file : std::filesystem::directory_iterator(data_folder() / "scenes"))
     if (file.path().extension() == ".toml") seeds.push_back(file_text(file.path()));
   std::sort(seeds.begin(), seeds.end());
   int read = 0;
@@ -85,15 +84,15 @@ TEST(HostileFile, NoSceneTextBreaksTheReader) {
 }
 
 /// A drum after some steps, with restitution, spin, ledger and a mark.
-Checkpoint some_checkpoint(Scene& scene, const TemporaryFolder& folder) {
-  scene = test::scene_of({{-1, 0}, {0.02, 0}, {1.03, 0}, {0, 1}}, folder);
+Checkpoint some_checkpoint(Scene& scene) {
+  scene = scene_of({{-1, 0}, {0.02, 0}, {1.03, 0}, {0, 1}});
   scene.walls = {{"drum", ContainerShape{{0, 0}, 4}}};
   scene.effects.gravity = Gravity{};
   scene.effects.friction = Friction{0.4, 0.4};
   scene.effects.restitution = Restitution{0.5, 0.5};
   scene.effects.spin = Spin{};
   scene.output.energy_ledger = true;
-  test::add_stage(scene, 3, 0.05);
+  add_stage(scene, 3, 0.05);
   Simulation simulation(scene);
   for (int s = 0; s < 20; ++s) (void)simulation.step();
   Checkpoint checkpoint;
@@ -111,7 +110,7 @@ TEST(HostileFile, EveryBitFlipOfACheckpointIsRefused) {
   const TemporaryFolder folder;
   Scene scene;
   const auto file = folder.path() / "c.h5", damaged = folder.path() / "d.h5";
-  write_checkpoint(file, some_checkpoint(scene, folder));
+  write_checkpoint(file, some_checkpoint(scene));
   const std::string good = bytes_of(file);
   RandomStream random(12, "flips");
   for (int k = 0; k < 3000; ++k) {
@@ -149,7 +148,7 @@ void spoil(std::vector<T>& values, RandomStream& random) {
 TEST(HostileFile, NoCheckpointOfValidChecksumBreaksTheRun) {
   const TemporaryFolder folder;
   Scene scene;
-  const Checkpoint good = some_checkpoint(scene, folder);
+  const Checkpoint good = some_checkpoint(scene);
   RandomStream random(13, "checkpoints");
   for (int k = 0; k < 400; ++k) {
     Checkpoint bad = good;

@@ -14,16 +14,17 @@
 #include "tests/hardcases/continuum/small_drum.hpp"
 
 namespace drumlin {
+using namespace continuum;
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-double viscosity_contrast(const continuum::FlowField& field, const continuum::DrumGeometry& drum) {
-  std::vector<continuum::Vec2> points;
+double viscosity_contrast(const FlowField& field, const DrumGeometry& drum) {
+  std::vector<Vec2> points;
   for (double x = -drum.radius; x < drum.radius; x += 0.23)
     for (double z = -0.01; z > drum.axis_offset - drum.radius; z -= 0.23) points.push_back({x, z});
   double smallest = std::numeric_limits<double>::infinity(), largest = 0;
-  for (const continuum::PointState& s : field.at(points))
+  for (const PointState& s : field.at(points))
     if (std::isfinite(s.viscosity)) {
       smallest = std::min(smallest, s.viscosity);
       largest = std::max(largest, s.viscosity);
@@ -32,12 +33,11 @@ double viscosity_contrast(const continuum::FlowField& field, const continuum::Dr
 }
 
 std::vector<HardCheck> contrast() {
-  const continuum::DrumGeometry drum = small_drum();
-  const continuum::FlowSolverOptions options = one_mesh();
-  const continuum::FlowSolution flow = continuum::solve_flow(small_drum_problem(paper_law, 1e-8), options);
+  const DrumGeometry drum = small_drum();
+  const FlowSolverOptions options = one_mesh();
+  const FlowSolution flow = solve_flow(small_drum_problem(paper_law, 1e-8), options);
   double linear = flow.report.history.empty() ? std::nan("") : 0;
-  for (const continuum::IterationReport& line : flow.report.history)
-    linear = larger(linear, line.linear_residual);
+  for (const IterationReport& line : flow.report.history) linear = larger(linear, line.linear_residual);
   return {at_least("converged at eps = 1e-8", 1, flow.report.converged, ""),
           at_least("largest over smallest viscosity", 1e8, viscosity_contrast(flow.field, drum),
                    "mu p/eps in the core, mu p_min/(2 |D|) at the surface"),
@@ -53,9 +53,9 @@ std::vector<HardCheck> fast_drums() {
   // The paper's drum at 15 rpm has Omega^2 R/g = 0.056; a drum centrifuges at 1. Without inertia a solution
   // exists for any speed: mu grows without bound.
   for (const double froude : {0.056, 0.25, 1.0}) {
-    continuum::DrumGeometry drum = small_drum();
+    DrumGeometry drum = small_drum();
     drum.rotation = std::sqrt(froude / drum.radius);
-    const continuum::FlowSolution flow = continuum::solve_flow(small_drum_problem(drum), one_mesh());
+    const FlowSolution flow = solve_flow(small_drum_problem(drum), one_mesh());
     const double theta = flow.field.theta() / degree;
     checks.push_back(
         at_least(fmt::format("Omega^2 R/g = {:g}: converged", froude), 1, flow.report.converged, ""));
@@ -68,14 +68,14 @@ std::vector<HardCheck> fast_drums() {
 }
 
 std::vector<HardCheck> impossible_slope() {
-  continuum::DrumGeometry drum = small_drum();
+  DrumGeometry drum = small_drum();
   drum.slope = 23 * degree;
   int iterations = 0;
-  continuum::FlowObserver observer;
-  observer.iteration = [&](const continuum::IterationReport&) { ++iterations; };
+  FlowObserver observer;
+  observer.iteration = [&](const IterationReport&) { ++iterations; };
   bool refused = false, says_why = false;
   try {
-    (void)continuum::solve_flow(small_drum_problem(drum), one_mesh(), observer);
+    (void)solve_flow(small_drum_problem(drum), one_mesh(), observer);
   } catch (const NotConvergedError& error) {
     refused = true;
     says_why = std::string(error.what()).find("no local steady state") != std::string::npos;
@@ -88,32 +88,31 @@ std::vector<HardCheck> impossible_slope() {
 
 std::vector<HardCheck> coarse_mesh() {
   // The paper's drum at 6 rpm.
-  const continuum::DrumGeometry drum{.radius = 68.2, .axis_offset = 3, .rotation = 0.0115, .nu = 0.82};
+  const DrumGeometry drum{.radius = 68.2, .axis_offset = 3, .rotation = 0.0115, .nu = 0.82};
   const auto problem =
-      continuum::drum_problem(drum, paper_law, {.surface_cell = 4, .surface_zone = 16, .levels = 1}, {}, {});
-  const continuum::FlowSolution flow = continuum::solve_flow(problem, one_mesh());
+      drum_problem(drum, paper_law, {.surface_cell = 4, .surface_zone = 16, .levels = 1}, {}, {});
+  const FlowSolution flow = solve_flow(problem, one_mesh());
   return {at_least("converged on cells of 4 d", 1, flow.report.converged, ""),
           at_most("|Q/Q_expected - 1|", 1e-3, flux_error(flow.field, drum), "mass balance"),
           at_most("|wall torque/weight torque - 1|", 1e-3,
-                  std::abs(continuum::drum_checks(flow.field, drum).value("torque_relative_error")),
-                  "moment balance")};
+                  std::abs(drum_checks(flow.field, drum).value("torque_relative_error")), "moment balance")};
 }
 
 std::vector<HardCheck> ten_turns() {
-  const continuum::DrumGeometry drum = small_drum();
-  continuum::FlowProblem problem = small_drum_problem();
-  problem.inertia = continuum::Inertia{};
-  const continuum::FlowSolution steady = continuum::solve_flow(problem, one_mesh());
+  const DrumGeometry drum = small_drum();
+  FlowProblem problem = small_drum_problem();
+  problem.inertia = Inertia{};
+  const FlowSolution steady = solve_flow(problem, one_mesh());
   const double theta = steady.field.theta(), turn = 2 * std::numbers::pi / drum.rotation;
   double drift = 0, worst_flux = 0;
   int steps = 0;
-  const continuum::FlowSolution flow = continuum::march_flow(
-      steady.field, problem,
-      {.time_step = turn / 20, .steps = 200, .stepped = [&](double, const continuum::FlowField& field) {
-         drift = larger(drift, std::abs(field.theta() - theta) / degree);
-         ++steps;
-         worst_flux = larger(worst_flux, flux_error(field, drum));
-       }});
+  const FlowSolution flow =
+      march_flow(steady.field, problem,
+                 {.time_step = turn / 20, .steps = 200, .stepped = [&](double, const FlowField& field) {
+                    drift = larger(drift, std::abs(field.theta() - theta) / degree);
+                    ++steps;
+                    worst_flux = larger(worst_flux, flux_error(field, drum));
+                  }});
   return {
       at_least("200 steps of a twentieth of a turn converged", 1, flow.report.converged && steps == 200, ""),
       at_most("largest drift of the slope, deg", 1e-4, drift, "a steady flow stays"),

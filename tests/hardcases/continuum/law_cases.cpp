@@ -11,6 +11,7 @@
 #include "tests/hardcases/continuum/small_drum.hpp"
 
 namespace drumlin {
+using namespace continuum;
 namespace {
 
 // The decimal logarithm in place of the natural one: b = 0.013/ln 10.
@@ -28,11 +29,11 @@ std::vector<HardCheck> decimal_logarithm() {
     const double middle = std::sqrt(low * high);
     (barker(decimal, middle) > 0 ? high : low) = middle;
   }
-  const auto ranges = continuum::ill_posed_ranges(decimal, nullptr);
-  const auto natural = continuum::ill_posed_ranges(paper_law, nullptr);
+  const auto ranges = ill_posed_ranges(decimal, nullptr);
+  const auto natural = ill_posed_ranges(paper_law, nullptr);
   const double from = ranges.empty() ? std::nan("") : ranges.front().from;
-  const continuum::FlowSolution flow = continuum::solve_flow(small_drum_problem(decimal), one_mesh());
-  const continuum::FlowIntegrals sums = flow.field.integrals();
+  const FlowSolution flow = solve_flow(small_drum_problem(decimal), one_mesh());
+  const FlowIntegrals sums = flow.field.integrals();
   return {
       equals("log10 (I) above which it is ill-posed", std::log10(low), std::log10(from), 1e-3,
              "Barker's condition by bisection against the symbol's minimum, ends to 1e-6; the floor of mu"),
@@ -54,17 +55,17 @@ RheologyFit logarithm(double b) {
 // Three values of the paper's text: 0.8 for I -> 0, 1.2 at 1e-3, 1 in the flowing layer.
 std::vector<HardCheck> bump_of_k() {
   const StressRatioLaw k({1e-5, 1e-3, 1e-2}, {0.8, 1.2, 1.0});
-  const auto ranges = continuum::ill_posed_ranges(paper_law, &k);
+  const auto ranges = ill_posed_ranges(paper_law, &k);
   double covered = 0;  // of 1e-5 .. 1e-3, in decades
   for (const InertialRange& range : ranges)
     covered += std::max(0.0, std::log10(std::min(range.to, 1e-3) / std::max(range.from, 1e-5)));
   // A larger eps would hide it: a fluid of constant viscosity.
-  continuum::FlowProblem problem = small_drum_problem(paper_law, 1e-5);
-  problem.turned = continuum::TurnedStress{.k = k};
-  continuum::FlowSolverOptions options = one_mesh();
+  FlowProblem problem = small_drum_problem(paper_law, 1e-5);
+  problem.turned = TurnedStress{.k = k};
+  FlowSolverOptions options = one_mesh();
   options.max_picard_updates = 3;
-  const continuum::FlowSolution flow = continuum::solve_flow(problem, options);
-  const continuum::FlowIntegrals sums = flow.field.integrals();
+  const FlowSolution flow = solve_flow(problem, options);
+  const FlowIntegrals sums = flow.field.integrals();
   return {at_least("small drum: ill-posed share of the area, reported", 0.001,
                    sums.ill_posed_area / sums.area, "I below 1e-3 is found in its nearly rigid part"),
           at_least("small drum: converged in 3 Picard updates", 1, flow.report.converged,
@@ -84,7 +85,7 @@ std::vector<HardCheck> falling_friction() {
     says_why = std::string(error.what()).find("mu falls with I") != std::string::npos;
   }
   // What would come of it: every wave grows.
-  const auto ranges = continuum::ill_posed_ranges(LogLaw{0.35, -0.013}, nullptr, 1e-4, 1e-1);
+  const auto ranges = ill_posed_ranges(LogLaw{0.35, -0.013}, nullptr, 1e-4, 1e-1);
   const bool everywhere = ranges.size() == 1 && ranges[0].from <= 1e-4 && ranges[0].to >= 1e-1;
   return {at_least("refused as wrong input (exit 2)", 1, refused, ""),
           at_least("with the reason: mu falls with I", 1, says_why, ""),

@@ -8,31 +8,31 @@
 #include "tests/hardcases/continuum/case_lists.hpp"
 
 namespace drumlin {
+using namespace continuum;
 namespace {
 
 const LogLaw paper{0.35, 0.013};
 constexpr double nu = 0.82;
 
 // Plane shear at the rate 1e-8 under the pressure 4, mu at the driven wall from the power that it puts in.
-continuum::FlowSolution slowest_shear(double eps) {
-  const continuum::Gap gap{.depth = 10, .nu = nu, .pressure = 4, .speed = 1e-7, .scalars = {"mu_wall"}};
-  continuum::FlowSolverOptions options;
+FlowSolution slowest_shear(double eps) {
+  const Gap gap{.depth = 10, .nu = nu, .pressure = 4, .speed = 1e-7, .scalars = {"mu_wall"}};
+  FlowSolverOptions options;
   options.levels = 1;
   options.tolerance = 1e-10;
-  return continuum::solve_flow(
-      continuum::gap_problem(gap, paper, {.surface_cell = 2.5, .surface_zone = 100, .levels = 1},
-                             {.shear_rate = eps, .pressure = 1e-6}),
-      options);
+  return solve_flow(gap_problem(gap, paper, {.surface_cell = 2.5, .surface_zone = 100, .levels = 1},
+                                {.shear_rate = eps, .pressure = 1e-6}),
+                    options);
 }
 
-double friction_in_the_middle(const continuum::FlowField& field) {
-  const continuum::Vec2 middle{0.1, -5.1};
-  const continuum::PointState s = field.at(std::span(&middle, 1)).front();
+double friction_in_the_middle(const FlowField& field) {
+  const Vec2 middle{0.1, -5.1};
+  const PointState s = field.at(std::span(&middle, 1)).front();
   return s.sigma_xz / s.sigma_zz;
 }
 
 std::vector<HardCheck> rate_to_zero() {
-  const continuum::FlowSolution law = slowest_shear(1e-10), creeping = slowest_shear(1e-6);
+  const FlowSolution law = slowest_shear(1e-10), creeping = slowest_shear(1e-6);
   const double I = 1e-8 / 2;
   // Far below eps the law is a fluid of the viscosity that it has at |D| = eps/2.
   const double at_eps = paper.friction(1e-6 / 2).mu * 1e-8 / 1e-6;
@@ -47,27 +47,27 @@ std::vector<HardCheck> rate_to_zero() {
 
 std::vector<HardCheck> pressure_to_zero() {
   const double theta = 18 * std::numbers::pi / 180, cell = 0.25;
-  const continuum::Gap gap{.depth = 10, .nu = nu, .weight = nu, .slope = theta, .scalars = {"surface_speed"}};
-  continuum::FlowSolverOptions options;
+  const Gap gap{.depth = 10, .nu = nu, .weight = nu, .slope = theta, .scalars = {"surface_speed"}};
+  FlowSolverOptions options;
   options.levels = 2;
-  const continuum::FlowSolution flow = continuum::solve_flow(
-      continuum::gap_problem(gap, paper, {.surface_cell = cell, .surface_zone = 100, .levels = 2},
+  const FlowSolution flow =
+      solve_flow(gap_problem(gap, paper, {.surface_cell = cell, .surface_zone = 100, .levels = 2},
                              {.shear_rate = 1e-6, .pressure = 1e-6}),
-      options);
-  std::vector<continuum::Vec2> points;
+                 options);
+  std::vector<Vec2> points;
   constexpr int n = 400;
   for (int i = 0; i < n; ++i) points.push_back({0.1 * cell, -10 * std::pow((i + 1e-6) / n, 3)});
   int not_a_number = 0;
   double mu_error = 0;
   const auto states = flow.field.at(points);
   for (std::size_t i = 0; i < states.size(); ++i) {
-    const continuum::PointState& s = states[i];
+    const PointState& s = states[i];
     const double sum =
         s.velocity.x + s.velocity.z + s.dvx_dz + s.sigma_xx + s.sigma_zz + s.sigma_xz + s.viscosity;
     not_a_number += !std::isfinite(sum);
     if (points[i].z < -1) mu_error = larger(mu_error, std::abs(s.sigma_xz / s.sigma_zz - std::tan(theta)));
   }
-  const continuum::PointState& top = states.front();
+  const PointState& top = states.front();
   return {at_least("converged with p_min = 1e-6", 1, flow.report.converged, ""),
           equals("points that are not numbers, of 400", 0, not_a_number, 0, "towards the surface as i^3"),
           equals("sigma_zz at the surface", 0, top.sigma_zz, 1e-4,

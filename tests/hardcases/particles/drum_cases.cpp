@@ -8,6 +8,7 @@
 #include "tests/hardcases/particles/trial.hpp"
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
 struct DrumSize {
@@ -15,53 +16,52 @@ struct DrumSize {
   double radius_mm = 30, smallest_mm = 3, largest_mm = 3.6;
 };
 
-particles::Scene drum(const DrumSize& size, double mu) {
-  particles::Scene scene;
+Scene drum(const DrumSize& size, double mu) {
+  Scene scene;
   scene.title = "hard case";
   scene.grains.density_kg_m3 = 2700;
-  scene.grains.source = particles::GeneratedGrains{size.grains, size.smallest_mm, size.largest_mm,
-                                                   particles::CircleRegion{{0, 0}, size.radius_mm}};
-  scene.walls = {{"drum", particles::ContainerShape{{0, 0}, size.radius_mm}}};
-  scene.effects = {particles::Gravity{}, particles::Friction{mu, mu}, particles::Restitution{0.46, 0.46},
-                   particles::Spin{}};
+  scene.grains.source =
+      GeneratedGrains{size.grains, size.smallest_mm, size.largest_mm, CircleRegion{{0, 0}, size.radius_mm}};
+  scene.walls = {{"drum", ContainerShape{{0, 0}, size.radius_mm}}};
+  scene.effects = {Gravity{}, Friction{mu, mu}, Restitution{0.46, 0.46}, Spin{}};
   scene.output.velocity_window_s = 0;
   return scene;
 }
 
-void add_stage(particles::Scene& scene, double seconds, double step, double rpm) {
-  particles::Stage stage;
+void add_stage(Scene& scene, double seconds, double step, double rpm) {
+  Stage stage;
   stage.name = "stage" + std::to_string(scene.stages.size() + 1);
   stage.duration_s = seconds;
   stage.time_step_s = step;
-  if (rpm != 0) stage.motions = {{"drum", particles::Rotation{rpm, {0, 0}}}};
+  if (rpm != 0) stage.motions = {{"drum", Rotation{rpm, {0, 0}}}};
   scene.stages.push_back(stage);
 }
 
 /// Discs whose centre is not within the drum of that radius.
-int lost(const particles::Bodies& b, double radius) {
+int lost(const Bodies& b, double radius) {
   int count = 0;
   for (std::size_t k = 0; k < b.count(); ++k) count += !(std::hypot(b.x[k], b.z[k]) < radius);
   return count;
 }
 
 /// Kinetic energy that falling through the whole drum and moving with its wall would give.
-double energy_at_most(const particles::Bodies& b, double radius, double wall_speed) {
+double energy_at_most(const Bodies& b, double radius, double wall_speed) {
   return total_mass(b) * (2 * radius + wall_speed * wall_speed);
 }
 
 struct DrumRun {
   Watch watch;
-  particles::Bodies end;
+  Bodies end;
   double radius = 0;  ///< d
 };
 
-DrumRun run_drum(const particles::Scene& scene) {
-  particles::Simulation simulation(scene);
+DrumRun run_drum(const Scene& scene) {
+  Simulation simulation(scene);
   DrumRun result;
   result.watch = run_watched(simulation);
   result.end = simulation.state().bodies;
-  result.radius = std::get<particles::ContainerShape>(scene.walls[0].shape).radius_mm * 1e-3 /
-                  simulation.scales().length_m;
+  result.radius =
+      std::get<ContainerShape>(scene.walls[0].shape).radius_mm * 1e-3 / simulation.scales().length_m;
   return result;
 }
 
@@ -76,12 +76,12 @@ std::vector<HardCheck> sound(const DrumRun& run, double wall_speed, double mean_
                   overlap_reason)};
 }
 
-double wall_speed_of(const DrumRun& run, const particles::Scene& scene, double rpm) {
+double wall_speed_of(const DrumRun& run, const Scene& scene, double rpm) {
   return run.radius * rpm * 2 * std::numbers::pi / 60 * scales_of(scene).time_s;
 }
 
 std::vector<HardCheck> step_ten_times_too_large() {
-  particles::Scene scene = drum({}, 0.4);
+  Scene scene = drum({}, 0.4);
   add_stage(scene, 1, 1e-2, 0);
   add_stage(scene, 2, 1e-2, 6);
   const DrumRun run = run_drum(scene);
@@ -90,7 +90,7 @@ std::vector<HardCheck> step_ten_times_too_large() {
 }
 
 std::vector<HardCheck> friction_ten() {
-  particles::Scene scene = drum({}, 10);
+  Scene scene = drum({}, 10);
   add_stage(scene, 0.4, 1e-3, 0);
   add_stage(scene, 2, 1e-3, 6);
   const DrumRun run = run_drum(scene);
@@ -98,21 +98,21 @@ std::vector<HardCheck> friction_ten() {
 }
 
 /// Kinetic and potential energy, zero on the level of the drum's axis.
-double mechanical_energy(const particles::Bodies& b) {
+double mechanical_energy(const Bodies& b) {
   double energy = kinetic_energy(b);
   for (std::size_t k = 0; k < b.count(); ++k) energy += b.z[k] / b.inverse_mass[k];
   return energy;
 }
 
 std::vector<HardCheck> friction_zero() {
-  particles::Scene scene = drum({}, 0);
+  Scene scene = drum({}, 0);
   add_stage(scene, 1.5, 1e-3, 0);
   add_stage(scene, 2, 1e-3, 6);
-  particles::Simulation simulation(scene);
+  Simulation simulation(scene);
   DrumRun run;
   run.radius = 30e-3 / simulation.scales().length_m;
   double settled = 0;
-  run.watch = run_watched(simulation, [&](const particles::Simulation& s) {
+  run.watch = run_watched(simulation, [&](const Simulation& s) {
     if (s.state().stage == 0) settled = mechanical_energy(s.state().bodies);
   });
   run.end = simulation.state().bodies;
@@ -127,7 +127,7 @@ std::vector<HardCheck> friction_zero() {
 }
 
 std::vector<HardCheck> size_ratio() {
-  particles::Scene scene = drum({300, 100, 0.2, 10}, 0.4);
+  Scene scene = drum({300, 100, 0.2, 10}, 0.4);
   add_stage(scene, 1, 5e-4, 0);
   add_stage(scene, 1, 5e-4, 6);
   const DrumRun run = run_drum(scene);
@@ -136,7 +136,7 @@ std::vector<HardCheck> size_ratio() {
 
 std::vector<HardCheck> centrifuge() {
   const double rpm = 200;  // R Omega^2 = 9 g: a bed that rests up to a slope of 6.4 deg stays
-  particles::Scene scene = drum({300, 200, 11, 13}, 0.9);
+  Scene scene = drum({300, 200, 11, 13}, 0.9);
   add_stage(scene, 4, 1e-3, rpm);
   const DrumRun run = run_drum(scene);
   const double omega = rpm * 2 * std::numbers::pi / 60 * scales_of(scene).time_s;
@@ -159,10 +159,10 @@ std::vector<HardCheck> centrifuge() {
 std::vector<HardCheck> hundred_turns() {
   const double rpm = 2, step = 3e-3, turn_s = 60 / rpm;
   const int turns = 100, dropped = 10;
-  particles::Scene scene = drum({40, 130, 28, 32}, 0.4);
+  Scene scene = drum({40, 130, 28, 32}, 0.4);
   add_stage(scene, 1, step, 0);
   add_stage(scene, turns * turn_s, step, rpm);
-  particles::Simulation simulation(scene);
+  Simulation simulation(scene);
   // Means over each turn.
   std::vector<double> x, z, energy, overlap;
   double sum_x = 0, sum_z = 0, sum_energy = 0, sum_overlap = 0;
@@ -171,8 +171,8 @@ std::vector<HardCheck> hundred_turns() {
   const auto steps_per_turn = simulation.plan().stages[1].steps / turns;
   while (!simulation.finished()) {
     const double before = kinetic_energy(simulation.state().bodies);
-    const particles::StepReport report = simulation.step();
-    const particles::Bodies& b = simulation.state().bodies;
+    const StepReport report = simulation.step();
+    const Bodies& b = simulation.state().bodies;
     detail::watch_step(watch, b, report, before);
     if (simulation.state().stage == 0) continue;
     for (std::size_t k = 0; k < b.count(); ++k)

@@ -11,6 +11,7 @@
 #include "tests/hardcases/particles/trial.hpp"
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
 constexpr double rounding = 1e-9;  // of the energy; residual 1e-12
@@ -24,7 +25,7 @@ Trial strict() {
 
 /// Two discs that meet at random, free, with any restitution and friction.
 std::vector<HardCheck> single_contact() {
-  particles::RandomStream random(1, "hard/single-contact");
+  RandomStream random(1, "hard/single-contact");
   double worst = -1;
   for (int k = 0; k < 200; ++k) {
     Trial trial = strict();
@@ -35,11 +36,11 @@ std::vector<HardCheck> single_contact() {
                    {distance * std::cos(angle), distance * std::sin(angle), diameter,
                     -3 * std::cos(angle) + random.uniform(-2, 2),
                     -3 * std::sin(angle) + random.uniform(-2, 2), random.uniform(-5, 5)}};
-    trial.scene.effects.friction = particles::Friction{mu, mu};
-    trial.scene.effects.restitution = particles::Restitution{e, e};
-    trial.scene.effects.spin = particles::Spin{};
+    trial.scene.effects.friction = Friction{mu, mu};
+    trial.scene.effects.restitution = Restitution{e, e};
+    trial.scene.effects.spin = Spin{};
     trial.add_stage(1, 0.0545);
-    particles::Simulation simulation = trial.start();
+    Simulation simulation = trial.start();
     const double before = kinetic_energy(simulation.state().bodies);
     run_watched(simulation);
     worst = larger(worst, kinetic_energy(simulation.state().bodies) / before - 1);
@@ -53,9 +54,9 @@ double row_gain(double e) {
   for (int k = 0; k <= 40; ++k) {
     Trial trial = strict();
     trial.discs = {{-1.02, 0, 1, 6}, {0, 0}, {1 + 0.02 * k, 0}};
-    trial.scene.effects.restitution = particles::Restitution{e, e};
+    trial.scene.effects.restitution = Restitution{e, e};
     trial.add_stage(0.6, 0.0545);
-    particles::Simulation simulation = trial.start();
+    Simulation simulation = trial.start();
     const double before = kinetic_energy(simulation.state().bodies);
     run_watched(simulation);
     worst = larger(worst, kinetic_energy(simulation.state().bodies) / before - 1);
@@ -74,14 +75,14 @@ std::vector<HardCheck> three_in_a_row(std::initializer_list<double> restitutions
 /// Free discs of two sizes in a box, thrown at random.
 Trial gas(double e, double h, double duration) {
   Trial trial = strict();
-  particles::RandomStream random(2, "hard/gas");
+  RandomStream random(2, "hard/gas");
   for (int i = 0; i < 8; ++i)
     for (int k = 0; k < 8; ++k)
       trial.discs.push_back({1.2 * i - 4.2 + random.uniform(-0.05, 0.05),
                              1.2 * k - 4.2 + random.uniform(-0.05, 0.05), (i + k) % 2 ? 1.1 : 0.9,
                              random.uniform(-2, 2), random.uniform(-2, 2)});
   trial.scene.walls = trial_box(5);
-  trial.scene.effects.restitution = particles::Restitution{e, e};
+  trial.scene.effects.restitution = Restitution{e, e};
   trial.add_stage(duration, h);
   return trial;
 }
@@ -89,7 +90,7 @@ Trial gas(double e, double h, double duration) {
 std::vector<HardCheck> gas_energy() {
   std::vector<HardCheck> checks;
   for (const double e : {0.46, 0.9, 1.0}) {
-    particles::Simulation simulation = gas(e, 0.0545, 20).start();
+    Simulation simulation = gas(e, 0.0545, 20).start();
     const double before = kinetic_energy(simulation.state().bodies);
     const Watch watch = run_watched(simulation);
     const std::string suffix = ", e = " + std::to_string(e).substr(0, 4);
@@ -112,11 +113,11 @@ std::vector<HardCheck> rough_gas_energy() {
     for (const double e_wall : {e, 0.2, 1.0})
       for (const double mu : {0.0, 0.4, 10.0}) {
         Trial trial = gas(e, 0.0545, 10);
-        trial.scene.effects.restitution = particles::Restitution{e, e_wall};
-        trial.scene.effects.friction = particles::Friction{mu, mu};
-        trial.scene.effects.spin = particles::Spin{};
+        trial.scene.effects.restitution = Restitution{e, e_wall};
+        trial.scene.effects.friction = Friction{mu, mu};
+        trial.scene.effects.spin = Spin{};
         for (TrialDisc& disc : trial.discs) disc.spin = disc.v_x - disc.v_z;
-        particles::Simulation simulation = trial.start();
+        Simulation simulation = trial.start();
         while (!simulation.finished()) {
           const double before = kinetic_energy(simulation.state().bodies);
           (void)simulation.step();
@@ -133,8 +134,8 @@ Trial dilute_gas(const std::vector<TrialDisc>& discs, double side, double e) {
   trial.discs = discs;
   trial.scene.walls = {trial_segment("floor", -side, 0, 2 * side, 0),
                        trial_segment("top", -side, side + 1, 2 * side, side + 1)};
-  trial.scene.periodic_x = particles::PeriodicX{0, side};
-  trial.scene.effects.restitution = particles::Restitution{e, 1};
+  trial.scene.periodic_x = PeriodicX{0, side};
+  trial.scene.effects.restitution = Restitution{e, 1};
   return trial;
 }
 
@@ -144,7 +145,7 @@ double side_of_gas(double fraction) {
 }
 
 std::vector<TrialDisc> thrown_discs(double side) {
-  particles::RandomStream random(3, "hard/dilute-gas");
+  RandomStream random(3, "hard/dilute-gas");
   std::vector<TrialDisc> discs;
   double sum = 0;
   for (int i = 0; i < gas_side; ++i)
@@ -163,7 +164,7 @@ std::vector<HardCheck> elastic_gas() {
   const double side = side_of_gas(0.3);
   Trial trial = dilute_gas(thrown_discs(side), side, 1);
   trial.add_stage(440, 0.05);
-  particles::Simulation simulation = trial.start();
+  Simulation simulation = trial.start();
   const double before = kinetic_energy(simulation.state().bodies);
   double impacts = 0, rise = 0;
   while (!simulation.finished()) {
@@ -188,13 +189,13 @@ std::vector<HardCheck> haff() {
   const double tau = 4 / ((1 - e * e) * 2 * n * chi * std::sqrt(std::numbers::pi));
   Trial mixing = dilute_gas(thrown_discs(side), side, 1);
   mixing.add_stage(20, h);
-  const particles::Bodies mixed = end_of(mixing);
+  const Bodies mixed = end_of(mixing);
   std::vector<TrialDisc> discs;
   for (std::size_t k = 0; k < mixed.count(); ++k)
     discs.push_back({mixed.x[k], mixed.z[k], 1, mixed.v_x[k], mixed.v_z[k]});
   Trial cooling = dilute_gas(discs, side, e);
   cooling.add_stage(3 * tau, h);
-  particles::Simulation simulation = cooling.start();
+  Simulation simulation = cooling.start();
   const double before = kinetic_energy(simulation.state().bodies);
   std::vector<HardCheck> checks;
   // Of Haff's law: an event-driven simulation of the same hard discs, mean of 12 starts, each 0.004. One run

@@ -1,4 +1,6 @@
 // Impacts of one disc, or of a few in a row.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,24 +10,25 @@
 #include "tests/hardcases/particles/trial.hpp"
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
 Trial drop(double height, double e, double duration, double h) {
   Trial trial;
   trial.discs = {{0, 0.5 + height}};
   trial.scene.walls = {trial_floor()};
-  trial.scene.effects.gravity = particles::Gravity{};
-  trial.scene.effects.restitution = particles::Restitution{e, e};
+  trial.scene.effects.gravity = Gravity{};
+  trial.scene.effects.restitution = Restitution{e, e};
   trial.add_stage(duration, h);
   return trial;
 }
 
 std::vector<HardCheck> drop_peaks() {
   const double e = 0.6, height = 4, h = 2e-4;
-  particles::Simulation simulation = drop(height, e, 14, h).start();
+  Simulation simulation = drop(height, e, 14, h).start();
   std::vector<double> peaks;
   double before = height, now = height;
-  run_watched(simulation, [&](const particles::Simulation& s) {
+  run_watched(simulation, [&](const Simulation& s) {
     const double z = s.state().bodies.z[0] - 0.5;
     if (now > before && now > z) peaks.push_back(now);
     before = now, now = z;
@@ -42,9 +45,9 @@ std::vector<HardCheck> drop_peaks() {
 std::vector<HardCheck> drop_to_rest() {
   const double e = 0.5, height = 2, h = 2e-4;
   const double rest = std::sqrt(2 * height) * (1 + e) / (1 - e);
-  particles::Simulation simulation = drop(height, e, rest + 2, h).start();
+  Simulation simulation = drop(height, e, rest + 2, h).start();
   double last_moving = 0, jitter = 0;
-  run_watched(simulation, [&](const particles::Simulation& s) {
+  run_watched(simulation, [&](const Simulation& s) {
     const double speed = std::abs(s.state().bodies.v_z[0]);
     if (speed > 2 * h) last_moving = s.state().time();
     if (s.state().time() > rest * 1.01) jitter = larger(jitter, speed);
@@ -59,97 +62,70 @@ std::vector<HardCheck> drop_to_rest() {
 Trial row(const std::vector<TrialDisc>& discs, double e, double duration, double h) {
   Trial trial;
   trial.discs = discs;
-  trial.scene.effects.restitution = particles::Restitution{e, e};
+  trial.scene.effects.restitution = Restitution{e, e};
   trial.scene.solver.tolerance = 1e-12;
   trial.scene.solver.check_every = 1;
   trial.add_stage(duration, h);
   return trial;
 }
 
-std::vector<HardCheck> touching_cradle() {
-  std::vector<HardCheck> checks;
-  const double e = 0.4;
-  for (const int others : {2, 5}) {
-    std::vector<TrialDisc> discs{{-1.02, 0, 1, 1}};
-    for (int k = 0; k < others; ++k) discs.push_back({1.0 * k, 0});
-    const particles::Bodies end = end_of(row(discs, e, 0.1, 1e-3));
-    const std::string suffix = " of one on " + std::to_string(others);
-    const double N = others;
-    checks.push_back(equals("striker" + suffix, (1 - N * e) / (N + 1), end.v_x[0], 1e-8, "residual 1e-12"));
-    double worst = (1 + e) / (N + 1);
-    for (int k = 1; k <= others; ++k)
-      if (std::abs(end.v_x[k] - (1 + e) / (N + 1)) >= std::abs(worst - (1 + e) / (N + 1))) worst = end.v_x[k];
-    checks.push_back(equals("farthest off" + suffix, (1 + e) / (N + 1), worst, 1e-8, "residual 1e-12"));
-  }
-  return checks;
-}
-
 /// Newton's cradle of five: with gaps the impacts follow one another, and the last disc leaves with e_4 of
 /// the speed; discs that touch follow Newton's law at once.
 std::vector<HardCheck> cradle_of_five() {
   std::vector<HardCheck> checks;
-  for (const double e : {1.0, 0.9}) {
+  for (const double e : {1.0, 0.9, 0.4}) {
     std::vector<TrialDisc> discs{{-1.3, 0, 1, 1}};
     for (int k = 0; k < 4; ++k) discs.push_back({1.001 * k, 0});
     const std::string suffix = ", e = " + std::to_string(e).substr(0, 3);
-    const particles::Bodies end = end_of(row(discs, e, 0.4, 1e-3));
+    const Bodies end = end_of(row(discs, e, 0.4, 1e-3));
     checks.push_back(equals("last disc" + suffix, std::pow((1 + e) / 2, 4), end.v_x[4], 1e-10,
                             "each impact passes on (1 + e)/2; residual 1e-12"));
     double momentum = 0;
     for (const double v : end.v_x) momentum += v;
     checks.push_back(equals("momentum" + suffix, 1, momentum, 1e-12, "rounding"));
     for (std::size_t k = 1; k < discs.size(); ++k) discs[k].x = static_cast<double>(k) - 1;
-    const particles::Bodies touching = end_of(row(discs, e, 0.4, 1e-3));
+    const Bodies touching = end_of(row(discs, e, 0.4, 1e-3));
     checks.push_back(equals("striker on four that touch" + suffix, (1 - 4 * e) / 5, touching.v_x[0], 1e-8,
                             "Newton's law for impacts at once"));
-    checks.push_back(equals("last of four that touch" + suffix, (1 + e) / 5, touching.v_x[4], 1e-8,
-                            "Newton's law for impacts at once"));
+    for (int k = 1; k <= 4; ++k)
+      checks.push_back(equals(fmt::format("disc {} of four that touch{}", k, suffix), (1 + e) / 5,
+                              touching.v_x[k], 1e-8, "Newton's law for impacts at once"));
   }
   return checks;
 }
 
-std::vector<HardCheck> resolved_cradle() {
-  const particles::Bodies end = end_of(row({{-1.3, 0, 1, 1}, {0, 0}, {1.3, 0}}, 1, 2, 1e-3));
-  std::vector<HardCheck> checks;
-  for (int k = 0; k < 3; ++k)
-    checks.push_back(equals("speed of disc " + std::to_string(k + 1), k == 2, end.v_x[k], 1e-10,
-                            "equal discs exchange velocities; residual 1e-12"));
-  return checks;
-}
-
 /// Velocities after a disc without spin has met a floor, without gravity.
-particles::Bodies oblique_impact(double v_t, double v_n, double mu, double e) {
+Bodies oblique_impact(double v_t, double v_n, double mu, double e) {
   Trial trial;
   trial.discs = {{0, 0.55, 1, v_t, -v_n}};
   trial.scene.walls = {trial_floor()};
-  trial.scene.effects.friction = particles::Friction{mu, mu};
-  trial.scene.effects.restitution = particles::Restitution{e, e};
-  trial.scene.effects.spin = particles::Spin{};
+  trial.scene.effects.friction = Friction{mu, mu};
+  trial.scene.effects.restitution = Restitution{e, e};
+  trial.scene.effects.spin = Spin{};
   trial.add_stage(0.2, 1e-3);
   return end_of(trial);
 }
 
 std::vector<HardCheck> oblique() {
   const double e = 0.5, mu = 0.3, limit = 3 * mu * (1 + e);
-  const particles::Bodies sticks = oblique_impact(0.9 * limit, 1, mu, e),
-                          slips = oblique_impact(1.5 * limit, 1, mu, e);
+  const Bodies sticks = oblique_impact(0.9 * limit, 1, mu, e), slips = oblique_impact(1.5 * limit, 1, mu, e);
   const std::string why = "one contact is solved exactly";
   return {equals("tangential speed, sticking", 2.0 / 3 * 0.9 * limit, sticks.v_x[0], 1e-8, why),
           equals("speed of the rim, sticking", 0, sticks.v_x[0] - 0.5 * sticks.spin[0], 1e-8, why),
-          equals("normal speed, sticking", e, sticks.v_z[0], 1e-8, why),
+          equals("normal speed, sticking", e, sticks.v_z[0], 1e-9, why),
           equals("tangential speed, slipping", 1.5 * limit - mu * (1 + e), slips.v_x[0], 1e-8, why),
-          equals("normal speed, slipping", e, slips.v_z[0], 1e-8, why)};
+          equals("normal speed, slipping", e, slips.v_z[0], 1e-9, why)};
 }
 
 std::vector<HardCheck> billiard() {
   Trial trial = row({{0.3, 0, 1, 1}}, 1, 30500, 0.1);
   trial.scene.walls = {trial_segment("left", -2, -5, -2, 5), trial_segment("right", 2, -5, 2, 5)};
   trial.scene.solver.tolerance = 1e-14;
-  particles::Simulation simulation = trial.start();
+  Simulation simulation = trial.start();
   const double before = kinetic_energy(simulation.state().bodies);
   double velocity = 1;
   int impacts = 0;
-  run_watched(simulation, [&](const particles::Simulation& s) {
+  run_watched(simulation, [&](const Simulation& s) {
     const double now = s.state().bodies.v_x[0];
     impacts += now * velocity < 0;
     velocity = now;
@@ -164,14 +140,14 @@ std::vector<HardCheck> shot() {
   Trial trial;
   trial.discs = {{0, 0, 1, 60, -80}};
   trial.scene.walls = {trial_container(radius)};
-  trial.scene.effects.restitution = particles::Restitution{e, e};
+  trial.scene.effects.restitution = Restitution{e, e};
   trial.add_stage(0.35, 0.0545);  // 5.45 d per step; one impact
-  particles::Simulation simulation = trial.start();
+  Simulation simulation = trial.start();
   double farthest = 0;
-  const Watch watch = run_watched(simulation, [&](const particles::Simulation& s) {
+  const Watch watch = run_watched(simulation, [&](const Simulation& s) {
     farthest = larger(farthest, std::hypot(s.state().bodies.x[0], s.state().bodies.z[0]) + 0.5);
   });
-  const particles::Bodies& end = simulation.state().bodies;
+  const Bodies& end = simulation.state().bodies;
   return {at_most("reach in radii of the drum", 1 + 1e-6, farthest / radius,
                   "no passing through the wall; residual 1e-9"),
           equals("speed after the impact", e * speed, std::hypot(end.v_x[0], end.v_z[0]), 1e-6 * speed,
@@ -184,7 +160,7 @@ std::vector<HardCheck> fast_passes() {
   double worst = 0;
   for (int k = 0; k < 40; ++k) {
     Trial trial = row({{-20 - 0.25 * k, 0, 1, 200}, {0, 1.05}}, 0.5, 0.4, 0.05);
-    const particles::Bodies end = end_of(trial);
+    const Bodies end = end_of(trial);
     for (const double gained : {end.v_z[0], end.v_z[1], end.v_x[1]}) worst = larger(worst, std::abs(gained));
   }
   return {at_most("largest speed gained", 0, worst, "straight paths that do not meet: no contact acts")};
@@ -194,13 +170,13 @@ std::vector<HardCheck> fast_target() {
   Trial trial;
   trial.discs = {{-1, 0, 1, 200}, {0, 0}, {1.5, 0}};
   trial.add_stage(0.5, 0.05);
-  particles::Simulation simulation = trial.start();
+  Simulation simulation = trial.start();
   double overlap = 0;
-  run_watched(simulation, [&](const particles::Simulation& s) {
-    const particles::Bodies& b = s.state().bodies;
+  run_watched(simulation, [&](const Simulation& s) {
+    const Bodies& b = s.state().bodies;
     overlap = larger(overlap, larger(b.x[0] + 1 - b.x[1], b.x[1] + 1 - b.x[2]));
   });
-  const particles::Bodies& end = simulation.state().bodies;
+  const Bodies& end = simulation.state().bodies;
   return {at_most("overlap", 1e-6, overlap, "gaps are closed, not crossed; residual 1e-9"),
           equals("common speed", 200.0 / 3, end.v_x[2], 1e-5, "momentum, e = 0"),
           equals("striker", 200.0 / 3, end.v_x[0], 1e-5, "momentum, e = 0")};
@@ -212,9 +188,6 @@ std::vector<HardCase> impact_cases() {
   return {
       {"drop-peaks", "a dropped disc peaks at e^(2n) of its height", true, drop_peaks},
       {"drop-to-rest", "it rests at t = sqrt(2 H/g) (1+e)/(1-e), then no jitter", true, drop_to_rest},
-      {"cradle-touching", "one disc on N that touch, Newton's law: (1-Ne)/(N+1), the others (1+e)/(N+1)",
-       true, touching_cradle},
-      {"cradle-gaps", "one disc on two with gaps, e = 1: (0, 0, 1)", true, resolved_cradle},
       {"cradle-of-five", "with gaps the last of five leaves with ((1+e)/2)^4; touching ones by Newton's law",
        true, cradle_of_five},
       {"oblique", "an impact slips iff |v_t| > 3 mu (1+e) |v_n|; else v_t' = 2/3 v_t", true, oblique},

@@ -8,6 +8,7 @@
 #include "tests/hardcases/particles/trial.hpp"
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
 /// Angle after `time` of a disc that rolls inside a circle of radius R from rest: phi'' = -(2/3) g sin(phi) /
@@ -32,16 +33,16 @@ double pendulum_error(double h) {
   Trial trial;
   trial.discs = {{swing * std::sin(start), -swing * std::cos(start)}};
   trial.scene.walls = {trial_container(radius)};
-  trial.scene.effects = {particles::Gravity{}, particles::Friction{1, 1}, std::nullopt, particles::Spin{}};
+  trial.scene.effects = {Gravity{}, Friction{1, 1}, std::nullopt, Spin{}};
   trial.add_stage(time, h);
-  const particles::Bodies end = end_of(trial);
+  const Bodies end = end_of(trial);
   return std::atan2(end.x[0], -end.z[0]) - pendulum_angle(start, swing, time);
 }
 
 double fall_error(double h) {
   Trial trial;
   trial.discs = {{0, 3}};
-  trial.scene.effects.gravity = particles::Gravity{};
+  trial.scene.effects.gravity = Gravity{};
   trial.add_stage(1, h);
   return end_of(trial).z[0] - 2.5;
 }
@@ -60,8 +61,7 @@ Trial heap() {
   for (int k = 0; k < 9; ++k)
     trial.discs.push_back({1.01 * (k % 3) + 0.3 * (k / 3), 0.5 + 1.02 * (k / 3), 1, 0.1 * k, -0.3});
   trial.scene.walls = {trial_segment("floor", -20, 0, 20, 0)};
-  trial.scene.effects = {particles::Gravity{}, particles::Friction{0.3, 0.3}, std::nullopt,
-                         particles::Spin{}};
+  trial.scene.effects = {Gravity{}, Friction{0.3, 0.3}, std::nullopt, Spin{}};
   trial.scene.solver.max_sweeps = 20000;
   trial.add_stage(0.5, 0.01);
   return trial;
@@ -74,7 +74,7 @@ std::vector<HardCheck> rotated_frame() {
     d = {c * d.x - s * d.z, s * d.x + c * d.z, d.diameter, c * d.v_x - s * d.v_z, s * d.v_x + c * d.v_z};
   other.scene.walls = {trial_segment("floor", -20 * c, -20 * s, 20 * c, 20 * s)};
   other.scene.effects.gravity->direction_deg = -60;
-  const particles::Bodies a = end_of(heap()), b = end_of(other);
+  const Bodies a = end_of(heap()), b = end_of(other);
   double place = 0, spin = 0;
   for (std::size_t k = 0; k < a.count(); ++k) {
     place = larger(place, std::hypot(b.x[k] - c * a.x[k] + s * a.z[k], b.z[k] - s * a.x[k] - c * a.z[k]));
@@ -88,13 +88,13 @@ std::vector<HardCheck> galilean_shift() {
   Trial trial;
   for (int k = 0; k < 12; ++k)
     trial.discs.push_back({1.01 * (k % 4), 1.02 * (k / 4), 1, 0.3 * (k % 3) - 0.3, -0.2 * (k / 4)});
-  trial.scene.effects.friction = particles::Friction{0.3, 0.3};
-  trial.scene.effects.restitution = particles::Restitution{0.5, 0.5};
-  trial.scene.effects.spin = particles::Spin{};
+  trial.scene.effects.friction = Friction{0.3, 0.3};
+  trial.scene.effects.restitution = Restitution{0.5, 0.5};
+  trial.scene.effects.spin = Spin{};
   trial.add_stage(1, 0.01);
   Trial moving = trial;
   for (TrialDisc& d : moving.discs) d.v_x += 5, d.v_z -= 3;
-  const particles::Bodies a = end_of(trial), b = end_of(moving);
+  const Bodies a = end_of(trial), b = end_of(moving);
   double place = 0, spin = 0;
   for (std::size_t k = 0; k < a.count(); ++k) {
     place = larger(place, std::hypot(b.x[k] - a.x[k] - 5, b.z[k] - a.z[k] + 3));
@@ -105,7 +105,7 @@ std::vector<HardCheck> galilean_shift() {
 }
 
 /// Contacts that the solver saw, summed over all steps.
-long contacts_of(particles::Simulation& simulation) {
+long contacts_of(Simulation& simulation) {
   long sum = 0;
   while (!simulation.finished()) sum += simulation.step().contacts;
   return sum;
@@ -114,9 +114,9 @@ long contacts_of(particles::Simulation& simulation) {
 std::vector<HardCheck> stray_grain() {
   Trial with = heap();
   with.discs.push_back({9e5, 9e5, 1.2, 3, -2});  // last: the heap keeps its numbers
-  particles::Simulation alone = heap().start(), beside = with.start();
+  Simulation alone = heap().start(), beside = with.start();
   const long contacts = contacts_of(alone), contacts_beside = contacts_of(beside);
-  const particles::Bodies &a = alone.state().bodies, &b = beside.state().bodies;
+  const Bodies &a = alone.state().bodies, &b = beside.state().bodies;
   double place = 0;
   for (std::size_t k = 0; k < a.count(); ++k)
     place = larger(place, std::hypot(b.x[k] - a.x[k], b.z[k] - a.z[k]));
@@ -134,8 +134,7 @@ Trial drum() {
       if (std::hypot(i, k) < 18)
         trial.discs.push_back({1.04 * i + 0.01 * (k % 3), 1.04 * k, 0.9 + 0.02 * ((i * i + 3 * k * k) % 6)});
   trial.scene.walls = {trial_container(20)};
-  trial.scene.effects = {particles::Gravity{}, particles::Friction{0.4, 0.9},
-                         particles::Restitution{0.46, 0.46}, particles::Spin{}};
+  trial.scene.effects = {Gravity{}, Friction{0.4, 0.9}, Restitution{0.46, 0.46}, Spin{}};
   trial.scene.solver.tolerance = 1e-2;
   trial.scene.solver.max_sweeps = 50;
   trial.add_stage(100 * 0.0545, 0.0545);
@@ -143,7 +142,7 @@ Trial drum() {
   return trial;
 }
 
-int differing(const particles::SimulationState& a, const particles::SimulationState& b) {
+int differing(const SimulationState& a, const SimulationState& b) {
   int count = 0;
   const auto compare = [&count](const std::vector<double>& one, const std::vector<double>& other) {
     count += one.size() != other.size();
@@ -158,10 +157,10 @@ int differing(const particles::SimulationState& a, const particles::SimulationSt
 
 std::vector<HardCheck> threads() {
   std::vector<HardCheck> checks;
-  particles::Simulation one = drum().start(1);
+  Simulation one = drum().start(1);
   run_watched(one);
   for (const int count : {2, 4}) {
-    particles::Simulation many = drum().start(count);
+    Simulation many = drum().start(count);
     run_watched(many);
     checks.push_back(equals("numbers that differ, 1 against " + std::to_string(count) + " threads", 0,
                             differing(one.state(), many.state()), 0, "the same bytes"));
@@ -171,12 +170,12 @@ std::vector<HardCheck> threads() {
 
 std::vector<HardCheck> restart() {
   const Trial trial = drum();
-  particles::Simulation whole = trial.start(), first = trial.start();
+  Simulation whole = trial.start(), first = trial.start();
   run_watched(whole);
   for (int k = 0; k < 43; ++k) (void)first.step();
-  particles::Scene told = trial.scene;
-  told.grains.source = particles::GeneratedGrains{1, 1, 1, particles::RectangleRegion{{0, 0}, {1, 1}}};
-  particles::Simulation second(told, first.state());
+  Scene told = trial.scene;
+  told.grains.source = GeneratedGrains{1, 1, 1, RectangleRegion{{0, 0}, {1, 1}}};
+  Simulation second(told, first.state());
   run_watched(second);
   return {equals("numbers that differ after a restart", 0, differing(whole.state(), second.state()), 0,
                  "the same bytes")};

@@ -7,9 +7,10 @@
 #include "tests/hardcases/particles/trial.hpp"
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
-double summed_overlap(const particles::Bodies& b) {
+double summed_overlap(const Bodies& b) {
   double sum = 0;
   for (std::size_t i = 0; i < b.count(); ++i)
     for (std::size_t j = 0; j < i; ++j)
@@ -22,8 +23,8 @@ Trial squeezed(int side, double spacing, int steps) {
   Trial trial;
   for (int k = 0; k < side * side; ++k)
     trial.discs.push_back({spacing * (k % side), 0.5 + spacing * (k / side)});
-  trial.scene.effects.friction = particles::Friction{0.4, 0.4};
-  trial.scene.effects.spin = particles::Spin{};
+  trial.scene.effects.friction = Friction{0.4, 0.4};
+  trial.scene.effects.spin = Spin{};
   trial.scene.solver.projection_sweeps = 100;
   trial.add_stage(0.05 * steps, 0.05);
   return trial;
@@ -31,10 +32,10 @@ Trial squeezed(int side, double spacing, int steps) {
 
 /// `share` of the overlap may be left at the end.
 std::vector<HardCheck> opens_slowly(const Trial& trial, double share) {
-  particles::Simulation simulation = trial.start();
+  Simulation simulation = trial.start();
   const double first = summed_overlap(simulation.state().bodies);
   double last = first, rise = 0;
-  const Watch watch = run_watched(simulation, [&](const particles::Simulation& s) {
+  const Watch watch = run_watched(simulation, [&](const Simulation& s) {
     const double now = summed_overlap(s.state().bodies);
     rise = larger(rise, now - last);
     last = now;
@@ -52,13 +53,13 @@ std::vector<HardCheck> thirty_percent_in_gravity(std::optional<double> share) {
   Trial trial = squeezed(6, 0.7, 800);
   trial.scene.walls = {trial_floor(), trial_segment("left", -0.5, 0, -0.5, 100),
                        trial_segment("right", 4, 0, 4, 100)};
-  trial.scene.effects.gravity = particles::Gravity{};
+  trial.scene.effects.gravity = Gravity{};
   trial.scene.solver.tolerance = 1e-2;
   trial.scene.solver.max_sweeps = 100;
   trial.scene.solver.projection_share = share;
-  particles::Simulation simulation = trial.start();
+  Simulation simulation = trial.start();
   const Watch watch = run_watched(simulation);
-  const particles::Bodies& b = simulation.state().bodies;
+  const Bodies& b = simulation.state().bodies;
   int outside = 0;
   for (std::size_t k = 0; k < b.count(); ++k) outside += b.x[k] < -0.5 || b.x[k] > 4 || b.z[k] < 0;
   const double pairs = 60;  // neighbours at the start

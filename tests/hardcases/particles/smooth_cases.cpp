@@ -10,14 +10,15 @@
 #include "tests/hardcases/particles/trial.hpp"
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
 const double millisecond = 1e-3 / std::sqrt(1e-2 / 9.81), metre_per_second = 1 / std::sqrt(1e-2 * 9.81);
 
 Trial trial_with_gravity(double e) {
   Trial trial;
-  trial.scene.effects.gravity = particles::Gravity{};
-  trial.scene.effects.restitution = particles::Restitution{e, e};
+  trial.scene.effects.gravity = Gravity{};
+  trial.scene.effects.restitution = Restitution{e, e};
   return trial;
 }
 
@@ -38,7 +39,7 @@ std::vector<HardCheck> flat_joints() {
       add_floor(trial, joints);
       trial.discs = {{0, 0.5, 1, speed * metre_per_second}};
       trial.add_stage(400 * millisecond, millisecond);
-      const particles::Bodies end = end_of(trial);
+      const Bodies end = end_of(trial);
       const std::string at =
           std::to_string(static_cast<int>(speed)) + " m/s, e = " + std::to_string(static_cast<int>(e));
       checks.push_back(
@@ -55,7 +56,7 @@ std::vector<HardCheck> concave_joint() {
                        trial_segment("slope", 0.2, 0, 0.2 + 200 * std::cos(angle), 200 * std::sin(angle))};
   trial.discs = {{-0.5, 0.5, 1, speed}};
   trial.add_stage(100 * millisecond, millisecond);
-  const particles::Bodies end = end_of(trial);
+  const Bodies end = end_of(trial);
   return {equals("speed up the slope", speed * std::cos(angle), std::hypot(end.v_x[0], end.v_z[0]),
                  1e-6 * speed, "the part across the slope is lost once; residual 1e-9"),
           equals("its angle", angle, std::atan2(end.v_z[0], end.v_x[0]), 1e-6, "along the slope")};
@@ -66,10 +67,10 @@ std::vector<HardCheck> close_passes() {
   for (int k = 0; k <= 40; ++k) {
     const double way = 0.05 + 0.01 * k, speed = way / 2 / millisecond;
     Trial trial;
-    trial.scene.effects.restitution = particles::Restitution{1, 1};
+    trial.scene.effects.restitution = Restitution{1, 1};
     trial.discs = {{-2.03, 0, 1, speed}, {2, 1.01, 1, -speed}};
     trial.add_stage(80 * millisecond / way, millisecond);
-    const particles::Bodies end = end_of(trial);
+    const Bodies end = end_of(trial);
     for (const double v : {end.v_z[0], end.v_z[1], end.v_x[0] - speed, end.v_x[1] + speed})
       worst = larger(worst, std::abs(v));
   }
@@ -89,7 +90,7 @@ std::vector<HardCheck> slow_along_floor() {
   two.scene.walls = {trial_floor()};
   two.discs = {{0, 0.5, 1, 0.009 * metre_per_second}, {1.1, 0.5, 1, -0.009 * metre_per_second}};
   two.add_stage(300 * millisecond, millisecond);
-  const particles::Bodies end = end_of(two);
+  const Bodies end = end_of(two);
   checks.push_back(
       equals("first of two", -0.009 * metre_per_second, end.v_x[0], 1e-9, "equal discs exchange velocities"));
   checks.push_back(
@@ -103,9 +104,9 @@ std::vector<HardCheck> bounces() {
   elastic.scene.walls = {trial_floor()};
   elastic.discs = {{0, 0.5 + height}};
   elastic.add_stage(100 * std::sqrt(2 * height), millisecond);
-  particles::Simulation simulation = elastic.start();
+  Simulation simulation = elastic.start();
   double lowest_peak = height, before = height, now = height;
-  run_watched(simulation, [&](const particles::Simulation& s) {
+  run_watched(simulation, [&](const Simulation& s) {
     const double z = s.state().bodies.z[0] - 0.5;
     if (now > before && now > z) lowest_peak = std::min(lowest_peak, now);
     before = now, now = z;
@@ -115,9 +116,9 @@ std::vector<HardCheck> bounces() {
   lossy.scene.walls = {trial_floor()};
   lossy.discs = {{0, 0.5 + height}};
   lossy.add_stage(1.1 * rest, millisecond);
-  particles::Simulation settles = lossy.start();
+  Simulation settles = lossy.start();
   double last = 0;
-  run_watched(settles, [&](const particles::Simulation& s) {
+  run_watched(settles, [&](const Simulation& s) {
     if (std::abs(s.state().bodies.v_z[0]) > 1e-6) last = s.state().time();
   });
   return {equals("lowest of 50 peaks, e = 1", height, lowest_peak, 1e-3 * height,
@@ -131,7 +132,7 @@ std::vector<HardCheck> slider() {
   const double speed = metre_per_second;
   trial.discs = {{0, -9.5, 1, speed}};
   trial.add_stage(10000 * millisecond, millisecond);
-  const particles::Bodies end = end_of(trial);
+  const Bodies end = end_of(trial);
   return {equals("speed after 10 s, a way of 1000 d", speed, std::hypot(end.v_x[0], end.v_z[0]), 0.01 * speed,
                  "a smooth drum does no work: 1 %")};
 }
@@ -139,16 +140,16 @@ std::vector<HardCheck> slider() {
 std::vector<HardCheck> rolling_pendulum() {
   Trial trial;
   trial.scene.walls = {trial_container(10)};
-  trial.scene.effects.gravity = particles::Gravity{};
-  trial.scene.effects.friction = particles::Friction{1, 1};
-  trial.scene.effects.spin = particles::Spin{};
+  trial.scene.effects.gravity = Gravity{};
+  trial.scene.effects.friction = Friction{1, 1};
+  trial.scene.effects.spin = Spin{};
   const double angle = 0.5, path = 9.5;
   trial.discs = {{path * std::sin(angle), -path * std::cos(angle)}};
   trial.add_stage(20000 * millisecond, millisecond);
-  particles::Simulation simulation = trial.start();
+  Simulation simulation = trial.start();
   double farthest = 0;
   const double last = 18000 * millisecond;
-  run_watched(simulation, [&](const particles::Simulation& s) {
+  run_watched(simulation, [&](const Simulation& s) {
     const auto& b = s.state().bodies;
     if (s.state().time() > last) farthest = larger(farthest, std::abs(std::atan2(b.x[0], -b.z[0])));
   });
@@ -158,7 +159,7 @@ std::vector<HardCheck> rolling_pendulum() {
 /// Discs in hexagons with a gap in a closed box, with random velocities.
 Trial hexagons(double gap, double thermal_speed) {
   Trial trial;
-  trial.scene.effects.restitution = particles::Restitution{1, 1};
+  trial.scene.effects.restitution = Restitution{1, 1};
   std::mt19937_64 random(7);
   std::normal_distribution<double> component(0, thermal_speed);
   const double apart = 1 + gap;
@@ -179,7 +180,7 @@ std::vector<HardCheck> dense_elastic() {
   for (const double gap : {0.01, 0.001}) {
     Trial trial = hexagons(gap, 0.1 * metre_per_second);
     trial.add_stage(50 * millisecond, millisecond);
-    particles::Simulation simulation = trial.start();
+    Simulation simulation = trial.start();
     const double before = kinetic_energy(simulation.state().bodies);
     int unresolved = 0;
     while (!simulation.finished()) unresolved += simulation.step().impacts_unresolved;
@@ -197,16 +198,16 @@ std::vector<HardCheck> shaken_ledger() {
   for (const double step : {0.5, 0.25}) {
     Trial trial = hexagons(0.05, 0);
     trial.scene.walls.erase(trial.scene.walls.begin() + 1);  // open above
-    trial.scene.effects.restitution = particles::Restitution{0.3, 0.3};
-    trial.scene.effects.gravity = particles::Gravity{};
+    trial.scene.effects.restitution = Restitution{0.3, 0.3};
+    trial.scene.effects.gravity = Gravity{};
     trial.scene.output.energy_ledger = true;
     trial.add_stage(1000 * millisecond, step * millisecond);
     for (const char* wall : {"floor", "left", "right"})
       trial.scene.stages.back().motions.push_back(
-          {wall, particles::Oscillation{{0, 0.2}, 20 * std::sqrt(1e-2 / 9.81) / std::sqrt(1e-3 / 9.81), 0}});
-    particles::Simulation simulation = trial.start();
+          {wall, Oscillation{{0, 0.2}, 20 * std::sqrt(1e-2 / 9.81) / std::sqrt(1e-3 / 9.81), 0}});
+    Simulation simulation = trial.start();
     while (!simulation.finished()) simulation.step();
-    const particles::EnergyLedger& ledger = *simulation.state().energy;
+    const EnergyLedger& ledger = *simulation.state().energy;
     const std::string at = ", h = " + std::to_string(step).substr(0, 4) + " ms";
     checks.push_back(equals("time integration / work of the walls" + at, 0,
                             ledger.time_integration / ledger.walls, 0.02,

@@ -9,6 +9,7 @@
 #include "tests/hardcases/particles/trial.hpp"
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
 constexpr double time_step = 0.05;
@@ -17,7 +18,7 @@ Trial resting(std::vector<TrialDisc> discs, double mu) {
   Trial trial;
   trial.discs = std::move(discs);
   trial.scene.walls = {trial_floor()};
-  trial.scene.effects = {particles::Gravity{}, particles::Friction{mu, mu}, std::nullopt, particles::Spin{}};
+  trial.scene.effects = {Gravity{}, Friction{mu, mu}, std::nullopt, Spin{}};
   trial.scene.solver.max_sweeps = 20000;
   trial.add_stage(20 * time_step, time_step);
   return trial;
@@ -25,17 +26,17 @@ Trial resting(std::vector<TrialDisc> discs, double mu) {
 
 /// Largest error of the normal forces of a column, in its weight; disc k rests on disc k - 1. Infinite when a
 /// contact is missing.
-double load_error(particles::Simulation& simulation) {
+double load_error(Simulation& simulation) {
   run_watched(simulation);
-  const particles::Bodies& bodies = simulation.state().bodies;
+  const Bodies& bodies = simulation.state().bodies;
   const auto count = static_cast<std::int32_t>(bodies.count());
   std::vector<double> above(count);
   double weight = 0;
   for (std::int32_t k = count - 1; k >= 0; --k) above[k] = weight += 1 / bodies.inverse_mass[k];
-  const particles::Snapshot snapshot = simulation.take_snapshot();
+  const Snapshot snapshot = simulation.take_snapshot();
   if (static_cast<std::int32_t>(snapshot.contacts.size()) != count) return HUGE_VAL;
   double worst = 0;
-  for (const particles::SnapshotContact& c : snapshot.contacts) {
+  for (const SnapshotContact& c : snapshot.contacts) {
     const double load = above[std::max(c.i, std::max(c.j, 0))];
     worst =
         larger(worst, larger(std::abs(c.impulse_n / time_step - load), std::abs(c.impulse_t / time_step)));
@@ -47,7 +48,7 @@ std::vector<HardCheck> column(int count) {
   std::vector<TrialDisc> discs;
   for (int k = 0; k < count; ++k) discs.push_back({0, 0.5 + k});
   Trial trial = resting(discs, 0.4);
-  particles::Simulation simulation = trial.start();
+  Simulation simulation = trial.start();
   const double error = load_error(simulation);
   return {at_most("error of a force / weight", 1e-5, error,
                   "residual 1e-9 of |q|; an error of q adds up over the column"),
@@ -60,14 +61,14 @@ std::vector<HardCheck> column(int count) {
 
 std::vector<HardCheck> mass_ratios() {
   std::vector<HardCheck> checks;
-  const double light = particles::mass_of_disc(0.5);
+  const double light = mass_of_disc(0.5);
   for (const double ratio : {1e3, 1e6})
     for (const bool heavy_first : {true, false}) {
       std::vector<TrialDisc> discs;
       for (int k = 0; k < 4; ++k)
         discs.push_back({0, 0.5 + k, 1, 0, 0, 0, (k % 2 == 0) == heavy_first ? light * ratio : light});
       Trial trial = resting(discs, 0.4);
-      particles::Simulation simulation = trial.start();
+      Simulation simulation = trial.start();
       checks.push_back(at_most("error of a force / weight, 1:" + std::to_string(static_cast<int>(ratio)) +
                                    (heavy_first ? ", heavy below" : ", light below"),
                                1e-9 * ratio, load_error(simulation),
@@ -86,20 +87,17 @@ std::vector<HardCheck> wedge() {
     trial.discs = {{0, 0.5 / std::sin(alpha)}};
     trial.scene.walls = {trial_segment("left", 0, 0, -far * std::sin(alpha), far * std::cos(alpha)),
                          trial_segment("right", 0, 0, far * std::sin(alpha), far * std::cos(alpha))};
-    trial.scene.effects = {particles::Gravity{}, particles::Friction{mu, mu}, std::nullopt,
-                           particles::Spin{}};
+    trial.scene.effects = {Gravity{}, Friction{mu, mu}, std::nullopt, Spin{}};
     trial.add_stage(50 * time_step, time_step);
-    particles::Simulation simulation = trial.start();
+    Simulation simulation = trial.start();
     run_watched(simulation);
     double normal = 0;
-    for (const particles::SnapshotContact& c : simulation.take_snapshot().contacts)
-      normal += c.impulse_n / time_step;
-    const particles::Bodies& b = simulation.state().bodies;
+    for (const SnapshotContact& c : simulation.take_snapshot().contacts) normal += c.impulse_n / time_step;
+    const Bodies& b = simulation.state().bodies;
     const std::string suffix = ", half angle " + std::to_string(static_cast<int>(half_deg)) + " deg";
     checks.push_back(
         equals("speed" + suffix, 0, std::hypot(b.v_x[0], b.v_z[0], 0.5 * b.spin[0]), 1e-8, "residual 1e-9"));
-    checks.push_back(at_most("sum of normal forces / weight" + suffix, 10,
-                             normal / particles::mass_of_disc(0.5),
+    checks.push_back(at_most("sum of normal forces / weight" + suffix, 10, normal / mass_of_disc(0.5),
                              "any value that wedges is a solution; it must stay bounded"));
   }
   return checks;
@@ -115,11 +113,11 @@ std::vector<HardCheck> crystal() {
   trial.scene.walls = {trial_floor(), trial_segment("left", 0, 0, 0, 100),
                        trial_segment("right", across, 0, across, 100)};
   trial.scene.solver.tolerance = 1e-7;
-  particles::Simulation simulation = trial.start();
+  Simulation simulation = trial.start();
   const Watch watch = run_watched(simulation);
-  const particles::Bodies& bodies = simulation.state().bodies;
+  const Bodies& bodies = simulation.state().bodies;
   double push_x = 0, push_z = 0;
-  for (const particles::SnapshotContact& c : simulation.take_snapshot().contacts) {
+  for (const SnapshotContact& c : simulation.take_snapshot().contacts) {
     if (c.j >= 0) continue;
     push_x += (c.normal_x * c.impulse_n + c.normal_z * c.impulse_t) / time_step;
     push_z += (c.normal_z * c.impulse_n - c.normal_x * c.impulse_t) / time_step;
@@ -127,21 +125,20 @@ std::vector<HardCheck> crystal() {
   const double weight = total_mass(bodies);
   return {equals("lift of the walls / weight", 1, push_z / weight, 1e-3, "residual of a hyperstatic packing"),
           equals("sideways push of the walls / weight", 0, push_x / weight, 1e-3, "as above"),
-          at_most("rms speed / (g h)", 1e-3,
-                  std::sqrt(2 * particles::kinetic_energy(bodies) / weight) / time_step,
+          at_most("rms speed / (g h)", 1e-3, std::sqrt(2 * kinetic_energy(bodies) / weight) / time_step,
                   "at rest; forces are not unique and not compared"),
           at_most("overlap", 1e-5, watch.largest_overlap, "discs that touch do not sink")};
 }
 
 /// Mean number of loaded contacts of a disc, without discs that fewer than two hold.
-double coordination(const particles::Snapshot& snapshot, std::size_t count) {
+double coordination(const Snapshot& snapshot, std::size_t count) {
   double mean = 0;
-  for (const particles::SnapshotContact& c : snapshot.contacts)
+  for (const SnapshotContact& c : snapshot.contacts)
     mean += c.impulse_n / static_cast<double>(snapshot.contacts.size());
   std::vector<bool> held(count, true);
   for (bool changed = true; changed;) {
     std::vector<int> contacts(count);
-    for (const particles::SnapshotContact& c : snapshot.contacts)
+    for (const SnapshotContact& c : snapshot.contacts)
       if (c.impulse_n > 1e-3 * mean && held[c.i] && held[c.j]) ++contacts[c.i], ++contacts[c.j];
     changed = false;
     for (std::size_t k = 0; k < count; ++k)
@@ -154,22 +151,21 @@ double coordination(const particles::Snapshot& snapshot, std::size_t count) {
 
 /// Discs that a cell presses from all sides, with all defaults of the solver.
 std::vector<HardCheck> pressed_with_friction(double mu) {
-  particles::Scene scene = Trial().scene;
+  Scene scene = Trial().scene;
   constexpr int count = 200;
   constexpr double side = 20, time_s = 0.0101;
-  scene.grains.source =
-      particles::GeneratedGrains{count, 0.8, 1.2, particles::RectangleRegion{{0, 0}, {side, side}}};
-  scene.periodic_x = particles::PeriodicX{0, side};
-  scene.periodic_z = particles::PeriodicZ{0, side};
-  scene.effects.friction = particles::Friction{mu, mu};
-  scene.effects.spin = particles::Spin{};
+  scene.grains.source = GeneratedGrains{count, 0.8, 1.2, RectangleRegion{{0, 0}, {side, side}}};
+  scene.periodic_x = PeriodicX{0, side};
+  scene.periodic_z = PeriodicZ{0, side};
+  scene.effects.friction = Friction{mu, mu};
+  scene.effects.spin = Spin{};
   scene.solver = {};
-  particles::Stage stage;
+  Stage stage;
   stage.name = "press", stage.duration_s = 30 * time_s, stage.time_step_s = 0.02 * time_s;
-  const particles::CellAxis pressed{scene.grains.density_kg_m3 * 9.81e-3, {}};
-  stage.cell = particles::StageCell{pressed, pressed, {}, 1};
+  const CellAxis pressed{scene.grains.density_kg_m3 * 9.81e-3, {}};
+  stage.cell = StageCell{pressed, pressed, {}, 1};
   scene.stages = {stage};
-  particles::Simulation simulation(scene);
+  Simulation simulation(scene);
   const Watch watch = run_watched(simulation);
   const double Z = coordination(simulation.take_snapshot(), count);
   return {at_most("steps that miss a tolerance", 0, watch.steps_missed, "each has a solution"),

@@ -13,6 +13,7 @@
 #include "tests/hardcases/particles/trial.hpp"
 
 namespace drumlin {
+using namespace particles;
 namespace {
 
 const double unit_s = std::sqrt(1e-3 / 9.81);  // of a trial: d = 1 mm, 1000 kg/m3
@@ -30,14 +31,14 @@ class Numbers {
 /// What a user gets who asks for nothing.
 Trial with_default_solver() {
   Trial trial;
-  trial.scene.solver = particles::SolverSettings{};
+  trial.scene.solver = SolverSettings{};
   return trial;
 }
 
 void rub(Trial& trial, double mu) {
   if (mu == 0) return;
-  trial.scene.effects.friction = particles::Friction{mu, mu};
-  trial.scene.effects.spin = particles::Spin{};
+  trial.scene.effects.friction = Friction{mu, mu};
+  trial.scene.effects.spin = Spin{};
 }
 
 // Walls that a force moves.
@@ -71,9 +72,8 @@ std::vector<HardCheck> pressed(const Pressed& asked) {
   for (const auto& wall : std::span(box).first(asked.walls))
     trial.scene.stages.back().motions.push_back(
         {wall.name,
-         particles::ForceControl{
-             wall.inwards, pressure * 2 * half * force_unit, asked.wall_mass * mass_unit, {0, 0}}});
-  particles::Simulation simulation = trial.start();
+         ForceControl{wall.inwards, pressure * 2 * half * force_unit, asked.wall_mass * mass_unit, {0, 0}}});
+  Simulation simulation = trial.start();
   double sum = 0, latest = 0;
   int finite = 0;
   for (int step = 0; step < asked.steps; ++step) {
@@ -120,20 +120,20 @@ Trial filled(const Shaken& asked) {
   trial.scene.walls = {trial_segment("box", -half_width, -half_height, half_width, -half_height),
                        trial_segment("box", -half_width, half_height, half_width, half_height)};
   if (asked.periodic) {
-    trial.scene.periodic_x = particles::PeriodicX{-half_width, half_width};
+    trial.scene.periodic_x = PeriodicX{-half_width, half_width};
   } else {
     trial.scene.walls.push_back(trial_segment("box", -half_width, -half_height, -half_width, half_height));
     trial.scene.walls.push_back(trial_segment("box", half_width, -half_height, half_width, half_height));
   }
-  trial.scene.effects.gravity = particles::Gravity{};
-  trial.scene.effects.restitution = particles::Restitution{0.46, 0.46};
+  trial.scene.effects.gravity = Gravity{};
+  trial.scene.effects.restitution = Restitution{0.46, 0.46};
   rub(trial, 0.4);
   trial.scene.solver.max_sweeps = 30;
   return trial;
 }
 
 /// Displacement of the box at a time; the angle clockwise.
-particles::Pose pose_of(const Shaken& asked, double time) {
+Pose pose_of(const Shaken& asked, double time) {
   const double rate = 2 * std::numbers::pi * shaking_rate;
   const double reach = asked.move / (rate * shaking_step), swing = std::sin(rate * time);
   const double corner = std::hypot(half_width, half_height);
@@ -150,20 +150,20 @@ particles::Pose pose_of(const Shaken& asked, double time) {
   return {};
 }
 
-particles::WallMotion motion_of(const Shaken& asked) {
+WallMotion motion_of(const Shaken& asked) {
   const double hertz = shaking_rate / unit_s, quarter = 1 / (4 * shaking_rate);
-  const particles::Pose most = pose_of(asked, quarter);  // of what swings
+  const Pose most = pose_of(asked, quarter);  // of what swings
   if (asked.way == Way::turned)
-    return {"box", particles::Rotation{most.angle / quarter / unit_s * 60 / (2 * std::numbers::pi), {0, 0}}};
+    return {"box", Rotation{most.angle / quarter / unit_s * 60 / (2 * std::numbers::pi), {0, 0}}};
   if (asked.way == Way::rocked)
-    return {"box", particles::Rocking{most.angle * 180 / std::numbers::pi, hertz, 0, {0, 0}}};
-  return {"box", particles::Oscillation{{most.x, most.z}, hertz, 0}};
+    return {"box", Rocking{most.angle * 180 / std::numbers::pi, hertz, 0, {0, 0}}};
+  return {"box", Oscillation{{most.x, most.z}, hertz, 0}};
 }
 
-int outside(const particles::Bodies& b, const particles::Pose& pose, bool periodic) {
+int outside(const Bodies& b, const Pose& pose, bool periodic) {
   int count = 0;
   for (std::size_t k = 0; k < b.count(); ++k) {
-    const particles::Point at = moved(inverse(pose), {b.x[k], b.z[k]});
+    const Point at = moved(inverse(pose), {b.x[k], b.z[k]});
     count += !(std::abs(at.z) < half_height && (periodic || std::abs(at.x) < half_width));
   }
   return count;
@@ -173,9 +173,9 @@ std::vector<HardCheck> shaken(const Shaken& asked) {
   Trial trial = filled(asked);
   trial.add_stage(asked.steps * shaking_step, shaking_step);
   trial.scene.stages.back().motions = {motion_of(asked)};
-  particles::Simulation simulation = trial.start();
+  Simulation simulation = trial.start();
   int out = 0;
-  const Watch watch = run_watched(simulation, [&](const particles::Simulation& s) {
+  const Watch watch = run_watched(simulation, [&](const Simulation& s) {
     out = std::max(out, outside(s.state().bodies, pose_of(asked, s.state().time()), asked.periodic));
   });
   return {at_most("grains outside, worst step", 0, out, "walls hold what is in them"),
@@ -187,11 +187,10 @@ std::vector<HardCheck> too_far(const Shaken& asked) {
   Trial trial = filled(asked);
   trial.add_stage(asked.steps * shaking_step, shaking_step);
   trial.scene.stages.back().motions = {motion_of(asked)};
-  particles::Simulation simulation = trial.start();
+  Simulation simulation = trial.start();
   double told = 0;
   while (!simulation.finished() && told == 0)
-    if (const auto lost = simulation.step().lost)
-      told = lost->how == particles::LostGrain::How::pushed_too_far ? 1 : -1;
+    if (const auto lost = simulation.step().lost) told = lost->how == LostGrain::How::pushed_too_far ? 1 : -1;
   return {equals("says that a wall moves too far (1), another loss (-1)", 1, told, 0,
                  "a wall that moves by more than a radius can pass a grain unseen")};
 }
@@ -200,19 +199,17 @@ std::vector<HardCheck> too_far(const Shaken& asked) {
 
 /// In a turning drum at the default solver, whose sweeps do not suffice for masses of 1 to 125,000.
 std::vector<HardCheck> pressed_out(int grains, int steps) {
-  particles::Scene scene;
+  Scene scene;
   scene.title = "hard case";
   scene.grains.density_kg_m3 = 2700;
-  scene.grains.source = particles::GeneratedGrains{grains, 0.2, 10, particles::CircleRegion{{0, 0}, 129},
-                                                   particles::TwoSizes{0.95}};
-  scene.walls = {{"drum", particles::ContainerShape{{0, 0}, 130}}};
-  scene.effects = {particles::Gravity{}, particles::Friction{0.4, 0.4}, particles::Restitution{0.46, 0.46},
-                   particles::Spin{}};
+  scene.grains.source = GeneratedGrains{grains, 0.2, 10, CircleRegion{{0, 0}, 129}, TwoSizes{0.95}};
+  scene.walls = {{"drum", ContainerShape{{0, 0}, 130}}};
+  scene.effects = {Gravity{}, Friction{0.4, 0.4}, Restitution{0.46, 0.46}, Spin{}};
   scene.output.velocity_window_s = 0;
-  particles::Stage stage;
+  Stage stage;
   stage.name = "settle", stage.duration_s = steps * 1e-3, stage.time_step_s = 1e-3;
   scene.stages = {stage};
-  particles::Simulation simulation(scene);
+  Simulation simulation(scene);
   const Watch watch = run_watched(simulation);
   return {at_most("grains reported lost", 0, watch.steps_lost, "none"),
           at_most("steps with NaN", 0, watch.steps_not_finite, "none")};
@@ -225,15 +222,14 @@ std::vector<HardCheck> column_height(int discs, int steps) {
   Trial trial = with_default_solver();
   for (int k = 0; k < discs; ++k) trial.discs.push_back({0, 0.5 + k});
   trial.scene.walls = {trial_floor()};
-  trial.scene.effects.gravity = particles::Gravity{};
+  trial.scene.effects.gravity = Gravity{};
   rub(trial, 0.4);
   trial.scene.solver.max_sweeps = 20000;
   trial.add_stage(steps * h, h);
-  particles::Simulation simulation = trial.start();
+  Simulation simulation = trial.start();
   double sunk = 0;
-  run_watched(simulation, [&](const particles::Simulation& s) {
-    sunk = larger(sunk, discs - 0.5 - s.state().bodies.z.back());
-  });
+  run_watched(simulation,
+              [&](const Simulation& s) { sunk = larger(sunk, discs - 0.5 - s.state().bodies.z.back()); });
   return {at_most("height lost at worst, d", 0.02, sunk,
                   "a step lets discs sink by 1e-3 d on average, the top by twice that; ten times it")};
 }
@@ -244,11 +240,11 @@ std::vector<HardCheck> column_default(int discs, int steps) {
   Trial trial = with_default_solver();
   for (int k = 0; k < discs; ++k) trial.discs.push_back({0, 0.5 + k});
   trial.scene.walls = {trial_floor()};
-  trial.scene.effects.gravity = particles::Gravity{};
+  trial.scene.effects.gravity = Gravity{};
   rub(trial, 0.4);
-  trial.scene.solver = particles::SolverSettings{};
+  trial.scene.solver = SolverSettings{};
   trial.add_stage(steps * h, h);
-  particles::Simulation simulation = trial.start();
+  Simulation simulation = trial.start();
   const Watch watch = run_watched(simulation);
   return {
       at_most("height lost, d", 0.3, discs - 0.5 - simulation.state().bodies.z.back(),
