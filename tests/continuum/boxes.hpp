@@ -6,40 +6,43 @@
 #include <numbers>
 
 #include "continuum/fem/flow_solver.hpp"
+#include "tests/continuum/orders.hpp"
 
 namespace drumlin::testing_boxes {
+using namespace continuum;
 
 constexpr double degree = std::numbers::pi / 180;
 
-inline continuum::PrescribedVelocity at_rest() {
-  return {[](continuum::Vec2) { return continuum::Vec2{0, 0}; }};
+inline PrescribedVelocity at_rest() {
+  return {[](Vec2) { return Vec2{0, 0}; }};
 }
-inline continuum::Traction constant_traction(double x, double z) {
-  return {[x, z](continuum::Vec2) { return continuum::Vec2{x, z}; }};
+inline Traction constant_traction(double x, double z) {
+  return {[x, z](Vec2) { return Vec2{x, z}; }};
 }
 
 /// Periodic strip of height H on a wall at rest, a traction given at its top.
-inline continuum::FlowProblem strip(double height, int cells, const continuum::StressLaw& law,
-                                    const continuum::Traction& top) {
-  continuum::FlowProblem problem;
-  problem.domain = continuum::BoxDomain{
+inline FlowProblem strip(double height, int cells, const StressLaw& law, const Traction& top) {
+  FlowProblem problem;
+  problem.domain = BoxDomain{
       .width = 2 * height / cells, .height = height, .cells_x = 2, .cells_z = cells, .periodic_x = true};
   problem.law = law;
-  problem.slope = continuum::FixedSlope{0};
-  problem.boundary[continuum::Side::bottom] = at_rest();
-  problem.boundary[continuum::Side::top] = top;
+  problem.slope = FixedSlope{0};
+  problem.boundary[Side::bottom] = at_rest();
+  problem.boundary[Side::top] = top;
   return problem;
 }
 
-inline continuum::FlowField converged(const continuum::FlowProblem& problem,
-                                      const continuum::FlowSolverOptions& options,
-                                      const continuum::FlowObserver& observer = {}) {
-  continuum::FlowSolution solution = continuum::solve_flow(problem, options, observer);
+inline FlowSolution ended(const FlowSolution& solution) {
   EXPECT_TRUE(solution.report.converged) << solution.report.failure;
-  return solution.field;
+  return solution;
 }
 
-inline continuum::PointState state_at(const continuum::FlowField& field, continuum::Vec2 point) {
+inline FlowField converged(const FlowProblem& problem, const FlowSolverOptions& options,
+                           const FlowObserver& observer = {}) {
+  return ended(solve_flow(problem, options, observer)).field;
+}
+
+inline PointState state_at(const FlowField& field, Vec2 point) {
   return field.at(std::span(&point, 1)).front();
 }
 

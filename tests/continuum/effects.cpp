@@ -146,8 +146,7 @@ TEST(SolveAgain, FindsTheFlowOfChangedSettingsOnTheSameMesh) {
   const FlowField start = converged(small_drum_problem(), one_mesh());
   FlowProblem weaker = small_drum_problem();
   weaker.regularisation.pressure *= 0.8;
-  const FlowSolution again = solve_flow_again(start, weaker, one_mesh());
-  ASSERT_TRUE(again.report.converged) << again.report.failure;
+  const FlowSolution again = ended(solve_flow_again(start, weaker, one_mesh()));
   expect_same_flow(again.field, converged(weaker, one_mesh()), 1e-6);
 }
 

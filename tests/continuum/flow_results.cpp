@@ -28,15 +28,6 @@ FlowScene ring_scene() {
   return scene;
 }
 
-TEST(FlowCase, HoldsTheCompleteProblem) {
-  FlowScene scene = drum_scene();
-  scene.effects.nonlocal = FlowNonlocal{.length = 1.5};
-  const FlowCase chosen = flow_case(scene, law_with_k());
-  ASSERT_TRUE(chosen.problem.turned);
-  ASSERT_TRUE(chosen.problem.nonlocal);
-  EXPECT_EQ(chosen.problem.nonlocal->length, 1.5);
-}
-
 TEST(FlowCase, HasAClosedFormOnlyWhereTheProblemHas) {
   RheologyFit without_k = law_with_k();
   without_k.k = {};

@@ -5,15 +5,16 @@
 #include "continuum/model/gap.hpp"
 
 namespace drumlin::testing_gaps {
+using namespace continuum;
 
 constexpr double nu = 0.82;
 // A steeper law than the paper's: its shear layers are wide enough for small meshes.
 const LogLaw steep{0.35, 0.05};
 
 struct GapFlow {
-  continuum::Gap gap;
+  Gap gap;
   double cell = 0;  ///< on the finest of three meshes
-  continuum::FlowRegularisation regularisation;
+  FlowRegularisation regularisation;
 };
 
 /// p_min takes the root of the shear rate away from the surface, where Q2 would be of order 2.

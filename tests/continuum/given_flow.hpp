@@ -8,34 +8,35 @@
 #include <map>
 
 #include "continuum/fem/detail/scalar_field.hpp"
+#include "tests/continuum/orders.hpp"
 
 namespace drumlin::testing_given_flow {
+using namespace continuum;
 
-inline continuum::FlowProblem problem_on(const continuum::Domain& domain) {
-  continuum::FlowProblem problem;
+inline FlowProblem problem_on(const Domain& domain) {
+  FlowProblem problem;
   problem.domain = domain;
-  problem.slope = continuum::FixedSlope{0};
+  problem.slope = FixedSlope{0};
   return problem;
 }
 
 /// Uniformly refined.
 struct GivenFlow {
-  continuum::FlowProblem problem;
-  continuum::fem::Discretisation d;
-  continuum::fem::FieldVector solution;
+  FlowProblem problem;
+  fem::Discretisation d;
+  fem::FieldVector solution;
 
-  GivenFlow(const continuum::Domain& domain, int refinements,
-            const std::function<continuum::Vec2(continuum::Vec2)>& velocity)
+  GivenFlow(const Domain& domain, int refinements, const std::function<Vec2(Vec2)>& velocity)
       : problem(problem_on(domain)), d(problem), solution(d.field()) {
     for (int i = 0; i < refinements; ++i) d.refine(problem, solution);
     fill(velocity);
   }
-  void fill(const std::function<continuum::Vec2(continuum::Vec2)>& velocity) {
-    solution = continuum::fem::velocity_field(d, velocity);
+  void fill(const std::function<Vec2(Vec2)>& velocity) {
+    solution = fem::velocity_field(d, velocity);
     solution.update_ghost_values();
   }
   /// `visit`(place, weight) at every quadrature point of this rank.
-  void for_points(const std::function<void(continuum::Vec2, double)>& visit) const {
+  void for_points(const std::function<void(Vec2, double)>& visit) const {
     dealii::FEValues<2> fe(d.mapping, d.elements, d.quadrature,
                            dealii::update_quadrature_points | dealii::update_JxW_values);
     for (const auto& cell : d.unknowns.active_cell_iterators()) {
@@ -45,16 +46,16 @@ struct GivenFlow {
         visit({fe.quadrature_point(q)[0], fe.quadrature_point(q)[1]}, fe.JxW(q));
     }
   }
-  std::vector<double> at_points(const std::function<double(continuum::Vec2)>& function) const {
+  std::vector<double> at_points(const std::function<double(Vec2)>& function) const {
     std::vector<double> values;
-    for_points([&](continuum::Vec2 x, double) { values.push_back(function(x)); });
+    for_points([&](Vec2 x, double) { values.push_back(function(x)); });
     return values;
   }
   /// Root mean square of the difference of values per quadrature point from a function, where it is not NaN.
-  double error(const std::vector<double>& values, const std::function<double(continuum::Vec2)>& exact) const {
+  double error(const std::vector<double>& values, const std::function<double(Vec2)>& exact) const {
     double sum = 0, area = 0;
     std::size_t point = 0;
-    for_points([&](continuum::Vec2 x, double weight) {
+    for_points([&](Vec2 x, double weight) {
       const double off = values[point++] - exact(x);
       if (std::isnan(off)) return;
       sum += off * off * weight;
@@ -67,17 +68,15 @@ struct GivenFlow {
 /// One flow in a ring as the laboratory sees it and as an observer does who turns about (0, 0.2).
 struct TwoObservers {
   static constexpr double rotation = 0.5;
-  GivenFlow laboratory{continuum::AnnulusDomain{.inner_radius = 2, .layers = {1, 1}, .cells_around = 16}, 0,
-                       [](continuum::Vec2 x) {
-                         const continuum::Vec2 rigid = continuum::rigid_rotation(rotation, 0.2, x);
-                         return continuum::Vec2{rigid.x + 0.1 * x.z, rigid.z + 0.1 * x.x};
+  GivenFlow laboratory{AnnulusDomain{.inner_radius = 2, .layers = {1, 1}, .cells_around = 16}, 0, [](Vec2 x) {
+                         const Vec2 rigid = rigid_rotation(rotation, 0.2, x);
+                         return Vec2{rigid.x + 0.1 * x.z, rigid.z + 0.1 * x.x};
                        }};
-  GivenFlow turning{continuum::AnnulusDomain{.inner_radius = 2, .layers = {1, 1}, .cells_around = 16}, 0,
-                    [](continuum::Vec2 x) {
-                      return continuum::Vec2{0.1 * x.z, 0.1 * x.x};
+  GivenFlow turning{AnnulusDomain{.inner_radius = 2, .layers = {1, 1}, .cells_around = 16}, 0, [](Vec2 x) {
+                      return Vec2{0.1 * x.z, 0.1 * x.x};
                     }};
 
-  TwoObservers() { turning.problem.frame = continuum::RotatingFrame{rotation, 0.2}; }
+  TwoObservers() { turning.problem.frame = RotatingFrame{rotation, 0.2}; }
 };
 
 }  // namespace drumlin::testing_given_flow

@@ -132,21 +132,6 @@ TEST(SmallDrum, MapsHoldWhatTheParticlesMapsHoldUnderTheSameNames) {
   EXPECT_LT(at("I_law", 2, -3), at("I", 2, -3));
   EXPECT_LT(at("mu_law", 2, -3), at("mu", 2, -3));
   EXPECT_NEAR(at("mu_law", 2, -3), LogLaw({0.35, 0.013}).friction(at("I_law", 2, -3)).mu, 1e-4);
-
-  if (!field.on_first_rank()) return;
-  const auto file = std::filesystem::temp_directory_path() / "drumlin_small_drum_maps.h5";
-  write_field_map(file, map);
-  const FieldMap again = read_field_map(file);
-  std::filesystem::remove(file);
-  EXPECT_EQ(again.header, map.header);
-  ASSERT_EQ(again.fields.size(), map.fields.size());
-  for (std::size_t f = 0; f < map.fields.size(); ++f) {
-    EXPECT_EQ(again.fields[f].name, map.fields[f].name);
-    for (std::size_t node = 0; node < map.grid.nodes(); ++node) {
-      const double one = map.fields[f].value[node], other = again.fields[f].value[node];
-      ASSERT_TRUE(one == other || (std::isnan(one) && std::isnan(other))) << map.fields[f].name;
-    }
-  }
 }
 
 TEST(SmallDrum, IsFoundAgainToTheLastBit) {
