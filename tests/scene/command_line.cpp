@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "coupling/common/errors.hpp"
+#include "tests/support/says.hpp"
 
 namespace drumlin::apps {
 namespace {
@@ -51,8 +52,8 @@ TEST(CommandLine, FillsTheOptionsOfNewAndReport) {
 
 TEST(CommandLine, PrintsACompletionWithoutACommand) {
   const auto script = std::get<TextToShow>(parsed({"--completion", "bash"})).text;
-  EXPECT_NE(script.find("complete -o default -F _drumlin drumlin"), std::string::npos);
-  EXPECT_NE(script.find("--player"), std::string::npos);
+  expect_has(script, "complete -o default -F _drumlin drumlin");
+  expect_has(script, "--player");
   EXPECT_THROW(parsed({"--completion", "fish"}), InputError);
 }
 
@@ -145,13 +146,12 @@ TEST(CommandLine, RefusesWrongUsage) {
 
 TEST(CommandLine, ShowsHelpWithDefaultUnitAndRange) {
   const auto help = std::get<TextToShow>(parsed({"measure", "--help"})).text;
-  EXPECT_NE(help.find("--slice-width"), std::string::npos);
-  EXPECT_NE(help.find("=20"), std::string::npos) << help;
-  EXPECT_NE(help.find("[d, "), std::string::npos) << help;
+  expect_has(help, "--slice-width");
+  expect_has(help, "=20");
+  expect_has(help, "[d, ");
   for (const char* command : {"run", "calibrate", "flow", "compare", "solve-contacts", "scene"})
-    EXPECT_NE(std::get<TextToShow>(parsed({command, "--help"})).text.find("Usage"), std::string::npos)
-        << command;
-  EXPECT_NE(std::get<TextToShow>(parsed({"--help"})).text.find("solve-contacts"), std::string::npos);
+    expect_has(std::get<TextToShow>(parsed({command, "--help"})).text, "Usage");
+  expect_has(std::get<TextToShow>(parsed({"--help"})).text, "solve-contacts");
 }
 
 TEST(CommandLine, ShowsItsVersion) {

@@ -7,9 +7,11 @@
 
 #include "coupling/common/errors.hpp"
 #include "particles/scene/scene_file.hpp"
+#include "tests/support/says.hpp"
 #include "tests/support/scene_text.hpp"
 
 namespace drumlin::testing {
+using namespace particles;
 
 /// Line numbers are those of the messages that the tests expect.
 inline const std::string example_scene =
@@ -39,7 +41,7 @@ inline std::string replaced(std::string text, const std::string& from, const std
 inline std::vector<InputProblem> scene_problems(const std::string& text,
                                                 const std::vector<std::string>& overrides = {}) {
   try {
-    particles::parse_scene(text, "s.toml", overrides);
+    parse_scene(text, "s.toml", overrides);
   } catch (const InputError& error) {
     return error.problems();
   }
@@ -54,6 +56,21 @@ inline std::string only_scene_problem(const std::string& text,
   for (const auto& problem : problems) all += problem.text() + "\n";
   EXPECT_EQ(problems.size(), 1u) << all;
   return problems.empty() ? "" : problems.front().text();
+}
+
+/// The only problem names this key and says this.
+inline void expect_problem(const std::string& text, const std::vector<std::string>& overrides,
+                           const std::string& key, const std::string& what,
+                           const Place& at = Place::current()) {
+  const std::string problem = only_scene_problem(text, overrides);
+  expect_has(problem, key + ": ", at);
+  expect_has(problem, what, at);
+}
+
+/// Of the example.
+inline void expect_problem(const std::vector<std::string>& overrides, const std::string& key,
+                           const std::string& what, const Place& at = Place::current()) {
+  expect_problem(example_scene, overrides, key, what, at);
 }
 
 }  // namespace drumlin::testing

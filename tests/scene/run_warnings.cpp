@@ -3,6 +3,7 @@
 
 #include "apps/commands/run_report.hpp"
 #include "tests/scene/example.hpp"
+#include "tests/support/says.hpp"
 
 namespace drumlin {
 namespace {
@@ -18,12 +19,10 @@ TEST(RunWarnings, DeepestOverlapOfAStepIsTold) {
   EXPECT_TRUE(warned().empty());
   totals.overlap_max = 0.48;
   ASSERT_EQ(warned().size(), 1u);
-  EXPECT_NE(warned()[0].find("overlapped by 0.48 d in a step, more than 0.25 d"), std::string::npos)
-      << warned()[0];
+  expect_has(warned()[0], "overlapped by 0.48 d in a step, more than 0.25 d");
   totals.overlap_sum = 0.002;  // of one step: the warning of the mean says both
   ASSERT_EQ(warned().size(), 1u);
-  EXPECT_NE(warned()[0].find("0.002 d in the mean, and by 0.48 d at worst"), std::string::npos)
-      << warned()[0];
+  expect_has(warned()[0], "0.002 d in the mean, and by 0.48 d at worst");
 }
 
 }  // namespace

@@ -114,7 +114,7 @@ TEST(SceneFile, ReportsEveryProblemAtOnceWithItsPlace) {
 TEST(SceneFile, DoesNotRepeatAProblemAsAContradiction) {
   // The wall has no name, so that the motion cannot find it: one problem, not two.
   const auto text = replaced(example_scene, "name = \"drum\"\n", "");
-  EXPECT_NE(testing::only_scene_problem(text).find("walls.0.name: is missing"), std::string::npos);
+  expect_has(testing::only_scene_problem(text), "walls.0.name: is missing");
 }
 
 TEST(SceneFile, RefusesAnotherVersion) {
@@ -158,25 +158,25 @@ TEST_F(ListedGrainsFile, CountsFromTheFolderOfTheScene) {
 
 TEST_F(ListedGrainsFile, IsMissedWithTheKeyThatNamesIt) {
   const auto file = folder.with("s.toml", scene);
-  const auto text = testing::message_of<InputError>([&] { read_scene(file); });
-  EXPECT_NE(text.find(":6:8: grains.listed.file"), std::string::npos) << text;
-  EXPECT_NE(text.find("does not exist"), std::string::npos) << text;
+  const auto text = message_of<InputError>([&] { read_scene(file); });
+  expect_has(text, ":6:8: grains.listed.file");
+  expect_has(text, "does not exist");
 }
 
 // Found by fuzzing.
 TEST_F(ListedGrainsFile, IsMissedWithItsKeyWhereNoFileCanHaveItsName) {
   const auto file = folder.with("s.toml", replaced(scene, "list.csv", std::string(300, 'x')));
-  const auto text = testing::message_of<InputError>([&] { read_scene(file); });
-  EXPECT_NE(text.find(":6:8: grains.listed.file"), std::string::npos) << text;
-  EXPECT_NE(text.find("cannot be found"), std::string::npos) << text;
+  const auto text = message_of<InputError>([&] { read_scene(file); });
+  expect_has(text, ":6:8: grains.listed.file");
+  expect_has(text, "cannot be found");
 }
 
 TEST_F(ListedGrainsFile, ReportsItsProblemsBesideThoseOfTheScene) {
   folder.with("list.csv", "x_mm,z_mm,diameter_mm\n0,0,-3\n");
   const auto file = folder.with("s.toml", replaced(scene, "turns = 0.1", "turns = -1"));
-  const auto text = testing::message_of<InputError>([&] { read_scene(file); });
-  EXPECT_NE(text.find("list.csv:2"), std::string::npos) << text;
-  EXPECT_NE(text.find("stages.1.turns"), std::string::npos) << text;
+  const auto text = message_of<InputError>([&] { read_scene(file); });
+  expect_has(text, "list.csv:2");
+  expect_has(text, "stages.1.turns");
 }
 
 }  // namespace

@@ -2,20 +2,11 @@
 #include <gtest/gtest.h>
 
 #include "tests/scene/example.hpp"
+#include "tests/support/says.hpp"
 
 namespace drumlin {
+using namespace testing;
 namespace {
-
-using testing::example_scene;
-using testing::only_scene_problem;
-
-/// The only problem names this key and says this.
-void expect_problem(const std::vector<std::string>& overrides, const std::string& key,
-                    const std::string& what) {
-  const std::string problem = only_scene_problem(example_scene, overrides);
-  EXPECT_NE(problem.find(key + ": "), std::string::npos) << problem;
-  EXPECT_NE(problem.find(what), std::string::npos) << problem;
-}
 
 TEST(StageContradiction, WallsThatAreNotThere) {
   expect_problem({"stages.0.opens=[\"gate\"]"}, "stages.0.opens", "names no wall");
@@ -58,7 +49,7 @@ TEST(StageContradiction, WallsMoveByARadiusInAStepAtMost) {
   };
   const std::string motion = "stages.1.motions.0.";
   const auto accepted = [&](const std::string& keys, const std::string& wall = "walls.0.name=\"drum\"") {
-    const auto problems = testing::scene_problems(example_scene, {moved(keys), wall});
+    const auto problems = scene_problems(example_scene, {moved(keys), wall});
     EXPECT_TRUE(problems.empty()) << keys << ": " << problems.front().text();
   };
   expect_problem({moved("kind=\"translation\", velocity_mm_s=[1600, 0]")}, motion + "velocity_mm_s",
@@ -93,7 +84,7 @@ TEST(StageContradiction, StepsAreAsShortAsTheSmallestGrainsOfGroupsAndSourcesNee
   };
   const std::string first = "stages=[{name=\"settle\", duration_s=0.1, time_step_s=1e-3}]";
   expect_problem({source("1e-3"), first}, "stages.0.time_step_s", "falls by 9.81 of the smallest diameters");
-  EXPECT_TRUE(testing::scene_problems(example_scene, {source("1e-2"), first}).empty());
+  EXPECT_TRUE(scene_problems(example_scene, {source("1e-2"), first}).empty());
 }
 
 TEST(StageContradiction, NamesAreFieldsOfTables) {
