@@ -146,12 +146,6 @@ def strangers_stay(drumlin, scene, run, folder):
     require(not (ours / "measured" / "measured.json").exists() and not (ours / "replaced").exists(), "old results are left")
     drumlin("export", run, "--vtu", "-o", ours, "--overwrite", code=2)  # a run is no export
 
-    # A planted link is no way to a file elsewhere.
-    (ours / "scene.toml.part").symlink_to(folder / "target")
-    (folder / "target").write_text("years of work\n", encoding="utf-8")
-    drumlin("run", scene, "-o", ours, *SHORT, "--overwrite")
-    require((folder / "target").read_text(encoding="utf-8") == "years of work\n", "a link was followed")
-
 
 def old_results_wait(executable, drumlin, scene, run, folder):
     """A run that replaces another is killed, then finished."""
@@ -184,27 +178,6 @@ def old_results_wait(executable, drumlin, scene, run, folder):
     require(not (again / "replaced").exists(), "old results are left")
 
 
-def half_an_import(drumlin, folder):
-    """An import that fails leaves no frame; one that replaces another leaves the old ones."""
-    csv = folder / "csv"
-    csv.mkdir()
-    line = "time_s,x_m,z_m,v_x_m_s,v_z_m_s,radius_m\n"
-    for number in range(3):
-        (csv / f"grains-{number}.csv").write_text(
-            line + "".join(f"{number},{0.01 * grain},0,0,0,1e-3\n" for grain in range(5)), encoding="utf-8")
-    (csv / "import.toml").write_text(
-        'format = "drumlin-import-1"\ntitle = "Five discs"\n[grains]\ndensity_kg_m3 = 2700\n[csv]\ngrains = ["grains-*.csv"]\n',
-        encoding="utf-8")
-    words = ["import", csv / "import.toml", "-o", folder / "imported"]
-    drumlin(*words)
-    before = bytes_below(folder / "imported")
-    (csv / "grains-2.csv").write_text(line + "2,0,0,0,nan,1e-3\n", encoding="utf-8")
-    drumlin(*words, "--overwrite", code=2)
-    require(bytes_below(folder / "imported") == before, "a failed import changed what was there")
-    drumlin(*words[:-1], folder / "new", code=2)
-    require(not (folder / "new").exists(), "a failed import left frames")
-
-
 def main():
     executable, tests = sys.argv[1], pathlib.Path(sys.argv[2])
     drumlin = Drumlin(executable)
@@ -220,7 +193,6 @@ def main():
         measured_belongs_to_its_run(drumlin, scene, run, folder)
         strangers_stay(drumlin, scene, run, folder)
         old_results_wait(executable, drumlin, scene, run, folder)
-        half_an_import(drumlin, folder)
     print("folders: checked, accepted, untouched, locked")
 
 

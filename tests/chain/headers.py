@@ -1,7 +1,6 @@
-"""Headers compile and reach what they name; includes and folders are those that docs/architecture.md states.
+"""Headers compile; includes and folders are those that docs/architecture.md states.
 
-All headers are compiled in one unit, and in another in the opposite order; what each names and does not reach is looked for in its text
-(header_names.py). With --each they are compiled one by one as well, each in a unit of its own: minutes of processor time.
+All headers are compiled in one unit, and in another in the opposite order. With --each they are compiled one by one as well, each in a unit of its own: minutes of processor time.
 
 The page is the rule: its table "Rooms" has a row for each folder with code, and names the folders that its files may
 include. This test fails on a folder without a row, a row without a folder, an include that the row does not allow,
@@ -16,8 +15,6 @@ import pathlib
 import re
 import subprocess
 import sys
-
-import header_names
 
 TOPS = ("particles", "continuum", "coupling", "apps", "tests/hardcases")
 # Third-party headers that a public header may show to those who include it.
@@ -36,12 +33,6 @@ PRIVATE_LIBRARIES = {
 PRIVATE_FOLDERS = ["continuum/fem/detail"]
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]', re.MULTILINE)
 ROW = re.compile(r"^\| `([\w/]+)` \|.*\| ([^|]*) \|$", re.MULTILINE)
-
-
-def text_of(root, name):
-    """A header with the text files (*-inl.h) that are a part of it."""
-    text = (root / name).read_text(encoding="utf-8")
-    return re.sub(r'^#include "([\w/]+-inl\.h)"$', lambda part: text_of(root, part[1]), text, flags=re.MULTILINE)
 
 
 def below(name, folders):
@@ -126,16 +117,7 @@ def compiles(root, names, compiler, folders, what):
     return "" if result.returncode == 0 else f"{what}:\n{result.stderr}"
 
 
-def require_faults_are_seen():
-    """What header_names is for, on headers of three lines."""
-    texts = {"a.hpp": "#include <vector>\nstruct Grain {\n};", "b.hpp": "std::vector<Grain> grains;", "c.hpp": '#include "a.hpp"\nstd::vector<Grain> grains;'}
-    found = list(header_names.unreached(list(texts), texts.get, lambda name: INCLUDE.findall(texts[name])))
-    if [message.split()[:2] for message in found] != [["b.hpp:", "std::vector"], ["b.hpp:", "Grain"]]:
-        sys.exit(f"header_names.py does not see what it is for: {found}")
-
-
 def main():
-    require_faults_are_seen()
     each = "--each" in sys.argv
     root, compiler, *folders = [word for word in sys.argv[1:] if word not in ("", "--each")]
     root = pathlib.Path(root)
@@ -146,8 +128,6 @@ def main():
     if circle := circle_of(root, files):
         faults.append("folders include each other in a circle: " + " -> ".join(circle))
     headers = [name for name in files if name.endswith(".hpp") and not below(name, PRIVATE_FOLDERS)]
-    texts = {name: text_of(root, name) for name in headers}
-    faults += header_names.unreached(headers, texts.get, lambda name: INCLUDE.findall(texts[name]))
     units = [(headers, "all public headers do not compile together"), (headers[::-1], "all public headers do not compile in the opposite order")]
     if each:
         # Twice: a forgotten #pragma once shows as well.
