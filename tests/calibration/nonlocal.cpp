@@ -8,6 +8,7 @@
 #include "coupling/common/errors.hpp"
 #include "coupling/law/rheology_file.hpp"
 #include "tests/calibration/remembering_drum.hpp"
+#include "tests/support/says.hpp"
 
 namespace drumlin {
 namespace {
@@ -71,7 +72,7 @@ TEST(NonlocalFit, PointsThatCreepByTheirIAloneAskForNoThreshold) {
   for (FluidityPoint& point : run.points) point.mu = known_amount_table().at(point.I).value + noise(random);
   const NonlocalFit fit = fit_nonlocal({&run, 1}, known_amount_table());
   ASSERT_FALSE(fit.untold.empty());
-  EXPECT_NE(fit.untold[0].find("the runs do not ask for one"), std::string::npos) << fit.untold[0];
+  expect_has(fit.untold[0], "the runs do not ask for one");
 }
 
 TEST(NonlocalFit, CurvatureOfExponentialDecayIsOneOverItsLengthSquared) {

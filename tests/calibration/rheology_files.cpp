@@ -7,7 +7,6 @@
 namespace drumlin {
 namespace {
 
-using testing::message_of;
 using testing::TemporaryFolder;
 
 constexpr const char* smallest = R"(format = "drumlin-rheology-1"
@@ -111,8 +110,8 @@ TEST(RheologyFile, MemoryNamesItsFaults) {
     keys.replace(keys.find(from), from.size(), to);
     const auto file = folder.with("law.toml", with("[packing]", "[memory]\n" + keys + "[packing]"));
     const std::string text = message_of<InputError>([&] { read_rheology(file); });
-    EXPECT_NE(text.find("law.toml:"), std::string::npos) << text;
-    EXPECT_NE(text.find(words), std::string::npos) << text;
+    expect_has(text, "law.toml:");
+    expect_has(text, words);
   };
   expect("c = 6\n", "", "memory.c");
   expect("c = 6\n", "c = 0\n", "memory.c");
@@ -162,8 +161,8 @@ TEST(RheologyFile, EveryFormOfMuNamesItsFaults) {
   };
   const auto expect = [&](const std::string& keys, const std::string& place, const std::string& words) {
     const std::string text = message(keys);
-    EXPECT_NE(text.find("law.toml:" + place), std::string::npos) << text;
-    EXPECT_NE(text.find(words), std::string::npos) << text;
+    expect_has(text, "law.toml:" + place);
+    expect_has(text, words);
   };
   expect("law = \"constant\"\nmu = 0.0\n", "4:", "mu.mu");
   expect("law = \"constant\"\n", "2:", "mu.mu");
@@ -202,10 +201,10 @@ TEST(RheologyFile, AFrictionThatFallsWithIIsRefusedWithTheReason) {
         "law = \"table\"\nI = [1e-3, 1e-2, 1e-1]\nmu = [0.3, 0.32, 0.31]\n"}) {
     const auto file = folder.with("law.toml", with_mu(keys));
     const std::string text = message_of<InputError>([&] { read_rheology(file); });
-    EXPECT_NE(text.find("falls with I: faster shear would meet less resistance"), std::string::npos) << text;
+    expect_has(text, "falls with I: faster shear would meet less resistance");
   }
   const auto level = folder.with("law.toml", with_mu("law = \"table\"\nI = [1e-3, 1e-2]\nmu = [0.3, 0.3]\n"));
-  EXPECT_NE(message_of<InputError>([&] { read_rheology(level); }).find("stands still"), std::string::npos);
+  expect_has(message_of<InputError>([&] { read_rheology(level); }), "stands still");
 }
 
 TEST(RheologyFile, WhatIsOptionalMayBeAbsent) {
@@ -223,21 +222,18 @@ TEST(RheologyFile, FaultsAreNamedWithTheirPlace) {
     const auto file = folder.with("law.toml", text);
     return message_of<InputError>([&] { read_rheology(file); });
   };
-  EXPECT_NE(message(with("a = 0.35", "a = \"much\"")).find("law.toml:4:"), std::string::npos);
-  EXPECT_NE(message(with("\"log\"", "\"pouliquen\"")).find("law.toml:3:"), std::string::npos);
-  EXPECT_NE(message(with("b = 0.013", "b = -0.1")).find("law.toml:5:"), std::string::npos);
-  EXPECT_NE(message(with("[1e-4, 1e-5, 2e-6]", "[1e-4, 1e-2, 2e-6]")).find("covariance"), std::string::npos);
-  EXPECT_NE(message(with("I_max = 1e-1", "I_max = 1e-5")).find("I_max"), std::string::npos);
-  EXPECT_NE(message(with("nu = 0.82", "nu = 1.2")).find("law.toml:10:"), std::string::npos);
-  EXPECT_NE(message(with("rheology-1", "rheology-9")).find("format"), std::string::npos);
-  EXPECT_NE(message(with("a = 0.35", "a = 0.35\nc = 1")).find("mu.c"), std::string::npos);
-  EXPECT_NE(message(std::string(smallest) + "[k]\nI = [1e-3, 1e-4]\nk = [1, 1]\n").find("k.I"),
-            std::string::npos);
-  EXPECT_NE(message(std::string(smallest) + "[k]\nI = [1e-4, 1e-3]\nk = [1]\n").find("k.k"),
-            std::string::npos);
-  EXPECT_NE(message(std::string(smallest) + "[k]\nI = []\nk = []\n").find("k.I"), std::string::npos);
-  EXPECT_NE(message(std::string(smallest) + "[k]\nI = [1e-4, 1.1e-4]\nk = [0.8, 1.2]\n").find("several"),
-            std::string::npos);
+  expect_has(message(with("a = 0.35", "a = \"much\"")), "law.toml:4:");
+  expect_has(message(with("\"log\"", "\"pouliquen\"")), "law.toml:3:");
+  expect_has(message(with("b = 0.013", "b = -0.1")), "law.toml:5:");
+  expect_has(message(with("[1e-4, 1e-5, 2e-6]", "[1e-4, 1e-2, 2e-6]")), "covariance");
+  expect_has(message(with("I_max = 1e-1", "I_max = 1e-5")), "I_max");
+  expect_has(message(with("nu = 0.82", "nu = 1.2")), "law.toml:10:");
+  expect_has(message(with("rheology-1", "rheology-9")), "format");
+  expect_has(message(with("a = 0.35", "a = 0.35\nc = 1")), "mu.c");
+  expect_has(message(std::string(smallest) + "[k]\nI = [1e-3, 1e-4]\nk = [1, 1]\n"), "k.I");
+  expect_has(message(std::string(smallest) + "[k]\nI = [1e-4, 1e-3]\nk = [1]\n"), "k.k");
+  expect_has(message(std::string(smallest) + "[k]\nI = []\nk = []\n"), "k.I");
+  expect_has(message(std::string(smallest) + "[k]\nI = [1e-4, 1.1e-4]\nk = [0.8, 1.2]\n"), "several");
 }
 
 }  // namespace

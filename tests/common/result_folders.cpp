@@ -14,7 +14,6 @@ namespace drumlin {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::message_of;
 using testing::TemporaryFolder;
 
 /// log.csv, snapshots/1.h5 and snapshots/2.h5, signed.
@@ -83,19 +82,19 @@ TEST(ResultFolder, NamesWhatIsDamagedMissingOrTooMany) {
   const TemporaryFolder folder;
   make_run(folder);
   folder.with("snapshots/2.h5", "tvo");
-  EXPECT_NE(refusal(folder).find("2.h5: damaged or changed"), std::string::npos) << refusal(folder);
+  expect_has(refusal(folder), "2.h5: damaged or changed");
   folder.with("snapshots/2.h5", "too long");
-  EXPECT_NE(refusal(folder).find("2.h5: has 8 bytes, 3 in"), std::string::npos) << refusal(folder);
+  expect_has(refusal(folder), "2.h5: has 8 bytes, 3 in");
   fs::remove(folder / "snapshots/2.h5");
-  EXPECT_NE(refusal(folder).find("2.h5: is missing"), std::string::npos) << refusal(folder);
-  EXPECT_NE(refusal(folder).find("drumlin accept"), std::string::npos);
+  expect_has(refusal(folder), "2.h5: is missing");
+  expect_has(refusal(folder), "drumlin accept");
   folder.with("theirs", "two");
   fs::create_symlink(folder / "theirs", folder / "snapshots/2.h5");
-  EXPECT_NE(refusal(folder).find("2.h5: is missing"), std::string::npos) << "a link passes for a file";
+  expect_has(refusal(folder), "2.h5: is missing");
   fs::remove(folder / "snapshots/2.h5");
   folder.with("snapshots/2.h5", "two");
   folder.with("snapshots/3.h5", "three");
-  EXPECT_NE(refusal(folder).find("3.h5: is not listed"), std::string::npos) << refusal(folder);
+  expect_has(refusal(folder), "3.h5: is not listed");
 }
 
 TEST(ResultFolder, OfAnUnfinishedRunMayGrow) {
@@ -105,13 +104,13 @@ TEST(ResultFolder, OfAnUnfinishedRunMayGrow) {
   folder.with("log.csv", "step\n1\n2\n");
   check_all_files(open_result_folder(folder.path()));
   folder.with("log.csv", "step\n9\n2\n");
-  EXPECT_NE(refusal(folder).find("log.csv: damaged"), std::string::npos) << refusal(folder);
+  expect_has(refusal(folder), "log.csv: damaged");
 }
 
 TEST(ResultFolder, WithoutAManifestIsRefusedUnlessFilesAreCutOutOfOne) {
   const TemporaryFolder folder;
   folder.with("log.csv", "step\n");
-  EXPECT_NE(refusal(folder).find("drumlin accept"), std::string::npos);
+  expect_has(refusal(folder), "drumlin accept");
   const ResultFolder cut_out = open_result_folder(folder.path(), WithoutManifest::accept);
   EXPECT_EQ(checked_file(cut_out, "log.csv"), folder / "log.csv");
 }
@@ -132,14 +131,12 @@ TEST(FolderLock, KeepsOthersOutAndTellsWhoHoldsIt) {
   {
     const FolderLock lock(file, "drumlin run");
     const std::string said = message_of<InputError>([&] { FolderLock(file, "drumlin run"); });
-    EXPECT_NE(said.find("process " + std::to_string(::getpid()) + ", drumlin run, since 2"),
-              std::string::npos)
-        << said;
+    expect_has(said, "process " + std::to_string(::getpid()) + ", drumlin run, since 2");
   }
   EXPECT_FALSE(fs::exists(file));
   folder.with(folder_lock_name, "process 1, of a killed one");
   const FolderLock again(file, "drumlin run");
-  EXPECT_EQ(file_text(file).find("killed"), std::string::npos);
+  expect_lacks(file_text(file), "killed");
 }
 
 /// Reads a file, unless it holds this.
@@ -161,8 +158,7 @@ TEST(LastWhole, IsThePreviousCheckpointWhereTheNewestIsDamaged) {
   EXPECT_EQ(last_whole_checkpoint(folder.path(), read)->content, "new");
   folder.with(checkpoint_name, "damaged");
   EXPECT_EQ(last_whole_checkpoint(folder.path(), read)->content, "old");
-  EXPECT_NE(last_whole_checkpoint(folder.path(), read)->passed_over.find("checkpoint.h5: damaged"),
-            std::string::npos);
+  expect_has(last_whole_checkpoint(folder.path(), read)->passed_over, "checkpoint.h5: damaged");
   fs::remove(folder / checkpoint_name);  // killed between two renames
   EXPECT_EQ(last_whole_checkpoint(folder.path(), read)->content, "old");
   folder.with(previous_checkpoint_name, "damaged");
@@ -176,7 +172,7 @@ TEST(LastWhole, IsThePreviousCheckpointWhereTheDiskDoesNotGiveTheNewest) {
   folder.with(previous_checkpoint_name, "old");
   const auto last = last_whole_checkpoint(folder.path(), read);
   EXPECT_EQ(last->content, "old");
-  EXPECT_NE(last->passed_over.find("checkpoint.h5: bad sector"), std::string::npos);
+  expect_has(last->passed_over, "checkpoint.h5: bad sector");
   set_aside_passed_over_checkpoint(folder.path());  // or the next one would take the place of the old
   EXPECT_FALSE(fs::exists(folder / checkpoint_name));
   EXPECT_EQ(file_text(folder / passed_over_checkpoint_name), "bad sector");
@@ -197,7 +193,7 @@ TEST(ResultFolder, ResultsBelongToTheStateThatTheyWereComputedFrom) {
   };
   testing::sign(measured, "measure");
   testing::sign(run, "run");
-  EXPECT_NE(said().find("does not say from which state"), std::string::npos);
+  expect_has(said(), "does not say from which state");
   Manifest manifest = read_manifest(measured);
   manifest.source = manifest_sum(read_manifest(run));
   write_manifest(measured, manifest);
@@ -209,7 +205,7 @@ TEST(ResultFolder, ResultsBelongToTheStateThatTheyWereComputedFrom) {
   write_manifest(run, accepted);
   for (const char* part :
        {"measured", "as it was before", "drumlin measure RUN computes it anew", "drumlin accept"})
-    EXPECT_NE(said().find(part), std::string::npos) << said();
+    expect_has(said(), part);
   fs::remove(measured / manifest_name);  // cut out of a folder
   EXPECT_NO_THROW(
       check_source(open_result_folder(measured, WithoutManifest::accept), open_result_folder(run), ""));

@@ -9,26 +9,14 @@
 #include "tests/comparison/example_maps.hpp"
 #include "tests/comparison/run_folders.hpp"
 #include "tests/comparison/shear_example.hpp"
+#include "tests/support/says.hpp"
 
 namespace drumlin::apps {
 using namespace coupling;
 namespace {
 
 namespace fs = std::filesystem;
-using testing::column_of;
-using testing::continuum_profiles;
-using testing::example_flow;
-using testing::example_map;
-using testing::example_measured;
-using testing::example_profiles;
-using testing::example_scales;
-using testing::flow_folder;
-using testing::Json;
-using testing::measured_folder;
-using testing::message_of;
-using testing::sheared_continuum;
-using testing::sheared_packing;
-using testing::TemporaryFolder;
+using namespace testing;
 
 CompareOptions options_for(const TemporaryFolder& folder, const fs::path& run, const fs::path& flow) {
   CompareOptions options;
@@ -42,8 +30,7 @@ CompareOptions options_for(const TemporaryFolder& folder, const fs::path& run, c
 void expect_refused(const TemporaryFolder& folder, const CompareOptions& options,
                     const std::vector<std::string>& words) {
   const std::string said = message_of<InputError>([&] { compare(options); });
-  for (const std::string& word : words)
-    EXPECT_NE(said.find(word), std::string::npos) << word << " in " << said;
+  for (const std::string& word : words) expect_has(said, word);
   EXPECT_FALSE(fs::exists(folder / "report")) << said;
 }
 
@@ -124,7 +111,7 @@ TEST(CompareCommand, LeavesAReportWithBandsAndFloorAndWhatIsMissingIsNull) {
   EXPECT_EQ(report["floor"]["name"], "seed2");
   EXPECT_EQ(report["cost_ratio"]["processor"], 50.0);
   EXPECT_TRUE(fs::exists(folder / "report/overlay.csv") && !fs::exists(folder / "report/figures.pending"));
-  EXPECT_NE(file_text(folder / "report/index.html").find("data:image/png;base64,"), std::string::npos);
+  expect_has(file_text(folder / "report/index.html"), "data:image/png;base64,");
 }
 
 /// Folders of plane shear as `drumlin measure` and `drumlin flow` leave them.
@@ -151,8 +138,7 @@ TEST(CompareCommand, ComparesLayersOfAnyGeometryThatBothSidesShare) {
   ProfileSet continuum = sheared_continuum();
   for (double& value : column_of(continuum, "v_x").value) value *= 1.2;
   // A flow between plates has neither a drum nor a slope.
-  for (const char* key : {"theta_deg", "rotation", "drum_radius"})
-    testing::erase_entry(continuum.header, key);
+  for (const char* key : {"theta_deg", "rotation", "drum_radius"}) erase_entry(continuum.header, key);
   CompareOptions options = options_for(folder, measured_shear(folder, "run"),
                                        flow_folder(folder, "flow", continuum, shear_flow()));
   options.floor = measured_shear(folder, "seed2");
@@ -167,7 +153,7 @@ TEST(CompareCommand, ComparesLayersOfAnyGeometryThatBothSidesShare) {
   for (const char* file : {"overlay.csv", "profiles.png", "ratios.png", "law.png"})
     EXPECT_TRUE(fs::exists(folder / "report" / file)) << file;
   EXPECT_FALSE(fs::exists(folder / "report/figures.pending"));
-  EXPECT_NE(file_text(folder / "report/index.html").find("between two rough plates"), std::string::npos);
+  expect_has(file_text(folder / "report/index.html"), "between two rough plates");
 }
 
 TEST(CompareCommand, RefusesTwoGeometriesWithBothNames) {
@@ -180,7 +166,7 @@ TEST(CompareCommand, BulkOfLayersIsThatOfTheMeasurement) {
   const ProfileSet packing = sheared_packing();
   const ScalarSet measured = particles::bulk_scalars(packing, *packing.header.wall_z, 4);
   const LayerComparison comparison =
-      compare_layers(testing::shear_side(packing), testing::shear_side(packing), Registration::axis);
+      compare_layers(shear_side(packing), shear_side(packing), Registration::axis);
   int found = 0;
   for (const Scalar& scalar : measured.scalars)
     for (const ScalarPair& pair : comparison.scalars) {

@@ -13,10 +13,7 @@
 namespace drumlin::coupling {
 namespace {
 
-using testing::message_of;
-using testing::shear_side;
-using testing::sheared_continuum;
-using testing::sheared_packing;
+using namespace testing;
 
 const FieldErrors& errors_of(const LayerComparison& comparison, const std::string& field,
                              const std::string& zone) {
@@ -84,11 +81,10 @@ TEST(LayerComparison, AnotherGeometryIsRefusedWithBothNames) {
   slope.header.geometry = "incline";
   const std::string said = message_of<InputError>(
       [&] { compare_layers(shear_side(sheared_packing()), shear_side(slope), Registration::axis); });
-  EXPECT_NE(said.find("plane_shear in the first side, incline in the second"), std::string::npos) << said;
+  expect_has(said, "plane_shear in the first side, incline in the second");
   ProfileSet old = sheared_packing();
   old.header.geometry.reset();
-  EXPECT_NE(message_of<InputError>([&] { require_same_geometry(old, slope); }).find("none in the first"),
-            std::string::npos);
+  expect_has(message_of<InputError>([&] { require_same_geometry(old, slope); }), "none in the first");
 }
 
 TEST(LayerComparison, AnotherSlopeOrSizeOrHeightIsRefused) {
@@ -98,20 +94,17 @@ TEST(LayerComparison, AnotherSlopeOrSizeOrHeightIsRefused) {
     return message_of<InputError>(
         [&] { compare_layers(shear_side(sheared_packing()), shear_side(other), Registration::axis); });
   };
-  EXPECT_NE(refusal([](ProfileSet& set) { set.header.theta_deg = 0.1; }).find("theta_deg"),
-            std::string::npos);
-  EXPECT_NE(refusal([](ProfileSet& set) { set.header.diameter_m = 0.003; }).find("diameter_m"),
-            std::string::npos);
-  EXPECT_NE(refusal([](ProfileSet& set) { set.header.reduced = false; }).find("reduced"), std::string::npos);
-  EXPECT_NE(refusal([](ProfileSet& set) { set.header.wall_z = -24; }).find("height"), std::string::npos);
+  expect_has(refusal([](ProfileSet& set) { set.header.theta_deg = 0.1; }), "theta_deg");
+  expect_has(refusal([](ProfileSet& set) { set.header.diameter_m = 0.003; }), "diameter_m");
+  expect_has(refusal([](ProfileSet& set) { set.header.reduced = false; }), "reduced");
+  expect_has(refusal([](ProfileSet& set) { set.header.wall_z = -24; }), "height");
 }
 
 TEST(LayerComparison, APackingThinnerThanItsMarginsHasNoBulk) {
   ProfileSet thin = sheared_packing();
   thin.z.resize(7);
   for (ProfileColumn& column : thin.columns) column.value.resize(7), column.ci99.clear();
-  EXPECT_NE(message_of<InputError>([&] { layer_extent(thin); }).find("no layer of a bulk"),
-            std::string::npos);
+  expect_has(message_of<InputError>([&] { layer_extent(thin); }), "no layer of a bulk");
 }
 
 }  // namespace

@@ -5,15 +5,13 @@
 #include "coupling/comparison/comparison.hpp"
 #include "coupling/comparison/map_sampling.hpp"
 #include "tests/comparison/example_maps.hpp"
+#include "tests/support/says.hpp"
 
 namespace drumlin {
 using namespace coupling;
 namespace {
 
-using testing::column_of;
-using testing::continuum_side;
-using testing::example_map;
-using testing::example_side;
+using namespace testing;
 
 /// The same continuum, described from a line `offset` higher: its axis is less far above it.
 ComparedSide seen_from_higher(ComparedSide side, double offset) {
@@ -65,10 +63,9 @@ TEST(Registration, BySurfaceComparesOtherPlaces) {
 TEST(Registration, KeepsWhatASideSaysFromItsOwnSurface) {
   auto continuum = seen_from_higher(continuum_side(), 1.25);
   const auto comparison = compare(example_side(), continuum);
-  EXPECT_EQ(scalar(comparison, "H", &ScalarPair::continuum_own), testing::example_H);
+  EXPECT_EQ(scalar(comparison, "H", &ScalarPair::continuum_own), example_H);
   const auto ours = compare(example_side(), seen_from_higher(continuum_side(), 0));
-  EXPECT_EQ(scalar(ours, "H", &ScalarPair::continuum), testing::example_H)
-      << "what was not moved keeps its words";
+  EXPECT_EQ(scalar(ours, "H", &ScalarPair::continuum), example_H) << "what was not moved keeps its words";
   // Read off the same places, the numbers do not depend on where they were counted from.
   const auto further = compare(example_side(), seen_from_higher(continuum_side(), 2.25));
   for (const char* name : {"H", "shear_rate", "lambda", "I_th"})
@@ -170,13 +167,13 @@ TEST(Parts, OfARunAgainstItselfAreExactlyZero) {
 TEST(Parts, ThatASideDoesNotHaveAreMissingWithAReasonAndNothingFails) {
   ComparedSide particles = example_side();
   const auto bare = compare(particles, continuum_side());
-  EXPECT_NE(bare.slices.missing.find("first"), std::string::npos);
-  EXPECT_NE(bare.maps.missing.find("first"), std::string::npos);
+  expect_has(bare.slices.missing, "first");
+  expect_has(bare.maps.missing, "first");
   particles.fields.maps = example_map();
   particles.fields.slices[0] = particles.profiles;
   const auto half = compare(particles, continuum_side());
-  EXPECT_NE(half.slices.missing.find("second"), std::string::npos);
-  EXPECT_NE(half.maps.missing.find("second"), std::string::npos);
+  expect_has(half.slices.missing, "second");
+  expect_has(half.maps.missing, "second");
   EXPECT_TRUE(half.slices.part.empty());
 }
 

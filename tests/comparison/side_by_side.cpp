@@ -6,14 +6,13 @@
 #include "coupling/comparison/comparison.hpp"
 #include "coupling/comparison/targets.hpp"
 #include "tests/comparison/example.hpp"
+#include "tests/support/says.hpp"
 
 namespace drumlin {
 using namespace coupling;
 namespace {
 
-using testing::column_of;
-using testing::continuum_side;
-using testing::example_side;
+using namespace testing;
 using Outcome = Target::Outcome;
 
 const Target& target(const Comparison& comparison, const std::string& quantity, const std::string& zone) {
@@ -123,7 +122,7 @@ TEST(Comparison, LayersThatTheContinuumLeavesUndefinedMissTheTarget) {
   column_of(continuum.profiles, "shear_rate").value[30] = -1e-3;
   const auto comparison = compare(example_side(), continuum);
   EXPECT_EQ(target(comparison, "log10_shear_rate", "static").outcome, Outcome::missed);
-  EXPECT_NE(target(comparison, "log10_shear_rate", "static").remark.find("1 of 42"), std::string::npos);
+  expect_has(target(comparison, "log10_shear_rate", "static").remark, "1 of 42");
 }
 
 TEST(Comparison, WhatWasNotComputedIsNeitherMetNorMissed) {
@@ -136,7 +135,7 @@ TEST(Comparison, WhatWasNotComputedIsNeitherMetNorMissed) {
 
 TEST(Comparison, ShearRateAndInterfaceAreReadOffTheProfileWhenNotReported) {
   const auto comparison = compare(example_side(), example_side());
-  EXPECT_NEAR(scalar(comparison, "shear_rate", &ScalarPair::continuum), testing::example_rate, 1e-9);
+  EXPECT_NEAR(scalar(comparison, "shear_rate", &ScalarPair::continuum), example_rate, 1e-9);
   EXPECT_GT(scalar(comparison, "I_th", &ScalarPair::continuum), 0);
   EXPECT_TRUE(std::isnan(scalar(comparison, "dv_over_shear", &ScalarPair::continuum)));
 }
@@ -148,18 +147,18 @@ TEST(Comparison, PaperNumbersDoNotFitOneLinearLayer) {
 
 TEST(SameDrum, MixedDrumsSpeedsUnitsAndSizesAreAllNamedAtOnce) {
   auto other = example_side();
-  other.profiles.header = testing::header_from({{"rotation", "0.0192"},
-                                                {"drum_radius", "30"},
-                                                {"diameter_m", "0.001"},
-                                                {"reduced", "true"},
-                                                {"position", "9"}});
+  other.profiles.header = header_from({{"rotation", "0.0192"},
+                                       {"drum_radius", "30"},
+                                       {"diameter_m", "0.001"},
+                                       {"reduced", "true"},
+                                       {"position", "9"}});
   try {
     compare(example_side(), other);
     FAIL() << "mixed drums were compared";
   } catch (const InputError& error) {
     EXPECT_EQ(error.problems().size(), 5u);
     for (const auto* key : {"rotation", "drum_radius", "diameter_m", "reduced"})
-      EXPECT_NE(std::string(error.what()).find(key), std::string::npos) << key;
+      expect_has(error.what(), key);
   }
 }
 
@@ -167,12 +166,12 @@ TEST(SameDrum, EachDifferenceAloneIsRefusedAndSoIsSilence) {
   for (const auto& [key, value] : std::map<std::string, std::string>{
            {"rotation", "0.0117"}, {"drum_radius", "68.5"}, {"diameter_m", "0.00331"}, {"reduced", "true"}}) {
     auto other = example_side();
-    testing::set_entry(other.profiles.header, key, value);
+    set_entry(other.profiles.header, key, value);
     EXPECT_THROW(compare(example_side(), other), InputError) << key;
-    testing::erase_entry(other.profiles.header, key);
+    erase_entry(other.profiles.header, key);
     EXPECT_THROW(compare(example_side(), other), InputError) << key;
     auto silent = example_side();
-    testing::erase_entry(silent.profiles.header, key);
+    erase_entry(silent.profiles.header, key);
     EXPECT_THROW(compare(silent, other), InputError) << key << ": neither side says it";
   }
 }

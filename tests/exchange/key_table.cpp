@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "coupling/documents/one_line.hpp"
+#include "tests/support/says.hpp"
 
 namespace drumlin::garden {
 
@@ -131,9 +132,7 @@ TEST(KeyTable, TitlesHaveAtMost200Characters) {
   for (int k = 0; k < 200; ++k) umlauts += "ü";
   EXPECT_TRUE(problems_of(least, {"title=\"" + umlauts + "\""}).empty());
   const std::string said = only_problem({"title=\"" + umlauts + "x\""});
-  EXPECT_NE(said.find("title: has 201 characters (allowed: one line of at most 200 characters)"),
-            std::string::npos)
-      << said;
+  expect_has(said, "title: has 201 characters (allowed: one line of at most 200 characters)");
 }
 
 TEST(OneLine, IsWellFormedUtf8) {
@@ -188,13 +187,13 @@ TEST(KeyTable, ReportsAllProblemsOfAFileInItsOrder) {
 }
 
 TEST(KeyTable, SuggestsTheNearestKey) {
-  EXPECT_NE(only_problem({"heigth_m=1"}).find("did you mean \"height_m\"?"), std::string::npos);
-  EXPECT_NE(only_problem({"beds.0.radius_mm=1"}).find("did you mean \"radius_m\"?"), std::string::npos);
-  EXPECT_EQ(only_problem({"xyzzy=1"}).find("did you mean"), std::string::npos);
+  expect_has(only_problem({"heigth_m=1"}), "did you mean \"height_m\"?");
+  expect_has(only_problem({"beds.0.radius_mm=1"}), "did you mean \"radius_m\"?");
+  expect_lacks(only_problem({"xyzzy=1"}), "did you mean");
 }
 
 TEST(KeyTable, RefusesKeysOfAnotherAlternative) {
-  EXPECT_NE(only_problem({"beds.0.side_m=1"}).find("beds.0.side_m: is unknown"), std::string::npos);
+  expect_has(only_problem({"beds.0.side_m=1"}), "beds.0.side_m: is unknown");
 }
 
 TEST(KeyTable, RefusesValuesOutsideTheirRange) {
@@ -214,8 +213,7 @@ TEST(KeyTable, RefusesValuesOfAnotherType) {
 
 TEST(KeyTable, WantsTheRightLengthOfAnArray) {
   const std::string square = "beds.0={name=\"a\", shape=\"square\", side_m=1, corner_m=[1,2,3]}";
-  EXPECT_NE(only_problem({square}).find("has 3 entries (allowed: array of 2 numbers in m, any finite)"),
-            std::string::npos);
+  expect_has(only_problem({square}), "has 3 entries (allowed: array of 2 numbers in m, any finite)");
 }
 
 TEST(KeyTable, WantsExactlyOneTableOfAChoice) {
@@ -224,7 +222,7 @@ TEST(KeyTable, WantsExactlyOneTableOfAChoice) {
   const auto none =
       problems_of("format = \"garden-1\"\n[[beds]]\nname = \"a\"\nshape = \"round\"\nradius_m = 1\n");
   ASSERT_EQ(none.size(), 1u);
-  EXPECT_NE(none[0].allowed.find("sown, planted"), std::string::npos);
+  expect_has(none[0].allowed, "sown, planted");
 }
 
 TEST(KeyTable, RefusesAnotherVersionAndNothingElse) {
@@ -246,8 +244,8 @@ TEST(KeyTable, WritesWhatItReads) {
   const auto second = toml_text(write_keys(read_keys<Garden>(parse_toml(first, "first.toml"), problems)));
   EXPECT_TRUE(problems.empty());
   EXPECT_EQ(first, second);
-  EXPECT_NE(first.find("soil = \"loam\""), std::string::npos) << "defaults are written too";
-  EXPECT_EQ(first.find("height_m"), std::string::npos) << "what is absent stays absent";
+  expect_has(first, "soil = \"loam\"");
+  expect_lacks(first, "height_m");
 }
 
 TEST(KeyTable, ListsEveryKeyOfEveryAlternative) {
@@ -265,12 +263,10 @@ TEST(KeyTable, ListsEveryKeyOfEveryAlternative) {
   EXPECT_EQ(rows[5].standard, "\"loam\"");
   EXPECT_EQ(rows[5].allowed, "\"loam\", \"sand\"");
   EXPECT_EQ(rows[4].standard, "absent");
-  EXPECT_NE(keys_as_text(rows).find("sown.seeds\n    integer, 1 to 100, required\n    Number of seeds.\n"),
-            std::string::npos);
-  EXPECT_NE(keys_as_markdown(rows).find("| `height_m` | m, (0, 3] | absent | Height. |"), std::string::npos);
+  expect_has(keys_as_text(rows), "sown.seeds\n    integer, 1 to 100, required\n    Number of seeds.\n");
+  expect_has(keys_as_markdown(rows), "| `height_m` | m, (0, 3] | absent | Height. |");
   const KeyRow turn{"wall.turn_deg", "number", "deg", "-360 to 360", "0.0", "kind = \"rocking\"", "Turn."};
-  EXPECT_NE(keys_as_markdown({turn}).find("| `wall.turn_deg` (rocking) | deg, +-360 | `0.0` | Turn. |"),
-            std::string::npos);
+  expect_has(keys_as_markdown({turn}), "| `wall.turn_deg` (rocking) | deg, +-360 | `0.0` | Turn. |");
 }
 
 TEST(KeyTable, PrintsTheKeysOfEqualTablesOnce) {

@@ -21,7 +21,7 @@ TEST(FigureScript, ThatFailsIsAnErrorWithItsMessage) {
   const TemporaryFolder folder;
   const auto script = folder.with("bad.py", "import sys\nsys.exit('no layers in ' + sys.argv[1])\n");
   const auto message = message_of<IoError>([&] { draw_figures(script, {"profiles.csv"}); });
-  EXPECT_NE(message.find("no layers in profiles.csv"), std::string::npos) << message;
+  expect_has(message, "no layers in profiles.csv");
 }
 
 TEST(FigureScript, ThatIsKilledIsAnError) {
@@ -90,7 +90,7 @@ TEST(FigureScript, DrawsTheContactsThatFoldWhereTheirChangesAreKnown) {
   EXPECT_EQ(file_text(drawn).substr(1, 3), "PNG");
   write_contacts(problem, solution, false);
   const auto message = message_of<IoError>([&] { draw_figures(script, words); });
-  EXPECT_NE(message.find("s.h5: holds no changes of states"), std::string::npos) << message;
+  expect_has(message, "s.h5: holds no changes of states");
 }
 
 TEST(PendingFigures, AreAllDrawnButThoseThatFailAndTheseAreNamed) {
@@ -110,8 +110,7 @@ TEST(PendingFigures, AreAllDrawnButThoseThatFailAndTheseAreNamed) {
   EXPECT_TRUE(fs::exists(results / "drawn.png"));
   EXPECT_FALSE(is_complete(finished));
   const auto message = message_of<IoError>([&] { throw_if_figures_failed(finished, failures); });
-  for (const char* part : {"bad.py", "no ink", "measured.json is complete"})
-    EXPECT_NE(message.find(part), std::string::npos) << message;
+  for (const char* part : {"bad.py", "no ink", "measured.json is complete"}) expect_has(message, part);
 
   EXPECT_TRUE(draw_pending_figures(results, {{good, {(results / "drawn.png").string()}}}).empty());
   drumlin::testing::sign(results, "measure");

@@ -16,10 +16,7 @@
 namespace drumlin {
 namespace {
 
-using testing::message_of;
 using testing::TemporaryFolder;
-
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 // Whoever waited for a FIFO or read /dev/zero to its end would not come back from here.
 TEST(InputFile, WhatIsNoRegularFileIsRefusedAtOnceByEveryReader) {
@@ -28,8 +25,8 @@ TEST(InputFile, WhatIsNoRegularFileIsRefusedAtOnceByEveryReader) {
   ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
   for (const std::filesystem::path& file : {fifo, std::filesystem::path("/dev/zero"), folder.path()}) {
     const auto says_so = [&](const std::string& message) {
-      EXPECT_TRUE(holds(message, file.string())) << message;
-      EXPECT_TRUE(holds(message, "not a file")) << message;
+      expect_has(message, file.string());
+      expect_has(message, "not a file");
     };
     says_so(message_of<InputError>([&] { (void)input_bytes(file, 1000); }));
     says_so(message_of<InputError>([&] { (void)file_text(file); }));
@@ -46,9 +43,9 @@ TEST(InputFile, NamesWhatCannotBeOpened) {
   const auto message = [&](const std::filesystem::path& file) {
     return message_of<InputError>([&] { (void)input_bytes(file, 10); });
   };
-  EXPECT_TRUE(holds(message(folder / "none"), "does not exist"));
-  EXPECT_TRUE(holds(message(folder / "round"), "leads back to itself"));
-  EXPECT_TRUE(holds(message(folder / std::string(300, 'x')), "too long a name"));
+  expect_has(message(folder / "none"), "does not exist");
+  expect_has(message(folder / "round"), "leads back to itself");
+  expect_has(message(folder / std::string(300, 'x')), "too long a name");
 }
 
 // Sparse: nothing of it is on the disk, all of it would be in memory.
@@ -58,11 +55,11 @@ TEST(InputFile, LargerThanAllowedIsRefusedBeforeItIsRead) {
   std::filesystem::resize_file(file, largest_binary_file() + 1);
   const double allowed = static_cast<double>(largest_binary_file()) / (1 << 30);
   EXPECT_GE(allowed, 4);
-  EXPECT_TRUE(holds(message_of<InputError>([&] { const H5Reader in(file); }),
-                    fmt::format("at most {:g} GiB", allowed)));
-  EXPECT_TRUE(holds(message_of<InputError>([&] { (void)file_text(file); }), "at most 1 GiB"));
-  EXPECT_TRUE(holds(message_of<InputError>([&] { (void)read_toml(file); }), "at most 1 MiB"));
-  EXPECT_TRUE(holds(message_of<InputError>([&] { (void)read_json(file, "x"); }), "at most 64 MiB"));
+  expect_has(message_of<InputError>([&] { const H5Reader in(file); }),
+             fmt::format("at most {:g} GiB", allowed));
+  expect_has(message_of<InputError>([&] { (void)file_text(file); }), "at most 1 GiB");
+  expect_has(message_of<InputError>([&] { (void)read_toml(file); }), "at most 1 MiB");
+  expect_has(message_of<InputError>([&] { (void)read_json(file, "x"); }), "at most 64 MiB");
   std::filesystem::resize_file(file, 10);
   EXPECT_EQ(input_bytes(file, 10), std::string(10, '\0'));
 }
@@ -78,7 +75,7 @@ TEST(InputFile, MarkOfUtf8IsSkippedAndThoseOfOthersAreNamed) {
       read_profiles(folder.with("p.csv", mark + "# drumlin-profiles-1\nz,v_x\n-1,2\n")).column("v_x").value,
       std::vector<double>{2});
   for (const std::string& other : {std::string("\xFF\xFEx\0", 4), std::string("\xFE\xFF\0x", 4)})
-    EXPECT_TRUE(holds(message_of<InputError>([&] { (void)input_text(folder.with("b", other)); }), "UTF-16"));
+    expect_has(message_of<InputError>([&] { (void)input_text(folder.with("b", other)); }), "UTF-16");
 }
 
 }  // namespace

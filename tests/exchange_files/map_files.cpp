@@ -15,7 +15,6 @@ namespace drumlin {
 namespace {
 
 using testing::expect_same;
-using testing::message_of;
 using testing::TemporaryFolder;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -57,13 +56,6 @@ TEST(MapFile, FieldsAreTablesWithOneRowPerHeight) {
   const TemporaryFolder folder;
   write_field_map(folder / "maps.h5", example());
   EXPECT_EQ(H5Reader(folder / "maps.h5").shape("fields/nu"), (std::vector<std::size_t>{2, 3}));
-}
-
-TEST(MapFile, SameMapsGiveSameBytes) {
-  const TemporaryFolder folder;
-  write_field_map(folder / "a.h5", example());
-  write_field_map(folder / "b.h5", example());
-  EXPECT_EQ(file_text(folder / "a.h5"), file_text(folder / "b.h5"));
 }
 
 TEST(MapFile, RowsGivenOneAfterTheOtherMakeTheSameBytes) {
@@ -132,7 +124,7 @@ TEST(MapFile, PackedOneKeepsValuesTo3e5AndIntervalsToOnePercent) {
 
 TEST(MapFile, MissingFieldIsNamed) {
   EXPECT_EQ(example().find("mu"), nullptr);
-  EXPECT_NE(message_of<InputError>([] { example().field("mu"); }).find("mu"), std::string::npos);
+  expect_has(message_of<InputError>([] { example().field("mu"); }), "mu");
 }
 
 TEST(MapFile, WhatCouldNotBeReadBackIsNotWritten) {
@@ -141,7 +133,7 @@ TEST(MapFile, WhatCouldNotBeReadBackIsNotWritten) {
     FieldMap map = example();
     spoil(map);
     const auto message = message_of<InputError>([&] { write_field_map(folder / "maps.h5", map); });
-    EXPECT_NE(message.find(part), std::string::npos) << message;
+    expect_has(message, part);
     EXPECT_FALSE(std::filesystem::exists(folder / "maps.h5"));
   };
   refused("no nodes", [](FieldMap& map) { map.grid.rows = 0; });
@@ -175,23 +167,20 @@ std::string refusal_of(const Parts& parts) {
   out.add_table("fields/nu", parts.nu, parts.columns);
   out.save(folder / "maps.h5");
   const auto message = message_of<InputError>([&] { read_field_map(folder / "maps.h5"); });
-  EXPECT_NE(message.find("maps.h5"), std::string::npos);
+  expect_has(message, "maps.h5");
   return message;
 }
 
 TEST(MapFile, ReaderRefusesWhatItDoesNotUnderstand) {
-  const auto names = [](const std::string& message, const std::string& part) {
-    EXPECT_NE(message.find(part), std::string::npos) << message;
-  };
-  names(refusal_of({.format = "drumlin-maps-2"}), "this version reads drumlin-maps-1");
-  names(refusal_of({.names = "nu\nmu\n"}), "fields/mu");
-  names(refusal_of({.header = "no equals sign\n"}), "header");
-  names(refusal_of({.x = {0, 1, 3}}), "equal steps");
-  names(refusal_of({.x = {2, 1, 0}}), "equal steps");
-  names(refusal_of({.z = {}}), "empty");
-  names(refusal_of({.x = {0, 1}}), "fields/nu");
-  names(refusal_of({.columns = 2}), "fields/nu");
-  names(refusal_of({.nu = {1, 2, HUGE_VAL, 4, 5, 6}}), "infinite");
+  expect_has(refusal_of({.format = "drumlin-maps-2"}), "this version reads drumlin-maps-1");
+  expect_has(refusal_of({.names = "nu\nmu\n"}), "fields/mu");
+  expect_has(refusal_of({.header = "no equals sign\n"}), "header");
+  expect_has(refusal_of({.x = {0, 1, 3}}), "equal steps");
+  expect_has(refusal_of({.x = {2, 1, 0}}), "equal steps");
+  expect_has(refusal_of({.z = {}}), "empty");
+  expect_has(refusal_of({.x = {0, 1}}), "fields/nu");
+  expect_has(refusal_of({.columns = 2}), "fields/nu");
+  expect_has(refusal_of({.nu = {1, 2, HUGE_VAL, 4, 5, 6}}), "infinite");
 }
 
 TEST(MapFile, EveryCutAndEveryByteChangedIsRefused) {

@@ -55,8 +55,8 @@ TEST(OutputFolder, WithContentIsRefusedAndTheWayOutNamed) {
   const TemporaryFolder folder;
   leave(folder.path(), "measured.json", "{}");
   const auto message = message_of<InputError>([&] { StagedOutput{request_for(folder.path())}; });
-  EXPECT_NE(message.find("--resume"), std::string::npos);
-  EXPECT_NE(message.find("--overwrite"), std::string::npos);
+  expect_has(message, "--resume");
+  expect_has(message, "--overwrite");
   EXPECT_TRUE(fs::exists(folder / "measured.json"));
 }
 
@@ -67,7 +67,7 @@ TEST(OutputFolder, OfAStrangerIsRefusedWhateverWasAskedFor) {
     EXPECT_THROW(StagedOutput{request_for(folder.path(), existing)}, InputError);
     const auto message = message_of<InputError>(
         [&] { GrowingOutput(request_for(folder.path(), existing, "run"), {"log.csv"}); });
-    EXPECT_NE(message.find("drumlin accept"), std::string::npos) << message;
+    expect_has(message, "drumlin accept");
     EXPECT_EQ(file_text(folder / "log.csv"), "of another program");
     EXPECT_EQ(content_of(folder.path()), Names{"log.csv"});
   }
@@ -286,7 +286,7 @@ TEST(OutputFolder, HasOneWriter) {
   const StagedOutput first(request_for(folder / "out"));
   for (const auto existing : {ExistingOutput::refuse, ExistingOutput::resume, ExistingOutput::overwrite}) {
     const auto message = message_of<InputError>([&] { StagedOutput{request_for(folder / "out", existing)}; });
-    EXPECT_NE(message.find("is being written by process"), std::string::npos) << message;
+    expect_has(message, "is being written by process");
   }
 }
 

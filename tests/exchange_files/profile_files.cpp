@@ -11,7 +11,6 @@ namespace drumlin {
 namespace {
 
 using testing::expect_same;
-using testing::message_of;
 using testing::TemporaryFolder;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -40,12 +39,6 @@ TEST(ProfileFile, RoundTripKeepsEveryBit) {
   }
 }
 
-TEST(ProfileFile, LeavesNoHalfWrittenFileBeside) {
-  const TemporaryFolder folder;
-  write_profiles(folder / "profiles.csv", example());
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
-}
-
 TEST(ProfileFile, EmptyFieldIsNotZero) {
   const TemporaryFolder folder;
   const auto read = read_profiles(folder.with("p.csv", "# drumlin-profiles-1\nz,mu\n-1,\n0,0\n"));
@@ -55,7 +48,7 @@ TEST(ProfileFile, EmptyFieldIsNotZero) {
 
 TEST(ProfileFile, MissingColumnIsNamed) {
   EXPECT_EQ(example().find("nu"), nullptr);
-  EXPECT_NE(message_of<InputError>([] { example().column("nu"); }).find("nu"), std::string::npos);
+  expect_has(message_of<InputError>([] { example().column("nu"); }), "nu");
 }
 
 struct Refusal {
@@ -71,8 +64,8 @@ TEST_P(ProfileRefusals, NameFileAndLine) {
   const TemporaryFolder folder;
   const auto file = folder.with("p.csv", GetParam().text);
   const auto message = message_of<InputError>([&] { read_profiles(file); });
-  EXPECT_NE(message.find(file.string()), std::string::npos) << message;
-  EXPECT_NE(message.find(GetParam().part_of_message), std::string::npos) << message;
+  expect_has(message, file.string());
+  expect_has(message, GetParam().part_of_message);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -92,12 +85,6 @@ INSTANTIATE_TEST_SUITE_P(
                       Refusal{"DescendingZ", "# drumlin-profiles-1\nz,nu\n0,0.8\n-1,0.8\n", ":4"},
                       Refusal{"EmptyZ", "# drumlin-profiles-1\nz,nu\n,0.8\n", ":3"}),
     [](const auto& test) { return test.param.name; });
-
-TEST(ProfileFile, MissingFileAndFolderAreWrongInput) {
-  const TemporaryFolder folder;
-  EXPECT_THROW(read_profiles(folder / "none.csv"), InputError);
-  EXPECT_THROW(read_profiles(folder.path()), InputError);
-}
 
 TEST(ProfileFile, RefusesToWriteWhatItCouldNotRead) {
   const TemporaryFolder folder;

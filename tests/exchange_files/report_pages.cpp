@@ -80,21 +80,21 @@ std::string unbalanced(const std::string& page) {
 
 void expect_escaped(const std::string& page, const std::vector<std::string>& raw) {
   EXPECT_EQ(unbalanced(page), "");
-  for (const std::string& text : raw) EXPECT_EQ(page.find(text), std::string::npos) << text;
+  for (const std::string& text : raw) expect_lacks(page, text);
 }
 
 void expect_nothing_loaded(const std::string& page) {
   for (const auto* loaded : {"<script", "http://", "https://", "<link", "url(", "@import"})
-    EXPECT_EQ(page.find(loaded), std::string::npos) << loaded;
+    expect_lacks(page, loaded);
 }
 
 TEST(ReportPage, SaysTheSizeOfAMissAndHidesNoText) {
   const auto page = page_of(content(false));
-  EXPECT_NE(page.find("meets 1 of 2 targets"), std::string::npos);
-  EXPECT_NE(page.find("1.5 (limit 1, deg)"), std::string::npos);
-  EXPECT_NE(page.find("a &lt;drum&gt; &amp; its flow"), std::string::npos);
-  EXPECT_EQ(page.find("<drum>"), std::string::npos);
-  EXPECT_EQ(page.find("reduced:"), std::string::npos);
+  expect_has(page, "meets 1 of 2 targets");
+  expect_has(page, "1.5 (limit 1, deg)");
+  expect_has(page, "a &lt;drum&gt; &amp; its flow");
+  expect_lacks(page, "<drum>");
+  expect_lacks(page, "reduced:");
 }
 
 TEST(ReportPage, IsSoundHtmlWhateverTheNamesAre) {
@@ -109,13 +109,13 @@ TEST(ReportPage, IsSoundHtmlWhateverTheNamesAre) {
   const std::string page = page_of(json);
   expect_escaped(
       page, {"<b>&", "<reason>", "<i>floor", "<cost>", "<neither>", "<remark>", "<drum>", "<u>", "<em>"});
-  EXPECT_NE(page.find("&lt;neither&gt;"), std::string::npos);
+  expect_has(page, "&lt;neither&gt;");
 }
 
 TEST(ReportPage, ShowsTemplatesInNamesAsText) {
   auto json = content(false);
   json["title"] = "{{ 6 * 7 }}{% raw %}";
-  EXPECT_NE(page_of(json).find("<h1>{{ 6 * 7 }}{% raw %}</h1>"), std::string::npos);
+  expect_has(page_of(json), "<h1>{{ 6 * 7 }}{% raw %}</h1>");
 }
 
 TEST(ReportPage, TellsTheLargestMissItsMeaningAndTheNoiseFloor) {
@@ -127,24 +127,22 @@ TEST(ReportPage, TellsTheLargestMissItsMeaningAndTheNoiseFloor) {
   json["costs"] = {{"particles run, processor", 250.0}, {"continuum solve, processor", 5.0}};
   json["cost_ratio"] = {{"wall", nullptr}, {"processor", 50.0}};
   const std::string page = page_of(json);
-  EXPECT_NE(page.find("The largest miss: slope θ (deg), 1.5 (limit 1, deg), 1.5 times the limit. "
-                      "The whole surface has another slope: the friction is off as a whole."),
-            std::string::npos);
-  EXPECT_NE(page.find("(seed2), compared in the same way,\nmisses slope θ (deg) (1.2): a difference"),
-            std::string::npos);
-  EXPECT_NE(page.find("50 times the processor time"), std::string::npos);
+  expect_has(page,
+             "The largest miss: slope θ (deg), 1.5 (limit 1, deg), 1.5 times the limit. "
+             "The whole surface has another slope: the friction is off as a whole.");
+  expect_has(page, "(seed2), compared in the same way,\nmisses slope θ (deg) (1.2): a difference");
+  expect_has(page, "50 times the processor time");
 }
 
 TEST(ReportPage, FindsTheRecordsOfCosts) {
   const TemporaryFolder folder;
   for (const auto* name : {"cost_accuracy_one.png", "cost_effects_two.png"}) folder.with(name, "foobar");
   const std::string page = page_of(folder, content(false));
-  for (const auto* record : {"data/cost/one.json.", "data/cost/two.json."})
-    EXPECT_NE(page.find(record), std::string::npos) << record;
+  for (const auto* record : {"data/cost/one.json.", "data/cost/two.json."}) expect_has(page, record);
 }
 
 TEST(ReportPage, OfAReducedRunSaysSo) {
-  EXPECT_NE(page_of(content(true)).find("reduced: a small drum and a short run"), std::string::npos);
+  expect_has(page_of(content(true)), "reduced: a small drum and a short run");
 }
 
 /// The vectors of RFC 4648, and bytes that are no text.
@@ -155,7 +153,7 @@ TEST(ReportPage, HoldsItsFiguresAndLoadsNothing) {
   for (const auto& [name, bytes] : vectors) folder.with(name + ".png", bytes);
   const std::string page = page_of(folder, content(false));
   for (const auto* text : {"Zm9vYmFy\"", "Zm9vYmE=\"", "Zm9vYg==\"", "//4=\""})
-    EXPECT_NE(page.find(std::string("data:image/png;base64,") + text), std::string::npos) << text;
+    expect_has(page, std::string("data:image/png;base64,") + text);
   expect_nothing_loaded(page);
 }
 
@@ -164,8 +162,8 @@ TEST(ReportPage, ThatLacksANumberIsAnErrorThatNamesIt) {
   auto json = content(false);
   json.erase("zones");
   const std::string message = message_of<IoError>([&] { page_of(folder, json); });
-  EXPECT_NE(message.find("zones"), std::string::npos) << message;
-  EXPECT_NE(message.find("comparison_tables.html"), std::string::npos) << message;
+  expect_has(message, "zones");
+  expect_has(message, "comparison_tables.html");
   EXPECT_FALSE(std::filesystem::exists(folder / "index.html"));
 }
 
@@ -195,7 +193,7 @@ TEST(SpeedComparisonPage, CountsPredictionsShowsEveryTableAndEscapesNames) {
         "4 rpm, predicted: 1 of 2 targets met", "<td>19.5 ± 1.8</td><td>18</td>",
         "1.5 deg, inside the interval", "H = &lt;c&gt; sqrt(Q)", "c = 3 ± 0.1", "&lt;cold&gt;",
         "run &lt;six&gt;", "Zm9vYmFy"})
-    EXPECT_NE(page.find(text), std::string::npos) << text;
+    expect_has(page, text);
   expect_escaped(page,
                  {"<six>", "<warning>", "<c>", "<law>", "<effects>", "<machine>", "<cold>", "<remark>"});
   expect_nothing_loaded(page);
@@ -206,7 +204,7 @@ TEST(SpeedComparisonPage, WithoutAFigureIsAnErrorThatNamesIt) {
   folder.with("speeds.png", "foobar");
   const std::string message =
       message_of<IoError>([&] { page_of(folder, speeds_content(), "speed_comparison"); });
-  EXPECT_NE(message.find("rates.png: is missing"), std::string::npos) << message;
+  expect_has(message, "rates.png: is missing");
 }
 
 Json study_content() {
@@ -255,19 +253,17 @@ TEST(StudyPage, ShowsVerdictsLawsAndListedFiguresAndEscapesThem) {
   for (const auto* text :
        {"0 entries agree, 0 are near, 1 differ", "14.6 ± 0.5", "19.7 ± 1.2", "class=\"missed\">differs",
         "c = 3 ± 0.1", "Fig. &lt;1&gt;", "&lt;p2&gt; &amp; more", "Zm9vYmFy", "half a turn only"})
-    EXPECT_NE(page.find(text), std::string::npos) << text;
+    expect_has(page, text);
   expect_escaped(page, {"<2>", "<c>", "<d>", "<6>", "<1>", "<p1>", "<p2>"});
   expect_nothing_loaded(page);
 }
 
 TEST(StudyPage, WithoutTheListOrAListedFigureIsAnError) {
   const TemporaryFolder folder;
-  EXPECT_NE(message_of<IoError>([&] { page_of(folder, study_content(), "study"); }).find("figures.json"),
-            std::string::npos);
+  expect_has(message_of<IoError>([&] { page_of(folder, study_content(), "study"); }), "figures.json");
   folder.with("figures.json", R"({"format": "drumlin-study-figures-1", "figures": [{"file": "none.png",
       "title": "", "paper": "", "here": ""}]})");
-  EXPECT_NE(message_of<IoError>([&] { page_of(folder, study_content(), "study"); }).find("none.png"),
-            std::string::npos);
+  expect_has(message_of<IoError>([&] { page_of(folder, study_content(), "study"); }), "none.png");
 }
 
 TEST(PendingFigures, ThatFailLoseNeitherTheOthersNorThePageAndAreNamed) {
@@ -282,13 +278,13 @@ TEST(PendingFigures, ThatFailLoseNeitherTheOthersNorThePageAndAreNamed) {
       draw_pending_figures(folder.path(), {{bad, {}}, {good, {(folder / "velocity.png").string()}}},
                            ResultPage{"comparison", result});
   const std::string message = message_of<IoError>([&] { throw_if_figures_failed(result, failures); });
-  EXPECT_NE(message.find("bad.py failed:\nno <layers>"), std::string::npos) << message;
+  expect_has(message, "bad.py failed:\nno <layers>");
   EXPECT_FALSE(is_complete(result)) << "to be drawn again";
-  EXPECT_NE(file_text(folder / "figures.pending").find("bad.py failed:\nno <layers>"), std::string::npos);
+  expect_has(file_text(folder / "figures.pending"), "bad.py failed:\nno <layers>");
   const std::string page = file_text(folder / "index.html");
-  EXPECT_NE(page.find("no &lt;layers&gt;"), std::string::npos);
-  EXPECT_NE(page.find("Zm9vYmFy"), std::string::npos) << "the figure of the other script is there";
-  EXPECT_NE(page.find("meets 1 of 2 targets"), std::string::npos);
+  expect_has(page, "no &lt;layers&gt;");
+  expect_has(page, "Zm9vYmFy");
+  expect_has(page, "meets 1 of 2 targets");
 }
 
 TEST(PendingFigures, ThatAreDrawnLeaveACompleteFolder) {

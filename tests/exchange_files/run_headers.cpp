@@ -15,7 +15,6 @@ namespace drumlin {
 namespace {
 
 using testing::header_from;
-using testing::message_of;
 using testing::TemporaryFolder;
 
 /// Every key that a file can have.
@@ -137,8 +136,7 @@ TEST(NumberText, IsReadWholeOrRefusedWithItsPlace) {
     EXPECT_EQ(message_of<InputError>([&] { (void)checked_number(text, place); }),
               std::string("flow.csv:7: step: is \"") + text + "\" (allowed: a finite number)");
   for (const char* text : {"", "-1", "1.5", "99999999999", "1e3"})
-    EXPECT_NE(message_of<InputError>([&] { (void)checked_count(text, place); }).find("flow.csv:7: step"),
-              std::string::npos);
+    expect_has(message_of<InputError>([&] { (void)checked_count(text, place); }), "flow.csv:7: step");
 }
 
 }  // namespace

@@ -18,6 +18,7 @@ TEST(TextFile, ReplacesTheOldContentWhole) {
   EXPECT_EQ(file_text(file), std::string("new\0text", 8));
   replace_file(file, "");
   EXPECT_EQ(file_text(file), "");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);  // no half-written file beside
 }
 
 TEST(TextFile, FailedWriteLeavesTheOldFileAndNothingBeside) {

@@ -55,7 +55,7 @@ TEST(CsvImport, TakesDimensionlessColumnsAsTheyAre) {
   EXPECT_EQ(result.snapshots.at(0).time, 2);
   EXPECT_EQ(result.report.scales.length_m, 0.003);
   EXPECT_FALSE(result.report.with_spin);
-  EXPECT_NE(refusal(folder, std::string(head) + one_file).find("mean_diameter_m"), std::string::npos);
+  expect_has(refusal(folder, std::string(head) + one_file), "mean_diameter_m");
 }
 
 TEST(CsvImport, DrumTurnsWithTheTime) {
@@ -70,9 +70,8 @@ TEST(CsvImport, DrumTurnsWithTheTime) {
   EXPECT_NEAR(result.snapshots[0].container_radius, 10, 1e-12);
   EXPECT_NEAR(result.snapshots[0].container_x, 1, 1e-12);
   folder.with("grains.csv", std::string(names) + "2,0,0.2,0,0,0,0.005\n");
-  EXPECT_NE(refusal(folder, std::string(head) + one_file + drum)
-                .find("grains.csv:2: x_m, z_m: the grain lies outside of the drum"),
-            std::string::npos);
+  expect_has(refusal(folder, std::string(head) + one_file + drum),
+             "grains.csv:2: x_m, z_m: the grain lies outside of the drum");
 }
 
 TEST(CsvImport, FilesFollowEachOtherByTheirNumbers) {
@@ -106,17 +105,15 @@ TEST(CsvImport, ContactsHaveTheirForcesInNormalAndTangent) {
   EXPECT_NEAR(contact.impulse_n / result.snapshots[1].time_step, 10 / newton_per_metre, 1e-12);
   EXPECT_NEAR(contact.impulse_t, 0, 1e-12);
   folder.with("contacts.csv", "time_s,i,j,f_x_N_m,f_z_N_m\n2,2,1,-6,-8\n");
-  EXPECT_NE(refusal(folder, floor).find("contacts.csv:2: contacts: the contacts of this snapshot pull"),
-            std::string::npos);
+  expect_has(refusal(folder, floor), "contacts.csv:2: contacts: the contacts of this snapshot pull");
   folder.with("contacts.csv", "time_s,i,j,f_x_N_m,f_z_N_m\n2,2,-1,1,1\n");
-  EXPECT_NE(refusal(folder, floor).find("contacts.csv:2: normal_x"), std::string::npos);
+  expect_has(refusal(folder, floor), "contacts.csv:2: normal_x");
   folder.with("contacts.csv", "time_s,i,j,f_x_N_m,f_z_N_m\n2,2,5,1,1\n");
-  EXPECT_NE(refusal(folder, floor).find("contacts.csv:2: i, j: there is no grain 5"), std::string::npos);
+  expect_has(refusal(folder, floor), "contacts.csv:2: i, j: there is no grain 5");
   folder.with("contacts.csv", "time_s,i,j,f_x_N_m,f_z_N_m\n1.5,2,1,6,8\n");
-  EXPECT_NE(refusal(folder, floor).find("no snapshot of grains at this time"), std::string::npos);
+  expect_has(refusal(folder, floor), "no snapshot of grains at this time");
   folder.with("contacts.csv", "time_s,i,j,normal_x,normal_z,f_n_N_m,f_t_N_m\n2,2,1,0.6,0.9,1,1\n");
-  EXPECT_NE(refusal(folder, floor).find("contacts.csv:2: normal_x: the normal has the length 1.08"),
-            std::string::npos);
+  expect_has(refusal(folder, floor), "contacts.csv:2: normal_x: the normal has the length 1.08");
 }
 
 TEST(CsvImport, DrumPushesTowardsItsAxis) {
@@ -162,19 +159,16 @@ TEST(CsvImport, RefusesWithFileAndLine) {
            {"# nothing\n", "holds no line of column names"},
            {names, "there are no grains"}}) {
     const std::string said = refused(rows);
-    EXPECT_NE(said.find(message), std::string::npos) << said;
+    expect_has(said, message);
   }
-  EXPECT_NE(refusal(folder, std::string(head) + "[csv]\ngrains = [\"none-*.csv\"]\n")
-                .find("no file of such a name"),
-            std::string::npos);
+  expect_has(refusal(folder, std::string(head) + "[csv]\ngrains = [\"none-*.csv\"]\n"),
+             "no file of such a name");
   // Found by fuzzing.
-  EXPECT_NE(refusal(folder, std::string(head) + "[csv]\ngrains = [\"" + std::string(300, 'x') + "\"]\n")
-                .find("has too long a name"),
-            std::string::npos);
+  expect_has(refusal(folder, std::string(head) + "[csv]\ngrains = [\"" + std::string(300, 'x') + "\"]\n"),
+             "has too long a name");
   std::filesystem::create_symlink("round-1", folder / "round-1");
-  EXPECT_NE(refusal(folder, std::string(head) + "[csv]\ngrains = [\"round-*\"]\n")
-                .find("is a link that leads back to itself"),
-            std::string::npos);
+  expect_has(refusal(folder, std::string(head) + "[csv]\ngrains = [\"round-*\"]\n"),
+             "is a link that leads back to itself");
   folder.with("grains.csv", good + "2,2,0,0,0,0,0.5\n");
   EXPECT_EQ(imported(folder, std::string(head) + "may_change = true\n" + one_file).snapshots.size(), 2u);
 }
@@ -207,13 +201,12 @@ TEST(CsvImport, TakesPlainColumnsWithAHeadingAboveEachSnapshot) {
     const auto cut = imported(folder, description);
     EXPECT_EQ(cut.snapshots.size(), 1u) << kept;
     ASSERT_EQ(cut.report.left_out.size(), 1u) << kept;
-    EXPECT_NE(cut.report.left_out[0].find("is cut off"), std::string::npos);
+    expect_has(cut.report.left_out[0], "is cut off");
   }
   folder.with("drum.data", first.substr(0, 30));
-  EXPECT_NE(refusal(folder, description).find("drum.data:2: holds 4 fields (allowed: 12"), std::string::npos);
-  EXPECT_NE(refusal(folder, std::string(head) + "[csv]\ngrains = [\"drum.data\"]\nheading = [\"time_s\"]\n")
-                .find("csv.heading"),
-            std::string::npos);
+  expect_has(refusal(folder, description), "drum.data:2: holds 4 fields (allowed: 12");
+  expect_has(refusal(folder, std::string(head) + "[csv]\ngrains = [\"drum.data\"]\nheading = [\"time_s\"]\n"),
+             "csv.heading");
 }
 
 TEST(CsvImport, LeavesOutALastSnapshotThatEndsWithinALine) {
@@ -223,10 +216,9 @@ TEST(CsvImport, LeavesOutALastSnapshotThatEndsWithinALine) {
   const auto result = imported(folder, std::string(head) + one_file);
   EXPECT_EQ(result.snapshots.size(), 1u);
   ASSERT_EQ(result.report.left_out.size(), 1u);
-  EXPECT_NE(result.report.left_out[0].find("grains.csv:5: is cut off"), std::string::npos);
+  expect_has(result.report.left_out[0], "grains.csv:5: is cut off");
   folder.with("grains.csv", whole + "2,2,1,0,\n");  // a line with its end is whole, and wrong
-  EXPECT_NE(refusal(folder, std::string(head) + one_file).find("grains.csv:5: holds 5 fields"),
-            std::string::npos);
+  expect_has(refusal(folder, std::string(head) + one_file), "grains.csv:5: holds 5 fields");
 }
 
 TEST(CsvImport, TakesVelocitiesFromDisplacements) {
@@ -246,12 +238,11 @@ TEST(CsvImport, TakesVelocitiesFromDisplacements) {
   EXPECT_NEAR(s.v_x[0], 0.1 * t / d, 1e-12);
   EXPECT_NEAR(s.v_z[0], 0.1 * t / d, 1e-12);
   EXPECT_EQ(s.v_x[1], 0);
-  EXPECT_NE(result.report.left_out.at(0).find("no snapshot before"), std::string::npos);
+  expect_has(result.report.left_out.at(0), "no snapshot before");
   EXPECT_NEAR(result.report.first_time_s, 3, 1e-12);
-  EXPECT_NE(
-      refusal(folder, std::string(head) + "velocities = \"displacements\"\nmay_change = true\n" + one_file)
-          .find("grains.velocities"),
-      std::string::npos);
+  expect_has(
+      refusal(folder, std::string(head) + "velocities = \"displacements\"\nmay_change = true\n" + one_file),
+      "grains.velocities");
 }
 
 TEST(ImportDescriptions, AreRefusedWithLineKeyAndRange) {
@@ -261,13 +252,13 @@ TEST(ImportDescriptions, AreRefusedWithLineKeyAndRange) {
                                    "\"yz\"\nstep_s = 0\n[grains]\ncolour = 1\n");
   for (const char* part :
        {"import.toml:4:", "lammps.plane", "lammps.step_s", "grains.density_kg_m3", "grains.colour"})
-    EXPECT_NE(said.find(part), std::string::npos) << said;
+    expect_has(said, part);
   const std::string contacts =
       refusal(folder,
               "format = \"drumlin-import-1\"\n[lammps]\ngrains = [\"a\"]\nstep_s = 1\ncontacts = "
               "[\"b\"]\n[grains]\ndensity_kg_m3 = 1\n");
   for (const char* part : {"lammps.contact_ids", "lammps.contact_forces", "lammps.depth_m"})
-    EXPECT_NE(contacts.find(part), std::string::npos) << contacts;
+    expect_has(contacts, part);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "coupling/common/text_file.hpp"
 #include "particles/import/description.hpp"
 #include "tests/support/data_folder.hpp"
+#include "tests/support/says.hpp"
 
 namespace drumlin {
 using namespace particles;
@@ -11,8 +12,7 @@ namespace {
 
 TEST(ImportDocs, HoldTheTableThatTheProgramPrints) {
   const std::string page = file_text(drumlin::test::docs_folder() / "formats/import.md");
-  EXPECT_NE(page.find(keys_as_markdown(import_keys())), std::string::npos)
-      << "replace the table of docs/formats/import.md by the output of `drumlin import --keys --markdown`";
+  expect_has(page, keys_as_markdown(import_keys()));
 }
 
 }  // namespace

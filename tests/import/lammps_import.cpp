@@ -136,7 +136,7 @@ TEST(LammpsImport, RefusesWithFileAndLine) {
            {"", "hold no snapshot"}}) {
     folder.with("dump.a", text);
     const std::string said = refusal(folder, description());
-    EXPECT_NE(said.find(message), std::string::npos) << said;
+    expect_has(said, message);
   }
 }
 
@@ -168,18 +168,14 @@ TEST(LammpsImport, ReadsTheUnitsAndTimesThatTheDumpNames) {
     folder.with("dump.a", dump(units, "1 2 0 0.1 10 0", 1));
     return refusal(folder, head + more);
   };
-  EXPECT_NE(refused("cgs", "length_unit_m = 1\n")
-                .find("UNITS: is \"cgs\", a unit of 0.01; lammps.length_unit_m is 1"),
-            std::string::npos);
-  EXPECT_NE(refused("real", "").find("dump.a:2: UNITS: is \"real\" (allowed: si, cgs, micro, nano, lj)"),
-            std::string::npos);
-  EXPECT_NE(refused("lj", "length_unit_m = 0.01\n").find("lammps.time_unit_s in the description"),
-            std::string::npos);
+  expect_has(refused("cgs", "length_unit_m = 1\n"),
+             "UNITS: is \"cgs\", a unit of 0.01; lammps.length_unit_m is 1");
+  expect_has(refused("real", ""), "dump.a:2: UNITS: is \"real\" (allowed: si, cgs, micro, nano, lj)");
+  expect_has(refused("lj", "length_unit_m = 0.01\n"), "lammps.time_unit_s in the description");
   EXPECT_NEAR(imported(folder, head + "length_unit_m = 0.01\ntime_unit_s = 0.5\n").report.last_time_s, 0.6,
               1e-12);
   folder.with("dump.a", frame(1, "id x y radius vx vy", {"1 0 0 1 0 0"}));
-  EXPECT_NE(refusal(folder, head).find("TIMESTEP: counts steps whose length is not known"),
-            std::string::npos);
+  expect_has(refusal(folder, head), "TIMESTEP: counts steps whose length is not known");
 }
 
 TEST(LammpsImport, ReadsOnlyWhatItNeeds) {
@@ -190,8 +186,7 @@ TEST(LammpsImport, ReadsOnlyWhatItNeeds) {
   EXPECT_NEAR(result.snapshots.at(0).x.at(0), 1, 1e-12);  // the first that gives x
   EXPECT_NEAR(result.snapshots[0].radius[0] * 9.81, 4.9, 1e-12);
   EXPECT_EQ(result.report.unused_columns, (std::vector<std::string>{"diameter", "mol", "type", "x", "xu"}));
-  EXPECT_NE(refusal(folder, description("wall_types = [2]\n")).find("dump.a:10: type: \"sand\" is no number"),
-            std::string::npos);
+  expect_has(refusal(folder, description("wall_types = [2]\n")), "dump.a:10: type: \"sand\" is no number");
   folder.with("dump.a", tilted("id x y radius vx vy", "1 2.5 1.5 4.9 0 0"));
   EXPECT_NEAR(imported(folder, description()).snapshots.at(0).x.at(0) * 9.81, 2.5, 1e-12);
 }
@@ -212,11 +207,9 @@ TEST(LammpsImport, LeavesOutWhatIsWrittenTwiceOrCutOff) {
   ASSERT_EQ(again.snapshots.size(), 3u);
   EXPECT_EQ(again.report.contacts, 3u);
   ASSERT_EQ(again.report.left_out.size(), 1u);
-  EXPECT_NE(again.report.left_out[0].find("dump.a:23: is the snapshot before once more"), std::string::npos)
-      << again.report.left_out[0];
+  expect_has(again.report.left_out[0], "dump.a:23: is the snapshot before once more");
   folder.with("dump.a", at(1) + at(2) + frame(2, columns, {"1 0 0 5 0 0", "2 8 0 5 0 1"}));
-  EXPECT_NE(refusal(folder, description()).find("dump.a:23: TIMESTEP: 1 s does not go on from 1 s"),
-            std::string::npos);
+  expect_has(refusal(folder, description()), "dump.a:23: TIMESTEP: 1 s does not go on from 1 s");
   // Cut off after any letter; the others are there, and what happened is said.
   const std::string last = at(3);
   for (std::size_t kept = 1; kept < last.size(); ++kept) {
@@ -224,7 +217,7 @@ TEST(LammpsImport, LeavesOutWhatIsWrittenTwiceOrCutOff) {
     const auto cut = imported(folder, description());
     EXPECT_EQ(cut.snapshots.size(), 2u) << kept;
     ASSERT_EQ(cut.report.left_out.size(), 1u) << kept;
-    EXPECT_NE(cut.report.left_out[0].find("dump.a:23: is cut off"), std::string::npos);
+    expect_has(cut.report.left_out[0], "dump.a:23: is cut off");
   }
   // Grains whose contacts are cut off have no stress, and are left out too; contacts of such grains likewise.
   folder.with("dump.a", at(1) + at(2) + at(3));
@@ -235,7 +228,7 @@ TEST(LammpsImport, LeavesOutWhatIsWrittenTwiceOrCutOff) {
   EXPECT_EQ(imported(folder, both).report.left_out.size(), 1u);
   // Anywhere else it is a fault.
   folder.with("dump.b", at(4));
-  EXPECT_NE(refusal(folder, description()).find("dump.a"), std::string::npos);
+  expect_has(refusal(folder, description()), "dump.a");
 }
 
 TEST(LammpsImport, ReadsLinesAcrossThePiecesOfItsFileAndWithoutALastEnd) {
@@ -261,10 +254,10 @@ TEST(LammpsImport, PatternOfManyStarsIsMatchedAtOnce) {
     std::string text = description();
     return text.replace(text.find("dump.*"), 6, pattern);
   };
-  EXPECT_NE(refusal(folder, named(stars)).find("no file of such a name"), std::string::npos);
+  expect_has(refusal(folder, named(stars)), "no file of such a name");
   EXPECT_EQ(imported(folder, named(stars + "*b")).snapshots.size(), 1u);
   EXPECT_EQ(imported(folder, named("*aab*")).snapshots.size(), 1u);
-  EXPECT_NE(refusal(folder, named("*ab*b")).find("no file of such a name"), std::string::npos);
+  expect_has(refusal(folder, named("*ab*b")), "no file of such a name");
 }
 
 }  // namespace
