@@ -256,7 +256,7 @@ bool run(Newton& newton, const Phase& phase, SolvedLevel& level) {
   level.state = before;
   Phase plain = phase;
   plain.locally = false;
-  plain.name += ", plain";
+  plain.name += " plain";  // no comma: it stands in a table
   return newton.solve(plain, level.state);
 }
 
