@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "continuum/accuracy/flow_accuracy.hpp"
+#include "continuum/estimates/flow_accuracy.hpp"
 
 namespace drumlin::apps {
 

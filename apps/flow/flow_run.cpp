@@ -17,7 +17,7 @@
 #include "apps/support/interruption.hpp"
 #include "apps/support/output_folder.hpp"
 #include "apps/support/standard_streams.hpp"
-#include "continuum/accuracy/flow_limits.hpp"
+#include "continuum/estimates/flow_limits.hpp"
 #include "continuum/fem/scene_options.hpp"
 #include "continuum/rheology/ill_posed_ranges.hpp"
 #include "coupling/common/errors.hpp"

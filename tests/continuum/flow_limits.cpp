@@ -1,6 +1,6 @@
 // What a converged flow must still meet: mass balance, a slope that a free surface can have, a speed that is
 // not eps's.
-#include "continuum/accuracy/flow_limits.hpp"
+#include "continuum/estimates/flow_limits.hpp"
 
 #include <gtest/gtest.h>
 

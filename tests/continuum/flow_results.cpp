@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "continuum/accuracy/flow_accuracy.hpp"
+#include "continuum/estimates/flow_accuracy.hpp"
 #include "continuum/marching/drum_march.hpp"
 #include "tests/support/data_folder.hpp"
 

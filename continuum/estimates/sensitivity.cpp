@@ -1,4 +1,4 @@
-#include "continuum/accuracy/sensitivity.hpp"
+#include "continuum/estimates/sensitivity.hpp"
 
 #include <ctime>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "continuum/accuracy/flow_accuracy.hpp"
+#include "continuum/estimates/flow_accuracy.hpp"
 
 #include <fmt/format.h>
 

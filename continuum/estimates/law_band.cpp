@@ -1,4 +1,4 @@
-#include "continuum/accuracy/law_band.hpp"
+#include "continuum/estimates/law_band.hpp"
 
 #include <fmt/format.h>
 

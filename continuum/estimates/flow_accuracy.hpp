@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "continuum/accuracy/law_band.hpp"
-#include "continuum/accuracy/sensitivity.hpp"
+#include "continuum/estimates/law_band.hpp"
+#include "continuum/estimates/sensitivity.hpp"
 
 namespace drumlin::continuum {
 

@@ -1,11 +1,11 @@
-#include "continuum/accuracy/flow_limits.hpp"
+#include "continuum/estimates/flow_limits.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <cmath>
 
-#include "continuum/accuracy/flow_accuracy.hpp"
+#include "continuum/estimates/flow_accuracy.hpp"
 #include "continuum/fem/scene_options.hpp"
 
 namespace drumlin::continuum {
