@@ -269,13 +269,10 @@ class ParticleRun {
 
   /// What the settings leave of error; averages have no interval before they are measured.
   std::string accuracy_text() const {
-    const auto record =
-        options_.accuracy ? accuracy_record(*options_.accuracy, scene_) : shipped_record(scene_);
-    const coupling::RunCost cost{.cpu_seconds = totals_now().cpu_seconds,
-                                 .simulated_seconds = simulated_seconds()};
-    const coupling::RunSettings settings{scene_.solver.tolerance, scene_.stages.back().time_step_s};
+    const auto record = accuracy_record(options_.accuracy, scene_);
+    const RunCost cost{.cpu_seconds = totals_now().cpu_seconds, .simulated_seconds = simulated_seconds()};
     if (!stretches_.is_null()) return text_of_stretches(stretches_, cost.cpu_seconds);
-    return text_of(coupling::accuracy_statement(settings, record, {}, cost)) +
+    return text_of(accuracy_statement(scene_, record, {}, cost), {}) +
            (record ? "" : price_of_stretches(cost.cpu_seconds, cost.simulated_seconds));
   }
 
@@ -347,7 +344,7 @@ int run(const RunOptions& options, particles::World* world) {
   const nlohmann::ordered_json started_from = take_over_grains(scene);
   // What only shows when grains are placed must show before anything is written or removed.
   const std::size_t grains = particles::Simulation(scene).state().bodies.count();
-  if (options.accuracy) (void)accuracy_record(*options.accuracy, scene);
+  if (options.accuracy) (void)accuracy_record(options.accuracy, scene);
   check_stretches(options.accuracy_seconds, scene);
   std::vector<fs::path> inputs{options.scene};
   for (const auto* list : lists_of(scene)) inputs.push_back(list->file);

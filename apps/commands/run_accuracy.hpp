@@ -3,7 +3,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "particles/accuracy/paired_stretches.hpp"
+#include "particles/stretches/paired_stretches.hpp"
 
 namespace drumlin::apps {
 

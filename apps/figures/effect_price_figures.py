@@ -1,7 +1,10 @@
-"""Figure of `drumlin cost --effects`: what each effect of a scene takes and changes, relative to the scene as it is."""
+"""Figure of `drumlin cost --effects`: what each effect of a scene takes and changes, relative to the scene as it is.
 
-import argparse
+usage: effect_price_figures.py COST_JSON PICTURE
+"""
+
 import math
+import sys
 
 import matplotlib.pyplot as plt
 
@@ -16,13 +19,6 @@ PANELS = [
     ("unknowns", "unknowns"),
     ("kinetic_energy_J_kg", "kinetic energy"),
 ]
-
-
-def arguments():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("prices", help="cost.json")
-    parser.add_argument("--output", required=True, help="the figure")
-    return parser.parse_args()
 
 
 def label(row):
@@ -59,8 +55,7 @@ def draw_panel(axes, key, title, base, rows):
 
 
 def main():
-    options = arguments()
-    report = script.content_of(options.prices)
+    report = script.content_of(sys.argv[1])
     priced = [row for row in report["variants"] if "cpu_seconds" in row]
     base, rows = priced[0], priced[1:][::-1]
     style.use_style()
@@ -71,7 +66,7 @@ def main():
     figure.suptitle(style.title_of(f"{style.plain(report['title'])}, first {report['simulated_seconds']:g} s\n"
                                    "without (-) and with (+) an effect, against the scene as it is",
                                    report["reduced"]), fontsize=13)
-    style.save(figure, options.output, report["reduced"])
+    style.save(figure, sys.argv[2], report["reduced"])
 
 
 if __name__ == "__main__":

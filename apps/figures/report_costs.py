@@ -20,7 +20,7 @@ PICTURE, FOLDER = "PICTURE", "FOLDER"
 # format: kind of record, script, its words after the record
 DRAWN = {
     "drumlin-cost-1": ("accuracy", "work_precision.py", [FOLDER]),
-    "drumlin-effect-prices-1": ("effects", "effect_price_figures.py", ["--output", PICTURE]),
+    "drumlin-effect-prices-1": ("effects", "effect_price_figures.py", [PICTURE]),
     "drumlin-flow-effect-prices-1": ("effects", "flow_price_figures.py", [PICTURE]),
     "drumlin-effect-errors-1": ("effects", "flow_effect_figures.py", [PICTURE]),
 }

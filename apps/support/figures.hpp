@@ -1,5 +1,7 @@
 #pragma once
-// Runs the Python scripts that draw figures and write pages.
+// Runs the Python scripts that draw figures, write pages and plan work.
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -8,5 +10,10 @@ namespace drumlin::apps {
 /// Runs apps/figures/SCRIPT (an absolute path stands for itself) with these arguments and waits for it.
 /// Throws IoError with what the script printed if it cannot be started or fails.
 void draw_figures(const std::string& script, const std::vector<std::string>& arguments);
+
+/// Runs a script that has this program work for it: each line that it prints is a wish in JSON, and `answer`
+/// gives the line that it reads next. What `answer` throws ends the script; other errors as above.
+void work_for_script(const std::string& script,
+                     const std::function<nlohmann::ordered_json(const nlohmann::ordered_json&)>& answer);
 
 }  // namespace drumlin::apps

@@ -139,6 +139,7 @@ struct Start {
   const char* program = nullptr;
   char* const* words = nullptr;
   char* const* environment = nullptr;
+  int input = -1;
   ProcessOutput output = ProcessOutput::inherited;
   int captured = -1;   // where captured output goes
   int failed = -1;     // takes errno if there is no such program
@@ -150,6 +151,7 @@ struct Start {
 [[noreturn]] void become(const Start& start) {
   ::prctl(PR_SET_PDEATHSIG, start.end_signal);
   if (::getppid() != start.parent) ::_exit(128 + SIGKILL);  // it ended before it could be watched
+  if (start.input >= 0) ::dup2(start.input, STDIN_FILENO);
   if (start.output != ProcessOutput::inherited) ::dup2(start.captured, STDOUT_FILENO);
   if (start.output == ProcessOutput::with_errors) ::dup2(start.captured, STDERR_FILENO);
   for (const int signal : passed_on) {
@@ -175,6 +177,7 @@ pid_t started(const ProcessRequest& request, const Pipe& output) {
   const Start start{.program = request.program.c_str(),
                     .words = word_pointers.data(),
                     .environment = variable_pointers.data(),
+                    .input = request.input,
                     .output = request.output,
                     .captured = output.write_end(),
                     .failed = failed.write_end(),

@@ -21,6 +21,7 @@ struct ProcessRequest {
   std::filesystem::path program;  ///< a path, or a name to be found along PATH
   std::vector<std::string> words = {};
   std::vector<std::string> environment = {};  ///< "NAME=value", in place of this process's own value of NAME
+  int input = -1;                             ///< what it reads as standard input; -1: that of this process
   ProcessOutput output = ProcessOutput::inherited;
   std::function<void(const std::string&)> line =
       {};                                   ///< takes each line of captured output; empty: it is dropped

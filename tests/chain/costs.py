@@ -49,6 +49,7 @@ def check_sweep(drumlin, work, law):
     require("v_x_mesh" in best["pareto"], "the most accurate point is not on the front")
     require((work / "cost" / "work_precision.png").exists(), "no figure")
 
+    drumlin(*words, "--resume")  # of what is finished
     # Nothing is solved again: a point that is marked by hand stays marked, and the others are what they were.
     kept = work / "cost" / "points" / "as-it-is.json"
     kept.write_text(kept.read_text(encoding="utf-8").replace('"iterations": ', '"iterations": 1000'), encoding="utf-8")

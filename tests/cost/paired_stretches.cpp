@@ -1,6 +1,6 @@
 // Stretches beyond the end of a run: closed forms of free fall, bounds that follow from a change, any number
 // of threads.
-#include "particles/accuracy/paired_stretches.hpp"
+#include "particles/stretches/paired_stretches.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,15 +1,32 @@
-// drumlin cost: what accuracy costs, and what each effect; the kind of the scene decides how it is found out.
+// drumlin cost: what accuracy costs, and what each effect. The scripts of apps/costs plan, compare and print;
+// this process does what they ask for, and answers for the results folder.
 #include "apps/commands/cost/cost.hpp"
 
-#include "apps/commands/cost/flow_points.hpp"
-#include "apps/commands/cost/sweep.hpp"
+#include <fmt/format.h>
+
+#include <csignal>
+#include <nlohmann/json.hpp>
+
+#include "apps/support/figures.hpp"
+#include "apps/support/interruption.hpp"
+#include "apps/support/json_file.hpp"
+#include "apps/support/output_folder.hpp"
+#include "apps/support/standard_streams.hpp"
+#include "coupling/common/child_process.hpp"
 #include "coupling/common/errors.hpp"
+#include "coupling/common/text_file.hpp"
+#include "coupling/common/unfinished_file.hpp"
 #include "coupling/documents/document.hpp"
 
 namespace drumlin::apps {
 namespace {
 
-bool is_flow_scene(const std::filesystem::path& file) {
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char *point_format = "drumlin-cost-point-1", *sweep_format = "drumlin-cost-sweep-1";
+
+bool is_flow_scene(const fs::path& file) {
   const Document document = read_toml(file);
   const Node* format = document.root.find("format");
   const auto* text = format != nullptr ? std::get_if<std::string>(&format->value) : nullptr;
@@ -22,13 +39,125 @@ bool is_flow_scene(const std::filesystem::path& file) {
                                  .allowed = "drumlin-scene-1, drumlin-flow-scene-1"}});
 }
 
-void refuse_options_of_the_other_kind(const CostOptions& options, bool flow) {
-  if (flow && (options.from || options.statistics_s))
-    throw InputError("cost: --from and --statistics are for scenes of particles");
-  if (!flow && (asks_for_work(options) || options.time_limit_s || !options.variants.empty() ||
-                !options.against.empty()))
-    throw InputError(
-        "cost: --ranks, --neighbour, --repeats, --time-limit, --variants and --against are for flows");
+Json options_json(const CostOptions& options) {
+  Json json{{"scene", options.scene},         {"effects", options.effects}, {"overrides", options.overrides},
+            {"seconds", options.seconds},     {"sweep", options.sweep},     {"ranks", options.ranks},
+            {"neighbour", options.neighbour}, {"repeats", options.repeats}, {"variants", options.variants},
+            {"against", options.against},     {"threads", options.threads}};
+  const auto add = [&](const char* key, const auto& value) { json[key] = value ? Json(*value) : Json(); };
+  add("output", options.output);
+  add("horizon_s", options.horizon_s);
+  add("statistics_s", options.statistics_s);
+  add("from", options.from);
+  add("rheology", options.rheology);
+  add("time_limit_s", options.time_limit_s);
+  return json;
+}
+
+/// The folder of a sweep or a price list, and what its points share.
+class CostFolder {
+ public:
+  explicit CostFolder(const CostOptions& options) : options_(options) {}
+
+  /// `shared`: of all points, kept in sweep.json; null: there are no points. Throws InputError if the folder
+  /// holds points that share something else.
+  void claim(const Json& shared, const std::vector<fs::path>& inputs) {
+    const OutputRequest request{*options_.output, options_.existing, "cost", inputs};
+    if (shared.is_null()) {
+      staged_.emplace(request);
+      return;
+    }
+    growing_.emplace(
+        request, std::vector<std::string>{"sweep.json", "cost.json", "cost.json.part", "start.h5",
+                                          "work_precision.png", "statistics.png", "prices.png", "effects.png",
+                                          "points/*.json", "points/*.h5", "points/*/scene.toml"});
+    Json said{{"format", sweep_format}};
+    said.update(shared);
+    const fs::path file = growing_->folder() / "sweep.json";
+    if (fs::exists(file)) {
+      const Json before = read_json(file, sweep_format);
+      for (const auto& [key, value] : said.items())
+        if (!before.contains(key) || before.at(key) != value)
+          throw InputError(fmt::format(
+              "{}: its points were made with another '{}'; name another folder or give --overwrite",
+              growing_->folder().string(), key));
+    }
+    make_folders(growing_->folder() / "points");
+    growing_->forget("*");  // what is written anew beside the points
+    growing_->save();
+    write_json(file, said);
+  }
+
+  /// The point of this name as an earlier call left it; null if it is still to be done.
+  Json kept(const std::string& name) const {
+    const std::string file = "points/" + name + ".json";
+    if (!growing_->manifest().files.contains(file)) return {};
+    return read_json(growing_->folder() / file, point_format);
+  }
+
+  void keep(const std::string& name, const Json& point) {
+    Json content{{"format", point_format}, {"name", name}};
+    content.update(point);
+    write_json(growing_->folder() / "points" / (name + ".json"), content);
+    growing_->list("points/" + name + ".json");
+    growing_->save();
+  }
+
+  /// cost.json comes last: each of `drawings`, a script and what it draws into, draws from a part of it.
+  void finish(Json content, const Json& drawings) {
+    content["provenance"] = to_json(provenance());
+    const fs::path folder = staged_ ? staged_->folder() : growing_->folder();
+    {
+      const UnfinishedFile unfinished(folder / "cost.json.part");
+      write_json(unfinished.path(), content);
+      for (const auto& [script, picture] : drawings.items())
+        draw_figures(script, {unfinished.path().string(), (folder / picture.get<std::string>()).string()});
+    }
+    write_json(folder / "cost.json", content);
+    staged_ ? staged_->publish() : growing_->finish();
+  }
+
+ private:
+  const CostOptions& options_;
+  std::optional<StagedOutput> staged_;
+  std::optional<GrowingOutput> growing_;
+};
+
+[[noreturn]] void fail(int code, const std::string& text) {
+  if (code == static_cast<int>(ExitCode::wrong_input)) throw InputError(text);
+  if (code == static_cast<int>(ExitCode::not_converged)) throw NotConvergedError(text);
+  throw IoError(text);
+}
+
+/// Runs a program of ours: on `ranks`, up to `time_limit_s`; what it prints is shown, dropped or, with its
+/// errors, told ("output": show, drop, tell).
+Json start(const Json& wish) {
+  flush_out();
+  const std::string program = program_beside(wish.at("program")).string();
+  ProcessRequest request{.program = program};
+  if (const int ranks = wish.value("ranks", 1); ranks > 1) {
+    request.program = "mpirun";
+    request.words = {"-n", std::to_string(ranks), program};
+    request.end_signal = SIGTERM;  // it ends its ranks
+    request.environment = {"OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"};
+  }
+  for (const std::string word : wish.at("words")) request.words.push_back(word);
+  if (const Json limit = wish.value("time_limit_s", Json()); !limit.is_null())
+    request.time_limit_s = limit.get<double>();
+  const std::string output = wish.at("output");
+  request.output = output == "show"   ? ProcessOutput::inherited
+                   : output == "drop" ? ProcessOutput::standard
+                                      : ProcessOutput::with_errors;
+  std::string said;
+  request.line = [&](const std::string& line) { said += line + "\n"; };
+  request.pass_signals_on = true;
+  const ProcessEnd end = run_process(request);
+  stop_if_interrupted();
+  const int code = end.shell_code();
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    if (!end.timed_out && code == exit_code_of(signal)) throw Interrupted{code};
+  return {
+      {"code", code}, {"timed_out", end.timed_out}, {"peak_memory_mb", end.peak_memory_mb}, {"said", said}};
 }
 
 }  // namespace
@@ -37,9 +166,39 @@ int cost(const CostOptions& options) {
   const bool flow = is_flow_scene(options.scene);
   if (flow && !options.rheology)
     throw InputError(options.scene.string() + ": a flow scene needs --rheology RHEOLOGY.toml");
-  refuse_options_of_the_other_kind(options, flow);
-  if (options.effects) return flow ? price_flow_effects(options) : price_particle_effects(options);
-  return flow ? sweep_flow(options) : sweep_particles(options);
+  Json facts;
+  std::optional<ParticleWork> particles;
+  if (flow)
+    facts = flow_facts(options);
+  else
+    facts = particles.emplace(options).facts();
+  CostFolder folder(options);
+  work_for_script("../costs/cost.py", [&](const Json& wish) -> Json {
+    const std::string what = wish.at("what");
+    if (what == "facts") return {{"options", options_json(options)}, {"facts", facts}};
+    if (what == "start") return start(wish);
+    if (what == "stretch") return particles.value().stretch(wish);
+    if (what == "lay down") return particles.value().lay_down(wish);
+    if (what == "price") return particles.value().price(wish);
+    if (what == "kept") return folder.kept(wish.at("name"));
+    if (what == "holds results") return holds_results(wish.at("folder").get<std::string>(), wish.at("file"));
+    if (what == "say") {
+      print_out(wish.at("text").get<std::string>());
+      flush_out();
+    } else if (what == "claim") {
+      folder.claim(wish.at("shared"), wish.at("inputs").get<std::vector<fs::path>>());
+    } else if (what == "begin") {
+      particles.value().begin(*options.output / "start.h5");
+    } else if (what == "keep") {
+      folder.keep(wish.at("name"), wish.at("point"));
+    } else if (what == "finish") {
+      folder.finish(wish.at("content"), wish.at("drawings"));
+    } else {
+      fail(wish.at("code"), wish.at("text"));
+    }
+    return {};
+  });
+  return static_cast<int>(ExitCode::done);
 }
 
 }  // namespace drumlin::apps

@@ -1,14 +1,46 @@
 #pragma once
-// The parts of `drumlin cost`, one for each kind of scene and question. Each returns an exit code.
+// What `drumlin cost` does for the scripts that plan it (apps/costs): facts of a scene, and work on it.
+// Wishes and answers are JSON.
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
 #include "apps/support/commands.hpp"
+#include "particles/scene/effect_variants.hpp"
+#include "particles/stretches/stretch.hpp"
 
 namespace drumlin::apps {
 
-/// The scene without and with each effect, one after the other.
-int price_particle_effects(const CostOptions& options);
-int price_flow_effects(const CostOptions& options);
-/// Errors over seconds.
-int sweep_particles(const CostOptions& options);
-int sweep_flow(const CostOptions& options);
+/// The scene and the law, as they are and without any effect, as texts; the scene's effects as changes for
+/// --set, by name.
+nlohmann::ordered_json flow_facts(const CostOptions& options);
+
+/// A scene of particles. Throws InputError for what is none.
+class ParticleWork {
+ public:
+  explicit ParticleWork(const CostOptions& options);
+
+  nlohmann::ordered_json facts() const;
+  /// Reads or makes the state that all stretches begin with: the end of the run of --from, or the beginning
+  /// of the last stage, up to which the scene is run; kept in `file`. Throws InputError when the run is
+  /// unfinished or of other grains, walls, effects.
+  void begin(const std::filesystem::path& file);
+  /// Goes through a stretch of `length_s` with `solver`, `tolerance`, `step_s`: what it took after a quarter,
+  /// half and all of it. With `keep` the grains at these marks stay in files of that prefix; else the marks
+  /// have the differences to each of `against`, prefixes of such files, and the stretch is repeated for its
+  /// time.
+  nlohmann::ordered_json stretch(const nlohmann::ordered_json& wish) const;
+  /// Makes `folder` one in which `drumlin run folder/scene.toml -o folder/run --resume` goes on from the
+  /// state, with settings as above and `snapshots`; the steps that lie behind the state.
+  nlohmann::ordered_json lay_down(const nlohmann::ordered_json& wish) const;
+  /// What variant number `variant` of the scene's effects takes.
+  nlohmann::ordered_json price(const nlohmann::ordered_json& wish) const;
+
+ private:
+  const CostOptions& options_;
+  particles::Scene scene_;
+  std::vector<particles::EffectVariant> variants_;  ///< empty: no prices are asked for
+  particles::SweepStart start_;
+};
 
 }  // namespace drumlin::apps

@@ -166,12 +166,10 @@ void print_scalar(const Scalar& scalar, const particles::ScalarSensitivity& sens
 }
 
 /// What is known beside the intervals; nothing of another program's run.
-std::optional<coupling::AccuracyStatement> statement_of(const MeasureOptions& options, const Json& run,
-                                                        const particles::Measurement& measured,
-                                                        const ScalarSet& scalars) {
-  if (run.value("imported", false) || !fs::exists(options.run / "scene.toml")) return std::nullopt;
+Json statement_of(const MeasureOptions& options, const Json& run, const particles::Measurement& measured,
+                  const ScalarSet& scalars) {
+  if (run.value("imported", false) || !fs::exists(options.run / "scene.toml")) return {};
   const particles::Scene scene = particles::read_scene(options.run / "scene.toml");
-  const auto record = options.accuracy ? accuracy_record(*options.accuracy, scene) : shipped_record(scene);
   const double snapshots = static_cast<double>(measured.series.time.size());
   const double both_ends =
       snapshots > 1 ? snapshots / (snapshots - 1) : 1;  // each snapshot stands for a stretch
@@ -179,15 +177,14 @@ std::optional<coupling::AccuracyStatement> statement_of(const MeasureOptions& op
   const double turned = measured.series.wall_angle.empty()
                             ? 0
                             : measured.series.wall_angle.back() - measured.series.wall_angle.front();
-  const coupling::RunCost cost{.cpu_seconds = run.value("cpu_seconds", 0.0),
-                               .simulated_seconds = run.value("simulated_seconds", 0.0),
-                               .sampled_seconds = sampled,
-                               .turns = both_ends * std::abs(turned) / (2 * std::numbers::pi)};
+  const RunCost cost{.cpu_seconds = run.value("cpu_seconds", 0.0),
+                     .simulated_seconds = run.value("simulated_seconds", 0.0),
+                     .sampled_seconds = sampled,
+                     .turns = both_ends * std::abs(turned) / (2 * std::numbers::pi)};
   ScalarSet with_intervals;
   for (const Scalar& scalar : scalars.scalars)
     if (scalar.ci99 && std::isfinite(scalar.value)) with_intervals.scalars.push_back(scalar);
-  return coupling::accuracy_statement({scene.solver.tolerance, scene.stages.back().time_step_s}, record,
-                                      with_intervals, cost);
+  return accuracy_statement(scene, accuracy_record(options.accuracy, scene), with_intervals, cost);
 }
 
 void print_steadiness(const particles::Steadiness& steadiness) {
@@ -287,7 +284,7 @@ ScalarSet all_scalars(const Request& request, const particles::Measurement& meas
 
 /// measured.json but for what the parts and the slices add.
 Json content_of(const Request& request, const particles::Measurement& measured, const ScalarSet& scalars,
-                const std::optional<coupling::AccuracyStatement>& statement) {
+                const Json& statement) {
   const Json& run = request.run;
   Json content{{"format", "drumlin-measured-1"}, {"reduced", request.reduced}};
   for (const Scalar& scalar : scalars.scalars)
@@ -299,18 +296,18 @@ Json content_of(const Request& request, const particles::Measurement& measured, 
   content["provenance"] = {{"measurement", to_json(provenance())}, {"run", run.value("provenance", Json())}};
   for (const char* key : {"revision", "seed"})
     if (run.contains(key)) content["provenance"][std::string("run_") + key] = run[key];
-  content["accuracy"] = statement ? to_json(*statement) : Json(nullptr);
+  content["accuracy"] = statement;
   return content;
 }
 
 /// What the run told of itself stands in the place of a statement that knows no errors.
-void print_accuracy(const Request& request, const std::optional<coupling::AccuracyStatement>& statement) {
+void print_accuracy(const Request& request, const Json& statement, const ScalarSet& scalars) {
   const Json none, accuracy = request.run.value("accuracy", none);
   const Json stretches = accuracy.is_object() ? accuracy.value("stretches", none) : none;
-  if (!stretches.is_null() && (!statement || statement->record.empty()))
+  if (!stretches.is_null() && (statement.is_null() || statement.at("record").is_null()))
     print_out(text_of_stretches(stretches, request.run.value("cpu_seconds", 0.0)));
-  else if (statement)
-    print_out(text_of(*statement));
+  else if (!statement.is_null())
+    print_out(text_of(statement, scalars));
 }
 
 /// In a line each: what was not measured though it belongs to the geometry, and how much does not belong.
@@ -400,7 +397,7 @@ int measure(const MeasureOptions& options) {
   output.publish();
 
   print_results(request, results, measured, scalars);
-  print_accuracy(request, statement);
+  print_accuracy(request, statement, scalars);
   throw_if_figures_failed(finished, failures);
   return static_cast<int>(ExitCode::done);
 }

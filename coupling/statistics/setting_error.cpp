@@ -1,4 +1,4 @@
-#include "coupling/accuracy/setting_error.hpp"
+#include "coupling/statistics/setting_error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "coupling/statistics/quantiles.hpp"
 #include "coupling/statistics/straight_line.hpp"
 
-namespace drumlin::coupling {
+namespace drumlin::statistics {
 namespace {
 
 constexpr double near = 5;
@@ -33,12 +33,11 @@ PowerFit fitted(const std::vector<SettingPoint>& points, double setting, double 
   for (const SettingPoint& p : points) {
     x.push_back(std::pow(p.setting, power));
     y.push_back(p.value);
-    variance.push_back(told ? std::pow(p.ci99 / statistics::normal_quantile_99, 2) : 1);
+    variance.push_back(told ? std::pow(p.ci99 / normal_quantile_99, 2) : 1);
   }
-  const auto line = statistics::fit_line(x, y, variance);  // three different settings at least
+  const auto line = fit_line(x, y, variance);  // three different settings at least
   const double at = std::pow(setting, power);
-  const double factor =
-      interval_factor_99(*line, told ? statistics::Variances::told : statistics::Variances::relative);
+  const double factor = interval_factor_99(*line, told ? Variances::told : Variances::relative);
   return {{line->slope * at, factor * std::sqrt(line->var_slope) * at, power, 0}, line->chi_squared, factor};
 }
 
@@ -79,4 +78,4 @@ std::optional<SettingError> setting_error(std::span<const SettingPoint> all, dou
   return best;
 }
 
-}  // namespace drumlin::coupling
+}  // namespace drumlin::statistics

@@ -1,4 +1,4 @@
-// Fronts of work-precision diagrams, errors of settings, differences of motions.
+// Errors of settings, differences of motions.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,25 +6,14 @@
 #include <random>
 #include <vector>
 
-#include "coupling/accuracy/pareto.hpp"
-#include "coupling/accuracy/setting_error.hpp"
 #include "coupling/statistics/quantiles.hpp"
+#include "coupling/statistics/setting_error.hpp"
 #include "particles/measurement/motion_difference.hpp"
 
 namespace drumlin {
-using namespace coupling;
+using namespace statistics;
 using namespace particles;
 namespace {
-
-TEST(ParetoFront, HoldsWhatNoOtherPointBeats) {
-  const std::vector<double> cost = {1, 2, 3, 4, 2.5}, error = {8, 4, 5, 1, 4};
-  EXPECT_EQ(pareto_front(cost, error), (std::vector<bool>{true, true, false, true, false}));
-}
-
-TEST(ParetoFront, KeepsBothOfTwoThatAreAlikeAndNoneThatIsNotKnown) {
-  const std::vector<double> cost = {1, 1, 0.5, NAN}, error = {2, 2, NAN, 0};
-  EXPECT_EQ(pareto_front(cost, error), (std::vector<bool>{true, true, false, false}));
-}
 
 const std::vector<double> both = {1, 0.5};
 
@@ -56,7 +45,7 @@ TEST(SettingError, NeedsThreeSettings) {
 std::vector<SettingPoint> three_points(double ci99) { return {{1, 1, ci99}, {2, 3, ci99}, {3, 2, ci99}}; }
 
 TEST(SettingError, OneDegreeOfFreedomAsksForStudentsT) {
-  const double by_scatter = statistics::student_quantile_99(1) * std::sqrt(1.5 / 2);
+  const double by_scatter = student_quantile_99(1) * std::sqrt(1.5 / 2);
   for (const double ci99 : {0.0, 0.1}) {  // no interval, or one that says less than the scatter
     const auto found = setting_error(three_points(ci99), 1, std::vector<double>{1});
     EXPECT_NEAR(found->error, 0.5, 1e-12);
@@ -87,7 +76,7 @@ double coverage(int settings, double C, double told) {
   for (int trial = 0; trial < trials; ++trial) {
     std::vector<SettingPoint> points;
     for (int i = 0; i < settings; ++i)
-      points.push_back({1.0 + i, 7 + C * (1 + i) + normal(engine), told * statistics::normal_quantile_99});
+      points.push_back({1.0 + i, 7 + C * (1 + i) + normal(engine), told * normal_quantile_99});
     const auto found = setting_error(points, 1, both);
     inside += std::abs(found->error - C) <= found->ci99;
   }

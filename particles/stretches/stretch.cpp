@@ -1,4 +1,4 @@
-#include "particles/accuracy/stretch.hpp"
+#include "particles/stretches/stretch.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "particles/accuracy/effect_price.hpp"
+#include "particles/stretches/effect_price.hpp"
 
 #include <malloc.h>
 

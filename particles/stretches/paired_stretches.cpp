@@ -1,4 +1,4 @@
-#include "particles/accuracy/paired_stretches.hpp"
+#include "particles/stretches/paired_stretches.hpp"
 
 #include <algorithm>
 #include <cmath>

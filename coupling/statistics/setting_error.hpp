@@ -3,7 +3,7 @@
 #include <optional>
 #include <span>
 
-namespace drumlin::coupling {
+namespace drumlin::statistics {
 
 /// A number measured at one value of the setting.
 struct SettingPoint {
@@ -24,11 +24,11 @@ struct SettingError {
 
 /// Weighted least squares over the points, with that of the powers (one at least) which fits best. The
 /// interval is that of C: the larger of what the points' own intervals give and Student's t of their scatter,
-/// with two degrees of freedom fewer than points (statistics::Variances::told; of the scatter alone where a
+/// with two degrees of freedom fewer than points (Variances::told; of the scatter alone where a
 /// point has no interval). It covers the intervals of the other powers that the points leave open. Settings
 /// more than five times as large or small are left out as long as three remain: far away nothing goes with a
 /// power any more. Nothing with fewer than three different settings.
 std::optional<SettingError> setting_error(std::span<const SettingPoint> points, double setting,
                                           std::span<const double> powers);
 
-}  // namespace drumlin::coupling
+}  // namespace drumlin::statistics
