@@ -19,12 +19,12 @@ namespace {
 constexpr double soft = 0.05;  // of s/p, beyond which a misfit counts less than its square
 constexpr double degrees = 180 / std::numbers::pi;
 
-using Vector = Eigen::Vector3d;  // ln c, m, chi
-using Matrix = Eigen::Matrix3d;
+using Vector3 = Eigen::Vector3d;  // ln c, m, chi
+using Matrix3 = Eigen::Matrix3d;
 
-Vector vector_of(const AxisMemory& law) { return {std::log(law.c), law.m, law.chi}; }
+Vector3 vector_of(const AxisMemory& law) { return {std::log(law.c), law.m, law.chi}; }
 
-AxisMemory law_at(const Vector& x, AxisMemory law) {
+AxisMemory law_at(const Vector3& x, AxisMemory law) {
   law.c = std::exp(std::clamp(x(0), std::log(0.3), std::log(100.0)));
   law.m = std::clamp(x(1), 0.0, 2.0);
   law.chi = x(2);
@@ -42,8 +42,8 @@ double bounded_square(double distance) {
 
 /// Sums over the paths of one sector: normal equations and cost at a law.
 struct SectorSums {
-  Matrix matrix = Matrix::Zero();
-  Vector right = Vector::Zero();
+  Matrix3 matrix = Matrix3::Zero();
+  Vector3 right = Vector3::Zero();
   double cost = 0, squares = 0;
   std::size_t paths = 0;
 
@@ -58,7 +58,7 @@ struct SectorSums {
 };
 using Sectors = std::map<long, SectorSums>;
 
-Sectors sums_at(std::span<const PathsOfRun> runs, const Vector& x, const AxisMemory& held,
+Sectors sums_at(std::span<const PathsOfRun> runs, const Vector3& x, const AxisMemory& held,
                 const std::array<bool, 3>& free, bool with_slopes) {
   constexpr double difference = 1e-4;
   Sectors sectors;
@@ -75,7 +75,7 @@ Sectors sums_at(std::span<const PathsOfRun> runs, const Vector& x, const AxisMem
       std::array<Deviator, 3> slope{};
       for (int j = 0; j < 3; ++j) {
         if (!free[static_cast<std::size_t>(j)]) continue;
-        Vector aside = x;
+        Vector3 aside = x;
         aside(j) += difference;
         slope[static_cast<std::size_t>(j)] = (r - misfit(run, i, law_at(aside, held))) / difference;
       }
@@ -96,9 +96,9 @@ SectorSums total_of(const Sectors& sectors) {
 }
 
 /// Step of Gauss and Newton; zero of what is held.
-Vector step_of(const SectorSums& sums, const std::array<bool, 3>& free) {
-  Matrix matrix = sums.matrix;
-  Vector right = sums.right;
+Vector3 step_of(const SectorSums& sums, const std::array<bool, 3>& free) {
+  Matrix3 matrix = sums.matrix;
+  Vector3 right = sums.right;
   for (int j = 0; j < 3; ++j) {
     if (free[static_cast<std::size_t>(j)]) {
       matrix(j, j) *= 1 + 1e-9;
@@ -114,7 +114,7 @@ Vector step_of(const SectorSums& sums, const std::array<bool, 3>& free) {
 
 /// The minimum and whether it was found.
 struct Minimum {
-  Vector x;
+  Vector3 x;
   bool found = false;
 };
 
@@ -123,7 +123,7 @@ Minimum minimum_of(std::span<const PathsOfRun> runs, const AxisMemory& start,
   Minimum at{vector_of(start)};
   for (int round = 0; round < 60 && !at.found; ++round) {
     const SectorSums here = total_of(sums_at(runs, at.x, start, free, true));
-    const Vector whole = step_of(here, free);
+    const Vector3 whole = step_of(here, free);
     if (!whole.allFinite()) return at;
     double share = 1;
     for (; share > 1e-3; share /= 2)
@@ -135,10 +135,10 @@ Minimum minimum_of(std::span<const PathsOfRun> runs, const AxisMemory& start,
 }
 
 /// Coefficients as they are reported, of a vector: c itself.
-std::array<double, 3> reported(const Vector& x) { return {std::exp(x(0)), x(1), x(2)}; }
+std::array<double, 3> reported(const Vector3& x) { return {std::exp(x(0)), x(1), x(2)}; }
 
 /// Leaves out one sector each: by one step from the minimum.
-void add_sector_intervals(const Sectors& sectors, const Vector& x, MemoryFit& fit) {
+void add_sector_intervals(const Sectors& sectors, const Vector3& x, MemoryFit& fit) {
   const SectorSums total = total_of(sectors);
   std::array<std::vector<double>, 3> without;
   for (const auto& sector : sectors) {
