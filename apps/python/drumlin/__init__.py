@@ -7,7 +7,7 @@ except ModuleNotFoundError as missing:
         raise
     raise ModuleNotFoundError("drumlin: its compiled part is missing; `cmake --build build --target programs` makes it", name=missing.name) from missing
 from . import errors, plot
-from .commands import command, compare, measure, program, run, solve_flow
+from .commands import command, compare, measure, program, run, solve_flow, sweep
 from .contacts import ContactSolution, contact_residual, contact_solvers, solve_contacts
 from .errors import DrumlinError, InputError, IoError, NotConvergedError
 from .files import Arrays, Folder, read, value_of
@@ -17,4 +17,4 @@ from .scenes import Simulation, resolved, toml_of
 __version__ = version().split()[0]
 __all__ = ["Arrays", "CalibratedLaw", "ContactSolution", "DrumlinError", "Folder", "InputError", "IoError", "Law", "NotConvergedError", "Simulation",
            "calibrate", "command", "compare", "contact_residual", "contact_solvers", "errors", "measure", "plot", "program", "read", "resolved", "run",
-           "solve_contacts", "solve_flow", "toml_of", "value_of", "version"]
+           "solve_contacts", "solve_flow", "sweep", "toml_of", "value_of", "version"]

@@ -25,7 +25,17 @@ class Arrays(dict):
         try:
             return self[name]
         except KeyError:
-            raise AttributeError(f"{self.path}: holds no {name}") from None
+            raise AttributeError(f"{self.path}: holds no {name} (it holds {', '.join(self)})") from None
+
+    def __dir__(self):
+        return [*super().__dir__(), *(name for name in self if name.isidentifier())]
+
+    def to_frame(self):
+        """A pandas.DataFrame of the columns, all of one length."""
+        import pandas  # pylint: disable=import-outside-toplevel  # of those who ask for it
+
+        length = max((np.size(values) for values in self.values() if np.ndim(values) == 1), default=0)
+        return pandas.DataFrame({name: values for name, values in self.items() if np.ndim(values) == 1 and np.size(values) == length})
 
     def __repr__(self):
         return f"<{self.format or self.path.suffix[1:]} of {self.path}: {', '.join(self)}>"

@@ -74,6 +74,9 @@ class Simulation:
     def __init__(self, scene, changes=(), threads=1):
         self._scene = _drumlin.stepped_scene(*_text_and_name(scene), overrides_of(changes), threads)
 
+    def __repr__(self):
+        return f"<simulation: {len(self.x)} grains, step {self.steps} of {self.steps_planned}, t = {self.time:.6g} sqrt(d/g)>"
+
     def step(self):
         """One step; returns its report."""
         return self._scene.step()
