@@ -97,7 +97,8 @@ class ParticleRun {
     output_.finish();
     progress_.show(line_of_progress());
     progress_.finish();
-    print_out(fmt::format("{}{}", run_summary(progress_now()), accuracy_text()));
+    print_out(fmt::format("{}{}next: drumlin measure {}\n", run_summary(progress_now()), accuracy_text(),
+                          options_.output.string()));
     return static_cast<int>(exit_code_of_missed(totals_.unconverged_steps, simulation_.state().step));
   }
 

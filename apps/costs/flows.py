@@ -191,7 +191,7 @@ class Flows:
 
     def solve(self, folder, flow):
         limit = self.options["time_limit_s"]
-        words = [flow.scene, "--rheology", flow.law, "--law-draws", "0", "-o", str(folder)] + (["--from", flow.start] if flow.start else [])
+        words = [flow.scene, "--rheology", flow.law, "-o", str(folder)] + (["--from", flow.start] if flow.start else [])
         words += [word for change in ["solver.sensitivity=false", "output.figures=false", *flow.changes] for word in ("--set", change)]
         end = self.ask("start", program="drumlin-flow", words=words, ranks=flow.ranks, time_limit_s=limit, output="drop")
         if end["timed_out"]:

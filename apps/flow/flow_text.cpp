@@ -138,7 +138,9 @@ std::string accuracy_text(const FinishedFlow& flow) {
       dominant.push_back(a.dominant());
   }
   if (flow.sensitivities.empty())
-    text += "  (what is not known: give solver.sensitivity=true, or drumlin cost SCENE)\n";
+    text +=
+        "  (--set solver.sensitivity=true tells what is not known, --law-draws 8 what the law's points leave "
+        "open: together about 1.5 times the time of the flow more)\n";
   for (const continuum::Halving& h : flow.accuracy.halvings)
     if (std::find(dominant.begin(), dominant.end(), h.source) != dominant.end())
       text += fmt::format(
@@ -152,7 +154,8 @@ std::string accuracy_text(const FinishedFlow& flow) {
 
 std::string finished_text(const fs::path& folder, const FinishedFlow& flow) {
   return checks_text(flow) + plain_text(flow) + sensitivity_text(flow) + law_band_text(flow) +
-         limits_text(flow) + summary_text(folder, flow) + accuracy_text(flow);
+         limits_text(flow) + summary_text(folder, flow) + accuracy_text(flow) +
+         fmt::format("next: drumlin compare RUN {} -o REPORT\n", folder.string());
 }
 
 }  // namespace drumlin::apps

@@ -137,7 +137,7 @@ struct FlowOptions {
   std::filesystem::path output;
   std::optional<std::filesystem::path> from;  ///< FLOWRUN to start from; absent: cold
   std::vector<std::string> overrides;
-  int law_draws = 8;  ///< laws of other draws that are solved as well, for the band of the law
+  int law_draws = 0;  ///< laws of other draws that are solved as well, for the band of the law
   ExistingOutput existing = ExistingOutput::refuse;
 };
 /// Starts `drumlin-flow`, which stands beside the running executable, with the same words; returns its exit

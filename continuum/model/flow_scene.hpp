@@ -71,7 +71,7 @@ struct FlowSolverKeys {
   double tolerance = 1e-8;
   double linear_tolerance = 1e-6;
   int max_iterations = 40;
-  bool sensitivity = true;
+  bool sensitivity = false;
 };
 /// Takes no key: naming it is all.
 struct FlowInertia {};

@@ -1,12 +1,17 @@
 #include "coupling/statistics/samples.hpp"
 
 #include <cassert>
-
-#include "coupling/common/no_value.hpp"
+#include <limits>
 
 namespace drumlin::statistics {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
 double mean(std::span<const double> values) {
-  if (values.empty()) return no_value;
+  if (values.empty()) return nan;
   const auto count = static_cast<double>(values.size());
   double result = 0;
   for (const double value : values) result += value / count;
@@ -14,7 +19,7 @@ double mean(std::span<const double> values) {
 }
 
 double variance(std::span<const double> values) {
-  if (values.size() < 2) return no_value;
+  if (values.size() < 2) return nan;
   const double middle = mean(values);
   double squares = 0;
   for (const double value : values) squares += (value - middle) * (value - middle);
@@ -44,7 +49,7 @@ void PooledVariance::add(double sum_of_squares, std::size_t count) {
 }
 
 double PooledVariance::value() const {
-  return degrees_of_freedom_ > 0 ? sum_of_squares_ / degrees_of_freedom_ : no_value;
+  return degrees_of_freedom_ > 0 ? sum_of_squares_ / degrees_of_freedom_ : nan;
 }
 
 }  // namespace drumlin::statistics

@@ -39,6 +39,8 @@ std::string forms_text(const coupling::Calibration& calibration) {
         "  {} {:<10}  rms misfit {:.4f}, scatter beyond the errors {:.4f}, band at I = {:.1e}: +- {:.4f}\n",
         f == calibration.chosen ? "*" : " ", name_of(law.form.kind), law.fit.rms_misfit,
         law.fit.intrinsic_scatter, middle, coupling::half_width_at(law, middle));
+    if (f == calibration.chosen && coupling::half_width_at(law, middle) > law.curve().at(middle).value)
+      text += "    warning: the interval is wider than mu itself: the runs are too short for a law\n";
   }
   return text;
 }
@@ -262,6 +264,7 @@ int calibrate(const CalibrateOptions& options) {
   for (const MeasuredRun& run : all)
     for (const std::string& reason : run.unsteady)
       print_out(fmt::format("  warning: {} is not steady: {}\n", run.name, reason));
+  print_out(fmt::format("next: drumlin flow FLOW.toml --rheology {} -o FLOWRUN\n", options.output.string()));
   return static_cast<int>(ExitCode::done);
 }
 
