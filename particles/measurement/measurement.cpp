@@ -8,9 +8,8 @@
 
 #include "coupling/common/errors.hpp"
 #include "particles/measurement/frame/intervals.hpp"
-#include "particles/measurement/grains/cell_profiles.hpp"
-#include "particles/measurement/layers/bulk_scalars.hpp"
-#include "particles/measurement/layers/packing_scalars.hpp"
+#include "particles/measurement/grains/cell_sums.hpp"
+#include "particles/measurement/layers/scalars.hpp"
 #include "particles/measurement/layers/slice.hpp"
 #include "particles/measurement/layers/variants.hpp"
 
@@ -29,25 +28,11 @@ double angle_of(const FlowFrame& frame, const Snapshot& snapshot) {
 /// Smaller parts of gravity are rounding of its direction.
 constexpr double level = 1e-9;
 
-double mean_of(const std::vector<double>& values) {
-  double sum = 0;
-  for (double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
-}
-
-/// Leaves what a snapshot says of the whole. To assign {} to a vector would keep its memory.
-void forget_grains(Snapshot& snapshot) {
-  for (auto* values : {&snapshot.x, &snapshot.z, &snapshot.v_x, &snapshot.v_z, &snapshot.radius,
-                       &snapshot.spin, &snapshot.displacement_x, &snapshot.displacement_z, &snapshot.mass})
-    *values = std::vector<double>();
-  snapshot.contacts = decltype(snapshot.contacts)();
-  snapshot.id = decltype(snapshot.id)();
-}
-
-/// The frame, and the scalars that the first reading gives.
-MeasurementFrame found_frame(const Survey& found, const Snapshot& last, const MeasurementOptions& options,
-                             Measurement& result) {
-  MeasurementFrame place;
+/// The frame, and the scalars that the first reading gives. Returns its angle.
+double find_frame(const Recording& recording, const Survey& found, const MeasurementOptions& options,
+                  Measurement& result) {
+  const Snapshot last = recording.read(recording.count() - 1);
+  MeasurementFrame& place = result.place;
   place.frame = found.upright;
   place.container_radius = last.container_radius;
   place.period = place.container_radius > 0 ? 0 : last.period_x;
@@ -89,7 +74,13 @@ MeasurementFrame found_frame(const Survey& found, const Snapshot& last, const Me
   if (options.gradient_step && !(place.period > 0))
     place.gradient_step = std::min(*options.gradient_step, place.half_chord / 4);
   result.scalars.scalars = {theta, theta_com};
-  return place;
+  place.in_mirror = recording.in_mirror;
+  result.first_snapshot = recording.first;
+  result.scales = last.scales;
+  result.velocity_window = last.displacement_x.empty() ? 0 : last.velocity_window;
+  if (place.period > 0) result.geometry = geometry_of_layers(last.gravity_x, last.gravity_z);
+  if (found.cut_to_window) result.scattered.emplace();
+  return angle_of(place.frame, last);
 }
 
 /// The slices in which profiles are taken.
@@ -97,16 +88,14 @@ struct Slices {
   Slice centre;
   std::optional<Slice> west, east;  ///< for derivatives along x
   std::vector<Slice> others;
-  std::vector<double> positions;   ///< of the others
-  std::optional<CellSlice> cells;  ///< of the middle one
+  std::vector<double> positions;  ///< of the others
 };
 
 Slices asked_slices(const MeasurementFrame& place, const MeasurementOptions& options) {
   const auto at = [&](double position, double width) {
     return empty_slice(slice_grid(place, position, width, options.layer_thickness), place.batches);
   };
-  Slices slices{at(options.position, place.slice_width), {}, {}, {}, {}, {}};
-  if (options.voronoi) slices.cells = empty_cell_slice(slices.centre);
+  Slices slices{at(options.position, place.slice_width), {}, {}, {}, {}};
   if (place.gradient_step > 0) {
     slices.west = at(options.position - place.gradient_step, place.slice_width);
     slices.east = at(options.position + place.gradient_step, place.slice_width);
@@ -134,36 +123,31 @@ void add_snapshot(Slices& slices, const FlowSnapshot& snapshot, std::size_t batc
 /// Profiles, their derivatives and the scalars read off them.
 void measure_centre(const Slices& slices, const MeasurementOptions& options, double wall_height,
                     double frame_angle, Measurement& result) {
-  SliceProfiles centre = slice_profiles(slices.centre, options.surface_nu);
+  LeaveOneOut<Profile> centre = slice_profiles(slices.centre, options.surface_nu);
   if (slices.west && slices.east)
-    add_gradients(centre, slice_profiles(*slices.west, centre), slice_profiles(*slices.east, centre),
-                  result.place.gradient_step);
-  if (slices.cells) add_cell_columns(slices.centre, *slices.cells, centre);
-  add_intervals(centre);
-  result.surface_z = centre.surface_z;
+    add_gradients(centre, *slices.west, *slices.east, result.place.gradient_step);
+  result.surface_z = centre.whole.surface_z;
   result.layer_thickness = slices.centre.grid.thickness;
-  result.axis_depth = -centre.surface_z;
-  result.wall_z = wall_height - centre.surface_z;
-  result.fits = profile_scalars(centre.profiles, options.scalars);
+  result.axis_depth = -result.surface_z;
+  result.wall_z = wall_height - result.surface_z;
+  result.profiles = table_of(centre);
+  for (const Profile& one : centre.without) result.leave_one_out.push_back(table_of(one));
+  result.fits = profile_scalars(result.profiles, options.scalars);
 
-  const auto scalars_of = [&](const ProfileSet& profiles, double wall_z) {
-    ScalarSet scalars = packing_scalars(profiles, {wall_z, frame_angle, result.place.closed}, options);
+  const auto scalars = each_of(centre, [&](const Profile& profile) {
+    const double wall_z = wall_height - profile.surface_z;
+    const bool closed = result.place.closed;
+    ScalarSet set = packing_scalars(profile, {wall_z, frame_angle, closed}, options);
     if (!(result.place.container_radius > 0))
-      for (Scalar& scalar : bulk_scalars(profiles, wall_z, options.bulk_margin, result.place.closed).scalars)
-        scalars.scalars.push_back(std::move(scalar));
-    return scalars;
-  };
-  std::vector<ScalarSet> without;
-  for (std::size_t b = 0; b < centre.leave_one_out.size(); ++b)
-    without.push_back(scalars_of(centre.leave_one_out[b], wall_height - centre.leave_one_out_surface_z[b]));
-  for (Scalar& scalar : scalars_of(centre.profiles, result.wall_z).scalars) {
-    std::vector<double> values;
-    for (const ScalarSet& one : without) values.push_back(one.value(scalar.name));
-    scalar.ci99 = jackknife_ci99(values);
-    result.scalars.scalars.push_back(scalar);
+      for (const Scalar& scalar : bulk_scalars(profile, wall_z, options.bulk_margin, closed).scalars)
+        set.scalars.push_back(scalar);
+    return set;
+  });
+  for (std::size_t s = 0; s < scalars.whole.scalars.size(); ++s) {
+    result.scalars.scalars.push_back(scalars.whole.scalars[s]);
+    result.scalars.scalars.back().ci99 =
+        ci99_of(scalars, [&](const ScalarSet& one) { return one.scalars[s].value; });
   }
-  result.profiles = std::move(centre.profiles);
-  result.leave_one_out = std::move(centre.leave_one_out);
 }
 
 /// Height of the wall under a slice in the frame.
@@ -175,12 +159,10 @@ double wall_height(const MeasurementFrame& place, const Slice& slice, double pos
 void measure_other_slices(const Slices& slices, const MeasurementFrame& place,
                           const MeasurementOptions& options, Measurement& result) {
   for (std::size_t s = 0; s < slices.others.size(); ++s) {
-    SliceProfiles measured = slice_profiles(slices.others[s], options.surface_nu);
-    add_intervals(measured);
-    const double position = slices.positions[s];
-    result.slices.push_back({position, options.slices->width, std::move(measured.profiles),
-                             -measured.surface_z,
-                             wall_height(place, slices.others[s], position) - measured.surface_z});
+    const auto measured = slice_profiles(slices.others[s], options.surface_nu);
+    const double position = slices.positions[s], surface_z = measured.whole.surface_z;
+    result.slices.push_back({position, options.slices->width, table_of(measured), -surface_z,
+                             wall_height(place, slices.others[s], position) - surface_z});
   }
 }
 
@@ -214,9 +196,6 @@ Measurement measurement(const SnapshotSource& source, const MeasurementOptions& 
                         std::span<const MeasurementPart> parts,
                         const std::function<void(std::size_t, std::size_t)>& progress) {
   const Recording recording = steady_recording(source);
-  Snapshot last = recording.read(recording.count() - 1);
-  const double velocity_window = last.displacement_x.empty() ? 0 : last.velocity_window;
-  forget_grains(last);
   std::size_t done = 0;
   const auto tick = [&] {
     if (progress) progress(++done, 2 * recording.count());
@@ -225,20 +204,12 @@ Measurement measurement(const SnapshotSource& source, const MeasurementOptions& 
                         std::make_shared<ScratchFile>(options.scratch_folder), tick);
 
   Measurement result;
-  result.first_snapshot = recording.first;
-  result.in_mirror = recording.in_mirror;
-  result.scales = last.scales;
-  result.velocity_window = velocity_window;
-  MeasurementFrame place = found_frame(found, last, options, result);
-  place.in_mirror = recording.in_mirror;
-  const double frame_angle = angle_of(place.frame, last);
-  result.place = place;
+  const double frame_angle = find_frame(recording, found, options, result);
   result.frame_angle_deg = frame_angle * degrees;
-  if (place.period > 0) result.geometry = geometry_of_layers(last.gravity_x, last.gravity_z);
-  if (found.cut_to_window) result.scattered.emplace();
+  const MeasurementFrame& place = result.place;
 
   Slices slices = asked_slices(place, options);
-  std::optional<VariantSlices> variants;
+  std::vector<VariantSlice> variants;
   if (options.sensitivity) variants = variant_slices(found, place, frame_angle, options);
   for (const MeasurementPart& part : parts) part.begin(place);
   FlowSnapshot in_frame;
@@ -248,17 +219,17 @@ Measurement measurement(const SnapshotSource& source, const MeasurementOptions& 
     to_flow_frame(snapshot, place.frame, VelocityKind::window, in_frame);
     if (result.scattered) add_scattered(scattered_in(in_frame, place), recording.count(), *result.scattered);
     add_snapshot(slices, in_frame, batch);
-    if (slices.cells) add_snapshot(slices.centre, snapshot, in_frame, batch, *slices.cells);
+    if (options.voronoi) add_cells(slices.centre.grid, snapshot, in_frame, slices.centre.batches[batch]);
     for (const MeasurementPart& part : parts) part.add(snapshot, in_frame, batch);
-    if (variants) add_snapshot(*variants, snapshot, in_frame);
+    add_snapshot(variants, snapshot, in_frame);
     tick();
   }
 
   const double wall = wall_height(place, slices.centre, options.position);
   measure_centre(slices, options, wall, frame_angle, result);
   measure_other_slices(slices, place, options, result);
-  if (variants)
-    result.variants = scalar_variants(*variants, found, place, slices.centre, wall, frame_angle, options);
+  if (options.sensitivity)
+    result.variants = scalar_variants(variants, found, place, slices.centre, wall, frame_angle, options);
   const double radius = place.container_radius;
   if (!(radius > 0)) result.axis_depth = Measurement::none;
   result.steadiness = steadiness(found.series, place.rotation, options.batches);

@@ -61,8 +61,7 @@ struct Measurement {
   double surface_z = none;        ///< of z = 0, in the frame of `place`
   double wall_z = none;           ///< of the wall below the slice, of the lowest layer without a drum
   double layer_thickness = none;  ///< used
-  double slope_half_width = none;  ///< used
-  bool in_mirror = false;
+  double slope_half_width = none;            ///< used
   std::optional<ScatteredGrains> scattered;  ///< nothing when every grain is measured
   Scales scales;
 

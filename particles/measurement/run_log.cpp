@@ -72,9 +72,7 @@ std::vector<double> finite_values(const std::vector<LogRow>& rows, double LogRow
 }
 
 Scalar averaged(const std::string& name, const std::vector<double>& values) {
-  double sum = 0;
-  for (double value : values) sum += value;
-  return {name, values.empty() ? none : sum / static_cast<double>(values.size()), mean_ci99(values)};
+  return {name, mean_of(values), mean_ci99(values)};
 }
 
 }  // namespace

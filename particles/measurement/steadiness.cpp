@@ -23,12 +23,6 @@ constexpr double stress_too_vague = 0.25;    // an interval wider than this hide
 constexpr double least_turns = 0.99;         // snapshots end one interval before the turn does
 constexpr std::size_t least_snapshots = 20;
 
-double mean_of(std::span<const double> values) {
-  double sum = 0;
-  for (double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
-}
-
 double standard_deviation(std::span<const double> values) {
   const double mean = mean_of(values);
   double squares = 0;

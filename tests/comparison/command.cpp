@@ -5,7 +5,7 @@
 #include "coupling/common/errors.hpp"
 #include "coupling/comparison/layers.hpp"
 #include "coupling/files/field_map_file.hpp"
-#include "particles/measurement/layers/bulk_scalars.hpp"
+#include "particles/measurement/layers/scalars.hpp"
 #include "tests/comparison/example_maps.hpp"
 #include "tests/comparison/run_folders.hpp"
 #include "tests/comparison/shear_example.hpp"
@@ -164,7 +164,14 @@ TEST(CompareCommand, RefusesTwoGeometriesWithBothNames) {
 
 TEST(CompareCommand, BulkOfLayersIsThatOfTheMeasurement) {
   const ProfileSet packing = sheared_packing();
-  const ScalarSet measured = particles::bulk_scalars(packing, *packing.header.wall_z, 4);
+  particles::Profile profile{std::vector<particles::LayerValues>(packing.z.size()), {}};
+  for (std::size_t l = 0; l < packing.z.size(); ++l) {
+    profile.layers[l].z = packing.z[l];
+    for (const particles::LayerQuantity& quantity : particles::layer_quantities())
+      if (const ProfileColumn* column = packing.find(quantity.name))
+        profile.layers[l].*quantity.value = column->value[l];
+  }
+  const ScalarSet measured = particles::bulk_scalars(profile, *packing.header.wall_z, 4);
   const LayerComparison comparison =
       compare_layers(shear_side(packing), shear_side(packing), Registration::axis);
   int found = 0;

@@ -123,7 +123,7 @@ TEST(Drums, AxesOfTheLaboratoryDoNotMatter) {
 TEST(Drums, DrumThatTurnsTheOtherWayIsSeenInAMirror) {
   const Snapshot drum = flowing_drum();
   const Measurement mirror_image = measurement_of(mirrored(drum));
-  EXPECT_TRUE(mirror_image.in_mirror);
+  EXPECT_TRUE(mirror_image.place.in_mirror);
   expect_same(measurement_of(drum), mirror_image);
 }
 

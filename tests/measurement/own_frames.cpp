@@ -3,8 +3,7 @@
 
 #include <random>
 
-#include "particles/measurement/layers/silo_profiles.hpp"
-#include "particles/measurement/rings/ring_profiles.hpp"
+#include "particles/measurement/layers/slice.hpp"
 #include "tests/measurement/packings.hpp"
 
 namespace drumlin {
@@ -17,12 +16,14 @@ FlowSnapshot seen(const Snapshot& snapshot, const FlowFrame& frame) {
   return result;
 }
 
-LayerSums empty_sums_of(std::size_t layers) { return {std::vector<LayerSum>(layers), 0, true}; }
-
-LayerSums sums_of(const RingGrid& grid, const Snapshot& snapshot) {
-  LayerSums sums = empty_sums_of(grid.rings());
+LayerSums sums_of(const LayerGrid& grid, const Snapshot& snapshot) {
+  LayerSums sums = empty_slice(grid, 1).batches[0];
   add_snapshot(grid, seen(snapshot, grid.frame), sums);
   return sums;
+}
+
+ProfileSet ring_profiles(const LayerGrid& grid, const Snapshot& snapshot) {
+  return table_of(profile_of(grid, sums_of(grid, snapshot), 0), ring_quantities());
 }
 
 /// Discs at random about (3, -2) that turn about it clockwise with angular velocity w(r).
@@ -50,8 +51,8 @@ TEST(Rings, SolidBodyTurnsWithOmegaTimesRAndWithoutShear) {
     if (dense)
       for (std::size_t i = 0; i < plain.x.size(); ++i)
         plain.mass.push_back((i % 3 == 0 ? 4 : 1) * std::numbers::pi * plain.radius[i] * plain.radius[i]);
-    const RingGrid grid = ring_grid(3, -2, 1, 8, 0);
-    const ProfileSet profiles = ring_profiles(grid, sums_of(grid, plain));
+    const LayerGrid grid = ring_grid(3, -2, 1, 8, 0);
+    const ProfileSet profiles = ring_profiles(grid, plain);
     ASSERT_EQ(profiles.z.size(), 8u);
     const auto value = [&](const char* name, std::size_t l) { return profiles.column(name).value[l]; };
     for (std::size_t l = 0; l < 8; ++l) {
@@ -80,8 +81,8 @@ TEST(Rings, VortexHasItsShearRate) {
       snapshot.v_x.back() = 5 / r * std::sin(angle);
       snapshot.v_z.back() = -5 / r * std::cos(angle);
     }
-  const RingGrid grid = ring_grid(3, -2, thickness, 8, 0);
-  const ProfileSet profiles = ring_profiles(grid, sums_of(grid, snapshot));
+  const LayerGrid grid = ring_grid(3, -2, thickness, 8, 0);
+  const ProfileSet profiles = ring_profiles(grid, snapshot);
   for (std::size_t l = 9; l < 31; ++l) {
     const double r = profiles.z[l];
     const auto w = [](double at) { return 5 / (at * at); };
@@ -99,7 +100,7 @@ TEST(Rings, AreasAreThoseOfTheDiscs) {
   // Two circles of radius 1, 1 apart: 2 pi/3 - sqrt(3)/2.
   EXPECT_NEAR(disc_area_in_circle(1, 1, 1), 2 * std::numbers::pi / 3 - std::sqrt(3.0) / 2, 1e-14);
   const Snapshot snapshot = turning([](double) { return 0.0; });
-  const RingGrid grid = ring_grid(3, -2, 0.7, 20, 0);
+  const LayerGrid grid = ring_grid(3, -2, 0.7, 20, 0);
   const LayerSums sums = sums_of(grid, snapshot);
   double covered = 0, area = 0;
   for (const LayerSum& ring : sums.layers) covered += ring.covered;
@@ -118,8 +119,8 @@ TEST(Rings, StressesAreThoseOfTheBranches) {
   for (int i = 0; i < 8; ++i) testing::add_grain(snapshot, 1 + (i + 0.5) * c, 2 + (i + 0.5) * s, 0.5);
   for (std::int32_t i = 0; i < 7; ++i)
     snapshot.contacts.push_back({i + 1, i, static_cast<float>(c), static_cast<float>(s), 1.0, 0.25});
-  const RingGrid grid = ring_grid(1, 2, 1, 8, 0);
-  const ProfileSet profiles = ring_profiles(grid, sums_of(grid, snapshot));
+  const LayerGrid grid = ring_grid(1, 2, 1, 8, 0);
+  const ProfileSet profiles = ring_profiles(grid, snapshot);
   for (std::size_t l = 1; l < 7; ++l) {
     const double area = std::numbers::pi * (2 * static_cast<double>(l) + 1);
     // 1e-6: snapshots hold normals as floats. On the outer grain act 2 outwards and 0.5 along the tangent,
@@ -140,7 +141,7 @@ TEST(Rings, SumOfTheStressesIsThatOfTheContactsWhereverTheCentreIs) {
   for (const double x : {0.0, 2.3, -4.0}) {
     const LayerSums sums = sums_of(ring_grid(x, 4.5, 0.6, 30, 0), column);
     double total = 0;
-    for (const LayerSum& ring : sums.layers) total += ring.force_x_branch_x + ring.force_z_branch_z;
+    for (const LayerSum& ring : sums.layers) total += ring.force_branch.xx + ring.force_branch.zz;
     EXPECT_NEAR(total, trace, 1e-9);
   }
 }
@@ -154,9 +155,9 @@ Snapshot silo_at_rest() {
 
 TEST(Silo, UniformColumnHasTheHydrostaticStressOverItsHeight) {
   const SceneBox reach{0, 8, 0, 20};
-  Slice slice = empty_slice(height_grid(2, 6, reach, 1), 1);
-  add_snapshot(slice.grid, seen(silo_at_rest(), slice.grid.frame), slice.batches[0]);
-  const ProfileSet profiles = height_profiles(slice);
+  const LayerGrid grid = height_grid(2, 6, reach, 1);
+  const ProfileSet profiles =
+      table_of(profile_of(grid, sums_of(grid, silo_at_rest()), 0), height_quantities());
   ASSERT_EQ(profiles.z.size(), 20u);
   const double nu = std::numbers::pi / 4;
   for (std::size_t l = 0; l < 20; ++l) {
@@ -178,12 +179,10 @@ TEST(Silo, WidthHasTheScenesComponents) {
   }
   for (SnapshotContact& contact : snapshot.contacts) contact.impulse_t = 0.2 * contact.impulse_n;
   const SceneBox reach{0, 8, 0, 20};
-  Slice slice = empty_slice(width_grid(4, 8, reach, 1), 1);
-  add_snapshot(slice.grid, seen(snapshot, slice.grid.frame), slice.batches[0]);
-  const ProfileSet profiles = width_profiles(slice);
-  Slice upright = empty_slice(height_grid(0, 8, reach, 1), 1);
-  add_snapshot(upright.grid, seen(snapshot, upright.grid.frame), upright.batches[0]);
-  const ProfileSet over_height = height_profiles(upright);
+  const LayerGrid grid = width_grid(4, 8, reach, 1), upright = height_grid(0, 8, reach, 1);
+  const ProfileSet profiles = table_of(profile_of(grid, sums_of(grid, snapshot), 0), width_quantities());
+  const ProfileSet over_height =
+      table_of(profile_of(upright, sums_of(upright, snapshot), 0), height_quantities());
   ASSERT_EQ(profiles.z.size(), 8u);
   const double nu = std::numbers::pi / 4;
   for (std::size_t l = 0; l < 8; ++l) {

@@ -1,11 +1,12 @@
 // Scalars that are read off profiles: of known profiles, and refused where a profile is too short.
+#include "particles/measurement/layers/scalars.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "coupling/exchange/profile_scalars.hpp"
-#include "particles/measurement/layers/bulk_scalars.hpp"
 #include "tests/measurement/packings.hpp"
 
 namespace drumlin {

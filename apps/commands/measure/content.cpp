@@ -26,7 +26,7 @@ Json settings_of(const particles::Measurement& m, const particles::MeasurementOp
       {"frame", "turns with the drum; x downslope, z along the normal of the surface"},
       {"frame_from", name_of(m.place.source)},
       {"frame_angle_deg", m.frame_angle_deg},
-      {"seen_in_a_mirror", m.in_mirror},
+      {"seen_in_a_mirror", m.place.in_mirror},
       {"slope_isoline_nu", options.slope_isoline},
       {"slope_half_width", m.slope_half_width},
       {"slope_half_width_asked", options.slope_half_width},

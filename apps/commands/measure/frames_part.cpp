@@ -6,15 +6,14 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <optional>
+#include <span>
 #include <utility>
 
 #include "apps/support/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/common/text_file.hpp"
 #include "coupling/documents/csv.hpp"
-#include "particles/measurement/layers/silo_profiles.hpp"
-#include "particles/measurement/rings/ring_profiles.hpp"
+#include "particles/measurement/layers/slice.hpp"
 
 namespace drumlin::apps {
 namespace {
@@ -25,15 +24,18 @@ using particles::MeasurementFrame;
 using particles::SceneBox;
 using particles::Snapshot;
 
-/// What grows while the snapshots are read.
+/// One table of profiles, and the layers or rings that grow while the snapshots are read.
+struct OwnFrame {
+  std::string name, coordinate;
+  Json place;
+  std::span<const particles::LayerQuantity> quantities;
+  particles::Slice slice;
+};
+
 struct Frames {
   std::size_t batches = 0;
-  double thickness = 1;
-  SceneBox reach;
   bool in_mirror = false;
-  std::optional<particles::RingGrid> rings;
-  std::vector<particles::LayerSums> ring_batches;
-  std::optional<particles::Slice> height, width;
+  std::vector<OwnFrame> frames;
   FlowSnapshot seen;
 };
 
@@ -67,10 +69,15 @@ void begin(const MeasureOptions& options, const MeasurementFrame& place, Frames&
         "--radial, --height, --width: the scene is periodic in x, where rings and bands would be cut at the "
         "seam (allowed: scenes without periodic_x; layers over the whole period are profiles.csv)");
   frames.batches = place.batches;
-  frames.thickness = options.layer_thickness;
-  frames.reach = reach_of(place);
   frames.in_mirror = place.in_mirror;
-  const SceneBox& reach = frames.reach;
+  const double thickness = options.layer_thickness;
+  const SceneBox reach = reach_of(place);
+  const auto add = [&](const char* name, const char* coordinate, const Json& its_place,
+                       std::span<const particles::LayerQuantity> quantities,
+                       const particles::LayerGrid& grid) {
+    frames.frames.push_back(
+        {name, coordinate, its_place, quantities, particles::empty_slice(grid, place.batches)});
+  };
   if (!options.radial.empty()) {
     const auto [x, z] = centre_of(options, place);
     double r_to = 0;
@@ -78,35 +85,31 @@ void begin(const MeasureOptions& options, const MeasurementFrame& place, Frames&
       for (const double corner_z : {reach.z_min, reach.z_max})
         r_to = std::max(r_to, std::hypot(corner_x - x, corner_z - z));
     const bool about_axis = options.radial.front() == "axis";
-    frames.rings =
-        particles::ring_grid(x, z, frames.thickness, r_to, about_axis ? place.container_radius : 0);
-    frames.ring_batches.assign(
-        place.batches,
-        particles::LayerSums{std::vector<particles::LayerSum>(frames.rings->rings()), 0, true});
+    add("radial", "r", {{"center", about_axis ? "axis" : "point"}, {"center_x", x}, {"center_z", z}},
+        particles::ring_quantities(),
+        particles::ring_grid(x, z, thickness, r_to, about_axis ? place.container_radius : 0));
   }
-  if (!options.height.empty())
-    frames.height = particles::empty_slice(
-        particles::height_grid(options.height[0], options.height[1], reach, frames.thickness), place.batches);
-  if (!options.width.empty())
-    frames.width = particles::empty_slice(
-        particles::width_grid(options.width[0], options.width[1], reach, frames.thickness), place.batches);
+  if (const auto& band = options.height; !band.empty())
+    add("height", "z", {{"x_from", band[0]}, {"x_to", band[1]}}, particles::height_quantities(),
+        particles::height_grid(band[0], band[1], reach, thickness));
+  if (const auto& band = options.width; !band.empty())
+    add("width", "x", {{"z_from", band[0]}, {"z_to", band[1]}}, particles::width_quantities(),
+        particles::width_grid(band[0], band[1], reach, thickness));
 }
 
 /// Velocities are those of the laboratory at the instant of the snapshot: a turning wall takes nothing off.
 void add(Snapshot snapshot, std::size_t batch, Frames& frames) {
   if (frames.in_mirror) snapshot = particles::mirrored(std::move(snapshot));
   snapshot.wall_spin = 0;
-  const auto see = [&](const particles::FlowFrame& frame) -> const FlowSnapshot& {
-    particles::to_flow_frame(snapshot, frame, particles::VelocityKind::instantaneous, frames.seen);
-    return frames.seen;
-  };
-  if (frames.rings) add_snapshot(*frames.rings, see(frames.rings->frame), frames.ring_batches[batch]);
-  for (auto* slice : {&frames.height, &frames.width})
-    if (*slice) add_snapshot((*slice)->grid, see((*slice)->grid.frame), (*slice)->batches[batch]);
+  for (OwnFrame& one : frames.frames) {
+    particles::to_flow_frame(snapshot, one.slice.grid.frame, particles::VelocityKind::instantaneous,
+                             frames.seen);
+    add_snapshot(one.slice.grid, frames.seen, one.slice.batches[batch]);
+  }
 }
 
 /// As profiles.csv, but for the name of its first column and for a header that names the frame.
-void write_table(const std::filesystem::path& file, const char* coordinate, const Json& frame,
+void write_table(const std::filesystem::path& file, const std::string& coordinate, const Json& frame,
                  const ProfileSet& profiles) {
   std::string text = "# drumlin-frame-1\n";
   for (const auto& [key, value] : frame.items())
@@ -116,31 +119,19 @@ void write_table(const std::filesystem::path& file, const char* coordinate, cons
 
 void write(const MeasureOptions& options, const PartOutput& output, const Frames& frames) {
   Json list = Json::array();
-  const auto leave = [&](const char* name, const char* coordinate, Json place, const ProfileSet& profiles) {
-    Json header{{"frame", name}};
-    header.update(place);
-    header["layer_thickness"] = frames.thickness;
+  for (const OwnFrame& one : frames.frames) {
+    Json header{{"frame", one.name}};
+    header.update(one.place);
+    header["layer_thickness"] = options.layer_thickness;
     header["batches"] = frames.batches;
     if (output.reduced) header["reduced"] = true;
-    const std::string file = fmt::format("{}.csv", name);
-    write_table(output.folder / file, coordinate, header, profiles);
+    const std::string file = one.name + ".csv";
+    // No surface crosses infinity: z counts from the origin of the frame.
+    write_table(output.folder / file, one.coordinate, header,
+                table_of(slice_profiles(one.slice, INFINITY), one.quantities));
     header["file"] = file;
     list.push_back(header);
-  };
-  if (frames.rings) {
-    const particles::FlowFrame& f = frames.rings->frame;
-    leave("radial", "r",
-          {{"center", options.radial.front() == "axis" ? "axis" : "point"},
-           {"center_x", f.origin_x},
-           {"center_z", f.origin_z}},
-          particles::ring_profiles(*frames.rings, frames.ring_batches));
   }
-  if (frames.height)
-    leave("height", "z", {{"x_from", options.height[0]}, {"x_to", options.height[1]}},
-          particles::height_profiles(*frames.height));
-  if (frames.width)
-    leave("width", "x", {{"z_from", options.width[0]}, {"z_to", options.width[1]}},
-          particles::width_profiles(*frames.width));
   output.content["frames"] = list;
 }
 

@@ -22,7 +22,7 @@ particles::GrainRecord record_of(particles::Snapshot snapshot, const particles::
                                  const particles::VelocityMap& mean_velocity) {
   // The mean velocity is that of the last motion of the wall: no fluctuations are counted from it before.
   const bool same_motion = snapshot.time >= measured.first_time();
-  if (measured.in_mirror) snapshot = particles::mirrored(std::move(snapshot));
+  if (measured.place.in_mirror) snapshot = particles::mirrored(std::move(snapshot));
   const particles::MeasurementFrame& place = measured.place;
   particles::FlowSnapshot in_frame;
   particles::to_flow_frame(snapshot, place.frame, particles::VelocityKind::window, in_frame);
@@ -30,7 +30,7 @@ particles::GrainRecord record_of(particles::Snapshot snapshot, const particles::
   record.step = snapshot.step;
   record.time = snapshot.time;
   record.frame_angle_deg = measured.frame_angle_deg;
-  record.in_mirror = measured.in_mirror;
+  record.in_mirror = measured.place.in_mirror;
   record.container_radius = place.container_radius;
   record.axis_z = -measured.surface_z;
   record.period_x = place.period;

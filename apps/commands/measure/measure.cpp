@@ -26,7 +26,7 @@
 #include "coupling/documents/csv.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/measurement/frame/intervals.hpp"
-#include "particles/measurement/layers/bulk_scalars.hpp"
+#include "particles/measurement/layers/scalars.hpp"
 #include "particles/measurement/measurement.hpp"
 #include "particles/measurement/measurement_header.hpp"
 #include "particles/measurement/run_log.hpp"

@@ -48,6 +48,7 @@ struct FlowSnapshot {
   bool contacts_known = true;  ///< false: contacts and coordination say nothing
   std::optional<FlowCell> cell;
 
+  double density_of(std::size_t grain) const { return density.empty() ? 1 : density[grain]; }
   /// Both sides of each contact in turn, that of i first; a wall has none.
   HalfBranches half_branches() const;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "coupling/statistics/quantiles.hpp"
@@ -21,6 +22,10 @@ double interval_factor(std::size_t batches) {
 double jackknife_ci99(std::span<const double> leave_one_out) {
   if (leave_one_out.size() < 2) return std::numeric_limits<double>::quiet_NaN();
   return interval_factor(leave_one_out.size()) * std::sqrt(statistics::jackknife_variance(leave_one_out));
+}
+
+double mean_of(std::span<const double> values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 double mean_ci99(std::span<const double> series, std::size_t batches) {

@@ -1,8 +1,11 @@
 #pragma once
 // 99 % intervals of averages over time-correlated samples: contiguous batches, delete-one jackknife over
 // them.
+#include <array>
+#include <bit>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 namespace drumlin::particles {
 
@@ -20,7 +23,54 @@ double interval_factor(std::size_t batches);
 /// or when one of them is not finite.
 double jackknife_ci99(std::span<const double> leave_one_out);
 
+/// Sum over number; NaN without any.
+double mean_of(std::span<const double> values);
+
 /// Half width for the mean of a series in order of time, over `batches` batches of it.
 double mean_ci99(std::span<const double> series, std::size_t batches = 20);
+
+/// Adds sums, a struct of nothing but doubles, number by number.
+template <class Sums>
+void add_times(double factor, const Sums& from, Sums& to) {
+  using Numbers = std::array<double, sizeof(Sums) / sizeof(double)>;
+  const Numbers more = std::bit_cast<Numbers>(from);
+  Numbers numbers = std::bit_cast<Numbers>(to);
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] += factor * more[i];
+  to = std::bit_cast<Sums>(numbers);
+}
+
+/// Something of the whole run, and the same without one batch each; `without` is empty with fewer than two.
+template <class Of>
+struct LeaveOneOut {
+  Of whole;
+  std::vector<Of> without;
+};
+
+/// From the sums of each batch, of which there must be one.
+template <class Sums>
+LeaveOneOut<Sums> leave_one_out(const std::vector<Sums>& batches) {
+  LeaveOneOut<Sums> result{batches.front(), {}};
+  for (std::size_t b = 1; b < batches.size(); ++b) add_times(1, batches[b], result.whole);
+  for (std::size_t b = 0; b < batches.size() && batches.size() > 1; ++b)
+    add_times(-1, batches[b], result.without.emplace_back(result.whole));
+  return result;
+}
+
+/// What a function makes of each.
+template <class Of, class Function>
+auto each_of(const LeaveOneOut<Of>& given, const Function& function) {
+  LeaveOneOut<decltype(function(given.whole))> result{function(given.whole), {}};
+  for (const Of& one : given.without) result.without.push_back(function(one));
+  return result;
+}
+
+/// Half width of a number that `value_of` reads off each.
+template <class Of, class Value>
+double ci99_of(const LeaveOneOut<Of>& given, const Value& value_of) {
+  std::vector<double> values;
+  values.reserve(given.without.size());
+  for (const Of& one : given.without) values.push_back(value_of(one));
+  return jackknife_ci99(values);
+}
 
 }  // namespace drumlin::particles

@@ -4,47 +4,13 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <optional>
+
+#include "particles/measurement/frame/intervals.hpp"
 
 namespace drumlin::particles {
 namespace {
 
-/// Every sum in turn, so that none is forgotten when batches are added or taken apart.
-template <class Action>
-void for_each_sum(LayerSum& a, const LayerSum& b, Action action) {
-  for (auto member : {&LayerSum::covered,
-                      &LayerSum::grains,
-                      &LayerSum::x,
-                      &LayerSum::zeta,
-                      &LayerSum::v_x,
-                      &LayerSum::v_z,
-                      &LayerSum::spin,
-                      &LayerSum::x_x,
-                      &LayerSum::zeta_zeta,
-                      &LayerSum::zeta_v_x,
-                      &LayerSum::x_v_z,
-                      &LayerSum::v_x_v_x,
-                      &LayerSum::v_z_v_z,
-                      &LayerSum::v_x_v_z,
-                      &LayerSum::spin_spin,
-                      &LayerSum::force_x_branch_x,
-                      &LayerSum::force_x_branch_z,
-                      &LayerSum::force_z_branch_x,
-                      &LayerSum::force_z_branch_z,
-                      &LayerSum::contacts,
-                      &LayerSum::rotation,
-                      &LayerSum::covered_mass,
-                      &LayerSum::density,
-                      &LayerSum::dense_zeta,
-                      &LayerSum::dense_v_x,
-                      &LayerSum::dense_v_z,
-                      &LayerSum::dense_zeta_zeta,
-                      &LayerSum::dense_zeta_v_x,
-                      &LayerSum::dense_v_x_v_x,
-                      &LayerSum::dense_v_z_v_z,
-                      &LayerSum::dense_v_x_v_z})
-    action(a.*member, b.*member);
-}
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Of a layer that a grid has, or in a closed one that is an image of it.
 std::size_t index_in(const LayerGrid& grid, double layer) {
@@ -52,58 +18,44 @@ std::size_t index_in(const LayerGrid& grid, double layer) {
   return static_cast<std::size_t>(grid.closed ? layer - count * std::floor(layer / count) : layer);
 }
 
-/// Adds the area of a disc that reaches into the slice to its layers, and its mass where it has a density.
-template <class Add>
-void share_covered_area(const LayerGrid& grid, double x, double z, double radius,
-                        std::vector<LayerSum>& layers, Add add) {
-  double first = std::floor((z - radius - grid.z_min) / grid.thickness);
-  double end = std::ceil((z + radius - grid.z_min) / grid.thickness);
-  if (!grid.closed) first = std::max(0.0, first), end = std::min(static_cast<double>(layers.size()), end);
-  if (x - radius < grid.x_min || x + radius > grid.x_max) {
-    for (double layer = first; layer < end; ++layer) {
-      const auto index = static_cast<std::size_t>(layer);
-      add(layers[index], disc_area_in(x, z, radius, grid.rectangle(index)));
-    }
-    return;
-  }
-  // Between the sides of the slice layers cut the disc into strips: one evaluation a boundary.
-  double below = disc_area_left_of(radius, grid.z_min + first * grid.thickness - z);
-  for (double layer = first; layer < end; ++layer) {
-    const double up_to = disc_area_left_of(radius, grid.z_min + (layer + 1) * grid.thickness - z);
-    add(layers[index_in(grid, layer)], up_to - below);
-    below = up_to;
-  }
+/// Layers that a stretch of heights touches.
+struct Reach {
+  double first, last;
+};
+Reach layers_between(const LayerGrid& grid, double first, double last) {
+  if (grid.closed) return {first, last};
+  return {std::max(0.0, first), std::min(static_cast<double>(grid.layers()) - 1, last)};
 }
 
-/// What the kinetic stress of grains of several densities needs.
-void add_dense_moments(double density, double zeta, double v_x, double v_z, LayerSum& sum) {
-  sum.density += density;
-  sum.dense_zeta += density * zeta;
-  sum.dense_v_x += density * v_x;
-  sum.dense_v_z += density * v_z;
-  sum.dense_zeta_zeta += density * zeta * zeta;
-  sum.dense_zeta_v_x += density * zeta * v_x;
-  sum.dense_v_x_v_x += density * v_x * v_x;
-  sum.dense_v_z_v_z += density * v_z * v_z;
-  sum.dense_v_x_v_z += density * v_x * v_z;
+/// Adds the area of a disc that reaches into the slice to its layers.
+void add_disc(const LayerGrid& grid, double x, double z, double radius, double density,
+              std::vector<LayerSum>& layers) {
+  const auto [first, last] = layers_between(grid, std::floor((z - radius - grid.z_min) / grid.thickness),
+                                            std::ceil((z + radius - grid.z_min) / grid.thickness) - 1);
+  const bool cut = x - radius < grid.x_min || x + radius > grid.x_max;
+  // Between the sides of the slice layers cut the disc into strips: one evaluation a boundary.
+  const auto below = [&](double layer) {
+    return disc_area_left_of(radius, grid.z_min + layer * grid.thickness - z);
+  };
+  double before = cut ? 0 : below(first);
+  for (double layer = first; layer <= last; ++layer) {
+    LayerSum& sum = layers[index_in(grid, layer)];
+    const double up_to = cut ? 0 : below(layer + 1);
+    const double area =
+        cut ? disc_area_in(x, z, radius, grid.rectangle(static_cast<std::size_t>(layer))) : up_to - before;
+    before = up_to;
+    sum.covered += area;
+    sum.covered_mass += density * area;
+  }
 }
 
 void add_grain(const LayerGrid& grid, const FlowSnapshot& snapshot, std::size_t i,
                std::vector<LayerSum>& layers) {
   const double x = snapshot.x[i], z = snapshot.z[i], radius = snapshot.radius[i];
   if (x + radius <= grid.x_min || x - radius >= grid.x_max) return;
-  const bool dense = !snapshot.density.empty();
-  const double density = dense ? snapshot.density[i] : 1;
-  if (dense)
-    share_covered_area(grid, x, z, radius, layers, [density](LayerSum& sum, double area) {
-      sum.covered += area;
-      sum.covered_mass += density * area;
-    });
-  else
-    share_covered_area(grid, x, z, radius, layers, [](LayerSum& sum, double area) { sum.covered += area; });
+  add_disc(grid, x, z, radius, snapshot.density_of(i), layers);
   const std::size_t index = grid.layer_at(z);
   if (x < grid.x_min || x > grid.x_max || index >= layers.size()) return;
-
   add_centre({x, z - grid.z_of(index), snapshot.v_x[i], snapshot.v_z[i]}, snapshot, i, layers[index]);
 }
 
@@ -126,10 +78,8 @@ void add_half_branch(const LayerGrid& grid, const HalfBranch& branch, std::vecto
 
   const double low = branch.z + (branch.toward_z > 0 ? begin : end) * branch.toward_z;
   const double high = branch.z + (branch.toward_z > 0 ? end : begin) * branch.toward_z;
-  double first = std::floor((low - grid.z_min) / grid.thickness);
-  double last = std::floor((high - grid.z_min) / grid.thickness);
-  if (!grid.closed)
-    first = std::max(0.0, first), last = std::min(static_cast<double>(layers.size()) - 1, last);
+  const auto [first, last] = layers_between(grid, std::floor((low - grid.z_min) / grid.thickness),
+                                            std::floor((high - grid.z_min) / grid.thickness));
   for (double layer = first; layer <= last; ++layer) {
     double share = end - begin;
     if (first < last || low < grid.z_min + first * grid.thickness ||
@@ -138,67 +88,46 @@ void add_half_branch(const LayerGrid& grid, const HalfBranch& branch, std::vecto
       const double inside = std::min(high, bottom + grid.thickness) - std::max(low, bottom);
       share = std::max(0.0, inside) / std::abs(branch.toward_z);
     }
-    LayerSum& sum = layers[index_in(grid, layer)];
     // b points from the contact to the centre: against `toward`.
-    sum.force_x_branch_x -= branch.force_x * branch.toward_x * share;
-    sum.force_x_branch_z -= branch.force_x * branch.toward_z * share;
-    sum.force_z_branch_x -= branch.force_z * branch.toward_x * share;
-    sum.force_z_branch_z -= branch.force_z * branch.toward_z * share;
+    PlaneMatrix& sum = layers[index_in(grid, layer)].force_branch;
+    sum.xx -= branch.force_x * branch.toward_x * share;
+    sum.xz -= branch.force_x * branch.toward_z * share;
+    sum.zx -= branch.force_z * branch.toward_x * share;
+    sum.zz -= branch.force_z * branch.toward_z * share;
   }
+}
+
+void add_moments(double weight, const CentreInLayer& centre, Moments& sum) {
+  const auto [x, zeta, v_x, v_z] = centre;
+  sum.weight += weight;
+  sum.zeta += weight * zeta;
+  sum.v_x += weight * v_x;
+  sum.v_z += weight * v_z;
+  sum.zeta_zeta += weight * zeta * zeta;
+  sum.zeta_v_x += weight * zeta * v_x;
+  sum.v_x_v_x += weight * v_x * v_x;
+  sum.v_z_v_z += weight * v_z * v_z;
+  sum.v_x_v_z += weight * v_x * v_z;
 }
 
 }  // namespace
 
 void add_centre(const CentreInLayer& centre, const FlowSnapshot& snapshot, std::size_t i, LayerSum& sum) {
-  const auto [x, zeta, v_x, v_z] = centre;
-  const bool dense = !snapshot.density.empty();
-  const double density = dense ? snapshot.density[i] : 1;
-  sum.grains += 1;
-  sum.x += x;
-  sum.zeta += zeta;
-  sum.v_x += v_x;
-  sum.v_z += v_z;
-  sum.x_x += x * x;
-  sum.zeta_zeta += zeta * zeta;
-  sum.zeta_v_x += zeta * v_x;
-  sum.x_v_z += x * v_z;
-  sum.v_x_v_x += v_x * v_x;
-  sum.v_z_v_z += v_z * v_z;
-  sum.v_x_v_z += v_x * v_z;
+  const double density = snapshot.density_of(i), spin = snapshot.spin.empty() ? 0 : snapshot.spin[i];
+  add_moments(1, centre, sum.grains);
+  add_moments(density, centre, sum.mass);
+  sum.x += centre.x;
+  sum.x_x += centre.x * centre.x;
+  sum.x_v_z += centre.x * centre.v_z;
   sum.contacts += snapshot.coordination[i];
-  if (dense) add_dense_moments(density, zeta, v_x, v_z, sum);
-  if (snapshot.spin.empty()) return;
-  const double spin = snapshot.spin[i];
   sum.spin += spin;
   sum.spin_spin += spin * spin;
-  const double energy = std::numbers::pi / 4 * std::pow(snapshot.radius[i], 4) * spin * spin;
-  sum.rotation += dense ? density * energy : energy;
+  sum.rotation += density * (std::numbers::pi / 4 * std::pow(snapshot.radius[i], 4) * spin * spin);
 }
 
-LayerSum& LayerSum::operator+=(const LayerSum& other) {
-  for_each_sum(*this, other, [](double& a, double b) { a += b; });
-  return *this;
-}
-
-LayerSum& LayerSum::operator-=(const LayerSum& other) {
-  for_each_sum(*this, other, [](double& a, double b) { a -= b; });
-  return *this;
-}
-
-LayerSums& LayerSums::operator+=(const LayerSums& other) {
-  for (std::size_t l = 0; l < layers.size(); ++l) layers[l] += other.layers[l];
-  snapshots += other.snapshots;
-  cell_area += other.cell_area;
-  cell_jump += other.cell_jump;
-  return *this;
-}
-
-LayerSums& LayerSums::operator-=(const LayerSums& other) {
-  for (std::size_t l = 0; l < layers.size(); ++l) layers[l] -= other.layers[l];
-  snapshots -= other.snapshots;
-  cell_area -= other.cell_area;
-  cell_jump -= other.cell_jump;
-  return *this;
+void add_times(double factor, const LayerSums& from, LayerSums& to) {
+  for (std::size_t l = 0; l < to.layers.size(); ++l) add_times(factor, from.layers[l], to.layers[l]);
+  add_times(factor, from.snapshots, to.snapshots);
 }
 
 Rectangle LayerGrid::rectangle(std::size_t layer) const {
@@ -220,7 +149,6 @@ LayerGrid LayerGrid::in_cell(const FlowCell& cell) const {
 }
 
 LayerGrid closed_grid(const FlowFrame& frame, double thickness, double z_from, double z_to, double period) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const double layers = std::max(1.0, std::round((z_to - z_from) / thickness));
   LayerGrid grid{frame, -infinity, infinity, z_from, (z_to - z_from) / layers, {}, true};
   grid.area.assign(static_cast<std::size_t>(layers), period * grid.thickness);
@@ -229,8 +157,7 @@ LayerGrid closed_grid(const FlowFrame& frame, double thickness, double z_from, d
 
 LayerGrid layer_grid(const FlowFrame& frame, double position, double slice_width, double thickness,
                      double z_from, double z_to, double container_radius, double period) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  LayerGrid grid{frame, position - slice_width / 2, position + slice_width / 2, 0, thickness, {}, false};
+  LayerGrid grid{frame, position - slice_width / 2, position + slice_width / 2, 0, thickness, {}};
   if (period > 0) {
     grid.x_min = -infinity;
     grid.x_max = infinity;
@@ -246,19 +173,19 @@ LayerGrid layer_grid(const FlowFrame& frame, double position, double slice_width
 }
 
 void add_snapshot(const LayerGrid& of_all, const FlowSnapshot& snapshot, LayerSums& sums) {
-  std::optional<LayerGrid> of_cell;
+  LayerSums::Snapshots& known = sums.snapshots;
+  known.count += 1;
+  known.spin += snapshot.spin.empty() ? 0 : 1;
+  known.contacts += snapshot.contacts_known ? 1 : 0;
+  known.densities += snapshot.density.empty() ? 0 : 1;
+  if (of_all.rings) return add_to_rings(of_all, snapshot, sums.layers);
   if (of_all.closed) {
-    of_cell = of_all.in_cell(*snapshot.cell);
-    sums.cell_area += snapshot.cell->length * snapshot.cell->height;
-    sums.cell_jump += snapshot.cell->v_x;
+    known.cell_area += snapshot.cell->length * snapshot.cell->height;
+    known.cell_jump += snapshot.cell->v_x;
   }
-  const LayerGrid& grid = of_cell ? *of_cell : of_all;
+  const LayerGrid grid = of_all.closed ? of_all.in_cell(*snapshot.cell) : of_all;
   for (std::size_t i = 0; i < snapshot.x.size(); ++i) add_grain(grid, snapshot, i, sums.layers);
   for (const HalfBranch& branch : snapshot.half_branches()) add_half_branch(grid, branch, sums.layers);
-  sums.with_spin = sums.with_spin && !snapshot.spin.empty();
-  sums.with_densities = sums.with_densities || !snapshot.density.empty();
-  sums.with_contacts = sums.with_contacts && snapshot.contacts_known;
-  ++sums.snapshots;
 }
 
 }  // namespace drumlin::particles

@@ -1,134 +1,89 @@
 #include "particles/measurement/layers/slice.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
-#include <string>
 #include <utility>
-
-#include "particles/measurement/frame/intervals.hpp"
-#include "particles/measurement/layers/layer_profiles.hpp"
 
 namespace drumlin::particles {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+using Of = LayerValues;
 
-/// Calls `make` for all snapshots and then without one batch each.
-template <class Make>
-void for_each_choice(const Slice& slice, const Make& make) {
-  const LayerSums total = total_of(slice);
-  make(total);
-  if (slice.batches.size() < 2) return;
-  for (const LayerSums& batch : slice.batches) {
-    LayerSums rest = total;
-    rest -= batch;
-    make(rest);
-  }
+struct Derivative {
+  double Of::*slope;
+  double Of::*value;
+};
+constexpr Derivative along_x[] = {{&Of::d_nu_dx, &Of::nu},
+                                  {&Of::d_v_x_dx, &Of::v_x},
+                                  {&Of::d_v_z_dx, &Of::v_z},
+                                  {&Of::d_sigma_zz_dx, &Of::sigma_zz},
+                                  {&Of::d_sigma_xx_dx, &Of::sigma_xx},
+                                  {&Of::d_sigma_xz_dx, &Of::sigma_xz},
+                                  {&Of::d_k_dx, &Of::k}};
+constexpr Derivative along_z[] = {{&Of::d_sigma_zz_dz, &Of::sigma_zz},
+                                  {&Of::d_sigma_xx_dz, &Of::sigma_xx},
+                                  {&Of::d_sigma_xz_dz, &Of::sigma_xz}};
+
+/// The layer at a height; nothing but NaN where there is none.
+LayerValues layer_at(const Profile& profile, double z) {
+  constexpr double same_height = 1e-6;  // d: grids have their layers at the same heights but for rounding
+  const auto found =
+      std::find_if(profile.layers.begin(), profile.layers.end(),
+                   [&](const LayerValues& layer) { return std::abs(layer.z - z) < same_height; });
+  return found == profile.layers.end() ? LayerValues{} : *found;
 }
 
-/// Layer of `other` at the height z, or its size if it has none there.
-std::size_t layer_at(const ProfileSet& other, double z) {
-  constexpr double same_height =
-      1e-6;  // d; both grids have their layers at the same heights but for rounding
-  for (std::size_t l = 0; l < other.z.size(); ++l)
-    if (std::abs(other.z[l] - z) < same_height) return l;
-  return other.z.size();
-}
-
-void add_gradient_columns(ProfileSet& centre, const ProfileSet& west, const ProfileSet& east,
-                          double distance) {
-  std::vector<std::size_t> west_layer, east_layer;
-  for (double z : centre.z) {
-    west_layer.push_back(layer_at(west, z));
-    east_layer.push_back(layer_at(east, z));
-  }
-  for (const char* name : {"nu", "v_x", "v_z", "sigma_zz", "sigma_xx", "sigma_xz", "k"}) {
-    const auto &before = west.column(name).value, &behind = east.column(name).value;
-    std::vector<double> slope(centre.z.size(), none);
-    for (std::size_t l = 0; l < slope.size(); ++l)
-      if (west_layer[l] < before.size() && east_layer[l] < behind.size())
-        slope[l] = (behind[east_layer[l]] - before[west_layer[l]]) / (2 * distance);
-    centre.columns.push_back({std::string("d_") + name + "_dx", std::move(slope), {}});
-  }
-  for (const char* name : {"sigma_zz", "sigma_xx", "sigma_xz"}) {
-    const auto& value = centre.column(name).value;
-    std::vector<double> slope(centre.z.size(), none);
-    for (std::size_t l = 1; l + 1 < slope.size(); ++l)
-      slope[l] = (value[l + 1] - value[l - 1]) / (centre.z[l + 1] - centre.z[l - 1]);
-    centre.columns.push_back({std::string("d_") + name + "_dz", std::move(slope), {}});
+void set_gradients(Profile& centre, const Profile& west, const Profile& east, double distance) {
+  auto& layers = centre.layers;
+  centre.known.gradients = true;
+  for (std::size_t l = 0; l < layers.size(); ++l) {
+    const LayerValues before = layer_at(west, layers[l].z), behind = layer_at(east, layers[l].z);
+    for (const auto& [slope, value] : along_x)
+      layers[l].*slope = (behind.*value - before.*value) / (2 * distance);
+    if (l == 0 || l + 1 == layers.size()) continue;
+    const LayerValues &below = layers[l - 1], &above = layers[l + 1];
+    for (const auto& [slope, value] : along_z)
+      layers[l].*slope = (above.*value - below.*value) / (above.z - below.z);
   }
 }
 
 }  // namespace
 
 Slice empty_slice(LayerGrid grid, std::size_t batches) {
-  const LayerSums empty{std::vector<LayerSum>(grid.layers()), 0, true};
+  const LayerSums empty{std::vector<LayerSum>(grid.layers()), {}};
   return Slice{std::move(grid), std::vector<LayerSums>(batches, empty)};
 }
 
-LayerSums total_of(const Slice& slice) { return total_of(slice.batches); }
-
-LayerSums total_of(const std::vector<LayerSums>& batches) {
-  LayerSums total = batches.front();
-  for (std::size_t b = 1; b < batches.size(); ++b) {
-    total += batches[b];
-    total.with_spin = total.with_spin && batches[b].with_spin;
-    total.with_densities = total.with_densities || batches[b].with_densities;
-    total.with_contacts = total.with_contacts && batches[b].with_contacts;
-  }
-  return total;
+LayerGrid height_grid(double x_from, double x_to, const SceneBox& reach, double thickness) {
+  return layer_grid(FlowFrame{}, (x_from + x_to) / 2, x_to - x_from, thickness, reach.z_min, reach.z_max, 0,
+                    0);
 }
 
-SliceProfiles slice_profiles(const Slice& slice, double surface_nu) {
-  SliceProfiles measured;
-  bool first = true;
-  for_each_choice(slice, [&](const LayerSums& sums) {
-    double surface = surface_height(slice.grid, sums, surface_nu);
-    if (!std::isfinite(surface)) surface = 0;
-    ProfileSet profiles = layer_profiles(slice.grid, sums, surface);
-    if (std::exchange(first, false)) {
-      measured.surface_z = surface;
-      measured.profiles = std::move(profiles);
-    } else {
-      measured.leave_one_out_surface_z.push_back(surface);
-      measured.leave_one_out.push_back(std::move(profiles));
-    }
+LayerGrid width_grid(double z_from, double z_to, const SceneBox& reach, double thickness) {
+  return layer_grid(FlowFrame{0, 0, 0, -1}, -(z_from + z_to) / 2, z_to - z_from, thickness, reach.x_min,
+                    reach.x_max, 0, 0);
+}
+
+LeaveOneOut<Profile> slice_profiles(const Slice& slice, double surface_nu) {
+  return each_of(leave_one_out(slice.batches), [&](const LayerSums& sums) {
+    const double surface = surface_height(slice.grid, sums, surface_nu);
+    return profile_of(slice.grid, sums, std::isfinite(surface) ? surface : 0);
   });
-  return measured;
 }
 
-SliceProfiles slice_profiles(const Slice& slice, const SliceProfiles& surfaces) {
-  SliceProfiles measured{{}, {}, surfaces.surface_z, surfaces.leave_one_out_surface_z};
-  bool first = true;
-  for_each_choice(slice, [&](const LayerSums& sums) {
-    if (std::exchange(first, false))
-      measured.profiles = layer_profiles(slice.grid, sums, surfaces.surface_z);
-    else
-      measured.leave_one_out.push_back(
-          layer_profiles(slice.grid, sums, surfaces.leave_one_out_surface_z[measured.leave_one_out.size()]));
-  });
-  return measured;
+LeaveOneOut<Profile> slice_profiles(const Slice& slice, const LeaveOneOut<Profile>& surfaces) {
+  const LeaveOneOut<LayerSums> sums = leave_one_out(slice.batches);
+  LeaveOneOut<Profile> result{profile_of(slice.grid, sums.whole, surfaces.whole.surface_z), {}};
+  for (std::size_t b = 0; b < sums.without.size(); ++b)
+    result.without.push_back(profile_of(slice.grid, sums.without[b], surfaces.without[b].surface_z));
+  return result;
 }
 
-void add_intervals(SliceProfiles& measured) {
-  ProfileSet& profiles = measured.profiles;
-  for (std::size_t c = 0; c < profiles.columns.size(); ++c) {
-    ProfileColumn& column = profiles.columns[c];
-    if (column.name == "count") continue;
-    for (std::size_t l = 0; l < profiles.z.size(); ++l) {
-      std::vector<double> values;
-      for (const ProfileSet& one : measured.leave_one_out)
-        values.push_back(l < one.z.size() ? one.columns[c].value[l] : none);
-      column.ci99.push_back(jackknife_ci99(values));
-    }
-  }
-}
-
-void add_gradients(SliceProfiles& centre, const SliceProfiles& west, const SliceProfiles& east,
-                   double distance) {
-  add_gradient_columns(centre.profiles, west.profiles, east.profiles, distance);
-  for (std::size_t b = 0; b < centre.leave_one_out.size(); ++b)
-    add_gradient_columns(centre.leave_one_out[b], west.leave_one_out[b], east.leave_one_out[b], distance);
+void add_gradients(LeaveOneOut<Profile>& centre, const Slice& west, const Slice& east, double distance) {
+  const auto before = slice_profiles(west, centre), behind = slice_profiles(east, centre);
+  set_gradients(centre.whole, before.whole, behind.whole, distance);
+  for (std::size_t b = 0; b < centre.without.size(); ++b)
+    set_gradients(centre.without[b], before.without[b], behind.without[b], distance);
 }
 
 }  // namespace drumlin::particles

@@ -1,10 +1,9 @@
 #pragma once
-// A slice of the packing: its layers summed batch by batch, and its profiles with intervals.
+// A slice of the packing: its layers summed batch by batch, and its profiles.
 #include <cstddef>
 #include <vector>
 
-#include "coupling/exchange/profile_set.hpp"
-#include "particles/measurement/layers/layer_sums.hpp"
+#include "particles/measurement/layers/profile.hpp"
 
 namespace drumlin::particles {
 
@@ -13,33 +12,28 @@ struct Slice {
   LayerGrid grid;
   std::vector<LayerSums> batches;
 };
-
 Slice empty_slice(LayerGrid grid, std::size_t batches);
-LayerSums total_of(const std::vector<LayerSums>& batches);
-LayerSums total_of(const Slice& slice);
 
-/// Profiles of a slice, and the same without one batch each.
-struct SliceProfiles {
-  ProfileSet profiles;
-  std::vector<ProfileSet> leave_one_out;  ///< empty with fewer than two batches
-  double surface_z = 0;                   ///< of z = 0 in the frame of the grid
-  std::vector<double> leave_one_out_surface_z;
+/// What the grains reach, in the axes of the scene.
+struct SceneBox {
+  double x_min = 0, x_max = 0, z_min = 0, z_max = 0;
 };
+/// Layers over the height of a band x_from ... x_to, in the axes of the scene as a silo has them.
+LayerGrid height_grid(double x_from, double x_to, const SceneBox& reach, double thickness);
+/// Upright layers over the width of a band z_from ... z_to, in a frame turned by a quarter: its z is the
+/// scene's x, its x points down.
+LayerGrid width_grid(double z_from, double z_to, const SceneBox& reach, double thickness);
 
-/// z = 0 where nu crosses `surface_nu`; where it never does, the height of the frame's origin. Without
-/// intervals: add_intervals() gives them once all columns are there.
-SliceProfiles slice_profiles(const Slice& slice, double surface_nu);
+/// z = 0 where nu crosses `surface_nu`; where it never does, as with infinity, the height of the frame's
+/// origin.
+LeaveOneOut<Profile> slice_profiles(const Slice& slice, double surface_nu);
 
 /// The same with z counted from the surfaces of another slice: for derivatives along x at one height.
-SliceProfiles slice_profiles(const Slice& slice, const SliceProfiles& surfaces);
+LeaveOneOut<Profile> slice_profiles(const Slice& slice, const LeaveOneOut<Profile>& surfaces);
 
-/// The columns' 99 % half widths from the profiles without one batch each; `count` has none.
-void add_intervals(SliceProfiles& measured);
-
-/// Derivatives in units of one d, added as columns d_NAME_dx and d_NAME_dz: of nu, v_x, v_z, sigma_zz,
-/// sigma_xx, sigma_xz and k along x, from slices `distance` apart on either side; of the stresses along z
-/// from neighbouring layers. NaN where a neighbour is missing. The paper, Sec. IV: slices at +-5 d.
-void add_gradients(SliceProfiles& centre, const SliceProfiles& west, const SliceProfiles& east,
-                   double distance);
+/// Derivatives in units of one d: of nu, v_x, v_z, sigma_zz, sigma_xx, sigma_xz and k along x, from slices
+/// `distance` apart on either side; of the stresses along z from neighbouring layers. NaN where a neighbour
+/// is missing. The paper, Sec. IV: slices at +-5 d.
+void add_gradients(LeaveOneOut<Profile>& centre, const Slice& west, const Slice& east, double distance);
 
 }  // namespace drumlin::particles

@@ -6,41 +6,18 @@
 #include <numbers>
 
 #include "coupling/common/errors.hpp"
-#include "particles/measurement/layers/packing_scalars.hpp"
+#include "particles/measurement/layers/scalars.hpp"
 
 namespace drumlin::particles {
 namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-double mean_of(const std::vector<double>& values) {
-  double sum = 0;
-  for (double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
-}
-
-ScalarVariant variant_of(const std::string& change, const Slice& slice, double wall_height,
-                         double frame_angle, const MeasurementOptions& options) {
-  const SliceProfiles measured = slice_profiles(Slice{slice.grid, {total_of(slice)}}, options.surface_nu);
-  return {change,
-          packing_scalars(measured.profiles,
-                          {wall_height - measured.surface_z, frame_angle, slice.grid.closed}, options),
-          measured.profiles};
-}
-
-/// The derivatives along x by other steps; nothing else changes.
-void add_gradient_variants(const VariantSlices& variants, const Slice& centre, double wall_height,
-                           double frame_angle, const MeasurementOptions& options,
-                           std::vector<ScalarVariant>& result) {
-  const SliceProfiles plain = slice_profiles(Slice{centre.grid, {total_of(centre)}}, options.surface_nu);
-  for (const VariantSlices::Pair& pair : variants.gradients) {
-    SliceProfiles measured = plain;
-    add_gradients(measured, slice_profiles(pair.west, plain), slice_profiles(pair.east, plain), pair.step);
-    ScalarSet scalars =
-        packing_scalars(measured.profiles, {wall_height - measured.surface_z, frame_angle, false}, options);
-    std::erase_if(scalars.scalars, [](const Scalar& s) { return s.name.find("_dx") == std::string::npos; });
-    result.push_back({fmt::format("derivatives from slices {} d to either side", pair.step), scalars, {}});
-  }
+/// Of a profile, but for those that the change cannot reach.
+ScalarVariant variant_of(const std::string& change, const Profile& profile, double wall_height,
+                         double frame_angle, const MeasurementOptions& options, bool closed) {
+  return {change, packing_scalars(profile, {wall_height - profile.surface_z, frame_angle, closed}, options),
+          table_of(profile)};
 }
 
 /// Windows that are laid over the layers of the one slice.
@@ -107,34 +84,23 @@ LayerGrid slice_grid(const MeasurementFrame& place, double position, double widt
   return layer_grid(place.frame, position, width, thickness, place.z_min, place.z_max, radius, place.period);
 }
 
-VariantSlices variant_slices(const Survey& found, const MeasurementFrame& place, double frame_angle,
-                             const MeasurementOptions& options) {
-  VariantSlices variants;
-  const auto add = [&](const std::string& change, double width, double thickness) {
-    variants.in_the_frame.push_back(
-        {change, empty_slice(slice_grid(place, options.position, width, thickness), 1), frame_angle});
+std::vector<VariantSlice> variant_slices(const Survey& found, const MeasurementFrame& place,
+                                         double frame_angle, const MeasurementOptions& options) {
+  std::vector<VariantSlice> variants;
+  const auto slice = [&](const MeasurementFrame& at, double offset, double width, double thickness) {
+    return empty_slice(slice_grid(at, options.position + offset, width, thickness), 1);
   };
-  if (!(place.period > 0))
-    for (double factor : {0.5, 1.5})
-      if (factor * place.slice_width < place.half_chord)
-        add(fmt::format("slice {:.3g} d wide", factor * place.slice_width), factor * place.slice_width,
-            options.layer_thickness);
+  const double width = place.slice_width, thickness = options.layer_thickness;
+  const auto add = [&](const std::string& change, double its_width, double its_thickness) {
+    variants.push_back({change, {slice(place, 0, its_width, its_thickness)}, frame_angle});
+  };
+  for (double factor : {0.5, 1.5})
+    if (!(place.period > 0) && factor * width < place.half_chord)
+      add(fmt::format("slice {:.3g} d wide", factor * width), factor * width, thickness);
   for (double factor : {0.5, 2.0})
-    add(fmt::format("layers {:.3g} d thick", factor * options.layer_thickness), place.slice_width,
-        factor * options.layer_thickness);
-  const auto standard = [&](const MeasurementFrame& at) {
-    return empty_slice(slice_grid(at, options.position, place.slice_width, options.layer_thickness), 1);
-  };
-  for (double factor : {0.5, 2.0}) {
-    const double step = factor * place.gradient_step;
-    if (!(step > 0) || step + place.slice_width / 2 >= place.half_chord) continue;
-    const auto beside = [&](double offset) {
-      return empty_slice(
-          slice_grid(place, options.position + offset, place.slice_width, options.layer_thickness), 1);
-    };
-    variants.gradients.push_back({step, beside(-step), beside(step)});
-  }
-  variants.instantaneous = VariantSlices::One{"instantaneous velocity", standard(place), frame_angle};
+    add(fmt::format("layers {:.3g} d thick", factor * thickness), width, factor * thickness);
+  add("instantaneous velocity", width, thickness);
+  variants.back().own_view = VelocityKind::instantaneous;
   if (place.source == FrameSource::isoline) {
     const double mass_angle = mean_of(found.series.mass_angle);
     MeasurementFrame turned = place;
@@ -143,42 +109,50 @@ VariantSlices variant_slices(const Survey& found, const MeasurementFrame& place,
     const double c = std::cos(mass_angle), s = std::sin(mass_angle);
     turned.frame.x_axis_x = c * up.x_axis_x + s * up.x_axis_z;
     turned.frame.x_axis_z = c * up.x_axis_z - s * up.x_axis_x;
-    variants.mass_angle_frame =
-        VariantSlices::One{"frame at the angle of the centre of mass", standard(turned), mass_angle};
+    variants.push_back({"frame at the angle of the centre of mass",
+                        {slice(turned, 0, width, thickness)},
+                        mass_angle,
+                        VelocityKind::window});
+  }
+  for (double factor : {0.5, 2.0}) {
+    const double step = factor * place.gradient_step;
+    if (!(step > 0) || step + width / 2 >= place.half_chord) continue;
+    variants.push_back({fmt::format("derivatives from slices {} d to either side", step),
+                        {slice(place, -step, width, thickness), slice(place, step, width, thickness)},
+                        frame_angle});
+    variants.back().step = step;
   }
   return variants;
 }
 
-void add_snapshot(VariantSlices& variants, const Snapshot& snapshot, FlowSnapshot& in_frame) {
-  const auto add = [](VariantSlices::One& one, const FlowSnapshot& seen) {
-    add_snapshot(one.slice.grid, seen, one.slice.batches.front());
-  };
-  for (VariantSlices::One& one : variants.in_the_frame) add(one, in_frame);
-  for (VariantSlices::Pair& pair : variants.gradients)
-    for (Slice* slice : {&pair.west, &pair.east}) add_snapshot(slice->grid, in_frame, slice->batches.front());
-  const auto add_own = [&](std::optional<VariantSlices::One>& one, VelocityKind kind) {
-    if (!one) return;
-    to_flow_frame(snapshot, one->slice.grid.frame, kind, in_frame);
-    add(*one, in_frame);
-  };
-  add_own(variants.instantaneous, VelocityKind::instantaneous);
-  add_own(variants.mass_angle_frame, VelocityKind::window);
+void add_snapshot(std::vector<VariantSlice>& variants, const Snapshot& snapshot, FlowSnapshot& in_frame) {
+  for (const bool own : {false, true})
+    for (VariantSlice& variant : variants) {
+      if (variant.own_view.has_value() != own) continue;
+      if (own) to_flow_frame(snapshot, variant.slices.front().grid.frame, *variant.own_view, in_frame);
+      for (Slice& slice : variant.slices) add_snapshot(slice.grid, in_frame, slice.batches.front());
+    }
 }
 
-std::vector<ScalarVariant> scalar_variants(const VariantSlices& variants, const Survey& found,
+std::vector<ScalarVariant> scalar_variants(const std::vector<VariantSlice>& variants, const Survey& found,
                                            const MeasurementFrame& place, const Slice& centre,
                                            double wall_height, double frame_angle,
                                            const MeasurementOptions& options) {
   std::vector<ScalarVariant> result;
+  const Slice all{centre.grid, {leave_one_out(centre.batches).whole}};
   for (const WindowChange& window : window_changes(options))
-    result.push_back(variant_of(window.change, centre, wall_height, frame_angle, window.options));
-  const auto add = [&](const VariantSlices::One& one) {
-    result.push_back(variant_of(one.change, one.slice, wall_height, one.frame_angle, options));
-  };
-  for (const VariantSlices::One& one : variants.in_the_frame) add(one);
-  if (variants.instantaneous) add(*variants.instantaneous);
-  if (variants.mass_angle_frame) add(*variants.mass_angle_frame);
-  add_gradient_variants(variants, centre, wall_height, frame_angle, options, result);
+    result.push_back(variant_of(window.change, slice_profiles(all, window.options.surface_nu).whole,
+                                wall_height, frame_angle, window.options, place.closed));
+  for (const VariantSlice& one : variants) {
+    auto measured = slice_profiles(one.step > 0 ? all : one.slices.front(), options.surface_nu);
+    if (one.step > 0) add_gradients(measured, one.slices[0], one.slices[1], one.step);
+    ScalarVariant& variant = result.emplace_back(
+        variant_of(one.change, measured.whole, wall_height, one.frame_angle, options, place.closed));
+    if (!(one.step > 0)) continue;  // else nothing but the derivatives changes
+    variant.profiles = {};
+    std::erase_if(variant.scalars.scalars,
+                  [](const Scalar& s) { return s.name.find("_dx") == std::string::npos; });
+  }
   if (place.source == FrameSource::isoline)
     add_slope_variants(found, mean_of(found.series.mass_angle), place.container_radius, options, result);
   return result;

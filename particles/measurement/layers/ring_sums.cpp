@@ -1,4 +1,4 @@
-#include "particles/measurement/rings/ring_sums.hpp"
+#include "particles/measurement/layers/layer_sums.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,10 +19,10 @@ struct PolarAxes {
 
 PolarAxes axes_at(double x, double z, double r) { return r > 0 ? PolarAxes{x / r, z / r} : PolarAxes{}; }
 
-void add_grain(const RingGrid& grid, const FlowSnapshot& snapshot, std::size_t i,
+void add_grain(const LayerGrid& grid, const FlowSnapshot& snapshot, std::size_t i,
                std::vector<LayerSum>& rings) {
   const double x = snapshot.x[i], z = snapshot.z[i], radius = snapshot.radius[i], r = std::hypot(x, z);
-  const double density = snapshot.density.empty() ? 0 : snapshot.density[i];
+  const double density = snapshot.density_of(i);
   const auto count = static_cast<double>(rings.size());
   const double first = std::max(0.0, std::floor((r - radius) / grid.thickness));
   double below = disc_area_in_circle(r, radius, first * grid.thickness);
@@ -37,13 +37,13 @@ void add_grain(const RingGrid& grid, const FlowSnapshot& snapshot, std::size_t i
   if (!(place < count)) return;
   const auto index = static_cast<std::size_t>(place);
   const PolarAxes axes = axes_at(x, z, r);
-  add_centre({0, r - grid.r_of(index), axes.along_t(snapshot.v_x[i], snapshot.v_z[i]),
+  add_centre({0, r - grid.z_of(index), axes.along_t(snapshot.v_x[i], snapshot.v_z[i]),
               axes.along_r(snapshot.v_x[i], snapshot.v_z[i])},
              snapshot, i, rings[index]);
 }
 
 /// Parameters along a half branch at which it goes from ring to ring, with its ends.
-void find_cuts(const RingGrid& grid, const HalfBranch& b, std::vector<double>& cuts) {
+void find_cuts(const LayerGrid& grid, const HalfBranch& b, std::vector<double>& cuts) {
   cuts = {0, 1};
   // |p + s t|^2 = R^2 at the boundaries R between the least and the greatest distance.
   const double a = b.toward_x * b.toward_x + b.toward_z * b.toward_z;
@@ -62,7 +62,7 @@ void find_cuts(const RingGrid& grid, const HalfBranch& b, std::vector<double>& c
   std::sort(cuts.begin(), cuts.end());
 }
 
-void add_half_branch(const RingGrid& grid, const HalfBranch& b, std::vector<double>& cuts,
+void add_half_branch(const LayerGrid& grid, const HalfBranch& b, std::vector<double>& cuts,
                      std::vector<LayerSum>& rings) {
   find_cuts(grid, b, cuts);
   for (std::size_t piece = 0; piece + 1 < cuts.size(); ++piece) {
@@ -70,7 +70,7 @@ void add_half_branch(const RingGrid& grid, const HalfBranch& b, std::vector<doub
     const double place =
         std::floor(std::hypot(b.x + middle * b.toward_x, b.z + middle * b.toward_z) / grid.thickness);
     if (!(place < static_cast<double>(rings.size()))) continue;
-    LayerSum& sum = rings[static_cast<std::size_t>(place)];
+    PlaneMatrix& sum = rings[static_cast<std::size_t>(place)].force_branch;
     for (const double offset : {-gauss_offset, gauss_offset}) {
       const double s = middle + offset * length, x = b.x + s * b.toward_x, z = b.z + s * b.toward_z;
       const PolarAxes axes = axes_at(x, z, std::hypot(x, z));
@@ -78,10 +78,10 @@ void add_half_branch(const RingGrid& grid, const HalfBranch& b, std::vector<doub
       // The branch points from the contact to the centre: against `toward`.
       const double b_t = -length / 2 * axes.along_t(b.toward_x, b.toward_z);
       const double b_r = -length / 2 * axes.along_r(b.toward_x, b.toward_z);
-      sum.force_x_branch_x += f_t * b_t;
-      sum.force_x_branch_z += f_t * b_r;
-      sum.force_z_branch_x += f_r * b_t;
-      sum.force_z_branch_z += f_r * b_r;
+      sum.xx += f_t * b_t;
+      sum.xz += f_t * b_r;
+      sum.zx += f_r * b_t;
+      sum.zz += f_r * b_r;
     }
   }
 }
@@ -102,8 +102,9 @@ double disc_area_in_circle(double distance, double radius, double circle) {
   return segment(radius, angle(radius, circle)) + segment(circle, angle(circle, radius));
 }
 
-RingGrid ring_grid(double centre_x, double centre_z, double thickness, double r_to, double container_radius) {
-  RingGrid grid{FlowFrame{centre_x, centre_z, 1, 0}, thickness, {}};
+LayerGrid ring_grid(double centre_x, double centre_z, double thickness, double r_to,
+                    double container_radius) {
+  LayerGrid grid{FlowFrame{centre_x, centre_z, 1, 0}, 0, 0, 0, thickness, {}, false, true};
   const double reach = container_radius > 0 ? std::min(r_to, container_radius) : r_to;
   for (double inner = 0; inner < reach; inner += thickness) {
     const double outer =
@@ -113,14 +114,10 @@ RingGrid ring_grid(double centre_x, double centre_z, double thickness, double r_
   return grid;
 }
 
-void add_snapshot(const RingGrid& grid, const FlowSnapshot& snapshot, LayerSums& sums) {
-  for (std::size_t i = 0; i < snapshot.x.size(); ++i) add_grain(grid, snapshot, i, sums.layers);
+void add_to_rings(const LayerGrid& grid, const FlowSnapshot& snapshot, std::vector<LayerSum>& rings) {
+  for (std::size_t i = 0; i < snapshot.x.size(); ++i) add_grain(grid, snapshot, i, rings);
   std::vector<double> cuts;
-  for (const HalfBranch& branch : snapshot.half_branches()) add_half_branch(grid, branch, cuts, sums.layers);
-  sums.with_spin = sums.with_spin && !snapshot.spin.empty();
-  sums.with_densities = sums.with_densities || !snapshot.density.empty();
-  sums.with_contacts = sums.with_contacts && snapshot.contacts_known;
-  ++sums.snapshots;
+  for (const HalfBranch& branch : snapshot.half_branches()) add_half_branch(grid, branch, cuts, rings);
 }
 
 }  // namespace drumlin::particles

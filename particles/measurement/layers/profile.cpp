@@ -1,0 +1,295 @@
+#include "particles/measurement/layers/profile.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace drumlin::particles {
+namespace {
+
+using Of = LayerValues;
+using Known = KnownQuantities;
+constexpr double none = Of::none;
+
+constexpr LayerQuantity of_layers[] = {{"v_x", &Of::v_x},
+                                       {"v_z", &Of::v_z},
+                                       {"shear_rate", &Of::shear_rate},
+                                       {"half_vorticity", &Of::half_vorticity},
+                                       {"omega", &Of::omega, &Known::spin},
+                                       {"nu", &Of::nu},
+                                       {"density", &Of::density, &Known::densities},
+                                       {"sigma_xx_kinetic", &Of::sigma_xx_kinetic},
+                                       {"sigma_zz_kinetic", &Of::sigma_zz_kinetic},
+                                       {"sigma_xz_kinetic", &Of::sigma_xz_kinetic},
+                                       {"sigma_rotational", &Of::sigma_rotational, &Known::spin},
+                                       {"sigma_xx", &Of::sigma_xx},
+                                       {"sigma_zz", &Of::sigma_zz},
+                                       {"sigma_xz", &Of::sigma_xz},
+                                       {"I", &Of::I},
+                                       {"mu", &Of::mu},
+                                       {"k", &Of::k},
+                                       {"dv", &Of::dv},
+                                       {"domega", &Of::domega, &Known::spin},
+                                       {"coordination", &Of::coordination},
+                                       {"count", &Of::count},
+                                       {"d_nu_dx", &Of::d_nu_dx, &Known::gradients},
+                                       {"d_v_x_dx", &Of::d_v_x_dx, &Known::gradients},
+                                       {"d_v_z_dx", &Of::d_v_z_dx, &Known::gradients},
+                                       {"d_sigma_zz_dx", &Of::d_sigma_zz_dx, &Known::gradients},
+                                       {"d_sigma_xx_dx", &Of::d_sigma_xx_dx, &Known::gradients},
+                                       {"d_sigma_xz_dx", &Of::d_sigma_xz_dx, &Known::gradients},
+                                       {"d_k_dx", &Of::d_k_dx, &Known::gradients},
+                                       {"d_sigma_zz_dz", &Of::d_sigma_zz_dz, &Known::gradients},
+                                       {"d_sigma_xx_dz", &Of::d_sigma_xx_dz, &Known::gradients},
+                                       {"d_sigma_xz_dz", &Of::d_sigma_xz_dz, &Known::gradients},
+                                       {"nu_voronoi", &Of::nu_voronoi, &Known::cells},
+                                       {"nu_grains", &Of::nu_grains, &Known::cells},
+                                       {"sigma_xx_grains", &Of::sigma_xx_grains, &Known::cells},
+                                       {"sigma_zz_grains", &Of::sigma_zz_grains, &Known::cells},
+                                       {"sigma_xz_grains", &Of::sigma_xz_grains, &Known::cells}};
+
+constexpr LayerQuantity of_rings[] = {{"v_t", &Of::v_x},
+                                      {"v_r", &Of::v_z},
+                                      {"shear_rate", &Of::shear_rate},
+                                      {"half_vorticity", &Of::half_vorticity},
+                                      {"omega", &Of::omega, &Known::spin},
+                                      {"nu", &Of::nu},
+                                      {"density", &Of::density, &Known::densities},
+                                      {"sigma_rr_kinetic", &Of::sigma_zz_kinetic},
+                                      {"sigma_rr", &Of::sigma_zz},
+                                      {"sigma_tt_kinetic", &Of::sigma_xx_kinetic},
+                                      {"sigma_tt", &Of::sigma_xx},
+                                      {"sigma_rt_kinetic", &Of::sigma_xz_kinetic},
+                                      {"sigma_rt", &Of::sigma_xz},
+                                      {"I", &Of::I},
+                                      {"mu", &Of::mu},
+                                      {"k", &Of::k},
+                                      {"coordination", &Of::coordination, &Known::contacts},
+                                      {"count", &Of::count}};
+
+constexpr LayerQuantity of_height[] = {{"v_x", &Of::v_x},
+                                       {"v_z", &Of::v_z},
+                                       {"omega", &Of::omega, &Known::spin},
+                                       {"nu", &Of::nu},
+                                       {"density", &Of::density, &Known::densities},
+                                       {"sigma_zz_kinetic", &Of::sigma_zz_kinetic},
+                                       {"sigma_xx_kinetic", &Of::sigma_xx_kinetic},
+                                       {"sigma_xz_kinetic", &Of::sigma_xz_kinetic},
+                                       {"sigma_zz", &Of::sigma_zz},
+                                       {"sigma_xx", &Of::sigma_xx},
+                                       {"sigma_xz", &Of::sigma_xz},
+                                       {"k", &Of::k},
+                                       {"coordination", &Of::coordination},
+                                       {"count", &Of::count}};
+
+constexpr LayerQuantity of_width[] = {{"v_x", &Of::v_z},
+                                      {"v_z", &Of::v_x, nullptr, -1},
+                                      {"d_v_z_dx", &Of::shear_rate, nullptr, -1},
+                                      {"omega", &Of::omega, &Known::spin},
+                                      {"nu", &Of::nu},
+                                      {"density", &Of::density, &Known::densities},
+                                      {"sigma_zz_kinetic", &Of::sigma_xx_kinetic},
+                                      {"sigma_xx_kinetic", &Of::sigma_zz_kinetic},
+                                      {"sigma_xz_kinetic", &Of::sigma_xz_kinetic, nullptr, -1},
+                                      {"sigma_zz", &Of::sigma_xx},
+                                      {"sigma_xx", &Of::sigma_zz},
+                                      {"sigma_xz", &Of::sigma_xz, nullptr, -1},
+                                      {"coordination", &Of::coordination},
+                                      {"count", &Of::count}};
+
+/// Of a layer, summed over the snapshots.
+double area_of(const LayerGrid& grid, const LayerSums& sums, std::size_t layer) {
+  return grid.closed ? sums.snapshots.cell_area / static_cast<double>(grid.layers())
+                     : grid.area[layer] * sums.snapshots.count;
+}
+
+double mean(double sum, double count) { return count > 0 ? sum / count : none; }
+
+double covariance(double product_sum, double a_sum, double b_sum, double count) {
+  return count > 0 ? product_sum / count - a_sum / count * (b_sum / count) : none;
+}
+
+/// Second moments of the velocity in one layer, v_x counted from its mean profile v_x(z) and not from one
+/// number per layer: otherwise shear within a layer would pass for fluctuation.
+struct VelocityMoments {
+  double xx, zz, xz;
+};
+
+/// `shear_rate`: dv_x/dz; one that is not finite counts as 0. No variance falls below zero by rounding.
+VelocityMoments velocity_moments(const Moments& sum, double shear_rate) {
+  const double slope = std::isfinite(shear_rate) ? shear_rate : 0, n = sum.weight;
+  const double xx = covariance(sum.v_x_v_x, sum.v_x, sum.v_x, n) -
+                    2 * slope * covariance(sum.zeta_v_x, sum.zeta, sum.v_x, n) +
+                    slope * slope * covariance(sum.zeta_zeta, sum.zeta, sum.zeta, n);
+  return {std::max(0.0, xx), std::max(0.0, covariance(sum.v_z_v_z, sum.v_z, sum.v_z, n)),
+          covariance(sum.v_x_v_z, sum.v_x, sum.v_z, n)};
+}
+
+/// Slope of v_x: (v[l + 1] - v[l - 1]) / (2 thickness), NaN beside an empty layer and at the ends of an open
+/// grid. Beyond those of a cell follow images, which move with it. In rings that of v_t/r, times r.
+void set_shear(const LayerGrid& grid, const LayerSums& sums, std::vector<LayerValues>& layers) {
+  const std::size_t count = layers.size();
+  const double jump = sums.snapshots.cell_jump / sums.snapshots.count;
+  for (std::size_t l = 0; l < count; ++l) {
+    const bool lowest = l == 0, highest = l + 1 == count;
+    if (count < 2 || (!grid.closed && (lowest || highest))) continue;
+    const double above = highest ? layers.front().v_x + jump : layers[l + 1].v_x;
+    const double below = lowest ? layers.back().v_x - jump : layers[l - 1].v_x;
+    layers[l].shear_rate = (grid.rings ? layers[l].z : 1) * (above - below) / (2 * grid.thickness);
+  }
+}
+
+/// Slope of v_z over x within a layer: the other half of the vorticity.
+double normal_velocity_slope(const LayerSum& sum) {
+  const double count = sum.grains.weight, spread = covariance(sum.x_x, sum.x, sum.x, count);
+  return count > 2 && spread > 0 ? covariance(sum.x_v_z, sum.x, sum.grains.v_z, count) / spread : none;
+}
+
+/// Mean angular velocity about the centre of rings, clockwise: sum of v_t r / sum of r^2.
+double angular_velocity(const Moments& sum, double r) {
+  const double inertia = sum.zeta_zeta + 2 * r * sum.zeta + sum.weight * r * r;
+  return inertia > 0 ? (sum.zeta_v_x + r * sum.v_x) / inertia : none;
+}
+
+/// Total stress = contact + kinetic. The rotational part stands beside them: momentum is balanced by the
+/// motion of the centres, to which it does not belong. `slope`: of the mean v_x within the layer.
+void set_stress(const LayerSum& sum, double area, double slope, bool with_contacts, LayerValues& f) {
+  if (const double n = sum.grains.weight; n > 0) {
+    // Per unit of nu: grains of several densities count by their mass per area, about the velocity of their
+    // centre of mass.
+    const VelocityMoments moments = velocity_moments(sum.mass, slope);
+    const double density = sum.mass.weight / n;
+    f.sigma_xx_kinetic = f.nu * (density * moments.xx);
+    f.sigma_zz_kinetic = f.nu * (density * moments.zz);
+    // The traction of the upper layer on the lower one is against the flux of x momentum along +z.
+    f.sigma_xz_kinetic = -(f.nu * (density * moments.xz));
+  }
+  f.sigma_rotational = sum.rotation / area;
+  if (!with_contacts) return;
+  f.sigma_xx = sum.force_branch.xx / area + f.sigma_xx_kinetic;
+  f.sigma_zz = sum.force_branch.zz / area + f.sigma_zz_kinetic;
+  f.sigma_xz = -sum.force_branch.xz / area + f.sigma_xz_kinetic;
+  f.coordination = mean(sum.contacts, sum.grains.weight);
+  if (!(f.sigma_zz > 0)) return;
+  f.I = f.shear_rate / std::sqrt(f.sigma_zz);
+  // Not tau:D/(2 |D| p), the mu of a law: in a creeping bed their axes differ (docs/theory/measurement.md).
+  f.mu = f.sigma_xz / f.sigma_zz;
+  f.k = f.sigma_xx / f.sigma_zz;
+}
+
+void set_fluctuations(const Moments& grains, LayerValues& f) {
+  // The paper takes v_x(z) e_x off the velocity and nothing off its z component.
+  if (grains.weight > 1)
+    f.dv = std::sqrt(velocity_moments(grains, f.shear_rate).xx + grains.v_z_v_z / grains.weight);
+}
+
+void set_spins(const LayerSum& sum, LayerValues& f) {
+  f.omega = mean(sum.spin, f.count);
+  if (f.count > 1)
+    f.domega = std::sqrt(std::max(0.0, covariance(sum.spin_spin, sum.spin, sum.spin, f.count)));
+}
+
+void set_cells(const LayerSum::Cells& sum, LayerValues& f) {
+  if (!(sum.grains > 0.5)) return;
+  f.nu_voronoi = sum.discs / sum.cells;
+  f.nu_grains = sum.nu / sum.grains;
+  f.sigma_xx_grains = sum.stress_xx / sum.grains;
+  f.sigma_zz_grains = sum.stress_zz / sum.grains;
+  f.sigma_xz_grains = sum.stress_xz / sum.grains;
+}
+
+KnownQuantities known_of(const LayerSums::Snapshots& s) {
+  return {s.spin == s.count, s.contacts == s.count, s.densities > 0, s.cells > 0, false};
+}
+
+void set_means(const LayerGrid& grid, const LayerSum& sum, double area, LayerValues& f) {
+  const double count = f.count = sum.grains.weight;
+  f.v_x = grid.rings ? angular_velocity(sum.grains, f.z) : mean(sum.grains.v_x, count);
+  f.v_z = mean(sum.grains.v_z, count);
+  f.nu = mean(sum.covered, area);
+  f.density = mean(sum.covered_mass, area);
+}
+
+/// Returns the slope of v_x within the layer. In rings v_x has been the angular velocity until now.
+double set_vorticity(const LayerGrid& grid, const LayerSum& sum, LayerValues& f) {
+  if (!grid.rings) {
+    f.half_vorticity = (f.shear_rate - normal_velocity_slope(sum)) / 2;
+    return f.shear_rate;
+  }
+  const double angular = f.v_x;
+  f.half_vorticity = angular + f.shear_rate / 2;
+  f.v_x = angular * f.z;
+  return angular + (std::isfinite(f.shear_rate) ? f.shear_rate : 0);
+}
+
+bool knows(const Profile& profile, const LayerQuantity& quantity) {
+  return !quantity.needs || profile.known.*quantity.needs;
+}
+
+}  // namespace
+
+std::span<const LayerQuantity> layer_quantities() { return of_layers; }
+std::span<const LayerQuantity> ring_quantities() { return of_rings; }
+std::span<const LayerQuantity> height_quantities() { return of_height; }
+std::span<const LayerQuantity> width_quantities() { return of_width; }
+
+double surface_height(const LayerGrid& grid, const LayerSums& sums, double surface_nu) {
+  if (grid.closed) return grid.z_max();
+  double above = 0;
+  for (std::size_t l = grid.layers(); l-- > 0;) {
+    const double here = mean(sums.layers[l].covered, area_of(grid, sums, l));
+    if (here >= surface_nu) return grid.z_of(l) + grid.thickness * (here - surface_nu) / (here - above);
+    if (!std::isnan(here)) above = here;
+  }
+  return none;
+}
+
+Profile profile_of(const LayerGrid& grid, const LayerSums& sums, double surface_z) {
+  std::size_t first = 0, end = grid.layers();
+  while (first < end && !(grid.area[first] > 0)) ++first;
+  while (!grid.closed && end > first && !(sums.layers[end - 1].covered > 0)) --end;
+  Profile profile{std::vector<LayerValues>(end - first), known_of(sums.snapshots), surface_z};
+  auto& layers = profile.layers;
+  for (std::size_t l = 0; l < layers.size(); ++l) {
+    const LayerSum& sum = sums.layers[first + l];
+    layers[l].z = grid.z_of(first + l) - surface_z;
+    set_means(grid, sum, area_of(grid, sums, first + l), layers[l]);
+  }
+  set_shear(grid, sums, layers);
+  for (std::size_t l = 0; l < layers.size(); ++l) {
+    const LayerSum& sum = sums.layers[first + l];
+    const double slope = set_vorticity(grid, sum, layers[l]);
+    set_stress(sum, area_of(grid, sums, first + l), slope, profile.known.contacts, layers[l]);
+    set_fluctuations(sum.grains, layers[l]);
+    set_cells(sum.cells, layers[l]);
+    if (profile.known.spin) set_spins(sum, layers[l]);
+  }
+  return profile;
+}
+
+ProfileSet table_of(const Profile& profile, std::span<const LayerQuantity> quantities) {
+  ProfileSet table;
+  for (const LayerValues& layer : profile.layers) table.z.push_back(layer.z);
+  for (const LayerQuantity& quantity : quantities) {
+    if (!knows(profile, quantity)) continue;
+    ProfileColumn& column = table.columns.emplace_back(ProfileColumn{quantity.name, {}, {}});
+    for (const LayerValues& layer : profile.layers)
+      column.value.push_back(quantity.sign * layer.*quantity.value);
+  }
+  return table;
+}
+
+ProfileSet table_of(const LeaveOneOut<Profile>& profiles, std::span<const LayerQuantity> quantities) {
+  ProfileSet table = table_of(profiles.whole, quantities);
+  auto column = table.columns.begin();
+  for (const LayerQuantity& quantity : quantities) {
+    if (!knows(profiles.whole, quantity)) continue;
+    for (std::size_t l = 0; l < table.z.size() && quantity.value != &LayerValues::count; ++l)
+      column->ci99.push_back(ci99_of(profiles, [&](const Profile& one) {
+        return l < one.layers.size() ? one.layers[l].*quantity.value : none;
+      }));
+    ++column;
+  }
+  return table;
+}
+
+}  // namespace drumlin::particles
