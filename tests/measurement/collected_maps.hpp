@@ -5,35 +5,30 @@
 
 #include "coupling/common/scratch_file.hpp"
 #include "coupling/exchange/field_map.hpp"
+#include "particles/measurement/maps/displacement_sums.hpp"
 #include "particles/measurement/maps/field_maps.hpp"
 
 namespace drumlin::testing {
 
-/// The sums of snapshots in order of time, each of them in memory.
-struct SumsOfSnapshots {
-  std::vector<particles::MapSums> sums;
-  std::vector<particles::DisplacementSums> displacements;
-};
-
-inline SumsOfSnapshots sums_of_snapshots(const particles::CoarseGraining& graining,
-                                         const std::vector<particles::Snapshot>& snapshots) {
-  SumsOfSnapshots result;
+/// The sums of snapshots in order of time.
+inline std::vector<particles::MapSums> sums_of_snapshots(const particles::CoarseGraining& graining,
+                                                         const std::vector<particles::Snapshot>& snapshots) {
+  std::vector<particles::MapSums> result;
   particles::DisplacementDepositor follower(graining);
   particles::FlowSnapshot in_frame;
   for (const particles::Snapshot& snapshot : snapshots) {
     particles::to_flow_frame(snapshot, graining.frame, particles::VelocityKind::window, in_frame);
-    result.sums.push_back(particles::empty_sums(graining));
-    result.displacements.push_back(particles::empty_displacements(graining));
-    particles::MapDepositor(graining).add(snapshot, in_frame, result.sums.back());
-    follower.add(snapshot, result.displacements.back());
+    result.push_back(particles::empty_sums(graining));
+    add_snapshot(graining, snapshot, in_frame, result.back());
+    follower.add(snapshot, result.back());
   }
   return result;
 }
 
 inline particles::MapBatches batches_of(const particles::CoarseGraining& graining,
-                                        const SumsOfSnapshots& sums) {
+                                        const std::vector<particles::MapSums>& sums) {
   particles::MapBatches batches(graining, std::make_shared<ScratchFile>());
-  for (std::size_t b = 0; b < sums.sums.size(); ++b) batches.put_away(sums.sums[b], sums.displacements[b]);
+  for (const particles::MapSums& one : sums) batches.put_away(one);
   return batches;
 }
 

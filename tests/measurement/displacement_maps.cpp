@@ -1,8 +1,7 @@
 // Motion from displacements between snapshots, of packings whose motion is known by hand.
-#include "particles/measurement/maps/displacement_maps.hpp"
-
 #include <gtest/gtest.h>
 
+#include "particles/measurement/maps/displacement_sums.hpp"
 #include "particles/measurement/maps/field_maps.hpp"
 #include "tests/measurement/collected_maps.hpp"
 #include "tests/measurement/packings.hpp"
@@ -121,12 +120,12 @@ TEST(DisplacementMaps, GrainsAreFollowedAcrossAPeriodicBoundary) {
   for (double& x : to.x) x = std::fmod(x + 27, 12);
   CoarseGraining wide = coarse_graining(FlowFrame{}, 0, 12, 0, 10, 1, 15, 12);
   DisplacementDepositor follower(wide);
-  DisplacementSums sums = empty_displacements(wide);
+  MapSums sums = empty_sums(wide);
   follower.add(from, sums);
   follower.add(to, sums);
-  ASSERT_EQ(sums.pairs, 1U);
+  ASSERT_EQ(sums.snapshots.pairs, 1);
   for (std::size_t node = 0; node < sums.nodes.size(); ++node)
-    EXPECT_NEAR(sums.nodes[node].sum[1] / sums.nodes[node].sum[0], 0.27, 1e-12);
+    EXPECT_NEAR(sums.nodes[node].moved[1] / sums.nodes[node].moved[0], 0.27, 1e-12);
 }
 
 TEST(DisplacementMaps, MotionOverMoreThanHalfAWidthIsNotCalledLocal) {

@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-#include "particles/measurement/maps/map_findings.hpp"
+#include "particles/measurement/maps/field_values.hpp"
 #include "particles/measurement/maps/spline_kernel.hpp"
 #include "tests/measurement/collected_maps.hpp"
 #include "tests/measurement/packings.hpp"

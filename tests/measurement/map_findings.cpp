@@ -4,45 +4,35 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 namespace drumlin {
 using namespace particles;
 namespace {
 
 /// A drum of radius 10 about (0, 1), full up to z = 0, in which `value` gives each field.
-template <class Value>
-FieldMap drum_map(Value value) {
-  FieldMap map;
-  map.grid = {-10, -9.5, 1, 1, 21, 12};
-  for (const char* name :
-       {"nu", "p", "I", "mu", "d_v_x_dz", "sigma_xz", "sigma_zz", "residual_x", "residual_z",
-        "residual_x_without_kinetic", "residual_z_without_kinetic", "inertia_x", "inertia_z"}) {
-    MapField field{name, {}, {}};
-    for (std::size_t row = 0; row < map.grid.rows; ++row)
-      for (std::size_t column = 0; column < map.grid.columns; ++column)
-        field.value.push_back(value(std::string(name), map.grid.x_of(column), map.grid.z_of(row)));
-    map.fields.push_back(field);
-  }
+FindingMap drum_map(const std::function<FindingNode(double x, double z)>& node) {
+  FindingMap map{{-10, -9.5, 1, 1, 21, 12}, {}};
+  for (std::size_t row = 0; row < map.grid.rows; ++row)
+    for (std::size_t column = 0; column < map.grid.columns; ++column)
+      map.nodes.push_back(node(map.grid.x_of(column), map.grid.z_of(row)));
   return map;
 }
 
-double depth_law(const std::string& name, double x, double z) {
-  const double I = std::exp(z);
-  if (name == "nu") return std::hypot(x, z - 1) > 10 ? std::nan("") : z < 0 ? 0.8 : 0;
-  if (name == "I") return I;
-  if (name == "mu") return 0.38 + 0.02 * std::log(I);
-  if (name == "p" || name == "sigma_zz") return 4;
-  if (name == "d_v_x_dz") return 2 * I;  // I sqrt(sigma_zz)
-  if (name == "sigma_xz") return 4 * (0.4 + 0.03 * std::log(I));
-  if (name == "residual_x") return x > 0 ? 0.01 : -0.01;
-  if (name == "residual_z") return 0.02;
-  return 0;
+FindingNode depth_law(double x, double z) {
+  const double I = std::exp(z), log_I = std::log(I);
+  const double nu = std::hypot(x, z - 1) > 10 ? std::nan("") : z < 0 ? 0.8 : 0;
+  FindingNode node{
+      {nu, 4, I, 0.38 + 0.02 * log_I}, 2 * I, 4 * (0.4 + 0.03 * log_I), 4};  // 2 I: I sqrt(sigma_zz)
+  node.residual_x = x > 0 ? 0.01 : -0.01;
+  node.residual_z = 0.02;
+  return node;
 }
 
 constexpr MapBounds drum{10, 1};
 
 TEST(MapFindings, BulkKeepsItsDistanceFromWallAndSurface) {
-  const FieldMap map = drum_map(depth_law);
+  const FindingMap map = drum_map(depth_law);
   const auto nodes = bulk_nodes(map, drum, {});
   EXPECT_GT(nodes.size(), 20u);
   std::size_t expected = 0;
@@ -55,8 +45,11 @@ TEST(MapFindings, BulkKeepsItsDistanceFromWallAndSurface) {
 }
 
 TEST(MapFindings, FloorAndSidesTakeThePlaceOfADrum) {
-  const FieldMap map = drum_map(
-      [](const std::string& name, double x, double z) { return name == "nu" ? 0.8 : depth_law(name, x, z); });
+  const FindingMap map = drum_map([](double x, double z) {
+    FindingNode node = depth_law(x, z);
+    node.nu = 0.8;
+    return node;
+  });
   MapBounds box;
   box.z_min = -9.5;
   const std::size_t all_columns = bulk_nodes(map, box, {}).size();
@@ -93,9 +86,10 @@ TEST(MapFindings, MeansOverSquaresForgetWhatChangesSignWithinThem) {
   MapFindingOptions options;
   options.block = 2;
   options.margin = 1;
-  const FieldMap map = drum_map([](const std::string& name, double x, double z) {
-    if (name == "residual_x") return std::abs(std::remainder(x, 2)) < 0.5 ? 0.01 : -0.01;
-    return depth_law(name, x, z);
+  const FindingMap map = drum_map([](double x, double z) {
+    FindingNode node = depth_law(x, z);
+    node.residual_x = std::abs(std::remainder(x, 2)) < 0.5 ? 0.01 : -0.01;
+    return node;
   });
   const MomentumBalance found = momentum_balance(map, drum, options, 0);
   EXPECT_NEAR(found.bulk.rms_x, 0.01, 1e-12);

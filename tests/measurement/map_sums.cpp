@@ -18,7 +18,7 @@ MapSums sums_of(const CoarseGraining& graining, const Snapshot& snapshot) {
   FlowSnapshot in_frame;
   to_flow_frame(snapshot, graining.frame, VelocityKind::window, in_frame);
   MapSums sums = empty_sums(graining);
-  MapDepositor(graining).add(snapshot, in_frame, sums);
+  add_snapshot(graining, snapshot, in_frame, sums);
   return sums;
 }
 
@@ -87,7 +87,7 @@ TEST(MapSums, TotalsAreThoseOfTheGrainsAndContacts) {
         coarse_graining(FlowFrame{0.3, -0.2, 0.8, -0.6}, -15, 15, -15, 15, spacing, 5 * spacing, 0);
     const MapSums sums = sums_of(graining, snapshot);
     MapNode total;
-    for (std::size_t node = 0; node < sums.nodes.size(); ++node) total += sums.nodes[node];
+    for (std::size_t node = 0; node < sums.nodes.size(); ++node) add_times(1, sums.nodes[node], total);
     const double cell = spacing * spacing;
 
     FlowSnapshot in_frame;
@@ -105,9 +105,9 @@ TEST(MapSums, TotalsAreThoseOfTheGrainsAndContacts) {
       sides += 0.5;
       if (branch.at_wall) wall_force_x += branch.force_x;
     }
-    EXPECT_NEAR(cell * total.grain[0], 40, 1e-11);
-    EXPECT_NEAR(cell * total.grain[3], area, 1e-11);
-    EXPECT_NEAR(cell * total.grain[4], momentum_x, 1e-11);
+    EXPECT_NEAR(cell * total.grain.number, 40, 1e-11);
+    EXPECT_NEAR(cell * total.grain.mass, area, 1e-11);
+    EXPECT_NEAR(cell * total.grain.v_x, momentum_x, 1e-11);
     EXPECT_NEAR(cell * total.branch[0], xx, 1e-11);
     EXPECT_NEAR(cell * total.branch[1], xz, 1e-11);
     EXPECT_NEAR(cell * total.branch[2], zx, 1e-11);
@@ -160,7 +160,8 @@ double divergence_error(double spacing) {
         const double divergence =
             (branch(at + 1, 2 * c) - branch(at - 1, 2 * c)) / (2 * spacing) +
             (branch(at + columns, 2 * c + 1) - branch(at - columns, 2 * c + 1)) / (2 * spacing);
-        const double summed = sums.nodes[at].contact[c] - sums.nodes[at].grain[11 + c];
+        const MapNode& node = sums.nodes[at];
+        const double summed = node.contact[c] - (c == 0 ? node.grain.force_x : node.grain.force_z);
         greatest = std::max(greatest, std::abs(divergence - summed));
       }
     }
@@ -180,7 +181,7 @@ TEST(MapSums, PeriodicMapsDoNotCareWhereThePeriodBegins) {
   const MapSums a = sums_of(graining, snapshot), b = sums_of(graining, moved);
   ASSERT_EQ(graining.grid.columns, 6u);
   for (std::size_t node = 0; node < a.nodes.size(); ++node) {
-    EXPECT_NEAR(a.nodes[node].grain[3], b.nodes[node].grain[3], 1e-12);
+    EXPECT_NEAR(a.nodes[node].grain.mass, b.nodes[node].grain.mass, 1e-12);
     EXPECT_NEAR(a.nodes[node].branch[3], b.nodes[node].branch[3], 1e-11);
   }
 }

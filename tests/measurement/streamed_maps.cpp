@@ -3,7 +3,7 @@
 
 #include <bit>
 
-#include "particles/measurement/frame/intervals.hpp"
+#include "particles/measurement/maps/field_values.hpp"
 #include "particles/measurement/maps/map_measurement.hpp"
 #include "tests/measurement/collected_maps.hpp"
 #include "tests/measurement/packings.hpp"
@@ -49,64 +49,39 @@ bool same_bits(double a, double b) {
 TEST(StreamedMaps, AreBitForBitThoseOfAllSumsInMemory) {
   const CoarseGraining graining =
       coarse_graining(place_of(1, 1).frame, -radius, radius, -radius, radius, 0.5, 1, 0);
-  const testing::SumsOfSnapshots sums = testing::sums_of_snapshots(graining, turning_drum(5));
+  const std::vector<MapSums> sums = testing::sums_of_snapshots(graining, turning_drum(5));
   const MapBatches batches = testing::batches_of(graining, sums);
-  MapShare total;
-  for (const MapSums& one : sums.sums) total.add(one);
-  const auto known = known_fields(total);
+  const auto snapshots = batches.snapshots();
+  const auto known = known_fields(snapshots.whole);
+  const std::size_t mu = static_cast<std::size_t>(
+      std::find_if(known.begin(), known.end(), [](auto& one) { return one.value == &MapValues::mu; }) -
+      known.begin());
   std::size_t compared = 0, next_row = 0;
   each_map_rows(batches, 0, [&](const MapRows& rows) {
     EXPECT_EQ(rows.first_row, next_row);
     next_row += rows.rows;
     for (std::size_t at = 0; at < rows.rows * graining.grid.columns; ++at) {
       const std::size_t node = rows.first_row * graining.grid.columns + at;
-      const auto of = [&](std::size_t b) {
-        return NodeSums{sums.sums[b].nodes[node], sums.sums[b].area_at(node)};
-      };
-      NodeSums all = of(0);
-      for (std::size_t b = 1; b < sums.sums.size(); ++b) all += of(b);
-      const MapValues whole = values_at(all, total, 1);
+      std::vector<MapNode> of;
+      for (const MapSums& one : sums) of.push_back(one.nodes[node]);
+      const LeaveOneOut<MapNode> nodes = leave_one_out(of);
+      const MapValues whole = values_at(nodes.whole, snapshots.whole, 1);
       for (std::size_t f = 0; f < known.size(); ++f)
-        ASSERT_TRUE(same_bits(rows.fields[f].value[at], whole.*known[f].value)) << known[f].name;
-      std::vector<double> mu;
-      for (std::size_t b = 0; b < sums.sums.size(); ++b) {
-        NodeSums rest = all;
-        rest -= of(b);
-        MapShare share = total;
-        share.take(batches.share(b));
-        const MapValues without = values_at(rest, share, 1);
-        ASSERT_TRUE(same_bits(rows.without[b].I[at], without.I));
-        mu.push_back(without.mu);
+        if (known[f].needs != &MapSums::Snapshots::pairs) {
+          ASSERT_TRUE(same_bits(rows.fields[f].value[at], whole.*known[f].value)) << known[f].name;
+        }
+      std::vector<double> without;
+      for (std::size_t b = 0; b < sums.size(); ++b) {
+        const MapValues one = values_at(nodes.without[b], snapshots.without[b], 1);
+        ASSERT_TRUE(same_bits(rows.without[b][at].I, one.I));
+        without.push_back(one.mu);
       }
-      const std::size_t field = static_cast<std::size_t>(
-          std::find_if(known.begin(), known.end(), [](auto& one) { return one.value == &MapValues::mu; }) -
-          known.begin());
-      ASSERT_TRUE(same_bits(rows.fields[field].ci99[at], jackknife_ci99(mu)));
+      ASSERT_TRUE(same_bits(rows.fields[mu].ci99[at], jackknife_ci99(without)));
       compared += std::isfinite(whole.mu) ? 1 : 0;
     }
   });
   EXPECT_EQ(next_row, map_grid(batches, 0).rows);
   EXPECT_GT(compared, 500u);
-}
-
-TEST(StreamedMaps, FitOfFrictionIsThatOfAMapThatIsKept) {
-  const CoarseGraining graining =
-      coarse_graining(place_of(1, 1).frame, -radius, radius, -radius, radius, 1, 1, 0);
-  const FieldMap map = testing::collected_maps(graining, turning_drum(3), radius);
-  MapBounds bounds;
-  bounds.container_radius = radius;
-  MapFindingOptions options;
-  options.I_max = 10;
-  FrictionLine line(map.grid, bounds, options, std::make_shared<ScratchFile>());
-  const auto value = [&](const char* name, std::size_t node) { return map.field(name).value[node]; };
-  for (std::size_t node = 0; node < map.grid.nodes(); ++node)
-    line.add(node, value("nu", node), value("p", node), value("I", node), value("mu", node));
-  const LogLine kept = bulk_friction(map, bounds, options, 3).invariant, streamed = line.line();
-  EXPECT_GT(kept.nodes, 100u);
-  EXPECT_EQ(streamed.nodes, kept.nodes);
-  EXPECT_TRUE(same_bits(streamed.a, kept.a));
-  EXPECT_TRUE(same_bits(streamed.b, kept.b));
-  EXPECT_TRUE(same_bits(streamed.rms, kept.rms));
 }
 
 /// Bytes of the reading itself, most at any time, without what its file holds in memory.
@@ -130,9 +105,9 @@ TEST(StreamedMaps, HoldTheSumsOfOneBatchWhateverTheNumberOfSnapshots) {
   const MapReading empty = begun_maps(place_of(1, 1), 1, 1, std::make_shared<ScratchFile>());
   const std::size_t tiles = empty.sums.nodes.tiles();
   const std::size_t once = most_bytes(4, 1), many = most_bytes(80, 20);
-  // 360 bytes a node of each tile, and per batch where its tiles stand: 8 bytes a tile for each kind of sums.
-  EXPECT_LE(once, tiles * NodeTiles<MapNode>::nodes_per_tile * 360 + tiles * 64);
-  EXPECT_LE(many, once + 20 * tiles * 2 * 8);
+  // 368 bytes a node of each tile, and per batch where its tiles stand: 8 bytes a tile.
+  EXPECT_LE(once, tiles * NodeTiles<MapNode>::nodes_per_tile * 368 + tiles * 64);
+  EXPECT_LE(many, once + 20 * tiles * 8);
   EXPECT_EQ(most_bytes(160, 20), many);
 }
 

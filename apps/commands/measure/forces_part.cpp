@@ -2,18 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "apps/support/json_file.hpp"
-#include "coupling/common/scratch_file.hpp"
+#include "apps/support/figures.hpp"
 #include "coupling/common/text_file.hpp"
-#include "coupling/documents/csv.hpp"
 #include "coupling/documents/json_numbers.hpp"
-#include "particles/measurement/forces/contact_forces.hpp"
-#include "particles/measurement/forces/force_statistics.hpp"
+#include "particles/measurement/frame/intervals.hpp"
 #include "particles/measurement/layers/variants.hpp"
 #include "particles/scene/scene_file.hpp"
 
@@ -22,12 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-/// The contacts read so far.
-struct Reading {
-  particles::LayerGrid grid;
-  std::vector<particles::ContactForces> batches;
-};
 
 /// Friction of the scene, where one number holds for all contacts of a kind and bounds the force itself.
 std::optional<particles::Friction> one_friction(const fs::path& scene_file) {
@@ -38,73 +27,48 @@ std::optional<particles::Friction> one_friction(const fs::path& scene_file) {
   return effects.friction;
 }
 
-/// force_distributions.csv: one line per zone, quantity and bin.
-void write_distributions(const fs::path& file, const std::vector<particles::ForceZone>& zones) {
-  std::string text = "# drumlin-force-distributions-1\nzone,quantity,from,to,value,ci99,contacts\n";
-  for (const particles::ForceZone& zone : zones)
-    for (const particles::DistributionRow& row : zone.rows)
-      text +=
-          csv_line({zone.name, row.quantity, csv_number(row.from, 6), csv_number(row.to, 6),
-                    csv_number(row.value, 6), csv_number(row.ci99, 6), fmt::format("{:.0f}", row.contacts)});
-  replace_file(file, text);
-}
-
-Json content_of(const particles::ForceStatistics& found, const particles::ForceSettings& settings) {
-  Json zones;
-  for (const particles::ForceZone& zone : found.zones) {
-    Json& entry = zones[zone.name];
-    entry["z"] = {zone.z_from, zone.z_to};
-    add_scalars(entry, zone.scalars);
-  }
-  const auto number = [](const std::optional<double>& value) { return number_or_null(value); };
-  return {{"zones", zones},
-          {"settings",
-           {{"normalised_by", "mean normal force at the depth of the contact, over the whole run"},
-            {"surface_margin", settings.surface_margin},
-            {"interface_gap", settings.interface_gap},
-            {"wall_margin", settings.wall_margin},
-            {"friction_grain_grain", number(settings.friction_grains)},
-            {"friction_grain_wall", number(settings.friction_walls)}}}};
+/// What force_statistics.py is told.
+Json request_of(const particles::Measurement& measured, const MeasureOptions& options) {
+  const particles::MeasurementFrame& place = measured.place;
+  const particles::LayerGrid grid =
+      particles::slice_grid(place, options.position, place.slice_width, options.layer_thickness);
+  const auto friction = one_friction(options.run / "scene.toml");
+  const auto number = [](double value) { return number_or_null(value); };
+  return {
+      {"run", options.run.string()},
+      {"first", measured.first_snapshot},
+      {"batches", place.batches},
+      {"interval_factor", place.batches > 1 ? Json(particles::interval_factor(place.batches)) : Json()},
+      {"in_mirror", place.in_mirror},
+      {"origin", {place.frame.origin_x, place.frame.origin_z}},
+      {"x_axis", {place.frame.x_axis_x, place.frame.x_axis_z}},
+      {"x", {number(grid.x_min), number(grid.x_max)}},
+      {"z_min", grid.z_min},
+      {"thickness", grid.thickness},
+      {"layers", grid.layers()},
+      {"closed", grid.closed},
+      {"surface_z", place.container_radius > 0 ? -measured.axis_depth : grid.z_min - measured.wall_z},
+      {"wall_z", measured.wall_z},
+      {"H", number(measured.fits.H)},
+      {"friction",
+       {friction ? Json(friction->grain_grain) : Json(), friction ? Json(friction->grain_wall) : Json()}}};
 }
 
 }  // namespace
 
 Part forces_part(const MeasureOptions& options) {
-  const auto reading = std::make_shared<Reading>();
   Part part;
   part.name = "forces";
   part.figures = "force_figures.py";
-  part.reading.begin = [=](const particles::MeasurementFrame& place) {
-    reading->grid =
-        particles::slice_grid(place, options.position, place.slice_width, options.layer_thickness);
-    const auto file = std::make_shared<ScratchFile>(options.run);
-    for (std::size_t b = 0; b < place.batches; ++b) reading->batches.emplace_back(file);
-  };
-  part.reading.add = [=](const particles::Snapshot& snapshot, const particles::FlowSnapshot&,
-                         std::size_t batch) {
-    particles::add_contact_forces(reading->grid, snapshot, reading->batches[batch]);
-  };
+  part.reading.begin = [](const particles::MeasurementFrame&) {};
+  part.reading.add = [](const particles::Snapshot&, const particles::FlowSnapshot&, std::size_t) {};
   part.write = [=](const particles::Measurement& measured, const PartOutput& output) {
-    particles::ForceSettings settings;
-    settings.surface_z =
-        measured.place.container_radius > 0 ? -measured.axis_depth : reading->grid.z_min - measured.wall_z;
-    settings.wall_z = measured.wall_z;
-    settings.H = measured.fits.H;
-    if (const auto friction = one_friction(options.run / "scene.toml")) {
-      settings.friction_grains = friction->grain_grain;
-      settings.friction_walls = friction->grain_wall;
-    }
-    particles::ForceStatistics found = particles::force_statistics(reading->grid, reading->batches, settings);
-    if (found.layers.z.empty()) {  // no contact carries a force, or the snapshots know none
-      output.content["forces"] = nullptr;
-      for (const char* file : {"forces.csv", "force_distributions.csv", "forces.png"})
-        fs::remove(output.folder / file);
-      return;
-    }
-    found.layers.header = measured.profiles.header;
-    write_profiles(output.folder / "forces.csv", found.layers);
-    write_distributions(output.folder / "force_distributions.csv", found.zones);
-    output.content["forces"] = content_of(found, settings);
+    for (const char* file : {"forces.csv", "force_distributions.csv", "forces.png"})
+      fs::remove(output.folder / file);
+    draw_figures("force_statistics.py", {output.folder.string(), request_of(measured, options).dump()});
+    const fs::path found = output.folder / "forces.json";
+    output.content["forces"] = Json::parse(file_text(found));
+    fs::remove(found);
   };
   return part;
 }

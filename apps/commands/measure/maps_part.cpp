@@ -13,6 +13,7 @@
 #include "coupling/common/scratch_file.hpp"
 #include "coupling/documents/json_numbers.hpp"
 #include "coupling/files/field_map_file.hpp"
+#include "particles/measurement/maps/field_values.hpp"
 #include "particles/measurement/maps/map_measurement.hpp"
 
 namespace drumlin::apps {

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -64,12 +65,12 @@ auto each_of(const LeaveOneOut<Of>& given, const Function& function) {
   return result;
 }
 
-/// Half width of a number that `value_of` reads off each.
+/// Half width of a number that `value_of`, a function or a member, reads off each.
 template <class Of, class Value>
 double ci99_of(const LeaveOneOut<Of>& given, const Value& value_of) {
   std::vector<double> values;
   values.reserve(given.without.size());
-  for (const Of& one : given.without) values.push_back(value_of(one));
+  for (const Of& one : given.without) values.push_back(std::invoke(value_of, one));
   return jackknife_ci99(values);
 }
 

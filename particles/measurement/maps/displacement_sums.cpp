@@ -6,36 +6,6 @@
 #include "particles/measurement/maps/node_canvas.hpp"
 
 namespace drumlin::particles {
-namespace {
-
-void add_times(double factor, const std::array<double, 3>& values, std::array<double, 3>& sums) {
-  for (std::size_t i = 0; i < values.size(); ++i) sums[i] += factor * values[i];
-}
-
-void add_times(double factor, const DisplacementNode& values, DisplacementNode& sums) {
-  add_times(factor, values.sum, sums.sum);
-  add_times(factor, values.slope_x, sums.slope_x);
-  add_times(factor, values.slope_z, sums.slope_z);
-}
-
-}  // namespace
-
-DisplacementNode& DisplacementNode::operator+=(const DisplacementNode& other) {
-  add_times(1, other, *this);
-  return *this;
-}
-
-DisplacementNode& DisplacementNode::operator-=(const DisplacementNode& other) {
-  add_times(-1, other, *this);
-  return *this;
-}
-
-DisplacementSums empty_displacements(const CoarseGraining& graining) {
-  DisplacementSums sums;
-  sums.nodes = NodeTiles<DisplacementNode>(graining.grid);
-  return sums;
-}
-
 void DisplacementDepositor::find_ends(const Snapshot& snapshot, Ends& ends) {
   const bool turning = snapshot.container_radius > 0 && snapshot.wall_spin != 0;
   const std::size_t count = snapshot.x.size();
@@ -58,8 +28,8 @@ void DisplacementDepositor::find_ends(const Snapshot& snapshot, Ends& ends) {
 }
 
 void DisplacementDepositor::add_pair(const Ends& from, const Ends& to, const Snapshot& snapshot,
-                                     DisplacementSums& sums) const {
-  NodeCanvas<DisplacementNode> canvas(graining_, sums.nodes);
+                                     MapSums& sums) const {
+  NodeCanvas<MapNode> canvas(graining_, sums.nodes);
   const FlowFrame& frame = graining_.frame;
   const double time = to.time - from.time, angle = (from.angle + to.angle) / 2;
   const double cosine = std::cos(angle), sine = std::sin(angle);
@@ -93,21 +63,20 @@ void DisplacementDepositor::add_pair(const Ends& from, const Ends& to, const Sna
             path->change({columns * images->length + rows * images->offset, rows * images->height});
         of_image[1] += mass * more.x, of_image[2] += mass * more.z;
       }
-      canvas.each_node_with_slope(at_x, at_z,
-                                  [&](DisplacementNode& node, double phi, double phi_x, double phi_z) {
-                                    add_times(phi, of_image, node.sum);
-                                    add_times(phi_x, of_image, node.slope_x);
-                                    add_times(phi_z, of_image, node.slope_z);
-                                  });
+      canvas.each_node_with_slope(at_x, at_z, [&](MapNode& node, double phi, double phi_x, double phi_z) {
+        add_times(phi, of_image, node.moved);
+        add_times(phi_x, of_image, node.moved_slope_x);
+        add_times(phi_z, of_image, node.moved_slope_z);
+      });
     };
     canvas.each_image(images, frame.x_of(snapshot.container_x + lab_x, snapshot.container_z + lab_z),
                       frame.z_of(snapshot.container_x + lab_x, snapshot.container_z + lab_z), add_image);
   }
-  ++sums.pairs;
-  sums.time += time;
+  sums.snapshots.pairs += 1;
+  sums.snapshots.time += time;
 }
 
-void DisplacementDepositor::add(const Snapshot& snapshot, DisplacementSums& sums) {
+void DisplacementDepositor::add(const Snapshot& snapshot, MapSums& sums) {
   Ends ends;
   find_ends(snapshot, ends);
   if (last_ && ends.time > last_->time && (!ends.id.empty() || ends.radius == last_->radius))

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
 
 #include "coupling/exchange/plane_invariants.hpp"
 #include "particles/measurement/frame/intervals.hpp"
-#include "particles/measurement/maps/displacement_maps.hpp"
+#include "particles/measurement/maps/field_values.hpp"
 #include "particles/measurement/maps/spline_kernel.hpp"
 
 namespace drumlin::particles {
@@ -21,19 +20,12 @@ class RowMaker {
   RowMaker(const MapBatches& batches, double container_radius)
       : batches_(batches),
         container_radius_(container_radius),
-        total_(batches.total()),
-        known_(known_fields(total_)),
-        motion_(batches),
-        left_out_(batches.size() > 1 ? batches.size() : 0) {
-    for (std::size_t b = 0; b < left_out_.size(); ++b) {
-      shares_.push_back(total_);
-      shares_.back().take(batches.share(b));
-    }
-  }
+        snapshots_(batches.snapshots()),
+        fields_(known_fields(snapshots_.whole)) {}
 
   /// Sets the nodes of one row of tiles.
   const MapRows& rows(std::size_t tile_row, std::size_t row_count) {
-    const std::size_t columns = batches_.graining().grid.columns;
+    const std::size_t columns = grid_.columns;
     rows_.first_row = tile_row * edge;
     rows_.rows = std::min(edge, row_count - rows_.first_row);
     clear(rows_.rows * columns);
@@ -52,74 +44,84 @@ class RowMaker {
   static constexpr std::size_t edge = NodeTiles<MapNode>::edge;
 
   void clear(std::size_t nodes) {
-    const bool with_intervals = !left_out_.empty();
-    rows_.fields.resize(known_.size());
-    for (std::size_t f = 0; f < known_.size(); ++f) {
-      rows_.fields[f].name = known_[f].name;
-      rows_.fields[f].value.assign(nodes, none);
-      if (with_intervals) rows_.fields[f].ci99.assign(nodes, none);
-    }
-    motion_.add_empty_fields(nodes, rows_.fields);
-    rows_.without.resize(left_out_.size());
-    for (FrictionRows& without : rows_.without)
-      for (auto* values : {&without.nu, &without.p, &without.I, &without.mu}) values->assign(nodes, none);
+    rows_.fields.clear();
+    for (const MapQuantity& field : fields_)
+      rows_.fields.push_back({field.name, std::vector<double>(nodes, none),
+                              std::vector<double>(snapshots_.without.empty() ? 0 : nodes, none)});
+    rows_.nodes.assign(nodes, {});
+    rows_.without.assign(snapshots_.without.size(), std::vector<FrictionNode>(nodes));
   }
 
   /// Share of the kernel at a node that lies within the container, 1 without one; 0 for a node outside.
   double share_inside(std::size_t column, std::size_t row) const {
     if (!(container_radius_ > 0)) return 1;
-    const MapGrid& grid = batches_.graining().grid;
-    const double x = grid.x_of(column), z = grid.z_of(row);
+    const double x = grid_.x_of(column), z = grid_.z_of(row);
     if (std::hypot(x, z) > container_radius_) return 0;
     return kernel_share_in_circle(x, z, batches_.graining().width, container_radius_);
+  }
+
+  LeaveOneOut<MapValues> values_of(std::size_t place, double inside) const {
+    std::vector<MapNode> batches(tile_.size());
+    for (std::size_t b = 0; b < tile_.size(); ++b)
+      if (!tile_[b].empty()) batches[b] = tile_[b][place];
+    const LeaveOneOut<MapNode> sums = leave_one_out(batches);
+    LeaveOneOut<MapValues> values{values_at(sums.whole, snapshots_.whole, inside), {}};
+    MapValues& whole = values.whole;
+    const PlaneMatrix pressure{whole.sigma_xx, -whole.sigma_xz, -whole.sigma_zx, whole.sigma_zz};
+    MapValues moved = whole;
+    set_motion(sums.whole, pressure, moved);
+    const bool local = std::isfinite(whole.v_x) &&
+                       std::hypot(moved.moved_v_x, moved.moved_v_z) * snapshots_.whole.time <=
+                           longest_displacement * batches_.graining().width * snapshots_.whole.pairs;
+    if (local) whole = moved;
+    for (std::size_t b = 0; b < sums.without.size(); ++b) {
+      values.without.push_back(values_at(sums.without[b], snapshots_.without[b], inside));
+      if (local) set_motion(sums.without[b], pressure, values.without.back());
+    }
+    return values;
   }
 
   /// `place` within the tile; `row` counts from the first one of the tile.
   void set_node(std::size_t place, std::size_t column, std::size_t row) {
     const double inside = share_inside(column, rows_.first_row + row);
     if (inside == 0) return;
-    const std::size_t at = row * batches_.graining().grid.columns + column;
-    NodeSums sum = tile_.sums(0, place);
-    for (std::size_t b = 1; b < batches_.size(); ++b) sum += tile_.sums(b, place);
-    const MapValues whole = values_at(sum, total_, inside);
-    for (std::size_t f = 0; f < known_.size(); ++f) rows_.fields[f].value[at] = whole.*known_[f].value;
-    for (std::size_t b = 0; b < left_out_.size(); ++b) {
-      NodeSums rest = sum;
-      rest -= tile_.sums(b, place);
-      const MapValues& values = left_out_[b] = values_at(rest, shares_[b], inside);
-      FrictionRows& without = rows_.without[b];
-      without.nu[at] = values.nu;
-      without.p[at] = values.p;
-      without.I[at] = values.I;
-      without.mu[at] = values.mu;
+    const std::size_t at = row * grid_.columns + column;
+    const LeaveOneOut<MapValues> values = values_of(place, inside);
+    const MapValues& whole = values.whole;
+    for (std::size_t f = 0; f < fields_.size(); ++f) {
+      const auto& [name, value, needs, axis] = fields_[f];
+      rows_.fields[f].value[at] = whole.*value;
+      if (!values.without.empty())
+        rows_.fields[f].ci99[at] = ci99_of(values, [&, value = value, axis = axis](const MapValues& one) {
+          return axis ? nearest_turn(one.*value - whole.*value, 180) : one.*value;
+        });
     }
-    set_intervals(whole, at);
-    motion_.set_node(tile_, place, whole, at, std::span(rows_.fields).subspan(known_.size()));
-  }
-
-  void set_intervals(const MapValues& whole, std::size_t at) {
-    if (left_out_.empty()) return;
-    values_.resize(left_out_.size());
-    for (std::size_t f = 0; f < known_.size(); ++f) {
-      const auto value = known_[f].value;
-      for (std::size_t b = 0; b < values_.size(); ++b) {
-        values_[b] = left_out_[b].*value;
-        if (value == &MapValues::axis_angle_deg) values_[b] = nearest_turn(values_[b] - whole.*value, 180);
-      }
-      rows_.fields[f].ci99[at] = jackknife_ci99(values_);
+    rows_.nodes[at] = {{whole.nu, whole.p, whole.I, whole.mu},
+                       whole.d_v_x_dz,
+                       whole.sigma_xz,
+                       whole.sigma_zz,
+                       whole.residual_x,
+                       whole.residual_z,
+                       whole.residual_x_contact,
+                       whole.residual_z_contact,
+                       whole.inertia_x,
+                       whole.inertia_z,
+                       ci99_of(values, &MapValues::mu),
+                       ci99_of(values, &MapValues::residual_x),
+                       ci99_of(values, &MapValues::residual_z)};
+    for (std::size_t b = 0; b < values.without.size(); ++b) {
+      const MapValues& one = values.without[b];
+      rows_.without[b][at] = {one.nu, one.p, one.I, one.mu};
     }
   }
 
   const MapBatches& batches_;
+  const MapGrid& grid_ = batches_.graining().grid;
   double container_radius_;
-  MapShare total_;
-  std::vector<MapShare> shares_;  // without one batch each
-  std::vector<NamedMapField> known_;
-  DisplacementFields motion_;
-  std::vector<MapValues> left_out_;
-  TileOfBatches tile_;
+  LeaveOneOut<MapSums::Snapshots> snapshots_;
+  std::vector<MapQuantity> fields_;
+  std::vector<std::vector<MapNode>> tile_;
   MapRows rows_;
-  std::vector<double> values_;
 };
 
 }  // namespace

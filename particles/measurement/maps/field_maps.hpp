@@ -6,13 +6,9 @@
 #include <vector>
 
 #include "particles/measurement/maps/map_batches.hpp"
+#include "particles/measurement/maps/map_findings.hpp"
 
 namespace drumlin::particles {
-
-/// What the fit of mu(I) takes of a map, over some rows.
-struct FrictionRows {
-  std::vector<double> nu, p, I, mu;
-};
 
 /// All fields over some rows of a map, from `first_row` on: the fields of docs/formats/maps.md, NaN outside
 /// of the container and, nu and number_density apart, where nu < least_map_nu. Intervals by leaving one batch
@@ -20,7 +16,8 @@ struct FrictionRows {
 struct MapRows {
   std::size_t first_row = 0, rows = 0;
   std::vector<MapField> fields;
-  std::vector<FrictionRows> without;  ///< one batch each; empty with fewer than two batches
+  std::vector<FindingNode> nodes;                  ///< what findings read of them
+  std::vector<std::vector<FrictionNode>> without;  ///< one batch each; empty with fewer than two batches
 };
 
 /// The grid of the whole map, without the rows above all grains. z counts from `surface_z` (in the frame).

@@ -1,116 +1,95 @@
 #include "particles/measurement/maps/field_values.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
+#include <tuple>
 
 namespace drumlin::particles {
 namespace {
 
-constexpr NamedMapField named_fields[] = {{"nu", &MapValues::nu},
-                                          {"v_x", &MapValues::v_x},
-                                          {"v_z", &MapValues::v_z},
-                                          {"omega", &MapValues::omega},
-                                          {"d_v_x_dx", &MapValues::d_v_x_dx},
-                                          {"d_v_x_dz", &MapValues::d_v_x_dz},
-                                          {"d_v_z_dx", &MapValues::d_v_z_dx},
-                                          {"d_v_z_dz", &MapValues::d_v_z_dz},
-                                          {"D_xx", &MapValues::D_xx},
-                                          {"D_zz", &MapValues::D_zz},
-                                          {"D_xz", &MapValues::D_xz},
-                                          {"dilation", &MapValues::dilation},
-                                          {"strain_rate", &MapValues::strain_rate},
-                                          {"half_vorticity", &MapValues::half_vorticity},
-                                          {"sigma_xx", &MapValues::sigma_xx},
-                                          {"sigma_zz", &MapValues::sigma_zz},
-                                          {"sigma_xz", &MapValues::sigma_xz},
-                                          {"sigma_zx", &MapValues::sigma_zx},
-                                          {"sigma_xx_kinetic", &MapValues::sigma_xx_kinetic},
-                                          {"sigma_zz_kinetic", &MapValues::sigma_zz_kinetic},
-                                          {"sigma_xz_kinetic", &MapValues::sigma_xz_kinetic},
-                                          {"p", &MapValues::p},
-                                          {"tau", &MapValues::tau},
-                                          {"I", &MapValues::I},
-                                          {"mu", &MapValues::mu},
-                                          {"k", &MapValues::k},
-                                          {"axis_angle_deg", &MapValues::axis_angle_deg},
-                                          {"coordination", &MapValues::coordination},
-                                          {"fabric_xx", &MapValues::fabric_xx},
-                                          {"fabric_zz", &MapValues::fabric_zz},
-                                          {"fabric_xz", &MapValues::fabric_xz},
-                                          {"wall_x", &MapValues::wall_x},
-                                          {"wall_z", &MapValues::wall_z},
-                                          {"residual_x", &MapValues::residual_x},
-                                          {"residual_z", &MapValues::residual_z},
-                                          {"residual_x_without_kinetic", &MapValues::residual_x_contact},
-                                          {"residual_z_without_kinetic", &MapValues::residual_z_contact},
-                                          {"inertia_x", &MapValues::inertia_x},
-                                          {"inertia_z", &MapValues::inertia_z},
-                                          {"number_density", &MapValues::number_density},
-                                          {"density", &MapValues::density}};
+using Of = MapValues;
+using Known = MapSums::Snapshots;
 
-/// Means over the snapshots of what MapNode adds up, by name.
-struct Means {
-  double grains, contacts, spin, mass, v_x, v_z, u_x, u_z, u_x_u_x, u_x_u_z, u_z_u_z, force_x, force_z;
-  std::array<double, 5> slope_x, slope_z;  ///< of m, m v_x, m v_z, m u_x, m u_z
-  std::array<double, 2> flux_divergence;
-  std::array<double, 4> branch;
-  std::array<double, 7> contact;
-  double gravity_x, gravity_z;
-};
+constexpr MapQuantity quantities[] = {
+    {"nu", &Of::nu},
+    {"v_x", &Of::v_x},
+    {"v_z", &Of::v_z},
+    {"omega", &Of::omega, &Known::spin},
+    {"d_v_x_dx", &Of::d_v_x_dx},
+    {"d_v_x_dz", &Of::d_v_x_dz},
+    {"d_v_z_dx", &Of::d_v_z_dx},
+    {"d_v_z_dz", &Of::d_v_z_dz},
+    {"D_xx", &Of::d_v_x_dx},
+    {"D_zz", &Of::d_v_z_dz},
+    {"D_xz", &Of::D_xz},
+    {"dilation", &Of::dilation},
+    {"strain_rate", &Of::strain_rate},
+    {"half_vorticity", &Of::half_vorticity},
+    {"sigma_xx", &Of::sigma_xx},
+    {"sigma_zz", &Of::sigma_zz},
+    {"sigma_xz", &Of::sigma_xz},
+    {"sigma_zx", &Of::sigma_zx},
+    {"sigma_xx_kinetic", &Of::sigma_xx_kinetic},
+    {"sigma_zz_kinetic", &Of::sigma_zz_kinetic},
+    {"sigma_xz_kinetic", &Of::sigma_xz_kinetic},
+    {"p", &Of::p},
+    {"tau", &Of::tau},
+    {"I", &Of::I},
+    {"mu", &Of::mu},
+    {"k", &Of::k},
+    {"axis_angle_deg", &Of::axis_angle_deg, nullptr, true},
+    {"coordination", &Of::coordination},
+    {"fabric_xx", &Of::fabric_xx},
+    {"fabric_zz", &Of::fabric_zz},
+    {"fabric_xz", &Of::fabric_xz},
+    {"wall_x", &Of::wall_x},
+    {"wall_z", &Of::wall_z},
+    {"residual_x", &Of::residual_x},
+    {"residual_z", &Of::residual_z},
+    {"residual_x_without_kinetic", &Of::residual_x_contact},
+    {"residual_z_without_kinetic", &Of::residual_z_contact},
+    {"inertia_x", &Of::inertia_x},
+    {"inertia_z", &Of::inertia_z},
+    {"number_density", &Of::number_density},
+    {"density", &Of::density, &Known::densities},
+    {"displacement_v_x", &Of::moved_v_x, &Known::pairs},
+    {"displacement_v_z", &Of::moved_v_z, &Known::pairs},
+    {"displacement_d_v_x_dx", &Of::moved_d_v_x_dx, &Known::pairs},
+    {"displacement_d_v_x_dz", &Of::moved_d_v_x_dz, &Known::pairs},
+    {"displacement_d_v_z_dx", &Of::moved_d_v_z_dx, &Known::pairs},
+    {"displacement_d_v_z_dz", &Of::moved_d_v_z_dz, &Known::pairs},
+    {"displacement_D_xx", &Of::moved_d_v_x_dx, &Known::pairs},
+    {"displacement_D_zz", &Of::moved_d_v_z_dz, &Known::pairs},
+    {"displacement_D_xz", &Of::moved_D_xz, &Known::pairs},
+    {"displacement_dilation", &Of::moved_dilation, &Known::pairs},
+    {"displacement_strain_rate", &Of::moved_strain_rate, &Known::pairs},
+    {"displacement_half_vorticity", &Of::moved_half_vorticity, &Known::pairs},
+    {"displacement_I", &Of::moved_I, &Known::pairs},
+    {"displacement_axis_angle_deg", &Of::moved_axis_angle_deg, &Known::pairs, true}};
 
-template <std::size_t n>
-std::array<double, n> scaled(std::array<double, n> values, double factor) {
-  for (double& value : values) value *= factor;
-  return values;
+/// Derivative of a quotient of sums, each part by the kernel's own derivative.
+double slope_of(double slope, double mean, double slope_of_weight, double weight) {
+  return (slope - mean * slope_of_weight) / weight;
 }
 
-Means means_of(const MapNode& node, const MapShare& sums) {
-  const double share = 1 / static_cast<double>(sums.snapshots);
-  const auto g = scaled(node.grain, share);
-  return {g[0],
-          g[1],
-          g[2],
-          g[3],
-          g[4],
-          g[5],
-          g[6],
-          g[7],
-          g[8],
-          g[9],
-          g[10],
-          g[11],
-          g[12],
-          scaled(node.slope_x, share),
-          scaled(node.slope_z, share),
-          scaled(node.flux_divergence, share),
-          scaled(node.branch, share),
-          scaled(node.contact, share),
-          share * sums.gravity_x,
-          share * sums.gravity_z};
-}
-
-void set_velocity(const Means& m, bool with_spin, MapValues& f) {
-  f.v_x = m.v_x / m.mass;
-  f.v_z = m.v_z / m.mass;
-  if (with_spin) f.omega = m.spin / m.grains;
-  // The derivative of the quotient, each part by the kernel's own derivative.
-  f.d_v_x_dx = (m.slope_x[1] - f.v_x * m.slope_x[0]) / m.mass;
-  f.d_v_x_dz = (m.slope_z[1] - f.v_x * m.slope_z[0]) / m.mass;
-  f.d_v_z_dx = (m.slope_x[2] - f.v_z * m.slope_x[0]) / m.mass;
-  f.d_v_z_dz = (m.slope_z[2] - f.v_z * m.slope_z[0]) / m.mass;
-  f.D_xx = f.d_v_x_dx;
-  f.D_zz = f.d_v_z_dz;
+void set_velocity(const MapNode& m, MapValues& f) {
+  const double mass = m.grain.mass;
+  f.v_x = m.grain.v_x / mass;
+  f.v_z = m.grain.v_z / mass;
+  f.omega = m.grain.spin / m.grain.number;
+  f.d_v_x_dx = slope_of(m.slope_x[1], f.v_x, m.slope_x[0], mass);
+  f.d_v_x_dz = slope_of(m.slope_z[1], f.v_x, m.slope_z[0], mass);
+  f.d_v_z_dx = slope_of(m.slope_x[2], f.v_z, m.slope_x[0], mass);
+  f.d_v_z_dz = slope_of(m.slope_z[2], f.v_z, m.slope_z[0], mass);
   f.D_xz = (f.d_v_x_dz + f.d_v_z_dx) / 2;
-  f.dilation = f.D_xx + f.D_zz;
+  f.dilation = f.d_v_x_dx + f.d_v_z_dz;
 }
 
 /// `inside`: share of the kernel within the container.
-void set_stress(const Means& m, double inside, MapValues& f) {
-  const double mean_u_x = m.u_x / m.mass, mean_u_z = m.u_z / m.mass;
-  const PlaneMatrix kinetic{
-      m.u_x_u_x - m.mass * mean_u_x * mean_u_x, m.u_x_u_z - m.mass * mean_u_x * mean_u_z,
-      m.u_x_u_z - m.mass * mean_u_x * mean_u_z, m.u_z_u_z - m.mass * mean_u_z * mean_u_z};
+void set_stress(const MapNode& m, double inside, MapValues& f) {
+  const double mass = m.grain.mass, u_x = m.grain.u_x / mass, u_z = m.grain.u_z / mass;
+  const double flux_xz = m.grain.u_x_u_z - mass * u_x * u_z;
+  const PlaneMatrix kinetic{m.grain.u_x_u_x - mass * u_x * u_x, flux_xz, flux_xz,
+                            m.grain.u_z_u_z - mass * u_z * u_z};
   const PlaneMatrix pressure{(m.branch[0] + kinetic.xx) / inside, (m.branch[1] + kinetic.xz) / inside,
                              (m.branch[2] + kinetic.zx) / inside, (m.branch[3] + kinetic.zz) / inside};
   f.sigma_xx_kinetic = kinetic.xx / inside;
@@ -125,8 +104,8 @@ void set_stress(const Means& m, double inside, MapValues& f) {
       plane_invariants(pressure, {f.d_v_x_dx, f.d_v_x_dz, f.d_v_z_dx, f.d_v_z_dz});
 }
 
-void set_contacts(const Means& m, double inside, MapValues& f) {
-  f.coordination = m.contacts / m.grains;
+void set_contacts(const MapNode& m, double inside, MapValues& f) {
+  f.coordination = m.grain.contacts / m.grain.number;
   const double sides = m.contact[4] + m.contact[6];
   if (sides > 0) {
     f.fabric_xx = m.contact[4] / sides;
@@ -139,11 +118,11 @@ void set_contacts(const Means& m, double inside, MapValues& f) {
 
 /// Balance of momentum in the laboratory, whose axes at this instant are those of the frame:
 /// div(contact stress) + div(sum m u u phi) = density g + force of the walls, all without the share inside.
-void set_balance(const Means& m, MapValues& f) {
-  const double gravity = std::hypot(m.gravity_x, m.gravity_z), weight = m.mass * gravity;
+void set_balance(const MapNode& m, double gravity_x, double gravity_z, MapValues& f) {
+  const double mass = m.grain.mass, weight = mass * std::hypot(gravity_x, gravity_z);
   if (!(weight > 0)) return;
-  const double contact_x = m.contact[0] - m.force_x, contact_z = m.contact[1] - m.force_z;
-  const double u_x = m.u_x / m.mass, u_z = m.u_z / m.mass;
+  const double contact_x = m.contact[0] - m.grain.force_x, contact_z = m.contact[1] - m.grain.force_z;
+  const double u_x = m.grain.u_x / mass, u_z = m.grain.u_z / mass;
   // div(nu U U) of the mean velocity U: what is left of the flux is the kinetic stress.
   const double divergence = m.slope_x[3] + m.slope_z[4];
   const auto mean_flux = [&](double u, std::size_t moment) {
@@ -151,7 +130,7 @@ void set_balance(const Means& m, MapValues& f) {
     return u * divergence + along - u * (u_x * m.slope_x[0] + u_z * m.slope_z[0]);
   };
   const double inertia_x = mean_flux(u_x, 3), inertia_z = mean_flux(u_z, 4);
-  const double load_x = m.mass * m.gravity_x + m.contact[2], load_z = m.mass * m.gravity_z + m.contact[3];
+  const double load_x = mass * gravity_x + m.contact[2], load_z = mass * gravity_z + m.contact[3];
   f.residual_x = (contact_x + m.flux_divergence[0] - load_x) / weight;
   f.residual_z = (contact_z + m.flux_divergence[1] - load_z) / weight;
   f.residual_x_contact = (contact_x + inertia_x - load_x) / weight;
@@ -161,64 +140,59 @@ void set_balance(const Means& m, MapValues& f) {
 }
 
 /// What follows from contacts that nobody knows is not computed.
-void forget_contacts(Means& m) {
-  m.contacts = m.force_x = m.force_z = MapValues::none;
-  std::fill(std::begin(m.branch), std::end(m.branch), MapValues::none);
-  std::fill(std::begin(m.contact), std::end(m.contact), MapValues::none);
+void forget_contacts(MapNode& m) {
+  m.grain.contacts = m.grain.force_x = m.grain.force_z = Of::none;
+  m.branch.fill(Of::none);
+  m.contact.fill(Of::none);
 }
 
 }  // namespace
 
-void MapShare::add(const MapSums& batch) {
-  snapshots += batch.snapshots;
-  gravity_x += batch.gravity_x;
-  gravity_z += batch.gravity_z;
-  with_spin = with_spin && batch.with_spin;
-  with_contacts = with_contacts && batch.with_contacts;
-  with_density = with_density || batch.area;
-}
-
-void MapShare::take(const MapShare& batch) {
-  snapshots -= batch.snapshots;
-  gravity_x -= batch.gravity_x;
-  gravity_z -= batch.gravity_z;
-}
-
-std::vector<NamedMapField> known_fields(const MapShare& total) {
-  std::vector<NamedMapField> known;
-  for (const NamedMapField& field : named_fields) {
-    if (field.value == &MapValues::omega && !total.with_spin) continue;
-    if (field.value == &MapValues::density && !total.with_density) continue;  // it is nu
-    known.push_back(field);
-  }
+std::vector<MapQuantity> known_fields(const MapSums::Snapshots& all) {
+  std::vector<MapQuantity> known;
+  for (const MapQuantity& field : quantities)
+    if (!field.needs || all.*field.needs > 0) known.push_back(field);
   return known;
 }
 
-NodeSums& NodeSums::operator+=(const NodeSums& other) {
-  node += other.node;
-  area += other.area;
-  return *this;
-}
-
-NodeSums& NodeSums::operator-=(const NodeSums& other) {
-  node -= other.node;
-  area -= other.area;
-  return *this;
-}
-
-MapValues values_at(const NodeSums& sums, const MapShare& share, double inside) {
+MapValues values_at(const MapNode& sums, const MapSums::Snapshots& snapshots, double inside) {
+  const double share = 1 / snapshots.count;
   MapValues f;
-  Means m = means_of(sums.node, share);
-  if (!share.with_contacts) forget_contacts(m);
-  f.number_density = m.grains;
-  f.nu = sums.area / static_cast<double>(share.snapshots) / inside;
+  MapNode m;
+  add_times(share, sums, m);
+  if (snapshots.contacts < snapshots.count) forget_contacts(m);
+  f.number_density = m.grain.number;
+  f.nu = sums.grain.area / snapshots.count / inside;
   if (f.nu < least_map_nu) return f;
-  f.density = m.mass / inside;
-  set_velocity(m, share.with_spin, f);
+  f.density = m.grain.mass / inside;
+  set_velocity(m, f);
   set_stress(m, inside, f);
   set_contacts(m, inside, f);
-  set_balance(m, f);
+  set_balance(m, share * snapshots.gravity_x, share * snapshots.gravity_z, f);
   return f;
+}
+
+void set_motion(const MapNode& sums, const PlaneMatrix& pressure, MapValues& f) {
+  const auto& [sum, slope_x, slope_z] = std::tie(sums.moved, sums.moved_slope_x, sums.moved_slope_z);
+  const double weight = sum[0];
+  if (!(weight > 0)) return;
+  f.moved_v_x = sum[1] / weight;
+  f.moved_v_z = sum[2] / weight;
+  const PlaneMatrix gradient{slope_of(slope_x[1], f.moved_v_x, slope_x[0], weight),
+                             slope_of(slope_z[1], f.moved_v_x, slope_z[0], weight),
+                             slope_of(slope_x[2], f.moved_v_z, slope_x[0], weight),
+                             slope_of(slope_z[2], f.moved_v_z, slope_z[0], weight)};
+  f.moved_d_v_x_dx = gradient.xx;
+  f.moved_d_v_x_dz = gradient.xz;
+  f.moved_d_v_z_dx = gradient.zx;
+  f.moved_d_v_z_dz = gradient.zz;
+  f.moved_D_xz = (gradient.xz + gradient.zx) / 2;
+  f.moved_dilation = gradient.xx + gradient.zz;
+  const PlaneInvariants invariants = plane_invariants(pressure, gradient);
+  f.moved_strain_rate = invariants.strain_rate;
+  f.moved_half_vorticity = invariants.half_vorticity;
+  f.moved_I = invariants.I;
+  f.moved_axis_angle_deg = invariants.axis_angle_deg;
 }
 
 }  // namespace drumlin::particles

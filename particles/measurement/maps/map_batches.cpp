@@ -1,15 +1,18 @@
 #include "particles/measurement/maps/map_batches.hpp"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 namespace drumlin::particles {
 namespace {
 
+constexpr std::uint64_t zeros = UINT64_MAX;  // stands for the place of a tile that nobody wrote
+
 std::size_t rows_with_grains(const CoarseGraining& graining, const NodeTiles<MapNode>& nodes) {
   const auto is_empty = [&](std::size_t row) {
     for (std::size_t column = 0; column < graining.grid.columns; ++column)
-      if (nodes(column, row).grain[0] != 0) return false;
+      if (nodes(column, row).grain.number != 0) return false;
     return true;
   };
   std::size_t rows = graining.grid.rows;
@@ -19,52 +22,32 @@ std::size_t rows_with_grains(const CoarseGraining& graining, const NodeTiles<Map
 
 }  // namespace
 
-NodeSums TileOfBatches::sums(std::size_t batch, std::size_t place) const {
-  const Batch& from = batches[batch];
-  NodeSums result;
-  if (!from.nodes.empty()) result.node = from.nodes[place];
-  if (!from.own_area)
-    result.area = result.node.grain[3];
-  else if (!from.area.empty())
-    result.area = from.area[place];
-  return result;
-}
-
-DisplacementNode TileOfBatches::displacement(std::size_t batch, std::size_t place) const {
-  const auto& nodes = batches[batch].displacements;
-  return nodes.empty() ? DisplacementNode{} : nodes[place];
-}
-
 MapBatches::MapBatches(const CoarseGraining& graining, std::shared_ptr<ScratchFile> file)
     : graining_(graining), file_(std::move(file)) {}
 
-void MapBatches::put_away(const MapSums& sums, const DisplacementSums& displacements) {
-  MapShare share;
-  share.add(sums);
-  total_.add(sums);
-  pairs_ += displacements.pairs;
-  time_ += displacements.time;
+void MapBatches::put_away(const MapSums& sums) {
+  snapshots_.push_back(sums.snapshots);
   rows_reached_ = std::max(rows_reached_, rows_with_grains(graining_, sums.nodes));
-  Batch batch{share, {sums.nodes, *file_}, std::nullopt, {displacements.nodes, *file_}};
-  if (sums.area) batch.area.emplace(*sums.area, *file_);
-  batches_.push_back(std::move(batch));
+  std::vector<std::uint64_t>& places = places_.emplace_back();
+  places.reserve(sums.nodes.tiles());
+  for (std::size_t t = 0; t < sums.nodes.tiles(); ++t) {
+    const std::vector<MapNode>& tile = sums.nodes.tile(t);
+    places.push_back(tile.empty() ? zeros : file_->append(std::as_bytes(std::span(tile))));
+  }
 }
 
-void MapBatches::read(std::size_t tile, TileOfBatches& sums) const {
-  sums.batches.resize(batches_.size());
-  for (std::size_t b = 0; b < batches_.size(); ++b) {
-    TileOfBatches::Batch& into = sums.batches[b];
-    batches_[b].nodes.read(tile, *file_, into.nodes);
-    into.own_area = batches_[b].area.has_value();
-    if (into.own_area) batches_[b].area->read(tile, *file_, into.area);
-    batches_[b].displacements.read(tile, *file_, into.displacements);
+void MapBatches::read(std::size_t tile, std::vector<std::vector<MapNode>>& batches) const {
+  batches.resize(places_.size());
+  for (std::size_t b = 0; b < places_.size(); ++b) {
+    const std::uint64_t place = places_[b][tile];
+    batches[b].resize(place == zeros ? 0 : NodeTiles<MapNode>::nodes_per_tile);
+    if (place != zeros) file_->read(place, std::as_writable_bytes(std::span(batches[b])));
   }
 }
 
 std::size_t MapBatches::bytes_in_memory() const {
   std::size_t bytes = file_->bytes_in_memory();
-  for (const Batch& batch : batches_)
-    bytes += batch.nodes.bytes() + (batch.area ? batch.area->bytes() : 0) + batch.displacements.bytes();
+  for (const auto& places : places_) bytes += places.capacity() * sizeof(std::uint64_t);
   return bytes;
 }
 

@@ -16,51 +16,48 @@ double wall_distance(const MapBounds& bounds, double x, double z) {
   return std::min({z - bounds.z_min, x - bounds.x_min, bounds.x_max - x});
 }
 
-double surface_between(const MapGrid& grid, std::size_t row, double nu, double nu_above, double surface_nu) {
-  if (row + 1 == grid.rows) return grid.z_of(row);
-  return grid.z_of(row) + grid.spacing_z * (nu - surface_nu) / (nu - nu_above);
-}
-
 /// Highest z of a column where nu crosses `surface_nu`, linear between nodes; minus infinity when it never
 /// does.
-double surface_z(const FieldMap& map, const std::vector<double>& nu, std::size_t column, double surface_nu) {
+double surface_z(const FindingMap& map, std::size_t column, double surface_nu) {
   const MapGrid& grid = map.grid;
-  const auto at = [&](std::size_t row) {
-    const double value = nu[row * grid.columns + column];
-    return std::isnan(value) ? 0 : value;
-  };
+  double above = 0;
   for (std::size_t row = grid.rows; row-- > 0;) {
-    if (at(row) < surface_nu) continue;
-    return surface_between(grid, row, at(row), row + 1 == grid.rows ? 0 : at(row + 1), surface_nu);
+    const double nu = map.nodes[row * grid.columns + column].nu, here = std::isnan(nu) ? 0 : nu;
+    if (!(here < surface_nu))
+      return row + 1 == grid.rows ? grid.z_of(row)
+                                  : grid.z_of(row) + grid.spacing_z * (here - surface_nu) / (here - above);
+    above = here;
   }
   return -std::numeric_limits<double>::infinity();
 }
 
-double root_mean_square(const std::vector<double>& values, const std::vector<std::size_t>& nodes) {
+using Nodes = std::vector<std::size_t>;
+using Value = double FindingNode::*;
+
+double root_mean_square(const FindingMap& map, Value value, const Nodes& nodes) {
   double squares = 0, count = 0;
   for (std::size_t node : nodes) {
-    if (!std::isfinite(values[node])) continue;
-    squares += values[node] * values[node];
+    const double here = map.nodes[node].*value;
+    if (!std::isfinite(here)) continue;
+    squares += here * here;
     count += 1;
   }
-  return count > 0 ? std::sqrt(squares / count) : std::numeric_limits<double>::quiet_NaN();
+  return count > 0 ? std::sqrt(squares / count) : FindingNode::none;
 }
 
-double mean(const std::vector<double>& values, const std::vector<std::size_t>& nodes) {
+double mean(const FindingMap& map, Value value, const Nodes& nodes) {
   double sum = 0;
-  for (std::size_t node : nodes) sum += values[node];
+  for (std::size_t node : nodes) sum += map.nodes[node].*value;
   return sum / static_cast<double>(nodes.size());
 }
 
-/// Root mean square of a field's standard errors; NaN without intervals.
-double noise_of(const MapField& field, const std::vector<std::size_t>& nodes, std::size_t batches) {
-  return field.ci99.empty() || batches < 2 ? std::numeric_limits<double>::quiet_NaN()
-                                           : root_mean_square(field.ci99, nodes) / interval_factor(batches);
+/// Root mean square of standard errors; NaN without intervals.
+double noise_of(const FindingMap& map, Value ci99, const Nodes& nodes, std::size_t batches) {
+  return batches < 2 ? FindingNode::none : root_mean_square(map, ci99, nodes) / interval_factor(batches);
 }
 
 /// Root mean square of the means over squares of side `side`.
-double rms_of_blocks(const FieldMap& map, const std::vector<double>& values,
-                     const std::vector<std::size_t>& nodes, double side) {
+double rms_of_blocks(const FindingMap& map, Value value, const Nodes& nodes, double side) {
   struct Block {
     double sum = 0, count = 0;
   };
@@ -69,7 +66,7 @@ double rms_of_blocks(const FieldMap& map, const std::vector<double>& values,
   for (std::size_t node : nodes) {
     Block& block = blocks[{std::floor(grid.x_of(node % grid.columns) / side),
                            std::floor(grid.z_of(node / grid.columns) / side)}];
-    block.sum += values[node];
+    block.sum += map.nodes[node].*value;
     block.count += 1;
   }
   const double whole = side * side / (grid.spacing_x * grid.spacing_z);
@@ -82,22 +79,21 @@ double rms_of_blocks(const FieldMap& map, const std::vector<double>& values,
   return count > 0 ? std::sqrt(squares / count) : std::numeric_limits<double>::quiet_NaN();
 }
 
-BalanceResidual residual_over(const FieldMap& map, const std::vector<std::size_t>& nodes, double block,
-                              std::size_t batches) {
-  const MapField &x = map.field("residual_x"), &z = map.field("residual_z");
+BalanceResidual residual_over(const FindingMap& map, const Nodes& nodes, double block, std::size_t batches) {
+  using Of = FindingNode;
+  const auto rms = [&](Value value) { return root_mean_square(map, value, nodes); };
   return {nodes.size(),
-          root_mean_square(x.value, nodes),
-          root_mean_square(z.value, nodes),
-          mean(x.value, nodes),
-          mean(z.value, nodes),
-          noise_of(x, nodes, batches),
-          noise_of(z, nodes, batches),
-          rms_of_blocks(map, x.value, nodes, block),
-          rms_of_blocks(map, z.value, nodes, block),
-          root_mean_square(map.field("residual_x_without_kinetic").value, nodes),
-          root_mean_square(map.field("residual_z_without_kinetic").value, nodes),
-          std::hypot(root_mean_square(map.field("inertia_x").value, nodes),
-                     root_mean_square(map.field("inertia_z").value, nodes))};
+          rms(&Of::residual_x),
+          rms(&Of::residual_z),
+          mean(map, &Of::residual_x, nodes),
+          mean(map, &Of::residual_z, nodes),
+          noise_of(map, &Of::residual_x_ci99, nodes, batches),
+          noise_of(map, &Of::residual_z_ci99, nodes, batches),
+          rms_of_blocks(map, &Of::residual_x, nodes, block),
+          rms_of_blocks(map, &Of::residual_z, nodes, block),
+          rms(&Of::residual_x_contact),
+          rms(&Of::residual_z_contact),
+          std::hypot(rms(&Of::inertia_x), rms(&Of::inertia_z))};
 }
 
 struct Points {
@@ -118,109 +114,50 @@ LogLine line_through(const Points& points) {
 
 }  // namespace
 
-std::span<const FindingField> fields_of_findings() {
-  static constexpr FindingField fields[] = {{"nu", false},
-                                            {"p", false},
-                                            {"I", false},
-                                            {"mu", true},
-                                            {"d_v_x_dz", false},
-                                            {"sigma_xz", false},
-                                            {"sigma_zz", false},
-                                            {"residual_x", true},
-                                            {"residual_z", true},
-                                            {"residual_x_without_kinetic", false},
-                                            {"residual_z_without_kinetic", false},
-                                            {"inertia_x", false},
-                                            {"inertia_z", false}};
-  return fields;
-}
-
-std::vector<std::size_t> bulk_nodes(const FieldMap& map, const MapBounds& bounds,
-                                    const MapFindingOptions& options) {
-  const auto& nu = map.field("nu").value;
-  const auto& p = map.field("p").value;
-  std::vector<std::size_t> nodes;
+Nodes bulk_nodes(const FindingMap& map, const MapBounds& bounds, const MapFindingOptions& options) {
+  Nodes nodes;
   std::vector<double> surface(map.grid.columns);
   for (std::size_t column = 0; column < surface.size(); ++column)
-    surface[column] = surface_z(map, nu, column, options.surface_nu);
-  for (std::size_t node = 0; node < map.grid.nodes(); ++node) {
+    surface[column] = surface_z(map, column, options.surface_nu);
+  for (std::size_t node = 0; node < map.nodes.size(); ++node) {
     const std::size_t column = node % map.grid.columns;
     const double x = map.grid.x_of(column), z = map.grid.z_of(node / map.grid.columns);
-    if (std::isfinite(p[node]) && surface[column] - z > options.margin &&
+    if (std::isfinite(map.nodes[node].p) && surface[column] - z > options.margin &&
         wall_distance(bounds, x, z) > options.margin)
       nodes.push_back(node);
   }
   return nodes;
 }
 
-MomentumBalance momentum_balance(const FieldMap& map, const MapBounds& bounds,
+MomentumBalance momentum_balance(const FindingMap& map, const MapBounds& bounds,
                                  const MapFindingOptions& options, std::size_t batches) {
-  const auto& I = map.field("I").value;
-  const auto bulk = bulk_nodes(map, bounds, options);
-  std::vector<std::size_t> flowing, slow;
-  for (std::size_t node : bulk) (I[node] >= options.flowing_I ? flowing : slow).push_back(node);
-  const auto over = [&](const std::vector<std::size_t>& nodes) {
-    return residual_over(map, nodes, options.block, batches);
-  };
+  const Nodes bulk = bulk_nodes(map, bounds, options);
+  Nodes flowing, slow;
+  for (std::size_t node : bulk) (map.nodes[node].I >= options.flowing_I ? flowing : slow).push_back(node);
+  const auto over = [&](const Nodes& nodes) { return residual_over(map, nodes, options.block, batches); };
   return {over(bulk), over(flowing), over(slow)};
 }
 
-BulkFriction bulk_friction(const FieldMap& map, const MapBounds& bounds, const MapFindingOptions& options,
+BulkFriction bulk_friction(const FindingMap& map, const MapBounds& bounds, const MapFindingOptions& options,
                            std::size_t batches) {
-  const auto &I = map.field("I").value, &mu = map.field("mu").value;
-  const auto &rate = map.field("d_v_x_dz").value, &sigma_xz = map.field("sigma_xz").value,
-             &sigma_zz = map.field("sigma_zz").value;
   const auto in_range = [&](double value) { return value >= options.I_min && value <= options.I_max; };
   Points by_invariants, by_ratio;
-  std::vector<std::size_t> fitted;
-  const auto bulk = bulk_nodes(map, bounds, options);
+  Nodes fitted;
+  const Nodes bulk = bulk_nodes(map, bounds, options);
   for (std::size_t node : bulk) {
-    if (in_range(I[node])) {
+    const FindingNode& at = map.nodes[node];
+    if (in_range(at.I)) {
       fitted.push_back(node);
-      by_invariants.log_I.push_back(std::log(I[node]));
-      by_invariants.y.push_back(mu[node]);
+      by_invariants.log_I.push_back(std::log(at.I));
+      by_invariants.y.push_back(at.mu);
     }
-    const double layer_I = rate[node] / std::sqrt(sigma_zz[node]);
+    const double layer_I = at.d_v_x_dz / std::sqrt(at.sigma_zz);
     if (!in_range(layer_I)) continue;
     by_ratio.log_I.push_back(std::log(layer_I));
-    by_ratio.y.push_back(sigma_xz[node] / sigma_zz[node]);
+    by_ratio.y.push_back(at.sigma_xz / at.sigma_zz);
   }
   return {line_through(by_invariants), line_through(by_ratio), bulk.size(),
-          noise_of(map.field("mu"), fitted, batches)};
-}
-
-FrictionLine::FrictionLine(const MapGrid& grid, const MapBounds& bounds, const MapFindingOptions& options,
-                           const std::shared_ptr<ScratchFile>& file)
-    : grid_(grid), bounds_(bounds), options_(options), tops_(grid.columns), points_(file) {}
-
-void FrictionLine::add(std::size_t node, double nu, double p, double I, double mu) {
-  const std::size_t row = node / grid_.columns, column = node % grid_.columns;
-  const double known_nu = std::isnan(nu) ? 0 : nu;
-  Top& top = tops_[column];
-  if (top.row + 1 == row) top.nu_above = known_nu;
-  if (known_nu >= options_.surface_nu) top = {row, known_nu, 0};
-  if (std::isfinite(p) && I >= options_.I_min && I <= options_.I_max &&
-      wall_distance(bounds_, grid_.x_of(column), grid_.z_of(row)) > options_.margin)
-    points_.push_back({node, I, mu});
-}
-
-double FrictionLine::surface(std::size_t column) const {
-  const Top& top = tops_[column];
-  if (top.row == Top::none) return -std::numeric_limits<double>::infinity();
-  return surface_between(grid_, top.row, top.nu, top.nu_above, options_.surface_nu);
-}
-
-LogLine FrictionLine::line() const {
-  std::vector<double> surfaces(grid_.columns);
-  for (std::size_t column = 0; column < surfaces.size(); ++column) surfaces[column] = surface(column);
-  Points points;
-  points_.each([&](const Point& point) {
-    if (!(surfaces[point.node % grid_.columns] - grid_.z_of(point.node / grid_.columns) > options_.margin))
-      return;
-    points.log_I.push_back(std::log(point.I));
-    points.y.push_back(point.mu);
-  });
-  return line_through(points);
+          noise_of(map, &FindingNode::mu_ci99, fitted, batches)};
 }
 
 }  // namespace drumlin::particles

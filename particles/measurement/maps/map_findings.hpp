@@ -2,11 +2,8 @@
 // Balance of momentum and fit of mu(I) over the whole of a map.
 #include <cstddef>
 #include <limits>
-#include <memory>
-#include <span>
 #include <vector>
 
-#include "coupling/common/scratch_file.hpp"
 #include "coupling/exchange/field_map.hpp"
 
 namespace drumlin::particles {
@@ -29,16 +26,28 @@ struct MapFindingOptions {
   double I_min = 1e-4, I_max = 1e-1;  ///< of the fits of mu(I)
 };
 
-/// Nodes of the map in the bulk.
-std::vector<std::size_t> bulk_nodes(const FieldMap& map, const MapBounds& bounds,
-                                    const MapFindingOptions& options);
-
-/// The fields that are read below.
-struct FindingField {
-  const char* name;
-  bool with_intervals;
+/// What the fit of mu(I) reads of a node, and what all findings do; NaN where it is not known.
+struct FrictionNode {
+  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  double nu = none, p = none, I = none, mu = none;
 };
-std::span<const FindingField> fields_of_findings();
+struct FindingNode : FrictionNode {
+  double d_v_x_dz = none, sigma_xz = none, sigma_zz = none;
+  double residual_x = none, residual_z = none;
+  double residual_x_contact = none, residual_z_contact = none;  ///< with the kinetic stress left out
+  double inertia_x = none, inertia_z = none;
+  double mu_ci99 = none, residual_x_ci99 = none, residual_z_ci99 = none;
+};
+
+/// Nodes of a map, row after row from the lowest up, of which findings are made.
+struct FindingMap {
+  MapGrid grid;
+  std::vector<FindingNode> nodes;
+};
+
+/// Nodes of the map in the bulk.
+std::vector<std::size_t> bulk_nodes(const FindingMap& map, const MapBounds& bounds,
+                                    const MapFindingOptions& options);
 
 /// What is missing in the balance of momentum over some nodes, in units of nu g.
 struct BalanceResidual {
@@ -56,7 +65,7 @@ struct MomentumBalance {
 };
 /// `batches`: behind the map's intervals. Squares stand side by side from x = z = 0 on and count when three
 /// quarters of their nodes belong to the zone.
-MomentumBalance momentum_balance(const FieldMap& map, const MapBounds& bounds,
+MomentumBalance momentum_balance(const FindingMap& map, const MapBounds& bounds,
                                  const MapFindingOptions& options, std::size_t batches);
 
 /// Straight line through y over ln I, every node with the same weight.
@@ -73,37 +82,7 @@ struct BulkFriction {
   double noise =
       std::numeric_limits<double>::quiet_NaN();  ///< rms standard error of mu over the invariant's nodes
 };
-BulkFriction bulk_friction(const FieldMap& map, const MapBounds& bounds, const MapFindingOptions& options,
+BulkFriction bulk_friction(const FindingMap& map, const MapBounds& bounds, const MapFindingOptions& options,
                            std::size_t batches);
-
-/// BulkFriction::invariant of a map that is seen once, node after node, and not kept: what may belong to the
-/// bulk waits in a scratch file until the surface above it is known.
-class FrictionLine {
- public:
-  FrictionLine(const MapGrid& grid, const MapBounds& bounds, const MapFindingOptions& options,
-               const std::shared_ptr<ScratchFile>& file);
-  /// Row after row from the lowest up; node = row columns + column.
-  void add(std::size_t node, double nu, double p, double I, double mu);
-  LogLine line() const;
-
- private:
-  /// The highest node of a column so far that is as dense as the surface, and its neighbour above.
-  struct Top {
-    std::size_t row = none;
-    double nu = 0, nu_above = 0;
-    static constexpr std::size_t none = static_cast<std::size_t>(-1);
-  };
-  struct Point {
-    std::size_t node;
-    double I, mu;
-  };
-  double surface(std::size_t column) const;
-
-  MapGrid grid_;
-  MapBounds bounds_;
-  MapFindingOptions options_;
-  std::vector<Top> tops_;
-  ScratchList<Point> points_;
-};
 
 }  // namespace drumlin::particles

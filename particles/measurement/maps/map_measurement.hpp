@@ -16,11 +16,9 @@ namespace drumlin::particles {
 struct MapReading {
   CoarseGraining graining;
   std::shared_ptr<ScratchFile> file;
-  std::optional<MapDepositor> depositor;
   std::optional<DisplacementDepositor> follower;
   std::size_t batch = 0;  ///< that grows
-  MapSums sums;
-  DisplacementSums displacements;  ///< a pair belongs to the batch of its later snapshot
+  MapSums sums;           ///< a pair of snapshots belongs to the batch of the later one
   std::optional<MapBatches> batches;
 
   /// Of all of this, whatever the number of snapshots and batches.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "coupling/common/errors.hpp"
 #include "particles/bodies/cell_path.hpp"
@@ -12,11 +13,6 @@ namespace drumlin::particles {
 namespace {
 
 using Canvas = NodeCanvas<MapNode>;
-
-template <std::size_t n>
-void add_times(double factor, const std::array<double, n>& values, std::array<double, n>& sums) {
-  for (std::size_t i = 0; i < n; ++i) sums[i] += factor * values[i];
-}
 
 /// The integral of the kernel along a half branch by two Gauss points in each of its pieces. Pieces up to 0.6
 /// widths long keep its error below 1e-3 of the kernel's greatest value (test MapSums).
@@ -52,7 +48,7 @@ void add_half_branch(const HalfBranch& branch, double width, const std::optional
 }
 
 struct GrainState {
-  double x, z, mass, contacts, spin;
+  double x, z, area, mass, contacts, spin;
   double v_x, v_z;  ///< relative to the drum
   double u_x, u_z;  ///< laboratory, instantaneous
   double force_x, force_z;
@@ -61,9 +57,9 @@ struct GrainState {
 void add_image(const GrainState& g, Canvas& canvas) {
   const std::array<double, 5> moments{g.mass, g.mass * g.v_x, g.mass * g.v_z, g.mass * g.u_x, g.mass * g.u_z};
   const double flux_xx = moments[3] * g.u_x, flux_xz = moments[3] * g.u_z, flux_zz = moments[4] * g.u_z;
-  const std::array<double, 13> values{1,          g.contacts, g.spin,     moments[0], moments[1],
-                                      moments[2], moments[3], moments[4], flux_xx,    flux_xz,
-                                      flux_zz,    g.force_x,  g.force_z};
+  const MapNode::Grains values{1,          g.contacts, g.spin,     moments[0], moments[1],
+                               moments[2], moments[3], moments[4], flux_xx,    flux_xz,
+                               flux_zz,    g.force_x,  g.force_z,  g.area};
   canvas.each_node_with_slope(g.x, g.z, [&](MapNode& node, double phi, double phi_x, double phi_z) {
     add_times(phi, values, node.grain);
     add_times(phi_x, moments, node.slope_x);
@@ -84,21 +80,6 @@ void add_grain(const GrainState& g, const std::optional<FlowCell>& cell, Canvas&
     }
     add_image(image, canvas);
   });
-}
-
-/// Areas beside the masses from here on.
-void tell_areas_apart(MapSums& sums) {
-  if (!sums.area) sums.area = sums.nodes.numbers([](const MapNode& node) { return node.grain[3]; });
-}
-
-template <class Action>
-void for_each_array(MapNode& a, const MapNode& b, Action action) {
-  action(a.grain, b.grain);
-  action(a.slope_x, b.slope_x);
-  action(a.slope_z, b.slope_z);
-  action(a.flux_divergence, b.flux_divergence);
-  action(a.branch, b.branch);
-  action(a.contact, b.contact);
 }
 
 }  // namespace
@@ -133,56 +114,36 @@ CoarseGraining coarse_graining(const FlowFrame& frame, double x_from, double x_t
   return graining;
 }
 
-MapNode& MapNode::operator+=(const MapNode& other) {
-  for_each_array(*this, other, [](auto& a, const auto& b) { add_times(1, b, a); });
-  return *this;
-}
+MapSums empty_sums(const CoarseGraining& graining) { return {NodeTiles<MapNode>(graining.grid), {}}; }
 
-MapNode& MapNode::operator-=(const MapNode& other) {
-  for_each_array(*this, other, [](auto& a, const auto& b) { add_times(-1, b, a); });
-  return *this;
-}
-
-MapSums empty_sums(const CoarseGraining& graining) {
-  MapSums sums;
-  sums.nodes = NodeTiles<MapNode>(graining.grid);
-  return sums;
-}
-
-void MapDepositor::add(const Snapshot& snapshot, const FlowSnapshot& in_frame, MapSums& sums) {
-  const bool dense = !in_frame.density.empty();
-  if (dense) tell_areas_apart(sums);
-  Canvas canvas(graining_, sums.nodes);
-  const FlowFrame& frame = graining_.frame;
+void add_snapshot(const CoarseGraining& graining, const Snapshot& snapshot, const FlowSnapshot& in_frame,
+                  MapSums& sums) {
+  Canvas canvas(graining, sums.nodes);
+  const FlowFrame& frame = graining.frame;
   const Period period = period_of(snapshot);
-  force_x_.assign(in_frame.x.size(), 0.0);
-  force_z_.assign(in_frame.x.size(), 0.0);
+  std::vector<double> force_x(in_frame.x.size()), force_z(in_frame.x.size());  // of all contacts, per grain
   for (const HalfBranch& branch : in_frame.half_branches()) {
-    force_x_[branch.grain] += branch.force_x;
-    force_z_[branch.grain] += branch.force_z;
-    add_half_branch(branch, graining_.width, in_frame.cell, canvas);
+    force_x[branch.grain] += branch.force_x;
+    force_z[branch.grain] += branch.force_z;
+    add_half_branch(branch, graining.width, in_frame.cell, canvas);
   }
   for (std::size_t i = 0; i < in_frame.x.size(); ++i) {
     const double radius = in_frame.radius[i], area = std::numbers::pi * radius * radius;
     Point velocity{snapshot.v_x[i], snapshot.v_z[i]};
     if (snapshot.cell) velocity = first_image(period, grain_of(snapshot, i)).velocity;
-    if (sums.area) {
-      NodeCanvas<double> areas(graining_, *sums.area);
-      areas.each_image(in_frame.cell, in_frame.x[i], in_frame.z[i], [&](double, double, double x, double z) {
-        areas.each_node(x, z, [&](double& node, double phi) { node += phi * area; });
-      });
-    }
-    add_grain({in_frame.x[i], in_frame.z[i], dense ? in_frame.density[i] * area : area,
+    add_grain({in_frame.x[i], in_frame.z[i], area, in_frame.density_of(i) * area,
                static_cast<double>(in_frame.coordination[i]), in_frame.spin.empty() ? 0 : in_frame.spin[i],
                in_frame.v_x[i], in_frame.v_z[i], frame.along(velocity.x, velocity.z),
-               frame.normal(velocity.x, velocity.z), force_x_[i], force_z_[i]},
+               frame.normal(velocity.x, velocity.z), force_x[i], force_z[i]},
               in_frame.cell, canvas);
   }
-  ++sums.snapshots;
-  sums.gravity_x += frame.along(snapshot.gravity_x, snapshot.gravity_z);
-  sums.gravity_z += frame.normal(snapshot.gravity_x, snapshot.gravity_z);
-  sums.with_spin = sums.with_spin && !in_frame.spin.empty();
-  sums.with_contacts = sums.with_contacts && in_frame.contacts_known;
+  MapSums::Snapshots& known = sums.snapshots;
+  known.count += 1;
+  known.gravity_x += frame.along(snapshot.gravity_x, snapshot.gravity_z);
+  known.gravity_z += frame.normal(snapshot.gravity_x, snapshot.gravity_z);
+  known.spin += in_frame.spin.empty() ? 0 : 1;
+  known.contacts += in_frame.contacts_known ? 1 : 0;
+  known.densities += in_frame.density.empty() ? 0 : 1;
 }
 
 }  // namespace drumlin::particles

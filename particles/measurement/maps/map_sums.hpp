@@ -3,9 +3,9 @@
 // can be added and subtracted, node by node, ratios come last (field_maps.hpp).
 #include <array>
 #include <cstddef>
-#include <optional>
 
 #include "particles/measurement/frame/flow_snapshot.hpp"
+#include "particles/measurement/frame/intervals.hpp"
 #include "particles/measurement/maps/coarse_graining.hpp"
 #include "particles/measurement/maps/node_tiles.hpp"
 
@@ -15,9 +15,13 @@ namespace drumlin::particles {
 /// the drum over the stored window; u: instantaneous, in the laboratory; m: mass, which is the area of a
 /// grain without a density of its own. Components in the flow frame.
 struct MapNode {
-  /// sum of phi(x_i) times 1, contacts, spin, m, m v_x, m v_z, m u_x, m u_z, m u_x u_x, m u_x u_z, m u_z u_z,
-  /// and the forces F_x, F_z of all contacts on the grain.
-  std::array<double, 13> grain{};
+  /// sum of phi(x_i) times these; velocities and their products times m too.
+  struct Grains {
+    double number = 0, contacts = 0, spin = 0, mass = 0, v_x = 0, v_z = 0, u_x = 0, u_z = 0;
+    double u_x_u_x = 0, u_x_u_z = 0, u_z_u_z = 0;
+    double force_x = 0, force_z = 0;  ///< of all contacts on the grain
+    double area = 0;
+  } grain;
   /// d/dx and d/dz of the sums of m, m v_x, m v_z, m u_x, m u_z.
   std::array<double, 5> slope_x{}, slope_z{};
   /// d/dx m u_x u_x + d/dz m u_x u_z, and the same for z.
@@ -28,36 +32,26 @@ struct MapNode {
   /// sum of phi(c) times F_x, F_z of both sides of each contact; the same of contacts with walls alone; half
   /// of n_x n_x, n_x n_z, n_z n_z for each side (a wall has none).
   std::array<double, 7> contact{};
-
-  MapNode& operator+=(const MapNode& other);
-  MapNode& operator-=(const MapNode& other);
+  /// sum of phi around the middle of a displacement d, of a grain relative to the drum from one snapshot to
+  /// the next after the time t, times m t, m d_x, m d_z; d/dx and d/dz of it.
+  std::array<double, 3> moved{}, moved_slope_x{}, moved_slope_z{};
 };
 
 /// Sums over some snapshots.
 struct MapSums {
   NodeTiles<MapNode> nodes;
-  /// sum of phi(x_i) times the area, at each node; nothing where no grain has a density of its own: it is the
-  /// mass.
-  std::optional<NodeTiles<double>> area;
-  std::size_t snapshots = 0;
-  double gravity_x = 0, gravity_z = 0;  ///< flow frame, summed over the snapshots
-  bool with_spin = true;                ///< false: the scene has no spin
-  bool with_contacts = true;            ///< false: the snapshots do not know them
-
-  double area_at(std::size_t node) const { return area ? (*area)[node] : nodes[node].grain[3]; }
+  /// Numbers of snapshots and of those that know spins, contacts and densities of their own; gravity in the
+  /// flow frame; pairs of snapshots that displacements were taken from, and the time between them.
+  struct Snapshots {
+    double count = 0, spin = 0, contacts = 0, densities = 0;
+    double gravity_x = 0, gravity_z = 0;
+    double pairs = 0, time = 0;
+  } snapshots;
 };
-
 MapSums empty_sums(const CoarseGraining& graining);
 
-/// Adds one snapshot: as it is, and in graining.frame. Allocates nothing after the first calls.
-class MapDepositor {
- public:
-  explicit MapDepositor(const CoarseGraining& graining) : graining_(graining) {}
-  void add(const Snapshot& snapshot, const FlowSnapshot& in_frame, MapSums& sums);
-
- private:
-  CoarseGraining graining_;
-  std::vector<double> force_x_, force_z_;  ///< of all contacts, per grain
-};
+/// Adds one snapshot: as it is, and in graining.frame; all but displacements.
+void add_snapshot(const CoarseGraining& graining, const Snapshot& snapshot, const FlowSnapshot& in_frame,
+                  MapSums& sums);
 
 }  // namespace drumlin::particles

@@ -48,25 +48,7 @@ class NodeTiles {
     return bytes;
   }
 
-  /// A number of each node, value(node), which is 0 for a node of zeros.
-  template <class Value>
-  NodeTiles<double> numbers(Value value) const {
-    NodeTiles<double> result;
-    result.columns_ = columns_;
-    result.rows_ = rows_;
-    result.across_ = across_;
-    for (const std::vector<Node>& tile : tiles_) {
-      std::vector<double>& numbers = result.tiles_.emplace_back();
-      numbers.reserve(tile.size());
-      for (const Node& node : tile) numbers.push_back(value(node));
-    }
-    return result;
-  }
-
  private:
-  template <class Other>
-  friend class NodeTiles;
-
   std::size_t tile_of(std::size_t column, std::size_t row) const {
     return row / edge * across_ + column / edge;
   }
