@@ -266,7 +266,7 @@ def main():
     if not all(one["wall"].all() for one in batches):
         with np.errstate(all="ignore"):
             layers, zones = statistics(batches, place)
-        head = [line for line in (results / "profiles.csv").read_text(encoding="utf-8").splitlines() if line.startswith("#")]
+        head = [line for line in (results / "profiles.csv").read_text(encoding="utf-8").splitlines() if line.startswith("#") and not line.startswith("# column ")]
         whole_file.write_text(results / "forces.csv", "\n".join(head + layer_table(layers)) + "\n")
         rows = [",".join([name, row[0], *(text_of(value, 6) for value in row[1:5]), f"{row[5]:.0f}"]) for name, (_, zone) in zones.items() for row in zone.rows]
         whole_file.write_text(results / "force_distributions.csv",

@@ -21,6 +21,7 @@ namespace {
 
 constexpr std::string_view first_line = "# drumlin-profiles-1";
 constexpr std::string_view interval_suffix = "_ci99";
+constexpr std::string_view column_prefix = "column ";  // of a key of the header
 
 bool names_interval(std::string_view name) { return name.ends_with(interval_suffix); }
 
@@ -65,6 +66,13 @@ class ProfileReader {
     read_names();
     while (next_line())
       if (!trimmed(line_).empty()) read_layer();
+    for (ProfileColumn& column : profiles_.columns) {
+      const auto text = profiles_.header.further.extract(std::string(column_prefix) + column.name);
+      if (text.empty()) continue;
+      const auto colon = text.mapped().find(": ");
+      column.unit = text.mapped().substr(0, colon);
+      if (colon != std::string::npos) column.meaning = text.mapped().substr(colon + 2);
+    }
     return std::move(profiles_);
   }
 
@@ -167,10 +175,18 @@ std::string profile_table(const ProfileSet& profiles, const std::string& coordin
   return text;
 }
 
+std::string column_lines(const ProfileSet& profiles) {
+  std::string lines;
+  for (const auto& column : profiles.columns)
+    if (!column.unit.empty())
+      lines += fmt::format("# {}{} = {}: {}\n", column_prefix, column.name, column.unit, column.meaning);
+  return lines;
+}
+
 void write_profiles(const std::filesystem::path& file, const ProfileSet& profiles) {
   check_writable(file, profiles);
-  replace_file(file, fmt::format("{}\n{}{}", first_line, header_lines(profiles.header, "# "),
-                                 profile_table(profiles)));
+  replace_file(file, fmt::format("{}\n{}{}{}", first_line, header_lines(profiles.header, "# "),
+                                 column_lines(profiles), profile_table(profiles)));
 }
 
 ProfileSet read_profiles(const std::filesystem::path& file) { return ProfileReader(file).read(); }

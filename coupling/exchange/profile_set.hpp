@@ -12,7 +12,8 @@ namespace drumlin {
 struct ProfileColumn {
   std::string name;
   std::vector<double> value;
-  std::vector<double> ci99;  ///< half width of the 99 % interval; empty when the quantity has none
+  std::vector<double> ci99;             ///< half width of the 99 % interval; empty when the quantity has none
+  std::string unit = {}, meaning = {};  ///< in words; empty where nobody said it
 };
 
 /// Profile at one position x. z counts from the free surface (negative below it), one entry per layer,
@@ -32,8 +33,12 @@ struct ProfileSet {
 /// line per layer.
 std::string profile_table(const ProfileSet& profiles, const std::string& coordinate = "z");
 
-/// profiles.csv, version 1: "# drumlin-profiles-1", "# key = value" lines, a line of names (z, then each
-/// column and, if it has one, NAME_ci99), then one line per layer. NaN is written as an empty field.
+/// What the columns are, a line "# column NAME = UNIT: MEANING" for each that tells it.
+std::string column_lines(const ProfileSet& profiles);
+
+/// profiles.csv, version 1: "# drumlin-profiles-1", "# key = value" lines, those of columns, a line of names
+/// (z, then each column and, if it has one, NAME_ci99), then one line per layer. NaN is written as an empty
+/// field.
 void write_profiles(const std::filesystem::path& file, const ProfileSet& profiles);
 /// Throws InputError (file, line) on what it does not understand, another version, unequal lengths, unsorted
 /// z.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -22,13 +23,13 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
+constexpr std::array columns{"time_s", "stage", "overlap_mean", "overlap_max", "residual"};
+
 struct LogRow {
   double time_s = none;
   std::string stage;
   double overlap_mean = none, overlap_max = none, residual = none;
 };
-
-double number_of(std::string_view text) { return finite_number(text).value_or(none); }
 
 std::vector<LogRow> read_log(const std::filesystem::path& file) {
   std::istringstream stream(input_text(file));
@@ -36,7 +37,7 @@ std::vector<LogRow> read_log(const std::filesystem::path& file) {
   std::getline(stream, line);
   std::map<std::string, std::size_t, std::less<>> place;
   for (const std::string_view name : csv_fields(line)) place.emplace(name, place.size());
-  for (const char* name : {"time_s", "stage", "overlap_mean", "overlap_max", "residual"})
+  for (const char* name : columns)
     if (!place.contains(name))
       throw InputError({{file.string(), 1, 0, name, "no such column in the log", ""}});
 
@@ -46,9 +47,11 @@ std::vector<LogRow> read_log(const std::filesystem::path& file) {
     if (fields.size() != place.size())
       throw InputError({{file.string(), number, 0, "", fmt::format("holds {} fields", fields.size()),
                          fmt::format("{}, as many as the first line", place.size())}});
-    LogRow row{number_of(fields[place["time_s"]]), std::string(fields[place["stage"]]),
-               number_of(fields[place["overlap_mean"]]), number_of(fields[place["overlap_max"]]),
-               number_of(fields[place["residual"]])};
+    const auto number_in = [&](std::size_t c) {
+      return finite_number(fields[place[columns[c]]]).value_or(none);
+    };
+    LogRow row{number_in(0), std::string(fields[place[columns[1]]]), number_in(2), number_in(3),
+               number_in(4)};
     if (!std::isfinite(row.time_s))
       throw InputError({{file.string(), number, 0, "time_s", "is no number", ""}});
     rows.push_back(std::move(row));

@@ -22,6 +22,7 @@ constexpr double stress_that_matters = 0.1;  // of the mean
 constexpr double stress_too_vague = 0.25;    // an interval wider than this hides any change
 constexpr double least_turns = 0.99;         // snapshots end one interval before the turn does
 constexpr std::size_t least_snapshots = 20;
+constexpr const char* between_halves = " from the first half to the second";
 
 double standard_deviation(std::span<const double> values) {
   const double mean = mean_of(values);
@@ -33,9 +34,9 @@ double standard_deviation(std::span<const double> values) {
 Drift drift_of(std::span<const double> values, std::size_t batches) {
   if (values.size() < 4) return {};
   const auto first = values.first(values.size() / 2), second = values.subspan(values.size() / 2);
+  const std::size_t of_each = std::max<std::size_t>(2, batches / 2);
   return {mean_of(second) - mean_of(first),
-          std::hypot(mean_ci99(first, std::max<std::size_t>(2, batches / 2)),
-                     mean_ci99(second, std::max<std::size_t>(2, batches / 2)))};
+          std::hypot(mean_ci99(first, of_each), mean_ci99(second, of_each))};
 }
 
 bool counts(const Drift& drift, double matters) {
@@ -60,6 +61,11 @@ std::vector<double> block_means(std::span<const double> values, std::size_t batc
   return sum;
 }
 
+/// What changes from the first half to the second, and by how much.
+std::string change_of(const char* what, const Drift& drift) {
+  return fmt::format("the {} by {:.0f} +- {:.0f} %", what, 100 * drift.value, 100 * drift.ci99);
+}
+
 /// False when the energy scatters so much that it tells nothing.
 bool judge_energy(const TimeSeries& series, std::size_t batches, Steadiness& result) {
   const double mean = mean_of(series.kinetic_energy);
@@ -74,12 +80,10 @@ bool judge_energy(const TimeSeries& series, std::size_t batches, Steadiness& res
     result.energy_trend = trend_over(blocks);
   }
   if (counts(result.energy, energy_that_matters)) {
-    object(result,
-           fmt::format("the kinetic energy changes by {:.0f} +- {:.0f} % from the first half to the second",
-                       100 * result.energy.value, 100 * result.energy.ci99));
+    object(result, change_of("kinetic energy changes", result.energy) + between_halves);
     return true;
   }
-  if (const Trend& trend = result.energy_trend; counts({trend.value, trend.ci99}, trend_that_matters)) {
+  if (const Drift& trend = result.energy_trend; counts(trend, trend_that_matters)) {
     object(result, fmt::format("the kinetic energy {} by a factor of {:.2g} ({:.2g} ... {:.2g}) over the "
                                "snapshots",
                                trend.value < 0 ? "decays" : "grows", std::exp(std::abs(trend.value)),
@@ -104,21 +108,19 @@ bool judge_packing(const TimeSeries& series, std::size_t batches, Steadiness& re
   int known = 0;
   const auto judge = [&](const char* name, const std::vector<double>& values, Drift& drift) {
     drift = relative_drift(values, batches);
-    if (counts(drift, stress_that_matters))
-      object(result, fmt::format("the {} changes by {:.0f} +- {:.0f} % from the first half to the second",
-                                 name, 100 * drift.value, 100 * drift.ci99));
+    if (counts(drift, stress_that_matters)) object(result, change_of(name, drift) + between_halves);
     known += drift.ci99 <= stress_too_vague ? 1 : 0;
   };
-  judge("pressure", series.pressure, result.pressure);
+  judge("pressure changes", series.pressure, result.pressure);
   const bool pressure_known = known > 0;
-  judge("shear stress", series.shear_stress, result.shear_stress);
-  judge("shear rate", series.shear_rate, result.shear_rate);
+  judge("shear stress changes", series.shear_stress, result.shear_stress);
+  judge("shear rate changes", series.shear_rate, result.shear_rate);
   return pressure_known && known > 1;
 }
 
 }  // namespace
 
-Trend trend_over(std::span<const double> blocks) {
+Drift trend_over(std::span<const double> blocks) {
   if (blocks.size() < 4) return {};
   std::vector<double> place;
   for (std::size_t b = 0; b < blocks.size(); ++b)
@@ -170,9 +172,7 @@ Steadiness steadiness(const TimeSeries& series, double rotation, std::size_t bat
   if (packing_tells)
     result.judged_by = "stress and shear rate";
   else
-    object(result,
-           fmt::format("the kinetic energy fluctuates too much to tell: it changes by {:.0f} +- {:.0f} %",
-                       100 * result.energy.value, 100 * result.energy.ci99));
+    object(result, change_of("kinetic energy fluctuates too much to tell: it changes", result.energy));
   return result;
 }
 

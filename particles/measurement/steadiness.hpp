@@ -9,22 +9,16 @@
 
 namespace drumlin::particles {
 
-/// A change between the first and the second half of the snapshots, with its 99 % half width.
+/// A change, as between the first and the second half of the snapshots, with its 99 % half width.
 struct Drift {
   double value = std::numeric_limits<double>::quiet_NaN();
   double ci99 = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Change over the whole time by a straight line through the means of blocks, with its 99 % half width: from
-/// the scatter of the blocks about the line, with the correlation of neighbours. A trend of its own does not
-/// widen it, as it widens the interval of a half.
-struct Trend {
-  double value = std::numeric_limits<double>::quiet_NaN();
-  double ci99 = std::numeric_limits<double>::quiet_NaN();
-};
-
-/// Of one value per block in order of time. NaN with fewer than four blocks.
-Trend trend_over(std::span<const double> blocks);
+/// Change over the whole time by a straight line through the means of blocks, given in order of time, with
+/// its 99 % half width: from the scatter of the blocks about the line, with the correlation of neighbours. A
+/// trend of its own does not widen it, as it widens the interval of a half. NaN with fewer than four blocks.
+Drift trend_over(std::span<const double> blocks);
 
 /// A drum, the paper, Sec. II: one turn to reach steady flow, the energy checked over the next, all snapshots
 /// within it. Without a drum the energy belongs to a few grains that jump, when shear is slow: where it
@@ -38,7 +32,7 @@ struct Steadiness {
   Drift slope_deg;  ///< of the angle of the centre of mass
   double energy_std = std::numeric_limits<double>::quiet_NaN();     ///< standard deviation over the mean
   double slope_std_deg = std::numeric_limits<double>::quiet_NaN();  ///< of the angle of the centre of mass
-  Trend energy_trend;  ///< of the logarithm of the kinetic energy: exp(value) is the factor
+  Drift energy_trend;  ///< of the logarithm of the kinetic energy: exp(value) is the factor
   /// Without a container, over the mean of the pressure, of the shear stress or of the shear rate; NaN where
   /// that mean is not known to half its size.
   Drift pressure, shear_stress, shear_rate;

@@ -289,20 +289,6 @@ TEST(CalibrateCommand, LeavesTheLawOfItsRuns) {
   EXPECT_THROW(calibrate(options), InputError);  // the law exists
 }
 
-TEST(CalibrateCommand, ATableAndKComeFromTheSameLayers) {
-  const TemporaryFolder folder;
-  CalibrateOptions options;
-  options.runs = {measured_run(folder, "six", 0.0144)};
-  options.k = true;
-  options.law = "table";
-  options.output = folder / "rheology.toml";
-  EXPECT_EQ(calibrate(options), 0);
-  const RheologyFit fit = read_rheology(options.output);
-  EXPECT_GE(std::get<FrictionTable>(fit.mu).I.size(), 4u);
-  ASSERT_TRUE(fit.k);
-  for (const double k : fit.k->k) EXPECT_NEAR(k, 1.04, 1e-6);
-}
-
 TEST(CalibrateCommand, RefusesWhatItCannotUse) {
   const TemporaryFolder folder;
   CalibrateOptions options;

@@ -90,17 +90,6 @@ TEST(FieldMaps, CurvedVelocityFieldsAreSmoothedByTheVarianceOfTheKernel) {
   });
 }
 
-TEST(FieldMaps, SolidRotationHasNoStrain) {
-  const double spin = 0.3;
-  const FieldMap map = maps_of(lattice_graining(), {square_lattice([&](double x, double z) {
-                                 return std::array{spin * z, -spin * x};
-                               })});
-  each_inner_node(map, [&](double, double, auto value) {
-    EXPECT_NEAR(value("strain_rate"), 0, 1e-12);
-    EXPECT_NEAR(value("half_vorticity"), spin, 1e-12);
-  });
-}
-
 TEST(FieldMaps, PackingAtRestInATurningDrumDoesNotMove) {
   const double spin = 0.02, radius = 12;
   const Snapshot snapshot = testing::filled_drum(radius, 2, 0.3, spin);

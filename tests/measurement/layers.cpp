@@ -7,18 +7,10 @@ namespace drumlin {
 using namespace particles;
 namespace {
 
+using testing::at;
 using testing::hexagonal_layer;
 using testing::measurement_of;
 using testing::stacked_columns;
-
-TEST(Layers, HexagonalLatticeHasItsVolumeFraction) {
-  MeasurementOptions options;
-  options.layer_thickness = std::sqrt(3.0) / 2;  // one row of the lattice: every layer holds the same
-  const Measurement result = measurement_of(hexagonal_layer(8, 12), options);
-  const auto& nu = result.profiles.column("nu").value;
-  ASSERT_EQ(nu.size(), 14u);  // twelve rows, and the slivers of the outer ones that stand out of their cells
-  for (std::size_t l = 2; l < 12; ++l) EXPECT_NEAR(nu[l], std::numbers::pi / (2 * std::sqrt(3.0)), 1e-12);
-}
 
 TEST(Layers, EachLayerOfAColumnCarriesTheWeightAbove) {
   const Measurement result = measurement_of(stacked_columns(6, 20, 0));
@@ -27,8 +19,8 @@ TEST(Layers, EachLayerOfAColumnCarriesTheWeightAbove) {
   ASSERT_EQ(sigma_zz.size(), 20u);
   for (std::size_t l = 0; l < 20; ++l) {
     EXPECT_NEAR(sigma_zz[l], nu * (20 - 0.5 - static_cast<double>(l)), 1e-12);
-    EXPECT_NEAR(result.profiles.column("sigma_xx").value[l], 0, 1e-12);
-    EXPECT_NEAR(result.profiles.column("sigma_xz").value[l], 0, 1e-12);
+    EXPECT_NEAR(at(result, "sigma_xx", l), 0, 1e-12);
+    EXPECT_NEAR(at(result, "sigma_xz", l), 0, 1e-12);
   }
   EXPECT_EQ(result.place.source, FrameSource::domain);
 }
@@ -52,9 +44,8 @@ TEST(Layers, UpperLayerPullsTheLowerOneDownTheSlope) {
   EXPECT_NEAR(result.frame_angle_deg, slope * 180 / std::numbers::pi, 1e-10);
   for (std::size_t l = 0; l < 20; ++l) {
     const double depth = 20 - 0.5 - static_cast<double>(l);
-    EXPECT_NEAR(result.profiles.column("sigma_xz").value[l], std::numbers::pi / 4 * depth * std::sin(slope),
-                1e-12);
-    EXPECT_NEAR(result.profiles.column("mu").value[l], std::tan(slope), 1e-12);
+    EXPECT_NEAR(at(result, "sigma_xz", l), std::numbers::pi / 4 * depth * std::sin(slope), 1e-12);
+    EXPECT_NEAR(at(result, "mu", l), std::tan(slope), 1e-12);
   }
 }
 
@@ -71,9 +62,8 @@ TEST(Layers, SliceCutsGrainsAndBranchesAtItsSides) {
   const double cap = std::acos(0.5) / 4 - std::sqrt(3.0) / 16;
   const double two_branches = 2 * std::numbers::pi / 4 / 2.5;
   for (std::size_t l = 0; l < 20; ++l) {
-    EXPECT_NEAR(result.profiles.column("nu").value[l], (std::numbers::pi / 2 + 2 * cap) / 2.5, 1e-12);
-    EXPECT_NEAR(result.profiles.column("sigma_zz").value[l], two_branches * (19.5 - static_cast<double>(l)),
-                1e-12);
+    EXPECT_NEAR(at(result, "nu", l), (std::numbers::pi / 2 + 2 * cap) / 2.5, 1e-12);
+    EXPECT_NEAR(at(result, "sigma_zz", l), two_branches * (19.5 - static_cast<double>(l)), 1e-12);
   }
 }
 
@@ -88,26 +78,7 @@ TEST(Layers, BranchAcrossTheSideOfTheSliceCountsWithItsShareInside) {
   options.slice_width = 1;
   options.position = 0.25;
   const Measurement result = measurement_of(pair, options);
-  EXPECT_NEAR(result.profiles.column("sigma_xx").value.at(0), 3 * 0.75, 1e-12);
-}
-
-TEST(Layers, LinearVelocityGivesItsShearRateAndNoFluctuation) {
-  Snapshot layer = hexagonal_layer(8, 24);
-  for (std::size_t i = 0; i < layer.x.size(); ++i) {
-    layer.v_x[i] = 0.2 * layer.z[i];
-    layer.spin[i] = 0.1;
-  }
-  const Measurement result = measurement_of(layer);
-  const auto& z = result.profiles.z;
-  // Rows stand 0.866 apart and layers are 1 thick: a layer's mean centre is off its middle by up to 0.43.
-  // The lowest layer holds no centre, so the one above it has no difference.
-  for (std::size_t l = 2; l + 1 < z.size(); ++l)
-    EXPECT_NEAR(result.profiles.column("shear_rate").value[l], 0.2, 0.2 * 0.434);
-  EXPECT_NEAR(result.scalars.value("shear_rate"), 0.2, 0.2 * 0.03);  // the straight line averages that out
-  for (std::size_t l = 1; l + 1 < z.size(); ++l) {
-    EXPECT_NEAR(result.profiles.column("omega").value[l], 0.1, 1e-12);
-    EXPECT_NEAR(result.profiles.column("domega").value[l], 0, 1e-7);  // root of a difference of equal squares
-  }
+  EXPECT_NEAR(at(result, "sigma_xx", 0), 3 * 0.75, 1e-12);
 }
 
 TEST(Layers, ShearWithinALayerIsNoFluctuation) {
@@ -122,8 +93,7 @@ TEST(Layers, ShearWithinALayerIsNoFluctuation) {
     cloud.v_z.back() = i % 4 < 2 ? 0.04 : -0.04;
   }
   const Measurement result = measurement_of(cloud);
-  for (std::size_t l = 2; l + 2 < result.profiles.z.size(); ++l)
-    EXPECT_NEAR(result.profiles.column("dv").value[l], 0.05, 1e-5);
+  for (std::size_t l = 2; l + 2 < result.profiles.z.size(); ++l) EXPECT_NEAR(at(result, "dv", l), 0.05, 1e-5);
 }
 
 TEST(Layers, KineticPartCountsLikeAnIdealGas) {
@@ -138,11 +108,11 @@ TEST(Layers, KineticPartCountsLikeAnIdealGas) {
   }
   const Measurement result = measurement_of(cloud);
   const std::size_t middle = 5;
-  const double nu = result.profiles.column("nu").value[middle];
+  const double nu = at(result, "nu", middle);
   EXPECT_NEAR(nu, 40 * std::numbers::pi * 0.01 / 10, 1e-3);
-  EXPECT_NEAR(result.profiles.column("sigma_xx_kinetic").value[middle], nu * 0.09, 1e-4);
-  EXPECT_NEAR(result.profiles.column("sigma_zz").value[middle], nu * 0.04, 1e-4);
-  EXPECT_NEAR(result.profiles.column("sigma_xz").value[middle], nu * 0.06, 1e-4);
+  EXPECT_NEAR(at(result, "sigma_xx_kinetic", middle), nu * 0.09, 1e-4);
+  EXPECT_NEAR(at(result, "sigma_zz", middle), nu * 0.04, 1e-4);
+  EXPECT_NEAR(at(result, "sigma_xz", middle), nu * 0.06, 1e-4);
 }
 
 TEST(Layers, SceneWithoutSpinHasNoColumnOfIt) {
@@ -174,10 +144,10 @@ TEST(Layers, GrainsOfSeveralDensitiesCountByTheirMasses) {
   const Measurement result = measurement_of(snapshot);
   const double nu = std::numbers::pi / 4;
   // About the speed of the centre of mass, -1/2: (1 * 1.5^2 + 3 * 0.5^2)/2 per unit of nu.
-  EXPECT_NEAR(result.profiles.column("sigma_xx_kinetic").value[10], nu * 1.5, 1e-12);
-  EXPECT_NEAR(result.profiles.column("nu").value[10], nu, 1e-12);
-  EXPECT_NEAR(result.profiles.column("density").value[10], 2 * nu, 1e-12);
-  EXPECT_NEAR(result.profiles.column("v_x").value[10], 0, 1e-12);
+  EXPECT_NEAR(at(result, "sigma_xx_kinetic", 10), nu * 1.5, 1e-12);
+  EXPECT_NEAR(at(result, "nu", 10), nu, 1e-12);
+  EXPECT_NEAR(at(result, "density", 10), 2 * nu, 1e-12);
+  EXPECT_NEAR(at(result, "v_x", 10), 0, 1e-12);
 }
 
 TEST(Layers, OneDensityHasNoColumnOfItAndOneThatIsSaidChangesNothing) {

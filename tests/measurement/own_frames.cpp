@@ -132,14 +132,16 @@ TEST(Rings, StressesAreThoseOfTheBranches) {
   }
 }
 
-TEST(Rings, SumOfTheStressesIsThatOfTheContactsWhereverTheCentreIs) {
+TEST(LayerSums, OfTheStressesIsThatOfTheContactsWhateverTheBins) {
   const Snapshot column = testing::stacked_columns(6, 9, 0.3);
   double trace = 0;
   const FlowSnapshot in_frame = seen(column, {});
   for (const HalfBranch& b : in_frame.half_branches())
     trace -= b.force_x * b.toward_x + b.force_z * b.toward_z;
-  for (const double x : {0.0, 2.3, -4.0}) {
-    const LayerSums sums = sums_of(ring_grid(x, 4.5, 0.6, 30, 0), column);
+  for (const LayerGrid& grid :
+       {ring_grid(0, 4.5, 0.6, 30, 0), ring_grid(2.3, 4.5, 0.6, 30, 0), ring_grid(-4, 4.5, 0.6, 30, 0),
+        height_grid(-1, 7, {-1, 7, -1, 11}, 0.3), width_grid(-1, 11, {-1, 7, -1, 11}, 0.7)}) {
+    const LayerSums sums = sums_of(grid, column);
     double total = 0;
     for (const LayerSum& ring : sums.layers) total += ring.force_branch.xx + ring.force_branch.zz;
     EXPECT_NEAR(total, trace, 1e-9);
@@ -154,7 +156,7 @@ Snapshot silo_at_rest() {
 }
 
 TEST(Silo, UniformColumnHasTheHydrostaticStressOverItsHeight) {
-  const SceneBox reach{0, 8, 0, 20};
+  const Rectangle reach{0, 8, 0, 20};
   const LayerGrid grid = height_grid(2, 6, reach, 1);
   const ProfileSet profiles =
       table_of(profile_of(grid, sums_of(grid, silo_at_rest()), 0), height_quantities());
@@ -178,7 +180,7 @@ TEST(Silo, WidthHasTheScenesComponents) {
     snapshot.v_x[i] = 0.05;
   }
   for (SnapshotContact& contact : snapshot.contacts) contact.impulse_t = 0.2 * contact.impulse_n;
-  const SceneBox reach{0, 8, 0, 20};
+  const Rectangle reach{0, 8, 0, 20};
   const LayerGrid grid = width_grid(4, 8, reach, 1), upright = height_grid(0, 8, reach, 1);
   const ProfileSet profiles = table_of(profile_of(grid, sums_of(grid, snapshot), 0), width_quantities());
   const ProfileSet over_height =

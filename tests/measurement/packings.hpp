@@ -2,6 +2,7 @@
 // Packings whose profiles are known by hand.
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "particles/measurement/measurement.hpp"
 
@@ -100,6 +101,11 @@ inline particles::SnapshotSource source_of(std::vector<particles::Snapshot> snap
 inline particles::Measurement measurement_of(const particles::Snapshot& snapshot,
                                              const particles::MeasurementOptions& options = {}) {
   return particles::measurement(source_of({snapshot}), options);
+}
+
+/// A number of one layer.
+inline double at(const particles::Measurement& measured, const std::string& name, std::size_t layer) {
+  return measured.profiles.column(name).value.at(layer);
 }
 
 }  // namespace drumlin::testing

@@ -13,6 +13,7 @@ using namespace particles;
 namespace {
 
 using testing::add_grain;
+using testing::at;
 using testing::measurement_of;
 using testing::source_of;
 
@@ -70,9 +71,8 @@ TEST(Scattered, OneGrainFarAwayChangesNoProfileOfTheBlock) {
   for (const char* name : {"nu", "nu_voronoi", "count"})
     for (std::size_t l = 0; l < alone.profiles.z.size(); ++l) {
       EXPECT_NEAR(measured.profiles.z[l], alone.profiles.z[l], 1e-9);
-      if (alone.profiles.column(name).value[l] > 0) {
-        EXPECT_NEAR(measured.profiles.column(name).value[l], alone.profiles.column(name).value[l], 1e-9)
-            << name << ' ' << l;
+      if (at(alone, name, l) > 0) {
+        EXPECT_NEAR(at(measured, name, l), at(alone, name, l), 1e-9) << name << ' ' << l;
       }
     }
   EXPECT_LE(static_cast<double>(nodes_of_maps(measured)), most_nodes_for(with_stray.x.size()));

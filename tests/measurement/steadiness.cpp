@@ -65,13 +65,6 @@ TEST(Steadiness, TooLittleBeforeTheFirstSnapshotIsSaid) {
   EXPECT_NE(result.reasons[0].find("before"), std::string::npos);
 }
 
-TEST(Steadiness, FluctuationsThatHideAnyChangeAreSaid) {
-  TimeSeries series = one_turn(0, 0);
-  for (std::size_t s = 0; s < series.time.size(); ++s)
-    series.kinetic_energy[s] = 1000 * (1 + 0.9 * std::sin(0.1 * static_cast<double>(s)));
-  EXPECT_FALSE(steadiness(series, rotation, 20).steady);
-}
-
 /// Slow shear between plates: a few grains jump, so that the energy is 0.01 mostly and 1 now and then;
 /// pressure, stress and shear rate scatter by some percent about their means. `growth`: of the three over the
 /// whole time.

@@ -1,13 +1,11 @@
 // Packings whose stresses, derivatives and statistics are known beforehand, through the whole measurement.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
 #include <random>
 
 #include "particles/measurement/grains/grain_fields.hpp"
 #include "tests/measurement/packings.hpp"
-#include "tests/support/scenes.hpp"
 
 namespace drumlin {
 using namespace particles;
@@ -15,6 +13,7 @@ namespace {
 
 using std::numbers::pi;
 using testing::add_grain;
+using testing::at;
 using testing::measurement_of;
 using testing::source_of;
 
@@ -34,7 +33,7 @@ Snapshot even_cloud() {
 /// that z = 0 is the origin of the frame.
 double value_at(const Measurement& result, const char* column, double z) {
   for (std::size_t l = 0; l < result.profiles.z.size(); ++l)
-    if (std::abs(result.profiles.z[l] - z) < 1e-6) return result.profiles.column(column).value[l];
+    if (std::abs(result.profiles.z[l] - z) < 1e-6) return at(result, column, l);
   ADD_FAILURE() << "no layer at " << z;
   return 0;
 }
@@ -131,9 +130,7 @@ TEST(ForceNetwork, StressOfALoadedLatticeIsExact) {
   ASSERT_EQ(result.profiles.z.size(), 14u);  // slivers of the outer rows stand out of their layers
   for (std::size_t l = 2; l < 12; ++l)
     for (const char* suffix : {"", "_grains"}) {
-      const auto value = [&](const char* name) {
-        return result.profiles.column(std::string(name) + suffix).value[l];
-      };
+      const auto value = [&](const char* name) { return at(result, std::string(name) + suffix, l); };
       EXPECT_NEAR(value("sigma_xx"), xx, rounding) << l << suffix;
       EXPECT_NEAR(value("sigma_zz"), zz, rounding) << l << suffix;
       EXPECT_NEAR(value("sigma_xz"), xz, rounding) << l << suffix;
@@ -141,84 +138,13 @@ TEST(ForceNetwork, StressOfALoadedLatticeIsExact) {
 
   FlowSnapshot in_frame;
   to_flow_frame(lattice, FlowFrame{}, VelocityKind::window, in_frame);
-  const GrainFields fields =
-      grain_fields(lattice, in_frame, {GrainField::contact_stress, GrainField::coordination});
+  const GrainFields fields = grain_fields(lattice, in_frame);
   for (std::size_t i = 8; i < 88; ++i) {  // without the first and the last row
     EXPECT_NEAR(fields.contact.xx[i], xx, rounding);
     EXPECT_NEAR(fields.contact.zz[i], zz, rounding);
     EXPECT_NEAR(fields.contact.xz[i], xz, rounding);
     EXPECT_EQ(fields.coordination[i], 6);
   }
-  EXPECT_TRUE(fields.nu.empty());  // not asked for
-  EXPECT_TRUE(fields.v_x.empty());
-}
-
-/// Some hundred grains settled on a floor, periodic in x, by the engine itself.
-Snapshot settled_grains() {
-  const test::TemporaryFolder folder;
-  std::vector<test::Grain> grains;
-  std::mt19937 engine(7);
-  constexpr int columns = 12, rows = 20;
-  for (int row = 0; row < rows; ++row)
-    for (int column = 0; column < columns; ++column) {
-      const double chance = static_cast<double>(engine()) / 4294967296.0;
-      grains.push_back(
-          {(column + (row % 2 == 0 ? 0.25 : 0.75)) * 1.1, 0.6 + 0.96 * row, 0.9 + 0.2 * chance, 0, 0, 0});
-    }
-  Scene scene = test::scene_of(grains);
-  scene.periodic_x = PeriodicX{0, columns * 1.1};
-  scene.walls = {test::floor_wall()};
-  scene.effects.gravity = Gravity{};
-  scene.effects.friction = Friction{0.4, 0.4};
-  scene.effects.spin = Spin{};
-  scene.solver.tolerance = 1e-4;
-  scene.solver.max_sweeps = 1000;
-  test::add_stage(scene, 30, 0.02);
-  scene.stages.back().snapshots = 1;
-  Simulation simulation(scene);
-  while (!simulation.finished()) (void)simulation.step();
-  return simulation.take_snapshot();
-}
-
-const Snapshot& settled_column() {
-  static const Snapshot column = settled_grains();
-  return column;
-}
-
-TEST(StaticColumn, EachLayerCarriesTheWeightAbove) {
-  const Snapshot& column = settled_column();
-  const Measurement result = measurement_of(column);
-  const double top = *std::max_element(column.z.begin(), column.z.end());
-  const auto& sigma_zz = result.profiles.column("sigma_zz").value;
-  std::size_t compared = 0;
-  for (std::size_t l = 0; l < sigma_zz.size(); ++l) {
-    // The floor lies at z = 0 of the laboratory, where a layer begins; a sliver of overlap may have one of
-    // its own.
-    const double bottom = std::floor(result.place.z_min) + static_cast<double>(l);
-    if (bottom < 0 || bottom > top - 1) continue;
-    double carried = 0;  // mean over the layer's height of the weight whose centre is above
-    for (std::size_t i = 0; i < column.z.size(); ++i)
-      carried += pi * column.radius[i] * column.radius[i] * std::clamp(column.z[i] - bottom, 0.0, 1.0) /
-                 column.period_x;
-    // Asked for is 1 %; at rest it is what the solver's tolerance of 1e-4 leaves.
-    EXPECT_NEAR(sigma_zz[l], carried, 1e-3 * carried) << l;
-    ++compared;
-  }
-  EXPECT_GE(compared, 16u);
-}
-
-TEST(StaticColumn, MomentsOfAllForcesAreThoseOfTheWeights) {
-  // Sum of F b over all contacts, that with the floor included, = sum of weight times height above the floor.
-  const Snapshot& column = settled_column();
-  FlowSnapshot in_frame;
-  to_flow_frame(column, FlowFrame{}, VelocityKind::window, in_frame);
-  const GrainFields fields = grain_fields(column, in_frame, {GrainField::cell, GrainField::contact_stress});
-  double moments = 0, weights = 0;
-  for (std::size_t i = 0; i < column.z.size(); ++i) {
-    moments += fields.contact.zz[i] * fields.cell_area[i];
-    weights += pi * column.radius[i] * column.radius[i] * column.z[i];
-  }
-  EXPECT_NEAR(moments, weights, 1e-3 * weights);
 }
 
 Snapshot sheared_layer(double rate, double depth) {
@@ -255,7 +181,7 @@ TEST(Coverage, IntervalsOfProfilesAndScalarsHoldTheTruthWhenSnapshotsAreCorrelat
   };
   // The mean flow has the mean rate and depth, which wander on their own.
   const Measurement mean_flow = measurement_of(sheared_layer(0, 0));
-  Tally tallies[] = {{"v_x", mean_flow.profiles.column("v_x").value[middle], {}, {}},
+  Tally tallies[] = {{"v_x", at(mean_flow, "v_x", middle), {}, {}},
                      {"shear_rate", mean_flow.scalars.value("shear_rate"), {}, {}},
                      {"H", mean_flow.scalars.value("H"), {}, {}}};
   for (int run = 0; run < runs; ++run) {

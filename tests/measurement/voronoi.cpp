@@ -82,12 +82,14 @@ void expect_areas_by_points(const Snapshot& snapshot, const VoronoiOptions& opti
 }
 
 TEST(Voronoi, SquareLatticeHasItsVolumeFraction) {
-  const auto cells = voronoi_cells(testing::stacked_columns(7, 9, 0));
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const bool at_an_end = i % 9 == 0 || i % 9 == 8;
-    EXPECT_EQ(cells[i].open, at_an_end);
-    // Inside a square of side 1; at the surface half of it and a cap of radius `reach`, a strip 1 wide.
-    EXPECT_NEAR(cells[i].area, at_an_end ? 0.5 + half_strip(reach, 0.5) : 1, 1e-12) << i;
+  for (const int columns : {1, 2, 7}) {  // a cell may meet its own images
+    const auto cells = voronoi_cells(testing::stacked_columns(columns, 9, 0));
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const bool at_an_end = i % 9 == 0 || i % 9 == 8;
+      EXPECT_EQ(cells[i].open, at_an_end);
+      // Inside a square of side 1; at the surface half of it and a cap of radius `reach`, a strip 1 wide.
+      EXPECT_NEAR(cells[i].area, at_an_end ? 0.5 + half_strip(reach, 0.5) : 1, 1e-12) << i;
+    }
   }
 }
 
@@ -100,14 +102,6 @@ TEST(Voronoi, HexagonalLatticeHasItsVolumeFraction) {
     if (!at_an_end) {
       EXPECT_NEAR(pi / 4 / cells[i].area, pi / (2 * std::sqrt(3.0)), 1e-12);
     }
-  }
-}
-
-TEST(Voronoi, CellsOfAPeriodNarrowerThanTheirReachMeetTheirOwnImages) {
-  for (const int columns : {1, 2}) {
-    const auto cells = voronoi_cells(testing::stacked_columns(columns, 5, 0));
-    for (std::size_t i = 0; i < cells.size(); ++i)
-      EXPECT_NEAR(cells[i].area, i % 5 == 0 || i % 5 == 4 ? 0.5 + half_strip(reach, 0.5) : 1, 1e-12);
   }
 }
 
@@ -216,15 +210,6 @@ TEST(Voronoi, GrainsOutsideTheContainerTakeNoPart) {
   for (std::size_t i = before; i < cells.size(); ++i) EXPECT_TRUE(std::isnan(cells[i].area));
   cells.resize(before);
   EXPECT_EQ(sum_of(cells), sum);
-}
-
-TEST(Voronoi, AStrayGrainCostsNoMemory) {
-  Snapshot layer = testing::hexagonal_layer(6, 8);
-  layer.period_x = 0;
-  add_grain(layer, 1e7, 1e7, 0.5);
-  const auto cells = voronoi_cells(layer);
-  EXPECT_NEAR(cells.back().area, pi * reach * reach, 1e-12);
-  EXPECT_NEAR(cells[3 * 6 + 2].area, std::sqrt(3.0) / 2, 1e-12);
 }
 
 TEST(ConvexPolygon, RoundedAreasOfSquaresAndLenses) {

@@ -21,7 +21,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using particles::FlowSnapshot;
 using particles::MeasurementFrame;
-using particles::SceneBox;
+using particles::Rectangle;
 using particles::Snapshot;
 
 /// One table of profiles, and the layers or rings that grow while the snapshots are read.
@@ -40,9 +40,9 @@ struct Frames {
 };
 
 /// The box of what is measured, from the axes of the measurement back in those of the scene.
-SceneBox reach_of(const MeasurementFrame& place) {
+Rectangle reach_of(const MeasurementFrame& place) {
   const particles::FlowFrame& f = place.frame;
-  SceneBox reach{INFINITY, -INFINITY, INFINITY, -INFINITY};
+  Rectangle reach{INFINITY, -INFINITY, INFINITY, -INFINITY};
   for (const double x : {place.x_min, place.x_max})
     for (const double z : {place.z_min, place.z_max}) {
       const double there = f.origin_x + x * f.x_axis_x - z * f.x_axis_z;
@@ -71,7 +71,7 @@ void begin(const MeasureOptions& options, const MeasurementFrame& place, Frames&
   frames.batches = place.batches;
   frames.in_mirror = place.in_mirror;
   const double thickness = options.layer_thickness;
-  const SceneBox reach = reach_of(place);
+  const Rectangle reach = reach_of(place);
   const auto add = [&](const char* name, const char* coordinate, const Json& its_place,
                        std::span<const particles::LayerQuantity> quantities,
                        const particles::LayerGrid& grid) {
@@ -114,7 +114,7 @@ void write_table(const std::filesystem::path& file, const std::string& coordinat
   std::string text = "# drumlin-frame-1\n";
   for (const auto& [key, value] : frame.items())
     text += fmt::format("# {} = {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
-  replace_file(file, text + profile_table(profiles, coordinate));
+  replace_file(file, text + column_lines(profiles) + profile_table(profiles, coordinate));
 }
 
 void write(const MeasureOptions& options, const PartOutput& output, const Frames& frames) {

@@ -35,14 +35,7 @@ particles::GrainRecord record_of(particles::Snapshot snapshot, const particles::
   record.axis_z = -measured.surface_z;
   record.period_x = place.period;
   record.scales = measured.scales;
-  particles::GrainFieldSet wanted{particles::GrainField::cell,
-                                  particles::GrainField::velocity,
-                                  particles::GrainField::spin,
-                                  particles::GrainField::contact_stress,
-                                  particles::GrainField::rotational_stress,
-                                  particles::GrainField::coordination};
-  if (same_motion) wanted.add(particles::GrainField::kinetic_stress);
-  record.fields = particles::grain_fields(snapshot, in_frame, wanted, &mean_velocity);
+  record.fields = particles::grain_fields(snapshot, in_frame, same_motion ? &mean_velocity : nullptr);
   record.x = std::move(in_frame.x);
   record.z = std::move(in_frame.z);
   record.radius = std::move(in_frame.radius);

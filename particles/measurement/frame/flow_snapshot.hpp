@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <ranges>
 #include <vector>
 
 #include "particles/bodies/snapshot.hpp"
@@ -28,8 +29,6 @@ struct FlowContact {
   double force_x = 0, force_z = 0;  ///< on i
 };
 
-class HalfBranches;
-
 /// A cell that is periodic in z too at one instant, in the flow frame: its grains stand in z_min ... z_min +
 /// height; the image above is displaced by (offset, height) and faster by (v_x, v_z), the one to the right by
 /// (length, 0) and faster by (right_v_x, 0).
@@ -49,53 +48,33 @@ struct FlowSnapshot {
   std::optional<FlowCell> cell;
 
   double density_of(std::size_t grain) const { return density.empty() ? 1 : density[grain]; }
-  /// Both sides of each contact in turn, that of i first; a wall has none.
-  HalfBranches half_branches() const;
-};
-
-/// The sides of all contacts of a snapshot, each made when it is looked at: stored they would take three
-/// times the memory of the contacts. The snapshot must outlive it.
-class HalfBranches {
- public:
-  class Iterator {
-   public:
-    Iterator(const FlowSnapshot& of, std::size_t side) : of_(&of), side_(side) {}
-    HalfBranch operator*() const {
-      const FlowContact& contact = of_->contacts[side_ / 2];
-      const bool second = side_ % 2 != 0;
-      const double sign = second ? -1 : 1;
-      const std::int32_t grain = second ? contact.j : contact.i;
-      const auto g = static_cast<std::size_t>(grain);
-      const double reach = -sign * of_->radius[g];
-      return {static_cast<std::uint32_t>(grain),
-              of_->x[g],
-              of_->z[g],
-              reach * contact.normal_x,
-              reach * contact.normal_z,
-              sign * contact.force_x,
-              sign * contact.force_z,
-              contact.j < 0};
-    }
-    Iterator& operator++() {
-      side_ += side_ % 2 == 0 && of_->contacts[side_ / 2].j < 0 ? 2 : 1;
-      return *this;
-    }
-    bool operator!=(const Iterator& other) const { return side_ != other.side_; }
-
-   private:
-    const FlowSnapshot* of_;
-    std::size_t side_;
-  };
-
-  explicit HalfBranches(const FlowSnapshot& of) : of_(&of) {}
-  Iterator begin() const { return {*of_, 0}; }
-  Iterator end() const { return {*of_, 2 * of_->contacts.size()}; }
+  /// Both sides of each contact in turn, that of i first; a wall has none. Each is made when it is looked at:
+  /// stored they would take three times the memory of the contacts.
+  auto half_branches() const {
+    return std::views::iota(std::size_t{0}, 2 * contacts.size()) |
+           std::views::filter(
+               [this](std::size_t side) { return side % 2 == 0 || contacts[side / 2].j >= 0; }) |
+           std::views::transform([this](std::size_t side) { return half_branch(side); });
+  }
 
  private:
-  const FlowSnapshot* of_;
+  HalfBranch half_branch(std::size_t side) const;
 };
 
-inline HalfBranches FlowSnapshot::half_branches() const { return HalfBranches(*this); }
+inline HalfBranch FlowSnapshot::half_branch(std::size_t side) const {
+  const FlowContact& contact = contacts[side / 2];
+  const double sign = side % 2 == 0 ? 1 : -1;
+  const auto grain = static_cast<std::uint32_t>(side % 2 == 0 ? contact.i : contact.j);
+  const double reach = -sign * radius[grain];
+  return {grain,
+          x[grain],
+          z[grain],
+          reach * contact.normal_x,
+          reach * contact.normal_z,
+          sign * contact.force_x,
+          sign * contact.force_z,
+          contact.j < 0};
+}
 
 /// Which velocity of a grain is meant.
 enum class VelocityKind { window, instantaneous };

@@ -7,7 +7,7 @@
 
 #include "coupling/common/errors.hpp"
 #include "coupling/documents/enum_names.hpp"
-#include "particles/measurement/frame/bulk_state.hpp"
+#include "coupling/statistics/straight_line.hpp"
 #include "particles/measurement/frame/dense_window.hpp"
 #include "particles/measurement/frame/flow_snapshot.hpp"
 #include "particles/measurement/frame/intervals.hpp"
@@ -51,6 +51,31 @@ void widen_extent(const Snapshot& snapshot, bool first, Survey& found) {
     found.z_min = std::min(found.z_min, z - r);
     found.z_max = std::max(found.z_max, z + r);
   }
+}
+
+/// Stress and shear rate of all grains together: NaN without contacts, or with fewer than three grains that
+/// touch something at two heights. Grains in free flight enter by their area alone.
+void add_bulk(const Snapshot& snapshot, const FlowFrame& frame, TimeSeries& series) {
+  FlowSnapshot seen;
+  to_flow_frame(snapshot, frame, VelocityKind::window, seen);
+  double area = 0, trace = 0, shear = 0;
+  for (const double radius : seen.radius) area += std::numbers::pi * radius * radius;
+  for (const HalfBranch& branch : seen.half_branches()) {
+    trace -= branch.force_x * branch.toward_x + branch.force_z * branch.toward_z;
+    shear += branch.force_x * branch.toward_z;
+  }
+  std::vector<double> heights, velocities;
+  for (std::size_t i = 0; i < seen.x.size(); ++i) {
+    if (seen.coordination[i] == 0) continue;
+    heights.push_back(seen.z[i]);
+    velocities.push_back(seen.v_x[i]);
+  }
+  const auto line = heights.size() < 3 ? std::nullopt : statistics::fit_line(heights, velocities);
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const bool known = snapshot.contacts_known;
+  series.pressure.push_back(known ? trace / (2 * area) : none);
+  series.shear_stress.push_back(known ? shear / area : none);
+  series.shear_rate.push_back(known && line ? line->slope : none);
 }
 
 /// Takes the window in place of an extent beyond the limits.
@@ -110,10 +135,7 @@ Survey survey(const Recording& recording, std::size_t batches, std::shared_ptr<S
       occupancy.add(snapshot, found.upright);
       period = snapshot.period_x;
       most_grains = std::max(most_grains, snapshot.x.size());
-      const BulkState bulk = bulk_state(snapshot, found.upright);
-      found.series.pressure.push_back(bulk.pressure);
-      found.series.shear_stress.push_back(bulk.shear_stress);
-      found.series.shear_rate.push_back(bulk.shear_rate);
+      add_bulk(snapshot, found.upright, found.series);
     }
     tick();
   }

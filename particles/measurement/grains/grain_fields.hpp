@@ -1,7 +1,6 @@
 #pragma once
 // Fields of each grain of a snapshot; the paper's profiles are averages of them (Sec. II).
 #include <cstdint>
-#include <initializer_list>
 #include <vector>
 
 #include "particles/measurement/frame/flow_snapshot.hpp"
@@ -10,37 +9,13 @@
 
 namespace drumlin::particles {
 
-enum class GrainField {
-  cell,  ///< area of the Voronoi cell, volume fraction in it
-  velocity,
-  spin,
-  contact_stress,
-  kinetic_stress,
-  rotational_stress,
-  coordination
-};
-
-class GrainFieldSet {
- public:
-  GrainFieldSet(std::initializer_list<GrainField> fields) {
-    for (GrainField field : fields) add(field);
-  }
-  void add(GrainField field) { bits_ |= bit(field); }
-  bool has(GrainField field) const { return (bits_ & bit(field)) != 0; }
-
- private:
-  static unsigned bit(GrainField field) { return 1u << static_cast<unsigned>(field); }
-  unsigned bits_ = 0;
-};
-
 /// Compression positive; xz: the traction of what is above on what is below.
 struct GrainStress {
   std::vector<double> xx, zz, xz;
 };
 
-/// One entry per grain in what was asked for, the rest is empty. Dimensionless, flow frame, relative to the
-/// drum. NaN where a grain has no cell. A snapshot that does not know its
-/// contacts gives neither contact stress nor coordination.
+/// One entry per grain, or none where nobody knows it. Dimensionless, flow frame, relative to the drum. NaN
+/// where a grain has no cell.
 struct GrainFields {
   std::vector<double> cell_area, nu;
   std::vector<std::int32_t> open_cell;  ///< 1: the cell ends in the free
@@ -59,8 +34,8 @@ struct GrainFields {
   std::vector<std::int32_t> coordination;  ///< loaded contacts, those with walls included
 };
 
-/// `mean_velocity` is read for the kinetic stress only and may else be null.
-GrainFields grain_fields(const Snapshot& snapshot, const FlowSnapshot& in_frame, const GrainFieldSet& wanted,
+/// Without `mean_velocity` there is no kinetic stress.
+GrainFields grain_fields(const Snapshot& snapshot, const FlowSnapshot& in_frame,
                          const VelocityMap* mean_velocity = nullptr, const VoronoiOptions& options = {});
 
 }  // namespace drumlin::particles

@@ -54,12 +54,12 @@ Slice empty_slice(LayerGrid grid, std::size_t batches) {
   return Slice{std::move(grid), std::vector<LayerSums>(batches, empty)};
 }
 
-LayerGrid height_grid(double x_from, double x_to, const SceneBox& reach, double thickness) {
+LayerGrid height_grid(double x_from, double x_to, const Rectangle& reach, double thickness) {
   return layer_grid(FlowFrame{}, (x_from + x_to) / 2, x_to - x_from, thickness, reach.z_min, reach.z_max, 0,
                     0);
 }
 
-LayerGrid width_grid(double z_from, double z_to, const SceneBox& reach, double thickness) {
+LayerGrid width_grid(double z_from, double z_to, const Rectangle& reach, double thickness) {
   return layer_grid(FlowFrame{0, 0, 0, -1}, -(z_from + z_to) / 2, z_to - z_from, thickness, reach.x_min,
                     reach.x_max, 0, 0);
 }

@@ -14,15 +14,12 @@ struct Slice {
 };
 Slice empty_slice(LayerGrid grid, std::size_t batches);
 
-/// What the grains reach, in the axes of the scene.
-struct SceneBox {
-  double x_min = 0, x_max = 0, z_min = 0, z_max = 0;
-};
-/// Layers over the height of a band x_from ... x_to, in the axes of the scene as a silo has them.
-LayerGrid height_grid(double x_from, double x_to, const SceneBox& reach, double thickness);
+/// Layers over the height of a band x_from ... x_to, in the axes of the scene as a silo has them. `reach`: of
+/// the grains.
+LayerGrid height_grid(double x_from, double x_to, const Rectangle& reach, double thickness);
 /// Upright layers over the width of a band z_from ... z_to, in a frame turned by a quarter: its z is the
 /// scene's x, its x points down.
-LayerGrid width_grid(double z_from, double z_to, const SceneBox& reach, double thickness);
+LayerGrid width_grid(double z_from, double z_to, const Rectangle& reach, double thickness);
 
 /// z = 0 where nu crosses `surface_nu`; where it never does, as with infinity, the height of the frame's
 /// origin.

@@ -28,33 +28,26 @@ struct WindowChange {
 
 std::vector<WindowChange> window_changes(const MeasurementOptions& standard) {
   std::vector<WindowChange> changes;
-  const auto add = [&](const std::string& change, auto alter) {
-    changes.push_back({change, standard});
-    alter(changes.back().options);
+  const auto add = [&](const std::string& change) -> MeasurementOptions& {
+    return changes.emplace_back(WindowChange{change, standard}).options;
   };
-  for (double nu : {0.5, 0.6, 0.75})
-    add(fmt::format("surface where nu = {}", nu), [&](MeasurementOptions& o) { o.surface_nu = nu; });
+  for (double nu : {0.5, 0.6, 0.75}) add(fmt::format("surface where nu = {}", nu)).surface_nu = nu;
   for (double share : {0.2, 0.4, 0.5})
-    add(fmt::format("straight line where v_x > {} v_x(0)", share),
-        [&](MeasurementOptions& o) { o.scalars.linear_share = share; });
+    add(fmt::format("straight line where v_x > {} v_x(0)", share)).scalars.linear_share = share;
   for (double depth : {0.5, 2.0})
-    add(fmt::format("v_x(0) read {} d below the surface", depth),
-        [&](MeasurementOptions& o) { o.scalars.surface_speed_depth = depth; });
-  for (const auto& [from, to] : {std::pair(6.0, 2.0), std::pair(8.0, 0.0), std::pair(12.0, 4.0)})
-    add(fmt::format("lambda from -H-{} to -H-{}", from, to), [from = from, to = to](MeasurementOptions& o) {
-      o.scalars.decay_from = from;
-      o.scalars.decay_to = to;
-    });
-  add("lambda from v_x", [](MeasurementOptions& o) { o.scalars.decay_of = "v_x"; });
+    add(fmt::format("v_x(0) read {} d below the surface", depth)).scalars.surface_speed_depth = depth;
+  for (const auto& [from, to] : {std::pair(6.0, 2.0), std::pair(8.0, 0.0), std::pair(12.0, 4.0)}) {
+    ProfileScalarOptions& scalars = add(fmt::format("lambda from -H-{} to -H-{}", from, to)).scalars;
+    scalars.decay_from = from;
+    scalars.decay_to = to;
+  }
+  add("lambda from v_x").scalars.decay_of = "v_x";
   for (double margin : {2.0, 8.0})
-    add(fmt::format("bulk {} d from surface and wall", margin),
-        [&](MeasurementOptions& o) { o.bulk_margin = margin; });
+    add(fmt::format("bulk {} d from surface and wall", margin)).bulk_margin = margin;
   for (double margin : {1.0, 6.0})
-    add(fmt::format("static phase from {} d above the wall", margin),
-        [&](MeasurementOptions& o) { o.wall_margin = margin; });
+    add(fmt::format("static phase from {} d above the wall", margin)).wall_margin = margin;
   for (double I : {1e-5, 1e-3})
-    add(fmt::format("power laws of the fluctuations from I = {}", I),
-        [&](MeasurementOptions& o) { o.fluctuation_I_min = I; });
+    add(fmt::format("power laws of the fluctuations from I = {}", I)).fluctuation_I_min = I;
   return changes;
 }
 
