@@ -1,4 +1,4 @@
-"""What a command prints arrives or is said to be lost; missing memory, threads or room end it cleanly; Python runs our modules alone.
+"""What a command prints arrives or is said to be lost; missing memory, threads or room end it cleanly.
 
 usage: streams.py DRUMLIN FOLDER_OF_THIS_TEST DATA
 """
@@ -131,17 +131,6 @@ def check_limits_of_libraries(executable, data, scene, run, folder):
     print(f"{len(cases)} limits of libraries: said")
 
 
-def measured_among_strangers(executable, run, folder):
-    """Figures are drawn by our modules alone: none of the current folder, none of PYTHONPATH."""
-    strange, executed = folder / "strange", folder / "executed"
-    strange.mkdir()
-    for module in ("json", "csv", "style", "script", "sitecustomize", "usercustomize"):
-        (strange / f"{module}.py").write_text(f"open({str(executed)!r}, 'w').close()\nraise SystemExit('strange')\n", encoding="utf-8")
-    environment = os.environ | {"PYTHONPATH": str(strange), "PYTHONHOME": str(strange)}
-    result = subprocess.run([executable, "measure", run, "--parts", "none"], cwd=strange, env=environment, capture_output=True, text=True, check=False)
-    require(result.returncode == 0 and not executed.exists(), f"measure among strange modules: {result.returncode}\n{result.stderr}")
-
-
 def check_starts_of_python(root):
     for script in ("reproduce", "check", ".ci/install", ".ci/run", "apps/paper_runs"):
         for line in (root / script).read_text(encoding="utf-8").splitlines():
@@ -170,7 +159,7 @@ def main():
         run = folder / "run"
         drumlin("run", scene, "-o", run, *SHORT_RUN)
         expected = results(run)
-        measured_among_strangers(executable, run, folder)
+        drumlin("measure", run, "--parts", "none")
         check_lost_output(executable, scene, problem, run)
         shutil.rmtree(run / "measured")
         check_run_without_streams(executable, scene, folder, expected)

@@ -168,19 +168,6 @@ std::vector<HardCheck> threads() {
   return checks;
 }
 
-std::vector<HardCheck> restart() {
-  const Trial trial = drum();
-  Simulation whole = trial.start(), first = trial.start();
-  run_watched(whole);
-  for (int k = 0; k < 43; ++k) (void)first.step();
-  Scene told = trial.scene;
-  told.grains.source = GeneratedGrains{1, 1, 1, RectangleRegion{{0, 0}, {1, 1}}};
-  Simulation second(told, first.state());
-  run_watched(second);
-  return {equals("numbers that differ after a restart", 0, differing(whole.state(), second.state()), 0,
-                 "the same bytes")};
-}
-
 }  // namespace
 
 std::vector<HardCase> invariance_cases() {
@@ -191,7 +178,6 @@ std::vector<HardCase> invariance_cases() {
       {"galilean-shift", "twelve discs that all move by more: the same answer", true, galilean_shift},
       {"stray-grain", "a heap, and one disc 1e6 d away: nothing changes", true, stray_grain},
       {"threads", "1, 2 and 4 threads: the same bytes", true, threads},
-      {"restart", "a run continued from its state: the same bytes", true, restart},
   };
 }
 
