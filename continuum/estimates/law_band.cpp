@@ -5,18 +5,16 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 
+#include "coupling/common/no_value.hpp"
 #include "coupling/statistics/quantiles.hpp"
 
 namespace drumlin::continuum {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 // Half width of each entry over samples of equal length; NaN where fewer than three are numbers.
 std::vector<double> half_widths(const std::vector<std::vector<double>>& samples) {
-  std::vector<double> widths(samples.empty() ? 0 : samples.front().size(), nan);
+  std::vector<double> widths(samples.empty() ? 0 : samples.front().size(), no_value);
   for (std::size_t i = 0; i < widths.size(); ++i) {
     double mean = 0, squares = 0;
     int count = 0;
@@ -107,7 +105,7 @@ LawBand law_band_of(const FlowCase& flow_case, const FlowSolution& solution, con
   band.maps = half_widths_of_columns(flows.maps);
   band.scalars = half_widths_of_scalars(flows.scalars);
   const ProfileSet own = flow_case.profiles(solution.field);
-  band.profile = nan;
+  band.profile = no_value;
   for (std::size_t c = 0; c < band.profiles.size(); ++c)
     if (own.columns[c].name == "v_x") band.profile = norm_ratio(band.profiles[c], own.columns[c].value);
   band.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();

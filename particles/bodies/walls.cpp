@@ -68,14 +68,14 @@ namespace {
 
 /// An end of a thin wall: where it is, the direction from there along the wall, and what is to learn of
 /// another end that meets it.
-struct ThinEnd {
+struct JoinedEnd {
   Point place, along;
   int together;
   Point* beyond;
 };
 
-std::vector<ThinEnd> thin_ends(std::span<Shape> shapes, std::span<const int> together) {
-  std::vector<ThinEnd> ends;
+std::vector<JoinedEnd> thin_ends(std::span<Shape> shapes, std::span<const int> together) {
+  std::vector<JoinedEnd> ends;
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     if (auto* s = std::get_if<Segment>(&shapes[k])) {
       const double x = s->to.x - s->from.x, z = s->to.z - s->from.z, length = std::hypot(x, z);
@@ -92,7 +92,7 @@ std::vector<ThinEnd> thin_ends(std::span<Shape> shapes, std::span<const int> tog
 
 void join_ends(std::span<Shape> shapes, std::span<const int> together) {
   constexpr double near = 1e-6;  // d
-  std::vector<ThinEnd> ends = thin_ends(shapes, together);
+  std::vector<JoinedEnd> ends = thin_ends(shapes, together);
   std::sort(ends.begin(), ends.end(), [](const auto& a, const auto& b) { return a.place.x < b.place.x; });
   for (std::size_t a = 0; a < ends.size(); ++a)
     for (std::size_t b = a + 1; b < ends.size() && ends[b].place.x - ends[a].place.x < near; ++b)

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <map>
 #include <sstream>
 #include <string>
@@ -15,20 +14,19 @@
 
 #include "coupling/common/errors.hpp"
 #include "coupling/common/input_file.hpp"
+#include "coupling/common/no_value.hpp"
 #include "coupling/documents/csv.hpp"
 #include "particles/measurement/frame/intervals.hpp"
 
 namespace drumlin::particles {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
 constexpr std::array columns{"time_s", "stage", "overlap_mean", "overlap_max", "residual"};
 
 struct LogRow {
-  double time_s = none;
+  double time_s = no_value;
   std::string stage;
-  double overlap_mean = none, overlap_max = none, residual = none;
+  double overlap_mean = no_value, overlap_max = no_value, residual = no_value;
 };
 
 std::vector<LogRow> read_log(const std::filesystem::path& file) {
@@ -48,7 +46,7 @@ std::vector<LogRow> read_log(const std::filesystem::path& file) {
       throw InputError({{file.string(), number, 0, "", fmt::format("holds {} fields", fields.size()),
                          fmt::format("{}, as many as the first line", place.size())}});
     const auto number_in = [&](std::size_t c) {
-      return finite_number(fields[place[columns[c]]]).value_or(none);
+      return finite_number(fields[place[columns[c]]]).value_or(no_value);
     };
     LogRow row{number_in(0), std::string(fields[place[columns[1]]]), number_in(2), number_in(3),
                number_in(4)};
@@ -93,7 +91,7 @@ ScalarSet accuracy_scalars(const std::filesystem::path& log_csv, double first_ti
   const auto largest = finite_values(rows, &LogRow::overlap_max);
   return ScalarSet{
       {averaged("overlap_mean", finite_values(rows, &LogRow::overlap_mean)),
-       {"overlap_max", largest.empty() ? none : *std::max_element(largest.begin(), largest.end()), {}},
+       {"overlap_max", largest.empty() ? no_value : *std::max_element(largest.begin(), largest.end()), {}},
        averaged("residual_mean", finite_values(rows, &LogRow::residual))}};
 }
 

@@ -2,19 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "coupling/common/errors.hpp"
 #include "coupling/common/machine_load.hpp"
+#include "coupling/common/no_value.hpp"
 #include "coupling/documents/enum_names.hpp"
 #include "coupling/statistics/quantiles.hpp"
 #include "coupling/statistics/resampling.hpp"
 
 namespace drumlin::particles {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// The scene with one stage more: the last one again, as long as the stretch, with these settings.
 Scene prolonged(const Scene& scene, double seconds, double step_s, double tolerance) {
@@ -37,7 +35,7 @@ Scene prolonged(const Scene& scene, double seconds, double step_s, double tolera
 
 /// Normal forces at one step: their mean, and the pressure that they make.
 struct Forces {
-  double mean = none, pressure = 0;
+  double mean = no_value, pressure = 0;
 };
 
 Forces forces_of(const Simulation& simulation, double time_step) {
@@ -52,11 +50,11 @@ Forces forces_of(const Simulation& simulation, double time_step) {
     sum += force;
     lever += force * (r_i + r_j);
   }
-  return {contacts.empty() ? none : sum / static_cast<double>(contacts.size()), lever / (2 * area)};
+  return {contacts.empty() ? no_value : sum / static_cast<double>(contacts.size()), lever / (2 * area)};
 }
 
 double rms_displacement(const Bodies& from, const Bodies& to) {
-  if (from.count() != to.count() || from.count() == 0) return none;
+  if (from.count() != to.count() || from.count() == 0) return no_value;
   double squares = 0;
   for (std::size_t i = 0; i < from.count(); ++i) {
     const double x = to.x[i] - from.x[i], z = to.z[i] - from.z[i];
@@ -71,7 +69,7 @@ struct BlockSums {
 };
 
 std::array<double, stretch_quantities> means_of(const BlockSums& sums, double steps, double displacement) {
-  return {sums.energy / steps, sums.forces > 0 ? sums.force / sums.forces : none, sums.pressure / steps,
+  return {sums.energy / steps, sums.forces > 0 ? sums.force / sums.forces : no_value, sums.pressure / steps,
           displacement, sums.overlap / steps};
 }
 

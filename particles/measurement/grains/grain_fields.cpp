@@ -1,14 +1,14 @@
 #include "particles/measurement/grains/grain_fields.hpp"
 
 #include <cmath>
-#include <limits>
 #include <numbers>
+
+#include "coupling/common/no_value.hpp"
 
 namespace drumlin::particles {
 namespace {
 
 using std::numbers::pi;
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 void add_contact_stress(const FlowSnapshot& in_frame, const std::vector<double>& cell_area,
                         GrainStress& stress) {
@@ -47,7 +47,7 @@ GrainFields grain_fields(const Snapshot& snapshot, const FlowSnapshot& in_frame,
   std::vector<double>& area = fields.cell_area;
   for (const VoronoiCell& cell : voronoi_cells(snapshot, options)) {
     // NaN also where there is no room: nothing can be divided by it.
-    area.push_back(cell.area > 0 ? cell.area : none);
+    area.push_back(cell.area > 0 ? cell.area : no_value);
     fields.open_cell.push_back(cell.open ? 1 : 0);
   }
   for (std::size_t i = 0; i < area.size(); ++i) {

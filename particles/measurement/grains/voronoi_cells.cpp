@@ -7,12 +7,12 @@
 #include <tuple>
 #include <utility>
 
+#include "coupling/common/no_value.hpp"
 #include "particles/bodies/cell_path.hpp"
 
 namespace drumlin::particles {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double mean_weight = 0.25;  // of a grain of diameter 1
 
 int floor_divided(int a, int b) { return a / b - (a % b != 0 && (a < 0) != (b < 0) ? 1 : 0); }
@@ -213,7 +213,7 @@ void VoronoiTessellation::cut_by_level(const Site& site, const Level& level) {
 
 VoronoiCell VoronoiTessellation::cell(std::size_t grain) {
   const Site& site = grains_[grain];
-  if (site.grain < 0) return {none, false};
+  if (site.grain < 0) return {no_value, false};
   const double end_squared = site.weight + tangent_squared_, end = std::sqrt(end_squared);
   polygon_.make_square(2 *
                        end);  // not tangent to the circle at which the cell ends: roundings would grow there

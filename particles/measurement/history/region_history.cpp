@@ -8,12 +8,11 @@
 #include <numbers>
 
 #include "coupling/common/errors.hpp"
+#include "coupling/common/no_value.hpp"
 #include "particles/bodies/cell_path.hpp"
 
 namespace drumlin::particles {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 double disc_area(double radius) { return std::numbers::pi * radius * radius; }
 
@@ -106,8 +105,9 @@ void add_contacts(const Box& box, const Snapshot& s, RegionState& state) {
     half_branch(contact.i, 1);
     if (contact.j >= 0) half_branch(contact.j, -1);
   }
-  state.coordination = state.grains > 0 ? ends / static_cast<double>(state.grains) : none;
-  state.fabric = fabric > 0 ? scaled(1 / fabric, state.fabric) : PlaneMatrix{none, none, none, none};
+  state.coordination = state.grains > 0 ? ends / static_cast<double>(state.grains) : no_value;
+  state.fabric =
+      fabric > 0 ? scaled(1 / fabric, state.fabric) : PlaneMatrix{no_value, no_value, no_value, no_value};
 }
 
 /// Sums for a least squares fit of a vector that is affine in the place.
@@ -191,7 +191,7 @@ const RegionState& RegionHistory::add(const Snapshot& snapshot) {
   RegionState next;
   next.time = snapshot.time;
   next.strain = state_.strain;
-  next.gradient = {none, none, none, none};
+  next.gradient = {no_value, no_value, no_value, no_value};
   if (before_)
     if (const auto gradient = mean_gradient(box_, *before_, snapshot)) {
       next.gradient = *gradient;
@@ -204,8 +204,8 @@ const RegionState& RegionHistory::add(const Snapshot& snapshot) {
     next.pressure = {next.pressure.xx + next.kinetic.xx, next.pressure.xz + next.kinetic.xz,
                      next.pressure.zx + next.kinetic.zx, next.pressure.zz + next.kinetic.zz};
   } else {
-    next.pressure = next.fabric = {none, none, none, none};
-    next.coordination = none;
+    next.pressure = next.fabric = {no_value, no_value, no_value, no_value};
+    next.coordination = no_value;
   }
   state_ = next;
   before_ = snapshot;

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "coupling/common/no_value.hpp"
+
 namespace drumlin::particles {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double whole_turn = 2 * std::numbers::pi;
 
 WallState empty_state(const Container* container, std::size_t sectors, double value) {
@@ -49,7 +50,7 @@ std::vector<WallState> wall_states(const Snapshot& snapshot, std::size_t walls,
       container[static_cast<std::size_t>(wall_of_shape[s])] = round;
   std::vector<WallState> states;
   for (const Container* round : container)
-    states.push_back(empty_state(round, sectors, snapshot.contacts_known ? 0 : none));
+    states.push_back(empty_state(round, sectors, snapshot.contacts_known ? 0 : no_value));
   for (const SnapshotContact& contact : snapshot.contacts) {
     if (contact.j >= 0) continue;
     const auto wall = static_cast<std::size_t>(wall_of_shape[static_cast<std::size_t>(-1 - contact.j)]);

@@ -9,7 +9,6 @@ namespace {
 
 using Of = LayerValues;
 using Known = KnownQuantities;
-constexpr double none = Of::none;
 
 constexpr const char *speed = "sqrt(g d)", *rate = "sqrt(g/d)", *stress = "rho0 g d",
                      *stress_slope = "rho0 g", *number = "1", *per_length = "1/d";
@@ -110,10 +109,10 @@ double area_of(const LayerGrid& grid, const LayerSums& sums, std::size_t layer) 
                      : grid.area[layer] * sums.snapshots.count;
 }
 
-double mean(double sum, double count) { return count > 0 ? sum / count : none; }
+double mean(double sum, double count) { return count > 0 ? sum / count : Of::none; }
 
 double covariance(double product_sum, double a_sum, double b_sum, double count) {
-  return count > 0 ? product_sum / count - a_sum / count * (b_sum / count) : none;
+  return count > 0 ? product_sum / count - a_sum / count * (b_sum / count) : Of::none;
 }
 
 /// Second moments of the velocity in one layer, v_x counted from its mean profile v_x(z) and not from one
@@ -149,13 +148,13 @@ void set_shear(const LayerGrid& grid, const LayerSums& sums, std::vector<LayerVa
 /// Slope of v_z over x within a layer: the other half of the vorticity.
 double normal_velocity_slope(const LayerSum& sum) {
   const double count = sum.grains.weight, spread = covariance(sum.x_x, sum.x, sum.x, count);
-  return count > 2 && spread > 0 ? covariance(sum.x_v_z, sum.x, sum.grains.v_z, count) / spread : none;
+  return count > 2 && spread > 0 ? covariance(sum.x_v_z, sum.x, sum.grains.v_z, count) / spread : Of::none;
 }
 
 /// Mean angular velocity about the centre of rings, clockwise: sum of v_t r / sum of r^2.
 double angular_velocity(const Moments& sum, double r) {
   const double inertia = sum.zeta_zeta + 2 * r * sum.zeta + sum.weight * r * r;
-  return inertia > 0 ? (sum.zeta_v_x + r * sum.v_x) / inertia : none;
+  return inertia > 0 ? (sum.zeta_v_x + r * sum.v_x) / inertia : Of::none;
 }
 
 /// Total stress = contact + kinetic. The rotational part stands beside them: momentum is balanced by the
@@ -259,7 +258,7 @@ double surface_height(const LayerGrid& grid, const LayerSums& sums, double surfa
     if (here >= surface_nu) return grid.z_of(l) + grid.thickness * (here - surface_nu) / (here - above);
     if (!std::isnan(here)) above = here;
   }
-  return none;
+  return Of::none;
 }
 
 Profile profile_of(const LayerGrid& grid, const LayerSums& sums, double surface_z) {
@@ -306,7 +305,7 @@ ProfileSet table_of(const LeaveOneOut<Profile>& profiles, std::span<const LayerQ
     if (!knows(profiles.whole, quantity)) continue;
     for (std::size_t l = 0; l < table.z.size() && quantity.value != &LayerValues::count; ++l)
       column->ci99.push_back(ci99_of(profiles, [&](const Profile& one) {
-        return l < one.layers.size() ? one.layers[l].*quantity.value : none;
+        return l < one.layers.size() ? one.layers[l].*quantity.value : Of::none;
       }));
     ++column;
   }

@@ -1,13 +1,12 @@
-#include "particles/measurement/layers/layer_sums.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "particles/measurement/layers/layer_sums.hpp"
+
 namespace drumlin::particles {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double gauss_offset = 0.28867513459481288;  // sqrt(3)/6 from the middle of a piece of length 1
 
 /// The axes at a place: out from the centre, and clockwise about it. The centre itself counts as above.
@@ -19,8 +18,8 @@ struct PolarAxes {
 
 PolarAxes axes_at(double x, double z, double r) { return r > 0 ? PolarAxes{x / r, z / r} : PolarAxes{}; }
 
-void add_grain(const LayerGrid& grid, const FlowSnapshot& snapshot, std::size_t i,
-               std::vector<LayerSum>& rings) {
+void add_to_rings(const LayerGrid& grid, const FlowSnapshot& snapshot, std::size_t i,
+                  std::vector<LayerSum>& rings) {
   const double x = snapshot.x[i], z = snapshot.z[i], radius = snapshot.radius[i], r = std::hypot(x, z);
   const double density = snapshot.density_of(i);
   const auto count = static_cast<double>(rings.size());
@@ -91,7 +90,7 @@ void add_half_branch(const LayerGrid& grid, const HalfBranch& b, std::vector<dou
 double disc_area_in_circle(double distance, double radius, double circle) {
   if (distance >= radius + circle) return 0;
   const double smaller = std::min(radius, circle);
-  if (distance <= std::abs(radius - circle)) return pi * smaller * smaller;
+  if (distance <= std::abs(radius - circle)) return std::numbers::pi * smaller * smaller;
   const auto angle = [&](double own, double other) {
     return std::acos(
         std::clamp((distance * distance + own * own - other * other) / (2 * distance * own), -1.0, 1.0));
@@ -109,13 +108,13 @@ LayerGrid ring_grid(double centre_x, double centre_z, double thickness, double r
   for (double inner = 0; inner < reach; inner += thickness) {
     const double outer =
         container_radius > 0 ? std::min(inner + thickness, container_radius) : inner + thickness;
-    grid.area.push_back(pi * (outer * outer - inner * inner));
+    grid.area.push_back(std::numbers::pi * (outer * outer - inner * inner));
   }
   return grid;
 }
 
 void add_to_rings(const LayerGrid& grid, const FlowSnapshot& snapshot, std::vector<LayerSum>& rings) {
-  for (std::size_t i = 0; i < snapshot.x.size(); ++i) add_grain(grid, snapshot, i, rings);
+  for (std::size_t i = 0; i < snapshot.x.size(); ++i) add_to_rings(grid, snapshot, i, rings);
   std::vector<double> cuts;
   for (const HalfBranch& branch : snapshot.half_branches()) add_half_branch(grid, branch, cuts, rings);
 }

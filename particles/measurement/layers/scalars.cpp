@@ -19,10 +19,9 @@ namespace {
 
 using Of = LayerValues;
 using Layers = std::vector<LayerValues>;
-constexpr double none = Of::none;
 
 struct Zone {
-  double bottom = none, top = none;
+  double bottom = Of::none, top = Of::none;
 };
 
 ScalarSet scalars_of(std::initializer_list<std::pair<const char*, double>> values) {
@@ -31,18 +30,18 @@ ScalarSet scalars_of(std::initializer_list<std::pair<const char*, double>> value
   return set;
 }
 
-/// Mean of a quantity, or of value(layer), over the layers of a zone; NaN when there is none or one of them
-/// is NaN.
+/// Mean of a quantity, or of value(layer), over the layers of a zone; NaN when there is Of::none or one of
+/// them is NaN.
 template <class Value>
 double mean_over(const Layers& layers, Zone zone, Value value) {
-  if (!std::isfinite(zone.bottom) || !std::isfinite(zone.top)) return none;
+  if (!std::isfinite(zone.bottom) || !std::isfinite(zone.top)) return Of::none;
   double sum = 0, count = 0;
   for (const LayerValues& layer : layers) {
     if (layer.z < zone.bottom || layer.z > zone.top) continue;
     sum += std::invoke(value, layer);
     count += 1;
   }
-  return count > 0 ? sum / count : none;
+  return count > 0 ? sum / count : Of::none;
 }
 
 double mean_of_ratio(const Layers& layers, Zone zone, double Of::*above, double Of::*below) {
@@ -58,7 +57,7 @@ double height_of(const Layers& layers, double level) {
     const double share = (here.nu - level) / (here.nu - layers[l + 1].nu);
     return here.z + share * (layers[l + 1].z - here.z);
   }
-  return none;
+  return Of::none;
 }
 
 /// Distance from the wall at which the volume fraction first reaches `level`.
@@ -70,7 +69,7 @@ double wall_width(const Layers& layers, double wall_z, double level) {
     const double share = (level - below.nu) / (layers[l].nu - below.nu);
     return below.z + share * (layers[l].z - below.z) - wall_z;
   }
-  return none;
+  return Of::none;
 }
 
 /// Root mean square of v_x about the straight line of the flowing layer, over v_x(0).
@@ -84,7 +83,7 @@ double line_misfit(const Layers& layers, const ProfileScalars& fits) {
 /// Largest mean of k over five neighbouring layers of a zone, and I in the middle of them. One layer alone
 /// would be the largest of its errors.
 struct Largest {
-  double value = none, I = none;
+  double value = Of::none, I = Of::none;
 };
 Largest largest_k(const Layers& at, Zone zone) {
   Largest found;
@@ -108,7 +107,7 @@ double power_of_I(const Layers& layers, Zone zone, double Of::*quantity, double 
     log_ratio.push_back(ratio);
   }
   const auto line = log_I.size() < 3 ? std::nullopt : statistics::fit_line(log_I, log_ratio);
-  return line ? line->slope : none;
+  return line ? line->slope : Of::none;
 }
 
 void add_gradient_scalars(const Layers& layers, Zone flowing, Zone still, Zone whole, ScalarSet& result) {
@@ -129,7 +128,7 @@ void add_gradient_scalars(const Layers& layers, Zone flowing, Zone still, Zone w
 
 /// The highest layer that is half as dense as the densest.
 double top_of(const Layers& layers) {
-  double densest = 0, top = none;
+  double densest = 0, top = Of::none;
   for (const LayerValues& layer : layers) densest = layer.nu > densest ? layer.nu : densest;
   for (const LayerValues& layer : layers)
     if (densest > 0 && layer.nu >= densest / 2) top = layer.z;
@@ -160,7 +159,7 @@ ScalarSet packing_scalars(const Profile& profile, const ProfilePlace& place,
   };
   const double cosine = std::cos(place.frame_angle), sine = std::sin(place.frame_angle);
   const Largest k = largest_k(layers, creeping);
-  const auto with_ends = [&](double value) { return place.closed ? none : value; };  // surface and wall
+  const auto with_ends = [&](double value) { return place.closed ? Of::none : value; };  // surface and wall
   ScalarSet result = scalars_of(
       {{"Q", fits.Q},
        {"H", fits.H},
@@ -199,7 +198,7 @@ ScalarSet bulk_scalars(const Profile& profile, double wall_z, double margin, boo
   const Zone bulk{wall_z + (closed ? 0 : margin), closed ? 0 : top_of(layers) - margin};
   const double rate = mean_over(layers, bulk, &Of::shear_rate),
                normal = mean_over(layers, bulk, &Of::sigma_zz),
-               shear = mean_over(layers, bulk, &Of::sigma_xz), pressed = normal > 0 ? normal : none;
+               shear = mean_over(layers, bulk, &Of::sigma_xz), pressed = normal > 0 ? normal : Of::none;
   return scalars_of({{"bulk_nu", mean_over(layers, bulk, &Of::nu)},
                      {"bulk_shear_rate", rate},
                      {"bulk_sigma_zz", normal},

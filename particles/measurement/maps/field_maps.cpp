@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "coupling/common/no_value.hpp"
 #include "coupling/exchange/plane_invariants.hpp"
 #include "particles/measurement/frame/intervals.hpp"
 #include "particles/measurement/maps/field_values.hpp"
@@ -11,8 +11,6 @@
 
 namespace drumlin::particles {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// The makers of rows, with memory that they use again.
 class RowMaker {
@@ -46,8 +44,8 @@ class RowMaker {
   void clear(std::size_t nodes) {
     rows_.fields.clear();
     for (const MapQuantity& field : fields_)
-      rows_.fields.push_back({field.name, std::vector<double>(nodes, none),
-                              std::vector<double>(snapshots_.without.empty() ? 0 : nodes, none)});
+      rows_.fields.push_back({field.name, std::vector<double>(nodes, no_value),
+                              std::vector<double>(snapshots_.without.empty() ? 0 : nodes, no_value)});
     rows_.nodes.assign(nodes, {});
     rows_.without.assign(snapshots_.without.size(), std::vector<FrictionNode>(nodes));
   }

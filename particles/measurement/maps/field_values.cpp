@@ -6,65 +6,64 @@
 namespace drumlin::particles {
 namespace {
 
-using Of = MapValues;
 using Known = MapSums::Snapshots;
 
 constexpr MapQuantity quantities[] = {
-    {"nu", &Of::nu},
-    {"v_x", &Of::v_x},
-    {"v_z", &Of::v_z},
-    {"omega", &Of::omega, &Known::spin},
-    {"d_v_x_dx", &Of::d_v_x_dx},
-    {"d_v_x_dz", &Of::d_v_x_dz},
-    {"d_v_z_dx", &Of::d_v_z_dx},
-    {"d_v_z_dz", &Of::d_v_z_dz},
-    {"D_xx", &Of::d_v_x_dx},
-    {"D_zz", &Of::d_v_z_dz},
-    {"D_xz", &Of::D_xz},
-    {"dilation", &Of::dilation},
-    {"strain_rate", &Of::strain_rate},
-    {"half_vorticity", &Of::half_vorticity},
-    {"sigma_xx", &Of::sigma_xx},
-    {"sigma_zz", &Of::sigma_zz},
-    {"sigma_xz", &Of::sigma_xz},
-    {"sigma_zx", &Of::sigma_zx},
-    {"sigma_xx_kinetic", &Of::sigma_xx_kinetic},
-    {"sigma_zz_kinetic", &Of::sigma_zz_kinetic},
-    {"sigma_xz_kinetic", &Of::sigma_xz_kinetic},
-    {"p", &Of::p},
-    {"tau", &Of::tau},
-    {"I", &Of::I},
-    {"mu", &Of::mu},
-    {"k", &Of::k},
-    {"axis_angle_deg", &Of::axis_angle_deg, nullptr, true},
-    {"coordination", &Of::coordination},
-    {"fabric_xx", &Of::fabric_xx},
-    {"fabric_zz", &Of::fabric_zz},
-    {"fabric_xz", &Of::fabric_xz},
-    {"wall_x", &Of::wall_x},
-    {"wall_z", &Of::wall_z},
-    {"residual_x", &Of::residual_x},
-    {"residual_z", &Of::residual_z},
-    {"residual_x_without_kinetic", &Of::residual_x_contact},
-    {"residual_z_without_kinetic", &Of::residual_z_contact},
-    {"inertia_x", &Of::inertia_x},
-    {"inertia_z", &Of::inertia_z},
-    {"number_density", &Of::number_density},
-    {"density", &Of::density, &Known::densities},
-    {"displacement_v_x", &Of::moved_v_x, &Known::pairs},
-    {"displacement_v_z", &Of::moved_v_z, &Known::pairs},
-    {"displacement_d_v_x_dx", &Of::moved_d_v_x_dx, &Known::pairs},
-    {"displacement_d_v_x_dz", &Of::moved_d_v_x_dz, &Known::pairs},
-    {"displacement_d_v_z_dx", &Of::moved_d_v_z_dx, &Known::pairs},
-    {"displacement_d_v_z_dz", &Of::moved_d_v_z_dz, &Known::pairs},
-    {"displacement_D_xx", &Of::moved_d_v_x_dx, &Known::pairs},
-    {"displacement_D_zz", &Of::moved_d_v_z_dz, &Known::pairs},
-    {"displacement_D_xz", &Of::moved_D_xz, &Known::pairs},
-    {"displacement_dilation", &Of::moved_dilation, &Known::pairs},
-    {"displacement_strain_rate", &Of::moved_strain_rate, &Known::pairs},
-    {"displacement_half_vorticity", &Of::moved_half_vorticity, &Known::pairs},
-    {"displacement_I", &Of::moved_I, &Known::pairs},
-    {"displacement_axis_angle_deg", &Of::moved_axis_angle_deg, &Known::pairs, true}};
+    {"nu", &MapValues::nu},
+    {"v_x", &MapValues::v_x},
+    {"v_z", &MapValues::v_z},
+    {"omega", &MapValues::omega, &Known::spin},
+    {"d_v_x_dx", &MapValues::d_v_x_dx},
+    {"d_v_x_dz", &MapValues::d_v_x_dz},
+    {"d_v_z_dx", &MapValues::d_v_z_dx},
+    {"d_v_z_dz", &MapValues::d_v_z_dz},
+    {"D_xx", &MapValues::d_v_x_dx},
+    {"D_zz", &MapValues::d_v_z_dz},
+    {"D_xz", &MapValues::D_xz},
+    {"dilation", &MapValues::dilation},
+    {"strain_rate", &MapValues::strain_rate},
+    {"half_vorticity", &MapValues::half_vorticity},
+    {"sigma_xx", &MapValues::sigma_xx},
+    {"sigma_zz", &MapValues::sigma_zz},
+    {"sigma_xz", &MapValues::sigma_xz},
+    {"sigma_zx", &MapValues::sigma_zx},
+    {"sigma_xx_kinetic", &MapValues::sigma_xx_kinetic},
+    {"sigma_zz_kinetic", &MapValues::sigma_zz_kinetic},
+    {"sigma_xz_kinetic", &MapValues::sigma_xz_kinetic},
+    {"p", &MapValues::p},
+    {"tau", &MapValues::tau},
+    {"I", &MapValues::I},
+    {"mu", &MapValues::mu},
+    {"k", &MapValues::k},
+    {"axis_angle_deg", &MapValues::axis_angle_deg, nullptr, true},
+    {"coordination", &MapValues::coordination},
+    {"fabric_xx", &MapValues::fabric_xx},
+    {"fabric_zz", &MapValues::fabric_zz},
+    {"fabric_xz", &MapValues::fabric_xz},
+    {"wall_x", &MapValues::wall_x},
+    {"wall_z", &MapValues::wall_z},
+    {"residual_x", &MapValues::residual_x},
+    {"residual_z", &MapValues::residual_z},
+    {"residual_x_without_kinetic", &MapValues::residual_x_contact},
+    {"residual_z_without_kinetic", &MapValues::residual_z_contact},
+    {"inertia_x", &MapValues::inertia_x},
+    {"inertia_z", &MapValues::inertia_z},
+    {"number_density", &MapValues::number_density},
+    {"density", &MapValues::density, &Known::densities},
+    {"displacement_v_x", &MapValues::moved_v_x, &Known::pairs},
+    {"displacement_v_z", &MapValues::moved_v_z, &Known::pairs},
+    {"displacement_d_v_x_dx", &MapValues::moved_d_v_x_dx, &Known::pairs},
+    {"displacement_d_v_x_dz", &MapValues::moved_d_v_x_dz, &Known::pairs},
+    {"displacement_d_v_z_dx", &MapValues::moved_d_v_z_dx, &Known::pairs},
+    {"displacement_d_v_z_dz", &MapValues::moved_d_v_z_dz, &Known::pairs},
+    {"displacement_D_xx", &MapValues::moved_d_v_x_dx, &Known::pairs},
+    {"displacement_D_zz", &MapValues::moved_d_v_z_dz, &Known::pairs},
+    {"displacement_D_xz", &MapValues::moved_D_xz, &Known::pairs},
+    {"displacement_dilation", &MapValues::moved_dilation, &Known::pairs},
+    {"displacement_strain_rate", &MapValues::moved_strain_rate, &Known::pairs},
+    {"displacement_half_vorticity", &MapValues::moved_half_vorticity, &Known::pairs},
+    {"displacement_I", &MapValues::moved_I, &Known::pairs},
+    {"displacement_axis_angle_deg", &MapValues::moved_axis_angle_deg, &Known::pairs, true}};
 
 /// Derivative of a quotient of sums, each part by the kernel's own derivative.
 double slope_of(double slope, double mean, double slope_of_weight, double weight) {
@@ -141,9 +140,9 @@ void set_balance(const MapNode& m, double gravity_x, double gravity_z, MapValues
 
 /// What follows from contacts that nobody knows is not computed.
 void forget_contacts(MapNode& m) {
-  m.grain.contacts = m.grain.force_x = m.grain.force_z = Of::none;
-  m.branch.fill(Of::none);
-  m.contact.fill(Of::none);
+  m.grain.contacts = m.grain.force_x = m.grain.force_z = MapValues::none;
+  m.branch.fill(MapValues::none);
+  m.contact.fill(MapValues::none);
 }
 
 }  // namespace
