@@ -33,7 +33,7 @@ std::string said(const Json& change, double value) {
 Json to_json(const particles::PairedStretches& stretches) {
   Json quantities = Json::object();
   for (const particles::StretchComparison& one : stretches.quantities)
-    quantities[name_of(one.quantity)] = {
+    quantities[one.quantity] = {
         {"value", one.value}, {"step", to_json(one.step)}, {"solver", to_json(one.solver)}};
   return {{"seconds", stretches.seconds},
           {"cpu_seconds", stretches.cpu_seconds},

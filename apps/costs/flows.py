@@ -12,7 +12,8 @@ import result_files
 import whole_file
 from sweeping import (Failure, InputError, NotConverged, Points, advice, axes_of, mark_fronts, number_or_none, numbers_of, plain, without_repeats)
 
-AXES = ["mesh", "eps", "tolerance"]
+FIELDS = {"mesh": "levels", "eps": "eps", "tolerance": "tolerance"}  # of Settings, by axis
+AXES = list(FIELDS)
 # Each at the strength that a scene which does not name it gets; k is a part of the law.
 EFFECTS = {"inertia": "effects.inertia={}", "wall_slip": "effects.wall_slip={friction=0.95}", "rotating_frame": "effects.rotating_frame={}", "k": None,
            "nonlocal": "effects.nonlocal={length=1}", "moving_surface": "effects.moving_surface={}"}
@@ -48,34 +49,26 @@ def changes_of(settings, standard, surface_cell):
 
 def curves_of(standard, axes):
     """{axis: points from the coarsest to the finest}, each through the scene with the other settings its own."""
-    eps = standard.eps
+    values_of = {"mesh": list(range(1, standard.levels + 2)), "eps": [standard.eps * factor for factor in (1000, 100, 10, 1)] + [standard.eps / 10],
+                 "tolerance": [1e-2, 1e-4, 1e-6, standard.tolerance]}
     curves = {}
     for axis, words in axes.items():
+        values = numbers_of(axis, words, values_of[axis])
         if axis == "mesh":
-            values = numbers_of(axis, words, list(range(1, standard.levels + 2)))
             if any(value != math.floor(value) or value > 8 for value in values):
                 raise InputError("--sweep mesh: its values are numbers of meshes (allowed: integer >= 1 and <= 8)")
-            points = [standard._replace(levels=int(value)) for value in values]
-        elif axis == "eps":
-            points = [standard._replace(eps=value) for value in numbers_of(axis, words, [1000 * eps, 100 * eps, 10 * eps, eps, eps / 10])]
-        else:
-            points = [standard._replace(tolerance=value) for value in numbers_of(axis, words, [1e-2, 1e-4, 1e-6, standard.tolerance])]
-        curves[axis] = sorted(without_repeats([standard, *points]), key=lambda point: (point.levels, -point.eps, -point.tolerance))
+            values = map(int, values)
+        points = [standard, *(standard._replace(**{FIELDS[axis]: value}) for value in values)]
+        curves[axis] = sorted(without_repeats(points), key=lambda point: (point.levels, -point.eps, -point.tolerance))
     return curves
 
 
 def reference_of(standard, curves):
-    """Finer than every point in mesh and eps where they are varied."""
-    finest = standard
-    for axis, points in curves.items():
-        last = points[-1]
-        if axis == "mesh":
-            finest = finest._replace(levels=last.levels + 1)
-        elif axis == "eps":
-            finest = finest._replace(eps=last.eps / 10)
-        else:  # no tighter: rounding is near, and the last step of Newton's method leaves far less than it was asked for
-            finest = finest._replace(tolerance=min(finest.tolerance, last.tolerance))
-    return finest
+    """Finer than every point in mesh and eps where they are varied; no tighter: rounding is near, and the last step of Newton's method leaves far less
+    than it was asked for."""
+    last = {axis: points[-1] for axis, points in curves.items()}
+    return Settings(last["mesh"].levels + 1 if "mesh" in last else standard.levels, last["eps"].eps / 10 if "eps" in last else standard.eps,
+                    last["tolerance"].tolerance if "tolerance" in last else standard.tolerance)
 
 
 def scalar_differences(here, there):
@@ -194,18 +187,19 @@ class Flows:
         words = [flow.scene, "--rheology", flow.law, "-o", str(folder)] + (["--from", flow.start] if flow.start else [])
         words += [word for change in ["solver.sensitivity=false", "output.figures=false", *flow.changes] for word in ("--set", change)]
         end = self.ask("start", program="drumlin-flow", words=words, ranks=flow.ranks, time_limit_s=limit, output="drop")
-        if end["timed_out"]:
-            return {"failure": f"the flow was not found within {limit:g} s", "cpu_seconds": None}
         if end["code"] == 2:
             raise InputError(f"{flow.name}: drumlin-flow refused the scene or the law")
-        if end["code"] not in (0, 3):
+        if end["code"] not in (0, 3) and not end["timed_out"]:
             raise Failure(f"{flow.name}: drumlin-flow ended with exit code {end['code']}")
-        if end["code"] == 3 and not (folder / "flow.json").exists():
-            return {"failure": "the flow did not converge", "cpu_seconds": None}
-        if end["code"] == 3 and flow.against:
-            return {"failure": json_of(folder / "flow.json")["missed"][0], "cpu_seconds": None}
-        # How far a mesh or an eps is off is what a sweep measures; nobody compares such a flow with runs.
-        return results_in(folder) | {"peak_memory_mb": end["peak_memory_mb"]}
+        if end["timed_out"]:
+            failure = f"the flow was not found within {limit:g} s"
+        elif not (folder / "flow.json").exists():
+            failure = "the flow did not converge"
+        elif end["code"] == 3 and flow.against:
+            failure = json_of(folder / "flow.json")["missed"][0]
+        else:  # how far a mesh or an eps is off is what a sweep measures; nobody compares such a flow with runs
+            return results_in(folder) | {"peak_memory_mb": end["peak_memory_mb"]}
+        return {"failure": failure, "cpu_seconds": None}
 
     def compared(self, folder, runs):
         """Errors of the flow against measured runs, by `drumlin compare --study`: targets, verdict, scalars of both."""
@@ -252,9 +246,8 @@ class Flows:
             f"{entry['iterations']} iterations, {entry['seconds']['least']:.1f} s least, {entry['seconds']['median']:.1f} s median, "
             f"{entry['cpu_seconds']['least']:.1f} s of processors, {entry['peak_memory_mb']:.0f} MB")))
 
-    def head(self, form, settings):
-        return {"format": form} | ({"kind": "continuum"} if form == "drumlin-cost-1" else {}) | {
-            "title": settings["title"], "reduced": self.facts["reduced"], "scene_file": os.path.basename(self.options["scene"]), "law": settings["law"]}
+    def head(self, settings):
+        return {"title": settings["title"], "reduced": self.facts["reduced"], "scene_file": os.path.basename(self.options["scene"]), "law": settings["law"]}
 
 
 class Sweep(Flows):
@@ -278,28 +271,27 @@ class Sweep(Flows):
         self.standard = Settings(settings["levels"], settings["regularisation_shear_rate"], settings["tolerance"])
         self.surface_cell = settings["surface_cell"]
         curves = curves_of(self.standard, self.axes)
-        solved = {}
-        rows = {}
-        for settings_here in without_repeats([point for curve in curves.values() for point in curve]):
-            flow = self.flow("as-it-is" if settings_here == self.standard else settings_here.name, self.changes(settings_here))
-            found = solved[settings_here] = self.solved(flow)
-            row = {"name": settings_here.name, "default": settings_here == self.standard,
-                   "axes": [axis for axis, curve in curves.items() if settings_here in curve]} | settings_here._asdict()
+        solved, rows = {}, {}
+        for here in without_repeats([point for curve in curves.values() for point in curve]):
+            default = here == self.standard
+            flow = self.flow("as-it-is", []) if default else self.flow_with(here)
+            found = solved[here] = self.solved(flow)
+            row = {"name": here.name, "default": default, "axes": [axis for axis, curve in curves.items() if here in curve]} | here._asdict()
             row |= {key: found[key] for key in ("unknowns", "iterations", "seconds", "cpu_seconds", "load_before", "scalars", "closed_form", "failure")
                     if key in found}
             seconds = "-" if found["cpu_seconds"] is None else f"{found['cpu_seconds']:.2f}"
             self.say(f"{seconds:>9} s  {row['name']}" + (f": {found['failure']}" if "failure" in found else ""))
-            rows[settings_here] = self.with_work(row, flow, found)
+            rows[here] = self.with_work(row, flow, found)
         reference = None if "closed_form" in as_it_is else self.reference(curves)
         points = list(rows.values())
-        for settings_here, row in rows.items():
-            row |= self.errors(settings_here, solved, curves, reference)
+        for here, row in rows.items():
+            row |= self.errors(here, solved, curves, reference)
         quantities = without_repeats([name for row in points for name in row["errors"]])
         mark_fronts(points, quantities)
         self.say_table(points, quantities)
         self.ask("say", text=advice(points, quantities, lambda point: "--set " + " --set ".join(
             changes_of(Settings(*(point[key] for key in Settings._fields)), self.standard, self.surface_cell))))
-        content = self.head("drumlin-cost-1", settings) | {
+        content = {"format": "drumlin-cost-1", "kind": "continuum"} | self.head(settings) | {
             "reference": "closed form" if reference is None else {
                 key: reference[key] for key in ("levels", "eps", "tolerance", "unknowns", "cpu_seconds", "scalars")},
             "quantities": quantities, "points": points, "scene": self.facts["scene"]}
@@ -309,13 +301,13 @@ class Sweep(Flows):
     def flow(self, name, changes):
         return Flow(name, self.options["scene"], self.options["rheology"], self.options["overrides"] + changes)
 
-    def changes(self, settings):
-        return [] if settings == self.standard else changes_of(settings, self.standard, self.surface_cell)
+    def flow_with(self, settings):
+        return self.flow(settings.name, changes_of(settings, self.standard, self.surface_cell))
 
     def reference(self, curves):
         finest = reference_of(self.standard, curves)
         self.say(f"{'':>11}  reference {finest.name}")
-        found = self.solved(self.flow(finest.name, changes_of(finest, self.standard, self.surface_cell)))
+        found = self.solved(self.flow_with(finest))
         if "failure" in found:
             raise NotConverged(f"the reference ({finest.name}) was not found: sweep over coarser values")
         return found | finest._asdict()
@@ -377,7 +369,8 @@ class Prices(Flows):
             rows.append(self.with_work(row, flow, point))
         names = {"against": [os.path.basename(run) for run in options["against"]]} if options["against"] else {}
         drawings = {"flow_price_figures.py": "prices.png"} | ({"flow_effect_figures.py": "effects.png"} if options["against"] else {})
-        self.ask("finish", drawings=drawings, content=self.head("drumlin-flow-effect-prices-1", base["settings"]) | names | {"effects": rows})
+        self.ask("finish", drawings=drawings, content={"format": "drumlin-flow-effect-prices-1"} | self.head(base["settings"]) | names | {
+            "effects": rows})
 
     @staticmethod
     def row(name, point, base):

@@ -7,9 +7,9 @@
 #include "coupling/common/errors.hpp"
 #include "coupling/common/machine_load.hpp"
 #include "coupling/common/no_value.hpp"
-#include "coupling/documents/enum_names.hpp"
 #include "coupling/statistics/quantiles.hpp"
 #include "coupling/statistics/resampling.hpp"
+#include "particles/stretches/stretch.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -17,20 +17,9 @@ namespace {
 /// The scene with one stage more: the last one again, as long as the stretch, with these settings.
 Scene prolonged(const Scene& scene, double seconds, double step_s, double tolerance) {
   Scene longer = scene;
-  Stage stage = scene.stages.back();
-  const double blocks = static_cast<double>(stretch_blocks);
-  stage.turns.reset();
-  stage.duration_s = seconds;
-  stage.time_step_s = seconds / (blocks * std::ceil(seconds / (blocks * step_s) - 1e-9));
-  stage.snapshots = 0;
-  longer.stages.push_back(stage);
-  SolverSettings& solver = longer.solver;
-  const double harder = std::clamp(solver.tolerance / tolerance, 1.0, 1e4);
-  solver.max_sweeps = static_cast<int>(std::min(1e6, std::ceil(solver.max_sweeps * harder)));
-  solver.tolerance = tolerance;
-  solver.stop_when_unconverged = false;
-  solver.capture_unconverged = 0;
-  return longer;
+  longer.stages.push_back(scene.stages.back());
+  longer.stages.back().snapshots = 0;
+  return with_settings(longer, {scene.solver.name, tolerance, step_s, seconds}, stretch_blocks);
 }
 
 /// Normal forces at one step: their mean, and the pressure that they make.
@@ -68,7 +57,8 @@ struct BlockSums {
   double energy = 0, force = 0, forces = 0, pressure = 0, overlap = 0;
 };
 
-std::array<double, stretch_quantities> means_of(const BlockSums& sums, double steps, double displacement) {
+std::array<double, stretch_quantities.size()> means_of(const BlockSums& sums, double steps,
+                                                       double displacement) {
   return {sums.energy / steps, sums.forces > 0 ? sums.force / sums.forces : no_value, sums.pressure / steps,
           displacement, sums.overlap / steps};
 }
@@ -80,16 +70,6 @@ double mean_of(const std::array<double, stretch_blocks>& values) {
 }
 
 }  // namespace
-
-std::string name_of(StretchQuantity quantity) {
-  static constexpr EnumNames<StretchQuantity, stretch_quantities> names{
-      {{StretchQuantity::kinetic_energy, "kinetic_energy"},
-       {StretchQuantity::contact_force, "contact_force"},
-       {StretchQuantity::pressure, "pressure"},
-       {StretchQuantity::displacement, "displacement"},
-       {StretchQuantity::overlap, "overlap"}}};
-  return name_in(names, quantity);
-}
 
 StretchMeans stretch_means(const Scene& scene, const SimulationState& end, double seconds, double step_s,
                            double tolerance, int threads, const std::function<void()>& after_step) {
@@ -122,7 +102,7 @@ StretchMeans stretch_means(const Scene& scene, const SimulationState& end, doubl
     }
     const auto means =
         means_of(sums, static_cast<double>(steps), rms_displacement(before, simulation.state().bodies));
-    for (std::size_t q = 0; q < stretch_quantities; ++q) result.blocks[q][block] = means[q];
+    for (std::size_t q = 0; q < stretch_quantities.size(); ++q) result.blocks[q][block] = means[q];
   }
   result.cpu_seconds = process_seconds() - begun;
   return result;
@@ -156,9 +136,9 @@ PairedStretches paired_stretches(const Scene& scene, const SimulationState& end,
   result.cost = {plain.cpu_seconds, finer.cpu_seconds, stricter.cpu_seconds};
   for (const double cost : result.cost) result.cpu_seconds += cost;
   result.missed = plain.missed + finer.missed + stricter.missed;
-  for (std::size_t q = 0; q < stretch_quantities; ++q) {
+  for (std::size_t q = 0; q < stretch_quantities.size(); ++q) {
     const StretchComparison comparison{
-        static_cast<StretchQuantity>(q), mean_of(plain.blocks[q]),
+        stretch_quantities[q], mean_of(plain.blocks[q]),
         change_between(plain.blocks[q], finer.blocks[q], error_over_step_change),
         change_between(plain.blocks[q], stricter.blocks[q], error_over_solver_change)};
     if (std::isfinite(comparison.value + comparison.step.ci99 + comparison.solver.ci99))

@@ -12,24 +12,19 @@
 
 namespace drumlin::particles {
 
-/// What is compared, as means over the grains or contacts: trajectories themselves part within some
-/// collisions.
-enum class StretchQuantity {
-  kinetic_energy,  ///< of all grains, rho0 g d^3 per unit depth
-  contact_force,   ///< mean normal force of the contacts that carry one, rho0 g d^2
-  pressure,  ///< half the sum of r f_n over both sides of the contacts, over the area of the discs, rho0 g d
-  displacement,  ///< rms over the grains, in a tenth of the stretch, d
-  overlap        ///< mean of loaded contacts before the projection, d
-};
-constexpr std::size_t stretch_quantities = 5;
-std::string name_of(StretchQuantity quantity);
+/// What is compared, as means over the grains or contacts (trajectories themselves part within some
+/// collisions): the energy of all grains, rho0 g d^3 per unit depth; the normal force of the contacts that
+/// carry one, rho0 g d^2; half the sum of r f_n over both sides of the contacts, over the area of the discs,
+/// rho0 g d; rms over the grains, in a tenth of the stretch, d; of loaded contacts before the projection, d.
+constexpr std::array<const char*, 5> stretch_quantities{"kinetic_energy", "contact_force", "pressure",
+                                                        "displacement", "overlap"};
 
 constexpr std::size_t stretch_blocks = 10;
 
 /// One stretch: the mean of each quantity in each of ten parts of equal length; NaN where nothing is there to
 /// be averaged, or where grains came or went in between.
 struct StretchMeans {
-  std::array<std::array<double, stretch_blocks>, stretch_quantities> blocks;
+  std::array<std::array<double, stretch_blocks>, stretch_quantities.size()> blocks;
   double cpu_seconds = 0;
   std::int64_t steps = 0, missed = 0;  ///< missed: of the tolerance of the stretch
 };
@@ -44,7 +39,7 @@ struct StretchChange {
 };
 
 struct StretchComparison {
-  StretchQuantity quantity = StretchQuantity::kinetic_energy;
+  std::string quantity;
   double value = 0;            ///< mean over the stretch with the settings of the run
   StretchChange step, solver;  ///< with half the step; with a third of the tolerance
 };

@@ -9,19 +9,13 @@
 #include "coupling/common/machine_load.hpp"
 
 namespace drumlin::particles {
-namespace {
 
-constexpr std::int64_t parts_of_stretch = 4;  // steps are a multiple of it, so that all marks lie on steps
-
-}  // namespace
-
-Scene with_settings(const Scene& scene, const StretchSettings& settings) {
+Scene with_settings(const Scene& scene, const StretchSettings& settings, double parts) {
   Scene changed = scene;
   Stage& stage = changed.stages.back();
   stage.turns.reset();
   stage.until.reset();
   stage.duration_s = settings.length_s;
-  const double parts = static_cast<double>(parts_of_stretch);
   stage.time_step_s =
       settings.length_s / (parts * std::ceil(settings.length_s / (parts * settings.step_s) - 1e-9));
   SolverSettings& solver = changed.solver;
@@ -66,7 +60,7 @@ std::vector<Mark> marks_along(const SweepStart& start, const StretchSettings& se
     now.contact_sweeps += static_cast<double>(report.contacts) * report.solve.sweeps;
     now.missed += report.contacts > 0 && report.solve.status != Status::converged;
     overlap += report.overlap.mean;
-    const std::int64_t quarters = parts_of_stretch * step;
+    const std::int64_t quarters = 4 * step;
     if (quarters != steps && quarters != 2 * steps && quarters != 4 * steps) continue;
     now.cpu_seconds = process_seconds() - begun;
     now.overlap_d = overlap / static_cast<double>(step);

@@ -18,13 +18,13 @@ struct SweepStart {
 struct StretchSettings {
   std::string solver;
   double tolerance = 0;  ///< of the residual
-  double step_s = 0;     ///< longest time step; a whole number of steps fits into each quarter
+  double step_s = 0;     ///< longest time step; a whole number of steps fits into each part
   double length_s = 0;   ///< of the stretch
 };
 
-/// The scene with these settings, its last stage as long as the stretch; more sweeps are allowed where the
-/// tolerance is tighter than in the scene.
-Scene with_settings(const Scene& scene, const StretchSettings& settings);
+/// The scene with these settings, its last stage as long as the stretch, of so many `parts`; more sweeps are
+/// allowed where the tolerance is tighter than in the scene.
+Scene with_settings(const Scene& scene, const StretchSettings& settings, double parts = 4);
 
 /// What a stretch has taken, and where the grains are, at one of its marks.
 struct Mark {

@@ -29,14 +29,6 @@ TEST(SettingError, ComesBackFromExactData) {
   }
 }
 
-TEST(SettingError, IsNotSignificantWhereTheIntervalsHideIt) {
-  const std::vector<SettingPoint> points = {{1, 10.1, 1}, {2, 9.8, 1}, {4, 10.2, 1}};
-  const auto found = setting_error(points, 2, both);
-  ASSERT_TRUE(found);
-  EXPECT_FALSE(found->significant());
-  EXPECT_GT(found->ci99, 0.5);  // about that of a point, as long as the lever is no longer than the distance
-}
-
 TEST(SettingError, NeedsThreeSettings) {
   EXPECT_FALSE(setting_error(std::vector<SettingPoint>{{1, 1, 0}, {2, 3, 0}, {2, 3.1, 0}}, 1, both));
 }
