@@ -9,7 +9,7 @@ namespace drumlin::apps {
 namespace {
 
 // docs/formats/snapshot.md; HDF5's own bookkeeping; a line of log.csv; a checkpoint's share of a grain.
-constexpr double contacts_per_grain = 1.7, bookkeeping = 18e3, log_line = 100, checkpoint_per_grain = 106;
+constexpr double contacts_per_grain = 1.7, bookkeeping = 18e3, log_line_bytes = 100, checkpoint_per_grain = 106;
 
 std::string megabytes(double bytes) {
   const double mb = bytes * 1e-6;
@@ -28,7 +28,7 @@ ExpectedOutput expected_output(const particles::Scene& scene, std::size_t grains
   ExpectedOutput expected;
   expected.snapshot = bookkeeping + n * (per_grain + contacts_per_grain * per_contact);
   expected.snapshots = expected.snapshot * static_cast<double>(snapshots);
-  expected.log = log_line * static_cast<double>(steps) / scene.output.log_every_steps;
+  expected.log = log_line_bytes * static_cast<double>(steps) / scene.output.log_every_steps;
   expected.checkpoints = 2 * checkpoint_per_grain * n;
   return expected;
 }

@@ -26,7 +26,7 @@ struct DumpColumn {
 };
 
 /// Lower and upper bound of the box along x, y, z.
-struct Box {
+struct DumpBox {
   std::array<std::array<double, 2>, 3> bounds{};
   bool tilted = false;  ///< then the bounds are those around it
 };
@@ -46,7 +46,7 @@ std::optional<Units> units_of_style(std::string_view style) {
 }
 
 /// What a column of this name means, given the box and the units of its frame.
-using Meaning = std::function<DumpColumn(std::string_view name, const Box& box, const Units& units)>;
+using Meaning = std::function<DumpColumn(std::string_view name, const DumpBox& box, const Units& units)>;
 
 /// What both kinds of dump have to be told.
 struct DumpKind {
@@ -89,7 +89,7 @@ class LammpsFrames {
     frame.first_line = reader_->number();
     frame.words = kind_.words;
     std::optional<double> step, time, count;
-    std::optional<Box> box;
+    std::optional<DumpBox> box;
     for (;;) {
       const std::string item = reader_->line();
       if (item == "ITEM: TIMESTEP") {
@@ -182,7 +182,7 @@ class LammpsFrames {
   }
 
   /// Lines of two numbers, of three where it is tilted along an axis, of four where it lies anyhow.
-  void read_box(Box& box) {
+  void read_box(DumpBox& box) {
     for (auto& bounds : box.bounds) {
       const auto words = words_of(line_below("BOX BOUNDS"));
       if (words.size() < 2 || words.size() > 4)
@@ -200,10 +200,10 @@ class LammpsFrames {
 
   /// What the named columns give; of those that give the same the first.
   std::vector<DumpColumn> targets_of(const std::vector<std::string_view>& names,
-                                     const std::optional<Box>& box, const Units& units, FrameTable& frame) {
+                                     const std::optional<DumpBox>& box, const Units& units, FrameTable& frame) {
     std::vector<DumpColumn> targets;
     for (const std::string_view name : names) {
-      DumpColumn target = kind_.meaning(name, box.value_or(Box{}), units);
+      DumpColumn target = kind_.meaning(name, box.value_or(DumpBox{}), units);
       if (target.name.empty() || frame.has(target.name)) {
         notes_.unused_columns.insert(std::string(name));
         targets.emplace_back();
@@ -221,7 +221,7 @@ class LammpsFrames {
     return targets;
   }
 
-  void read_rows(const std::string& item, std::size_t count, const std::optional<Box>& box,
+  void read_rows(const std::string& item, std::size_t count, const std::optional<DumpBox>& box,
                  const Units& units, FrameTable& frame) {
     const auto names = words_of(std::string_view(item).substr(kind_.rows_item.size()));
     const std::vector<DumpColumn> targets = targets_of(names, box, units, frame);
@@ -277,7 +277,7 @@ FrameTableSource lammps_grains(std::vector<std::filesystem::path> files, const L
                  {"v_x", "vx"},
                  {"v_z", v_z},
                  {"radius", "radius or diameter"}}};
-  kind.meaning = [=](std::string_view name, const Box& box, const Units& units) -> DumpColumn {
+  kind.meaning = [=](std::string_view name, const DumpBox& box, const Units& units) -> DumpColumn {
     if (name == "id" || (name == "type" && with_types)) return {std::string(name)};
     if (name == "radius") return {"radius", Quantity::length, units.metre};
     if (name == "diameter") return {"radius", Quantity::length, units.metre / 2};
@@ -308,7 +308,7 @@ FrameTableSource lammps_contacts(std::vector<std::filesystem::path> files, const
                  {"f_x", forces.at(0)},
                  {"f_z", forces.at(1)}},
                 true};
-  kind.meaning = [=](std::string_view name, const Box&, const Units& units) -> DumpColumn {
+  kind.meaning = [=](std::string_view name, const DumpBox&, const Units& units) -> DumpColumn {
     const double force = sign * units.kilogram * units.metre / (units.second * units.second) / depth;
     if (name == ids[0]) return {"i"};
     if (name == ids[1]) return {"j"};

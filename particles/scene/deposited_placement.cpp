@@ -18,7 +18,7 @@ namespace {
 constexpr double room_around = 1 + 4e-7;  // radii are so much larger while discs are placed
 constexpr double nearly_touching = 1e-9;  // relative to a radius
 constexpr double bin_width = 8;           // in mean diameters: grains fall where a bin's surface is lowest
-constexpr int attempts = 5;               // to find a place in a bin that is then called full
+constexpr int attempts_in_bin = 5;        // to find a place in a bin that is then called full
 
 using Disc = PlacedDiscs::Disc;
 
@@ -247,7 +247,7 @@ std::vector<Point_mm> deposited_centers_mm(std::span<const double> diameters_mm,
       landscape.add(*center, radius);
       centers.push_back(*center);
       failed = 0;
-    } else if (++failed == attempts) {
+    } else if (++failed == attempts_in_bin) {
       surface.close_lowest();
       failed = 0;
     }

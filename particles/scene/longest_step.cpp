@@ -16,8 +16,6 @@ namespace {
 using Faults = std::vector<SceneFault>;
 using Vector = std::array<double, 2>;
 
-std::string stage_key(std::size_t s) { return fmt::format("stages.{}", s); }
-
 /// g h^2 of a grain that gravity lets fall from rest.
 void check_fall(const Scene& scene, std::size_t s, double smallest_mm, Faults& faults) {
   if (!scene.effects.gravity) return;

@@ -29,8 +29,6 @@ constexpr double most_glued = 1e5;   // discs on one rough wall
 // By which share a window may differ from whole steps, as adjusting the step of a stage of 50 can have it.
 constexpr double most_adjusted = 1e-2;
 
-std::string stage_key(std::size_t s) { return fmt::format("stages.{}", s); }
-
 double largest_diameter_mm(const Grains& grains) {
   const auto* generated = std::get_if<GeneratedGrains>(&grains.source);
   return generated ? generated->diameter_max_mm : 0;
@@ -282,6 +280,8 @@ void check_capture(const Scene& scene, Faults& faults) {
 }  // namespace
 
 std::string wall_key(std::size_t w) { return fmt::format("walls.{}", w); }
+
+std::string stage_key(std::size_t s) { return fmt::format("stages.{}", s); }
 
 std::vector<SceneFault> validate(const Scene& scene) {
   Faults faults;

@@ -19,8 +19,9 @@ struct SceneFault {
 /// Relative; for comparisons of numbers that a user wrote to agree, and of lengths that may touch.
 inline constexpr double relative_rounding = 1e-9;
 
-/// Path of the table of wall w.
+/// Path of the table of wall w, and of stage s.
 std::string wall_key(std::size_t w);
+std::string stage_key(std::size_t s);
 
 /// What an effect needs of the rest of a scene and does not find.
 template <class E>

@@ -13,9 +13,9 @@
 namespace drumlin::particles {
 namespace {
 
-constexpr double touching = 1e-5;   // gap, in mean diameters
-constexpr double column_width = 6;  // in mean diameters; more where grains are scattered
-constexpr double packing = 0.82;    // of deposited discs, about
+constexpr double touching_gap = 1e-5;  // gap, in mean diameters
+constexpr double column_width = 6;     // in mean diameters; more where grains are scattered
+constexpr double packing = 0.82;       // of deposited discs, about
 
 /// Weight of the grains above each depth, per width, in columns along gravity.
 class Overburden {
@@ -80,7 +80,7 @@ ContactMemory impulses_under_weight(const Bodies& bodies, std::span<const Shape>
   const std::vector<double> rest(grains, 0.0);
   const std::vector<ShapeStep> still(shapes.size());
   ContactDetection detection;
-  const auto& pairs = detection.find(bodies, rest, rest, {shapes, still, 1, touching, period});
+  const auto& pairs = detection.find(bodies, rest, rest, {shapes, still, 1, touching_gap, period});
   // Mean stress sum r_n l / (2 A) of contacts of length l, in an area A: r_n = 2 p A / (contacts l).
   double area = 0;
   for (const double radius : bodies.radius) area += std::numbers::pi * radius * radius / packing;

@@ -51,7 +51,7 @@ particles::SimulationState last_stage_reached(const particles::Scene& scene, int
   return state;
 }
 
-particles::StretchSettings settings_of(const Json& wish) {
+particles::StretchSettings stretch_settings_of(const Json& wish) {
   return {wish.at("solver"), wish.at("tolerance"), wish.at("step_s"), wish.at("length_s")};
 }
 
@@ -115,7 +115,7 @@ void ParticleWork::begin(const fs::path& file) {
 }
 
 Json ParticleWork::stretch(const Json& wish) const {
-  const particles::StretchSettings settings = settings_of(wish);
+  const particles::StretchSettings settings = stretch_settings_of(wish);
   const auto marks = particles::marks_along(start_, settings, options_.threads, stop_if_interrupted);
   Json list = Json::array();
   for (std::size_t m = 0; m < marks.size(); ++m) {
@@ -150,7 +150,7 @@ Json ParticleWork::stretch(const Json& wish) const {
 Json ParticleWork::lay_down(const Json& wish) const {
   const fs::path folder = wish.at("folder").get<std::string>(), run = folder / "run";
   if (!fs::exists(run / "checkpoint.h5")) {
-    particles::Scene scene = particles::with_settings(start_.scene, settings_of(wish));
+    particles::Scene scene = particles::with_settings(start_.scene, stretch_settings_of(wish));
     scene.stages.back().snapshots = wish.at("snapshots");
     const GrowingOutput marked({run, ExistingOutput::resume, "run", {}}, run_file_names());
     keep(run / "checkpoint.h5", as_recorded(scene), start_.state);
