@@ -50,7 +50,7 @@ std::vector<fs::path> moving_snapshots(const std::vector<fs::path>& all) {
 
 }  // namespace
 
-LoadedSide load_side(const fs::path& folder, Unsteady unsteady) {
+LoadedSide load_side(const fs::path& folder, Unsteady unsteady, MovingSnapshots moving) {
   LoadedSide side;
   side.folder = folder;
   if (fs::is_directory(folder) && is_flow_run(folder)) {
@@ -70,7 +70,7 @@ LoadedSide load_side(const fs::path& folder, Unsteady unsteady) {
     side.maps_file = checked_file(run.measured_files, "maps.h5");
     side.accepted = std::move(run.accepted);
     side.compared = {std::move(run.profiles), std::move(run.scalars), {std::move(run.slices), {}}};
-    if (fs::is_directory(folder / "snapshots"))
+    if (moving == MovingSnapshots::find && fs::is_directory(folder / "snapshots"))
       for (const fs::path& file : moving_snapshots(particles::snapshot_files(folder)))
         side.moving.push_back(checked_file(run.files, "snapshots/" + file.filename().string()));
     if (!side.moving.empty()) side.snapshot = side.moving.back();

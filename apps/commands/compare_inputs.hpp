@@ -25,9 +25,13 @@ struct LoadedSide {
   std::vector<std::string> accepted;  ///< edits by hand (accepted_edits)
 };
 
+/// Whether the snapshots that show a run in motion are looked for and checked.
+enum class MovingSnapshots { leave, find };
+
 /// Throws InputError on whatever read_measured_run and read_flow_run refuse, and on maps of another frame
 /// than the profiles beside them.
-LoadedSide load_side(const std::filesystem::path& folder, Unsteady unsteady);
+LoadedSide load_side(const std::filesystem::path& folder, Unsteady unsteady,
+                     MovingSnapshots moving = MovingSnapshots::find);
 
 /// Throws InputError unless both sides have the same units (d, g, rho0 to 1e-3).
 void require_same_scales(const LoadedSide& first, const LoadedSide& second);

@@ -1,22 +1,22 @@
-// drumlin measure --study: several measured runs together, laws over speed, the paper's table.
-#include "coupling/study/study.hpp"
-
+// drumlin measure --study, drumlin compare --study: checks the folders, compares their pairs, and starts
+// drumlin.study of the Python package, which reads them and writes what they say together.
 #include <fmt/format.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "apps/commands/compare_inputs.hpp"
 #include "apps/support/asked.hpp"
 #include "apps/support/commands.hpp"
+#include "apps/support/comparison_json.hpp"
+#include "apps/support/figures.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/output_folder.hpp"
 #include "apps/support/paper_data.hpp"
 #include "apps/support/pending_figures.hpp"
 #include "apps/support/standard_streams.hpp"
-#include "apps/support/study_json.hpp"
 #include "coupling/common/errors.hpp"
-#include "coupling/common/text_file.hpp"
-#include "coupling/study/study_run_folder.hpp"
+#include "coupling/documents/document.hpp"
 
 namespace drumlin::apps {
 
@@ -25,70 +25,127 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-void print_study(const coupling::Study& study, const Json& content) {
-  for (const std::string& warning : study.warnings) print_out(fmt::format("warning: {}\n", warning));
-  print_out("\nlaws over the speed of rotation (99 %)\n");
-  for (const coupling::SpeedLaw& law : study.laws) {
-    print_out(fmt::format("  {:28} {}\n", law.name, law.formula));
-    for (const auto& c : law.coefficients)
-      print_out(fmt::format("  {:28}   {} = {:.4g} +- {:.2g}\n", "", c.name, c.value, c.ci99));
+/// What `drumlin compare` says of two sides; why they cannot be compared is for the study to weigh.
+Json compared(const LoadedSide& first, const LoadedSide& second, coupling::Registration by) {
+  Json pair{{"first", first.folder.string()}, {"second", second.folder.string()}, {"by", name_of(by)}};
+  try {
+    add_comparison(pair,
+                   coupling::compare(first.compared, second.compared, {.registration = by, .zones = {}}));
+  } catch (const InputError& error) {
+    pair["refused"] = error.what();
   }
-  for (const coupling::Collapse& collapse : study.collapses)
-    print_out(fmt::format("  {:28} spread between speeds / intervals = {:.2f} (limit {:.2f}): {}\n",
-                          collapse.column + "(I)", collapse.ratio, collapse.limit,
-                          !std::isfinite(collapse.ratio) ? "not told, which takes runs of two speeds"
-                          : collapse.collapse            ? "one curve"
-                                                         : "not one curve"));
-  print_out(fmt::format("\n{}\n", paper_table_markdown(study)));
-  if (!study.paper.empty())
-    print_out(fmt::format("{} agree, {} open, {} near, {} differ, {} imposed, {} not measured\n",
-                          content["verdict"]["agrees"].get<int>(), content["verdict"]["open"].get<int>(),
-                          content["verdict"]["near"].get<int>(), content["verdict"]["differs"].get<int>(),
-                          content["verdict"]["imposed"].get<int>(),
-                          content["verdict"]["not measured"].get<int>()));
+  return pair;
+}
+
+double rotation_of(const LoadedSide& side) {
+  return side.compared.profiles.header.rotation.value() / side.scales.time_s;
+}
+
+/// Each flow against the runs near its speed (the study takes those to 0.5 %) by the axis; for limits by the
+/// surface as well, and these runs against one another.
+Json compared_pairs(const std::vector<LoadedSide>& sides, bool for_limits) {
+  Json pairs = Json::array();
+  std::vector<coupling::Registration> registrations{coupling::Registration::axis};
+  if (for_limits) registrations.push_back(coupling::Registration::surface);
+  for (const LoadedSide& flow : sides) {
+    if (flow.kind != "continuum") continue;
+    std::vector<const LoadedSide*> near;
+    for (const LoadedSide& run : sides)
+      if (run.kind != "continuum" && std::abs(rotation_of(run) / rotation_of(flow) - 1) <= 0.011)
+        near.push_back(&run);
+    for (const auto by : registrations)
+      for (std::size_t i = 0; i < near.size(); ++i) {
+        pairs.push_back(compared(*near[i], flow, by));
+        for (std::size_t j = i + 1; for_limits && j < near.size(); ++j)
+          pairs.push_back(compared(*near[i], *near[j], by));
+      }
+  }
+  return pairs;
+}
+
+struct StudyRequest {
+  std::vector<fs::path> folders;
+  fs::path output;
+  ExistingOutput existing;
+  bool both_sides;
+  std::optional<fs::path> limits;
+  FigureScript figures;
+  std::string page;
+};
+
+/// What the Python module is given. All folders are checked here, as `drumlin compare` does it.
+Json given_of(const StudyRequest& request) {
+  std::vector<LoadedSide> sides;
+  std::vector<std::string> edits;
+  Json given{{"both_sides", request.both_sides}, {"runs", Json::array()}, {"flows", Json::array()}};
+  for (const fs::path& folder : request.folders) {
+    LoadedSide& side = sides.emplace_back(load_side(folder, Unsteady::accept, MovingSnapshots::leave));
+    side.compared.fields.slices.clear();
+    const bool is_flow = side.kind == "continuum";
+    if (is_flow && !request.both_sides)
+      throw InputError(folder.string() + ": is a flow (allowed: measured runs)");
+    const fs::path scene = folder / (is_flow ? "flow_scene.toml" : "scene.toml");
+    if (fs::exists(scene)) (void)read_toml(scene);
+    given[is_flow ? "flows" : "runs"].push_back(folder.string());
+    edits.insert(edits.end(), side.accepted.begin(), side.accepted.end());
+  }
+  if (request.limits) (void)read_toml(*request.limits);
+  given["limits"] = request.limits ? Json(request.limits->string()) : Json();
+  given["pairs"] = compared_pairs(sides, request.limits.has_value());
+  given["provenance"] = to_json(provenance());
+  add_accepted_edits(given["provenance"], edits);
+  return given;
+}
+
+/// Results, figures and page; what the module says comes out when all of it is there.
+int carried_out(StudyRequest request) {
+  const fs::path finished = request.output / "study.json";
+  Json inputs = Json::array();
+  if (request.both_sides) inputs.push_back(request.limits ? input_sum(*request.limits) : "");
+  for (const fs::path& folder : request.folders) inputs.push_back(measured_run_sum(folder));
+  const std::string asked = asked_sum(inputs);
+  if (request.existing == ExistingOutput::resume && is_complete(finished))
+    return done_already(request.output, asked);
+  const Json given = given_of(request);
+  StagedOutput output({request.output,
+                       request.existing,
+                       request.both_sides ? "compare --study" : "study",
+                       request.folders,
+                       {},
+                       asked});
+  const fs::path &folder = output.folder(), given_file = folder / "given.json", file = folder / "study.json";
+  note_pending_figures(folder);
+  write_json(given_file, given);
+  const std::string said =
+      study_by_script({folder.string(), paper_data_folder().string(), given_file.string()});
+  fs::remove(given_file);
+  auto& words = request.figures.arguments;
+  words.insert(words.begin(), {"--study", file.string(), "--output", folder.string()});
+  const auto failures = draw_pending_figures(folder, {request.figures}, ResultPage{request.page, file});
+  output.publish();
+  print_out(said);
+  if (request.both_sides)
+    print_out(fmt::format("report: {}\n", fs::absolute(request.output / "index.html").string()));
+  throw_if_figures_failed(finished, failures);
+  return static_cast<int>(ExitCode::done);
 }
 
 }  // namespace
 
 int study(const StudyOptions& options) {
-  const fs::path finished = options.output / "study.json";
-  Json inputs = Json::array();
-  for (const fs::path& run : options.runs) inputs.push_back(measured_run_sum(run));
-  const std::string asked = asked_sum(inputs);
-  if (options.existing == ExistingOutput::resume && is_complete(finished))
-    return done_already(options.output, asked);
-  std::vector<coupling::StudyRun> runs;
-  std::vector<std::string> folders;
-  for (const fs::path& run : options.runs) {
-    runs.push_back(coupling::read_study_run(run));
-    folders.push_back(run.string());
-  }
-  const coupling::Study result = coupling::study_of(std::move(runs), paper_data_folder());
-  StagedOutput output({options.output, options.existing, "study", options.runs, {}, asked});
-  const fs::path& folder = output.folder();
+  FigureScript figures{"study_figures.py", {"--paper", paper_data_folder().string()}};
+  for (const fs::path& run : options.runs) figures.arguments.push_back(run.string());
+  return carried_out({options.runs, options.output, options.existing, false, {}, figures, "study"});
+}
 
-  const bool reduced = result.runs.front().identity.at("reduced") == "true";
-  Json content{{"format", "drumlin-study-1"}, {"reduced", reduced}};
-  std::vector<std::string> edits;
-  add_study(content, result);
-  content["provenance"] = to_json(provenance());
-  for (const coupling::StudyRun& run : result.runs)
-    edits.insert(edits.end(), run.accepted.begin(), run.accepted.end());
-  add_accepted_edits(content["provenance"], edits);
-  const std::string table = paper_table_markdown(result);
-  replace_file(folder / "paper_table.md", table);
-  note_pending_figures(folder);
-  const fs::path file = folder / "study.json";
-  write_json(file, content);
-  std::vector<std::string> words{"--study",  file.string(),  "--paper", paper_data_folder().string(),
-                                 "--output", folder.string()};
-  words.insert(words.end(), folders.begin(), folders.end());
-  const auto failures =
-      draw_pending_figures(folder, {{"study_figures.py", words}}, ResultPage{"study", file});
-  output.publish();
-  print_study(result, content);
-  throw_if_figures_failed(finished, failures);
-  return static_cast<int>(ExitCode::done);
+int compare_study(const CompareStudyOptions& options) {
+  return carried_out({options.folders,
+                      options.output,
+                      options.existing,
+                      true,
+                      options.limits,
+                      {"speed_comparison_figures.py", {}},
+                      "speed_comparison"});
 }
 
 }  // namespace drumlin::apps

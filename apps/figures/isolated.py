@@ -1,4 +1,5 @@
-"""Runs a script as `python3 -I` does, with the script's own folder and that of the figures, and nothing else, added to what it may import from.
+"""Runs a script as `python3 -I` does, with the script's own folder, that of the figures and the package that they lie in, and nothing else, added to
+what it may import from.
 SIGINT, SIGTERM and SIGHUP stop it once, as Ctrl-C does, so that it leaves no part of a file.
 A file that the system does not give or take ends it with one line, "FILE: why", and exit code 74; missing memory or a missing module likewise.
 
@@ -40,6 +41,7 @@ if __name__ == "__main__":
     os.environ.setdefault("MPLBACKEND", "Agg")  # pictures are files: no display is asked for
     script, figures = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(__file__).resolve().parent
     sys.path[:0] = [str(script.parent), str(figures)]
+    sys.path.append(str(pathlib.Path(__file__).absolute().parents[2]))  # of a build tree it consists of links
     sys.argv = sys.argv[1:]
     try:
         mmap.mmap(-1, NEEDED << 20).close()

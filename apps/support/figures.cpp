@@ -28,7 +28,8 @@ ProcessRequest request_for(const std::string& script, const std::vector<std::str
   request.program = interpreter();
   const fs::path figures = figures_folder();
   // Nothing is imported from the current folder, from PYTHONPATH or from the user's own packages.
-  request.words = {"-I", "-B", (figures / "isolated.py").string(), (figures / script).string()};
+  request.words = {"-I", "-B", (figures / "isolated.py").string(),
+                   (figures / script).lexically_normal().string()};
   request.words.insert(request.words.end(), arguments.begin(), arguments.end());
   // Agg draws without a display; threads in OpenBLAS cost more than they bring to a figure.
   request.environment = {"MPLBACKEND=Agg", "OPENBLAS_NUM_THREADS=1", "OMP_NUM_THREADS=1"};
@@ -66,16 +67,34 @@ class Answers {
   std::array<int, 2> ends_{-1, -1};
 };
 
-}  // namespace
-
-void draw_figures(const std::string& script, const std::vector<std::string>& arguments) {
+/// Runs a script and hands over what it printed.
+ProcessEnd end_of_script(const std::string& script, const std::vector<std::string>& arguments,
+                         std::string& said) {
   ProcessRequest request = request_for(script, arguments);
-  std::string said;
   // Standard output stays free for the command's own results (--json).
   request.line = [&](const std::string& line) { said += line + "\n"; };
   request.pass_signals_on = true;
   const CaughtInterruptions caught;  // the script ends by them, and we with it
-  require_success(run_process(request), script, said);
+  const ProcessEnd end = run_process(request);
+  stop_if_interrupted();
+  return end;
+}
+
+}  // namespace
+
+void draw_figures(const std::string& script, const std::vector<std::string>& arguments) {
+  std::string said;
+  const ProcessEnd end = end_of_script(script, arguments, said);
+  require_success(end, script, said);
+}
+
+std::string study_by_script(const std::vector<std::string>& arguments) {
+  std::string said;
+  const ProcessEnd end = end_of_script("../study/command.py", arguments, said);
+  if (end.shell_code() == static_cast<int>(ExitCode::wrong_input))
+    throw InputError(said.substr(0, said.find_last_not_of('\n') + 1));
+  require_success(end, "study", said);
+  return said;
 }
 
 void work_for_script(const std::string& script, const std::function<Json(const Json&)>& answer) {

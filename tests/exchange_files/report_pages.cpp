@@ -7,11 +7,8 @@
 #include "apps/support/comparison_json.hpp"
 #include "apps/support/json_file.hpp"
 #include "apps/support/pending_figures.hpp"
-#include "apps/support/speed_comparison_json.hpp"
-#include "apps/support/study_json.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/common/text_file.hpp"
-#include "coupling/law/friction_law.hpp"
 #include "tests/exchange_files/folder.hpp"
 #include "tests/support/signed_folder.hpp"
 
@@ -168,19 +165,21 @@ TEST(ReportPage, ThatLacksANumberIsAnErrorThatNamesIt) {
 }
 
 Json speeds_content() {
-  SpeedComparison comparison;
-  ComparedSpeed speed;
-  speed.rotation_rpm = 4, speed.role = SpeedRole::predicted, speed.start = "<cold>";
-  for (const std::string& name : compared_speed_scalars())
-    speed.scalars.push_back({{name, 20, std::nullopt}, {name, 19.5, 1.8}, 18.0});
-  speed.targets = small_comparison().targets;
-  comparison.speeds = {speed};
-  comparison.fitted_on = {"run <six>"};
-  comparison.warnings = {"a <warning>"};
-  comparison.paper_laws = {{"depth", "H = <c> sqrt(Q)", {{"c", 3.0, 0.1}}}};
-  Json json{{"title", "speeds"}, {"reduced", true}, {"law", {{"a", "<law>"}}}, {"effects", "<effects>"}};
-  add_speed_comparison(json, comparison);
-  json["provenance"] = {{"machine", "<machine>"}};
+  Json json =
+      Json::parse(R"json({"title": "speeds", "reduced": true, "law": {"a": "<law>"}, "effects": "<effects>",
+      "warnings": ["a <warning>"], "fitted_on": ["run <six>"],
+      "speeds": [{"rotation_rpm": 4.0, "role": "predicted", "particles": [], "continuum": null, "scalars": {},
+                  "verdict": {"met": 1, "missed": 1, "not_measured": 0, "by_noise_floor": 0}, "targets": [],
+                  "seconds": {"particles": null, "continuum": null, "ratio": null, "start": "<cold>"}}],
+      "laws": {"depth": {"formula": "H = <c> sqrt(Q)", "paper": {"c": {"value": 3.0, "ci99": 0.1}}}},
+      "verdict": {"role": "predicted", "met": 1, "missed": 1, "not_measured": 0, "by_noise_floor": 0},
+      "verdict_lines": ["4 rpm, predicted: 1 of 2 targets met"], "provenance": {"machine": "<machine>"}})json");
+  Json& speed = json["speeds"][0];
+  for (const char* name : {"theta_deg", "Q", "H", "lambda", "shear_rate", "I_th"})
+    speed["scalars"][name] = {
+        {"paper", 20.0}, {"particles", {{"value", 19.5}, {"ci99", 1.8}}}, {"continuum", 18.0}};
+  for (const Target& target : small_comparison().targets) speed["targets"].push_back(to_json(target));
+  speed["targets"][0]["inside_interval"] = true;
   return json;
 }
 
@@ -208,40 +207,15 @@ TEST(SpeedComparisonPage, WithoutAFigureIsAnErrorThatNamesIt) {
 }
 
 Json study_content() {
-  Study study;
-  study.warnings = {"run <2>: half a turn only"};
-  study.laws = {{"depth", "H = <c> sqrt(Q)", {{"c", 3.0, 0.1}}}};
-  PaperVerdict row;
-  row.entry.quantity = "H <d>", row.entry.value = 14.6, row.entry.half_width = 0.5,
-  row.entry.source = "Fig. <6>";
-  row.finding.ours = {"H", 19.7, 1.2};
-  row.verdict = Verdict::differs, row.reason = Reason::outside;
-  study.paper = {row};
-  Json json{{"reduced", false}};
-  add_study(json, study);
-  return json;
-}
-
-TEST(StudyJson, SamplesTheFittedLawAndThePapersForTheFigures) {
-  Study study;
-  study.friction.emplace();
-  study.friction->common.law = {0.36, 0.014, {0, 0, 0}, 1e-4, 1e-1};
-  PaperVerdict a, b;
-  a.entry.quantity = "friction.a", a.entry.value = 0.35;
-  b.entry.quantity = "friction.b", b.entry.value = 0.013;
-  study.paper = {a, b};
-  Json json;
-  add_study(json, study);
-  for (const auto& [curve, law] : {std::pair(json["friction"]["curve"], study.friction->common.law),
-                                   std::pair(json["paper_friction"]["curve"], LogFriction{0.35, 0.013})}) {
-    ASSERT_EQ(curve["I"].size(), 41u);
-    EXPECT_DOUBLE_EQ(curve["I"].back().get<double>(), 1e-1);
-    for (std::size_t i = 0; i < curve["I"].size(); ++i)
-      EXPECT_EQ(curve["mu"][i].get<double>(), friction_at(friction_law(law), curve["I"][i].get<double>()).mu);
-  }
-  study.paper = {b};
-  add_study(json, study);
-  EXPECT_TRUE(json["paper_friction"].is_null());
+  return Json::parse(R"json({"reduced": false, "warnings": ["run <2>: half a turn only"],
+      "verdict": {"agrees": 0, "open": 0, "near": 0, "differs": 1, "imposed": 0, "not measured": 0},
+      "runs": [], "speeds": [], "over_all_speeds": {}, "friction": null, "paper_friction": null, "collapse": {},
+      "laws": {"depth": {"formula": "H = <c> sqrt(Q)", "coefficients": {"c": {"value": 3.0, "ci99": 0.1}},
+                         "reduced_chi2": 0.0, "rms": 0.0, "points": 0}},
+      "consistency": [],
+      "paper_table": [{"quantity": "H <d>", "rotation_rpm": null, "expects": "value", "paper": 14.6,
+                       "paper_half_width": 0.5, "ours": {"value": 19.7, "ci99": 1.2}, "verdict": "differs",
+                       "reason": "outside the interval", "source": "Fig. <6>"}]})json");
 }
 
 TEST(StudyPage, ShowsVerdictsLawsAndListedFiguresAndEscapesThem) {

@@ -1,7 +1,7 @@
 // Fuzz target: JSON documents as the commands read them. The first line names the file of a measured run or
 // of a flow that the rest replaces: run.json, measured.json, flow.json.
 #include "coupling/common/input_file.hpp"
-#include "coupling/study/study_run_folder.hpp"
+#include "coupling/exchange/measured_run.hpp"
 #include "tests/comparison/run_folders.hpp"
 #include "tests/fuzz/one_input.hpp"
 
@@ -30,9 +30,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::ofstream(file, std::ios::binary) << content;
   fuzz::read_or_refused([&] {
     if (of_flow)
-      (void)coupling::read_study_flow(good.flow);
+      (void)read_flow_run(good.flow);
     else
-      (void)coupling::read_study_run(good.run);
+      (void)read_measured_run(good.run, Unsteady::accept);
   });
   std::ofstream(file, std::ios::binary) << before;
   return 0;

@@ -1,20 +1,33 @@
-"""Drumlin in Python: read its files into numpy, step scenes, solve contact problems, calibrate laws, start its commands."""
+"""Drumlin in Python: read its files into numpy, step scenes, solve contact problems, calibrate laws, start its commands, set many runs side by side."""
 
-try:
-    from ._drumlin import version
-except ModuleNotFoundError as missing:
-    if missing.name != f"{__name__}._drumlin":
-        raise
-    raise ModuleNotFoundError("drumlin: its compiled part is missing; `cmake --build build --target programs` makes it", name=missing.name) from missing
-from . import errors, plot
-from .commands import command, compare, measure, program, run, solve_flow, sweep
-from .contacts import ContactSolution, contact_residual, contact_solvers, solve_contacts
-from .errors import DrumlinError, InputError, IoError, NotConvergedError
-from .files import Arrays, Folder, read, value_of
-from .laws import CalibratedLaw, Law, calibrate
-from .scenes import Simulation, resolved, toml_of
+import importlib
 
-__version__ = version().split()[0]
-__all__ = ["Arrays", "CalibratedLaw", "ContactSolution", "DrumlinError", "Folder", "InputError", "IoError", "Law", "NotConvergedError", "Simulation",
-           "calibrate", "command", "compare", "contact_residual", "contact_solvers", "errors", "measure", "plot", "program", "read", "resolved", "run",
-           "solve_contacts", "solve_flow", "sweep", "toml_of", "value_of", "version"]
+# The compiled part is loaded by what needs it: `drumlin.study` reads files alone.
+_HOMES = {"_drumlin": ["version"], "commands": ["command", "compare", "measure", "program", "run", "solve_flow", "sweep"],
+          "contacts": ["ContactSolution", "contact_residual", "contact_solvers", "solve_contacts"],
+          "errors": ["DrumlinError", "InputError", "IoError", "NotConvergedError"], "files": ["Arrays", "Folder", "read", "value_of"],
+          "laws": ["CalibratedLaw", "Law", "calibrate"], "scenes": ["Simulation", "resolved", "toml_of"], "plot": [], "study": []}
+__all__ = sorted(["errors", "plot", "study"] + [name for names in _HOMES.values() for name in names])
+
+
+def _module(home):
+    try:
+        return importlib.import_module(f"{__name__}.{home}")
+    except ModuleNotFoundError as missing:
+        if missing.name != f"{__name__}._drumlin":
+            raise
+        raise ModuleNotFoundError("drumlin: its compiled part is missing; `cmake --build build --target programs` makes it", name=missing.name) from missing
+
+
+def __getattr__(name):
+    if name == "__version__":
+        return __getattr__("version")().split()[0]
+    for home, names in _HOMES.items():
+        if name == home or name in names:
+            module = _module(home)
+            return module if name == home else getattr(module, name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__():
+    return __all__
